@@ -1,0 +1,55 @@
+/* diag.h: what went wrong, where in the user's text, and the way out
+ *
+ * A fallible function returns Status and, when it isn't OK, fills a Diag. The
+ * message is written where the facts are, in the user's words; the shell adds
+ * the line and the caret. */
+#ifndef COTREE_BASE_DIAG_H
+#define COTREE_BASE_DIAG_H
+
+#include <stdbool.h>
+
+typedef enum Status {
+#define STATUS(name, text) name,
+#include "base/status.def"
+#undef STATUS
+} Status;
+
+#define MUST_USE          __attribute__((warn_unused_result))
+#define PRINTF(at, first) __attribute__((format(printf, at, first)))
+
+/* leaves the function by its one exit when a call fails; needs `Status status`
+ * and a label `done` */
+#define CHECK(call)                                                                                \
+    do {                                                                                           \
+        if ((status = (call)) != OK)                                                               \
+            goto done;                                                                             \
+    } while (0)
+
+/* a stretch of the user's text; line and column count from 1, 0 is "nowhere" */
+typedef struct Place {
+    int line;
+    int column; /* in bytes */
+    int width;  /* in bytes, at least 1 where there is a place */
+} Place;
+
+typedef struct Diag {
+    Status status;
+    Place place;
+    char message[600];
+    char hint[400]; /* empty where there is none */
+} Diag;
+
+/* Fill `diag` (which may be NULL) and return `status`, so that a function can
+ * end with `return diag_set(...)`. Clears place and hint. */
+Status diag_set(Diag *diag, Status status, const char *format, ...) PRINTF(3, 4);
+
+/* the same with a place in the text */
+Status diag_at(Diag *diag, Status status, Place place, const char *format, ...) PRINTF(4, 5);
+
+/* Add the way out to what diag_set() said. */
+void diag_hint(Diag *diag, const char *format, ...) PRINTF(2, 3);
+
+/* the text beside a status in status.def; never NULL */
+const char *status_text(Status status);
+
+#endif

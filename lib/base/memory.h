@@ -1,0 +1,52 @@
+/* memory.h: memory that is there or ends the program, chunked pools, growing arrays
+ *
+ * Running out of memory is not an error a caller can mend in the middle of a
+ * formula: the four functions below end the process with a message, as GLib's
+ * do. Everything else in lib/ reports by Status.
+ *
+ * A Pool hands out pieces that never move and are freed together, or back to a
+ * mark. Its pieces are borrowed from it. */
+#ifndef COTREE_BASE_MEMORY_H
+#define COTREE_BASE_MEMORY_H
+
+#include <stddef.h>
+
+void *mem_new(size_t size);                 /* new, zeroed; size 0 gives a valid pointer */
+void *mem_array(size_t count, size_t size); /* new, zeroed; ends the program on overflow too */
+void *mem_grow(void *old, size_t count, size_t size); /* realloc; what is new isn't zeroed */
+char *mem_text(const char *text, size_t length);      /* new, ended by a NUL */
+void mem_free(void *piece);                           /* NULL is fine */
+
+#define NEW(type)              ((type *)mem_new(sizeof(type)))
+#define NEW_ARRAY(type, count) ((type *)mem_array((size_t)(count), sizeof(type)))
+#define COUNT(array)           ((int)(sizeof(array) / sizeof((array)[0])))
+
+/* A growing array: `LIST(int) ids = {0}; LIST_PUSH(ids, 3); ids.at[0]; LIST_FREE(ids);`
+ * Its items move when it grows. */
+#define LIST(type)                                                                                 \
+    struct {                                                                                       \
+        type *at;                                                                                  \
+        int count;                                                                                 \
+        int room;                                                                                  \
+    }
+#define LIST_ROOM(list, more)                                                                      \
+    ((list).at = list_room((list).at, (list).count + (more), &(list).room, sizeof *(list).at))
+#define LIST_PUSH(list, ...) (LIST_ROOM(list, 1), (list).at[(list).count++] = __VA_ARGS__)
+#define LIST_FREE(list)      (mem_free((list).at), (list).at = NULL, (list).count = (list).room = 0)
+void *list_room(void *at, int count, int *room, size_t size);
+
+typedef struct Pool Pool;
+typedef struct PoolMark {
+    void *chunk;
+    size_t used;
+} PoolMark;
+
+Pool *pool_new(size_t chunk_size); /* bytes; 0: 64 KiB. New; free with pool_free() */
+void pool_free(Pool *pool);
+void *pool_alloc(Pool *pool, size_t size); /* zeroed, aligned to 16 bytes */
+char *pool_text(Pool *pool, const char *text, size_t length);
+PoolMark pool_mark(const Pool *pool);
+void pool_release(Pool *pool, PoolMark mark); /* frees what came after the mark */
+size_t pool_bytes(const Pool *pool);          /* held from the system */
+
+#endif

@@ -1,0 +1,89 @@
+/* names.c: open addressing, doubled at three quarters full */
+#include "base/names.h"
+
+#include "base/memory.h"
+
+#include <stdint.h>
+#include <string.h>
+
+struct Names {
+    LIST(char *) list;
+    int *slots; /* number + 1, or 0 where free */
+    int size;   /* a power of two */
+};
+
+/* FNV-1a (Fowler, Noll, Vo) */
+static uint32_t hash(const char *name)
+{
+    uint32_t h = 2166136261U;
+
+    for (; *name != '\0'; name++)
+        h = (h ^ (unsigned char)*name) * 16777619U;
+    return h ^ (h >> 15);
+}
+
+static int slot_of(const Names *names, const char *name)
+{
+    int slot = (int)(hash(name) & (uint32_t)(names->size - 1));
+
+    while (names->slots[slot] != 0 && strcmp(names->list.at[names->slots[slot] - 1], name) != 0)
+        slot = (slot + 1) & (names->size - 1);
+    return slot;
+}
+
+static void resize(Names *names, int size)
+{
+    mem_free(names->slots);
+    names->slots = NEW_ARRAY(int, size);
+    names->size = size;
+    for (int i = 0; i < names->list.count; i++)
+        names->slots[slot_of(names, names->list.at[i])] = i + 1;
+}
+
+Names *names_new(void)
+{
+    Names *names = NEW(Names);
+
+    resize(names, 16);
+    return names;
+}
+
+void names_free(Names *names)
+{
+    if (names == NULL)
+        return;
+    for (int i = 0; i < names->list.count; i++)
+        mem_free(names->list.at[i]);
+    LIST_FREE(names->list);
+    mem_free(names->slots);
+    mem_free(names);
+}
+
+int names_find(const Names *names, const char *name)
+{
+    return names->slots[slot_of(names, name)] - 1;
+}
+
+int names_add(Names *names, const char *name)
+{
+    int number = names_find(names, name);
+
+    if (number >= 0)
+        return number;
+    if ((names->list.count + 1) * 4 > names->size * 3)
+        resize(names, names->size * 2);
+    LIST_PUSH(names->list, mem_text(name, strlen(name)));
+    number = names->list.count - 1;
+    names->slots[slot_of(names, name)] = number + 1;
+    return number;
+}
+
+const char *names_get(const Names *names, int number)
+{
+    return names->list.at[number];
+}
+
+int names_count(const Names *names)
+{
+    return names->list.count;
+}

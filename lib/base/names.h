@@ -1,0 +1,16 @@
+/* names.h: from a name to a number, by hashing
+ *
+ * Names keep the order in which they came. The map copies them. */
+#ifndef COTREE_BASE_NAMES_H
+#define COTREE_BASE_NAMES_H
+
+typedef struct Names Names;
+
+Names *names_new(void);
+void names_free(Names *names);
+int names_find(const Names *names, const char *name);  /* its number, or -1 */
+int names_add(Names *names, const char *name);         /* found or new: 0, 1, 2 ... */
+const char *names_get(const Names *names, int number); /* borrowed */
+int names_count(const Names *names);
+
+#endif

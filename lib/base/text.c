@@ -1,0 +1,168 @@
+/* text.c: growing text, edit distance */
+#include "base/text.h"
+
+#include "base/memory.h"
+
+#include <ctype.h>
+#include <limits.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static void reserve(Text *text, size_t more)
+{
+    if (text->length + more + 1 <= text->room)
+        return;
+    text->room = text->length + more + 1 + text->length / 2 + 32;
+    text->at = mem_grow(text->at, text->room, 1);
+}
+
+void text_add_n(Text *text, const char *more, size_t length)
+{
+    reserve(text, length);
+    memcpy(text->at + text->length, more, length);
+    text->length += length;
+    text->at[text->length] = '\0';
+}
+
+void text_add(Text *text, const char *more)
+{
+    text_add_n(text, more, strlen(more));
+}
+
+void text_addf(Text *text, const char *format, ...)
+{
+    va_list args;
+    va_list again;
+    int length;
+
+    va_start(args, format);
+    va_copy(again, args);
+    length = vsnprintf(NULL, 0, format, args);
+    va_end(args);
+    if (length > 0) {
+        reserve(text, (size_t)length);
+        (void)vsnprintf(text->at + text->length, (size_t)length + 1, format, again);
+        text->length += (size_t)length;
+    }
+    va_end(again);
+}
+
+void text_char(Text *text, char c)
+{
+    text_add_n(text, &c, 1);
+}
+
+void text_fill(Text *text, char c, int count)
+{
+    for (int i = 0; i < count; i++)
+        text_char(text, c);
+}
+
+void text_number(Text *text, double value, int digits)
+{
+    char number[40];
+
+    for (int n = digits < 15 ? digits : 15; n <= digits; n++) {
+        (void)snprintf(number, sizeof number, "%.*g", n, value);
+        if (strtod(number, NULL) == value)
+            break;
+    }
+    text_add(text, number);
+}
+
+char *text_done(Text *text)
+{
+    char *done = text->at != NULL ? text->at : mem_text("", 0);
+
+    *text = (Text){0};
+    return done;
+}
+
+void text_free(Text *text)
+{
+    mem_free(text->at);
+    *text = (Text){0};
+}
+
+int text_width(const char *text)
+{
+    int width = 0;
+
+    /* every code point we print is one column wide; combining marks add none */
+    for (const unsigned char *c = (const unsigned char *)text; *c != '\0'; c++) {
+        if ((c[0] & 0xC0) == 0x80)
+            continue;
+        if (c[0] == 0xCC || (c[0] == 0xCD && c[1] < 0xB0))
+            continue;
+        width++;
+    }
+    return width;
+}
+
+/* twice the cost of putting b where a is */
+static int swap_cost(char a, char b)
+{
+    if (a == b)
+        return 0;
+    return tolower((unsigned char)a) == tolower((unsigned char)b) ? 1 : 2;
+}
+
+static int least(int a, int b)
+{
+    return a < b ? a : b;
+}
+
+int text_distance(const char *a, const char *b, int limit)
+{
+    enum { LONGEST = 64 };
+    int rows[3][LONGEST + 1];
+    int *before = rows[0];
+    int *last = rows[1];
+    int *row = rows[2];
+    int na = (int)strlen(a);
+    int nb = (int)strlen(b);
+
+    if (na > LONGEST || nb > LONGEST || abs(na - nb) > limit)
+        return limit + 1;
+    for (int j = 0; j <= nb; j++)
+        last[j] = 2 * j;
+    for (int i = 1; i <= na; i++) {
+        int *oldest = before;
+
+        row[0] = 2 * i;
+        for (int j = 1; j <= nb; j++) {
+            int best = last[j - 1] + swap_cost(a[i - 1], b[j - 1]);
+
+            best = least(best, least(last[j], row[j - 1]) + 2);
+            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+                best = least(best, before[j - 2] + 2);
+            row[j] = best;
+        }
+        before = last;
+        last = row;
+        row = oldest;
+    }
+    return (last[nb] + 1) / 2;
+}
+
+Suggest suggest_for(const char *word)
+{
+    return (Suggest){word, NULL, INT_MAX};
+}
+
+void suggest_offer(Suggest *suggest, const char *candidate)
+{
+    int length = (int)strlen(suggest->word);
+    int limit = length <= 2 ? 1 : length <= 6 ? 2 : 3;
+    int distance = text_distance(suggest->word, candidate, limit);
+
+    /* a short word that shares no letter is no likely slip */
+    if (distance >= (int)strlen(candidate) || distance >= length + (length == 1))
+        return;
+    if (distance <= limit && distance < suggest->distance) {
+        suggest->best = candidate;
+        suggest->distance = distance;
+    }
+}

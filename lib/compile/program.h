@@ -1,0 +1,60 @@
+/* program.h: expressions to straight-line programs in stages
+ *
+ * A Program is made once from roots and const ever after; a Workspace holds the
+ * numbers of one evaluation and is what a thread owns. A stage is what depends on
+ * inputs up to a kind: run again from the first stage whose inputs changed.
+ *
+ * The interpreter runs through a tape in which equal operations stand in runs, one
+ * loop a run (research of the house, "same-op runs"); results are the same bits as
+ * evaluating each node alone, in double, with no fused operation. */
+#ifndef COTREE_COMPILE_PROGRAM_H
+#define COTREE_COMPILE_PROGRAM_H
+
+#include "expr/expr.h"
+
+typedef enum Stage {
+    STAGE_PARAMETER,    /* parameters and numbers */
+    STAGE_TIME,         /* t */
+    STAGE_POSITION,     /* q */
+    STAGE_VELOCITY,     /* u, x */
+    STAGE_NETWORK,      /* x', z */
+    STAGE_ACCELERATION, /* u', lambda, efforts, u'' */
+    STAGE_COUNT
+} Stage;
+
+Stage stage_of_symbol(SymbolKind kind); /* VARIABLE and ARGUMENT have none: assert */
+Stage stage_of(Expr e);                 /* the latest of its symbols' */
+
+typedef struct Program Program;
+typedef struct Workspace Workspace;
+
+/* Compile.
+ *
+ * roots   what is to be computed, borrowed from an arena that may die afterwards
+ * inputs  the symbols that will be given numbers, in any order, each once
+ * out     new; program_free(). Nothing that no root needs is in it.
+ *
+ * Fails with E_NAME when a root holds a symbol that is no input, naming it. O(nodes). */
+MUST_USE Status program_new(const Expr *roots, int root_count, const Expr *inputs, int input_count,
+                            Program **out, Diag *diag);
+void program_free(Program *program); /* NULL is fine */
+
+int program_input_count(const Program *program);
+int program_root_count(const Program *program);
+int program_operations(const Program *program, Stage stage); /* instructions of one stage */
+OpCount
+program_count(const Program *program); /* additions, multiplications, functions, all stages */
+size_t program_bytes(const Program *program);
+/* one line an instruction, for `show program`: "v7 = v3 * v5" */
+void program_print(Text *text, const Program *program);
+
+Workspace *workspace_new(const Program *program); /* new; borrows the program; all inputs 0 */
+void workspace_free(Workspace *workspace);        /* NULL is fine */
+/* The numbers of the inputs, in the order given to program_new(): write here. */
+double *workspace_inputs(Workspace *workspace);
+/* Compute stages from..to, both included. No allocation, no failure; NaN travels. */
+void workspace_run(Workspace *workspace, Stage from, Stage to);
+/* The values of the roots, in order; a root's is current once its stage was run. Borrowed. */
+const double *workspace_roots(const Workspace *workspace);
+
+#endif

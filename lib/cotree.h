@@ -1,0 +1,163 @@
+/* cotree.h: libcotree, modelling of mechatronic multibody systems by linear graphs
+ *
+ * A session holds a model, its equations and its runs. A program gives it statements
+ * of the command language, one logical line at a time, and asks for equations, values
+ * and tables. The library never prints, never exits, and starts no process.
+ *
+ * Strings said to be new are the caller's, to be freed with ct_free(). Everything
+ * else handed out is borrowed and valid until the next call with the same session.
+ * A session belongs to one thread at a time. */
+#ifndef COTREE_H
+#define COTREE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum ct_status {
+    CT_OK = 0,
+    CT_FAILED,  /* an error, said in ct_error */
+    CT_STOPPED, /* the stop hook asked for it; what was computed is kept */
+    CT_UNMET,   /* an expectation did not hold */
+    CT_NOT_MINE /* ct_apply(): a verb that looks, runs or draws, for the caller to do */
+} ct_status;
+
+/* What went wrong, at the user's place in the text; line and column count from 1, 0: nowhere. */
+typedef struct ct_error {
+    ct_status status;
+    int line;
+    int column; /* in bytes */
+    int width;
+    char message[600];
+    char hint[400]; /* "" where there is none */
+} ct_error;
+
+typedef struct ct_session ct_session;
+typedef struct ct_statement ct_statement;
+typedef struct ct_expression ct_expression; /* borrowed from its statement */
+
+typedef struct ct_hooks {
+    void *context;
+    bool (*stop)(void *context); /* whether to stop what is going on; called often; may be NULL */
+    void (*progress)(void *context, const char *phase,
+                     double fraction); /* fraction < 0: unknown; may be NULL */
+    bool unicode;                      /* Greek letters, dots, superscripts in what is shown */
+    int columns;                       /* width to wrap shown text to; 0: never */
+} ct_hooks;
+
+const char *ct_version(void); /* "0.1.0" */
+ct_session *
+ct_session_new(const ct_hooks *hooks); /* hooks are copied, NULL: none; new; ct_session_free() */
+void ct_session_free(ct_session *session);
+void ct_session_hooks(ct_session *session, const ct_hooks *hooks);
+void ct_free(void *piece);
+
+/* --- statements --- */
+
+/* Read the next statement of a logical line (physical lines joined by a backslash at their ends).
+ * `*next`: offset to start from, 0 first; afterwards that of the next statement, the length
+ * at the end. `shortened`: verbs may be shortened. *out is new (ct_statement_free) and may be
+ * empty. */
+ct_status ct_parse(const char *text, int line, bool shortened, size_t *next, ct_statement **out,
+                   ct_error *error);
+void ct_statement_free(ct_statement *statement);
+bool ct_statement_is_empty(const ct_statement *statement);
+const char *ct_statement_text(const ct_statement *statement);
+const char *ct_verb(const ct_statement *statement); /* full; "" for NAME = expr and f(x) = expr */
+int ct_operand_count(const ct_statement *statement);
+const ct_expression *ct_operand(const ct_statement *statement, int i);
+int ct_operand_sign(const ct_statement *statement, int i); /* '+', '-' or 0 */
+int ct_key_count(const ct_statement *statement);
+const char *ct_key(const ct_statement *statement, int i, const ct_expression **value);
+const ct_expression *ct_key_value(const ct_statement *statement,
+                                  const char *key);                   /* NULL: not given */
+const ct_expression *ct_at(const ct_statement *statement);            /* of `at t`; NULL */
+const ct_expression *ct_versus(const ct_statement *statement);        /* of `vs x`; NULL */
+const ct_expression *ct_near(const ct_statement *statement);          /* of `a ~ b`: b; NULL */
+const ct_expression *ct_within(const ct_statement *statement);        /* NULL */
+const char *ct_as(const ct_statement *statement);                     /* NULL */
+const char *ct_redirect(const ct_statement *statement, bool *append); /* file name or NULL */
+/* an error at a place of the statement (NULL expression: at its verb) */
+ct_status ct_error_at(const ct_statement *statement, const ct_expression *expression,
+                      ct_error *error, const char *format, ...)
+    __attribute__((format(printf, 4, 5)));
+
+char *ct_expression_text(const ct_expression *expression); /* new; as written, blanks normalised */
+const char *ct_expression_word(
+    const ct_expression *expression); /* the name, word or string; NULL when it is none */
+
+/* --- the model --- */
+
+/* Build: what the model takes (components, parameters, init, tree, ...). CT_NOT_MINE, with nothing
+ * done and no error, for other verbs. On failure the model is as it was. */
+ct_status ct_apply(ct_session *session, const ct_statement *statement, ct_error *error);
+const char *
+ct_remarks(const ct_session *session); /* lines that the last call had to say to the user; "" */
+ct_status ct_undo(ct_session *session, ct_error *error); /* ct_remarks() names what was undone */
+ct_status ct_redo(ct_session *session, ct_error *error);
+void ct_clear(ct_session *session);
+char *ct_save(const ct_session *session);      /* new: a script that rebuilds the model */
+bool ct_is_changed(const ct_session *session); /* since the last run */
+
+/* --- looking; new strings --- */
+
+/* show TOPIC [...] [as NOTATION], the whole statement */
+ct_status ct_show(ct_session *session, const ct_statement *statement, char **text, ct_error *error);
+ct_status ct_count(ct_session *session, const ct_statement *statement, char **text,
+                   ct_error *error); /* count, count trees */
+ct_status ct_check(ct_session *session, char **text, ct_error *error);
+ct_status ct_info(ct_session *session, const ct_statement *statement, char **text, ct_error *error);
+ct_status ct_tree_text(ct_session *session, char **text, ct_error *error); /* `tree` alone */
+ct_status ct_draw(ct_session *session, bool dot, char **text,
+                  ct_error *error); /* the linear graph as text or as dot */
+
+/* --- help, from the tables --- */
+
+char *
+ct_help(const char *word); /* NULL or "": the overview; NULL is returned for an unknown word */
+char *ct_apropos(const char *word);
+const char *ct_help_suggest(const char *word); /* what an unknown word may have meant; NULL */
+char *ct_reference(const char *format); /* "texinfo", "man" or "words"; NULL for another format */
+/* every example of verbs and components, for tests: name and statements; false at the end */
+bool ct_example(int i, const char **name, const char **text);
+/* Words that could stand at `cursor` of the line, in order; a new array of new strings ended by
+ * NULL, *start the offset of the word that they complete. Free with ct_words_free(). */
+char **ct_complete(ct_session *session, const char *line, size_t cursor, size_t *start);
+void ct_words_free(char **words);
+/* names of verbs: 0, 1, ... until NULL */
+const char *ct_verb_name(int i);
+
+/* --- runs --- */
+
+/* simulate, kinematics, inverse, assemble, resume: the whole statement. The result becomes run1,
+ * run2 ... (assemble: the start). ct_report() tells about it, ct_remarks() what had to be said. */
+ct_status ct_run(ct_session *session, const ct_statement *statement, ct_error *error);
+char *ct_report(ct_session *session);        /* new: the last run's report, as `show run` */
+int ct_run_count(const ct_session *session); /* runs so far: run1 ... */
+
+/* One value: over variables, parameters and functions of runs (max(h8), run2.h8); `at` NULL: the
+ * end of the last run or the assembled start, as the language says. */
+ct_status ct_value(ct_session *session, const ct_expression *expression, const ct_expression *at,
+                   double *value, ct_error *error);
+/* A table: first column t, then one an item, of the last run (or the run the items name). `count`
+ * 0: all coordinates and speeds. `every` > 0: on that grid, else the run's. `values` is new, rows x
+ * (columns), row by row; `names` new (ct_words_free), with the unit asked for behind a name in
+ * brackets. */
+ct_status ct_table(ct_session *session, const ct_expression *const *items, int count, double every,
+                   double **values, int *rows, int *columns, char ***names, ct_error *error);
+/* expect CONDITION, expect A ~ B within TOL: CT_UNMET with the two values in the message */
+ct_status ct_expect(ct_session *session, const ct_statement *statement, ct_error *error);
+/* export csv|c|latex|dot: text to be written where the caller likes. new */
+ct_status ct_export(ct_session *session, const ct_statement *statement, bool with_header,
+                    char **text, ct_error *error);
+const char *ct_title(const ct_session *session);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

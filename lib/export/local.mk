@@ -1,0 +1,1 @@
+# sources that write files of other formats

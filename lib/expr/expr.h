@@ -1,0 +1,213 @@
+/* expr.h: hash-consed expressions
+ *
+ * An expression is an immutable node in an Arena: built once, never moved, and
+ * equal expressions are the same pointer. Every Expr here is *interned*: it lives
+ * as long as its arena. Building one simplifies it: numbers fold (exact small
+ * rationals stay exact; what no longer fits into 64 bits becomes a double), zeros
+ * and ones vanish, like terms of a sum and like factors of a product collect,
+ * nested sums and products flatten. Nothing is multiplied out, and no two terms of
+ * a sum are searched for a trigonometric partner: that is expr_fold(), on request.
+ *
+ * Builders don't return errors. The arena remembers its first failure (division by
+ * zero, a size beyond all bounds) and hands out a harmless node; whoever called the
+ * last builder asks arena_status() once.
+ *
+ * Terms and factors stand in a stable order: by kind, then the order in which their
+ * symbols were made, then structure; never by address. */
+#ifndef COTREE_EXPR_EXPR_H
+#define COTREE_EXPR_EXPR_H
+
+#include "base/diag.h"
+#include "base/text.h"
+#include "base/watch.h"
+
+#include <stdint.h>
+
+typedef struct Arena Arena;
+typedef const struct ExprNode *Expr;
+
+typedef enum ExprKind {
+    EXPR_RATIONAL, /* num/den, lowest terms, den > 0 */
+    EXPR_REAL,     /* a double that is no small rational */
+    EXPR_SYMBOL,
+    EXPR_POWER,   /* arg 0 to the arg 1; exponent not 0 or 1 */
+    EXPR_CALL,    /* an operator of ops.def */
+    EXPR_PRODUCT, /* 2 or more factors, at most one number, and that first */
+    EXPR_SUM      /* 2 or more terms, at most one number */
+} ExprKind;
+
+typedef enum Op {
+#define OP(id, ...) OP_##id,
+#include "expr/ops.def"
+#undef OP
+    OP_COUNT
+} Op;
+
+/* What a symbol stands for decides the stage in which it is known. */
+typedef enum SymbolKind {
+    SYMBOL_PARAMETER,    /* known before a run */
+    SYMBOL_TIME,         /* t */
+    SYMBOL_COORDINATE,   /* an entry of q */
+    SYMBOL_SPEED,        /* an entry of u */
+    SYMBOL_STATE,        /* an entry of x: network and controller states */
+    SYMBOL_ALGEBRAIC,    /* an entry of z: network unknowns without a derivative */
+    SYMBOL_ACCELERATION, /* an entry of u' */
+    SYMBOL_STATE_RATE,   /* an entry of x' */
+    SYMBOL_MULTIPLIER,   /* an entry of lambda */
+    SYMBOL_EFFORT,       /* an unknown driver effort, or a source that a driver finds */
+    SYMBOL_JERK,         /* an entry of u'' (inverse runs) */
+    SYMBOL_VARIABLE,     /* a name of the user's that formulation replaces: h9.fx, h8'' */
+    SYMBOL_ARGUMENT      /* an argument of a law */
+} SymbolKind;
+
+/* --- the arena --- */
+
+Arena *arena_new(void);                        /* new; arena_free() */
+void arena_free(Arena *arena);                 /* and all its expressions; NULL is fine */
+Status arena_status(const Arena *arena);       /* the first failure since arena_reset() */
+const char *arena_failure(const Arena *arena); /* what failed, in words; borrowed */
+void arena_reset(Arena *arena);                /* forget the failure */
+void arena_watch(Arena *arena,
+                 const Watch *watch); /* borrowed; looked at every few thousand nodes */
+
+/* Scratch work: whatever was built after the mark is forgotten by the release. */
+typedef struct ArenaMark ArenaMark;
+ArenaMark *arena_mark(Arena *arena); /* new; given back to arena_release() or arena_keep() */
+void arena_release(Arena *arena, ArenaMark *mark);
+void arena_keep(Arena *arena, ArenaMark *mark);
+int64_t arena_nodes(const Arena *arena);
+size_t arena_bytes(const Arena *arena);
+
+/* --- leaves --- */
+
+Expr expr_int(Arena *arena, int64_t value);
+Expr expr_rational(Arena *arena, int64_t num, int64_t den); /* den 0: E_DOMAIN */
+/* An integer-valued double below 2^53 becomes a rational; others stay doubles. */
+Expr expr_real(Arena *arena, double value);
+/* The decimal literal `text` ("0.25", "2.194e-6") as an exact rational where numerator and
+ * denominator fit into 62 bits, else the nearest double. */
+Expr expr_decimal(Arena *arena, const char *text);
+/* The symbol of that name and kind: found, or made. Symbols of one name and different
+ * kinds are different and print alike: what a user calls h8 (SYMBOL_VARIABLE) is replaced
+ * by formulation with the coordinate h8 (SYMBOL_COORDINATE) where h8 is a branch. */
+Expr expr_symbol(Arena *arena, const char *name, SymbolKind kind);
+Expr expr_find_symbol(const Arena *arena, const char *name, SymbolKind kind); /* or NULL */
+/* how LaTeX prints a symbol; without, it is made from the name */
+void expr_symbol_latex(Arena *arena, Expr symbol, const char *latex);
+
+/* --- builders --- */
+
+Expr expr_add(Arena *arena, Expr a, Expr b);
+Expr expr_sub(Arena *arena, Expr a, Expr b);
+Expr expr_mul(Arena *arena, Expr a, Expr b);
+Expr expr_div(Arena *arena, Expr a, Expr b);
+Expr expr_neg(Arena *arena, Expr a); /* goes into a sum: -(a - b) is b - a */
+Expr expr_pow(Arena *arena, Expr base, Expr exponent);
+Expr expr_square(Arena *arena, Expr a);
+Expr expr_sum(Arena *arena, const Expr *terms, int count);
+Expr expr_product(Arena *arena, const Expr *factors, int count);
+/* sin(-x) is -sin(x), cos(-x) is cos(x); exact values at rational multiples of
+ * nothing but 0; numbers fold to doubles only where every argument is a double,
+ * or where the result is exact (sqrt(9/4)) */
+Expr expr_call(Arena *arena, Op op, const Expr *args);
+Expr expr_call1(Arena *arena, Op op, Expr a);
+Expr expr_call2(Arena *arena, Op op, Expr a, Expr b);
+Expr expr_sin(Arena *arena, Expr a);
+Expr expr_cos(Arena *arena, Expr a);
+Expr expr_sqrt(Arena *arena, Expr a);
+Expr expr_if(Arena *arena, Expr condition, Expr yes, Expr no);
+/* The same value as `e`, opaque to flattening and collecting: sums and products
+ * built from it keep it whole, so that programs compute it once. A number, a
+ * symbol, and the negative of one, are handed back as they are; -hold(e) comes
+ * out of hold(-e). Printing and counting as written look through it; a held node
+ * is one shared definition in a program. */
+Expr expr_hold(Arena *arena, Expr e);
+/* `e` with every hold dissolved and rebuilt. O(nodes) nodes visited. */
+Expr expr_open(Arena *arena, Expr e);
+
+/* --- looking --- */
+
+ExprKind expr_kind(Expr e);
+Op expr_op(Expr e); /* of a call */
+int expr_arg_count(Expr e);
+Expr expr_arg(Expr e, int i);
+const char *expr_name(Expr symbol); /* borrowed */
+SymbolKind expr_symbol_kind(Expr symbol);
+int expr_symbol_number(Expr symbol); /* 0, 1, 2 ... in the order of making */
+uint32_t expr_number(Expr e); /* creation number, unique in the arena: an index for memory tables */
+bool expr_is_number(Expr e);
+double expr_value(Expr number);                               /* of a rational or real */
+bool expr_rational_parts(Expr e, int64_t *num, int64_t *den); /* false unless rational */
+bool expr_is(Expr e, int64_t value);                          /* is that exact integer */
+bool expr_is_zero(Expr e);        /* is the number 0; a sum that vanishes unseen is not */
+int expr_compare(Expr a, Expr b); /* the stable order: <0, 0, >0; 0 only for the same pointer */
+/* Split off the numeric coefficient: e = *number * the result. */
+Expr expr_split(Arena *arena, Expr e, Expr *number);
+
+/* --- mathematics; each visits a shared node once --- */
+
+/* Partial derivative by a symbol. Remembered for the arena's life. */
+Expr expr_diff(Arena *arena, Expr e, Expr symbol);
+/* Total derivative along `rates`: sum of d e/d symbols[i] * rates[i], all i in one pass. */
+Expr expr_diff_along(Arena *arena, Expr e, const Expr *symbols, const Expr *rates, int count);
+/* Replace symbols (all at once, not in one another). */
+Expr expr_substitute(Arena *arena, Expr e, const Expr *symbols, const Expr *values, int count);
+bool expr_depends(Expr e, Expr symbol);
+/* Mark, for each SymbolKind, whether a symbol of that kind occurs: bit 1 << kind. Kept in the node:
+ * O(1). */
+unsigned expr_kinds(Expr e);
+/* The symbols that occur in roots, in order of making; new array, free with mem_free(). */
+int expr_symbols(const Expr *roots, int count, Expr **symbols);
+/* Trigonometric folding for reading: sin^2+cos^2 = 1, cosAcosB -+ sinAsinB, sinAcosB +- cosAsinB,
+ * in sums at any depth, partners found by look-up. Never makes the expression larger
+ * as counted by expr_count(). */
+Expr expr_fold(Arena *arena, Expr e);
+/* Collect a sum by common factors as a person would: m*a + m*b becomes m*(a + b), greedily by
+ * the factor that saves most; never larger as counted. */
+Expr expr_collect(Arena *arena, Expr e);
+/* Products of sums and whole powers of sums multiplied out, at most to `limit` terms (beyond:
+ * unchanged). */
+Expr expr_expand(Arena *arena, Expr e, int limit);
+
+/* A symbol's value, for expr_evaluate(). */
+typedef double (*SymbolValue)(void *context, Expr symbol);
+/* The value of one expression, slowly: for tests and constants. NAN where undefined. */
+double expr_evaluate(Expr e, SymbolValue value, void *context);
+
+/* --- counting (the rule is in the manual: n-ary sum n-1 additions, x^k k-1
+ * multiplications, each call one function, a coefficient other than 1 and -1 is a
+ * factor, negation is free, a division counts as a multiplication) --- */
+
+typedef struct OpCount {
+    int64_t add;
+    int64_t mul;
+    int64_t fun;
+} OpCount;
+
+/* As written, nothing shared; also where that is far too long to print (saturates at 2^62).
+ * Operations inside arguments of functions count. O(nodes). */
+OpCount expr_count(const Expr *roots, int count);
+/* After common subexpressions are shared: each node once. */
+OpCount expr_count_shared(const Expr *roots, int count);
+int64_t op_count_total(OpCount count);
+
+/* --- printing --- */
+
+typedef enum Notation {
+    NOTATION_TEXT,
+    NOTATION_UNICODE,
+    NOTATION_LATEX,
+    NOTATION_C,
+    NOTATION_MATLAB,
+    NOTATION_PYTHON,
+    NOTATION_FORTRAN,
+    NOTATION_TREE
+} Notation;
+
+/* Append `e`. Text parses back to the same pointer (with the parser of the command language).
+ * Numbers: rationals as 3/4 or, where a decimal is exact and shorter, as such; doubles with
+ * the fewest digits that read back the same. */
+void expr_print(Text *text, Expr e, Notation notation);
+char *expr_text(Expr e); /* new string, NOTATION_TEXT */
+
+#endif

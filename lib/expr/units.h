@@ -1,0 +1,37 @@
+/* units.h: units of the command language, held in SI */
+#ifndef COTREE_EXPR_UNITS_H
+#define COTREE_EXPR_UNITS_H
+
+#include "base/diag.h"
+#include "base/text.h"
+
+/* exponents of m, kg, s, A, K, rad (rad only keeps angle apart from number where it prints;
+ * dimension_same() ignores it) */
+typedef struct Dimension {
+    signed char power[6];
+} Dimension;
+
+/* a unit that was written: value in SI = written * (num / den) exactly where exact, else * factor
+ */
+typedef struct Unit {
+    double factor;
+    long long num; /* exact factor num/den; den 0 where it isn't rational (deg, rpm) */
+    long long den;
+    int pi_power; /* factor = num/den * pi^pi_power: deg is 1/180 pi */
+    Dimension dimension;
+} Unit;
+
+/* One unit name with an optional SI prefix: mm, kohm, uF, deg, rpm. False where unknown. */
+bool unit_find(const char *name, Unit *unit);
+/* A compound unit, the text between brackets: kN/m, m/s^2, 1/s. On failure *fault is the
+ * offset of the part that isn't understood. */
+bool unit_parse(const char *text, size_t length, Unit *unit, size_t *fault);
+/* what was probably meant by an unknown unit name, or NULL */
+const char *unit_suggest(const char *name);
+bool dimension_same(Dimension a, Dimension b);
+void dimension_print(Text *text,
+                     Dimension dimension); /* kg*m/s^2, named where there is a name: N, V, ohm */
+/* every unit name without prefix, for completion: call with 0, 1, ... until NULL */
+const char *unit_name(int i);
+
+#endif

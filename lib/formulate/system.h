@@ -1,0 +1,143 @@
+/* system.h: a model's equations: a symbolic DAE with named variables
+ *
+ *     q' = N u,   Phi(q,t) = 0,   Phi_u u = nu,   Phi_u u' = gamma
+ *     M u' + Phi_u^T lambda = F(q, u, x, z, t)
+ *     A [x'; z] = r(q, u, x, t)                      (network states and algebraic unknowns)
+ *
+ * A System is finished when made and remembers the revision of its model. It has two
+ * readings of the same definitions: one to show (each entry written as by hand, formed
+ * when asked for) and one to run (shared definitions, each emitted once). Both give the
+ * same numbers. Expressions live in the model's arena. theory.md 3-8. */
+#ifndef COTREE_FORMULATE_SYSTEM_H
+#define COTREE_FORMULATE_SYSTEM_H
+
+#include "model/model.h"
+
+typedef struct System System;
+
+/* New; free with system_free(). Borrows what it needs of the model by copying; the arena must
+ * outlive it. Fails with E_MODEL, E_ASSEMBLE (a constraint that is a non-zero constant), the errors
+ * of trees, E_STOPPED. */
+MUST_USE Status system_new(const Model *model, const Watch *watch, System **out, Diag *diag);
+void system_free(System *system); /* NULL is fine */
+uint64_t system_revision(const System *system);
+Arena *system_arena(const System *system);
+
+/* --- variables; each list in order of the edges' making --- */
+
+int system_n(const System *system);  /* coordinates q */
+int system_nu(const System *system); /* speeds u */
+int system_m(const System *system);  /* constraints */
+int system_nx(const System *system); /* network states x */
+int system_nz(const System *system); /* network algebraic unknowns z */
+int system_ne(const System *system); /* unknown efforts of inverse runs (drivers) */
+
+typedef struct Variable {
+    const char *name; /* "h8", "h8'", "lambda(1)", "M7.i" */
+    Expr symbol;
+    const Expr *derivative_of; /* NULL */
+    int edge;                  /* that brings it */
+    int instance;
+    bool is_angle;
+} Variable;
+
+const Variable *system_q(const System *system, int i);
+const Variable *system_u(const System *system, int i);
+const Variable *system_x(const System *system, int i);
+const Variable *system_z(const System *system, int i);
+Expr system_acceleration(const System *system, int i); /* symbol of u'[i] */
+Expr system_multiplier(const System *system, int k);   /* symbol of lambda(k+1) */
+Expr system_state_rate(const System *system, int i);   /* symbol of x'[i] */
+Expr system_q_rate(const System *system, int i);       /* row i of N u */
+/* column j of Phi_u as a correction of q: dq_i = sum_j N_ij du_j; entry of N */
+Expr system_n_entry(const System *system, int i, int j);
+/* first of four Euler parameters to be kept at unit length, or -1: call with 0, 1, ... */
+int system_quaternion(const System *system, int i);
+
+/* --- constraints --- */
+
+typedef struct ConstraintRow {
+    int edge; /* chord that it belongs to */
+    int instance;
+    bool rotation;      /* moment row */
+    char direction[24]; /* "x", "n1", "turn z": for messages */
+    bool is_driver;
+} ConstraintRow;
+
+const ConstraintRow *system_constraint(const System *system, int k);
+/* equations that vanished identically, one line each ("h9: turning about z follows from the
+ * rotation tree"); NULL at the end */
+const char *system_dropped(const System *system, int i);
+/* lines about what was decided on the way, for the user; NULL at the end */
+const char *system_remark(const System *system, int i);
+
+/* --- the reading to run: interned, held definitions --- */
+
+typedef struct Reading {
+    Expr *phi;         /* m */
+    Expr *phi_u;       /* m x nu, row by row */
+    Expr *nu;          /* m: Phi_u u = nu */
+    Expr *gamma;       /* m */
+    Expr *mass;        /* nu x nu, symmetric */
+    Expr *force;       /* nu */
+    Expr *network;     /* (nx+nz) x (nx+nz), row by row: A */
+    Expr *network_rhs; /* nx+nz: r */
+    Expr *q_rate;      /* n */
+} Reading;
+
+const Reading *system_run(const System *system);
+/* --- the reading to show, entry by entry; folded; formed at the first call, then kept --- */
+typedef enum Block {
+    BLOCK_MASS,
+    BLOCK_FORCES,
+    BLOCK_CONSTRAINTS,
+    BLOCK_JACOBIAN,
+    BLOCK_VELOCITY,
+    BLOCK_ACCELERATION,
+    BLOCK_NETWORK,
+    BLOCK_NETWORK_RHS,
+    BLOCK_COUNT
+} Block;
+/* rows and columns of a block; columns 1 for vectors */
+void system_block_size(const System *system, Block block, int *rows, int *columns);
+const char *block_name(Block block); /* "mass", "forces" ... */
+MUST_USE Status system_show(System *system, Block block, int row, int column, Expr *out,
+                            Diag *diag);
+/* electrical equations as printed: `left = right`, one a network unknown */
+int system_network_count(const System *system);
+void system_network_equation(System *system, int i, Expr *left, Expr *right);
+
+/* as written (reading to show) and after sharing (reading to run) */
+MUST_USE Status system_count(System *system, Block block, bool shared, OpCount *out, Diag *diag);
+
+/* --- variables a user can ask for --- */
+
+/* The expression of a user's expression (SYMBOL_VARIABLEs in it) in q, u, x, z, u', x', lambda, t
+ * and parameters; kept. Fails with E_NAME, or E_MISSING for what this model can't tell (an
+ * undetermined reaction). */
+MUST_USE Status system_resolve(System *system, Expr user, Expr *out, Diag *diag);
+/* one variable by name, `primes` derivatives of it */
+MUST_USE Status system_variable(System *system, const char *path, int primes, Expr *out,
+                                Diag *diag);
+
+/* energy.kinetic, energy.potential and the power of sources and losses, in (q, u, x, z, t) */
+Expr system_kinetic(System *system);
+Expr system_potential(System *system);
+
+/* conditions at which the right-hand side may jump or kink: the difference a - b of every
+ * comparison in the equations, in (t, q, u, x); time-only ones first. Count, and *time_only how
+ * many of them. */
+int system_switches(System *system, const Expr **conditions, int *time_only);
+
+/* --- inverse runs: drivers, and what supplies their motion --- */
+
+typedef struct Drive {
+    int instance;   /* of the driver */
+    int constraint; /* its row in Phi, or -1 */
+    Expr effort;    /* symbol of its unknown: its own effort, or the source's value (`by=`) */
+    bool by_source; /* the effort is a voltage or current source's value */
+} Drive;
+int system_drive_count(const System *system);
+const Drive *system_drive(const System *system, int i);
+
+#endif

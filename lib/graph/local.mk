@@ -1,0 +1,1 @@
+libcore_la_SOURCES += lib/graph/graph.h lib/graph/tree.h

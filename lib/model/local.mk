@@ -1,0 +1,1 @@
+libcore_la_SOURCES += lib/model/model.h lib/model/syntax.h

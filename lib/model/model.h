@@ -1,0 +1,94 @@
+/* model.h: the live model: statements applied to the graph, parameters, trees, undo, revision
+ *
+ * A model is what its accepted statements say, in order. A statement that fails leaves
+ * the model as it was. Everything handed out is borrowed and valid until the next
+ * change; the arena lives as long as the model. */
+#ifndef COTREE_MODEL_MODEL_H
+#define COTREE_MODEL_MODEL_H
+
+#include "component/component.h"
+#include "graph/tree.h"
+#include "model/syntax.h"
+
+typedef struct Model Model;
+
+Model *model_new(void); /* new, empty; spatial */
+void model_free(Model *model);
+
+/* Apply one statement that builds: scene, gravity, title, components, NAME=, laws, driver,
+ * output, init, guess, tree, cotree, form, set NAME.key, delete. Says nothing.
+ * Remarks for the user (what was completed, what was kept) are model_remarks(). */
+MUST_USE Status model_apply(Model *model, const Statement *statement, Diag *diag);
+bool model_applies(const char *verb);          /* whether model_apply() takes this verb */
+const char *model_remarks(const Model *model); /* of the last model_apply(), lines; may be "" */
+MUST_USE Status model_undo(Model *model,
+                           Diag *diag); /* the last statement; E_MISSING when there is none */
+MUST_USE Status model_redo(Model *model, Diag *diag);
+const char *model_undone(const Model *model); /* text of the statement that undo/redo moved over */
+void model_clear(Model *model);               /* as model_new(); can be undone */
+char *model_save(const Model *model);         /* new: a script that rebuilds it */
+
+/* Two counters: `revision` changes whenever equations may have changed (a part, a tree, a law),
+ * `values` whenever only numbers have (a parameter, an initial value). Never reused, also not by
+ * undo. */
+uint64_t model_revision(const Model *model);
+uint64_t model_values(const Model *model);
+
+Arena *model_arena(const Model *model);
+const Graph *model_graph(const Model *model);
+bool model_is_planar(const Model *model);
+const Expr *model_gravity(const Model *model); /* three, ground axes, m/s^2 */
+const char *model_title(const Model *model);
+
+int model_count(const Model *model); /* of instances, deleted ones left out */
+const Instance *model_instance(const Model *model,
+                               int i); /* in order of making; Instance.number is i */
+const Instance *model_find(const Model *model, const char *name); /* NULL */
+const Instance *model_edge_owner(const Model *model, int edge);
+/* the coordinate of that name: its owner and index in the owner; false: none */
+bool model_coordinate(const Model *model, const char *name, const Instance **owner, int *index);
+
+/* Trees that the user's choices complete to; kinds whose domain has no edge are NULL. Kept until
+ * the graph or a choice changes. Fails as tree_complete() does. */
+MUST_USE Status model_trees(const Model *model, const Tree *trees[TREE_KINDS], Diag *diag);
+
+/* parameters: symbols of kind SYMBOL_PARAMETER with a defining expression each */
+int model_parameter_count(const Model *model);
+Expr model_parameter(const Model *model, int i, Expr *definition);
+double model_parameter_value(const Model *model, Expr symbol); /* now, SI */
+/* evaluate an expression of parameters only */
+double model_number(const Model *model, Expr e);
+
+/* outputs: name = expression over variables (SYMBOL_VARIABLE), t and parameters */
+int model_output_count(const Model *model);
+Expr model_output(const Model *model, int i, const char **name);
+
+/* initial values and guesses: variable (by name and primes), value (expression of parameters) */
+typedef struct Start {
+    const char *name; /* "h8", "m1.x", "C2.v", "M7.i" */
+    int primes;
+    Expr value;
+    bool is_guess;
+    Place place;
+} Start;
+int model_start_count(const Model *model);
+const Start *model_start(const Model *model, int i);
+
+typedef enum Form { FORM_AUGMENTED, FORM_EMBEDDED } Form;
+Form model_form(const Model *model, const char *const **independent,
+                int *count); /* names of coordinates; count 0: chosen by pivoting */
+
+/* Turn a syntax tree into an expression over parameters, t and variables: units to SI, laws put
+ * in place, names checked. `vector` receives up to 9 entries. Names that aren't known fail with
+ * E_NAME and a suggestion. */
+MUST_USE Status model_expression(const Model *model, const Syntax *syntax, Expr *out, Diag *diag);
+MUST_USE Status model_vector(const Model *model, const Syntax *syntax, Expr *out, int *count,
+                             Diag *diag);
+/* whether the dotted name means a variable that can be asked for, with that many primes; if not,
+ * why */
+MUST_USE Status model_check_variable(const Model *model, const char *path, int primes, Place place,
+                                     Diag *diag);
+/* every name that could follow, for completion: call with 0, 1, ... until NULL */
+const char *model_name(const Model *model, int i);
+
+#endif

@@ -1,0 +1,1 @@
+# sessions to replay, developers tools

@@ -1,0 +1,14 @@
+# unit tests: tests/unit/test_NAME.c, linked with all of lib/
+unit_ldadd = libcore.la
+
+include tests/unit/base.mk
+include tests/unit/expr.mk
+include tests/unit/graph.mk
+include tests/unit/compile.mk
+include tests/unit/model.mk
+include tests/unit/formulate.mk
+include tests/unit/simulate.mk
+include tests/session/session.mk
+
+check_PROGRAMS += $(UNIT_TESTS)
+TESTS += $(UNIT_TESTS)

@@ -1,0 +1,1 @@
+# scripts run by the real program
