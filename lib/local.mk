@@ -1,1 +1,2 @@
 # the public face: sessions
+libcore_la_SOURCES += lib/session.c lib/cotree.h
