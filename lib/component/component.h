@@ -159,6 +159,15 @@ struct Component {
                        add 1000 */
     void (*steps)(const Instance *instance, Arena *arena, bool planar,
                   Steps *out); /* bodies, arms, joints */
+    /* bodies: mass and inertia about the mass centre, body axes, as Ixx Iyy Izz Ixy Ixz Iyz tensor
+     * entries (planar: Izz alone, the others 0); NULL where it has none */
+    void (*inertia)(const Instance *instance, Arena *arena, bool planar, Expr *mass,
+                    Expr tensor[6]);
+    /* PLACES_ON: force and torque on the head, in ground axes or, with *in_body, in the head's */
+    void (*wrench)(const Instance *instance, Arena *arena, bool planar, Expr force[3],
+                   Expr torque[3], bool *in_body);
+    /* PLACES_COORDINATE: the prescribed value, an expression of t and parameters */
+    Expr (*prescribed)(const Instance *instance, Arena *arena);
     /* the force along the line (on the head, away from the tail) or the generalised force on the
      * joint's coordinate (on the head); NULL where it exerts none */
     Expr (*effort)(const Instance *instance, Arena *arena, const Motion1 *motion);
