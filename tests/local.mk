@@ -5,10 +5,12 @@ include tests/unit/base.mk
 include tests/unit/expr.mk
 include tests/unit/graph.mk
 include tests/unit/compile.mk
+include tests/unit/syntax.mk
 include tests/unit/model.mk
 include tests/unit/formulate.mk
 include tests/unit/simulate.mk
 include tests/session/session.mk
+include tests/fuzz/fuzz.mk
 
 check_PROGRAMS += $(UNIT_TESTS)
 TESTS += $(UNIT_TESTS)

@@ -1,1 +1,2 @@
 libcore_la_SOURCES += lib/model/model.h lib/model/syntax.h
+include lib/model/syntax.mk

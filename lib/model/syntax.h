@@ -10,6 +10,9 @@
 #include "base/memory.h"
 #include "expr/units.h"
 
+/* Trees are no higher than this, so that walking one needs no more stack than that. */
+enum { SYNTAX_HEIGHT = 1000 };
+
 typedef enum SyntaxKind {
     SYNTAX_NUMBER,   /* text: the literal as written; unit where one stands behind it */
     SYNTAX_STRING,   /* text: without the quotes */
@@ -27,14 +30,17 @@ typedef struct Syntax {
     int primes;
     bool has_unit;
     Unit unit;
+    const char *unit_text; /* as written: "mm", "[kN/m]"; "" without one */
     Place unit_place;
+    int height; /* 1 for a leaf; never more than SYNTAX_HEIGHT */
     int count;
     struct Syntax **args;
     Place place; /* of the whole; for a binary the operator's is op_place */
     Place op_place;
 } Syntax;
 
-/* An item of a list (plot, table, print ...) may be shown in a unit: that is in Syntax.unit. */
+/* Behind a number or a vector a unit says what it is in; behind anything else, which only an item
+ * of a list may have (plot, table, print ...), what to show it in. */
 
 typedef struct Operand {
     int sign;      /* '+' or '-' in `tree + a - b`, else 0 */
@@ -49,6 +55,47 @@ typedef struct Pair { /* key=value, or `h8' = 10` of init, driver, set, event, o
     Place name_place;
 } Pair;
 
+/* The rows of verbs: grammar, help and completion; who runs a verb is not said here. */
+typedef enum VerbGroup {
+    GROUP_SCENE,
+    GROUP_MECHANICAL,
+    GROUP_ELECTRICAL,
+    GROUP_VARIABLES,
+    GROUP_TREES,
+    GROUP_LOOK,
+    GROUP_RUN,
+    GROUP_SESSION
+} VerbGroup;
+
+typedef struct Verb {
+    const char *name;
+    VerbGroup group;
+    /* How operands are read, one letter each, in order:
+     *   n a new name              p a place (dotted name, or 0)   P a place that may be absent
+     *   w one of the row's words, or any word where it has none    W such a word, may be absent
+     *   v a value (expression)    V values that may be absent     e expressions between commas
+     *   i items, at least one     I items, maybe none             t tree edges with signs
+     *   s a string                o a string, or one of the words
+     *   x words, names, numbers and items, maybe none             l the rest of the line, as it is
+     *   C a condition, or a ~ b within tol                        T a statement, to the end
+     *   y maybe `vs ITEM`         @ maybe `at EXPR`               a maybe `as WORD`
+     *   k keys of the row         = pairs, at least one unless operands came before
+     *   > may be redirected       : a colon and a statement       * the letter before, repeated */
+    const char *shape;
+    /* both ended by NULL; NULL: none */
+    const char *const *words; /* words with a meaning of their own in its operands: they win over
+                                 names, which stand in brackets then: `tree (rotation)` */
+    const char *const *keys;
+    const char *usage;   /* one line; NULL: verb_usage() */
+    const char *brief;   /* one line, no full stop */
+    const char *help;    /* a paragraph or more; NULL where it is `later` */
+    const char *example; /* statements that run from an empty session, lines separated by \n; NULL
+                            where it is `later` */
+    const char *see;     /* other words, between blanks */
+    const struct Component *component; /* where the verb makes one; its text is the component's */
+    bool later;                        /* known, but comes with a later version */
+} Verb;
+
 typedef enum StatementKind {
     STATEMENT_EMPTY,
     STATEMENT_PARAMETER,
@@ -58,9 +105,9 @@ typedef enum StatementKind {
 
 typedef struct Statement {
     StatementKind kind;
-    const char *verb;       /* as in the table, also where shortened; NULL unless a verb */
-    const struct Verb *row; /* of a verb */
-    bool is_virtual;        /* `virtual revolute ...` */
+    const char *verb; /* as in the table, also where shortened; NULL unless a verb */
+    Verb row;         /* of a verb; its name is NULL otherwise */
+    bool is_virtual;  /* `virtual revolute ...` */
     Place verb_place;
     const char *name; /* parameter or law */
     Place name_place;
@@ -91,9 +138,9 @@ typedef struct SyntaxOptions {
     bool shortened; /* verbs may be shortened while unambiguous (at the prompt) */
 } SyntaxOptions;
 
-/* Read every statement of one logical line.
+/* Read one statement after the other of a text.
  *
- * text   one or more physical lines joined by "\" at their ends, or one line
+ * text   a physical line, several joined by "\" at their ends, or a whole script
  * line   its number, for places
  * next   in: byte offset to start from (0); out: where the next statement starts
  * out    a new statement, statement_free(); kind EMPTY where only blanks and comments were left
@@ -109,38 +156,14 @@ MUST_USE Status syntax_parse_expression(const char *text, Pool *pool, Syntax **o
 /* Write a tree back as text that parses to the same tree. */
 void syntax_print(Text *text, const Syntax *syntax);
 
-/* The rows of verbs: grammar, help and completion; who runs a verb is not said here. */
-typedef enum VerbGroup {
-    GROUP_SCENE,
-    GROUP_MECHANICAL,
-    GROUP_ELECTRICAL,
-    GROUP_VARIABLES,
-    GROUP_TREES,
-    GROUP_LOOK,
-    GROUP_RUN,
-    GROUP_SESSION
-} VerbGroup;
+/* Rows by value; what they point to is const. False: unknown, *verb unchanged. */
+bool verb_find(const char *name, Verb *verb); /* exact */
+bool verb_at(int i, Verb *verb); /* 0, 1, ... in the order of the manual; false at the end */
+const char *verb_key(const Verb *verb, int i); /* 0, 1, ...; NULL at the end */
+void verb_usage(Text *text, const Verb *verb); /* one line */
+const char *group_title(VerbGroup group);      /* "Mechanical components" ... */
 
-typedef struct Verb {
-    const char *name;
-    VerbGroup group;
-    /* How operands are read, one letter each:
-     *   n a new name; p a place (dotted name or 0); P an optional place; w a word; v a value
-     * (expression); V an optional value; i items (to the end or `vs`); e expressions between
-     * commas; t tree edges with signs; s a string; S an optional string; x the rest as words,
-     * numbers and names; = pairs; C expect's condition; k keys (pairs with keys of the row); > may
-     * be redirected; : a statement follows */
-    const char *shape;
-    const char
-        *keys; /* names of its keys, between blanks; for a component those of its row; NULL: none */
-    const char *usage;   /* one line */
-    const char *brief;   /* one line, no full stop */
-    const char *help;    /* a paragraph or more */
-    const char *example; /* statements that run from an empty session, lines separated by \n */
-    const char *see;     /* other words, between blanks */
-} Verb;
-
-const Verb *verb_find(const char *name); /* exact; NULL: unknown */
-const Verb *verb_at(int i);              /* 0, 1, ... in the order of the manual; NULL at the end */
+/* OK, or E_MISSING at the verb of a statement that comes with a later version. */
+MUST_USE Status statement_check_version(const Statement *statement, Diag *diag);
 
 #endif

@@ -1,0 +1,1 @@
+# random input; built and run by `make fuzz` alone

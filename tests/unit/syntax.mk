@@ -1,0 +1,1 @@
+# unit tests of lib/model/syntax.h
