@@ -10,7 +10,9 @@ include tests/unit/model.mk
 include tests/unit/formulate.mk
 include tests/unit/simulate.mk
 include tests/session/session.mk
+include tests/bench/bench.mk
 include tests/fuzz/fuzz.mk
 
 check_PROGRAMS += $(UNIT_TESTS)
 TESTS += $(UNIT_TESTS)
+EXTRA_PROGRAMS += $(BENCHES) $(FUZZERS)

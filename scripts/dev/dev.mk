@@ -1,0 +1,65 @@
+# for developers: the same tests in other builds, lint, benchmarks, fuzzing, coverage
+#
+# None of these installs anything: what is missing is named (or scripts/dev/packages lint).
+dev = $(SHELL) $(srcdir)/scripts/dev
+EXTRA_DIST += autogen.sh run-tests .clang-format .clang-tidy \
+	scripts/dev/bench-table scripts/dev/build scripts/dev/check-layers scripts/dev/check-size \
+	scripts/dev/check-tables scripts/dev/coverage scripts/dev/lint scripts/dev/packages \
+	scripts/dev/total
+
+# all tests, with their sum as the last line
+check-total: all
+	@$(MAKE) -s check TESTS= >check.log 2>&1 || { cat check.log; exit 1; }
+	@$(MAKE) -s check 2>&1 | grep -E '^(PASS|FAIL|SKIP|ERROR|XPASS)' || :
+	@$(dev)/total $(TEST_LOGS)
+
+# the same tests in a build with the address and undefined-behaviour sanitizers
+check-san: san/Makefile
+	@$(MAKE) -s -C san check-total
+
+san/Makefile:
+	@mkdir -p san
+	@cd san && $(abs_srcdir)/configure -q --enable-sanitizers --enable-werror CFLAGS='-O1 -g'
+
+# make lint PARTS="format size": only these
+lint:
+	@CC='$(CC)' CPPFLAGS='-D_GNU_SOURCE -I$(abs_top_builddir) $(GSL_CFLAGS)' \
+		$(dev)/lint $(PARTS)
+
+format:
+	cd $(srcdir) && find lib src tests -name '*.[ch]' -exec clang-format -i {} +
+
+# times, beside those of the last record
+bench: $(BENCHES) all
+	@for bench in $(BENCHES); do ./$$bench || exit 1; done >bench.out
+	@$(dev)/bench-table $(srcdir)/tests/bench/record.txt <bench.out
+
+bench-record: bench
+	{ head -n 3 $(srcdir)/tests/bench/record.txt; cat bench.out; } >bench.new
+	mv bench.new $(srcdir)/tests/bench/record.txt
+
+# random statements against the sanitizers, for so many seconds
+FUZZ_SECONDS = 600
+FUZZ_SEED = 1
+fuzz: san/Makefile
+	@$(MAKE) -s -C san fuzzers
+	@for fuzzer in $(FUZZERS); do \
+		san/$$fuzzer --seconds $(FUZZ_SECONDS) --seed $(FUZZ_SEED) $(srcdir)/scripts || exit 1; \
+	done
+
+fuzzers: $(FUZZERS) all
+
+coverage:
+	@mkdir -p coverage
+	@test -f coverage/Makefile || { cd coverage && \
+		$(abs_srcdir)/configure -q --disable-shared CFLAGS='-O0 -g --coverage'; }
+	@$(MAKE) -s -C coverage check-total
+	@$(dev)/coverage coverage
+
+mostlyclean-local:
+	rm -f $(BENCHES) $(FUZZERS) bench.out check.log
+
+distclean-local:
+	rm -rf san coverage
+
+.PHONY: check-total check-san lint format bench bench-record fuzz fuzzers coverage

@@ -1,0 +1,37 @@
+/* bench.h: what benchmarks share
+ *
+ * A benchmark prints lines `name value unit`, smaller is better; `make bench` puts the
+ * record beside them. The name holds no blank and begins with the module: expr.diff_1e5. */
+#ifndef COTREE_TESTS_BENCH_H
+#define COTREE_TESTS_BENCH_H
+
+#include <stdio.h>
+#include <time.h>
+
+/* seconds on a clock that only goes forward */
+__attribute__((unused)) static double bench_now(void)
+{
+    struct timespec now;
+
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+__attribute__((unused)) static void bench_line(const char *name, double value, const char *unit)
+{
+    printf("%s %.4g %s\n", name, value, unit);
+}
+
+/* the least time of some tries, in seconds: what the machine needs when nobody disturbs it */
+#define BENCH_LEAST(tries, seconds, ...)                                                           \
+    do {                                                                                           \
+        (seconds) = 1e300;                                                                         \
+        for (int try_ = 0; try_ < (tries); try_++) {                                               \
+            double begin_ = bench_now();                                                           \
+            __VA_ARGS__;                                                                           \
+            double took_ = bench_now() - begin_;                                                   \
+            (seconds) = took_ < (seconds) ? took_ : (seconds);                                     \
+        }                                                                                          \
+    } while (0)
+
+#endif

@@ -1,0 +1,2 @@
+# benchmarks, named in BENCHES: programs that print lines `name value unit` (bench.h); `make bench`
+EXTRA_DIST += tests/bench/bench.h tests/bench/record.txt
