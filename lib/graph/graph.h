@@ -60,8 +60,7 @@ typedef struct Edge {
     int tail;
     int head;
     Domain domain;
-    int component; /* the model's number of the component it belongs to; graph code only hands it on
-                    */
+    int component; /* the model's number of what it belongs to; graph code only hands it on */
     Branching branching[2]; /* mechanical: [0] translation, [1] rotation; scalar: [0] */
     int preference[2]; /* for completion: lower first, edges of one preference in order of making */
 } Edge;
@@ -82,7 +81,7 @@ int graph_find_edge(const Graph *graph, const char *name); /* the first of that 
 Branching graph_branching(const Graph *graph, int edge, TreeKind kind); /* NEVER in other domains */
 /* the edge belongs to the graph that `kind` spans */
 bool graph_edge_in(const Graph *graph, int edge, TreeKind kind);
-/* every edge at a node: count, and *edges borrowed (built once after the last change) */
+/* every edge at a node, in order of making: count, and *edges borrowed until the graph grows */
 int graph_edges_at(const Graph *graph, int node, const int **edges);
 
 /* Parts of a domain that hang together: part[node] = 0, 1, ... for its nodes, -1 for

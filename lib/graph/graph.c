@@ -1,0 +1,194 @@
+/* graph.c: nodes and edges in arrays; each node keeps the list of its edges */
+#include "graph/graph.h"
+
+#include "base/memory.h"
+#include "base/names.h"
+#include "graph/sets.h"
+
+#include <assert.h>
+#include <string.h>
+
+typedef struct Incident {
+    LIST(int) edges;
+} Incident;
+
+struct Graph {
+    LIST(Node) nodes;
+    LIST(Incident) at; /* one a node */
+    LIST(Edge) edges;
+    Names *node_names;
+    Names *edge_names;
+    LIST(int) first_node; /* by number of the name: the first that bears it */
+    LIST(int) first_edge;
+    Pool *texts;
+};
+
+static const struct {
+    const char *name;
+    Domain domain;
+} tree_kinds[] = {
+    [TREE_TRANSLATION] = {"translation", DOMAIN_MECHANICAL},
+    [TREE_ROTATION] = {"rotation", DOMAIN_MECHANICAL},
+    [TREE_ELECTRICAL] = {"electrical", DOMAIN_ELECTRICAL},
+    [TREE_HYDRAULIC] = {"hydraulic", DOMAIN_HYDRAULIC},
+    [TREE_SHAFT] = {"shaft", DOMAIN_SHAFT},
+    [TREE_SLIDE] = {"slide", DOMAIN_SLIDE},
+    [TREE_THERMAL] = {"thermal", DOMAIN_THERMAL},
+};
+
+const char *domain_name(Domain domain)
+{
+    static const char *const names[] = {
+#define X(id, name, ...) name,
+        DOMAINS(X)
+#undef X
+    };
+    return names[domain];
+}
+
+const char *tree_kind_name(TreeKind kind)
+{
+    return tree_kinds[kind].name;
+}
+
+Domain tree_kind_domain(TreeKind kind)
+{
+    return tree_kinds[kind].domain;
+}
+
+Graph *graph_new(void)
+{
+    Graph *graph = NEW(Graph);
+
+    graph->node_names = names_new();
+    graph->edge_names = names_new();
+    graph->texts = pool_new(0);
+    return graph;
+}
+
+void graph_free(Graph *graph)
+{
+    if (graph == NULL)
+        return;
+    for (int i = 0; i < graph->at.count; i++)
+        LIST_FREE(graph->at.at[i].edges);
+    LIST_FREE(graph->nodes);
+    LIST_FREE(graph->at);
+    LIST_FREE(graph->edges);
+    LIST_FREE(graph->first_node);
+    LIST_FREE(graph->first_edge);
+    names_free(graph->node_names);
+    names_free(graph->edge_names);
+    pool_free(graph->texts);
+    mem_free(graph);
+}
+
+int graph_add_node(Graph *graph, const char *name, Domain domain, bool datum)
+{
+    int node = graph->nodes.count;
+    Node new_node = {pool_text(graph->texts, name, strlen(name)), domain, datum};
+
+    if (names_add(graph->node_names, name) == graph->first_node.count)
+        LIST_PUSH(graph->first_node, node);
+    LIST_PUSH(graph->nodes, new_node);
+    LIST_PUSH(graph->at, (Incident){.edges = {0}});
+    return node;
+}
+
+int graph_add_edge(Graph *graph, const Edge *edge)
+{
+    int number = graph->edges.count;
+    Edge copy = *edge;
+
+    assert(edge->tail >= 0 && edge->tail < graph->nodes.count);
+    assert(edge->head >= 0 && edge->head < graph->nodes.count);
+    assert(graph->nodes.at[edge->tail].domain == edge->domain);
+    assert(graph->nodes.at[edge->head].domain == edge->domain);
+
+    copy.name = pool_text(graph->texts, edge->name, strlen(edge->name));
+    if (names_add(graph->edge_names, edge->name) == graph->first_edge.count)
+        LIST_PUSH(graph->first_edge, number);
+    LIST_PUSH(graph->edges, copy);
+    LIST_PUSH(graph->at.at[edge->tail].edges, number);
+    if (edge->head != edge->tail)
+        LIST_PUSH(graph->at.at[edge->head].edges, number);
+    return number;
+}
+
+int graph_node_count(const Graph *graph)
+{
+    return graph->nodes.count;
+}
+
+int graph_edge_count(const Graph *graph)
+{
+    return graph->edges.count;
+}
+
+const Node *graph_node(const Graph *graph, int node)
+{
+    return &graph->nodes.at[node];
+}
+
+const Edge *graph_edge(const Graph *graph, int edge)
+{
+    return &graph->edges.at[edge];
+}
+
+int graph_find_node(const Graph *graph, const char *name)
+{
+    int number = names_find(graph->node_names, name);
+
+    return number < 0 ? -1 : graph->first_node.at[number];
+}
+
+int graph_find_edge(const Graph *graph, const char *name)
+{
+    int number = names_find(graph->edge_names, name);
+
+    return number < 0 ? -1 : graph->first_edge.at[number];
+}
+
+bool graph_edge_in(const Graph *graph, int edge, TreeKind kind)
+{
+    return graph->edges.at[edge].domain == tree_kind_domain(kind);
+}
+
+Branching graph_branching(const Graph *graph, int edge, TreeKind kind)
+{
+    if (!graph_edge_in(graph, edge, kind))
+        return BRANCH_NEVER;
+    return graph->edges.at[edge].branching[kind == TREE_ROTATION];
+}
+
+int graph_edges_at(const Graph *graph, int node, const int **edges)
+{
+    *edges = graph->at.at[node].edges.at;
+    return graph->at.at[node].edges.count;
+}
+
+int graph_parts(const Graph *graph, Domain domain, int *part)
+{
+    int nodes = graph->nodes.count;
+    int *number = NEW_ARRAY(int, nodes); /* of a set's part, plus 1 */
+    Sets *sets = sets_new(nodes);
+    int parts = 0;
+
+    for (int e = 0; e < graph->edges.count; e++) {
+        if (graph->edges.at[e].domain == domain)
+            (void)sets_join(sets, graph->edges.at[e].tail, graph->edges.at[e].head);
+    }
+    for (int i = 0; i < nodes; i++) {
+        int root = sets_find(sets, i);
+
+        part[i] = -1;
+        if (graph->nodes.at[i].domain != domain)
+            continue;
+        if (number[root] == 0)
+            number[root] = ++parts;
+        part[i] = number[root] - 1;
+    }
+    sets_free(sets);
+    mem_free(number);
+    return parts;
+}
