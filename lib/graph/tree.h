@@ -14,7 +14,8 @@ typedef struct Tree Tree;
 typedef struct TreeChoice {
     const int *branches; /* edges that must be branches */
     int branch_count;
-    const bool *excluded;  /* one per edge of the graph: kept out; NULL: none */
+    const bool *excluded;  /* one per edge of the graph: not for completion; NULL: none. What is
+                              both chosen and excluded is a branch. */
     const int *preference; /* one per edge, instead of Edge.preference; NULL: those */
 } TreeChoice;
 
@@ -28,39 +29,42 @@ typedef struct TreeChoice {
  *
  * Fails with E_CIRCUIT, naming the edges of the circuit in its order (two messages of
  * theory.md 7: chosen branches, or arms alone), with E_UNREACHED, naming the nodes that no
- * branch reaches and edges that would, with E_BRANCH for an edge that may not be one, with a
- * hint each. Nodes that no edge of the domain connects to the datum at all: E_UNREACHED too.
- * O(E log E). Kruskal (1956), with the chosen branches contracted. */
+ * branch reaches and edges that would, with E_BRANCH for an edge that may not be one or an arm
+ * that is excluded, with a hint each. Long lists of names are cut short. Nodes that no edge of the
+ * domain connects to the datum at all: E_UNREACHED too. O(E log E). Kruskal (1956), with the chosen
+ * branches contracted. */
 MUST_USE Status tree_complete(const Graph *graph, TreeKind kind, const TreeChoice *choice,
                               bool exact, Tree **out, Diag *diag);
 void tree_free(Tree *tree); /* NULL is fine */
 
 TreeKind tree_kind(const Tree *tree);
+const Graph *tree_graph(const Tree *tree);
 bool tree_has(const Tree *tree, int edge);
 bool tree_was_completed(const Tree *tree, int edge); /* a branch that nobody chose and no arm */
 int tree_branch_count(const Tree *tree);
-const int *
-tree_branches(const Tree *tree); /* in order from the datum outward, parents before children */
+/* depth first from the datum: parents before children, siblings in order of making */
+const int *tree_branches(const Tree *tree);
 int tree_chord_count(const Tree *tree);
-const int *
-tree_chords(const Tree *tree); /* edges of the domain that aren't branches, in order of making */
-const int *tree_nodes(const Tree *tree, int *count); /* datum first, parents before children */
-int tree_parent(const Tree *tree, int node);         /* -1 for the datum */
-int tree_parent_edge(const Tree *tree, int node);    /* -1 for the datum */
-bool tree_is_forward(const Tree *tree,
-                     int node); /* the parent edge leads from the parent to the node */
-int tree_depth(const Tree *tree, int node);
+/* edges of the domain that aren't branches, in order of making */
+const int *tree_chords(const Tree *tree);
+/* the datum, then the far nodes of tree_branches() in their order */
+const int *tree_nodes(const Tree *tree, int *count);
+int tree_parent(const Tree *tree, int node);      /* -1 for the datum */
+int tree_parent_edge(const Tree *tree, int node); /* -1 for the datum */
+/* the parent edge leads from the parent to the node */
+bool tree_is_forward(const Tree *tree, int node);
+int tree_depth(const Tree *tree, int node); /* branches up to the datum */
 /* whether `node` hangs beyond `branch`, seen from the datum. O(1). */
 bool tree_is_beyond(const Tree *tree, int branch, int node);
-/* the node at the far end of a branch */
+/* the node at the far end of a branch; -1 for a chord */
 int tree_far_node(const Tree *tree, int branch);
 
 /* The path from one node to another: edges with +1 where it runs from tail to head, -1 against.
  * `edges` and `signs` have room for tree_depth(a) + tree_depth(b); returns how many. O(depth). */
 int tree_path(const Tree *tree, int from, int to, int *edges, int *signs);
 
-/* --- matrices; sparse by rows: row r holds columns[start[r]] .. columns[start[r+1]-1], entries +1
- * or -1 --- */
+/* --- matrices, sparse by rows: row r holds column[start[r]] .. column[start[r + 1] - 1],
+ * ascending, with entries +1 or -1. Columns are all edges of the graph, by number. --- */
 
 typedef struct SignMatrix {
     int rows;
@@ -71,12 +75,13 @@ typedef struct SignMatrix {
 } SignMatrix;
 
 void sign_matrix_free(SignMatrix *matrix); /* NULL is fine */
-/* columns are all edges of the graph, by number */
-SignMatrix *graph_incidence(const Graph *graph, Domain domain,
-                            bool reduced);   /* a row a node of the domain; +1 at the tail */
-SignMatrix *tree_circuits(const Tree *tree); /* a row a chord, in order of tree_chords(): its
-                                                fundamental circuit, +1 at the chord */
-SignMatrix *
-tree_cutsets(const Tree *tree); /* a row a branch, in order of tree_branches(), +1 at the branch */
+/* A: a row a node of the domain (without the datum when reduced), +1 at the tail, -1 at the head */
+SignMatrix *graph_incidence(const Graph *graph, Domain domain, bool reduced);
+/* B = [-D^T 1]: a row a chord, in order of tree_chords(): its fundamental circuit, +1 at the chord.
+ * As many entries as the circuits have edges together. */
+SignMatrix *tree_circuits(const Tree *tree);
+/* Q = [1 D]: a row a branch, in order of tree_branches(): its fundamental cutset, +1 at the branch
+ */
+SignMatrix *tree_cutsets(const Tree *tree);
 
 #endif

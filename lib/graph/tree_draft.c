@@ -1,0 +1,164 @@
+/* tree_draft.c: Kruskal's rule (1956) behind what arms and the user have settled */
+#include "graph/tree_draft.h"
+
+#include <stdlib.h>
+
+typedef struct Ranked {
+    int edge;
+    int preference;
+    bool unchosen; /* BRANCH_UNCHOSEN: behind all others */
+} Ranked;
+
+static int compare_ranked(const void *a, const void *b)
+{
+    const Ranked *x = a;
+    const Ranked *y = b;
+
+    if (x->unchosen != y->unchosen)
+        return x->unchosen ? 1 : -1;
+    if (x->preference != y->preference)
+        return x->preference < y->preference ? -1 : 1;
+    return x->edge < y->edge ? -1 : x->edge > y->edge;
+}
+
+int draft_preference(const Draft *draft, int edge)
+{
+    if (draft->choice->preference != NULL)
+        return draft->choice->preference[edge];
+    return graph_edge(draft->graph, edge)->preference[draft->kind == TREE_ROTATION];
+}
+
+static bool is_candidate(const Draft *draft, int edge, bool open)
+{
+    Branching branching = graph_branching(draft->graph, edge, draft->kind);
+
+    if (draft->standing[edge] != STANDING_CHORD)
+        return false;
+    if (open)
+        return branching == BRANCH_MAY || branching == BRANCH_UNCHOSEN;
+    return branching == BRANCH_MAY &&
+           (draft->choice->excluded == NULL || !draft->choice->excluded[edge]);
+}
+
+int draft_candidates(const Draft *draft, bool open, int **edges)
+{
+    LIST(Ranked) ranked = {0};
+    int count;
+
+    for (int e = 0; e < graph_edge_count(draft->graph); e++) {
+        if (is_candidate(draft, e, open)) {
+            Branching branching = graph_branching(draft->graph, e, draft->kind);
+
+            LIST_PUSH(ranked, (Ranked){.edge = e,
+                                       .preference = draft_preference(draft, e),
+                                       .unchosen = branching == BRANCH_UNCHOSEN});
+        }
+    }
+    count = ranked.count;
+    if (count > 0)
+        qsort(ranked.at, (size_t)count, sizeof *ranked.at, compare_ranked);
+
+    *edges = NEW_ARRAY(int, count);
+    for (int i = 0; i < count; i++)
+        (*edges)[i] = ranked.at[i].edge;
+    LIST_FREE(ranked);
+    return count;
+}
+
+/* make an edge a branch, unless its ends hang together already */
+static bool join(Draft *draft, int edge, Standing standing)
+{
+    const Edge *e = graph_edge(draft->graph, edge);
+
+    if (!sets_join(draft->sets, e->tail, e->head))
+        return false;
+    draft->standing[edge] = (unsigned char)standing;
+    return true;
+}
+
+static Status join_arms(Draft *draft, Diag *diag)
+{
+    for (int e = 0; e < graph_edge_count(draft->graph); e++) {
+        if (graph_branching(draft->graph, e, draft->kind) != BRANCH_ALWAYS)
+            continue;
+        if (draft->choice->excluded != NULL && draft->choice->excluded[e])
+            return draft_fault_arm(draft, e, diag);
+        if (!join(draft, e, STANDING_ARM))
+            return draft_fault_circuit(draft, e, diag);
+    }
+    return OK;
+}
+
+static Status join_chosen(Draft *draft, Diag *diag)
+{
+    for (int i = 0; i < draft->choice->branch_count; i++) {
+        int edge = draft->choice->branches[i];
+
+        if (graph_branching(draft->graph, edge, draft->kind) == BRANCH_NEVER)
+            return draft_fault_branch(draft, edge, diag);
+        /* an arm, or named twice */
+        if (draft->standing[edge] != STANDING_CHORD)
+            continue;
+        if (!join(draft, edge, STANDING_CHOSEN))
+            return draft_fault_circuit(draft, edge, diag);
+    }
+    return OK;
+}
+
+static void join_preferred(Draft *draft)
+{
+    int *edges;
+    int count = draft_candidates(draft, false, &edges);
+
+    for (int i = 0; i < count; i++)
+        (void)join(draft, edges[i], STANDING_COMPLETED);
+    mem_free(edges);
+}
+
+static Status check_reach(const Draft *draft, Diag *diag)
+{
+    Domain domain = tree_kind_domain(draft->kind);
+
+    for (int i = 0; i < graph_node_count(draft->graph); i++) {
+        if (graph_node(draft->graph, i)->domain != domain)
+            continue;
+        if (draft->datum < 0 || sets_find(draft->sets, i) != sets_find(draft->sets, draft->datum))
+            return draft_fault_unreached(draft, diag);
+    }
+    return OK;
+}
+
+static int find_datum(const Graph *graph, Domain domain)
+{
+    for (int i = 0; i < graph_node_count(graph); i++) {
+        const Node *node = graph_node(graph, i);
+
+        if (node->datum && node->domain == domain)
+            return i;
+    }
+    return -1;
+}
+
+Status draft_make(Draft *draft, bool exact, Diag *diag)
+{
+    Status status = OK;
+
+    draft->datum = find_datum(draft->graph, tree_kind_domain(draft->kind));
+    draft->standing = NEW_ARRAY(unsigned char, graph_edge_count(draft->graph));
+    draft->sets = sets_new(graph_node_count(draft->graph));
+
+    /* what the user chose comes first, whatever it weighs */
+    CHECK(join_arms(draft, diag));
+    CHECK(join_chosen(draft, diag));
+    if (!exact)
+        join_preferred(draft);
+    CHECK(check_reach(draft, diag));
+done:
+    return status;
+}
+
+void draft_free(Draft *draft)
+{
+    mem_free(draft->standing);
+    sets_free(draft->sets);
+}
