@@ -11,6 +11,7 @@ include tests/unit/formulate.mk
 include tests/unit/simulate.mk
 include tests/session/session.mk
 include tests/bench/bench.mk
+include tests/bench/graph.mk
 include tests/fuzz/fuzz.mk
 
 check_PROGRAMS += $(UNIT_TESTS)
