@@ -36,8 +36,10 @@ typedef enum ParamKind {
 typedef struct Param {
     const char *name;
     ParamKind kind;
-    const char *unit;     /* of its value, as in brackets: "kg*m^2"; "" none, NULL any */
-    const char *fallback; /* text of the default; NULL: must be given */
+    const char *unit;     /* of its value, as in brackets: "kg*m^2"; "" none, NULL any. Two between
+                             '|': on a length (a line, a slide), on an angle */
+    const char *fallback; /* the default: a number (for vectors: each entry), an axis' letter, the
+                             words; NULL: must be given */
     const char *meaning;
     bool positional; /* may stand without its key behind the places (arm r m [..], resistor R1 a b
                         10) */
@@ -140,6 +142,7 @@ typedef struct Member { /* what can be asked of an instance: h9.fx, R1.power */
     const char *name;
     const char *unit;
     const char *meaning;
+    int primes; /* derivatives in time that can be asked for */
 } Member;
 
 struct Component {
@@ -153,10 +156,11 @@ struct Component {
     const CoordinateRow *coords; /* spatial */
     int coord_count;
     const CoordinateRow *coords_planar; /* NULL: as spatial */
-    Branching translation;              /* BRANCH_NEVER for forces */
-    Branching rotation;
-    int preference; /* completion: lower first; joints 10 + coordinates, bodies 50, virtual joints
-                       add 1000 */
+    int coord_count_planar;
+    Branching translation; /* of its mechanical edge; of the scalar edge of those that have one */
+    Branching rotation;    /* BRANCH_NEVER for forces, and the mechanical edge of transducers */
+    int preference; /* completion: lower first; joints 10 and, in each tree, 1 a coordinate of that
+                       half; bodies 50; virtual joints add 1000 */
     void (*steps)(const Instance *instance, Arena *arena, bool planar,
                   Steps *out); /* bodies, arms, joints */
     /* bodies: mass and inertia about the mass centre, body axes, as Ixx Iyy Izz Ixy Ixz Iyz tensor
@@ -198,6 +202,7 @@ struct Instance {
     int scalar_edge; /* -1: none */
     int joint;       /* instance whose coordinate it acts on; -1 */
     int joint_coordinate;
+    bool on_angle; /* that coordinate is an angle */
     Value *values; /* one a param of the row */
     int coord_count;
     const char *coord[MAX_COORDS]; /* names: "h8", "m1.x", or the user's coord= */
@@ -209,18 +214,24 @@ struct Instance {
     const char *text;  /* its statement */
 };
 
+/* The row's own way to say how many coordinates it has in this scene, and which. */
+const CoordinateRow *component_coords(const Component *row, bool planar, int *count);
 const Component *component_find(const char *name);           /* exact; NULL */
 const Component *component_at(int i);                        /* 0, 1, ...; NULL at the end */
 int component_param(const Component *row, const char *name); /* -1: none */
 const Value *instance_value(const Instance *instance,
                             const char *name);                    /* assert that the row has it */
 Expr instance_scalar(const Instance *instance, const char *name); /* its only entry */
-/* members of an instance of this family and row, in order: NULL at the end */
+/* Members of an instance of this family and row, in order: NULL at the end. Those of its
+ * coordinates (Instance.coord) are not repeated here, unless the family has them anyway. */
 const Member *component_member(const Component *row, bool planar, int i);
 
 /* step helpers for rows */
 void steps_none(Arena *arena, Steps *out); /* no shift, no turn, R_0 = 1 */
 void steps_shift(Arena *arena, Steps *out, const Expr axis[3], int coordinate);
 void steps_turn(Arena *arena, Steps *out, const Expr axis[3], int coordinate);
+/* n1, n2 that make a right-handed triad u, n1, n2 with the unit vector u: x y for z, and so on in
+ * circle; for others n1 is across the axis that u leans on least. */
+void axis_complement(Arena *arena, const Expr u[3], Expr n1[3], Expr n2[3]);
 
 #endif

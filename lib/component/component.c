@@ -1,0 +1,238 @@
+/* component.c: finding rows, values and members; helpers for steps */
+#include "component/component_rows.h"
+
+#include <assert.h>
+#include <math.h>
+#include <string.h>
+
+static const Component *const rows[] = {
+#define TYPE(id) &component_##id,
+#include "component/types.def"
+#undef TYPE
+};
+
+const Component *component_at(int i)
+{
+    return i >= 0 && i < COUNT(rows) ? rows[i] : NULL;
+}
+
+const Component *component_find(const char *name)
+{
+    for (int i = 0; i < COUNT(rows); i++)
+        if (strcmp(rows[i]->name, name) == 0)
+            return rows[i];
+    return NULL;
+}
+
+int component_param(const Component *row, const char *name)
+{
+    for (int i = 0; i < row->param_count; i++)
+        if (strcmp(row->params[i].name, name) == 0)
+            return i;
+    return -1;
+}
+
+const CoordinateRow *component_coords(const Component *row, bool planar, int *count)
+{
+    if (planar && row->coords_planar != NULL) {
+        *count = row->coord_count_planar;
+        return row->coords_planar;
+    }
+    *count = row->coord_count;
+    return row->coords;
+}
+
+const Value *instance_value(const Instance *instance, const char *name)
+{
+    int i = component_param(instance->row, name);
+
+    assert(i >= 0);
+    return &instance->values[i];
+}
+
+Expr instance_scalar(const Instance *instance, const char *name)
+{
+    return instance_value(instance, name)->at[0];
+}
+
+/* --- members that a whole family has --- */
+
+/* clang-format off */
+static const Member frame_planar[] = {
+    {"x",      "m",       "position in ground axes", 2},
+    {"y",      "m",       "position in ground axes", 2},
+    {"theta",  "rad",     "angle against ground, about z", 2},
+    {"vx",     "m/s",     "velocity in ground axes", 1},
+    {"vy",     "m/s",     "velocity in ground axes", 1},
+    {"wz",     "rad/s",   "angular velocity", 1},
+    {"ax",     "m/s^2",   "acceleration in ground axes", 0},
+    {"ay",     "m/s^2",   "acceleration in ground axes", 0},
+    {"alphaz", "rad/s^2", "angular acceleration", 0},
+};
+
+static const Member frame_spatial[] = {
+    {"x",      "m",       "position in ground axes", 2},
+    {"y",      "m",       "position in ground axes", 2},
+    {"z",      "m",       "position in ground axes", 2},
+    {"vx",     "m/s",     "velocity in ground axes", 1},
+    {"vy",     "m/s",     "velocity in ground axes", 1},
+    {"vz",     "m/s",     "velocity in ground axes", 1},
+    {"ax",     "m/s^2",   "acceleration in ground axes", 0},
+    {"ay",     "m/s^2",   "acceleration in ground axes", 0},
+    {"az",     "m/s^2",   "acceleration in ground axes", 0},
+    {"wx",     "rad/s",   "angular velocity in ground axes", 1},
+    {"wy",     "rad/s",   "angular velocity in ground axes", 1},
+    {"wz",     "rad/s",   "angular velocity in ground axes", 1},
+    {"Wx",     "rad/s",   "angular velocity in the frame's own axes", 1},
+    {"Wy",     "rad/s",   "angular velocity in the frame's own axes", 1},
+    {"Wz",     "rad/s",   "angular velocity in the frame's own axes", 1},
+    {"alphax", "rad/s^2", "angular acceleration in ground axes", 0},
+    {"alphay", "rad/s^2", "angular acceleration in ground axes", 0},
+    {"alphaz", "rad/s^2", "angular acceleration in ground axes", 0},
+    {"q0",     "1",       "Euler parameter, scalar part, frame to ground", 2},
+    {"q1",     "1",       "Euler parameter, frame to ground", 2},
+    {"q2",     "1",       "Euler parameter, frame to ground", 2},
+    {"q3",     "1",       "Euler parameter, frame to ground", 2},
+};
+
+static const Member joint_planar[] = {
+    {"fx",     "N",   "force on the tip, ground axes", 0},
+    {"fy",     "N",   "force on the tip, ground axes", 0},
+    {"tz",     "N*m", "moment on the tip about its origin", 0},
+    {"Fx",     "N",   "force on the tip, axes of the tail", 0},
+    {"Fy",     "N",   "force on the tip, axes of the tail", 0},
+    {"Tz",     "N*m", "moment on the tip about its origin", 0},
+    {"effort", NULL,  "force or moment along the coordinate: of what acts on the joint", 0},
+};
+
+static const Member joint_spatial[] = {
+    {"fx",     "N",   "force on the tip, ground axes", 0},
+    {"fy",     "N",   "force on the tip, ground axes", 0},
+    {"fz",     "N",   "force on the tip, ground axes", 0},
+    {"tx",     "N*m", "moment on the tip about its origin, ground axes", 0},
+    {"ty",     "N*m", "moment on the tip about its origin, ground axes", 0},
+    {"tz",     "N*m", "moment on the tip about its origin, ground axes", 0},
+    {"Fx",     "N",   "force on the tip, axes of the tail", 0},
+    {"Fy",     "N",   "force on the tip, axes of the tail", 0},
+    {"Fz",     "N",   "force on the tip, axes of the tail", 0},
+    {"Tx",     "N*m", "moment on the tip about its origin, axes of the tail", 0},
+    {"Ty",     "N*m", "moment on the tip about its origin, axes of the tail", 0},
+    {"Tz",     "N*m", "moment on the tip about its origin, axes of the tail", 0},
+    {"effort", NULL,  "force or moment along the coordinate: of what acts on the joint", 0},
+};
+
+static const Member electrical[] = {
+    {"v",     "V", "voltage, plus against minus", 2},
+    {"i",     "A", "current, from plus to minus inside", 2},
+    {"power", "W", "power taken, v*i", 0},
+};
+/* clang-format on */
+
+static const Member *family_members(const Component *row, bool planar, int *count)
+{
+    switch (row->family) {
+    case FAMILY_BODY:
+    case FAMILY_ARM:
+        *count = planar ? COUNT(frame_planar) : COUNT(frame_spatial);
+        return planar ? frame_planar : frame_spatial;
+    case FAMILY_JOINT:
+        *count = planar ? COUNT(joint_planar) : COUNT(joint_spatial);
+        return planar ? joint_planar : joint_spatial;
+    case FAMILY_SCALAR:
+    case FAMILY_TRANSDUCER:
+        *count = COUNT(electrical);
+        return electrical;
+    case FAMILY_DRIVER:
+    case FAMILY_FORCE:
+        break;
+    }
+    *count = 0;
+    return NULL;
+}
+
+const Member *component_member(const Component *row, bool planar, int i)
+{
+    int count;
+    const Member *members = family_members(row, planar, &count);
+
+    if (i < count)
+        return &members[i];
+    return i - count < row->member_count ? &row->members[i - count] : NULL;
+}
+
+/* --- steps --- */
+
+void steps_none(Arena *arena, Steps *out)
+{
+    Expr zero = expr_int(arena, 0);
+
+    *out = (Steps){0};
+    for (int i = 0; i < 3; i++)
+        out->constant[i] = zero;
+    for (int i = 0; i < 9; i++)
+        out->rotation[i] = i % 4 == 0 ? expr_int(arena, 1) : zero;
+}
+
+static Step step(Arena *arena, const Expr axis[3], int coordinate)
+{
+    return (Step){{axis[0], axis[1], axis[2]}, coordinate, expr_int(arena, 1)};
+}
+
+void steps_shift(Arena *arena, Steps *out, const Expr axis[3], int coordinate)
+{
+    assert(out->shift_count < COUNT(out->shift));
+    out->shift[out->shift_count++] = step(arena, axis, coordinate);
+}
+
+void steps_turn(Arena *arena, Steps *out, const Expr axis[3], int coordinate)
+{
+    assert(out->turn_count < COUNT(out->turn));
+    out->turn[out->turn_count++] = step(arena, axis, coordinate);
+}
+
+static void cross(Arena *arena, const Expr a[3], const Expr b[3], Expr out[3])
+{
+    for (int i = 0; i < 3; i++) {
+        int j = (i + 1) % 3;
+        int k = (i + 2) % 3;
+
+        out[i] = expr_sub(arena, expr_mul(arena, a[j], b[k]), expr_mul(arena, a[k], b[j]));
+    }
+}
+
+/* how much a component weighs in choosing an axis; one that holds symbols counts as large */
+static double size_of(Expr e)
+{
+    return expr_kinds(e) == 0 ? fabs(expr_evaluate(e, NULL, NULL)) : 1.0;
+}
+
+void axis_complement(Arena *arena, const Expr u[3], Expr n1[3], Expr n2[3])
+{
+    Expr e[3];
+    Expr length;
+    int least = 0;
+
+    for (int i = 0; i < 3; i++)
+        e[i] = expr_int(arena, 0);
+    for (int i = 0; i < 3; i++) {
+        if (!expr_is(u[i], 1) && !expr_is(u[i], -1))
+            continue;
+        /* along an axis of the frame: the next one of the circle x y z */
+        for (int j = 0; j < 3; j++)
+            n1[j] = e[j];
+        n1[(i + 1) % 3] = expr_int(arena, 1);
+        cross(arena, u, n1, n2);
+        return;
+    }
+    for (int i = 1; i < 3; i++)
+        if (size_of(u[i]) < size_of(u[least]))
+            least = i;
+    e[least] = expr_int(arena, 1);
+    cross(arena, e, u, n1);
+    length = expr_sqrt(
+        arena, expr_add(arena, expr_square(arena, n1[0]),
+                        expr_add(arena, expr_square(arena, n1[1]), expr_square(arena, n1[2]))));
+    for (int i = 0; i < 3; i++)
+        n1[i] = expr_div(arena, n1[i], length);
+    cross(arena, u, n1, n2);
+}
