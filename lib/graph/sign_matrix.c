@@ -119,6 +119,8 @@ SignMatrix *tree_circuits(const Tree *tree)
     LIST(int) columns = {0};
     LIST(signed char) entries = {0};
 
+    LIST_ROOM(columns, matrix->rows + 1);
+    LIST_ROOM(entries, matrix->rows + 1);
     for (int r = 0; r < matrix->rows; r++) {
         const Edge *chord = graph_edge(graph, chords[r]);
         int length = tree_path(tree, chord->tail, chord->head, edges, signs);

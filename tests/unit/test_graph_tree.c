@@ -70,7 +70,7 @@ static Tree *make_tree(const Graph *graph, TreeKind kind, const TreeChoice *choi
 }
 
 /* run a claim on trees of all sizes */
-static void for_all_sizes(void (*claim)(const Graph *, const Tree *, uint64_t *))
+static void for_all_sizes(void (*claim)(const Graph *, const Tree *, uint64_t))
 {
     uint64_t seed = 20240607;
 
@@ -81,7 +81,7 @@ static void for_all_sizes(void (*claim)(const Graph *, const Tree *, uint64_t *)
             Tree *tree = make_tree(graph, (TreeKind)kind, NULL);
 
             if (tree != NULL)
-                claim(graph, tree, &seed);
+                claim(graph, tree, seed);
             tree_free(tree);
         }
         graph_free(graph);
@@ -159,7 +159,7 @@ static bool is_ascending(const SignMatrix *m)
     return true;
 }
 
-static void check_products(const Graph *graph, const Tree *tree, uint64_t *seed)
+static void check_products(const Graph *graph, const Tree *tree, uint64_t seed)
 {
     SignMatrix *incidence = graph_incidence(graph, DOMAIN_MECHANICAL, true);
     SignMatrix *whole = graph_incidence(graph, DOMAIN_MECHANICAL, false);
@@ -185,7 +185,7 @@ static void incidence_and_cutsets_are_orthogonal_to_circuits(void)
 }
 
 /* B = [-D^T 1], Q = [1 D] */
-static void check_structure(const Graph *graph, const Tree *tree, uint64_t *seed)
+static void check_structure(const Graph *graph, const Tree *tree, uint64_t seed)
 {
     SignMatrix *circuits = tree_circuits(tree);
     SignMatrix *cutsets = tree_cutsets(tree);
@@ -218,7 +218,7 @@ static void circuits_end_in_one_and_cutsets_begin_with_one(void)
 }
 
 /* an edge's across variable as a difference of potentials sums up along every path */
-static void check_paths(const Graph *graph, const Tree *tree, uint64_t *seed)
+static void check_paths(const Graph *graph, const Tree *tree, uint64_t seed)
 {
     int node_count;
     const int *nodes = tree_nodes(tree, &node_count);
@@ -227,10 +227,10 @@ static void check_paths(const Graph *graph, const Tree *tree, uint64_t *seed)
     int *signs = NEW_ARRAY(int, 2 * node_count);
 
     for (int i = 0; i < graph_node_count(graph); i++)
-        potential[i] = (int)(test_random(seed) % 1000);
+        potential[i] = (int)(test_random(&seed) % 1000);
     for (int k = 0; k < 500; k++) {
-        int from = nodes[test_random(seed) % (uint64_t)node_count];
-        int to = nodes[test_random(seed) % (uint64_t)node_count];
+        int from = nodes[test_random(&seed) % (uint64_t)node_count];
+        int to = nodes[test_random(&seed) % (uint64_t)node_count];
         int count = tree_path(tree, from, to, edges, signs);
         int at = from;
         int sum = 0;
@@ -257,7 +257,7 @@ static void across_variables_sum_along_paths(void)
     for_all_sizes(check_paths);
 }
 
-static void check_beyond(const Graph *graph, const Tree *tree, uint64_t *seed)
+static void check_beyond(const Graph *graph, const Tree *tree, uint64_t seed)
 {
     const int *branches = tree_branches(tree);
     int node_count;
@@ -267,7 +267,7 @@ static void check_beyond(const Graph *graph, const Tree *tree, uint64_t *seed)
     (void)graph;
     for (int b = 0; b < checks - 1; b++) {
         int branch = node_count < 100 ? branches[b]
-                                      : branches[test_random(seed) % (uint64_t)(node_count - 1)];
+                                      : branches[test_random(&seed) % (uint64_t)(node_count - 1)];
 
         for (int i = 0; i < node_count; i++) {
             int climber = nodes[i];
@@ -286,7 +286,7 @@ static void beyond_is_found_by_climbing(void)
     for_all_sizes(check_beyond);
 }
 
-static void check_order(const Graph *graph, const Tree *tree, uint64_t *seed)
+static void check_order(const Graph *graph, const Tree *tree, uint64_t seed)
 {
     int node_count;
     const int *nodes = tree_nodes(tree, &node_count);
@@ -323,7 +323,7 @@ static void parents_stand_before_children(void)
 }
 
 /* a tree is of least weight when no chord is lighter than a branch of its circuit */
-static void check_preference(const Graph *graph, const Tree *tree, uint64_t *seed)
+static void check_preference(const Graph *graph, const Tree *tree, uint64_t seed)
 {
     SignMatrix *circuits = tree_circuits(tree);
     int p = tree_kind(tree) == TREE_ROTATION;
