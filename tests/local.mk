@@ -1,6 +1,12 @@
 # unit tests: tests/unit/test_NAME.c, linked with all of lib/
 unit_ldadd = libcore.la
 
+# what tests that run the program get: the program, the sources, and what it takes to build more
+AM_TESTS_ENVIRONMENT = COTREE='$(abs_builddir)/cotree'; top_srcdir='$(abs_srcdir)'; \
+	top_builddir='$(abs_builddir)'; MAKE='$(MAKE)'; CC='$(CC)'; \
+	SAN_CFLAGS='$(SAN_CFLAGS)'; GNUPLOT='$(GNUPLOT)'; \
+	export COTREE top_srcdir top_builddir MAKE CC SAN_CFLAGS GNUPLOT;
+
 include tests/unit/base.mk
 include tests/unit/expr.mk
 include tests/unit/graph.mk
