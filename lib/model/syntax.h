@@ -163,7 +163,7 @@ const char *verb_key(const Verb *verb, int i); /* 0, 1, ...; NULL at the end */
 void verb_usage(Text *text, const Verb *verb); /* one line */
 const char *group_title(VerbGroup group);      /* "Mechanical components" ... */
 
-/* OK, or E_MISSING at the verb of a statement that comes with a later version. */
+/* OK, or E_MISSING at the verb or key of a statement that comes with a later version. */
 MUST_USE Status statement_check_version(const Statement *statement, Diag *diag);
 
 #endif

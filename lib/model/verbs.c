@@ -1,0 +1,189 @@
+/* verbs.c: the rows of verbs: those of the tables, and those that components give
+ *
+ * A component's verb is read off its row: its places and values are the shape, its
+ * params the keys, its help the help. */
+#include "model/verbs.h"
+
+#include "component/component.h"
+
+#include <ctype.h>
+#include <string.h>
+
+static const Verb *const tables[] = {verbs_build, verbs_look, verbs_run, verbs_session,
+                                     verbs_later};
+
+/* by Places: what follows the name */
+static const struct {
+    const char *shape;
+    const char *usage;
+} places[] = {
+    [PLACES_NONE] = {"nVk", ""},
+    [PLACES_FROM] = {"npVk", " FRAME"},
+    [PLACES_FRAMES] = {"nppVk", " TAIL TIP"},
+    [PLACES_ON] = {"npVk", " FRAME"},
+    [PLACES_LINK] = {"npPVk", " TAIL TIP|JOINT"},
+    [PLACES_COORDINATE] = {"n=", " COORDINATE = EXPR [by=SOURCE]"},
+    [PLACES_TERMINALS] = {"nppVk", " PLUS MINUS"},
+    [PLACES_TRANSDUCER] = {"npppVk", " JOINT PLUS MINUS"},
+};
+
+static Verb component_verb(const Component *row)
+{
+    return (Verb){.name = row->name,
+                  .group = row->family >= FAMILY_SCALAR ? GROUP_ELECTRICAL : GROUP_MECHANICAL,
+                  .shape = places[row->places].shape,
+                  .brief = row->brief,
+                  .help = row->help,
+                  .example = row->example,
+                  .see = row->see,
+                  .component = row};
+}
+
+bool verb_find(const char *name, Verb *verb)
+{
+    const Component *row = component_find(name);
+
+    if (row != NULL) {
+        *verb = component_verb(row);
+        return true;
+    }
+    for (int i = 0; i < COUNT(tables); i++)
+        for (const Verb *v = tables[i]; v->name != NULL; v++)
+            if (strcmp(v->name, name) == 0) {
+                *verb = *v;
+                return true;
+            }
+    return false;
+}
+
+bool verb_at(int i, Verb *verb)
+{
+    for (VerbGroup group = GROUP_SCENE; group <= GROUP_SESSION; group++) {
+        const Component *row;
+
+        for (int n = 0; (row = component_at(n)) != NULL; n++) {
+            Verb v = component_verb(row);
+
+            if (v.group == group && i-- == 0) {
+                *verb = v;
+                return true;
+            }
+        }
+        for (int n = 0; n < COUNT(tables); n++)
+            for (const Verb *v = tables[n]; v->name != NULL; v++)
+                if (v->group == group && i-- == 0) {
+                    *verb = *v;
+                    return true;
+                }
+    }
+    return false;
+}
+
+/* the key that names a joint's coordinates; NULL: it has none */
+static const char *coordinate_key(const Component *row)
+{
+    if (row->family != FAMILY_JOINT || row->coord_count == 0)
+        return NULL;
+    return row->coord_count == 1 ? "coord" : "coords";
+}
+
+const char *verb_key(const Verb *verb, int i)
+{
+    const Component *row = verb->component;
+    int n = 0;
+
+    if (row == NULL) {
+        while (verb->keys != NULL && verb->keys[n] != NULL && n < i)
+            n++;
+        return verb->keys != NULL ? verb->keys[n] : NULL;
+    }
+    if (row->places == PLACES_COORDINATE)
+        return i == 0 ? "by" : NULL;
+    if (i < row->param_count)
+        return row->params[i].name;
+    return i == row->param_count ? coordinate_key(row) : NULL;
+}
+
+void verb_usage(Text *text, const Verb *verb)
+{
+    const Component *row = verb->component;
+
+    if (row == NULL) {
+        text_add(text, verb->usage != NULL ? verb->usage : verb->name);
+        return;
+    }
+    text_addf(text, "%s NAME%s", row->name, places[row->places].usage);
+    for (int i = 0; row->places != PLACES_COORDINATE && i < row->param_count; i++) {
+        const Param *param = &row->params[i];
+        bool must = param->fallback == NULL;
+
+        if (param->positional)
+            text_addf(text, must ? " %s" : " [%s]", param->name);
+        else if (param->kind == PARAM_WORD)
+            text_addf(text, " [%s=%s]", param->name, param->fallback);
+        else
+            text_addf(text, must ? " %s=.." : " [%s=..]", param->name);
+    }
+    if (coordinate_key(row) != NULL)
+        text_addf(text, " [%s=..]", coordinate_key(row));
+}
+
+const char *group_title(VerbGroup group)
+{
+    static const char *const titles[] = {
+        [GROUP_SCENE] = "Scene",
+        [GROUP_MECHANICAL] = "Mechanical components",
+        [GROUP_ELECTRICAL] = "Electrical and mechatronic components",
+        [GROUP_VARIABLES] = "Variables and subsystems",
+        [GROUP_TREES] = "Trees",
+        [GROUP_LOOK] = "Looking",
+        [GROUP_RUN] = "Running",
+        [GROUP_SESSION] = "Sessions",
+    };
+    return titles[group];
+}
+
+const char *verb_habit(const char *word)
+{
+    static const struct {
+        const char *word;
+        const char *hint;
+    } habits[] = {
+        {"exit", "'quit' leaves, and so does Ctrl-D"},
+        {"bye", "'quit' leaves, and so does Ctrl-D"},
+        {"q", "'quit' leaves, and so does Ctrl-D"},
+        {"sim", "did you mean 'simulate'?"},
+        {"run", "did you mean 'simulate'?"},
+        {"tran", "did you mean 'simulate'?"},
+        {"ic", "did you mean 'init'?"},
+        {"initial", "did you mean 'init'?"},
+        {"dcmotor", "did you mean 'motor'?"},
+        {"joint", "joints are: revolute prismatic planarjoint weld free"},
+        {"add", "a component starts with its own keyword: revolute h8 ground r4"},
+        {"param", "a parameter is written NAME = value"},
+        {"let", "a parameter is written NAME = value"},
+        {"var", "a parameter is written NAME = value"},
+        {"def", "a law is written f(x) = expression"},
+        {"function", "a law is written f(x) = expression"},
+        {"rm", "did you mean 'delete'?"},
+        {"remove", "did you mean 'delete'?"},
+        {"list", "'show nodes', 'show edges' and 'show params' list what there is"},
+        {"ls", "'show nodes', 'show edges' and 'show params' list what there is"},
+        {"ops", "did you mean 'count'?"},
+        {"derive", "equations are derived when they are needed: 'show equations'"},
+        {"man", "did you mean 'help'?"},
+        {"include", "did you mean 'source'?"},
+        {"read", "did you mean 'source'?"},
+        {"write", "did you mean 'save'? Any statement that prints also writes: > \"file\""},
+        {"echo", "did you mean 'print'?"},
+        {"assert", "did you mean 'expect'?"},
+        {"if", "a choice inside an expression is if(c, a, b)"},
+        {"for", "there are no loops; 'sweep' repeats a statement"},
+        {"while", "there are no loops; 'sweep' repeats a statement"},
+    };
+
+    for (int i = 0; i < COUNT(habits); i++)
+        if (strcmp(habits[i].word, word) == 0)
+            return habits[i].hint;
+    return NULL;
+}

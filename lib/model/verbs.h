@@ -1,0 +1,30 @@
+/* verbs.h: the tables behind verb_find(), one a file of rows */
+#ifndef COTREE_MODEL_VERBS_H
+#define COTREE_MODEL_VERBS_H
+
+#include "model/syntax.h"
+
+#define WORDS(...) ((const char *const[]){__VA_ARGS__, NULL})
+
+/* each ended by a row without a name */
+extern const Verb verbs_build[];   /* scene, variables, trees */
+extern const Verb verbs_look[];    /* show, count ... */
+extern const Verb verbs_run[];     /* init, simulate, plot ... */
+extern const Verb verbs_session[]; /* files, undo, help ... */
+extern const Verb verbs_later[];   /* what comes with later versions, components too */
+
+/* A small model that examples start from: a pendulum, 1 m long. */
+#define PENDULUM                                                                                   \
+    "scene planar\n"                                                                               \
+    "gravity [0, -9.81]\n"                                                                         \
+    "body m1 mass=1 inertia=0.1\n"                                                                 \
+    "arm p1 m1 [0, 1]\n"                                                                           \
+    "revolute h1 ground p1\n"
+
+/* whether a key of a row that is here comes with a later version */
+bool key_is_later(const char *verb, const char *key);
+
+/* What people used to other programs type, and how it is written here; NULL: nothing known. */
+const char *verb_habit(const char *word);
+
+#endif

@@ -1,0 +1,106 @@
+/* verbs_later.c: words of the language whose behaviour comes with later versions
+ *
+ * They read as they will, and can't be names of parameters, so that what is written
+ * today stays right. A word leaves this table when its row arrives. */
+#include "model/verbs.h"
+
+#include <string.h>
+
+#define MECHANICAL(word, form, how, what)                                                          \
+    {.name = word, .group = GROUP_MECHANICAL, .shape = form, .usage = word " NAME " how,           \
+     .brief = what, .later = true}
+#define ELECTRICAL(word, form, how, what)                                                          \
+    {.name = word, .group = GROUP_ELECTRICAL, .shape = form, .usage = word " NAME " how,           \
+     .brief = what, .later = true}
+#define OTHER(word, of, form, how, what)                                                           \
+    {.name = word, .group = of, .shape = form, .usage = word how, .brief = what, .later = true}
+
+/* clang-format off */
+const Verb verbs_later[] = {
+    MECHANICAL("beam", "nk", "length=.. mass_per_length=.. EA=.. EIy=.. EIz=.. GJ=..", "flexible beam along x of its root frame"),
+    MECHANICAL("cylindrical", "nppk", "TAIL TIP [axis=..]", "joint: a shift along and a turn about one axis"),
+    MECHANICAL("universal", "nppk", "TAIL TIP [axes=[x, y]]", "joint: a turn about one axis, then about another"),
+    MECHANICAL("spherical", "nppk", "TAIL TIP [euler=zxz]", "joint: three turns"),
+    MECHANICAL("screw", "nppk", "TAIL TIP pitch=.. [axis=..]", "joint: a turn that shifts by its pitch"),
+    MECHANICAL("friction", "nPVk", "JOINT ..", "friction in a joint"),
+    MECHANICAL("stop", "nPVk", "JOINT ..", "end stop of a joint"),
+    MECHANICAL("bushing", "nppVk", "TAIL TIP ..", "compliant joint"),
+    MECHANICAL("contact", "nppVk", "TAIL TIP ..", "contact between two bodies"),
+
+    ELECTRICAL("coupling", "nppk", "L1 L2 k=..", "couples two inductors"),
+    ELECTRICAL("vcvs", "nppppk", "A B C D gain=..", "voltage source controlled by a voltage"),
+    ELECTRICAL("vccs", "nppppk", "A B C D gain=..", "current source controlled by a voltage"),
+    ELECTRICAL("ccvs", "nppk", "A B of=R1.i gain=..", "voltage source controlled by a current"),
+    ELECTRICAL("cccs", "nppk", "A B of=R1.i gain=..", "current source controlled by a current"),
+    ELECTRICAL("opamp", "nppp", "PLUS MINUS OUT", "ideal operational amplifier"),
+    ELECTRICAL("transformer", "nppppk", "A B C D n=..", "ideal transformer"),
+    ELECTRICAL("gyrator", "nppppk", "A B C D r=..", "ideal gyrator"),
+    ELECTRICAL("potentiometer", "npppk", "A WIPER B R=.. at=..", "resistor with a wiper"),
+    ELECTRICAL("diode", "nppk", "PLUS MINUS [Is=.. n=..] [Ron=.. Roff=.. Vf=..]", "diode, exponential or switching"),
+    ELECTRICAL("switch", "nppk", "A B when=COND [Ron=.. Roff=..]", "switch that a condition closes"),
+    ELECTRICAL("platecap", "npppk", "JOINT PLUS MINUS C=..", "capacitor with a moving plate"),
+    ELECTRICAL("solenoid", "npppk", "JOINT PLUS MINUS L=.. R=..", "coil that a joint moves through"),
+    ELECTRICAL("voicecoil", "npppk", "JOINT PLUS MINUS K=.. R=.. L=..", "coil in a magnet's field"),
+    ELECTRICAL("piezo", "npppk", "JOINT PLUS MINUS C=.. d=.. k=..", "piezo stack on a joint"),
+    ELECTRICAL("sensor", "nvppk", "VARIABLE PLUS MINUS gain=..", "voltage proportional to a variable"),
+    ELECTRICAL("pd", "nppk", "PLUS MINUS ref=.. of=.. Kp=.. Kd=..", "proportional and derivative control"),
+    ELECTRICAL("pid", "nppk", "PLUS MINUS ref=.. of=.. Kp=.. Ki=.. Kd=..", "PID control"),
+    ELECTRICAL("gain", "nppk", "PLUS MINUS of=.. k=..", "control: a multiple"),
+    ELECTRICAL("sum", "nppk", "PLUS MINUS of=[a.v, -b.v]", "control: a sum"),
+    ELECTRICAL("integrator", "nppk", "PLUS MINUS of=.. k=.. initial=..", "control: an integral"),
+    ELECTRICAL("lag", "nppk", "PLUS MINUS of=.. k=.. T=..", "control: a first-order lag"),
+    ELECTRICAL("transfer", "nppk", "PLUS MINUS of=.. num=[..] den=[..]", "control: a transfer function"),
+    ELECTRICAL("pipe", "nppk", "A B R=..", "hydraulic resistance"),
+    ELECTRICAL("tank", "nppk", "A 0 A=..", "hydraulic tank"),
+    ELECTRICAL("inertance", "nppk", "A B I=..", "inertia of a fluid"),
+    ELECTRICAL("valve", "nppk", "A B R=.. when=..", "hydraulic valve"),
+    ELECTRICAL("pump", "nppk", "A 0 pressure=..|flow=..", "hydraulic source"),
+    ELECTRICAL("cylinder", "npppk", "JOINT PLUS MINUS area=..", "hydraulic cylinder on a joint"),
+    ELECTRICAL("flywheel", "nppk", "A 0 J=..", "inertia on a shaft"),
+    ELECTRICAL("shaft", "nppk", "A B k=.. d=..", "compliant shaft"),
+    ELECTRICAL("gear", "nppppk", "A B C D ratio=..", "gear between two shafts"),
+    ELECTRICAL("torquesource", "nppVk", "A 0 EXPR", "torque on a shaft"),
+    ELECTRICAL("speedsource", "nppVk", "A 0 EXPR", "speed of a shaft"),
+    ELECTRICAL("shaftend", "npppk", "JOINT PLUS MINUS", "couples a shaft to a joint"),
+    ELECTRICAL("slug", "nppk", "A 0 m=..", "mass on a line"),
+    ELECTRICAL("rod", "nppk", "A B k=.. d=..", "compliant rod"),
+    ELECTRICAL("forcesource", "nppVk", "A 0 EXPR", "force on a line"),
+    ELECTRICAL("velocitysource", "nppVk", "A 0 EXPR", "speed on a line"),
+    ELECTRICAL("rodend", "npppk", "JOINT PLUS MINUS", "couples a rod to a joint"),
+    ELECTRICAL("heatcap", "nppk", "A 0 C=..", "heat capacity"),
+    ELECTRICAL("heatres", "nppk", "A B R=..", "heat resistance"),
+    ELECTRICAL("heatsource", "nppVk", "A 0 EXPR", "heat flow into a node"),
+    ELECTRICAL("tempsource", "nppVk", "A 0 EXPR", "temperature of a node"),
+
+    OTHER("subsystem", GROUP_VARIABLES, "nk", " NAME frames=[..] terminals=[..]", "starts the definition of a subsystem"),
+    OTHER("end", GROUP_VARIABLES, "", "", "ends the definition of a subsystem"),
+    OTHER("use", GROUP_VARIABLES, "wn=", " SUBSYSTEM NAME PORT=PLACE... PARAMETER=VALUE...", "makes an instance of a subsystem"),
+    OTHER("store", GROUP_VARIABLES, "ws", " SUBSYSTEM \"FILE\"", "keeps a subsystem with its derived equations"),
+    OTHER("load", GROUP_VARIABLES, "s", " \"FILE\"", "brings back what store kept"),
+
+    OTHER("event", GROUP_RUN, "n=", " NAME when=COND [do=stop|mark] [VARIABLE=VALUE...]", "what happens when a condition becomes true"),
+    OTHER("equilibrium", GROUP_RUN, "k>", "", "statics: where everything rests"),
+    OTHER("op", GROUP_RUN, "k>", "", "the same as equilibrium"),
+    OTHER("linearize", GROUP_RUN, "k>", " [at=TIME] inputs=[..] outputs=[..]", "linear equations about the start or an instant of the last run"),
+    OTHER("modes", GROUP_RUN, "k>", " [at=TIME]", "eigenvalues, and which parts move"),
+    OTHER("bode", GROUP_RUN, "Ik>", " OUTPUT from=.. to=.. points=..", "frequency response"),
+    OTHER("sweep", GROUP_RUN, "pk:", " PARAMETER from=.. to=.. steps=.. : STATEMENT", "one run for each value of a parameter"),
+    OTHER("montecarlo", GROUP_RUN, "v=:", " RUNS PARAMETER=normal(MEAN, DEVIATION)... : STATEMENT", "runs with random parameters"),
+    OTHER("fit", GROUP_RUN, "p*k:", " PARAMETER... to=\"FILE\" : STATEMENT", "parameters that make a run match measured data"),
+    OTHER("animate", GROUP_RUN, "k>", "", "moves a drawing of the model through the last run"),
+    {.name = NULL},
+};
+/* clang-format on */
+
+bool key_is_later(const char *verb, const char *key)
+{
+    static const struct {
+        const char *verb;
+        const char *key;
+    } keys[] = {{"arm", "at"}, {"body", "euler"}, {"free", "euler"}};
+
+    for (int i = 0; i < COUNT(keys); i++)
+        if (strcmp(keys[i].verb, verb) == 0 && strcmp(keys[i].key, key) == 0)
+            return true;
+    return false;
+}
