@@ -1,0 +1,280 @@
+/* kkt.c: dense KKT solver with scaling and quasi-definite regularisation */
+#include "simulate/kkt.h"
+
+#include "base/memory.h"
+#include "simulate/linear.h"
+
+#include <math.h>
+#include <string.h>
+
+#define PIVOT_RATIO 1e-5 /* of the compliance; below: near a singular configuration */
+#define EPSILON     1e-8 /* of the largest diagonal entry of G M^-1 G^T */
+#define SWEEPS      2    /* of refinement */
+
+struct Kkt {
+    int nu, m, size;
+    double *matrix; /* scaled, as it is, for residuals */
+    double *scale;  /* size: unknown = scale * scaled unknown */
+    double *norm;   /* m: largest mass-norm of each row so far */
+    double *right, *answer, *residual;
+    double *factor; /* nu x nu, a Cholesky factor */
+    double *bound;  /* m x nu */
+    Lu *lu;
+    bool regularised;
+};
+
+Kkt *kkt_new(int nu, int m)
+{
+    Kkt *kkt = NEW(Kkt);
+    int size = nu + m;
+
+    kkt->nu = nu;
+    kkt->m = m;
+    kkt->size = size;
+    kkt->matrix = NEW_ARRAY(double, size *size);
+    kkt->scale = NEW_ARRAY(double, size);
+    kkt->norm = NEW_ARRAY(double, m);
+    kkt->right = NEW_ARRAY(double, size);
+    kkt->answer = NEW_ARRAY(double, size);
+    kkt->residual = NEW_ARRAY(double, size);
+    kkt->factor = NEW_ARRAY(double, nu *nu);
+    kkt->bound = NEW_ARRAY(double, m *nu);
+    kkt->lu = lu_new(size);
+    return kkt;
+}
+
+void kkt_free(Kkt *kkt)
+{
+    if (kkt == NULL)
+        return;
+    mem_free(kkt->matrix);
+    mem_free(kkt->scale);
+    mem_free(kkt->norm);
+    mem_free(kkt->right);
+    mem_free(kkt->answer);
+    mem_free(kkt->residual);
+    mem_free(kkt->factor);
+    mem_free(kkt->bound);
+    lu_free(kkt->lu);
+    mem_free(kkt);
+}
+
+/* A speed without mass of its own takes the mass that gives it the same weight in its
+ * constraints as its heaviest-felt neighbour has. */
+static double borrowed_mass(const Kkt *kkt, const double *mass, const double *phi_u,
+                            const int *rows, int i)
+{
+    int nu = kkt->nu;
+    double borrowed = 0;
+
+    for (int k = 0; k < kkt->m; k++) {
+        const double *row = phi_u + rows[k] * nu;
+        double strongest = 0; /* of g_j^2 / M_jj */
+
+        for (int j = 0; j < nu; j++)
+            if (mass[j * nu + j] > 0)
+                strongest = fmax(strongest, row[j] * row[j] / mass[j * nu + j]);
+        if (strongest > 0)
+            borrowed = fmax(borrowed, row[i] * row[i] / strongest);
+    }
+    return borrowed;
+}
+
+/* A row is measured against the largest it has been: one that vanishes at a singular position is to
+ * be seen vanishing. */
+static void choose_scale(Kkt *kkt, const double *mass, const double *phi_u, const int *rows)
+{
+    int nu = kkt->nu;
+    double largest = 0;
+
+    for (int i = 0; i < nu; i++) {
+        double own = mass[i * nu + i];
+        double most = 0;
+
+        for (int j = 0; j < nu; j++)
+            most = fmax(most, mass[j * nu + j]);
+        if (!(own > 1e-9 * most))
+            own = fmax(own, 1e-3 * borrowed_mass(kkt, mass, phi_u, rows, i));
+        kkt->scale[i] = own > 0 ? 1 / sqrt(own) : 1;
+    }
+    for (int k = 0; k < kkt->m; k++) {
+        const double *row = phi_u + rows[k] * nu;
+        double norm = 0;
+
+        for (int i = 0; i < nu; i++)
+            norm += row[i] * kkt->scale[i] * row[i] * kkt->scale[i];
+        kkt->norm[k] = fmax(kkt->norm[k], sqrt(norm));
+        largest = fmax(largest, kkt->norm[k]);
+    }
+    for (int k = 0; k < kkt->m; k++) {
+        double norm = fmax(kkt->norm[k], 1e-3 * largest);
+
+        kkt->scale[nu + k] = norm > 0 ? 1 / norm : 1;
+    }
+}
+
+static void fill_matrix(Kkt *kkt, const double *mass, const double *phi_u, const int *rows)
+{
+    int nu = kkt->nu, size = kkt->size;
+    double *a = kkt->matrix;
+
+    for (int i = 0; i < nu; i++)
+        for (int j = 0; j < nu; j++)
+            a[i * size + j] = mass[i * nu + j] * kkt->scale[i] * kkt->scale[j];
+    for (int k = 0; k < kkt->m; k++)
+        for (int i = 0; i < nu; i++) {
+            double entry = phi_u[rows[k] * nu + i] * kkt->scale[i] * kkt->scale[nu + k];
+
+            a[(nu + k) * size + i] = entry;
+            a[i * size + nu + k] = entry;
+        }
+}
+
+/* Cholesky factor of M, or of M + G^T G, scaled; false when it isn't positive definite */
+static bool factor_mass(Kkt *kkt, bool stiffened)
+{
+    int nu = kkt->nu, size = kkt->size;
+    double *l = kkt->factor;
+
+    for (int i = 0; i < nu; i++)
+        for (int j = 0; j <= i; j++) {
+            double sum = kkt->matrix[i * size + j];
+
+            for (int k = nu; k < size && stiffened; k++)
+                sum += kkt->matrix[k * size + i] * kkt->matrix[k * size + j];
+            for (int k = 0; k < j; k++)
+                sum -= l[i * nu + k] * l[j * nu + k];
+            if (i == j && !(sum > 1e-14))
+                return false;
+            l[i * nu + j] = i == j ? sqrt(sum) : sum / l[j * nu + j];
+        }
+    return true;
+}
+
+/* kkt->bound (m x nu) = G L^-T, L the factor: its rows' products are G (L L^T)^-1 G^T */
+static void find_bound(Kkt *kkt)
+{
+    int nu = kkt->nu;
+
+    for (int k = 0; k < kkt->m; k++)
+        for (int i = 0; i < nu; i++) {
+            double *row = kkt->bound + k * nu;
+            double sum = kkt->matrix[(nu + k) * kkt->size + i];
+
+            for (int j = 0; j < i; j++)
+                sum -= kkt->factor[i * nu + j] * row[j];
+            row[i] = sum / kkt->factor[i * nu + i];
+        }
+}
+
+static double dot(const double *a, const double *b, int n)
+{
+    double sum = 0;
+
+    for (int i = 0; i < n; i++)
+        sum += a[i] * b[i];
+    return sum;
+}
+
+/* Whether the compliance S = G M^-1 G^T is near singular. It is read from S (1 + S)^-1, which
+ * is G (M + G^T G)^-1 G^T and exists for massless bodies too: rows made orthogonal one after
+ * another, what is left of each is its pivot. The pivots of the LU can't tell: an exchange of rows
+ * splits one of size sigma^2 into two of size sigma. */
+static bool is_near_singular(Kkt *kkt)
+{
+    int nu = kkt->nu;
+    double least = INFINITY, largest = 0;
+
+    if (!factor_mass(kkt, true))
+        return true;
+    find_bound(kkt);
+    for (int k = 0; k < kkt->m; k++) {
+        double *row = kkt->bound + k * nu;
+        double pivot;
+
+        for (int i = 0; i < k; i++) {
+            const double *other = kkt->bound + i * nu;
+            double along = dot(row, other, nu) / dot(other, other, nu);
+
+            for (int j = 0; j < nu; j++)
+                row[j] -= along * other[j];
+        }
+        pivot = dot(row, row, nu);
+        least = fmin(least, pivot);
+        largest = fmax(largest, pivot);
+        if (!(least > PIVOT_RATIO * largest))
+            return true;
+    }
+    return false;
+}
+
+/* largest diagonal entry of G M^-1 G^T, scaled; 1 where M can't be inverted */
+static double largest_compliance(Kkt *kkt)
+{
+    double largest = 1;
+
+    if (!factor_mass(kkt, false))
+        return 1;
+    find_bound(kkt);
+    for (int k = 0; k < kkt->m; k++) {
+        const double *row = kkt->bound + k * kkt->nu;
+
+        largest = fmax(largest, dot(row, row, kkt->nu));
+    }
+    return largest;
+}
+
+bool kkt_factor(Kkt *kkt, const double *mass, const double *phi_u, const int *rows)
+{
+    size_t bytes = (size_t)kkt->size * (size_t)kkt->size * sizeof(double);
+    double epsilon;
+
+    choose_scale(kkt, mass, phi_u, rows);
+    fill_matrix(kkt, mass, phi_u, rows);
+    if (!vector_is_finite(kkt->matrix, kkt->size * kkt->size))
+        return false;
+    memcpy(lu_matrix(kkt->lu), kkt->matrix, bytes);
+    kkt->regularised = kkt->m > 0 && is_near_singular(kkt);
+    if (!kkt->regularised)
+        return lu_factor(kkt->lu) && lu_pivot_ratio(kkt->lu) > 1e-14;
+
+    epsilon = EPSILON * largest_compliance(kkt);
+    for (int k = kkt->nu; k < kkt->size; k++)
+        lu_matrix(kkt->lu)[k * kkt->size + k] = -epsilon;
+    return lu_factor(kkt->lu);
+}
+
+bool kkt_is_regularised(const Kkt *kkt)
+{
+    return kkt->regularised;
+}
+
+static void refine(Kkt *kkt)
+{
+    for (int sweep = 0; sweep < SWEEPS; sweep++) {
+        matrix_times(kkt->matrix, kkt->size, kkt->size, kkt->answer, kkt->residual);
+        for (int i = 0; i < kkt->size; i++)
+            kkt->residual[i] = kkt->right[i] - kkt->residual[i];
+        lu_solve(kkt->lu, kkt->residual);
+        for (int i = 0; i < kkt->size; i++)
+            kkt->answer[i] += kkt->residual[i];
+    }
+}
+
+void kkt_solve(Kkt *kkt, const double *top, const double *bottom, double *du, double *lambda)
+{
+    int nu = kkt->nu;
+
+    for (int i = 0; i < nu; i++)
+        kkt->right[i] = top != NULL ? top[i] * kkt->scale[i] : 0;
+    for (int k = 0; k < kkt->m; k++)
+        kkt->right[nu + k] = bottom[k] * kkt->scale[nu + k];
+    memcpy(kkt->answer, kkt->right, (size_t)kkt->size * sizeof(double));
+    lu_solve(kkt->lu, kkt->answer);
+    if (kkt->regularised)
+        refine(kkt);
+    for (int i = 0; i < nu; i++)
+        du[i] = kkt->answer[i] * kkt->scale[i];
+    for (int k = 0; k < kkt->m; k++)
+        lambda[k] = kkt->answer[nu + k] * kkt->scale[nu + k];
+}

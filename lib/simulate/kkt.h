@@ -1,0 +1,26 @@
+/* kkt.h: the matrix [M G^T; G 0] of accelerations and multipliers
+ *
+ * M is nu x nu, symmetric, possibly singular; G holds the m constraint rows in use. Unknowns
+ * are scaled to unit mass and rows of G to unit mass-norm at its largest so far. Near a singular
+ * configuration (least pivot of G M^-1 G^T under 1e-5 of the largest) a small -epsilon in the empty
+ * corner keeps the solution bounded, and two sweeps of refinement against the true matrix take its
+ * effect back where the equations determine the answer (quasi-definite regularisation, Vanderbei
+ * 1995). */
+#ifndef COTREE_SIMULATE_KKT_H
+#define COTREE_SIMULATE_KKT_H
+
+#include <stdbool.h>
+
+typedef struct Kkt Kkt;
+
+Kkt *kkt_new(int nu, int m); /* new; free with kkt_free() */
+void kkt_free(Kkt *kkt);     /* NULL is fine */
+/* Factor. `rows` picks the m rows of phi_u (row by row, nu columns); borrowed during the call.
+ * False when no solution can be had at all: M singular where nothing holds it, or NaN. O((nu+m)^3).
+ */
+bool kkt_factor(Kkt *kkt, const double *mass, const double *phi_u, const int *rows);
+bool kkt_is_regularised(const Kkt *kkt); /* the last kkt_factor() */
+/* M du + G^T lambda = top, G du = bottom. `top` may be NULL for 0; du may be `top`. O((nu+m)^2). */
+void kkt_solve(Kkt *kkt, const double *top, const double *bottom, double *du, double *lambda);
+
+#endif

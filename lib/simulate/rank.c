@@ -1,0 +1,99 @@
+/* rank.c: rank decisions by pivoted QR */
+#include "simulate/rank.h"
+
+#include "base/memory.h"
+
+#include <gsl/gsl_blas.h>
+#include <gsl/gsl_linalg.h>
+#include <math.h>
+#include <stdlib.h>
+
+#define THRESHOLD 1e-9
+
+typedef struct Pivoted {
+    gsl_matrix *qr;
+    gsl_vector *tau;
+    gsl_permutation *order;
+    int rank;
+} Pivoted;
+
+static Pivoted factor(gsl_matrix *matrix, double threshold)
+{
+    size_t least = matrix->size1 < matrix->size2 ? matrix->size1 : matrix->size2;
+    Pivoted p = {.qr = matrix,
+                 .tau = gsl_vector_alloc(least),
+                 .order = gsl_permutation_alloc(matrix->size2)};
+    gsl_vector *norms = gsl_vector_alloc(matrix->size2);
+    int sign = 0;
+
+    (void)gsl_linalg_QRPT_decomp(matrix, p.tau, p.order, &sign, norms);
+    while (p.rank < (int)least && fabs(gsl_matrix_get(matrix, (size_t)p.rank, (size_t)p.rank)) >
+                                      threshold * fabs(gsl_matrix_get(matrix, 0, 0)))
+        p.rank++;
+    gsl_vector_free(norms);
+    return p;
+}
+
+static void release(Pivoted *p)
+{
+    gsl_matrix_free(p->qr);
+    gsl_vector_free(p->tau);
+    gsl_permutation_free(p->order);
+}
+
+static int rising(const void *a, const void *b)
+{
+    return *(const int *)a - *(const int *)b;
+}
+
+int rank_rows(const double *matrix, int m, int nu, double threshold, int *order)
+{
+    gsl_matrix *transpose;
+    Pivoted p;
+
+    if (m == 0 || nu == 0) {
+        for (int k = 0; k < m && order != NULL; k++)
+            order[k] = k;
+        return 0;
+    }
+    transpose = gsl_matrix_alloc((size_t)nu, (size_t)m);
+    for (int k = 0; k < m; k++) {
+        double norm = 0;
+
+        for (int j = 0; j < nu; j++)
+            norm = hypot(norm, matrix[k * nu + j]);
+        for (int j = 0; j < nu; j++)
+            gsl_matrix_set(transpose, (size_t)j, (size_t)k,
+                           norm > 0 ? matrix[k * nu + j] / norm : 0);
+    }
+    p = factor(transpose, threshold);
+    if (order != NULL) {
+        for (int k = 0; k < m; k++)
+            order[k] = (int)gsl_permutation_get(p.order, (size_t)k);
+        qsort(order, (size_t)p.rank, sizeof(int), rising);
+        qsort(order + p.rank, (size_t)(m - p.rank), sizeof(int), rising);
+    }
+    release(&p);
+    return p.rank;
+}
+
+void rank_least_multipliers(const double *phi_u, int m, int nu, double *lambda)
+{
+    gsl_vector_view v;
+    gsl_matrix *copy;
+    Pivoted p;
+
+    if (m == 0 || nu == 0)
+        return;
+    copy = gsl_matrix_alloc((size_t)m, (size_t)nu);
+    for (int k = 0; k < m; k++)
+        for (int j = 0; j < nu; j++)
+            gsl_matrix_set(copy, (size_t)k, (size_t)j, phi_u[k * nu + j]);
+    p = factor(copy, THRESHOLD);
+    v = gsl_vector_view_array(lambda, (size_t)m);
+    (void)gsl_linalg_QR_QTvec(p.qr, p.tau, &v.vector);
+    for (int k = p.rank; k < m; k++)
+        lambda[k] = 0;
+    (void)gsl_linalg_QR_Qvec(p.qr, p.tau, &v.vector);
+    release(&p);
+}

@@ -1,0 +1,15 @@
+/* rank.h: which constraint rows say something new */
+#ifndef COTREE_SIMULATE_RANK_H
+#define COTREE_SIMULATE_RANK_H
+
+/* Rank of the m x nu matrix by QR with pivoting of its transpose, rows brought to unit size first;
+ * what is below `threshold` of the largest counts as 0. order[0..rank-1] are independent rows,
+ * rising; the rest, rising too, depend on them. order (m) may be NULL. O(nu m^2). Golub and Van
+ * Loan (2013), 5.4.2. */
+int rank_rows(const double *matrix, int m, int nu, double threshold, int *order);
+
+/* The least multipliers of those that give the same forces: lambda's part in the range of
+ * phi_u. In place. O(nu m^2). */
+void rank_least_multipliers(const double *phi_u, int m, int nu, double *lambda);
+
+#endif

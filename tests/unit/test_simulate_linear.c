@@ -1,0 +1,257 @@
+/* test_simulate_linear.c: LU, KKT, embedded form, rank, least squares on matrices made up here */
+#include "simulate/embed.h"
+#include "simulate/kkt.h"
+#include "simulate/least.h"
+#include "simulate/linear.h"
+#include "simulate/rank.h"
+
+#include "test.h"
+
+enum { NU = 6, M = 4 };
+static const int all_rows[M] = {0, 1, 2, 3};
+
+static void random_matrix(uint64_t *seed, double *a, int n)
+{
+    for (int i = 0; i < n; i++)
+        a[i] = test_uniform(seed, -1, 1);
+}
+
+/* a mass matrix of full rank, and constraint rows */
+static void random_system(uint64_t *seed, double *mass, double *phi_u)
+{
+    double root[NU * NU];
+
+    random_matrix(seed, root, NU * NU);
+    random_matrix(seed, phi_u, M * NU);
+    for (int i = 0; i < NU; i++)
+        for (int j = 0; j < NU; j++) {
+            mass[i * NU + j] = i == j ? 0.1 : 0;
+            for (int k = 0; k < NU; k++)
+                mass[i * NU + j] += root[i * NU + k] * root[j * NU + k];
+        }
+}
+
+static void lu_solves_random_systems(void)
+{
+    uint64_t seed = 1;
+    Lu *lu = lu_new(NU);
+
+    for (int trial = 0; trial < 100; trial++) {
+        double a[NU * NU], x[NU], b[NU];
+
+        random_matrix(&seed, a, NU * NU);
+        random_matrix(&seed, x, NU);
+        matrix_times(a, NU, NU, x, b);
+        memcpy(lu_matrix(lu), a, sizeof a);
+        EXPECT(lu_factor(lu));
+        lu_solve(lu, b);
+        for (int i = 0; i < NU; i++)
+            EXPECT_NEAR(b[i], x[i], 1e-13 / lu_pivot_ratio(lu));
+    }
+    lu_free(lu);
+}
+
+static void lu_refuses_singular_and_undefined_matrices(void)
+{
+    Lu *lu = lu_new(2);
+
+    memset(lu_matrix(lu), 0, 4 * sizeof(double));
+    EXPECT(!lu_factor(lu));
+    lu_matrix(lu)[0] = NAN;
+    EXPECT(!lu_factor(lu));
+    lu_free(lu);
+}
+
+/* largest residual of M du + G^T lambda = top, G du = bottom */
+static double kkt_residual(const double *mass, const double *phi_u, const double *top,
+                           const double *bottom, const double *du, const double *lambda)
+{
+    double largest = 0;
+
+    for (int i = 0; i < NU; i++) {
+        double sum = -top[i];
+
+        for (int j = 0; j < NU; j++)
+            sum += mass[i * NU + j] * du[j];
+        for (int k = 0; k < M; k++)
+            sum += phi_u[k * NU + i] * lambda[k];
+        largest = fmax(largest, fabs(sum));
+    }
+    for (int k = 0; k < M; k++) {
+        double sum = -bottom[k];
+
+        for (int j = 0; j < NU; j++)
+            sum += phi_u[k * NU + j] * du[j];
+        largest = fmax(largest, fabs(sum));
+    }
+    return largest;
+}
+
+static void kkt_and_embedded_form_agree(void)
+{
+    uint64_t seed = 2;
+    Kkt *kkt = kkt_new(NU, M);
+    Embed *embed = embed_new(NU, M);
+
+    for (int trial = 0; trial < 100; trial++) {
+        double mass[NU * NU], phi_u[M * NU], top[NU], bottom[M], du[NU], other[NU], lambda[M];
+
+        random_system(&seed, mass, phi_u);
+        random_matrix(&seed, top, NU);
+        random_matrix(&seed, bottom, M);
+        EXPECT(kkt_factor(kkt, mass, phi_u, all_rows));
+        kkt_solve(kkt, top, bottom, du, lambda);
+        EXPECT(kkt_residual(mass, phi_u, top, bottom, du, lambda) < 1e-10);
+        EXPECT(embed_choose(embed, phi_u, all_rows, NULL, 0));
+        EXPECT(embed_factor(embed, mass, phi_u, all_rows));
+        embed_solve(embed, top, bottom, other);
+        for (int i = 0; i < NU; i++)
+            EXPECT_NEAR(other[i], du[i], 1e-9);
+    }
+    kkt_free(kkt);
+    embed_free(embed);
+}
+
+static void wanted_speeds_become_independent(void)
+{
+    static const int wanted[2] = {1, 4};
+    uint64_t seed = 3;
+    Embed *embed = embed_new(NU, M);
+    double phi_u[M * NU];
+
+    random_matrix(&seed, phi_u, M * NU);
+    EXPECT(embed_choose(embed, phi_u, all_rows, wanted, 2));
+    EXPECT(embed_independent(embed)[0] == 1 && embed_independent(embed)[1] == 4);
+    embed_free(embed);
+}
+
+static void massless_speeds_are_held_by_their_constraints(void)
+{
+    /* a point mass on a massless rod, lying flat: M has a zero */
+    const double mass[9] = {1, 0, 0, 0, 1, 0, 0, 0, 0}, phi_u[6] = {1, 0, 0, 0, 1, 1};
+    const double top[3] = {0, -9.81, 0}, bottom[2] = {0, 0};
+    double du[3], lambda[2];
+    Kkt *kkt = kkt_new(3, 2);
+
+    EXPECT(kkt_factor(kkt, mass, phi_u, all_rows));
+    EXPECT(!kkt_is_regularised(kkt));
+    kkt_solve(kkt, top, bottom, du, lambda);
+    EXPECT_NEAR(du[1], -9.81, 1e-14);
+    EXPECT_NEAR(du[2], 9.81, 1e-14);
+    EXPECT_NEAR(lambda[1], 0, 1e-14);
+    kkt_free(kkt);
+}
+
+static void a_free_massless_speed_has_no_acceleration(void)
+{
+    const double mass[4] = {1, 0, 0, 0}, phi_u[2] = {1, 0};
+    Kkt *kkt = kkt_new(2, 1), *bare = kkt_new(2, 0);
+
+    EXPECT(!kkt_factor(bare, mass, NULL, NULL));
+    EXPECT(!kkt_factor(kkt, mass, phi_u, all_rows));
+    kkt_free(kkt);
+    kkt_free(bare);
+}
+
+static void a_row_that_fades_is_regularised(void)
+{
+    double mass[4] = {1, 0, 0, 1}, phi_u[4] = {1, 0, 1, 1};
+    const double top[2] = {1, 0}, bottom[2] = {0, 0};
+    double du[2], lambda[2];
+    Kkt *kkt = kkt_new(2, 2);
+
+    EXPECT(kkt_factor(kkt, mass, phi_u, all_rows));
+    EXPECT(!kkt_is_regularised(kkt));
+    phi_u[3] = 1e-4; /* the rows become parallel */
+    EXPECT(kkt_factor(kkt, mass, phi_u, all_rows));
+    EXPECT(kkt_is_regularised(kkt));
+    kkt_solve(kkt, top, bottom, du, lambda);
+    EXPECT_NEAR(du[0], 0, 1e-6);
+    EXPECT_NEAR(lambda[0] + lambda[1], 1, 1e-6);
+    phi_u[3] = 0;
+    EXPECT(kkt_factor(kkt, mass, phi_u, all_rows));
+    kkt_solve(kkt, top, bottom, du, lambda);
+    EXPECT_NEAR(lambda[0] + lambda[1], 1, 1e-6);
+    kkt_free(kkt);
+}
+
+static void rank_finds_the_row_that_follows(void)
+{
+    double rows[4 * 3] = {1, 2, 3, 0, 1e-3, 1e-3, 1, 2.001, 3.001, 5, 0, 0};
+    int order[4];
+
+    EXPECT(rank_rows(rows, 4, 3, 1e-9, order) == 3);
+    rows[9] = 0; /* a row of zeros */
+    EXPECT(rank_rows(rows, 4, 3, 1e-9, order) == 2);
+    EXPECT(order[0] < order[1] && order[2] < order[3]);
+    EXPECT(order[2] == 3 || order[3] == 3);
+}
+
+static void least_multipliers_give_the_same_forces(void)
+{
+    const double phi_u[3 * 2] = {1, 0, 0, 1, 1, 1};
+    double lambda[3] = {3, 0, 0};
+
+    rank_least_multipliers(phi_u, 3, 2, lambda);
+    /* the null space of phi_u^T is (1, 1, -1) */
+    EXPECT_NEAR(lambda[0] + lambda[2], 3, 1e-14);
+    EXPECT_NEAR(lambda[1] + lambda[2], 0, 1e-14);
+    EXPECT_NEAR(lambda[0] + lambda[1] - lambda[2], 0, 1e-14);
+}
+
+/* a point on two circles of radius 2 about (0,0) and (2,0), each given twice */
+static void circles(void *context, const double *v, double *residual, double *jacobian)
+{
+    double x = v[0], y = v[1];
+
+    (void)context;
+    for (int twice = 0; twice < 2; twice++) {
+        residual[2 * twice] = x * x + y * y - 4;
+        residual[2 * twice + 1] = (x - 2) * (x - 2) + y * y - 4;
+        if (jacobian != NULL) {
+            const double rows[4] = {2 * x, 2 * y, 2 * (x - 2), 2 * y};
+
+            memcpy(jacobian + 4 * twice, rows, sizeof rows);
+        }
+    }
+}
+
+static void least_squares_goes_to_the_near_solution(void)
+{
+    Rows rows = {.rows = 4, .columns = 2, .length = 2, .evaluate = circles};
+    double v[2] = {0.5, 0.7}, below[2] = {1.3, -4};
+
+    EXPECT(least_solve(&rows, NULL, NULL, 1e-12, v, NULL));
+    EXPECT_NEAR(v[0], 1, 1e-13);
+    EXPECT_NEAR(v[1], sqrt(3), 1e-13);
+    EXPECT(least_solve(&rows, NULL, NULL, 1e-12, below, NULL));
+    EXPECT_NEAR(below[1], -sqrt(3), 1e-13);
+}
+
+static void least_squares_keeps_what_is_held(void)
+{
+    Rows rows = {.rows = 4, .columns = 2, .length = 2, .evaluate = circles};
+    const bool held[2] = {true, false};
+    double v[2] = {1.5, 1}, residual[4];
+
+    EXPECT(!least_solve(&rows, held, NULL, 1e-12, v, residual));
+    EXPECT_NEAR(v[0], 1.5, 0);
+    /* the best y leaves both circles missed by the same */
+    EXPECT(fabs(residual[0]) > 0.5 && fabs(residual[1]) > 0.5);
+}
+
+int main(void)
+{
+    RUN(lu_solves_random_systems);
+    RUN(lu_refuses_singular_and_undefined_matrices);
+    RUN(kkt_and_embedded_form_agree);
+    RUN(wanted_speeds_become_independent);
+    RUN(massless_speeds_are_held_by_their_constraints);
+    RUN(a_free_massless_speed_has_no_acceleration);
+    RUN(a_row_that_fades_is_regularised);
+    RUN(rank_finds_the_row_that_follows);
+    RUN(least_multipliers_give_the_same_forces);
+    RUN(least_squares_goes_to_the_near_solution);
+    RUN(least_squares_keeps_what_is_held);
+    return test_end();
+}
