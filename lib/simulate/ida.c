@@ -1,0 +1,188 @@
+/* ida.c: SUNDIALS IDA on the implicit form that the problem offers
+ *
+ * With multipliers that is the stabilised index-2 form of Gear, Gupta and Leimkuhler (1985),
+ * multipliers entering as derivatives of unknowns, which makes it index 1; in the embedded form it
+ * is the index-1 system itself. IDA gets consistent values from the problem; IDACalcIC isn't
+ * used. */
+#include "simulate/ode.h"
+
+#include "base/memory.h"
+
+#include <ida/ida.h>
+#include <nvector/nvector_serial.h>
+#include <string.h>
+#include <sunlinsol/sunlinsol_dense.h>
+#include <sunmatrix/sunmatrix_dense.h>
+
+#define MAX_TRIES 100000
+
+typedef struct Ida {
+    Stepper base;
+    int all, n; /* of y; of w */
+    SUNContext context;
+    void *memory;
+    N_Vector w, rate, out, tolerance;
+    SUNMatrix matrix;
+    SUNLinearSolver linear;
+    Counts earlier;
+    char reason[200];
+} Ida;
+
+static void keep_reason(int code, const char *module, const char *function, char *message,
+                        void *data)
+{
+    Ida *d = data;
+
+    (void)code, (void)module, (void)function;
+    (void)snprintf(d->reason, sizeof d->reason, "%s", message);
+}
+
+static int residual(realtype t, N_Vector w, N_Vector rate, N_Vector out, void *data)
+{
+    Ida *d = data;
+    const Ode *ode = d->base.ode;
+
+    d->base.counts.evaluations++;
+    return ode->dae.residual(ode->context, t, N_VGetArrayPointer(w), N_VGetArrayPointer(rate),
+                             N_VGetArrayPointer(out))
+               ? 0
+               : 1;
+}
+
+static Stepper *create(const Ode *ode, const Control *control)
+{
+    Ida *d = NEW(Ida);
+
+    d->base = (Stepper){.method = &method_ida, .ode = ode, .control = *control};
+    d->all = ode->n + ode->quadratures;
+    d->n = ode->dae.n;
+    d->base.y = NEW_ARRAY(double, d->all);
+    if (SUNContext_Create(NULL, &d->context) != 0)
+        return &d->base; /* start() reports it */
+    d->w = N_VNew_Serial(d->n, d->context);
+    d->rate = N_VNew_Serial(d->n, d->context);
+    d->out = N_VNew_Serial(d->n, d->context);
+    d->tolerance = N_VNew_Serial(d->n, d->context);
+    d->memory = IDACreate(d->context);
+    return &d->base;
+}
+
+static void destroy(Stepper *stepper)
+{
+    Ida *d = (Ida *)stepper;
+
+    if (d == NULL)
+        return;
+    IDAFree(&d->memory);
+    if (d->linear != NULL)
+        SUNLinSolFree(d->linear);
+    if (d->matrix != NULL)
+        SUNMatDestroy(d->matrix);
+    if (d->context != NULL) {
+        N_VDestroy(d->w);
+        N_VDestroy(d->rate);
+        N_VDestroy(d->out);
+        N_VDestroy(d->tolerance);
+    }
+    SUNContext_Free(&d->context);
+    mem_free(d->base.y);
+    mem_free(d);
+}
+
+static int first_start(Ida *d, double t)
+{
+    const Control *control = &d->base.control;
+    int code = IDAInit(d->memory, residual, t, d->w, d->rate);
+
+    for (int i = 0; i < d->n; i++)
+        NV_Ith_S(d->tolerance, i) = control->atol * d->base.ode->dae.weight[i];
+    if (code == 0)
+        code = IDASetUserData(d->memory, d);
+    if (code == 0)
+        code = IDASetErrHandlerFn(d->memory, keep_reason, d);
+    if (code == 0)
+        code = IDASVtolerances(d->memory, control->rtol, d->tolerance);
+    if (code == 0)
+        code = IDASetMaxNumSteps(d->memory, MAX_TRIES);
+    if (code == 0 && control->step > 0)
+        code = IDASetMaxStep(d->memory, control->step);
+    if (code != 0)
+        return code;
+    d->matrix = SUNDenseMatrix(d->n, d->n, d->context);
+    d->linear = SUNLinSol_Dense(d->w, d->matrix, d->context);
+    return IDASetLinearSolver(d->memory, d->linear, d->matrix);
+}
+
+static Status start(Stepper *stepper, double t, const double *y, Diag *diag)
+{
+    Ida *d = (Ida *)stepper;
+    const Ode *ode = d->base.ode;
+    int code;
+
+    if (d->memory == NULL)
+        return solver_failure(diag, t, "SUNDIALS could not be started");
+    memmove(d->base.y, y, (size_t)d->all * sizeof(double));
+    d->base.t = d->base.before = t;
+    if (!ode->dae.start(ode->context, t, d->base.y, N_VGetArrayPointer(d->w),
+                        N_VGetArrayPointer(d->rate)))
+        return solver_failure(diag, t, "the accelerations are undefined");
+    d->earlier = d->base.counts;
+    code = d->linear == NULL ? first_start(d, t) : IDAReInit(d->memory, t, d->w, d->rate);
+    return code == 0 ? OK : solver_failure(diag, t, d->reason);
+}
+
+static Status step(Stepper *stepper, double end, Diag *diag)
+{
+    Ida *d = (Ida *)stepper;
+    long steps = 0, failures = 0, jacobians = 0;
+    double reached = d->base.t;
+    int code = IDASetStopTime(d->memory, end);
+
+    d->base.before = d->base.t;
+    if (code == 0)
+        code = IDASolve(d->memory, end, &reached, d->w, d->rate, IDA_ONE_STEP);
+    (void)IDAGetNumSteps(d->memory, &steps);
+    (void)IDAGetNumErrTestFails(d->memory, &failures);
+    (void)IDAGetNumJacEvals(d->memory, &jacobians);
+    d->base.counts.steps = d->earlier.steps + steps;
+    d->base.counts.rejected = d->earlier.rejected + failures;
+    d->base.counts.jacobians = d->earlier.jacobians + jacobians;
+    if (code < 0)
+        return solver_failure(diag, d->base.before, d->reason);
+    d->base.t = reached;
+    memcpy(d->base.y, N_VGetArrayPointer(d->w), (size_t)d->all * sizeof(double));
+    return OK;
+}
+
+static void at(Stepper *stepper, double t, double *y)
+{
+    Ida *d = (Ida *)stepper;
+
+    if (t != d->base.t && IDAGetDky(d->memory, t, 0, d->out) == 0)
+        memcpy(y, N_VGetArrayPointer(d->out), (size_t)d->all * sizeof(double));
+    else
+        memcpy(y, d->base.y, (size_t)d->all * sizeof(double));
+}
+
+static Status shorten(Stepper *stepper, double t, Diag *diag)
+{
+    Ida *d = (Ida *)stepper;
+    const Ode *ode = d->base.ode;
+
+    at(stepper, t, d->base.y);
+    if (ode->project != NULL && !ode->project(ode->context, t, d->base.y))
+        return solver_failure(diag, t, "the equations have no solution at a switch");
+    d->base.t = t;
+    return OK;
+}
+
+const Method method_ida = {
+    .name = "ida",
+    .brief = "IDA on the stabilised index-2 form (embedded: index 1); rows are projected",
+    .create = create,
+    .destroy = destroy,
+    .start = start,
+    .step = step,
+    .at = at,
+    .shorten = shorten,
+};

@@ -1,0 +1,30 @@
+/* method.c: the table of integrators */
+#include "simulate/ode.h"
+
+#include "base/memory.h"
+
+#include <string.h>
+
+static const Method *const rows[] = {
+#define METHOD(row) &row,
+#include "simulate/methods.def"
+#undef METHOD
+};
+
+const Method *method_row(int i)
+{
+    return i >= 0 && i < COUNT(rows) ? rows[i] : NULL;
+}
+
+const Method *method_find(const char *name)
+{
+    for (int i = 0; i < COUNT(rows); i++)
+        if (strcmp(rows[i]->name, name) == 0)
+            return rows[i];
+    return NULL;
+}
+
+Status solver_failure(Diag *diag, double t, const char *reason)
+{
+    return diag_set(diag, E_SOLVER, "at t = %.9g s: %s", t, reason);
+}

@@ -1,0 +1,552 @@
+/* motion.c: accelerations, multipliers and network rates from the equations; projection
+ *
+ * The matrix factored last is kept with the t and q it belongs to: a projection that ends
+ * at q leaves it ready for the first evaluation there. */
+#include "simulate/motion.h"
+
+#include "base/memory.h"
+#include "simulate/embed.h"
+#include "simulate/kkt.h"
+#include "simulate/linear.h"
+#include "simulate/rank.h"
+
+#include <math.h>
+#include <string.h>
+
+#define PROJECTION_SWEEPS 8
+#define WORN              1e-3 /* of Phi_d's pivot ratio when it was chosen */
+
+struct Motion {
+    const Equations *eq;
+    MotionOptions options;
+    int *rows, *wanted;
+    int used; /* constraint rows in use */
+    Ode ode;
+    double low, high; /* time window of evaluations */
+    Kkt *kkt;
+    Embed *embed;
+    Lu *network;
+    bool is_evaluated, is_factored, is_embedded_factored; /* at t, q */
+    double t, *q;
+    double *solved; /* [x'; z] */
+    double *top, *bottom, *du, *lambda, *lambda_all;
+    double *dae_weight, *row_size;
+    MotionCounts counts;
+};
+
+static bool rate(void *context, double t, const double *y, double *out);
+static bool project(void *context, double t, double *y);
+static bool dae_residual(void *context, double t, const double *w, const double *w_rate,
+                         double *out);
+static bool dae_start(void *context, double t, const double *y, double *w, double *w_rate);
+
+static void describe_ode(Motion *mo)
+{
+    const Equations *eq = mo->eq;
+    int y = motion_length(mo);
+
+    mo->ode = (Ode){.n = eq->n + eq->nu + eq->nx, .quadratures = 1, .context = mo, .rate = rate};
+    if (mo->used > 0 || eq->quaternion_count > 0)
+        mo->ode.project = project;
+    mo->ode.dae.n = y + (mo->options.embedded ? 0 : 2 * mo->used);
+    mo->ode.dae.residual = dae_residual;
+    mo->ode.dae.start = dae_start;
+    mo->dae_weight = NEW_ARRAY(double, mo->ode.dae.n);
+    for (int i = 0; i < mo->ode.dae.n; i++)
+        mo->dae_weight[i] = 1;
+    mo->dae_weight[y - 1] = 1e20; /* work steers nothing */
+    mo->ode.dae.weight = mo->dae_weight;
+}
+
+Motion *motion_new(const Equations *eq, const MotionOptions *options)
+{
+    Motion *mo = NEW(Motion);
+
+    mo->eq = eq;
+    mo->options = *options;
+    mo->used = options->row_count;
+    mo->rows = NEW_ARRAY(int, mo->used);
+    for (int k = 0; k < mo->used; k++)
+        mo->rows[k] = options->rows[k];
+    mo->wanted = NEW_ARRAY(int, options->independent_count);
+    for (int k = 0; k < options->independent_count; k++)
+        mo->wanted[k] = options->independent[k];
+    mo->options.rows = mo->rows;
+    mo->options.independent = mo->wanted;
+    mo->low = -INFINITY;
+    mo->high = INFINITY;
+    mo->kkt = kkt_new(eq->nu, mo->used);
+    if (options->embedded)
+        mo->embed = embed_new(eq->nu, mo->used);
+    mo->network = lu_new(eq->nx + eq->nz);
+    mo->q = NEW_ARRAY(double, eq->n);
+    mo->solved = NEW_ARRAY(double, eq->nx + eq->nz);
+    mo->top = NEW_ARRAY(double, eq->nu);
+    mo->bottom = NEW_ARRAY(double, mo->used);
+    mo->du = NEW_ARRAY(double, eq->nu);
+    mo->lambda = NEW_ARRAY(double, mo->used);
+    mo->lambda_all = NEW_ARRAY(double, eq->m);
+    mo->row_size = NEW_ARRAY(double, eq->m);
+    mo->counts.singular_time = NAN;
+    describe_ode(mo);
+    return mo;
+}
+
+void motion_free(Motion *mo)
+{
+    if (mo == NULL)
+        return;
+    mem_free(mo->rows);
+    mem_free(mo->wanted);
+    kkt_free(mo->kkt);
+    embed_free(mo->embed);
+    lu_free(mo->network);
+    mem_free(mo->q);
+    mem_free(mo->solved);
+    mem_free(mo->top);
+    mem_free(mo->bottom);
+    mem_free(mo->du);
+    mem_free(mo->lambda);
+    mem_free(mo->lambda_all);
+    mem_free(mo->row_size);
+    mem_free(mo->dae_weight);
+    mem_free(mo);
+}
+
+const Ode *motion_ode(const Motion *mo)
+{
+    return &mo->ode;
+}
+
+int motion_length(const Motion *mo)
+{
+    return mo->eq->n + mo->eq->nu + mo->eq->nx + 1;
+}
+
+void motion_window(Motion *mo, double low, double high)
+{
+    mo->low = low;
+    mo->high = high;
+}
+
+MotionCounts motion_counts(const Motion *mo)
+{
+    return mo->counts;
+}
+
+/* --- evaluation --- */
+
+static void at_position(Motion *mo, double t, const double *q)
+{
+    size_t bytes = (size_t)mo->eq->n * sizeof(double);
+
+    if (mo->is_evaluated && mo->t == t && memcmp(mo->q, q, bytes) == 0)
+        return;
+    mo->eq->position(mo->eq->context, t, q);
+    mo->t = t;
+    memcpy(mo->q, q, bytes);
+    mo->is_evaluated = true;
+    mo->is_factored = false;
+    mo->is_embedded_factored = false;
+}
+
+static bool factor(Motion *mo)
+{
+    if (mo->is_factored)
+        return true;
+    mo->counts.factorisations++;
+    if (!kkt_factor(mo->kkt, mo->eq->mass, mo->eq->phi_u, mo->rows))
+        return false;
+    if (kkt_is_regularised(mo->kkt)) {
+        mo->counts.regularised++;
+        if (isnan(mo->counts.singular_time))
+            mo->counts.singular_time = mo->t;
+    }
+    mo->is_factored = true;
+    return true;
+}
+
+static bool factor_embedded(Motion *mo)
+{
+    if (mo->is_embedded_factored)
+        return true;
+    mo->counts.factorisations++;
+    mo->is_embedded_factored = embed_factor(mo->embed, mo->eq->mass, mo->eq->phi_u, mo->rows);
+    return mo->is_embedded_factored;
+}
+
+static bool solve_network(Motion *mo)
+{
+    int n = mo->eq->nx + mo->eq->nz;
+
+    memcpy(lu_matrix(mo->network), mo->eq->network, (size_t)(n * n) * sizeof(double));
+    if (!lu_factor(mo->network))
+        return false;
+    memcpy(mo->solved, mo->eq->network_rhs, (size_t)n * sizeof(double));
+    lu_solve(mo->network, mo->solved);
+    return true;
+}
+
+/* everything but the solution for u': false where the network can't be solved */
+static bool evaluate(Motion *mo, double t, const double *y)
+{
+    const Equations *eq = mo->eq;
+
+    at_position(mo, fmin(fmax(t, mo->low), mo->high), y);
+    eq->velocity(eq->context, y + eq->n, y + eq->n + eq->nu);
+    if (!solve_network(mo))
+        return false;
+    eq->network_solved(eq->context, mo->solved);
+    return true;
+}
+
+static void pick_rows(const Motion *mo, const double *all, double *out)
+{
+    for (int k = 0; k < mo->used; k++)
+        out[k] = all[mo->rows[k]];
+}
+
+static bool solve_augmented(Motion *mo)
+{
+    if (!factor(mo))
+        return false;
+    pick_rows(mo, mo->eq->gamma, mo->bottom);
+    kkt_solve(mo->kkt, mo->eq->force, mo->bottom, mo->du, mo->lambda);
+    return true;
+}
+
+static bool solve_embedded(Motion *mo)
+{
+    if (!factor_embedded(mo))
+        return false;
+    pick_rows(mo, mo->eq->gamma, mo->bottom);
+    embed_solve(mo->embed, mo->eq->force, mo->bottom, mo->du);
+    return true;
+}
+
+static void write_rates(const Motion *mo, double *out)
+{
+    const Equations *eq = mo->eq;
+
+    memcpy(out, eq->q_rate, (size_t)eq->n * sizeof(double));
+    memcpy(out + eq->n, mo->du, (size_t)eq->nu * sizeof(double));
+    memcpy(out + eq->n + eq->nu, mo->solved, (size_t)eq->nx * sizeof(double));
+    out[eq->n + eq->nu + eq->nx] = eq->power != NULL ? *eq->power : 0;
+}
+
+static bool rate(void *context, double t, const double *y, double *out)
+{
+    Motion *mo = context;
+
+    if (!evaluate(mo, t, y))
+        return false;
+    if (!(mo->embed != NULL ? solve_embedded(mo) : solve_augmented(mo)))
+        return false;
+    write_rates(mo, out);
+    return vector_is_finite(out, mo->ode.n);
+}
+
+/* Multipliers of all rows from those in use: the least of all that give the same forces. */
+static void spread_multipliers(Motion *mo)
+{
+    const Equations *eq = mo->eq;
+
+    if (mo->used == eq->m) {
+        for (int k = 0; k < mo->used; k++)
+            mo->lambda_all[mo->rows[k]] = mo->lambda[k];
+        return;
+    }
+    memset(mo->lambda_all, 0, (size_t)eq->m * sizeof(double));
+    for (int k = 0; k < mo->used; k++)
+        mo->lambda_all[mo->rows[k]] = mo->lambda[k];
+    rank_least_multipliers(eq->phi_u, eq->m, eq->nu, mo->lambda_all);
+}
+
+bool motion_solve(Motion *mo, double t, const double *y, Solved *out)
+{
+    if (!evaluate(mo, t, y) || !solve_augmented(mo))
+        return false;
+    spread_multipliers(mo);
+    *out = (Solved){.acceleration = mo->du,
+                    .multipliers = mo->lambda_all,
+                    .rates = mo->solved,
+                    .algebraic = mo->solved + mo->eq->nx};
+    return vector_is_finite(mo->du, mo->eq->nu) && vector_is_finite(mo->lambda_all, mo->eq->m) &&
+           vector_is_finite(mo->solved, mo->eq->nx + mo->eq->nz);
+}
+
+/* --- projection --- */
+
+/* Residuals are measured as distances: a row over the largest entry it has had in Phi_u. */
+static void measure_rows(Motion *mo)
+{
+    for (int k = 0; k < mo->used; k++) {
+        double largest = vector_largest(mo->eq->phi_u + mo->rows[k] * mo->eq->nu, mo->eq->nu);
+
+        mo->row_size[k] = fmax(mo->row_size[k], largest);
+    }
+}
+
+static double distance(const Motion *mo)
+{
+    double largest = 0;
+
+    for (int k = 0; k < mo->used; k++) {
+        double size = fabs(mo->eq->phi[mo->rows[k]]) / fmax(mo->row_size[k], 1e-6);
+
+        if (!(size <= largest))
+            largest = size;
+    }
+    return largest;
+}
+
+static void normalise(const Equations *eq, double *q)
+{
+    for (int i = 0; i < eq->quaternion_count; i++) {
+        double *p = q + eq->quaternions[i];
+        double norm = sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2] + p[3] * p[3]);
+
+        for (int j = 0; j < 4 && norm > 0; j++)
+            p[j] /= norm;
+    }
+}
+
+static void move(Motion *mo, const double *du, double *q)
+{
+    const Equations *eq = mo->eq;
+
+    for (int i = 0; i < eq->n; i++) {
+        double sum = eq->map == NULL ? du[i] : 0;
+
+        for (int j = 0; eq->map != NULL && j < eq->nu; j++)
+            sum += eq->map[i * eq->nu + j] * du[j];
+        q[i] += sum;
+    }
+    normalise(eq, q);
+}
+
+/* Simplified Newton: one factorisation serves all sweeps. They go on to the limit of rounding: what
+ * is left as a residual turns the motion off its branch at a singular position. At most a hundredth
+ * of the run's tolerance may be left where they don't get there. */
+static bool project_position(Motion *mo, double t, double *q)
+{
+    double size = fmax(1, vector_largest(q, mo->eq->n));
+    double enough = fmax(1e-13 * size, fmin(1e-2 * mo->options.tolerance, 1e-9));
+    double left, before = INFINITY;
+
+    normalise(mo->eq, q);
+    at_position(mo, t, q);
+    measure_rows(mo);
+    left = distance(mo);
+    if (left <= 1e-16 * size)
+        return true;
+    if (!factor(mo))
+        return false;
+    for (int sweep = 0; sweep < PROJECTION_SWEEPS && left > 1e-16 * size; sweep++) {
+        if (left <= 1e-13 * size && left > 0.5 * before)
+            break; /* rounding */
+        before = left;
+        for (int k = 0; k < mo->used; k++)
+            mo->bottom[k] = -mo->eq->phi[mo->rows[k]];
+        kkt_solve(mo->kkt, NULL, mo->bottom, mo->du, mo->lambda);
+        move(mo, mo->du, q);
+        /* the factors stay those of the first sweep */
+        mo->eq->position(mo->eq->context, t, q);
+        left = distance(mo);
+        if (!isfinite(left))
+            break;
+    }
+    mo->is_evaluated = false;
+    return left <= enough;
+}
+
+static bool project_velocity(Motion *mo, double t, const double *q, double *u, const double *x)
+{
+    const Equations *eq = mo->eq;
+
+    at_position(mo, t, q);
+    if (!factor(mo))
+        return false;
+    eq->velocity(eq->context, u, x);
+    for (int k = 0; k < mo->used; k++) {
+        const double *row = eq->phi_u + mo->rows[k] * eq->nu;
+
+        mo->bottom[k] = eq->nu_rate[mo->rows[k]];
+        for (int j = 0; j < eq->nu; j++)
+            mo->bottom[k] -= row[j] * u[j];
+    }
+    kkt_solve(mo->kkt, NULL, mo->bottom, mo->du, mo->lambda);
+    for (int j = 0; j < eq->nu; j++)
+        u[j] += mo->du[j];
+    return vector_is_finite(u, eq->nu);
+}
+
+bool motion_project(Motion *mo, double t, double *y)
+{
+    const Equations *eq = mo->eq;
+
+    if (mo->ode.project == NULL)
+        return true;
+    t = fmin(fmax(t, mo->low), mo->high);
+    return project_position(mo, t, y) && project_velocity(mo, t, y, y + eq->n, y + eq->n + eq->nu);
+}
+
+static bool project(void *context, double t, double *y)
+{
+    return motion_project(context, t, y);
+}
+
+void motion_residuals(Motion *mo, double t, const double *y, double *position, double *velocity)
+{
+    const Equations *eq = mo->eq;
+
+    at_position(mo, t, y);
+    eq->velocity(eq->context, y + eq->n, y + eq->n + eq->nu);
+    *position = vector_largest(eq->phi, eq->m);
+    *velocity = 0;
+    for (int k = 0; k < eq->m; k++) {
+        double sum = -eq->nu_rate[k];
+
+        for (int j = 0; j < eq->nu; j++)
+            sum += eq->phi_u[k * eq->nu + j] * y[eq->n + j];
+        if (!(fabs(sum) <= *velocity))
+            *velocity = fabs(sum);
+    }
+}
+
+/* --- embedded form --- */
+
+bool motion_repartition(Motion *mo, double t, const double *y)
+{
+    int freedoms = mo->eq->nu - mo->used;
+    bool changed = false;
+    int *before;
+
+    if (mo->embed == NULL)
+        return false;
+    before = NEW_ARRAY(int, freedoms);
+    memcpy(before, embed_independent(mo->embed), (size_t)freedoms * sizeof(int));
+    at_position(mo, t, y);
+    mo->is_embedded_factored = false;
+    if (embed_choose(mo->embed, mo->eq->phi_u, mo->rows, mo->wanted, mo->options.independent_count))
+        changed = memcmp(before, embed_independent(mo->embed), (size_t)freedoms * sizeof(int)) != 0;
+    (void)factor_embedded(mo);
+    mo->options.independent_count = 0; /* a later choice is by pivots alone */
+    mem_free(before);
+    return changed;
+}
+
+bool motion_is_worn(const Motion *mo)
+{
+    return mo->embed != NULL && embed_condition(mo->embed) < WORN;
+}
+
+const int *motion_independent(const Motion *mo)
+{
+    return mo->embed != NULL ? embed_independent(mo->embed) : NULL;
+}
+
+int motion_freedoms(const Motion *mo)
+{
+    return mo->eq->nu - mo->used;
+}
+
+/* --- implicit form --- */
+
+/* Embedded: q' = N u, G^T (M u' - F) = 0, Phi_u u' = gamma. */
+static bool embedded_residual(Motion *mo, const double *u_rate, double *out)
+{
+    const Equations *eq = mo->eq;
+    int f = motion_freedoms(mo);
+
+    if (!factor_embedded(mo))
+        return false;
+    matrix_times(eq->mass, eq->nu, eq->nu, u_rate, mo->top);
+    for (int j = 0; j < eq->nu; j++)
+        mo->top[j] -= eq->force[j];
+    embed_reduce(mo->embed, mo->top, out);
+    for (int k = 0; k < mo->used; k++) {
+        double sum = -eq->gamma[mo->rows[k]];
+
+        for (int j = 0; j < eq->nu; j++)
+            sum += eq->phi_u[mo->rows[k] * eq->nu + j] * u_rate[j];
+        out[f + k] = sum;
+    }
+    return true;
+}
+
+/* Stabilised index 2: q' = N (u + Phi_u^T mu), M u' + Phi_u^T lambda = F, Phi = 0, Phi_u u = nu;
+ * lambda and mu are the rates of the last 2 m unknowns. */
+static void augmented_residual(Motion *mo, const double *w, const double *w_rate, double *out)
+{
+    const Equations *eq = mo->eq;
+    int tail = motion_length(mo);
+    const double *u = w + eq->n, *lambda = w_rate + tail, *mu = lambda + mo->used;
+    double *force_rows = out + eq->n;
+
+    memset(mo->du, 0, (size_t)eq->nu * sizeof(double));
+    matrix_times(eq->mass, eq->nu, eq->nu, w_rate + eq->n, force_rows);
+    for (int j = 0; j < eq->nu; j++)
+        force_rows[j] -= eq->force[j];
+    for (int k = 0; k < mo->used; k++) {
+        const double *row = eq->phi_u + mo->rows[k] * eq->nu;
+        double sum = -eq->nu_rate[mo->rows[k]];
+
+        for (int j = 0; j < eq->nu; j++) {
+            sum += row[j] * u[j];
+            force_rows[j] += row[j] * lambda[k];
+            mo->du[j] += row[j] * mu[k];
+        }
+        out[tail + k] = eq->phi[mo->rows[k]];
+        out[tail + mo->used + k] = sum;
+    }
+    for (int i = 0; i < eq->n; i++) { /* q' = N (u + Phi_u^T mu) */
+        double sum = eq->map == NULL ? mo->du[i] : 0;
+
+        for (int j = 0; eq->map != NULL && j < eq->nu; j++)
+            sum += eq->map[i * eq->nu + j] * mo->du[j];
+        out[i] -= sum;
+    }
+}
+
+static bool dae_residual(void *context, double t, const double *w, const double *w_rate,
+                         double *out)
+{
+    Motion *mo = context;
+    const Equations *eq = mo->eq;
+    int x = eq->n + eq->nu, work = x + eq->nx;
+
+    if (!evaluate(mo, t, w))
+        return false;
+    for (int i = 0; i < eq->n; i++)
+        out[i] = w_rate[i] - eq->q_rate[i];
+    if (mo->embed != NULL) {
+        if (!embedded_residual(mo, w_rate + eq->n, out + eq->n))
+            return false;
+    } else {
+        augmented_residual(mo, w, w_rate, out);
+    }
+    for (int i = 0; i < eq->nx; i++)
+        out[x + i] = w_rate[x + i] - mo->solved[i];
+    out[work] = w_rate[work] - (eq->power != NULL ? *eq->power : 0);
+    return vector_is_finite(out, mo->ode.dae.n);
+}
+
+static bool dae_start(void *context, double t, const double *y, double *w, double *w_rate)
+{
+    Motion *mo = context;
+    int tail = motion_length(mo);
+
+    memset(w, 0, (size_t)mo->ode.dae.n * sizeof(double));
+    memset(w_rate, 0, (size_t)mo->ode.dae.n * sizeof(double));
+    memcpy(w, y, (size_t)tail * sizeof(double));
+    if (!evaluate(mo, t, y) || !solve_augmented(mo))
+        return false;
+    write_rates(mo, w_rate);
+    if (mo->embed == NULL)
+        for (int k = 0; k < mo->used; k++) {
+            w_rate[tail + k] = mo->lambda[k];
+            mo->dae_weight[tail + k] = fmax(1, fabs(mo->lambda[k]));
+        }
+    return vector_is_finite(w_rate, mo->ode.dae.n);
+}

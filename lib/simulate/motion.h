@@ -1,0 +1,93 @@
+/* motion.h: the equations of a system in numbers: rates, multipliers, projection
+ *
+ *     q' = N u,   Phi(q,t) = 0,   Phi_u u = nu,   Phi_u u' = gamma
+ *     M u' + Phi_u^T lambda = F,   A [x'; z] = r
+ *
+ * Equations is what a model supplies: functions that bring arrays up to date. A Motion
+ * solves them, in the augmented or the embedded form, and is an Ode in y = (q, u, x, work).
+ * It evaluates nothing twice for the same arguments, and allocates nothing after motion_new(). */
+#ifndef COTREE_SIMULATE_MOTION_H
+#define COTREE_SIMULATE_MOTION_H
+
+#include "simulate/ode.h"
+
+typedef struct Equations {
+    int n, nu, m, nx, nz;
+    void *context;
+    /* bring phi, phi_u, mass, map up to date */
+    void (*position)(void *context, double t, const double *q);
+    /* then q_rate, nu, gamma, network, network_rhs */
+    void (*velocity)(void *context, const double *u, const double *x);
+    /* then force and power; `solved` is [x'; z] */
+    void (*network_solved)(void *context, const double *solved);
+    const double *phi;         /* m */
+    const double *phi_u;       /* m x nu */
+    const double *mass;        /* nu x nu */
+    const double *map;         /* n x nu: N; NULL: identity, n == nu */
+    const double *q_rate;      /* n */
+    const double *nu_rate;     /* m: right-hand side of the velocity constraints */
+    const double *gamma;       /* m */
+    const double *network;     /* (nx+nz)^2: A */
+    const double *network_rhs; /* nx+nz: r */
+    const double *force;       /* nu */
+    const double *power;       /* 1: work done on the system per time, W; NULL: not known */
+    const int *quaternions;    /* first of each four Euler parameters */
+    int quaternion_count;
+    /* conditions whose change of sign may bend or break the equations; time_only ones first */
+    int switch_count, time_only;
+    void (*switches)(void *context, double t, const double *q, const double *u, const double *x,
+                     double *out);
+} Equations;
+
+typedef struct MotionOptions {
+    bool embedded;
+    const int *rows; /* constraint rows in use, independent ones */
+    int row_count;
+    const int *independent; /* speeds asked for as independent (embedded); may be NULL */
+    int independent_count;
+    double tolerance; /* atol of the run: bounds what a projection may leave */
+} MotionOptions;
+
+typedef struct Motion Motion;
+
+/* New; borrows the equations, copies the options. Free with motion_free(). */
+Motion *motion_new(const Equations *equations, const MotionOptions *options);
+void motion_free(Motion *motion); /* NULL is fine */
+const Ode *motion_ode(const Motion *motion);
+int motion_length(const Motion *motion); /* of y, work included */
+
+/* Solved at a row: all numbers there are. Borrowed, until the next call on the motion. */
+typedef struct Solved {
+    const double *acceleration; /* nu: u' */
+    const double *multipliers;  /* m: lambda, of minimum norm where rows are redundant */
+    const double *rates;        /* nx: x' */
+    const double *algebraic;    /* nz: z */
+} Solved;
+bool motion_solve(Motion *motion, double t, const double *y, Solved *out);
+
+/* Position and velocity back onto the constraints, mass-orthogonally: at most 8 sweeps. */
+bool motion_project(Motion *motion, double t, double *y);
+/* largest |Phi| and |Phi_u u - nu| over all rows */
+void motion_residuals(Motion *motion, double t, const double *y, double *position,
+                      double *velocity);
+/* The time that rates see is kept within [low, high], so that a step up to a switch
+ * never looks behind it. */
+void motion_window(Motion *motion, double low, double high);
+
+/* Choose independent speeds anew at y, which lies on the manifold; true when they changed. Does
+ * nothing in the augmented form. */
+bool motion_repartition(Motion *motion, double t, const double *y);
+/* whether the partition has become ill-conditioned since it was chosen */
+bool motion_is_worn(const Motion *motion);
+/* the independent speeds of the embedded form, motion_freedoms() of them */
+const int *motion_independent(const Motion *motion);
+int motion_freedoms(const Motion *motion);
+
+typedef struct MotionCounts {
+    int64_t factorisations;
+    int64_t regularised;
+    double singular_time; /* first time of one; NAN */
+} MotionCounts;
+MotionCounts motion_counts(const Motion *motion);
+
+#endif

@@ -1,0 +1,89 @@
+/* ode.h: what an integrator needs to know of a problem, and what it offers
+ *
+ *     y' = f(t, y),   y on a manifold that project() restores
+ *
+ * A Stepper is one integration under way: it takes accepted steps, each not beyond a given
+ * time, and tells y anywhere in the last one. Methods are rows of methods.def; whoever drives a
+ * stepper owns output, switches and stopping. */
+#ifndef COTREE_SIMULATE_ODE_H
+#define COTREE_SIMULATE_ODE_H
+
+#include "base/diag.h"
+
+#include <stdint.h>
+
+/* The same motion for solvers of implicit equations F(t, w, w') = 0; w holds y and multipliers. */
+typedef struct Dae {
+    int n;
+    bool (*residual)(void *context, double t, const double *w, const double *rate, double *out);
+    /* consistent w and w' at (t, y) */
+    bool (*start)(void *context, double t, const double *y, double *w, double *rate);
+    const double *weight; /* n: absolute tolerance of w_i is atol * weight */
+} Dae;
+
+typedef struct Ode {
+    int n;           /* unknowns that count in the error test */
+    int quadratures; /* further entries of y that f doesn't read, behind them */
+    void *context;
+    /* y' at (t, y); false: undefined there, try a shorter step */
+    bool (*rate)(void *context, double t, const double *y, double *rate);
+    /* move y back onto its manifold; false: can't. NULL: there is none */
+    bool (*project)(void *context, double t, double *y);
+    Dae dae; /* entries 0..n+quadratures-1 of w are y; n 0: not offered */
+} Ode;
+
+typedef struct Control {
+    double rtol, atol;
+    double step;  /* fixed or largest step, s; 0: free */
+    double first; /* step to begin with; 0: chosen */
+} Control;
+
+typedef struct Counts {
+    int64_t steps, rejected, evaluations, jacobians;
+} Counts;
+
+typedef struct Stepper Stepper;
+typedef struct Method {
+    const char *name;
+    const char *brief;
+    /* new stepper at (t, y); `ode` and what it points to outlive it */
+    Stepper *(*create)(const Ode *ode, const Control *control);
+    void (*destroy)(Stepper *stepper);
+    /* (Re)start at (t, y), as after a jump. E_SOLVER when f is undefined there. */
+    Status (*start)(Stepper *stepper, double t, const double *y, Diag *diag);
+    /* One accepted step, at most to `end` (which it meets exactly when it can). E_SOLVER. */
+    Status (*step)(Stepper *stepper, double end, Diag *diag);
+    /* y at t in the last step; not projected */
+    void (*at)(Stepper *stepper, double t, double *y);
+    /* Take the last step again so that it ends at t, inside it; then start anew from there. */
+    Status (*shorten)(Stepper *stepper, double t, Diag *diag);
+} Method;
+
+struct Stepper {
+    const Method *method;
+    const Ode *ode;
+    Control control;
+    Counts counts;
+    double before; /* start of the last step */
+    double t;      /* its end */
+    double *y;     /* y at t, projected where the method projects */
+    double next;   /* step it would take next, s */
+    bool is_stiff; /* explicit methods: steps are cut by stability, not by accuracy */
+};
+
+/* The row of that name, or NULL; row i, or NULL at the end. */
+const Method *method_find(const char *name);
+const Method *method_row(int i);
+
+/* An error of the solver at time t, in words: "at t = 0.3 s: ...". */
+Status solver_failure(Diag *diag, double t, const char *reason);
+
+#define MAX_REJECTIONS 10 /* in a row, by NaN or a projection that fails, end a run */
+
+extern const Method method_dop853;
+extern const Method method_rk4;
+extern const Method method_bdf;
+extern const Method method_adams;
+extern const Method method_ida;
+
+#endif

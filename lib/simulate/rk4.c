@@ -1,0 +1,140 @@
+/* rk4.c: the classical Runge-Kutta method with fixed steps and projection
+ *
+ * No error control: its use is a run in known time, and a comparison. Between the ends of a step
+ * the cubic through both points and slopes is read (error of order 4, as the method's). */
+#include "simulate/ode.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+#include <string.h>
+
+typedef struct Rk4 {
+    Stepper base;
+    int all;
+    double *old, *old_rate, *rate, *point, *k[4];
+} Rk4;
+
+static bool evaluate(Rk4 *r, double t, const double *y, double *rate)
+{
+    r->base.counts.evaluations++;
+    return r->base.ode->rate(r->base.ode->context, t, y, rate);
+}
+
+static Stepper *create(const Ode *ode, const Control *control)
+{
+    Rk4 *r = NEW(Rk4);
+
+    r->base = (Stepper){.method = &method_rk4, .ode = ode, .control = *control};
+    r->all = ode->n + ode->quadratures;
+    r->base.y = NEW_ARRAY(double, r->all);
+    r->old = NEW_ARRAY(double, r->all);
+    r->old_rate = NEW_ARRAY(double, r->all);
+    r->rate = NEW_ARRAY(double, r->all);
+    r->point = NEW_ARRAY(double, r->all);
+    for (int i = 0; i < 4; i++)
+        r->k[i] = NEW_ARRAY(double, r->all);
+    return &r->base;
+}
+
+static void destroy(Stepper *stepper)
+{
+    Rk4 *r = (Rk4 *)stepper;
+
+    if (r == NULL)
+        return;
+    mem_free(r->base.y);
+    mem_free(r->old);
+    mem_free(r->old_rate);
+    mem_free(r->rate);
+    mem_free(r->point);
+    for (int i = 0; i < 4; i++)
+        mem_free(r->k[i]);
+    mem_free(r);
+}
+
+static Status start(Stepper *stepper, double t, const double *y, Diag *diag)
+{
+    Rk4 *r = (Rk4 *)stepper;
+
+    memmove(r->base.y, y, (size_t)r->all * sizeof(double));
+    r->base.t = r->base.before = t;
+    if (!evaluate(r, t, r->base.y, r->rate))
+        return solver_failure(diag, t, "the accelerations are undefined");
+    return OK;
+}
+
+/* from old at base.before over h; leaves the new point projected and its rate */
+static bool advance(Rk4 *r, double h, double end)
+{
+    static const double node[4] = {0, 0.5, 0.5, 1};
+    const Ode *ode = r->base.ode;
+
+    memcpy(r->k[0], r->old_rate, (size_t)r->all * sizeof(double));
+    for (int s = 1; s < 4; s++) {
+        for (int i = 0; i < r->all; i++)
+            r->point[i] = r->old[i] + h * node[s] * r->k[s - 1][i];
+        if (!evaluate(r, r->base.before + node[s] * h, r->point, r->k[s]))
+            return false;
+    }
+    for (int i = 0; i < r->all; i++)
+        r->base.y[i] =
+            r->old[i] + h / 6 * (r->k[0][i] + 2 * r->k[1][i] + 2 * r->k[2][i] + r->k[3][i]);
+    if (ode->project != NULL && !ode->project(ode->context, end, r->base.y))
+        return false;
+    r->base.t = end;
+    return evaluate(r, end, r->base.y, r->rate);
+}
+
+static Status step(Stepper *stepper, double end, Diag *diag)
+{
+    Rk4 *r = (Rk4 *)stepper;
+    double left = end - r->base.t;
+    double h = r->base.control.step;
+    bool last = h <= 0 || h >= left * (1 - 1e-9);
+
+    memcpy(r->old, r->base.y, (size_t)r->all * sizeof(double));
+    memcpy(r->old_rate, r->rate, (size_t)r->all * sizeof(double));
+    r->base.before = r->base.t;
+    if (!advance(r, last ? left : h, last ? end : r->base.t + h))
+        return solver_failure(diag, r->base.before, "the equations have no solution one step on");
+    r->base.counts.steps++;
+    return OK;
+}
+
+static void at(Stepper *stepper, double t, double *y)
+{
+    const Rk4 *r = (const Rk4 *)stepper;
+    double h = r->base.t - r->base.before;
+    double s = h > 0 ? (t - r->base.before) / h : 1;
+
+    for (int i = 0; i < r->all; i++) {
+        double dy = r->base.y[i] - r->old[i];
+
+        y[i] = h > 0
+                   ? r->old[i] + s * dy +
+                         s * (s - 1) *
+                             ((1 - 2 * s) * dy + (s - 1) * h * r->old_rate[i] + s * h * r->rate[i])
+                   : r->base.y[i];
+    }
+}
+
+static Status shorten(Stepper *stepper, double t, Diag *diag)
+{
+    Rk4 *r = (Rk4 *)stepper;
+
+    if (!advance(r, t - r->base.before, t))
+        return solver_failure(diag, t, "the equations have no solution at a switch");
+    return OK;
+}
+
+const Method method_rk4 = {
+    .name = "rk4",
+    .brief = "classical Runge-Kutta, fixed steps (step=, else one a row); projects after each step",
+    .create = create,
+    .destroy = destroy,
+    .start = start,
+    .step = step,
+    .at = at,
+    .shorten = shorten,
+};
