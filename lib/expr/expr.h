@@ -69,6 +69,8 @@ const char *arena_failure(const Arena *arena); /* what failed, in words; borrowe
 void arena_reset(Arena *arena);                /* forget the failure */
 void arena_watch(Arena *arena,
                  const Watch *watch); /* borrowed; looked at every few thousand nodes */
+/* At most that many nodes; beyond, the arena fails with E_MEMORY. Some 67 million at first. */
+void arena_limit(Arena *arena, int64_t nodes);
 
 /* Scratch work: whatever was built after the mark is forgotten by the release. */
 typedef struct ArenaMark ArenaMark;
@@ -82,10 +84,12 @@ size_t arena_bytes(const Arena *arena);
 
 Expr expr_int(Arena *arena, int64_t value);
 Expr expr_rational(Arena *arena, int64_t num, int64_t den); /* den 0: E_DOMAIN */
-/* An integer-valued double below 2^53 becomes a rational; others stay doubles. */
+/* A double that is a multiple of 1/1024 below 2^20, or an integer below 2^53, becomes a rational;
+ * others stay doubles. */
 Expr expr_real(Arena *arena, double value);
 /* The decimal literal `text` ("0.25", "2.194e-6") as an exact rational where numerator and
- * denominator fit into 62 bits, else the nearest double. */
+ * denominator fit into 63 bits, else the nearest double. One with a point or an exponent and 16 or
+ * more digits is a double too: so long are those that doubles print with. */
 Expr expr_decimal(Arena *arena, const char *text);
 /* The symbol of that name and kind: found, or made. Symbols of one name and different
  * kinds are different and print alike: what a user calls h8 (SYMBOL_VARIABLE) is replaced
@@ -124,6 +128,13 @@ Expr expr_if(Arena *arena, Expr condition, Expr yes, Expr no);
 Expr expr_hold(Arena *arena, Expr e);
 /* `e` with every hold dissolved and rebuilt. O(nodes) nodes visited. */
 Expr expr_open(Arena *arena, Expr e);
+
+/* --- the table of functions --- */
+
+const char *op_name(Op op);
+int op_args(Op op);                         /* how many */
+bool op_find(const char *name, Op *op);     /* by its name in ops.def */
+double op_value(Op op, const double *args); /* NAN where undefined */
 
 /* --- looking --- */
 
@@ -205,8 +216,9 @@ typedef enum Notation {
 } Notation;
 
 /* Append `e`. Text parses back to the same pointer (with the parser of the command language).
- * Numbers: rationals as 3/4 or, where a decimal is exact and shorter, as such; doubles with
- * the fewest digits that read back the same. */
+ * Numbers: rationals as decimals where these are exact and have up to 6 digits or are no longer
+ * than the fraction, else as 1/3; doubles with the fewest digits that read back the same. In
+ * source code names become identifiers: h8' is h8_d, m3.x is m3_x. */
 void expr_print(Text *text, Expr e, Notation notation);
 char *expr_text(Expr e); /* new string, NOTATION_TEXT */
 

@@ -1,0 +1,418 @@
+/* arena.c: nodes, each made once
+ *
+ * Nodes lie in a pool and never move. An open table with linear probing finds the
+ * node of given contents. Nodes are forgotten only newest first, and a growing table
+ * takes them over oldest first; so the slot of a forgotten node is on nobody's way
+ * and can simply be emptied. The same holds for the remembered derivatives. */
+#include "expr/expr_impl.h"
+
+#include <string.h>
+
+enum { WATCH_EVERY = 4096, FIRST_SIZE = 1024 };
+
+/* some four gigabytes */
+#define NODE_LIMIT ((int64_t)1 << 26)
+
+typedef struct Slot {
+    uint32_t hash;
+    uint32_t id; /* number + 1; 0: empty */
+} Slot;
+
+/* a derivative that was found */
+typedef struct Memory {
+    Expr e;
+    Expr symbol;
+    Expr derivative;
+} Memory;
+
+struct Arena {
+    Pool *pool;
+    Pool *texts; /* of LaTeX names, which outlive marks */
+    Slot *slots;
+    uint32_t size; /* of slots, a power of two */
+    LIST(struct ExprNode *) nodes;
+    int symbols;
+    LIST(Memory) memories;
+    Slot *memory_slots;
+    uint32_t memory_size;
+    Expr zero;
+    Expr one;
+    int64_t limit;
+    const Watch *watch;
+    Status status;
+    const char *failure;
+    bool halted; /* stopped or full: no more composite nodes */
+};
+
+struct ArenaMark {
+    PoolMark pool;
+    int nodes;
+    int symbols;
+    int memories;
+};
+
+/* a round of the finaliser of MurmurHash3 (Appleby 2011) */
+static uint64_t mix(uint64_t h, uint64_t word)
+{
+    h ^= word;
+    h *= 0xFF51AFD7ED558CCDU;
+    return h ^ (h >> 32);
+}
+
+static uint32_t hash_words(uint64_t start, const void *words, int count)
+{
+    const unsigned char *at = words;
+    uint64_t h = mix(0x9E3779B97F4A7C15U, start);
+
+    for (int i = 0; i < count; i++) {
+        uint64_t word;
+
+        memcpy(&word, at + 8 * (size_t)i, 8);
+        h = mix(h, word);
+    }
+    h ^= h >> 29;
+    return (uint32_t)(h * 0x9E3779B97F4A7C15U >> 32);
+}
+
+/* --- tables --- */
+
+static void slots_put(Slot *slots, uint32_t size, uint32_t hash, uint32_t id)
+{
+    uint32_t i = hash & (size - 1);
+
+    while (slots[i].id != 0)
+        i = (i + 1) & (size - 1);
+    slots[i] = (Slot){hash, id};
+}
+
+static void slots_drop(Slot *slots, uint32_t size, uint32_t hash, uint32_t id)
+{
+    uint32_t i = hash & (size - 1);
+
+    while (slots[i].id != id)
+        i = (i + 1) & (size - 1);
+    slots[i] = (Slot){0, 0};
+}
+
+static void table_grow(Arena *arena)
+{
+    mem_free(arena->slots);
+    arena->size *= 2;
+    arena->slots = NEW_ARRAY(Slot, arena->size);
+    for (int i = 0; i < arena->nodes.count; i++)
+        slots_put(arena->slots, arena->size, arena->nodes.at[i]->hash, (uint32_t)i + 1);
+}
+
+/* --- nodes --- */
+
+/* A new node with room for `size` bytes behind its head. */
+static struct ExprNode *node_new(Arena *arena, uint32_t hash, size_t size)
+{
+    struct ExprNode *node = pool_alloc(arena->pool, sizeof(struct ExprNode) + size);
+
+    node->number = (uint32_t)arena->nodes.count;
+    node->hash = hash;
+    LIST_PUSH(arena->nodes, node);
+    if ((uint32_t)arena->nodes.count > arena->size / 2)
+        table_grow(arena);
+    else
+        slots_put(arena->slots, arena->size, hash, node->number + 1);
+    return node;
+}
+
+/* whether one more composite node may be made */
+static bool may_grow(Arena *arena)
+{
+    if (arena->nodes.count % WATCH_EVERY == 0 && poll(arena->watch) != OK)
+        arena_fail(arena, E_STOPPED, "stopped");
+    if (arena->nodes.count >= arena->limit)
+        arena_fail(arena, E_MEMORY, "the expressions grow beyond all bounds");
+    return !arena->halted;
+}
+
+/* The node of these contents, or NULL. */
+static Expr node_find(const Arena *arena, uint32_t hash, ExprKind kind, Op op, const void *words,
+                      int count)
+{
+    for (uint32_t i = hash & (arena->size - 1); arena->slots[i].id != 0;
+         i = (i + 1) & (arena->size - 1)) {
+        Expr e;
+
+        if (arena->slots[i].hash != hash)
+            continue;
+        e = arena->nodes.at[arena->slots[i].id - 1];
+        if (e->kind == kind && e->op == op && (e->kind <= EXPR_REAL || e->count == count) &&
+            memcmp(e + 1, words, 8 * (size_t)count) == 0)
+            return e;
+    }
+    return NULL;
+}
+
+Expr node_intern(Arena *arena, ExprKind kind, Op op, const Expr *args, int count)
+{
+    uint32_t hash = hash_words((uint64_t)kind << 8 | op, args, count);
+    Expr found = node_find(arena, hash, kind, op, args, count);
+    struct ExprNode *node;
+    unsigned kinds = 0;
+
+    if (found != NULL)
+        return found;
+    if (!may_grow(arena))
+        return arena->zero;
+    node = node_new(arena, hash, sizeof(Expr) * (size_t)count);
+    node->kind = (uint8_t)kind;
+    node->op = (uint8_t)op;
+    node->count = count;
+    memcpy(node + 1, args, sizeof(Expr) * (size_t)count);
+    for (int i = 0; i < count; i++)
+        kinds |= args[i]->kinds;
+    node->kinds = (uint16_t)kinds;
+    return node;
+}
+
+static Expr leaf_intern(Arena *arena, ExprKind kind, const void *words, int count)
+{
+    uint32_t hash = hash_words((uint64_t)kind << 8, words, count);
+    Expr found = node_find(arena, hash, kind, 0, words, count);
+    struct ExprNode *node;
+
+    if (found != NULL)
+        return found;
+    node = node_new(arena, hash, 8 * (size_t)count);
+    node->kind = (uint8_t)kind;
+    memcpy(node + 1, words, 8 * (size_t)count);
+    return node;
+}
+
+Expr node_rational(Arena *arena, int64_t num, int64_t den)
+{
+    Ratio ratio = {num, den};
+
+    if (den == 1 && (num == 0 || num == 1) && arena->one != NULL)
+        return num == 0 ? arena->zero : arena->one;
+    return leaf_intern(arena, EXPR_RATIONAL, &ratio, 2);
+}
+
+Expr node_real(Arena *arena, double value)
+{
+    return leaf_intern(arena, EXPR_REAL, &value, 1);
+}
+
+/* --- symbols --- */
+
+static uint32_t symbol_hash(const char *name, SymbolKind kind)
+{
+    uint64_t h = 14695981039346656037U + (uint64_t)kind;
+
+    for (const char *c = name; *c != '\0'; c++)
+        h = (h ^ (unsigned char)*c) * 1099511628211U; /* FNV-1a */
+    return hash_words(EXPR_SYMBOL, &h, 1);
+}
+
+Expr expr_find_symbol(const Arena *arena, const char *name, SymbolKind kind)
+{
+    uint32_t hash = symbol_hash(name, kind);
+
+    for (uint32_t i = hash & (arena->size - 1); arena->slots[i].id != 0;
+         i = (i + 1) & (arena->size - 1)) {
+        Expr e = arena->nodes.at[arena->slots[i].id - 1];
+
+        if (arena->slots[i].hash == hash && e->kind == EXPR_SYMBOL &&
+            node_symbol(e)->kind == kind && strcmp(node_symbol(e)->name, name) == 0)
+            return e;
+    }
+    return NULL;
+}
+
+Expr expr_symbol(Arena *arena, const char *name, SymbolKind kind)
+{
+    Expr found = expr_find_symbol(arena, name, kind);
+    struct ExprNode *node;
+    SymbolData data = {.kind = kind};
+
+    if (found != NULL)
+        return found;
+    data.number = arena->symbols++;
+    node = node_new(arena, symbol_hash(name, kind), sizeof data);
+    node->kind = EXPR_SYMBOL;
+    node->kinds = (uint16_t)(1U << kind);
+    data.name = pool_text(arena->pool, name, strlen(name));
+    memcpy(node + 1, &data, sizeof data);
+    return node;
+}
+
+void expr_symbol_latex(Arena *arena, Expr symbol, const char *latex)
+{
+    SymbolData *data = (SymbolData *)(void *)(arena->nodes.at[symbol->number] + 1);
+
+    data->latex = pool_text(arena->texts, latex, strlen(latex));
+}
+
+/* --- remembered derivatives --- */
+
+static uint32_t memory_hash(Expr e, Expr symbol)
+{
+    uint64_t key = (uint64_t)e->number << 32 | symbol->number;
+
+    return hash_words(EXPR_CALL, &key, 1);
+}
+
+Expr arena_recall(const Arena *arena, Expr e, Expr symbol)
+{
+    uint32_t hash = memory_hash(e, symbol);
+
+    for (uint32_t i = hash & (arena->memory_size - 1); arena->memory_slots[i].id != 0;
+         i = (i + 1) & (arena->memory_size - 1)) {
+        const Memory *memory = &arena->memories.at[arena->memory_slots[i].id - 1];
+
+        if (memory->e == e && memory->symbol == symbol)
+            return memory->derivative;
+    }
+    return NULL;
+}
+
+void arena_remember(Arena *arena, Expr e, Expr symbol, Expr derivative)
+{
+    /* what was made after a failure may be anything */
+    if (arena->status != OK)
+        return;
+    LIST_PUSH(arena->memories, (Memory){e, symbol, derivative});
+    if ((uint32_t)arena->memories.count <= arena->memory_size / 2) {
+        slots_put(arena->memory_slots, arena->memory_size, memory_hash(e, symbol),
+                  (uint32_t)arena->memories.count);
+        return;
+    }
+    mem_free(arena->memory_slots);
+    arena->memory_size *= 2;
+    arena->memory_slots = NEW_ARRAY(Slot, arena->memory_size);
+    for (int i = 0; i < arena->memories.count; i++)
+        slots_put(arena->memory_slots, arena->memory_size,
+                  memory_hash(arena->memories.at[i].e, arena->memories.at[i].symbol),
+                  (uint32_t)i + 1);
+}
+
+/* --- the arena --- */
+
+Arena *arena_new(void)
+{
+    Arena *arena = NEW(Arena);
+
+    arena->pool = pool_new(0);
+    arena->texts = pool_new(1024);
+    arena->size = FIRST_SIZE;
+    arena->slots = NEW_ARRAY(Slot, arena->size);
+    arena->memory_size = FIRST_SIZE;
+    arena->memory_slots = NEW_ARRAY(Slot, arena->memory_size);
+    arena->limit = NODE_LIMIT;
+    arena->zero = node_rational(arena, 0, 1);
+    arena->one = node_rational(arena, 1, 1);
+    return arena;
+}
+
+void arena_free(Arena *arena)
+{
+    if (arena == NULL)
+        return;
+    pool_free(arena->pool);
+    pool_free(arena->texts);
+    mem_free(arena->slots);
+    mem_free(arena->memory_slots);
+    LIST_FREE(arena->nodes);
+    LIST_FREE(arena->memories);
+    mem_free(arena);
+}
+
+Expr arena_zero(const Arena *arena)
+{
+    return arena->zero;
+}
+
+Expr arena_one(const Arena *arena)
+{
+    return arena->one;
+}
+
+Status arena_status(const Arena *arena)
+{
+    return arena->status;
+}
+
+const char *arena_failure(const Arena *arena)
+{
+    return arena->failure != NULL ? arena->failure : "";
+}
+
+void arena_fail(Arena *arena, Status status, const char *message)
+{
+    if (status == E_STOPPED || status == E_MEMORY)
+        arena->halted = true;
+    if (arena->status != OK)
+        return;
+    arena->status = status;
+    arena->failure = message;
+}
+
+void arena_reset(Arena *arena)
+{
+    arena->status = OK;
+    arena->failure = NULL;
+    arena->halted = false;
+}
+
+void arena_watch(Arena *arena, const Watch *watch)
+{
+    arena->watch = watch;
+}
+
+void arena_limit(Arena *arena, int64_t nodes)
+{
+    arena->limit = nodes < NODE_LIMIT ? nodes : NODE_LIMIT;
+}
+
+ArenaMark *arena_mark(Arena *arena)
+{
+    ArenaMark *mark = NEW(ArenaMark);
+
+    mark->pool = pool_mark(arena->pool);
+    mark->nodes = arena->nodes.count;
+    mark->symbols = arena->symbols;
+    mark->memories = arena->memories.count;
+    return mark;
+}
+
+void arena_release(Arena *arena, ArenaMark *mark)
+{
+    while (arena->memories.count > mark->memories) {
+        const Memory *memory = &arena->memories.at[arena->memories.count - 1];
+
+        slots_drop(arena->memory_slots, arena->memory_size, memory_hash(memory->e, memory->symbol),
+                   (uint32_t)arena->memories.count);
+        arena->memories.count--;
+    }
+    while (arena->nodes.count > mark->nodes) {
+        slots_drop(arena->slots, arena->size, arena->nodes.at[arena->nodes.count - 1]->hash,
+                   (uint32_t)arena->nodes.count);
+        arena->nodes.count--;
+    }
+    arena->symbols = mark->symbols;
+    pool_release(arena->pool, mark->pool);
+    mem_free(mark);
+}
+
+void arena_keep(Arena *arena, ArenaMark *mark)
+{
+    (void)arena;
+    mem_free(mark);
+}
+
+int64_t arena_nodes(const Arena *arena)
+{
+    return arena->nodes.count;
+}
+
+size_t arena_bytes(const Arena *arena)
+{
+    return pool_bytes(arena->pool) + pool_bytes(arena->texts) +
+           ((size_t)arena->size + arena->memory_size) * sizeof(Slot) +
+           (size_t)arena->nodes.room * sizeof(Expr) + (size_t)arena->memories.room * sizeof(Memory);
+}

@@ -1,0 +1,457 @@
+/* call.c: functions: their values, exact simplifications, derivatives
+ *
+ * Everything here follows from the rows of ops.def: v_name computes, d_name is the
+ * derivative of the call e, given those of its arguments. What a function is at
+ * certain arguments stands in `exact`. */
+#include "expr/expr_impl.h"
+
+#include <math.h>
+#include <string.h>
+
+/* --- values --- */
+
+/* clang-format off */
+static double v_sin(const double *x)   { return sin(x[0]); }
+static double v_cos(const double *x)   { return cos(x[0]); }
+static double v_tan(const double *x)   { return tan(x[0]); }
+static double v_asin(const double *x)  { return asin(x[0]); }
+static double v_acos(const double *x)  { return acos(x[0]); }
+static double v_atan(const double *x)  { return atan(x[0]); }
+static double v_atan2(const double *x) { return atan2(x[0], x[1]); }
+static double v_sinh(const double *x)  { return sinh(x[0]); }
+static double v_cosh(const double *x)  { return cosh(x[0]); }
+static double v_tanh(const double *x)  { return tanh(x[0]); }
+static double v_exp(const double *x)   { return exp(x[0]); }
+static double v_log(const double *x)   { return log(x[0]); }
+static double v_sqrt(const double *x)  { return sqrt(x[0]); }
+static double v_abs(const double *x)   { return fabs(x[0]); }
+static double v_sign(const double *x)  { return (x[0] > 0) - (x[0] < 0); }
+static double v_min(const double *x)   { return x[1] < x[0] ? x[1] : x[0]; }
+static double v_max(const double *x)   { return x[1] > x[0] ? x[1] : x[0]; }
+static double v_step(const double *x)  { return x[0] >= 0; }
+static double v_ramp(const double *x)  { return x[0] > 0 ? x[0] : 0; }
+static double v_floor(const double *x) { return floor(x[0]); }
+static double v_lt(const double *x)    { return x[0] < x[1]; }
+static double v_le(const double *x)    { return x[0] <= x[1]; }
+static double v_eq(const double *x)    { return x[0] == x[1]; }
+static double v_ne(const double *x)    { return x[0] != x[1]; }
+static double v_and(const double *x)   { return x[0] != 0 && x[1] != 0; }
+static double v_or(const double *x)    { return x[0] != 0 || x[1] != 0; }
+static double v_not(const double *x)   { return x[0] == 0; }
+static double v_if(const double *x)    { return x[0] != 0 ? x[1] : x[2]; }
+static double v_hold(const double *x)  { return x[0]; }
+/* clang-format on */
+
+/* --- derivatives --- */
+
+static Expr arg(Expr e, int i)
+{
+    return node_args(e)[i];
+}
+
+/* 1 + sign*x^2 */
+static Expr one_and_square(Arena *arena, int sign, Expr x)
+{
+    return expr_add(arena, arena_one(arena),
+                    expr_mul(arena, expr_int(arena, sign), expr_square(arena, x)));
+}
+
+static Expr d_zero(Arena *arena, Expr e, const Expr *rates)
+{
+    (void)e;
+    (void)rates;
+    return arena_zero(arena);
+}
+
+static Expr d_sin(Arena *arena, Expr e, const Expr *rates)
+{
+    return expr_mul(arena, rates[0], expr_cos(arena, arg(e, 0)));
+}
+
+static Expr d_cos(Arena *arena, Expr e, const Expr *rates)
+{
+    return expr_neg(arena, expr_mul(arena, rates[0], expr_sin(arena, arg(e, 0))));
+}
+
+static Expr d_tan(Arena *arena, Expr e, const Expr *rates)
+{
+    return expr_mul(arena, rates[0], one_and_square(arena, 1, e));
+}
+
+static Expr d_asin(Arena *arena, Expr e, const Expr *rates)
+{
+    return expr_div(arena, rates[0], expr_sqrt(arena, one_and_square(arena, -1, arg(e, 0))));
+}
+
+static Expr d_acos(Arena *arena, Expr e, const Expr *rates)
+{
+    return expr_neg(arena, d_asin(arena, e, rates));
+}
+
+static Expr d_atan(Arena *arena, Expr e, const Expr *rates)
+{
+    return expr_div(arena, rates[0], one_and_square(arena, 1, arg(e, 0)));
+}
+
+/* (x*y' - y*x')/(x^2 + y^2) */
+static Expr d_atan2(Arena *arena, Expr e, const Expr *rates)
+{
+    Expr y = arg(e, 0);
+    Expr x = arg(e, 1);
+
+    return expr_div(arena,
+                    expr_sub(arena, expr_mul(arena, x, rates[0]), expr_mul(arena, y, rates[1])),
+                    expr_add(arena, expr_square(arena, x), expr_square(arena, y)));
+}
+
+static Expr d_sinh(Arena *arena, Expr e, const Expr *rates)
+{
+    return expr_mul(arena, rates[0], expr_call1(arena, OP_COSH, arg(e, 0)));
+}
+
+static Expr d_cosh(Arena *arena, Expr e, const Expr *rates)
+{
+    return expr_mul(arena, rates[0], expr_call1(arena, OP_SINH, arg(e, 0)));
+}
+
+static Expr d_tanh(Arena *arena, Expr e, const Expr *rates)
+{
+    return expr_mul(arena, rates[0], one_and_square(arena, -1, e));
+}
+
+static Expr d_exp(Arena *arena, Expr e, const Expr *rates)
+{
+    return expr_mul(arena, rates[0], e);
+}
+
+static Expr d_log(Arena *arena, Expr e, const Expr *rates)
+{
+    return expr_div(arena, rates[0], arg(e, 0));
+}
+
+static Expr d_sqrt(Arena *arena, Expr e, const Expr *rates)
+{
+    return expr_div(arena, rates[0], expr_mul(arena, expr_int(arena, 2), e));
+}
+
+static Expr d_abs(Arena *arena, Expr e, const Expr *rates)
+{
+    return expr_mul(arena, rates[0], expr_call1(arena, OP_SIGN, arg(e, 0)));
+}
+
+static Expr d_min(Arena *arena, Expr e, const Expr *rates)
+{
+    return expr_if(arena, expr_call2(arena, OP_LT, arg(e, 1), arg(e, 0)), rates[1], rates[0]);
+}
+
+static Expr d_max(Arena *arena, Expr e, const Expr *rates)
+{
+    return expr_if(arena, expr_call2(arena, OP_LT, arg(e, 0), arg(e, 1)), rates[1], rates[0]);
+}
+
+static Expr d_ramp(Arena *arena, Expr e, const Expr *rates)
+{
+    return expr_mul(arena, rates[0], expr_call1(arena, OP_STEP, arg(e, 0)));
+}
+
+static Expr d_if(Arena *arena, Expr e, const Expr *rates)
+{
+    return expr_if(arena, arg(e, 0), rates[1], rates[2]);
+}
+
+static Expr d_hold(Arena *arena, Expr e, const Expr *rates)
+{
+    (void)e;
+    return expr_hold(arena, rates[0]);
+}
+
+/* --- the table --- */
+
+typedef struct OpRow {
+    const char *name;
+    int args;
+    Expr (*derivative)(Arena *arena, Expr e, const Expr *rates);
+    double (*value)(const double *args);
+} OpRow;
+
+static const OpRow rows[] = {
+#define OP(id, name, args, derivative, c, latex, value) {name, args, derivative, value},
+#include "expr/ops.def"
+#undef OP
+};
+
+const char *op_name(Op op)
+{
+    return rows[op].name;
+}
+
+int op_args(Op op)
+{
+    return rows[op].args;
+}
+
+bool op_find(const char *name, Op *op)
+{
+    for (int i = 0; i < OP_COUNT; i++) {
+        if (strcmp(rows[i].name, name) == 0) {
+            *op = (Op)i;
+            return true;
+        }
+    }
+    return false;
+}
+
+double op_value(Op op, const double *args)
+{
+    return rows[op].value(args);
+}
+
+Expr op_derivative(Arena *arena, Expr e, const Expr *rates)
+{
+    return rows[e->op].derivative(arena, e, rates);
+}
+
+/* --- exact simplifications --- */
+
+typedef enum Parity { NEITHER, ODD, EVEN } Parity;
+
+/* What is known without rounding. `at` is mapped to `gives`; both matter only where
+ * `known` is set. */
+typedef struct Exact {
+    Parity parity;
+    bool known;
+    int at;
+    int gives;
+    bool commutes;
+    bool choosy;                                  /* compares or picks: exact for any numbers */
+    Op inverse;                                   /* f(inverse(x)) = x, where not OP_HOLD */
+    Expr (*rule)(Arena *arena, const Expr *args); /* NULL where it finds nothing */
+} Exact;
+
+static Expr exact_sqrt(Arena *arena, const Expr *args)
+{
+    Number root;
+
+    if (!is_number(args[0]) || !number_root(number_of(args[0]), 2, &root))
+        return NULL;
+    return number_node(arena, root);
+}
+
+static Expr exact_abs(Arena *arena, const Expr *args)
+{
+    (void)arena;
+    return is_call(args[0], OP_ABS) || is_call(args[0], OP_SQRT) ? args[0] : NULL;
+}
+
+/* min and max of one thing twice */
+static Expr exact_pick(Arena *arena, const Expr *args)
+{
+    (void)arena;
+    return args[0] == args[1] ? args[0] : NULL;
+}
+
+/* a relation between a thing and itself */
+static Expr exact_false(Arena *arena, const Expr *args)
+{
+    return args[0] == args[1] ? arena_zero(arena) : NULL;
+}
+
+static Expr exact_true(Arena *arena, const Expr *args)
+{
+    return args[0] == args[1] ? arena_one(arena) : NULL;
+}
+
+/* whether `e` is 0 or 1 by its kind */
+static bool is_condition(Expr e)
+{
+    return e->kind == EXPR_CALL && e->op >= OP_LT && e->op <= OP_NOT;
+}
+
+static Expr exact_and(Arena *arena, const Expr *args)
+{
+    for (int i = 0; i < 2; i++) {
+        if (expr_is_zero(args[i]))
+            return arena_zero(arena);
+        if (is_number(args[i]) && is_condition(args[1 - i]))
+            return args[1 - i];
+    }
+    return args[0] == args[1] && is_condition(args[0]) ? args[0] : NULL;
+}
+
+static Expr exact_or(Arena *arena, const Expr *args)
+{
+    for (int i = 0; i < 2; i++) {
+        if (is_number(args[i]) && !expr_is_zero(args[i]))
+            return arena_one(arena);
+        if (expr_is_zero(args[i]) && is_condition(args[1 - i]))
+            return args[1 - i];
+    }
+    return args[0] == args[1] && is_condition(args[0]) ? args[0] : NULL;
+}
+
+static Expr exact_not(Arena *arena, const Expr *args)
+{
+    (void)arena;
+    return is_call(args[0], OP_NOT) && is_condition(node_args(args[0])[0]) ? node_args(args[0])[0]
+                                                                           : NULL;
+}
+
+static Expr exact_if(Arena *arena, const Expr *args)
+{
+    (void)arena;
+    if (is_number(args[0]))
+        return expr_is_zero(args[0]) ? args[2] : args[1];
+    return args[1] == args[2] ? args[1] : NULL;
+}
+
+static Expr exact_hold(Arena *arena, const Expr *args)
+{
+    (void)arena;
+    return is_number(args[0]) || args[0]->kind == EXPR_SYMBOL || is_call(args[0], OP_HOLD) ? args[0]
+                                                                                           : NULL;
+}
+
+#define KNOWN(x, y) .known = true, .at = (x), .gives = (y)
+static const Exact exact[OP_COUNT] = {
+    [OP_SIN] = {.parity = ODD, KNOWN(0, 0), .inverse = OP_ASIN},
+    [OP_COS] = {.parity = EVEN, KNOWN(0, 1), .inverse = OP_ACOS},
+    [OP_TAN] = {.parity = ODD, KNOWN(0, 0), .inverse = OP_ATAN},
+    [OP_ASIN] = {.parity = ODD, KNOWN(0, 0), .inverse = OP_HOLD},
+    [OP_ACOS] = {KNOWN(1, 0), .inverse = OP_HOLD},
+    [OP_ATAN] = {.parity = ODD, KNOWN(0, 0), .inverse = OP_HOLD},
+    [OP_ATAN2] = {.inverse = OP_HOLD},
+    [OP_SINH] = {.parity = ODD, KNOWN(0, 0), .inverse = OP_HOLD},
+    [OP_COSH] = {.parity = EVEN, KNOWN(0, 1), .inverse = OP_HOLD},
+    [OP_TANH] = {.parity = ODD, KNOWN(0, 0), .inverse = OP_HOLD},
+    [OP_EXP] = {KNOWN(0, 1), .inverse = OP_LOG},
+    [OP_LOG] = {KNOWN(1, 0), .inverse = OP_EXP},
+    [OP_SQRT] = {KNOWN(0, 0), .inverse = OP_HOLD, .rule = exact_sqrt},
+    [OP_ABS] = {.parity = EVEN, .choosy = true, .inverse = OP_HOLD, .rule = exact_abs},
+    [OP_SIGN] = {.parity = ODD, .choosy = true, .inverse = OP_HOLD},
+    [OP_MIN] = {.commutes = true, .choosy = true, .inverse = OP_HOLD, .rule = exact_pick},
+    [OP_MAX] = {.commutes = true, .choosy = true, .inverse = OP_HOLD, .rule = exact_pick},
+    [OP_STEP] = {.choosy = true, .inverse = OP_HOLD},
+    [OP_RAMP] = {.choosy = true, .inverse = OP_HOLD},
+    [OP_FLOOR] = {.choosy = true, .inverse = OP_HOLD},
+    [OP_LT] = {.choosy = true, .inverse = OP_HOLD, .rule = exact_false},
+    [OP_LE] = {.choosy = true, .inverse = OP_HOLD, .rule = exact_true},
+    [OP_EQ] = {.commutes = true, .choosy = true, .inverse = OP_HOLD, .rule = exact_true},
+    [OP_NE] = {.commutes = true, .choosy = true, .inverse = OP_HOLD, .rule = exact_false},
+    [OP_AND] = {.choosy = true, .inverse = OP_HOLD, .rule = exact_and},
+    [OP_OR] = {.choosy = true, .inverse = OP_HOLD, .rule = exact_or},
+    [OP_NOT] = {.choosy = true, .inverse = OP_HOLD, .rule = exact_not},
+    [OP_IF] = {.inverse = OP_HOLD, .rule = exact_if},
+    [OP_HOLD] = {.parity = ODD, .inverse = OP_HOLD, .rule = exact_hold},
+};
+
+/* What rationals stand for exactly where a function only compares and picks:
+ * the sign of their difference is that of the doubles 0, 1, -1. */
+static Expr pick_exactly(Arena *arena, Op op, const Expr *args)
+{
+    double values[2];
+    int sign;
+
+    if (op == OP_MIN || op == OP_MAX) {
+        sign = number_compare(number_of(args[0]), number_of(args[1]));
+        return args[(op == OP_MIN) == (sign > 0)];
+    }
+    if (op == OP_FLOOR && args[0]->kind == EXPR_RATIONAL) {
+        const Ratio *ratio = node_ratio(args[0]);
+
+        return expr_int(arena, ratio->num / ratio->den - (ratio->num % ratio->den < 0));
+    }
+    if (op == OP_ABS || op == OP_RAMP) {
+        if (is_negative(args[0]))
+            return op == OP_ABS ? expr_neg(arena, args[0]) : arena_zero(arena);
+        return args[0];
+    }
+    values[0] = expr_value(args[0]);
+    values[1] = 0;
+    if (op >= OP_LT && op <= OP_NE)
+        values[0] = number_compare(number_of(args[0]), number_of(args[1]));
+    else if (op_args(op) == 2)
+        values[1] = expr_value(args[1]);
+    return expr_real(arena, op_value(op, values));
+}
+
+/* The number that a function of numbers is, or NULL where it stays. */
+static Expr fold_numbers(Arena *arena, Op op, const Expr *args)
+{
+    double values[3];
+    double value;
+    bool real = true;
+
+    for (int i = 0; i < op_args(op); i++) {
+        if (!is_number(args[i]))
+            return NULL;
+        real = real && args[i]->kind == EXPR_REAL;
+        values[i] = expr_value(args[i]);
+    }
+    if (exact[op].choosy)
+        return pick_exactly(arena, op, args);
+    if (!real)
+        return NULL;
+    value = op_value(op, values);
+    return isfinite(value) ? expr_real(arena, value) : NULL;
+}
+
+Expr expr_call(Arena *arena, Op op, const Expr *args)
+{
+    const Exact *row = &exact[op];
+    Expr sorted[2];
+    Expr simple = row->rule != NULL ? row->rule(arena, args) : NULL;
+
+    if (simple == NULL && row->known && expr_is(args[0], row->at))
+        simple = expr_int(arena, row->gives);
+    if (simple == NULL && row->inverse != OP_HOLD && is_call(args[0], row->inverse))
+        simple = node_args(args[0])[0];
+    if (simple == NULL)
+        simple = fold_numbers(arena, op, args);
+    if (simple != NULL)
+        return simple;
+    if (row->parity != NEITHER && is_negative(args[0])) {
+        simple = expr_call1(arena, op, expr_neg(arena, args[0]));
+        return row->parity == ODD ? expr_neg(arena, simple) : simple;
+    }
+    if (row->commutes && expr_compare(args[0], args[1]) > 0) {
+        sorted[0] = args[1];
+        sorted[1] = args[0];
+        args = sorted;
+    }
+    return node_intern(arena, EXPR_CALL, op, args, op_args(op));
+}
+
+Expr expr_call1(Arena *arena, Op op, Expr a)
+{
+    return expr_call(arena, op, &a);
+}
+
+Expr expr_call2(Arena *arena, Op op, Expr a, Expr b)
+{
+    return expr_call(arena, op, (Expr[]){a, b});
+}
+
+Expr expr_sin(Arena *arena, Expr a)
+{
+    return expr_call1(arena, OP_SIN, a);
+}
+
+Expr expr_cos(Arena *arena, Expr a)
+{
+    return expr_call1(arena, OP_COS, a);
+}
+
+Expr expr_sqrt(Arena *arena, Expr a)
+{
+    return expr_call1(arena, OP_SQRT, a);
+}
+
+Expr expr_if(Arena *arena, Expr condition, Expr yes, Expr no)
+{
+    return expr_call(arena, OP_IF, (Expr[]){condition, yes, no});
+}
+
+Expr expr_hold(Arena *arena, Expr e)
+{
+    return expr_call1(arena, OP_HOLD, e);
+}

@@ -1,0 +1,167 @@
+/* expr_impl.h: what the files of lib/expr share
+ *
+ * A node is a head of 16 bytes; behind it lie its arguments, or the numbers or the
+ * name of a leaf. A child is always older than its parents, so that its creation
+ * number is smaller. */
+#ifndef COTREE_EXPR_IMPL_H
+#define COTREE_EXPR_IMPL_H
+
+#include "base/memory.h"
+#include "expr/expr.h"
+
+#include <stdint.h>
+
+struct ExprNode {
+    uint8_t kind;
+    uint8_t op;
+    uint16_t kinds; /* of symbols below, bit 1 << SymbolKind */
+    uint32_t number;
+    uint32_t hash;
+    int32_t count; /* of arguments */
+};
+
+typedef struct Ratio {
+    int64_t num;
+    int64_t den;
+} Ratio;
+
+typedef struct SymbolData {
+    const char *name;
+    const char *latex; /* or NULL */
+    int number;
+    SymbolKind kind;
+} SymbolData;
+
+static inline const Expr *node_args(Expr e)
+{
+    return (const Expr *)(const void *)(e + 1);
+}
+
+static inline const Ratio *node_ratio(Expr e)
+{
+    return (const Ratio *)(const void *)(e + 1);
+}
+
+static inline const SymbolData *node_symbol(Expr e)
+{
+    return (const SymbolData *)(const void *)(e + 1);
+}
+
+static inline bool is_number(Expr e)
+{
+    return e->kind <= EXPR_REAL;
+}
+
+static inline bool is_call(Expr e, Op op)
+{
+    return e->kind == EXPR_CALL && e->op == op;
+}
+
+/* what a hold holds, else `e` itself */
+static inline Expr held(Expr e)
+{
+    return is_call(e, OP_HOLD) ? node_args(e)[0] : e;
+}
+
+/* --- arena.c --- */
+
+/* The node of that kind, operator and arguments, found or made. Simplifies nothing. */
+Expr node_intern(Arena *arena, ExprKind kind, Op op, const Expr *args, int count);
+Expr node_rational(Arena *arena, int64_t num, int64_t den); /* lowest terms, den > 0 */
+Expr node_real(Arena *arena, double value);
+void arena_fail(Arena *arena, Status status, const char *message); /* a literal; first one stays */
+Expr arena_zero(const Arena *arena);
+Expr arena_one(const Arena *arena);
+/* derivatives that were found before; NULL where not */
+Expr arena_recall(const Arena *arena, Expr e, Expr symbol);
+void arena_remember(Arena *arena, Expr e, Expr symbol, Expr derivative);
+
+/* --- number.c: a number outside of nodes --- */
+
+typedef struct Number {
+    int64_t num;
+    int64_t den; /* > 0, or 0 where `real` counts */
+    double real;
+} Number;
+
+Number number_int(int64_t value);
+Number number_of(Expr number);
+Number number_add(Number a, Number b);
+Number number_mul(Number a, Number b);
+Number number_neg(Number a);
+/* a^k; a isn't 0 where k < 0 */
+Number number_power(Number a, int64_t k);
+bool number_is(Number a, int64_t value);
+bool number_same(Number a, Number b);
+int number_compare(Number a, Number b);
+int number_sign(Number a);
+double number_value(Number a);
+Expr number_node(Arena *arena, Number a);
+/* the exact k-th root of a positive rational, where there is one */
+bool number_root(Number a, int64_t k, Number *root);
+/* whether e is an integer, and which */
+bool expr_integer(Expr e, int64_t *value);
+/* the decimal `text` exactly; false where it doesn't fit or has more digits than a rational prints
+ */
+bool decimal_exact(const char *text, int64_t *num, int64_t *den);
+
+/* --- order.c --- */
+
+/* A view of a term without its numeric coefficient: its factors. */
+typedef struct Factors {
+    const Expr *at;
+    int count;
+} Factors;
+
+Factors term_factors(const Expr *term);
+Number term_coefficient(Expr term);
+int order_terms(Expr a, Expr b); /* without their coefficients; 0: like terms */
+int order_bases(Expr a, Expr b);
+
+/* A term of a sum, or a factor of a product, on its way into the node. */
+typedef struct Item {
+    Expr key;           /* the term; the factor's base */
+    Expr exponent;      /* of a factor */
+    Expr whole;         /* the factor as it came, NULL once two were merged */
+    Number coefficient; /* of a term */
+} Item;
+
+/* Stable sort by the keys. O(n log n), O(n) where in order already. */
+void items_sort(Item *items, int count, int (*order)(Expr a, Expr b));
+
+/* --- sum.c, product.c, power.c --- */
+
+bool is_negative(Expr e); /* would print with a minus sign before it; numbers: below 0 */
+Expr term_scale(Arena *arena, Expr term, Number coefficient); /* instead of the one it has */
+Expr sum_negate(Arena *arena, Expr sum);
+
+/* The node of e's kind and operator over other arguments, simplified. */
+Expr expr_rebuild(Arena *arena, Expr e, const Expr *args);
+
+/* --- call.c --- */
+
+/* derivative of the call e, given those of its arguments */
+Expr op_derivative(Arena *arena, Expr e, const Expr *rates);
+double power_value(double base, Expr exponent, double exponent_value);
+
+/* --- walk.c: the nodes below some roots, children first --- */
+
+typedef struct Walk {
+    Expr *nodes; /* in the order of finishing */
+    int count;
+    int room;
+    uint32_t *keys; /* hash table: creation number + 1, 0 where empty */
+    int *places;    /* and the place in `nodes` */
+    uint32_t size;
+} Walk;
+
+/* Whether a walk goes on below a node; a leaf of the walk is listed all the same. */
+typedef bool (*WalkInto)(void *context, Expr e);
+
+int walk_find(const Walk *walk, Expr e); /* its place, or -1 */
+int walk_add(Walk *walk, Expr e);        /* its place, found or new */
+/* Add what is below `root` and of the symbol kinds `mask` (0: everything). */
+void walk_below(Walk *walk, Expr root, unsigned mask, WalkInto into, void *context);
+void walk_free(Walk *walk);
+
+#endif

@@ -1,0 +1,217 @@
+/* order.c: the stable order of terms and factors
+ *
+ * A term is looked at as its list of factors without the numeric coefficient, a
+ * factor as base and exponent. Lists compare like words, bases by kind and then by
+ * their own arguments; the first pair that differs decides, so that a comparison
+ * follows one path down. Below DEPTH levels the creation number decides: still one
+ * order of everything, and the same for the same sequence of statements. */
+#include "expr/expr_impl.h"
+
+#include <string.h>
+
+enum { DEPTH = 24 };
+
+Factors term_factors(const Expr *term)
+{
+    Expr e = *term;
+    const Expr *args = node_args(e);
+
+    if (e->kind != EXPR_PRODUCT)
+        return (Factors){term, 1};
+    if (is_number(args[0]))
+        return (Factors){args + 1, e->count - 1};
+    return (Factors){args, e->count};
+}
+
+Number term_coefficient(Expr term)
+{
+    if (term->kind == EXPR_PRODUCT && is_number(node_args(term)[0]))
+        return number_of(node_args(term)[0]);
+    return number_int(1);
+}
+
+/* Numbers, symbols, sums, functions, then what is left; reads well in products. */
+static int rank(Expr e)
+{
+    static const int ranks[] = {
+        [EXPR_RATIONAL] = 0, [EXPR_REAL] = 0,  [EXPR_SYMBOL] = 1,  [EXPR_SUM] = 2,
+        [EXPR_CALL] = 3,     [EXPR_POWER] = 4, [EXPR_PRODUCT] = 4,
+    };
+
+    return ranks[e->kind];
+}
+
+static int order(int64_t a, int64_t b)
+{
+    return (a > b) - (a < b);
+}
+
+static int bases_below(Expr a, Expr b, int depth);
+static int whole_below(Expr a, Expr b, int depth);
+
+static int factors_below(Expr a, Expr b, int depth)
+{
+    Expr base_a = a->kind == EXPR_POWER ? node_args(a)[0] : a;
+    Expr base_b = b->kind == EXPR_POWER ? node_args(b)[0] : b;
+    int first;
+
+    if (a == b)
+        return 0;
+    first = bases_below(base_a, base_b, depth);
+    if (first != 0)
+        return first;
+
+    /* higher powers first; a plain factor is the power 1 */
+    if (a->kind == EXPR_POWER && b->kind == EXPR_POWER)
+        return -whole_below(node_args(a)[1], node_args(b)[1], depth);
+    if (a->kind == EXPR_POWER)
+        return number_sign(number_add(is_number(node_args(a)[1]) ? number_of(node_args(a)[1])
+                                                                 : number_int(2),
+                                      number_int(-1))) > 0
+                   ? -1
+                   : 1;
+    return -factors_below(b, a, depth);
+}
+
+static int terms_below(Expr a, Expr b, int depth)
+{
+    Factors left = term_factors(&a);
+    Factors right = term_factors(&b);
+
+    for (int i = 0; i < left.count && i < right.count; i++) {
+        int first = factors_below(left.at[i], right.at[i], depth);
+
+        if (first != 0)
+            return first;
+    }
+    return order(right.count, left.count);
+}
+
+/* terms and, of like terms, coefficients */
+static int whole_below(Expr a, Expr b, int depth)
+{
+    int first;
+
+    if (a == b)
+        return 0;
+    first = terms_below(a, b, depth);
+    return first != 0 ? first : number_compare(term_coefficient(a), term_coefficient(b));
+}
+
+static int args_below(Expr a, Expr b, int depth)
+{
+    for (int i = 0; i < a->count && i < b->count; i++) {
+        int first = whole_below(node_args(a)[i], node_args(b)[i], depth);
+
+        if (first != 0)
+            return first;
+    }
+    return order(b->count, a->count);
+}
+
+static int bases_below(Expr a, Expr b, int depth)
+{
+    Expr inner_a = held(a);
+    Expr inner_b = held(b);
+    int first = 0;
+
+    if (a == b)
+        return 0;
+    if (depth == 0)
+        return order(a->number, b->number);
+    if (inner_a == inner_b)
+        return a == inner_a ? -1 : 1;
+    first = order(rank(inner_a), rank(inner_b));
+    if (first != 0)
+        return first;
+    switch (inner_a->kind) {
+    case EXPR_RATIONAL:
+    case EXPR_REAL:
+        first = number_compare(number_of(inner_a), number_of(inner_b));
+        break;
+    case EXPR_SYMBOL:
+        first = order(node_symbol(inner_a)->kind, node_symbol(inner_b)->kind);
+        if (first == 0)
+            first = order(node_symbol(inner_a)->number, node_symbol(inner_b)->number);
+        break;
+    case EXPR_CALL:
+        first = order(inner_a->op, inner_b->op);
+        if (first == 0)
+            first = args_below(inner_a, inner_b, depth - 1);
+        break;
+    case EXPR_SUM:
+        first = args_below(inner_a, inner_b, depth - 1);
+        break;
+    default:
+        first = whole_below(inner_a, inner_b, depth - 1);
+    }
+    /* two bases alike but for a hold */
+    return first != 0 ? first : order(a->number, b->number);
+}
+
+int order_terms(Expr a, Expr b)
+{
+    return a == b ? 0 : terms_below(a, b, DEPTH);
+}
+
+int order_bases(Expr a, Expr b)
+{
+    return a == b ? 0 : bases_below(a, b, DEPTH);
+}
+
+int expr_compare(Expr a, Expr b)
+{
+    return whole_below(a, b, DEPTH);
+}
+
+/* --- sorting --- */
+
+static void insertion_sort(Item *items, int count, int (*compare)(Expr a, Expr b))
+{
+    for (int i = 1; i < count; i++) {
+        Item item = items[i];
+        int at = i;
+
+        while (at > 0 && compare(items[at - 1].key, item.key) > 0) {
+            items[at] = items[at - 1];
+            at--;
+        }
+        items[at] = item;
+    }
+}
+
+static void merge_sort(Item *items, Item *spare, int count, int (*compare)(Expr a, Expr b))
+{
+    int half = count / 2;
+    int left = 0;
+    int right = half;
+
+    if (count <= 8) {
+        insertion_sort(items, count, compare);
+        return;
+    }
+    merge_sort(items, spare, half, compare);
+    merge_sort(items + half, spare, count - half, compare);
+    if (compare(items[half - 1].key, items[half].key) <= 0)
+        return;
+    memcpy(spare, items, (size_t)half * sizeof(Item));
+    for (int i = 0; left < half; i++) {
+        if (right < count && compare(items[right].key, spare[left].key) < 0)
+            items[i] = items[right++];
+        else
+            items[i] = spare[left++];
+    }
+}
+
+void items_sort(Item *items, int count, int (*compare)(Expr a, Expr b))
+{
+    Item *spare;
+
+    if (count <= 8) {
+        insertion_sort(items, count, compare);
+        return;
+    }
+    spare = NEW_ARRAY(Item, count / 2 + 1);
+    merge_sort(items, spare, count, compare);
+    mem_free(spare);
+}

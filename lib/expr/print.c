@@ -1,0 +1,388 @@
+/* print.c: expressions as text, the part that all notations share */
+#include "expr/print_impl.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* --- laying out --- */
+
+void say(Printer *printer, const char *text)
+{
+    say_part(printer, text, strlen(text));
+}
+
+void say_part(Printer *printer, const char *text, size_t length)
+{
+    LIST_PUSH(printer->pieces, (Piece){.kind = PIECE_TEXT, .text = text, .length = length});
+}
+
+void say_node(Printer *printer, Expr e, Level level)
+{
+    LIST_PUSH(printer->pieces, (Piece){.kind = PIECE_NODE, .e = e, .level = level});
+}
+
+void say_number(Printer *printer, Number number, Level level)
+{
+    LIST_PUSH(printer->pieces, (Piece){.kind = PIECE_NUMBER, .number = number, .level = level});
+}
+
+void say_power(Printer *printer, Expr base, Number exponent, Level level)
+{
+    if (number_is(exponent, 1))
+        say_node(printer, base, level);
+    else
+        LIST_PUSH(printer->pieces,
+                  (Piece){.kind = PIECE_POWER, .e = base, .number = exponent, .level = level});
+}
+
+void say_pieces(Printer *printer, const Piece *pieces, int count, const char *between)
+{
+    for (int i = 0; i < count; i++) {
+        if (i > 0)
+            say(printer, between);
+        LIST_PUSH(printer->pieces, pieces[i]);
+    }
+}
+
+void say_arguments(Printer *printer, Expr e)
+{
+    for (int i = 0; i < e->count; i++) {
+        if (i > 0)
+            say(printer, ", ");
+        say_node(printer, node_args(e)[i], LEVEL_ANY);
+    }
+}
+
+/* --- sums --- */
+
+/* The first term that needs no minus sign; a sum reads better when it starts there. */
+static int first_term(Expr sum)
+{
+    for (int i = 0; i < sum->count; i++) {
+        if (!is_negative(held(node_args(sum)[i])))
+            return i;
+    }
+    return 0;
+}
+
+static void say_term(Printer *printer, Expr term, bool first)
+{
+    bool negative = is_negative(term);
+
+    if (negative)
+        say(printer, first ? "-" : printer->dialect->minus);
+    else if (!first)
+        say(printer, printer->dialect->plus);
+    LIST_PUSH(printer->pieces, (Piece){.kind = negative ? PIECE_MAGNITUDE : PIECE_NODE,
+                                       .e = term,
+                                       .level = negative ? LEVEL_PRODUCT : LEVEL_SUM});
+}
+
+static void lay_sum(Printer *printer, Expr sum)
+{
+    int start = first_term(sum);
+
+    say_term(printer, node_args(sum)[start], true);
+    for (int i = 0; i < sum->count; i++) {
+        if (i != start)
+            say_term(printer, node_args(sum)[i], false);
+    }
+}
+
+/* --- products --- */
+
+/* A factor goes above, or with the opposite exponent below the line. */
+static void sort_factor(Fraction *fraction, Expr factor)
+{
+    Expr exponent = factor->kind == EXPR_POWER ? node_args(factor)[1] : NULL;
+
+    if (is_number(factor))
+        fraction->number = number_of(factor);
+    else if (exponent != NULL && is_number(exponent) && is_negative(exponent)) {
+        Number opposite = number_neg(number_of(exponent));
+
+        LIST_PUSH(fraction->below,
+                  (Piece){.kind = number_is(opposite, 1) ? PIECE_NODE : PIECE_POWER,
+                          .e = node_args(factor)[0],
+                          .number = opposite,
+                          .level = LEVEL_UNARY});
+    } else
+        LIST_PUSH(fraction->above, (Piece){.kind = PIECE_NODE, .e = factor, .level = LEVEL_UNARY});
+}
+
+/* a product, or a power below the line, without its sign */
+static void lay_product(Printer *printer, Expr e)
+{
+    Fraction fraction = {.number = number_int(1)};
+
+    if (e->kind == EXPR_PRODUCT) {
+        for (int i = 0; i < e->count; i++)
+            sort_factor(&fraction, node_args(e)[i]);
+    } else
+        sort_factor(&fraction, e);
+    if (number_sign(fraction.number) < 0)
+        fraction.number = number_neg(fraction.number);
+    printer->dialect->fraction(printer, &fraction);
+    LIST_FREE(fraction.above);
+    LIST_FREE(fraction.below);
+}
+
+void fraction_inline(Printer *printer, const Fraction *fraction, const char *divide)
+{
+    bool numbered = !number_is(fraction->number, 1) || fraction->above.count == 0;
+
+    if (numbered)
+        say_number(printer, fraction->number, LEVEL_PRODUCT);
+    if (numbered && fraction->above.count > 0)
+        say(printer, printer->dialect->times);
+    say_pieces(printer, fraction->above.at, fraction->above.count, printer->dialect->times);
+    if (fraction->below.count == 0)
+        return;
+    say(printer, divide);
+    if (fraction->below.count > 1)
+        say(printer, printer->dialect->open);
+    say_pieces(printer, fraction->below.at, fraction->below.count, printer->dialect->times);
+    if (fraction->below.count > 1)
+        say(printer, printer->dialect->close);
+}
+
+/* --- operators --- */
+
+Level operator_level(Expr e)
+{
+    switch (e->op) {
+    case OP_OR:
+        return LEVEL_OR;
+    case OP_AND:
+        return LEVEL_AND;
+    case OP_NOT:
+        return LEVEL_UNARY;
+    case OP_LT:
+    case OP_LE:
+    case OP_EQ:
+    case OP_NE:
+        return LEVEL_COMPARE;
+    default:
+        return LEVEL_ATOM;
+    }
+}
+
+bool say_operator(Printer *printer, Expr e, const char *sign)
+{
+    Level level = operator_level(e);
+
+    if (level == LEVEL_ATOM)
+        return false;
+    if (e->op == OP_NOT) {
+        say(printer, sign);
+        say_node(printer, node_args(e)[0], LEVEL_POWER);
+        return true;
+    }
+    /* comparisons don't chain; the others bind to the left */
+    say_node(printer, node_args(e)[0], level == LEVEL_COMPARE ? LEVEL_SUM : level);
+    say(printer, " ");
+    say(printer, sign);
+    say(printer, " ");
+    say_node(printer, node_args(e)[1], (Level)(level + 1));
+    return true;
+}
+
+/* --- numbers --- */
+
+bool ratio_decimal(char text[64], Number number, int most)
+{
+    int64_t rest = number.den;
+    int twos = 0;
+    int fives = 0;
+    int places;
+    int length;
+    __int128 digits = number.num;
+    char plain[24];
+
+    for (; rest % 2 == 0; rest /= 2)
+        twos++;
+    for (; rest % 5 == 0; rest /= 5)
+        fives++;
+    places = twos > fives ? twos : fives;
+    if (rest != 1 || places > 18)
+        return false;
+    for (int i = twos; i < places; i++)
+        digits *= 2;
+    for (int i = fives; i < places; i++)
+        digits *= 5;
+    if (digits > 999999999999999)
+        return false;
+    length = snprintf(plain, sizeof plain, "%lld", (long long)digits);
+    if (length > most)
+        return false;
+    if (places == 0)
+        snprintf(text, 64, "%s", plain);
+    else if (places < length)
+        snprintf(text, 64, "%.*s.%s", length - places, plain, plain + length - places);
+    else if (places < length + 4)
+        snprintf(text, 64, "0.%.*s%s", places - length, "0000", plain);
+    else
+        snprintf(text, 64, "%c%s%se-%d", plain[0], length > 1 ? "." : "", plain + 1,
+                 places - length + 1);
+    return true;
+}
+
+void double_text(char text[64], double value)
+{
+    int64_t num;
+    int64_t den;
+
+    for (int digits = 15; digits <= 17; digits++) {
+        snprintf(text, 64, "%.*g", digits, value);
+        if (strtod(text, NULL) == value)
+            break;
+    }
+    /* a short decimal would be taken for an exact one */
+    if (decimal_exact(text, &num, &den))
+        snprintf(text, 64, "%#.17g", value);
+}
+
+/* --- the machine --- */
+
+static Level number_level(const Printer *printer, Number number)
+{
+    Text digits = {0};
+    Level level = printer->dialect->number(&digits, number);
+
+    text_free(&digits);
+    return level;
+}
+
+/* whether e prints as a division although it is no product */
+static bool is_reciprocal(Expr e)
+{
+    return e->kind == EXPR_POWER && is_number(node_args(e)[1]) && is_negative(node_args(e)[1]);
+}
+
+static Level node_level(const Printer *printer, Expr e)
+{
+    switch (e->kind) {
+    case EXPR_SUM:
+        return LEVEL_SUM;
+    case EXPR_PRODUCT:
+        return LEVEL_PRODUCT;
+    case EXPR_POWER:
+        if (is_reciprocal(e))
+            return LEVEL_PRODUCT;
+        return printer->dialect->power_level(node_args(e)[0], node_args(e)[1], number_int(0));
+    case EXPR_CALL:
+        return printer->dialect->call_level(e);
+    case EXPR_SYMBOL:
+        return LEVEL_ATOM;
+    default:
+        return is_negative(e) ? LEVEL_PRODUCT : number_level(printer, number_of(e));
+    }
+}
+
+/* The pieces of e, in order; without its minus sign where `magnitude` is set. */
+static void lay_node(Printer *printer, Expr e, bool magnitude)
+{
+    switch (e->kind) {
+    case EXPR_SUM:
+        lay_sum(printer, e);
+        break;
+    case EXPR_PRODUCT:
+        if (!magnitude && is_negative(e))
+            say(printer, "-");
+        lay_product(printer, e);
+        break;
+    case EXPR_POWER:
+        if (is_reciprocal(e))
+            lay_product(printer, e);
+        else
+            printer->dialect->power(printer, node_args(e)[0], node_args(e)[1], number_int(0));
+        break;
+    case EXPR_CALL:
+        printer->dialect->call(printer, e);
+        break;
+    case EXPR_SYMBOL:
+        printer->dialect->symbol(printer->out, e);
+        break;
+    default:
+        if (!is_negative(e))
+            printer->dialect->number(printer->out, number_of(e));
+        else {
+            if (!magnitude)
+                say(printer, "-");
+            say_number(printer, number_neg(number_of(e)), LEVEL_PRODUCT);
+        }
+    }
+}
+
+static void lay_piece(Printer *printer, const Piece *piece)
+{
+    Expr e = piece->e != NULL ? held(piece->e) : NULL;
+    Level level = piece->kind == PIECE_NUMBER ? number_level(printer, piece->number)
+                  : piece->kind == PIECE_POWER
+                      ? printer->dialect->power_level(e, NULL, piece->number)
+                      : node_level(printer, e);
+    bool brackets = level < piece->level;
+
+    /* what is written out at once, not as pieces, must not come before its bracket */
+    if (brackets)
+        say(printer, printer->dialect->open);
+    if (brackets)
+        LIST_PUSH(printer->pieces, (Piece){.kind = piece->kind, .e = e, .number = piece->number});
+    else if (piece->kind == PIECE_NUMBER)
+        printer->dialect->number(printer->out, piece->number);
+    else if (piece->kind == PIECE_POWER)
+        printer->dialect->power(printer, e, NULL, piece->number);
+    else
+        lay_node(printer, e, piece->kind == PIECE_MAGNITUDE);
+    if (brackets)
+        say(printer, printer->dialect->close);
+}
+
+static void print_with(Text *out, Expr e, const Dialect *dialect)
+{
+    Printer printer = {.out = out, .dialect = dialect};
+
+    say_node(&printer, e, LEVEL_ANY);
+    while (printer.pieces.count > 0) {
+        Piece piece = printer.pieces.at[--printer.pieces.count];
+        int low = printer.pieces.count;
+        int high;
+
+        if (piece.kind == PIECE_TEXT) {
+            text_add_n(out, piece.text, piece.length);
+            continue;
+        }
+        lay_piece(&printer, &piece);
+        for (high = printer.pieces.count - 1; low < high; low++, high--) {
+            Piece other = printer.pieces.at[low];
+
+            printer.pieces.at[low] = printer.pieces.at[high];
+            printer.pieces.at[high] = other;
+        }
+    }
+    LIST_FREE(printer.pieces);
+}
+
+void expr_print(Text *text, Expr e, Notation notation)
+{
+    static const Dialect *const dialects[] = {
+        [NOTATION_TEXT] = &dialect_text,       [NOTATION_UNICODE] = &dialect_unicode,
+        [NOTATION_LATEX] = &dialect_latex,     [NOTATION_C] = &dialect_c,
+        [NOTATION_MATLAB] = &dialect_matlab,   [NOTATION_PYTHON] = &dialect_python,
+        [NOTATION_FORTRAN] = &dialect_fortran,
+    };
+
+    if (notation == NOTATION_TREE)
+        print_tree(text, e);
+    else
+        print_with(text, e, dialects[notation]);
+}
+
+char *expr_text(Expr e)
+{
+    Text text = {0};
+
+    expr_print(&text, e, NOTATION_TEXT);
+    return text_done(&text);
+}

@@ -1,0 +1,296 @@
+/* print_code.c: expressions as source code of C, Matlab, Python and Fortran
+ *
+ * Every number is a double. Names become identifiers: h8' is h8_d, m3.x is m3_x. A
+ * function that the language has not got is a pattern: $0 is an argument, %0 an
+ * argument between operators. */
+#include "expr/print_impl.h"
+
+#include <ctype.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* powers up to which C multiplies, digits of a decimal */
+enum { SMALL_POWER = 4, SHORT_DECIMAL = 15 };
+
+static void code_symbol(Text *out, Expr symbol)
+{
+    bool primed = false;
+
+    for (const char *c = expr_name(symbol); *c != '\0'; c++) {
+        if (*c == '\'') {
+            text_add(out, primed ? "d" : "_d");
+            primed = true;
+        } else
+            text_char(out, isalnum((unsigned char)*c) ? *c : '_');
+    }
+}
+
+/* --- numbers --- */
+
+/* `whole` goes behind an integer, `mark` is the letter of an exponent */
+static Level code_number(Text *out, Number number, const char *whole, char mark)
+{
+    char digits[64];
+    char *e;
+
+    if (number.den == 0) {
+        for (int n = 15; n <= 17; n++) {
+            snprintf(digits, sizeof digits, "%.*g", n, number.real);
+            if (strtod(digits, NULL) == number.real)
+                break;
+        }
+    } else if (!ratio_decimal(digits, number, SHORT_DECIMAL)) {
+        text_addf(out, "%lld%s", (long long)number.num, whole);
+        if (number.den != 1)
+            text_addf(out, "/%lld%s", (long long)number.den, whole);
+        return number.den != 1 ? LEVEL_PRODUCT : LEVEL_ATOM;
+    }
+    e = strchr(digits, 'e');
+    if (e != NULL)
+        *e = mark;
+    text_add(out, digits);
+    if (e == NULL && strchr(digits, '.') == NULL)
+        text_add(out, whole);
+    else if (e == NULL && mark == 'd')
+        text_add(out, "d0");
+    return LEVEL_ATOM;
+}
+
+static Level c_number(Text *out, Number number)
+{
+    return code_number(out, number, ".0", 'e');
+}
+
+static Level plain_number(Text *out, Number number)
+{
+    return code_number(out, number, "", 'e');
+}
+
+static Level fortran_number(Text *out, Number number)
+{
+    return code_number(out, number, ".0d0", 'd');
+}
+
+static void code_fraction(Printer *printer, const Fraction *fraction)
+{
+    fraction_inline(printer, fraction, "/");
+}
+
+/* --- powers --- */
+
+/* How often C multiplies a symbol by itself, or 0. */
+static int times_itself(Expr base, Expr exponent, Number number)
+{
+    if (exponent != NULL && is_number(exponent))
+        number = number_of(exponent);
+    else if (exponent != NULL)
+        return 0;
+    if (base->kind != EXPR_SYMBOL || number.den != 1 || number.num > SMALL_POWER || number.num < 2)
+        return 0;
+    return (int)number.num;
+}
+
+static void say_exponent(Printer *printer, Expr exponent, Number number, Level level)
+{
+    if (exponent != NULL)
+        say_node(printer, exponent, level);
+    else
+        say_number(printer, number, level);
+}
+
+static void c_power(Printer *printer, Expr base, Expr exponent, Number number)
+{
+    int times = times_itself(base, exponent, number);
+
+    if (times == 0) {
+        say(printer, "pow(");
+        say_node(printer, base, LEVEL_ANY);
+        say(printer, ", ");
+        say_exponent(printer, exponent, number, LEVEL_ANY);
+        say(printer, ")");
+        return;
+    }
+    for (int i = 0; i < times; i++) {
+        if (i > 0)
+            say(printer, "*");
+        say_node(printer, base, LEVEL_ATOM);
+    }
+}
+
+static Level c_power_level(Expr base, Expr exponent, Number number)
+{
+    return times_itself(base, exponent, number) > 0 ? LEVEL_PRODUCT : LEVEL_ATOM;
+}
+
+static void sign_power(Printer *printer, Expr base, Expr exponent, Number number, const char *sign)
+{
+    static const char *const whole[] = {"0", "1", "2", "3", "4", "5", "6", "7", "8", "9"};
+
+    say_node(printer, base, LEVEL_ATOM);
+    say(printer, sign);
+    if (exponent != NULL && is_number(exponent))
+        number = number_of(exponent);
+    /* an integer, so that a negative base may have it */
+    if ((exponent == NULL || is_number(exponent)) && number.den == 1 && number.num >= 0 &&
+        number.num <= 9)
+        say(printer, whole[number.num]);
+    else
+        say_exponent(printer, exponent, number, LEVEL_ATOM);
+}
+
+static void star_power(Printer *printer, Expr base, Expr exponent, Number number)
+{
+    sign_power(printer, base, exponent, number, "**");
+}
+
+static void matlab_power(Printer *printer, Expr base, Expr exponent, Number number)
+{
+    sign_power(printer, base, exponent, number, "^");
+}
+
+static Level sign_power_level(Expr base, Expr exponent, Number number)
+{
+    (void)base;
+    (void)exponent;
+    (void)number;
+    return LEVEL_POWER;
+}
+
+/* --- functions --- */
+
+static const char *const c_patterns[OP_COUNT] = {
+    [OP_SIGN] = "((%0 > 0.0) - (%0 < 0.0))",
+    [OP_STEP] = "(%0 >= 0.0)",
+    [OP_RAMP] = "fmax($0, 0.0)",
+    [OP_IF] = "($0 ? $1 : $2)",
+};
+
+static const char *const matlab_patterns[OP_COUNT] = {
+    [OP_ABS] = "abs($0)",
+    [OP_MIN] = "min($0, $1)",
+    [OP_MAX] = "max($0, $1)",
+    [OP_STEP] = "(%0 >= 0)",
+    [OP_RAMP] = "max($0, 0)",
+    [OP_NE] = "(%0 ~= %1)",
+    [OP_AND] = "(%0 ~= 0 & %1 ~= 0)",
+    [OP_OR] = "(%0 ~= 0 | %1 ~= 0)",
+    [OP_NOT] = "(%0 == 0)",
+    [OP_IF] = "feval(@(v) v{1 + (%0 ~= 0)}, {$2, $1})",
+};
+
+static const char *const python_patterns[OP_COUNT] = {
+    [OP_ABS] = "abs($0)",
+    [OP_SIGN] = "((%0 > 0) - (%0 < 0))",
+    [OP_MIN] = "min($0, $1)",
+    [OP_MAX] = "max($0, $1)",
+    [OP_STEP] = "(%0 >= 0)",
+    [OP_RAMP] = "max($0, 0)",
+    [OP_LT] = "(%0 < %1)",
+    [OP_LE] = "(%0 <= %1)",
+    [OP_EQ] = "(%0 == %1)",
+    [OP_NE] = "(%0 != %1)",
+    [OP_AND] = "(%0 != 0 and %1 != 0)",
+    [OP_OR] = "(%0 != 0 or %1 != 0)",
+    [OP_NOT] = "(%0 == 0)",
+    [OP_IF] = "($1 if %0 != 0 else $2)",
+};
+
+static const char *const fortran_patterns[OP_COUNT] = {
+    [OP_ABS] = "abs($0)",
+    [OP_SIGN] = "(merge(1.0d0, 0.0d0, %0 > 0.0d0) - merge(1.0d0, 0.0d0, %0 < 0.0d0))",
+    [OP_MIN] = "min($0, $1)",
+    [OP_MAX] = "max($0, $1)",
+    [OP_STEP] = "merge(1.0d0, 0.0d0, %0 >= 0.0d0)",
+    [OP_RAMP] = "max($0, 0.0d0)",
+    [OP_FLOOR] = "dble(floor($0))",
+    [OP_LT] = "merge(1.0d0, 0.0d0, %0 < %1)",
+    [OP_LE] = "merge(1.0d0, 0.0d0, %0 <= %1)",
+    [OP_EQ] = "merge(1.0d0, 0.0d0, %0 == %1)",
+    [OP_NE] = "merge(1.0d0, 0.0d0, %0 /= %1)",
+    [OP_AND] = "merge(1.0d0, 0.0d0, %0 /= 0.0d0 .and. %1 /= 0.0d0)",
+    [OP_OR] = "merge(1.0d0, 0.0d0, %0 /= 0.0d0 .or. %1 /= 0.0d0)",
+    [OP_NOT] = "merge(1.0d0, 0.0d0, %0 == 0.0d0)",
+    [OP_IF] = "merge($1, $2, %0 /= 0.0d0)",
+};
+
+static const char *const c_names[] = {
+#define OP(id, name, args, derivative, c, latex, value) c,
+#include "expr/ops.def"
+#undef OP
+};
+
+static void say_pattern(Printer *printer, const char *pattern, Expr e)
+{
+    for (const char *c = pattern; *c != '\0';) {
+        size_t plain = strcspn(c, "$%");
+
+        say_part(printer, c, plain);
+        c += plain;
+        if (*c == '\0')
+            break;
+        say_node(printer, node_args(e)[c[1] - '0'], *c == '%' ? LEVEL_SUM : LEVEL_ANY);
+        c += 2;
+    }
+}
+
+static void say_call(Printer *printer, Expr e, const char *const *patterns, const char *library)
+{
+    if (patterns[e->op] != NULL) {
+        say_pattern(printer, patterns[e->op], e);
+        return;
+    }
+    if (say_operator(printer, e, c_names[e->op]))
+        return;
+    say(printer, library);
+    say(printer, c_names[e->op]);
+    say(printer, "(");
+    say_arguments(printer, e);
+    say(printer, ")");
+}
+
+static void c_call(Printer *printer, Expr e)
+{
+    say_call(printer, e, c_patterns, "");
+}
+
+static void matlab_call(Printer *printer, Expr e)
+{
+    say_call(printer, e, matlab_patterns, "");
+}
+
+static void python_call(Printer *printer, Expr e)
+{
+    say_call(printer, e, python_patterns, "math.");
+}
+
+static void fortran_call(Printer *printer, Expr e)
+{
+    say_call(printer, e, fortran_patterns, "");
+}
+
+static Level matlab_level(Expr e)
+{
+    return matlab_patterns[e->op] != NULL ? LEVEL_ATOM : operator_level(e);
+}
+
+/* patterns stand in brackets or are functions */
+static Level closed_level(Expr e)
+{
+    (void)e;
+    return LEVEL_ATOM;
+}
+
+/* clang-format off */
+#define INLINE .plus = " + ", .minus = " - ", .times = "*", .open = "(", .close = ")", \
+               .symbol = code_symbol, .fraction = code_fraction
+
+const Dialect dialect_c = {INLINE, .number = c_number, .power = c_power,
+    .power_level = c_power_level, .call = c_call, .call_level = operator_level};
+const Dialect dialect_matlab = {INLINE, .number = plain_number, .power = matlab_power,
+    .power_level = sign_power_level, .call = matlab_call, .call_level = matlab_level};
+const Dialect dialect_python = {INLINE, .number = plain_number, .power = star_power,
+    .power_level = sign_power_level, .call = python_call, .call_level = closed_level};
+const Dialect dialect_fortran = {INLINE, .number = fortran_number, .power = star_power,
+    .power_level = sign_power_level, .call = fortran_call, .call_level = closed_level};
+/* clang-format on */

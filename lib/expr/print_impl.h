@@ -1,0 +1,103 @@
+/* print_impl.h: the printer that all notations share
+ *
+ * Printing a node means to lay out its pieces: texts, and smaller nodes with the
+ * level that they must bind at. The pieces wait on a stack, so that no depth of
+ * nesting is too deep. A Dialect says how a notation writes what differs. */
+#ifndef COTREE_EXPR_PRINT_IMPL_H
+#define COTREE_EXPR_PRINT_IMPL_H
+
+#include "expr/expr_impl.h"
+
+/* how tightly something binds */
+typedef enum Level {
+    LEVEL_ANY,
+    LEVEL_OR,
+    LEVEL_AND,
+    LEVEL_COMPARE,
+    LEVEL_SUM,
+    LEVEL_PRODUCT,
+    LEVEL_UNARY,
+    LEVEL_POWER,
+    LEVEL_ATOM
+} Level;
+
+typedef enum PieceKind {
+    PIECE_TEXT,
+    PIECE_NODE,
+    PIECE_MAGNITUDE, /* a node without its minus sign */
+    PIECE_NUMBER,    /* 0 or more */
+    PIECE_POWER      /* of a node, by a number above 0 */
+} PieceKind;
+
+typedef struct Piece {
+    PieceKind kind;
+    Level level;
+    Expr e;
+    Number number;
+    const char *text; /* that outlives the printing */
+    size_t length;
+} Piece;
+
+typedef struct Dialect Dialect;
+
+typedef struct Printer {
+    Text *out;
+    const Dialect *dialect;
+    LIST(Piece) pieces;
+} Printer;
+
+/* a product taken apart: number * above / below; `plain` has no number and no division */
+typedef struct Fraction {
+    Number number; /* above 0 */
+    LIST(Piece) above;
+    LIST(Piece) below;
+} Fraction;
+
+struct Dialect {
+    const char *plus;
+    const char *minus;
+    const char *times;
+    const char *open;
+    const char *close;
+    /* how tightly the number is bound, and its digits, appended to out */
+    Level (*number)(Text *out, Number number);
+    void (*symbol)(Text *out, Expr symbol);
+    void (*fraction)(Printer *printer, const Fraction *fraction);
+    /* base^exponent; `number` counts where exponent is NULL */
+    void (*power)(Printer *printer, Expr base, Expr exponent, Number number);
+    Level (*power_level)(Expr base, Expr exponent, Number number);
+    void (*call)(Printer *printer, Expr e);
+    Level (*call_level)(Expr e);
+};
+
+extern const Dialect dialect_text;
+extern const Dialect dialect_unicode;
+extern const Dialect dialect_latex;
+extern const Dialect dialect_c;
+extern const Dialect dialect_matlab;
+extern const Dialect dialect_python;
+extern const Dialect dialect_fortran;
+
+void say(Printer *printer, const char *text);
+void say_part(Printer *printer, const char *text, size_t length);
+void say_node(Printer *printer, Expr e, Level level);
+void say_number(Printer *printer, Number number, Level level);
+void say_power(Printer *printer, Expr base, Number exponent, Level level);
+void say_pieces(Printer *printer, const Piece *pieces, int count, const char *between);
+void say_arguments(Printer *printer, Expr e); /* a, b, c */
+
+/* above/below with signs of multiplication and division between */
+void fraction_inline(Printer *printer, const Fraction *fraction, const char *divide);
+/* Levels of a call in notations where operators are written between their arguments. */
+Level operator_level(Expr e);
+/* a < b, a && b, !a with the operator's sign; false where e is no such call */
+bool say_operator(Printer *printer, Expr e, const char *sign);
+
+/* Digits of an exact decimal, e.g. 0.25 of 1/4; false where it has none, or more than `most`. */
+bool ratio_decimal(char text[64], Number number, int most);
+/* Digits of a double that the parser takes for that double. */
+void double_text(char text[64], double value);
+
+void print_tree(Text *out, Expr e);
+
+#endif

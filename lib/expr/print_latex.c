@@ -1,0 +1,244 @@
+/* print_latex.c: expressions for LaTeX
+ *
+ * Division is a fraction, names get subscripts from their digits and dots from their
+ * primes: h8' is \dot{h}_{8}. */
+#include "expr/greek.h"
+#include "expr/print_impl.h"
+
+#include <ctype.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* denominators up to which a fraction is not written as a decimal, and digits of those */
+enum { SMALL = 9, SHORT_DECIMAL = 6 };
+
+/* 1.5e-9 as 1.5 times a power of ten */
+static void add_digits(Text *out, char *digits)
+{
+    char *exponent = strchr(digits, 'e');
+
+    if (exponent != NULL)
+        *exponent = '\0';
+    text_add(out, digits);
+    if (exponent != NULL)
+        text_addf(out, "\\cdot 10^{%d}", atoi(exponent + 1));
+}
+
+static void latex_double(Text *out, double value)
+{
+    char digits[64];
+
+    for (int n = 15; n <= 17; n++) {
+        snprintf(digits, sizeof digits, "%.*g", n, value);
+        if (strtod(digits, NULL) == value)
+            break;
+    }
+    add_digits(out, digits);
+}
+
+static bool is_decimal(char decimal[64], Number number)
+{
+    return number.den > SMALL && ratio_decimal(decimal, number, SHORT_DECIMAL);
+}
+
+static Level latex_number(Text *out, Number number)
+{
+    char decimal[64];
+
+    if (number.den == 0)
+        latex_double(out, number.real);
+    else if (number.den == 1)
+        text_addf(out, "%lld", (long long)number.num);
+    else if (is_decimal(decimal, number))
+        add_digits(out, decimal);
+    else
+        text_addf(out, "\\frac{%lld}{%lld}", (long long)number.num, (long long)number.den);
+    return number.den == 1 ? LEVEL_ATOM : LEVEL_PRODUCT;
+}
+
+/* --- names --- */
+
+/* One word of a name: letters under dots, the rest as subscripts. */
+static void latex_word(Text *out, const char *word, size_t length, int primes)
+{
+    static const char *const dots[] = {"", "\\dot{", "\\ddot{", "\\dddot{"};
+    size_t letters = 0;
+    const Greek *greek;
+
+    while (letters < length && isalpha((unsigned char)word[letters]))
+        letters++;
+    greek = greek_find(word, letters);
+    text_add(out, dots[primes]);
+    if (greek != NULL)
+        text_addf(out, "\\%s", greek->name);
+    else if (letters == 1)
+        text_add_n(out, word, 1);
+    else
+        text_addf(out, "\\mathrm{%.*s}", (int)letters, word);
+    if (primes > 0)
+        text_char(out, '}');
+    if (letters == length)
+        return;
+
+    text_add(out, "_{");
+    letters += word[letters] == '_';
+    while (letters < length) {
+        size_t part = 0;
+
+        while (letters + part < length && word[letters + part] != '_')
+            part++;
+        if (part > 0 && isalpha((unsigned char)word[letters]))
+            text_addf(out, "\\mathrm{%.*s}", (int)part, word + letters);
+        else
+            text_add_n(out, word + letters, part);
+        letters += part;
+        if (letters < length)
+            text_char(out, ',');
+        letters += letters < length;
+    }
+    text_char(out, '}');
+}
+
+static void latex_symbol(Text *out, Expr symbol)
+{
+    const char *name = expr_name(symbol);
+    size_t end = strlen(name);
+    int primes = 0;
+
+    if (node_symbol(symbol)->latex != NULL) {
+        text_add(out, node_symbol(symbol)->latex);
+        return;
+    }
+    for (; end > 0 && name[end - 1] == '\'' && primes < 3; end--)
+        primes++;
+    for (size_t at = 0; at < end;) {
+        size_t length = strcspn(name + at, ".");
+
+        if (at + length >= end) {
+            latex_word(out, name + at, end - at, primes);
+            return;
+        }
+        latex_word(out, name + at, length, 0);
+        text_char(out, '.');
+        at += length + 1;
+    }
+}
+
+/* --- products, powers, calls --- */
+
+/* What stands above or below the line; alone there, it needs no brackets. */
+static void say_part_of_fraction(Printer *printer, Number number, const Piece *pieces, int count)
+{
+    bool numbered = !number_is(number, 1) || count == 0;
+
+    if (numbered)
+        say_number(printer, number, LEVEL_PRODUCT);
+    if (numbered && count > 0)
+        say(printer, printer->dialect->times);
+    say_pieces(printer, pieces, count, printer->dialect->times);
+    if (!numbered && count == 1)
+        printer->pieces.at[printer->pieces.count - 1].level = LEVEL_ANY;
+}
+
+static void latex_fraction(Printer *printer, const Fraction *fraction)
+{
+    char decimal[64];
+    Number above = fraction->number;
+    Number below = number_int(1);
+
+    if (above.den > 1 && !is_decimal(decimal, above)) {
+        below = number_int(above.den);
+        above.den = 1;
+    }
+    if (number_is(below, 1) && fraction->below.count == 0) {
+        fraction_inline(printer, fraction, "");
+        return;
+    }
+    say(printer, "\\frac{");
+    say_part_of_fraction(printer, above, fraction->above.at, fraction->above.count);
+    say(printer, "}{");
+    say_part_of_fraction(printer, below, fraction->below.at, fraction->below.count);
+    say(printer, "}");
+}
+
+static const char *const names[] = {
+#define OP(id, name, args, derivative, c, latex, value) latex,
+#include "expr/ops.def"
+#undef OP
+};
+
+/* sin^2(x) instead of (sin(x))^2 */
+static bool takes_power(Expr e)
+{
+    return e->kind == EXPR_CALL && e->count == 1 && e->op <= OP_LOG;
+}
+
+static void say_exponent(Printer *printer, Expr exponent, Number number)
+{
+    say(printer, "^{");
+    if (exponent != NULL)
+        say_node(printer, exponent, LEVEL_ANY);
+    else
+        say_number(printer, number, LEVEL_ANY);
+    say(printer, "}");
+}
+
+static void latex_power(Printer *printer, Expr base, Expr exponent, Number number)
+{
+    if (!takes_power(base)) {
+        say_node(printer, base, LEVEL_ATOM);
+        say_exponent(printer, exponent, number);
+        return;
+    }
+    say(printer, names[base->op]);
+    say_exponent(printer, exponent, number);
+    say(printer, "\\left(");
+    say_node(printer, node_args(base)[0], LEVEL_ANY);
+    say(printer, "\\right)");
+}
+
+static Level latex_power_level(Expr base, Expr exponent, Number number)
+{
+    (void)base;
+    (void)exponent;
+    (void)number;
+    return LEVEL_POWER;
+}
+
+static void latex_call(Printer *printer, Expr e)
+{
+    const Expr *args = node_args(e);
+
+    if (say_operator(printer, e, names[e->op]))
+        return;
+    if (e->op == OP_IF) {
+        say(printer, "\\begin{cases} ");
+        say_node(printer, args[1], LEVEL_ANY);
+        say(printer, " & \\text{if } ");
+        say_node(printer, args[0], LEVEL_ANY);
+        say(printer, " \\\\ ");
+        say_node(printer, args[2], LEVEL_ANY);
+        say(printer, " & \\text{otherwise} \\end{cases}");
+        return;
+    }
+    say(printer, names[e->op]);
+    say(printer, e->op == OP_SQRT ? "{" : e->op == OP_ABS ? "" : "\\left(");
+    say_arguments(printer, e);
+    say(printer, e->op == OP_SQRT ? "}" : e->op == OP_ABS ? "\\right|" : "\\right)");
+}
+
+const Dialect dialect_latex = {
+    .plus = " + ",
+    .minus = " - ",
+    .times = "\\,",
+    .open = "\\left(",
+    .close = "\\right)",
+    .number = latex_number,
+    .symbol = latex_symbol,
+    .fraction = latex_fraction,
+    .power = latex_power,
+    .power_level = latex_power_level,
+    .call = latex_call,
+    .call_level = operator_level,
+};

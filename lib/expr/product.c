@@ -1,0 +1,156 @@
+/* product.c: products
+ *
+ * A factor is a base and an exponent; factors stand in the order of their bases,
+ * those of one base are one power, the number comes first. A sum as a factor has
+ * no minus sign before its first term: the sign goes to the number. */
+#include "expr/expr_impl.h"
+
+enum { AT_HAND = 16 };
+
+/* factors on their way into a node */
+typedef struct Gathered {
+    Item *items;
+    int count;
+    Number number;
+} Gathered;
+
+static Item factor_item(Arena *arena, Expr factor)
+{
+    Item item = {.key = factor, .exponent = arena_one(arena), .whole = factor};
+    int64_t k;
+
+    if (factor->kind == EXPR_POWER) {
+        item.key = node_args(factor)[0];
+        item.exponent = node_args(factor)[1];
+    }
+    /* a root is the power 1/2 while it is collected */
+    if (is_call(item.key, OP_SQRT) && expr_integer(item.exponent, &k)) {
+        item.key = node_args(item.key)[0];
+        item.exponent = expr_rational(arena, k, 2);
+    }
+    return item;
+}
+
+static void push_factor(Arena *arena, Gathered *gathered, Expr factor)
+{
+    if (is_number(factor)) {
+        gathered->number = number_mul(gathered->number, number_of(factor));
+        return;
+    }
+    if (factor->kind == EXPR_SUM && is_negative(factor)) {
+        gathered->number = number_neg(gathered->number);
+        factor = sum_negate(arena, factor);
+    }
+    gathered->items[gathered->count++] = factor_item(arena, factor);
+}
+
+/* Add the exponents of equal bases, which stand side by side. */
+static void merge_factors(Arena *arena, Gathered *gathered)
+{
+    Item *items = gathered->items;
+    int kept = 0;
+
+    for (int i = 0; i < gathered->count; i++) {
+        if (kept > 0 && items[kept - 1].key == items[i].key) {
+            items[kept - 1].exponent = expr_add(arena, items[kept - 1].exponent, items[i].exponent);
+            items[kept - 1].whole = NULL;
+        } else
+            items[kept++] = items[i];
+    }
+    gathered->count = kept;
+}
+
+/* the node [number, factors...]; args[0] is free for the number */
+static Expr product_node(Arena *arena, Number number, Expr *args, int count)
+{
+    if (number_is(number, 0))
+        return arena_zero(arena);
+    if (count == 0)
+        return number_node(arena, number);
+    if (count == 1 && number_is(number, 1))
+        return args[1];
+    if (count == 1 && number_is(number, -1) && args[1]->kind == EXPR_SUM)
+        return sum_negate(arena, args[1]);
+    if (number_is(number, 1))
+        return node_intern(arena, EXPR_PRODUCT, 0, args + 1, count);
+    args[0] = number_node(arena, number);
+    return node_intern(arena, EXPR_PRODUCT, 0, args, count + 1);
+}
+
+/* The product of unlike factors in order. */
+static Expr product_of_items(Arena *arena, const Gathered *gathered)
+{
+    Expr at_hand[AT_HAND + 1];
+    Expr *args = gathered->count <= AT_HAND ? at_hand : NEW_ARRAY(Expr, gathered->count + 1);
+    Number number = gathered->number;
+    bool again = false;
+    int kept = 0;
+    Expr product;
+
+    for (int i = 0; i < gathered->count; i++) {
+        const Item *item = &gathered->items[i];
+        Expr factor =
+            item->whole != NULL ? item->whole : expr_pow(arena, item->key, item->exponent);
+
+        if (is_number(factor)) {
+            number = number_mul(number, number_of(factor));
+            continue;
+        }
+        /* sqrt(a*b)*sqrt(a*b), sqrt(b - a)*sqrt(b - a) */
+        again = again || factor->kind == EXPR_PRODUCT ||
+                (factor->kind == EXPR_SUM && item->whole == NULL);
+        args[++kept] = factor;
+    }
+    if (again && kept > 1) {
+        args[0] = number_node(arena, number);
+        product = expr_product(arena, args, kept + 1);
+    } else if (again)
+        product = expr_mul(arena, number_node(arena, number), args[1]);
+    else
+        product = product_node(arena, number, args, kept);
+    if (args != at_hand)
+        mem_free(args);
+    return product;
+}
+
+Expr expr_product(Arena *arena, const Expr *factors, int count)
+{
+    Item at_hand[AT_HAND];
+    Gathered gathered = {.items = at_hand, .number = number_int(1)};
+    int total = 0;
+    Expr product;
+
+    for (int i = 0; i < count; i++)
+        total += factors[i]->kind == EXPR_PRODUCT ? factors[i]->count : 1;
+    if (total > AT_HAND)
+        gathered.items = NEW_ARRAY(Item, total);
+    for (int i = 0; i < count; i++) {
+        if (factors[i]->kind != EXPR_PRODUCT) {
+            push_factor(arena, &gathered, factors[i]);
+            continue;
+        }
+        for (int j = 0; j < factors[i]->count; j++)
+            push_factor(arena, &gathered, node_args(factors[i])[j]);
+    }
+    items_sort(gathered.items, gathered.count, order_bases);
+    merge_factors(arena, &gathered);
+    product =
+        number_is(gathered.number, 0) ? arena_zero(arena) : product_of_items(arena, &gathered);
+    if (gathered.items != at_hand)
+        mem_free(gathered.items);
+    return product;
+}
+
+Expr expr_mul(Arena *arena, Expr a, Expr b)
+{
+    if (expr_is(a, 1))
+        return b;
+    if (expr_is(b, 1))
+        return a;
+    return expr_product(arena, (Expr[]){a, b}, 2);
+}
+
+Expr expr_div(Arena *arena, Expr a, Expr b)
+{
+    return expr_mul(arena, a, expr_pow(arena, b, expr_int(arena, -1)));
+}

@@ -1,0 +1,178 @@
+/* substitute.c: replacing symbols, dissolving holds, asking for symbols
+ *
+ * As with derivatives: one pass upward, each node rebuilt from its rebuilt arguments. */
+#include "expr/expr_impl.h"
+
+#include <stdlib.h>
+
+Expr expr_rebuild(Arena *arena, Expr e, const Expr *args)
+{
+    switch (e->kind) {
+    case EXPR_SUM:
+        return expr_sum(arena, args, e->count);
+    case EXPR_PRODUCT:
+        return expr_product(arena, args, e->count);
+    case EXPR_POWER:
+        return expr_pow(arena, args[0], args[1]);
+    case EXPR_CALL:
+        return expr_call(arena, e->op, args);
+    default:
+        return e;
+    }
+}
+
+/* what becomes of the nodes walked, by their places */
+typedef struct Images {
+    Walk walk;
+    LIST(Expr) of;
+} Images;
+
+static Expr image_of(const Images *images, Expr e)
+{
+    int place = walk_find(&images->walk, e);
+
+    return place >= 0 ? images->of.at[place] : e;
+}
+
+/* Rebuild what was walked and has no image yet; with `open`, without its holds. */
+static void rebuild_all(Arena *arena, Images *images, bool open)
+{
+    LIST(Expr) args = {0};
+
+    for (int i = images->of.count; i < images->walk.count; i++) {
+        Expr e = images->walk.nodes[i];
+        bool changed = false;
+
+        args.count = 0;
+        for (int j = 0; j < e->count; j++) {
+            LIST_PUSH(args, image_of(images, node_args(e)[j]));
+            changed = changed || args.at[j] != node_args(e)[j];
+        }
+        if (open && is_call(e, OP_HOLD))
+            LIST_PUSH(images->of, args.at[0]);
+        else
+            LIST_PUSH(images->of, changed ? expr_rebuild(arena, e, args.at) : e);
+    }
+    LIST_FREE(args);
+}
+
+static Expr finish(Images *images, Expr e)
+{
+    Expr image = image_of(images, e);
+
+    walk_free(&images->walk);
+    LIST_FREE(images->of);
+    return image;
+}
+
+Expr expr_substitute(Arena *arena, Expr e, const Expr *symbols, const Expr *values, int count)
+{
+    Images images = {0};
+    unsigned mask = 0;
+
+    for (int i = 0; i < count; i++)
+        mask |= symbols[i]->kinds;
+    if ((e->kinds & mask) == 0)
+        return e;
+    for (int i = 0; i < count; i++) {
+        if (walk_add(&images.walk, symbols[i]) == images.of.count)
+            LIST_PUSH(images.of, values[i]);
+    }
+    walk_below(&images.walk, e, mask, NULL, NULL);
+    rebuild_all(arena, &images, false);
+    return finish(&images, e);
+}
+
+Expr expr_open(Arena *arena, Expr e)
+{
+    Images images = {0};
+
+    walk_below(&images.walk, e, 0, NULL, NULL);
+    rebuild_all(arena, &images, true);
+    return finish(&images, e);
+}
+
+/* --- asking --- */
+
+bool expr_depends(Expr e, Expr symbol)
+{
+    Walk walk = {0};
+    bool depends;
+
+    if ((e->kinds & symbol->kinds) == 0)
+        return false;
+    walk_below(&walk, e, symbol->kinds, NULL, NULL);
+    depends = walk_find(&walk, symbol) >= 0;
+    walk_free(&walk);
+    return depends;
+}
+
+unsigned expr_kinds(Expr e)
+{
+    return e->kinds;
+}
+
+static int by_number(const void *a, const void *b)
+{
+    return expr_symbol_number(*(const Expr *)a) - expr_symbol_number(*(const Expr *)b);
+}
+
+int expr_symbols(const Expr *roots, int count, Expr **symbols)
+{
+    Walk walk = {0};
+    LIST(Expr) found = {0};
+
+    for (int i = 0; i < count; i++)
+        walk_below(&walk, roots[i], ~0U, NULL, NULL);
+    for (int i = 0; i < walk.count; i++) {
+        if (walk.nodes[i]->kind == EXPR_SYMBOL)
+            LIST_PUSH(found, walk.nodes[i]);
+    }
+    walk_free(&walk);
+    if (found.count > 0)
+        qsort(found.at, (size_t)found.count, sizeof(Expr), by_number);
+    *symbols = found.at;
+    return found.count;
+}
+
+/* --- looking --- */
+
+ExprKind expr_kind(Expr e)
+{
+    return (ExprKind)e->kind;
+}
+
+Op expr_op(Expr e)
+{
+    return (Op)e->op;
+}
+
+int expr_arg_count(Expr e)
+{
+    return e->count;
+}
+
+Expr expr_arg(Expr e, int i)
+{
+    return node_args(e)[i];
+}
+
+const char *expr_name(Expr symbol)
+{
+    return node_symbol(symbol)->name;
+}
+
+SymbolKind expr_symbol_kind(Expr symbol)
+{
+    return node_symbol(symbol)->kind;
+}
+
+int expr_symbol_number(Expr symbol)
+{
+    return node_symbol(symbol)->number;
+}
+
+uint32_t expr_number(Expr e)
+{
+    return e->number;
+}

@@ -1,0 +1,93 @@
+/* walk.c: the nodes below some roots, each once, children first
+ *
+ * Depth first with a stack of its own: expressions may be a hundred thousand levels
+ * deep. The table of places is as large as what was met, however large the arena. */
+#include "expr/expr_impl.h"
+
+typedef struct Level {
+    Expr e;
+    int next; /* argument to look at */
+} Level;
+
+static uint32_t slot_of(const Walk *walk, uint32_t key)
+{
+    uint32_t i = key * 2654435769U >> 7 & (walk->size - 1);
+
+    while (walk->keys[i] != 0 && walk->keys[i] != key)
+        i = (i + 1) & (walk->size - 1);
+    return i;
+}
+
+int walk_find(const Walk *walk, Expr e)
+{
+    uint32_t i;
+
+    if (walk->size == 0)
+        return -1;
+    i = slot_of(walk, e->number + 1);
+    return walk->keys[i] != 0 ? walk->places[i] : -1;
+}
+
+static void make_room(Walk *walk)
+{
+    if ((uint32_t)walk->count < walk->size / 2)
+        return;
+    mem_free(walk->keys);
+    mem_free(walk->places);
+    walk->size = walk->size == 0 ? 64 : 4 * walk->size;
+    walk->keys = NEW_ARRAY(uint32_t, walk->size);
+    walk->places = NEW_ARRAY(int, walk->size);
+    for (int place = 0; place < walk->count; place++) {
+        uint32_t i = slot_of(walk, walk->nodes[place]->number + 1);
+
+        walk->keys[i] = walk->nodes[place]->number + 1;
+        walk->places[i] = place;
+    }
+}
+
+int walk_add(Walk *walk, Expr e)
+{
+    uint32_t i;
+
+    make_room(walk);
+    i = slot_of(walk, e->number + 1);
+    if (walk->keys[i] != 0)
+        return walk->places[i];
+    walk->keys[i] = e->number + 1;
+    walk->places[i] = walk->count;
+    walk->nodes = list_room(walk->nodes, walk->count + 1, &walk->room, sizeof(Expr));
+    walk->nodes[walk->count] = e;
+    return walk->count++;
+}
+
+void walk_below(Walk *walk, Expr root, unsigned mask, WalkInto into, void *context)
+{
+    LIST(Level) stack = {0};
+
+    if ((mask != 0 && (root->kinds & mask) == 0) || walk_find(walk, root) >= 0)
+        return;
+    LIST_PUSH(stack, (Level){root, into == NULL || into(context, root) ? 0 : root->count});
+    while (stack.count > 0) {
+        Level *level = &stack.at[stack.count - 1];
+        Expr child;
+
+        if (level->next == level->e->count) {
+            walk_add(walk, level->e);
+            stack.count--;
+            continue;
+        }
+        child = node_args(level->e)[level->next++];
+        if ((mask != 0 && (child->kinds & mask) == 0) || walk_find(walk, child) >= 0)
+            continue;
+        LIST_PUSH(stack, (Level){child, into == NULL || into(context, child) ? 0 : child->count});
+    }
+    LIST_FREE(stack);
+}
+
+void walk_free(Walk *walk)
+{
+    mem_free(walk->nodes);
+    mem_free(walk->keys);
+    mem_free(walk->places);
+    *walk = (Walk){0};
+}

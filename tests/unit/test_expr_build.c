@@ -1,0 +1,394 @@
+/* test_expr_build.c: numbers, builders, the arena */
+#include "test_expr.h"
+
+#define ADD(x, y) expr_add(w.arena, x, y)
+#define SUB(x, y) expr_sub(w.arena, x, y)
+#define MUL(x, y) expr_mul(w.arena, x, y)
+#define DIV(x, y) expr_div(w.arena, x, y)
+#define POW(x, k) expr_pow(w.arena, x, expr_int(w.arena, k))
+#define INT(k)    expr_int(w.arena, k)
+
+/* the world `w` and its symbols a, b, c; x */
+#define BEGIN                                                                                      \
+    World w = world_new(1);                                                                        \
+    Expr a = w.symbols[0];                                                                         \
+    Expr b = w.symbols[1];                                                                         \
+    Expr x = w.symbols[3];                                                                         \
+    (void)a, (void)b, (void)x
+#define END arena_free(w.arena)
+
+static __int128 gcd_wide(__int128 a, __int128 b)
+{
+    while (b != 0) {
+        __int128 rest = a % b;
+
+        a = b;
+        b = rest;
+    }
+    return a < 0 ? -a : a;
+}
+
+/* e is num/den: exactly where that fits, else to rounding */
+static void expect_ratio(Expr e, __int128 num, __int128 den)
+{
+    __int128 common = gcd_wide(num, den);
+    double value = (double)num / (double)den;
+    int64_t n;
+    int64_t d;
+
+    num /= common;
+    den /= common;
+    if (num <= INT64_MAX && num >= -INT64_MAX && den <= INT64_MAX)
+        EXPECT(expr_rational_parts(e, &n, &d) && n == num && d == den);
+    else
+        EXPECT_NEAR(expr_value(e), value, 1e-15 * fabs(value));
+}
+
+static void rationals_are_exact_until_they_overflow(void)
+{
+    Arena *arena = arena_new();
+    uint64_t random = 7;
+
+    for (int i = 0; i < 4000; i++) {
+        int bits = 1 + i % 62;
+        int64_t p = (int64_t)(test_random(&random) >> (63 - bits)) - ((int64_t)1 << (bits - 1));
+        int64_t q = (int64_t)(test_random(&random) >> (64 - bits / 2 - 1)) + 1;
+        int64_t r = (int64_t)(test_random(&random) >> (63 - bits)) - ((int64_t)1 << (bits - 1));
+        int64_t s = (int64_t)(test_random(&random) >> (64 - bits / 2 - 1)) + 1;
+        Expr u = expr_rational(arena, p, q);
+        Expr v = expr_rational(arena, r, s);
+
+        expect_ratio(expr_add(arena, u, v), (__int128)p * s + (__int128)r * q, (__int128)q * s);
+        expect_ratio(expr_mul(arena, u, v), (__int128)p * r, (__int128)q * s);
+    }
+    EXPECT(arena_status(arena) == OK);
+    arena_free(arena);
+}
+
+static void small_decimals_are_exact(void)
+{
+    Arena *arena = arena_new();
+
+    EXPECT(expr_decimal(arena, "0.25") == expr_rational(arena, 1, 4));
+    EXPECT(expr_decimal(arena, "2.194e-6") == expr_rational(arena, 1097, 500000000));
+    EXPECT(expr_decimal(arena, "1e3") == expr_int(arena, 1000));
+    EXPECT(expr_decimal(arena, ".5") == expr_rational(arena, 1, 2));
+    EXPECT(expr_decimal(arena, "0.000") == expr_int(arena, 0));
+    EXPECT(expr_decimal(arena, "9223372036854775807") == expr_int(arena, INT64_MAX));
+    EXPECT(expr_kind(expr_decimal(arena, "6.02214076e23")) == EXPR_REAL);
+    EXPECT(expr_kind(expr_decimal(arena, "1e-30")) == EXPR_REAL);
+    EXPECT(expr_value(expr_decimal(arena, "1e-30")) == 1e-30);
+    EXPECT(expr_kind(expr_decimal(arena, "0.1234567890123456")) == EXPR_REAL);
+    EXPECT(expr_real(arena, 3.0) == expr_int(arena, 3));
+    EXPECT(expr_real(arena, -0.0) == expr_int(arena, 0));
+    EXPECT(expr_kind(expr_real(arena, 0.1)) == EXPR_REAL);
+    arena_free(arena);
+}
+
+static void sums_collect_like_terms(void)
+{
+    BEGIN;
+
+    EXPECT(ADD(a, a) == MUL(INT(2), a));
+    EXPECT(expr_is_zero(SUB(ADD(a, b), ADD(b, a))));
+    EXPECT(ADD(ADD(a, b), x) == ADD(a, ADD(b, x)));
+    EXPECT(SUB(ADD(a, INT(3)), INT(3)) == a);
+    EXPECT(ADD(MUL(a, b), MUL(b, a)) == MUL(INT(2), MUL(a, b)));
+    EXPECT(expr_neg(w.arena, SUB(a, b)) == SUB(b, a));
+    EXPECT(MUL(INT(-1), SUB(a, b)) == SUB(b, a));
+    EXPECT_EXPR(MUL(INT(2), ADD(a, b)), "2*(a + b)");
+    EXPECT(ADD(DIV(ADD(a, b), INT(2)), DIV(ADD(a, b), INT(2))) == ADD(a, b));
+    EXPECT(expr_is_zero(ADD(MUL(x, SUB(a, b)), MUL(x, SUB(b, a)))));
+    END;
+}
+
+static void products_collect_powers(void)
+{
+    BEGIN;
+
+    EXPECT(MUL(x, x) == POW(x, 2));
+    EXPECT(expr_is(MUL(x, POW(x, -1)), 1));
+    EXPECT(MUL(MUL(a, b), x) == MUL(x, MUL(b, a)));
+    EXPECT(POW(MUL(a, b), 3) == MUL(POW(a, 3), POW(b, 3)));
+    EXPECT(POW(POW(a, 2), 3) == POW(a, 6));
+    EXPECT(expr_is_zero(MUL(INT(0), x)));
+    EXPECT(MUL(x, INT(1)) == x);
+    EXPECT(POW(SUB(a, b), 2) == POW(SUB(b, a), 2));
+    EXPECT(POW(SUB(a, b), 3) == expr_neg(w.arena, POW(SUB(b, a), 3)));
+    EXPECT(expr_mul(w.arena, expr_pow(w.arena, a, b), expr_pow(w.arena, a, x)) ==
+           expr_pow(w.arena, a, ADD(b, x)));
+    EXPECT(expr_is(POW(x, 0), 1));
+    END;
+}
+
+static void roots_are_half_powers(void)
+{
+    BEGIN;
+    Expr root = expr_sqrt(w.arena, x);
+
+    EXPECT(POW(root, 2) == x);
+    EXPECT(MUL(root, root) == x);
+    EXPECT(DIV(x, root) == root);
+    EXPECT(POW(root, 3) == MUL(x, root));
+    EXPECT(expr_pow(w.arena, x, expr_rational(w.arena, 1, 2)) == root);
+    EXPECT(expr_sqrt(w.arena, expr_rational(w.arena, 9, 4)) == expr_rational(w.arena, 3, 2));
+    EXPECT_EXPR(expr_sqrt(w.arena, INT(2)), "sqrt(2)");
+    EXPECT_EXPR(DIV(INT(1), expr_sqrt(w.arena, INT(2))), "0.5*sqrt(2)");
+    EXPECT(expr_pow(w.arena, INT(8), expr_rational(w.arena, 2, 3)) == INT(4));
+    /* not x: that would be wrong for negative x */
+    EXPECT_EXPR(expr_sqrt(w.arena, POW(x, 2)), "sqrt(x^2)");
+    EXPECT(MUL(expr_sqrt(w.arena, MUL(a, b)), expr_sqrt(w.arena, MUL(a, b))) == MUL(a, b));
+    EXPECT(MUL(expr_sqrt(w.arena, SUB(b, a)), expr_sqrt(w.arena, SUB(b, a))) == SUB(b, a));
+    END;
+}
+
+static void functions_know_their_parity(void)
+{
+    BEGIN;
+
+    EXPECT(expr_sin(w.arena, SUB(b, a)) == expr_neg(w.arena, expr_sin(w.arena, SUB(a, b))));
+    EXPECT(expr_cos(w.arena, SUB(b, a)) == expr_cos(w.arena, SUB(a, b)));
+    EXPECT(expr_cos(w.arena, MUL(INT(-2), a)) == expr_cos(w.arena, MUL(INT(2), a)));
+    EXPECT(expr_is_zero(expr_sin(w.arena, INT(0))));
+    EXPECT(expr_is(expr_cos(w.arena, INT(0)), 1));
+    EXPECT_EXPR(expr_sin(w.arena, INT(1)), "sin(1)");
+    EXPECT(expr_kind(expr_sin(w.arena, expr_real(w.arena, 0.1))) == EXPR_REAL);
+    END;
+}
+
+static void conditions_fold(void)
+{
+    BEGIN;
+    Expr less = expr_call2(w.arena, OP_LT, a, b);
+
+    EXPECT(expr_if(w.arena, INT(1), a, b) == a);
+    EXPECT(expr_if(w.arena, INT(0), a, b) == b);
+    EXPECT(expr_if(w.arena, less, a, a) == a);
+    EXPECT(expr_is_zero(expr_call2(w.arena, OP_LT, a, a)));
+    EXPECT(expr_is(expr_call2(w.arena, OP_LE, a, a), 1));
+    EXPECT(expr_is(expr_call2(w.arena, OP_LT, expr_rational(w.arena, 1, 3), INT(1)), 1));
+    EXPECT(expr_call2(w.arena, OP_AND, less, INT(1)) == less);
+    EXPECT(expr_is_zero(expr_call2(w.arena, OP_AND, less, INT(0))));
+    EXPECT(expr_call2(w.arena, OP_OR, INT(0), less) == less);
+    EXPECT(expr_is(expr_call2(w.arena, OP_OR, INT(2), less), 1));
+    EXPECT(expr_call1(w.arena, OP_NOT, expr_call1(w.arena, OP_NOT, less)) == less);
+    EXPECT(expr_call2(w.arena, OP_MIN, a, b) == expr_call2(w.arena, OP_MIN, b, a));
+    EXPECT(expr_is(expr_call2(w.arena, OP_MIN, INT(2), INT(3)), 2));
+    EXPECT(expr_is(expr_call2(w.arena, OP_MAX, INT(2), INT(3)), 3));
+    EXPECT(expr_is(expr_call1(w.arena, OP_FLOOR, expr_rational(w.arena, -7, 2)), -4));
+    EXPECT(expr_is(expr_call1(w.arena, OP_STEP, INT(0)), 1));
+    EXPECT(expr_is(expr_call1(w.arena, OP_RAMP, INT(-3)), 0));
+    EXPECT(expr_is(expr_call1(w.arena, OP_ABS, INT(-3)), 3));
+    EXPECT(expr_is(expr_call1(w.arena, OP_SIGN, expr_rational(w.arena, -1, 3)), -1));
+    END;
+}
+
+static void holds_are_opaque(void)
+{
+    BEGIN;
+    Expr hold = expr_hold(w.arena, ADD(a, b));
+
+    EXPECT(expr_hold(w.arena, x) == x);
+    EXPECT(expr_hold(w.arena, expr_neg(w.arena, x)) == expr_neg(w.arena, x));
+    EXPECT(expr_hold(w.arena, hold) == hold);
+    EXPECT(expr_hold(w.arena, SUB(a, b)) == expr_neg(w.arena, expr_hold(w.arena, SUB(b, a))));
+    EXPECT(expr_arg_count(ADD(hold, x)) == 2);
+    EXPECT(expr_open(w.arena, ADD(hold, x)) == ADD(ADD(a, b), x));
+    EXPECT(expr_is_zero(expr_open(w.arena, SUB(hold, ADD(a, b)))));
+    EXPECT(expr_op(expr_diff(w.arena, expr_hold(w.arena, POW(ADD(a, x), 2)), x)) == OP_HOLD ||
+           expr_kind(expr_diff(w.arena, expr_hold(w.arena, POW(ADD(a, x), 2)), x)) == EXPR_PRODUCT);
+    END;
+}
+
+static void commuting_gives_the_same_pointer(void)
+{
+    for (uint64_t seed = 1; seed <= 300; seed++) {
+        World w = world_new(seed);
+        double v;
+        Expr p = random_expr(&w, 3, &v);
+        Expr q = random_expr(&w, 3, &v);
+        Expr r = random_expr(&w, 3, &v);
+
+        EXPECT(ADD(p, q) == ADD(q, p));
+        EXPECT(MUL(p, q) == MUL(q, p));
+        EXPECT(ADD(ADD(p, q), r) == ADD(p, ADD(q, r)));
+        EXPECT(MUL(MUL(p, q), r) == MUL(p, MUL(q, r)));
+        EXPECT(expr_is_zero(SUB(p, p)));
+        EXPECT(SUB(ADD(p, q), q) == p);
+        EXPECT(expr_compare(p, q) == -expr_compare(q, p));
+        EXPECT(arena_status(w.arena) == OK);
+        arena_free(w.arena);
+    }
+}
+
+static void builders_keep_the_value(void)
+{
+    for (uint64_t seed = 1; seed <= 1000; seed++) {
+        World w = world_new(seed);
+        double direct;
+        Expr e = random_expr(&w, 5, &direct);
+
+        EXPECT_NEAR(value_in(&w, e), direct, 1e-9 * size_of(direct));
+        arena_free(w.arena);
+    }
+}
+
+static void order_is_total_and_repeats(void)
+{
+    World w = world_new(3);
+    World v = world_new(3);
+    Expr es[60];
+    Expr again;
+    double value;
+
+    for (int i = 0; i < 60; i++) {
+        char *text;
+
+        es[i] = random_expr(&w, 4, &value);
+        again = random_expr(&v, 4, &value);
+        text = expr_text(again);
+        EXPECT_EXPR(es[i], text);
+        mem_free(text);
+    }
+    for (int i = 0; i < 60; i++) {
+        for (int j = 0; j < 60; j++) {
+            EXPECT((expr_compare(es[i], es[j]) == 0) == (es[i] == es[j]));
+            for (int k = 0; k < 60; k++)
+                EXPECT(!(expr_compare(es[i], es[j]) < 0 && expr_compare(es[j], es[k]) < 0) ||
+                       expr_compare(es[i], es[k]) < 0);
+        }
+    }
+    arena_free(w.arena);
+    arena_free(v.arena);
+}
+
+static void release_leaves_no_ghosts(void)
+{
+    BEGIN;
+    Expr kept = MUL(a, b);
+    int64_t nodes = arena_nodes(w.arena);
+    double value;
+
+    for (int round = 0; round < 20; round++) {
+        ArenaMark *mark = arena_mark(w.arena);
+        Expr scratch = expr_symbol(w.arena, "scratch", SYMBOL_PARAMETER);
+
+        for (int i = 0; i < 200; i++) {
+            Expr e = random_expr(&w, 4, &value);
+
+            expr_diff(w.arena, MUL(e, scratch), x);
+        }
+        EXPECT(arena_nodes(w.arena) > nodes);
+        arena_release(w.arena, mark);
+        EXPECT(arena_nodes(w.arena) == nodes);
+        EXPECT(expr_find_symbol(w.arena, "scratch", SYMBOL_PARAMETER) == NULL);
+        EXPECT(MUL(b, a) == kept);
+        EXPECT_EXPR(kept, "a*b");
+    }
+    arena_keep(w.arena, arena_mark(w.arena));
+    EXPECT(expr_symbol_number(expr_symbol(w.arena, "next", SYMBOL_TIME)) == TEST_SYMBOLS);
+    END;
+}
+
+static void division_by_zero_is_remembered_once(void)
+{
+    BEGIN;
+
+    DIV(x, SUB(a, a));
+    EXPECT(arena_status(w.arena) == E_DOMAIN);
+    EXPECT_TEXT(arena_failure(w.arena), "division by zero");
+    expr_real(w.arena, INFINITY);
+    EXPECT_TEXT(arena_failure(w.arena), "division by zero");
+    arena_reset(w.arena);
+    EXPECT(arena_status(w.arena) == OK);
+    expr_real(w.arena, INFINITY);
+    EXPECT_TEXT(arena_failure(w.arena), "a number beyond what can be held");
+    arena_reset(w.arena);
+    expr_rational(w.arena, 1, 0);
+    EXPECT(arena_status(w.arena) == E_DOMAIN);
+    END;
+}
+
+static bool always(void *context)
+{
+    (void)context;
+    return true;
+}
+
+static void stopping_ends_growth(void)
+{
+    BEGIN;
+    Watch watch = {.stop = always};
+    Expr e = x;
+    int64_t nodes;
+
+    arena_watch(w.arena, &watch);
+    for (int i = 0; i < 5000; i++)
+        e = expr_sin(w.arena, ADD(e, a));
+    EXPECT(arena_status(w.arena) == E_STOPPED);
+    EXPECT_TEXT(arena_failure(w.arena), "stopped");
+    nodes = arena_nodes(w.arena);
+    for (int i = 0; i < 5000; i++)
+        e = expr_sin(w.arena, ADD(e, b));
+    EXPECT(arena_nodes(w.arena) < nodes + 10);
+    arena_watch(w.arena, NULL);
+    arena_reset(w.arena);
+    EXPECT_EXPR(MUL(a, ADD(b, INT(77))), "a*(b + 77)");
+    END;
+}
+
+static void growth_has_a_limit(void)
+{
+    BEGIN;
+    Expr e = x;
+
+    arena_limit(w.arena, 1000);
+    for (int i = 0; i < 5000; i++)
+        e = expr_sin(w.arena, ADD(e, a));
+    EXPECT(arena_status(w.arena) == E_MEMORY);
+    EXPECT_TEXT(arena_failure(w.arena), "the expressions grow beyond all bounds");
+    EXPECT(arena_nodes(w.arena) < 1100);
+    END;
+}
+
+/* n terms take about n log n steps: ten times the terms, far from a hundred times the work */
+static void long_sums_are_built_at_once(void)
+{
+    Arena *arena = arena_new();
+    enum { MANY = 20000 };
+    Expr *terms = NEW_ARRAY(Expr, MANY);
+    Expr sum;
+
+    for (int i = 0; i < MANY; i++) {
+        char name[24];
+
+        snprintf(name, sizeof name, "p%d", (i * 7919) % MANY);
+        terms[i] = expr_symbol(arena, name, SYMBOL_PARAMETER);
+    }
+    sum = expr_sum(arena, terms, MANY);
+    EXPECT(expr_arg_count(sum) == MANY);
+    EXPECT(expr_is_zero(expr_sub(arena, sum, sum)));
+    mem_free(terms);
+    arena_free(arena);
+}
+
+int main(void)
+{
+    RUN(rationals_are_exact_until_they_overflow);
+    RUN(small_decimals_are_exact);
+    RUN(sums_collect_like_terms);
+    RUN(products_collect_powers);
+    RUN(roots_are_half_powers);
+    RUN(functions_know_their_parity);
+    RUN(conditions_fold);
+    RUN(holds_are_opaque);
+    RUN(commuting_gives_the_same_pointer);
+    RUN(builders_keep_the_value);
+    RUN(order_is_total_and_repeats);
+    RUN(release_leaves_no_ghosts);
+    RUN(division_by_zero_is_remembered_once);
+    RUN(stopping_ends_growth);
+    RUN(growth_has_a_limit);
+    RUN(long_sums_are_built_at_once);
+    return test_end();
+}
