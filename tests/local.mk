@@ -2,10 +2,10 @@
 unit_ldadd = libcore.la
 
 # what tests that run the program get: the program, the sources, and what it takes to build more
-AM_TESTS_ENVIRONMENT = COTREE='$(abs_builddir)/cotree'; top_srcdir='$(abs_srcdir)'; \
-	top_builddir='$(abs_builddir)'; MAKE='$(MAKE)'; CC='$(CC)'; \
+AM_TESTS_ENVIRONMENT = COTREE='$(abs_builddir)/cotree'; TOP_SRCDIR='$(abs_srcdir)'; \
+	TOP_BUILDDIR='$(abs_builddir)'; MAKE='$(MAKE)'; CC='$(CC)'; \
 	SAN_CFLAGS='$(SAN_CFLAGS)'; GNUPLOT='$(GNUPLOT)'; \
-	export COTREE top_srcdir top_builddir MAKE CC SAN_CFLAGS GNUPLOT;
+	export COTREE TOP_SRCDIR TOP_BUILDDIR MAKE CC SAN_CFLAGS GNUPLOT;
 
 include tests/unit/base.mk
 include tests/unit/expr.mk
@@ -23,3 +23,4 @@ include tests/fuzz/fuzz.mk
 check_PROGRAMS += $(UNIT_TESTS)
 TESTS += $(UNIT_TESTS)
 EXTRA_PROGRAMS += $(BENCHES) $(FUZZERS)
+EXTRA_DIST += tests/claims.sh

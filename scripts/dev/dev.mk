@@ -2,10 +2,10 @@
 #
 # None of these installs anything: what is missing is named (or scripts/dev/packages lint).
 dev = $(SHELL) $(srcdir)/scripts/dev
-EXTRA_DIST += autogen.sh run-tests .clang-format .clang-tidy \
+EXTRA_DIST += autogen.sh run-demo run-tests .clang-format .clang-tidy .shellcheckrc \
 	scripts/dev/bench-table scripts/dev/build scripts/dev/check-layers scripts/dev/check-size \
 	scripts/dev/check-tables scripts/dev/coverage scripts/dev/lint scripts/dev/packages \
-	scripts/dev/total
+	scripts/dev/total scripts/dev/transcripts
 
 # all tests, with their sum as the last line
 check-total: all
@@ -29,9 +29,10 @@ lint:
 format:
 	cd $(srcdir) && find lib src tests -name '*.[ch]' -exec clang-format -i {} +
 
-# times, beside those of the last record
+# times, beside those of the last record; each program is told of the scripts and the shell
 bench: $(BENCHES) all
-	@for bench in $(BENCHES); do ./$$bench || exit 1; done >bench.out
+	@for bench in $(BENCHES); do LD_LIBRARY_PATH=.libs ./$$bench $(abs_srcdir)/scripts \
+		$(abs_builddir)/.libs/cotree || exit 1; done >bench.out
 	@$(dev)/bench-table $(srcdir)/tests/bench/record.txt <bench.out
 
 bench-record: bench

@@ -1,19 +1,8 @@
 /* bench_graph.c: trees and their matrices of random graphs, twice as many edges as nodes */
 #include "graph/tree.h"
 
+#include "../random.h"
 #include "bench.h"
-
-#include <stdint.h>
-
-/* splitmix64 (Steele, Lea, Flood 2014) */
-static uint64_t draw(uint64_t *state)
-{
-    uint64_t z = (*state += 0x9E3779B97F4A7C15U);
-
-    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9U;
-    z = (z ^ (z >> 27)) * 0x94D049BB133111EBU;
-    return z ^ (z >> 31);
-}
 
 static Graph *make_random(int edges)
 {
@@ -31,10 +20,10 @@ static Graph *make_random(int edges)
         Edge edge = {.name = name, .domain = DOMAIN_MECHANICAL};
 
         (void)snprintf(name, sizeof name, "e%d", e);
-        edge.tail = needed ? e + 1 : (int)(draw(&seed) % (uint64_t)nodes);
-        edge.head = (int)(draw(&seed) % (uint64_t)(needed ? e + 1 : nodes));
+        edge.tail = needed ? e + 1 : (int)(test_random(&seed) % (uint64_t)nodes);
+        edge.head = (int)(test_random(&seed) % (uint64_t)(needed ? e + 1 : nodes));
         edge.branching[0] = edge.branching[1] = BRANCH_MAY;
-        edge.preference[0] = edge.preference[1] = (int)(draw(&seed) % 10);
+        edge.preference[0] = edge.preference[1] = (int)(test_random(&seed) % 10);
         (void)graph_add_edge(graph, &edge);
     }
     return graph;

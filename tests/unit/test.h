@@ -5,6 +5,8 @@
 #ifndef COTREE_TESTS_TEST_H
 #define COTREE_TESTS_TEST_H
 
+#include "../random.h"
+
 #include <math.h>
 #include <stdbool.h>
 #include <stdint.h>
@@ -58,21 +60,6 @@ static int test_passed, test_failed, test_skipped, test_faults;
                    wanted_, (double)(tolerance));                                                  \
         }                                                                                          \
     } while (0)
-
-/* repeatable random numbers: splitmix64 (Steele, Lea, Flood 2014) */
-__attribute__((unused)) static uint64_t test_random(uint64_t *state)
-{
-    uint64_t z = (*state += 0x9E3779B97F4A7C15U);
-
-    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9U;
-    z = (z ^ (z >> 27)) * 0x94D049BB133111EBU;
-    return z ^ (z >> 31);
-}
-
-__attribute__((unused)) static double test_uniform(uint64_t *state, double low, double high)
-{
-    return low + (high - low) * (double)(test_random(state) >> 11) * 0x1p-53;
-}
 
 __attribute__((unused)) static int test_end(void)
 {
