@@ -5,4 +5,4 @@ libcore_la_SOURCES += \
 	lib/expr/print.c lib/expr/print_code.c lib/expr/print_impl.h lib/expr/print_latex.c \
 	lib/expr/print_text.c lib/expr/print_tree.c \
 	lib/expr/product.c lib/expr/substitute.c lib/expr/sum.c \
-	lib/expr/units.h lib/expr/walk.c
+	lib/expr/units.c lib/expr/units.h lib/expr/walk.c

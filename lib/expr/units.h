@@ -11,17 +11,17 @@ typedef struct Dimension {
     signed char power[6];
 } Dimension;
 
-/* a unit that was written: value in SI = written * (num / den) exactly where exact, else * factor
- */
+/* a unit that was written: value in SI = written * num/den * pi^pi_power exactly, or * factor */
 typedef struct Unit {
     double factor;
-    long long num; /* exact factor num/den; den 0 where it isn't rational (deg, rpm) */
-    long long den;
-    int pi_power; /* factor = num/den * pi^pi_power: deg is 1/180 pi */
+    long long num; /* deg is 1/180 pi: num 1, den 180, pi_power 1 */
+    long long den; /* 0 where the exact factor doesn't fit, and `factor` alone counts */
+    int pi_power;
     Dimension dimension;
 } Unit;
 
-/* One unit name with an optional SI prefix: mm, kohm, uF, deg, rpm. False where unknown. */
+/* One unit name with an optional SI prefix: mm, kohm, uF, deg, rpm. False where unknown. No
+ * letter means two things: hour, day and tonne are spelled out, standard gravity is gn. */
 bool unit_find(const char *name, Unit *unit);
 /* A compound unit, the text between brackets: kN/m, m/s^2, 1/s. On failure *fault is the
  * offset of the part that isn't understood. */
@@ -29,8 +29,8 @@ bool unit_parse(const char *text, size_t length, Unit *unit, size_t *fault);
 /* what was probably meant by an unknown unit name, or NULL */
 const char *unit_suggest(const char *name);
 bool dimension_same(Dimension a, Dimension b);
-void dimension_print(Text *text,
-                     Dimension dimension); /* kg*m/s^2, named where there is a name: N, V, ohm */
+/* kg*m^2, with a name where that is shorter: N, V, N/m, N*m (of work and of torque), 1 for none */
+void dimension_print(Text *text, Dimension dimension);
 /* every unit name without prefix, for completion: call with 0, 1, ... until NULL */
 const char *unit_name(int i);
 

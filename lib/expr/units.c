@@ -1,0 +1,382 @@
+/* units.c: names of units and what they are in SI
+ *
+ * A unit is num/den * pi^pi_power of the SI unit of its dimension. Names follow SI; where
+ * a letter would mean two things (t, h, d), the unit is spelled out. */
+#include "expr/units.h"
+
+#include "base/memory.h"
+
+#include <ctype.h>
+#include <limits.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define PI 3.14159265358979323846
+
+typedef enum Prefixes { NO_PREFIX, SI_PREFIX, CM_PREFIX } Prefixes; /* none; k, m ...; c, d too */
+
+typedef struct UnitRow {
+    const char *name;
+    long long num;
+    long long den;
+    int pi_power;
+    Prefixes prefixes;
+    bool named; /* dimensions print with it */
+    signed char power[6];
+} UnitRow;
+
+/* clang-format off */
+static const UnitRow rows[] = {
+    /*                num    den pi  prefixes   named    m kg  s  A  K rad */
+    {"m",               1,     1, 0, CM_PREFIX, false, { 1, 0, 0, 0, 0, 0}},
+    {"g",               1,  1000, 0, SI_PREFIX, false, { 0, 1, 0, 0, 0, 0}},
+    {"s",               1,     1, 0, SI_PREFIX, false, { 0, 0, 1, 0, 0, 0}},
+    {"A",               1,     1, 0, SI_PREFIX, false, { 0, 0, 0, 1, 0, 0}},
+    {"K",               1,     1, 0, SI_PREFIX, false, { 0, 0, 0, 0, 1, 0}},
+    {"rad",             1,     1, 0, SI_PREFIX, false, { 0, 0, 0, 0, 0, 1}},
+    {"deg",             1,   180, 1, NO_PREFIX, false, { 0, 0, 0, 0, 0, 1}},
+    {"rev",             2,     1, 1, NO_PREFIX, false, { 0, 0, 0, 0, 0, 1}},
+    {"rpm",             1,    30, 1, NO_PREFIX, false, { 0, 0,-1, 0, 0, 1}},
+    {"N",               1,     1, 0, SI_PREFIX, true,  { 1, 1,-2, 0, 0, 0}},
+    {"Nm",              1,     1, 0, SI_PREFIX, false, { 2, 1,-2, 0, 0, 0}},
+    {"J",               1,     1, 0, SI_PREFIX, false, { 2, 1,-2, 0, 0, 0}},
+    {"W",               1,     1, 0, SI_PREFIX, true,  { 2, 1,-3, 0, 0, 0}},
+    {"Wh",           3600,     1, 0, SI_PREFIX, false, { 2, 1,-2, 0, 0, 0}},
+    {"Pa",              1,     1, 0, SI_PREFIX, true,  {-1, 1,-2, 0, 0, 0}},
+    {"bar",        100000,     1, 0, SI_PREFIX, false, {-1, 1,-2, 0, 0, 0}},
+    {"atm",        101325,     1, 0, NO_PREFIX, false, {-1, 1,-2, 0, 0, 0}},
+    {"Hz",              1,     1, 0, SI_PREFIX, false, { 0, 0,-1, 0, 0, 0}},
+    {"V",               1,     1, 0, SI_PREFIX, true,  { 2, 1,-3,-1, 0, 0}},
+    {"ohm",             1,     1, 0, SI_PREFIX, true,  { 2, 1,-3,-2, 0, 0}},
+    {"Ω",               1,     1, 0, SI_PREFIX, false, { 2, 1,-3,-2, 0, 0}},
+    {"S",               1,     1, 0, SI_PREFIX, true,  {-2,-1, 3, 2, 0, 0}},
+    {"C",               1,     1, 0, SI_PREFIX, true,  { 0, 0, 1, 1, 0, 0}},
+    {"Ah",           3600,     1, 0, SI_PREFIX, false, { 0, 0, 1, 1, 0, 0}},
+    {"F",               1,     1, 0, SI_PREFIX, true,  {-2,-1, 4, 2, 0, 0}},
+    {"H",               1,     1, 0, SI_PREFIX, true,  { 2, 1,-2,-2, 0, 0}},
+    {"Wb",              1,     1, 0, SI_PREFIX, false, { 2, 1,-2,-1, 0, 0}},
+    {"T",               1,     1, 0, SI_PREFIX, true,  { 0, 1,-2,-1, 0, 0}},
+    {"L",               1,  1000, 0, CM_PREFIX, false, { 3, 0, 0, 0, 0, 0}},
+    {"l",               1,  1000, 0, CM_PREFIX, false, { 3, 0, 0, 0, 0, 0}},
+    {"min",            60,     1, 0, NO_PREFIX, false, { 0, 0, 1, 0, 0, 0}},
+    {"hour",         3600,     1, 0, NO_PREFIX, false, { 0, 0, 1, 0, 0, 0}},
+    {"day",         86400,     1, 0, NO_PREFIX, false, { 0, 0, 1, 0, 0, 0}},
+    {"tonne",        1000,     1, 0, NO_PREFIX, false, { 0, 1, 0, 0, 0, 0}},
+    {"gn",         980665,100000, 0, NO_PREFIX, false, { 1, 0,-2, 0, 0, 0}},
+};
+
+static const struct {
+    const char *name;
+    long long num;
+    long long den;
+} prefixes[] = {
+    {"f", 1, 1000000000000000}, {"p", 1, 1000000000000}, {"n", 1, 1000000000},
+    {"u", 1, 1000000}, {"µ", 1, 1000000}, {"μ", 1, 1000000}, {"m", 1, 1000},
+    {"c", 1, 100}, {"d", 1, 10},
+    {"k", 1000, 1}, {"M", 1000000, 1}, {"G", 1000000000, 1}, {"T", 1000000000000, 1},
+};
+
+/* what people write, and what it is called here */
+static const struct {
+    const char *word;
+    const char *unit;
+} meant[] = {
+    {"h", "hour"}, {"hr", "hour"}, {"hrs", "hour"}, {"hours", "hour"}, {"d", "day"}, {"days", "day"},
+    {"t", "tonne"}, {"sec", "s"}, {"seconds", "s"}, {"msec", "ms"}, {"usec", "us"},
+    {"minutes", "min"}, {"degrees", "deg"}, {"degree", "deg"}, {"radians", "rad"},
+    {"meter", "m"}, {"meters", "m"}, {"metre", "m"}, {"metres", "m"}, {"micron", "um"},
+    {"volt", "V"}, {"volts", "V"}, {"amp", "A"}, {"amps", "A"}, {"ampere", "A"},
+    {"watt", "W"}, {"watts", "W"}, {"newton", "N"}, {"newtons", "N"}, {"joule", "J"},
+    {"farad", "F"}, {"henry", "H"}, {"hertz", "Hz"}, {"kelvin", "K"}, {"pascal", "Pa"},
+    {"liter", "L"}, {"litre", "L"}, {"gram", "g"}, {"grams", "g"}, {"kilogram", "kg"},
+    {"Meg", "Mohm"}, {"MEG", "Mohm"}, {"meg", "Mohm"}, {"turn", "rev"}, {"RPM", "rpm"},
+};
+
+/* prefixed names that a slip may have been meant for */
+static const char *const common[] = {
+    "mm", "cm", "km", "um", "nm", "kg", "mg", "ms", "us", "ns", "mA", "uA", "kA", "mrad",
+    "kN", "MN", "mN", "kJ", "MJ", "mJ", "kW", "MW", "mW", "kWh", "kPa", "MPa", "GPa", "mbar",
+    "kHz", "MHz", "GHz", "mV", "uV", "kV", "kohm", "Mohm", "mohm", "mS", "mC", "uC", "nC",
+    "mAh", "mF", "uF", "nF", "pF", "mH", "uH", "nH", "mT", "mWb", "mL", "ml",
+};
+/* clang-format on */
+
+/* --- finding --- */
+
+static const UnitRow *row_find(const char *name, size_t length)
+{
+    for (int i = 0; i < COUNT(rows); i++) {
+        if (strlen(rows[i].name) == length && strncmp(rows[i].name, name, length) == 0)
+            return &rows[i];
+    }
+    return NULL;
+}
+
+static void set_factor(Unit *unit)
+{
+    if (unit->den != 0)
+        unit->factor = (double)unit->num / (double)unit->den * pow(PI, unit->pi_power);
+}
+
+static Unit unit_of(const UnitRow *row, long long num, long long den)
+{
+    Unit unit = {.num = row->num * num, .den = row->den * den, .pi_power = row->pi_power};
+
+    /* at most one of the two has a common divisor with the other: powers of ten */
+    while (unit.num % 10 == 0 && unit.den % 10 == 0) {
+        unit.num /= 10;
+        unit.den /= 10;
+    }
+    memcpy(unit.dimension.power, row->power, sizeof row->power);
+    set_factor(&unit);
+    return unit;
+}
+
+static bool find_part(const char *name, size_t length, Unit *unit)
+{
+    const UnitRow *row = row_find(name, length);
+
+    /* a name of its own wins over a prefix: min is no milli-inch */
+    if (row != NULL) {
+        *unit = unit_of(row, 1, 1);
+        return true;
+    }
+    for (int i = 0; i < COUNT(prefixes); i++) {
+        size_t skip = strlen(prefixes[i].name);
+        bool hundredths = prefixes[i].den == 100 || prefixes[i].den == 10;
+
+        if (skip >= length || strncmp(prefixes[i].name, name, skip) != 0)
+            continue;
+        row = row_find(name + skip, length - skip);
+        if (row == NULL || row->prefixes == NO_PREFIX || (hundredths && row->prefixes != CM_PREFIX))
+            continue;
+        *unit = unit_of(row, prefixes[i].num, prefixes[i].den);
+        return true;
+    }
+    return false;
+}
+
+bool unit_find(const char *name, Unit *unit)
+{
+    return find_part(name, strlen(name), unit);
+}
+
+/* --- compound units --- */
+
+static long long gcd(long long a, long long b)
+{
+    while (b != 0) {
+        long long rest = a % b;
+
+        a = b;
+        b = rest;
+    }
+    return a;
+}
+
+/* Multiply by one more factor, once; false where a power no longer fits. */
+static bool multiply(Unit *unit, const Unit *by, int sign)
+{
+    long long num = sign > 0 ? by->num : by->den;
+    long long den = sign > 0 ? by->den : by->num;
+
+    unit->factor = sign > 0 ? unit->factor * by->factor : unit->factor / by->factor;
+    unit->pi_power += sign * by->pi_power;
+    for (int i = 0; i < 6; i++) {
+        int power = unit->dimension.power[i] + sign * by->dimension.power[i];
+
+        if (power > SCHAR_MAX || power < SCHAR_MIN)
+            return false;
+        unit->dimension.power[i] = (signed char)power;
+    }
+    if (unit->den != 0) {
+        long long left = gcd(unit->num, den);
+        long long right = gcd(num, unit->den);
+
+        if (__builtin_mul_overflow(unit->num / left, num / right, &unit->num) ||
+            __builtin_mul_overflow(unit->den / right, den / left, &unit->den))
+            unit->den = 0;
+    }
+    set_factor(unit);
+    return true;
+}
+
+static size_t skip_blanks(const char *text, size_t length, size_t at)
+{
+    while (at < length && (text[at] == ' ' || text[at] == '\t'))
+        at++;
+    return at;
+}
+
+/* [ "^" [ "-" ] digits ]; false, with *at at the fault, where no small integer follows */
+static bool parse_power(const char *text, size_t length, size_t *at, int *power)
+{
+    int sign = 1;
+    size_t digits;
+
+    *power = 1;
+    *at = skip_blanks(text, length, *at);
+    if (*at >= length || text[*at] != '^')
+        return true;
+    *at = skip_blanks(text, length, *at + 1);
+    if (*at < length && text[*at] == '-') {
+        sign = -1;
+        ++*at;
+    }
+    *power = 0;
+    for (digits = 0; *at + digits < length && isdigit((unsigned char)text[*at + digits]); digits++)
+        *power = *power * 10 + (text[*at + digits] - '0');
+    if (digits == 0 || digits > 2)
+        return false;
+    *at += digits;
+    *power *= sign;
+    return true;
+}
+
+/* ( UNIT | "1" ) [ power ] into `unit`, divided by it where `sign` is -1 */
+static bool parse_factor(const char *text, size_t length, size_t *at, int sign, Unit *unit)
+{
+    size_t start = *at;
+    size_t end = start;
+    Unit part = {.factor = 1, .num = 1, .den = 1};
+    int power;
+
+    while (end < length && (isalpha((unsigned char)text[end]) || (text[end] & 0x80) != 0))
+        end++;
+    if (end == start && end < length && text[end] == '1')
+        end++;
+    else if (end == start || !find_part(text + start, end - start, &part))
+        return false;
+    *at = end;
+    if (!parse_power(text, length, at, &power))
+        return false;
+    if (power < 0)
+        sign = -sign;
+    for (int i = abs(power); i > 0; i--) {
+        if (!multiply(unit, &part, sign)) {
+            *at = start;
+            return false;
+        }
+    }
+    return true;
+}
+
+bool unit_parse(const char *text, size_t length, Unit *unit, size_t *fault)
+{
+    Unit whole = {.factor = 1, .num = 1, .den = 1};
+    size_t at = skip_blanks(text, length, 0);
+    int sign = 1;
+
+    for (;;) {
+        if (!parse_factor(text, length, &at, sign, &whole))
+            break;
+        at = skip_blanks(text, length, at);
+        if (at == length) {
+            *unit = whole;
+            return true;
+        }
+        if (text[at] != '*' && text[at] != '/')
+            break;
+        sign = text[at] == '*' ? 1 : -1;
+        at = skip_blanks(text, length, at + 1);
+    }
+    *fault = at;
+    return false;
+}
+
+const char *unit_suggest(const char *name)
+{
+    Suggest suggest = suggest_for(name);
+
+    for (int i = 0; i < COUNT(meant); i++) {
+        if (strcmp(meant[i].word, name) == 0)
+            return meant[i].unit;
+    }
+    for (int i = 0; i < COUNT(rows); i++)
+        suggest_offer(&suggest, rows[i].name);
+    for (int i = 0; i < COUNT(common); i++)
+        suggest_offer(&suggest, common[i]);
+    return suggest.best;
+}
+
+const char *unit_name(int i)
+{
+    return i >= 0 && i < COUNT(rows) ? rows[i].name : NULL;
+}
+
+/* --- dimensions --- */
+
+bool dimension_same(Dimension a, Dimension b)
+{
+    return memcmp(a.power, b.power, 5) == 0;
+}
+
+/* How much there is to write: the sum of all powers. */
+static int dimension_size(Dimension d)
+{
+    int size = 0;
+
+    for (int i = 0; i < 6; i++)
+        size += abs(d.power[i]);
+    return size;
+}
+
+/* The named unit that shortens the writing most, and what is left beside it. A unit that
+ * would leave mass or current to divide by says less than base units: m/s^2 is no N/kg. */
+static const char *dimension_named(Dimension whole, Dimension *rest)
+{
+    const char *name = NULL;
+    int size = dimension_size(whole);
+
+    *rest = whole;
+    for (int i = 0; i < COUNT(rows); i++) {
+        Dimension left = whole;
+
+        if (!rows[i].named)
+            continue;
+        for (int j = 0; j < 6; j++)
+            left.power[j] = (signed char)(left.power[j] - rows[i].power[j]);
+        if (left.power[1] != 0 || left.power[3] != 0 || 1 + dimension_size(left) >= size)
+            continue;
+        size = 1 + dimension_size(left);
+        name = rows[i].name;
+        *rest = left;
+    }
+    return name;
+}
+
+void dimension_print(Text *text, Dimension dimension)
+{
+    static const char *const bases[] = {"kg", "m", "s", "A", "K", "rad"};
+    static const int places[] = {1, 0, 2, 3, 4, 5};
+    Dimension rest;
+    const char *name = dimension_named(dimension, &rest);
+    bool first = true;
+
+    if (name != NULL) {
+        text_add(text, name);
+        first = false;
+    }
+    for (int i = 0; i < 6; i++) {
+        int power = rest.power[places[i]];
+
+        if (power <= 0)
+            continue;
+        text_addf(text, first ? "%s" : "*%s", bases[i]);
+        if (power > 1)
+            text_addf(text, "^%d", power);
+        first = false;
+    }
+    if (first)
+        text_char(text, '1');
+    for (int i = 0; i < 6; i++) {
+        int power = -rest.power[places[i]];
+
+        if (power <= 0)
+            continue;
+        text_addf(text, "/%s", bases[i]);
+        if (power > 1)
+            text_addf(text, "^%d", power);
+    }
+}
