@@ -1,1 +1,18 @@
 # sessions to replay, developers tools
+
+# the paper's cases
+EXTRA_DIST += \
+	scripts/paper/1_slider_crank_one_tree.ct \
+	scripts/paper/1_slider_crank_two_trees.ct \
+	scripts/paper/3_motor_arm_forward.ct \
+	scripts/paper/3_motor_arm_inverse.ct
+
+# mechanisms with published reference solutions
+EXTRA_DIST += \
+	scripts/reference/ref_A01_pendulum_2000s.ct \
+	scripts/reference/ref_A01_pendulum_absolute.ct \
+	scripts/reference/ref_A01_pendulum_joint.ct \
+	scripts/reference/ref_A02_four_bar_absolute.ct \
+	scripts/reference/ref_A02_four_bar_joint.ct \
+	scripts/reference/ref_A03_andrews.ct \
+	scripts/reference/ref_A03_andrews_beta062.ct
