@@ -1,0 +1,376 @@
+/* model.c: a model is the statements it accepted, in order, and the state they made
+ *
+ * Undo and redo move over that order: the state is made anew from what is left. */
+#include "model/model_impl.h"
+
+#include <math.h>
+#include <string.h>
+
+typedef struct Accepted {
+    const char *text; /* the statement in full */
+    Effect effect;
+} Accepted;
+
+struct Model {
+    Arena *arena;
+    Pool *pool; /* texts of steps */
+    State *state;
+    LIST(Accepted) steps;
+    int done; /* steps that count; those behind can be redone */
+    const char *undone;
+    char *remarks;
+    uint64_t revision;
+    uint64_t values;
+};
+
+static const char clear_text[] = "clear";
+
+Model *model_new(void)
+{
+    Model *model = NEW(Model);
+
+    model->arena = arena_new();
+    model->pool = pool_new(0);
+    model->state = state_new(model->arena);
+    model->undone = "";
+    model->remarks = mem_text("", 0);
+    return model;
+}
+
+void model_free(Model *model)
+{
+    if (model == NULL)
+        return;
+    state_free(model->state);
+    arena_free(model->arena);
+    pool_free(model->pool);
+    LIST_FREE(model->steps);
+    mem_free(model->remarks);
+    mem_free(model);
+}
+
+static void count_effect(Model *model, Effect effect)
+{
+    if (effect == EFFECT_EQUATIONS)
+        model->revision++;
+    if (effect != EFFECT_NONE)
+        model->values++;
+}
+
+static void set_remarks(Model *model, Text *remarks)
+{
+    mem_free(model->remarks);
+    model->remarks = text_done(remarks);
+}
+
+static void add_step(Model *model, const char *text, Effect effect)
+{
+    model->steps.count = model->done;
+    LIST_PUSH(model->steps, (Accepted){pool_text(model->pool, text, strlen(text)), effect});
+    model->done++;
+}
+
+Status model_apply(Model *model, const Statement *statement, Diag *diag)
+{
+    Status status = OK;
+    Outcome outcome = {EFFECT_NONE, {0}};
+    char *text = NULL;
+
+    CHECK(state_apply(&model->state, statement, &outcome, diag));
+    set_remarks(model, &outcome.remarks);
+    count_effect(model, outcome.effect);
+    if (statement->kind != STATEMENT_EMPTY) {
+        text = statement_full_text(statement);
+        add_step(model, text, outcome.effect);
+    }
+done:
+    if (status != OK) {
+        Text none = {0};
+        set_remarks(model, &none);
+    }
+    mem_free(text);
+    text_free(&outcome.remarks);
+    return status;
+}
+
+const char *model_remarks(const Model *model)
+{
+    return model->remarks;
+}
+
+/* --- undo and redo --- */
+
+/* the state that the first `count` steps make */
+static Status replay(const Model *model, int count, State **out, Diag *diag)
+{
+    Status status = OK;
+    State *state = state_new(model->arena);
+    Statement *statement = NULL;
+    int first = count;
+
+    while (first > 0 && strcmp(model->steps.at[first - 1].text, clear_text) != 0)
+        first--;
+    for (int i = first; i < count; i++) {
+        Outcome outcome = {EFFECT_NONE, {0}};
+        size_t next = 0;
+
+        CHECK(statement_parse(model->steps.at[i].text, i + 1, (SyntaxOptions){false}, &next,
+                              &statement, diag));
+        status = state_apply(&state, statement, &outcome, diag);
+        text_free(&outcome.remarks);
+        if (status != OK)
+            goto done;
+        statement_free(statement);
+        statement = NULL;
+    }
+    *out = state;
+    state = NULL;
+done:
+    statement_free(statement);
+    state_free(state);
+    return status;
+}
+
+static Status move_to(Model *model, int count, const Accepted *over, Diag *diag)
+{
+    Status status = OK;
+    State *state = NULL;
+    Text none = {0};
+
+    CHECK(replay(model, count, &state, diag));
+    state_free(model->state);
+    model->state = state;
+    model->done = count;
+    model->undone = over->text;
+    set_remarks(model, &none);
+    count_effect(model, over->effect);
+done:
+    return status;
+}
+
+Status model_undo(Model *model, Diag *diag)
+{
+    if (model->done == 0)
+        return diag_set(diag, E_MISSING, "there is nothing to undo");
+    return move_to(model, model->done - 1, &model->steps.at[model->done - 1], diag);
+}
+
+Status model_redo(Model *model, Diag *diag)
+{
+    if (model->done == model->steps.count)
+        return diag_set(diag, E_MISSING, "there is nothing to redo");
+    return move_to(model, model->done + 1, &model->steps.at[model->done], diag);
+}
+
+const char *model_undone(const Model *model)
+{
+    return model->undone;
+}
+
+void model_clear(Model *model)
+{
+    Text none = {0};
+
+    state_free(model->state);
+    model->state = state_new(model->arena);
+    set_remarks(model, &none);
+    add_step(model, clear_text, EFFECT_EQUATIONS);
+    count_effect(model, EFFECT_EQUATIONS);
+}
+
+char *model_save(const Model *model)
+{
+    Text text = {0};
+
+    state_save(model->state, &text);
+    return text_done(&text);
+}
+
+/* --- looking --- */
+
+uint64_t model_revision(const Model *model)
+{
+    return model->revision;
+}
+
+uint64_t model_values(const Model *model)
+{
+    return model->values;
+}
+
+Arena *model_arena(const Model *model)
+{
+    return model->arena;
+}
+
+const Graph *model_graph(const Model *model)
+{
+    return model->state->graph;
+}
+
+bool model_is_planar(const Model *model)
+{
+    return model->state->planar;
+}
+
+const Expr *model_gravity(const Model *model)
+{
+    return model->state->gravity;
+}
+
+const char *model_title(const Model *model)
+{
+    return model->state->title;
+}
+
+int model_count(const Model *model)
+{
+    return model->state->parts.count;
+}
+
+const Instance *model_instance(const Model *model, int i)
+{
+    return model->state->parts.at[i];
+}
+
+const Instance *model_find(const Model *model, const char *name)
+{
+    return state_part(model->state, name);
+}
+
+const Instance *model_edge_owner(const Model *model, int edge)
+{
+    return model->state->parts.at[model->state->edge_owner.at[edge]];
+}
+
+bool model_coordinate(const Model *model, const char *name, const Instance **owner, int *index)
+{
+    const Thing *thing = state_thing(model->state, name);
+
+    if (thing != NULL && thing->kind == THING_COORDINATE) {
+        *owner = model->state->parts.at[thing->index];
+        *index = thing->coordinate;
+        return true;
+    }
+    /* a coordinate that has its owner's name */
+    if (thing == NULL || thing->kind != THING_PART)
+        return false;
+    *owner = model->state->parts.at[thing->index];
+    *index = 0;
+    return (*owner)->coord_count == 1 && strcmp((*owner)->coord[0], name) == 0;
+}
+
+Status model_trees(const Model *model, const Tree *trees[TREE_KINDS], Diag *diag)
+{
+    return state_trees(model->state, trees, diag);
+}
+
+int model_parameter_count(const Model *model)
+{
+    return model->state->parameters.count;
+}
+
+Expr model_parameter(const Model *model, int i, Expr *definition)
+{
+    const Definition *d = &model->state->definitions.at[model->state->parameters.at[i]];
+
+    if (definition != NULL)
+        *definition = d->body;
+    return d->symbol;
+}
+
+static double symbol_value(void *context, Expr symbol)
+{
+    State *state = context;
+    const Thing *thing = state_thing(state, expr_name(symbol));
+
+    if (expr_symbol_kind(symbol) != SYMBOL_PARAMETER || thing == NULL ||
+        thing->kind != THING_DEFINITION)
+        return (double)NAN;
+    return definition_value(state, thing->index);
+}
+
+double model_parameter_value(const Model *model, Expr symbol)
+{
+    return symbol_value(model->state, symbol);
+}
+
+double model_number(const Model *model, Expr e)
+{
+    return expr_evaluate(e, symbol_value, model->state);
+}
+
+int model_output_count(const Model *model)
+{
+    return model->state->outputs.count;
+}
+
+Expr model_output(const Model *model, int i, const char **name)
+{
+    const Definition *d = &model->state->definitions.at[model->state->outputs.at[i]];
+
+    *name = d->name;
+    return d->body;
+}
+
+int model_start_count(const Model *model)
+{
+    return model->state->starts.count;
+}
+
+const Start *model_start(const Model *model, int i)
+{
+    return &model->state->starts.at[i].start;
+}
+
+Form model_form(const Model *model, const char *const **independent, int *count)
+{
+    *independent = model->state->independent.at;
+    *count = model->state->independent.count;
+    return model->state->form;
+}
+
+static Scope ask(const Model *model)
+{
+    return (Scope){.state = model->state, .kind = SCOPE_ASK};
+}
+
+Status model_expression(const Model *model, const Syntax *syntax, Expr *out, Diag *diag)
+{
+    Scope scope = ask(model);
+    Status status = scope_expression(&scope, syntax, out, diag);
+
+    LIST_FREE(scope.uses);
+    return status;
+}
+
+Status model_vector(const Model *model, const Syntax *syntax, Expr *out, int *count, Diag *diag)
+{
+    Scope scope = ask(model);
+    Status status = scope_vector(&scope, syntax, out, count, diag);
+
+    LIST_FREE(scope.uses);
+    return status;
+}
+
+Status model_check_variable(const Model *model, const char *path, int primes, Place place,
+                            Diag *diag)
+{
+    Text name = {0};
+    const Thing *thing = state_thing(model->state, path);
+    Status status = OK;
+
+    if (thing != NULL && thing->kind == THING_DEFINITION &&
+        model->state->definitions.at[thing->index].kind == DEFINES_OUTPUT)
+        return OK;
+    status = variable_resolve(model->state, NULL, path, primes, ALLOW_MODEL | ALLOW_RUNS, place,
+                              &name, diag);
+
+    text_free(&name);
+    return status;
+}
+
+const char *model_name(const Model *model, int i)
+{
+    return state_name_at(model->state, i);
+}

@@ -1,0 +1,381 @@
+/* model_define.c: parameters, laws and outputs
+ *
+ * A parameter stays a symbol, so a new value changes no equation. A law or output is put
+ * in place wherever it is used, so a new one makes the state anew from its lines. */
+#include "model/model_impl.h"
+
+#include <math.h>
+#include <string.h>
+
+static Definition *find_definition(const State *state, const char *name, DefinitionKind kind)
+{
+    const Thing *thing = state_thing(state, name);
+    Definition *d = thing != NULL && thing->kind == THING_DEFINITION
+                        ? &state->definitions.at[thing->index]
+                        : NULL;
+
+    return d != NULL && d->kind == kind ? d : NULL;
+}
+
+static int index_of(const State *state, const Definition *d)
+{
+    return (int)(d - state->definitions.at);
+}
+
+/* --- values of parameters --- */
+
+static double known_value(void *context, Expr symbol)
+{
+    const State *state = context;
+    const Definition *d = find_definition(state, expr_name(symbol), DEFINES_PARAMETER);
+
+    return d != NULL ? d->value : (double)NAN;
+}
+
+/* push the parameters that must be known first; whether there were any */
+static bool push_unknown(const State *state, Expr body, NumberList *stack)
+{
+    Expr *symbols = NULL;
+    int count = expr_symbols(&body, 1, &symbols);
+    int before = stack->count;
+
+    for (int i = 0; i < count; i++) {
+        const Definition *d = find_definition(state, expr_name(symbols[i]), DEFINES_PARAMETER);
+
+        if (d != NULL && !d->is_known)
+            LIST_PUSH(*stack, index_of(state, d));
+    }
+    mem_free(symbols);
+    return stack->count > before;
+}
+
+double definition_value(State *state, int definition)
+{
+    NumberList stack = {0};
+
+    LIST_PUSH(stack, definition);
+    while (stack.count > 0) {
+        Definition *d = &state->definitions.at[stack.at[stack.count - 1]];
+
+        if (d->is_known || !push_unknown(state, d->body, &stack)) {
+            if (!d->is_known)
+                d->value = expr_evaluate(d->body, known_value, state);
+            d->is_known = true;
+            stack.count--;
+        }
+    }
+    LIST_FREE(stack);
+    return state->definitions.at[definition].value;
+}
+
+static double body_value(State *state, Expr body)
+{
+    NumberList stack = {0};
+
+    (void)push_unknown(state, body, &stack);
+    for (int i = 0; i < stack.count; i++)
+        (void)definition_value(state, stack.at[i]);
+    LIST_FREE(stack);
+    return expr_evaluate(body, known_value, state);
+}
+
+/* --- circles --- */
+
+static Status report_circle(const State *state, const int *from, int definition, int last,
+                            Place place, Diag *diag)
+{
+    Text path = {0};
+    const char *name = state->definitions.at[definition].name;
+    NumberList way = {0};
+
+    for (int d = last; d >= 0; d = from[d])
+        LIST_PUSH(way, d);
+    for (int i = way.count - 1; i >= 0; i--)
+        text_addf(&path, "%s, ", state->definitions.at[way.at[i]].name);
+    (void)diag_at(diag, E_VALUE, place, "%s would depend on itself: %s, %s%s", name, name, path.at,
+                  name);
+    text_free(&path);
+    LIST_FREE(way);
+    return E_VALUE;
+}
+
+Status definition_check_circle(const State *state, int definition, const int *uses, int count,
+                               Place place, Diag *diag)
+{
+    int n = state->definitions.count;
+    int *from = NEW_ARRAY(int, n); /* which one led here; -1 the new text itself, -2 not seen */
+    NumberList stack = {0};
+    Status status = OK;
+
+    for (int i = 0; i < n; i++)
+        from[i] = -2;
+    for (int i = 0; i < count; i++) {
+        if (uses[i] == definition) {
+            status = diag_at(diag, E_VALUE, place, "%s would depend on itself",
+                             state->definitions.at[definition].name);
+            goto done;
+        }
+        from[uses[i]] = -1;
+        LIST_PUSH(stack, uses[i]);
+    }
+    while (stack.count > 0) {
+        int d = stack.at[--stack.count];
+        const Line *line = &state->lines.at[state->definitions.at[d].line];
+
+        for (int i = 0; i < line->use_count; i++) {
+            if (line->uses[i] == definition) {
+                status = report_circle(state, from, definition, d, place, diag);
+                goto done;
+            }
+            if (from[line->uses[i]] != -2)
+                continue;
+            from[line->uses[i]] = d;
+            LIST_PUSH(stack, line->uses[i]);
+        }
+    }
+done:
+    LIST_FREE(stack);
+    mem_free(from);
+    return status;
+}
+
+/* --- making and changing --- */
+
+static int add_definition(State *state, Definition d, const char *text, const Scope *scope)
+{
+    int index = state->definitions.count;
+
+    d.name = state_text(state, d.name);
+    d.line = line_add(state, text, index, -1, scope);
+    LIST_PUSH(state->definitions, d);
+    state_name(state, d.name, THING_DEFINITION, index, 0);
+    return index;
+}
+
+static Status check_new_name(const State *state, const char *name, DefinitionKind kind, Place place,
+                             Diag *diag)
+{
+    if (kind != DEFINES_PARAMETER && names_find(state->terminals, name) >= 0)
+        return diag_at(diag, E_NAME, place, "'%s' is already a terminal", name);
+    return name_is_free(state, name, place, diag);
+}
+
+/* The line of a definition says something new: make the state anew from its lines. On failure
+ * nothing has changed. */
+static Status replace_line(State **state, int index, const char *text, const Scope *scope,
+                           Place place, Outcome *outcome, Diag *diag)
+{
+    Line *line = &(*state)->lines.at[(*state)->definitions.at[index].line];
+    Line before = *line;
+    const char *name = (*state)->definitions.at[index].name;
+    State *next = NULL;
+    Diag fault = {0};
+    Status status;
+
+    line->text = state_text(*state, text);
+    line_uses(*state, line, scope);
+    status = state_rebuild(*state, -1, &next, NULL, &outcome->remarks, &fault);
+    if (status != OK) {
+        *line = before;
+        status = diag_at(diag, status, place, "what uses %s would fail: %s", name, fault.message);
+        diag_hint(diag, "%s", fault.hint);
+        return status;
+    }
+    state_free(*state);
+    *state = next;
+    outcome->effect = EFFECT_EQUATIONS;
+    return OK;
+}
+
+static Status change_parameter(State *state, Definition *d, Expr body, const Statement *statement,
+                               const Scope *scope, const char *text, Outcome *outcome, Diag *diag)
+{
+    Line *line = &state->lines.at[d->line];
+    Status status = OK;
+
+    CHECK(definition_check_circle(state, index_of(state, d), scope->uses.at, scope->uses.count,
+                                  statement->name_place, diag));
+    if (d->body != body)
+        outcome->effect = EFFECT_VALUES;
+    line->text = state_text(state, text);
+    line_uses(state, line, scope);
+    d->body = body;
+    for (int i = 0; i < state->parameters.count; i++)
+        state->definitions.at[state->parameters.at[i]].is_known = false;
+done:
+    return status;
+}
+
+Status apply_parameter(State **state, const Statement *statement, Outcome *outcome, Diag *diag)
+{
+    State *s = *state;
+    Definition *d = find_definition(s, statement->name, DEFINES_PARAMETER);
+    Scope scope = {.state = s, .kind = SCOPE_PARAMETER};
+    char *text = statement_full_text(statement);
+    Expr body = NULL;
+    Status status = OK;
+
+    if (d == NULL)
+        CHECK(check_new_name(s, statement->name, DEFINES_PARAMETER, statement->name_place, diag));
+    CHECK(scope_expression(&scope, statement->value, &body, diag));
+    if (!isfinite(body_value(s, body))) {
+        status = diag_at(diag, E_DOMAIN, statement->value->place, "%s has no finite value here",
+                         statement->name);
+        goto done;
+    }
+    if (d != NULL) {
+        status = change_parameter(s, d, body, statement, &scope, text, outcome, diag);
+        goto done;
+    }
+    LIST_PUSH(s->parameters,
+              add_definition(
+                  s,
+                  (Definition){.kind = DEFINES_PARAMETER,
+                               .name = statement->name,
+                               .symbol = expr_symbol(s->arena, statement->name, SYMBOL_PARAMETER),
+                               .body = body},
+                  text, &scope));
+done:
+    LIST_FREE(scope.uses);
+    mem_free(text);
+    return status;
+}
+
+/* --- laws --- */
+
+static Status check_arguments(const Statement *statement, Diag *diag)
+{
+    for (int i = 0; i < statement->argument_count; i++)
+        for (int j = 0; j < i; j++)
+            if (strcmp(statement->arguments[i], statement->arguments[j]) == 0)
+                return diag_at(diag, E_NAME, statement->name_place, "%s has two arguments %s",
+                               statement->name, statement->arguments[i]);
+    return OK;
+}
+
+static Expr *argument_symbols(State *state, const Statement *statement)
+{
+    int count = statement->argument_count;
+    Expr *arguments = pool_alloc(state->pool, sizeof(Expr) * ((size_t)count + 1));
+
+    for (int i = 0; i < count; i++)
+        arguments[i] = expr_symbol(state->arena, statement->arguments[i], SYMBOL_ARGUMENT);
+    return arguments;
+}
+
+static bool is_same_law(const Definition *law, const Statement *statement, Expr body)
+{
+    bool same = law->body == body && law->argument_count == statement->argument_count;
+
+    for (int i = 0; same && i < law->argument_count; i++)
+        same = strcmp(expr_name(law->arguments[i]), statement->arguments[i]) == 0;
+    return same;
+}
+
+Status apply_law(State **state, const Statement *statement, Outcome *outcome, Diag *diag)
+{
+    State *s = *state;
+    Definition *law = find_definition(s, statement->name, DEFINES_LAW);
+    Scope scope = {.state = s,
+                   .kind = SCOPE_LAW,
+                   .arguments = statement->arguments,
+                   .argument_count = statement->argument_count};
+    char *text = statement_full_text(statement);
+    Expr body = NULL;
+    Status status = OK;
+
+    if (law == NULL)
+        CHECK(check_new_name(s, statement->name, DEFINES_LAW, statement->name_place, diag));
+    CHECK(check_arguments(statement, diag));
+    CHECK(scope_expression(&scope, statement->value, &body, diag));
+    if (law != NULL) {
+        CHECK(definition_check_circle(s, index_of(s, law), scope.uses.at, scope.uses.count,
+                                      statement->name_place, diag));
+        if (!is_same_law(law, statement, body))
+            status = replace_line(state, index_of(s, law), text, &scope, statement->name_place,
+                                  outcome, diag);
+        goto done;
+    }
+    (void)add_definition(s,
+                         (Definition){.kind = DEFINES_LAW,
+                                      .name = statement->name,
+                                      .body = body,
+                                      .arguments = argument_symbols(s, statement),
+                                      .argument_count = statement->argument_count},
+                         text, &scope);
+done:
+    LIST_FREE(scope.uses);
+    mem_free(text);
+    return status;
+}
+
+/* --- outputs --- */
+
+static bool is_used(const State *state, int definition)
+{
+    for (int i = 0; i < state->lines.count; i++)
+        for (int j = 0; j < state->lines.at[i].use_count; j++)
+            if (state->lines.at[i].uses[j] == definition && !state->lines.at[i].is_gone)
+                return true;
+    return false;
+}
+
+static Status change_output(State **state, Definition *output, Expr body, const Pair *pair,
+                            const Scope *scope, const char *text, Outcome *outcome, Diag *diag)
+{
+    State *s = *state;
+    Line *line = &s->lines.at[output->line];
+    Status status = OK;
+
+    CHECK(definition_check_circle(s, index_of(s, output), scope->uses.at, scope->uses.count,
+                                  pair->name_place, diag));
+    if (output->body == body)
+        goto done;
+    if (is_used(s, index_of(s, output))) {
+        status =
+            replace_line(state, index_of(s, output), text, scope, pair->name_place, outcome, diag);
+        goto done;
+    }
+    line->text = state_text(s, text);
+    line_uses(s, line, scope);
+    output->body = body;
+done:
+    return status;
+}
+
+static Status output_pair(State **state, const Pair *pair, Outcome *outcome, Diag *diag)
+{
+    State *s = *state;
+    Definition *output = find_definition(s, pair->name, DEFINES_OUTPUT);
+    Scope scope = {.state = s, .kind = SCOPE_OUTPUT};
+    Text text = {0};
+    Expr body = NULL;
+    Status status = OK;
+
+    if (pair->primes > 0 || strchr(pair->name, '.') != NULL) {
+        status = diag_at(diag, E_NAME, pair->name_place, "a new name has no dot and no primes");
+        goto done;
+    }
+    if (output == NULL)
+        CHECK(check_new_name(s, pair->name, DEFINES_OUTPUT, pair->name_place, diag));
+    CHECK(scope_expression(&scope, pair->value, &body, diag));
+    text_addf(&text, "output %s = ", pair->name);
+    syntax_print(&text, pair->value);
+    if (output != NULL) {
+        status = change_output(state, output, body, pair, &scope, text.at, outcome, diag);
+        goto done;
+    }
+    LIST_PUSH(s->outputs,
+              add_definition(s,
+                             (Definition){.kind = DEFINES_OUTPUT, .name = pair->name, .body = body},
+                             text.at, &scope));
+done:
+    LIST_FREE(scope.uses);
+    text_free(&text);
+    return status;
+}
+
+Status apply_output(State **state, const Statement *statement, Outcome *outcome, Diag *diag)
+{
+    return apply_pairs(state, statement, output_pair, outcome, diag);
+}

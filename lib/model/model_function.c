@@ -1,0 +1,335 @@
+/* model_function.c: calls: functions of the table, pulses and polygons, laws, entries of what is
+ * shown, figures of a run */
+#include "model/model_impl.h"
+
+#include <ctype.h>
+#include <string.h>
+
+typedef Status Build(Scope *scope, const Syntax *syntax, const Expr *args, Expr *out, Diag *diag);
+
+static Build build_pulse, build_polygon, build_table;
+
+static const struct {
+    const char *name;
+    int least;
+    int most;
+    const char *usage;
+    Build *build;
+    bool takes_text;
+} builders[] = {
+    {"pulse", 7, 8, "pulse(t, low, high, delay, rise, fall, width, period)", build_pulse, false},
+    {"pwl", 3, 10001, "pwl(t, t0, v0, t1, v1, ...)", build_polygon, false},
+    {"table", 2, 3, "table(\"file.csv\", x, column)", build_table, true},
+};
+
+static const struct {
+    const char *name;
+    int args;
+    Op op;
+} functions[] = {
+#define OP(id, name, args, ...) {name, args, OP_##id},
+#include "expr/ops.def"
+#undef OP
+};
+
+/* figures of a whole run, of one argument */
+static const char *const run_figures[] = {"min", "max", "mean", "rms"};
+
+/* entries of what `show` prints */
+static const struct {
+    const char *name;
+    int args;
+} entries[] = {
+    {"lambda", 1},   {"mass", 2},         {"forces", 1},      {"constraints", 1},   {"jacobian", 2},
+    {"velocity", 1}, {"acceleration", 1}, {"modes.omega", 1}, {"modes.damping", 1}, {"linear.A", 2},
+    {"linear.B", 2}, {"linear.C", 2},     {"linear.D", 2},
+};
+
+/* the row of a function that a name in an expression may mean; -1: none */
+static int find_function(const char *name)
+{
+    if (!isalpha((unsigned char)name[0]) || strcmp(name, "hold") == 0)
+        return -1;
+    for (int i = 0; i < COUNT(functions); i++)
+        if (strcmp(functions[i].name, name) == 0)
+            return i;
+    return -1;
+}
+
+static int find_builder(const char *name)
+{
+    for (int i = 0; i < COUNT(builders); i++)
+        if (strcmp(builders[i].name, name) == 0)
+            return i;
+    return -1;
+}
+
+static bool is_figure(const char *name)
+{
+    for (int i = 0; i < COUNT(run_figures); i++)
+        if (strcmp(run_figures[i], name) == 0)
+            return true;
+    return false;
+}
+
+bool name_is_function(const char *name)
+{
+    return find_function(name) >= 0 || find_builder(name) >= 0 || is_figure(name);
+}
+
+bool function_takes_text(const char *name)
+{
+    int builder = find_builder(name);
+
+    return builder >= 0 && builders[builder].takes_text;
+}
+
+static Status wrong_count(const Syntax *syntax, const char *usage, Diag *diag)
+{
+    (void)diag_at(diag, E_VALUE, syntax->place, "%s does not take %d argument%s", syntax->text,
+                  syntax->count, syntax->count == 1 ? "" : "s");
+    diag_hint(diag, "it is written %s", usage);
+    return E_VALUE;
+}
+
+/* --- pulses, as sums of ramps, and polygons --- */
+
+/* from 0 at x = 0 to 1 at x = width; one that takes no time is a step */
+static Expr edge(Arena *arena, Expr x, Expr width)
+{
+    Expr rise;
+
+    if (expr_is_zero(width))
+        return expr_call1(arena, OP_STEP, x);
+    rise = expr_sub(arena, expr_call1(arena, OP_RAMP, x),
+                    expr_call1(arena, OP_RAMP, expr_sub(arena, x, width)));
+    return expr_div(arena, rise, width);
+}
+
+static Status build_pulse(Scope *scope, const Syntax *syntax, const Expr *args, Expr *out,
+                          Diag *diag)
+{
+    Arena *arena = scope->state->arena;
+    Expr x = expr_sub(arena, args[0], args[3]);
+    Expr low = args[1];
+    Expr top;
+    Expr shape;
+    Expr wave;
+
+    for (int i = 3; i < syntax->count; i++)
+        if (expr_is_number(args[i]) && expr_value(args[i]) < 0.0)
+            return diag_at(diag, E_VALUE, syntax->args[i]->place,
+                           "times of a pulse aren't negative");
+    if (syntax->count == 8) {
+        if (expr_is_zero(args[7]))
+            return diag_at(diag, E_VALUE, syntax->args[7]->place, "the period is zero");
+        x = expr_sub(
+            arena, x,
+            expr_mul(arena, args[7], expr_call1(arena, OP_FLOOR, expr_div(arena, x, args[7]))));
+    }
+    top = expr_add(arena, args[4], args[6]);
+    shape = expr_sub(arena, edge(arena, x, args[4]), edge(arena, expr_sub(arena, x, top), args[5]));
+    wave = expr_add(arena, low, expr_mul(arena, expr_sub(arena, args[2], low), shape));
+    *out = expr_if(arena, expr_call2(arena, OP_LT, args[0], args[3]), low, wave);
+    return OK;
+}
+
+/* The line through points from..to, by halves: as deep as the logarithm of their number. */
+static Expr polygon(Arena *arena, Expr t, const Expr *points, int from, int to)
+{
+    int middle = (from + to) / 2;
+    Expr t0 = points[2 * from];
+    Expr v0 = points[2 * from + 1];
+
+    if (to - from > 1)
+        return expr_if(arena, expr_call2(arena, OP_LT, t, points[2 * middle]),
+                       polygon(arena, t, points, from, middle),
+                       polygon(arena, t, points, middle, to));
+    if (points[2 * to] == t0)
+        return points[2 * to + 1];
+    return expr_add(arena, v0,
+                    expr_mul(arena, expr_sub(arena, t, t0),
+                             expr_div(arena, expr_sub(arena, points[2 * to + 1], v0),
+                                      expr_sub(arena, points[2 * to], t0))));
+}
+
+static Status build_polygon(Scope *scope, const Syntax *syntax, const Expr *args, Expr *out,
+                            Diag *diag)
+{
+    Arena *arena = scope->state->arena;
+    const Expr *points = args + 1;
+    int count = (syntax->count - 1) / 2;
+    int last = 2 * (count - 1);
+    Expr inside;
+
+    if (syntax->count % 2 == 0)
+        return wrong_count(syntax, "pwl(t, t0, v0, t1, v1, ...)", diag);
+    for (int j = 2; j < 2 * count; j += 2)
+        if (expr_is_number(points[j]) && expr_is_number(points[j - 2]) &&
+            expr_value(points[j]) < expr_value(points[j - 2]))
+            return diag_at(diag, E_VALUE, syntax->args[j + 1]->place,
+                           "the times of pwl have to grow");
+    if (count == 1) {
+        *out = points[1];
+        return OK;
+    }
+    inside = polygon(arena, args[0], points, 0, count - 1);
+    inside =
+        expr_if(arena, expr_call2(arena, OP_LT, args[0], points[last]), inside, points[last + 1]);
+    *out = expr_if(arena, expr_call2(arena, OP_LT, args[0], points[0]), points[1], inside);
+    return OK;
+}
+
+static Status build_table(Scope *scope, const Syntax *syntax, const Expr *args, Expr *out,
+                          Diag *diag)
+{
+    (void)scope;
+    (void)args;
+    (void)out;
+    (void)diag_at(diag, E_MISSING, syntax->place, "table() comes with a later version");
+    diag_hint(diag, "pwl(t, t0, v0, t1, v1, ...) draws lines through points");
+    return E_MISSING;
+}
+
+/* --- the rest --- */
+
+static Status call_function(Scope *scope, const Syntax *syntax, int function, const Expr *args,
+                            Expr *out, Diag *diag)
+{
+    Arena *arena = scope->state->arena;
+    Op op = functions[function].op;
+    int wanted = functions[function].args;
+    bool folds = op == OP_MIN || op == OP_MAX;
+
+    if (folds ? syntax->count < wanted : syntax->count != wanted) {
+        (void)diag_at(diag, E_VALUE, syntax->place, "%s takes %d argument%s%s, got %d",
+                      syntax->text, wanted, wanted == 1 ? "" : "s", folds ? " or more" : "",
+                      syntax->count);
+        return E_VALUE;
+    }
+    *out = expr_call(arena, op, args);
+    for (int i = wanted; i < syntax->count; i++)
+        *out = expr_call2(arena, op, *out, args[i]);
+    return OK;
+}
+
+static Status call_law(Scope *scope, const Syntax *syntax, int index, const Expr *args, Expr *out,
+                       Diag *diag)
+{
+    const Definition *law = &scope->state->definitions.at[index];
+
+    if (law->kind != DEFINES_LAW) {
+        (void)diag_at(diag, E_NAME, syntax->place, "%s is no law and no function", law->name);
+        diag_hint(diag, "a product is written %s*(...)", law->name);
+        return E_NAME;
+    }
+    if (syntax->count != law->argument_count)
+        return diag_at(diag, E_VALUE, syntax->place, "%s takes %d argument%s, got %d", law->name,
+                       law->argument_count, law->argument_count == 1 ? "" : "s", syntax->count);
+    *out = expr_substitute(scope->state->arena, law->body, law->arguments, args, syntax->count);
+    scope_use(scope, index);
+    return OK;
+}
+
+/* mass(2,2): a variable of that name, its numbers without blanks */
+static Status call_entry(Scope *scope, const Syntax *syntax, int wanted, const Expr *args,
+                         Expr *out, Diag *diag)
+{
+    Text name = {0};
+    Status status = OK;
+
+    if (scope->kind != SCOPE_ASK && scope->kind != SCOPE_OUTPUT)
+        return diag_at(diag, E_NAME, syntax->place,
+                       "%s can be printed, but nothing can depend on it", syntax->text);
+    if (syntax->count != wanted)
+        return diag_at(diag, E_VALUE, syntax->place, "%s takes %d number%s, got %d", syntax->text,
+                       wanted, wanted == 1 ? "" : "s", syntax->count);
+    text_add(&name, syntax->text);
+    for (int i = 0; i < wanted; i++) {
+        int64_t num;
+        int64_t den;
+
+        if (!expr_rational_parts(args[i], &num, &den) || den != 1 || num < 1) {
+            status = diag_at(diag, E_VALUE, syntax->args[i]->place,
+                             "an entry of %s is picked by whole numbers from 1", syntax->text);
+            goto done;
+        }
+        text_addf(&name, "%c%lld", i == 0 ? '(' : ',', (long long)num);
+    }
+    text_char(&name, ')');
+    *out = expr_symbol(scope->state->arena, name.at, SYMBOL_VARIABLE);
+done:
+    text_free(&name);
+    return status;
+}
+
+/* max(h8): a variable of that name, its argument as printed */
+static Status call_figure(Scope *scope, const Syntax *syntax, const Expr *args, Expr *out,
+                          Diag *diag)
+{
+    Text name = {0};
+
+    if (scope->kind != SCOPE_ASK)
+        return diag_at(diag, E_NAME, syntax->place,
+                       "%s of one argument is taken over a run: nothing can depend on it",
+                       syntax->text);
+    if (syntax->count != 1)
+        return wrong_count(syntax, "mean(x), over the last run", diag);
+    text_addf(&name, "%s(", syntax->text);
+    expr_print(&name, args[0], NOTATION_TEXT);
+    text_char(&name, ')');
+    *out = expr_symbol(scope->state->arena, name.at, SYMBOL_VARIABLE);
+    text_free(&name);
+    return OK;
+}
+
+static Status call_unknown(const State *state, const Syntax *syntax, Diag *diag)
+{
+    Suggest suggest = suggest_for(syntax->text);
+    const Thing *thing = state_thing(state, syntax->text);
+    Text what = {0};
+
+    if (thing != NULL) {
+        name_describe(state, thing, &what);
+        (void)diag_at(diag, E_NAME, syntax->place, "%s is %s, not a law or function", syntax->text,
+                      what.at);
+        diag_hint(diag, "a product is written %s*(...)", syntax->text);
+        text_free(&what);
+        return E_NAME;
+    }
+    for (int i = 0; i < COUNT(functions); i++)
+        if (find_function(functions[i].name) >= 0)
+            suggest_offer(&suggest, functions[i].name);
+    for (int i = 0; i < COUNT(builders); i++)
+        suggest_offer(&suggest, builders[i].name);
+    for (int i = 0; i < state->definitions.count; i++)
+        if (state->definitions.at[i].kind == DEFINES_LAW)
+            suggest_offer(&suggest, state->definitions.at[i].name);
+    (void)diag_at(diag, E_NAME, syntax->place, "unknown function '%s'", syntax->text);
+    if (suggest.best != NULL)
+        diag_hint(diag, "did you mean '%s'?", suggest.best);
+    return E_NAME;
+}
+
+Status function_call(Scope *scope, const Syntax *syntax, const Expr *args, Expr *out, Diag *diag)
+{
+    const Thing *thing = state_thing(scope->state, syntax->text);
+    int function = find_function(syntax->text);
+    int builder = find_builder(syntax->text);
+
+    if (is_figure(syntax->text) && (function < 0 || syntax->count == 1))
+        return call_figure(scope, syntax, args, out, diag);
+    if (function >= 0)
+        return call_function(scope, syntax, function, args, out, diag);
+    if (builder >= 0) {
+        if (syntax->count < builders[builder].least || syntax->count > builders[builder].most)
+            return wrong_count(syntax, builders[builder].usage, diag);
+        return builders[builder].build(scope, syntax, args, out, diag);
+    }
+    if (thing != NULL && thing->kind == THING_DEFINITION)
+        return call_law(scope, syntax, thing->index, args, out, diag);
+    for (int i = 0; i < COUNT(entries); i++)
+        if (strcmp(entries[i].name, syntax->text) == 0)
+            return call_entry(scope, syntax, entries[i].args, args, out, diag);
+    return call_unknown(scope->state, syntax, diag);
+}

@@ -1,0 +1,230 @@
+/* model_impl.h: what the files of the model share
+ *
+ * A State is everything that accepted statements made; it can be built anew from its
+ * lines at any time, which is how names are deleted, laws replaced and steps undone. A
+ * statement is read and checked in full before it changes its State, or it builds
+ * another State and puts that in place, so that a failure leaves nothing behind.
+ * Strings and parts live in the State's pool, expressions in the model's arena. */
+#ifndef COTREE_MODEL_MODEL_IMPL_H
+#define COTREE_MODEL_MODEL_IMPL_H
+
+#include "base/names.h"
+#include "model/model.h"
+
+typedef LIST(const char *) NameList;
+typedef LIST(int) NumberList;
+
+/* --- names --- */
+
+typedef enum ThingKind { THING_PART, THING_COORDINATE, THING_DEFINITION } ThingKind;
+
+typedef struct Thing { /* what a name of State.names stands for, by its number there */
+    ThingKind kind;
+    int index; /* part (the owner of a coordinate) or definition */
+    int coordinate;
+} Thing;
+
+typedef enum DefinitionKind { DEFINES_PARAMETER, DEFINES_LAW, DEFINES_OUTPUT } DefinitionKind;
+
+typedef struct Definition {
+    DefinitionKind kind;
+    const char *name;
+    Expr symbol; /* of a parameter */
+    Expr body;   /* of a law: over its arguments */
+    Expr *arguments;
+    int argument_count;
+    int line;
+    bool is_known; /* parameter: `value` is that of its body */
+    double value;
+} Definition;
+
+/* --- the script that rebuilds the state --- */
+
+typedef struct Line {
+    const char *text;
+    int definition;  /* that it makes; -1 */
+    int part;        /* that it makes or sets; -1 */
+    const char *key; /* a later line of the same part and key supersedes it; NULL */
+    int *uses;       /* definitions that it needs */
+    int use_count;
+    bool is_gone; /* superseded by a later line */
+} Line;
+
+typedef struct StartEntry {
+    Start start;
+    const char *text; /* "h8' = 12" */
+    int group;        /* the statement that gave it: those of one are saved on one line */
+} StartEntry;
+
+typedef struct Choice { /* of one tree */
+    bool absolute;      /* bodies before joints */
+    NameList chosen;
+    NameList excluded;
+} Choice;
+
+typedef struct State {
+    Arena *arena; /* the model's */
+    Pool *pool;
+    bool planar;
+    Expr gravity[3];
+    const char *title;
+    Graph *graph;
+    Names *names;
+    LIST(Thing) things; /* by number in `names` */
+    Names *terminals;
+    NumberList terminal_nodes;
+    int datum[DOMAIN_COUNT]; /* nodes; -1 until needed */
+    LIST(Instance *) parts;
+    NumberList edge_owner;
+    LIST(Definition) definitions;
+    NumberList parameters; /* definitions, in order of making */
+    NumberList outputs;
+    LIST(Line) lines;
+    Choice choices[TREE_KINDS];
+    LIST(StartEntry) starts;
+    int group_count;
+    Form form;
+    NameList independent;
+    Tree *trees[TREE_KINDS];
+    bool has_trees;
+} State;
+
+/* what a statement changed */
+typedef enum Effect { EFFECT_NONE, EFFECT_VALUES, EFFECT_EQUATIONS } Effect;
+
+typedef struct Outcome {
+    Effect effect;
+    Text remarks;
+} Outcome;
+
+/* Apply a statement to *state, or put another State in its place. */
+typedef Status Apply(State **state, const Statement *statement, Outcome *outcome, Diag *diag);
+
+State *state_new(Arena *arena);
+void state_free(State *state); /* NULL is fine */
+Apply state_apply;
+/* a copy in the state's pool */
+const char *state_text(State *state, const char *text);
+const Thing *state_thing(const State *state, const char *name); /* NULL */
+const Instance *state_part(const State *state, const char *name);
+void state_name(State *state, const char *name, ThingKind kind, int index, int coordinate);
+/* The graph or a choice changed. */
+void state_forget_trees(State *state);
+Status state_trees(State *state, const Tree *trees[TREE_KINDS], Diag *diag);
+
+/* --- names in a statement (model_names.c) --- */
+
+/* The bare name that a syntax tree is, without primes; brackets around it are taken off. NULL: it
+ * is something else. */
+const char *syntax_name(const Syntax *syntax);
+/* whether `name` can become a new name; `taken_as` is what it would be ("a parameter") */
+Status name_is_free(const State *state, const char *name, Place place, Diag *diag);
+Status name_unknown(const State *state, const char *what, const char *name, Place place,
+                    Diag *diag);
+/* "a revolute", "a parameter": what a name is */
+void name_describe(const State *state, const Thing *thing, Text *text);
+bool name_is_function(const char *name);
+bool function_takes_text(const char *name); /* file names among its arguments */
+/* the next name that matters for suggestions: 0, 1, ...; NULL at the end */
+const char *state_name_at(const State *state, int i);
+
+/* what may be asked for besides parts' variables */
+enum { ALLOW_MODEL = 1, ALLOW_RUNS = 2 };
+/* The variable's own name ("J1" may stand for "theta1"), without primes. `own` is a part in the
+ * making, or NULL. */
+Status variable_resolve(const State *state, const Instance *own, const char *path, int primes,
+                        unsigned allow, Place place, Text *name, Diag *diag);
+/* a coordinate by its name or, where it has only one, its owner's */
+Status coordinate_resolve(const State *state, const char *path, Place place, int *owner,
+                          int *coordinate, Diag *diag);
+
+/* --- expressions (model_value.c) --- */
+
+typedef enum ScopeKind {
+    SCOPE_PARAMETER,
+    SCOPE_LAW,
+    SCOPE_NUMBER, /* a value of a part, of parameters */
+    SCOPE_EFFORT, /* a value of a part, of everything */
+    SCOPE_DRIVE,
+    SCOPE_START,
+    SCOPE_OUTPUT,
+    SCOPE_ASK
+} ScopeKind;
+
+typedef struct Scope {
+    const State *state;
+    ScopeKind kind;
+    const char *const *arguments; /* of a law */
+    int argument_count;
+    const Instance *own; /* the part in the making */
+    NumberList uses;     /* definitions met */
+} Scope;
+
+Status scope_expression(Scope *scope, const Syntax *syntax, Expr *out, Diag *diag);
+/* up to MAX_VALUE entries; a scalar is refused */
+Status scope_vector(Scope *scope, const Syntax *syntax, Expr *out, int *count, Diag *diag);
+bool scope_has_variables(const Scope *scope);
+void scope_use(Scope *scope, int definition);
+Status function_call(Scope *scope, const Syntax *syntax, const Expr *args, Expr *out, Diag *diag);
+/* d/dt along the primed names of variables */
+Status time_derivative(Arena *arena, Expr e, int primes, Place place, Expr *out, Diag *diag);
+/* a literal's unit against the one that `name` wants */
+Status unit_check(const Syntax *syntax, const char *unit, const char *name, Diag *diag);
+
+/* --- values of parts (model_param.c) --- */
+
+typedef struct Wanted {
+    const Param *param;
+    bool on_angle;
+} Wanted;
+
+Status param_read(Scope *scope, Wanted wanted, const Syntax *syntax, Value *out, Diag *diag);
+void param_fallback(State *state, const Param *param, Value *out);
+
+Status key_unknown(const Component *row, const char *key, Place place, Diag *diag);
+/* In a planar scene no step of a part leaves the plane. */
+Status part_check_plane(const State *state, const Instance *part, Place place, Diag *diag);
+
+/* --- definitions and lines --- */
+
+double definition_value(State *state, int definition);
+/* Refuses when `uses` lead back to the definition. */
+Status definition_check_circle(const State *state, int definition, const int *uses, int count,
+                               Place place, Diag *diag);
+/* a new last line; takes over the uses of the scope (NULL: none) */
+int line_add(State *state, const char *text, int definition, int part, const Scope *scope);
+void line_uses(State *state, Line *line, const Scope *scope);
+/* Earlier lines of this part (or -1) and key no longer count. */
+void line_supersede(State *state, int part, const char *key);
+/* Numbers of the lines that count, what they use before them, outputs last where nothing needs
+ * them earlier; new, free with mem_free(). */
+int *lines_in_order(const State *state, int *count);
+/* A State from the old one's lines, without line `without` (-1: none); trees, starts and form are
+ * taken over where their names live on, and what fell away is remarked. With `broken`, lines that
+ * fail are left out and what they make is named there; without, the first failure is returned. */
+Status state_rebuild(const State *old, int without, State **out, NameList *broken, Text *remarks,
+                     Diag *diag);
+/* Apply the text of one statement. */
+Status state_apply_text(State **state, const char *text, Text *remarks, Diag *diag);
+/* Apply each pair of a statement, all or none. */
+typedef Status ApplyPair(State **state, const Pair *pair, Outcome *outcome, Diag *diag);
+Status apply_pairs(State **state, const Statement *statement, ApplyPair *apply, Outcome *outcome,
+                   Diag *diag);
+void name_list_add(NameList *list, const char *name); /* once */
+/* the statement's text with its verb in full; new */
+char *statement_full_text(const Statement *statement);
+void state_save(const State *state, Text *text);
+void choices_save(const State *state, Text *text);
+void choices_copy(State *to, const State *from, Text *remarks);
+void starts_save(const State *state, Text *text);
+/* Initial values and form are applied anew, since laws may have changed: those of variables that
+ * are gone fall away with a remark; those that fail are in `broken`, or NULL: fail. */
+Status starts_copy(State *to, const State *from, NameList *broken, Text *remarks, Diag *diag);
+
+/* --- one function a verb --- */
+
+Apply apply_parameter, apply_law, apply_output, apply_component, apply_scene, apply_gravity,
+    apply_title, apply_init, apply_guess, apply_form, apply_tree, apply_cotree, apply_set,
+    apply_delete;
+
+#endif

@@ -1,0 +1,371 @@
+/* model_names.c: one name, one thing; what a dotted name reaches
+ *
+ * A variable's own name is its coordinate's ("theta1", "m1.x"), or owner and member
+ * ("h9.fx"); primes follow behind it. */
+#include "model/model_impl.h"
+
+#include <ctype.h>
+#include <string.h>
+
+static const char *const reserved[] = {"t",     "pi",    "ground", "gnd",    "energy", "constraint",
+                                       "model", "count", "modes",  "linear", "last"};
+
+/* variables of the model as a whole */
+static const char *const model_variables[] = {
+    "energy.kinetic", "energy.potential", "energy.total", "constraint.error",
+    "model.n",        "model.m",          "model.dof"};
+
+/* what a count can be of: blocks of equations */
+static const char *const blocks[] = {"constraints", "jacobian", "velocity", "acceleration", "mass",
+                                     "forces",      "network",  "state",    "equations"};
+static const char *const operations[] = {"add", "mul", "fun"};
+
+static bool is_one_of(const char *name, size_t length, const char *const *words, int count)
+{
+    for (int i = 0; i < count; i++)
+        if (strlen(words[i]) == length && strncmp(words[i], name, length) == 0)
+            return true;
+    return false;
+}
+
+/* length of "run12." or "last." at the start; 0: none */
+static size_t run_prefix(const char *path)
+{
+    size_t length = 3;
+
+    if (strncmp(path, "last.", 5) == 0)
+        return 5;
+    if (strncmp(path, "run", 3) != 0 || !isdigit((unsigned char)path[3]))
+        return 0;
+    while (isdigit((unsigned char)path[length]))
+        length++;
+    return path[length] == '.' ? length + 1 : 0;
+}
+
+static bool is_run(const char *name)
+{
+    size_t length = strlen(name);
+
+    return strncmp(name, "run", 3) == 0 && length > 3 &&
+           strspn(name + 3, "0123456789") == length - 3;
+}
+
+const char *syntax_name(const Syntax *syntax)
+{
+    while (syntax != NULL && syntax->kind == SYNTAX_GROUP && syntax->primes == 0)
+        syntax = syntax->args[0];
+    if (syntax == NULL || syntax->kind != SYNTAX_VARIABLE || syntax->primes > 0)
+        return NULL;
+    return syntax->text;
+}
+
+/* --- what names are --- */
+
+static void article(Text *text, const char *word)
+{
+    text_addf(text, "%s %s", strchr("aeiou", word[0]) != NULL ? "an" : "a", word);
+}
+
+void name_describe(const State *state, const Thing *thing, Text *text)
+{
+    static const char *const kinds[] = {"parameter", "law", "output"};
+
+    switch (thing->kind) {
+    case THING_PART:
+        article(text, state->parts.at[thing->index]->row->name);
+        break;
+    case THING_COORDINATE:
+        text_addf(text, "a coordinate of %s", state->parts.at[thing->index]->name);
+        break;
+    case THING_DEFINITION:
+        article(text, kinds[state->definitions.at[thing->index].kind]);
+        break;
+    }
+}
+
+const char *state_name_at(const State *state, int i)
+{
+    int count = names_count(state->names);
+
+    if (i < count)
+        return names_get(state->names, i);
+    return i - count < names_count(state->terminals) ? names_get(state->terminals, i - count)
+                                                     : NULL;
+}
+
+Status name_unknown(const State *state, const char *what, const char *name, Place place, Diag *diag)
+{
+    Suggest suggest = suggest_for(name);
+
+    for (int i = 0; state_name_at(state, i) != NULL; i++)
+        suggest_offer(&suggest, state_name_at(state, i));
+    (void)diag_at(diag, E_NAME, place, "unknown %s '%s'", what, name);
+    if (suggest.best != NULL)
+        diag_hint(diag, "did you mean '%s'?", suggest.best);
+    return E_NAME;
+}
+
+Status name_is_free(const State *state, const char *name, Place place, Diag *diag)
+{
+    const Thing *thing = state_thing(state, name);
+    Text what = {0};
+
+    if (is_one_of(name, strlen(name), reserved, COUNT(reserved)) || is_run(name)) {
+        (void)diag_at(diag, E_NAME, place, "'%s' has a meaning of its own", name);
+        diag_hint(diag, "take another name");
+        return E_NAME;
+    }
+    if (thing == NULL)
+        return OK;
+    name_describe(state, thing, &what);
+    (void)diag_at(diag, E_NAME, place, "'%s' is already %s", name, what.at);
+    if (thing->kind == THING_PART)
+        diag_hint(diag, "delete %s first, or change it with: set %s.KEY = value", name, name);
+    else if (thing->kind == THING_DEFINITION)
+        diag_hint(diag, "take another name, or: delete %s", name);
+    text_free(&what);
+    return E_NAME;
+}
+
+/* --- variables --- */
+
+static Status check_order(const char *name, int primes, int most, Place place, Diag *diag)
+{
+    if (primes <= most)
+        return OK;
+    (void)diag_at(diag, E_NAME, place, "%s has no derivative of order %d", name, primes);
+    if (most == 0)
+        diag_hint(diag, "it can be asked for without primes");
+    else
+        diag_hint(diag, "the highest that can be asked for is %s%s", name, most == 1 ? "'" : "''");
+    return E_NAME;
+}
+
+/* The message for a part named alone where a variable is wanted: its members. */
+static Status part_alone(const State *state, const Instance *part, Place place, Diag *diag)
+{
+    const Member *member = component_member(part->row, state->planar, 0);
+    Text list = {0};
+
+    (void)diag_at(diag, E_NAME, place, "%s is no variable: %s has several", part->name, part->name);
+    if (part->coord_count == 0 && member == NULL)
+        (void)diag_at(diag, E_NAME, place, "%s has no variable", part->name);
+    for (int i = 0; i < part->coord_count && i < 3; i++)
+        text_addf(&list, "%s%s", i > 0 ? ", " : "", part->coord[i]);
+    for (int i = 0; i < 3 && component_member(part->row, state->planar, i) != NULL; i++) {
+        member = component_member(part->row, state->planar, i);
+        if (part->coord_count > 0 && part->row->family == FAMILY_BODY)
+            break;
+        text_addf(&list, "%s%s.%s", list.length > 0 ? ", " : "", part->name, member->name);
+    }
+    if (list.length > 0)
+        diag_hint(diag, "ask for one of them: %s ...", list.at);
+    text_free(&list);
+    return E_NAME;
+}
+
+static Status member_unknown(const State *state, const Instance *part, const char *member,
+                             Place place, Diag *diag)
+{
+    Suggest suggest = suggest_for(member);
+    Text list = {0};
+    const Member *m;
+
+    for (int i = 0; (m = component_member(part->row, state->planar, i)) != NULL; i++) {
+        suggest_offer(&suggest, m->name);
+        text_addf(&list, " %s", m->name);
+    }
+    (void)diag_at(diag, E_NAME, place, "%s %s has no variable '%s'", part->row->name, part->name,
+                  member);
+    if (suggest.best != NULL)
+        diag_hint(diag, "did you mean '%s.%s'?", part->name, suggest.best);
+    else if (list.length > 0)
+        diag_hint(diag, "it has%s", list.at);
+    text_free(&list);
+    return E_NAME;
+}
+
+/* a coordinate by the member name that its row gives it, also where the user renamed it */
+static int coordinate_of_member(const State *state, const Instance *part, const char *member)
+{
+    int count;
+    const CoordinateRow *rows = component_coords(part->row, state->planar, &count);
+
+    for (int i = 0; i < count; i++)
+        if (rows[i].member[0] != '\0' && strcmp(rows[i].member, member) == 0)
+            return i;
+    return -1;
+}
+
+static Status member_resolve(const State *state, const Instance *part, const char *member,
+                             int primes, Place place, Text *name, Diag *diag)
+{
+    int coordinate = coordinate_of_member(state, part, member);
+    const Member *m;
+
+    if (coordinate >= 0) {
+        text_add(name, part->coord[coordinate]);
+        return check_order(name->at, primes, 2, place, diag);
+    }
+    for (int i = 0; (m = component_member(part->row, state->planar, i)) != NULL; i++) {
+        if (strcmp(m->name, member) != 0)
+            continue;
+        text_addf(name, "%s.%s", part->name, member);
+        return check_order(name->at, primes, m->primes, place, diag);
+    }
+    return member_unknown(state, part, member, place, diag);
+}
+
+static bool is_count(const char *path)
+{
+    const char *at = path;
+    const char *dot;
+
+    if (strncmp(at, "count.", 6) != 0)
+        return false;
+    at += 6;
+    if (strncmp(at, "shared.", 7) == 0)
+        at += 7;
+    dot = strchr(at, '.');
+    return dot != NULL && is_one_of(at, (size_t)(dot - at), blocks, COUNT(blocks)) &&
+           is_one_of(dot + 1, strlen(dot + 1), operations, COUNT(operations));
+}
+
+/* energy.total, model.n, count.mass.add */
+static Status whole_resolve(const char *path, int primes, unsigned allow, Place place, Text *name,
+                            bool *found, Diag *diag)
+{
+    bool is_known =
+        is_count(path) || is_one_of(path, strlen(path), model_variables, COUNT(model_variables));
+    size_t first = strcspn(path, ".");
+
+    *found = is_known || (path[first] == '.' && is_one_of(path, first, reserved, COUNT(reserved)));
+    if (!*found)
+        return OK;
+    if (!is_known) {
+        Suggest suggest = suggest_for(path);
+
+        for (int i = 0; i < COUNT(model_variables); i++)
+            suggest_offer(&suggest, model_variables[i]);
+        (void)diag_at(diag, E_NAME, place, "unknown variable '%s'", path);
+        if (suggest.best != NULL)
+            diag_hint(diag, "did you mean '%s'?", suggest.best);
+        else
+            diag_hint(diag, "such as energy.total, model.n, constraint.error, count.mass.add");
+        return E_NAME;
+    }
+    if (!(allow & ALLOW_MODEL))
+        return diag_at(diag, E_NAME, place, "%s can be printed, but nothing can depend on it",
+                       path);
+    text_add(name, path);
+    return check_order(path, primes, 0, place, diag);
+}
+
+static Status plain_resolve(const State *state, const char *path, int primes, Place place,
+                            Text *name, Diag *diag)
+{
+    const Thing *thing = state_thing(state, path);
+    const Instance *part;
+    Text what = {0};
+
+    if (thing == NULL) {
+        if (names_find(state->terminals, path) < 0)
+            return name_unknown(state, "name", path, place, diag);
+        (void)diag_at(diag, E_NAME, place, "%s is a terminal", path);
+        diag_hint(diag, "its potential is %s.v", path);
+        return E_NAME;
+    }
+    part = thing->kind == THING_DEFINITION ? NULL : state->parts.at[thing->index];
+    if (thing->kind == THING_COORDINATE) {
+        text_add(name, part->coord[thing->coordinate]);
+        return check_order(path, primes, 2, place, diag);
+    }
+    if (part != NULL) {
+        if (part->coord_count != 1)
+            return part_alone(state, part, place, diag);
+        text_add(name, part->coord[0]);
+        return check_order(path, primes, 2, place, diag);
+    }
+    name_describe(state, thing, &what);
+    (void)diag_at(diag, E_NAME, place, "%s is %s, no variable", path, what.at);
+    text_free(&what);
+    return E_NAME;
+}
+
+static Status dotted_resolve(const State *state, const Instance *own, const char *path,
+                             const char *dot, int primes, Place place, Text *name, Diag *diag)
+{
+    char *owner = mem_text(path, (size_t)(dot - path));
+    const Instance *part =
+        own != NULL && strcmp(own->name, owner) == 0 ? own : state_part(state, owner);
+    Status status = OK;
+
+    if (part != NULL)
+        status = member_resolve(state, part, dot + 1, primes, place, name, diag);
+    else if (names_find(state->terminals, owner) >= 0) {
+        if (strcmp(dot + 1, "v") == 0) {
+            text_add(name, path);
+            status = check_order(path, primes, 2, place, diag);
+        } else {
+            status =
+                diag_at(diag, E_NAME, place, "terminal %s has no variable '%s'", owner, dot + 1);
+            diag_hint(diag, "its potential is %s.v", owner);
+        }
+    } else
+        status = name_unknown(state, "name", owner, place, diag);
+    mem_free(owner);
+    return status;
+}
+
+Status variable_resolve(const State *state, const Instance *own, const char *path, int primes,
+                        unsigned allow, Place place, Text *name, Diag *diag)
+{
+    size_t prefix = run_prefix(path);
+    Text rest = {0};
+    bool found = false;
+    const char *dot;
+    Status status = OK;
+
+    if (prefix > 0) {
+        if (!(allow & ALLOW_RUNS))
+            return diag_at(diag, E_NAME, place, "%s is of a run: nothing can depend on it", path);
+        CHECK(variable_resolve(state, own, path + prefix, primes, ALLOW_MODEL, place, &rest, diag));
+        text_add_n(name, path, prefix);
+        text_add(name, rest.at);
+        goto done;
+    }
+    CHECK(whole_resolve(path, primes, allow, place, name, &found, diag));
+    if (found)
+        goto done;
+    dot = strrchr(path, '.');
+    if (dot == NULL || state_thing(state, path) != NULL)
+        CHECK(plain_resolve(state, path, primes, place, name, diag));
+    else
+        CHECK(dotted_resolve(state, own, path, dot, primes, place, name, diag));
+done:
+    text_free(&rest);
+    return status;
+}
+
+Status coordinate_resolve(const State *state, const char *path, Place place, int *owner,
+                          int *coordinate, Diag *diag)
+{
+    const Thing *thing;
+    Text name = {0};
+    const Instance *part;
+    Status status = OK;
+
+    CHECK(variable_resolve(state, NULL, path, 0, 0, place, &name, diag));
+    thing = state_thing(state, name.at);
+    if (thing == NULL || thing->kind == THING_DEFINITION) {
+        status = diag_at(diag, E_NAME, place, "%s is no coordinate", path);
+        diag_hint(diag, "coordinates are those of joints (h8) and bodies (m1.x)");
+        goto done;
+    }
+    part = state->parts.at[thing->index];
+    *owner = part->number;
+    *coordinate = thing->kind == THING_COORDINATE ? thing->coordinate : 0;
+done:
+    text_free(&name);
+    return status;
+}

@@ -1,0 +1,213 @@
+/* model_scene.c: scene, gravity, title; changing and deleting what is there */
+#include "model/model_impl.h"
+
+#include <string.h>
+
+/* the line of a statement of which only the last one counts */
+static void add_only_line(State *state, const Statement *statement, const Scope *scope)
+{
+    char *text = statement_full_text(statement);
+    int line;
+
+    line_supersede(state, -1, statement->verb);
+    line = line_add(state, text, -1, -1, scope);
+    state->lines.at[line].key = state_text(state, statement->verb);
+    mem_free(text);
+}
+
+Status apply_scene(State **state, const Statement *statement, Outcome *outcome, Diag *diag)
+{
+    State *s = *state;
+    const Operand *operand = &statement->operands.at[0];
+    bool planar = strcmp(operand->value->text, "planar") == 0;
+    Status status;
+
+    if (planar != s->planar && s->parts.count > 0) {
+        status = diag_at(diag, E_VALUE, operand->place, "the scene can't become %s any more",
+                         operand->value->text);
+        diag_hint(diag, "it is said before the first part; %s was made already",
+                  s->parts.at[0]->name);
+        return status;
+    }
+    if (planar && !expr_is_zero(s->gravity[2])) {
+        status = diag_at(diag, E_VALUE, operand->place, "gravity leaves the plane");
+        diag_hint(diag, "say the scene first, then gravity [gx, gy]");
+        return status;
+    }
+    if (planar != s->planar)
+        outcome->effect = EFFECT_EQUATIONS;
+    s->planar = planar;
+    add_only_line(s, statement, NULL);
+    return OK;
+}
+
+Status apply_gravity(State **state, const Statement *statement, Outcome *outcome, Diag *diag)
+{
+    static const Param param = {"gravity", PARAM_VECTOR, "m/s^2", NULL, "", true};
+    State *s = *state;
+    Scope scope = {.state = s};
+    Value value = {0};
+    Status status = OK;
+
+    CHECK(
+        param_read(&scope, (Wanted){&param, false}, statement->operands.at[0].value, &value, diag));
+    for (int i = 0; i < 3; i++) {
+        if (s->gravity[i] != value.at[i])
+            outcome->effect = EFFECT_EQUATIONS;
+        s->gravity[i] = value.at[i];
+    }
+    add_only_line(s, statement, &scope);
+done:
+    LIST_FREE(scope.uses);
+    return status;
+}
+
+Status apply_title(State **state, const Statement *statement, Outcome *outcome, Diag *diag)
+{
+    (void)outcome;
+    (void)diag;
+    (*state)->title = state_text(*state, statement->operands.at[0].value->text);
+    add_only_line(*state, statement, NULL);
+    return OK;
+}
+
+/* --- set NAME.key = value --- */
+
+static Status find_key(State *state, const Pair *pair, Instance **part, int *param, Diag *diag)
+{
+    const char *dot = strrchr(pair->name, '.');
+    char *owner = mem_text(pair->name, dot != NULL ? (size_t)(dot - pair->name) : 0);
+    const Instance *found = state_part(state, owner);
+    Status status = OK;
+
+    if (dot == NULL || pair->primes > 0) {
+        status = diag_at(diag, E_NAME, pair->name_place, "'set' changes a key of a part");
+        diag_hint(diag, "it is written set NAME.KEY = value");
+        goto done;
+    }
+    if (found == NULL) {
+        status = name_unknown(state, "part", owner, pair->name_place, diag);
+        goto done;
+    }
+    *part = state->parts.at[found->number];
+    *param = component_param(found->row, dot + 1);
+    if (*param < 0)
+        status = key_unknown(found->row, dot + 1, pair->name_place, diag);
+done:
+    mem_free(owner);
+    return status;
+}
+
+static Status set_pair(State **state, const Pair *pair, Outcome *outcome, Diag *diag)
+{
+    State *s = *state;
+    Instance *part = NULL;
+    Scope scope = {.state = s};
+    Value *values = NULL;
+    Value *kept = NULL;
+    Text text = {0};
+    int index = -1;
+    int line;
+    Status status = OK;
+
+    CHECK(find_key(s, pair, &part, &index, diag));
+    scope.own = part;
+    if (part->row->family == FAMILY_DRIVER)
+        scope.kind = SCOPE_DRIVE;
+    kept = part->values;
+    values = pool_alloc(s->pool, sizeof *values * (size_t)part->row->param_count);
+    memcpy(values, kept, sizeof *values * (size_t)part->row->param_count);
+    values[index] = (Value){0};
+    CHECK(param_read(&scope, (Wanted){&part->row->params[index], part->on_angle}, pair->value,
+                     &values[index], diag));
+    part->values = values;
+    status = part_check_plane(s, part, pair->value->place, diag);
+    if (status == OK && part->row->check != NULL)
+        status = part->row->check(part, diag);
+    if (status != OK) {
+        part->values = kept;
+        goto done;
+    }
+    text_addf(&text, "set %s = ", pair->name);
+    syntax_print(&text, pair->value);
+    line_supersede(s, part->number, part->row->params[index].name);
+    line = line_add(s, text.at, -1, part->number, &scope);
+    s->lines.at[line].key = part->row->params[index].name;
+    outcome->effect = EFFECT_EQUATIONS;
+done:
+    LIST_FREE(scope.uses);
+    text_free(&text);
+    return status;
+}
+
+Status apply_set(State **state, const Statement *statement, Outcome *outcome, Diag *diag)
+{
+    return apply_pairs(state, statement, set_pair, outcome, diag);
+}
+
+/* --- delete --- */
+
+static int defining_line(const State *state, const Thing *thing)
+{
+    if (thing->kind == THING_DEFINITION)
+        return state->definitions.at[thing->index].line;
+    for (int i = 0; i < state->lines.count; i++)
+        if (state->lines.at[i].part == thing->index)
+            return i;
+    return -1;
+}
+
+static Status find_doomed(const State *state, const char *name, Place place, int *line, Diag *diag)
+{
+    const Thing *thing = name != NULL ? state_thing(state, name) : NULL;
+    Status status;
+
+    if (name != NULL && names_find(state->terminals, name) >= 0 && thing == NULL) {
+        status = diag_at(diag, E_NAME, place, "%s is a terminal", name);
+        diag_hint(diag, "it goes with the last component on it");
+        return status;
+    }
+    if (thing == NULL)
+        return name_unknown(state, "name", name != NULL ? name : "", place, diag);
+    if (thing->kind == THING_COORDINATE) {
+        const char *owner = state->parts.at[thing->index]->name;
+
+        status = diag_at(diag, E_NAME, place, "%s is a coordinate of %s", name, owner);
+        diag_hint(diag, "delete %s removes both", owner);
+        return status;
+    }
+    *line = defining_line(state, thing);
+    return OK;
+}
+
+Status apply_delete(State **state, const Statement *statement, Outcome *outcome, Diag *diag)
+{
+    const Operand *operand = &statement->operands.at[0];
+    const char *name = syntax_name(operand->value);
+    NameList broken = {0};
+    State *next = NULL;
+    Text users = {0};
+    int line = -1;
+    Status status = OK;
+
+    CHECK(find_doomed(*state, name, operand->place, &line, diag));
+    CHECK(state_rebuild(*state, line, &next, &broken, &outcome->remarks, diag));
+    if (broken.count > 0) {
+        for (int i = 0; i < broken.count && i < 6; i++)
+            text_addf(&users, "%s%s", i > 0 ? ", " : "", broken.at[i]);
+        if (broken.count > 6)
+            text_addf(&users, " and %d more", broken.count - 6);
+        status = diag_at(diag, E_VALUE, operand->place, "%s is used by %s", name, users.at);
+        diag_hint(diag, "delete what uses it first");
+        goto done;
+    }
+    outcome->effect = (*state)->lines.at[line].definition >= 0 ? EFFECT_NONE : EFFECT_EQUATIONS;
+    state_free(*state);
+    *state = next;
+    next = NULL;
+done:
+    state_free(next);
+    LIST_FREE(broken);
+    text_free(&users);
+    return status;
+}

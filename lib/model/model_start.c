@@ -1,0 +1,271 @@
+/* model_start.c: initial values, guesses, and the form of the equations */
+#include "model/model_impl.h"
+
+#include <string.h>
+
+/* The unit that a variable's value is in: that of its member or coordinate, per second for each
+ * prime. */
+static void unit_of(const State *state, const char *name, int primes, Text *unit)
+{
+    const char *dot = strrchr(name, '.');
+    char *owner = mem_text(name, dot != NULL ? (size_t)(dot - name) : strlen(name));
+    const Thing *thing = state_thing(state, name);
+    const Instance *part = state_part(state, owner);
+    const char *base = NULL;
+    const Member *member;
+
+    if (thing != NULL && thing->kind != THING_DEFINITION) {
+        static const char *const units[] = {"m", "rad", "1"};
+        int coordinate = thing->kind == THING_COORDINATE ? thing->coordinate : 0;
+
+        base = units[state->parts.at[thing->index]->coord_kind[coordinate]];
+    }
+    for (int i = 0; base == NULL && part != NULL &&
+                    (member = component_member(part->row, state->planar, i)) != NULL;
+         i++)
+        if (strcmp(member->name, dot + 1) == 0)
+            base = member->unit;
+    if (base == NULL && dot != NULL && names_find(state->terminals, owner) >= 0)
+        base = "V";
+    if (base != NULL) {
+        text_add(unit, base);
+        for (int i = 0; i < primes; i++)
+            text_add(unit, "/s");
+    }
+    mem_free(owner);
+}
+
+/* A value can be given to what the start is made of: positions and rates, voltages, currents and
+ * what they store. */
+static Status check_startable(const State *state, const Pair *pair, Text *name, Diag *diag)
+{
+    Text again = {0};
+    Status status = OK;
+
+    CHECK(variable_resolve(state, NULL, pair->name, 0, 0, pair->name_place, name, diag));
+    if (variable_resolve(state, NULL, pair->name, pair->primes + 1, 0, pair->name_place, &again,
+                         NULL) == OK)
+        goto done;
+    status =
+        diag_at(diag, E_VALUE, pair->name_place, "%s%.*s can't be given: it follows from the rest",
+                pair->name, pair->primes, "'''''''''");
+    diag_hint(diag, "positions, rates, voltages and currents can");
+done:
+    text_free(&again);
+    return status;
+}
+
+static Status read_start(State *state, const Pair *pair, bool is_guess, StartEntry *out, Diag *diag)
+{
+    Scope scope = {.state = state, .kind = SCOPE_START};
+    Text name = {0};
+    Text unit = {0};
+    Text text = {0};
+    Expr value = NULL;
+    Status status = OK;
+
+    CHECK(check_startable(state, pair, &name, diag));
+    unit_of(state, name.at, pair->primes, &unit);
+    if (unit.at != NULL)
+        CHECK(unit_check(pair->value, unit.at, pair->name, diag));
+    CHECK(scope_expression(&scope, pair->value, &value, diag));
+    text_add(&text, name.at);
+    text_fill(&text, '\'', pair->primes);
+    text_add(&text, " = ");
+    syntax_print(&text, pair->value);
+    *out = (StartEntry){
+        .start = {state_text(state, name.at), pair->primes, value, is_guess, pair->name_place},
+        .text = state_text(state, text.at),
+        .group = state->group_count,
+    };
+done:
+    LIST_FREE(scope.uses);
+    text_free(&name);
+    text_free(&unit);
+    text_free(&text);
+    return status;
+}
+
+/* a later value replaces an earlier one of the same variable */
+static void put_start(State *state, const StartEntry *entry)
+{
+    for (int i = 0; i < state->starts.count; i++) {
+        Start *start = &state->starts.at[i].start;
+
+        if (start->primes != entry->start.primes || strcmp(start->name, entry->start.name) != 0)
+            continue;
+        memmove(&state->starts.at[i], &state->starts.at[i + 1],
+                sizeof *state->starts.at * (size_t)(state->starts.count - i - 1));
+        state->starts.count--;
+        break;
+    }
+    LIST_PUSH(state->starts, *entry);
+}
+
+static void forget_starts(State *state, bool guesses)
+{
+    int kept = 0;
+
+    for (int i = 0; i < state->starts.count; i++)
+        if (state->starts.at[i].start.is_guess != guesses)
+            state->starts.at[kept++] = state->starts.at[i];
+    state->starts.count = kept;
+}
+
+static Status apply_starts(State *state, const Statement *statement, bool is_guess,
+                           Outcome *outcome, Diag *diag)
+{
+    LIST(StartEntry) entries = {0};
+    Status status = OK;
+
+    for (int i = 0; i < statement->pairs.count; i++) {
+        LIST_PUSH(entries, (StartEntry){.text = ""});
+        CHECK(read_start(state, &statement->pairs.at[i], is_guess, &entries.at[i], diag));
+    }
+    if (statement->operands.count > 0)
+        forget_starts(state, is_guess);
+    for (int i = 0; i < entries.count; i++)
+        put_start(state, &entries.at[i]);
+    state->group_count++;
+    outcome->effect = EFFECT_VALUES;
+done:
+    LIST_FREE(entries);
+    return status;
+}
+
+Status apply_init(State **state, const Statement *statement, Outcome *outcome, Diag *diag)
+{
+    return apply_starts(*state, statement, false, outcome, diag);
+}
+
+Status apply_guess(State **state, const Statement *statement, Outcome *outcome, Diag *diag)
+{
+    return apply_starts(*state, statement, true, outcome, diag);
+}
+
+/* --- form --- */
+
+static Status read_independent(State *state, const Syntax *value, NameList *names, Diag *diag)
+{
+    bool is_list = value->kind == SYNTAX_VECTOR;
+    Status status = OK;
+
+    for (int i = 0; i < (is_list ? value->count : 1); i++) {
+        const Syntax *entry = is_list ? value->args[i] : value;
+        const char *name = syntax_name(entry);
+        int owner = 0;
+        int coordinate = 0;
+
+        if (name == NULL) {
+            status = diag_at(diag, E_NAME, entry->place, "independent= names coordinates");
+            diag_hint(diag, "as in independent=[h8, s11]");
+            goto done;
+        }
+        CHECK(coordinate_resolve(state, name, entry->place, &owner, &coordinate, diag));
+        name_list_add(names, state_text(state, state->parts.at[owner]->coord[coordinate]));
+    }
+done:
+    return status;
+}
+
+Status apply_form(State **state, const Statement *statement, Outcome *outcome, Diag *diag)
+{
+    State *s = *state;
+    bool embedded = strcmp(statement->operands.at[0].value->text, "embedded") == 0;
+    NameList names = {0};
+    Status status = OK;
+
+    if (statement->pairs.count > 0 && !embedded) {
+        status = diag_at(diag, E_VALUE, statement->pairs.at[0].name_place,
+                         "the augmented form has no independent coordinates");
+        diag_hint(diag, "form embedded independent=[..]");
+        goto done;
+    }
+    if (statement->pairs.count > 0)
+        CHECK(read_independent(s, statement->pairs.at[0].value, &names, diag));
+    s->form = embedded ? FORM_EMBEDDED : FORM_AUGMENTED;
+    LIST_FREE(s->independent);
+    for (int i = 0; i < names.count; i++)
+        LIST_PUSH(s->independent, names.at[i]);
+    outcome->effect = EFFECT_EQUATIONS;
+done:
+    LIST_FREE(names);
+    return status;
+}
+
+/* --- keeping and saving --- */
+
+static Status copy_start(State *to, const StartEntry *entry, NameList *broken, Text *remarks,
+                         Diag *diag)
+{
+    const char *verb = entry->start.is_guess ? "guess" : "init";
+    Text name = {0};
+    Text text = {0};
+    Status status = OK;
+
+    if (variable_resolve(to, NULL, entry->start.name, 0, 0, entry->start.place, &name, NULL) !=
+        OK) {
+        if (remarks != NULL)
+            text_addf(remarks, "forgot %s %s\n", verb, entry->text);
+        goto done;
+    }
+    text_addf(&text, "%s %s", verb, entry->text);
+    status = state_apply_text(&to, text.at, NULL, diag);
+    if (status == OK)
+        to->starts.at[to->starts.count - 1].group = entry->group;
+    else if (broken != NULL) {
+        name_list_add(broken, verb);
+        status = OK;
+    }
+done:
+    text_free(&name);
+    text_free(&text);
+    return status;
+}
+
+Status starts_copy(State *to, const State *from, NameList *broken, Text *remarks, Diag *diag)
+{
+    Status status = OK;
+
+    for (int i = 0; i < from->starts.count; i++)
+        CHECK(copy_start(to, &from->starts.at[i], broken, remarks, diag));
+    to->group_count = from->group_count;
+    to->form = from->form;
+    for (int i = 0; i < from->independent.count; i++) {
+        int owner;
+        int coordinate;
+
+        if (coordinate_resolve(to, from->independent.at[i], (Place){0}, &owner, &coordinate,
+                               NULL) == OK)
+            LIST_PUSH(to->independent, state_text(to, from->independent.at[i]));
+        else if (remarks != NULL)
+            text_addf(remarks, "%s is no longer an independent coordinate\n",
+                      from->independent.at[i]);
+    }
+done:
+    return status;
+}
+
+void starts_save(const State *state, Text *text)
+{
+    if (state->form == FORM_EMBEDDED) {
+        text_add(text, "form embedded");
+        for (int i = 0; i < state->independent.count; i++)
+            text_addf(text, "%s%s", i == 0 ? " independent=[" : ", ", state->independent.at[i]);
+        text_add(text, state->independent.count > 0 ? "]\n" : "\n");
+    }
+    for (int i = 0; i < state->starts.count; i++) {
+        const StartEntry *entry = &state->starts.at[i];
+        const StartEntry *before = i > 0 ? entry - 1 : NULL;
+        bool goes_on = before != NULL && before->group == entry->group &&
+                       before->start.is_guess == entry->start.is_guess;
+
+        if (goes_on)
+            text_addf(text, ", %s", entry->text);
+        else
+            text_addf(text, "%s%s %s", i > 0 ? "\n" : "", entry->start.is_guess ? "guess" : "init",
+                      entry->text);
+    }
+    if (state->starts.count > 0)
+        text_char(text, '\n');
+}

@@ -1,0 +1,627 @@
+/* model_tree.c: which edges the user chose for which tree, and the trees that follow
+ *
+ * Choices are names, so that they outlive edits of the graph. A tree is completed from
+ * them when it is asked for; a tree statement is checked at once, as far as the graph
+ * hangs together already. */
+#include "model/model_impl.h"
+
+#include <string.h>
+
+static const TreeKind mechanical_kinds = TREE_ELECTRICAL; /* the kinds before it */
+
+/* --- choices to trees --- */
+
+/* the edge of a part that a tree of this kind may span; -1: none */
+static int edge_in(const State *state, const Instance *part, TreeKind kind)
+{
+    if (part->scalar_edge >= 0 && graph_edge_in(state->graph, part->scalar_edge, kind))
+        return part->scalar_edge;
+    return part->edge >= 0 && graph_edge_in(state->graph, part->edge, kind) ? part->edge : -1;
+}
+
+static bool has_kind(const State *state, TreeKind kind)
+{
+    for (int e = 0; e < graph_edge_count(state->graph); e++)
+        if (graph_edge_in(state->graph, e, kind))
+            return true;
+    return false;
+}
+
+typedef struct Chosen { /* a Choice as edges of the graph */
+    NumberList branches;
+    bool *excluded;
+    int *preference;
+} Chosen;
+
+static void chosen_free(Chosen *chosen)
+{
+    LIST_FREE(chosen->branches);
+    mem_free(chosen->excluded);
+    mem_free(chosen->preference);
+}
+
+static Chosen resolve(const State *state, TreeKind kind, const Choice *choice)
+{
+    int count = graph_edge_count(state->graph);
+    int half = kind == TREE_ROTATION ? 1 : 0;
+    Chosen chosen = {{0}, NEW_ARRAY(bool, count), NEW_ARRAY(int, count)};
+
+    for (int e = 0; e < count; e++) {
+        const Instance *part = state->parts.at[state->edge_owner.at[e]];
+        bool first = choice->absolute && part->row->family == FAMILY_BODY;
+
+        chosen.preference[e] = first ? 0 : graph_edge(state->graph, e)->preference[half];
+    }
+    for (int i = 0; i < choice->chosen.count; i++)
+        LIST_PUSH(chosen.branches, edge_in(state, state_part(state, choice->chosen.at[i]), kind));
+    for (int i = 0; i < choice->excluded.count; i++) {
+        int edge = edge_in(state, state_part(state, choice->excluded.at[i]), kind);
+
+        if (edge >= 0)
+            chosen.excluded[edge] = true;
+    }
+    return chosen;
+}
+
+static Status complete(const State *state, TreeKind kind, const Choice *choice, Tree **out,
+                       Diag *diag)
+{
+    Chosen chosen = resolve(state, kind, choice);
+    TreeChoice edges = {chosen.branches.at, chosen.branches.count, chosen.excluded,
+                        chosen.preference};
+    Status status = tree_complete(state->graph, kind, &edges, false, out, diag);
+
+    chosen_free(&chosen);
+    return status;
+}
+
+Status state_trees(State *state, const Tree *trees[TREE_KINDS], Diag *diag)
+{
+    Status status = OK;
+
+    if (!state->has_trees) {
+        for (TreeKind kind = 0; kind < TREE_KINDS; kind++)
+            if (has_kind(state, kind))
+                CHECK(complete(state, kind, &state->choices[kind], &state->trees[kind], diag));
+        state->has_trees = true;
+    }
+    for (TreeKind kind = 0; kind < TREE_KINDS; kind++)
+        trees[kind] = state->trees[kind];
+done:
+    if (status != OK)
+        state_forget_trees(state);
+    return status;
+}
+
+/* --- reading a statement --- */
+
+typedef struct Request {
+    State *state;
+    const Statement *statement;
+    int kind;     /* the one tree that is named; -1: of each edge's own domain */
+    NameList add; /* or, without signs, the set */
+    NameList drop;
+    bool has_signs;
+    const Operand *first; /* edge, for places */
+    Choice choices[TREE_KINDS];
+    bool touched[TREE_KINDS];
+    Outcome *outcome;
+    Diag *diag;
+} Request;
+
+static bool named(const NameList *list, const char *name)
+{
+    for (int i = 0; i < list->count; i++)
+        if (strcmp(list->at[i], name) == 0)
+            return true;
+    return false;
+}
+
+static void list_copy(NameList *to, const NameList *from)
+{
+    to->count = 0;
+    for (int i = 0; i < from->count; i++)
+        LIST_PUSH(*to, from->at[i]);
+}
+
+static void list_remove(NameList *list, const NameList *gone)
+{
+    int kept = 0;
+
+    for (int i = 0; i < list->count; i++)
+        if (!named(gone, list->at[i]))
+            list->at[kept++] = list->at[i];
+    list->count = kept;
+}
+
+/* the tree kind that a word names; -1: none */
+static int kind_named(const char *word)
+{
+    for (TreeKind kind = 0; kind < TREE_KINDS; kind++)
+        if (strcmp(tree_kind_name(kind), word) == 0)
+            return (int)kind;
+    return -1;
+}
+
+static Status edge_unknown(const Request *request, const char *name, Place place)
+{
+    const State *state = request->state;
+    Suggest suggest = suggest_for(name);
+
+    for (int i = 0; i < state->parts.count; i++)
+        suggest_offer(&suggest, state->parts.at[i]->name);
+    (void)diag_at(request->diag, E_NAME, place, "unknown edge '%s'", name);
+    if (suggest.best != NULL)
+        diag_hint(request->diag, "did you mean '%s'?", suggest.best);
+    return E_NAME;
+}
+
+static Status read_edge(Request *request, const Operand *operand)
+{
+    const State *state = request->state;
+    const char *name = syntax_name(operand->value);
+    const Instance *part;
+
+    if (name == NULL)
+        return diag_at(request->diag, E_NAME, operand->place, "a tree is made of names of edges");
+    part = state_part(state, name);
+    if (part == NULL) {
+        const Instance *owner = NULL;
+        int owner_number;
+        int coordinate;
+
+        /* "tree theta1": the joint is meant by its coordinate */
+        if (coordinate_resolve(state, name, operand->place, &owner_number, &coordinate, NULL) == OK)
+            owner = state->parts.at[owner_number];
+        if (owner == NULL || owner->coord_count != 1)
+            return edge_unknown(request, name, operand->place);
+        part = owner;
+    }
+    for (TreeKind kind = 0; request->kind >= 0 && kind < TREE_KINDS; kind++)
+        if ((int)kind == request->kind && edge_in(state, part, kind) < 0)
+            return diag_at(request->diag, E_BRANCH, operand->place,
+                           "%s has no edge in the %s graph", name, tree_kind_name(kind));
+    if (part->edge < 0 && part->scalar_edge < 0)
+        return edge_unknown(request, name, operand->place);
+    if (named(&request->add, part->name) || named(&request->drop, part->name))
+        return diag_at(request->diag, E_NAME, operand->place, "%s is named twice", name);
+    if (operand->sign == '-')
+        LIST_PUSH(request->drop, part->name);
+    else
+        LIST_PUSH(request->add, part->name);
+    return OK;
+}
+
+static Status read_edges(Request *request, int first)
+{
+    const Statement *statement = request->statement;
+    Status status = OK;
+
+    for (int i = first; i < statement->operands.count; i++) {
+        const Operand *operand = &statement->operands.at[i];
+        bool is_signed = operand->sign != 0;
+
+        if (i > first && is_signed != request->has_signs) {
+            status = diag_at(request->diag, E_SYNTAX, operand->place,
+                             "with signs, every name has its own");
+            diag_hint(request->diag, "tree a b sets a tree, tree + a - b changes it");
+            goto done;
+        }
+        request->has_signs = is_signed;
+        CHECK(read_edge(request, operand));
+    }
+    request->first = &statement->operands.at[first];
+done:
+    return status;
+}
+
+/* --- changing choices --- */
+
+static bool in_play(const Request *request, TreeKind kind)
+{
+    return request->kind < 0 || (int)kind == request->kind;
+}
+
+/* the names of a list that have an edge in the graph of this kind */
+static NameList of_kind(const Request *request, const NameList *list, TreeKind kind)
+{
+    NameList out = {0};
+
+    for (int i = 0; i < list->count; i++)
+        if (edge_in(request->state, state_part(request->state, list->at[i]), kind) >= 0)
+            LIST_PUSH(out, list->at[i]);
+    return out;
+}
+
+/* `tree a b`: these are the branches of every tree whose domain is named. A virtual joint is
+ * left out of the tree in which it has no freedom. */
+static void set_tree(Request *request, TreeKind kind)
+{
+    const State *state = request->state;
+    Choice *choice = &request->choices[kind];
+    NameList mine = of_kind(request, &request->add, kind);
+
+    if (mine.count > 0) {
+        request->touched[kind] = true;
+        choice->absolute = false;
+        choice->chosen.count = 0;
+        for (int i = 0; i < mine.count; i++) {
+            const Instance *part = state_part(state, mine.at[i]);
+            bool never =
+                graph_branching(state->graph, edge_in(state, part, kind), kind) == BRANCH_NEVER;
+
+            if (!never || !part->is_virtual || request->kind >= 0)
+                LIST_PUSH(choice->chosen, mine.at[i]);
+        }
+        list_remove(&choice->excluded, &mine);
+    }
+    LIST_FREE(mine);
+}
+
+/* the branches of the tree as it is, arms left out; the chosen ones where there is no tree yet */
+static NameList current_branches(const Request *request, TreeKind kind)
+{
+    const State *state = request->state;
+    NameList out = {0};
+    Tree *tree = NULL;
+
+    if (complete(state, kind, &state->choices[kind], &tree, NULL) != OK) {
+        list_copy(&out, &state->choices[kind].chosen);
+        return out;
+    }
+    for (int e = 0; e < graph_edge_count(state->graph); e++)
+        if (graph_edge_in(state->graph, e, kind) && tree_has(tree, e) &&
+            graph_branching(state->graph, e, kind) != BRANCH_ALWAYS)
+            LIST_PUSH(out, graph_edge(state->graph, e)->name);
+    tree_free(tree);
+    return out;
+}
+
+static bool can_enter(const Request *request, const char *name, TreeKind kind)
+{
+    const State *state = request->state;
+    int edge = edge_in(state, state_part(state, name), kind);
+
+    return edge >= 0 && graph_branching(state->graph, edge, kind) != BRANCH_NEVER;
+}
+
+/* `tree - h9`: out, and what was open is completed anew */
+static void drop_from(Request *request, TreeKind kind)
+{
+    Choice *choice = &request->choices[kind];
+    NameList mine = of_kind(request, &request->drop, kind);
+
+    if (mine.count > 0)
+        request->touched[kind] = true;
+    list_remove(&choice->chosen, &mine);
+    for (int i = 0; i < mine.count; i++)
+        name_list_add(&choice->excluded, mine.at[i]);
+    LIST_FREE(mine);
+}
+
+/* `tree + a - b`: an edge leaves only a tree that another enters; the rest stays as it is */
+static void change_tree(Request *request, TreeKind kind)
+{
+    Choice *choice = &request->choices[kind];
+    NameList current = {0};
+    NameList enter = {0};
+
+    if (request->add.count == 0) {
+        drop_from(request, kind);
+        return;
+    }
+    current = current_branches(request, kind);
+    for (int i = 0; i < request->add.count; i++)
+        if (can_enter(request, request->add.at[i], kind) && !named(&current, request->add.at[i]))
+            LIST_PUSH(enter, request->add.at[i]);
+    if (enter.count > 0) {
+        list_copy(&choice->chosen, &current);
+        drop_from(request, kind);
+        request->touched[kind] = true;
+        for (int i = 0; i < enter.count; i++)
+            LIST_PUSH(choice->chosen, enter.at[i]);
+        list_remove(&choice->excluded, &enter);
+    }
+    LIST_FREE(current);
+    LIST_FREE(enter);
+}
+
+/* Every edge that is to enter must be able to, in some tree of those in play. */
+static Status check_entering(const Request *request)
+{
+    for (int i = 0; i < request->add.count; i++) {
+        const char *name = request->add.at[i];
+        bool can = false;
+
+        for (TreeKind kind = 0; kind < TREE_KINDS; kind++)
+            can = can || (in_play(request, kind) && can_enter(request, name, kind));
+        if (can)
+            continue;
+        (void)diag_at(request->diag, E_BRANCH, request->first[i].place,
+                      state_part(request->state, name)->is_virtual
+                          ? "%s has no freedom there: it can't be a branch"
+                          : "edge %s has no across relation: it can't be a branch",
+                      name);
+        diag_hint(request->diag,
+                  "only bodies, joints, arms and components between terminals can be branches");
+        return E_BRANCH;
+    }
+    return OK;
+}
+
+static Status check_dropped(const Request *request)
+{
+    for (int i = 0; i < request->drop.count; i++) {
+        const Instance *part = state_part(request->state, request->drop.at[i]);
+
+        if (part->row->translation != BRANCH_ALWAYS || part->edge < 0)
+            continue;
+        (void)diag_at(request->diag, E_BRANCH, request->first->place,
+                      "arm %s can't be a chord: arms are branches of every tree", part->name);
+        diag_hint(request->diag, "a weld may be one");
+        return E_BRANCH;
+    }
+    return OK;
+}
+
+/* --- checking and committing --- */
+
+/* nodes are still without any connection to the datum: the tree can't be judged yet */
+static bool hangs_together(const State *state, TreeKind kind)
+{
+    int *part = NEW_ARRAY(int, graph_node_count(state->graph));
+    int parts = graph_parts(state->graph, tree_kind_domain(kind), part);
+
+    mem_free(part);
+    return parts <= 1;
+}
+
+static void remark_completed(Request *request, Tree *const trees[TREE_KINDS])
+{
+    const Graph *graph = request->state->graph;
+    Text *remarks = &request->outcome->remarks;
+    int said = 0;
+
+    for (int e = 0; e < graph_edge_count(graph); e++) {
+        int kinds = 0;
+
+        for (TreeKind kind = 0; kind < TREE_KINDS; kind++) {
+            if (trees[kind] == NULL || !graph_edge_in(graph, e, kind) ||
+                !tree_has(trees[kind], e) || !tree_was_completed(trees[kind], e))
+                continue;
+            if (kinds++ == 0)
+                text_addf(remarks, "%s%s (", said++ == 0 ? "completed with " : ", ",
+                          graph_edge(graph, e)->name);
+            else
+                text_add(remarks, ", ");
+            text_add(remarks, tree_kind_name(kind));
+        }
+        if (kinds > 0)
+            text_char(remarks, ')');
+    }
+    if (said > 0)
+        text_char(remarks, '\n');
+}
+
+static Status check_choices(Request *request)
+{
+    Tree *trees[TREE_KINDS] = {NULL};
+    Status status = OK;
+
+    for (TreeKind kind = 0; kind < TREE_KINDS; kind++) {
+        if (!request->touched[kind])
+            continue;
+        status =
+            complete(request->state, kind, &request->choices[kind], &trees[kind], request->diag);
+        if (status == E_UNREACHED && !hangs_together(request->state, kind)) {
+            text_addf(&request->outcome->remarks,
+                      "the %s tree is completed when the graph hangs together\n",
+                      tree_kind_name(kind));
+            status = OK;
+        }
+        CHECK(status);
+    }
+    remark_completed(request, trees);
+done:
+    if (status != OK && request->diag != NULL && request->diag->place.line == 0 &&
+        request->first != NULL)
+        request->diag->place = request->first->place;
+    for (TreeKind kind = 0; kind < TREE_KINDS; kind++)
+        tree_free(trees[kind]);
+    return status;
+}
+
+static void request_commit(Request *request)
+{
+    for (TreeKind kind = 0; kind < TREE_KINDS; kind++) {
+        Choice *choice = &request->state->choices[kind];
+        Choice before = *choice;
+
+        if (!request->touched[kind])
+            continue;
+        *choice = request->choices[kind];
+        request->choices[kind] = before;
+    }
+    request->outcome->effect = EFFECT_EQUATIONS;
+    state_forget_trees(request->state);
+}
+
+static Request request_start(State *state, const Statement *statement, Outcome *outcome, Diag *diag)
+{
+    Request request = {
+        .state = state, .statement = statement, .kind = -1, .outcome = outcome, .diag = diag};
+
+    for (TreeKind kind = 0; kind < TREE_KINDS; kind++) {
+        const Choice *from = &state->choices[kind];
+
+        request.choices[kind].absolute = from->absolute;
+        list_copy(&request.choices[kind].chosen, &from->chosen);
+        list_copy(&request.choices[kind].excluded, &from->excluded);
+    }
+    return request;
+}
+
+static void request_free(Request *request)
+{
+    LIST_FREE(request->add);
+    LIST_FREE(request->drop);
+    for (TreeKind kind = 0; kind < TREE_KINDS; kind++) {
+        LIST_FREE(request->choices[kind].chosen);
+        LIST_FREE(request->choices[kind].excluded);
+    }
+}
+
+/* --- statements --- */
+
+/* `tree joint`, `tree absolute`: forgets what was chosen for the mechanical trees */
+static void preset(Request *request, bool absolute)
+{
+    for (TreeKind kind = 0; kind < mechanical_kinds; kind++) {
+        if (!in_play(request, kind))
+            continue;
+        request->touched[kind] = true;
+        request->choices[kind].absolute = absolute;
+        request->choices[kind].chosen.count = 0;
+        request->choices[kind].excluded.count = 0;
+    }
+}
+
+/* `rotation`, then `joint` or `absolute`, or edges; in `first` where those start */
+static Status read_words(Request *request, int *first, const char **word)
+{
+    const Statement *statement = request->statement;
+    int at = 0;
+
+    for (; at < statement->operands.count; at++) {
+        const Operand *operand = &statement->operands.at[at];
+        const char *name = operand->value->kind == SYNTAX_VARIABLE ? operand->value->text : "";
+
+        if (operand->sign != 0)
+            break;
+        if (at == 0 && kind_named(name) >= 0) {
+            request->kind = kind_named(name);
+            continue;
+        }
+        if (strcmp(name, "joint") != 0 && strcmp(name, "absolute") != 0 &&
+            strcmp(name, "best") != 0)
+            break;
+        *word = name;
+        at++;
+        break;
+    }
+    *first = at;
+    if (*word != NULL && at < statement->operands.count)
+        return diag_at(request->diag, E_SYNTAX, statement->operands.at[at].place,
+                       "'%s' stands alone", *word);
+    if (*word == NULL && at == statement->operands.count)
+        return diag_at(request->diag, E_SYNTAX, statement->place, "no edge is named");
+    return OK;
+}
+
+Status apply_tree(State **state, const Statement *statement, Outcome *outcome, Diag *diag)
+{
+    Request request = request_start(*state, statement, outcome, diag);
+    const char *word = NULL;
+    int first = 0;
+    Status status = OK;
+
+    CHECK(read_words(&request, &first, &word));
+    if (word != NULL && strcmp(word, "best") == 0) {
+        status = diag_at(diag, E_MISSING, statement->operands.at[first - 1].place,
+                         "'tree best' comes with a later version");
+        goto done;
+    }
+    if (word != NULL)
+        preset(&request, strcmp(word, "absolute") == 0);
+    else {
+        CHECK(read_edges(&request, first));
+        CHECK(check_entering(&request));
+        CHECK(check_dropped(&request));
+        for (TreeKind kind = 0; kind < TREE_KINDS; kind++)
+            if (in_play(&request, kind) && request.has_signs)
+                change_tree(&request, kind);
+            else if (in_play(&request, kind))
+                set_tree(&request, kind);
+    }
+    CHECK(check_choices(&request));
+    request_commit(&request);
+done:
+    request_free(&request);
+    return status;
+}
+
+Status apply_cotree(State **state, const Statement *statement, Outcome *outcome, Diag *diag)
+{
+    Request request = request_start(*state, statement, outcome, diag);
+    Status status = OK;
+
+    for (int i = 0; i < statement->operands.count; i++) {
+        Operand operand = statement->operands.at[i];
+
+        operand.sign = '-';
+        CHECK(read_edge(&request, &operand));
+    }
+    request.first = &statement->operands.at[0];
+    CHECK(check_dropped(&request));
+    for (TreeKind kind = 0; kind < TREE_KINDS; kind++)
+        drop_from(&request, kind);
+    CHECK(check_choices(&request));
+    request_commit(&request);
+done:
+    request_free(&request);
+    return status;
+}
+
+/* --- keeping and saving --- */
+
+static void copy_names(State *to, NameList *list, const NameList *from, Text *remarks)
+{
+    for (int i = 0; i < from->count; i++) {
+        if (state_part(to, from->at[i]) != NULL)
+            LIST_PUSH(*list, state_text(to, from->at[i]));
+        else if (remarks != NULL) {
+            Text line = {0};
+
+            text_addf(&line, "%s is no longer among the edges chosen for trees\n", from->at[i]);
+            if (remarks->at == NULL || strstr(remarks->at, line.at) == NULL)
+                text_add(remarks, line.at);
+            text_free(&line);
+        }
+    }
+}
+
+void choices_copy(State *to, const State *from, Text *remarks)
+{
+    for (TreeKind kind = 0; kind < TREE_KINDS; kind++) {
+        to->choices[kind].absolute = from->choices[kind].absolute;
+        copy_names(to, &to->choices[kind].chosen, &from->choices[kind].chosen, remarks);
+        copy_names(to, &to->choices[kind].excluded, &from->choices[kind].excluded, remarks);
+    }
+}
+
+static void save_names(Text *text, TreeKind kind, const char *sign, const NameList *names)
+{
+    if (names->count == 0)
+        return;
+    text_addf(text, "tree %s", tree_kind_name(kind));
+    for (int i = 0; i < names->count; i++)
+        text_addf(text, " %s%s", sign, names->at[i]);
+    text_char(text, '\n');
+}
+
+/* Presets first, then what is kept out, then what is in: set in this order, each is what it was. */
+void choices_save(const State *state, Text *text)
+{
+    const Choice *choices = state->choices;
+    bool absolute = choices[TREE_TRANSLATION].absolute || choices[TREE_ROTATION].absolute;
+
+    if (absolute)
+        text_add(text, "tree absolute\n");
+    for (TreeKind kind = 0; absolute && kind < mechanical_kinds; kind++)
+        if (!choices[kind].absolute && choices[kind].chosen.count == 0)
+            text_addf(text, "tree %s joint\n", tree_kind_name(kind));
+    for (TreeKind kind = 0; kind < TREE_KINDS; kind++)
+        save_names(text, kind, "- ", &choices[kind].excluded);
+    for (TreeKind kind = 0; kind < TREE_KINDS; kind++)
+        save_names(text, kind, "", &choices[kind].chosen);
+}
