@@ -14,8 +14,8 @@ static double node_value(const Walk *walk, const double *values, Expr e)
 
     switch (e->kind) {
     case EXPR_SUM:
-        value = 0;
-        for (int i = 0; i < e->count; i++)
+        value = value_of(walk, values, args[0]); /* not 0: that would lose the sign of -0 */
+        for (int i = 1; i < e->count; i++)
             value += value_of(walk, values, args[i]);
         return value;
     case EXPR_PRODUCT:
