@@ -1,1 +1,7 @@
-libcore_la_SOURCES += lib/compile/program.h
+libcore_la_SOURCES += \
+	lib/compile/interpret.c \
+	lib/compile/lower.c \
+	lib/compile/opcodes.def \
+	lib/compile/program.c lib/compile/program.h \
+	lib/compile/program_impl.h \
+	lib/compile/schedule.c

@@ -1,1 +1,4 @@
 # unit tests of lib/compile
+UNIT_TESTS += test_program
+test_program_SOURCES = tests/unit/test_program.c tests/unit/test.h
+test_program_LDADD = $(unit_ldadd)

@@ -1,0 +1,210 @@
+/* program.c: a program from outside: making, counting, printing */
+#include "compile/program_impl.h"
+
+#include <assert.h>
+#include <ctype.h>
+#include <string.h>
+
+/* --- stages --- */
+
+Stage stage_of_symbol(SymbolKind kind)
+{
+    static const int stages[] = {
+        [SYMBOL_PARAMETER] = STAGE_PARAMETER,
+        [SYMBOL_TIME] = STAGE_TIME,
+        [SYMBOL_COORDINATE] = STAGE_POSITION,
+        [SYMBOL_SPEED] = STAGE_VELOCITY,
+        [SYMBOL_STATE] = STAGE_VELOCITY,
+        [SYMBOL_ALGEBRAIC] = STAGE_NETWORK,
+        [SYMBOL_ACCELERATION] = STAGE_ACCELERATION,
+        [SYMBOL_STATE_RATE] = STAGE_NETWORK,
+        [SYMBOL_MULTIPLIER] = STAGE_ACCELERATION,
+        [SYMBOL_EFFORT] = STAGE_ACCELERATION,
+        [SYMBOL_JERK] = STAGE_ACCELERATION,
+        [SYMBOL_VARIABLE] = -1,
+        [SYMBOL_ARGUMENT] = -1,
+    };
+
+    assert(stages[kind] >= 0);
+    return (Stage)stages[kind];
+}
+
+Stage stage_of(Expr e)
+{
+    unsigned kinds = expr_kinds(e);
+    Stage stage = STAGE_PARAMETER;
+
+    for (int kind = 0; kinds >> kind != 0; kind++) {
+        if ((kinds >> kind & 1) != 0 && stage_of_symbol((SymbolKind)kind) > stage)
+            stage = stage_of_symbol((SymbolKind)kind);
+    }
+    return stage;
+}
+
+/* --- the program --- */
+
+Status program_new(const Expr *roots, int root_count, const Expr *inputs, int input_count,
+                   Program **out, Diag *diag)
+{
+    Status status = OK;
+    Program *program = NULL;
+    Lowered lowered;
+
+    CHECK(lower(roots, root_count, inputs, input_count, &lowered, diag));
+
+    program = NEW(Program);
+    program->input_count = input_count;
+    program->root_count = root_count;
+    program->texts = pool_new(4096);
+    program->input_names = NEW_ARRAY(const char *, input_count);
+    for (int i = 0; i < input_count; i++) {
+        const char *name = expr_name(inputs[i]);
+
+        program->input_names[i] = pool_text(program->texts, name, strlen(name));
+    }
+    schedule(program, &lowered);
+    lowered_free(&lowered);
+    *out = program;
+done:
+    return status;
+}
+
+void program_free(Program *program)
+{
+    if (program == NULL)
+        return;
+    mem_free(program->input_names);
+    mem_free(program->constants);
+    mem_free(program->roots);
+    LIST_FREE(program->runs);
+    LIST_FREE(program->tape);
+    pool_free(program->texts);
+    mem_free(program);
+}
+
+int program_input_count(const Program *program)
+{
+    return program->input_count;
+}
+
+int program_root_count(const Program *program)
+{
+    return program->root_count;
+}
+
+int program_operations(const Program *program, Stage stage)
+{
+    int operations = 0;
+
+    for (int r = program->first_run[stage]; r < program->first_run[stage + 1]; r++)
+        operations += program->runs.at[r].count;
+    return operations;
+}
+
+size_t program_bytes(const Program *program)
+{
+    return sizeof *program + pool_bytes(program->texts) +
+           (size_t)program->input_count * sizeof *program->input_names +
+           (size_t)program->constant_count * sizeof *program->constants +
+           (size_t)program->root_count * sizeof *program->roots +
+           (size_t)program->runs.room * sizeof *program->runs.at +
+           (size_t)program->tape.room * sizeof *program->tape.at;
+}
+
+/* --- counting --- */
+
+OpCount program_count(const Program *program)
+{
+    static const OpCount counts[] = {
+#define OPCODE(id, operands, adds, muls, functions, ...) {adds, muls, functions},
+#include "compile/opcodes.def"
+#undef OPCODE
+        [CODE_SINCOS] = {0, 0, 2},
+    };
+    OpCount total = {0};
+
+    for (int r = 0; r < program->runs.count; r++) {
+        const Run *run = &program->runs.at[r];
+        OpCount one = run->code < CODE_CALL ? counts[run->code] : (OpCount){0, 0, 1};
+
+        total.add += one.add * run->count;
+        total.mul += one.mul * run->count;
+        total.fun += one.fun * run->count;
+    }
+    return total;
+}
+
+/* --- printing --- */
+
+static void print_slot(Text *text, const Program *program, int slot)
+{
+    int constant = slot - program->input_count;
+
+    if (constant < 0)
+        text_add(text, program->input_names[slot]);
+    else if (constant < program->constant_count)
+        text_number(text, program->constants[constant], 17);
+    else
+        text_addf(text, "v%d", constant - program->constant_count);
+}
+
+/* the row's formula, with operands for a, b, c */
+static void print_formula(Text *text, const Program *program, const char *formula,
+                          const uint32_t *operand)
+{
+    for (const char *c = formula; *c != '\0'; c++) {
+        bool alone =
+            !isalnum((unsigned char)c[1]) && (c == formula || !isalnum((unsigned char)c[-1]));
+
+        if (alone && *c >= 'a' && *c < 'a' + MOST_OPERANDS)
+            print_slot(text, program, (int)operand[*c - 'a']);
+        else
+            text_char(text, *c);
+    }
+}
+
+static const char *formula_of(Opcode code)
+{
+    static const char *const formulas[] = {
+#define OPCODE(id, operands, adds, muls, functions, ...) #__VA_ARGS__,
+#include "compile/opcodes.def"
+#undef OPCODE
+        [CODE_SINCOS] = "sincos(a)",
+    };
+    static const char *const calls[] = {"()", "(a)", "(a, b)", "(a, b, c)"};
+
+    return code < CODE_CALL ? formulas[code] : calls[code_operands(code)];
+}
+
+static const char *function_of(Opcode code)
+{
+    static const char *const names[] = {
+#define OP(id, name, ...) name,
+#include "expr/ops.def"
+#undef OP
+    };
+
+    return code < CODE_CALL ? "" : names[code - CODE_CALL];
+}
+
+void program_print(Text *text, const Program *program)
+{
+    for (int r = 0; r < program->runs.count; r++) {
+        const Run *run = &program->runs.at[r];
+        int results = run->code == CODE_SINCOS ? 2 : 1;
+
+        for (int i = 0; i < run->count; i++) {
+            int slot = run->result + i * results;
+
+            print_slot(text, program, slot);
+            if (results == 2) {
+                text_add(text, ", ");
+                print_slot(text, program, slot + 1);
+            }
+            text_addf(text, " = %s", function_of(run->code));
+            print_formula(text, program, formula_of(run->code),
+                          program->tape.at + run->operands + i * code_operands(run->code));
+            text_char(text, '\n');
+        }
+    }
+}

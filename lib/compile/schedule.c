@@ -1,0 +1,273 @@
+/* schedule.c: from values to a tape in which equal operations stand together
+ *
+ * A product that only one sum of its stage needs is fused with it, two roundings as
+ * before. Then, stage by stage, list scheduling: of the operations whose operands are
+ * there, those of the most frequent opcode make the next run, and what becomes ready
+ * on the way joins it. O(values * opcodes) at worst, O(values) where runs are long. */
+#include "compile/program_impl.h"
+
+#include <string.h>
+
+enum { NOBODY = UINT32_MAX };
+
+/* values that wait for an opcode's next run, in the order of becoming ready */
+typedef struct Queue {
+    uint32_t first;
+    uint32_t last;
+    int count;
+} Queue;
+
+typedef struct Plan {
+    Program *program;
+    Value *values;
+    uint32_t count;
+    uint32_t *slot;       /* of each value */
+    uint32_t *pending;    /* operands of the same stage that aren't there yet */
+    uint32_t *users;      /* of the same stage, by operand */
+    uint32_t *first_user; /* where those of each value begin; count + 1 */
+    uint32_t *next;       /* in a queue */
+    Queue queues[CODES];
+} Plan;
+
+static bool is_instruction(const Value *value)
+{
+    return value->code < CODES;
+}
+
+/* the value whose instruction computes this one */
+static uint32_t maker_of(const Value *values, uint32_t value)
+{
+    return values[value].code == CODE_COSINE ? values[value].args[0] : value;
+}
+
+/* --- fusing --- */
+
+static void fuse_one(Value *values, const uint32_t *uses, Value *sum)
+{
+    bool add = sum->code == CODE_ADD;
+
+    for (int i = 1; i >= 0; i--) {
+        Value *product = &values[sum->args[i]];
+
+        if (product->code != CODE_MUL || uses[sum->args[i]] != 1 || product->stage != sum->stage)
+            continue;
+        sum->code = add ? CODE_MULADD : i == 0 ? CODE_MULSUB : CODE_SUBMUL;
+        sum->args[2] = sum->args[1 - i];
+        sum->args[0] = product->args[0];
+        sum->args[1] = product->args[1];
+        product->code = CODE_ABSORBED;
+        return;
+    }
+}
+
+static void fuse(const Lowered *lowered)
+{
+    Value *values = lowered->values.at;
+    int count = lowered->values.count;
+    uint32_t *uses = NEW_ARRAY(uint32_t, count);
+
+    for (int v = 0; v < count; v++) {
+        for (int i = 0; is_instruction(&values[v]) && i < code_operands(values[v].code); i++)
+            uses[values[v].args[i]]++;
+    }
+    for (int i = 0; i < lowered->root_count; i++)
+        uses[lowered->roots[i]]++;
+    for (int v = 0; v < count; v++) {
+        if (values[v].code == CODE_ADD || values[v].code == CODE_SUB)
+            fuse_one(values, uses, &values[v]);
+    }
+    mem_free(uses);
+}
+
+/* --- who waits for whom --- */
+
+/* Call `note` for each operand of an instruction that its own stage computes. */
+static void for_dependences(Plan *plan, void (*note)(Plan *, uint32_t maker, uint32_t user))
+{
+    for (uint32_t v = 0; v < plan->count; v++) {
+        const Value *value = &plan->values[v];
+
+        for (int i = 0; is_instruction(value) && i < code_operands(value->code); i++) {
+            uint32_t maker = maker_of(plan->values, value->args[i]);
+
+            if (is_instruction(&plan->values[maker]) && plan->values[maker].stage == value->stage)
+                note(plan, maker, v);
+        }
+    }
+}
+
+static void count_user(Plan *plan, uint32_t maker, uint32_t user)
+{
+    plan->pending[user]++;
+    plan->first_user[maker + 1]++;
+}
+
+/* first_user[maker] moves to where the users end, and is wound back later */
+static void note_user(Plan *plan, uint32_t maker, uint32_t user)
+{
+    plan->users[plan->first_user[maker]++] = user;
+}
+
+static void find_users(Plan *plan)
+{
+    for_dependences(plan, count_user);
+    for (uint32_t v = 0; v < plan->count; v++)
+        plan->first_user[v + 1] += plan->first_user[v];
+    plan->users = NEW_ARRAY(uint32_t, plan->first_user[plan->count]);
+    for_dependences(plan, note_user);
+    memmove(plan->first_user + 1, plan->first_user, plan->count * sizeof *plan->first_user);
+    plan->first_user[0] = 0;
+}
+
+/* --- the tape --- */
+
+static void enqueue(Plan *plan, uint32_t value)
+{
+    Queue *queue = &plan->queues[plan->values[value].code];
+
+    plan->next[value] = NOBODY;
+    if (queue->count++ == 0)
+        queue->first = value;
+    else
+        plan->next[queue->last] = value;
+    queue->last = value;
+}
+
+static uint32_t dequeue(Plan *plan, Opcode code)
+{
+    uint32_t value = plan->queues[code].first;
+
+    plan->queues[code].first = plan->next[value];
+    plan->queues[code].count--;
+    return value;
+}
+
+static uint32_t slot_of(const Plan *plan, uint32_t value)
+{
+    if (plan->values[value].code == CODE_COSINE)
+        return plan->slot[plan->values[value].args[0]] + 1;
+    return plan->slot[value];
+}
+
+static void emit(Plan *plan, uint32_t value)
+{
+    Program *program = plan->program;
+    const Value *v = &plan->values[value];
+
+    for (int i = 0; i < code_operands(v->code); i++)
+        LIST_PUSH(program->tape, slot_of(plan, v->args[i]));
+    plan->slot[value] = (uint32_t)program->slot_count;
+    program->slot_count += v->code == CODE_SINCOS ? 2 : 1;
+    for (uint32_t i = plan->first_user[value]; i < plan->first_user[value + 1]; i++) {
+        if (--plan->pending[plan->users[i]] == 0)
+            enqueue(plan, plan->users[i]);
+    }
+}
+
+static void emit_run(Plan *plan, Opcode code)
+{
+    Program *program = plan->program;
+    Run run = {.code = code, .operands = program->tape.count, .result = program->slot_count};
+
+    for (; plan->queues[code].count > 0; run.count++)
+        emit(plan, dequeue(plan, code));
+    LIST_PUSH(program->runs, run);
+}
+
+static void emit_stage(Plan *plan, Stage stage)
+{
+    for (uint32_t v = 0; v < plan->count; v++) {
+        if (is_instruction(&plan->values[v]) && plan->values[v].stage == stage &&
+            plan->pending[v] == 0)
+            enqueue(plan, v);
+    }
+    for (;;) {
+        int best = 0;
+
+        for (int code = 1; code < CODES; code++) {
+            if (plan->queues[code].count > plan->queues[best].count)
+                best = code;
+        }
+        if (plan->queues[best].count == 0)
+            return;
+        emit_run(plan, (Opcode)best);
+    }
+}
+
+/* --- the ends of the slots --- */
+
+/* inputs and constants that somebody needs */
+static void place_leaves(Plan *plan, const Lowered *lowered)
+{
+    Program *program = plan->program;
+    bool *needed = NEW_ARRAY(bool, plan->count);
+
+    for (uint32_t v = 0; v < plan->count; v++) {
+        const Value *value = &plan->values[v];
+
+        for (int i = 0; is_instruction(value) && i < code_operands(value->code); i++)
+            needed[value->args[i]] = true;
+    }
+    for (int i = 0; i < lowered->root_count; i++)
+        needed[lowered->roots[i]] = true;
+
+    program->constants = NEW_ARRAY(double, plan->count);
+    for (uint32_t v = 0; v < plan->count; v++) {
+        if (plan->values[v].code == CODE_INPUT)
+            plan->slot[v] = v;
+        if (plan->values[v].code != CODE_CONSTANT || !needed[v])
+            continue;
+        plan->slot[v] = (uint32_t)(lowered->input_count + program->constant_count);
+        program->constants[program->constant_count++] = value_constant(&plan->values[v]);
+    }
+    program->slot_count = lowered->input_count + program->constant_count;
+    mem_free(needed);
+}
+
+static void place_roots(Plan *plan, const Lowered *lowered)
+{
+    Program *program = plan->program;
+    int count = 0;
+
+    program->roots = NEW_ARRAY(Handover, lowered->root_count);
+    for (int stage = 0; stage < STAGE_COUNT; stage++) {
+        program->first_root[stage] = count;
+        for (int i = 0; i < lowered->root_count; i++) {
+            uint32_t value = lowered->roots[i];
+
+            if (plan->values[value].stage == stage)
+                program->roots[count++] = (Handover){i, (int)slot_of(plan, value)};
+        }
+    }
+    program->first_root[STAGE_COUNT] = count;
+}
+
+void schedule(Program *program, Lowered *lowered)
+{
+    Plan plan = {
+        .program = program,
+        .values = lowered->values.at,
+        .count = (uint32_t)lowered->values.count,
+    };
+
+    fuse(lowered);
+    plan.slot = NEW_ARRAY(uint32_t, plan.count);
+    plan.pending = NEW_ARRAY(uint32_t, plan.count);
+    plan.first_user = NEW_ARRAY(uint32_t, (size_t)plan.count + 1);
+    plan.next = NEW_ARRAY(uint32_t, plan.count);
+    find_users(&plan);
+    place_leaves(&plan, lowered);
+
+    for (int stage = 0; stage < STAGE_COUNT; stage++) {
+        program->first_run[stage] = program->runs.count;
+        emit_stage(&plan, (Stage)stage);
+    }
+    program->first_run[STAGE_COUNT] = program->runs.count;
+    place_roots(&plan, lowered);
+
+    mem_free(plan.slot);
+    mem_free(plan.pending);
+    mem_free(plan.users);
+    mem_free(plan.first_user);
+    mem_free(plan.next);
+}
