@@ -18,6 +18,7 @@ include tests/unit/simulate.mk
 include tests/session/session.mk
 include tests/bench/bench.mk
 include tests/bench/graph.mk
+include tests/bench/compile.mk
 include tests/fuzz/fuzz.mk
 
 check_PROGRAMS += $(UNIT_TESTS)
