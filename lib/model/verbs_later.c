@@ -7,13 +7,19 @@
 #include <string.h>
 
 #define MECHANICAL(word, form, how, what)                                                          \
-    {.name = word, .group = GROUP_MECHANICAL, .shape = form, .usage = word " NAME " how,           \
-     .brief = what, .later = true}
+    {                                                                                              \
+        .name = word, .group = GROUP_MECHANICAL, .shape = form, .usage = word " NAME " how,        \
+        .brief = what, .later = true                                                               \
+    }
 #define ELECTRICAL(word, form, how, what)                                                          \
-    {.name = word, .group = GROUP_ELECTRICAL, .shape = form, .usage = word " NAME " how,           \
-     .brief = what, .later = true}
+    {                                                                                              \
+        .name = word, .group = GROUP_ELECTRICAL, .shape = form, .usage = word " NAME " how,        \
+        .brief = what, .later = true                                                               \
+    }
 #define OTHER(word, of, form, how, what)                                                           \
-    {.name = word, .group = of, .shape = form, .usage = word how, .brief = what, .later = true}
+    {                                                                                              \
+        .name = word, .group = of, .shape = form, .usage = word how, .brief = what, .later = true  \
+    }
 
 /* clang-format off */
 const Verb verbs_later[] = {

@@ -2,6 +2,7 @@
 #include "model/verbs.h"
 
 #define RUN_KEYS WORDS("every", "rtol", "atol", "method", "step", "check", "realtime")
+#define SWING    PENDULUM "init h1 = 60 deg\n"
 
 const Verb verbs_run[] = {
     {.name = "init",
@@ -9,69 +10,144 @@ const Verb verbs_run[] = {
      .shape = "W=",
      .words = WORDS("none"),
      .usage = "init VARIABLE = VALUE, ...|none",
-     .brief = "initial values"},
+     .brief = "initial values",
+     .help =
+         "Gives values at the start: of coordinates and their rates (h8 = 30 deg, h8' = 10), of "
+         "bodies (m1.x, m1.vx), of the circuit's states (C2.v, L3.i), whatever the trees are. "
+         "What is given is kept, what depends on it is solved for, and a conflict is reported. "
+         "A later line adds to the values or replaces them; 'init none' forgets them all. "
+         "Values are kept when the model or its trees change.",
+     .example = PENDULUM "init h1 = 30 deg, h1' = 2\nassemble\nprint m1.x, m1.vx",
+     .see = "guess assemble simulate"},
     {.name = "guess",
      .group = GROUP_RUN,
      .shape = "W=",
      .words = WORDS("none"),
      .usage = "guess VARIABLE = VALUE, ...|none",
-     .brief = "where the search for initial values starts"},
+     .brief = "where the search for initial values starts",
+     .help = "A mechanism can often be assembled in several ways. A guess picks the one nearby: it "
+             "is where the search starts, and unlike what 'init' gives it need not be kept.",
+     .example = PENDULUM "tree m1\ninit m1.x = 0.5\nguess m1.y = -1, m1.theta = 0.5\nassemble",
+     .see = "init assemble"},
     {.name = "assemble",
      .group = GROUP_RUN,
      .shape = ">",
      .usage = "assemble",
-     .brief = "solves the constraints for the initial configuration"},
+     .brief = "solves the constraints for the initial configuration",
+     .help =
+         "Finds positions and speeds that satisfy all constraints from the values of 'init' and "
+         "'guess', prints them, and says what had to be assumed. Runs do it by themselves.",
+     .example = PENDULUM "init h1 = 30 deg\nassemble",
+     .see = "init guess check"},
     {.name = "simulate",
      .group = GROUP_RUN,
      .shape = "vk>",
      .keys = RUN_KEYS,
-     .usage = "simulate TIME [every=..] [rtol=..] [atol=..] [method=..]",
-     .brief = "forward dynamics"},
+     .usage = "simulate TIME [every=..] [rtol=..] [atol=..] [method=..] [step=..] [check=on]",
+     .brief = "forward dynamics",
+     .help =
+         "Integrates the equations from 0 to TIME, in seconds, and keeps the result as run1, run2 "
+         "and so on.\n"
+         "  every=     distance of the points that are kept\n"
+         "  rtol=      relative tolerance of a step\n"
+         "  atol=      absolute tolerance of a step\n"
+         "  method=    auto, or dop853 radau bdf adams ida rk4 symplectic ...\n"
+         "  step=      the step of methods that have a fixed one\n"
+         "  check=on   estimates the error of the whole run\n"
+         "  realtime=on   goes no faster than the clock\n"
+         "Ctrl-C stops a run and keeps what it has; 'resume' goes on.",
+     .example = SWING "simulate 2 every=0.01 rtol=1e-8 atol=1e-10 method=auto\nprint h1, h1'",
+     .see = "init resume plot print table show"},
     {.name = "resume",
      .group = GROUP_RUN,
      .shape = "vk>",
      .keys = RUN_KEYS,
      .usage = "resume TIME [every=..]",
-     .brief = "goes on where the last run ended or was stopped"},
+     .brief = "goes on where the last run ended or was stopped",
+     .help =
+         "Continues the last run by TIME, with the values that parameters have now. What is not "
+         "said again is as in that run.",
+     .example = SWING "simulate 1\nresume 1\nprint h1",
+     .see = "simulate"},
     {.name = "kinematics",
      .group = GROUP_RUN,
      .shape = "vk>",
      .keys = RUN_KEYS,
      .usage = "kinematics TIME [every=..]",
-     .brief = "motion that drivers prescribe"},
+     .brief = "motion that drivers prescribe",
+     .help = "Solves the constraints together with the drivers at each instant: positions, speeds "
+             "and accelerations, without masses or forces. The drivers must leave no freedom.",
+     .example = PENDULUM "driver D1 h1 = 2*pi*t\nkinematics 1 every=0.1\nprint m1.x, m1.ax",
+     .see = "driver inverse simulate"},
     {.name = "inverse",
      .group = GROUP_RUN,
      .shape = "vk>",
      .keys = RUN_KEYS,
      .usage = "inverse TIME [every=..]",
-     .brief = "what a prescribed motion takes"},
+     .brief = "what a prescribed motion takes",
+     .help = "Solves for the efforts that make the drivers' motion happen, and for all reactions. "
+             "A driver with by= takes it from a coordinate or a source elsewhere, such as a "
+             "motor's voltage.",
+     .example = PENDULUM "driver D1 h1 = 0.5*sin(2*t)\ninverse 1 every=0.01\nprint max(D1.effort)",
+     .see = "driver kinematics simulate"},
     {.name = "plot",
      .group = GROUP_RUN,
      .shape = "iy>",
      .words = WORDS("last"),
      .usage = "plot ITEM... [vs ITEM] [> \"FILE.png\"]",
-     .brief = "draws variables of runs"},
+     .brief = "draws variables of runs",
+     .help = "Draws with gnuplot: in a window, without a display in the terminal, into a file with "
+             "'>' (png, svg, pdf). Each item is a variable, a call or an expression in brackets; a "
+             "unit in brackets behind it says what to draw it in. A bare name means the last run, "
+             "run2.h8 another one. 'plot last' draws the last plot again.",
+     .example = SWING "simulate 2 every=0.01\nplot h1 [deg] (h1'/2) vs t",
+     .see = "simulate print table export"},
     {.name = "print",
      .group = GROUP_RUN,
      .shape = "e@>",
      .usage = "print EXPR [[UNIT]], ... [at TIME]",
-     .brief = "values of expressions"},
+     .brief = "values of expressions",
+     .help = "Prints expressions of variables, parameters and laws: at the end of the last run, at "
+             "an instant of it with 'at', or at the assembled start when 'init' or a change came "
+             "later. min, max, mean and rms of one argument are taken over the run. A unit in "
+             "brackets says what to print in. Comparisons stand in brackets, since '>' writes to a "
+             "file.",
+     .example = SWING "simulate 2 every=0.01\nprint h1 [deg], h1' at 1\nprint max(h1) [deg]",
+     .see = "table plot show expect"},
     {.name = "table",
      .group = GROUP_RUN,
      .shape = "Ik>",
      .keys = WORDS("every"),
-     .usage = "table ITEM... [every=..]",
-     .brief = "values of the last run, in columns"},
+     .usage = "table [ITEM...] [every=..]",
+     .brief = "values of the last run, in columns",
+     .help = "Prints time and the items in columns, at the points that the run kept or at those of "
+             "every=. Without items: all coordinates and speeds.",
+     .example = SWING "simulate 1 every=0.01\ntable h1 h1' every=0.1",
+     .see = "print plot export"},
     {.name = "export",
      .group = GROUP_RUN,
      .shape = "wI>",
      .words = WORDS("csv", "c", "fortran", "matlab", "python", "latex", "dot", "fmu"),
      .usage = "export csv [ITEM...]|c|fortran|matlab|python|latex|dot|fmu [> \"FILE\"]",
-     .brief = "numbers, equations or code for other programs"},
+     .brief = "numbers, equations or code for other programs",
+     .help =
+         "'export csv' writes the last run: first column t, then the items as they are written, "
+         "17 digits; without items all coordinates and speeds. '>>' adds rows to a file that is "
+         "there, without a second header. The other words write the equations: as code in that "
+         "language, as LaTeX, or the graph for Graphviz (dot). Without a file it goes to the "
+         "screen.",
+     .example = SWING "simulate 1 every=0.1\nexport csv h1 h1' m1.x\nexport latex",
+     .see = "table plot show"},
     {.name = "expect",
      .group = GROUP_RUN,
      .shape = "C@",
      .usage = "expect CONDITION [at TIME]|EXPR ~ EXPR within TOL [at TIME]",
-     .brief = "ends a script when something does not hold"},
+     .brief = "ends a script when something does not hold",
+     .help = "Says nothing when it holds. Otherwise the two values are printed and a script ends "
+             "with status 3. 'a ~ b within tol' holds when a and b differ by no more than tol.",
+     .example = SWING "simulate 1 rtol=1e-10 atol=1e-12\n"
+                      "expect energy.total ~ -1*9.81*cos(60 deg) within 1e-6\n"
+                      "expect model.dof == 1",
+     .see = "print check"},
     {.name = NULL},
 };
