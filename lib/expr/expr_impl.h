@@ -129,19 +129,30 @@ typedef struct Item {
 /* Stable sort by the keys. O(n log n), O(n) where in order already. */
 void items_sort(Item *items, int count, int (*order)(Expr a, Expr b));
 
-/* --- sum.c, product.c, power.c --- */
+/* --- sum.c, product.c --- */
 
 bool is_negative(Expr e); /* would print with a minus sign before it; numbers: below 0 */
 Expr term_scale(Arena *arena, Expr term, Number coefficient); /* instead of the one it has */
 Expr sum_negate(Arena *arena, Expr sum);
 
+/* --- substitute.c --- */
+
 /* The node of e's kind and operator over other arguments, simplified. */
 Expr expr_rebuild(Arena *arena, Expr e, const Expr *args);
+
+/* What becomes of a node, given it over what became of its arguments. */
+typedef Expr (*NodeChange)(Arena *arena, Expr e, void *context);
+
+/* Change every node below e, each once and upward. */
+Expr expr_change(Arena *arena, Expr e, NodeChange change, void *context);
 
 /* --- call.c --- */
 
 /* derivative of the call e, given those of its arguments */
 Expr op_derivative(Arena *arena, Expr e, const Expr *rates);
+
+/* --- power.c --- */
+
 double power_value(double base, Expr exponent, double exponent_value);
 
 /* --- walk.c: the nodes below some roots, children first --- */

@@ -34,8 +34,8 @@ static Expr image_of(const Images *images, Expr e)
     return place >= 0 ? images->of.at[place] : e;
 }
 
-/* Rebuild what was walked and has no image yet; with `open`, without its holds. */
-static void rebuild_all(Arena *arena, Images *images, bool open)
+/* Rebuild what was walked and has no image yet, each node then by way of `change`. */
+static void rebuild_all(Arena *arena, Images *images, NodeChange change, void *context)
 {
     LIST(Expr) args = {0};
 
@@ -48,10 +48,9 @@ static void rebuild_all(Arena *arena, Images *images, bool open)
             LIST_PUSH(args, image_of(images, node_args(e)[j]));
             changed = changed || args.at[j] != node_args(e)[j];
         }
-        if (open && is_call(e, OP_HOLD))
-            LIST_PUSH(images->of, args.at[0]);
-        else
-            LIST_PUSH(images->of, changed ? expr_rebuild(arena, e, args.at) : e);
+        if (changed)
+            e = expr_rebuild(arena, e, args.at);
+        LIST_PUSH(images->of, change != NULL ? change(arena, e, context) : e);
     }
     LIST_FREE(args);
 }
@@ -79,17 +78,29 @@ Expr expr_substitute(Arena *arena, Expr e, const Expr *symbols, const Expr *valu
             LIST_PUSH(images.of, values[i]);
     }
     walk_below(&images.walk, e, mask, NULL, NULL);
-    rebuild_all(arena, &images, false);
+    rebuild_all(arena, &images, NULL, NULL);
     return finish(&images, e);
 }
 
-Expr expr_open(Arena *arena, Expr e)
+Expr expr_change(Arena *arena, Expr e, NodeChange change, void *context)
 {
     Images images = {0};
 
     walk_below(&images.walk, e, 0, NULL, NULL);
-    rebuild_all(arena, &images, true);
+    rebuild_all(arena, &images, change, context);
     return finish(&images, e);
+}
+
+static Expr without_hold(Arena *arena, Expr e, void *context)
+{
+    (void)arena;
+    (void)context;
+    return held(e);
+}
+
+Expr expr_open(Arena *arena, Expr e)
+{
+    return expr_change(arena, e, without_hold, NULL);
 }
 
 /* --- asking --- */
