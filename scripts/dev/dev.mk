@@ -31,8 +31,11 @@ format:
 
 # times, beside those of the last record; each program is told of the scripts and the shell
 bench: $(BENCHES) all
-	@for bench in $(BENCHES); do LD_LIBRARY_PATH=.libs ./$$bench $(abs_srcdir)/scripts \
-		$(abs_builddir)/.libs/cotree || exit 1; done >bench.out
+	@rm -rf bench.work; mkdir bench.work
+	@for bench in $(BENCHES); do \
+		(cd bench.work && LD_LIBRARY_PATH=../.libs ../$$bench $(abs_srcdir)/scripts \
+			$(abs_builddir)/.libs/cotree) || exit 1; \
+	done >bench.out
 	@$(dev)/bench-table $(srcdir)/tests/bench/record.txt <bench.out
 
 bench-record: bench
@@ -61,6 +64,6 @@ mostlyclean-local:
 	rm -f $(BENCHES) $(FUZZERS) bench.out check.log
 
 distclean-local:
-	rm -rf san coverage
+	rm -rf san coverage bench.work
 
 .PHONY: check-total check-san lint format bench bench-record fuzz fuzzers coverage
