@@ -25,3 +25,8 @@ check_PROGRAMS += $(UNIT_TESTS)
 TESTS += $(UNIT_TESTS)
 EXTRA_PROGRAMS += $(BENCHES) $(FUZZERS)
 EXTRA_DIST += tests/claims.sh
+
+# tests that are scripts
+SCRIPT_TESTS = tests/dev/tools_tell_right_from_wrong
+TESTS += $(SCRIPT_TESTS)
+EXTRA_DIST += $(SCRIPT_TESTS) tests/session/columns_agree
