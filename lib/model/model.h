@@ -52,14 +52,17 @@ bool model_coordinate(const Model *model, const char *name, const Instance **own
  * the graph or a choice changes. Fails as tree_complete() does. */
 MUST_USE Status model_trees(const Model *model, const Tree *trees[TREE_KINDS], Diag *diag);
 
-/* parameters: symbols of kind SYMBOL_PARAMETER with a defining expression each */
+/* Parameters: symbols of kind SYMBOL_PARAMETER with a defining expression each. A new one changes
+ * neither revision nor values, so remember them by symbol, not by number. */
 int model_parameter_count(const Model *model);
 Expr model_parameter(const Model *model, int i, Expr *definition);
 double model_parameter_value(const Model *model, Expr symbol); /* now, SI */
 /* evaluate an expression of parameters only */
 double model_number(const Model *model, Expr e);
 
-/* outputs: name = expression over variables (SYMBOL_VARIABLE), t and parameters */
+/* Outputs: name = expression over variables (SYMBOL_VARIABLE), t and parameters. They change no
+ * equation: a new one leaves revision and values as they are, and where an expression names one,
+ * it is put in place. */
 int model_output_count(const Model *model);
 Expr model_output(const Model *model, int i, const char **name);
 
@@ -78,9 +81,13 @@ typedef enum Form { FORM_AUGMENTED, FORM_EMBEDDED } Form;
 Form model_form(const Model *model, const char *const **independent,
                 int *count); /* names of coordinates; count 0: chosen by pivoting */
 
-/* Turn a syntax tree into an expression over parameters, t and variables: units to SI, laws put
- * in place, names checked. `vector` receives up to 9 entries. Names that aren't known fail with
- * E_NAME and a suggestion. */
+/* Turn a syntax tree into an expression over parameters, t and variables: units to SI, laws and
+ * outputs put in place, names checked. A variable is a SYMBOL_VARIABLE of its own name with its
+ * primes ("h8'", "m1.x", "lambda(1)", "model.n"): the coordinate's, where J1 stands for theta1.
+ * One of another run keeps its prefix ("run2.h8"); min, max, mean and rms of one argument, which
+ * are taken over a run, become a symbol of that text ("max(h8)"). A prime on a bracket or a call is
+ * the derivative along the primed variables. `vector` receives up to 9 entries. Names that aren't
+ * known fail with E_NAME and a suggestion. */
 MUST_USE Status model_expression(const Model *model, const Syntax *syntax, Expr *out, Diag *diag);
 MUST_USE Status model_vector(const Model *model, const Syntax *syntax, Expr *out, int *count,
                              Diag *diag);

@@ -398,11 +398,7 @@ Status key_unknown(const Component *row, const char *key, Place place, Diag *dia
         suggest_offer(&suggest, row->params[i].name);
         text_addf(&list, " %s=", row->params[i].name);
     }
-    if (row->family == FAMILY_JOINT) {
-        suggest_offer(&suggest, "coord");
-        text_add(&list, row->coord_count > 1 ? " coords=" : " coord=");
-    }
-    (void)diag_at(diag, E_NAME, place, "%s has no key '%s'", row->name, key);
+    (void)diag_at(diag, E_NAME, place, "'%s' has no key '%s'", row->name, key);
     if (suggest.best != NULL)
         diag_hint(diag, "did you mean '%s'?", suggest.best);
     else if (list.length > 0)
@@ -447,10 +443,14 @@ static Status read_key(Draft *draft, const Pair *pair)
         return give(draft, index, pair->value, pair->name_place);
     if (row->family == FAMILY_DRIVER && strcmp(pair->name, "by") == 0 && part->by < 0)
         return read_by(draft, pair);
+    if (row->family == FAMILY_DRIVER) {
+        (void)diag_at(draft->diag, E_NAME, pair->name_place,
+                      "a driver takes one coordinate, and by=");
+        diag_hint(draft->diag, "by= names a coordinate or a source that supplies the motion");
+        return E_NAME;
+    }
     if (row->family != FAMILY_JOINT || !names_coordinates)
         return key_unknown(row, pair->name, pair->name_place, draft->diag);
-    if (draft->coordinate_names != NULL)
-        return diag_at(draft->diag, E_SYNTAX, pair->name_place, "coordinates are named twice");
     draft->coordinate_names = pair->value;
     return OK;
 }
@@ -711,10 +711,7 @@ Status apply_component(State **state, const Statement *statement, Outcome *outco
     draft.scope = (Scope){.state = *state,
                           .kind = row->family == FAMILY_DRIVER ? SCOPE_DRIVE : SCOPE_NUMBER,
                           .own = draft.part};
-    if (statement->is_virtual && row->family != FAMILY_JOINT) {
-        status = diag_at(diag, E_VALUE, statement->verb_place, "only joints can be virtual");
-        goto done;
-    }
+    assert(!statement->is_virtual || row->family == FAMILY_JOINT);
     CHECK(new_name(&draft));
     own_coordinates(&draft);
     CHECK(read_places(&draft));

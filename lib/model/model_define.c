@@ -243,16 +243,6 @@ done:
 
 /* --- laws --- */
 
-static Status check_arguments(const Statement *statement, Diag *diag)
-{
-    for (int i = 0; i < statement->argument_count; i++)
-        for (int j = 0; j < i; j++)
-            if (strcmp(statement->arguments[i], statement->arguments[j]) == 0)
-                return diag_at(diag, E_NAME, statement->name_place, "%s has two arguments %s",
-                               statement->name, statement->arguments[i]);
-    return OK;
-}
-
 static Expr *argument_symbols(State *state, const Statement *statement)
 {
     int count = statement->argument_count;
@@ -286,7 +276,6 @@ Status apply_law(State **state, const Statement *statement, Outcome *outcome, Di
 
     if (law == NULL)
         CHECK(check_new_name(s, statement->name, DEFINES_LAW, statement->name_place, diag));
-    CHECK(check_arguments(statement, diag));
     CHECK(scope_expression(&scope, statement->value, &body, diag));
     if (law != NULL) {
         CHECK(definition_check_circle(s, index_of(s, law), scope.uses.at, scope.uses.count,

@@ -222,37 +222,36 @@ static bool in_play(const Request *request, TreeKind kind)
     return request->kind < 0 || (int)kind == request->kind;
 }
 
-/* the names of a list that have an edge in the graph of this kind */
+static bool can_enter(const Request *request, const char *name, TreeKind kind)
+{
+    const State *state = request->state;
+    int edge = edge_in(state, state_part(state, name), kind);
+
+    return edge >= 0 && graph_branching(state->graph, edge, kind) != BRANCH_NEVER;
+}
+
+/* The names of a list that a tree of this kind may hold: a virtual joint is none where it has no
+ * freedom, a motor only in the electrical tree. */
 static NameList of_kind(const Request *request, const NameList *list, TreeKind kind)
 {
     NameList out = {0};
 
     for (int i = 0; i < list->count; i++)
-        if (edge_in(request->state, state_part(request->state, list->at[i]), kind) >= 0)
+        if (can_enter(request, list->at[i], kind))
             LIST_PUSH(out, list->at[i]);
     return out;
 }
 
-/* `tree a b`: these are the branches of every tree whose domain is named. A virtual joint is
- * left out of the tree in which it has no freedom. */
+/* `tree a b`: these are the branches of every tree whose domain is named. */
 static void set_tree(Request *request, TreeKind kind)
 {
-    const State *state = request->state;
     Choice *choice = &request->choices[kind];
     NameList mine = of_kind(request, &request->add, kind);
 
     if (mine.count > 0) {
         request->touched[kind] = true;
         choice->absolute = false;
-        choice->chosen.count = 0;
-        for (int i = 0; i < mine.count; i++) {
-            const Instance *part = state_part(state, mine.at[i]);
-            bool never =
-                graph_branching(state->graph, edge_in(state, part, kind), kind) == BRANCH_NEVER;
-
-            if (!never || !part->is_virtual || request->kind >= 0)
-                LIST_PUSH(choice->chosen, mine.at[i]);
-        }
+        list_copy(&choice->chosen, &mine);
         list_remove(&choice->excluded, &mine);
     }
     LIST_FREE(mine);
@@ -275,14 +274,6 @@ static NameList current_branches(const Request *request, TreeKind kind)
             LIST_PUSH(out, graph_edge(state->graph, e)->name);
     tree_free(tree);
     return out;
-}
-
-static bool can_enter(const Request *request, const char *name, TreeKind kind)
-{
-    const State *state = request->state;
-    int edge = edge_in(state, state_part(state, name), kind);
-
-    return edge >= 0 && graph_branching(state->graph, edge, kind) != BRANCH_NEVER;
 }
 
 /* `tree - h9`: out, and what was open is completed anew */
