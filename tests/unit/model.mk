@@ -1,1 +1,12 @@
-# unit tests of lib/model
+# unit tests of lib/component and lib/model
+UNIT_TESTS += test_component
+test_component_SOURCES = tests/unit/test_component.c tests/unit/test_model.h tests/unit/test.h
+test_component_LDADD = $(unit_ldadd)
+
+UNIT_TESTS += test_model
+test_model_SOURCES = tests/unit/test_model.c tests/unit/test_model.h tests/unit/test.h
+test_model_LDADD = $(unit_ldadd)
+
+UNIT_TESTS += test_model_wrong
+test_model_wrong_SOURCES = tests/unit/test_model_wrong.c tests/unit/test_model.h tests/unit/test.h
+test_model_wrong_LDADD = $(unit_ldadd)
