@@ -5,7 +5,6 @@
 #include "compile/program_impl.h"
 
 #include <math.h>
-#include <string.h>
 
 struct Workspace {
     const Program *program;
@@ -20,8 +19,8 @@ Workspace *workspace_new(const Program *program)
     workspace->program = program;
     workspace->slots = NEW_ARRAY(double, program->slot_count);
     workspace->roots = NEW_ARRAY(double, program->root_count);
-    memcpy(workspace->slots + program->input_count, program->constants,
-           (size_t)program->constant_count * sizeof *program->constants);
+    for (int i = 0; i < program->constants.count; i++)
+        workspace->slots[program->input_count + i] = program->constants.at[i];
     return workspace;
 }
 

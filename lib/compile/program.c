@@ -74,7 +74,7 @@ void program_free(Program *program)
     if (program == NULL)
         return;
     mem_free(program->input_names);
-    mem_free(program->constants);
+    LIST_FREE(program->constants);
     mem_free(program->roots);
     LIST_FREE(program->runs);
     LIST_FREE(program->tape);
@@ -105,7 +105,7 @@ size_t program_bytes(const Program *program)
 {
     return sizeof *program + pool_bytes(program->texts) +
            (size_t)program->input_count * sizeof *program->input_names +
-           (size_t)program->constant_count * sizeof *program->constants +
+           (size_t)program->constants.room * sizeof *program->constants.at +
            (size_t)program->root_count * sizeof *program->roots +
            (size_t)program->runs.room * sizeof *program->runs.at +
            (size_t)program->tape.room * sizeof *program->tape.at;
@@ -142,10 +142,10 @@ static void print_slot(Text *text, const Program *program, int slot)
 
     if (constant < 0)
         text_add(text, program->input_names[slot]);
-    else if (constant < program->constant_count)
-        text_number(text, program->constants[constant], 17);
+    else if (constant < program->constants.count)
+        text_number(text, program->constants.at[constant], 17);
     else
-        text_addf(text, "v%d", constant - program->constant_count);
+        text_addf(text, "v%d", constant - program->constants.count);
 }
 
 /* the row's formula, with operands for a, b, c */

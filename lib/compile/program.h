@@ -5,8 +5,8 @@
  * inputs up to a kind: run again from the first stage whose inputs changed.
  *
  * The interpreter runs through a tape in which equal operations stand in runs, one
- * loop a run (research of the house, "same-op runs"); results are the same bits as
- * evaluating each node alone, in double, with no fused operation. */
+ * loop a run. Results have the bits of expr_evaluate(): chains from left to right, every
+ * operation rounded. What isn't chosen by an if is computed and doesn't leak. */
 #ifndef COTREE_COMPILE_PROGRAM_H
 #define COTREE_COMPILE_PROGRAM_H
 
@@ -34,16 +34,18 @@ typedef struct Workspace Workspace;
  * inputs  the symbols that will be given numbers, in any order, each once
  * out     new; program_free(). Nothing that no root needs is in it.
  *
- * Fails with E_NAME when a root holds a symbol that is no input, naming it. O(nodes). */
+ * Fails with E_NAME when a root holds a symbol that is no input, naming it. O(nodes) and no
+ * recursion. */
 MUST_USE Status program_new(const Expr *roots, int root_count, const Expr *inputs, int input_count,
                             Program **out, Diag *diag);
 void program_free(Program *program); /* NULL is fine */
 
 int program_input_count(const Program *program);
 int program_root_count(const Program *program);
-int program_operations(const Program *program, Stage stage); /* instructions of one stage */
-OpCount
-program_count(const Program *program); /* additions, multiplications, functions, all stages */
+/* instructions of one stage: a fused product and sum is one, a sine with its cosine too */
+int program_operations(const Program *program, Stage stage);
+/* operations carried out, all stages, by the rule of expr.h */
+OpCount program_count(const Program *program);
 size_t program_bytes(const Program *program);
 /* one line an instruction, for `show program`: "v7 = v3 * v5" */
 void program_print(Text *text, const Program *program);

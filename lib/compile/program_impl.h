@@ -66,10 +66,9 @@ typedef struct Handover {
 struct Program {
     int input_count;
     int root_count;
-    int constant_count;
     int slot_count;
     const char **input_names;
-    double *constants;
+    LIST(double) constants;
     LIST(Run) runs;
     LIST(uint32_t) tape;
     Handover *roots;                /* by stage */

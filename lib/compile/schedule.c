@@ -211,16 +211,15 @@ static void place_leaves(Plan *plan, const Lowered *lowered)
     for (int i = 0; i < lowered->root_count; i++)
         needed[lowered->roots[i]] = true;
 
-    program->constants = NEW_ARRAY(double, plan->count);
     for (uint32_t v = 0; v < plan->count; v++) {
         if (plan->values[v].code == CODE_INPUT)
             plan->slot[v] = v;
         if (plan->values[v].code != CODE_CONSTANT || !needed[v])
             continue;
-        plan->slot[v] = (uint32_t)(lowered->input_count + program->constant_count);
-        program->constants[program->constant_count++] = value_constant(&plan->values[v]);
+        plan->slot[v] = (uint32_t)(lowered->input_count + program->constants.count);
+        LIST_PUSH(program->constants, value_constant(&plan->values[v]));
     }
-    program->slot_count = lowered->input_count + program->constant_count;
+    program->slot_count = lowered->input_count + program->constants.count;
     mem_free(needed);
 }
 
