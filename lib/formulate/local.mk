@@ -1,1 +1,17 @@
-libcore_la_SOURCES += lib/formulate/system.h
+libcore_la_SOURCES += \
+	lib/formulate/composite.c \
+	lib/formulate/constraints.c \
+	lib/formulate/coordinate.c \
+	lib/formulate/dynamics.c \
+	lib/formulate/efforts.c \
+	lib/formulate/embedded.c \
+	lib/formulate/energy.c \
+	lib/formulate/frames.c \
+	lib/formulate/framesum.c \
+	lib/formulate/motion.c \
+	lib/formulate/network.c \
+	lib/formulate/reactions.c \
+	lib/formulate/show.c \
+	lib/formulate/system.c lib/formulate/system.h lib/formulate/system_impl.h \
+	lib/formulate/variables.c \
+	lib/formulate/vector.c

@@ -96,6 +96,8 @@ typedef enum Block {
     BLOCK_ACCELERATION,
     BLOCK_NETWORK,
     BLOCK_NETWORK_RHS,
+    BLOCK_EMBEDDED_MASS,   /* Mt = G^T M, f x n; with at most 3 constraints */
+    BLOCK_EMBEDDED_FORCES, /* Ft = G^T F */
     BLOCK_COUNT
 } Block;
 /* rows and columns of a block; columns 1 for vectors */
@@ -112,6 +114,9 @@ MUST_USE Status system_count(System *system, Block block, bool shared, OpCount *
 
 /* --- variables a user can ask for --- */
 
+/* Read the model's outputs anew: they may be added after a run without touching its equations. */
+void system_take_outputs(System *system, const Model *model);
+
 /* The expression of a user's expression (SYMBOL_VARIABLEs in it) in q, u, x, z, u', x', lambda, t
  * and parameters; kept. Fails with E_NAME, or E_MISSING for what this model can't tell (an
  * undetermined reaction). */
@@ -123,6 +128,9 @@ MUST_USE Status system_variable(System *system, const char *path, int primes, Ex
 /* energy.kinetic, energy.potential and the power of sources and losses, in (q, u, x, z, t) */
 Expr system_kinetic(System *system);
 Expr system_potential(System *system);
+/* Power that sources give and losses take, so that d/dt(kinetic + potential) = power; holds
+ * lambda where drivers work. */
+Expr system_power(System *system);
 
 /* conditions at which the right-hand side may jump or kink: the difference a - b of every
  * comparison in the equations, in (t, q, u, x); time-only ones first. Count, and *time_only how

@@ -1,0 +1,139 @@
+/* composite.c: what hangs beyond a node taken together
+ *
+ * Where the same nodes hang beyond a branch in both trees, one unit of its speed moves them as one
+ * rigid body: its mass m, first moment S and inertia J about the node's origin say all that
+ * the branches nearer to the datum feel (Walker and Orin 1982, here on a linear graph). */
+#include "formulate/system_impl.h"
+
+static int axes_of(const System *system, int node)
+{
+    return system->chains.at[system->frames[node].chain].resolve;
+}
+
+bool speed_moves_as_one(const System *system, int speed)
+{
+    const Tree *translation = system->trees[TREE_TRANSLATION];
+    const Tree *rotation = system->trees[TREE_ROTATION];
+    int node = system->speed_node[speed];
+    int branch = tree_parent_edge(translation, node);
+    int nodes;
+    const int *order = tree_nodes(translation, &nodes);
+
+    /* the branch's own shift must not turn with what it carries */
+    if (branch != tree_parent_edge(rotation, node) ||
+        (system->frames[node].base == node && !vec_is_zero(system->frames[node].step)))
+        return false;
+    for (int i = 0; i < nodes; i++)
+        if (tree_is_beyond(translation, branch, order[i]) !=
+            tree_is_beyond(rotation, branch, order[i]))
+            return false;
+    return true;
+}
+
+/* inertia of a mass m with first moment S, moved by r: (2 r.S + m r.r) 1 - r S' - S r' - m r r' */
+static Rotation shifted(Arena *arena, const Composite *part, Vec r)
+{
+    Expr two = expr_int(arena, 2);
+    Expr round = expr_add(arena, expr_mul(arena, two, vec_dot(arena, r, part->moment)),
+                          expr_mul(arena, part->mass, vec_dot(arena, r, r)));
+    Rotation inertia = part->inertia;
+
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++) {
+            Expr terms[5] = {
+                inertia.at[3 * i + j],
+                i == j ? round : expr_int(arena, 0),
+                expr_neg(arena, expr_mul(arena, r.at[i], part->moment.at[j])),
+                expr_neg(arena, expr_mul(arena, part->moment.at[i], r.at[j])),
+                expr_neg(arena, expr_product(arena, (Expr[]){part->mass, r.at[i], r.at[j]}, 3)),
+            };
+
+            inertia.at[3 * i + j] = expr_sum(arena, terms, 5);
+        }
+    return inertia;
+}
+
+/* a tensor in other axes: its columns, then its rows */
+static Rotation tensor_express(const System *system, Rotation tensor, int from, int to)
+{
+    for (int pass = 0; pass < 2 && from != to; pass++) {
+        Rotation turned;
+
+        for (int j = 0; j < 3; j++) {
+            Vec column = {{tensor.at[j], tensor.at[3 + j], tensor.at[6 + j]}};
+
+            column = vec_express(system, column, from, to);
+            for (int i = 0; i < 3; i++)
+                turned.at[3 * j + i] = column.at[i]; /* transposed, so that rows are next */
+        }
+        tensor = turned;
+    }
+    return tensor;
+}
+
+Composite *composites_new(System *system)
+{
+    Arena *arena = system->arena;
+    int nodes;
+    const int *order = tree_nodes(system->trees[TREE_TRANSLATION], &nodes);
+    Composite *all =
+        pool_alloc(system->pool, (size_t)graph_node_count(system->graph) * sizeof *all);
+    Rotation none;
+
+    for (int i = 0; i < 9; i++)
+        none.at[i] = expr_int(arena, 0);
+    for (int i = 0; i < nodes; i++)
+        all[order[i]] = (Composite){expr_int(arena, 0), vec_zero(arena), none};
+    for (int i = 0; i < system->masses.count; i++) {
+        const Mass *mass = &system->masses.at[i];
+        Composite *own = &all[mass->node];
+
+        own->mass = expr_add(arena, own->mass, mass->mass);
+        own->inertia = tensor_express(system, mass->inertia, system->frames[mass->node].chain,
+                                      axes_of(system, mass->node));
+    }
+    for (int i = nodes - 1; i > 0; i--) {
+        Composite part = all[order[i]];
+        const Frame *frame = &system->frames[order[i]];
+        Composite *whole = &all[frame->parent];
+        int axes = axes_of(system, order[i]);
+        int onto = axes_of(system, frame->parent);
+
+        part.inertia = shifted(arena, &part, frame->step);
+        part.moment = vec_add(arena, part.moment, vec_scale(arena, part.mass, frame->step));
+        part.moment = vec_express(system, part.moment, axes, onto);
+        part.inertia = tensor_express(system, part.inertia, axes, onto);
+        whole->mass = expr_hold(arena, expr_add(arena, whole->mass, part.mass));
+        whole->moment = vec_hold(arena, vec_add(arena, whole->moment, part.moment));
+        for (int k = 0; k < 9; k++)
+            whole->inertia.at[k] =
+                expr_hold(arena, expr_add(arena, whole->inertia.at[k], part.inertia.at[k]));
+    }
+    return all;
+}
+
+void composite_loads(System *system, const Composite *composite, int speed, Loads *loads)
+{
+    Arena *arena = system->arena;
+    int node = system->speed_node[speed];
+    int axes = axes_of(system, node);
+    const Frame *frame = &system->frames[node];
+    Vec force = vec_zero(arena);
+    Vec torque = vec_zero(arena);
+
+    if (system->speed_chain[speed] >= 0) {
+        Vec axis = speed_axis(system, speed, axes);
+
+        force = vec_cross(arena, axis, composite->moment);
+        torque = rotation_apply(arena, &composite->inertia, axis);
+    }
+    for (int k = 0; k < frame->slide_count; k++)
+        if (frame->slide[k].speed == speed) {
+            Vec axis = vec_express(system, frame->slide[k].axis, frame->step_chain, axes);
+
+            force = vec_scale(arena, composite->mass, axis);
+            torque = vec_cross(arena, composite->moment, axis);
+        }
+    loads->force[node] = force;
+    loads->torque[node] = torque;
+}

@@ -1,0 +1,452 @@
+/* constraints.c: circuits of chords projected on their reaction spaces
+ *
+ * A row n.d says that the way d from the tail of a chord to its head has no part along
+ * n; a row a_t.b_h that two axes stay square; a row of angles that turns about one
+ * axis cancel. Symbols as in system_impl.h; D_j is the part of the way that speed j
+ * turns, so that the rate of d is the sum of k_j x D_j u_j and the slides. */
+#include "formulate/system_impl.h"
+
+#include <math.h>
+#include <string.h>
+
+/* --- which rows --- */
+
+static void push_row(System *system, const Instance *joint, RowKind kind, Vec n, Vec b,
+                     const char *direction)
+{
+    Row row = {.kind = kind, .tail = joint->tail, .head = joint->head, .n = n, .b = b};
+
+    row.told = (ConstraintRow){.edge = joint->edge,
+                               .instance = joint->number,
+                               .rotation = kind == ROW_DOT || kind == ROW_ANGLE};
+    (void)strncpy(row.told.direction, direction, sizeof row.told.direction - 1);
+    LIST_PUSH(system->rows, row);
+}
+
+static Vec unit(Arena *arena, int i)
+{
+    Vec v = vec_zero(arena);
+
+    v.at[i] = expr_int(arena, 1);
+    return v;
+}
+
+static Vec step_axis(const System *system, const Instance *joint, const Step *step)
+{
+    return frame_vector(system, joint->tail, (Vec){{step->axis[0], step->axis[1], step->axis[2]}});
+}
+
+/* forces that a joint transmits: all, less those along its slides */
+static void force_rows(System *system, const Instance *joint, const Steps *steps)
+{
+    static const char *const names[] = {"x", "y", "z"};
+    Arena *arena = system->arena;
+    Vec none = vec_zero(arena);
+    Vec n1;
+    Vec n2;
+
+    if (steps->shift_count == 0) {
+        for (int i = 0; i < (system->planar ? 2 : 3); i++)
+            push_row(system, joint, ROW_DATUM, unit(arena, i), none, names[i]);
+    } else if (steps->shift_count == 1) {
+        Vec axis = step_axis(system, joint, &steps->shift[0]);
+
+        if (system->planar) {
+            push_row(system, joint, ROW_TAIL, vec_cross(arena, unit(arena, 2), axis), none, "n");
+            return;
+        }
+        axis_complement(arena, axis.at, n1.at, n2.at);
+        push_row(system, joint, ROW_TAIL, n1, none, "n1");
+        push_row(system, joint, ROW_TAIL, n2, none, "n2");
+    } else if (steps->shift_count == 2 && !system->planar) {
+        n1 = vec_cross(arena, step_axis(system, joint, &steps->shift[0]),
+                       step_axis(system, joint, &steps->shift[1]));
+        push_row(system, joint, ROW_TAIL, n1, none, "n");
+    }
+}
+
+/* moments that a joint transmits: all, less those about its turns (theory 2, orientation
+ * constraints) */
+static void moment_rows(System *system, const Instance *joint, const Steps *steps)
+{
+    Arena *arena = system->arena;
+    Rotation constant = chord_constant(system, joint, steps);
+    Rotation ahead;
+    Vec axes[3];
+    Vec far[3];
+    Turns turns = {0};
+
+    if (steps->quaternion || steps->turn_count > 2 || (system->planar && steps->turn_count > 0))
+        return;
+    /* axes of the tail, and those of the head after the constant turn is undone, zero position */
+    axes[0] = steps->turn_count > 0 ? step_axis(system, joint, &steps->turn[0])
+                                    : frame_vector(system, joint->tail, unit(arena, 0));
+    axis_complement(arena, axes[0].at, axes[1].at, axes[2].at);
+    ahead = constant;
+    for (int i = 0; i < 3; i++)
+        far[i] = rotation_apply(arena, &ahead, axes[i]);
+    if (steps->turn_count == 2) {
+        Vec second = rotation_apply(arena, &ahead, step_axis(system, joint, &steps->turn[1]));
+
+        push_row(system, joint, ROW_DOT, axes[0], second, "cross");
+    } else if (steps->turn_count == 1) {
+        push_row(system, joint, ROW_DOT, axes[1], far[0], "n1");
+        push_row(system, joint, ROW_DOT, axes[2], far[0], "n2");
+    } else {
+        turns_between(system, system->frames[joint->tail].chain, system->frames[joint->head].chain,
+                      &turns);
+        if (system->planar) {
+            push_row(system, joint, ROW_ANGLE, unit(arena, 2), vec_zero(arena), "turn");
+        } else if (turns.count == 1 && rotation_is_one(&constant)) {
+            push_row(system, joint, ROW_ANGLE, turns.at[0].axis, vec_zero(arena), "turn");
+        } else {
+            push_row(system, joint, ROW_DOT, axes[1], far[2], "u");
+            push_row(system, joint, ROW_DOT, axes[2], far[0], "n1");
+            push_row(system, joint, ROW_DOT, axes[0], far[1], "n2");
+        }
+        LIST_FREE(turns);
+    }
+}
+
+static void driver_row(System *system, const Instance *driver)
+{
+    const Instance *owner = &system->instances[driver->joint];
+    Vec none = vec_zero(system->arena);
+
+    push_row(system, owner, ROW_DRIVER, none, none, "driver");
+
+    Row *row = &system->rows.at[system->rows.count - 1];
+
+    row->owner = driver->joint;
+    row->coordinate = driver->joint_coordinate;
+    row->told.is_driver = true;
+    row->told.instance = driver->number;
+    row->told.edge = driver->edge;
+}
+
+/* --- rows to show --- */
+
+static Status row_shown(System *system, Row *row, Diag *diag)
+{
+    Arena *arena = system->arena;
+    int tail = system->frames[row->tail].chain;
+    int head = system->frames[row->head].chain;
+    FrameSum n = framesum_of(system, row->kind == ROW_DATUM ? 0 : tail, row->n);
+    Turns turns = {0};
+    Status status = OK;
+
+    switch (row->kind) {
+    case ROW_DATUM:
+    case ROW_TAIL:
+        row->phi = framesum_dot(system, n, framesum_way(system, row->tail, row->head));
+        break;
+    case ROW_DOT:
+        row->phi = framesum_dot(system, n, framesum_of(system, head, row->b));
+        break;
+    case ROW_ANGLE: {
+        const Instance *joint = &system->instances[row->told.instance];
+        Rotation constant;
+        Steps steps;
+
+        instance_steps(system, joint, &steps);
+        constant = chord_constant(system, joint, &steps);
+        row->phi = rotation_angle(arena, &constant, row->n);
+        turns_between(system, tail, head, &turns);
+        for (int i = 0; i < turns.count; i++) {
+            Expr angle = turns.at[i].angle;
+
+            /* the axis of the row, or its opposite: axes are unit vectors here */
+            if (!vec_same(turns.at[i].axis, row->n))
+                angle = expr_neg(arena, angle);
+            row->phi = expr_add(arena, row->phi, angle);
+        }
+        LIST_FREE(turns);
+        break;
+    }
+    case ROW_DRIVER: {
+        const Instance *driver = &system->instances[row->told.instance];
+        Expr value;
+
+        CHECK(coordinate_value(system, &system->instances[row->owner], row->coordinate, 0, &value,
+                               diag));
+        CHECK(resolve(system, driver->row->prescribed(driver, arena), &row->prescribed, diag));
+        row->phi = expr_sub(arena, value, row->prescribed);
+        break;
+    }
+    }
+    row->phi = expr_fold(arena, expr_open(arena, row->phi));
+done:
+    return status;
+}
+
+/* true: the row holds identically; an error when it never can */
+static Status row_vanishes(System *system, const Row *row, bool *vanishes, Diag *diag)
+{
+    const unsigned variable = 1U << SYMBOL_COORDINATE | 1U << SYMBOL_TIME;
+    const char *joint = system->instances[row->told.instance].name;
+    double value;
+
+    *vanishes = false;
+    if ((expr_kinds(row->phi) & variable) != 0)
+        return OK;
+    value = model_number(system->model, row->phi);
+    if (fabs(value) > 1e-9) {
+        (void)diag_set(diag, E_ASSEMBLE,
+                       "%s can't be assembled: its equation along %s is %.6g = 0 in every position",
+                       joint, row->told.direction, value);
+        diag_hint(diag, "lengths or axes on its circuit don't fit");
+        return E_ASSEMBLE;
+    }
+    *vanishes = true;
+    (row->told.rotation ? system->lost_moment : system->lost_force)[row->told.instance] = true;
+    LIST_PUSH(system->dropped, system_keep(system, "%s: %s %s holds in every position", joint,
+                                           row->told.rotation ? "turning about" : "position along",
+                                           row->told.direction));
+    return OK;
+}
+
+/* --- rows to run --- */
+
+/* the part of the way from the last common node to `node` that `chain` turns (-1: all of it), added
+ * from the far end, so that what hangs together is one definition */
+static Vec way_turned(System *system, int node, int ancestor, int chain, int axes)
+{
+    Vec sum = vec_zero(system->arena);
+
+    for (; node != ancestor; node = system->frames[node].parent) {
+        const Frame *frame = &system->frames[node];
+        int resolved = system->chains.at[frame->chain].resolve;
+
+        if (chain >= 0 && !chain_is_beyond(system, frame->step_chain, chain))
+            continue;
+        sum = vec_add(system->arena, sum, vec_express(system, frame->step, resolved, axes));
+        sum = vec_hold(system->arena, sum);
+    }
+    return sum;
+}
+
+static int common_node(const System *system, int a, int b)
+{
+    const Tree *tree = system->trees[TREE_TRANSLATION];
+
+    while (a != b) {
+        if (tree_depth(tree, a) > tree_depth(tree, b))
+            a = system->frames[a].parent;
+        else
+            b = system->frames[b].parent;
+    }
+    return a;
+}
+
+static Vec circuit_turned(System *system, const Row *row, int chain, int axes)
+{
+    int ancestor = common_node(system, row->tail, row->head);
+    Vec to_head = way_turned(system, row->head, ancestor, chain, axes);
+    Vec to_tail = way_turned(system, row->tail, ancestor, chain, axes);
+
+    return vec_hold(system->arena, vec_sub(system->arena, to_head, to_tail));
+}
+
+/* n . slide of speed j on the circuit, signs included */
+static Expr circuit_slide(System *system, const Row *row, Vec n, int speed, int axes)
+{
+    Arena *arena = system->arena;
+    int node = system->speed_node[speed];
+    const Tree *tree = system->trees[TREE_TRANSLATION];
+    const Frame *frame = &system->frames[node];
+    int branch = tree_parent_edge(tree, node);
+    int sense =
+        (int)tree_is_beyond(tree, branch, row->head) - (int)tree_is_beyond(tree, branch, row->tail);
+
+    for (int k = 0; sense != 0 && k < frame->slide_count; k++)
+        if (frame->slide[k].speed == speed) {
+            Vec axis = vec_express(system, frame->slide[k].axis, frame->step_chain, axes);
+
+            return expr_mul(arena, expr_int(arena, sense), vec_dot(arena, n, axis));
+        }
+    return expr_int(arena, 0);
+}
+
+/* rows n.d: the axes that they are computed in, n in those axes */
+static int row_axes(const System *system, const Row *row, Vec *n)
+{
+    int tail = system->frames[row->tail].chain;
+    int from = row->kind == ROW_DATUM ? 0 : tail;
+    int axes = row->kind == ROW_DATUM ? 0 : system->chains.at[tail].resolve;
+
+    *n = vec_express(system, row->n, from, axes);
+    return axes;
+}
+
+static void run_way(System *system, const Row *row, int k)
+{
+    Arena *arena = system->arena;
+    Vec n;
+    int axes = row_axes(system, row, &n);
+    int tail = system->frames[row->tail].chain;
+    int resolve_tail = system->chains.at[tail].resolve;
+    int resolve_head = system->chains.at[system->frames[row->head].chain].resolve;
+    bool turns_with_tail = row->kind == ROW_TAIL;
+    Vec d = circuit_turned(system, row, -1, axes);
+    Vec rest = vec_sub(arena, vec_express(system, system->a0[row->head], resolve_head, axes),
+                       vec_express(system, system->a0[row->tail], resolve_tail, axes));
+
+    system->run.phi[k] = vec_dot(arena, n, d);
+    for (int j = 0; j < system->u.count; j++) {
+        int turned = system->speed_chain[j];
+        Expr *entry = &system->run.phi_u[k * system->u.count + j];
+        Vec D;
+
+        if (turned < 0) {
+            *entry = circuit_slide(system, row, n, j, axes);
+            continue;
+        }
+        D = circuit_turned(system, row, turned, axes);
+        if (turns_with_tail && chain_is_beyond(system, tail, turned))
+            D = vec_sub(arena, D, d);
+        *entry = vec_dot(arena, n, vec_cross(arena, speed_axis(system, j, axes), D));
+    }
+    if (turns_with_tail) {
+        Vec w = vec_express(system, system->motions[tail].w, resolve_tail, axes);
+        Vec alpha0 = vec_express(system, system->alpha0[tail], resolve_tail, axes);
+        Vec v = vec_sub(arena, vec_express(system, system->frames[row->head].v, resolve_head, axes),
+                        vec_express(system, system->frames[row->tail].v, resolve_tail, axes));
+        Vec carried = vec_cross(arena, w, d);
+
+        rest = vec_sub(arena, rest, vec_cross(arena, alpha0, d));
+        rest = vec_sub(arena, rest, vec_cross(arena, w, carried));
+        rest = vec_sub(arena, rest,
+                       vec_scale(arena, expr_int(arena, 2),
+                                 vec_cross(arena, w, vec_hold(arena, vec_sub(arena, v, carried)))));
+    }
+    system->run.gamma[k] = expr_neg(arena, vec_dot(arena, n, rest));
+}
+
+static void run_dot(System *system, const Row *row, int k)
+{
+    Arena *arena = system->arena;
+    int tail = system->frames[row->tail].chain;
+    int head = system->frames[row->head].chain;
+    int axes = system->chains.at[tail].resolve;
+    int other = system->chains.at[head].resolve;
+    Vec a = vec_hold(arena, vec_express(system, row->n, tail, axes));
+    Vec b = vec_hold(arena, vec_express(system, row->b, head, axes));
+    Vec c = vec_hold(arena, vec_cross(arena, b, a));
+    Vec w_t = system->motions[tail].w;
+    Vec w_h = vec_express(system, system->motions[head].w, other, axes);
+    Vec alpha = vec_sub(arena, vec_express(system, system->alpha0[head], other, axes),
+                        system->alpha0[tail]);
+    Vec c_rate = vec_add(arena, vec_cross(arena, vec_cross(arena, w_h, b), a),
+                         vec_cross(arena, b, vec_cross(arena, w_t, a)));
+
+    system->run.phi[k] = vec_dot(arena, a, b);
+    for (int j = 0; j < system->u.count; j++) {
+        int turned = system->speed_chain[j];
+        Expr *entry = &system->run.phi_u[k * system->u.count + j];
+
+        *entry = expr_int(arena, 0);
+        if (turned >= 0) {
+            int sense = (int)chain_is_beyond(system, head, turned) -
+                        (int)chain_is_beyond(system, tail, turned);
+
+            *entry = vec_dot(
+                arena, vec_scale(arena, expr_int(arena, sense), speed_axis(system, j, axes)), c);
+        }
+    }
+    system->run.gamma[k] =
+        expr_neg(arena, expr_add(arena, vec_dot(arena, alpha, c),
+                                 vec_dot(arena, vec_sub(arena, w_h, w_t), c_rate)));
+}
+
+/* rows whose own expression is short: angles and drivers */
+static Status run_plain(System *system, const Row *row, int k, Diag *diag)
+{
+    Arena *arena = system->arena;
+    int count = system->u.count;
+    Expr *zeros = NEW_ARRAY(Expr, count);
+    Expr *speeds = NEW_ARRAY(Expr, count);
+    Expr rate;
+    Expr second;
+    Status status = OK;
+
+    for (int j = 0; j < count; j++) {
+        zeros[j] = expr_int(arena, 0);
+        speeds[j] = system->u.at[j].symbol;
+        system->run.phi_u[k * count + j] = partial(system, row->phi, j);
+    }
+    CHECK(rate_of(system, row->phi, &rate, diag));
+    CHECK(rate_of(system, rate, &second, diag));
+    system->run.phi[k] = row->phi;
+    system->run.nu[k] = expr_neg(arena, expr_substitute(arena, rate, speeds, zeros, count));
+    system->run.gamma[k] =
+        expr_neg(arena, expr_substitute(arena, second, system->accelerations, zeros, count));
+done:
+    mem_free(zeros);
+    mem_free(speeds);
+    return status;
+}
+
+static Status run_rows(System *system, Diag *diag)
+{
+    int m = system->rows.count;
+    size_t size = (size_t)m * sizeof(Expr);
+    Status status = OK;
+
+    system->run.phi = pool_alloc(system->pool, size);
+    system->run.nu = pool_alloc(system->pool, size);
+    system->run.gamma = pool_alloc(system->pool, size);
+    system->run.phi_u = pool_alloc(system->pool, size * (size_t)system->u.count);
+    for (int k = 0; k < m; k++) {
+        const Row *row = &system->rows.at[k];
+
+        system->run.nu[k] = expr_int(system->arena, 0);
+        if (row->kind == ROW_DATUM || row->kind == ROW_TAIL)
+            run_way(system, row, k);
+        else if (row->kind == ROW_DOT)
+            run_dot(system, row, k);
+        else
+            CHECK(run_plain(system, row, k, diag));
+        CHECK(poll(system->watch));
+    }
+done:
+    return status;
+}
+
+static void all_rows(System *system)
+{
+    for (int i = 0; i < system->instance_count; i++) {
+        const Instance *instance = &system->instances[i];
+        Steps steps;
+
+        if (instance->row->family == FAMILY_DRIVER)
+            driver_row(system, instance);
+        if (instance->row->family != FAMILY_JOINT || instance->is_virtual)
+            continue;
+        instance_steps(system, instance, &steps);
+        if (!tree_has(system->trees[TREE_TRANSLATION], instance->edge))
+            force_rows(system, instance, &steps);
+        if (!tree_has(system->trees[TREE_ROTATION], instance->edge))
+            moment_rows(system, instance, &steps);
+    }
+}
+
+Status constraints_build(System *system, Diag *diag)
+{
+    int kept = 0;
+    Status status = OK;
+
+    all_rows(system);
+    for (int k = 0; k < system->rows.count; k++) {
+        Row *row = &system->rows.at[k];
+        bool vanishes;
+
+        CHECK(row_shown(system, row, diag));
+        CHECK(row_vanishes(system, row, &vanishes, diag));
+        if (!vanishes)
+            system->rows.at[kept++] = *row;
+    }
+    system->rows.count = kept;
+    CHECK(run_rows(system, diag));
+done:
+    return status;
+}

@@ -1,0 +1,288 @@
+/* dynamics.c: M and F of the reading to run: cutsets projected on motion spaces
+ *
+ * F: inertia forces at u' = 0 and everything that pushes, summed inward over both trees.
+ * M: column k is the same sum for u'_k = 1 with everything else at rest; of a pair (j, k)
+ * the column of the speed that moves fewer bodies is taken, of equals the one further out. */
+#include "formulate/system_impl.h"
+
+static int axes_of(const System *system, int node)
+{
+    return system->chains.at[system->frames[node].chain].resolve;
+}
+
+Expr sums_project(System *system, const Sums *sums, int speed)
+{
+    int node = system->speed_node[speed];
+    const Vec *sum = system->speed_chain[speed] >= 0 ? sums->torque : sums->force;
+
+    return vec_dot(system->arena, system->speed_direction[speed], sum[node]);
+}
+
+/* the axis of each speed's turn or slide, in the axes of its node */
+static void speed_directions(System *system)
+{
+    system->speed_direction = pool_alloc(system->pool, (size_t)system->u.count * sizeof(Vec));
+    for (int j = 0; j < system->u.count; j++) {
+        int node = system->speed_node[j];
+        int axes = axes_of(system, node);
+        const Frame *frame = &system->frames[node];
+
+        if (system->speed_chain[j] >= 0)
+            system->speed_direction[j] = speed_axis(system, j, axes);
+        for (int k = 0; system->speed_chain[j] < 0 && k < frame->slide_count; k++)
+            if (frame->slide[k].speed == j)
+                system->speed_direction[j] =
+                    vec_express(system, frame->slide[k].axis, frame->step_chain, axes);
+    }
+}
+
+/* velocities of all nodes per unit of one speed */
+static void unit_motion(System *system, int speed, Vec *v)
+{
+    Arena *arena = system->arena;
+    int turned = system->speed_chain[speed];
+    int nodes;
+    const int *order = tree_nodes(system->trees[TREE_TRANSLATION], &nodes);
+
+    v[order[0]] = vec_zero(arena);
+    for (int i = 1; i < nodes; i++) {
+        int n = order[i];
+        const Frame *frame = &system->frames[n];
+        int axes = axes_of(system, n);
+
+        v[n] = vec_express(system, v[frame->parent], axes_of(system, frame->parent), axes);
+        if (turned >= 0 && chain_is_beyond(system, frame->step_chain, turned))
+            v[n] = vec_add(arena, v[n],
+                           vec_cross(arena, speed_axis(system, speed, axes), frame->step));
+        for (int k = 0; turned < 0 && k < frame->slide_count; k++)
+            if (frame->slide[k].speed == speed)
+                v[n] = vec_add(arena, v[n],
+                               vec_express(system, frame->slide[k].axis, frame->step_chain, axes));
+        v[n] = vec_hold(arena, v[n]);
+    }
+}
+
+/* inertia forces, signs reversed, of that motion */
+static void unit_loads(System *system, int speed, const Vec *v, Loads *loads)
+{
+    Arena *arena = system->arena;
+    int turned = system->speed_chain[speed];
+
+    for (int i = 0; i < system->masses.count; i++) {
+        const Mass *mass = &system->masses.at[i];
+        int chain = system->frames[mass->node].chain;
+        bool turns = turned >= 0 && mass->has_inertia && chain_is_beyond(system, chain, turned);
+
+        if (turns) {
+            Vec w = speed_axis(system, speed, chain);
+
+            loads_add_torque(system, loads, mass->node, rotation_apply(arena, &mass->inertia, w),
+                             chain);
+        }
+        loads->force[mass->node] =
+            vec_add(arena, loads->force[mass->node], vec_scale(arena, mass->mass, v[mass->node]));
+    }
+}
+
+/* how many bodies a speed moves: those that it turns, or whose way it turns or lengthens; `moves`
+ * has room for every node */
+static int bodies_moved(const System *system, int speed, bool *moves)
+{
+    int turned = system->speed_chain[speed];
+    int nodes;
+    const int *order = tree_nodes(system->trees[TREE_TRANSLATION], &nodes);
+    int moved = 0;
+
+    moves[order[0]] = false;
+    for (int i = 1; i < nodes; i++) {
+        const Frame *frame = &system->frames[order[i]];
+
+        moves[order[i]] = moves[frame->parent] ||
+                          (turned >= 0 ? chain_is_beyond(system, frame->step_chain, turned)
+                                       : order[i] == system->speed_node[speed]);
+    }
+    for (int i = 0; i < system->masses.count; i++) {
+        int node = system->masses.at[i].node;
+
+        moved += moves[node] ||
+                 (turned >= 0 && chain_is_beyond(system, system->frames[node].chain, turned));
+    }
+    return moved;
+}
+
+/* whether the pair (j, k) is read from column k */
+static bool column_serves(const System *system, const int *moved, int j, int k)
+{
+    const Tree *tree = system->trees[TREE_TRANSLATION];
+    int depth_j = tree_depth(tree, system->speed_node[j]);
+    int depth_k = tree_depth(tree, system->speed_node[k]);
+
+    if (moved[k] != moved[j])
+        return moved[k] < moved[j];
+    return depth_k != depth_j ? depth_k > depth_j : k >= j;
+}
+
+static Status mass_matrix(System *system)
+{
+    int n = system->u.count;
+    int *moved = NEW_ARRAY(int, n);
+    bool *moves = NEW_ARRAY(bool, graph_node_count(system->graph));
+    Expr *columns = NEW_ARRAY(Expr, (size_t)n * (size_t)n);
+    Vec *v = NEW_ARRAY(Vec, graph_node_count(system->graph));
+    const Composite *composites = composites_new(system);
+    Status status = OK;
+
+    for (int k = 0; k < n; k++) {
+        Loads loads = loads_new(system);
+        Sums *sums;
+
+        moved[k] = bodies_moved(system, k, moves);
+        if (speed_moves_as_one(system, k)) {
+            composite_loads(system, &composites[system->speed_node[k]], k, &loads);
+        } else {
+            unit_motion(system, k, v);
+            unit_loads(system, k, v, &loads);
+        }
+        sums = loads_sum(system, &loads);
+        for (int j = 0; j < n; j++)
+            columns[k * n + j] = sums_project(system, sums, j);
+        CHECK(poll(system->watch));
+    }
+    for (int j = 0; j < n; j++)
+        for (int k = 0; k < n; k++) {
+            bool by_k = column_serves(system, moved, j, k);
+
+            system->run.mass[j * n + k] =
+                expr_hold(system->arena, by_k ? columns[k * n + j] : columns[j * n + k]);
+        }
+done:
+    mem_free(moved);
+    mem_free(moves);
+    mem_free(columns);
+    mem_free(v);
+    return status;
+}
+
+void loads_add_inertia(System *system, Loads *loads, const Vec *alpha, const Vec *a)
+{
+    Arena *arena = system->arena;
+
+    for (int i = 0; i < system->masses.count; i++) {
+        const Mass *mass = &system->masses.at[i];
+        int chain = system->frames[mass->node].chain;
+        Vec g = vec_express(system, system->gravity, 0, axes_of(system, mass->node));
+        Vec force = vec_scale(arena, mass->mass, vec_sub(arena, g, a[mass->node]));
+
+        loads->force[mass->node] = vec_add(arena, loads->force[mass->node], force);
+        if (mass->has_inertia) {
+            Vec w = system->motions[chain].w;
+            Vec spin = vec_hold(arena, rotation_apply(arena, &mass->inertia, w));
+            Vec torque = vec_add(arena, rotation_apply(arena, &mass->inertia, alpha[chain]),
+                                 vec_cross(arena, w, spin));
+
+            loads->torque[mass->node] = vec_sub(arena, loads->torque[mass->node], torque);
+        }
+    }
+}
+
+/* an effort on a coordinate works on the speeds that the coordinate depends on */
+static void add_on_coordinate(System *system, Expr coordinate, Expr effort)
+{
+    Arena *arena = system->arena;
+
+    effort = expr_hold(arena, effort);
+    for (int j = 0; j < system->u.count; j++) {
+        Expr share = expr_mul(arena, partial(system, coordinate, j), effort);
+
+        system->run.force[j] = expr_add(arena, system->run.force[j], share);
+    }
+}
+
+/* an inertia J on a coordinate s: J s_j s_k in M, -J s_j (s'' at u' = 0) in F */
+static Status add_rotor(System *system, const Instance *instance, Diag *diag)
+{
+    Arena *arena = system->arena;
+    int n = system->u.count;
+    const Instance *joint = &system->instances[instance->joint];
+    Expr inertia = instance->row->rotor(instance, arena);
+    Expr s;
+    Expr second;
+    Expr *zeros = NEW_ARRAY(Expr, n);
+    Status status = OK;
+
+    if (expr_is_zero(inertia))
+        goto done;
+    CHECK(coordinate_value(system, joint, instance->joint_coordinate, 0, &s, diag));
+    CHECK(coordinate_value(system, joint, instance->joint_coordinate, 2, &second, diag));
+    for (int j = 0; j < n; j++)
+        zeros[j] = expr_int(arena, 0);
+    second = expr_substitute(arena, second, system->accelerations, zeros, n);
+    add_on_coordinate(system, s, expr_neg(arena, expr_mul(arena, inertia, second)));
+    for (int j = 0; j < n; j++)
+        for (int k = 0; k < n; k++) {
+            Expr *entry = &system->run.mass[j * n + k];
+            Expr share = expr_product(
+                arena, (Expr[]){inertia, partial(system, s, j), partial(system, s, k)}, 3);
+
+            *entry = expr_hold(arena, expr_add(arena, *entry, share));
+        }
+done:
+    mem_free(zeros);
+    return status;
+}
+
+static Status joint_efforts(System *system, Diag *diag)
+{
+    Status status = OK;
+
+    for (int i = 0; i < system->instance_count; i++) {
+        const Instance *instance = &system->instances[i];
+        Effort effort;
+
+        if (instance->joint < 0 || instance->row->family == FAMILY_DRIVER)
+            continue;
+        if (instance->row->effort != NULL) {
+            CHECK(effort_of(system, instance, &effort, diag));
+            add_on_coordinate(system, effort.displacement, effort.value);
+        }
+        if (instance->row->rotor != NULL)
+            CHECK(add_rotor(system, instance, diag));
+    }
+    /* an effort that an inverse run finds at another coordinate */
+    for (int i = 0; i < system->drives.count; i++) {
+        const Instance *driver = &system->instances[system->drives.at[i].instance];
+        Expr s;
+
+        if (driver->by < 0 || driver->by_coordinate < 0)
+            continue;
+        CHECK(coordinate_value(system, &system->instances[driver->by], driver->by_coordinate, 0, &s,
+                               diag));
+        add_on_coordinate(system, s, system->drives.at[i].effort);
+    }
+done:
+    return status;
+}
+
+Status dynamics_build(System *system, Diag *diag)
+{
+    int n = system->u.count;
+    Loads loads;
+    Sums *sums;
+    Status status = OK;
+
+    system->run.mass = pool_alloc(system->pool, (size_t)n * (size_t)n * sizeof(Expr));
+    system->run.force = pool_alloc(system->pool, (size_t)n * sizeof(Expr));
+    if (n == 0)
+        return OK;
+    speed_directions(system);
+    CHECK(mass_matrix(system));
+    loads = loads_new(system);
+    loads_add_inertia(system, &loads, system->alpha0, system->a0);
+    CHECK(efforts_add(system, &loads, false, diag));
+    sums = loads_sum(system, &loads);
+    for (int j = 0; j < n; j++)
+        system->run.force[j] = expr_hold(system->arena, sums_project(system, sums, j));
+    CHECK(joint_efforts(system, diag));
+done:
+    return status;
+}

@@ -1,0 +1,146 @@
+/* efforts.c: what pushes: forces, springs, dampers, actuators, motors */
+#include "formulate/system_impl.h"
+
+/* where an effort along the line between two frames acts */
+static Status line_motion(System *system, const Instance *instance, Effort *effort, Diag *diag)
+{
+    Arena *arena = system->arena;
+    Vec d = vec_hold(arena, vec_sub(arena, node_position(system, instance->head),
+                                    node_position(system, instance->tail)));
+    Expr length = expr_hold(arena, expr_sqrt(arena, vec_dot(arena, d, d)));
+    Vec v[2];
+    const int ends[2] = {instance->tail, instance->head};
+
+    if (expr_is_zero(length))
+        return diag_set(diag, E_MODEL, "%s: its two frames are at the same point", instance->name);
+    for (int i = 0; i < 2; i++) {
+        const Frame *frame = &system->frames[ends[i]];
+
+        v[i] = vec_express(system, frame->v, system->chains.at[frame->chain].resolve, 0);
+    }
+    effort->is_line = true;
+    effort->direction =
+        vec_hold(arena, vec_scale(arena, expr_div(arena, expr_int(arena, 1), length), d));
+    effort->displacement = length;
+    effort->rate = expr_hold(arena, vec_dot(arena, effort->direction, vec_sub(arena, v[1], v[0])));
+    return OK;
+}
+
+Status effort_of(System *system, const Instance *instance, Effort *out, Diag *diag)
+{
+    Effort effort = {.instance = instance};
+    Motion1 motion = {.across = expr_int(system->arena, 0), .through = expr_int(system->arena, 0)};
+    Status status = OK;
+
+    if (instance->joint < 0) {
+        CHECK(line_motion(system, instance, &effort, diag));
+    } else {
+        const Instance *joint = &system->instances[instance->joint];
+        int coordinate = instance->joint_coordinate;
+
+        CHECK(coordinate_value(system, joint, coordinate, 0, &effort.displacement, diag));
+        CHECK(coordinate_value(system, joint, coordinate, 1, &effort.rate, diag));
+    }
+    motion.displacement = effort.displacement;
+    motion.rate = effort.rate;
+    if (instance->scalar_edge >= 0) {
+        Branchlike *branch = &system->branches.at[system->scalar_of_edge[instance->scalar_edge]];
+
+        CHECK(network_through(system, branch, &motion.through, diag));
+        CHECK(network_across(system, branch, &motion.across, diag));
+    }
+    effort.value = instance->row->effort(instance, system->arena, &motion);
+    CHECK(resolve(system, effort.value, &effort.value, diag));
+    *out = effort;
+done:
+    return status;
+}
+
+Status wrench_of(System *system, const Instance *instance, Vec *force, Vec *torque, int *chain,
+                 Diag *diag)
+{
+    bool in_body = false;
+    Status status = OK;
+
+    instance->row->wrench(instance, system->arena, system->planar, force->at, torque->at, &in_body);
+    for (int i = 0; i < 3; i++) {
+        CHECK(resolve(system, force->at[i], &force->at[i], diag));
+        CHECK(resolve(system, torque->at[i], &torque->at[i], diag));
+    }
+    *chain = 0;
+    if (in_body) {
+        *force = frame_vector(system, instance->head, *force);
+        *torque = frame_vector(system, instance->head, *torque);
+        *chain = system->frames[instance->head].chain;
+    }
+done:
+    return status;
+}
+
+void loads_add_effort(System *system, Loads *loads, const Instance *owner, int coordinate,
+                      Expr effort)
+{
+    Arena *arena = system->arena;
+    int chain = system->frames[owner->tail].chain;
+    Steps steps;
+
+    instance_steps(system, owner, &steps);
+    for (int k = 0; k < steps.turn_count; k++) {
+        Vec torque = {{steps.turn[k].axis[0], steps.turn[k].axis[1], steps.turn[k].axis[2]}};
+
+        if (steps.turn[k].coordinate != coordinate)
+            continue;
+        torque = vec_scale(arena, effort, frame_vector(system, owner->tail, torque));
+        loads_add_torque(system, loads, owner->head, torque, chain);
+        loads_add_torque(system, loads, owner->tail, vec_neg(arena, torque), chain);
+    }
+    for (int k = 0; k < steps.shift_count; k++) {
+        Vec force = {{steps.shift[k].axis[0], steps.shift[k].axis[1], steps.shift[k].axis[2]}};
+        Vec way;
+
+        if (steps.shift[k].coordinate != coordinate)
+            continue;
+        force = vec_scale(arena, effort, frame_vector(system, owner->tail, force));
+        loads_add_force(system, loads, owner->head, force, chain);
+        loads_add_force(system, loads, owner->tail, vec_neg(arena, force), chain);
+        /* the tail feels the force where the head is */
+        way =
+            vec_sub(arena, node_position(system, owner->head), node_position(system, owner->tail));
+        force = vec_express(system, force, chain, 0);
+        loads_add_torque(system, loads, owner->tail, vec_neg(arena, vec_cross(arena, way, force)),
+                         0);
+    }
+}
+
+Status efforts_add(System *system, Loads *loads, bool joints, Diag *diag)
+{
+    Arena *arena = system->arena;
+    Status status = OK;
+
+    for (int i = 0; i < system->instance_count; i++) {
+        const Instance *instance = &system->instances[i];
+        Effort effort;
+        Vec force;
+        Vec torque;
+        int chain;
+
+        if (instance->row->wrench != NULL) {
+            CHECK(wrench_of(system, instance, &force, &torque, &chain, diag));
+            loads_add_force(system, loads, instance->head, force, chain);
+            loads_add_torque(system, loads, instance->head, torque, chain);
+        }
+        if (instance->row->effort == NULL || (instance->joint >= 0 && !joints))
+            continue;
+        CHECK(effort_of(system, instance, &effort, diag));
+        if (!effort.is_line) {
+            loads_add_effort(system, loads, &system->instances[instance->joint],
+                             instance->joint_coordinate, effort.value);
+            continue;
+        }
+        force = vec_hold(arena, vec_scale(arena, expr_hold(arena, effort.value), effort.direction));
+        loads_add_force(system, loads, instance->head, force, 0);
+        loads_add_force(system, loads, instance->tail, vec_neg(arena, force), 0);
+    }
+done:
+    return status;
+}

@@ -1,0 +1,195 @@
+/* energy.c: energies, and the power of sources and losses */
+#include "formulate/system_impl.h"
+
+typedef LIST(Expr) Terms;
+
+static Expr half(Arena *arena)
+{
+    return expr_rational(arena, 1, 2);
+}
+
+static void push(System *system, Terms *terms, Expr scale, Expr a, Expr b)
+{
+    LIST_PUSH(*terms, expr_product(system->arena, (Expr[]){scale, a, b}, 3));
+}
+
+Expr system_kinetic(System *system)
+{
+    Arena *arena = system->arena;
+    Terms terms = {0};
+    Expr sum;
+
+    for (int i = 0; i < system->masses.count; i++) {
+        const Mass *mass = &system->masses.at[i];
+        Vec v = system->frames[mass->node].v;
+        Vec w = system->motions[system->frames[mass->node].chain].w;
+
+        push(system, &terms, half(arena), mass->mass, vec_dot(arena, v, v));
+        if (mass->has_inertia)
+            push(system, &terms, half(arena), expr_int(arena, 1),
+                 vec_dot(arena, w, rotation_apply(arena, &mass->inertia, w)));
+    }
+    for (int i = 0; i < system->instance_count; i++) {
+        const Instance *instance = &system->instances[i];
+        Expr rate;
+
+        if (instance->row->rotor == NULL || instance->joint < 0 ||
+            coordinate_value(system, &system->instances[instance->joint],
+                             instance->joint_coordinate, 1, &rate, NULL) != OK)
+            continue;
+        push(system, &terms, half(arena), instance->row->rotor(instance, arena),
+             expr_square(arena, rate));
+    }
+    sum = expr_sum(arena, terms.at, terms.count);
+    LIST_FREE(terms);
+    return sum;
+}
+
+/* energy of a spring at a displacement */
+static bool stored_in(System *system, const Effort *effort, Expr displacement, Expr *out)
+{
+    Expr zero = expr_int(system->arena, 0);
+    Motion1 motion = {displacement, effort->rate, zero, zero};
+    Expr stored = effort->instance->row->potential(effort->instance, system->arena, &motion);
+
+    return resolve(system, stored, out, NULL) == OK;
+}
+
+/* what the network stores: C v^2 / 2, L i^2 / 2 */
+static void push_fields(System *system, Terms *terms)
+{
+    for (int i = 0; i < system->branches.count; i++) {
+        const Branchlike *branch = &system->branches.at[i];
+        RelationKind kind = branch->relation.kind;
+        Expr variable = kind == RELATION_CAPACITIVE ? branch->v : branch->i;
+
+        if (kind == RELATION_CAPACITIVE || kind == RELATION_INDUCTIVE)
+            push(system, terms, half(system->arena), branch->relation.value,
+                 expr_square(system->arena, variable));
+    }
+}
+
+Expr system_potential(System *system)
+{
+    Arena *arena = system->arena;
+    Terms terms = {0};
+    Expr sum;
+
+    for (int i = 0; i < system->masses.count; i++) {
+        const Mass *mass = &system->masses.at[i];
+
+        push(system, &terms, expr_int(arena, -1), mass->mass,
+             vec_dot(arena, system->gravity, node_position(system, mass->node)));
+    }
+    for (int i = 0; i < system->instance_count; i++) {
+        const Instance *instance = &system->instances[i];
+        Effort effort;
+        Expr stored;
+
+        if (instance->row->potential != NULL && effort_of(system, instance, &effort, NULL) == OK &&
+            stored_in(system, &effort, effort.displacement, &stored))
+            LIST_PUSH(terms, stored);
+    }
+    push_fields(system, &terms);
+    sum = expr_sum(arena, terms.at, terms.count);
+    LIST_FREE(terms);
+    return sum;
+}
+
+/* an effort less the part that a potential accounts for */
+static Expr lost_effort(System *system, const Effort *effort)
+{
+    Arena *arena = system->arena;
+    Expr at = expr_symbol(arena, "displacement", SYMBOL_ARGUMENT);
+    Expr stored;
+
+    if (effort->instance->row->potential == NULL || !stored_in(system, effort, at, &stored))
+        return effort->value;
+    stored = expr_diff(arena, stored, at);
+    stored = expr_substitute(arena, stored, &at, &effort->displacement, 1);
+    return expr_add(arena, effort->value, stored);
+}
+
+static void push_wrench(System *system, Terms *terms, const Instance *instance)
+{
+    Arena *arena = system->arena;
+    const Frame *frame = &system->frames[instance->head];
+    int resolve_chain = system->chains.at[frame->chain].resolve;
+    Expr one = expr_int(arena, 1);
+    Vec force;
+    Vec torque;
+    int chain;
+
+    if (wrench_of(system, instance, &force, &torque, &chain, NULL) != OK)
+        return;
+    force = vec_express(system, force, chain, resolve_chain);
+    torque = vec_express(system, torque, chain, resolve_chain);
+    push(system, terms, one, one, vec_dot(arena, force, frame->v));
+    push(system, terms, one, one, vec_dot(arena, torque, system->motions[frame->chain].w));
+}
+
+/* minus the power that scalar edges take and don't store */
+static void push_network(System *system, Terms *terms)
+{
+    Arena *arena = system->arena;
+    Expr minus = expr_int(arena, -1);
+
+    for (int i = 0; i < system->branches.count; i++) {
+        const Branchlike *branch = &system->branches.at[i];
+        const Relation *relation = &branch->relation;
+
+        switch (relation->kind) {
+        case RELATION_ACROSS:
+        case RELATION_THROUGH:
+            push(system, terms, minus, branch->v, branch->i);
+            break;
+        case RELATION_RESISTIVE:
+            push(system, terms, minus, relation->value, expr_square(arena, branch->i));
+            push(system, terms, minus, relation->offset, branch->i);
+            break;
+        case RELATION_INDUCTIVE:
+            push(system, terms, minus, relation->series, expr_square(arena, branch->i));
+            push(system, terms, minus, relation->offset, branch->i);
+            break;
+        case RELATION_CAPACITIVE:
+            push(system, terms, minus, relation->offset, branch->v);
+            break;
+        }
+    }
+}
+
+static void push_drives(System *system, Terms *terms)
+{
+    Arena *arena = system->arena;
+    Expr rate;
+
+    for (int k = 0; k < system->rows.count; k++) {
+        const Row *row = &system->rows.at[k];
+
+        if (row->kind == ROW_DRIVER && coordinate_value(system, &system->instances[row->owner],
+                                                        row->coordinate, 1, &rate, NULL) == OK)
+            push(system, terms, expr_int(arena, -1), system->multipliers[k], rate);
+    }
+}
+
+Expr system_power(System *system)
+{
+    Arena *arena = system->arena;
+    Terms terms = {0};
+    Expr sum;
+
+    for (int i = 0; i < system->instance_count; i++) {
+        const Instance *instance = &system->instances[i];
+        Effort effort;
+
+        if (instance->row->wrench != NULL)
+            push_wrench(system, &terms, instance);
+        if (instance->row->effort != NULL && effort_of(system, instance, &effort, NULL) == OK)
+            push(system, &terms, expr_int(arena, 1), lost_effort(system, &effort), effort.rate);
+    }
+    push_network(system, &terms);
+    push_drives(system, &terms);
+    sum = expr_sum(arena, terms.at, terms.count);
+    LIST_FREE(terms);
+    return sum;
+}

@@ -1,0 +1,304 @@
+/* frames.c: chains of turns along the rotation tree, steps along the translation tree */
+#include "formulate/system_impl.h"
+
+void instance_steps(const System *system, const Instance *instance, Steps *steps)
+{
+    instance->row->steps(instance, system->arena, system->planar, steps);
+}
+
+Vec frame_vector(const System *system, int node, Vec in_frame)
+{
+    return rotation_apply(system->arena, &system->frames[node].zero, in_frame);
+}
+
+/* --- chains --- */
+
+static int add_chain(System *system, int parent, Vec axis, const Variable *coordinate, int speed,
+                     int sign)
+{
+    Arena *arena = system->arena;
+    Expr rate = system->u.at[speed].symbol;
+    Chain chain = {.parent = parent,
+                   .depth = system->chains.at[parent].depth + 1,
+                   .axis = axis,
+                   .angle = coordinate->symbol,
+                   .rate = rate,
+                   .speed = speed,
+                   .sign = sign};
+
+    if (sign < 0) {
+        chain.angle = expr_neg(arena, chain.angle);
+        chain.rate = expr_neg(arena, rate);
+    }
+    /* in a plane every turn is about one axis, and ground's axes serve all */
+    chain.resolve = system->planar ? 0 : system->chains.count;
+    LIST_PUSH(system->chains, chain);
+    return system->chains.count - 1;
+}
+
+/* the turns of one rotation branch, passed from the parent to the node beyond */
+static Status turn_branch(System *system, int node, Diag *diag)
+{
+    Arena *arena = system->arena;
+    const Tree *tree = system->trees[TREE_ROTATION];
+    const Edge *edge = graph_edge(system->graph, tree_parent_edge(tree, node));
+    const Instance *instance = &system->instances[edge->component];
+    const Frame *parent = &system->frames[tree_parent(tree, node)];
+    bool forward = tree_is_forward(tree, node);
+    int chain = parent->chain;
+    Rotation zero = parent->zero;
+    Rotation constant;
+    Steps steps;
+
+    instance_steps(system, instance, &steps);
+    if (steps.quaternion) {
+        (void)diag_set(diag, E_MISSING, "%s: free rotations in space can't be branches yet",
+                       instance->name);
+        diag_hint(diag, "put a revolute joint into the rotation tree, or use `scene planar`");
+        return E_MISSING;
+    }
+    for (int i = 0; i < 9; i++)
+        constant.at[i] = steps.rotation[i];
+    if (!forward) {
+        Rotation back = rotation_transpose(&constant);
+
+        zero = rotation_product(arena, &zero, &back);
+    }
+    for (int k = 0; k < steps.turn_count; k++) {
+        const Step *turn = &steps.turn[forward ? k : steps.turn_count - 1 - k];
+        int place = system->coordinate[instance->number][turn->coordinate];
+        Vec axis = {{turn->axis[0], turn->axis[1], turn->axis[2]}};
+
+        chain = add_chain(system, chain, rotation_apply(arena, &zero, axis), &system->q.at[place],
+                          place, forward ? 1 : -1);
+        system->speed_chain[place] = chain;
+        system->speed_node[place] = node;
+    }
+    if (forward)
+        zero = rotation_product(arena, &zero, &constant);
+    system->frames[node].chain = chain;
+    system->frames[node].zero = zero;
+    return OK;
+}
+
+/* --- steps --- */
+
+static void step_branch(System *system, int node)
+{
+    Arena *arena = system->arena;
+    const Tree *tree = system->trees[TREE_TRANSLATION];
+    const Edge *edge = graph_edge(system->graph, tree_parent_edge(tree, node));
+    const Instance *instance = &system->instances[edge->component];
+    Frame *frame = &system->frames[node];
+    bool forward = tree_is_forward(tree, node);
+    Steps steps;
+    Vec shift;
+
+    instance_steps(system, instance, &steps);
+    frame->parent = tree_parent(tree, node);
+    frame->base = edge->tail;
+    frame->step_chain = system->frames[edge->tail].chain;
+    shift = frame_vector(system, edge->tail,
+                         (Vec){{steps.constant[0], steps.constant[1], steps.constant[2]}});
+    for (int k = 0; k < steps.shift_count; k++) {
+        const Step *slide = &steps.shift[k];
+        int place = system->coordinate[instance->number][slide->coordinate];
+        Vec axis = frame_vector(system, edge->tail,
+                                (Vec){{slide->axis[0], slide->axis[1], slide->axis[2]}});
+
+        system->speed_node[place] = node;
+        shift = vec_add(arena, shift, vec_scale(arena, system->q.at[place].symbol, axis));
+        frame->slide[frame->slide_count++] = (Slide){place, forward ? axis : vec_neg(arena, axis)};
+    }
+    frame->shift = forward ? shift : vec_neg(arena, shift);
+}
+
+/* number the chains so that what hangs beyond one has the numbers first..last */
+static void number_chains(System *system)
+{
+    Chain *chains = system->chains.at;
+    int count = system->chains.count;
+    int *beyond = NEW_ARRAY(int, count);
+    int *next = NEW_ARRAY(int, count);
+
+    for (int c = count - 1; c > 0; c--)
+        beyond[chains[c].parent] += beyond[c] + 1;
+    chains[0].first = 0;
+    chains[0].last = beyond[0];
+    /* parents come before children: the next free number of each parent */
+    for (int c = 0; c < count; c++) {
+        if (c > 0) {
+            chains[c].first = next[chains[c].parent];
+            chains[c].last = chains[c].first + beyond[c];
+            next[chains[c].parent] = chains[c].last + 1;
+        }
+        next[c] = chains[c].first + 1;
+    }
+    mem_free(beyond);
+    mem_free(next);
+}
+
+/* --- masses --- */
+
+static void add_masses(System *system)
+{
+    Arena *arena = system->arena;
+
+    for (int i = 0; i < system->instance_count; i++) {
+        const Instance *instance = &system->instances[i];
+        Mass mass = {.instance = i, .node = instance->head};
+        Expr tensor[6];
+
+        if (instance->row->inertia == NULL)
+            continue;
+        instance->row->inertia(instance, arena, system->planar, &mass.mass, tensor);
+        for (int k = 0; k < 6; k++)
+            mass.has_inertia = mass.has_inertia || !expr_is_zero(tensor[k]);
+        mass.inertia = inertia_turned(arena, &system->frames[mass.node].zero, tensor);
+        LIST_PUSH(system->masses, mass);
+    }
+}
+
+Status frames_build(System *system, Diag *diag)
+{
+    Arena *arena = system->arena;
+    int count = graph_node_count(system->graph);
+    int nodes;
+    const int *order;
+    Status status = OK;
+
+    system->frames = pool_alloc(system->pool, (size_t)count * sizeof *system->frames);
+    LIST_PUSH(system->chains, (Chain){.parent = -1,
+                                      .axis = vec_zero(arena),
+                                      .speed = -1,
+                                      .angle = expr_int(arena, 0),
+                                      .rate = expr_int(arena, 0)});
+    if (system->trees[TREE_ROTATION] == NULL)
+        return OK;
+    order = tree_nodes(system->trees[TREE_ROTATION], &nodes);
+    for (int i = 0; i < nodes; i++) {
+        Frame *frame = &system->frames[order[i]];
+
+        *frame = (Frame){.zero = rotation_one(arena), .parent = -1, .shift = vec_zero(arena)};
+        if (tree_parent(system->trees[TREE_ROTATION], order[i]) >= 0)
+            CHECK(turn_branch(system, order[i], diag));
+    }
+    number_chains(system);
+    order = tree_nodes(system->trees[TREE_TRANSLATION], &nodes);
+    for (int i = 0; i < nodes; i++)
+        if (tree_parent(system->trees[TREE_TRANSLATION], order[i]) >= 0)
+            step_branch(system, order[i]);
+    add_masses(system);
+done:
+    return status;
+}
+
+/* --- turns between chains --- */
+
+/* the same axis 1, the opposite one -1, another 0 */
+static int axis_sense(Arena *arena, Vec a, Vec b)
+{
+    if (vec_same(a, b))
+        return 1;
+    return vec_same(a, vec_neg(arena, b)) ? -1 : 0;
+}
+
+static void append_turn(const System *system, Turns *turns, Vec axis, Expr angle)
+{
+    Arena *arena = system->arena;
+    int sense = turns->count > 0 ? axis_sense(arena, turns->at[turns->count - 1].axis, axis) : 0;
+
+    if (sense == 0) {
+        LIST_PUSH(*turns, (Turn){axis, angle});
+        return;
+    }
+    Turn *last = &turns->at[turns->count - 1];
+
+    /* held, so that the angles along a chain share their sums */
+    last->angle = expr_hold(arena, last->angle);
+    last->angle =
+        sense > 0 ? expr_add(arena, last->angle, angle) : expr_sub(arena, last->angle, angle);
+    if (expr_is_zero(last->angle))
+        turns->count--;
+}
+
+void turns_between(const System *system, int from, int to, Turns *turns)
+{
+    const Chain *chains = system->chains.at;
+    LIST(int) down = {0};
+
+    turns->count = 0;
+    /* up to the chain both hang from, and down again */
+    while (from != to) {
+        if (chains[from].depth >= chains[to].depth) {
+            append_turn(system, turns, chains[from].axis,
+                        expr_neg(system->arena, chains[from].angle));
+            from = chains[from].parent;
+        } else {
+            LIST_PUSH(down, to);
+            to = chains[to].parent;
+        }
+    }
+    for (int k = down.count - 1; k >= 0; k--)
+        append_turn(system, turns, chains[down.at[k]].axis, chains[down.at[k]].angle);
+    LIST_FREE(down);
+}
+
+bool chain_is_beyond(const System *system, int chain, int turn)
+{
+    const Chain *chains = system->chains.at;
+
+    return chains[chain].first >= chains[turn].first && chains[chain].first <= chains[turn].last;
+}
+
+/* exp(k a) b, by the part of b along k, the part across and k x b (Rodrigues 1840) */
+static Vec turn_vector(Arena *arena, const Turn *turn, Vec b)
+{
+    Vec along = vec_scale(arena, vec_dot(arena, turn->axis, b), turn->axis);
+    Vec across = vec_sub(arena, b, along);
+    Vec side = vec_cross(arena, turn->axis, b);
+
+    if (vec_is_zero(across))
+        return b;
+    across = vec_scale(arena, expr_cos(arena, turn->angle), across);
+    side = vec_scale(arena, expr_sin(arena, turn->angle), side);
+    return vec_add(arena, along, vec_add(arena, across, side));
+}
+
+Vec vec_express(const System *system, Vec v, int from, int to)
+{
+    Turns turns = {0};
+
+    if (from == to || vec_is_zero(v))
+        return v;
+    turns_between(system, to, from, &turns);
+    for (int k = turns.count - 1; k >= 0; k--)
+        v = turn_vector(system->arena, &turns.at[k], v);
+    LIST_FREE(turns);
+    return v;
+}
+
+Vec speed_axis(const System *system, int speed, int axes)
+{
+    int chain = system->speed_chain[speed];
+    Vec axis = vec_express(system, system->chains.at[chain].axis, chain, axes);
+
+    return system->chains.at[chain].sign > 0 ? axis : vec_neg(system->arena, axis);
+}
+
+Expr rotation_angle(Arena *arena, const Rotation *rotation, Vec axis)
+{
+    const Expr *R = rotation->at;
+    Expr half = expr_rational(arena, 1, 2);
+    Vec twice;
+    Expr sine;
+    Expr cosine;
+
+    if (rotation_is_one(rotation))
+        return expr_int(arena, 0);
+    twice = (Vec){
+        {expr_sub(arena, R[7], R[5]), expr_sub(arena, R[2], R[6]), expr_sub(arena, R[3], R[1])}};
+    sine = expr_mul(arena, half, vec_dot(arena, axis, twice));
+    cosine = expr_sum(arena, (Expr[]){R[0], R[4], R[8], expr_int(arena, -1)}, 4);
+    return expr_call2(arena, OP_ATAN2, sine, expr_mul(arena, half, cosine));
+}

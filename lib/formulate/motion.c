@@ -1,0 +1,211 @@
+/* motion.c: motion outward and loads inward, for the reading to run
+ *
+ * Each quantity is resolved in the axes of its chain's `resolve` chain and held, so that
+ * a program computes it once. */
+#include "formulate/system_impl.h"
+
+static int axes_of(const System *system, int node)
+{
+    return system->chains.at[system->frames[node].chain].resolve;
+}
+
+static Vec expressed(const System *system, Vec v, int from, int to)
+{
+    return vec_hold(system->arena, vec_express(system, v, from, to));
+}
+
+/* w = w_parent + k rate; its rate is alpha_parent + w_parent x k rate + k rate' */
+static void turn_motion(System *system, int c)
+{
+    Arena *arena = system->arena;
+    const Chain *chain = &system->chains.at[c];
+    int before = system->chains.at[chain->parent].resolve;
+    Vec turn = vec_scale(arena, chain->rate, vec_express(system, chain->axis, c, chain->resolve));
+    Vec w = expressed(system, system->motions[chain->parent].w, before, chain->resolve);
+
+    system->motions[c].w = vec_hold(arena, vec_add(arena, w, turn));
+    system->motions[c].product = vec_hold(arena, vec_cross(arena, w, turn));
+}
+
+/* v = v_parent + w x r + s' u; the velocity products of its rate are w x (w x r) + 2 w x s' u */
+static void step_motion(System *system, int node)
+{
+    Arena *arena = system->arena;
+    Frame *frame = &system->frames[node];
+    int axes = axes_of(system, node);
+    int resolve = system->chains.at[frame->step_chain].resolve;
+    Vec v =
+        expressed(system, system->frames[frame->parent].v, axes_of(system, frame->parent), axes);
+    Vec w = expressed(system, system->motions[frame->step_chain].w, resolve, axes);
+    Vec slid = vec_zero(arena);
+    Vec turned;
+
+    frame->step = expressed(system, frame->shift, frame->step_chain, axes);
+    turned = vec_cross(arena, w, frame->step);
+    for (int k = 0; k < frame->slide_count; k++) {
+        Vec axis = vec_express(system, frame->slide[k].axis, frame->step_chain, axes);
+        Expr rate = system->u.at[frame->slide[k].speed].symbol;
+
+        slid = vec_add(arena, slid, vec_scale(arena, rate, axis));
+    }
+    frame->v = vec_hold(arena, vec_add(arena, v, vec_add(arena, turned, slid)));
+    frame->product = vec_add(arena, vec_cross(arena, w, turned),
+                             vec_scale(arena, expr_int(arena, 2), vec_cross(arena, w, slid)));
+}
+
+void accelerations_build(System *system, const Expr *accelerations, Vec *alpha, Vec *a)
+{
+    Arena *arena = system->arena;
+    int nodes;
+    const int *order;
+
+    alpha[0] = vec_zero(arena);
+    for (int c = 1; c < system->chains.count; c++) {
+        const Chain *chain = &system->chains.at[c];
+        int before = system->chains.at[chain->parent].resolve;
+
+        alpha[c] = vec_add(arena, expressed(system, alpha[chain->parent], before, chain->resolve),
+                           system->motions[c].product);
+        if (accelerations != NULL)
+            alpha[c] = vec_add(arena, alpha[c],
+                               vec_scale(arena, accelerations[chain->speed],
+                                         speed_axis(system, chain->speed, chain->resolve)));
+        alpha[c] = vec_hold(arena, alpha[c]);
+    }
+    if (system->trees[TREE_TRANSLATION] == NULL)
+        return;
+    order = tree_nodes(system->trees[TREE_TRANSLATION], &nodes);
+    a[order[0]] = vec_zero(arena);
+    for (int i = 1; i < nodes; i++) {
+        int n = order[i];
+        const Frame *frame = &system->frames[n];
+        int axes = axes_of(system, n);
+        int resolve = system->chains.at[frame->step_chain].resolve;
+        Vec turn = expressed(system, alpha[frame->step_chain], resolve, axes);
+
+        a[n] = expressed(system, a[frame->parent], axes_of(system, frame->parent), axes);
+        a[n] = vec_add(arena, a[n], vec_cross(arena, turn, frame->step));
+        a[n] = vec_add(arena, a[n], frame->product);
+        for (int k = 0; accelerations != NULL && k < frame->slide_count; k++) {
+            Vec axis = vec_express(system, frame->slide[k].axis, frame->step_chain, axes);
+
+            a[n] =
+                vec_add(arena, a[n], vec_scale(arena, accelerations[frame->slide[k].speed], axis));
+        }
+        a[n] = vec_hold(arena, a[n]);
+    }
+}
+
+void motion_build(System *system)
+{
+    Arena *arena = system->arena;
+    size_t chains = (size_t)system->chains.count;
+    int nodes;
+    const int *order;
+
+    system->motions = pool_alloc(system->pool, chains * sizeof *system->motions);
+    system->alpha0 = pool_alloc(system->pool, chains * sizeof(Vec));
+    system->a0 = pool_alloc(system->pool, (size_t)graph_node_count(system->graph) * sizeof(Vec));
+    system->motions[0] = (ChainMotion){vec_zero(arena), vec_zero(arena)};
+    for (int c = 1; c < system->chains.count; c++)
+        turn_motion(system, c);
+    if (system->trees[TREE_TRANSLATION] == NULL)
+        return;
+    order = tree_nodes(system->trees[TREE_TRANSLATION], &nodes);
+    for (int i = 0; i < nodes; i++) {
+        Frame *frame = &system->frames[order[i]];
+
+        frame->step = frame->v = frame->product = vec_zero(arena);
+        if (frame->parent >= 0)
+            step_motion(system, order[i]);
+    }
+    accelerations_build(system, NULL, system->alpha0, system->a0);
+}
+
+Vec node_position(const System *system, int node)
+{
+    Arena *arena = system->arena;
+    LIST(int) way = {0};
+    Vec p;
+
+    /* from the first node whose position is known, outward again */
+    while (system->frames[node].parent >= 0 && system->frames[node].p.at[0] == NULL) {
+        LIST_PUSH(way, node);
+        node = system->frames[node].parent;
+    }
+    p = system->frames[node].parent >= 0 ? system->frames[node].p : vec_zero(arena);
+    for (int k = way.count - 1; k >= 0; k--) {
+        Frame *frame = &system->frames[way.at[k]];
+
+        p = vec_hold(arena,
+                     vec_add(arena, p, expressed(system, frame->shift, frame->step_chain, 0)));
+        frame->p = p;
+    }
+    LIST_FREE(way);
+    return p;
+}
+
+/* --- loads --- */
+
+Loads loads_new(System *system)
+{
+    int count = graph_node_count(system->graph);
+    Loads loads = {pool_alloc(system->pool, (size_t)count * sizeof(Vec)),
+                   pool_alloc(system->pool, (size_t)count * sizeof(Vec))};
+
+    for (int i = 0; i < count; i++)
+        loads.force[i] = loads.torque[i] = vec_zero(system->arena);
+    return loads;
+}
+
+void loads_add_force(System *system, Loads *loads, int node, Vec force, int chain)
+{
+    force = vec_express(system, force, chain, axes_of(system, node));
+    loads->force[node] = vec_add(system->arena, loads->force[node], force);
+}
+
+void loads_add_torque(System *system, Loads *loads, int node, Vec torque, int chain)
+{
+    torque = vec_express(system, torque, chain, axes_of(system, node));
+    loads->torque[node] = vec_add(system->arena, loads->torque[node], torque);
+}
+
+Sums *loads_sum(System *system, const Loads *loads)
+{
+    Arena *arena = system->arena;
+    const Tree *rotation = system->trees[TREE_ROTATION];
+    size_t size = (size_t)graph_node_count(system->graph) * sizeof(Vec);
+    Sums *sums = pool_alloc(system->pool, sizeof *sums);
+    int nodes;
+    const int *order = tree_nodes(system->trees[TREE_TRANSLATION], &nodes);
+
+    sums->force = pool_alloc(system->pool, size);
+    sums->torque = pool_alloc(system->pool, size);
+    for (int i = 0; i < nodes; i++) {
+        sums->force[order[i]] = loads->force[order[i]];
+        sums->torque[order[i]] = loads->torque[order[i]];
+    }
+    for (int i = nodes - 1; i > 0; i--) {
+        int n = order[i];
+        const Frame *frame = &system->frames[n];
+        int axes = axes_of(system, n);
+        Vec force = sums->force[n] = vec_hold(arena, sums->force[n]);
+        Vec moment = vec_cross(arena, frame->step, force);
+
+        force = expressed(system, force, axes, axes_of(system, frame->parent));
+        sums->force[frame->parent] = vec_add(arena, sums->force[frame->parent], force);
+        /* a shift passes on the moment of what it carries to the frame that it is fixed in */
+        moment = expressed(system, moment, axes, axes_of(system, frame->base));
+        sums->torque[frame->base] = vec_add(arena, sums->torque[frame->base], moment);
+    }
+    order = tree_nodes(rotation, &nodes);
+    for (int i = nodes - 1; i > 0; i--) {
+        int n = order[i];
+        int parent = tree_parent(rotation, n);
+        Vec torque = sums->torque[n] = vec_hold(arena, sums->torque[n]);
+
+        torque = expressed(system, torque, axes_of(system, n), axes_of(system, parent));
+        sums->torque[parent] = vec_add(arena, sums->torque[parent], torque);
+    }
+    return sums;
+}

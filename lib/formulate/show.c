@@ -1,0 +1,420 @@
+/* show.c: the reading to show, entry by entry
+ *
+ * The same equations written as by hand: per body, partial velocities as sums over frames,
+ * dot products of those (theory 4), then trigonometric folding and collecting of common
+ * factors. v_j and w_j are the velocity and angular velocity of a body per unit of u_j. */
+#include "formulate/system_impl.h"
+
+/* --- partial velocities --- */
+
+/* the part of the way from ground to a node that speed j moves */
+static FrameSum partial_velocity(System *system, int node, int speed)
+{
+    Arena *arena = system->arena;
+    Expr one = expr_int(arena, 1);
+    int turned = system->speed_chain[speed];
+    FrameSum sum = {NULL, 0};
+    FrameSum slid = {NULL, 0};
+
+    for (; system->frames[node].parent >= 0; node = system->frames[node].parent) {
+        const Frame *frame = &system->frames[node];
+
+        if (turned >= 0 && chain_is_beyond(system, frame->step_chain, turned))
+            sum = framesum_add(system, sum, one,
+                               framesum_of(system, frame->step_chain, frame->shift));
+        for (int k = 0; turned < 0 && k < frame->slide_count; k++)
+            if (frame->slide[k].speed == speed)
+                slid = framesum_add(system, slid, one,
+                                    framesum_of(system, frame->step_chain, frame->slide[k].axis));
+    }
+    return turned >= 0 ? framesum_cross(system, speed_axis(system, speed, turned), turned, sum)
+                       : slid;
+}
+
+/* angular velocity of a chain per unit of speed j, in its own axes; zero where it doesn't turn it
+ */
+static Vec partial_turn(System *system, int chain, int speed)
+{
+    int turned = system->speed_chain[speed];
+
+    if (turned < 0 || !chain_is_beyond(system, chain, turned))
+        return vec_zero(system->arena);
+    return vec_express(system, speed_axis(system, speed, turned), turned, chain);
+}
+
+/* --- velocity products --- */
+
+/* angular velocity of a chain in its own axes, and what its rate is at u' = 0 */
+static void chain_motion(System *system, int chain, Vec *w, Vec *alpha)
+{
+    Arena *arena = system->arena;
+    const Chain *turn = &system->chains.at[chain];
+    Vec spin;
+
+    *w = *alpha = vec_zero(arena);
+    if (turn->parent < 0)
+        return;
+    chain_motion(system, turn->parent, w, alpha);
+    *w = vec_express(system, *w, turn->parent, chain);
+    *alpha = vec_express(system, *alpha, turn->parent, chain);
+    spin = vec_scale(arena, turn->rate, turn->axis);
+    *alpha = vec_add(arena, *alpha, vec_cross(arena, *w, spin));
+    *w = vec_add(arena, *w, spin);
+}
+
+/* acceleration of a node at u' = 0 */
+static FrameSum rest_acceleration(System *system, int node)
+{
+    Arena *arena = system->arena;
+    FrameSum sum = {NULL, 0};
+
+    for (; system->frames[node].parent >= 0; node = system->frames[node].parent) {
+        const Frame *frame = &system->frames[node];
+        Vec slid = vec_zero(arena);
+        Vec w;
+        Vec alpha;
+        Vec a;
+
+        if (vec_is_zero(frame->shift))
+            continue;
+        chain_motion(system, frame->step_chain, &w, &alpha);
+        for (int k = 0; k < frame->slide_count; k++)
+            slid = vec_add(
+                arena, slid,
+                vec_scale(arena, system->u.at[frame->slide[k].speed].symbol, frame->slide[k].axis));
+        a = vec_add(arena, vec_cross(arena, alpha, frame->shift),
+                    vec_cross(arena, w, vec_cross(arena, w, frame->shift)));
+        a = vec_add(arena, a, vec_scale(arena, expr_int(arena, 2), vec_cross(arena, w, slid)));
+        sum = framesum_add(system, sum, expr_int(arena, 1),
+                           framesum_of(system, frame->step_chain, a));
+    }
+    return sum;
+}
+
+/* --- entries --- */
+
+typedef LIST(Expr) Terms;
+
+static Expr added(System *system, Terms *terms)
+{
+    Expr sum = expr_sum(system->arena, terms->at, terms->count);
+
+    LIST_FREE(*terms);
+    return sum;
+}
+
+static Expr tidy(System *system, Expr e)
+{
+    return expr_collect(system->arena, expr_fold(system->arena, expr_open(system->arena, e)));
+}
+
+/* the coordinate that a rotor turns with, as an expression; NULL where the part has no rotor */
+static Status rotor_of(System *system, const Instance *instance, Expr *inertia, Expr *s, Diag *diag)
+{
+    *s = NULL;
+    if (instance->row->rotor == NULL || instance->joint < 0)
+        return OK;
+    *inertia = instance->row->rotor(instance, system->arena);
+    if (expr_is_zero(*inertia))
+        return OK;
+    return coordinate_value(system, &system->instances[instance->joint], instance->joint_coordinate,
+                            0, s, diag);
+}
+
+static Status show_mass(System *system, int j, int k, Expr *out, Diag *diag)
+{
+    Arena *arena = system->arena;
+    Terms terms = {0};
+    Status status = OK;
+
+    for (int i = 0; i < system->masses.count; i++) {
+        const Mass *mass = &system->masses.at[i];
+        int chain = system->frames[mass->node].chain;
+        FrameSum v_j = partial_velocity(system, mass->node, j);
+        FrameSum v_k = j == k ? v_j : partial_velocity(system, mass->node, k);
+
+        LIST_PUSH(terms, expr_mul(arena, mass->mass, framesum_dot(system, v_j, v_k)));
+        if (mass->has_inertia)
+            LIST_PUSH(terms, vec_dot(arena, partial_turn(system, chain, j),
+                                     rotation_apply(arena, &mass->inertia,
+                                                    partial_turn(system, chain, k))));
+    }
+    for (int i = 0; i < system->instance_count; i++) {
+        Expr inertia;
+        Expr s;
+
+        CHECK(rotor_of(system, &system->instances[i], &inertia, &s, diag));
+        if (s != NULL)
+            LIST_PUSH(terms,
+                      expr_product(arena,
+                                   (Expr[]){inertia, partial(system, s, j), partial(system, s, k)},
+                                   3));
+    }
+done:
+    *out = tidy(system, added(system, &terms));
+    return status;
+}
+
+static void push_inertia(System *system, int j, Terms *terms)
+{
+    Arena *arena = system->arena;
+
+    for (int i = 0; i < system->masses.count; i++) {
+        const Mass *mass = &system->masses.at[i];
+        int chain = system->frames[mass->node].chain;
+        FrameSum v_j = partial_velocity(system, mass->node, j);
+        FrameSum rest = framesum_add(system, framesum_of(system, 0, system->gravity),
+                                     expr_int(arena, -1), rest_acceleration(system, mass->node));
+
+        LIST_PUSH(*terms, expr_mul(arena, mass->mass, framesum_dot(system, v_j, rest)));
+        if (mass->has_inertia) {
+            Vec w;
+            Vec alpha;
+            Vec torque;
+
+            chain_motion(system, chain, &w, &alpha);
+            torque = vec_add(arena, rotation_apply(arena, &mass->inertia, alpha),
+                             vec_cross(arena, w, rotation_apply(arena, &mass->inertia, w)));
+            LIST_PUSH(*terms,
+                      expr_neg(arena, vec_dot(arena, partial_turn(system, chain, j), torque)));
+        }
+    }
+}
+
+/* distance of two frames as a reader would write it */
+static Expr length_shown(System *system, const Instance *instance)
+{
+    FrameSum way = framesum_way(system, instance->tail, instance->head);
+
+    return expr_sqrt(system->arena, expr_fold(system->arena, framesum_dot(system, way, way)));
+}
+
+static Status push_effort(System *system, const Instance *instance, int j, Terms *terms, Diag *diag)
+{
+    Arena *arena = system->arena;
+    Effort effort;
+    Status status = OK;
+
+    CHECK(effort_of(system, instance, &effort, diag));
+    if (effort.is_line) {
+        Expr length = length_shown(system, instance);
+        Motion1 motion = {length, NULL, expr_int(arena, 0), expr_int(arena, 0)};
+
+        CHECK(rate_of(system, length, &motion.rate, diag));
+        effort.value = instance->row->effort(instance, arena, &motion);
+        CHECK(resolve(system, effort.value, &effort.value, diag));
+        effort.displacement = length;
+    }
+    LIST_PUSH(*terms, expr_mul(arena, effort.value, partial(system, effort.displacement, j)));
+done:
+    return status;
+}
+
+static Status push_wrench(System *system, const Instance *instance, int j, Terms *terms, Diag *diag)
+{
+    int own = system->frames[instance->head].chain;
+    Vec force;
+    Vec torque;
+    int chain;
+    Status status = OK;
+
+    CHECK(wrench_of(system, instance, &force, &torque, &chain, diag));
+    LIST_PUSH(*terms, framesum_dot(system, framesum_of(system, chain, force),
+                                   partial_velocity(system, instance->head, j)));
+    LIST_PUSH(*terms, framesum_dot(system, framesum_of(system, chain, torque),
+                                   framesum_of(system, own, partial_turn(system, own, j))));
+done:
+    return status;
+}
+
+static Status push_rotor(System *system, const Instance *instance, int j, Terms *terms, Diag *diag)
+{
+    Arena *arena = system->arena;
+    int n = system->u.count;
+    Expr *zeros = NEW_ARRAY(Expr, n);
+    Expr inertia;
+    Expr s;
+    Expr second;
+    Status status = OK;
+
+    for (int i = 0; i < n; i++)
+        zeros[i] = expr_int(arena, 0);
+    CHECK(rotor_of(system, instance, &inertia, &s, diag));
+    if (s == NULL)
+        goto done;
+    CHECK(rate_of(system, s, &second, diag));
+    CHECK(rate_of(system, second, &second, diag));
+    second = expr_substitute(arena, second, system->accelerations, zeros, n);
+    second = expr_product(arena, (Expr[]){inertia, second, partial(system, s, j)}, 3);
+    LIST_PUSH(*terms, expr_neg(arena, second));
+done:
+    mem_free(zeros);
+    return status;
+}
+
+static Status show_force(System *system, int j, int column, Expr *out, Diag *diag)
+{
+    Terms terms = {0};
+    Status status = OK;
+
+    (void)column;
+    push_inertia(system, j, &terms);
+    for (int i = 0; i < system->instance_count; i++) {
+        const Instance *instance = &system->instances[i];
+
+        if (instance->row->wrench != NULL)
+            CHECK(push_wrench(system, instance, j, &terms, diag));
+        if (instance->row->effort != NULL)
+            CHECK(push_effort(system, instance, j, &terms, diag));
+        CHECK(push_rotor(system, instance, j, &terms, diag));
+    }
+    for (int i = 0; i < system->drives.count; i++) {
+        const Instance *driver = &system->instances[system->drives.at[i].instance];
+        Expr s;
+
+        if (driver->by < 0 || driver->by_coordinate < 0)
+            continue;
+        CHECK(coordinate_value(system, &system->instances[driver->by], driver->by_coordinate, 0, &s,
+                               diag));
+        LIST_PUSH(terms,
+                  expr_mul(system->arena, system->drives.at[i].effort, partial(system, s, j)));
+    }
+done:
+    *out = tidy(system, added(system, &terms));
+    return status;
+}
+
+static Status show_constraint(System *system, int k, int column, Expr *out, Diag *diag)
+{
+    (void)column;
+    (void)diag;
+    *out = system->rows.at[k].phi;
+    return OK;
+}
+
+static Status show_jacobian(System *system, int k, int j, Expr *out, Diag *diag)
+{
+    (void)diag;
+    *out = tidy(system, partial(system, system->rows.at[k].phi, j));
+    return OK;
+}
+
+static Status show_velocity(System *system, int k, int column, Expr *out, Diag *diag)
+{
+    (void)column;
+    (void)diag;
+    *out = tidy(system,
+                expr_neg(system->arena, expr_diff(system->arena, system->rows.at[k].phi,
+                                                  expr_symbol(system->arena, "t", SYMBOL_TIME))));
+    return OK;
+}
+
+static Status show_acceleration(System *system, int k, int column, Expr *out, Diag *diag)
+{
+    Arena *arena = system->arena;
+    int n = system->u.count;
+    Expr *zeros = NEW_ARRAY(Expr, n);
+    Expr second;
+    Status status = OK;
+
+    (void)column;
+    for (int i = 0; i < n; i++)
+        zeros[i] = expr_int(arena, 0);
+    CHECK(rate_of(system, system->rows.at[k].phi, &second, diag));
+    CHECK(rate_of(system, second, &second, diag));
+    second = expr_substitute(arena, second, system->accelerations, zeros, n);
+    *out = tidy(system, expr_neg(arena, second));
+done:
+    mem_free(zeros);
+    return status;
+}
+
+static Status show_network(System *system, int row, int column, Expr *out, Diag *diag)
+{
+    int count = system->x.count + system->z.count;
+
+    (void)diag;
+    *out = tidy(system, system->run.network[row * count + column]);
+    return OK;
+}
+
+static Status show_network_rhs(System *system, int row, int column, Expr *out, Diag *diag)
+{
+    (void)column;
+    (void)diag;
+    *out = tidy(system, system->run.network_rhs[row]);
+    return OK;
+}
+
+/* --- the table of blocks --- */
+
+typedef struct BlockRow {
+    const char *name;
+    Status (*show)(System *system, int row, int column, Expr *out, Diag *diag);
+} BlockRow;
+
+static const BlockRow blocks[BLOCK_COUNT] = {
+    [BLOCK_MASS] = {"mass", show_mass},
+    [BLOCK_FORCES] = {"forces", show_force},
+    [BLOCK_CONSTRAINTS] = {"constraints", show_constraint},
+    [BLOCK_JACOBIAN] = {"jacobian", show_jacobian},
+    [BLOCK_VELOCITY] = {"velocity", show_velocity},
+    [BLOCK_ACCELERATION] = {"acceleration", show_acceleration},
+    [BLOCK_NETWORK] = {"network", show_network},
+    [BLOCK_NETWORK_RHS] = {"network_rhs", show_network_rhs},
+    [BLOCK_EMBEDDED_MASS] = {"embedded_mass", embedded_mass},
+    [BLOCK_EMBEDDED_FORCES] = {"embedded_forces", embedded_force},
+};
+
+const char *block_name(Block block)
+{
+    return blocks[block].name;
+}
+
+void system_block_size(const System *system, Block block, int *rows, int *columns)
+{
+    int n = system->u.count;
+    int m = system->rows.count;
+    int w = system->x.count + system->z.count;
+    int f = n > m ? n - m : 0;
+    const int sizes[BLOCK_COUNT][2] = {
+        [BLOCK_MASS] = {n, n},          [BLOCK_FORCES] = {n, 1},
+        [BLOCK_CONSTRAINTS] = {m, 1},   [BLOCK_JACOBIAN] = {m, n},
+        [BLOCK_VELOCITY] = {m, 1},      [BLOCK_ACCELERATION] = {m, 1},
+        [BLOCK_NETWORK] = {w, w},       [BLOCK_NETWORK_RHS] = {w, 1},
+        [BLOCK_EMBEDDED_MASS] = {f, n}, [BLOCK_EMBEDDED_FORCES] = {f, 1},
+    };
+
+    *rows = sizes[block][0];
+    *columns = sizes[block][1];
+}
+
+Status system_show(System *system, Block block, int row, int column, Expr *out, Diag *diag)
+{
+    int rows;
+    int columns;
+    Expr *entry;
+    Expr shown;
+    Status status = OK;
+
+    system_block_size(system, block, &rows, &columns);
+    /* the other half of a symmetric matrix is the same */
+    if (block == BLOCK_MASS && column < row) {
+        int swap = row;
+
+        row = column;
+        column = swap;
+    }
+    if (system->shown[block] == NULL)
+        system->shown[block] =
+            pool_alloc(system->pool, (size_t)rows * (size_t)columns * sizeof(Expr));
+    entry = &system->shown[block][row * columns + column];
+    if (*entry == NULL) {
+        CHECK(blocks[block].show(system, row, column, &shown, diag));
+        CHECK(poll(system->watch));
+        *entry = shown;
+    }
+    *out = *entry;
+done:
+    return status;
+}

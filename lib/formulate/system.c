@@ -1,0 +1,560 @@
+/* system.c: a System from a model: copied parts, variables, and the order in which it is built */
+#include "formulate/system_impl.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+const char *system_keep(System *system, const char *format, ...)
+{
+    char text[600];
+    va_list args;
+
+    va_start(args, format);
+    (void)vsnprintf(text, sizeof text, format, args);
+    va_end(args);
+    return pool_text(system->pool, text, strlen(text));
+}
+
+/* --- copies of what the model may change later --- */
+
+static void copy_instances(System *system, const Model *model)
+{
+    int count = model_count(model);
+
+    system->instance_count = count;
+    system->instances = pool_alloc(system->pool, (size_t)count * sizeof *system->instances);
+    system->coordinate = pool_alloc(system->pool, (size_t)count * sizeof *system->coordinate);
+    system->lost_force = pool_alloc(system->pool, (size_t)count * sizeof(bool));
+    system->lost_moment = pool_alloc(system->pool, (size_t)count * sizeof(bool));
+    for (int i = 0; i < count; i++) {
+        const Instance *from = model_instance(model, i);
+        Instance *to = &system->instances[i];
+        size_t size = (size_t)from->row->param_count * sizeof(Value);
+
+        *to = *from;
+        to->name = system_keep(system, "%s", from->name);
+        to->text = NULL;
+        to->values = pool_alloc(system->pool, size);
+        if (size > 0)
+            memcpy(to->values, from->values, size);
+        for (int c = 0; c < MAX_COORDS; c++) {
+            system->coordinate[i][c] = -1;
+            if (c < from->coord_count)
+                to->coord[c] = system_keep(system, "%s", from->coord[c]);
+        }
+    }
+}
+
+static Status copy_graph(System *system, const Model *model, Diag *diag)
+{
+    const Graph *graph = model_graph(model);
+    const Tree *trees[TREE_KINDS];
+    Status status = OK;
+
+    CHECK(model_trees(model, trees, diag));
+    system->graph = graph_new();
+    for (int i = 0; i < graph_node_count(graph); i++) {
+        const Node *node = graph_node(graph, i);
+
+        (void)graph_add_node(system->graph, node->name, node->domain, node->datum);
+    }
+    for (int i = 0; i < graph_edge_count(graph); i++)
+        (void)graph_add_edge(system->graph, graph_edge(graph, i));
+    for (TreeKind kind = 0; kind < TREE_KINDS; kind++) {
+        TreeChoice choice = {0};
+
+        if (trees[kind] == NULL)
+            continue;
+        choice.branches = tree_branches(trees[kind]);
+        choice.branch_count = tree_branch_count(trees[kind]);
+        CHECK(tree_complete(system->graph, kind, &choice, true, &system->trees[kind], diag));
+    }
+done:
+    return status;
+}
+
+void system_take_outputs(System *system, const Model *model)
+{
+    int count = model_output_count(model);
+
+    system->output_count = count;
+    system->output_names = pool_alloc(system->pool, (size_t)count * sizeof(char *));
+    system->outputs = pool_alloc(system->pool, (size_t)count * sizeof(Expr));
+    for (int i = 0; i < count; i++) {
+        const char *name;
+
+        system->outputs[i] = model_output(model, i, &name);
+        system->output_names[i] = system_keep(system, "%s", name);
+    }
+}
+
+static void copy_form(System *system, const Model *model)
+{
+    const char *const *names = NULL;
+
+    system->form = model_form(model, &names, &system->independent_count);
+    system->independent =
+        pool_alloc(system->pool, (size_t)system->independent_count * sizeof(char *));
+    for (int i = 0; i < system->independent_count; i++)
+        system->independent[i] = system_keep(system, "%s", names[i]);
+}
+
+/* --- variables --- */
+
+static void add_coordinate(System *system, const Instance *instance, int c)
+{
+    Arena *arena = system->arena;
+    const char *name = instance->coord[c];
+    Variable q = {.name = name,
+                  .symbol = expr_symbol(arena, name, SYMBOL_COORDINATE),
+                  .edge = instance->edge,
+                  .instance = instance->number,
+                  .is_angle = instance->coord_kind[c] == COORDINATE_ANGLE};
+    Variable u = q;
+
+    u.name = system_keep(system, "%s'", name);
+    u.symbol = expr_symbol(arena, u.name, SYMBOL_SPEED);
+    system->coordinate[instance->number][c] = system->q.count;
+    LIST_PUSH(system->q, q);
+    LIST_PUSH(system->u, u);
+}
+
+/* coordinates of branches, each half in the tree of its half, in order of the edges' making */
+static void add_coordinates(System *system)
+{
+    const Tree *const halves[2] = {system->trees[TREE_TRANSLATION], system->trees[TREE_ROTATION]};
+
+    for (int i = 0; i < system->instance_count; i++) {
+        const Instance *instance = &system->instances[i];
+
+        if (instance->row->steps == NULL || instance->edge < 0)
+            continue;
+        for (int c = 0; c < instance->coord_count; c++)
+            if (tree_has(halves[instance->coord_rotation[c]], instance->edge))
+                add_coordinate(system, instance, c);
+    }
+    system->accelerations = pool_alloc(system->pool, (size_t)system->u.count * sizeof(Expr));
+    system->speed_chain = pool_alloc(system->pool, (size_t)system->u.count * sizeof(int));
+    system->speed_node = pool_alloc(system->pool, (size_t)system->u.count * sizeof(int));
+    for (int j = 0; j < system->u.count; j++) {
+        system->accelerations[j] = expr_symbol(
+            system->arena, system_keep(system, "%s'", system->u.at[j].name), SYMBOL_ACCELERATION);
+        system->speed_chain[j] = -1;
+    }
+}
+
+/* what supplies the motion of each driver */
+static void add_drives(System *system)
+{
+    for (int i = 0; i < system->instance_count; i++) {
+        const Instance *driver = &system->instances[i];
+        Drive drive = {.instance = i, .constraint = -1};
+
+        if (driver->row->family != FAMILY_DRIVER)
+            continue;
+        drive.by_source = driver->by >= 0 && driver->by_coordinate < 0;
+        if (driver->by >= 0) {
+            const Instance *by = &system->instances[driver->by];
+            const char *name = drive.by_source ? system_keep(system, "%s.value", by->name)
+                                               : system_keep(system, "%s.effort",
+                                                             by->coord[driver->by_coordinate]);
+
+            drive.effort = expr_symbol(system->arena, name, SYMBOL_EFFORT);
+        }
+        LIST_PUSH(system->drives, drive);
+    }
+}
+
+/* multipliers, and the rows of drivers */
+static void number_rows(System *system)
+{
+    system->multipliers = pool_alloc(system->pool, (size_t)system->rows.count * sizeof(Expr));
+    for (int k = 0; k < system->rows.count; k++) {
+        const char *name = system_keep(system, "lambda(%d)", k + 1);
+
+        system->multipliers[k] = expr_symbol(system->arena, name, SYMBOL_MULTIPLIER);
+        for (int i = 0; i < system->drives.count; i++) {
+            Drive *drive = &system->drives.at[i];
+
+            if (!system->rows.at[k].told.is_driver ||
+                system->rows.at[k].told.instance != drive->instance)
+                continue;
+            drive->constraint = k;
+            if (drive->effort == NULL)
+                drive->effort = expr_neg(system->arena, system->multipliers[k]);
+        }
+    }
+}
+
+static void add_rates(System *system)
+{
+    system->run.q_rate = pool_alloc(system->pool, (size_t)system->q.count * sizeof(Expr));
+    for (int i = 0; i < system->q.count; i++)
+        system->run.q_rate[i] = system->u.at[i].symbol;
+}
+
+/* --- life --- */
+
+static Status build(System *system, Diag *diag)
+{
+    Status status = OK;
+
+    if (system->trees[TREE_TRANSLATION] != NULL) {
+        add_coordinates(system);
+        add_rates(system);
+    }
+    add_drives(system);
+    CHECK(frames_build(system, diag));
+    motion_build(system);
+    CHECK(network_build(system, diag));
+    if (system->trees[TREE_TRANSLATION] != NULL)
+        CHECK(constraints_build(system, diag));
+    number_rows(system);
+    if (system->trees[TREE_TRANSLATION] != NULL)
+        CHECK(dynamics_build(system, diag));
+    CHECK(network_equations(system, diag));
+    CHECK(poll(system->watch));
+    if (arena_status(system->arena) != OK) {
+        status = diag_set(diag, arena_status(system->arena), "the equations can't be formed: %s",
+                          arena_failure(system->arena));
+        arena_reset(system->arena);
+    }
+done:
+    return status;
+}
+
+Status system_new(const Model *model, const Watch *watch, System **out, Diag *diag)
+{
+    System *system = NEW(System);
+    Status status = OK;
+
+    system->pool = pool_new(0);
+    system->model = model;
+    system->arena = model_arena(model);
+    system->revision = model_revision(model);
+    system->watch = watch;
+    system->planar = model_is_planar(model);
+    for (int i = 0; i < 3; i++)
+        system->gravity.at[i] = model_gravity(model)[i];
+    report(watch, "formulating", -1.0);
+    copy_instances(system, model);
+    CHECK(copy_graph(system, model, diag));
+    system_take_outputs(system, model);
+    copy_form(system, model);
+    CHECK(build(system, diag));
+    *out = system;
+    system->model = NULL;
+    system->watch = NULL;
+    system = NULL;
+done:
+    if (status == E_STOPPED)
+        (void)diag_set(diag, E_STOPPED, "stopped while the equations were formed");
+    system_free(system);
+    return status;
+}
+
+void system_free(System *system)
+{
+    if (system == NULL)
+        return;
+    for (TreeKind kind = 0; kind < TREE_KINDS; kind++)
+        tree_free(system->trees[kind]);
+    graph_free(system->graph);
+    LIST_FREE(system->q);
+    LIST_FREE(system->u);
+    LIST_FREE(system->x);
+    LIST_FREE(system->z);
+    LIST_FREE(system->rates);
+    LIST_FREE(system->chains);
+    LIST_FREE(system->masses);
+    LIST_FREE(system->rows);
+    LIST_FREE(system->dropped);
+    LIST_FREE(system->remarks);
+    LIST_FREE(system->branches);
+    LIST_FREE(system->network_left);
+    LIST_FREE(system->network_right);
+    LIST_FREE(system->drives);
+    LIST_FREE(system->switches);
+    pool_free(system->pool);
+    mem_free(system);
+}
+
+/* --- looking --- */
+
+uint64_t system_revision(const System *system)
+{
+    return system->revision;
+}
+
+Arena *system_arena(const System *system)
+{
+    return system->arena;
+}
+
+int system_n(const System *system)
+{
+    return system->q.count;
+}
+
+int system_nu(const System *system)
+{
+    return system->u.count;
+}
+
+int system_m(const System *system)
+{
+    return system->rows.count;
+}
+
+int system_nx(const System *system)
+{
+    return system->x.count;
+}
+
+int system_nz(const System *system)
+{
+    return system->z.count;
+}
+
+int system_ne(const System *system)
+{
+    int count = 0;
+
+    for (int i = 0; i < system->drives.count; i++)
+        count += system->instances[system->drives.at[i].instance].by >= 0;
+    return count;
+}
+
+const Variable *system_q(const System *system, int i)
+{
+    return &system->q.at[i];
+}
+
+const Variable *system_u(const System *system, int i)
+{
+    return &system->u.at[i];
+}
+
+const Variable *system_x(const System *system, int i)
+{
+    return &system->x.at[i];
+}
+
+const Variable *system_z(const System *system, int i)
+{
+    return &system->z.at[i];
+}
+
+Expr system_acceleration(const System *system, int i)
+{
+    return system->accelerations[i];
+}
+
+Expr system_multiplier(const System *system, int k)
+{
+    return system->multipliers[k];
+}
+
+Expr system_state_rate(const System *system, int i)
+{
+    return system->rates.at[i];
+}
+
+Expr system_q_rate(const System *system, int i)
+{
+    return system->run.q_rate[i];
+}
+
+Expr system_n_entry(const System *system, int i, int j)
+{
+    return expr_int(system->arena, i == j);
+}
+
+int system_quaternion(const System *system, int i)
+{
+    (void)system;
+    (void)i;
+    return -1;
+}
+
+const ConstraintRow *system_constraint(const System *system, int k)
+{
+    return &system->rows.at[k].told;
+}
+
+const char *system_dropped(const System *system, int i)
+{
+    return i < system->dropped.count ? system->dropped.at[i] : NULL;
+}
+
+const char *system_remark(const System *system, int i)
+{
+    return i < system->remarks.count ? system->remarks.at[i] : NULL;
+}
+
+const Reading *system_run(const System *system)
+{
+    return &system->run;
+}
+
+int system_network_count(const System *system)
+{
+    return system->network_left.count;
+}
+
+void system_network_equation(System *system, int i, Expr *left, Expr *right)
+{
+    *left = system->network_left.at[i];
+    *right = system->network_right.at[i];
+}
+
+int system_drive_count(const System *system)
+{
+    return system->drives.count;
+}
+
+const Drive *system_drive(const System *system, int i)
+{
+    return &system->drives.at[i];
+}
+
+/* --- counting --- */
+
+static const Expr *run_block(const System *system, Block block)
+{
+    const Reading *run = &system->run;
+
+    switch (block) {
+    case BLOCK_MASS:
+        return run->mass;
+    case BLOCK_FORCES:
+        return run->force;
+    case BLOCK_CONSTRAINTS:
+        return run->phi;
+    case BLOCK_JACOBIAN:
+        return run->phi_u;
+    case BLOCK_VELOCITY:
+        return run->nu;
+    case BLOCK_ACCELERATION:
+        return run->gamma;
+    case BLOCK_NETWORK:
+        return run->network;
+    case BLOCK_NETWORK_RHS:
+        return run->network_rhs;
+    case BLOCK_EMBEDDED_MASS:
+    case BLOCK_EMBEDDED_FORCES:
+    case BLOCK_COUNT:
+        break;
+    }
+    return NULL;
+}
+
+Status system_count(System *system, Block block, bool shared, OpCount *out, Diag *diag)
+{
+    int rows;
+    int columns;
+    const Expr *run = run_block(system, block);
+    Expr *entries;
+    Status status = OK;
+
+    system_block_size(system, block, &rows, &columns);
+    if (shared && run != NULL) {
+        *out = expr_count_shared(run, rows * columns);
+        return OK;
+    }
+    entries = NEW_ARRAY(Expr, (size_t)rows * (size_t)columns);
+    for (int r = 0; r < rows; r++)
+        for (int c = 0; c < columns; c++)
+            CHECK(system_show(system, block, r, c, &entries[r * columns + c], diag));
+    *out =
+        shared ? expr_count_shared(entries, rows * columns) : expr_count(entries, rows * columns);
+done:
+    mem_free(entries);
+    return status;
+}
+
+/* --- switches --- */
+
+/* what changes sign where a function jumps or kinks; NULL: it does neither */
+static Expr switching(Arena *arena, Expr e)
+{
+    if (expr_kind(e) != EXPR_CALL)
+        return NULL;
+    switch (expr_op(e)) {
+    case OP_LT:
+    case OP_LE:
+    case OP_MIN:
+    case OP_MAX:
+        return expr_sub(arena, expr_arg(e, 0), expr_arg(e, 1));
+    case OP_STEP:
+    case OP_RAMP:
+    case OP_SIGN:
+    case OP_ABS:
+        return expr_arg(e, 0);
+    case OP_FLOOR: /* at whole numbers */
+        return expr_sin(arena,
+                        expr_mul(arena, expr_real(arena, 3.14159265358979323846), expr_arg(e, 0)));
+    default:
+        return NULL;
+    }
+}
+
+static void gather(System *system, const Expr *roots, int count, bool **seen, uint32_t *room)
+{
+    LIST(Expr) stack = {0};
+
+    for (int i = 0; i < count; i++)
+        LIST_PUSH(stack, roots[i]);
+    while (stack.count > 0) {
+        Expr e = stack.at[--stack.count];
+        uint32_t number = expr_number(e);
+        Expr condition;
+
+        if (number >= *room) {
+            uint32_t more = number + number / 2 + 64;
+
+            *seen = mem_grow(*seen, more, sizeof(bool));
+            memset(*seen + *room, 0, more - *room);
+            *room = more;
+        }
+        if ((*seen)[number])
+            continue;
+        (*seen)[number] = true;
+        condition = switching(system->arena, e);
+        if (condition != NULL && !expr_is_number(condition))
+            LIST_PUSH(system->switches, condition);
+        for (int i = 0; i < expr_arg_count(e); i++)
+            LIST_PUSH(stack, expr_arg(e, i));
+    }
+    LIST_FREE(stack);
+}
+
+int system_switches(System *system, const Expr **conditions, int *time_only)
+{
+    const unsigned state = ~(1U << SYMBOL_TIME | 1U << SYMBOL_PARAMETER);
+    int w = system->x.count + system->z.count;
+    bool *seen = NULL;
+    uint32_t room = 0;
+
+    if (!system->switches_known) {
+        gather(system, system->run.force, system->u.count, &seen, &room);
+        gather(system, system->run.phi, system->rows.count, &seen, &room);
+        gather(system, system->run.gamma, system->rows.count, &seen, &room);
+        gather(system, system->run.network, w * w, &seen, &room);
+        gather(system, system->run.network_rhs, w, &seen, &room);
+        mem_free(seen);
+        /* those of time alone first, each once */
+        for (int i = 0; i < system->switches.count; i++)
+            if ((expr_kinds(system->switches.at[i]) & state) == 0) {
+                Expr condition = system->switches.at[i];
+
+                system->switches.at[i] = system->switches.at[system->switches_of_time];
+                system->switches.at[system->switches_of_time++] = condition;
+            }
+        system->switches_known = true;
+    }
+    *conditions = system->switches.at;
+    *time_only = system->switches_of_time;
+    return system->switches.count;
+}

@@ -1,0 +1,347 @@
+/* system_impl.h: what the files of formulation share
+ *
+ * Turns. The orientation of a frame is a product of turns along the rotation tree,
+ * each about an axis that is constant in the position where every coordinate is 0,
+ * and a constant rotation: R_0n = exp(k1 a1) exp(k2 a2) ... Z_n. Frames that differ by
+ * constant rotations only share a *chain*: the last turn on their way. A vector fixed
+ * in a frame is kept as (chain, Z_n r): neighbours about one axis merge because
+ * their k are the same three expressions.
+ *
+ * Steps. Along the translation tree every node stands one constant or sliding shift
+ * from its parent, a vector of one chain.
+ *
+ * Symbols: k axis of a turn, c a chain, n a node, r a shift, w angular velocity,
+ * a0 acceleration that is left at u' = 0 (alpha0 likewise). */
+#ifndef COTREE_FORMULATE_SYSTEM_IMPL_H
+#define COTREE_FORMULATE_SYSTEM_IMPL_H
+
+#include "base/memory.h"
+#include "formulate/system.h"
+
+typedef struct Vec {
+    Expr at[3];
+} Vec;
+
+typedef struct Rotation {
+    Expr at[9]; /* row by row */
+} Rotation;
+
+/* one turn of the rotation tree */
+typedef struct Chain {
+    int parent; /* -1: ground's own */
+    int depth;
+    Vec axis;   /* zero-position axes: the same components before and after the turn */
+    Expr angle; /* the coordinate, or its negative where the branch is passed backwards */
+    Expr rate;  /* of the angle: u or -u */
+    int speed;  /* in u */
+    int sign;   /* of the coordinate in the angle */
+    int first;  /* what hangs beyond it has the numbers first..last */
+    int last;
+    int resolve; /* chain in whose axes vectors of this one are computed by the reading to run */
+} Chain;
+
+/* a shift coordinate in a step */
+typedef struct Slide {
+    int speed;
+    Vec axis; /* of the step's chain, sign included */
+} Slide;
+
+typedef struct Frame { /* a mechanical node */
+    int chain;
+    Rotation zero; /* Z_n */
+    /* step from the translation tree's parent; shift and slides point from it to this node */
+    int parent; /* node; -1: ground */
+    int base;   /* node in whose frame the shift is fixed: the edge's tail */
+    int step_chain;
+    Vec shift;
+    int slide_count;
+    Slide slide[3];
+    /* quantities of the reading to run, in the axes of resolve(chain) */
+    Vec step; /* the shift */
+    Vec v;
+    Vec product; /* velocity products of the step's acceleration */
+    Vec p;       /* position, ground axes */
+} Frame;
+
+typedef struct ChainMotion { /* in the axes of its resolve chain */
+    Vec w;
+    Vec product; /* velocity products of the turn's angular acceleration */
+} ChainMotion;
+
+/* a mass at a node */
+typedef struct Mass {
+    int instance;
+    int node;
+    Expr mass;
+    Rotation inertia; /* zero-position axes of the node's chain */
+    bool has_inertia;
+} Mass;
+
+/* forces of one pass over the trees: at nodes, in the axes of resolve(chain of the node) */
+typedef struct Loads {
+    Vec *force;  /* one a node */
+    Vec *torque; /* one a node */
+} Loads;
+
+/* what hangs beyond each node: sums of Loads inward */
+typedef struct Sums {
+    Vec *force;  /* of everything beyond in the translation tree, a node each */
+    Vec *torque; /* of everything beyond in the rotation tree, arms included */
+} Sums;
+
+/* direction of a constraint row */
+typedef enum RowKind {
+    ROW_DATUM, /* n.d, n an axis of the datum */
+    ROW_TAIL,  /* n.d, n fixed in the tail */
+    ROW_DOT,   /* a_t . b_h */
+    ROW_ANGLE, /* sum of turns about one axis */
+    ROW_DRIVER /* coordinate - f(t) */
+} RowKind;
+
+typedef struct Row {
+    RowKind kind;
+    int tail, head; /* nodes */
+    Vec n;     /* DATUM: ground axes; TAIL, DOT (a), ANGLE (axis): zero axes of the tail's chain */
+    Vec b;     /* DOT: zero axes of the head's chain */
+    Expr phi;  /* to show */
+    int owner; /* DRIVER: instance of the coordinate, and which */
+    int coordinate;
+    Expr prescribed;
+    ConstraintRow told;
+} Row;
+
+/* --- network --- */
+
+typedef struct Branchlike { /* a scalar edge */
+    int edge;
+    int instance;
+    Relation relation;
+    bool branch;
+    int state;   /* in x; -1 */
+    int unknown; /* in z; -1 */
+    bool busy;   /* its v or i is being followed */
+    Expr v, i;   /* once known */
+} Branchlike;
+
+struct System {
+    uint64_t revision;
+    const Model *model; /* while it is made; NULL afterwards */
+    Arena *arena;
+    Pool *pool; /* names and small arrays */
+    const Watch *watch;
+    bool planar;
+    Vec gravity;
+    Form form;
+    const char **independent;
+    int independent_count;
+
+    Instance *instances;
+    int instance_count;
+    Graph *graph;
+    Tree *trees[TREE_KINDS];
+    const char **output_names;
+    Expr *outputs;
+    int output_count;
+
+    LIST(Variable) q;
+    LIST(Variable) u;
+    LIST(Variable) x;
+    LIST(Variable) z;
+    Expr *accelerations;
+    Expr *multipliers;
+    LIST(Expr) rates;              /* of x */
+    int (*coordinate)[MAX_COORDS]; /* of an instance: its place in q, or -1 */
+
+    int *speed_chain;     /* of a speed: the chain that it turns, or -1 */
+    int *speed_node;      /* of a speed: the node that its branch leads to */
+    Vec *speed_direction; /* axis of its turn or slide, in the axes of its node */
+    LIST(Chain) chains;
+    Frame *frames; /* one a node of the graph; scalar nodes unused */
+    ChainMotion *motions;
+    Vec *alpha0;      /* of chains, in the axes of their resolve chain */
+    Vec *a0;          /* of nodes */
+    bool *lost_force; /* of an instance: a force row vanished, so that it is not told by lambda */
+    bool *lost_moment;
+    LIST(Mass) masses;
+    LIST(Row) rows;
+    LIST(const char *) dropped;
+    LIST(const char *) remarks;
+
+    LIST(Branchlike) branches;
+    int *scalar_of_edge;     /* edge of the graph -> branches, or -1 */
+    LIST(Expr) network_left; /* as printed */
+    LIST(Expr) network_right;
+
+    Reading run;
+    LIST(Drive) drives;
+
+    /* formed when asked for */
+    Expr *shown[BLOCK_COUNT]; /* entries; NULL pointers until formed */
+    Sums *actual;             /* with u', lambda: for reactions */
+    Vec *actual_a;            /* accelerations of nodes */
+    Vec *actual_alpha;        /* of chains */
+    LIST(Expr) switches;
+    int switches_of_time;
+    bool switches_known;
+    int depth; /* of variables being resolved */
+};
+
+/* --- vectors (vector.c) --- */
+
+Vec vec_zero(Arena *arena);
+bool vec_is_zero(Vec a);
+Vec vec_add(Arena *arena, Vec a, Vec b);
+Vec vec_sub(Arena *arena, Vec a, Vec b);
+Vec vec_scale(Arena *arena, Expr s, Vec a);
+Vec vec_neg(Arena *arena, Vec a);
+Vec vec_cross(Arena *arena, Vec a, Vec b);
+Expr vec_dot(Arena *arena, Vec a, Vec b);
+Vec vec_hold(Arena *arena, Vec a);
+bool vec_same(Vec a, Vec b);
+Rotation rotation_one(Arena *arena);
+Rotation rotation_product(Arena *arena, const Rotation *a, const Rotation *b);
+Rotation rotation_transpose(const Rotation *a);
+Vec rotation_apply(Arena *arena, const Rotation *a, Vec b);
+bool rotation_is_one(const Rotation *a);
+Rotation inertia_turned(Arena *arena, const Rotation *z, const Expr tensor[6]); /* Z I Z^T */
+
+/* --- frames and turns (frames.c) --- */
+
+/* chains, frames and steps from the trees; masses. */
+MUST_USE Status frames_build(System *system, Diag *diag);
+
+typedef struct Turn {
+    Vec axis;
+    Expr angle;
+} Turn;
+typedef LIST(Turn) Turns;
+
+/* the turns that lead from one chain to another, neighbours about one axis merged: R_from_to */
+void turns_between(const System *system, int from, int to, Turns *turns);
+/* components of v in the axes of chain `to`, from those in chain `from` */
+Vec vec_express(const System *system, Vec v, int from, int to);
+/* what speed j turns about, per unit of it, in the axes of a chain */
+Vec speed_axis(const System *system, int speed, int axes);
+bool chain_is_beyond(const System *system, int chain, int turn); /* or the same */
+/* angle of a constant rotation about an axis */
+Expr rotation_angle(Arena *arena, const Rotation *rotation, Vec axis);
+/* axes of the frame of a joint's tail to zero-position components */
+Vec frame_vector(const System *system, int node, Vec in_frame);
+/* the row's steps of an instance */
+void instance_steps(const System *system, const Instance *instance, Steps *steps);
+
+/* --- motion of the reading to run (motion.c) --- */
+
+void motion_build(System *system);
+/* angular accelerations of chains and accelerations of nodes, with u' or (NULL) without */
+void accelerations_build(System *system, const Expr *accelerations, Vec *alpha, Vec *a);
+/* position of a node in ground axes, held */
+Vec node_position(const System *system, int node);
+/* sums inward over both trees of what acts on nodes; new arrays in the system's pool */
+Sums *loads_sum(System *system, const Loads *loads);
+Loads loads_new(System *system);
+/* m (g - a) and -(I alpha + w x I w) of every mass */
+void loads_add_inertia(System *system, Loads *loads, const Vec *alpha, const Vec *a);
+/* row j of the cutset projected on its motion */
+Expr sums_project(System *system, const Sums *sums, int speed);
+void loads_add_force(System *system, Loads *loads, int node, Vec force, int chain);
+void loads_add_torque(System *system, Loads *loads, int node, Vec torque, int chain);
+/* a force or torque `effort` along a coordinate of an instance, on its head and reversed on its
+ * tail */
+void loads_add_effort(System *system, Loads *loads, const Instance *owner, int coordinate,
+                      Expr effort);
+
+/* --- what hangs beyond a node, taken together (composite.c) --- */
+
+typedef struct Composite { /* about the node's origin, in its axes */
+    Expr mass;
+    Vec moment;
+    Rotation inertia;
+} Composite;
+
+/* of every node, in the system's pool */
+Composite *composites_new(System *system);
+/* one unit of the speed moves everything beyond its branch as one rigid body */
+bool speed_moves_as_one(const System *system, int speed);
+/* what its branch feels of the composite beyond, per unit of u'; all else at rest */
+void composite_loads(System *system, const Composite *composite, int speed, Loads *loads);
+
+/* --- coordinates, also of chords (coordinate.c) --- */
+
+/* the constant rotation that is left between the ends of a chord once its turns are undone: Z_h
+ * R_0^T Z_t^T */
+Rotation chord_constant(const System *system, const Instance *joint, const Steps *steps);
+/* value of a coordinate and its first and second derivatives, branch or chord */
+MUST_USE Status coordinate_value(System *system, const Instance *owner, int coordinate, int primes,
+                                 Expr *out, Diag *diag);
+/* derivative along the motion: q -> q', u -> u', x -> x', t -> 1 */
+MUST_USE Status rate_of(System *system, Expr e, Expr *out, Diag *diag);
+/* partial derivative by the i-th coordinate, along speed i */
+Expr partial(System *system, Expr e, int speed);
+/* e over user's variables to e over the system's */
+MUST_USE Status resolve(System *system, Expr user, Expr *out, Diag *diag);
+
+/* --- efforts (efforts.c): springs, motors, forces --- */
+
+typedef struct Effort {
+    const Instance *instance;
+    Expr displacement, rate, value; /* along the line or the joint's coordinate */
+    Vec direction;                  /* line: from tail to head, ground axes */
+    bool is_line;
+} Effort;
+
+MUST_USE Status effort_of(System *system, const Instance *instance, Effort *out, Diag *diag);
+/* wrench of force and torque components: in axes of *chain */
+MUST_USE Status wrench_of(System *system, const Instance *instance, Vec *force, Vec *torque,
+                          int *chain, Diag *diag);
+/* everything that pushes, without inertia and multipliers: springs on joints left out unless
+ * `joints` */
+MUST_USE Status efforts_add(System *system, Loads *loads, bool joints, Diag *diag);
+
+/* --- constraints (constraints.c), dynamics (dynamics.c), network (network.c), show.c --- */
+
+MUST_USE Status constraints_build(System *system, Diag *diag);
+MUST_USE Status dynamics_build(System *system, Diag *diag);
+MUST_USE Status network_build(System *system, Diag *diag);
+MUST_USE Status network_equations(System *system, Diag *diag);
+/* voltage and current of a scalar edge */
+MUST_USE Status network_across(System *system, Branchlike *branch, Expr *out, Diag *diag);
+MUST_USE Status network_through(System *system, Branchlike *branch, Expr *out, Diag *diag);
+
+/* vectors as sums over chains, for the reading to show (framesum.c) */
+typedef struct Part {
+    int chain;
+    Vec v; /* zero-position axes of the chain */
+} Part;
+
+typedef struct FrameSum {
+    Part *parts; /* in the system's pool, by chain */
+    int count;
+} FrameSum;
+
+FrameSum framesum_add(System *system, FrameSum a, Expr scale, FrameSum b);
+FrameSum framesum_of(System *system, int chain, Vec v);
+/* k of chain `turn` crossed with each part */
+FrameSum framesum_cross(System *system, Vec axis, int chain, FrameSum b);
+Expr framesum_dot(System *system, FrameSum a, FrameSum b);
+/* the way from one node to another along the translation tree */
+FrameSum framesum_way(System *system, int from, int to);
+
+/* --- the embedded form (embedded.c) --- */
+
+MUST_USE Status embedded_mass(System *system, int row, int column, Expr *out, Diag *diag);
+MUST_USE Status embedded_force(System *system, int row, int column, Expr *out, Diag *diag);
+
+/* --- reactions (reactions.c) --- */
+
+/* accelerations with u', sums inward with lambda */
+MUST_USE Status actual_build(System *system, Diag *diag);
+MUST_USE Status joint_force(System *system, const Instance *joint, Vec *force, int *chain,
+                            Diag *diag);
+MUST_USE Status joint_moment(System *system, const Instance *joint, Vec *moment, int *chain,
+                             Diag *diag);
+
+const char *system_keep(System *system, const char *format, ...)
+    PRINTF(2, 3); /* text in the pool */
+
+#endif

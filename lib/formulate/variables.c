@@ -1,0 +1,456 @@
+/* variables.c: what a user can ask for by name, as expressions of the system's variables
+ *
+ * A name is a coordinate, an entry (lambda(1), mass(2,2)), an output, or member of a part:
+ * the tables below say which members a family has and who tells them. */
+#include "formulate/system_impl.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* --- frames --- */
+
+typedef enum Quantity { POSITION, VELOCITY, ACCELERATION, RATE, OWN_RATE, TURNING, ANGLE } Quantity;
+
+typedef struct FrameMember {
+    const char *name;
+    Quantity quantity;
+    int axis;
+} FrameMember;
+
+static const FrameMember frame_members[] = {
+    {"x", POSITION, 0},      {"y", POSITION, 1},      {"z", POSITION, 2},
+    {"vx", VELOCITY, 0},     {"vy", VELOCITY, 1},     {"vz", VELOCITY, 2},
+    {"ax", ACCELERATION, 0}, {"ay", ACCELERATION, 1}, {"az", ACCELERATION, 2},
+    {"wx", RATE, 0},         {"wy", RATE, 1},         {"wz", RATE, 2},
+    {"Wx", OWN_RATE, 0},     {"Wy", OWN_RATE, 1},     {"Wz", OWN_RATE, 2},
+    {"alphax", TURNING, 0},  {"alphay", TURNING, 1},  {"alphaz", TURNING, 2},
+    {"theta", ANGLE, 2},
+};
+
+/* the angle of a frame against ground, of turns about one axis */
+static Status frame_angle(System *system, int node, Expr *out, Diag *diag)
+{
+    Arena *arena = system->arena;
+    const Frame *frame = &system->frames[node];
+    Vec z = vec_zero(arena);
+    Turns turns = {0};
+    Status status = OK;
+
+    z.at[2] = expr_int(arena, 1);
+    turns_between(system, 0, frame->chain, &turns);
+    *out = rotation_angle(arena, &frame->zero, z);
+    if (turns.count > 1 || !system->planar)
+        status = diag_set(diag, E_MISSING, "theta is for planar scenes");
+    else if (turns.count == 1)
+        *out = expr_add(arena, *out,
+                        vec_same(turns.at[0].axis, z) ? turns.at[0].angle
+                                                      : expr_neg(arena, turns.at[0].angle));
+    LIST_FREE(turns);
+    return status;
+}
+
+static Status frame_vector_of(System *system, int node, Quantity quantity, Vec *out, Diag *diag)
+{
+    const Frame *frame = &system->frames[node];
+    int axes = system->chains.at[frame->chain].resolve;
+    Status status = OK;
+
+    switch (quantity) {
+    case POSITION:
+    case ANGLE:
+        *out = node_position(system, node);
+        break;
+    case VELOCITY:
+        *out = vec_express(system, frame->v, axes, 0);
+        break;
+    case RATE:
+        *out = vec_express(system, system->motions[frame->chain].w, axes, 0);
+        break;
+    case OWN_RATE: {
+        Rotation back = rotation_transpose(&frame->zero);
+
+        *out = vec_express(system, system->motions[frame->chain].w, axes, frame->chain);
+        *out = rotation_apply(system->arena, &back, *out);
+        break;
+    }
+    case ACCELERATION:
+    case TURNING:
+        CHECK(actual_build(system, diag));
+        *out = quantity == TURNING ? system->actual_alpha[frame->chain] : system->actual_a[node];
+        *out = vec_express(system, *out, axes, 0);
+        break;
+    }
+done:
+    return status;
+}
+
+static Status frame_variable(System *system, int node, const char *member, Expr *out, Diag *diag)
+{
+    for (int i = 0; i < COUNT(frame_members); i++) {
+        const FrameMember *row = &frame_members[i];
+        Vec vector;
+        Status status;
+
+        if (strcmp(row->name, member) != 0)
+            continue;
+        if (row->quantity == ANGLE)
+            return frame_angle(system, node, out, diag);
+        status = frame_vector_of(system, node, row->quantity, &vector, diag);
+        if (status == OK)
+            *out = vector.at[row->axis];
+        return status;
+    }
+    return diag_set(diag, E_MISSING, "%s.%s can't be told", graph_node(system->graph, node)->name,
+                    member);
+}
+
+/* --- joints --- */
+
+/* efforts that act on a coordinate of the joint: springs, motors, drivers */
+static Status joint_effort(System *system, const Instance *joint, Expr *out, Diag *diag)
+{
+    Arena *arena = system->arena;
+    Expr sum = expr_int(arena, 0);
+    Status status = OK;
+
+    for (int i = 0; i < system->instance_count; i++) {
+        const Instance *instance = &system->instances[i];
+        Effort effort;
+
+        if (instance->joint != joint->number || instance->row->effort == NULL)
+            continue;
+        CHECK(effort_of(system, instance, &effort, diag));
+        sum = expr_add(arena, sum, effort.value);
+    }
+    for (int k = 0; k < system->rows.count; k++)
+        if (system->rows.at[k].kind == ROW_DRIVER && system->rows.at[k].owner == joint->number)
+            sum = expr_sub(arena, sum, system->multipliers[k]);
+    *out = sum;
+done:
+    return status;
+}
+
+static Status joint_variable(System *system, const Instance *joint, const char *member, Expr *out,
+                             Diag *diag)
+{
+    static const char letters[] = "xyz";
+    const char *axis = strlen(member) == 2 ? strchr(letters, member[1]) : NULL;
+    bool moment = member[0] == 't' || member[0] == 'T';
+    bool own = member[0] == 'F' || member[0] == 'T';
+    Vec vector;
+    int chain;
+    Status status = OK;
+
+    if (strcmp(member, "effort") == 0)
+        return joint_effort(system, joint, out, diag);
+    if (axis == NULL)
+        return diag_set(diag, E_MISSING, "%s.%s can't be told", joint->name, member);
+    CHECK(moment ? joint_moment(system, joint, &vector, &chain, diag)
+                 : joint_force(system, joint, &vector, &chain, diag));
+    if (own) {
+        const Frame *tail = &system->frames[joint->tail];
+        Rotation back = rotation_transpose(&tail->zero);
+
+        vector =
+            rotation_apply(system->arena, &back, vec_express(system, vector, chain, tail->chain));
+    } else {
+        vector = vec_express(system, vector, chain, 0);
+    }
+    *out = vector.at[axis - letters];
+done:
+    return status;
+}
+
+/* --- what pushes, and networks --- */
+
+static Status effort_variable(System *system, const Instance *instance, const char *member,
+                              Expr *out, Diag *diag)
+{
+    Effort effort;
+    Status status = OK;
+
+    (void)member;
+    CHECK(effort_of(system, instance, &effort, diag));
+    *out = effort.value;
+done:
+    return status;
+}
+
+static Status driver_variable(System *system, const Instance *driver, const char *member, Expr *out,
+                              Diag *diag)
+{
+    for (int i = 0; i < system->drives.count; i++)
+        if (system->drives.at[i].instance == driver->number && strcmp(member, "effort") == 0) {
+            *out = driver->by >= 0 ? expr_int(system->arena, 0) : system->drives.at[i].effort;
+            return OK;
+        }
+    return diag_set(diag, E_MISSING, "%s.%s can't be told", driver->name, member);
+}
+
+/* which of a scalar edge's variables a member means */
+static Status scalar_variable(System *system, const Instance *instance, const char *member,
+                              Expr *out, Diag *diag)
+{
+    static const char *const across[] = {"v", "p", "w", "T"};
+    static const char *const through[] = {"i", "flow", "torque", "force", "heat"};
+    Arena *arena = system->arena;
+    Branchlike *branch = &system->branches.at[system->scalar_of_edge[instance->scalar_edge]];
+    Expr v;
+    Expr i;
+    Status status = OK;
+
+    if (instance->row->family == FAMILY_TRANSDUCER && instance->row->effort != NULL &&
+        (strcmp(member, "torque") == 0 || strcmp(member, "force") == 0))
+        return effort_variable(system, instance, member, out, diag);
+    CHECK(network_across(system, branch, &v, diag));
+    CHECK(network_through(system, branch, &i, diag));
+    for (int k = 0; k < COUNT(across); k++)
+        if (strcmp(member, across[k]) == 0) {
+            *out = v;
+            return OK;
+        }
+    for (int k = 0; k < COUNT(through); k++)
+        if (strcmp(member, through[k]) == 0) {
+            *out = i;
+            return OK;
+        }
+    if (strcmp(member, "power") == 0)
+        *out = expr_mul(arena, v, i);
+    else if (strcmp(member, "q") == 0 && branch->relation.kind == RELATION_CAPACITIVE)
+        *out = expr_mul(arena, branch->relation.value, v);
+    else if (strcmp(member, "flux") == 0 && branch->relation.kind == RELATION_INDUCTIVE)
+        *out = expr_mul(arena, branch->relation.value, i);
+    else
+        status = diag_set(diag, E_MISSING, "%s.%s can't be told", instance->name, member);
+done:
+    return status;
+}
+
+/* potential of a terminal against its datum: along the tree path */
+static Status terminal_variable(System *system, int node, Expr *out, Diag *diag)
+{
+    Arena *arena = system->arena;
+    TreeKind kind = TREE_ELECTRICAL;
+    const Tree *tree;
+    Status status = OK;
+
+    while (tree_kind_domain(kind) != graph_node(system->graph, node)->domain)
+        kind++;
+    tree = system->trees[kind];
+    *out = expr_int(arena, 0);
+    for (; tree_parent(tree, node) >= 0; node = tree_parent(tree, node)) {
+        Expr v;
+
+        CHECK(network_across(
+            system, &system->branches.at[system->scalar_of_edge[tree_parent_edge(tree, node)]], &v,
+            diag));
+        /* an across variable is that of the tail against the head */
+        *out = tree_is_forward(tree, node) ? expr_sub(arena, *out, v) : expr_add(arena, *out, v);
+    }
+done:
+    return status;
+}
+
+/* --- the model as a whole --- */
+
+static Expr largest_residual(System *system)
+{
+    Arena *arena = system->arena;
+    Expr largest = expr_int(arena, 0);
+
+    for (int k = 0; k < system->rows.count; k++)
+        largest = expr_call2(arena, OP_MAX, largest, expr_call1(arena, OP_ABS, system->run.phi[k]));
+    return largest;
+}
+
+static bool model_variable(System *system, const char *path, Expr *out)
+{
+    Arena *arena = system->arena;
+
+    if (strcmp(path, "energy.kinetic") == 0)
+        *out = system_kinetic(system);
+    else if (strcmp(path, "energy.potential") == 0)
+        *out = system_potential(system);
+    else if (strcmp(path, "energy.total") == 0)
+        *out = expr_add(arena, system_kinetic(system), system_potential(system));
+    else if (strcmp(path, "constraint.error") == 0)
+        *out = largest_residual(system);
+    else if (strcmp(path, "model.n") == 0)
+        *out = expr_int(arena, system->q.count);
+    else if (strcmp(path, "model.m") == 0)
+        *out = expr_int(arena, system->rows.count);
+    else if (strcmp(path, "model.dof") == 0)
+        *out = expr_int(arena, system->u.count - system->rows.count);
+    else
+        return false;
+    return true;
+}
+
+/* lambda(1), mass(2,2), forces(1), constraints(1), jacobian(1,2) */
+static Status entry_variable(System *system, const char *path, bool *found, Expr *out, Diag *diag)
+{
+    const char *bracket = strchr(path, '(');
+    size_t length = bracket != NULL ? (size_t)(bracket - path) : 0;
+    int row = 0;
+    int column = 1;
+
+    *found = false;
+    if (bracket == NULL || sscanf(bracket, "(%d,%d)", &row, &column) < 1)
+        return OK;
+    if (length == 6 && strncmp(path, "lambda", 6) == 0) {
+        *found = true;
+        if (row < 1 || row > system->rows.count)
+            return diag_set(diag, E_VALUE, "%s: there are %d multipliers", path,
+                            system->rows.count);
+        *out = system->multipliers[row - 1];
+        return OK;
+    }
+    for (Block block = 0; block < BLOCK_COUNT; block++) {
+        int rows;
+        int columns;
+
+        if (strncmp(block_name(block), path, length) != 0 || block_name(block)[length] != '\0')
+            continue;
+        *found = true;
+        system_block_size(system, block, &rows, &columns);
+        if (row < 1 || column < 1 || row > rows || column > columns)
+            return diag_set(diag, E_VALUE, "%s: %s has %d rows and %d columns", path,
+                            block_name(block), rows, columns);
+        return system_show(system, block, row - 1, column - 1, out, diag);
+    }
+    return OK;
+}
+
+/* --- names --- */
+
+static const Instance *instance_named(const System *system, const char *name, size_t length)
+{
+    for (int i = 0; i < system->instance_count; i++)
+        if (strncmp(system->instances[i].name, name, length) == 0 &&
+            system->instances[i].name[length] == '\0')
+            return &system->instances[i];
+    return NULL;
+}
+
+static Status member_variable(System *system, const char *path, Expr *out, Diag *diag)
+{
+    const char *dot = strrchr(path, '.');
+    size_t length = dot != NULL ? (size_t)(dot - path) : strlen(path);
+    const char *member = dot != NULL ? dot + 1 : "";
+    const Instance *instance = instance_named(system, path, length);
+    char *head = mem_text(path, length);
+    int node = graph_find_node(system->graph, head);
+
+    mem_free(head);
+    if (instance == NULL && node < 0)
+        return diag_set(diag, E_NAME, "nothing is called '%s'", path);
+    if (node >= 0 && graph_node(system->graph, node)->domain != DOMAIN_MECHANICAL &&
+        (instance == NULL || instance->scalar_edge < 0))
+        return terminal_variable(system, node, out, diag);
+    if (instance == NULL)
+        return frame_variable(system, node, member, out, diag);
+    switch (instance->row->family) {
+    case FAMILY_BODY:
+    case FAMILY_ARM:
+        return frame_variable(system, instance->head, member, out, diag);
+    case FAMILY_JOINT:
+        return joint_variable(system, instance, member, out, diag);
+    case FAMILY_DRIVER:
+        return driver_variable(system, instance, member, out, diag);
+    case FAMILY_FORCE:
+        if (instance->row->effort != NULL)
+            return effort_variable(system, instance, member, out, diag);
+        break;
+    case FAMILY_SCALAR:
+    case FAMILY_TRANSDUCER:
+        return scalar_variable(system, instance, member, out, diag);
+    }
+    return diag_set(diag, E_MISSING, "%s can't be told", path);
+}
+
+static bool find_coordinate(const System *system, const char *path, const Instance **owner,
+                            int *which)
+{
+    for (int i = 0; i < system->instance_count; i++)
+        for (int c = 0; c < system->instances[i].coord_count; c++)
+            if (strcmp(system->instances[i].coord[c], path) == 0) {
+                *owner = &system->instances[i];
+                *which = c;
+                return true;
+            }
+    return false;
+}
+
+Status system_variable(System *system, const char *path, int primes, Expr *out, Diag *diag)
+{
+    const Instance *owner;
+    int which;
+    bool found = false;
+    Status status = OK;
+
+    if (find_coordinate(system, path, &owner, &which))
+        return coordinate_value(system, owner, which, primes, out, diag);
+    CHECK(entry_variable(system, path, &found, out, diag));
+    found = found || model_variable(system, path, out);
+    for (int i = 0; i < system->output_count && !found; i++)
+        if (strcmp(system->output_names[i], path) == 0) {
+            CHECK(resolve(system, system->outputs[i], out, diag));
+            found = true;
+        }
+    if (!found)
+        CHECK(member_variable(system, path, out, diag));
+    for (; primes > 0; primes--)
+        CHECK(rate_of(system, *out, out, diag));
+done:
+    return status;
+}
+
+Status resolve(System *system, Expr user, Expr *out, Diag *diag)
+{
+    enum { DEEPEST = 40 };
+    Expr *symbols;
+    Expr *values;
+    int count;
+    int used = 0;
+    Status status = OK;
+
+    *out = user;
+    if ((expr_kinds(user) & 1U << SYMBOL_VARIABLE) == 0)
+        return OK;
+    if (++system->depth > DEEPEST) {
+        system->depth--;
+        return diag_set(diag, E_MODEL, "the definitions of outputs or sources lead in a circle");
+    }
+    count = expr_symbols(&user, 1, &symbols);
+    values = NEW_ARRAY(Expr, count);
+    for (int i = 0; i < count; i++) {
+        const char *name = expr_name(symbols[i]);
+        size_t length = strlen(name);
+        int primes = 0;
+        char *path;
+
+        if (expr_symbol_kind(symbols[i]) != SYMBOL_VARIABLE)
+            continue;
+        while (length > 0 && name[length - 1] == '\'') {
+            length--;
+            primes++;
+        }
+        path = mem_text(name, length);
+        symbols[used] = symbols[i];
+        status = system_variable(system, path, primes, &values[used++], diag);
+        mem_free(path);
+        CHECK(status);
+    }
+    *out = expr_substitute(system->arena, user, symbols, values, used);
+done:
+    system->depth--;
+    mem_free(symbols);
+    mem_free(values);
+    return status;
+}
+
+Status system_resolve(System *system, Expr user, Expr *out, Diag *diag)
+{
+    return resolve(system, user, out, diag);
+}

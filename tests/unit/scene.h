@@ -1,0 +1,92 @@
+/* scene.h: models from statements, for tests */
+#ifndef COTREE_TESTS_SCENE_H
+#define COTREE_TESTS_SCENE_H
+
+#include "formulate/system.h"
+#include "test.h"
+
+/* Apply statements, lines separated by \n; a fault of the test when one fails. */
+__attribute__((unused)) static void scene_add(Model *model, const char *text)
+{
+    const char *line = text;
+
+    while (*line != '\0') {
+        size_t length = strcspn(line, "\n");
+        char *copy = mem_text(line, length);
+        size_t next = 0;
+        Diag diag = {0};
+
+        while (next < length) {
+            Statement *statement = NULL;
+
+            if (statement_parse(copy, 1, (SyntaxOptions){0}, &next, &statement, &diag) != OK ||
+                (statement->kind != STATEMENT_EMPTY &&
+                 model_apply(model, statement, &diag) != OK)) {
+                test_faults++;
+                printf("%s\n    %s (%s)\n", copy, diag.message, diag.hint);
+                next = length;
+            }
+            statement_free(statement);
+        }
+        mem_free(copy);
+        line += length + (line[length] == '\n');
+    }
+}
+
+__attribute__((unused)) static Model *scene_new(const char *text)
+{
+    Model *model = model_new();
+
+    scene_add(model, text);
+    return model;
+}
+
+/* its equations, or NULL and a fault */
+__attribute__((unused)) static System *scene_system(const Model *model)
+{
+    System *system = NULL;
+    Diag diag = {0};
+
+    if (system_new(model, NULL, &system, &diag) != OK) {
+        test_faults++;
+        printf("no equations: %s (%s)\n", diag.message, diag.hint);
+    }
+    return system;
+}
+
+/* an expression of the language over the system's variables */
+__attribute__((unused)) static Expr scene_expression(const Model *model, System *system,
+                                                     const char *text)
+{
+    Pool *pool = pool_new(0);
+    Syntax *syntax = NULL;
+    Expr e = expr_int(model_arena(model), 0);
+    Diag diag = {0};
+
+    if (syntax_parse_expression(text, pool, &syntax, &diag) != OK ||
+        model_expression(model, syntax, &e, &diag) != OK ||
+        system_resolve(system, e, &e, &diag) != OK) {
+        test_faults++;
+        printf("%s: %s (%s)\n", text, diag.message, diag.hint);
+    }
+    pool_free(pool);
+    return e;
+}
+
+/* numbers for symbols, by kind and number of the symbol: repeatable and all different */
+typedef struct SceneState {
+    const Model *model;
+    uint64_t seed;
+} SceneState;
+
+__attribute__((unused)) static double scene_value(void *context, Expr symbol)
+{
+    const SceneState *state = context;
+    uint64_t random = state->seed + 77U * (uint64_t)expr_symbol_number(symbol);
+
+    if (expr_symbol_kind(symbol) == SYMBOL_PARAMETER)
+        return model_parameter_value(state->model, symbol);
+    return test_uniform(&random, -2.0, 2.0);
+}
+
+#endif
