@@ -27,10 +27,15 @@ static const struct {
     [PLACES_TRANSDUCER] = {"npppVk", " JOINT PLUS MINUS"},
 };
 
+static VerbGroup component_group(const Component *row)
+{
+    return row->family >= FAMILY_SCALAR ? GROUP_ELECTRICAL : GROUP_MECHANICAL;
+}
+
 static Verb component_verb(const Component *row)
 {
     return (Verb){.name = row->name,
-                  .group = row->family >= FAMILY_SCALAR ? GROUP_ELECTRICAL : GROUP_MECHANICAL,
+                  .group = component_group(row),
                   .shape = places[row->places].shape,
                   .brief = row->brief,
                   .help = row->help,
@@ -61,14 +66,11 @@ bool verb_at(int i, Verb *verb)
     for (VerbGroup group = GROUP_SCENE; group <= GROUP_SESSION; group++) {
         const Component *row;
 
-        for (int n = 0; (row = component_at(n)) != NULL; n++) {
-            Verb v = component_verb(row);
-
-            if (v.group == group && i-- == 0) {
-                *verb = v;
+        for (int n = 0; (row = component_at(n)) != NULL; n++)
+            if (component_group(row) == group && i-- == 0) {
+                *verb = component_verb(row);
                 return true;
             }
-        }
         for (int n = 0; n < COUNT(tables); n++)
             for (const Verb *v = tables[n]; v->name != NULL; v++)
                 if (v->group == group && i-- == 0) {

@@ -1,2 +1,5 @@
 # random input; built under the sanitizers and run by `make fuzz` alone, which adds the names in
 # FUZZERS to the programs and calls each as `NAME --seconds N --seed N FOLDER` (scripts to vary)
+FUZZERS += fuzz_statement
+fuzz_statement_SOURCES = tests/fuzz/fuzz_statement.c tests/fuzz/mutate.c tests/fuzz/mutate.h
+fuzz_statement_LDADD = $(unit_ldadd)
