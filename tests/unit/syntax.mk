@@ -9,3 +9,6 @@ test_syntax_verbs_LDADD = $(unit_ldadd)
 test_syntax_wrong_SOURCES = tests/unit/test_syntax_wrong.c tests/unit/test.h tests/unit/wrong.h
 test_syntax_wrong_LDADD = $(unit_ldadd)
 EXTRA_DIST += tests/session/wrong.txt
+UNIT_TESTS += test_syntax_model
+test_syntax_model_SOURCES = tests/unit/test_syntax_model.c tests/unit/test.h tests/unit/wrong.h
+test_syntax_model_LDADD = $(unit_ldadd)
