@@ -287,6 +287,11 @@ uint64_t system_revision(const System *system)
     return system->revision;
 }
 
+const char *system_instance_name(const System *system, int instance)
+{
+    return system->instances[instance].name;
+}
+
 Arena *system_arena(const System *system)
 {
     return system->arena;

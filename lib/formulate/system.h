@@ -22,6 +22,7 @@ MUST_USE Status system_new(const Model *model, const Watch *watch, System **out,
 void system_free(System *system); /* NULL is fine */
 uint64_t system_revision(const System *system);
 Arena *system_arena(const System *system);
+const char *system_instance_name(const System *system, int instance); /* borrowed */
 
 /* --- variables; each list in order of the edges' making --- */
 
