@@ -14,6 +14,7 @@
 #include <string.h>
 
 #define STAGES         16
+#define AIM            0.1 /* of the tolerance, a step: some hundred of them then add up to about it */
 #define SAFETY         0.9
 #define SHRINK         (1 / 3.0)
 #define GROW           6.0
@@ -87,9 +88,14 @@ static double scaled_norm(const Dop853 *d, const double *v)
 static void choose_scale(Dop853 *d, const double *a, const double *b)
 {
     const Control *control = &d->base.control;
+    const double *cap = d->base.ode->cap;
 
-    for (int i = 0; i < d->n; i++)
-        d->scale[i] = control->atol + control->rtol * fmax(fabs(a[i]), fabs(b[i]));
+    for (int i = 0; i < d->n; i++) {
+        double size = fmax(fabs(a[i]), fabs(b[i]));
+
+        size = cap != NULL ? fmin(size, cap[i]) : size;
+        d->scale[i] = AIM * (control->atol + control->rtol * size);
+    }
 }
 
 /* A first step: the one whose explicit Euler result, compared with f there, promises an error

@@ -29,7 +29,7 @@ struct Motion {
     bool is_evaluated, is_factored, is_embedded_factored; /* at t, q */
     double t, *q;
     double *solved; /* [x'; z] */
-    double *top, *bottom, *du, *lambda, *lambda_all;
+    double *top, *bottom, *du, *kept, *lambda, *lambda_all;
     double *dae_weight, *row_size;
     MotionCounts counts;
 };
@@ -45,7 +45,11 @@ static void describe_ode(Motion *mo)
     const Equations *eq = mo->eq;
     int y = motion_length(mo);
 
-    mo->ode = (Ode){.n = eq->n + eq->nu + eq->nx, .quadratures = 1, .context = mo, .rate = rate};
+    mo->ode = (Ode){.n = eq->n + eq->nu + eq->nx,
+                    .quadratures = 1,
+                    .context = mo,
+                    .rate = rate,
+                    .cap = eq->cap};
     if (mo->used > 0 || eq->quaternion_count > 0)
         mo->ode.project = project;
     mo->ode.dae.n = y + (mo->options.embedded ? 0 : 2 * mo->used);
@@ -84,6 +88,7 @@ Motion *motion_new(const Equations *eq, const MotionOptions *options)
     mo->top = NEW_ARRAY(double, eq->nu);
     mo->bottom = NEW_ARRAY(double, mo->used);
     mo->du = NEW_ARRAY(double, eq->nu);
+    mo->kept = NEW_ARRAY(double, eq->nu);
     mo->lambda = NEW_ARRAY(double, mo->used);
     mo->lambda_all = NEW_ARRAY(double, eq->m);
     mo->row_size = NEW_ARRAY(double, eq->m);
@@ -106,6 +111,7 @@ void motion_free(Motion *mo)
     mem_free(mo->top);
     mem_free(mo->bottom);
     mem_free(mo->du);
+    mem_free(mo->kept);
     mem_free(mo->lambda);
     mem_free(mo->lambda_all);
     mem_free(mo->row_size);
@@ -127,6 +133,11 @@ void motion_window(Motion *mo, double low, double high)
 {
     mo->low = low;
     mo->high = high;
+}
+
+void motion_tolerance(Motion *mo, double tolerance)
+{
+    mo->options.tolerance = tolerance;
 }
 
 MotionCounts motion_counts(const Motion *mo)
@@ -224,6 +235,23 @@ static bool solve_embedded(Motion *mo)
     return true;
 }
 
+/* after u' is known: power may read it and the multipliers, also in the embedded form */
+static void bring_power(Motion *mo, const double *acceleration)
+{
+    if (mo->eq->accelerated == NULL)
+        return;
+    if (mo->embed != NULL) {
+        memcpy(mo->kept, acceleration, (size_t)mo->eq->nu * sizeof(double));
+        if (!solve_augmented(mo))
+            return;
+        memcpy(mo->du, mo->kept, (size_t)mo->eq->nu * sizeof(double));
+    }
+    memset(mo->lambda_all, 0, (size_t)mo->eq->m * sizeof(double));
+    for (int k = 0; k < mo->used; k++)
+        mo->lambda_all[mo->rows[k]] = mo->lambda[k];
+    mo->eq->accelerated(mo->eq->context, mo->du, mo->lambda_all);
+}
+
 static void write_rates(const Motion *mo, double *out)
 {
     const Equations *eq = mo->eq;
@@ -242,6 +270,7 @@ static bool rate(void *context, double t, const double *y, double *out)
         return false;
     if (!(mo->embed != NULL ? solve_embedded(mo) : solve_augmented(mo)))
         return false;
+    bring_power(mo, mo->du);
     write_rates(mo, out);
     return vector_is_finite(out, mo->ode.n);
 }
@@ -518,6 +547,15 @@ static bool dae_residual(void *context, double t, const double *w, const double 
 
     if (!evaluate(mo, t, w))
         return false;
+    if (eq->accelerated != NULL) {
+        memset(mo->lambda_all, 0, (size_t)eq->m * sizeof(double));
+        for (int k = 0; k < mo->used && mo->embed == NULL; k++)
+            mo->lambda_all[mo->rows[k]] = w_rate[motion_length(mo) + k];
+        if (mo->embed != NULL && solve_augmented(mo))
+            for (int k = 0; k < mo->used; k++)
+                mo->lambda_all[mo->rows[k]] = mo->lambda[k];
+        eq->accelerated(eq->context, w_rate + eq->n, mo->lambda_all);
+    }
     for (int i = 0; i < eq->n; i++)
         out[i] = w_rate[i] - eq->q_rate[i];
     if (mo->embed != NULL) {
@@ -542,6 +580,7 @@ static bool dae_start(void *context, double t, const double *y, double *w, doubl
     memcpy(w, y, (size_t)tail * sizeof(double));
     if (!evaluate(mo, t, y) || !solve_augmented(mo))
         return false;
+    bring_power(mo, mo->du);
     write_rates(mo, w_rate);
     if (mo->embed == NULL)
         for (int k = 0; k < mo->used; k++) {

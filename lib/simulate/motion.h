@@ -18,8 +18,10 @@ typedef struct Equations {
     void (*position)(void *context, double t, const double *q);
     /* then q_rate, nu, gamma, network, network_rhs */
     void (*velocity)(void *context, const double *u, const double *x);
-    /* then force and power; `solved` is [x'; z] */
+    /* then force; `solved` is [x'; z] */
     void (*network_solved)(void *context, const double *solved);
+    /* then power; NULL when it is known before. `multipliers` of all m rows. */
+    void (*accelerated)(void *context, const double *acceleration, const double *multipliers);
     const double *phi;         /* m */
     const double *phi_u;       /* m x nu */
     const double *mass;        /* nu x nu */
@@ -31,6 +33,7 @@ typedef struct Equations {
     const double *network_rhs; /* nx+nz: r */
     const double *force;       /* nu */
     const double *power;       /* 1: work done on the system per time, W; NULL: not known */
+    const double *cap;         /* n+nu+nx, for Ode; may be NULL */
     const int *quaternions;    /* first of each four Euler parameters */
     int quaternion_count;
     /* conditions whose change of sign may bend or break the equations; time_only ones first */
@@ -73,6 +76,9 @@ void motion_residuals(Motion *motion, double t, const double *y, double *positio
 /* The time that rates see is kept within [low, high], so that a step up to a switch
  * never looks behind it. */
 void motion_window(Motion *motion, double low, double high);
+
+/* atol of the run, once it is known: bounds what a projection may leave */
+void motion_tolerance(Motion *motion, double tolerance);
 
 /* Choose independent speeds anew at y, which lies on the manifold; true when they changed. Does
  * nothing in the augmented form. */

@@ -29,6 +29,9 @@ typedef struct Ode {
     bool (*rate)(void *context, double t, const double *y, double *rate);
     /* move y back onto its manifold; false: can't. NULL: there is none */
     bool (*project)(void *context, double t, double *y);
+    /* n: |y_i| counts up to here in a relative tolerance (an angle of many turns isn't known less
+     * well than one of a few); NULL: all of it */
+    const double *cap;
     Dae dae; /* entries 0..n+quadratures-1 of w are y; n 0: not offered */
 } Ode;
 
