@@ -5,6 +5,8 @@ libcore_la_SOURCES += \
   lib/simulate/embed.c \
   lib/simulate/embed.h \
   lib/simulate/ida.c \
+  lib/simulate/inverse.c \
+  lib/simulate/inverse.h \
   lib/simulate/kkt.c \
   lib/simulate/kkt.h \
   lib/simulate/least.c \
@@ -17,8 +19,15 @@ libcore_la_SOURCES += \
   lib/simulate/methods.def \
   lib/simulate/motion.c \
   lib/simulate/motion.h \
+  lib/simulate/numbers.c \
+  lib/simulate/numbers.h \
   lib/simulate/ode.h \
   lib/simulate/rank.c \
   lib/simulate/rank.h \
+  lib/simulate/result.c \
+  lib/simulate/result.h \
   lib/simulate/rk4.c \
-  lib/simulate/run.h
+  lib/simulate/run.h \
+  lib/simulate/simulate.c \
+  lib/simulate/start.c \
+  lib/simulate/start.h

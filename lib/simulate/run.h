@@ -14,7 +14,7 @@ typedef struct RunOptions {
     double duration;    /* s */
     double every;       /* output step, s; 0: duration / 500 */
     double rtol;        /* 0: 1e-8 */
-    double atol;        /* 0: 1e-8, times 1 m, 1 rad, 1 m/s, 1 A */
+    double atol;        /* times 1 m, 1 rad, 1 m/s, 1 A; 0: as rtol */
     double step;        /* fixed or largest step, s; 0: free */
     const char *method; /* a row of methods.def; NULL: auto */
     bool check;         /* run again at a tenth of the tolerance and report the global error */
@@ -41,19 +41,21 @@ typedef struct RunReport {
 } RunReport;
 
 /* Initial values in force: lists of the model, as numbers. */
+typedef struct StartValue {
+    const char *name; /* variable */
+    int primes;
+    double value;
+    bool is_guess;
+} StartValue;
 typedef struct StartValues {
     int count;
-    struct StartValue {
-        const char *name; /* variable */
-        int primes;
-        double value;
-        bool is_guess;
-    } * at;
+    StartValue *at;
 } StartValues;
 
 typedef struct Result Result;
 
-/* Numbers of a parameter, asked once a run. */
+/* Numbers of a parameter, asked once a run. Results keep the answers; they ask again for parameters
+ * that only a later question about them brings in, so `context` outlives them. */
 typedef double (*ParameterValue)(void *context, Expr symbol);
 typedef struct Setting {
     ParameterValue parameter;

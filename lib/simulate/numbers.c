@@ -1,0 +1,419 @@
+/* numbers.c: programs over a system's variables */
+#include "simulate/numbers.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+#include <string.h>
+
+/* --- layout --- */
+
+static int append(Layout *layout, int *room, Expr symbol)
+{
+    if (layout->count == *room) {
+        *room = *room < 32 ? 64 : 2 * *room;
+        layout->symbols = mem_grow(layout->symbols, (size_t)*room, sizeof(Expr));
+    }
+    layout->symbols[layout->count] = symbol;
+    return layout->count++;
+}
+
+static Expr jerk_symbol(System *system, int i)
+{
+    Text name = {0};
+    Expr symbol;
+
+    text_addf(&name, "%s'", expr_name(system_acceleration(system, i)));
+    symbol = expr_symbol(system_arena(system), name.at, SYMBOL_JERK);
+    text_free(&name);
+    return symbol;
+}
+
+Layout *layout_new(System *system)
+{
+    Layout *l = NEW(Layout);
+    int room = 0;
+
+    l->system = system;
+    l->n = system_n(system);
+    l->nu = system_nu(system);
+    l->m = system_m(system);
+    l->nx = system_nx(system);
+    l->nz = system_nz(system);
+    l->t = append(l, &room, expr_symbol(system_arena(system), "t", SYMBOL_TIME));
+    l->q = l->count;
+    for (int i = 0; i < l->n; i++)
+        (void)append(l, &room, system_q(system, i)->symbol);
+    l->u = l->count;
+    for (int i = 0; i < l->nu; i++)
+        (void)append(l, &room, system_u(system, i)->symbol);
+    l->x = l->count;
+    for (int i = 0; i < l->nx; i++)
+        (void)append(l, &room, system_x(system, i)->symbol);
+    l->rates = l->count;
+    for (int i = 0; i < l->nx; i++)
+        (void)append(l, &room, system_state_rate(system, i));
+    l->z = l->count;
+    for (int i = 0; i < l->nz; i++)
+        (void)append(l, &room, system_z(system, i)->symbol);
+    l->acceleration = l->count;
+    for (int i = 0; i < l->nu; i++)
+        (void)append(l, &room, system_acceleration(system, i));
+    l->multipliers = l->count;
+    for (int k = 0; k < l->m; k++)
+        (void)append(l, &room, system_multiplier(system, k));
+    l->efforts = l->count;
+    for (int k = 0; k < system_drive_count(system); k++) {
+        Expr effort = system_drive(system, k)->effort;
+
+        /* a driver's own effort is minus its multiplier, and no unknown of its own */
+        if (expr_kind(effort) == EXPR_SYMBOL && expr_symbol_kind(effort) == SYMBOL_EFFORT)
+            (void)append(l, &room, effort);
+    }
+    l->ne = l->count - l->efforts;
+    l->jerk = l->count;
+    for (int i = 0; i < l->nu; i++)
+        (void)append(l, &room, jerk_symbol(system, i));
+    return l;
+}
+
+void layout_free(Layout *layout)
+{
+    if (layout == NULL)
+        return;
+    mem_free(layout->symbols);
+    mem_free(layout);
+}
+
+/* --- parameters --- */
+
+double parameters_value(Parameters *p, Expr symbol)
+{
+    for (int i = 0; i < p->count; i++)
+        if (p->symbols[i] == symbol)
+            return p->values[i];
+    if (p->count == p->room) {
+        p->room = p->room < 16 ? 32 : 2 * p->room;
+        p->symbols = mem_grow(p->symbols, (size_t)p->room, sizeof(Expr));
+        p->values = mem_grow(p->values, (size_t)p->room, sizeof(double));
+    }
+    p->symbols[p->count] = symbol;
+    p->values[p->count] = p->value != NULL ? p->value(p->context, symbol) : NAN;
+    return p->values[p->count++];
+}
+
+void parameters_keep(Parameters *p, const Expr *roots, int count)
+{
+    Expr *symbols;
+    int found = expr_symbols(roots, count, &symbols);
+
+    for (int i = 0; i < found; i++)
+        if (expr_symbol_kind(symbols[i]) == SYMBOL_PARAMETER)
+            (void)parameters_value(p, symbols[i]);
+    mem_free(symbols);
+}
+
+void parameters_free(Parameters *p)
+{
+    mem_free(p->symbols);
+    mem_free(p->values);
+    *p = (Parameters){0};
+}
+
+/* A program over the layout and whatever parameters its roots hold; its workspace has these set,
+ * and what depends on them alone computed. */
+static Status compile(const Layout *layout, Parameters *parameters, const Expr *roots, int count,
+                      Program **program, Workspace **workspace, Diag *diag)
+{
+    Expr *symbols;
+    int found = expr_symbols(roots, count, &symbols);
+    Expr *inputs = NEW_ARRAY(Expr, layout->count + found);
+    int input_count = layout->count;
+    Status status;
+
+    memcpy(inputs, layout->symbols, (size_t)layout->count * sizeof(Expr));
+    for (int i = 0; i < found; i++)
+        if (expr_symbol_kind(symbols[i]) == SYMBOL_PARAMETER)
+            inputs[input_count++] = symbols[i];
+    status = program_new(roots, count, inputs, input_count, program, diag);
+    if (status == OK) {
+        *workspace = workspace_new(*program);
+        for (int i = layout->count; i < input_count; i++)
+            workspace_inputs(*workspace)[i] = parameters_value(parameters, inputs[i]);
+        workspace_run(*workspace, STAGE_PARAMETER, STAGE_PARAMETER);
+    }
+    mem_free(symbols);
+    mem_free(inputs);
+    return status;
+}
+
+/* --- probes --- */
+
+struct Probe {
+    const Layout *layout;
+    Program *program;
+    Workspace *workspace;
+};
+
+Status probe_new(const Layout *layout, Parameters *parameters, const Expr *roots, int count,
+                 Probe **out, Diag *diag)
+{
+    Probe *probe = NEW(Probe);
+    Status status;
+
+    probe->layout = layout;
+    status = compile(layout, parameters, roots, count, &probe->program, &probe->workspace, diag);
+    if (status == OK)
+        *out = probe;
+    else
+        probe_free(probe);
+    return status;
+}
+
+void probe_free(Probe *probe)
+{
+    if (probe == NULL)
+        return;
+    workspace_free(probe->workspace);
+    program_free(probe->program);
+    mem_free(probe);
+}
+
+static void put(double *inputs, int first, const double *values, int count)
+{
+    if (values != NULL)
+        memcpy(inputs + first, values, (size_t)count * sizeof(double));
+    else
+        memset(inputs + first, 0, (size_t)count * sizeof(double));
+}
+
+const double *probe_values(Probe *probe, const RowValues *row)
+{
+    const Layout *l = probe->layout;
+    double *inputs = workspace_inputs(probe->workspace);
+
+    inputs[l->t] = row->t;
+    put(inputs, l->q, row->q, l->n);
+    put(inputs, l->u, row->u, l->nu);
+    put(inputs, l->x, row->x, l->nx);
+    put(inputs, l->rates, row->rates, l->nx);
+    put(inputs, l->z, row->z, l->nz);
+    put(inputs, l->acceleration, row->acceleration, l->nu);
+    put(inputs, l->multipliers, row->multipliers, l->m);
+    put(inputs, l->efforts, row->efforts, l->ne);
+    put(inputs, l->jerk, row->jerk, l->nu);
+    workspace_run(probe->workspace, STAGE_TIME, STAGE_ACCELERATION);
+    return workspace_roots(probe->workspace);
+}
+
+/* --- equations --- */
+
+struct Numbers {
+    Equations eq;
+    const Layout *layout;
+    Program *program, *switch_program;
+    Workspace *workspace, *switch_workspace;
+    int *quaternions;
+    double *cap;
+};
+
+static void position(void *context, double t, const double *q)
+{
+    Numbers *nb = context;
+    double *inputs = workspace_inputs(nb->workspace);
+
+    inputs[nb->layout->t] = t;
+    put(inputs, nb->layout->q, q, nb->layout->n);
+    workspace_run(nb->workspace, STAGE_TIME, STAGE_POSITION);
+}
+
+static void velocity(void *context, const double *u, const double *x)
+{
+    Numbers *nb = context;
+    double *inputs = workspace_inputs(nb->workspace);
+
+    put(inputs, nb->layout->u, u, nb->layout->nu);
+    put(inputs, nb->layout->x, x, nb->layout->nx);
+    workspace_run(nb->workspace, STAGE_VELOCITY, STAGE_VELOCITY);
+}
+
+static void network_solved(void *context, const double *solved)
+{
+    Numbers *nb = context;
+    double *inputs = workspace_inputs(nb->workspace);
+
+    put(inputs, nb->layout->rates, solved, nb->layout->nx);
+    put(inputs, nb->layout->z, solved + nb->layout->nx, nb->layout->nz);
+    workspace_run(nb->workspace, STAGE_NETWORK, STAGE_NETWORK);
+}
+
+static void accelerated(void *context, const double *acceleration, const double *multipliers)
+{
+    Numbers *nb = context;
+    double *inputs = workspace_inputs(nb->workspace);
+
+    put(inputs, nb->layout->acceleration, acceleration, nb->layout->nu);
+    put(inputs, nb->layout->multipliers, multipliers, nb->layout->m);
+    workspace_run(nb->workspace, STAGE_ACCELERATION, STAGE_ACCELERATION);
+}
+
+static void switches(void *context, double t, const double *q, const double *u, const double *x,
+                     double *out)
+{
+    Numbers *nb = context;
+    double *inputs = workspace_inputs(nb->switch_workspace);
+
+    inputs[nb->layout->t] = t;
+    put(inputs, nb->layout->q, q, nb->layout->n);
+    put(inputs, nb->layout->u, u, nb->layout->nu);
+    put(inputs, nb->layout->x, x, nb->layout->nx);
+    workspace_run(nb->switch_workspace, STAGE_TIME, STAGE_VELOCITY);
+    memcpy(out, workspace_roots(nb->switch_workspace),
+           (size_t)nb->eq.switch_count * sizeof(double));
+}
+
+typedef LIST(Expr) Roots;
+
+/* append a block; its first place */
+static int block(Roots *roots, const Expr *entries, int count)
+{
+    int first = roots->count;
+
+    for (int i = 0; i < count; i++)
+        LIST_PUSH(*roots, entries[i]);
+    return first;
+}
+
+static bool is_identity(System *system)
+{
+    int n = system_n(system), nu = system_nu(system);
+
+    for (int i = 0; i < n && n == nu; i++)
+        for (int j = 0; j < nu; j++)
+            if (!expr_is(system_n_entry(system, i, j), i == j))
+                return false;
+    return n == nu;
+}
+
+static Status compile_equations(Numbers *nb, Parameters *parameters, Diag *diag)
+{
+    const Layout *l = nb->layout;
+    const Reading *r = system_run(l->system);
+    Expr power = system_power(l->system);
+    int w = l->nx + l->nz;
+    Roots roots = {0};
+    int phi = block(&roots, r->phi, l->m);
+    int phi_u = block(&roots, r->phi_u, l->m * l->nu);
+    int mass = block(&roots, r->mass, l->nu * l->nu);
+    int nu_rate = block(&roots, r->nu, l->m);
+    int gamma = block(&roots, r->gamma, l->m);
+    int q_rate = block(&roots, r->q_rate, l->n);
+    int network = block(&roots, r->network, w * w);
+    int rhs = block(&roots, r->network_rhs, w);
+    int force = block(&roots, r->force, l->nu);
+    int work = block(&roots, &power, 1);
+    int map = roots.count;
+    const double *at;
+    Status status = OK;
+
+    for (int i = 0; i < l->n && !is_identity(l->system); i++)
+        for (int j = 0; j < l->nu; j++)
+            LIST_PUSH(roots, system_n_entry(l->system, i, j));
+    parameters_keep(parameters, roots.at, roots.count);
+    CHECK(compile(l, parameters, roots.at, roots.count, &nb->program, &nb->workspace, diag));
+    at = workspace_roots(nb->workspace);
+    nb->eq.phi = at + phi;
+    nb->eq.phi_u = at + phi_u;
+    nb->eq.mass = at + mass;
+    nb->eq.nu_rate = at + nu_rate;
+    nb->eq.gamma = at + gamma;
+    nb->eq.q_rate = at + q_rate;
+    nb->eq.network = at + network;
+    nb->eq.network_rhs = at + rhs;
+    nb->eq.force = at + force;
+    nb->eq.power = at + work;
+    nb->eq.map = map < roots.count ? at + map : NULL;
+    nb->eq.accelerated = stage_of(power) == STAGE_ACCELERATION ? accelerated : NULL;
+done:
+    LIST_FREE(roots);
+    return status;
+}
+
+/* conditions that can be looked at without solving anything */
+static Status compile_switches(Numbers *nb, Parameters *parameters, Diag *diag)
+{
+    const Expr *conditions;
+    int time_only = 0;
+    int count = system_switches(nb->layout->system, &conditions, &time_only);
+    Roots roots = {0};
+    Status status = OK;
+
+    for (int i = 0; i < count; i++) {
+        if (stage_of(conditions[i]) == STAGE_PARAMETER || stage_of(conditions[i]) > STAGE_VELOCITY)
+            continue;
+        LIST_PUSH(roots, conditions[i]);
+        nb->eq.time_only += i < time_only;
+    }
+    nb->eq.switch_count = roots.count;
+    if (roots.count > 0)
+        CHECK(compile(nb->layout, parameters, roots.at, roots.count, &nb->switch_program,
+                      &nb->switch_workspace, diag));
+done:
+    LIST_FREE(roots);
+    return status;
+}
+
+Status numbers_new(const Layout *layout, Parameters *parameters, Numbers **out, Diag *diag)
+{
+    Numbers *nb = NEW(Numbers);
+    int count = 0;
+    Status status = OK;
+
+    nb->layout = layout;
+    nb->eq = (Equations){.n = layout->n,
+                         .nu = layout->nu,
+                         .m = layout->m,
+                         .nx = layout->nx,
+                         .nz = layout->nz,
+                         .context = nb,
+                         .position = position,
+                         .velocity = velocity,
+                         .network_solved = network_solved,
+                         .switches = switches};
+    while (system_quaternion(layout->system, count) >= 0)
+        count++;
+    nb->quaternions = NEW_ARRAY(int, count);
+    for (int i = 0; i < count; i++)
+        nb->quaternions[i] = system_quaternion(layout->system, i);
+    nb->cap = NEW_ARRAY(double, layout->n + layout->nu + layout->nx);
+    for (int i = 0; i < layout->n + layout->nu + layout->nx; i++)
+        nb->cap[i] = i < layout->n && system_q(layout->system, i)->is_angle ? 1 : INFINITY;
+    nb->eq.cap = nb->cap;
+    nb->eq.quaternions = nb->quaternions;
+    nb->eq.quaternion_count = count;
+    CHECK(compile_equations(nb, parameters, diag));
+    CHECK(compile_switches(nb, parameters, diag));
+    *out = nb;
+    nb = NULL;
+done:
+    numbers_free(nb);
+    return status;
+}
+
+void numbers_free(Numbers *nb)
+{
+    if (nb == NULL)
+        return;
+    workspace_free(nb->workspace);
+    program_free(nb->program);
+    workspace_free(nb->switch_workspace);
+    program_free(nb->switch_program);
+    mem_free(nb->quaternions);
+    mem_free(nb->cap);
+    mem_free(nb);
+}
+
+const Equations *numbers_equations(const Numbers *nb)
+{
+    return &nb->eq;
+}

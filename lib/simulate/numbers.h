@@ -1,0 +1,59 @@
+/* numbers.h: a System's expressions in numbers: programs, and where their inputs stand
+ *
+ * A Layout fixes the order of inputs for all programs over one system: t, q, u, x, x', z, u',
+ * lambda, efforts, u''; a program's parameters come behind these. Numbers is the reading to run as
+ * Equations; a Probe computes any other expressions at a row. */
+#ifndef COTREE_SIMULATE_NUMBERS_H
+#define COTREE_SIMULATE_NUMBERS_H
+
+#include "compile/program.h"
+#include "formulate/system.h"
+#include "simulate/motion.h"
+#include "simulate/run.h"
+
+typedef struct Layout {
+    System *system;
+    int n, nu, m, nx, nz, ne;
+    int t, q, u, x, rates, z, acceleration, multipliers, efforts, jerk; /* first of each */
+    int count;
+    Expr *symbols; /* count */
+} Layout;
+
+Layout *layout_new(System *system); /* new; free with layout_free(). Symbols of u'' are made. */
+void layout_free(Layout *layout);
+
+/* Values of parameters, kept from the start of a run on. */
+typedef struct Parameters {
+    ParameterValue value;
+    void *context;
+    int count, room;
+    Expr *symbols;
+    double *values;
+} Parameters;
+
+void parameters_keep(Parameters *parameters, const Expr *roots, int count);
+double parameters_value(Parameters *parameters, Expr symbol); /* kept, else asked and kept */
+void parameters_free(Parameters *parameters);
+
+/* what a row knows; arrays may be NULL for 0 */
+typedef struct RowValues {
+    double t;
+    const double *q, *u, *x, *rates, *z, *acceleration, *multipliers, *efforts, *jerk;
+} RowValues;
+
+typedef struct Probe Probe;
+/* Compile; the layout outlives the probe. Fails as program_new() does. */
+MUST_USE Status probe_new(const Layout *layout, Parameters *parameters, const Expr *roots,
+                          int count, Probe **out, Diag *diag);
+void probe_free(Probe *probe); /* NULL is fine */
+/* the values of the roots; borrowed, until the next call */
+const double *probe_values(Probe *probe, const RowValues *row);
+
+typedef struct Numbers Numbers;
+/* Compile the reading to run. `layout` and `parameters` outlive it. */
+MUST_USE Status numbers_new(const Layout *layout, Parameters *parameters, Numbers **out,
+                            Diag *diag);
+void numbers_free(Numbers *numbers); /* NULL is fine */
+const Equations *numbers_equations(const Numbers *numbers);
+
+#endif

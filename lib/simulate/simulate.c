@@ -1,0 +1,409 @@
+/* simulate.c: runs: forward, resumed, driven */
+#include "simulate/result.h"
+
+#include "base/memory.h"
+#include "simulate/inverse.h"
+
+#include <math.h>
+#include <string.h>
+#include <time.h>
+
+#define LEAST_RTOL   1e-13
+#define MOST_ROWS    20000000
+#define AUTO         "auto"
+#define DEFAULT_RTOL 1e-8
+
+const char *run_method(int i, const char **brief)
+{
+    const Method *method = method_row(i - 1);
+
+    if (i == 0) {
+        *brief = "dop853, and bdf once the equations turn out to be stiff";
+        return AUTO;
+    }
+    if (method == NULL)
+        return NULL;
+    *brief = method->brief;
+    return method->name;
+}
+
+static double seconds(void)
+{
+    struct timespec now;
+
+    (void)clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+/* --- options --- */
+
+static Status find_method(const char *name, const Method **out, Diag *diag)
+{
+    Suggest suggest = suggest_for(name != NULL ? name : AUTO);
+    const char *brief;
+
+    *out = NULL;
+    if (name == NULL || strcmp(name, AUTO) == 0)
+        return OK;
+    *out = method_find(name);
+    if (*out != NULL)
+        return OK;
+    for (int i = 0; run_method(i, &brief) != NULL; i++)
+        suggest_offer(&suggest, run_method(i, &brief));
+    (void)diag_set(diag, E_NAME, "there is no method '%s'", name);
+    if (suggest.best != NULL)
+        diag_hint(diag, "did you mean '%s'?", suggest.best);
+    else
+        diag_hint(diag, "help methods lists them");
+    return E_NAME;
+}
+
+/* the options with their defaults in place */
+static Status complete_options(const RunOptions *given, RunOptions *out, Diag *diag)
+{
+    *out = *given;
+    if (!(out->duration > 0) || !isfinite(out->duration))
+        return diag_set(diag, E_VALUE, "a run takes a duration above 0, in seconds");
+    if (!(out->every >= 0) || !(out->rtol >= 0) || !(out->atol >= 0) || !(out->step >= 0))
+        return diag_set(diag, E_VALUE, "every, rtol, atol and step can't be below 0");
+    if (out->every == 0)
+        out->every = out->duration / 500;
+    if (out->rtol == 0)
+        out->rtol = DEFAULT_RTOL;
+    if (out->atol == 0)
+        out->atol = out->rtol;
+    if (out->rtol < LEAST_RTOL) {
+        (void)diag_set(diag, E_VALUE, "rtol=%g is finer than numbers are", out->rtol);
+        diag_hint(diag, "1e-12 is about the finest that makes sense");
+        return E_VALUE;
+    }
+    if (out->duration / out->every > MOST_ROWS) {
+        (void)diag_set(diag, E_VALUE, "that makes %.3g rows", out->duration / out->every);
+        diag_hint(diag, "take a larger step of output, every=");
+        return E_VALUE;
+    }
+    return OK;
+}
+
+/* --- forward --- */
+
+static MarchPlan plan_of(const Result *r, const Setting *setting, const RunOptions *options,
+                         const Method *method)
+{
+    return (MarchPlan){
+        .equations = numbers_equations(r->numbers),
+        .motion = r->motion,
+        .method = method,
+        .stiff = &method_bdf,
+        .control = {.rtol = options->rtol, .atol = options->atol, .step = options->step},
+        .every = options->every,
+        .watch = setting->watch};
+}
+
+static void fill_report(Result *r, const MarchReport *march, const RunOptions *options,
+                        bool stopped, double began)
+{
+    MotionCounts counts = motion_counts(r->motion);
+
+    r->report.method = march->method->name;
+    r->report.rtol = options->rtol;
+    r->report.atol = options->atol;
+    r->report.steps = march->counts.steps;
+    r->report.rejected = march->counts.rejected;
+    r->report.evaluations = march->counts.evaluations;
+    r->report.jacobians = march->counts.jacobians;
+    r->report.factorisations = counts.factorisations;
+    r->report.regularised = counts.regularised;
+    r->report.singular_time = counts.singular_time;
+    r->report.position_residual = march->position_residual;
+    r->report.velocity_residual = march->velocity_residual;
+    r->report.reached = march->reached;
+    r->report.stopped = stopped;
+    r->report.wall = seconds() - began;
+}
+
+static void remark_march(Result *r, const MarchReport *march, const RunOptions *options)
+{
+    MotionCounts counts = motion_counts(r->motion);
+
+    if (march->remarks.at != NULL)
+        text_add(&r->remarks, march->remarks.at);
+    if (counts.regularised > 0)
+        text_addf(
+            &r->remarks,
+            "passed near a singular position, first at t = %.6g s; about 1e-7 is the accuracy "
+            "to be had there\n",
+            counts.singular_time);
+    if (counts.regularised > 0 && options->rtol < 1e-10)
+        text_add(&r->remarks, "a tolerance below 1e-10 gains nothing through singular positions\n");
+}
+
+/* a second run at a tenth of the tolerance: twice the largest difference over the grid */
+static Status estimate_error(Result *r, const Setting *setting, const RunOptions *options,
+                             const Method *method, double from, double to, Diag *diag)
+{
+    RunOptions finer = *options;
+    MarchPlan plan;
+    MarchReport march_report;
+    Grid grid = {0};
+    double largest = 0;
+    Status status;
+
+    finer.rtol = fmax(LEAST_RTOL, options->rtol / 10);
+    finer.atol = options->atol / 10;
+    plan = plan_of(r, setting, &finer, method);
+    plan.from = from;
+    plan.to = to;
+    status = march(&plan, r->start.y, &grid, &march_report, diag);
+    for (int i = 0; status == OK && i < grid.count; i++) {
+        const double *a = grid.states + (ptrdiff_t)i * grid.length;
+        const double *b =
+            r->grid.states + (ptrdiff_t)(r->grid.count - grid.count + i) * r->grid.length;
+
+        for (int k = 0; k < grid.length - 1; k++)
+            largest = fmax(largest, fabs(a[k] - b[k]));
+    }
+    if (status == OK)
+        r->report.global_error = 2 * largest;
+    text_free(&march_report.remarks);
+    grid_free(&grid);
+    return status;
+}
+
+/* March a result whose start is set; it is kept also when that ends early. */
+static Status go(Result *r, const Setting *setting, const RunOptions *given, double from,
+                 bool skip_first, Diag *diag)
+{
+    const Method *method;
+    RunOptions options;
+    MarchPlan plan;
+    MarchReport report_of = {.method = &method_dop853};
+    Status status = OK;
+    double began = seconds();
+
+    CHECK(complete_options(given, &options, diag));
+    CHECK(find_method(options.method, &method, diag));
+    motion_tolerance(r->motion, options.atol);
+    plan = plan_of(r, setting, &options, method);
+    plan.from = from;
+    plan.to = from + options.duration;
+    plan.skip_first = skip_first;
+    status = march(&plan, r->start.y, &r->grid, &report_of, diag);
+    remark_march(r, &report_of, &options);
+    text_free(&report_of.remarks);
+    fill_report(r, &report_of, &options, status == E_STOPPED, began);
+    if (status == OK && options.check)
+        status = estimate_error(r, setting, &options, method, from, plan.to, diag);
+    if (result_balance(r, NULL) != OK)
+        r->report.energy_drift = NAN;
+    r->report.wall = seconds() - began;
+done:
+    return status;
+}
+
+/* drivers whose motion another effort supplies belong to inverse runs */
+static Status refuse_by(const Layout *l, Diag *diag)
+{
+    for (int i = 0; i < l->ne; i++) {
+        (void)diag_set(diag, E_MODEL, "a driver with by= is for inverse runs: %s is not known here",
+                       expr_name(l->symbols[l->efforts + i]));
+        diag_hint(diag, "use `inverse`, or leave by= out");
+        return E_MODEL;
+    }
+    return OK;
+}
+
+Status run_assemble(System *system, const Setting *setting, Result **out, Diag *diag)
+{
+    Result *r = NULL;
+    Status status = OK;
+    double position = 0, velocity = 0;
+
+    CHECK(result_open(RUN_START, system, setting, &r, diag));
+    grid_add(&r->grid, 0, r->start.y);
+    motion_residuals(r->motion, 0, r->start.y, &position, &velocity);
+    r->report.position_residual = position;
+    r->report.velocity_residual = velocity;
+    *out = r;
+    r = NULL;
+done:
+    result_free(r);
+    return status;
+}
+
+/* hand out what there is, unless there is nothing */
+static void give(Result *r, Status status, Result **out)
+{
+    bool kept = r != NULL && r->grid.count > 0 &&
+                (status == OK || status == E_STOPPED || status == E_SOLVER);
+
+    *out = kept ? r : NULL;
+    if (!kept)
+        result_free(r);
+}
+
+Status run_simulate(System *system, const Setting *setting, const RunOptions *options, Result **out,
+                    Diag *diag)
+{
+    Result *r = NULL;
+    Status status = OK;
+
+    CHECK(result_open(RUN_SIMULATE, system, setting, &r, diag));
+    CHECK(refuse_by(r->layout, diag));
+    CHECK(go(r, setting, options, 0, false, diag));
+done:
+    give(r, status, out);
+    return status;
+}
+
+Status run_resume(const Result *old, const Setting *setting, const RunOptions *options,
+                  Result **out, Diag *diag)
+{
+    Result *r = NULL;
+    Status status = OK;
+
+    if (old->kind != RUN_SIMULATE || old->grid.count == 0) {
+        *out = NULL;
+        return diag_set(diag, E_MISSING, "only a forward run can be resumed");
+    }
+    CHECK(result_reopen(old, setting, &r, diag));
+    CHECK(go(r, setting, options, old->grid.times[old->grid.count - 1], true, diag));
+done:
+    give(r, status, out);
+    return status;
+}
+
+/* --- driven --- */
+
+static Status check_driven(const Result *r, Diag *diag)
+{
+    int left = r->layout->nu - r->start.row_count;
+    int drivers = 0;
+
+    for (int k = 0; k < r->layout->m; k++)
+        drivers += system_constraint(r->system, k)->is_driver;
+    if (left == 0)
+        return OK;
+    (void)diag_set(diag, E_MODEL, "%d freedom%s left: %d driver%s %d more", left,
+                   left == 1 ? " is" : "s are", drivers, drivers == 1 ? " wants" : "s want", left);
+    diag_hint(diag, "add a driver for each, or use `simulate`");
+    return E_MODEL;
+}
+
+/* The next row from the last one: predicted, then projected; in halves where that fails. */
+static bool reach(Result *r, double from, double to, double *y, int depth)
+{
+    const Layout *l = r->layout;
+    const Ode *ode = motion_ode(r->motion);
+    double h = to - from;
+    double *trial = NEW_ARRAY(double, r->grid.length);
+    double *rate = NEW_ARRAY(double, r->grid.length);
+    double moved = 0;
+    bool sound = ode->rate(ode->context, from, y, rate);
+
+    for (int i = 0; i < l->n; i++) {
+        double bend = numbers_equations(r->numbers)->map == NULL ? rate[l->n + i] : 0;
+
+        trial[i] = y[i] + h * rate[i] + h * h / 2 * bend;
+    }
+    for (int i = l->n; i < r->grid.length; i++)
+        trial[i] = y[i];
+    memcpy(rate, trial, (size_t)l->n * sizeof(double));
+    sound = sound && motion_project(r->motion, to, trial);
+    for (int i = 0; i < l->n; i++)
+        moved = fmax(moved, fabs(trial[i] - rate[i]));
+    /* far from the prediction is perhaps another branch */
+    sound = sound && moved < 0.1;
+    if (sound)
+        memcpy(y, trial, (size_t)r->grid.length * sizeof(double));
+    mem_free(trial);
+    mem_free(rate);
+    if (sound || depth == 0)
+        return sound;
+    return reach(r, from, from + h / 2, y, depth - 1) && reach(r, from + h / 2, to, y, depth - 1);
+}
+
+static Status positions(Result *r, const Setting *setting, const RunOptions *options, Diag *diag)
+{
+    int rows = grid_rows(0, options->duration, options->every);
+    double *y = NEW_ARRAY(double, r->grid.length);
+    double last = 0, position = 0, velocity = 0;
+    Status status = OK;
+
+    memcpy(y, r->start.y, (size_t)r->grid.length * sizeof(double));
+    if (!motion_project(r->motion, 0, y))
+        CHECK(solver_failure(diag, 0, "the start does not meet the constraints"));
+    for (int k = 0; k <= rows; k++) {
+        double t = k > 0 ? grid_time(0, options->duration, options->every, k) : 0;
+
+        if (poll(setting->watch) != OK)
+            CHECK(diag_set(diag, E_STOPPED, "stopped at t = %.6g s", last));
+        report(setting->watch, "kinematics", t / options->duration);
+        if (k > 0 && !reach(r, last, t, y, 12))
+            CHECK(solver_failure(diag, t, "the drivers lead where the parts can't follow"));
+        motion_residuals(r->motion, t, y, &position, &velocity);
+        r->report.position_residual = fmax(r->report.position_residual, position);
+        r->report.velocity_residual = fmax(r->report.velocity_residual, velocity);
+        grid_add(&r->grid, t, y);
+        r->report.reached = last = t;
+    }
+done:
+    mem_free(y);
+    r->report.method = "newton";
+    r->report.steps = r->grid.count;
+    return status;
+}
+
+/* Positions follow from the drivers; states of a network that nobody asks back from are
+ * integrated along. */
+static Status drive(Result *r, const Setting *setting, const RunOptions *given, Diag *diag)
+{
+    RunOptions options;
+    double began = seconds();
+    Status status = OK;
+
+    CHECK(complete_options(given, &options, diag));
+    CHECK(check_driven(r, diag));
+    motion_tolerance(r->motion, 1e-12);
+    if (r->layout->nx > 0 && !inverse_finds_states(r)) {
+        options.rtol = fmin(options.rtol, 1e-10);
+        options.atol = fmin(options.atol, 1e-10);
+        CHECK(go(r, setting, &options, 0, false, diag));
+    } else {
+        CHECK(positions(r, setting, &options, diag));
+    }
+done:
+    r->report.wall = seconds() - began;
+    return status;
+}
+
+Status run_kinematics(System *system, const Setting *setting, const RunOptions *options,
+                      Result **out, Diag *diag)
+{
+    Result *r = NULL;
+    Status status = OK;
+
+    CHECK(result_open(RUN_KINEMATICS, system, setting, &r, diag));
+    CHECK(drive(r, setting, options, diag));
+done:
+    give(r, status, out);
+    return status;
+}
+
+Status run_inverse(System *system, const Setting *setting, const RunOptions *options, Result **out,
+                   Diag *diag)
+{
+    Result *r = NULL;
+    Status status = OK;
+    Status driven;
+
+    CHECK(result_open(RUN_INVERSE, system, setting, &r, diag));
+    driven = drive(r, setting, options, diag);
+    if (driven != OK && driven != E_STOPPED && driven != E_SOLVER)
+        CHECK(driven);
+    CHECK(inverse_solve(r, diag));
+    status = driven;
+done:
+    give(r, status, out);
+    return status;
+}

@@ -1,0 +1,661 @@
+/* start.c: assembly */
+#include "simulate/start.h"
+
+#include "base/memory.h"
+#include "simulate/least.h"
+#include "simulate/linear.h"
+#include "simulate/rank.h"
+
+#include <math.h>
+#include <string.h>
+
+#define TOLERANCE  1e-12 /* of scaled residuals */
+#define PULL       0.03  /* weight of a guess against an equation */
+#define TRIES      24    /* other starts, when the first leads nowhere */
+#define FAR        2.0   /* rad or m: a dependent coordinate that moved further is spoken of */
+#define RANK_RATIO 1e-9
+
+typedef enum Level { LEVEL_POSITION, LEVEL_VELOCITY, LEVEL_NETWORK } Level;
+
+/* one initial value or guess */
+typedef struct Given {
+    const StartValue *value;
+    Expr expr;
+    Level level;
+    int column;    /* coordinate, speed or state that it is, alone; -1 */
+    bool is_angle; /* an arc tangent: full turns don't count */
+} Given;
+
+typedef struct Assembly {
+    const Layout *l;
+    Parameters *parameters;
+    const Equations *eq;
+    const Setting *setting;
+    Assembled *out;
+    double *y;
+    Given *given;
+    int given_count;
+} Assembly;
+
+/* equations of one problem: rows of the system, then picked values as expressions */
+typedef struct Problem {
+    Assembly *a;
+    Level level;
+    const Given **picked;
+    int count, system_rows, columns;
+    Probe *probe; /* values, then gradients, value by value, over the level's own symbols */
+    int symbols;
+    double *row; /* y-like, and x', z behind */
+} Problem;
+
+/* --- what was given --- */
+
+static int column_of(const Assembly *a, Expr e, Level level)
+{
+    const Layout *l = a->l;
+    int first = level == LEVEL_POSITION ? l->q : level == LEVEL_VELOCITY ? l->u : l->x;
+    int count = level == LEVEL_POSITION ? l->n : level == LEVEL_VELOCITY ? l->nu : l->nx;
+
+    if (level == LEVEL_POSITION && a->eq->map != NULL)
+        return -1;
+    for (int i = 0; i < count; i++)
+        if (l->symbols[first + i] == e)
+            return i;
+    return -1;
+}
+
+static Status classify(Assembly *a, Given *given, Diag *diag)
+{
+    const unsigned dynamic = 1U << SYMBOL_ACCELERATION | 1U << SYMBOL_MULTIPLIER |
+                             1U << SYMBOL_EFFORT | 1U << SYMBOL_JERK;
+    const unsigned network = 1U << SYMBOL_STATE | 1U << SYMBOL_ALGEBRAIC | 1U << SYMBOL_STATE_RATE;
+    unsigned kinds = expr_kinds(given->expr);
+    const char *name = given->value->name;
+
+    if ((kinds & dynamic) != 0) {
+        (void)diag_set(diag, E_ASSEMBLE, "%s%.*s follows from forces and can't be an initial value",
+                       name, given->value->primes, "''''");
+        diag_hint(diag, "give positions, speeds, currents and voltages of storage elements");
+        return E_ASSEMBLE;
+    }
+    given->level = (kinds & network) != 0              ? LEVEL_NETWORK
+                   : (kinds & 1U << SYMBOL_SPEED) != 0 ? LEVEL_VELOCITY
+                                                       : LEVEL_POSITION;
+    given->column = column_of(a, given->expr, given->level);
+    given->is_angle = expr_kind(given->expr) == EXPR_CALL && expr_op(given->expr) == OP_ATAN2;
+    return OK;
+}
+
+static Status read_given(Assembly *a, Diag *diag)
+{
+    const StartValues *start = a->setting->start;
+    Status status = OK;
+
+    if (start == NULL)
+        return OK;
+    a->given = NEW_ARRAY(Given, start->count);
+    for (int i = 0; i < start->count; i++) {
+        Given *given = &a->given[a->given_count];
+
+        given->value = &start->at[i];
+        CHECK(system_variable(a->l->system, given->value->name, given->value->primes, &given->expr,
+                              diag));
+        CHECK(classify(a, given, diag));
+        a->given_count++;
+    }
+done:
+    return status;
+}
+
+/* --- one problem --- */
+
+static RowValues row_values(const Problem *p, const double *y)
+{
+    const Layout *l = p->a->l;
+    const double *tail = p->row + l->n + l->nu + l->nx;
+
+    return (RowValues){
+        .q = y, .u = y + l->n, .x = y + l->n + l->nu, .rates = tail, .z = tail + l->nx};
+}
+
+/* symbols of the unknowns of a level, one run of the layout's but for the network's */
+static void level_symbols(const Problem *p, Expr *out)
+{
+    const Layout *l = p->a->l;
+    int k = 0;
+
+    if (p->level == LEVEL_POSITION)
+        for (int i = 0; i < l->n; i++)
+            out[k++] = l->symbols[l->q + i];
+    if (p->level == LEVEL_VELOCITY)
+        for (int i = 0; i < l->nu; i++)
+            out[k++] = l->symbols[l->u + i];
+    for (int i = 0; p->level == LEVEL_NETWORK && i < 2 * l->nx + l->nz; i++)
+        out[k++] = l->symbols[l->x + i]; /* x, x', z stand together */
+}
+
+/* rows of the network as expressions: A [x'; z] - r */
+static Expr network_row(const Layout *l, int row)
+{
+    const Reading *run = system_run(l->system);
+    Arena *arena = system_arena(l->system);
+    int w = l->nx + l->nz;
+    Expr sum = expr_neg(arena, run->network_rhs[row]);
+
+    for (int k = 0; k < w; k++)
+        sum = expr_add(arena, sum,
+                       expr_mul(arena, run->network[row * w + k], l->symbols[l->rates + k]));
+    return sum;
+}
+
+static Status problem_open(Problem *p, Assembly *a, Level level, bool guesses, Diag *diag)
+{
+    const Layout *l = a->l;
+    Arena *arena = system_arena(l->system);
+    int extra = level == LEVEL_NETWORK ? l->nx + l->nz : 0;
+    LIST(Expr) roots = {0};
+    Expr *symbols;
+    Status status;
+
+    *p = (Problem){.a = a, .level = level, .system_rows = level == LEVEL_NETWORK ? extra : l->m};
+    p->symbols = level == LEVEL_POSITION   ? l->n
+                 : level == LEVEL_VELOCITY ? l->nu
+                                           : 2 * l->nx + l->nz;
+    p->columns = level == LEVEL_POSITION ? l->nu : p->symbols;
+    p->picked = NEW_ARRAY(const Given *, a->given_count);
+    p->row = NEW_ARRAY(double, l->n + l->nu + 2 * l->nx + l->nz);
+    for (int i = 0; i < a->given_count; i++)
+        if (a->given[i].level == level && (guesses || !a->given[i].value->is_guess))
+            p->picked[p->count++] = &a->given[i];
+    symbols = NEW_ARRAY(Expr, p->symbols);
+    level_symbols(p, symbols);
+    for (int i = 0; i < extra; i++)
+        LIST_PUSH(roots, network_row(l, i));
+    for (int i = 0; i < p->count; i++)
+        LIST_PUSH(roots, p->picked[i]->expr);
+    for (int i = 0; i < extra + p->count; i++)
+        for (int j = 0; j < p->symbols; j++)
+            LIST_PUSH(roots, expr_diff(arena, roots.at[i], symbols[j]));
+    status = probe_new(l, a->parameters, roots.at, roots.count, &p->probe, diag);
+    LIST_FREE(roots);
+    mem_free(symbols);
+    return status;
+}
+
+static void problem_close(Problem *p)
+{
+    probe_free(p->probe);
+    mem_free(p->picked);
+    mem_free(p->row);
+}
+
+/* gradient by coordinates to gradient by speeds */
+static void along_speeds(const Problem *p, const double *gradient, double *out)
+{
+    const Equations *eq = p->a->eq;
+
+    for (int j = 0; j < eq->nu; j++) {
+        out[j] = eq->map == NULL ? gradient[j] : 0;
+        for (int i = 0; eq->map != NULL && i < eq->n; i++)
+            out[j] += gradient[i] * eq->map[i * eq->nu + j];
+    }
+}
+
+/* the probed rows, which follow `first` rows of the system */
+static void evaluate_probe(const Problem *p, const double *y, int first, double *residual,
+                           double *jacobian)
+{
+    RowValues row = row_values(p, y);
+    int extra = p->level == LEVEL_NETWORK ? p->system_rows : 0;
+    const double *values, *gradients;
+
+    if (extra + p->count == 0)
+        return;
+    values = probe_values(p->probe, &row);
+    gradients = values + extra + p->count;
+    for (int i = 0; i < extra + p->count; i++) {
+        const double *gradient = gradients + (ptrdiff_t)i * p->symbols;
+
+        residual[first + i] = values[i];
+        if (i >= extra) {
+            const Given *given = p->picked[i - extra];
+
+            residual[first + i] -= given->value->value;
+            if (given->is_angle)
+                residual[first + i] = remainder(residual[first + i], 2 * 3.14159265358979323846);
+        }
+        if (jacobian != NULL && p->level == LEVEL_POSITION)
+            along_speeds(p, gradient, jacobian + (ptrdiff_t)(first + i) * p->columns);
+        else if (jacobian != NULL)
+            memcpy(jacobian + (ptrdiff_t)(first + i) * p->columns, gradient,
+                   (size_t)p->columns * sizeof(double));
+    }
+}
+
+static void evaluate_position(void *context, const double *v, double *residual, double *jacobian)
+{
+    const Problem *p = context;
+    const Equations *eq = p->a->eq;
+
+    eq->position(eq->context, 0, v);
+    memcpy(residual, eq->phi, (size_t)eq->m * sizeof(double));
+    if (jacobian != NULL)
+        memcpy(jacobian, eq->phi_u, (size_t)(eq->m * eq->nu) * sizeof(double));
+    memcpy(p->row, v, (size_t)eq->n * sizeof(double));
+    evaluate_probe(p, p->row, eq->m, residual, jacobian);
+}
+
+static void move_position(void *context, double *v, const double *step)
+{
+    const Problem *p = context;
+    const Equations *eq = p->a->eq;
+
+    for (int i = 0; i < eq->n; i++) {
+        v[i] += eq->map == NULL ? step[i] : 0;
+        for (int j = 0; eq->map != NULL && j < eq->nu; j++)
+            v[i] += eq->map[i * eq->nu + j] * step[j];
+    }
+}
+
+static void evaluate_velocity(void *context, const double *v, double *residual, double *jacobian)
+{
+    const Problem *p = context;
+    const Equations *eq = p->a->eq;
+
+    eq->velocity(eq->context, v, p->a->y + eq->n + eq->nu);
+    for (int k = 0; k < eq->m; k++) {
+        residual[k] = -eq->nu_rate[k];
+        for (int j = 0; j < eq->nu; j++)
+            residual[k] += eq->phi_u[k * eq->nu + j] * v[j];
+    }
+    if (jacobian != NULL)
+        memcpy(jacobian, eq->phi_u, (size_t)(eq->m * eq->nu) * sizeof(double));
+    memcpy(p->row, p->a->y, (size_t)(eq->n + eq->nu + eq->nx) * sizeof(double));
+    memcpy(p->row + eq->n, v, (size_t)eq->nu * sizeof(double));
+    evaluate_probe(p, p->row, eq->m, residual, jacobian);
+}
+
+static void evaluate_network(void *context, const double *v, double *residual, double *jacobian)
+{
+    const Problem *p = context;
+    const Equations *eq = p->a->eq;
+
+    memcpy(p->row, p->a->y, (size_t)(eq->n + eq->nu) * sizeof(double));
+    memcpy(p->row + eq->n + eq->nu, v, (size_t)p->columns * sizeof(double));
+    evaluate_probe(p, p->row, 0, residual, jacobian);
+}
+
+static Rows rows_of(Problem *p)
+{
+    Rows rows = {.columns = p->columns, .length = p->symbols, .context = p};
+
+    rows.rows = p->system_rows + p->count;
+    rows.evaluate = p->level == LEVEL_POSITION   ? evaluate_position
+                    : p->level == LEVEL_VELOCITY ? evaluate_velocity
+                                                 : evaluate_network;
+    rows.move = p->level == LEVEL_POSITION ? move_position : NULL;
+    return rows;
+}
+
+/* --- messages --- */
+
+static void name_given(Text *text, const StartValue *value)
+{
+    text_addf(text, "%s%.*s = %.6g", value->name, value->primes, "''''", value->value);
+}
+
+static void name_row(Text *text, const Layout *l, int k)
+{
+    const ConstraintRow *row = system_constraint(l->system, k);
+
+    text_addf(text, "%s (%s)", system_instance_name(l->system, row->instance), row->direction);
+}
+
+/* "h9 (x) is missed by 0.03; ..." with the values that were given */
+static Status tell_conflict(const Problem *p, const double *residual, const char *what, Diag *diag)
+{
+    Text text = {0}, values = {0};
+    int shown = 0;
+
+    for (int k = 0; k < p->system_rows + p->count; k++) {
+        if (!(fabs(residual[k]) > 1e-9))
+            continue;
+        if (shown++ == 6) {
+            text_add(&text, ", ...");
+            break;
+        }
+        if (shown > 1)
+            text_add(&text, ", ");
+        if (k >= p->system_rows)
+            name_given(&text, p->picked[k - p->system_rows]->value);
+        else if (p->level == LEVEL_NETWORK)
+            text_addf(&text, "the network's equation %d", k + 1);
+        else
+            name_row(&text, p->a->l, k);
+        text_addf(&text, " by %.3g", residual[k]);
+    }
+    for (int i = 0; i < p->a->given_count; i++)
+        if (!p->a->given[i].value->is_guess && p->a->given[i].level <= p->level) {
+            if (values.length > 0)
+                text_add(&values, ", ");
+            name_given(&values, p->a->given[i].value);
+        }
+    (void)diag_set(diag, E_ASSEMBLE, "%s; missed: %s%s%s", what,
+                   text.at != NULL ? text.at : "nothing, but it is undefined there",
+                   values.length > 0 ? "; given: " : "", values.length > 0 ? values.at : "");
+    if (values.length > 0)
+        diag_hint(diag, "leave one of the given values out, or make it a guess");
+    else
+        diag_hint(diag, "check the lengths of the loop, or give guesses nearer to a solution");
+    text_free(&text);
+    text_free(&values);
+    return E_ASSEMBLE;
+}
+
+/* --- position --- */
+
+static void begin_position(Assembly *a, WarmValue warm, void *context)
+{
+    const Layout *l = a->l;
+
+    for (int i = 0; system_quaternion(l->system, i) >= 0; i++)
+        a->y[system_quaternion(l->system, i)] = 1;
+    for (int i = 0; i < l->n && warm != NULL; i++) {
+        double value = warm(context, system_q(l->system, i)->name);
+
+        if (isfinite(value))
+            a->y[i] = value;
+    }
+    /* guesses first, so that what is given has the last word */
+    for (int guesses = 1; guesses >= 0; guesses--)
+        for (int i = 0; i < a->given_count; i++) {
+            const Given *given = &a->given[i];
+
+            if (given->level == LEVEL_POSITION && given->column >= 0 &&
+                given->value->is_guess == (guesses == 1))
+                a->y[given->column] = given->value->value;
+        }
+}
+
+/* Pull gently towards guesses that are no coordinates, and everything else along. */
+static Status pull(Assembly *a, Diag *diag)
+{
+    Problem p = {0};
+    bool needed = false;
+    double *weight = NULL;
+    Rows rows;
+    Status status = OK;
+
+    for (int i = 0; i < a->given_count; i++)
+        needed = needed || (a->given[i].level == LEVEL_POSITION && a->given[i].column < 0);
+    if (!needed)
+        return OK;
+    CHECK(problem_open(&p, a, LEVEL_POSITION, true, diag));
+    weight = NEW_ARRAY(double, p.system_rows + p.count);
+    for (int k = 0; k < p.system_rows + p.count; k++)
+        weight[k] = k >= p.system_rows && p.picked[k - p.system_rows]->value->is_guess ? PULL : 1;
+    rows = rows_of(&p);
+    (void)least_solve(&rows, NULL, weight, TOLERANCE, a->y, NULL);
+done:
+    mem_free(weight);
+    problem_close(&p);
+    return status;
+}
+
+/* splitmix64 (Steele, Lea, Flood 2014): the same tries in every run */
+static double random_unit(uint64_t *state)
+{
+    uint64_t z = (*state += 0x9E3779B97F4A7C15U);
+
+    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9U;
+    z = (z ^ (z >> 27)) * 0x94D049BB133111EBU;
+    return 2 * ((double)((z ^ (z >> 31)) >> 11) * 0x1p-53) - 1;
+}
+
+static void remark_moved(Assembly *a, const double *begun)
+{
+    const Layout *l = a->l;
+    int furthest = 0;
+
+    for (int i = 1; i < l->n; i++)
+        if (fabs(a->y[i] - begun[i]) > fabs(a->y[furthest] - begun[furthest]))
+            furthest = i;
+    if (l->n > 0 && fabs(a->y[furthest] - begun[furthest]) > FAR)
+        text_addf(&a->out->remarks,
+                  "assembled far from where it began: %s went from %.4g to %.4g; a guess chooses "
+                  "another assembly\n",
+                  system_q(l->system, furthest)->name, begun[furthest], a->y[furthest]);
+}
+
+/* other starts about the first one; the nearest solution wins at the smallest disturbance */
+static bool try_around(Problem *p, const Rows *rows, const bool *held, const double *begun)
+{
+    Assembly *a = p->a;
+    uint64_t seed = 1;
+
+    for (int k = 0; k < TRIES; k++) {
+        double size = k < TRIES / 3 ? 0.1 : k < 2 * TRIES / 3 ? 0.5 : 1.5;
+
+        for (int i = 0; i < a->l->n; i++)
+            a->y[i] = begun[i] + (held[i] ? 0 : size * random_unit(&seed));
+        if (least_solve(rows, held, NULL, TOLERANCE, a->y, NULL)) {
+            text_addf(&a->out->remarks,
+                      "assembled from a start moved by up to %g; guesses make sure "
+                      "that it is the assembly meant\n",
+                      size);
+            return true;
+        }
+    }
+    return false;
+}
+
+static Status find_position(Assembly *a, Diag *diag)
+{
+    const Layout *l = a->l;
+    Problem p = {0};
+    double *begun = NEW_ARRAY(double, l->n);
+    double *residual = NULL;
+    bool *held = NEW_ARRAY(bool, l->nu + l->n);
+    Rows rows;
+    Status status = OK;
+
+    CHECK(problem_open(&p, a, LEVEL_POSITION, false, diag));
+    for (int i = 0; i < p.count; i++)
+        if (p.picked[i]->column >= 0)
+            held[p.picked[i]->column] = true;
+    memcpy(begun, a->y, (size_t)l->n * sizeof(double));
+    CHECK(pull(a, diag));
+    for (int i = 0; i < p.count; i++)
+        if (p.picked[i]->column >= 0)
+            a->y[p.picked[i]->column] = p.picked[i]->value->value;
+    rows = rows_of(&p);
+    residual = NEW_ARRAY(double, rows.rows);
+    if (!least_solve(&rows, held, NULL, TOLERANCE, a->y, residual)) {
+        if (!try_around(&p, &rows, held, begun)) {
+            CHECK(tell_conflict(&p, residual, "the parts can't be put together", diag));
+        }
+    }
+    remark_moved(a, begun);
+done:
+    problem_close(&p);
+    mem_free(begun);
+    mem_free(residual);
+    mem_free(held);
+    return status;
+}
+
+/* --- velocity, network --- */
+
+static Status find_velocity(Assembly *a, Diag *diag)
+{
+    const Layout *l = a->l;
+    Problem p = {0};
+    bool *held = NEW_ARRAY(bool, l->nu);
+    double *residual = NULL;
+    Rows rows;
+    Status status = OK;
+
+    a->eq->position(a->eq->context, 0, a->y);
+    for (int guesses = 1; guesses >= 0; guesses--)
+        for (int i = 0; i < a->given_count; i++) {
+            const Given *given = &a->given[i];
+
+            if (given->level == LEVEL_VELOCITY && given->column >= 0 &&
+                given->value->is_guess == (guesses == 1)) {
+                a->y[l->n + given->column] = given->value->value;
+                held[given->column] = guesses == 0;
+            }
+        }
+    CHECK(problem_open(&p, a, LEVEL_VELOCITY, false, diag));
+    rows = rows_of(&p);
+    residual = NEW_ARRAY(double, rows.rows);
+    if (!least_solve(&rows, held, NULL, 1e-11, a->y + l->n, residual))
+        CHECK(tell_conflict(&p, residual, "no speeds satisfy the constraints", diag));
+done:
+    problem_close(&p);
+    mem_free(held);
+    mem_free(residual);
+    return status;
+}
+
+static Status find_network(Assembly *a, Diag *diag)
+{
+    const Layout *l = a->l;
+    Problem p = {0};
+    double *v = NEW_ARRAY(double, 2 * l->nx + l->nz);
+    double *residual = NULL;
+    bool *held = NEW_ARRAY(bool, 2 * l->nx + l->nz);
+    bool needed = false;
+    Rows rows;
+    Status status = OK;
+
+    for (int i = 0; i < a->given_count; i++) {
+        const Given *given = &a->given[i];
+
+        if (given->level != LEVEL_NETWORK)
+            continue;
+        if (given->column >= 0 && (!held[given->column] || !given->value->is_guess)) {
+            v[given->column] = given->value->value;
+            held[given->column] = !given->value->is_guess;
+        }
+        needed = needed || (given->column < 0 && !given->value->is_guess);
+    }
+    if (needed) {
+        CHECK(problem_open(&p, a, LEVEL_NETWORK, false, diag));
+        rows = rows_of(&p);
+        residual = NEW_ARRAY(double, rows.rows);
+        if (!least_solve(&rows, held, NULL, 1e-11, v, residual))
+            CHECK(tell_conflict(&p, residual, "the network's initial values contradict", diag));
+    }
+    memcpy(a->y + l->n + l->nu, v, (size_t)l->nx * sizeof(double));
+done:
+    problem_close(&p);
+    mem_free(v);
+    mem_free(held);
+    mem_free(residual);
+    return status;
+}
+
+/* --- rank --- */
+
+/* Phi_u at a position nearby that meets the constraints; false when none was found */
+static bool nearby(Assembly *a, uint64_t *seed, double *q, double *residual)
+{
+    const Layout *l = a->l;
+    Problem p = {
+        .a = a, .level = LEVEL_POSITION, .system_rows = l->m, .columns = l->nu, .symbols = l->n};
+    Rows rows;
+    bool met;
+
+    p.row = NEW_ARRAY(double, l->n);
+    for (int i = 0; i < l->n; i++)
+        q[i] = a->y[i] + 1e-2 * random_unit(seed);
+    rows = rows_of(&p);
+    met = least_solve(&rows, NULL, NULL, TOLERANCE, q, residual);
+    if (met)
+        a->eq->position(a->eq->context, 0, q);
+    mem_free(p.row);
+    return met;
+}
+
+static void remark_redundant(Assembly *a, const int *order, int rank)
+{
+    Text names = {0};
+
+    for (int k = rank; k < a->l->m; k++) {
+        text_add(&names, k > rank ? ", " : "");
+        name_row(&names, a->l, order[k]);
+    }
+    text_addf(&a->out->remarks, "redundant: %s; the least reactions that balance are told there\n",
+              names.at);
+    text_free(&names);
+}
+
+/* Independent rows, from the assembled position and two near it: a rank that falls at one place
+ * only is a singularity, not a redundancy. */
+static void find_rank(Assembly *a)
+{
+    const Layout *l = a->l;
+    int *order = NEW_ARRAY(int, l->m);
+    double *q = NEW_ARRAY(double, l->n);
+    double *residual = NEW_ARRAY(double, l->m);
+    uint64_t seed = 7;
+    int here, best;
+
+    a->eq->position(a->eq->context, 0, a->y);
+    here = best = rank_rows(a->eq->phi_u, l->m, l->nu, RANK_RATIO, a->out->rows);
+    for (int k = 0; k < 2 && best < l->m; k++) {
+        int rank;
+
+        if (!nearby(a, &seed, q, residual))
+            continue;
+        rank = rank_rows(a->eq->phi_u, l->m, l->nu, 1e-7, order);
+        if (rank > best) {
+            best = rank;
+            memcpy(a->out->rows, order, (size_t)l->m * sizeof(int));
+        }
+    }
+    a->out->row_count = best;
+    if (here < best)
+        text_addf(&a->out->remarks,
+                  "the start is a singular position: %d of %d constraints hold there\n", here,
+                  best);
+    if (best < l->m)
+        remark_redundant(a, a->out->rows, best);
+    mem_free(order);
+    mem_free(q);
+    mem_free(residual);
+}
+
+Status start_find(const Layout *layout, Parameters *parameters, const Numbers *numbers,
+                  const Setting *setting, WarmValue warm, void *warm_context, Assembled *out,
+                  Diag *diag)
+{
+    Assembly a = {.l = layout,
+                  .parameters = parameters,
+                  .eq = numbers_equations(numbers),
+                  .setting = setting,
+                  .out = out};
+    Status status = OK;
+
+    *out = (Assembled){.y = NEW_ARRAY(double, layout->n + layout->nu + layout->nx + 1),
+                       .rows = NEW_ARRAY(int, layout->m)};
+    a.y = out->y;
+    CHECK(read_given(&a, diag));
+    begin_position(&a, warm, warm_context);
+    CHECK(find_position(&a, diag));
+    find_rank(&a);
+    CHECK(find_velocity(&a, diag));
+    CHECK(find_network(&a, diag));
+done:
+    mem_free(a.given);
+    return status;
+}
+
+void start_free(Assembled *start)
+{
+    mem_free(start->y);
+    mem_free(start->rows);
+    text_free(&start->remarks);
+    *start = (Assembled){0};
+}

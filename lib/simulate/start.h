@@ -1,0 +1,28 @@
+/* start.h: consistent positions, speeds and network states from what the user gave
+ *
+ * Three problems of least squares, one after another: Phi = 0 with given positions, Phi_u u = nu
+ * with given speeds, the network's equations with given states. Given coordinates are held; any
+ * other given variable is one more equation. Guesses choose where to begin, and pull gently before
+ * the equations alone decide. */
+#ifndef COTREE_SIMULATE_START_H
+#define COTREE_SIMULATE_START_H
+
+#include "base/text.h"
+#include "simulate/numbers.h"
+
+typedef struct Assembled {
+    double *y; /* q, u, x, 0 */
+    int *rows; /* independent constraint rows, rising */
+    int row_count;
+    Text remarks; /* lines */
+} Assembled;
+
+/* Fails with E_ASSEMBLE, naming what can't be met, and the errors of system_variable(). `warm`
+ * tells the value of a variable in an earlier result (NAN: not known); NULL: there is none. */
+typedef double (*WarmValue)(void *context, const char *name);
+MUST_USE Status start_find(const Layout *layout, Parameters *parameters, const Numbers *numbers,
+                           const Setting *setting, WarmValue warm, void *warm_context,
+                           Assembled *out, Diag *diag);
+void start_free(Assembled *start); /* what it holds */
+
+#endif
