@@ -103,9 +103,21 @@ static Expr added(System *system, Terms *terms)
     return sum;
 }
 
+/* as built, or multiplied out first where that folds to less; products of long sums stay */
 static Expr tidy(System *system, Expr e)
 {
-    return expr_collect(system->arena, expr_fold(system->arena, expr_open(system->arena, e)));
+    enum { MOST_TERMS = 200 };
+    Arena *arena = system->arena;
+    Expr open = expr_open(arena, e);
+    Expr whole = expr_expand(arena, open, MOST_TERMS);
+    Expr best = expr_collect(arena, expr_fold(arena, open));
+
+    if (whole != open) {
+        whole = expr_collect(arena, expr_fold(arena, whole));
+        if (op_count_total(expr_count(&whole, 1)) < op_count_total(expr_count(&best, 1)))
+            best = whole;
+    }
+    return best;
 }
 
 /* the coordinate that a rotor turns with, as an expression; NULL where the part has no rotor */
