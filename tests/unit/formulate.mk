@@ -1,3 +1,7 @@
 UNIT_TESTS += test_formulate
 test_formulate_SOURCES = tests/unit/test_formulate.c tests/unit/test.h tests/unit/scene.h
 test_formulate_LDADD = $(unit_ldadd)
+
+UNIT_TESTS += test_trees
+test_trees_SOURCES = tests/unit/test_trees.c tests/unit/test.h tests/unit/scene.h
+test_trees_LDADD = $(unit_ldadd)
