@@ -306,6 +306,7 @@ static void change_tree(Request *request, TreeKind kind)
         if (can_enter(request, request->add.at[i], kind) && !named(&current, request->add.at[i]))
             LIST_PUSH(enter, request->add.at[i]);
     if (enter.count > 0) {
+        choice->absolute = false;
         list_copy(&choice->chosen, &current);
         drop_from(request, kind);
         request->touched[kind] = true;

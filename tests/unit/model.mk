@@ -10,3 +10,8 @@ test_model_LDADD = $(unit_ldadd)
 UNIT_TESTS += test_model_wrong
 test_model_wrong_SOURCES = tests/unit/test_model_wrong.c tests/unit/test_model.h tests/unit/test.h
 test_model_wrong_LDADD = $(unit_ldadd)
+
+UNIT_TESTS += test_model_history
+test_model_history_SOURCES = tests/unit/test_model_history.c tests/unit/test_model.h \
+	tests/unit/test.h
+test_model_history_LDADD = $(unit_ldadd)
