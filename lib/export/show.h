@@ -1,0 +1,67 @@
+/* show.h: the topics of `show`
+ *
+ * A topic is a row: its name, what it needs, what may stand behind it, and the function
+ * that writes it. */
+#ifndef COTREE_EXPORT_SHOW_H
+#define COTREE_EXPORT_SHOW_H
+
+#include "export/view.h"
+
+typedef enum Need {
+    NEED_MODEL,
+    NEED_SYSTEM,
+    NEED_RUN /* the last run; equations too */
+} Need;
+
+typedef enum Behind { /* what may stand behind a topic */
+                      BEHIND_NOTHING,
+                      BEHIND_NUMBERS, /* a row, a row and a column */
+                      BEHIND_EDGES,   /* names of edges */
+                      BEHIND_LEVEL    /* velocity or acceleration, and rows */
+} Behind;
+
+typedef struct Selection {
+    int numbers[2]; /* from 1 */
+    int number_count;
+    const char *const *names;
+    int name_count;
+    const char *level; /* "velocity", "acceleration" or NULL */
+} Selection;
+
+typedef struct Topic {
+    const char *name;
+    const char *brief;
+    Need need;
+    Behind behind;
+    /* NULL: comes with a later version */
+    Status (*show)(const View *view, const Selection *selection, Text *out, Diag *diag);
+} Topic;
+
+const Topic *topic_find(const char *name); /* NULL: none */
+const Topic *topic_at(int i);              /* 0, 1, ... until NULL */
+
+/* What the statement `show ...` needs; a variable (`show h9.fx`) needs equations. */
+MUST_USE Status show_need(const Statement *statement, Need *need, Diag *diag);
+/* Write what the statement asks for. Fails with E_NAME for an unknown topic or edge, E_VALUE for
+ * an entry beyond the last, E_MISSING for topics of later versions, the errors of equations. */
+MUST_USE Status show(const View *view, const Statement *statement, Text *out, Diag *diag);
+/* the notation of `as WORD`; false: unknown */
+bool notation_find(const char *word, Notation *notation);
+const char *notation_name(int i); /* 0, 1, ... until NULL */
+
+/* --- the functions of topics --- */
+typedef Status ShowFunction(const View *view, const Selection *selection, Text *out, Diag *diag);
+
+ShowFunction show_graph, show_nodes, show_edges, show_tree, show_incidence, show_circuits,
+    show_cutsets, show_structure;
+ShowFunction show_coordinates, show_constraints, show_jacobian, show_mass, show_forces,
+    show_equations, show_network;
+ShowFunction show_outputs, show_params, show_run, show_settings, show_program;
+
+/* one variable or expression of the user's: `left = its expression` */
+MUST_USE Status show_expression(const View *view, const Syntax *syntax, Text *out, Diag *diag);
+
+/* a run's report: what ran, its work, residuals and energy; without its remarks */
+void report_print(Text *out, const Result *result, const char *name);
+
+#endif

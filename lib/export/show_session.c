@@ -1,0 +1,275 @@
+/* show_session.c: parameters, outputs, settings, the last run, the program and the structure */
+#include "compile/program.h"
+#include "export/show.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+Status show_params(const View *view, const Selection *selection, Text *out, Diag *diag)
+{
+    Table table = table_for("lll");
+
+    (void)selection, (void)diag;
+    for (int i = 0; i < model_parameter_count(view->model); i++) {
+        Expr definition;
+        const Expr symbol = model_parameter(view->model, i, &definition);
+        char *text = expr_text(definition);
+        Text value = {0};
+
+        text_number(&value, model_parameter_value(view->model, symbol), 10);
+        table_cell(&table, expr_name(symbol));
+        table_cellf(&table, "= %s", value.at);
+        table_cell(&table, expr_is_number(definition) ? "" : text);
+        text_free(&value);
+        mem_free(text);
+    }
+    if (table.cells.count == 0)
+        text_add(out, "no parameters\n");
+    table_print(out, &table, 0);
+    table_free(&table);
+    return OK;
+}
+
+Status show_outputs(const View *view, const Selection *selection, Text *out, Diag *diag)
+{
+    Equations equations = {0};
+
+    (void)selection, (void)diag;
+    if (model_output_count(view->model) == 0) {
+        view_comment(out, view, "no outputs");
+        return OK;
+    }
+    for (int i = 0; i < model_output_count(view->model); i++) {
+        const char *name;
+        const Expr e = model_output(view->model, i, &name);
+
+        view_value(&equations, mem_text(name, strlen(name)), e);
+    }
+    view_open(out, view);
+    view_equations(out, view, &equations);
+    view_close(out, view);
+    return OK;
+}
+
+Status show_settings(const View *view, const Selection *selection, Text *out, Diag *diag)
+{
+    const char *const *independent;
+    int count;
+    const Form form = model_form(view->model, &independent, &count);
+    const Expr *gravity = model_gravity(view->model);
+    Table table = table_for("ll");
+    Text text = {0};
+
+    (void)selection, (void)diag;
+    table_cell(&table, "scene");
+    table_cell(&table, model_is_planar(view->model) ? "planar" : "spatial");
+    for (int i = 0; i < (model_is_planar(view->model) ? 2 : 3); i++) {
+        char *component = expr_text(gravity[i]);
+
+        layout_item(&text, component);
+        mem_free(component);
+    }
+    table_cell(&table, "gravity");
+    table_cellf(&table, "[%s]", text.at);
+    text_free(&text);
+    for (int i = 0; i < count; i++)
+        layout_item(&text, independent[i]);
+    table_cell(&table, "form");
+    table_cellf(&table, "%s%s%s", form == FORM_EMBEDDED ? "embedded" : "augmented",
+                form == FORM_EMBEDDED ? ", independent " : "",
+                form != FORM_EMBEDDED ? ""
+                : count > 0           ? text.at
+                                      : "chosen by pivoting");
+    text_free(&text);
+    table_cell(&table, "evaluator");
+    table_cell(&table, "interpreter");
+    table_cell(&table, "columns");
+    table_cellf(&table, "%d", view->page.columns);
+    table_print(out, &table, 0);
+    table_free(&table);
+    return OK;
+}
+
+/* --- the last run --- */
+
+static const char *kind_name(RunKind kind)
+{
+    static const char *const names[] = {
+        [RUN_START] = "assemble",
+        [RUN_SIMULATE] = "simulate",
+        [RUN_KINEMATICS] = "kinematics",
+        [RUN_INVERSE] = "inverse",
+    };
+    return names[kind];
+}
+
+static void add_work(Table *table, const RunReport *report)
+{
+    if (report->steps > 0) {
+        table_cell(table, "steps");
+        table_cellf(table, "%" PRId64 " (%" PRId64 " rejected)", report->steps, report->rejected);
+    }
+    if (report->evaluations > 0) {
+        table_cell(table, "evaluations");
+        table_cellf(table, "%" PRId64, report->evaluations);
+    }
+    if (report->factorisations > 0) {
+        table_cell(table, "factorisations");
+        table_cellf(table, "%" PRId64, report->factorisations);
+    }
+    if (report->regularised > 0) {
+        table_cell(table, "near singular");
+        table_cellf(table, "%" PRId64 " factorisations, first at t = %.6g s", report->regularised,
+                    report->singular_time);
+    }
+}
+
+static void add_quality(Table *table, const RunReport *report)
+{
+    table_cell(table, "position residual");
+    table_cellf(table, "%.2g", report->position_residual);
+    table_cell(table, "velocity residual");
+    table_cellf(table, "%.2g", report->velocity_residual);
+    if (report->energy_swing > 0) {
+        table_cell(table, "energy drift");
+        table_cellf(table, "%.2g J of %.3g J", report->energy_drift, report->energy_swing);
+    }
+    if (!isnan(report->global_error)) {
+        table_cell(table, "global error");
+        table_cellf(table, "%.2g", report->global_error);
+    }
+}
+
+void report_print(Text *out, const Result *result, const char *name)
+{
+    const RunReport *report = result_report(result);
+    const double *times = result_times(result);
+    const int rows = result_rows(result);
+    Table table = table_for("ll");
+
+    table_cell(&table, name);
+    table_cellf(&table, "%s%s%s%s", kind_name(result_kind(result)),
+                report->method != NULL ? ", " : "", report->method != NULL ? report->method : "",
+                report->stopped ? ", stopped" : "");
+    table_cell(&table, "time");
+    if (rows > 1)
+        table_cellf(&table, "%.6g ... %.6g s, %d rows", times[0], times[rows - 1], rows);
+    else
+        table_cellf(&table, "%.6g s", rows > 0 ? times[0] : 0.0);
+    if (result_kind(result) == RUN_SIMULATE) {
+        table_cell(&table, "tolerances");
+        table_cellf(&table, "rtol %.3g, atol %.3g", report->rtol, report->atol);
+    }
+    add_work(&table, report);
+    add_quality(&table, report);
+    table_print(out, &table, 0);
+    table_free(&table);
+}
+
+Status show_run(const View *view, const Selection *selection, Text *out, Diag *diag)
+{
+    const char *remarks;
+
+    (void)selection;
+    if (view->result == NULL) {
+        diag_set(diag, E_MISSING, "there is no run yet");
+        diag_hint(diag, "'simulate 10' makes one");
+        return E_MISSING;
+    }
+    report_print(out, view->result, "run");
+    remarks = result_remarks(view->result);
+    if (remarks[0] != '\0') {
+        text_add(out, remarks);
+        if (remarks[strlen(remarks) - 1] != '\n')
+            text_char(out, '\n');
+    }
+    return OK;
+}
+
+/* --- what is evaluated --- */
+
+static void push_reading(const System *system, Expr **roots, int *count)
+{
+    const Reading *r = system_run(system);
+    const int nu = system_nu(system), m = system_m(system), n = system_n(system);
+    const int k = system_nx(system) + system_nz(system);
+    const struct {
+        const Expr *at;
+        int count;
+    } parts[] = {{r->phi, m},         {r->phi_u, m * nu},  {r->nu, m},
+                 {r->gamma, m},       {r->mass, nu * nu},  {r->force, nu},
+                 {r->network, k * k}, {r->network_rhs, k}, {r->q_rate, n}};
+    LIST(Expr) all = {0};
+
+    for (int p = 0; p < COUNT(parts); p++)
+        for (int i = 0; i < parts[p].count; i++)
+            LIST_PUSH(all, parts[p].at[i]);
+    *roots = all.at;
+    *count = all.count;
+}
+
+Status show_program(const View *view, const Selection *selection, Text *out, Diag *diag)
+{
+    Expr *roots, *symbols = NULL;
+    Program *program = NULL;
+    Status status;
+    int count, inputs;
+
+    (void)selection;
+    push_reading(view->system, &roots, &count);
+    inputs = expr_symbols(roots, count, &symbols);
+    CHECK(program_new(roots, count, symbols, inputs, &program, diag));
+    program_print(out, program);
+done:
+    program_free(program);
+    mem_free(symbols);
+    mem_free(roots);
+    return status;
+}
+
+static void add_pattern(Text *out, const char *title, const Expr *entries, int rows, int columns)
+{
+    int filled = 0;
+
+    for (int i = 0; i < rows * columns; i++)
+        filled += !expr_is_zero(entries[i]);
+    text_addf(out, "%s, %d x %d, %d not zero\n", title, rows, columns, filled);
+    for (int r = 0; r < rows && columns <= 60; r++) {
+        text_add(out, "  ");
+        for (int c = 0; c < columns; c++)
+            text_add(out, expr_is_zero(entries[r * columns + c]) ? " ." : " x");
+        text_char(out, '\n');
+    }
+}
+
+Status show_structure(const View *view, const Selection *selection, Text *out, Diag *diag)
+{
+    const System *system = view->system;
+    const Reading *reading = system_run(system);
+    const int nu = system_nu(system), m = system_m(system);
+    const int k = system_nx(system) + system_nz(system);
+    Table table = table_for("lr");
+
+    (void)selection, (void)diag;
+    table_cell(&table, "coordinates");
+    table_cellf(&table, "%d", system_n(system));
+    table_cell(&table, "speeds");
+    table_cellf(&table, "%d", nu);
+    table_cell(&table, "constraints");
+    table_cellf(&table, "%d", m);
+    table_cell(&table, "network states");
+    table_cellf(&table, "%d", system_nx(system));
+    table_cell(&table, "algebraic unknowns");
+    table_cellf(&table, "%d", system_nz(system));
+    table_print(out, &table, 0);
+    table_free(&table);
+    if (nu > 0)
+        add_pattern(out, "mass matrix", reading->mass, nu, nu);
+    if (m > 0)
+        add_pattern(out, "jacobian", reading->phi_u, m, nu);
+    if (k > 0)
+        add_pattern(out, "network", reading->network, k, k);
+    return OK;
+}
