@@ -4,3 +4,7 @@ libcore_la_SOURCES += lib/export/layout.h lib/export/layout.c \
 	lib/export/show.h lib/export/show.c lib/export/show_graph.c lib/export/show_equations.c \
 	lib/export/show_session.c lib/export/count.h lib/export/count.c \
 	lib/export/info.h lib/export/info.c lib/export/draw.c
+
+# help, reference and completion
+libcore_la_SOURCES += lib/export/help.h lib/export/help.c lib/export/help_topics.c \
+	lib/export/reference.c lib/export/complete.c

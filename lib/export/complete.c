@@ -1,0 +1,583 @@
+/* complete.c: what could stand at a place of a half-typed line
+ *
+ * The verb's row says how its operands are read; the words before the cursor say how far
+ * the line has come. What is offered comes from the tables and from the model's names. */
+#include "export/count.h"
+#include "export/help.h"
+#include "export/show.h"
+
+#include <ctype.h>
+#include <stdio.h>
+#include <string.h>
+
+typedef struct Line {
+    const Model *model;
+    const char *text;    /* of the statement, to the cursor */
+    size_t word;         /* where the word to be completed starts */
+    char prefix[128];    /* that word */
+    LIST(char *) before; /* words before it */
+    Words *out;
+} Line;
+
+static void offer(Line *line, const char *word)
+{
+    if (strncmp(word, line->prefix, strlen(line->prefix)) != 0)
+        return;
+    for (int i = 0; i < line->out->count; i++)
+        if (strcmp(line->out->at[i], word) == 0)
+            return;
+    LIST_PUSH(*line->out, mem_text(word, strlen(word)));
+}
+
+static void offer_key(Line *line, const char *key)
+{
+    char word[128];
+
+    (void)snprintf(word, sizeof word, "%s=", key);
+    for (int i = 0; i < line->before.count; i++)
+        if (strncmp(line->before.at[i], word, strlen(word)) == 0)
+            return;
+    offer(line, word);
+}
+
+/* --- sources of words --- */
+
+static void offer_verbs(Line *line)
+{
+    Verb verb;
+
+    for (int i = 0; verb_at(i, &verb); i++)
+        if (!verb.later)
+            offer(line, verb.name);
+    offer(line, "virtual");
+}
+
+static void offer_joints_types(Line *line)
+{
+    for (int i = 0; component_at(i) != NULL; i++)
+        if (component_at(i)->family == FAMILY_JOINT)
+            offer(line, component_at(i)->name);
+}
+
+static void offer_nodes(Line *line, bool mechanical)
+{
+    const Graph *graph = model_graph(line->model);
+
+    for (int n = 0; n < graph_node_count(graph); n++)
+        if ((graph_node(graph, n)->domain == DOMAIN_MECHANICAL) == mechanical)
+            offer(line, graph_node(graph, n)->name);
+    offer(line, mechanical ? "ground" : "0");
+}
+
+static void offer_frames(Line *line)
+{
+    offer_nodes(line, true);
+}
+
+static void offer_terminals(Line *line)
+{
+    offer_nodes(line, false);
+}
+
+static void offer_edges(Line *line)
+{
+    const Graph *graph = model_graph(line->model);
+
+    for (int e = 0; e < graph_edge_count(graph); e++)
+        offer(line, graph_edge(graph, e)->name);
+}
+
+static void offer_joints(Line *line)
+{
+    for (int i = 0; i < model_count(line->model); i++)
+        if (model_instance(line->model, i)->row->family == FAMILY_JOINT)
+            offer(line, model_instance(line->model, i)->name);
+}
+
+static void offer_coordinates(Line *line)
+{
+    for (int i = 0; i < model_count(line->model); i++) {
+        const Instance *instance = model_instance(line->model, i);
+
+        for (int c = 0; c < instance->coord_count; c++)
+            offer(line, instance->coord[c]);
+    }
+}
+
+static void offer_instances(Line *line)
+{
+    for (int i = 0; i < model_count(line->model); i++)
+        offer(line, model_instance(line->model, i)->name);
+}
+
+static void offer_names(Line *line)
+{
+    const char *name;
+
+    for (int i = 0; (name = model_name(line->model, i)) != NULL; i++)
+        offer(line, name);
+    offer_coordinates(line);
+}
+
+static void offer_functions(Line *line)
+{
+    static const char *const names[] = {
+#define OP(id, name, ...) name,
+#include "expr/ops.def"
+#undef OP
+    };
+    static const char *const more[] = {"mean", "rms", "pulse", "pwl", "table"};
+    char call[40];
+
+    for (int i = 0; i < COUNT(names) + COUNT(more); i++) {
+        const char *name = i < COUNT(names) ? names[i] : more[i - COUNT(names)];
+
+        if (!isalpha((unsigned char)name[0]) || strcmp(name, "hold") == 0)
+            continue;
+        (void)snprintf(call, sizeof call, "%s(", name);
+        offer(line, call);
+    }
+}
+
+static void offer_values(Line *line)
+{
+    static const char *const words[] = {"t", "pi", "energy", "model", "count", "constraint"};
+
+    offer_names(line);
+    /* functions and the rest only once a letter says that one is meant */
+    if (line->prefix[0] == '\0')
+        return;
+    for (int i = 0; i < COUNT(words); i++)
+        offer(line, words[i]);
+    offer_functions(line);
+}
+
+static void offer_topics(Line *line)
+{
+    for (int i = 0; topic_at(i) != NULL; i++)
+        if (topic_at(i)->show != NULL)
+            offer(line, topic_at(i)->name);
+}
+
+static void offer_show(Line *line)
+{
+    if (line->before.count == 1)
+        offer_topics(line);
+    if (line->before.count > 1 || line->prefix[0] != '\0')
+        offer_names(line);
+}
+
+static void offer_help_words(Line *line)
+{
+    const char *word;
+
+    for (int i = 0; help_word(i, &word); i++)
+        offer(line, word);
+}
+
+static void offer_blocks(Line *line)
+{
+    for (int i = 0; count_block_name(i) != NULL; i++)
+        offer(line, count_block_name(i));
+    offer(line, "trees");
+}
+
+static void offer_methods(Line *line)
+{
+    const char *name, *brief;
+
+    for (int i = 0; (name = run_method(i, &brief)) != NULL; i++)
+        offer(line, name);
+}
+
+static void offer_notations(Line *line)
+{
+    for (int i = 0; notation_name(i) != NULL; i++)
+        offer(line, notation_name(i));
+}
+
+static void offer_axes(Line *line)
+{
+    static const char *const axes[] = {"x", "y", "z", "-x", "-y", "-z"};
+
+    for (int i = 0; i < COUNT(axes); i++)
+        offer(line, axes[i]);
+}
+
+/* --- operands --- */
+
+/* verbs whose words stand in other tables than their row, or are names of one kind */
+static const struct {
+    const char *verb;
+    void (*offer)(Line *line);
+} sources[] = {
+    {"show", offer_show},        {"help", offer_help_words},   {"apropos", offer_help_words},
+    {"count", offer_blocks},     {"tree", offer_edges},        {"cotree", offer_edges},
+    {"delete", offer_instances}, {"info", offer_names},        {"set", offer_instances},
+    {"init", offer_coordinates}, {"guess", offer_coordinates},
+};
+
+/* the place-th place of a component */
+static void offer_place(Line *line, const Component *row, int place)
+{
+    switch (row->places) {
+    case PLACES_NONE:
+        break;
+    case PLACES_FROM:
+    case PLACES_FRAMES:
+    case PLACES_ON:
+        offer_frames(line);
+        break;
+    case PLACES_LINK:
+        offer_frames(line);
+        if (place == 0)
+            offer_joints(line);
+        break;
+    case PLACES_COORDINATE:
+        offer_coordinates(line);
+        break;
+    case PLACES_TERMINALS:
+        offer_terminals(line);
+        break;
+    case PLACES_TRANSDUCER:
+        if (place == 0)
+            offer_joints(line);
+        else
+            offer_terminals(line);
+        break;
+    }
+}
+
+static void offer_row_words(Line *line, const Verb *verb)
+{
+    for (int i = 0; verb->words != NULL && verb->words[i] != NULL; i++)
+        offer(line, verb->words[i]);
+    for (int i = 0; i < COUNT(sources); i++)
+        if (strcmp(sources[i].verb, verb->name) == 0)
+            sources[i].offer(line);
+}
+
+static void offer_letter(Line *line, const Verb *verb, char letter, int place)
+{
+    bool has_source = verb->words != NULL;
+
+    for (int i = 0; i < COUNT(sources); i++)
+        has_source = has_source || strcmp(sources[i].verb, verb->name) == 0;
+    switch (letter) {
+    case 'p':
+    case 'P':
+        if (verb->component != NULL)
+            offer_place(line, verb->component, place);
+        else if (!has_source)
+            offer_names(line);
+        break;
+    case 'v':
+    case 'V':
+    case 'e':
+    case 'i':
+    case 'I':
+    case 'C':
+        offer_values(line);
+        break;
+    case '=':
+        if (verb->component != NULL && verb->component->places == PLACES_COORDINATE)
+            offer_coordinates(line);
+        else if (!has_source)
+            offer_names(line);
+        break;
+    default:
+        break;
+    }
+    if (strchr("wWotxlp=", letter) != NULL)
+        offer_row_words(line, verb);
+}
+
+static void offer_keys(Line *line, const Verb *verb)
+{
+    for (int i = 0; verb_key(verb, i) != NULL; i++)
+        offer_key(line, verb_key(verb, i));
+}
+
+static void offer_operand(Line *line, const Verb *verb, int first)
+{
+    const char *shape = verb->shape;
+    int operand = first, place = 0, at = 0;
+
+    while (operand < line->before.count && shape[at] != '\0' &&
+           strchr("nwWpPvVso", shape[at]) != NULL && shape[at + 1] != '*') {
+        place += shape[at] == 'p' || shape[at] == 'P';
+        at++;
+        operand++;
+    }
+    if (shape[at] != '\0' && shape[at] != 'k')
+        offer_letter(line, verb, shape[at], place);
+    /* what may follow once nothing is missing; V and P may be skipped */
+    while (shape[at] != '\0' && strchr("PVWIiext*", shape[at]) != NULL)
+        at++;
+    for (; shape[at] != '\0'; at++) {
+        if (shape[at] == 'k')
+            offer_keys(line, verb);
+        else if (shape[at] == '@' && operand > first)
+            offer(line, "at");
+        else if (shape[at] == 'y' && operand > first)
+            offer(line, "vs");
+        else if (shape[at] == 'a' && operand > first)
+            offer(line, "as");
+        else if (strchr(">:*", shape[at]) == NULL)
+            break;
+    }
+}
+
+/* --- values of keys, members --- */
+
+static void offer_alternatives(Line *line, const char *words)
+{
+    while (*words != '\0') {
+        const size_t length = strcspn(words, "|");
+        char *word = mem_text(words, length);
+
+        offer(line, word);
+        mem_free(word);
+        words += length + (words[length] == '|');
+    }
+}
+
+static void offer_key_value(Line *line, const Verb *verb, const char *key)
+{
+    const int i = verb->component != NULL ? component_param(verb->component, key) : -1;
+    const Param *param = i >= 0 ? &verb->component->params[i] : NULL;
+
+    if (param != NULL && param->kind == PARAM_WORD)
+        offer_alternatives(line, param->fallback);
+    else if (param != NULL && (param->kind == PARAM_AXIS || param->kind == PARAM_AXES))
+        offer_axes(line);
+    else if (strcmp(key, "method") == 0)
+        offer_methods(line);
+    else if (strcmp(key, "independent") == 0)
+        offer_coordinates(line);
+    else
+        offer_values(line);
+}
+
+static void offer_member(Line *line, const char *base, const char *member)
+{
+    char word[256];
+
+    (void)snprintf(word, sizeof word, "%s.%s", base, member);
+    offer(line, word);
+}
+
+/* members of groups that aren't components */
+static const struct {
+    const char *base;
+    const char *members[4];
+} groups[] = {
+    {"energy", {"kinetic", "potential", "total", NULL}},
+    {"model", {"n", "m", "dof", NULL}},
+    {"constraint", {"error", NULL}},
+};
+
+static void offer_members(Line *line, const Verb *verb)
+{
+    char base[128];
+    const char *dot = strrchr(line->prefix, '.');
+    const Instance *instance;
+    const Member *member;
+
+    (void)snprintf(base, sizeof base, "%.*s", (int)(dot - line->prefix), line->prefix);
+    for (int g = 0; g < COUNT(groups); g++)
+        for (int i = 0; strcmp(groups[g].base, base) == 0 && groups[g].members[i] != NULL; i++)
+            offer_member(line, base, groups[g].members[i]);
+    for (int i = 0; strcmp(base, "count") == 0 && count_block_name(i) != NULL; i++)
+        offer_member(line, base, count_block_name(i));
+    instance = model_find(line->model, base);
+    if (instance == NULL) {
+        if (graph_find_node(model_graph(line->model), base) >= 0)
+            offer_member(line, base, "v");
+        return;
+    }
+    if (verb != NULL && strcmp(verb->name, "set") == 0) {
+        for (int i = 0; i < instance->row->param_count; i++)
+            offer_member(line, base, instance->row->params[i].name);
+        return;
+    }
+    for (int c = 0; c < instance->coord_count; c++)
+        offer(line, instance->coord[c]);
+    for (int i = 0;
+         (member = component_member(instance->row, model_is_planar(line->model), i)) != NULL; i++)
+        offer_member(line, base, member->name);
+}
+
+static bool is_number(const char *word)
+{
+    return isdigit((unsigned char)word[0]) ||
+           ((word[0] == '.' || word[0] == '-') && isdigit((unsigned char)word[1]));
+}
+
+/* the number that the word stands behind, also that of key=5 */
+static bool follows_number(const Line *line)
+{
+    const char *last = line->before.count > 0 ? line->before.at[line->before.count - 1] : "";
+    const char *equals = strrchr(last, '=');
+
+    return is_number(equals != NULL ? equals + 1 : last);
+}
+
+static void offer_units(Line *line)
+{
+    const char *name;
+
+    for (int i = 0; (name = unit_name(i)) != NULL; i++)
+        offer(line, name);
+}
+
+/* --- the line --- */
+
+static bool is_word(char c)
+{
+    return isalnum((unsigned char)c) || c == '_' || c == '.';
+}
+
+/* offset of the statement that the cursor stands in; false inside a string or comment */
+static bool find_statement(const char *text, size_t cursor, size_t *start)
+{
+    bool quoted = false;
+
+    *start = 0;
+    for (size_t i = 0; i < cursor; i++) {
+        if (text[i] == '"')
+            quoted = !quoted;
+        else if (!quoted && text[i] == '#')
+            return false;
+        else if (!quoted && text[i] == ';')
+            *start = i + 1;
+        else if (!quoted && text[i] == ':' && i + 1 < cursor)
+            *start = i + 1;
+    }
+    while (*start < cursor && isspace((unsigned char)text[*start]))
+        ++*start;
+    return !quoted;
+}
+
+static void split(Line *line)
+{
+    size_t i = 0;
+
+    while (i < line->word) {
+        const size_t from = i;
+
+        while (i < line->word && !isspace((unsigned char)line->text[i]) && line->text[i] != ',')
+            i++;
+        if (i > from)
+            LIST_PUSH(line->before, mem_text(line->text + from, i - from));
+        i++;
+    }
+}
+
+/* the key of `key=` where the cursor stands in its value; false: it doesn't */
+static bool find_key(const Line *line, char *key, size_t size)
+{
+    size_t from = line->word, equals;
+
+    while (from > 0 && !isspace((unsigned char)line->text[from - 1]))
+        from--;
+    equals = from + strcspn(line->text + from, "=");
+    if (equals >= line->word) {
+        /* blanks around = are free */
+        size_t end = line->word;
+
+        while (end > 0 && isspace((unsigned char)line->text[end - 1]))
+            end--;
+        if (end == 0 || line->text[end - 1] != '=')
+            return false;
+        equals = from = end - 1;
+        while (from > 0 && isspace((unsigned char)line->text[from - 1]))
+            from--;
+        equals = from;
+        while (from > 0 && is_word(line->text[from - 1]))
+            from--;
+    }
+    (void)snprintf(key, size, "%.*s", (int)(equals - from), line->text + from);
+    return true;
+}
+
+static bool has_pair(const Line *line)
+{
+    for (int i = 0; i < line->before.count; i++)
+        if (strchr(line->before.at[i], '=') != NULL)
+            return true;
+    return false;
+}
+
+static void offer_behind_verb(Line *line)
+{
+    const bool is_virtual = strcmp(line->before.at[0], "virtual") == 0;
+    const char *last = line->before.at[line->before.count - 1];
+    Verb verb;
+    char key[128];
+    bool known = line->before.count > (is_virtual ? 1 : 0) &&
+                 verb_find(line->before.at[is_virtual ? 1 : 0], &verb);
+
+    if (line->before.at[0][0] == '?')
+        offer_help_words(line);
+    else if (strchr(line->prefix, '.') != NULL)
+        offer_members(line, known ? &verb : NULL);
+    else if (is_virtual && line->before.count == 1)
+        offer_joints_types(line);
+    else if (line->prefix[0] != '\0' && follows_number(line))
+        offer_units(line);
+    else if (!known)
+        offer_values(line);
+    else if (find_key(line, key, sizeof key))
+        offer_key_value(line, &verb, key);
+    else if (strcmp(last, "as") == 0)
+        offer_notations(line);
+    else if (strcmp(last, "at") == 0)
+        offer(line, "t");
+    else if (strchr(verb.shape, 'T') != NULL)
+        offer_verbs(line);
+    else if (has_pair(line) && strchr(verb.shape, 'k') != NULL)
+        offer_keys(line, &verb);
+    else
+        offer_operand(line, &verb, is_virtual ? 2 : 1);
+}
+
+void complete_line(const Model *model, const char *text, size_t cursor, size_t *start, Words *out)
+{
+    Line line = {.model = model, .before = {0}, .out = out};
+    char *copy;
+    size_t statement;
+
+    if (cursor > strlen(text))
+        cursor = strlen(text);
+    *start = cursor;
+    if (!find_statement(text, cursor, &statement))
+        return;
+    copy = mem_text(text + statement, cursor - statement);
+    line.text = copy;
+    line.word = strlen(copy);
+    while (line.word > 0 && is_word(copy[line.word - 1]))
+        line.word--;
+    *start = statement + line.word;
+    if (strlen(copy + line.word) < sizeof line.prefix) {
+        (void)snprintf(line.prefix, sizeof line.prefix, "%s", copy + line.word);
+        split(&line);
+        if (line.before.count == 0 && copy[0] == '?')
+            offer_help_words(&line);
+        else if (line.before.count == 0)
+            offer_verbs(&line);
+        else
+            offer_behind_verb(&line);
+    }
+    for (int i = 0; i < line.before.count; i++)
+        mem_free(line.before.at[i]);
+    LIST_FREE(line.before);
+    mem_free(copy);
+}
+
+void words_free(Words *words)
+{
+    for (int i = 0; i < words->count; i++)
+        mem_free(words->at[i]);
+    LIST_FREE(*words);
+}
