@@ -8,3 +8,7 @@ libcore_la_SOURCES += lib/export/layout.h lib/export/layout.c \
 # help, reference and completion
 libcore_la_SOURCES += lib/export/help.h lib/export/help.c lib/export/help_topics.c \
 	lib/export/reference.c lib/export/complete.c
+
+# files in other formats
+libcore_la_SOURCES += lib/export/write.h lib/export/write_csv.c lib/export/write_latex.c \
+	lib/export/write_c.c

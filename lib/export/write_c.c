@@ -1,0 +1,260 @@
+/* write_c.c: equations as C functions
+ *
+ * A function a block takes parameters p, time t, coordinates q, speeds u, network
+ * states x and algebraic unknowns z, and writes the block row by row. Symbols become local
+ * variables with the user's names, made into identifiers. */
+#include "export/abbreviate.h"
+#include "export/write.h"
+
+#include "base/names.h"
+
+#include <ctype.h>
+#include <stdio.h>
+#include <string.h>
+
+typedef struct Rename { /* symbols and the identifiers that stand for them */
+    Arena *arena;
+    Names *taken;
+    LIST(Expr) symbols;
+    LIST(Expr) identifiers;
+    LIST(const char *) sources; /* "q[0]", kept in `pool` */
+    Pool *pool;
+} Rename;
+
+/* what an identifier of ours may not be: keywords, and what the functions call their own */
+static const char *const reserved[] = {
+    "auto", "break",  "case",    "char",     "const",    "continue", "default", "do",     "double",
+    "else", "enum",   "extern",  "float",    "for",      "goto",     "if",      "inline", "int",
+    "long", "return", "short",   "signed",   "sizeof",   "static",   "struct",  "switch", "union",
+    "void", "while",  "y0",      "y1",       "yn",       "j0",       "j1",      "jn",     "gamma",
+    "p",    "t",      "q",       "u",        "x",        "z",        "out",     "sin",    "cos",
+    "tan",  "asin",   "acos",    "atan",     "atan2",    "sinh",     "cosh",    "tanh",   "exp",
+    "log",  "sqrt",   "fabs",    "pow",      "fmin",     "fmax",     "floor",   "sign",   "step",
+    "ramp", "main",   "typedef", "volatile", "unsigned", "register", "restrict"};
+
+/* letters, digits and _ of the name; a prime becomes _d; unique */
+static const char *identifier(Rename *rename, const char *name)
+{
+    Text text = {0};
+    const char *out;
+    int count = 2;
+
+    for (const char *c = name; *c != '\0'; c++)
+        if (*c == '\'')
+            text_add(&text, "_d");
+        else if (isalnum((unsigned char)*c) || *c == '_')
+            text_char(&text, *c);
+        else if (*c != ')')
+            text_char(&text, '_');
+    if (text.length == 0 || isdigit((unsigned char)text.at[0])) {
+        Text prefixed = {0};
+
+        text_addf(&prefixed, "v_%s", text.at != NULL ? text.at : "");
+        text_free(&text);
+        text = prefixed;
+    }
+    if (names_find(rename->taken, text.at) >= 0) {
+        const size_t length = text.length;
+
+        do {
+            text.length = length;
+            text_addf(&text, "_%d", count++);
+        } while (names_find(rename->taken, text.at) >= 0);
+    }
+    (void)names_add(rename->taken, text.at);
+    out = pool_text(rename->pool, text.at, text.length);
+    text_free(&text);
+    return out;
+}
+
+static void add_symbol(Rename *rename, Expr symbol, const char *array, int index)
+{
+    char source[40];
+
+    (void)snprintf(source, sizeof source, "%s[%d]", array, index);
+    LIST_PUSH(rename->symbols, symbol);
+    LIST_PUSH(rename->identifiers,
+              expr_symbol(rename->arena, identifier(rename, expr_name(symbol)), SYMBOL_ARGUMENT));
+    LIST_PUSH(rename->sources, pool_text(rename->pool, source, strlen(source)));
+}
+
+static Rename rename_all(const View *view)
+{
+    const System *system = view->system;
+    Rename rename = {.arena = model_arena(view->model), .taken = names_new(), .pool = pool_new(0)};
+
+    for (int i = 0; i < COUNT(reserved); i++)
+        (void)names_add(rename.taken, reserved[i]);
+    for (int i = 0; i < model_parameter_count(view->model); i++) {
+        Expr definition;
+
+        add_symbol(&rename, model_parameter(view->model, i, &definition), "p", i);
+    }
+    for (int i = 0; i < system_n(system); i++)
+        add_symbol(&rename, system_q(system, i)->symbol, "q", i);
+    for (int i = 0; i < system_nu(system); i++)
+        add_symbol(&rename, system_u(system, i)->symbol, "u", i);
+    for (int i = 0; i < system_nx(system); i++)
+        add_symbol(&rename, system_x(system, i)->symbol, "x", i);
+    for (int i = 0; i < system_nz(system); i++)
+        add_symbol(&rename, system_z(system, i)->symbol, "z", i);
+    return rename;
+}
+
+static void rename_free(Rename *rename)
+{
+    names_free(rename->taken);
+    pool_free(rename->pool);
+    LIST_FREE(rename->symbols);
+    LIST_FREE(rename->identifiers);
+    LIST_FREE(rename->sources);
+}
+
+/* --- one function --- */
+
+/* the locals that a block uses, copied from the arguments */
+static void add_locals(Text *out, const Rename *rename, const Expr *roots, int count)
+{
+    for (int i = 0; i < rename->symbols.count; i++) {
+        bool used = false;
+
+        for (int r = 0; !used && r < count; r++)
+            used = expr_depends(roots[r], rename->symbols.at[i]);
+        if (used)
+            text_addf(out, "    const double %s = %s;\n", expr_name(rename->identifiers.at[i]),
+                      rename->sources.at[i]);
+    }
+}
+
+static void add_function(Text *out, const Rename *rename, const char *name, const char *what,
+                         const Expr *entries, int rows, int columns)
+{
+    /* no name of the user begins so */
+    static const Naming naming = {"_v", 1, 0};
+    const int count = rows * columns;
+    Expr *roots = NEW_ARRAY(Expr, count);
+    Abbreviation shared;
+
+    for (int i = 0; i < count; i++)
+        roots[i] = expr_substitute(rename->arena, entries[i], rename->symbols.at,
+                                   rename->identifiers.at, rename->symbols.count);
+    shared = abbreviate(rename->arena, roots, count, &naming);
+    text_addf(out,
+              "\n/* %s, %d x %d, row by row */\nvoid %s(const double *p, double t, const double "
+              "*q, const double *u,\n    const double *x, const double *z, double *out)\n{\n",
+              what, rows, columns, name);
+    add_locals(out, rename, entries, count);
+    for (int i = 0; i < shared.definitions.count; i++) {
+        text_addf(out, "    const double %s = ", expr_name(shared.definitions.at[i].symbol));
+        expr_print(out, shared.definitions.at[i].value, NOTATION_C);
+        text_add(out, ";\n");
+    }
+    text_add(out, "\n    (void)p, (void)t, (void)q, (void)u, (void)x, (void)z;\n");
+    for (int i = 0; i < count; i++) {
+        text_addf(out, "    out[%d] = ", i);
+        expr_print(out, shared.roots[i], NOTATION_C);
+        text_add(out, ";\n");
+    }
+    text_add(out, "}\n");
+    abbreviation_free(&shared);
+    mem_free(roots);
+}
+
+/* a function has no place for accelerations, multipliers and efforts */
+static Status check_symbols(const Rename *rename, const Expr *entries, int count, const char *what,
+                            Diag *diag)
+{
+    Expr *symbols = NULL;
+    const int found = expr_symbols(entries, count, &symbols);
+    Status status = OK;
+
+    for (int i = 0; status == OK && i < found; i++) {
+        bool known = expr_symbol_kind(symbols[i]) == SYMBOL_TIME;
+
+        for (int k = 0; !known && k < rename->symbols.count; k++)
+            known = rename->symbols.at[k] == symbols[i];
+        if (!known)
+            status = diag_set(diag, E_MISSING,
+                              "%s depends on %s, which no function of the C source is given", what,
+                              expr_name(symbols[i]));
+    }
+    mem_free(symbols);
+    return status;
+}
+
+/* --- the file --- */
+
+static void add_list(Text *out, const char *array, const char *what,
+                     const Variable *(*variable)(const System *, int), const System *system,
+                     int count)
+{
+    for (int i = 0; i < count; i++)
+        text_addf(out, " *   %s[%d] %s%s\n", array, i, variable(system, i)->name,
+                  i == 0 ? what : "");
+}
+
+static void add_head(Text *out, const View *view)
+{
+    const System *system = view->system;
+
+    text_addf(out,
+              "/* %s\n *\n * M u' + Phi_u^T lambda = F,  Phi = 0,  Phi_u u = nu,  "
+              "Phi_u u' = gamma,  A [x'; z] = r\n *\n",
+              model_title(view->model) != NULL && model_title(view->model)[0] != '\0'
+                  ? model_title(view->model)
+                  : "equations of motion");
+    for (int i = 0; i < model_parameter_count(view->model); i++) {
+        Expr definition;
+        const Expr symbol = model_parameter(view->model, i, &definition);
+
+        text_addf(out, " *   p[%d] %s = ", i, expr_name(symbol));
+        text_number(out, model_parameter_value(view->model, symbol), 17);
+        text_char(out, '\n');
+    }
+    add_list(out, "q", "  (coordinates)", system_q, system, system_n(system));
+    add_list(out, "u", "  (speeds)", system_u, system, system_nu(system));
+    add_list(out, "x", "  (network states)", system_x, system, system_nx(system));
+    add_list(out, "z", "  (algebraic unknowns)", system_z, system, system_nz(system));
+    text_add(out, " */\n#include <math.h>\n\n"
+                  "static inline double sign(double v) { return (v > 0) - (v < 0); }\n"
+                  "static inline double step(double v) { return v >= 0; }\n"
+                  "static inline double ramp(double v) { return v > 0 ? v : 0; }\n");
+}
+
+Status write_c(const View *view, Text *out, Diag *diag)
+{
+    const System *system = view->system;
+    const Reading *r = system_run(system);
+    const int nu = system_nu(system), m = system_m(system), n = system_n(system);
+    const int k = system_nx(system) + system_nz(system);
+    const struct {
+        const char *name, *what;
+        const Expr *entries;
+        int rows, columns;
+    } blocks[] = {
+        {"model_q_rate", "q'", r->q_rate, n, 1},
+        {"model_mass", "mass matrix M", r->mass, nu, nu},
+        {"model_forces", "right side F", r->force, nu, 1},
+        {"model_constraints", "constraints Phi", r->phi, m, 1},
+        {"model_jacobian", "jacobian Phi_u", r->phi_u, m, nu},
+        {"model_velocity", "nu", r->nu, m, 1},
+        {"model_acceleration", "gamma", r->gamma, m, 1},
+        {"model_network", "network matrix A", r->network, k, k},
+        {"model_network_rhs", "right side r of the network", r->network_rhs, k, 1},
+    };
+    Rename rename = rename_all(view);
+    Status status = OK;
+
+    add_head(out, view);
+    for (int i = 0; i < COUNT(blocks); i++) {
+        CHECK(poll(view->watch));
+        CHECK(check_symbols(&rename, blocks[i].entries, blocks[i].rows * blocks[i].columns,
+                            blocks[i].what, diag));
+        if (blocks[i].rows * blocks[i].columns > 0)
+            add_function(out, &rename, blocks[i].name, blocks[i].what, blocks[i].entries,
+                         blocks[i].rows, blocks[i].columns);
+    }
+done:
+    rename_free(&rename);
+    return status;
+}
