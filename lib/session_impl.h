@@ -1,0 +1,116 @@
+/* session_impl.h: what a session holds, for the files of lib/session*.c
+ *
+ * A model, the equations made of it, its runs, and what was said last. Systems are
+ * made when needed and kept while they are those of the model or a run names them. */
+#ifndef COTREE_SESSION_IMPL_H
+#define COTREE_SESSION_IMPL_H
+
+#include "cotree.h"
+
+#include "base/memory.h"
+#include "base/text.h"
+#include "export/count.h"
+#include "export/view.h"
+#include "model/model.h"
+#include "simulate/run.h"
+
+/* Values of parameters when a run began; lives as long as the run. */
+typedef struct ParameterValues {
+    const Model *model; /* for parameters made later */
+    LIST(Expr) symbols;
+    LIST(double) values;
+} ParameterValues;
+
+typedef struct Run {
+    Result *result;
+    ParameterValues *parameters;
+} Run;
+
+struct ct_session {
+    ct_hooks hooks;
+    Watch watch; /* the hooks, as lib/ knows them */
+    Model *model;
+    LIST(System *) systems; /* of the runs and, last, of the model as it was when asked last */
+    LIST(Run) runs;         /* run1 is the first */
+    Run start;              /* assembled from the model as it is; result NULL: not yet */
+    Run warm;               /* the start before that: where guesses come from */
+    bool start_is_later;    /* a bare name means the start, not the end of the last run */
+    bool changed;           /* since the last run */
+    TreeCosts costs;
+    int cost_now; /* of the trees chosen last, a place in `costs` */
+    Text remarks; /* of the last call; at NULL: none */
+};
+
+/* hands the statement behind the public name; never NULL for NULL-free input */
+static inline const Statement *statement_of(const ct_statement *statement)
+{
+    return (const Statement *)(const void *)statement;
+}
+static inline const Syntax *syntax_of(const ct_expression *expression)
+{
+    return (const Syntax *)(const void *)expression;
+}
+static inline const ct_expression *expression_of(const Syntax *syntax)
+{
+    return (const ct_expression *)(const void *)syntax;
+}
+
+/* the public error of a status: returns what the public function returns */
+ct_status session_report(Status status, const Diag *diag, ct_error *error);
+/* before anything that may remark */
+void session_begin(ct_session *session);
+void session_remark(ct_session *session, const char *lines);
+
+/* the equations of the model as it is; borrowed */
+MUST_USE Status session_system(ct_session *session, System **out, Diag *diag);
+/* free systems that neither the model nor a run needs any more */
+void session_sweep(ct_session *session);
+/* what there is to look at; `system` and `result` as needed */
+View session_view(const ct_session *session);
+
+/* --- runs --- */
+
+void run_free(Run *run);
+/* the assembled start of the model as it is, made when it isn't there yet; borrowed */
+MUST_USE Status session_start(ct_session *session, Run **out, Diag *diag);
+/* what a bare name means: the last run, or the start; NULL diag place */
+MUST_USE Status session_source(ct_session *session, Run **out, Diag *diag);
+/* the start is no longer that of the model; it stays as what guesses come from */
+void session_forget_start(ct_session *session);
+
+/* --- values --- */
+
+/* An expression of the user's over variables, runs and counts, ready to be evaluated. */
+typedef enum LeafKind { LEAF_CONSTANT, LEAF_VARIABLE } LeafKind;
+
+typedef struct Leaf {
+    LeafKind kind;
+    double value; /* of a constant */
+    Expr expr;    /* of a variable: over names of the user's */
+    int run;      /* place in session->runs, or -1 for what a bare name means */
+    Expr symbol;  /* that stands for it in `whole` */
+} Leaf;
+
+typedef struct Formula {
+    LIST(Leaf) leaves;
+    Expr whole;   /* over the leaves' symbols */
+    double scale; /* 1 / unit to be shown in */
+} Formula;
+
+void formula_free(Formula *formula);
+/* Read an expression: names checked, functions of runs computed. */
+MUST_USE Status formula_new(ct_session *session, const Syntax *syntax, Formula *out, Diag *diag);
+bool formula_needs_run(const Formula *formula); /* or is made of numbers and parameters alone */
+/* one number: at an instant (at not NULL), else at the end; `source` what bare names mean, NULL
+ * where no run is needed */
+MUST_USE Status formula_value(ct_session *session, const Formula *formula, Run *source,
+                              const double *at, double *out, Diag *diag);
+/* the run whose grid a list is on: the one that its items name, else `source` */
+Run *formula_grid(ct_session *session, const Formula *formulas, int count, Run *source);
+/* values at `rows` times of several formulas, row by row: out is rows x stride, from column
+ * `first` on; times NULL: the rows of `grid` */
+MUST_USE Status formula_rows(ct_session *session, const Formula *formulas, int count, Run *grid,
+                             Run *source, const double *times, int rows, double *out, int stride,
+                             int first, Diag *diag);
+
+#endif

@@ -1,0 +1,395 @@
+/* session_run.c: simulate, kinematics, inverse, resume, assemble, and their reports */
+#include "session_impl.h"
+
+#include "export/show.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* --- parameters --- */
+
+static ParameterValues *parameters_now(const Model *model)
+{
+    ParameterValues *values = NEW(ParameterValues);
+
+    values->model = model;
+    for (int i = 0; i < model_parameter_count(model); i++) {
+        Expr definition;
+        const Expr symbol = model_parameter(model, i, &definition);
+
+        LIST_PUSH(values->symbols, symbol);
+        LIST_PUSH(values->values, model_parameter_value(model, symbol));
+    }
+    return values;
+}
+
+/* as the run had it; a parameter made since, as it is now */
+static double parameter_value(void *context, Expr symbol)
+{
+    const ParameterValues *values = context;
+
+    for (int i = 0; i < values->symbols.count; i++)
+        if (values->symbols.at[i] == symbol)
+            return values->values.at[i];
+    return model_parameter_value(values->model, symbol);
+}
+
+void run_free(Run *run)
+{
+    result_free(run->result);
+    if (run->parameters != NULL) {
+        LIST_FREE(run->parameters->symbols);
+        LIST_FREE(run->parameters->values);
+    }
+    mem_free(run->parameters);
+    *run = (Run){NULL, NULL};
+}
+
+void session_forget_start(ct_session *session)
+{
+    if (session->start.result == NULL)
+        return;
+    run_free(&session->warm);
+    session->warm = session->start;
+    session->start = (Run){NULL, NULL};
+}
+
+/* --- what a run is told --- */
+
+typedef struct Order {
+    ParameterValues *parameters;
+    StartValues start;
+    Setting setting;
+} Order;
+
+static void order_free(Order *order)
+{
+    mem_free(order->start.at);
+    if (order->parameters != NULL) {
+        Run run = {NULL, order->parameters};
+
+        run_free(&run);
+    }
+}
+
+static void order_make(ct_session *session, Order *order)
+{
+    const Model *model = session->model;
+    const int count = model_start_count(model);
+
+    order->parameters = parameters_now(model);
+    order->start.count = count;
+    order->start.at = mem_array((size_t)count, sizeof *order->start.at);
+    for (int i = 0; i < count; i++) {
+        const Start *start = model_start(model, i);
+
+        order->start.at[i].name = start->name;
+        order->start.at[i].primes = start->primes;
+        order->start.at[i].value = model_number(model, start->value);
+        order->start.at[i].is_guess = start->is_guess;
+    }
+    order->setting = (Setting){.parameter = parameter_value,
+                               .context = order->parameters,
+                               .start = &order->start,
+                               .warm = session->warm.result,
+                               .watch = &session->watch};
+    order->setting.form =
+        model_form(model, &order->setting.independent, &order->setting.independent_count);
+}
+
+/* the result and the parameters that it was made with */
+static Run order_done(Order *order, Result *result)
+{
+    Run run = {result, order->parameters};
+
+    order->parameters = NULL;
+    return run;
+}
+
+Status session_start(ct_session *session, Run **out, Diag *diag)
+{
+    Order order = {0};
+    Result *result = NULL;
+    System *system;
+    Status status = OK;
+
+    if (session->start.result == NULL) {
+        CHECK(session_system(session, &system, diag));
+        order_make(session, &order);
+        CHECK(run_assemble(system, &order.setting, &result, diag));
+        session->start = order_done(&order, result);
+        session_remark(session, result_remarks(result));
+    }
+    *out = &session->start;
+done:
+    order_free(&order);
+    return status;
+}
+
+Status session_source(ct_session *session, Run **out, Diag *diag)
+{
+    if (session->runs.count > 0 && !session->start_is_later) {
+        *out = session->runs.at + session->runs.count - 1;
+        return OK;
+    }
+    return session_start(session, out, diag);
+}
+
+/* --- options --- */
+
+static Status number_of(ct_session *session, const Syntax *syntax, const char *what, double *out,
+                        Diag *diag)
+{
+    Status status;
+    Expr e;
+    double value;
+
+    CHECK(model_expression(session->model, syntax, &e, diag));
+    if ((expr_kinds(e) & ~(1U << SYMBOL_PARAMETER)) != 0) {
+        diag_at(diag, E_VALUE, syntax->place, "%s must be a number, or made of parameters", what);
+        return E_VALUE;
+    }
+    value = model_number(session->model, e);
+    if (!isfinite(value) || value <= 0)
+        return diag_at(diag, E_VALUE, syntax->place, "%s must be positive, not %g", what, value);
+    *out = value;
+done:
+    return status;
+}
+
+static Status method_of(const Syntax *syntax, const char **out, Diag *diag)
+{
+    Suggest suggest = suggest_for(syntax->text);
+    const char *name, *brief;
+
+    for (int i = 0; (name = run_method(i, &brief)) != NULL; i++) {
+        if (strcmp(name, syntax->text) == 0) {
+            *out = name;
+            return OK;
+        }
+        suggest_offer(&suggest, name);
+    }
+    diag_at(diag, E_NAME, syntax->place, "no method is called '%s'", syntax->text);
+    if (suggest.best != NULL)
+        diag_hint(diag, "did you mean '%s'? 'help methods' lists them", suggest.best);
+    else
+        diag_hint(diag, "'help methods' lists them");
+    return E_NAME;
+}
+
+static Status switch_of(const Syntax *syntax, const char *key, bool *out, Diag *diag)
+{
+    if (strcmp(syntax->text, "on") != 0 && strcmp(syntax->text, "off") != 0)
+        return diag_at(diag, E_VALUE, syntax->place, "%s is on or off", key);
+    *out = strcmp(syntax->text, "on") == 0;
+    return OK;
+}
+
+static Status read_options(ct_session *session, const Statement *s, RunOptions *out, Diag *diag)
+{
+    RunOptions options = {0};
+    const struct {
+        const char *key;
+        double *value;
+    } numbers[] = {{"every", &options.every},
+                   {"rtol", &options.rtol},
+                   {"atol", &options.atol},
+                   {"step", &options.step}};
+    Status status;
+
+    if (s->operands.count != 1) {
+        diag_at(diag, E_SYNTAX, s->verb_place, "'%s' needs a time", s->verb);
+        diag_hint(diag, "%s 10 every=0.01", s->verb);
+        return E_SYNTAX;
+    }
+    CHECK(
+        number_of(session, s->operands.at[0].value, "the time of a run", &options.duration, diag));
+    for (int i = 0; i < s->pairs.count; i++) {
+        const Pair *pair = s->pairs.at + i;
+
+        for (int k = 0; k < COUNT(numbers); k++)
+            if (strcmp(pair->name, numbers[k].key) == 0)
+                CHECK(number_of(session, pair->value, pair->name, numbers[k].value, diag));
+        if (strcmp(pair->name, "method") == 0)
+            CHECK(method_of(pair->value, &options.method, diag));
+        if (strcmp(pair->name, "check") == 0)
+            CHECK(switch_of(pair->value, "check", &options.check, diag));
+    }
+    *out = options;
+done:
+    return status;
+}
+
+/* --- the verbs --- */
+
+typedef Status RunFunction(System *system, const Setting *setting, const RunOptions *options,
+                           Result **out, Diag *diag);
+
+static Status run_new(ct_session *session, RunFunction *function, const RunOptions *options,
+                      Diag *diag)
+{
+    Order order = {0};
+    Result *result = NULL;
+    System *system;
+    Status status;
+
+    CHECK(session_system(session, &system, diag));
+    order_make(session, &order);
+    status = function(system, &order.setting, options, &result, diag);
+    if (result == NULL)
+        goto done;
+    /* also what was computed before a stop or a failure */
+    LIST_PUSH(session->runs, order_done(&order, result));
+    session->start_is_later = false;
+    session->changed = false;
+    session_remark(session, result_remarks(result));
+done:
+    order_free(&order);
+    return status;
+}
+
+/* what isn't said again is as in the run that goes on */
+static RunOptions options_from(const Result *old, const RunOptions *said)
+{
+    const RunReport *report = result_report(old);
+    const double *times = result_times(old);
+    RunOptions options = *said;
+
+    if (options.rtol == 0)
+        options.rtol = report->rtol;
+    if (options.atol == 0)
+        options.atol = report->atol;
+    if (options.method == NULL)
+        options.method = report->method;
+    if (options.every == 0 && result_rows(old) > 1)
+        options.every = times[1] - times[0];
+    return options;
+}
+
+static Status run_on(ct_session *session, const Statement *s, const RunOptions *said, Diag *diag)
+{
+    RunOptions options;
+    const Result *old;
+    Order order = {0};
+    Result *result = NULL;
+    Status status = OK;
+
+    if (session->runs.count == 0) {
+        diag_at(diag, E_MISSING, s->verb_place, "there is no run to go on with");
+        diag_hint(diag, "'simulate 10' makes one");
+        return E_MISSING;
+    }
+    old = session->runs.at[session->runs.count - 1].result;
+    options = options_from(old, said);
+    order_make(session, &order);
+    status = run_resume(old, &order.setting, &options, &result, diag);
+    if (result != NULL) {
+        LIST_PUSH(session->runs, order_done(&order, result));
+        session->start_is_later = false;
+        session->changed = false;
+        session_remark(session, result_remarks(result));
+    }
+    order_free(&order);
+    return status;
+}
+
+static const struct {
+    const char *verb;
+    RunFunction *function; /* NULL: goes on */
+} runs[] = {{"simulate", run_simulate},
+            {"kinematics", run_kinematics},
+            {"inverse", run_inverse},
+            {"resume", NULL}};
+
+ct_status ct_run(ct_session *session, const ct_statement *statement, ct_error *error)
+{
+    const Statement *s = statement_of(statement);
+    RunOptions options;
+    Run *start;
+    Status status = OK;
+    Diag diag = {0};
+
+    session_begin(session);
+    if (s->verb != NULL && strcmp(s->verb, "assemble") == 0) {
+        session_forget_start(session);
+        CHECK(session_start(session, &start, &diag));
+        session->start_is_later = true;
+        goto done;
+    }
+    for (int i = 0; s->verb != NULL && i < COUNT(runs); i++)
+        if (strcmp(s->verb, runs[i].verb) == 0) {
+            CHECK(read_options(session, s, &options, &diag));
+            status = runs[i].function != NULL ? run_new(session, runs[i].function, &options, &diag)
+                                              : run_on(session, s, &options, &diag);
+            if (status != OK && status != E_STOPPED && diag.place.line == 0)
+                diag.place = s->verb_place;
+            goto done;
+        }
+    status = diag_at(&diag, E_NAME, s->place, "'%s' is no verb that runs",
+                     s->verb != NULL ? s->verb : s->text);
+done:
+    if (status != OK && diag.place.line == 0 && s->kind == STATEMENT_VERB)
+        diag.place = s->verb_place;
+    session_sweep(session);
+    return session_report(status, &diag, error);
+}
+
+int ct_run_count(const ct_session *session)
+{
+    return session->runs.count;
+}
+
+/* --- reports --- */
+
+static const Variable *unknown_at(const System *system, int i)
+{
+    const int n = system_n(system), nu = system_nu(system), nx = system_nx(system);
+
+    return i < n             ? system_q(system, i)
+           : i < n + nu      ? system_u(system, i - n)
+           : i < n + nu + nx ? system_x(system, i - n - nu)
+                             : system_z(system, i - n - nu - nx);
+}
+
+/* every coordinate, speed and network unknown at the start */
+static void print_configuration(Text *out, Result *start)
+{
+    const System *system = result_system(start);
+    const int count = system_n(system) + system_nu(system) + system_nx(system) + system_nz(system);
+    Expr *items = NEW_ARRAY(Expr, count);
+    double *values = NEW_ARRAY(double, count);
+    Table table = table_for("ll");
+    Diag ignored;
+
+    for (int i = 0; i < count; i++)
+        items[i] = unknown_at(system, i)->symbol;
+    if (result_values(start, items, count, values, &ignored) == OK) {
+        for (int i = 0; i < count; i++) {
+            table_cell(&table, unknown_at(system, i)->name);
+            if (i < system_n(system) && unknown_at(system, i)->is_angle)
+                table_cellf(&table, "%.9g rad (%.6g deg)", values[i], values[i] * 180 / M_PI);
+            else
+                table_cellf(&table, "%.9g", values[i]);
+        }
+        table_print(out, &table, 0);
+    }
+    table_free(&table);
+    mem_free(items);
+    mem_free(values);
+}
+
+char *ct_report(ct_session *session)
+{
+    Text text = {0};
+    const int count = session->runs.count;
+    char name[32];
+
+    if (session->start_is_later && session->start.result != NULL) {
+        print_configuration(&text, session->start.result);
+    } else if (count > 0) {
+        (void)snprintf(name, sizeof name, "run%d", count);
+        report_print(&text, session->runs.at[count - 1].result, name);
+    }
+    return text_done(&text);
+}

@@ -1,0 +1,6 @@
+# unit tests of lib/export and of the public interface
+UNIT_TESTS += test_session test_session_look
+test_session_SOURCES = tests/unit/test_session.c tests/unit/session_kit.h tests/unit/test.h
+test_session_LDADD = $(unit_ldadd)
+test_session_look_SOURCES = tests/unit/test_session_look.c tests/unit/session_kit.h tests/unit/test.h
+test_session_look_LDADD = $(unit_ldadd)

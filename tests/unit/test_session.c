@@ -1,0 +1,257 @@
+/* test_session.c: life of a session, statements, building, undo */
+#include "session_kit.h"
+
+static void a_statement_is_handed_out_in_parts(void)
+{
+    const char *line = "simulate 10 every=0.01 method=bdf; print h8 at 0.5  # and more";
+    ct_statement *statement = NULL;
+    const ct_expression *value = NULL;
+    ct_error error;
+    size_t next = 0;
+    char *text;
+
+    EXPECT(ct_parse(line, 3, false, &next, &statement, &error) == CT_OK);
+    EXPECT_TEXT(ct_verb(statement), "simulate");
+    EXPECT_TEXT(ct_statement_text(statement), "simulate 10 every=0.01 method=bdf");
+    EXPECT(ct_operand_count(statement) == 1 && ct_key_count(statement) == 2);
+    EXPECT_TEXT(ct_key(statement, 1, &value), "method");
+    EXPECT_TEXT(ct_expression_word(value), "bdf");
+    EXPECT(ct_key(statement, 2, NULL) == NULL && ct_operand(statement, 1) == NULL);
+    EXPECT(ct_key_value(statement, "rtol") == NULL);
+    text = ct_expression_text(ct_key_value(statement, "every"));
+    EXPECT_TEXT(text, "0.01");
+    ct_free(text);
+    ct_statement_free(statement);
+
+    EXPECT(ct_parse(line, 3, false, &next, &statement, &error) == CT_OK);
+    EXPECT_TEXT(ct_verb(statement), "print");
+    EXPECT(ct_at(statement) != NULL && ct_versus(statement) == NULL);
+    EXPECT(ct_error_at(statement, ct_at(statement), &error, "no %s", "good") == CT_FAILED);
+    EXPECT(error.line == 3 && error.column == 48);
+    EXPECT_TEXT(error.message, "no good");
+    ct_statement_free(statement);
+    EXPECT(next == strlen(line));
+}
+
+static void trailing_words_have_their_own_calls(void)
+{
+    static const char *const lines[] = {"plot h8 vs s11 > \"a.png\"",
+                                        "expect h8 ~ 1 within 1e-3 at 2",
+                                        "show mass as latex >> \"b.tex\"", "tree + vh16 - h14"};
+    ct_statement *statement = NULL;
+    ct_error error;
+    bool append = true;
+
+    for (int i = 0; i < 4; i++) {
+        size_t next = 0;
+
+        EXPECT(ct_parse(lines[i], 1, false, &next, &statement, &error) == CT_OK);
+        if (i == 0) {
+            EXPECT_TEXT(ct_expression_word(ct_versus(statement)), "s11");
+            EXPECT_TEXT(ct_redirect(statement, &append), "a.png");
+            EXPECT(!append);
+        }
+        EXPECT((ct_near(statement) != NULL) == (i == 1));
+        EXPECT((ct_within(statement) != NULL) == (i == 1));
+        if (i == 2) {
+            EXPECT_TEXT(ct_as(statement), "latex");
+            EXPECT_TEXT(ct_redirect(statement, &append), "b.tex");
+            EXPECT(append);
+        }
+        EXPECT(ct_operand_sign(statement, 0) == (i == 3 ? '+' : 0));
+        EXPECT(ct_operand_sign(statement, 1) == (i == 3 ? '-' : 0));
+        ct_statement_free(statement);
+    }
+}
+
+static void a_bad_line_is_refused_at_its_place(void)
+{
+    ct_statement *statement = NULL;
+    ct_error error;
+    size_t next = 0;
+
+    EXPECT(ct_parse("plto h8", 7, false, &next, &statement, &error) == CT_FAILED);
+    EXPECT(error.line == 7 && error.column == 1 && error.width == 4);
+    EXPECT_HOLDS(error.hint, "plot");
+}
+
+static void an_empty_line_is_an_empty_statement(void)
+{
+    ct_statement *statement = NULL;
+    ct_error error;
+    size_t next = 0;
+    Kit kit = kit_new();
+
+    EXPECT(ct_parse("  # only words", 1, false, &next, &statement, &error) == CT_OK);
+    EXPECT(ct_statement_is_empty(statement));
+    EXPECT_TEXT(ct_verb(statement), "");
+    EXPECT(ct_apply(kit.session, statement, &error) == CT_OK);
+    ct_statement_free(statement);
+    kit_free(&kit);
+}
+
+static void apply_leaves_looking_and_running_to_the_caller(void)
+{
+    static const char *const lines[] = {"show mass", "simulate 1", "tree",
+                                        "print 1",   "undo",       "help"};
+    Kit kit = kit_new();
+
+    for (size_t i = 0; i < sizeof lines / sizeof lines[0]; i++) {
+        ct_statement *statement = NULL;
+        size_t next = 0;
+
+        EXPECT(ct_parse(lines[i], 1, false, &next, &statement, &kit.error) == CT_OK);
+        EXPECT(ct_apply(kit.session, statement, &kit.error) == CT_NOT_MINE);
+        ct_statement_free(statement);
+    }
+    kit_free(&kit);
+}
+
+static void a_verb_of_a_later_version_says_so(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT(kit_do(&kit, "equilibrium") == CT_FAILED);
+    EXPECT_HOLDS(kit.error.message, "later");
+    kit_free(&kit);
+}
+
+static void a_statement_that_fails_changes_nothing(void)
+{
+    Kit kit = kit_new();
+    char *before, *after;
+
+    EXPECT_DONE(&kit, SLIDER_CRANK ONE_TREE);
+    before = ct_save(kit.session);
+    EXPECT(kit_do(&kit, "body m1 mass=3") == CT_FAILED);
+    EXPECT(kit_do(&kit, "tree h8 h9 h10 s11") == CT_FAILED);
+    EXPECT(kit_do(&kit, "revolute h12 r4 nowhere") == CT_FAILED);
+    after = ct_save(kit.session);
+    EXPECT_TEXT(after, before);
+    ct_free(before);
+    ct_free(after);
+    EXPECT_DONE(&kit, "show constraints");
+    kit_free(&kit);
+}
+
+static void save_rebuilds_the_model(void)
+{
+    Kit one = kit_new(), two = kit_new();
+    char *first, *second;
+
+    EXPECT_DONE(&one, SLIDER_CRANK TWO_TREES CRANK_START "title \"crank\"\n");
+    first = ct_save(one.session);
+    EXPECT_DONE(&two, first);
+    second = ct_save(two.session);
+    EXPECT_TEXT(second, first);
+    EXPECT_TEXT(ct_title(two.session), "crank");
+    EXPECT_NEAR(kit_value(&two, "h10"), kit_value(&one, "h10"), 0);
+    ct_free(first);
+    ct_free(second);
+    kit_free(&one);
+    kit_free(&two);
+}
+
+static void undo_and_redo_name_what_they_move_over(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT(ct_undo(kit.session, &kit.error) == CT_FAILED);
+    EXPECT(kit.error.message[0] != '\0');
+    EXPECT_DONE(&kit, SLIDER_CRANK);
+    EXPECT_DONE(&kit, "undo");
+    EXPECT_HOLDS(ct_remarks(kit.session), "force F12 m3");
+    EXPECT(kit_do(&kit, "info F12") == CT_FAILED);
+    EXPECT_DONE(&kit, "redo");
+    EXPECT_HOLDS(ct_remarks(kit.session), "force F12 m3");
+    EXPECT_DONE(&kit, "info F12");
+    EXPECT(ct_redo(kit.session, &kit.error) == CT_FAILED);
+    kit_free(&kit);
+}
+
+static void clear_starts_anew(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, PENDULUM "simulate 0.1\n");
+    EXPECT(ct_run_count(kit.session) == 1);
+    EXPECT_DONE(&kit, "clear");
+    EXPECT(ct_run_count(kit.session) == 0);
+    EXPECT(kit_do(&kit, "info m") == CT_FAILED);
+    EXPECT_DONE(&kit, PENDULUM "simulate 0.1\n");
+    kit_free(&kit);
+}
+
+static void the_model_is_changed_until_it_runs(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, PENDULUM);
+    EXPECT(ct_is_changed(kit.session));
+    EXPECT_DONE(&kit, "simulate 0.1");
+    EXPECT(!ct_is_changed(kit.session));
+    EXPECT_DONE(&kit, "output o = 2*h");
+    EXPECT(!ct_is_changed(kit.session));
+    EXPECT_DONE(&kit, "L = 2");
+    EXPECT(ct_is_changed(kit.session));
+    kit_free(&kit);
+}
+
+static void trees_tell_what_they_cost(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, SLIDER_CRANK ONE_TREE);
+    EXPECT_HOLDS(ct_remarks(kit.session), "3 coordinates, 2 constraints, 1 degree of freedom");
+    EXPECT_DONE(&kit, TWO_TREES);
+    EXPECT_HOLDS(ct_remarks(kit.session), "2 coordinates, 1 constraint, 1 degree of freedom");
+    kit_free(&kit);
+}
+
+static void two_sessions_know_nothing_of_each_other(void)
+{
+    Kit one = kit_new(), two = kit_new();
+
+    EXPECT_DONE(&one, PENDULUM);
+    EXPECT_DONE(&two, SLIDER_CRANK ONE_TREE CRANK_START);
+    EXPECT_DONE(&one, "simulate 0.1");
+    EXPECT_DONE(&two, "simulate 0.1");
+    EXPECT(kit_do(&one, "info h8") == CT_FAILED);
+    EXPECT(kit_do(&two, "info h") == CT_FAILED);
+    EXPECT_NEAR(kit_value(&one, "model.n"), 1, 0);
+    EXPECT_NEAR(kit_value(&two, "model.n"), 3, 0);
+    kit_free(&one);
+    EXPECT_NEAR(kit_value(&two, "h8 at 0"), M_PI / 3, 1e-12);
+    kit_free(&two);
+}
+
+static void a_session_needs_no_hooks(void)
+{
+    ct_session *session = ct_session_new(NULL);
+
+    EXPECT(ct_version()[0] != '\0');
+    EXPECT_TEXT(ct_title(session), "");
+    EXPECT_TEXT(ct_remarks(session), "");
+    ct_session_hooks(session, NULL);
+    ct_session_free(session);
+    ct_session_free(NULL);
+}
+
+int main(void)
+{
+    RUN(a_statement_is_handed_out_in_parts);
+    RUN(trailing_words_have_their_own_calls);
+    RUN(a_bad_line_is_refused_at_its_place);
+    RUN(an_empty_line_is_an_empty_statement);
+    RUN(apply_leaves_looking_and_running_to_the_caller);
+    RUN(a_verb_of_a_later_version_says_so);
+    RUN(a_statement_that_fails_changes_nothing);
+    RUN(save_rebuilds_the_model);
+    RUN(undo_and_redo_name_what_they_move_over);
+    RUN(clear_starts_anew);
+    RUN(the_model_is_changed_until_it_runs);
+    RUN(trees_tell_what_they_cost);
+    RUN(two_sessions_know_nothing_of_each_other);
+    RUN(a_session_needs_no_hooks);
+    return test_end();
+}

@@ -1,0 +1,349 @@
+/* test_session_look.c: show, count, info, check, tree, draw */
+#include "session_kit.h"
+
+static void one_tree_gives_the_two_equations_of_the_paper(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, SLIDER_CRANK ONE_TREE "show constraints");
+    EXPECT_HOLDS(kit.text, "2 constraints in 3 coordinates (h8, h10, s11): 1 degree of freedom");
+    /* eq. 6 up to order and sign of the whole */
+    EXPECT_HOLDS(kit.text, "(L4 + L5)*cos(h8)");
+    EXPECT_HOLDS(kit.text, "(L6 + L7)*cos(h10)");
+    EXPECT_HOLDS(kit.text, "(L6 + L7)*sin(h10)");
+    EXPECT_HOLDS(kit.text, "s11");
+    kit_free(&kit);
+}
+
+static void two_trees_give_the_one_equation_of_the_paper(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, SLIDER_CRANK TWO_TREES "show constraints");
+    EXPECT_HOLDS(kit.text, "1 constraint in 2 coordinates (h8, h10): 1 degree of freedom");
+    EXPECT_HOLDS(kit.text, "(L4 + L5)*sin(h8) - (L6 + L7)*sin(h10) = 0");
+    EXPECT(strstr(kit.text, "cos") == NULL);
+    kit_free(&kit);
+}
+
+static void rates_of_constraints_are_linear_in_rates(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, SLIDER_CRANK TWO_TREES "show constraints velocity");
+    EXPECT_HOLDS(kit.text, "(L4 + L5)*cos(h8)*h8' - (L6 + L7)*cos(h10)*h10' = 0");
+    EXPECT_DONE(&kit, "show constraints acceleration 1");
+    EXPECT_HOLDS(kit.text, "(L4 + L5)*cos(h8)*h8'' - (L6 + L7)*cos(h10)*h10''");
+    EXPECT_HOLDS(kit.text, "= h8'^2*(L4 + L5)*sin(h8) - h10'^2*(L6 + L7)*sin(h10)");
+    kit_free(&kit);
+}
+
+/* theory: J theta'' = ... and L i' = V - R i - K theta', the paper's eqs. 16-17 for one arm */
+static void the_motor_arm_has_a_mechanical_and_an_electrical_equation(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, MOTOR_ARM "show equations");
+    EXPECT_HOLDS(kit.text, "(M*a^2 + J)*theta'' = K7*M7.i");
+    EXPECT_HOLDS(kit.text, "M7:  L7*M7.i' = ");
+    EXPECT_HOLDS(kit.text, "- R7*M7.i");
+    EXPECT_HOLDS(kit.text, "- K7*theta'");
+    kit_free(&kit);
+}
+
+/* every topic prints something, in every notation, and no line is wider than the page */
+static void every_topic_fits_the_page(void)
+{
+    static const char *const topics[] = {
+        "graph",    "nodes",   "edges",       "tree",        "incidence",
+        "circuits", "cutsets", "coordinates", "constraints", "constraints velocity",
+        "jacobian", "mass",    "forces",      "equations",   "network",
+        "outputs",  "params",  "structure",   "settings",    "program"};
+    static const char *const notations[] = {"",      " as text",   " as latex",
+                                            " as c", " as matlab", " as tree"};
+    static const char *const models[] = {SLIDER_CRANK ONE_TREE, MOTOR_ARM, "scene planar"};
+    char line[80];
+
+    for (int m = 0; m < 3; m++) {
+        Kit kit = kit_new();
+
+        EXPECT_DONE(&kit, models[m]);
+        for (size_t t = 0; t < sizeof topics / sizeof topics[0]; t++)
+            for (int n = 0; n < 6; n++) {
+                (void)snprintf(line, sizeof line, "show %s%s", topics[t], notations[n]);
+                EXPECT_DONE(&kit, line);
+                for (const char *at = kit.text; n < 2 && at != NULL && *at != '\0';) {
+                    const size_t length = strcspn(at, "\n");
+
+                    if (length > 80 && strcmp(topics[t], "program") != 0) {
+                        test_faults++;
+                        printf("'%s' is wider than the page: %.*s\n", line, (int)length, at);
+                    }
+                    at += length + (at[length] == '\n');
+                }
+            }
+        kit_free(&kit);
+    }
+}
+
+static void latex_has_its_brackets_in_pairs(void)
+{
+    Kit kit = kit_new();
+    int depth = 0, left = 0;
+
+    EXPECT_DONE(&kit, SLIDER_CRANK ONE_TREE "show equations as latex");
+    EXPECT_HOLDS(kit.text, "\\begin{align*}");
+    EXPECT_HOLDS(kit.text, "\\end{align*}\n");
+    EXPECT_HOLDS(kit.text, "\\ddot{h}_{8}");
+    for (const char *c = kit.text; c != NULL && *c != '\0'; c++) {
+        depth += *c == '{' ? 1 : *c == '}' ? -1 : 0;
+        left += strncmp(c, "\\left", 5) == 0 && c[5] != 'a'    ? 1
+                : strncmp(c, "\\right", 6) == 0 && c[6] != 'a' ? -1
+                                                               : 0;
+        EXPECT(depth >= 0);
+        /* \left and \right may not stand on two lines of an alignment */
+        if (strncmp(c, "\\\\\n", 3) == 0)
+            EXPECT(left == 0 && depth == 0);
+    }
+    EXPECT(depth == 0 && left == 0);
+    kit_free(&kit);
+}
+
+static void entries_and_variables_can_be_asked_for(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, MOTOR_ARM "show mass 1 1");
+    EXPECT_TEXT(kit.text, "mass(1,1) = M*a^2 + J\n");
+    EXPECT_DONE(&kit, "show M7.torque");
+    EXPECT_TEXT(kit.text, "M7.torque = K7*M7.i\n");
+    EXPECT_DONE(&kit, "show mass(1,1)");
+    EXPECT_TEXT(kit.text, "mass(1,1) = M*a^2 + J\n");
+    EXPECT_DONE(&kit, "show cutsets J1");
+    EXPECT_HOLDS(kit.text, "J1 + m1 + M7");
+    EXPECT_DONE(&kit, "show mass 1 1 as c");
+    EXPECT_HOLDS(kit.text, "mass[0][0] = ");
+    kit_free(&kit);
+}
+
+static void what_cannot_be_shown_is_refused_with_a_way_out(void)
+{
+    /* clang-format off */
+    static const struct { const char *line; int column; const char *message, *hint; } wrong[] = {
+        {"show constraint", 6,  "nothing to show is called 'constraint'", "show constraints"},
+        {"show linear",     6,  "comes with a later version",   "help show"},
+        {"show mass 9",     11, "there is no row 9",            ""},
+        {"show mass 1 9",   11, "there is no column 9",         ""},
+        {"show mass 1 1 1", 15, "a row and a column only",      ""},
+        {"show mass 0",     11, "counted 1, 2, 3",              ""},
+        {"show mass h8",    11, "takes no names",               ""},
+        {"show tree 1",     11, "takes no numbers",             ""},
+        {"show constraints h8", 18, "velocity or acceleration", ""},
+        {"show cutsets h9",  14, "no branch",                   "show circuits"},
+        {"show circuits h8", 15, "no chord",                    "show cutsets"},
+        {"show cutsets h80", 14, "no edge is called 'h80'",     "h8"},
+        {"show cutsets (h8 + h9)", 14, "expected a name",       ""},
+        {"show mass as word", 14, "no notation is called 'word'", "latex"},
+        {"show nothing.like", 6, "nothing",                     ""},
+        {"show run",         0, "no run yet",                   "simulate"},
+        {"count mas",        7, "no block of equations is called 'mas'", "mass"},
+        {"count weights",    7, "no block of equations",        "mass forces"},
+        {"info h88",         6, "nothing is called 'h88'",      "h8"},
+    };
+    /* clang-format on */
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, SLIDER_CRANK ONE_TREE);
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
+        const ct_status status = kit_do(&kit, wrong[i].line);
+
+        if (status != CT_FAILED || (wrong[i].column > 0 && kit.error.column != wrong[i].column) ||
+            strstr(kit.error.message, wrong[i].message) == NULL ||
+            strstr(kit.error.hint, wrong[i].hint) == NULL) {
+            test_faults++;
+            printf("'%s': status %d, column %d: %s (%s)\n", wrong[i].line, status, kit.error.column,
+                   kit.error.message, kit.error.hint);
+        }
+        EXPECT_DONE(&kit, "show constraints");
+    }
+    kit_free(&kit);
+}
+
+static void equations_of_a_model_that_is_not_whole_are_refused(void)
+{
+    Kit kit = kit_new();
+
+    /* neither terminal is tied to 0 */
+    EXPECT_DONE(&kit, "scene planar\nresistor R1 a b 10\nresistor R2 a b 10");
+    EXPECT(kit_do(&kit, "show equations") == CT_FAILED);
+    EXPECT(kit.error.message[0] != '\0');
+    EXPECT_DONE(&kit, "show edges");
+    EXPECT_DONE(&kit, "info R1");
+    kit_free(&kit);
+}
+
+static void counts_are_those_of_the_rule(void)
+{
+    Kit kit = kit_new();
+
+    /* M*a^2 + J: one sum of two, a product of two with a square */
+    EXPECT_DONE(&kit, MOTOR_ARM "count mass");
+    EXPECT_HOLDS(kit.text, "mass");
+    EXPECT_NEAR(kit_value(&kit, "count.mass.add"), 1, 0);
+    EXPECT_NEAR(kit_value(&kit, "count.mass.mul"), 2, 0);
+    EXPECT_NEAR(kit_value(&kit, "count.mass.fun"), 0, 0);
+    EXPECT_NEAR(kit_value(&kit, "count.total.mul"),
+                kit_value(&kit, "count.mass.mul") + kit_value(&kit, "count.forces.mul") +
+                    kit_value(&kit, "count.network.mul") + kit_value(&kit, "count.network_rhs.mul"),
+                0);
+    EXPECT(kit_value(&kit, "count.shared.total.mul") > 0);
+    kit_free(&kit);
+}
+
+static void count_trees_puts_the_trees_tried_side_by_side(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, SLIDER_CRANK ONE_TREE TWO_TREES "count trees");
+    EXPECT_HOLDS(kit.text, ": h8 h10 s11\n");
+    EXPECT_HOLDS(kit.text, ": translation h8 h9 h10; rotation h8 h10 s11\n");
+    /* another graph starts another list */
+    EXPECT_DONE(&kit, "body m4 mass=1\ncount trees");
+    EXPECT(strstr(kit.text, ": h8 h10 s11\n") == NULL);
+    kit_free(&kit);
+}
+
+static void the_embedded_form_has_no_multipliers(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, SLIDER_CRANK TWO_TREES "show equations");
+    EXPECT_HOLDS(kit.text, "lambda(1)");
+    EXPECT_DONE(&kit, "form embedded\nshow equations");
+    EXPECT(kit.text != NULL && strstr(kit.text, "lambda(1)") == NULL);
+    EXPECT_HOLDS(kit.text, "h8''");
+    EXPECT_DONE(&kit, "count");
+    EXPECT_HOLDS(kit.text, "embedded");
+    kit_free(&kit);
+}
+
+static void info_tells_ends_signs_and_variables(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, SLIDER_CRANK ONE_TREE "info h9");
+    EXPECT_HOLDS(kit.text, "r5 -> r6");
+    EXPECT_HOLDS(kit.text, "chord (cotree)");
+    EXPECT_HOLDS(kit.text, "h9.fx");
+    EXPECT_HOLDS(kit.text, "revolute h9 r5 r6");
+    kit_free(&kit);
+}
+
+static void info_knows_every_kind_of_name(void)
+{
+    static const struct {
+        const char *name, *told;
+    } names[] = {{"M7", "v is plus against minus"},
+                 {"J1", "theta"},
+                 {"theta", "coordinate of J1"},
+                 {"J1.fx", "in N"},
+                 {"R7", "parameter, R7 = 1.2"},
+                 {"p1", "arm"},
+                 {"power", "output"},
+                 {"e", "terminal"},
+                 {"ground", "the datum"}};
+    Kit kit = kit_new();
+    char line[40];
+
+    EXPECT_DONE(&kit, MOTOR_ARM "output power = M7.v*M7.i\n");
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+        (void)snprintf(line, sizeof line, "info %s", names[i].name);
+        EXPECT_DONE(&kit, line);
+        EXPECT_HOLDS(kit.text, names[i].told);
+    }
+    kit_free(&kit);
+}
+
+static void check_tells_freedoms_and_what_is_unused(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, SLIDER_CRANK ONE_TREE CRANK_START "spare = 3\narm tool m3 [0, 1]\ncheck");
+    EXPECT_HOLDS(kit.text, "1 degree of freedom");
+    EXPECT_HOLDS(kit.text, "spare");
+    EXPECT_HOLDS(kit.text, "tool");
+    EXPECT_HOLDS(kit.text, "can be assembled");
+    /* a crank longer than what the rod reaches */
+    EXPECT_DONE(&kit, "L5 = 3\ninit h8 = 90 deg\ncheck");
+    EXPECT_HOLDS(kit.text, "can't be assembled");
+    kit_free(&kit);
+}
+
+static void drawings_hold_every_edge(void)
+{
+    static const char *const edges[] = {"m1", "r4", "h8", "h9", "s11", "F12"};
+    Kit kit = kit_new();
+    char *dot = NULL;
+
+    EXPECT_DONE(&kit, SLIDER_CRANK TWO_TREES "draw");
+    EXPECT(ct_draw(kit.session, true, &dot, &kit.error) == CT_OK);
+    for (size_t i = 0; i < sizeof edges / sizeof edges[0]; i++) {
+        EXPECT_HOLDS(kit.text, edges[i]);
+        EXPECT_HOLDS(dot, edges[i]);
+    }
+    EXPECT_HOLDS(dot, "digraph");
+    EXPECT_HOLDS(dot, "h9 (translation)");
+    ct_free(dot);
+    EXPECT_DONE(&kit, "tree");
+    EXPECT_HOLDS(kit.text, "translation\n  branches");
+    EXPECT_DONE(&kit, "clear\ndraw");
+    EXPECT_HOLDS(kit.text, "no edges yet");
+    kit_free(&kit);
+}
+
+/* a chain whose formulas are long */
+static void a_long_entry_is_written_over_named_parts(void)
+{
+    Kit kit = kit_new();
+    char line[200];
+
+    EXPECT_DONE(&kit, "scene planar\ngravity [0, -9.81]\nL = 1\n");
+    for (int i = 0; i < 24; i++) {
+        (void)snprintf(line, sizeof line, "body b%d mass=1 inertia=0.1\narm a%d b%d [-L, 0]\n", i,
+                       i, i);
+        EXPECT_DONE(&kit, line);
+        (void)snprintf(line, sizeof line, "arm c%d b%d [L, 0]\n", i, i);
+        EXPECT_DONE(&kit, line);
+        if (i == 0)
+            (void)snprintf(line, sizeof line, "revolute h0 ground a0\n");
+        else
+            (void)snprintf(line, sizeof line, "revolute h%d c%d a%d\n", i, i - 1, i);
+        EXPECT_DONE(&kit, line);
+    }
+    EXPECT_DONE(&kit, "tree joint\nshow forces 1");
+    EXPECT_HOLDS(kit.text, "where w1 = ");
+    EXPECT(kit.text != NULL && strlen(kit.text) < 200000);
+    kit_free(&kit);
+}
+
+int main(void)
+{
+    RUN(one_tree_gives_the_two_equations_of_the_paper);
+    RUN(two_trees_give_the_one_equation_of_the_paper);
+    RUN(rates_of_constraints_are_linear_in_rates);
+    RUN(the_motor_arm_has_a_mechanical_and_an_electrical_equation);
+    RUN(every_topic_fits_the_page);
+    RUN(latex_has_its_brackets_in_pairs);
+    RUN(entries_and_variables_can_be_asked_for);
+    RUN(what_cannot_be_shown_is_refused_with_a_way_out);
+    RUN(equations_of_a_model_that_is_not_whole_are_refused);
+    RUN(counts_are_those_of_the_rule);
+    RUN(count_trees_puts_the_trees_tried_side_by_side);
+    RUN(the_embedded_form_has_no_multipliers);
+    RUN(info_tells_ends_signs_and_variables);
+    RUN(info_knows_every_kind_of_name);
+    RUN(check_tells_freedoms_and_what_is_unused);
+    RUN(drawings_hold_every_edge);
+    RUN(a_long_entry_is_written_over_named_parts);
+    return test_end();
+}
