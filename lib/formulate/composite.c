@@ -14,7 +14,7 @@ bool speed_moves_as_one(const System *system, int speed)
 {
     const Tree *translation = system->trees[TREE_TRANSLATION];
     const Tree *rotation = system->trees[TREE_ROTATION];
-    int node = system->speed_node[speed];
+    int node = system->speeds[speed].node;
     int branch = tree_parent_edge(translation, node);
     int nodes;
     const int *order = tree_nodes(translation, &nodes);
@@ -115,13 +115,13 @@ Composite *composites_new(System *system)
 void composite_loads(System *system, const Composite *composite, int speed, Loads *loads)
 {
     Arena *arena = system->arena;
-    int node = system->speed_node[speed];
+    int node = system->speeds[speed].node;
     int axes = axes_of(system, node);
     const Frame *frame = &system->frames[node];
     Vec force = vec_zero(arena);
     Vec torque = vec_zero(arena);
 
-    if (system->speed_chain[speed] >= 0) {
+    if (system->speeds[speed].chain >= 0) {
         Vec axis = speed_axis(system, speed, axes);
 
         force = vec_cross(arena, axis, composite->moment);

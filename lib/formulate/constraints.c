@@ -251,7 +251,7 @@ static Vec circuit_turned(System *system, const Row *row, int chain, int axes)
 static Expr circuit_slide(System *system, const Row *row, Vec n, int speed, int axes)
 {
     Arena *arena = system->arena;
-    int node = system->speed_node[speed];
+    int node = system->speeds[speed].node;
     const Tree *tree = system->trees[TREE_TRANSLATION];
     const Frame *frame = &system->frames[node];
     int branch = tree_parent_edge(tree, node);
@@ -293,7 +293,7 @@ static void run_way(System *system, const Row *row, int k)
 
     system->run.phi[k] = vec_dot(arena, n, d);
     for (int j = 0; j < system->u.count; j++) {
-        int turned = system->speed_chain[j];
+        int turned = system->speeds[j].chain;
         Expr *entry = &system->run.phi_u[k * system->u.count + j];
         Vec D;
 
@@ -341,7 +341,7 @@ static void run_dot(System *system, const Row *row, int k)
 
     system->run.phi[k] = vec_dot(arena, a, b);
     for (int j = 0; j < system->u.count; j++) {
-        int turned = system->speed_chain[j];
+        int turned = system->speeds[j].chain;
         Expr *entry = &system->run.phi_u[k * system->u.count + j];
 
         *entry = expr_int(arena, 0);

@@ -3,8 +3,20 @@
 
 Expr partial(System *system, Expr e, int speed)
 {
-    /* speeds are the rates of coordinates here: N = 1 */
-    return expr_diff(system->arena, e, system->q.at[speed].symbol);
+    Arena *arena = system->arena;
+    Expr sum = expr_int(arena, 0);
+
+    for (int i = 0; i < system->q.count; i++) {
+        const CoordinateRate *rate = &system->coordinate_rates[i];
+
+        for (int k = 0; k < rate->count; k++)
+            if (rate->speed[k] == speed) {
+                Expr slope = expr_diff(arena, e, system->q.at[i].symbol);
+
+                sum = expr_add(arena, sum, expr_mul(arena, slope, rate->entry[k]));
+            }
+    }
+    return sum;
 }
 
 Status rate_of(System *system, Expr e, Expr *out, Diag *diag)
@@ -126,9 +138,13 @@ Status coordinate_value(System *system, const Instance *owner, int coordinate, i
         return diag_set(diag, E_MISSING, "%s: no more than two derivatives",
                         owner->coord[coordinate]);
     if (place >= 0) {
-        *out = primes == 0   ? system->q.at[place].symbol
-               : primes == 1 ? system_q_rate(system, place)
-                             : system->accelerations[place];
+        int speed = system->speed[owner->number][coordinate];
+
+        *out = primes == 0 ? system->q.at[place].symbol : system_q_rate(system, place);
+        if (primes == 2 && speed >= 0 && system->coordinate_rates[place].count == 1)
+            *out = system->accelerations[speed];
+        else if (primes == 2)
+            return rate_of(system, *out, out, diag);
         return OK;
     }
     CHECK(chord_value(system, owner, coordinate, out, diag));

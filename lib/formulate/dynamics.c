@@ -12,26 +12,25 @@ static int axes_of(const System *system, int node)
 
 Expr sums_project(System *system, const Sums *sums, int speed)
 {
-    int node = system->speed_node[speed];
-    const Vec *sum = system->speed_chain[speed] >= 0 ? sums->torque : sums->force;
+    int node = system->speeds[speed].node;
+    const Vec *sum = system->speeds[speed].chain >= 0 ? sums->torque : sums->force;
 
-    return vec_dot(system->arena, system->speed_direction[speed], sum[node]);
+    return vec_dot(system->arena, system->speeds[speed].direction, sum[node]);
 }
 
 /* the axis of each speed's turn or slide, in the axes of its node */
 static void speed_directions(System *system)
 {
-    system->speed_direction = pool_alloc(system->pool, (size_t)system->u.count * sizeof(Vec));
     for (int j = 0; j < system->u.count; j++) {
-        int node = system->speed_node[j];
+        int node = system->speeds[j].node;
         int axes = axes_of(system, node);
         const Frame *frame = &system->frames[node];
 
-        if (system->speed_chain[j] >= 0)
-            system->speed_direction[j] = speed_axis(system, j, axes);
-        for (int k = 0; system->speed_chain[j] < 0 && k < frame->slide_count; k++)
+        if (system->speeds[j].chain >= 0)
+            system->speeds[j].direction = speed_axis(system, j, axes);
+        for (int k = 0; system->speeds[j].chain < 0 && k < frame->slide_count; k++)
             if (frame->slide[k].speed == j)
-                system->speed_direction[j] =
+                system->speeds[j].direction =
                     vec_express(system, frame->slide[k].axis, frame->step_chain, axes);
     }
 }
@@ -40,7 +39,7 @@ static void speed_directions(System *system)
 static void unit_motion(System *system, int speed, Vec *v)
 {
     Arena *arena = system->arena;
-    int turned = system->speed_chain[speed];
+    int turned = system->speeds[speed].chain;
     int nodes;
     const int *order = tree_nodes(system->trees[TREE_TRANSLATION], &nodes);
 
@@ -66,7 +65,7 @@ static void unit_motion(System *system, int speed, Vec *v)
 static void unit_loads(System *system, int speed, const Vec *v, Loads *loads)
 {
     Arena *arena = system->arena;
-    int turned = system->speed_chain[speed];
+    int turned = system->speeds[speed].chain;
 
     for (int i = 0; i < system->masses.count; i++) {
         const Mass *mass = &system->masses.at[i];
@@ -88,7 +87,7 @@ static void unit_loads(System *system, int speed, const Vec *v, Loads *loads)
  * has room for every node */
 static int bodies_moved(const System *system, int speed, bool *moves)
 {
-    int turned = system->speed_chain[speed];
+    int turned = system->speeds[speed].chain;
     int nodes;
     const int *order = tree_nodes(system->trees[TREE_TRANSLATION], &nodes);
     int moved = 0;
@@ -99,7 +98,7 @@ static int bodies_moved(const System *system, int speed, bool *moves)
 
         moves[order[i]] = moves[frame->parent] ||
                           (turned >= 0 ? chain_is_beyond(system, frame->step_chain, turned)
-                                       : order[i] == system->speed_node[speed]);
+                                       : order[i] == system->speeds[speed].node);
     }
     for (int i = 0; i < system->masses.count; i++) {
         int node = system->masses.at[i].node;
@@ -114,8 +113,8 @@ static int bodies_moved(const System *system, int speed, bool *moves)
 static bool column_serves(const System *system, const int *moved, int j, int k)
 {
     const Tree *tree = system->trees[TREE_TRANSLATION];
-    int depth_j = tree_depth(tree, system->speed_node[j]);
-    int depth_k = tree_depth(tree, system->speed_node[k]);
+    int depth_j = tree_depth(tree, system->speeds[j].node);
+    int depth_k = tree_depth(tree, system->speeds[k].node);
 
     if (moved[k] != moved[j])
         return moved[k] < moved[j];
@@ -138,7 +137,7 @@ static Status mass_matrix(System *system)
 
         moved[k] = bodies_moved(system, k, moves);
         if (speed_moves_as_one(system, k)) {
-            composite_loads(system, &composites[system->speed_node[k]], k, &loads);
+            composite_loads(system, &composites[system->speeds[k].node], k, &loads);
         } else {
             unit_motion(system, k, v);
             unit_loads(system, k, v, &loads);

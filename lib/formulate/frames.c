@@ -13,31 +13,103 @@ Vec frame_vector(const System *system, int node, Vec in_frame)
 
 /* --- chains --- */
 
-static int add_chain(System *system, int parent, Vec axis, const Variable *coordinate, int speed,
-                     int sign)
+/* a chain beyond `parent`, its speeds still to be told */
+static int add_chain(System *system, int parent, int speed)
 {
-    Arena *arena = system->arena;
-    Expr rate = system->u.at[speed].symbol;
     Chain chain = {.parent = parent,
                    .depth = system->chains.at[parent].depth + 1,
-                   .axis = axis,
-                   .angle = coordinate->symbol,
-                   .rate = rate,
                    .speed = speed,
-                   .sign = sign};
+                   .speed_count = 1};
 
-    if (sign < 0) {
-        chain.angle = expr_neg(arena, chain.angle);
-        chain.rate = expr_neg(arena, rate);
-    }
     /* in a plane every turn is about one axis, and ground's axes serve all */
     chain.resolve = system->planar ? 0 : system->chains.count;
     LIST_PUSH(system->chains, chain);
     return system->chains.count - 1;
 }
 
+static int add_turn(System *system, int parent, Vec axis, int coordinate, int speed, bool forward)
+{
+    Arena *arena = system->arena;
+    int number = add_chain(system, parent, speed);
+    Chain *chain = &system->chains.at[number];
+    Expr angle = system->q.at[coordinate].symbol;
+
+    chain->axis = axis;
+    chain->angle = forward ? angle : expr_neg(arena, angle);
+    system->speeds[speed].chain = number;
+    system->speeds[speed].axis = forward ? axis : vec_neg(arena, axis);
+    system->speeds[speed].axis_chain = number;
+    return number;
+}
+
+/* (e0^2 - e.e) 1 + 2 e e^T + 2 e0 S(e) */
+static Rotation parameter_matrix(Arena *arena, const Expr p[4])
+{
+    Expr square[4];
+    Rotation R;
+
+    for (int i = 0; i < 4; i++)
+        square[i] = expr_square(arena, p[i]);
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++) {
+            int k = 3 - i - j;
+            bool ahead = j == (i + 1) % 3;
+            Expr mixed = expr_mul(arena, p[1 + i], p[1 + j]);
+            Expr turned;
+
+            if (i == j) {
+                Expr sum = expr_add(arena, square[0], square[1 + i]);
+
+                sum = expr_sub(arena, sum, square[1 + (i + 1) % 3]);
+                R.at[4 * i] = expr_hold(arena, expr_sub(arena, sum, square[1 + (i + 2) % 3]));
+                continue;
+            }
+            turned = expr_mul(arena, p[0], p[1 + k]);
+            mixed = ahead ? expr_sub(arena, mixed, turned) : expr_add(arena, mixed, turned);
+            R.at[3 * i + j] = expr_hold(arena, expr_mul(arena, expr_int(arena, 2), mixed));
+        }
+    return R;
+}
+
+/* a free rotation: R(p), or its transpose where the branch is passed backwards, between the
+ * constant rotations Z and Z^T; its speeds are components in the head's axes */
+static int add_free(System *system, int parent, const Rotation *zero, int coordinate, int speed,
+                    bool forward)
+{
+    Arena *arena = system->arena;
+    int number = add_chain(system, parent, speed);
+    Chain *chain = &system->chains.at[number];
+    Rotation back = rotation_transpose(zero);
+    Expr p[4];
+    Vec e;
+
+    for (int i = 0; i < 4; i++)
+        p[i] = system->q.at[coordinate + i].symbol;
+    e = rotation_apply(arena, zero, (Vec){{p[1], p[2], p[3]}});
+    chain->parameter[0] = p[0];
+    for (int i = 0; i < 3; i++)
+        chain->parameter[1 + i] = forward ? e.at[i] : expr_neg(arena, e.at[i]);
+    chain->is_free = true;
+    chain->speed_count = 3;
+    chain->matrix = parameter_matrix(arena, p);
+    if (!forward)
+        chain->matrix = rotation_transpose(&chain->matrix);
+    chain->matrix = rotation_product(arena, zero, &chain->matrix);
+    chain->matrix = rotation_product(arena, &chain->matrix, &back);
+    for (int i = 0; i < 3; i++) {
+        Speed *own = &system->speeds[speed + i];
+        Vec axis = vec_zero(arena);
+
+        axis.at[i] = expr_int(arena, forward ? 1 : -1);
+        own->chain = number;
+        own->axis = rotation_apply(arena, zero, axis);
+        own->axis_chain = forward ? number : parent;
+    }
+    return number;
+}
+
 /* the turns of one rotation branch, passed from the parent to the node beyond */
-static Status turn_branch(System *system, int node, Diag *diag)
+static void turn_branch(System *system, int node)
 {
     Arena *arena = system->arena;
     const Tree *tree = system->trees[TREE_ROTATION];
@@ -51,12 +123,6 @@ static Status turn_branch(System *system, int node, Diag *diag)
     Steps steps;
 
     instance_steps(system, instance, &steps);
-    if (steps.quaternion) {
-        (void)diag_set(diag, E_MISSING, "%s: free rotations in space can't be branches yet",
-                       instance->name);
-        diag_hint(diag, "put a revolute joint into the rotation tree, or use `scene planar`");
-        return E_MISSING;
-    }
     for (int i = 0; i < 9; i++)
         constant.at[i] = steps.rotation[i];
     if (!forward) {
@@ -64,21 +130,28 @@ static Status turn_branch(System *system, int node, Diag *diag)
 
         zero = rotation_product(arena, &zero, &back);
     }
+    if (steps.quaternion) {
+        int place = system->coordinate[instance->number][steps.first_parameter];
+        int speed = system->speed[instance->number][steps.first_parameter];
+
+        chain = add_free(system, chain, &zero, place, speed, forward);
+        for (int i = 0; i < 3; i++)
+            system->speeds[speed + i].node = node;
+    }
     for (int k = 0; k < steps.turn_count; k++) {
         const Step *turn = &steps.turn[forward ? k : steps.turn_count - 1 - k];
         int place = system->coordinate[instance->number][turn->coordinate];
+        int speed = system->speed[instance->number][turn->coordinate];
         Vec axis = {{turn->axis[0], turn->axis[1], turn->axis[2]}};
 
-        chain = add_chain(system, chain, rotation_apply(arena, &zero, axis), &system->q.at[place],
-                          place, forward ? 1 : -1);
-        system->speed_chain[place] = chain;
-        system->speed_node[place] = node;
+        axis = rotation_apply(arena, &zero, axis);
+        chain = add_turn(system, chain, axis, place, speed, forward);
+        system->speeds[speed].node = node;
     }
     if (forward)
         zero = rotation_product(arena, &zero, &constant);
     system->frames[node].chain = chain;
     system->frames[node].zero = zero;
-    return OK;
 }
 
 /* --- steps --- */
@@ -103,12 +176,13 @@ static void step_branch(System *system, int node)
     for (int k = 0; k < steps.shift_count; k++) {
         const Step *slide = &steps.shift[k];
         int place = system->coordinate[instance->number][slide->coordinate];
+        int speed = system->speed[instance->number][slide->coordinate];
         Vec axis = frame_vector(system, edge->tail,
                                 (Vec){{slide->axis[0], slide->axis[1], slide->axis[2]}});
 
-        system->speed_node[place] = node;
+        system->speeds[speed].node = node;
         shift = vec_add(arena, shift, vec_scale(arena, system->q.at[place].symbol, axis));
-        frame->slide[frame->slide_count++] = (Slide){place, forward ? axis : vec_neg(arena, axis)};
+        frame->slide[frame->slide_count++] = (Slide){speed, forward ? axis : vec_neg(arena, axis)};
     }
     frame->shift = forward ? shift : vec_neg(arena, shift);
 }
@@ -159,29 +233,25 @@ static void add_masses(System *system)
     }
 }
 
-Status frames_build(System *system, Diag *diag)
+void frames_build(System *system)
 {
     Arena *arena = system->arena;
     int count = graph_node_count(system->graph);
     int nodes;
     const int *order;
-    Status status = OK;
 
     system->frames = pool_alloc(system->pool, (size_t)count * sizeof *system->frames);
-    LIST_PUSH(system->chains, (Chain){.parent = -1,
-                                      .axis = vec_zero(arena),
-                                      .speed = -1,
-                                      .angle = expr_int(arena, 0),
-                                      .rate = expr_int(arena, 0)});
+    LIST_PUSH(system->chains,
+              (Chain){.parent = -1, .axis = vec_zero(arena), .angle = expr_int(arena, 0)});
     if (system->trees[TREE_ROTATION] == NULL)
-        return OK;
+        return;
     order = tree_nodes(system->trees[TREE_ROTATION], &nodes);
     for (int i = 0; i < nodes; i++) {
         Frame *frame = &system->frames[order[i]];
 
         *frame = (Frame){.zero = rotation_one(arena), .parent = -1, .shift = vec_zero(arena)};
         if (tree_parent(system->trees[TREE_ROTATION], order[i]) >= 0)
-            CHECK(turn_branch(system, order[i], diag));
+            turn_branch(system, order[i]);
     }
     number_chains(system);
     order = tree_nodes(system->trees[TREE_TRANSLATION], &nodes);
@@ -189,8 +259,6 @@ Status frames_build(System *system, Diag *diag)
         if (tree_parent(system->trees[TREE_TRANSLATION], order[i]) >= 0)
             step_branch(system, order[i]);
     add_masses(system);
-done:
-    return status;
 }
 
 /* --- turns between chains --- */
@@ -203,17 +271,19 @@ static int axis_sense(Arena *arena, Vec a, Vec b)
     return vec_same(a, vec_neg(arena, b)) ? -1 : 0;
 }
 
-static void append_turn(const System *system, Turns *turns, Vec axis, Expr angle)
+static void append_turn(const System *system, Turns *turns, const Chain *chain, bool back)
 {
     Arena *arena = system->arena;
-    int sense = turns->count > 0 ? axis_sense(arena, turns->at[turns->count - 1].axis, axis) : 0;
+    Expr angle = chain->is_free || !back ? chain->angle : expr_neg(arena, chain->angle);
+    Turn *last = turns->count > 0 ? &turns->at[turns->count - 1] : NULL;
+    int sense = last != NULL && last->matrix == NULL && !chain->is_free
+                    ? axis_sense(arena, last->axis, chain->axis)
+                    : 0;
 
     if (sense == 0) {
-        LIST_PUSH(*turns, (Turn){axis, angle});
+        LIST_PUSH(*turns, (Turn){chain->axis, angle, chain->is_free ? &chain->matrix : NULL, back});
         return;
     }
-    Turn *last = &turns->at[turns->count - 1];
-
     /* held, so that the angles along a chain share their sums */
     last->angle = expr_hold(arena, last->angle);
     last->angle =
@@ -231,8 +301,7 @@ void turns_between(const System *system, int from, int to, Turns *turns)
     /* up to the chain both hang from, and down again */
     while (from != to) {
         if (chains[from].depth >= chains[to].depth) {
-            append_turn(system, turns, chains[from].axis,
-                        expr_neg(system->arena, chains[from].angle));
+            append_turn(system, turns, &chains[from], true);
             from = chains[from].parent;
         } else {
             LIST_PUSH(down, to);
@@ -240,7 +309,7 @@ void turns_between(const System *system, int from, int to, Turns *turns)
         }
     }
     for (int k = down.count - 1; k >= 0; k--)
-        append_turn(system, turns, chains[down.at[k]].axis, chains[down.at[k]].angle);
+        append_turn(system, turns, &chains[down.at[k]], false);
     LIST_FREE(down);
 }
 
@@ -251,17 +320,24 @@ bool chain_is_beyond(const System *system, int chain, int turn)
     return chains[chain].first >= chains[turn].first && chains[chain].first <= chains[turn].last;
 }
 
-/* exp(k a) b, by the part of b along k, the part across and k x b (Rodrigues 1840) */
+/* R b; exp(k a) b by the part of b along k, the part across and k x b (Rodrigues 1840) */
 static Vec turn_vector(Arena *arena, const Turn *turn, Vec b)
 {
-    Vec along = vec_scale(arena, vec_dot(arena, turn->axis, b), turn->axis);
-    Vec across = vec_sub(arena, b, along);
-    Vec side = vec_cross(arena, turn->axis, b);
+    Vec along;
+    Vec across;
+    Vec side;
 
+    if (turn->matrix != NULL) {
+        Rotation back = rotation_transpose(turn->matrix);
+
+        return rotation_apply(arena, turn->back ? &back : turn->matrix, b);
+    }
+    along = vec_scale(arena, vec_dot(arena, turn->axis, b), turn->axis);
+    across = vec_sub(arena, b, along);
     if (vec_is_zero(across))
         return b;
+    side = vec_scale(arena, expr_sin(arena, turn->angle), vec_cross(arena, turn->axis, b));
     across = vec_scale(arena, expr_cos(arena, turn->angle), across);
-    side = vec_scale(arena, expr_sin(arena, turn->angle), side);
     return vec_add(arena, along, vec_add(arena, across, side));
 }
 
@@ -280,10 +356,7 @@ Vec vec_express(const System *system, Vec v, int from, int to)
 
 Vec speed_axis(const System *system, int speed, int axes)
 {
-    int chain = system->speed_chain[speed];
-    Vec axis = vec_express(system, system->chains.at[chain].axis, chain, axes);
-
-    return system->chains.at[chain].sign > 0 ? axis : vec_neg(system->arena, axis);
+    return vec_express(system, system->speeds[speed].axis, system->speeds[speed].axis_chain, axes);
 }
 
 Expr rotation_angle(Arena *arena, const Rotation *rotation, Vec axis)

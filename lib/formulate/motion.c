@@ -20,9 +20,13 @@ static void turn_motion(System *system, int c)
     Arena *arena = system->arena;
     const Chain *chain = &system->chains.at[c];
     int before = system->chains.at[chain->parent].resolve;
-    Vec turn = vec_scale(arena, chain->rate, vec_express(system, chain->axis, c, chain->resolve));
+    Vec turn = vec_zero(arena);
     Vec w = expressed(system, system->motions[chain->parent].w, before, chain->resolve);
 
+    for (int j = chain->speed; j < chain->speed + chain->speed_count; j++)
+        turn = vec_add(
+            arena, turn,
+            vec_scale(arena, system->u.at[j].symbol, speed_axis(system, j, chain->resolve)));
     system->motions[c].w = vec_hold(arena, vec_add(arena, w, turn));
     system->motions[c].product = vec_hold(arena, vec_cross(arena, w, turn));
 }
@@ -66,10 +70,11 @@ void accelerations_build(System *system, const Expr *accelerations, Vec *alpha, 
 
         alpha[c] = vec_add(arena, expressed(system, alpha[chain->parent], before, chain->resolve),
                            system->motions[c].product);
-        if (accelerations != NULL)
-            alpha[c] = vec_add(arena, alpha[c],
-                               vec_scale(arena, accelerations[chain->speed],
-                                         speed_axis(system, chain->speed, chain->resolve)));
+        for (int j = chain->speed; accelerations != NULL && j < chain->speed + chain->speed_count;
+             j++)
+            alpha[c] =
+                vec_add(arena, alpha[c],
+                        vec_scale(arena, accelerations[j], speed_axis(system, j, chain->resolve)));
         alpha[c] = vec_hold(arena, alpha[c]);
     }
     if (system->trees[TREE_TRANSLATION] == NULL)

@@ -12,7 +12,7 @@ static FrameSum partial_velocity(System *system, int node, int speed)
 {
     Arena *arena = system->arena;
     Expr one = expr_int(arena, 1);
-    int turned = system->speed_chain[speed];
+    int turned = system->speeds[speed].chain;
     FrameSum sum = {NULL, 0};
     FrameSum slid = {NULL, 0};
 
@@ -27,19 +27,21 @@ static FrameSum partial_velocity(System *system, int node, int speed)
                 slid = framesum_add(system, slid, one,
                                     framesum_of(system, frame->step_chain, frame->slide[k].axis));
     }
-    return turned >= 0 ? framesum_cross(system, speed_axis(system, speed, turned), turned, sum)
-                       : slid;
+    if (turned < 0)
+        return slid;
+    return framesum_cross(system, system->speeds[speed].axis, system->speeds[speed].axis_chain,
+                          sum);
 }
 
 /* angular velocity of a chain per unit of speed j, in its own axes; zero where it doesn't turn it
  */
 static Vec partial_turn(System *system, int chain, int speed)
 {
-    int turned = system->speed_chain[speed];
+    int turned = system->speeds[speed].chain;
 
     if (turned < 0 || !chain_is_beyond(system, chain, turned))
         return vec_zero(system->arena);
-    return vec_express(system, speed_axis(system, speed, turned), turned, chain);
+    return speed_axis(system, speed, chain);
 }
 
 /* --- velocity products --- */
@@ -57,7 +59,10 @@ static void chain_motion(System *system, int chain, Vec *w, Vec *alpha)
     chain_motion(system, turn->parent, w, alpha);
     *w = vec_express(system, *w, turn->parent, chain);
     *alpha = vec_express(system, *alpha, turn->parent, chain);
-    spin = vec_scale(arena, turn->rate, turn->axis);
+    spin = vec_zero(arena);
+    for (int j = turn->speed; j < turn->speed + turn->speed_count; j++)
+        spin = vec_add(arena, spin,
+                       vec_scale(arena, system->u.at[j].symbol, speed_axis(system, j, chain)));
     *alpha = vec_add(arena, *alpha, vec_cross(arena, *w, spin));
     *w = vec_add(arena, *w, spin);
 }

@@ -25,6 +25,7 @@ static void copy_instances(System *system, const Model *model)
     system->instance_count = count;
     system->instances = pool_alloc(system->pool, (size_t)count * sizeof *system->instances);
     system->coordinate = pool_alloc(system->pool, (size_t)count * sizeof *system->coordinate);
+    system->speed = pool_alloc(system->pool, (size_t)count * sizeof *system->speed);
     system->lost_force = pool_alloc(system->pool, (size_t)count * sizeof(bool));
     system->lost_moment = pool_alloc(system->pool, (size_t)count * sizeof(bool));
     for (int i = 0; i < count; i++) {
@@ -39,7 +40,7 @@ static void copy_instances(System *system, const Model *model)
         if (size > 0)
             memcpy(to->values, from->values, size);
         for (int c = 0; c < MAX_COORDS; c++) {
-            system->coordinate[i][c] = -1;
+            system->coordinate[i][c] = system->speed[i][c] = -1;
             if (c < from->coord_count)
                 to->coord[c] = system_keep(system, "%s", from->coord[c]);
         }
@@ -102,22 +103,43 @@ static void copy_form(System *system, const Model *model)
 
 /* --- variables --- */
 
+static void add_speed(System *system, const Instance *instance, const char *name, bool is_angle)
+{
+    LIST_PUSH(system->u, (Variable){.name = name,
+                                    .symbol = expr_symbol(system->arena, name, SYMBOL_SPEED),
+                                    .edge = instance->edge,
+                                    .instance = instance->number,
+                                    .is_angle = is_angle});
+}
+
 static void add_coordinate(System *system, const Instance *instance, int c)
 {
-    Arena *arena = system->arena;
     const char *name = instance->coord[c];
-    Variable q = {.name = name,
-                  .symbol = expr_symbol(arena, name, SYMBOL_COORDINATE),
-                  .edge = instance->edge,
-                  .instance = instance->number,
-                  .is_angle = instance->coord_kind[c] == COORDINATE_ANGLE};
-    Variable u = q;
+    bool is_angle = instance->coord_kind[c] == COORDINATE_ANGLE;
 
-    u.name = system_keep(system, "%s'", name);
-    u.symbol = expr_symbol(arena, u.name, SYMBOL_SPEED);
     system->coordinate[instance->number][c] = system->q.count;
-    LIST_PUSH(system->q, q);
-    LIST_PUSH(system->u, u);
+    LIST_PUSH(system->q, (Variable){.name = name,
+                                    .symbol = expr_symbol(system->arena, name, SYMBOL_COORDINATE),
+                                    .edge = instance->edge,
+                                    .instance = instance->number,
+                                    .is_angle = is_angle});
+    if (instance->coord_kind[c] == COORDINATE_PARAMETER)
+        return;
+    system->speed[instance->number][c] = system->u.count;
+    add_speed(system, instance, system_keep(system, "%s'", name), is_angle);
+}
+
+/* four Euler parameters go with three components of angular velocity, in the axes of the head */
+static void add_parameters(System *system, const Instance *instance, int first)
+{
+    static const char *const speeds[] = {"Wx", "Wy", "Wz"};
+
+    LIST_PUSH(system->quaternions, system->q.count);
+    system->speed[instance->number][first] = system->u.count;
+    for (int c = first; c < first + 4; c++)
+        add_coordinate(system, instance, c);
+    for (int i = 0; i < 3; i++)
+        add_speed(system, instance, system_keep(system, "%s.%s", instance->name, speeds[i]), true);
 }
 
 /* coordinates of branches, each half in the tree of its half, in order of the edges' making */
@@ -130,17 +152,83 @@ static void add_coordinates(System *system)
 
         if (instance->row->steps == NULL || instance->edge < 0)
             continue;
-        for (int c = 0; c < instance->coord_count; c++)
-            if (tree_has(halves[instance->coord_rotation[c]], instance->edge))
+        for (int c = 0; c < instance->coord_count; c++) {
+            bool branch = tree_has(halves[instance->coord_rotation[c]], instance->edge);
+
+            if (instance->coord_kind[c] != COORDINATE_PARAMETER && branch)
                 add_coordinate(system, instance, c);
+            else if (branch) {
+                add_parameters(system, instance, c);
+                c += 3;
+            }
+        }
     }
     system->accelerations = pool_alloc(system->pool, (size_t)system->u.count * sizeof(Expr));
-    system->speed_chain = pool_alloc(system->pool, (size_t)system->u.count * sizeof(int));
-    system->speed_node = pool_alloc(system->pool, (size_t)system->u.count * sizeof(int));
+    system->speeds = pool_alloc(system->pool, (size_t)system->u.count * sizeof *system->speeds);
     for (int j = 0; j < system->u.count; j++) {
         system->accelerations[j] = expr_symbol(
             system->arena, system_keep(system, "%s'", system->u.at[j].name), SYMBOL_ACCELERATION);
-        system->speed_chain[j] = -1;
+        system->speeds[j].chain = -1;
+    }
+}
+
+/* p' = N w, N = 1/2 [-e^T; e0 1 + S(e)] */
+static void parameter_rates(System *system, int first, int speed)
+{
+    Arena *arena = system->arena;
+    Expr half = expr_rational(arena, 1, 2);
+    Expr p[4];
+
+    for (int i = 0; i < 4; i++)
+        p[i] = expr_mul(arena, half, system->q.at[first + i].symbol);
+    for (int i = 0; i < 4; i++) {
+        CoordinateRate *rate = &system->coordinate_rates[first + i];
+
+        rate->count = 3;
+        for (int k = 0; k < 3; k++) {
+            int row = i - 1;
+
+            rate->speed[k] = speed + k;
+            if (i == 0)
+                rate->entry[k] = expr_neg(arena, p[1 + k]);
+            else if (row == k)
+                rate->entry[k] = p[0];
+            else if (k == (row + 1) % 3)
+                rate->entry[k] = expr_neg(arena, p[1 + 3 - row - k]);
+            else
+                rate->entry[k] = p[1 + 3 - row - k];
+        }
+    }
+}
+
+static void add_rates(System *system)
+{
+    Arena *arena = system->arena;
+    size_t count = (size_t)system->q.count;
+
+    system->coordinate_rates = pool_alloc(system->pool, count * sizeof *system->coordinate_rates);
+    system->run.q_rate = pool_alloc(system->pool, count * sizeof(Expr));
+    for (int i = 0; i < system->instance_count; i++)
+        for (int c = 0; c < system->instances[i].coord_count; c++) {
+            int place = system->coordinate[i][c];
+            int speed = system->speed[i][c];
+
+            if (place < 0 || speed < 0)
+                continue;
+            if (system->instances[i].coord_kind[c] == COORDINATE_PARAMETER)
+                parameter_rates(system, place, speed);
+            else
+                system->coordinate_rates[place] =
+                    (CoordinateRate){1, {speed}, {expr_int(arena, 1)}};
+        }
+    for (int i = 0; i < system->q.count; i++) {
+        const CoordinateRate *rate = &system->coordinate_rates[i];
+
+        system->run.q_rate[i] = expr_int(arena, 0);
+        for (int k = 0; k < rate->count; k++)
+            system->run.q_rate[i] =
+                expr_add(arena, system->run.q_rate[i],
+                         expr_mul(arena, rate->entry[k], system->u.at[rate->speed[k]].symbol));
     }
 }
 
@@ -187,13 +275,6 @@ static void number_rows(System *system)
     }
 }
 
-static void add_rates(System *system)
-{
-    system->run.q_rate = pool_alloc(system->pool, (size_t)system->q.count * sizeof(Expr));
-    for (int i = 0; i < system->q.count; i++)
-        system->run.q_rate[i] = system->u.at[i].symbol;
-}
-
 /* --- life --- */
 
 static Status build(System *system, Diag *diag)
@@ -205,7 +286,7 @@ static Status build(System *system, Diag *diag)
         add_rates(system);
     }
     add_drives(system);
-    CHECK(frames_build(system, diag));
+    frames_build(system);
     motion_build(system);
     CHECK(network_build(system, diag));
     if (system->trees[TREE_TRANSLATION] != NULL)
@@ -266,6 +347,7 @@ void system_free(System *system)
     LIST_FREE(system->x);
     LIST_FREE(system->z);
     LIST_FREE(system->rates);
+    LIST_FREE(system->quaternions);
     LIST_FREE(system->chains);
     LIST_FREE(system->masses);
     LIST_FREE(system->rows);
@@ -373,14 +455,17 @@ Expr system_q_rate(const System *system, int i)
 
 Expr system_n_entry(const System *system, int i, int j)
 {
-    return expr_int(system->arena, i == j);
+    const CoordinateRate *rate = &system->coordinate_rates[i];
+
+    for (int k = 0; k < rate->count; k++)
+        if (rate->speed[k] == j)
+            return rate->entry[k];
+    return expr_int(system->arena, 0);
 }
 
 int system_quaternion(const System *system, int i)
 {
-    (void)system;
-    (void)i;
-    return -1;
+    return i < system->quaternions.count ? system->quaternions.at[i] : -1;
 }
 
 const ConstraintRow *system_constraint(const System *system, int k)

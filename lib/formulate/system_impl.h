@@ -26,19 +26,37 @@ typedef struct Rotation {
     Expr at[9]; /* row by row */
 } Rotation;
 
-/* one turn of the rotation tree */
+/* one turn of the rotation tree, or one free rotation by Euler parameters */
 typedef struct Chain {
     int parent; /* -1: ground's own */
     int depth;
-    Vec axis;   /* zero-position axes: the same components before and after the turn */
-    Expr angle; /* the coordinate, or its negative where the branch is passed backwards */
-    Expr rate;  /* of the angle: u or -u */
-    int speed;  /* in u */
-    int sign;   /* of the coordinate in the angle */
-    int first;  /* what hangs beyond it has the numbers first..last */
+    int first; /* what hangs beyond it has the numbers first..last */
     int last;
     int resolve; /* chain in whose axes vectors of this one are computed by the reading to run */
+    int speed;   /* the first of its speeds */
+    int speed_count; /* 1, or 3 where it is free */
+    bool is_free;
+    Vec axis;   /* turn: zero-position axes, the same components before and after */
+    Expr angle; /* turn: the coordinate, or its negative where the branch is passed backwards */
+    Rotation matrix;   /* free: zero-position components after it to those before it */
+    Expr parameter[4]; /* free: Euler parameters of that matrix */
 } Chain;
+
+/* a speed: what it moves, and along what */
+typedef struct Speed {
+    int chain; /* that it turns; -1: it slides */
+    int node;  /* that its branch leads to */
+    Vec axis;  /* of the turn, zero-position axes of `axis_chain` */
+    int axis_chain;
+    Vec direction; /* of turn or slide, in the axes of its node */
+} Speed;
+
+/* how a coordinate's rate follows from speeds */
+typedef struct CoordinateRate {
+    int count;
+    int speed[3];
+    Expr entry[3]; /* of N */
+} CoordinateRate;
 
 /* a shift coordinate in a step */
 typedef struct Slide {
@@ -152,9 +170,10 @@ struct System {
     LIST(Expr) rates;              /* of x */
     int (*coordinate)[MAX_COORDS]; /* of an instance: its place in q, or -1 */
 
-    int *speed_chain;     /* of a speed: the chain that it turns, or -1 */
-    int *speed_node;      /* of a speed: the node that its branch leads to */
-    Vec *speed_direction; /* axis of its turn or slide, in the axes of its node */
+    int (*speed)[MAX_COORDS]; /* of an instance's coordinate: its place in u, or -1 */
+    Speed *speeds;
+    CoordinateRate *coordinate_rates;
+    LIST(int) quaternions; /* the first of each four parameters */
     LIST(Chain) chains;
     Frame *frames; /* one a node of the graph; scalar nodes unused */
     ChainMotion *motions;
@@ -208,11 +227,13 @@ Rotation inertia_turned(Arena *arena, const Rotation *z, const Expr tensor[6]); 
 /* --- frames and turns (frames.c) --- */
 
 /* chains, frames and steps from the trees; masses. */
-MUST_USE Status frames_build(System *system, Diag *diag);
+void frames_build(System *system);
 
 typedef struct Turn {
     Vec axis;
     Expr angle;
+    const Rotation *matrix; /* of a free rotation; NULL: a turn about the axis */
+    bool back;              /* the matrix is passed backwards */
 } Turn;
 typedef LIST(Turn) Turns;
 
@@ -220,7 +241,7 @@ typedef LIST(Turn) Turns;
 void turns_between(const System *system, int from, int to, Turns *turns);
 /* components of v in the axes of chain `to`, from those in chain `from` */
 Vec vec_express(const System *system, Vec v, int from, int to);
-/* what speed j turns about, per unit of it, in the axes of a chain */
+/* what a speed turns about, in the axes of a chain */
 Vec speed_axis(const System *system, int speed, int axes);
 bool chain_is_beyond(const System *system, int chain, int turn); /* or the same */
 /* angle of a constant rotation about an axis */
@@ -276,7 +297,7 @@ MUST_USE Status coordinate_value(System *system, const Instance *owner, int coor
                                  Expr *out, Diag *diag);
 /* derivative along the motion: q -> q', u -> u', x -> x', t -> 1 */
 MUST_USE Status rate_of(System *system, Expr e, Expr *out, Diag *diag);
-/* partial derivative by the i-th coordinate, along speed i */
+/* derivative of e(q) per unit of a speed */
 Expr partial(System *system, Expr e, int speed);
 /* e over user's variables to e over the system's */
 MUST_USE Status resolve(System *system, Expr user, Expr *out, Diag *diag);

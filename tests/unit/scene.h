@@ -79,6 +79,33 @@ typedef struct SceneState {
     uint64_t seed;
 } SceneState;
 
+/* m1.q0 .. m1.q3 */
+__attribute__((unused)) static bool scene_is_parameter(Expr symbol)
+{
+    const char *name = expr_name(symbol);
+    size_t length = strlen(name);
+
+    return expr_symbol_kind(symbol) == SYMBOL_COORDINATE && length > 3 && name[length - 3] == '.' &&
+           name[length - 2] == 'q';
+}
+
+/* four of unit length, told apart by the letters of the part's name */
+__attribute__((unused)) static double scene_parameter(const SceneState *state, Expr symbol)
+{
+    const char *name = expr_name(symbol);
+    uint64_t random = state->seed;
+    double p[4];
+    double norm = 0.0;
+
+    for (const char *c = name; *c != '.'; c++)
+        random = 31U * random + (unsigned char)*c;
+    for (int i = 0; i < 4; i++) {
+        p[i] = test_uniform(&random, -1.0, 1.0);
+        norm += p[i] * p[i];
+    }
+    return p[name[strlen(name) - 1] - '0'] / sqrt(norm);
+}
+
 __attribute__((unused)) static double scene_value(void *context, Expr symbol)
 {
     const SceneState *state = context;
@@ -86,6 +113,8 @@ __attribute__((unused)) static double scene_value(void *context, Expr symbol)
 
     if (expr_symbol_kind(symbol) == SYMBOL_PARAMETER)
         return model_parameter_value(state->model, symbol);
+    if (scene_is_parameter(symbol))
+        return scene_parameter(state, symbol);
     return test_uniform(&random, -2.0, 2.0);
 }
 
