@@ -107,14 +107,29 @@ static void take(Least *l)
     evaluate(l, l->next, l->trial, false);
 }
 
-/* Steps until nothing gets better. */
+/* what the linear model promises to be left after the step */
+static double promised(const Least *l)
+{
+    double sum = 0;
+
+    for (int i = 0; i < l->rows->rows; i++) {
+        double left = l->residual[i];
+
+        for (int j = 0; j < l->rows->columns; j++)
+            left += l->jacobian[i * l->rows->columns + j] * l->step[j];
+        sum += left * left;
+    }
+    return sqrt(sum);
+}
+
+/* Steps until nothing gets better. Damping follows how well the linear model told the step. */
 static void descend(Least *l, double tolerance)
 {
     int m = l->rows->rows;
     double mu = 1;
 
     for (int i = 0, polish = 0; i < ITERATIONS && polish < 3; i++) {
-        double before, after;
+        double before, after, gain;
 
         evaluate(l, l->v, l->residual, true);
         before = norm_of(l->residual, m);
@@ -133,7 +148,8 @@ static void descend(Least *l, double tolerance)
             continue;
         }
         memcpy(l->v, l->next, (size_t)l->rows->length * sizeof(double));
-        mu *= after < 0.25 * before ? 0.1 : after < 0.75 * before ? 0.5 : 1;
+        gain = (before - after) / fmax(before - promised(l), 1e-300);
+        mu *= gain > 0.75 ? 0.1 : gain > 0.25 ? 1 : 4;
         if (before - after < 1e-12 * before && polish == 0)
             return; /* a minimum that is no solution */
     }

@@ -389,18 +389,17 @@ static Status hand_over(March *m, Diag *diag)
     return stiff->start(m->stepper, t, m->y, diag);
 }
 
-static Status repartition(March *m, Diag *diag)
+/* The same accelerations by other independent ones: the integrator needn't know. */
+static void repartition(March *m)
 {
-    Stepper *s = m->stepper;
+    const Stepper *s = m->stepper;
 
     if (!motion_is_worn(m->plan->motion))
-        return OK;
+        return;
     memcpy(m->y, s->y, (size_t)m->grid->length * sizeof(double));
-    if (!motion_project(m->plan->motion, s->t, m->y) ||
-        !motion_repartition(m->plan->motion, s->t, m->y))
-        return OK;
-    text_addf(&m->out->remarks, "independent coordinates chosen anew at t = %.6g s\n", s->t);
-    return s->method->start(s, s->t, m->y, diag);
+    if (motion_project(m->plan->motion, s->t, m->y) &&
+        motion_repartition(m->plan->motion, s->t, m->y))
+        text_addf(&m->out->remarks, "independent coordinates chosen anew at t = %.6g s\n", s->t);
 }
 
 static Status one_step(March *m, double end, Diag *diag)
@@ -416,7 +415,7 @@ static Status one_step(March *m, double end, Diag *diag)
             return meet_switch(m, i, when, diag);
     }
     CHECK(add_rows(m, diag));
-    CHECK(repartition(m, diag));
+    repartition(m);
     if (m->plan->method == NULL && m->stepper->is_stiff)
         CHECK(hand_over(m, diag));
 done:

@@ -14,7 +14,7 @@
 #include <string.h>
 
 #define PROJECTION_SWEEPS 8
-#define WORN              1e-3 /* of Phi_d's pivot ratio when it was chosen */
+#define WORN              0.1 /* of Phi_d's pivot ratio when it was chosen */
 
 struct Motion {
     const Equations *eq;

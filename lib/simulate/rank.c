@@ -6,6 +6,7 @@
 #include <gsl/gsl_blas.h>
 #include <gsl/gsl_linalg.h>
 #include <math.h>
+#include <stdbool.h>
 #include <stdlib.h>
 
 #define THRESHOLD 1e-9
@@ -46,8 +47,18 @@ static int rising(const void *a, const void *b)
     return *(const int *)a - *(const int *)b;
 }
 
+static double row_norm(const double *row, int n)
+{
+    double norm = 0;
+
+    for (int j = 0; j < n; j++)
+        norm = hypot(norm, row[j]);
+    return norm;
+}
+
 int rank_rows(const double *matrix, int m, int nu, double threshold, int *order)
 {
+    double largest = 0;
     gsl_matrix *transpose;
     Pivoted p;
 
@@ -57,14 +68,15 @@ int rank_rows(const double *matrix, int m, int nu, double threshold, int *order)
         return 0;
     }
     transpose = gsl_matrix_alloc((size_t)nu, (size_t)m);
+    for (int k = 0; k < m; k++)
+        largest = fmax(largest, row_norm(matrix + k * nu, nu));
     for (int k = 0; k < m; k++) {
-        double norm = 0;
+        double norm = row_norm(matrix + k * nu, nu);
+        bool is_zero = !(norm > 1e-10 * largest); /* rounding alone */
 
         for (int j = 0; j < nu; j++)
-            norm = hypot(norm, matrix[k * nu + j]);
-        for (int j = 0; j < nu; j++)
             gsl_matrix_set(transpose, (size_t)j, (size_t)k,
-                           norm > 0 ? matrix[k * nu + j] / norm : 0);
+                           is_zero ? 0 : matrix[k * nu + j] / norm);
     }
     p = factor(transpose, threshold);
     if (order != NULL) {

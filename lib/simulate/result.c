@@ -34,6 +34,8 @@ static Status find_independent(const Layout *l, const Setting *setting, int *out
             const Variable *u = system_u(l->system, j);
             const char *name = u->derivative_of != NULL ? expr_name(*u->derivative_of) : u->name;
 
+            if (l->n == l->nu) /* u = q' */
+                name = system_q(l->system, j)->name;
             if (strcmp(name, setting->independent[i]) == 0)
                 out[i] = j;
         }

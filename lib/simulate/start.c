@@ -10,7 +10,6 @@
 #include <string.h>
 
 #define TOLERANCE  1e-12 /* of scaled residuals */
-#define PULL       0.03  /* weight of a guess against an equation */
 #define TRIES      24    /* other starts, when the first leads nowhere */
 #define FAR        2.0   /* rad or m: a dependent coordinate that moved further is spoken of */
 #define RANK_RATIO 1e-9
@@ -332,7 +331,7 @@ static Status tell_conflict(const Problem *p, const double *residual, const char
             text_addf(&text, "the network's equation %d", k + 1);
         else
             name_row(&text, p->a->l, k);
-        text_addf(&text, " by %.3g", residual[k]);
+        text_addf(&text, " by %.3g", fabs(residual[k]));
     }
     for (int i = 0; i < p->a->given_count; i++)
         if (!p->a->given[i].value->is_guess && p->a->given[i].level <= p->level) {
@@ -377,12 +376,12 @@ static void begin_position(Assembly *a, WarmValue warm, void *context)
         }
 }
 
-/* Pull gently towards guesses that are no coordinates, and everything else along. */
+/* Guesses that are no coordinates weigh as much as equations first: a branch on which they are far
+ * off is no place to end. */
 static Status pull(Assembly *a, Diag *diag)
 {
     Problem p = {0};
     bool needed = false;
-    double *weight = NULL;
     Rows rows;
     Status status = OK;
 
@@ -391,13 +390,9 @@ static Status pull(Assembly *a, Diag *diag)
     if (!needed)
         return OK;
     CHECK(problem_open(&p, a, LEVEL_POSITION, true, diag));
-    weight = NEW_ARRAY(double, p.system_rows + p.count);
-    for (int k = 0; k < p.system_rows + p.count; k++)
-        weight[k] = k >= p.system_rows && p.picked[k - p.system_rows]->value->is_guess ? PULL : 1;
     rows = rows_of(&p);
-    (void)least_solve(&rows, NULL, weight, TOLERANCE, a->y, NULL);
+    (void)least_solve(&rows, NULL, NULL, TOLERANCE, a->y, NULL);
 done:
-    mem_free(weight);
     problem_close(&p);
     return status;
 }

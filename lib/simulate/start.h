@@ -2,8 +2,8 @@
  *
  * Three problems of least squares, one after another: Phi = 0 with given positions, Phi_u u = nu
  * with given speeds, the network's equations with given states. Given coordinates are held; any
- * other given variable is one more equation. Guesses choose where to begin, and pull gently before
- * the equations alone decide. */
+ * other given variable is one more equation. Guesses choose where to begin: they are equations at
+ * first, then what was given decides alone. */
 #ifndef COTREE_SIMULATE_START_H
 #define COTREE_SIMULATE_START_H
 

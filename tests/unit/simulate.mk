@@ -1,5 +1,5 @@
 # unit tests of lib/simulate
-UNIT_TESTS += test_simulate_linear test_simulate_march test_simulate_cases
+UNIT_TESTS += test_simulate_linear test_simulate_march test_simulate_run test_simulate_cases
 test_simulate_linear_SOURCES = tests/unit/test_simulate_linear.c tests/unit/test.h
 test_simulate_linear_LDADD = $(unit_ldadd)
 test_simulate_march_SOURCES = tests/unit/test_simulate_march.c tests/unit/simulate_problems.h \
@@ -8,6 +8,9 @@ test_simulate_march_LDADD = $(unit_ldadd)
 test_simulate_cases_SOURCES = tests/unit/test_simulate_cases.c tests/unit/simulate_script.h \
   tests/unit/test.h
 test_simulate_cases_LDADD = $(unit_ldadd)
+test_simulate_run_SOURCES = tests/unit/test_simulate_run.c tests/unit/simulate_script.h \
+  tests/unit/test.h
+test_simulate_run_LDADD = $(unit_ldadd)
 EXTRA_DIST += tests/data/README tests/data/andrews.csv tests/data/four_bar.csv \
   tests/data/motor_arm_forward.csv tests/data/motor_arm_inverse.csv tests/data/pendulum_10s.csv \
   tests/data/pendulum_2000s.csv tests/data/slider_crank.csv

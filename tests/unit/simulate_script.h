@@ -80,9 +80,9 @@ static void script_run(Script *script, const Statement *statement, const Changes
                           .atol = script_key(script, statement, "atol")};
     Status status;
 
-    options.duration = changes->duration > 0
-                           ? changes->duration
-                           : script_number(script, statement->operands.at[0].value);
+    options.duration = changes->duration;
+    if (options.duration == 0 && statement->operands.count > 0)
+        options.duration = script_number(script, statement->operands.at[0].value);
     if (changes->rtol > 0)
         options.rtol = options.atol = changes->rtol;
     options.method = changes->method;
