@@ -215,17 +215,17 @@ Expr op_derivative(Arena *arena, Expr e, const Expr *rates)
 
 typedef enum Parity { NEITHER, ODD, EVEN } Parity;
 
-/* What is known without rounding. `at` is mapped to `gives`; both matter only where
- * `known` is set. */
+/* What is known of a function without rounding. */
 typedef struct Exact {
     Parity parity;
-    bool known;
+    bool known; /* f(at) is `gives` */
     int at;
     int gives;
+    bool undoes; /* f(inverse(x)) is x */
+    Op inverse;
     bool commutes;
-    bool choosy;                                  /* compares or picks: exact for any numbers */
-    Op inverse;                                   /* f(inverse(x)) = x, where not OP_HOLD */
-    Expr (*rule)(Arena *arena, const Expr *args); /* NULL where it finds nothing */
+    bool picks;                                   /* compares or chooses: exact for any numbers */
+    Expr (*rule)(Arena *arena, const Expr *args); /* what else; NULL where it finds nothing */
 } Exact;
 
 static Expr exact_sqrt(Arena *arena, const Expr *args)
@@ -312,65 +312,68 @@ static Expr exact_hold(Arena *arena, const Expr *args)
 }
 
 #define KNOWN(x, y) .known = true, .at = (x), .gives = (y)
+#define UNDOES(op)  .undoes = true, .inverse = (op)
 static const Exact exact[OP_COUNT] = {
-    [OP_SIN] = {.parity = ODD, KNOWN(0, 0), .inverse = OP_ASIN},
-    [OP_COS] = {.parity = EVEN, KNOWN(0, 1), .inverse = OP_ACOS},
-    [OP_TAN] = {.parity = ODD, KNOWN(0, 0), .inverse = OP_ATAN},
-    [OP_ASIN] = {.parity = ODD, KNOWN(0, 0), .inverse = OP_HOLD},
-    [OP_ACOS] = {KNOWN(1, 0), .inverse = OP_HOLD},
-    [OP_ATAN] = {.parity = ODD, KNOWN(0, 0), .inverse = OP_HOLD},
-    [OP_ATAN2] = {.inverse = OP_HOLD},
-    [OP_SINH] = {.parity = ODD, KNOWN(0, 0), .inverse = OP_HOLD},
-    [OP_COSH] = {.parity = EVEN, KNOWN(0, 1), .inverse = OP_HOLD},
-    [OP_TANH] = {.parity = ODD, KNOWN(0, 0), .inverse = OP_HOLD},
-    [OP_EXP] = {KNOWN(0, 1), .inverse = OP_LOG},
-    [OP_LOG] = {KNOWN(1, 0), .inverse = OP_EXP},
-    [OP_SQRT] = {KNOWN(0, 0), .inverse = OP_HOLD, .rule = exact_sqrt},
-    [OP_ABS] = {.parity = EVEN, .choosy = true, .inverse = OP_HOLD, .rule = exact_abs},
-    [OP_SIGN] = {.parity = ODD, .choosy = true, .inverse = OP_HOLD},
-    [OP_MIN] = {.commutes = true, .choosy = true, .inverse = OP_HOLD, .rule = exact_pick},
-    [OP_MAX] = {.commutes = true, .choosy = true, .inverse = OP_HOLD, .rule = exact_pick},
-    [OP_STEP] = {.choosy = true, .inverse = OP_HOLD},
-    [OP_RAMP] = {.choosy = true, .inverse = OP_HOLD},
-    [OP_FLOOR] = {.choosy = true, .inverse = OP_HOLD},
-    [OP_LT] = {.choosy = true, .inverse = OP_HOLD, .rule = exact_false},
-    [OP_LE] = {.choosy = true, .inverse = OP_HOLD, .rule = exact_true},
-    [OP_EQ] = {.commutes = true, .choosy = true, .inverse = OP_HOLD, .rule = exact_true},
-    [OP_NE] = {.commutes = true, .choosy = true, .inverse = OP_HOLD, .rule = exact_false},
-    [OP_AND] = {.choosy = true, .inverse = OP_HOLD, .rule = exact_and},
-    [OP_OR] = {.choosy = true, .inverse = OP_HOLD, .rule = exact_or},
-    [OP_NOT] = {.choosy = true, .inverse = OP_HOLD, .rule = exact_not},
-    [OP_IF] = {.inverse = OP_HOLD, .rule = exact_if},
-    [OP_HOLD] = {.parity = ODD, .inverse = OP_HOLD, .rule = exact_hold},
+    [OP_SIN] = {.parity = ODD, KNOWN(0, 0), UNDOES(OP_ASIN)},
+    [OP_COS] = {.parity = EVEN, KNOWN(0, 1), UNDOES(OP_ACOS)},
+    [OP_TAN] = {.parity = ODD, KNOWN(0, 0), UNDOES(OP_ATAN)},
+    [OP_ASIN] = {.parity = ODD, KNOWN(0, 0)},
+    [OP_ACOS] = {KNOWN(1, 0)},
+    [OP_ATAN] = {.parity = ODD, KNOWN(0, 0)},
+    [OP_SINH] = {.parity = ODD, KNOWN(0, 0)},
+    [OP_COSH] = {.parity = EVEN, KNOWN(0, 1)},
+    [OP_TANH] = {.parity = ODD, KNOWN(0, 0)},
+    [OP_EXP] = {KNOWN(0, 1), UNDOES(OP_LOG)},
+    [OP_LOG] = {KNOWN(1, 0), UNDOES(OP_EXP)},
+    [OP_SQRT] = {KNOWN(0, 0), .rule = exact_sqrt},
+    [OP_ABS] = {.parity = EVEN, .picks = true, .rule = exact_abs},
+    [OP_SIGN] = {.parity = ODD, .picks = true},
+    [OP_MIN] = {.commutes = true, .picks = true, .rule = exact_pick},
+    [OP_MAX] = {.commutes = true, .picks = true, .rule = exact_pick},
+    [OP_STEP] = {.picks = true},
+    [OP_RAMP] = {.picks = true},
+    [OP_FLOOR] = {.picks = true},
+    [OP_LT] = {.picks = true, .rule = exact_false},
+    [OP_LE] = {.picks = true, .rule = exact_true},
+    [OP_EQ] = {.commutes = true, .picks = true, .rule = exact_true},
+    [OP_NE] = {.commutes = true, .picks = true, .rule = exact_false},
+    [OP_AND] = {.picks = true, .rule = exact_and},
+    [OP_OR] = {.picks = true, .rule = exact_or},
+    [OP_NOT] = {.picks = true, .rule = exact_not},
+    [OP_IF] = {.rule = exact_if},
+    [OP_HOLD] = {.parity = ODD, .rule = exact_hold},
 };
 
-/* What rationals stand for exactly where a function only compares and picks:
- * the sign of their difference is that of the doubles 0, 1, -1. */
+/* A function that only compares and chooses, of numbers. */
 static Expr pick_exactly(Arena *arena, Op op, const Expr *args)
 {
-    double values[2];
-    int sign;
+    double values[2] = {expr_value(args[0]), 0};
 
-    if (op == OP_MIN || op == OP_MAX) {
-        sign = number_compare(number_of(args[0]), number_of(args[1]));
-        return args[(op == OP_MIN) == (sign > 0)];
-    }
-    if (op == OP_FLOOR && args[0]->kind == EXPR_RATIONAL) {
-        const Ratio *ratio = node_ratio(args[0]);
+    switch (op) {
+    case OP_MIN:
+    case OP_MAX:
+        return args[(op == OP_MIN) == (number_compare(number_of(args[0]), number_of(args[1])) > 0)];
+    case OP_FLOOR:
+        if (args[0]->kind == EXPR_RATIONAL) {
+            const Ratio *ratio = node_ratio(args[0]);
 
-        return expr_int(arena, ratio->num / ratio->den - (ratio->num % ratio->den < 0));
-    }
-    if (op == OP_ABS || op == OP_RAMP) {
-        if (is_negative(args[0]))
-            return op == OP_ABS ? expr_neg(arena, args[0]) : arena_zero(arena);
-        return args[0];
-    }
-    values[0] = expr_value(args[0]);
-    values[1] = 0;
-    if (op >= OP_LT && op <= OP_NE)
+            return expr_int(arena, ratio->num / ratio->den - (ratio->num % ratio->den < 0));
+        }
+        break;
+    case OP_ABS:
+        return is_negative(args[0]) ? expr_neg(arena, args[0]) : args[0];
+    case OP_RAMP:
+        return is_negative(args[0]) ? arena_zero(arena) : args[0];
+    case OP_LT:
+    case OP_LE:
+    case OP_EQ:
+    case OP_NE:
+        /* as their order relates to 0, so do the numbers to each other */
         values[0] = number_compare(number_of(args[0]), number_of(args[1]));
-    else if (op_args(op) == 2)
-        values[1] = expr_value(args[1]);
+        break;
+    default:
+        values[1] = op_args(op) == 2 ? expr_value(args[1]) : 0;
+    }
     return expr_real(arena, op_value(op, values));
 }
 
@@ -387,7 +390,7 @@ static Expr fold_numbers(Arena *arena, Op op, const Expr *args)
         real = real && args[i]->kind == EXPR_REAL;
         values[i] = expr_value(args[i]);
     }
-    if (exact[op].choosy)
+    if (exact[op].picks)
         return pick_exactly(arena, op, args);
     if (!real)
         return NULL;
@@ -403,7 +406,7 @@ Expr expr_call(Arena *arena, Op op, const Expr *args)
 
     if (simple == NULL && row->known && expr_is(args[0], row->at))
         simple = expr_int(arena, row->gives);
-    if (simple == NULL && row->inverse != OP_HOLD && is_call(args[0], row->inverse))
+    if (simple == NULL && row->undoes && is_call(args[0], row->inverse))
         simple = node_args(args[0])[0];
     if (simple == NULL)
         simple = fold_numbers(arena, op, args);

@@ -13,7 +13,11 @@
  * last builder asks arena_status() once.
  *
  * Terms and factors stand in a stable order: by kind, then the order in which their
- * symbols were made, then structure; never by address. */
+ * symbols were made, then structure; never by address.
+ *
+ * What has several forms has one here: minus a sum is the sum of the negatives, and a sum
+ * that is a factor, an argument of sin or the like has no minus sign before its first term
+ * (x*(b - a) is -x*(a - b)); half powers are whole powers of a sqrt; a > b is b < a. */
 #ifndef COTREE_EXPR_EXPR_H
 #define COTREE_EXPR_EXPR_H
 
