@@ -262,6 +262,27 @@ static void order_is_total_and_repeats(void)
     arena_free(v.arena);
 }
 
+/* the same expressions print alike whatever was built before them */
+static void order_forgets_history(void)
+{
+    World w = world_new(3);
+    World v = world_new(3);
+    uint64_t start = v.random;
+    double value;
+
+    for (int i = 0; i < 500; i++)
+        (void)random_expr(&v, 4, &value);
+    v.random = start;
+    for (int i = 0; i < 100; i++) {
+        char *text = expr_text(random_expr(&v, 5, &value));
+
+        EXPECT_EXPR(random_expr(&w, 5, &value), text);
+        mem_free(text);
+    }
+    arena_free(w.arena);
+    arena_free(v.arena);
+}
+
 static void release_leaves_no_ghosts(void)
 {
     BEGIN;
@@ -385,6 +406,7 @@ int main(void)
     RUN(commuting_gives_the_same_pointer);
     RUN(builders_keep_the_value);
     RUN(order_is_total_and_repeats);
+    RUN(order_forgets_history);
     RUN(release_leaves_no_ghosts);
     RUN(division_by_zero_is_remembered_once);
     RUN(stopping_ends_growth);
