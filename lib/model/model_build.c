@@ -1,357 +1,10 @@
 /* model_build.c: a component's statement to an instance, its frame, terminals and edges
  *
  * A statement is read in full into a Draft; only then nodes, edges and names are added. */
-#include "model/model_impl.h"
+#include "model/model_draft.h"
 
 #include <assert.h>
 #include <string.h>
-
-typedef struct Draft {
-    State *state;
-    const Statement *statement;
-    Instance *part; /* in the state's pool */
-    Scope scope;
-    int at;                   /* next operand */
-    const char *terminals[2]; /* names, where the part has a scalar edge */
-    const Syntax *coordinate_names;
-    Diag *diag;
-} Draft;
-
-/* --- operands --- */
-
-static Place end_place(const Statement *statement)
-{
-    return (Place){statement->place.line, statement->place.column + statement->place.width, 1};
-}
-
-static const char *const forms[] = {
-    [PLACES_NONE] = "NAME",
-    [PLACES_FROM] = "NAME FRAME",
-    [PLACES_FRAMES] = "NAME TAIL TIP",
-    [PLACES_ON] = "NAME FRAME",
-    [PLACES_LINK] = "NAME TAIL TIP, or NAME JOINT",
-    [PLACES_COORDINATE] = "NAME COORDINATE = value",
-    [PLACES_TERMINALS] = "NAME PLUS MINUS",
-    [PLACES_TRANSDUCER] = "NAME JOINT PLUS MINUS",
-};
-
-static Status next_operand(Draft *draft, const Operand **out)
-{
-    const Statement *statement = draft->statement;
-
-    if (draft->at >= statement->operands.count) {
-        (void)diag_at(draft->diag, E_SYNTAX, end_place(statement), "%s misses a place",
-                      statement->verb);
-        diag_hint(draft->diag, "it is written %s %s", statement->verb,
-                  forms[draft->part->row->places]);
-        return E_SYNTAX;
-    }
-    *out = &statement->operands.at[draft->at++];
-    return OK;
-}
-
-static Status next_name(Draft *draft, const char **name, Place *place)
-{
-    const Operand *operand = NULL;
-    Status status = OK;
-
-    CHECK(next_operand(draft, &operand));
-    *name = syntax_name(operand->value);
-    *place = operand->place;
-    if (*name == NULL)
-        status = diag_at(draft->diag, E_NAME, operand->place, "a name is expected here");
-done:
-    return status;
-}
-
-static Status new_name(Draft *draft)
-{
-    const char *name = NULL;
-    Place place;
-    Status status = OK;
-
-    CHECK(next_name(draft, &name, &place));
-    if (strchr(name, '.') != NULL) {
-        status = diag_at(draft->diag, E_NAME, place, "a new name has no dot");
-        goto done;
-    }
-    if (names_find(draft->state->terminals, name) >= 0) {
-        status = diag_at(draft->diag, E_NAME, place, "'%s' is already a terminal", name);
-        goto done;
-    }
-    CHECK(name_is_free(draft->state, name, place, draft->diag));
-    draft->part->name = state_text(draft->state, name);
-done:
-    return status;
-}
-
-/* --- frames --- */
-
-static bool is_frame(const Instance *part)
-{
-    return part->row->family == FAMILY_BODY || part->row->family == FAMILY_ARM;
-}
-
-static Status not_a_frame(const Draft *draft, const char *name, Place place)
-{
-    const State *state = draft->state;
-    const Thing *thing = state_thing(state, name);
-    Suggest suggest = suggest_for(name);
-    Text what = {0};
-
-    if (thing != NULL) {
-        name_describe(state, thing, &what);
-        (void)diag_at(draft->diag, E_NAME, place, "%s is %s, not a frame", name, what.at);
-    } else
-        (void)diag_at(draft->diag, E_NAME, place, "unknown frame '%s'", name);
-    for (int i = 0; i < state->parts.count; i++)
-        if (is_frame(state->parts.at[i]))
-            suggest_offer(&suggest, state->parts.at[i]->name);
-    suggest_offer(&suggest, "ground");
-    if (suggest.best != NULL)
-        diag_hint(draft->diag, "did you mean '%s'?", suggest.best);
-    else
-        diag_hint(draft->diag, "frames are ground, bodies and arms; arm %s BODY [x, y] makes one",
-                  thing == NULL ? name : "NAME");
-    text_free(&what);
-    return E_NAME;
-}
-
-static Status next_frame(Draft *draft, int *node, Place *place)
-{
-    const char *name = NULL;
-    const Instance *part;
-    Status status = OK;
-
-    CHECK(next_name(draft, &name, place));
-    *node = draft->state->datum[DOMAIN_MECHANICAL];
-    if (strcmp(name, "ground") == 0)
-        goto done;
-    part = state_part(draft->state, name);
-    if (part == NULL || !is_frame(part))
-        status = not_a_frame(draft, name, *place);
-    else
-        *node = part->head;
-done:
-    return status;
-}
-
-static Status two_frames(Draft *draft)
-{
-    Instance *part = draft->part;
-    Place place;
-    Status status = OK;
-
-    CHECK(next_frame(draft, &part->tail, &place));
-    CHECK(next_frame(draft, &part->head, &place));
-    if (part->tail == part->head)
-        status = diag_at(draft->diag, E_VALUE, place, "both ends of %s are %s", part->name,
-                         graph_node(draft->state->graph, part->head)->name);
-done:
-    return status;
-}
-
-static Status on_frame(Draft *draft)
-{
-    Instance *part = draft->part;
-    Place place;
-    Status status = OK;
-
-    part->tail = draft->state->datum[DOMAIN_MECHANICAL];
-    CHECK(next_frame(draft, &part->head, &place));
-    if (part->head == part->tail)
-        status = diag_at(draft->diag, E_VALUE, place,
-                         "ground doesn't move: a %s on it has no effect", part->row->name);
-done:
-    return status;
-}
-
-/* --- coordinates that a part acts on --- */
-
-static Status act_on(Draft *draft, const char *name, Place place)
-{
-    Instance *part = draft->part;
-    const Instance *owner;
-    int joint = -1;
-    Status status = OK;
-
-    CHECK(coordinate_resolve(draft->state, name, place, &joint, &part->joint_coordinate,
-                             draft->diag));
-    owner = draft->state->parts.at[joint];
-    if (part->row->family != FAMILY_DRIVER && owner->row->family != FAMILY_JOINT) {
-        status = diag_at(draft->diag, E_NAME, place, "%s acts on a joint, and %s is none",
-                         part->row->name, owner->name);
-        goto done;
-    }
-    if (owner->coord_kind[part->joint_coordinate] == COORDINATE_PARAMETER) {
-        status = diag_at(draft->diag, E_VALUE, place,
-                         "%s is an Euler parameter: nothing can act on it alone", name);
-        goto done;
-    }
-    part->joint = joint;
-    part->on_angle = owner->coord_kind[part->joint_coordinate] == COORDINATE_ANGLE;
-    part->tail = owner->tail;
-    part->head = owner->head;
-done:
-    return status;
-}
-
-static Status on_joint(Draft *draft)
-{
-    const char *name = NULL;
-    Place place;
-    Status status = OK;
-
-    CHECK(next_name(draft, &name, &place));
-    CHECK(act_on(draft, name, place));
-done:
-    return status;
-}
-
-/* spring k1 r1 r2, or spring k1 h8: one place that is no frame is a coordinate */
-static Status link_places(Draft *draft)
-{
-    if (draft->statement->operands.count > 2)
-        return two_frames(draft);
-    if (draft->statement->operands.count == 2) {
-        const char *name = syntax_name(draft->statement->operands.at[1].value);
-        const Instance *part = name != NULL ? state_part(draft->state, name) : NULL;
-
-        if (name != NULL && (strcmp(name, "ground") == 0 || (part != NULL && is_frame(part))))
-            return two_frames(draft);
-    }
-    return on_joint(draft);
-}
-
-/* driver D1 h8 = 2*t: the first pair */
-static Status driven_coordinate(Draft *draft)
-{
-    const Statement *statement = draft->statement;
-    const State *state = draft->state;
-    const Instance *part = draft->part;
-    Status status = OK;
-    const Pair *pair;
-
-    if (statement->pairs.count == 0) {
-        status = diag_at(draft->diag, E_SYNTAX, end_place(statement),
-                         "a driver says what its coordinate follows");
-        diag_hint(draft->diag, "it is written driver NAME COORDINATE = value");
-        goto done;
-    }
-    pair = &statement->pairs.at[0];
-    if (pair->primes > 0) {
-        status = diag_at(draft->diag, E_NAME, pair->name_place,
-                         "a driver prescribes the coordinate itself, not its rate");
-        diag_hint(draft->diag, "integrate: %s = ... of t", pair->name);
-        goto done;
-    }
-    CHECK(act_on(draft, pair->name, pair->name_place));
-    for (int i = 0; i < state->parts.count; i++) {
-        const Instance *other = state->parts.at[i];
-
-        if (other->row->family == FAMILY_DRIVER && other->joint == part->joint &&
-            other->joint_coordinate == part->joint_coordinate) {
-            status = diag_at(draft->diag, E_VALUE, pair->name_place, "%s is already driven by %s",
-                             pair->name, other->name);
-            goto done;
-        }
-    }
-done:
-    return status;
-}
-
-/* --- terminals --- */
-
-static Status next_terminal(Draft *draft, int which)
-{
-    const Operand *operand = NULL;
-    const char *name;
-    const Thing *thing;
-    Text what = {0};
-    Status status = OK;
-
-    CHECK(next_operand(draft, &operand));
-    name = syntax_name(operand->value);
-    if (operand->value->kind == SYNTAX_NUMBER && strcmp(operand->value->text, "0") == 0 &&
-        !operand->value->has_unit)
-        name = "0";
-    if (name == NULL || strchr(name, '.') != NULL) {
-        status = diag_at(draft->diag, E_NAME, operand->place, "a terminal is expected here");
-        diag_hint(draft->diag, "a terminal is any new name, or 0 for the reference");
-        goto done;
-    }
-    if (strcmp(name, "gnd") == 0)
-        name = "0";
-    if (strcmp(name, "ground") == 0) {
-        status = diag_at(draft->diag, E_NAME, operand->place,
-                         "ground is the mechanical reference frame");
-        diag_hint(draft->diag, "the electrical one is 0 or gnd");
-        goto done;
-    }
-    thing = state_thing(draft->state, name);
-    if (strcmp(name, draft->part->name) == 0) {
-        status = diag_at(draft->diag, E_NAME, operand->place, "'%s' is the name of this %s", name,
-                         draft->part->row->name);
-        goto done;
-    }
-    if (thing != NULL && (thing->kind != THING_DEFINITION ||
-                          draft->state->definitions.at[thing->index].kind != DEFINES_PARAMETER)) {
-        name_describe(draft->state, thing, &what);
-        status = diag_at(draft->diag, E_NAME, operand->place, "'%s' is %s, not a terminal", name,
-                         what.at);
-        goto done;
-    }
-    if (thing == NULL && strcmp(name, "0") != 0)
-        CHECK(name_is_free(draft->state, name, operand->place, draft->diag));
-    draft->terminals[which] = name;
-done:
-    text_free(&what);
-    return status;
-}
-
-static Status two_terminals(Draft *draft)
-{
-    Status status = OK;
-
-    CHECK(next_terminal(draft, 0));
-    CHECK(next_terminal(draft, 1));
-    if (strcmp(draft->terminals[0], draft->terminals[1]) == 0)
-        status = diag_at(draft->diag, E_VALUE, draft->statement->operands.at[draft->at - 1].place,
-                         "both ends of %s are %s", draft->part->name, draft->terminals[0]);
-done:
-    return status;
-}
-
-static Status read_places(Draft *draft)
-{
-    Instance *part = draft->part;
-    Status status = OK;
-
-    switch (part->row->places) {
-    case PLACES_NONE:
-        part->tail = draft->state->datum[DOMAIN_MECHANICAL];
-        break;
-    case PLACES_FROM: {
-        Place place;
-        return next_frame(draft, &part->tail, &place);
-    }
-    case PLACES_FRAMES:
-        return two_frames(draft);
-    case PLACES_ON:
-        return on_frame(draft);
-    case PLACES_LINK:
-        return link_places(draft);
-    case PLACES_COORDINATE:
-        return driven_coordinate(draft);
-    case PLACES_TRANSDUCER:
-        CHECK(on_joint(draft));
-        return two_terminals(draft);
-    case PLACES_TERMINALS:
-        return two_terminals(draft);
-    }
-done:
-    return status;
-}
 
 /* --- values --- */
 
@@ -382,7 +35,7 @@ static Status read_positional(Draft *draft)
         operand = &draft->statement->operands.at[draft->at];
         status =
             diag_at(draft->diag, E_SYNTAX, operand->place, "%s has no place for this", row->name);
-        diag_hint(draft->diag, "it is written %s %s%s", row->name, forms[row->places],
+        diag_hint(draft->diag, "it is written %s %s%s", row->name, places_form(row->places),
                   row->param_count > 0 ? ", then key=value" : "");
     }
 done:
@@ -476,7 +129,7 @@ static Status read_values(Draft *draft)
         if (part->values[i].given)
             continue;
         if (param->fallback == NULL) {
-            status = diag_at(draft->diag, E_VALUE, end_place(statement), "%s %s needs %s%s",
+            status = diag_at(draft->diag, E_VALUE, statement_end(statement), "%s %s needs %s%s",
                              row->name, part->name, param->name, param->positional ? "" : "=");
             diag_hint(draft->diag, "%s: %s", param->name, param->meaning);
             goto done;
@@ -662,7 +315,7 @@ static void commit(Draft *draft, const char *text)
     Instance *part = draft->part;
     int line;
 
-    if (is_frame(part))
+    if (part_is_frame(part))
         part->head = graph_add_node(state->graph, part->name, DOMAIN_MECHANICAL, false);
     if (part->head >= 0)
         add_mechanical_edge(state, part);
@@ -712,9 +365,9 @@ Status apply_component(State **state, const Statement *statement, Outcome *outco
                           .kind = row->family == FAMILY_DRIVER ? SCOPE_DRIVE : SCOPE_NUMBER,
                           .own = draft.part};
     assert(!statement->is_virtual || row->family == FAMILY_JOINT);
-    CHECK(new_name(&draft));
+    CHECK(draft_read_name(&draft));
     own_coordinates(&draft);
-    CHECK(read_places(&draft));
+    CHECK(draft_read_places(&draft));
     CHECK(read_values(&draft));
     if (draft.coordinate_names != NULL)
         CHECK(rename_coordinates(&draft));

@@ -15,30 +15,78 @@ static void add_only_line(State *state, const Statement *statement, const Scope 
     mem_free(text);
 }
 
+static Line *find_line(State *state, const char *key)
+{
+    for (int i = 0; i < state->lines.count; i++) {
+        Line *line = &state->lines.at[i];
+
+        if (line->part < 0 && !line->is_gone && line->key != NULL && strcmp(line->key, key) == 0)
+            return line;
+    }
+    return NULL;
+}
+
+static Status check_scene(const State *state, const Operand *operand, bool planar, Diag *diag)
+{
+    Status status = OK;
+
+    if (planar == state->planar)
+        return OK;
+    if (state->parts.count > 0) {
+        status = diag_at(diag, E_VALUE, operand->place, "the scene can't become %s any more",
+                         operand->value->text);
+        diag_hint(diag, "it is said before the first part; %s was made already",
+                  state->parts.at[0]->name);
+    } else if (planar && !expr_is_zero(state->gravity[2])) {
+        status = diag_at(diag, E_VALUE, operand->place, "gravity leaves the plane");
+        diag_hint(diag, "say the scene first, then gravity [gx, gy]");
+    }
+    return status;
+}
+
+/* The scene's line keeps its place before the others, whose text it may make wrong. */
+static Status change_scene(State **state, Line *line, const Statement *statement, Diag *diag)
+{
+    Place place = statement->operands.at[0].place;
+    char *text = statement_full_text(statement);
+    const char *before = line->text;
+    State *next = NULL;
+    Diag fault = {0};
+    Status status;
+
+    line->text = state_text(*state, text);
+    mem_free(text);
+    status = state_rebuild(*state, -1, &next, NULL, NULL, &fault);
+    if (status != OK) {
+        line->text = before;
+        status = diag_at(diag, status, place, "the scene can't become %s any more: %s",
+                         statement->operands.at[0].value->text, fault.message);
+        diag_hint(diag, "%s", fault.hint);
+        return status;
+    }
+    state_free(*state);
+    *state = next;
+    return OK;
+}
+
 Status apply_scene(State **state, const Statement *statement, Outcome *outcome, Diag *diag)
 {
     State *s = *state;
     const Operand *operand = &statement->operands.at[0];
     bool planar = strcmp(operand->value->text, "planar") == 0;
-    Status status;
+    Line *line = find_line(s, statement->verb);
+    Status status = OK;
 
-    if (planar != s->planar && s->parts.count > 0) {
-        status = diag_at(diag, E_VALUE, operand->place, "the scene can't become %s any more",
-                         operand->value->text);
-        diag_hint(diag, "it is said before the first part; %s was made already",
-                  s->parts.at[0]->name);
-        return status;
-    }
-    if (planar && !expr_is_zero(s->gravity[2])) {
-        status = diag_at(diag, E_VALUE, operand->place, "gravity leaves the plane");
-        diag_hint(diag, "say the scene first, then gravity [gx, gy]");
-        return status;
-    }
+    CHECK(check_scene(s, operand, planar, diag));
     if (planar != s->planar)
         outcome->effect = EFFECT_EQUATIONS;
-    s->planar = planar;
-    add_only_line(s, statement, NULL);
-    return OK;
+    if (line == NULL) {
+        s->planar = planar;
+        add_only_line(s, statement, NULL);
+    } else if (planar != s->planar)
+        status = change_scene(state, line, statement, diag);
+done:
+    return status;
 }
 
 Status apply_gravity(State **state, const Statement *statement, Outcome *outcome, Diag *diag)

@@ -105,6 +105,10 @@ Status unit_check(const Syntax *syntax, const char *unit, const char *name, Diag
 
 Status time_derivative(Arena *arena, Expr e, int primes, Place place, Expr *out, Diag *diag)
 {
+    enum { HIGHEST = 4 }; /* each one makes the expression larger */
+
+    if (primes > HIGHEST)
+        return diag_at(diag, E_VALUE, place, "a derivative of order %d is too high", primes);
     for (; primes > 0; primes--) {
         Expr *symbols = NULL;
         int count = expr_symbols(&e, 1, &symbols);
@@ -390,7 +394,10 @@ static Status convert(Scope *scope, const Syntax *syntax, Expr *out, Diag *diag)
 Status scope_expression(Scope *scope, const Syntax *syntax, Expr *out, Diag *diag)
 {
     Expr e = NULL;
-    Status status = convert(scope, syntax, &e, diag);
+    Status status;
+
+    arena_reset(scope->state->arena); /* what others failed to build is not this text's fault */
+    status = convert(scope, syntax, &e, diag);
 
     if (status == OK)
         *out = e;

@@ -3,3 +3,6 @@
 FUZZERS += fuzz_statement
 fuzz_statement_SOURCES = tests/fuzz/fuzz_statement.c tests/fuzz/mutate.c tests/fuzz/mutate.h
 fuzz_statement_LDADD = $(unit_ldadd)
+FUZZERS += fuzz_model
+fuzz_model_SOURCES = tests/fuzz/fuzz_model.c tests/fuzz/mutate.c tests/fuzz/mutate.h
+fuzz_model_LDADD = $(unit_ldadd)

@@ -162,6 +162,7 @@ static const Wrong wrong[] = {
     {"output q = lambda(0)",        19, "picked by whole numbers from 1", ""},
     {"output q = mean(h1)",         12, "mean of one argument is taken over a run", ""},
     {"output p = p + 1",             8, "p would depend on itself", ""},
+    {"output q = (h1)'''''",        12, "a derivative of order 5 is too high", ""},
     {"output q = run1.h1",          12, "run1.h1 is of a run", ""},
     {"output q = lambda(1)'",       12, "the rate of lambda(1) isn't known here", ""},
     {"arm q m1 [1, 0]*[1, 0]",      16, "'*' is not between two vectors", ""},
@@ -299,6 +300,22 @@ static void an_empty_model_refuses_too(void)
     model_free(model);
 }
 
+static void a_scene_that_what_was_said_forbids_is_refused(void)
+{
+    Model *model = model_of("scene planar\ngravity [0, -9.81]\nscene planar");
+    Diag diag = {0};
+    char *saved;
+
+    EXPECT(apply_text(model, "scene spatial", &diag) == E_VALUE);
+    EXPECT(strstr(diag.message, "can't become spatial any more: gravity has 3") != NULL);
+    saved = model_save(model);
+    EXPECT_TEXT(saved, "scene planar\ngravity [0, -9.81]\n");
+    mem_free(saved);
+    EXPECT(apply_text(model, "gravity [0, -9.81, 0]\nscene spatial", &diag) == OK);
+    EXPECT(!model_is_planar(model));
+    model_free(model);
+}
+
 static void a_tree_that_the_graph_outgrew_is_refused_later(void)
 {
     Model *model = model_of("scene planar\nbody m1 mass=1\nbody m2 mass=1\nresistor R a b 1\n");
@@ -318,6 +335,7 @@ int main(void)
     RUN(wrong_statements_say_why_and_change_nothing);
     RUN(spatial_scenes_have_mistakes_of_their_own);
     RUN(an_empty_model_refuses_too);
+    RUN(a_scene_that_what_was_said_forbids_is_refused);
     RUN(a_tree_that_the_graph_outgrew_is_refused_later);
     return test_end();
 }

@@ -1,0 +1,26 @@
+/* model_draft.h: a component's statement on its way to an instance */
+#ifndef COTREE_MODEL_MODEL_DRAFT_H
+#define COTREE_MODEL_MODEL_DRAFT_H
+
+#include "model/model_impl.h"
+
+typedef struct Draft {
+    State *state;
+    const Statement *statement;
+    Instance *part; /* in the state's pool */
+    Scope scope;
+    int at;                   /* next operand */
+    const char *terminals[2]; /* names, where the part has a scalar edge */
+    const Syntax *coordinate_names;
+    Diag *diag;
+} Draft;
+
+/* the name of the part, then what it connects (model_places.c) */
+Status draft_read_name(Draft *draft);
+Status draft_read_places(Draft *draft);
+/* how the part's statement begins: "NAME TAIL TIP" */
+const char *places_form(Places places);
+Place statement_end(const Statement *statement);
+bool part_is_frame(const Instance *part);
+
+#endif
