@@ -21,6 +21,7 @@ include tests/bench/bench.mk
 include tests/bench/expr.mk
 include tests/bench/graph.mk
 include tests/bench/compile.mk
+include tests/bench/simulate.mk
 include tests/fuzz/fuzz.mk
 
 check_PROGRAMS += $(UNIT_TESTS)

@@ -1,0 +1,80 @@
+/* bench_simulate.c: work of a run of each reference at fixed tolerances: evaluations of the
+ * right-hand side, steps, milliseconds; the error is what tests/unit/test_simulate_cases.c bounds
+ */
+#include "bench.h"
+#include "simulate_script.h"
+
+#include "base/text.h"
+
+static void bench_case(const char *name, const char *path, Changes changes)
+{
+    char *text = script_file(path);
+    double least = 1e300;
+    long evaluations = 0, steps = 0;
+    char line[80];
+
+    changes.skip_expects = true;
+    for (int i = 0; i < 5 && text != NULL; i++) {
+        Script script;
+
+        script_open(&script, text, &changes);
+        if (script.result == NULL) {
+            printf("# %s: %s\n", name, script.diag.message);
+        } else {
+            const RunReport *report = result_report(script.result);
+
+            least = fmin(least, report->wall);
+            evaluations = (long)report->evaluations;
+            steps = (long)report->steps;
+        }
+        script_close(&script);
+    }
+    (void)snprintf(line, sizeof line, "simulate.%s", name);
+    bench_line(line, 1e3 * least, "ms");
+    (void)snprintf(line, sizeof line, "simulate.%s_rhs", name);
+    bench_line(line, (double)evaluations, "evaluations");
+    (void)snprintf(line, sizeof line, "simulate.%s_steps", name);
+    bench_line(line, (double)steps, "steps");
+    mem_free(text);
+}
+
+int main(void)
+{
+    static const struct {
+        const char *name, *path;
+        Changes changes;
+    } cases[] = {
+        {"slider_crank_1e-9", "scripts/paper/1_slider_crank_one_tree.ct", {.rtol = 1e-9}},
+        {"slider_crank_embedded_1e-9",
+         "scripts/paper/1_slider_crank_one_tree.ct",
+         {.rtol = 1e-9, .before = "form embedded\n"}},
+        {"slider_crank_bdf_1e-12",
+         "scripts/paper/1_slider_crank_one_tree.ct",
+         {.rtol = 1e-12, .method = "bdf"}},
+        {"slider_crank_ida_1e-12",
+         "scripts/paper/1_slider_crank_one_tree.ct",
+         {.rtol = 1e-12, .method = "ida"}},
+        {"motor_arm_1e-12", "scripts/paper/3_motor_arm_forward.ct", {.rtol = 1e-12}},
+        {"motor_arm_inverse", "scripts/paper/3_motor_arm_inverse.ct", {0}},
+        {"pendulum_joint_1e-12", "scripts/reference/ref_A01_pendulum_joint.ct", {.rtol = 1e-12}},
+        {"pendulum_absolute_1e-12",
+         "scripts/reference/ref_A01_pendulum_absolute.ct",
+         {.rtol = 1e-12}},
+        {"four_bar_joint_1e-8",
+         "scripts/reference/ref_A02_four_bar_joint.ct",
+         {.rtol = 1e-8, .duration = 10}},
+        {"four_bar_absolute_1e-8",
+         "scripts/reference/ref_A02_four_bar_absolute.ct",
+         {.rtol = 1e-8, .duration = 10}},
+        {"andrews_joint_1e-10",
+         "scripts/reference/ref_A03_andrews.ct",
+         {.rtol = 1e-10, .duration = 0.03}},
+        {"andrews_absolute_1e-10",
+         "scripts/reference/ref_A03_andrews.ct",
+         {.rtol = 1e-10, .duration = 0.03, .before = "tree absolute\n"}},
+    };
+
+    for (int i = 0; i < COUNT(cases); i++)
+        bench_case(cases[i].name, cases[i].path, cases[i].changes);
+    return test_faults > 0 ? 1 : 0;
+}
