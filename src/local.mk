@@ -1,1 +1,23 @@
 # the shell
+bin_PROGRAMS += cotree
+cotree_SOURCES = \
+    src/command.c src/command.h src/commands.def \
+    src/command_look.c src/command_run.c src/command_session.c \
+    src/complain.c src/complain.h \
+    src/copy.c src/copy.h \
+    src/file.c src/file.h \
+    src/gnuplot.c src/gnuplot.h \
+    src/interrupt.c src/interrupt.h \
+    src/line_edit.c src/line_edit.h \
+    src/main.c \
+    src/pager.c src/pager.h \
+    src/plot.c \
+    src/process.c src/process.h \
+    src/progress.c src/progress.h \
+    src/reader.c src/reader.h \
+    src/replay.c src/replay.h \
+    src/settings.c src/settings.h \
+    src/shell.c src/shell.h \
+    src/terminal.c src/terminal.h
+cotree_CPPFLAGS = $(AM_CPPFLAGS) $(READLINE_CFLAGS)
+cotree_LDADD = libcotree.la $(READLINE_LIBS)

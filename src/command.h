@@ -1,0 +1,47 @@
+/* command.h: the verbs that the shell carries out itself, as a table
+ *
+ * Grammar and help of every verb are the library's. A row here says what looks, runs or
+ * draws; what it prints goes to `out`, from where it reaches the screen, the pager or
+ * the file behind `>`. Every other verb goes to ct_apply(). */
+#ifndef COTREE_SRC_COMMAND_H
+#define COTREE_SRC_COMMAND_H
+
+#include "shell.h"
+
+/* A statement being carried out. */
+typedef struct Call {
+    Shell *shell;
+    ct_session *session; /* the shell's */
+    const ct_statement *statement;
+    FILE *out;
+} Call;
+
+typedef ct_status CommandFunction(Call *call, ct_error *error);
+
+enum {
+    WRITES = 1,    /* sees to `> "file"` itself */
+    SILENT = 2,    /* prints nothing that could go to a file */
+    FORGOTTEN = 4, /* is not for history and recording */
+    UNPAGED = 8    /* prints what fits the screen as it is */
+};
+
+typedef struct Command {
+    const char *verb;
+    CommandFunction *run;
+    bool (*takes)(const ct_statement *statement); /* NULL: every statement of the verb */
+    int flags;
+} Command;
+
+/* the row for a statement; NULL: the model's */
+const Command *command_find(const ct_statement *statement);
+
+/* print lines; an end of line is added where it is missing */
+void put_text(FILE *out, const char *text);
+/* the word, name or string that stands as operand i; NULL */
+const char *call_word(const Call *call, int i);
+
+#define COMMAND(verb, run, takes, flags) CommandFunction run;
+#include "commands.def"
+#undef COMMAND
+
+#endif

@@ -1,0 +1,176 @@
+/* command_look.c: commands that show the model, its equations, and help */
+#include "command.h"
+#include "file.h"
+#include "process.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* print what the library gave, and free it */
+static ct_status put(Call *call, ct_status status, char *text)
+{
+    if (status == CT_OK)
+        put_text(call->out, text);
+    ct_free(text);
+    return status;
+}
+
+ct_status command_show(Call *call, ct_error *error)
+{
+    char *text = NULL;
+    const char *topic = call_word(call, 0);
+    ct_status status = ct_show(call->session, call->statement, &text, error);
+
+    status = put(call, status, text);
+    if (status == CT_OK && topic != NULL && strcmp(topic, "settings") == 0)
+        settings_show(&call->shell->settings, call->out);
+    return status;
+}
+
+ct_status command_count(Call *call, ct_error *error)
+{
+    char *text = NULL;
+    ct_status status = ct_count(call->session, call->statement, &text, error);
+
+    return put(call, status, text);
+}
+
+ct_status command_check(Call *call, ct_error *error)
+{
+    char *text = NULL;
+    ct_status status = ct_check(call->session, &text, error);
+
+    return put(call, status, text);
+}
+
+ct_status command_info(Call *call, ct_error *error)
+{
+    char *text = NULL;
+    ct_status status = ct_info(call->session, call->statement, &text, error);
+
+    return put(call, status, text);
+}
+
+ct_status command_tree(Call *call, ct_error *error)
+{
+    char *text = NULL;
+    ct_status status = ct_tree_text(call->session, &text, error);
+
+    return put(call, status, text);
+}
+
+/* --- the graph as a drawing: graphviz lays it out --- */
+
+static ct_status lay_out(const Call *call, const char *type, const char *dot, Paper *picture,
+                         ct_error *error)
+{
+    char *option = copy_format("-T%s", type);
+    char program[] = "dot";
+    char *argv[] = {program, option, NULL};
+    Process process;
+    Paper complaints;
+    ct_error why;
+    ct_status status = process_start(&process, argv, &why);
+
+    paper_open(&complaints);
+    if (status == CT_OK) {
+        status = process_exchange(&process, dot, strlen(dot), NULL, picture, &complaints, &why);
+        if (process_end(&process, 2000) != 0 && status == CT_OK)
+            status = error_say(&why, "graphviz could not lay out the graph as %s", type);
+    }
+    if (status != CT_OK) {
+        ct_error_at(call->statement, NULL, error, "%s", why.message);
+        error->status = status;
+        error_hint(error, "with graphviz (apt install graphviz) the drawing needs no more; "
+                          "draw > \"graph.dot\" and \"graph.txt\" do without");
+    }
+    paper_drop(&complaints);
+    free(option);
+    return status;
+}
+
+static ct_status draw_file(Call *call, const char *path, bool append, ct_error *error)
+{
+    const char *type = file_extension(path);
+    bool as_text = strcmp(type, "txt") == 0 || *type == '\0';
+    bool as_dot = strcmp(type, "dot") == 0 || strcmp(type, "gv") == 0;
+    char *text = NULL;
+    Paper picture;
+    ct_error why;
+
+    if (!as_text && !as_dot && strcmp(type, "svg") != 0 && strcmp(type, "png") != 0 &&
+        strcmp(type, "pdf") != 0)
+        return ct_error_at(call->statement, NULL, error,
+                           "a drawing goes to svg, png, pdf, dot or txt, not to '.%s'", type);
+
+    ct_status status = ct_draw(call->session, !as_text, &text, error);
+
+    if (status != CT_OK)
+        return status;
+    paper_open(&picture);
+    if (as_text || as_dot)
+        put_text(picture.out, text);
+    else
+        status = lay_out(call, type, text, &picture, error);
+
+    char *drawn = paper_close(&picture);
+
+    if (status == CT_OK && file_write(path, drawn, picture.length, append, &why) != CT_OK)
+        status = ct_error_at(call->statement, NULL, error, "%s", why.message);
+    free(drawn);
+    ct_free(text);
+    return status;
+}
+
+ct_status command_draw(Call *call, ct_error *error)
+{
+    bool append;
+    const char *path = ct_redirect(call->statement, &append);
+    char *text = NULL;
+
+    if (path != NULL)
+        return draw_file(call, path, append, error);
+
+    ct_status status = ct_draw(call->session, false, &text, error);
+
+    return put(call, status, text);
+}
+
+/* --- help --- */
+
+static ct_status unknown_word(const Call *call, const char *word, ct_error *error)
+{
+    const char *meant = ct_help_suggest(word);
+
+    ct_error_at(call->statement, ct_operand(call->statement, 0), error, "no help about '%s'", word);
+    if (meant != NULL)
+        error_hint(error, "did you mean '%s'?", meant);
+    else
+        error_hint(error, "help alone lists what there is; apropos %s searches", word);
+    return CT_FAILED;
+}
+
+ct_status command_help(Call *call, ct_error *error)
+{
+    const char *word = call_word(call, 0);
+    char *text = ct_help(word != NULL ? word : "");
+
+    return text != NULL ? put(call, CT_OK, text) : unknown_word(call, word, error);
+}
+
+ct_status command_apropos(Call *call, ct_error *error)
+{
+    const char *word = call_word(call, 0);
+
+    if (word == NULL)
+        return ct_error_at(call->statement, NULL, error, "apropos needs a word to look for");
+
+    char *text = ct_apropos(word);
+
+    if (text == NULL || *text == '\0') {
+        ct_free(text);
+        return ct_error_at(call->statement, ct_operand(call->statement, 0), error,
+                           "nothing in the help has '%s'", word);
+    }
+    return put(call, CT_OK, text);
+}

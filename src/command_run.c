@@ -1,0 +1,207 @@
+/* command_run.c: commands that run a model, and the numbers that come out */
+#include "command.h"
+#include "copy.h"
+#include "file.h"
+
+#include <ctype.h>
+#include <stdlib.h>
+#include <string.h>
+
+ct_status command_run(Call *call, ct_error *error)
+{
+    return ct_run(call->session, call->statement, error);
+}
+
+/* the configuration found is what was asked for */
+ct_status command_assemble(Call *call, ct_error *error)
+{
+    ct_status status = ct_run(call->session, call->statement, error);
+
+    if (status == CT_OK) {
+        char *text = ct_report(call->session);
+
+        put_text(call->out, text);
+        ct_free(text);
+    }
+    return status;
+}
+
+ct_status command_expect(Call *call, ct_error *error)
+{
+    return ct_expect(call->session, call->statement, error);
+}
+
+/* --- print --- */
+
+/* One printed line: what stands before `=`, and the unit behind the number. */
+typedef struct Printed {
+    char *name;
+    char *unit; /* NULL: none */
+    double value;
+} Printed;
+
+/* whether what ends before `end` is a literal, whose unit says what it is, not how to show it */
+static bool is_literal(const char *text, const char *end)
+{
+    while (end > text && end[-1] == ' ')
+        end--;
+    if (end > text && end[-1] == ']')
+        return true;
+    while (end > text && (isalnum((unsigned char)end[-1]) || strchr("._'", end[-1]) != NULL))
+        end--;
+    return isdigit((unsigned char)*end) || *end == '.';
+}
+
+/* `h8 [deg]` is `h8 = 45 deg` */
+static void name_printed(Printed *line, const ct_expression *expression)
+{
+    char *text = ct_expression_text(expression);
+    char *open = strrchr(text, '[');
+    size_t length = strlen(text);
+
+    if (open != NULL && open > text && text[length - 1] == ']' && !is_literal(text, open)) {
+        line->unit = copy_piece(open + 1, (size_t)(text + length - open) - 2);
+        while (open > text && open[-1] == ' ')
+            open--;
+        *open = '\0';
+    }
+    line->name = copy_text(text);
+    ct_free(text);
+}
+
+static void put_number(FILE *out, int width, int digits, double value)
+{
+    fprintf(out, "%*.*g", width, digits, value == 0 ? 0.0 : value);
+}
+
+static void put_printed(const Call *call, const Printed *lines, int count)
+{
+    int widest = 0;
+
+    for (int i = 0; i < count; i++) {
+        int width = (int)strlen(lines[i].name);
+
+        if (lines[i].name[0] != '"' && width > widest)
+            widest = width;
+    }
+    for (int i = 0; i < count; i++) {
+        const char *name = lines[i].name;
+
+        if (name[0] == '"') {
+            fprintf(call->out, "%.*s\n", (int)strlen(name) - 2, name + 1);
+            continue;
+        }
+        fprintf(call->out, "%-*s = ", widest, name);
+        put_number(call->out, 0, call->shell->settings.digits, lines[i].value);
+        fprintf(call->out, "%s%s\n", lines[i].unit != NULL ? " " : "",
+                lines[i].unit != NULL ? lines[i].unit : "");
+    }
+}
+
+ct_status command_print(Call *call, ct_error *error)
+{
+    int count = ct_operand_count(call->statement);
+    Printed *lines = copy_check(calloc((size_t)count + 1, sizeof *lines));
+    ct_status status = CT_OK;
+
+    for (int i = 0; i < count && status == CT_OK; i++) {
+        const ct_expression *expression = ct_operand(call->statement, i);
+
+        name_printed(&lines[i], expression);
+        if (lines[i].name[0] != '"')
+            status =
+                ct_value(call->session, expression, ct_at(call->statement), &lines[i].value, error);
+    }
+    if (status == CT_OK)
+        put_printed(call, lines, count);
+    for (int i = 0; i < count; i++) {
+        free(lines[i].name);
+        free(lines[i].unit);
+    }
+    free(lines);
+    return status;
+}
+
+/* --- table --- */
+
+typedef struct Table {
+    double *values; /* rows x columns */
+    int rows;
+    int columns;
+    char **names;
+} Table;
+
+static void put_table(const Call *call, const Table *table)
+{
+    int digits = call->shell->settings.digits;
+    int *widths = copy_check(calloc((size_t)table->columns + 1, sizeof *widths));
+
+    /* a column is as wide as its widest entry */
+    for (int j = 0; j < table->columns; j++) {
+        widths[j] = (int)strlen(table->names[j]);
+        for (int i = 0; i < table->rows; i++) {
+            int width = snprintf(NULL, 0, "%.*g", digits, table->values[i * table->columns + j]);
+
+            if (width > widths[j])
+                widths[j] = width;
+        }
+    }
+    for (int j = 0; j < table->columns; j++)
+        fprintf(call->out, "%s%*s", j > 0 ? "  " : "", widths[j], table->names[j]);
+    fputc('\n', call->out);
+    for (int i = 0; i < table->rows; i++)
+        for (int j = 0; j < table->columns; j++) {
+            fputs(j > 0 ? "  " : "", call->out);
+            put_number(call->out, widths[j], digits, table->values[i * table->columns + j]);
+            if (j == table->columns - 1)
+                fputc('\n', call->out);
+        }
+    free(widths);
+}
+
+ct_status command_table(Call *call, ct_error *error)
+{
+    const ct_statement *statement = call->statement;
+    int count = ct_operand_count(statement);
+    const ct_expression *step = ct_key_value(statement, "every");
+    double every = 0;
+    Table table = {0};
+    ct_status status = CT_OK;
+
+    if (step != NULL)
+        status = ct_value(call->session, step, NULL, &every, error);
+    if (status == CT_OK && step != NULL && !(every > 0))
+        status = ct_error_at(statement, step, error, "every= is a time above zero");
+    if (status != CT_OK)
+        return status;
+
+    const ct_expression **items = copy_check(calloc((size_t)count + 1, sizeof *items));
+
+    for (int i = 0; i < count; i++)
+        items[i] = ct_operand(statement, i);
+    status = ct_table(call->session, items, count, every, &table.values, &table.rows,
+                      &table.columns, &table.names, error);
+    if (status == CT_OK) {
+        put_table(call, &table);
+        ct_free(table.values);
+        ct_words_free(table.names);
+    }
+    free(items);
+    return status;
+}
+
+/* --- export --- */
+
+ct_status command_export(Call *call, ct_error *error)
+{
+    bool append = false;
+    const char *path = ct_redirect(call->statement, &append);
+    bool with_header = path == NULL || !append || !file_has_content(path);
+    char *text = NULL;
+    ct_status status = ct_export(call->session, call->statement, with_header, &text, error);
+
+    if (status == CT_OK)
+        put_text(call->out, text);
+    ct_free(text);
+    return status;
+}

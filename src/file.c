@@ -1,0 +1,172 @@
+/* file.c: whole files, written at once or not at all; names of files */
+#include "file.h"
+
+#include "complain.h"
+#include "copy.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static ct_status say(ct_error *error, const char *what, const char *path)
+{
+    error_say(error, "can't %s '%s': %s", what, path, strerror(errno));
+    return CT_FAILED;
+}
+
+static bool is_replaceable(const char *path)
+{
+    struct stat info;
+
+    return stat(path, &info) != 0 || S_ISREG(info.st_mode);
+}
+
+ct_status file_place(const char *path, char **place, ct_error *error)
+{
+    if (!is_replaceable(path)) {
+        *place = copy_text(path);
+        return CT_OK;
+    }
+
+    /* the file that a link leads to is the one to replace */
+    char *real = realpath(path, NULL);
+    char *name = copy_format("%s.XXXXXX", real != NULL ? real : path);
+
+    free(real);
+
+    int file = mkstemp(name);
+
+    if (file < 0) {
+        free(name);
+        return say(error, "write", path);
+    }
+
+    /* as a new file would be made, or as the old one was */
+    struct stat old;
+    mode_t mask = umask(0);
+
+    umask(mask);
+    if (fchmod(file, stat(path, &old) == 0 ? old.st_mode & 0777 : 0666 & ~mask) != 0) {
+        /* it stays private: still the file that was asked for */
+    }
+    close(file);
+    *place = name;
+    return CT_OK;
+}
+
+ct_status file_settle(const char *place, const char *path, bool keep, ct_error *error)
+{
+    if (strcmp(place, path) == 0)
+        return CT_OK;
+    if (!keep) {
+        unlink(place);
+        return CT_OK;
+    }
+
+    char *real = realpath(path, NULL);
+    int failed = rename(place, real != NULL ? real : path);
+
+    free(real);
+    if (failed != 0) {
+        ct_status status = say(error, "write", path);
+
+        unlink(place);
+        return status;
+    }
+    return CT_OK;
+}
+
+static ct_status write_all(const char *place, const char *mode, const char *path, const char *text,
+                           size_t length, ct_error *error)
+{
+    FILE *file = fopen(place, mode);
+
+    if (file == NULL)
+        return say(error, "write", path);
+
+    /* a full disk may speak up only when the last piece goes out */
+    bool good = fwrite(text, 1, length, file) == length && fflush(file) == 0;
+    ct_status status = good ? CT_OK : say(error, "write", path);
+
+    if (fclose(file) != 0 && good)
+        status = say(error, "write", path);
+    return status;
+}
+
+ct_status file_write(const char *path, const char *text, size_t length, bool append,
+                     ct_error *error)
+{
+    char *place = NULL;
+
+    if (append)
+        return write_all(path, "ae", path, text, length, error);
+
+    ct_status status = file_place(path, &place, error);
+
+    if (status != CT_OK)
+        return status;
+    status = write_all(place, "we", path, text, length, error);
+    if (status != CT_OK)
+        file_settle(place, path, false, NULL);
+    else
+        status = file_settle(place, path, true, error);
+    free(place);
+    return status;
+}
+
+bool file_has_content(const char *path)
+{
+    struct stat info;
+
+    return stat(path, &info) == 0 && info.st_size > 0;
+}
+
+char *file_beside(const char *from, const char *name)
+{
+    const char *slash = from != NULL ? strrchr(from, '/') : NULL;
+
+    if (slash == NULL || name[0] == '/')
+        return copy_text(name);
+
+    char *path = copy_format("%.*s/%s", (int)(slash - from), from, name);
+
+    if (access(path, F_OK) != 0) {
+        free(path);
+        return copy_text(name);
+    }
+    return path;
+}
+
+const char *file_extension(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    const char *dot = strrchr(slash != NULL ? slash : path, '.');
+
+    return dot != NULL ? dot + 1 : "";
+}
+
+static void make_folders(char *path)
+{
+    for (char *slash = strchr(path + 1, '/'); slash != NULL; slash = strchr(slash + 1, '/')) {
+        *slash = '\0';
+        mkdir(path, 0700);
+        *slash = '/';
+    }
+}
+
+char *file_in_home(const char *variable, const char *home, const char *name, bool make_folder)
+{
+    const char *base = getenv(variable), *user = getenv("HOME");
+    char *path = NULL;
+
+    /* the XDG rules: a relative folder counts as none */
+    if (base != NULL && base[0] == '/')
+        path = copy_format("%s/cotree/%s", base, name);
+    else if (user != NULL && user[0] == '/')
+        path = copy_format("%s/%s/cotree/%s", user, home, name);
+    if (path != NULL && make_folder)
+        make_folders(path);
+    return path;
+}

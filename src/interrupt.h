@@ -1,0 +1,25 @@
+/* interrupt.h: Ctrl-C and other signals become flags that long work looks at
+ *
+ * The handlers set a flag and nothing more. In a script a second Ctrl-C ends the program,
+ * in case something is stuck; at a prompt nothing but `quit` and the end of input does. */
+#ifndef COTREE_SRC_INTERRUPT_H
+#define COTREE_SRC_INTERRUPT_H
+
+#include <signal.h>
+#include <stdbool.h>
+
+void interrupt_setup(bool interactive);
+bool interrupt_asked(void); /* Ctrl-C came since interrupt_clear(), or the end is asked for */
+void interrupt_clear(void);
+int interrupt_ending(void); /* the SIGTERM or SIGHUP that came, or 0 */
+/* since asked last: */
+bool interrupt_resized(void);   /* the window changed */
+bool interrupt_continued(void); /* the program was, after Ctrl-Z */
+
+/* While waiting for keys the signals come only inside ppoll(): `wait` is the mask for it. */
+void interrupt_hold(sigset_t *wait);
+void interrupt_release(const sigset_t *wait);
+/* in a child, before exec: signals as a program expects them */
+void interrupt_forget(void);
+
+#endif

@@ -1,0 +1,34 @@
+/* reader.h: logical lines, from a file, a pipe, a string or the prompt
+ *
+ * A physical line that ends with a backslash goes on in the next one, unless the backslash
+ * stands in a comment. Lines may end as elsewhere, with a carriage return. */
+#ifndef COTREE_SRC_READER_H
+#define COTREE_SRC_READER_H
+
+#include "complain.h"
+
+#include <stdio.h>
+
+typedef struct Reader Reader;
+
+typedef enum ReadResult {
+    READ_LINE,
+    READ_END,
+    READ_CLEARED, /* Ctrl-C: the line is to be forgotten */
+    READ_FAILED
+} ReadResult;
+
+Reader *reader_of_file(FILE *file, const char *name); /* the file is given, unless it is stdin */
+Reader *reader_of_text(const char *text, const char *name); /* borrowed */
+Reader *reader_of_prompt(void);                             /* line_edit.h must be open */
+void reader_free(Reader *reader);
+bool reader_is_prompt(const Reader *reader);
+
+/* The next logical line, its physical lines joined by newlines: new, free(). `mark`: whether the
+ * prompt says that the model changed. */
+ReadResult reader_next(Reader *reader, bool mark, char **text, Origin *origin, ct_error *error);
+
+/* Forget what is left of a pasted block; how many lines those were. */
+int reader_drop_pasted(Reader *reader);
+
+#endif

@@ -1,0 +1,24 @@
+/* settings.h: what the user can set about the shell itself: `set digits 10` */
+#ifndef COTREE_SRC_SETTINGS_H
+#define COTREE_SRC_SETTINGS_H
+
+#include "cotree.h"
+
+#include <stdio.h>
+
+typedef struct Settings {
+    int digits;        /* of printed numbers */
+    char terminal[24]; /* of plots: "auto", "text", "window" or gnuplot's name */
+    int pager;         /* whether there is one */
+    long seed;         /* of what is random */
+} Settings;
+
+void settings_start(Settings *settings);
+/* whether a `set` statement is about one of ours */
+bool settings_own(const ct_statement *statement);
+ct_status settings_apply(Settings *settings, const ct_statement *statement, ct_error *error);
+/* one by its name; CT_FAILED when the value is none for it */
+ct_status settings_set(Settings *settings, const char *name, const char *value, ct_error *error);
+void settings_show(const Settings *settings, FILE *out);
+
+#endif

@@ -1,0 +1,261 @@
+/* shell.c: how a statement is carried out
+ *
+ * A line is read statement by statement. What a command prints is collected first and goes to the
+ * screen, the pager or a file when the command has succeeded; so a statement that fails prints
+ * nothing but its error. `time STATEMENT` and `complete LINE` are handled before the grammar,
+ * since what follows them is a statement or a line of its own. */
+#include "shell.h"
+
+#include "command.h"
+#include "copy.h"
+#include "file.h"
+#include "interrupt.h"
+#include "pager.h"
+#include "terminal.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+static bool hook_stop(void *context)
+{
+    (void)context;
+    return interrupt_asked();
+}
+
+static void hook_progress(void *context, const char *phase, double fraction)
+{
+    Shell *shell = context;
+
+    progress_show(&shell->progress, phase, fraction);
+}
+
+void shell_set_width(Shell *shell, int columns)
+{
+    ct_hooks hooks = {.context = shell,
+                      .stop = hook_stop,
+                      .progress = hook_progress,
+                      .unicode = shell->unicode,
+                      .columns = columns};
+
+    ct_session_hooks(shell->session, &hooks);
+}
+
+void shell_open(Shell *shell)
+{
+    *shell = (Shell){.unicode = terminal_is_utf8()};
+    settings_start(&shell->settings);
+    shell->session = ct_session_new(NULL);
+    shell_set_width(shell, 0);
+}
+
+void shell_close(Shell *shell)
+{
+    if (shell->record != NULL)
+        fclose(shell->record);
+    for (int i = 0; i < shell->history_count; i++)
+        free(shell->history[i]);
+    free(shell->history);
+    free(shell->last_plot);
+    gnuplot_close(shell->gnuplot);
+    ct_session_free(shell->session);
+}
+
+/* --- what was printed goes where it belongs --- */
+
+static const char *find_redirect(const ct_statement *statement)
+{
+    bool append;
+
+    return ct_redirect(statement, &append);
+}
+
+static ct_status write_redirect(const ct_statement *statement, const char *text, size_t length,
+                                ct_error *error)
+{
+    bool append;
+    const char *path = ct_redirect(statement, &append);
+    ct_error why;
+
+    if (file_write(path, text, length, append, &why) == CT_OK)
+        return CT_OK;
+    return ct_error_at(statement, NULL, error, "%s", why.message);
+}
+
+static ct_status put_on_screen(const char *text, size_t length, bool paged, ct_error *error)
+{
+    pager_show(text, length, paged);
+    if (fflush(stdout) == 0 && !ferror(stdout))
+        return CT_OK;
+    clearerr(stdout);
+    return error_say(error, "can't write the results: %s", strerror(errno));
+}
+
+/* --- one statement --- */
+
+/* what the model takes, or nobody */
+static ct_status build(Shell *shell, const ct_statement *statement, ct_error *error)
+{
+    if (find_redirect(statement) != NULL)
+        return ct_error_at(statement, NULL, error, "'%s' prints nothing to write to a file",
+                           ct_verb(statement));
+
+    ct_status status = ct_apply(shell->session, statement, error);
+
+    if (status == CT_NOT_MINE)
+        return ct_error_at(statement, NULL, error, "'%s' is not there in this version",
+                           ct_verb(statement));
+    return status;
+}
+
+static ct_status command(Shell *shell, const Command *row, const ct_statement *statement,
+                         ct_error *error)
+{
+    const char *file = find_redirect(statement);
+    Paper paper;
+    int rows, columns;
+
+    if (file != NULL && (row->flags & SILENT) != 0)
+        return ct_error_at(statement, NULL, error, "'%s' prints nothing to write to a file",
+                           row->verb);
+
+    /* lines are broken for a screen only: files and pipes are for programs */
+    terminal_size(&rows, &columns);
+    shell_set_width(shell, file == NULL && isatty(STDOUT_FILENO) ? columns : 0);
+    paper_open(&paper);
+
+    Call call = {shell, shell->session, statement, paper.out};
+    ct_status status = row->run(&call, error);
+    char *text = paper_close(&paper);
+
+    progress_end(&shell->progress);
+    if (status == CT_OK && file != NULL && (row->flags & WRITES) == 0)
+        status = write_redirect(statement, text, paper.length, error);
+    else if (status == CT_OK && paper.length > 0)
+        status = put_on_screen(
+            text, paper.length,
+            shell->interactive && shell->settings.pager && (row->flags & UNPAGED) == 0, error);
+    free(text);
+    return status;
+}
+
+static void say_remarks(const Shell *shell)
+{
+    const char *remarks = ct_remarks(shell->session);
+    size_t length = strlen(remarks);
+
+    if (length > 0 && !shell->quiet)
+        remark("%.*s", (int)(remarks[length - 1] == '\n' ? length - 1 : length), remarks);
+}
+
+/* Keep an accepted statement, in the history and the recording. */
+static ct_status keep(Shell *shell, const ct_statement *statement, ct_error *error)
+{
+    const char *text = ct_statement_text(statement);
+    size_t room = sizeof *shell->history * ((size_t)shell->history_count + 1);
+
+    shell->history = copy_check(realloc(shell->history, room));
+    shell->history[shell->history_count++] = copy_text(text);
+    if (shell->record == NULL)
+        return CT_OK;
+    if (fprintf(shell->record, "%s\n", text) > 0 && fflush(shell->record) == 0)
+        return CT_OK;
+
+    /* the statement itself took effect */
+    fclose(shell->record);
+    shell->record = NULL;
+    return error_say(error, "can't record any more: %s", strerror(errno));
+}
+
+static ct_status carry_out(Shell *shell, const ct_statement *statement, ct_error *error)
+{
+    const Command *row = command_find(statement);
+    int depth = shell->depth;
+
+    progress_begin(&shell->progress, !shell->quiet);
+
+    ct_status status =
+        row != NULL ? command(shell, row, statement, error) : build(shell, statement, error);
+
+    progress_end(&shell->progress);
+    if (status == CT_OK || status == CT_STOPPED)
+        say_remarks(shell);
+    if (status == CT_OK && depth == 0 && (row == NULL || (row->flags & FORGOTTEN) == 0))
+        status = keep(shell, statement, error);
+    return status;
+}
+
+/* --- a line --- */
+
+/* Step over blanks, separators and `word`; where it isn't there, or is being defined, stay. */
+static bool step_over(const char *text, size_t *next, const char *word)
+{
+    size_t start = *next + strspn(text + *next, " \t;");
+    size_t length = strlen(word);
+
+    if (strncmp(text + start, word, length) != 0 || strchr(" \t", text[start + length]) == NULL)
+        return false;
+
+    size_t end = start + length + strspn(text + start + length, " \t");
+
+    if (text[end] == '\0' || text[end] == '=' || text[end] == '#' || text[end] == ';')
+        return false;
+    *next = end;
+    return true;
+}
+
+/* `complete LINE`: what Tab would offer */
+static void complete(Shell *shell, const char *line)
+{
+    size_t start;
+    char **words = ct_complete(shell->session, line, strlen(line), &start);
+
+    for (int i = 0; words != NULL && words[i] != NULL; i++)
+        puts(words[i]);
+    ct_words_free(words);
+}
+
+static ct_status run_next(Shell *shell, const Origin *origin, const char *text, size_t *next,
+                          bool shortened)
+{
+    ct_statement *statement = NULL;
+    ct_error error = {.status = CT_OK};
+    bool timed = false;
+
+    if (step_over(text, next, "complete")) {
+        complete(shell, text + *next);
+        *next = strlen(text);
+        return CT_OK;
+    }
+    while (step_over(text, next, "time"))
+        timed = true;
+
+    ct_status status = ct_parse(text, origin->line, shortened, next, &statement, &error);
+
+    if (status == CT_OK && !ct_statement_is_empty(statement)) {
+        double began = progress_clock();
+
+        status = carry_out(shell, statement, &error);
+        if (timed)
+            remark("time: %.3f s", progress_clock() - began);
+    }
+
+    /* what happened in another file was told there: here is the way to it */
+    if (status != CT_OK && error.message[0] != '\0')
+        complain(origin, text, &error);
+    else if (status != CT_OK && origin->name != NULL)
+        remark("%s:%d: in %s", origin->name, origin->line, ct_statement_text(statement));
+    ct_statement_free(statement);
+    return status;
+}
+
+ct_status shell_run_line(Shell *shell, const Origin *origin, const char *text, bool shortened)
+{
+    size_t next = 0, length = strlen(text);
+    ct_status status = CT_OK;
+
+    while (status == CT_OK && next < length && !shell->quitting)
+        status = run_next(shell, origin, text, &next, shortened);
+    return status;
+}

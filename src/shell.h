@@ -1,0 +1,43 @@
+/* shell.h: a session at work: the model, what the user set, and how a statement is carried out */
+#ifndef COTREE_SRC_SHELL_H
+#define COTREE_SRC_SHELL_H
+
+#include "complain.h"
+#include "cotree.h"
+#include "gnuplot.h"
+#include "progress.h"
+#include "settings.h"
+
+#include <stdio.h>
+
+typedef struct Shell {
+    ct_session *session;
+    Settings settings;
+    Progress progress;
+    Gnuplot *gnuplot; /* NULL until something is drawn */
+    FILE *record;     /* NULL: nothing is recorded */
+    char **history;   /* accepted statements */
+    int history_count;
+    char *last_plot;    /* the statement that drew last; NULL */
+    const char *script; /* name of the file being replayed; NULL */
+    bool interactive;
+    bool quiet;
+    bool keep_going;
+    bool quitting;
+    bool unicode;
+    int depth;  /* of files within files */
+    int failed; /* statements in scripts that failed, and those whose expectation did not hold */
+    int unmet;
+} Shell;
+
+void shell_open(Shell *shell);
+void shell_close(Shell *shell);
+
+/* Run every statement of a logical line. What they print goes out, what they have to say is said;
+ * the first that fails ends the line. */
+ct_status shell_run_line(Shell *shell, const Origin *origin, const char *text, bool shortened);
+
+/* Tell the library how wide the screen is; 0: text isn't wrapped. */
+void shell_set_width(Shell *shell, int columns);
+
+#endif
