@@ -1,0 +1,11 @@
+# what Tab would offer, for editors and tests
+cat >model.ct <<'END'
+scene planar; body mass1 mass=1 inertia=1
+complete revo
+complete show circ
+complete body m2 inert
+complete body m2 mass=1 
+END
+cotree model.ct
+echo 'complete info mas' >>model.ct
+cotree model.ct | grep -x mass1
