@@ -17,6 +17,7 @@ include tests/unit/formulate.mk
 include tests/unit/simulate.mk
 include tests/unit/session.mk
 include tests/session/session.mk
+include tests/terminal/terminal.mk
 include tests/bench/bench.mk
 include tests/bench/expr.mk
 include tests/bench/graph.mk
