@@ -14,13 +14,14 @@ bool speed_moves_as_one(const System *system, int speed)
 {
     const Tree *translation = system->trees[TREE_TRANSLATION];
     const Tree *rotation = system->trees[TREE_ROTATION];
-    int node = system->speeds[speed].node;
+    int node = speed_node(system, speed);
+    int slide_node = system->speeds[speed].slide_node;
     int branch = tree_parent_edge(translation, node);
     int nodes;
     const int *order = tree_nodes(translation, &nodes);
 
     /* the branch's own shift must not turn with what it carries */
-    if (branch != tree_parent_edge(rotation, node) ||
+    if (branch != tree_parent_edge(rotation, node) || (slide_node >= 0 && slide_node != node) ||
         (system->frames[node].base == node && !vec_is_zero(system->frames[node].step)))
         return false;
     for (int i = 0; i < nodes; i++)
@@ -115,25 +116,18 @@ Composite *composites_new(System *system)
 void composite_loads(System *system, const Composite *composite, int speed, Loads *loads)
 {
     Arena *arena = system->arena;
-    int node = system->speeds[speed].node;
+    int node = speed_node(system, speed);
     int axes = axes_of(system, node);
-    const Frame *frame = &system->frames[node];
-    Vec force = vec_zero(arena);
-    Vec torque = vec_zero(arena);
+    Vec slide = speed_slide(system, speed, axes);
+    Vec force = vec_scale(arena, composite->mass, slide);
+    Vec torque = vec_cross(arena, composite->moment, slide);
 
     if (system->speeds[speed].chain >= 0) {
         Vec axis = speed_axis(system, speed, axes);
 
-        force = vec_cross(arena, axis, composite->moment);
-        torque = rotation_apply(arena, &composite->inertia, axis);
+        force = vec_add(arena, force, vec_cross(arena, axis, composite->moment));
+        torque = vec_add(arena, torque, rotation_apply(arena, &composite->inertia, axis));
     }
-    for (int k = 0; k < frame->slide_count; k++)
-        if (frame->slide[k].speed == speed) {
-            Vec axis = vec_express(system, frame->slide[k].axis, frame->step_chain, axes);
-
-            force = vec_scale(arena, composite->mass, axis);
-            torque = vec_cross(arena, composite->moment, axis);
-        }
     loads->force[node] = force;
     loads->torque[node] = torque;
 }

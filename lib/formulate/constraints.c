@@ -108,6 +108,15 @@ static void moment_rows(System *system, const Instance *joint, const Steps *step
     }
 }
 
+/* a screw's shift follows its turn */
+static void tie_row(System *system, const Instance *joint, const Steps *steps)
+{
+    Vec axis = step_axis(system, joint, &steps->shift[0]);
+
+    push_row(system, joint, ROW_TIE, axis, vec_zero(system->arena), "u");
+    system->rows.at[system->rows.count - 1].lead = steps->shift[0].scale;
+}
+
 static void driver_row(System *system, const Instance *driver)
 {
     const Instance *owner = &system->instances[driver->joint];
@@ -125,6 +134,62 @@ static void driver_row(System *system, const Instance *driver)
 }
 
 /* --- rows to show --- */
+
+/* sin(f - angle) of a chord's angle that is told by its sine and cosine, zero where it is f: any
+ * number of turns are alike to it */
+static Expr angle_missed(System *system, const ChordTurn *turn, Expr f)
+{
+    Arena *arena = system->arena;
+
+    return expr_sub(arena, expr_mul(arena, expr_sin(arena, f), turn->cosine),
+                    expr_mul(arena, expr_cos(arena, f), turn->sine));
+}
+
+static Expr tie_shown(System *system, const Row *row)
+{
+    Arena *arena = system->arena;
+    const Instance *joint = &system->instances[row->told.instance];
+    Steps steps;
+    ChordTurn turn;
+    Expr s;
+
+    instance_steps(system, joint, &steps);
+    s = slide_value(system, joint, &steps.shift[0]);
+    chord_turn(system, joint, &steps, 0, &turn);
+    if (turn.angle != NULL)
+        return expr_sub(arena, s, expr_mul(arena, row->lead, turn.angle));
+    return expr_mul(arena, row->lead, angle_missed(system, &turn, expr_div(arena, s, row->lead)));
+}
+
+/* a driven coordinate less what it is to be */
+static Status driver_shown(System *system, Row *row, Diag *diag)
+{
+    Arena *arena = system->arena;
+    const Instance *driver = &system->instances[row->told.instance];
+    const Instance *owner = &system->instances[row->owner];
+    bool chord = system->coordinate[row->owner][row->coordinate] < 0;
+    Expr value;
+    Steps steps;
+    Status status = OK;
+
+    CHECK(resolve(system, driver->row->prescribed(driver, arena), &row->prescribed, diag));
+    instance_steps(system, owner, &steps);
+    for (int k = 0; chord && k < steps.turn_count && steps.turn_count < 3; k++) {
+        ChordTurn turn;
+
+        if (steps.turn[k].coordinate != row->coordinate)
+            continue;
+        chord_turn(system, owner, &steps, k, &turn);
+        if (turn.angle != NULL)
+            continue;
+        row->phi = expr_neg(arena, angle_missed(system, &turn, row->prescribed));
+        return OK;
+    }
+    CHECK(coordinate_value(system, owner, row->coordinate, 0, &value, diag));
+    row->phi = expr_sub(arena, value, row->prescribed);
+done:
+    return status;
+}
 
 static Status row_shown(System *system, Row *row, Diag *diag)
 {
@@ -163,16 +228,12 @@ static Status row_shown(System *system, Row *row, Diag *diag)
         LIST_FREE(turns);
         break;
     }
-    case ROW_DRIVER: {
-        const Instance *driver = &system->instances[row->told.instance];
-        Expr value;
-
-        CHECK(coordinate_value(system, &system->instances[row->owner], row->coordinate, 0, &value,
-                               diag));
-        CHECK(resolve(system, driver->row->prescribed(driver, arena), &row->prescribed, diag));
-        row->phi = expr_sub(arena, value, row->prescribed);
+    case ROW_TIE:
+        row->phi = tie_shown(system, row);
         break;
-    }
+    case ROW_DRIVER:
+        CHECK(driver_shown(system, row, diag));
+        break;
     }
     row->phi = expr_fold(arena, expr_open(arena, row->phi));
 done:
@@ -250,21 +311,20 @@ static Vec circuit_turned(System *system, const Row *row, int chain, int axes)
 /* n . slide of speed j on the circuit, signs included */
 static Expr circuit_slide(System *system, const Row *row, Vec n, int speed, int axes)
 {
-    Arena *arena = system->arena;
-    int node = system->speeds[speed].node;
+    int node = system->speeds[speed].slide_node;
     const Tree *tree = system->trees[TREE_TRANSLATION];
-    const Frame *frame = &system->frames[node];
-    int branch = tree_parent_edge(tree, node);
-    int sense =
-        (int)tree_is_beyond(tree, branch, row->head) - (int)tree_is_beyond(tree, branch, row->tail);
+    int sense = 0;
 
-    for (int k = 0; sense != 0 && k < frame->slide_count; k++)
-        if (frame->slide[k].speed == speed) {
-            Vec axis = vec_express(system, frame->slide[k].axis, frame->step_chain, axes);
+    if (node >= 0) {
+        int branch = tree_parent_edge(tree, node);
 
-            return expr_mul(arena, expr_int(arena, sense), vec_dot(arena, n, axis));
-        }
-    return expr_int(arena, 0);
+        sense = (int)tree_is_beyond(tree, branch, row->head) -
+                (int)tree_is_beyond(tree, branch, row->tail);
+    }
+    if (sense == 0)
+        return expr_int(system->arena, 0);
+    return expr_mul(system->arena, expr_int(system->arena, sense),
+                    vec_dot(system->arena, n, speed_slide(system, speed, axes)));
 }
 
 /* rows n.d: the axes that they are computed in, n in those axes */
@@ -297,14 +357,14 @@ static void run_way(System *system, const Row *row, int k)
         Expr *entry = &system->run.phi_u[k * system->u.count + j];
         Vec D;
 
-        if (turned < 0) {
-            *entry = circuit_slide(system, row, n, j, axes);
+        *entry = circuit_slide(system, row, n, j, axes);
+        if (turned < 0)
             continue;
-        }
         D = circuit_turned(system, row, turned, axes);
         if (turns_with_tail && chain_is_beyond(system, tail, turned))
             D = vec_sub(arena, D, d);
-        *entry = vec_dot(arena, n, vec_cross(arena, speed_axis(system, j, axes), D));
+        *entry = expr_add(arena, *entry,
+                          vec_dot(arena, n, vec_cross(arena, speed_axis(system, j, axes), D)));
     }
     if (turns_with_tail) {
         Vec w = vec_express(system, system->motions[tail].w, resolve_tail, axes);
@@ -412,22 +472,36 @@ done:
     return status;
 }
 
-static void all_rows(System *system)
+static Status all_rows(System *system, Diag *diag)
 {
     for (int i = 0; i < system->instance_count; i++) {
         const Instance *instance = &system->instances[i];
         Steps steps;
+        bool slides;
+        bool turns;
 
         if (instance->row->family == FAMILY_DRIVER)
             driver_row(system, instance);
         if (instance->row->family != FAMILY_JOINT || instance->is_virtual)
             continue;
         instance_steps(system, instance, &steps);
-        if (!tree_has(system->trees[TREE_TRANSLATION], instance->edge))
+        slides = !tree_has(system->trees[TREE_TRANSLATION], instance->edge);
+        turns = !tree_has(system->trees[TREE_ROTATION], instance->edge);
+        if (steps_are_tied(&steps) && slides != turns) {
+            (void)diag_set(diag, E_BRANCH,
+                           "%s ties a shift to a turn: it is a branch of both trees or of none",
+                           instance->name);
+            diag_hint(diag, "tree + %s puts it into both", instance->name);
+            return E_BRANCH;
+        }
+        if (slides)
             force_rows(system, instance, &steps);
-        if (!tree_has(system->trees[TREE_ROTATION], instance->edge))
+        if (turns)
             moment_rows(system, instance, &steps);
+        if (slides && steps_are_tied(&steps))
+            tie_row(system, instance, &steps);
     }
+    return OK;
 }
 
 Status constraints_build(System *system, Diag *diag)
@@ -435,7 +509,7 @@ Status constraints_build(System *system, Diag *diag)
     int kept = 0;
     Status status = OK;
 
-    all_rows(system);
+    CHECK(all_rows(system, diag));
     for (int k = 0; k < system->rows.count; k++) {
         Row *row = &system->rows.at[k];
         bool vanishes;

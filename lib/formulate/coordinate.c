@@ -50,8 +50,14 @@ Status rate_of(System *system, Expr e, Expr *out, Diag *diag)
     return OK;
 }
 
+bool steps_are_tied(const Steps *steps)
+{
+    return steps->shift_count == 1 && steps->turn_count == 1 &&
+           steps->shift[0].coordinate == steps->turn[0].coordinate;
+}
+
 /* a slide of a chord: the way from tail to head along the axis */
-static Expr slide_value(System *system, const Instance *owner, const Step *slide)
+Expr slide_value(System *system, const Instance *owner, const Step *slide)
 {
     Vec axis =
         frame_vector(system, owner->tail, (Vec){{slide->axis[0], slide->axis[1], slide->axis[2]}});
@@ -72,39 +78,85 @@ Rotation chord_constant(const System *system, const Instance *joint, const Steps
     return rotation_product(system->arena, &constant, &back);
 }
 
-/* the turn of a chord: the sum of turns about its axis where they merge, else an arc tangent */
-static Expr turn_value(System *system, const Instance *owner, const Steps *steps, const Step *turn)
+static Vec turn_axis(const Step *turn)
+{
+    return (Vec){{turn->axis[0], turn->axis[1], turn->axis[2]}};
+}
+
+/* an axis of the tail, as it lies after the joint's turns: fixed in the head, seen from the tail */
+static Vec far_axis(System *system, const Instance *owner, const Rotation *constant, Vec axis)
+{
+    axis = rotation_apply(system->arena, constant, frame_vector(system, owner->tail, axis));
+    return vec_express(system, axis, system->frames[owner->head].chain,
+                       system->frames[owner->tail].chain);
+}
+
+/* of two turns u1, u2 (theory 2, coordinate of a chord) */
+static void universal_turn(System *system, const Instance *owner, const Steps *steps, int which,
+                           ChordTurn *out)
 {
     Arena *arena = system->arena;
-    const Frame *tail = &system->frames[owner->tail];
-    const Frame *head = &system->frames[owner->head];
-    Vec axis =
-        frame_vector(system, owner->tail, (Vec){{turn->axis[0], turn->axis[1], turn->axis[2]}});
+    Rotation constant = chord_constant(system, owner, steps);
+    Vec u1 = frame_vector(system, owner->tail, turn_axis(&steps->turn[0]));
+    Vec u2 = frame_vector(system, owner->tail, turn_axis(&steps->turn[1]));
+    Vec far1 = far_axis(system, owner, &constant, turn_axis(&steps->turn[0]));
+    Vec far2 = far_axis(system, owner, &constant, turn_axis(&steps->turn[1]));
+
+    out->sine = which == 0 ? vec_dot(arena, far2, vec_cross(arena, u1, u2))
+                           : expr_neg(arena, vec_dot(arena, far1, vec_cross(arena, u1, far2)));
+    out->cosine = which == 0 ? vec_dot(arena, far2, u2) : vec_dot(arena, far1, u1);
+}
+
+void chord_turn(System *system, const Instance *owner, const Steps *steps, int which,
+                ChordTurn *out)
+{
+    Arena *arena = system->arena;
+    Vec axis = frame_vector(system, owner->tail, turn_axis(&steps->turn[which]));
     Rotation constant = chord_constant(system, owner, steps);
     Turns turns = {0};
-    Expr value = NULL;
+    Expr rest = rotation_angle(arena, &constant, axis);
+    Vec n1;
+    Vec n2;
 
-    turns_between(system, tail->chain, head->chain, &turns);
-    if (turns.count == 0)
-        value = rotation_angle(arena, &constant, axis);
-    else if (turns.count == 1 && vec_same(turns.at[0].axis, axis))
-        value = expr_add(arena, turns.at[0].angle, rotation_angle(arena, &constant, axis));
-    else if (turns.count == 1 && vec_same(turns.at[0].axis, vec_neg(arena, axis)))
-        value = expr_sub(arena, rotation_angle(arena, &constant, axis), turns.at[0].angle);
-    LIST_FREE(turns);
-    if (value == NULL) {
-        Vec n1;
-        Vec n2;
-        Vec turned;
-
-        axis_complement(arena, turn->axis, n1.at, n2.at);
-        turned = rotation_apply(arena, &constant, frame_vector(system, owner->tail, n1));
-        turned = vec_express(system, turned, head->chain, tail->chain);
-        value = expr_call2(arena, OP_ATAN2,
-                           vec_dot(arena, frame_vector(system, owner->tail, n2), turned),
-                           vec_dot(arena, frame_vector(system, owner->tail, n1), turned));
+    *out = (ChordTurn){0};
+    turns_between(system, system->frames[owner->tail].chain, system->frames[owner->head].chain,
+                  &turns);
+    if (steps->turn_count > 1)
+        universal_turn(system, owner, steps, which, out);
+    else if (turns.count == 0)
+        out->angle = rest;
+    else if (turns.count == 1 && turns.at[0].matrix == NULL && vec_same(turns.at[0].axis, axis))
+        out->angle = expr_add(arena, turns.at[0].angle, rest);
+    else if (turns.count == 1 && turns.at[0].matrix == NULL &&
+             vec_same(turns.at[0].axis, vec_neg(arena, axis)))
+        out->angle = expr_sub(arena, rest, turns.at[0].angle);
+    else {
+        axis_complement(arena, steps->turn[which].axis, n1.at, n2.at);
+        axis = far_axis(system, owner, &constant, n1);
+        out->sine = vec_dot(arena, frame_vector(system, owner->tail, n2), axis);
+        out->cosine = vec_dot(arena, frame_vector(system, owner->tail, n1), axis);
     }
-    return value;
+    LIST_FREE(turns);
+}
+
+Vec joint_axis(System *system, const Instance *owner, const Steps *steps, int which, int *chain)
+{
+    int speed = system->speed[owner->number][steps->turn[which].coordinate];
+
+    if (which == 0) {
+        *chain = system->frames[owner->tail].chain;
+        return frame_vector(system, owner->tail, turn_axis(&steps->turn[0]));
+    }
+    if (which == steps->turn_count - 1) {
+        Rotation constant = chord_constant(system, owner, steps);
+
+        *chain = system->frames[owner->head].chain;
+        return rotation_apply(system->arena, &constant,
+                              frame_vector(system, owner->tail, turn_axis(&steps->turn[which])));
+    }
+    /* one between others has no coordinate unless it is a branch */
+    *chain = system->speeds[speed].axis_chain;
+    return system->speeds[speed].axis;
 }
 
 static Status chord_value(System *system, const Instance *owner, int coordinate, Expr *out,
@@ -113,13 +165,19 @@ static Status chord_value(System *system, const Instance *owner, int coordinate,
     Steps steps;
 
     instance_steps(system, owner, &steps);
-    for (int k = 0; k < steps.shift_count; k++)
+    for (int k = 0; k < steps.shift_count && !steps_are_tied(&steps); k++)
         if (steps.shift[k].coordinate == coordinate) {
             *out = slide_value(system, owner, &steps.shift[k]);
             return OK;
         }
-    if (steps.turn_count == 1 && steps.turn[0].coordinate == coordinate) {
-        *out = turn_value(system, owner, &steps, &steps.turn[0]);
+    for (int k = 0; k < steps.turn_count && steps.turn_count < 3; k++) {
+        ChordTurn turn;
+
+        if (steps.turn[k].coordinate != coordinate)
+            continue;
+        chord_turn(system, owner, &steps, k, &turn);
+        *out = turn.angle != NULL ? turn.angle
+                                  : expr_call2(system->arena, OP_ATAN2, turn.sine, turn.cosine);
         return OK;
     }
     (void)diag_set(diag, E_MISSING, "%s: can't be told while %s is a chord of the rotation tree",

@@ -12,26 +12,27 @@ static int axes_of(const System *system, int node)
 
 Expr sums_project(System *system, const Sums *sums, int speed)
 {
-    int node = system->speeds[speed].node;
-    const Vec *sum = system->speeds[speed].chain >= 0 ? sums->torque : sums->force;
+    const Speed *own = &system->speeds[speed];
+    Expr row = expr_int(system->arena, 0);
 
-    return vec_dot(system->arena, system->speeds[speed].direction, sum[node]);
+    if (own->chain >= 0)
+        row = vec_dot(system->arena, own->turn, sums->torque[own->turn_node]);
+    if (own->slide_node >= 0)
+        row = expr_add(system->arena, row,
+                       vec_dot(system->arena, own->slide, sums->force[own->slide_node]));
+    return row;
 }
 
-/* the axis of each speed's turn or slide, in the axes of its node */
+/* the directions of each speed, in the axes of its nodes */
 static void speed_directions(System *system)
 {
     for (int j = 0; j < system->u.count; j++) {
-        int node = system->speeds[j].node;
-        int axes = axes_of(system, node);
-        const Frame *frame = &system->frames[node];
+        Speed *own = &system->speeds[j];
 
-        if (system->speeds[j].chain >= 0)
-            system->speeds[j].direction = speed_axis(system, j, axes);
-        for (int k = 0; system->speeds[j].chain < 0 && k < frame->slide_count; k++)
-            if (frame->slide[k].speed == j)
-                system->speeds[j].direction =
-                    vec_express(system, frame->slide[k].axis, frame->step_chain, axes);
+        if (own->chain >= 0)
+            own->turn = speed_axis(system, j, axes_of(system, own->turn_node));
+        if (own->slide_node >= 0)
+            own->slide = speed_slide(system, j, axes_of(system, own->slide_node));
     }
 }
 
@@ -53,10 +54,8 @@ static void unit_motion(System *system, int speed, Vec *v)
         if (turned >= 0 && chain_is_beyond(system, frame->step_chain, turned))
             v[n] = vec_add(arena, v[n],
                            vec_cross(arena, speed_axis(system, speed, axes), frame->step));
-        for (int k = 0; turned < 0 && k < frame->slide_count; k++)
-            if (frame->slide[k].speed == speed)
-                v[n] = vec_add(arena, v[n],
-                               vec_express(system, frame->slide[k].axis, frame->step_chain, axes));
+        if (n == system->speeds[speed].slide_node)
+            v[n] = vec_add(arena, v[n], speed_slide(system, speed, axes));
         v[n] = vec_hold(arena, v[n]);
     }
 }
@@ -96,9 +95,8 @@ static int bodies_moved(const System *system, int speed, bool *moves)
     for (int i = 1; i < nodes; i++) {
         const Frame *frame = &system->frames[order[i]];
 
-        moves[order[i]] = moves[frame->parent] ||
-                          (turned >= 0 ? chain_is_beyond(system, frame->step_chain, turned)
-                                       : order[i] == system->speeds[speed].node);
+        moves[order[i]] = moves[frame->parent] || order[i] == system->speeds[speed].slide_node ||
+                          (turned >= 0 && chain_is_beyond(system, frame->step_chain, turned));
     }
     for (int i = 0; i < system->masses.count; i++) {
         int node = system->masses.at[i].node;
@@ -113,8 +111,8 @@ static int bodies_moved(const System *system, int speed, bool *moves)
 static bool column_serves(const System *system, const int *moved, int j, int k)
 {
     const Tree *tree = system->trees[TREE_TRANSLATION];
-    int depth_j = tree_depth(tree, system->speeds[j].node);
-    int depth_k = tree_depth(tree, system->speeds[k].node);
+    int depth_j = tree_depth(tree, speed_node(system, j));
+    int depth_k = tree_depth(tree, speed_node(system, k));
 
     if (moved[k] != moved[j])
         return moved[k] < moved[j];
@@ -137,7 +135,7 @@ static Status mass_matrix(System *system)
 
         moved[k] = bodies_moved(system, k, moves);
         if (speed_moves_as_one(system, k)) {
-            composite_loads(system, &composites[system->speeds[k].node], k, &loads);
+            composite_loads(system, &composites[speed_node(system, k)], k, &loads);
         } else {
             unit_motion(system, k, v);
             unit_loads(system, k, v, &loads);

@@ -86,15 +86,17 @@ void loads_add_effort(System *system, Loads *loads, const Instance *owner, int c
 
     instance_steps(system, owner, &steps);
     for (int k = 0; k < steps.turn_count; k++) {
-        Vec torque = {{steps.turn[k].axis[0], steps.turn[k].axis[1], steps.turn[k].axis[2]}};
+        Vec torque;
+        int about;
 
         if (steps.turn[k].coordinate != coordinate)
             continue;
-        torque = vec_scale(arena, effort, frame_vector(system, owner->tail, torque));
-        loads_add_torque(system, loads, owner->head, torque, chain);
-        loads_add_torque(system, loads, owner->tail, vec_neg(arena, torque), chain);
+        torque = vec_scale(arena, effort, joint_axis(system, owner, &steps, k, &about));
+        loads_add_torque(system, loads, owner->head, torque, about);
+        loads_add_torque(system, loads, owner->tail, vec_neg(arena, torque), about);
     }
-    for (int k = 0; k < steps.shift_count; k++) {
+    /* on a screw the coordinate is the angle, and the effort a torque */
+    for (int k = 0; k < steps.shift_count && !steps_are_tied(&steps); k++) {
         Vec force = {{steps.shift[k].axis[0], steps.shift[k].axis[1], steps.shift[k].axis[2]}};
         Vec way;
 

@@ -136,7 +136,7 @@ static void turn_branch(System *system, int node)
 
         chain = add_free(system, chain, &zero, place, speed, forward);
         for (int i = 0; i < 3; i++)
-            system->speeds[speed + i].node = node;
+            system->speeds[speed + i].turn_node = node;
     }
     for (int k = 0; k < steps.turn_count; k++) {
         const Step *turn = &steps.turn[forward ? k : steps.turn_count - 1 - k];
@@ -146,7 +146,7 @@ static void turn_branch(System *system, int node)
 
         axis = rotation_apply(arena, &zero, axis);
         chain = add_turn(system, chain, axis, place, speed, forward);
-        system->speeds[speed].node = node;
+        system->speeds[speed].turn_node = node;
     }
     if (forward)
         zero = rotation_product(arena, &zero, &constant);
@@ -180,7 +180,8 @@ static void step_branch(System *system, int node)
         Vec axis = frame_vector(system, edge->tail,
                                 (Vec){{slide->axis[0], slide->axis[1], slide->axis[2]}});
 
-        system->speeds[speed].node = node;
+        axis = vec_scale(arena, slide->scale, axis);
+        system->speeds[speed].slide_node = node;
         shift = vec_add(arena, shift, vec_scale(arena, system->q.at[place].symbol, axis));
         frame->slide[frame->slide_count++] = (Slide){speed, forward ? axis : vec_neg(arena, axis)};
     }
@@ -357,6 +358,26 @@ Vec vec_express(const System *system, Vec v, int from, int to)
 Vec speed_axis(const System *system, int speed, int axes)
 {
     return vec_express(system, system->speeds[speed].axis, system->speeds[speed].axis_chain, axes);
+}
+
+Vec speed_slide(const System *system, int speed, int axes)
+{
+    int node = system->speeds[speed].slide_node;
+
+    for (int k = 0; node >= 0 && k < system->frames[node].slide_count; k++) {
+        const Frame *frame = &system->frames[node];
+
+        if (frame->slide[k].speed == speed)
+            return vec_express(system, frame->slide[k].axis, frame->step_chain, axes);
+    }
+    return vec_zero(system->arena);
+}
+
+int speed_node(const System *system, int speed)
+{
+    const Speed *own = &system->speeds[speed];
+
+    return own->chain >= 0 ? own->turn_node : own->slide_node;
 }
 
 Expr rotation_angle(Arena *arena, const Rotation *rotation, Vec axis)

@@ -28,7 +28,13 @@ static void add_row(System *system, Loads *loads, const Row *row, Expr lambda)
     }
     loads_add_force(system, loads, row->head, along, chain);
     loads_add_force(system, loads, row->tail, vec_neg(arena, along), chain);
-    if (row->kind == ROW_TAIL) {
+    if (row->kind == ROW_TIE) {
+        Vec moment = vec_scale(arena, expr_neg(arena, row->lead), along);
+
+        loads_add_torque(system, loads, row->head, moment, chain);
+        loads_add_torque(system, loads, row->tail, vec_neg(arena, moment), chain);
+    }
+    if (row->kind == ROW_TAIL || row->kind == ROW_TIE) {
         Vec way =
             vec_sub(arena, node_position(system, row->head), node_position(system, row->tail));
         Vec moment = vec_cross(arena, way, vec_express(system, along, chain, 0));
@@ -103,8 +109,11 @@ static Vec chord_reaction(System *system, const Instance *joint, bool rotation)
         int tail = system->frames[row->tail].chain;
         Vec along = row->n;
 
-        if (row->told.instance != joint->number || row->told.rotation != rotation)
+        if (row->told.instance != joint->number ||
+            (row->told.rotation != rotation && row->kind != ROW_TIE))
             continue;
+        if (row->kind == ROW_TIE && rotation)
+            along = vec_scale(arena, expr_neg(arena, row->lead), along);
         if (row->kind == ROW_DOT)
             along = vec_cross(
                 arena, vec_express(system, row->b, system->frames[row->head].chain, tail), along);

@@ -10,27 +10,24 @@
 /* the part of the way from ground to a node that speed j moves */
 static FrameSum partial_velocity(System *system, int node, int speed)
 {
-    Arena *arena = system->arena;
-    Expr one = expr_int(arena, 1);
-    int turned = system->speeds[speed].chain;
+    Expr one = expr_int(system->arena, 1);
+    const Speed *own = &system->speeds[speed];
     FrameSum sum = {NULL, 0};
     FrameSum slid = {NULL, 0};
 
     for (; system->frames[node].parent >= 0; node = system->frames[node].parent) {
         const Frame *frame = &system->frames[node];
 
-        if (turned >= 0 && chain_is_beyond(system, frame->step_chain, turned))
+        if (own->chain >= 0 && chain_is_beyond(system, frame->step_chain, own->chain))
             sum = framesum_add(system, sum, one,
                                framesum_of(system, frame->step_chain, frame->shift));
-        for (int k = 0; turned < 0 && k < frame->slide_count; k++)
-            if (frame->slide[k].speed == speed)
-                slid = framesum_add(system, slid, one,
-                                    framesum_of(system, frame->step_chain, frame->slide[k].axis));
+        if (node == own->slide_node)
+            slid = framesum_of(system, frame->step_chain,
+                               speed_slide(system, speed, frame->step_chain));
     }
-    if (turned < 0)
+    if (own->chain < 0)
         return slid;
-    return framesum_cross(system, system->speeds[speed].axis, system->speeds[speed].axis_chain,
-                          sum);
+    return framesum_add(system, slid, one, framesum_cross(system, own->axis, own->axis_chain, sum));
 }
 
 /* angular velocity of a chain per unit of speed j, in its own axes; zero where it doesn't turn it

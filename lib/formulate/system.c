@@ -168,7 +168,7 @@ static void add_coordinates(System *system)
     for (int j = 0; j < system->u.count; j++) {
         system->accelerations[j] = expr_symbol(
             system->arena, system_keep(system, "%s'", system->u.at[j].name), SYMBOL_ACCELERATION);
-        system->speeds[j].chain = -1;
+        system->speeds[j].chain = system->speeds[j].slide_node = -1;
     }
 }
 

@@ -44,11 +44,13 @@ typedef struct Chain {
 
 /* a speed: what it moves, and along what */
 typedef struct Speed {
-    int chain; /* that it turns; -1: it slides */
-    int node;  /* that its branch leads to */
-    Vec axis;  /* of the turn, zero-position axes of `axis_chain` */
+    int chain;     /* that it turns; -1: none */
+    int turn_node; /* that its branch of the rotation tree leads to */
+    Vec axis;      /* of the turn, zero-position axes of `axis_chain` */
     int axis_chain;
-    Vec direction; /* of turn or slide, in the axes of its node */
+    int slide_node; /* that its branch of the translation tree leads to; -1: it doesn't slide */
+    Vec turn;       /* the axis in the axes of turn_node */
+    Vec slide;      /* motion per unit in the axes of slide_node; both may be: a screw */
 } Speed;
 
 /* how a coordinate's rate follows from speeds */
@@ -113,6 +115,7 @@ typedef enum RowKind {
     ROW_TAIL,  /* n.d, n fixed in the tail */
     ROW_DOT,   /* a_t . b_h */
     ROW_ANGLE, /* sum of turns about one axis */
+    ROW_TIE,   /* u.d - lead times angle: a screw */
     ROW_DRIVER /* coordinate - f(t) */
 } RowKind;
 
@@ -124,6 +127,7 @@ typedef struct Row {
     Expr phi;  /* to show */
     int owner; /* DRIVER: instance of the coordinate, and which */
     int coordinate;
+    Expr lead; /* TIE: shift per turn's angle */
     Expr prescribed;
     ConstraintRow told;
 } Row;
@@ -243,6 +247,10 @@ void turns_between(const System *system, int from, int to, Turns *turns);
 Vec vec_express(const System *system, Vec v, int from, int to);
 /* what a speed turns about, in the axes of a chain */
 Vec speed_axis(const System *system, int speed, int axes);
+/* where it slides its node, per unit, in the axes of a chain; zero where it doesn't */
+Vec speed_slide(const System *system, int speed, int axes);
+/* the node nearest to the datum that it moves */
+int speed_node(const System *system, int speed);
 bool chain_is_beyond(const System *system, int chain, int turn); /* or the same */
 /* angle of a constant rotation about an axis */
 Expr rotation_angle(Arena *arena, const Rotation *rotation, Vec axis);
@@ -292,6 +300,21 @@ void composite_loads(System *system, const Composite *composite, int speed, Load
 /* the constant rotation that is left between the ends of a chord once its turns are undone: Z_h
  * R_0^T Z_t^T */
 Rotation chord_constant(const System *system, const Instance *joint, const Steps *steps);
+/* a turn of a chord: the sum of turns about its axis where they merge, else its sine and cosine */
+typedef struct ChordTurn {
+    Expr angle; /* NULL: sine and cosine instead */
+    Expr sine;
+    Expr cosine;
+} ChordTurn;
+/* `which` of one or two turns */
+void chord_turn(System *system, const Instance *owner, const Steps *steps, int which,
+                ChordTurn *out);
+/* the way from tail to head along a slide's axis */
+Expr slide_value(System *system, const Instance *owner, const Step *slide);
+/* axis of a joint's turn, where it is now: zero-position components of *chain */
+Vec joint_axis(System *system, const Instance *owner, const Steps *steps, int which, int *chain);
+/* a screw: shift and turn by one coordinate */
+bool steps_are_tied(const Steps *steps);
 /* value of a coordinate and its first and second derivatives, branch or chord */
 MUST_USE Status coordinate_value(System *system, const Instance *owner, int coordinate, int primes,
                                  Expr *out, Diag *diag);
