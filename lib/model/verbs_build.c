@@ -20,7 +20,7 @@ const Verb verbs_build[] = {
      .brief = "uniform gravity, in ground axes",
      .help = "The acceleration of free fall in ground axes, in m/s^2. There is none until it is "
              "given. Entries may use parameters.",
-     .example = "scene planar\ng = 9.81 [m/s^2]\ngravity [0, -g]\nbody m1 mass=2\n"
+     .example = "scene planar\ng = 9.81 [m/s^2]\ngravity [0, -g]\nbody m1 mass=2 inertia=0.1\n"
                 "init m1.vy = 3\nsimulate 1\nprint m1.y",
      .see = "scene body"},
     {.name = "title",
