@@ -248,13 +248,24 @@ static void offer_place(Line *line, const Component *row, int place)
     }
 }
 
+/* the row's words stand at its first operand only */
 static void offer_row_words(Line *line, const Verb *verb)
 {
-    for (int i = 0; verb->words != NULL && verb->words[i] != NULL; i++)
+    for (int i = 0; line->before.count == 1 && verb->words != NULL && verb->words[i] != NULL; i++)
         offer(line, verb->words[i]);
     for (int i = 0; i < COUNT(sources); i++)
         if (strcmp(sources[i].verb, verb->name) == 0)
             sources[i].offer(line);
+}
+
+/* a component has values behind its places only where a param may stand there */
+static bool takes_value(const Verb *verb)
+{
+    bool takes = verb->component == NULL;
+
+    for (int i = 0; !takes && i < verb->component->param_count; i++)
+        takes = verb->component->params[i].positional;
+    return takes;
 }
 
 static void offer_letter(Line *line, const Verb *verb, char letter, int place)
@@ -271,8 +282,11 @@ static void offer_letter(Line *line, const Verb *verb, char letter, int place)
         else if (!has_source)
             offer_names(line);
         break;
-    case 'v':
     case 'V':
+        if (takes_value(verb))
+            offer_values(line);
+        break;
+    case 'v':
     case 'e':
     case 'i':
     case 'I':
@@ -425,10 +439,18 @@ static bool follows_number(const Line *line)
 
 static void offer_units(Line *line)
 {
+    static const char *const prefixes[] = {"", "k", "m", "u", "n", "p", "c", "M", "G"};
     const char *name;
 
-    for (int i = 0; (name = unit_name(i)) != NULL; i++)
-        offer(line, name);
+    for (int p = 0; p < COUNT(prefixes); p++)
+        for (int i = 0; (name = unit_name(i)) != NULL; i++) {
+            char word[40];
+            Unit unit;
+
+            (void)snprintf(word, sizeof word, "%s%s", prefixes[p], name);
+            if (unit_find(word, &unit))
+                offer(line, word);
+        }
 }
 
 /* --- the line --- */
@@ -518,14 +540,14 @@ static void offer_behind_verb(Line *line)
     bool known = line->before.count > (is_virtual ? 1 : 0) &&
                  verb_find(line->before.at[is_virtual ? 1 : 0], &verb);
 
+    if (line->prefix[0] != '\0' && strchr(line->prefix, '.') == NULL && follows_number(line))
+        offer_units(line);
     if (line->before.at[0][0] == '?')
         offer_help_words(line);
     else if (strchr(line->prefix, '.') != NULL)
         offer_members(line, known ? &verb : NULL);
     else if (is_virtual && line->before.count == 1)
         offer_joints_types(line);
-    else if (line->prefix[0] != '\0' && follows_number(line))
-        offer_units(line);
     else if (!known)
         offer_values(line);
     else if (find_key(line, key, sizeof key))

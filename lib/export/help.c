@@ -243,11 +243,16 @@ bool help_word(int i, const char **word)
     return false;
 }
 
+/* a word that goes on as the one typed, else the nearest */
 const char *help_suggest(const char *word)
 {
     Suggest suggest = suggest_for(word);
+    const size_t length = strlen(word);
     const char *candidate;
 
+    for (int i = 0; length > 2 && help_word(i, &candidate); i++)
+        if (strncmp(candidate, word, length) == 0)
+            return candidate;
     for (int i = 0; help_word(i, &candidate); i++)
         suggest_offer(&suggest, candidate);
     return suggest.best;

@@ -1,0 +1,320 @@
+/* test_session_help.c: help, examples, reference, completion */
+#include "session_kit.h"
+
+#include <ctype.h>
+
+static void every_verb_has_a_page(void)
+{
+    const char *verb;
+    int count = 0;
+
+    for (int i = 0; (verb = ct_verb_name(i)) != NULL; i++, count++) {
+        char *page = ct_help(verb);
+
+        EXPECT_HOLDS(page, verb);
+        if (page != NULL && strstr(page, "later version") == NULL) {
+            EXPECT_HOLDS(page, "usage: ");
+            EXPECT_HOLDS(page, "Example:");
+        }
+        ct_free(page);
+    }
+    EXPECT(count > 60);
+}
+
+static void every_example_runs_from_an_empty_session(void)
+{
+    const char *name, *text;
+    int i;
+
+    for (i = 0; ct_example(i, &name, &text); i++) {
+        Kit kit = kit_new();
+
+        if (kit_do(&kit, text) != CT_OK) {
+            test_faults++;
+            printf("example of '%s': %d:%d: %s (%s)\n", name, kit.error.line, kit.error.column,
+                   kit.error.message, kit.error.hint);
+        }
+        kit_free(&kit);
+    }
+    EXPECT(i > 40);
+}
+
+static void the_overview_names_every_verb_that_is_there(void)
+{
+    char *overview = ct_help(NULL), *same = ct_help("");
+    const char *verb;
+
+    EXPECT_TEXT(same, overview);
+    for (int i = 0; (verb = ct_verb_name(i)) != NULL; i++) {
+        char *page = ct_help(verb);
+
+        if (page != NULL && strstr(page, "later version") == NULL)
+            EXPECT_HOLDS(overview, verb);
+        ct_free(page);
+    }
+    ct_free(overview);
+    ct_free(same);
+}
+
+static void a_page_of_a_component_has_keys_units_and_members(void)
+{
+    char *page = ct_help("motor");
+
+    EXPECT_HOLDS(page, "usage: motor NAME JOINT PLUS MINUS");
+    EXPECT_HOLDS(page, "N*m/A");
+    EXPECT_HOLDS(page, "NAME.torque");
+    EXPECT_HOLDS(page, "See also:");
+    ct_free(page);
+}
+
+static void topics_are_pages_too(void)
+{
+    static const struct {
+        const char *word, *part;
+    } pages[] = {
+        {"units", "rpm"},        {"functions", "atan2("},       {"methods", "dop853"},
+        {"simulate", "dop853"},  {"counting", "n-1 additions"}, {"count", "n-1 additions"},
+        {"variables", "energy"}, {"topics", "cutsets"},         {"language", "key=value"},
+        {"keys", "Ctrl-C"},      {"sin", "function"},           {"jacobian", "show jacobian"}};
+
+    for (size_t i = 0; i < sizeof pages / sizeof pages[0]; i++) {
+        char *page = ct_help(pages[i].word);
+
+        EXPECT_HOLDS(page, pages[i].part);
+        ct_free(page);
+    }
+}
+
+static void an_unknown_word_has_no_page_but_a_suggestion(void)
+{
+    EXPECT(ct_help("revolut") == NULL);
+    EXPECT_TEXT(ct_help_suggest("revolut"), "revolute");
+    EXPECT_TEXT(ct_help_suggest("unit"), "units");
+    EXPECT(ct_help_suggest("xyzzyxyzzy") == NULL);
+}
+
+static void apropos_finds_words_in_the_text(void)
+{
+    char *lines = ct_apropos("multiplications");
+    char *none = ct_apropos("xyzzy");
+
+    EXPECT_HOLDS(lines, "count");
+    EXPECT_HOLDS(lines, "help counting");
+    EXPECT_TEXT(none, "");
+    ct_free(lines);
+    ct_free(none);
+}
+
+/* --- reference --- */
+
+/* environments of texinfo that a reference uses: each @end closes what was opened last */
+static void check_texinfo(const char *text)
+{
+    static const char *const environments[] = {"table", "example", "display", "menu", "verbatim"};
+    int open[16], depth = 0;
+
+    for (const char *line = text; line != NULL && *line != '\0';
+         line = strchr(line, '\n') != NULL ? strchr(line, '\n') + 1 : NULL)
+        for (int e = 0; e < 5; e++) {
+            const size_t length = strlen(environments[e]);
+
+            if (line[0] != '@')
+                continue;
+            if (strncmp(line + 1, environments[e], length) == 0 &&
+                !isalpha((unsigned char)line[1 + length]) && depth < 16)
+                open[depth++] = e;
+            if (strncmp(line, "@end ", 5) == 0 && strncmp(line + 5, environments[e], length) == 0) {
+                EXPECT(depth > 0 && open[depth - 1] == e);
+                depth -= depth > 0;
+            }
+        }
+    EXPECT(depth == 0);
+}
+
+static void the_reference_holds_every_verb(void)
+{
+    static const char *const formats[] = {"texinfo", "man", "words"};
+    const char *verb;
+
+    for (int f = 0; f < 3; f++) {
+        char *text = ct_reference(formats[f]);
+
+        EXPECT(text != NULL && strlen(text) > 500);
+        for (int i = 0; (verb = ct_verb_name(i)) != NULL; i++) {
+            char *page = ct_help(verb);
+
+            if (page != NULL && (f != 1 || strstr(page, "later version") == NULL))
+                EXPECT_HOLDS(text, verb);
+            ct_free(page);
+        }
+        if (f == 0)
+            check_texinfo(text);
+        ct_free(text);
+    }
+    EXPECT(ct_reference("html") == NULL);
+}
+
+/* --- completion --- */
+
+static bool offers(Kit *kit, const char *line, const char *word)
+{
+    size_t start = 0;
+    char **words = ct_complete(kit->session, line, strlen(line), &start);
+    bool found = false;
+
+    for (int i = 0; words[i] != NULL; i++) {
+        found = found || strcmp(words[i], word) == 0;
+        /* what is offered goes on from what is written */
+        EXPECT(strncmp(words[i], line + start, strlen(line + start)) == 0);
+    }
+    ct_words_free(words);
+    return found;
+}
+
+static void completion_follows_the_grammar(void)
+{
+    /* clang-format off */
+    static const struct { const char *line, *yes, *no; } cases[] = {
+        {"rev",                    "revolute",    "plot"},
+        {"",                       "body",        "m1"},
+        {"virtual ",               "prismatic",   "body"},
+        {"revolute h12 ",          "r4",          "h8"},
+        {"revolute h12 r4 g",      "ground",      "gravity"},
+        {"revolute h12 r4 r5 ",    "axis=",       "r4"},
+        {"revolute h12 r4 r5 axis=", "x",         "h8"},
+        {"revolute h12 r4 r5 axis=x ", "coord=",  "axis="},
+        {"motor M1 ",              "h8",          "r4"},
+        {"motor M1 h8 ",           "0",           "h8"},
+        {"show con",               "constraints", "h8"},
+        {"show h",                 "h8",          "mass"},
+        {"show cutsets ",          "h9",          "constraints"},
+        {"show mass as ",          "latex",       "h8"},
+        {"show h8.",               "h8.fx",       "h8.v"},
+        {"count ",                 "mass",        "m1"},
+        {"tree rotation ",         "h9",          "L4"},
+        {"tree h8 h",              "h10",         "help"},
+        {"simulate 2 ",            "every=",      "h8"},
+        {"simulate 2 method=",     "dop853",      "h8"},
+        {"simulate 2 every=0.1 r", "rtol=",       "revolute"},
+        {"plot h8 s",              "s11",         "show"},
+        {"plot energy.",           "energy.total", "h8"},
+        {"print ab",               "abs(",        "arm"},
+        {"print model.",           "model.dof",   "h8"},
+        {"print count.",           "count.mass",  "h8"},
+        {"init h",                 "h8",          "help"},
+        {"init h8 = 1, h",         "h10",         "help"},
+        {"set m1.",                "m1.mass",     "m1.x"},
+        {"delete m",               "m1",          "model"},
+        {"help rev",               "revolute",    "r4"},
+        {"?uni",                   "units",       "h8"},
+        {"body b mass=2 k",        "kg",          "k1"},
+        {"x = L",                  "L4",          "log("},
+        {"print 1; sho",           "show",        "s11"},
+        {"time sim",               "simulate",    "s11"},
+        {"print h8 # rev",         "nothing",     "revolute"},
+        {"title \"rev",            "nothing",     "revolute"},
+    };
+    /* clang-format on */
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, SLIDER_CRANK);
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        const bool yes =
+            strcmp(cases[i].yes, "nothing") == 0 || offers(&kit, cases[i].line, cases[i].yes);
+
+        if (!yes || offers(&kit, cases[i].line, cases[i].no)) {
+            test_faults++;
+            printf("'%s': %s '%s'\n", cases[i].line, yes ? "offers" : "does not offer",
+                   yes ? cases[i].no : cases[i].yes);
+        }
+    }
+    kit_free(&kit);
+}
+
+static void completion_says_where_the_word_starts(void)
+{
+    Kit kit = kit_new();
+    size_t start = 0;
+    char **words = ct_complete(kit.session, "print 1;  sho", 13, &start);
+
+    EXPECT(start == 10);
+    EXPECT_TEXT(words[0], "show");
+    ct_words_free(words);
+    /* the cursor may stand inside the line, or beyond it */
+    words = ct_complete(kit.session, "sho mass", 3, &start);
+    EXPECT_TEXT(words[0], "show");
+    ct_words_free(words);
+    words = ct_complete(kit.session, "sho", 300, &start);
+    EXPECT(start == 0);
+    ct_words_free(words);
+    kit_free(&kit);
+}
+
+/* whatever the line: no crash, and offers that fit */
+static void completion_bears_any_line(void)
+{
+    static const char *const pieces[] = {
+        "tree ", "show ", "h8",       ".",   "'",   "=",        "\"",    ";", "(", " ",    "5", "+",
+        ",",     "[",     "motor M ", "as ", "at ", "virtual ", "init ", "#", "?", "set ", ":"};
+    Kit kit = kit_new();
+    uint64_t state = 7;
+    char line[200];
+
+    EXPECT_DONE(&kit, SLIDER_CRANK);
+    for (int i = 0; i < 5000; i++) {
+        line[0] = '\0';
+        for (int k = (int)(test_random(&state) % 8); k >= 0; k--)
+            strcat(line, pieces[test_random(&state) % (sizeof pieces / sizeof pieces[0])]);
+        (void)offers(&kit, line, "nothing");
+    }
+    kit_free(&kit);
+}
+
+/* every word of every example is what completion would have offered there, or a name, a number or
+ * an expression of the user's own: at least the verbs and keys must be */
+static void completion_offers_the_verbs_and_keys_of_every_example(void)
+{
+    const char *name, *text;
+
+    for (int i = 0; ct_example(i, &name, &text); i++) {
+        Kit kit = kit_new();
+
+        while (*text != '\0') {
+            const size_t length = strcspn(text, "\n");
+            char line[400];
+            size_t next = 0;
+            ct_statement *statement = NULL;
+
+            (void)snprintf(line, sizeof line, "%.*s", (int)length, text);
+            if (ct_parse(line, 1, false, &next, &statement, &kit.error) == CT_OK) {
+                const char *verb = ct_verb(statement);
+                char half[80];
+
+                if (verb[0] != '\0' && line[0] != '?' && strncmp(line, "virtual", 7) != 0) {
+                    (void)snprintf(half, sizeof half, "%.2s", verb);
+                    EXPECT(offers(&kit, half, verb));
+                }
+            }
+            ct_statement_free(statement);
+            text += length + (text[length] == '\n');
+        }
+        kit_free(&kit);
+    }
+}
+
+int main(void)
+{
+    RUN(every_verb_has_a_page);
+    RUN(every_example_runs_from_an_empty_session);
+    RUN(the_overview_names_every_verb_that_is_there);
+    RUN(a_page_of_a_component_has_keys_units_and_members);
+    RUN(topics_are_pages_too);
+    RUN(an_unknown_word_has_no_page_but_a_suggestion);
+    RUN(apropos_finds_words_in_the_text);
+    RUN(the_reference_holds_every_verb);
+    RUN(completion_follows_the_grammar);
+    RUN(completion_says_where_the_word_starts);
+    RUN(completion_bears_any_line);
+    RUN(completion_offers_the_verbs_and_keys_of_every_example);
+    return test_end();
+}

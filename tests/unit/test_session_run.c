@@ -1,0 +1,449 @@
+/* test_session_run.c: runs, values, tables, expectations */
+#include "session_kit.h"
+
+static void a_run_keeps_energy_and_meets_the_start(void)
+{
+    Kit kit = kit_new();
+    double h, u;
+
+    EXPECT_DONE(&kit, PENDULUM "simulate 2 every=0.01 rtol=1e-10 atol=1e-10");
+    EXPECT_HOLDS(kit.text, "0 ... 2 s, 201 rows");
+    EXPECT(ct_run_count(kit.session) == 1);
+    EXPECT_NEAR(kit_value(&kit, "h at 0"), M_PI / 3, 1e-14);
+    EXPECT_NEAR(kit_value(&kit, "energy.total"), -9.81 / 2, 1e-8);
+    h = kit_value(&kit, "h at 1.7");
+    u = kit_value(&kit, "h' at 1.7");
+    EXPECT_NEAR(u * u / 2 - 9.81 * cos(h), -9.81 / 2, 1e-8);
+    EXPECT_NEAR(kit_value(&kit, "h'' at 1.7"), -9.81 * sin(h), 1e-9);
+    kit_free(&kit);
+}
+
+/* period of a pendulum by the arithmetic-geometric mean (Gauss) */
+static void the_period_is_that_of_the_closed_form(void)
+{
+    Kit kit = kit_new();
+    double a = 1, b = cos(M_PI / 6), period;
+    char line[120];
+
+    for (int i = 0; i < 6; i++) {
+        const double mean = (a + b) / 2;
+
+        b = sqrt(a * b);
+        a = mean;
+    }
+    period = 2 * M_PI / sqrt(9.81) / a;
+    (void)snprintf(line, sizeof line, "simulate %.17g rtol=1e-11 atol=1e-11", period);
+    EXPECT_DONE(&kit, PENDULUM);
+    EXPECT_DONE(&kit, line);
+    EXPECT_NEAR(kit_value(&kit, "h"), M_PI / 3, 1e-8);
+    kit_free(&kit);
+}
+
+static void a_value_is_of_the_end_of_the_run_until_something_changes(void)
+{
+    Kit kit = kit_new();
+    double end;
+
+    EXPECT_DONE(&kit, PENDULUM);
+    EXPECT_NEAR(kit_value(&kit, "h"), M_PI / 3, 1e-14);
+    EXPECT_DONE(&kit, "simulate 0.5 every=0.1");
+    end = kit_value(&kit, "h");
+    EXPECT_NEAR(end, kit_value(&kit, "h at 0.5"), 0);
+    EXPECT(fabs(end - M_PI / 3) > 0.1);
+    /* an output looks at the run, it changes nothing */
+    EXPECT_DONE(&kit, "output twice = 2*h");
+    EXPECT_NEAR(kit_value(&kit, "twice"), 2 * end, 1e-15);
+    EXPECT_DONE(&kit, "init h = 0.25");
+    EXPECT_NEAR(kit_value(&kit, "h"), 0.25, 1e-15);
+    EXPECT_NEAR(kit_value(&kit, "h at 0.5"), end, 0);
+    EXPECT_NEAR(kit_value(&kit, "run1.h"), end, 0);
+    EXPECT_DONE(&kit, "assemble");
+    EXPECT_HOLDS(kit.text, "h ");
+    EXPECT_HOLDS(kit.text, "0.25 rad");
+    kit_free(&kit);
+}
+
+static void an_instant_within_rounding_of_a_row_is_that_row(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, PENDULUM "simulate 1 every=0.1");
+    EXPECT(kit_value(&kit, "h at 0.3") == kit_value(&kit, "h at 0.1 + 0.2"));
+    EXPECT(kit_value(&kit, "h at 0.3") != kit_value(&kit, "h at 0.3001"));
+    EXPECT(isnan(kit_value(&kit, "h at 1.5")));
+    EXPECT_HOLDS(kit.error.message, "outside the run");
+    kit_free(&kit);
+}
+
+static void runs_keep_the_parameters_they_were_made_with(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, PENDULUM "simulate 0.5");
+    EXPECT_NEAR(kit_value(&kit, "sqrt(m.x^2 + m.y^2)"), 1, 1e-14);
+    EXPECT_DONE(&kit, "L = 2");
+    EXPECT_NEAR(kit_value(&kit, "sqrt(m.x^2 + m.y^2)"), 2, 1e-14);
+    EXPECT_NEAR(kit_value(&kit, "sqrt(m.x^2 + m.y^2) at 0.5"), 1, 1e-14);
+    EXPECT_NEAR(kit_value(&kit, "run1.m.x^2 + run1.m.y^2"), 1, 1e-14);
+    EXPECT_DONE(&kit, "simulate 0.5");
+    EXPECT_NEAR(kit_value(&kit, "run2.m.x^2 + run2.m.y^2"), 4, 1e-13);
+    EXPECT_NEAR(kit_value(&kit, "run1.m.x^2 + run1.m.y^2"), 1, 1e-14);
+    kit_free(&kit);
+}
+
+static void runs_survive_an_edit_of_the_model(void)
+{
+    Kit kit = kit_new();
+    double end;
+
+    EXPECT_DONE(&kit, PENDULUM "simulate 0.5");
+    end = kit_value(&kit, "h");
+    EXPECT_DONE(&kit, "tree m\nsimulate 0.5\nbody m2 mass=1\ntorque T m2 1\nundo\nundo");
+    EXPECT_NEAR(kit_value(&kit, "run1.h"), end, 0);
+    EXPECT_NEAR(kit_value(&kit, "run2.h"), end, 1e-7);
+    EXPECT_NEAR(kit_value(&kit, "run2.h - run1.h"), 0, 1e-7);
+    kit_free(&kit);
+}
+
+static void functions_of_runs_see_every_row(void)
+{
+    Kit kit = kit_new();
+
+    /* theta = 2 pi t over one turn: its sine has mean 0 and rms 1/sqrt(2) over even rows */
+    EXPECT_DONE(&kit, "scene planar\nbody m mass=1\narm p m [-1, 0]\nrevolute h ground p\n"
+                      "driver D h = 2*pi*t\nkinematics 1 every=0.001");
+    EXPECT_NEAR(kit_value(&kit, "max(h)"), 2 * M_PI, 1e-12);
+    EXPECT_NEAR(kit_value(&kit, "min(h)"), 0, 1e-12);
+    EXPECT_NEAR(kit_value(&kit, "mean(sin(h))"), 0, 1e-12);
+    EXPECT_NEAR(kit_value(&kit, "rms(sin(h))"), sqrt(0.5 * 1000.0 / 1001.0), 1e-9);
+    EXPECT_NEAR(kit_value(&kit, "max(m.x) - min(m.x)"), 2, 1e-12);
+    EXPECT_NEAR(kit_value(&kit, "max(2, mean(h)/pi)"), 2, 1e-12);
+    EXPECT_NEAR(kit_value(&kit, "if(max(h) > 6, 1, 0) + abs(-min(h))"), 1, 1e-12);
+    EXPECT_NEAR(kit_value(&kit, "h at max(h)/(4*pi)"), M_PI, 1e-9);
+    EXPECT_DONE(&kit, "kinematics 0.5 every=0.001");
+    EXPECT_NEAR(kit_value(&kit, "max(run1.h) - max(h)"), M_PI, 1e-12);
+    EXPECT_NEAR(kit_value(&kit, "max(run1.h - h)"), 0, 1e-12);
+    kit_free(&kit);
+}
+
+static void sizes_and_entries_are_values(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, SLIDER_CRANK TWO_TREES CRANK_START);
+    EXPECT_NEAR(kit_value(&kit, "model.n"), 2, 0);
+    EXPECT_NEAR(kit_value(&kit, "model.m"), 1, 0);
+    EXPECT_NEAR(kit_value(&kit, "model.dof"), 1, 0);
+    EXPECT_NEAR(kit_value(&kit, "model.n - model.m - model.dof"), 0, 0);
+    /* m1 L4^2 + I1 + (m2 + m3)(L4 + L5)^2, by hand */
+    EXPECT_NEAR(kit_value(&kit, "mass(1,1)"), 2 * 0.0064 + 0.01 + 4.2 * 0.04, 1e-14);
+    EXPECT_NEAR(kit_value(&kit, "mass(1,2) - mass(2,1)"), 0, 0);
+    EXPECT_NEAR(kit_value(&kit, "constraint.error"), 0, 1e-12);
+    EXPECT_NEAR(kit_value(&kit, "h8 [deg]"), 60, 1e-12);
+    EXPECT_NEAR(kit_value(&kit, "2 mm"), 0.002, 1e-18);
+    EXPECT_NEAR(kit_value(&kit, "energy.kinetic + energy.potential - energy.total"), 0, 1e-12);
+    /* the multiplier is the guide's force with reversed sign (seed case 1) */
+    EXPECT_NEAR(kit_value(&kit, "lambda(1) + s11.fy"), 0, 1e-12);
+    EXPECT_NEAR(kit_value(&kit, "forces(1)*0 + 3"), 3, 1e-12);
+    kit_free(&kit);
+}
+
+static void a_value_that_is_none_is_refused(void)
+{
+    /* clang-format off */
+    static const struct { const char *expression, *message; } wrong[] = {
+        {"h9",             "h9"},
+        {"run1.h",         "there is no run1"},
+        {"max(h)",         "there is none yet"},
+        {"model.size",     "there is no 'model.size'"},
+        {"count.mass",     "needs .add, .mul or .fun"},
+        {"count.mas.add",  "no block of equations"},
+        {"lambda(1)",      "lambda(1)"},
+        {"h at h",         "an instant is a number"},
+        {"pulse(model.n, 0, 1, 0, 0, 0, 1, 2)", "can't be taken of values of several runs"},
+        {"(model.n)'",     "can't be made of values"},
+    };
+    /* clang-format on */
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, PENDULUM);
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
+        EXPECT(isnan(kit_value(&kit, wrong[i].expression)));
+        EXPECT_HOLDS(kit.error.message, wrong[i].message);
+        EXPECT(kit.error.column > 0);
+    }
+    EXPECT_DONE(&kit, "simulate 0.1");
+    EXPECT(isnan(kit_value(&kit, "run7.h")));
+    EXPECT_HOLDS(kit.error.hint, "run1");
+    EXPECT_NEAR(kit_value(&kit, "h at 0"), M_PI / 3, 1e-14);
+    kit_free(&kit);
+}
+
+static void options_that_make_no_sense_are_refused(void)
+{
+    /* clang-format off */
+    static const struct { const char *line; int column; const char *message; } wrong[] = {
+        {"simulate 0",              10, "must be positive"},
+        {"simulate -2",             10, "must be positive"},
+        {"simulate 1 every=0",      18, "every must be positive"},
+        {"simulate 1 rtol=-1e-6",   17, "rtol must be positive"},
+        {"simulate 1 every=h",      18, "made of parameters"},
+        {"simulate 1 method=rk45",  19, "no method is called 'rk45'"},
+        {"simulate 1 check=perhaps", 18, "on or off"},
+        {"resume 1",                 1, "no run to go on with"},
+        {"kinematics 1",             1, ""},
+    };
+    /* clang-format on */
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, PENDULUM);
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
+        const ct_status status = kit_do(&kit, wrong[i].line);
+
+        if (status != CT_FAILED || kit.error.column != wrong[i].column ||
+            strstr(kit.error.message, wrong[i].message) == NULL) {
+            test_faults++;
+            printf("'%s': status %d, column %d: %s\n", wrong[i].line, status, kit.error.column,
+                   kit.error.message);
+        }
+        EXPECT(ct_run_count(kit.session) == 0);
+    }
+    EXPECT(kit_do(&kit, "simulate 1 method=rk45") == CT_FAILED);
+    EXPECT_HOLDS(kit.error.hint, "rk4");
+    EXPECT_DONE(&kit, "simulate 0.1");
+    kit_free(&kit);
+}
+
+static void resume_goes_on_with_what_was_said_before(void)
+{
+    Kit kit = kit_new();
+    double whole;
+
+    EXPECT_DONE(&kit, PENDULUM "simulate 1 every=0.01 rtol=1e-10 atol=1e-10");
+    whole = kit_value(&kit, "h");
+    EXPECT_DONE(&kit, "simulate 0.4 every=0.01 rtol=1e-10 atol=1e-10\nresume 0.6");
+    EXPECT_HOLDS(kit.text, "0 ... 1 s, 101 rows");
+    EXPECT_HOLDS(kit.text, "rtol 1e-10");
+    EXPECT_NEAR(kit_value(&kit, "h"), whole, 1e-8);
+    EXPECT(ct_run_count(kit.session) == 3);
+    kit_free(&kit);
+}
+
+/* --- tables --- */
+
+static void a_table_has_a_row_an_instant_and_names_as_written(void)
+{
+    Kit kit = kit_new();
+    ct_statement *statement = NULL;
+    const ct_expression *items[4];
+    const char *line = "table h [deg] (h' + 1) mass(1,1) run1.h";
+    double *values = NULL;
+    char **names = NULL;
+    int rows, columns;
+    size_t next = 0;
+
+    EXPECT_DONE(&kit, PENDULUM "simulate 1 every=0.1");
+    EXPECT(ct_parse(line, 1, false, &next, &statement, &kit.error) == CT_OK);
+    for (int i = 0; i < 4; i++)
+        items[i] = ct_operand(statement, i);
+    EXPECT(ct_table(kit.session, items, 4, 0, &values, &rows, &columns, &names, &kit.error) ==
+           CT_OK);
+    EXPECT(rows == 11 && columns == 5);
+    EXPECT_TEXT(names[0], "t");
+    EXPECT_TEXT(names[1], "h [deg]");
+    EXPECT_TEXT(names[2], "(h' + 1)");
+    EXPECT_TEXT(names[3], "mass(1,1)");
+    EXPECT(names[5] == NULL);
+    EXPECT_NEAR(values[1], 60, 1e-12);
+    EXPECT_NEAR(values[2], 1, 1e-12);
+    EXPECT_NEAR(values[3], 1, 1e-14);
+    EXPECT_NEAR(values[50], 1, 1e-15);
+    EXPECT_NEAR(values[51], kit_value(&kit, "h [deg] at 1"), 1e-12);
+    EXPECT_NEAR(values[54], kit_value(&kit, "h"), 0);
+    ct_free(values);
+    ct_words_free(names);
+
+    EXPECT(ct_table(kit.session, items, 1, 0.25, &values, &rows, &columns, &names, &kit.error) ==
+           CT_OK);
+    EXPECT(rows == 5 && columns == 2);
+    EXPECT_NEAR(values[2], 0.25, 1e-15);
+    EXPECT_NEAR(values[3], kit_value(&kit, "h [deg] at 0.25"), 1e-9);
+    ct_free(values);
+    ct_words_free(names);
+    ct_statement_free(statement);
+    kit_free(&kit);
+}
+
+static void a_table_without_items_holds_all_coordinates_and_speeds(void)
+{
+    Kit kit = kit_new();
+    double *values = NULL;
+    char **names = NULL;
+    int rows, columns;
+
+    EXPECT_DONE(&kit, SLIDER_CRANK TWO_TREES CRANK_START);
+    EXPECT(ct_table(kit.session, NULL, 0, 0, &values, &rows, &columns, &names, &kit.error) ==
+           CT_OK);
+    EXPECT(rows == 1 && columns == 5);
+    EXPECT_TEXT(names[2], "h10");
+    EXPECT_TEXT(names[3], "h8'");
+    EXPECT_NEAR(values[3], 12, 1e-12);
+    ct_free(values);
+    ct_words_free(names);
+    kit_free(&kit);
+}
+
+static void csv_has_a_header_and_reads_back_to_the_last_bit(void)
+{
+    Kit kit = kit_new();
+    ct_statement *statement = NULL;
+    char *text = NULL;
+    size_t next = 0;
+    const char *line;
+    double t, h;
+
+    EXPECT_DONE(&kit, PENDULUM "simulate 1 every=0.1\nexport csv h h' mass(1,1)");
+    EXPECT(kit.text != NULL && strncmp(kit.text, "t,h,h',\"mass(1,1)\"\n", 19) == 0);
+    line = kit.text;
+    for (int i = 0; i < 4 && line != NULL; i++)
+        line = strchr(line, '\n') + 1;
+    EXPECT(sscanf(line, "%lf,%lf", &t, &h) == 2);
+    EXPECT(t == kit_value(&kit, "t at 0.3") && h == kit_value(&kit, "h at 0.3"));
+
+    EXPECT(ct_parse("export csv h", 1, false, &next, &statement, &kit.error) == CT_OK);
+    EXPECT(ct_export(kit.session, statement, false, &text, &kit.error) == CT_OK);
+    EXPECT(text != NULL && strncmp(text, "0,1.047", 7) == 0);
+    ct_free(text);
+    ct_statement_free(statement);
+    /* from the assembled start one row */
+    EXPECT_DONE(&kit, "init h = 0.5\nexport csv");
+    EXPECT_TEXT(kit.text, "t,h,h'\n0,0.5,0\n");
+    kit_free(&kit);
+}
+
+static void items_of_several_runs_stand_on_one_grid(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, PENDULUM "simulate 1 every=0.1\nsimulate 0.5 every=0.05\n"
+                               "export csv run1.h run1.h'");
+    EXPECT_HOLDS(kit.text, "\n1,");
+    EXPECT_DONE(&kit, "export csv h run1.h");
+    EXPECT(kit.text != NULL && strstr(kit.text, "\n1,") == NULL);
+    EXPECT(kit_do(&kit, "simulate 2\nexport csv h run1.h") == CT_FAILED);
+    EXPECT_HOLDS(kit.error.message, "outside the run");
+    kit_free(&kit);
+}
+
+/* --- expectations --- */
+
+static void an_expectation_holds_or_says_by_how_much_not(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, PENDULUM "simulate 1 every=0.1");
+    EXPECT_DONE(&kit, "expect h ~ 60*pi/180 within 1e-12 at 0\nexpect max(h) < 1.1\n"
+                      "expect model.n == 1 && model.m == 0");
+    EXPECT(kit_do(&kit, "expect h ~ 1 within 1e-3 at 0") == CT_UNMET);
+    EXPECT(kit.error.status == CT_UNMET && kit.error.column == 8);
+    EXPECT_HOLDS(kit.error.message, "h is 1.047197551196");
+    EXPECT_HOLDS(kit.error.message, "at t = 0");
+    EXPECT_HOLDS(kit.error.message, "expected 1 within 0.001");
+    EXPECT_HOLDS(kit.error.message, "off by 0.0472");
+    EXPECT(kit_do(&kit, "expect model.n == 2") == CT_UNMET);
+    EXPECT_HOLDS(kit.error.message, "left is 1, right is 2");
+    EXPECT(kit_do(&kit, "expect 0*h") == CT_UNMET);
+    EXPECT_HOLDS(kit.error.message, "does not hold");
+    EXPECT(kit_do(&kit, "expect nobody > 2") == CT_FAILED);
+    /* what is no number is near nothing */
+    EXPECT(kit_do(&kit, "expect sqrt(h - 100) ~ 0 within 1e9") != CT_OK);
+    kit_free(&kit);
+}
+
+/* --- exports --- */
+
+static void formats_of_later_versions_say_so(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, PENDULUM);
+    EXPECT(kit_do(&kit, "export fmu") == CT_FAILED);
+    EXPECT_HOLDS(kit.error.message, "later version");
+    EXPECT_DONE(&kit, "export dot");
+    EXPECT_HOLDS(kit.text, "digraph");
+    EXPECT_DONE(&kit, "export latex");
+    EXPECT_HOLDS(kit.text, "\\begin{document}");
+    EXPECT_HOLDS(kit.text, "\\end{document}");
+    kit_free(&kit);
+}
+
+/* --- stopping --- */
+
+typedef struct Patience {
+    int left;
+} Patience;
+
+static bool lose_patience(void *context)
+{
+    Patience *patience = context;
+
+    return patience->left-- <= 0;
+}
+
+static void a_stopped_run_keeps_what_it_has(void)
+{
+    Patience patience = {20};
+    const ct_hooks hooks = {.context = &patience, .stop = lose_patience, .columns = 80};
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, PENDULUM "assemble");
+    ct_session_hooks(kit.session, &hooks);
+    EXPECT(kit_do(&kit, "simulate 1e5 every=1") == CT_STOPPED);
+    ct_session_hooks(kit.session, NULL);
+    if (ct_run_count(kit.session) == 1)
+        EXPECT(!isnan(kit_value(&kit, "h")));
+    EXPECT_DONE(&kit, "simulate 0.1\nresume 0.1\nshow constraints");
+    kit_free(&kit);
+}
+
+static void a_stopped_derivation_leaves_the_session_whole(void)
+{
+    Kit kit = kit_new();
+
+    for (int calls = 0; calls < 30; calls++) {
+        Patience patience = {calls};
+        const ct_hooks hooks = {.context = &patience, .stop = lose_patience, .columns = 80};
+
+        EXPECT_DONE(&kit, "clear\n" SLIDER_CRANK ONE_TREE);
+        EXPECT_DONE(&kit, "mass = 1");
+        ct_session_hooks(kit.session, &hooks);
+        (void)kit_do(&kit, "tree h8 h9 h10\nshow equations\ncount\ncheck\nshow mass");
+        ct_session_hooks(kit.session, NULL);
+        EXPECT_DONE(&kit, "tree h8 h10 s11\nshow equations");
+    }
+    kit_free(&kit);
+}
+
+int main(void)
+{
+    RUN(a_run_keeps_energy_and_meets_the_start);
+    RUN(the_period_is_that_of_the_closed_form);
+    RUN(a_value_is_of_the_end_of_the_run_until_something_changes);
+    RUN(an_instant_within_rounding_of_a_row_is_that_row);
+    RUN(runs_keep_the_parameters_they_were_made_with);
+    RUN(runs_survive_an_edit_of_the_model);
+    RUN(functions_of_runs_see_every_row);
+    RUN(sizes_and_entries_are_values);
+    RUN(a_value_that_is_none_is_refused);
+    RUN(options_that_make_no_sense_are_refused);
+    RUN(resume_goes_on_with_what_was_said_before);
+    RUN(a_table_has_a_row_an_instant_and_names_as_written);
+    RUN(a_table_without_items_holds_all_coordinates_and_speeds);
+    RUN(csv_has_a_header_and_reads_back_to_the_last_bit);
+    RUN(items_of_several_runs_stand_on_one_grid);
+    RUN(an_expectation_holds_or_says_by_how_much_not);
+    RUN(formats_of_later_versions_say_so);
+    RUN(a_stopped_run_keeps_what_it_has);
+    RUN(a_stopped_derivation_leaves_the_session_whole);
+    return test_end();
+}
