@@ -226,6 +226,22 @@ done:
 typedef Status RunFunction(System *system, const Setting *setting, const RunOptions *options,
                            Result **out, Diag *diag);
 
+/* The run is the last one now, and what it was like is said. */
+static void keep_run(ct_session *session, Order *order, Result *result)
+{
+    Text line = {0};
+    char name[32];
+
+    LIST_PUSH(session->runs, order_done(order, result));
+    session->start_is_later = false;
+    session->changed = false;
+    session_remark(session, result_remarks(result));
+    (void)snprintf(name, sizeof name, "run%d", session->runs.count);
+    report_line(&line, result, name);
+    session_remark(session, line.at);
+    text_free(&line);
+}
+
 static Status run_new(ct_session *session, RunFunction *function, const RunOptions *options,
                       Diag *diag)
 {
@@ -240,10 +256,7 @@ static Status run_new(ct_session *session, RunFunction *function, const RunOptio
     if (result == NULL)
         goto done;
     /* also what was computed before a stop or a failure */
-    LIST_PUSH(session->runs, order_done(&order, result));
-    session->start_is_later = false;
-    session->changed = false;
-    session_remark(session, result_remarks(result));
+    keep_run(session, &order, result);
 done:
     order_free(&order);
     return status;
@@ -284,12 +297,8 @@ static Status run_on(ct_session *session, const Statement *s, const RunOptions *
     options = options_from(old, said);
     order_make(session, &order);
     status = run_resume(old, &order.setting, &options, &result, diag);
-    if (result != NULL) {
-        LIST_PUSH(session->runs, order_done(&order, result));
-        session->start_is_later = false;
-        session->changed = false;
-        session_remark(session, result_remarks(result));
-    }
+    if (result != NULL)
+        keep_run(session, &order, result);
     order_free(&order);
     return status;
 }

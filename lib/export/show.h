@@ -63,5 +63,7 @@ MUST_USE Status show_expression(const View *view, const Syntax *syntax, Text *ou
 
 /* a run's report: what ran, its work, residuals and energy; without its remarks */
 void report_print(Text *out, const Result *result, const char *name);
+/* the same in a line: how far it came, its work, its drift */
+void report_line(Text *out, const Result *result, const char *name);
 
 #endif

@@ -168,6 +168,26 @@ void report_print(Text *out, const Result *result, const char *name)
     table_free(&table);
 }
 
+void report_line(Text *out, const Result *result, const char *name)
+{
+    const RunReport *report = result_report(result);
+    const double *times = result_times(result);
+    const int rows = result_rows(result);
+
+    text_addf(out, "%s: ", name);
+    if (rows > 1)
+        text_addf(out, "%.6g ... %.6g s, %d rows", times[0], times[rows - 1], rows);
+    else
+        text_add(out, "its start only");
+    if (result_kind(result) == RUN_SIMULATE)
+        text_addf(out, "; %lld steps, %lld evaluations", (long long)report->steps,
+                  (long long)report->evaluations);
+    if (report->energy_swing > 0)
+        text_addf(out, "; energy drift %.2g J of %.3g J", report->energy_drift,
+                  report->energy_swing);
+    text_char(out, '\n');
+}
+
 Status show_run(const View *view, const Selection *selection, Text *out, Diag *diag)
 {
     const char *remarks;
