@@ -53,6 +53,7 @@ typedef struct Line {
 typedef struct StartEntry {
     Start start;
     const char *text; /* "h8' = 12" */
+    int name;         /* in State.start_names */
     int group;        /* the statement that gave it: those of one are saved on one line */
 } StartEntry;
 
@@ -82,6 +83,8 @@ typedef struct State {
     LIST(Line) lines;
     Choice choices[TREE_KINDS];
     LIST(StartEntry) starts;
+    Names *start_names;  /* "h8'", with primes */
+    NumberList start_of; /* by number in start_names: its place in `starts`, or -1 */
     int group_count;
     Form form;
     NameList independent;

@@ -62,6 +62,7 @@ static Status read_start(State *state, const Pair *pair, bool is_guess, StartEnt
     Text unit = {0};
     Text text = {0};
     Expr value = NULL;
+    int entry_name = 0;
     Status status = OK;
 
     CHECK(check_startable(state, pair, &name, diag));
@@ -71,11 +72,13 @@ static Status read_start(State *state, const Pair *pair, bool is_guess, StartEnt
     CHECK(scope_expression(&scope, pair->value, &value, diag));
     text_add(&text, name.at);
     text_fill(&text, '\'', pair->primes);
+    entry_name = names_add(state->start_names, text.at);
     text_add(&text, " = ");
     syntax_print(&text, pair->value);
     *out = (StartEntry){
         .start = {state_text(state, name.at), pair->primes, value, is_guess, pair->name_place},
         .text = state_text(state, text.at),
+        .name = entry_name,
         .group = state->group_count,
     };
 done:
@@ -86,20 +89,32 @@ done:
     return status;
 }
 
+/* where the starts stand, from the one at `first` on */
+static void index_starts(State *state, int first)
+{
+    while (state->start_of.count < names_count(state->start_names))
+        LIST_PUSH(state->start_of, -1);
+    for (int i = first; i < state->starts.count; i++)
+        state->start_of.at[state->starts.at[i].name] = i;
+}
+
+static void remove_start(State *state, int at)
+{
+    state->start_of.at[state->starts.at[at].name] = -1;
+    state->starts.count--;
+    memmove(&state->starts.at[at], &state->starts.at[at + 1],
+            sizeof *state->starts.at * (size_t)(state->starts.count - at));
+    index_starts(state, at);
+}
+
 /* a later value replaces an earlier one of the same variable */
 static void put_start(State *state, const StartEntry *entry)
 {
-    for (int i = 0; i < state->starts.count; i++) {
-        Start *start = &state->starts.at[i].start;
-
-        if (start->primes != entry->start.primes || strcmp(start->name, entry->start.name) != 0)
-            continue;
-        memmove(&state->starts.at[i], &state->starts.at[i + 1],
-                sizeof *state->starts.at * (size_t)(state->starts.count - i - 1));
-        state->starts.count--;
-        break;
-    }
+    index_starts(state, state->starts.count);
+    if (state->start_of.at[entry->name] >= 0)
+        remove_start(state, state->start_of.at[entry->name]);
     LIST_PUSH(state->starts, *entry);
+    index_starts(state, state->starts.count - 1);
 }
 
 static void forget_starts(State *state, bool guesses)
@@ -110,6 +125,8 @@ static void forget_starts(State *state, bool guesses)
         if (state->starts.at[i].start.is_guess != guesses)
             state->starts.at[kept++] = state->starts.at[i];
     state->starts.count = kept;
+    state->start_of.count = 0;
+    index_starts(state, 0);
 }
 
 static Status apply_starts(State *state, const Statement *statement, bool is_guess,

@@ -15,6 +15,7 @@ State *state_new(Arena *arena)
     state->graph = graph_new();
     state->names = names_new();
     state->terminals = names_new();
+    state->start_names = names_new();
     for (int i = 0; i < DOMAIN_COUNT; i++)
         state->datum[i] = -1;
     state->datum[DOMAIN_MECHANICAL] =
@@ -39,6 +40,7 @@ void state_free(State *state)
     graph_free(state->graph);
     names_free(state->names);
     names_free(state->terminals);
+    names_free(state->start_names);
     LIST_FREE(state->things);
     LIST_FREE(state->terminal_nodes);
     LIST_FREE(state->parts);
@@ -48,6 +50,7 @@ void state_free(State *state)
     LIST_FREE(state->outputs);
     LIST_FREE(state->lines);
     LIST_FREE(state->starts);
+    LIST_FREE(state->start_of);
     LIST_FREE(state->independent);
     for (int kind = 0; kind < TREE_KINDS; kind++) {
         LIST_FREE(state->choices[kind].chosen);

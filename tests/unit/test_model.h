@@ -7,19 +7,24 @@
 #include "test.h"
 
 /* Apply every statement that builds, in order; others (show, simulate) are passed over. Stops at
- * the first failure. */
+ * the first failure. Each statement is read from its own start, or reading would count the lines
+ * before it again and again. */
 __attribute__((unused)) static Status apply_text(Model *model, const char *text, Diag *diag)
 {
-    size_t next = 0;
+    int line = 1;
     Status status = OK;
 
-    while (status == OK && next < strlen(text)) {
+    while (status == OK && text[0] != '\0') {
         Statement *statement = NULL;
+        size_t next = 0;
 
-        status = statement_parse(text, 1, (SyntaxOptions){false}, &next, &statement, diag);
-        if (status == OK && (statement->kind != STATEMENT_VERB || model_applies(statement->verb)))
+        status = statement_parse(text, line, (SyntaxOptions){false}, &next, &statement, diag);
+        if (status == OK && statement->kind != STATEMENT_EMPTY &&
+            (statement->kind != STATEMENT_VERB || model_applies(statement->verb)))
             status = model_apply(model, statement, diag);
         statement_free(statement);
+        for (; next > 0; next--)
+            line += *text++ == '\n';
     }
     return status;
 }
