@@ -1,12 +1,21 @@
 /* embedded.c: G^T M and G^T F in symbols, for up to three constraints
  *
  * G = [J; 1] with J = -Phi_d^-1 Phi_i by minors (Cramer), so that every column of G has the
- * determinant of Phi_d below it once. Beyond three rows a run solves with Phi_d in numbers. */
+ * determinant of Phi_d below it once. Drivers are left out of Phi, and what they drive is
+ * independent: their efforts stand in the equations instead (theory 6). Beyond three rows
+ * a run solves with Phi_d in numbers. */
 #include "formulate/system_impl.h"
 
 #include <string.h>
 
 enum { MOST_ROWS = 3 };
+
+typedef struct Partition {
+    int m;
+    int row[MOST_ROWS];       /* of Phi */
+    int dependent[MOST_ROWS]; /* speeds */
+    Expr determinant;         /* of Phi_d */
+} Partition;
 
 static Expr phi_entry(System *system, int k, int j, Diag *diag, Status *status)
 {
@@ -17,21 +26,23 @@ static Expr phi_entry(System *system, int k, int j, Diag *diag, Status *status)
     return entry;
 }
 
-/* determinant of the m x m matrix whose columns are Phi's columns[] */
-static Expr determinant(System *system, const int *columns, Diag *diag, Status *status)
+/* determinant of the m x m matrix of the partition's rows and the speeds columns[] */
+static Expr determinant(System *system, const Partition *part, const int *columns, Diag *diag,
+                        Status *status)
 {
     Arena *arena = system->arena;
-    int m = system->rows.count;
     Expr a[MOST_ROWS][MOST_ROWS];
     Expr terms[6];
     int count = 0;
 
-    for (int i = 0; i < m; i++)
-        for (int j = 0; j < m; j++)
-            a[i][j] = phi_entry(system, i, columns[j], diag, status);
-    if (m == 1)
+    for (int i = 0; i < part->m; i++)
+        for (int j = 0; j < part->m; j++)
+            a[i][j] = phi_entry(system, part->row[i], columns[j], diag, status);
+    if (part->m == 0)
+        return expr_int(arena, 1);
+    if (part->m == 1)
         return a[0][0];
-    if (m == 2)
+    if (part->m == 2)
         return expr_sub(arena, expr_mul(arena, a[0][0], a[1][1]),
                         expr_mul(arena, a[0][1], a[1][0]));
     for (int j = 0; j < 3; j++) {
@@ -45,101 +56,147 @@ static Expr determinant(System *system, const int *columns, Diag *diag, Status *
     return expr_sum(arena, terms, count);
 }
 
-static bool is_named(const System *system, int j)
+/* the user's independent coordinates, or the driven ones */
+static bool is_independent(const System *system, int j)
 {
     for (int i = 0; i < system->independent_count; i++)
-        if (strcmp(system->independent[i], system->q.at[j].name) == 0)
+        if (strcmp(system->independent[i], system->u.at[j].name) == 0 ||
+            (strncmp(system->independent[i], system->u.at[j].name,
+                     strlen(system->independent[i])) == 0 &&
+             strcmp(system->u.at[j].name + strlen(system->independent[i]), "'") == 0))
             return true;
+    for (int k = 0; k < system->rows.count && system->independent_count == 0; k++) {
+        const Row *row = &system->rows.at[k];
+
+        if (row->kind == ROW_DRIVER && system->speed[row->owner][row->coordinate] == j)
+            return true;
+    }
     return false;
 }
 
-/* which speeds are dependent: the user's others, else the last ones with a determinant that isn't
- * zero */
-static Status choose(System *system, int *dependent, Expr *det, Diag *diag)
+/* the next choice of m among `count` places: fall like an odometer; false after the last */
+static bool next_choice(int *place, int m)
 {
-    int n = system->u.count;
-    int m = system->rows.count;
-    Status status = OK;
+    int i = 0;
 
-    if (system->independent_count > 0) {
-        int count = 0;
-
-        for (int j = 0; j < n; j++)
-            if (!is_named(system, j) && count++ < m)
-                dependent[count - 1] = j;
-        if (count != m)
-            return diag_set(diag, E_MODEL,
-                            "%d independent coordinates are named, but %d are needed",
-                            system->independent_count, n - m);
-        *det = expr_fold(system->arena, determinant(system, dependent, diag, &status));
-        if (status == OK && expr_is_zero(*det))
-            return diag_set(diag, E_SINGULAR,
-                            "the others don't follow from the independent coordinates named");
-        return status;
-    }
-    for (int i = 0; i < m; i++)
-        dependent[i] = n - m + i;
-    for (;;) {
-        int i = 0;
-
-        *det = expr_fold(system->arena, determinant(system, dependent, diag, &status));
-        if (status != OK || !expr_is_zero(*det))
-            return status;
-        /* the next choice: count down like an odometer of falling places */
-        while (i < m && dependent[i] == i)
-            i++;
-        if (i == m)
-            return diag_set(diag, E_SINGULAR, "the constraints aren't independent of one another");
-        dependent[i]--;
-        for (int k = i - 1; k >= 0; k--)
-            dependent[k] = dependent[k + 1] - 1;
-    }
+    while (i < m && place[i] == i)
+        i++;
+    if (i == m)
+        return false;
+    place[i]--;
+    for (int k = i - 1; k >= 0; k--)
+        place[k] = place[k + 1] - 1;
+    return true;
 }
 
-/* row `row` of G^T times a vector or column */
-static Status project(System *system, int row, Block block, int column, Expr *out, Diag *diag)
+/* dependent speeds: the last ones that may be, with a determinant that isn't zero */
+static Status choose(System *system, Partition *part, Diag *diag)
+{
+    LIST(int) free = {0};
+    int place[MOST_ROWS];
+    Status status = OK;
+
+    for (int j = 0; j < system->u.count; j++)
+        if (!is_independent(system, j))
+            LIST_PUSH(free, j);
+    if (free.count < part->m || (system->independent_count > 0 && free.count > part->m)) {
+        status = diag_set(diag, E_MODEL, "%d independent coordinates are named, but %d are needed",
+                          system->u.count - free.count, system->u.count - part->m);
+        goto done;
+    }
+    for (int i = 0; i < part->m; i++)
+        place[i] = free.count - part->m + i;
+    do {
+        for (int i = 0; i < part->m; i++)
+            part->dependent[i] = free.at[place[i]];
+        part->determinant =
+            expr_fold(system->arena, determinant(system, part, part->dependent, diag, &status));
+    } while (status == OK && expr_is_zero(part->determinant) && next_choice(place, part->m));
+    if (status == OK && expr_is_zero(part->determinant)) {
+        status = diag_set(diag, E_SINGULAR, "no coordinates follow from the others here");
+        diag_hint(diag, "form embedded independent=[...] names others, `check` tells more");
+    }
+done:
+    LIST_FREE(free);
+    return status;
+}
+
+static Status partition(System *system, Partition *part, Diag *diag)
+{
+    *part = (Partition){0};
+    for (int k = 0; k < system->rows.count; k++) {
+        if (system->rows.at[k].kind == ROW_DRIVER)
+            continue;
+        if (part->m == MOST_ROWS) {
+            (void)diag_set(diag, E_MISSING,
+                           "the embedded form is written out for up to %d constraints; here are %d",
+                           MOST_ROWS, system->rows.count);
+            diag_hint(diag, "runs use it at any size; `show mass` and `show jacobian` in the "
+                            "augmented form");
+            return E_MISSING;
+        }
+        part->row[part->m++] = k;
+    }
+    return choose(system, part, diag);
+}
+
+int embedded_rows(const System *system)
+{
+    int rows = system->u.count;
+
+    for (int k = 0; k < system->rows.count; k++)
+        rows -= system->rows.at[k].kind != ROW_DRIVER;
+    return rows > 0 ? rows : 0;
+}
+
+/* the speed that a row of the embedded equations belongs to */
+static int independent_speed(const System *system, const Partition *part, int row)
+{
+    for (int j = 0; j < system->u.count; j++) {
+        bool follows = false;
+
+        for (int i = 0; i < part->m; i++)
+            follows = follows || part->dependent[i] == j;
+        if (!follows && row-- == 0)
+            return j;
+    }
+    return -1;
+}
+
+/* J of a dependent speed: minus the minor with the independent column in its place, over the
+ * determinant */
+static Expr follow(System *system, const Partition *part, int which, int independent, Diag *diag,
+                   Status *status)
 {
     Arena *arena = system->arena;
-    int m = system->rows.count;
-    int dependent[MOST_ROWS];
-    int independent = -1;
-    Expr det = NULL;
-    Expr own;
+    int swapped[MOST_ROWS];
+    Expr minor;
+
+    memcpy(swapped, part->dependent, sizeof swapped);
+    swapped[which] = independent;
+    minor = determinant(system, part, swapped, diag, status);
+    minor = expr_collect(arena, expr_fold(arena, minor));
+    return expr_neg(arena, expr_div(arena, minor, part->determinant));
+}
+
+/* row `row` of G^T times a column of a block */
+static Status project(System *system, int row, Block block, int column, Expr *out, Diag *diag)
+{
+    Partition part;
+    int independent;
     Expr sum;
     Status status = OK;
 
-    if (m > MOST_ROWS) {
-        (void)diag_set(diag, E_MISSING,
-                       "the embedded form is written out for up to %d constraints; here are %d",
-                       MOST_ROWS, m);
-        diag_hint(diag,
-                  "runs use it at any size; `show mass` and `show jacobian` in the augmented form");
-        return E_MISSING;
-    }
-    if (m > 0)
-        CHECK(choose(system, dependent, &det, diag));
-    for (int j = 0, seen = -1; j < system->u.count && seen < row; j++) {
-        bool follows = false;
-
-        for (int i = 0; i < m; i++)
-            follows = follows || dependent[i] == j;
-        if (!follows && ++seen == row)
-            independent = j;
-    }
-    CHECK(system_show(system, block, independent, column, &own, diag));
-    sum = own;
-    for (int i = 0; i < m; i++) {
-        int swapped[MOST_ROWS];
-        Expr minor;
+    CHECK(partition(system, &part, diag));
+    independent = independent_speed(system, &part, row);
+    CHECK(system_show(system, block, independent, column, &sum, diag));
+    for (int i = 0; i < part.m; i++) {
+        Expr ratio = follow(system, &part, i, independent, diag, &status);
         Expr entry;
 
-        memcpy(swapped, dependent, sizeof swapped);
-        swapped[i] = independent;
-        minor = expr_collect(arena, expr_fold(arena, determinant(system, swapped, diag, &status)));
         CHECK(status);
-        CHECK(system_show(system, block, dependent[i], column, &entry, diag));
-        sum = expr_sub(arena, sum,
-                       expr_product(arena, (Expr[]){expr_div(arena, minor, det), entry}, 2));
+        CHECK(system_show(system, block, part.dependent[i], column, &entry, diag));
+        sum = expr_add(system->arena, sum, expr_mul(system->arena, ratio, entry));
     }
     *out = sum;
 done:
@@ -155,4 +212,40 @@ Status embedded_force(System *system, int row, int column, Expr *out, Diag *diag
 {
     (void)column;
     return project(system, row, BLOCK_FORCES, 0, out, diag);
+}
+
+/* effort = (G^T (M u' - F)) / (G^T B), B the direction of the driven coordinate */
+Status embedded_effort(System *system, const Row *driver, Expr *out, Diag *diag)
+{
+    Arena *arena = system->arena;
+    const Instance *owner = &system->instances[driver->owner];
+    Partition part;
+    int independent;
+    Expr direction;
+    Expr sum;
+    Expr s;
+    Status status = OK;
+
+    CHECK(partition(system, &part, diag));
+    independent = independent_speed(system, &part, 0);
+    CHECK(coordinate_value(system, owner, driver->coordinate, 0, &s, diag));
+    direction = partial(system, s, independent);
+    for (int i = 0; i < part.m; i++) {
+        Expr ratio = follow(system, &part, i, independent, diag, &status);
+
+        CHECK(status);
+        direction = expr_add(arena, direction,
+                             expr_mul(arena, ratio, partial(system, s, part.dependent[i])));
+    }
+    CHECK(embedded_force(system, 0, 0, &sum, diag));
+    sum = expr_neg(arena, sum);
+    for (int k = 0; k < system->u.count; k++) {
+        Expr entry;
+
+        CHECK(embedded_mass(system, 0, k, &entry, diag));
+        sum = expr_add(arena, sum, expr_mul(arena, entry, system->accelerations[k]));
+    }
+    *out = expr_div(arena, sum, direction);
+done:
+    return status;
 }

@@ -390,7 +390,7 @@ void system_block_size(const System *system, Block block, int *rows, int *column
     int n = system->u.count;
     int m = system->rows.count;
     int w = system->x.count + system->z.count;
-    int f = n > m ? n - m : 0;
+    int f = embedded_rows(system);
     const int sizes[BLOCK_COUNT][2] = {
         [BLOCK_MASS] = {n, n},          [BLOCK_FORCES] = {n, 1},
         [BLOCK_CONSTRAINTS] = {m, 1},   [BLOCK_JACOBIAN] = {m, n},

@@ -260,12 +260,21 @@ done:
 static Status driver_variable(System *system, const Instance *driver, const char *member, Expr *out,
                               Diag *diag)
 {
+    const Drive *drive = NULL;
+
     for (int i = 0; i < system->drives.count; i++)
-        if (system->drives.at[i].instance == driver->number && strcmp(member, "effort") == 0) {
-            *out = driver->by >= 0 ? expr_int(system->arena, 0) : system->drives.at[i].effort;
-            return OK;
-        }
-    return diag_set(diag, E_MISSING, "%s.%s can't be told", driver->name, member);
+        if (system->drives.at[i].instance == driver->number)
+            drive = &system->drives.at[i];
+    if (drive == NULL || strcmp(member, "effort") != 0)
+        return diag_set(diag, E_MISSING, "%s.%s can't be told", driver->name, member);
+    /* in the embedded form one driver of one freedom has an explicit effort, where it can be
+     * written */
+    if (system->form == FORM_EMBEDDED && driver->by < 0 && system->drives.count == 1 &&
+        drive->constraint >= 0 && embedded_rows(system) == 1 &&
+        embedded_effort(system, &system->rows.at[drive->constraint], out, NULL) == OK)
+        return OK;
+    *out = driver->by >= 0 ? expr_int(system->arena, 0) : drive->effort;
+    return OK;
 }
 
 /* which of a scalar edge's variables a member means */

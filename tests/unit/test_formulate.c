@@ -345,6 +345,59 @@ static void independent_coordinates_can_be_named(void)
     model_free(model);
 }
 
+typedef struct Chosen { /* values of u', others as in a scene's state */
+    SceneState state;
+    const System *system;
+    double rate[2];
+} Chosen;
+
+static double chosen_value(void *context, Expr symbol)
+{
+    Chosen *chosen = context;
+
+    for (int j = 0; j < 2; j++)
+        if (symbol == system_acceleration(chosen->system, j))
+            return chosen->rate[j];
+    return scene_value(&chosen->state, symbol);
+}
+
+/* with any lambda, u' = M^-1 (F - Phi_u^T lambda): the explicit effort is minus the driver's lambda
+ */
+static void one_driver_has_an_explicit_effort(void)
+{
+    Model *model = scene_new(SLIDER_CRANK "tree translation h8 h9 h10\ntree rotation h8 h10 s11\n"
+                                          "driver D1 h8 = 3*t^2\nform embedded");
+    System *system = scene_system(model);
+    const Reading *run = system_run(system);
+    Chosen chosen = {{model, 12345}, system, {0.0, 0.0}};
+    double M[4];
+    double rest[2];
+    double det;
+    Expr effort;
+    int driver = -1;
+
+    for (int k = 0; k < 2; k++)
+        driver = system_constraint(system, k)->is_driver ? k : driver;
+    EXPECT(driver >= 0);
+    for (int j = 0; j < 2; j++) {
+        rest[j] = value_of(run->force[j], &chosen.state);
+        for (int k = 0; k < 2; k++) {
+            M[2 * j + k] = value_of(run->mass[2 * j + k], &chosen.state);
+            rest[j] -= value_of(run->phi_u[2 * k + j], &chosen.state) *
+                       value_of(system_multiplier(system, k), &chosen.state);
+        }
+    }
+    det = M[0] * M[3] - M[1] * M[2];
+    chosen.rate[0] = (M[3] * rest[0] - M[1] * rest[1]) / det;
+    chosen.rate[1] = (M[0] * rest[1] - M[2] * rest[0]) / det;
+    effort = scene_expression(model, system, "D1.effort");
+    EXPECT((expr_kinds(effort) & 1U << SYMBOL_MULTIPLIER) == 0);
+    EXPECT_NEAR(expr_evaluate(effort, chosen_value, &chosen),
+                -value_of(system_multiplier(system, driver), &chosen.state), 1e-9);
+    system_free(system);
+    model_free(model);
+}
+
 static void coordinates_of_chords_follow_from_their_circuits(void)
 {
     Model *model = scene_new(scenes[0]);
@@ -453,6 +506,7 @@ int main(void)
 {
     RUN(embedded_form_projects_the_augmented_one);
     RUN(independent_coordinates_can_be_named);
+    RUN(one_driver_has_an_explicit_effort);
     RUN(coordinates_of_chords_follow_from_their_circuits);
     RUN(switching_conditions_of_time_come_first);
     RUN(a_circuit_of_capacitors_has_one_state_less);
