@@ -173,6 +173,20 @@ static bool keeps_values(const Statement *statement)
     return false;
 }
 
+/* whether the statement of that text chose trees or the form, and so left the graph alone */
+static bool text_chooses(const char *text)
+{
+    static const char *const verbs[] = {"tree", "cotree", "form"};
+
+    for (int i = 0; text != NULL && i < COUNT(verbs); i++) {
+        const size_t length = strlen(verbs[i]);
+
+        if (strncmp(text, verbs[i], length) == 0 && (text[length] == ' ' || text[length] == '\0'))
+            return true;
+    }
+    return false;
+}
+
 static bool chooses_trees(const Statement *statement)
 {
     return statement->verb != NULL &&
@@ -270,7 +284,7 @@ ct_status ct_apply(ct_session *session, const ct_statement *statement, ct_error 
     CHECK(model_apply(session->model, s, &diag));
     session_remark(session, model_remarks(session->model));
     if (!keeps_values(s))
-        note_change(session, revision, chooses_trees(s) || (s->verb && !strcmp(s->verb, "form")));
+        note_change(session, revision, text_chooses(s->verb));
     if (chooses_trees(s))
         remark_trees(session);
 done:
@@ -289,7 +303,7 @@ static ct_status move_over(ct_session *session, Status (*move)(Model *, Diag *),
     session_begin(session);
     CHECK(move(session->model, &diag));
     text_addf(&session->remarks, "%s: %s\n", what, model_undone(session->model));
-    note_change(session, revision, false);
+    note_change(session, revision, text_chooses(model_undone(session->model)));
 done:
     return session_report(status, &diag, error);
 }

@@ -210,11 +210,14 @@ static void offer_axes(Line *line)
 static const struct {
     const char *verb;
     void (*offer)(Line *line);
+    bool alone; /* instead of the row's words, not besides them */
 } sources[] = {
-    {"show", offer_show},        {"help", offer_help_words},   {"apropos", offer_help_words},
-    {"count", offer_blocks},     {"tree", offer_edges},        {"cotree", offer_edges},
-    {"delete", offer_instances}, {"info", offer_names},        {"set", offer_instances},
-    {"init", offer_coordinates}, {"guess", offer_coordinates},
+    {"show", offer_show, true},          {"help", offer_help_words, true},
+    {"apropos", offer_help_words, true}, {"count", offer_blocks, true},
+    {"tree", offer_edges, false},        {"cotree", offer_edges, false},
+    {"delete", offer_instances, false},  {"info", offer_names, false},
+    {"set", offer_instances, false},     {"init", offer_coordinates, false},
+    {"guess", offer_coordinates, false},
 };
 
 /* the place-th place of a component */
@@ -251,11 +254,15 @@ static void offer_place(Line *line, const Component *row, int place)
 /* the row's words stand at its first operand only */
 static void offer_row_words(Line *line, const Verb *verb)
 {
-    for (int i = 0; line->before.count == 1 && verb->words != NULL && verb->words[i] != NULL; i++)
-        offer(line, verb->words[i]);
+    bool words = line->before.count == 1 && verb->words != NULL;
+
     for (int i = 0; i < COUNT(sources); i++)
-        if (strcmp(sources[i].verb, verb->name) == 0)
+        if (strcmp(sources[i].verb, verb->name) == 0) {
+            words = words && !sources[i].alone;
             sources[i].offer(line);
+        }
+    for (int i = 0; words && verb->words[i] != NULL; i++)
+        offer(line, verb->words[i]);
 }
 
 /* a component has values behind its places only where a param may stand there */

@@ -40,15 +40,30 @@ static Form form_of(const View *view)
     return model_form(view->model, &independent, &count);
 }
 
+/* the form that can be written out: the embedded one has a bound on constraints */
+static Form written_form(System *system, Form form)
+{
+    int rows, columns;
+    Diag ignored;
+    Expr e;
+
+    system_block_size(system, BLOCK_EMBEDDED_FORCES, &rows, &columns);
+    return form == FORM_EMBEDDED && rows > 0 &&
+                   system_show(system, BLOCK_EMBEDDED_FORCES, 0, 0, &e, &ignored) == OK
+               ? FORM_EMBEDDED
+               : FORM_AUGMENTED;
+}
+
 Status count_total(System *system, Form form, bool shared, OpCount *out, Diag *diag)
 {
+    const Form written = written_form(system, form);
     OpCount sum = {0, 0, 0};
     Status status = OK;
 
     for (int b = 0; b < BLOCK_COUNT; b++) {
         OpCount count;
 
-        if (!is_of(form, (Block)b))
+        if (!is_of(written, (Block)b))
             continue;
         CHECK(system_count(system, (Block)b, shared, &count, diag));
         add_counts(&sum, count);
@@ -134,12 +149,17 @@ static Status print_blocks(const View *view, const Statement *statement, Text *o
             goto done;
     }
     if (statement->operands.count == 0) {
+        const Form form = written_form(view->system, form_of(view));
+
         for (int b = 0; b < BLOCK_COUNT; b++)
-            if (is_of(form_of(view), (Block)b) && !is_empty(view, (Block)b))
+            if (is_of(form, (Block)b) && !is_empty(view, (Block)b))
                 CHECK(block_row(&table, view, block_name((Block)b), diag));
         CHECK(block_row(&table, view, "total", diag));
     }
     text_add(out, "operations as written, and after common subexpressions are shared\n");
+    if (form_of(view) != written_form(view->system, form_of(view)))
+        text_add(out, "(of the augmented form: the embedded one has too many constraints to be "
+                      "written out)\n");
     table_print(out, &table, 0);
 done:
     table_free(&table);

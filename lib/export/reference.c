@@ -69,9 +69,31 @@ static void add_texinfo_row(Text *out, bool *is_open, const char *what, const ch
     text_char(out, '\n');
 }
 
-static void add_texinfo_component(Text *out, const Component *row)
+/* in one paragraph, those of the row alone with what they mean */
+static void add_texinfo_members(Text *out, const Component *row)
 {
     const Member *member;
+    bool is_open = false;
+
+    for (int i = 0; (member = component_member(row, false, i)) != NULL; i++) {
+        text_addf(out, "%s@code{", i == 0 ? "\nCan be asked for: " : ", ");
+        add_texinfo(out, member->name);
+        text_char(out, '}');
+        if (member->unit != NULL && strcmp(member->unit, "1") != 0) {
+            text_add(out, " (");
+            add_texinfo(out, member->unit);
+            text_char(out, ')');
+        }
+        is_open = true;
+    }
+    if (is_open)
+        text_add(out, ".\n");
+    for (int i = 0; i < row->member_count; i++)
+        text_addf(out, "@code{%s}: %s.\n", row->members[i].name, row->members[i].meaning);
+}
+
+static void add_texinfo_component(Text *out, const Component *row)
+{
     KeyText key;
     bool is_open = false;
 
@@ -79,12 +101,7 @@ static void add_texinfo_component(Text *out, const Component *row)
         add_texinfo_row(out, &is_open, "Keys:", key.name, key.unit, key.fallback, key.meaning);
     if (is_open)
         text_add(out, "@end table\n");
-    is_open = false;
-    for (int i = 0; (member = component_member(row, false, i)) != NULL; i++)
-        add_texinfo_row(out, &is_open, "Can be asked for:", member->name,
-                        member->unit == NULL ? "" : member->unit, "", member->meaning);
-    if (is_open)
-        text_add(out, "@end table\n");
+    add_texinfo_members(out, row);
 }
 
 static void add_texinfo_verb(Text *out, const Verb *verb)

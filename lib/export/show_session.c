@@ -85,8 +85,6 @@ Status show_settings(const View *view, const Selection *selection, Text *out, Di
     text_free(&text);
     table_cell(&table, "evaluator");
     table_cell(&table, "interpreter");
-    table_cell(&table, "columns");
-    table_cellf(&table, "%d", view->page.columns);
     table_print(out, &table, 0);
     table_free(&table);
     return OK;

@@ -207,6 +207,9 @@ static void count_trees_puts_the_trees_tried_side_by_side(void)
     EXPECT_DONE(&kit, SLIDER_CRANK ONE_TREE TWO_TREES "count trees");
     EXPECT_HOLDS(kit.text, ": h8 h10 s11\n");
     EXPECT_HOLDS(kit.text, ": translation h8 h9 h10; rotation h8 h10 s11\n");
+    /* undoing a choice of trees leaves the list as it is */
+    EXPECT_DONE(&kit, "undo\ncount trees");
+    EXPECT_HOLDS(kit.text, ": h8 h10 s11\n");
     /* another graph starts another list */
     EXPECT_DONE(&kit, "body m4 mass=1\ncount trees");
     EXPECT(strstr(kit.text, ": h8 h10 s11\n") == NULL);
@@ -224,6 +227,19 @@ static void the_embedded_form_has_no_multipliers(void)
     EXPECT_HOLDS(kit.text, "h8''");
     EXPECT_DONE(&kit, "count");
     EXPECT_HOLDS(kit.text, "embedded");
+    kit_free(&kit);
+}
+
+static void the_embedded_form_of_many_constraints_is_counted_as_the_augmented(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, SLIDER_CRANK "tree absolute\nform embedded\ncount");
+    EXPECT_HOLDS(kit.text, "too many constraints");
+    EXPECT_HOLDS(kit.text, "mass");
+    EXPECT(kit_do(&kit, "show equations") == CT_FAILED);
+    EXPECT(kit.error.hint[0] != '\0');
+    EXPECT_DONE(&kit, "show constraints");
     kit_free(&kit);
 }
 
@@ -340,6 +356,7 @@ int main(void)
     RUN(counts_are_those_of_the_rule);
     RUN(count_trees_puts_the_trees_tried_side_by_side);
     RUN(the_embedded_form_has_no_multipliers);
+    RUN(the_embedded_form_of_many_constraints_is_counted_as_the_augmented);
     RUN(info_tells_ends_signs_and_variables);
     RUN(info_knows_every_kind_of_name);
     RUN(check_tells_freedoms_and_what_is_unused);
