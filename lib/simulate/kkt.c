@@ -8,6 +8,7 @@
 #include <string.h>
 
 #define PIVOT_RATIO 1e-5 /* of the compliance; below: near a singular configuration */
+#define SUSPECT     3e-2 /* pivot ratio of the LU above which nothing can be near singular */
 #define EPSILON     1e-8 /* of the largest diagonal entry of G M^-1 G^T */
 #define SWEEPS      2    /* of refinement */
 
@@ -17,8 +18,9 @@ struct Kkt {
     double *scale;  /* size: unknown = scale * scaled unknown */
     double *norm;   /* m: largest mass-norm of each row so far */
     double *right, *answer, *residual;
-    double *factor; /* nu x nu, a Cholesky factor */
-    double *bound;  /* m x nu */
+    double *factor;     /* nu x nu, a Cholesky factor */
+    double *bound;      /* m x nu */
+    double *compliance; /* m x m */
     Lu *lu;
     bool regularised;
 };
@@ -39,6 +41,7 @@ Kkt *kkt_new(int nu, int m)
     kkt->residual = NEW_ARRAY(double, size);
     kkt->factor = NEW_ARRAY(double, nu *nu);
     kkt->bound = NEW_ARRAY(double, m *nu);
+    kkt->compliance = NEW_ARRAY(double, m *m);
     kkt->lu = lu_new(size);
     return kkt;
 }
@@ -55,6 +58,7 @@ void kkt_free(Kkt *kkt)
     mem_free(kkt->residual);
     mem_free(kkt->factor);
     mem_free(kkt->bound);
+    mem_free(kkt->compliance);
     lu_free(kkt->lu);
     mem_free(kkt);
 }
@@ -85,16 +89,15 @@ static double borrowed_mass(const Kkt *kkt, const double *mass, const double *ph
 static void choose_scale(Kkt *kkt, const double *mass, const double *phi_u, const int *rows)
 {
     int nu = kkt->nu;
-    double largest = 0;
+    double largest = 0, most = 0;
 
+    for (int i = 0; i < nu; i++)
+        most = fmax(most, mass[i * nu + i]);
     for (int i = 0; i < nu; i++) {
         double own = mass[i * nu + i];
-        double most = 0;
 
-        for (int j = 0; j < nu; j++)
-            most = fmax(most, mass[j * nu + j]);
         if (!(own > 1e-9 * most))
-            own = fmax(own, 1e-3 * borrowed_mass(kkt, mass, phi_u, rows, i));
+            own = fmax(own, borrowed_mass(kkt, mass, phi_u, rows, i));
         kkt->scale[i] = own > 0 ? 1 / sqrt(own) : 1;
     }
     for (int k = 0; k < kkt->m; k++) {
@@ -130,25 +133,47 @@ static void fill_matrix(Kkt *kkt, const double *mass, const double *phi_u, const
         }
 }
 
-/* Cholesky factor of M, or of M + G^T G, scaled; false when it isn't positive definite */
+/* Cholesky factor, in place, of the lower half of an n x n matrix; false unless it is positive
+ * definite. Entries in front of the first one of a row stay 0 and are passed over. */
+static bool cholesky(double *l, int n, double least_pivot)
+{
+    for (int i = 0; i < n; i++) {
+        double *row = l + i * n;
+        int first = 0;
+
+        while (first < i && row[first] == 0)
+            first++;
+        for (int j = first; j <= i; j++) {
+            const double *other = l + j * n;
+            double sum = row[j];
+
+            for (int k = first; k < j; k++)
+                sum -= row[k] * other[k];
+            if (i == j && !(sum > least_pivot))
+                return false;
+            row[j] = i == j ? sqrt(sum) : sum / other[j];
+        }
+    }
+    return true;
+}
+
+/* kkt->factor = Cholesky factor of M, or of M + G^T G, scaled; false when it isn't positive
+ * definite */
 static bool factor_mass(Kkt *kkt, bool stiffened)
 {
     int nu = kkt->nu, size = kkt->size;
     double *l = kkt->factor;
 
     for (int i = 0; i < nu; i++)
-        for (int j = 0; j <= i; j++) {
-            double sum = kkt->matrix[i * size + j];
+        memcpy(l + i * nu, kkt->matrix + i * size, (size_t)nu * sizeof(double));
+    for (int k = nu; k < size && stiffened; k++) {
+        const double *row = kkt->matrix + k * size;
 
-            for (int k = nu; k < size && stiffened; k++)
-                sum += kkt->matrix[k * size + i] * kkt->matrix[k * size + j];
-            for (int k = 0; k < j; k++)
-                sum -= l[i * nu + k] * l[j * nu + k];
-            if (i == j && !(sum > 1e-14))
-                return false;
-            l[i * nu + j] = i == j ? sqrt(sum) : sum / l[j * nu + j];
-        }
-    return true;
+        for (int i = 0; i < nu; i++)
+            for (int j = 0; row[i] != 0 && j <= i; j++)
+                l[i * nu + j] += row[i] * row[j];
+    }
+    return cholesky(l, nu, 1e-14);
 }
 
 /* kkt->bound (m x nu) = G L^-T, L the factor: its rows' products are G (L L^T)^-1 G^T */
@@ -156,15 +181,22 @@ static void find_bound(Kkt *kkt)
 {
     int nu = kkt->nu;
 
-    for (int k = 0; k < kkt->m; k++)
-        for (int i = 0; i < nu; i++) {
-            double *row = kkt->bound + k * nu;
-            double sum = kkt->matrix[(nu + k) * kkt->size + i];
+    for (int k = 0; k < kkt->m; k++) {
+        const double *g = kkt->matrix + (nu + k) * kkt->size;
+        double *row = kkt->bound + k * nu;
+        int first = 0;
 
-            for (int j = 0; j < i; j++)
-                sum -= kkt->factor[i * nu + j] * row[j];
-            row[i] = sum / kkt->factor[i * nu + i];
+        while (first < nu && g[first] == 0)
+            row[first++] = 0;
+        for (int i = first; i < nu; i++) {
+            const double *l = kkt->factor + i * nu;
+            double sum = g[i];
+
+            for (int j = first; j < i; j++)
+                sum -= l[j] * row[j];
+            row[i] = sum / l[i];
         }
+    }
 }
 
 static double dot(const double *a, const double *b, int n)
@@ -176,36 +208,24 @@ static double dot(const double *a, const double *b, int n)
     return sum;
 }
 
-/* Whether the compliance S = G M^-1 G^T is near singular. It is read from S (1 + S)^-1, which
- * is G (M + G^T G)^-1 G^T and exists for massless bodies too: rows made orthogonal one after
- * another, what is left of each is its pivot. The pivots of the LU can't tell: an exchange of rows
- * splits one of size sigma^2 into two of size sigma. */
+/* Whether the compliance S = G M^-1 G^T is near singular: by the pivots of S (1 + S)^-1, which
+ * is G (M + G^T G)^-1 G^T and exists for massless bodies too. Those of the LU only
+ * raise suspicion: an exchange of rows splits one of size sigma^2 into two of size sigma. */
 static bool is_near_singular(Kkt *kkt)
 {
-    int nu = kkt->nu;
-    double least = INFINITY, largest = 0;
+    int m = kkt->m;
+    double *s = kkt->compliance;
+    double largest = 0;
 
     if (!factor_mass(kkt, true))
         return true;
     find_bound(kkt);
-    for (int k = 0; k < kkt->m; k++) {
-        double *row = kkt->bound + k * nu;
-        double pivot;
-
-        for (int i = 0; i < k; i++) {
-            const double *other = kkt->bound + i * nu;
-            double along = dot(row, other, nu) / dot(other, other, nu);
-
-            for (int j = 0; j < nu; j++)
-                row[j] -= along * other[j];
-        }
-        pivot = dot(row, row, nu);
-        least = fmin(least, pivot);
-        largest = fmax(largest, pivot);
-        if (!(least > PIVOT_RATIO * largest))
-            return true;
-    }
-    return false;
+    for (int i = 0; i < m; i++)
+        for (int j = 0; j <= i; j++)
+            s[i * m + j] = dot(kkt->bound + i * kkt->nu, kkt->bound + j * kkt->nu, kkt->nu);
+    for (int i = 0; i < m; i++)
+        largest = fmax(largest, s[i * m + i]);
+    return !cholesky(s, m, PIVOT_RATIO * largest);
 }
 
 /* largest diagonal entry of G M^-1 G^T, scaled; 1 where M can't be inverted */
@@ -228,17 +248,21 @@ bool kkt_factor(Kkt *kkt, const double *mass, const double *phi_u, const int *ro
 {
     size_t bytes = (size_t)kkt->size * (size_t)kkt->size * sizeof(double);
     double epsilon;
+    bool sound;
 
     choose_scale(kkt, mass, phi_u, rows);
     fill_matrix(kkt, mass, phi_u, rows);
     if (!vector_is_finite(kkt->matrix, kkt->size * kkt->size))
         return false;
     memcpy(lu_matrix(kkt->lu), kkt->matrix, bytes);
-    kkt->regularised = kkt->m > 0 && is_near_singular(kkt);
-    if (!kkt->regularised)
-        return lu_factor(kkt->lu) && lu_pivot_ratio(kkt->lu) > 1e-14;
+    kkt->regularised = false;
+    sound = lu_factor(kkt->lu) && lu_pivot_ratio(kkt->lu) > 1e-14;
+    if (kkt->m == 0 || lu_pivot_ratio(kkt->lu) > SUSPECT || !is_near_singular(kkt))
+        return sound;
 
+    kkt->regularised = true;
     epsilon = EPSILON * largest_compliance(kkt);
+    memcpy(lu_matrix(kkt->lu), kkt->matrix, bytes);
     for (int k = kkt->nu; k < kkt->size; k++)
         lu_matrix(kkt->lu)[k * kkt->size + k] = -epsilon;
     return lu_factor(kkt->lu);

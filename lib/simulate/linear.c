@@ -10,6 +10,7 @@ struct Lu {
     int n;
     double *a;      /* n x n: multipliers below, U on and above the diagonal */
     int *exchanged; /* row that step k brought up */
+    int *filled; /* columns of the pivot row that aren't 0: systems of many bodies are mostly 0 */
     double ratio;
 };
 
@@ -20,6 +21,7 @@ Lu *lu_new(int n)
     lu->n = n;
     lu->a = NEW_ARRAY(double, n *n);
     lu->exchanged = NEW_ARRAY(int, n);
+    lu->filled = NEW_ARRAY(int, n);
     return lu;
 }
 
@@ -29,6 +31,7 @@ void lu_free(Lu *lu)
         return;
     mem_free(lu->a);
     mem_free(lu->exchanged);
+    mem_free(lu->filled);
     mem_free(lu);
 }
 
@@ -52,6 +55,45 @@ static int largest_below(const Lu *lu, int k)
     return best;
 }
 
+static void exchange(Lu *lu, int k, int p)
+{
+    double *a = lu->a + k * lu->n, *b = lu->a + p * lu->n;
+
+    lu->exchanged[k] = p;
+    for (int j = 0; j < lu->n && p != k; j++) {
+        double kept = a[j];
+
+        a[j] = b[j];
+        b[j] = kept;
+    }
+}
+
+/* rows below k less their share of row k */
+static void eliminate(Lu *lu, int k)
+{
+    int n = lu->n, count = 0;
+    const double *top = lu->a + k * n;
+
+    for (int j = k + 1; j < n; j++)
+        if (top[j] != 0)
+            lu->filled[count++] = j;
+    for (int i = k + 1; i < n; i++) {
+        double *row = lu->a + i * n;
+        double factor;
+
+        if (row[k] == 0)
+            continue;
+        factor = row[k] / top[k];
+        row[k] = factor;
+        if (2 * count < n - k)
+            for (int j = 0; j < count; j++)
+                row[lu->filled[j]] -= factor * top[lu->filled[j]];
+        else
+            for (int j = k + 1; j < n; j++)
+                row[j] -= factor * top[j];
+    }
+}
+
 bool lu_factor(Lu *lu)
 {
     int n = lu->n;
@@ -59,30 +101,15 @@ bool lu_factor(Lu *lu)
 
     lu->ratio = 0;
     for (int k = 0; k < n; k++) {
-        int p = largest_below(lu, k);
-        double *top = lu->a + k * n;
+        double pivot;
 
-        lu->exchanged[k] = p;
-        if (p != k)
-            for (int j = 0; j < n; j++) {
-                double kept = top[j];
-
-                top[j] = lu->a[p * n + j];
-                lu->a[p * n + j] = kept;
-            }
-        if (!(fabs(top[k]) > 0) || !isfinite(top[k]))
+        exchange(lu, k, largest_below(lu, k));
+        pivot = fabs(lu->a[k * n + k]);
+        if (!(pivot > 0) || !isfinite(pivot))
             return false;
-        least = fmin(least, fabs(top[k]));
-        largest = fmax(largest, fabs(top[k]));
-        for (int i = k + 1; i < n; i++) {
-            double *row = lu->a + i * n;
-            double factor = row[k] / top[k];
-
-            row[k] = factor;
-            if (factor != 0)
-                for (int j = k + 1; j < n; j++)
-                    row[j] -= factor * top[j];
-        }
+        least = fmin(least, pivot);
+        largest = fmax(largest, pivot);
+        eliminate(lu, k);
     }
     lu->ratio = n > 0 ? least / largest : 1;
     return true;
