@@ -22,6 +22,7 @@ libcore_la_SOURCES += \
   lib/simulate/numbers.c \
   lib/simulate/numbers.h \
   lib/simulate/ode.h \
+  lib/simulate/radau.c \
   lib/simulate/rank.c \
   lib/simulate/rank.h \
   lib/simulate/result.c \

@@ -84,6 +84,7 @@ Status solver_failure(Diag *diag, double t, const char *reason);
 #define MAX_REJECTIONS 10 /* in a row, by NaN or a projection that fails, end a run */
 
 extern const Method method_dop853;
+extern const Method method_radau;
 extern const Method method_rk4;
 extern const Method method_bdf;
 extern const Method method_adams;

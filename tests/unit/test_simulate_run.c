@@ -539,6 +539,72 @@ static void ctrl_c_keeps_the_rows(void)
     script_close(&script);
 }
 
+static void a_circuit_runs_without_mechanics(void)
+{
+    Script script = run("resistor R1 a b 10\ncapacitor C1 b 0 1e-3\nvsource V1 a 0 if(t < 0.02, 5, "
+                        "0)\ninit C1.v = 1\nsimulate 0.05 rtol=1e-10",
+                        (Changes){0});
+    double at_switch = 5 - 4 * exp(-2);
+
+    EXPECT(script.status == OK);
+    EXPECT_TEXT(script.diag.message, "");
+    EXPECT_NEAR(value_at(&script, "C1.v", 0.02), at_switch, 1e-10);
+    EXPECT_NEAR(value_at(&script, "C1.v", 0.05), at_switch * exp(-3), 1e-10);
+    EXPECT(result_report(script.result)->energy_drift < 1e-10);
+    script_close(&script);
+}
+
+static void what_has_no_states_runs_too(void)
+{
+    Script script = run("resistor R1 a b 10\nresistor R2 b 0 10\nvsource V1 a 0 5*t\n"
+                        "simulate 1 every=0.1",
+                        (Changes){0});
+
+    EXPECT(script.status == OK);
+    EXPECT_TEXT(script.diag.message, "");
+    EXPECT(script.result != NULL && result_rows(script.result) == 11);
+    EXPECT_NEAR(value_at(&script, "R2.v", 0.5), 1.25, 1e-14);
+    script_close(&script);
+}
+
+/* an oscillator between two one-sided springs: the force has kinks at +-1 that the steps meet */
+static void a_one_sided_spring_is_met_at_its_ends(void)
+{
+    Script script = run("scene planar\nbody m mass=1 inertia=1\nprismatic s ground m axis=x\n"
+                        "actuator a s force=-100*(max(s - 1, 0) + min(s + 1, 0))\n"
+                        "init s = 0, s' = 3\nsimulate 100 every=1 rtol=1e-10",
+                        (Changes){0});
+    /* free flight of 2/3 s across, half a period of omega = 10 in each spring */
+    double period = 2 * (2 / 3.0 + 3.14159265358979323846 / 10);
+    double phase = fmod(100, period);
+
+    EXPECT(script.status == OK);
+    /* 100 s end in the last free flight of a period */
+    EXPECT(phase > period - 1 / 3.0);
+    EXPECT_NEAR(value_at(&script, "s", 100), 3 * (phase - period), 1e-8);
+    script_close(&script);
+}
+
+/* an inductance of no weight: the electrical time is 1e-7 of the mechanical one */
+#define STIFF                                                                                      \
+    PENDULUM "motor M h e 0 R=1 L=1e-6 Kt=2 Kv=2\nvsource V e 0 if(t < 1, 5, 0)\n"                 \
+             "init h = 0.5, h' = 0, M.i = 0\nsimulate 2 rtol=1e-8"
+
+static void a_stiff_model_is_handed_over(void)
+{
+    Script script = run(STIFF, (Changes){0}), bdf = run(STIFF, (Changes){.method = "bdf"});
+
+    EXPECT(script.status == OK && bdf.status == OK);
+    EXPECT_TEXT(result_report(script.result)->method, "radau");
+    EXPECT(strstr(result_remarks(script.result), "stiff from t = ") != NULL);
+    EXPECT(result_report(script.result)->steps < 5000);
+    EXPECT_NEAR(value_at(&script, "h", 2), value_at(&bdf, "h", 2), 1e-5);
+    EXPECT_NEAR(value_at(&script, "M.i", 2), value_at(&bdf, "M.i", 2), 1e-4);
+    EXPECT(result_report(script.result)->energy_drift < 1e-4);
+    script_close(&script);
+    script_close(&bdf);
+}
+
 static void a_warm_start_carries_the_configuration_over(void)
 {
     Script joint =
@@ -602,6 +668,10 @@ int main(void)
     RUN(wrong_options_are_refused);
     RUN(an_undefined_force_ends_the_run_and_keeps_it);
     RUN(ctrl_c_keeps_the_rows);
+    RUN(a_circuit_runs_without_mechanics);
+    RUN(what_has_no_states_runs_too);
+    RUN(a_one_sided_spring_is_met_at_its_ends);
+    RUN(a_stiff_model_is_handed_over);
     RUN(a_warm_start_carries_the_configuration_over);
     RUN(every_method_has_a_line_of_help);
     return test_end();

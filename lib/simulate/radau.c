@@ -1,0 +1,461 @@
+/* radau.c: implicit Runge-Kutta of order 5 for stiff equations, three Radau IIA stages
+ *
+ * Hairer and Wanner (1996), Solving ODE II, IV.8: with stages y + z_i at c_i h,
+ * z = h (A x 1) f(y + z), solved by simplified Newton with J = df/dy by differences, kept while
+ * the iteration contracts well. The error is that of their embedded formula of order 3, filtered by
+ * (g/h - J)^-1 so that stiff parts don't blow it up. Between the ends of a step the collocation
+ * polynomial is read, whose error the step control bounds as well. */
+#include "simulate/linear.h"
+#include "simulate/ode.h"
+
+#include "base/memory.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#define ITERATIONS 10
+#define SAFETY     0.9
+#define SHRINK     0.125
+#define GROW       5.0
+#define CONTRACTS  1e-3 /* a Jacobian this good is kept */
+
+#define ROOT6 2.44948974278317809820
+
+/* clang-format off */
+static const double nodes[3] = {(4 - ROOT6) / 10, (4 + ROOT6) / 10, 1};
+static const double weights[3][3] = {
+    {(88 - 7 * ROOT6) / 360,     (296 - 169 * ROOT6) / 1800, (-2 + 3 * ROOT6) / 225},
+    {(296 + 169 * ROOT6) / 1800, (88 + 7 * ROOT6) / 360,     (-2 - 3 * ROOT6) / 225},
+    {(16 - ROOT6) / 36,          (16 + ROOT6) / 36,          1.0 / 9},
+};
+/* of z in the error formula (IV.8.19), with the real eigenvalue g of A^-1 */
+static const double embedded[3] = {(-13 - 7 * ROOT6) / 3, (-13 + 7 * ROOT6) / 3, -1.0 / 3};
+/* clang-format on */
+#define EIGENVALUE 3.63783425274449573220 /* 30 / (6 + 81^(1/3) - 9^(1/3)) */
+
+typedef struct Radau {
+    Stepper base;
+    int n, all; /* in the error test; with quadratures */
+    double *old, *old_rate, *rate, *scale;
+    double *z, *f, *delta; /* 3 x all, 3 x all, 3 x n */
+    double *point, *error, *column;
+    double *jacobian; /* n x n */
+    Lu *stages, *filter;
+    double factored; /* step that they belong to; 0: none */
+    bool fresh;      /* the Jacobian belongs to `old` */
+    double step;     /* of the last step */
+    double contraction;
+    bool was_rejected;
+} Radau;
+
+typedef enum Outcome { CONVERGED, DIVERGED, UNDEFINED } Outcome;
+
+static bool evaluate(Radau *r, double t, const double *y, double *rate)
+{
+    r->base.counts.evaluations++;
+    return r->base.ode->rate(r->base.ode->context, t, y, rate);
+}
+
+static Stepper *create(const Ode *ode, const Control *control)
+{
+    Radau *r = NEW(Radau);
+    int n = ode->n, all = ode->n + ode->quadratures;
+
+    r->base = (Stepper){.method = &method_radau, .ode = ode, .control = *control};
+    r->n = n;
+    r->all = all;
+    r->base.y = NEW_ARRAY(double, all);
+    r->old = NEW_ARRAY(double, all);
+    r->old_rate = NEW_ARRAY(double, all);
+    r->rate = NEW_ARRAY(double, all);
+    r->scale = NEW_ARRAY(double, n);
+    r->z = NEW_ARRAY(double, 3 * all);
+    r->f = NEW_ARRAY(double, 3 * all);
+    r->delta = NEW_ARRAY(double, 3 * n);
+    r->point = NEW_ARRAY(double, all);
+    r->error = NEW_ARRAY(double, all);
+    r->column = NEW_ARRAY(double, all);
+    r->jacobian = NEW_ARRAY(double, n *n);
+    r->stages = lu_new(3 * n);
+    r->filter = lu_new(n);
+    return &r->base;
+}
+
+static void destroy(Stepper *stepper)
+{
+    Radau *r = (Radau *)stepper;
+
+    if (r == NULL)
+        return;
+    mem_free(r->base.y);
+    mem_free(r->old);
+    mem_free(r->old_rate);
+    mem_free(r->rate);
+    mem_free(r->scale);
+    mem_free(r->z);
+    mem_free(r->f);
+    mem_free(r->delta);
+    mem_free(r->point);
+    mem_free(r->error);
+    mem_free(r->column);
+    mem_free(r->jacobian);
+    lu_free(r->stages);
+    lu_free(r->filter);
+    mem_free(r);
+}
+
+static Status start(Stepper *stepper, double t, const double *y, Diag *diag)
+{
+    Radau *r = (Radau *)stepper;
+
+    memmove(r->base.y, y, (size_t)r->all * sizeof(double));
+    r->base.t = r->base.before = t;
+    r->base.next = r->base.control.first;
+    r->factored = 0;
+    r->fresh = false;
+    r->contraction = 1;
+    r->was_rejected = false;
+    r->step = 0;
+    if (!evaluate(r, t, r->base.y, r->rate))
+        return solver_failure(diag, t, "the accelerations are undefined");
+    return OK;
+}
+
+/* --- pieces of a step --- */
+
+static void choose_scale(Radau *r)
+{
+    const Control *control = &r->base.control;
+    const double *cap = r->base.ode->cap;
+
+    for (int i = 0; i < r->n; i++) {
+        double size = fabs(r->old[i]);
+
+        size = cap != NULL ? fmin(size, cap[i]) : size;
+        r->scale[i] = control->atol + control->rtol * size;
+    }
+}
+
+static double scaled_norm(const Radau *r, const double *v, int count)
+{
+    double sum = 0;
+
+    for (int k = 0; k < count; k++)
+        for (int i = 0; i < r->n; i++) {
+            double part = v[k * r->n + i] / r->scale[i];
+
+            sum += part * part;
+        }
+    return sqrt(sum / (r->n > 0 ? count * r->n : 1));
+}
+
+/* df/dy at `old`, by differences */
+static bool find_jacobian(Radau *r)
+{
+    int n = r->n;
+
+    memcpy(r->point, r->old, (size_t)r->all * sizeof(double));
+    for (int j = 0; j < n; j++) {
+        double h = sqrt(DBL_EPSILON * fmax(1e-5, fabs(r->old[j])));
+
+        r->point[j] = r->old[j] + h;
+        h = r->point[j] - r->old[j];
+        if (!evaluate(r, r->base.before, r->point, r->column))
+            return false;
+        for (int i = 0; i < n; i++)
+            r->jacobian[i * n + j] = (r->column[i] - r->old_rate[i]) / h;
+        r->point[j] = r->old[j];
+    }
+    r->base.counts.jacobians++;
+    r->fresh = true;
+    r->factored = 0;
+    return true;
+}
+
+/* 1 - h A x J and g/h - J */
+static bool factor(Radau *r, double h)
+{
+    int n = r->n;
+    double *a = lu_matrix(r->stages), *b = lu_matrix(r->filter);
+
+    for (int k = 0; k < 3; k++)
+        for (int i = 0; i < n; i++)
+            for (int l = 0; l < 3; l++)
+                for (int j = 0; j < n; j++)
+                    a[(k * n + i) * 3 * n + l * n + j] =
+                        (k == l && i == j) - h * weights[k][l] * r->jacobian[i * n + j];
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < n; j++)
+            b[i * n + j] = (i == j ? EIGENVALUE / h : 0) - r->jacobian[i * n + j];
+    r->factored = lu_factor(r->stages) && lu_factor(r->filter) ? h : 0;
+    return n == 0 || r->factored > 0;
+}
+
+/* where the last step's polynomial leads, as a first guess of the stages */
+static void guess_stages(Radau *r, double h, bool extrapolate)
+{
+    if (!extrapolate || r->step == 0) {
+        memset(r->z, 0, (size_t)(3 * r->all) * sizeof(double));
+        return;
+    }
+    for (int k = 0; k < 3; k++)
+        r->base.method->at(&r->base, r->base.t + nodes[k] * h, r->f + k * r->all);
+    for (int k = 0; k < 3; k++)
+        for (int i = 0; i < r->all; i++)
+            r->z[k * r->all + i] = r->f[k * r->all + i] - r->base.y[i];
+}
+
+static bool evaluate_stages(Radau *r, double h)
+{
+    for (int k = 0; k < 3; k++) {
+        for (int i = 0; i < r->all; i++)
+            r->point[i] = r->old[i] + r->z[k * r->all + i];
+        if (!evaluate(r, r->base.before + nodes[k] * h, r->point, r->f + k * r->all))
+            return false;
+    }
+    return true;
+}
+
+/* Simplified Newton for the stages; *used tells its iterations. */
+static Outcome solve_stages(Radau *r, double h, int *used)
+{
+    int n = r->n, all = r->all;
+    double enough =
+        fmax(10 * DBL_EPSILON / r->base.control.rtol, fmin(0.01, sqrt(r->base.control.rtol)));
+    double before = 0;
+
+    for (int it = 1; it <= ITERATIONS; it++) {
+        double size, eta = 1;
+
+        if (!evaluate_stages(r, h))
+            return UNDEFINED;
+        for (int k = 0; k < 3; k++)
+            for (int i = 0; i < n; i++) {
+                double sum = -r->z[k * all + i];
+
+                for (int l = 0; l < 3; l++)
+                    sum += h * weights[k][l] * r->f[l * all + i];
+                r->delta[k * n + i] = sum;
+            }
+        lu_solve(r->stages, r->delta);
+        size = scaled_norm(r, r->delta, 3);
+        if (!isfinite(size))
+            return UNDEFINED;
+        for (int k = 0; k < 3; k++)
+            for (int i = 0; i < n; i++)
+                r->z[k * all + i] += r->delta[k * n + i];
+        *used = it;
+        if (it > 1) {
+            r->contraction = size / before;
+            if (r->contraction >= 0.99)
+                return size < 1e-3 * enough ? CONVERGED : DIVERGED;
+            eta = r->contraction / (1 - r->contraction);
+        }
+        if (eta * size <= enough || size == 0)
+            return CONVERGED;
+        before = size;
+    }
+    return DIVERGED;
+}
+
+/* error of the embedded formula, in units of the tolerance */
+static double step_error(Radau *r, double h)
+{
+    double size;
+
+    for (int pass = 0; pass < 2; pass++) {
+        /* a second look where the first says no at a start: stiff parts that are not settled */
+        const double *rate = pass == 0 ? r->old_rate : r->column;
+
+        for (int i = 0; i < r->n; i++) {
+            double sum = 0;
+
+            for (int k = 0; k < 3; k++)
+                sum += embedded[k] * r->z[k * r->all + i];
+            r->error[i] = rate[i] + sum / h;
+        }
+        lu_solve(r->filter, r->error);
+        size = scaled_norm(r, r->error, 1);
+        if (size < 1 || !(r->was_rejected || r->step == 0) || pass == 1)
+            break;
+        memcpy(r->point, r->old, (size_t)r->all * sizeof(double));
+        for (int i = 0; i < r->n; i++)
+            r->point[i] += r->error[i];
+        if (!evaluate(r, r->base.before, r->point, r->column))
+            break;
+    }
+    return fmax(size, 1e-10);
+}
+
+/* the new point at t, projected, and its rate */
+static bool settle(Radau *r, double t, double h)
+{
+    const Ode *ode = r->base.ode;
+
+    for (int i = 0; i < r->all; i++)
+        r->point[i] = r->old[i] + r->z[2 * r->all + i];
+    for (int i = r->n; i < r->all; i++) { /* quadratures, by the weights of the last stage */
+        double sum = 0;
+
+        for (int k = 0; k < 3; k++)
+            sum += weights[2][k] * r->f[k * r->all + i];
+        r->point[i] = r->old[i] + h * sum;
+    }
+    if (ode->project != NULL && !ode->project(ode->context, t, r->point))
+        return false;
+    if (!evaluate(r, t, r->point, r->rate))
+        return false;
+    memcpy(r->base.y, r->point, (size_t)r->all * sizeof(double));
+    r->base.t = t;
+    r->step = h;
+    return true;
+}
+
+/* --- steps --- */
+
+static double first_step(const Radau *r, double span)
+{
+    double slope = scaled_norm(r, r->rate, 1), size = scaled_norm(r, r->old, 1);
+    double h = slope > 1e-5 && size > 1e-5 ? 1e-2 * size / slope : 1e-6;
+
+    return fmin(h, span);
+}
+
+static double trim(const Radau *r, double h, double end)
+{
+    double left = end - r->base.before;
+
+    if (r->base.control.step > 0)
+        h = fmin(h, r->base.control.step);
+    if (h >= left || left - h < 1e-10 * h)
+        return left;
+    return h > 0.5 * left ? 0.5 * left : h;
+}
+
+/* One try; false: go on with the shorter step *h. */
+static bool try_step(Radau *r, double *h, double end, int *failures)
+{
+    double tried = trim(r, *h, end);
+    double t = tried == end - r->base.before ? end : r->base.before + tried;
+    double error, factor_of;
+    int used = 0;
+    Outcome outcome = UNDEFINED;
+
+    if ((r->fresh || find_jacobian(r)) && (r->factored == tried || factor(r, tried)))
+        outcome = solve_stages(r, tried, &used);
+    if (outcome != CONVERGED) {
+        *failures += outcome == UNDEFINED;
+        *h = 0.5 * tried;
+        return false;
+    }
+    error = step_error(r, tried);
+    factor_of = SAFETY * (2.0 * ITERATIONS + 1) / (2.0 * ITERATIONS + used) * pow(error, -0.25);
+    factor_of = fmin(r->was_rejected ? 1 : GROW, fmax(SHRINK, factor_of));
+    if (!(error < 1)) {
+        *h = tried * fmin(0.9, factor_of);
+        return false;
+    }
+    if (!settle(r, t, tried)) {
+        *failures += 1;
+        *h = 0.5 * tried;
+        return false;
+    }
+    /* factors are kept where the step hardly changes */
+    if (factor_of > 1 && factor_of < 1.2)
+        factor_of = 1;
+    r->base.next = tried * factor_of;
+    if (tried < *h)
+        r->base.next = fmax(r->base.next, fmin(*h, tried * GROW));
+    return true;
+}
+
+static Status step(Stepper *stepper, double end, Diag *diag)
+{
+    Radau *r = (Radau *)stepper;
+    int failures = 0;
+    double h = r->base.next;
+    bool keep = r->factored > 0 && r->contraction < CONTRACTS;
+
+    if (r->base.next > 0)
+        guess_stages(r, trim(r, h, end + r->base.before - r->base.t), true);
+    memcpy(r->old, r->base.y, (size_t)r->all * sizeof(double));
+    memcpy(r->old_rate, r->rate, (size_t)r->all * sizeof(double));
+    r->base.before = r->base.t;
+    choose_scale(r);
+    if (!(h > 0)) {
+        h = first_step(r, end - r->base.t);
+        guess_stages(r, h, false);
+    }
+    r->fresh = keep;
+    while (!try_step(r, &h, end, &failures)) {
+        r->base.counts.rejected++;
+        r->was_rejected = true;
+        if (keep) /* it was an old Jacobian's fault, perhaps */
+            r->fresh = keep = false;
+        if (failures >= MAX_REJECTIONS)
+            return solver_failure(diag, r->base.before,
+                                  "the equations have no solution just behind this instant (ten "
+                                  "ever shorter steps failed)");
+        if (!(h > 4e-16 * fabs(r->base.before)))
+            return solver_failure(diag, r->base.before, "the step became too small");
+        guess_stages(r, h, false);
+    }
+    r->was_rejected = false;
+    r->base.counts.steps++;
+    return OK;
+}
+
+/* the cubic through the start of the step and its three stages, the last of them projected */
+static void at(Stepper *stepper, double t, double *y)
+{
+    Radau *r = (Radau *)stepper;
+    double s = r->step > 0 ? (t - r->base.before) / r->step : 1;
+    double basis[3];
+
+    if (r->step == 0 || t == r->base.t) {
+        memcpy(y, r->base.y, (size_t)r->all * sizeof(double));
+        return;
+    }
+    for (int k = 0; k < 3; k++) {
+        basis[k] = s / nodes[k];
+        for (int l = 0; l < 3; l++)
+            if (l != k)
+                basis[k] *= (s - nodes[l]) / (nodes[k] - nodes[l]);
+    }
+    for (int i = 0; i < r->all; i++)
+        y[i] = r->old[i] + basis[0] * r->z[i] + basis[1] * r->z[r->all + i] +
+               basis[2] * (r->base.y[i] - r->old[i]);
+    for (int i = r->n; i < r->all; i++) { /* quadratures have no stages: values and slopes */
+        double dy = r->base.y[i] - r->old[i], h = r->step;
+
+        y[i] = r->old[i] + s * dy +
+               s * (s - 1) * ((1 - 2 * s) * dy + (s - 1) * h * r->old_rate[i] + s * h * r->rate[i]);
+    }
+}
+
+static Status shorten(Stepper *stepper, double t, Diag *diag)
+{
+    Radau *r = (Radau *)stepper;
+    double h = t - r->base.before;
+    int used;
+
+    guess_stages(r, h, false);
+    if (h > 0 && evaluate(r, r->base.before, r->old, r->rate) && find_jacobian(r) && factor(r, h) &&
+        solve_stages(r, h, &used) == CONVERGED && settle(r, t, h))
+        return OK;
+    return solver_failure(diag, t, "the equations have no solution at a switch");
+}
+
+const Method method_radau = {
+    .name = "radau",
+    .brief =
+        "implicit Runge-Kutta of order 5 (Radau IIA), for stiff equations; projects after each "
+        "step",
+    .create = create,
+    .destroy = destroy,
+    .start = start,
+    .step = step,
+    .at = at,
+    .shorten = shorten,
+};
