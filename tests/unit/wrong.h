@@ -24,6 +24,16 @@ typedef struct Wrong {
     char hint[400]; /* empty: any */
 } Wrong;
 
+/* what fits of a text */
+static void wrong_keep(char *to, size_t size, const char *text)
+{
+    size_t length = strlen(text);
+
+    length = length < size ? length : size - 1;
+    memcpy(to, text, length);
+    to[length] = '\0';
+}
+
 /* the next block; false at the end of the file */
 static bool wrong_next(FILE *file, int *line, Wrong *wrong)
 {
@@ -49,11 +59,11 @@ static bool wrong_next(FILE *file, int *line, Wrong *wrong)
             strcpy(wrong->text, rest);
         } else if (room[0] == '@') {
             wrong->column = (int)strtol(rest, &text, 10);
-            strncpy(wrong->message, text + (*text == ' '), sizeof wrong->message - 1);
+            wrong_keep(wrong->message, sizeof wrong->message, text + (*text == ' '));
         } else if (room[0] == '?')
-            strncpy(wrong->hint, rest, sizeof wrong->hint - 1);
+            wrong_keep(wrong->hint, sizeof wrong->hint, rest);
         else
-            strncpy(wrong->kind, room, sizeof wrong->kind - 1);
+            wrong_keep(wrong->kind, sizeof wrong->kind, room);
     }
     return wrong->text[0] != '\0';
 }
