@@ -23,6 +23,7 @@ include tests/bench/expr.mk
 include tests/bench/graph.mk
 include tests/bench/compile.mk
 include tests/bench/simulate.mk
+include tests/bench/session.mk
 include tests/fuzz/fuzz.mk
 
 check_PROGRAMS += $(UNIT_TESTS)
@@ -31,6 +32,13 @@ EXTRA_PROGRAMS += $(BENCHES) $(FUZZERS)
 EXTRA_DIST += tests/claims.sh
 
 # tests that are scripts
-SCRIPT_TESTS = tests/dev/tools_tell_right_from_wrong
+SCRIPT_TESTS = \
+	tests/cases/andrews \
+	tests/cases/four_bar \
+	tests/cases/motor_arm \
+	tests/cases/pendulum \
+	tests/cases/slider_crank \
+	tests/dev/tools_tell_right_from_wrong
 TESTS += $(SCRIPT_TESTS)
-EXTRA_DIST += $(SCRIPT_TESTS) tests/session/columns_agree
+EXTRA_DIST += $(SCRIPT_TESTS) tests/cases/cases.sh tests/cases/columns_agree \
+	tests/data/andrews_beta062.csv

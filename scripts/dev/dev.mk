@@ -42,13 +42,14 @@ bench-record: bench
 	{ head -n 3 $(srcdir)/tests/bench/record.txt; cat bench.out; } >bench.new
 	mv bench.new $(srcdir)/tests/bench/record.txt
 
-# random statements against the sanitizers, for so many seconds
+# random statements against the sanitizers, for so many seconds in all
 FUZZ_SECONDS = 600
 FUZZ_SEED = 1
 fuzz: san/Makefile
 	@$(MAKE) -s -C san fuzzers
-	@for fuzzer in $(FUZZERS); do \
-		san/$$fuzzer --seconds $(FUZZ_SECONDS) --seed $(FUZZ_SEED) $(srcdir)/scripts || exit 1; \
+	@set -- $(FUZZERS); each=$$(($(FUZZ_SECONDS) / $$#)); \
+	for fuzzer; do \
+		san/$$fuzzer --seconds $$each --seed $(FUZZ_SEED) $(srcdir)/scripts || exit 1; \
 	done
 
 fuzzers: $(FUZZERS) all

@@ -6,3 +6,6 @@ fuzz_statement_LDADD = $(unit_ldadd)
 FUZZERS += fuzz_model
 fuzz_model_SOURCES = tests/fuzz/fuzz_model.c tests/fuzz/mutate.c tests/fuzz/mutate.h
 fuzz_model_LDADD = $(unit_ldadd)
+FUZZERS += fuzz_session
+fuzz_session_SOURCES = tests/fuzz/fuzz_session.c tests/fuzz/mutate.c tests/fuzz/mutate.h
+fuzz_session_LDADD = libcotree.la $(unit_ldadd)

@@ -1,0 +1,164 @@
+/* bench_session.c: what a user waits for: the shell's start, equations, a whole script
+ *
+ * bench_session SCRIPTS PROGRAM; each script of SCRIPTS/paper and SCRIPTS/reference that this
+ * version can read is formulated and replayed. */
+#include "formulate/system.h"
+
+#include "bench.h"
+
+#include <dirent.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+static char *file_text(const char *path)
+{
+    Text text = {0};
+    char piece[4096];
+    FILE *file = fopen(path, "r");
+
+    if (file == NULL)
+        return NULL;
+    while (fgets(piece, sizeof piece, file) != NULL)
+        text_add(&text, piece);
+    fclose(file);
+    return text_done(&text);
+}
+
+/* What a script builds; statements that look, run or check are passed over. NULL: it can't be. */
+static Model *model_of(const char *path)
+{
+    char *text = file_text(path);
+    size_t next = 0, length = text == NULL ? 0 : strlen(text);
+    Model *model = model_new();
+    Diag diag;
+
+    while (model != NULL && next < length) {
+        Statement *statement = NULL;
+        Status status = statement_parse(text, 1, (SyntaxOptions){0}, &next, &statement, &diag);
+
+        if (status == OK &&
+            (statement->kind == STATEMENT_PARAMETER || statement->kind == STATEMENT_LAW ||
+             (statement->kind == STATEMENT_VERB && model_applies(statement->verb))))
+            status = model_apply(model, statement, &diag);
+        statement_free(statement);
+        if (status != OK) {
+            model_free(model);
+            model = NULL;
+        }
+    }
+    mem_free(text);
+    return model;
+}
+
+/* Seconds to formulate a script's model: trees, constraints, dynamics, the reading to run. The
+ * arena is new each time. Negative: it can't be. */
+static double formulate(const char *path)
+{
+    double least = 1e300;
+
+    for (int i = 0; i < 5; i++) {
+        Model *model = model_of(path);
+        System *system = NULL;
+        Diag diag;
+        double began = bench_now();
+        bool made = model != NULL && system_new(model, NULL, &system, &diag) == OK &&
+                    system_run(system) != NULL;
+        double took = bench_now() - began;
+
+        system_free(system);
+        model_free(model);
+        if (!made)
+            return -1;
+        least = took < least ? took : least;
+    }
+    return least;
+}
+
+/* Seconds until the program has done what its arguments say; negative: it failed. */
+static double program_time(const char *program, const char *flag, const char *what)
+{
+    double began = bench_now();
+    int ended;
+    pid_t child = fork();
+
+    if (child == 0) {
+        if (freopen("/dev/null", "w", stdout) != NULL && freopen("/dev/null", "w", stderr) != NULL)
+            execl(program, program, flag, what, (char *)NULL);
+        _exit(127);
+    }
+    if (child < 0 || waitpid(child, &ended, 0) != child || ended != 0)
+        return -1;
+    return bench_now() - began;
+}
+
+static double program_least(const char *program, const char *flag, const char *what)
+{
+    double least = -1;
+
+    for (int i = 0; i < 5; i++) {
+        double took = program_time(program, flag, what);
+
+        if (took < 0)
+            return took;
+        least = least < 0 || took < least ? took : least;
+    }
+    return least;
+}
+
+static int is_script(const struct dirent *entry)
+{
+    const char *ending = strrchr(entry->d_name, '.');
+
+    return ending != NULL && strcmp(ending, ".ct") == 0;
+}
+
+static void folder_bench(const char *folder, const char *program)
+{
+    struct dirent **entries = NULL;
+    int count = scandir(folder, &entries, is_script, alphasort);
+
+    for (int i = 0; i < count; i++) {
+        Text path = {0}, name = {0};
+        double took;
+
+        text_addf(&path, "%s/%s", folder, entries[i]->d_name);
+        took = formulate(path.at);
+        if (took >= 0) {
+            text_addf(&name, "formulate.%.*s", (int)strlen(entries[i]->d_name) - 3,
+                      entries[i]->d_name);
+            bench_line(name.at, took * 1e3, "ms");
+            text_free(&name);
+            took = program_time(program, "-q", path.at);
+            if (took >= 0) {
+                text_addf(&name, "replay.%.*s", (int)strlen(entries[i]->d_name) - 3,
+                          entries[i]->d_name);
+                bench_line(name.at, took * 1e3, "ms");
+                text_free(&name);
+            }
+        }
+        text_free(&path);
+        free(entries[i]);
+    }
+    free(entries);
+}
+
+int main(int argc, char **argv)
+{
+    static const char *const folders[] = {"paper", "reference"};
+
+    if (argc != 3) {
+        fprintf(stderr, "usage: bench_session SCRIPTS PROGRAM\n");
+        return 2;
+    }
+    bench_line("shell.start", program_least(argv[2], "-e", "quit") * 1e3, "ms");
+    for (int i = 0; i < COUNT(folders); i++) {
+        Text folder = {0};
+
+        text_addf(&folder, "%s/%s", argv[1], folders[i]);
+        folder_bench(folder.at, argv[2]);
+        text_free(&folder);
+    }
+    return 0;
+}

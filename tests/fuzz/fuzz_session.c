@@ -1,0 +1,187 @@
+/* fuzz_session.c: bent statements, given to a session that holds a model
+ *
+ * Everything a statement can ask for is asked: equations, runs, values, tables, completions. Beside
+ * what the sanitizers see: a statement that fails leaves the model as it was and says why, at a
+ * place inside its text, and every call ends soon after the stop hook says so. */
+#include "mutate.h"
+
+#include "cotree.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+/* what a session holds before the bent text comes */
+static const char *const models[] = {
+    "",
+    "scene planar; gravity [0, -9.81]; L4 = 0.1; L5 = 0.2; body m1 mass=1 inertia=0.01;"
+    "body m2 mass=1.5 inertia=0.03; body m3 mass=2 inertia=0.01; arm r4 m1 [-L4, 0];"
+    "arm r5 m1 [L4, 0]; arm r6 m2 [L5, 0]; arm r7 m2 [-L5, 0]; revolute h8 ground r4;"
+    "revolute h9 r5 r6; revolute h10 m3 r7; prismatic s11 ground m3 axis=x;"
+    "force F12 m3 [-5 + sin(t), 0]; init h8 = 45 deg, h8' = 10; guess h10 = 2.8",
+    "scene planar; gravity [0, -9.81]; body m1 mass=2 inertia=0.03; arm p1 m1 [-0.2, 0];"
+    "revolute J1 ground p1 coord=th; motor M7 J1 a 0 R=1.2 L=0.05 Kt=0.8 Kv=0.8;"
+    "vsource V1 a 0 24 V; resistor R1 a b 10 ohm; capacitor C1 b 0 1 uF; S(t) = sin(pi*t)/2;"
+    "output power = M7.v*M7.i; spring k1 J1 k=3",
+    "gravity [0, 0, -9.81]; body b mass=1 inertia=[1, 2, 3]; arm p b [0, 0, 1];"
+    "revolute h ground p axis=[1, 1, 0]; body c mass=1 inertia=[1, 1, 1]; weld w b c",
+};
+
+/* whether the call that goes on has had its share of time */
+static bool share_is_over(void *context)
+{
+    const clock_t *began = context;
+
+    return (double)(clock() - *began) > 0.1 * CLOCKS_PER_SEC;
+}
+
+/* everything that prints: the text is thrown away */
+static ct_status look(ct_session *session, const ct_statement *statement, ct_error *error)
+{
+    const char *verb = ct_verb(statement);
+    char *text = NULL;
+    ct_status status = CT_OK;
+
+    if (strcmp(verb, "show") == 0)
+        status = ct_show(session, statement, &text, error);
+    else if (strcmp(verb, "count") == 0)
+        status = ct_count(session, statement, &text, error);
+    else if (strcmp(verb, "info") == 0)
+        status = ct_info(session, statement, &text, error);
+    else if (strcmp(verb, "check") == 0)
+        status = ct_check(session, &text, error);
+    else if (strcmp(verb, "tree") == 0)
+        status = ct_tree_text(session, &text, error);
+    else if (strcmp(verb, "draw") == 0)
+        status = ct_draw(session, true, &text, error);
+    else if (strcmp(verb, "export") == 0)
+        status = ct_export(session, statement, true, &text, error);
+    else if (strcmp(verb, "expect") == 0)
+        status = ct_expect(session, statement, error);
+    else if (strcmp(verb, "print") == 0 && ct_operand_count(statement) > 0) {
+        double value;
+
+        status = ct_value(session, ct_operand(statement, 0), ct_at(statement), &value, error);
+    } else if (strcmp(verb, "plot") == 0 || strcmp(verb, "table") == 0) {
+        const ct_expression *items[8];
+        double *values = NULL;
+        char **names = NULL;
+        int rows, columns, count = ct_operand_count(statement);
+
+        count = count < 8 ? count : 8;
+        for (int i = 0; i < count; i++)
+            items[i] = ct_operand(statement, i);
+        status = ct_table(session, items, count, 0, &values, &rows, &columns, &names, error);
+        if (status == CT_OK) {
+            ct_free(values);
+            ct_words_free(names);
+        }
+    }
+    if (status == CT_OK)
+        ct_free(text);
+    return status;
+}
+
+static bool is_any(const char *verb, const char *const *verbs)
+{
+    while (*verbs != NULL && strcmp(verb, *verbs) != 0)
+        verbs++;
+    return *verbs != NULL;
+}
+
+static ct_status carry_out(ct_session *session, const ct_statement *statement, ct_error *error)
+{
+    static const char *const runs[] = {"simulate", "kinematics", "inverse",
+                                       "assemble", "resume",     NULL};
+    const char *verb = ct_verb(statement);
+    ct_status status;
+
+    if (ct_statement_is_empty(statement))
+        return CT_OK;
+    if (strcmp(verb, "tree") == 0 && ct_operand_count(statement) == 0)
+        return look(session, statement, error);
+    status = ct_apply(session, statement, error);
+    if (status != CT_NOT_MINE)
+        return status;
+    if (is_any(verb, runs))
+        return ct_run(session, statement, error);
+    if (strcmp(verb, "undo") == 0)
+        return ct_undo(session, error);
+    if (strcmp(verb, "redo") == 0)
+        return ct_redo(session, error);
+    if (strcmp(verb, "clear") == 0)
+        ct_clear(session);
+    return look(session, statement, error);
+}
+
+static void check_error(const char *text, const ct_error *error)
+{
+    mutate_claim(error->message[0] != '\0', "a failure says why");
+    if (error->line == 1 && strchr(text, '\n') == NULL)
+        mutate_claim(error->column >= 1 && error->column <= (int)strlen(text) + 1 &&
+                         error->width >= 1,
+                     "the place is inside the text");
+}
+
+static void check_unchanged(const ct_session *session, const char *before)
+{
+    char *after = ct_save(session);
+
+    mutate_claim(strcmp(before, after) == 0, "a statement that fails leaves the model as it was");
+    ct_free(after);
+}
+
+/* Apply a text; the rest of it is left when a statement fails. */
+static void apply(ct_session *session, const char *text, clock_t *began)
+{
+    size_t next = 0, length = strlen(text);
+
+    while (next < length) {
+        ct_error error = {0};
+        ct_statement *statement = NULL;
+        size_t start = next;
+        char *before = ct_save(session);
+        ct_status status = ct_parse(text, 1, length % 2 == 0, &next, &statement, &error);
+
+        *began = clock();
+        if (status == CT_OK) {
+            mutate_claim(next > start, "reading goes forward");
+            status = carry_out(session, statement, &error);
+            ct_statement_free(statement);
+        } else
+            next = length;
+        if (status == CT_FAILED) {
+            check_error(text, &error);
+            check_unchanged(session, before);
+            next = length;
+        }
+        ct_free(before);
+    }
+}
+
+static void check_completion(ct_session *session, const char *text)
+{
+    size_t start = 0, cursor = strcspn(text, "\n");
+
+    ct_words_free(ct_complete(session, text, cursor, &start));
+    mutate_claim(start <= cursor, "completion begins before the cursor");
+}
+
+static void target(const char *text)
+{
+    size_t length = strlen(text);
+    clock_t began = clock();
+    ct_hooks hooks = {.context = &began, .stop = share_is_over, .columns = 80};
+    ct_session *session = ct_session_new(&hooks);
+
+    apply(session, models[length % (sizeof models / sizeof *models)], &began);
+    apply(session, text, &began);
+    check_completion(session, text);
+    ct_session_free(session);
+}
+
+int main(int argc, char **argv)
+{
+    return mutate_main(argc, argv, target);
+}
