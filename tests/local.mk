@@ -38,7 +38,9 @@ SCRIPT_TESTS = \
 	tests/cases/motor_arm \
 	tests/cases/pendulum \
 	tests/cases/slider_crank \
-	tests/dev/tools_tell_right_from_wrong
+	tests/dev/tools_tell_right_from_wrong \
+	tests/doc/manual_and_readme_are_true \
+	tests/install/installed_library_builds_a_program
 TESTS += $(SCRIPT_TESTS)
 EXTRA_DIST += $(SCRIPT_TESTS) tests/cases/cases.sh tests/cases/columns_agree \
 	tests/data/andrews_beta062.csv
