@@ -250,8 +250,8 @@ static void multiply(Arena *arena, const Expr A[9], const Expr B[9], Expr out[9]
 /* turns from left to right: about z, then about the new x */
 static Status rotation(Scope *scope, const Syntax *syntax, Expr R[9], Diag *diag)
 {
-    Expr left[9];
-    Expr right[9];
+    Expr left[9] = {NULL};
+    Expr right[9] = {NULL};
     Expr angle = NULL;
     Status status = OK;
 

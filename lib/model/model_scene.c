@@ -1,6 +1,7 @@
 /* model_scene.c: scene, gravity, title; changing and deleting what is there */
 #include "model/model_impl.h"
 
+#include <assert.h>
 #include <string.h>
 
 /* the line of a statement of which only the last one counts */
@@ -159,6 +160,7 @@ static Status set_pair(State **state, const Pair *pair, Outcome *outcome, Diag *
     Status status = OK;
 
     CHECK(find_key(s, pair, &part, &index, diag));
+    assert(part != NULL && index >= 0);
     scope.own = part;
     if (part->row->family == FAMILY_DRIVER)
         scope.kind = SCOPE_DRIVE;

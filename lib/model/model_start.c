@@ -20,7 +20,7 @@ static void unit_of(const State *state, const char *name, int primes, Text *unit
 
         base = units[state->parts.at[thing->index]->coord_kind[coordinate]];
     }
-    for (int i = 0; base == NULL && part != NULL &&
+    for (int i = 0; base == NULL && dot != NULL && part != NULL &&
                     (member = component_member(part->row, state->planar, i)) != NULL;
          i++)
         if (strcmp(member->name, dot + 1) == 0)
