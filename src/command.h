@@ -22,7 +22,8 @@ enum {
     WRITES = 1,    /* sees to `> "file"` itself */
     SILENT = 2,    /* prints nothing that could go to a file */
     FORGOTTEN = 4, /* is not for history and recording */
-    UNPAGED = 8    /* prints what fits the screen as it is */
+    UNPAGED = 8,   /* prints what fits the screen as it is */
+    OWN = 16       /* is the shell's alone: the session has nothing to remark */
 };
 
 typedef struct Command {

@@ -81,8 +81,8 @@ static ct_status lay_out(const Call *call, const char *type, const char *dot, Pa
     if (status != CT_OK) {
         ct_error_at(call->statement, NULL, error, "%s", why.message);
         error->status = status;
-        error_hint(error, "with graphviz (apt install graphviz) the drawing needs no more; "
-                          "draw > \"graph.dot\" and \"graph.txt\" do without");
+        error_hint(error,
+                   "apt install graphviz; draw > \"graph.dot\" and \"graph.txt\" do without");
     }
     paper_drop(&complaints);
     free(option);

@@ -10,9 +10,12 @@
 
 #include "terminal.h"
 
+#include <limits.h>
 #include <stdarg.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 enum {
     INDENT = 4,
@@ -40,15 +43,58 @@ void error_hint(ct_error *error, const char *format, ...)
     va_end(args);
 }
 
+/* A line of prose; on a terminal it is broken between words, what follows set in. */
+static void put_prose(const char *text, size_t length, int indent)
+{
+    int rows, columns, at = 0;
+
+    terminal_size(&rows, &columns);
+    if (!isatty(STDERR_FILENO))
+        columns = INT_MAX;
+    while (length > 0) {
+        size_t blanks = strspn(text, " ");
+        size_t n = blanks + strcspn(text + blanks, " \n");
+
+        n = n < length ? n : length;
+
+        int width = terminal_width(text, n);
+
+        if (at > 0 && at + width >= columns) {
+            fprintf(stderr, "\n%*s", indent, "");
+            at = indent;
+            text += blanks;
+            length -= blanks;
+            n -= blanks;
+            width -= (int)blanks;
+        }
+        fwrite(text, 1, n, stderr);
+        at += width;
+        text += n;
+        length -= n;
+    }
+    fputc('\n', stderr);
+}
+
 void remark(const char *format, ...)
 {
+    char *text = NULL;
     va_list args;
 
     fflush(stdout);
     va_start(args, format);
-    vfprintf(stderr, format, args);
+
+    int length = vasprintf(&text, format, args);
+
     va_end(args);
-    fputc('\n', stderr);
+    if (length < 0)
+        return;
+    for (const char *line = text; *line != '\0';) {
+        size_t n = strcspn(line, "\n");
+
+        put_prose(line, n, INDENT);
+        line += n + (line[n] == '\n');
+    }
+    free(text);
 }
 
 /* the physical line `number` of the text, counted from 0 */
@@ -114,10 +160,23 @@ static void cut(const char **line, size_t *length, size_t *before)
         (*length)--;
 }
 
-void complain(const Origin *origin, const char *text, const ct_error *error)
+/* where, what */
+static void put_message(const Origin *origin, bool has_place, const ct_error *error)
 {
     const char *kind = error->status == CT_STOPPED ? "" : "error: ";
-    bool has_place = error->line >= origin->line && error->column > 0 && *kind != '\0';
+
+    if (origin->name == NULL)
+        remark("%s%s", kind, error->message);
+    else if (has_place)
+        remark("%s:%d:%d: %s%s", origin->name, error->line, error->column, kind, error->message);
+    else
+        remark("%s:%d: %s%s", origin->name, origin->line, kind, error->message);
+}
+
+void complain(const Origin *origin, const char *text, const ct_error *error)
+{
+    bool has_place =
+        error->line >= origin->line && error->column > 0 && error->status != CT_STOPPED;
     size_t length = 0, before = 0, width = error->width > 0 ? (size_t)error->width : 1;
     const char *line = "";
 
@@ -136,11 +195,7 @@ void complain(const Origin *origin, const char *text, const ct_error *error)
         fprintf(stderr, "%*s", origin->prompt, "");
         put_caret(line, before, width);
     }
-    if (origin->name != NULL)
-        fprintf(stderr, "%s:%d:", origin->name, has_place ? error->line : origin->line);
-    if (origin->name != NULL && has_place)
-        fprintf(stderr, "%d:", error->column);
-    fprintf(stderr, "%s%s%s\n", origin->name != NULL ? " " : "", kind, error->message);
+    put_message(origin, has_place, error);
     if (has_place && !under) {
         cut(&line, &length, &before);
         fprintf(stderr, "%*s", INDENT, "");
@@ -149,5 +204,5 @@ void complain(const Origin *origin, const char *text, const ct_error *error)
         put_caret(line, before, width < length - before ? width : length - before);
     }
     if (error->hint[0] != '\0')
-        fprintf(stderr, "%*shint: %s\n", under ? 0 : INDENT, "", error->hint);
+        remark("%*shint: %s", under ? 0 : INDENT, "", error->hint);
 }

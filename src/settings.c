@@ -147,11 +147,8 @@ ct_status settings_apply(Settings *settings, const ct_statement *statement, ct_e
 void settings_show(const Settings *settings, FILE *out)
 {
     for (int i = 0; i < SETTINGS; i++) {
-        long before;
-
-        fprintf(out, "%-12s ", table[i].name);
-        before = ftell(out);
+        fprintf(out, "%-9s  ", table[i].name);
         table[i].show(settings, out);
-        fprintf(out, "%*s %s\n", (int)(before + 12 - ftell(out)), "", table[i].brief);
+        fprintf(out, "  (%s)\n", table[i].brief);
     }
 }

@@ -83,12 +83,20 @@ static ct_status write_redirect(const ct_statement *statement, const char *text,
     return ct_error_at(statement, NULL, error, "%s", why.message);
 }
 
-static ct_status put_on_screen(const char *text, size_t length, bool paged, ct_error *error)
+static ct_status put_on_screen(Shell *shell, const char *text, size_t length, bool paged,
+                               ct_error *error)
 {
     pager_show(text, length, paged);
     if (fflush(stdout) == 0 && !ferror(stdout))
         return CT_OK;
     clearerr(stdout);
+
+    /* who reads has seen enough: nothing to tell, nor anybody to tell it to */
+    if (errno == EPIPE) {
+        shell->quitting = true;
+        shell->failed++;
+        return CT_OK;
+    }
     return error_say(error, "can't write the results: %s", strerror(errno));
 }
 
@@ -134,7 +142,7 @@ static ct_status command(Shell *shell, const Command *row, const ct_statement *s
         status = write_redirect(statement, text, paper.length, error);
     else if (status == CT_OK && paper.length > 0)
         status = put_on_screen(
-            text, paper.length,
+            shell, text, paper.length,
             shell->interactive && shell->settings.pager && (row->flags & UNPAGED) == 0, error);
     free(text);
     return status;
@@ -179,7 +187,7 @@ static ct_status carry_out(Shell *shell, const ct_statement *statement, ct_error
         row != NULL ? command(shell, row, statement, error) : build(shell, statement, error);
 
     progress_end(&shell->progress);
-    if (status == CT_OK || status == CT_STOPPED)
+    if ((status == CT_OK || status == CT_STOPPED) && (row == NULL || (row->flags & OWN) == 0))
         say_remarks(shell);
     if (status == CT_OK && depth == 0 && (row == NULL || (row->flags & FORGOTTEN) == 0))
         status = keep(shell, statement, error);

@@ -10,6 +10,7 @@ tree h1
 simulate 1 every=0.1
 time print h1
 undo
+save "saved.ct"
 END
 cotree model.ct >out.txt 2>said.txt
 wc -l <out.txt
