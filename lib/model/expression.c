@@ -3,6 +3,7 @@
  * Each function stands under its line of the grammar. */
 #include "model/parser.h"
 
+#include <assert.h>
 #include <string.h>
 
 /* --- nodes --- */
@@ -42,10 +43,13 @@ Status syntax_take(Parser *parser, Syntax *node, int start)
 static Status join(Parser *parser, const Token *op, Syntax *left, Syntax *right, Syntax **out)
 {
     int start = parser->arguments.count;
-    Place place = left != NULL ? left->place : op->place;
-    Syntax *node = syntax_new(parser, left != NULL ? SYNTAX_BINARY : SYNTAX_UNARY, op->text,
-                              place_between(place, right->place));
+    Place place;
+    Syntax *node;
 
+    assert(right != NULL);
+    place = left != NULL ? left->place : op->place;
+    node = syntax_new(parser, left != NULL ? SYNTAX_BINARY : SYNTAX_UNARY, op->text,
+                      place_between(place, right->place));
     node->op_place = op->place;
     if (left != NULL)
         LIST_PUSH(parser->arguments, left);
@@ -73,7 +77,7 @@ static Status parse_arguments(Parser *parser, const Token *open, Syntax *node)
 {
     int start = parser->arguments.count;
     Status status = OK;
-    Syntax *argument;
+    Syntax *argument = NULL;
 
     parser->brackets++;
     do {
@@ -168,8 +172,8 @@ static Status parse_unary(Parser *parser, Syntax **out)
 {
     const Token *op = parser_token(parser);
     Status status = OK;
-    Syntax *value;
-    Syntax *power;
+    Syntax *value = NULL;
+    Syntax *power = NULL;
 
     CHECK(parser_enter(parser));
     if (parser_take(parser, "-") || parser_take(parser, "+") || parser_take(parser, "!")) {
@@ -197,8 +201,8 @@ typedef Status (*Level)(Parser *parser, Syntax **out);
 static Status parse_chain(Parser *parser, const char *const *ops, Level next, Syntax **out)
 {
     Status status = OK;
-    Syntax *left;
-    Syntax *right;
+    Syntax *left = NULL;
+    Syntax *right = NULL;
 
     CHECK(next(parser, &left));
     for (int i = 0; ops[i] != NULL;) {
@@ -249,8 +253,8 @@ bool parser_sees_comparison(const Parser *parser)
 static Status parse_comparison(Parser *parser, Syntax **out)
 {
     Status status = OK;
-    Syntax *left;
-    Syntax *right;
+    Syntax *left = NULL;
+    Syntax *right = NULL;
 
     CHECK(parse_sum(parser, &left));
     if (parser_sees_comparison(parser)) {

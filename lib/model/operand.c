@@ -105,7 +105,7 @@ Status parse_edge(Parser *parser, Syntax **out)
     const Token open = *parser_token(parser);
     Status status = OK;
     Syntax *node;
-    Syntax *place;
+    Syntax *place = NULL;
 
     if (!parser_take(parser, "("))
         return parse_place(parser, out);

@@ -46,7 +46,7 @@ static Status read_name(Parser *parser, Statement *statement)
 {
     const Token *name;
     Status status = OK;
-    Syntax *value;
+    Syntax *value = NULL;
 
     if (parser_sees_pair(parser))
         CHECK(parser_expected(parser, "a name"));
@@ -63,7 +63,7 @@ done:
 static Status read_place(Parser *parser, Statement *statement)
 {
     Status status = OK;
-    Syntax *value;
+    Syntax *value = NULL;
 
     if (parser_sees_pair(parser))
         CHECK(parser_expected(parser, "a place (a name or 0)"));
@@ -114,7 +114,7 @@ static Status read_word(Parser *parser, Statement *statement)
 {
     const Token *token = parser_token(parser);
     Status status = OK;
-    Syntax *value;
+    Syntax *value = NULL;
 
     if (parser_sees_pair(parser))
         CHECK(parser_expected(parser, "a word"));
@@ -141,7 +141,7 @@ static Status read_word_maybe(Parser *parser, Statement *statement)
 static Status read_value(Parser *parser, Statement *statement)
 {
     Status status = OK;
-    Syntax *value;
+    Syntax *value = NULL;
 
     if (parser_sees_pair(parser))
         CHECK(parser_expected(parser, "a value"));
@@ -170,7 +170,7 @@ done:
 static Status read_expressions(Parser *parser, Statement *statement)
 {
     Status status = OK;
-    Syntax *value;
+    Syntax *value = NULL;
 
     do {
         if (parser_sees_stop(parser))
@@ -196,7 +196,7 @@ static bool operands_end(const Parser *parser)
 static Status read_items_maybe(Parser *parser, Statement *statement)
 {
     Status status = OK;
-    Syntax *value;
+    Syntax *value = NULL;
 
     while (!operands_end(parser)) {
         CHECK(parse_item(parser, &value));
@@ -218,7 +218,7 @@ static Status read_items(Parser *parser, Statement *statement)
 static Status read_mixed(Parser *parser, Statement *statement)
 {
     Status status = OK;
-    Syntax *value;
+    Syntax *value = NULL;
 
     while (!operands_end(parser)) {
         TokenKind kind = parser_token(parser)->kind;
@@ -238,7 +238,7 @@ static Status read_edges(Parser *parser, Statement *statement)
 {
     const Token *first = parser_token(parser);
     Status status = OK;
-    Syntax *value;
+    Syntax *value = NULL;
     int edges = 0;
     bool signed_edges = false;
 
@@ -288,7 +288,7 @@ static Status unquoted(Parser *parser)
 static Status read_string(Parser *parser, Statement *statement)
 {
     Status status = OK;
-    Syntax *value;
+    Syntax *value = NULL;
 
     if (parser_token(parser)->kind != TOKEN_STRING)
         CHECK(unquoted(parser));
@@ -312,7 +312,7 @@ static Status read_string_or_word(Parser *parser, Statement *statement)
 static Status read_condition(Parser *parser, Statement *statement)
 {
     Status status = OK;
-    Syntax *value;
+    Syntax *value = NULL;
 
     if (parser_sees_stop(parser))
         CHECK(parser_expected(parser, "a condition"));

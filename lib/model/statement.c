@@ -35,7 +35,7 @@ static int find_shortened(const char *word, Verb *verb)
     int count = 0;
     Verb row;
 
-    for (int i = 0; verb_at(i, &row); i++)
+    for (int i = 0; verb_any(i, &row); i++)
         if (!row.later && strncmp(row.name, word, strlen(word)) == 0) {
             *verb = row;
             count++;
@@ -50,7 +50,7 @@ static Status unknown_verb(const Parser *parser, const Token *token)
     Verb verb;
 
     (void)diag_at(parser->diag, E_NAME, token->place, "unknown command '%s'", token->text);
-    for (int i = 0; verb_at(i, &verb); i++)
+    for (int i = 0; verb_any(i, &verb); i++)
         suggest_offer(&suggest, verb.name);
     if (verb_habit(token->text) != NULL)
         diag_hint(parser->diag, "%s", verb_habit(token->text));

@@ -61,6 +61,22 @@ bool verb_find(const char *name, Verb *verb)
     return false;
 }
 
+bool verb_any(int i, Verb *verb)
+{
+    for (int n = 0; component_at(n) != NULL; n++)
+        if (i-- == 0) {
+            *verb = component_verb(component_at(n));
+            return true;
+        }
+    for (int n = 0; n < COUNT(tables); n++)
+        for (const Verb *v = tables[n]; v->name != NULL; v++)
+            if (i-- == 0) {
+                *verb = *v;
+                return true;
+            }
+    return false;
+}
+
 bool verb_at(int i, Verb *verb)
 {
     for (VerbGroup group = GROUP_SCENE; group <= GROUP_SESSION; group++) {

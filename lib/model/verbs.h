@@ -21,6 +21,9 @@ extern const Verb verbs_later[];   /* what comes with later versions, components
     "arm p1 m1 [0, 1]\n"                                                                           \
     "revolute h1 ground p1\n"
 
+/* every row once, in any order: quicker than verb_at() */
+bool verb_any(int i, Verb *verb);
+
 /* whether a key of a row that is here comes with a later version */
 bool key_is_later(const char *verb, const char *key);
 

@@ -345,9 +345,9 @@ static void a_statement_may_follow_a_colon(void)
 {
     Statement *s = read_text("sweep L4 from=0.1 to=0.3 steps=20 : simulate 5 every=0.1");
 
-    if (s == NULL)
+    EXPECT(s != NULL && s->rest != NULL);
+    if (s == NULL || s->rest == NULL)
         return;
-    EXPECT(s->rest != NULL);
     EXPECT_TEXT(s->rest->verb, "simulate");
     EXPECT_TEXT(s->rest->text, "simulate 5 every=0.1");
     statement_free(s);
