@@ -2,13 +2,14 @@
  *
  *   X sin^2 A + X cos^2 A         =  X
  *   X - X sin^2 A                 =  X cos^2 A, and the other way round
+ *   a X sin^2 A + b X cos^2 A      =  a X + (b - a) X cos^2 A, a and b numbers
  *   X cos A cos B -+ X sin A sin B =  X cos(A +- B)
  *   X sin A cos B +- X cos A sin B =  X sin(A +- B)
  *
  * A term has a fingerprint: the sum over its factors of exponent times a hash of the
  * base. So the fingerprint of the partner that a term needs follows by adding and
  * subtracting hashes, and the partner is looked up, not searched. Every fold takes two
- * terms and leaves one, which may fold again. */
+ * terms and leaves one, which may fold again, or two with a square of a sine less. */
 #include "expr/expr_impl.h"
 
 #include <string.h>
@@ -186,6 +187,30 @@ static bool fold_square(Fold *fold, int self, Expr factor)
     return false;
 }
 
+/* a X sin^2 A with b X cos^2 A, a and b different */
+static bool merge_squares(Fold *fold, int self, Expr sine)
+{
+    const Term term = fold->terms.at[self];
+    Arena *arena = fold->arena;
+    Expr angle = node_args(sine)[0];
+    int partner =
+        find_term(fold, term.print - 2 * trig_print(OP_SIN, angle) + 2 * trig_print(OP_COS, angle));
+    Expr rest;
+    Expr alike;
+    Expr left;
+
+    if (sine->op != OP_SIN || partner < 0)
+        return false;
+    rest = expr_div(arena, term.e, expr_square(arena, sine));
+    alike = expr_mul(arena, rest, expr_square(arena, trig(fold, OP_COS, angle)));
+    if (order_terms(fold->terms.at[partner].e, alike) != 0)
+        return false;
+    left = expr_sub(arena, fold->terms.at[partner].e, alike);
+    replace(fold, self, partner, rest);
+    add_term(fold, left);
+    return true;
+}
+
 /* X f(A) g(B) with X f'(A) g'(B), where ' is the other of sin and cos */
 static bool fold_pair(Fold *fold, int self, Expr f, Expr g)
 {
@@ -255,7 +280,8 @@ static bool fold_term(Fold *fold, int self)
 
         if (f == NULL)
             continue;
-        if (k >= 2 && (fold_square(fold, self, f) || fold_pair(fold, self, f, f)))
+        if (k >= 2 && (fold_square(fold, self, f) || fold_pair(fold, self, f, f) ||
+                       merge_squares(fold, self, f)))
             return true;
         for (int j = i + 1; j < factors.count; j++) {
             Expr g = trig_factor(factors.at[j], &l);
@@ -275,8 +301,8 @@ static Expr fold_sum(Arena *arena, Expr sum)
     bool folded = false;
     Expr result;
 
-    /* every fold lists one term more and takes two away */
-    while (fold.size < 4 * (uint32_t)sum->count)
+    /* every fold lists one term more and takes two away, or two and a square of a sine */
+    while (fold.size < 8 * (uint32_t)sum->count)
         fold.size *= 2;
     fold.slots = NEW_ARRAY(int, fold.size);
     for (int i = 0; i < sum->count; i++)

@@ -11,6 +11,7 @@ libcore_la_SOURCES += \
 	lib/formulate/motion.c \
 	lib/formulate/network.c \
 	lib/formulate/reactions.c \
+	lib/formulate/reading.c \
 	lib/formulate/show.c \
 	lib/formulate/system.c lib/formulate/system.h lib/formulate/system_impl.h \
 	lib/formulate/variables.c \

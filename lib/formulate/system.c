@@ -295,6 +295,7 @@ static Status build(System *system, Diag *diag)
     if (system->trees[TREE_TRANSLATION] != NULL)
         CHECK(dynamics_build(system, diag));
     CHECK(network_equations(system, diag));
+    CHECK(reading_choose(system, diag));
     CHECK(poll(system->watch));
     if (arena_status(system->arena) != OK) {
         status = diag_set(diag, arena_status(system->arena), "the equations can't be formed: %s",
@@ -481,6 +482,11 @@ const char *system_dropped(const System *system, int i)
 const char *system_remark(const System *system, int i)
 {
     return i < system->remarks.count ? system->remarks.at[i] : NULL;
+}
+
+const Reading *system_definitions(const System *system)
+{
+    return &system->definitions;
 }
 
 const Reading *system_run(const System *system)

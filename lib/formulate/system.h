@@ -86,6 +86,8 @@ typedef struct Reading {
     Expr *q_rate;      /* n */
 } Reading;
 
+/* definitions by recursion; a run uses them, or where it is shorter what is shown */
+const Reading *system_definitions(const System *system);
 const Reading *system_run(const System *system);
 /* --- the reading to show, entry by entry; folded; formed at the first call, then kept --- */
 typedef enum Block {

@@ -195,7 +195,8 @@ struct System {
     LIST(Expr) network_left; /* as printed */
     LIST(Expr) network_right;
 
-    Reading run;
+    Reading definitions; /* by recursion, whatever the size */
+    Reading run;         /* these, or the shorter equations as shown */
     LIST(Drive) drives;
 
     /* formed when asked for */
@@ -370,6 +371,10 @@ FrameSum framesum_cross(System *system, Vec axis, int chain, FrameSum b);
 Expr framesum_dot(System *system, FrameSum a, FrameSum b);
 /* the way from one node to another along the translation tree */
 FrameSum framesum_way(System *system, int from, int to);
+
+/* --- the cheaper reading (reading.c) --- */
+
+MUST_USE Status reading_choose(System *system, Diag *diag);
 
 /* --- the embedded form (embedded.c) --- */
 

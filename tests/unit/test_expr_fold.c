@@ -57,6 +57,9 @@ static void squares_of_sine_and_cosine_are_one(void)
     EXPECT(expr_fold(w.arena, SUB(MUL(INT(3), c2), INT(3))) == MUL(INT(-3), s2));
     EXPECT(expr_fold(w.arena, SUB(c2, s2)) == COS(MUL(INT(2), x)));
     EXPECT(expr_fold(w.arena, SUM(MUL(a, s2), MUL(b, c2))) == SUM(MUL(a, s2), MUL(b, c2)));
+    /* unlike coefficients leave one square: 3 s2 + 5 c2 = 3 + 2 c2 */
+    EXPECT(expr_fold(w.arena, ADD(MUL(INT(3), s2), MUL(INT(5), c2))) ==
+           ADD(INT(3), MUL(INT(2), c2)));
     /* the sum is an argument of a sine */
     EXPECT(expr_fold(w.arena, SIN(SUM(MUL(y, s2), MUL(y, c2)))) == SIN(y));
     END;

@@ -168,7 +168,7 @@ static void both_readings_give_the_same_numbers(void)
     for (int i = 0; i < COUNT(scenes); i++) {
         Model *model = scene_new(scenes[i]);
         System *system = scene_system(model);
-        const Reading *run = system != NULL ? system_run(system) : NULL;
+        const Reading *run = system != NULL ? system_definitions(system) : NULL;
 
         for (uint64_t seed = 1; seed < 4 && run != NULL; seed++) {
             SceneState state = {model, seed * 1000003U};
