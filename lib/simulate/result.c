@@ -108,8 +108,8 @@ Status result_open(RunKind kind, System *system, const Setting *setting, Result 
 
     CHECK(prepare(kind, system, setting, &r, diag));
     CHECK(start_find(r->layout, &r->parameters, r->numbers, setting,
-                     setting->warm != NULL ? warm_value : NULL, (void *)(uintptr_t)setting->warm,
-                     &r->start, diag));
+                     setting->warm != NULL ? warm_value : NULL, (void *)setting->warm, &r->start,
+                     diag));
     CHECK(make_motion(r, setting, 1e-8, diag));
     text_add(&r->remarks, r->start.remarks.at != NULL ? r->start.remarks.at : "");
     if (kind == RUN_SIMULATE)
