@@ -220,7 +220,7 @@ ct_status ct_table(ct_session *session, const ct_expression *const *items, int c
 {
     const Syntax **list = NEW_ARRAY(const Syntax *, count);
     Sheet sheet = {0};
-    Run *source;
+    Run *source = NULL;
     Status status;
     Diag diag = {0};
 
@@ -345,7 +345,7 @@ static Status export_csv(const ExportJob *job, Text *out, Diag *diag)
     const int count = s->operands.count - 1;
     const Syntax **items = NEW_ARRAY(const Syntax *, count);
     Sheet sheet = {0};
-    Run *source;
+    Run *source = NULL;
     Status status;
 
     for (int i = 0; i < count; i++)

@@ -42,7 +42,7 @@ static void insert(Walk *walk, Expr e)
 {
     if (2 * (walk->seen.count + 1) > walk->slots) {
         mem_free(walk->slot);
-        walk->slots = walk->slots == 0 ? 256 : 2 * walk->slots;
+        walk->slots *= 2;
         walk->slot = NEW_ARRAY(int, walk->slots);
         for (int i = 0; i < walk->seen.count; i++)
             *place(walk, walk->seen.at[i].node) = i + 1;
@@ -65,7 +65,7 @@ static void visit(Walk *walk, Expr root)
     } Frame;
     LIST(Frame) stack = {0};
 
-    if (walk->slots == 0 || find(walk, root) == NULL)
+    if (find(walk, root) == NULL)
         LIST_PUSH(stack, (Frame){root, 0});
     while (stack.count > 0) {
         Frame *top = stack.at + stack.count - 1;
@@ -73,11 +73,11 @@ static void visit(Walk *walk, Expr root)
         if (!is_leaf(top->node) && top->next < expr_arg_count(top->node)) {
             const Expr child = expr_arg(top->node, top->next++);
 
-            if (walk->slots == 0 || find(walk, child) == NULL)
+            if (find(walk, child) == NULL)
                 LIST_PUSH(stack, (Frame){child, 0});
             continue;
         }
-        if (walk->slots == 0 || find(walk, top->node) == NULL) {
+        if (find(walk, top->node) == NULL) {
             const Expr node = top->node;
 
             insert(walk, node);
@@ -149,7 +149,8 @@ static bool is_root(Expr e, const Expr *roots, int count)
 Abbreviation abbreviate(Arena *arena, const Expr *roots, int count, const Naming *naming)
 {
     Abbreviation out = {.roots = NEW_ARRAY(Expr, count), .definitions = {0}};
-    Walk walk = {.arena = arena, .seen = {0}, .slot = NULL, .slots = 0};
+    enum { SLOTS = 256 }; /* at first */
+    Walk walk = {.arena = arena, .slot = NEW_ARRAY(int, SLOTS), .slots = SLOTS};
 
     for (int i = 0; i < count; i++)
         visit(&walk, roots[i]);

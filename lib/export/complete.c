@@ -478,9 +478,7 @@ static bool find_statement(const char *text, size_t cursor, size_t *start)
             quoted = !quoted;
         else if (!quoted && text[i] == '#')
             return false;
-        else if (!quoted && text[i] == ';')
-            *start = i + 1;
-        else if (!quoted && text[i] == ':' && i + 1 < cursor)
+        else if (!quoted && (text[i] == ';' || text[i] == ':'))
             *start = i + 1;
     }
     while (*start < cursor && isspace((unsigned char)text[*start]))
@@ -519,7 +517,7 @@ static bool find_key(const Line *line, char *key, size_t size)
             end--;
         if (end == 0 || line->text[end - 1] != '=')
             return false;
-        equals = from = end - 1;
+        from = end - 1;
         while (from > 0 && isspace((unsigned char)line->text[from - 1]))
             from--;
         equals = from;

@@ -20,17 +20,18 @@ typedef struct Brackets {
 
 enum { GROUP = 24, CALL = 1000 };
 
-static void bracket(Brackets *open, const char *s, size_t i)
+static Brackets bracket(Brackets open, const char *s, size_t i)
 {
     if (s[i] == '(' || s[i] == '[') {
         const bool call = i > 0 && isalnum((unsigned char)s[i - 1]);
 
-        open->calls = open->calls << 1 | call;
-        open->score += call ? CALL : GROUP;
+        open.calls = open.calls * 2 + (call ? 1 : 0);
+        open.score += call ? CALL : GROUP;
     } else if (s[i] == ')' || s[i] == ']') {
-        open->score -= (open->calls & 1) != 0 ? CALL : GROUP;
-        open->calls >>= 1;
+        open.score -= open.calls % 2 == 1 ? CALL : GROUP;
+        open.calls /= 2;
     }
+    return open;
 }
 
 /* a sum's next term, or the other side of an equation, begins behind this blank */
@@ -65,7 +66,7 @@ static size_t line_end(const char *s, int width, Brackets open)
         } else if (i > 0 && (s[i] == '*' || (s[i] == ' ' && s[i - 1] == ',')) && columns > 8) {
             emergency = i;
         }
-        bracket(&open, s, i);
+        open = bracket(open, s, i);
         columns += starts_character(s[i]);
     }
     return columns <= width ? strlen(s) : best > 0 ? best : emergency > 0 ? emergency : strlen(s);
@@ -95,7 +96,7 @@ void layout_formula(Text *out, const Page *page, const char *lead, const char *b
         if (body[end] == '\0')
             break;
         for (size_t i = 0; i < end; i++)
-            bracket(&open, body, i);
+            open = bracket(open, body, i);
         text_add_n(out, body, end);
         text_char(out, '\n');
         deeper = bracket_indent(&open);

@@ -366,8 +366,9 @@ void view_equations(Text *out, const View *view, Equations *equations)
 
 void view_value(Equations *equations, char *name, Expr e)
 {
-    Equation equation = {.lead = NULL, .name = name, .left = {0}, .right = {0}};
+    Equation equation = {.lead = NULL, .left = {0}, .right = {0}};
 
+    equation.name = name;
     LIST_PUSH(equation.right, (Term){e, NULL});
     LIST_PUSH(*equations, equation);
 }

@@ -110,7 +110,7 @@ static Expr random_expression(Arena *arena, uint64_t *state, Expr *pool, int *co
 {
     const Expr a = pool[test_random(state) % (uint64_t)*count];
     const Expr b = pool[test_random(state) % (uint64_t)*count];
-    Expr e = a;
+    Expr e;
 
     switch (test_random(state) % 5) {
     case 0:
@@ -227,7 +227,7 @@ static void exported_c_compiles_and_gives_the_same_numbers(void)
         "    double q[] = {1.0471975511965976, 2.8487498818612176, 0.67445626465380286};\n"
         "    double u[] = {12, -2.0889318714683744, -2.4402745825759697};\n"
         "    model_mass(p, 0, q, u, 0, 0, out);\n"
-        "    printf(\"%.17g %.17g\\n\", out[0], out[1]);\n"
+        "    printf(\"%.17g\\n%.17g\\n\", out[0], out[1]);\n"
         "    model_forces(p, 0, q, u, 0, 0, out);\n"
         "    printf(\"%.17g\\n\", out[0]);\n"
         "    model_constraints(p, 0, q, u, 0, 0, out);\n"
@@ -235,7 +235,9 @@ static void exported_c_compiles_and_gives_the_same_numbers(void)
         "    return 0;\n}\n";
     const char *compiler = getenv("CC");
     char folder[] = "/tmp/cotree-test-XXXXXX", source[64], command[400];
-    double mass[2], force, residual;
+    double numbers[4] = {NAN, NAN, NAN, NAN};
+    char line[200];
+    int count = 0;
     Kit kit = kit_new();
     FILE *pipe;
 
@@ -249,17 +251,19 @@ static void exported_c_compiles_and_gives_the_same_numbers(void)
     (void)snprintf(
         command, sizeof command, "%s -std=c99 -w -ffp-contract=off -o %s/model %s -lm && %s/model",
         compiler != NULL && compiler[0] != '\0' ? compiler : "cc", folder, source, folder);
-    pipe = popen(command, "r");
-    EXPECT(pipe != NULL &&
-           fscanf(pipe, "%lf %lf %lf %lf", &mass[0], &mass[1], &force, &residual) == 4);
-    if (pipe != NULL)
-        EXPECT(pclose(pipe) == 0);
-    EXPECT_NEAR(mass[0], kit_value(&kit, "mass(1,1)"), 1e-14);
-    EXPECT_NEAR(mass[1], kit_value(&kit, "mass(1,2)"), 1e-13);
-    EXPECT_NEAR(force, kit_value(&kit, "forces(1)"), 1e-11);
-    EXPECT_NEAR(residual, 0, 1e-14);
-    (void)snprintf(command, sizeof command, "rm -r %s", folder);
-    EXPECT(system(command) == 0);
+    pipe = popen(command, "r"); /* NOLINT(cert-env33-c): the compiler of this build */
+    EXPECT(pipe != NULL);
+    while (pipe != NULL && count < 4 && fgets(line, sizeof line, pipe) != NULL)
+        numbers[count++] = strtod(line, NULL);
+    EXPECT(pipe != NULL && pclose(pipe) == 0);
+    EXPECT_NEAR(numbers[0], kit_value(&kit, "mass(1,1)"), 1e-14);
+    EXPECT_NEAR(numbers[1], kit_value(&kit, "mass(1,2)"), 1e-13);
+    EXPECT_NEAR(numbers[2], kit_value(&kit, "forces(1)"), 1e-11);
+    EXPECT_NEAR(numbers[3], 0, 1e-14);
+    (void)unlink(source);
+    (void)snprintf(source, sizeof source, "%s/model", folder);
+    (void)unlink(source);
+    EXPECT(rmdir(folder) == 0);
     kit_free(&kit);
 }
 

@@ -263,9 +263,13 @@ static void completion_bears_any_line(void)
 
     EXPECT_DONE(&kit, SLIDER_CRANK);
     for (int i = 0; i < 5000; i++) {
+        size_t length = 0;
+
         line[0] = '\0';
         for (int k = (int)(test_random(&state) % 8); k >= 0; k--)
-            strcat(line, pieces[test_random(&state) % (sizeof pieces / sizeof pieces[0])]);
+            length +=
+                (size_t)snprintf(line + length, sizeof line - length, "%s",
+                                 pieces[test_random(&state) % (sizeof pieces / sizeof pieces[0])]);
         (void)offers(&kit, line, "nothing");
     }
     kit_free(&kit);
