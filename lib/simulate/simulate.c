@@ -11,6 +11,7 @@
 #define LEAST_RTOL   1e-13
 #define MOST_ROWS    20000000
 #define FEW          100 /* unknowns up to which radau's dense factors beat bdf's */
+#define UNRESOLVED   0.1 /* difference of two runs, rad or m, that makes them different motions */
 #define AUTO         "auto"
 #define DEFAULT_RTOL 1e-8
 
@@ -166,6 +167,11 @@ static Status estimate_error(Result *r, const Setting *setting, const RunOptions
     }
     if (status == OK)
         r->report.global_error = 2 * largest;
+    if (status == OK && r->report.global_error > UNRESOLVED)
+        text_addf(&r->remarks,
+                  "not resolved: a run at a tenth of the tolerance ends elsewhere (by up to %.2g); "
+                  "take a smaller rtol, or a shorter run\n",
+                  largest);
     text_free(&march_report.remarks);
     grid_free(&grid);
     return status;

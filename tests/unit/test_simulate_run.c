@@ -417,6 +417,25 @@ static void a_second_run_estimates_the_error(void)
     script_close(&script);
 }
 
+static void an_unresolved_run_is_told(void)
+{
+    Script script =
+        run(PENDULUM "body p2 mass=2 inertia=0.5\narm b p [0, -1.5]\narm c p2 [0, 1.5]\n"
+                     "revolute k b c\ntree joint",
+            (Changes){0});
+    StartValue value = {"h", 0, 3, false};
+    StartValues start = {1, &value};
+    Setting setting = {.parameter = script_parameter, .context = script.model, .start = &start};
+    RunOptions options = {.duration = 100, .rtol = 1e-5, .check = true};
+    Diag diag = {0};
+
+    EXPECT(system_new(script.model, NULL, &script.system, &diag) == OK);
+    EXPECT(run_simulate(script.system, &setting, &options, &script.result, &diag) == OK);
+    EXPECT(script.result != NULL &&
+           strstr(result_remarks(script.result), "not resolved: ") != NULL);
+    script_close(&script);
+}
+
 static void the_report_balances_energy(void)
 {
     Script script = run(CRANK "force F m3 [-25 + 10*sin(5*t), 0]\ndamper d1 ground m3 d=0.5\n"
@@ -663,6 +682,7 @@ int main(void)
     RUN(values_between_rows_are_interpolated_and_projected);
     RUN(an_instant_outside_the_run_is_refused);
     RUN(a_second_run_estimates_the_error);
+    RUN(an_unresolved_run_is_told);
     RUN(the_report_balances_energy);
     RUN(drivers_work);
     RUN(wrong_options_are_refused);
