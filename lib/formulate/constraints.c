@@ -42,8 +42,8 @@ static void force_rows(System *system, const Instance *joint, const Steps *steps
     static const char *const names[] = {"x", "y", "z"};
     Arena *arena = system->arena;
     Vec none = vec_zero(arena);
-    Vec n1;
-    Vec n2;
+    Vec n1 = none;
+    Vec n2 = none;
 
     if (steps->shift_count == 0) {
         for (int i = 0; i < (system->planar ? 2 : 3); i++)

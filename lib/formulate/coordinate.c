@@ -115,8 +115,8 @@ void chord_turn(System *system, const Instance *owner, const Steps *steps, int w
     Rotation constant = chord_constant(system, owner, steps);
     Turns turns = {0};
     Expr rest = rotation_angle(arena, &constant, axis);
-    Vec n1;
-    Vec n2;
+    Vec n1 = vec_zero(arena);
+    Vec n2 = n1;
 
     *out = (ChordTurn){0};
     turns_between(system, system->frames[owner->tail].chain, system->frames[owner->head].chain,
