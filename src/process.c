@@ -190,7 +190,7 @@ int process_end(Process *process, int patience)
     for (int waited = 0; process_lives(process) && waited < patience; waited += 5)
         nanosleep(&(struct timespec){.tv_nsec = 5000000}, NULL);
     if (process->pid > 0) {
-        kill(process->pid, SIGKILL);
+        kill(-process->pid, SIGKILL); /* and what it started */
         while (waitpid(process->pid, &process->ended, 0) < 0 && errno == EINTR)
             continue;
         process->pid = 0;

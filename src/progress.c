@@ -1,6 +1,8 @@
 /* progress.c: what long work is doing, on a terminal and after a second only */
 #include "progress.h"
 
+#include "interrupt.h"
+
 #include <stdio.h>
 #include <string.h>
 #include <time.h>
@@ -68,5 +70,7 @@ void progress_end(Progress *progress)
 {
     if (progress->shown)
         fputs("\r\033[K", stderr);
+    else if (progress->allowed && interrupt_asked())
+        fputc('\n', stderr); /* the terminal has written ^C */
     progress->shown = progress->allowed = false;
 }

@@ -196,18 +196,19 @@ static ct_status carry_out(Shell *shell, const ct_statement *statement, ct_error
 
 /* --- a line --- */
 
-/* Step over blanks, separators and `word`; where it isn't there, or is being defined, stay. */
-static bool step_over(const char *text, size_t *next, const char *word)
+/* Step over blanks, separators and `word`; where it isn't there, or no word follows that it could
+ * be about, stay. `alone`: it may also end the text. */
+static bool step_over(const char *text, size_t *next, const char *word, bool alone)
 {
     size_t start = *next + strspn(text + *next, " \t;");
     size_t length = strlen(word);
 
     if (strncmp(text + start, word, length) != 0 || strchr(" \t", text[start + length]) == NULL)
-        return false;
+        return false; /* strchr() finds the end of the text, too */
 
     size_t end = start + length + strspn(text + start + length, " \t");
 
-    if (text[end] == '\0' || text[end] == '=' || text[end] == '#' || text[end] == ';')
+    if ((text[end] == '\0' && !alone) || text[end] == '=' || text[end] == '#' || text[end] == ';')
         return false;
     *next = end;
     return true;
@@ -231,12 +232,12 @@ static ct_status run_next(Shell *shell, const Origin *origin, const char *text, 
     ct_error error = {.status = CT_OK};
     bool timed = false;
 
-    if (step_over(text, next, "complete")) {
+    if (step_over(text, next, "complete", true)) {
         complete(shell, text + *next);
         *next = strlen(text);
         return CT_OK;
     }
-    while (step_over(text, next, "time"))
+    while (step_over(text, next, "time", false))
         timed = true;
 
     ct_status status = ct_parse(text, origin->line, shortened, next, &statement, &error);

@@ -7,5 +7,6 @@ complete body m2 inert
 complete body m2 mass=1 
 END
 cotree model.ct
+cotree -e complete | grep -x plot
 echo 'complete info mas' >>model.ct
 cotree model.ct | grep -x mass1

@@ -14,6 +14,7 @@ terminal_tests = \
     tests/terminal/plot_file.exp \
     tests/terminal/gnuplot_missing.exp \
     tests/terminal/gnuplot_killed.exp \
+    tests/terminal/gnuplot_stuck.exp \
     tests/terminal/start_file.exp \
     tests/terminal/leave.exp
 TESTS += $(terminal_tests)
