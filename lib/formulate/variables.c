@@ -4,7 +4,7 @@
  * the tables below say which members a family has and who tells them. */
 #include "formulate/system_impl.h"
 
-#include <stdio.h>
+#include <limits.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -376,16 +376,30 @@ static bool model_variable(System *system, const char *path, Expr *out)
     return true;
 }
 
+/* a row or column number; one too large for any matrix stays so */
+static int entry_number(const char *text, char **rest)
+{
+    long number = strtol(text, rest, 10);
+
+    return number < 0 || number > INT_MAX ? INT_MAX : (int)number;
+}
+
 /* lambda(1), mass(2,2), forces(1), constraints(1), jacobian(1,2) */
 static Status entry_variable(System *system, const char *path, bool *found, Expr *out, Diag *diag)
 {
     const char *bracket = strchr(path, '(');
     size_t length = bracket != NULL ? (size_t)(bracket - path) : 0;
-    int row = 0;
+    char *rest;
+    int row;
     int column = 1;
 
     *found = false;
-    if (bracket == NULL || sscanf(bracket, "(%d,%d)", &row, &column) < 1)
+    if (bracket == NULL)
+        return OK;
+    row = entry_number(bracket + 1, &rest);
+    if (*rest == ',')
+        column = entry_number(rest + 1, &rest);
+    if (*rest != ')' || rest[1] != '\0')
         return OK;
     if (length == 6 && strncmp(path, "lambda", 6) == 0) {
         *found = true;
