@@ -39,6 +39,9 @@ static void copy_instances(System *system, const Model *model)
         to->values = pool_alloc(system->pool, size);
         if (size > 0)
             memcpy(to->values, from->values, size);
+        for (int p = 0; p < from->row->param_count; p++)
+            if (from->values[p].word != NULL)
+                to->values[p].word = system_keep(system, "%s", from->values[p].word);
         for (int c = 0; c < MAX_COORDS; c++) {
             system->coordinate[i][c] = system->speed[i][c] = -1;
             if (c < from->coord_count)

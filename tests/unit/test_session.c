@@ -237,6 +237,88 @@ static void a_session_needs_no_hooks(void)
     ct_session_free(NULL);
 }
 
+/* whatever comes after whatever: every statement is done or refused, and the session goes on */
+static void a_session_bears_any_order_of_statements(void)
+{
+    static const char *const lines[] = {
+        "tree h8 h10 s11",
+        "tree translation h8 h9 h10",
+        "tree rotation h8 h10 s11",
+        "tree absolute",
+        "tree joint",
+        "cotree h8",
+        "form embedded",
+        "form embedded independent=[h8]",
+        "form augmented",
+        "init h8 = 60 deg, h8' = 12",
+        "init none",
+        "guess h10 = 2.85",
+        "L5 = 0.1",
+        "L5 = 5",
+        "L5 = 0.12",
+        "set m1.mass = 3",
+        "delete F12",
+        "delete m2",
+        "delete h9",
+        "undo",
+        "undo",
+        "redo",
+        "body m9 mass=1 inertia=0.1",
+        "arm r9 m9 [1, 0]",
+        "revolute h19 m3 r9",
+        "driver D1 h8 = 2*t",
+        "output o1 = h9.fx + mass(1,1)",
+        "resistor R1 a 0 10",
+        "vsource E1 a 0 sin(t)",
+        "motor M1 h8 a 0 R=1 Kt=0.1",
+        "assemble",
+        "simulate 0.02 every=0.01 rtol=1e-4 atol=1e-4",
+        "simulate 0.02 method=bdf",
+        "resume 0.01",
+        "kinematics 0.02 every=0.01",
+        "inverse 0.02 every=0.01",
+        "print h8, h9.fx, o1, run1.h8, max(h8), model.n, count.total.add",
+        "print h8 at 0.01",
+        "table h8 (h8 - run1.h8) every=0.005",
+        "table",
+        "expect h8 ~ 1 within 1 at 0.01",
+        "export csv",
+        "export csv h8 run2.s11 o1",
+        "export c",
+        "export latex",
+        "show graph",
+        "show equations",
+        "show constraints acceleration",
+        "show mass as latex",
+        "show o1",
+        "show h10.fx",
+        "show program",
+        "show run",
+        "count",
+        "count trees",
+        "check",
+        "info h8",
+        "draw",
+        "tree",
+    };
+    uint64_t state = 2;
+
+    for (int session = 0; session < 12; session++) {
+        Kit kit = kit_new();
+
+        EXPECT_DONE(&kit, SLIDER_CRANK);
+        for (int i = 0; i < 60; i++) {
+            const char *line = lines[test_random(&state) % (sizeof lines / sizeof lines[0])];
+            const ct_status status = kit_do(&kit, line);
+
+            if (status != CT_OK)
+                EXPECT(kit.error.message[0] != '\0' && kit.error.status == status);
+        }
+        EXPECT_DONE(&kit, "clear\n" PENDULUM "simulate 0.1");
+        kit_free(&kit);
+    }
+}
+
 int main(void)
 {
     RUN(a_statement_is_handed_out_in_parts);
@@ -253,5 +335,6 @@ int main(void)
     RUN(trees_tell_what_they_cost);
     RUN(two_sessions_know_nothing_of_each_other);
     RUN(a_session_needs_no_hooks);
+    RUN(a_session_bears_any_order_of_statements);
     return test_end();
 }
