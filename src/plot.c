@@ -222,7 +222,8 @@ static void put_labels(FILE *out, const Picture *picture, const char *title, boo
     fputs("set xlabel ", out);
     put_quoted(out, strcmp(x, "t") == 0 ? "t [s]" : x);
 
-    fputs(" noenhanced\nset key noenhanced below\n", out);
+    fprintf(out, " noenhanced\nset key noenhanced %s\n",
+            as_text ? "below" : "outside right top Left reverse samplen 2");
 
     /* characters don't stand upright: the legend says it all */
     if (as_text)
