@@ -205,7 +205,7 @@ static void add_counts(Text *line, OpCount count)
 
 /* What the trees just chosen make of the model, next to what they were before: said only where the
  * model is whole, and where counting costs no more than a glance. */
-enum { GLANCE = 150 }; /* edges */
+enum { GLANCE = 40 }; /* edges */
 
 static void remark_trees(ct_session *session)
 {
