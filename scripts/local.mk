@@ -4,6 +4,10 @@
 EXTRA_DIST += \
 	scripts/paper/1_slider_crank_one_tree.ct \
 	scripts/paper/1_slider_crank_two_trees.ct \
+	scripts/paper/2_serial_counts.ct \
+	scripts/paper/2_serial_indirect.ct \
+	scripts/paper/2_serial_joint.ct \
+	scripts/paper/2_serial_states.ct \
 	scripts/paper/3_motor_arm_forward.ct \
 	scripts/paper/3_motor_arm_inverse.ct
 
@@ -15,4 +19,5 @@ EXTRA_DIST += \
 	scripts/reference/ref_A02_four_bar_absolute.ct \
 	scripts/reference/ref_A02_four_bar_joint.ct \
 	scripts/reference/ref_A03_andrews.ct \
-	scripts/reference/ref_A03_andrews_beta062.ct
+	scripts/reference/ref_A03_andrews_beta062.ct \
+	scripts/reference/ref_free_body.ct

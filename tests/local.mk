@@ -35,12 +35,15 @@ EXTRA_DIST += tests/claims.sh
 SCRIPT_TESTS = \
 	tests/cases/andrews \
 	tests/cases/four_bar \
+	tests/cases/free_body \
 	tests/cases/motor_arm \
 	tests/cases/pendulum \
+	tests/cases/serial \
 	tests/cases/slider_crank \
 	tests/dev/tools_tell_right_from_wrong \
 	tests/doc/manual_and_readme_are_true \
 	tests/install/installed_library_builds_a_program
 TESTS += $(SCRIPT_TESTS)
 EXTRA_DIST += $(SCRIPT_TESTS) tests/cases/cases.sh tests/cases/columns_agree \
-	tests/data/andrews_beta062.csv
+	tests/data/andrews_beta062.csv tests/data/free_body.csv \
+	tests/data/serial_motion.csv tests/data/serial_states.csv
