@@ -71,6 +71,16 @@ static Expr number(Arena *arena, const Syntax *syntax)
     return syntax->has_unit ? expr_mul(arena, value, unit_factor(arena, &syntax->unit)) : value;
 }
 
+/* An angle counts as a number, but a length for each angle (a pitch in m/rev) is no length: it
+ * would be taken for one radian. */
+static bool unit_fits(Dimension wanted, Dimension given)
+{
+    const Dimension length = {{1, 0, 0, 0, 0, 0}};
+    bool is_length = memcmp(&wanted, &length, sizeof length) == 0;
+
+    return dimension_same(wanted, given) && !(is_length && given.power[5] != 0);
+}
+
 /* the part of `unit` before or behind the bar was chosen by the caller */
 Status unit_check(const Syntax *syntax, const char *unit, const char *name, Diag *diag)
 {
@@ -89,7 +99,7 @@ Status unit_check(const Syntax *syntax, const char *unit, const char *name, Diag
     if ((syntax->kind != SYNTAX_NUMBER && syntax->kind != SYNTAX_VECTOR) || !syntax->has_unit)
         return OK;
     if (!unit_parse(unit, strlen(unit), &wanted, &fault) ||
-        dimension_same(wanted.dimension, syntax->unit.dimension))
+        unit_fits(wanted.dimension, syntax->unit.dimension))
         return OK;
     if (strcmp(unit, "1") == 0)
         (void)diag_at(diag, E_UNIT, syntax->unit_place, "%s has no unit, got %s", name,
