@@ -13,6 +13,7 @@ include tests/unit/graph.mk
 include tests/unit/compile.mk
 include tests/unit/syntax.mk
 include tests/unit/model.mk
+include tests/unit/joints.mk
 include tests/unit/formulate.mk
 include tests/unit/simulate.mk
 include tests/unit/session.mk

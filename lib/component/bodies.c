@@ -9,22 +9,7 @@ static const Param body_params[] = {
     /* name      kind           unit       default  meaning */
     {"mass",    PARAM_SCALAR,  "kg",      NULL,    "mass", false},
     {"inertia", PARAM_INERTIA, "kg*m^2",  "0",     "about the mass centre, in the body's axes: planar one number, spatial [Ixx, Iyy, Izz] or [Ixx, Iyy, Izz, Ixy, Ixz, Iyz] (tensor entries)", false},
-};
-
-static const CoordinateRow body_coords[] = {
-    {"x",  COORDINATE_LENGTH,    false},
-    {"y",  COORDINATE_LENGTH,    false},
-    {"z",  COORDINATE_LENGTH,    false},
-    {"q0", COORDINATE_PARAMETER, true},
-    {"q1", COORDINATE_PARAMETER, true},
-    {"q2", COORDINATE_PARAMETER, true},
-    {"q3", COORDINATE_PARAMETER, true},
-};
-
-static const CoordinateRow body_coords_planar[] = {
-    {"x",     COORDINATE_LENGTH, false},
-    {"y",     COORDINATE_LENGTH, false},
-    {"theta", COORDINATE_ANGLE,  true},
+    EULER_PARAM,
 };
 
 static const Param arm_params[] = {
@@ -32,28 +17,6 @@ static const Param arm_params[] = {
     {"rotation", PARAM_ROTATION, "1", "1", "how the new frame is turned: z(90 deg)*x(a) about z, then about the new x", false},
 };
 /* clang-format on */
-
-/* a free motion from ground: three shifts along its axes, then the attitude */
-static void body_steps(const Instance *instance, Arena *arena, bool planar, Steps *out)
-{
-    Expr zero = expr_int(arena, 0);
-    Expr one = expr_int(arena, 1);
-
-    (void)instance;
-    steps_none(arena, out);
-    for (int i = 0; i < (planar ? 2 : 3); i++) {
-        Expr axis[3] = {zero, zero, zero};
-
-        axis[i] = one;
-        steps_shift(arena, out, axis, i);
-    }
-    if (planar) {
-        steps_turn(arena, out, (Expr[3]){zero, zero, one}, 2);
-    } else {
-        out->quaternion = true;
-        out->first_parameter = 3;
-    }
-}
 
 static void body_inertia(const Instance *instance, Arena *arena, bool planar, Expr *mass,
                          Expr tensor[6])
@@ -74,11 +37,13 @@ static bool is_negative(Expr e)
     return expr_is_number(e) && expr_value(e) < 0.0;
 }
 
-static Status body_check(const Instance *instance, Diag *diag)
+static Status body_check(const Instance *instance, Arena *arena, bool planar, Diag *diag)
 {
     const Value *inertia = instance_value(instance, "inertia");
     double I[3];
+    Status status = OK;
 
+    CHECK(attitude_check(instance, arena, planar, diag));
     if (is_negative(instance_scalar(instance, "mass")))
         return diag_set(diag, E_VALUE, "the mass of %s is negative", instance->name);
     for (int i = 0; i < inertia->count && i < 3; i++)
@@ -94,13 +59,13 @@ static Status body_check(const Instance *instance, Diag *diag)
     /* Ixx = int y^2+z^2 dm and so on: none is larger than the other two together */
     for (int i = 0; i < 3; i++)
         if (I[i] > (I[(i + 1) % 3] + I[(i + 2) % 3]) * (1.0 + 1e-9)) {
-            Status status =
-                diag_set(diag, E_VALUE, "no body has the moments of inertia %g, %g, %g of %s", I[0],
-                         I[1], I[2], instance->name);
+            status = diag_set(diag, E_VALUE, "no body has the moments of inertia %g, %g, %g of %s",
+                              I[0], I[1], I[2], instance->name);
             diag_hint(diag, "none of them can be larger than the sum of the other two");
             return status;
         }
-    return OK;
+done:
+    return status;
 }
 
 const Component component_body = {
@@ -111,20 +76,22 @@ const Component component_body = {
     .brief = "rigid body; its frame is at the mass centre",
     .params = body_params,
     .param_count = COUNT(body_params),
-    .coords = body_coords,
-    .coord_count = COUNT(body_coords),
-    .coords_planar = body_coords_planar,
-    .coord_count_planar = COUNT(body_coords_planar),
+    .coords = free_coords,
+    .coord_count = FREE_COORDS,
+    .coords_planar = free_coords_planar,
+    .coord_count_planar = FREE_COORDS_PLANAR,
+    .coords_of = free_coords_of,
     .translation = BRANCH_MAY,
     .rotation = BRANCH_MAY,
     .preference = 50,
-    .steps = body_steps,
+    .steps = free_steps,
     .inertia = body_inertia,
     .check = body_check,
     .help =
         "Makes a rigid body and the frame of its name, at the mass centre. In the graph it is an "
         "edge from ground to that frame. As a branch it brings absolute coordinates (planar: "
-        "x y theta), as a chord its motion follows from the joints.",
+        "x y theta; spatial: x y z and Euler parameters q0 q1 q2 q3, or with euler= three angles "
+        "a1 a2 a3, which have a singular attitude), as a chord its motion follows from the joints.",
     .example = "scene planar\ngravity [0, -9.81]\nbody ball mass=0.2 inertia=1e-4\n"
                "init ball.vx = 3, ball.vy = 4\nsimulate 1\nprint ball.x, ball.y",
     .see = "arm gravity force revolute",

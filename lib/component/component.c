@@ -32,12 +32,16 @@ int component_param(const Component *row, const char *name)
     return -1;
 }
 
-const CoordinateRow *component_coords(const Component *row, bool planar, int *count)
+const CoordinateRow *instance_coords(const Instance *instance, bool planar, int *count)
 {
+    const Component *row = instance->row;
+
     if (planar && row->coords_planar != NULL) {
         *count = row->coord_count_planar;
         return row->coords_planar;
     }
+    if (row->coords_of != NULL)
+        return row->coords_of(instance, count);
     *count = row->coord_count;
     return row->coords;
 }
@@ -188,6 +192,12 @@ void steps_turn(Arena *arena, Steps *out, const Expr axis[3], int coordinate)
 {
     assert(out->turn_count < COUNT(out->turn));
     out->turn[out->turn_count++] = step(arena, axis, coordinate);
+}
+
+void steps_freedom(const Steps *steps, int freedom[2])
+{
+    freedom[0] = steps->shift_count;
+    freedom[1] = steps->turn_count + (steps->quaternion ? 3 : 0);
 }
 
 static void cross(Arena *arena, const Expr a[3], const Expr b[3], Expr out[3])

@@ -38,8 +38,8 @@ typedef struct Param {
     ParamKind kind;
     const char *unit;     /* of its value, as in brackets: "kg*m^2"; "" none, NULL any. Two between
                              '|': on a length (a line, a slide), on an angle */
-    const char *fallback; /* the default: a number (for vectors: each entry), an axis' letter, the
-                             words; NULL: must be given */
+    const char *fallback; /* the default: a number (for vectors: each entry), an axis' letter (for
+                             axes: two), the words; NULL: must be given */
     const char *meaning;
     bool positional; /* may stand without its key behind the places (arm r m [..], resistor R1 a b
                         10) */
@@ -157,6 +157,9 @@ struct Component {
     int coord_count;
     const CoordinateRow *coords_planar; /* NULL: as spatial */
     int coord_count_planar;
+    /* spatial, where values decide which they are (euler=); NULL: always `coords` */
+    const CoordinateRow *(*coords_of)(const Instance *instance, int *count);
+    const char *not_in_plane; /* refused in a planar scene: what serves there; NULL: it may */
     Branching translation; /* of its mechanical edge; of the scalar edge of those that have one */
     Branching rotation;    /* BRANCH_NEVER for forces, and the mechanical edge of transducers */
     int preference; /* completion: lower first; joints 10 and, in each tree, 1 a coordinate of that
@@ -185,7 +188,7 @@ struct Component {
     int member_count;
     /* refuse values that no model could have (a negative mass is none of them unless numeric); may
      * be NULL */
-    Status (*check)(const Instance *instance, Diag *diag);
+    Status (*check)(const Instance *instance, Arena *arena, bool planar, Diag *diag);
     const char *help;
     const char *example; /* statements from an empty session that run */
     const char *see;
@@ -214,8 +217,8 @@ struct Instance {
     const char *text;  /* its statement */
 };
 
-/* The row's own way to say how many coordinates it has in this scene, and which. */
-const CoordinateRow *component_coords(const Component *row, bool planar, int *count);
+/* How many coordinates the instance has in this scene, and which, its values read. */
+const CoordinateRow *instance_coords(const Instance *instance, bool planar, int *count);
 const Component *component_find(const char *name);           /* exact; NULL */
 const Component *component_at(int i);                        /* 0, 1, ...; NULL at the end */
 int component_param(const Component *row, const char *name); /* -1: none */
@@ -230,6 +233,8 @@ const Member *component_member(const Component *row, bool planar, int i);
 void steps_none(Arena *arena, Steps *out); /* no shift, no turn, R_0 = 1 */
 void steps_shift(Arena *arena, Steps *out, const Expr axis[3], int coordinate);
 void steps_turn(Arena *arena, Steps *out, const Expr axis[3], int coordinate);
+/* how many motions the steps leave open: translation, rotation (a screw's one counts in both) */
+void steps_freedom(const Steps *steps, int freedom[2]);
 /* n1, n2 that make a right-handed triad u, n1, n2 with the unit vector u: x y for z, and so on in
  * circle; for others n1 is across the axis that u leans on least. */
 void axis_complement(Arena *arena, const Expr u[3], Expr n1[3], Expr n2[3]);

@@ -104,8 +104,10 @@ static void resistor_relation(const Instance *instance, Arena *arena, const Moti
     *out = (Relation){RELATION_RESISTIVE, instance_scalar(instance, "R"), zero, zero};
 }
 
-static Status resistor_check(const Instance *instance, Diag *diag)
+static Status resistor_check(const Instance *instance, Arena *arena, bool planar, Diag *diag)
 {
+    (void)arena;
+    (void)planar;
     return check_number(instance, "R", true, diag);
 }
 
@@ -135,8 +137,10 @@ static void capacitor_relation(const Instance *instance, Arena *arena, const Mot
                  motion->across, &out->value, &out->offset);
 }
 
-static Status capacitor_check(const Instance *instance, Diag *diag)
+static Status capacitor_check(const Instance *instance, Arena *arena, bool planar, Diag *diag)
 {
+    (void)arena;
+    (void)planar;
     return check_number(instance, "C", false, diag);
 }
 
@@ -169,8 +173,10 @@ static void inductor_relation(const Instance *instance, Arena *arena, const Moti
                  motion->through, &out->value, &out->offset);
 }
 
-static Status inductor_check(const Instance *instance, Diag *diag)
+static Status inductor_check(const Instance *instance, Arena *arena, bool planar, Diag *diag)
 {
+    (void)arena;
+    (void)planar;
     return check_number(instance, "L", false, diag);
 }
 

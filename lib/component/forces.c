@@ -129,12 +129,14 @@ static Expr spring_potential(const Instance *instance, Arena *arena, const Motio
                     expr_mul(arena, instance_scalar(instance, "k"), expr_square(arena, stretch)));
 }
 
-static Status spring_check(const Instance *instance, Diag *diag)
+static Status spring_check(const Instance *instance, Arena *arena, bool planar, Diag *diag)
 {
     bool on_joint = instance->joint >= 0;
     const char *wrong = on_joint ? "length" : "rest";
     Status status;
 
+    (void)arena;
+    (void)planar;
     if (!instance_value(instance, wrong)->given)
         return OK;
     status = diag_set(diag, E_VALUE, "%s= is for a spring %s", wrong,
@@ -197,12 +199,14 @@ static Expr actuator_effort(const Instance *instance, Arena *arena, const Motion
     return instance_scalar(instance, instance->on_angle ? "torque" : "force");
 }
 
-static Status actuator_check(const Instance *instance, Diag *diag)
+static Status actuator_check(const Instance *instance, Arena *arena, bool planar, Diag *diag)
 {
     const char *right = instance->on_angle ? "torque" : "force";
     const char *wrong = instance->on_angle ? "force" : "torque";
     Status status;
 
+    (void)arena;
+    (void)planar;
     if (instance_value(instance, right)->given && !instance_value(instance, wrong)->given)
         return OK;
     if (instance_value(instance, wrong)->given) {

@@ -1,4 +1,4 @@
-/* joints.c: joints with constant axes: their steps from tail to head
+/* joints.c: joints that shift and turn along axes fixed in the tail
  *
  * u is the joint's axis, n1 and n2 complete a right-handed triad in the tail frame.
  * What the steps leave open is the motion space, its complement the reactions. */
@@ -16,25 +16,14 @@ static const Param normal_params[] = {
 static const CoordinateRow turn_coords[] = {{"", COORDINATE_ANGLE, true}};
 static const CoordinateRow slide_coords[] = {{"", COORDINATE_LENGTH, false}};
 
-static const CoordinateRow plane_coords[] = {
-    {"s1",    COORDINATE_LENGTH, false},
-    {"s2",    COORDINATE_LENGTH, false},
+static const CoordinateRow sleeve_coords[] = {
+    {"s",     COORDINATE_LENGTH, false},
     {"theta", COORDINATE_ANGLE,  true},
 };
 
-static const CoordinateRow free_coords[] = {
-    {"x",  COORDINATE_LENGTH,    false},
-    {"y",  COORDINATE_LENGTH,    false},
-    {"z",  COORDINATE_LENGTH,    false},
-    {"q0", COORDINATE_PARAMETER, true},
-    {"q1", COORDINATE_PARAMETER, true},
-    {"q2", COORDINATE_PARAMETER, true},
-    {"q3", COORDINATE_PARAMETER, true},
-};
-
-static const CoordinateRow free_coords_planar[] = {
-    {"x",     COORDINATE_LENGTH, false},
-    {"y",     COORDINATE_LENGTH, false},
+static const CoordinateRow plane_coords[] = {
+    {"s1",    COORDINATE_LENGTH, false},
+    {"s2",    COORDINATE_LENGTH, false},
     {"theta", COORDINATE_ANGLE,  true},
 };
 /* clang-format on */
@@ -67,7 +56,7 @@ const Component component_revolute = {
     .example = "scene planar\ngravity [0, -9.81]\nbody rod mass=1 inertia=1/12\n"
                "arm pin rod [-1/2, 0]\nrevolute h1 ground pin coord=phi\n"
                "init phi = -60 deg\nsimulate 1\nprint phi, h1.fx",
-    .see = "prismatic arm driver motor virtual",
+    .see = "prismatic cylindrical universal arm driver motor virtual",
 };
 
 static void slide_steps(const Instance *instance, Arena *arena, bool planar, Steps *out)
@@ -96,7 +85,41 @@ const Component component_prismatic = {
         "The coordinate is the distance along the axis. Reactions: two forces, three moments.",
     .example = "scene planar\nbody cart mass=2 inertia=1\nprismatic s1 ground cart axis=x\n"
                "spring k1 s1 k=50 rest=0.1\ninit s1 = 0\nsimulate 1\nprint s1, s1'",
-    .see = "revolute spring",
+    .see = "revolute cylindrical spring",
+};
+
+static void sleeve_steps(const Instance *instance, Arena *arena, bool planar, Steps *out)
+{
+    const Expr *u = instance_value(instance, "axis")->at;
+
+    (void)planar;
+    steps_none(arena, out);
+    steps_shift(arena, out, u, 0);
+    steps_turn(arena, out, u, 1);
+}
+
+const Component component_cylindrical = {
+    .name = "cylindrical",
+    .family = FAMILY_JOINT,
+    .domain = DOMAIN_MECHANICAL,
+    .places = PLACES_FRAMES,
+    .brief = "sleeve on a shaft: a shift along an axis and a turn about it",
+    .params = axis_params,
+    .param_count = COUNT(axis_params),
+    .coords = sleeve_coords,
+    .coord_count = COUNT(sleeve_coords),
+    .not_in_plane = "revolute or prismatic",
+    .translation = BRANCH_MAY,
+    .rotation = BRANCH_MAY,
+    .preference = 10,
+    .steps = sleeve_steps,
+    .help = "Lets the tip slide along one axis fixed in the tail and turn about it, each by "
+            "itself. Coordinates s, the distance, and theta, the angle. Reactions: two forces, "
+            "two moments.",
+    .example = "gravity [0, 0, -9.81]\nbody sleeve mass=0.5 inertia=[1e-3, 1e-3, 2e-3]\n"
+               "cylindrical c1 ground sleeve axis=z\nspring k1 c1.s k=40\n"
+               "init c1.s = 0, c1.theta = 0, c1.theta' = 3\nsimulate 1\nprint c1.s, c1.theta",
+    .see = "prismatic revolute screw",
 };
 
 static void plane_steps(const Instance *instance, Arena *arena, bool planar, Steps *out)
@@ -161,32 +184,4 @@ const Component component_weld = {
                "revolute h1 ground left\nweld w1 right bob\ninit h1 = 0\nsimulate 1\n"
                "print h1, w1.fy",
     .see = "arm revolute",
-};
-
-static void free_steps(const Instance *instance, Arena *arena, bool planar, Steps *out)
-{
-    component_body.steps(instance, arena, planar, out);
-}
-
-const Component component_free_joint = {
-    .name = "free",
-    .family = FAMILY_JOINT,
-    .domain = DOMAIN_MECHANICAL,
-    .places = PLACES_FRAMES,
-    .brief = "no constraint: every motion of the tip against the tail",
-    .coords = free_coords,
-    .coord_count = COUNT(free_coords),
-    .coords_planar = free_coords_planar,
-    .coord_count_planar = COUNT(free_coords_planar),
-    .translation = BRANCH_MAY,
-    .rotation = BRANCH_MAY,
-    .preference = 10,
-    .steps = free_steps,
-    .help = "Leaves the tip free against the tail. As a branch it gives coordinates of one frame "
-            "relative to another (planar: x y theta in the axes of the tail), as a chord it "
-            "enforces nothing.",
-    .example = "scene planar\nbody ship mass=100 inertia=10\nbody boat mass=1 inertia=0.1\n"
-               "free f1 ship boat\ntree ship f1\ninit f1.x = 5, f1.x' = -1\nsimulate 1\n"
-               "print f1.x, boat.x",
-    .see = "planarjoint virtual body",
 };

@@ -60,8 +60,10 @@ static void motor_relation(const Instance *instance, Arena *arena, const Motion1
         *out = (Relation){RELATION_ACROSS, back, zero, zero};
 }
 
-static Status motor_check(const Instance *instance, Diag *diag)
+static Status motor_check(const Instance *instance, Arena *arena, bool planar, Diag *diag)
 {
+    (void)arena;
+    (void)planar;
     static const char *const positive[] = {"R", "L", "J", "B"};
     Status status;
 

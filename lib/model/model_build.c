@@ -189,8 +189,7 @@ done:
 static void own_coordinates(Draft *draft)
 {
     Instance *part = draft->part;
-    const CoordinateRow *rows =
-        component_coords(part->row, draft->state->planar, &part->coord_count);
+    const CoordinateRow *rows = instance_coords(part, draft->state->planar, &part->coord_count);
 
     for (int i = 0; i < part->coord_count; i++) {
         Text name = {0};
@@ -284,9 +283,12 @@ static void add_mechanical_edge(State *state, Instance *part)
                  .domain = DOMAIN_MECHANICAL,
                  .component = part->number};
     int freedom[2] = {0, 0};
+    Steps steps;
 
-    for (int i = 0; i < part->coord_count; i++)
-        freedom[part->coord_rotation[i] ? 1 : 0]++;
+    if (part->row->steps != NULL) {
+        part->row->steps(part, state->arena, state->planar, &steps);
+        steps_freedom(&steps, freedom);
+    }
     for (int half = 0; half < 2; half++) {
         edge.branching[half] = branching_of(part, half == 1, freedom[half]);
         edge.preference[half] = part->row->preference + (part->is_virtual ? 1000 : 0);
@@ -339,6 +341,16 @@ static void commit(Draft *draft, const char *text)
     state_forget_trees(state);
 }
 
+/* joints that make no sense in a plane, whatever their axes are */
+static Status check_scene(const State *state, const Component *row, Place place, Diag *diag)
+{
+    if (!state->planar || row->not_in_plane == NULL)
+        return OK;
+    (void)diag_at(diag, E_VALUE, place, "a %s joint leaves the plane", row->name);
+    diag_hint(diag, "the scene is planar: %s serves there", row->not_in_plane);
+    return E_VALUE;
+}
+
 static Instance *new_part(State *state, const Component *row, bool is_virtual)
 {
     Instance *part = pool_alloc(state->pool, sizeof *part);
@@ -365,15 +377,16 @@ Status apply_component(State **state, const Statement *statement, Outcome *outco
                           .kind = row->family == FAMILY_DRIVER ? SCOPE_DRIVE : SCOPE_NUMBER,
                           .own = draft.part};
     assert(!statement->is_virtual || row->family == FAMILY_JOINT);
+    CHECK(check_scene(*state, row, statement->verb_place, diag));
     CHECK(draft_read_name(&draft));
-    own_coordinates(&draft);
     CHECK(draft_read_places(&draft));
     CHECK(read_values(&draft));
+    own_coordinates(&draft);
     if (draft.coordinate_names != NULL)
         CHECK(rename_coordinates(&draft));
     CHECK(part_check_plane(*state, draft.part, direction_place(&draft), diag));
     if (row->check != NULL)
-        CHECK(row->check(draft.part, diag));
+        CHECK(row->check(draft.part, draft.state->arena, draft.state->planar, diag));
 
     text = statement_full_text(statement);
     commit(&draft, text);

@@ -185,13 +185,14 @@ static Status member_unknown(const State *state, const Instance *part, const cha
     return E_NAME;
 }
 
-/* a coordinate by the member name that its row gives it, also where the user renamed it */
+/* a coordinate by the member name that its row gives it, also where the user renamed it; a part
+ * that is being read has none yet */
 static int coordinate_of_member(const State *state, const Instance *part, const char *member)
 {
     int count;
-    const CoordinateRow *rows = component_coords(part->row, state->planar, &count);
+    const CoordinateRow *rows = instance_coords(part, state->planar, &count);
 
-    for (int i = 0; i < count; i++)
+    for (int i = 0; i < count && i < part->coord_count; i++)
         if (rows[i].member[0] != '\0' && strcmp(rows[i].member, member) == 0)
             return i;
     return -1;

@@ -352,6 +352,11 @@ void param_fallback(State *state, const Param *param, Value *out)
         set_axis(arena, fallback[0] - 'x', 1, out->at);
         out->count = 3;
         return;
+    case PARAM_AXES:
+        set_axis(arena, fallback[0] - 'x', 1, out->at);
+        set_axis(arena, fallback[2] - 'x', 1, out->at + 3);
+        out->count = 6;
+        return;
     case PARAM_ROTATION:
         out->count = 9;
         for (int i = 0; i < 9; i++)

@@ -147,6 +147,22 @@ done:
     return status;
 }
 
+/* Coordinates have names, which other statements use: no key may change which there are. */
+static Status keeps_coordinates(const State *state, const Instance *part, const Pair *pair,
+                                Diag *diag)
+{
+    int count = 0;
+    Status status;
+
+    (void)instance_coords(part, state->planar, &count);
+    if (count == part->coord_count)
+        return OK;
+    status = diag_at(diag, E_VALUE, pair->name_place, "%s decides which coordinates %s has",
+                     pair->name, part->name);
+    diag_hint(diag, "delete %s and make it anew with the other value", part->name);
+    return status;
+}
+
 static Status set_pair(State **state, const Pair *pair, Outcome *outcome, Diag *diag)
 {
     State *s = *state;
@@ -172,8 +188,10 @@ static Status set_pair(State **state, const Pair *pair, Outcome *outcome, Diag *
                      &values[index], diag));
     part->values = values;
     status = part_check_plane(s, part, pair->value->place, diag);
+    if (status == OK)
+        status = keeps_coordinates(s, part, pair, diag);
     if (status == OK && part->row->check != NULL)
-        status = part->row->check(part, diag);
+        status = part->row->check(part, s->arena, s->planar, diag);
     if (status != OK) {
         part->values = kept;
         goto done;

@@ -122,6 +122,18 @@ const char *verb_key(const Verb *verb, int i)
     return i == row->param_count ? coordinate_key(row) : NULL;
 }
 
+/* [in=ground|body]; of a long list only its start */
+static void add_words(Text *text, const Param *param)
+{
+    enum { LONG = 30 };
+    size_t first = strcspn(param->fallback, "|");
+
+    if (strlen(param->fallback) < LONG)
+        text_addf(text, " [%s=%s]", param->name, param->fallback);
+    else
+        text_addf(text, " [%s=%.*s|...]", param->name, (int)first, param->fallback);
+}
+
 void verb_usage(Text *text, const Verb *verb)
 {
     const Component *row = verb->component;
@@ -138,7 +150,7 @@ void verb_usage(Text *text, const Verb *verb)
         if (param->positional)
             text_addf(text, must ? " %s" : " [%s]", param->name);
         else if (param->kind == PARAM_WORD)
-            text_addf(text, " [%s=%s]", param->name, param->fallback);
+            add_words(text, param);
         else
             text_addf(text, must ? " %s=.." : " [%s=..]", param->name);
     }
@@ -176,7 +188,8 @@ const char *verb_habit(const char *word)
         {"ic", "did you mean 'init'?"},
         {"initial", "did you mean 'init'?"},
         {"dcmotor", "did you mean 'motor'?"},
-        {"joint", "joints are: revolute prismatic planarjoint weld free"},
+        {"joint", "joints are: revolute prismatic cylindrical universal spherical screw "
+                  "planarjoint weld free"},
         {"add", "a component starts with its own keyword: revolute h8 ground r4"},
         {"param", "a parameter is written NAME = value"},
         {"let", "a parameter is written NAME = value"},

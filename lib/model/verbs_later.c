@@ -24,10 +24,6 @@
 /* clang-format off */
 const Verb verbs_later[] = {
     MECHANICAL("beam", "nk", "length=.. mass_per_length=.. EA=.. EIy=.. EIz=.. GJ=..", "flexible beam along x of its root frame"),
-    MECHANICAL("cylindrical", "nppk", "TAIL TIP [axis=..]", "joint: a shift along and a turn about one axis"),
-    MECHANICAL("universal", "nppk", "TAIL TIP [axes=[x, y]]", "joint: a turn about one axis, then about another"),
-    MECHANICAL("spherical", "nppk", "TAIL TIP [euler=zxz]", "joint: three turns"),
-    MECHANICAL("screw", "nppk", "TAIL TIP pitch=.. [axis=..]", "joint: a turn that shifts by its pitch"),
     MECHANICAL("friction", "nPVk", "JOINT ..", "friction in a joint"),
     MECHANICAL("stop", "nPVk", "JOINT ..", "end stop of a joint"),
     MECHANICAL("bushing", "nppVk", "TAIL TIP ..", "compliant joint"),
@@ -103,7 +99,7 @@ bool key_is_later(const char *verb, const char *key)
     static const struct {
         const char *verb;
         const char *key;
-    } keys[] = {{"arm", "at"}, {"body", "euler"}, {"free", "euler"}};
+    } keys[] = {{"arm", "at"}};
 
     for (int i = 0; i < COUNT(keys); i++)
         if (strcmp(keys[i].verb, verb) == 0 && strcmp(keys[i].key, key) == 0)

@@ -99,7 +99,7 @@ static void joints_have_the_freedoms_of_the_table(void)
             model = model_of(text.at);
             part = model_find(model, "x");
             part->row->steps(part, model_arena(model), planar == 1, &steps);
-            (void)component_coords(part->row, planar == 1, &count);
+            (void)instance_coords(part, planar == 1, &count);
             EXPECT(steps.shift_count == (planar ? table[i].planar_shifts : table[i].shifts));
             EXPECT(steps.turn_count == (planar ? table[i].planar_turns : table[i].turns));
             EXPECT(steps.quaternion == (table[i].quaternion && !planar));

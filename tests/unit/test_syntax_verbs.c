@@ -140,9 +140,9 @@ static void what_comes_later_says_so(void)
         const char *text;
         int column;
     } lines[] = {{"beam b1 length=1", 1},
-                 {"virtual spherical s m1 m2", 9},
+                 {"time beam b1 length=1", 6},
                  {"time linearize inputs=[V1]", 6},
-                 {"body b mass=1 euler=zxz", 15}};
+                 {"arm r b1 at=0.5", 10}};
 
     for (int i = 0; i < COUNT(lines); i++) {
         Statement *s = NULL;
