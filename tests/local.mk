@@ -21,6 +21,7 @@ include tests/session/session.mk
 include tests/terminal/terminal.mk
 include tests/bench/bench.mk
 include tests/bench/expr.mk
+include tests/bench/formulate.mk
 include tests/bench/graph.mk
 include tests/bench/compile.mk
 include tests/bench/simulate.mk
