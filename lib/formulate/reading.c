@@ -6,8 +6,8 @@
 #include "formulate/system_impl.h"
 
 enum {
-    MOST_SPEEDS = 12,      /* beyond, definitions win and writing out takes long */
-    MOST_OPERATIONS = 5000 /* of the definitions */
+    MOST_SPEEDS = 12,     /* beyond, definitions win and writing out takes long */
+    MOST_OPERATIONS = 800 /* of the definitions: spatial chains of three grow out of hand */
 };
 
 static const Block blocks[] = {BLOCK_MASS, BLOCK_FORCES, BLOCK_CONSTRAINTS, BLOCK_JACOBIAN,
