@@ -9,7 +9,9 @@ EXTRA_DIST += \
 	scripts/paper/2_serial_joint.ct \
 	scripts/paper/2_serial_states.ct \
 	scripts/paper/3_motor_arm_forward.ct \
-	scripts/paper/3_motor_arm_inverse.ct
+	scripts/paper/3_motor_arm_inverse.ct \
+	scripts/paper/4_spatial_slider_crank_a.ct \
+	scripts/paper/4_spatial_slider_crank_c.ct
 
 # mechanisms with published reference solutions
 EXTRA_DIST += \

@@ -42,10 +42,12 @@ SCRIPT_TESTS = \
 	tests/cases/pendulum \
 	tests/cases/serial \
 	tests/cases/slider_crank \
+	tests/cases/spatial_slider_crank \
 	tests/dev/tools_tell_right_from_wrong \
 	tests/doc/manual_and_readme_are_true \
 	tests/install/installed_library_builds_a_program
 TESTS += $(SCRIPT_TESTS)
 EXTRA_DIST += $(SCRIPT_TESTS) tests/cases/cases.sh tests/cases/columns_agree \
 	tests/data/andrews_beta062.csv tests/data/free_body.csv \
-	tests/data/serial_motion.csv tests/data/serial_states.csv
+	tests/data/serial_motion.csv tests/data/serial_states.csv \
+	tests/data/spatial_slider_crank_a.csv tests/data/spatial_slider_crank_c.csv

@@ -259,6 +259,8 @@ static const struct {
     {"paper/1_slider_crank_two_trees.ct", "h8 h9 h10", "h8 h10 s11"},
     {"paper/3_motor_arm_forward.ct", "J1 J2", "J1 J2"},
     {"paper/3_motor_arm_inverse.ct", "J1 J2", "J1 J2"},
+    {"paper/4_spatial_slider_crank_a.ct", "h1 h3 h4", "h1 h3 h4"},
+    {"paper/4_spatial_slider_crank_c.ct", "h1 h3 h4", "h1 h3 h4"},
     {"reference/ref_A01_pendulum_2000s.ct", "h1", "h1"},
     {"reference/ref_A01_pendulum_absolute.ct", "p1", "p1"},
     {"reference/ref_A01_pendulum_joint.ct", "h1", "h1"},
