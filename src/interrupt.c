@@ -2,6 +2,9 @@
 #include "interrupt.h"
 
 #include <stddef.h>
+#include <unistd.h>
+
+enum { PATIENCE = 2 }; /* s, between being asked to end and having to */
 
 static volatile sig_atomic_t asked, ending, resized, continued, second_ends;
 
@@ -14,9 +17,11 @@ static void on_interrupt(int number)
     asked = 1;
 }
 
+/* what goes on may save what it has; if it doesn't look in time, the alarm ends it */
 static void on_end(int number)
 {
     ending = number;
+    alarm(PATIENCE);
 }
 
 static void on_resize(int number)
