@@ -23,3 +23,6 @@ EXTRA_DIST += \
 	scripts/reference/ref_A03_andrews.ct \
 	scripts/reference/ref_A03_andrews_beta062.ct \
 	scripts/reference/ref_free_body.ct
+
+# sessions to read and to type
+EXTRA_DIST += scripts/tours/first-hour.ct

@@ -43,6 +43,7 @@ SCRIPT_TESTS = \
 	tests/cases/serial \
 	tests/cases/slider_crank \
 	tests/cases/spatial_slider_crank \
+	tests/cases/tours \
 	tests/dev/tools_tell_right_from_wrong \
 	tests/doc/manual_and_readme_are_true \
 	tests/install/installed_library_builds_a_program
