@@ -193,6 +193,14 @@ static bool chooses_trees(const Statement *statement)
            (strcmp(statement->verb, "tree") == 0 || strcmp(statement->verb, "cotree") == 0);
 }
 
+static bool is_search(const Statement *statement)
+{
+    return chooses_trees(statement) && statement->operands.count == 1 &&
+           statement->operands.at[0].sign == 0 &&
+           statement->operands.at[0].value->kind == SYNTAX_VARIABLE &&
+           strcmp(statement->operands.at[0].value->text, "best") == 0;
+}
+
 static void add_counts(Text *line, OpCount count)
 {
     text_add(line, line->at[line->length - 1] == 'e' ? ": " : "; ");
@@ -281,11 +289,17 @@ ct_status ct_apply(ct_session *session, const ct_statement *statement, ct_error 
         return CT_NOT_MINE;
     if (chooses_trees(s))
         log_trees(session);
-    CHECK(model_apply(session->model, s, &diag));
-    session_remark(session, model_remarks(session->model));
-    if (!keeps_values(s))
+    if (is_search(s)) {
+        status = session_best_trees(session, &diag);
+        if (status != OK && diag.place.line == 0)
+            diag.place = s->verb_place;
+    } else {
+        CHECK(model_apply(session->model, s, &diag));
+        session_remark(session, model_remarks(session->model));
+    }
+    if (is_search(s) ? model_revision(session->model) != revision : !keeps_values(s))
         note_change(session, revision, text_chooses(s->verb));
-    if (chooses_trees(s))
+    if (chooses_trees(s) && status == OK)
         remark_trees(session);
 done:
     return session_report(status, &diag, error);

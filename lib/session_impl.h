@@ -68,6 +68,12 @@ void session_sweep(ct_session *session);
 /* what there is to look at; `system` and `result` as needed */
 View session_view(const ct_session *session);
 
+/* --- trees (session_trees.c) --- */
+
+/* `tree best`: search, put the cheapest trees in place, and remark what was compared. Bounded by a
+ * number of formulations and a time. E_STOPPED leaves the best so far in place. */
+MUST_USE Status session_best_trees(ct_session *session, Diag *diag);
+
 /* --- runs --- */
 
 void run_free(Run *run);

@@ -1,4 +1,4 @@
-/* reading.c: which reading a program is made from
+/* reading.c: which reading a program is made from, and what a program costs
  *
  * A small system written as by hand often takes fewer operations, once its common
  * subexpressions are shared, than the definitions that serve a system of any size. Where it
@@ -6,19 +6,20 @@
 #include "formulate/system_impl.h"
 
 enum {
-    MOST_SPEEDS = 12,     /* beyond, definitions win and writing out takes long */
-    MOST_OPERATIONS = 800 /* of the definitions: spatial chains of three grow out of hand */
+    MOST_SPEEDS = 12,      /* beyond, definitions win and writing out takes long */
+    MOST_OPERATIONS = 800, /* of the definitions: spatial chains of three grow out of hand */
+    FUNCTION_PRICE = 20    /* a sine costs about as much as twenty additions in a run */
 };
 
 static const Block blocks[] = {BLOCK_MASS, BLOCK_FORCES, BLOCK_CONSTRAINTS, BLOCK_JACOBIAN,
                                BLOCK_ACCELERATION};
 
-/* operations; a sine costs about as much as twenty additions in a run */
+/* operations, functions weighed */
 static int64_t cost(const Expr *roots, int count)
 {
     OpCount ops = expr_count_shared(roots, count);
 
-    return ops.add + ops.mul + 20 * ops.fun;
+    return ops.add + ops.mul + FUNCTION_PRICE * ops.fun;
 }
 
 static Expr **block_of(Reading *reading, Block block)
@@ -95,4 +96,45 @@ Status reading_choose(System *system, Diag *diag)
 done:
     mem_free(defined);
     return status;
+}
+
+/* --- the price of a program --- */
+
+static void gather(Expr *out, int *count, const Expr *entries, int more)
+{
+    for (int i = 0; i < more; i++)
+        out[(*count)++] = entries[i];
+}
+
+OpCount system_program_count(const System *system)
+{
+    const Reading *run = &system->run;
+    int nu = system->u.count;
+    int m = system->rows.count;
+    int w = system->x.count + system->z.count;
+    Expr *roots = NEW_ARRAY(Expr, nu * (nu + 1 + m) + 3 * m + w * (w + 1));
+    int count = 0;
+    OpCount ops;
+
+    gather(roots, &count, run->mass, nu * nu);
+    gather(roots, &count, run->force, nu);
+    gather(roots, &count, run->phi_u, m * nu);
+    gather(roots, &count, run->phi, m);
+    gather(roots, &count, run->nu, m);
+    gather(roots, &count, run->gamma, m);
+    gather(roots, &count, run->network, w * w);
+    gather(roots, &count, run->network_rhs, w);
+    ops = expr_count_shared(roots, count);
+    mem_free(roots);
+    return ops;
+}
+
+double system_price(const System *system)
+{
+    OpCount ops = system_program_count(system);
+    double unknowns = (double)(system->u.count + system->rows.count);
+
+    /* Gauss: as many additions as multiplications, both while factoring and while substituting */
+    return (double)(ops.add + ops.mul + FUNCTION_PRICE * ops.fun) +
+           2 * unknowns * unknowns * (unknowns / 3 + 1);
 }

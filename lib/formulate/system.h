@@ -115,6 +115,28 @@ void system_network_equation(System *system, int i, Expr *left, Expr *right);
 /* as written (reading to show) and after sharing (reading to run) */
 MUST_USE Status system_count(System *system, Block block, bool shared, OpCount *out, Diag *diag);
 
+/* operations of the program of a run, what its blocks have in common counted once */
+OpCount system_program_count(const System *system);
+/* What one evaluation of the accelerations costs, in additions: the program's operations, 20 for
+ * each function, and 2/3 N^3 + 2 N^2 for solving N = nu + m equations. To compare trees by. */
+double system_price(const System *system);
+
+/* --- frames that turn about one axis --- */
+
+/* Two frames with other turns between them that add up to one turn, about an axis fixed in both:
+ * a virtual revolute joint can tell their orientation. In every position at which the joints of
+ * the system hold. */
+typedef struct CommonTurn {
+    int tail; /* nodes; the tail is nearer to the datum */
+    int head;
+    Expr axis[3]; /* unit vector in the frame of the tail */
+} CommonTurn;
+
+/* The pair that reaches furthest back to the datum, for each frame that is the end of such a pair.
+ * Pairs at one turn's distance, and those that an edge joins already, are left out. A new list of
+ * *count, to be freed with mem_free(). O(turns^2). */
+CommonTurn *system_common_turns(const System *system, int *count);
+
 /* --- variables a user can ask for --- */
 
 /* Read the model's outputs anew: they may be added after a run without touching its equations. */

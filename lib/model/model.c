@@ -9,6 +9,8 @@
 typedef struct Accepted {
     const char *text; /* the statement in full */
     Effect effect;
+    int before;         /* steps before it that are undone with it */
+    const char *called; /* what they are called together; NULL: text */
 } Accepted;
 
 struct Model {
@@ -66,8 +68,17 @@ static void set_remarks(Model *model, Text *remarks)
 static void add_step(Model *model, const char *text, Effect effect)
 {
     model->steps.count = model->done;
-    LIST_PUSH(model->steps, (Accepted){pool_text(model->pool, text, strlen(text)), effect});
+    LIST_PUSH(model->steps,
+              (Accepted){.text = pool_text(model->pool, text, strlen(text)), .effect = effect});
     model->done++;
+}
+
+void model_join(Model *model, int count, const char *called)
+{
+    Accepted *last = &model->steps.at[model->done - 1];
+
+    last->before = count - 1;
+    last->called = pool_text(model->pool, called, strlen(called));
 }
 
 Status model_apply(Model *model, const Statement *statement, Diag *diag)
@@ -141,7 +152,7 @@ static Status move_to(Model *model, int count, const Accepted *over, Diag *diag)
     state_free(model->state);
     model->state = state;
     model->done = count;
-    model->undone = over->text;
+    model->undone = over->called != NULL ? over->called : over->text;
     set_remarks(model, &none);
     count_effect(model, over->effect);
 done:
@@ -150,16 +161,25 @@ done:
 
 Status model_undo(Model *model, Diag *diag)
 {
+    const Accepted *last;
+
     if (model->done == 0)
         return diag_set(diag, E_MISSING, "there is nothing to undo");
-    return move_to(model, model->done - 1, &model->steps.at[model->done - 1], diag);
+    last = &model->steps.at[model->done - 1];
+    return move_to(model, model->done - 1 - last->before, last, diag);
 }
 
 Status model_redo(Model *model, Diag *diag)
 {
+    int last = model->done;
+
     if (model->done == model->steps.count)
         return diag_set(diag, E_MISSING, "there is nothing to redo");
-    return move_to(model, model->done + 1, &model->steps.at[model->done], diag);
+    /* the step that takes the next one along, if one does */
+    for (int i = model->done; i < model->steps.count; i++)
+        if (i - model->steps.at[i].before == model->done)
+            last = i;
+    return move_to(model, last + 1, &model->steps.at[last], diag);
 }
 
 const char *model_undone(const Model *model)

@@ -24,6 +24,8 @@ const char *model_remarks(const Model *model); /* of the last model_apply(), lin
 MUST_USE Status model_undo(Model *model,
                            Diag *diag); /* the last statement; E_MISSING when there is none */
 MUST_USE Status model_redo(Model *model, Diag *diag);
+/* The last `count` statements, at least one, are undone and done again as one, that of `called`. */
+void model_join(Model *model, int count, const char *called);
 const char *model_undone(const Model *model); /* text of the statement that undo/redo moved over */
 void model_clear(Model *model);               /* as model_new(); can be undone */
 char *model_save(const Model *model);         /* new: a script that rebuilds it */

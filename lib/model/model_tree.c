@@ -519,8 +519,10 @@ Status apply_tree(State **state, const Statement *statement, Outcome *outcome, D
 
     CHECK(read_words(&request, &first, &word));
     if (word != NULL && strcmp(word, "best") == 0) {
-        status = diag_at(diag, E_MISSING, statement->operands.at[first - 1].place,
-                         "'tree best' comes with a later version");
+        /* a search weighs equations, which a session has */
+        status = diag_at(diag, E_SYNTAX, statement->operands.at[first - 1].place,
+                         "'best' searches both mechanical trees together");
+        diag_hint(diag, "tree best");
         goto done;
     }
     if (word != NULL)

@@ -78,10 +78,19 @@ const Verb verbs_build[] = {
              "With signs it changes what is there: 'tree + a - b' takes a in and b out. An edge "
              "leaves only a tree that another edge enters. A set that is no tree is refused whole, "
              "with the circuit that its edges close or the nodes that they leave out.\n"
-             "'tree joint' prefers joints everywhere, 'tree absolute' bodies; 'tree best' searches "
-             "for the cheapest equations. A name that is also one of these words stands in "
-             "brackets.",
-     .example = PENDULUM "tree h1\nshow coordinates\ntree m1\nshow coordinates\ntree",
+             "'tree joint' prefers joints everywhere, 'tree absolute' bodies. A name that is also "
+             "one of these words stands in brackets.\n"
+             "'tree best' searches for the cheapest equations and prints the table that it "
+             "compared. It starts from the trees as they are, from 'tree joint' and from 'tree "
+             "absolute', and exchanges one branch for one chord of whose circuit it is part, in "
+             "one tree or both, as long as that is cheaper. Virtual revolute joints between frames "
+             "that can only turn about one axis against each other take part; one that is chosen "
+             "becomes a statement of the model. A price is the cost of one evaluation of the "
+             "accelerations: each addition and multiplication 1, each function 20, after common "
+             "subexpressions are shared, and 2/3 N^3 + 2 N^2 for solving N equations, one a speed "
+             "and one a constraint. The search ends after 200 choices or 10 seconds; Ctrl-C ends "
+             "it with the best so far. 'undo' takes back the trees and the joints.",
+     .example = PENDULUM "tree h1\nshow coordinates\ntree m1\nshow coordinates\ntree best\ntree",
      .see = "cotree form show count virtual"},
     {.name = "cotree",
      .group = GROUP_TREES,

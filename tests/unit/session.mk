@@ -12,3 +12,6 @@ test_session_help_SOURCES = tests/unit/test_session_help.c tests/unit/session_ki
 test_session_help_LDADD = $(unit_ldadd)
 test_export_SOURCES = tests/unit/test_export.c tests/unit/session_kit.h tests/unit/test.h
 test_export_LDADD = $(unit_ldadd)
+UNIT_TESTS += test_session_trees
+test_session_trees_SOURCES = tests/unit/test_session_trees.c tests/unit/session_kit.h tests/unit/test.h
+test_session_trees_LDADD = $(unit_ldadd)

@@ -197,7 +197,7 @@ static const Wrong wrong[] = {
     {"tree h1 P w",                  6, "circuit", ""},
     {"tree + m1 - r1",              -1, "arm r1 can't be a chord", "weld"},
     {"tree joint h1",               12, "'joint' stands alone", ""},
-    {"tree best",                    6, "later version", ""},
+    {"tree rotation best",          15, "searches both mechanical trees", "tree best"},
     {"tree rotation",                1, "no edge is named", ""},
     {"cotree r1",                    8, "arm r1 can't be a chord", ""},
     {"cotree E R C M",               8, "nodes a, b cannot be reached from 0", "to the tree"},
