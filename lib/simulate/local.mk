@@ -25,6 +25,8 @@ libcore_la_SOURCES += \
   lib/simulate/radau.c \
   lib/simulate/rank.c \
   lib/simulate/rank.h \
+  lib/simulate/redundant.c \
+  lib/simulate/redundant.h \
   lib/simulate/result.c \
   lib/simulate/result.h \
   lib/simulate/rk4.c \

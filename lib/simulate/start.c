@@ -5,6 +5,7 @@
 #include "simulate/least.h"
 #include "simulate/linear.h"
 #include "simulate/rank.h"
+#include "simulate/redundant.h"
 
 #include <math.h>
 #include <string.h>
@@ -573,19 +574,6 @@ static bool nearby(Assembly *a, uint64_t *seed, double *q, double *residual)
     return met;
 }
 
-static void remark_redundant(Assembly *a, const int *order, int rank)
-{
-    Text names = {0};
-
-    for (int k = rank; k < a->l->m; k++) {
-        text_add(&names, k > rank ? ", " : "");
-        name_row(&names, a->l, order[k]);
-    }
-    text_addf(&a->out->remarks, "redundant: %s; the least reactions that balance are told there\n",
-              names.at);
-    text_free(&names);
-}
-
 /* Independent rows, from the assembled position and two near it: a rank that falls at one place
  * only is a singularity, not a redundancy. */
 static void find_rank(Assembly *a)
@@ -615,8 +603,12 @@ static void find_rank(Assembly *a)
         text_addf(&a->out->remarks,
                   "the start is a singular position: %d of %d constraints hold there\n", here,
                   best);
-    if (best < l->m)
-        remark_redundant(a, a->out->rows, best);
+    if (best < l->m) {
+        /* at a singular start, what was found nearby tells more */
+        if (here == best)
+            a->eq->position(a->eq->context, 0, a->y);
+        redundant_tell(l->system, a->eq->phi_u, a->out->rows, best, &a->out->remarks);
+    }
     mem_free(order);
     mem_free(q);
     mem_free(residual);
