@@ -50,6 +50,19 @@ static void copy_instances(System *system, const Model *model)
     }
 }
 
+static void vary_values(System *system, VaryValue vary, void *context)
+{
+    for (int i = 0; i < system->instance_count; i++) {
+        Instance *instance = &system->instances[i];
+
+        for (int k = 0; k < instance->row->param_count; k++)
+            for (int c = 0; c < instance->values[k].count; c++)
+                instance->values[k].at[c] = vary(context, instance, k, instance->values[k].at[c]);
+    }
+    for (int i = 0; i < 3; i++)
+        system->gravity.at[i] = vary(context, NULL, -1, system->gravity.at[i]);
+}
+
 static Status copy_graph(System *system, const Model *model, Diag *diag)
 {
     const Graph *graph = model_graph(model);
@@ -309,7 +322,8 @@ done:
     return status;
 }
 
-Status system_new(const Model *model, const Watch *watch, System **out, Diag *diag)
+Status system_new_varied(const Model *model, VaryValue vary, void *context, const Watch *watch,
+                         System **out, Diag *diag)
 {
     System *system = NEW(System);
     Status status = OK;
@@ -324,6 +338,8 @@ Status system_new(const Model *model, const Watch *watch, System **out, Diag *di
         system->gravity.at[i] = model_gravity(model)[i];
     report(watch, "formulating", -1.0);
     copy_instances(system, model);
+    if (vary != NULL)
+        vary_values(system, vary, context);
     CHECK(copy_graph(system, model, diag));
     system_take_outputs(system, model);
     copy_form(system, model);
@@ -337,6 +353,11 @@ done:
         (void)diag_set(diag, E_STOPPED, "stopped while the equations were formed");
     system_free(system);
     return status;
+}
+
+Status system_new(const Model *model, const Watch *watch, System **out, Diag *diag)
+{
+    return system_new_varied(model, NULL, NULL, watch, out, diag);
 }
 
 void system_free(System *system)

@@ -19,6 +19,12 @@ typedef struct System System;
  * outlive it. Fails with E_MODEL, E_ASSEMBLE (a constraint that is a non-zero constant), the errors
  * of trees, E_STOPPED. */
 MUST_USE Status system_new(const Model *model, const Watch *watch, System **out, Diag *diag);
+/* The same for a model whose components have other values: `vary` is asked for each entry of them,
+ * and with the instance NULL for each of gravity, and hands back what shall stand there. The trees
+ * are the model's; so are variables and their order. */
+typedef Expr (*VaryValue)(void *context, const Instance *instance, int param, Expr value);
+MUST_USE Status system_new_varied(const Model *model, VaryValue vary, void *context,
+                                  const Watch *watch, System **out, Diag *diag);
 void system_free(System *system); /* NULL is fine */
 uint64_t system_revision(const System *system);
 Arena *system_arena(const System *system);
