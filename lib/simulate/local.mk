@@ -4,6 +4,7 @@ libcore_la_SOURCES += \
   lib/simulate/dop853_table.h \
   lib/simulate/embed.c \
   lib/simulate/embed.h \
+  lib/simulate/equilibrium.c \
   lib/simulate/ida.c \
   lib/simulate/inverse.c \
   lib/simulate/inverse.h \
@@ -13,10 +14,13 @@ libcore_la_SOURCES += \
   lib/simulate/least.h \
   lib/simulate/linear.c \
   lib/simulate/linear.h \
+  lib/simulate/linearize.c \
+  lib/simulate/linearize.h \
   lib/simulate/march.c \
   lib/simulate/march.h \
   lib/simulate/method.c \
   lib/simulate/methods.def \
+  lib/simulate/modes.c \
   lib/simulate/motion.c \
   lib/simulate/motion.h \
   lib/simulate/numbers.c \
@@ -30,6 +34,8 @@ libcore_la_SOURCES += \
   lib/simulate/result.c \
   lib/simulate/result.h \
   lib/simulate/rk4.c \
+  lib/simulate/rows.c \
+  lib/simulate/rows.h \
   lib/simulate/run.h \
   lib/simulate/simulate.c \
   lib/simulate/start.c \

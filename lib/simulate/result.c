@@ -103,13 +103,13 @@ static Status check_start(Result *r, Diag *diag)
 
 Status result_open(RunKind kind, System *system, const Setting *setting, Result **out, Diag *diag)
 {
+    const Result *warm = setting->from != NULL ? setting->from : setting->warm;
     Result *r = NULL;
     Status status = OK;
 
     CHECK(prepare(kind, system, setting, &r, diag));
     CHECK(start_find(r->layout, &r->parameters, r->numbers, setting,
-                     setting->warm != NULL ? warm_value : NULL, (void *)setting->warm, &r->start,
-                     diag));
+                     warm != NULL ? warm_value : NULL, (void *)warm, &r->start, diag));
     CHECK(make_motion(r, setting, 1e-8, diag));
     text_add(&r->remarks, r->start.remarks.at != NULL ? r->start.remarks.at : "");
     if (kind == RUN_SIMULATE)

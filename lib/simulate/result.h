@@ -32,6 +32,8 @@ MUST_USE Status result_open(RunKind kind, System *system, const Setting *setting
                             Diag *diag);
 /* the same, started where another one ended */
 MUST_USE Status result_reopen(const Result *old, const Setting *setting, Result **out, Diag *diag);
+/* E_MODEL where a driver's motion is supplied by another effort (by=): for inverse runs alone */
+MUST_USE Status result_refuse_by(const Result *result, Diag *diag);
 /* Everything at (t, y); `driven` the row's block, or NULL to solve. False: no solution. */
 bool result_row(Result *result, double t, const double *y, const double *driven, RowValues *out);
 /* Energy balance over the rows, into the report. */

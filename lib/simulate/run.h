@@ -65,6 +65,7 @@ typedef struct Setting {
     int independent_count;
     const StartValues *start;
     const Result *warm; /* configuration by coordinate name to start guesses from; NULL: none */
+    const Result *from; /* start where this one does, instead of at `start`; NULL: there */
     const Watch *watch;
 } Setting;
 
@@ -74,6 +75,12 @@ typedef struct Setting {
  * Fails with E_ASSEMBLE: the residual of each equation that can't be met, by joint and given value.
  */
 MUST_USE Status run_assemble(System *system, const Setting *setting, Result **out, Diag *diag);
+
+/* Where everything rests, with sources and drivers as at t = 0: a result of one row like that of
+ * run_assemble(), from whose start the search goes out. `model` is the system's. Fails with
+ * E_SOLVER, telling what stays out of balance by part, and as run_assemble() does. */
+MUST_USE Status run_equilibrium(System *system, const Model *model, const Setting *setting,
+                                Result **out, Diag *diag);
 
 /* Forward dynamics from the assembled start. E_STOPPED and E_SOLVER still hand out what was
  * computed (*out is NULL only when nothing was). */

@@ -209,8 +209,10 @@ done:
 }
 
 /* drivers whose motion another effort supplies belong to inverse runs */
-static Status refuse_by(const Layout *l, Diag *diag)
+Status result_refuse_by(const Result *r, Diag *diag)
 {
+    const Layout *l = r->layout;
+
     for (int i = 0; i < l->ne; i++) {
         (void)diag_set(diag, E_MODEL, "a driver with by= is for inverse runs: %s is not known here",
                        expr_name(l->symbols[l->efforts + i]));
@@ -256,7 +258,7 @@ Status run_simulate(System *system, const Setting *setting, const RunOptions *op
     Status status = OK;
 
     CHECK(result_open(RUN_SIMULATE, system, setting, &r, diag));
-    CHECK(refuse_by(r->layout, diag));
+    CHECK(result_refuse_by(r, diag));
     CHECK(go(r, setting, options, 0, false, diag));
 done:
     give(r, status, out);

@@ -6,6 +6,7 @@
 #include "simulate/linear.h"
 #include "simulate/rank.h"
 #include "simulate/redundant.h"
+#include "simulate/rows.h"
 
 #include <math.h>
 #include <string.h>
@@ -91,7 +92,7 @@ static Status read_given(Assembly *a, Diag *diag)
     const StartValues *start = a->setting->start;
     Status status = OK;
 
-    if (start == NULL)
+    if (start == NULL || a->setting->from != NULL)
         return OK;
     a->given = NEW_ARRAY(Given, start->count);
     for (int i = 0; i < start->count; i++) {
@@ -134,20 +135,6 @@ static void level_symbols(const Problem *p, Expr *out)
         out[k++] = l->symbols[l->x + i]; /* x, x', z stand together */
 }
 
-/* rows of the network as expressions: A [x'; z] - r */
-static Expr network_row(const Layout *l, int row)
-{
-    const Reading *run = system_run(l->system);
-    Arena *arena = system_arena(l->system);
-    int w = l->nx + l->nz;
-    Expr sum = expr_neg(arena, run->network_rhs[row]);
-
-    for (int k = 0; k < w; k++)
-        sum = expr_add(arena, sum,
-                       expr_mul(arena, run->network[row * w + k], l->symbols[l->rates + k]));
-    return sum;
-}
-
 static Status problem_open(Problem *p, Assembly *a, Level level, bool guesses, Diag *diag)
 {
     const Layout *l = a->l;
@@ -170,7 +157,7 @@ static Status problem_open(Problem *p, Assembly *a, Level level, bool guesses, D
     symbols = NEW_ARRAY(Expr, p->symbols);
     level_symbols(p, symbols);
     for (int i = 0; i < extra; i++)
-        LIST_PUSH(roots, network_row(l, i));
+        LIST_PUSH(roots, row_network(l, i));
     for (int i = 0; i < p->count; i++)
         LIST_PUSH(roots, p->picked[i]->expr);
     for (int i = 0; i < extra + p->count; i++)
@@ -514,7 +501,7 @@ done:
     return status;
 }
 
-static Status find_network(Assembly *a, Diag *diag)
+static Status find_network(Assembly *a, WarmValue from, void *context, Diag *diag)
 {
     const Layout *l = a->l;
     Problem p = {0};
@@ -525,6 +512,11 @@ static Status find_network(Assembly *a, Diag *diag)
     Rows rows;
     Status status = OK;
 
+    for (int i = 0; i < l->nx && from != NULL; i++) {
+        double value = from(context, system_x(l->system, i)->name);
+
+        v[i] = isfinite(value) ? value : 0;
+    }
     for (int i = 0; i < a->given_count; i++) {
         const Given *given = &a->given[i];
 
@@ -633,7 +625,7 @@ Status start_find(const Layout *layout, Parameters *parameters, const Numbers *n
     CHECK(find_position(&a, diag));
     find_rank(&a);
     CHECK(find_velocity(&a, diag));
-    CHECK(find_network(&a, diag));
+    CHECK(find_network(&a, setting->from != NULL ? warm : NULL, warm_context, diag));
 done:
     mem_free(a.given);
     return status;

@@ -18,7 +18,8 @@ typedef struct Assembled {
 } Assembled;
 
 /* Fails with E_ASSEMBLE, naming what can't be met, and the errors of system_variable(). `warm`
- * tells the value of a variable in an earlier result (NAN: not known); NULL: there is none. */
+ * tells the value of a variable in an earlier result (NAN: not known); NULL: there is none. Where
+ * the setting has a `from`, that is the earlier result, and what was given is left aside. */
 typedef double (*WarmValue)(void *context, const char *name);
 MUST_USE Status start_find(const Layout *layout, Parameters *parameters, const Numbers *numbers,
                            const Setting *setting, WarmValue warm, void *warm_context,
