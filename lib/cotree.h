@@ -134,7 +134,8 @@ const char *ct_verb_name(int i);
 /* --- runs --- */
 
 /* simulate, kinematics, inverse, assemble, resume: the whole statement. The result becomes run1,
- * run2 ... (assemble: the start). ct_report() tells about it, ct_remarks() what had to be said. */
+ * run2 ... (assemble, equilibrium: the start). linearize and modes keep theirs for ct_show(),
+ * ct_value() and ct_export(). ct_report() tells about it, ct_remarks() what had to be said. */
 ct_status ct_run(ct_session *session, const ct_statement *statement, ct_error *error);
 char *ct_report(ct_session *session);        /* new: the last run's report, as `show run` */
 int ct_run_count(const ct_session *session); /* runs so far: run1 ... */

@@ -42,6 +42,12 @@ static void drop_runs(ct_session *session)
     LIST_FREE(session->runs);
     run_free(&session->start);
     run_free(&session->warm);
+    session->at_rest = false;
+    linear_free(session->linear);
+    session->linear = NULL;
+    modes_free(session->modes);
+    session->modes = NULL;
+    session->told = NULL;
     for (int i = 0; i < session->systems.count; i++)
         system_free(session->systems.at[i]);
     LIST_FREE(session->systems);
@@ -154,6 +160,7 @@ View session_view(const ct_session *session)
 
     return (View){.model = session->model,
                   .result = runs > 0 ? session->runs.at[runs - 1].result : NULL,
+                  .linear = session->linear,
                   .page = {.columns = session->hooks.columns,
                            .unicode = session->hooks.unicode,
                            .notation = session->hooks.unicode ? NOTATION_UNICODE : NOTATION_TEXT},
@@ -266,6 +273,7 @@ static void note_change(ct_session *session, uint64_t revision, bool trees_only)
 {
     session->changed = true;
     session->start_is_later = true;
+    session->told = NULL;
     session_forget_start(session);
     /* figures of another graph say nothing about this one */
     if (model_revision(session->model) != revision && !trees_only)
@@ -297,6 +305,8 @@ ct_status ct_apply(ct_session *session, const ct_statement *statement, ct_error 
         CHECK(model_apply(session->model, s, &diag));
         session_remark(session, model_remarks(session->model));
     }
+    if (s->verb != NULL && strcmp(s->verb, "init") == 0)
+        session->at_rest = false;
     if (is_search(s) ? model_revision(session->model) != revision : !keeps_values(s))
         note_change(session, revision, text_chooses(s->verb));
     if (chooses_trees(s) && status == OK)
@@ -316,6 +326,7 @@ static ct_status move_over(ct_session *session, Status (*move)(Model *, Diag *),
 
     session_begin(session);
     CHECK(move(session->model, &diag));
+    session->at_rest = false;
     text_addf(&session->remarks, "%s: %s\n", what, model_undone(session->model));
     note_change(session, revision, text_chooses(model_undone(session->model)));
 done:

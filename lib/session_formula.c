@@ -157,6 +157,11 @@ static int run_prefix(const char *path, const char **rest)
 
 /* --- cutting --- */
 
+static bool is_entry(const Syntax *syntax)
+{
+    return syntax->kind == SYNTAX_CALL && session_entry(syntax->text) >= 0;
+}
+
 /* whether the model understands the whole subtree; run: the one that all its names have, 0: none */
 static bool is_pure(const Syntax *syntax, int *run, bool *bare)
 {
@@ -167,7 +172,7 @@ static bool is_pure(const Syntax *syntax, int *run, bool *bare)
     if (syntax->kind == SYNTAX_VARIABLE || syntax->kind == SYNTAX_CALL) {
         const int prefix = run_prefix(syntax->text, &rest);
 
-        if (find_size(syntax->text) >= 0)
+        if (find_size(syntax->text) >= 0 || is_entry(syntax))
             return false;
         if (prefix > 0 && *run > 0 && prefix != *run)
             return false;
@@ -213,8 +218,7 @@ static Expr push_leaf(Cut *cut, Leaf leaf)
     return leaf.symbol;
 }
 
-/* outputs written out, also in one another: a run older than an output knows its parts */
-static Expr put_outputs(const Model *model, Expr e)
+Expr session_put_outputs(const Model *model, Expr e)
 {
     const int count = model_output_count(model);
     Arena *arena = model_arena(model);
@@ -255,7 +259,7 @@ static Status cut_pure(Cut *cut, const Syntax *syntax, int run, Expr *out, Diag 
         goto done;
     }
     CHECK(model_expression(session->model, run > 0 ? strip(pool, syntax) : syntax, &e, diag));
-    e = put_outputs(session->model, e);
+    e = session_put_outputs(session->model, e);
     *out = push_leaf(cut, (Leaf){.kind = LEAF_VARIABLE, .expr = e, .run = run - 1});
 done:
     pool_free(pool);
@@ -312,6 +316,35 @@ static Status cut_size(Cut *cut, const Syntax *syntax, Expr *out, Diag *diag)
     }
     *out = push_leaf(cut, (Leaf){.kind = LEAF_CONSTANT, .value = value, .run = -1});
     return OK;
+}
+
+/* linear.A(1,2): its numbers are numbers, or made of parameters */
+static Status cut_entry(Cut *cut, const Syntax *syntax, Expr *out, Diag *diag)
+{
+    int index[2] = {0, 0};
+    double value = 0;
+    Status status = OK;
+
+    for (int i = 0; i < syntax->count && i < COUNT(index); i++) {
+        Formula formula = {0};
+
+        CHECK(formula_new(cut->session, syntax->args[i], &formula, diag));
+        if (!formula_needs_run(&formula))
+            status = formula_value(cut->session, &formula, NULL, NULL, &value, diag);
+        else
+            status = diag_at(diag, E_VALUE, syntax->args[i]->place,
+                             "an entry of %s is picked by whole numbers from 1", syntax->text);
+        formula_free(&formula);
+        CHECK(status);
+        index[i] = value == floor(value) && fabs(value) < 1e6 ? (int)value : 0;
+    }
+    CHECK(session_entry_value(cut->session, session_entry(syntax->text), index, syntax->count,
+                              &value, diag));
+    *out = push_leaf(cut, (Leaf){.kind = LEAF_CONSTANT, .value = value, .run = -1});
+done:
+    if (status != OK && diag->place.line == 0)
+        diag->place = syntax->place;
+    return status;
 }
 
 static Expr join_binary(Arena *arena, const char *operator, Expr a, Expr b)
@@ -401,6 +434,8 @@ static Status cut_any(Cut *cut, const Syntax *syntax, Expr *out, Diag *diag)
         return cut_reduction(cut, syntax, reduce, out, diag);
     if (syntax->kind == SYNTAX_VARIABLE && find_size(syntax->text) >= 0)
         return cut_size(cut, syntax, out, diag);
+    if (is_entry(syntax))
+        return cut_entry(cut, syntax, out, diag);
     if (is_pure(syntax, &run, &bare))
         return cut_pure(cut, syntax, run, out, diag);
     return cut_joined(cut, syntax, out, diag);

@@ -12,6 +12,7 @@
 #include "export/count.h"
 #include "export/view.h"
 #include "model/model.h"
+#include "simulate/linearize.h"
 #include "simulate/run.h"
 
 /* Values of parameters when a run began; lives as long as the run. */
@@ -34,6 +35,10 @@ struct ct_session {
     LIST(Run) runs;         /* run1 is the first */
     Run start;              /* assembled from the model as it is; result NULL: not yet */
     Run warm;               /* the start before that: where guesses come from */
+    bool at_rest;           /* start, or else warm, is an equilibrium, from which runs start */
+    Linear *linear;         /* the last linearisation; NULL */
+    Modes *modes;           /* and modes */
+    const char *told;       /* verb whose finding ct_report() tells; NULL: as runs have it */
     bool start_is_later;    /* a bare name means the start, not the end of the last run */
     bool changed;           /* since the last run */
     TreeCosts costs;
@@ -77,6 +82,16 @@ MUST_USE Status session_best_trees(ct_session *session, Diag *diag);
 /* --- runs --- */
 
 void run_free(Run *run);
+/* What a run is told, made from the model as it is. */
+typedef struct Order {
+    ParameterValues *parameters;
+    StartValues start;
+    Setting setting;
+} Order;
+void order_make(ct_session *session, Order *order);
+void order_free(Order *order); /* what it holds */
+/* the result and the parameters that it was made with */
+Run order_done(Order *order, Result *result);
 /* the assembled start of the model as it is, made when it isn't there yet; borrowed */
 MUST_USE Status session_start(ct_session *session, Run **out, Diag *diag);
 /* what a bare name means: the last run, or the start; NULL diag place */
@@ -84,7 +99,17 @@ MUST_USE Status session_source(ct_session *session, Run **out, Diag *diag);
 /* the start is no longer that of the model; it stays as what guesses come from */
 void session_forget_start(ct_session *session);
 
+typedef Status Analysis(ct_session *session, const Statement *statement, Diag *diag);
+Analysis session_equilibrium, session_linearize, session_modes;
+/* entries of what these found (linear.A, modes.omega): a number for the name; -1: none */
+int session_entry(const char *name);
+MUST_USE Status session_entry_value(const ct_session *session, int entry, const int *index,
+                                    int count, double *out, Diag *diag);
+
 /* --- values --- */
+
+/* outputs written out, also in one another: a run older than an output knows its parts */
+Expr session_put_outputs(const Model *model, Expr e);
 
 /* An expression of the user's over variables, runs and counts, ready to be evaluated. */
 typedef enum LeafKind { LEAF_CONSTANT, LEAF_VARIABLE } LeafKind;

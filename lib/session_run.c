@@ -57,13 +57,7 @@ void session_forget_start(ct_session *session)
 
 /* --- what a run is told --- */
 
-typedef struct Order {
-    ParameterValues *parameters;
-    StartValues start;
-    Setting setting;
-} Order;
-
-static void order_free(Order *order)
+void order_free(Order *order)
 {
     mem_free(order->start.at);
     if (order->parameters != NULL) {
@@ -73,7 +67,15 @@ static void order_free(Order *order)
     }
 }
 
-static void order_make(ct_session *session, Order *order)
+/* the equilibrium from which runs start; NULL: there is none */
+static const Result *resting_start(const ct_session *session)
+{
+    if (!session->at_rest)
+        return NULL;
+    return session->start.result != NULL ? session->start.result : session->warm.result;
+}
+
+void order_make(ct_session *session, Order *order)
 {
     const Model *model = session->model;
     const int count = model_start_count(model);
@@ -93,13 +95,13 @@ static void order_make(ct_session *session, Order *order)
                                .context = order->parameters,
                                .start = &order->start,
                                .warm = session->warm.result,
+                               .from = resting_start(session),
                                .watch = &session->watch};
     order->setting.form =
         model_form(model, &order->setting.independent, &order->setting.independent_count);
 }
 
-/* the result and the parameters that it was made with */
-static Run order_done(Order *order, Result *result)
+Run order_done(Order *order, Result *result)
 {
     Run run = {result, order->parameters};
 
@@ -311,33 +313,62 @@ static const struct {
             {"inverse", run_inverse},
             {"resume", NULL}};
 
+static Status find_start(ct_session *session, const Statement *s, Diag *diag)
+{
+    Run *start;
+    Status status;
+
+    (void)s;
+    session_forget_start(session);
+    session->at_rest = false;
+    CHECK(session_start(session, &start, diag));
+    session->start_is_later = true;
+done:
+    return status;
+}
+
+/* what tells about the start, or about an instant */
+static const struct {
+    const char *verb;
+    Analysis *analyse;
+} analyses[] = {{"assemble", find_start},
+                {"equilibrium", session_equilibrium},
+                {"op", session_equilibrium},
+                {"linearize", session_linearize},
+                {"modes", session_modes}};
+
+static Status run_any(ct_session *session, const Statement *s, Diag *diag)
+{
+    RunOptions options;
+    Status status = OK;
+
+    for (int i = 0; s->verb != NULL && i < COUNT(analyses); i++)
+        if (strcmp(s->verb, analyses[i].verb) == 0) {
+            CHECK(analyses[i].analyse(session, s, diag));
+            session->told = analyses[i].verb;
+            return OK;
+        }
+    for (int i = 0; s->verb != NULL && i < COUNT(runs); i++)
+        if (strcmp(s->verb, runs[i].verb) == 0) {
+            CHECK(read_options(session, s, &options, diag));
+            session->told = NULL;
+            return runs[i].function != NULL ? run_new(session, runs[i].function, &options, diag)
+                                            : run_on(session, s, &options, diag);
+        }
+    status = diag_at(diag, E_NAME, s->place, "'%s' is no verb that runs",
+                     s->verb != NULL ? s->verb : s->text);
+done:
+    return status;
+}
+
 ct_status ct_run(ct_session *session, const ct_statement *statement, ct_error *error)
 {
     const Statement *s = statement_of(statement);
-    RunOptions options;
-    Run *start;
-    Status status = OK;
+    Status status;
     Diag diag = {0};
 
     session_begin(session);
-    if (s->verb != NULL && strcmp(s->verb, "assemble") == 0) {
-        session_forget_start(session);
-        CHECK(session_start(session, &start, &diag));
-        session->start_is_later = true;
-        goto done;
-    }
-    for (int i = 0; s->verb != NULL && i < COUNT(runs); i++)
-        if (strcmp(s->verb, runs[i].verb) == 0) {
-            CHECK(read_options(session, s, &options, &diag));
-            status = runs[i].function != NULL ? run_new(session, runs[i].function, &options, &diag)
-                                              : run_on(session, s, &options, &diag);
-            if (status != OK && status != E_STOPPED && diag.place.line == 0)
-                diag.place = s->verb_place;
-            goto done;
-        }
-    status = diag_at(&diag, E_NAME, s->place, "'%s' is no verb that runs",
-                     s->verb != NULL ? s->verb : s->text);
-done:
+    status = run_any(session, s, &diag);
     if (status != OK && diag.place.line == 0 && s->kind == STATEMENT_VERB)
         diag.place = s->verb_place;
     session_sweep(session);
@@ -394,7 +425,13 @@ char *ct_report(ct_session *session)
     const int count = session->runs.count;
     char name[32];
 
-    if (session->start_is_later && session->start.result != NULL) {
+    if (session->told != NULL && strcmp(session->told, "linearize") == 0) {
+        const View view = session_view(session);
+
+        linear_print(&view, session->linear, &text);
+    } else if (session->told != NULL && strcmp(session->told, "modes") == 0) {
+        modes_print(session->modes, &text);
+    } else if (session->start_is_later && session->start.result != NULL) {
         print_configuration(&text, session->start.result);
     } else if (count > 0) {
         (void)snprintf(name, sizeof name, "run%d", count);

@@ -2,6 +2,7 @@
 #include "session_impl.h"
 
 #include "export/info.h"
+#include "export/show.h"
 #include "export/write.h"
 
 #include <math.h>
@@ -339,6 +340,25 @@ typedef struct ExportJob {
     bool with_header;
 } ExportJob;
 
+static Status export_modes(const ExportJob *job, Text *out, Diag *diag)
+{
+    if (job->session->modes == NULL) {
+        diag_at(diag, E_MISSING, job->statement->operands.at[1].place, "there are no modes yet");
+        diag_hint(diag, "'modes' finds them");
+        return E_MISSING;
+    }
+    modes_csv(job->session->modes, job->with_header, out);
+    return OK;
+}
+
+static bool is_modes(const Statement *s)
+{
+    const Syntax *item = s->operands.count == 2 ? s->operands.at[1].value : NULL;
+
+    return item != NULL && item->kind == SYNTAX_VARIABLE && item->primes == 0 &&
+           strcmp(item->text, "modes") == 0;
+}
+
 static Status export_csv(const ExportJob *job, Text *out, Diag *diag)
 {
     const Statement *s = job->statement;
@@ -348,6 +368,10 @@ static Status export_csv(const ExportJob *job, Text *out, Diag *diag)
     Run *source = NULL;
     Status status;
 
+    if (is_modes(s)) {
+        status = export_modes(job, out, diag);
+        goto done;
+    }
     for (int i = 0; i < count; i++)
         items[i] = s->operands.at[i + 1].value;
     CHECK(session_source(job->session, &source, diag));

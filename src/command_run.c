@@ -12,7 +12,7 @@ ct_status command_run(Call *call, ct_error *error)
     return ct_run(call->session, call->statement, error);
 }
 
-/* the configuration found is what was asked for */
+/* what was found is what was asked for */
 ct_status command_assemble(Call *call, ct_error *error)
 {
     ct_status status = ct_run(call->session, call->statement, error);

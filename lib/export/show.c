@@ -27,7 +27,7 @@ static const Topic topics[] = {
     {"settings",     "how the session computes and prints",                NEED_MODEL,  BEHIND_NOTHING, show_settings},
     {"program",      "the straight-line program that a run evaluates",     NEED_SYSTEM, BEHIND_NOTHING, show_program},
     {"state",        "a linear network as x' = A x + B u",                 NEED_MODEL,  BEHIND_NOTHING, NULL},
-    {"linear",       "matrices of the last linearisation",                 NEED_MODEL,  BEHIND_NOTHING, NULL},
+    {"linear",       "matrices of the last linearisation",                 NEED_MODEL,  BEHIND_NOTHING, show_linear},
     {"transfer",     "transfer functions of the last linearisation",       NEED_MODEL,  BEHIND_NOTHING, NULL},
     {"derivation",   "how an equation came about, step by step",           NEED_MODEL,  BEHIND_NOTHING, NULL},
     {"events",       "events, and when they happened",                     NEED_MODEL,  BEHIND_NOTHING, NULL},
@@ -165,8 +165,8 @@ static Status show_topic(const View *view, const Topic *topic, const Statement *
         }
     }
     status = topic->show(view, &selection, out, diag);
-    if (status != OK && diag->place.line == 0 && statement->operands.count > 1)
-        diag->place = statement->operands.at[1].place;
+    if (status != OK && diag->place.line == 0)
+        diag->place = statement->operands.at[statement->operands.count > 1 ? 1 : 0].place;
 done:
     mem_free(names);
     return status;

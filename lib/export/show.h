@@ -58,6 +58,23 @@ ShowFunction show_coordinates, show_constraints, show_jacobian, show_mass, show_
     show_equations, show_network;
 ShowFunction show_outputs, show_params, show_run, show_settings, show_program;
 
+/* a matrix of the linear equations, by its letter */
+typedef struct LinearMatrix {
+    char letter;
+    const double *at; /* rows x columns */
+    int rows, columns;
+    char *const *row_names;
+    char *const *column_names;
+} LinearMatrix;
+LinearMatrix linear_matrix(const Linear *linear, char letter);
+/* A, B, C, D with the names of their rows and columns */
+void linear_print(const View *view, const Linear *linear, Text *out);
+ShowFunction show_linear;
+/* a line a mode */
+void modes_print(const Modes *modes, Text *out);
+/* a row a mode, with the amplitude and phase of every part */
+void modes_csv(const Modes *modes, bool with_header, Text *out);
+
 /* one variable or expression of the user's: `left = its expression` */
 MUST_USE Status show_expression(const View *view, const Syntax *syntax, Text *out, Diag *diag);
 

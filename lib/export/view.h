@@ -7,12 +7,13 @@
 
 #include "export/layout.h"
 #include "formulate/system.h"
-#include "simulate/run.h"
+#include "simulate/linearize.h"
 
 typedef struct View {
     const Model *model;
-    System *system; /* of the model as it is; NULL unless equations are needed */
-    Result *result; /* the last run; NULL */
+    System *system;       /* of the model as it is; NULL unless equations are needed */
+    Result *result;       /* the last run; NULL */
+    const Linear *linear; /* the last linearisation; NULL */
     Page page;
     const Watch *watch;
 } View;

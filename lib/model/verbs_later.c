@@ -81,10 +81,6 @@ const Verb verbs_later[] = {
     OTHER("load", GROUP_VARIABLES, "s", " \"FILE\"", "brings back what store kept"),
 
     OTHER("event", GROUP_RUN, "n=", " NAME when=COND [do=stop|mark] [VARIABLE=VALUE...]", "what happens when a condition becomes true"),
-    OTHER("equilibrium", GROUP_RUN, "k>", "", "statics: where everything rests"),
-    OTHER("op", GROUP_RUN, "k>", "", "the same as equilibrium"),
-    OTHER("linearize", GROUP_RUN, "k>", " [at=TIME] inputs=[..] outputs=[..]", "linear equations about the start or an instant of the last run"),
-    OTHER("modes", GROUP_RUN, "k>", " [at=TIME]", "eigenvalues, and which parts move"),
     OTHER("bode", GROUP_RUN, "Ik>", " OUTPUT from=.. to=.. points=..", "frequency response"),
     OTHER("sweep", GROUP_RUN, "pk:", " PARAMETER from=.. to=.. steps=.. : STATEMENT", "one run for each value of a parameter"),
     OTHER("montecarlo", GROUP_RUN, "v=:", " RUNS PARAMETER=normal(MEAN, DEVIATION)... : STATEMENT", "runs with random parameters"),

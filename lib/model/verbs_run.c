@@ -90,6 +90,65 @@ const Verb verbs_run[] = {
              "motor's voltage.",
      .example = PENDULUM "driver D1 h1 = 0.5*sin(2*t)\ninverse 1 every=0.01\nprint max(D1.effort)",
      .see = "driver kinematics simulate"},
+    {.name = "equilibrium",
+     .group = GROUP_RUN,
+     .shape = ">",
+     .usage = "equilibrium",
+     .brief = "statics: where everything rests",
+     .help =
+         "Finds where all rates are zero, with sources and drivers as they are at t = 0: "
+         "positions, "
+         "reactions, voltages and currents. The search begins at the assembled start, so 'init' "
+         "and "
+         "'guess' choose which of several equilibria it is; stable or not makes no difference. "
+         "First by Newton's method; then gravity, forces and sources grow from nothing; then "
+         "everything creeps until it rests. What is found is printed, and is where the next runs "
+         "start, until 'init' or 'assemble'.",
+     .example = PENDULUM "spring k1 h1 k=2 rest=60 deg\nequilibrium\nmodes",
+     .see = "op linearize modes assemble"},
+    {.name = "op",
+     .group = GROUP_RUN,
+     .shape = ">",
+     .usage = "op",
+     .brief = "operating point: the same as equilibrium",
+     .help = "The operating point of a circuit is its equilibrium; see there.",
+     .example = "vsource E1 a 0 10\nresistor R1 a b 1 kohm\ncapacitor C1 b 0 1 uF\nop\nprint C1.v",
+     .see = "equilibrium"},
+    {.name = "linearize",
+     .group = GROUP_RUN,
+     .shape = "k>",
+     .keys = WORDS("at", "inputs", "outputs"),
+     .usage = "linearize [at=TIME] [inputs=[V1, ..]] [outputs=[h8, ..]]",
+     .brief = "linear equations about the start or an instant of the last run",
+     .help =
+         "Finds y' = A y + B w, v = C y + D w for small deviations, about the assembled start or "
+         "equilibrium, or with at= about an instant of the last run, and prints them. The states y "
+         "are independent coordinates (those of 'form embedded independent=', else chosen by "
+         "pivoting), their speeds, and the states of the circuit. Where a rotation is in Euler "
+         "parameters, the deviation is a small turn about each axis (m1.turnX). Inputs are "
+         "sources, "
+         "actuators and parameters; outputs any variables or expressions. All entries are exact "
+         "derivatives. 'show linear' prints them again, linear.A(1,2) is one entry.",
+     .example = SWING "actuator a1 h1 torque=0\nequilibrium\nlinearize inputs=[a1] outputs=[h1, m1.ax]\n"
+                      "print linear.A(2,1)",
+     .see = "equilibrium modes show form"},
+    {.name = "modes",
+     .group = GROUP_RUN,
+     .shape = "k>",
+     .keys = WORDS("at"),
+     .usage = "modes [at=TIME]",
+     .brief = "eigenvalues, and which parts move",
+     .help =
+         "Eigenvalues of the linear equations about the assembled start or equilibrium, or with "
+         "at= "
+         "about an instant of the last run. A pair of conjugates is one mode: its natural "
+         "frequency "
+         "omega, its damping ratio, and what moves, the largest first and as 1; a minus is half a "
+         "turn behind. modes.omega(1) and modes.damping(1) are figures of the slowest; 'export csv "
+         "modes' writes them all.",
+     .example = PENDULUM "equilibrium\nmodes\nexpect modes.omega(1) ~ sqrt(9.81/1.1) within 1e-9\n"
+                         "export csv modes",
+     .see = "equilibrium linearize"},
     {.name = "plot",
      .group = GROUP_RUN,
      .shape = "iy>",
@@ -132,7 +191,8 @@ const Verb verbs_run[] = {
      .brief = "numbers, equations or code for other programs",
      .help =
          "'export csv' writes the last run: first column t, then the items as they are written, "
-         "17 digits; without items all coordinates and speeds. '>>' adds rows to a file that is "
+         "17 digits; without items all coordinates and speeds; 'export csv modes' the modes. '>>' "
+         "adds rows to a file that is "
          "there, without a second header. The other words write the equations: as code in that "
          "language, as LaTeX, or the graph for Graphviz (dot). Without a file it goes to the "
          "screen.",

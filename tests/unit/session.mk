@@ -15,3 +15,6 @@ test_export_LDADD = $(unit_ldadd)
 UNIT_TESTS += test_session_trees
 test_session_trees_SOURCES = tests/unit/test_session_trees.c tests/unit/session_kit.h tests/unit/test.h
 test_session_trees_LDADD = $(unit_ldadd)
+UNIT_TESTS += test_linear
+test_linear_SOURCES = tests/unit/test_linear.c tests/unit/session_kit.h tests/unit/test.h
+test_linear_LDADD = $(unit_ldadd)

@@ -111,7 +111,7 @@ static void a_verb_of_a_later_version_says_so(void)
 {
     Kit kit = kit_new();
 
-    EXPECT(kit_do(&kit, "equilibrium") == CT_FAILED);
+    EXPECT(kit_do(&kit, "animate") == CT_FAILED);
     EXPECT_HOLDS(kit.error.message, "later");
     kit_free(&kit);
 }

@@ -186,7 +186,7 @@ static void completion_follows_the_grammar(void)
         {"motor M1 ",              "h8",          "r4"},
         {"motor M1 h8 ",           "0",           "h8"},
         {"show con",               "constraints", "h8"},
-        {"show ",                  "mass",        "linear"},
+        {"show ",                  "mass",        "transfer"},
         {"show h",                 "h8",          "mass"},
         {"show cutsets ",          "h9",          "constraints"},
         {"show mass as ",          "latex",       "h8"},

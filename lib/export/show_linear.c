@@ -1,0 +1,261 @@
+/* show_linear.c: linear equations and modes as text, and in other notations */
+#include "export/show.h"
+#include "export/write.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { MOST_PARTS = 6 }; /* of a mode, in its line */
+
+#define LEAST_PART 1e-3 /* of the largest */
+#define NOISE      1e-13
+
+static const char letters[] = "ABCD";
+
+LinearMatrix linear_matrix(const Linear *linear, char letter)
+{
+    LinearMatrix m = {letter,         linear->a,           linear->states,
+                      linear->states, linear->state_names, linear->state_names};
+
+    if (letter == 'B' || letter == 'D') {
+        m.columns = linear->inputs;
+        m.column_names = linear->input_names;
+    }
+    if (letter == 'C' || letter == 'D') {
+        m.rows = linear->outputs;
+        m.row_names = linear->output_names;
+    }
+    m.at = letter == 'A'   ? linear->a
+           : letter == 'B' ? linear->b
+           : letter == 'C' ? linear->c
+                           : linear->d;
+    return m;
+}
+
+/* --- one matrix --- */
+
+static void print_rounded(Text *out, const LinearMatrix *m)
+{
+    Text align = {0};
+    Table table;
+    double largest = 0;
+
+    text_char(&align, 'l');
+    text_fill(&align, 'r', m->columns);
+    table = table_for(align.at);
+    for (int k = 0; k < m->rows * m->columns; k++)
+        largest = fmax(largest, fabs(m->at[k]));
+    table_cellf(&table, "%c", m->letter);
+    for (int j = 0; j < m->columns; j++)
+        table_cell(&table, m->column_names[j]);
+    for (int i = 0; i < m->rows; i++) {
+        table_cell(&table, m->row_names[i]);
+        for (int j = 0; j < m->columns; j++) {
+            double entry = m->at[i * m->columns + j];
+
+            table_cellf(&table, "%.6g", fabs(entry) > NOISE * largest ? entry : 0.0);
+        }
+    }
+    table_print(out, &table, 0);
+    table_free(&table);
+    text_free(&align);
+}
+
+static void print_matlab(Text *out, const LinearMatrix *m)
+{
+    text_addf(out, "%c = [", m->letter);
+    for (int i = 0; i < m->rows; i++)
+        for (int j = 0; j < m->columns; j++) {
+            text_add(out, j > 0 ? ", " : i > 0 ? "; " : "");
+            text_number(out, m->at[i * m->columns + j], 17);
+        }
+    text_add(out, "];\n");
+}
+
+static void print_c(Text *out, const LinearMatrix *m)
+{
+    text_addf(out, "static const double %c[%d][%d] = {", m->letter, m->rows, m->columns);
+    for (int i = 0; i < m->rows; i++) {
+        text_add(out, i > 0 ? ", {" : "{");
+        for (int j = 0; j < m->columns; j++) {
+            text_add(out, j > 0 ? ", " : "");
+            text_number(out, m->at[i * m->columns + j], 17);
+        }
+        text_char(out, '}');
+    }
+    text_add(out, "};\n");
+}
+
+static void print_latex(Text *out, const LinearMatrix *m)
+{
+    text_addf(out, "%c &= \\begin{bmatrix}", m->letter);
+    for (int i = 0; i < m->rows; i++) {
+        text_add(out, i > 0 ? " \\\\ " : " ");
+        for (int j = 0; j < m->columns; j++) {
+            text_add(out, j > 0 ? " & " : "");
+            text_number(out, m->at[i * m->columns + j], 6);
+        }
+    }
+    text_add(out, " \\end{bmatrix} \\\\\n");
+}
+
+static void add_names(Table *table, const char *title, char *const *names, int count)
+{
+    Text text = {0};
+
+    if (count == 0)
+        return;
+    for (int i = 0; i < count; i++)
+        layout_item(&text, names[i]);
+    table_cell(table, title);
+    table_cell(table, text.at);
+    text_free(&text);
+}
+
+void linear_print(const View *view, const Linear *linear, Text *out)
+{
+    const Notation notation = view->page.notation;
+    Table table = table_for("ll");
+
+    if (notation != NOTATION_LATEX && notation != NOTATION_C && notation != NOTATION_MATLAB) {
+        table_cell(&table, "about");
+        table_cellf(&table, "t = %.6g s", linear->at);
+        add_names(&table, "states", linear->state_names, linear->states);
+        add_names(&table, "inputs", linear->input_names, linear->inputs);
+        add_names(&table, "outputs", linear->output_names, linear->outputs);
+        table_print(out, &table, 0);
+    }
+    view_open(out, view);
+    for (int k = 0; letters[k] != '\0'; k++) {
+        const LinearMatrix m = linear_matrix(linear, letters[k]);
+
+        if (m.rows == 0 || m.columns == 0)
+            continue;
+        if (notation == NOTATION_LATEX)
+            print_latex(out, &m);
+        else if (notation == NOTATION_C)
+            print_c(out, &m);
+        else if (notation == NOTATION_MATLAB)
+            print_matlab(out, &m);
+        else
+            print_rounded(out, &m);
+    }
+    view_close(out, view);
+    table_free(&table);
+}
+
+Status show_linear(const View *view, const Selection *selection, Text *out, Diag *diag)
+{
+    (void)selection;
+    if (view->linear == NULL) {
+        diag_set(diag, E_MISSING, "nothing has been linearized yet");
+        diag_hint(diag, "linearize inputs=[V1] outputs=[h8]");
+        return E_MISSING;
+    }
+    linear_print(view, view->linear, out);
+    return OK;
+}
+
+/* --- modes --- */
+
+/* the largest part that isn't told yet, the first of equals; -1: the rest hardly move */
+static int next_part(const Mode *mode, int parts, const bool *told)
+{
+    int best = -1;
+
+    for (int p = 0; p < parts; p++)
+        if (!told[p] && mode->amplitude[p] >= LEAST_PART &&
+            (best < 0 || mode->amplitude[p] > (1 + 1e-6) * mode->amplitude[best]))
+            best = p;
+    return best;
+}
+
+/* "h2 1, h1 -0.7": what moves, against it, or late by an angle */
+static void add_shape(Table *table, const Modes *modes, const Mode *mode)
+{
+    bool *told = NEW_ARRAY(bool, modes->parts);
+    Text text = {0};
+
+    for (int k = 0; k < MOST_PARTS; k++) {
+        int p = next_part(mode, modes->parts, told);
+        double phase;
+
+        if (p < 0)
+            break;
+        told[p] = true;
+        phase = mode->phase[p] * 180 / M_PI;
+        text_addf(&text, "%s%s %s%.3g", k > 0 ? ", " : "", modes->part_names[p],
+                  fabs(phase) > 179.95 ? "-" : "", mode->amplitude[p]);
+        if (fabs(phase) > 0.05 && fabs(phase) <= 179.95)
+            text_addf(&text, " (%.1f deg)", phase);
+    }
+    table_cell(table, text.at != NULL ? text.at : "");
+    text_free(&text);
+    mem_free(told);
+}
+
+void modes_print(const Modes *modes, Text *out)
+{
+    Table table = table_for("rrrrrl");
+    static const char *const titles[] = {"mode",   "eigenvalue [1/s]", "omega [rad/s]",
+                                         "f [Hz]", "damping",          "what moves"};
+
+    if (modes->count == 0) {
+        text_add(out, "no modes: nothing is free to move\n");
+        return;
+    }
+    for (int i = 0; i < COUNT(titles); i++)
+        table_cell(&table, titles[i]);
+    for (int i = 0; i < modes->count; i++) {
+        const Mode *mode = &modes->at[i];
+
+        table_cellf(&table, "%d", i + 1);
+        if (mode->imaginary > 0)
+            table_cellf(&table, "%.6g +- %.6gi", mode->real, mode->imaginary);
+        else
+            table_cellf(&table, "%.6g", mode->real);
+        table_cellf(&table, "%.6g", mode->omega);
+        table_cellf(&table, "%.6g", mode->omega / (2 * M_PI));
+        table_cellf(&table, "%.6g", mode->damping);
+        add_shape(&table, modes, mode);
+    }
+    table_print(out, &table, 0);
+    table_free(&table);
+}
+
+void modes_csv(const Modes *modes, bool with_header, Text *out)
+{
+    static const char *const titles[] = {"mode",  "real",      "imaginary",
+                                         "omega", "frequency", "damping"};
+    const int columns = COUNT(titles) + 2 * modes->parts;
+    char **names = NEW_ARRAY(char *, columns);
+    double *values = NEW_ARRAY(double, modes->count *columns);
+
+    for (int c = 0; c < COUNT(titles); c++)
+        names[c] = mem_text(titles[c], strlen(titles[c]));
+    for (int p = 0; p < modes->parts; p++) {
+        Text text = {0};
+
+        text_addf(&text, "%s phase [deg]", modes->part_names[p]);
+        names[COUNT(titles) + 2 * p] = mem_text(modes->part_names[p], strlen(modes->part_names[p]));
+        names[COUNT(titles) + 2 * p + 1] = text_done(&text);
+    }
+    for (int i = 0; i < modes->count; i++) {
+        const Mode *mode = &modes->at[i];
+        const double figures[] = {
+            i + 1,        mode->real, mode->imaginary, mode->omega, mode->omega / (2 * M_PI),
+            mode->damping};
+        double *row = values + (ptrdiff_t)i * columns;
+
+        memcpy(row, figures, sizeof figures);
+        for (int p = 0; p < modes->parts; p++) {
+            row[COUNT(figures) + 2 * p] = mode->amplitude[p];
+            row[COUNT(figures) + 2 * p + 1] = mode->phase[p] * 180 / M_PI;
+        }
+    }
+    write_csv(out, (const char *const *)names, values, modes->count, columns, with_header);
+    for (int c = 0; c < columns; c++)
+        mem_free(names[c]);
+    mem_free(names);
+    mem_free(values);
+}

@@ -1,0 +1,269 @@
+/* session_linear.c: equilibrium, linearize, modes, and the entries of what they found */
+#include "session_impl.h"
+
+#include "export/show.h"
+
+#include <math.h>
+#include <string.h>
+
+Status session_equilibrium(ct_session *session, const Statement *s, Diag *diag)
+{
+    Order order = {0};
+    Result *result = NULL;
+    System *system;
+    Status status;
+
+    (void)s;
+    CHECK(session_system(session, &system, diag));
+    order_make(session, &order);
+    CHECK(run_equilibrium(system, session->model, &order.setting, &result, diag));
+    session_forget_start(session);
+    session->start = order_done(&order, result);
+    session->at_rest = true;
+    session->start_is_later = true;
+    session_remark(session, result_remarks(result));
+done:
+    order_free(&order);
+    return status;
+}
+
+/* --- what a linearisation is told --- */
+
+typedef struct Asked {
+    LinearOrder order;
+    LIST(LinearInput) inputs;
+    LIST(Expr) outputs;
+    LIST(char *) output_names;
+} Asked;
+
+static void asked_free(Asked *asked)
+{
+    LIST_FREE(asked->inputs);
+    LIST_FREE(asked->outputs);
+    for (int i = 0; i < asked->output_names.count; i++)
+        mem_free(asked->output_names.at[i]);
+    LIST_FREE(asked->output_names);
+}
+
+static const Syntax *value_of_key(const Statement *s, const char *key)
+{
+    for (int i = 0; i < s->pairs.count; i++)
+        if (strcmp(s->pairs.at[i].name, key) == 0)
+            return s->pairs.at[i].value;
+    return NULL;
+}
+
+/* [a, b, c], or one alone: item i, NULL behind the last */
+static const Syntax *item_of(const Syntax *list, int i)
+{
+    if (list == NULL)
+        return NULL;
+    if (list->kind != SYNTAX_VECTOR)
+        return i == 0 ? list : NULL;
+    return i < list->count ? list->args[i] : NULL;
+}
+
+/* about an instant of the last run, or about the start */
+static Status read_point(ct_session *session, const Statement *s, Asked *asked, Diag *diag)
+{
+    const Syntax *at = value_of_key(s, "at");
+    Run *run;
+    Status status = OK;
+    Expr e;
+
+    if (at == NULL) {
+        CHECK(session_start(session, &run, diag));
+    } else if (session->runs.count == 0) {
+        diag_at(diag, E_MISSING, at->place,
+                "at= takes an instant of the last run, and there is none");
+        diag_hint(diag, "'simulate 10' makes one; without at= it is about the start");
+        return E_MISSING;
+    } else {
+        run = session->runs.at + session->runs.count - 1;
+        CHECK(model_expression(session->model, at, &e, diag));
+        if ((expr_kinds(e) & ~(1U << SYMBOL_PARAMETER)) != 0)
+            return diag_at(diag, E_VALUE, at->place,
+                           "an instant is a number, or made of parameters");
+        asked->order.at = model_number(session->model, e);
+    }
+    asked->order.about = run->result;
+    asked->order.model = session->model;
+    asked->order.watch = &session->watch;
+    (void)model_form(session->model, &asked->order.independent, &asked->order.independent_count);
+done:
+    return status;
+}
+
+static bool is_parameter(const Model *model, const char *name)
+{
+    for (int i = 0; i < model_parameter_count(model); i++) {
+        Expr definition;
+
+        if (strcmp(expr_name(model_parameter(model, i, &definition)), name) == 0)
+            return true;
+    }
+    return false;
+}
+
+static Status read_input(const Model *model, const Syntax *syntax, Asked *asked, Diag *diag)
+{
+    Suggest suggest = suggest_for(syntax->text);
+    bool is_name = syntax->kind == SYNTAX_VARIABLE && syntax->primes == 0;
+    Expr definition;
+
+    if (is_name && is_parameter(model, syntax->text)) {
+        LIST_PUSH(asked->inputs, (LinearInput){syntax->text, NULL});
+        return OK;
+    }
+    if (is_name && model_find(model, syntax->text) != NULL) {
+        LIST_PUSH(asked->inputs, (LinearInput){syntax->text, syntax->text});
+        return OK;
+    }
+    for (int i = 0; i < model_parameter_count(model); i++)
+        suggest_offer(&suggest, expr_name(model_parameter(model, i, &definition)));
+    for (int i = 0; i < model_count(model); i++)
+        suggest_offer(&suggest, model_instance(model, i)->name);
+    diag_at(diag, E_NAME, syntax->place, "an input is a source, an actuator or a parameter%s%s%s",
+            is_name ? ", and none is called '" : "", is_name ? syntax->text : "",
+            is_name ? "'" : "");
+    if (suggest.best != NULL && is_name)
+        diag_hint(diag, "did you mean '%s'?", suggest.best);
+    else
+        diag_hint(diag, "linearize inputs=[V1] outputs=[h8]");
+    return E_NAME;
+}
+
+static Status read_lists(ct_session *session, const Statement *s, Asked *asked, Diag *diag)
+{
+    const Syntax *inputs = value_of_key(s, "inputs"), *outputs = value_of_key(s, "outputs");
+    const Syntax *item;
+    Status status = OK;
+    Expr e;
+
+    for (int i = 0; (item = item_of(inputs, i)) != NULL; i++)
+        CHECK(read_input(session->model, item, asked, diag));
+    for (int i = 0; (item = item_of(outputs, i)) != NULL; i++) {
+        status = model_expression(session->model, item, &e, diag);
+        if (status != OK && diag->place.line == 0)
+            diag->place = item->place;
+        CHECK(status);
+        LIST_PUSH(asked->outputs, session_put_outputs(session->model, e));
+        LIST_PUSH(asked->output_names, view_name(item));
+    }
+    asked->order.inputs = asked->inputs.at;
+    asked->order.input_count = asked->inputs.count;
+    asked->order.outputs = asked->outputs.at;
+    asked->order.output_names = (const char *const *)asked->output_names.at;
+    asked->order.output_count = asked->outputs.count;
+done:
+    return status;
+}
+
+static Status find_linear(ct_session *session, const Statement *s, Linear **out, Diag *diag)
+{
+    Asked asked = {.order = {.at = 0}};
+    Status status;
+
+    CHECK(read_point(session, s, &asked, diag));
+    CHECK(read_lists(session, s, &asked, diag));
+    status = linearize(&asked.order, out, diag);
+    if (status == E_NAME && diag->place.line == 0 && value_of_key(s, "inputs") != NULL)
+        diag->place = value_of_key(s, "inputs")->place;
+done:
+    asked_free(&asked);
+    return status;
+}
+
+Status session_linearize(ct_session *session, const Statement *s, Diag *diag)
+{
+    Linear *linear = NULL;
+    Status status;
+
+    CHECK(find_linear(session, s, &linear, diag));
+    linear_free(session->linear);
+    session->linear = linear;
+done:
+    return status;
+}
+
+Status session_modes(ct_session *session, const Statement *s, Diag *diag)
+{
+    Linear *linear = NULL;
+    Modes *modes = NULL;
+    Status status;
+
+    CHECK(find_linear(session, s, &linear, diag));
+    CHECK(modes_find(linear, &modes, diag));
+    modes_free(session->modes);
+    session->modes = modes;
+done:
+    linear_free(linear);
+    return status;
+}
+
+/* --- entries: modes.omega(1), linear.A(1,2) --- */
+
+static double omega_of(const Mode *mode)
+{
+    return mode->omega;
+}
+
+static double damping_of(const Mode *mode)
+{
+    return mode->damping;
+}
+
+static const struct {
+    const char *name;
+    double (*of)(const Mode *mode); /* NULL: of the linear equations */
+} entries[] = {{"modes.omega", omega_of}, {"modes.damping", damping_of},
+               {"linear.A", NULL},        {"linear.B", NULL},
+               {"linear.C", NULL},        {"linear.D", NULL}};
+
+int session_entry(const char *name)
+{
+    for (int i = 0; i < COUNT(entries); i++)
+        if (strcmp(entries[i].name, name) == 0)
+            return i;
+    return -1;
+}
+
+static Status mode_entry(const ct_session *session, int entry, const int *index, int count,
+                         double *out, Diag *diag)
+{
+    if (session->modes == NULL) {
+        (void)diag_set(diag, E_MISSING, "there are no modes yet");
+        diag_hint(diag, "'modes' finds them");
+        return E_MISSING;
+    }
+    if (count != 1 || index[0] < 1 || index[0] > session->modes->count)
+        return diag_set(diag, E_VALUE, "there are %d modes, counted from 1", session->modes->count);
+    *out = entries[entry].of(&session->modes->at[index[0] - 1]);
+    return OK;
+}
+
+static Status linear_entry(const ct_session *session, int entry, const int *index, int count,
+                           double *out, Diag *diag)
+{
+    LinearMatrix matrix;
+
+    if (session->linear == NULL) {
+        (void)diag_set(diag, E_MISSING, "nothing has been linearized yet");
+        diag_hint(diag, "linearize inputs=[V1] outputs=[h8]");
+        return E_MISSING;
+    }
+    matrix = linear_matrix(session->linear, strchr(entries[entry].name, '.')[1]);
+    if (count != 2 || index[0] < 1 || index[0] > matrix.rows || index[1] < 1 ||
+        index[1] > matrix.columns)
+        return diag_set(diag, E_VALUE, "%s has %d rows and %d columns, counted from 1",
+                        entries[entry].name, matrix.rows, matrix.columns);
+    *out = matrix.at[(index[0] - 1) * matrix.columns + index[1] - 1];
+    return OK;
+}
+
+Status session_entry_value(const ct_session *session, int entry, const int *index, int count,
+                           double *out, Diag *diag)
+{
+    return entries[entry].of != NULL ? mode_entry(session, entry, index, count, out, diag)
+                                     : linear_entry(session, entry, index, count, out, diag);
+}

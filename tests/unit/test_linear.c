@@ -1,0 +1,413 @@
+/* test_linear.c: equilibrium, linearize and modes against closed forms
+ *
+ * Numbers are asked of a session, so that what the language says is tested too. */
+#include "session_kit.h"
+
+static void expect_value(Kit *kit, const char *expression, double wanted, double tolerance)
+{
+    double got = kit_value(kit, expression);
+
+    if (!(fabs(got - wanted) <= tolerance)) {
+        test_faults++;
+        printf("%s is %.17g, wanted %.17g within %.3g\n", expression, got, wanted, tolerance);
+    }
+}
+
+/* modes.omega(1..count) */
+static void expect_omegas(Kit *kit, const double *wanted, int count, double tolerance)
+{
+    for (int i = 0; i < count; i++) {
+        char text[40];
+
+        (void)snprintf(text, sizeof text, "modes.omega(%d)", i + 1);
+        expect_value(kit, text, wanted[i], tolerance * wanted[i]);
+    }
+}
+
+/* two rods without inertia of their own: length 1, mass 1 at the ends */
+#define TWO_PENDULUMS                                                                              \
+    "scene planar\n"                                                                               \
+    "gravity [0, -9.81]\n"                                                                         \
+    "body a mass=1 inertia=0\n"                                                                    \
+    "arm pa a [0, 1]\n"                                                                            \
+    "revolute h1 ground pa\n"                                                                      \
+    "body b mass=1 inertia=0\n"                                                                    \
+    "arm pb b [0, 1]\n"                                                                            \
+    "revolute h2 a pb\n"
+
+/* --- modes --- */
+
+static void a_pendulum_swings_at_the_root_of_g_over_l(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, PENDULUM "equilibrium\nmodes\n");
+    expect_value(&kit, "modes.omega(1)", sqrt(9.81), 1e-12);
+    expect_value(&kit, "modes.damping(1)", 0, 1e-14);
+    kit_free(&kit);
+}
+
+static void two_pendulums_have_their_two_modes_in_any_trees(void)
+{
+    const double wanted[] = {sqrt(9.81 * (2 - sqrt(2))), sqrt(9.81 * (2 + sqrt(2)))};
+    static const char *const trees[] = {"", "tree absolute\n", "tree joint\n",
+                                        "tree absolute\nform embedded\n"};
+
+    for (size_t i = 0; i < sizeof trees / sizeof trees[0]; i++) {
+        Kit kit = kit_new();
+
+        EXPECT_DONE(&kit, TWO_PENDULUMS "init h1 = 0.3\nequilibrium\n");
+        EXPECT_DONE(&kit, trees[i]);
+        EXPECT_DONE(&kit, "modes\n");
+        expect_omegas(&kit, wanted, 2, 1e-10);
+        kit_free(&kit);
+    }
+}
+
+/* bodies that also turn about the vertical for nothing, in coordinates that see it differently */
+static void spatial_pendulums_have_the_modes_of_planar_ones(void)
+{
+    static const char *const trees[] = {"tree joint\n", "tree absolute\n"};
+
+    for (size_t i = 0; i < sizeof trees / sizeof trees[0]; i++) {
+        Kit kit = kit_new();
+
+        EXPECT_DONE(&kit, "gravity [0, 0, -9.81]\n"
+                          "body m1 mass=2 inertia=[0.1, 0.2, 0.25]\n"
+                          "arm p1 m1 [0, 0, 0.5]\n"
+                          "spherical j1 ground p1\n");
+        EXPECT_DONE(&kit, trees[i]);
+        EXPECT_DONE(&kit, "equilibrium\nmodes\n");
+        expect_value(&kit, "modes.omega(1)", 0, 1e-12);
+        expect_value(&kit, "modes.omega(2)", 0, 1e-12);
+        expect_value(&kit, "modes.omega(3)", sqrt(2 * 9.81 * 0.5 / (0.2 + 0.5)), 1e-11);
+        expect_value(&kit, "modes.omega(4)", sqrt(2 * 9.81 * 0.5 / (0.1 + 0.5)), 1e-11);
+        kit_free(&kit);
+    }
+}
+
+/* two masses on a line with a spring between them, and nothing else: k (1/m + 1/M) */
+static void what_floats_has_modes_of_frequency_0(void)
+{
+    static const char *const trees[] = {"tree absolute\n", "tree s1 s2\n"};
+
+    for (size_t i = 0; i < sizeof trees / sizeof trees[0]; i++) {
+        Kit kit = kit_new();
+
+        EXPECT_DONE(&kit, "scene planar\nbody a mass=1 inertia=1\nbody b mass=3 inertia=1\n"
+                          "prismatic s1 ground a axis=x\nprismatic s2 a b axis=x\n"
+                          "spring k1 s2 k=12\n");
+        EXPECT_DONE(&kit, trees[i]);
+        EXPECT_DONE(&kit, "modes\n");
+        expect_value(&kit, "modes.omega(1)", 0, 0);
+        expect_value(&kit, "modes.omega(2)", 0, 0);
+        expect_value(&kit, "modes.omega(3)", 4, 1e-12);
+        kit_free(&kit);
+    }
+}
+
+/* relative angle of the slow mode: (sqrt(2) - 1) of the first, along; of the fast one against */
+static void shapes_tell_what_moves_with_and_against(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, TWO_PENDULUMS "equilibrium\nmodes\n");
+    EXPECT_HOLDS(kit.text, "h1 1, h2 0.414\n");
+    EXPECT_HOLDS(kit.text, "h2 1, h1 -0.414\n");
+    EXPECT_DONE(&kit, "export csv modes");
+    EXPECT_HOLDS(kit.text, "mode,real,imaginary,omega,frequency,damping,h1,h1 phase [deg],h2,");
+    kit_free(&kit);
+}
+
+/* L C s^2 + R C s + 1 */
+static void a_series_circuit_has_its_poles(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, "vsource E1 a 0 10*cos(t)\nresistor R1 a b 2\ninductor L1 b c 0.5\n"
+                      "capacitor C1 c 0 0.1\nop\nmodes\n");
+    expect_value(&kit, "C1.v", 10, 1e-12);
+    expect_value(&kit, "modes.omega(1)", sqrt(20), 1e-12);
+    expect_value(&kit, "modes.damping(1)", 1 * sqrt(0.1 / 0.5), 1e-12);
+    EXPECT_DONE(&kit, "set R1.R = 20\nmodes\n");
+    expect_value(&kit, "modes.omega(1)", 20 - sqrt(380), 1e-11);
+    expect_value(&kit, "modes.omega(2)", 20 + sqrt(380), 1e-11);
+    expect_value(&kit, "modes.damping(2)", 1, 1e-14);
+    kit_free(&kit);
+}
+
+static void what_falls_over_has_a_negative_damping(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, PENDULUM "init h = 179 deg\nequilibrium\nmodes\n");
+    expect_value(&kit, "abs(h)", 3.14159265358979323846, 1e-12);
+    expect_value(&kit, "modes.omega(1)", sqrt(9.81), 1e-10);
+    expect_value(&kit, "modes.damping(1)", -1, 1e-12);
+    expect_value(&kit, "modes.damping(2)", 1, 1e-12);
+    kit_free(&kit);
+}
+
+static void what_cannot_move_has_no_modes(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, PENDULUM "driver D1 h = 60 deg\nmodes\n");
+    EXPECT_HOLDS(kit.text, "no modes");
+    kit_free(&kit);
+}
+
+/* --- linear equations --- */
+
+/* M l^2 = 0.08 + J = 0.03, K = 0.8, R = 1.2, L = 0.05 at the angle where K V/R holds M g l cos */
+static void the_motor_arm_is_linear_as_by_hand(void)
+{
+    const double inertia = 2 * 0.04 + 0.03, weight = 2 * 9.81 * 0.2;
+    Kit kit = kit_new();
+    double theta;
+
+    EXPECT_DONE(&kit, MOTOR_ARM "set V1.value = 5 + sin(t)\ninit theta = -30 deg\nequilibrium\n");
+    theta = kit_value(&kit, "theta");
+    EXPECT_NEAR(weight * cos(theta), 0.8 * 5 / 1.2, 1e-12);
+    expect_value(&kit, "M7.i", 5 / 1.2, 1e-12);
+    EXPECT_DONE(&kit, "linearize inputs=[V1, a] outputs=[theta, M7.torque, m1.ay]\n");
+    expect_value(&kit, "linear.A(1,2)", 1, 1e-14);
+    expect_value(&kit, "linear.A(2,1)", weight * sin(theta) / inertia, 1e-10);
+    expect_value(&kit, "linear.A(2,3)", 0.8 / inertia, 1e-12);
+    expect_value(&kit, "linear.A(3,2)", -0.8 / 0.05, 1e-12);
+    expect_value(&kit, "linear.A(3,3)", -1.2 / 0.05, 1e-12);
+    expect_value(&kit, "linear.B(3,1)", 1 / 0.05, 1e-12);
+    /* (K i - M g a cos)/(J + M a^2), whose numerator is 0 here */
+    expect_value(&kit, "linear.B(2,2)", -2 * 9.81 * cos(theta) / inertia, 1e-10);
+    expect_value(&kit, "linear.C(2,3)", 0.8, 1e-12);
+    expect_value(&kit, "linear.C(3,3)", 0.2 * cos(theta) * 0.8 / inertia, 1e-11);
+    expect_value(&kit, "linear.D(1,1)", 0, 0);
+    kit_free(&kit);
+}
+
+/* h'' = -g sin(h): at an instant of a run the slope is -g cos(h) */
+static void an_instant_of_a_run_is_where_it_is_then(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, PENDULUM "simulate 1 rtol=1e-10\nlinearize at=0.37\n");
+    expect_value(&kit, "linear.A(2,1) + 9.81*cos(h) at 0.37", 0, 1e-9);
+    kit_free(&kit);
+}
+
+/* rotating body without moments, in its own axes: I w' = (I w) x w, s' = dw - w x s */
+static void small_turns_of_a_spinning_body_follow_its_axes(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit,
+                "body m1 mass=2 inertia=[0.1, 0.2, 0.25]\ninit m1.Wx = 3, m1.Wy = 2, m1.Wz = 5\n"
+                "linearize\n");
+    EXPECT_HOLDS(kit.text, "m1.turnX");
+    /* states: x y z and turns, then their rates */
+    expect_value(&kit, "linear.A(4,5)", 5, 1e-12);
+    expect_value(&kit, "linear.A(5,4)", -5, 1e-12);
+    expect_value(&kit, "linear.A(4,6)", -2, 1e-12);
+    expect_value(&kit, "linear.A(5,6)", 3, 1e-12);
+    expect_value(&kit, "linear.A(4,10)", 1, 1e-12);
+    expect_value(&kit, "linear.A(4,4)", 0, 1e-12);
+    expect_value(&kit, "linear.A(10,11)", (0.2 - 0.25) / 0.1 * 5, 1e-11);
+    expect_value(&kit, "linear.A(12,10)", (0.1 - 0.2) / 0.25 * 2, 1e-11);
+    kit_free(&kit);
+}
+
+/* The planar slider-crank by hand: x = a cos h + b cos p, b sin p = a sin h, one coordinate h. */
+typedef struct Crank {
+    double a, b, c1, c2, k, rest; /* crank, rod; centres of mass from the pin and the slide end */
+    double m1, j1, m2, j2, m3;
+} Crank;
+
+/* energies: potential, and half the mass felt by h' */
+static void crank_energies(const Crank *s, double h, double *potential, double *mass)
+{
+    double p = asin(s->a * sin(h) / s->b);
+    double p_h = s->a * cos(h) / (s->b * cos(p)), x_h = -s->a * sin(h) - s->b * sin(p) * p_h;
+    double x = s->a * cos(h) + s->b * cos(p);
+    /* the rod's centre: c2 from the slide end */
+    double y2 = s->c2 * sin(p), y2_h = s->c2 * cos(p) * p_h, x2_h = x_h + s->c2 * sin(p) * p_h;
+
+    *potential =
+        9.81 * (s->m1 * s->c1 * sin(h) + s->m2 * y2) + s->k / 2 * (x - s->rest) * (x - s->rest);
+    *mass = s->m1 * s->c1 * s->c1 + s->j1 + s->m2 * (x2_h * x2_h + y2_h * y2_h) +
+            s->j2 * p_h * p_h + s->m3 * x_h * x_h;
+}
+
+/* omega^2 is V'' over the mass at the place where V' = 0; V'' by differences of high order */
+static void the_slider_crank_with_a_spring_swings_as_one_coordinate_does(void)
+{
+    const Crank crank = {0.2, 0.6, 0.08, 0.35, 100, 0.7, 2, 0.01, 1.2, 0.03, 3};
+    static const double weights[] = {-205.0 / 72, 8.0 / 5, -1.0 / 5, 8.0 / 315, -1.0 / 560};
+    Kit kit = kit_new();
+    double h, mass, potential, second = 0;
+
+    EXPECT_DONE(&kit,
+                SLIDER_CRANK ONE_TREE "delete F12\nspring k1 s11 k=100 rest=0.7\n"
+                                      "init h8 = 20 deg\nguess h10 = 2.85\nequilibrium\nmodes\n");
+    h = kit_value(&kit, "h8");
+    for (int i = -4; i <= 4; i++) {
+        crank_energies(&crank, h + 0.02 * i, &potential, &mass);
+        second += weights[i < 0 ? -i : i] * potential / (0.02 * 0.02);
+    }
+    crank_energies(&crank, h, &potential, &mass);
+    expect_value(&kit, "modes.omega(1)", sqrt(second / mass), 1e-8);
+    EXPECT_DONE(&kit, TWO_TREES "modes\n");
+    expect_value(&kit, "modes.omega(1)", sqrt(second / mass), 1e-8);
+    EXPECT_DONE(&kit, "tree absolute\nform embedded independent=[m1.theta]\nmodes\n");
+    expect_value(&kit, "modes.omega(1)", sqrt(second / mass), 1e-8);
+    kit_free(&kit);
+}
+
+/* --- equilibrium --- */
+
+static void runs_start_at_the_equilibrium_until_init(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, PENDULUM "spring k1 h k=3 rest=60 deg\nequilibrium\nsimulate 1\n");
+    expect_value(&kit, "9.81*sin(h) - 3*(60 deg - h)", 0, 1e-9);
+    expect_value(&kit, "max(h) - min(h)", 0, 1e-12);
+    EXPECT_DONE(&kit, "init h = 60 deg\nsimulate 1\n");
+    EXPECT(kit_value(&kit, "max(h) - min(h)") > 0.1);
+    kit_free(&kit);
+}
+
+static void a_change_of_numbers_starts_from_the_old_equilibrium(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit,
+                "E = 1\nvsource V1 a 0 E\nresistor R1 a b 2\ncapacitor C1 b 0 0.5\nop\nE = 3\n"
+                "simulate 1\n");
+    expect_value(&kit, "C1.v at 0", 1, 1e-12);
+    expect_value(&kit, "C1.v at 1", 3 - 2 * exp(-1), 1e-7);
+    EXPECT_DONE(&kit, "assemble\n");
+    expect_value(&kit, "C1.v", 0, 0);
+    kit_free(&kit);
+}
+
+/* far from the start, with forces that bend the way there */
+static void a_heavy_chain_finds_its_rest_from_anywhere(void)
+{
+    static const double starts[] = {1, 2, 2.8, -2};
+
+    for (size_t i = 0; i < sizeof starts / sizeof starts[0]; i++) {
+        Kit kit = kit_new();
+        char line[80];
+
+        EXPECT_DONE(&kit, TWO_PENDULUMS);
+        (void)snprintf(line, sizeof line, "init h1 = %g, h2 = %g\nequilibrium\n", starts[i],
+                       -0.7 * starts[i]);
+        EXPECT_DONE(&kit, line);
+        expect_value(&kit, "sin(h1)", 0, 1e-9);
+        expect_value(&kit, "sin(h1 + h2)", 0, 1e-9);
+        kit_free(&kit);
+    }
+}
+
+/* --- wrong uses --- */
+
+static void wrong_uses_are_refused_with_a_way_out(void)
+{
+    /* clang-format off */
+    static const struct { const char *before, *line; int column; const char *message, *hint; } wrong[] = {
+        {PENDULUM, "modes at=1", 10, "there is none", "without at= it is about the start"},
+        {PENDULUM "simulate 1\n", "modes at=2", 1, "outside the run", ""},
+        {PENDULUM "simulate 1\n", "modes at=h", 10, "made of parameters", ""},
+        {PENDULUM, "linearize inputs=[m]", 18, "no value that an input could be", "parameters"},
+        {PENDULUM "stiff = 3\n", "linearize inputs=[stif]", 19, "none is called 'stif'", "did you mean 'stiff'"},
+        {PENDULUM, "linearize inputs=[2*L]", 19, "a source, an actuator or a parameter", "inputs=[V1]"},
+        {PENDULUM, "linearize outputs=[q]", 20, "unknown name 'q'", ""},
+        {PENDULUM, "linearize input=[L]", 11, "has no key 'input'", "did you mean 'inputs'"},
+        {PENDULUM, "print modes.omega(1)", 7, "there are no modes yet", "'modes' finds them"},
+        {PENDULUM "modes\n", "print modes.omega(2)", 7, "there are 1 modes", ""},
+        {PENDULUM, "print linear.A(1,2)", 7, "nothing has been linearized", "linearize inputs"},
+        {PENDULUM "linearize\n", "print linear.A(3,1)", 7, "has 2 rows and 2 columns", ""},
+        {PENDULUM "linearize\n", "print linear.A(h,1)", 16, "picked by whole numbers", ""},
+        {PENDULUM, "show linear", 6, "nothing has been linearized", "linearize inputs"},
+        {PENDULUM, "export csv modes", 12, "there are no modes yet", "'modes' finds them"},
+        {PENDULUM "torque T1 m 30\n", "equilibrium", 1, "no equilibrium was found; missed: the forces on h by", "keeps moving"},
+    };
+    /* clang-format on */
+
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
+        Kit kit = kit_new();
+
+        EXPECT_DONE(&kit, wrong[i].before);
+        EXPECT(kit_do(&kit, wrong[i].line) == CT_FAILED);
+        EXPECT_HOLDS(kit.error.message, wrong[i].message);
+        EXPECT_HOLDS(kit.error.hint, wrong[i].hint);
+        if (kit.error.column != wrong[i].column) {
+            test_faults++;
+            printf("%s: column %d, wanted %d\n", wrong[i].line, kit.error.column, wrong[i].column);
+        }
+        kit_free(&kit);
+    }
+}
+
+static void a_model_that_changed_has_no_inputs_at_an_old_instant(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, PENDULUM "actuator a1 h torque=0\nsimulate 1\nbody m2 mass=1\n");
+    EXPECT(kit_do(&kit, "linearize at=1 inputs=[a1]") == CT_FAILED);
+    EXPECT_HOLDS(kit.error.message, "has changed since the run");
+    kit_free(&kit);
+}
+
+static void many_equilibria_are_spoken_of(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(
+        &kit,
+        "scene planar\nbody m1 mass=1 inertia=1\nprismatic s1 ground m1 axis=x\nequilibrium\n");
+    EXPECT_HOLDS(ct_remarks(kit.session), "1 direction in which nothing pushes back");
+    kit_free(&kit);
+}
+
+/* --- what is shown --- */
+
+static void matrices_are_written_in_other_notations(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, "vsource E1 a 0 1\nresistor R1 a b 2\ncapacitor C1 b 0 0.5\n"
+                      "linearize inputs=[E1] outputs=[C1.v]\nshow linear\n");
+    EXPECT_HOLDS(kit.text, "A     C1.v\nC1.v    -1\n");
+    EXPECT_DONE(&kit, "show linear as matlab\n");
+    EXPECT_HOLDS(kit.text, "A = [-1];\nB = [1];\nC = [1];\nD = [0];\n");
+    EXPECT_DONE(&kit, "show linear as c\n");
+    EXPECT_HOLDS(kit.text, "static const double A[1][1] = {{-1}};\n");
+    EXPECT_DONE(&kit, "show linear as latex\n");
+    EXPECT_HOLDS(kit.text, "A &= \\begin{bmatrix} -1 \\end{bmatrix}");
+    kit_free(&kit);
+}
+
+int main(void)
+{
+    RUN(a_pendulum_swings_at_the_root_of_g_over_l);
+    RUN(two_pendulums_have_their_two_modes_in_any_trees);
+    RUN(spatial_pendulums_have_the_modes_of_planar_ones);
+    RUN(what_floats_has_modes_of_frequency_0);
+    RUN(shapes_tell_what_moves_with_and_against);
+    RUN(a_series_circuit_has_its_poles);
+    RUN(what_falls_over_has_a_negative_damping);
+    RUN(what_cannot_move_has_no_modes);
+    RUN(the_motor_arm_is_linear_as_by_hand);
+    RUN(an_instant_of_a_run_is_where_it_is_then);
+    RUN(small_turns_of_a_spinning_body_follow_its_axes);
+    RUN(the_slider_crank_with_a_spring_swings_as_one_coordinate_does);
+    RUN(runs_start_at_the_equilibrium_until_init);
+    RUN(a_change_of_numbers_starts_from_the_old_equilibrium);
+    RUN(a_heavy_chain_finds_its_rest_from_anywhere);
+    RUN(wrong_uses_are_refused_with_a_way_out);
+    RUN(a_model_that_changed_has_no_inputs_at_an_old_instant);
+    RUN(many_equilibria_are_spoken_of);
+    RUN(matrices_are_written_in_other_notations);
+    return test_end();
+}
