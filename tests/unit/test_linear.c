@@ -262,6 +262,53 @@ static void the_slider_crank_with_a_spring_swings_as_one_coordinate_does(void)
     kit_free(&kit);
 }
 
+/* an expression at a start a little off */
+static double value_at(Kit *kit, double h, double rate, const char *expression)
+{
+    char line[120];
+
+    (void)snprintf(line, sizeof line, "init h8 = %.17g, h8' = %.17g\n", h, rate);
+    EXPECT_DONE(kit, line);
+    return kit_value(kit, expression);
+}
+
+/* by differences of order 4, in position or in rate */
+static double slope(Kit *kit, bool of_rate, const char *expression)
+{
+    const double h = 1.1, rate = 12, step = 1e-3;
+    const double dh = of_rate ? 0 : step, dr = of_rate ? step : 0;
+
+    return (8 * (value_at(kit, h + dh, rate + dr, expression) -
+                 value_at(kit, h - dh, rate - dr, expression)) -
+            value_at(kit, h + 2 * dh, rate + 2 * dr, expression) +
+            value_at(kit, h - 2 * dh, rate - 2 * dr, expression)) /
+           (12 * step);
+}
+
+static void a_moving_mechanism_has_the_slopes_of_neighbouring_motions(void)
+{
+    static const char *const trees[] = {ONE_TREE, TWO_TREES,
+                                        "tree m1 m2 m3\nform embedded independent=[m1.theta]\n"};
+
+    for (size_t i = 0; i < sizeof trees / sizeof trees[0]; i++) {
+        Kit kit = kit_new();
+        double slopes[4];
+
+        EXPECT_DONE(&kit, SLIDER_CRANK CRANK_START);
+        EXPECT_DONE(&kit, trees[i]);
+        slopes[0] = slope(&kit, false, "h8''");
+        slopes[1] = slope(&kit, true, "h8''");
+        slopes[2] = slope(&kit, false, "h9.fx");
+        slopes[3] = slope(&kit, true, "m2.vy");
+        EXPECT_DONE(&kit, "init h8 = 1.1, h8' = 12\nlinearize outputs=[h9.fx, m2.vy]\n");
+        expect_value(&kit, "linear.A(2,1)", slopes[0], 1e-7 * fabs(slopes[0]));
+        expect_value(&kit, "linear.A(2,2)", slopes[1], 1e-7 * fabs(slopes[1]));
+        expect_value(&kit, "linear.C(1,1)", slopes[2], 1e-7 * fabs(slopes[2]));
+        expect_value(&kit, "linear.C(2,2)", slopes[3], 1e-9);
+        kit_free(&kit);
+    }
+}
+
 /* --- equilibrium --- */
 
 static void runs_start_at_the_equilibrium_until_init(void)
@@ -307,6 +354,74 @@ static void a_heavy_chain_finds_its_rest_from_anywhere(void)
         expect_value(&kit, "sin(h1 + h2)", 0, 1e-9);
         kit_free(&kit);
     }
+}
+
+static void note_phase(void *context, const char *phase, double fraction)
+{
+    (void)fraction;
+    (void)snprintf(context, 80, "%s", phase);
+}
+
+/* Newton's method gets stuck at a residual that is least but not 0: what goes on from there */
+static void where_newton_gets_stuck_other_ways_go_on(void)
+{
+    static const struct {
+        const char *spring, *force, *start, *residual, *phase;
+    } cases[] = {
+        /* r = s - 4 + 4 sin(2 s), positive and least near 8.57 */
+        {"spring k1 s k=1\n", "4 - 4*sin(2*s)", "8.5", "s - 4 + 4*sin(2*s)", "equilibrium: loads"},
+        /* near -1 nearly a root, with loads of any size */
+        {"", "-(s - 2)*((s + 1)^2 + 0.1)", "-1", "s - 2", "equilibrium: creeping"},
+    };
+
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        Kit kit = kit_new();
+        char line[200], phase[80] = "";
+        ct_hooks hooks = {.context = phase, .progress = note_phase};
+
+        (void)snprintf(line, sizeof line,
+                       "scene planar\nbody a mass=1 inertia=1\nprismatic s ground a axis=x\n"
+                       "%sactuator f1 s force=%s\ninit s = %s\n",
+                       cases[i].spring, cases[i].force, cases[i].start);
+        EXPECT_DONE(&kit, line);
+        ct_session_hooks(kit.session, &hooks);
+        EXPECT_DONE(&kit, "equilibrium\n");
+        EXPECT_TEXT(phase, cases[i].phase);
+        expect_value(&kit, cases[i].residual, 0, 1e-9);
+        kit_free(&kit);
+    }
+}
+
+static bool stop_now(void *context)
+{
+    (void)context;
+    return true;
+}
+
+static void a_search_can_be_stopped(void)
+{
+    Kit kit = kit_new();
+    const ct_hooks hooks = {.stop = stop_now};
+
+    EXPECT_DONE(&kit, "scene planar\nbody a mass=1 inertia=1\nprismatic s ground a axis=x\n"
+                      "actuator f1 s force=1\n");
+    (void)kit_value(&kit, "s");
+    ct_session_hooks(kit.session, &hooks);
+    EXPECT(kit_do(&kit, "equilibrium") == CT_STOPPED);
+    kit_free(&kit);
+}
+
+/* a driver that moves: at rest it stands where it is at t = 0 */
+static void a_moving_driver_stands_still_in_the_search_and_moves_after_it(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, TWO_PENDULUMS "driver D1 h1 = 90 deg + 3*t\nequilibrium\n");
+    EXPECT_HOLDS(ct_remarks(kit.session), "drivers move at t = 0");
+    expect_value(&kit, "h1", 1.5707963267948966, 1e-12);
+    expect_value(&kit, "cos(h2)", 0, 1e-9);
+    expect_value(&kit, "h1'", 3, 1e-12);
+    kit_free(&kit);
 }
 
 /* --- wrong uses --- */
@@ -402,9 +517,13 @@ int main(void)
     RUN(an_instant_of_a_run_is_where_it_is_then);
     RUN(small_turns_of_a_spinning_body_follow_its_axes);
     RUN(the_slider_crank_with_a_spring_swings_as_one_coordinate_does);
+    RUN(a_moving_mechanism_has_the_slopes_of_neighbouring_motions);
     RUN(runs_start_at_the_equilibrium_until_init);
     RUN(a_change_of_numbers_starts_from_the_old_equilibrium);
     RUN(a_heavy_chain_finds_its_rest_from_anywhere);
+    RUN(where_newton_gets_stuck_other_ways_go_on);
+    RUN(a_search_can_be_stopped);
+    RUN(a_moving_driver_stands_still_in_the_search_and_moves_after_it);
     RUN(wrong_uses_are_refused_with_a_way_out);
     RUN(a_model_that_changed_has_no_inputs_at_an_old_instant);
     RUN(many_equilibria_are_spoken_of);
