@@ -77,10 +77,16 @@ double number_value(Number a)
     return a.den != 0 ? (double)a.num / (double)a.den : a.real;
 }
 
+/* a double; what cancels or underflows to zero is the exact one, so that terms vanish with it */
+static Number number_double(double value)
+{
+    return value == 0.0 ? number_int(0) : (Number){0, 0, value};
+}
+
 Number number_add(Number a, Number b)
 {
     if (a.den == 0 || b.den == 0)
-        return (Number){0, 0, number_value(a) + number_value(b)};
+        return number_double(number_value(a) + number_value(b));
     if (a.den == 1 && b.den == 1)
         return wide_ratio((Wide)a.num + b.num, 1);
     return wide_ratio((Wide)a.num * b.den + (Wide)b.num * a.den, (Wide)a.den * b.den);
@@ -92,7 +98,7 @@ Number number_mul(Number a, Number b)
         /* an exact zero stays exact */
         if (number_is(a, 0) || number_is(b, 0))
             return number_int(0);
-        return (Number){0, 0, number_value(a) * number_value(b)};
+        return number_double(number_value(a) * number_value(b));
     }
     return wide_ratio((Wide)a.num * b.num, (Wide)a.den * b.den);
 }

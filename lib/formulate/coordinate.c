@@ -180,6 +180,13 @@ static Status chord_value(System *system, const Instance *owner, int coordinate,
                                   : expr_call2(system->arena, OP_ATAN2, turn.sine, turn.cosine);
         return OK;
     }
+    if (steps.quaternion && coordinate >= steps.first_parameter) {
+        Expr p[4];
+        Status status = relative_parameters(system, owner->tail, owner->head, p, diag);
+
+        *out = p[coordinate - steps.first_parameter];
+        return status;
+    }
     (void)diag_set(diag, E_MISSING, "%s: can't be told while %s is a chord of the rotation tree",
                    owner->coord[coordinate], owner->name);
     diag_hint(diag, "tree rotation + %s - EDGE makes it a branch", owner->name);

@@ -6,7 +6,7 @@
 #include "formulate/system_impl.h"
 
 enum {
-    MOST_SPEEDS = 12,      /* beyond, definitions win and writing out takes long */
+    MOST_SPEEDS = 7,       /* beyond, definitions win and writing out takes long */
     MOST_OPERATIONS = 800, /* of the definitions: spatial chains of three grow out of hand */
     FUNCTION_PRICE = 20    /* a sine costs about as much as twenty additions in a run */
 };

@@ -92,7 +92,7 @@ static Status parameters_of(Arena *arena, const Rotation *rotation, Expr p[4], D
 }
 
 /* Euler parameters of a frame against ground: the product of those of its turns */
-static Status frame_parameters(System *system, int node, Expr p[4], Diag *diag)
+Status frame_parameters(System *system, int node, Expr p[4], Diag *diag)
 {
     Arena *arena = system->arena;
     const Frame *frame = &system->frames[node];
@@ -118,6 +118,20 @@ static Status frame_parameters(System *system, int node, Expr p[4], Diag *diag)
         for (int i = 0; i < 4; i++)
             p[i] = expr_hold(arena, turn[i]);
     }
+done:
+    return status;
+}
+
+Status relative_parameters(System *system, int tail, int head, Expr p[4], Diag *diag)
+{
+    Expr far[4];
+    Status status = OK;
+
+    CHECK(frame_parameters(system, tail, p, diag));
+    CHECK(frame_parameters(system, head, far, diag));
+    for (int i = 1; i < 4; i++)
+        p[i] = expr_neg(system->arena, p[i]);
+    parameters_product(system->arena, p, far);
 done:
     return status;
 }
@@ -211,6 +225,22 @@ done:
     return status;
 }
 
+/* the shift of a screw, from its turn */
+static Status tied_shift(System *system, const Instance *joint, Expr *out, Diag *diag)
+{
+    Steps steps;
+    Expr turn;
+    Status status = OK;
+
+    instance_steps(system, joint, &steps);
+    if (!steps_are_tied(&steps))
+        return diag_set(diag, E_MISSING, "%s.s can't be told", joint->name);
+    CHECK(coordinate_value(system, joint, steps.turn[0].coordinate, 0, &turn, diag));
+    *out = expr_mul(system->arena, steps.shift[0].scale, turn);
+done:
+    return status;
+}
+
 static Status joint_variable(System *system, const Instance *joint, const char *member, Expr *out,
                              Diag *diag)
 {
@@ -224,6 +254,8 @@ static Status joint_variable(System *system, const Instance *joint, const char *
 
     if (strcmp(member, "effort") == 0)
         return joint_effort(system, joint, out, diag);
+    if (strcmp(member, "s") == 0)
+        return tied_shift(system, joint, out, diag);
     if (axis == NULL)
         return diag_set(diag, E_MISSING, "%s.%s can't be told", joint->name, member);
     CHECK(moment ? joint_moment(system, joint, &vector, &chain, diag)

@@ -203,7 +203,7 @@ done:
 
 /* --- rotations --- */
 
-/* cosine and sine, exact at quarter turns */
+/* cosine and sine, exact at quarter turns, of other numbers as doubles */
 static void circle(Arena *arena, Expr angle, Expr *c, Expr *s)
 {
     static const int cosines[] = {1, 0, -1, 0};
@@ -217,8 +217,8 @@ static void circle(Arena *arena, Expr angle, Expr *c, Expr *s)
         *s = expr_int(arena, cosines[(quarter + 3) % 4]);
         return;
     }
-    *c = expr_cos(arena, angle);
-    *s = expr_sin(arena, angle);
+    *c = expr_is_number(angle) ? expr_real(arena, cos(expr_value(angle))) : expr_cos(arena, angle);
+    *s = expr_is_number(angle) ? expr_real(arena, sin(expr_value(angle))) : expr_sin(arena, angle);
 }
 
 static void turn_matrix(Arena *arena, int axis, Expr angle, Expr R[9])

@@ -5,3 +5,7 @@ test_formulate_LDADD = $(unit_ldadd)
 UNIT_TESTS += test_trees
 test_trees_SOURCES = tests/unit/test_trees.c tests/unit/test.h tests/unit/scene.h
 test_trees_LDADD = $(unit_ldadd)
+
+UNIT_TESTS += test_spatial
+test_spatial_SOURCES = tests/unit/test_spatial.c tests/unit/test.h tests/unit/scene.h
+test_spatial_LDADD = $(unit_ldadd)
