@@ -97,7 +97,7 @@ static void moment_rows(System *system, const Instance *joint, const Steps *step
                       &turns);
         if (system->planar) {
             push_row(system, joint, ROW_ANGLE, unit(arena, 2), vec_zero(arena), "turn");
-        } else if (turns.count == 1 && rotation_is_one(&constant)) {
+        } else if (turns.count == 1 && turns.at[0].matrix == NULL && rotation_is_one(&constant)) {
             push_row(system, joint, ROW_ANGLE, turns.at[0].axis, vec_zero(arena), "turn");
         } else {
             push_row(system, joint, ROW_DOT, axes[1], far[2], "u");

@@ -329,7 +329,7 @@ static double distance(const Motion *mo)
     return largest;
 }
 
-static void normalise(const Equations *eq, double *q)
+void equations_normalise(const Equations *eq, double *q)
 {
     for (int i = 0; i < eq->quaternion_count; i++) {
         double *p = q + eq->quaternions[i];
@@ -351,7 +351,7 @@ static void move(Motion *mo, const double *du, double *q)
             sum += eq->map[i * eq->nu + j] * du[j];
         q[i] += sum;
     }
-    normalise(eq, q);
+    equations_normalise(eq, q);
 }
 
 /* Simplified Newton: one factorisation serves all sweeps. They go on to the limit of rounding: what
@@ -363,7 +363,7 @@ static bool project_position(Motion *mo, double t, double *q)
     double enough = fmax(1e-13 * size, fmin(1e-2 * mo->options.tolerance, 1e-9));
     double left, before = INFINITY;
 
-    normalise(mo->eq, q);
+    equations_normalise(mo->eq, q);
     at_position(mo, t, q);
     measure_rows(mo);
     left = distance(mo);

@@ -42,6 +42,9 @@ typedef struct Equations {
                      double *out);
 } Equations;
 
+/* Bring each four Euler parameters of q to unit length. */
+void equations_normalise(const Equations *equations, double *q);
+
 typedef struct MotionOptions {
     bool embedded;
     const int *rows; /* constraint rows in use, independent ones */

@@ -23,7 +23,8 @@ typedef struct Given {
     const StartValue *value;
     Expr expr;
     Level level;
-    int column;    /* coordinate, speed or state that it is, alone; -1 */
+    int place;     /* coordinate, speed or state that it is, alone; -1 */
+    int column;    /* unknown that holding it holds: the place, or a coordinate's speed; -1 */
     bool is_angle; /* an arc tangent: full turns don't count */
 } Given;
 
@@ -51,17 +52,29 @@ typedef struct Problem {
 
 /* --- what was given --- */
 
-static int column_of(const Assembly *a, Expr e, Level level)
+static int place_of(const Assembly *a, Expr e, Level level)
 {
     const Layout *l = a->l;
     int first = level == LEVEL_POSITION ? l->q : level == LEVEL_VELOCITY ? l->u : l->x;
     int count = level == LEVEL_POSITION ? l->n : level == LEVEL_VELOCITY ? l->nu : l->nx;
 
-    if (level == LEVEL_POSITION && a->eq->map != NULL)
-        return -1;
     for (int i = 0; i < count; i++)
         if (l->symbols[first + i] == e)
             return i;
+    return -1;
+}
+
+/* positions are corrected in speeds: that of a coordinate which has one of its own */
+static int column_of(const Assembly *a, int place, Level level)
+{
+    Expr rate;
+
+    if (place < 0 || level != LEVEL_POSITION || a->eq->map == NULL)
+        return place;
+    rate = system_q_rate(a->l->system, place);
+    for (int j = 0; j < a->l->nu; j++)
+        if (system_u(a->l->system, j)->symbol == rate)
+            return j;
     return -1;
 }
 
@@ -82,7 +95,8 @@ static Status classify(Assembly *a, Given *given, Diag *diag)
     given->level = (kinds & network) != 0              ? LEVEL_NETWORK
                    : (kinds & 1U << SYMBOL_SPEED) != 0 ? LEVEL_VELOCITY
                                                        : LEVEL_POSITION;
-    given->column = column_of(a, given->expr, given->level);
+    given->place = place_of(a, given->expr, given->level);
+    given->column = column_of(a, given->place, given->level);
     given->is_angle = expr_kind(given->expr) == EXPR_CALL && expr_op(given->expr) == OP_ATAN2;
     return OK;
 }
@@ -242,6 +256,7 @@ static void move_position(void *context, double *v, const double *step)
         for (int j = 0; eq->map != NULL && j < eq->nu; j++)
             v[i] += eq->map[i * eq->nu + j] * step[j];
     }
+    equations_normalise(eq, v);
 }
 
 static void evaluate_velocity(void *context, const double *v, double *residual, double *jacobian)
@@ -358,10 +373,11 @@ static void begin_position(Assembly *a, WarmValue warm, void *context)
         for (int i = 0; i < a->given_count; i++) {
             const Given *given = &a->given[i];
 
-            if (given->level == LEVEL_POSITION && given->column >= 0 &&
+            if (given->level == LEVEL_POSITION && given->place >= 0 &&
                 given->value->is_guess == (guesses == 1))
-                a->y[given->column] = given->value->value;
+                a->y[given->place] = given->value->value;
         }
+    equations_normalise(a->eq, a->y);
 }
 
 /* Guesses that are no coordinates weigh as much as equations first: a branch on which they are far
@@ -374,7 +390,7 @@ static Status pull(Assembly *a, Diag *diag)
     Status status = OK;
 
     for (int i = 0; i < a->given_count; i++)
-        needed = needed || (a->given[i].level == LEVEL_POSITION && a->given[i].column < 0);
+        needed = needed || (a->given[i].level == LEVEL_POSITION && a->given[i].place < 0);
     if (!needed)
         return OK;
     CHECK(problem_open(&p, a, LEVEL_POSITION, true, diag));
@@ -450,7 +466,7 @@ static Status find_position(Assembly *a, Diag *diag)
     CHECK(pull(a, diag));
     for (int i = 0; i < p.count; i++)
         if (p.picked[i]->column >= 0)
-            a->y[p.picked[i]->column] = p.picked[i]->value->value;
+            a->y[p.picked[i]->place] = p.picked[i]->value->value;
     rows = rows_of(&p);
     residual = NEW_ARRAY(double, rows.rows);
     if (!least_solve(&rows, held, NULL, TOLERANCE, a->y, residual)) {

@@ -10,9 +10,10 @@
 
 #include <gsl/gsl_linalg.h>
 
-enum { MODELS = 24, MOST_BODIES = 12, CHOICES = 5 };
+enum { MODELS = 20, MOST_BODIES = 12, CHOICES = 5 };
 
 typedef LIST(Expr) Items;
+typedef LIST(char *) Words;
 
 static const char *const kinds[] = {"revolute",  "prismatic",   "cylindrical", "universal",
                                     "spherical", "planarjoint", "weld",        "revolute",
@@ -130,20 +131,21 @@ static Result *assembled(Model *model, System *system, Diag *diag)
     return result;
 }
 
-/* values of names, each of them a variable; those that can't be told are NAN */
+/* values of names, each of them a variable, all at once; where some can't be told each for itself,
+ * and those are NAN */
 static double *values_of(const Model *model, Result *result, const char *const *names, int count)
 {
     double *values = NEW_ARRAY(double, count);
+    Items items = {0};
+    Diag diag = {0};
 
-    for (int i = 0; i < count; i++) {
-        Items items = {0};
-        Diag diag = {0};
-
+    for (int i = 0; i < count; i++)
         push(model, &items, names[i]);
-        if (items.count == 0 || result_values(result, items.at, 1, &values[i], &diag) != OK)
-            values[i] = NAN;
-        LIST_FREE(items);
-    }
+    if (items.count < count || result_values(result, items.at, count, values, &diag) != OK)
+        for (int i = 0; i < items.count; i++)
+            if (result_values(result, &items.at[i], 1, &values[i], &diag) != OK)
+                values[i] = NAN;
+    LIST_FREE(items);
     return values;
 }
 
@@ -188,21 +190,26 @@ static void guess_joints(const Model *model, uint64_t *random, Text *text)
 static const char *const places[] = {"x", "y", "z", "q0", "q1", "q2", "q3"};
 static const char *const motions[] = {"vx", "vy", "vz", "wx", "wy", "wz"};
 
-/* where the bodies are, as guesses; how they move, as initial values */
-static void start_bodies(const Model *model, Result *result, int bodies, bool moving, Text *text)
+/* lines `verb b3.x = value` of members of all bodies */
+static void start_bodies(const Model *model, Result *result, int bodies, const char *verb,
+                         const char *const *members, int count, Text *text)
 {
-    for (int i = 0; i < bodies; i++) {
+    Words names = {0};
+    double *values;
+
+    for (int i = 0; i < bodies * count; i++) {
         char name[32];
 
-        for (int k = 0; k < COUNT(places); k++) {
-            snprintf(name, sizeof name, "b%d.%s", i, places[k]);
-            text_addf(text, "guess %s = %.17g\n", name, value_of(model, result, name));
-        }
-        for (int k = 0; moving && k < COUNT(motions); k++) {
-            snprintf(name, sizeof name, "b%d.%s", i, motions[k]);
-            text_addf(text, "init %s = %.17g\n", name, value_of(model, result, name));
-        }
+        snprintf(name, sizeof name, "b%d.%s", i / count, members[i % count]);
+        LIST_PUSH(names, mem_text(name, strlen(name)));
     }
+    values = values_of(model, result, (const char *const *)names.at, names.count);
+    for (int i = 0; i < names.count; i++) {
+        text_addf(text, "%s %s = %.17g\n", verb, names.at[i], values[i]);
+        mem_free(names.at[i]);
+    }
+    LIST_FREE(names);
+    mem_free(values);
 }
 
 /* --- closing a loop in the position that the open tree is in --- */
@@ -252,7 +259,7 @@ static void close_loop(const Model *model, Result *result, int bodies, uint64_t 
 /* --- comparing --- */
 
 /* smallest over largest singular value of Phi_u; 1 without constraints */
-static double condition(const Model *model, Result *result, System *system)
+static double condition(Result *result, const System *system)
 {
     int m = system_m(system);
     int n = system_nu(system);
@@ -260,7 +267,9 @@ static double condition(const Model *model, Result *result, System *system)
     gsl_matrix *V;
     gsl_vector *s;
     gsl_vector *work;
+    double *entries;
     double ratio;
+    Diag diag = {0};
 
     if (m == 0)
         return 1.0;
@@ -270,13 +279,11 @@ static double condition(const Model *model, Result *result, System *system)
     V = gsl_matrix_alloc((size_t)m, (size_t)m);
     s = gsl_vector_alloc((size_t)m);
     work = gsl_vector_alloc((size_t)m);
-    for (int i = 0; i < m; i++)
-        for (int j = 0; j < n; j++) {
-            char name[40];
-
-            snprintf(name, sizeof name, "jacobian(%d,%d)", i + 1, j + 1);
-            gsl_matrix_set(a, (size_t)j, (size_t)i, value_of(model, result, name));
-        }
+    entries = NEW_ARRAY(double, m *n);
+    EXPECT(result_values(result, system_run(system)->phi_u, m * n, entries, &diag) == OK);
+    for (int i = 0; i < m * n; i++)
+        gsl_matrix_set(a, (size_t)(i % n), (size_t)(i / n), entries[i]);
+    mem_free(entries);
     (void)gsl_linalg_SV_decomp(a, V, s, work);
     ratio = gsl_vector_get(s, (size_t)m - 1) / gsl_vector_get(s, 0);
     gsl_matrix_free(a);
@@ -285,8 +292,6 @@ static double condition(const Model *model, Result *result, System *system)
     gsl_vector_free(work);
     return ratio;
 }
-
-typedef LIST(char *) Words;
 
 static void compared_names(const Model *model, int bodies, Words *names, int *of_bodies)
 {
@@ -367,6 +372,26 @@ static void compare(const char *scene, const char *trees, const Words *names, co
     }
 }
 
+/* those of the guesses that are coordinates of the system: others may be told in more than one way
+ */
+static void add_guesses(Model *model, const System *system, const char *guesses)
+{
+    while (*guesses != '\0') {
+        size_t length = strcspn(guesses, "\n");
+        char *line = mem_text(guesses, length);
+
+        for (int i = 0; i < system_n(system); i++) {
+            const char *name = system_q(system, i)->name;
+
+            if (strncmp(line + strlen("guess "), name, strlen(name)) == 0 &&
+                line[strlen("guess ") + strlen(name)] == ' ')
+                scene_add(model, line);
+        }
+        mem_free(line);
+        guesses += length + (guesses[length] == '\n');
+    }
+}
+
 /* accelerations and reactions in all choices of trees */
 static void check_scene(const char *scene, const char *positions, int bodies, uint64_t *random,
                         Compared *compared)
@@ -384,7 +409,9 @@ static void check_scene(const char *scene, const char *positions, int bodies, ui
         Diag diag = {0};
 
         scene_add(model, trees);
-        scene_add(model, positions);
+        system = scene_system(model);
+        if (system != NULL)
+            add_guesses(model, system, positions);
         if (choice == 0)
             for (int i = 0; i < bodies; i++) {
                 char line[80];
@@ -395,21 +422,20 @@ static void check_scene(const char *scene, const char *positions, int bodies, ui
             }
         else
             scene_add(model, motion.at);
-        system = scene_system(model);
         if (system != NULL)
             result = assembled(model, system, &diag);
         if (system != NULL && result == NULL) {
             test_faults++;
             printf("%s%s%s: %s (%s)\n", scene, trees, positions, diag.message, diag.hint);
         }
-        if (result != NULL && condition(model, result, system) > 1e-2) {
+        if (result != NULL && condition(result, system) > 1e-2) {
             double *values;
 
             if (names.count == 0)
                 compared_names(model, bodies, &names, &of_bodies);
             values = values_of(model, result, (const char *const *)names.at, names.count);
             if (first == NULL) {
-                start_bodies(model, result, bodies, true, &motion);
+                start_bodies(model, result, bodies, "init", motions, COUNT(motions), &motion);
                 first = values;
                 values = NULL;
             } else {
@@ -458,7 +484,7 @@ static void check_models(bool loop)
             test_faults++;
             printf("%s: %s\n", open, diag.message);
         } else {
-            start_bodies(model, result, bodies, false, &positions);
+            start_bodies(model, result, bodies, "guess", places, COUNT(places), &positions);
             if (loop)
                 close_loop(model, result, bodies, &random, &scene);
             check_scene(scene.at, positions.at, bodies, &random, &compared);
