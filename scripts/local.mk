@@ -22,7 +22,8 @@ EXTRA_DIST += \
 	scripts/reference/ref_A02_four_bar_joint.ct \
 	scripts/reference/ref_A03_andrews.ct \
 	scripts/reference/ref_A03_andrews_beta062.ct \
-	scripts/reference/ref_free_body.ct
+	scripts/reference/ref_free_body.ct \
+	scripts/reference/ref_heavy_top.ct
 
 # sessions to read and to type
 EXTRA_DIST += scripts/tours/first-hour.ct
