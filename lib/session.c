@@ -309,8 +309,10 @@ ct_status ct_apply(ct_session *session, const ct_statement *statement, ct_error 
         session->at_rest = false;
     if (is_search(s) ? model_revision(session->model) != revision : !keeps_values(s))
         note_change(session, revision, text_chooses(s->verb));
-    if (chooses_trees(s) && status == OK)
+    if (chooses_trees(s) && status == OK) {
         remark_trees(session);
+        session_remark_free(session);
+    }
 done:
     return session_report(status, &diag, error);
 }

@@ -41,6 +41,7 @@ struct ct_session {
     const char *told;       /* verb whose finding ct_report() tells; NULL: as runs have it */
     bool start_is_later;    /* a bare name means the start, not the end of the last run */
     bool changed;           /* since the last run */
+    uint64_t covered;       /* revision whose virtual branches lose no freedom, and 1 */
     TreeCosts costs;
     int cost_now; /* of the trees chosen last, a place in `costs` */
     Text remarks; /* of the last call; at NULL: none */
@@ -78,6 +79,17 @@ View session_view(const ct_session *session);
 /* `tree best`: search, put the cheapest trees in place, and remark what was compared. Bounded by a
  * number of formulations and a time. E_STOPPED leaves the best so far in place. */
 MUST_USE Status session_best_trees(ct_session *session, Diag *diag);
+/* new: a model that two texts of statements make, one after the other */
+MUST_USE Status session_model_copy(const char *base, const char *more, Model **out, Diag *diag);
+
+/* --- virtual branches (session_freedoms.c) --- */
+
+/* Assemble in trees of real edges and in those of the system, and compare the freedoms, once a
+ * revision. E_BRANCH names a virtual branch that takes some away. */
+MUST_USE Status session_check_freedoms(ct_session *session, System *system, const Setting *setting,
+                                       Diag *diag);
+/* warn of virtual free joints among the branches */
+void session_remark_free(ct_session *session);
 
 /* --- runs --- */
 

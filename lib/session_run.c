@@ -119,6 +119,7 @@ Status session_start(ct_session *session, Run **out, Diag *diag)
     if (session->start.result == NULL) {
         CHECK(session_system(session, &system, diag));
         order_make(session, &order);
+        CHECK(session_check_freedoms(session, system, &order.setting, diag));
         CHECK(run_assemble(system, &order.setting, &result, diag));
         session->start = order_done(&order, result);
         session_remark(session, result_remarks(result));
@@ -254,6 +255,7 @@ static Status run_new(ct_session *session, RunFunction *function, const RunOptio
 
     CHECK(session_system(session, &system, diag));
     order_make(session, &order);
+    CHECK(session_check_freedoms(session, system, &order.setting, diag));
     status = function(system, &order.setting, options, &result, diag);
     if (result == NULL)
         goto done;

@@ -92,8 +92,7 @@ done:
     return status;
 }
 
-/* new: a model that the texts make */
-static Status model_of(const char *base, const char *more, Model **out, Diag *diag)
+Status session_model_copy(const char *base, const char *more, Model **out, Diag *diag)
 {
     Model *model = model_new();
     int count = 0;
@@ -195,7 +194,7 @@ static void candidate_price(Search *search, Candidate *c)
         return;
     report(&search->session->watch, "trees", (double)search->formulated / MOST_SYSTEMS);
     search->formulated++;
-    if (model_of(search->base, c->text, &model, &ignored) == OK &&
+    if (session_model_copy(search->base, c->text, &model, &ignored) == OK &&
         model_trees(model, trees, &ignored) == OK &&
         system_new(model, &search->watch, &system, &ignored) == OK) {
         c->trees = tree_brief(model, trees);
@@ -393,7 +392,7 @@ static Status add_proposals(Search *search, Diag *diag)
     Diag ignored;
     Status status;
 
-    CHECK(model_of(search->base, "", &with, diag));
+    CHECK(session_model_copy(search->base, "", &with, diag));
     text_add(&base, search->base);
     for (int i = 0; i < search->proposals.count; i++) {
         int count = 0;
@@ -425,7 +424,7 @@ static Candidate *add_start(Search *search, const char *text, const char *called
     Model *model = NULL;
     Diag ignored;
 
-    if (model_of(search->base, text, &model, &ignored) == OK &&
+    if (session_model_copy(search->base, text, &model, &ignored) == OK &&
         model_trees(model, trees, &ignored) == OK) {
         c = candidate_new(search);
         for (int half = 0; half < 2; half++)
@@ -456,7 +455,7 @@ static Status open_search(Search *search, Diag *diag)
     }
     search->base = model_save(search->session->model);
     search->own = graph_edge_count(model_graph(search->session->model));
-    CHECK(model_of(search->base, "tree joint\n", &search->model, diag));
+    CHECK(session_model_copy(search->base, "tree joint\n", &search->model, diag));
     CHECK(find_proposals(search, diag));
     CHECK(add_proposals(search, diag));
 done:

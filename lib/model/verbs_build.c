@@ -41,7 +41,8 @@ const Verb verbs_build[] = {
              "equations (indirect coordinates, such as the absolute angle of a body in a chain); "
              "as a chord it shows how one frame moves seen from another. Every kind of joint can "
              "be virtual. A tree is never completed with one; it enters where it is named, and "
-             "only trees in which it has freedom.",
+             "only trees in which it has freedom. One that leaves out a motion which the real joints "
+             "allow is refused when the start is assembled.",
      .example = PENDULUM "body m2 mass=1 inertia=0.1\n"
                          "arm p2 m2 [0, 1]\n"
                          "revolute h2 m1 p2\n"

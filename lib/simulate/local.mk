@@ -5,6 +5,8 @@ libcore_la_SOURCES += \
   lib/simulate/embed.c \
   lib/simulate/embed.h \
   lib/simulate/equilibrium.c \
+  lib/simulate/freedoms.c \
+  lib/simulate/freedoms.h \
   lib/simulate/ida.c \
   lib/simulate/inverse.c \
   lib/simulate/inverse.h \

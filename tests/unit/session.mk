@@ -18,3 +18,6 @@ test_session_trees_LDADD = $(unit_ldadd)
 UNIT_TESTS += test_linear
 test_linear_SOURCES = tests/unit/test_linear.c tests/unit/session_kit.h tests/unit/test.h
 test_linear_LDADD = $(unit_ldadd)
+UNIT_TESTS += test_session_virtual
+test_session_virtual_SOURCES = tests/unit/test_session_virtual.c tests/unit/session_kit.h tests/unit/test.h
+test_session_virtual_LDADD = $(unit_ldadd)
