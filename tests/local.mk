@@ -15,6 +15,7 @@ include tests/unit/syntax.mk
 include tests/unit/model.mk
 include tests/unit/joints.mk
 include tests/unit/formulate.mk
+include tests/unit/spatial.mk
 include tests/unit/simulate.mk
 include tests/unit/session.mk
 include tests/session/session.mk

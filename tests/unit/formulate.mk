@@ -7,5 +7,6 @@ test_trees_SOURCES = tests/unit/test_trees.c tests/unit/test.h tests/unit/scene.
 test_trees_LDADD = $(unit_ldadd)
 
 UNIT_TESTS += test_spatial
-test_spatial_SOURCES = tests/unit/test_spatial.c tests/unit/test.h tests/unit/scene.h
+test_spatial_SOURCES = tests/unit/test_spatial.c tests/unit/spatial.h tests/unit/test.h \
+  tests/unit/scene.h
 test_spatial_LDADD = $(unit_ldadd)
