@@ -3,6 +3,7 @@
 
 #include "config.h"
 
+#include <limits.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -211,6 +212,10 @@ static bool is_search(const Statement *statement)
 static void add_counts(Text *line, OpCount count)
 {
     text_add(line, line->at[line->length - 1] == 'e' ? ": " : "; ");
+    if (op_count_total(count) > INT_MAX) {
+        text_add(line, "far too many operations to be written out");
+        return;
+    }
     layout_count(line, (int)count.add, "addition", "additions");
     text_add(line, ", ");
     layout_count(line, (int)count.mul, "multiplication", "multiplications");

@@ -12,9 +12,7 @@ const char *count_block_name(int i)
 
 static void add_counts(OpCount *sum, OpCount more)
 {
-    sum->add += more.add;
-    sum->mul += more.mul;
-    sum->fun += more.fun;
+    *sum = op_count_plus(*sum, more);
 }
 
 /* M and F, or what the embedded form has instead of them */
@@ -96,11 +94,22 @@ Status count_block(System *system, Form form, const char *name, bool shared, OpC
 
 /* --- the table of blocks --- */
 
+/* a count that nobody would wait for is told by its size alone */
+static void count_cell(Table *table, int64_t count)
+{
+    const int64_t exact = 1000000000;
+
+    if (count < exact)
+        table_cellf(table, "%" PRId64, count);
+    else
+        table_cellf(table, count < (int64_t)1 << 62 ? "%.1e" : ">%.1e", (double)count);
+}
+
 static void count_cells(Table *table, OpCount count)
 {
-    table_cellf(table, "%" PRId64, count.add);
-    table_cellf(table, "%" PRId64, count.mul);
-    table_cellf(table, "%" PRId64, count.fun);
+    count_cell(table, count.add);
+    count_cell(table, count.mul);
+    count_cell(table, count.fun);
 }
 
 static void heading(Table *table)

@@ -14,7 +14,7 @@ static int64_t plus(int64_t a, int64_t b)
     return a > MOST - b ? MOST : a + b;
 }
 
-static OpCount count_plus(OpCount a, OpCount b)
+OpCount op_count_plus(OpCount a, OpCount b)
 {
     return (OpCount){plus(a.add, b.add), plus(a.mul, b.mul), plus(a.fun, b.fun)};
 }
@@ -94,11 +94,11 @@ OpCount expr_count(const Expr *roots, int count)
 
             if (e->kind != EXPR_PRODUCT && !is_call(e, OP_HOLD))
                 inner = alone(child, inner);
-            counts[i] = count_plus(counts[i], inner);
+            counts[i] = op_count_plus(counts[i], inner);
         }
     }
     for (int i = 0; i < count; i++)
-        total = count_plus(total, alone(roots[i], counts[walk_find(&walk, roots[i])]));
+        total = op_count_plus(total, alone(roots[i], counts[walk_find(&walk, roots[i])]));
     mem_free(counts);
     walk_free(&walk);
     return total;
@@ -157,11 +157,11 @@ OpCount expr_count_shared(const Expr *roots, int count)
             OpCount whole = product_own(e, true);
 
             if (!meet(&met, e))
-                total = count_plus(total, whole);
+                total = op_count_plus(total, whole);
             else
                 total.mul = plus(total.mul, whole.mul > product_own(e, false).mul);
         } else
-            total = count_plus(total, node_own(e));
+            total = op_count_plus(total, node_own(e));
         for (int j = 0; j < e->count && e->kind != EXPR_PRODUCT; j++)
             divides[walk_find(&walk, node_args(e)[j])] = true;
     }

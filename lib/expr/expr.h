@@ -204,6 +204,7 @@ typedef struct OpCount {
 OpCount expr_count(const Expr *roots, int count);
 /* After common subexpressions are shared: each node once. */
 OpCount expr_count_shared(const Expr *roots, int count);
+OpCount op_count_plus(OpCount a, OpCount b); /* saturates as the counts do */
 int64_t op_count_total(OpCount count);
 
 /* --- printing --- */

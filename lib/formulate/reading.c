@@ -74,7 +74,7 @@ Status reading_choose(System *system, Diag *diag)
     Status status = OK;
 
     system->definitions = system->run;
-    if (system->u.count > MOST_SPEEDS || system->u.count == 0)
+    if (system->u.count > MOST_SPEEDS || system->u.count == 0 || !system_writes_out(system))
         return OK;
     for (int b = 0; b < COUNT(blocks); b++)
         count += block_entries(system, blocks[b]);

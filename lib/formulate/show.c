@@ -403,6 +403,76 @@ void system_block_size(const System *system, Block block, int *rows, int *column
     *columns = sizes[block][1];
 }
 
+/* --- the budget --- */
+
+/* chains whose turns move a mass on its way from ground, and the turns that are left between them
+ */
+static void way_size(const System *system, int node, int *parts, int *turns)
+{
+    Turns between = {0};
+    int last = -1;
+
+    *parts = 1;
+    turns_between(system, 0, system->frames[node].chain, &between);
+    *turns = between.count;
+    LIST_FREE(between);
+    for (; system->frames[node].parent >= 0; node = system->frames[node].parent) {
+        const Frame *frame = &system->frames[node];
+
+        if (!vec_is_zero(frame->shift) && frame->step_chain != last) {
+            last = frame->step_chain;
+            ++*parts;
+        }
+    }
+}
+
+/* Whether an entry of M or F would be too long to be written out: a guess of its terms, before any
+ * of them is built. Every pair of parts of two velocities is turned into the other's axes, and a
+ * turn about another axis makes three terms of one. */
+static bool is_large(System *system)
+{
+    enum { MOST_TERMS = 6000, MOST_TURNS = 8 };
+
+    if (system->terms_guessed == 0) {
+        int64_t terms = 1;
+
+        for (int i = 0; i < system->masses.count; i++) {
+            int parts;
+            int turns;
+            int64_t turned = 1;
+
+            way_size(system, system->masses.at[i].node, &parts, &turns);
+            for (int k = 0; k < turns && k < MOST_TURNS; k++)
+                turned *= 3;
+            terms += turned * parts * parts;
+        }
+        system->terms_guessed = terms;
+    }
+    return system->terms_guessed > MOST_TERMS;
+}
+
+/* the definitions of a block, of those that can be long; NULL: it is always written out */
+static const Expr *defined_block(const System *system, Block block)
+{
+    switch (block) {
+    case BLOCK_MASS:
+        return system->definitions.mass;
+    case BLOCK_FORCES:
+        return system->definitions.force;
+    case BLOCK_JACOBIAN:
+        return system->definitions.phi_u;
+    case BLOCK_ACCELERATION:
+        return system->definitions.gamma;
+    default:
+        return NULL;
+    }
+}
+
+bool system_writes_out(System *system)
+{
+    return !is_large(system);
+}
+
 Status system_show(System *system, Block block, int row, int column, Expr *out, Diag *diag)
 {
     int rows;
@@ -423,6 +493,8 @@ Status system_show(System *system, Block block, int row, int column, Expr *out, 
         system->shown[block] =
             pool_alloc(system->pool, (size_t)rows * (size_t)columns * sizeof(Expr));
     entry = &system->shown[block][row * columns + column];
+    if (*entry == NULL && defined_block(system, block) != NULL && is_large(system))
+        *entry = defined_block(system, block)[row * columns + column];
     if (*entry == NULL) {
         CHECK(blocks[block].show(system, row, column, &shown, diag));
         CHECK(poll(system->watch));

@@ -95,7 +95,9 @@ typedef struct Reading {
 /* definitions by recursion; a run uses them, or where it is shorter what is shown */
 const Reading *system_definitions(const System *system);
 const Reading *system_run(const System *system);
-/* --- the reading to show, entry by entry; folded; formed at the first call, then kept --- */
+/* --- the reading to show, entry by entry; folded; formed at the first call, then kept. Where M
+ * would be far too long to be written out its entries, and those of F, stand over the definitions
+ * of the reading to run: held expressions, to be printed with names for what they share --- */
 typedef enum Block {
     BLOCK_MASS,
     BLOCK_FORCES,

@@ -207,7 +207,8 @@ struct System {
     LIST(Expr) switches;
     int switches_of_time;
     bool switches_known;
-    int depth; /* of variables being resolved */
+    int64_t terms_guessed; /* of M written out; 0: not guessed yet */
+    int depth;             /* of variables being resolved */
 };
 
 /* --- vectors (vector.c) --- */
@@ -374,6 +375,9 @@ FrameSum framesum_cross(System *system, Vec axis, int chain, FrameSum b);
 Expr framesum_dot(System *system, FrameSum a, FrameSum b);
 /* the way from one node to another along the translation tree */
 FrameSum framesum_way(System *system, int from, int to);
+
+/* false: entries of M and F are too long for that, and stand over their definitions */
+bool system_writes_out(System *system);
 
 /* --- the cheaper reading (reading.c) --- */
 

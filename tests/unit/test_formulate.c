@@ -502,8 +502,42 @@ static void a_chain_grows_as_it_should(void)
     EXPECT(mass[1] < 4 * mass[0]);
 }
 
+/* a chain that nobody could read: its entries stand over definitions at once */
+static void long_chains_are_not_written_out(void)
+{
+    Text text = {0};
+    Model *model;
+    System *system;
+    Expr entry = NULL;
+    Diag diag = {0};
+    SceneState state;
+
+    text_add(&text, "gravity [0, 0, -9.81]\n");
+    for (int i = 0; i < 30; i++) {
+        text_addf(&text,
+                  "body b%d mass=1 inertia=[1, 1, 2]\narm a%d b%d [-0.5, 0, 0]\narm c%d b%d [0.5, "
+                  "0, 0]\n",
+                  i, i, i, i, i);
+        if (i == 0)
+            text_add(&text, "revolute h0 ground a0\n");
+        else
+            text_addf(&text, "revolute h%d c%d a%d axis=%c\n", i, i - 1, i, "xyz"[i % 3]);
+    }
+    model = scene_new(text.at);
+    system = scene_system(model);
+    state = (SceneState){model, 8};
+    EXPECT(system_show(system, BLOCK_MASS, 3, 3, &entry, &diag) == OK);
+    EXPECT_NEAR(value_of(entry, &state), value_of(system_run(system)->mass[3 * 30 + 3], &state),
+                1e-9);
+    EXPECT(arena_nodes(model_arena(model)) < 200000);
+    system_free(system);
+    model_free(model);
+    text_free(&text);
+}
+
 int main(void)
 {
+    RUN(long_chains_are_not_written_out);
     RUN(embedded_form_projects_the_augmented_one);
     RUN(independent_coordinates_can_be_named);
     RUN(one_driver_has_an_explicit_effort);
