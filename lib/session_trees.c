@@ -265,8 +265,9 @@ static void exchange(Search *search, const Candidate *c, int halves, int goes, i
 static void mark_circuit(const Search *search, Tree *const trees[2], int chord, unsigned char *on)
 {
     const Edge *edge = graph_edge(model_graph(search->model), chord);
-    int *path = NEW_ARRAY(int, search->edges);
-    int *signs = NEW_ARRAY(int, search->edges);
+    /* a way up from each end */
+    int *path = NEW_ARRAY(int, 2 * search->edges);
+    int *signs = NEW_ARRAY(int, 2 * search->edges);
 
     memset(on, 0, (size_t)search->edges);
     for (int half = 0; half < 2; half++) {

@@ -23,6 +23,27 @@
 
 #define ROTATING "init h12 = 0.2, h13 = 0.6, h14 = -0.9, h12' = 1.5, h13' = 0, h14' = 0.5\n"
 
+static bool stop_at_last(void *context)
+{
+    int *left = context;
+
+    return --*left < 0;
+}
+
+static ct_status stopped_after(Kit *kit, const char *model, int polls)
+{
+    int left = 1 << 30;
+    const ct_hooks hooks = {.context = &left, .stop = stop_at_last, .columns = 80};
+    ct_status status;
+
+    ct_session_hooks(kit->session, &hooks);
+    EXPECT_DONE(kit, model);
+    left = polls;
+    status = kit_do(kit, "tree best\n");
+    ct_session_hooks(kit->session, NULL);
+    return status;
+}
+
 static void the_search_finds_the_two_trees_of_the_slider_crank(void)
 {
     Kit kit = kit_new();
@@ -85,6 +106,25 @@ static void a_joint_of_the_users_is_taken(void)
     kit_free(&kit);
 }
 
+/* both ends of a chord further out than the graph has edges, taken together */
+static void a_long_chain_is_searched(void)
+{
+    Kit kit = kit_new();
+    char line[300];
+
+    EXPECT_DONE(&kit, "scene planar\nbody b0 mass=1 inertia=1\nrevolute h0 ground b0\n");
+    for (int i = 1; i < 6; i++) {
+        (void)snprintf(line, sizeof line,
+                       "body b%d mass=1 inertia=1\narm c%d b%d [1, 0]\narm a%d b%d [-1, 0]\n"
+                       "revolute h%d c%d a%d\n",
+                       i, i, i - 1, i, i, i, i, i);
+        EXPECT_DONE(&kit, line);
+    }
+    EXPECT(stopped_after(&kit, "virtual revolute v c5 a5\n", 400) != CT_FAILED);
+    EXPECT_HOLDS(ct_remarks(kit.session), "compared");
+    kit_free(&kit);
+}
+
 static void undo_takes_back_trees_and_joints_at_once(void)
 {
     Kit kit = kit_new();
@@ -115,27 +155,6 @@ static void undo_takes_back_trees_and_joints_at_once(void)
 }
 
 /* --- stopping --- */
-
-static bool stop_at_last(void *context)
-{
-    int *left = context;
-
-    return --*left < 0;
-}
-
-static ct_status stopped_after(Kit *kit, const char *model, int polls)
-{
-    int left = 1 << 30;
-    const ct_hooks hooks = {.context = &left, .stop = stop_at_last, .columns = 80};
-    ct_status status;
-
-    ct_session_hooks(kit->session, &hooks);
-    EXPECT_DONE(kit, model);
-    left = polls;
-    status = kit_do(kit, "tree best\n");
-    ct_session_hooks(kit->session, NULL);
-    return status;
-}
 
 static void a_search_stopped_at_once_changes_nothing(void)
 {
@@ -194,6 +213,7 @@ int main(void)
     RUN(the_search_finds_indirect_coordinates);
     RUN(the_trees_found_move_alike);
     RUN(a_joint_of_the_users_is_taken);
+    RUN(a_long_chain_is_searched);
     RUN(undo_takes_back_trees_and_joints_at_once);
     RUN(a_search_stopped_at_once_changes_nothing);
     RUN(a_search_that_is_stopped_leaves_the_best_so_far);
