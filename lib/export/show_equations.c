@@ -58,6 +58,15 @@ static const char *edge_name(const View *view, const Variable *variable)
     return variable->edge >= 0 ? graph_edge(model_graph(view->model), variable->edge)->name : "";
 }
 
+static const char *coordinate_kind(const System *system, int coordinate)
+{
+    for (int i = 0; system_quaternion(system, i) >= 0; i++)
+        if (coordinate >= system_quaternion(system, i) &&
+            coordinate < system_quaternion(system, i) + 4)
+            return "parameter";
+    return system_q(system, coordinate)->is_angle ? "angle" : "length";
+}
+
 static void coordinate_rows(Table *table, const View *view)
 {
     for (int i = 0; i < system_n(view->system); i++) {
@@ -66,7 +75,7 @@ static void coordinate_rows(Table *table, const View *view)
 
         table_cellf(table, "%d", i + 1);
         table_cell(table, q->name);
-        table_cell(table, q->is_angle ? "angle" : "length");
+        table_cell(table, coordinate_kind(view->system, i));
         table_cell(table, edge_name(view, q));
         table_cell(table, rate);
         mem_free(rate);
