@@ -230,6 +230,36 @@ typedef Status RunFunction(System *system, const Setting *setting, const RunOpti
                            Result **out, Diag *diag);
 
 /* The run is the last one now, and what it was like is said. */
+/* three-angle sequences that came near their critical angle, by joint and angle */
+static void remark_critical(ct_session *session, Result *result)
+{
+    const double near = 0.02; /* the sine of about a degree */
+    int rows = result_rows(result);
+    double *values = NEW_ARRAY(double, rows);
+    Critical critical;
+
+    for (int i = 0; system_critical(result_system(result), i, &critical); i++) {
+        int worst = 0;
+        Text line = {0};
+        Diag diag = {0};
+
+        if (rows == 0 || result_values(result, &critical.measure, 1, values, &diag) != OK)
+            continue;
+        for (int r = 1; r < rows; r++)
+            if (fabs(values[r]) < fabs(values[worst]))
+                worst = r;
+        if (!(fabs(values[worst]) < near))
+            continue;
+        text_addf(
+            &line, "the turns of %s are singular at %s = %s, which it came near at t = %.6g s",
+            critical.instance, critical.coordinate, critical.angles, result_times(result)[worst]);
+        text_add(&line, "; another sequence or Euler parameters avoid it");
+        session_remark(session, line.at);
+        text_free(&line);
+    }
+    mem_free(values);
+}
+
 static void keep_run(ct_session *session, Order *order, Result *result)
 {
     Text line = {0};
@@ -239,6 +269,7 @@ static void keep_run(ct_session *session, Order *order, Result *result)
     session->start_is_later = false;
     session->changed = false;
     session_remark(session, result_remarks(result));
+    remark_critical(session, result);
     (void)snprintf(name, sizeof name, "run%d", session->runs.count);
     report_line(&line, result, name);
     session_remark(session, line.at);

@@ -153,6 +153,7 @@ Expr node_intern(Arena *arena, ExprKind kind, Op op, const Expr *args, int count
     uint32_t hash = hash_words((uint64_t)kind << 8 | op, args, count);
     Expr found = node_find(arena, hash, kind, op, args, count);
     struct ExprNode *node;
+    Expr *own;
     unsigned kinds = 0;
 
     if (found != NULL)
@@ -163,9 +164,11 @@ Expr node_intern(Arena *arena, ExprKind kind, Op op, const Expr *args, int count
     node->kind = (uint8_t)kind;
     node->op = (uint8_t)op;
     node->count = count;
-    memcpy(node + 1, args, sizeof(Expr) * (size_t)count);
-    for (int i = 0; i < count; i++)
+    own = (Expr *)(node + 1);
+    for (int i = 0; i < count; i++) {
+        own[i] = args[i];
         kinds |= args[i]->kinds;
+    }
     node->kinds = (uint16_t)kinds;
     return node;
 }

@@ -170,6 +170,18 @@ Expr system_power(System *system);
  * many of them. */
 int system_switches(System *system, const Expr **conditions, int *time_only);
 
+/* --- three-angle sequences, which lose a freedom where their first and last axis fall together ---
+ */
+
+typedef struct Critical {
+    const char *instance;   /* whose turns they are; borrowed */
+    const char *coordinate; /* of the turn between */
+    const char *angles;     /* at which it happens, in words */
+    Expr measure;           /* 0 there, between -1 and 1 */
+} Critical;
+/* the i-th of the system, 0, 1 ...; false after the last */
+bool system_critical(System *system, int i, Critical *out);
+
 /* --- inverse runs: drivers, and what supplies their motion --- */
 
 typedef struct Drive {

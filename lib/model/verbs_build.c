@@ -36,13 +36,14 @@ const Verb verbs_build[] = {
      .shape = "",
      .usage = "virtual JOINT NAME TAIL TIP key=..",
      .brief = "a joint without constraint or force, for indirect coordinates",
-     .help = "In front of a joint's keyword: the joint then constrains nothing and carries no "
-             "force, but it has coordinates. As a branch of a tree it brings them into the "
-             "equations (indirect coordinates, such as the absolute angle of a body in a chain); "
-             "as a chord it shows how one frame moves seen from another. Every kind of joint can "
-             "be virtual. A tree is never completed with one; it enters where it is named, and "
-             "only trees in which it has freedom. One that leaves out a motion which the real joints "
-             "allow is refused when the start is assembled.",
+     .help =
+         "In front of a joint's keyword: the joint then constrains nothing and carries no "
+         "force, but it has coordinates. As a branch of a tree it brings them into the "
+         "equations (indirect coordinates, such as the absolute angle of a body in a chain); "
+         "as a chord it shows how one frame moves seen from another. Every kind of joint can "
+         "be virtual. A tree is never completed with one; it enters where it is named, and "
+         "only trees in which it has freedom. One that leaves out a motion which the real joints "
+         "allow is refused when the start is assembled.",
      .example = PENDULUM "body m2 mass=1 inertia=0.1\n"
                          "arm p2 m2 [0, 1]\n"
                          "revolute h2 m1 p2\n"

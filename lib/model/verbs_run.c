@@ -129,8 +129,9 @@ const Verb verbs_run[] = {
          "sources, "
          "actuators and parameters; outputs any variables or expressions. All entries are exact "
          "derivatives. 'show linear' prints them again, linear.A(1,2) is one entry.",
-     .example = SWING "actuator a1 h1 torque=0\nequilibrium\nlinearize inputs=[a1] outputs=[h1, m1.ax]\n"
-                      "print linear.A(2,1)",
+     .example =
+         SWING "actuator a1 h1 torque=0\nequilibrium\nlinearize inputs=[a1] outputs=[h1, m1.ax]\n"
+               "print linear.A(2,1)",
      .see = "equilibrium modes show form"},
     {.name = "modes",
      .group = GROUP_RUN,

@@ -33,7 +33,7 @@ typedef struct LinearOrder {
 
 typedef struct Linear {
     double at;
-    int freedoms; /* the first of the states; as many speeds follow */
+    int freedoms;                       /* the first of the states; as many speeds follow */
     int states, inputs, outputs, parts; /* parts: all coordinates, then network states */
     double *a, *b, *c, *d;              /* row by row */
     double *motion;                     /* parts x states: how each moves with y */
