@@ -52,14 +52,8 @@ static void check_scene(const char *scene, const char *positions, int bodies, ui
         system = scene_system(model);
         if (system != NULL)
             add_guesses(model, system, positions);
-        if (choice == 0)
-            for (int i = 0; i < bodies; i++) {
-                char line[80];
-
-                snprintf(line, sizeof line, "guess b%d.wx = %.3f, b%d.vy = %.3f", i,
-                         test_uniform(random, -1.0, 1.0), i, test_uniform(random, -1.0, 1.0));
-                scene_add(model, line);
-            }
+        if (choice == 0 && system != NULL)
+            guess_speeds(model, system, random);
         else
             scene_add(model, motion.at);
         if (system != NULL)
