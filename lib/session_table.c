@@ -309,7 +309,7 @@ done:
 ct_status ct_expect(ct_session *session, const ct_statement *statement, ct_error *error)
 {
     const Statement *s = statement_of(statement);
-    double instant;
+    double instant = 0;
     const double *at = NULL;
     Status status;
     Diag diag = {0};

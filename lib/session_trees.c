@@ -8,6 +8,7 @@
  * about one axis stand among the edges, chords until an exchange takes them in. */
 #include "session_impl.h"
 
+#include <assert.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -98,6 +99,7 @@ Status session_model_copy(const char *base, const char *more, Model **out, Diag 
     int count = 0;
     Status status;
 
+    assert(base != NULL && more != NULL);
     CHECK(apply_text(model, base, &count, diag));
     CHECK(apply_text(model, more, &count, diag));
     *out = model;

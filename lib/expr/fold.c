@@ -12,6 +12,7 @@
  * terms and leaves one, which may fold again, or two with a square of a sine less. */
 #include "expr/expr_impl.h"
 
+#include <assert.h>
 #include <string.h>
 
 typedef struct Term {
@@ -80,6 +81,7 @@ static int find_term(const Fold *fold, uint64_t print)
     for (uint32_t i = slot_of(fold, print); fold->slots[i] != 0; i = (i + 1) & (fold->size - 1)) {
         const Term *term = &fold->terms.at[fold->slots[i] - 1];
 
+        assert(fold->terms.at != NULL);
         if (!term->gone && term->print == print)
             return fold->slots[i] - 1;
     }
@@ -88,6 +90,8 @@ static int find_term(const Fold *fold, uint64_t print)
 
 static void list_term(Fold *fold, int index)
 {
+    assert(fold->terms.at != NULL);
+
     uint32_t i = slot_of(fold, fold->terms.at[index].print);
 
     while (fold->slots[i] != 0)

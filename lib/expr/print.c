@@ -1,6 +1,7 @@
 /* print.c: expressions as text, the part that all notations share */
 #include "expr/print_impl.h"
 
+#include <assert.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -318,23 +319,26 @@ static void lay_node(Printer *printer, Expr e, bool magnitude)
 static void lay_piece(Printer *printer, const Piece *piece)
 {
     Expr e = piece->e != NULL ? held(piece->e) : NULL;
-    Level level = piece->kind == PIECE_NUMBER ? number_level(printer, piece->number)
-                  : piece->kind == PIECE_POWER
-                      ? printer->dialect->power_level(e, NULL, piece->number)
-                      : node_level(printer, e);
+    const PieceKind kind = piece->kind;
+
+    assert(e != NULL || kind == PIECE_NUMBER);
+
+    Level level = kind == PIECE_NUMBER  ? number_level(printer, piece->number)
+                  : kind == PIECE_POWER ? printer->dialect->power_level(e, NULL, piece->number)
+                                        : node_level(printer, e);
     bool brackets = level < piece->level;
 
     /* what is written out at once, not as pieces, must not come before its bracket */
     if (brackets)
         say(printer, printer->dialect->open);
     if (brackets)
-        LIST_PUSH(printer->pieces, (Piece){.kind = piece->kind, .e = e, .number = piece->number});
-    else if (piece->kind == PIECE_NUMBER)
+        LIST_PUSH(printer->pieces, (Piece){.kind = kind, .e = e, .number = piece->number});
+    else if (kind == PIECE_NUMBER)
         printer->dialect->number(printer->out, piece->number);
-    else if (piece->kind == PIECE_POWER)
+    else if (kind == PIECE_POWER)
         printer->dialect->power(printer, e, NULL, piece->number);
     else
-        lay_node(printer, e, piece->kind == PIECE_MAGNITUDE);
+        lay_node(printer, e, kind == PIECE_MAGNITUDE);
     if (brackets)
         say(printer, printer->dialect->close);
 }

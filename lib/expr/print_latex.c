@@ -22,7 +22,7 @@ static void add_digits(Text *out, char *digits)
         *exponent = '\0';
     text_add(out, digits);
     if (exponent != NULL)
-        text_addf(out, "\\cdot 10^{%d}", atoi(exponent + 1));
+        text_addf(out, "\\cdot 10^{%d}", (int)strtol(exponent + 1, NULL, 10));
 }
 
 static void latex_double(Text *out, double value)

@@ -6,6 +6,7 @@
 
 #include "component/component.h"
 
+#include <assert.h>
 #include <ctype.h>
 #include <string.h>
 
@@ -126,6 +127,9 @@ const char *verb_key(const Verb *verb, int i)
 static void add_words(Text *text, const Param *param)
 {
     enum { LONG = 30 };
+
+    assert(param->fallback != NULL); /* it lists the words */
+
     size_t first = strcspn(param->fallback, "|");
 
     if (strlen(param->fallback) < LONG)

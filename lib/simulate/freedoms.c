@@ -164,7 +164,7 @@ Status freedoms_compare(Result *real, Result *with, const Instance *const *joint
         return OK;
     for (int j = 0; j < count; j++) {
         Turnings before = {0}, after = {0};
-        double turn[3];
+        double turn[3] = {0};
         bool found = find_turnings(real, frames[j][0], frames[j][1], &before, diag) == OK &&
                      find_turnings(with, frames[j][0], frames[j][1], &after, diag) == OK &&
                      find_lost(&before, &after, turn);

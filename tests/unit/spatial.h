@@ -364,7 +364,7 @@ static char *choose_trees(const Model *model, int choice, uint64_t *random)
  */
 static void add_guesses(Model *model, const System *system, const char *guesses)
 {
-    while (*guesses != '\0') {
+    while (guesses != NULL && *guesses != '\0') {
         size_t length = strcspn(guesses, "\n");
         char *line = mem_text(guesses, length);
 
