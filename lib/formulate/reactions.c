@@ -124,10 +124,27 @@ static Vec chord_reaction(System *system, const Instance *joint, bool rotation)
     return sum;
 }
 
+/* a chord some of whose equations vanished, with the branch in its circuit: what it carries may be
+ * shifted between the two, so neither is determined; NULL: there is none */
+static const Instance *undetermined_with(const System *system, const Tree *tree, int branch,
+                                         bool rotation)
+{
+    for (int i = 0; i < system->instance_count; i++) {
+        const Instance *chord = &system->instances[i];
+
+        if (!system->lost_force[i] && !(rotation && system->lost_moment[i]))
+            continue;
+        if (tree_is_beyond(tree, branch, chord->head) != tree_is_beyond(tree, branch, chord->tail))
+            return chord;
+    }
+    return NULL;
+}
+
 static Status reaction(System *system, const Instance *joint, bool rotation, Vec *out, int *chain,
                        Diag *diag)
 {
     const Tree *tree = system->trees[rotation ? TREE_ROTATION : TREE_TRANSLATION];
+    const Instance *chord;
     int node;
     Status status = OK;
 
@@ -147,6 +164,15 @@ static Status reaction(System *system, const Instance *joint, bool rotation, Vec
         }
         *out = chord_reaction(system, joint, rotation);
         return OK;
+    }
+    chord = undetermined_with(system, tree, joint->edge, rotation);
+    if (chord != NULL) {
+        (void)diag_set(diag, E_MISSING, "the %s of %s isn't determined by these trees",
+                       rotation ? "moment" : "force", joint->name);
+        diag_hint(diag,
+                  "an equation of %s on its circuit holds in every position: make %s a branch",
+                  chord->name, chord->name);
+        return E_MISSING;
     }
     /* everything beyond the branch and the joint itself are in equilibrium */
     node = tree_far_node(tree, joint->edge);

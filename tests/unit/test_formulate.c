@@ -502,6 +502,23 @@ static void a_chain_grows_as_it_should(void)
     EXPECT(mass[1] < 4 * mass[0]);
 }
 
+/* two slides side by side: what each carries can't be told */
+static void reactions_beside_a_vanished_row_are_refused(void)
+{
+    Model *model = scene_new("scene planar\nbody m1 mass=1 inertia=1\n"
+                             "prismatic s1 ground m1 axis=x\nprismatic s2 ground m1 axis=x\n"
+                             "tree s1");
+    System *system = scene_system(model);
+    Expr e = NULL;
+    Diag diag = {0};
+
+    EXPECT(system_variable(system, "s1.fy", 0, &e, &diag) == E_MISSING);
+    EXPECT(strstr(diag.hint, "an equation of s2 on its circuit") != NULL);
+    EXPECT(system_variable(system, "s2.fy", 0, &e, &diag) == E_MISSING);
+    system_free(system);
+    model_free(model);
+}
+
 /* a chain that nobody could read: its entries stand over definitions at once */
 static void long_chains_are_not_written_out(void)
 {
@@ -538,6 +555,7 @@ static void long_chains_are_not_written_out(void)
 int main(void)
 {
     RUN(long_chains_are_not_written_out);
+    RUN(reactions_beside_a_vanished_row_are_refused);
     RUN(embedded_form_projects_the_augmented_one);
     RUN(independent_coordinates_can_be_named);
     RUN(one_driver_has_an_explicit_effort);

@@ -98,7 +98,7 @@ static void check_models(bool loop)
     Compared compared = {0};
 
     for (int i = 0; i < MODELS && test_faults == 0; i++) {
-        int bodies = loop ? 3 + pick(&random, 4) : 1 + pick(&random, MOST_BODIES);
+        int bodies = loop ? 3 + pick(&random, 10) : 1 + pick(&random, MOST_BODIES);
         Text scene = {0};
         Text positions = {0};
         char *open = random_tree_of_bodies(&random, bodies);
