@@ -8,7 +8,7 @@
 /* Apply statements, lines separated by \n; a fault of the test when one fails. */
 __attribute__((unused)) static void scene_add(Model *model, const char *text)
 {
-    const char *line = text;
+    const char *line = text != NULL ? text : ""; /* a Text that nothing was added to */
 
     while (*line != '\0') {
         size_t length = strcspn(line, "\n");
