@@ -20,6 +20,7 @@ include tests/unit/simulate.mk
 include tests/unit/session.mk
 include tests/session/session.mk
 include tests/terminal/terminal.mk
+include tests/oracle/spice.mk
 include tests/bench/bench.mk
 include tests/bench/expr.mk
 include tests/bench/formulate.mk
