@@ -18,6 +18,7 @@ include tests/unit/formulate.mk
 include tests/unit/spatial.mk
 include tests/unit/simulate.mk
 include tests/unit/session.mk
+include tests/unit/networks.mk
 include tests/session/session.mk
 include tests/terminal/terminal.mk
 include tests/oracle/spice.mk

@@ -1,0 +1,375 @@
+/* test_random_networks.c: random networks have one solution, whatever the tree
+ *
+ * Networks of R, L, C and sources, up to 200 elements: a random spanning tree of elements that may
+ * carry any current, and chords that may have any voltage. Circuits of capacitors and voltage
+ * sources and cutsets of inductors and current sources come about by themselves. What a run tells
+ * is held to Kirchhoff's laws and the elements' own at every output point, to Tellegen's theorem
+ * (also with voltages of one tree and currents of another), and to the balance of energy. */
+#include "scene.h"
+
+#include "simulate/run.h"
+
+#include <stdarg.h>
+
+enum { MOST_ELEMENTS = 200, SMALL = 120 };
+
+typedef enum Kind { RESISTOR, CAPACITOR, INDUCTOR, VSOURCE, ISOURCE, KINDS } Kind;
+
+static const char *const words[] = {"resistor", "capacitor", "inductor", "vsource", "isource"};
+static const char letters[] = "RCLVI";
+
+typedef struct Element {
+    Kind kind;
+    int plus, minus; /* nodes; 0 is the datum */
+    double value;    /* ohm, F, H; amplitude of a source */
+    double speed;    /* of a source's sine, rad/s */
+} Element;
+
+typedef struct Network {
+    int nodes;
+    int count;
+    Element at[MOST_ELEMENTS];
+} Network;
+
+static int pick(uint64_t *random, int count)
+{
+    return (int)(test_random(random) % (uint64_t)count);
+}
+
+static Element random_element(uint64_t *random, Kind kind, int plus, int minus)
+{
+    static const double least[] = {0.5, 0.2, 0.2, -5.0, -1.0};
+    static const double most[] = {5.0, 2.0, 2.0, 5.0, 1.0};
+
+    return (Element){kind, plus, minus, test_uniform(random, least[kind], most[kind]),
+                     test_uniform(random, 0.5, 3.0)};
+}
+
+static Network random_network(uint64_t *random, int count)
+{
+    static const Kind in_tree[] = {RESISTOR,  RESISTOR, RESISTOR, CAPACITOR,
+                                   CAPACITOR, INDUCTOR, VSOURCE};
+    static const Kind across[] = {RESISTOR,  RESISTOR, RESISTOR, CAPACITOR,
+                                  CAPACITOR, INDUCTOR, INDUCTOR, ISOURCE};
+    Network net = {.nodes = 2 + (count - 2) / 2, .count = count};
+
+    for (int i = 0; i < count; i++) {
+        bool tree = i < net.nodes - 1;
+        int plus = tree ? i + 1 : pick(random, net.nodes);
+        int minus =
+            tree ? pick(random, i + 1) : (plus + 1 + pick(random, net.nodes - 1)) % net.nodes;
+        Kind kind =
+            tree ? in_tree[pick(random, COUNT(in_tree))] : across[pick(random, COUNT(across))];
+
+        net.at[i] = pick(random, 2) == 0 ? random_element(random, kind, plus, minus)
+                                         : random_element(random, kind, minus, plus);
+    }
+    return net;
+}
+
+static void add_node(Text *text, int node)
+{
+    text_addf(text, node == 0 ? " 0" : " n%d", node);
+}
+
+static char *network_text(const Network *net)
+{
+    Text text = {0};
+
+    for (int i = 0; i < net->count; i++) {
+        const Element *element = &net->at[i];
+
+        text_addf(&text, "%s %c%d", words[element->kind], letters[element->kind], i);
+        add_node(&text, element->plus);
+        add_node(&text, element->minus);
+        text_addf(&text, " %.17g", element->value);
+        if (element->kind >= VSOURCE)
+            text_addf(&text, "*sin(%.17g*t)", element->speed);
+        text_char(&text, '\n');
+    }
+    return text_done(&text);
+}
+
+/* --- a run and what it tells --- */
+
+/* columns of a row: v of each element, i of each, the rate of what it stores, if it does, and
+ * potentials of the nodes */
+typedef struct Told {
+    int rows, columns;
+    double *values;
+    const double *times;
+    Result *result;
+} Told;
+
+static double told_at(const Told *told, int row, int column)
+{
+    return told->values[row * told->columns + column];
+}
+
+static double parameter_value(void *context, Expr symbol)
+{
+    return model_parameter_value(context, symbol);
+}
+
+typedef LIST(Expr) Items;
+
+static void push(const Model *model, Items *items, bool rate, const char *format, ...)
+{
+    Text name = {0};
+    va_list list;
+    char plain[40];
+
+    va_start(list, format);
+    (void)vsnprintf(plain, sizeof plain, format, list);
+    va_end(list);
+    text_addf(&name, "%s%s", plain, rate ? "'" : "");
+    LIST_PUSH(*items, expr_symbol(model_arena(model), name.at, SYMBOL_VARIABLE));
+    text_free(&name);
+}
+
+static void push_all(const Model *model, const Network *net, Items *items)
+{
+    for (int i = 0; i < net->count; i++)
+        push(model, items, false, "%c%d.v", letters[net->at[i].kind], i);
+    for (int i = 0; i < net->count; i++)
+        push(model, items, false, "%c%d.i", letters[net->at[i].kind], i);
+    for (int i = 0; i < net->count; i++)
+        push(model, items, net->at[i].kind == CAPACITOR || net->at[i].kind == INDUCTOR, "%c%d.%c",
+             letters[net->at[i].kind], i, net->at[i].kind == INDUCTOR ? 'i' : 'v');
+    for (int node = 1; node < net->nodes; node++)
+        push(model, items, false, "n%d.v", node);
+}
+
+static bool run(Model *model, const Network *net, System **system, Told *told)
+{
+    /* steps short enough for the energy, whose error does not choose them */
+    RunOptions options = {
+        .duration = 2.0, .every = 0.25, .rtol = 1e-11, .atol = 1e-11, .step = 0.05};
+    StartValues start = {0};
+    Setting setting = {.parameter = parameter_value, .context = model, .start = &start};
+    Items items = {0};
+    Diag diag = {0};
+    Status status;
+
+    *told = (Told){0};
+    *system = scene_system(model);
+    if (*system == NULL)
+        return false;
+    push_all(model, net, &items);
+    status = run_simulate(*system, &setting, &options, &told->result, &diag);
+    if (status == OK) {
+        told->rows = result_rows(told->result);
+        told->columns = items.count;
+        told->times = result_times(told->result);
+        told->values = NEW_ARRAY(double, (size_t)told->rows *(size_t)items.count);
+        status = result_values(told->result, items.at, items.count, told->values, &diag);
+    }
+    if (status != OK) {
+        test_faults++;
+        printf("%s (%s)\n", diag.message, diag.hint);
+    }
+    LIST_FREE(items);
+    return status == OK;
+}
+
+static void told_free(Told *told)
+{
+    mem_free(told->values);
+    result_free(told->result);
+}
+
+/* --- claims --- */
+
+static double largest(const Told *told, int first, int count)
+{
+    double size = 0.0;
+
+    for (int r = 0; r < told->rows; r++)
+        for (int c = first; c < first + count; c++)
+            size = fmax(size, fabs(told_at(told, r, c)));
+    return size;
+}
+
+static void expect_small(double value, double limit, const char *what, int which, double t)
+{
+    if (fabs(value) <= limit)
+        return;
+    test_faults++;
+    printf("%s %d at t = %.3g: off by %.3g, at most %.3g\n", what, which, t, value, limit);
+}
+
+static void expect_kirchhoff(const Network *net, const Told *told, int row)
+{
+    int nodes = 3 * net->count - 1; /* column of node n less n */
+    double *sums = NEW_ARRAY(double, net->nodes);
+    double volts = largest(told, 0, net->count);
+    double amperes = largest(told, net->count, net->count);
+
+    for (int i = 0; i < net->count; i++) {
+        const Element *element = &net->at[i];
+        double plus = element->plus > 0 ? told_at(told, row, nodes + element->plus) : 0.0;
+        double minus = element->minus > 0 ? told_at(told, row, nodes + element->minus) : 0.0;
+
+        expect_small(plus - minus - told_at(told, row, i), 1e-12 * volts, "voltage law of", i,
+                     told->times[row]);
+        sums[element->plus] += told_at(told, row, net->count + i);
+        sums[element->minus] -= told_at(told, row, net->count + i);
+    }
+    for (int node = 0; node < net->nodes; node++)
+        expect_small(sums[node], 1e-12 * amperes, "current law of node", node, told->times[row]);
+    mem_free(sums);
+}
+
+/* how far an element is off its own law, in volts or amperes */
+static double off_law(const Element *element, double v, double i, double rate, double t)
+{
+    switch (element->kind) {
+    case RESISTOR:
+        return v - element->value * i;
+    case CAPACITOR:
+        return i - element->value * rate;
+    case INDUCTOR:
+        return v - element->value * rate;
+    case VSOURCE:
+        return v - element->value * sin(element->speed * t);
+    default:
+        return i - element->value * sin(element->speed * t);
+    }
+}
+
+static void expect_laws(const Network *net, const Told *told, int row)
+{
+    double size = largest(told, 0, 2 * net->count);
+
+    for (int i = 0; i < net->count; i++)
+        expect_small(off_law(&net->at[i], told_at(told, row, i), told_at(told, row, net->count + i),
+                             told_at(told, row, 2 * net->count + i), told->times[row]),
+                     1e-11 * size, words[net->at[i].kind], i, told->times[row]);
+}
+
+/* voltages of one, currents of the other: both keep Kirchhoff's laws, so they add up to nothing */
+static void expect_tellegen(const Network *net, const Told *volts, const Told *amperes, int row)
+{
+    double sum = 0.0;
+    double size = 0.0;
+
+    for (int i = 0; i < net->count; i++) {
+        double power = told_at(volts, row, i) * told_at(amperes, row, net->count + i);
+
+        sum += power;
+        size += fabs(power);
+    }
+    expect_small(sum, 1e-10 * size, "Tellegen's theorem, elements", net->count, volts->times[row]);
+}
+
+static void expect_energy(const Network *net, const Told *told)
+{
+    double size = 0.0;
+
+    for (int i = 0; i < net->count; i++)
+        size += fmax(largest(told, i, 1) * largest(told, net->count + i, 1), 1e-3);
+    expect_small(result_report(told->result)->energy_drift, 1e-9 * size, "energy, elements",
+                 net->count, 2.0);
+}
+
+static void expect_same(const Network *net, const Told *first, const Told *told)
+{
+    double size = largest(first, 0, 2 * net->count);
+
+    for (int r = 0; r < first->rows; r++)
+        for (int c = 0; c < 2 * net->count; c++)
+            expect_small(told_at(told, r, c) - told_at(first, r, c), 1e-8 * size, "column", c,
+                         first->times[r]);
+}
+
+/* --- trees --- */
+
+/* `tree electrical ...`: voltage sources first, then as proper says or as chance has it */
+static char *random_tree(const Model *model, const Network *net, bool proper, uint64_t *random)
+{
+    static const int rank[] = {
+        [VSOURCE] = 0, [CAPACITOR] = 1, [RESISTOR] = 2, [INDUCTOR] = 3, [ISOURCE] = 4};
+    const Graph *graph = model_graph(model);
+    int *preference = NEW_ARRAY(int, graph_edge_count(graph));
+    TreeChoice choice = {.preference = preference};
+    Tree *tree = NULL;
+    Diag diag = {0};
+    Text text = {0};
+
+    for (int e = 0; e < graph_edge_count(graph); e++) {
+        Kind kind = net->at[e].kind;
+        int order = proper ? rank[kind] : kind == VSOURCE ? 0 : kind == ISOURCE ? 4 : 2;
+
+        preference[e] = 1000 * order + pick(random, 1000);
+    }
+    text_add(&text, "tree electrical");
+    EXPECT(tree_complete(graph, TREE_ELECTRICAL, &choice, false, &tree, &diag) == OK);
+    for (int e = 0; e < graph_edge_count(graph) && tree != NULL; e++)
+        if (tree_has(tree, e))
+            text_addf(&text, " %s", graph_edge(graph, e)->name);
+    tree_free(tree);
+    mem_free(preference);
+    return text_done(&text);
+}
+
+static void check_network(uint64_t *random, int size, int trees)
+{
+    Network net = random_network(random, size);
+    char *text = network_text(&net);
+    Model *models[8] = {NULL};
+    System *systems[8] = {NULL};
+    Told told[8] = {{0}};
+    int before = test_faults;
+
+    for (int k = 0; k < trees && test_faults == before; k++) {
+        models[k] = scene_new(text);
+        if (k > 0) {
+            char *tree = random_tree(models[k], &net, k % 2 == 1, random);
+
+            scene_add(models[k], tree);
+            mem_free(tree);
+        }
+        if (!run(models[k], &net, &systems[k], &told[k]))
+            continue;
+        for (int r = 0; r < told[k].rows; r++) {
+            expect_kirchhoff(&net, &told[k], r);
+            expect_laws(&net, &told[k], r);
+            expect_tellegen(&net, &told[k], &told[k], r);
+            expect_tellegen(&net, &told[0], &told[k], r);
+            expect_tellegen(&net, &told[k], &told[0], r);
+        }
+        expect_energy(&net, &told[k]);
+        expect_same(&net, &told[0], &told[k]);
+    }
+    if (test_faults > before)
+        printf("%s", text);
+    for (int k = 0; k < trees; k++) {
+        told_free(&told[k]);
+        system_free(systems[k]);
+        model_free(models[k]);
+    }
+    mem_free(text);
+}
+
+static void small_networks_have_one_solution(void)
+{
+    uint64_t random = 5;
+
+    for (int i = 0; i < SMALL && test_faults == 0; i++)
+        check_network(&random, 4 + pick(&random, 25), 5);
+}
+
+static void networks_of_200_elements_have_one_solution(void)
+{
+    uint64_t random = 200;
+
+    for (int i = 0; i < 4 && test_faults == 0; i++)
+        check_network(&random, MOST_ELEMENTS, 4);
+}
+
+int main(void)
+{
+    RUN(small_networks_have_one_solution);
+    RUN(networks_of_200_elements_have_one_solution);
+    return test_end();
+}
