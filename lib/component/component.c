@@ -59,6 +59,117 @@ Expr instance_scalar(const Instance *instance, const char *name)
     return instance_value(instance, name)->at[0];
 }
 
+/* --- scalar edges --- */
+
+const char *domain_across(Domain domain)
+{
+    static const char *const names[] = {"", "v", "p", "w", "v", "T"};
+
+    return names[domain];
+}
+
+const char *domain_through(Domain domain)
+{
+    static const char *const names[] = {"", "i", "flow", "torque", "force", "heat"};
+
+    return names[domain];
+}
+
+const ScalarEdge *component_scalar_edges(const Component *row, int *count)
+{
+    static const ScalarEdge one = {"", 0, 1, BRANCH_MAY, 0};
+
+    *count = 0;
+    if (row->places != PLACES_TERMINALS && row->places != PLACES_TRANSDUCER &&
+        row->places != PLACES_SENSED)
+        return NULL;
+    *count = row->scalar_edges != NULL ? row->scalar_edge_count : 1;
+    return row->scalar_edges != NULL ? row->scalar_edges : &one;
+}
+
+int component_terminals(const Component *row)
+{
+    return row->terminal_count > 0 ? row->terminal_count : 2;
+}
+
+static Expr variable(Arena *arena, const char *owner, const char *member, int primes)
+{
+    Text name = {0};
+    Expr symbol;
+
+    text_addf(&name, "%s%s%s%.*s", owner, member[0] != '\0' ? "." : "", member, primes, "''''");
+    symbol = expr_symbol(arena, name.at, SYMBOL_VARIABLE);
+    text_free(&name);
+    return symbol;
+}
+
+Expr instance_variable(const Instance *instance, Arena *arena, const char *member)
+{
+    return variable(arena, instance->name, member, 0);
+}
+
+Expr instance_coordinate(const Instance *instance, const Instance *joint, Arena *arena, int primes)
+{
+    return variable(arena, joint->coord[instance->joint_coordinate], "", primes);
+}
+
+Expr instance_potential(const Instance *instance, Arena *arena, int terminal)
+{
+    const char *name = instance->terminal_names[terminal];
+
+    if (strcmp(name, "0") == 0)
+        return expr_int(arena, 0);
+    return variable(arena, name, domain_across(instance->row->domain), 0);
+}
+
+/* "i", or of an edge with a suffix "s.i" */
+static Expr edge_variable(const Instance *instance, Arena *arena, int which, const char *member)
+{
+    int count;
+    const ScalarEdge *edge = &component_scalar_edges(instance->row, &count)[which];
+    Text name = {0};
+    Expr symbol;
+
+    text_addf(&name, "%s%s%s", edge->suffix, edge->suffix[0] != '\0' ? "." : "", member);
+    symbol = instance_variable(instance, arena, name.at);
+    text_free(&name);
+    return symbol;
+}
+
+Expr instance_across(const Instance *instance, Arena *arena, int which)
+{
+    return edge_variable(instance, arena, which, domain_across(instance->row->domain));
+}
+
+Expr instance_through(const Instance *instance, Arena *arena, int which)
+{
+    return edge_variable(instance, arena, which, domain_through(instance->row->domain));
+}
+
+/* the rate of a symbol that moves a value: 1 for time, the primed name of a variable */
+static Expr symbol_rate(Arena *arena, Expr symbol)
+{
+    if (expr_symbol_kind(symbol) == SYMBOL_TIME)
+        return expr_int(arena, 1);
+    if (expr_symbol_kind(symbol) != SYMBOL_VARIABLE)
+        return expr_int(arena, 0);
+    return variable(arena, expr_name(symbol), "", 1);
+}
+
+Expr user_rate(Arena *arena, Expr e)
+{
+    Expr *symbols;
+    int count = expr_symbols(&e, 1, &symbols);
+    Expr rate = expr_int(arena, 0);
+
+    for (int i = 0; i < count; i++)
+        rate = expr_add(
+            arena, rate,
+            expr_mul(arena, expr_diff(arena, e, symbols[i]), symbol_rate(arena, symbols[i])));
+    mem_free(symbols);
+    return rate;
+}
+
 /* --- members that a whole family has --- */
 
 /* clang-format off */
@@ -130,7 +241,58 @@ static const Member electrical[] = {
     {"i",     "A", "current, from plus to minus inside", 2},
     {"power", "W", "power taken, v*i", 0},
 };
+
+static const Member hydraulic[] = {
+    {"p",     "Pa",    "pressure, plus against minus", 2},
+    {"flow",  "m^3/s", "volume flow, from plus to minus inside", 2},
+    {"power", "W",     "power taken, p*flow", 0},
+};
+
+static const Member shaft[] = {
+    {"w",      "rad/s", "rate, plus against minus", 2},
+    {"torque", "N*m",   "torque, from plus to minus inside", 2},
+    {"power",  "W",     "power taken, w*torque", 0},
+};
+
+static const Member slide[] = {
+    {"v",     "m/s", "velocity, plus against minus", 2},
+    {"force", "N",   "force, from plus to minus inside", 2},
+    {"power", "W",   "power taken, v*force", 0},
+};
+
+static const Member thermal[] = {
+    {"T",    "K", "temperature, plus against minus", 2},
+    {"heat", "W", "heat flow, from plus to minus inside", 2},
+};
 /* clang-format on */
+
+/* of a part with one scalar edge; those of more name theirs in their rows */
+static const Member *scalar_members(const Component *row, int *count)
+{
+    int edges;
+
+    (void)component_scalar_edges(row, &edges);
+    *count = 0;
+    if (edges != 1)
+        return NULL;
+    switch (row->domain) {
+    case DOMAIN_HYDRAULIC:
+        *count = COUNT(hydraulic);
+        return hydraulic;
+    case DOMAIN_SHAFT:
+        *count = COUNT(shaft);
+        return shaft;
+    case DOMAIN_SLIDE:
+        *count = COUNT(slide);
+        return slide;
+    case DOMAIN_THERMAL:
+        *count = COUNT(thermal);
+        return thermal;
+    default:
+        *count = COUNT(electrical);
+        return electrical;
+    }
+}
 
 static const Member *family_members(const Component *row, bool planar, int *count)
 {
@@ -144,8 +306,7 @@ static const Member *family_members(const Component *row, bool planar, int *coun
         return planar ? joint_planar : joint_spatial;
     case FAMILY_SCALAR:
     case FAMILY_TRANSDUCER:
-        *count = COUNT(electrical);
-        return electrical;
+        return scalar_members(row, count);
     case FAMILY_DRIVER:
     case FAMILY_FORCE:
         break;

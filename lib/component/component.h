@@ -13,7 +13,7 @@
 typedef struct Component Component;
 typedef struct Instance Instance;
 
-enum { MAX_COORDS = 7, MAX_VALUE = 9 };
+enum { MAX_COORDS = 7, MAX_VALUE = 9, MAX_TERMINALS = 4, MAX_SCALAR = 2 };
 
 /* --- how a statement gives its values --- */
 
@@ -62,8 +62,10 @@ typedef enum Places {
     PLACES_LINK, /* spring k1 r1 r2, or spring k1 h8: between two frames or on a joint's coordinate
                   */
     PLACES_COORDINATE, /* driver D1 h8 = expr: a coordinate of a joint or body */
-    PLACES_TERMINALS,  /* resistor R1 a b: scalar edge a -> b */
-    PLACES_TRANSDUCER  /* motor M7 h1 a 0: on joint h1's coordinate, and scalar edge a -> b */
+    PLACES_TERMINALS,  /* resistor R1 a b: the terminals of its scalar edges */
+    PLACES_TRANSDUCER, /* motor M7 h1 a 0: on joint h1's coordinate, then terminals */
+    PLACES_SENSED,     /* sensor v1 h8' a 0: an expression of variables, then terminals */
+    PLACES_PARTS       /* coupling K1 L1 L2: two scalar parts of its domain */
 } Places;
 
 typedef enum Family {
@@ -112,29 +114,50 @@ typedef struct CoordinateRow {
 
 /* --- efforts: forces between two frames or on a joint, and transducers --- */
 
-typedef struct Motion1 { /* what an effort may depend on; entries that don't apply are 0 */
+typedef struct Motion1 { /* what an effort or relation may depend on; what doesn't apply is 0 */
     Expr displacement;   /* distance between the two frames, or the joint's coordinate */
     Expr rate;
-    Expr across;  /* transducer: voltage */
-    Expr through; /* transducer: current, from plus to minus inside */
+    Expr across;  /* voltage of the (first) scalar edge */
+    Expr through; /* its current, from plus to minus inside */
 } Motion1;
 
-/* --- scalar relations --- */
+/* --- scalar edges and their relations --- */
+
+typedef struct ScalarEdge {
+    const char *suffix; /* "p": T1.p; "" for the part's own name */
+    int plus, minus;    /* which of the part's terminals; -1: the datum */
+    Branching branching;
+    int preference; /* in trees: sources of across 10, storage of across 20, resistive 30, storage
+                       of through 40, sources of through 50 */
+} ScalarEdge;
 
 typedef enum RelationKind {
     RELATION_ACROSS,     /* v = value */
     RELATION_THROUGH,    /* i = value */
-    RELATION_RESISTIVE,  /* v = value * i + offset */
-    RELATION_CAPACITIVE, /* i = value * v' + offset */
-    RELATION_INDUCTIVE   /* v = value * i' + series * i + offset */
+    RELATION_RESISTIVE,  /* v = value * i + rest */
+    RELATION_CONDUCTIVE, /* i = value, which holds the edge's own v: a diode */
+    RELATION_CAPACITIVE, /* i = content' + rest */
+    RELATION_INDUCTIVE,  /* v = content' + rest */
+    RELATION_FREE        /* value = 0, which gives neither: a nullor's output, an ideal switch */
 } RelationKind;
 
+/* of one scalar edge; over t, parameters and the user's variables, its own among them */
 typedef struct Relation {
     RelationKind kind;
     Expr value;
-    Expr series;
-    Expr offset; /* back-emf and its kin; 0 */
+    Expr content; /* charge or flux; its kin in other domains */
+    Expr rest;    /* back-emf, resistance of a winding; 0 */
+    Expr stored;  /* energy in the edge, J; NULL: none, or it isn't known in closed form */
 } Relation;
+
+/* a state of a part's own, x' = rate, or one that is held and replaced at each sampling instant */
+typedef struct OwnState {
+    const char *member; /* "integral": c1.integral */
+    Expr initial;
+    Expr rate;   /* 0 where it is held */
+    Expr period; /* s; NULL: continuous */
+    Expr next;   /* held: its value from a sampling instant on, of values just before it */
+} OwnState;
 
 /* --- rows --- */
 
@@ -182,9 +205,17 @@ struct Component {
                       const Motion1 *motion); /* energy stored; NULL: none */
     Expr (*rotor)(const Instance *instance,
                   Arena *arena); /* inertia seen by the joint's coordinate (motor J); NULL: none */
-    void (*relation)(const Instance *instance, Arena *arena, const Motion1 *motion,
-                     Relation *out); /* scalar edges */
-    const Member *members;           /* beyond those that its family has */
+    int terminal_count;          /* of scalar parts; 0: two */
+    const char *terminal_usage;  /* " A B C D", for help; NULL: " PLUS MINUS" */
+    const ScalarEdge *scalar_edges; /* NULL: one from the first terminal to the second */
+    int scalar_edge_count;
+    /* of scalar edge `which`. across, through in `motion` are that edge's own, as the user's
+     * variables; displacement and rate those of the joint's coordinate, likewise. */
+    void (*relation)(const Instance *instance, Arena *arena, int which, const Motion1 *motion,
+                     Relation *out);
+    int (*own_state_count)(const Instance *instance); /* NULL: none */
+    void (*own_state)(const Instance *instance, Arena *arena, int k, OwnState *out);
+    const Member *members; /* beyond those that its family has */
     int member_count;
     /* refuse values that no model could have (a negative mass is none of them unless numeric); may
      * be NULL */
@@ -202,8 +233,13 @@ struct Instance {
     int tail; /* nodes; a scalar component's plus and minus; -1 where none */
     int head;
     int edge; /* mechanical edge, -1: none (springs on a joint have one along the joint's frames) */
-    int scalar_edge; /* -1: none */
-    int joint;       /* instance whose coordinate it acts on; -1 */
+    int terminals[MAX_TERMINALS];              /* nodes of a scalar part; -1 */
+    const char *terminal_names[MAX_TERMINALS]; /* "0": the datum */
+    int scalar_edges[MAX_SCALAR];              /* -1 where none */
+    int scalar_count;
+    int parts[2]; /* PLACES_PARTS: instances; -1 */
+    Expr sensed;  /* PLACES_SENSED: over the user's variables; NULL */
+    int joint;    /* instance whose coordinate it acts on; -1 */
     int joint_coordinate;
     bool on_angle; /* that coordinate is an angle */
     Value *values; /* one a param of the row */
@@ -228,6 +264,27 @@ Expr instance_scalar(const Instance *instance, const char *name); /* its only en
 /* Members of an instance of this family and row, in order: NULL at the end. Those of its
  * coordinates (Instance.coord) are not repeated here, unless the family has them anyway. */
 const Member *component_member(const Component *row, bool planar, int i);
+
+/* --- helpers for scalar rows --- */
+
+/* The variable that a user writes for a member: "R1.i"; of a second edge "T1.s.v". */
+Expr instance_variable(const Instance *instance, Arena *arena, const char *member);
+/* Where the joint's coordinate that the part acts on stands, `primes` derivatives: "h1'". */
+Expr instance_coordinate(const Instance *instance, const Instance *joint, Arena *arena, int primes);
+/* potential of one of its terminals: "c.v"; 0 at the datum */
+Expr instance_potential(const Instance *instance, Arena *arena, int terminal);
+/* its scalar edges; *count of them */
+const ScalarEdge *component_scalar_edges(const Component *row, int *count);
+int component_terminals(const Component *row);
+/* across or through variable of a part's scalar edge, by the names of its domain */
+Expr instance_across(const Instance *instance, Arena *arena, int which);
+Expr instance_through(const Instance *instance, Arena *arena, int which);
+/* names of the two in a domain: "v" and "i", "p" and "flow" ... */
+const char *domain_across(Domain domain);
+const char *domain_through(Domain domain);
+/* derivative in time of an expression over t, parameters and the user's variables: over those and
+ * their primed names */
+Expr user_rate(Arena *arena, Expr e);
 
 /* step helpers for rows */
 void steps_none(Arena *arena, Steps *out); /* no shift, no turn, R_0 = 1 */

@@ -1,11 +1,9 @@
 /* electrical.c: resistor, capacitor, inductor, sources
  *
  * v is the potential of plus against minus, i flows from plus to minus inside. R, C
- * and L may depend on time and variables, also on the component's own v or i; then
- *   i = d/dt (C v) = (C + v dC/dv) v' + v (what else moves C),   the inductor likewise. */
+ * and L may depend on time and variables, also on the component's own v or i; a capacitor's charge
+ * is C v and an inductor's flux L i all the same. */
 #include "component/component_rows.h"
-
-#include "base/text.h"
 
 /* clang-format off */
 static const Param resistor_params[] = {
@@ -32,54 +30,6 @@ static const Member inductor_members[] = {
 };
 /* clang-format on */
 
-/* the variable that the user writes for a member of this instance */
-static Expr own_variable(const Instance *instance, Arena *arena, const char *member)
-{
-    Text name = {0};
-    Expr symbol;
-
-    text_addf(&name, "%s.%s", instance->name, member);
-    symbol = expr_symbol(arena, name.at, SYMBOL_VARIABLE);
-    text_free(&name);
-    return symbol;
-}
-
-/* the rate of a symbol that moves a value: 1 for time, the primed name of a variable */
-static Expr symbol_rate(Arena *arena, Expr symbol)
-{
-    Text name = {0};
-    Expr rate;
-
-    if (expr_symbol_kind(symbol) == SYMBOL_TIME)
-        return expr_int(arena, 1);
-    if (expr_symbol_kind(symbol) != SYMBOL_VARIABLE)
-        return expr_int(arena, 0);
-    text_addf(&name, "%s'", expr_name(symbol));
-    rate = expr_symbol(arena, name.at, SYMBOL_VARIABLE);
-    text_free(&name);
-    return rate;
-}
-
-/* d/dt (value * x) = *factor * x' + *rest, where value may depend on x = `own` */
-static void storage_rate(Arena *arena, Expr value, Expr own, Expr x, Expr *factor, Expr *rest)
-{
-    Expr *symbols;
-    int count = expr_symbols(&value, 1, &symbols);
-    Expr moved = expr_int(arena, 0);
-
-    *factor = value;
-    for (int i = 0; i < count; i++) {
-        Expr slope = expr_diff(arena, value, symbols[i]);
-
-        if (symbols[i] == own)
-            *factor = expr_add(arena, *factor, expr_mul(arena, x, slope));
-        else
-            moved = expr_add(arena, moved, expr_mul(arena, slope, symbol_rate(arena, symbols[i])));
-    }
-    *rest = expr_mul(arena, x, moved);
-    mem_free(symbols);
-}
-
 static Status check_number(const Instance *instance, const char *param, bool zero_only, Diag *diag)
 {
     Expr value = instance_scalar(instance, param);
@@ -95,13 +45,14 @@ static Status check_number(const Instance *instance, const char *param, bool zer
     return status;
 }
 
-static void resistor_relation(const Instance *instance, Arena *arena, const Motion1 *motion,
-                              Relation *out)
+static void resistor_relation(const Instance *instance, Arena *arena, int which,
+                              const Motion1 *motion, Relation *out)
 {
-    Expr zero = expr_int(arena, 0);
-
+    (void)which;
     (void)motion;
-    *out = (Relation){RELATION_RESISTIVE, instance_scalar(instance, "R"), zero, zero};
+    *out = (Relation){.kind = RELATION_RESISTIVE,
+                      .value = instance_scalar(instance, "R"),
+                      .rest = expr_int(arena, 0)};
 }
 
 static Status resistor_check(const Instance *instance, Arena *arena, bool planar, Diag *diag)
@@ -129,12 +80,23 @@ const Component component_resistor = {
     .see = "capacitor inductor vsource",
 };
 
-static void capacitor_relation(const Instance *instance, Arena *arena, const Motion1 *motion,
-                               Relation *out)
+/* value * x as a charge or flux, and its energy where the value does not depend on x itself */
+static void storage_relation(RelationKind kind, Expr value, Expr x, Arena *arena, Relation *out)
 {
-    *out = (Relation){.kind = RELATION_CAPACITIVE, .series = expr_int(arena, 0)};
-    storage_rate(arena, instance_scalar(instance, "C"), own_variable(instance, arena, "v"),
-                 motion->across, &out->value, &out->offset);
+    Expr half = expr_rational(arena, 1, 2);
+
+    *out =
+        (Relation){.kind = kind, .content = expr_mul(arena, value, x), .rest = expr_int(arena, 0)};
+    if (expr_is_zero(expr_diff(arena, value, x)))
+        out->stored = expr_product(arena, (Expr[]){half, value, expr_square(arena, x)}, 3);
+}
+
+static void capacitor_relation(const Instance *instance, Arena *arena, int which,
+                               const Motion1 *motion, Relation *out)
+{
+    (void)which;
+    storage_relation(RELATION_CAPACITIVE, instance_scalar(instance, "C"), motion->across, arena,
+                     out);
 }
 
 static Status capacitor_check(const Instance *instance, Arena *arena, bool planar, Diag *diag)
@@ -165,12 +127,12 @@ const Component component_capacitor = {
     .see = "resistor inductor init",
 };
 
-static void inductor_relation(const Instance *instance, Arena *arena, const Motion1 *motion,
-                              Relation *out)
+static void inductor_relation(const Instance *instance, Arena *arena, int which,
+                              const Motion1 *motion, Relation *out)
 {
-    *out = (Relation){.kind = RELATION_INDUCTIVE, .series = expr_int(arena, 0)};
-    storage_rate(arena, instance_scalar(instance, "L"), own_variable(instance, arena, "i"),
-                 motion->through, &out->value, &out->offset);
+    (void)which;
+    storage_relation(RELATION_INDUCTIVE, instance_scalar(instance, "L"), motion->through, arena,
+                     out);
 }
 
 static Status inductor_check(const Instance *instance, Arena *arena, bool planar, Diag *diag)
@@ -201,13 +163,13 @@ const Component component_inductor = {
     .see = "resistor capacitor init",
 };
 
-static void vsource_relation(const Instance *instance, Arena *arena, const Motion1 *motion,
-                             Relation *out)
+static void vsource_relation(const Instance *instance, Arena *arena, int which,
+                             const Motion1 *motion, Relation *out)
 {
-    Expr zero = expr_int(arena, 0);
-
+    (void)arena;
+    (void)which;
     (void)motion;
-    *out = (Relation){RELATION_ACROSS, instance_scalar(instance, "value"), zero, zero};
+    *out = (Relation){.kind = RELATION_ACROSS, .value = instance_scalar(instance, "value")};
 }
 
 const Component component_vsource = {
@@ -229,13 +191,13 @@ const Component component_vsource = {
     .see = "isource resistor motor",
 };
 
-static void isource_relation(const Instance *instance, Arena *arena, const Motion1 *motion,
-                             Relation *out)
+static void isource_relation(const Instance *instance, Arena *arena, int which,
+                             const Motion1 *motion, Relation *out)
 {
-    Expr zero = expr_int(arena, 0);
-
+    (void)arena;
+    (void)which;
     (void)motion;
-    *out = (Relation){RELATION_THROUGH, instance_scalar(instance, "value"), zero, zero};
+    *out = (Relation){.kind = RELATION_THROUGH, .value = instance_scalar(instance, "value")};
 }
 
 const Component component_isource = {

@@ -43,21 +43,29 @@ static Expr motor_rotor(const Instance *instance, Arena *arena)
                     instance_scalar(instance, "J"));
 }
 
-static void motor_relation(const Instance *instance, Arena *arena, const Motion1 *motion,
+static void motor_relation(const Instance *instance, Arena *arena, int which, const Motion1 *motion,
                            Relation *out)
 {
     Expr R = instance_scalar(instance, "R");
     Expr L = instance_scalar(instance, "L");
-    Expr zero = expr_int(arena, 0);
+    Expr i = motion->through;
     Expr back = expr_mul(arena, constant(instance, "Kv", "Kt"),
                          expr_mul(arena, instance_scalar(instance, "ratio"), motion->rate));
 
-    if (!expr_is_zero(L))
-        *out = (Relation){RELATION_INDUCTIVE, L, R, back};
-    else if (!expr_is_zero(R))
-        *out = (Relation){RELATION_RESISTIVE, R, zero, back};
-    else
-        *out = (Relation){RELATION_ACROSS, back, zero, zero};
+    (void)which;
+    if (!expr_is_zero(L)) {
+        Expr half = expr_rational(arena, 1, 2);
+
+        *out =
+            (Relation){.kind = RELATION_INDUCTIVE,
+                       .content = expr_mul(arena, L, i),
+                       .rest = expr_add(arena, expr_mul(arena, R, i), back),
+                       .stored = expr_product(arena, (Expr[]){half, L, expr_square(arena, i)}, 3)};
+    } else if (!expr_is_zero(R)) {
+        *out = (Relation){.kind = RELATION_RESISTIVE, .value = R, .rest = back};
+    } else {
+        *out = (Relation){.kind = RELATION_ACROSS, .value = back};
+    }
 }
 
 static Status motor_check(const Instance *instance, Arena *arena, bool planar, Diag *diag)

@@ -242,6 +242,15 @@ static void offer_place(Line *line, const Component *row, int place)
     case PLACES_TERMINALS:
         offer_terminals(line);
         break;
+    case PLACES_SENSED:
+        if (place == 0)
+            offer_coordinates(line);
+        else
+            offer_terminals(line);
+        break;
+    case PLACES_PARTS:
+        offer_instances(line);
+        break;
     case PLACES_TRANSDUCER:
         if (place == 0)
             offer_joints(line);

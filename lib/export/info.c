@@ -39,7 +39,7 @@ static void add_standing(Table *table, const View *view, int edge)
 static void add_ends(Table *table, const View *view, const Instance *instance)
 {
     const Graph *graph = model_graph(view->model);
-    const int edges[] = {instance->edge, instance->scalar_edge};
+    const int edges[] = {instance->edge, instance->scalar_edges[0], instance->scalar_edges[1]};
 
     for (int i = 0; i < COUNT(edges); i++) {
         const Edge *edge = edges[i] >= 0 ? graph_edge(graph, edges[i]) : NULL;
@@ -109,7 +109,8 @@ static void print_instance(Text *out, const View *view, const Instance *instance
               instance->row->name, instance->row->brief);
     add_ends(&table, view, instance);
     add_standing(&table, view, instance->edge);
-    add_standing(&table, view, instance->scalar_edge);
+    for (int k = 0; k < instance->scalar_count; k++)
+        add_standing(&table, view, instance->scalar_edges[k]);
     for (int c = 0; c < instance->coord_count; c++)
         layout_item(&coordinates, instance->coord[c]);
     if (coordinates.length > 0) {

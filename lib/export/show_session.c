@@ -218,12 +218,14 @@ static void push_reading(const System *system, Expr **roots, int *count)
         int count;
     } parts[] = {{r->phi, m},         {r->phi_u, m * nu},  {r->nu, m},
                  {r->gamma, m},       {r->mass, nu * nu},  {r->force, nu},
-                 {r->network, k * k}, {r->network_rhs, k}, {r->q_rate, n}};
+                 {r->network_residual, k}, {r->q_rate, n}};
     LIST(Expr) all = {0};
 
     for (int p = 0; p < COUNT(parts); p++)
         for (int i = 0; i < parts[p].count; i++)
             LIST_PUSH(all, parts[p].at[i]);
+    for (int i = 0; i < r->network_entries; i++)
+        LIST_PUSH(all, r->network[i].value);
     *roots = all.at;
     *count = all.count;
 }
@@ -287,7 +289,11 @@ Status show_structure(const View *view, const Selection *selection, Text *out, D
         add_pattern(out, "mass matrix", reading->mass, nu, nu);
     if (m > 0)
         add_pattern(out, "jacobian", reading->phi_u, m, nu);
-    if (k > 0)
-        add_pattern(out, "network", reading->network, k, k);
+    if (k > 0) {
+        Expr *dense = system_network_matrix(system);
+
+        add_pattern(out, "network", dense, k, k);
+        mem_free(dense);
+    }
     return OK;
 }

@@ -227,6 +227,7 @@ Status write_c(const View *view, Text *out, Diag *diag)
     const Reading *r = system_run(system);
     const int nu = system_nu(system), m = system_m(system), n = system_n(system);
     const int k = system_nx(system) + system_nz(system);
+    Expr *network = system_network_matrix(system);
     const struct {
         const char *name, *what;
         const Expr *entries;
@@ -239,7 +240,7 @@ Status write_c(const View *view, Text *out, Diag *diag)
         {"model_jacobian", "jacobian Phi_u", r->phi_u, m, nu},
         {"model_velocity", "nu", r->nu, m, 1},
         {"model_acceleration", "gamma", r->gamma, m, 1},
-        {"model_network", "network matrix A", r->network, k, k},
+        {"model_network", "network matrix A", network, k, k},
         {"model_network_rhs", "right side r of the network", r->network_rhs, k, 1},
     };
     Rename rename = rename_all(view);
@@ -255,6 +256,7 @@ Status write_c(const View *view, Text *out, Diag *diag)
                          blocks[i].rows, blocks[i].columns);
     }
 done:
+    mem_free(network);
     rename_free(&rename);
     return status;
 }

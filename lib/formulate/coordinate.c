@@ -21,33 +21,42 @@ Expr partial(System *system, Expr e, int speed)
 
 Status rate_of(System *system, Expr e, Expr *out, Diag *diag)
 {
-    const unsigned late = 1U << SYMBOL_ACCELERATION | 1U << SYMBOL_STATE_RATE |
-                          1U << SYMBOL_ALGEBRAIC | 1U << SYMBOL_MULTIPLIER | 1U << SYMBOL_EFFORT;
-    LIST(Expr) symbols = {0};
+    const unsigned late = 1U << SYMBOL_ACCELERATION | 1U << SYMBOL_MULTIPLIER | 1U << SYMBOL_EFFORT;
+    Expr *symbols = NULL;
+    LIST(Expr) moved = {0};
     LIST(Expr) rates = {0};
+    int count = 0;
+    Status status = OK;
 
     if ((expr_kinds(e) & late) != 0)
-        return diag_set(diag, E_MISSING,
-                        "this derivative needs one of an acceleration, a "
-                        "multiplier or an algebraic variable");
+        CHECK(diag_set(diag, E_MISSING,
+                       "this derivative needs one of an acceleration or of a multiplier"));
     for (int i = 0; i < system->q.count; i++) {
-        LIST_PUSH(symbols, system->q.at[i].symbol);
+        LIST_PUSH(moved, system->q.at[i].symbol);
         LIST_PUSH(rates, system_q_rate(system, i));
     }
     for (int i = 0; i < system->u.count; i++) {
-        LIST_PUSH(symbols, system->u.at[i].symbol);
+        LIST_PUSH(moved, system->u.at[i].symbol);
         LIST_PUSH(rates, system->accelerations[i]);
     }
-    for (int i = 0; i < system->x.count; i++) {
-        LIST_PUSH(symbols, system->x.at[i].symbol);
-        LIST_PUSH(rates, system->rates.at[i]);
+    count = expr_symbols(&e, 1, &symbols);
+    for (int i = 0; i < count; i++) {
+        Expr rate;
+
+        if (!network_knows(system, symbols[i]))
+            continue;
+        CHECK(network_rate(system, symbols[i], &rate, diag));
+        LIST_PUSH(moved, symbols[i]);
+        LIST_PUSH(rates, rate);
     }
-    LIST_PUSH(symbols, expr_symbol(system->arena, "t", SYMBOL_TIME));
+    LIST_PUSH(moved, expr_symbol(system->arena, "t", SYMBOL_TIME));
     LIST_PUSH(rates, expr_int(system->arena, 1));
-    *out = expr_diff_along(system->arena, e, symbols.at, rates.at, symbols.count);
-    LIST_FREE(symbols);
+    *out = expr_diff_along(system->arena, e, moved.at, rates.at, moved.count);
+done:
+    mem_free(symbols);
+    LIST_FREE(moved);
     LIST_FREE(rates);
-    return OK;
+    return status;
 }
 
 bool steps_are_tied(const Steps *steps)

@@ -43,8 +43,8 @@ Status effort_of(System *system, const Instance *instance, Effort *out, Diag *di
     }
     motion.displacement = effort.displacement;
     motion.rate = effort.rate;
-    if (instance->scalar_edge >= 0) {
-        Branchlike *branch = &system->branches.at[system->scalar_of_edge[instance->scalar_edge]];
+    if (instance->scalar_count > 0) {
+        Branchlike *branch = scalar_branch(system, instance, 0);
 
         CHECK(network_through(system, branch, &motion.through, diag));
         CHECK(network_across(system, branch, &motion.across, diag));

@@ -55,18 +55,15 @@ static bool stored_in(System *system, const Effort *effort, Expr displacement, E
     return resolve(system, stored, out, NULL) == OK;
 }
 
-/* what the network stores: C v^2 / 2, L i^2 / 2 */
-static void push_fields(System *system, Terms *terms)
+/* what a scalar edge stores; 0 where nothing is known of it */
+static Expr stored_field(System *system, const Branchlike *branch)
 {
-    for (int i = 0; i < system->branches.count; i++) {
-        const Branchlike *branch = &system->branches.at[i];
-        RelationKind kind = branch->relation.kind;
-        Expr variable = kind == RELATION_CAPACITIVE ? branch->v : branch->i;
+    Expr stored = expr_int(system->arena, 0);
 
-        if (kind == RELATION_CAPACITIVE || kind == RELATION_INDUCTIVE)
-            push(system, terms, half(system->arena), branch->relation.value,
-                 expr_square(system->arena, variable));
-    }
+    if (branch->relation.stored != NULL &&
+        resolve(system, branch->relation.stored, &stored, NULL) != OK)
+        stored = expr_int(system->arena, 0);
+    return stored;
 }
 
 Expr system_potential(System *system)
@@ -90,7 +87,8 @@ Expr system_potential(System *system)
             stored_in(system, &effort, effort.displacement, &stored))
             LIST_PUSH(terms, stored);
     }
-    push_fields(system, &terms);
+    for (int i = 0; i < system->branches.count; i++)
+        LIST_PUSH(terms, stored_field(system, &system->branches.at[i]));
     sum = expr_sum(arena, terms.at, terms.count);
     LIST_FREE(terms);
     return sum;
@@ -128,33 +126,21 @@ static void push_wrench(System *system, Terms *terms, const Instance *instance)
     push(system, terms, one, one, vec_dot(arena, torque, system->motions[frame->chain].w));
 }
 
-/* minus the power that scalar edges take and don't store */
+/* minus the power that scalar edges take and don't store; heat is power by itself, and no balance
+ * holds it */
 static void push_network(System *system, Terms *terms)
 {
     Arena *arena = system->arena;
-    Expr minus = expr_int(arena, -1);
 
     for (int i = 0; i < system->branches.count; i++) {
         const Branchlike *branch = &system->branches.at[i];
-        const Relation *relation = &branch->relation;
+        Expr rate;
 
-        switch (relation->kind) {
-        case RELATION_ACROSS:
-        case RELATION_THROUGH:
-            push(system, terms, minus, branch->v, branch->i);
-            break;
-        case RELATION_RESISTIVE:
-            push(system, terms, minus, relation->value, expr_square(arena, branch->i));
-            push(system, terms, minus, relation->offset, branch->i);
-            break;
-        case RELATION_INDUCTIVE:
-            push(system, terms, minus, relation->series, expr_square(arena, branch->i));
-            push(system, terms, minus, relation->offset, branch->i);
-            break;
-        case RELATION_CAPACITIVE:
-            push(system, terms, minus, relation->offset, branch->v);
-            break;
-        }
+        if (graph_edge(system->graph, branch->edge)->domain == DOMAIN_THERMAL)
+            continue;
+        push(system, terms, expr_int(arena, -1), branch->v, branch->i);
+        if (rate_of(system, stored_field(system, branch), &rate, NULL) == OK)
+            LIST_PUSH(*terms, rate);
     }
 }
 

@@ -12,9 +12,12 @@ libcore_la_SOURCES += \
 	lib/formulate/framesum.c \
 	lib/formulate/motion.c \
 	lib/formulate/network.c \
+	lib/formulate/network_order.c \
+	lib/formulate/network_rows.c \
 	lib/formulate/reactions.c \
 	lib/formulate/reading.c \
 	lib/formulate/show.c \
+	lib/formulate/smooth.c \
 	lib/formulate/system.c lib/formulate/system.h lib/formulate/system_impl.h \
 	lib/formulate/variables.c \
 	lib/formulate/vector.c

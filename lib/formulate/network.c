@@ -1,32 +1,37 @@
-/* network.c: scalar domains in state form
+/* network.c: scalar domains: unknowns by the tree, every other variable along it
  *
- * A normal tree takes voltage sources first, then capacitors, resistors, inductors, current
- * sources last. States are the voltages of branch capacitors and the currents of chord
- * inductors; every other voltage and current follows along circuits and cutsets. Where
- * following a resistor leads back to itself its own variable stays unknown (z). Left over is
- * A [x'; z] = r. theory.md 8. */
+ * Every chord starts with its through variable as unknown and every branch with its across
+ * variable, each with its own relation as equation; a pair is struck out where the relation gives
+ * the unknown and following it never leads back to itself. What is followed: a chord's v along its
+ * circuit, a branch's i from its cutset. In state form the tree is a normal tree, capacitors in it
+ * and inductors out of it bring the states, and a rate that an equation needs of something
+ * algebraic is an unknown more, with that one's equation differentiated. In the form of the user's
+ * tree any rate of an unknown may be met, and the highest ones are solved for. theory.md 8. */
 #include "formulate/system_impl.h"
 
 #include <string.h>
 
-/* members that tell across and through variable, by domain */
-static const char *const across_member[] = {"", "v", "p", "w", "v", "T"};
-static const char *const through_member[] = {"", "i", "flow", "torque", "force", "heat"};
+#define DEEP 100 /* followed edges, from which on variables stay unknown rather than go further */
 
 static const Instance *owner_of(const System *system, const Branchlike *branch)
 {
     return &system->instances[branch->instance];
 }
 
-static const char *member_name(System *system, const Branchlike *branch, bool through)
+Branchlike *scalar_branch(System *system, const Instance *instance, int which)
 {
-    Domain domain = graph_edge(system->graph, branch->edge)->domain;
-
-    return system_keep(system, "%s.%s", owner_of(system, branch)->name,
-                       through ? through_member[domain] : across_member[domain]);
+    return &system->branches.at[system->scalar_of_edge[instance->scalar_edges[which]]];
 }
 
-static TreeKind kind_of(const System *system, const Branchlike *branch)
+const char *branch_member(System *system, const Branchlike *branch, bool through)
+{
+    const Edge *edge = graph_edge(system->graph, branch->edge);
+
+    return system_keep(system, "%s.%s", edge->name,
+                       through ? domain_through(edge->domain) : domain_across(edge->domain));
+}
+
+TreeKind branch_tree(const System *system, const Branchlike *branch)
 {
     Domain domain = graph_edge(system->graph, branch->edge)->domain;
     TreeKind kind = TREE_ELECTRICAL;
@@ -38,61 +43,58 @@ static TreeKind kind_of(const System *system, const Branchlike *branch)
 
 /* --- relations --- */
 
-static Status read_relation(System *system, Branchlike *branch, Diag *diag)
+static void read_relation(System *system, Branchlike *branch)
 {
     const Instance *instance = owner_of(system, branch);
-    Expr zero = expr_int(system->arena, 0);
-    Motion1 motion = {zero, zero, zero, zero};
-    Relation relation = {.value = zero, .series = zero, .offset = zero};
-    Status status = OK;
+    Arena *arena = system->arena;
+    Expr zero = expr_int(arena, 0);
+    Motion1 motion = {zero, zero, instance_across(instance, arena, branch->which),
+                      instance_through(instance, arena, branch->which)};
 
     if (instance->joint >= 0) {
         const Instance *joint = &system->instances[instance->joint];
 
-        CHECK(coordinate_value(system, joint, instance->joint_coordinate, 0, &motion.displacement,
-                               diag));
-        CHECK(coordinate_value(system, joint, instance->joint_coordinate, 1, &motion.rate, diag));
+        motion.displacement = instance_coordinate(instance, joint, arena, 0);
+        motion.rate = instance_coordinate(instance, joint, arena, 1);
     }
-    instance->row->relation(instance, system->arena, &motion, &relation);
-    branch->relation = relation;
+    instance->row->relation(instance, arena, branch->which, &motion, &branch->relation);
     for (int i = 0; i < system->drives.count; i++)
         if (system->drives.at[i].by_source &&
             system->instances[system->drives.at[i].instance].by == branch->instance)
             branch->relation.value = system->drives.at[i].effort;
-done:
-    return status;
-}
-
-/* expressions of the relation over the system's variables; the user's variables in them may be
- * others of the network, so this is done when a value is wanted, not before */
-static Status resolve_relation(System *system, Branchlike *branch, Diag *diag)
-{
-    Relation *relation = &branch->relation;
-    Status status = OK;
-
-    CHECK(resolve(system, relation->value, &relation->value, diag));
-    CHECK(resolve(system, relation->series, &relation->series, diag));
-    CHECK(resolve(system, relation->offset, &relation->offset, diag));
-done:
-    return status;
 }
 
 /* --- the normal tree --- */
 
+static int normal_order(const System *system, const Branchlike *branch)
+{
+    switch (branch->relation.kind) {
+    case RELATION_ACROSS:
+        return 10;
+    case RELATION_CAPACITIVE:
+        return 20;
+    case RELATION_RESISTIVE:
+    case RELATION_CONDUCTIVE:
+        return 30;
+    case RELATION_INDUCTIVE:
+        return 40;
+    case RELATION_THROUGH:
+        return 50;
+    case RELATION_FREE:
+        break;
+    }
+    return graph_edge(system->graph, branch->edge)->preference[0];
+}
+
 static Status normal_tree(System *system, TreeKind kind, Diag *diag)
 {
-    static const int order[] = {[RELATION_ACROSS] = 0,
-                                [RELATION_CAPACITIVE] = 1,
-                                [RELATION_RESISTIVE] = 2,
-                                [RELATION_INDUCTIVE] = 3,
-                                [RELATION_THROUGH] = 4};
     int *preference = NEW_ARRAY(int, graph_edge_count(system->graph));
     TreeChoice choice = {.preference = preference};
     Tree *tree = NULL;
     Status status = OK;
 
     for (int i = 0; i < system->branches.count; i++)
-        preference[system->branches.at[i].edge] = order[system->branches.at[i].relation.kind];
+        preference[system->branches.at[i].edge] = normal_order(system, &system->branches.at[i]);
     CHECK(tree_complete(system->graph, kind, &choice, false, &tree, diag));
     tree_free(system->trees[kind]);
     system->trees[kind] = tree;
@@ -101,91 +103,142 @@ done:
     return status;
 }
 
-/* names of the edges of a circuit or cutset that a source stands in, for messages */
-static const char *edge_names(System *system, const SignMatrix *matrix, int row)
+const char *network_company(System *system, const Branchlike *branch)
 {
+    const Tree *tree = system->trees[branch_tree(system, branch)];
+    SignMatrix *matrix = branch->branch ? tree_cutsets(tree) : tree_circuits(tree);
+    const int *edges = branch->branch ? tree_branches(tree) : tree_chords(tree);
     Text names = {0};
     const char *kept;
 
-    for (int i = matrix->start[row]; i < matrix->start[row + 1]; i++)
-        text_addf(&names, "%s%s", i > matrix->start[row] ? " " : "",
-                  graph_edge(system->graph, matrix->column[i])->name);
+    for (int r = 0; r < matrix->rows; r++)
+        for (int i = matrix->start[r]; edges[r] == branch->edge && i < matrix->start[r + 1]; i++)
+            text_addf(&names, "%s%s", i > matrix->start[r] ? " " : "",
+                      graph_edge(system->graph, matrix->column[i])->name);
     kept = system_keep(system, "%s", names.at != NULL ? names.at : "");
     text_free(&names);
+    sign_matrix_free(matrix);
     return kept;
 }
 
-/* a voltage source that closes a circuit, a current source that cuts the network */
-static Status check_sources(System *system, TreeKind kind, Diag *diag)
+/* --- unknowns and their rates --- */
+
+void network_know(System *system, Expr symbol, int unknown, int order)
 {
-    const Tree *tree = system->trees[kind];
-    SignMatrix *circuits = tree_circuits(tree);
-    SignMatrix *cutsets = tree_cutsets(tree);
-    Status status = OK;
+    int number = expr_symbol_number(symbol);
 
-    for (int i = 0; i < system->branches.count && status == OK; i++) {
-        const Branchlike *branch = &system->branches.at[i];
-
-        if (kind_of(system, branch) != kind)
-            continue;
-        if (branch->relation.kind == RELATION_ACROSS && !branch->branch) {
-            for (int r = 0; r < circuits->rows; r++)
-                if (tree_chords(tree)[r] == branch->edge) {
-                    status = diag_set(diag, E_MODEL, "the sources %s form a circuit",
-                                      edge_names(system, circuits, r));
-                    diag_hint(diag, "put a resistance into it, or leave one of them out");
-                }
-        }
-        if (branch->relation.kind == RELATION_THROUGH && branch->branch) {
-            for (int r = 0; r < cutsets->rows; r++)
-                if (tree_branches(tree)[r] == branch->edge) {
-                    status = diag_set(diag, E_MODEL,
-                                      "nothing but the sources %s joins two parts of the network",
-                                      edge_names(system, cutsets, r));
-                    diag_hint(diag, "put a resistance across one of them");
-                }
-        }
+    while (system->unknown_of.count <= number) {
+        LIST_PUSH(system->unknown_of, 0);
+        LIST_PUSH(system->rate_of, 0);
     }
-    sign_matrix_free(circuits);
-    sign_matrix_free(cutsets);
-    return status;
+    system->unknown_of.at[number] = 1 + unknown;
+    system->rate_of.at[number] = order;
+}
+
+bool network_knows(const System *system, Expr symbol)
+{
+    int number = expr_symbol_number(symbol);
+
+    return number < system->unknown_of.count && system->unknown_of.at[number] > 0;
+}
+
+int network_new_unknown(System *system, Unknown unknown, const char *name, SymbolKind kind)
+{
+    unknown.symbol = expr_symbol(system->arena, name, kind);
+    LIST_PUSH(system->unknowns, unknown);
+    network_know(system, unknown.symbol, system->unknowns.count - 1, 0);
+    return system->unknowns.count - 1;
+}
+
+static void push_rate(System *system, Unknown *y, Expr rate)
+{
+    Expr *rates = pool_alloc(system->pool, (size_t)(y->order + 1) * sizeof(Expr));
+
+    if (y->order > 0)
+        memcpy(rates, y->rates, (size_t)y->order * sizeof(Expr));
+    rates[y->order++] = rate;
+    y->rates = rates;
+}
+
+/* one rate more of an unknown, as a symbol */
+static Expr add_rate(System *system, int unknown, SymbolKind kind)
+{
+    Unknown *y = &system->unknowns.at[unknown];
+    const char *last = expr_name(y->order > 0 ? y->rates[y->order - 1] : y->symbol);
+    Expr rate = expr_symbol(system->arena, system_keep(system, "%s'", last), kind);
+
+    push_rate(system, y, rate);
+    network_know(system, rate, unknown, y->order);
+    return rate;
+}
+
+static int add_state(System *system, Unknown unknown, const char *name)
+{
+    int k = network_new_unknown(system, unknown, name, SYMBOL_STATE);
+
+    if (system->network_form == NETWORK_STATE)
+        (void)add_rate(system, k, SYMBOL_STATE_RATE);
+    return k;
+}
+
+static Unknown unknown_of_branch(const System *system, const Branchlike *branch)
+{
+    return (Unknown){.branchlike = (int)(branch - system->branches.at),
+                     .own = -1,
+                     .instance = branch->instance,
+                     .derives = -1};
+}
+
+/* the edge's own variable stays unknown, with its relation as equation */
+static void keep_unknown(System *system, Branchlike *branch)
+{
+    const char *name = branch_member(system, branch, !branch->branch);
+    bool state_form = system->network_form == NETWORK_STATE;
+
+    if (branch->unknown < 0)
+        branch->unknown = network_new_unknown(system, unknown_of_branch(system, branch), name,
+                                              state_form ? SYMBOL_ALGEBRAIC : SYMBOL_STATE);
+}
+
+Status network_rate(System *system, Expr symbol, Expr *out, Diag *diag)
+{
+    int number = expr_symbol_number(symbol);
+    int k = system->unknown_of.at[number] - 1;
+    int order = system->rate_of.at[number];
+    Unknown *y = &system->unknowns.at[k];
+
+    if (order < y->order) {
+        *out = y->rates[order];
+        return OK;
+    }
+    if (!system->is_network_open)
+        return diag_set(diag, E_MISSING,
+                        "the derivative of %s is not among the network's equations",
+                        expr_name(symbol));
+    if (order > 3)
+        return diag_set(diag, E_MODEL, "the network's equations need ever more derivatives of %s",
+                        expr_name(y->symbol));
+    if (system->network_form == NETWORK_TREE) {
+        *out = add_rate(system, k, SYMBOL_STATE);
+    } else {
+        /* algebraic, or the rate of a state: its equation differentiated tells it */
+        Unknown more = {.branchlike = -1, .own = -1, .instance = y->instance, .derives = k};
+        const char *name = system_keep(system, "%s'", expr_name(symbol));
+        int added = network_new_unknown(system, more, name, SYMBOL_ALGEBRAIC);
+
+        *out = system->unknowns.at[added].symbol;
+        push_rate(system, &system->unknowns.at[k], *out);
+    }
+    return OK;
 }
 
 /* --- across and through variables --- */
 
-static Expr new_unknown(System *system, Branchlike *branch)
-{
-    bool through = !branch->branch;
-    const char *name = member_name(system, branch, through);
-    Expr symbol = expr_symbol(system->arena, name, SYMBOL_ALGEBRAIC);
-
-    branch->unknown = system->z.count;
-    LIST_PUSH(system->z, (Variable){.name = name,
-                                    .symbol = symbol,
-                                    .edge = branch->edge,
-                                    .instance = branch->instance});
-    return symbol;
-}
-
-/* an edge met again while it is followed: a resistor keeps its own variable, others can't */
-static Status met_again(System *system, Branchlike *branch, Expr *out, Diag *diag)
-{
-    if (branch->relation.kind != RELATION_RESISTIVE) {
-        (void)diag_set(diag, E_MODEL, "%s depends on itself through the network",
-                       owner_of(system, branch)->name);
-        diag_hint(diag, "put a resistor or a capacitor between the source and what it reads");
-        return E_MODEL;
-    }
-    *out =
-        branch->unknown >= 0 ? system->z.at[branch->unknown].symbol : new_unknown(system, branch);
-    return OK;
-}
-
 /* sum of across variables along the tree path from tail to head */
-static Status circuit_across(System *system, Branchlike *branch, Expr *out, Diag *diag)
+Status circuit_across(System *system, Branchlike *branch, Expr *out, Diag *diag)
 {
     const Edge *edge = graph_edge(system->graph, branch->edge);
-    const Tree *tree = system->trees[kind_of(system, branch)];
+    const Tree *tree = system->trees[branch_tree(system, branch)];
     int room = tree_depth(tree, edge->tail) + tree_depth(tree, edge->head);
     int *edges = NEW_ARRAY(int, room);
     int *signs = NEW_ARRAY(int, room);
@@ -209,10 +262,11 @@ done:
 }
 
 /* minus the sum of the chords' through variables in the cutset */
-static Status cutset_through(System *system, Branchlike *branch, Expr *out, Diag *diag)
+Status cutset_through(System *system, Branchlike *branch, Expr *out, Diag *diag)
 {
-    const Tree *tree = system->trees[kind_of(system, branch)];
+    const Tree *tree = system->trees[branch_tree(system, branch)];
     const int *chords = tree_chords(tree);
+    bool forward = tree_is_forward(tree, tree_far_node(tree, branch->edge));
     LIST(Expr) terms = {0};
     Status status = OK;
 
@@ -220,7 +274,6 @@ static Status cutset_through(System *system, Branchlike *branch, Expr *out, Diag
         const Edge *chord = graph_edge(system->graph, chords[c]);
         int out_of = (int)tree_is_beyond(tree, branch->edge, chord->tail);
         int into = (int)tree_is_beyond(tree, branch->edge, chord->head);
-        bool forward = tree_is_forward(tree, tree_far_node(tree, branch->edge));
         int sign = (out_of - into) * (forward ? 1 : -1);
         Expr i;
 
@@ -236,65 +289,105 @@ done:
     return status;
 }
 
-static Expr affine(Arena *arena, Expr a, Expr x, Expr b)
+/* content' + rest */
+static Status stored_rate(System *system, const Branchlike *branch, Expr *out, Diag *diag)
 {
-    return expr_add(arena, expr_mul(arena, a, x), b);
-}
-
-static Status branch_across(System *system, Branchlike *branch, Expr *out, Diag *diag)
-{
-    Arena *arena = system->arena;
     const Relation *relation = &branch->relation;
-    Expr i;
+    Expr rest;
     Status status = OK;
 
-    if (relation->kind == RELATION_ACROSS) {
-        *out = relation->value;
-        return OK;
-    }
-    if (branch->state >= 0) {
-        *out = system->x.at[branch->state].symbol;
-        return OK;
-    }
-    CHECK(network_through(system, branch, &i, diag));
-    *out = affine(arena, relation->value, i, relation->offset);
-    if (relation->kind == RELATION_INDUCTIVE) {
-        /* an inductor among inductors: its current is theirs */
-        CHECK(rate_of(system, i, out, diag));
-        *out = affine(arena, relation->value, *out,
-                      affine(arena, relation->series, i, relation->offset));
-    } else if (branch->unknown >= 0) {
-        *out = system->z.at[branch->unknown].symbol;
-    }
+    CHECK(resolve(system, relation->content, out, diag));
+    CHECK(need_smooth(system, graph_edge(system->graph, branch->edge)->name, *out, diag));
+    CHECK(rate_of(system, *out, out, diag));
+    CHECK(resolve(system, relation->rest, &rest, diag));
+    *out = expr_add(system->arena, *out, rest);
 done:
     return status;
 }
 
-static Status chord_through(System *system, Branchlike *branch, Expr *out, Diag *diag)
+/* v = value * i + rest, or i = (v - rest) / value */
+static Status resistive(System *system, Branchlike *branch, bool *given, Expr *out, Diag *diag)
 {
     Arena *arena = system->arena;
-    const Relation *relation = &branch->relation;
-    Expr v;
+    Expr other;
+    Expr value;
+    Expr rest;
     Status status = OK;
 
-    if (relation->kind == RELATION_THROUGH) {
-        *out = relation->value;
-        return OK;
+    CHECK(branch->branch ? network_through(system, branch, &other, diag)
+                         : network_across(system, branch, &other, diag));
+    CHECK(resolve(system, branch->relation.value, &value, diag));
+    CHECK(resolve(system, branch->relation.rest, &rest, diag));
+    *given = branch->branch || !expr_is_zero(value);
+    if (branch->branch)
+        *out = expr_add(arena, expr_mul(arena, value, other), rest);
+    else if (*given)
+        *out = expr_div(arena, expr_sub(arena, other, rest), value);
+done:
+    return status;
+}
+
+/* v of a branch or i of a chord where its relation gives it; *given false where it doesn't */
+static Status by_relation(System *system, Branchlike *branch, bool *given, Expr *out, Diag *diag)
+{
+    const Relation *relation = &branch->relation;
+
+    *given = true;
+    switch (relation->kind) {
+    case RELATION_RESISTIVE:
+        return resistive(system, branch, given, out, diag);
+    case RELATION_ACROSS:
+        if (branch->branch)
+            return resolve(system, relation->value, out, diag);
+        break;
+    case RELATION_INDUCTIVE:
+        if (branch->branch)
+            return stored_rate(system, branch, out, diag);
+        break;
+    case RELATION_THROUGH:
+    case RELATION_CONDUCTIVE:
+        if (!branch->branch)
+            return resolve(system, relation->value, out, diag);
+        break;
+    case RELATION_CAPACITIVE:
+        if (!branch->branch)
+            return stored_rate(system, branch, out, diag);
+        break;
+    case RELATION_FREE:
+        break;
     }
-    if (branch->state >= 0) {
-        *out = system->x.at[branch->state].symbol;
-        return OK;
+    *given = false;
+    return OK;
+}
+
+/* The edge's own variable, v of a branch or i of a chord: given by its relation, or unknown. */
+static Status own_variable(System *system, Branchlike *branch, Expr *out, Diag *diag)
+{
+    bool given = false;
+    Diag before = diag != NULL ? *diag : (Diag){0};
+    Status status = OK;
+
+    if (branch->unknown < 0 && !branch->busy && system->follow_depth < DEEP) {
+        branch->busy = true;
+        system->follow_depth++;
+        system->asked_early = false;
+        status = by_relation(system, branch, &given, out, diag);
+        system->follow_depth--;
+        branch->busy = false;
+        if (status != OK && system->asked_early) {
+            /* a source that reads a reaction: its equation waits for those of motion */
+            given = false;
+            status = OK;
+            if (diag != NULL)
+                *diag = before;
+        }
+        CHECK(status);
     }
-    CHECK(network_across(system, branch, &v, diag));
-    if (relation->kind == RELATION_CAPACITIVE) {
-        /* a capacitor among capacitors and sources: its voltage is theirs */
-        CHECK(rate_of(system, v, out, diag));
-        *out = affine(arena, relation->value, *out, relation->offset);
-    } else if (branch->unknown >= 0) {
-        *out = system->z.at[branch->unknown].symbol;
-    } else {
-        *out = expr_div(arena, expr_sub(arena, v, relation->offset), relation->value);
-    }
+    /* it was met again on the way, or nothing gives it */
+    if (!given)
+        keep_unknown(system, branch);
+    if (branch->unknown >= 0)
+        *out = system->unknowns.at[branch->unknown].symbol;
 done:
     return status;
 }
@@ -304,18 +397,11 @@ Status network_across(System *system, Branchlike *branch, Expr *out, Diag *diag)
     Status status = OK;
 
     if (branch->v == NULL) {
-        bool entered = branch->branch;
-
-        if (entered && branch->busy)
-            return met_again(system, branch, out, diag);
-        if (entered) {
-            branch->busy = true;
-            CHECK(resolve_relation(system, branch, diag));
-        }
-        CHECK(branch->branch ? branch_across(system, branch, out, diag)
-                             : circuit_across(system, branch, out, diag));
+        if (branch->branch)
+            CHECK(own_variable(system, branch, out, diag));
+        else
+            CHECK(circuit_across(system, branch, out, diag));
         branch->v = expr_hold(system->arena, *out);
-        branch->busy = branch->busy && !entered;
     }
     *out = branch->v;
 done:
@@ -327,18 +413,11 @@ Status network_through(System *system, Branchlike *branch, Expr *out, Diag *diag
     Status status = OK;
 
     if (branch->i == NULL) {
-        bool entered = !branch->branch;
-
-        if (entered && branch->busy)
-            return met_again(system, branch, out, diag);
-        if (entered) {
-            branch->busy = true;
-            CHECK(resolve_relation(system, branch, diag));
-        }
-        CHECK(branch->branch ? cutset_through(system, branch, out, diag)
-                             : chord_through(system, branch, out, diag));
+        if (branch->branch)
+            CHECK(cutset_through(system, branch, out, diag));
+        else
+            CHECK(own_variable(system, branch, out, diag));
         branch->i = expr_hold(system->arena, *out);
-        branch->busy = branch->busy && !entered;
     }
     *out = branch->i;
 done:
@@ -349,22 +428,27 @@ done:
 
 static void add_states(System *system)
 {
-    for (int i = 0; i < system->branches.count; i++) {
-        Branchlike *branch = &system->branches.at[i];
-        bool through = branch->relation.kind == RELATION_INDUCTIVE;
-        const char *name;
+    for (int b = 0; b < system->branches.count; b++) {
+        Branchlike *branch = &system->branches.at[b];
+        RelationKind kind = branch->relation.kind;
 
-        if (!(branch->relation.kind == RELATION_CAPACITIVE && branch->branch) &&
-            !(through && !branch->branch))
+        if ((kind == RELATION_CAPACITIVE && branch->branch) ||
+            (kind == RELATION_INDUCTIVE && !branch->branch))
+            branch->unknown = add_state(system, unknown_of_branch(system, branch),
+                                        branch_member(system, branch, !branch->branch));
+        if (branch->which > 0 || owner_of(system, branch)->row->own_state_count == NULL)
             continue;
-        name = member_name(system, branch, through);
-        branch->state = system->x.count;
-        LIST_PUSH(system->x, (Variable){.name = name,
-                                        .symbol = expr_symbol(system->arena, name, SYMBOL_STATE),
-                                        .edge = branch->edge,
-                                        .instance = branch->instance});
-        name = system_keep(system, "%s'", name);
-        LIST_PUSH(system->rates, expr_symbol(system->arena, name, SYMBOL_STATE_RATE));
+        for (int k = 0;
+             k < owner_of(system, branch)->row->own_state_count(owner_of(system, branch)); k++) {
+            const Instance *owner = owner_of(system, branch);
+            OwnState own;
+
+            owner->row->own_state(owner, system->arena, k, &own);
+            (void)add_state(
+                system,
+                (Unknown){.branchlike = -1, .own = k, .instance = branch->instance, .derives = -1},
+                system_keep(system, "%s.%s", owner->name, own.member));
+        }
     }
 }
 
@@ -373,16 +457,16 @@ static void add_branches(System *system)
     int count = graph_edge_count(system->graph);
 
     system->scalar_of_edge = pool_alloc(system->pool, (size_t)count * sizeof(int));
-    for (int e = 0; e < count; e++) {
-        const Edge *edge = graph_edge(system->graph, e);
-
+    for (int e = 0; e < count; e++)
         system->scalar_of_edge[e] = -1;
-        if (edge->domain == DOMAIN_MECHANICAL)
-            continue;
-        system->scalar_of_edge[e] = system->branches.count;
-        LIST_PUSH(system->branches,
-                  (Branchlike){.edge = e, .instance = edge->component, .state = -1, .unknown = -1});
-    }
+    for (int i = 0; i < system->instance_count; i++)
+        for (int k = 0; k < system->instances[i].scalar_count; k++) {
+            int edge = system->instances[i].scalar_edges[k];
+
+            system->scalar_of_edge[edge] = system->branches.count;
+            LIST_PUSH(system->branches,
+                      (Branchlike){.edge = edge, .instance = i, .which = k, .unknown = -1});
+        }
 }
 
 Status network_build(System *system, Diag *diag)
@@ -390,18 +474,19 @@ Status network_build(System *system, Diag *diag)
     Expr value;
     Status status = OK;
 
+    system->is_network_open = true;
     add_branches(system);
     for (int i = 0; i < system->branches.count; i++)
-        CHECK(read_relation(system, &system->branches.at[i], diag));
+        read_relation(system, &system->branches.at[i]);
     for (TreeKind kind = TREE_ELECTRICAL; kind < TREE_KINDS; kind++) {
         if (system->trees[kind] == NULL)
             continue;
-        CHECK(normal_tree(system, kind, diag));
+        if (system->network_form == NETWORK_STATE)
+            CHECK(normal_tree(system, kind, diag));
         for (int i = 0; i < system->branches.count; i++)
-            if (kind_of(system, &system->branches.at[i]) == kind)
+            if (branch_tree(system, &system->branches.at[i]) == kind)
                 system->branches.at[i].branch =
                     tree_has(system->trees[kind], system->branches.at[i].edge);
-        CHECK(check_sources(system, kind, diag));
     }
     add_states(system);
     for (int i = 0; i < system->branches.count; i++) {
@@ -409,97 +494,9 @@ Status network_build(System *system, Diag *diag)
         CHECK(network_through(system, &system->branches.at[i], &value, diag));
         CHECK(poll(system->watch));
     }
+    if (system->network_form == NETWORK_TREE)
+        CHECK(network_bring_order(system, diag));
+    network_list(system);
 done:
-    return status;
-}
-
-/* --- equations: own relation of each unknown, A w = r --- */
-
-static Status residual(System *system, Branchlike *branch, Expr *leading, Expr *rest, Diag *diag)
-{
-    Arena *arena = system->arena;
-    const Relation *relation = &branch->relation;
-    Expr v;
-    Expr i;
-    Expr rate = branch->state >= 0 ? system->rates.at[branch->state] : NULL;
-    Status status = OK;
-
-    CHECK(branch->branch ? cutset_through(system, branch, &i, diag)
-                         : network_through(system, branch, &i, diag));
-    CHECK(branch->branch ? network_across(system, branch, &v, diag)
-                         : circuit_across(system, branch, &v, diag));
-    if (relation->kind == RELATION_CAPACITIVE) {
-        *leading = expr_mul(arena, relation->value, rate);
-        *rest = expr_sub(arena, i, relation->offset);
-    } else if (relation->kind == RELATION_INDUCTIVE) {
-        *leading = expr_mul(arena, relation->value, rate);
-        *rest = expr_sub(arena, v, affine(arena, relation->series, i, relation->offset));
-    } else if (branch->branch) {
-        *leading = system->z.at[branch->unknown].symbol;
-        *rest = affine(arena, relation->value, i, relation->offset);
-    } else {
-        *leading = expr_mul(arena, relation->value, system->z.at[branch->unknown].symbol);
-        *rest = expr_sub(arena, v, relation->offset);
-    }
-done:
-    return status;
-}
-
-static Status equation_row(System *system, int row, const Branchlike *branch, const Expr *unknowns,
-                           const Expr *zeros, Diag *diag)
-{
-    Arena *arena = system->arena;
-    int count = system->x.count + system->z.count;
-    const unsigned solved = 1U << SYMBOL_STATE_RATE | 1U << SYMBOL_ALGEBRAIC;
-    Expr leading = system->network_left.at[row];
-    Expr all =
-        expr_sub(arena, expr_open(arena, leading), expr_open(arena, system->network_right.at[row]));
-
-    for (int k = 0; k < count; k++) {
-        Expr slope = expr_diff(arena, all, unknowns[k]);
-
-        if ((expr_kinds(slope) & solved) != 0)
-            return diag_set(diag, E_MISSING, "%s: a nonlinear relation comes with a later version",
-                            owner_of(system, branch)->name);
-        system->run.network[row * count + k] = slope;
-    }
-    system->run.network_rhs[row] =
-        expr_neg(arena, expr_substitute(arena, all, unknowns, zeros, count));
-    return OK;
-}
-
-Status network_equations(System *system, Diag *diag)
-{
-    Arena *arena = system->arena;
-    int count = system->x.count + system->z.count;
-    Expr *unknowns = NEW_ARRAY(Expr, count);
-    Expr *zeros = NEW_ARRAY(Expr, count);
-    Status status = OK;
-
-    system->run.network = pool_alloc(system->pool, (size_t)count * (size_t)count * sizeof(Expr));
-    system->run.network_rhs = pool_alloc(system->pool, (size_t)count * sizeof(Expr));
-    for (int k = 0; k < count; k++) {
-        const Variable *variable =
-            k < system->x.count ? &system->x.at[k] : &system->z.at[k - system->x.count];
-        Branchlike *branch = &system->branches.at[system->scalar_of_edge[variable->edge]];
-        Expr leading;
-        Expr rest;
-
-        unknowns[k] = k < system->x.count ? system->rates.at[k] : variable->symbol;
-        zeros[k] = expr_int(arena, 0);
-        CHECK(residual(system, branch, &leading, &rest, diag));
-        LIST_PUSH(system->network_left, leading);
-        LIST_PUSH(system->network_right, expr_fold(arena, expr_open(arena, rest)));
-    }
-    for (int k = 0; k < count; k++) {
-        const Variable *variable =
-            k < system->x.count ? &system->x.at[k] : &system->z.at[k - system->x.count];
-
-        CHECK(equation_row(system, k, &system->branches.at[system->scalar_of_edge[variable->edge]],
-                           unknowns, zeros, diag));
-    }
-done:
-    mem_free(unknowns);
-    mem_free(zeros);
     return status;
 }

@@ -70,6 +70,7 @@ Status actual_build(System *system, Diag *diag)
     Loads loads;
     Status status = OK;
 
+    CHECK(wait_for_motion(system, diag));
     if (system->actual_a == NULL) {
         size_t chains = (size_t)system->chains.count;
 

@@ -112,7 +112,7 @@ OpCount system_program_count(const System *system)
     int nu = system->u.count;
     int m = system->rows.count;
     int w = system->x.count + system->z.count;
-    Expr *roots = NEW_ARRAY(Expr, nu * (nu + 1 + m) + 3 * m + w * (w + 1));
+    Expr *roots = NEW_ARRAY(Expr, nu * (nu + 1 + m) + 3 * m + run->network_entries + w);
     int count = 0;
     OpCount ops;
 
@@ -122,7 +122,8 @@ OpCount system_program_count(const System *system)
     gather(roots, &count, run->phi, m);
     gather(roots, &count, run->nu, m);
     gather(roots, &count, run->gamma, m);
-    gather(roots, &count, run->network, w * w);
+    for (int i = 0; i < run->network_entries; i++)
+        roots[count++] = run->network[i].value;
     gather(roots, &count, run->network_rhs, w);
     ops = expr_count_shared(roots, count);
     mem_free(roots);

@@ -345,10 +345,8 @@ done:
 
 static Status show_network(System *system, int row, int column, Expr *out, Diag *diag)
 {
-    int count = system->x.count + system->z.count;
-
     (void)diag;
-    *out = tidy(system, system->run.network[row * count + column]);
+    *out = tidy(system, system_network_entry(system, row, column));
     return OK;
 }
 

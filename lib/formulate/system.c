@@ -304,13 +304,15 @@ static Status build(System *system, Diag *diag)
     add_drives(system);
     frames_build(system);
     motion_build(system);
+    system->is_early = true;
     CHECK(network_build(system, diag));
     if (system->trees[TREE_TRANSLATION] != NULL)
         CHECK(constraints_build(system, diag));
     number_rows(system);
     if (system->trees[TREE_TRANSLATION] != NULL)
         CHECK(dynamics_build(system, diag));
-    CHECK(network_equations(system, diag));
+    system->is_early = false;
+    CHECK(network_rows(system, diag));
     CHECK(reading_choose(system, diag));
     CHECK(poll(system->watch));
     if (arena_status(system->arena) != OK) {
@@ -322,8 +324,8 @@ done:
     return status;
 }
 
-Status system_new_varied(const Model *model, VaryValue vary, void *context, const Watch *watch,
-                         System **out, Diag *diag)
+static Status make(const Model *model, NetworkForm form, VaryValue vary, void *context,
+                   const Watch *watch, System **out, Diag *diag)
 {
     System *system = NEW(System);
     Status status = OK;
@@ -332,6 +334,7 @@ Status system_new_varied(const Model *model, VaryValue vary, void *context, cons
     system->model = model;
     system->arena = model_arena(model);
     system->revision = model_revision(model);
+    system->network_form = form;
     system->watch = watch;
     system->planar = model_is_planar(model);
     for (int i = 0; i < 3; i++)
@@ -355,9 +358,21 @@ done:
     return status;
 }
 
+Status system_new_varied(const Model *model, VaryValue vary, void *context, const Watch *watch,
+                         System **out, Diag *diag)
+{
+    return make(model, NETWORK_STATE, vary, context, watch, out, diag);
+}
+
+Status system_new_form(const Model *model, NetworkForm form, const Watch *watch, System **out,
+                       Diag *diag)
+{
+    return make(model, form, NULL, NULL, watch, out, diag);
+}
+
 Status system_new(const Model *model, const Watch *watch, System **out, Diag *diag)
 {
-    return system_new_varied(model, NULL, NULL, watch, out, diag);
+    return make(model, model_network_form(model), NULL, NULL, watch, out, diag);
 }
 
 void system_free(System *system)
@@ -379,6 +394,10 @@ void system_free(System *system)
     LIST_FREE(system->dropped);
     LIST_FREE(system->remarks);
     LIST_FREE(system->branches);
+    LIST_FREE(system->unknowns);
+    LIST_FREE(system->unknown_of);
+    LIST_FREE(system->rate_of);
+    LIST_FREE(system->samples);
     LIST_FREE(system->network_left);
     LIST_FREE(system->network_right);
     LIST_FREE(system->drives);
@@ -518,6 +537,37 @@ const Reading *system_run(const System *system)
     return &system->run;
 }
 
+Expr system_network_entry(const System *system, int row, int column)
+{
+    for (int i = 0; i < system->run.network_entries; i++)
+        if (system->run.network[i].row == row && system->run.network[i].column == column)
+            return system->run.network[i].value;
+    return expr_int(system->arena, 0);
+}
+
+Expr *system_network_matrix(const System *system)
+{
+    int count = system->x.count + system->z.count;
+    Expr *dense = NEW_ARRAY(Expr, count * count);
+
+    for (int i = 0; i < count * count; i++)
+        dense[i] = expr_int(system->arena, 0);
+    for (int i = 0; i < system->run.network_entries; i++)
+        dense[system->run.network[i].row * count + system->run.network[i].column] =
+            system->run.network[i].value;
+    return dense;
+}
+
+NetworkForm system_network_form(const System *system)
+{
+    return system->network_form;
+}
+
+const OwnSample *system_sample(const System *system, int i)
+{
+    return i < system->samples.count ? &system->samples.at[i] : NULL;
+}
+
 int system_network_count(const System *system)
 {
     return system->network_left.count;
@@ -558,16 +608,30 @@ static const Expr *run_block(const System *system, Block block)
         return run->nu;
     case BLOCK_ACCELERATION:
         return run->gamma;
-    case BLOCK_NETWORK:
-        return run->network;
     case BLOCK_NETWORK_RHS:
         return run->network_rhs;
+    case BLOCK_NETWORK: /* sparse */
     case BLOCK_EMBEDDED_MASS:
     case BLOCK_EMBEDDED_FORCES:
     case BLOCK_COUNT:
         break;
     }
     return NULL;
+}
+
+/* the entries of A that aren't 0 */
+static OpCount count_network(const System *system, bool shared)
+{
+    const Reading *run = &system->run;
+    Expr *entries = NEW_ARRAY(Expr, run->network_entries);
+    OpCount count;
+
+    for (int i = 0; i < run->network_entries; i++)
+        entries[i] = run->network[i].value;
+    count = shared ? expr_count_shared(entries, run->network_entries)
+                   : expr_count(entries, run->network_entries);
+    mem_free(entries);
+    return count;
 }
 
 Status system_count(System *system, Block block, bool shared, OpCount *out, Diag *diag)
@@ -578,6 +642,10 @@ Status system_count(System *system, Block block, bool shared, OpCount *out, Diag
     Expr *entries;
     Status status = OK;
 
+    if (block == BLOCK_NETWORK) {
+        *out = count_network(system, shared);
+        return OK;
+    }
     system_block_size(system, block, &rows, &columns);
     if (shared && run != NULL) {
         *out = expr_count_shared(run, rows * columns);
@@ -661,8 +729,7 @@ int system_switches(System *system, const Expr **conditions, int *time_only)
         gather(system, system->run.force, system->u.count, &seen, &room);
         gather(system, system->run.phi, system->rows.count, &seen, &room);
         gather(system, system->run.gamma, system->rows.count, &seen, &room);
-        gather(system, system->run.network, w * w, &seen, &room);
-        gather(system, system->run.network_rhs, w, &seen, &room);
+        gather(system, system->run.network_residual, w, &seen, &room);
         mem_free(seen);
         /* those of time alone first, each once */
         for (int i = 0; i < system->switches.count; i++)

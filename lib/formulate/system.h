@@ -2,7 +2,7 @@
  *
  *     q' = N u,   Phi(q,t) = 0,   Phi_u u = nu,   Phi_u u' = gamma
  *     M u' + Phi_u^T lambda = F(q, u, x, z, t)
- *     A [x'; z] = r(q, u, x, t)                      (network states and algebraic unknowns)
+ *     G([x'; z], q, u, x, t) = 0                     (network states and algebraic unknowns)
  *
  * A System is finished when made and remembers the revision of its model. It has two
  * readings of the same definitions: one to show (each entry written as by hand, formed
@@ -25,6 +25,11 @@ MUST_USE Status system_new(const Model *model, const Watch *watch, System **out,
 typedef Expr (*VaryValue)(void *context, const Instance *instance, int param, Expr value);
 MUST_USE Status system_new_varied(const Model *model, VaryValue vary, void *context,
                                   const Watch *watch, System **out, Diag *diag);
+/* The same with the network's equations in a form that isn't the model's own choice. */
+MUST_USE Status system_new_form(const Model *model, NetworkForm form, const Watch *watch,
+                                System **out, Diag *diag);
+/* Whether the scalar trees are normal trees: then the form of the user's trees is state form. */
+bool system_tree_is_normal(const System *system);
 void system_free(System *system); /* NULL is fine */
 uint64_t system_revision(const System *system);
 Arena *system_arena(const System *system);
@@ -80,16 +85,26 @@ const char *system_remark(const System *system, int i);
 
 /* --- the reading to run: interned, held definitions --- */
 
+/* entry of a sparse matrix */
+typedef struct Entry {
+    int row, column;
+    Expr value;
+} Entry;
+
 typedef struct Reading {
-    Expr *phi;         /* m */
-    Expr *phi_u;       /* m x nu, row by row */
-    Expr *nu;          /* m: Phi_u u = nu */
-    Expr *gamma;       /* m */
-    Expr *mass;        /* nu x nu, symmetric */
-    Expr *force;       /* nu */
-    Expr *network;     /* (nx+nz) x (nx+nz), row by row: A */
-    Expr *network_rhs; /* nx+nz: r */
-    Expr *q_rate;      /* n */
+    Expr *phi;   /* m */
+    Expr *phi_u; /* m x nu, row by row */
+    Expr *nu;    /* m: Phi_u u = nu */
+    Expr *gamma; /* m */
+    Expr *mass;  /* nu x nu, symmetric */
+    Expr *force; /* nu */
+    /* G(w; q, u, x, t) = 0 for w = [x'; z]; w stands in A too where `network_nonlinear` */
+    Expr *network_residual; /* nx+nz: G */
+    Entry *network;         /* A = dG/dw: entries that aren't 0, row by row */
+    int network_entries;
+    Expr *network_rhs; /* nx+nz: r = -G at w = 0, so that A w = r where it is linear */
+    bool network_nonlinear;
+    Expr *q_rate; /* n */
 } Reading;
 
 /* definitions by recursion; a run uses them, or where it is shorter what is shown */
@@ -116,6 +131,19 @@ void system_block_size(const System *system, Block block, int *rows, int *column
 const char *block_name(Block block); /* "mass", "forces" ... */
 MUST_USE Status system_show(System *system, Block block, int row, int column, Expr *out,
                             Diag *diag);
+/* an entry of A; 0 where there is none. O(entries) */
+Expr system_network_entry(const System *system, int row, int column);
+/* all of A, row by row; a new array, to be freed with mem_free() */
+Expr *system_network_matrix(const System *system);
+NetworkForm system_network_form(const System *system);
+/* states of parts' own: where they start, and what samples them. NULL at the end */
+typedef struct OwnSample {
+    int state;    /* in x */
+    Expr initial; /* of parameters */
+    Expr period;  /* s; NULL: it isn't sampled, but has a rate */
+    Expr next;    /* its value behind a sampling instant, over the user's variables */
+} OwnSample;
+const OwnSample *system_sample(const System *system, int i);
 /* electrical equations as printed: `left = right`, one a network unknown */
 int system_network_count(const System *system);
 void system_network_equation(System *system, int i, Expr *left, Expr *right);

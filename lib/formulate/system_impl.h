@@ -137,13 +137,27 @@ typedef struct Row {
 typedef struct Branchlike { /* a scalar edge */
     int edge;
     int instance;
-    Relation relation;
+    int which;         /* of the instance's scalar edges */
+    Relation relation; /* over the user's variables */
     bool branch;
-    int state;   /* in x; -1 */
-    int unknown; /* in z; -1 */
+    int unknown; /* its v or i is one; -1 */
     bool busy;   /* its v or i is being followed */
     Expr v, i;   /* once known */
 } Branchlike;
+
+/* A network unknown and the equation that belongs to it: a state (with a rate), or algebraic. */
+typedef struct Unknown {
+    int branchlike; /* whose v (branch) or i (chord) it is, with its relation; -1 */
+    int own;        /* a state of that instance's own; -1 */
+    int instance;
+    int derives; /* its equation is that of this unknown, differentiated; -1 */
+    Expr symbol; /* y */
+    Expr *rates; /* y', y'' ... as far as they are met; in the system's pool */
+    int order;   /* of the highest */
+    bool has_row;
+    Expr left, right; /* its equation */
+    Expr residual;    /* what a run solves instead of left - right; NULL: that */
+} Unknown;
 
 struct System {
     uint64_t revision;
@@ -171,7 +185,7 @@ struct System {
     LIST(Variable) z;
     Expr *accelerations;
     Expr *multipliers;
-    LIST(Expr) rates;              /* of x */
+    LIST(Expr) rates;              /* of x, x' */
     int (*coordinate)[MAX_COORDS]; /* of an instance: its place in q, or -1 */
 
     int (*speed)[MAX_COORDS]; /* of an instance's coordinate: its place in u, or -1 */
@@ -190,10 +204,20 @@ struct System {
     LIST(const char *) dropped;
     LIST(const char *) remarks;
 
+    NetworkForm network_form;
     LIST(Branchlike) branches;
-    int *scalar_of_edge;     /* edge of the graph -> branches, or -1 */
+    int *scalar_of_edge; /* edge of the graph -> branches, or -1 */
+    LIST(Unknown) unknowns;
+    int listed;              /* unknowns that stand in x or z already */
+    LIST(int) unknown_of;    /* by expr_symbol_number(): unknown, and which rate of it, */
+    LIST(int) rate_of;       /* as 1 + unknown and 0, 1, ...; 0: neither */
+    int follow_depth;        /* of v and i being followed */
+    bool is_network_open;    /* unknowns may still be added */
+    bool is_early;           /* reactions aren't there yet */
+    bool asked_early;        /* and were asked for */
     LIST(Expr) network_left; /* as printed */
     LIST(Expr) network_right;
+    LIST(OwnSample) samples;
 
     Reading definitions; /* by recursion, whatever the size */
     Reading run;         /* these, or the shorter equations as shown */
@@ -327,6 +351,8 @@ MUST_USE Status coordinate_value(System *system, const Instance *owner, int coor
 MUST_USE Status rate_of(System *system, Expr e, Expr *out, Diag *diag);
 /* derivative of e(q) per unit of a speed */
 Expr partial(System *system, Expr e, int speed);
+/* E_MISSING while reactions, multipliers and entries of M can't be told yet */
+MUST_USE Status wait_for_motion(System *system, Diag *diag);
 /* e over user's variables to e over the system's */
 MUST_USE Status resolve(System *system, Expr user, Expr *out, Diag *diag);
 
@@ -352,7 +378,31 @@ MUST_USE Status efforts_add(System *system, Loads *loads, bool joints, Diag *dia
 MUST_USE Status constraints_build(System *system, Diag *diag);
 MUST_USE Status dynamics_build(System *system, Diag *diag);
 MUST_USE Status network_build(System *system, Diag *diag);
-MUST_USE Status network_equations(System *system, Diag *diag);
+/* residuals and their Jacobian, once dynamics is there (network_rows.c) */
+MUST_USE Status network_rows(System *system, Diag *diag);
+/* the equation of an unknown, left = right */
+MUST_USE Status network_row(System *system, int unknown, Diag *diag);
+Branchlike *scalar_branch(System *system, const Instance *instance, int which);
+/* its member names: "i", or of an edge with a suffix "s.i" */
+const char *branch_member(System *system, const Branchlike *branch, bool through);
+TreeKind branch_tree(const System *system, const Branchlike *branch);
+int network_new_unknown(System *system, Unknown unknown, const char *name, SymbolKind kind);
+/* the next rate of a network symbol; E_MISSING where it can't be told */
+MUST_USE Status network_rate(System *system, Expr symbol, Expr *out, Diag *diag);
+bool network_knows(const System *system, Expr symbol);
+/* `symbol` is the rate of that order of an unknown */
+void network_know(System *system, Expr symbol, int unknown, int order);
+/* the unknowns as states x and algebraic z of the System: new ones behind the old */
+void network_list(System *system);
+/* in the form of the user's tree: which rates are states, which is solved for (network_order.c) */
+MUST_USE Status network_bring_order(System *system, Diag *diag);
+/* v of a chord along its circuit, i of a branch from its cutset */
+MUST_USE Status circuit_across(System *system, Branchlike *branch, Expr *out, Diag *diag);
+MUST_USE Status cutset_through(System *system, Branchlike *branch, Expr *out, Diag *diag);
+/* names of the edges in the circuit of a chord or the cutset of a branch; in the pool */
+const char *network_company(System *system, const Branchlike *branch);
+/* e is differentiated in time for `who`: E_MODEL where it jumps */
+MUST_USE Status need_smooth(System *system, const char *who, Expr e, Diag *diag);
 /* voltage and current of a scalar edge */
 MUST_USE Status network_across(System *system, Branchlike *branch, Expr *out, Diag *diag);
 MUST_USE Status network_through(System *system, Branchlike *branch, Expr *out, Diag *diag);

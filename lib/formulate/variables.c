@@ -8,6 +8,14 @@
 #include <stdlib.h>
 #include <string.h>
 
+Status wait_for_motion(System *system, Diag *diag)
+{
+    if (!system->is_early)
+        return OK;
+    system->asked_early = true;
+    return diag_set(diag, E_MISSING, "what the network reads here follows from forces");
+}
+
 /* --- frames --- */
 
 typedef enum Quantity {
@@ -252,8 +260,10 @@ static Status joint_variable(System *system, const Instance *joint, const char *
     int chain;
     Status status = OK;
 
-    if (strcmp(member, "effort") == 0)
+    if (strcmp(member, "effort") == 0) {
+        CHECK(wait_for_motion(system, diag));
         return joint_effort(system, joint, out, diag);
+    }
     if (strcmp(member, "s") == 0)
         return tied_shift(system, joint, out, diag);
     if (axis == NULL)
@@ -299,6 +309,8 @@ static Status driver_variable(System *system, const Instance *driver, const char
             drive = &system->drives.at[i];
     if (drive == NULL || strcmp(member, "effort") != 0)
         return diag_set(diag, E_MISSING, "%s.%s can't be told", driver->name, member);
+    if (wait_for_motion(system, diag) != OK)
+        return E_MISSING;
     /* in the embedded form one driver of one freedom has an explicit effort, where it can be
      * written */
     if (system->form == FORM_EMBEDDED && driver->by < 0 && system->drives.count == 1 &&
@@ -309,41 +321,66 @@ static Status driver_variable(System *system, const Instance *driver, const char
     return OK;
 }
 
-/* which of a scalar edge's variables a member means */
+/* a state of the part's own, and its rate */
+static bool own_state(const System *system, const Instance *instance, const char *member, Expr *out)
+{
+    for (int k = 0; k < system->unknowns.count; k++) {
+        const Unknown *y = &system->unknowns.at[k];
+        const char *dot = strrchr(expr_name(y->symbol), '.');
+
+        if (y->own >= 0 && y->instance == instance->number && strcmp(dot + 1, member) == 0) {
+            *out = y->symbol;
+            return true;
+        }
+    }
+    return false;
+}
+
+/* which of a scalar edge's variables a member means; "s.i": of its edge s */
 static Status scalar_variable(System *system, const Instance *instance, const char *member,
                               Expr *out, Diag *diag)
 {
-    static const char *const across[] = {"v", "p", "w", "T"};
-    static const char *const through[] = {"i", "flow", "torque", "force", "heat"};
     Arena *arena = system->arena;
-    Branchlike *branch = &system->branches.at[system->scalar_of_edge[instance->scalar_edge]];
+    int count;
+    const ScalarEdge *edges = component_scalar_edges(instance->row, &count);
+    Domain domain = instance->row->domain;
+    Branchlike *branch;
+    const char *name = member;
+    int which = 0;
     Expr v;
     Expr i;
     Status status = OK;
 
+    if (own_state(system, instance, member, out))
+        return OK;
     if (instance->row->family == FAMILY_TRANSDUCER && instance->row->effort != NULL &&
-        (strcmp(member, "torque") == 0 || strcmp(member, "force") == 0))
+        (strcmp(member, "torque") == 0 || strcmp(member, "force") == 0) &&
+        strcmp(member, domain_through(domain)) != 0)
         return effort_variable(system, instance, member, out, diag);
-    CHECK(network_across(system, branch, &v, diag));
-    CHECK(network_through(system, branch, &i, diag));
-    for (int k = 0; k < COUNT(across); k++)
-        if (strcmp(member, across[k]) == 0) {
-            *out = v;
-            return OK;
+    for (int k = 0; k < count; k++) {
+        size_t length = strlen(edges[k].suffix);
+
+        if (length > 0 && strncmp(member, edges[k].suffix, length) == 0 && member[length] == '.') {
+            which = k;
+            name = member + length + 1;
         }
-    for (int k = 0; k < COUNT(through); k++)
-        if (strcmp(member, through[k]) == 0) {
-            *out = i;
-            return OK;
-        }
-    if (strcmp(member, "power") == 0)
+    }
+    if (count == 0)
+        return diag_set(diag, E_MISSING, "%s.%s can't be told", instance->name, member);
+    branch = scalar_branch(system, instance, which);
+    if (strcmp(name, domain_across(domain)) == 0)
+        return network_across(system, branch, out, diag);
+    if (strcmp(name, domain_through(domain)) == 0)
+        return network_through(system, branch, out, diag);
+    if (strcmp(name, "power") == 0) {
+        CHECK(network_across(system, branch, &v, diag));
+        CHECK(network_through(system, branch, &i, diag));
         *out = expr_mul(arena, v, i);
-    else if (strcmp(member, "q") == 0 && branch->relation.kind == RELATION_CAPACITIVE)
-        *out = expr_mul(arena, branch->relation.value, v);
-    else if (strcmp(member, "flux") == 0 && branch->relation.kind == RELATION_INDUCTIVE)
-        *out = expr_mul(arena, branch->relation.value, i);
-    else
+    } else if (branch->relation.content != NULL) {
+        status = resolve(system, branch->relation.content, out, diag);
+    } else {
         status = diag_set(diag, E_MISSING, "%s.%s can't be told", instance->name, member);
+    }
 done:
     return status;
 }
@@ -435,6 +472,8 @@ static Status entry_variable(System *system, const char *path, bool *found, Expr
         return OK;
     if (length == 6 && strncmp(path, "lambda", 6) == 0) {
         *found = true;
+        if (wait_for_motion(system, diag) != OK)
+            return E_MISSING;
         if (row < 1 || row > system->rows.count)
             return diag_set(diag, E_VALUE, "%s: there are %d multipliers", path,
                             system->rows.count);
@@ -448,6 +487,8 @@ static Status entry_variable(System *system, const char *path, bool *found, Expr
         if (strncmp(block_name(block), path, length) != 0 || block_name(block)[length] != '\0')
             continue;
         *found = true;
+        if (wait_for_motion(system, diag) != OK)
+            return E_MISSING;
         system_block_size(system, block, &rows, &columns);
         if (row < 1 || column < 1 || row > rows || column > columns)
             return diag_set(diag, E_VALUE, "%s: %s has %d rows and %d columns", path,
@@ -471,17 +512,27 @@ static const Instance *instance_named(const System *system, const char *name, si
 static Status member_variable(System *system, const char *path, Expr *out, Diag *diag)
 {
     const char *dot = strrchr(path, '.');
-    size_t length = dot != NULL ? (size_t)(dot - path) : strlen(path);
-    const char *member = dot != NULL ? dot + 1 : "";
-    const Instance *instance = instance_named(system, path, length);
-    char *head = mem_text(path, length);
-    int node = graph_find_node(system->graph, head);
+    const Instance *instance = NULL;
+    int node = -1;
+    const char *member;
 
-    mem_free(head);
+    /* the longest name that somebody has: leg1.T1.s.i */
+    for (size_t length = strlen(path); length > 0 && instance == NULL && node < 0; length--) {
+        char *head;
+
+        if (path[length] != '.' && path[length] != '\0')
+            continue;
+        instance = instance_named(system, path, length);
+        head = mem_text(path, length);
+        node = graph_find_node(system->graph, head);
+        mem_free(head);
+        dot = path[length] == '.' ? path + length : NULL;
+    }
+    member = dot != NULL ? dot + 1 : "";
     if (instance == NULL && node < 0)
         return diag_set(diag, E_NAME, "nothing is called '%s'", path);
     if (node >= 0 && graph_node(system->graph, node)->domain != DOMAIN_MECHANICAL &&
-        (instance == NULL || instance->scalar_edge < 0))
+        (instance == NULL || instance->scalar_count == 0))
         return terminal_variable(system, node, out, diag);
     if (instance == NULL)
         return frame_variable(system, node, member, out, diag);

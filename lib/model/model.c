@@ -350,6 +350,11 @@ Form model_form(const Model *model, const char *const **independent, int *count)
     return model->state->form;
 }
 
+NetworkForm model_network_form(const Model *model)
+{
+    return model->state->network_form;
+}
+
 static Scope ask(const Model *model)
 {
     return (Scope){.state = model->state, .kind = SCOPE_ASK};

@@ -80,6 +80,10 @@ int model_start_count(const Model *model);
 const Start *model_start(const Model *model, int i);
 
 typedef enum Form { FORM_AUGMENTED, FORM_EMBEDDED } Form;
+/* Which equations of scalar networks are integrated: state form, by a normal tree whatever the
+ * user's; or those that follow from the user's trees. */
+typedef enum NetworkForm { NETWORK_STATE, NETWORK_TREE } NetworkForm;
+NetworkForm model_network_form(const Model *model);
 Form model_form(const Model *model, const char *const **independent,
                 int *count); /* names of coordinates; count 0: chosen by pivoting */
 

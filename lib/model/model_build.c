@@ -298,17 +298,45 @@ static void add_mechanical_edge(State *state, Instance *part)
     part->edge = add_edge(state, &edge);
 }
 
-static void add_scalar_edge(State *state, Instance *part, int plus, int minus)
+static void add_scalar_edges(State *state, Instance *part)
 {
-    Edge edge = {.name = part->name,
-                 .tail = plus,
-                 .head = minus,
-                 .domain = part->row->domain,
-                 .component = part->number,
-                 .branching = {part->row->translation, BRANCH_NEVER},
-                 .preference = {part->row->preference, 0}};
+    const ScalarEdge *rows = component_scalar_edges(part->row, &part->scalar_count);
 
-    part->scalar_edge = add_edge(state, &edge);
+    for (int k = 0; k < part->scalar_count; k++) {
+        int datum = state->datum[part->row->domain];
+        Text name = {0};
+        Edge edge = {.tail = rows[k].plus < 0 ? datum : part->terminals[rows[k].plus],
+                     .head = rows[k].minus < 0 ? datum : part->terminals[rows[k].minus],
+                     .domain = part->row->domain,
+                     .component = part->number,
+                     .branching = {rows[k].branching, BRANCH_NEVER},
+                     .preference = {rows[k].preference, 0}};
+
+        if (part->row->scalar_edges == NULL)
+            edge.preference[0] = part->row->preference;
+        text_addf(&name, "%s%s%s", part->name, rows[k].suffix[0] != '\0' ? "." : "",
+                  rows[k].suffix);
+        edge.name = name.at;
+        part->scalar_edges[k] = add_edge(state, &edge);
+        text_free(&name);
+    }
+}
+
+static void add_terminals(Draft *draft)
+{
+    Instance *part = draft->part;
+
+    for (int k = 0; k < MAX_TERMINALS && draft->terminals[k] != NULL; k++) {
+        part->terminals[k] = terminal_node(draft->state, draft->terminals[k], part->row->domain);
+        part->terminal_names[k] = state_text(draft->state, draft->terminals[k]);
+    }
+    add_scalar_edges(draft->state, part);
+    if (part->head < 0 && part->scalar_count > 0) {
+        const Edge *edge = graph_edge(draft->state->graph, part->scalar_edges[0]);
+
+        part->tail = edge->tail;
+        part->head = edge->head;
+    }
 }
 
 static void commit(Draft *draft, const char *text)
@@ -321,16 +349,8 @@ static void commit(Draft *draft, const char *text)
         part->head = graph_add_node(state->graph, part->name, DOMAIN_MECHANICAL, false);
     if (part->head >= 0)
         add_mechanical_edge(state, part);
-    if (draft->terminals[0] != NULL) {
-        int plus = terminal_node(state, draft->terminals[0], part->row->domain);
-        int minus = terminal_node(state, draft->terminals[1], part->row->domain);
-
-        add_scalar_edge(state, part, plus, minus);
-        if (part->head < 0) {
-            part->tail = plus;
-            part->head = minus;
-        }
-    }
+    if (draft->terminals[0] != NULL)
+        add_terminals(draft);
     state_name(state, part->name, THING_PART, part->number, 0);
     for (int i = 0; i < part->coord_count; i++)
         if (strcmp(part->coord[i], part->name) != 0)
@@ -358,7 +378,12 @@ static Instance *new_part(State *state, const Component *row, bool is_virtual)
     part->row = row;
     part->number = state->parts.count;
     part->is_virtual = is_virtual;
-    part->tail = part->head = part->edge = part->scalar_edge = part->joint = -1;
+    part->tail = part->head = part->edge = part->joint = -1;
+    part->parts[0] = part->parts[1] = -1;
+    for (int k = 0; k < MAX_TERMINALS; k++)
+        part->terminals[k] = -1;
+    for (int k = 0; k < MAX_SCALAR; k++)
+        part->scalar_edges[k] = -1;
     part->by = part->by_coordinate = -1;
     part->values = pool_alloc(state->pool, sizeof *part->values * ((size_t)row->param_count + 1));
     return part;

@@ -10,7 +10,7 @@ typedef struct Draft {
     Instance *part; /* in the state's pool */
     Scope scope;
     int at;                   /* next operand */
-    const char *terminals[2]; /* names, where the part has a scalar edge */
+    const char *terminals[MAX_TERMINALS]; /* names, where the part has scalar edges */
     const Syntax *coordinate_names;
     Diag *diag;
 } Draft;

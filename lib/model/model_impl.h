@@ -87,6 +87,7 @@ typedef struct State {
     NumberList start_of; /* by number in start_names: its place in `starts`, or -1 */
     int group_count;
     Form form;
+    NetworkForm network_form;
     NameList independent;
     Tree *trees[TREE_KINDS];
     bool has_trees;

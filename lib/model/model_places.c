@@ -19,6 +19,8 @@ static const char *const forms[] = {
     [PLACES_COORDINATE] = "NAME COORDINATE = value",
     [PLACES_TERMINALS] = "NAME PLUS MINUS",
     [PLACES_TRANSDUCER] = "NAME JOINT PLUS MINUS",
+    [PLACES_SENSED] = "NAME VARIABLE PLUS MINUS",
+    [PLACES_PARTS] = "NAME PART PART",
 };
 
 const char *places_form(Places places)
@@ -300,15 +302,65 @@ done:
     return status;
 }
 
-static Status two_terminals(Draft *draft)
+/* as many as the row says; the ends of an edge have to differ */
+static Status read_terminals(Draft *draft)
 {
+    const Component *row = draft->part->row;
+    int count;
+    const ScalarEdge *edges = component_scalar_edges(row, &count);
+    int first = draft->at;
     Status status = OK;
 
-    CHECK(next_terminal(draft, 0));
-    CHECK(next_terminal(draft, 1));
-    if (strcmp(draft->terminals[0], draft->terminals[1]) == 0)
-        status = diag_at(draft->diag, E_VALUE, draft->statement->operands.at[draft->at - 1].place,
-                         "both ends of %s are %s", draft->part->name, draft->terminals[0]);
+    for (int k = 0; k < component_terminals(row); k++)
+        CHECK(next_terminal(draft, k));
+    for (int k = 0; k < count; k++) {
+        const char *plus = edges[k].plus < 0 ? "0" : draft->terminals[edges[k].plus];
+        const char *minus = edges[k].minus < 0 ? "0" : draft->terminals[edges[k].minus];
+        int last = first + (edges[k].minus < 0 ? edges[k].plus : edges[k].minus);
+
+        if (strcmp(plus, minus) == 0)
+            CHECK(diag_at(draft->diag, E_VALUE, draft->statement->operands.at[last].place,
+                          "both ends of %s are %s", draft->part->name, plus));
+    }
+done:
+    return status;
+}
+
+/* sensor v1 h8' a 0: what is sensed may be any expression of variables */
+static Status sensed_value(Draft *draft)
+{
+    Scope scope = draft->scope;
+    const Operand *operand = NULL;
+    Status status = OK;
+
+    CHECK(next_operand(draft, &operand));
+    scope.kind = SCOPE_EFFORT;
+    status = scope_expression(&scope, operand->value, &draft->part->sensed, draft->diag);
+    draft->scope.uses = scope.uses;
+done:
+    return status;
+}
+
+/* coupling K1 L1 L2 */
+static Status two_parts(Draft *draft)
+{
+    Instance *part = draft->part;
+    Status status = OK;
+
+    for (int k = 0; k < 2; k++) {
+        const char *name = NULL;
+        const Instance *other;
+        Place place;
+
+        CHECK(next_name(draft, &name, &place));
+        other = state_part(draft->state, name);
+        if (other == NULL)
+            CHECK(name_unknown(draft->state, "component", name, place, draft->diag));
+        part->parts[k] = other->number;
+        if (k > 0 && part->parts[0] == part->parts[1])
+            CHECK(
+                diag_at(draft->diag, E_VALUE, place, "both parts of %s are %s", part->name, name));
+    }
 done:
     return status;
 }
@@ -336,9 +388,14 @@ Status draft_read_places(Draft *draft)
         return driven_coordinate(draft);
     case PLACES_TRANSDUCER:
         CHECK(on_joint(draft));
-        return two_terminals(draft);
+        return read_terminals(draft);
     case PLACES_TERMINALS:
-        return two_terminals(draft);
+        return read_terminals(draft);
+    case PLACES_SENSED:
+        CHECK(sensed_value(draft));
+        return read_terminals(draft);
+    case PLACES_PARTS:
+        return two_parts(draft);
     }
 done:
     return status;

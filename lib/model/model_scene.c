@@ -208,8 +208,30 @@ done:
     return status;
 }
 
+/* set network tree|state: which equations of networks are integrated */
+static Status set_network(State *state, const Statement *statement, Outcome *outcome, Diag *diag)
+{
+    const Operand *last = &statement->operands.at[statement->operands.count - 1];
+    const char *form = syntax_name(last->value);
+    bool tree = form != NULL && strcmp(form, "tree") == 0;
+
+    if (statement->operands.count != 2 || (!tree && (form == NULL || strcmp(form, "state") != 0))) {
+        (void)diag_at(diag, E_VALUE, last->place, "the network's form is state or tree");
+        diag_hint(diag, "set network tree integrates the equations of the trees as they are");
+        return E_VALUE;
+    }
+    state->network_form = tree ? NETWORK_TREE : NETWORK_STATE;
+    outcome->effect = EFFECT_EQUATIONS;
+    return OK;
+}
+
 Status apply_set(State **state, const Statement *statement, Outcome *outcome, Diag *diag)
 {
+    const char *first =
+        statement->operands.count > 0 ? syntax_name(statement->operands.at[0].value) : NULL;
+
+    if (first != NULL && strcmp(first, "network") == 0)
+        return set_network(*state, statement, outcome, diag);
     return apply_pairs(state, statement, set_pair, outcome, diag);
 }
 

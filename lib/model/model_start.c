@@ -248,6 +248,7 @@ Status starts_copy(State *to, const State *from, NameList *broken, Text *remarks
         CHECK(copy_start(to, &from->starts.at[i], broken, remarks, diag));
     to->group_count = from->group_count;
     to->form = from->form;
+    to->network_form = from->network_form;
     for (int i = 0; i < from->independent.count; i++) {
         int owner;
         int coordinate;
@@ -271,6 +272,8 @@ void starts_save(const State *state, Text *text)
             text_addf(text, "%s%s", i == 0 ? " independent=[" : ", ", state->independent.at[i]);
         text_add(text, state->independent.count > 0 ? "]\n" : "\n");
     }
+    if (state->network_form == NETWORK_TREE)
+        text_add(text, "set network tree\n");
     for (int i = 0; i < state->starts.count; i++) {
         const StartEntry *entry = &state->starts.at[i];
         const StartEntry *before = i > 0 ? entry - 1 : NULL;

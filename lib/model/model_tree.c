@@ -14,8 +14,8 @@ static const TreeKind mechanical_kinds = TREE_ELECTRICAL; /* the kinds before it
 /* the edge of a part that a tree of this kind may span; -1: none */
 static int edge_in(const State *state, const Instance *part, TreeKind kind)
 {
-    if (part->scalar_edge >= 0 && graph_edge_in(state->graph, part->scalar_edge, kind))
-        return part->scalar_edge;
+    if (part->scalar_count > 0 && graph_edge_in(state->graph, part->scalar_edges[0], kind))
+        return part->scalar_edges[0];
     return part->edge >= 0 && graph_edge_in(state->graph, part->edge, kind) ? part->edge : -1;
 }
 
@@ -181,7 +181,7 @@ static Status read_edge(Request *request, const Operand *operand)
         if ((int)kind == request->kind && edge_in(state, part, kind) < 0)
             return diag_at(request->diag, E_BRANCH, operand->place,
                            "%s has no edge in the %s graph", name, tree_kind_name(kind));
-    if (part->edge < 0 && part->scalar_edge < 0)
+    if (part->edge < 0 && part->scalar_count == 0)
         return edge_unknown(request, name, operand->place);
     if (named(&request->add, part->name) || named(&request->drop, part->name))
         return diag_at(request->diag, E_NAME, operand->place, "%s is named twice", name);

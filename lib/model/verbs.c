@@ -26,7 +26,18 @@ static const struct {
     [PLACES_COORDINATE] = {"n=", " COORDINATE = EXPR [by=SOURCE]"},
     [PLACES_TERMINALS] = {"nppVk", " PLUS MINUS"},
     [PLACES_TRANSDUCER] = {"npppVk", " JOINT PLUS MINUS"},
+    [PLACES_SENSED] = {"nvppVk", " VARIABLE PLUS MINUS"},
+    [PLACES_PARTS] = {"nppVk", " PART PART"},
 };
+
+/* by number of terminals, where the parts's places are those alone */
+static const char *const terminal_shapes[] = {[2] = "nppVk", [3] = "npppVk", [4] = "nppppVk"};
+
+static const char *component_shape(const Component *row)
+{
+    return row->places == PLACES_TERMINALS ? terminal_shapes[component_terminals(row)]
+                                           : places[row->places].shape;
+}
 
 static VerbGroup component_group(const Component *row)
 {
@@ -37,7 +48,7 @@ static Verb component_verb(const Component *row)
 {
     return (Verb){.name = row->name,
                   .group = component_group(row),
-                  .shape = places[row->places].shape,
+                  .shape = component_shape(row),
                   .brief = row->brief,
                   .help = row->help,
                   .example = row->example,
@@ -146,7 +157,8 @@ void verb_usage(Text *text, const Verb *verb)
         text_add(text, verb->usage != NULL ? verb->usage : verb->name);
         return;
     }
-    text_addf(text, "%s NAME%s", row->name, places[row->places].usage);
+    text_addf(text, "%s NAME%s", row->name,
+              row->terminal_usage != NULL ? row->terminal_usage : places[row->places].usage);
     for (int i = 0; row->places != PLACES_COORDINATE && i < row->param_count; i++) {
         const Param *param = &row->params[i];
         bool must = param->fallback == NULL;

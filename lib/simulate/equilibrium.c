@@ -111,8 +111,8 @@ static Status compile(Statics *s, Diag *diag)
             LIST_PUSH(resistance, system_n_entry(l->system, i, j));
     for (int i = 0; i < l->nu * l->nu; i++)
         LIST_PUSH(resistance, run->mass[i]);
-    for (int i = 0; i < (l->nx + l->nz) * (l->nx + l->nz); i++)
-        LIST_PUSH(resistance, run->network[i]);
+    for (int i = 0; i < run->network_entries; i++)
+        LIST_PUSH(resistance, run->network[i].value);
     CHECK(probe_new(l, &s->parameters, resistance.at, resistance.count, &s->resistance, diag));
 done:
     LIST_FREE(rows);
@@ -358,15 +358,18 @@ static void resist(Statics *s, double resistance)
     RowValues row = row_of(s, s->v);
     const double *mass = probe_values(s->resistance, &row) + l->n * l->nu;
     const double *network = mass + l->nu * l->nu;
-    int w = l->nx + l->nz;
+    const Reading *run = system_run(s->system);
 
     for (int i = 0; i < l->nu; i++)
         for (int j = 0; j < l->nu; j++)
             s->jacobian[i * s->columns + j] += resistance * mass[i * l->nu + j];
-    for (int i = 0; i < w; i++)
-        for (int j = 0; j < l->nx; j++)
-            s->jacobian[(l->nu + l->m + i) * s->columns + l->nu + j] +=
-                resistance * network[i * w + j];
+    for (int i = 0; i < run->network_entries; i++) {
+        const Entry *at = &run->network[i];
+
+        if (at->column < l->nx)
+            s->jacobian[(l->nu + l->m + at->row) * s->columns + l->nu + at->column] +=
+                resistance * network[i];
+    }
 }
 
 static Status creep(Statics *s, bool *found, Diag *diag)

@@ -212,18 +212,11 @@ static Status compile_network(Inverse *in, Diag *diag)
 {
     const Layout *l = in->l;
     const Reading *run = system_run(l->system);
-    Arena *arena = system_arena(l->system);
     int w = l->nx + l->nz;
     Roots roots = {0};
 
-    for (int i = 0; i < w; i++) {
-        Expr sum = expr_neg(arena, run->network_rhs[i]);
-
-        for (int k = 0; k < w; k++)
-            sum = expr_add(arena, sum,
-                           expr_mul(arena, run->network[i * w + k], l->symbols[l->rates + k]));
-        LIST_PUSH(roots, sum);
-    }
+    for (int i = 0; i < w; i++)
+        LIST_PUSH(roots, run->network_residual[i]);
     push_gradients(in, &roots, w, &in->sources);
     return open_probe(in, &roots, &in->network, diag);
 }

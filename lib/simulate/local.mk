@@ -25,6 +25,8 @@ libcore_la_SOURCES += \
   lib/simulate/modes.c \
   lib/simulate/motion.c \
   lib/simulate/motion.h \
+  lib/simulate/netsolve.c \
+  lib/simulate/netsolve.h \
   lib/simulate/numbers.c \
   lib/simulate/numbers.h \
   lib/simulate/ode.h \
@@ -40,5 +42,7 @@ libcore_la_SOURCES += \
   lib/simulate/rows.h \
   lib/simulate/run.h \
   lib/simulate/simulate.c \
+  lib/simulate/sparse.c \
+  lib/simulate/sparse.h \
   lib/simulate/start.c \
   lib/simulate/start.h

@@ -8,12 +8,14 @@
 #include "simulate/embed.h"
 #include "simulate/kkt.h"
 #include "simulate/linear.h"
+#include "simulate/netsolve.h"
 #include "simulate/rank.h"
 
 #include <math.h>
 #include <string.h>
 
 #define PROJECTION_SWEEPS 8
+#define TURNS             50
 #define WORN              0.1 /* of Phi_d's pivot ratio when it was chosen */
 
 struct Motion {
@@ -25,10 +27,11 @@ struct Motion {
     double low, high; /* time window of evaluations */
     Kkt *kkt;
     Embed *embed;
-    Lu *network;
+    NetSolve *network;
     bool is_evaluated, is_factored, is_embedded_factored; /* at t, q */
     double t, *q;
-    double *solved; /* [x'; z] */
+    const double *solved; /* [x'; z] */
+    double *solved_before;
     double *top, *bottom, *du, *kept, *lambda, *lambda_all;
     double *dae_weight, *row_size;
     MotionCounts counts;
@@ -82,9 +85,10 @@ Motion *motion_new(const Equations *eq, const MotionOptions *options)
     mo->kkt = kkt_new(eq->nu, mo->used);
     if (options->embedded)
         mo->embed = embed_new(eq->nu, mo->used);
-    mo->network = lu_new(eq->nx + eq->nz);
+    mo->network = netsolve_new(eq);
+    mo->solved = netsolve_values(mo->network);
+    mo->solved_before = NEW_ARRAY(double, eq->nx + eq->nz);
     mo->q = NEW_ARRAY(double, eq->n);
-    mo->solved = NEW_ARRAY(double, eq->nx + eq->nz);
     mo->top = NEW_ARRAY(double, eq->nu);
     mo->bottom = NEW_ARRAY(double, mo->used);
     mo->du = NEW_ARRAY(double, eq->nu);
@@ -105,9 +109,9 @@ void motion_free(Motion *mo)
     mem_free(mo->wanted);
     kkt_free(mo->kkt);
     embed_free(mo->embed);
-    lu_free(mo->network);
+    netsolve_free(mo->network);
+    mem_free(mo->solved_before);
     mem_free(mo->q);
-    mem_free(mo->solved);
     mem_free(mo->top);
     mem_free(mo->bottom);
     mem_free(mo->du);
@@ -186,18 +190,6 @@ static bool factor_embedded(Motion *mo)
     return mo->is_embedded_factored;
 }
 
-static bool solve_network(Motion *mo)
-{
-    int n = mo->eq->nx + mo->eq->nz;
-
-    memcpy(lu_matrix(mo->network), mo->eq->network, (size_t)(n * n) * sizeof(double));
-    if (!lu_factor(mo->network))
-        return false;
-    memcpy(mo->solved, mo->eq->network_rhs, (size_t)n * sizeof(double));
-    lu_solve(mo->network, mo->solved);
-    return true;
-}
-
 /* everything but the solution for u': false where the network can't be solved */
 static bool evaluate(Motion *mo, double t, const double *y)
 {
@@ -205,7 +197,7 @@ static bool evaluate(Motion *mo, double t, const double *y)
 
     at_position(mo, fmin(fmax(t, mo->low), mo->high), y);
     eq->velocity(eq->context, y + eq->n, y + eq->n + eq->nu);
-    if (!solve_network(mo))
+    if (!netsolve_find(mo->network))
         return false;
     eq->network_solved(eq->context, mo->solved);
     return true;
@@ -235,6 +227,14 @@ static bool solve_embedded(Motion *mo)
     return true;
 }
 
+/* The multipliers of rows in use among all; 0 for the others. */
+static void place_multipliers(Motion *mo)
+{
+    memset(mo->lambda_all, 0, (size_t)mo->eq->m * sizeof(double));
+    for (int k = 0; k < mo->used; k++)
+        mo->lambda_all[mo->rows[k]] = mo->lambda[k];
+}
+
 /* after u' is known: power may read it and the multipliers, also in the embedded form */
 static void bring_power(Motion *mo, const double *acceleration)
 {
@@ -246,9 +246,7 @@ static void bring_power(Motion *mo, const double *acceleration)
             return;
         memcpy(mo->du, mo->kept, (size_t)mo->eq->nu * sizeof(double));
     }
-    memset(mo->lambda_all, 0, (size_t)mo->eq->m * sizeof(double));
-    for (int k = 0; k < mo->used; k++)
-        mo->lambda_all[mo->rows[k]] = mo->lambda[k];
+    place_multipliers(mo);
     mo->eq->accelerated(mo->eq->context, mo->du, mo->lambda_all);
 }
 
@@ -262,13 +260,45 @@ static void write_rates(const Motion *mo, double *out)
     out[eq->n + eq->nu + eq->nx] = eq->power != NULL ? *eq->power : 0;
 }
 
+/* A network that reads u' or lambda, while forces read the network: each in turn, until nothing
+ * changes. Where forces don't read what follows from it, the second turn is the last. */
+static bool solve_together(Motion *mo)
+{
+    const Equations *eq = mo->eq;
+    int n = eq->nx + eq->nz;
+
+    for (int k = 0; k < TURNS; k++) {
+        bool changed = false;
+
+        if (!solve_augmented(mo))
+            return false;
+        place_multipliers(mo);
+        memcpy(mo->solved_before, mo->solved, (size_t)n * sizeof(double));
+        eq->network_reads(eq->context, mo->du, mo->lambda_all);
+        if (!netsolve_find(mo->network))
+            return false;
+        for (int i = 0; i < n; i++)
+            changed = changed || !(fabs(mo->solved[i] - mo->solved_before[i]) <=
+                                   1e-13 * fabs(mo->solved[i]) + 1e-15);
+        if (!changed)
+            return true;
+        eq->network_solved(eq->context, mo->solved);
+    }
+    return false;
+}
+
+static bool solve_motion(Motion *mo)
+{
+    if (mo->eq->network_reads != NULL && !solve_together(mo))
+        return false;
+    return mo->embed != NULL ? solve_embedded(mo) : solve_augmented(mo);
+}
+
 static bool rate(void *context, double t, const double *y, double *out)
 {
     Motion *mo = context;
 
-    if (!evaluate(mo, t, y))
-        return false;
-    if (!(mo->embed != NULL ? solve_embedded(mo) : solve_augmented(mo)))
+    if (!evaluate(mo, t, y) || !solve_motion(mo))
         return false;
     bring_power(mo, mo->du);
     write_rates(mo, out);
@@ -285,15 +315,14 @@ static void spread_multipliers(Motion *mo)
             mo->lambda_all[mo->rows[k]] = mo->lambda[k];
         return;
     }
-    memset(mo->lambda_all, 0, (size_t)eq->m * sizeof(double));
-    for (int k = 0; k < mo->used; k++)
-        mo->lambda_all[mo->rows[k]] = mo->lambda[k];
+    place_multipliers(mo);
     rank_least_multipliers(eq->phi_u, eq->m, eq->nu, mo->lambda_all);
 }
 
 bool motion_solve(Motion *mo, double t, const double *y, Solved *out)
 {
-    if (!evaluate(mo, t, y) || !solve_augmented(mo))
+    if (!evaluate(mo, t, y) || (mo->eq->network_reads != NULL && !solve_together(mo)) ||
+        !solve_augmented(mo))
         return false;
     spread_multipliers(mo);
     *out = (Solved){.acceleration = mo->du,
@@ -547,6 +576,8 @@ static bool dae_residual(void *context, double t, const double *w, const double 
 
     if (!evaluate(mo, t, w))
         return false;
+    if (eq->network_reads != NULL && !solve_together(mo))
+        return false;
     if (eq->accelerated != NULL) {
         memset(mo->lambda_all, 0, (size_t)eq->m * sizeof(double));
         for (int k = 0; k < mo->used && mo->embed == NULL; k++)
@@ -578,7 +609,8 @@ static bool dae_start(void *context, double t, const double *y, double *w, doubl
     memset(w, 0, (size_t)mo->ode.dae.n * sizeof(double));
     memset(w_rate, 0, (size_t)mo->ode.dae.n * sizeof(double));
     memcpy(w, y, (size_t)tail * sizeof(double));
-    if (!evaluate(mo, t, y) || !solve_augmented(mo))
+    if (!evaluate(mo, t, y) || (mo->eq->network_reads != NULL && !solve_together(mo)) ||
+        !solve_augmented(mo))
         return false;
     bring_power(mo, mo->du);
     write_rates(mo, w_rate);

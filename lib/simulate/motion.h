@@ -1,7 +1,7 @@
 /* motion.h: the equations of a system in numbers: rates, multipliers, projection
  *
  *     q' = N u,   Phi(q,t) = 0,   Phi_u u = nu,   Phi_u u' = gamma
- *     M u' + Phi_u^T lambda = F,   A [x'; z] = r
+ *     M u' + Phi_u^T lambda = F,   G([x'; z]) = 0
  *
  * Equations is what a model supplies: functions that bring arrays up to date. A Motion
  * solves them, in the augmented or the embedded form, and is an Ode in y = (q, u, x, work).
@@ -16,25 +16,33 @@ typedef struct Equations {
     void *context;
     /* bring phi, phi_u, mass, map up to date */
     void (*position)(void *context, double t, const double *q);
-    /* then q_rate, nu, gamma, network, network_rhs */
+    /* then q_rate, nu, gamma; network, network_rhs where network_at is NULL */
     void (*velocity)(void *context, const double *u, const double *x);
+    /* then network and network_residual at w = [x'; z]; NULL: the network is linear, A w = r */
+    void (*network_at)(void *context, const double *w);
+    /* u' and the multipliers of all m rows, for a network that reads them; NULL: it doesn't */
+    void (*network_reads)(void *context, const double *acceleration, const double *multipliers);
     /* then force; `solved` is [x'; z] */
     void (*network_solved)(void *context, const double *solved);
     /* then power; NULL when it is known before. `multipliers` of all m rows. */
     void (*accelerated)(void *context, const double *acceleration, const double *multipliers);
-    const double *phi;         /* m */
-    const double *phi_u;       /* m x nu */
-    const double *mass;        /* nu x nu */
-    const double *map;         /* n x nu: N; NULL: identity, n == nu */
-    const double *q_rate;      /* n */
-    const double *nu_rate;     /* m: right-hand side of the velocity constraints */
-    const double *gamma;       /* m */
-    const double *network;     /* (nx+nz)^2: A */
-    const double *network_rhs; /* nx+nz: r */
-    const double *force;       /* nu */
-    const double *power;       /* 1: work done on the system per time, W; NULL: not known */
-    const double *cap;         /* n+nu+nx, for Ode; may be NULL */
-    const int *quaternions;    /* first of each four Euler parameters */
+    const double *phi;     /* m */
+    const double *phi_u;   /* m x nu */
+    const double *mass;    /* nu x nu */
+    const double *map;     /* n x nu: N; NULL: identity, n == nu */
+    const double *q_rate;  /* n */
+    const double *nu_rate; /* m: right-hand side of the velocity constraints */
+    const double *gamma;   /* m */
+    int network_entries;   /* of A = dG/dw */
+    const int *network_row, *network_column;
+    const double *network;          /* network_entries */
+    const double *network_rhs;      /* nx+nz: r */
+    const double *network_residual; /* nx+nz: G */
+    bool network_is_constant;       /* A never changes in a run */
+    const double *force;            /* nu */
+    const double *power;            /* 1: work done on the system per time, W; NULL: not known */
+    const double *cap;              /* n+nu+nx, for Ode; may be NULL */
+    const int *quaternions;         /* first of each four Euler parameters */
     int quaternion_count;
     /* conditions whose change of sign may bend or break the equations; time_only ones first */
     int switch_count, time_only;

@@ -211,9 +211,10 @@ const double *probe_values(Probe *probe, const RowValues *row)
 struct Numbers {
     Equations eq;
     const Layout *layout;
-    Program *program, *switch_program;
-    Workspace *workspace, *switch_workspace;
-    int *quaternions;
+    Program *program, *switch_program, *network_program;
+    Workspace *workspace, *switch_workspace, *network_workspace;
+    int *quaternions, *network_places;
+    bool is_network_new; /* network_workspace has seen t, q, u, x as they are */
     double *cap;
 };
 
@@ -235,6 +236,37 @@ static void velocity(void *context, const double *u, const double *x)
     put(inputs, nb->layout->u, u, nb->layout->nu);
     put(inputs, nb->layout->x, x, nb->layout->nx);
     workspace_run(nb->workspace, STAGE_VELOCITY, STAGE_VELOCITY);
+    nb->is_network_new = true;
+}
+
+static void copy_inputs(const Numbers *nb, int first, int count)
+{
+    memcpy(workspace_inputs(nb->network_workspace) + first, workspace_inputs(nb->workspace) + first,
+           (size_t)count * sizeof(double));
+}
+
+static void network_at(void *context, const double *w)
+{
+    Numbers *nb = context;
+    const Layout *l = nb->layout;
+    double *inputs = workspace_inputs(nb->network_workspace);
+
+    put(inputs, l->rates, w, l->nx);
+    put(inputs, l->z, w + l->nx, l->nz);
+    if (nb->is_network_new)
+        copy_inputs(nb, l->t, l->rates - l->t);
+    workspace_run(nb->network_workspace, nb->is_network_new ? STAGE_TIME : STAGE_NETWORK,
+                  STAGE_ACCELERATION);
+    nb->is_network_new = false;
+}
+
+static void network_reads(void *context, const double *acceleration, const double *multipliers)
+{
+    Numbers *nb = context;
+    double *inputs = workspace_inputs(nb->network_workspace);
+
+    put(inputs, nb->layout->acceleration, acceleration, nb->layout->nu);
+    put(inputs, nb->layout->multipliers, multipliers, nb->layout->m);
 }
 
 static void network_solved(void *context, const double *solved)
@@ -295,12 +327,68 @@ static bool is_identity(System *system)
     return n == nu;
 }
 
+/* places of the entries of A, and the latest stage of what the network's equations hold */
+static Stage network_shape(Numbers *nb)
+{
+    const Reading *r = system_run(nb->layout->system);
+    Stage stage = STAGE_PARAMETER;
+
+    nb->network_places = NEW_ARRAY(int, 2 * r->network_entries);
+    nb->eq.network_entries = r->network_entries;
+    nb->eq.network_row = nb->network_places;
+    nb->eq.network_column = nb->network_places + r->network_entries;
+    nb->eq.network_is_constant = true;
+    for (int i = 0; i < r->network_entries; i++) {
+        nb->network_places[i] = r->network[i].row;
+        nb->network_places[r->network_entries + i] = r->network[i].column;
+        if (stage_of(r->network[i].value) > STAGE_PARAMETER)
+            nb->eq.network_is_constant = false;
+        if (stage_of(r->network[i].value) > stage)
+            stage = stage_of(r->network[i].value);
+    }
+    for (int i = 0; i < nb->layout->nx + nb->layout->nz; i++)
+        if (stage_of(r->network_rhs[i]) > stage)
+            stage = stage_of(r->network_rhs[i]);
+    return stage;
+}
+
+static int network_block(Roots *roots, const Reading *r)
+{
+    int first = roots->count;
+
+    for (int i = 0; i < r->network_entries; i++)
+        LIST_PUSH(*roots, r->network[i].value);
+    return first;
+}
+
+/* equations that are solved by iteration have a program of their own */
+static Status compile_network(Numbers *nb, Parameters *parameters, Diag *diag)
+{
+    const Layout *l = nb->layout;
+    const Reading *r = system_run(l->system);
+    Roots roots = {0};
+    int network = network_block(&roots, r);
+    int residual = block(&roots, r->network_residual, l->nx + l->nz);
+    Status status = OK;
+
+    parameters_keep(parameters, roots.at, roots.count);
+    CHECK(compile(l, parameters, roots.at, roots.count, &nb->network_program,
+                  &nb->network_workspace, diag));
+    nb->eq.network = workspace_roots(nb->network_workspace) + network;
+    nb->eq.network_residual = workspace_roots(nb->network_workspace) + residual;
+    nb->eq.network_at = network_at;
+done:
+    LIST_FREE(roots);
+    return status;
+}
+
 static Status compile_equations(Numbers *nb, Parameters *parameters, Diag *diag)
 {
     const Layout *l = nb->layout;
     const Reading *r = system_run(l->system);
     Expr power = system_power(l->system);
-    int w = l->nx + l->nz;
+    Stage stage = network_shape(nb);
+    bool iterates = r->network_nonlinear || stage > STAGE_VELOCITY;
     Roots roots = {0};
     int phi = block(&roots, r->phi, l->m);
     int phi_u = block(&roots, r->phi_u, l->m * l->nu);
@@ -308,8 +396,8 @@ static Status compile_equations(Numbers *nb, Parameters *parameters, Diag *diag)
     int nu_rate = block(&roots, r->nu, l->m);
     int gamma = block(&roots, r->gamma, l->m);
     int q_rate = block(&roots, r->q_rate, l->n);
-    int network = block(&roots, r->network, w * w);
-    int rhs = block(&roots, r->network_rhs, w);
+    int network = iterates ? 0 : network_block(&roots, r);
+    int rhs = block(&roots, r->network_rhs, iterates ? 0 : l->nx + l->nz);
     int force = block(&roots, r->force, l->nu);
     int work = block(&roots, &power, 1);
     int map = roots.count;
@@ -334,6 +422,9 @@ static Status compile_equations(Numbers *nb, Parameters *parameters, Diag *diag)
     nb->eq.power = at + work;
     nb->eq.map = map < roots.count ? at + map : NULL;
     nb->eq.accelerated = stage_of(power) == STAGE_ACCELERATION ? accelerated : NULL;
+    nb->eq.network_reads = stage == STAGE_ACCELERATION ? network_reads : NULL;
+    if (iterates)
+        CHECK(compile_network(nb, parameters, diag));
 done:
     LIST_FREE(roots);
     return status;
@@ -406,9 +497,12 @@ void numbers_free(Numbers *nb)
         return;
     workspace_free(nb->workspace);
     program_free(nb->program);
+    workspace_free(nb->network_workspace);
+    program_free(nb->network_program);
     workspace_free(nb->switch_workspace);
     program_free(nb->switch_program);
     mem_free(nb->quaternions);
+    mem_free(nb->network_places);
     mem_free(nb->cap);
     mem_free(nb);
 }

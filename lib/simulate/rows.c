@@ -54,14 +54,7 @@ Expr row_velocity(const Layout *l, int constraint)
 
 Expr row_network(const Layout *l, int equation)
 {
-    const Reading *run = system_run(l->system);
-    Arena *arena = system_arena(l->system);
-    int w = l->nx + l->nz;
-    Expr sum = expr_neg(arena, run->network_rhs[equation]);
-
-    for (int k = 0; k < w; k++) /* x' and z stand together */
-        sum = plus_product(arena, sum, run->network[equation * w + k], l->symbols[l->rates + k]);
-    return sum;
+    return system_run(l->system)->network_residual[equation];
 }
 
 int speed_coordinate(const System *system, int speed)

@@ -14,7 +14,7 @@ typedef struct Problem {
     double phi[8], phi_u[8 * 8], mass[8 * 8], map[8 * 8], q_rate[8], nu_rate[8], gamma[8];
     double network[4], network_rhs[2], force[8], power[1];
     double q[8], u[8], x[2], t;
-    int rows[8];
+    int rows[8], network_places[8];
 } Problem;
 
 static void problem_link(Problem *p, int n, int nu, int m, int nx)
@@ -30,6 +30,13 @@ static void problem_link(Problem *p, int n, int nu, int m, int nx)
     p->eq.q_rate = p->q_rate;
     p->eq.nu_rate = p->nu_rate;
     p->eq.gamma = p->gamma;
+    for (int i = 0; i < nx * nx; i++) {
+        p->network_places[i] = i / nx;
+        p->network_places[4 + i] = i % nx;
+    }
+    p->eq.network_entries = nx * nx;
+    p->eq.network_row = p->network_places;
+    p->eq.network_column = p->network_places + 4;
     p->eq.network = p->network;
     p->eq.network_rhs = p->network_rhs;
     p->eq.force = p->force;

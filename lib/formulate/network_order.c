@@ -1,0 +1,281 @@
+/* network_order.c: the equations of the user's tree, brought to a form that can be solved
+ *
+ * Each unknown has a highest rate in the equations; they hold these linearly, and are solved for
+ * them. Where their matrix L is singular throughout, elimination leaves a row without them. That
+ * row tells the next lower rate of one of its unknowns, and, differentiated, the highest one, which
+ * is put into the other rows: the unknown has then one order less. theory.md 8. */
+#include "formulate/system_impl.h"
+
+#include <math.h>
+#include <string.h>
+
+#define ROUNDS 200
+
+typedef struct Order {
+    System *system;
+    int count;
+    Expr *row; /* G, one an unknown */
+    Expr *L;   /* count x count */
+    double *number;
+} Order;
+
+/* --- numbers to look at instead of proofs --- */
+
+static double some_value(void *context, Expr symbol)
+{
+    uint32_t x = (uint32_t)expr_symbol_number(symbol) * 2654435761U + *(const uint32_t *)context;
+
+    x ^= x >> 15;
+    x *= 2246822519U;
+    x ^= x >> 13;
+    return 0.7 + 0.6 * (double)x / 4294967296.0;
+}
+
+/* zero at three places is zero */
+static bool vanishes(Expr e)
+{
+    for (uint32_t seed = 1; seed <= 3; seed++)
+        if (fabs(expr_evaluate(e, some_value, &seed)) > 1e-11)
+            return false;
+    return true;
+}
+
+/* rank of L at one place; O(count^3) */
+static int rank_at(Order *o, uint32_t seed)
+{
+    int n = o->count;
+    double *a = o->number;
+    int rank = 0;
+
+    for (int i = 0; i < n * n; i++)
+        a[i] = expr_is_zero(o->L[i]) ? 0 : expr_evaluate(o->L[i], some_value, &seed);
+    for (int c = 0; c < n && rank < n; c++) {
+        int p = rank;
+
+        for (int r = rank; r < n; r++)
+            if (fabs(a[r * n + c]) > fabs(a[p * n + c]))
+                p = r;
+        if (!(fabs(a[p * n + c]) > 1e-10))
+            continue;
+        for (int k = 0; k < n; k++) {
+            double kept = a[p * n + k];
+
+            a[p * n + k] = a[rank * n + k];
+            a[rank * n + k] = kept;
+        }
+        for (int r = rank + 1; r < n; r++) {
+            double f = a[r * n + c] / a[rank * n + c];
+
+            for (int k = c; k < n && f != 0; k++)
+                a[r * n + k] -= f * a[rank * n + k];
+        }
+        rank++;
+    }
+    return rank;
+}
+
+/* --- symbols --- */
+
+/* y^(order) */
+static Expr rate_symbol(const Unknown *y, int order)
+{
+    return order == 0 ? y->symbol : y->rates[order - 1];
+}
+
+static Expr highest(const Order *o, int j)
+{
+    const Unknown *y = &o->system->unknowns.at[j];
+
+    return rate_symbol(y, y->order);
+}
+
+static void form_leading(Order *o)
+{
+    for (int i = 0; i < o->count; i++)
+        for (int j = 0; j < o->count; j++)
+            o->L[i * o->count + j] = expr_diff(o->system->arena, o->row[i], highest(o, j));
+}
+
+/* --- one row without highest rates --- */
+
+/* Eliminate until a row has none of them left; which row, its remainder in *out. */
+static int leftover(Order *o, Expr *out)
+{
+    Arena *arena = o->system->arena;
+    int n = o->count;
+    Expr *row = NEW_ARRAY(Expr, n);
+    Expr *L = NEW_ARRAY(Expr, n * n);
+    bool *used = NEW_ARRAY(bool, n);
+    int found = -1;
+
+    memcpy(row, o->row, (size_t)n * sizeof(Expr));
+    memcpy(L, o->L, (size_t)(n * n) * sizeof(Expr));
+    for (int c = 0; c < n; c++) {
+        int p = -1;
+
+        for (int r = 0; r < n && p < 0; r++)
+            if (!used[r] && !vanishes(L[r * n + c]))
+                p = r;
+        if (p < 0)
+            continue;
+        used[p] = true;
+        for (int r = 0; r < n; r++) {
+            Expr f;
+
+            if (used[r] || vanishes(L[r * n + c]))
+                continue;
+            f = expr_div(arena, L[r * n + c], L[p * n + c]);
+            for (int k = 0; k < n; k++)
+                L[r * n + k] = expr_fold(
+                    arena, expr_sub(arena, L[r * n + k], expr_mul(arena, f, L[p * n + k])));
+            row[r] = expr_sub(arena, row[r], expr_mul(arena, f, row[p]));
+        }
+    }
+    for (int r = 0; r < n && found < 0; r++)
+        if (!used[r]) {
+            /* what is left of the highest rates cancels */
+            *out = row[r];
+            for (int j = 0; j < n; j++) {
+                Expr symbol = highest(o, j);
+                Expr zero = expr_int(arena, 0);
+
+                *out = expr_substitute(arena, *out, &symbol, &zero, 1);
+            }
+            *out = expr_fold(arena, *out);
+            found = r;
+        }
+    mem_free(row);
+    mem_free(L);
+    mem_free(used);
+    return found;
+}
+
+/* The unknown whose order the row lowers: that of which it holds the rate below the highest. */
+static int lowered_by(const Order *o, Expr row)
+{
+    int best = -1;
+
+    for (int j = 0; j < o->count; j++) {
+        const Unknown *y = &o->system->unknowns.at[j];
+
+        if (y->order > 0 &&
+            !vanishes(expr_diff(o->system->arena, row, rate_symbol(y, y->order - 1))) &&
+            (best < 0 || y->order > o->system->unknowns.at[best].order))
+            best = j;
+    }
+    return best;
+}
+
+static Status cant_order(const Order *o, int row, Diag *diag)
+{
+    const Unknown *y = &o->system->unknowns.at[row];
+
+    (void)diag_set(diag, E_MODEL, "the equations of this electrical tree can't be solved for %s",
+                   expr_name(y->symbol));
+    diag_hint(diag, "set network state integrates the state form, which any network has");
+    return E_MODEL;
+}
+
+static Status lower(Order *o, Diag *diag)
+{
+    System *system = o->system;
+    Arena *arena = system->arena;
+    Expr rest = NULL;
+    int r = leftover(o, &rest);
+    int j = r >= 0 ? lowered_by(o, rest) : -1;
+    Expr top;
+    Expr rate;
+    Expr solved;
+    Expr zero = expr_int(arena, 0);
+    Status status = OK;
+
+    if (j < 0)
+        return cant_order(o, r >= 0 ? r : 0, diag);
+    top = highest(o, j);
+    CHECK(rate_of(system, rest, &rate, diag));
+    solved = expr_neg(arena, expr_div(arena, expr_substitute(arena, rate, &top, &zero, 1),
+                                      expr_diff(arena, rate, top)));
+    for (int i = 0; i < o->count; i++)
+        if (i != r)
+            o->row[i] = expr_substitute(arena, o->row[i], &top, &solved, 1);
+    for (int b = 0; b < system->branches.count; b++) {
+        Branchlike *branch = &system->branches.at[b];
+
+        branch->v = expr_substitute(arena, branch->v, &top, &solved, 1);
+        branch->i = expr_substitute(arena, branch->i, &top, &solved, 1);
+    }
+    o->row[r] = rest;
+    system->unknowns.at[j].order--;
+done:
+    return status;
+}
+
+/* --- the end --- */
+
+/* highest rates become what is solved for */
+static void rename(Order *o)
+{
+    System *system = o->system;
+    Arena *arena = system->arena;
+    Expr *from = NEW_ARRAY(Expr, o->count);
+    Expr *to = NEW_ARRAY(Expr, o->count);
+
+    for (int j = 0; j < o->count; j++) {
+        Unknown *y = &system->unknowns.at[j];
+
+        from[j] = highest(o, j);
+        to[j] = expr_symbol(arena, expr_name(from[j]),
+                            y->order == 0 ? SYMBOL_ALGEBRAIC : SYMBOL_STATE_RATE);
+        if (y->order == 0)
+            y->symbol = to[j];
+        else
+            y->rates[y->order - 1] = to[j];
+        network_know(system, to[j], j, y->order);
+    }
+    for (int j = 0; j < o->count; j++) {
+        Unknown *y = &system->unknowns.at[j];
+
+        y->left = expr_substitute(arena, y->left, from, to, o->count);
+        y->right = expr_substitute(arena, y->right, from, to, o->count);
+        y->residual = expr_substitute(arena, o->row[j], from, to, o->count);
+    }
+    for (int b = 0; b < system->branches.count; b++) {
+        Branchlike *branch = &system->branches.at[b];
+
+        branch->v = expr_substitute(arena, branch->v, from, to, o->count);
+        branch->i = expr_substitute(arena, branch->i, from, to, o->count);
+    }
+    mem_free(from);
+    mem_free(to);
+}
+
+Status network_bring_order(System *system, Diag *diag)
+{
+    Order o = {.system = system, .count = system->unknowns.count};
+    Status status = OK;
+
+    for (int k = 0; k < system->unknowns.count; k++)
+        CHECK(network_row(system, k, diag));
+    o.count = system->unknowns.count;
+    o.row = NEW_ARRAY(Expr, o.count);
+    o.L = NEW_ARRAY(Expr, o.count * o.count);
+    o.number = NEW_ARRAY(double, o.count *o.count);
+    for (int k = 0; k < o.count; k++)
+        o.row[k] = expr_sub(system->arena, expr_open(system->arena, system->unknowns.at[k].left),
+                            expr_open(system->arena, system->unknowns.at[k].right));
+    for (int round = 0;; round++) {
+        form_leading(&o);
+        if (rank_at(&o, 1) == o.count || rank_at(&o, 2) == o.count)
+            break;
+        if (round == ROUNDS)
+            CHECK(cant_order(&o, 0, diag));
+        CHECK(poll(system->watch));
+        CHECK(lower(&o, diag));
+    }
+    rename(&o);
+done:
+    mem_free(o.row);
+    mem_free(o.L);
+    mem_free(o.number);
+    return status;
+}

@@ -1,0 +1,328 @@
+/* network_rows.c: equations of the network's unknowns, G([x'; z], ...) = 0, and their Jacobian */
+#include "formulate/system_impl.h"
+
+#include <string.h>
+
+static const unsigned solved_kinds = 1U << SYMBOL_STATE_RATE | 1U << SYMBOL_ALGEBRAIC;
+
+/* --- one equation --- */
+
+/* terms of the left side that hold no rate go to the right, where a reader looks for them */
+static void sort_sides(System *system, Unknown *y)
+{
+    Arena *arena = system->arena;
+    Expr left = expr_open(arena, y->left);
+    LIST(Expr) stay = {0};
+    LIST(Expr) move = {0};
+
+    if (expr_kind(left) == EXPR_SUM) {
+        for (int i = 0; i < expr_arg_count(left); i++) {
+            Expr term = expr_arg(left, i);
+            Expr own = y->order > 0 ? y->rates[0] : y->symbol;
+
+            if (expr_is_zero(expr_diff(arena, term, own)))
+                LIST_PUSH(move, term);
+            else
+                LIST_PUSH(stay, term);
+        }
+        if (stay.count > 0 && move.count > 0) {
+            y->left = expr_sum(arena, stay.at, stay.count);
+            y->right =
+                expr_sub(arena, expr_open(arena, y->right), expr_sum(arena, move.at, move.count));
+        }
+    }
+    LIST_FREE(stay);
+    LIST_FREE(move);
+}
+
+/* left = right by the relation of an edge */
+static Status relation_row(System *system, Unknown *y, Diag *diag)
+{
+    Arena *arena = system->arena;
+    Branchlike *branch = &system->branches.at[y->branchlike];
+    const Relation *relation = &branch->relation;
+    Expr v;
+    Expr i;
+    Expr value = NULL;
+    Expr rest = NULL;
+    Expr content = NULL;
+    Status status = OK;
+
+    CHECK(network_across(system, branch, &v, diag));
+    CHECK(network_through(system, branch, &i, diag));
+    if (relation->value != NULL)
+        CHECK(resolve(system, relation->value, &value, diag));
+    if (relation->rest != NULL)
+        CHECK(resolve(system, relation->rest, &rest, diag));
+    if (relation->content != NULL) {
+        CHECK(resolve(system, relation->content, &content, diag));
+        CHECK(need_smooth(system, graph_edge(system->graph, branch->edge)->name, content, diag));
+        CHECK(rate_of(system, content, &content, diag));
+    }
+    switch (relation->kind) {
+    case RELATION_ACROSS:
+        y->left = v;
+        y->right = value;
+        break;
+    case RELATION_THROUGH:
+    case RELATION_CONDUCTIVE:
+        y->left = i;
+        y->right = value;
+        break;
+    case RELATION_RESISTIVE:
+        y->left = branch->branch ? v : expr_mul(arena, value, i);
+        y->right = branch->branch ? expr_add(arena, expr_mul(arena, value, i), rest)
+                                  : expr_sub(arena, v, rest);
+        break;
+    case RELATION_CAPACITIVE:
+        y->left = content;
+        y->right = expr_sub(arena, i, rest);
+        break;
+    case RELATION_INDUCTIVE:
+        y->left = content;
+        y->right = expr_sub(arena, v, rest);
+        break;
+    case RELATION_FREE:
+        y->left = value;
+        y->right = expr_int(arena, 0);
+        break;
+    }
+done:
+    return status;
+}
+
+static Status own_row(System *system, Unknown *y, Diag *diag)
+{
+    const Instance *instance = &system->instances[y->instance];
+    OwnState own;
+    Status status = OK;
+
+    instance->row->own_state(instance, system->arena, y->own, &own);
+    CHECK(rate_of(system, y->symbol, &y->left, diag));
+    CHECK(resolve(system, own.rate, &y->right, diag));
+done:
+    return status;
+}
+
+Status network_row(System *system, int unknown, Diag *diag)
+{
+    Arena *arena = system->arena;
+    Unknown y = system->unknowns.at[unknown]; /* the list may move on the way */
+    Status status = OK;
+
+    if (y.has_row)
+        return OK;
+    if (y.derives >= 0) {
+        CHECK(network_row(system, y.derives, diag));
+        y.left = expr_open(arena, system->unknowns.at[y.derives].left);
+        y.right = expr_open(arena, system->unknowns.at[y.derives].right);
+        CHECK(need_smooth(system, system->instances[y.instance].name,
+                          expr_sub(arena, y.left, y.right), diag));
+        CHECK(rate_of(system, y.left, &y.left, diag));
+        CHECK(rate_of(system, y.right, &y.right, diag));
+    } else if (y.branchlike >= 0) {
+        CHECK(relation_row(system, &y, diag));
+    } else {
+        CHECK(own_row(system, &y, diag));
+    }
+    y.order = system->unknowns.at[unknown].order;
+    y.rates = system->unknowns.at[unknown].rates;
+    sort_sides(system, &y);
+    y.right = expr_fold(arena, expr_open(arena, y.right));
+    y.has_row = true;
+    system->unknowns.at[unknown] = y;
+done:
+    return status;
+}
+
+/* --- lists --- */
+
+void network_list(System *system)
+{
+    for (; system->listed < system->unknowns.count; system->listed++) {
+        const Unknown *y = &system->unknowns.at[system->listed];
+        Expr symbol = y->symbol;
+
+        for (int k = 0; k <= y->order; k++) {
+            Variable variable = {
+                .name = expr_name(symbol), .symbol = symbol, .edge = -1, .instance = y->instance};
+
+            if (y->branchlike >= 0)
+                variable.edge = system->branches.at[y->branchlike].edge;
+            if (expr_symbol_kind(symbol) == SYMBOL_STATE_RATE)
+                break; /* solved for */
+            if (expr_symbol_kind(symbol) == SYMBOL_ALGEBRAIC) {
+                if (k == 0)
+                    LIST_PUSH(system->z, variable);
+                break;
+            }
+            LIST_PUSH(system->x, variable);
+            LIST_PUSH(system->rates,
+                      expr_symbol(system->arena, system_keep(system, "%s'", variable.name),
+                                  SYMBOL_STATE_RATE));
+            symbol = k < y->order ? y->rates[k] : NULL;
+            if (symbol == NULL)
+                break;
+        }
+    }
+}
+
+/* --- Jacobian --- */
+
+typedef struct Rows {
+    System *system;
+    int count;        /* of equations and unknowns */
+    LIST(int) column; /* by expr_symbol_number(): 1 + place in [x'; z]; 0: none */
+    LIST(Entry) entries;
+} Rows;
+
+static void place(Rows *rows, Expr symbol, int column)
+{
+    while (rows->column.count <= expr_symbol_number(symbol))
+        LIST_PUSH(rows->column, 0);
+    rows->column.at[expr_symbol_number(symbol)] = 1 + column;
+}
+
+/* what to say of an equation that none of the unknowns can meet */
+static Status cant_be_met(System *system, const Unknown *y, Diag *diag)
+{
+    const Branchlike *branch = y->branchlike >= 0 ? &system->branches.at[y->branchlike] : NULL;
+    RelationKind kind = branch != NULL ? branch->relation.kind : RELATION_FREE;
+
+    if (kind == RELATION_ACROSS && !branch->branch) {
+        (void)diag_set(diag, E_MODEL, "the sources %s form a circuit",
+                       network_company(system, branch));
+        diag_hint(diag, "put a resistance into it, or leave one of them out");
+    } else if (kind == RELATION_THROUGH && branch->branch) {
+        (void)diag_set(diag, E_MODEL, "nothing but the sources %s joins two parts of the network",
+                       network_company(system, branch));
+        diag_hint(diag, "put a resistance across one of them");
+    } else {
+        (void)diag_set(diag, E_MODEL, "nothing in the network can satisfy the equation of %s",
+                       system->instances[y->instance].name);
+        diag_hint(diag, "what it asks for is fixed by states and sources already: put a resistor "
+                        "or a capacitor between");
+    }
+    return E_MODEL;
+}
+
+static Status add_row(Rows *rows, int row, Expr residual, const Unknown *y, Diag *diag)
+{
+    System *system = rows->system;
+    Arena *arena = system->arena;
+    Reading *run = &system->run;
+    Expr *symbols;
+    int count = expr_symbols(&residual, 1, &symbols);
+    int first = rows->entries.count;
+    int used = 0;
+    Expr *zeros = NEW_ARRAY(Expr, count);
+    Status status = OK;
+
+    for (int i = 0; i < count; i++) {
+        Expr slope;
+
+        if ((expr_kinds(symbols[i]) & solved_kinds) == 0)
+            continue;
+        symbols[used] = symbols[i];
+        zeros[used++] = expr_int(arena, 0);
+        slope = expr_diff(arena, residual, symbols[i]);
+        if (expr_is_zero(slope))
+            continue;
+        if ((expr_kinds(slope) & solved_kinds) != 0)
+            run->network_nonlinear = true;
+        LIST_PUSH(rows->entries,
+                  (Entry){row, rows->column.at[expr_symbol_number(symbols[i])] - 1, slope});
+    }
+    if (rows->entries.count == first)
+        CHECK(cant_be_met(system, y, diag));
+    run->network_residual[row] = residual;
+    run->network_rhs[row] = expr_neg(arena, expr_substitute(arena, residual, symbols, zeros, used));
+done:
+    mem_free(symbols);
+    mem_free(zeros);
+    return status;
+}
+
+/* rows in the order of [x'; z] */
+static Status add_rows(Rows *rows, Diag *diag)
+{
+    System *system = rows->system;
+    Arena *arena = system->arena;
+    int state = 0;
+    int algebraic = system->x.count;
+    Status status = OK;
+
+    for (int k = 0; k < system->unknowns.count; k++) {
+        const Unknown *y = &system->unknowns.at[k];
+        Expr residual = y->residual != NULL ? y->residual
+                                            : expr_sub(arena, expr_open(arena, y->left),
+                                                       expr_open(arena, y->right));
+        bool is_state = expr_symbol_kind(y->symbol) == SYMBOL_STATE;
+
+        LIST_PUSH(system->network_left, y->left);
+        LIST_PUSH(system->network_right, y->right);
+        /* rates that are states themselves */
+        for (int l = 0;
+             is_state && l < y->order - 1 && expr_symbol_kind(y->rates[l]) == SYMBOL_STATE;
+             l++, state++)
+            CHECK(add_row(rows, state,
+                          expr_sub(arena, system->rates.at[state], system->x.at[state + 1].symbol),
+                          y, diag));
+        CHECK(add_row(rows, is_state ? state++ : algebraic++, residual, y, diag));
+        CHECK(poll(system->watch));
+    }
+done:
+    return status;
+}
+
+static void find_samples(System *system)
+{
+    for (int k = 0; k < system->unknowns.count; k++) {
+        const Unknown *y = &system->unknowns.at[k];
+        OwnSample sample = {.next = NULL};
+        OwnState own;
+
+        if (y->own < 0)
+            continue;
+        system->instances[y->instance].row->own_state(&system->instances[y->instance],
+                                                      system->arena, y->own, &own);
+        for (int i = 0; i < system->x.count; i++)
+            if (system->x.at[i].symbol == y->symbol)
+                sample.state = i;
+        sample.initial = own.initial;
+        sample.period = own.period;
+        sample.next = own.next;
+        LIST_PUSH(system->samples, sample);
+    }
+}
+
+Status network_rows(System *system, Diag *diag)
+{
+    Reading *run = &system->run;
+    Rows rows = {.system = system};
+    size_t bytes;
+    Status status = OK;
+
+    for (int k = 0; k < system->unknowns.count; k++)
+        CHECK(network_row(system, k, diag)); /* may add unknowns */
+    network_list(system);
+    system->is_network_open = false;
+    rows.count = system->x.count + system->z.count;
+    bytes = (size_t)rows.count * sizeof(Expr);
+    run->network_residual = pool_alloc(system->pool, bytes);
+    run->network_rhs = pool_alloc(system->pool, bytes);
+    for (int k = 0; k < system->x.count; k++)
+        place(&rows, system->rates.at[k], k);
+    for (int k = 0; k < system->z.count; k++)
+        place(&rows, system->z.at[k].symbol, system->x.count + k);
+    CHECK(add_rows(&rows, diag));
+    run->network_entries = rows.entries.count;
+    run->network = pool_alloc(system->pool, (size_t)rows.entries.count * sizeof(Entry));
+    if (rows.entries.count > 0)
+        memcpy(run->network, rows.entries.at, (size_t)rows.entries.count * sizeof(Entry));
+    find_samples(system);
+done:
+    LIST_FREE(rows.column);
+    LIST_FREE(rows.entries);
+    return status;
+}

@@ -1,0 +1,166 @@
+/* netsolve.c: the network's equations in numbers */
+#include "simulate/netsolve.h"
+
+#include "base/memory.h"
+#include "simulate/linear.h"
+#include "simulate/sparse.h"
+
+#include <math.h>
+#include <string.h>
+
+#define ITERATIONS 100
+#define ENOUGH     1e-9 /* of a step; what is left then is its square */
+#define ROUNDING   1e-7 /* a step that no longer shrinks below this is rounding */
+#define LEAST      1e-4 /* damping */
+
+struct NetSolve {
+    const Equations *eq;
+    Sparse *matrix;
+    bool is_factored; /* and stays so */
+    int n;
+    double *w, *step, *trial, *next, *size;
+};
+
+NetSolve *netsolve_new(const Equations *eq)
+{
+    NetSolve *s = NEW(NetSolve);
+
+    s->eq = eq;
+    s->n = eq->nx + eq->nz;
+    s->matrix = sparse_new(s->n, eq->network_entries, eq->network_row, eq->network_column);
+    s->w = NEW_ARRAY(double, s->n);
+    s->step = NEW_ARRAY(double, s->n);
+    s->trial = NEW_ARRAY(double, s->n);
+    s->next = NEW_ARRAY(double, s->n);
+    s->size = NEW_ARRAY(double, s->n);
+    return s;
+}
+
+void netsolve_free(NetSolve *s)
+{
+    if (s == NULL)
+        return;
+    sparse_free(s->matrix);
+    mem_free(s->w);
+    mem_free(s->step);
+    mem_free(s->trial);
+    mem_free(s->next);
+    mem_free(s->size);
+    mem_free(s);
+}
+
+double *netsolve_values(NetSolve *s)
+{
+    return s->w;
+}
+
+int netsolve_undetermined(const NetSolve *s)
+{
+    return sparse_singular(s->matrix);
+}
+
+static bool solve_linear(NetSolve *s)
+{
+    if (!s->is_factored) {
+        if (!sparse_factor(s->matrix, s->eq->network))
+            return false;
+        s->is_factored = s->eq->network_is_constant;
+    }
+    memcpy(s->w, s->eq->network_rhs, (size_t)s->n * sizeof(double));
+    sparse_solve(s->matrix, s->w);
+    return true;
+}
+
+/* --- Newton --- */
+
+/* A^-1 G at w, with the factors there are */
+static bool correction(NetSolve *s, double *out)
+{
+    memcpy(out, s->eq->network_residual, (size_t)s->n * sizeof(double));
+    if (!vector_is_finite(out, s->n))
+        return false;
+    sparse_solve(s->matrix, out);
+    return vector_is_finite(out, s->n);
+}
+
+static double norm(const NetSolve *s, const double *v)
+{
+    double sum = 0;
+
+    for (int i = 0; i < s->n; i++)
+        sum += (v[i] / s->size[i]) * (v[i] / s->size[i]);
+    return sqrt(sum / s->n);
+}
+
+/* every component is met to `share` of itself */
+static bool is_small(const NetSolve *s, const double *step, double share)
+{
+    for (int i = 0; i < s->n; i++)
+        if (!(fabs(step[i]) <= share * fabs(s->w[i]) + 1e-3 * share * s->size[i] + 1e-14))
+            return false;
+    return true;
+}
+
+/* One damped step; false where even the smallest share of it makes nothing better. */
+static bool advance(NetSolve *s, double before)
+{
+    const Equations *eq = s->eq;
+
+    for (double share = 1; share >= LEAST; share /= 2) {
+        for (int i = 0; i < s->n; i++)
+            s->trial[i] = s->w[i] - share * s->step[i];
+        eq->network_at(eq->context, s->trial);
+        if (!correction(s, s->next) || !(norm(s, s->next) <= (1 - share / 4) * before))
+            continue;
+        memcpy(s->w, s->trial, (size_t)s->n * sizeof(double));
+        return true;
+    }
+    return false;
+}
+
+static bool solve_newton(NetSolve *s)
+{
+    const Equations *eq = s->eq;
+
+    for (int i = 0; i < s->n; i++)
+        s->size[i] = fmax(fabs(s->w[i]), 1e-3);
+    for (int k = 0; k < ITERATIONS; k++) {
+        eq->network_at(eq->context, s->w);
+        if (!sparse_factor(s->matrix, eq->network) || !correction(s, s->step))
+            return false;
+        for (int i = 0; i < s->n; i++)
+            s->size[i] = fmax(s->size[i], fabs(s->w[i]));
+        if (is_small(s, s->step, ENOUGH)) {
+            for (int i = 0; i < s->n; i++)
+                s->w[i] -= s->step[i];
+            return true;
+        }
+        if (!advance(s, norm(s, s->step)))
+            return is_small(s, s->step, ROUNDING);
+    }
+    return false;
+}
+
+bool netsolve_find(NetSolve *s)
+{
+    double *kept;
+    bool found;
+
+    if (s->n == 0)
+        return true;
+    if (s->eq->network_at == NULL)
+        return solve_linear(s) && vector_is_finite(s->w, s->n);
+    if (!vector_is_finite(s->w, s->n))
+        memset(s->w, 0, (size_t)s->n * sizeof(double));
+    if (solve_newton(s))
+        return true;
+    /* from nothing: the last solution may belong to another branch */
+    kept = NEW_ARRAY(double, s->n);
+    memcpy(kept, s->w, (size_t)s->n * sizeof(double));
+    memset(s->w, 0, (size_t)s->n * sizeof(double));
+    found = solve_newton(s);
+    if (!found)
+        memcpy(s->w, kept, (size_t)s->n * sizeof(double));
+    mem_free(kept);
+    return found;
+}

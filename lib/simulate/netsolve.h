@@ -1,0 +1,22 @@
+/* netsolve.h: x' and z of the network from G([x'; z], ...) = 0
+ *
+ * A linear network is solved at once, and a matrix that is constant is factored once. Others are
+ * solved by Newton's method from the last solution, damped by the natural monotonicity test, which
+ * no scaling of the equations changes. */
+#ifndef COTREE_SIMULATE_NETSOLVE_H
+#define COTREE_SIMULATE_NETSOLVE_H
+
+#include "simulate/motion.h"
+
+typedef struct NetSolve NetSolve;
+
+NetSolve *netsolve_new(const Equations *equations); /* new; borrows; free with netsolve_free() */
+void netsolve_free(NetSolve *solve);                /* NULL is fine */
+/* At what position() and velocity() were told last. False: no solution was found. */
+bool netsolve_find(NetSolve *solve);
+/* [x'; z] of the last netsolve_find(); a start for the next one may be written here */
+double *netsolve_values(NetSolve *solve);
+/* after a failure: an unknown, counted in [x'; z], that no equation determines; -1: not known */
+int netsolve_undetermined(const NetSolve *solve);
+
+#endif
