@@ -5,6 +5,7 @@ cotree_SOURCES = \
     src/command_look.c src/command_run.c src/command_session.c \
     src/complain.c src/complain.h \
     src/copy.c src/copy.h \
+    src/drawing.c src/drawing.h \
     src/file.c src/file.h \
     src/gnuplot.c src/gnuplot.h \
     src/interrupt.c src/interrupt.h \

@@ -1,0 +1,29 @@
+/* drawing.h: pictures by gnuplot, wherever they go
+ *
+ * Who draws gives a function that writes gnuplot's commands, data included; where they are
+ * carried out, and for which terminal, is decided here by the file's name, the display and
+ * `set terminal`. */
+#ifndef COTREE_SRC_DRAWING_H
+#define COTREE_SRC_DRAWING_H
+
+#include "command.h"
+
+typedef struct Drawing {
+    /* with characters alone where `as_text`: no colours, nothing upright */
+    void (*put)(FILE *out, const struct Drawing *drawing, bool as_text);
+    const void *of; /* what is drawn */
+    const char *title;
+} Drawing;
+
+/* The file behind `>`, NULL where there is none; an error unless it can hold a picture. */
+ct_status drawing_check(const Call *call, const char **path, ct_error *error);
+/* Draw, to `path` or (NULL) into a window or on the terminal. */
+ct_status drawing_make(Call *call, const Drawing *drawing, const char *path, ct_error *error);
+
+/* a string of gnuplot's, in quotes */
+void put_quoted(FILE *out, const char *text);
+/* `set title`, where there is a title */
+void put_title(FILE *out, const char *title);
+const char *drawing_color(int i); /* of the i-th curve: "#0072b2" */
+
+#endif
