@@ -150,6 +150,13 @@ ct_status ct_value(ct_session *session, const ct_expression *expression, const c
  * brackets. */
 ct_status ct_table(ct_session *session, const ct_expression *const *items, int count, double every,
                    double **values, int *rows, int *columns, char ***names, ct_error *error);
+/* bode: the whole statement, of the last linearisation. First column the frequency, Hz, then gain,
+ * dB, and phase, degrees, of each output against each input; `values` and `names` as of ct_table().
+ */
+ct_status ct_bode(ct_session *session, const ct_statement *statement, double **values, int *rows,
+                  int *columns, char ***names, ct_error *error);
+ct_status ct_bode_csv(ct_session *session, const ct_statement *statement, bool with_header,
+                      char **text, ct_error *error); /* the same as csv; new */
 /* expect CONDITION, expect A ~ B within TOL: CT_UNMET with the two values in the message */
 ct_status ct_expect(ct_session *session, const ct_statement *statement, ct_error *error);
 /* export csv|c|latex|dot: text to be written where the caller likes. new */

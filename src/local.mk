@@ -1,6 +1,7 @@
 # the shell
 bin_PROGRAMS += cotree
 cotree_SOURCES = \
+    src/bode.c \
     src/command.c src/command.h src/commands.def \
     src/command_look.c src/command_run.c src/command_session.c \
     src/complain.c src/complain.h \

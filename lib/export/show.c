@@ -28,7 +28,7 @@ static const Topic topics[] = {
     {"program",      "the straight-line program that a run evaluates",     NEED_SYSTEM, BEHIND_NOTHING, show_program},
     {"state",        "a linear network as x' = A x + B u",                 NEED_MODEL,  BEHIND_NOTHING, NULL},
     {"linear",       "matrices of the last linearisation",                 NEED_MODEL,  BEHIND_NOTHING, show_linear},
-    {"transfer",     "transfer functions of the last linearisation",       NEED_MODEL,  BEHIND_NOTHING, NULL},
+    {"transfer",     "transfer functions of the last linearisation",       NEED_MODEL,  BEHIND_NUMBERS, show_transfer},
     {"derivation",   "how an equation came about, step by step",           NEED_MODEL,  BEHIND_NOTHING, NULL},
     {"events",       "events, and when they happened",                     NEED_MODEL,  BEHIND_NOTHING, NULL},
 };

@@ -132,7 +132,7 @@ const Verb verbs_run[] = {
      .example =
          SWING "actuator a1 h1 torque=0\nequilibrium\nlinearize inputs=[a1] outputs=[h1, m1.ax]\n"
                "print linear.A(2,1)",
-     .see = "equilibrium modes show form"},
+     .see = "equilibrium modes bode show form"},
     {.name = "modes",
      .group = GROUP_RUN,
      .shape = "k>",
@@ -150,6 +150,25 @@ const Verb verbs_run[] = {
      .example = PENDULUM "equilibrium\nmodes\nexpect modes.omega(1) ~ sqrt(9.81/1.1) within 1e-9\n"
                          "export csv modes",
      .see = "equilibrium linearize"},
+    {.name = "bode",
+     .group = GROUP_RUN,
+     .shape = "Ik>",
+     .keys = WORDS("from", "to", "points"),
+     .usage = "bode [OUTPUT...] [from=..] [to=..] [points=..] [> \"FILE.png\"]",
+     .brief = "frequency response of what was linearized",
+     .help =
+         "Gain in dB and phase in degrees over the frequency in Hz: of each output against each "
+         "input of the last 'linearize', or of the outputs named. It is drawn as 'plot' draws, in "
+         "two panels: in a window, without a display in the terminal, into a file with '>'; a name "
+         "that ends in csv gets the table instead.\n"
+         "  from= to=  the range, in Hz, or with a unit of its own: from=1 [rad/s]; without them "
+         "a decade about all poles and zeros\n"
+         "  points=    how many, evenly on the logarithmic axis (200)\n"
+         "The phase goes on where it passes half a turn.",
+     .example = "vsource E1 a 0 0\nresistor R1 a b 1 kohm\ncapacitor C1 b 0 1 uF\n"
+                "linearize inputs=[E1] outputs=[C1.v]\nshow transfer\n"
+                "bode C1.v from=1 to=100 kHz",
+     .see = "linearize show plot"},
     {.name = "plot",
      .group = GROUP_RUN,
      .shape = "iy>",

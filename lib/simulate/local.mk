@@ -2,6 +2,8 @@ libcore_la_SOURCES += \
   lib/simulate/cvode.c \
   lib/simulate/dop853.c \
   lib/simulate/dop853_table.h \
+  lib/simulate/eigen.c \
+  lib/simulate/eigen.h \
   lib/simulate/embed.c \
   lib/simulate/embed.h \
   lib/simulate/equilibrium.c \
@@ -45,4 +47,6 @@ libcore_la_SOURCES += \
   lib/simulate/sparse.c \
   lib/simulate/sparse.h \
   lib/simulate/start.c \
-  lib/simulate/start.h
+  lib/simulate/start.h \
+  lib/simulate/transfer.c \
+  lib/simulate/transfer.h

@@ -5,8 +5,7 @@
 #include "simulate/linearize.h"
 
 #include "base/memory.h"
-#include "simulate/linear.h"
-#include "simulate/rows.h"
+#include "simulate/eigen.h"
 
 #include <gsl/gsl_complex_math.h>
 #include <gsl/gsl_eigen.h>
@@ -15,42 +14,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define SAME          1e-6  /* sizes of parts that count as equal */
-#define ROUNDING      1e-14 /* of the largest entry of its kind */
-#define ROOT_ROUNDING 1e-7  /* of the largest eigenvalue */
+#define SAME 1e-6 /* sizes of parts that count as equal */
 
 typedef struct Eigen {
     gsl_vector_complex *values;
     gsl_matrix_complex *vectors;
 } Eigen;
-
-static int kind_of(const Linear *linear, int state)
-{
-    return state < linear->freedoms ? 0 : state < 2 * linear->freedoms ? 1 : 2;
-}
-
-/* A, with what is rounding among entries of a kind (speeds by positions, say) as 0: balancing would
- * make it as large as the rest (Watkins 2006) */
-static void clean(const Linear *linear, double *out)
-{
-    int n = linear->states;
-    double largest[3][3] = {{0}};
-
-    for (int i = 0; i < n; i++)
-        for (int j = 0; j < n; j++) {
-            double *most = &largest[kind_of(linear, i)][kind_of(linear, j)];
-
-            *most = fmax(*most, fabs(linear->a[i * n + j]));
-        }
-    for (int i = 0; i < n; i++)
-        for (int j = 0; j < n; j++) {
-            double entry = linear->a[i * n + j];
-
-            out[i * n + j] =
-                fabs(entry) > ROUNDING * largest[kind_of(linear, i)][kind_of(linear, j)] ? entry
-                                                                                         : 0;
-        }
-}
 
 static bool solve(const Linear *linear, Eigen *out)
 {
@@ -60,49 +29,17 @@ static bool solve(const Linear *linear, Eigen *out)
     gsl_error_handler_t *handler = gsl_set_error_handler_off();
     int code;
 
-    clean(linear, a->data);
+    linear_clean(linear, a->data);
     out->values = gsl_vector_complex_alloc(n);
     out->vectors = gsl_matrix_complex_alloc(n, n);
     gsl_eigen_nonsymmv_params(1, work);
     code = gsl_eigen_nonsymmv(a, out->values, out->vectors, work);
     (void)gsl_set_error_handler(handler);
+    linear_clean(linear, a->data);
+    eigen_set_zeros(a->data, linear->states, out->values);
     gsl_matrix_free(a);
     gsl_eigen_nonsymmv_free(work);
     return code == GSL_SUCCESS;
-}
-
-/* Eigenvalues 0, where nothing pushes back: as many as the rank of A lacks, and up to as many again
- * where what drifts drifts on. Of such pairs rounding makes roots of itself. */
-static void find_zeros(const Linear *linear, Eigen *eigen)
-{
-    int n = linear->states;
-    double *a = NEW_ARRAY(double, n *n), *right = NEW_ARRAY(double, n),
-           *none = NEW_ARRAY(double, n);
-    double largest = 0;
-    int lacking;
-
-    clean(linear, a);
-    lacking = n - rows_solve(a, n, n, right, none);
-    for (int i = 0; i < n; i++)
-        largest = fmax(largest, gsl_complex_abs(gsl_vector_complex_get(eigen->values, (size_t)i)));
-    for (int k = 0; k < 2 * lacking && k < n; k++) {
-        size_t least = 0;
-        double size = INFINITY;
-
-        for (size_t i = 0; i < (size_t)n; i++) {
-            double abs_i = gsl_complex_abs(gsl_vector_complex_get(eigen->values, i));
-
-            if (abs_i > 0 && abs_i < size) {
-                size = abs_i;
-                least = i;
-            }
-        }
-        if (size < ROOT_ROUNDING * largest)
-            gsl_vector_complex_set(eigen->values, least, gsl_complex_rect(0, 0));
-    }
-    mem_free(a);
-    mem_free(right);
-    mem_free(none);
 }
 
 /* what rounding can make of a 0 among eigenvalues of this size */
@@ -197,7 +134,6 @@ Status modes_find(const Linear *linear, Modes **out, Diag *diag)
     if (linear->states > 0) {
         if (!solve(linear, &eigen))
             CHECK(diag_set(diag, E_SOLVER, "the eigenvalues can't be found"));
-        find_zeros(linear, &eigen);
         noise = rounding(linear, &eigen);
         for (size_t i = 0; i < (size_t)linear->states; i++)
             if (GSL_IMAG(gsl_vector_complex_get(eigen.values, i)) >= 0)

@@ -12,6 +12,7 @@ terminal_tests = \
     tests/terminal/pager.exp \
     tests/terminal/plot_text.exp \
     tests/terminal/plot_file.exp \
+    tests/terminal/bode.exp \
     tests/terminal/gnuplot_missing.exp \
     tests/terminal/gnuplot_killed.exp \
     tests/terminal/gnuplot_stuck.exp \

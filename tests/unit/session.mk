@@ -21,3 +21,6 @@ test_linear_LDADD = $(unit_ldadd)
 UNIT_TESTS += test_session_virtual
 test_session_virtual_SOURCES = tests/unit/test_session_virtual.c tests/unit/session_kit.h tests/unit/test.h
 test_session_virtual_LDADD = $(unit_ldadd)
+UNIT_TESTS += test_transfer
+test_transfer_SOURCES = tests/unit/test_transfer.c tests/unit/session_kit.h tests/unit/test.h
+test_transfer_LDADD = $(unit_ldadd)

@@ -102,6 +102,8 @@ static ct_status kit_other(Kit *kit, const ct_statement *statement)
         return ct_expect(session, statement, &kit->error);
     if (strcmp(verb, "print") == 0)
         return kit_print(kit, statement);
+    if (strcmp(verb, "bode") == 0)
+        return ct_bode_csv(session, statement, true, &kit->text, &kit->error);
     if (strcmp(verb, "plot") == 0 || strcmp(verb, "table") == 0)
         return kit_table(kit, statement);
     if (strcmp(verb, "clear") == 0) {

@@ -141,7 +141,7 @@ static void what_comes_later_says_so(void)
         int column;
     } lines[] = {{"beam b1 length=1", 1},
                  {"time beam b1 length=1", 6},
-                 {"time bode h8 from=1", 6},
+                 {"time animate", 6},
                  {"arm r b1 at=0.5", 10}};
 
     for (int i = 0; i < COUNT(lines); i++) {

@@ -1,0 +1,142 @@
+/* bode.c: `bode [OUTPUT...] [from=..] [to=..] [points=..] [> "file"]`, drawn by gnuplot
+ *
+ * Two panels over one axis of frequency: gain above, phase below. A file whose name ends in csv
+ * gets the table. */
+#include "copy.h"
+#include "drawing.h"
+#include "file.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* column 0 is the frequency; gain and phase of each curve follow */
+typedef struct Response {
+    double *values;
+    int rows;
+    int columns;
+    char **names;
+} Response;
+
+static void put_data(FILE *out, const Response *response)
+{
+    fputs("$response << end\n", out);
+    for (int i = 0; i < response->rows; i++)
+        for (int j = 0; j < response->columns; j++) {
+            double value = response->values[i * response->columns + j];
+
+            /* at a root on the imaginary axis the curve has a gap */
+            if (isfinite(value))
+                fprintf(out, "%.17g", value);
+            else
+                fputs("NaN", out);
+            fputc(j == response->columns - 1 ? '\n' : ' ', out);
+        }
+    fputs("end\n", out);
+}
+
+/* new: "h8/V1" of "gain h8/V1 [dB]" */
+static char *pair_name(const char *name)
+{
+    const char *first = strchr(name, ' ') + 1;
+
+    return copy_piece(first, (size_t)(strrchr(name, '[') - first) - 1);
+}
+
+static void put_curves(FILE *out, const Response *response, int offset, bool as_text)
+{
+    for (int j = 1; j < response->columns; j += 2) {
+        char *name = pair_name(response->names[j]);
+
+        fprintf(out, "%s$response using 1:%d with lines title ", j == 1 ? "plot " : ", ",
+                j + offset + 1);
+        put_quoted(out, name);
+        fputs(" noenhanced", out);
+        if (!as_text)
+            fprintf(out, " linewidth 1.5 linecolor rgb '%s'", drawing_color(j / 2));
+        free(name);
+    }
+    fputc('\n', out);
+}
+
+/* lines at quarters of a turn, or parts and multiples of them where the phase spans little or much
+ */
+static double phase_step(const Response *response)
+{
+    static const double steps[] = {15, 45, 90, 180, 360};
+    double least = INFINITY, most = -INFINITY;
+    size_t i = 0;
+
+    for (int r = 0; r < response->rows; r++)
+        for (int j = 2; j < response->columns; j += 2) {
+            least = fmin(least, response->values[r * response->columns + j]);
+            most = fmax(most, response->values[r * response->columns + j]);
+        }
+    while (i + 1 < sizeof steps / sizeof steps[0] && (most - least) / steps[i] > 6)
+        i++;
+    return steps[i];
+}
+
+static void put_commands(FILE *out, const Drawing *drawing, bool as_text)
+{
+    const Response *response = drawing->of;
+    bool is_alone = response->columns == 3;
+
+    put_data(out, response);
+    fputs("set multiplot layout 2,1\n", out);
+    put_title(out, drawing->title);
+    fprintf(out, "set logscale x\nset xrange [%.17g:%.17g]\nset lmargin %d\n", response->values[0],
+            response->values[(response->rows - 1) * response->columns], as_text ? 9 : 10);
+    if (!as_text)
+        fputs("set border 3\nset tics nomirror\nset grid linetype 1 linecolor '#e0e0e0' linewidth "
+              "0.7\nset format x '%h'\n",
+              out);
+    fputs(as_text    ? "set key tmargin right horizontal\n"
+          : is_alone ? "set key off\n"
+                     : "set key inside bottom left Left reverse\n",
+          out);
+
+    /* characters don't stand upright: labels are titles there */
+    fputs(as_text ? "set title 'gain [dB]'\n" : "set ylabel 'gain [dB]'\n", out);
+    put_curves(out, response, 0, as_text);
+    fprintf(out, "set ytics %g\nset xlabel 'frequency [Hz]'\n", phase_step(response));
+    fputs(as_text ? "set key off\nset title 'phase [deg]'\n"
+                  : "unset title\nset key off\nset ylabel 'phase [deg]'\n",
+          out);
+    put_curves(out, response, 1, as_text);
+    fputs("unset multiplot\n", out);
+}
+
+static ct_status write_table(const Call *call, const char *path, bool append, ct_error *error)
+{
+    char *text = NULL;
+    ct_status status = ct_bode_csv(call->session, call->statement,
+                                   !append || !file_has_content(path), &text, error);
+    ct_error why;
+
+    if (status == CT_OK && file_write(path, text, strlen(text), append, &why) != CT_OK)
+        status = ct_error_at(call->statement, NULL, error, "%s", why.message);
+    ct_free(text);
+    return status;
+}
+
+ct_status command_bode(Call *call, ct_error *error)
+{
+    Response response = {0};
+    const Drawing drawing = {put_commands, &response, ct_title(call->session)};
+    bool append = false;
+    const char *path = ct_redirect(call->statement, &append);
+    ct_status status;
+
+    if (path != NULL && strcmp(file_extension(path), "csv") == 0)
+        return write_table(call, path, append, error);
+    status = drawing_check(call, &path, error);
+    if (status == CT_OK)
+        status = ct_bode(call->session, call->statement, &response.values, &response.rows,
+                         &response.columns, &response.names, error);
+    if (status == CT_OK)
+        status = drawing_make(call, &drawing, path, error);
+    ct_free(response.values);
+    ct_words_free(response.names);
+    return status;
+}

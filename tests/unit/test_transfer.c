@@ -1,0 +1,317 @@
+/* test_transfer.c: transfer functions and frequency response against closed forms */
+#include "session_kit.h"
+
+#include <complex.h>
+
+/* --- tables of bode --- */
+
+typedef struct Bode {
+    double *values;
+    int rows, columns;
+    char **names;
+} Bode;
+
+static Bode bode(Kit *kit, const char *line)
+{
+    ct_statement *statement = NULL;
+    size_t next = 0;
+    Bode out = {0};
+
+    if (ct_parse(line, 1, false, &next, &statement, &kit->error) != CT_OK ||
+        ct_bode(kit->session, statement, &out.values, &out.rows, &out.columns, &out.names,
+                &kit->error) != CT_OK) {
+        test_faults++;
+        printf("%s: %s\n", line, kit->error.message);
+    }
+    ct_statement_free(statement);
+    return out;
+}
+
+static void bode_free(Bode *table)
+{
+    ct_free(table->values);
+    ct_words_free(table->names);
+}
+
+typedef double complex Response(double complex s);
+
+/* gain and phase of a curve are those of H(s); the phase begins at `start` degrees or near, and
+ * never jumps by half a turn unless it `may` */
+static void expect_response(const Bode *table, int curve, Response *response, double start,
+                            double tolerance)
+{
+    double before = start;
+
+    for (int r = 0; r < table->rows; r++) {
+        const double *row = table->values + (ptrdiff_t)r * table->columns;
+        const double complex h = response(I * 2 * M_PI * row[0]);
+        const double gain = row[1 + 2 * curve], phase = row[2 + 2 * curve];
+
+        if (!(fabs(gain - 20 * log10(cabs(h))) <= tolerance &&
+              fabs(remainder(phase - carg(h) * 180 / M_PI, 360)) <= tolerance &&
+              fabs(phase - before) < 170)) {
+            test_faults++;
+            printf("%s at %.17g Hz: %.17g dB, %.17g deg, wanted %.17g dB, %.17g deg\n",
+                   table->names[1 + 2 * curve], row[0], gain, phase, 20 * log10(cabs(h)),
+                   carg(h) * 180 / M_PI);
+            return;
+        }
+        before = phase;
+    }
+}
+
+/* --- closed forms --- */
+
+#define LOWPASS                                                                                    \
+    "vsource E1 a 0 0\nresistor R1 a b 1 kohm\ncapacitor C1 b 0 1 uF\n"                            \
+    "linearize inputs=[E1] outputs=[C1.v, R1.v, R1.i]\n"
+
+static double complex lowpass(double complex s)
+{
+    return 1 / (1 + 1e-3 * s);
+}
+
+static double complex highpass(double complex s)
+{
+    return 1e-3 * s / (1 + 1e-3 * s);
+}
+
+static void a_low_pass_falls_by_20_decibels_a_decade(void)
+{
+    Kit kit = kit_new();
+    Bode table;
+
+    EXPECT_DONE(&kit, LOWPASS);
+    table = bode(&kit, "bode from=1 to=100 kHz points=301");
+    EXPECT(table.rows == 301 && table.columns == 7);
+    EXPECT_TEXT(table.names[0], "f [Hz]");
+    EXPECT_TEXT(table.names[1], "gain C1.v/E1 [dB]");
+    EXPECT_TEXT(table.names[2], "phase C1.v/E1 [deg]");
+    EXPECT(table.values[0] == 1 && table.values[300 * 7] == 1e5);
+    expect_response(&table, 0, lowpass, 0, 1e-10);
+    expect_response(&table, 1, highpass, 90, 1e-10);
+    bode_free(&table);
+    EXPECT_DONE(&kit, "show transfer\n");
+    EXPECT_HOLDS(kit.text, "C1.v/E1 = 1000/(s + 1000)\n  gain     1000\n  at rest  1\n");
+    EXPECT_HOLDS(kit.text, "R1.v/E1 = s/(s + 1000)\n");
+    EXPECT_HOLDS(kit.text, "R1.i/E1 = 0.001 s/(s + 1000)\n");
+    EXPECT_HOLDS(kit.text, "zeros    0\n  poles    -1000\n");
+    kit_free(&kit);
+}
+
+/* omega0 = 1e5 rad/s, quality 20 */
+static double complex bandpass(double complex s)
+{
+    return 5 * s / (1e-3 * s * s + 5 * s + 1e7);
+}
+
+static void a_resonant_circuit_passes_a_band(void)
+{
+    Kit kit = kit_new();
+    Bode table;
+
+    EXPECT_DONE(&kit, "vsource E1 a 0 0\nresistor R1 a b 5\ninductor L1 b c 1 mH\n"
+                      "capacitor C1 c 0 0.1 uF\nlinearize inputs=[E1] outputs=[R1.v]\n");
+    table = bode(&kit, "bode R1.v from=1 kHz to=1 MHz");
+    EXPECT(table.rows == 200);
+    expect_response(&table, 0, bandpass, 90, 1e-9);
+    bode_free(&table);
+    EXPECT_DONE(&kit, "show transfer\n");
+    EXPECT_HOLDS(kit.text, "R1.v/E1 = 5000 s/(s^2 + 5000 s + 1e+10)\n");
+    EXPECT_HOLDS(kit.text, "poles    -2500 +- 99968.7i\n");
+    kit_free(&kit);
+}
+
+/* J L s^3 + J R s^2 + Kt^2 s */
+static double complex motor(double complex s)
+{
+    return 0.5 / (s * (0.02 * 0.01 * s * s + 0.02 * 2 * s + 0.25));
+}
+
+static void a_motor_turns_its_inertia(void)
+{
+    Kit kit = kit_new();
+    Bode table;
+
+    EXPECT_DONE(&kit, "scene planar\nbody m1 mass=1 inertia=0.02\nrevolute h1 ground m1\n"
+                      "vsource V1 a 0 0\nmotor M1 h1 a 0 R=2 L=0.01 Kt=0.5\n"
+                      "linearize inputs=[V1] outputs=[h1, h1']\n");
+    table = bode(&kit, "bode h1 from=1 [rad/s] to=1e4 [rad/s]");
+    EXPECT(fabs(table.values[0] * 2 * M_PI - 1) < 1e-14);
+    expect_response(&table, 0, motor, -90, 1e-9);
+    EXPECT(table.values[199 * 3 + 2] < -265);
+    bode_free(&table);
+    EXPECT_DONE(&kit, "show transfer 1 1\n");
+    EXPECT_HOLDS(kit.text, "h1/V1 = 2500/(s^3 + 200 s^2 + 1250 s)\n");
+    EXPECT_HOLDS(kit.text, "at rest  no bound\n");
+    EXPECT_HOLDS(kit.text, "poles    0, -6.45");
+    EXPECT(strstr(kit.text, "h1'") == NULL);
+    EXPECT_DONE(&kit, "show transfer 2\n");
+    EXPECT_HOLDS(kit.text, "left out  1 state between");
+    kit_free(&kit);
+}
+
+/* two masses with a spring between them, undamped: s2 is against the first */
+static double complex masses(double complex s)
+{
+    return -1 / (s * s + 12 * (1 + 1.0 / 3));
+}
+
+static void what_floats_has_two_poles_at_0(void)
+{
+    Kit kit = kit_new();
+    Bode table;
+
+    EXPECT_DONE(&kit, "scene planar\nbody a mass=1 inertia=1\nbody b mass=3 inertia=1\n"
+                      "prismatic s1 ground a axis=x\nprismatic s2 a b axis=x\n"
+                      "spring k1 s2 k=12\nactuator f1 s1 force=0\n"
+                      "linearize inputs=[f1] outputs=[s1, s2]\nshow transfer\n");
+    EXPECT_HOLDS(kit.text, "s1/f1 = (s^2 + 4)/(s^4 + 16 s^2)\n");
+    EXPECT_HOLDS(kit.text, "zeros    +-2i\n  poles    0, 0, +-4i\n");
+    EXPECT_HOLDS(kit.text, "s2/f1 = -1/(s^2 + 16)\n");
+    table = bode(&kit, "bode s2 from=0.01 to=0.6 points=50");
+    expect_response(&table, 0, masses, 180, 1e-9);
+    bode_free(&table);
+    /* half a turn at the pair of poles, half a turn back at that of zeros before it */
+    table = bode(&kit, "bode s1 from=0.01 to=10 points=4");
+    EXPECT(fabs(table.values[2] + 180) < 1e-9);
+    EXPECT(fabs(table.values[3 * 3 + 2] + 180) < 1e-9);
+    bode_free(&table);
+    kit_free(&kit);
+}
+
+static double complex allpass(double complex s)
+{
+    return (1 - s) / (1 + s);
+}
+
+/* two dividers of the same times, the other way round */
+static void equal_poles_and_zeros_are_left_out(void)
+{
+    Kit kit = kit_new();
+    Bode table;
+
+    EXPECT_DONE(&kit, "vsource E1 a 0 0\nresistor R1 a b 1\ncapacitor C1 b 0 1\n"
+                      "capacitor C2 a c 0.1\nresistor R2 c 0 10\n"
+                      "linearize inputs=[E1] outputs=[(C1.v - R2.v)]\nshow transfer\n");
+    EXPECT_HOLDS(kit.text, "= (-s + 1)/(s + 1)\n");
+    EXPECT_HOLDS(kit.text, "1 pole equal to a zero\n");
+    table = bode(&kit, "bode from=0.001 to=10");
+    expect_response(&table, 0, allpass, 0, 1e-9);
+    bode_free(&table);
+    kit_free(&kit);
+}
+
+/* --- a ladder: one recursion tells all of it --- */
+
+enum { SECTIONS = 60 };
+
+static double complex ladder(double complex s)
+{
+    double complex v = 1, i = 0; /* behind the last section */
+
+    for (int k = 0; k < SECTIONS; k++) {
+        i += 0.5 * s * v;
+        v += 2 * i;
+    }
+    return 1 / v;
+}
+
+static void a_long_ladder_keeps_its_digits(void)
+{
+    Kit kit = kit_new();
+    char line[200];
+    Bode table;
+
+    EXPECT_DONE(&kit, "vsource E1 n0 0 0\n");
+    for (int k = 1; k <= SECTIONS; k++) {
+        (void)snprintf(line, sizeof line, "resistor R%d n%d n%d 2\ncapacitor C%d n%d 0 0.5\n", k,
+                       k - 1, k, k, k);
+        EXPECT_DONE(&kit, line);
+    }
+    (void)snprintf(line, sizeof line, "linearize inputs=[E1] outputs=[C%d.v]\n", SECTIONS);
+    EXPECT_DONE(&kit, line);
+    table = bode(&kit, "bode from=1e-5 to=1 points=1000");
+    expect_response(&table, 0, ladder, 0, 1e-8);
+    EXPECT(table.values[999 * 3 + 2] < -3600);
+    bode_free(&table);
+    kit_free(&kit);
+}
+
+/* --- other notations --- */
+
+static void coefficients_go_to_other_programs(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, LOWPASS "show transfer 2 1 as matlab\n");
+    EXPECT_HOLDS(kit.text, "% R1.v/E1\nnumerator{2,1} = [1, 0];\ndenominator{2,1} = [1, ");
+    EXPECT_DONE(&kit, "show transfer as matlab\n");
+    EXPECT_HOLDS(kit.text, "H = tf(numerator, denominator);\n");
+    EXPECT_DONE(&kit, "show transfer as c\n");
+    EXPECT_HOLDS(kit.text, "static const double numerator_2_1[2] = {1, 0};\n");
+    EXPECT_DONE(&kit, "show transfer as latex\n");
+    EXPECT_HOLDS(kit.text, "H_{2,1}(s) &= \\frac{s}{s + 1000} \\\\\n");
+    kit_free(&kit);
+}
+
+/* --- what can't be done --- */
+
+static void a_response_needs_something_linear_and_a_range(void)
+{
+    /* clang-format off */
+    static const struct { const char *before, *line, *message, *hint; } wrong[] = {
+        {"",              "bode h8",                   "nothing has been linearized yet", "linearize inputs"},
+        {"",              "show transfer",             "nothing has been linearized yet", "linearize inputs"},
+        {PENDULUM "linearize outputs=[h]\n", "bode",  "what was linearized has no inputs", "linearize inputs"},
+        {PENDULUM "linearize\n", "show transfer",      "has no inputs and outputs",   ""},
+        {LOWPASS,         "bode C1.i",                 "C1.i is no output of the last linearisation", "did you mean 'C1.v'"},
+        {LOWPASS,         "bode from=10 to=1",         "the frequencies go up",       ""},
+        {LOWPASS,         "bode from=0",               "from must be a frequency above 0", ""},
+        {LOWPASS,         "bode from=1 kg",            "from= is a frequency",        "from=10 [rad/s]"},
+        {LOWPASS,         "bode to=t",                 "to must be a number",         ""},
+        {LOWPASS,         "bode points=1",             "a whole number from 2",       ""},
+        {LOWPASS,         "show transfer 4",           "there are 3 outputs and 1 inputs", ""},
+    };
+    /* clang-format on */
+
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
+        Kit kit = kit_new();
+
+        EXPECT_DONE(&kit, wrong[i].before);
+        EXPECT(kit_do(&kit, wrong[i].line) == CT_FAILED);
+        EXPECT_HOLDS(kit.error.message, wrong[i].message);
+        EXPECT_HOLDS(kit.error.hint, wrong[i].hint);
+        kit_free(&kit);
+    }
+}
+
+/* the poles lie at 160 Hz: a decade about them, whole decades */
+static void without_a_range_all_roots_are_in_sight(void)
+{
+    Kit kit = kit_new();
+    Bode table;
+
+    EXPECT_DONE(&kit, LOWPASS);
+    table = bode(&kit, "bode C1.v");
+    EXPECT(table.values[0] == 10 && table.values[199 * 3] == 1000);
+    bode_free(&table);
+    table = bode(&kit, "bode C1.v from=1 MHz points=2");
+    EXPECT(table.values[0] == 1e6 && fabs(table.values[3] - 1e8) < 1);
+    bode_free(&table);
+    kit_free(&kit);
+}
+
+int main(void)
+{
+    RUN(a_low_pass_falls_by_20_decibels_a_decade);
+    RUN(a_resonant_circuit_passes_a_band);
+    RUN(a_motor_turns_its_inertia);
+    RUN(what_floats_has_two_poles_at_0);
+    RUN(equal_poles_and_zeros_are_left_out);
+    RUN(a_long_ladder_keeps_its_digits);
+    RUN(coefficients_go_to_other_programs);
+    RUN(a_response_needs_something_linear_and_a_range);
+    RUN(without_a_range_all_roots_are_in_sight);
+    return test_end();
+}
