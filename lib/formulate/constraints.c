@@ -9,6 +9,8 @@
 #include <math.h>
 #include <string.h>
 
+enum { SAMPLES = 3 }; /* positions at which a row that vanishes is looked at */
+
 /* --- which rows --- */
 
 static void push_row(System *system, const Instance *joint, RowKind kind, Vec n, Vec b,
@@ -98,7 +100,13 @@ static void moment_rows(System *system, const Instance *joint, const Steps *step
         if (system->planar) {
             push_row(system, joint, ROW_ANGLE, unit(arena, 2), vec_zero(arena), "turn");
         } else if (turns.count == 1 && turns.at[0].matrix == NULL && rotation_is_one(&constant)) {
-            push_row(system, joint, ROW_ANGLE, turns.at[0].axis, vec_zero(arena), "turn");
+            Vec axis = turns.at[0].axis;
+
+            /* the axis stays where it is: those rows vanish, what they carry doesn't */
+            push_row(system, joint, ROW_ANGLE, axis, vec_zero(arena), "turn");
+            axis_complement(arena, axis.at, axes[1].at, axes[2].at);
+            push_row(system, joint, ROW_DOT, axis, axes[1], "n1");
+            push_row(system, joint, ROW_DOT, axis, axes[2], "n2");
         } else {
             push_row(system, joint, ROW_DOT, axes[1], far[2], "u");
             push_row(system, joint, ROW_DOT, axes[2], far[0], "n1");
@@ -240,17 +248,50 @@ done:
     return status;
 }
 
-/* true: the row holds identically; an error when it never can */
-static Status row_vanishes(System *system, const Row *row, bool *vanishes, Diag *diag)
+/* of the terms of a sum, without their cancelling; at least of a unit length */
+static double size_of_terms(Sample *sample, Expr e)
 {
-    const unsigned variable = 1U << SYMBOL_COORDINATE | 1U << SYMBOL_TIME;
+    double size = 1;
+
+    for (int i = 0; expr_kind(e) == EXPR_SUM && i < expr_arg_count(e); i++)
+        size += fabs(sample_number(sample, expr_arg(e, i)));
+    return size;
+}
+
+/* the same number in every position, though rounding may hide that in symbols; a number that
+ * parameters make is taken as it is, but what else depends on them may change with them */
+static bool row_is_constant(const System *system, const Row *row, Sample *const *samples,
+                            double *value)
+{
+    const double rounding = 1e-13;
+    unsigned kinds = expr_kinds(row->phi);
+
+    if ((kinds & (1U << SYMBOL_COORDINATE | 1U << SYMBOL_TIME)) == 0) {
+        *value = model_number(system->model, row->phi);
+        return true;
+    }
+    if ((kinds & 1U << SYMBOL_TIME) != 0)
+        return false;
+    *value = sample_number(samples[0], row->phi);
+    for (int i = 1; i < SAMPLES; i++) {
+        double off = fabs(sample_number(samples[i], row->phi) - *value);
+
+        if (!(off <= rounding || off <= rounding * size_of_terms(samples[i], row->phi)))
+            return false;
+    }
+    return true;
+}
+
+/* true: the row holds identically; an error when it never can */
+static Status row_vanishes(System *system, const Row *row, Sample *const *samples, bool *vanishes,
+                           Diag *diag)
+{
     const char *joint = system->instances[row->told.instance].name;
     double value;
 
     *vanishes = false;
-    if ((expr_kinds(row->phi) & variable) != 0)
+    if (!row_is_constant(system, row, samples, &value))
         return OK;
-    value = model_number(system->model, row->phi);
     if (fabs(value) > 1e-9) {
         (void)diag_set(diag, E_ASSEMBLE,
                        "%s can't be assembled: its equation along %s is %.6g = 0 in every position",
@@ -259,7 +300,7 @@ static Status row_vanishes(System *system, const Row *row, bool *vanishes, Diag 
         return E_ASSEMBLE;
     }
     *vanishes = true;
-    (row->told.rotation ? system->lost_moment : system->lost_force)[row->told.instance] = true;
+    LIST_PUSH(system->vanished, *row);
     LIST_PUSH(system->dropped, system_keep(system, "%s: %s %s holds in every position", joint,
                                            row->told.rotation ? "turning about" : "position along",
                                            row->told.direction));
@@ -506,16 +547,19 @@ static Status all_rows(System *system, Diag *diag)
 
 Status constraints_build(System *system, Diag *diag)
 {
+    Sample *samples[SAMPLES];
     int kept = 0;
     Status status = OK;
 
+    for (int i = 0; i < SAMPLES; i++)
+        samples[i] = sample_new(system, (uint64_t)i, true);
     CHECK(all_rows(system, diag));
     for (int k = 0; k < system->rows.count; k++) {
         Row *row = &system->rows.at[k];
         bool vanishes;
 
         CHECK(row_shown(system, row, diag));
-        CHECK(row_vanishes(system, row, &vanishes, diag));
+        CHECK(row_vanishes(system, row, samples, &vanishes, diag));
         if (!vanishes)
             system->rows.at[kept++] = *row;
     }

@@ -16,8 +16,10 @@ libcore_la_SOURCES += \
 	lib/formulate/network_rows.c \
 	lib/formulate/reactions.c \
 	lib/formulate/reading.c \
+	lib/formulate/sample.c \
 	lib/formulate/show.c \
 	lib/formulate/smooth.c \
 	lib/formulate/system.c lib/formulate/system.h lib/formulate/system_impl.h \
+	lib/formulate/vanished.c \
 	lib/formulate/variables.c \
 	lib/formulate/vector.c

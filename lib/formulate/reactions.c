@@ -1,9 +1,13 @@
 /* reactions.c: forces and moments of joints, from lambda where the joint is a chord, from what
- * hangs beyond it where it is a branch (theory 5) */
+ * hangs beyond it where it is a branch (theory 5)
+ *
+ * Rows that vanished have multipliers too (vanished.c). Where some of them are open, so is every
+ * component of a reaction that changes with them, and no other. */
 #include "formulate/system_impl.h"
 
-/* what a constraint row puts on its two ends: -lambda along its direction */
-static void add_row(System *system, Loads *loads, const Row *row, Expr lambda)
+#include <math.h>
+
+void loads_add_row(System *system, Loads *loads, const Row *row, Expr lambda)
 {
     Arena *arena = system->arena;
     int tail = system->frames[row->tail].chain;
@@ -86,7 +90,7 @@ Status actual_build(System *system, Diag *diag)
     CHECK(efforts_add(system, &loads, true, diag));
     CHECK(add_rotors(system, &loads, diag));
     for (int k = 0; k < system->rows.count; k++)
-        add_row(system, &loads, &system->rows.at[k], system->multipliers[k]);
+        loads_add_row(system, &loads, &system->rows.at[k], system->multipliers[k]);
     for (int i = 0; i < system->drives.count; i++) {
         const Instance *driver = &system->instances[system->drives.at[i].instance];
 
@@ -94,103 +98,158 @@ Status actual_build(System *system, Diag *diag)
             loads_add_effort(system, &loads, &system->instances[driver->by], driver->by_coordinate,
                              system->drives.at[i].effort);
     }
+    if (system->vanished.count > 0)
+        recovery_build(system, &loads);
+    for (int k = 0; k < system->vanished.count; k++)
+        loads_add_row(system, &loads, &system->vanished.at[k], system->recovery->multipliers[k]);
     system->actual = loads_sum(system, &loads);
 done:
     return status;
 }
 
-/* the sum over a chord's rows: force or moment on the head, ground axes */
+/* what a row puts on the head of its chord per unit of -lambda: force or moment, ground axes */
+static Vec row_reaction(System *system, const Row *row, bool rotation)
+{
+    Arena *arena = system->arena;
+    int tail = system->frames[row->tail].chain;
+    Vec along = row->n;
+
+    if (row->told.rotation != rotation && row->kind != ROW_TIE)
+        return vec_zero(arena);
+    if (row->kind == ROW_TIE && rotation)
+        along = vec_scale(arena, expr_neg(arena, row->lead), along);
+    if (row->kind == ROW_DOT)
+        along = vec_cross(arena, vec_express(system, row->b, system->frames[row->head].chain, tail),
+                          along);
+    return vec_express(system, along, row->kind == ROW_DATUM ? 0 : tail, 0);
+}
+
+/* the sum over a chord's rows */
 static Vec chord_reaction(System *system, const Instance *joint, bool rotation)
 {
     Arena *arena = system->arena;
     Vec sum = vec_zero(arena);
 
-    for (int k = 0; k < system->rows.count; k++) {
-        const Row *row = &system->rows.at[k];
-        int tail = system->frames[row->tail].chain;
-        Vec along = row->n;
+    for (int k = 0; k < system->rows.count + system->vanished.count; k++) {
+        int v = k - system->rows.count;
+        const Row *row = v < 0 ? &system->rows.at[k] : &system->vanished.at[v];
+        Expr lambda = v < 0 ? system->multipliers[k] : system->recovery->multipliers[v];
 
-        if (row->told.instance != joint->number ||
-            (row->told.rotation != rotation && row->kind != ROW_TIE))
-            continue;
-        if (row->kind == ROW_TIE && rotation)
-            along = vec_scale(arena, expr_neg(arena, row->lead), along);
-        if (row->kind == ROW_DOT)
-            along = vec_cross(
-                arena, vec_express(system, row->b, system->frames[row->head].chain, tail), along);
-        along = vec_express(system, along, row->kind == ROW_DATUM ? 0 : tail, 0);
-        along = vec_scale(arena, expr_neg(arena, system->multipliers[k]), along);
-        sum = vec_add(arena, sum, along);
+        if (row->told.instance == joint->number)
+            sum = vec_add(
+                arena, sum,
+                vec_scale(arena, expr_neg(arena, lambda), row_reaction(system, row, rotation)));
     }
     return sum;
 }
 
-/* a chord some of whose equations vanished, with the branch in its circuit: what it carries may be
- * shifted between the two, so neither is determined; NULL: there is none */
-static const Instance *undetermined_with(const System *system, const Tree *tree, int branch,
-                                         bool rotation)
+/* everything beyond the branch and the joint itself are in equilibrium */
+static Vec branch_reaction(System *system, const Tree *tree, int branch, const Sums *sums,
+                           bool rotation, int *chain)
 {
-    for (int i = 0; i < system->instance_count; i++) {
-        const Instance *chord = &system->instances[i];
+    int node = tree_far_node(tree, branch);
+    Vec reaction = (rotation ? sums->torque : sums->force)[node];
 
-        if (!system->lost_force[i] && !(rotation && system->lost_moment[i]))
-            continue;
-        if (tree_is_beyond(tree, branch, chord->head) != tree_is_beyond(tree, branch, chord->tail))
-            return chord;
-    }
-    return NULL;
+    *chain = system->chains.at[system->frames[node].chain].resolve;
+    return tree_is_forward(tree, node) ? vec_neg(system->arena, reaction) : reaction;
 }
 
-static Status reaction(System *system, const Instance *joint, bool rotation, Vec *out, int *chain,
-                       Diag *diag)
+/* the component that is asked for, of a vector in the axes of a chain */
+static Expr component(const System *system, const Instance *joint, ReactionPart part, Vec vector,
+                      int chain)
 {
-    const Tree *tree = system->trees[rotation ? TREE_ROTATION : TREE_TRANSLATION];
-    const Instance *chord;
-    int node;
+    const Frame *tail = &system->frames[joint->tail];
+    Rotation back = rotation_transpose(&tail->zero);
+
+    vector = vec_express(system, vector, chain, part.own ? tail->chain : 0);
+    if (part.own)
+        vector = rotation_apply(system->arena, &back, vector);
+    return vector.at[part.axis];
+}
+
+/* the component per unit of the multiplier of a row that vanished */
+static Expr share_of(System *system, const Instance *joint, ReactionPart part, int vanished)
+{
+    const Tree *tree = system->trees[part.moment ? TREE_ROTATION : TREE_TRANSLATION];
+    const Row *row = &system->vanished.at[vanished];
+    Vec vector = vec_zero(system->arena);
+    int chain = 0;
+
+    if (tree_has(tree, joint->edge))
+        vector = branch_reaction(system, tree, joint->edge, system->recovery->sums[vanished],
+                                 part.moment, &chain);
+    else if (row->told.instance == joint->number)
+        vector = vec_neg(system->arena, row_reaction(system, row, part.moment));
+    return component(system, joint, part, vector, chain);
+}
+
+/* a row that vanished and on which the component depends, though nothing determines its multiplier;
+ * NULL: there is none */
+static const Row *open_row(System *system, const Instance *joint, ReactionPart part)
+{
+    enum { DIGITS = 7 };
+    const Recovery *recovery = system->recovery;
+    int rows = system->vanished.count;
+    double *share = NULL;
+    const Row *found = NULL;
+
+    if (recovery == NULL || recovery->open_count == 0)
+        return NULL;
+    share = NEW_ARRAY(double, rows);
+    for (int k = 0; k < rows; k++)
+        share[k] = sample_number(recovery->sample, share_of(system, joint, part, k));
+    for (int j = 0; j < recovery->open_count && found == NULL; j++) {
+        double sum = 0;
+        double size = 1;
+
+        for (int k = 0; k < rows; k++) {
+            double term = share[k] * recovery->open[k * recovery->open_count + j];
+
+            sum += term;
+            if (fabs(term) > size)
+                size = fabs(term);
+            /* another joint's row says more */
+            if (term != 0 && (found == NULL || found->told.instance == joint->number))
+                found = &system->vanished.at[k];
+        }
+        if (fabs(sum) < size * pow(10, -DIGITS))
+            found = NULL;
+    }
+    mem_free(share);
+    return found;
+}
+
+Status joint_reaction(System *system, const Instance *joint, ReactionPart part, Expr *out,
+                      Diag *diag)
+{
+    const Tree *tree = system->trees[part.moment ? TREE_ROTATION : TREE_TRANSLATION];
+    const Row *open;
+    Vec vector;
+    int chain = 0;
     Status status = OK;
 
     CHECK(actual_build(system, diag));
-    *chain = 0;
     if (joint->is_virtual) {
-        *out = vec_zero(system->arena);
+        *out = expr_int(system->arena, 0);
         return OK;
     }
-    if (!tree_has(tree, joint->edge)) {
-        if ((rotation ? system->lost_moment : system->lost_force)[joint->number]) {
-            (void)diag_set(diag, E_MISSING, "the %s of %s isn't determined by these trees",
-                           rotation ? "moment" : "force", joint->name);
-            diag_hint(diag, "an equation of %s holds in every position: make %s a branch",
-                      joint->name, joint->name);
-            return E_MISSING;
-        }
-        *out = chord_reaction(system, joint, rotation);
-        return OK;
-    }
-    chord = undetermined_with(system, tree, joint->edge, rotation);
-    if (chord != NULL) {
-        (void)diag_set(diag, E_MISSING, "the %s of %s isn't determined by these trees",
-                       rotation ? "moment" : "force", joint->name);
+    open = open_row(system, joint, part);
+    if (open != NULL) {
+        const char *chord = system->instances[open->told.instance].name;
+
+        (void)diag_set(diag, E_MISSING, "the %s of %s %s %c isn't determined",
+                       part.moment ? "moment" : "force", joint->name,
+                       part.moment ? "about" : "along", "xyz"[part.axis]);
         diag_hint(diag,
-                  "an equation of %s on its circuit holds in every position: make %s a branch",
-                  chord->name, chord->name);
+                  "an equation of %s repeats others in every position, so how they share the load "
+                  "is open; 'tree absolute' finds the least reactions that balance",
+                  chord);
         return E_MISSING;
     }
-    /* everything beyond the branch and the joint itself are in equilibrium */
-    node = tree_far_node(tree, joint->edge);
-    *chain = system->chains.at[system->frames[node].chain].resolve;
-    *out = (rotation ? system->actual->torque : system->actual->force)[node];
-    if (tree_is_forward(tree, node))
-        *out = vec_neg(system->arena, *out);
+    vector = tree_has(tree, joint->edge)
+                 ? branch_reaction(system, tree, joint->edge, system->actual, part.moment, &chain)
+                 : chord_reaction(system, joint, part.moment);
+    *out = component(system, joint, part, vector, chain);
 done:
     return status;
-}
-
-Status joint_force(System *system, const Instance *joint, Vec *force, int *chain, Diag *diag)
-{
-    return reaction(system, joint, false, force, chain, diag);
-}
-
-Status joint_moment(System *system, const Instance *joint, Vec *moment, int *chain, Diag *diag)
-{
-    return reaction(system, joint, true, moment, chain, diag);
 }

@@ -26,8 +26,6 @@ static void copy_instances(System *system, const Model *model)
     system->instances = pool_alloc(system->pool, (size_t)count * sizeof *system->instances);
     system->coordinate = pool_alloc(system->pool, (size_t)count * sizeof *system->coordinate);
     system->speed = pool_alloc(system->pool, (size_t)count * sizeof *system->speed);
-    system->lost_force = pool_alloc(system->pool, (size_t)count * sizeof(bool));
-    system->lost_moment = pool_alloc(system->pool, (size_t)count * sizeof(bool));
     for (int i = 0; i < count; i++) {
         const Instance *from = model_instance(model, i);
         Instance *to = &system->instances[i];
@@ -340,6 +338,7 @@ static Status make(const Model *model, NetworkForm form, VaryValue vary, void *c
     for (int i = 0; i < 3; i++)
         system->gravity.at[i] = model_gravity(model)[i];
     report(watch, "formulating", -1.0);
+    parameters_take(system, model);
     copy_instances(system, model);
     if (vary != NULL)
         vary_values(system, vary, context);
@@ -391,6 +390,8 @@ void system_free(System *system)
     LIST_FREE(system->chains);
     LIST_FREE(system->masses);
     LIST_FREE(system->rows);
+    LIST_FREE(system->vanished);
+    LIST_FREE(system->parameters);
     LIST_FREE(system->dropped);
     LIST_FREE(system->remarks);
     LIST_FREE(system->branches);

@@ -132,6 +132,26 @@ typedef struct Row {
     ConstraintRow told;
 } Row;
 
+typedef struct Given {
+    Expr symbol; /* a parameter */
+    double value;
+} Given;
+
+typedef struct Sample { /* a random position */
+    const System *system;
+    double *q;
+    double *parameter; /* in order of system->parameters */
+} Sample;
+
+/* multipliers of rows that vanished, from virtual branches that carry nothing (vanished.c) */
+typedef struct Recovery {
+    Expr *multipliers; /* mu, one a vanished row; 0 where it is open */
+    Sums **sums;       /* what a unit of each puts beyond every node */
+    int open_count;    /* combinations of mu that nothing determines */
+    double *open;      /* vanished rows x open_count, at `sample` */
+    Sample *sample;    /* the position */
+} Recovery;
+
 /* --- network --- */
 
 typedef struct Branchlike { /* a scalar edge */
@@ -195,12 +215,12 @@ struct System {
     LIST(Chain) chains;
     Frame *frames; /* one a node of the graph; scalar nodes unused */
     ChainMotion *motions;
-    Vec *alpha0;      /* of chains, in the axes of their resolve chain */
-    Vec *a0;          /* of nodes */
-    bool *lost_force; /* of an instance: a force row vanished, so that it is not told by lambda */
-    bool *lost_moment;
+    Vec *alpha0; /* of chains, in the axes of their resolve chain */
+    Vec *a0;     /* of nodes */
     LIST(Mass) masses;
     LIST(Row) rows;
+    LIST(Row) vanished;     /* rows that hold in every position: no lambda tells what they carry */
+    LIST(Given) parameters; /* as they were */
     LIST(const char *) dropped;
     LIST(const char *) remarks;
 
@@ -225,6 +245,7 @@ struct System {
 
     /* formed when asked for */
     Expr *shown[BLOCK_COUNT]; /* entries; NULL pointers until formed */
+    Recovery *recovery;       /* NULL: not looked for yet, or no row vanished */
     Sums *actual;             /* with u', lambda: for reactions */
     Vec *actual_a;            /* accelerations of nodes */
     Vec *actual_alpha;        /* of chains */
@@ -373,6 +394,14 @@ MUST_USE Status wrench_of(System *system, const Instance *instance, Vec *force, 
  * `joints` */
 MUST_USE Status efforts_add(System *system, Loads *loads, bool joints, Diag *diag);
 
+/* --- numbers at a random position (sample.c) --- */
+
+void parameters_take(System *system, const Model *model);
+/* in the system's pool; `vary`: with other parameters too, for what holds whatever they are */
+Sample *sample_new(System *system, uint64_t seed, bool vary);
+/* of an expression in q and parameters; NAN where there is more in it */
+double sample_number(Sample *sample, Expr e);
+
 /* --- constraints (constraints.c), dynamics (dynamics.c), network (network.c), show.c --- */
 
 MUST_USE Status constraints_build(System *system, Diag *diag);
@@ -441,14 +470,22 @@ int embedded_rows(const System *system); /* drivers don't count as constraints i
 /* the effort of the only driver of a system with one freedom, in q, u and u' */
 MUST_USE Status embedded_effort(System *system, const Row *driver, Expr *out, Diag *diag);
 
-/* --- reactions (reactions.c) --- */
+/* --- reactions (reactions.c, vanished.c) --- */
 
 /* accelerations with u', sums inward with lambda */
 MUST_USE Status actual_build(System *system, Diag *diag);
-MUST_USE Status joint_force(System *system, const Instance *joint, Vec *force, int *chain,
-                            Diag *diag);
-MUST_USE Status joint_moment(System *system, const Instance *joint, Vec *moment, int *chain,
-                             Diag *diag);
+/* what a constraint row puts on its two ends: -lambda along its direction */
+void loads_add_row(System *system, Loads *loads, const Row *row, Expr lambda);
+/* multipliers of the rows that vanished, from the loads without them */
+void recovery_build(System *system, const Loads *loads);
+
+typedef struct ReactionPart { /* a component of a force or a moment */
+    bool moment;
+    bool own; /* in the axes of the tail, not of the datum */
+    int axis; /* 0, 1, 2 */
+} ReactionPart;
+MUST_USE Status joint_reaction(System *system, const Instance *joint, ReactionPart part, Expr *out,
+                               Diag *diag);
 
 const char *system_keep(System *system, const char *format, ...)
     PRINTF(2, 3); /* text in the pool */

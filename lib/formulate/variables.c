@@ -256,32 +256,16 @@ static Status joint_variable(System *system, const Instance *joint, const char *
     const char *axis = strlen(member) == 2 ? strchr(letters, member[1]) : NULL;
     bool moment = member[0] == 't' || member[0] == 'T';
     bool own = member[0] == 'F' || member[0] == 'T';
-    Vec vector;
-    int chain;
-    Status status = OK;
 
-    if (strcmp(member, "effort") == 0) {
-        CHECK(wait_for_motion(system, diag));
-        return joint_effort(system, joint, out, diag);
-    }
+    if (strcmp(member, "effort") == 0)
+        return wait_for_motion(system, diag) == OK ? joint_effort(system, joint, out, diag)
+                                                   : E_MISSING;
     if (strcmp(member, "s") == 0)
         return tied_shift(system, joint, out, diag);
     if (axis == NULL)
         return diag_set(diag, E_MISSING, "%s.%s can't be told", joint->name, member);
-    CHECK(moment ? joint_moment(system, joint, &vector, &chain, diag)
-                 : joint_force(system, joint, &vector, &chain, diag));
-    if (own) {
-        const Frame *tail = &system->frames[joint->tail];
-        Rotation back = rotation_transpose(&tail->zero);
-
-        vector =
-            rotation_apply(system->arena, &back, vec_express(system, vector, chain, tail->chain));
-    } else {
-        vector = vec_express(system, vector, chain, 0);
-    }
-    *out = vector.at[axis - letters];
-done:
-    return status;
+    return joint_reaction(system, joint, (ReactionPart){moment, own, (int)(axis - letters)}, out,
+                          diag);
 }
 
 /* --- what pushes, and networks --- */

@@ -2,6 +2,7 @@
 #include "simulate/start.h"
 
 #include "base/memory.h"
+#include "base/random.h"
 #include "simulate/least.h"
 #include "simulate/linear.h"
 #include "simulate/rank.h"
@@ -399,16 +400,6 @@ static Status pull(Assembly *a, Diag *diag)
 done:
     problem_close(&p);
     return status;
-}
-
-/* splitmix64 (Steele, Lea, Flood 2014): the same tries in every run */
-static double random_unit(uint64_t *state)
-{
-    uint64_t z = (*state += 0x9E3779B97F4A7C15U);
-
-    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9U;
-    z = (z ^ (z >> 27)) * 0x94D049BB133111EBU;
-    return 2 * ((double)((z ^ (z >> 31)) >> 11) * 0x1p-53) - 1;
 }
 
 static void remark_moved(Assembly *a, const double *begun)

@@ -10,3 +10,7 @@ UNIT_TESTS += test_spatial
 test_spatial_SOURCES = tests/unit/test_spatial.c tests/unit/spatial.h tests/unit/test.h \
   tests/unit/scene.h
 test_spatial_LDADD = $(unit_ldadd)
+
+UNIT_TESTS += test_displaced
+test_displaced_SOURCES = tests/unit/test_displaced.c tests/unit/session_kit.h tests/unit/test.h
+test_displaced_LDADD = $(unit_ldadd)

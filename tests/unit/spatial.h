@@ -87,6 +87,33 @@ static char *random_tree_of_bodies(uint64_t *random, int bodies)
     return text_done(&text);
 }
 
+/* beside each joint of a scene a virtual one of its kind, between the same frames: v3 beside j3 */
+__attribute__((unused)) static void add_twins(const char *scene, Text *text)
+{
+    for (const char *line = scene; *line != '\0';) {
+        size_t length = strcspn(line, "\n");
+        const char *name = strchr(line, ' ') + 1;
+
+        if (name[0] == 'j')
+            text_addf(text, "virtual %.*s v%.*s\n", (int)(name - line) - 1, line,
+                      (int)(line + length - name) - 1, name + 1);
+        line += length + (line[length] == '\n');
+    }
+}
+
+/* ... and what is guessed of the one is guessed of the other */
+__attribute__((unused)) static void add_twin_guesses(const char *guesses, Text *text)
+{
+    for (const char *line = guesses; *line != '\0';) {
+        size_t length = strcspn(line, "\n");
+        const char *name = line + strlen("guess ");
+
+        if (name[0] == 'j')
+            text_addf(text, "guess v%.*s\n", (int)(line + length - name) - 1, name + 1);
+        line += length + (line[length] == '\n');
+    }
+}
+
 /* --- values --- */
 
 static void push(const Model *model, Items *items, const char *text)
@@ -327,6 +354,23 @@ static void compared_names(const Model *model, int bodies, Words *names, int *of
         }
 }
 
+/* the branch, or now and then the virtual one beside it where that has a freedom; a screw's for
+ * both trees */
+static const char *branch_name(const Model *model, const Instance *owner, TreeKind kind,
+                               uint64_t *random)
+{
+    const Instance *twin;
+    char name[16];
+
+    snprintf(name, sizeof name, "v%s", owner->name + 1);
+    twin = model_find(model, name);
+    if (owner->name[0] != 'j' || twin == NULL ||
+        graph_branching(model_graph(model), twin->edge, kind) == BRANCH_NEVER ||
+        (strcmp(owner->row->name, "screw") == 0 ? owner->number % 2 : pick(random, 2)) == 0)
+        return owner->name;
+    return twin->name;
+}
+
 /* a statement with random trees, or a preset */
 static char *choose_trees(const Model *model, int choice, uint64_t *random)
 {
@@ -352,7 +396,8 @@ static char *choose_trees(const Model *model, int choice, uint64_t *random)
         text_addf(&text, "tree %s", tree_kind_name(kind));
         for (int e = 0; tree != NULL && e < graph_edge_count(graph); e++)
             if (tree_has(tree, e) && graph_branching(graph, e, kind) != BRANCH_ALWAYS)
-                text_addf(&text, " %s", graph_edge(graph, e)->name);
+                text_addf(&text, " %s",
+                          branch_name(model, model_edge_owner(model, e), kind, random));
         text_char(&text, '\n');
         tree_free(tree);
         mem_free(preference);

@@ -504,7 +504,7 @@ static void reactions_beside_a_vanished_row_are_refused(void)
     Diag diag = {0};
 
     EXPECT(system_variable(system, "s1.fy", 0, &e, &diag) == E_MISSING);
-    EXPECT(strstr(diag.hint, "an equation of s2 on its circuit") != NULL);
+    EXPECT(strstr(diag.hint, "an equation of s2 repeats others") != NULL);
     EXPECT(system_variable(system, "s2.fy", 0, &e, &diag) == E_MISSING);
     system_free(system);
     model_free(model);

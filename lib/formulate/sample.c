@@ -1,0 +1,63 @@
+/* sample.c: numbers of expressions at a random position
+ *
+ * What is the same at a few positions that nobody chose is the same at all of them: zeros that
+ * rounding hides from symbols are told so. */
+#include "base/random.h"
+#include "formulate/system_impl.h"
+
+#include <math.h>
+
+void parameters_take(System *system, const Model *model)
+{
+    for (int i = 0; i < model_parameter_count(model); i++) {
+        Expr definition;
+        Expr symbol = model_parameter(model, i, &definition);
+
+        LIST_PUSH(system->parameters, (Given){symbol, model_parameter_value(model, symbol)});
+    }
+}
+
+Sample *sample_new(System *system, uint64_t seed, bool vary)
+{
+    Sample *sample = pool_alloc(system->pool, sizeof *sample);
+    int n = system->q.count;
+
+    sample->system = system;
+    sample->q = pool_alloc(system->pool, (size_t)n * sizeof(double));
+    for (int i = 0; i < n; i++)
+        sample->q[i] = random_unit(&seed);
+    for (int i = 0; i < system->quaternions.count; i++) {
+        double *p = sample->q + system->quaternions.at[i];
+        double size = sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2] + p[3] * p[3]);
+
+        for (int k = 0; k < 4; k++)
+            p[k] /= size;
+    }
+    sample->parameter = pool_alloc(system->pool, (size_t)system->parameters.count * sizeof(double));
+    for (int i = 0; i < system->parameters.count; i++) {
+        double value = system->parameters.at[i].value;
+
+        sample->parameter[i] =
+            vary ? value * (1 + 0.1 * random_unit(&seed)) + 0.1 * random_unit(&seed) : value;
+    }
+    return sample;
+}
+
+static double symbol_value(void *context, Expr symbol)
+{
+    const Sample *sample = context;
+    const System *system = sample->system;
+
+    for (int i = 0; i < system->q.count; i++)
+        if (system->q.at[i].symbol == symbol)
+            return sample->q[i];
+    for (int i = 0; i < system->parameters.count; i++)
+        if (system->parameters.at[i].symbol == symbol)
+            return sample->parameter[i];
+    return NAN;
+}
+
+double sample_number(Sample *sample, Expr e)
+{
+    return expr_is_number(e) ? expr_value(e) : expr_evaluate(e, symbol_value, sample);
+}
