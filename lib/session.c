@@ -136,21 +136,50 @@ void session_sweep(ct_session *session)
     session->systems.count = kept;
 }
 
-Status session_system(ct_session *session, System **out, Diag *diag)
+static Status system_of_form(ct_session *session, NetworkForm form, System **out, Diag *diag)
 {
     System *system = NULL;
     Status status = OK;
 
     for (int i = 0; i < session->systems.count; i++)
-        if (system_revision(session->systems.at[i]) == model_revision(session->model)) {
+        if (system_revision(session->systems.at[i]) == model_revision(session->model) &&
+            system_network_form(session->systems.at[i]) == form) {
             *out = session->systems.at[i];
             return OK;
         }
     report(&session->watch, "equations", -1);
-    CHECK(system_new(session->model, &session->watch, &system, diag));
+    CHECK(system_new_form(session->model, form, &session->watch, &system, diag));
     LIST_PUSH(session->systems, system);
     session_sweep(session);
     *out = system;
+done:
+    return status;
+}
+
+Status session_system(ct_session *session, System **out, Diag *diag)
+{
+    return system_of_form(session, model_network_form(session->model), out, diag);
+}
+
+Status session_shown(ct_session *session, System **out, Diag *diag)
+{
+    Diag why = {0};
+    Status status = OK;
+
+    CHECK(session_system(session, out, diag));
+    if (system_tree_is_normal(*out))
+        return OK;
+    status = system_of_form(session, NETWORK_TREE, out, &why);
+    if (status == E_MODEL) {
+        Text line = {0};
+
+        text_addf(&line, "network in state form: %s\n", why.message);
+        session_remark(session, line.at);
+        text_free(&line);
+        status = session_system(session, out, diag);
+    } else if (status != OK) {
+        *diag = why;
+    }
 done:
     return status;
 }
@@ -236,7 +265,7 @@ static void remark_trees(ct_session *session)
     Diag ignored;
 
     if (graph_edge_count(model_graph(session->model)) > GLANCE ||
-        session_system(session, &view.system, &ignored) != OK)
+        session_shown(session, &view.system, &ignored) != OK)
         return;
     if (before >= 0)
         old = session->costs.at[before];
@@ -269,7 +298,7 @@ static void log_trees(ct_session *session)
 
     if (session->costs.count == 0 && graph_edge_count(model_graph(session->model)) > 0 &&
         graph_edge_count(model_graph(session->model)) <= GLANCE &&
-        session_system(session, &view.system, &ignored) == OK &&
+        session_shown(session, &view.system, &ignored) == OK &&
         tree_cost(&view, &cost, &ignored) == OK)
         session->cost_now = tree_costs_add(&session->costs, &cost);
 }

@@ -69,6 +69,9 @@ void session_remark(ct_session *session, const char *lines);
 
 /* the equations of the model as it is; borrowed */
 MUST_USE Status session_system(ct_session *session, System **out, Diag *diag);
+/* The equations that are shown: those of the trees as they are, also where a run takes a network
+ * in state form. */
+Status session_shown(ct_session *session, System **out, Diag *diag);
 /* free systems that neither the model nor a run needs any more */
 void session_sweep(ct_session *session);
 /* what there is to look at; `system` and `result` as needed */

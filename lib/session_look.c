@@ -27,6 +27,8 @@ ct_status ct_show(ct_session *session, const ct_statement *statement, char **tex
     session_begin(session);
     CHECK(show_need(s, &need, &diag));
     if (need == NEED_SYSTEM)
+        CHECK(session_shown(session, &view.system, &diag));
+    if (need == NEED_RUNNING)
         CHECK(session_system(session, &view.system, &diag));
     CHECK(show(&view, s, &out, &diag));
 done:
@@ -42,7 +44,7 @@ ct_status ct_count(ct_session *session, const ct_statement *statement, char **te
     Status status;
 
     session_begin(session);
-    CHECK(session_system(session, &view.system, &diag));
+    CHECK(session_shown(session, &view.system, &diag));
     CHECK(tree_cost(&view, &cost, &diag));
     session->cost_now = tree_costs_add(&session->costs, &cost);
     CHECK(count_print(&view, statement_of(statement), &session->costs, &out, &diag));

@@ -384,13 +384,14 @@ done:
     return status;
 }
 
-static Status export_equations(const ExportJob *job, Status (*write)(const View *, Text *, Diag *),
-                               Text *out, Diag *diag)
+static Status export_equations(const ExportJob *job, bool shown,
+                               Status (*write)(const View *, Text *, Diag *), Text *out, Diag *diag)
 {
     View view = session_view(job->session);
     Status status;
 
-    CHECK(session_system(job->session, &view.system, diag));
+    CHECK(shown ? session_shown(job->session, &view.system, diag)
+                : session_system(job->session, &view.system, diag));
     CHECK(write(&view, out, diag));
 done:
     return status;
@@ -398,12 +399,12 @@ done:
 
 static Status export_latex(const ExportJob *job, Text *out, Diag *diag)
 {
-    return export_equations(job, write_latex, out, diag);
+    return export_equations(job, true, write_latex, out, diag);
 }
 
 static Status export_c(const ExportJob *job, Text *out, Diag *diag)
 {
-    return export_equations(job, write_c, out, diag);
+    return export_equations(job, false, write_c, out, diag);
 }
 
 static Status export_dot(const ExportJob *job, Text *out, Diag *diag)

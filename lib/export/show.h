@@ -9,8 +9,9 @@
 
 typedef enum Need {
     NEED_MODEL,
-    NEED_SYSTEM,
-    NEED_RUN /* the last run; equations too */
+    NEED_SYSTEM,  /* equations as the trees give them */
+    NEED_RUNNING, /* equations as a run evaluates them */
+    NEED_RUN      /* the last run; equations too */
 } Need;
 
 typedef enum Behind { /* what may stand behind a topic */

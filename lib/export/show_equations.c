@@ -419,11 +419,7 @@ static void push_network(const View *view, Equations *equations, int lead_width)
 {
     for (int i = 0; i < system_network_count(view->system); i++) {
         Equation equation = {.lead = NULL, .name = NULL, .left = {0}, .right = {0}};
-        const int nx = system_nx(view->system);
-        const Variable *unknown = i < nx ? system_x(view->system, i)
-                                  : i - nx < system_nz(view->system)
-                                      ? system_z(view->system, i - nx)
-                                      : NULL;
+        const Variable of = {.edge = system_network_edge(view->system, i)};
         Text lead = {0};
         char name[80];
         Expr left, right;
@@ -431,7 +427,7 @@ static void push_network(const View *view, Equations *equations, int lead_width)
         system_network_equation(view->system, i, &left, &right);
         LIST_PUSH(equation.left, (Term){left, NULL});
         LIST_PUSH(equation.right, (Term){right, NULL});
-        (void)snprintf(name, sizeof name, "%s:", unknown != NULL ? edge_name(view, unknown) : "");
+        (void)snprintf(name, sizeof name, "%s:", edge_name(view, &of));
         text_addf(&lead, "%-*s  ", lead_width, name);
         equation.lead = text_done(&lead);
         LIST_PUSH(*equations, equation);

@@ -216,9 +216,9 @@ static void push_reading(const System *system, Expr **roots, int *count)
     const struct {
         const Expr *at;
         int count;
-    } parts[] = {{r->phi, m},         {r->phi_u, m * nu},  {r->nu, m},
-                 {r->gamma, m},       {r->mass, nu * nu},  {r->force, nu},
-                 {r->network_residual, k}, {r->q_rate, n}};
+    } parts[] = {
+        {r->phi, m},    {r->phi_u, m * nu},       {r->nu, m},    {r->gamma, m}, {r->mass, nu * nu},
+        {r->force, nu}, {r->network_residual, k}, {r->q_rate, n}};
     LIST(Expr) all = {0};
 
     for (int p = 0; p < COUNT(parts); p++)

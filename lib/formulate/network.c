@@ -86,6 +86,7 @@ static int normal_order(const System *system, const Branchlike *branch)
     return graph_edge(system->graph, branch->edge)->preference[0];
 }
 
+/* The user's tree, where it is a normal one; else as much of it as a normal tree may hold. */
 static Status normal_tree(System *system, TreeKind kind, Diag *diag)
 {
     int *preference = NEW_ARRAY(int, graph_edge_count(system->graph));
@@ -93,9 +94,16 @@ static Status normal_tree(System *system, TreeKind kind, Diag *diag)
     Tree *tree = NULL;
     Status status = OK;
 
-    for (int i = 0; i < system->branches.count; i++)
-        preference[system->branches.at[i].edge] = normal_order(system, &system->branches.at[i]);
+    for (int i = 0; i < system->branches.count; i++) {
+        int edge = system->branches.at[i].edge;
+
+        preference[edge] = 2 * normal_order(system, &system->branches.at[i]) +
+                           !tree_has(system->trees[kind], edge);
+    }
     CHECK(tree_complete(system->graph, kind, &choice, false, &tree, diag));
+    for (int i = 0; i < tree_branch_count(tree); i++)
+        if (!tree_has(system->trees[kind], tree_branches(tree)[i]))
+            system->leaves_trees = true;
     tree_free(system->trees[kind]);
     system->trees[kind] = tree;
 done:
@@ -250,6 +258,11 @@ Status circuit_across(System *system, Branchlike *branch, Expr *out, Diag *diag)
         Branchlike *other = &system->branches.at[system->scalar_of_edge[edges[i]]];
         Expr v;
 
+        if (branch->busy && other->busy && other->unknown < 0) {
+            /* a loop: rather the chord stays unknown, as a mesh current */
+            system->met_loop = true;
+            CHECK(diag_set(diag, E_MISSING, "%s leads back to itself", edge->name));
+        }
         CHECK(network_across(system, other, &v, diag));
         terms[i] = signs[i] > 0 ? v : expr_neg(system->arena, v);
     }
@@ -374,8 +387,9 @@ static Status own_variable(System *system, Branchlike *branch, Expr *out, Diag *
         status = by_relation(system, branch, &given, out, diag);
         system->follow_depth--;
         branch->busy = false;
-        if (status != OK && system->asked_early) {
-            /* a source that reads a reaction: its equation waits for those of motion */
+        if (status != OK && (system->asked_early || (!branch->branch && system->met_loop))) {
+            /* what it reads follows from forces, and waits for those; or a loop */
+            system->met_loop = false;
             given = false;
             status = OK;
             if (diag != NULL)
@@ -489,6 +503,10 @@ Status network_build(System *system, Diag *diag)
                     tree_has(system->trees[kind], system->branches.at[i].edge);
     }
     add_states(system);
+    /* chords first: their currents are the ones to stay unknown */
+    for (int i = 0; i < system->branches.count; i++)
+        if (!system->branches.at[i].branch)
+            CHECK(network_through(system, &system->branches.at[i], &value, diag));
     for (int i = 0; i < system->branches.count; i++) {
         CHECK(network_across(system, &system->branches.at[i], &value, diag));
         CHECK(network_through(system, &system->branches.at[i], &value, diag));

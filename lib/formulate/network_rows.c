@@ -137,6 +137,24 @@ done:
 
 /* --- lists --- */
 
+/* the edge that an unknown belongs to; of a state of a part's own its first */
+static int unknown_edge(const System *system, const Unknown *y)
+{
+    return y->branchlike >= 0 ? system->branches.at[y->branchlike].edge
+                              : system->instances[y->instance].scalar_edges[0];
+}
+
+/* in the order of the edges' making */
+static void show_equation(System *system, NetworkEquation equation)
+{
+    int at = system->network_shown.count;
+
+    LIST_PUSH(system->network_shown, equation);
+    for (; at > 0 && system->network_shown.at[at - 1].edge > equation.edge; at--)
+        system->network_shown.at[at] = system->network_shown.at[at - 1];
+    system->network_shown.at[at] = equation;
+}
+
 void network_list(System *system)
 {
     for (; system->listed < system->unknowns.count; system->listed++) {
@@ -144,11 +162,11 @@ void network_list(System *system)
         Expr symbol = y->symbol;
 
         for (int k = 0; k <= y->order; k++) {
-            Variable variable = {
-                .name = expr_name(symbol), .symbol = symbol, .edge = -1, .instance = y->instance};
+            Variable variable = {.name = expr_name(symbol),
+                                 .symbol = symbol,
+                                 .edge = unknown_edge(system, y),
+                                 .instance = y->instance};
 
-            if (y->branchlike >= 0)
-                variable.edge = system->branches.at[y->branchlike].edge;
             if (expr_symbol_kind(symbol) == SYMBOL_STATE_RATE)
                 break; /* solved for */
             if (expr_symbol_kind(symbol) == SYMBOL_ALGEBRAIC) {
@@ -243,6 +261,34 @@ done:
     return status;
 }
 
+/* rates of other states on the right go to the left: capacitors in a circuit, coupled inductors */
+static void gather_rates(Rows *rows, int first, Expr *left, Expr *right)
+{
+    System *system = rows->system;
+    Arena *arena = system->arena;
+    LIST(Expr) terms = {0};
+    LIST(Expr) symbols = {0};
+    LIST(Expr) zeros = {0};
+
+    for (int i = first; i < rows->entries.count; i++) {
+        const Entry *entry = &rows->entries.at[i];
+
+        if (entry->column >= system->x.count)
+            continue;
+        LIST_PUSH(symbols, system->rates.at[entry->column]);
+        LIST_PUSH(zeros, expr_int(arena, 0));
+        LIST_PUSH(terms,
+                  expr_mul(arena, expr_fold(arena, entry->value), system->rates.at[entry->column]));
+    }
+    *right = expr_sub(arena, expr_substitute(arena, *right, symbols.at, zeros.at, symbols.count),
+                      expr_substitute(arena, *left, symbols.at, zeros.at, symbols.count));
+    *right = expr_fold(arena, expr_open(arena, *right));
+    *left = expr_sum(arena, terms.at, terms.count);
+    LIST_FREE(terms);
+    LIST_FREE(symbols);
+    LIST_FREE(zeros);
+}
+
 /* rows in the order of [x'; z] */
 static Status add_rows(Rows *rows, Diag *diag)
 {
@@ -259,8 +305,10 @@ static Status add_rows(Rows *rows, Diag *diag)
                                                        expr_open(arena, y->right));
         bool is_state = expr_symbol_kind(y->symbol) == SYMBOL_STATE;
 
-        LIST_PUSH(system->network_left, y->left);
-        LIST_PUSH(system->network_right, y->right);
+        int first = rows->entries.count;
+        Expr left = y->left;
+        Expr right = y->right;
+
         /* rates that are states themselves */
         for (int l = 0;
              is_state && l < y->order - 1 && expr_symbol_kind(y->rates[l]) == SYMBOL_STATE;
@@ -269,6 +317,10 @@ static Status add_rows(Rows *rows, Diag *diag)
                           expr_sub(arena, system->rates.at[state], system->x.at[state + 1].symbol),
                           y, diag));
         CHECK(add_row(rows, is_state ? state++ : algebraic++, residual, y, diag));
+        if (system->network_form == NETWORK_STATE && is_state &&
+            (expr_kinds(right) & 1U << SYMBOL_STATE_RATE) != 0 && !system->run.network_nonlinear)
+            gather_rates(rows, first, &left, &right);
+        show_equation(system, (NetworkEquation){left, right, unknown_edge(system, y)});
         CHECK(poll(system->watch));
     }
 done:

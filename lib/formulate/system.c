@@ -399,8 +399,7 @@ void system_free(System *system)
     LIST_FREE(system->unknown_of);
     LIST_FREE(system->rate_of);
     LIST_FREE(system->samples);
-    LIST_FREE(system->network_left);
-    LIST_FREE(system->network_right);
+    LIST_FREE(system->network_shown);
     LIST_FREE(system->drives);
     LIST_FREE(system->switches);
     pool_free(system->pool);
@@ -559,6 +558,11 @@ Expr *system_network_matrix(const System *system)
     return dense;
 }
 
+bool system_tree_is_normal(const System *system)
+{
+    return !system->leaves_trees;
+}
+
 NetworkForm system_network_form(const System *system)
 {
     return system->network_form;
@@ -571,13 +575,18 @@ const OwnSample *system_sample(const System *system, int i)
 
 int system_network_count(const System *system)
 {
-    return system->network_left.count;
+    return system->network_shown.count;
 }
 
 void system_network_equation(System *system, int i, Expr *left, Expr *right)
 {
-    *left = system->network_left.at[i];
-    *right = system->network_right.at[i];
+    *left = system->network_shown.at[i].left;
+    *right = system->network_shown.at[i].right;
+}
+
+int system_network_edge(const System *system, int i)
+{
+    return system->network_shown.at[i].edge;
 }
 
 int system_drive_count(const System *system)

@@ -147,6 +147,7 @@ const OwnSample *system_sample(const System *system, int i);
 /* electrical equations as printed: `left = right`, one a network unknown */
 int system_network_count(const System *system);
 void system_network_equation(System *system, int i, Expr *left, Expr *right);
+int system_network_edge(const System *system, int i); /* whose relation it is */
 
 /* as written (reading to show) and after sharing (reading to run) */
 MUST_USE Status system_count(System *system, Block block, bool shared, OpCount *out, Diag *diag);

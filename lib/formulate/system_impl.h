@@ -179,6 +179,11 @@ typedef struct Unknown {
     Expr residual;    /* what a run solves instead of left - right; NULL: that */
 } Unknown;
 
+typedef struct NetworkEquation { /* as printed */
+    Expr left, right;
+    int edge; /* whose relation it is */
+} NetworkEquation;
+
 struct System {
     uint64_t revision;
     const Model *model; /* while it is made; NULL afterwards */
@@ -228,15 +233,16 @@ struct System {
     LIST(Branchlike) branches;
     int *scalar_of_edge; /* edge of the graph -> branches, or -1 */
     LIST(Unknown) unknowns;
-    int listed;              /* unknowns that stand in x or z already */
-    LIST(int) unknown_of;    /* by expr_symbol_number(): unknown, and which rate of it, */
-    LIST(int) rate_of;       /* as 1 + unknown and 0, 1, ...; 0: neither */
-    int follow_depth;        /* of v and i being followed */
-    bool is_network_open;    /* unknowns may still be added */
-    bool is_early;           /* reactions aren't there yet */
-    bool asked_early;        /* and were asked for */
-    LIST(Expr) network_left; /* as printed */
-    LIST(Expr) network_right;
+    int listed;           /* unknowns that stand in x or z already */
+    LIST(int) unknown_of; /* by expr_symbol_number(): unknown, and which rate of it, */
+    LIST(int) rate_of;    /* as 1 + unknown and 0, 1, ...; 0: neither */
+    int follow_depth;     /* of v and i being followed */
+    bool leaves_trees;    /* the scalar trees in use aren't those of the user */
+    bool is_network_open; /* unknowns may still be added */
+    bool is_early;        /* reactions aren't there yet */
+    bool asked_early;     /* and were asked for */
+    bool met_loop;        /* following a chord led to a branch that is being followed */
+    LIST(NetworkEquation) network_shown;
     LIST(OwnSample) samples;
 
     Reading definitions; /* by recursion, whatever the size */

@@ -197,10 +197,8 @@ static int state_conditions(const March *m)
 
 static void conditions_at(March *m, double t)
 {
-    const Equations *eq = m->eq;
-
     m->stepper->method->at(m->stepper, t, m->y);
-    eq->switches(eq->context, t, m->y, m->y + eq->n, m->y + eq->n + eq->nu, m->conditions);
+    motion_switches(m->plan->motion, t, m->y, m->conditions);
 }
 
 static void begin_modes(March *m)
@@ -274,7 +272,6 @@ static int find_switch(March *m, double *when)
 /* g of condition i at the stepper's end, and how fast it changes along the motion */
 static double condition_rate(March *m, int i, double *value)
 {
-    const Equations *eq = m->eq;
     const Ode *ode = motion_ode(m->plan->motion);
     const Stepper *s = m->stepper;
     double h = 1e-7 * fmax(1e-3, s->t - s->before);
@@ -285,7 +282,7 @@ static double condition_rate(March *m, int i, double *value)
         return 0;
     for (int k = 0; k < m->grid->length; k++)
         m->y[k] = s->y[k] + h * m->slope[k];
-    eq->switches(eq->context, s->t + h, m->y, m->y + eq->n, m->y + eq->n + eq->nu, m->conditions);
+    motion_switches(m->plan->motion, s->t + h, m->y, m->conditions);
     return (m->conditions[i] - *value) / h;
 }
 
@@ -313,15 +310,13 @@ done:
 /* From just before a switch to just behind it: so short a way that Euler's rule is exact. */
 static bool cross(March *m, int i, double value, double slope)
 {
-    const Equations *eq = m->eq;
     Stepper *s = m->stepper;
     double h = fmax(4e-16 * fabs(s->t), 2 * fabs(value / slope));
 
     for (int k = 0; k < 20; k++, h *= 2) {
         for (int j = 0; j < m->grid->length; j++)
             m->y[j] = s->y[j] + h * m->slope[j];
-        eq->switches(eq->context, s->t + h, m->y, m->y + eq->n, m->y + eq->n + eq->nu,
-                     m->conditions);
+        motion_switches(m->plan->motion, s->t + h, m->y, m->conditions);
         if (sign_of(m->conditions[i]) == -m->mode[i]) {
             memcpy(s->y, m->y, (size_t)m->grid->length * sizeof(double));
             s->t += h;

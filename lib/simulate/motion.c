@@ -203,6 +203,18 @@ static bool evaluate(Motion *mo, double t, const double *y)
     return true;
 }
 
+void motion_switches(Motion *mo, double t, const double *y, double *out)
+{
+    const Equations *eq = mo->eq;
+
+    if (eq->switches_read_network && !evaluate(mo, t, y)) {
+        for (int i = 0; i < eq->switch_count; i++)
+            out[i] = NAN;
+        return;
+    }
+    eq->switches(eq->context, t, y, y + eq->n, y + eq->n + eq->nu, out);
+}
+
 static void pick_rows(const Motion *mo, const double *all, double *out)
 {
     for (int k = 0; k < mo->used; k++)

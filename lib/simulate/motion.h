@@ -46,6 +46,7 @@ typedef struct Equations {
     int quaternion_count;
     /* conditions whose change of sign may bend or break the equations; time_only ones first */
     int switch_count, time_only;
+    bool switches_read_network; /* [x'; z] of the last network_solved() */
     void (*switches)(void *context, double t, const double *q, const double *u, const double *x,
                      double *out);
 } Equations;
@@ -84,6 +85,8 @@ bool motion_project(Motion *motion, double t, double *y);
 /* largest |Phi| and |Phi_u u - nu| over all rows */
 void motion_residuals(Motion *motion, double t, const double *y, double *position,
                       double *velocity);
+/* Conditions of switching at a row; NAN where the network has no solution there. */
+void motion_switches(Motion *motion, double t, const double *y, double *out);
 /* The time that rates see is kept within [low, high], so that a step up to a switch
  * never looks behind it. */
 void motion_window(Motion *motion, double low, double high);

@@ -299,7 +299,10 @@ static void switches(void *context, double t, const double *q, const double *u, 
     put(inputs, nb->layout->q, q, nb->layout->n);
     put(inputs, nb->layout->u, u, nb->layout->nu);
     put(inputs, nb->layout->x, x, nb->layout->nx);
-    workspace_run(nb->switch_workspace, STAGE_TIME, STAGE_VELOCITY);
+    if (nb->eq.switches_read_network)
+        memcpy(inputs + nb->layout->rates, workspace_inputs(nb->workspace) + nb->layout->rates,
+               (size_t)(nb->layout->nx + nb->layout->nz) * sizeof(double));
+    workspace_run(nb->switch_workspace, STAGE_TIME, STAGE_NETWORK);
     memcpy(out, workspace_roots(nb->switch_workspace),
            (size_t)nb->eq.switch_count * sizeof(double));
 }
@@ -430,7 +433,7 @@ done:
     return status;
 }
 
-/* conditions that can be looked at without solving anything */
+/* conditions that can be looked at before the accelerations are known */
 static Status compile_switches(Numbers *nb, Parameters *parameters, Diag *diag)
 {
     const Expr *conditions;
@@ -440,8 +443,11 @@ static Status compile_switches(Numbers *nb, Parameters *parameters, Diag *diag)
     Status status = OK;
 
     for (int i = 0; i < count; i++) {
-        if (stage_of(conditions[i]) == STAGE_PARAMETER || stage_of(conditions[i]) > STAGE_VELOCITY)
+        Stage stage = stage_of(conditions[i]);
+
+        if (stage == STAGE_PARAMETER || stage > STAGE_NETWORK)
             continue;
+        nb->eq.switches_read_network = nb->eq.switches_read_network || stage == STAGE_NETWORK;
         LIST_PUSH(roots, conditions[i]);
         nb->eq.time_only += i < time_only;
     }

@@ -5,6 +5,7 @@
 #include "base/random.h"
 #include "simulate/least.h"
 #include "simulate/linear.h"
+#include "simulate/netsolve.h"
 #include "simulate/rank.h"
 #include "simulate/redundant.h"
 #include "simulate/rows.h"
@@ -508,6 +509,51 @@ done:
     return status;
 }
 
+static double parameter_value(void *context, Expr symbol)
+{
+    return parameters_value(context, symbol);
+}
+
+static double value_of(Assembly *a, Expr e)
+{
+    parameters_keep(a->parameters, &e, 1);
+    return expr_evaluate(e, parameter_value, a->parameters);
+}
+
+/* whether the network has a solution at the start; what stands behind the states in v is where the
+ * search begins */
+static Status check_network(Assembly *a, const double *v, Diag *diag)
+{
+    const Layout *l = a->l;
+    const Equations *eq = a->eq;
+    NetSolve *solve;
+    int lost;
+    Status status = OK;
+
+    if (l->nx + l->nz == 0 || eq->network_reads != NULL)
+        return OK; /* or once the motion is known */
+    solve = netsolve_new(eq);
+    memcpy(netsolve_values(solve), v + l->nx, (size_t)(l->nx + l->nz) * sizeof(double));
+    eq->position(eq->context, 0, a->y);
+    eq->velocity(eq->context, a->y + l->n, a->y + l->n + l->nu);
+    if (netsolve_find(solve))
+        goto done;
+    lost = netsolve_undetermined(solve);
+    if (lost >= 0)
+        status = diag_set(diag, E_SINGULAR, "no equation of the network determines %s",
+                          expr_name(l->symbols[l->rates + lost]));
+    else
+        status =
+            diag_set(diag, E_SINGULAR, "the network's equations have no solution at the start");
+    diag_hint(diag, lost >= 0 ? "a source or an ideal part fixes the same thing twice: put a "
+                                "resistance or a capacitance there"
+                              : "other initial values, or a resistance beside the part that is "
+                                "steep, may help");
+done:
+    netsolve_free(solve);
+    return status;
+}
+
 static Status find_network(Assembly *a, WarmValue from, void *context, Diag *diag)
 {
     const Layout *l = a->l;
@@ -519,6 +565,11 @@ static Status find_network(Assembly *a, WarmValue from, void *context, Diag *dia
     Rows rows;
     Status status = OK;
 
+    for (int i = 0; system_sample(l->system, i) != NULL; i++) {
+        const OwnSample *own = system_sample(l->system, i);
+
+        v[own->state] = value_of(a, own->initial);
+    }
     for (int i = 0; i < l->nx && from != NULL; i++) {
         double value = from(context, system_x(l->system, i)->name);
 
@@ -543,6 +594,7 @@ static Status find_network(Assembly *a, WarmValue from, void *context, Diag *dia
             CHECK(tell_conflict(&p, residual, "the network's initial values contradict", diag));
     }
     memcpy(a->y + l->n + l->nu, v, (size_t)l->nx * sizeof(double));
+    CHECK(check_network(a, v, diag));
 done:
     problem_close(&p);
     mem_free(v);
