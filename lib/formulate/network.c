@@ -197,15 +197,39 @@ static Unknown unknown_of_branch(const System *system, const Branchlike *branch)
                      .derives = -1};
 }
 
-/* the edge's own variable stays unknown, with its relation as equation */
-static void keep_unknown(System *system, Branchlike *branch)
+/* a chord whose current is a function of its voltage, as a diode's: steep in that direction */
+static bool is_steep(const System *system, const Branchlike *branch)
 {
-    const char *name = branch_member(system, branch, !branch->branch);
-    bool state_form = system->network_form == NETWORK_STATE;
+    const Relation *relation = &branch->relation;
 
-    if (branch->unknown < 0)
-        branch->unknown = network_new_unknown(system, unknown_of_branch(system, branch), name,
-                                              state_form ? SYMBOL_ALGEBRAIC : SYMBOL_STATE);
+    return !branch->branch &&
+           (relation->kind == RELATION_CONDUCTIVE || relation->kind == RELATION_THROUGH) &&
+           expr_depends(relation->value,
+                        instance_across(owner_of(system, branch), system->arena, branch->which));
+}
+
+/* The edge's own variable stays unknown, with its relation as equation. Of a steep chord it is the
+ * voltage, from which Newton's method finds the current, as it would not the other way round; its
+ * equation is the circuit. */
+static Status keep_unknown(System *system, Branchlike *branch, Diag *diag)
+{
+    bool steep = is_steep(system, branch);
+    const char *name = branch_member(system, branch, !branch->branch && !steep);
+    bool state_form = system->network_form == NETWORK_STATE;
+    Status status = OK;
+
+    if (branch->unknown >= 0)
+        return OK;
+    branch->unknown = network_new_unknown(system, unknown_of_branch(system, branch), name,
+                                          state_form ? SYMBOL_ALGEBRAIC : SYMBOL_STATE);
+    if (!steep)
+        return OK;
+    branch->is_steep = true;
+    branch->v = system->unknowns.at[branch->unknown].symbol;
+    CHECK(resolve(system, branch->relation.value, &branch->i, diag));
+    branch->i = expr_hold(system->arena, branch->i);
+done:
+    return status;
 }
 
 Status network_rate(System *system, Expr symbol, Expr *out, Diag *diag)
@@ -399,8 +423,10 @@ static Status own_variable(System *system, Branchlike *branch, Expr *out, Diag *
     }
     /* it was met again on the way, or nothing gives it */
     if (!given)
-        keep_unknown(system, branch);
-    if (branch->unknown >= 0)
+        CHECK(keep_unknown(system, branch, diag));
+    if (branch->is_steep)
+        *out = branch->i;
+    else if (branch->unknown >= 0)
         *out = system->unknowns.at[branch->unknown].symbol;
 done:
     return status;
@@ -415,7 +441,8 @@ Status network_across(System *system, Branchlike *branch, Expr *out, Diag *diag)
             CHECK(own_variable(system, branch, out, diag));
         else
             CHECK(circuit_across(system, branch, out, diag));
-        branch->v = expr_hold(system->arena, *out);
+        if (!branch->is_steep)
+            branch->v = expr_hold(system->arena, *out);
     }
     *out = branch->v;
 done:
@@ -431,7 +458,8 @@ Status network_through(System *system, Branchlike *branch, Expr *out, Diag *diag
             CHECK(cutset_through(system, branch, out, diag));
         else
             CHECK(own_variable(system, branch, out, diag));
-        branch->i = expr_hold(system->arena, *out);
+        if (!branch->is_steep)
+            branch->i = expr_hold(system->arena, *out);
     }
     *out = branch->i;
 done:

@@ -66,8 +66,10 @@ static Status relation_row(System *system, Unknown *y, Diag *diag)
         break;
     case RELATION_THROUGH:
     case RELATION_CONDUCTIVE:
-        y->left = i;
+        y->left = branch->is_steep ? v : i;
         y->right = value;
+        if (branch->is_steep)
+            CHECK(circuit_across(system, branch, &y->right, diag));
         break;
     case RELATION_RESISTIVE:
         y->left = branch->branch ? v : expr_mul(arena, value, i);

@@ -1,7 +1,8 @@
 /* smooth.c: whether an expression has a derivative in time where the equations need one
  *
- * step and sign jump; a choice in time jumps where its two values differ at the switch. Other
- * choices are taken for bends, as in the derivative rules. */
+ * What switches at an instant is found, and the expression looked at just before and behind it:
+ * ramp(t)^2 has step(t) in its derivative, and bends there all the same. Switches by other
+ * variables are taken for bends, as in the derivative rules. */
 #include "formulate/system_impl.h"
 
 #include <math.h>
@@ -19,49 +20,81 @@ static double value_at(void *context, Expr symbol)
     return symbol == at->time ? at->t : 0.7 + 0.1 * (expr_symbol_number(symbol) % 7);
 }
 
-/* if(t < number, a, b) with a != b there */
-static bool choice_jumps(Arena *arena, Expr choice)
+/* what is 0 where a function switches; NULL: it doesn't */
+static Expr switch_of(Arena *arena, Expr e)
 {
-    Expr condition = expr_arg(choice, 0);
-    AtTime at = {expr_symbol(arena, "t", SYMBOL_TIME), 0};
-    Expr difference;
-    double rate;
+    if (expr_kind(e) != EXPR_CALL)
+        return NULL;
+    switch (expr_op(e)) {
+    case OP_STEP:
+    case OP_SIGN:
+        return expr_arg(e, 0);
+    case OP_LT:
+    case OP_LE:
+        return expr_sub(arena, expr_arg(e, 0), expr_arg(e, 1));
+    case OP_FLOOR: /* at 1, as at any whole number */
+        return expr_sub(arena, expr_arg(e, 0), expr_int(arena, 1));
+    default:
+        return NULL;
+    }
+}
 
-    if (expr_kind(condition) != EXPR_CALL ||
-        (expr_op(condition) != OP_LT && expr_op(condition) != OP_LE))
-        return false;
-    difference = expr_sub(arena, expr_arg(condition, 0), expr_arg(condition, 1));
-    if ((expr_kinds(difference) & ~(1U << SYMBOL_TIME | 1U << SYMBOL_PARAMETER)) != 0)
-        return false;
-    rate = expr_evaluate(expr_diff(arena, difference, at.time), value_at, &at);
-    if (rate == 0)
-        return false;
-    at.t = -expr_evaluate(difference, value_at, &at) / rate;
-    difference = expr_sub(arena, expr_arg(choice, 1), expr_arg(choice, 2));
-    return !(fabs(expr_evaluate(difference, value_at, &at)) < 1e-9);
+/* Newton's method from t = 0; false where it leads nowhere */
+static bool instant_of(Arena *arena, Expr condition, AtTime *at)
+{
+    Expr slope = expr_diff(arena, condition, at->time);
+    double move = INFINITY;
+
+    at->t = 0;
+    for (int i = 0; i < 50 && fabs(move) > 1e-14 * fabs(at->t); i++) {
+        move = expr_evaluate(condition, value_at, at) / expr_evaluate(slope, value_at, at);
+        if (!isfinite(move))
+            return false;
+        at->t -= move;
+    }
+    return fabs(move) <= 1e-12 * fabs(at->t) + 1e-300;
+}
+
+static double change_about(Expr e, AtTime at, double step)
+{
+    AtTime before = {at.time, at.t - step};
+    AtTime behind = {at.time, at.t + step};
+
+    return fabs(expr_evaluate(e, value_at, &behind) - expr_evaluate(e, value_at, &before));
+}
+
+/* a change that does not shrink with the time it is given */
+static bool jumps_at(Expr e, AtTime at)
+{
+    double step = 1e-6 * fabs(at.t) + 1e-15;
+    double wide = change_about(e, at, step);
+
+    return wide > 0 && !(change_about(e, at, step / 100) <= wide / 2);
 }
 
 static bool jumps(Arena *arena, Expr e)
 {
+    const unsigned plain = 1U << SYMBOL_TIME | 1U << SYMBOL_PARAMETER;
+    AtTime at = {expr_symbol(arena, "t", SYMBOL_TIME), 0};
     LIST(Expr) stack = {0};
     LIST(bool) seen = {0};
     bool found = false;
 
     LIST_PUSH(stack, e);
     while (stack.count > 0 && !found) {
-        Expr at = stack.at[--stack.count];
-        uint32_t number = expr_number(at);
+        Expr part = stack.at[--stack.count];
+        Expr condition = switch_of(arena, part);
 
-        while ((uint32_t)seen.count <= number)
+        while ((uint32_t)seen.count <= expr_number(part))
             LIST_PUSH(seen, false);
-        if (seen.at[number])
+        if (seen.at[expr_number(part)])
             continue;
-        seen.at[number] = true;
-        if (expr_kind(at) == EXPR_CALL)
-            found = expr_op(at) == OP_STEP || expr_op(at) == OP_SIGN ||
-                    (expr_op(at) == OP_IF && choice_jumps(arena, at));
-        for (int i = 0; i < expr_arg_count(at); i++)
-            LIST_PUSH(stack, expr_arg(at, i));
+        seen.at[expr_number(part)] = true;
+        if (condition != NULL && (expr_kinds(condition) & ~plain) == 0 &&
+            instant_of(arena, condition, &at))
+            found = jumps_at(e, at);
+        for (int i = 0; i < expr_arg_count(part); i++)
+            LIST_PUSH(stack, expr_arg(part, i));
     }
     LIST_FREE(stack);
     LIST_FREE(seen);
@@ -84,4 +117,22 @@ Status need_smooth(System *system, const char *who, Expr e, Diag *diag)
         diag_hint(diag, "put a resistance into the circuit, or give the source a rise time");
     }
     return E_MODEL;
+}
+
+const char *system_rough_driver(System *system, int order)
+{
+    Expr time = expr_symbol(system->arena, "t", SYMBOL_TIME);
+
+    for (int k = 0; k < system->rows.count; k++) {
+        Expr f = system->rows.at[k].prescribed;
+
+        if (system->rows.at[k].kind != ROW_DRIVER)
+            continue;
+        for (int i = 0; i <= order; i++) {
+            if (jumps(system->arena, f))
+                return system->instances[system->rows.at[k].told.instance].name;
+            f = expr_diff(system->arena, f, time);
+        }
+    }
+    return NULL;
 }

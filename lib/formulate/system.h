@@ -220,6 +220,8 @@ typedef struct Drive {
     bool by_source; /* the effort is a voltage or current source's value */
 } Drive;
 int system_drive_count(const System *system);
+/* A driver whose motion has no continuous derivative of that order, by name; NULL: there is none */
+const char *system_rough_driver(System *system, int order);
 const Drive *system_drive(const System *system, int i);
 
 #endif

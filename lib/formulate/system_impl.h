@@ -160,9 +160,10 @@ typedef struct Branchlike { /* a scalar edge */
     int which;         /* of the instance's scalar edges */
     Relation relation; /* over the user's variables */
     bool branch;
-    int unknown; /* its v or i is one; -1 */
-    bool busy;   /* its v or i is being followed */
-    Expr v, i;   /* once known */
+    int unknown;   /* its v or i is one; -1 */
+    bool busy;     /* its v or i is being followed */
+    bool is_steep; /* a chord whose v is the unknown, i following from it */
+    Expr v, i;     /* once known */
 } Branchlike;
 
 /* A network unknown and the equation that belongs to it: a state (with a rate), or algebraic. */

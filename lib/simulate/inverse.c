@@ -89,6 +89,15 @@ static Status sort_unknowns(Inverse *in, Diag *diag)
         }
         LIST_PUSH(in->forces, l->x + i);
     }
+    /* the rate of a current is one of a force, and so u'' */
+    if (in->by_source && l->nx > 0 && system_rough_driver(l->system, 2) != NULL) {
+        (void)diag_set(diag, E_MODEL,
+                       "the sources need rates of currents, and the acceleration that %s asks for "
+                       "jumps",
+                       system_rough_driver(l->system, 2));
+        diag_hint(diag, "drive by a motion with a continuous second derivative");
+        return E_MODEL;
+    }
     for (int i = 0; i < l->nz && in->by_source; i++)
         if (is_in_forces(l, l->symbols[l->z + i]))
             LIST_PUSH(in->forces, l->z + i);

@@ -1,4 +1,7 @@
-# random networks
+# networks in both forms, and random ones
+UNIT_TESTS += test_network
+test_network_SOURCES = tests/unit/test_network.c tests/unit/session_kit.h tests/unit/test.h
+test_network_LDADD = $(unit_ldadd)
 UNIT_TESTS += test_random_networks
 test_random_networks_SOURCES = tests/unit/test_random_networks.c tests/unit/scene.h tests/unit/test.h
 test_random_networks_LDADD = $(unit_ldadd)
