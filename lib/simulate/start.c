@@ -580,6 +580,9 @@ static Status find_network(Assembly *a, WarmValue from, void *context, Diag *dia
 
         if (given->level != LEVEL_NETWORK)
             continue;
+        /* one state under two names, and not of one value */
+        needed = needed || (given->column >= 0 && held[given->column] && !given->value->is_guess &&
+                            v[given->column] != given->value->value);
         if (given->column >= 0 && (!held[given->column] || !given->value->is_guess)) {
             v[given->column] = given->value->value;
             held[given->column] = !given->value->is_guess;
