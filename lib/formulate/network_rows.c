@@ -35,6 +35,26 @@ static void sort_sides(System *system, Unknown *y)
     LIST_FREE(move);
 }
 
+/* a minus in front of each term */
+static bool is_negative(Expr e)
+{
+    bool all = expr_kind(e) == EXPR_SUM;
+
+    if (expr_kind(e) == EXPR_PRODUCT)
+        return expr_is_number(expr_arg(e, 0)) && expr_value(expr_arg(e, 0)) < 0;
+    for (int i = 0; i < expr_arg_count(e) && all; i++)
+        all = is_negative(expr_arg(e, i));
+    return all;
+}
+
+static void choose_sign(System *system, Unknown *y)
+{
+    if (!is_negative(expr_open(system->arena, y->left)))
+        return;
+    y->left = expr_neg(system->arena, expr_open(system->arena, y->left));
+    y->right = expr_neg(system->arena, expr_open(system->arena, y->right));
+}
+
 /* left = right by the relation of an edge */
 static Status relation_row(System *system, Unknown *y, Diag *diag)
 {
@@ -130,6 +150,7 @@ Status network_row(System *system, int unknown, Diag *diag)
     y.order = system->unknowns.at[unknown].order;
     y.rates = system->unknowns.at[unknown].rates;
     sort_sides(system, &y);
+    choose_sign(system, &y);
     y.right = expr_fold(arena, expr_open(arena, y.right));
     y.has_row = true;
     system->unknowns.at[unknown] = y;

@@ -8,7 +8,9 @@ const Verb verbs_session[] = {
      .usage = "set NAME.KEY = VALUE, ...|SETTING VALUE",
      .brief = "changes a key of a component, or a setting",
      .help = "'set m1.mass = 3' changes a key of a component that is there. A single word and a "
-             "value change a setting; 'show settings' lists them.",
+             "value change a setting; 'show settings' lists them. 'set network tree' integrates "
+             "the equations of a network's tree as they are, 'set network state' those of a normal "
+             "tree, as unless said otherwise.",
      .example = PENDULUM "set m1.mass = 3, m1.inertia = 0.2\ninfo m1",
      .see = "show delete"},
     {.name = "delete",
