@@ -1,8 +1,9 @@
 /* write_c.c: equations as C functions
  *
  * A function a block takes parameters p, time t, coordinates q, speeds u, network
- * states x and algebraic unknowns z, and writes the block row by row. Symbols become local
- * variables with the user's names, made into identifiers. */
+ * states x and algebraic unknowns z, and writes the block row by row; those of a nonlinear network
+ * take the rates xd of x, too. Symbols become local variables with the user's names, made into
+ * identifiers. */
 #include "export/abbreviate.h"
 #include "export/write.h"
 
@@ -98,6 +99,9 @@ static Rename rename_all(const View *view)
         add_symbol(&rename, system_x(system, i)->symbol, "x", i);
     for (int i = 0; i < system_nz(system); i++)
         add_symbol(&rename, system_z(system, i)->symbol, "z", i);
+    if (system_run(system)->network_nonlinear)
+        for (int i = 0; i < system_nx(system); i++)
+            add_symbol(&rename, system_state_rate(system, i), "xd", i);
     return rename;
 }
 
@@ -127,7 +131,7 @@ static void add_locals(Text *out, const Rename *rename, const Expr *roots, int c
 }
 
 static void add_function(Text *out, const Rename *rename, const char *name, const char *what,
-                         const Expr *entries, int rows, int columns)
+                         const Expr *entries, int rows, int columns, bool of_rates)
 {
     /* no name of the user begins so */
     static const Naming naming = {"_v", 1, 0};
@@ -141,15 +145,16 @@ static void add_function(Text *out, const Rename *rename, const char *name, cons
     shared = abbreviate(rename->arena, roots, count, &naming);
     text_addf(out,
               "\n/* %s, %d x %d, row by row */\nvoid %s(const double *p, double t, const double "
-              "*q, const double *u,\n    const double *x, const double *z, double *out)\n{\n",
-              what, rows, columns, name);
+              "*q, const double *u,\n    const double *x, const double *z, %sdouble *out)\n{\n",
+              what, rows, columns, name, of_rates ? "const double *xd, " : "");
     add_locals(out, rename, entries, count);
     for (int i = 0; i < shared.definitions.count; i++) {
         text_addf(out, "    const double %s = ", expr_name(shared.definitions.at[i].symbol));
         expr_print(out, shared.definitions.at[i].value, NOTATION_C);
         text_add(out, ";\n");
     }
-    text_add(out, "\n    (void)p, (void)t, (void)q, (void)u, (void)x, (void)z;\n");
+    text_addf(out, "\n    (void)p, (void)t, (void)q, (void)u, (void)x, (void)z%s;\n",
+              of_rates ? ", (void)xd" : "");
     for (int i = 0; i < count; i++) {
         text_addf(out, "    out[%d] = ", i);
         expr_print(out, shared.roots[i], NOTATION_C);
@@ -199,10 +204,12 @@ static void add_head(Text *out, const View *view)
 
     text_addf(out,
               "/* %s\n *\n * M u' + Phi_u^T lambda = F,  Phi = 0,  Phi_u u = nu,  "
-              "Phi_u u' = gamma,  A [x'; z] = r\n *\n",
+              "Phi_u u' = gamma,  %s\n *\n",
               model_title(view->model) != NULL && model_title(view->model)[0] != '\0'
                   ? model_title(view->model)
-                  : "equations of motion");
+                  : "equations of motion",
+              system_run(system)->network_nonlinear ? "G(x', z) = 0, A = dG/d[x'; z]"
+                                                    : "A [x'; z] = r");
     for (int i = 0; i < model_parameter_count(view->model); i++) {
         Expr definition;
         const Expr symbol = model_parameter(view->model, i, &definition);
@@ -241,8 +248,11 @@ Status write_c(const View *view, Text *out, Diag *diag)
         {"model_velocity", "nu", r->nu, m, 1},
         {"model_acceleration", "gamma", r->gamma, m, 1},
         {"model_network", "network matrix A", network, k, k},
-        {"model_network_rhs", "right side r of the network", r->network_rhs, k, 1},
+        {r->network_nonlinear ? "model_network_residual" : "model_network_rhs",
+         r->network_nonlinear ? "residual G of the network" : "right side r of the network",
+         r->network_nonlinear ? r->network_residual : r->network_rhs, k, 1},
     };
+    const int first_network = COUNT(blocks) - 2;
     Rename rename = rename_all(view);
     Status status = OK;
 
@@ -253,7 +263,8 @@ Status write_c(const View *view, Text *out, Diag *diag)
                             blocks[i].what, diag));
         if (blocks[i].rows * blocks[i].columns > 0)
             add_function(out, &rename, blocks[i].name, blocks[i].what, blocks[i].entries,
-                         blocks[i].rows, blocks[i].columns);
+                         blocks[i].rows, blocks[i].columns,
+                         r->network_nonlinear && i >= first_network);
     }
 done:
     mem_free(network);
