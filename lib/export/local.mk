@@ -3,6 +3,7 @@ libcore_la_SOURCES += lib/export/layout.h lib/export/layout.c \
 	lib/export/abbreviate.h lib/export/abbreviate.c lib/export/view.h lib/export/view.c \
 	lib/export/show.h lib/export/show.c lib/export/show_graph.c lib/export/show_equations.c \
 	lib/export/show_session.c lib/export/show_linear.c lib/export/show_transfer.c \
+	lib/export/show_state.c \
 	lib/export/count.h lib/export/count.c \
 	lib/export/info.h lib/export/info.c lib/export/draw.c
 

@@ -26,7 +26,7 @@ static const Topic topics[] = {
     {"run",          "report of the last run",                             NEED_RUN,    BEHIND_NOTHING, show_run},
     {"settings",     "how the session computes and prints",                NEED_MODEL,  BEHIND_NOTHING, show_settings},
     {"program",      "the straight-line program that a run evaluates",     NEED_RUNNING, BEHIND_NOTHING, show_program},
-    {"state",        "a linear network as x' = A x + B u",                 NEED_MODEL,  BEHIND_NOTHING, NULL},
+    {"state",        "a linear network as x' = A x + B u",                 NEED_MODEL,  BEHIND_NOTHING, show_state},
     {"linear",       "matrices of the last linearisation",                 NEED_MODEL,  BEHIND_NOTHING, show_linear},
     {"transfer",     "transfer functions of the last linearisation",       NEED_MODEL,  BEHIND_NUMBERS, show_transfer},
     {"derivation",   "how an equation came about, step by step",           NEED_MODEL,  BEHIND_NOTHING, NULL},

@@ -70,7 +70,7 @@ typedef struct LinearMatrix {
 LinearMatrix linear_matrix(const Linear *linear, char letter);
 /* A, B, C, D with the names of their rows and columns */
 void linear_print(const View *view, const Linear *linear, Text *out);
-ShowFunction show_linear, show_transfer;
+ShowFunction show_linear, show_transfer, show_state;
 /* E_MISSING where there is nothing linear, or no input or output of it */
 MUST_USE Status linear_check_pairs(const Linear *linear, Diag *diag);
 /* a line a mode */

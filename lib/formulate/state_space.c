@@ -1,0 +1,700 @@
+/* state_space.c: state equations of a linear network, solved in symbols
+ *
+ * The network's equations are A w = r for w = [x'; z], linear in the states and in the sources,
+ * whose values are replaced by symbols. They are solved a block of coupled ones at a time, by
+ * Cramer's rule: what is written out so has no factors that cancel, but those of single terms. */
+#include "formulate/state_space.h"
+
+#include "base/memory.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    MOST_COUPLED = 9,  /* equations that are solved together */
+    MOST_LEFT = 400,   /* equations that are no chain */
+    MOST_TERMS = 4000, /* of a product that is multiplied out */
+    SIZE = 1 << MOST_COUPLED
+};
+
+static const unsigned constant_kinds = 1U << SYMBOL_PARAMETER | 1U << SYMBOL_TIME;
+
+typedef struct Space {
+    const Model *model;
+    const Watch *watch;
+    Arena *arena;
+    System *system;
+    LIST(const Instance *) sources;
+    LIST(Expr) symbols; /* of sources: INPUT_ORDERS each */
+    Expr t, start;      /* the instant about which a source's value is developed */
+    int n, columns;     /* equations; right sides: states, then sources by order */
+    Expr *right;        /* n x columns */
+    Expr *solution;     /* the same, by unknown */
+    int *row_start;     /* entries of a row are entry[row_start[r]] .. */
+    Entry *entry;
+    bool *solved; /* by unknown */
+    bool *used;   /* by row */
+} Space;
+
+/* --- sources as symbols --- */
+
+/* the value of a source that nothing else decides */
+static bool is_source(const Instance *instance, int param)
+{
+    static const char *const names[] = {"value", "pressure", "flow"};
+    const Value *value = &instance->values[param];
+
+    if (instance->row->family != FAMILY_SCALAR || value->count != 1 || value->at[0] == NULL ||
+        (expr_kinds(value->at[0]) & ~constant_kinds) != 0)
+        return false;
+    for (int i = 0; i < COUNT(names); i++)
+        if (strcmp(instance->row->params[param].name, names[i]) == 0)
+            return value->given || instance->row->params[param].positional;
+    return false;
+}
+
+static void find_sources(Space *s)
+{
+    for (int i = 0; i < model_count(s->model); i++) {
+        const Instance *instance = model_instance(s->model, i);
+
+        for (int p = 0; p < instance->row->param_count; p++) {
+            Text name = {0};
+
+            if (!is_source(instance, p))
+                continue;
+            LIST_PUSH(s->sources, instance);
+            text_add(&name, instance->name);
+            for (int order = 0; order < INPUT_ORDERS; order++) {
+                LIST_PUSH(s->symbols, expr_symbol(s->arena, name.at, SYMBOL_PARAMETER));
+                text_char(&name, '\'');
+            }
+            text_free(&name);
+            break;
+        }
+    }
+}
+
+/* u + (t - start) u' + (t - start)^2/2 u'': at `start` the value, and derivatives, of any source */
+static Expr vary(void *context, const Instance *instance, int param, Expr value)
+{
+    const Space *s = context;
+    Arena *arena = s->arena;
+
+    for (int i = 0; instance != NULL && i < s->sources.count; i++) {
+        const Expr *u = s->symbols.at + (ptrdiff_t)INPUT_ORDERS * i;
+        const Expr late = expr_sub(arena, s->t, s->start);
+
+        if (strcmp(s->sources.at[i]->name, instance->name) != 0 || !is_source(instance, param))
+            continue;
+        return expr_sum(
+            arena,
+            (Expr[]){u[0], expr_mul(arena, late, u[1]),
+                     expr_product(
+                         arena,
+                         (Expr[]){expr_rational(arena, 1, 2), expr_square(arena, late), u[2]}, 3)},
+            3);
+    }
+    return value;
+}
+
+/* --- fractions --- */
+
+/* the base of a factor that divides, and how often; 0: it doesn't */
+static int64_t divisor_power(Expr factor, Expr *base)
+{
+    int64_t num, den;
+
+    if (expr_kind(factor) != EXPR_POWER || !expr_rational_parts(expr_arg(factor, 1), &num, &den) ||
+        den != 1 || num >= 0)
+        return 0;
+    *base = expr_arg(factor, 0);
+    return -num;
+}
+
+static int factor_count(Expr term)
+{
+    return expr_kind(term) == EXPR_PRODUCT ? expr_arg_count(term) : 1;
+}
+
+static Expr factor_at(Expr term, int i)
+{
+    return expr_kind(term) == EXPR_PRODUCT ? expr_arg(term, i) : term;
+}
+
+/* The least product that terms seen so far go into as divisors. */
+typedef struct Divisor {
+    LIST(Expr) bases;
+    LIST(int64_t) powers;
+} Divisor;
+
+static void divisor_add_term(Divisor *divisors, Expr term)
+{
+    for (int k = 0; k < factor_count(term); k++) {
+        Expr base = NULL;
+        const int64_t power = divisor_power(factor_at(term, k), &base);
+        int at = 0;
+
+        if (power == 0)
+            continue;
+        while (at < divisors->bases.count && divisors->bases.at[at] != base)
+            at++;
+        if (at == divisors->bases.count) {
+            LIST_PUSH(divisors->bases, base);
+            LIST_PUSH(divisors->powers, (int64_t)0);
+        }
+        if (power > divisors->powers.at[at])
+            divisors->powers.at[at] = power;
+    }
+}
+
+static int term_count(Expr e)
+{
+    return expr_kind(e) == EXPR_SUM ? expr_arg_count(e) : 1;
+}
+
+static Expr term_at(Expr e, int i)
+{
+    return expr_kind(e) == EXPR_SUM ? expr_arg(e, i) : e;
+}
+
+static void divisor_add(Divisor *divisors, Expr e)
+{
+    for (int i = 0; i < term_count(e); i++)
+        divisor_add_term(divisors, term_at(e, i));
+}
+
+/* the product; what the divisor holds is freed */
+static Expr divisor_done(Arena *arena, Divisor *divisors)
+{
+    Expr out = expr_int(arena, 1);
+
+    for (int i = 0; i < divisors->bases.count; i++)
+        out = expr_mul(
+            arena, out,
+            expr_pow(arena, divisors->bases.at[i], expr_int(arena, divisors->powers.at[i])));
+    LIST_FREE(divisors->bases);
+    LIST_FREE(divisors->powers);
+    return out;
+}
+
+/* e * factor, term by term, multiplied out */
+static Expr times(Arena *arena, Expr e, Expr factor)
+{
+    Expr *terms = NEW_ARRAY(Expr, term_count(e));
+    Expr sum;
+
+    for (int i = 0; i < term_count(e); i++)
+        terms[i] = expr_mul(arena, term_at(e, i), factor);
+    sum = expr_expand(arena, expr_sum(arena, terms, term_count(e)), MOST_TERMS);
+    mem_free(terms);
+    return sum;
+}
+
+/* a sum of fractions as one: its numerator multiplied out and collected */
+static Expr tidy(Arena *arena, Expr e)
+{
+    Divisor divisors = {.bases = {0}};
+    Expr under;
+
+    if (expr_kind(e) != EXPR_SUM)
+        return e;
+    divisor_add(&divisors, e);
+    under = divisor_done(arena, &divisors);
+    return expr_div(arena, expr_collect(arena, times(arena, e, under)), under);
+}
+
+/* --- the equations --- */
+
+static const char *part_of_row(const Space *s, int row)
+{
+    const int nx = system_nx(s->system);
+    const Variable *variable = row < nx ? system_x(s->system, row) : system_z(s->system, row - nx);
+
+    return system_instance_name(s->system, variable->instance);
+}
+
+static Status not_linear(const Space *s, int row, unsigned kinds, Diag *diag)
+{
+    const unsigned motion = 1U << SYMBOL_COORDINATE | 1U << SYMBOL_SPEED |
+                            1U << SYMBOL_ACCELERATION | 1U << SYMBOL_MULTIPLIER |
+                            1U << SYMBOL_EFFORT;
+
+    if ((kinds & motion) != 0)
+        (void)diag_set(diag, E_MODEL, "the equation of %s holds motion of the mechanism",
+                       part_of_row(s, row));
+    else
+        (void)diag_set(diag, E_MODEL, "the network is not linear: see the equation of %s",
+                       part_of_row(s, row));
+    diag_hint(diag, "'linearize' gives the linear equations of both about a point; 'show network' "
+                    "shows them as they are");
+    return E_MODEL;
+}
+
+/* the column of a state or of a source and its order; -1: of neither */
+static int column_of(const Space *s, Expr symbol)
+{
+    const int nx = system_nx(s->system);
+
+    for (int j = 0; expr_symbol_kind(symbol) == SYMBOL_STATE && j < nx; j++)
+        if (system_x(s->system, j)->symbol == symbol)
+            return j;
+    for (int k = 0; expr_symbol_kind(symbol) == SYMBOL_PARAMETER && k < s->symbols.count; k++)
+        if (s->symbols.at[k] == symbol)
+            return nx + k;
+    return -1;
+}
+
+/* coefficients of one right side; what is left without states and sources must be 0 */
+static Status read_row(Space *s, int row, Diag *diag)
+{
+    Arena *arena = s->arena;
+    Expr r = expr_open(arena, system_run(s->system)->network_rhs[row]);
+    Expr *symbols = NULL;
+    Expr rest;
+    int count;
+    Status status = OK;
+
+    r = expr_substitute(arena, r, &s->start, &s->t, 1);
+    rest = r;
+    count = expr_symbols(&r, 1, &symbols);
+    for (int i = 0; i < count; i++) {
+        const int column = column_of(s, symbols[i]);
+        const Expr zero = expr_int(arena, 0);
+        Expr slope;
+
+        if (column < 0)
+            continue;
+        slope = expr_diff(arena, r, symbols[i]);
+        if ((expr_kinds(slope) & ~constant_kinds) != 0 || column_of(s, symbols[i]) < 0)
+            CHECK(not_linear(s, row, expr_kinds(r), diag));
+        s->right[row * s->columns + column] = slope;
+        rest = expr_substitute(arena, rest, &symbols[i], &zero, 1);
+    }
+    if ((expr_kinds(r) & ~(constant_kinds | 1U << SYMBOL_STATE)) != 0 ||
+        !expr_is_zero(expr_expand(arena, rest, MOST_TERMS)))
+        CHECK(not_linear(s, row, expr_kinds(r), diag));
+done:
+    mem_free(symbols);
+    return status;
+}
+
+/* Multiply an equation by what stands under its fractions. */
+static void clear_row(Space *s, int row)
+{
+    Divisor divisors = {.bases = {0}};
+    Expr factor;
+
+    for (int k = s->row_start[row]; k < s->row_start[row + 1]; k++)
+        divisor_add(&divisors, s->entry[k].value);
+    for (int c = 0; c < s->columns; c++)
+        divisor_add(&divisors, s->right[row * s->columns + c]);
+    factor = divisor_done(s->arena, &divisors);
+    if (expr_is(factor, 1))
+        return;
+    for (int k = s->row_start[row]; k < s->row_start[row + 1]; k++)
+        s->entry[k].value = times(s->arena, s->entry[k].value, factor);
+    for (int c = 0; c < s->columns; c++)
+        s->right[row * s->columns + c] = times(s->arena, s->right[row * s->columns + c], factor);
+}
+
+static Status read_rows(Space *s, Diag *diag)
+{
+    const Reading *run = system_run(s->system);
+    Entry *entries = NEW_ARRAY(Entry, run->network_entries);
+    int at = 0;
+    Status status = OK;
+
+    s->n = system_nx(s->system) + system_nz(s->system);
+    s->columns = system_nx(s->system) + s->symbols.count;
+    s->right = mem_array((size_t)s->n * (size_t)s->columns, sizeof(Expr));
+    s->solution = mem_array((size_t)s->n * (size_t)s->columns, sizeof(Expr));
+    s->row_start = NEW_ARRAY(int, s->n + 1);
+    s->solved = NEW_ARRAY(bool, s->n);
+    s->used = NEW_ARRAY(bool, s->n);
+    s->entry = entries;
+    for (int k = 0; k < s->n * s->columns; k++)
+        s->right[k] = expr_int(s->arena, 0);
+    for (int r = 0; r < s->n; r++) {
+        s->row_start[r] = at;
+        for (; at < run->network_entries && run->network[at].row == r; at++) {
+            entries[at] = run->network[at];
+            entries[at].value = expr_substitute(
+                s->arena, expr_open(s->arena, run->network[at].value), &s->start, &s->t, 1);
+            if (run->network_nonlinear || (expr_kinds(entries[at].value) & ~constant_kinds) != 0)
+                CHECK(not_linear(s, r, expr_kinds(entries[at].value), diag));
+        }
+        s->row_start[r + 1] = at;
+        CHECK(read_row(s, r, diag));
+        clear_row(s, r);
+        CHECK(poll(s->watch));
+    }
+done:
+    return status;
+}
+
+/* --- blocks --- */
+
+/* a square block of coupled equations */
+typedef struct Coupled {
+    int size;
+    int rows[MOST_COUPLED], unknowns[MOST_COUPLED];
+} Coupled;
+
+static Expr entry_at(const Space *s, int row, int unknown)
+{
+    for (int k = s->row_start[row]; k < s->row_start[row + 1]; k++)
+        if (s->entry[k].column == unknown)
+            return s->entry[k].value;
+    return expr_int(s->arena, 0);
+}
+
+/* Determinant of a block but one row and one unknown (-1: with all), by its rows from the last,
+ * each set of unknowns once (Laplace). `made` holds SIZE. */
+static Expr minor_of(const Space *s, const Coupled *block, int but_row, int but_unknown, Expr *made)
+{
+    Arena *arena = s->arena;
+    const int size = block->size;
+    int rows[MOST_COUPLED], count = 0;
+
+    for (int r = 0; r < size; r++)
+        if (r != but_row)
+            rows[count++] = r;
+    made[0] = expr_int(arena, 1);
+    for (int set = 1; set < 1 << size; set++) {
+        Expr terms[MOST_COUPLED];
+        int members = 0, before = 0, used = 0;
+
+        made[set] = expr_int(arena, 0);
+        for (int c = 0; c < size; c++)
+            members += set >> c & 1;
+        if (members > count || (but_unknown >= 0 && (set >> but_unknown & 1) != 0))
+            continue;
+        /* the last of the rows that a set of this size takes */
+        for (int c = 0; c < size; c++) {
+            Expr factor;
+
+            if ((set >> c & 1) == 0)
+                continue;
+            factor = entry_at(s, block->rows[rows[members - 1]], block->unknowns[c]);
+            before++;
+            if (expr_is_zero(factor))
+                continue;
+            factor = expr_mul(arena, factor, made[set & ~(1 << c)]);
+            terms[used++] = (members - before) % 2 == 0 ? factor : expr_neg(arena, factor);
+        }
+        made[set] = expr_expand(arena, expr_sum(arena, terms, used), MOST_TERMS);
+    }
+    return made[((1 << size) - 1) & ~(but_unknown >= 0 ? 1 << but_unknown : 0)];
+}
+
+/* take what is solved to the right side */
+static void move_solved(Space *s, int row)
+{
+    for (int k = s->row_start[row]; k < s->row_start[row + 1]; k++) {
+        const int w = s->entry[k].column;
+
+        for (int c = 0; s->solved[w] && c < s->columns; c++) {
+            const Expr x = s->solution[w * s->columns + c];
+
+            if (!expr_is_zero(x))
+                s->right[row * s->columns + c] = expr_sub(s->arena, s->right[row * s->columns + c],
+                                                          expr_mul(s->arena, s->entry[k].value, x));
+        }
+    }
+}
+
+static Status solve_block(Space *s, const Coupled *block, Diag *diag)
+{
+    Arena *arena = s->arena;
+    Expr *made = NEW_ARRAY(Expr, SIZE);
+    Expr cofactor[MOST_COUPLED * MOST_COUPLED], terms[MOST_COUPLED];
+    const Expr all = minor_of(s, block, -1, -1, made);
+    Status status = OK;
+
+    if (expr_is_zero(all))
+        CHECK(diag_set(diag, E_SINGULAR, "the equation of %s determines nothing",
+                       part_of_row(s, block->rows[0])));
+    for (int r = 0; r < block->size; r++) {
+        move_solved(s, block->rows[r]);
+        for (int c = 0; c < s->columns; c++) {
+            Expr *right = &s->right[block->rows[r] * s->columns + c];
+
+            *right = tidy(arena, *right);
+        }
+        for (int u = 0; u < block->size; u++) {
+            const Expr minor = minor_of(s, block, r, u, made);
+
+            cofactor[r * block->size + u] = expr_div(
+                arena, (r + u) % 2 == 0 ? minor : expr_neg(arena, minor), expr_collect(arena, all));
+        }
+        s->used[block->rows[r]] = true;
+    }
+    for (int u = 0; u < block->size; u++) {
+        CHECK(poll(s->watch));
+        for (int c = 0; c < s->columns; c++) {
+            for (int r = 0; r < block->size; r++)
+                terms[r] = expr_mul(arena, cofactor[r * block->size + u],
+                                    s->right[block->rows[r] * s->columns + c]);
+            s->solution[block->unknowns[u] * s->columns + c] =
+                tidy(arena, expr_sum(arena, terms, block->size));
+        }
+    }
+    for (int u = 0; u < block->size; u++)
+        s->solved[block->unknowns[u]] = true;
+done:
+    mem_free(made);
+    return status;
+}
+
+/* Solve row by row what has one unknown left, as long as there is any. */
+static Status solve_chains(Space *s, Diag *diag)
+{
+    bool goes_on = true;
+    Status status = OK;
+
+    while (goes_on) {
+        goes_on = false;
+        for (int r = 0; r < s->n; r++) {
+            Coupled one = {.size = 0, .rows = {r}};
+
+            for (int k = s->row_start[r]; !s->used[r] && k < s->row_start[r + 1]; k++)
+                if (!s->solved[s->entry[k].column]) {
+                    one.unknowns[0] = s->entry[k].column;
+                    one.size++;
+                }
+            if (one.size != 1)
+                continue;
+            CHECK(solve_block(s, &one, diag));
+            goes_on = true;
+        }
+    }
+done:
+    return status;
+}
+
+/* --- what is coupled --- */
+
+/* Rows that are left, an unknown for each, and what each needs. */
+typedef struct Rest {
+    int count;
+    int *rows;
+    int *of_row;     /* place in `rows`, or -1 */
+    int *row_of;     /* by unknown: place of the row that tells it, or -1 */
+    int *unknown_of; /* by place */
+    bool *tried;     /* by unknown */
+    bool *needs;     /* count x count, transitive */
+} Rest;
+
+/* Give a row an unknown, if need be by giving others another one (Kuhn 1955). As deep as there are
+ * rows, of which there are few. */
+static bool assign(const Space *s, Rest *rest, int place)
+{
+    const int row = rest->rows[place];
+
+    for (int k = s->row_start[row]; k < s->row_start[row + 1]; k++) {
+        const int w = s->entry[k].column;
+
+        if (s->solved[w] || rest->tried[w])
+            continue;
+        rest->tried[w] = true;
+        if (rest->row_of[w] < 0 || assign(s, rest, rest->row_of[w])) {
+            rest->row_of[w] = place;
+            rest->unknown_of[place] = w;
+            return true;
+        }
+    }
+    return false;
+}
+
+static Status find_needs(const Space *s, Rest *rest, Diag *diag)
+{
+    const int n = rest->count;
+
+    for (int p = 0; p < n; p++) {
+        memset(rest->tried, 0, (size_t)s->n * sizeof(bool));
+        if (!assign(s, rest, p))
+            return diag_set(diag, E_SINGULAR, "the equation of %s determines nothing",
+                            part_of_row(s, rest->rows[p]));
+    }
+    for (int p = 0; p < n; p++) {
+        const int row = rest->rows[p];
+
+        rest->needs[p * n + p] = true;
+        for (int k = s->row_start[row]; k < s->row_start[row + 1]; k++)
+            if (!s->solved[s->entry[k].column])
+                rest->needs[p * n + rest->row_of[s->entry[k].column]] = true;
+    }
+    for (int k = 0; k < n; k++)
+        for (int p = 0; p < n; p++)
+            for (int o = 0; rest->needs[p * n + k] && o < n; o++)
+                rest->needs[p * n + o] = rest->needs[p * n + o] || rest->needs[k * n + o];
+    return OK;
+}
+
+static int need_count(const Rest *rest, int place)
+{
+    int count = 0;
+
+    for (int o = 0; o < rest->count; o++)
+        count += rest->needs[place * rest->count + o];
+    return count;
+}
+
+static Status too_many(const Space *s, int row, Diag *diag)
+{
+    (void)diag_set(diag, E_MODEL,
+                   "too many equations of the network are coupled, that of %s among them, to be "
+                   "solved in symbols",
+                   part_of_row(s, row));
+    diag_hint(diag, "'linearize' solves them in numbers");
+    return E_MODEL;
+}
+
+/* blocks of what needs each other, those first that need least */
+static Status solve_blocks(Space *s, Rest *rest, Diag *diag)
+{
+    Status status = OK;
+
+    for (int needed = 1; needed <= rest->count; needed++)
+        for (int p = 0; p < rest->count; p++) {
+            Coupled block = {.size = 0};
+
+            if (s->used[rest->rows[p]] || need_count(rest, p) != needed)
+                continue;
+            for (int o = 0; o < rest->count; o++) {
+                if (!rest->needs[p * rest->count + o] || !rest->needs[o * rest->count + p])
+                    continue;
+                if (block.size == MOST_COUPLED)
+                    CHECK(too_many(s, rest->rows[p], diag));
+                block.rows[block.size] = rest->rows[o];
+                block.unknowns[block.size++] = rest->unknown_of[o];
+            }
+            CHECK(solve_block(s, &block, diag));
+        }
+done:
+    return status;
+}
+
+static Status solve_rest(Space *s, Diag *diag)
+{
+    Rest rest = {.rows = NEW_ARRAY(int, s->n),
+                 .row_of = NEW_ARRAY(int, s->n),
+                 .unknown_of = NEW_ARRAY(int, s->n),
+                 .tried = NEW_ARRAY(bool, s->n)};
+    Status status = OK;
+
+    for (int r = 0; r < s->n; r++) {
+        rest.row_of[r] = -1;
+        if (!s->used[r])
+            rest.rows[rest.count++] = r;
+    }
+    if (rest.count > MOST_LEFT)
+        CHECK(too_many(s, rest.rows[0], diag));
+    rest.needs = NEW_ARRAY(bool, rest.count *rest.count);
+    CHECK(find_needs(s, &rest, diag));
+    CHECK(solve_blocks(s, &rest, diag));
+done:
+    mem_free(rest.rows);
+    mem_free(rest.row_of);
+    mem_free(rest.unknown_of);
+    mem_free(rest.tried);
+    mem_free(rest.needs);
+    return status;
+}
+
+/* --- the result --- */
+
+static StateSpace *take_solution(const Space *s)
+{
+    const int n = system_nx(s->system), inputs = s->sources.count;
+    StateSpace *out = NEW(StateSpace);
+
+    out->states = n;
+    out->inputs = inputs;
+    out->state = NEW_ARRAY(Expr, n);
+    out->input = NEW_ARRAY(Expr, inputs);
+    out->a = NEW_ARRAY(Expr, n * n);
+    for (int i = 0; i < n; i++) {
+        out->state[i] = system_x(s->system, i)->symbol;
+        for (int j = 0; j < n; j++)
+            out->a[i * n + j] = s->solution[i * s->columns + j];
+    }
+    for (int k = 0; k < inputs; k++)
+        out->input[k] = s->symbols.at[INPUT_ORDERS * k];
+    for (int order = 0; order < INPUT_ORDERS; order++) {
+        out->b[order] = NEW_ARRAY(Expr, n * inputs);
+        for (int i = 0; i < n; i++)
+            for (int k = 0; k < inputs; k++) {
+                const Expr entry = s->solution[i * s->columns + n + INPUT_ORDERS * k + order];
+
+                out->b[order][i * inputs + k] = entry;
+                out->has[order] = out->has[order] || !expr_is_zero(entry);
+            }
+    }
+    return out;
+}
+
+void state_space_free(StateSpace *space)
+{
+    if (space == NULL)
+        return;
+    mem_free(space->state);
+    mem_free(space->input);
+    mem_free(space->a);
+    for (int order = 0; order < INPUT_ORDERS; order++)
+        mem_free(space->b[order]);
+    mem_free(space);
+}
+
+static void space_free(Space *s)
+{
+    system_free(s->system);
+    LIST_FREE(s->sources);
+    LIST_FREE(s->symbols);
+    mem_free(s->right);
+    mem_free(s->solution);
+    mem_free(s->row_start);
+    mem_free(s->entry);
+    mem_free(s->solved);
+    mem_free(s->used);
+}
+
+/* a network, with states, that nothing samples */
+static Status check_states(const Space *s, Diag *diag)
+{
+    const OwnSample *sample;
+
+    if (system_nx(s->system) == 0) {
+        (void)diag_set(diag, E_MODEL,
+                       system_nz(s->system) + s->sources.count > 0 ? "the network has no states"
+                                                                   : "there is no network");
+        diag_hint(diag, "states are the voltages of capacitors and the currents of inductors");
+        return E_MODEL;
+    }
+    for (int i = 0; (sample = system_sample(s->system, i)) != NULL; i++)
+        if (sample->period != NULL)
+            return diag_set(
+                diag, E_MODEL, "%s is sampled: its state has no rate",
+                system_instance_name(s->system, system_x(s->system, sample->state)->instance));
+    return OK;
+}
+
+Status state_space_new(const Model *model, const Watch *watch, StateSpace **out, Diag *diag)
+{
+    Space s = {.model = model, .watch = watch, .arena = model_arena(model)};
+    Status status;
+
+    s.t = expr_symbol(s.arena, "t", SYMBOL_TIME);
+    s.start = expr_symbol(s.arena, "#start", SYMBOL_PARAMETER);
+    find_sources(&s);
+    CHECK(system_new_varied(model, vary, &s, watch, &s.system, diag));
+    CHECK(check_states(&s, diag));
+    CHECK(read_rows(&s, diag));
+    CHECK(solve_chains(&s, diag));
+    CHECK(solve_rest(&s, diag));
+    *out = take_solution(&s);
+done:
+    space_free(&s);
+    return status;
+}
