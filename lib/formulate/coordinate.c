@@ -191,10 +191,10 @@ static Status chord_value(System *system, const Instance *owner, int coordinate,
     }
     if (steps.quaternion && coordinate >= steps.first_parameter) {
         Expr p[4];
-        Status status = relative_parameters(system, owner->tail, owner->head, p, diag);
 
+        relative_parameters(system, owner->tail, owner->head, p);
         *out = p[coordinate - steps.first_parameter];
-        return status;
+        return OK;
     }
     (void)diag_set(diag, E_MISSING, "%s: can't be told while %s is a chord of the rotation tree",
                    owner->coord[coordinate], owner->name);

@@ -1,4 +1,5 @@
 libcore_la_SOURCES += \
+	lib/formulate/attitude.c \
 	lib/formulate/common_turns.c \
 	lib/formulate/composite.c \
 	lib/formulate/constraints.c \

@@ -365,9 +365,10 @@ void chord_turn(System *system, const Instance *owner, const Steps *steps, int w
                 ChordTurn *out);
 /* the way from tail to head along a slide's axis */
 Expr slide_value(System *system, const Instance *owner, const Step *slide);
-/* Euler parameters of a frame against ground, and of a head against a tail, scalar part first */
-MUST_USE Status frame_parameters(System *system, int node, Expr p[4], Diag *diag);
-MUST_USE Status relative_parameters(System *system, int tail, int head, Expr p[4], Diag *diag);
+/* (attitude.c) Euler parameters of a frame against ground, and of a head against a tail, scalar
+ * part first */
+void frame_parameters(System *system, int node, Expr p[4]);
+void relative_parameters(System *system, int tail, int head, Expr p[4]);
 /* axis of a joint's turn, where it is now: zero-position components of *chain */
 Vec joint_axis(System *system, const Instance *owner, const Steps *steps, int which, int *chain);
 /* a screw: shift and turn by one coordinate */

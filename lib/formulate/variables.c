@@ -68,82 +68,6 @@ static Status frame_angle(System *system, int node, Expr *out, Diag *diag)
     return status;
 }
 
-/* a b, scalar part first */
-static void parameters_product(Arena *arena, Expr a[4], const Expr b[4])
-{
-    Vec av = {{a[1], a[2], a[3]}};
-    Vec bv = {{b[1], b[2], b[3]}};
-    Vec v = vec_add(arena, vec_scale(arena, a[0], bv), vec_scale(arena, b[0], av));
-
-    v = vec_add(arena, v, vec_cross(arena, av, bv));
-    a[0] = expr_sub(arena, expr_mul(arena, a[0], b[0]), vec_dot(arena, av, bv));
-    for (int i = 0; i < 3; i++)
-        a[1 + i] = v.at[i];
-}
-
-/* Euler parameters of a constant rotation, from its trace */
-static Status parameters_of(Arena *arena, const Rotation *rotation, Expr p[4], Diag *diag)
-{
-    const Expr *R = rotation->at;
-    Expr trace = expr_sum(arena, (Expr[]){R[0], R[4], R[8], expr_int(arena, 1)}, 4);
-    Expr scale = expr_sqrt(arena, trace); /* 2 e0 */
-    Expr half = expr_rational(arena, 1, 2);
-
-    if (expr_is_zero(trace))
-        return diag_set(diag, E_MISSING,
-                        "Euler parameters of a frame that an arm turns by half a turn");
-    p[0] = expr_mul(arena, half, scale);
-    p[1] = expr_mul(arena, half, expr_div(arena, expr_sub(arena, R[7], R[5]), scale));
-    p[2] = expr_mul(arena, half, expr_div(arena, expr_sub(arena, R[2], R[6]), scale));
-    p[3] = expr_mul(arena, half, expr_div(arena, expr_sub(arena, R[3], R[1]), scale));
-    return OK;
-}
-
-/* Euler parameters of a frame against ground: the product of those of its turns */
-Status frame_parameters(System *system, int node, Expr p[4], Diag *diag)
-{
-    Arena *arena = system->arena;
-    const Frame *frame = &system->frames[node];
-    Expr constant[4];
-    Status status = OK;
-
-    CHECK(parameters_of(arena, &frame->zero, p, diag));
-    for (int c = frame->chain; c > 0; c = system->chains.at[c].parent) {
-        const Chain *chain = &system->chains.at[c];
-        Expr half = expr_mul(arena, expr_rational(arena, 1, 2),
-                             chain->is_free ? expr_int(arena, 0) : chain->angle);
-        Expr turn[4];
-
-        for (int i = 0; i < 4; i++) {
-            constant[i] = p[i];
-            if (chain->is_free)
-                turn[i] = chain->parameter[i];
-            else
-                turn[i] = i == 0 ? expr_cos(arena, half)
-                                 : expr_mul(arena, expr_sin(arena, half), chain->axis.at[i - 1]);
-        }
-        parameters_product(arena, turn, constant);
-        for (int i = 0; i < 4; i++)
-            p[i] = expr_hold(arena, turn[i]);
-    }
-done:
-    return status;
-}
-
-Status relative_parameters(System *system, int tail, int head, Expr p[4], Diag *diag)
-{
-    Expr far[4];
-    Status status = OK;
-
-    CHECK(frame_parameters(system, tail, p, diag));
-    CHECK(frame_parameters(system, head, far, diag));
-    for (int i = 1; i < 4; i++)
-        p[i] = expr_neg(system->arena, p[i]);
-    parameters_product(system->arena, p, far);
-done:
-    return status;
-}
-
 static Status frame_vector_of(System *system, int node, Quantity quantity, Vec *out, Diag *diag)
 {
     const Frame *frame = &system->frames[node];
@@ -194,9 +118,9 @@ static Status frame_variable(System *system, int node, const char *member, Expr 
         if (row->quantity == PARAMETER) {
             Expr p[4];
 
-            status = frame_parameters(system, node, p, diag);
+            frame_parameters(system, node, p);
             *out = p[row->axis];
-            return status;
+            return OK;
         }
         status = frame_vector_of(system, node, row->quantity, &vector, diag);
         if (status == OK)

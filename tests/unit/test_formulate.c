@@ -510,6 +510,47 @@ static void reactions_beside_a_vanished_row_are_refused(void)
     model_free(model);
 }
 
+/* frames that arms turn by half a turn and nearly so, about any axis */
+static void frames_turned_halfway_tell_their_attitude(void)
+{
+    static const char *const turns[] = {"x(180 deg)", "y(180 deg)", "z(180 deg)", "x(179.999 deg)",
+                                        "y(181 deg)*z(3 deg)"};
+
+    for (int i = 0; i < COUNT(turns); i++) {
+        Text text = {0};
+        Model *model;
+        System *system;
+        double p[4];
+        double norm = 0;
+
+        text_addf(&text,
+                  "body m mass=1 inertia=[1, 1, 1]\nrevolute h ground m\n"
+                  "arm a m [1, 0, 0] rotation=%s\ntree joint\n",
+                  turns[i]);
+        model = scene_new(text.at);
+        system = scene_system(model);
+        for (int k = 0; k < 4; k++) {
+            SceneState state = {model, 3};
+            char name[8];
+
+            snprintf(name, sizeof name, "a.q%d", k);
+            p[k] = value_of(scene_expression(model, system, name), &state);
+            norm += p[k] * p[k];
+        }
+        EXPECT_NEAR(norm, 1.0, 1e-14);
+        /* half a turn about x, y or z behind a turn about z by the angle h */
+        if (i < 3) {
+            SceneState state = {model, 3};
+            double h = value_of(scene_expression(model, system, "h"), &state);
+
+            EXPECT_NEAR(fabs(p[i == 2 ? 0 : 1]), fabs(i == 0 ? cos(h / 2) : sin(h / 2)), 1e-14);
+        }
+        system_free(system);
+        model_free(model);
+        text_free(&text);
+    }
+}
+
 /* a chain that nobody could read: its entries stand over definitions at once */
 static void long_chains_are_not_written_out(void)
 {
@@ -546,6 +587,7 @@ static void long_chains_are_not_written_out(void)
 int main(void)
 {
     RUN(long_chains_are_not_written_out);
+    RUN(frames_turned_halfway_tell_their_attitude);
     RUN(reactions_beside_a_vanished_row_are_refused);
     RUN(embedded_form_projects_the_augmented_one);
     RUN(independent_coordinates_can_be_named);
