@@ -17,18 +17,13 @@ typedef struct Shared {
     int64_t own;     /* operations in the factor itself */
 } Shared;
 
-typedef struct Rank {
-    int64_t saving;
-    int factor;
-} Rank;
-
 typedef struct Collect {
     Arena *arena;
     const Expr *terms;
     bool *gone;
     Walk factors; /* places are indices into shared */
     LIST(Shared) shared;
-    LIST(Rank) heap;
+    Heap heap;
 } Collect;
 
 static int64_t operations(Expr e)
@@ -43,46 +38,6 @@ static Expr whole_base(Expr factor, int64_t *k)
     if (factor->kind != EXPR_POWER)
         return is_number(factor) ? NULL : factor;
     return expr_integer(node_args(factor)[1], k) && *k > 0 ? node_args(factor)[0] : NULL;
-}
-
-/* --- the heap: greatest saving first, of equals the factor met first --- */
-
-static bool above(Rank a, Rank b)
-{
-    return a.saving != b.saving ? a.saving > b.saving : a.factor < b.factor;
-}
-
-static void heap_push(Collect *collect, Rank rank)
-{
-    int at = collect->heap.count;
-
-    LIST_PUSH(collect->heap, rank);
-    while (at > 0 && above(rank, collect->heap.at[(at - 1) / 2])) {
-        collect->heap.at[at] = collect->heap.at[(at - 1) / 2];
-        at = (at - 1) / 2;
-    }
-    collect->heap.at[at] = rank;
-}
-
-static Rank heap_pop(Collect *collect)
-{
-    Rank *heap = collect->heap.at;
-    Rank top = heap[0];
-    Rank last = heap[--collect->heap.count];
-    int count = collect->heap.count;
-    int at = 0;
-
-    for (int child = 1; child < count; child = 2 * at + 1) {
-        if (child + 1 < count && above(heap[child + 1], heap[child]))
-            child++;
-        if (!above(heap[child], last))
-            break;
-        heap[at] = heap[child];
-        at = child;
-    }
-    if (count > 0)
-        heap[at] = last;
-    return top;
 }
 
 /* --- groups of terms --- */
@@ -112,7 +67,7 @@ static void list_factors(Collect *collect, int count)
     }
     for (int i = 0; i < collect->shared.count; i++) {
         if (collect->shared.at[i].living > 1)
-            heap_push(collect, (Rank){saving_of(&collect->shared.at[i]), i});
+            heap_push(&collect->heap, (Rank){saving_of(&collect->shared.at[i]), 0, i});
     }
 }
 
@@ -222,17 +177,17 @@ static Expr collect_round(Arena *arena, Expr sum, int level)
     collect.gone = NEW_ARRAY(bool, sum->count);
     list_factors(&collect, sum->count);
     while (collect.heap.count > 0) {
-        Rank rank = heap_pop(&collect);
-        int64_t saving = saving_of(&collect.shared.at[rank.factor]);
+        Rank rank = heap_pop(&collect.heap);
+        int64_t saving = saving_of(&collect.shared.at[rank.which]);
         Expr group = NULL;
 
         if (saving <= 0)
             continue;
         if (saving < rank.saving) {
-            heap_push(&collect, (Rank){saving, rank.factor});
+            heap_push(&collect.heap, (Rank){saving, 0, rank.which});
             continue;
         }
-        take_group(&collect, rank.factor, level, &group);
+        take_group(&collect, rank.which, level, &group);
         if (group != NULL)
             LIST_PUSH(terms, group);
     }

@@ -1,26 +1,45 @@
 /* expand.c: products of sums multiplied out */
 #include "expr/expr_impl.h"
 
-/* The terms of a sum, or the one term that e is. */
-static int terms_of(const Expr *e, const Expr **terms)
-{
-    bool sum = (*e)->kind == EXPR_SUM;
+typedef struct Expand {
+    unsigned kinds; /* sums without symbols of these kinds stay as they are */
+    int limit;      /* of terms */
+    bool kept;      /* such a sum is a factor somewhere */
+} Expand;
 
-    *terms = sum ? node_args(*e) : e;
-    return sum ? (*e)->count : 1;
+static bool is_open(const Expand *expand, Expr e)
+{
+    return e->kind == EXPR_SUM && (e->kinds & expand->kinds) != 0;
 }
 
-/* a*b, multiplied out; NULL where that takes more than `limit` terms */
-static Expr multiply_out(Arena *arena, Expr a, Expr b, int limit)
+/* a sum that stays, or a power of one */
+static bool is_kept(const Expand *expand, Expr factor)
+{
+    if (factor->kind == EXPR_POWER)
+        factor = node_args(factor)[0];
+    return factor->kind == EXPR_SUM && !is_open(expand, factor);
+}
+
+/* The terms of a sum, or the one term that e is. */
+static int terms_of(const Expand *expand, const Expr *e, const Expr **terms)
+{
+    bool open = is_open(expand, *e);
+
+    *terms = open ? node_args(*e) : e;
+    return open ? (*e)->count : 1;
+}
+
+/* a*b, multiplied out; NULL where that takes too many terms */
+static Expr multiply_out(Arena *arena, const Expand *expand, Expr a, Expr b)
 {
     const Expr *left;
     const Expr *right;
-    int rows = terms_of(&a, &left);
-    int columns = terms_of(&b, &right);
+    int rows = terms_of(expand, &a, &left);
+    int columns = terms_of(expand, &b, &right);
     Expr *terms;
     Expr sum;
 
-    if ((int64_t)rows * columns > limit)
+    if ((int64_t)rows * columns > expand->limit)
         return NULL;
     terms = NEW_ARRAY(Expr, rows * columns);
     for (int i = 0; i < rows; i++) {
@@ -33,12 +52,12 @@ static Expr multiply_out(Arena *arena, Expr a, Expr b, int limit)
 }
 
 /* How often a sum is a factor of itself: k of (a + b)^k, else 1. */
-static int64_t whole_power(Expr factor, Expr *base)
+static int64_t whole_power(const Expand *expand, Expr factor, Expr *base)
 {
     int64_t k;
 
     *base = factor;
-    if (factor->kind != EXPR_POWER || node_args(factor)[0]->kind != EXPR_SUM ||
+    if (factor->kind != EXPR_POWER || !is_open(expand, node_args(factor)[0]) ||
         !expr_integer(node_args(factor)[1], &k) || k < 1)
         return 1;
     *base = node_args(factor)[0];
@@ -47,7 +66,7 @@ static int64_t whole_power(Expr factor, Expr *base)
 
 static Expr expand_node(Arena *arena, Expr e, void *context)
 {
-    const int limit = *(const int *)context;
+    Expand *expand = context;
     bool product = e->kind == EXPR_PRODUCT;
     Expr expanded = arena_one(arena);
 
@@ -55,10 +74,11 @@ static Expr expand_node(Arena *arena, Expr e, void *context)
         return e;
     for (int i = 0; i < (product ? e->count : 1); i++) {
         Expr base;
-        int64_t k = whole_power(product ? node_args(e)[i] : e, &base);
+        int64_t k = whole_power(expand, product ? node_args(e)[i] : e, &base);
 
+        expand->kept = expand->kept || is_kept(expand, base);
         for (; k > 0; k--) {
-            expanded = multiply_out(arena, expanded, base, limit);
+            expanded = multiply_out(arena, expand, expanded, base);
             if (expanded == NULL)
                 return e;
         }
@@ -68,5 +88,16 @@ static Expr expand_node(Arena *arena, Expr e, void *context)
 
 Expr expr_expand(Arena *arena, Expr e, int limit)
 {
-    return expr_change(arena, e, expand_node, &limit);
+    bool ignored;
+
+    return expr_expand_over(arena, e, ~0U, limit, &ignored);
+}
+
+Expr expr_expand_over(Arena *arena, Expr e, unsigned kinds, int limit, bool *kept)
+{
+    Expand expand = {.kinds = kinds, .limit = limit};
+    Expr expanded = expr_change(arena, e, expand_node, &expand);
+
+    *kept = expand.kept;
+    return expanded;
 }

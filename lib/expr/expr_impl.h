@@ -135,6 +135,19 @@ bool is_negative(Expr e); /* would print with a minus sign before it; numbers: b
 Expr term_scale(Arena *arena, Expr term, Number coefficient); /* instead of the one it has */
 Expr sum_negate(Arena *arena, Expr sum);
 
+/* --- heap.c: ranks by their saving, the greatest first --- */
+
+typedef struct Rank {
+    int64_t saving;
+    unsigned later; /* of equal savings less of this goes first, then the lower index */
+    int which;      /* the caller's index */
+} Rank;
+
+typedef LIST(Rank) Heap;
+
+void heap_push(Heap *heap, Rank rank);
+Rank heap_pop(Heap *heap); /* of a heap that isn't empty */
+
 /* --- substitute.c --- */
 
 /* The node of e's kind and operator over other arguments, simplified. */

@@ -1,6 +1,6 @@
 # unit tests of lib/expr
 UNIT_TESTS += test_expr_build test_expr_code test_expr_fold test_expr_laws test_expr_print \
-	test_expr_read test_expr_sympy test_expr_units
+	test_expr_read test_expr_share test_expr_sympy test_expr_units
 test_expr_build_SOURCES = tests/unit/test_expr_build.c tests/unit/test_expr.h tests/unit/test.h
 test_expr_build_LDADD = $(unit_ldadd)
 test_expr_code_SOURCES = tests/unit/test_expr_code.c tests/unit/test_expr.h tests/unit/test.h
@@ -14,6 +14,8 @@ test_expr_print_LDADD = $(unit_ldadd)
 test_expr_read_SOURCES = tests/unit/test_expr_read.c tests/unit/test_expr.h \
 	tests/unit/test_model.h tests/unit/test.h
 test_expr_read_LDADD = $(unit_ldadd)
+test_expr_share_SOURCES = tests/unit/test_expr_share.c tests/unit/test_expr.h tests/unit/test.h
+test_expr_share_LDADD = $(unit_ldadd)
 test_expr_sympy_SOURCES = tests/unit/test_expr_sympy.c tests/unit/test_expr.h tests/unit/test.h
 test_expr_sympy_LDADD = $(unit_ldadd)
 test_expr_units_SOURCES = tests/unit/test_expr_units.c tests/unit/test.h
