@@ -96,7 +96,9 @@ static void write_counting(Text *out)
         "free, a division counts as a multiplication. Operations inside the arguments of "
         "functions count. Matrices are counted over all their entries, both triangles. The first "
         "three figures are those of the entries as 'show' writes them, nothing shared; the others "
-        "those of what a run evaluates, where each common subexpression is computed once.");
+        "those of what a run evaluates, where each common subexpression is computed once, also one "
+        "that is only a part of several sums or products, and a sine or cosine of a sum of angles "
+        "follows from those of the parts where a block needs these anyway.");
 }
 
 static void write_variables(Text *out)

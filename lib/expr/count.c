@@ -35,12 +35,11 @@ static bool is_below(Expr factor)
            is_negative(node_args(factor)[1]);
 }
 
-/* `numbered`: with its coefficient */
-static OpCount product_own(Expr e, bool numbered)
+static OpCount product_own(Expr e)
 {
     Factors factors = term_factors(&e);
     Number number = term_coefficient(e);
-    bool counts = numbered && !number_is(number, 1) && !number_is(number, -1);
+    bool counts = !number_is(number, 1) && !number_is(number, -1);
     bool above = counts;
 
     for (int i = 0; i < factors.count; i++)
@@ -57,7 +56,7 @@ static OpCount node_own(Expr e)
         own.add = e->count - 1;
         return own;
     case EXPR_PRODUCT:
-        return product_own(e, true);
+        return product_own(e);
     case EXPR_POWER:
         return power_own(e);
     case EXPR_CALL:
@@ -110,7 +109,6 @@ OpCount expr_count(const Expr *roots, int count)
 typedef struct Met {
     Expr *slots;
     uint32_t size;
-    uint32_t count;
 } Met;
 
 static uint32_t factors_hash(Expr e)
@@ -123,12 +121,20 @@ static uint32_t factors_hash(Expr e)
     return hash >> 5;
 }
 
-/* Whether a product like e was met before; now it was. `met` is large enough. */
+static bool same_but_for_sign(Expr a, Expr b)
+{
+    Number number = term_coefficient(a);
+
+    return order_terms(a, b) == 0 && (number_same(number, term_coefficient(b)) ||
+                                      number_same(number_neg(number), term_coefficient(b)));
+}
+
+/* Whether a product or its negative was met before; now it was. `met` is large enough. */
 static bool meet(Met *met, Expr e)
 {
     uint32_t i = factors_hash(e) & (met->size - 1);
 
-    while (met->slots[i] != NULL && order_terms(met->slots[i], e) != 0)
+    while (met->slots[i] != NULL && !same_but_for_sign(met->slots[i], e))
         i = (i + 1) & (met->size - 1);
     if (met->slots[i] != NULL)
         return true;
@@ -152,15 +158,7 @@ OpCount expr_count_shared(const Expr *roots, int count)
     for (int i = 0; i < walk.count; i++) {
         Expr e = walk.nodes[i];
 
-        /* 2*a*b and 3*a*b share a*b */
-        if (e->kind == EXPR_PRODUCT) {
-            OpCount whole = product_own(e, true);
-
-            if (!meet(&met, e))
-                total = op_count_plus(total, whole);
-            else
-                total.mul = plus(total.mul, whole.mul > product_own(e, false).mul);
-        } else
+        if (e->kind != EXPR_PRODUCT || !meet(&met, e))
             total = op_count_plus(total, node_own(e));
         for (int j = 0; j < e->count && e->kind != EXPR_PRODUCT; j++)
             divides[walk_find(&walk, node_args(e)[j])] = true;

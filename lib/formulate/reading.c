@@ -1,9 +1,11 @@
 /* reading.c: which reading a program is made from, and what a program costs
  *
  * A small system written as by hand often takes fewer operations, once its common
- * subexpressions are shared, than the definitions that serve a system of any size. Where it
- * does, and writing it out is cheap, the run uses what is shown. */
+ * subexpressions are shared, than the definitions that serve a system of any size. Where
+ * writing it out is cheap, both are tried, and M multiplied out too; the run uses the cheapest. */
 #include "formulate/system_impl.h"
+
+#include <string.h>
 
 enum {
     MOST_SPEEDS = 7,       /* beyond, definitions win and writing out takes long */
@@ -64,13 +66,47 @@ done:
     return status;
 }
 
+/* M with its products multiplied out: entries share terms that common factors would hide */
+static void open_mass(System *system, Expr *mass)
+{
+    enum { MOST_TERMS = 200 };
+    int n = system->u.count;
+    bool ignored;
+
+    for (int i = 0; i < n; i++)
+        for (int j = i; j < n; j++) {
+            Expr e = expr_expand_over(system->arena, mass[i * n + j], ~(1U << SYMBOL_PARAMETER),
+                                      MOST_TERMS, &ignored);
+
+            mass[i * n + j] = mass[j * n + i] = expr_fold(system->arena, e);
+        }
+}
+
+/* Let the entries of all blocks share what they can; keep them where that is the least so far. */
+static void offer(System *system, Expr *entries, int count, Expr *best, int64_t *least)
+{
+    int counts[COUNT(blocks)];
+    int64_t price;
+
+    for (int b = 0; b < COUNT(blocks); b++)
+        counts[b] = block_entries(system, blocks[b]);
+    expr_part_angles(system->arena, entries, counts, COUNT(blocks));
+    expr_share(system->arena, entries, count);
+    price = cost(entries, count);
+    if (price >= *least)
+        return;
+    *least = price;
+    memcpy(best, entries, (size_t)count * sizeof(Expr));
+}
+
 Status reading_choose(System *system, Diag *diag)
 {
     int count = 0;
     int filled = 0;
-    Expr *defined = NULL;
-    Expr *shown;
-    int64_t price;
+    int64_t least = INT64_MAX;
+    Expr *entries = NULL;
+    Expr *shown = NULL;
+    Expr *best;
     Status status = OK;
 
     system->definitions = system->run;
@@ -78,23 +114,27 @@ Status reading_choose(System *system, Diag *diag)
         return OK;
     for (int b = 0; b < COUNT(blocks); b++)
         count += block_entries(system, blocks[b]);
-    defined = NEW_ARRAY(Expr, count);
-    shown = pool_alloc(system->pool, (size_t)count * sizeof(Expr));
+    entries = NEW_ARRAY(Expr, count);
+    shown = NEW_ARRAY(Expr, count);
     for (int b = 0; b < COUNT(blocks); b++)
         for (int i = 0; i < block_entries(system, blocks[b]); i++)
-            defined[filled++] = (*block_of(&system->run, blocks[b]))[i];
-    price = cost(defined, count);
-    if (price > MOST_OPERATIONS)
+            entries[filled++] = (*block_of(&system->run, blocks[b]))[i];
+    if (cost(entries, count) > MOST_OPERATIONS)
         goto done;
     CHECK(write_out(system, shown, diag));
-    if (cost(shown, count) >= price)
-        goto done;
+    best = pool_alloc(system->pool, (size_t)count * sizeof(Expr));
+    offer(system, entries, count, best, &least);
+    memcpy(entries, shown, (size_t)count * sizeof(Expr));
+    offer(system, entries, count, best, &least);
+    open_mass(system, shown); /* the first block */
+    offer(system, shown, count, best, &least);
     for (int b = 0; b < COUNT(blocks); b++) {
-        *block_of(&system->run, blocks[b]) = shown;
-        shown += block_entries(system, blocks[b]);
+        *block_of(&system->run, blocks[b]) = best;
+        best += block_entries(system, blocks[b]);
     }
 done:
-    mem_free(defined);
+    mem_free(entries);
+    mem_free(shown);
     return status;
 }
 

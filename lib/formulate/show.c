@@ -105,20 +105,29 @@ static Expr added(System *system, Terms *terms)
     return sum;
 }
 
-/* as built, or multiplied out first where that folds to less; products of long sums stay */
+/* `e` folded and collected where that is shorter than `best` */
+static Expr shorter(Arena *arena, Expr best, Expr e)
+{
+    e = expr_collect(arena, expr_fold(arena, e));
+    return op_count_total(expr_count(&e, 1)) < op_count_total(expr_count(&best, 1)) ? e : best;
+}
+
+/* as built, or multiplied out first where that folds to less, all of it or with sums of constants
+ * left together; products of long sums stay */
 static Expr tidy(System *system, Expr e)
 {
     enum { MOST_TERMS = 200 };
     Arena *arena = system->arena;
     Expr open = expr_open(arena, e);
-    Expr whole = expr_expand(arena, open, MOST_TERMS);
+    bool kept = false;
+    Expr varying = expr_expand_over(arena, open, ~(1U << SYMBOL_PARAMETER), MOST_TERMS, &kept);
+    Expr whole = kept ? expr_expand(arena, open, MOST_TERMS) : varying;
     Expr best = expr_collect(arena, expr_fold(arena, open));
 
-    if (whole != open) {
-        whole = expr_collect(arena, expr_fold(arena, whole));
-        if (op_count_total(expr_count(&whole, 1)) < op_count_total(expr_count(&best, 1)))
-            best = whole;
-    }
+    if (whole != open)
+        best = shorter(arena, best, whole);
+    if (varying != whole && varying != open)
+        best = shorter(arena, best, varying);
     return best;
 }
 
