@@ -11,7 +11,8 @@
 
 #include <stdarg.h>
 
-enum { MOST_ELEMENTS = 200, SMALL = 120 };
+/* an improper tree's equations of high order grow fast: integrated up to FEW elements */
+enum { MOST_ELEMENTS = 200, SMALL = 80, FEW = 20 };
 
 typedef enum Kind { RESISTOR, CAPACITOR, INDUCTOR, VSOURCE, ISOURCE, KINDS } Kind;
 
@@ -36,6 +37,11 @@ static int pick(uint64_t *random, int count)
     return (int)(test_random(random) % (uint64_t)count);
 }
 
+static bool stores(const Element *element)
+{
+    return element->kind == CAPACITOR || element->kind == INDUCTOR;
+}
+
 static Element random_element(uint64_t *random, Kind kind, int plus, int minus)
 {
     static const double least[] = {0.5, 0.2, 0.2, -5.0, -1.0};
@@ -58,8 +64,9 @@ static Network random_network(uint64_t *random, int count)
         int plus = tree ? i + 1 : pick(random, net.nodes);
         int minus =
             tree ? pick(random, i + 1) : (plus + 1 + pick(random, net.nodes - 1)) % net.nodes;
-        Kind kind =
-            tree ? in_tree[pick(random, COUNT(in_tree))] : across[pick(random, COUNT(across))];
+        Kind kind = i == 0 ? VSOURCE
+                    : tree ? in_tree[pick(random, COUNT(in_tree))]
+                           : across[pick(random, COUNT(across))];
 
         net.at[i] = pick(random, 2) == 0 ? random_element(random, kind, plus, minus)
                                          : random_element(random, kind, minus, plus);
@@ -87,6 +94,11 @@ static char *network_text(const Network *net)
             text_addf(&text, "*sin(%.17g*t)", element->speed);
         text_char(&text, '\n');
     }
+    /* at rest, also where the tree's own variables are others */
+    for (int i = 0; i < net->count; i++)
+        if (stores(&net->at[i]))
+            text_addf(&text, "init %c%d.%c = 0\n", letters[net->at[i].kind], i,
+                      net->at[i].kind == CAPACITOR ? 'v' : 'i');
     return text_done(&text);
 }
 
@@ -127,25 +139,25 @@ static void push(const Model *model, Items *items, bool rate, const char *format
     text_free(&name);
 }
 
-static void push_all(const Model *model, const Network *net, Items *items)
+static void push_all(const Model *model, const Network *net, bool rates, Items *items)
 {
     for (int i = 0; i < net->count; i++)
         push(model, items, false, "%c%d.v", letters[net->at[i].kind], i);
     for (int i = 0; i < net->count; i++)
         push(model, items, false, "%c%d.i", letters[net->at[i].kind], i);
     for (int i = 0; i < net->count; i++)
-        push(model, items, net->at[i].kind == CAPACITOR || net->at[i].kind == INDUCTOR, "%c%d.%c",
-             letters[net->at[i].kind], i, net->at[i].kind == INDUCTOR ? 'i' : 'v');
+        push(model, items, rates && stores(&net->at[i]), "%c%d.%c", letters[net->at[i].kind], i,
+             net->at[i].kind == INDUCTOR ? 'i' : 'v');
     for (int node = 1; node < net->nodes; node++)
         push(model, items, false, "n%d.v", node);
 }
 
-static bool run(Model *model, const Network *net, System **system, Told *told)
+static bool run(Model *model, const Network *net, bool rates, System **system, Told *told)
 {
     /* steps short enough for the energy, whose error does not choose them */
     RunOptions options = {
         .duration = 2.0, .every = 0.25, .rtol = 1e-11, .atol = 1e-11, .step = 0.05};
-    StartValues start = {0};
+    StartValues start = {model_start_count(model), NULL};
     Setting setting = {.parameter = parameter_value, .context = model, .start = &start};
     Items items = {0};
     Diag diag = {0};
@@ -155,7 +167,13 @@ static bool run(Model *model, const Network *net, System **system, Told *told)
     *system = scene_system(model);
     if (*system == NULL)
         return false;
-    push_all(model, net, &items);
+    push_all(model, net, rates, &items);
+    start.at = NEW_ARRAY(StartValue, start.count);
+    for (int i = 0; i < start.count; i++) {
+        const Start *from = model_start(model, i);
+
+        start.at[i] = (StartValue){from->name, from->primes, 0.0, from->is_guess};
+    }
     status = run_simulate(*system, &setting, &options, &told->result, &diag);
     if (status == OK) {
         told->rows = result_rows(told->result);
@@ -168,6 +186,7 @@ static bool run(Model *model, const Network *net, System **system, Told *told)
         test_faults++;
         printf("%s (%s)\n", diag.message, diag.hint);
     }
+    mem_free(start.at);
     LIST_FREE(items);
     return status == OK;
 }
@@ -259,6 +278,9 @@ static void expect_tellegen(const Network *net, const Told *volts, const Told *a
         sum += power;
         size += fabs(power);
     }
+    /* where all powers are near nothing, what they are at other times is the measure */
+    size =
+        fmax(size, 1e-3 * largest(volts, 0, net->count) * largest(amperes, net->count, net->count));
     expect_small(sum, 1e-10 * size, "Tellegen's theorem, elements", net->count, volts->times[row]);
 }
 
@@ -312,7 +334,52 @@ static char *random_tree(const Model *model, const Network *net, bool proper, ui
     return text_done(&text);
 }
 
-static void check_network(uint64_t *random, int size, int trees)
+/* what is done differently in the k-th of a network's runs */
+typedef struct Way {
+    bool proper;    /* tree */
+    bool tree_form; /* integrates that tree's equations, not those of a normal tree */
+} Way;
+
+/* Some improper trees are refused: their equations leave an unknown without one of its own. */
+static bool refused(const Model *model, int *count)
+{
+    System *system = NULL;
+    Diag diag = {0};
+    bool is_refused = system_new(model, NULL, &system, &diag) != OK &&
+                      strstr(diag.message, "can't be solved for") != NULL;
+
+    system_free(system);
+    *count += is_refused;
+    return is_refused;
+}
+
+static void choose(Model *model, const Network *net, Way way, uint64_t *random)
+{
+    char *tree = random_tree(model, net, way.proper, random);
+
+    scene_add(model, tree);
+    if (way.tree_form)
+        scene_add(model, "set network tree\n");
+    mem_free(tree);
+}
+
+static void expect_all(const Network *net, Way way, const Told *first, const Told *told)
+{
+    for (int r = 0; r < told->rows; r++) {
+        expect_kirchhoff(net, told, r);
+        if (way.proper)
+            expect_laws(net, told, r);
+        expect_tellegen(net, told, told, r);
+        expect_tellegen(net, first, told, r);
+        expect_tellegen(net, told, first, r);
+    }
+    if (way.proper)
+        expect_energy(net, told);
+    expect_same(net, first, told);
+}
+
+/* trees that were refused */
+static int check_network(uint64_t *random, int size, int trees)
 {
     Network net = random_network(random, size);
     char *text = network_text(&net);
@@ -320,26 +387,19 @@ static void check_network(uint64_t *random, int size, int trees)
     System *systems[8] = {NULL};
     Told told[8] = {{0}};
     int before = test_faults;
+    int refusals = 0;
 
     for (int k = 0; k < trees && test_faults == before; k++) {
-        models[k] = scene_new(text);
-        if (k > 0) {
-            char *tree = random_tree(models[k], &net, k % 2 == 1, random);
+        Way way = {.proper = k % 2 == 1 || k == 0,
+                   .tree_form = k > 0 && (k % 2 == 1 || size <= FEW)};
 
-            scene_add(models[k], tree);
-            mem_free(tree);
-        }
-        if (!run(models[k], &net, &systems[k], &told[k]))
+        models[k] = scene_new(text);
+        if (k > 0)
+            choose(models[k], &net, way, random);
+        if (!way.proper && refused(models[k], &refusals))
             continue;
-        for (int r = 0; r < told[k].rows; r++) {
-            expect_kirchhoff(&net, &told[k], r);
-            expect_laws(&net, &told[k], r);
-            expect_tellegen(&net, &told[k], &told[k], r);
-            expect_tellegen(&net, &told[0], &told[k], r);
-            expect_tellegen(&net, &told[k], &told[0], r);
-        }
-        expect_energy(&net, &told[k]);
-        expect_same(&net, &told[0], &told[k]);
+        if (run(models[k], &net, way.proper, &systems[k], &told[k]))
+            expect_all(&net, way, &told[0], &told[k]);
     }
     if (test_faults > before)
         printf("%s", text);
@@ -349,14 +409,18 @@ static void check_network(uint64_t *random, int size, int trees)
         model_free(models[k]);
     }
     mem_free(text);
+    return refusals;
 }
 
 static void small_networks_have_one_solution(void)
 {
     uint64_t random = 5;
+    int refusals = 0;
 
     for (int i = 0; i < SMALL && test_faults == 0; i++)
-        check_network(&random, 4 + pick(&random, 25), 5);
+        refusals += check_network(&random, 4 + pick(&random, FEW - 4), 5);
+    printf("%d trees of %d refused\n", refusals, 4 * SMALL);
+    EXPECT(refusals <= 4 * SMALL / 40);
 }
 
 static void networks_of_200_elements_have_one_solution(void)
@@ -364,7 +428,7 @@ static void networks_of_200_elements_have_one_solution(void)
     uint64_t random = 200;
 
     for (int i = 0; i < 4 && test_faults == 0; i++)
-        check_network(&random, MOST_ELEMENTS, 4);
+        EXPECT(check_network(&random, MOST_ELEMENTS, 4) == 0);
 }
 
 int main(void)
