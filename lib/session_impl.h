@@ -101,6 +101,7 @@ void run_free(Run *run);
 typedef struct Order {
     ParameterValues *parameters;
     StartValues start;
+    const Event **events;
     Setting setting;
 } Order;
 void order_make(ct_session *session, Order *order);

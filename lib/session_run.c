@@ -60,6 +60,7 @@ void session_forget_start(ct_session *session)
 void order_free(Order *order)
 {
     mem_free(order->start.at);
+    mem_free(order->events);
     if (order->parameters != NULL) {
         Run run = {NULL, order->parameters};
 
@@ -91,8 +92,13 @@ void order_make(ct_session *session, Order *order)
         order->start.at[i].value = model_number(model, start->value);
         order->start.at[i].is_guess = start->is_guess;
     }
+    order->events = mem_array((size_t)model_event_count(model), sizeof *order->events);
+    for (int i = 0; i < model_event_count(model); i++)
+        order->events[i] = model_event(model, i);
     order->setting = (Setting){.parameter = parameter_value,
                                .context = order->parameters,
+                               .events = order->events,
+                               .event_count = model_event_count(model),
                                .start = &order->start,
                                .warm = session->warm.result,
                                .from = resting_start(session),
@@ -301,7 +307,6 @@ done:
 static RunOptions options_from(const Result *old, const RunOptions *said)
 {
     const RunReport *report = result_report(old);
-    const double *times = result_times(old);
     RunOptions options = *said;
 
     if (options.rtol == 0)
@@ -310,8 +315,8 @@ static RunOptions options_from(const Result *old, const RunOptions *said)
         options.atol = report->atol;
     if (options.method == NULL)
         options.method = report->method;
-    if (options.every == 0 && result_rows(old) > 1)
-        options.every = times[1] - times[0];
+    if (options.every == 0)
+        options.every = report->every;
     return options;
 }
 

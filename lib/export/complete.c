@@ -110,6 +110,14 @@ static void offer_instances(Line *line)
         offer(line, model_instance(line->model, i)->name);
 }
 
+/* what has a name of its own, and can go */
+static void offer_removable(Line *line)
+{
+    offer_instances(line);
+    for (int i = 0; i < model_event_count(line->model); i++)
+        offer(line, model_event(line->model, i)->name);
+}
+
 static void offer_names(Line *line)
 {
     const char *name;
@@ -215,7 +223,7 @@ static const struct {
     {"show", offer_show, true},          {"help", offer_help_words, true},
     {"apropos", offer_help_words, true}, {"count", offer_blocks, true},
     {"tree", offer_edges, false},        {"cotree", offer_edges, false},
-    {"delete", offer_instances, false},  {"info", offer_names, false},
+    {"delete", offer_removable, false},  {"info", offer_names, false},
     {"set", offer_instances, false},     {"init", offer_coordinates, false},
     {"guess", offer_coordinates, false},
 };
@@ -345,7 +353,7 @@ static void offer_operand(Line *line, const Verb *verb, int first)
     while (shape[at] != '\0' && strchr("PVWIiext*", shape[at]) != NULL)
         at++;
     for (; shape[at] != '\0'; at++) {
-        if (shape[at] == 'k')
+        if (shape[at] == 'k' || (shape[at] == '=' && verb->component == NULL))
             offer_keys(line, verb);
         else if (shape[at] == '@' && operand > first)
             offer(line, "at");
@@ -385,6 +393,8 @@ static void offer_key_value(Line *line, const Verb *verb, const char *key)
         offer_methods(line);
     else if (strcmp(key, "independent") == 0)
         offer_coordinates(line);
+    else if (strcmp(verb->name, "event") == 0 && strcmp(key, "do") == 0)
+        offer_alternatives(line, "stop|mark");
     else
         offer_values(line);
 }

@@ -1,6 +1,8 @@
 /* info.c: everything about one name */
 #include "export/info.h"
 
+#include "export/show.h"
+
 #include <stdio.h>
 #include <string.h>
 
@@ -165,6 +167,23 @@ static bool print_output(Text *out, const View *view, const char *name)
     return false;
 }
 
+static bool print_event(Text *out, const View *view, const char *name)
+{
+    for (int i = 0; i < model_event_count(view->model); i++) {
+        const Event *event = model_event(view->model, i);
+        Text action = {0};
+
+        if (strcmp(event->name, name) != 0)
+            continue;
+        event_print(&action, event);
+        text_addf(out, "%s: event, when %s: %s\nmade by: %s\n", name, event->condition, action.at,
+                  event->text);
+        text_free(&action);
+        return true;
+    }
+    return false;
+}
+
 static bool print_node(Text *out, const View *view, const char *name)
 {
     const Graph *graph = model_graph(view->model);
@@ -231,7 +250,8 @@ Status info_print(const View *view, const char *name, Place place, Text *out, Di
         return OK;
     }
     if (print_parameter(out, view, name) || print_output(out, view, name) ||
-        print_variable(out, view, name) || print_node(out, view, name))
+        print_event(out, view, name) || print_variable(out, view, name) ||
+        print_node(out, view, name))
         return OK;
     for (int i = 0; (candidate = model_name(view->model, i)) != NULL; i++)
         suggest_offer(&suggest, candidate);
@@ -269,6 +289,15 @@ static bool is_used(const Model *model, Expr symbol)
 
         if (expr_depends(model_output(model, i, &name), symbol))
             return true;
+    }
+    for (int i = 0; i < model_event_count(model); i++) {
+        const Event *event = model_event(model, i);
+
+        if (expr_depends(event->when, symbol))
+            return true;
+        for (int k = 0; k < event->value_count; k++)
+            if (expr_depends(event->values[k].value, symbol))
+                return true;
     }
     for (int i = 0; i < 3; i++)
         if (expr_depends(model_gravity(model)[i], symbol))

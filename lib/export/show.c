@@ -30,7 +30,7 @@ static const Topic topics[] = {
     {"linear",       "matrices of the last linearisation",                 NEED_MODEL,  BEHIND_NOTHING, show_linear},
     {"transfer",     "transfer functions of the last linearisation",       NEED_MODEL,  BEHIND_NUMBERS, show_transfer},
     {"derivation",   "how an equation came about, step by step",           NEED_MODEL,  BEHIND_NOTHING, NULL},
-    {"events",       "events, and when they happened",                     NEED_MODEL,  BEHIND_NOTHING, NULL},
+    {"events",       "events, and when they happened in the last run",     NEED_MODEL,  BEHIND_NOTHING, show_events},
 };
 
 static const struct { const char *word; Notation notation; } notations[] = {

@@ -56,7 +56,7 @@ typedef Status ShowFunction(const View *view, const Selection *selection, Text *
 ShowFunction show_graph, show_nodes, show_edges, show_tree, show_incidence, show_circuits,
     show_cutsets, show_structure;
 ShowFunction show_coordinates, show_constraints, show_jacobian, show_mass, show_forces,
-    show_equations, show_network;
+    show_equations, show_network, show_events;
 ShowFunction show_outputs, show_params, show_run, show_settings, show_program;
 
 /* a matrix of the linear equations, by its letter */
@@ -77,6 +77,9 @@ MUST_USE Status linear_check_pairs(const Linear *linear, Diag *diag);
 void modes_print(const Modes *modes, Text *out);
 /* a row a mode, with the amplitude and phase of every part */
 void modes_csv(const Modes *modes, bool with_header, Text *out);
+
+/* what an event of the model does, in words: "stops", "s1' = -0.8*s1'" */
+void event_print(Text *out, const Event *event);
 
 /* one variable or expression of the user's: `left = its expression` */
 MUST_USE Status show_expression(const View *view, const Syntax *syntax, Text *out, Diag *diag);

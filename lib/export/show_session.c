@@ -208,6 +208,73 @@ Status show_run(const View *view, const Selection *selection, Text *out, Diag *d
     return OK;
 }
 
+/* --- events --- */
+
+void event_print(Text *out, const Event *event)
+{
+    static const char *const actions[] = {
+        [EVENT_MARK] = "marks", [EVENT_STOP] = "stops the run", [EVENT_SET] = ""};
+
+    text_add(out, actions[event->action]);
+    for (int i = 0; i < event->value_count; i++) {
+        const NewValue *value = &event->values[i];
+        char *text = expr_text(value->value);
+
+        text_addf(out, "%s%s%.*s = %s", i > 0 ? ", " : "", value->name, value->primes, "'''''''''",
+                  text);
+        mem_free(text);
+    }
+}
+
+/* "3 times: 0.45 1.17 1.75 s" */
+static void print_times(Text *out, const EventRecord *record)
+{
+    if (record->count == 0)
+        text_add(out, record->from_start ? "not again: held at the start" : "not at all");
+    else if (record->count > 1)
+        text_addf(out, "%d times: ", record->count);
+    for (int i = 0; i < record->count; i++)
+        text_addf(out, "%s%.12g", i > 0 ? " " : "", record->times[i]);
+    if (record->count > 0)
+        text_addf(out, " s%s", record->ended ? ", which ended the run" : "");
+}
+
+Status show_events(const View *view, const Selection *selection, Text *out, Diag *diag)
+{
+    const int count = model_event_count(view->model);
+    const int past = view->result != NULL ? result_event_count(view->result) : 0;
+    Table table = table_for("lll");
+
+    (void)selection, (void)diag;
+    for (int i = 0; i < count; i++) {
+        const Event *event = model_event(view->model, i);
+        Text action = {0};
+
+        event_print(&action, event);
+        table_cell(&table, event->name);
+        table_cell(&table, event->condition);
+        table_cell(&table, action.at);
+        text_free(&action);
+    }
+    table_print(out, &table, 0);
+    table_free(&table);
+    if (count + past == 0)
+        text_add(out, "no events\n");
+    if (past > 0)
+        text_add(out, "in the last run:\n");
+    for (int i = 0; i < past; i++) {
+        const EventRecord record = result_event(view->result, i);
+        Text lead = {0}, times = {0};
+
+        print_times(&times, &record);
+        text_addf(&lead, "  %s  ", record.name);
+        layout_words(out, view->page.columns, lead.at, times.at);
+        text_free(&lead);
+        text_free(&times);
+    }
+    return OK;
+}
+
 /* --- what is evaluated --- */
 
 static void push_reading(const System *system, Expr **roots, int *count)

@@ -333,6 +333,16 @@ Expr model_output(const Model *model, int i, const char **name)
     return d->body;
 }
 
+int model_event_count(const Model *model)
+{
+    return model->state->events.count;
+}
+
+const Event *model_event(const Model *model, int i)
+{
+    return model->state->definitions.at[model->state->events.at[i]].event;
+}
+
 int model_start_count(const Model *model)
 {
     return model->state->starts.count;

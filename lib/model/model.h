@@ -16,7 +16,7 @@ Model *model_new(void); /* new, empty; spatial */
 void model_free(Model *model);
 
 /* Apply one statement that builds: scene, gravity, title, components, NAME=, laws, driver,
- * output, init, guess, tree, cotree, form, set NAME.key, delete. Says nothing.
+ * output, event, init, guess, tree, cotree, form, set NAME.key, delete. Says nothing.
  * Remarks for the user (what was completed, what was kept) are model_remarks(). */
 MUST_USE Status model_apply(Model *model, const Statement *statement, Diag *diag);
 bool model_applies(const char *verb);          /* whether model_apply() takes this verb */
@@ -78,6 +78,27 @@ typedef struct Start {
 } Start;
 int model_start_count(const Model *model);
 const Start *model_start(const Model *model, int i);
+
+/* what happens when a condition becomes true */
+typedef enum EventAction { EVENT_MARK, EVENT_STOP, EVENT_SET } EventAction;
+
+typedef struct NewValue {
+    const char *name; /* variable, as in a Start */
+    int primes;
+    Expr value; /* over variables, t and parameters, just before the event */
+} NewValue;
+
+typedef struct Event {
+    const char *name;
+    Expr when;             /* a condition over variables, t and parameters */
+    const char *condition; /* the same as written */
+    EventAction action;
+    int value_count;
+    const NewValue *values; /* of EVENT_SET */
+    const char *text;       /* its statement */
+} Event;
+int model_event_count(const Model *model);
+const Event *model_event(const Model *model, int i);
 
 typedef enum Form { FORM_AUGMENTED, FORM_EMBEDDED } Form;
 /* Which equations of scalar networks are integrated: state form, by a normal tree whatever the

@@ -238,7 +238,7 @@ static Status call_entry(Scope *scope, const Syntax *syntax, int wanted, const E
     Text name = {0};
     Status status = OK;
 
-    if (scope->kind != SCOPE_ASK && scope->kind != SCOPE_OUTPUT)
+    if (scope->kind != SCOPE_ASK && scope->kind != SCOPE_OUTPUT && scope->kind != SCOPE_EVENT)
         return diag_at(diag, E_NAME, syntax->place,
                        "%s can be printed, but nothing can depend on it", syntax->text);
     if (syntax->count != wanted)

@@ -24,7 +24,12 @@ typedef struct Thing { /* what a name of State.names stands for, by its number t
     int coordinate;
 } Thing;
 
-typedef enum DefinitionKind { DEFINES_PARAMETER, DEFINES_LAW, DEFINES_OUTPUT } DefinitionKind;
+typedef enum DefinitionKind {
+    DEFINES_PARAMETER,
+    DEFINES_LAW,
+    DEFINES_OUTPUT,
+    DEFINES_EVENT
+} DefinitionKind;
 
 typedef struct Definition {
     DefinitionKind kind;
@@ -33,6 +38,7 @@ typedef struct Definition {
     Expr body;   /* of a law: over its arguments */
     Expr *arguments;
     int argument_count;
+    const Event *event; /* of an event; in the state's pool */
     int line;
     bool is_known; /* parameter: `value` is that of its body */
     double value;
@@ -80,6 +86,7 @@ typedef struct State {
     LIST(Definition) definitions;
     NumberList parameters; /* definitions, in order of making */
     NumberList outputs;
+    NumberList events;
     LIST(Line) lines;
     Choice choices[TREE_KINDS];
     LIST(StartEntry) starts;
@@ -152,6 +159,7 @@ typedef enum ScopeKind {
     SCOPE_DRIVE,
     SCOPE_START,
     SCOPE_OUTPUT,
+    SCOPE_EVENT,
     SCOPE_ASK
 } ScopeKind;
 
@@ -200,8 +208,8 @@ int line_add(State *state, const char *text, int definition, int part, const Sco
 void line_uses(State *state, Line *line, const Scope *scope);
 /* Earlier lines of this part (or -1) and key no longer count. */
 void line_supersede(State *state, int part, const char *key);
-/* Numbers of the lines that count, what they use before them, outputs last where nothing needs
- * them earlier; new, free with mem_free(). */
+/* Numbers of the lines that count, what they use before them, outputs late where nothing needs
+ * them earlier, events behind all; new, free with mem_free(). */
 int *lines_in_order(const State *state, int *count);
 /* A State from the old one's lines, without line `without` (-1: none); trees, starts and form are
  * taken over where their names live on, and what fell away is remarked. With `broken`, lines that
@@ -225,10 +233,14 @@ void starts_save(const State *state, Text *text);
  * are gone fall away with a remark; those that fail are in `broken`, or NULL: fail. */
 Status starts_copy(State *to, const State *from, NameList *broken, Text *remarks, Diag *diag);
 
+/* Refuses a variable that follows from the rest, and so can't be given a value; its own name. A
+ * literal's unit is checked. */
+Status start_check(const State *state, const Pair *pair, Text *name, Diag *diag);
+
 /* --- one function a verb --- */
 
 Apply apply_parameter, apply_law, apply_output, apply_component, apply_scene, apply_gravity,
-    apply_title, apply_init, apply_guess, apply_form, apply_tree, apply_cotree, apply_set,
-    apply_delete;
+    apply_title, apply_init, apply_event, apply_guess, apply_form, apply_tree, apply_cotree,
+    apply_set, apply_delete;
 
 #endif

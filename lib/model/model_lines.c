@@ -91,9 +91,13 @@ static void place_line(Order *order, int line)
     }
 }
 
-static bool is_output(const State *state, const Line *line)
+/* outputs and events may hold the names of anything that was made after them first */
+static int rank_of(const State *state, const Line *line)
 {
-    return line->definition >= 0 && state->definitions.at[line->definition].kind == DEFINES_OUTPUT;
+    DefinitionKind kind =
+        line->definition >= 0 ? state->definitions.at[line->definition].kind : DEFINES_PARAMETER;
+
+    return kind == DEFINES_EVENT ? 2 : kind == DEFINES_OUTPUT ? 1 : 0;
 }
 
 int *lines_in_order(const State *state, int *count)
@@ -102,9 +106,9 @@ int *lines_in_order(const State *state, int *count)
 
     order.placed = NEW_ARRAY(bool, state->lines.count);
     order.lines = NEW_ARRAY(int, state->lines.count);
-    for (int outputs = 0; outputs < 2; outputs++)
+    for (int rank = 0; rank < 3; rank++)
         for (int i = 0; i < state->lines.count; i++)
-            if (outputs == (is_output(state, &state->lines.at[i]) ? 1 : 0))
+            if (rank == rank_of(state, &state->lines.at[i]))
                 place_line(&order, i);
     LIST_FREE(order.stack);
     LIST_FREE(order.next);

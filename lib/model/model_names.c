@@ -68,7 +68,7 @@ static void article(Text *text, const char *word)
 
 void name_describe(const State *state, const Thing *thing, Text *text)
 {
-    static const char *const kinds[] = {"parameter", "law", "output"};
+    static const char *const kinds[] = {"parameter", "law", "output", "event"};
 
     switch (thing->kind) {
     case THING_PART:

@@ -37,21 +37,27 @@ static void unit_of(const State *state, const char *name, int primes, Text *unit
 
 /* A value can be given to what the start is made of: positions and rates, voltages, currents and
  * what they store. */
-static Status check_startable(const State *state, const Pair *pair, Text *name, Diag *diag)
+Status start_check(const State *state, const Pair *pair, Text *name, Diag *diag)
 {
     Text again = {0};
+    Text unit = {0};
     Status status = OK;
 
     CHECK(variable_resolve(state, NULL, pair->name, 0, 0, pair->name_place, name, diag));
     if (variable_resolve(state, NULL, pair->name, pair->primes + 1, 0, pair->name_place, &again,
-                         NULL) == OK)
+                         NULL) != OK) {
+        status = diag_at(diag, E_VALUE, pair->name_place,
+                         "%s%.*s can't be given: it follows from the rest", pair->name,
+                         pair->primes, "'''''''''");
+        diag_hint(diag, "positions, rates, voltages and currents can");
         goto done;
-    status =
-        diag_at(diag, E_VALUE, pair->name_place, "%s%.*s can't be given: it follows from the rest",
-                pair->name, pair->primes, "'''''''''");
-    diag_hint(diag, "positions, rates, voltages and currents can");
+    }
+    unit_of(state, name->at, pair->primes, &unit);
+    if (unit.at != NULL)
+        CHECK(unit_check(pair->value, unit.at, pair->name, diag));
 done:
     text_free(&again);
+    text_free(&unit);
     return status;
 }
 
@@ -59,16 +65,12 @@ static Status read_start(State *state, const Pair *pair, bool is_guess, StartEnt
 {
     Scope scope = {.state = state, .kind = SCOPE_START};
     Text name = {0};
-    Text unit = {0};
     Text text = {0};
     Expr value = NULL;
     int entry_name = 0;
     Status status = OK;
 
-    CHECK(check_startable(state, pair, &name, diag));
-    unit_of(state, name.at, pair->primes, &unit);
-    if (unit.at != NULL)
-        CHECK(unit_check(pair->value, unit.at, pair->name, diag));
+    CHECK(start_check(state, pair, &name, diag));
     CHECK(scope_expression(&scope, pair->value, &value, diag));
     text_add(&text, name.at);
     text_fill(&text, '\'', pair->primes);
@@ -84,7 +86,6 @@ static Status read_start(State *state, const Pair *pair, bool is_guess, StartEnt
 done:
     LIST_FREE(scope.uses);
     text_free(&name);
-    text_free(&unit);
     text_free(&text);
     return status;
 }

@@ -48,6 +48,7 @@ void state_free(State *state)
     LIST_FREE(state->definitions);
     LIST_FREE(state->parameters);
     LIST_FREE(state->outputs);
+    LIST_FREE(state->events);
     LIST_FREE(state->lines);
     LIST_FREE(state->starts);
     LIST_FREE(state->start_of);
@@ -94,7 +95,7 @@ static const struct {
     {"scene", apply_scene},   {"gravity", apply_gravity}, {"title", apply_title},
     {"output", apply_output}, {"init", apply_init},       {"guess", apply_guess},
     {"tree", apply_tree},     {"cotree", apply_cotree},   {"form", apply_form},
-    {"set", apply_set},       {"delete", apply_delete},
+    {"set", apply_set},       {"delete", apply_delete},   {"event", apply_event},
 };
 
 static Apply *apply_for(const char *verb)

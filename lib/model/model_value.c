@@ -29,6 +29,7 @@ static const struct {
     [SCOPE_START] = {false, false, false, "an initial value",
                      "only numbers and parameters can stand here"},
     [SCOPE_OUTPUT] = {true, true, true, "an output", ""},
+    [SCOPE_EVENT] = {true, true, true, "an event", ""},
     [SCOPE_ASK] = {true, true, true, "this", ""},
 };
 
@@ -188,6 +189,8 @@ static Status definition_name(Scope *scope, const Syntax *syntax, int index, Exp
                             diag) != OK)
             return E_NAME;
         break;
+    case DEFINES_EVENT:
+        return diag_at(diag, E_NAME, syntax->place, "%s is an event, no variable", d->name);
     }
     scope_use(scope, index);
     return OK;

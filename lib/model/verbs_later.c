@@ -80,7 +80,6 @@ const Verb verbs_later[] = {
     OTHER("store", GROUP_VARIABLES, "ws", " SUBSYSTEM \"FILE\"", "keeps a subsystem with its derived equations"),
     OTHER("load", GROUP_VARIABLES, "s", " \"FILE\"", "brings back what store kept"),
 
-    OTHER("event", GROUP_RUN, "n=", " NAME when=COND [do=stop|mark] [VARIABLE=VALUE...]", "what happens when a condition becomes true"),
     OTHER("sweep", GROUP_RUN, "pk:", " PARAMETER from=.. to=.. steps=.. : STATEMENT", "one run for each value of a parameter"),
     OTHER("montecarlo", GROUP_RUN, "v=:", " RUNS PARAMETER=normal(MEAN, DEVIATION)... : STATEMENT", "runs with random parameters"),
     OTHER("fit", GROUP_RUN, "p*k:", " PARAMETER... to=\"FILE\" : STATEMENT", "parameters that make a run match measured data"),

@@ -90,6 +90,29 @@ const Verb verbs_run[] = {
              "motor's voltage.",
      .example = PENDULUM "driver D1 h1 = 0.5*sin(2*t)\ninverse 1 every=0.01\nprint max(D1.effort)",
      .see = "driver kinematics simulate"},
+    {.name = "event",
+     .group = GROUP_RUN,
+     .shape = "n=",
+     .keys = WORDS("when", "do"),
+     .usage = "event NAME when=CONDITION [do=stop|mark|VARIABLE=VALUE ...]",
+     .brief = "what happens when a condition becomes true",
+     .help =
+         "During a run the instant is located at which the condition becomes true; it may hold t, "
+         "any variables and parameters, and && || !. It becomes a row of the result.\n"
+         "  do=stop    the run ends there; 'resume' goes on\n"
+         "  do=mark    the time is reported ('show events'), and the run goes on\n"
+         "  s11'=-0.8*s11'   new values: coordinates, rates, voltages and currents of storage "
+         "elements. Right-hand sides are what they were just before, all at once. What isn't "
+         "named stays, but for what the constraints ask.\n"
+         "A condition that holds already must have been false before it can become true; an event "
+         "that stops ends such a run at its start. Events belong to the model: 'save' writes them, "
+         "the same name again replaces one, 'delete' removes it. In 'kinematics' and 'inverse' "
+         "they can mark and stop.",
+     .example = "scene planar\ngravity [0, -9.81]\nbody m1 mass=1\nprismatic s1 ground m1 axis=y\n"
+                "init s1 = 1\nevent hit when=s1 < 0 s1'=-0.8*s1'\nevent top when=s1' < 0 do=mark\n"
+                "event end when=t > 1.9 && s1 < 0.1 do=stop\nsimulate 3\nshow events\n"
+                "print t, s1",
+     .see = "simulate show resume expect"},
     {.name = "equilibrium",
      .group = GROUP_RUN,
      .shape = ">",

@@ -7,6 +7,8 @@ libcore_la_SOURCES += \
   lib/simulate/embed.c \
   lib/simulate/embed.h \
   lib/simulate/equilibrium.c \
+  lib/simulate/events.c \
+  lib/simulate/events.h \
   lib/simulate/freedoms.c \
   lib/simulate/freedoms.h \
   lib/simulate/ida.c \
@@ -37,6 +39,8 @@ libcore_la_SOURCES += \
   lib/simulate/rank.h \
   lib/simulate/redundant.c \
   lib/simulate/redundant.h \
+  lib/simulate/reset.c \
+  lib/simulate/reset.h \
   lib/simulate/result.c \
   lib/simulate/result.h \
   lib/simulate/rk4.c \

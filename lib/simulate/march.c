@@ -11,7 +11,8 @@
 #define MOST        2000000
 #define POINTS      5 /* of a step, where state conditions are looked at */
 #define ZENO_EVENTS 100
-#define ZENO_SPAN   1e-9 /* of the run */
+#define ZENO_SPAN   1e-9  /* of the run */
+#define EVENT_NOISE 1e-13 /* of a condition's largest size: too small to tell a side from */
 
 /* between two numbers one behind another (or around one on which the condition is 0) */
 typedef struct Jump {
@@ -21,6 +22,8 @@ typedef struct Jump {
 typedef struct March {
     const MarchPlan *plan;
     const Equations *eq;
+    Events *ev;
+    int count; /* conditions: those of the equations, then those of events */
     Grid *grid;
     MarchReport *out;
     Stepper *stepper;
@@ -32,8 +35,10 @@ typedef struct March {
     int *mode;                    /* sign of each condition on this side of its next switch */
     double *band;                 /* sizes too small to tell a sign from, behind a switch */
     int next_row, rows;
-    int events;         /* close together */
-    double event_since; /* the first of them */
+    double scanned;        /* of the last step, up to here conditions are followed */
+    int switches;          /* close together */
+    double switched_since; /* the first of them */
+    bool is_over;          /* an event has ended the run */
 } March;
 
 void grid_add(Grid *grid, double t, const double *y)
@@ -89,6 +94,14 @@ static bool add_row(March *m, double t)
     return true;
 }
 
+/* whether the last row is at t, as far as rounding lets one tell */
+static bool has_row(const March *m, double t)
+{
+    const Grid *grid = m->grid;
+
+    return grid->count > 0 && t - grid->times[grid->count - 1] <= 1e-12 * m->plan->every;
+}
+
 static Status add_rows(March *m, Diag *diag)
 {
     const MarchPlan *plan = m->plan;
@@ -98,6 +111,8 @@ static Status add_rows(March *m, Diag *diag)
 
         if (t > m->stepper->t)
             break;
+        if (has_row(m, t))
+            continue; /* an event's instant */
         m->stepper->method->at(m->stepper, t, m->y);
         if (!add_row(m, t))
             return solver_failure(diag, t, "the constraints can't be met");
@@ -105,17 +120,49 @@ static Status add_rows(March *m, Diag *diag)
     return OK;
 }
 
-/* --- conditions in time alone --- */
+/* --- conditions --- */
 
 static int sign_of(double v)
 {
     return (v > 0) - (v < 0);
 }
 
+/* the values of all of them */
+static void evaluate(March *m, double t, const double *y)
+{
+    const Equations *eq = m->eq;
+
+    if (eq->switch_count > 0)
+        motion_switches(m->plan->motion, t, y, m->conditions);
+    if (m->count > eq->switch_count)
+        events_conditions(m->ev, t, y, m->conditions + eq->switch_count);
+}
+
+static bool is_of_event(const March *m, int i)
+{
+    return i >= m->eq->switch_count;
+}
+
+static bool is_of_time(const March *m, int i)
+{
+    return is_of_event(m, i) ? i - m->eq->switch_count < events_time_only(m->ev)
+                             : i < m->eq->time_only;
+}
+
+static int state_conditions(const March *m)
+{
+    return m->count - m->eq->time_only - events_time_only(m->ev);
+}
+
+/* --- conditions in time alone --- */
+
 static double time_condition(March *m, int i, double t)
 {
-    m->eq->switches(m->eq->context, t, m->y, m->y + m->eq->n, m->y + m->eq->n + m->eq->nu,
-                    m->conditions);
+    if (is_of_event(m, i))
+        events_time_conditions(m->ev, t, m->conditions + m->eq->switch_count);
+    else
+        m->eq->switches(m->eq->context, t, m->y, m->y + m->eq->n, m->y + m->eq->n + m->eq->nu,
+                        m->conditions);
     return m->conditions[i];
 }
 
@@ -153,57 +200,57 @@ static void add_jump(March *m, Jump jump)
     m->jumps.at[at] = jump;
 }
 
-static void find_jumps(March *m)
+static void find_jumps_of(March *m, int i)
 {
     double from = m->plan->from, to = m->plan->to;
     int samples = (int)fmin(MOST, fmax(SAMPLES, 16 * (to - from) / m->plan->every));
+    int sign = sign_of(time_condition(m, i, from));
+    double last = from;
 
-    for (int i = 0; i < m->eq->time_only; i++) {
-        int sign = sign_of(time_condition(m, i, from));
-        double last = from;
+    if (sign == 0) { /* a switch at the start lies behind us */
+        double behind = nextafter(from, INFINITY);
 
-        if (sign == 0) { /* a switch at the start lies behind us */
-            double behind = nextafter(from, INFINITY);
-
-            sign = sign_of(time_condition(m, i, behind));
-            if (sign != 0)
-                add_jump(m, (Jump){from, behind});
-        }
-        for (int k = 1; k <= samples; k++) {
-            double t = k == samples ? to : from + (to - from) * k / samples;
-            int now = sign_of(time_condition(m, i, t));
-
-            if (now != sign) {
-                Jump jump = narrow(m, i, sign, last, t);
-
-                add_jump(m, jump);
-                sign = sign_of(time_condition(m, i, jump.behind));
-                last = jump.behind;
-                if (now != sign && last < t)
-                    k--; /* there was more than one between the samples */
-                continue;
-            }
-            last = t;
-        }
+        sign = sign_of(time_condition(m, i, behind));
+        if (sign != 0)
+            add_jump(m, (Jump){from, behind});
     }
+    for (int k = 1; k <= samples; k++) {
+        double t = k == samples ? to : from + (to - from) * k / samples;
+        int now = sign_of(time_condition(m, i, t));
+
+        if (now != sign) {
+            Jump jump = narrow(m, i, sign, last, t);
+
+            add_jump(m, jump);
+            sign = sign_of(time_condition(m, i, jump.behind));
+            last = jump.behind;
+            if (now != sign && last < t)
+                k--; /* there was more than one between the samples */
+            continue;
+        }
+        last = t;
+    }
+}
+
+static void find_jumps(March *m)
+{
+    for (int i = 0; i < m->count; i++)
+        if (is_of_time(m, i))
+            find_jumps_of(m, i);
 }
 
 /* --- conditions in the state --- */
 
-static int state_conditions(const March *m)
-{
-    return m->eq->switch_count - m->eq->time_only;
-}
-
 static void conditions_at(March *m, double t)
 {
     m->stepper->method->at(m->stepper, t, m->y);
-    motion_switches(m->plan->motion, t, m->y, m->conditions);
+    evaluate(m, t, m->y);
 }
 
+/* those of events go on as they are */
 static void begin_modes(March *m)
 {
-    if (state_conditions(m) == 0)
+    if (m->eq->switch_count == m->eq->time_only)
         return;
     conditions_at(m, m->stepper->t);
     for (int i = m->eq->time_only; i < m->eq->switch_count; i++) {
@@ -227,10 +274,11 @@ static bool has_switched(March *m, int i)
     return sign_of(value) != m->mode[i] && value != 0;
 }
 
-/* The first switch in the last step: its condition, and a time just behind it; -1: none. */
+/* The first switch in the last step that isn't followed yet: its condition, and a time just behind
+ * it; -1: none. */
 static int find_switch(March *m, double *when)
 {
-    double low = m->stepper->before, high = m->stepper->t;
+    double low = m->scanned, high = m->stepper->t;
     int found = -1;
 
     for (int k = 1; k <= POINTS && found < 0; k++) {
@@ -238,9 +286,11 @@ static int find_switch(March *m, double *when)
                        ? m->stepper->t
                        : m->stepper->before + (m->stepper->t - m->stepper->before) * k / POINTS;
 
+        if (t < m->scanned)
+            continue;
         conditions_at(m, t);
-        for (int i = m->eq->time_only; i < m->eq->switch_count; i++)
-            if (has_switched(m, i) && found < 0)
+        for (int i = 0; i < m->count; i++)
+            if (!is_of_time(m, i) && has_switched(m, i) && found < 0)
                 found = i;
         if (found < 0)
             low = t;
@@ -254,8 +304,8 @@ static int find_switch(March *m, double *when)
         bool switched = false;
 
         conditions_at(m, middle);
-        for (int k = m->eq->time_only; k < m->eq->switch_count; k++)
-            if (m->conditions[k] != 0 && m->mode[k] != 0 &&
+        for (int k = 0; k < m->count; k++)
+            if (!is_of_time(m, k) && m->conditions[k] != 0 && m->mode[k] != 0 &&
                 sign_of(m->conditions[k]) != m->mode[k] && fabs(m->conditions[k]) > m->band[k]) {
                 switched = true;
                 found = k;
@@ -282,7 +332,7 @@ static double condition_rate(March *m, int i, double *value)
         return 0;
     for (int k = 0; k < m->grid->length; k++)
         m->y[k] = s->y[k] + h * m->slope[k];
-    motion_switches(m->plan->motion, s->t + h, m->y, m->conditions);
+    evaluate(m, s->t + h, m->y);
     return (m->conditions[i] - *value) / h;
 }
 
@@ -316,7 +366,7 @@ static bool cross(March *m, int i, double value, double slope)
     for (int k = 0; k < 20; k++, h *= 2) {
         for (int j = 0; j < m->grid->length; j++)
             m->y[j] = s->y[j] + h * m->slope[j];
-        motion_switches(m->plan->motion, s->t + h, m->y, m->conditions);
+        evaluate(m, s->t + h, m->y);
         if (sign_of(m->conditions[i]) == -m->mode[i]) {
             memcpy(s->y, m->y, (size_t)m->grid->length * sizeof(double));
             s->t += h;
@@ -326,10 +376,26 @@ static bool cross(March *m, int i, double value, double slope)
     return false;
 }
 
+/* Switches that come without a pause end the run; i is the condition that did. */
+static Status check_pace(March *m, int i, Diag *diag)
+{
+    double span = m->plan->to - m->plan->from;
+
+    if (m->stepper->t - m->switched_since > ZENO_SPAN * span) {
+        m->switched_since = m->stepper->t;
+        m->switches = 0;
+    }
+    if (++m->switches <= ZENO_EVENTS)
+        return OK;
+    if (is_of_event(m, i))
+        return events_are_stuck(m->ev, i - m->eq->switch_count, m->stepper->t, diag);
+    return solver_failure(diag, m->stepper->t,
+                          "a condition in the equations switches to and fro without end");
+}
+
 /* End the last step at the switch, cross it, and start anew behind it. */
 static Status meet_switch(March *m, int i, double when, Diag *diag)
 {
-    double span = m->plan->to - m->plan->from;
     double value = 0, slope = 0;
     Status status = OK;
 
@@ -343,15 +409,185 @@ static Status meet_switch(March *m, int i, double when, Diag *diag)
     conditions_at(m, m->stepper->t);
     m->band[i] = fmax(10 * fabs(m->conditions[i]), 1e-10 * m->largest[i]);
     m->mode[i] = -m->mode[i];
-    if (m->stepper->t - m->event_since > ZENO_SPAN * span) {
-        m->event_since = m->stepper->t;
-        m->events = 0;
-    }
-    if (++m->events > ZENO_EVENTS)
-        return solver_failure(diag, m->stepper->t,
-                              "a condition in the equations switches to and fro without end");
+    CHECK(check_pace(m, i, diag));
     CHECK(m->stepper->method->start(m->stepper, m->stepper->t, m->stepper->y, diag));
 done:
+    return status;
+}
+
+/* --- events --- */
+
+/* a row at an event's instant, unless there is one */
+static Status add_instant(March *m, double t, bool again, Diag *diag)
+{
+    if (!again && has_row(m, t))
+        return OK;
+    if (!add_row(m, t))
+        return solver_failure(diag, t, "the constraints can't be met");
+    return OK;
+}
+
+/* What comes of the sides that events' conditions have now, at t and y; the stepper is brought
+ * there, to be started anew. */
+static Status take_events(March *m, double t, int *sides, Diag *diag)
+{
+    double span = m->plan->to - m->plan->from;
+    int first = m->eq->switch_count;
+    bool changed = false;
+    Status status = OK;
+
+    if (events_follow(m->ev, sides)) {
+        CHECK(add_instant(m, t, false, diag));
+        CHECK(events_happen(m->ev, t, span, m->y, sides, &changed, &m->is_over, diag));
+        if (changed)
+            CHECK(add_instant(m, t, true, diag));
+    }
+    for (int i = first; i < m->count; i++)
+        m->mode[i] = sides[i - first];
+    evaluate(m, t, m->y);
+    for (int i = first; i < m->count; i++)
+        if (fabs(m->conditions[i]) <= EVENT_NOISE * m->largest[i])
+            m->band[i] = fmax(10 * fabs(m->conditions[i]), EVENT_NOISE * m->largest[i]);
+    m->stepper->t = t;
+    memcpy(m->stepper->y, m->y, (size_t)m->grid->length * sizeof(double));
+done:
+    return status;
+}
+
+/* whether an event becomes true as condition i changes; if not, that is noted and no more */
+static bool matters(March *m, int i)
+{
+    const int *sides = m->mode + m->eq->switch_count;
+
+    m->mode[i] = -m->mode[i];
+    if (!events_follow(m->ev, sides))
+        return false;
+    m->mode[i] = -m->mode[i];
+    return true;
+}
+
+/* The last step again, until it ends where condition i is zero as near as numbers tell, by Newton's
+ * method; m->y and the time there. Where a step can't be as short as that, the interpolant has y.
+ */
+static double reach_zero(March *m, int i, double when)
+{
+    const Stepper *s = m->stepper;
+    size_t bytes = (size_t)m->grid->length * sizeof(double);
+    double before = s->before, end = s->t, t = when;
+    double *kept = NEW_ARRAY(double, m->grid->length);
+    double value = 0, slope = 0, left = 0;
+    Diag ignored;
+
+    for (int k = 0; k < 12 && t > before; k++) {
+        s->method->at(m->stepper, t, kept);
+        if (s->method->shorten(m->stepper, t, &ignored) != OK) {
+            memcpy(m->stepper->y, kept, bytes);
+            m->stepper->t = t;
+            left = 0;
+            break;
+        }
+        slope = condition_rate(m, i, &value);
+        left = slope * m->mode[i] < 0 ? -value / slope : 0; /* else a grazing contact */
+        if (fabs(left) <= 4e-16 * fabs(t) || (left > 0 && t + left > end))
+            break;
+        t = fmax(before + 1e-3 * (t - before), t + left);
+    }
+    if (t <= before) {
+        s->method->at(m->stepper, before, m->y);
+        mem_free(kept);
+        return before;
+    }
+    t = s->t;
+    memcpy(m->y, s->y, bytes);
+    for (int k = 0; k < m->grid->length && fabs(left) <= 1e-3 * (t - before); k++)
+        m->y[k] += left * m->slope[k];
+    mem_free(kept);
+    return fabs(left) <= 1e-3 * (t - before) ? t + left : t;
+}
+
+/* End the last step where condition i of an event is zero, and go on from there. */
+static Status meet_event(March *m, int i, double when, Diag *diag)
+{
+    double span = m->plan->to - m->plan->from;
+    int first = m->eq->switch_count;
+    size_t bytes = (size_t)m->grid->length * sizeof(double);
+    int *sides = NEW_ARRAY(int, m->count - first);
+    double *y = NEW_ARRAY(double, m->grid->length);
+    double t = reach_zero(m, i, when);
+    Status status = OK;
+
+    memcpy(y, m->y, bytes);
+    m->stepper->t = fmin(m->stepper->t, t);
+    CHECK(add_rows(m, diag));
+    memcpy(m->y, y, bytes);
+    if (!motion_project(m->plan->motion, t, m->y))
+        CHECK(solver_failure(diag, t, "the constraints can't be met"));
+    memcpy(sides, m->mode + first, (size_t)(m->count - first) * sizeof(int));
+    events_settle(m->ev, t, span, m->y, i - first, sides);
+    CHECK(take_events(m, t, sides, diag));
+    CHECK(check_pace(m, i, diag));
+    CHECK(m->stepper->method->start(m->stepper, t, m->y, diag));
+done:
+    mem_free(sides);
+    mem_free(y);
+    return status;
+}
+
+/* the same where conditions in time alone change, between two stretches */
+static Status meet_time(March *m, Jump jump, Diag *diag)
+{
+    int first = m->eq->switch_count;
+    int timed = events_time_only(m->ev);
+    int *sides = NEW_ARRAY(int, m->count - first);
+    double *values = NEW_ARRAY(double, timed);
+    bool moved = false;
+    Status status = OK;
+
+    memcpy(sides, m->mode + first, (size_t)(m->count - first) * sizeof(int));
+    if (timed > 0)
+        events_time_conditions(m->ev, jump.behind, values);
+    for (int i = 0; i < timed; i++)
+        if (sign_of(values[i]) != 0 && sign_of(values[i]) != sides[i]) {
+            sides[i] = sign_of(values[i]);
+            moved = true;
+        }
+    if (moved) {
+        memcpy(m->y, m->stepper->y, (size_t)m->grid->length * sizeof(double));
+        CHECK(take_events(m, fmax(m->stepper->t, jump.before + (jump.behind - jump.before) / 2),
+                          sides, diag));
+    }
+done:
+    mem_free(values);
+    mem_free(sides);
+    return status;
+}
+
+/* conditions at the start, some of which may become true there */
+static Status begin_events(March *m, Diag *diag)
+{
+    double from = m->plan->from;
+    int first = m->eq->switch_count;
+    int *sides = NEW_ARRAY(int, m->count - first);
+    double *values = NEW_ARRAY(double, events_time_only(m->ev));
+    Status status = OK;
+
+    m->is_over = events_begin(m->ev, from, m->y);
+    if (m->is_over)
+        goto done;
+    events_time_conditions(m->ev, from, values);
+    for (int i = 0; i < events_time_only(m->ev); i++)
+        sides[i] = sign_of(values[i]);
+    events_time_conditions(m->ev, nextafter(from, INFINITY), values);
+    for (int i = 0; i < events_time_only(m->ev); i++)
+        sides[i] = sides[i] != 0 ? sides[i] : sign_of(values[i]);
+    events_settle(m->ev, from, m->plan->to - from, m->y, -1, sides);
+    evaluate(m, from, m->y);
+    for (int i = first; i < m->count; i++)
+        m->largest[i] = fabs(m->conditions[i]);
+    CHECK(take_events(m, from, sides, diag));
+done:
+    mem_free(values);
+    mem_free(sides);
     return status;
 }
 
@@ -403,11 +639,17 @@ static Status one_step(March *m, double end, Diag *diag)
     double when = 0;
 
     CHECK(m->stepper->method->step(m->stepper, end, diag));
-    if (state_conditions(m) > 0) {
+    m->scanned = m->stepper->before;
+    while (state_conditions(m) > 0) {
         int i = find_switch(m, &when);
 
-        if (i >= 0)
+        if (i < 0)
+            break;
+        if (!is_of_event(m, i))
             return meet_switch(m, i, when, diag);
+        if (matters(m, i))
+            return meet_event(m, i, when, diag);
+        m->scanned = when;
     }
     CHECK(add_rows(m, diag));
     repartition(m);
@@ -421,15 +663,18 @@ done:
 static Status stretch(March *m, double end, Diag *diag)
 {
     const MarchPlan *plan = m->plan;
+    double least = 4e-16 * fabs(end); /* what an event may leave of the way, too short for a step */
     Status status = OK;
 
     begin_modes(m);
-    while (m->stepper->t < end) {
+    while (end - m->stepper->t > least && !m->is_over) {
         if (poll(plan->watch) != OK)
             return diag_set(diag, E_STOPPED, "stopped at t = %.6g s", m->stepper->t);
         report(plan->watch, "simulate", (m->stepper->t - plan->from) / (plan->to - plan->from));
         CHECK(one_step(m, end, diag));
     }
+    if (!m->is_over)
+        m->stepper->t = end;
 done:
     return status;
 }
@@ -440,7 +685,7 @@ static Status all_stretches(March *m, Diag *diag)
     double low = -INFINITY;
     Status status = OK;
 
-    for (int i = 0; i <= m->jumps.count; i++) {
+    for (int i = 0; i <= m->jumps.count && !m->is_over; i++) {
         bool last = i == m->jumps.count;
         double end = last ? plan->to : m->jumps.at[i].before;
 
@@ -451,8 +696,10 @@ static Status all_stretches(March *m, Diag *diag)
             CHECK(m->stepper->method->start(m->stepper, m->stepper->t, m->y, diag));
             CHECK(stretch(m, fmin(end, plan->to), diag));
         }
-        if (!last)
+        if (!last && !m->is_over) {
             low = fmax(low, m->jumps.at[i].behind);
+            CHECK(meet_time(m, m->jumps.at[i], diag));
+        }
     }
 done:
     motion_window(plan->motion, -INFINITY, INFINITY);
@@ -470,10 +717,13 @@ static Status run(March *m, const double *start, Diag *diag)
         return solver_failure(diag, plan->from, "the start does not meet the constraints");
     memcpy(m->stepper->y, m->y, (size_t)m->grid->length * sizeof(double));
     m->stepper->t = plan->from;
+    if (events_count(m->ev) > 0)
+        CHECK(begin_events(m, diag));
     find_jumps(m);
     CHECK(all_stretches(m, diag));
     /* a row on the very end that rounding left out */
-    CHECK(add_rows(m, diag));
+    if (!m->is_over)
+        CHECK(add_rows(m, diag));
 done:
     return status;
 }
@@ -481,15 +731,17 @@ done:
 Status march(const MarchPlan *plan, const double *start, Grid *grid, MarchReport *out, Diag *diag)
 {
     const Method *method = plan->method != NULL ? plan->method : &method_dop853;
-    int conditions = plan->equations->switch_count;
+    int conditions = plan->equations->switch_count + events_condition_count(plan->events);
     March m = {.plan = plan,
                .eq = plan->equations,
+               .ev = plan->events,
+               .count = conditions,
                .grid = grid,
                .out = out,
                .control = plan->control,
                .next_row = 1,
                .rows = grid_rows(plan->from, plan->to, plan->every),
-               .event_since = -INFINITY};
+               .switched_since = -INFINITY};
     Status status;
 
     grid->length = motion_length(plan->motion);

@@ -1,20 +1,23 @@
-/* march.h: from start to end of a forward run: steps, rows of the output grid, switches
+/* march.h: from start to end of a forward run: steps, rows of the output grid, switches, events
  *
  * Rows lie at multiples of the output step and at the end; they are read from the steps'
  * interpolants and projected, and never force a step. Switches do: a condition in t alone is found
  * beforehand, and the step ends on the last number before it and starts again on the first behind
  * it; a condition in the state is located on the interpolant, and the step is taken again up to it.
+ * Conditions of events are located likewise. The instant at which an event happens is a row, or two
+ * of equal time where it gives new values: before and behind.
  */
 #ifndef COTREE_SIMULATE_MARCH_H
 #define COTREE_SIMULATE_MARCH_H
 
 #include "base/text.h"
 #include "base/watch.h"
-#include "simulate/motion.h"
+#include "simulate/events.h"
 
 typedef struct MarchPlan {
     const Equations *equations;
     Motion *motion;
+    Events *events;       /* NULL: none */
     const Method *method; /* NULL: dop853 until it finds the problem stiff, then `stiff` */
     const Method *stiff;
     Control control;

@@ -101,6 +101,29 @@ static Status check_start(Result *r, Diag *diag)
     return E_SINGULAR;
 }
 
+Status result_make_events(Result *r, const Events *earlier, const Setting *setting, Events **out,
+                          Diag *diag)
+{
+    const EventsPlan plan = {.layout = r->layout,
+                             .parameters = &r->parameters,
+                             .equations = numbers_equations(r->numbers),
+                             .motion = r->motion,
+                             .rows = r->start.rows,
+                             .row_count = r->start.row_count,
+                             .kind = r->kind,
+                             .events = setting->events,
+                             .event_count = setting->event_count};
+    Status status = OK;
+
+    *out = NULL;
+    if (r->kind == RUN_START || (setting->event_count == 0 && events_count(earlier) == 0))
+        return OK;
+    CHECK(events_new(&plan, out, diag));
+    events_go_on(*out, earlier);
+done:
+    return status;
+}
+
 Status result_open(RunKind kind, System *system, const Setting *setting, Result **out, Diag *diag)
 {
     const Result *warm = setting->from != NULL ? setting->from : setting->warm;
@@ -114,6 +137,7 @@ Status result_open(RunKind kind, System *system, const Setting *setting, Result 
     text_add(&r->remarks, r->start.remarks.at != NULL ? r->start.remarks.at : "");
     if (kind == RUN_SIMULATE)
         CHECK(check_start(r, diag));
+    CHECK(result_make_events(r, NULL, setting, &r->events, diag));
     *out = r;
     r = NULL;
 done:
@@ -136,6 +160,7 @@ Status result_reopen(const Result *old, const Setting *setting, Result **out, Di
     CHECK(make_motion(r, setting, 1e-8, diag));
     for (int i = 0; i < old->grid.count; i++)
         grid_add(&r->grid, old->grid.times[i], old->grid.states + (ptrdiff_t)i * old->grid.length);
+    CHECK(result_make_events(r, old->events, setting, &r->events, diag));
     *out = r;
     r = NULL;
 done:
@@ -147,6 +172,7 @@ void result_free(Result *r)
 {
     if (r == NULL)
         return;
+    events_free(r->events);
     motion_free(r->motion);
     numbers_free(r->numbers);
     parameters_free(&r->parameters);
@@ -178,6 +204,16 @@ const RunReport *result_report(const Result *r)
 const char *result_remarks(const Result *r)
 {
     return r->remarks.at != NULL ? r->remarks.at : "";
+}
+
+int result_event_count(const Result *r)
+{
+    return events_count(r->events);
+}
+
+EventRecord result_event(const Result *r, int i)
+{
+    return events_record(r->events, i);
 }
 
 int result_rows(const Result *r)

@@ -2,6 +2,7 @@
 #ifndef COTREE_SIMULATE_RESULT_H
 #define COTREE_SIMULATE_RESULT_H
 
+#include "simulate/events.h"
 #include "simulate/march.h"
 #include "simulate/numbers.h"
 #include "simulate/start.h"
@@ -23,6 +24,7 @@ struct Result {
     Assembled start;
     Grid grid; /* of (q, u, x, work) */
     Driven driven;
+    Events *events; /* NULL: none */
     RunReport report;
     Text remarks;
 };
@@ -34,6 +36,10 @@ MUST_USE Status result_open(RunKind kind, System *system, const Setting *setting
 MUST_USE Status result_reopen(const Result *old, const Setting *setting, Result **out, Diag *diag);
 /* E_MODEL where a driver's motion is supplied by another effort (by=): for inverse runs alone */
 MUST_USE Status result_refuse_by(const Result *result, Diag *diag);
+/* New, or NULL where there are none: the setting's events at the result's start, going on with what
+ * happened in `earlier` (NULL: nothing). */
+MUST_USE Status result_make_events(Result *result, const Events *earlier, const Setting *setting,
+                                   Events **out, Diag *diag);
 /* Everything at (t, y); `driven` the row's block, or NULL to solve. False: no solution. */
 bool result_row(Result *result, double t, const double *y, const double *driven, RowValues *out);
 /* Energy balance over the rows, into the report. */

@@ -37,8 +37,21 @@ typedef struct RunReport {
                             NAN: not asked */
     double wall;         /* s */
     double reached;      /* last time */
+    double every;        /* output step, s; 0: there is none */
     bool stopped;        /* by Ctrl-C */
 } RunReport;
+
+/* How an event of the model fared in a run. */
+typedef struct EventRecord {
+    const char *name;
+    const char *condition; /* as written */
+    EventAction action;
+    bool from_start;     /* held at the start already */
+    bool holds;          /* at the end */
+    bool ended;          /* the run */
+    int count;           /* how often it happened */
+    const double *times; /* count, rising */
+} EventRecord;
 
 /* Initial values in force: lists of the model, as numbers. */
 typedef struct StartValue {
@@ -63,6 +76,8 @@ typedef struct Setting {
     Form form;
     const char *const *independent; /* names; borrowed during the call */
     int independent_count;
+    const Event *const *events; /* borrowed during the call; what a result needs it copies */
+    int event_count;
     const StartValues *start;
     const Result *warm; /* configuration by coordinate name to start guesses from; NULL: none */
     const Result *from; /* start where this one does, instead of at `start`; NULL: there */
@@ -102,6 +117,9 @@ RunKind result_kind(const Result *result);
 System *result_system(const Result *result);
 const RunReport *result_report(const Result *result);
 const char *result_remarks(const Result *result); /* lines for the user; may be "" */
+/* events of the model when the run was made, and earlier ones that happened before it went on */
+int result_event_count(const Result *result);
+EventRecord result_event(const Result *result, int i);
 int result_rows(const Result *result);
 const double *result_times(const Result *result);
 /* Values of expressions over variables (SYMBOL_VARIABLEs; system_resolve() is done here) at every

@@ -10,6 +10,7 @@
 
 #define LEAST_RTOL   1e-13
 #define MOST_ROWS    20000000
+#define POINTS       4   /* between rows of a driven run, where events are looked for */
 #define FEW          100 /* unknowns up to which radau's dense factors beat bdf's */
 #define UNRESOLVED   0.1 /* difference of two runs, rad or m, that makes them different motions */
 #define AUTO         "auto"
@@ -95,6 +96,7 @@ static MarchPlan plan_of(const Result *r, const Setting *setting, const RunOptio
     return (MarchPlan){
         .equations = numbers_equations(r->numbers),
         .motion = r->motion,
+        .events = r->events,
         .method = method,
         .stiff = motion_length(r->motion) > FEW ? &method_bdf : &method_radau,
         .control = {.rtol = options->rtol, .atol = options->atol, .step = options->step},
@@ -120,6 +122,7 @@ static void fill_report(Result *r, const MarchReport *march, const RunOptions *o
     r->report.position_residual = march->position_residual;
     r->report.velocity_residual = march->velocity_residual;
     r->report.reached = march->reached;
+    r->report.every = options->every;
     r->report.stopped = stopped;
     r->report.wall = seconds() - began;
 }
@@ -130,6 +133,7 @@ static void remark_march(Result *r, const MarchReport *march, const RunOptions *
 
     if (march->remarks.at != NULL)
         text_add(&r->remarks, march->remarks.at);
+    events_tell(r->events, &r->remarks);
     if (counts.regularised > 0)
         text_addf(
             &r->remarks,
@@ -140,9 +144,27 @@ static void remark_march(Result *r, const MarchReport *march, const RunOptions *
         text_add(&r->remarks, "a tolerance below 1e-10 gains nothing through singular positions\n");
 }
 
-/* a second run at a tenth of the tolerance: twice the largest difference over the grid */
+/* The largest difference at times that both grids have; events lie at times of their own. */
+static double largest_difference(const Grid *a, int first, const Grid *b)
+{
+    double largest = 0;
+
+    for (int i = first, j = 0; i < a->count && j < b->count;) {
+        double behind = a->times[i] - b->times[j];
+
+        for (int k = 0; behind == 0 && k < a->length - 1; k++)
+            largest = fmax(largest, fabs(a->states[(ptrdiff_t)i * a->length + k] -
+                                         b->states[(ptrdiff_t)j * b->length + k]));
+        i += behind <= 0;
+        j += behind >= 0;
+    }
+    return largest;
+}
+
+/* a second run at a tenth of the tolerance: twice the largest difference over the grid; `events`
+ * are those of the first as they were at its start */
 static Status estimate_error(Result *r, const Setting *setting, const RunOptions *options,
-                             const Method *method, double from, double to, Diag *diag)
+                             const Method *method, Events *events, int first, double to, Diag *diag)
 {
     RunOptions finer = *options;
     MarchPlan plan;
@@ -154,17 +176,12 @@ static Status estimate_error(Result *r, const Setting *setting, const RunOptions
     finer.rtol = fmax(LEAST_RTOL, options->rtol / 10);
     finer.atol = options->atol / 10;
     plan = plan_of(r, setting, &finer, method);
-    plan.from = from;
+    plan.events = events;
+    plan.from = r->grid.times[first];
     plan.to = to;
     status = march(&plan, r->start.y, &grid, &march_report, diag);
-    for (int i = 0; status == OK && i < grid.count; i++) {
-        const double *a = grid.states + (ptrdiff_t)i * grid.length;
-        const double *b =
-            r->grid.states + (ptrdiff_t)(r->grid.count - grid.count + i) * r->grid.length;
-
-        for (int k = 0; k < grid.length - 1; k++)
-            largest = fmax(largest, fabs(a[k] - b[k]));
-    }
+    if (status == OK)
+        largest = largest_difference(&r->grid, first, &grid);
     if (status == OK)
         r->report.global_error = 2 * largest;
     if (status == OK && r->report.global_error > UNRESOLVED)
@@ -185,6 +202,8 @@ static Status go(Result *r, const Setting *setting, const RunOptions *given, dou
     RunOptions options;
     MarchPlan plan;
     MarchReport report_of = {.method = &method_dop853};
+    Events *again = NULL; /* for a second run */
+    int first = skip_first ? r->grid.count - 1 : 0;
     Status status = OK;
     double began = seconds();
 
@@ -195,16 +214,19 @@ static Status go(Result *r, const Setting *setting, const RunOptions *given, dou
     plan.from = from;
     plan.to = from + options.duration;
     plan.skip_first = skip_first;
+    if (options.check)
+        CHECK(result_make_events(r, r->events, setting, &again, diag));
     status = march(&plan, r->start.y, &r->grid, &report_of, diag);
     remark_march(r, &report_of, &options);
     text_free(&report_of.remarks);
     fill_report(r, &report_of, &options, status == E_STOPPED, began);
     if (status == OK && options.check)
-        status = estimate_error(r, setting, &options, method, from, plan.to, diag);
+        status = estimate_error(r, setting, &options, method, again, first, plan.to, diag);
     if (result_balance(r, NULL) != OK)
         r->report.energy_drift = NAN;
     r->report.wall = seconds() - began;
 done:
+    events_free(again);
     return status;
 }
 
@@ -332,32 +354,112 @@ static bool reach(Result *r, double from, double to, double *y, int depth)
     return reach(r, from, from + h / 2, y, depth - 1) && reach(r, from + h / 2, to, y, depth - 1);
 }
 
+static void add_position(Result *r, double t, const double *y)
+{
+    double position = 0, velocity = 0;
+
+    motion_residuals(r->motion, t, y, &position, &velocity);
+    r->report.position_residual = fmax(r->report.position_residual, position);
+    r->report.velocity_residual = fmax(r->report.velocity_residual, velocity);
+    grid_add(&r->grid, t, y);
+    r->report.reached = t;
+}
+
+/* Between two instants, the later of which events are due at: the first such instant, by halves;
+ * y from the earlier one to it. */
+static double locate_event(Result *r, double low, double high, double *y)
+{
+    double *trial = NEW_ARRAY(double, r->grid.length);
+    double *found = NEW_ARRAY(double, r->grid.length);
+    size_t bytes = (size_t)r->grid.length * sizeof(double);
+
+    memcpy(found, y, bytes);
+    if (!reach(r, low, high, found, 12))
+        memcpy(found, y, bytes);
+    for (;;) {
+        double middle = low + (high - low) / 2;
+
+        memcpy(trial, y, bytes);
+        if (middle <= low || middle >= high || !reach(r, low, middle, trial, 12))
+            break;
+        if (events_are_due(r->events, middle, trial)) {
+            high = middle;
+            memcpy(found, trial, bytes);
+        } else {
+            low = middle;
+            memcpy(y, trial, bytes);
+        }
+    }
+    memcpy(y, found, bytes);
+    mem_free(trial);
+    mem_free(found);
+    return high;
+}
+
+/* Events between two rows, looked for at points between; y from the earlier one to the later one,
+ * or to where an event ends the run. */
+static Status follow_events(Result *r, double from, double to, double span, double *y, bool *stop,
+                            Diag *diag)
+{
+    double *trial = NEW_ARRAY(double, r->grid.length);
+    size_t bytes = (size_t)r->grid.length * sizeof(double);
+    double last = from;
+    Status status = OK;
+
+    for (int k = 1; k <= POINTS && !*stop;) {
+        double t = k == POINTS ? to : from + (to - from) * k / POINTS;
+        bool happened = false;
+
+        memcpy(trial, y, bytes);
+        if (!reach(r, last, t, trial, 12))
+            CHECK(solver_failure(diag, t, "the drivers lead where the parts can't follow"));
+        if (events_are_due(r->events, t, trial)) {
+            t = locate_event(r, last, t, y);
+        } else {
+            memcpy(y, trial, bytes);
+            k++;
+        }
+        CHECK(events_take(r->events, t, span, y, &happened, stop, diag));
+        if (happened)
+            add_position(r, t, y);
+        last = t;
+    }
+done:
+    mem_free(trial);
+    return status;
+}
+
 static Status positions(Result *r, const Setting *setting, const RunOptions *options, Diag *diag)
 {
     int rows = grid_rows(0, options->duration, options->every);
     double *y = NEW_ARRAY(double, r->grid.length);
-    double last = 0, position = 0, velocity = 0;
+    double last = 0;
+    bool stop = false;
     Status status = OK;
 
     memcpy(y, r->start.y, (size_t)r->grid.length * sizeof(double));
     if (!motion_project(r->motion, 0, y))
         CHECK(solver_failure(diag, 0, "the start does not meet the constraints"));
-    for (int k = 0; k <= rows; k++) {
+    for (int k = 0; k <= rows && !stop; k++) {
         double t = k > 0 ? grid_time(0, options->duration, options->every, k) : 0;
 
         if (poll(setting->watch) != OK)
             CHECK(diag_set(diag, E_STOPPED, "stopped at t = %.6g s", last));
         report(setting->watch, "kinematics", t / options->duration);
-        if (k > 0 && !reach(r, last, t, y, 12))
+        if (k > 0 && events_count(r->events) > 0)
+            CHECK(follow_events(r, last, t, options->duration, y, &stop, diag));
+        else if (k > 0 && !reach(r, last, t, y, 12))
             CHECK(solver_failure(diag, t, "the drivers lead where the parts can't follow"));
-        motion_residuals(r->motion, t, y, &position, &velocity);
-        r->report.position_residual = fmax(r->report.position_residual, position);
-        r->report.velocity_residual = fmax(r->report.velocity_residual, velocity);
-        grid_add(&r->grid, t, y);
-        r->report.reached = last = t;
+        if (!stop && (k == 0 || r->report.reached < t)) /* else an event's instant */
+            add_position(r, t, y);
+        if (k == 0 && events_count(r->events) > 0)
+            stop = events_begin(r->events, 0, y);
+        last = t;
     }
 done:
     mem_free(y);
+    events_tell(r->events, &r->remarks);
+    r->report.every = options->every;
     r->report.method = "newton";
     r->report.steps = r->grid.count;
     return status;
