@@ -12,6 +12,8 @@
 #define ENOUGH     1e-9 /* of a step; what is left then is its square */
 #define ROUNDING   1e-7 /* a step that no longer shrinks below this is rounding */
 #define LEAST      1e-4 /* damping */
+#define FURTHEST   4096
+#define SHORTEST   1e-14 /* the same on the way down over kinks */
 
 struct NetSolve {
     const Equations *eq;
@@ -19,6 +21,7 @@ struct NetSolve {
     bool is_factored; /* and stays so */
     int n;
     double *w, *step, *trial, *next, *size;
+    double *weight; /* of the equations, where their residuals are compared */
 };
 
 NetSolve *netsolve_new(const Equations *eq)
@@ -33,6 +36,7 @@ NetSolve *netsolve_new(const Equations *eq)
     s->trial = NEW_ARRAY(double, s->n);
     s->next = NEW_ARRAY(double, s->n);
     s->size = NEW_ARRAY(double, s->n);
+    s->weight = NEW_ARRAY(double, s->n);
     return s;
 }
 
@@ -46,6 +50,7 @@ void netsolve_free(NetSolve *s)
     mem_free(s->trial);
     mem_free(s->next);
     mem_free(s->size);
+    mem_free(s->weight);
     mem_free(s);
 }
 
@@ -101,16 +106,87 @@ static bool is_small(const NetSolve *s, const double *step, double share)
     return true;
 }
 
+/* The correction behind w - share * step, by the factors there are; NAN where there is none. */
+static double correction_at(NetSolve *s, double share)
+{
+    for (int i = 0; i < s->n; i++)
+        s->trial[i] = s->w[i] - share * s->step[i];
+    s->eq->network_at(s->eq->context, s->trial);
+    return correction(s, s->next) ? norm(s, s->next) : (double)NAN;
+}
+
+/* Beyond a full step: down an exponential, as of a diode, each one is as long as the last. */
+static double furthest(NetSolve *s, double full)
+{
+    double share = 1;
+
+    while (share < FURTHEST) {
+        double next = correction_at(s, 2 * share);
+
+        if (!(next <= full / 2))
+            break;
+        full = next;
+        share *= 2;
+    }
+    return share;
+}
+
 /* One damped step; false where even the smallest share of it makes nothing better. */
 static bool advance(NetSolve *s, double before)
 {
+    for (double share = 1; share >= LEAST; share /= 2) {
+        double next = correction_at(s, share);
+
+        if (!(next <= (1 - share / 4) * before))
+            continue;
+        if (share == 1 && next > before / 4)
+            share = furthest(s, next);
+        for (int i = 0; i < s->n; i++)
+            s->w[i] -= share * s->step[i];
+        return true;
+    }
+    return false;
+}
+
+/* how far the equations are from being met */
+static double misfit(const NetSolve *s)
+{
+    double sum = 0;
+
+    for (int i = 0; i < s->n; i++)
+        sum += (s->eq->network_residual[i] * s->weight[i]) *
+               (s->eq->network_residual[i] * s->weight[i]);
+    return sqrt(sum);
+}
+
+/* of each equation, by its largest term at the start */
+static void weigh(NetSolve *s)
+{
     const Equations *eq = s->eq;
 
-    for (double share = 1; share >= LEAST; share /= 2) {
+    memset(s->weight, 0, (size_t)s->n * sizeof(double));
+    for (int k = 0; k < eq->network_entries; k++) {
+        double *weight = &s->weight[eq->network_row[k]];
+
+        *weight = fmax(*weight, fabs(eq->network[k]) * s->size[eq->network_column[k]]);
+    }
+    for (int i = 0; i < s->n; i++)
+        s->weight[i] = s->weight[i] > 0 ? 1 / s->weight[i] : 1;
+}
+
+/* The same along the misfit. Behind a kink, as of a diode, slopes are other ones by many orders,
+ * and corrections with the slopes before it tell nothing; the misfit still falls. */
+static bool descend(NetSolve *s)
+{
+    const Equations *eq = s->eq;
+    double before = misfit(s);
+
+    for (double share = 1; share >= SHORTEST; share /= 2) {
         for (int i = 0; i < s->n; i++)
             s->trial[i] = s->w[i] - share * s->step[i];
         eq->network_at(eq->context, s->trial);
-        if (!correction(s, s->next) || !(norm(s, s->next) <= (1 - share / 4) * before))
+        if (!vector_is_finite(eq->network_residual, s->n) ||
+            !(misfit(s) <= (1 - share / 4) * before))
             continue;
         memcpy(s->w, s->trial, (size_t)s->n * sizeof(double));
         return true;
@@ -118,7 +194,7 @@ static bool advance(NetSolve *s, double before)
     return false;
 }
 
-static bool solve_newton(NetSolve *s)
+static bool solve_newton(NetSolve *s, bool over_kinks)
 {
     const Equations *eq = s->eq;
 
@@ -130,12 +206,14 @@ static bool solve_newton(NetSolve *s)
             return false;
         for (int i = 0; i < s->n; i++)
             s->size[i] = fmax(s->size[i], fabs(s->w[i]));
+        if (k == 0)
+            weigh(s);
         if (is_small(s, s->step, ENOUGH)) {
             for (int i = 0; i < s->n; i++)
                 s->w[i] -= s->step[i];
             return true;
         }
-        if (!advance(s, norm(s, s->step)))
+        if (over_kinks ? !descend(s) : !advance(s, norm(s, s->step)))
             return is_small(s, s->step, ROUNDING);
     }
     return false;
@@ -144,7 +222,7 @@ static bool solve_newton(NetSolve *s)
 bool netsolve_find(NetSolve *s)
 {
     double *kept;
-    bool found;
+    bool found = false;
 
     if (s->n == 0)
         return true;
@@ -152,13 +230,16 @@ bool netsolve_find(NetSolve *s)
         return solve_linear(s) && vector_is_finite(s->w, s->n);
     if (!vector_is_finite(s->w, s->n))
         memset(s->w, 0, (size_t)s->n * sizeof(double));
-    if (solve_newton(s))
-        return true;
-    /* from nothing: the last solution may belong to another branch */
     kept = NEW_ARRAY(double, s->n);
     memcpy(kept, s->w, (size_t)s->n * sizeof(double));
-    memset(s->w, 0, (size_t)s->n * sizeof(double));
-    found = solve_newton(s);
+    /* from the last solution, then from nothing: the last one may belong to another branch */
+    for (int k = 0; k < 4 && !found; k++) {
+        if (k > 1)
+            memset(s->w, 0, (size_t)s->n * sizeof(double));
+        else
+            memcpy(s->w, kept, (size_t)s->n * sizeof(double));
+        found = solve_newton(s, k % 2 == 1);
+    }
     if (!found)
         memcpy(s->w, kept, (size_t)s->n * sizeof(double));
     mem_free(kept);

@@ -2,7 +2,7 @@
  *
  * A linear network is solved at once, and a matrix that is constant is factored once. Others are
  * solved by Newton's method from the last solution, damped by the natural monotonicity test, which
- * no scaling of the equations changes. */
+ * no scaling of the equations changes; where that gets stuck, by the fall of the residual. */
 #ifndef COTREE_SIMULATE_NETSOLVE_H
 #define COTREE_SIMULATE_NETSOLVE_H
 

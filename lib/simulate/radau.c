@@ -440,8 +440,15 @@ static Status shorten(Stepper *stepper, double t, Diag *diag)
     double h = t - r->base.before;
     int used;
 
+    if (h <= 0) { /* back to where the step began */
+        r->base.t = r->base.before;
+        memcpy(r->base.y, r->old, (size_t)r->all * sizeof(double));
+        memcpy(r->rate, r->old_rate, (size_t)r->all * sizeof(double));
+        r->step = 0;
+        return OK;
+    }
     guess_stages(r, h, false);
-    if (h > 0 && evaluate(r, r->base.before, r->old, r->rate) && find_jacobian(r) && factor(r, h) &&
+    if (evaluate(r, r->base.before, r->old, r->rate) && find_jacobian(r) && factor(r, h) &&
         solve_stages(r, h, &used) == CONVERGED && settle(r, t, h))
         return OK;
     return solver_failure(diag, t, "the equations have no solution at a switch");
