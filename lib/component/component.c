@@ -59,6 +59,28 @@ Expr instance_scalar(const Instance *instance, const char *name)
     return instance_value(instance, name)->at[0];
 }
 
+static Status check_number(const Instance *instance, const char *param, bool zero, Diag *diag)
+{
+    Expr value = instance_scalar(instance, param);
+
+    if (!expr_is_number(value) || expr_value(value) > 0.0 || (zero && expr_value(value) == 0.0))
+        return OK;
+    (void)diag_set(diag, E_VALUE, "%s of %s is %s", param, instance->name,
+                   expr_value(value) == 0.0 ? "zero" : "negative");
+    diag_hint(diag, zero ? "it is zero or positive" : "it has to be positive");
+    return E_VALUE;
+}
+
+Status check_positive(const Instance *instance, const char *param, Diag *diag)
+{
+    return check_number(instance, param, false, diag);
+}
+
+Status check_not_negative(const Instance *instance, const char *param, Diag *diag)
+{
+    return check_number(instance, param, true, diag);
+}
+
 /* --- scalar edges --- */
 
 const char *domain_across(Domain domain)
@@ -73,6 +95,13 @@ const char *domain_through(Domain domain)
     static const char *const names[] = {"", "i", "flow", "torque", "force", "heat"};
 
     return names[domain];
+}
+
+const char *domain_across_unit(Domain domain)
+{
+    static const char *const units[] = {"", "V", "Pa", "rad/s", "m/s", "K"};
+
+    return units[domain];
 }
 
 const ScalarEdge *component_scalar_edges(const Component *row, int *count)
@@ -120,6 +149,11 @@ Expr instance_potential(const Instance *instance, Arena *arena, int terminal)
     if (strcmp(name, "0") == 0)
         return expr_int(arena, 0);
     return variable(arena, name, domain_across(instance->row->domain), 0);
+}
+
+Expr instance_joint_coordinate(const Instance *instance, Arena *arena)
+{
+    return variable(arena, instance->coordinate, "", 0);
 }
 
 /* "i", or of an edge with a suffix "s.i" */

@@ -30,7 +30,9 @@ typedef enum ParamKind {
     PARAM_AXES,     /* two of them */
     PARAM_ROTATION, /* z(90 deg)*x(a): kept as 9 entries, row by row, tail components of head axes'
                        matrix R_tail_head */
-    PARAM_WORD      /* one of the words in `fallback`, between '|', the first is the default */
+    PARAM_LIST,     /* one or more expressions of parameters, [a, b]; "" as fallback: none */
+    PARAM_LIST_LAWS, /* one or more laws */
+    PARAM_WORD       /* one of the words in `fallback`, between '|', the first is the default */
 } ParamKind;
 
 typedef struct Param {
@@ -148,6 +150,7 @@ typedef struct Relation {
     Expr content; /* charge or flux; its kin in other domains */
     Expr rest;    /* back-emf, resistance of a winding; 0 */
     Expr stored;  /* energy in the edge, J; NULL: none, or it isn't known in closed form */
+    Expr smooth;  /* what `value` holds the rate of, so that it may not jump; NULL: nothing */
 } Relation;
 
 /* a state of a part's own, x' = rate, or one that is held and replaced at each sampling instant */
@@ -213,6 +216,10 @@ struct Component {
      * variables; displacement and rate those of the joint's coordinate, likewise. */
     void (*relation)(const Instance *instance, Arena *arena, int which, const Motion1 *motion,
                      Relation *out);
+    /* PLACES_PARTS: adds what it brings to the relation of the edge of parts[which] */
+    void (*couple)(const Instance *instance, Arena *arena, const Instance *const parts[2],
+                   int which, Relation *out);
+    const char *couples;                              /* the row that its parts have to be of */
     int (*own_state_count)(const Instance *instance); /* NULL: none */
     void (*own_state)(const Instance *instance, Arena *arena, int k, OwnState *out);
     const Member *members; /* beyond those that its family has */
@@ -241,8 +248,9 @@ struct Instance {
     Expr sensed;  /* PLACES_SENSED: over the user's variables; NULL */
     int joint;    /* instance whose coordinate it acts on; -1 */
     int joint_coordinate;
-    bool on_angle; /* that coordinate is an angle */
-    Value *values; /* one a param of the row */
+    const char *coordinate; /* its name, as in the user's expressions; NULL */
+    bool on_angle;          /* that coordinate is an angle */
+    Value *values;          /* one a param of the row */
     int coord_count;
     const char *coord[MAX_COORDS]; /* names: "h8", "m1.x", or the user's coord= */
     CoordinateKind coord_kind[MAX_COORDS];
@@ -271,6 +279,9 @@ const Member *component_member(const Component *row, bool planar, int i);
 Expr instance_variable(const Instance *instance, Arena *arena, const char *member);
 /* Where the joint's coordinate that the part acts on stands, `primes` derivatives: "h1'". */
 Expr instance_coordinate(const Instance *instance, const Instance *joint, Arena *arena, int primes);
+/* The same without primes, where the joint isn't at hand: to differentiate a law of the position.
+ */
+Expr instance_joint_coordinate(const Instance *instance, Arena *arena);
 /* potential of one of its terminals: "c.v"; 0 at the datum */
 Expr instance_potential(const Instance *instance, Arena *arena, int terminal);
 /* its scalar edges; *count of them */
@@ -282,6 +293,7 @@ Expr instance_through(const Instance *instance, Arena *arena, int which);
 /* names of the two in a domain: "v" and "i", "p" and "flow" ... */
 const char *domain_across(Domain domain);
 const char *domain_through(Domain domain);
+const char *domain_across_unit(Domain domain);
 /* derivative in time of an expression over t, parameters and the user's variables: over those and
  * their primed names */
 Expr user_rate(Arena *arena, Expr e);

@@ -9,6 +9,11 @@
 #include "component/types.def"
 #undef TYPE
 
+/* --- component.c: refuse numbers that a value can't be --- */
+
+Status check_positive(const Instance *instance, const char *param, Diag *diag);
+Status check_not_negative(const Instance *instance, const char *param, Diag *diag);
+
 /* --- attitude.c: three shifts along the tail's axes, then any rotation --- */
 
 enum { FREE_SHIFTS = 3, FREE_COORDS = 7, FREE_COORDS_PLANAR = 3 };

@@ -1,4 +1,4 @@
-/* electrical.c: resistor, capacitor, inductor, sources
+/* electrical.c: resistor, capacitor, inductor, coupling, sources
  *
  * v is the potential of plus against minus, i flows from plus to minus inside. R, C
  * and L may depend on time and variables, also on the component's own v or i; a capacitor's charge
@@ -15,6 +15,10 @@ static const Param capacitor_params[] = {
 static const Param inductor_params[] = {
     {"L", PARAM_LAW, "H", NULL, "inductance, flux per current", true},
 };
+static const Param coupling_params[] = {
+    {"k", PARAM_SCALAR, "1", "0", "coupling factor, M/sqrt(L1*L2), between -1 and 1", false},
+    {"M", PARAM_SCALAR, "H", "0", "or the mutual inductance", false},
+};
 static const Param vsource_params[] = {
     {"value", PARAM_LAW, "V", NULL, "voltage, of t, parameters and variables", true},
 };
@@ -30,21 +34,6 @@ static const Member inductor_members[] = {
 };
 /* clang-format on */
 
-static Status check_number(const Instance *instance, const char *param, bool zero_only, Diag *diag)
-{
-    Expr value = instance_scalar(instance, param);
-    Status status;
-
-    if (!expr_is_number(value) || expr_value(value) > 0.0 ||
-        (zero_only && expr_value(value) != 0.0))
-        return OK;
-    status = diag_set(diag, E_VALUE, "%s of %s is %s", param, instance->name,
-                      expr_value(value) == 0.0 ? "zero" : "negative");
-    diag_hint(diag, zero_only ? "a wire is a vsource of 0 V, or one terminal in two places"
-                              : "it has to be positive");
-    return status;
-}
-
 static void resistor_relation(const Instance *instance, Arena *arena, int which,
                               const Motion1 *motion, Relation *out)
 {
@@ -57,9 +46,15 @@ static void resistor_relation(const Instance *instance, Arena *arena, int which,
 
 static Status resistor_check(const Instance *instance, Arena *arena, bool planar, Diag *diag)
 {
+    Expr R = instance_scalar(instance, "R");
+
     (void)arena;
     (void)planar;
-    return check_number(instance, "R", true, diag);
+    if (!expr_is_zero(R))
+        return OK;
+    (void)diag_set(diag, E_VALUE, "R of %s is zero", instance->name);
+    diag_hint(diag, "a wire is a vsource of 0 V, or one terminal in two places");
+    return E_VALUE;
 }
 
 const Component component_resistor = {
@@ -103,7 +98,7 @@ static Status capacitor_check(const Instance *instance, Arena *arena, bool plana
 {
     (void)arena;
     (void)planar;
-    return check_number(instance, "C", false, diag);
+    return check_positive(instance, "C", diag);
 }
 
 const Component component_capacitor = {
@@ -139,7 +134,7 @@ static Status inductor_check(const Instance *instance, Arena *arena, bool planar
 {
     (void)arena;
     (void)planar;
-    return check_number(instance, "L", false, diag);
+    return check_positive(instance, "L", diag);
 }
 
 const Component component_inductor = {
@@ -161,6 +156,70 @@ const Component component_inductor = {
     .example = "vsource E1 a 0 12\nresistor R1 a b 2 ohm\ninductor L1 b 0 50 mH\ninit L1.i = 0\n"
                "simulate 0.1\nprint L1.i, L1.flux",
     .see = "resistor capacitor init",
+};
+
+/* --- coupling: flux1 = L1 i1 + M i2, flux2 = L2 i2 + M i1 --- */
+
+static Expr mutual(const Instance *instance, Arena *arena, const Instance *const parts[2])
+{
+    Expr product = expr_mul(arena, instance_scalar(parts[0], "L"), instance_scalar(parts[1], "L"));
+
+    if (instance_value(instance, "M")->given)
+        return instance_scalar(instance, "M");
+    return expr_mul(arena, instance_scalar(instance, "k"), expr_sqrt(arena, product));
+}
+
+static void coupling_couple(const Instance *instance, Arena *arena, const Instance *const parts[2],
+                            int which, Relation *out)
+{
+    Expr M = mutual(instance, arena, parts);
+    Expr own = instance_through(parts[which], arena, 0);
+    Expr other = instance_through(parts[1 - which], arena, 0);
+
+    out->content = expr_add(arena, out->content, expr_mul(arena, M, other));
+    /* M i1 i2 belongs to both: it is counted with the first */
+    if (which == 0 && out->stored != NULL)
+        out->stored = expr_add(arena, out->stored, expr_product(arena, (Expr[]){M, own, other}, 3));
+}
+
+static Status coupling_check(const Instance *instance, Arena *arena, bool planar, Diag *diag)
+{
+    bool has_k = instance_value(instance, "k")->given;
+    Expr k = instance_scalar(instance, "k");
+
+    (void)arena;
+    (void)planar;
+    if (has_k == instance_value(instance, "M")->given) {
+        (void)diag_set(diag, E_VALUE,
+                       has_k ? "%s has k= and M=" : "%s needs k= or M=", instance->name);
+        diag_hint(diag, "k is M/sqrt(L1*L2): either one tells the other");
+        return E_VALUE;
+    }
+    if (!has_k || !expr_is_number(k) || (expr_value(k) > -1.0 && expr_value(k) < 1.0))
+        return OK;
+    (void)diag_set(diag, E_VALUE, "k of %s is not between -1 and 1", instance->name);
+    diag_hint(diag, "perfect coupling, without leakage, is a transformer with an inductor across");
+    return E_VALUE;
+}
+
+const Component component_coupling = {
+    .name = "coupling",
+    .family = FAMILY_SCALAR,
+    .domain = DOMAIN_ELECTRICAL,
+    .places = PLACES_PARTS,
+    .brief = "couples two inductors",
+    .params = coupling_params,
+    .param_count = COUNT(coupling_params),
+    .couple = coupling_couple,
+    .couples = "inductor",
+    .check = coupling_check,
+    .help = "Two inductors on one core: each one's flux holds M times the current of the other, "
+            "where M = k*sqrt(L1*L2), or is given. Both currents count from plus to minus inside; "
+            "a negative k turns one winding round. Any number of pairs may be coupled.",
+    .example = "vsource V1 a 0 10*sin(314*t)\nresistor R1 a b 1 ohm\ninductor L1 b 0 0.4 H\n"
+               "inductor L2 c 0 0.1 H\ncoupling K1 L1 L2 k=0.98\nresistor R2 c 0 50 ohm\n"
+               "init L1.i = 0, L2.i = 0\nsimulate 0.1\nprint max(L1.v), max(L2.v)",
+    .see = "inductor transformer",
 };
 
 static void vsource_relation(const Instance *instance, Arena *arena, int which,

@@ -2,5 +2,6 @@ libcore_la_SOURCES += \
 	lib/component/component.c lib/component/component.h \
 	lib/component/component_rows.h lib/component/types.def \
 	lib/component/attitude.c lib/component/bodies.c lib/component/driver.c \
-	lib/component/electrical.c lib/component/forces.c \
-	lib/component/joints.c lib/component/joints_round.c lib/component/screw.c lib/component/transducers.c
+	lib/component/controlled.c lib/component/electrical.c lib/component/forces.c \
+	lib/component/joints.c lib/component/joints_round.c lib/component/screw.c \
+	lib/component/switching.c lib/component/transducers.c lib/component/twoports.c

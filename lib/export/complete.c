@@ -421,8 +421,11 @@ static void offer_members(Line *line, const Verb *verb)
 {
     char base[128];
     const char *dot = strrchr(line->prefix, '.');
+    const Graph *graph = model_graph(line->model);
     const Instance *instance;
     const Member *member;
+    const char *begun;
+    int node;
 
     (void)snprintf(base, sizeof base, "%.*s", (int)(dot - line->prefix), line->prefix);
     for (int g = 0; g < COUNT(groups); g++)
@@ -430,22 +433,23 @@ static void offer_members(Line *line, const Verb *verb)
             offer_member(line, base, groups[g].members[i]);
     for (int i = 0; strcmp(base, "count") == 0 && count_block_name(i) != NULL; i++)
         offer_member(line, base, count_block_name(i));
-    instance = model_find(line->model, base);
+    instance = model_owner(line->model, line->prefix, &begun);
     if (instance == NULL) {
-        if (graph_find_node(model_graph(line->model), base) >= 0)
-            offer_member(line, base, "v");
+        node = graph_find_node(graph, base);
+        if (node >= 0)
+            offer_member(line, base, domain_across(graph_node(graph, node)->domain));
         return;
     }
     if (verb != NULL && strcmp(verb->name, "set") == 0) {
         for (int i = 0; i < instance->row->param_count; i++)
-            offer_member(line, base, instance->row->params[i].name);
+            offer_member(line, instance->name, instance->row->params[i].name);
         return;
     }
     for (int c = 0; c < instance->coord_count; c++)
         offer(line, instance->coord[c]);
     for (int i = 0;
          (member = component_member(instance->row, model_is_planar(line->model), i)) != NULL; i++)
-        offer_member(line, base, member->name);
+        offer_member(line, instance->name, member->name);
 }
 
 static bool is_number(const char *word)

@@ -3,7 +3,6 @@
 
 #include "export/show.h"
 
-#include <stdio.h>
 #include <string.h>
 
 /* which way things count positive, by family */
@@ -19,7 +18,8 @@ static const char *const conventions[] = {
                           "acts on the joint's tip",
 };
 
-static void add_standing(Table *table, const View *view, int edge)
+/* in which trees the edge is a branch; its own name in front where a part has several */
+static void add_standing(Table *table, const View *view, int edge, bool several)
 {
     const Graph *graph = model_graph(view->model);
     const Tree *trees[TREE_KINDS] = {NULL};
@@ -31,7 +31,10 @@ static void add_standing(Table *table, const View *view, int edge)
     for (int k = 0; k < TREE_KINDS; k++) {
         if (trees[k] == NULL || !graph_edge_in(graph, edge, (TreeKind)k))
             continue;
-        table_cell(table, tree_kind_name((TreeKind)k));
+        if (several)
+            table_cell(table, graph_edge(graph, edge)->name);
+        else
+            table_cell(table, tree_kind_name((TreeKind)k));
         table_cellf(table, "%s%s", tree_has(trees[k], edge) ? "branch (tree)" : "chord (cotree)",
                     tree_has(trees[k], edge) && tree_was_completed(trees[k], edge) ? ", completed"
                                                                                    : "");
@@ -55,6 +58,18 @@ static void add_ends(Table *table, const View *view, const Instance *instance)
     if (instance->joint >= 0) {
         table_cell(table, "acts on");
         table_cell(table, model_instance(view->model, instance->joint)->name);
+    }
+    if (instance->parts[0] >= 0) {
+        table_cell(table, "couples");
+        table_cellf(table, "%s %s", model_instance(view->model, instance->parts[0])->name,
+                    model_instance(view->model, instance->parts[1])->name);
+    }
+    if (instance->sensed != NULL) {
+        char *text = expr_text(instance->sensed);
+
+        table_cell(table, "of");
+        table_cell(table, text);
+        mem_free(text);
     }
 }
 
@@ -110,9 +125,9 @@ static void print_instance(Text *out, const View *view, const Instance *instance
     text_addf(out, "%s: %s%s, %s\n", instance->name, instance->is_virtual ? "virtual " : "",
               instance->row->name, instance->row->brief);
     add_ends(&table, view, instance);
-    add_standing(&table, view, instance->edge);
+    add_standing(&table, view, instance->edge, false);
     for (int k = 0; k < instance->scalar_count; k++)
-        add_standing(&table, view, instance->scalar_edges[k]);
+        add_standing(&table, view, instance->scalar_edges[k], instance->scalar_count > 1);
     for (int c = 0; c < instance->coord_count; c++)
         layout_item(&coordinates, instance->coord[c]);
     if (coordinates.length > 0) {
@@ -214,8 +229,7 @@ static bool print_variable(Text *out, const View *view, const char *name)
 {
     const Instance *owner;
     const Member *member;
-    const char *dot = strrchr(name, '.');
-    char base[128];
+    const char *wanted;
     int index;
 
     if (model_coordinate(view->model, name, &owner, &index)) {
@@ -225,13 +239,12 @@ static bool print_variable(Text *out, const View *view, const char *name)
                                                                  : "1");
         return true;
     }
-    (void)snprintf(base, sizeof base, "%.*s", dot != NULL ? (int)(dot - name) : 0, name);
-    owner = dot != NULL ? model_find(view->model, base) : NULL;
+    owner = model_owner(view->model, name, &wanted);
     for (int i = 0;
          owner != NULL &&
          (member = component_member(owner->row, model_is_planar(view->model), i)) != NULL;
          i++)
-        if (strcmp(member->name, dot + 1) == 0) {
+        if (strcmp(member->name, wanted) == 0) {
             text_addf(out, "%s: of %s, %s", name, owner->name, member->meaning);
             text_addf(out, member->unit != NULL ? "; in %s\n" : "\n", member->unit);
             return true;

@@ -64,6 +64,46 @@ static void read_relation(System *system, Branchlike *branch)
             branch->relation.value = system->drives.at[i].effort;
 }
 
+/* what couplings bring to the relations of two parts */
+static void couple(System *system)
+{
+    for (int i = 0; i < system->instance_count; i++) {
+        const Instance *instance = &system->instances[i];
+        const Instance *parts[2];
+
+        if (instance->row->couple == NULL)
+            continue;
+        for (int k = 0; k < 2; k++)
+            parts[k] = &system->instances[instance->parts[k]];
+        for (int k = 0; k < 2; k++)
+            instance->row->couple(instance, system->arena, parts, k,
+                                  &scalar_branch(system, parts[k], 0)->relation);
+    }
+}
+
+/* what a relation differentiates by itself may not jump */
+static Status check_smooth(System *system, Diag *diag)
+{
+    Expr e;
+    Status status = OK;
+
+    for (int i = 0; i < system->branches.count; i++) {
+        const Branchlike *branch = &system->branches.at[i];
+
+        if (branch->relation.smooth == NULL)
+            continue;
+        CHECK(resolve(system, branch->relation.smooth, &e, diag));
+        if (need_smooth(system, owner_of(system, branch)->name, e, NULL) == OK)
+            continue;
+        status = diag_set(diag, E_MODEL, "%s takes the derivative of something that jumps",
+                          owner_of(system, branch)->name);
+        diag_hint(diag, "filter= smooths it, or give the source a rise time");
+        goto done;
+    }
+done:
+    return status;
+}
+
 /* --- the normal tree --- */
 
 static int normal_order(const System *system, const Branchlike *branch)
@@ -520,6 +560,7 @@ Status network_build(System *system, Diag *diag)
     add_branches(system);
     for (int i = 0; i < system->branches.count; i++)
         read_relation(system, &system->branches.at[i]);
+    couple(system);
     for (TreeKind kind = TREE_ELECTRICAL; kind < TREE_KINDS; kind++) {
         if (system->trees[kind] == NULL)
             continue;
@@ -540,6 +581,7 @@ Status network_build(System *system, Diag *diag)
         CHECK(network_through(system, &system->branches.at[i], &value, diag));
         CHECK(poll(system->watch));
     }
+    CHECK(check_smooth(system, diag));
     if (system->network_form == NETWORK_TREE)
         CHECK(network_bring_order(system, diag));
     network_list(system);

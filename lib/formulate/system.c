@@ -34,6 +34,11 @@ static void copy_instances(System *system, const Model *model)
         *to = *from;
         to->name = system_keep(system, "%s", from->name);
         to->text = NULL;
+        if (from->coordinate != NULL)
+            to->coordinate = system_keep(system, "%s", from->coordinate);
+        for (int k = 0; k < MAX_TERMINALS; k++)
+            if (from->terminal_names[k] != NULL)
+                to->terminal_names[k] = system_keep(system, "%s", from->terminal_names[k]);
         to->values = pool_alloc(system->pool, size);
         if (size > 0)
             memcpy(to->values, from->values, size);

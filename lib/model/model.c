@@ -258,6 +258,11 @@ const Instance *model_find(const Model *model, const char *name)
     return state_part(model->state, name);
 }
 
+const Instance *model_owner(const Model *model, const char *path, const char **member)
+{
+    return state_owner(model->state, path, member);
+}
+
 const Instance *model_edge_owner(const Model *model, int edge)
 {
     return model->state->parts.at[model->state->edge_owner.at[edge]];

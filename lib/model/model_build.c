@@ -24,6 +24,7 @@ static Status read_positional(Draft *draft)
     const Component *row = draft->part->row;
     Status status = OK;
     const Operand *operand;
+    Text form = {0};
 
     for (int i = 0; i < row->param_count && draft->at < draft->statement->operands.count; i++) {
         if (!row->params[i].positional)
@@ -35,10 +36,12 @@ static Status read_positional(Draft *draft)
         operand = &draft->statement->operands.at[draft->at];
         status =
             diag_at(draft->diag, E_SYNTAX, operand->place, "%s has no place for this", row->name);
-        diag_hint(draft->diag, "it is written %s %s%s", row->name, places_form(row->places),
+        places_form(row, &form);
+        diag_hint(draft->diag, "it is written %s %s%s", row->name, form.at,
                   row->param_count > 0 ? ", then key=value" : "");
     }
 done:
+    text_free(&form);
     return status;
 }
 

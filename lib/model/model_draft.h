@@ -9,7 +9,7 @@ typedef struct Draft {
     const Statement *statement;
     Instance *part; /* in the state's pool */
     Scope scope;
-    int at;                   /* next operand */
+    int at;                               /* next operand */
     const char *terminals[MAX_TERMINALS]; /* names, where the part has scalar edges */
     const Syntax *coordinate_names;
     Diag *diag;
@@ -18,8 +18,8 @@ typedef struct Draft {
 /* the name of the part, then what it connects (model_places.c) */
 Status draft_read_name(Draft *draft);
 Status draft_read_places(Draft *draft);
-/* how the part's statement begins: "NAME TAIL TIP" */
-const char *places_form(Places places);
+/* how the statement of such a part begins: "NAME TAIL TIP" */
+void places_form(const Component *row, Text *out);
 Place statement_end(const Statement *statement);
 bool part_is_frame(const Instance *part);
 

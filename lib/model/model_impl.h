@@ -118,6 +118,9 @@ Apply state_apply;
 const char *state_text(State *state, const char *text);
 const Thing *state_thing(const State *state, const char *name); /* NULL */
 const Instance *state_part(const State *state, const char *name);
+/* the part that a dotted name begins with, the first dot that ends one counting; what stands behind
+ * the dot, or "", in *member. NULL: no part. */
+const Instance *state_owner(const State *state, const char *path, const char **member);
 void state_name(State *state, const char *name, ThingKind kind, int index, int coordinate);
 /* The graph or a choice changed. */
 void state_forget_trees(State *state);
@@ -130,6 +133,7 @@ Status state_trees(State *state, const Tree *trees[TREE_KINDS], Diag *diag);
 const char *syntax_name(const Syntax *syntax);
 /* whether `name` can become a new name; `taken_as` is what it would be ("a parameter") */
 Status name_is_free(const State *state, const char *name, Place place, Diag *diag);
+Domain terminal_domain(const State *state, const char *name); /* of one that there is */
 Status name_unknown(const State *state, const char *what, const char *name, Place place,
                     Diag *diag);
 /* "a revolute", "a parameter": what a name is */

@@ -262,6 +262,13 @@ static Status whole_resolve(const char *path, int primes, unsigned allow, Place 
     return check_order(path, primes, 0, place, diag);
 }
 
+Domain terminal_domain(const State *state, const char *name)
+{
+    int number = names_find(state->terminals, name);
+
+    return graph_node(state->graph, state->terminal_nodes.at[number])->domain;
+}
+
 static Status plain_resolve(const State *state, const char *path, int primes, Place place,
                             Text *name, Diag *diag)
 {
@@ -273,7 +280,8 @@ static Status plain_resolve(const State *state, const char *path, int primes, Pl
         if (names_find(state->terminals, path) < 0)
             return name_unknown(state, "name", path, place, diag);
         (void)diag_at(diag, E_NAME, place, "%s is a terminal", path);
-        diag_hint(diag, "its potential is %s.v", path);
+        diag_hint(diag, "its potential is %s.%s", path,
+                  domain_across(terminal_domain(state, path)));
         return E_NAME;
     }
     part = thing->kind == THING_DEFINITION ? NULL : state->parts.at[thing->index];
@@ -293,29 +301,46 @@ static Status plain_resolve(const State *state, const char *path, int primes, Pl
     return E_NAME;
 }
 
+/* a.v, in other domains a.p, a.w ...: the potential of a terminal */
+static Status potential_resolve(const State *state, const char *path, const char *dot, int primes,
+                                Place place, Text *name, Diag *diag)
+{
+    char *terminal = mem_text(path, (size_t)(dot - path));
+    const char *across;
+    Status status = OK;
+
+    if (names_find(state->terminals, terminal) < 0) {
+        status = name_unknown(state, "name", terminal, place, diag);
+        goto done;
+    }
+    across = domain_across(terminal_domain(state, terminal));
+    if (strcmp(dot + 1, across) != 0) {
+        status =
+            diag_at(diag, E_NAME, place, "terminal %s has no variable '%s'", terminal, dot + 1);
+        diag_hint(diag, "its potential is %s.%s", terminal, across);
+        goto done;
+    }
+    text_add(name, path);
+    status = check_order(path, primes, 2, place, diag);
+done:
+    mem_free(terminal);
+    return status;
+}
+
 static Status dotted_resolve(const State *state, const Instance *own, const char *path,
                              const char *dot, int primes, Place place, Text *name, Diag *diag)
 {
-    char *owner = mem_text(path, (size_t)(dot - path));
-    const Instance *part =
-        own != NULL && strcmp(own->name, owner) == 0 ? own : state_part(state, owner);
-    Status status = OK;
+    size_t length = own != NULL ? strlen(own->name) : 0;
+    const char *member = NULL;
+    const Instance *part = state_owner(state, path, &member);
 
+    if (own != NULL && strncmp(path, own->name, length) == 0 && path[length] == '.') {
+        part = own;
+        member = path + length + 1;
+    }
     if (part != NULL)
-        status = member_resolve(state, part, dot + 1, primes, place, name, diag);
-    else if (names_find(state->terminals, owner) >= 0) {
-        if (strcmp(dot + 1, "v") == 0) {
-            text_add(name, path);
-            status = check_order(path, primes, 2, place, diag);
-        } else {
-            status =
-                diag_at(diag, E_NAME, place, "terminal %s has no variable '%s'", owner, dot + 1);
-            diag_hint(diag, "its potential is %s.v", owner);
-        }
-    } else
-        status = name_unknown(state, "name", owner, place, diag);
-    mem_free(owner);
-    return status;
+        return member_resolve(state, part, member, primes, place, name, diag);
+    return potential_resolve(state, path, dot, primes, place, name, diag);
 }
 
 Status variable_resolve(const State *state, const Instance *own, const char *path, int primes,

@@ -38,6 +38,23 @@ static Status read_scalar(Scope *scope, const Wanted *wanted, const Syntax *synt
     return scope_expression(scope, syntax, &out->at[0], diag);
 }
 
+/* [a, b, c], or one number for a list of one */
+static Status read_list(Scope *scope, const Wanted *wanted, const Syntax *syntax, Value *out,
+                        Diag *diag)
+{
+    Status status;
+
+    if (syntax->kind != SYNTAX_VECTOR)
+        return read_scalar(scope, wanted, syntax, out, diag);
+    if (syntax->count > MAX_VALUE) {
+        status =
+            diag_at(diag, E_VALUE, syntax->place, "%s has %d entries, and at most %d can stand",
+                    wanted->param->name, syntax->count, MAX_VALUE);
+        return status;
+    }
+    return scope_vector(scope, syntax, out->at, &out->count, diag);
+}
+
 /* --- vectors --- */
 
 static Status read_vector(Scope *scope, const Wanted *wanted, const Syntax *syntax, Value *out,
@@ -318,12 +335,13 @@ static Read *const readers[] = {
     [PARAM_SCALAR] = read_scalar, [PARAM_LAW] = read_scalar,      [PARAM_VECTOR] = read_vector,
     [PARAM_LAWS] = read_vector,   [PARAM_INERTIA] = read_inertia, [PARAM_MOMENT] = read_moment,
     [PARAM_AXIS] = read_axis,     [PARAM_AXES] = read_axes,       [PARAM_ROTATION] = read_rotation,
-    [PARAM_WORD] = read_word,
+    [PARAM_LIST] = read_list,     [PARAM_LIST_LAWS] = read_list,  [PARAM_WORD] = read_word,
 };
 
 static bool is_law(ParamKind kind)
 {
-    return kind == PARAM_LAW || kind == PARAM_LAWS || kind == PARAM_MOMENT;
+    return kind == PARAM_LAW || kind == PARAM_LAWS || kind == PARAM_MOMENT ||
+           kind == PARAM_LIST_LAWS;
 }
 
 Status param_read(Scope *scope, Wanted wanted, const Syntax *syntax, Value *out, Diag *diag)
@@ -369,6 +387,10 @@ void param_fallback(State *state, const Param *param, Value *out)
     case PARAM_INERTIA:
     case PARAM_MOMENT:
         out->count = state->planar ? 1 : 3;
+        break;
+    case PARAM_LIST:
+    case PARAM_LIST_LAWS:
+        out->count = fallback[0] != '\0';
         break;
     default:
         out->count = 1;

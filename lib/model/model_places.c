@@ -23,20 +23,25 @@ static const char *const forms[] = {
     [PLACES_PARTS] = "NAME PART PART",
 };
 
-const char *places_form(Places places)
+void places_form(const Component *row, Text *out)
 {
-    return forms[places];
+    if (row->places == PLACES_TERMINALS && row->terminal_usage != NULL)
+        text_addf(out, "NAME%s", row->terminal_usage);
+    else
+        text_add(out, forms[row->places]);
 }
 
 static Status next_operand(Draft *draft, const Operand **out)
 {
     const Statement *statement = draft->statement;
+    Text form = {0};
 
     if (draft->at >= statement->operands.count) {
         (void)diag_at(draft->diag, E_SYNTAX, statement_end(statement), "%s misses a place",
                       statement->verb);
-        diag_hint(draft->diag, "it is written %s %s", statement->verb,
-                  places_form(draft->part->row->places));
+        places_form(draft->part->row, &form);
+        diag_hint(draft->diag, "it is written %s %s", statement->verb, form.at);
+        text_free(&form);
         return E_SYNTAX;
     }
     *out = &statement->operands.at[draft->at++];
@@ -182,6 +187,7 @@ static Status act_on(Draft *draft, const char *name, Place place)
         goto done;
     }
     part->joint = joint;
+    part->coordinate = owner->coord[part->joint_coordinate];
     part->on_angle = owner->coord_kind[part->joint_coordinate] == COORDINATE_ANGLE;
     part->tail = owner->tail;
     part->head = owner->head;
@@ -296,6 +302,14 @@ static Status next_terminal(Draft *draft, int which)
     }
     if (thing == NULL && strcmp(name, "0") != 0)
         CHECK(name_is_free(draft->state, name, operand->place, draft->diag));
+    if (names_find(draft->state->terminals, name) >= 0 &&
+        terminal_domain(draft->state, name) != draft->part->row->domain) {
+        status = diag_at(draft->diag, E_NAME, operand->place, "%s is %s, and a %s is %s", name,
+                         domain_name(terminal_domain(draft->state, name)), draft->part->row->name,
+                         domain_name(draft->part->row->domain));
+        diag_hint(draft->diag, "a terminal belongs to the domain of its first component");
+        goto done;
+    }
     draft->terminals[which] = name;
 done:
     text_free(&what);
@@ -356,6 +370,10 @@ static Status two_parts(Draft *draft)
         other = state_part(draft->state, name);
         if (other == NULL)
             CHECK(name_unknown(draft->state, "component", name, place, draft->diag));
+        if (strcmp(other->row->name, part->row->couples) != 0)
+            CHECK(diag_at(draft->diag, E_VALUE, place,
+                          "%s is a %s: a %s takes two parts of kind %s", name, other->row->name,
+                          part->row->name, part->row->couples));
         part->parts[k] = other->number;
         if (k > 0 && part->parts[0] == part->parts[1])
             CHECK(

@@ -3,14 +3,26 @@
 
 #include <string.h>
 
+/* of a terminal's potential; NULL: the name is none */
+static const char *potential_unit(const State *state, const char *name)
+{
+    const char *dot = strrchr(name, '.');
+    char *terminal = mem_text(name, dot != NULL ? (size_t)(dot - name) : 0);
+    const char *unit = NULL;
+
+    if (names_find(state->terminals, terminal) >= 0)
+        unit = domain_across_unit(terminal_domain(state, terminal));
+    mem_free(terminal);
+    return unit;
+}
+
 /* The unit that a variable's value is in: that of its member or coordinate, per second for each
  * prime. */
 static void unit_of(const State *state, const char *name, int primes, Text *unit)
 {
-    const char *dot = strrchr(name, '.');
-    char *owner = mem_text(name, dot != NULL ? (size_t)(dot - name) : strlen(name));
+    const char *wanted = "";
     const Thing *thing = state_thing(state, name);
-    const Instance *part = state_part(state, owner);
+    const Instance *part = state_owner(state, name, &wanted);
     const char *base = NULL;
     const Member *member;
 
@@ -20,19 +32,18 @@ static void unit_of(const State *state, const char *name, int primes, Text *unit
 
         base = units[state->parts.at[thing->index]->coord_kind[coordinate]];
     }
-    for (int i = 0; base == NULL && dot != NULL && part != NULL &&
+    for (int i = 0; base == NULL && part != NULL &&
                     (member = component_member(part->row, state->planar, i)) != NULL;
          i++)
-        if (strcmp(member->name, dot + 1) == 0)
+        if (strcmp(member->name, wanted) == 0)
             base = member->unit;
-    if (base == NULL && dot != NULL && names_find(state->terminals, owner) >= 0)
-        base = "V";
+    if (base == NULL && part == NULL)
+        base = potential_unit(state, name);
     if (base != NULL) {
         text_add(unit, base);
         for (int i = 0; i < primes; i++)
             text_add(unit, "/s");
     }
-    mem_free(owner);
 }
 
 /* A value can be given to what the start is made of: positions and rates, voltages, currents and

@@ -80,6 +80,25 @@ const Instance *state_part(const State *state, const char *name)
     return thing != NULL && thing->kind == THING_PART ? state->parts.at[thing->index] : NULL;
 }
 
+const Instance *state_owner(const State *state, const char *path, const char **member)
+{
+    const Instance *part = NULL;
+    size_t length = 0;
+
+    while (part == NULL && path[length] != '\0') {
+        char *owner;
+
+        length += path[length] == '.';
+        length += strcspn(path + length, ".");
+        owner = mem_text(path, length);
+        part = state_part(state, owner);
+        mem_free(owner);
+    }
+    if (part != NULL)
+        *member = path[length] == '.' ? path + length + 1 : "";
+    return part;
+}
+
 void state_name(State *state, const char *name, ThingKind kind, int index, int coordinate)
 {
     (void)names_add(state->names, name);

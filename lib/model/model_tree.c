@@ -11,12 +11,41 @@ static const TreeKind mechanical_kinds = TREE_ELECTRICAL; /* the kinds before it
 
 /* --- choices to trees --- */
 
-/* the edge of a part that a tree of this kind may span; -1: none */
-static int edge_in(const State *state, const Instance *part, TreeKind kind)
+/* The part that an edge's name names, and which of its scalar edges ("T1.s"); *which -1: the name
+ * is the part's own. NULL: none. */
+static const Instance *edge_part(const State *state, const char *name, int *which)
 {
-    if (part->scalar_count > 0 && graph_edge_in(state->graph, part->scalar_edges[0], kind))
-        return part->scalar_edges[0];
-    return part->edge >= 0 && graph_edge_in(state->graph, part->edge, kind) ? part->edge : -1;
+    const char *member = "";
+    const Instance *part = state_owner(state, name, &member);
+    const ScalarEdge *edges;
+    int count;
+
+    *which = -1;
+    if (part == NULL || member[0] == '\0')
+        return part;
+    edges = component_scalar_edges(part->row, &count);
+    for (int k = 0; k < count; k++)
+        if (strcmp(edges[k].suffix, member) == 0)
+            *which = k;
+    return *which >= 0 ? part : NULL;
+}
+
+/* the edge of that name that a tree of this kind may span; -1: none */
+static int edge_in(const State *state, const char *name, TreeKind kind)
+{
+    int which;
+    const Instance *part = edge_part(state, name, &which);
+    int scalar;
+
+    if (part == NULL)
+        return -1;
+    scalar = which >= 0 ? which : 0;
+    if (scalar < part->scalar_count && (which >= 0 || part->scalar_count == 1) &&
+        graph_edge_in(state->graph, part->scalar_edges[scalar], kind))
+        return part->scalar_edges[scalar];
+    return which < 0 && part->edge >= 0 && graph_edge_in(state->graph, part->edge, kind)
+               ? part->edge
+               : -1;
 }
 
 static bool has_kind(const State *state, TreeKind kind)
@@ -53,9 +82,9 @@ static Chosen resolve(const State *state, TreeKind kind, const Choice *choice)
         chosen.preference[e] = first ? 0 : graph_edge(state->graph, e)->preference[half];
     }
     for (int i = 0; i < choice->chosen.count; i++)
-        LIST_PUSH(chosen.branches, edge_in(state, state_part(state, choice->chosen.at[i]), kind));
+        LIST_PUSH(chosen.branches, edge_in(state, choice->chosen.at[i], kind));
     for (int i = 0; i < choice->excluded.count; i++) {
-        int edge = edge_in(state, state_part(state, choice->excluded.at[i]), kind);
+        int edge = edge_in(state, choice->excluded.at[i], kind);
 
         if (edge >= 0)
             chosen.excluded[edge] = true;
@@ -145,15 +174,39 @@ static int kind_named(const char *word)
 
 static Status edge_unknown(const Request *request, const char *name, Place place)
 {
-    const State *state = request->state;
+    const Graph *graph = request->state->graph;
     Suggest suggest = suggest_for(name);
 
-    for (int i = 0; i < state->parts.count; i++)
-        suggest_offer(&suggest, state->parts.at[i]->name);
+    for (int e = 0; e < graph_edge_count(graph); e++)
+        suggest_offer(&suggest, graph_edge(graph, e)->name);
     (void)diag_at(request->diag, E_NAME, place, "unknown edge '%s'", name);
     if (suggest.best != NULL)
         diag_hint(request->diag, "did you mean '%s'?", suggest.best);
     return E_NAME;
+}
+
+/* T1 alone, where it has two edges */
+static Status which_edge(const Request *request, const Instance *part, Place place)
+{
+    int count;
+    const ScalarEdge *edges = component_scalar_edges(part->row, &count);
+
+    (void)diag_at(request->diag, E_NAME, place, "%s has two edges", part->name);
+    diag_hint(request->diag, "they are %s.%s and %s.%s", part->name, edges[0].suffix, part->name,
+              edges[1].suffix);
+    return E_NAME;
+}
+
+/* the joint that is meant by its coordinate, as in "tree theta1"; NULL: none */
+static const Instance *joint_of_coordinate(const State *state, const char *name, Place place)
+{
+    int owner;
+    int coordinate;
+
+    if (coordinate_resolve(state, name, place, &owner, &coordinate, NULL) != OK ||
+        state->parts.at[owner]->coord_count != 1)
+        return NULL;
+    return state->parts.at[owner];
 }
 
 static Status read_edge(Request *request, const Operand *operand)
@@ -161,34 +214,27 @@ static Status read_edge(Request *request, const Operand *operand)
     const State *state = request->state;
     const char *name = syntax_name(operand->value);
     const Instance *part;
+    int which;
 
     if (name == NULL)
         return diag_at(request->diag, E_NAME, operand->place, "a tree is made of names of edges");
-    part = state_part(state, name);
-    if (part == NULL) {
-        const Instance *owner = NULL;
-        int owner_number;
-        int coordinate;
-
-        /* "tree theta1": the joint is meant by its coordinate */
-        if (coordinate_resolve(state, name, operand->place, &owner_number, &coordinate, NULL) == OK)
-            owner = state->parts.at[owner_number];
-        if (owner == NULL || owner->coord_count != 1)
-            return edge_unknown(request, name, operand->place);
-        part = owner;
-    }
-    for (TreeKind kind = 0; request->kind >= 0 && kind < TREE_KINDS; kind++)
-        if ((int)kind == request->kind && edge_in(state, part, kind) < 0)
-            return diag_at(request->diag, E_BRANCH, operand->place,
-                           "%s has no edge in the %s graph", name, tree_kind_name(kind));
-    if (part->edge < 0 && part->scalar_count == 0)
+    part = edge_part(state, name, &which);
+    if (part == NULL)
+        part = joint_of_coordinate(state, name, operand->place);
+    if (part == NULL || (part->edge < 0 && part->scalar_count == 0))
         return edge_unknown(request, name, operand->place);
-    if (named(&request->add, part->name) || named(&request->drop, part->name))
+    if (which < 0 && part->scalar_count > 1)
+        return which_edge(request, part, operand->place);
+    name = which < 0 ? part->name : graph_edge(state->graph, part->scalar_edges[which])->name;
+    if (request->kind >= 0 && edge_in(state, name, (TreeKind)request->kind) < 0)
+        return diag_at(request->diag, E_BRANCH, operand->place, "%s has no edge in the %s graph",
+                       syntax_name(operand->value), tree_kind_name((TreeKind)request->kind));
+    if (named(&request->add, name) || named(&request->drop, name))
         return diag_at(request->diag, E_NAME, operand->place, "%s is named twice", name);
     if (operand->sign == '-')
-        LIST_PUSH(request->drop, part->name);
+        LIST_PUSH(request->drop, name);
     else
-        LIST_PUSH(request->add, part->name);
+        LIST_PUSH(request->add, name);
     return OK;
 }
 
@@ -225,7 +271,7 @@ static bool in_play(const Request *request, TreeKind kind)
 static bool can_enter(const Request *request, const char *name, TreeKind kind)
 {
     const State *state = request->state;
-    int edge = edge_in(state, state_part(state, name), kind);
+    int edge = edge_in(state, name, kind);
 
     return edge >= 0 && graph_branching(state->graph, edge, kind) != BRANCH_NEVER;
 }
@@ -323,6 +369,8 @@ static Status check_entering(const Request *request)
 {
     for (int i = 0; i < request->add.count; i++) {
         const char *name = request->add.at[i];
+        int which;
+        const Instance *part = edge_part(request->state, name, &which);
         bool can = false;
 
         for (TreeKind kind = 0; kind < TREE_KINDS; kind++)
@@ -330,9 +378,8 @@ static Status check_entering(const Request *request)
         if (can)
             continue;
         (void)diag_at(request->diag, E_BRANCH, request->first[i].place,
-                      state_part(request->state, name)->is_virtual
-                          ? "%s has no freedom there: it can't be a branch"
-                          : "edge %s has no across relation: it can't be a branch",
+                      part->is_virtual ? "%s has no freedom there: it can't be a branch"
+                                       : "edge %s has no across relation: it can't be a branch",
                       name);
         diag_hint(request->diag,
                   "only bodies, joints, arms and components between terminals can be branches");
@@ -344,7 +391,8 @@ static Status check_entering(const Request *request)
 static Status check_dropped(const Request *request)
 {
     for (int i = 0; i < request->drop.count; i++) {
-        const Instance *part = state_part(request->state, request->drop.at[i]);
+        int which;
+        const Instance *part = edge_part(request->state, request->drop.at[i], &which);
 
         if (part->row->translation != BRANCH_ALWAYS || part->edge < 0)
             continue;
@@ -571,7 +619,9 @@ done:
 static void copy_names(State *to, NameList *list, const NameList *from, Text *remarks)
 {
     for (int i = 0; i < from->count; i++) {
-        if (state_part(to, from->at[i]) != NULL)
+        int which;
+
+        if (edge_part(to, from->at[i], &which) != NULL)
             LIST_PUSH(*list, state_text(to, from->at[i]));
         else if (remarks != NULL) {
             Text line = {0};

@@ -1,0 +1,213 @@
+/* switching.c: diode and switch
+ *
+ * Diode, v the forward voltage, i the current from plus to minus inside:
+ *   exponential   i = Is (exp(v/(n Vt)) - 1) + G v,  Vt = k T/q at T = 300.15 K (27 degrees
+ *                 Celsius), G = 1e-12 S, without which diodes that all block leave voltages open
+ *   piecewise     i = v/Roff below Vf, Vf/Roff + (v - Vf)/Ron above it
+ *   ideal         i >= 0, v <= Vf, i (v - Vf) = 0, written as i = max(0, i + g (v - Vf)) with
+ *                 g = 1 S; any g > 0 has the same solutions
+ * The comparisons in max and if are located by runs. */
+#include "component/component_rows.h"
+
+#include <string.h>
+
+/* clang-format off */
+static const Param diode_params[] = {
+    {"Is",   PARAM_LAW, "A",   "0", "saturation current: makes it exponential", false},
+    {"n",    PARAM_LAW, "1",   "1", "emission coefficient, with Is=", false},
+    {"Ron",  PARAM_LAW, "ohm", "0", "resistance above the forward voltage; 0 if not given", false},
+    {"Roff", PARAM_LAW, "ohm", "0", "resistance below it, with Ron=; nothing flows if not given", false},
+    {"Vf",   PARAM_LAW, "V",   "0", "forward voltage, from which on it conducts; not with Is=", false},
+};
+static const Param switch_params[] = {
+    {"when", PARAM_LAW, NULL,  NULL, "the condition that closes it, as t > 0.1 or h8 < 0", false},
+    {"Ron",  PARAM_LAW, "ohm", "0",  "resistance when it is closed", false},
+    {"Roff", PARAM_LAW, "ohm", "0",  "resistance when it is open; nothing flows if not given", false},
+};
+/* clang-format on */
+
+static bool given(const Instance *instance, const char *name)
+{
+    return instance_value(instance, name)->given;
+}
+
+/* --- diode --- */
+
+/* k T/q in volts at 300.15 K, both constants exact since 2019 (SI brochure, 9th edition) */
+static Expr thermal_voltage(Arena *arena)
+{
+    return expr_real(arena, 1.380649e-23 * 300.15 / 1.602176634e-19);
+}
+
+/* exp(x), from x = 100 on its tangent: no current goes there, but iterations do */
+static Expr bounded_exp(Arena *arena, Expr x)
+{
+    Expr most = expr_int(arena, 100);
+    Expr beyond = expr_call2(arena, OP_MAX, expr_int(arena, 0), expr_sub(arena, x, most));
+    Expr slope = expr_call1(arena, OP_EXP, most);
+
+    return expr_add(arena, expr_call1(arena, OP_EXP, expr_call2(arena, OP_MIN, most, x)),
+                    expr_mul(arena, slope, beyond));
+}
+
+static Expr exponential(const Instance *instance, Arena *arena, Expr v)
+{
+    Expr scale = expr_mul(arena, instance_scalar(instance, "n"), thermal_voltage(arena));
+    Expr power = bounded_exp(arena, expr_div(arena, v, scale));
+
+    return expr_add(arena,
+                    expr_mul(arena, instance_scalar(instance, "Is"),
+                             expr_sub(arena, power, expr_int(arena, 1))),
+                    expr_mul(arena, expr_decimal(arena, "1e-12"), v));
+}
+
+/* two straight lines that meet at the forward voltage; excess = v - Vf */
+static Expr piecewise(const Instance *instance, Arena *arena, Expr v, Expr excess)
+{
+    Expr zero = expr_int(arena, 0);
+    Expr above = expr_div(arena, excess, instance_scalar(instance, "Ron"));
+    Expr leak;
+
+    if (!given(instance, "Roff"))
+        return expr_call2(arena, OP_MAX, zero, above);
+    leak = instance_scalar(instance, "Roff");
+    above = expr_add(arena, above, expr_div(arena, instance_scalar(instance, "Vf"), leak));
+    return expr_if(arena, expr_call2(arena, OP_LT, zero, excess), above, expr_div(arena, v, leak));
+}
+
+static void diode_relation(const Instance *instance, Arena *arena, int which, const Motion1 *motion,
+                           Relation *out)
+{
+    Expr excess = expr_sub(arena, motion->across, instance_scalar(instance, "Vf"));
+
+    (void)which;
+    if (given(instance, "Is")) {
+        *out = (Relation){.kind = RELATION_CONDUCTIVE,
+                          .value = exponential(instance, arena, motion->across)};
+    } else if (given(instance, "Ron")) {
+        *out = (Relation){.kind = RELATION_CONDUCTIVE,
+                          .value = piecewise(instance, arena, motion->across, excess)};
+    } else {
+        Expr i = motion->through;
+        Expr flows = expr_call2(arena, OP_MAX, expr_int(arena, 0), expr_add(arena, i, excess));
+
+        *out = (Relation){.kind = RELATION_FREE, .value = expr_sub(arena, i, flows)};
+    }
+}
+
+static Status diode_check(const Instance *instance, Arena *arena, bool planar, Diag *diag)
+{
+    static const char *const lines[] = {"Ron", "Roff", "Vf"};
+    Status status = OK;
+
+    (void)arena;
+    (void)planar;
+    for (int i = 0; i < COUNT(lines); i++)
+        if (given(instance, "Is") && given(instance, lines[i])) {
+            (void)diag_set(diag, E_VALUE, "%s has Is= and %s=: it is exponential or it switches",
+                           instance->name, lines[i]);
+            diag_hint(diag, "a series resistance is a resistor of its own");
+            return E_VALUE;
+        }
+    if (given(instance, "n") && !given(instance, "Is")) {
+        (void)diag_set(diag, E_VALUE, "n= of %s needs Is=", instance->name);
+        diag_hint(diag, "as in Is=1e-14 n=1");
+        return E_VALUE;
+    }
+    if (given(instance, "Roff") && !given(instance, "Ron")) {
+        (void)diag_set(diag, E_VALUE, "Roff= of %s needs Ron=", instance->name);
+        diag_hint(diag, "without both it is ideal");
+        return E_VALUE;
+    }
+    for (int i = 0; i < instance->row->param_count && status == OK; i++)
+        if (strcmp(instance->row->params[i].name, "Vf") != 0 && instance->values[i].given)
+            status = check_positive(instance, instance->row->params[i].name, diag);
+    return status;
+}
+
+const Component component_diode = {
+    .name = "diode",
+    .family = FAMILY_SCALAR,
+    .domain = DOMAIN_ELECTRICAL,
+    .places = PLACES_TERMINALS,
+    .brief = "diode: exponential, of two straight lines, or ideal",
+    .params = diode_params,
+    .param_count = COUNT(diode_params),
+    .translation = BRANCH_MAY,
+    .preference = 30,
+    .relation = diode_relation,
+    .check = diode_check,
+    .help = "Conducts from plus to minus. With Is= it is exponential, i = Is*(exp(v/(n*Vt)) - 1) "
+            "with Vt = k*T/q = 25.865 mV at 27 degrees Celsius, and a leakage of 1 pA a volt. With "
+            "Ron= (and Roff=, Vf=) it is "
+            "made of two straight lines that meet at the forward voltage Vf. With neither it is "
+            "ideal: no current backwards, no voltage (or Vf) forwards; then the circuit has to "
+            "leave both open, so in series with an inductor it needs Ron= and Roff=. Runs locate "
+            "where it starts and ceases to conduct.",
+    .example = "# bridge rectifier\nvsource V1 a b 10*sin(314*t)\ndiode D1 a p Ron=0.1 Roff=1e6\n"
+               "diode D2 b p Ron=0.1 Roff=1e6\ndiode D3 0 a Ron=0.1 Roff=1e6\n"
+               "diode D4 0 b Ron=0.1 Roff=1e6\ncapacitor C1 p 0 1 mF\nresistor R1 p 0 100 ohm\n"
+               "init C1.v = 0\nsimulate 0.06\nprint p.v",
+    .see = "switch resistor",
+};
+
+/* --- switch --- */
+
+static void switch_relation(const Instance *instance, Arena *arena, int which,
+                            const Motion1 *motion, Relation *out)
+{
+    Expr when = instance_scalar(instance, "when");
+    Expr on = instance_scalar(instance, "Ron");
+    Expr off = instance_scalar(instance, "Roff");
+    Expr closed = expr_sub(arena, motion->across, expr_mul(arena, on, motion->through));
+    Expr open = motion->through;
+
+    (void)which;
+    if (given(instance, "Ron") && given(instance, "Roff")) {
+        *out = (Relation){.kind = RELATION_RESISTIVE,
+                          .value = expr_if(arena, when, on, off),
+                          .rest = expr_int(arena, 0)};
+        return;
+    }
+    if (given(instance, "Roff"))
+        open = expr_sub(arena, motion->across, expr_mul(arena, off, motion->through));
+    *out = (Relation){.kind = RELATION_FREE, .value = expr_if(arena, when, closed, open)};
+}
+
+static Status switch_check(const Instance *instance, Arena *arena, bool planar, Diag *diag)
+{
+    Status status = OK;
+
+    (void)arena;
+    (void)planar;
+    if (given(instance, "Ron"))
+        CHECK(check_not_negative(instance, "Ron", diag));
+    if (given(instance, "Roff"))
+        CHECK(check_positive(instance, "Roff", diag));
+done:
+    return status;
+}
+
+const Component component_switch = {
+    .name = "switch",
+    .family = FAMILY_SCALAR,
+    .domain = DOMAIN_ELECTRICAL,
+    .places = PLACES_TERMINALS,
+    .brief = "switch that a condition closes",
+    .params = switch_params,
+    .param_count = COUNT(switch_params),
+    .translation = BRANCH_MAY,
+    .preference = 30,
+    .relation = switch_relation,
+    .check = switch_check,
+    .help = "Closed while the condition holds, open while it doesn't. The condition is of time "
+            "(when=t > 0.1), of variables (when=C1.v > 5), or of both (&&, ||, !). With Ron= and "
+            "Roff= it is one or the other resistance; without them it is ideal: no voltage when "
+            "closed, no current when open, which the circuit has to allow. Runs locate where it "
+            "switches.",
+    .example =
+        "vsource V1 a 0 12\nswitch S1 a b when=t > 1 [ms] && t < 4 [ms] Ron=0.1 Roff=1 Mohm\n"
+        "resistor R1 b 0 100 ohm\ncapacitor C1 b 0 10 uF\ninit C1.v = 0\n"
+        "simulate 0.01 every=0.0001\nprint max(b.v), b.v",
+    .see = "diode resistor event",
+};
