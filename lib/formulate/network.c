@@ -127,6 +127,19 @@ static int normal_order(const System *system, const Branchlike *branch)
 }
 
 /* The user's tree, where it is a normal one; else as much of it as a normal tree may hold. */
+static void find_cutsets(System *system, TreeKind kind)
+{
+    const Tree *tree = system->trees[kind];
+
+    system->cutsets[kind] = tree_cutsets(tree);
+    for (int r = 0; r < tree_branch_count(tree); r++) {
+        Branchlike *branch = &system->branches.at[system->scalar_of_edge[tree_branches(tree)[r]]];
+
+        branch->branch = true;
+        branch->cutset = r;
+    }
+}
+
 static Status normal_tree(System *system, TreeKind kind, Diag *diag)
 {
     int *preference = NEW_ARRAY(int, graph_edge_count(system->graph));
@@ -341,24 +354,18 @@ done:
 /* minus the sum of the chords' through variables in the cutset */
 Status cutset_through(System *system, Branchlike *branch, Expr *out, Diag *diag)
 {
-    const Tree *tree = system->trees[branch_tree(system, branch)];
-    const int *chords = tree_chords(tree);
-    bool forward = tree_is_forward(tree, tree_far_node(tree, branch->edge));
+    const SignMatrix *cutsets = system->cutsets[branch_tree(system, branch)];
     LIST(Expr) terms = {0};
     Status status = OK;
 
-    for (int c = 0; c < tree_chord_count(tree); c++) {
-        const Edge *chord = graph_edge(system->graph, chords[c]);
-        int out_of = (int)tree_is_beyond(tree, branch->edge, chord->tail);
-        int into = (int)tree_is_beyond(tree, branch->edge, chord->head);
-        int sign = (out_of - into) * (forward ? 1 : -1);
+    for (int k = cutsets->start[branch->cutset]; k < cutsets->start[branch->cutset + 1]; k++) {
+        Branchlike *chord = &system->branches.at[system->scalar_of_edge[cutsets->column[k]]];
         Expr i;
 
-        if (sign == 0)
+        if (chord == branch)
             continue;
-        CHECK(network_through(system, &system->branches.at[system->scalar_of_edge[chords[c]]], &i,
-                              diag));
-        LIST_PUSH(terms, sign > 0 ? i : expr_neg(system->arena, i));
+        CHECK(network_through(system, chord, &i, diag));
+        LIST_PUSH(terms, cutsets->entry[k] < 0 ? i : expr_neg(system->arena, i));
     }
     *out = expr_sum(system->arena, terms.at, terms.count);
 done:
@@ -566,10 +573,7 @@ Status network_build(System *system, Diag *diag)
             continue;
         if (system->network_form == NETWORK_STATE)
             CHECK(normal_tree(system, kind, diag));
-        for (int i = 0; i < system->branches.count; i++)
-            if (branch_tree(system, &system->branches.at[i]) == kind)
-                system->branches.at[i].branch =
-                    tree_has(system->trees[kind], system->branches.at[i].edge);
+        find_cutsets(system, kind);
     }
     add_states(system);
     /* chords first: their currents are the ones to stay unknown */

@@ -53,6 +53,22 @@ static void copy_instances(System *system, const Model *model)
     }
 }
 
+/* the first that bears a name is found by it */
+static void enter_names(System *system)
+{
+    system->instance_names = names_new();
+    system->coordinate_names = names_new();
+    for (int i = 0; i < system->instance_count; i++) {
+        const Instance *instance = &system->instances[i];
+
+        (void)names_add(system->instance_names, instance->name);
+        for (int c = 0; c < instance->coord_count; c++)
+            if (names_add(system->coordinate_names, instance->coord[c]) ==
+                system->coordinate_owners.count)
+                LIST_PUSH(system->coordinate_owners, (CoordinateOwner){i, c});
+    }
+}
+
 static void vary_values(System *system, VaryValue vary, void *context)
 {
     for (int i = 0; i < system->instance_count; i++) {
@@ -345,6 +361,7 @@ static Status make(const Model *model, NetworkForm form, VaryValue vary, void *c
     report(watch, "formulating", -1.0);
     parameters_take(system, model);
     copy_instances(system, model);
+    enter_names(system);
     if (vary != NULL)
         vary_values(system, vary, context);
     CHECK(copy_graph(system, model, diag));
@@ -383,9 +400,14 @@ void system_free(System *system)
 {
     if (system == NULL)
         return;
-    for (TreeKind kind = 0; kind < TREE_KINDS; kind++)
+    for (TreeKind kind = 0; kind < TREE_KINDS; kind++) {
         tree_free(system->trees[kind]);
+        sign_matrix_free(system->cutsets[kind]);
+    }
     graph_free(system->graph);
+    names_free(system->instance_names);
+    names_free(system->coordinate_names);
+    LIST_FREE(system->coordinate_owners);
     LIST_FREE(system->q);
     LIST_FREE(system->u);
     LIST_FREE(system->x);

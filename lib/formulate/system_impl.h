@@ -16,6 +16,7 @@
 #define COTREE_FORMULATE_SYSTEM_IMPL_H
 
 #include "base/memory.h"
+#include "base/names.h"
 #include "formulate/system.h"
 
 typedef struct Vec {
@@ -160,6 +161,7 @@ typedef struct Branchlike { /* a scalar edge */
     int which;         /* of the instance's scalar edges */
     Relation relation; /* over the user's variables */
     bool branch;
+    int cutset;    /* of a branch: its row among its tree's cutsets */
     int unknown;   /* its v or i is one; -1 */
     bool busy;     /* its v or i is being followed */
     bool is_steep; /* a chord whose v is the unknown, i following from it */
@@ -185,6 +187,11 @@ typedef struct NetworkEquation { /* as printed */
     int edge; /* whose relation it is */
 } NetworkEquation;
 
+typedef struct CoordinateOwner {
+    int instance;
+    int coordinate;
+} CoordinateOwner;
+
 struct System {
     uint64_t revision;
     const Model *model; /* while it is made; NULL afterwards */
@@ -199,8 +206,12 @@ struct System {
 
     Instance *instances;
     int instance_count;
+    Names *instance_names;   /* numbered as the instances */
+    Names *coordinate_names; /* of all instances, */
+    LIST(CoordinateOwner) coordinate_owners;
     Graph *graph;
     Tree *trees[TREE_KINDS];
+    SignMatrix *cutsets[TREE_KINDS]; /* of scalar trees */
     const char **output_names;
     Expr *outputs;
     int output_count;

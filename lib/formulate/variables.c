@@ -232,6 +232,8 @@ static Status driver_variable(System *system, const Instance *driver, const char
 /* a state of the part's own, and its rate */
 static bool own_state(const System *system, const Instance *instance, const char *member, Expr *out)
 {
+    if (instance->row->own_state_count == NULL || instance->row->own_state_count(instance) == 0)
+        return false;
     for (int k = 0; k < system->unknowns.count; k++) {
         const Unknown *y = &system->unknowns.at[k];
         const char *dot = strrchr(expr_name(y->symbol), '.');
@@ -408,13 +410,11 @@ static Status entry_variable(System *system, const char *path, bool *found, Expr
 
 /* --- names --- */
 
-static const Instance *instance_named(const System *system, const char *name, size_t length)
+static const Instance *instance_named(const System *system, const char *name)
 {
-    for (int i = 0; i < system->instance_count; i++)
-        if (strncmp(system->instances[i].name, name, length) == 0 &&
-            system->instances[i].name[length] == '\0')
-            return &system->instances[i];
-    return NULL;
+    int number = names_find(system->instance_names, name);
+
+    return number >= 0 ? &system->instances[number] : NULL;
 }
 
 static Status member_variable(System *system, const char *path, Expr *out, Diag *diag)
@@ -430,8 +430,8 @@ static Status member_variable(System *system, const char *path, Expr *out, Diag 
 
         if (path[length] != '.' && path[length] != '\0')
             continue;
-        instance = instance_named(system, path, length);
         head = mem_text(path, length);
+        instance = instance_named(system, head);
         node = graph_find_node(system->graph, head);
         mem_free(head);
         dot = path[length] == '.' ? path + length : NULL;
@@ -466,14 +466,13 @@ static Status member_variable(System *system, const char *path, Expr *out, Diag 
 static bool find_coordinate(const System *system, const char *path, const Instance **owner,
                             int *which)
 {
-    for (int i = 0; i < system->instance_count; i++)
-        for (int c = 0; c < system->instances[i].coord_count; c++)
-            if (strcmp(system->instances[i].coord[c], path) == 0) {
-                *owner = &system->instances[i];
-                *which = c;
-                return true;
-            }
-    return false;
+    int number = names_find(system->coordinate_names, path);
+
+    if (number < 0)
+        return false;
+    *owner = &system->instances[system->coordinate_owners.at[number].instance];
+    *which = system->coordinate_owners.at[number].coordinate;
+    return true;
 }
 
 Status system_variable(System *system, const char *path, int primes, Expr *out, Diag *diag)
