@@ -62,7 +62,8 @@ typedef struct Edge {
     Domain domain;
     int component; /* the model's number of what it belongs to; graph code only hands it on */
     Branching branching[2]; /* mechanical: [0] translation, [1] rotation; scalar: [0] */
-    int preference[2]; /* for completion: lower first, edges of one preference in order of making */
+    int preference[2];      /* for completion: lower first, edges of one preference near the datum
+                               (scalar domains), then in order of making */
 } Edge;
 
 typedef struct Graph Graph;

@@ -415,6 +415,41 @@ static void preference_of_the_choice_goes_before_that_of_the_edges(void)
     graph_free(graph);
 }
 
+/* a series resistor and one to the datum in each section, the series one made first */
+static void circuits_of_a_long_ladder_are_short(void)
+{
+    enum { SECTIONS = 200 };
+    Graph *graph = graph_new();
+    int last = graph_add_node(graph, "0", DOMAIN_ELECTRICAL, true);
+    Edge edge = {.domain = DOMAIN_ELECTRICAL, .branching = {BRANCH_MAY, BRANCH_NEVER}};
+    Tree *tree;
+    SignMatrix *circuits;
+
+    for (int k = 0; k < SECTIONS; k++) {
+        char name[16];
+        int next;
+
+        (void)snprintf(name, sizeof name, "n%d", k);
+        next = graph_add_node(graph, name, DOMAIN_ELECTRICAL, false);
+        edge.name = "R";
+        edge.tail = last;
+        edge.head = next;
+        (void)graph_add_edge(graph, &edge);
+        edge.name = "G";
+        edge.head = 0;
+        edge.tail = next;
+        (void)graph_add_edge(graph, &edge);
+        last = next;
+    }
+    tree = make_tree(graph, TREE_ELECTRICAL, NULL);
+    circuits = tree_circuits(tree);
+    for (int r = 0; r < circuits->rows; r++)
+        EXPECT(circuits->start[r + 1] - circuits->start[r] <= 3);
+    sign_matrix_free(circuits);
+    tree_free(tree);
+    graph_free(graph);
+}
+
 static void exact_choice_is_taken_as_it_is(void)
 {
     Graph *graph = make_square();
@@ -463,6 +498,7 @@ int main(void)
     RUN(arms_enter_unasked_and_virtual_joints_when_asked);
     RUN(excluded_edges_stay_out_unless_chosen);
     RUN(preference_of_the_choice_goes_before_that_of_the_edges);
+    RUN(circuits_of_a_long_ladder_are_short);
     RUN(exact_choice_is_taken_as_it_is);
     RUN(domain_without_nodes_has_an_empty_tree);
     RUN(freeing_nothing_is_fine);
