@@ -191,6 +191,7 @@ View session_view(const ct_session *session)
     return (View){.model = session->model,
                   .result = runs > 0 ? session->runs.at[runs - 1].result : NULL,
                   .linear = session->linear,
+                  .freedoms = session_freedoms(session),
                   .page = {.columns = session->hooks.columns,
                            .unicode = session->hooks.unicode,
                            .notation = session->hooks.unicode ? NOTATION_UNICODE : NOTATION_TEXT},
@@ -275,7 +276,7 @@ static void remark_trees(ct_session *session)
     text_add(&line, ", ");
     layout_count(&line, cost.m, "constraint", "constraints");
     text_add(&line, ", ");
-    layout_count(&line, system_nu(view.system) - cost.m, "degree of freedom", "degrees of freedom");
+    view_freedoms(&line, view.system, view.freedoms);
     add_counts(&line, cost.written);
     if (before >= 0 &&
         (old.written.add != cost.written.add || old.written.mul != cost.written.mul ||
@@ -315,6 +316,22 @@ static void note_change(ct_session *session, uint64_t revision, bool trees_only)
     session_sweep(session);
 }
 
+/* Trees that take freedoms away are refused at once where the present values can be assembled, and
+ * what was before stays. */
+static Status try_trees(ct_session *session, const Statement *s, Diag *diag)
+{
+    Diag ignored;
+    Status status = OK;
+
+    if (graph_edge_count(model_graph(session->model)) > GLANCE)
+        return OK;
+    status = session_try_trees(session, diag);
+    if (status != E_BRANCH)
+        return status;
+    diag->place = s->verb_place;
+    return model_undo(session->model, &ignored) == OK ? E_BRANCH : E_MODEL;
+}
+
 ct_status ct_apply(ct_session *session, const ct_statement *statement, ct_error *error)
 {
     const Statement *s = statement_of(statement);
@@ -335,8 +352,12 @@ ct_status ct_apply(ct_session *session, const ct_statement *statement, ct_error 
         status = session_best_trees(session, &diag);
         if (status != OK && diag.place.line == 0)
             diag.place = s->verb_place;
+        if (status == OK)
+            CHECK(try_trees(session, s, &diag));
     } else {
         CHECK(model_apply(session->model, s, &diag));
+        if (chooses_trees(s))
+            CHECK(try_trees(session, s, &diag));
         session_remark(session, model_remarks(session->model));
     }
     if (s->verb != NULL && strcmp(s->verb, "init") == 0)

@@ -92,6 +92,40 @@ done:
     return status;
 }
 
+void session_note_freedoms(ct_session *session, const Result *result)
+{
+    if (system_revision(result_system((Result *)result)) != model_revision(session->model))
+        return;
+    session->freed = model_revision(session->model) + 1;
+    session->freedoms = result_freedoms(result);
+}
+
+int session_freedoms(const ct_session *session)
+{
+    return session->freed == model_revision(session->model) + 1 ? session->freedoms : -1;
+}
+
+Status session_try_trees(ct_session *session, Diag *diag)
+{
+    Order order = {0};
+    Result *result = NULL;
+    System *system;
+    Diag why;
+    Status status = session_system(session, &system, &why);
+
+    if (status != OK)
+        return OK;
+    order_make(session, &order);
+    status = session_check_freedoms(session, system, &order.setting, &why);
+    if (status == E_BRANCH && diag != NULL)
+        *diag = why;
+    if (status == OK && run_assemble(system, &order.setting, &result, &why) == OK)
+        session_note_freedoms(session, result);
+    result_free(result);
+    order_free(&order);
+    return status == E_BRANCH ? status : OK;
+}
+
 void session_remark_free(ct_session *session)
 {
     Branches branches = {0};

@@ -42,6 +42,8 @@ struct ct_session {
     bool start_is_later;    /* a bare name means the start, not the end of the last run */
     bool changed;           /* since the last run */
     uint64_t covered;       /* revision whose virtual branches lose no freedom, and 1 */
+    uint64_t freed;         /* revision whose freedoms are known, and 1 */
+    int freedoms;
     TreeCosts costs;
     int cost_now; /* of the trees chosen last, a place in `costs` */
     Text remarks; /* of the last call; at NULL: none */
@@ -91,6 +93,11 @@ MUST_USE Status session_model_copy(const char *base, const char *more, Model **o
  * revision. E_BRANCH names a virtual branch that takes some away. */
 MUST_USE Status session_check_freedoms(ct_session *session, System *system, const Setting *setting,
                                        Diag *diag);
+/* The same for trees just chosen, quietly: E_BRANCH, or OK, also where nothing can be assembled. */
+MUST_USE Status session_try_trees(ct_session *session, Diag *diag);
+/* what an assembly of the model as it is told of its freedoms; -1: there was none */
+void session_note_freedoms(ct_session *session, const Result *result);
+int session_freedoms(const ct_session *session);
 /* warn of virtual free joints among the branches */
 void session_remark_free(ct_session *session);
 

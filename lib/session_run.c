@@ -128,6 +128,7 @@ Status session_start(ct_session *session, Run **out, Diag *diag)
         CHECK(session_check_freedoms(session, system, &order.setting, diag));
         CHECK(run_assemble(system, &order.setting, &result, diag));
         session->start = order_done(&order, result);
+        session_note_freedoms(session, result);
         session_remark(session, result_remarks(result));
     }
     *out = &session->start;
@@ -272,6 +273,7 @@ static void keep_run(ct_session *session, Order *order, Result *result)
     char name[32];
 
     LIST_PUSH(session->runs, order_done(order, result));
+    session_note_freedoms(session, result);
     session->start_is_later = false;
     session->changed = false;
     session_remark(session, result_remarks(result));

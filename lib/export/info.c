@@ -358,9 +358,8 @@ void check_print(const View *view, const Result *start, const char *why, Text *o
     text_add(out, ", ");
     layout_count(out, system_m(system), "constraint", "constraints");
     text_add(out, ": ");
-    layout_count(out, system_nu(system) - system_m(system), "degree of freedom",
-                 "degrees of freedom");
-    text_add(out, " where they are independent\n");
+    view_freedoms(out, system, start != NULL ? result_freedoms(start) : -1);
+    text_char(out, '\n');
     if (system_nx(system) + system_nz(system) > 0) {
         text_add(out, "network: ");
         layout_count(out, system_nx(system), "state", "states");

@@ -33,7 +33,7 @@ static void add_freedom(Text *out, const View *view)
     if (nu != n)
         text_addf(&line, ", %d speeds", nu);
     text_add(&line, ": ");
-    layout_count(&line, nu - m, "degree of freedom", "degrees of freedom");
+    view_freedoms(&line, system, view->freedoms);
     view_comment(out, view, line.at);
     text_free(&line);
     mem_free(names);

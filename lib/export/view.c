@@ -15,6 +15,16 @@ char *view_expression(const View *view, Expr e)
     return text_done(&text);
 }
 
+void view_freedoms(Text *out, const System *system, int freedoms)
+{
+    const int nu = system_nu(system), m = system_m(system);
+
+    if (freedoms >= 0 || m == 0)
+        layout_count(out, freedoms >= 0 ? freedoms : nu, "degree of freedom", "degrees of freedom");
+    else
+        text_addf(out, "n - m = %d", nu - m);
+}
+
 char *view_name(const Syntax *syntax)
 {
     Text printed = {0}, name = {0};

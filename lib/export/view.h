@@ -14,6 +14,7 @@ typedef struct View {
     System *system;       /* of the model as it is; NULL unless equations are needed */
     Result *result;       /* the last run; NULL */
     const Linear *linear; /* the last linearisation; NULL */
+    int freedoms;         /* degrees of freedom where an assembly told them; -1 */
     Page page;
     const Watch *watch;
 } View;
@@ -22,6 +23,10 @@ typedef struct View {
  * mark before the relation. */
 void view_line(Text *out, const View *view, const char *lead, const char *left,
                const char *relation, const char *right);
+
+/* "2 degrees of freedom" where they are known or nothing constrains them, else the difference "n -
+ * m = 1": redundant constraints make it less than what is free */
+void view_freedoms(Text *out, const System *system, int freedoms);
 
 /* what the user called it: "mass(1,2)", "(h8 - s11)"; new string */
 char *view_name(const Syntax *syntax);

@@ -21,11 +21,6 @@ typedef struct Turning {
 } Turning;
 typedef LIST(Turning) Turnings;
 
-static int freedoms_of(const Result *start)
-{
-    return start->layout->nu - start->start.row_count;
-}
-
 /* admissible speeds at the start: freedoms x nu, row by row; new */
 static double *find_motions(Result *r)
 {
@@ -88,7 +83,7 @@ static Status find_turnings(Result *r, const char *tail, const char *head, Turni
     for (int i = 0; i < 3; i++)
         roots[i] = expr_sub(system_arena(r->system), roots[i], of_tail[i]);
     CHECK(probe_new(r->layout, &r->parameters, roots, 3, &probe, diag));
-    for (int i = 0; i < freedoms_of(r); i++) {
+    for (int i = 0; i < result_freedoms(r); i++) {
         const RowValues row = {.q = r->start.y, .u = motions + (ptrdiff_t)i * nu};
         const double *values = probe_values(probe, &row);
 
@@ -156,7 +151,7 @@ static void name_axis(const double axis[3], Text *out)
 Status freedoms_compare(Result *real, Result *with, const Instance *const *joints,
                         const char *const (*frames)[2], int count, Diag *diag)
 {
-    const int lost = freedoms_of(real) - freedoms_of(with);
+    const int lost = result_freedoms(real) - result_freedoms(with);
     Text axis = {0};
     Status status = OK;
 
@@ -184,7 +179,7 @@ Status freedoms_compare(Result *real, Result *with, const Instance *const *joint
         return status;
     }
     status = diag_set(diag, E_BRANCH, "%s takes away %d of %d freedoms", joints[0]->name, lost,
-                      freedoms_of(real));
+                      result_freedoms(real));
     diag_hint(diag, "tree - %s makes it a chord", joints[0]->name);
     return status;
 }

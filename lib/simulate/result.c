@@ -201,6 +201,11 @@ const RunReport *result_report(const Result *r)
     return &r->report;
 }
 
+int result_freedoms(const Result *r)
+{
+    return r->layout->nu - r->start.row_count;
+}
+
 const char *result_remarks(const Result *r)
 {
     return r->remarks.at != NULL ? r->remarks.at : "";

@@ -116,6 +116,8 @@ void result_free(Result *result); /* NULL is fine */
 RunKind result_kind(const Result *result);
 System *result_system(const Result *result);
 const RunReport *result_report(const Result *result);
+/* speeds less independent constraints, at the start of it */
+int result_freedoms(const Result *result);
 const char *result_remarks(const Result *result); /* lines for the user; may be "" */
 /* events of the model when the run was made, and earlier ones that happened before it went on */
 int result_event_count(const Result *result);
