@@ -211,14 +211,17 @@ int network_new_unknown(System *system, Unknown unknown, const char *name, Symbo
     return system->unknowns.count - 1;
 }
 
-static void push_rate(System *system, Unknown *y, Expr rate)
+/* one that is an expression leaves the order as it is */
+static void push_rate(System *system, Unknown *y, Expr rate, bool is_expression)
 {
-    Expr *rates = pool_alloc(system->pool, (size_t)(y->order + 1) * sizeof(Expr));
+    Expr *rates = pool_alloc(system->pool, (size_t)(y->known + 1) * sizeof(Expr));
 
-    if (y->order > 0)
-        memcpy(rates, y->rates, (size_t)y->order * sizeof(Expr));
-    rates[y->order++] = rate;
+    if (y->known > 0)
+        memcpy(rates, y->rates, (size_t)y->known * sizeof(Expr));
+    rates[y->known++] = rate;
     y->rates = rates;
+    if (!is_expression)
+        y->order = y->known;
 }
 
 /* one rate more of an unknown, as a symbol */
@@ -228,7 +231,7 @@ static Expr add_rate(System *system, int unknown, SymbolKind kind)
     const char *last = expr_name(y->order > 0 ? y->rates[y->order - 1] : y->symbol);
     Expr rate = expr_symbol(system->arena, system_keep(system, "%s'", last), kind);
 
-    push_rate(system, y, rate);
+    push_rate(system, y, rate, false);
     network_know(system, rate, unknown, y->order);
     return rate;
 }
@@ -291,8 +294,9 @@ Status network_rate(System *system, Expr symbol, Expr *out, Diag *diag)
     int k = system->unknown_of.at[number] - 1;
     int order = system->rate_of.at[number];
     Unknown *y = &system->unknowns.at[k];
+    Status status = OK;
 
-    if (order < y->order) {
+    if (order < y->known) {
         *out = y->rates[order];
         return OK;
     }
@@ -300,10 +304,13 @@ Status network_rate(System *system, Expr symbol, Expr *out, Diag *diag)
         return diag_set(diag, E_MISSING,
                         "the derivative of %s is not among the network's equations",
                         expr_name(symbol));
-    if (order > 3)
+    if (order >= (system->network_form == NETWORK_TREE ? NETWORK_ORDER : 3))
         return diag_set(diag, E_MODEL, "the network's equations need ever more derivatives of %s",
                         expr_name(y->symbol));
-    if (system->network_form == NETWORK_TREE) {
+    if (y->order < y->known) {
+        CHECK(rate_of(system, y->rates[y->known - 1], out, diag));
+        push_rate(system, &system->unknowns.at[k], *out, true);
+    } else if (system->network_form == NETWORK_TREE) {
         *out = add_rate(system, k, SYMBOL_STATE);
     } else {
         /* algebraic, or the rate of a state: its equation differentiated tells it */
@@ -312,9 +319,10 @@ Status network_rate(System *system, Expr symbol, Expr *out, Diag *diag)
         int added = network_new_unknown(system, more, name, SYMBOL_ALGEBRAIC);
 
         *out = system->unknowns.at[added].symbol;
-        push_rate(system, &system->unknowns.at[k], *out);
+        push_rate(system, &system->unknowns.at[k], *out, false);
     }
-    return OK;
+done:
+    return status;
 }
 
 /* --- across and through variables --- */

@@ -2,17 +2,19 @@
  *
  * Each unknown has a highest rate in the equations; they hold these linearly, and are solved for
  * them. Where their matrix L is singular throughout, elimination leaves a row without them. That
- * row tells the next lower rate of one of its unknowns, and, differentiated, the highest one, which
- * is put into the other rows: the unknown has then one order less. theory.md 8. */
+ * row tells a lower rate of one of its unknowns, and, differentiated, those above it, which are put
+ * into the other rows: the unknown is then of that order. theory.md 8. */
 #include "formulate/system_impl.h"
 
 #include <math.h>
 #include <string.h>
 
 #define ROUNDS 200
+#define ROOM   20000 /* nodes of expressions, from which on nobody would read them */
 
 typedef struct Order {
     System *system;
+    int64_t nodes; /* of the arena at the start */
     int count;
     Expr *row; /* G, one an unknown */
     Expr *L;   /* count x count */
@@ -96,18 +98,46 @@ static void form_leading(Order *o)
             o->L[i * o->count + j] = expr_diff(o->system->arena, o->row[i], highest(o, j));
 }
 
+static Status check_room(const Order *o, Diag *diag)
+{
+    Status status = poll(o->system->watch);
+
+    if (status == OK && arena_nodes(o->system->arena) - o->nodes > ROOM) {
+        status = diag_set(diag, E_MODEL, "the equations of this electrical tree grow too long");
+        diag_hint(diag, "set network state integrates the state form, which any network has");
+    }
+    return status;
+}
+
 /* --- one row without highest rates --- */
 
+/* What is left of the highest rates cancels, and others may, but for rounding. */
+static void drop_cancelled(const Order *o, Expr *row)
+{
+    Arena *arena = o->system->arena;
+    Expr zero = expr_int(arena, 0);
+
+    for (int j = 0; j < o->count; j++)
+        for (int k = 0; k <= o->system->unknowns.at[j].order; k++) {
+            Expr symbol = rate_symbol(&o->system->unknowns.at[j], k);
+
+            if (expr_depends(*row, symbol) &&
+                (k == o->system->unknowns.at[j].order || vanishes(expr_diff(arena, *row, symbol))))
+                *row = expr_substitute(arena, *row, &symbol, &zero, 1);
+        }
+}
+
 /* Eliminate until a row has none of them left; which row, its remainder in *out. */
-static int leftover(Order *o, Expr *out)
+static Status leftover(Order *o, int *found, Expr *out, Diag *diag)
 {
     Arena *arena = o->system->arena;
     int n = o->count;
     Expr *row = NEW_ARRAY(Expr, n);
     Expr *L = NEW_ARRAY(Expr, n * n);
     bool *used = NEW_ARRAY(bool, n);
-    int found = -1;
+    Status status = OK;
 
+    *found = -1;
     memcpy(row, o->row, (size_t)n * sizeof(Expr));
     memcpy(L, o->L, (size_t)(n * n) * sizeof(Expr));
     for (int c = 0; c < n; c++) {
@@ -124,6 +154,7 @@ static int leftover(Order *o, Expr *out)
 
             if (used[r] || vanishes(L[r * n + c]))
                 continue;
+            CHECK(check_room(o, diag));
             f = expr_div(arena, L[r * n + c], L[p * n + c]);
             for (int k = 0; k < n; k++)
                 L[r * n + k] = expr_fold(
@@ -131,37 +162,38 @@ static int leftover(Order *o, Expr *out)
             row[r] = expr_sub(arena, row[r], expr_mul(arena, f, row[p]));
         }
     }
-    for (int r = 0; r < n && found < 0; r++)
+    for (int r = 0; r < n && *found < 0; r++)
         if (!used[r]) {
-            /* what is left of the highest rates cancels */
             *out = row[r];
-            for (int j = 0; j < n; j++) {
-                Expr symbol = highest(o, j);
-                Expr zero = expr_int(arena, 0);
-
-                *out = expr_substitute(arena, *out, &symbol, &zero, 1);
-            }
+            drop_cancelled(o, out);
             *out = expr_fold(arena, *out);
-            found = r;
+            *found = r;
         }
+done:
     mem_free(row);
     mem_free(L);
     mem_free(used);
-    return found;
+    return status;
 }
 
-/* The unknown whose order the row lowers: that of which it holds the rate below the highest. */
-static int lowered_by(const Order *o, Expr row)
+/* The unknown whose order the row lowers most gently: it holds its rate `*rate` and none nearer to
+ * a highest one; -1: it holds none at all. */
+static int lowered_by(const Order *o, Expr row, int *rate)
 {
     int best = -1;
+    int gap = 0;
 
     for (int j = 0; j < o->count; j++) {
         const Unknown *y = &o->system->unknowns.at[j];
+        int k = y->order - 1;
 
-        if (y->order > 0 &&
-            !vanishes(expr_diff(o->system->arena, row, rate_symbol(y, y->order - 1))) &&
-            (best < 0 || y->order > o->system->unknowns.at[best].order))
-            best = j;
+        while (k >= 0 && vanishes(expr_diff(o->system->arena, row, rate_symbol(y, k))))
+            k--;
+        if (k < 0 || (best >= 0 && y->order - k >= gap))
+            continue;
+        best = j;
+        gap = y->order - k;
+        *rate = k;
     }
     return best;
 }
@@ -176,36 +208,82 @@ static Status cant_order(const Order *o, int row, Diag *diag)
     return E_MODEL;
 }
 
-static Status lower(Order *o, Diag *diag)
+/* in what hangs on the unknowns: v and i of edges, and rates that are expressions */
+static void substitute_all(System *system, const Expr *from, const Expr *to, int count)
 {
-    System *system = o->system;
     Arena *arena = system->arena;
-    Expr rest = NULL;
-    int r = leftover(o, &rest);
-    int j = r >= 0 ? lowered_by(o, rest) : -1;
-    Expr top;
-    Expr rate;
-    Expr solved;
-    Expr zero = expr_int(arena, 0);
-    Status status = OK;
 
-    if (j < 0)
-        return cant_order(o, r >= 0 ? r : 0, diag);
-    top = highest(o, j);
-    CHECK(rate_of(system, rest, &rate, diag));
-    solved = expr_neg(arena, expr_div(arena, expr_substitute(arena, rate, &top, &zero, 1),
-                                      expr_diff(arena, rate, top)));
-    for (int i = 0; i < o->count; i++)
-        if (i != r)
-            o->row[i] = expr_substitute(arena, o->row[i], &top, &solved, 1);
     for (int b = 0; b < system->branches.count; b++) {
         Branchlike *branch = &system->branches.at[b];
 
-        branch->v = expr_substitute(arena, branch->v, &top, &solved, 1);
-        branch->i = expr_substitute(arena, branch->i, &top, &solved, 1);
+        branch->v = expr_substitute(arena, branch->v, from, to, count);
+        branch->i = expr_substitute(arena, branch->i, from, to, count);
     }
+    for (int k = 0; k < system->unknowns.count; k++) {
+        const Unknown *y = &system->unknowns.at[k];
+
+        for (int i = y->order; i < y->known; i++)
+            y->rates[i] = expr_substitute(arena, y->rates[i], from, to, count);
+    }
+}
+
+/* What the rates of unknown j above order k are, as the equation `row` tells that of order k: the
+ * first in value[0], and so on. */
+static Status rates_by(const Order *o, Expr row, int j, int k, Expr *symbol, Expr *value,
+                       Diag *diag)
+{
+    System *system = o->system;
+    Arena *arena = system->arena;
+    Expr zero = expr_int(arena, 0);
+    int count = system->unknowns.at[j].order - k;
+    Status status = OK;
+
+    for (int i = 0; i < count; i++) {
+        Expr rate;
+
+        symbol[i] = rate_symbol(&system->unknowns.at[j], k + 1 + i);
+        CHECK(rate_of(system, i == 0 ? row : value[i - 1], &rate, diag));
+        if (i == 0)
+            value[0] =
+                expr_neg(arena, expr_div(arena, expr_substitute(arena, rate, symbol, &zero, 1),
+                                         expr_diff(arena, rate, symbol[0])));
+        else
+            value[i] = expr_substitute(arena, rate, symbol, value, i);
+    }
+done:
+    return status;
+}
+
+static Status lower(Order *o, Diag *diag)
+{
+    System *system = o->system;
+    Expr symbol[NETWORK_ORDER];
+    Expr value[NETWORK_ORDER];
+    Expr rest = NULL;
+    int k = 0;
+    int r = -1;
+    int j = -1;
+    int count;
+    Status status = OK;
+
+    CHECK(leftover(o, &r, &rest, diag));
+    if (r >= 0)
+        j = lowered_by(o, rest, &k);
+    if (j < 0)
+        return cant_order(o, r >= 0 ? r : 0, diag);
+    count = system->unknowns.at[j].order - k;
+    CHECK(rates_by(o, rest, j, k, symbol, value, diag));
+    for (int i = 0; i < o->count; i++)
+        if (i != r) {
+            CHECK(check_room(o, diag));
+            o->row[i] = expr_substitute(system->arena, o->row[i], symbol, value, count);
+        }
+    substitute_all(system, symbol, value, count);
     o->row[r] = rest;
-    system->unknowns.at[j].order--;
+    /* they can still be told */
+    for (int i = 0; i < count; i++)
+        system->unknowns.at[j].rates[k + i] = value[i];
+    system->unknowns.at[j].order = k;
 done:
     return status;
 }
@@ -239,19 +317,14 @@ static void rename(Order *o)
         y->right = expr_substitute(arena, y->right, from, to, o->count);
         y->residual = expr_substitute(arena, o->row[j], from, to, o->count);
     }
-    for (int b = 0; b < system->branches.count; b++) {
-        Branchlike *branch = &system->branches.at[b];
-
-        branch->v = expr_substitute(arena, branch->v, from, to, o->count);
-        branch->i = expr_substitute(arena, branch->i, from, to, o->count);
-    }
+    substitute_all(system, from, to, o->count);
     mem_free(from);
     mem_free(to);
 }
 
 Status network_bring_order(System *system, Diag *diag)
 {
-    Order o = {.system = system, .count = system->unknowns.count};
+    Order o = {.system = system, .nodes = arena_nodes(system->arena)};
     Status status = OK;
 
     for (int k = 0; k < system->unknowns.count; k++)
@@ -269,7 +342,6 @@ Status network_bring_order(System *system, Diag *diag)
             break;
         if (round == ROUNDS)
             CHECK(cant_order(&o, 0, diag));
-        CHECK(poll(system->watch));
         CHECK(lower(&o, diag));
     }
     rename(&o);

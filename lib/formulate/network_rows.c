@@ -148,6 +148,7 @@ Status network_row(System *system, int unknown, Diag *diag)
         CHECK(own_row(system, &y, diag));
     }
     y.order = system->unknowns.at[unknown].order;
+    y.known = system->unknowns.at[unknown].known;
     y.rates = system->unknowns.at[unknown].rates;
     sort_sides(system, &y);
     choose_sign(system, &y);

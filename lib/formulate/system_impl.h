@@ -155,6 +155,8 @@ typedef struct Recovery {
 
 /* --- network --- */
 
+enum { NETWORK_ORDER = 8 }; /* the highest of an equation */
+
 typedef struct Branchlike { /* a scalar edge */
     int edge;
     int instance;
@@ -176,7 +178,8 @@ typedef struct Unknown {
     int derives; /* its equation is that of this unknown, differentiated; -1 */
     Expr symbol; /* y */
     Expr *rates; /* y', y'' ... as far as they are met; in the system's pool */
-    int order;   /* of the highest */
+    int known;   /* how many */
+    int order;   /* of the highest that is no expression of others */
     bool has_row;
     Expr left, right; /* its equation */
     Expr residual;    /* what a run solves instead of left - right; NULL: that */

@@ -295,6 +295,52 @@ done:
     return status;
 }
 
+/* The scalar edge whose own stored variable a path names, "C1.v", "L1.i"; NULL. */
+static const Branchlike *storage_named(System *system, const char *path)
+{
+    for (int b = 0; b < system->branches.count; b++) {
+        const Branchlike *branch = &system->branches.at[b];
+        RelationKind kind = branch->relation.kind;
+
+        if ((kind == RELATION_CAPACITIVE || kind == RELATION_INDUCTIVE) &&
+            strcmp(branch_member(system, branch, kind == RELATION_INDUCTIVE), path) == 0)
+            return branch;
+    }
+    return NULL;
+}
+
+/* v' of a capacitor from its current, i' of an inductor from its voltage: i = content' + rest */
+static Status storage_rate(System *system, const char *path, Expr *out, Diag *diag)
+{
+    const Branchlike *branch = storage_named(system, path);
+    Arena *arena = system->arena;
+    const Instance *instance;
+    Expr own;
+    Expr own_rate;
+    Expr other;
+    Expr rest;
+    Expr zero = expr_int(arena, 0);
+
+    if (branch == NULL)
+        return E_MISSING; /* what rate_of() said stands */
+    instance = &system->instances[branch->instance];
+    own = instance_across(instance, arena, branch->which);
+    other = instance_through(instance, arena, branch->which);
+    if (branch->relation.kind == RELATION_INDUCTIVE) {
+        Expr kept = own;
+
+        own = other;
+        other = kept;
+    }
+    own_rate = user_rate(arena, own);
+    rest = expr_add(arena, branch->relation.rest, user_rate(arena, branch->relation.content));
+    rest = expr_substitute(arena, rest, &own_rate, &zero, 1);
+    return resolve(system,
+                   expr_div(arena, expr_sub(arena, other, rest),
+                            expr_diff(arena, branch->relation.content, own)),
+                   out, diag);
+}
+
 /* potential of a terminal against its datum: along the tree path */
 static Status terminal_variable(System *system, int node, Expr *out, Diag *diag)
 {
@@ -493,8 +539,12 @@ Status system_variable(System *system, const char *path, int primes, Expr *out, 
         }
     if (!found)
         CHECK(member_variable(system, path, out, diag));
-    for (; primes > 0; primes--)
-        CHECK(rate_of(system, *out, out, diag));
+    for (int k = 0; k < primes; k++) {
+        status = rate_of(system, *out, out, diag);
+        if (k == 0 && status == E_MISSING && !system->is_network_open)
+            status = storage_rate(system, path, out, diag);
+        CHECK(status);
+    }
 done:
     return status;
 }
