@@ -1,4 +1,4 @@
-/* controlled.c: sources whose voltage or current is a multiple of another one
+/* controlled.c: sources whose voltage or current is a multiple of something elsewhere
  *
  * The terminals c and d of a controlling voltage are only looked at: nothing flows into them, so
  * other components have to hold them. A controlling current is any expression. */
@@ -20,6 +20,9 @@ static const Param cccs_params[] = {
     {"gain", PARAM_LAW, "1", NULL, "current per controlling current", false},
 };
 
+static const Param sensor_params[] = {
+    {"gain", PARAM_LAW, NULL, "1", "volts per unit of what is sensed", false},
+};
 /* clang-format on */
 
 /* gain times the voltage between terminals c and d */
@@ -145,4 +148,34 @@ const Component component_cccs = {
     .example = "vsource V1 a 0 1\nresistor R1 a 0 1 kohm\ncccs F1 0 b of=R1.i gain=100\n"
                "resistor R2 b 0 50 ohm\nsimulate 0.01\nprint R2.i, b.v",
     .see = "ccvs vccs isource",
+};
+
+static void sensor_relation(const Instance *instance, Arena *arena, int which,
+                            const Motion1 *motion, Relation *out)
+{
+    (void)which;
+    (void)motion;
+    *out =
+        (Relation){.kind = RELATION_ACROSS,
+                   .value = expr_mul(arena, instance_scalar(instance, "gain"), instance->sensed)};
+}
+
+const Component component_sensor = {
+    .name = "sensor",
+    .family = FAMILY_SCALAR,
+    .domain = DOMAIN_ELECTRICAL,
+    .places = PLACES_SENSED,
+    .brief = "voltage proportional to a variable",
+    .params = sensor_params,
+    .param_count = COUNT(sensor_params),
+    .translation = BRANCH_MAY,
+    .preference = 10,
+    .relation = sensor_relation,
+    .help = "Its voltage is gain times a variable, and what it measures doesn't feel it: the angle "
+            "or position of a joint (h8), its rate (h8', a tachometer), the position of a point "
+            "(r5.x), a force (h9.fx), a current (R1.i). An expression stands in brackets.",
+    .example = "scene planar\nbody wheel mass=1 inertia=0.02\nrevolute h1 ground wheel\n"
+               "actuator a1 h1 torque=0.1\nsensor v1 h1 a 0 gain=2\nsensor v2 h1' b 0 gain=0.1\n"
+               "resistor R1 a 0 1 kohm\ninit h1 = 0, h1' = 0\nsimulate 1\nprint v1.v, v2.v, R1.i",
+    .see = "vsource pd potentiometer",
 };

@@ -29,11 +29,6 @@ const Verb verbs_later[] = {
     MECHANICAL("bushing", "nppVk", "TAIL TIP ..", "compliant joint"),
     MECHANICAL("contact", "nppVk", "TAIL TIP ..", "contact between two bodies"),
 
-    ELECTRICAL("platecap", "npppk", "JOINT PLUS MINUS C=..", "capacitor with a moving plate"),
-    ELECTRICAL("solenoid", "npppk", "JOINT PLUS MINUS L=.. R=..", "coil that a joint moves through"),
-    ELECTRICAL("voicecoil", "npppk", "JOINT PLUS MINUS K=.. R=.. L=..", "coil in a magnet's field"),
-    ELECTRICAL("piezo", "npppk", "JOINT PLUS MINUS C=.. d=.. k=..", "piezo stack on a joint"),
-    ELECTRICAL("sensor", "nvppk", "VARIABLE PLUS MINUS gain=..", "voltage proportional to a variable"),
     ELECTRICAL("pd", "nppk", "PLUS MINUS ref=.. of=.. Kp=.. Kd=..", "proportional and derivative control"),
     ELECTRICAL("pid", "nppk", "PLUS MINUS ref=.. of=.. Kp=.. Ki=.. Kd=..", "PID control"),
     ELECTRICAL("gain", "nppk", "PLUS MINUS of=.. k=..", "control: a multiple"),
