@@ -267,6 +267,9 @@ static const Member joint_spatial[] = {
     {"Tx",     "N*m", "moment on the tip about its origin, axes of the tail", 0},
     {"Ty",     "N*m", "moment on the tip about its origin, axes of the tail", 0},
     {"Tz",     "N*m", "moment on the tip about its origin, axes of the tail", 0},
+    {"Wx",     "rad/s", "angular velocity against the tail, axes of the tip", 1},
+    {"Wy",     "rad/s", "angular velocity against the tail, axes of the tip", 1},
+    {"Wz",     "rad/s", "angular velocity against the tail, axes of the tip", 1},
     {"effort", NULL,  "force or moment along the coordinate: of what acts on the joint", 0},
 };
 

@@ -173,6 +173,31 @@ done:
     return status;
 }
 
+/* angular velocity of the head against the tail in the axes of the head, its constant turn undone:
+ * the speeds of a joint with Euler parameters, where they are some */
+static Expr relative_rate(System *system, const Instance *joint, int axis)
+{
+    Arena *arena = system->arena;
+    const Frame *head = &system->frames[joint->head];
+    int tail = system->frames[joint->tail].chain;
+    Rotation back = rotation_transpose(&head->zero);
+    Rotation constant;
+    Steps steps;
+    Vec w;
+
+    instance_steps(system, joint, &steps);
+    if (steps.quaternion && system->speed[joint->number][steps.first_parameter] >= 0)
+        return system->u.at[system->speed[joint->number][steps.first_parameter] + axis].symbol;
+    for (int i = 0; i < 9; i++)
+        constant.at[i] = steps.rotation[i];
+    w = vec_sub(
+        arena,
+        vec_express(system, system->motions[head->chain].w, system->chains.at[head->chain].resolve,
+                    head->chain),
+        vec_express(system, system->motions[tail].w, system->chains.at[tail].resolve, head->chain));
+    return rotation_apply(arena, &constant, rotation_apply(arena, &back, w)).at[axis];
+}
+
 static Status joint_variable(System *system, const Instance *joint, const char *member, Expr *out,
                              Diag *diag)
 {
@@ -188,6 +213,10 @@ static Status joint_variable(System *system, const Instance *joint, const char *
         return tied_shift(system, joint, out, diag);
     if (axis == NULL)
         return diag_set(diag, E_MISSING, "%s.%s can't be told", joint->name, member);
+    if (member[0] == 'W') {
+        *out = relative_rate(system, joint, (int)(axis - letters));
+        return OK;
+    }
     return joint_reaction(system, joint, (ReactionPart){moment, own, (int)(axis - letters)}, out,
                           diag);
 }

@@ -220,8 +220,6 @@ __attribute__((unused)) static void guess_speeds(Model *model, const System *sys
     for (int i = 0; i < system_nu(system); i++) {
         char line[80];
 
-        if (strstr(system_u(system, i)->name, ".W") != NULL && system_u(system, i)->name[0] == 'j')
-            continue; /* of a joint with Euler parameters: can't be given */
         snprintf(line, sizeof line, "guess %s = %.3f", system_u(system, i)->name,
                  test_uniform(random, -1.0, 1.0));
         scene_add(model, line);

@@ -424,6 +424,34 @@ static void a_stopped_derivation_leaves_the_session_whole(void)
     kit_free(&kit);
 }
 
+/* angular speeds of a joint with Euler parameters, in the axes of its head: those of the arm there
+ * while the tail rests; the same whatever trees they are given in */
+static void angular_speeds_of_joints_can_be_given(void)
+{
+    static const char *const trees[] = {"tree joint\n", "tree absolute\n",
+                                        "tree translation b\ntree rotation j\n"};
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, "body b mass=1 inertia=[0.1, 0.2, 0.3]\n"
+                      "arm g ground [0.3, 0, 0] rotation=y(0.4)\n"
+                      "arm p b [0.1, 0.2, 0.4] rotation=x(0.5)*z(1.1)\n"
+                      "spherical j p g\n"
+                      "init j.q0 = 0.8, j.q1 = 0.6, j.q2 = 0, j.q3 = 0\n"
+                      "init j.Wx = 1, j.Wy = -2, j.Wz = 3\n");
+    for (int i = 0; i < 3; i++) {
+        EXPECT_DONE(&kit, trees[i]);
+        EXPECT_DONE(&kit, "assemble\n");
+        EXPECT_NEAR(kit_value(&kit, "j.Wx"), 1, 1e-9);
+        EXPECT_NEAR(kit_value(&kit, "j.Wy"), -2, 1e-9);
+        EXPECT_NEAR(kit_value(&kit, "j.Wz"), 3, 1e-9);
+        /* the head is g, which rests: its tail turns the other way round */
+        EXPECT_NEAR(kit_value(&kit, "p.wx*cos(0.4) - p.wz*sin(0.4)"), -1, 1e-9);
+        EXPECT_NEAR(kit_value(&kit, "p.wy"), 2, 1e-9);
+        EXPECT_NEAR(kit_value(&kit, "p.wx*sin(0.4) + p.wz*cos(0.4)"), -3, 1e-9);
+    }
+    kit_free(&kit);
+}
+
 int main(void)
 {
     RUN(a_run_keeps_energy_and_meets_the_start);
@@ -445,5 +473,6 @@ int main(void)
     RUN(formats_of_later_versions_say_so);
     RUN(a_stopped_run_keeps_what_it_has);
     RUN(a_stopped_derivation_leaves_the_session_whole);
+    RUN(angular_speeds_of_joints_can_be_given);
     return test_end();
 }

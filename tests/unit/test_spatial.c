@@ -150,7 +150,7 @@ static void check_models(bool loop, bool twins)
            compared.vanished, compared.reactions, compared.open);
     EXPECT(compared.systems > MODELS);
     EXPECT(compared.open == 0);
-    EXPECT((compared.vanished > 10 * MODELS) == twins);
+    EXPECT((compared.vanished > 5 * MODELS) == twins);
 }
 
 static void open_chains_accelerate_alike_in_all_trees(void)
