@@ -113,8 +113,8 @@ static int first_start(Cvode *c, double t)
         code = CVodeSVtolerances(c->memory, c->base.control.rtol, c->tolerance);
     if (code == 0)
         code = CVodeSetMaxNumSteps(c->memory, MAX_TRIES);
-    if (code == 0 && c->base.control.step > 0)
-        code = CVodeSetMaxStep(c->memory, c->base.control.step);
+    if (code == 0)
+        code = CVodeSetMaxStep(c->memory, control_largest(&c->base.control));
     if (code != 0)
         return code;
     if (c->base.method == &method_bdf) {

@@ -104,8 +104,8 @@ static int first_start(Ida *d, double t)
         code = IDASVtolerances(d->memory, control->rtol, d->tolerance);
     if (code == 0)
         code = IDASetMaxNumSteps(d->memory, MAX_TRIES);
-    if (code == 0 && control->step > 0)
-        code = IDASetMaxStep(d->memory, control->step);
+    if (code == 0)
+        code = IDASetMaxStep(d->memory, control_largest(control));
     if (code != 0)
         return code;
     d->matrix = SUNDenseMatrix(d->n, d->n, d->context);

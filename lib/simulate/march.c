@@ -754,6 +754,7 @@ Status march(const MarchPlan *plan, const double *start, Grid *grid, MarchReport
     if (method == &method_rk4 && !(m.control.step > 0))
         m.control.step = plan->every;
     m.stepper = method->create(motion_ode(plan->motion), &m.control);
+    m.control.span = plan->to - plan->from;
     *out = (MarchReport){.method = method, .reached = plan->from};
     status = run(&m, start, diag);
     give_up_stepper(&m);

@@ -10,6 +10,7 @@
 
 #include "base/diag.h"
 
+#include <math.h>
 #include <stdint.h>
 
 /* The same motion for solvers of implicit equations F(t, w, w') = 0; w holds y and multipliers. */
@@ -39,7 +40,15 @@ typedef struct Control {
     double rtol, atol;
     double step;  /* fixed or largest step, s; 0: free */
     double first; /* step to begin with; 0: chosen */
+    double span;  /* of the whole run, s; 0: not known */
 } Control;
+
+/* Largest step of methods that look at one to three places of a step: where nothing goes on they
+ * would step over a pulse and never know. */
+static inline double control_largest(const Control *control)
+{
+    return control->step > 0 ? control->step : control->span > 0 ? control->span / 50 : HUGE_VAL;
+}
 
 typedef struct Counts {
     int64_t steps, rejected, evaluations, jacobians;

@@ -624,6 +624,22 @@ static void a_stiff_model_is_handed_over(void)
     script_close(&bdf);
 }
 
+/* a pulse late in the run, after nothing: v = integral of the pulse */
+static void no_method_steps_over_a_pulse(void)
+{
+    static const char *const methods[] = {"dop853", "radau", "bdf", "adams", "ida"};
+
+    for (int i = 0; i < COUNT(methods); i++) {
+        Script script = run("isource I 0 a exp(-((t - 5)/0.2)^2)\ncapacitor C a 0 1\n"
+                            "resistor R a 0 1e6\ninit C.v = 0\nsimulate 10 rtol=1e-6 atol=1e-6",
+                            (Changes){.method = methods[i]});
+
+        EXPECT(script.status == OK);
+        EXPECT_NEAR(value_at(&script, "C.v", 10), 0.2 * sqrt(3.14159265358979323846), 1e-4);
+        script_close(&script);
+    }
+}
+
 static void a_warm_start_carries_the_configuration_over(void)
 {
     Script joint =
@@ -692,6 +708,7 @@ int main(void)
     RUN(what_has_no_states_runs_too);
     RUN(a_one_sided_spring_is_met_at_its_ends);
     RUN(a_stiff_model_is_handed_over);
+    RUN(no_method_steps_over_a_pulse);
     RUN(a_warm_start_carries_the_configuration_over);
     RUN(every_method_has_a_line_of_help);
     return test_end();
