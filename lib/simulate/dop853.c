@@ -4,7 +4,8 @@
  * projection after each accepted step comes before the first stage of the next, so it costs no
  * evaluation; the dense output ends at the projected point. The stiffness indicator is theirs
  * too (Solving ODE II, IV.2): h |f(a) - f(b)| / |a - b| over the two points at the end of a step
- * stays above 6.1 when stability, not accuracy, limits the steps. */
+ * stays above 6.1 when stability, not accuracy, limits the steps. Whether what limits them decays
+ * or swings is asked of the Jacobian: backward differentiation is no help against swinging. */
 #include "simulate/dop853_table.h"
 #include "simulate/ode.h"
 
@@ -21,6 +22,7 @@
 #define STIFF_BOUNDARY 6.1
 #define STIFF_COUNT    15
 #define CALM_COUNT     6
+#define DIFFERENCE     1e-7 /* of y, for a derivative */
 
 typedef struct Dop853 {
     Stepper base;
@@ -138,6 +140,65 @@ static double step_error(Dop853 *d, double h)
     return under > 0 ? fabs(h) * sum5 / sqrt(under * d->n) : under;
 }
 
+/* J w by a difference along w, J the Jacobian at the new point */
+static bool apply_jacobian(Dop853 *d, const double *w, double *out)
+{
+    double size = scaled_norm(d, w);
+    double step = fmax(1, DIFFERENCE / (AIM * d->base.control.rtol)) / size;
+
+    if (!(size > 0) || !isfinite(step))
+        return false;
+    for (int i = 0; i < d->all; i++)
+        d->stage_point[i] = d->base.y[i] + (i < d->n ? step * w[i] : 0);
+    if (!evaluate(d, d->base.t, d->stage_point, out))
+        return false;
+    for (int i = 0; i < d->n; i++)
+        out[i] = (out[i] - d->k[12][i]) / step;
+    return true;
+}
+
+static double scaled_product(const Dop853 *d, const double *v, const double *w)
+{
+    double sum = 0;
+
+    for (int i = 0; i < d->n; i++)
+        sum += v[i] / d->scale[i] * (w[i] / d->scale[i]);
+    return sum;
+}
+
+/* Whether the fastest part of the motion swings, rather than decays: J^(k+2) w = a J^(k+1) w + b
+ * J^k w for k = 0, 1 by least squares, w what is left of a difference after two products with J.
+ * The roots of x^2 = a x + b are its eigenvalues; swinging ones are further from the real axis than
+ * from the imaginary one. */
+static bool swings(Dop853 *d)
+{
+    double *w[] = {d->dense[0], d->dense[1], d->dense[2], d->dense[3]}; /* free until asked for */
+    double p[4][4];
+    double rate, a, b, d11, d12, d22, r1, r2, det;
+
+    for (int i = 0; i < d->n; i++)
+        w[0][i] = d->base.y[i] - d->stage_point[i];
+    if (!apply_jacobian(d, w[0], w[1]) || !apply_jacobian(d, w[1], w[0]))
+        return false;
+    for (int k = 0; k < 3; k++)
+        if (!apply_jacobian(d, w[k], w[k + 1]))
+            return false;
+    rate = scaled_norm(d, w[1]) / scaled_norm(d, w[0]);
+    for (int j = 0; j < 4; j++)
+        for (int k = 0; k < 4; k++)
+            p[j][k] = scaled_product(d, w[j], w[k]) / pow(rate, j + k);
+    /* a trace more on the diagonal: w may be a multiple of J w */
+    d12 = p[0][1] + p[1][2];
+    d11 = (p[1][1] + p[2][2]) * (1 + 1e-6);
+    d22 = (p[0][0] + p[1][1]) * (1 + 1e-6);
+    r1 = p[1][2] + p[2][3];
+    r2 = p[0][2] + p[1][3];
+    det = d11 * d22 - d12 * d12;
+    a = (r1 * d22 - r2 * d12) / det;
+    b = (d11 * r2 - d12 * r1) / det;
+    return 0.25 * a * a + b < 0 && a * a < -2 * b;
+}
+
 static void watch_stiffness(Dop853 *d, double h)
 {
     double rates = 0, points = 0;
@@ -151,8 +212,11 @@ static void watch_stiffness(Dop853 *d, double h)
     }
     if (points > 0 && h * sqrt(rates / points) > STIFF_BOUNDARY) {
         d->calm = 0;
-        if (++d->stiff >= STIFF_COUNT)
+        if (++d->stiff >= STIFF_COUNT) {
             d->base.is_stiff = true;
+            d->base.swings = swings(d);
+            d->stiff = 0;
+        }
     } else if (++d->calm >= CALM_COUNT) {
         d->stiff = 0;
     }

@@ -653,7 +653,8 @@ static Status one_step(March *m, double end, Diag *diag)
     }
     CHECK(add_rows(m, diag));
     repartition(m);
-    if (m->plan->method == NULL && m->stepper->is_stiff)
+    if (m->plan->method == NULL && m->stepper->is_stiff &&
+        !(m->plan->stiff_decays && m->stepper->swings))
         CHECK(hand_over(m, diag));
 done:
     return status;
@@ -753,8 +754,8 @@ Status march(const MarchPlan *plan, const double *start, Grid *grid, MarchReport
     m.mode = NEW_ARRAY(int, conditions);
     if (method == &method_rk4 && !(m.control.step > 0))
         m.control.step = plan->every;
-    m.stepper = method->create(motion_ode(plan->motion), &m.control);
     m.control.span = plan->to - plan->from;
+    m.stepper = method->create(motion_ode(plan->motion), &m.control);
     *out = (MarchReport){.method = method, .reached = plan->from};
     status = run(&m, start, diag);
     give_up_stepper(&m);

@@ -20,6 +20,7 @@ typedef struct MarchPlan {
     Events *events;       /* NULL: none */
     const Method *method; /* NULL: dop853 until it finds the problem stiff, then `stiff` */
     const Method *stiff;
+    bool stiff_decays; /* `stiff` is no help where what limits the steps swings */
     Control control;
     double from, to; /* s */
     double every;    /* output step, s */

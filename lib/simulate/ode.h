@@ -81,6 +81,7 @@ struct Stepper {
     double *y;     /* y at t, projected where the method projects */
     double next;   /* step it would take next, s */
     bool is_stiff; /* explicit methods: steps are cut by stability, not by accuracy */
+    bool swings;   /* ... and what cuts them swings rather than decays */
 };
 
 /* The row of that name, or NULL; row i, or NULL at the end. */

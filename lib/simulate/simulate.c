@@ -99,6 +99,7 @@ static MarchPlan plan_of(const Result *r, const Setting *setting, const RunOptio
         .events = r->events,
         .method = method,
         .stiff = motion_length(r->motion) > FEW ? &method_bdf : &method_radau,
+        .stiff_decays = motion_length(r->motion) > FEW,
         .control = {.rtol = options->rtol, .atol = options->atol, .step = options->step},
         .every = options->every,
         .watch = setting->watch};

@@ -640,6 +640,51 @@ static void no_method_steps_over_a_pulse(void)
     }
 }
 
+/* a line of equal sections behind a source, and a run of it */
+static Script run_line(const char *section, int count, const char *end, Changes changes)
+{
+    Text text = {0};
+    Script script;
+
+    text_add(&text, "vsource E a0 0 exp(-((t - 1.2 us)/240 ns)^2)\nresistor R a0 b0 30\n");
+    for (int i = 0; i < count; i++)
+        text_addf(&text, section, i, i, i + 1, i, i + 1);
+    text_add(&text, end);
+    script = run(text.at, changes);
+    text_free(&text);
+    return script;
+}
+
+#define COILS     "inductor L%d b%d b%d 1 uH\ncapacitor C%d b%d 0 1 nF\n"
+#define RESISTORS "resistor R%d b%d b%d 1\ncapacitor C%d b%d 0 1 nF\n"
+
+/* waves of high frequency cut the explicit steps, and backward differentiation would be worse */
+static void a_long_line_of_coils_stays_explicit(void)
+{
+    const char *end = "resistor Z b100 0 50\nsimulate 6 us rtol=1e-4 atol=1e-4";
+    Script script = run_line(COILS, 100, end, (Changes){0});
+    Script radau = run_line(COILS, 100, end, (Changes){.method = "radau", .rtol = 1e-7});
+
+    EXPECT(script.status == OK && radau.status == OK);
+    EXPECT_TEXT(result_report(script.result)->method, "dop853");
+    EXPECT_TEXT(result_remarks(script.result), "");
+    EXPECT_NEAR(value_at(&script, "b100.v", 4.4e-6), value_at(&radau, "b100.v", 4.4e-6), 1e-2);
+    EXPECT_NEAR(value_at(&script, "b50.v", 6e-6), value_at(&radau, "b50.v", 6e-6), 1e-2);
+    script_close(&script);
+    script_close(&radau);
+}
+
+static void a_long_line_of_resistors_is_handed_over(void)
+{
+    const char *end = "resistor Z b100 0 50\nsimulate 6 us rtol=1e-6";
+    Script script = run_line(RESISTORS, 100, end, (Changes){0});
+
+    EXPECT(script.status == OK);
+    EXPECT(strstr(result_remarks(script.result), "stiff from t = ") != NULL);
+    EXPECT_TEXT(result_report(script.result)->method, "bdf");
+    script_close(&script);
+}
+
 static void a_warm_start_carries_the_configuration_over(void)
 {
     Script joint =
@@ -709,6 +754,8 @@ int main(void)
     RUN(a_one_sided_spring_is_met_at_its_ends);
     RUN(a_stiff_model_is_handed_over);
     RUN(no_method_steps_over_a_pulse);
+    RUN(a_long_line_of_coils_stays_explicit);
+    RUN(a_long_line_of_resistors_is_handed_over);
     RUN(a_warm_start_carries_the_configuration_over);
     RUN(every_method_has_a_line_of_help);
     return test_end();
