@@ -140,6 +140,8 @@ typedef enum RelationKind {
     RELATION_CONDUCTIVE, /* i = value, which holds the edge's own v: a diode */
     RELATION_CAPACITIVE, /* i = content' + rest */
     RELATION_INDUCTIVE,  /* v = content' + rest */
+    RELATION_PORT,       /* of a part with two edges: v = value or i = inverse, over the v and i of
+                            the other edge; each edge gives one of them, as the tree asks */
     RELATION_FREE        /* value = 0, which gives neither: a nullor's output, an ideal switch */
 } RelationKind;
 
@@ -147,6 +149,7 @@ typedef enum RelationKind {
 typedef struct Relation {
     RelationKind kind;
     Expr value;
+    Expr inverse; /* RESISTIVE whose value holds the edge's own i: i over its v; may be NULL */
     Expr content; /* charge or flux; its kin in other domains */
     Expr rest;    /* back-emf, resistance of a winding; 0 */
     Expr stored;  /* energy in the edge, J; NULL: none, or it isn't known in closed form */

@@ -9,6 +9,9 @@
  * tree any rate of an unknown may be met, and the highest ones are solved for. theory.md 8. */
 #include "formulate/system_impl.h"
 
+#include "graph/sets.h"
+
+#include <stdlib.h>
 #include <string.h>
 
 #define DEEP 100 /* followed edges, from which on variables stay unknown rather than go further */
@@ -43,9 +46,29 @@ TreeKind branch_tree(const System *system, const Branchlike *branch)
 
 /* --- relations --- */
 
+/* a source whose value an inverse run finds: that unknown in the place of the value */
+static void found_value(System *system, Instance *source)
+{
+    int param = component_param(source->row, "value");
+    size_t size = (size_t)source->row->param_count * sizeof(Value);
+
+    for (int i = 0; i < system->drives.count; i++) {
+        const Drive *drive = &system->drives.at[i];
+        Value *values;
+
+        if (!drive->by_source || system->instances[drive->instance].by != source->number)
+            continue;
+        values = pool_alloc(system->pool, size);
+        memcpy(values, source->values, size);
+        values[param].at[0] = drive->effort;
+        source->values = values;
+    }
+}
+
 static void read_relation(System *system, Branchlike *branch)
 {
     const Instance *instance = owner_of(system, branch);
+    Instance source;
     Arena *arena = system->arena;
     Expr zero = expr_int(arena, 0);
     Motion1 motion = {zero, zero, instance_across(instance, arena, branch->which),
@@ -57,11 +80,9 @@ static void read_relation(System *system, Branchlike *branch)
         motion.displacement = instance_coordinate(instance, joint, arena, 0);
         motion.rate = instance_coordinate(instance, joint, arena, 1);
     }
-    instance->row->relation(instance, arena, branch->which, &motion, &branch->relation);
-    for (int i = 0; i < system->drives.count; i++)
-        if (system->drives.at[i].by_source &&
-            system->instances[system->drives.at[i].instance].by == branch->instance)
-            branch->relation.value = system->drives.at[i].effort;
+    source = *instance;
+    found_value(system, &source);
+    instance->row->relation(&source, arena, branch->which, &motion, &branch->relation);
 }
 
 /* what couplings bring to the relations of two parts */
@@ -113,6 +134,8 @@ static int normal_order(const System *system, const Branchlike *branch)
         return 10;
     case RELATION_CAPACITIVE:
         return 20;
+    case RELATION_PORT:
+        return 25;
     case RELATION_RESISTIVE:
     case RELATION_CONDUCTIVE:
         return 30;
@@ -124,6 +147,104 @@ static int normal_order(const System *system, const Branchlike *branch)
         break;
     }
     return graph_edge(system->graph, branch->edge)->preference[0];
+}
+
+/* The order in which edges are taken into the normal tree where there are ports. */
+typedef struct Taking {
+    System *system;
+    TreeKind kind;
+    Sets *nodes;     /* joined by what was taken */
+    int *preference; /* one an edge of the graph */
+    int taken;
+} Taking;
+
+static void take(Taking *taking, const Branchlike *branch)
+{
+    const Edge *edge = graph_edge(taking->system->graph, branch->edge);
+
+    if (sets_join(taking->nodes, edge->tail, edge->head))
+        taking->preference[branch->edge] = taking->taken++;
+}
+
+static bool is_taken(const Taking *taking, const Branchlike *branch)
+{
+    return taking->preference[branch->edge] < graph_edge_count(taking->system->graph);
+}
+
+static bool is_closed(const Taking *taking, const Branchlike *branch)
+{
+    const Edge *edge = graph_edge(taking->system->graph, branch->edge);
+
+    return sets_find(taking->nodes, edge->tail) == sets_find(taking->nodes, edge->head);
+}
+
+/* The v of one side of a port gives that of the other: where other edges close one side, the other
+ * side is next. */
+static void take_through_ports(Taking *taking)
+{
+    System *system = taking->system;
+
+    for (int i = 0; i < system->branches.count; i++) {
+        const Branchlike *p = &system->branches.at[i];
+        const Branchlike *s = p + 1;
+
+        if (p->relation.kind != RELATION_PORT || p->which > 0 ||
+            branch_tree(system, p) != taking->kind || is_taken(taking, p) || is_taken(taking, s) ||
+            is_closed(taking, p) == is_closed(taking, s))
+            continue;
+        take(taking, is_closed(taking, p) ? s : p);
+        i = -1; /* it may have closed another one */
+    }
+}
+
+/* the user's branches before others of their kind */
+static int rank_of(const System *system, TreeKind kind, const Branchlike *branch)
+{
+    return 2 * normal_order(system, branch) + !tree_has(system->trees[kind], branch->edge);
+}
+
+typedef struct Rank {
+    int order;
+    int branch;
+} Rank;
+
+static int compare_ranks(const void *a, const void *b)
+{
+    const Rank *x = a;
+    const Rank *y = b;
+
+    return x->order != y->order ? (x->order > y->order) - (x->order < y->order)
+                                : x->branch - y->branch;
+}
+
+static void choose_order(Taking *taking)
+{
+    System *system = taking->system;
+    LIST(Rank) ranks = {0};
+
+    for (int i = 0; i < system->branches.count; i++) {
+        const Branchlike *branch = &system->branches.at[i];
+
+        if (branch_tree(system, branch) != taking->kind)
+            continue;
+        LIST_PUSH(ranks, (Rank){rank_of(system, taking->kind, branch), i});
+    }
+    if (ranks.count > 0)
+        qsort(ranks.at, (size_t)ranks.count, sizeof(Rank), compare_ranks);
+    for (int k = 0; k < ranks.count; k++) {
+        take(taking, &system->branches.at[ranks.at[k].branch]);
+        take_through_ports(taking);
+    }
+    LIST_FREE(ranks);
+}
+
+static bool has_ports(const System *system, TreeKind kind)
+{
+    for (int i = 0; i < system->branches.count; i++)
+        if (system->branches.at[i].relation.kind == RELATION_PORT &&
+            branch_tree(system, &system->branches.at[i]) == kind)
+            return true;
+    return false;
 }
 
 /* The user's tree, where it is a normal one; else as much of it as a normal tree may hold. */
@@ -142,17 +263,22 @@ static void find_cutsets(System *system, TreeKind kind)
 
 static Status normal_tree(System *system, TreeKind kind, Diag *diag)
 {
-    int *preference = NEW_ARRAY(int, graph_edge_count(system->graph));
-    TreeChoice choice = {.preference = preference};
+    int count = graph_edge_count(system->graph);
+    Taking taking = {.system = system,
+                     .kind = kind,
+                     .nodes = sets_new(graph_node_count(system->graph)),
+                     .preference = NEW_ARRAY(int, count)};
+    TreeChoice choice = {.preference = taking.preference};
     Tree *tree = NULL;
     Status status = OK;
 
-    for (int i = 0; i < system->branches.count; i++) {
-        int edge = system->branches.at[i].edge;
-
-        preference[edge] = 2 * normal_order(system, &system->branches.at[i]) +
-                           !tree_has(system->trees[kind], edge);
-    }
+    for (int e = 0; e < count; e++)
+        taking.preference[e] = count;
+    if (has_ports(system, kind))
+        choose_order(&taking);
+    for (int i = 0; i < system->branches.count && taking.taken == 0; i++)
+        taking.preference[system->branches.at[i].edge] =
+            rank_of(system, kind, &system->branches.at[i]);
     CHECK(tree_complete(system->graph, kind, &choice, false, &tree, diag));
     for (int i = 0; i < tree_branch_count(tree); i++)
         if (!tree_has(system->trees[kind], tree_branches(tree)[i]))
@@ -160,7 +286,8 @@ static Status normal_tree(System *system, TreeKind kind, Diag *diag)
     tree_free(system->trees[kind]);
     system->trees[kind] = tree;
 done:
-    mem_free(preference);
+    sets_free(taking.nodes);
+    mem_free(taking.preference);
     return status;
 }
 
@@ -406,6 +533,8 @@ static Status resistive(System *system, Branchlike *branch, bool *given, Expr *o
     Expr rest;
     Status status = OK;
 
+    if (!branch->branch && branch->relation.inverse != NULL)
+        return resolve(system, branch->relation.inverse, out, diag);
     CHECK(branch->branch ? network_through(system, branch, &other, diag)
                          : network_across(system, branch, &other, diag));
     CHECK(resolve(system, branch->relation.value, &value, diag));
@@ -417,6 +546,12 @@ static Status resistive(System *system, Branchlike *branch, bool *given, Expr *o
         *out = expr_div(arena, expr_sub(arena, other, rest), value);
 done:
     return status;
+}
+
+bool port_gives_own(System *system, const Branchlike *branch)
+{
+    return branch->which == 0 ||
+           scalar_branch(system, owner_of(system, branch), 0)->branch != branch->branch;
 }
 
 /* v of a branch or i of a chord where its relation gives it; *given false where it doesn't */
@@ -444,6 +579,10 @@ static Status by_relation(System *system, Branchlike *branch, bool *given, Expr 
     case RELATION_CAPACITIVE:
         if (!branch->branch)
             return stored_rate(system, branch, out, diag);
+        break;
+    case RELATION_PORT:
+        if (port_gives_own(system, branch))
+            return resolve(system, branch->branch ? relation->value : relation->inverse, out, diag);
         break;
     case RELATION_FREE:
         break;

@@ -55,6 +55,16 @@ static void choose_sign(System *system, Unknown *y)
     y->right = expr_neg(system->arena, expr_open(system->arena, y->right));
 }
 
+/* the one of a port's two equations that is this edge's: v = value, or i = inverse */
+static Status port_row(System *system, Branchlike *branch, Unknown *y, Diag *diag)
+{
+    bool by_across = branch->branch == port_gives_own(system, branch);
+
+    y->left = by_across ? branch->v : branch->i;
+    return resolve(system, by_across ? branch->relation.value : branch->relation.inverse, &y->right,
+                   diag);
+}
+
 /* left = right by the relation of an edge */
 static Status relation_row(System *system, Unknown *y, Diag *diag)
 {
@@ -103,6 +113,9 @@ static Status relation_row(System *system, Unknown *y, Diag *diag)
     case RELATION_INDUCTIVE:
         y->left = content;
         y->right = expr_sub(arena, v, rest);
+        break;
+    case RELATION_PORT:
+        CHECK(port_row(system, branch, y, diag));
         break;
     case RELATION_FREE:
         y->left = value;

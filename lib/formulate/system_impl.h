@@ -452,6 +452,9 @@ MUST_USE Status circuit_across(System *system, Branchlike *branch, Expr *out, Di
 MUST_USE Status cutset_through(System *system, Branchlike *branch, Expr *out, Diag *diag);
 /* names of the edges in the circuit of a chord or the cutset of a branch; in the pool */
 const char *network_company(System *system, const Branchlike *branch);
+/* Whether an edge of a port gives its own variable (v of a branch, i of a chord) by the other edge;
+ * where it doesn't its equation is the other of the two. */
+bool port_gives_own(System *system, const Branchlike *branch);
 /* e is differentiated in time for `who`: E_MODEL where it jumps */
 MUST_USE Status need_smooth(System *system, const char *who, Expr e, Diag *diag);
 /* voltage and current of a scalar edge */
