@@ -5,6 +5,8 @@
  * the column of the speed that moves fewer bodies is taken, of equals the one further out. */
 #include "formulate/system_impl.h"
 
+#include <math.h>
+
 static int axes_of(const System *system, int node)
 {
     return system->chains.at[system->frames[node].chain].resolve;
@@ -228,8 +230,91 @@ done:
     return status;
 }
 
+/* An effort that holds u' pushes with inertia: of a flywheel on a shaft's end, of the liquid before
+ * a cylinder. Its slope belongs into M, and what it is at u' = 0 into F. */
+Status effort_inertia(System *system, const Effort *effort, int speed, Expr *out, Diag *diag)
+{
+    Expr slope = expr_diff(system->arena, effort->value, system->accelerations[speed]);
+
+    if ((expr_kinds(slope) & 1U << SYMBOL_ACCELERATION) != 0)
+        return diag_set(diag, E_MODEL, "%s pushes with more than a multiple of an acceleration",
+                        effort->instance->name);
+    *out = expr_neg(system->arena, slope);
+    return OK;
+}
+
+Expr effort_at_rest(System *system, const Effort *effort)
+{
+    int n = system->u.count;
+    Expr *zeros;
+    Expr value = effort->value;
+
+    if ((expr_kinds(value) & 1U << SYMBOL_ACCELERATION) == 0)
+        return value;
+    zeros = NEW_ARRAY(Expr, n);
+    for (int j = 0; j < n; j++)
+        zeros[j] = expr_int(system->arena, 0);
+    value = expr_substitute(system->arena, value, system->accelerations, zeros, n);
+    mem_free(zeros);
+    return value;
+}
+
+static Status add_inertia(System *system, const Effort *effort, Diag *diag)
+{
+    Arena *arena = system->arena;
+    int n = system->u.count;
+    Status status = OK;
+
+    for (int k = 0; (expr_kinds(effort->value) & 1U << SYMBOL_ACCELERATION) != 0 && k < n; k++) {
+        Expr inertia = NULL;
+
+        CHECK(effort_inertia(system, effort, k, &inertia, diag));
+        for (int j = 0; j < n && !expr_is_zero(inertia); j++) {
+            Expr *entry = &system->run.mass[j * n + k];
+            Expr share = expr_mul(arena, partial(system, effort->displacement, j), inertia);
+
+            *entry = expr_hold(arena, expr_add(arena, *entry, share));
+        }
+    }
+done:
+    return status;
+}
+
+static bool is_same_number(Expr a, Expr b)
+{
+    bool same = a == b;
+
+    for (uint32_t seed = 1; !same && seed <= 2; seed++) {
+        double x = value_somewhere(a, seed);
+        double y = value_somewhere(b, seed);
+
+        if (!(fabs(x - y) <= 1e-9 * (fabs(x) + fabs(y))))
+            return false;
+    }
+    return true;
+}
+
+/* a network that hands on accelerations one way only would make M unsymmetric */
+static Status check_symmetry(System *system, Diag *diag)
+{
+    int n = system->u.count;
+
+    for (int j = 0; j < n; j++)
+        for (int k = 0; k < j; k++)
+            if (!is_same_number(system->run.mass[j * n + k], system->run.mass[k * n + j])) {
+                (void)diag_set(diag, E_MODEL,
+                               "the network passes the acceleration of one of %s and %s on to "
+                               "the other one way only",
+                               system->u.at[k].name, system->u.at[j].name);
+                diag_hint(diag, "put a compliance between: a shaft or a rod with k=");
+                return E_MODEL;
+            }
+    return OK;
+}
+
 static Status joint_efforts(System *system, Diag *diag)
 {
+    bool inertia = false;
     Status status = OK;
 
     for (int i = 0; i < system->instance_count; i++) {
@@ -240,7 +325,9 @@ static Status joint_efforts(System *system, Diag *diag)
             continue;
         if (instance->row->effort != NULL) {
             CHECK(effort_of(system, instance, &effort, diag));
-            add_on_coordinate(system, effort.displacement, effort.value);
+            add_on_coordinate(system, effort.displacement, effort_at_rest(system, &effort));
+            CHECK(add_inertia(system, &effort, diag));
+            inertia = inertia || (expr_kinds(effort.value) & 1U << SYMBOL_ACCELERATION) != 0;
         }
         if (instance->row->rotor != NULL)
             CHECK(add_rotor(system, instance, diag));
@@ -256,6 +343,8 @@ static Status joint_efforts(System *system, Diag *diag)
                                diag));
         add_on_coordinate(system, s, system->drives.at[i].effort);
     }
+    if (inertia)
+        CHECK(check_symmetry(system, diag));
 done:
     return status;
 }

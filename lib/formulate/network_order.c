@@ -33,11 +33,16 @@ static double some_value(void *context, Expr symbol)
     return 0.7 + 0.6 * (double)x / 4294967296.0;
 }
 
+double value_somewhere(Expr e, uint32_t seed)
+{
+    return expr_evaluate(e, some_value, &seed);
+}
+
 /* zero at three places is zero */
 static bool vanishes(Expr e)
 {
     for (uint32_t seed = 1; seed <= 3; seed++)
-        if (fabs(expr_evaluate(e, some_value, &seed)) > 1e-11)
+        if (fabs(value_somewhere(e, seed)) > 1e-11)
             return false;
     return true;
 }
@@ -50,7 +55,7 @@ static int rank_at(Order *o, uint32_t seed)
     int rank = 0;
 
     for (int i = 0; i < n * n; i++)
-        a[i] = expr_is_zero(o->L[i]) ? 0 : expr_evaluate(o->L[i], some_value, &seed);
+        a[i] = expr_is_zero(o->L[i]) ? 0 : value_somewhere(o->L[i], seed);
     for (int c = 0; c < n && rank < n; c++) {
         int p = rank;
 

@@ -144,6 +144,25 @@ static Status rotor_of(System *system, const Instance *instance, Expr *inertia, 
                             0, s, diag);
 }
 
+/* what an effort on a joint adds to M */
+static Status push_inertia_of(System *system, const Instance *instance, int j, int k, Terms *terms,
+                              Diag *diag)
+{
+    Effort effort;
+    Expr inertia;
+    Status status = OK;
+
+    if (instance->row->effort == NULL || instance->joint < 0)
+        return OK;
+    CHECK(effort_of(system, instance, &effort, diag));
+    CHECK(effort_inertia(system, &effort, k, &inertia, diag));
+    if (!expr_is_zero(inertia))
+        LIST_PUSH(*terms,
+                  expr_mul(system->arena, partial(system, effort.displacement, j), inertia));
+done:
+    return status;
+}
+
 static Status show_mass(System *system, int j, int k, Expr *out, Diag *diag)
 {
     Arena *arena = system->arena;
@@ -172,6 +191,7 @@ static Status show_mass(System *system, int j, int k, Expr *out, Diag *diag)
                       expr_product(arena,
                                    (Expr[]){inertia, partial(system, s, j), partial(system, s, k)},
                                    3));
+        CHECK(push_inertia_of(system, &system->instances[i], j, k, &terms, diag));
     }
 done:
     *out = tidy(system, added(system, &terms));
@@ -228,7 +248,8 @@ static Status push_effort(System *system, const Instance *instance, int j, Terms
         CHECK(resolve(system, effort.value, &effort.value, diag));
         effort.displacement = length;
     }
-    LIST_PUSH(*terms, expr_mul(arena, effort.value, partial(system, effort.displacement, j)));
+    LIST_PUSH(*terms, expr_mul(arena, effort_at_rest(system, &effort),
+                               partial(system, effort.displacement, j)));
 done:
     return status;
 }

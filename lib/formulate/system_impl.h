@@ -409,6 +409,11 @@ typedef struct Effort {
 } Effort;
 
 MUST_USE Status effort_of(System *system, const Instance *instance, Effort *out, Diag *diag);
+/* what an effort adds to M in the column of a speed, per unit of its coordinate, and what is left
+ * of it at u' = 0. E_MODEL where it isn't linear in u'. */
+MUST_USE Status effort_inertia(System *system, const Effort *effort, int speed, Expr *out,
+                               Diag *diag);
+Expr effort_at_rest(System *system, const Effort *effort);
 /* wrench of force and torque components: in axes of *chain */
 MUST_USE Status wrench_of(System *system, const Instance *instance, Vec *force, Vec *torque,
                           int *chain, Diag *diag);
@@ -447,6 +452,8 @@ void network_know(System *system, Expr symbol, int unknown, int order);
 void network_list(System *system);
 /* in the form of the user's tree: which rates are states, which is solved for (network_order.c) */
 MUST_USE Status network_bring_order(System *system, Diag *diag);
+/* what an expression is where all its symbols have values that the seed chooses, 0.7 to 1.3 */
+double value_somewhere(Expr e, uint32_t seed);
 /* v of a chord along its circuit, i of a branch from its cutset */
 MUST_USE Status circuit_across(System *system, Branchlike *branch, Expr *out, Diag *diag);
 MUST_USE Status cutset_through(System *system, Branchlike *branch, Expr *out, Diag *diag);
