@@ -13,6 +13,35 @@ static void push(System *system, Terms *terms, Expr scale, Expr a, Expr b)
     LIST_PUSH(*terms, expr_product(system->arena, (Expr[]){scale, a, b}, 3));
 }
 
+/* what a scalar edge stores; 0 where nothing is known of it */
+static Expr stored_field(System *system, const Branchlike *branch)
+{
+    Expr stored = expr_int(system->arena, 0);
+
+    if (branch->relation.stored != NULL &&
+        resolve(system, branch->relation.stored, &stored, NULL) != OK)
+        stored = expr_int(system->arena, 0);
+    return stored;
+}
+
+/* flywheels and slugs hold energy of motion, as does the liquid of an inertance */
+static bool is_of_motion(const System *system, const Branchlike *branch)
+{
+    Domain domain = graph_edge(system->graph, branch->edge)->domain;
+
+    if (domain == DOMAIN_HYDRAULIC)
+        return branch->relation.kind == RELATION_INDUCTIVE;
+    return (domain == DOMAIN_SHAFT || domain == DOMAIN_SLIDE) &&
+           branch->relation.kind == RELATION_CAPACITIVE;
+}
+
+static void push_stored(System *system, Terms *terms, bool of_motion)
+{
+    for (int i = 0; i < system->branches.count; i++)
+        if (is_of_motion(system, &system->branches.at[i]) == of_motion)
+            LIST_PUSH(*terms, stored_field(system, &system->branches.at[i]));
+}
+
 Expr system_kinetic(System *system)
 {
     Arena *arena = system->arena;
@@ -40,6 +69,7 @@ Expr system_kinetic(System *system)
         push(system, &terms, half(arena), instance->row->rotor(instance, arena),
              expr_square(arena, rate));
     }
+    push_stored(system, &terms, true);
     sum = expr_sum(arena, terms.at, terms.count);
     LIST_FREE(terms);
     return sum;
@@ -53,17 +83,6 @@ static bool stored_in(System *system, const Effort *effort, Expr displacement, E
     Expr stored = effort->instance->row->potential(effort->instance, system->arena, &motion);
 
     return resolve(system, stored, out, NULL) == OK;
-}
-
-/* what a scalar edge stores; 0 where nothing is known of it */
-static Expr stored_field(System *system, const Branchlike *branch)
-{
-    Expr stored = expr_int(system->arena, 0);
-
-    if (branch->relation.stored != NULL &&
-        resolve(system, branch->relation.stored, &stored, NULL) != OK)
-        stored = expr_int(system->arena, 0);
-    return stored;
 }
 
 Expr system_potential(System *system)
@@ -87,8 +106,7 @@ Expr system_potential(System *system)
             stored_in(system, &effort, effort.displacement, &stored))
             LIST_PUSH(terms, stored);
     }
-    for (int i = 0; i < system->branches.count; i++)
-        LIST_PUSH(terms, stored_field(system, &system->branches.at[i]));
+    push_stored(system, &terms, false);
     sum = expr_sum(arena, terms.at, terms.count);
     LIST_FREE(terms);
     return sum;
