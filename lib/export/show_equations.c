@@ -55,7 +55,9 @@ static void add_dropped(Text *out, const View *view)
 
 static const char *edge_name(const View *view, const Variable *variable)
 {
-    return variable->edge >= 0 ? graph_edge(model_graph(view->model), variable->edge)->name : "";
+    if (variable->edge < 0)
+        return system_instance_name(view->system, variable->instance);
+    return graph_edge(model_graph(view->model), variable->edge)->name;
 }
 
 static const char *coordinate_kind(const System *system, int coordinate)
