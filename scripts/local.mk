@@ -26,4 +26,5 @@ EXTRA_DIST += \
 	scripts/reference/ref_heavy_top.ct
 
 # sessions to read and to type
-EXTRA_DIST += scripts/tours/bouncing-ball.ct scripts/tours/first-hour.ct
+EXTRA_DIST += scripts/tours/bouncing-ball.ct scripts/tours/first-hour.ct \
+	scripts/tours/hydraulic-lift.ct

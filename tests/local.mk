@@ -19,6 +19,7 @@ include tests/unit/spatial.mk
 include tests/unit/simulate.mk
 include tests/unit/session.mk
 include tests/unit/networks.mk
+include tests/unit/domains.mk
 include tests/unit/parts.mk
 include tests/session/session.mk
 include tests/terminal/terminal.mk

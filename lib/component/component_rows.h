@@ -37,4 +37,28 @@ void free_steps(const Instance *instance, Arena *arena, bool planar, Steps *out)
 /* refuses euler= in a planar scene */
 Status attitude_check(const Instance *instance, Arena *arena, bool planar, Diag *diag);
 
+/* --- scalar.c: what scalar domains share; relations are those of Component.relation --- */
+
+/* content value*x, and half of value*x^2 stored */
+void scalar_storage(RelationKind kind, Expr value, Expr x, Arena *arena, Relation *out);
+/* of rows with a param `value`: across = value, or through = -value (so much is given to plus) */
+void scalar_across_source(const Instance *instance, Arena *arena, int which, const Motion1 *motion,
+                          Relation *out);
+void scalar_through_source(const Instance *instance, Arena *arena, int which, const Motion1 *motion,
+                           Relation *out);
+/* what couples a line to a joint: across = its rate, and through works on it */
+void scalar_rate_of_joint(const Instance *instance, Arena *arena, int which, const Motion1 *motion,
+                          Relation *out);
+Expr scalar_through_on_joint(const Instance *instance, Arena *arena, const Motion1 *motion);
+/* of rows with params k and d: through = k*deflection + d*across, deflection' = across. The
+ * deflection is a state of the part's own where k and d are there, content where k is alone. */
+void scalar_spring(const Instance *instance, const char *deflection, Arena *arena,
+                   const Motion1 *motion, Relation *out);
+int scalar_spring_states(const Instance *instance);
+void scalar_spring_state(const Instance *instance, const char *deflection, Arena *arena,
+                         OwnState *out);
+Status scalar_check_spring(const Instance *instance, Arena *arena, bool planar, Diag *diag);
+/* refuses a joint's coordinate of the other kind; `instead` is the way out */
+Status scalar_check_hinge(const Instance *instance, bool hinge, const char *instead, Diag *diag);
+
 #endif

@@ -57,7 +57,7 @@ typedef struct Vary {
 /* the value that an input adds to: of a source, of an actuator */
 static bool is_input(const Instance *instance, int param)
 {
-    static const char *const names[] = {"value", "force", "torque"};
+    static const char *const names[] = {"value", "force", "torque", "pressure", "flow"};
     const Param *row = &instance->row->params[param];
 
     for (int i = 0; i < COUNT(names); i++)
@@ -102,9 +102,8 @@ static Status check_input(const LinearOrder *order, int i, Diag *diag)
         if (is_input(instance, k))
             return OK;
     (void)diag_set(diag, E_NAME, "%s has no value that an input could be", name);
-    diag_hint(diag,
-              "inputs are voltage and current sources, actuators, and parameters: F = 0 N; force "
-              "F1 m1 [F, 0]; linearize inputs=[F]");
+    diag_hint(diag, "inputs are sources, actuators, and parameters: F = 0 N; force "
+                    "F1 m1 [F, 0]; linearize inputs=[F]");
     return E_NAME;
 }
 
