@@ -11,7 +11,10 @@ EXTRA_DIST += \
 	scripts/paper/3_motor_arm_forward.ct \
 	scripts/paper/3_motor_arm_inverse.ct \
 	scripts/paper/4_spatial_slider_crank_a.ct \
-	scripts/paper/4_spatial_slider_crank_c.ct
+	scripts/paper/4_spatial_slider_crank_c.ct \
+	scripts/paper/5_microphone_cotree.ct \
+	scripts/paper/5_microphone_pull_in.ct \
+	scripts/paper/5_microphone_tree.ct
 
 # mechanisms with published reference solutions
 EXTRA_DIST += \

@@ -44,6 +44,7 @@ SCRIPT_TESTS = \
 	tests/cases/four_bar \
 	tests/cases/free_body \
 	tests/cases/heavy_top \
+	tests/cases/microphone \
 	tests/cases/motor_arm \
 	tests/cases/pendulum \
 	tests/cases/serial \
@@ -55,6 +56,8 @@ SCRIPT_TESTS = \
 	tests/install/installed_library_builds_a_program
 TESTS += $(SCRIPT_TESTS)
 EXTRA_DIST += $(SCRIPT_TESTS) tests/cases/cases.sh tests/cases/columns_agree \
+	tests/cases/microphone_equations.py \
 	tests/data/andrews_beta062.csv tests/data/free_body.csv tests/data/heavy_top.csv \
+	tests/data/microphone.csv \
 	tests/data/serial_motion.csv tests/data/serial_states.csv \
 	tests/data/spatial_slider_crank_a.csv tests/data/spatial_slider_crank_c.csv
