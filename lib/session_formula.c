@@ -18,44 +18,50 @@ void formula_free(Formula *formula)
 
 /* --- numbers that the session knows --- */
 
-/* functions of one argument over a run's rows */
-typedef double Reduction(const double *values, int count);
+/* functions of one argument over a run's rows, of which there is at least one */
+typedef double Reduction(const double *times, const double *values, int count);
 
-static double reduce_min(const double *values, int count)
+static double reduce_min(const double *times, const double *values, int count)
 {
     double out = values[0];
 
+    (void)times;
     for (int i = 1; i < count; i++)
         out = values[i] < out ? values[i] : out;
     return out;
 }
 
-static double reduce_max(const double *values, int count)
+static double reduce_max(const double *times, const double *values, int count)
 {
     double out = values[0];
 
+    (void)times;
     for (int i = 1; i < count; i++)
         out = values[i] > out ? values[i] : out;
     return out;
 }
 
-/* of the output grid, which is even */
-static double reduce_mean(const double *values, int count)
+/* by the trapezoidal rule: rows of events lie between those of the grid */
+static double mean_power(const double *times, const double *values, int count, int power)
 {
+    double span = times[count - 1] - times[0];
     double sum = 0;
 
-    for (int i = 0; i < count; i++)
-        sum += values[i];
-    return sum / count;
+    if (!(span > 0))
+        return pow(values[count - 1], power);
+    for (int i = 1; i < count; i++)
+        sum += (times[i] - times[i - 1]) * (pow(values[i - 1], power) + pow(values[i], power)) / 2;
+    return sum / span;
 }
 
-static double reduce_rms(const double *values, int count)
+static double reduce_mean(const double *times, const double *values, int count)
 {
-    double sum = 0;
+    return mean_power(times, values, count, 1);
+}
 
-    for (int i = 0; i < count; i++)
-        sum += values[i] * values[i];
-    return sqrt(sum / count);
+static double reduce_rms(const double *times, const double *values, int count)
+{
+    return sqrt(mean_power(times, values, count, 2));
 }
 
 static const struct {
@@ -295,8 +301,9 @@ static Status cut_reduction(Cut *cut, const Syntax *syntax, Reduction *reduce, E
     values = NEW_ARRAY(double, rows);
     CHECK(formula_rows(session, &argument, 1, grid, source, NULL, rows, values, 1, 0, diag));
     *out = push_leaf(
-        cut,
-        (Leaf){.kind = LEAF_CONSTANT, .value = rows > 0 ? reduce(values, rows) : NAN, .run = -1});
+        cut, (Leaf){.kind = LEAF_CONSTANT,
+                    .value = rows > 0 ? reduce(result_times(grid->result), values, rows) : NAN,
+                    .run = -1});
 done:
     formula_free(&argument);
     mem_free(values);
