@@ -34,6 +34,7 @@ typedef struct Item {
     bool is_live;  /* the model has it still */
     bool is_known; /* whether it holds: it was looked at */
     bool from_start, holds, ended;
+    bool is_resumed; /* an earlier run told how it began */
     LIST(double) times;
     Expr when;    /* over the layout's symbols */
     Expr formula; /* over the symbols of conditions */
@@ -205,7 +206,7 @@ static void write_formulas(Events *events)
 
 static Status compile(Events *events, const Expr *roots, int count, Probe **out, Diag *diag)
 {
-    for (int i = 0; i < count; i++)
+    for (int i = 0; roots != NULL && i < count; i++)
         events->solved = events->solved || stage_of(roots[i]) > STAGE_VELOCITY;
     return probe_new(events->plan.layout, events->plan.parameters, roots, count, out, diag);
 }
@@ -320,6 +321,7 @@ static void take_over(Events *events, const Item *old)
         item = &events->items.at[events->items.count - 1];
     }
     item->is_known = item->is_live && old->is_known;
+    item->is_resumed = old->is_known;
     item->holds = old->holds;
     item->from_start = old->from_start;
     for (int i = 0; i < old->times.count; i++)
@@ -350,7 +352,7 @@ void events_tell(const Events *events, Text *out)
         const Item *item = &events->items.at[i];
         int count = item->times.count - item->earlier;
 
-        if (item->from_start && !item->ended && item->earlier == 0)
+        if (item->from_start && !item->ended && !item->is_resumed)
             text_addf(out,
                       "event %s: %s holds at the start; it must be false before it can become "
                       "true\n",

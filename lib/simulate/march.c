@@ -269,8 +269,8 @@ static bool has_switched(March *m, int i)
     if (!(fabs(value) > m->band[i]))
         return false;
     m->band[i] = 0;
-    if (m->mode[i] == 0)
-        m->mode[i] = sign_of(value);
+    if (m->mode[i] == 0) /* what had no value till now becomes what it is */
+        m->mode[i] = is_of_event(m, i) ? -sign_of(value) : sign_of(value);
     return sign_of(value) != m->mode[i] && value != 0;
 }
 

@@ -310,7 +310,7 @@ static void velocity_rows(const Reset *reset, double *matrix, double *missing)
 }
 
 static bool velocity_sweep(const Reset *reset, Kkt *kkt, const double *matrix, const int *rows,
-                           int count, double *missing)
+                           int count, const double *missing)
 {
     const Equations *eq = reset->plan.equations;
     double *bottom = NEW_ARRAY(double, count);

@@ -21,7 +21,7 @@ static double time_of(Kit *kit, const char *event, int k)
     char *end;
 
     EXPECT_DONE(kit, "show events");
-    at = strstr(kit->text, "in the last run");
+    at = kit->text != NULL ? strstr(kit->text, "in the last run") : NULL;
     (void)snprintf(name, sizeof name, "\n  %s  ", event);
     at = at != NULL ? strstr(at, name) : NULL;
     if (at == NULL)
@@ -212,6 +212,19 @@ static void a_condition_that_is_met_on_leaving_the_start_happens_there(void)
     EXPECT(time_of(&kit, "now", 0) == 0);
     EXPECT(time_of(&kit, "turn", 0) == 0);
     EXPECT(isnan(time_of(&kit, "down", 0)));
+    kit_free(&kit);
+}
+
+static void a_condition_without_a_value_is_not_true(void)
+{
+    Kit kit = kit_new();
+
+    /* the root has none above s1 = 0.5 */
+    EXPECT_DONE(&kit, BALL "event e1 when=sqrt(0.5 - s1) > 0.1\nevent e2 when=sqrt(0.5 - s1) >= 0\n"
+                           "event e3 when=sqrt(-1 - s1) > 0\nsimulate 0.44");
+    EXPECT_NEAR(time_of(&kit, "e1", 0), sqrt(2 * 0.51 / 9.81), 1e-9);
+    EXPECT_NEAR(time_of(&kit, "e2", 0), sqrt(2 * 0.5 / 9.81), 1e-6);
+    EXPECT(isnan(time_of(&kit, "e3", 0)));
     kit_free(&kit);
 }
 
@@ -559,6 +572,7 @@ int main(void)
     RUN(every_operator_of_conditions_works);
     RUN(what_holds_at_the_start_must_be_false_before_it_happens);
     RUN(a_condition_that_is_met_on_leaving_the_start_happens_there);
+    RUN(a_condition_without_a_value_is_not_true);
     RUN(right_hand_sides_are_those_just_before);
     RUN(an_elastic_impact_keeps_momentum_and_energy);
     RUN(constraints_hold_after_new_values_in_whatever_tree);
