@@ -128,7 +128,7 @@ void session_sweep(ct_session *session)
     for (int i = 0; i < session->systems.count; i++) {
         System *system = session->systems.at[i];
 
-        if (system_revision(system) == model_revision(session->model) || is_named(session, system))
+        if (system_holds(system, session->model) || is_named(session, system))
             session->systems.at[kept++] = system;
         else
             system_free(system);
@@ -142,7 +142,7 @@ static Status system_of_form(ct_session *session, NetworkForm form, System **out
     Status status = OK;
 
     for (int i = 0; i < session->systems.count; i++)
-        if (system_revision(session->systems.at[i]) == model_revision(session->model) &&
+        if (system_holds(session->systems.at[i], session->model) &&
             system_network_form(session->systems.at[i]) == form) {
             *out = session->systems.at[i];
             return OK;

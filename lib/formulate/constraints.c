@@ -9,6 +9,8 @@
 #include <math.h>
 #include <string.h>
 
+#define MISFIT 1e-9 /* m or 1: parts that are off by less fit */
+
 enum { SAMPLES = 3 }; /* positions at which a row that vanishes is looked at */
 
 /* --- which rows --- */
@@ -292,7 +294,7 @@ static Status row_vanishes(System *system, const Row *row, Sample *const *sample
     *vanishes = false;
     if (!row_is_constant(system, row, samples, &value))
         return OK;
-    if (fabs(value) > 1e-9) {
+    if (fabs(value) > MISFIT) {
         (void)diag_set(diag, E_ASSEMBLE,
                        "%s can't be assembled: its equation along %s is %.6g = 0 in every position",
                        joint, row->told.direction, value);
@@ -305,6 +307,19 @@ static Status row_vanishes(System *system, const Row *row, Sample *const *sample
                                            row->told.rotation ? "turning about" : "position along",
                                            row->told.direction));
     return OK;
+}
+
+bool system_holds(const System *system, const Model *model)
+{
+    bool holds = system->revision == model_revision(model);
+
+    for (int k = 0; holds && k < system->vanished.count; k++) {
+        Expr phi = system->vanished.at[k].phi;
+
+        if (expr_kinds(phi) == 1U << SYMBOL_PARAMETER)
+            holds = fabs(model_number(model, phi)) <= MISFIT;
+    }
+    return holds;
 }
 
 /* --- rows to run --- */

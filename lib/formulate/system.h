@@ -32,6 +32,9 @@ MUST_USE Status system_new_form(const Model *model, NetworkForm form, const Watc
 bool system_tree_is_normal(const System *system);
 void system_free(System *system); /* NULL is fine */
 uint64_t system_revision(const System *system);
+/* Of the model as it is: of its revision, and what vanished when the equations were made vanishes
+ * with the parameters of now. */
+bool system_holds(const System *system, const Model *model);
 Arena *system_arena(const System *system);
 const char *system_instance_name(const System *system, int instance); /* borrowed */
 

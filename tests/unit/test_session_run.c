@@ -452,6 +452,20 @@ static void angular_speeds_of_joints_can_be_given(void)
     kit_free(&kit);
 }
 
+/* an equation that vanished by the values of parameters is looked at again with others */
+static void parts_that_no_longer_fit_are_told(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, "scene planar\nL1 = 0.5\nL2 = 0.5\nbody m1 mass=1 inertia=1\n"
+                      "arm a m1 [0, L1]\narm g ground [0, L2]\nprismatic s1 ground m1 axis=x\n"
+                      "prismatic s2 g a axis=x\ntree s1\nassemble\nL1 = 0.7\n");
+    EXPECT(kit_do(&kit, "assemble") == CT_FAILED);
+    EXPECT_HOLDS(kit.error.message, "s2 can't be assembled");
+    EXPECT_DONE(&kit, "L2 = 0.7\nassemble\n");
+    kit_free(&kit);
+}
+
 int main(void)
 {
     RUN(a_run_keeps_energy_and_meets_the_start);
@@ -474,5 +488,6 @@ int main(void)
     RUN(a_stopped_run_keeps_what_it_has);
     RUN(a_stopped_derivation_leaves_the_session_whole);
     RUN(angular_speeds_of_joints_can_be_given);
+    RUN(parts_that_no_longer_fit_are_told);
     return test_end();
 }
