@@ -45,8 +45,10 @@ typedef struct ct_hooks {
     bool (*stop)(void *context); /* whether to stop what is going on; called often; may be NULL */
     void (*progress)(void *context, const char *phase,
                      double fraction); /* fraction < 0: unknown; may be NULL */
-    bool unicode;                      /* Greek letters, dots, superscripts in what is shown */
-    int columns;                       /* width to wrap shown text to; 0: never */
+    /* where a file is that a statement reads data from: new, malloc(); NULL: as named */
+    char *(*find_file)(void *context, const char *name);
+    bool unicode; /* Greek letters, dots, superscripts in what is shown */
+    int columns;  /* width to wrap shown text to; 0: never */
 } ct_hooks;
 
 const char *ct_version(void); /* "0.1.0" */

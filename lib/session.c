@@ -34,6 +34,8 @@ void ct_session_hooks(ct_session *session, const ct_hooks *hooks)
     session->watch = (Watch){.context = session->hooks.context,
                              .stop = session->hooks.stop,
                              .progress = session->hooks.progress};
+    model_find_data(session->model, &(DataFinder){.find = session->hooks.find_file,
+                                                  .context = session->hooks.context});
 }
 
 static void drop_runs(ct_session *session)

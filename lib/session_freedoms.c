@@ -44,7 +44,7 @@ static Status assemble_real(ct_session *session, const Setting *setting, Model *
 {
     Setting plain = *setting;
     char *base = model_save(session->model);
-    Status status = session_model_copy(base, "tree joint\n", model, diag);
+    Status status = session_model_copy(session, base, "tree joint\n", model, diag);
 
     mem_free(base);
     plain.form = FORM_AUGMENTED;

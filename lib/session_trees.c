@@ -93,13 +93,15 @@ done:
     return status;
 }
 
-Status session_model_copy(const char *base, const char *more, Model **out, Diag *diag)
+Status session_model_copy(const ct_session *session, const char *base, const char *more,
+                          Model **out, Diag *diag)
 {
     Model *model = model_new();
     int count = 0;
     Status status;
 
     assert(base != NULL && more != NULL);
+    model_share_data(model, session->model);
     CHECK(apply_text(model, base, &count, diag));
     CHECK(apply_text(model, more, &count, diag));
     *out = model;
@@ -196,7 +198,7 @@ static void candidate_price(Search *search, Candidate *c)
         return;
     report(&search->session->watch, "trees", (double)search->formulated / MOST_SYSTEMS);
     search->formulated++;
-    if (session_model_copy(search->base, c->text, &model, &ignored) == OK &&
+    if (session_model_copy(search->session, search->base, c->text, &model, &ignored) == OK &&
         model_trees(model, trees, &ignored) == OK &&
         system_new(model, &search->watch, &system, &ignored) == OK) {
         c->trees = tree_brief(model, trees);
@@ -395,7 +397,7 @@ static Status add_proposals(Search *search, Diag *diag)
     Diag ignored;
     Status status;
 
-    CHECK(session_model_copy(search->base, "", &with, diag));
+    CHECK(session_model_copy(search->session, search->base, "", &with, diag));
     text_add(&base, search->base);
     for (int i = 0; i < search->proposals.count; i++) {
         int count = 0;
@@ -427,7 +429,7 @@ static Candidate *add_start(Search *search, const char *text, const char *called
     Model *model = NULL;
     Diag ignored;
 
-    if (session_model_copy(search->base, text, &model, &ignored) == OK &&
+    if (session_model_copy(search->session, search->base, text, &model, &ignored) == OK &&
         model_trees(model, trees, &ignored) == OK) {
         c = candidate_new(search);
         for (int half = 0; half < 2; half++)
@@ -458,7 +460,7 @@ static Status open_search(Search *search, Diag *diag)
     }
     search->base = model_save(search->session->model);
     search->own = graph_edge_count(model_graph(search->session->model));
-    CHECK(session_model_copy(search->base, "tree joint\n", &search->model, diag));
+    CHECK(session_model_copy(search->session, search->base, "tree joint\n", &search->model, diag));
     CHECK(find_proposals(search, diag));
     CHECK(add_proposals(search, diag));
 done:

@@ -31,11 +31,20 @@ static void hook_progress(void *context, const char *phase, double fraction)
     progress_show(&shell->progress, phase, fraction);
 }
 
+/* as `source` means it: beside the script that names it, if it is there */
+static char *hook_find_file(void *context, const char *name)
+{
+    const Shell *shell = context;
+
+    return file_beside(shell->script, name);
+}
+
 void shell_set_width(Shell *shell, int columns)
 {
     ct_hooks hooks = {.context = shell,
                       .stop = hook_stop,
                       .progress = hook_progress,
+                      .find_file = hook_find_file,
                       .unicode = shell->unicode,
                       .columns = columns};
 

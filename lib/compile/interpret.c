@@ -58,6 +58,16 @@ static void run_calls(const Run *run, const uint32_t *operand, double *slots)
     }
 }
 
+/* operands: which table, x, the order of the derivative */
+static void run_tables(const Run *run, const uint32_t *operand, Curve *const *tables, double *slots)
+{
+    double *result = slots + run->result;
+
+    for (int i = 0; i < run->count; i++, operand += 3)
+        result[i] =
+            curve_value(tables[(int)slots[operand[0]]], slots[operand[1]], (int)slots[operand[2]]);
+}
+
 /* the compiler makes one library call of the two */
 static void run_sines(const Run *run, const uint32_t *operand, double *slots)
 {
@@ -108,7 +118,10 @@ void workspace_run(Workspace *workspace, Stage from, Stage to)
     for (int r = program->first_run[from]; r < program->first_run[to + 1]; r++) {
         const Run *run = &program->runs.at[r];
 
-        run_one(run, tape + run->operands, workspace->slots);
+        if (run->code == CODE_CALL + OP_TABLE)
+            run_tables(run, tape + run->operands, program->tables.at, workspace->slots);
+        else
+            run_one(run, tape + run->operands, workspace->slots);
     }
     for (int i = program->first_root[from]; i < program->first_root[to + 1]; i++)
         workspace->roots[program->roots[i].root] = workspace->slots[program->roots[i].slot];

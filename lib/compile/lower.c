@@ -285,6 +285,11 @@ static Status lower_node(Lowering *low, Expr e, Diag *diag)
         value = lower_number(low, e);
         break;
     case EXPR_SYMBOL:
+        if (expr_data(e) != NULL) {
+            value = positive(add_constant(low, low->out->tables.count));
+            LIST_PUSH(low->out->tables, expr_data(e));
+            break;
+        }
         (void)diag_set(diag, E_NAME, "%s has no value here", expr_name(e));
         diag_hint(diag, "it is needed and is none of the inputs");
         return E_NAME;
@@ -394,6 +399,7 @@ done:
 void lowered_free(Lowered *lowered)
 {
     LIST_FREE(lowered->values);
+    LIST_FREE(lowered->tables);
     mem_free(lowered->roots);
     *lowered = (Lowered){.input_count = 0};
 }

@@ -23,6 +23,7 @@ Stage stage_of_symbol(SymbolKind kind)
         [SYMBOL_JERK] = STAGE_ACCELERATION,
         [SYMBOL_VARIABLE] = -1,
         [SYMBOL_ARGUMENT] = -1,
+        [SYMBOL_TABLE] = -1,
     };
 
     assert(stages[kind] >= 0);
@@ -62,6 +63,8 @@ Status program_new(const Expr *roots, int root_count, const Expr *inputs, int in
 
         program->input_names[i] = pool_text(program->texts, name, strlen(name));
     }
+    for (int i = 0; i < lowered.tables.count; i++)
+        LIST_PUSH(program->tables, curve_copy(lowered.tables.at[i]));
     schedule(program, &lowered);
     lowered_free(&lowered);
     *out = program;
@@ -75,6 +78,9 @@ void program_free(Program *program)
         return;
     mem_free(program->input_names);
     LIST_FREE(program->constants);
+    for (int i = 0; i < program->tables.count; i++)
+        curve_free(program->tables.at[i]);
+    LIST_FREE(program->tables);
     mem_free(program->roots);
     LIST_FREE(program->runs);
     LIST_FREE(program->tape);

@@ -36,7 +36,8 @@ typedef struct Value {
 } Value;
 
 typedef struct Lowered {
-    LIST(Value) values; /* inputs first */
+    LIST(Value) values;         /* inputs first */
+    LIST(const Curve *) tables; /* borrowed; what data is as a value is its place here */
     int input_count;
     uint32_t *roots; /* values */
     int root_count;
@@ -69,6 +70,7 @@ struct Program {
     int slot_count;
     const char **input_names;
     LIST(double) constants;
+    LIST(Curve *) tables;
     LIST(Run) runs;
     LIST(uint32_t) tape;
     Handover *roots;                /* by stage */

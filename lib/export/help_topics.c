@@ -66,7 +66,11 @@ static void write_functions(Text *out)
     layout_words(out, TOPIC_WIDTH, "",
                  "Angles are in radians. step is 0 below 0 and 1 from there on, ramp(x) is "
                  "x*step(x), if(c, a, b) is a where c holds and else b. Of time: pulse(t, low, "
-                 "high, delay, rise, fall, width, period), pwl(t, t0, v0, t1, v1, ...). Over the "
+                 "high, delay, rise, fall, width, period), pwl(t, t0, v0, t1, v1, ...). "
+                 "table(\"file.csv\", x, column) is a smooth curve through the data of a file: the "
+                 "first column is x, another is picked by its number or its name in quotes, the "
+                 "second if none is; outside the data the value stays that of the end; a number "
+                 "behind the column asks for that derivative by x. Over the "
                  "last run, of one argument: min(x) max(x) mean(x) rms(x). Entries of the "
                  "equations: mass(1,2), forces(1), lambda(1). Operators: + - * / ^, < <= > >= == "
                  "!= && || !; a prime is a time derivative (h8', h8'').");

@@ -24,14 +24,14 @@ typedef struct Rename { /* symbols and the identifiers that stand for them */
 
 /* what an identifier of ours may not be: keywords, and what the functions call their own */
 static const char *const reserved[] = {
-    "auto", "break",  "case",    "char",     "const",    "continue", "default", "do",     "double",
-    "else", "enum",   "extern",  "float",    "for",      "goto",     "if",      "inline", "int",
-    "long", "return", "short",   "signed",   "sizeof",   "static",   "struct",  "switch", "union",
-    "void", "while",  "y0",      "y1",       "yn",       "j0",       "j1",      "jn",     "gamma",
-    "p",    "t",      "q",       "u",        "x",        "z",        "out",     "sin",    "cos",
-    "tan",  "asin",   "acos",    "atan",     "atan2",    "sinh",     "cosh",    "tanh",   "exp",
-    "log",  "sqrt",   "fabs",    "pow",      "fmin",     "fmax",     "floor",   "sign",   "step",
-    "ramp", "main",   "typedef", "volatile", "unsigned", "register", "restrict"};
+    "auto", "break",  "case",   "char",    "const",    "continue", "default",  "do",      "double",
+    "else", "enum",   "extern", "float",   "for",      "goto",     "if",       "inline",  "int",
+    "long", "return", "short",  "signed",  "sizeof",   "static",   "struct",   "switch",  "union",
+    "void", "while",  "y0",     "y1",      "yn",       "j0",       "j1",       "jn",      "gamma",
+    "p",    "t",      "q",      "u",       "x",        "z",        "out",      "sin",     "cos",
+    "tan",  "asin",   "acos",   "atan",    "atan2",    "sinh",     "cosh",     "tanh",    "exp",
+    "log",  "sqrt",   "fabs",   "pow",     "fmin",     "fmax",     "floor",    "sign",    "step",
+    "ramp", "main",   "table",  "typedef", "volatile", "unsigned", "register", "restrict"};
 
 /* letters, digits and _ of the name; a prime becomes _d; unique */
 static const char *identifier(Rename *rename, const char *name)
@@ -187,6 +187,52 @@ static Status check_symbols(const Rename *rename, const Expr *entries, int count
     return status;
 }
 
+/* --- data --- */
+
+/* one array a table: its points, then x, y and y'' of each; and what computes the curve */
+static void add_tables(Text *out, const Expr *roots, int count)
+{
+    Expr *symbols = NULL;
+    const int found = expr_tables(roots, count, &symbols);
+
+    if (found > 0)
+        text_add(
+            out,
+            "\n/* a natural cubic spline, or a derivative of it; constant outside its points */\n"
+            "static double table(const double *data, double v, int order)\n{\n"
+            "    const int n = (int)data[0];\n"
+            "    const double *x = data + 1, *y = x + n, *m = y + n;\n"
+            "    int i = 0, last = n - 1;\n\n"
+            "    if (v < x[0] || v > x[n - 1])\n"
+            "        return order > 0 ? 0 : v < x[0] ? y[0] : y[n - 1];\n"
+            "    while (last - i > 1) {\n"
+            "        const int middle = (i + last) / 2;\n\n"
+            "        if (v < x[middle])\n            last = middle;\n"
+            "        else\n            i = middle;\n    }\n"
+            "    const double h = x[i + 1] - x[i], a = (x[i + 1] - v) / h, b = (v - x[i]) / h;\n\n"
+            "    if (order == 0)\n"
+            "        return a * y[i] + b * y[i + 1] +\n"
+            "               ((a * a * a - a) * m[i] + (b * b * b - b) * m[i + 1]) * h * h / 6;\n"
+            "    if (order == 1)\n"
+            "        return (y[i + 1] - y[i]) / h +\n"
+            "               ((3 * b * b - 1) * m[i + 1] - (3 * a * a - 1) * m[i]) * h / 6;\n"
+            "    return order == 2 ? a * m[i] + b * m[i + 1] : order == 3 ? (m[i + 1] - m[i]) / h "
+            ": "
+            "0;\n}\n");
+    for (int i = 0; i < found; i++) {
+        const Curve *table = expr_data(symbols[i]);
+
+        text_addf(out, "\n/* column %s of %s */\nstatic const double %s[] = {%d", table->column,
+                  table->file, expr_name(symbols[i]), table->count);
+        for (int k = 0; k < 3 * table->count; k++) {
+            text_add(out, k % 4 == 0 ? ",\n    " : ", ");
+            text_number(out, table->data[k], 17);
+        }
+        text_add(out, "};\n");
+    }
+    mem_free(symbols);
+}
+
 /* --- the file --- */
 
 static void add_list(Text *out, const char *array, const char *what,
@@ -254,9 +300,14 @@ Status write_c(const View *view, Text *out, Diag *diag)
     };
     const int first_network = COUNT(blocks) - 2;
     Rename rename = rename_all(view);
+    LIST(Expr) all = {0};
     Status status = OK;
 
     add_head(out, view);
+    for (int i = 0; i < COUNT(blocks); i++)
+        for (int j = 0; j < blocks[i].rows * blocks[i].columns; j++)
+            LIST_PUSH(all, blocks[i].entries[j]);
+    add_tables(out, all.at, all.count);
     for (int i = 0; i < COUNT(blocks); i++) {
         CHECK(poll(view->watch));
         CHECK(check_symbols(&rename, blocks[i].entries, blocks[i].rows * blocks[i].columns,
@@ -267,6 +318,7 @@ Status write_c(const View *view, Text *out, Diag *diag)
                          r->network_nonlinear && i >= first_network);
     }
 done:
+    LIST_FREE(all);
     mem_free(network);
     rename_free(&rename);
     return status;

@@ -25,9 +25,17 @@ typedef struct Memory {
     Expr derivative;
 } Memory;
 
+/* what a table is found by; a later one of the same names wins */
+typedef struct TableName {
+    const char *file, *column; /* in `texts` */
+    int table;
+} TableName;
+
 struct Arena {
     Pool *pool;
-    Pool *texts; /* of LaTeX names, which outlive marks */
+    Pool *texts;          /* of LaTeX names, which outlive marks */
+    LIST(Curve *) tables; /* so do these */
+    LIST(TableName) table_names;
     Slot *slots;
     uint32_t size; /* of slots, a power of two */
     LIST(struct ExprNode *) nodes;
@@ -238,7 +246,7 @@ Expr expr_symbol(Arena *arena, const char *name, SymbolKind kind)
     data.number = arena->symbols++;
     node = node_new(arena, symbol_hash(name, kind), sizeof data);
     node->kind = EXPR_SYMBOL;
-    node->kinds = (uint16_t)(1U << kind);
+    node->kinds = (uint16_t)(kind == SYMBOL_TABLE ? 0 : 1U << kind);
     data.name = pool_text(arena->pool, name, strlen(name));
     memcpy(node + 1, &data, sizeof data);
     return node;
@@ -249,6 +257,74 @@ void expr_symbol_latex(Arena *arena, Expr symbol, const char *latex)
     SymbolData *data = (SymbolData *)(void *)(arena->nodes.at[symbol->number] + 1);
 
     data->latex = pool_text(arena->texts, latex, strlen(latex));
+}
+
+/* --- data --- */
+
+static Expr table_symbol(Arena *arena, int number)
+{
+    Text name = {0};
+    Expr symbol;
+
+    text_addf(&name, "_table%d", number + 1);
+    symbol = expr_symbol(arena, name.at, SYMBOL_TABLE);
+    ((SymbolData *)(void *)(arena->nodes.at[symbol->number] + 1))->table = arena->tables.at[number];
+    text_free(&name);
+    return symbol;
+}
+
+static void name_table(Arena *arena, const char *file, const char *column, int number)
+{
+    TableName name = {pool_text(arena->texts, file, strlen(file)),
+                      pool_text(arena->texts, column, strlen(column)), number};
+
+    LIST_PUSH(arena->table_names, name);
+}
+
+Expr arena_add_table(Arena *arena, const char *file, const char *column, const double *x,
+                     const double *y, int count)
+{
+    const size_t bytes = (size_t)count * sizeof(double);
+    int number = 0;
+
+    for (; number < arena->tables.count; number++) {
+        const Curve *table = arena->tables.at[number];
+
+        if (table->count == count && memcmp(table->data, x, bytes) == 0 &&
+            memcmp(table->data + count, y, bytes) == 0)
+            break;
+    }
+    if (number == arena->tables.count)
+        LIST_PUSH(arena->tables, curve_new(file, column, x, y, count));
+    name_table(arena, file, column, number);
+    return table_symbol(arena, number);
+}
+
+Expr arena_find_table(Arena *arena, const char *file, const char *column)
+{
+    for (int i = arena->table_names.count - 1; i >= 0; i--)
+        if (strcmp(arena->table_names.at[i].file, file) == 0 &&
+            strcmp(arena->table_names.at[i].column, column) == 0)
+            return table_symbol(arena, arena->table_names.at[i].table);
+    return NULL;
+}
+
+void arena_share_tables(Arena *to, const Arena *from)
+{
+    for (int i = 0; i < from->table_names.count; i++) {
+        const TableName *name = &from->table_names.at[i];
+        const Curve *table = from->tables.at[name->table];
+
+        (void)arena_add_table(to, name->file, name->column, table->data, table->data + table->count,
+                              table->count);
+    }
+}
+
+const Curve *expr_data(Expr symbol)
+{
+    return symbol->kind == EXPR_SYMBOL && node_symbol(symbol)->kind == SYMBOL_TABLE
+               ? node_symbol(symbol)->table
+               : NULL;
 }
 
 /* --- remembered derivatives --- */
@@ -322,6 +398,10 @@ void arena_free(Arena *arena)
     mem_free(arena->memory_slots);
     LIST_FREE(arena->nodes);
     LIST_FREE(arena->memories);
+    for (int i = 0; i < arena->tables.count; i++)
+        curve_free(arena->tables.at[i]);
+    LIST_FREE(arena->tables);
+    LIST_FREE(arena->table_names);
     mem_free(arena);
 }
 

@@ -40,6 +40,8 @@ static double v_or(const double *x)    { return x[0] != 0 || x[1] != 0; }
 static double v_not(const double *x)   { return x[0] == 0; }
 static double v_if(const double *x)    { return x[0] != 0 ? x[1] : x[2]; }
 static double v_hold(const double *x)  { return x[0]; }
+/* needs its data: expr_evaluate() and programs compute it */
+static double v_table(const double *x) { return x[0] * (double)NAN; }
 /* clang-format on */
 
 /* --- derivatives --- */
@@ -163,6 +165,17 @@ static Expr d_hold(Arena *arena, Expr e, const Expr *rates)
 {
     (void)e;
     return expr_hold(arena, rates[0]);
+}
+
+/* the same data, one order higher */
+static Expr d_table(Arena *arena, Expr e, const Expr *rates)
+{
+    const Expr order = arg(e, 2);
+
+    if (!is_number(order) || expr_value(order) + 1 >= CURVE_ORDERS)
+        return arena_zero(arena);
+    return expr_mul(arena, rates[1],
+                    expr_table(arena, arg(e, 0), arg(e, 1), (int)expr_value(order) + 1));
 }
 
 /* --- the table --- */
@@ -452,6 +465,11 @@ Expr expr_sqrt(Arena *arena, Expr a)
 Expr expr_if(Arena *arena, Expr condition, Expr yes, Expr no)
 {
     return expr_call(arena, OP_IF, (Expr[]){condition, yes, no});
+}
+
+Expr expr_table(Arena *arena, Expr data, Expr x, int order)
+{
+    return expr_call(arena, OP_TABLE, (Expr[]){data, x, expr_int(arena, order)});
 }
 
 Expr expr_hold(Arena *arena, Expr e)

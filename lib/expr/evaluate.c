@@ -29,6 +29,8 @@ static double node_value(const Walk *walk, const double *values, Expr e)
     case EXPR_CALL:
         for (int i = 0; i < e->count; i++)
             inside[i] = value_of(walk, values, args[i]);
+        if (e->op == OP_TABLE && expr_data(args[0]) != NULL)
+            return curve_value(expr_data(args[0]), inside[1], (int)inside[2]);
         return op_value((Op)e->op, inside);
     default:
         return expr_value(e);
@@ -46,8 +48,11 @@ double expr_evaluate(Expr e, SymbolValue value, void *context)
     for (int i = 0; i < walk.count; i++) {
         Expr node = walk.nodes[i];
 
-        values[i] =
-            node->kind == EXPR_SYMBOL ? value(context, node) : node_value(&walk, values, node);
+        if (expr_data(node) != NULL)
+            values[i] = 0; /* its table is asked instead */
+        else
+            values[i] =
+                node->kind == EXPR_SYMBOL ? value(context, node) : node_value(&walk, values, node);
     }
     result = values[walk.count - 1];
     mem_free(values);

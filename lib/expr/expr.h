@@ -24,6 +24,7 @@
 #include "base/diag.h"
 #include "base/text.h"
 #include "base/watch.h"
+#include "expr/curve.h"
 
 #include <stdint.h>
 
@@ -61,7 +62,8 @@ typedef enum SymbolKind {
     SYMBOL_EFFORT,       /* an unknown driver effort, or a source that a driver finds */
     SYMBOL_JERK,         /* an entry of u'' (inverse runs) */
     SYMBOL_VARIABLE,     /* a name of the user's that formulation replaces: h9.fx, h8'' */
-    SYMBOL_ARGUMENT      /* an argument of a law */
+    SYMBOL_ARGUMENT,     /* an argument of a law */
+    SYMBOL_TABLE         /* data of a table; no expr_kinds() tells of it */
 } SymbolKind;
 
 /* --- the arena --- */
@@ -132,6 +134,20 @@ Expr expr_if(Arena *arena, Expr condition, Expr yes, Expr no);
 Expr expr_hold(Arena *arena, Expr e);
 /* `e` with every hold dissolved and rebuilt. O(nodes) nodes visited. */
 Expr expr_open(Arena *arena, Expr e);
+
+/* --- data as functions --- */
+
+/* The symbol of that data: found where the same is there, else made and kept by the arena, which
+ * from then on finds it by these names. Copies. */
+Expr arena_add_table(Arena *arena, const char *file, const char *column, const double *x,
+                     const double *y, int count);
+Expr arena_find_table(Arena *arena, const char *file, const char *column); /* NULL: none */
+void arena_share_tables(Arena *to, const Arena *from);
+/* the curve through the data at x, or a derivative of it by x */
+Expr expr_table(Arena *arena, Expr data, Expr x, int order);
+const Curve *expr_data(Expr symbol); /* of a SYMBOL_TABLE; NULL for others */
+/* the SYMBOL_TABLEs that occur, each once; new array, free with mem_free() */
+int expr_tables(const Expr *roots, int count, Expr **symbols);
 
 /* --- the table of functions --- */
 

@@ -30,6 +30,7 @@ typedef struct SymbolData {
     const char *latex; /* or NULL */
     int number;
     SymbolKind kind;
+    const Curve *table; /* of SYMBOL_TABLE */
 } SymbolData;
 
 static inline const Expr *node_args(Expr e)

@@ -78,8 +78,33 @@ static Level text_power_level(Expr base, Expr exponent, Number number)
     return LEVEL_POWER;
 }
 
+/* table("file.csv", x, column), and the order of a derivative behind it */
+static void text_table(Printer *printer, Expr e)
+{
+    const Expr *args = node_args(e);
+    const Curve *table = expr_data(args[0]);
+    const bool is_number = table->column[strspn(table->column, "0123456789")] == '\0';
+
+    say(printer, "table(\"");
+    say(printer, table->file);
+    say(printer, "\", ");
+    say_node(printer, args[1], LEVEL_ANY);
+    say(printer, is_number ? ", " : ", \"");
+    say(printer, table->column);
+    say(printer, is_number ? "" : "\"");
+    if (!expr_is_zero(args[2])) {
+        say(printer, ", ");
+        say_node(printer, args[2], LEVEL_ANY);
+    }
+    say(printer, ")");
+}
+
 static void text_call(Printer *printer, Expr e)
 {
+    if (e->op == OP_TABLE && expr_data(node_args(e)[0]) != NULL) {
+        text_table(printer, e);
+        return;
+    }
     if (say_operator(printer, e, op_name(e->op)))
         return;
     say(printer, op_name(e->op));

@@ -146,6 +146,21 @@ int expr_symbols(const Expr *roots, int count, Expr **symbols)
     return found.count;
 }
 
+int expr_tables(const Expr *roots, int count, Expr **symbols)
+{
+    Walk walk = {0};
+    LIST(Expr) found = {0};
+
+    for (int i = 0; i < count; i++)
+        walk_below(&walk, roots[i], 0, NULL, NULL);
+    for (int i = 0; i < walk.count; i++)
+        if (expr_data(walk.nodes[i]) != NULL)
+            LIST_PUSH(found, walk.nodes[i]);
+    walk_free(&walk);
+    *symbols = found.at;
+    return found.count;
+}
+
 /* --- looking --- */
 
 ExprKind expr_kind(Expr e)

@@ -17,6 +17,7 @@ struct Model {
     Arena *arena;
     Pool *pool; /* texts of steps */
     State *state;
+    DataFinder finder;
     LIST(Accepted) steps;
     int done; /* steps that count; those behind can be redone */
     const char *undone;
@@ -87,6 +88,7 @@ Status model_apply(Model *model, const Statement *statement, Diag *diag)
     Outcome outcome = {EFFECT_NONE, {0}};
     char *text = NULL;
 
+    CHECK(data_read_statement(&model->finder, model->arena, statement, !model->finder.given, diag));
     CHECK(state_apply(&model->state, statement, &outcome, diag));
     set_remarks(model, &outcome.remarks);
     count_effect(model, outcome.effect);
@@ -102,6 +104,18 @@ done:
     mem_free(text);
     text_free(&outcome.remarks);
     return status;
+}
+
+void model_find_data(Model *model, const DataFinder *finder)
+{
+    model->finder = *finder;
+}
+
+void model_share_data(Model *to, const Model *from)
+{
+    to->finder = from->finder;
+    to->finder.given = true;
+    arena_share_tables(to->arena, from->arena);
 }
 
 const char *model_remarks(const Model *model)
@@ -378,8 +392,11 @@ static Scope ask(const Model *model)
 Status model_expression(const Model *model, const Syntax *syntax, Expr *out, Diag *diag)
 {
     Scope scope = ask(model);
-    Status status = scope_expression(&scope, syntax, out, diag);
+    Status status = OK;
 
+    CHECK(data_read(&model->finder, model->arena, syntax, false, diag));
+    CHECK(scope_expression(&scope, syntax, out, diag));
+done:
     LIST_FREE(scope.uses);
     return status;
 }

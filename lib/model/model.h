@@ -105,6 +105,16 @@ const Event *model_event(const Model *model, int i);
 typedef enum Form { FORM_AUGMENTED, FORM_EMBEDDED } Form;
 /* Which equations of scalar networks are integrated: state form, by a normal tree whatever the
  * user's; or those that follow from the user's trees. */
+/* Where the files are that statements name. */
+typedef struct DataFinder {
+    char *(*find)(void *context, const char *name); /* new, malloc(): its path; NULL: as named */
+    void *context;
+    bool given; /* what is shared is not read anew */
+} DataFinder;
+void model_find_data(Model *model, const DataFinder *finder);
+/* a model that statements of another one make finds the data that they were made with */
+void model_share_data(Model *to, const Model *from);
+
 typedef enum NetworkForm { NETWORK_STATE, NETWORK_TREE } NetworkForm;
 NetworkForm model_network_form(const Model *model);
 Form model_form(const Model *model, const char *const **independent,

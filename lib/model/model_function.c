@@ -19,7 +19,7 @@ static const struct {
 } builders[] = {
     {"pulse", 7, 8, "pulse(t, low, high, delay, rise, fall, width, period)", build_pulse, false},
     {"pwl", 3, 10001, "pwl(t, t0, v0, t1, v1, ...)", build_polygon, false},
-    {"table", 2, 3, "table(\"file.csv\", x, column)", build_table, true},
+    {"table", 2, 4, "table(\"file.csv\", x, column)", build_table, true},
 };
 
 static const struct {
@@ -180,15 +180,35 @@ static Status build_polygon(Scope *scope, const Syntax *syntax, const Expr *args
     return OK;
 }
 
+/* the order of a derivative is a whole number that has one */
+static bool is_order(Expr e)
+{
+    int64_t num, den;
+
+    return expr_rational_parts(e, &num, &den) && den == 1 && num >= 0 && num < CURVE_ORDERS;
+}
+
 static Status build_table(Scope *scope, const Syntax *syntax, const Expr *args, Expr *out,
                           Diag *diag)
 {
-    (void)scope;
-    (void)args;
-    (void)out;
-    (void)diag_at(diag, E_MISSING, syntax->place, "table() comes with a later version");
-    diag_hint(diag, "pwl(t, t0, v0, t1, v1, ...) draws lines through points");
-    return E_MISSING;
+    Arena *arena = scope->state->arena;
+    const Syntax *column = syntax->count > 2 ? syntax->args[2] : NULL;
+    Expr data;
+
+    if (syntax->args[0]->kind != SYNTAX_STRING || args[1] == NULL)
+        return wrong_count(syntax, "table(\"file.csv\", x, column)", diag);
+    if (column != NULL && column->kind != SYNTAX_STRING && column->kind != SYNTAX_NUMBER)
+        return diag_at(diag, E_VALUE, column->place,
+                       "a column is a number from 1 or a name in quotes");
+    if (syntax->count > 3 && (args[3] == NULL || !is_order(args[3])))
+        return diag_at(diag, E_VALUE, syntax->args[3]->place,
+                       "a curve has derivatives of order 1, 2 and 3");
+    data = arena_find_table(arena, syntax->args[0]->text, data_column(syntax));
+    if (data == NULL)
+        return diag_at(diag, E_MISSING, syntax->args[0]->place, "'%s' hasn't been read",
+                       syntax->args[0]->text);
+    *out = expr_table(arena, data, args[1], syntax->count > 3 ? (int)expr_value(args[3]) : 0);
+    return OK;
 }
 
 /* --- the rest --- */

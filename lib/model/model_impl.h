@@ -167,6 +167,17 @@ typedef enum ScopeKind {
     SCOPE_ASK
 } ScopeKind;
 
+/* --- data of table() (model_data.c) --- */
+
+/* Read the files that the calls below a syntax tree name, each column a table of the arena; `anew`:
+ * also those that are there. Fails at the file's name, or at the column's. */
+Status data_read(const DataFinder *finder, Arena *arena, const Syntax *syntax, bool anew,
+                 Diag *diag);
+Status data_read_statement(const DataFinder *finder, Arena *arena, const Statement *statement,
+                           bool anew, Diag *diag);
+/* the column that a call of table() asks for; borrowed */
+const char *data_column(const Syntax *call);
+
 typedef struct Scope {
     const State *state;
     ScopeKind kind;

@@ -31,3 +31,6 @@ test_state_LDADD = $(unit_ldadd)
 UNIT_TESTS += test_events
 test_events_SOURCES = tests/unit/test_events.c tests/unit/session_kit.h tests/unit/test.h
 test_events_LDADD = $(unit_ldadd)
+UNIT_TESTS += test_table
+test_table_SOURCES = tests/unit/test_table.c tests/unit/session_kit.h tests/unit/test.h
+test_table_LDADD = $(unit_ldadd)

@@ -42,7 +42,9 @@ static void make_all(World *w, Expr *es)
                      expr_rational(w->arena, 1, 7)),
             expr_sub(w->arena, w->symbols[1], w->symbols[2]), expr_neg(w->arena, w->symbols[4])};
 
-        es[op] = expr_mul(w->arena, w->symbols[0], expr_call(w->arena, (Op)op, args));
+        /* a table takes data: test_table.c */
+        es[op] = expr_mul(w->arena, w->symbols[0],
+                          expr_call(w->arena, op == OP_TABLE ? OP_SIN : (Op)op, args));
     }
     for (int i = 0; i < RANDOM_ONES; i++)
         es[OP_COUNT + i] = random_expr(w, 4, &value);

@@ -56,7 +56,7 @@ static Expr make_node(Arena *arena, const Expr *nodes, int count, uint64_t *seed
         return expr_pow(arena, expr_call1(arena, OP_ABS, args[0]),
                         expr_real(arena, test_uniform(seed, -2, 2)));
     default:
-        return expr_call(arena, (Op)(what - 7), args);
+        return expr_call(arena, what - 7 == OP_TABLE ? OP_SIN : (Op)(what - 7), args);
     }
 }
 
@@ -437,6 +437,9 @@ static void each_function_gives_its_value(void)
     static const double points[] = {-2.5, -1, -0.25, 0, 0.25, 1, 3};
 
     for (int op = 0; op < OP_COUNT; op++) {
+        if (op == OP_TABLE) /* takes data: test_table.c */
+            continue;
+
         Dag dag = {.arena = arena_new()};
 
         for (int i = 0; i < 3; i++) {

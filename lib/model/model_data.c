@@ -1,0 +1,257 @@
+/* model_data.c: files of data that table() names, read when a statement is applied
+ *
+ * A file holds rows of numbers between commas, semicolons or blanks; its first row may name the
+ * columns. Lines that begin with # are comments. The first column is x and grows. What was read
+ * stays with the arena under the file's name and the column's, so that a statement that is
+ * applied anew by undo finds the data that it was made with. */
+#include "model/model_impl.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct Cells {
+    LIST(char *) at; /* borrowed from the line that was taken apart */
+} Cells;
+
+typedef struct Reader {
+    const char *file; /* as the user calls it */
+    Place place;      /* of the name in the statement */
+    const char *column;
+    Place column_place;
+    int line;
+    int x_cell, y_cell; /* from 0 */
+    LIST(double) x;
+    LIST(double) y;
+    Diag *diag;
+} Reader;
+
+/* the column a call asks for: a text, a number as written, the second if it says none */
+const char *data_column(const Syntax *call)
+{
+    return call->count > 2 ? call->args[2]->text : "2";
+}
+
+/* --- lines --- */
+
+static char *trim(char *cell)
+{
+    size_t length;
+
+    cell += strspn(cell, " \t\r\n");
+    length = strlen(cell);
+    while (length > 0 && strchr(" \t\r\n", cell[length - 1]) != NULL)
+        length--;
+    cell[length] = '\0';
+    return cell;
+}
+
+/* Take a line apart, in place, at commas or semicolons, or where it has none at blanks; a cell may
+ * stand in quotes. */
+static void split(char *line, Cells *cells)
+{
+    char *at = trim(line);
+    const char *separators = strpbrk(at, ",;") != NULL ? ",;" : " \t";
+
+    cells->at.count = 0;
+    while (*at != '\0') {
+        char *begin = at, *end;
+        const bool quoted = *begin == '"';
+
+        begin += quoted;
+        end = begin + strcspn(begin, quoted ? "\"" : separators);
+        at = end + (*end != '\0');
+        *end = '\0';
+        if (quoted)
+            at += strcspn(at, separators);
+        LIST_PUSH(cells->at, trim(begin));
+        if (quoted && *at != '\0')
+            at++;
+        at += strspn(at, " \t");
+    }
+}
+
+static bool is_cell_number(const char *cell, double *value)
+{
+    char *end;
+
+    *value = strtod(cell, &end);
+    return end != cell && *end == '\0' && *value - *value == 0;
+}
+
+static bool is_header(const Cells *cells)
+{
+    double value;
+
+    for (int i = 0; i < cells->at.count; i++)
+        if (!is_cell_number(cells->at.at[i], &value))
+            return true;
+    return false;
+}
+
+/* --- columns --- */
+
+static bool is_number_text(const char *text)
+{
+    return text[0] != '\0' && text[strspn(text, "0123456789")] == '\0';
+}
+
+/* by its number from 1, or by its name in the first row */
+static Status find_column(Reader *r, const Cells *cells, bool named)
+{
+    Suggest suggest = suggest_for(r->column);
+
+    if (is_number_text(r->column)) {
+        const long number = strtol(r->column, NULL, 10);
+
+        if (number >= 1 && number <= cells->at.count) {
+            r->y_cell = (int)number - 1;
+            return OK;
+        }
+        return diag_at(r->diag, E_VALUE, r->column_place, "%s has %d column%s", r->file,
+                       cells->at.count, cells->at.count == 1 ? "" : "s");
+    }
+    for (int i = 0; named && i < cells->at.count; i++) {
+        suggest_offer(&suggest, cells->at.at[i]);
+        if (strcmp(cells->at.at[i], r->column) == 0) {
+            r->y_cell = i;
+            return OK;
+        }
+    }
+    (void)diag_at(r->diag, E_NAME, r->column_place, "no column of %s is called '%s'", r->file,
+                  r->column);
+    if (suggest.best != NULL)
+        diag_hint(r->diag, "did you mean '%s'?", suggest.best);
+    else
+        diag_hint(r->diag, named ? "its first row names them" : "its first row doesn't name them");
+    return E_NAME;
+}
+
+static Status take_cell(const Reader *r, const Cells *cells, int cell, double *out)
+{
+    if (cell >= cells->at.count)
+        return diag_at(r->diag, E_VALUE, r->place, "line %d of %s has no column %d", r->line,
+                       r->file, cell + 1);
+    if (!is_cell_number(cells->at.at[cell], out))
+        return diag_at(r->diag, E_VALUE, r->place, "line %d of %s: '%.40s' is no number", r->line,
+                       r->file, cells->at.at[cell]);
+    return OK;
+}
+
+static Status take_row(Reader *r, const Cells *cells)
+{
+    double x, y;
+    Status status;
+
+    CHECK(take_cell(r, cells, r->x_cell, &x));
+    CHECK(take_cell(r, cells, r->y_cell, &y));
+    if (r->x.count > 0 && !(x > r->x.at[r->x.count - 1]))
+        CHECK(diag_at(r->diag, E_VALUE, r->place,
+                      "line %d of %s: the first column has to grow, and %g follows %g", r->line,
+                      r->file, x, r->x.at[r->x.count - 1]));
+    LIST_PUSH(r->x, x);
+    LIST_PUSH(r->y, y);
+done:
+    return status;
+}
+
+static Status read_stream(Reader *r, FILE *in)
+{
+    Cells cells = {0};
+    char *line = NULL;
+    size_t room = 0;
+    bool begun = false;
+    Status status = OK;
+
+    while (getline(&line, &room, in) >= 0) {
+        r->line++;
+        split(line, &cells);
+        if (cells.at.count == 0 || cells.at.at[0][0] == '#')
+            continue;
+        if (!begun) {
+            const bool named = is_header(&cells);
+
+            begun = true;
+            CHECK(find_column(r, &cells, named));
+            if (named)
+                continue;
+        }
+        CHECK(take_row(r, &cells));
+    }
+    if (r->x.count < 2)
+        status = diag_at(r->diag, E_VALUE, r->place, "%s has %d row%s of numbers; a curve takes 2",
+                         r->file, r->x.count, r->x.count == 1 ? "" : "s");
+done:
+    free(line);
+    LIST_FREE(cells.at);
+    return status;
+}
+
+/* --- the calls of a statement --- */
+
+static Status read_call(const DataFinder *finder, Arena *arena, const Syntax *call, Diag *diag)
+{
+    Reader r = {.file = call->args[0]->text,
+                .place = call->args[0]->place,
+                .column = data_column(call),
+                .column_place = call->count > 2 ? call->args[2]->place : call->args[0]->place,
+                .diag = diag};
+    char *path = finder->find != NULL ? finder->find(finder->context, r.file) : NULL;
+    FILE *in = fopen(path != NULL ? path : r.file, "r");
+    Status status = OK;
+
+    if (in == NULL) {
+        (void)diag_at(diag, E_MISSING, r.place, "can't read '%s': %s", r.file, strerror(errno));
+        diag_hint(diag, "a name is meant from the folder of the script, or from the current one");
+        CHECK(E_MISSING);
+    }
+    CHECK(read_stream(&r, in));
+    arena_add_table(arena, r.file, r.column, r.x.at, r.y.at, r.x.count);
+done:
+    if (in != NULL)
+        (void)fclose(in);
+    free(path);
+    LIST_FREE(r.x);
+    LIST_FREE(r.y);
+    return status;
+}
+
+/* what is written otherwise is refused when it is built */
+static bool is_data_call(const Syntax *syntax)
+{
+    return syntax->kind == SYNTAX_CALL && function_takes_text(syntax->text) && syntax->count > 0 &&
+           syntax->args[0]->kind == SYNTAX_STRING &&
+           (syntax->count < 3 || syntax->args[2]->kind == SYNTAX_STRING ||
+            syntax->args[2]->kind == SYNTAX_NUMBER);
+}
+
+Status data_read(const DataFinder *finder, Arena *arena, const Syntax *syntax, bool anew,
+                 Diag *diag)
+{
+    Status status = OK;
+
+    if (syntax == NULL)
+        return OK;
+    if (is_data_call(syntax) &&
+        (anew || arena_find_table(arena, syntax->args[0]->text, data_column(syntax)) == NULL))
+        CHECK(read_call(finder, arena, syntax, diag));
+    for (int i = 0; i < syntax->count; i++)
+        CHECK(data_read(finder, arena, syntax->args[i], anew, diag));
+done:
+    return status;
+}
+
+Status data_read_statement(const DataFinder *finder, Arena *arena, const Statement *statement,
+                           bool anew, Diag *diag)
+{
+    Status status = OK;
+
+    CHECK(data_read(finder, arena, statement->value, anew, diag));
+    for (int i = 0; i < statement->operands.count; i++)
+        CHECK(data_read(finder, arena, statement->operands.at[i].value, anew, diag));
+    for (int i = 0; i < statement->pairs.count; i++)
+        CHECK(data_read(finder, arena, statement->pairs.at[i].value, anew, diag));
+done:
+    return status;
+}
