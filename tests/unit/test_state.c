@@ -39,22 +39,23 @@ static void a_series_circuit_reads_as_by_hand(void)
     kit_free(&kit);
 }
 
-/* Ca v' = Cb (E' - v') + (E - v)/R - I */
+/* (Ca + Cb) v' = Ca E' - v/R + I for the voltage of the capacitor at the datum */
 static void a_circuit_of_capacitors_and_sources_holds_a_rate_of_the_source(void)
 {
     Kit kit = kit_new();
 
     EXPECT_DONE(&kit, "Ca = 1; Cb = 2; R = 4\nvsource E1 a 0 10*sin(t)\ncapacitor C1 a b Ca\n"
-                      "capacitor C2 b 0 Cb\nresistor R1 b 0 R\nisource I1 0 b 1\nshow state\n");
+                      "capacitor C2 b 0 Cb\nresistor R1 b 0 R\nisource I1 0 b 1\n"
+                      "tree C2 E1\nshow state\n");
     EXPECT_TEXT(kit.text, "x' = A x + B u + B1 u'\n"
-                          "x  C1.v\n"
+                          "x  C2.v\n"
                           "u  E1, I1\n"
-                          "A                 C1.v\n"
-                          "C1.v  -1/(R*(Ca + Cb))\n"
-                          "B                  E1            I1\n"
-                          "C1.v  1/(R*(Ca + Cb))  -1/(Ca + Cb)\n"
+                          "A                 C2.v\n"
+                          "C2.v  -1/(R*(Ca + Cb))\n"
+                          "B     E1           I1\n"
+                          "C2.v   0  1/(Ca + Cb)\n"
                           "B1             E1'  I1'\n"
-                          "C1.v  Cb/(Ca + Cb)    0\n");
+                          "C2.v  Ca/(Ca + Cb)    0\n");
     kit_free(&kit);
 }
 
