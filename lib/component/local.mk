@@ -2,8 +2,9 @@ libcore_la_SOURCES += \
 	lib/component/component.c lib/component/component.h \
 	lib/component/component_rows.h lib/component/types.def \
 	lib/component/attitude.c lib/component/bodies.c lib/component/driver.c \
-	lib/component/controlled.c lib/component/electrical.c lib/component/forces.c \
-	lib/component/hydraulic.c lib/component/joints.c lib/component/joints_round.c \
+	lib/component/control.c lib/component/control.h lib/component/controlled.c \
+	lib/component/electrical.c lib/component/forces.c lib/component/hydraulic.c \
+	lib/component/joints.c lib/component/joints_round.c lib/component/pid.c \
 	lib/component/scalar.c lib/component/screw.c lib/component/shaft.c lib/component/slide.c \
 	lib/component/switching.c lib/component/thermal.c lib/component/transducers.c \
 	lib/component/twoports.c

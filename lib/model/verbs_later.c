@@ -11,11 +11,6 @@
         .name = word, .group = GROUP_MECHANICAL, .shape = form, .usage = word " NAME " how,        \
         .brief = what, .later = true                                                               \
     }
-#define ELECTRICAL(word, form, how, what)                                                          \
-    {                                                                                              \
-        .name = word, .group = GROUP_ELECTRICAL, .shape = form, .usage = word " NAME " how,        \
-        .brief = what, .later = true                                                               \
-    }
 #define OTHER(word, of, form, how, what)                                                           \
     {                                                                                              \
         .name = word, .group = of, .shape = form, .usage = word how, .brief = what, .later = true  \
@@ -28,14 +23,6 @@ const Verb verbs_later[] = {
     MECHANICAL("stop", "nPVk", "JOINT ..", "end stop of a joint"),
     MECHANICAL("bushing", "nppVk", "TAIL TIP ..", "compliant joint"),
     MECHANICAL("contact", "nppVk", "TAIL TIP ..", "contact between two bodies"),
-
-    ELECTRICAL("pd", "nppk", "PLUS MINUS ref=.. of=.. Kp=.. Kd=..", "proportional and derivative control"),
-    ELECTRICAL("pid", "nppk", "PLUS MINUS ref=.. of=.. Kp=.. Ki=.. Kd=..", "PID control"),
-    ELECTRICAL("gain", "nppk", "PLUS MINUS of=.. k=..", "control: a multiple"),
-    ELECTRICAL("sum", "nppk", "PLUS MINUS of=[a.v, -b.v]", "control: a sum"),
-    ELECTRICAL("integrator", "nppk", "PLUS MINUS of=.. k=.. initial=..", "control: an integral"),
-    ELECTRICAL("lag", "nppk", "PLUS MINUS of=.. k=.. T=..", "control: a first-order lag"),
-    ELECTRICAL("transfer", "nppk", "PLUS MINUS of=.. num=[..] den=[..]", "control: a transfer function"),
 
     OTHER("subsystem", GROUP_VARIABLES, "nk", " NAME frames=[..] terminals=[..]", "starts the definition of a subsystem"),
     OTHER("end", GROUP_VARIABLES, "", "", "ends the definition of a subsystem"),

@@ -573,7 +573,8 @@ static Status find_network(Assembly *a, WarmValue from, void *context, Diag *dia
     for (int i = 0; i < l->nx && from != NULL; i++) {
         double value = from(context, system_x(l->system, i)->name);
 
-        v[i] = isfinite(value) ? value : 0;
+        if (isfinite(value))
+            v[i] = value;
     }
     for (int i = 0; i < a->given_count; i++) {
         const Given *given = &a->given[i];
