@@ -50,6 +50,9 @@ void scalar_through_source(const Instance *instance, Arena *arena, int which, co
 void scalar_rate_of_joint(const Instance *instance, Arena *arena, int which, const Motion1 *motion,
                           Relation *out);
 Expr scalar_through_on_joint(const Instance *instance, Arena *arena, const Motion1 *motion);
+/* of two edges p and s, without loss: across_p = ratio * across_s, through_s = -ratio * through_p
+ */
+void scalar_converter(const Instance *instance, Arena *arena, int which, Expr ratio, Relation *out);
 /* of rows with params k and d: through = k*deflection + d*across, deflection' = across. The
  * deflection is a state of the part's own where k and d are there, content where k is alone. */
 void scalar_spring(const Instance *instance, const char *deflection, Arena *arena,

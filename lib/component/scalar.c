@@ -15,6 +15,16 @@ void scalar_storage(RelationKind kind, Expr value, Expr x, Arena *arena, Relatio
             arena, (Expr[]){expr_rational(arena, 1, 2), value, expr_square(arena, x)}, 3)};
 }
 
+void scalar_converter(const Instance *instance, Arena *arena, int which, Expr ratio, Relation *out)
+{
+    Expr across = instance_across(instance, arena, 1 - which);
+    Expr through = expr_neg(arena, instance_through(instance, arena, 1 - which));
+
+    *out = (Relation){.kind = RELATION_PORT};
+    out->value = which == 0 ? expr_mul(arena, ratio, across) : expr_div(arena, across, ratio);
+    out->inverse = which == 0 ? expr_div(arena, through, ratio) : expr_mul(arena, ratio, through);
+}
+
 void scalar_across_source(const Instance *instance, Arena *arena, int which, const Motion1 *motion,
                           Relation *out)
 {

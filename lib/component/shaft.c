@@ -106,14 +106,8 @@ const Component component_shaft = {
 static void gear_relation(const Instance *instance, Arena *arena, int which, const Motion1 *motion,
                           Relation *out)
 {
-    Expr ratio = instance_scalar(instance, "ratio");
-    Expr across = instance_across(instance, arena, 1 - which);
-    Expr through = expr_neg(arena, instance_through(instance, arena, 1 - which));
-
     (void)motion;
-    *out = (Relation){.kind = RELATION_PORT};
-    out->value = which == 0 ? expr_mul(arena, ratio, across) : expr_div(arena, across, ratio);
-    out->inverse = which == 0 ? expr_div(arena, through, ratio) : expr_mul(arena, ratio, through);
+    scalar_converter(instance, arena, which, instance_scalar(instance, "ratio"), out);
 }
 
 static Status gear_check(const Instance *instance, Arena *arena, bool planar, Diag *diag)

@@ -100,16 +100,8 @@ const Component component_opamp = {
 static void transformer_relation(const Instance *instance, Arena *arena, int which,
                                  const Motion1 *motion, Relation *out)
 {
-    Expr n = instance_scalar(instance, "n");
-
     (void)motion;
-    if (which == 0)
-        *out = (Relation){.kind = RELATION_ACROSS,
-                          .value = expr_mul(arena, n, instance_across(instance, arena, 1))};
-    else
-        *out = (Relation){
-            .kind = RELATION_THROUGH,
-            .value = expr_neg(arena, expr_mul(arena, n, instance_through(instance, arena, 0)))};
+    scalar_converter(instance, arena, which, instance_scalar(instance, "n"), out);
 }
 
 static Status transformer_check(const Instance *instance, Arena *arena, bool planar, Diag *diag)

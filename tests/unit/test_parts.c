@@ -140,6 +140,25 @@ static void transformer_shows_its_load_times_n_squared(void)
                  2.5 * (1 - exp(-0.0005 / (5 * 1e-3 / 16))), 1e-8);
 }
 
+/* an inductor behind it is n^2 times as large, with a resistor in front and without */
+static void transformer_feeds_an_inductor(void)
+{
+    expect_value(TRANSFORMER "inductor L1 c 0 0.02\ninit L1.i = 0\n" RUN_FOR(0.05), "T1.p.i",
+                 2 * (1 - exp(-5 * 0.05 / (16 * 0.02))), 1e-8);
+    expect_value("vsource V1 a 0 10\ntransformer T1 a 0 c 0 n=4\ninductor L1 c 0 0.02\n"
+                 "init L1.i = 0\n" RUN_FOR(0.05),
+                 "V1.i", -10.0 / 16 * 0.05 / 0.02, 1e-8);
+}
+
+/* the source fixes the capacitor's voltage through it: i = C E'/n^2 */
+static void transformer_feeds_a_capacitor_from_an_ideal_source(void)
+{
+    expect_value(
+        "vsource V1 a 0 sin(10*t)\ntransformer T1 a 0 c 0 n=4\ncapacitor C1 c 0 0.02\n" RUN_FOR(
+            0.5),
+        "V1.i", -0.02 * 10 * cos(5) / 16, 1e-8);
+}
+
 static void gyrator_turns_a_capacitor_into_an_inductor(void)
 {
     const char *model = "vsource V1 a 0 1\nresistor R1 a b 10\ngyrator G1 b 0 c 0 r=100\n";
@@ -313,6 +332,8 @@ int main(void)
     RUN(opamp_integrates);
     RUN(opamp_filters);
     RUN(transformer_shows_its_load_times_n_squared);
+    RUN(transformer_feeds_an_inductor);
+    RUN(transformer_feeds_a_capacitor_from_an_ideal_source);
     RUN(gyrator_turns_a_capacitor_into_an_inductor);
     RUN(potentiometer_divides_under_load);
     RUN(exponential_diode_meets_its_load_line);

@@ -207,6 +207,14 @@ static void voicecoil_without_ohms_is_a_plain_converter(void)
                  "s'", 0.2 * exp(-(3 + 36 / 5.0) * 0.1 / 0.5), 1e-7);
 }
 
+/* a capacitor behind it is a mass K^2 C */
+static void voicecoil_turns_a_capacitor_into_a_mass(void)
+{
+    expect_value(SLIDE "damper d1 s d=3\ncapacitor C1 a 0 2\nvoicecoil X1 s a 0 K=6\n"
+                       "init s = 0, s' = 0.2\n" RUN_FOR(0.3),
+                 "s'", 0.2 * exp(-3 * 0.3 / (0.5 + 2 * 36)), 1e-7);
+}
+
 /* free stack: the natural frequency with the terminals shorted is sqrt(k/m), open it is stiffer by
  * (d k)^2/C */
 static void piezo_is_stiffer_with_open_terminals(void)
@@ -288,6 +296,7 @@ int main(void)
     RUN(solenoid_pulls_with_half_the_slope_of_its_inductance);
     RUN(voicecoil_runs_up_exponentially);
     RUN(voicecoil_without_ohms_is_a_plain_converter);
+    RUN(voicecoil_turns_a_capacitor_into_a_mass);
     RUN(piezo_is_stiffer_with_open_terminals);
     RUN(energy_is_kept_through_transducers);
     RUN(sensors_tell_without_a_load);
