@@ -31,6 +31,7 @@ include tests/bench/graph.mk
 include tests/bench/compile.mk
 include tests/bench/simulate.mk
 include tests/bench/session.mk
+include tests/bench/network.mk
 include tests/fuzz/fuzz.mk
 
 check_PROGRAMS += $(UNIT_TESTS)

@@ -1,0 +1,295 @@
+/* bench_network.c: ladders of coils and capacitors: equations, cost of an evaluation, and a whole
+ * run beside ngspice
+ *
+ * bench_network SCRIPTS PROGRAM. tests/oracle/spice/ladder writes them. Error against run time: the
+ * program at three tolerances, ngspice in two lengths of its steps, both processes whole, with what
+ * they read and write; the error is that of three waveforms against a run at 1e-11. ngspice is of
+ * second order, so that its time at the program's error follows: t*sqrt(error/error'). */
+#include "formulate/system.h"
+#include "simulate/run.h"
+
+#include "bench.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { WAVES = 3, LONG = 1000 };
+
+typedef struct Row {
+    double at[1 + WAVES]; /* t, waves */
+} Row;
+
+typedef LIST(Row) Table;
+
+/* what a command of the shell prints; new */
+static char *printed(const char *command)
+{
+    Text text = {0};
+    char piece[4096];
+    FILE *pipe = popen(command, "r");
+
+    while (pipe != NULL && fgets(piece, sizeof piece, pipe) != NULL)
+        text_add(&text, piece);
+    if (pipe != NULL)
+        (void)pclose(pipe);
+    return text_done(&text);
+}
+
+static bool shell(const char *command)
+{
+    return system(command) == 0; /* NOLINT(cert-env33-c): paths of our own */
+}
+
+/* --- equations and evaluations --- */
+
+static Model *ladder(const char *scripts, int sections)
+{
+    Text command = {0};
+    Model *model = model_new();
+    size_t next = 0;
+    char *text;
+
+    text_addf(&command, "'%s/../tests/oracle/spice/ladder' ct %d", scripts, sections);
+    text = printed(command.at);
+    while (next < strlen(text)) {
+        Statement *statement = NULL;
+        Diag diag = {0};
+
+        if (statement_parse(text, 1, (SyntaxOptions){0}, &next, &statement, &diag) != OK)
+            break;
+        if (statement->kind == STATEMENT_VERB && model_applies(statement->verb) &&
+            model_apply(model, statement, &diag) != OK)
+            printf("# %s\n", diag.message);
+        statement_free(statement);
+    }
+    mem_free(text);
+    text_free(&command);
+    return model;
+}
+
+static double parameter_value(void *context, Expr symbol)
+{
+    return model_parameter_value(context, symbol);
+}
+
+static void bench_ladder(const char *scripts, int sections)
+{
+    StartValues none = {0};
+    double formulation = 1e300, evaluation = 1e300;
+    char name[64];
+
+    for (int i = 0; i < 3; i++) {
+        Model *model = ladder(scripts, sections);
+        Setting setting = {.parameter = parameter_value, .context = model, .start = &none};
+        RunOptions options = {.duration = 2e-5, .rtol = 1e-6, .atol = 1e-6, .method = "dop853"};
+        System *system = NULL;
+        Result *result = NULL;
+        Diag diag = {0};
+        double began = bench_now();
+
+        if (system_new(model, NULL, &system, &diag) == OK && system_run(system) != NULL) {
+            formulation = fmin(formulation, bench_now() - began);
+            if (run_simulate(system, &setting, &options, &result, &diag) == OK) {
+                const RunReport *report = result_report(result);
+
+                evaluation = fmin(evaluation, report->wall / (double)report->evaluations);
+            }
+        }
+        if (result == NULL)
+            printf("# ladder of %d: %s\n", sections, diag.message);
+        result_free(result);
+        system_free(system);
+        model_free(model);
+    }
+    (void)snprintf(name, sizeof name, "network.ladder_%d_formulate", sections);
+    bench_line(name, formulation, "s");
+    (void)snprintf(name, sizeof name, "network.ladder_%d_evaluation", sections);
+    bench_line(name, 1e6 * evaluation, "us");
+}
+
+/* --- side by side --- */
+
+/* rows of numbers between blanks or commas; other lines are passed over */
+static Table read_table(const char *path)
+{
+    Table table = {0};
+    char line[400];
+    FILE *file = fopen(path, "r");
+
+    while (file != NULL && fgets(line, sizeof line, file) != NULL) {
+        const char *from = line;
+        Row row;
+        int count = 0;
+
+        for (char *end; count < 1 + WAVES; count++, from = end) {
+            row.at[count] = strtod(from + strspn(from, ", "), &end);
+            if (end == from + strspn(from, ", "))
+                break;
+        }
+        if (count == 1 + WAVES)
+            LIST_PUSH(table, row);
+    }
+    if (file != NULL)
+        (void)fclose(file);
+    return table;
+}
+
+/* by a cubic through four rows, from `first` on */
+static double interpolated(const Table *table, int first, double t, int wave)
+{
+    double sum = 0.0;
+
+    for (int i = first; i < first + 4; i++) {
+        double weight = table->at[i].at[wave];
+
+        for (int j = first; j < first + 4; j++)
+            if (j != i)
+                weight *= (t - table->at[j].at[0]) / (table->at[i].at[0] - table->at[j].at[0]);
+        sum += weight;
+    }
+    return sum;
+}
+
+/* largest difference, relative to each wave's largest value; ngspice's table begins behind 0 */
+static double error_of(const Table *exact, const Table *table)
+{
+    double worst = 0.0;
+
+    if (table->count < 4)
+        return NAN;
+    for (int wave = 1; wave <= WAVES; wave++) {
+        double off = 0.0, size = 0.0;
+        int row = 0;
+
+        for (int i = 1; i < exact->count; i++) {
+            double t = exact->at[i].at[0];
+
+            while (row < table->count - 4 && table->at[row + 2].at[0] < t)
+                row++;
+            off = fmax(off, fabs(interpolated(table, row, t, wave) - exact->at[i].at[wave]));
+            size = fmax(size, fabs(exact->at[i].at[wave]));
+        }
+        worst = fmax(worst, off / size);
+    }
+    return worst;
+}
+
+typedef struct Taken {
+    double seconds, error;
+} Taken;
+
+/* what a command that writes `path` takes; the table is handed on where it is wanted */
+static Taken take(const char *command, const char *path, const Table *exact, Table *out)
+{
+    double began = bench_now();
+    Taken taken = {NAN, NAN};
+    Table table;
+
+    (void)remove(path);
+    if (!shell(command))
+        (void)printf("# %s\n", command);
+    taken.seconds = bench_now() - began;
+    table = read_table(path);
+    if (exact != NULL)
+        taken.error = error_of(exact, &table);
+    if (out != NULL)
+        *out = table;
+    else
+        LIST_FREE(table);
+    return taken;
+}
+
+/* the program's run at a tolerance; `out` NULL: only measured */
+static Taken take_program(const char *scripts, const char *program, double tolerance,
+                          const Table *exact, Table *out)
+{
+    Text command = {0};
+    Taken taken = {NAN, NAN};
+
+    text_addf(
+        &command,
+        "'%s/../tests/oracle/spice/ladder' ct %d | sed 's/rtol=.*/rtol=%g atol=%g/' >ladder.ct",
+        scripts, LONG, tolerance, tolerance);
+    if (shell(command.at)) {
+        text_free(&command);
+        text_addf(&command, "'%s' -q ladder.ct >ladder.log 2>&1", program);
+        taken = take(command.at, "ladder.csv", exact, out);
+    }
+    text_free(&command);
+    return taken;
+}
+
+/* ngspice in `steps` equal steps to an output */
+static Taken take_ngspice(const char *scripts, int steps, const Table *exact)
+{
+    double every = exact->at[1].at[0] - exact->at[0].at[0];
+    Text command = {0};
+    Taken taken = {NAN, NAN};
+
+    text_addf(&command,
+              "'%s/../tests/oracle/spice/ladder' cir %d | sed -e 's/^.param h=.*/.param h=%.9g/' "
+              "-e '1a .options trtol=1e12 reltol=1e-6 chgtol=1e-25' "
+              "-e '/^.control/a set numdgt=15 wr_singlescale' >ladder.cir",
+              scripts, LONG, every / steps);
+    if (shell(command.at))
+        taken = take("ngspice -n -b ladder.cir >ladder.log 2>&1 </dev/null || :", "ladder.out",
+                     exact, NULL);
+    text_free(&command);
+    return taken;
+}
+
+static void line_of(const char *who, double which, const char *what, double value, const char *unit)
+{
+    char name[80];
+
+    (void)snprintf(name, sizeof name, "network.ladder_%d_%s_%g_%s", LONG, who, which, what);
+    bench_line(name, value, unit);
+}
+
+static void side_by_side(const char *scripts, const char *program)
+{
+    static const double tolerances[] = {1e-3, 1e-4, 1e-6};
+    static const int steps[] = {15, 45};
+    Table exact = {0};
+    Taken ours[COUNT(tolerances)];
+    Taken theirs = {NAN, NAN};
+
+    (void)take_program(scripts, program, 1e-11, NULL, &exact);
+    if (exact.count < 4) {
+        printf("# no run of the ladder\n");
+        LIST_FREE(exact);
+        return;
+    }
+    for (int i = 0; i < COUNT(tolerances); i++) {
+        ours[i] = take_program(scripts, program, tolerances[i], &exact, NULL);
+        line_of("rtol", tolerances[i], "time", ours[i].seconds, "s");
+        line_of("rtol", tolerances[i], "error", ours[i].error, "of_largest");
+    }
+    if (shell("command -v ngspice >/dev/null")) {
+        for (int i = 0; i < COUNT(steps); i++) {
+            theirs = take_ngspice(scripts, steps[i], &exact);
+            line_of("ngspice", steps[i], "time", theirs.seconds, "s");
+            line_of("ngspice", steps[i], "error", theirs.error, "of_largest");
+        }
+        for (int i = 0; i < COUNT(tolerances); i++)
+            line_of("ngspice_to_rtol", tolerances[i], "time",
+                    theirs.seconds * sqrt(theirs.error / ours[i].error), "s");
+    } else {
+        printf("# ngspice isn't here\n");
+    }
+    LIST_FREE(exact);
+}
+
+int main(int argc, char **argv)
+{
+    if (argc < 3) {
+        fprintf(stderr, "usage: bench_network SCRIPTS PROGRAM\n");
+        return 2;
+    }
+    bench_ladder(argv[1], 250);
+    bench_ladder(argv[1], 500);
+    bench_ladder(argv[1], LONG);
+    side_by_side(argv[1], argv[2]);
+    return 0;
+}

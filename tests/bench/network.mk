@@ -1,0 +1,3 @@
+BENCHES += bench_network
+bench_network_SOURCES = tests/bench/bench_network.c tests/bench/bench.h
+bench_network_LDADD = $(unit_ldadd)
