@@ -47,6 +47,8 @@ libcore_la_SOURCES += \
   lib/simulate/rows.c \
   lib/simulate/rows.h \
   lib/simulate/run.h \
+  lib/simulate/samples.c \
+  lib/simulate/samples.h \
   lib/simulate/simulate.c \
   lib/simulate/sparse.c \
   lib/simulate/sparse.h \

@@ -234,6 +234,11 @@ static void find_jumps_of(March *m, int i)
 
 static void find_jumps(March *m)
 {
+    double to = m->plan->to;
+
+    for (double t = samples_next(m->plan->samples, m->plan->from); t < to;
+         t = samples_next(m->plan->samples, t))
+        add_jump(m, (Jump){t, t});
     for (int i = 0; i < m->count; i++)
         if (is_of_time(m, i))
             find_jumps_of(m, i);
@@ -680,6 +685,17 @@ done:
     return status;
 }
 
+/* held states at a sampling instant, where the stepper stands */
+static Status take_samples(March *m, double t, Diag *diag)
+{
+    bool due = false;
+    Status status = OK;
+
+    CHECK(samples_take(m->plan->samples, t, m->stepper->y, &due, diag));
+done:
+    return status;
+}
+
 static Status all_stretches(March *m, Diag *diag)
 {
     const MarchPlan *plan = m->plan;
@@ -700,6 +716,7 @@ static Status all_stretches(March *m, Diag *diag)
         if (!last && !m->is_over) {
             low = fmax(low, m->jumps.at[i].behind);
             CHECK(meet_time(m, m->jumps.at[i], diag));
+            CHECK(take_samples(m, m->jumps.at[i].before, diag));
         }
     }
 done:
@@ -710,9 +727,11 @@ done:
 static Status run(March *m, const double *start, Diag *diag)
 {
     const MarchPlan *plan = m->plan;
+    bool due;
     Status status = OK;
 
     memcpy(m->y, start, (size_t)m->grid->length * sizeof(double));
+    CHECK(samples_take(plan->samples, plan->from, m->y, &due, diag));
     (void)motion_repartition(plan->motion, plan->from, m->y);
     if (!plan->skip_first && !add_row(m, plan->from))
         return solver_failure(diag, plan->from, "the start does not meet the constraints");

@@ -13,11 +13,13 @@
 #include "base/text.h"
 #include "base/watch.h"
 #include "simulate/events.h"
+#include "simulate/samples.h"
 
 typedef struct MarchPlan {
     const Equations *equations;
     Motion *motion;
     Events *events;       /* NULL: none */
+    Samples *samples;     /* NULL: none */
     const Method *method; /* NULL: dop853 until it finds the problem stiff, then `stiff` */
     const Method *stiff;
     bool stiff_decays; /* `stiff` is no help where what limits the steps swings */

@@ -138,6 +138,7 @@ Status result_open(RunKind kind, System *system, const Setting *setting, Result 
     if (kind == RUN_SIMULATE)
         CHECK(check_start(r, diag));
     CHECK(result_make_events(r, NULL, setting, &r->events, diag));
+    CHECK(samples_new(r->layout, &r->parameters, r->motion, &r->samples, diag));
     *out = r;
     r = NULL;
 done:
@@ -161,6 +162,7 @@ Status result_reopen(const Result *old, const Setting *setting, Result **out, Di
     for (int i = 0; i < old->grid.count; i++)
         grid_add(&r->grid, old->grid.times[i], old->grid.states + (ptrdiff_t)i * old->grid.length);
     CHECK(result_make_events(r, old->events, setting, &r->events, diag));
+    CHECK(samples_new(r->layout, &r->parameters, r->motion, &r->samples, diag));
     *out = r;
     r = NULL;
 done:
@@ -173,6 +175,7 @@ void result_free(Result *r)
     if (r == NULL)
         return;
     events_free(r->events);
+    samples_free(r->samples);
     motion_free(r->motion);
     numbers_free(r->numbers);
     parameters_free(&r->parameters);

@@ -24,7 +24,8 @@ struct Result {
     Assembled start;
     Grid grid; /* of (q, u, x, work) */
     Driven driven;
-    Events *events; /* NULL: none */
+    Events *events;   /* NULL: none */
+    Samples *samples; /* NULL: none */
     RunReport report;
     Text remarks;
 };

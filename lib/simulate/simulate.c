@@ -97,6 +97,7 @@ static MarchPlan plan_of(const Result *r, const Setting *setting, const RunOptio
         .equations = numbers_equations(r->numbers),
         .motion = r->motion,
         .events = r->events,
+        .samples = r->samples,
         .method = method,
         .stiff = motion_length(r->motion) > FEW ? &method_bdf : &method_radau,
         .stiff_decays = motion_length(r->motion) > FEW,
