@@ -598,6 +598,7 @@ static Status own_variable(System *system, Branchlike *branch, Expr *out, Diag *
     Diag before = diag != NULL ? *diag : (Diag){0};
     Status status = OK;
 
+    *out = NULL;
     if (branch->unknown < 0 && !branch->busy && system->follow_depth < DEEP) {
         branch->busy = true;
         system->follow_depth++;

@@ -1,6 +1,7 @@
 /* network_rows.c: equations of the network's unknowns, G([x'; z], ...) = 0, and their Jacobian */
 #include "formulate/system_impl.h"
 
+#include <assert.h>
 #include <string.h>
 
 static const unsigned solved_kinds = 1U << SYMBOL_STATE_RATE | 1U << SYMBOL_ALGEBRAIC;
@@ -235,6 +236,7 @@ static void place(Rows *rows, Expr symbol, int column)
 {
     while (rows->column.count <= expr_symbol_number(symbol))
         LIST_PUSH(rows->column, 0);
+    assert(rows->column.at != NULL);
     rows->column.at[expr_symbol_number(symbol)] = 1 + column;
 }
 

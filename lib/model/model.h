@@ -46,7 +46,8 @@ int model_count(const Model *model); /* of instances, deleted ones left out */
 const Instance *model_instance(const Model *model,
                                int i); /* in order of making; Instance.number is i */
 const Instance *model_find(const Model *model, const char *name); /* NULL */
-/* the part that a dotted name begins with ("T1" of "T1.s.v"), and behind the dot its member; NULL */
+/* the part that a dotted name begins with ("T1" of "T1.s.v"), and its member behind the dot; NULL
+ */
 const Instance *model_owner(const Model *model, const char *path, const char **member);
 const Instance *model_edge_owner(const Model *model, int edge);
 /* the coordinate of that name: its owner and index in the owner; false: none */

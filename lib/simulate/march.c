@@ -234,10 +234,9 @@ static void find_jumps_of(March *m, int i)
 
 static void find_jumps(March *m)
 {
-    double to = m->plan->to;
+    double t = samples_next(m->plan->samples, m->plan->from);
 
-    for (double t = samples_next(m->plan->samples, m->plan->from); t < to;
-         t = samples_next(m->plan->samples, t))
+    for (; t < m->plan->to; t = samples_next(m->plan->samples, t))
         add_jump(m, (Jump){t, t});
     for (int i = 0; i < m->count; i++)
         if (is_of_time(m, i))

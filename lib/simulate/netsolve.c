@@ -134,7 +134,9 @@ static double furthest(NetSolve *s, double full)
 /* One damped step; false where even the smallest share of it makes nothing better. */
 static bool advance(NetSolve *s, double before)
 {
-    for (double share = 1; share >= LEAST; share /= 2) {
+    double share = 1;
+
+    for (; share >= LEAST; share /= 2) {
         double next = correction_at(s, share);
 
         if (!(next <= (1 - share / 4) * before))
@@ -180,8 +182,9 @@ static bool descend(NetSolve *s)
 {
     const Equations *eq = s->eq;
     double before = misfit(s);
+    double share = 1;
 
-    for (double share = 1; share >= SHORTEST; share /= 2) {
+    for (; share >= SHORTEST; share /= 2) {
         for (int i = 0; i < s->n; i++)
             s->trial[i] = s->w[i] - share * s->step[i];
         eq->network_at(eq->context, s->trial);
