@@ -156,9 +156,11 @@ static void push_network(System *system, Terms *terms)
 
         if (graph_edge(system->graph, branch->edge)->domain == DOMAIN_THERMAL)
             continue;
-        push(system, terms, expr_int(arena, -1), branch->v, branch->i);
         if (rate_of(system, stored_field(system, branch), &rate, NULL) == OK)
             LIST_PUSH(*terms, rate);
+        else if (expr_is_zero(branch->relation.rest))
+            continue; /* all that it takes is stored */
+        push(system, terms, expr_int(arena, -1), branch->v, branch->i);
     }
 }
 

@@ -15,6 +15,7 @@ libcore_la_SOURCES += \
 	lib/formulate/network.c \
 	lib/formulate/network_order.c \
 	lib/formulate/network_rows.c \
+	lib/formulate/network_tree.c \
 	lib/formulate/reactions.c \
 	lib/formulate/reading.c \
 	lib/formulate/sample.c \

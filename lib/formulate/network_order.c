@@ -96,13 +96,6 @@ static Expr highest(const Order *o, int j)
     return rate_symbol(y, y->order);
 }
 
-static void form_leading(Order *o)
-{
-    for (int i = 0; i < o->count; i++)
-        for (int j = 0; j < o->count; j++)
-            o->L[i * o->count + j] = expr_diff(o->system->arena, o->row[i], highest(o, j));
-}
-
 static Status check_room(const Order *o, Diag *diag)
 {
     Status status = poll(o->system->watch);
@@ -111,6 +104,23 @@ static Status check_room(const Order *o, Diag *diag)
         status = diag_set(diag, E_MODEL, "the equations of this electrical tree grow too long");
         diag_hint(diag, "set network state integrates the state form, which any network has");
     }
+    return status;
+}
+
+static Status form_leading(Order *o, Diag *diag)
+{
+    Arena *arena = o->system->arena;
+    Expr zero = expr_int(arena, 0);
+    Status status = OK;
+
+    for (int i = 0; i < o->count; i++) {
+        CHECK(check_room(o, diag));
+        for (int j = 0; j < o->count; j++)
+            o->L[i * o->count + j] = expr_depends(o->row[i], highest(o, j))
+                                         ? expr_diff(arena, o->row[i], highest(o, j))
+                                         : zero;
+    }
+done:
     return status;
 }
 
@@ -332,8 +342,10 @@ Status network_bring_order(System *system, Diag *diag)
     Order o = {.system = system, .nodes = arena_nodes(system->arena)};
     Status status = OK;
 
-    for (int k = 0; k < system->unknowns.count; k++)
+    for (int k = 0; k < system->unknowns.count; k++) {
         CHECK(network_row(system, k, diag));
+        CHECK(check_room(&o, diag));
+    }
     o.count = system->unknowns.count;
     o.row = NEW_ARRAY(Expr, o.count);
     o.L = NEW_ARRAY(Expr, o.count * o.count);
@@ -342,7 +354,7 @@ Status network_bring_order(System *system, Diag *diag)
         o.row[k] = expr_sub(system->arena, expr_open(system->arena, system->unknowns.at[k].left),
                             expr_open(system->arena, system->unknowns.at[k].right));
     for (int round = 0;; round++) {
-        form_leading(&o);
+        CHECK(form_leading(&o, diag));
         if (rank_at(&o, 1) == o.count || rank_at(&o, 2) == o.count)
             break;
         if (round == ROUNDS)

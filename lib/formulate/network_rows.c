@@ -387,6 +387,28 @@ static void find_samples(System *system)
     }
 }
 
+/* An equation that states and sources alone have to meet, as where an op-amp holds a capacitor's
+ * voltage: differentiated once it tells a rate. theory.md 8. */
+static Status differentiate_fixed(System *system, int unknown, Diag *diag)
+{
+    const unsigned moves = 1U << SYMBOL_STATE;
+    Arena *arena = system->arena;
+    const Unknown *y = &system->unknowns.at[unknown];
+    Expr residual = expr_sub(arena, expr_open(arena, y->left), expr_open(arena, y->right));
+    Expr rate;
+    Status status = OK;
+
+    if (y->residual != NULL || (expr_kinds(residual) & solved_kinds) != 0 ||
+        (expr_kinds(residual) & moves) == 0)
+        return OK;
+    CHECK(need_smooth(system, system->instances[y->instance].name, residual, diag));
+    CHECK(rate_of(system, residual, &rate, diag));
+    LIST_PUSH(system->invariants, residual);
+    system->unknowns.at[unknown].residual = rate;
+done:
+    return status;
+}
+
 Status network_rows(System *system, Diag *diag)
 {
     Reading *run = &system->run;
@@ -396,6 +418,8 @@ Status network_rows(System *system, Diag *diag)
 
     for (int k = 0; k < system->unknowns.count; k++)
         CHECK(network_row(system, k, diag)); /* may add unknowns */
+    for (int k = 0; k < system->unknowns.count && system->network_form == NETWORK_STATE; k++)
+        CHECK(differentiate_fixed(system, k, diag));
     network_list(system);
     system->is_network_open = false;
     rows.count = system->x.count + system->z.count;

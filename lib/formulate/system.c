@@ -426,6 +426,8 @@ void system_free(System *system)
     LIST_FREE(system->unknown_of);
     LIST_FREE(system->rate_of);
     LIST_FREE(system->samples);
+    LIST_FREE(system->at_rest);
+    LIST_FREE(system->invariants);
     LIST_FREE(system->network_shown);
     LIST_FREE(system->drives);
     LIST_FREE(system->switches);
@@ -593,6 +595,16 @@ bool system_tree_is_normal(const System *system)
 NetworkForm system_network_form(const System *system)
 {
     return system->network_form;
+}
+
+const char *system_at_rest(const System *system, int i)
+{
+    return i < system->at_rest.count ? system->at_rest.at[i] : NULL;
+}
+
+Expr system_invariant(const System *system, int i)
+{
+    return i < system->invariants.count ? system->invariants.at[i] : NULL;
 }
 
 const OwnSample *system_sample(const System *system, int i)

@@ -147,6 +147,12 @@ typedef struct OwnSample {
     Expr next;    /* its value behind a sampling instant, over the user's variables */
 } OwnSample;
 const OwnSample *system_sample(const System *system, int i);
+/* Where states are other variables than in state form: names of those, which are 0 at a start that
+ * nothing is said of. NULL at the end */
+const char *system_at_rest(const System *system, int i);
+/* What states and sources have to satisfy by themselves, = 0; it stands differentiated among the
+ * network's equations. NULL at the end */
+Expr system_invariant(const System *system, int i);
 /* electrical equations as printed: `left = right`, one a network unknown */
 int system_network_count(const System *system);
 void system_network_equation(System *system, int i, Expr *left, Expr *right);

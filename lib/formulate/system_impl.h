@@ -259,6 +259,8 @@ struct System {
     bool met_loop;        /* following a chord led to a branch that is being followed */
     LIST(NetworkEquation) network_shown;
     LIST(OwnSample) samples;
+    LIST(const char *) at_rest; /* in the form of the user's tree: states of state form, by name */
+    LIST(Expr) invariants;      /* 0 throughout: rows that were differentiated */
 
     Reading definitions; /* by recursion, whatever the size */
     Reading run;         /* these, or the shorter equations as shown */
@@ -434,6 +436,8 @@ double sample_number(Sample *sample, Expr e);
 MUST_USE Status constraints_build(System *system, Diag *diag);
 MUST_USE Status dynamics_build(System *system, Diag *diag);
 MUST_USE Status network_build(System *system, Diag *diag);
+/* in state form in the place of the user's tree (network_tree.c) */
+MUST_USE Status network_normal_tree(System *system, TreeKind kind, Diag *diag);
 /* residuals and their Jacobian, once dynamics is there (network_rows.c) */
 MUST_USE Status network_rows(System *system, Diag *diag);
 /* the equation of an unknown, left = right */

@@ -236,8 +236,10 @@ static void find_jumps(March *m)
 {
     double t = samples_next(m->plan->samples, m->plan->from);
 
-    for (; t < m->plan->to; t = samples_next(m->plan->samples, t))
+    while (t < m->plan->to) {
         add_jump(m, (Jump){t, t});
+        t = samples_next(m->plan->samples, t);
+    }
     for (int i = 0; i < m->count; i++)
         if (is_of_time(m, i))
             find_jumps_of(m, i);

@@ -136,11 +136,13 @@ static bool advance(NetSolve *s, double before)
 {
     double share = 1;
 
-    for (; share >= LEAST; share /= 2) {
+    while (share >= LEAST) {
         double next = correction_at(s, share);
 
-        if (!(next <= (1 - share / 4) * before))
+        if (!(next <= (1 - share / 4) * before)) {
+            share /= 2;
             continue;
+        }
         if (share == 1 && next > before / 4)
             share = furthest(s, next);
         for (int i = 0; i < s->n; i++)
@@ -184,15 +186,15 @@ static bool descend(NetSolve *s)
     double before = misfit(s);
     double share = 1;
 
-    for (; share >= SHORTEST; share /= 2) {
+    while (share >= SHORTEST) {
         for (int i = 0; i < s->n; i++)
             s->trial[i] = s->w[i] - share * s->step[i];
         eq->network_at(eq->context, s->trial);
-        if (!vector_is_finite(eq->network_residual, s->n) ||
-            !(misfit(s) <= (1 - share / 4) * before))
-            continue;
-        memcpy(s->w, s->trial, (size_t)s->n * sizeof(double));
-        return true;
+        if (vector_is_finite(eq->network_residual, s->n) && misfit(s) <= (1 - share / 4) * before) {
+            memcpy(s->w, s->trial, (size_t)s->n * sizeof(double));
+            return true;
+        }
+        share /= 2;
     }
     return false;
 }

@@ -151,11 +151,21 @@ static void level_symbols(const Problem *p, Expr *out)
         out[k++] = l->symbols[l->x + i]; /* x, x', z stand together */
 }
 
+/* the network's equations, and what states have to satisfy besides */
+static int network_rows_of(const Layout *l)
+{
+    int count = l->nx + l->nz;
+
+    while (system_invariant(l->system, count - l->nx - l->nz) != NULL)
+        count++;
+    return count;
+}
+
 static Status problem_open(Problem *p, Assembly *a, Level level, bool guesses, Diag *diag)
 {
     const Layout *l = a->l;
     Arena *arena = system_arena(l->system);
-    int extra = level == LEVEL_NETWORK ? l->nx + l->nz : 0;
+    int extra = level == LEVEL_NETWORK ? network_rows_of(l) : 0;
     LIST(Expr) roots = {0};
     Expr *symbols;
     Status status;
@@ -173,7 +183,8 @@ static Status problem_open(Problem *p, Assembly *a, Level level, bool guesses, D
     symbols = NEW_ARRAY(Expr, p->symbols);
     level_symbols(p, symbols);
     for (int i = 0; i < extra; i++)
-        LIST_PUSH(roots, row_network(l, i));
+        LIST_PUSH(roots, i < l->nx + l->nz ? row_network(l, i)
+                                           : system_invariant(l->system, i - l->nx - l->nz));
     for (int i = 0; i < p->count; i++)
         LIST_PUSH(roots, p->picked[i]->expr);
     for (int i = 0; i < extra + p->count; i++)
@@ -554,6 +565,38 @@ done:
     return status;
 }
 
+/* v at rest: what are states in state form is 0 */
+static Status rest_network(Assembly *a, double *v, Diag *diag)
+{
+    const Layout *l = a->l;
+    Assembly rest = *a;
+    Problem p = {0};
+    StartValue *values = NULL;
+    Rows rows;
+    int count = 0;
+    Status status = OK;
+
+    while (system_at_rest(l->system, count) != NULL)
+        count++;
+    values = NEW_ARRAY(StartValue, count);
+    rest.given = NEW_ARRAY(Given, count);
+    rest.given_count = count;
+    for (int i = 0; i < count; i++) {
+        values[i].name = system_at_rest(l->system, i);
+        rest.given[i].value = &values[i];
+        CHECK(system_variable(l->system, values[i].name, 0, &rest.given[i].expr, diag));
+        CHECK(classify(&rest, &rest.given[i], diag));
+    }
+    CHECK(problem_open(&p, &rest, LEVEL_NETWORK, false, diag));
+    rows = rows_of(&p);
+    (void)least_solve(&rows, NULL, NULL, 1e-11, v, NULL);
+done:
+    problem_close(&p);
+    mem_free(rest.given);
+    mem_free(values);
+    return status;
+}
+
 static Status find_network(Assembly *a, WarmValue from, void *context, Diag *diag)
 {
     const Layout *l = a->l;
@@ -561,10 +604,12 @@ static Status find_network(Assembly *a, WarmValue from, void *context, Diag *dia
     double *v = NEW_ARRAY(double, 2 * l->nx + l->nz);
     double *residual = NULL;
     bool *held = NEW_ARRAY(bool, 2 * l->nx + l->nz);
-    bool needed = false;
+    bool needed = system_invariant(l->system, 0) != NULL;
     Rows rows;
     Status status = OK;
 
+    if (system_at_rest(l->system, 0) != NULL && from == NULL)
+        CHECK(rest_network(a, v, diag));
     for (int i = 0; system_sample(l->system, i) != NULL; i++) {
         const OwnSample *own = system_sample(l->system, i);
 

@@ -106,6 +106,30 @@ static void a_network_may_read_accelerations(void)
     kit_free(&kit);
 }
 
+/* the op-amp holds the capacitor at the source: out = -R C E', and the start follows E(0) */
+static void an_equation_without_unknowns_is_differentiated(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, "vsource E a 0 sin(3*t) + 0.5\ncapacitor C a n 1 mF\nopamp U 0 n out\n"
+                      "resistor R n out 1000\nsimulate 1\nexpect C.v ~ 0.5 within 1e-12 at 0\n"
+                      "expect C.v ~ sin(3) + 0.5 within 1e-8\n"
+                      "expect U.out.v ~ -3*cos(3) within 1e-8\n");
+    kit_free(&kit);
+}
+
+/* nothing said: what is a state in state form is zero, whatever the tree's own unknowns are */
+static void a_start_at_rest_is_that_of_the_states(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, "vsource E a 0 5\nresistor R a b 2\ncapacitor C b 0 0.25\n"
+                      "tree electrical E R\nset network tree\nsimulate 1\n"
+                      "expect C.v ~ 0 within 1e-12 at 0\nexpect C.i ~ 2.5 within 1e-12 at 0\n"
+                      "expect C.v ~ 5*(1 - exp(-2)) within 1e-7\n");
+    kit_free(&kit);
+}
+
 static void a_step_across_capacitors_is_refused(void)
 {
     Kit kit = kit_new();
@@ -165,6 +189,8 @@ int main(void)
     RUN(a_bridge_in_balance_carries_no_current);
     RUN(a_steep_characteristic_is_solved);
     RUN(a_network_may_read_accelerations);
+    RUN(an_equation_without_unknowns_is_differentiated);
+    RUN(a_start_at_rest_is_that_of_the_states);
     RUN(a_step_across_capacitors_is_refused);
     RUN(a_tree_that_needs_a_jump_differentiated_is_refused);
     RUN(sources_against_each_other_are_refused);

@@ -1,0 +1,173 @@
+/* network_tree.c: the normal tree of a scalar domain, greedily: sources of across variables first,
+ * then what stores them, resistive edges, what stores through variables, their sources last */
+#include "formulate/system_impl.h"
+
+static int normal_order(const System *system, const Branchlike *branch)
+{
+    switch (branch->relation.kind) {
+    case RELATION_ACROSS:
+        return 10;
+    case RELATION_CAPACITIVE:
+        return 20;
+    case RELATION_PORT:
+        return 25;
+    case RELATION_RESISTIVE:
+    case RELATION_CONDUCTIVE:
+        return 30;
+    case RELATION_INDUCTIVE:
+        return 40;
+    case RELATION_THROUGH:
+        return 50;
+    case RELATION_FREE:
+        break;
+    }
+    return graph_edge(system->graph, branch->edge)->preference[0];
+}
+
+/* The order in which edges are taken into the normal tree where there are ports. */
+typedef struct Taking {
+    System *system;
+    TreeKind kind;
+    Sets *nodes;     /* joined by what was taken */
+    int *preference; /* one an edge of the graph */
+    int taken;
+} Taking;
+
+static void take(Taking *taking, const Branchlike *branch)
+{
+    const Edge *edge = graph_edge(taking->system->graph, branch->edge);
+
+    if (sets_join(taking->nodes, edge->tail, edge->head))
+        taking->preference[branch->edge] = taking->taken++;
+}
+
+static bool is_taken(const Taking *taking, const Branchlike *branch)
+{
+    return taking->preference[branch->edge] < graph_edge_count(taking->system->graph);
+}
+
+static bool is_closed(const Taking *taking, const Branchlike *branch)
+{
+    const Edge *edge = graph_edge(taking->system->graph, branch->edge);
+
+    return sets_find(taking->nodes, edge->tail) == sets_find(taking->nodes, edge->head);
+}
+
+/* The v of one side of a port gives that of the other: where other edges close one side, the other
+ * side is next. */
+static void take_through_ports(Taking *taking)
+{
+    System *system = taking->system;
+
+    for (int i = 0; i < system->branches.count; i++) {
+        const Branchlike *p = &system->branches.at[i];
+        const Branchlike *s = p + 1;
+
+        if (p->relation.kind != RELATION_PORT || p->which > 0 ||
+            branch_tree(system, p) != taking->kind || is_taken(taking, p) || is_taken(taking, s) ||
+            is_closed(taking, p) == is_closed(taking, s))
+            continue;
+        take(taking, is_closed(taking, p) ? s : p);
+        i = -1; /* it may have closed another one */
+    }
+}
+
+/* the user's branches before others of their kind */
+static int rank_of(const System *system, TreeKind kind, const Branchlike *branch)
+{
+    return 2 * normal_order(system, branch) + !tree_has(system->trees[kind], branch->edge);
+}
+
+typedef struct Rank {
+    int order;
+    int branch;
+} Rank;
+
+static int compare_ranks(const void *a, const void *b)
+{
+    const Rank *x = a;
+    const Rank *y = b;
+
+    return x->order != y->order ? (x->order > y->order) - (x->order < y->order)
+                                : x->branch - y->branch;
+}
+
+static void choose_order(Taking *taking)
+{
+    System *system = taking->system;
+    LIST(Rank) ranks = {0};
+
+    for (int i = 0; i < system->branches.count; i++) {
+        const Branchlike *branch = &system->branches.at[i];
+
+        if (branch_tree(system, branch) != taking->kind)
+            continue;
+        LIST_PUSH(ranks, (Rank){rank_of(system, taking->kind, branch), i});
+    }
+    if (ranks.count > 0)
+        qsort(ranks.at, (size_t)ranks.count, sizeof(Rank), compare_ranks);
+    for (int k = 0; k < ranks.count; k++) {
+        take(taking, &system->branches.at[ranks.at[k].branch]);
+        take_through_ports(taking);
+    }
+    LIST_FREE(ranks);
+}
+
+static bool has_ports(const System *system, TreeKind kind)
+{
+    for (int i = 0; i < system->branches.count; i++)
+        if (system->branches.at[i].relation.kind == RELATION_PORT &&
+            branch_tree(system, &system->branches.at[i]) == kind)
+            return true;
+    return false;
+}
+
+/* storage elements that are states by the tree */
+static void list_states(System *system, const Tree *tree, TreeKind kind)
+{
+    for (int i = 0; i < system->branches.count; i++) {
+        const Branchlike *branch = &system->branches.at[i];
+        bool in_tree = tree_has(tree, branch->edge);
+
+        if (branch_tree(system, branch) == kind &&
+            branch->relation.kind == (in_tree ? RELATION_CAPACITIVE : RELATION_INDUCTIVE))
+            LIST_PUSH(system->at_rest, branch_member(system, branch, !in_tree));
+    }
+}
+
+/* The user's tree, where it is a normal one; else as much of it as a normal tree may hold. In the
+ * form of the user's tree that stays, and this one tells which variables rest at the start. */
+Status network_normal_tree(System *system, TreeKind kind, Diag *diag)
+{
+    int count = graph_edge_count(system->graph);
+    Taking taking = {.system = system,
+                     .kind = kind,
+                     .nodes = sets_new(graph_node_count(system->graph)),
+                     .preference = NEW_ARRAY(int, count)};
+    TreeChoice choice = {.preference = taking.preference};
+    Tree *tree = NULL;
+    Status status = OK;
+
+    for (int e = 0; e < count; e++)
+        taking.preference[e] = count;
+    if (has_ports(system, kind))
+        choose_order(&taking);
+    for (int i = 0; i < system->branches.count && taking.taken == 0; i++)
+        taking.preference[system->branches.at[i].edge] =
+            rank_of(system, kind, &system->branches.at[i]);
+    CHECK(tree_complete(system->graph, kind, &choice, false, &tree, diag));
+    for (int i = 0; i < tree_branch_count(tree); i++)
+        if (!tree_has(system->trees[kind], tree_branches(tree)[i]))
+            system->leaves_trees = true;
+    if (system->network_form == NETWORK_TREE) {
+        list_states(system, tree, kind);
+        tree_free(tree);
+    } else {
+        tree_free(system->trees[kind]);
+        system->trees[kind] = tree;
+    }
+done:
+    sets_free(taking.nodes);
+    mem_free(taking.preference);
+    return status;
+}
