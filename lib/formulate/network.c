@@ -9,9 +9,6 @@
  * tree any rate of an unknown may be met, and the highest ones are solved for. theory.md 8. */
 #include "formulate/system_impl.h"
 
-#include "graph/sets.h"
-
-#include <stdlib.h>
 #include <string.h>
 
 #define DEEP 100 /* followed edges, from which on variables stay unknown rather than go further */

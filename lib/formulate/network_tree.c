@@ -2,6 +2,10 @@
  * then what stores them, resistive edges, what stores through variables, their sources last */
 #include "formulate/system_impl.h"
 
+#include "graph/sets.h"
+
+#include <stdlib.h>
+
 static int normal_order(const System *system, const Branchlike *branch)
 {
     switch (branch->relation.kind) {
