@@ -2,7 +2,8 @@
  *
  * With multipliers that is the stabilised index-2 form of Gear, Gupta and Leimkuhler (1985),
  * multipliers entering as derivatives of unknowns, which makes it index 1; in the embedded form it
- * is the index-1 system itself. IDA gets consistent values from the problem; IDACalcIC isn't
+ * is the index-1 system itself. A network alone is solved for its states and algebraic unknowns
+ * together, with a sparse Jacobian. IDA gets consistent values from the problem; IDACalcIC isn't
  * used. */
 #include "simulate/ode.h"
 
@@ -12,7 +13,9 @@
 #include <nvector/nvector_serial.h>
 #include <string.h>
 #include <sunlinsol/sunlinsol_dense.h>
+#include <sunlinsol/sunlinsol_klu.h>
 #include <sunmatrix/sunmatrix_dense.h>
+#include <sunmatrix/sunmatrix_sparse.h>
 
 #define MAX_TRIES 100000
 
@@ -25,6 +28,11 @@ typedef struct Ida {
     SUNMatrix matrix;
     SUNLinearSolver linear;
     Counts earlier;
+    /* of a sparse Jacobian: entries as the problem has them, and where each stands by columns */
+    int entry_count;
+    const int *row;
+    int *place, *start;
+    double *entries;
     char reason[200];
 } Ida;
 
@@ -43,7 +51,7 @@ static int residual(realtype t, N_Vector w, N_Vector rate, N_Vector out, void *d
     const Ode *ode = d->base.ode;
 
     d->base.counts.evaluations++;
-    return ode->dae.residual(ode->context, t, N_VGetArrayPointer(w), N_VGetArrayPointer(rate),
+    return ode->dae.residual(ode->dae.context, t, N_VGetArrayPointer(w), N_VGetArrayPointer(rate),
                              N_VGetArrayPointer(out))
                ? 0
                : 1;
@@ -86,7 +94,69 @@ static void destroy(Stepper *stepper)
     }
     SUNContext_Free(&d->context);
     mem_free(d->base.y);
+    mem_free(d->place);
+    mem_free(d->start);
+    mem_free(d->entries);
     mem_free(d);
+}
+
+/* --- sparse Jacobians, by columns --- */
+
+static int jacobian(realtype t, realtype c, N_Vector w, N_Vector rate, N_Vector out,
+                    SUNMatrix matrix, void *data, N_Vector a, N_Vector b, N_Vector more)
+{
+    Ida *d = data;
+    const Dae *dae = &d->base.ode->dae;
+    sunindextype *start = SUNSparseMatrix_IndexPointers(matrix);
+    sunindextype *row = SUNSparseMatrix_IndexValues(matrix);
+    double *values = SUNSparseMatrix_Data(matrix);
+
+    (void)out, (void)a, (void)b, (void)more;
+    if (!dae->jacobian(dae->context, t, c, N_VGetArrayPointer(w), N_VGetArrayPointer(rate),
+                       d->entries))
+        return 1;
+    for (int i = 0; i <= d->n; i++)
+        start[i] = d->start[i];
+    for (int k = 0; k < d->entry_count; k++) {
+        row[d->place[k]] = d->row[k];
+        values[d->place[k]] = d->entries[k];
+    }
+    return 0;
+}
+
+static int choose_sparse(Ida *d)
+{
+    const Dae *dae = &d->base.ode->dae;
+    const int *column;
+    int code;
+
+    d->entry_count = dae->pattern(dae->context, &d->row, &column);
+    d->entries = NEW_ARRAY(double, d->entry_count);
+    d->place = NEW_ARRAY(int, d->entry_count);
+    d->start = NEW_ARRAY(int, d->n + 2);
+    for (int k = 0; k < d->entry_count; k++)
+        d->start[column[k] + 2]++;
+    for (int i = 0; i < d->n; i++)
+        d->start[i + 2] += d->start[i + 1];
+    for (int k = 0; k < d->entry_count; k++)
+        d->place[k] = d->start[column[k] + 1]++;
+    d->matrix = SUNSparseMatrix(d->n, d->n, d->entry_count, CSC_MAT, d->context);
+    d->linear = SUNLinSol_KLU(d->w, d->matrix, d->context);
+    code = IDASetLinearSolver(d->memory, d->linear, d->matrix);
+    return code == 0 ? IDASetJacFn(d->memory, jacobian) : code;
+}
+
+static int suppress(Ida *d)
+{
+    const bool *has_rate = d->base.ode->dae.has_rate;
+    int code;
+
+    if (has_rate == NULL)
+        return 0;
+    for (int i = 0; i < d->n; i++)
+        NV_Ith_S(d->out, i) = has_rate[i];
+    code = IDASetId(d->memory, d->out);
+    return code == 0 ? IDASetSuppressAlg(d->memory, SUNTRUE) : code;
 }
 
 static int first_start(Ida *d, double t)
@@ -106,8 +176,12 @@ static int first_start(Ida *d, double t)
         code = IDASetMaxNumSteps(d->memory, MAX_TRIES);
     if (code == 0)
         code = IDASetMaxStep(d->memory, control_largest(control));
+    if (code == 0)
+        code = suppress(d);
     if (code != 0)
         return code;
+    if (d->base.ode->dae.pattern != NULL)
+        return choose_sparse(d);
     d->matrix = SUNDenseMatrix(d->n, d->n, d->context);
     d->linear = SUNLinSol_Dense(d->w, d->matrix, d->context);
     return IDASetLinearSolver(d->memory, d->linear, d->matrix);
@@ -123,7 +197,7 @@ static Status start(Stepper *stepper, double t, const double *y, Diag *diag)
         return solver_failure(diag, t, "SUNDIALS could not be started");
     memmove(d->base.y, y, (size_t)d->all * sizeof(double));
     d->base.t = d->base.before = t;
-    if (!ode->dae.start(ode->context, t, d->base.y, N_VGetArrayPointer(d->w),
+    if (!ode->dae.start(ode->dae.context, t, d->base.y, N_VGetArrayPointer(d->w),
                         N_VGetArrayPointer(d->rate)))
         return solver_failure(diag, t, "the accelerations are undefined");
     d->earlier = d->base.counts;
@@ -178,7 +252,9 @@ static Status shorten(Stepper *stepper, double t, Diag *diag)
 
 const Method method_ida = {
     .name = "ida",
-    .brief = "IDA on the stabilised index-2 form (embedded: index 1); rows are projected",
+    .brief =
+        "IDA on the stabilised index-2 form (embedded: index 1), on networks alone sparse; rows "
+        "are projected",
     .create = create,
     .destroy = destroy,
     .start = start,

@@ -31,6 +31,8 @@ libcore_la_SOURCES += \
   lib/simulate/motion.h \
   lib/simulate/netsolve.c \
   lib/simulate/netsolve.h \
+  lib/simulate/netdae.c \
+  lib/simulate/netdae.h \
   lib/simulate/numbers.c \
   lib/simulate/numbers.h \
   lib/simulate/ode.h \

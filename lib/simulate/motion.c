@@ -56,6 +56,7 @@ static void describe_ode(Motion *mo)
     if (mo->used > 0 || eq->quaternion_count > 0)
         mo->ode.project = project;
     mo->ode.dae.n = y + (mo->options.embedded ? 0 : 2 * mo->used);
+    mo->ode.dae.context = mo;
     mo->ode.dae.residual = dae_residual;
     mo->ode.dae.start = dae_start;
     mo->dae_weight = NEW_ARRAY(double, mo->ode.dae.n);
@@ -139,6 +140,16 @@ void motion_window(Motion *mo, double low, double high)
     mo->high = high;
 }
 
+double motion_clock(const Motion *mo, double t)
+{
+    return fmin(fmax(t, mo->low), mo->high);
+}
+
+void motion_offer(Motion *mo, const Dae *dae)
+{
+    mo->ode.dae = *dae;
+}
+
 void motion_tolerance(Motion *mo, double tolerance)
 {
     mo->options.tolerance = tolerance;
@@ -195,7 +206,7 @@ static bool evaluate(Motion *mo, double t, const double *y)
 {
     const Equations *eq = mo->eq;
 
-    at_position(mo, fmin(fmax(t, mo->low), mo->high), y);
+    at_position(mo, motion_clock(mo, t), y);
     eq->velocity(eq->context, y + eq->n, y + eq->n + eq->nu);
     if (!netsolve_find(mo->network))
         return false;

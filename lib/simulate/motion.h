@@ -90,6 +90,9 @@ void motion_switches(Motion *motion, double t, const double *y, double *out);
 /* The time that rates see is kept within [low, high], so that a step up to a switch
  * never looks behind it. */
 void motion_window(Motion *motion, double low, double high);
+double motion_clock(const Motion *motion, double t); /* t within that */
+/* Other implicit equations of the same unknowns, for the motion's Ode; borrowed. */
+void motion_offer(Motion *motion, const Dae *dae);
 
 /* atol of the run, once it is known: bounds what a projection may leave */
 void motion_tolerance(Motion *motion, double tolerance);

@@ -13,13 +13,22 @@
 #include <math.h>
 #include <stdint.h>
 
-/* The same motion for solvers of implicit equations F(t, w, w') = 0; w holds y and multipliers. */
+/* The same motion for solvers of implicit equations F(t, w, w') = 0; w holds y and multipliers, or
+ * what else is algebraic. */
 typedef struct Dae {
     int n;
+    void *context;
     bool (*residual)(void *context, double t, const double *w, const double *rate, double *out);
     /* consistent w and w' at (t, y) */
     bool (*start)(void *context, double t, const double *y, double *w, double *rate);
     const double *weight; /* n: absolute tolerance of w_i is atol * weight */
+    /* n: whether a rate of w_i stands in F; NULL: take all for such */
+    const bool *has_rate;
+    /* Places of dF/dw + c dF/dw' that may not be 0, each place at most once; known from the first
+     * start() on. NULL: not offered. */
+    int (*pattern)(void *context, const int **row, const int **column);
+    bool (*jacobian)(void *context, double t, double c, const double *w, const double *rate,
+                     double *values);
 } Dae;
 
 typedef struct Ode {

@@ -63,6 +63,9 @@ static Status make_motion(Result *r, const Setting *setting, double atol, Diag *
     CHECK(find_independent(r->layout, setting, independent, diag));
     r->motion = motion_new(numbers_equations(r->numbers), &options);
     r->grid.length = motion_length(r->motion);
+    r->network = netdae_new(r->layout, &r->parameters, r->motion);
+    if (r->network != NULL)
+        motion_offer(r->motion, netdae_equations(r->network));
 done:
     mem_free(independent);
     return status;
@@ -176,6 +179,7 @@ void result_free(Result *r)
         return;
     events_free(r->events);
     samples_free(r->samples);
+    netdae_free(r->network);
     motion_free(r->motion);
     numbers_free(r->numbers);
     parameters_free(&r->parameters);

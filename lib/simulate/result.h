@@ -4,6 +4,7 @@
 
 #include "simulate/events.h"
 #include "simulate/march.h"
+#include "simulate/netdae.h"
 #include "simulate/numbers.h"
 #include "simulate/start.h"
 
@@ -21,6 +22,7 @@ struct Result {
     Parameters parameters;
     Numbers *numbers;
     Motion *motion;
+    NetDae *network; /* NULL where there is mechanics */
     Assembled start;
     Grid grid; /* of (q, u, x, work) */
     Driven driven;

@@ -21,7 +21,8 @@ const char *run_method(int i, const char **brief)
     const Method *method = method_row(i - 1);
 
     if (i == 0) {
-        *brief = "dop853, and radau once the equations turn out to be stiff";
+        *brief =
+            "dop853, and once the equations turn out to be stiff radau, or ida on large networks";
         return AUTO;
     }
     if (method == NULL)
@@ -90,6 +91,13 @@ static Status complete_options(const RunOptions *given, RunOptions *out, Diag *d
 
 /* --- forward --- */
 
+static const Method *stiff_method(const Result *r)
+{
+    if (motion_length(r->motion) + r->layout->nz <= FEW)
+        return &method_radau;
+    return r->network != NULL ? &method_ida : &method_bdf;
+}
+
 static MarchPlan plan_of(const Result *r, const Setting *setting, const RunOptions *options,
                          const Method *method)
 {
@@ -99,8 +107,8 @@ static MarchPlan plan_of(const Result *r, const Setting *setting, const RunOptio
         .events = r->events,
         .samples = r->samples,
         .method = method,
-        .stiff = motion_length(r->motion) > FEW ? &method_bdf : &method_radau,
-        .stiff_decays = motion_length(r->motion) > FEW,
+        .stiff = stiff_method(r),
+        .stiff_decays = stiff_method(r) != &method_radau,
         .control = {.rtol = options->rtol, .atol = options->atol, .step = options->step},
         .every = options->every,
         .watch = setting->watch};

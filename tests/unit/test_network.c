@@ -1,6 +1,11 @@
 /* test_network.c: scalar networks in both forms, nonlinear ones, and those that are refused */
 #include "session_kit.h"
 
+#include "base/memory.h"
+#include "base/text.h"
+
+#include <string.h>
+
 #define EXPECT_FAILS(kit, lines, part)                                                             \
     do {                                                                                           \
         EXPECT(kit_do(kit, lines) != CT_OK);                                                       \
@@ -86,6 +91,49 @@ static void a_steep_characteristic_is_solved(void)
                       "isource D b 0 1e-14*(exp(D.v/0.025) - 1)\nsimulate 1\n"
                       "expect D.i ~ 1e-14*(exp((5 - 1000*D.i)/0.025) - 1) within 1e-12\n"
                       "expect 1000*D.i ~ 4.330149050323344 within 1e-9\n");
+    kit_free(&kit);
+}
+
+/* sin(pi k/(N + 1)) decays as a whole: v_k' = (v_(k-1) - 2 v_k + v_(k+1))/(R C) */
+static void long_stiff_ladder(Text *lines, int sections)
+{
+    text_addf(lines, "vsource E n0 0 0\n");
+    for (int k = 1; k <= sections; k++)
+        text_addf(lines,
+                  "resistor R%d n%d n%d 10\ncapacitor C%d n%d 0 1e-9\n"
+                  "init C%d.v = sin(pi*%d/%d)\n",
+                  k, k - 1, k, k, k, k, k, sections + 1);
+    text_addf(lines, "resistor RL n%d 0 10\n", sections);
+}
+
+static void large_stiff_networks_are_solved_sparse(void)
+{
+    Kit kit = kit_new();
+    Text lines = {0};
+
+    long_stiff_ladder(&lines, 120);
+    text_addf(&lines, "d = exp(-2e-5/1e-8*4*sin(pi/242)^2)\n"
+                      "simulate 2e-5 method=ida rtol=1e-7 atol=1e-10\n"
+                      "expect C60.v ~ sin(pi*60/121)*d within 1e-6\n"
+                      "expect C7.v ~ sin(pi*7/121)*d within 1e-6\n"
+                      "expect energy.potential ~ 0.5e-9*60.5*d^2 within 1e-14\n"
+                      "set E.value = 1\nsimulate 4e-4 rtol=1e-7\n");
+    EXPECT_DONE(&kit, lines.at);
+    EXPECT_HOLDS(kit.text, "ida");
+    /* an even fall of voltage, once all has settled */
+    EXPECT_DONE(&kit, "expect C60.v ~ 61/121 within 1e-6\nexpect E.i ~ -1/1210 within 1e-8\n");
+    text_free(&lines);
+    kit_free(&kit);
+}
+
+/* v = r i^2 discharges C: sqrt(v) falls by 1/(2 C sqrt(r)) a second */
+static void algebraic_unknowns_are_solved_with_the_states(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, "capacitor C a 0 1\ninit C.v = 4\nresistor R a 0 0.25*(abs(R.i) + 1e-9)\n"
+                      "simulate 1 method=ida rtol=1e-9 atol=1e-12\n"
+                      "expect C.v ~ 1 within 1e-7\nexpect R.i ~ 2 within 1e-7\n");
     kit_free(&kit);
 }
 
@@ -188,6 +236,8 @@ int main(void)
     RUN(rows_without_highest_rates_lower_the_order);
     RUN(a_bridge_in_balance_carries_no_current);
     RUN(a_steep_characteristic_is_solved);
+    RUN(large_stiff_networks_are_solved_sparse);
+    RUN(algebraic_unknowns_are_solved_with_the_states);
     RUN(a_network_may_read_accelerations);
     RUN(an_equation_without_unknowns_is_differentiated);
     RUN(a_start_at_rest_is_that_of_the_states);

@@ -681,7 +681,7 @@ static void a_long_line_of_resistors_is_handed_over(void)
 
     EXPECT(script.status == OK);
     EXPECT(strstr(result_remarks(script.result), "stiff from t = ") != NULL);
-    EXPECT_TEXT(result_report(script.result)->method, "bdf");
+    EXPECT_TEXT(result_report(script.result)->method, "ida");
     script_close(&script);
 }
 
