@@ -178,6 +178,41 @@ static void a_start_at_rest_is_that_of_the_states(void)
     kit_free(&kit);
 }
 
+/* v' = u, u = -K v held for T: v falls by 1 - K T each period, along a line */
+static void a_sampled_gain_holds_its_output(void)
+{
+    static const char *const methods[] = {"dop853", "bdf", "ida", "radau"};
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, "vccs I 0 a y 0 gain=1\ncapacitor C a 0 1\n"
+                      "gain G y 0 of=-C.v k=2 period=0.1\ninit C.v = 1\n");
+    for (size_t i = 0; i < sizeof methods / sizeof methods[0]; i++) {
+        char line[80];
+
+        (void)snprintf(line, sizeof line, "simulate 1 every=0.05 method=%s\n", methods[i]);
+        EXPECT_DONE(&kit, line);
+        EXPECT_DONE(&kit, "expect C.v ~ 0.8^10 within 1e-9\nexpect C.v ~ 0.8^3 within 1e-9 at 0.3\n"
+                          "expect G.v ~ -2*0.8^3 within 1e-9 at 0.35\n"
+                          "expect C.v ~ 0.9*0.8^3 within 1e-9 at 0.35\n");
+    }
+    EXPECT_DONE(&kit, "resume 1\nexpect C.v ~ 0.8^20 within 1e-9\n");
+    EXPECT_DONE(&kit, "p = 0; set G.period = p\n");
+    EXPECT_FAILS(&kit, "simulate 1\n", "the sampling period of G.held is 0 s");
+    kit_free(&kit);
+}
+
+/* e = 1 - v, u = 2 e + I, I and v grow by T e and T u: 50 steps by hand of a machine */
+static void a_sampled_controller_counts_in_periods(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, "vsource R r 0 1\nvccs I 0 a y 0 gain=1\ncapacitor C a 0 1\n"
+                      "pid P y 0 ref=R.v of=C.v Kp=2 Ki=1 period=0.1\ninit C.v = 0\nsimulate 5\n"
+                      "expect C.v ~ 1.0234783092777917 within 1e-9\n"
+                      "expect P.integral ~ 0.028632084485111738 within 1e-9\n");
+    kit_free(&kit);
+}
+
 static void a_step_across_capacitors_is_refused(void)
 {
     Kit kit = kit_new();
@@ -241,6 +276,8 @@ int main(void)
     RUN(a_network_may_read_accelerations);
     RUN(an_equation_without_unknowns_is_differentiated);
     RUN(a_start_at_rest_is_that_of_the_states);
+    RUN(a_sampled_gain_holds_its_output);
+    RUN(a_sampled_controller_counts_in_periods);
     RUN(a_step_across_capacitors_is_refused);
     RUN(a_tree_that_needs_a_jump_differentiated_is_refused);
     RUN(sources_against_each_other_are_refused);
