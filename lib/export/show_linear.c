@@ -121,6 +121,10 @@ void linear_print(const View *view, const Linear *linear, Text *out)
         table_cell(&table, "about");
         table_cellf(&table, "t = %.6g s", linear->at);
         add_names(&table, "states", linear->state_names, linear->states);
+        if (linear->is_shifted) {
+            table_cell(&table, "");
+            table_cell(&table, "less what jumps with the inputs");
+        }
         add_names(&table, "inputs", linear->input_names, linear->inputs);
         add_names(&table, "outputs", linear->output_names, linear->outputs);
         table_print(out, &table, 0);

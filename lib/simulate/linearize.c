@@ -32,7 +32,7 @@ typedef struct Work {
     System *system;
     Layout *l;
     Parameters parameters;
-    Expr *inputs; /* symbols */
+    Expr *inputs; /* symbols, then of their rates */
     Columns at;
     RowPlaces rows;
     Gradients gradients;
@@ -52,6 +52,7 @@ typedef struct Vary {
     const LinearOrder *order;
     const Expr *symbols;
     Arena *arena;
+    Expr since; /* time from the point on */
 } Vary;
 
 /* the value that an input adds to: of a source, of an actuator */
@@ -74,7 +75,11 @@ static Expr vary(void *context, const Instance *instance, int param, Expr value)
         const char *source = v->order->inputs[i].source;
 
         if (source != NULL && strcmp(source, instance->name) == 0 && is_input(instance, param))
-            value = expr_add(v->arena, value, v->symbols[i]);
+            value = expr_sum(
+                v->arena,
+                (Expr[]){value, v->symbols[i],
+                         expr_mul(v->arena, v->symbols[v->order->input_count + i], v->since)},
+                3);
     }
     return value;
 }
@@ -83,8 +88,8 @@ static double parameter(void *context, Expr symbol)
 {
     const Work *w = context;
 
-    for (int i = 0; i < w->order->input_count; i++)
-        if (w->inputs[i] == symbol && w->order->inputs[i].source != NULL)
+    for (int i = 0; i < 2 * w->order->input_count; i++)
+        if (w->inputs[i] == symbol && w->order->inputs[i % w->order->input_count].source != NULL)
             return 0;
     return parameters_value(&w->order->about->parameters, symbol);
 }
@@ -111,11 +116,12 @@ static Status open_system(Work *w, Diag *diag)
 {
     const LinearOrder *order = w->order;
     Arena *arena = system_arena(order->about->system);
-    Vary of = {order, NULL, arena};
+    Vary of = {order, NULL, arena,
+               expr_sub(arena, expr_symbol(arena, "t", SYMBOL_TIME), expr_real(arena, order->at))};
     bool needed = false;
     Status status = OK;
 
-    w->inputs = NEW_ARRAY(Expr, order->input_count);
+    w->inputs = NEW_ARRAY(Expr, 2 * order->input_count);
     of.symbols = w->inputs;
     for (int i = 0; i < order->input_count; i++) {
         Text name = {0};
@@ -123,6 +129,8 @@ static Status open_system(Work *w, Diag *diag)
         CHECK(check_input(order, i, diag));
         text_addf(&name, order->inputs[i].source != NULL ? "#%s" : "%s", order->inputs[i].name);
         w->inputs[i] = expr_symbol(arena, name.at, SYMBOL_PARAMETER);
+        text_addf(&name, "#rate");
+        w->inputs[order->input_count + i] = expr_symbol(arena, name.at, SYMBOL_PARAMETER);
         text_free(&name);
         needed = needed || order->inputs[i].source != NULL;
     }
@@ -161,9 +169,9 @@ static void place_columns(Work *w)
                  {&at->multipliers, l->symbols + l->multipliers, l->m},
                  {&at->rates, l->symbols + l->rates, l->nx},
                  {&at->z, l->symbols + l->z, l->nz},
-                 {&at->inputs, w->inputs, w->order->input_count}};
+                 {&at->inputs, w->inputs, 2 * w->order->input_count}};
 
-    at->symbols = NEW_ARRAY(Expr, l->count + w->order->input_count);
+    at->symbols = NEW_ARRAY(Expr, l->count + 2 * w->order->input_count);
     for (int p = 0; p < COUNT(parts); p++) {
         *parts[p].place = at->count;
         for (int i = 0; i < parts[p].count; i++)
@@ -543,6 +551,41 @@ static void write_column(const Work *w, const Deviation *d, double *rates, doubl
     }
 }
 
+/* Rates of an input that the equations hold, x' = A x + B u + B1 u', as where a source closes a
+ * circuit of capacitors: of x - B1 u the equations hold none, x~' = A x~ + (B + A B1) u. */
+static Status take_rate(const Work *w, Deviation *d, int input, Linear *out, Diag *diag)
+{
+    double *b1 = NEW_ARRAY(double, out->states);
+    double *d1 = NEW_ARRAY(double, out->outputs);
+    Status status = OK;
+
+    memset(d->s, 0, (size_t)w->l->nu * sizeof(double));
+    memset(d->u, 0, (size_t)w->l->nu * sizeof(double));
+    d->state = -1;
+    d->input = out->inputs + input;
+    if (!spread(w, d))
+        CHECK(diag_set(diag, E_SINGULAR, "the equations are dependent there"));
+    write_column(w, d, b1, d1, 1);
+    for (int o = 0; o < out->outputs; o++)
+        if (fabs(d1[o]) > 1e-12 * vector_largest(d->follow, w->unknowns)) {
+            (void)diag_set(diag, E_MODEL, "%s follows the rate of %s, which is no linear output",
+                           out->output_names[o], out->input_names[input]);
+            diag_hint(diag, "a resistance in the circuit of capacitors and source makes it one");
+            CHECK(E_MODEL);
+        }
+    for (int i = 0; i < out->states; i++) {
+        out->is_shifted = out->is_shifted || b1[i] != 0;
+        for (int k = 0; k < out->states && b1[i] != 0; k++)
+            out->b[k * out->inputs + input] += out->a[k * out->states + i] * b1[i];
+        for (int o = 0; o < out->outputs && b1[i] != 0; o++)
+            out->d[o * out->inputs + input] += out->c[o * out->states + i] * b1[i];
+    }
+done:
+    mem_free(b1);
+    mem_free(d1);
+    return status;
+}
+
 static Status write_columns(const Work *w, Linear *out, Diag *diag)
 {
     const Layout *l = w->l;
@@ -574,6 +617,8 @@ static Status write_columns(const Work *w, Linear *out, Diag *diag)
         for (int i = 0; i < l->nx; i++)
             out->motion[(l->nu + i) * out->states + c] = d.state == i;
     }
+    for (int i = 0; i < out->inputs; i++)
+        CHECK(take_rate(w, &d, i, out, diag));
 done:
     mem_free(d.s);
     mem_free(d.u);

@@ -37,6 +37,8 @@ typedef struct Linear {
     int states, inputs, outputs, parts; /* parts: all coordinates, then network states */
     double *a, *b, *c, *d;              /* row by row */
     double *motion;                     /* parts x states: how each moves with y */
+    bool is_shifted; /* states are less what jumps with the inputs, as voltages of capacitors in a
+                        circuit with a source do: b and d count from there */
     char **state_names, **input_names, **output_names, **part_names;
 } Linear;
 

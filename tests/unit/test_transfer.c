@@ -302,9 +302,27 @@ static void without_a_range_all_roots_are_in_sight(void)
     kit_free(&kit);
 }
 
+/* C1 and C2 stand in a circuit with the source: R C1 s/(1 + R (C1 + C2) s) */
+static void capacitors_across_a_source_jump_with_it(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit,
+                "vsource E1 a 0 0\ncapacitor C1 a b 1\ncapacitor C2 b 0 2\nresistor R1 b 0 4\n"
+                "linearize inputs=[E1] outputs=[C2.v, C1.v]\nshow linear\n");
+    EXPECT_HOLDS(kit.text, "less what jumps with the inputs");
+    EXPECT_DONE(&kit, "show transfer\n");
+    EXPECT_HOLDS(kit.text, "C2.v/E1 = 0.333333 s/(s + 0.0833333)\n");
+    EXPECT_HOLDS(kit.text, "C1.v/E1 = (0.666667 s + 0.0833333)/(s + 0.0833333)\n");
+    EXPECT(kit_do(&kit, "linearize inputs=[E1] outputs=[C1.i]\n") != CT_OK);
+    EXPECT_HOLDS(kit.error.message, "C1.i follows the rate of E1");
+    kit_free(&kit);
+}
+
 int main(void)
 {
     RUN(a_low_pass_falls_by_20_decibels_a_decade);
+    RUN(capacitors_across_a_source_jump_with_it);
     RUN(a_resonant_circuit_passes_a_band);
     RUN(a_motor_turns_its_inertia);
     RUN(what_floats_has_two_poles_at_0);
