@@ -393,7 +393,7 @@ static Expr pick_exactly(Arena *arena, Op op, const Expr *args)
 /* The number that a function of numbers is, or NULL where it stays. */
 static Expr fold_numbers(Arena *arena, Op op, const Expr *args)
 {
-    double values[3];
+    double values[3] = {0};
     double value;
     bool real = true;
 

@@ -9,7 +9,7 @@ static double value_of(const Walk *walk, const double *values, Expr e)
 static double node_value(const Walk *walk, const double *values, Expr e)
 {
     const Expr *args = node_args(e);
-    double inside[3];
+    double inside[3] = {0};
     double value;
 
     switch (e->kind) {
