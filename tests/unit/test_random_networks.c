@@ -1,10 +1,11 @@
 /* test_random_networks.c: random networks have one solution, whatever the tree
  *
- * Networks of R, L, C and sources, up to 200 elements: a random spanning tree of elements that may
- * carry any current, and chords that may have any voltage. Circuits of capacitors and voltage
- * sources and cutsets of inductors and current sources come about by themselves. What a run tells
- * is held to Kirchhoff's laws and the elements' own at every output point, to Tellegen's theorem
- * (also with voltages of one tree and currents of another), and to the balance of energy. */
+ * Networks of R, L, C and sources, independent and controlled, up to 200 elements: a random
+ * spanning tree of elements that may carry any current, and chords that may have any voltage.
+ * Circuits of capacitors and voltage sources and cutsets of inductors and current sources come
+ * about by themselves. What a run tells is held to Kirchhoff's laws and the elements' own at every
+ * output point, to Tellegen's theorem (also with voltages of one tree and currents of another), and
+ * to the balance of energy. */
 #include "scene.h"
 
 #include "simulate/run.h"
@@ -14,16 +15,18 @@
 /* an improper tree's equations of high order grow fast: integrated up to FEW elements */
 enum { MOST_ELEMENTS = 200, SMALL = 80, FEW = 12 };
 
-typedef enum Kind { RESISTOR, CAPACITOR, INDUCTOR, VSOURCE, ISOURCE, KINDS } Kind;
+typedef enum Kind { RESISTOR, CAPACITOR, INDUCTOR, VSOURCE, ISOURCE, VCVS, CCVS, VCCS, CCCS } Kind;
 
-static const char *const words[] = {"resistor", "capacitor", "inductor", "vsource", "isource"};
-static const char letters[] = "RCLVI";
+static const char *const words[] = {"resistor", "capacitor", "inductor", "vsource", "isource",
+                                    "vcvs",     "ccvs",      "vccs",     "cccs"};
+static const char letters[] = "RCLVIEHGF";
 
 typedef struct Element {
     Kind kind;
     int plus, minus; /* nodes; 0 is the datum */
-    double value;    /* ohm, F, H; amplitude of a source */
+    double value;    /* ohm, F, H; amplitude of a source; gain */
     double speed;    /* of a source's sine, rad/s */
+    int sensed[2];   /* nodes, or an element's number */
 } Element;
 
 typedef struct Network {
@@ -37,6 +40,16 @@ static int pick(uint64_t *random, int count)
     return (int)(test_random(random) % (uint64_t)count);
 }
 
+static bool is_controlled(const Element *element)
+{
+    return element->kind >= VCVS;
+}
+
+static bool senses_current(const Element *element)
+{
+    return element->kind == CCVS || element->kind == CCCS;
+}
+
 static bool stores(const Element *element)
 {
     return element->kind == CAPACITOR || element->kind == INDUCTOR;
@@ -44,19 +57,55 @@ static bool stores(const Element *element)
 
 static Element random_element(uint64_t *random, Kind kind, int plus, int minus)
 {
-    static const double least[] = {0.5, 0.2, 0.2, -5.0, -1.0};
-    static const double most[] = {5.0, 2.0, 2.0, 5.0, 1.0};
+    static const double least[] = {0.5, 0.2, 0.2, -5.0, -1.0, -0.3, -0.3, -0.3, -0.3};
+    static const double most[] = {5.0, 2.0, 2.0, 5.0, 1.0, 0.3, 0.3, 0.3, 0.3};
 
-    return (Element){kind, plus, minus, test_uniform(random, least[kind], most[kind]),
-                     test_uniform(random, 0.5, 3.0)};
+    return (Element){.kind = kind,
+                     .plus = plus,
+                     .minus = minus,
+                     .value = test_uniform(random, least[kind], most[kind]),
+                     .speed = test_uniform(random, 0.5, 3.0)};
 }
 
-static Network random_network(uint64_t *random, int count)
+/* what controls a source: two nodes, or the current of the last resistor before it */
+static void random_sense(uint64_t *random, Network *net, int i)
 {
-    static const Kind in_tree[] = {RESISTOR,  RESISTOR, RESISTOR, CAPACITOR,
-                                   CAPACITOR, INDUCTOR, VSOURCE};
-    static const Kind across[] = {RESISTOR,  RESISTOR, RESISTOR, CAPACITOR,
-                                  CAPACITOR, INDUCTOR, INDUCTOR, ISOURCE};
+    Element *element = &net->at[i];
+    int *sensed = element->sensed;
+
+    sensed[0] = pick(random, net->nodes);
+    sensed[1] = (sensed[0] + 1 + pick(random, net->nodes - 1)) % net->nodes;
+    if (!senses_current(element))
+        return;
+    for (sensed[0] = i; sensed[0] >= 0 && net->at[sensed[0]].kind != RESISTOR; sensed[0]--)
+        continue;
+    if (sensed[0] < 0)
+        element->kind = RESISTOR;
+}
+
+/* of which a network is made: its spanning tree, and what is added across */
+typedef struct Mix {
+    Kind in_tree[8];
+    Kind across[8];
+} Mix;
+
+static const Mix independent = {
+    {RESISTOR, RESISTOR, RESISTOR, CAPACITOR, CAPACITOR, INDUCTOR, VSOURCE, RESISTOR},
+    {RESISTOR, RESISTOR, RESISTOR, CAPACITOR, CAPACITOR, INDUCTOR, INDUCTOR, ISOURCE},
+};
+/* no inductors that a controlled current would have to run through */
+static const Mix controlled_currents = {
+    {RESISTOR, RESISTOR, RESISTOR, CAPACITOR, CAPACITOR, RESISTOR, VSOURCE, RESISTOR},
+    {RESISTOR, RESISTOR, RESISTOR, CAPACITOR, CAPACITOR, VCCS, CCCS, RESISTOR},
+};
+/* no capacitors that a controlled voltage would stand across */
+static const Mix controlled_voltages = {
+    {RESISTOR, RESISTOR, RESISTOR, INDUCTOR, RESISTOR, VCVS, VSOURCE, CCVS},
+    {RESISTOR, RESISTOR, RESISTOR, INDUCTOR, INDUCTOR, RESISTOR, INDUCTOR, ISOURCE},
+};
+
+static Network random_network(uint64_t *random, int count, const Mix *mix)
+{
     Network net = {.nodes = 2 + (count - 2) / 2, .count = count};
 
     for (int i = 0; i < count; i++) {
@@ -65,11 +114,13 @@ static Network random_network(uint64_t *random, int count)
         int minus =
             tree ? pick(random, i + 1) : (plus + 1 + pick(random, net.nodes - 1)) % net.nodes;
         Kind kind = i == 0 ? VSOURCE
-                    : tree ? in_tree[pick(random, COUNT(in_tree))]
-                           : across[pick(random, COUNT(across))];
+                    : tree ? mix->in_tree[pick(random, COUNT(mix->in_tree))]
+                           : mix->across[pick(random, COUNT(mix->across))];
 
         net.at[i] = pick(random, 2) == 0 ? random_element(random, kind, plus, minus)
                                          : random_element(random, kind, minus, plus);
+        if (is_controlled(&net.at[i]))
+            random_sense(random, &net, i);
     }
     return net;
 }
@@ -89,8 +140,15 @@ static char *network_text(const Network *net)
         text_addf(&text, "%s %c%d", words[element->kind], letters[element->kind], i);
         add_node(&text, element->plus);
         add_node(&text, element->minus);
+        if (senses_current(element)) {
+            text_addf(&text, " of=R%d.i gain=", element->sensed[0]);
+        } else if (is_controlled(element)) {
+            add_node(&text, element->sensed[0]);
+            add_node(&text, element->sensed[1]);
+            text_add(&text, " gain=");
+        }
         text_addf(&text, " %.17g", element->value);
-        if (element->kind >= VSOURCE)
+        if (element->kind == VSOURCE || element->kind == ISOURCE)
             text_addf(&text, "*sin(%.17g*t)", element->speed);
         text_char(&text, '\n');
     }
@@ -217,17 +275,21 @@ static void expect_small(double value, double limit, const char *what, int which
     printf("%s %d at t = %.3g: off by %.3g, at most %.3g\n", what, which, t, value, limit);
 }
 
+static double potential(const Network *net, const Told *told, int row, int node)
+{
+    return node > 0 ? told_at(told, row, 3 * net->count - 1 + node) : 0.0;
+}
+
 static void expect_kirchhoff(const Network *net, const Told *told, int row)
 {
-    int nodes = 3 * net->count - 1; /* column of node n less n */
     double *sums = NEW_ARRAY(double, net->nodes);
     double volts = largest(told, 0, net->count);
     double amperes = largest(told, net->count, net->count);
 
     for (int i = 0; i < net->count; i++) {
         const Element *element = &net->at[i];
-        double plus = element->plus > 0 ? told_at(told, row, nodes + element->plus) : 0.0;
-        double minus = element->minus > 0 ? told_at(told, row, nodes + element->minus) : 0.0;
+        double plus = potential(net, told, row, element->plus);
+        double minus = potential(net, told, row, element->minus);
 
         expect_small(plus - minus - told_at(told, row, i), 1e-12 * volts, "voltage law of", i,
                      told->times[row]);
@@ -240,8 +302,20 @@ static void expect_kirchhoff(const Network *net, const Told *told, int row)
 }
 
 /* how far an element is off its own law, in volts or amperes */
-static double off_law(const Element *element, double v, double i, double rate, double t)
+static double off_law(const Network *net, const Told *told, int row, int which)
 {
+    const Element *element = &net->at[which];
+    double v = told_at(told, row, which);
+    double i = told_at(told, row, net->count + which);
+    double rate = told_at(told, row, 2 * net->count + which);
+    double source = element->value * sin(element->speed * told->times[row]);
+    double sensed;
+
+    if (senses_current(element))
+        sensed = told_at(told, row, net->count + element->sensed[0]);
+    else
+        sensed = potential(net, told, row, element->sensed[0]) -
+                 potential(net, told, row, element->sensed[1]);
     switch (element->kind) {
     case RESISTOR:
         return v - element->value * i;
@@ -250,9 +324,14 @@ static double off_law(const Element *element, double v, double i, double rate, d
     case INDUCTOR:
         return v - element->value * rate;
     case VSOURCE:
-        return v - element->value * sin(element->speed * t);
+        return v - source;
+    case ISOURCE:
+        return i - source;
+    case VCVS:
+    case CCVS:
+        return v - element->value * sensed;
     default:
-        return i - element->value * sin(element->speed * t);
+        return i - element->value * sensed;
     }
 }
 
@@ -261,9 +340,8 @@ static void expect_laws(const Network *net, const Told *told, int row)
     double size = largest(told, 0, 2 * net->count);
 
     for (int i = 0; i < net->count; i++)
-        expect_small(off_law(&net->at[i], told_at(told, row, i), told_at(told, row, net->count + i),
-                             told_at(told, row, 2 * net->count + i), told->times[row]),
-                     1e-11 * size, words[net->at[i].kind], i, told->times[row]);
+        expect_small(off_law(net, told, row, i), 1e-11 * size, words[net->at[i].kind], i,
+                     told->times[row]);
 }
 
 /* voltages of one, currents of the other: both keep Kirchhoff's laws, so they add up to nothing */
@@ -310,7 +388,7 @@ static void expect_same(const Network *net, const Told *first, const Told *told)
 static char *random_tree(const Model *model, const Network *net, bool proper, uint64_t *random)
 {
     static const int rank[] = {
-        [VSOURCE] = 0, [CAPACITOR] = 1, [RESISTOR] = 2, [INDUCTOR] = 3, [ISOURCE] = 4};
+        [CAPACITOR] = 1, [RESISTOR] = 2, [INDUCTOR] = 3, [ISOURCE] = 4, [VCCS] = 4, [CCCS] = 4};
     const Graph *graph = model_graph(model);
     int *preference = NEW_ARRAY(int, graph_edge_count(graph));
     TreeChoice choice = {.preference = preference};
@@ -320,7 +398,7 @@ static char *random_tree(const Model *model, const Network *net, bool proper, ui
 
     for (int e = 0; e < graph_edge_count(graph); e++) {
         Kind kind = net->at[e].kind;
-        int order = proper ? rank[kind] : kind == VSOURCE ? 0 : kind == ISOURCE ? 4 : 2;
+        int order = proper || rank[kind] == 0 || rank[kind] == 4 ? rank[kind] : 2;
 
         preference[e] = 1000 * order + pick(random, 1000);
     }
@@ -379,9 +457,9 @@ static void expect_all(const Network *net, Way way, const Told *first, const Tol
 }
 
 /* trees that were refused */
-static int check_network(uint64_t *random, int size, int trees)
+static int check_network(uint64_t *random, int size, int trees, const Mix *mix)
 {
-    Network net = random_network(random, size);
+    Network net = random_network(random, size, mix);
     char *text = network_text(&net);
     Model *models[8] = {NULL};
     System *systems[8] = {NULL};
@@ -418,7 +496,7 @@ static void small_networks_have_one_solution(void)
     int refusals = 0;
 
     for (int i = 0; i < SMALL && test_faults == 0; i++)
-        refusals += check_network(&random, 4 + pick(&random, FEW - 4), 5);
+        refusals += check_network(&random, 4 + pick(&random, FEW - 4), 5, &independent);
     printf("%d trees of %d refused\n", refusals, 4 * SMALL);
     EXPECT(refusals <= 4 * SMALL / 40);
 }
@@ -428,12 +506,24 @@ static void networks_of_200_elements_have_one_solution(void)
     uint64_t random = 200;
 
     for (int i = 0; i < 4 && test_faults == 0; i++)
-        EXPECT(check_network(&random, MOST_ELEMENTS, 4) == 0);
+        EXPECT(check_network(&random, MOST_ELEMENTS, 4, &independent) == 0);
+}
+
+static void controlled_sources_keep_to_their_gains_in_all_trees(void)
+{
+    uint64_t random = 4;
+
+    for (int i = 0; i < SMALL && test_faults == 0; i++)
+        check_network(&random, FEW + 1 + pick(&random, 20), 4,
+                      i % 2 == 0 ? &controlled_currents : &controlled_voltages);
+    EXPECT(check_network(&random, MOST_ELEMENTS, 3, &controlled_currents) == 0);
+    EXPECT(check_network(&random, MOST_ELEMENTS, 3, &controlled_voltages) == 0);
 }
 
 int main(void)
 {
     RUN(small_networks_have_one_solution);
     RUN(networks_of_200_elements_have_one_solution);
+    RUN(controlled_sources_keep_to_their_gains_in_all_trees);
     return test_end();
 }
