@@ -1,11 +1,23 @@
 # manual, man page, and what in them is made from the program
 info_TEXINFOS = doc/cotree.texi
-doc_cotree_TEXINFOS = doc/cases.texi doc/reference.texi doc/example.c
+doc_cotree_TEXINFOS = doc/cases.texi doc/machines.texi doc/reference.texi doc/example.c
 AM_MAKEINFOFLAGS = --no-split -I doc
 dist_man_MANS += doc/cotree.1
 EXTRA_DIST += scripts/dev/docs
 
-# write anew: the reference, the commands of the man page, the sessions of manual and README
+# pictures: those of characters, for Info and plain text, are kept; the others are drawn by gnuplot
+# when the manual is made as html or pdf
+pictures = arm crane lift loudspeaker maglev microphone slider-crank
+EXTRA_DIST += doc/pictures/list $(pictures:%=doc/pictures/%.txt)
+doc/cotree.html doc/cotree.pdf doc/cotree.dvi: doc/pictures/drawn
+doc/pictures/drawn: doc/pictures/list cotree$(EXEEXT)
+	$(srcdir)/scripts/dev/pictures ./cotree png doc/pictures
+	@touch $@
+CLEANFILES += doc/pictures/drawn $(pictures:%=doc/pictures/%.png)
+
+# write anew: the reference, the commands of the man page, the sessions and the pictures of
+# characters of the manual, the sessions of the README
 docs: all
 	$(srcdir)/scripts/dev/docs $(abs_builddir)/cotree
+	$(srcdir)/scripts/dev/pictures $(abs_builddir)/cotree txt $(srcdir)/doc/pictures
 .PHONY: docs

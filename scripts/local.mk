@@ -31,3 +31,11 @@ EXTRA_DIST += \
 # sessions to read and to type
 EXTRA_DIST += scripts/tours/bouncing-ball.ct scripts/tours/first-hour.ct \
 	scripts/tours/hydraulic-lift.ct
+
+# machines with motors, coils and controllers, and the motions that they are held to
+EXTRA_DIST += \
+	scripts/machines/crane.ct \
+	scripts/machines/loudspeaker.ct \
+	scripts/machines/maglev.ct \
+	scripts/machines/motions.py \
+	scripts/machines/slider-crank.ct

@@ -45,6 +45,7 @@ SCRIPT_TESTS = \
 	tests/cases/four_bar \
 	tests/cases/free_body \
 	tests/cases/heavy_top \
+	tests/cases/machines \
 	tests/cases/microphone \
 	tests/cases/motor_arm \
 	tests/cases/pendulum \
