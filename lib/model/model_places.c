@@ -368,8 +368,10 @@ static Status two_parts(Draft *draft)
 
         CHECK(next_name(draft, &name, &place));
         other = state_part(draft->state, name);
-        if (other == NULL)
-            CHECK(name_unknown(draft->state, "component", name, place, draft->diag));
+        if (other == NULL) {
+            status = name_unknown(draft->state, "component", name, place, draft->diag);
+            goto done;
+        }
         if (strcmp(other->row->name, part->row->couples) != 0)
             CHECK(diag_at(draft->diag, E_VALUE, place,
                           "%s is a %s: a %s takes two parts of kind %s", name, other->row->name,

@@ -213,6 +213,28 @@ static void sampled_transfer_function_goes_by_the_trapezoidal_rule(void)
                 3 * 1.5 + 2 * -2, 1e-12);
 }
 
+/* a mass of 1 kg pushed with the force of the last instant: exact from one to the next */
+static void sampled_control_moves_a_mass_in_parabolas(void)
+{
+    double s = 0, v = 0, previous = 0, force = 0;
+    Kit kit = kit_new();
+
+    for (int k = 0; k < 11; k++) {
+        double h = k < 10 ? 0.1 : 0.05;
+
+        force = 4 * (1 - s) + 4 * (1 - s - previous) / 0.1;
+        previous = 1 - s;
+        s += v * h + force * h * h / 2;
+        v += force * h;
+    }
+    EXPECT_DONE(&kit, MASS "pd c1 a 0 ref=1 of=s Kp=4 Kd=4 period=0.1\n"
+                           "actuator a1 s force=c1.v\ninit s = 0, s' = 0\n" RUN_FOR(1.05));
+    EXPECT_NEAR(kit_value(&kit, "s"), s, 1e-9);
+    EXPECT_NEAR(kit_value(&kit, "s'"), v, 1e-9);
+    EXPECT_NEAR(kit_value(&kit, "c1.v"), force, 1e-9);
+    kit_free(&kit);
+}
+
 int main(void)
 {
     RUN(blocks_of_signals_answer_a_step);
@@ -227,5 +249,6 @@ int main(void)
     RUN(sampled_blocks_hold_their_output);
     RUN(sampled_controllers_take_differences);
     RUN(sampled_transfer_function_goes_by_the_trapezoidal_rule);
+    RUN(sampled_control_moves_a_mass_in_parabolas);
     return test_end();
 }

@@ -1,5 +1,6 @@
 /* test_parts.c: electrical components against closed forms, and their edges in trees */
 #include "session_kit.h"
+#include "test_model.h"
 
 #include <math.h>
 
@@ -113,6 +114,14 @@ static void opamp_integrates(void)
     expect_value("vsource V1 a 0 sin(10*t)\nresistor R1 a m 10 kohm\ncapacitor C1 m out 10 uF\n"
                  "opamp U1 0 m out\ninit C1.v = 0\n" RUN_FOR(1),
                  "U1.out.v", -(1 - cos(10)) / 10 / 0.1, 1e-8);
+}
+
+/* the source fixes the capacitor's voltage: no state is left */
+static void opamp_differentiates(void)
+{
+    expect_value("vsource V1 a 0 sin(t)\ncapacitor C1 a m 1 uF\nresistor R1 m out 1 Mohm\n"
+                 "opamp U1 0 m out\n" RUN_FOR(1),
+                 "out.v", -cos(1), 1e-8);
 }
 
 /* unity-gain low pass of second order (Sallen and Key 1955): w0 = 1/(R C), zeta = 1 */
@@ -309,6 +318,26 @@ static void edges_of_one_part_are_named_apart(void)
     kit_free(&kit);
 }
 
+/* what is saved makes the same trees, and init reaches the members of an edge */
+static void edges_are_saved_by_their_names(void)
+{
+    const char *const text = TRANSFORMER "capacitor C1 c 0 1e-3\ntree electrical V1 R1 T1.s\n"
+                                         "init C1.v = 1\n";
+    Model *model = model_of(text);
+    char *saved = model_save(model);
+    Model *again = model_of(saved);
+    char *before = branches(model, TREE_ELECTRICAL);
+    char *after = branches(again, TREE_ELECTRICAL);
+
+    EXPECT(strstr(saved, "tree electrical V1 R1 T1.s") != NULL);
+    EXPECT_TEXT(after, before);
+    mem_free(before);
+    mem_free(after);
+    mem_free(saved);
+    model_free(model);
+    model_free(again);
+}
+
 static void coupled_inductors_stay_while_they_are_coupled(void)
 {
     Kit kit = kit_new();
@@ -330,6 +359,7 @@ int main(void)
     RUN(source_controlled_by_its_own_voltage_is_a_conductance);
     RUN(opamp_with_feedback_makes_its_inputs_equal);
     RUN(opamp_integrates);
+    RUN(opamp_differentiates);
     RUN(opamp_filters);
     RUN(transformer_shows_its_load_times_n_squared);
     RUN(transformer_feeds_an_inductor);
@@ -342,6 +372,7 @@ int main(void)
     RUN(switch_opens_and_closes_by_time);
     RUN(switch_opens_by_state);
     RUN(edges_of_one_part_are_named_apart);
+    RUN(edges_are_saved_by_their_names);
     RUN(coupled_inductors_stay_while_they_are_coupled);
     return test_end();
 }
