@@ -588,7 +588,7 @@ static void frames_turned_halfway_tell_their_attitude(void)
         system = scene_system(model);
         for (int k = 0; k < 4; k++) {
             SceneState state = {model, 3};
-            char name[8];
+            char name[16];
 
             snprintf(name, sizeof name, "a.q%d", k);
             p[k] = value_of(scene_expression(model, system, name), &state);
