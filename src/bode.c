@@ -59,28 +59,33 @@ static void put_curves(FILE *out, const Response *response, int offset, bool as_
     fputc('\n', out);
 }
 
-/* lines at quarters of a turn, or parts and multiples of them where the phase spans little or much
- */
-static double phase_step(const Response *response)
+/* The first of some steps that gives an axis no more than six parts; four in characters, where a
+ * panel has few lines. What spans less than a step is left to gnuplot. */
+static void put_axis(FILE *out, const Response *response, int first, bool as_text,
+                     const double steps[6])
 {
-    static const double steps[] = {15, 45, 90, 180, 360};
     double least = INFINITY, most = -INFINITY;
-    size_t i = 0;
+    int i = 0;
 
     for (int r = 0; r < response->rows; r++)
-        for (int j = 2; j < response->columns; j += 2) {
+        for (int j = first; j < response->columns; j += 2) {
             least = fmin(least, response->values[r * response->columns + j]);
             most = fmax(most, response->values[r * response->columns + j]);
         }
-    while (i + 1 < sizeof steps / sizeof steps[0] && (most - least) / steps[i] > 6)
+    while (i + 1 < 6 && (most - least) / steps[i] > (as_text ? 4 : 6))
         i++;
-    return steps[i];
+    if (most - least < steps[0])
+        fputs("set ytics autofreq\n", out);
+    else
+        fprintf(out, "set ytics %g\n", steps[i]);
 }
 
 static void put_commands(FILE *out, const Drawing *drawing, bool as_text)
 {
     const Response *response = drawing->of;
     bool is_alone = response->columns == 3;
+    static const double decibels[6] = {5, 10, 20, 40, 60, 100};
+    static const double degrees[6] = {15, 45, 90, 180, 360, 720};
 
     put_data(out, response);
     fputs("set multiplot layout 2,1\n", out);
@@ -98,8 +103,10 @@ static void put_commands(FILE *out, const Drawing *drawing, bool as_text)
 
     /* characters don't stand upright: labels are titles there */
     fputs(as_text ? "set title 'gain [dB]'\n" : "set ylabel 'gain [dB]'\n", out);
+    put_axis(out, response, 1, as_text, decibels);
     put_curves(out, response, 0, as_text);
-    fprintf(out, "set ytics %g\nset xlabel 'frequency [Hz]'\n", phase_step(response));
+    put_axis(out, response, 2, as_text, degrees);
+    fputs("set xlabel 'frequency [Hz]'\n", out);
     fputs(as_text ? "set key off\nset title 'phase [deg]'\n"
                   : "unset title\nset key off\nset ylabel 'phase [deg]'\n",
           out);
