@@ -7,13 +7,18 @@ EXTRA_DIST += scripts/dev/docs
 
 # pictures: those of characters, for Info and plain text, are kept; the others are drawn by gnuplot
 # when the manual is made as html or pdf
-pictures = arm crane lift loudspeaker maglev microphone slider-crank
-EXTRA_DIST += doc/pictures/list $(pictures:%=doc/pictures/%.txt)
+EXTRA_DIST += doc/pictures/list \
+	doc/pictures/arm.txt doc/pictures/crane.txt doc/pictures/lift.txt \
+	doc/pictures/loudspeaker.txt doc/pictures/maglev.txt doc/pictures/microphone.txt \
+	doc/pictures/slider-crank.txt
 doc/cotree.html doc/cotree.pdf doc/cotree.dvi: doc/pictures/drawn
 doc/pictures/drawn: doc/pictures/list cotree$(EXEEXT)
 	$(srcdir)/scripts/dev/pictures ./cotree png doc/pictures
 	@touch $@
-CLEANFILES += doc/pictures/drawn $(pictures:%=doc/pictures/%.png)
+CLEANFILES += doc/pictures/drawn \
+	doc/pictures/arm.png doc/pictures/crane.png doc/pictures/lift.png \
+	doc/pictures/loudspeaker.png doc/pictures/maglev.png doc/pictures/microphone.png \
+	doc/pictures/slider-crank.png
 
 # write anew: the reference, the commands of the man page, the sessions and the pictures of
 # characters of the manual, the sessions of the README
