@@ -62,6 +62,15 @@ static void found_value(System *system, Instance *source)
     }
 }
 
+static void add_leak(System *system, Expr across, Relation *relation)
+{
+    if (relation->kind != RELATION_CONDUCTIVE && relation->kind != RELATION_THROUGH)
+        return;
+    if (!expr_is_zero(expr_diff(system->arena, relation->value, across)))
+        relation->value =
+            expr_add(system->arena, relation->value, expr_mul(system->arena, system->leak, across));
+}
+
 static void read_relation(System *system, Branchlike *branch)
 {
     const Instance *instance = owner_of(system, branch);
@@ -80,6 +89,8 @@ static void read_relation(System *system, Branchlike *branch)
     source = *instance;
     found_value(system, &source);
     instance->row->relation(&source, arena, branch->which, &motion, &branch->relation);
+    if (system->leak != NULL)
+        add_leak(system, motion.across, &branch->relation);
 }
 
 /* what couplings bring to the relations of two parts */

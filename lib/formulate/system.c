@@ -343,7 +343,7 @@ done:
     return status;
 }
 
-static Status make(const Model *model, NetworkForm form, VaryValue vary, void *context,
+static Status make(const Model *model, NetworkForm form, VaryValue vary, void *context, Expr leak,
                    const Watch *watch, System **out, Diag *diag)
 {
     System *system = NEW(System);
@@ -354,6 +354,7 @@ static Status make(const Model *model, NetworkForm form, VaryValue vary, void *c
     system->arena = model_arena(model);
     system->revision = model_revision(model);
     system->network_form = form;
+    system->leak = leak;
     system->watch = watch;
     system->planar = model_is_planar(model);
     for (int i = 0; i < 3; i++)
@@ -382,18 +383,24 @@ done:
 Status system_new_varied(const Model *model, VaryValue vary, void *context, const Watch *watch,
                          System **out, Diag *diag)
 {
-    return make(model, NETWORK_STATE, vary, context, watch, out, diag);
+    return make(model, NETWORK_STATE, vary, context, NULL, watch, out, diag);
+}
+
+Status system_new_leaking(const Model *model, VaryValue vary, void *context, Expr leak,
+                          const Watch *watch, System **out, Diag *diag)
+{
+    return make(model, NETWORK_STATE, vary, context, leak, watch, out, diag);
 }
 
 Status system_new_form(const Model *model, NetworkForm form, const Watch *watch, System **out,
                        Diag *diag)
 {
-    return make(model, form, NULL, NULL, watch, out, diag);
+    return make(model, form, NULL, NULL, NULL, watch, out, diag);
 }
 
 Status system_new(const Model *model, const Watch *watch, System **out, Diag *diag)
 {
-    return make(model, model_network_form(model), NULL, NULL, watch, out, diag);
+    return make(model, model_network_form(model), NULL, NULL, NULL, watch, out, diag);
 }
 
 void system_free(System *system)

@@ -25,6 +25,10 @@ MUST_USE Status system_new(const Model *model, const Watch *watch, System **out,
 typedef Expr (*VaryValue)(void *context, const Instance *instance, int param, Expr value);
 MUST_USE Status system_new_varied(const Model *model, VaryValue vary, void *context,
                                   const Watch *watch, System **out, Diag *diag);
+/* And with a conductance `leak` beside every scalar edge whose through variable is an expression of
+ * its across variable: where a search for its state may begin. */
+MUST_USE Status system_new_leaking(const Model *model, VaryValue vary, void *context, Expr leak,
+                                   const Watch *watch, System **out, Diag *diag);
 /* The same with the network's equations in a form that isn't the model's own choice. */
 MUST_USE Status system_new_form(const Model *model, NetworkForm form, const Watch *watch,
                                 System **out, Diag *diag);

@@ -245,6 +245,7 @@ struct System {
     LIST(const char *) remarks;
 
     NetworkForm network_form;
+    Expr leak; /* S, beside parts whose current is an expression of their voltage; NULL: none */
     LIST(Branchlike) branches;
     int *scalar_of_edge; /* edge of the graph -> branches, or -1 */
     LIST(Unknown) unknowns;

@@ -134,7 +134,12 @@ const Verb verbs_run[] = {
      .shape = ">",
      .usage = "op",
      .brief = "operating point: the same as equilibrium",
-     .help = "The operating point of a circuit is its equilibrium; see there.",
+     .help = "The operating point of a circuit is its equilibrium; see there. Capacitors are open "
+             "and inductors short. A network alone is solved sparse by Newton's method with line "
+             "search; where that fails, sources grow from nothing, and then a conductance beside "
+             "each part whose current is an expression of its voltage shrinks to nothing. What "
+             "nothing determines at rest, as a node between capacitors, is named. 'init' of "
+             "capacitors and inductors chooses one of several states.",
      .example = "vsource E1 a 0 10\nresistor R1 a b 1 kohm\ncapacitor C1 b 0 1 uF\nop\nprint C1.v",
      .see = "equilibrium"},
     {.name = "linearize",

@@ -3,8 +3,9 @@
  *     F(q, 0, x, z) - Phi_u^T lambda = 0,   Phi(q) = 0,   A [0; z] = r(q, 0, x)
  *
  * for v = (q, x, lambda, z), with sources and drivers as they are at t = 0, from the assembled
- * start. Damped Newton first; then gravity, forces and sources grow from nothing in steps; then
- * everything creeps, masses and storage elements its resistance, until it rests.
+ * start. A network alone is searched sparse (operating.c). Damped Newton first; then gravity,
+ * forces and sources grow from nothing in steps; then everything creeps, masses and storage
+ * elements its resistance, until it rests.
  *
  * The equations are those of a system of its own, in whose components t is 0 and the loads
  * are multiplied by a parameter, so that derivatives of sources vanish too. */
@@ -12,6 +13,7 @@
 
 #include "base/memory.h"
 #include "simulate/linear.h"
+#include "simulate/operating.h"
 #include "simulate/rows.h"
 
 #include <math.h>
@@ -23,6 +25,7 @@
 #define CREEP        0.3  /* the same, of creeping */
 #define ENOUGH       1e-9 /* residual over the terms of its row */
 #define LEAST_SHARE  1e-3 /* of the loads, in a step */
+#define MOST_FULL    300  /* unknowns of a network for full matrices */
 
 typedef struct Statics {
     System *system;
@@ -30,8 +33,8 @@ typedef struct Statics {
     Result *start; /* on the system of the user */
     const Watch *watch;
     Parameters parameters;
-    Expr load_symbol;
-    double load;         /* share of gravity, forces and sources that is on */
+    Expr load_symbol, leak_symbol;
+    Knobs knobs;         /* of gravity, forces and sources; of parts of a network */
     Gradients gradients; /* balance, Phi and network rows by q, x, lambda, z */
     Probe *resistance;   /* N, M, A */
     int rows, columns;   /* nu + m + nx + nz; as many */
@@ -40,6 +43,7 @@ typedef struct Statics {
     double *residual, *jacobian, *step; /* by columns: steps of s, x, lambda, z */
     double *size, *weight;              /* of rows: of their terms; for measuring */
     int rank;
+    int singular; /* of a network: an unknown that nothing determines at rest; -1 */
 } Statics;
 
 /* --- the system at rest --- */
@@ -72,7 +76,9 @@ static double parameter(void *context, Expr symbol)
 {
     Statics *s = context;
 
-    return symbol == s->load_symbol ? s->load : parameters_value(&s->start->parameters, symbol);
+    return symbol == s->load_symbol   ? s->knobs.load
+           : symbol == s->leak_symbol ? s->knobs.leak
+                                      : parameters_value(&s->start->parameters, symbol);
 }
 
 static Status compile(Statics *s, Diag *diag)
@@ -128,29 +134,39 @@ static Status statics_open(Statics *s, const Model *model, Result *start, const 
                .time = expr_symbol(arena, "t", SYMBOL_TIME),
                .zero = expr_int(arena, 0),
                .load = expr_symbol(arena, "#load", SYMBOL_PARAMETER)};
+    Expr leak = expr_symbol(arena, "#leak", SYMBOL_PARAMETER);
     const Layout *theirs = start->layout;
     Status status = OK;
 
-    *s = (Statics){.start = start, .watch = watch, .load_symbol = of.load, .load = 1};
-    CHECK(system_new_varied(model, vary, &of, watch, &s->system, diag));
+    *s = (Statics){.start = start,
+                   .watch = watch,
+                   .load_symbol = of.load,
+                   .leak_symbol = leak,
+                   .knobs = {.load = 1}};
+    CHECK(system_new_leaking(model, vary, &of, leak, watch, &s->system, diag));
     s->l = layout_new(s->system);
     s->rows = s->columns = s->l->nu + s->l->m + s->l->nx + s->l->nz;
     s->length = s->l->n + s->l->m + s->l->nx + s->l->nz;
     s->v = NEW_ARRAY(double, s->length);
-    s->trial = NEW_ARRAY(double, s->length);
-    s->residual = NEW_ARRAY(double, s->rows);
-    s->jacobian = NEW_ARRAY(double, s->rows * s->columns);
-    s->step = NEW_ARRAY(double, s->columns);
-    s->size = NEW_ARRAY(double, s->rows);
-    s->weight = NEW_ARRAY(double, s->rows);
     if (s->l->n != theirs->n || s->l->nx != theirs->nx || s->l->m != theirs->m)
         CHECK(diag_set(diag, E_MODEL, "at rest this model has other unknowns than in motion"));
     memcpy(s->v, start->start.y, (size_t)theirs->n * sizeof(double));
     memcpy(s->v + theirs->n, start->start.y + theirs->n + theirs->nu,
            (size_t)theirs->nx * sizeof(double));
-    CHECK(compile(s, diag));
 done:
     return status;
+}
+
+/* full matrices, for what only they can do */
+static Status open_full(Statics *s, Diag *diag)
+{
+    s->trial = NEW_ARRAY(double, s->length);
+    s->residual = NEW_ARRAY(double, s->rows);
+    s->jacobian = NEW_ARRAY(double, (ptrdiff_t)s->rows * s->columns);
+    s->step = NEW_ARRAY(double, s->columns);
+    s->size = NEW_ARRAY(double, s->rows);
+    s->weight = NEW_ARRAY(double, s->rows);
+    return compile(s, diag);
 }
 
 static void statics_close(Statics *s)
@@ -326,7 +342,7 @@ static Status grow(Statics *s, bool *found, Diag *diag)
     Status status = OK;
 
     *found = false;
-    s->load = 0;
+    s->knobs.load = 0;
     CHECK(compile(s, diag));
     if (!newton(s))
         goto done;
@@ -334,10 +350,10 @@ static Status grow(Statics *s, bool *found, Diag *diag)
         CHECK(poll(s->watch));
         report(s->watch, "equilibrium: loads", reached);
         memcpy(kept, s->v, (size_t)s->length * sizeof(double));
-        s->load = fmin(1, reached + share);
+        s->knobs.load = fmin(1, reached + share);
         CHECK(compile(s, diag));
         if (newton(s)) {
-            reached = s->load;
+            reached = s->knobs.load;
             share *= 2;
         } else {
             memcpy(s->v, kept, (size_t)s->length * sizeof(double));
@@ -347,7 +363,7 @@ static Status grow(Statics *s, bool *found, Diag *diag)
     *found = reached >= 1;
 done:
     mem_free(kept);
-    s->load = 1;
+    s->knobs.load = 1;
     return status;
 }
 
@@ -444,10 +460,27 @@ static Status tell_failure(Statics *s, Diag *diag)
     return E_SOLVER;
 }
 
+static bool is_network(const Statics *s)
+{
+    return s->l->n == 0 && s->l->nu == 0 && s->l->m == 0;
+}
+
+static const char *network_unknown(const Statics *s, int i)
+{
+    return i < s->l->nx ? system_x(s->system, i)->name : system_z(s->system, i - s->l->nx)->name;
+}
+
 static void remark_freedom(const Statics *s, Result *r)
 {
     int left = s->columns - s->rank - (s->l->m - r->start.row_count);
 
+    if (left > 0 && s->singular >= 0) {
+        text_addf(&r->remarks,
+                  "at rest nothing determines %s: it stays as near to its start as "
+                  "may be\n",
+                  network_unknown(s, s->singular));
+        return;
+    }
     if (left > 0)
         text_addf(&r->remarks,
                   "the equilibrium is one of many: %d direction%s in which nothing pushes back\n",
@@ -456,6 +489,37 @@ static void remark_freedom(const Statics *s, Result *r)
 
 /* --- the result --- */
 
+/* A network alone: sparse. What is left of it, where it isn't too large, is for full matrices. */
+static Status rest_network(Statics *s, bool *found, Diag *diag)
+{
+    Operating o = {.l = s->l, .parameters = &s->parameters, .knobs = &s->knobs, .watch = s->watch};
+    Status status = OK;
+
+    *found = false;
+    s->singular = -1;
+    if (!is_network(s))
+        return OK;
+    s->parameters = (Parameters){.value = parameter, .context = s};
+    o.v = s->v;
+    CHECK(operating_find(&o, found, diag));
+    s->rank = s->columns;
+    s->singular = o.singular;
+    if (*found || s->columns <= MOST_FULL)
+        goto done;
+    if (s->singular >= 0) {
+        (void)diag_set(diag, E_SINGULAR, "at rest nothing determines %s",
+                       network_unknown(s, s->singular));
+        diag_hint(diag, "lead a resistor, as large as you like, past the capacitors there, or put "
+                        "one into the circuit of inductors");
+    } else {
+        (void)diag_set(diag, E_SOLVER, "no operating point was found");
+        diag_hint(diag, "'init' of capacitors and inductors chooses where the search starts");
+    }
+    status = s->singular >= 0 ? E_SINGULAR : E_SOLVER;
+done:
+    return status;
+}
+
 static Status solve(Statics *s, Diag *diag)
 {
     double *begun = NEW_ARRAY(double, s->length);
@@ -463,8 +527,12 @@ static Status solve(Statics *s, Diag *diag)
     Status status = OK;
 
     memcpy(begun, s->v, (size_t)s->length * sizeof(double));
+    CHECK(rest_network(s, &found, diag));
+    if (found)
+        goto done;
+    CHECK(open_full(s, diag));
     found = newton(s);
-    if (!found) {
+    if (!found && !is_network(s)) {
         memcpy(s->v, begun, (size_t)s->length * sizeof(double));
         CHECK(grow(s, &found, diag));
     }
@@ -479,6 +547,19 @@ done:
         (void)diag_set(diag, E_STOPPED, "stopped while looking for an equilibrium");
     mem_free(begun);
     return status;
+}
+
+/* what was found is where a search for z begins */
+static void guess_network(const Statics *s, Result *r)
+{
+    const Layout *l = r->layout;
+
+    if (s->l->nz != l->nz)
+        return;
+    memset(r->start.network, 0, (size_t)l->nx * sizeof(double));
+    memcpy(r->start.network + l->nx, s->v + s->l->n + s->l->nx + s->l->m,
+           (size_t)l->nz * sizeof(double));
+    motion_guess(r->motion, r->start.network);
 }
 
 Status run_equilibrium(System *system, const Model *model, const Setting *setting, Result **out,
@@ -499,6 +580,7 @@ Status run_equilibrium(System *system, const Model *model, const Setting *settin
     for (int i = 0; i < l->n; i++) /* less than rounding of 1 rad or 1 m is nothing */
         r->start.y[i] = fabs(s.v[i]) < 1e-15 ? 0 : s.v[i];
     memcpy(r->start.y + l->n + l->nu, s.v + l->n, (size_t)l->nx * sizeof(double));
+    guess_network(&s, r);
     if (!motion_project(r->motion, 0, r->start.y))
         CHECK(diag_set(diag, E_SINGULAR, "the equilibrium is a singular position"));
     remark_freedom(&s, r);

@@ -36,6 +36,8 @@ libcore_la_SOURCES += \
   lib/simulate/numbers.c \
   lib/simulate/numbers.h \
   lib/simulate/ode.h \
+  lib/simulate/operating.c \
+  lib/simulate/operating.h \
   lib/simulate/radau.c \
   lib/simulate/rank.c \
   lib/simulate/rank.h \

@@ -140,6 +140,13 @@ void motion_window(Motion *mo, double low, double high)
     mo->high = high;
 }
 
+void motion_guess(Motion *mo, const double *network)
+{
+    if (mo->eq->nx + mo->eq->nz > 0)
+        memcpy(netsolve_values(mo->network), network,
+               (size_t)(mo->eq->nx + mo->eq->nz) * sizeof(double));
+}
+
 double motion_clock(const Motion *mo, double t)
 {
     return fmin(fmax(t, mo->low), mo->high);

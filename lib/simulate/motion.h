@@ -78,6 +78,8 @@ typedef struct Solved {
     const double *rates;        /* nx: x' */
     const double *algebraic;    /* nz: z */
 } Solved;
+/* where the next search for x' and z begins: [x'; z] */
+void motion_guess(Motion *motion, const double *network);
 bool motion_solve(Motion *motion, double t, const double *y, Solved *out);
 
 /* Position and velocity back onto the constraints, mass-orthogonally: at most 8 sweeps. */

@@ -12,10 +12,15 @@
 static double warm_value(void *context, const char *name)
 {
     Result *warm = context;
+    const Layout *l = warm->layout;
     Probe *probe = NULL;
     RowValues row;
     Expr e;
     double value = NAN;
+
+    for (int i = 0; i < l->nx && warm->grid.count > 0; i++)
+        if (strcmp(system_x(l->system, i)->name, name) == 0)
+            return warm->grid.states[l->n + l->nu + i];
 
     if (warm->grid.count > 0 && system_variable(warm->system, name, 0, &e, NULL) == OK &&
         probe_new(warm->layout, &warm->parameters, &e, 1, &probe, NULL) == OK &&
@@ -66,6 +71,8 @@ static Status make_motion(Result *r, const Setting *setting, double atol, Diag *
     r->network = netdae_new(r->layout, &r->parameters, r->motion);
     if (r->network != NULL)
         motion_offer(r->motion, netdae_equations(r->network));
+    if (r->start.network != NULL)
+        motion_guess(r->motion, r->start.network);
 done:
     mem_free(independent);
     return status;

@@ -547,8 +547,10 @@ static Status check_network(Assembly *a, const double *v, Diag *diag)
     memcpy(netsolve_values(solve), v + l->nx, (size_t)(l->nx + l->nz) * sizeof(double));
     eq->position(eq->context, 0, a->y);
     eq->velocity(eq->context, a->y + l->n, a->y + l->n + l->nu);
-    if (netsolve_find(solve))
+    if (netsolve_find(solve)) {
+        memcpy(a->out->network, netsolve_values(solve), (size_t)(l->nx + l->nz) * sizeof(double));
         goto done;
+    }
     lost = netsolve_undetermined(solve);
     if (lost >= 0)
         status = diag_set(diag, E_SINGULAR, "no equation of the network determines %s",
@@ -620,6 +622,11 @@ static Status find_network(Assembly *a, WarmValue from, void *context, Diag *dia
 
         if (isfinite(value))
             v[i] = value;
+    }
+    for (int i = 0; i < l->nz && from != NULL; i++) {
+        double value = from(context, system_z(l->system, i)->name);
+
+        v[2 * l->nx + i] = isfinite(value) ? value : 0;
     }
     for (int i = 0; i < a->given_count; i++) {
         const Given *given = &a->given[i];
@@ -726,6 +733,7 @@ Status start_find(const Layout *layout, Parameters *parameters, const Numbers *n
     Status status = OK;
 
     *out = (Assembled){.y = NEW_ARRAY(double, layout->n + layout->nu + layout->nx + 1),
+                       .network = NEW_ARRAY(double, layout->nx + layout->nz),
                        .rows = NEW_ARRAY(int, layout->m)};
     a.y = out->y;
     CHECK(read_given(&a, diag));
@@ -742,6 +750,7 @@ done:
 void start_free(Assembled *start)
 {
     mem_free(start->y);
+    mem_free(start->network);
     mem_free(start->rows);
     text_free(&start->remarks);
     *start = (Assembled){0};

@@ -11,8 +11,9 @@
 #include "simulate/numbers.h"
 
 typedef struct Assembled {
-    double *y; /* q, u, x, 0 */
-    int *rows; /* independent constraint rows, rising */
+    double *y;       /* q, u, x, 0 */
+    double *network; /* x', z: where the first search for them begins */
+    int *rows;       /* independent constraint rows, rising */
     int row_count;
     Text remarks; /* lines */
 } Assembled;

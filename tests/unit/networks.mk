@@ -5,3 +5,6 @@ test_network_LDADD = $(unit_ldadd)
 UNIT_TESTS += test_random_networks
 test_random_networks_SOURCES = tests/unit/test_random_networks.c tests/unit/scene.h tests/unit/test.h
 test_random_networks_LDADD = $(unit_ldadd)
+UNIT_TESTS += test_operating
+test_operating_SOURCES = tests/unit/test_operating.c tests/unit/session_kit.h tests/unit/test.h
+test_operating_LDADD = $(unit_ldadd)
