@@ -270,6 +270,16 @@ done:
     return status;
 }
 
+/* how often the equation of an unknown has been differentiated */
+static int derivations(const System *system, int unknown)
+{
+    int count = 0;
+
+    for (; system->unknowns.at[unknown].derives >= 0; count++)
+        unknown = system->unknowns.at[unknown].derives;
+    return count;
+}
+
 Status network_rate(System *system, Expr symbol, Expr *out, Diag *diag)
 {
     int number = expr_symbol_number(symbol);
@@ -286,9 +296,15 @@ Status network_rate(System *system, Expr symbol, Expr *out, Diag *diag)
         return diag_set(diag, E_MISSING,
                         "the derivative of %s is not among the network's equations",
                         expr_name(symbol));
-    if (order >= (system->network_form == NETWORK_TREE ? NETWORK_ORDER : 3))
-        return diag_set(diag, E_MODEL, "the network's equations need ever more derivatives of %s",
-                        expr_name(y->symbol));
+    if (order + derivations(system, k) >=
+        (system->network_form == NETWORK_TREE ? NETWORK_ORDER : 3)) {
+        system->has_no_states = system->network_form == NETWORK_STATE;
+        (void)diag_set(diag, E_MODEL, "the network's equations need ever more derivatives of %s",
+                       expr_name(y->symbol));
+        diag_hint(diag, "a source controlled by it stands among inductors or capacitors alone: "
+                        "put a resistance there");
+        return E_MODEL;
+    }
     if (y->order < y->known) {
         CHECK(rate_of(system, y->rates[y->known - 1], out, diag));
         push_rate(system, &system->unknowns.at[k], *out, true);

@@ -343,9 +343,21 @@ done:
     return status;
 }
 
-static Status make(const Model *model, NetworkForm form, VaryValue vary, void *context, Expr leak,
-                   const Watch *watch, System **out, Diag *diag)
+/* what is asked of a new System */
+typedef struct Order {
+    const Model *model;
+    NetworkForm form;  /* asked for */
+    NetworkForm taken; /* this one or, where a state form doesn't exist, the other */
+    VaryValue vary;
+    void *context;
+    Expr leak;
+    const Watch *watch;
+} Order;
+
+static Status make_as(const Order *order, bool *has_no_states, System **out, Diag *diag)
 {
+    const Model *model = order->model;
+    const Watch *watch = order->watch;
     System *system = NEW(System);
     Status status = OK;
 
@@ -353,8 +365,9 @@ static Status make(const Model *model, NetworkForm form, VaryValue vary, void *c
     system->model = model;
     system->arena = model_arena(model);
     system->revision = model_revision(model);
-    system->network_form = form;
-    system->leak = leak;
+    system->asked_form = order->form;
+    system->network_form = order->taken;
+    system->leak = order->leak;
     system->watch = watch;
     system->planar = model_is_planar(model);
     for (int i = 0; i < 3; i++)
@@ -363,8 +376,8 @@ static Status make(const Model *model, NetworkForm form, VaryValue vary, void *c
     parameters_take(system, model);
     copy_instances(system, model);
     enter_names(system);
-    if (vary != NULL)
-        vary_values(system, vary, context);
+    if (order->vary != NULL)
+        vary_values(system, order->vary, order->context);
     CHECK(copy_graph(system, model, diag));
     system_take_outputs(system, model);
     copy_form(system, model);
@@ -376,8 +389,25 @@ static Status make(const Model *model, NetworkForm form, VaryValue vary, void *c
 done:
     if (status == E_STOPPED)
         (void)diag_set(diag, E_STOPPED, "stopped while the equations were formed");
+    *has_no_states = system != NULL && system->has_no_states;
     system_free(system);
     return status;
+}
+
+/* Controlled sources among inductors or capacitors alone leave no state form; the equations of the
+ * trees as they are can still be brought to order. */
+static Status make(const Model *model, NetworkForm form, VaryValue vary, void *context, Expr leak,
+                   const Watch *watch, System **out, Diag *diag)
+{
+    Order order = {model, form, form, vary, context, leak, watch};
+    bool has_no_states = false;
+    Diag why = {0};
+    Status status = make_as(&order, &has_no_states, out, diag);
+
+    if (status != E_MODEL || !has_no_states)
+        return status;
+    order.taken = NETWORK_TREE;
+    return make_as(&order, &has_no_states, out, &why) == OK ? OK : status;
 }
 
 Status system_new_varied(const Model *model, VaryValue vary, void *context, const Watch *watch,
@@ -601,7 +631,7 @@ bool system_tree_is_normal(const System *system)
 
 NetworkForm system_network_form(const System *system)
 {
-    return system->network_form;
+    return system->asked_form;
 }
 
 const char *system_at_rest(const System *system, int i)

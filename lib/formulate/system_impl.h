@@ -245,6 +245,8 @@ struct System {
     LIST(const char *) remarks;
 
     NetworkForm network_form;
+    NetworkForm asked_form; /* the same, where that exists */
+    bool has_no_states;     /* a state form needs ever more derivatives */
     Expr leak; /* S, beside parts whose current is an expression of their voltage; NULL: none */
     LIST(Branchlike) branches;
     int *scalar_of_edge; /* edge of the graph -> branches, or -1 */

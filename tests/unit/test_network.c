@@ -213,6 +213,18 @@ static void a_sampled_controller_counts_in_periods(void)
     kit_free(&kit);
 }
 
+/* R.i = L'' : i' (L1 + L2) + R i = E, with the second coil's current (1 + k) times the first's */
+static void a_controlled_current_among_coils_is_integrated(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, "vsource E a 0 1\nresistor R a b 2\ninductor L1 b c 0.5\n"
+                      "cccs G 0 c of=R.i gain=3\ninductor L2 c 0 0.25\nsimulate 1\n"
+                      "expect R.i ~ 0.5*(1 - exp(-2/1.5)) within 1e-8\n"
+                      "expect L2.i ~ 4*R.i within 1e-10\n");
+    kit_free(&kit);
+}
+
 static void a_step_across_capacitors_is_refused(void)
 {
     Kit kit = kit_new();
@@ -278,6 +290,7 @@ int main(void)
     RUN(a_start_at_rest_is_that_of_the_states);
     RUN(a_sampled_gain_holds_its_output);
     RUN(a_sampled_controller_counts_in_periods);
+    RUN(a_controlled_current_among_coils_is_integrated);
     RUN(a_step_across_capacitors_is_refused);
     RUN(a_tree_that_needs_a_jump_differentiated_is_refused);
     RUN(sources_against_each_other_are_refused);
