@@ -309,6 +309,7 @@ static void log_trees(ct_session *session)
 static void note_change(ct_session *session, uint64_t revision, bool trees_only)
 {
     session->changed = true;
+    session->linear_is_old = true;
     session->start_is_later = true;
     session->told = NULL;
     session_forget_start(session);

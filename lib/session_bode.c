@@ -256,6 +256,7 @@ static Status make_sheet(ct_session *session, const Statement *s, Sheet *out, Di
 
     session_begin(session);
     CHECK(linear_check_pairs(session->linear, diag));
+    session_remark_linear(session);
     CHECK(read_outputs(s, &bode, diag));
     CHECK(read_keys(session->model, s, &bode, diag));
     CHECK(find_transfers(&bode, &session->watch, diag));

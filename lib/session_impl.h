@@ -37,6 +37,7 @@ struct ct_session {
     Run warm;               /* the start before that: where guesses come from */
     bool at_rest;           /* start, or else warm, is an equilibrium, from which runs start */
     Linear *linear;         /* the last linearisation; NULL */
+    bool linear_is_old;     /* the model has changed since */
     Modes *modes;           /* and modes */
     const char *told;       /* verb whose finding ct_report() tells; NULL: as runs have it */
     bool start_is_later;    /* a bare name means the start, not the end of the last run */
@@ -125,6 +126,8 @@ void session_forget_start(ct_session *session);
 
 typedef Status Analysis(ct_session *session, const Statement *statement, Diag *diag);
 Analysis session_equilibrium, session_linearize, session_modes;
+/* says so where the last linearisation is of another model */
+void session_remark_linear(ct_session *session);
 /* entries of what these found (linear.A, modes.omega): a number for the name; -1: none */
 int session_entry(const char *name);
 MUST_USE Status session_entry_value(const ct_session *session, int entry, const int *index,

@@ -182,8 +182,15 @@ Status session_linearize(ct_session *session, const Statement *s, Diag *diag)
     CHECK(find_linear(session, s, &linear, diag));
     linear_free(session->linear);
     session->linear = linear;
+    session->linear_is_old = false;
 done:
     return status;
+}
+
+void session_remark_linear(ct_session *session)
+{
+    if (session->linear != NULL && session->linear_is_old)
+        session_remark(session, "linearized before the model changed");
 }
 
 Status session_modes(ct_session *session, const Statement *s, Diag *diag)

@@ -77,6 +77,14 @@ static const Topic *find_topic(const Statement *statement)
                : NULL;
 }
 
+bool show_is_linear(const Statement *statement)
+{
+    const Topic *topic = find_topic(statement);
+
+    return topic != NULL &&
+           (strcmp(topic->name, "linear") == 0 || strcmp(topic->name, "transfer") == 0);
+}
+
 Status show_need(const Statement *statement, Need *need, Diag *diag)
 {
     const Topic *topic = find_topic(statement);

@@ -42,6 +42,7 @@ const Topic *topic_find(const char *name); /* NULL: none */
 const Topic *topic_at(int i);              /* 0, 1, ... until NULL */
 
 /* What the statement `show ...` needs; a variable (`show h9.fx`) needs equations. */
+bool show_is_linear(const Statement *statement); /* shows the last linearisation */
 MUST_USE Status show_need(const Statement *statement, Need *need, Diag *diag);
 /* Write what the statement asks for. Fails with E_NAME for an unknown topic or edge, E_VALUE for
  * an entry beyond the last, E_MISSING for topics of later versions, the errors of equations. */

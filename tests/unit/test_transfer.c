@@ -319,10 +319,23 @@ static void capacitors_across_a_source_jump_with_it(void)
     kit_free(&kit);
 }
 
+static void what_is_shown_of_another_model_is_said(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, LOWPASS);
+    EXPECT_DONE(&kit, "show transfer\n");
+    EXPECT(strstr(ct_remarks(kit.session), "before the model changed") == NULL);
+    EXPECT_DONE(&kit, "set R1.R = 5\nshow transfer\n");
+    EXPECT_HOLDS(ct_remarks(kit.session), "linearized before the model changed");
+    kit_free(&kit);
+}
+
 int main(void)
 {
     RUN(a_low_pass_falls_by_20_decibels_a_decade);
     RUN(capacitors_across_a_source_jump_with_it);
+    RUN(what_is_shown_of_another_model_is_said);
     RUN(a_resonant_circuit_passes_a_band);
     RUN(a_motor_turns_its_inertia);
     RUN(what_floats_has_two_poles_at_0);
