@@ -742,9 +742,12 @@ static Status run(March *m, const double *start, Diag *diag)
         CHECK(begin_events(m, diag));
     find_jumps(m);
     CHECK(all_stretches(m, diag));
-    /* a row on the very end that rounding left out */
-    if (!m->is_over)
+    /* a row on the very end that rounding, or a switch on it, left out */
+    if (!m->is_over) {
+        if (plan->to - m->stepper->t <= 1e-12 * (plan->to - plan->from))
+            m->stepper->t = plan->to;
         CHECK(add_rows(m, diag));
+    }
 done:
     return status;
 }

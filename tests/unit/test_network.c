@@ -225,6 +225,20 @@ static void a_controlled_current_among_coils_is_integrated(void)
     kit_free(&kit);
 }
 
+/* the last row stands at the end, also where a source switches there */
+static void a_switch_at_the_end_keeps_the_last_row(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit,
+                "vsource E a 0 if(sin(2*pi*5e3*t) > 0, 10, 0)\nresistor R a b 10\n"
+                "capacitor C b 0 10 uF\nsimulate 0.02\nexpect t ~ 0.02 within 0\n"
+                /* mean of a square wave, less half the ripple: C v' = -v/R for half a period */
+                "x = exp(-1)\n");
+    EXPECT_DONE(&kit, "simulate 0.02\nexpect C.v ~ 10*x*(1 - x)/(1 - x^2) within 1e-6\n");
+    kit_free(&kit);
+}
+
 static void a_step_across_capacitors_is_refused(void)
 {
     Kit kit = kit_new();
@@ -291,6 +305,7 @@ int main(void)
     RUN(a_sampled_gain_holds_its_output);
     RUN(a_sampled_controller_counts_in_periods);
     RUN(a_controlled_current_among_coils_is_integrated);
+    RUN(a_switch_at_the_end_keeps_the_last_row);
     RUN(a_step_across_capacitors_is_refused);
     RUN(a_tree_that_needs_a_jump_differentiated_is_refused);
     RUN(sources_against_each_other_are_refused);
