@@ -172,10 +172,13 @@ Status session_shown(ct_session *session, System **out, Diag *diag)
     if (system_tree_is_normal(*out))
         return OK;
     status = system_of_form(session, NETWORK_TREE, out, &why);
-    if (status == E_MODEL) {
+    if (status != OK && status != E_STOPPED) {
         Text line = {0};
 
-        text_addf(&line, "network in state form: %s\n", why.message);
+        text_addf(&line, "network in state form: %s\n",
+                  status == E_MODEL ? why.message
+                                    : "the equations of these trees can't be solved for their "
+                                      "highest derivatives");
         session_remark(session, line.at);
         text_free(&line);
         status = session_system(session, out, diag);

@@ -258,6 +258,8 @@ static Status rates_by(const Order *o, Expr row, int j, int k, Expr *symbol, Exp
 
         symbol[i] = rate_symbol(&system->unknowns.at[j], k + 1 + i);
         CHECK(rate_of(system, i == 0 ? row : value[i - 1], &rate, diag));
+        if (i == 0 && expr_is_zero(expr_diff(arena, rate, symbol[0])))
+            CHECK(cant_order(o, j, diag));
         if (i == 0)
             value[0] =
                 expr_neg(arena, expr_div(arena, expr_substitute(arena, rate, symbol, &zero, 1),
