@@ -397,7 +397,7 @@ static Expr fold_numbers(Arena *arena, Op op, const Expr *args)
     double value;
     bool real = true;
 
-    for (int i = 0; i < op_args(op); i++) {
+    for (int i = 0; i < op_args(op) && i < COUNT(values); i++) {
         if (!is_number(args[i]))
             return NULL;
         real = real && args[i]->kind == EXPR_REAL;

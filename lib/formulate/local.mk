@@ -22,6 +22,7 @@ libcore_la_SOURCES += \
 	lib/formulate/show.c \
 	lib/formulate/smooth.c \
 	lib/formulate/state_space.c lib/formulate/state_space.h \
+	lib/formulate/switches.c \
 	lib/formulate/system.c lib/formulate/system.h lib/formulate/system_impl.h \
 	lib/formulate/vanished.c \
 	lib/formulate/variables.c \

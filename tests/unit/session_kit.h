@@ -174,6 +174,15 @@ UNUSED static double kit_value(Kit *kit, const char *expression)
         }                                                                                          \
     } while (0)
 
+#define EXPECT_LACKS(got, part)                                                                    \
+    do {                                                                                           \
+        const char *got_ = (got);                                                                  \
+        if (got_ == NULL || strstr(got_, part) != NULL) {                                          \
+            test_faults++;                                                                         \
+            printf("%s:%d: '%s' is in:\n%s\n", __FILE__, __LINE__, part, got_ ? got_ : "NULL");    \
+        }                                                                                          \
+    } while (0)
+
 /* --- models --- */
 
 /* the paper's planar slider-crank, its sizes as parameters */

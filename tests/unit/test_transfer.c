@@ -33,6 +33,18 @@ static void bode_free(Bode *table)
     ct_words_free(table->names);
 }
 
+/* an entry, row by row; NAN where there is none */
+static double bode_at(const Bode *table, int entry)
+{
+    return table->values != NULL && entry < table->rows * table->columns ? table->values[entry]
+                                                                         : NAN;
+}
+
+static const char *bode_name(const Bode *table, int column)
+{
+    return table->names != NULL && column < table->columns ? table->names[column] : "";
+}
+
 typedef double complex Response(double complex s);
 
 /* gain and phase of a curve are those of H(s); the phase begins at `start` degrees or near, and
@@ -84,10 +96,10 @@ static void a_low_pass_falls_by_20_decibels_a_decade(void)
     EXPECT_DONE(&kit, LOWPASS);
     table = bode(&kit, "bode from=1 to=100 kHz points=301");
     EXPECT(table.rows == 301 && table.columns == 7);
-    EXPECT_TEXT(table.names[0], "f [Hz]");
-    EXPECT_TEXT(table.names[1], "gain C1.v/E1 [dB]");
-    EXPECT_TEXT(table.names[2], "phase C1.v/E1 [deg]");
-    EXPECT(table.values[0] == 1 && table.values[300 * 7] == 1e5);
+    EXPECT_TEXT(bode_name(&table, 0), "f [Hz]");
+    EXPECT_TEXT(bode_name(&table, 1), "gain C1.v/E1 [dB]");
+    EXPECT_TEXT(bode_name(&table, 2), "phase C1.v/E1 [deg]");
+    EXPECT(bode_at(&table, 0) == 1 && bode_at(&table, 300 * 7) == 1e5);
     expect_response(&table, 0, lowpass, 0, 1e-10);
     expect_response(&table, 1, highpass, 90, 1e-10);
     bode_free(&table);
@@ -137,15 +149,15 @@ static void a_motor_turns_its_inertia(void)
                       "vsource V1 a 0 0\nmotor M1 h1 a 0 R=2 L=0.01 Kt=0.5\n"
                       "linearize inputs=[V1] outputs=[h1, h1']\n");
     table = bode(&kit, "bode h1 from=1 [rad/s] to=1e4 [rad/s]");
-    EXPECT(fabs(table.values[0] * 2 * M_PI - 1) < 1e-14);
+    EXPECT(fabs(bode_at(&table, 0) * 2 * M_PI - 1) < 1e-14);
     expect_response(&table, 0, motor, -90, 1e-9);
-    EXPECT(table.values[199 * 3 + 2] < -265);
+    EXPECT(bode_at(&table, 199 * 3 + 2) < -265);
     bode_free(&table);
     EXPECT_DONE(&kit, "show transfer 1 1\n");
     EXPECT_HOLDS(kit.text, "h1/V1 = 2500/(s^3 + 200 s^2 + 1250 s)\n");
     EXPECT_HOLDS(kit.text, "at rest  no bound\n");
     EXPECT_HOLDS(kit.text, "poles    0, -6.45");
-    EXPECT(strstr(kit.text, "h1'") == NULL);
+    EXPECT_LACKS(kit.text, "h1'");
     EXPECT_DONE(&kit, "show transfer 2\n");
     EXPECT_HOLDS(kit.text, "left out  1 state between");
     kit_free(&kit);
@@ -174,8 +186,8 @@ static void what_floats_has_two_poles_at_0(void)
     bode_free(&table);
     /* half a turn at the pair of poles, half a turn back at that of zeros before it */
     table = bode(&kit, "bode s1 from=0.01 to=10 points=4");
-    EXPECT(fabs(table.values[2] + 180) < 1e-9);
-    EXPECT(fabs(table.values[3 * 3 + 2] + 180) < 1e-9);
+    EXPECT(fabs(bode_at(&table, 2) + 180) < 1e-9);
+    EXPECT(fabs(bode_at(&table, 3 * 3 + 2) + 180) < 1e-9);
     bode_free(&table);
     kit_free(&kit);
 }
@@ -233,7 +245,7 @@ static void a_long_ladder_keeps_its_digits(void)
     EXPECT_DONE(&kit, line);
     table = bode(&kit, "bode from=1e-5 to=1 points=1000");
     expect_response(&table, 0, ladder, 0, 1e-8);
-    EXPECT(table.values[999 * 3 + 2] < -3600);
+    EXPECT(bode_at(&table, 999 * 3 + 2) < -3600);
     bode_free(&table);
     kit_free(&kit);
 }
@@ -294,10 +306,10 @@ static void without_a_range_all_roots_are_in_sight(void)
 
     EXPECT_DONE(&kit, LOWPASS);
     table = bode(&kit, "bode C1.v");
-    EXPECT(table.values[0] == 10 && table.values[199 * 3] == 1000);
+    EXPECT(bode_at(&table, 0) == 10 && bode_at(&table, 199 * 3) == 1000);
     bode_free(&table);
     table = bode(&kit, "bode C1.v from=1 MHz points=2");
-    EXPECT(table.values[0] == 1e6 && fabs(table.values[3] - 1e8) < 1);
+    EXPECT(bode_at(&table, 0) == 1e6 && fabs(bode_at(&table, 3) - 1e8) < 1);
     bode_free(&table);
     kit_free(&kit);
 }
@@ -325,7 +337,7 @@ static void what_is_shown_of_another_model_is_said(void)
 
     EXPECT_DONE(&kit, LOWPASS);
     EXPECT_DONE(&kit, "show transfer\n");
-    EXPECT(strstr(ct_remarks(kit.session), "before the model changed") == NULL);
+    EXPECT_LACKS(ct_remarks(kit.session), "before the model changed");
     EXPECT_DONE(&kit, "set R1.R = 5\nshow transfer\n");
     EXPECT_HOLDS(ct_remarks(kit.session), "linearized before the model changed");
     kit_free(&kit);

@@ -1,0 +1,86 @@
+/* switches.c: where the equations may jump or bend: what their comparisons and kinks compare */
+#include "formulate/system_impl.h"
+
+#include <string.h>
+
+/* what changes sign where a function jumps or kinks; NULL: it does neither */
+static Expr switching(Arena *arena, Expr e)
+{
+    if (expr_kind(e) != EXPR_CALL)
+        return NULL;
+    switch (expr_op(e)) {
+    case OP_LT:
+    case OP_LE:
+    case OP_MIN:
+    case OP_MAX:
+        return expr_sub(arena, expr_arg(e, 0), expr_arg(e, 1));
+    case OP_STEP:
+    case OP_RAMP:
+    case OP_SIGN:
+    case OP_ABS:
+        return expr_arg(e, 0);
+    case OP_FLOOR: /* at whole numbers */
+        return expr_sin(arena,
+                        expr_mul(arena, expr_real(arena, 3.14159265358979323846), expr_arg(e, 0)));
+    default:
+        return NULL;
+    }
+}
+
+static void gather(System *system, const Expr *roots, int count, bool **seen, uint32_t *room)
+{
+    LIST(Expr) stack = {0};
+
+    for (int i = 0; i < count; i++)
+        LIST_PUSH(stack, roots[i]);
+    while (stack.count > 0) {
+        Expr e = stack.at[--stack.count];
+        uint32_t number = expr_number(e);
+        Expr condition;
+
+        if (number >= *room) {
+            uint32_t more = number + number / 2 + 64;
+
+            *seen = mem_grow(*seen, more, sizeof(bool));
+            memset(*seen + *room, 0, more - *room);
+            *room = more;
+        }
+        if ((*seen)[number])
+            continue;
+        (*seen)[number] = true;
+        condition = switching(system->arena, e);
+        if (condition != NULL && !expr_is_number(condition))
+            LIST_PUSH(system->switches, condition);
+        for (int i = 0; i < expr_arg_count(e); i++)
+            LIST_PUSH(stack, expr_arg(e, i));
+    }
+    LIST_FREE(stack);
+}
+
+int system_switches(System *system, const Expr **conditions, int *time_only)
+{
+    const unsigned state = ~(1U << SYMBOL_TIME | 1U << SYMBOL_PARAMETER);
+    int w = system->x.count + system->z.count;
+    bool *seen = NULL;
+    uint32_t room = 0;
+
+    if (!system->switches_known) {
+        gather(system, system->run.force, system->u.count, &seen, &room);
+        gather(system, system->run.phi, system->rows.count, &seen, &room);
+        gather(system, system->run.gamma, system->rows.count, &seen, &room);
+        gather(system, system->run.network_residual, w, &seen, &room);
+        mem_free(seen);
+        /* those of time alone first, each once */
+        for (int i = 0; i < system->switches.count; i++)
+            if ((expr_kinds(system->switches.at[i]) & state) == 0) {
+                Expr condition = system->switches.at[i];
+
+                system->switches.at[i] = system->switches.at[system->switches_of_time];
+                system->switches.at[system->switches_of_time++] = condition;
+            }
+        system->switches_known = true;
+    }
+    *conditions = system->switches.at;
+    *time_only = system->switches_of_time;
+    return system->switches.count;
+}
