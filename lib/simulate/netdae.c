@@ -31,9 +31,9 @@ static void add_slopes_by_states(const Layout *l, int row, const int *state_of, 
     Expr *symbols;
     int count = expr_symbols(&residual, 1, &symbols);
 
-    out->row = mem_grow(out->row, (size_t)(out->count + count), sizeof(int));
-    out->column = mem_grow(out->column, (size_t)(out->count + count), sizeof(int));
-    out->value = mem_grow(out->value, (size_t)(out->count + count), sizeof(Expr));
+    out->row = mem_grow(out->row, (size_t)out->count + (size_t)count, sizeof(int));
+    out->column = mem_grow(out->column, (size_t)out->count + (size_t)count, sizeof(int));
+    out->value = mem_grow(out->value, (size_t)out->count + (size_t)count, sizeof(Expr));
     for (int i = 0; i < count; i++) {
         Expr slope;
 

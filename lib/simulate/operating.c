@@ -34,6 +34,7 @@ typedef struct Search {
     SUNLinearSolver linear;
 } Search;
 
+/* NOLINTNEXTLINE(readability-non-const-parameter): the type is that of SUNDIALS */
 static void keep_quiet(int code, const char *module, const char *function, char *message,
                        void *data)
 {
