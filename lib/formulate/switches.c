@@ -84,3 +84,23 @@ int system_switches(System *system, const Expr **conditions, int *time_only)
     *time_only = system->switches_of_time;
     return system->switches.count;
 }
+
+const char *system_ideal_switch(const System *system)
+{
+    for (int i = 0; i < system->branches.count; i++) {
+        const Branchlike *branch = &system->branches.at[i];
+        Expr value = branch->relation.value;
+
+        if (branch->relation.kind != RELATION_FREE)
+            continue;
+        for (int k = -1; k < expr_arg_count(value); k++) {
+            Expr part = k < 0 ? value : expr_arg(value, k);
+
+            while (expr_kind(part) == EXPR_PRODUCT)
+                part = expr_arg(part, expr_arg_count(part) - 1);
+            if (expr_kind(part) == EXPR_CALL && (expr_op(part) == OP_MAX || expr_op(part) == OP_IF))
+                return system->instances[branch->instance].name;
+        }
+    }
+    return NULL;
+}

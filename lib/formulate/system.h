@@ -211,6 +211,9 @@ Expr system_power(System *system);
  * comparison in the equations, in (t, q, u, x); time-only ones first. Count, and *time_only how
  * many of them. */
 int system_switches(System *system, const Expr **conditions, int *time_only);
+/* A diode or switch without any resistance, by name: what it stands beside may leave the equations
+ * without a solution, on one side of it or the other. NULL: there is none */
+const char *system_ideal_switch(const System *system);
 
 /* --- three-angle sequences, which lose a freedom where their first and last axis fall together ---
  */

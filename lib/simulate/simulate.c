@@ -227,6 +227,8 @@ static Status go(Result *r, const Setting *setting, const RunOptions *given, dou
     if (options.check)
         CHECK(result_make_events(r, r->events, setting, &again, diag));
     status = march(&plan, r->start.y, &r->grid, &report_of, diag);
+    if (status == E_SOLVER)
+        network_hint(r->system, diag);
     remark_march(r, &report_of, &options);
     text_free(&report_of.remarks);
     fill_report(r, &report_of, &options, status == E_STOPPED, began);

@@ -531,6 +531,17 @@ static double value_of(Assembly *a, Expr e)
     return expr_evaluate(e, parameter_value, a->parameters);
 }
 
+void network_hint(const System *system, Diag *diag)
+{
+    const char *name = system_ideal_switch(system);
+
+    if (name != NULL)
+        diag_hint(diag,
+                  "%s is ideal: beside capacitors and inductors give it Ron= and Roff=, such as "
+                  "Ron=1 mohm Roff=1 Mohm",
+                  name);
+}
+
 /* whether the network has a solution at the start; what stands behind the states in v is where the
  * search begins */
 static Status check_network(Assembly *a, const double *v, Diag *diag)
@@ -558,10 +569,13 @@ static Status check_network(Assembly *a, const double *v, Diag *diag)
     else
         status =
             diag_set(diag, E_SINGULAR, "the network's equations have no solution at the start");
-    diag_hint(diag, lost >= 0 ? "a source or an ideal part fixes the same thing twice: put a "
-                                "resistance or a capacitance there"
-                              : "other initial values, or a resistance beside the part that is "
-                                "steep, may help");
+    if (system_ideal_switch(l->system) != NULL)
+        network_hint(l->system, diag);
+    else
+        diag_hint(diag, lost >= 0 ? "a source or an ideal part fixes the same thing twice: put a "
+                                    "resistance or a capacitance there"
+                                  : "other initial values, or a resistance beside the part that is "
+                                    "steep, may help");
 done:
     netsolve_free(solve);
     return status;

@@ -25,6 +25,8 @@ typedef double (*WarmValue)(void *context, const char *name);
 MUST_USE Status start_find(const Layout *layout, Parameters *parameters, const Numbers *numbers,
                            const Setting *setting, WarmValue warm, void *warm_context,
                            Assembled *out, Diag *diag);
+/* The way out where a network has no solution, if an ideal diode or switch may be why. */
+void network_hint(const System *system, Diag *diag);
 void start_free(Assembled *start); /* what it holds */
 
 #endif
