@@ -33,7 +33,7 @@ format:
 bench: $(BENCHES) all
 	@rm -rf bench.work; mkdir bench.work
 	@for bench in $(BENCHES); do \
-		(cd bench.work && LD_LIBRARY_PATH=../.libs ../$$bench $(abs_srcdir)/scripts \
+		(cd bench.work && TOP_SRCDIR=$(abs_srcdir) LD_LIBRARY_PATH=../.libs ../$$bench $(abs_srcdir)/scripts \
 			$(abs_builddir)/.libs/cotree) || exit 1; \
 	done >bench.out
 	@$(dev)/bench-table $(srcdir)/tests/bench/record.txt <bench.out
