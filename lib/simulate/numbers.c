@@ -113,6 +113,16 @@ void parameters_keep(Parameters *p, const Expr *roots, int count)
     mem_free(symbols);
 }
 
+static double value_in(void *context, Expr symbol)
+{
+    return parameters_value(context, symbol);
+}
+
+double parameters_evaluate(Parameters *p, Expr e)
+{
+    return expr_evaluate(e, value_in, p);
+}
+
 void parameters_free(Parameters *p)
 {
     mem_free(p->symbols);

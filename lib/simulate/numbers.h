@@ -33,6 +33,8 @@ typedef struct Parameters {
 
 void parameters_keep(Parameters *parameters, const Expr *roots, int count);
 double parameters_value(Parameters *parameters, Expr symbol); /* kept, else asked and kept */
+/* the number of an expression of parameters alone */
+double parameters_evaluate(Parameters *parameters, Expr e);
 void parameters_free(Parameters *parameters);
 
 /* what a row knows; arrays may be NULL for 0 */

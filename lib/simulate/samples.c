@@ -20,18 +20,12 @@ struct Samples {
     int count;
 };
 
-static double parameter_value(void *context, Expr symbol)
-{
-    return parameters_value(context, symbol);
-}
-
 static Status add_sample(Samples *s, const OwnSample *own, Parameters *parameters, Diag *diag)
 {
     Sample *sample = &s->at[s->count];
 
-    parameters_keep(parameters, &own->period, 1);
     sample->state = own->state;
-    sample->period = expr_evaluate(own->period, parameter_value, parameters);
+    sample->period = parameters_evaluate(parameters, own->period);
     if (!(sample->period > 0) || !isfinite(sample->period)) {
         (void)diag_set(diag, E_VALUE, "the sampling period of %s is %g s",
                        system_x(s->layout->system, own->state)->name, sample->period);

@@ -520,17 +520,6 @@ done:
     return status;
 }
 
-static double parameter_value(void *context, Expr symbol)
-{
-    return parameters_value(context, symbol);
-}
-
-static double value_of(Assembly *a, Expr e)
-{
-    parameters_keep(a->parameters, &e, 1);
-    return expr_evaluate(e, parameter_value, a->parameters);
-}
-
 void network_hint(const System *system, Diag *diag)
 {
     const char *name = system_ideal_switch(system);
@@ -629,7 +618,7 @@ static Status find_network(Assembly *a, WarmValue from, void *context, Diag *dia
     for (int i = 0; system_sample(l->system, i) != NULL; i++) {
         const OwnSample *own = system_sample(l->system, i);
 
-        v[own->state] = value_of(a, own->initial);
+        v[own->state] = parameters_evaluate(a->parameters, own->initial);
     }
     for (int i = 0; i < l->nx && from != NULL; i++) {
         double value = from(context, system_x(l->system, i)->name);
