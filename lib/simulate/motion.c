@@ -317,11 +317,17 @@ static bool solve_together(Motion *mo)
     return false;
 }
 
+/* u' and lambda in the augmented form, with what the network reads of them */
+static bool solve_plain(Motion *mo)
+{
+    return mo->eq->network_reads != NULL ? solve_together(mo) : solve_augmented(mo);
+}
+
 static bool solve_motion(Motion *mo)
 {
-    if (mo->eq->network_reads != NULL && !solve_together(mo))
-        return false;
-    return mo->embed != NULL ? solve_embedded(mo) : solve_augmented(mo);
+    if (mo->embed == NULL)
+        return solve_plain(mo);
+    return (mo->eq->network_reads == NULL || solve_together(mo)) && solve_embedded(mo);
 }
 
 static bool rate(void *context, double t, const double *y, double *out)
@@ -351,8 +357,7 @@ static void spread_multipliers(Motion *mo)
 
 bool motion_solve(Motion *mo, double t, const double *y, Solved *out)
 {
-    if (!evaluate(mo, t, y) || (mo->eq->network_reads != NULL && !solve_together(mo)) ||
-        !solve_augmented(mo))
+    if (!evaluate(mo, t, y) || !solve_plain(mo))
         return false;
     spread_multipliers(mo);
     *out = (Solved){.acceleration = mo->du,
@@ -639,8 +644,7 @@ static bool dae_start(void *context, double t, const double *y, double *w, doubl
     memset(w, 0, (size_t)mo->ode.dae.n * sizeof(double));
     memset(w_rate, 0, (size_t)mo->ode.dae.n * sizeof(double));
     memcpy(w, y, (size_t)tail * sizeof(double));
-    if (!evaluate(mo, t, y) || (mo->eq->network_reads != NULL && !solve_together(mo)) ||
-        !solve_augmented(mo))
+    if (!evaluate(mo, t, y) || !solve_plain(mo))
         return false;
     bring_power(mo, mo->du);
     write_rates(mo, w_rate);
