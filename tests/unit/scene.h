@@ -54,22 +54,37 @@ __attribute__((unused)) static System *scene_system(const Model *model)
     return system;
 }
 
-/* an expression of the language over the system's variables */
-__attribute__((unused)) static Expr scene_expression(const Model *model, System *system,
-                                                     const char *text)
+/* an expression of the language, over the user's variables; NULL where it isn't one */
+__attribute__((unused)) static Expr scene_read(const Model *model, const char *text)
 {
     Pool *pool = pool_new(0);
     Syntax *syntax = NULL;
-    Expr e = expr_int(model_arena(model), 0);
+    Expr e = NULL;
     Diag diag = {0};
 
     if (syntax_parse_expression(text, pool, &syntax, &diag) != OK ||
-        model_expression(model, syntax, &e, &diag) != OK ||
-        system_resolve(system, e, &e, &diag) != OK) {
+        model_expression(model, syntax, &e, &diag) != OK) {
+        test_faults++;
+        printf("%s: %s (%s)\n", text, diag.message, diag.hint);
+        e = NULL;
+    }
+    pool_free(pool);
+    return e;
+}
+
+/* the same over the system's variables; 0 where it can't be told */
+__attribute__((unused)) static Expr scene_expression(const Model *model, System *system,
+                                                     const char *text)
+{
+    Expr e = scene_read(model, text);
+    Diag diag = {0};
+
+    if (e == NULL)
+        return expr_int(model_arena(model), 0);
+    if (system_resolve(system, e, &e, &diag) != OK) {
         test_faults++;
         printf("%s: %s (%s)\n", text, diag.message, diag.hint);
     }
-    pool_free(pool);
     return e;
 }
 

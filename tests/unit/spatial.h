@@ -118,19 +118,10 @@ __attribute__((unused)) static void add_twin_guesses(const char *guesses, Text *
 
 static void push(const Model *model, Items *items, const char *text)
 {
-    Pool *pool = pool_new(0);
-    Syntax *syntax = NULL;
-    Expr e = NULL;
-    Diag diag = {0};
+    Expr e = scene_read(model, text);
 
-    if (syntax_parse_expression(text, pool, &syntax, &diag) != OK ||
-        model_expression(model, syntax, &e, &diag) != OK) {
-        test_faults++;
-        printf("%s: %s\n", text, diag.message);
-    } else {
+    if (e != NULL)
         LIST_PUSH(*items, e);
-    }
-    pool_free(pool);
 }
 
 static double parameter_value(void *context, Expr symbol)

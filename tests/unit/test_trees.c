@@ -154,19 +154,10 @@ typedef LIST(Expr) Items;
 
 static void push(const Model *model, Items *items, const char *text)
 {
-    Pool *pool = pool_new(0);
-    Syntax *syntax = NULL;
-    Expr e = NULL;
-    Diag diag = {0};
+    Expr e = scene_read(model, text);
 
-    if (syntax_parse_expression(text, pool, &syntax, &diag) != OK ||
-        model_expression(model, syntax, &e, &diag) != OK) {
-        test_faults++;
-        printf("%s: %s\n", text, diag.message);
-    } else {
+    if (e != NULL)
         LIST_PUSH(*items, e);
-    }
-    pool_free(pool);
 }
 
 /* m a - forces and I alpha - moments of each body: all zero */
