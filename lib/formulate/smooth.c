@@ -20,23 +20,12 @@ static double value_at(void *context, Expr symbol)
     return symbol == at->time ? at->t : 0.7 + 0.1 * (expr_symbol_number(symbol) % 7);
 }
 
-/* what is 0 where a function switches; NULL: it doesn't */
+/* what is 0 where a function switches, with a single root; NULL: it doesn't */
 static Expr switch_of(Arena *arena, Expr e)
 {
-    if (expr_kind(e) != EXPR_CALL)
-        return NULL;
-    switch (expr_op(e)) {
-    case OP_STEP:
-    case OP_SIGN:
-        return expr_arg(e, 0);
-    case OP_LT:
-    case OP_LE:
-        return expr_sub(arena, expr_arg(e, 0), expr_arg(e, 1));
-    case OP_FLOOR: /* at 1, as at any whole number */
+    if (expr_kind(e) == EXPR_CALL && expr_op(e) == OP_FLOOR) /* at 1, as at any whole number */
         return expr_sub(arena, expr_arg(e, 0), expr_int(arena, 1));
-    default:
-        return NULL;
-    }
+    return switch_condition(arena, e);
 }
 
 /* Newton's method from t = 0; false where it leads nowhere */

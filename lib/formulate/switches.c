@@ -3,8 +3,7 @@
 
 #include <string.h>
 
-/* what changes sign where a function jumps or kinks; NULL: it does neither */
-static Expr switching(Arena *arena, Expr e)
+Expr switch_condition(Arena *arena, Expr e)
 {
     if (expr_kind(e) != EXPR_CALL)
         return NULL;
@@ -48,7 +47,7 @@ static void gather(System *system, const Expr *roots, int count, bool **seen, ui
         if ((*seen)[number])
             continue;
         (*seen)[number] = true;
-        condition = switching(system->arena, e);
+        condition = switch_condition(system->arena, e);
         if (condition != NULL && !expr_is_number(condition))
             LIST_PUSH(system->switches, condition);
         for (int i = 0; i < expr_arg_count(e); i++)

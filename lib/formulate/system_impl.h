@@ -469,6 +469,8 @@ const char *network_company(System *system, const Branchlike *branch);
 /* Whether an edge of a port gives its own variable (v of a branch, i of a chord) by the other edge;
  * where it doesn't its equation is the other of the two. */
 bool port_gives_own(System *system, const Branchlike *branch);
+/* what changes sign where a function jumps or kinks; NULL: it does neither (switches.c) */
+Expr switch_condition(Arena *arena, Expr e);
 /* e is differentiated in time for `who`: E_MODEL where it jumps */
 MUST_USE Status need_smooth(System *system, const char *who, Expr e, Diag *diag);
 /* voltage and current of a scalar edge */
