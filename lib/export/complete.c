@@ -624,10 +624,3 @@ void complete_line(const Model *model, const char *text, size_t cursor, size_t *
     LIST_FREE(line.before);
     mem_free(copy);
 }
-
-void words_free(Words *words)
-{
-    for (int i = 0; i < words->count; i++)
-        mem_free(words->at[i]);
-    LIST_FREE(*words);
-}

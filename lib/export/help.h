@@ -48,6 +48,5 @@ bool component_key(const Component *row, int i, KeyText *out);
  * offset of the word that they complete. */
 typedef LIST(char *) Words;
 void complete_line(const Model *model, const char *line, size_t cursor, size_t *start, Words *out);
-void words_free(Words *words);
 
 #endif

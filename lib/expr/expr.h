@@ -172,8 +172,6 @@ bool expr_rational_parts(Expr e, int64_t *num, int64_t *den); /* false unless ra
 bool expr_is(Expr e, int64_t value);                          /* is that exact integer */
 bool expr_is_zero(Expr e);        /* is the number 0; a sum that vanishes unseen is not */
 int expr_compare(Expr a, Expr b); /* the stable order: <0, 0, >0; 0 only for the same pointer */
-/* Split off the numeric coefficient: e = *number * the result. */
-Expr expr_split(Arena *arena, Expr e, Expr *number);
 
 /* --- mathematics; each visits a shared node once --- */
 

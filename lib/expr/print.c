@@ -28,15 +28,6 @@ void say_number(Printer *printer, Number number, Level level)
     LIST_PUSH(printer->pieces, (Piece){.kind = PIECE_NUMBER, .number = number, .level = level});
 }
 
-void say_power(Printer *printer, Expr base, Number exponent, Level level)
-{
-    if (number_is(exponent, 1))
-        say_node(printer, base, level);
-    else
-        LIST_PUSH(printer->pieces,
-                  (Piece){.kind = PIECE_POWER, .e = base, .number = exponent, .level = level});
-}
-
 void say_pieces(Printer *printer, const Piece *pieces, int count, const char *between)
 {
     for (int i = 0; i < count; i++) {

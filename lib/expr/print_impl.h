@@ -82,7 +82,6 @@ void say(Printer *printer, const char *text);
 void say_part(Printer *printer, const char *text, size_t length);
 void say_node(Printer *printer, Expr e, Level level);
 void say_number(Printer *printer, Number number, Level level);
-void say_power(Printer *printer, Expr base, Number exponent, Level level);
 void say_pieces(Printer *printer, const Piece *pieces, int count, const char *between);
 void say_arguments(Printer *printer, Expr e); /* a, b, c */
 

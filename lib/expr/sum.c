@@ -168,13 +168,3 @@ Expr expr_sub(Arena *arena, Expr a, Expr b)
 {
     return expr_sum(arena, (Expr[]){a, expr_neg(arena, b)}, 2);
 }
-
-Expr expr_split(Arena *arena, Expr e, Expr *number)
-{
-    if (is_number(e)) {
-        *number = e;
-        return arena_one(arena);
-    }
-    *number = number_node(arena, term_coefficient(e));
-    return term_scale(arena, e, number_int(1));
-}

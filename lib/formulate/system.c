@@ -514,15 +514,6 @@ int system_nz(const System *system)
     return system->z.count;
 }
 
-int system_ne(const System *system)
-{
-    int count = 0;
-
-    for (int i = 0; i < system->drives.count; i++)
-        count += system->instances[system->drives.at[i].instance].by >= 0;
-    return count;
-}
-
 const Variable *system_q(const System *system, int i)
 {
     return &system->q.at[i];

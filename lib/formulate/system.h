@@ -49,7 +49,6 @@ int system_nu(const System *system); /* speeds u */
 int system_m(const System *system);  /* constraints */
 int system_nx(const System *system); /* network states x */
 int system_nz(const System *system); /* network algebraic unknowns z */
-int system_ne(const System *system); /* unknown efforts of inverse runs (drivers) */
 
 typedef struct Variable {
     const char *name; /* "h8", "h8'", "lambda(1)", "M7.i" */

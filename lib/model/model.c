@@ -401,15 +401,6 @@ done:
     return status;
 }
 
-Status model_vector(const Model *model, const Syntax *syntax, Expr *out, int *count, Diag *diag)
-{
-    Scope scope = ask(model);
-    Status status = scope_vector(&scope, syntax, out, count, diag);
-
-    LIST_FREE(scope.uses);
-    return status;
-}
-
 Status model_check_variable(const Model *model, const char *path, int primes, Place place,
                             Diag *diag)
 {

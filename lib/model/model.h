@@ -126,11 +126,9 @@ Form model_form(const Model *model, const char *const **independent,
  * primes ("h8'", "m1.x", "lambda(1)", "model.n"): the coordinate's, where J1 stands for theta1.
  * One of another run keeps its prefix ("run2.h8"); min, max, mean and rms of one argument, which
  * are taken over a run, become a symbol of that text ("max(h8)"). A prime on a bracket or a call is
- * the derivative along the primed variables. `vector` receives up to 9 entries. Names that aren't
- * known fail with E_NAME and a suggestion. */
+ * the derivative along the primed variables. Names that aren't known fail with E_NAME and a
+ * suggestion. */
 MUST_USE Status model_expression(const Model *model, const Syntax *syntax, Expr *out, Diag *diag);
-MUST_USE Status model_vector(const Model *model, const Syntax *syntax, Expr *out, int *count,
-                             Diag *diag);
 /* whether the dotted name means a variable that can be asked for, with that many primes; if not,
  * why */
 MUST_USE Status model_check_variable(const Model *model, const char *path, int primes, Place place,

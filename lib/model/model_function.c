@@ -72,11 +72,6 @@ static bool is_figure(const char *name)
     return false;
 }
 
-bool name_is_function(const char *name)
-{
-    return find_function(name) >= 0 || find_builder(name) >= 0 || is_figure(name);
-}
-
 bool function_takes_text(const char *name)
 {
     int builder = find_builder(name);

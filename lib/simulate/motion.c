@@ -534,12 +534,7 @@ bool motion_is_worn(const Motion *mo)
     return mo->embed != NULL && embed_condition(mo->embed) < WORN;
 }
 
-const int *motion_independent(const Motion *mo)
-{
-    return mo->embed != NULL ? embed_independent(mo->embed) : NULL;
-}
-
-int motion_freedoms(const Motion *mo)
+static int motion_freedoms(const Motion *mo)
 {
     return mo->eq->nu - mo->used;
 }

@@ -104,9 +104,6 @@ void motion_tolerance(Motion *motion, double tolerance);
 bool motion_repartition(Motion *motion, double t, const double *y);
 /* whether the partition has become ill-conditioned since it was chosen */
 bool motion_is_worn(const Motion *motion);
-/* the independent speeds of the embedded form, motion_freedoms() of them */
-const int *motion_independent(const Motion *motion);
-int motion_freedoms(const Motion *motion);
 
 typedef struct MotionCounts {
     int64_t factorisations;

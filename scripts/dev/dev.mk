@@ -4,8 +4,8 @@
 dev = $(SHELL) $(srcdir)/scripts/dev
 EXTRA_DIST += autogen.sh run-demo run-tests .clang-format .clang-tidy .shellcheckrc \
 	scripts/dev/bench-table scripts/dev/build scripts/dev/check-layers scripts/dev/check-size \
-	scripts/dev/check-tables scripts/dev/coverage scripts/dev/lint scripts/dev/packages scripts/dev/pictures \
-	scripts/dev/total scripts/dev/transcripts
+	scripts/dev/check-tables scripts/dev/check-unused scripts/dev/coverage scripts/dev/lint \
+	scripts/dev/packages scripts/dev/pictures scripts/dev/total scripts/dev/transcripts
 
 # all tests, with their sum as the last line
 check-total: all
