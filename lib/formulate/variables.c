@@ -324,15 +324,50 @@ done:
     return status;
 }
 
-/* The scalar edge whose own stored variable a path names, "C1.v", "L1.i"; NULL. */
+/* Who bears the longest head of a path, "leg1.T1" of "leg1.T1.s.i": a part (or NULL), a node (or
+ * -1). Returns where the head ends. */
+static const char *path_owner(const System *system, const char *path, const Instance **instance,
+                              int *node)
+{
+    size_t length = strlen(path);
+
+    *instance = NULL;
+    *node = -1;
+    for (; length > 0; length--) {
+        char *head;
+        int number;
+
+        if (path[length] != '.' && path[length] != '\0')
+            continue;
+        head = mem_text(path, length);
+        number = names_find(system->instance_names, head);
+        *instance = number >= 0 ? &system->instances[number] : NULL;
+        *node = graph_find_node(system->graph, head);
+        mem_free(head);
+        if (*instance != NULL || *node >= 0)
+            break;
+    }
+    return path + length;
+}
+
+/* The scalar edge whose own stored variable a path names, "C1.v", "T1.s.i"; NULL. */
 static const Branchlike *storage_named(System *system, const char *path)
 {
-    for (int b = 0; b < system->branches.count; b++) {
-        const Branchlike *branch = &system->branches.at[b];
-        RelationKind kind = branch->relation.kind;
+    const char *dot = strrchr(path, '.');
+    const Instance *instance;
+    int node;
 
-        if ((kind == RELATION_CAPACITIVE || kind == RELATION_INDUCTIVE) &&
-            strcmp(branch_member(system, branch, kind == RELATION_INDUCTIVE), path) == 0)
+    (void)path_owner(system, path, &instance, &node);
+    for (int k = 0; instance != NULL && dot != NULL && k < instance->scalar_count; k++) {
+        const Branchlike *branch = scalar_branch(system, instance, k);
+        RelationKind kind = branch->relation.kind;
+        const char *edge = graph_edge(system->graph, branch->edge)->name;
+        Domain domain = instance->row->domain;
+
+        if (strlen(edge) == (size_t)(dot - path) &&
+            strncmp(edge, path, (size_t)(dot - path)) == 0 &&
+            ((kind == RELATION_CAPACITIVE && strcmp(dot + 1, domain_across(domain)) == 0) ||
+             (kind == RELATION_INDUCTIVE && strcmp(dot + 1, domain_through(domain)) == 0)))
             return branch;
     }
     return NULL;
@@ -485,33 +520,13 @@ static Status entry_variable(System *system, const char *path, bool *found, Expr
 
 /* --- names --- */
 
-static const Instance *instance_named(const System *system, const char *name)
-{
-    int number = names_find(system->instance_names, name);
-
-    return number >= 0 ? &system->instances[number] : NULL;
-}
-
 static Status member_variable(System *system, const char *path, Expr *out, Diag *diag)
 {
-    const char *dot = strrchr(path, '.');
-    const Instance *instance = NULL;
-    int node = -1;
-    const char *member;
+    const Instance *instance;
+    int node;
+    const char *end = path_owner(system, path, &instance, &node);
+    const char *member = *end == '.' ? end + 1 : "";
 
-    /* the longest name that somebody has: leg1.T1.s.i */
-    for (size_t length = strlen(path); length > 0 && instance == NULL && node < 0; length--) {
-        char *head;
-
-        if (path[length] != '.' && path[length] != '\0')
-            continue;
-        head = mem_text(path, length);
-        instance = instance_named(system, head);
-        node = graph_find_node(system->graph, head);
-        mem_free(head);
-        dot = path[length] == '.' ? path + length : NULL;
-    }
-    member = dot != NULL ? dot + 1 : "";
     if (instance == NULL && node < 0)
         return diag_set(diag, E_NAME, "nothing is called '%s'", path);
     if (node >= 0 && graph_node(system->graph, node)->domain != DOMAIN_MECHANICAL &&

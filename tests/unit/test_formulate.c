@@ -4,6 +4,7 @@
 
 #include "base/text.h"
 #include "compile/program.h"
+#include "formulate/system_impl.h"
 
 #include <string.h>
 
@@ -641,8 +642,35 @@ static void long_chains_are_not_written_out(void)
     text_free(&text);
 }
 
+/* v' of what keeps no charge: looked for among what does, of which there are many */
+static void asking_for_rates_costs_no_memory(void)
+{
+    Text text = {0};
+    Model *model;
+    System *system;
+    size_t held;
+
+    text_add(&text, "vsource E1 a 0 1\nresistor R1 a d 1 kohm\ndiode D1 d 0\n");
+    for (int i = 0; i < 300; i++)
+        text_addf(&text, "resistor P%d a n%d 1\ncapacitor C%d n%d 0 1 uF\n", i, i, i, i);
+    model = scene_new(text.at);
+    system = scene_system(model);
+    held = pool_bytes(system->pool);
+    for (int i = 0; i < 300; i++) {
+        Expr rate;
+        Diag diag = {0};
+
+        EXPECT(system_variable(system, "D1.v", 1, &rate, &diag) == E_MISSING);
+    }
+    EXPECT(pool_bytes(system->pool) == held);
+    system_free(system);
+    model_free(model);
+    text_free(&text);
+}
+
 int main(void)
 {
+    RUN(asking_for_rates_costs_no_memory);
     RUN(long_chains_are_not_written_out);
     RUN(frames_turned_halfway_tell_their_attitude);
     RUN(reactions_beside_a_vanished_row_are_refused);

@@ -57,6 +57,18 @@ static void the_tree_chooses_the_variables(void)
     kit_free(&kit);
 }
 
+/* what brings no state has a rate by its own relation */
+static void rates_of_stored_variables_follow_from_their_relations(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, "vsource E1 a 0 sin(t)\nresistor R1 a b 2\ninductor L1 b c 3\n"
+                      "capacitor C1 c 0 4\ntransformer T1 c 0 e 0 n=2\nresistor R3 e 0 7\n"
+                      "tree electrical E1 R1 L1 R3\nset network tree\nsimulate 1 every=0.1\n"
+                      "expect C1.v' ~ C1.i/4 within 1e-9\nexpect L1.i' ~ L1.v/3 within 1e-9\n");
+    kit_free(&kit);
+}
+
 /* two capacitors side by side, both chords: their currents' rates can't be told apart, and their
  * voltages are one state */
 static void rows_without_highest_rates_lower_the_order(void)
@@ -311,6 +323,7 @@ int main(void)
 {
     RUN(both_forms_of_a_microphone_move_alike);
     RUN(the_tree_chooses_the_variables);
+    RUN(rates_of_stored_variables_follow_from_their_relations);
     RUN(rows_without_highest_rates_lower_the_order);
     RUN(a_bridge_in_balance_carries_no_current);
     RUN(a_steep_characteristic_is_solved);
