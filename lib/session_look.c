@@ -25,7 +25,7 @@ ct_status ct_show(ct_session *session, const ct_statement *statement, char **tex
     Need need;
 
     session_begin(session);
-    CHECK(show_need(s, &need, &diag));
+    CHECK(show_need(session->model, s, &need, &diag));
     if (need == NEED_SYSTEM)
         CHECK(session_shown(session, &view.system, &diag));
     if (need == NEED_RUNNING)

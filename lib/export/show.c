@@ -1,6 +1,8 @@
 /* show.c: the topics of `show`, and what stands behind them */
 #include "export/show.h"
 
+#include "export/info.h"
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -85,7 +87,20 @@ bool show_is_linear(const Statement *statement)
            (strcmp(topic->name, "linear") == 0 || strcmp(topic->name, "transfer") == 0);
 }
 
-Status show_need(const Statement *statement, Need *need, Diag *diag)
+/* whether any of what is to be shown is a formula, which equations are needed for */
+static bool has_formula(const Model *model, const Statement *statement)
+{
+    for (int i = 0; i < statement->operands.count; i++) {
+        Expr e;
+        Diag ignored = {0};
+
+        if (model_expression(model, statement->operands.at[i].value, &e, &ignored) == OK)
+            return true;
+    }
+    return false;
+}
+
+Status show_need(const Model *model, const Statement *statement, Need *need, Diag *diag)
 {
     const Topic *topic = find_topic(statement);
 
@@ -101,7 +116,10 @@ Status show_need(const Statement *statement, Need *need, Diag *diag)
         diag_hint(diag, "'help show' lists what can be shown");
         return E_MISSING;
     }
-    *need = topic != NULL ? topic->need : NEED_SYSTEM;
+    if (topic != NULL)
+        *need = topic->need;
+    else
+        *need = has_formula(model, statement) ? NEED_SYSTEM : NEED_MODEL;
     return OK;
 }
 
@@ -195,6 +213,31 @@ static Status unknown_topic(const Operand *operand, Status status, Diag *diag)
     return status;
 }
 
+/* A name that stands for no formula, or for itself alone: a part, a frame, a parameter, a
+ * coordinate that the trees leave independent. */
+static bool is_mere_name(const View *view, const Syntax *syntax)
+{
+    Expr user, e;
+    Diag ignored = {0};
+
+    if (syntax->kind != SYNTAX_VARIABLE || syntax->primes > 0)
+        return false;
+    return model_expression(view->model, syntax, &user, &ignored) != OK ||
+           (system_resolve(view->system, user, &e, &ignored) == OK && expr_kind(e) == EXPR_SYMBOL &&
+            strcmp(expr_name(e), syntax->text) == 0);
+}
+
+static Status show_item(const View *view, const Statement *statement, const Operand *operand,
+                        Text *out, Diag *diag)
+{
+    Diag ignored = {0};
+
+    if (statement->as == NULL && is_mere_name(view, operand->value) &&
+        info_print(view, operand->value->text, operand->place, out, &ignored) == OK)
+        return OK;
+    return show_expression(view, operand->value, out, diag);
+}
+
 Status show(const View *view, const Statement *statement, Text *out, Diag *diag)
 {
     View in_notation = *view;
@@ -211,7 +254,7 @@ Status show(const View *view, const Statement *statement, Text *out, Diag *diag)
     for (int i = 0; status == OK && i < statement->operands.count; i++) {
         const Operand *operand = statement->operands.at + i;
 
-        status = show_expression(&in_notation, operand->value, out, diag);
+        status = show_item(&in_notation, statement, operand, out, diag);
         if (status != OK && diag->place.line == 0)
             diag->place = operand->place;
         if (status != OK && i == 0)

@@ -41,10 +41,11 @@ typedef struct Topic {
 const Topic *topic_find(const char *name); /* NULL: none */
 const Topic *topic_at(int i);              /* 0, 1, ... until NULL */
 
-/* What the statement `show ...` needs; a variable (`show h9.fx`) needs equations. */
 bool show_is_linear(const Statement *statement); /* shows the last linearisation */
-MUST_USE Status show_need(const Statement *statement, Need *need, Diag *diag);
-/* Write what the statement asks for. Fails with E_NAME for an unknown topic or edge, E_VALUE for
+/* What the statement `show ...` needs; a variable (`show h9.fx`) needs equations, the name of a part
+ * (`show R1`) only the model. */
+MUST_USE Status show_need(const Model *model, const Statement *statement, Need *need, Diag *diag);
+/* Write what the statement asks for; of a name that no formula stands behind, what `info` tells. Fails with E_NAME for an unknown topic or edge, E_VALUE for
  * an entry beyond the last, E_MISSING for topics of later versions, the errors of equations. */
 MUST_USE Status show(const View *view, const Statement *statement, Text *out, Diag *diag);
 /* the notation of `as WORD`; false: unknown */

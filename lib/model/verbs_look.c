@@ -9,7 +9,7 @@ const Verb verbs_look[] = {
                     "coordinates", "constraints", "velocity", "acceleration", "jacobian", "mass",
                     "forces", "equations", "network", "state", "linear", "transfer", "derivation",
                     "outputs", "params", "structure", "run", "events", "settings", "program"),
-     .usage = "show TOPIC|VARIABLE [ENTRY...|EDGE...] [as latex|c|matlab|tree]",
+     .usage = "show TOPIC|VARIABLE|NAME [ENTRY...|EDGE...] [as latex|c|matlab|tree]",
      .brief = "prints the graph, its matrices or the equations",
      .help =
          "The topics:\n"
@@ -25,9 +25,10 @@ const Verb verbs_look[] = {
          "  derivation                    the steps that led to the equations\n"
          "  state linear transfer         of a linear network; of what was linearized\n"
          "Numbers behind a topic pick entries (show mass 2 3), names of edges rows (show cutsets "
-         "h8). Anything else is a variable, shown as the formula it is computed by (show h9.fx). "
-         "'as' gives another notation. Topics win over names: a variable called mass is shown by "
-         "'show (mass)'.",
+         "h8). Anything else is a variable, shown as the formula it is computed by (show h9.fx), "
+         "or the name of a part, of which 'show R1' tells what 'info R1' does, as it does of a "
+         "variable that no formula stands behind. 'as' gives another notation. Topics win over "
+         "names: a variable called mass is shown by 'show (mass)'.",
      .example =
          PENDULUM "show edges\nshow cutsets\nshow mass 1 1\nshow forces as latex\nshow h1.fx",
      .see = "count check info tree print"},

@@ -1,6 +1,8 @@
 /* test_session_look.c: show, count, info, check, tree, draw */
 #include "session_kit.h"
 
+#include "base/memory.h"
+
 static void one_tree_gives_the_two_equations_of_the_paper(void)
 {
     Kit kit = kit_new();
@@ -280,6 +282,41 @@ static void info_knows_every_kind_of_name(void)
     kit_free(&kit);
 }
 
+static void show_of_a_part_tells_what_info_does(void)
+{
+    static const char *const names[] = {"M7", "p1", "m1", "R7", "e", "ground", "theta"};
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, MOTOR_ARM);
+    for (int i = 0; i < COUNT(names); i++) {
+        char line[40];
+        char *told;
+
+        (void)snprintf(line, sizeof line, "info %s", names[i]);
+        EXPECT_DONE(&kit, line);
+        told = mem_text(kit.text, strlen(kit.text));
+        (void)snprintf(line, sizeof line, "show %s", names[i]);
+        EXPECT_DONE(&kit, line);
+        EXPECT_TEXT(kit.text, told);
+        mem_free(told);
+    }
+    /* a formula where there is one */
+    EXPECT_DONE(&kit, "show M7.torque R7");
+    EXPECT_HOLDS(kit.text, "M7.torque = ");
+    EXPECT_HOLDS(kit.text, "R7: parameter");
+    kit_free(&kit);
+}
+
+static void the_parts_of_a_model_that_is_not_whole_are_shown(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, "vsource E1 a 0 1\nvsource E2 a 0 2\nresistor R1 a 0 5\nshow R1");
+    EXPECT_HOLDS(kit.text, "R1: resistor");
+    EXPECT(kit_do(&kit, "show R1.i") != CT_OK);
+    kit_free(&kit);
+}
+
 static void check_tells_freedoms_and_what_is_unused(void)
 {
     Kit kit = kit_new();
@@ -359,6 +396,8 @@ int main(void)
     RUN(the_embedded_form_of_many_constraints_is_counted_as_the_augmented);
     RUN(info_tells_ends_signs_and_variables);
     RUN(info_knows_every_kind_of_name);
+    RUN(show_of_a_part_tells_what_info_does);
+    RUN(the_parts_of_a_model_that_is_not_whole_are_shown);
     RUN(check_tells_freedoms_and_what_is_unused);
     RUN(drawings_hold_every_edge);
     RUN(a_long_entry_is_written_over_named_parts);
