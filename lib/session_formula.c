@@ -266,7 +266,9 @@ static Status cut_pure(Cut *cut, const Syntax *syntax, int run, Expr *out, Diag 
     }
     CHECK(model_expression(session->model, run > 0 ? strip(pool, syntax) : syntax, &e, diag));
     e = session_put_outputs(session->model, e);
-    *out = push_leaf(cut, (Leaf){.kind = LEAF_VARIABLE, .expr = e, .run = run - 1});
+    *out = expr_is_number(e)
+               ? e
+               : push_leaf(cut, (Leaf){.kind = LEAF_VARIABLE, .expr = e, .run = run - 1});
 done:
     pool_free(pool);
     return status;
@@ -379,27 +381,31 @@ static Expr join_binary(Arena *arena, const char *operator, Expr a, Expr b)
     return NULL;
 }
 
+/* a function or law of leaves; the parameters that a law brings are leaves more */
 static Status cut_call(Cut *cut, const Syntax *syntax, const Expr *args, Expr *out, Diag *diag)
 {
-    static const struct {
-        const char *name;
-        Op op;
-        int args;
-    } functions[] = {
-#define OP(id, name, args, ...) {name, OP_##id, args},
-#include "expr/ops.def"
-#undef OP
-    };
+    Arena *arena = model_arena(cut->session->model);
+    Expr *symbols = NULL, *leaves = NULL;
+    int count, used = 0;
+    Status status = OK;
 
-    for (int i = 0; i < COUNT(functions); i++)
-        if (strcmp(functions[i].name, syntax->text) == 0 && functions[i].args == syntax->count) {
-            *out = expr_call(model_arena(cut->session->model), functions[i].op, args);
-            return OK;
-        }
-    diag_at(diag, E_VALUE, syntax->place,
-            "'%s' can't be taken of values of several runs, of functions of runs or of counts",
-            syntax->text);
-    return E_VALUE;
+    CHECK(model_call(cut->session->model, syntax, args, out, diag));
+    count = expr_symbols(out, 1, &symbols);
+    leaves = NEW_ARRAY(Expr, count);
+    for (int i = 0; i < count; i++) {
+        const SymbolKind kind = expr_symbol_kind(symbols[i]);
+
+        if (kind == SYMBOL_ARGUMENT || kind == SYMBOL_TABLE)
+            continue;
+        symbols[used] = symbols[i];
+        leaves[used++] =
+            push_leaf(cut, (Leaf){.kind = LEAF_VARIABLE, .expr = symbols[i], .run = -1});
+    }
+    *out = expr_substitute(arena, *out, symbols, leaves, used);
+done:
+    mem_free(symbols);
+    mem_free(leaves);
+    return status;
 }
 
 /* a subtree that holds more than the model understands: its parts, joined */
@@ -409,8 +415,10 @@ static Status cut_joined(Cut *cut, const Syntax *syntax, Expr *out, Diag *diag)
     Expr *args = NEW_ARRAY(Expr, syntax->count);
     Status status = OK;
 
+    /* the name of a file is no value */
     for (int i = 0; i < syntax->count; i++)
-        CHECK(cut_any(cut, syntax->args[i], &args[i], diag));
+        if (syntax->args[i]->kind != SYNTAX_STRING || !model_call_takes_text(syntax))
+            CHECK(cut_any(cut, syntax->args[i], &args[i], diag));
     *out = NULL;
     if (syntax->primes == 0 && syntax->kind == SYNTAX_GROUP)
         *out = args[0];

@@ -244,7 +244,9 @@ static Status mode_entry(const ct_session *session, int entry, const int *index,
         return E_MISSING;
     }
     if (count != 1 || index[0] < 1 || index[0] > session->modes->count)
-        return diag_set(diag, E_VALUE, "there are %d modes, counted from 1", session->modes->count);
+        return diag_set(diag, E_VALUE, "there %s %d mode%s, counted from 1",
+                        session->modes->count == 1 ? "is" : "are", session->modes->count,
+                        session->modes->count == 1 ? "" : "s");
     *out = entries[entry].of(&session->modes->at[index[0] - 1]);
     return OK;
 }

@@ -401,6 +401,23 @@ done:
     return status;
 }
 
+Status model_call(const Model *model, const Syntax *syntax, const Expr *args, Expr *out, Diag *diag)
+{
+    Scope scope = ask(model);
+    Status status = OK;
+
+    CHECK(data_read(&model->finder, model->arena, syntax, false, diag));
+    CHECK(function_call(&scope, syntax, args, out, diag));
+done:
+    LIST_FREE(scope.uses);
+    return status;
+}
+
+bool model_call_takes_text(const Syntax *syntax)
+{
+    return syntax->kind == SYNTAX_CALL && function_takes_text(syntax->text);
+}
+
 Status model_check_variable(const Model *model, const char *path, int primes, Place place,
                             Diag *diag)
 {

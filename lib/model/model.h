@@ -129,6 +129,11 @@ Form model_form(const Model *model, const char *const **independent,
  * the derivative along the primed variables. Names that aren't known fail with E_NAME and a
  * suggestion. */
 MUST_USE Status model_expression(const Model *model, const Syntax *syntax, Expr *out, Diag *diag);
+/* The same of a call, its arguments already expressions: those that are texts, of a call that takes
+ * some, are NULL. */
+MUST_USE Status model_call(const Model *model, const Syntax *syntax, const Expr *args, Expr *out,
+                           Diag *diag);
+bool model_call_takes_text(const Syntax *syntax);
 /* whether the dotted name means a variable that can be asked for, with that many primes; if not,
  * why */
 MUST_USE Status model_check_variable(const Model *model, const char *path, int primes, Place place,

@@ -37,6 +37,22 @@ static void expect_omegas(Kit *kit, const double *wanted, int count, double tole
 
 /* --- modes --- */
 
+static void modes_may_stand_in_any_expression(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, TWO_PENDULUMS "equilibrium\nmodes\n");
+    EXPECT_DONE(&kit, "expect max(modes.omega(1), modes.omega(2), 1) ~ modes.omega(2) within 0\n"
+                      "expect min(modes.omega(2), 100, modes.omega(1)) ~ modes.omega(1) within 0\n"
+                      "expect max(modes.damping(1), modes.damping(2), -1) ~ 0 within 1e-12\n");
+    EXPECT(kit_do(&kit, "print modes.omega(3)") != CT_OK);
+    EXPECT_TEXT(kit.error.message, "there are 2 modes, counted from 1");
+    EXPECT_DONE(&kit, "clear\n" PENDULUM "equilibrium\nmodes\n");
+    EXPECT(kit_do(&kit, "print modes.omega(2)") != CT_OK);
+    EXPECT_TEXT(kit.error.message, "there is 1 mode, counted from 1");
+    kit_free(&kit);
+}
+
 static void a_pendulum_swings_at_the_root_of_g_over_l(void)
 {
     Kit kit = kit_new();
@@ -439,7 +455,7 @@ static void wrong_uses_are_refused_with_a_way_out(void)
         {PENDULUM, "linearize outputs=[q]", 20, "unknown name 'q'", ""},
         {PENDULUM, "linearize input=[L]", 11, "has no key 'input'", "did you mean 'inputs'"},
         {PENDULUM, "print modes.omega(1)", 7, "there are no modes yet", "'modes' finds them"},
-        {PENDULUM "modes\n", "print modes.omega(2)", 7, "there are 1 modes", ""},
+        {PENDULUM "modes\n", "print modes.omega(2)", 7, "there is 1 mode", ""},
         {PENDULUM, "print linear.A(1,2)", 7, "nothing has been linearized", "linearize inputs"},
         {PENDULUM "linearize\n", "print linear.A(3,1)", 7, "has 2 rows and 2 columns", ""},
         {PENDULUM "linearize\n", "print linear.A(h,1)", 16, "picked by whole numbers", ""},
@@ -505,6 +521,7 @@ static void matrices_are_written_in_other_notations(void)
 
 int main(void)
 {
+    RUN(modes_may_stand_in_any_expression);
     RUN(a_pendulum_swings_at_the_root_of_g_over_l);
     RUN(two_pendulums_have_their_two_modes_in_any_trees);
     RUN(spatial_pendulums_have_the_modes_of_planar_ones);

@@ -160,7 +160,11 @@ static void a_value_that_is_none_is_refused(void)
         {"count.mas.add",  "no block of equations"},
         {"lambda(1)",      "lambda(1)"},
         {"h at h",         "an instant is a number"},
-        {"pulse(model.n, 0, 1, 0, 0, 0, 1, 2)", "can't be taken of values of several runs"},
+        {"pulse(model.n, 0, 1)",                 "pulse does not take 3 arguments"},
+        {"pulse(model.n, 0, 1, 0, -1, 0, 1, 2)", "times of a pulse aren't negative"},
+        {"atan2(model.n)",                       "atan2 takes 2 arguments, got 1"},
+        {"max(\"a\", model.n)",                  "not a text"},
+        {"gape(model.n)",                        "unknown function 'gape'"},
         {"(model.n)'",     "can't be made of values"},
     };
     /* clang-format on */
@@ -176,6 +180,24 @@ static void a_value_that_is_none_is_refused(void)
     EXPECT(isnan(kit_value(&kit, "run7.h")));
     EXPECT_HOLDS(kit.error.hint, "run1");
     EXPECT_NEAR(kit_value(&kit, "h at 0"), M_PI / 3, 1e-14);
+    kit_free(&kit);
+}
+
+static void any_function_is_taken_of_what_the_session_knows(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, PENDULUM "k = 3\nlaw(x, y) = k*x + y\n");
+    EXPECT_NEAR(kit_value(&kit, "min(model.n, 4, model.dof, 0.5)"), 0.5, 0);
+    EXPECT_NEAR(kit_value(&kit, "max(model.n, 4, model.dof, 0.5)"), 4, 0);
+    EXPECT_NEAR(kit_value(&kit, "law(model.n, 2)"), 5, 0);
+    EXPECT_NEAR(kit_value(&kit, "law(2, law(model.n, model.n))"), 10, 0);
+    EXPECT_NEAR(kit_value(&kit, "pulse(model.n + 2.5, 0, 8, 1, 1, 1, 1, 6)"), 4, 1e-12);
+    EXPECT_NEAR(kit_value(&kit, "pwl(model.n, 0, 3, 2, 5)"), 4, 1e-12);
+    EXPECT_NEAR(kit_value(&kit, "if(model.n == 1, law(model.n, 0), 7)"), 3, 0);
+    EXPECT_DONE(&kit, "simulate 0.5 every=0.1\nsimulate 2 every=0.1");
+    EXPECT_NEAR(kit_value(&kit, "law(t, max(t)) at 0.5"), 3.5, 1e-12);
+    EXPECT_NEAR(kit_value(&kit, "max(run1.h, run2.h, h) - max(run1.h, h)"), 0, 0);
     kit_free(&kit);
 }
 
@@ -477,6 +499,7 @@ int main(void)
     RUN(functions_of_runs_see_every_row);
     RUN(sizes_and_entries_are_values);
     RUN(a_value_that_is_none_is_refused);
+    RUN(any_function_is_taken_of_what_the_session_knows);
     RUN(options_that_make_no_sense_are_refused);
     RUN(resume_goes_on_with_what_was_said_before);
     RUN(a_table_has_a_row_an_instant_and_names_as_written);
