@@ -470,7 +470,7 @@ char *ct_report(ct_session *session)
 
         linear_print(&view, session->linear, &text);
     } else if (session->told != NULL && strcmp(session->told, "modes") == 0) {
-        modes_print(session->modes, &text);
+        modes_print(session->modes, session->hooks.columns, &text);
     } else if (session->start_is_later && session->start.result != NULL) {
         print_configuration(&text, session->start.result);
     } else if (count > 0) {

@@ -109,7 +109,21 @@ void layout_formula(Text *out, const Page *page, const char *lead, const char *b
     text_char(out, '\n');
 }
 
-void layout_words(Text *out, int columns, const char *lead, const char *words)
+static size_t word_length(const char *words)
+{
+    return strcspn(words, " \n");
+}
+
+/* with its comma */
+static size_t item_length(const char *items)
+{
+    const char *comma = strstr(items, ", ");
+
+    return comma != NULL ? (size_t)(comma + 1 - items) : strlen(items);
+}
+
+static void wrap(Text *out, int columns, const char *lead, const char *words,
+                 size_t (*next_length)(const char *words))
 {
     const int indent = text_width(lead);
     int column = indent;
@@ -117,7 +131,7 @@ void layout_words(Text *out, int columns, const char *lead, const char *words)
 
     text_add(out, lead);
     while (*words != '\0') {
-        size_t length = strcspn(words, " \n");
+        size_t length = next_length(words);
         char *word = mem_text(words, length);
         const int width = text_width(word);
 
@@ -148,6 +162,33 @@ void layout_words(Text *out, int columns, const char *lead, const char *words)
         words += *words != '\0';
     }
     text_char(out, '\n');
+}
+
+void layout_words(Text *out, int columns, const char *lead, const char *words)
+{
+    wrap(out, columns, lead, words, word_length);
+}
+
+void layout_items(Text *out, int columns, const char *lead, const char *items)
+{
+    wrap(out, columns, lead, items, item_length);
+}
+
+int layout_widest_item(const char *items)
+{
+    int widest = 0;
+
+    while (*items != '\0') {
+        const size_t length = item_length(items);
+        char *item = mem_text(items, length);
+        const int width = text_width(item);
+
+        widest = width > widest ? width : widest;
+        mem_free(item);
+        items += length;
+        items += *items == ' ';
+    }
+    return widest;
 }
 
 void layout_item(Text *out, const char *item)

@@ -22,6 +22,10 @@ void layout_formula(Text *out, const Page *page, const char *lead, const char *b
  * `words` are kept. */
 void layout_words(Text *out, int columns, const char *lead, const char *words);
 
+/* The same of items between commas, which hold together: "a 1, b 0.2 (3 deg)". */
+void layout_items(Text *out, int columns, const char *lead, const char *items);
+int layout_widest_item(const char *items);
+
 /* "h8, h10, s11" */
 void layout_item(Text *out, const char *item); /* with a comma where `out` isn't empty */
 

@@ -42,11 +42,12 @@ const Topic *topic_find(const char *name); /* NULL: none */
 const Topic *topic_at(int i);              /* 0, 1, ... until NULL */
 
 bool show_is_linear(const Statement *statement); /* shows the last linearisation */
-/* What the statement `show ...` needs; a variable (`show h9.fx`) needs equations, the name of a part
- * (`show R1`) only the model. */
+/* What the statement `show ...` needs; a variable (`show h9.fx`) needs equations, the name of a
+ * part (`show R1`) only the model. */
 MUST_USE Status show_need(const Model *model, const Statement *statement, Need *need, Diag *diag);
-/* Write what the statement asks for; of a name that no formula stands behind, what `info` tells. Fails with E_NAME for an unknown topic or edge, E_VALUE for
- * an entry beyond the last, E_MISSING for topics of later versions, the errors of equations. */
+/* Write what the statement asks for; of a name that no formula stands behind, what `info` tells.
+ * Fails with E_NAME for an unknown topic or edge, E_VALUE for an entry beyond the last, E_MISSING
+ * for topics of later versions, the errors of equations. */
 MUST_USE Status show(const View *view, const Statement *statement, Text *out, Diag *diag);
 /* the notation of `as WORD`; false: unknown */
 bool notation_find(const char *word, Notation *notation);
@@ -75,8 +76,8 @@ void linear_print(const View *view, const Linear *linear, Text *out);
 ShowFunction show_linear, show_transfer, show_state;
 /* E_MISSING where there is nothing linear, or no input or output of it */
 MUST_USE Status linear_check_pairs(const Linear *linear, Diag *diag);
-/* a line a mode */
-void modes_print(const Modes *modes, Text *out);
+/* a line a mode; what moves on lines of its own where that is wider than the page (0: never) */
+void modes_print(const Modes *modes, int columns, Text *out);
 /* a row a mode, with the amplitude and phase of every part */
 void modes_csv(const Modes *modes, bool with_header, Text *out);
 

@@ -175,7 +175,7 @@ static int next_part(const Mode *mode, int parts, const bool *told)
 }
 
 /* "h2 1, h1 -0.7": what moves, against it, or late by an angle */
-static void add_shape(Table *table, const Modes *modes, const Mode *mode)
+static char *shape_text(const Modes *modes, const Mode *mode)
 {
     bool *told = NEW_ARRAY(bool, modes->parts);
     Text text = {0};
@@ -193,38 +193,80 @@ static void add_shape(Table *table, const Modes *modes, const Mode *mode)
         if (fabs(phase) > 0.05 && fabs(phase) <= 179.95)
             text_addf(&text, " (%.1f deg)", phase);
     }
-    table_cell(table, text.at != NULL ? text.at : "");
-    text_free(&text);
     mem_free(told);
+    return text_done(&text);
 }
 
-void modes_print(const Modes *modes, Text *out)
+static void add_figures(Table *table, const Mode *mode, int number)
 {
-    Table table = table_for("rrrrrl");
-    static const char *const titles[] = {"mode",   "eigenvalue [1/s]", "omega [rad/s]",
-                                         "f [Hz]", "damping",          "what moves"};
+    table_cellf(table, "%d", number);
+    if (mode->imaginary > 0)
+        table_cellf(table, "%.6g +- %.6gi", mode->real, mode->imaginary);
+    else
+        table_cellf(table, "%.6g", mode->real);
+    table_cellf(table, "%.6g", mode->omega);
+    table_cellf(table, "%.6g", mode->omega / (2 * M_PI));
+    table_cellf(table, "%.6g", mode->damping);
+}
+
+/* Rows of figures with what moves: behind them where the page has room for every part, else on
+ * lines of its own below. */
+static void print_shapes(const Table *figures, char *const *shapes, int columns, Text *out)
+{
+    const int rows = figures->cells.count / figures->columns;
+    const char *line;
+    Text lines = {0};
+    int widest = 0;
+
+    table_print(&lines, figures, 0);
+    line = lines.at;
+    for (int i = 0; i < rows; i++) {
+        const int width = layout_widest_item(shapes[i]);
+
+        widest = width > widest ? width : widest;
+    }
+    for (int i = 0; i < rows; i++) {
+        const size_t length = strcspn(line, "\n");
+        Text lead = {0};
+
+        if (columns == 0 || table_width(figures) + 2 + widest <= columns) {
+            text_add_n(&lead, line, length);
+            text_add(&lead, "  ");
+        } else {
+            text_add_n(out, line, length + 1);
+            text_add(&lead, "      ");
+        }
+        layout_items(out, columns, lead.at, shapes[i]);
+        text_free(&lead);
+        line += length + 1;
+    }
+    text_free(&lines);
+}
+
+void modes_print(const Modes *modes, int columns, Text *out)
+{
+    static const char *const titles[] = {"mode", "eigenvalue [1/s]", "omega [rad/s]", "f [Hz]",
+                                         "damping"};
+    Table figures = table_for("rrrrr");
+    char **shapes;
 
     if (modes->count == 0) {
         text_add(out, "no modes: nothing is free to move\n");
         return;
     }
+    shapes = NEW_ARRAY(char *, modes->count + 1);
     for (int i = 0; i < COUNT(titles); i++)
-        table_cell(&table, titles[i]);
+        table_cell(&figures, titles[i]);
+    shapes[0] = mem_text("what moves", strlen("what moves"));
     for (int i = 0; i < modes->count; i++) {
-        const Mode *mode = &modes->at[i];
-
-        table_cellf(&table, "%d", i + 1);
-        if (mode->imaginary > 0)
-            table_cellf(&table, "%.6g +- %.6gi", mode->real, mode->imaginary);
-        else
-            table_cellf(&table, "%.6g", mode->real);
-        table_cellf(&table, "%.6g", mode->omega);
-        table_cellf(&table, "%.6g", mode->omega / (2 * M_PI));
-        table_cellf(&table, "%.6g", mode->damping);
-        add_shape(&table, modes, mode);
+        add_figures(&figures, &modes->at[i], i + 1);
+        shapes[i + 1] = shape_text(modes, &modes->at[i]);
     }
-    table_print(out, &table, 0);
-    table_free(&table);
+    print_shapes(&figures, shapes, columns, out);
+    for (int i = 0; i <= modes->count; i++)
+        mem_free(shapes[i]);
+    mem_free(shapes);
+    table_free(&figures);
 }
 
 void modes_csv(const Modes *modes, bool with_header, Text *out)

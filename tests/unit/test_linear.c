@@ -3,6 +3,8 @@
  * Numbers are asked of a session, so that what the language says is tested too. */
 #include "session_kit.h"
 
+#include "base/text.h"
+
 static void expect_value(Kit *kit, const char *expression, double wanted, double tolerance)
 {
     double got = kit_value(kit, expression);
@@ -36,6 +38,34 @@ static void expect_omegas(Kit *kit, const double *wanted, int count, double tole
     "revolute h2 a pb\n"
 
 /* --- modes --- */
+
+/* six masses on springs with dampers: up to six parts a mode, late by angles of all sizes */
+static void modes_keep_to_the_page(void)
+{
+    Text text = {0};
+    Kit kit = kit_new();
+    int longest = 0, parts = 0;
+
+    text_add(&text, "scene planar\narm n0 ground [0, 0]\n");
+    for (int i = 1; i <= 6; i++)
+        text_addf(&text,
+                  "body mass%d mass=%d inertia=1\nprismatic shift_%d %s%d mass%d axis=x\n"
+                  "spring k%d shift_%d k=%d\ndamper d%d shift_%d d=%d\n",
+                  i, i, i, i == 1 ? "n" : "mass", i - 1, i, i, i, 100 * i, i, i, i * i % 5);
+    text_add(&text, "equilibrium\nmodes\n");
+    EXPECT_DONE(&kit, text.at);
+    for (const char *line = kit.text; *line != '\0'; line += strcspn(line, "\n") + 1)
+        longest = (int)strcspn(line, "\n") > longest ? (int)strcspn(line, "\n") : longest;
+    for (const char *at = kit.text; (at = strstr(at, "shift_")) != NULL; at++)
+        parts++;
+    EXPECT(longest <= 80);
+    EXPECT(parts == 36);
+    /* a part and its angle hold together */
+    EXPECT_LACKS(kit.text, "\n      (");
+    EXPECT_LACKS(kit.text, "\n      0");
+    kit_free(&kit);
+    text_free(&text);
+}
 
 static void modes_may_stand_in_any_expression(void)
 {
@@ -521,6 +551,7 @@ static void matrices_are_written_in_other_notations(void)
 
 int main(void)
 {
+    RUN(modes_keep_to_the_page);
     RUN(modes_may_stand_in_any_expression);
     RUN(a_pendulum_swings_at_the_root_of_g_over_l);
     RUN(two_pendulums_have_their_two_modes_in_any_trees);
