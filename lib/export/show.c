@@ -30,7 +30,7 @@ static const Topic topics[] = {
     {"program",      "the straight-line program that a run evaluates",     NEED_RUNNING, BEHIND_NOTHING, show_program},
     {"state",        "a linear network as x' = A x + B u",                 NEED_MODEL,  BEHIND_NOTHING, show_state},
     {"linear",       "matrices of the last linearisation",                 NEED_MODEL,  BEHIND_NOTHING, show_linear},
-    {"transfer",     "transfer functions of the last linearisation",       NEED_MODEL,  BEHIND_NUMBERS, show_transfer},
+    {"transfer",     "transfer functions of the last linearisation",       NEED_MODEL,  BEHIND_PAIR,    show_transfer},
     {"derivation",   "how an equation came about, step by step",           NEED_MODEL,  BEHIND_NOTHING, NULL},
     {"events",       "events, and when they happened in the last run",     NEED_MODEL,  BEHIND_NOTHING, show_events},
 };
@@ -123,21 +123,71 @@ Status show_need(const Model *model, const Statement *statement, Need *need, Dia
     return OK;
 }
 
+static Status has_room(const Topic *topic, const Operand *operand, const Selection *selection,
+                       Diag *diag)
+{
+    if (selection->number_count < COUNT(selection->numbers))
+        return OK;
+    return diag_at(diag, E_SYNTAX, operand->place,
+                   topic->behind == BEHIND_PAIR
+                       ? "a transfer function has an output and an input only"
+                       : "an entry has a row and a column only");
+}
+
 static Status take_number(const Topic *topic, const Operand *operand, Selection *selection,
                           Diag *diag)
 {
     const Syntax *value = operand->value;
     char *end = NULL;
     const long number = strtol(value->text, &end, 10);
+    Status status = OK;
 
-    if (topic->behind != BEHIND_NUMBERS && topic->behind != BEHIND_LEVEL)
+    if (topic->behind != BEHIND_NUMBERS && topic->behind != BEHIND_LEVEL &&
+        topic->behind != BEHIND_PAIR)
         return diag_at(diag, E_SYNTAX, operand->place, "'show %s' takes no numbers", topic->name);
     if (*end != '\0' || number < 1 || number > 1000000 || value->has_unit)
         return diag_at(diag, E_VALUE, operand->place, "rows and columns are counted 1, 2, 3 ...");
-    if (selection->number_count == COUNT(selection->numbers))
-        return diag_at(diag, E_SYNTAX, operand->place, "an entry has a row and a column only");
+    CHECK(has_room(topic, operand, selection, diag));
     selection->numbers[selection->number_count++] = (int)number;
-    return OK;
+done:
+    return status;
+}
+
+/* the output, then the input of that name */
+static Status take_output_or_input(const View *view, const Topic *topic, const Operand *operand,
+                                   Selection *selection, Diag *diag)
+{
+    const Linear *linear = view->linear;
+    const bool is_output = selection->number_count == 0;
+    const char *what = is_output ? "output" : "input";
+    char *const *names;
+    char *name = view_name(operand->value);
+    Suggest suggest = suggest_for(name);
+    int found = 0;
+    Status status = OK;
+
+    CHECK(linear_check_pairs(linear, diag));
+    CHECK(has_room(topic, operand, selection, diag));
+    names = is_output ? linear->output_names : linear->input_names;
+    for (int i = 0; i < (is_output ? linear->outputs : linear->inputs); i++) {
+        suggest_offer(&suggest, names[i]);
+        if (strcmp(names[i], name) == 0)
+            found = i + 1;
+    }
+    if (found == 0) {
+        status = diag_at(diag, E_NAME, operand->place, "%s is no %s of the last linearisation",
+                         name, what);
+        if (suggest.best != NULL)
+            diag_hint(diag, "did you mean '%s'?", suggest.best);
+        else
+            diag_hint(diag, "'show transfer' takes an output, then an input: show transfer %s %s",
+                      linear->output_names[0], linear->input_names[0]);
+        goto done;
+    }
+    selection->numbers[selection->number_count++] = found;
+done:
+    mem_free(name);
+    return status;
 }
 
 static Status take_name(const View *view, const Topic *topic, const Operand *operand,
@@ -182,6 +232,8 @@ static Status show_topic(const View *view, const Topic *topic, const Statement *
 
         if (operand->value->kind == SYNTAX_NUMBER) {
             CHECK(take_number(topic, operand, &selection, diag));
+        } else if (topic->behind == BEHIND_PAIR) {
+            CHECK(take_output_or_input(view, topic, operand, &selection, diag));
         } else if (operand->value->kind == SYNTAX_VARIABLE && operand->value->primes == 0) {
             CHECK(take_name(view, topic, operand, &selection, names, diag));
         } else {

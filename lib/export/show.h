@@ -18,7 +18,9 @@ typedef enum Behind { /* what may stand behind a topic */
                       BEHIND_NOTHING,
                       BEHIND_NUMBERS, /* a row, a row and a column */
                       BEHIND_EDGES,   /* names of edges */
-                      BEHIND_LEVEL    /* velocity or acceleration, and rows */
+                      BEHIND_LEVEL,   /* velocity or acceleration, and rows */
+                      BEHIND_PAIR     /* an output and an input of what was linearized, by number or
+                                         name */
 } Behind;
 
 typedef struct Selection {

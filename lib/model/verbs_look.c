@@ -25,7 +25,9 @@ const Verb verbs_look[] = {
          "  derivation                    the steps that led to the equations\n"
          "  state linear transfer         of a linear network; of what was linearized\n"
          "Numbers behind a topic pick entries (show mass 2 3), names of edges rows (show cutsets "
-         "h8). Anything else is a variable, shown as the formula it is computed by (show h9.fx), "
+         "h8), names of an output and an input one transfer function (show transfer h8 V1). "
+         "Anything "
+         "else is a variable, shown as the formula it is computed by (show h9.fx), "
          "or the name of a part, of which 'show R1' tells what 'info R1' does, as it does of a "
          "variable that no formula stands behind. 'as' gives another notation. Topics win over "
          "names: a variable called mass is shown by 'show (mass)'.",

@@ -156,6 +156,13 @@ UNUSED static double kit_value(Kit *kit, const char *expression)
     return value;
 }
 
+/* the last of the lines is refused, with a message that holds the part */
+#define EXPECT_FAILS(kit, lines, part)                                                             \
+    do {                                                                                           \
+        EXPECT(kit_do(kit, lines) != CT_OK);                                                       \
+        EXPECT_HOLDS((kit)->error.message, part);                                                  \
+    } while (0)
+
 #define EXPECT_DONE(kit, lines)                                                                    \
     do {                                                                                           \
         if (kit_do(kit, lines) != CT_OK) {                                                         \

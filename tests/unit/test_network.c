@@ -6,12 +6,6 @@
 
 #include <string.h>
 
-#define EXPECT_FAILS(kit, lines, part)                                                             \
-    do {                                                                                           \
-        EXPECT(kit_do(kit, lines) != CT_OK);                                                       \
-        EXPECT_HOLDS((kit)->error.message, part);                                                  \
-    } while (0)
-
 #define MICROPHONE                                                                                 \
     "scene planar\ngravity [0, -9.81]\neA = 5e-5; s0 = 0.05\nbody m5 mass=0.1 inertia=0\n"         \
     "prismatic s ground m5 axis=y\nspring k6 s k=200 d=0.8\n"                                      \

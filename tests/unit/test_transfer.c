@@ -158,8 +158,18 @@ static void a_motor_turns_its_inertia(void)
     EXPECT_HOLDS(kit.text, "at rest  no bound\n");
     EXPECT_HOLDS(kit.text, "poles    0, -6.45");
     EXPECT_LACKS(kit.text, "h1'");
+    EXPECT_DONE(&kit, "show transfer h1 V1\n");
+    EXPECT_HOLDS(kit.text, "h1/V1 = 2500/(s^3 + 200 s^2 + 1250 s)\n");
+    EXPECT_LACKS(kit.text, "h1'");
     EXPECT_DONE(&kit, "show transfer 2\n");
     EXPECT_HOLDS(kit.text, "left out  1 state between");
+    EXPECT_DONE(&kit, "show transfer h1'\n");
+    EXPECT_HOLDS(kit.text, "left out  1 state between");
+    EXPECT_FAILS(&kit, "show transfer V1", "V1 is no output of the last linearisation");
+    EXPECT_FAILS(&kit, "show transfer h1 h1", "h1 is no input of the last linearisation");
+    EXPECT_FAILS(&kit, "show transfer h1 V1 1", "an output and an input only");
+    EXPECT_FAILS(&kit, "show transfer h1 V1 V1", "an output and an input only");
+    EXPECT_FAILS(&kit, "clear\nshow transfer h1", "nothing has been linearized yet");
     kit_free(&kit);
 }
 
