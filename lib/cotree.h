@@ -47,6 +47,9 @@ typedef struct ct_hooks {
                      double fraction); /* fraction < 0: unknown; may be NULL */
     /* where a file is that a statement reads data from: new, malloc(); NULL: as named */
     char *(*find_file)(void *context, const char *name);
+    /* what `set` takes beside the session's own settings, for completion: a name, the words it may
+     * be set to, NULL; NULL instead: no more; may be NULL */
+    const char *const *(*setting)(void *context, int i);
     bool unicode; /* Greek letters, dots, superscripts in what is shown */
     int columns;  /* width to wrap shown text to; 0: never */
 } ct_hooks;

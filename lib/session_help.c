@@ -49,10 +49,14 @@ bool ct_example(int i, const char **name, const char **text)
 
 char **ct_complete(ct_session *session, const char *line, size_t cursor, size_t *start)
 {
+    const Known known = {.model = session->model,
+                         .linear = session->linear,
+                         .setting = session->hooks.setting,
+                         .context = session->hooks.context};
     Words words = {0};
     char **out;
 
-    complete_line(session->model, line, cursor, start, &words);
+    complete_line(&known, line, cursor, start, &words);
     LIST_PUSH(words, NULL);
     out = words.at;
     return out;

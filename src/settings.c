@@ -7,7 +7,7 @@
 #include <string.h>
 
 typedef struct Setting {
-    const char *name;
+    const char *const *words; /* the name, the values that are words, NULL */
     const char *brief;
     ct_status (*set)(Settings *settings, const char *text, ct_error *error);
     void (*show)(const Settings *settings, FILE *out);
@@ -79,12 +79,14 @@ static void show_seed(const Settings *settings, FILE *out)
     fprintf(out, "%ld", settings->seed);
 }
 
+#define WORDS(...) ((const char *const[]){__VA_ARGS__, NULL})
+
 /* clang-format off */
 static const Setting table[] = {
-    {"digits",   "significant digits of printed numbers",              set_digits,   show_digits},
-    {"terminal", "of plots: auto, text, window or a name of gnuplot's", set_terminal, show_terminal},
-    {"pager",    "whether text longer than the screen is paged",       set_pager,    show_pager},
-    {"seed",     "of random numbers",                                  set_seed,     show_seed},
+    {WORDS("digits"), "significant digits of printed numbers",              set_digits,   show_digits},
+    {WORDS("terminal", "auto", "text", "window"), "of plots: auto, text, window or a name of gnuplot's", set_terminal, show_terminal},
+    {WORDS("pager", "on", "off"), "whether text longer than the screen is paged", set_pager,    show_pager},
+    {WORDS("seed"), "of random numbers", set_seed,     show_seed},
 };
 /* clang-format on */
 enum { SETTINGS = sizeof table / sizeof table[0] };
@@ -108,7 +110,7 @@ static const char *name_set(const ct_statement *statement, const ct_expression *
 static const Setting *find(const char *name)
 {
     for (int i = 0; name != NULL && i < SETTINGS; i++)
-        if (strcmp(table[i].name, name) == 0)
+        if (strcmp(table[i].words[0], name) == 0)
             return &table[i];
     return NULL;
 }
@@ -132,7 +134,7 @@ ct_status settings_apply(Settings *settings, const ct_statement *statement, ct_e
 
     if (value == NULL)
         return ct_error_at(statement, NULL, error, "'%s' is set to one value: set %s VALUE",
-                           row->name, row->name);
+                           row->words[0], row->words[0]);
 
     char *text = ct_expression_text(value);
     ct_error why;
@@ -144,10 +146,15 @@ ct_status settings_apply(Settings *settings, const ct_statement *statement, ct_e
     return status;
 }
 
+const char *const *settings_words(int i)
+{
+    return i >= 0 && i < SETTINGS ? table[i].words : NULL;
+}
+
 void settings_show(const Settings *settings, FILE *out)
 {
     for (int i = 0; i < SETTINGS; i++) {
-        fprintf(out, "%-9s  ", table[i].name);
+        fprintf(out, "%-9s  ", table[i].words[0]);
         table[i].show(settings, out);
         fprintf(out, "  (%s)\n", table[i].brief);
     }

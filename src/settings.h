@@ -19,6 +19,8 @@ bool settings_own(const ct_statement *statement);
 ct_status settings_apply(Settings *settings, const ct_statement *statement, ct_error *error);
 /* one by its name; CT_FAILED when the value is none for it */
 ct_status settings_set(Settings *settings, const char *name, const char *value, ct_error *error);
+/* the words of the i-th: its name, the values that are words, NULL; NULL: no more */
+const char *const *settings_words(int i);
 void settings_show(const Settings *settings, FILE *out);
 
 #endif

@@ -39,12 +39,19 @@ static char *hook_find_file(void *context, const char *name)
     return file_beside(shell->script, name);
 }
 
+static const char *const *hook_setting(void *context, int i)
+{
+    (void)context;
+    return settings_words(i);
+}
+
 void shell_set_width(Shell *shell, int columns)
 {
     ct_hooks hooks = {.context = shell,
                       .stop = hook_stop,
                       .progress = hook_progress,
                       .find_file = hook_find_file,
+                      .setting = hook_setting,
                       .unicode = shell->unicode,
                       .columns = columns};
 

@@ -11,7 +11,7 @@
 #include <string.h>
 
 typedef struct Line {
-    const Model *model;
+    const Known *known;
     const char *text;    /* of the statement, to the cursor */
     size_t word;         /* where the word to be completed starts */
     char prefix[128];    /* that word */
@@ -61,7 +61,7 @@ static void offer_joints_types(Line *line)
 
 static void offer_nodes(Line *line, bool mechanical)
 {
-    const Graph *graph = model_graph(line->model);
+    const Graph *graph = model_graph(line->known->model);
 
     for (int n = 0; n < graph_node_count(graph); n++)
         if ((graph_node(graph, n)->domain == DOMAIN_MECHANICAL) == mechanical)
@@ -81,7 +81,7 @@ static void offer_terminals(Line *line)
 
 static void offer_edges(Line *line)
 {
-    const Graph *graph = model_graph(line->model);
+    const Graph *graph = model_graph(line->known->model);
 
     for (int e = 0; e < graph_edge_count(graph); e++)
         offer(line, graph_edge(graph, e)->name);
@@ -89,15 +89,15 @@ static void offer_edges(Line *line)
 
 static void offer_joints(Line *line)
 {
-    for (int i = 0; i < model_count(line->model); i++)
-        if (model_instance(line->model, i)->row->family == FAMILY_JOINT)
-            offer(line, model_instance(line->model, i)->name);
+    for (int i = 0; i < model_count(line->known->model); i++)
+        if (model_instance(line->known->model, i)->row->family == FAMILY_JOINT)
+            offer(line, model_instance(line->known->model, i)->name);
 }
 
 static void offer_coordinates(Line *line)
 {
-    for (int i = 0; i < model_count(line->model); i++) {
-        const Instance *instance = model_instance(line->model, i);
+    for (int i = 0; i < model_count(line->known->model); i++) {
+        const Instance *instance = model_instance(line->known->model, i);
 
         for (int c = 0; c < instance->coord_count; c++)
             offer(line, instance->coord[c]);
@@ -106,25 +106,65 @@ static void offer_coordinates(Line *line)
 
 static void offer_instances(Line *line)
 {
-    for (int i = 0; i < model_count(line->model); i++)
-        offer(line, model_instance(line->model, i)->name);
+    for (int i = 0; i < model_count(line->known->model); i++)
+        offer(line, model_instance(line->known->model, i)->name);
+}
+
+static void offer_events(Line *line)
+{
+    for (int i = 0; i < model_event_count(line->known->model); i++)
+        offer(line, model_event(line->known->model, i)->name);
 }
 
 /* what has a name of its own, and can go */
 static void offer_removable(Line *line)
 {
+    const char *name;
+    Expr definition;
+
     offer_instances(line);
-    for (int i = 0; i < model_event_count(line->model); i++)
-        offer(line, model_event(line->model, i)->name);
+    offer_events(line);
+    for (int i = 0; i < model_parameter_count(line->known->model); i++)
+        offer(line, expr_name(model_parameter(line->known->model, i, &definition)));
+    for (int i = 0; i < model_output_count(line->known->model); i++)
+        if (model_output(line->known->model, i, &name) != NULL)
+            offer(line, name);
 }
 
+static bool is_event(const Model *model, const char *name)
+{
+    for (int i = 0; i < model_event_count(model); i++)
+        if (strcmp(model_event(model, i)->name, name) == 0)
+            return true;
+    return false;
+}
+
+/* what may stand in an expression */
 static void offer_names(Line *line)
 {
+    const Model *model = line->known->model;
     const char *name;
 
-    for (int i = 0; (name = model_name(line->model, i)) != NULL; i++)
-        offer(line, name);
+    for (int i = 0; (name = model_name(model, i)) != NULL; i++)
+        if (!is_event(model, name))
+            offer(line, name);
     offer_coordinates(line);
+}
+
+/* what there is something to tell about */
+static void offer_told(Line *line)
+{
+    offer_names(line);
+    offer_events(line);
+}
+
+/* behind `event`: one that is there can be given another condition; then what may get new values */
+static void offer_event(Line *line)
+{
+    if (line->before.count == 1)
+        offer_events(line);
+    else
+        offer_names(line);
 }
 
 static void offer_functions(Line *line)
@@ -167,12 +207,92 @@ static void offer_topics(Line *line)
             offer(line, topic_at(i)->name);
 }
 
+/* outputs of the last linearisation, before there is one what it may have as outputs */
+static void offer_linear_outputs(Line *line)
+{
+    const Linear *linear = line->known->linear;
+
+    for (int i = 0; linear != NULL && i < linear->outputs; i++)
+        offer(line, linear->output_names[i]);
+    if (linear == NULL)
+        offer_names(line);
+}
+
+static void offer_linear_inputs(Line *line)
+{
+    const Linear *linear = line->known->linear;
+
+    for (int i = 0; linear != NULL && i < linear->inputs; i++)
+        offer(line, linear->input_names[i]);
+}
+
 static void offer_show(Line *line)
 {
+    const Topic *topic = line->before.count > 1 ? topic_find(line->before.at[1]) : NULL;
+
+    if (topic != NULL) {
+        switch (topic->behind) {
+        case BEHIND_NOTHING:
+        case BEHIND_NUMBERS:
+            break;
+        case BEHIND_EDGES:
+            offer_edges(line);
+            break;
+        case BEHIND_LEVEL:
+            offer(line, "velocity");
+            offer(line, "acceleration");
+            break;
+        case BEHIND_PAIR:
+            if (line->before.count == 2)
+                offer_linear_outputs(line);
+            else if (line->before.count == 3)
+                offer_linear_inputs(line);
+            break;
+        }
+        return;
+    }
     if (line->before.count == 1)
         offer_topics(line);
     if (line->before.count > 1 || line->prefix[0] != '\0')
-        offer_names(line);
+        offer_told(line);
+}
+
+/* the words of the i-th setting, the model's before the program's; NULL: no more */
+static const char *const *setting_words(const Line *line, int i)
+{
+    int own = 0;
+
+    while (model_setting(own) != NULL)
+        own++;
+    if (i < own)
+        return model_setting(i);
+    return line->known->setting != NULL ? line->known->setting(line->known->context, i - own)
+                                        : NULL;
+}
+
+/* what a setting of that name may be set to; false: there is none */
+static bool offer_setting(Line *line, const char *name)
+{
+    const char *const *words;
+
+    for (int i = 0; (words = setting_words(line, i)) != NULL; i++)
+        if (strcmp(words[0], name) == 0) {
+            for (int k = 1; words[k] != NULL; k++)
+                offer(line, words[k]);
+            return true;
+        }
+    return false;
+}
+
+static void offer_set(Line *line)
+{
+    const char *const *words;
+
+    if (line->before.count > 1 && offer_setting(line, line->before.at[1]))
+        return;
+    for (int i = 0; line->before.count == 1 && (words = setting_words(line, i)) != NULL; i++)
+        offer(line, words[0]);
+    offer_instances(line);
 }
 
 static void offer_help_words(Line *line)
@@ -223,9 +343,10 @@ static const struct {
     {"show", offer_show, true},          {"help", offer_help_words, true},
     {"apropos", offer_help_words, true}, {"count", offer_blocks, true},
     {"tree", offer_edges, false},        {"cotree", offer_edges, false},
-    {"delete", offer_removable, false},  {"info", offer_names, false},
-    {"set", offer_instances, false},     {"init", offer_coordinates, false},
-    {"guess", offer_coordinates, false},
+    {"delete", offer_removable, false},  {"info", offer_told, false},
+    {"set", offer_set, false},           {"init", offer_coordinates, false},
+    {"guess", offer_coordinates, false}, {"bode", offer_linear_outputs, true},
+    {"event", offer_event, false},
 };
 
 /* the place-th place of a component */
@@ -295,9 +416,13 @@ static bool takes_value(const Verb *verb)
 static void offer_letter(Line *line, const Verb *verb, char letter, int place)
 {
     bool has_source = verb->words != NULL;
+    bool is_alone = false; /* no other values than the source's */
 
     for (int i = 0; i < COUNT(sources); i++)
-        has_source = has_source || strcmp(sources[i].verb, verb->name) == 0;
+        if (strcmp(sources[i].verb, verb->name) == 0) {
+            has_source = true;
+            is_alone = sources[i].alone;
+        }
     switch (letter) {
     case 'p':
     case 'P':
@@ -315,7 +440,8 @@ static void offer_letter(Line *line, const Verb *verb, char letter, int place)
     case 'i':
     case 'I':
     case 'C':
-        offer_values(line);
+        if (!is_alone)
+            offer_values(line);
         break;
     case '=':
         if (verb->component != NULL && verb->component->places == PLACES_COORDINATE)
@@ -326,7 +452,7 @@ static void offer_letter(Line *line, const Verb *verb, char letter, int place)
     default:
         break;
     }
-    if (strchr("wWotxlp=", letter) != NULL)
+    if (strchr("wWotxlp=niI", letter) != NULL)
         offer_row_words(line, verb);
 }
 
@@ -380,11 +506,28 @@ static void offer_alternatives(Line *line, const char *words)
     }
 }
 
+/* the row's param that a key stands for: behind `set` that of a part, "m1.euler"; NULL: none */
+static const Param *find_param(const Line *line, const Verb *verb, const char *key)
+{
+    const Component *row = verb->component;
+    const char *member = key;
+    int i;
+
+    if (strcmp(verb->name, "set") == 0) {
+        const Instance *instance = model_owner(line->known->model, key, &member);
+
+        row = instance != NULL ? instance->row : NULL;
+    }
+    i = row != NULL ? component_param(row, member) : -1;
+    return i >= 0 ? &row->params[i] : NULL;
+}
+
 static void offer_key_value(Line *line, const Verb *verb, const char *key)
 {
-    const int i = verb->component != NULL ? component_param(verb->component, key) : -1;
-    const Param *param = i >= 0 ? &verb->component->params[i] : NULL;
+    const Param *param = find_param(line, verb, key);
 
+    if (strcmp(verb->name, "set") == 0 && offer_setting(line, key))
+        return;
     if (param != NULL && param->kind == PARAM_WORD)
         offer_alternatives(line, param->fallback);
     else if (param != NULL && (param->kind == PARAM_AXIS || param->kind == PARAM_AXES))
@@ -421,7 +564,7 @@ static void offer_members(Line *line, const Verb *verb)
 {
     char base[128];
     const char *dot = strrchr(line->prefix, '.');
-    const Graph *graph = model_graph(line->model);
+    const Graph *graph = model_graph(line->known->model);
     const Instance *instance;
     const Member *member;
     const char *begun;
@@ -433,7 +576,7 @@ static void offer_members(Line *line, const Verb *verb)
             offer_member(line, base, groups[g].members[i]);
     for (int i = 0; strcmp(base, "count") == 0 && count_block_name(i) != NULL; i++)
         offer_member(line, base, count_block_name(i));
-    instance = model_owner(line->model, line->prefix, &begun);
+    instance = model_owner(line->known->model, line->prefix, &begun);
     if (instance == NULL) {
         node = graph_find_node(graph, base);
         if (node >= 0)
@@ -448,7 +591,8 @@ static void offer_members(Line *line, const Verb *verb)
     for (int c = 0; c < instance->coord_count; c++)
         offer(line, instance->coord[c]);
     for (int i = 0;
-         (member = component_member(instance->row, model_is_planar(line->model), i)) != NULL; i++)
+         (member = component_member(instance->row, model_is_planar(line->known->model), i)) != NULL;
+         i++)
         offer_member(line, instance->name, member->name);
 }
 
@@ -592,9 +736,9 @@ static void offer_behind_verb(Line *line)
         offer_operand(line, &verb, is_virtual ? 2 : 1);
 }
 
-void complete_line(const Model *model, const char *text, size_t cursor, size_t *start, Words *out)
+void complete_line(const Known *known, const char *text, size_t cursor, size_t *start, Words *out)
 {
-    Line line = {.model = model, .before = {0}, .out = out};
+    Line line = {.known = known, .before = {0}, .out = out};
     char *copy;
     size_t statement;
 

@@ -118,6 +118,8 @@ void model_share_data(Model *to, const Model *from);
 
 typedef enum NetworkForm { NETWORK_STATE, NETWORK_TREE } NetworkForm;
 NetworkForm model_network_form(const Model *model);
+/* the words of the i-th setting of any model: its name, its values, NULL; NULL: no more */
+const char *const *model_setting(int i);
 Form model_form(const Model *model, const char *const **independent,
                 int *count); /* names of coordinates; count 0: chosen by pivoting */
 

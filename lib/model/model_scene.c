@@ -1,5 +1,6 @@
 /* model_scene.c: scene, gravity, title; changing and deleting what is there */
 #include "model/model_impl.h"
+#include "model/verbs.h"
 
 #include <assert.h>
 #include <string.h>
@@ -208,30 +209,66 @@ done:
     return status;
 }
 
+/* --- settings --- */
+
+typedef struct Setting {
+    const char *const *words; /* the name, then the values */
+    const char *wrong, *hint;
+    void (*apply)(State *state, const char *value);
+} Setting;
+
+static void set_network(State *state, const char *value)
+{
+    state->network_form = strcmp(value, "tree") == 0 ? NETWORK_TREE : NETWORK_STATE;
+}
+
+static const Setting settings[] = {
+    {WORDS("network", "state", "tree"), "the network's form is state or tree",
+     "set network tree integrates the equations of the trees as they are", set_network},
+};
+
+const char *const *model_setting(int i)
+{
+    return i >= 0 && i < COUNT(settings) ? settings[i].words : NULL;
+}
+
+static const Setting *find_setting(const Statement *statement)
+{
+    const char *name =
+        statement->operands.count > 0 ? syntax_name(statement->operands.at[0].value) : NULL;
+
+    for (int i = 0; name != NULL && i < COUNT(settings); i++)
+        if (strcmp(settings[i].words[0], name) == 0)
+            return &settings[i];
+    return NULL;
+}
+
 /* set network tree|state: which equations of networks are integrated */
-static Status set_network(State *state, const Statement *statement, Outcome *outcome, Diag *diag)
+static Status apply_setting(State *state, const Setting *setting, const Statement *statement,
+                            Outcome *outcome, Diag *diag)
 {
     const Operand *last = &statement->operands.at[statement->operands.count - 1];
-    const char *form = syntax_name(last->value);
-    bool tree = form != NULL && strcmp(form, "tree") == 0;
+    const char *value = statement->operands.count == 2 ? syntax_name(last->value) : NULL;
+    bool is_known = false;
 
-    if (statement->operands.count != 2 || (!tree && (form == NULL || strcmp(form, "state") != 0))) {
-        (void)diag_at(diag, E_VALUE, last->place, "the network's form is state or tree");
-        diag_hint(diag, "set network tree integrates the equations of the trees as they are");
+    for (int i = 1; value != NULL && setting->words[i] != NULL; i++)
+        is_known = is_known || strcmp(setting->words[i], value) == 0;
+    if (!is_known) {
+        (void)diag_at(diag, E_VALUE, last->place, "%s", setting->wrong);
+        diag_hint(diag, "%s", setting->hint);
         return E_VALUE;
     }
-    state->network_form = tree ? NETWORK_TREE : NETWORK_STATE;
+    setting->apply(state, value);
     outcome->effect = EFFECT_EQUATIONS;
     return OK;
 }
 
 Status apply_set(State **state, const Statement *statement, Outcome *outcome, Diag *diag)
 {
-    const char *first =
-        statement->operands.count > 0 ? syntax_name(statement->operands.at[0].value) : NULL;
+    const Setting *setting = find_setting(statement);
 
-    if (first != NULL && strcmp(first, "network") == 0)
-        return set_network(*state, statement, outcome, diag);
+    if (setting != NULL)
+        return apply_setting(*state, setting, statement, outcome, diag);
     return apply_pairs(state, statement, set_pair, outcome, diag);
 }
 

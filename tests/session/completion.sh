@@ -5,6 +5,9 @@ complete revo
 complete show circ
 complete body m2 inert
 complete body m2 mass=1 
+complete set p
+complete set pager 
+complete set digits 
 END
 cotree model.ct
 cotree -e complete | grep -x plot

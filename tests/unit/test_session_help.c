@@ -207,7 +207,24 @@ static void completion_follows_the_grammar(void)
         {"init h",                 "h8",          "help"},
         {"init h8 = 1, h",         "h10",         "help"},
         {"set m1.",                "m1.mass",     "m1.x"},
+        {"set m1.euler=",          "parameters",  "tree"},
+        {"set n",                  "network",     "now"},
+        {"set network ",           "tree",        "m1"},
+        {"set network = ",         "state",       "m1"},
+        {"set m1 ",                "m1",          "tree"},
         {"delete m",               "m1",          "model"},
+        {"delete L",               "L4",          "L9"},
+        {"delete ",                "hit",         "ground"},
+        {"delete p",               "push",        "pi"},
+        {"info h",                 "hit",         "help"},
+        {"event h",                "hit",         "h8"},
+        {"event hit ",             "when=",       "hit"},
+        {"show h",                 "hit",         "help"},
+        {"show mass ",             "nothing",     "h8"},
+        {"show constraints ",      "velocity",    "h8"},
+        {"show constraints v",     "velocity",    "vx"},
+        {"print h",                "h8",          "hit"},
+        {"plot l",                 "last",        "list"},
         {"help rev",               "revolute",    "r4"},
         {"?uni",                   "units",       "h8"},
         {"body b mass=2 k",        "kg",          "k1"},
@@ -220,7 +237,7 @@ static void completion_follows_the_grammar(void)
     /* clang-format on */
     Kit kit = kit_new();
 
-    EXPECT_DONE(&kit, SLIDER_CRANK);
+    EXPECT_DONE(&kit, SLIDER_CRANK "output push = s11*2\nevent hit when=s11 > 1 do=stop\n");
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         const bool yes =
             strcmp(cases[i].yes, "nothing") == 0 || offers(&kit, cases[i].line, cases[i].yes);
@@ -231,6 +248,49 @@ static void completion_follows_the_grammar(void)
                    yes ? cases[i].no : cases[i].yes);
         }
     }
+    kit_free(&kit);
+}
+
+static void completion_knows_what_was_linearized(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, "vsource E1 a 0 1\nresistor R1 a b 2\ncapacitor C1 b 0 3\n"
+                      "output store = C1.v*2\noutput heat = R1.power\n");
+    /* before, anything may become an output */
+    EXPECT(offers(&kit, "bode ", "heat"));
+    EXPECT_DONE(&kit, "linearize inputs=[E1] outputs=[store, R1.i]\n");
+    EXPECT(offers(&kit, "bode ", "store"));
+    EXPECT(offers(&kit, "bode ", "R1.i"));
+    EXPECT(!offers(&kit, "bode ", "heat"));
+    EXPECT(offers(&kit, "bode store ", "R1.i"));
+    EXPECT(offers(&kit, "bode store ", "from="));
+    EXPECT(offers(&kit, "show transfer ", "store"));
+    EXPECT(!offers(&kit, "show transfer ", "E1"));
+    EXPECT(offers(&kit, "show transfer store ", "E1"));
+    EXPECT(!offers(&kit, "show transfer store ", "R1.i"));
+    EXPECT(!offers(&kit, "show transfer store E1 ", "E1"));
+    kit_free(&kit);
+}
+
+static const char *const *program_setting(void *context, int i)
+{
+    static const char *const colour[] = {"colour", "red", "blue", NULL};
+
+    return i == 0 ? colour : context;
+}
+
+static void completion_knows_the_settings_of_the_program(void)
+{
+    const ct_hooks hooks = {.setting = program_setting};
+    Kit kit = {.session = ct_session_new(&hooks)};
+
+    EXPECT(offers(&kit, "set co", "colour"));
+    EXPECT(offers(&kit, "set ", "network"));
+    EXPECT(offers(&kit, "set colour ", "red"));
+    EXPECT(offers(&kit, "set colour b", "blue"));
+    EXPECT(offers(&kit, "set colour=", "blue"));
+    EXPECT(!offers(&kit, "set network ", "red"));
     kit_free(&kit);
 }
 
@@ -320,6 +380,8 @@ int main(void)
     RUN(apropos_finds_words_in_the_text);
     RUN(the_reference_holds_every_verb);
     RUN(completion_follows_the_grammar);
+    RUN(completion_knows_what_was_linearized);
+    RUN(completion_knows_the_settings_of_the_program);
     RUN(completion_says_where_the_word_starts);
     RUN(completion_bears_any_line);
     RUN(completion_offers_the_verbs_and_keys_of_every_example);
