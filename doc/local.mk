@@ -11,14 +11,25 @@ EXTRA_DIST += doc/pictures/list \
 	doc/pictures/arm.txt doc/pictures/crane.txt doc/pictures/lift.txt \
 	doc/pictures/loudspeaker.txt doc/pictures/maglev.txt doc/pictures/microphone.txt \
 	doc/pictures/slider-crank.txt
+# what is made stands in the folder of the build
+TEXI2DVI = texi2dvi -I doc -I $(srcdir)/doc
 doc/cotree.html doc/cotree.pdf doc/cotree.dvi: doc/pictures/drawn
 doc/pictures/drawn: doc/pictures/list cotree$(EXEEXT)
 	$(srcdir)/scripts/dev/pictures ./cotree png doc/pictures
 	@touch $@
-CLEANFILES += doc/pictures/drawn \
+drawn_pictures = \
 	doc/pictures/arm.png doc/pictures/crane.png doc/pictures/lift.png \
 	doc/pictures/loudspeaker.png doc/pictures/maglev.png doc/pictures/microphone.png \
 	doc/pictures/slider-crank.png
+CLEANFILES += doc/pictures/drawn $(drawn_pictures)
+
+# the pages name them as they stand beside the manual: pictures/arm.png
+install-html-local: doc/pictures/drawn
+	$(MKDIR_P) "$(DESTDIR)$(htmldir)/pictures"
+	$(INSTALL_DATA) $(drawn_pictures) "$(DESTDIR)$(htmldir)/pictures"
+uninstall-local:
+	cd "$(DESTDIR)$(htmldir)" 2>/dev/null && rm -f $(drawn_pictures:doc/%=%) && \
+		rmdir pictures 2>/dev/null || :
 
 # write anew: the reference, the commands of the man page, the sessions and the pictures of
 # characters of the manual, the sessions of the README
