@@ -9,7 +9,7 @@
 #include <string.h>
 #include <strings.h>
 
-enum { HELP_WIDTH = 78 };
+enum { HELP_WIDTH = 78, WIDE = 20 /* for the default of a key */ };
 
 /* --- pieces of a page --- */
 
@@ -23,6 +23,25 @@ bool component_key(const Component *row, int i, KeyText *out)
     return true;
 }
 
+/* "parameters|zxz|zyz": the first word is what holds, behind the meaning stand all */
+static void add_choice(Table *table, const KeyText *key)
+{
+    const size_t first = strcspn(key->fallback, "|");
+    Text meaning = {0};
+
+    text_add_n(&meaning, key->fallback, first);
+    table_cell(table, meaning.at);
+    text_free(&meaning);
+    text_addf(&meaning, "%s: ", key->meaning);
+    for (const char *c = key->fallback; *c != '\0'; c++)
+        if (*c == '|')
+            text_add(&meaning, ", ");
+        else
+            text_char(&meaning, *c);
+    table_cell(table, meaning.at);
+    text_free(&meaning);
+}
+
 static void add_keys(Text *out, const Component *row)
 {
     Table table = table_for("llll");
@@ -31,8 +50,12 @@ static void add_keys(Text *out, const Component *row)
     for (int i = 0; component_key(row, i, &key); i++) {
         table_cell(&table, key.name);
         table_cell(&table, strcmp(key.unit, "1") == 0 ? "" : key.unit);
-        table_cell(&table, key.fallback);
-        table_cell(&table, key.meaning);
+        if (strlen(key.fallback) > WIDE) {
+            add_choice(&table, &key);
+        } else {
+            table_cell(&table, key.fallback);
+            table_cell(&table, key.meaning);
+        }
     }
     if (table.cells.count > 0) {
         Table headed = table_for("llll");
@@ -44,7 +67,7 @@ static void add_keys(Text *out, const Component *row)
         for (int i = 0; i < table.cells.count; i++)
             table_cell(&headed, table.cells.at[i]);
         text_char(out, '\n');
-        table_print(out, &headed, 2);
+        table_wrap(out, &headed, 2, HELP_WIDTH);
         table_free(&headed);
     }
     table_free(&table);
@@ -63,7 +86,7 @@ static void add_members(Text *out, const Component *row)
     }
     if (table.cells.count > 0) {
         text_add(out, "\nCan be asked for:\n");
-        table_print(out, &table, 2);
+        table_wrap(out, &table, 2, HELP_WIDTH);
     }
     table_free(&table);
 }
@@ -80,17 +103,33 @@ static void add_indented(Text *out, const char *lines)
     }
 }
 
-/* lines that begin with a blank stay as they are, the others are wrapped */
+/* "  do=stop    the run ends there": where the second column starts, else the first */
+static size_t second_column(const char *line)
+{
+    const size_t first = strspn(line, " ");
+    const char *gap = strstr(line + first, "  ");
+
+    return gap != NULL ? (size_t)(gap - line) + strspn(gap, " ") : first;
+}
+
+/* lines that begin with a blank are rows, and stay so where they fit */
 static void add_paragraphs(Text *out, const char *lines)
 {
     while (*lines != '\0') {
         const size_t length = strcspn(lines, "\n");
         char *line = mem_text(lines, length);
 
-        if (line[0] == ' ')
-            text_addf(out, "%s\n", line);
-        else
+        if (line[0] != ' ') {
             layout_words(out, HELP_WIDTH, "", line);
+        } else if (text_width(line) <= HELP_WIDTH) {
+            text_addf(out, "%s\n", line);
+        } else {
+            const size_t start = second_column(line);
+            char *lead = mem_text(line, start);
+
+            layout_words(out, HELP_WIDTH, lead, line + start);
+            mem_free(lead);
+        }
         mem_free(line);
         lines += length + (lines[length] == '\n');
     }

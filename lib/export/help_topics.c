@@ -86,7 +86,7 @@ static void write_methods(Text *out)
         table_cell(&table, name);
         table_cell(&table, brief);
     }
-    table_print(out, &table, 2);
+    table_wrap(out, &table, 2, TOPIC_WIDTH);
     table_free(&table);
 }
 
@@ -128,7 +128,7 @@ static void write_variables(Text *out)
         table_cell(&table, rows[i].name);
         table_cell(&table, rows[i].meaning);
     }
-    table_print(out, &table, 2);
+    table_wrap(out, &table, 2, TOPIC_WIDTH);
     table_free(&table);
     text_char(out, '\n');
     layout_words(out, TOPIC_WIDTH, "",

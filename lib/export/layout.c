@@ -245,33 +245,79 @@ int table_width(const Table *table)
     return width;
 }
 
-void table_print(Text *out, const Table *table, int indent)
+static int *column_widths(const Table *table)
 {
     int *width = NEW_ARRAY(int, table->columns);
 
     for (int c = 0; c < table->columns; c++)
         width[c] = column_width(table, c);
+    return width;
+}
+
+/* the first `count` cells of the row that starts at `first` */
+static void add_cells(Text *out, const Table *table, const int *width, int first, int count)
+{
+    for (int c = 0; c < count; c++) {
+        const char *cell = table->cells.at[first + c];
+        const int blanks = width[c] - text_width(cell);
+
+        if (c > 0)
+            text_add(out, "  ");
+        if (table->align[c] == 'r')
+            text_fill(out, ' ', blanks);
+        text_add(out, cell);
+        if (table->align[c] == 'l')
+            text_fill(out, ' ', blanks);
+    }
+}
+
+/* no blanks at the ends of lines */
+static void trim(Text *out, size_t kept)
+{
+    while (out->length > kept && out->at[out->length - 1] == ' ')
+        out->at[--out->length] = '\0';
+}
+
+void table_print(Text *out, const Table *table, int indent)
+{
+    int *width = column_widths(table);
+
     for (int i = 0; i < table->cells.count; i += table->columns) {
         size_t kept;
 
         text_fill(out, ' ', indent);
         kept = out->length;
-        for (int c = 0; c < table->columns; c++) {
-            const char *cell = table->cells.at[i + c];
-            const int blanks = width[c] - text_width(cell);
-
-            if (c > 0)
-                text_add(out, "  ");
-            if (table->align[c] == 'r')
-                text_fill(out, ' ', blanks);
-            text_add(out, cell);
-            if (table->align[c] == 'l')
-                text_fill(out, ' ', blanks);
-        }
-        /* no blanks at the ends of lines */
-        while (out->length > kept && out->at[out->length - 1] == ' ')
-            out->at[--out->length] = '\0';
+        add_cells(out, table, width, i, table->columns);
+        trim(out, kept);
         text_char(out, '\n');
+    }
+    mem_free(width);
+}
+
+void table_wrap(Text *out, const Table *table, int indent, int columns)
+{
+    enum { LEAST = 24 };
+    const int last = table->columns - 1;
+    const bool is_beside =
+        table_width(table) + indent <= columns ||
+        table_width(table) - column_width(table, last) + indent <= columns - LEAST;
+    int *width = column_widths(table);
+
+    for (int i = 0; i < table->cells.count; i += table->columns) {
+        Text lead = {0};
+
+        text_fill(&lead, ' ', indent);
+        add_cells(&lead, table, width, i, last);
+        text_add(&lead, "  ");
+        if (!is_beside) {
+            trim(&lead, 0);
+            text_char(&lead, '\n');
+            text_add(out, lead.at);
+            text_free(&lead);
+            text_fill(&lead, ' ', indent + 4);
+        }
+        layout_words(out, columns, lead.at, table->cells.at[i + last]);
+        text_free(&lead);
     }
     mem_free(width);
 }

@@ -44,6 +44,9 @@ void table_cell(Table *table, const char *text);
 void table_cellf(Table *table, const char *format, ...) PRINTF(2, 3);
 int table_width(const Table *table);
 void table_print(Text *out, const Table *table, int indent);
+/* The same, the words of the last column wrapped: beside the others, where the page leaves too
+ * little room below them. */
+void table_wrap(Text *out, const Table *table, int indent, int columns);
 void table_free(Table *table);
 
 #endif

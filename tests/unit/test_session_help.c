@@ -154,6 +154,31 @@ static void the_reference_holds_every_verb(void)
     EXPECT(ct_reference("html") == NULL);
 }
 
+static void help_keeps_to_the_page(void)
+{
+    Kit kit = kit_new();
+    size_t start = 0;
+    char **words = ct_complete(kit.session, "help ", 5, &start);
+
+    for (int i = 0; words[i] != NULL; i++) {
+        char *text = ct_help(words[i]);
+
+        for (const char *line = text; line != NULL && *line != '\0';) {
+            const size_t length = strcspn(line, "\n");
+
+            /* examples are statements */
+            if (length > 80 && strncmp(line, "    ", 4) != 0) {
+                test_faults++;
+                printf("help %s: %.*s\n", words[i], (int)length, line);
+            }
+            line += length + (line[length] == '\n');
+        }
+        ct_free(text);
+    }
+    ct_words_free(words);
+    kit_free(&kit);
+}
+
 /* --- completion --- */
 
 static bool offers(Kit *kit, const char *line, const char *word)
@@ -379,6 +404,7 @@ int main(void)
     RUN(an_unknown_word_has_no_page_but_a_suggestion);
     RUN(apropos_finds_words_in_the_text);
     RUN(the_reference_holds_every_verb);
+    RUN(help_keeps_to_the_page);
     RUN(completion_follows_the_grammar);
     RUN(completion_knows_what_was_linearized);
     RUN(completion_knows_the_settings_of_the_program);
