@@ -80,6 +80,37 @@ static Reduction *find_reduction(const Syntax *syntax)
     return NULL;
 }
 
+/* Freedoms as 'check' tells them: by what the constraints leave free at the start. Where there is
+ * none that could be assembled, by their number, and that is said. */
+static Status model_freedoms(ct_session *session, System *system, double *out, Diag *diag)
+{
+    const int difference = system_nu(system) - system_m(system);
+    Run *start;
+    Text line = {0};
+    Status status = OK;
+
+    *out = difference;
+    if (system_m(system) == 0)
+        return OK;
+    if (session_freedoms(session) < 0) {
+        status = session_start(session, &start, diag);
+        if (status == E_STOPPED)
+            return status;
+    }
+    if (session_freedoms(session) >= 0) {
+        *out = session_freedoms(session);
+        return OK;
+    }
+    text_addf(&line,
+              "model.dof is n - m = %d, whatever constraints repeat others: the start can't be "
+              "assembled",
+              difference);
+    session_remark(session, line.at);
+    text_free(&line);
+    *diag = (Diag){0};
+    return OK;
+}
+
 /* sizes of the model: model.n ... */
 static Status model_size(ct_session *session, const char *path, double *out, Diag *diag)
 {
@@ -92,7 +123,7 @@ static Status model_size(ct_session *session, const char *path, double *out, Dia
     else if (strcmp(path, "model.m") == 0)
         *out = system_m(system);
     else if (strcmp(path, "model.dof") == 0)
-        *out = system_nu(system) - system_m(system);
+        status = model_freedoms(session, system, out, diag);
     else {
         diag_set(diag, E_NAME, "there is no '%s'", path);
         diag_hint(diag, "model.n, model.m and model.dof: coordinates, constraints, freedoms");
@@ -248,6 +279,34 @@ Expr session_put_outputs(const Model *model, Expr e)
     return e;
 }
 
+/* sizes that outputs ask for, as numbers */
+static Status put_sizes(ct_session *session, Expr *e, Diag *diag)
+{
+    Arena *arena = model_arena(session->model);
+    Expr *symbols = NULL, *numbers;
+    const int count = expr_symbols(e, 1, &symbols);
+    int used = 0;
+    Status status = OK;
+
+    numbers = NEW_ARRAY(Expr, count);
+    for (int i = 0; i < count; i++) {
+        const char *name = expr_name(symbols[i]);
+        const int size = find_size(name);
+        double value;
+
+        if (size < 0 || expr_symbol_kind(symbols[i]) != SYMBOL_VARIABLE)
+            continue;
+        CHECK(sizes[size].value(session, name, &value, diag));
+        symbols[used] = symbols[i];
+        numbers[used++] = expr_real(arena, value);
+    }
+    *e = expr_substitute(arena, *e, symbols, numbers, used);
+done:
+    mem_free(symbols);
+    mem_free(numbers);
+    return status;
+}
+
 static Status cut_pure(Cut *cut, const Syntax *syntax, int run, Expr *out, Diag *diag)
 {
     ct_session *session = cut->session;
@@ -266,6 +325,7 @@ static Status cut_pure(Cut *cut, const Syntax *syntax, int run, Expr *out, Diag 
     }
     CHECK(model_expression(session->model, run > 0 ? strip(pool, syntax) : syntax, &e, diag));
     e = session_put_outputs(session->model, e);
+    CHECK(put_sizes(session, &e, diag));
     *out = expr_is_number(e)
                ? e
                : push_leaf(cut, (Leaf){.kind = LEAF_VARIABLE, .expr = e, .run = run - 1});

@@ -458,11 +458,23 @@ static bool model_variable(System *system, const char *path, Expr *out)
         *out = expr_int(arena, system->q.count);
     else if (strcmp(path, "model.m") == 0)
         *out = expr_int(arena, system->rows.count);
-    else if (strcmp(path, "model.dof") == 0)
-        *out = expr_int(arena, system->u.count - system->rows.count);
     else
         return false;
     return true;
+}
+
+/* Where there are constraints some may repeat others, which shows at a start only. */
+static Status free_speeds(const System *system, Expr *out, Diag *diag)
+{
+    if (system->rows.count > 0) {
+        (void)diag_set(diag, E_MISSING,
+                       "model.dof counts what the constraints leave free at the start, and is no "
+                       "formula");
+        diag_hint(diag, "'print model.dof' and 'check' tell it");
+        return E_MISSING;
+    }
+    *out = expr_int(system->arena, system->u.count);
+    return OK;
 }
 
 /* a row or column number; one too large for any matrix stays so */
@@ -575,6 +587,10 @@ Status system_variable(System *system, const char *path, int primes, Expr *out, 
     if (find_coordinate(system, path, &owner, &which))
         return coordinate_value(system, owner, which, primes, out, diag);
     CHECK(entry_variable(system, path, &found, out, diag));
+    if (!found && strcmp(path, "model.dof") == 0) {
+        CHECK(free_speeds(system, out, diag));
+        found = true;
+    }
     found = found || model_variable(system, path, out);
     for (int i = 0; i < system->output_count && !found; i++)
         if (strcmp(system->output_names[i], path) == 0) {

@@ -183,6 +183,32 @@ static void a_value_that_is_none_is_refused(void)
     kit_free(&kit);
 }
 
+/* three parallel cranks on one rod, the third of which repeats what the others hold */
+static void freedoms_are_counted_alike_wherever_asked_for(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit,
+                "scene planar\nbody rod mass=1 inertia=1\narm l rod [-1, 0]\narm r rod [1, 0]\n"
+                "arm gl ground [-1, 0]\narm gr ground [1, 0]\n"
+                "body c1 mass=1 inertia=1\nbody c2 mass=1 inertia=1\nbody c3 mass=1 inertia=1\n"
+                "arm e1 c1 [0, 1]\narm e2 c2 [0, 1]\narm e3 c3 [0, 1]\n"
+                "revolute h1 gl c1\nrevolute h2 ground c2\nrevolute h3 gr c3\n"
+                "revolute k1 e1 l\nrevolute k2 e2 rod\nrevolute k3 e3 r\n"
+                "tree h1 h2 h3 k1\noutput free = 2*model.dof\n");
+    EXPECT_NEAR(kit_value(&kit, "model.n - model.m"), 0, 0);
+    EXPECT_NEAR(kit_value(&kit, "model.dof"), 1, 0);
+    EXPECT_DONE(&kit, "check\n");
+    EXPECT_HOLDS(kit.text, "4 coordinates, 4 constraints: 1 degree of freedom\n");
+    EXPECT_DONE(&kit, "simulate 0.1 every=0.1\nexpect model.dof == 1\nexpect free == 2\n");
+    EXPECT_FAILS(&kit, "show model.dof", "counts what the constraints leave free");
+    /* where nothing can be assembled the difference is told, and that it is one */
+    EXPECT_DONE(&kit, "arm far ground [9, 0]\nrevolute k4 far r\n");
+    EXPECT_NEAR(kit_value(&kit, "model.dof"), -2, 0);
+    EXPECT_HOLDS(ct_remarks(kit.session), "model.dof is n - m = -2");
+    kit_free(&kit);
+}
+
 static void any_function_is_taken_of_what_the_session_knows(void)
 {
     Kit kit = kit_new();
@@ -499,6 +525,7 @@ int main(void)
     RUN(functions_of_runs_see_every_row);
     RUN(sizes_and_entries_are_values);
     RUN(a_value_that_is_none_is_refused);
+    RUN(freedoms_are_counted_alike_wherever_asked_for);
     RUN(any_function_is_taken_of_what_the_session_knows);
     RUN(options_that_make_no_sense_are_refused);
     RUN(resume_goes_on_with_what_was_said_before);
