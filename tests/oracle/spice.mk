@@ -1,3 +1,3 @@
 # circuits against ngspice; skipped where that isn't installed
-TESTS += tests/oracle/spice/circuits_agree
+TESTS += tests/oracle/spice/circuits_agree tests/oracle/spice/points_agree
 EXTRA_DIST += tests/oracle/spice
