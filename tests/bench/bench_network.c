@@ -1,5 +1,5 @@
-/* bench_network.c: ladders of coils and capacitors: equations, cost of an evaluation, and a whole
- * run beside ngspice
+/* bench_network.c: ladders: of coils and capacitors, their equations, cost of an evaluation, and a
+ * whole run beside ngspice; of diodes, their operating point; stiff ones, sparse beside dense
  *
  * bench_network SCRIPTS PROGRAM. tests/oracle/spice/ladder writes them. Error against run time: the
  * program at three tolerances, ngspice in two lengths of its steps, both processes whole, with what
@@ -43,15 +43,11 @@ static bool shell(const char *command)
 
 /* --- equations and evaluations --- */
 
-static Model *ladder(const char *scripts, int sections)
+static Model *model_of(const char *text)
 {
-    Text command = {0};
     Model *model = model_new();
     size_t next = 0;
-    char *text;
 
-    text_addf(&command, "'%s/../tests/oracle/spice/ladder' ct %d", scripts, sections);
-    text = printed(command.at);
     while (next < strlen(text)) {
         Statement *statement = NULL;
         Diag diag = {0};
@@ -63,6 +59,19 @@ static Model *ladder(const char *scripts, int sections)
             printf("# %s\n", diag.message);
         statement_free(statement);
     }
+    return model;
+}
+
+/* what a script below tests/oracle/spice writes of so many sections */
+static Model *model_by(const char *scripts, const char *script, int sections)
+{
+    Text command = {0};
+    Model *model;
+    char *text;
+
+    text_addf(&command, "'%s/../tests/oracle/spice/%s' ct %d", scripts, script, sections);
+    text = printed(command.at);
+    model = model_of(text);
     mem_free(text);
     text_free(&command);
     return model;
@@ -80,7 +89,7 @@ static void bench_ladder(const char *scripts, int sections)
     char name[64];
 
     for (int i = 0; i < 3; i++) {
-        Model *model = ladder(scripts, sections);
+        Model *model = model_by(scripts, "ladder", sections);
         Setting setting = {.parameter = parameter_value, .context = model, .start = &none};
         RunOptions options = {.duration = 2e-5, .rtol = 1e-6, .atol = 1e-6, .method = "dop853"};
         System *system = NULL;
@@ -106,6 +115,99 @@ static void bench_ladder(const char *scripts, int sections)
     bench_line(name, formulation, "s");
     (void)snprintf(name, sizeof name, "network.ladder_%d_evaluation", sections);
     bench_line(name, 1e6 * evaluation, "us");
+}
+
+/* --- diodes --- */
+
+/* the operating point of a ladder of exponential diodes, from equations that are there */
+static void bench_diodes(const char *scripts, int count)
+{
+    StartValues none = {0};
+    double formulation = 1e300, point = 1e300;
+    char name[64];
+
+    for (int i = 0; i < 3; i++) {
+        Model *model = model_by(scripts, "points/chain", count);
+        Setting setting = {.parameter = parameter_value, .context = model, .start = &none};
+        System *system = NULL;
+        Result *result = NULL;
+        Diag diag = {0};
+        double began = bench_now();
+
+        if (system_new(model, NULL, &system, &diag) == OK && system_run(system) != NULL) {
+            formulation = fmin(formulation, bench_now() - began);
+            began = bench_now();
+            if (run_equilibrium(system, model, &setting, &result, &diag) == OK)
+                point = fmin(point, bench_now() - began);
+        }
+        if (result == NULL)
+            printf("# %d diodes: %s\n", count, diag.message);
+        result_free(result);
+        system_free(system);
+        model_free(model);
+    }
+    (void)snprintf(name, sizeof name, "network.diodes_%d_formulate", count);
+    bench_line(name, formulation, "s");
+    (void)snprintf(name, sizeof name, "network.diodes_%d_op", count);
+    bench_line(name, 1e3 * point, "ms");
+}
+
+/* --- sparse against dense --- */
+
+/* R and C of three decades: time constants from 1 ns to the minutes of the whole line */
+static Model *stiff_ladder(int sections)
+{
+    Text text = {0};
+    Model *model;
+
+    text_add(&text, "vsource E1 n0 0 1 - exp(-t/1e-3)\n");
+    for (int k = 1; k <= sections; k++)
+        text_addf(&text, "resistor R%d n%d n%d %d\ncapacitor C%d n%d 0 %s\n", k, k - 1, k,
+                  k % 2 == 1 ? 1 : 100, k, k, k % 10 == 0 ? "1 nF" : "1 uF");
+    model = model_of(text.at);
+    text_free(&text);
+    return model;
+}
+
+static double time_of(System *system, const Setting *setting, const char *method)
+{
+    const RunOptions options = {
+        .duration = 1, .every = 0.01, .rtol = 1e-6, .atol = 1e-9, .method = method};
+    Result *result = NULL;
+    Diag diag = {0};
+    double began = bench_now();
+
+    if (run_simulate(system, setting, &options, &result, &diag) != OK)
+        printf("# %s: %s\n", method, diag.message);
+    result_free(result);
+    return bench_now() - began;
+}
+
+/* the same run by both methods, one after the other, so that their ratio holds on any machine */
+static void bench_stiff(int sections)
+{
+    Model *model = stiff_ladder(sections);
+    StartValues none = {0};
+    const Setting setting = {.parameter = parameter_value, .context = model, .start = &none};
+    System *system = NULL;
+    Diag diag = {0};
+
+    if (system_new(model, NULL, &system, &diag) == OK && system_run(system) != NULL) {
+        double sparse = time_of(system, &setting, "ida");
+        double dense = time_of(system, &setting, "bdf");
+        char name[64];
+
+        (void)snprintf(name, sizeof name, "network.stiff_%d_ida", sections);
+        bench_line(name, sparse, "s");
+        (void)snprintf(name, sizeof name, "network.stiff_%d_bdf", sections);
+        bench_line(name, dense, "s");
+        (void)snprintf(name, sizeof name, "network.stiff_%d_ida_of_bdf", sections);
+        bench_line(name, sparse / dense, "ratio");
+    } else {
+        printf("# stiff ladder: %s\n", diag.message);
+    }
+    system_free(system);
+    model_free(model);
 }
 
 /* --- side by side --- */
@@ -290,6 +392,8 @@ int main(int argc, char **argv)
     bench_ladder(argv[1], 250);
     bench_ladder(argv[1], 500);
     bench_ladder(argv[1], LONG);
+    bench_diodes(argv[1], LONG);
+    bench_stiff(LONG);
     side_by_side(argv[1], argv[2]);
     return 0;
 }
