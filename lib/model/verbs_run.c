@@ -124,9 +124,10 @@ const Verb verbs_run[] = {
          "reactions, voltages and currents. The search begins at the assembled start, so 'init' "
          "and "
          "'guess' choose which of several equilibria it is; stable or not makes no difference. "
-         "First by Newton's method; then gravity, forces and sources grow from nothing; then "
-         "everything creeps until it rests. What is found is printed, and is where the next runs "
-         "start, until 'init' or 'assemble'.",
+         "First by Newton's method with line search; where that fails, gravity, forces and sources "
+         "grow from nothing; then a conductance beside each part whose current is an expression of "
+         "its voltage shrinks to nothing; then everything creeps until it rests. What is found is "
+         "printed, and is where the next runs start, until 'init' or 'assemble'.",
      .example = PENDULUM "spring k1 h1 k=2 rest=60 deg\nequilibrium\nmodes",
      .see = "op linearize modes assemble"},
     {.name = "op",
@@ -134,12 +135,10 @@ const Verb verbs_run[] = {
      .shape = ">",
      .usage = "op",
      .brief = "operating point: the same as equilibrium",
-     .help = "The operating point of a circuit is its equilibrium; see there. Capacitors are open "
-             "and inductors short. A network alone is solved sparse by Newton's method with line "
-             "search; where that fails, sources grow from nothing, and then a conductance beside "
-             "each part whose current is an expression of its voltage shrinks to nothing. What "
-             "nothing determines at rest, as a node between capacitors, is named. 'init' of "
-             "capacitors and inductors chooses one of several states.",
+     .help =
+         "The operating point of a circuit is its equilibrium; see there. Capacitors are open "
+         "and inductors short. What nothing determines at rest, as a node between capacitors, is "
+         "named. 'init' of capacitors and inductors chooses one of several states.",
      .example = "vsource E1 a 0 10\nresistor R1 a b 1 kohm\ncapacitor C1 b 0 1 uF\nop\nprint C1.v",
      .see = "equilibrium"},
     {.name = "linearize",

@@ -9,6 +9,8 @@ libcore_la_SOURCES += \
   lib/simulate/equilibrium.c \
   lib/simulate/events.c \
   lib/simulate/events.h \
+  lib/simulate/factors.c \
+  lib/simulate/factors.h \
   lib/simulate/freedoms.c \
   lib/simulate/freedoms.h \
   lib/simulate/ida.c \
@@ -36,8 +38,6 @@ libcore_la_SOURCES += \
   lib/simulate/numbers.c \
   lib/simulate/numbers.h \
   lib/simulate/ode.h \
-  lib/simulate/operating.c \
-  lib/simulate/operating.h \
   lib/simulate/radau.c \
   lib/simulate/rank.c \
   lib/simulate/rank.h \
@@ -53,10 +53,14 @@ libcore_la_SOURCES += \
   lib/simulate/run.h \
   lib/simulate/samples.c \
   lib/simulate/samples.h \
+  lib/simulate/search.c \
+  lib/simulate/search.h \
   lib/simulate/simulate.c \
   lib/simulate/sparse.c \
   lib/simulate/sparse.h \
   lib/simulate/start.c \
   lib/simulate/start.h \
+  lib/simulate/statics.c \
+  lib/simulate/statics.h \
   lib/simulate/transfer.c \
   lib/simulate/transfer.h

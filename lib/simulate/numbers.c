@@ -131,13 +131,14 @@ void parameters_free(Parameters *p)
 }
 
 /* A program over the layout and whatever parameters its roots hold; its workspace has these set,
- * and what depends on them alone computed. */
+ * and what depends on them alone computed. `own`: these parameters, new, in the order of inputs
+ * behind the layout's; may be NULL. */
 static Status compile(const Layout *layout, Parameters *parameters, const Expr *roots, int count,
-                      Program **program, Workspace **workspace, Diag *diag)
+                      Program **program, Workspace **workspace, Expr **own, Diag *diag)
 {
     Expr *symbols;
     int found = expr_symbols(roots, count, &symbols);
-    Expr *inputs = NEW_ARRAY(Expr, layout->count + found);
+    Expr *inputs = NEW_ARRAY(Expr, layout->count + found + 1);
     int input_count = layout->count;
     Status status;
 
@@ -152,6 +153,10 @@ static Status compile(const Layout *layout, Parameters *parameters, const Expr *
             workspace_inputs(*workspace)[i] = parameters_value(parameters, inputs[i]);
         workspace_run(*workspace, STAGE_PARAMETER, STAGE_PARAMETER);
     }
+    if (status == OK && own != NULL) {
+        *own = NEW_ARRAY(Expr, input_count - layout->count + 1);
+        memcpy(*own, inputs + layout->count, (size_t)(input_count - layout->count) * sizeof(Expr));
+    }
     mem_free(symbols);
     mem_free(inputs);
     return status;
@@ -163,6 +168,7 @@ struct Probe {
     const Layout *layout;
     Program *program;
     Workspace *workspace;
+    Expr *own; /* parameters, ended by NULL */
 };
 
 Status probe_new(const Layout *layout, Parameters *parameters, const Expr *roots, int count,
@@ -172,7 +178,8 @@ Status probe_new(const Layout *layout, Parameters *parameters, const Expr *roots
     Status status;
 
     probe->layout = layout;
-    status = compile(layout, parameters, roots, count, &probe->program, &probe->workspace, diag);
+    status = compile(layout, parameters, roots, count, &probe->program, &probe->workspace,
+                     &probe->own, diag);
     if (status == OK)
         *out = probe;
     else
@@ -186,7 +193,19 @@ void probe_free(Probe *probe)
         return;
     workspace_free(probe->workspace);
     program_free(probe->program);
+    mem_free(probe->own);
     mem_free(probe);
+}
+
+bool probe_turn(Probe *probe, Expr parameter, double value)
+{
+    for (int i = 0; probe->own[i] != NULL; i++)
+        if (probe->own[i] == parameter) {
+            workspace_inputs(probe->workspace)[probe->layout->count + i] = value;
+            workspace_run(probe->workspace, STAGE_PARAMETER, STAGE_PARAMETER);
+            return true;
+        }
+    return false;
 }
 
 static void put(double *inputs, int first, const double *values, int count)
@@ -386,7 +405,7 @@ static Status compile_network(Numbers *nb, Parameters *parameters, Diag *diag)
 
     parameters_keep(parameters, roots.at, roots.count);
     CHECK(compile(l, parameters, roots.at, roots.count, &nb->network_program,
-                  &nb->network_workspace, diag));
+                  &nb->network_workspace, NULL, diag));
     nb->eq.network = workspace_roots(nb->network_workspace) + network;
     nb->eq.network_residual = workspace_roots(nb->network_workspace) + residual;
     nb->eq.network_at = network_at;
@@ -421,7 +440,7 @@ static Status compile_equations(Numbers *nb, Parameters *parameters, Diag *diag)
         for (int j = 0; j < l->nu; j++)
             LIST_PUSH(roots, system_n_entry(l->system, i, j));
     parameters_keep(parameters, roots.at, roots.count);
-    CHECK(compile(l, parameters, roots.at, roots.count, &nb->program, &nb->workspace, diag));
+    CHECK(compile(l, parameters, roots.at, roots.count, &nb->program, &nb->workspace, NULL, diag));
     at = workspace_roots(nb->workspace);
     nb->eq.phi = at + phi;
     nb->eq.phi_u = at + phi_u;
@@ -464,7 +483,7 @@ static Status compile_switches(Numbers *nb, Parameters *parameters, Diag *diag)
     nb->eq.switch_count = roots.count;
     if (roots.count > 0)
         CHECK(compile(nb->layout, parameters, roots.at, roots.count, &nb->switch_program,
-                      &nb->switch_workspace, diag));
+                      &nb->switch_workspace, NULL, diag));
 done:
     LIST_FREE(roots);
     return status;

@@ -48,6 +48,8 @@ typedef struct Probe Probe;
 MUST_USE Status probe_new(const Layout *layout, Parameters *parameters, const Expr *roots,
                           int count, Probe **out, Diag *diag);
 void probe_free(Probe *probe); /* NULL is fine */
+/* Another value of a parameter, for this probe alone. False: no root holds it. */
+bool probe_turn(Probe *probe, Expr parameter, double value);
 /* the values of the roots; borrowed, until the next call */
 const double *probe_values(Probe *probe, const RowValues *row);
 

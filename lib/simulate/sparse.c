@@ -130,6 +130,13 @@ bool sparse_factor(Sparse *s, const double *values)
     return false;
 }
 
+double sparse_condition(Sparse *s)
+{
+    if (s->lu != NULL)
+        return lu_pivot_ratio(s->lu);
+    return klu_rcond(s->symbolic, s->numeric, &s->common) ? s->common.rcond : 0;
+}
+
 void sparse_solve(Sparse *s, double *b)
 {
     if (s->lu != NULL)

@@ -14,6 +14,8 @@ void sparse_free(Sparse *sparse); /* NULL is fine */
 /* Factor for these values (one an entry). False when singular or not finite. The work of ordering
  * is done at the first call. */
 bool sparse_factor(Sparse *sparse, const double *values);
+/* least over largest pivot in size, of the last sparse_factor() that succeeded */
+double sparse_condition(Sparse *sparse);
 void sparse_solve(Sparse *sparse, double *b); /* b becomes the solution */
 /* after a failed sparse_factor(): a column that the others span; -1: not known */
 int sparse_singular(const Sparse *sparse);

@@ -8,3 +8,6 @@ test_random_networks_LDADD = $(unit_ldadd)
 UNIT_TESTS += test_operating
 test_operating_SOURCES = tests/unit/test_operating.c tests/unit/session_kit.h tests/unit/test.h
 test_operating_LDADD = $(unit_ldadd)
+UNIT_TESTS += test_statics
+test_statics_SOURCES = tests/unit/test_statics.c tests/unit/session_kit.h tests/unit/test.h
+test_statics_LDADD = $(unit_ldadd)
