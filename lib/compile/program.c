@@ -21,6 +21,7 @@ Stage stage_of_symbol(SymbolKind kind)
         [SYMBOL_MULTIPLIER] = STAGE_ACCELERATION,
         [SYMBOL_EFFORT] = STAGE_ACCELERATION,
         [SYMBOL_JERK] = STAGE_ACCELERATION,
+        [SYMBOL_TURN] = STAGE_POSITION,
         [SYMBOL_VARIABLE] = -1,
         [SYMBOL_ARGUMENT] = -1,
         [SYMBOL_TABLE] = -1,

@@ -65,7 +65,9 @@ static void write_functions(Text *out)
     text_char(out, '\n');
     layout_words(out, TOPIC_WIDTH, "",
                  "Angles are in radians. step is 0 below 0 and 1 from there on, ramp(x) is "
-                 "x*step(x), if(c, a, b) is a where c holds and else b. Of time: pulse(t, low, "
+                 "x*step(x), if(c, a, b) is a where c holds and else b; unwrap(y, x, a) is the "
+                 "angle of (x, y) as atan2(y, x) tells it, but in the turn in which it is nearest "
+                 "to a. Of time: pulse(t, low, "
                  "high, delay, rise, fall, width, period), pwl(t, t0, v0, t1, v1, ...). "
                  "table(\"file.csv\", x, column) is a smooth curve through the data of a file: the "
                  "first column is x, another is picked by its number or its name in quotes, the "

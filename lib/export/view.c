@@ -302,6 +302,46 @@ static void print_definitions(Text *out, const View *view, const Abbreviation *n
     }
 }
 
+/* what picks the turn of an angle, where terms hold such */
+static void print_turns(Text *out, const View *view, const Expr *terms, int count)
+{
+    Text names = {0}, words = {0};
+
+    for (int i = 0; i < system_turned_count(view->system); i++) {
+        const Expr near = system_turned(view->system, i)->near;
+        bool used = false;
+
+        for (int k = 0; !used && k < count; k++)
+            used = expr_depends(terms[k], near);
+        if (!used)
+            continue;
+        text_add(&names, names.length > 0 ? ", " : "");
+        expr_print(&names, near, view->page.notation);
+    }
+    if (names.length == 0)
+        return;
+    if (view->page.notation == NOTATION_LATEX)
+        text_addf(
+            &words,
+            "\\text{unwrap}(y, x, a)\\colon\\text{ the angle of }(x, y)\\text{ that is nearest "
+            "to }a;\\ %s\\text{: kept less than half a turn from it}",
+            names.at);
+    else if (is_language(view))
+        text_addf(&words, "%s: any value less than half a turn from the angle picks its turn",
+                  names.at);
+    else
+        text_addf(&words,
+                  "unwrap(y, x, a) is the angle of (x, y) that is nearest to a; runs keep %s less "
+                  "than half a turn from the angle",
+                  names.at);
+    if (view->page.notation == NOTATION_LATEX)
+        view_line(out, view, "", words.at, NULL, "");
+    else
+        view_comment(out, view, words.at);
+    text_free(&names);
+    text_free(&words);
+}
+
 /* every term of every equation, in order: what abbreviate() works on */
 static int gather(Equations *equations, Expr **terms, bool *is_long)
 {
@@ -352,12 +392,15 @@ void view_equations(Text *out, const View *view, Equations *equations)
     const Naming naming = {free_prefix(view->model), 4, 24};
     Abbreviation names = {0};
     Expr *terms = NULL;
+    Text notes = {0};
     bool is_long;
     int count;
 
     for (int i = 0; is_language(view) && i < equations->count; i++)
         make_residual(view, equations->at + i, i);
     count = gather(equations, &terms, &is_long);
+    if (view->system != NULL)
+        print_turns(is_language(view) ? out : &notes, view, terms, count);
     if (is_long) {
         names = abbreviate(model_arena(view->model), terms, count, &naming);
         scatter(equations, names.roots);
@@ -369,6 +412,8 @@ void view_equations(Text *out, const View *view, Equations *equations)
         print_equation(out, view, equations->at + i);
     if (!is_language(view))
         print_definitions(out, view, &names);
+    text_add(out, notes.at != NULL ? notes.at : "");
+    text_free(&notes);
     abbreviation_free(&names);
     mem_free(terms);
     equations_free(equations);

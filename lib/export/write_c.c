@@ -2,7 +2,8 @@
  *
  * A function a block takes parameters p, time t, coordinates q, speeds u, network
  * states x and algebraic unknowns z, and writes the block row by row; those of a nonlinear network
- * take the rates xd of x, too. Symbols become local variables with the user's names, made into
+ * take the rates xd of x, too, and where angles of chords count turns all of them take values near
+ * these. Symbols become local variables with the user's names, made into
  * identifiers. */
 #include "export/abbreviate.h"
 #include "export/write.h"
@@ -20,18 +21,21 @@ typedef struct Rename { /* symbols and the identifiers that stand for them */
     LIST(Expr) identifiers;
     LIST(const char *) sources; /* "q[0]", kept in `pool` */
     Pool *pool;
+    bool near; /* whether anything reads what picks the turn of an angle */
 } Rename;
 
 /* what an identifier of ours may not be: keywords, and what the functions call their own */
 static const char *const reserved[] = {
-    "auto", "break",  "case",   "char",    "const",    "continue", "default",  "do",      "double",
-    "else", "enum",   "extern", "float",   "for",      "goto",     "if",       "inline",  "int",
-    "long", "return", "short",  "signed",  "sizeof",   "static",   "struct",   "switch",  "union",
-    "void", "while",  "y0",     "y1",      "yn",       "j0",       "j1",       "jn",      "gamma",
-    "p",    "t",      "q",      "u",       "x",        "z",        "out",      "sin",     "cos",
-    "tan",  "asin",   "acos",   "atan",    "atan2",    "sinh",     "cosh",     "tanh",    "exp",
-    "log",  "sqrt",   "fabs",   "pow",     "fmin",     "fmax",     "floor",    "sign",    "step",
-    "ramp", "main",   "table",  "typedef", "volatile", "unsigned", "register", "restrict"};
+    "auto",    "break",  "case",  "char",   "const",   "continue", "default",  "do",
+    "double",  "else",   "enum",  "extern", "float",   "for",      "goto",     "if",
+    "inline",  "int",    "long",  "return", "short",   "signed",   "sizeof",   "static",
+    "struct",  "switch", "union", "void",   "while",   "y0",       "y1",       "yn",
+    "j0",      "j1",     "jn",    "gamma",  "p",       "t",        "q",        "u",
+    "x",       "z",      "out",   "sin",    "cos",     "tan",      "asin",     "acos",
+    "atan",    "atan2",  "sinh",  "cosh",   "tanh",    "exp",      "log",      "sqrt",
+    "fabs",    "pow",    "fmin",  "fmax",   "floor",   "sign",     "step",     "ramp",
+    "main",    "near",   "rint",  "table",  "typedef", "volatile", "unsigned", "register",
+    "restrict"};
 
 /* letters, digits and _ of the name; a prime becomes _d; unique */
 static const char *identifier(Rename *rename, const char *name)
@@ -99,6 +103,8 @@ static Rename rename_all(const View *view)
         add_symbol(&rename, system_x(system, i)->symbol, "x", i);
     for (int i = 0; i < system_nz(system); i++)
         add_symbol(&rename, system_z(system, i)->symbol, "z", i);
+    for (int i = 0; i < system_turned_count(system); i++)
+        add_symbol(&rename, system_turned(system, i)->near, "near", i);
     if (system_run(system)->network_nonlinear)
         for (int i = 0; i < system_nx(system); i++)
             add_symbol(&rename, system_state_rate(system, i), "xd", i);
@@ -145,16 +151,17 @@ static void add_function(Text *out, const Rename *rename, const char *name, cons
     shared = abbreviate(rename->arena, roots, count, &naming);
     text_addf(out,
               "\n/* %s, %d x %d, row by row */\nvoid %s(const double *p, double t, const double "
-              "*q, const double *u,\n    const double *x, const double *z, %sdouble *out)\n{\n",
-              what, rows, columns, name, of_rates ? "const double *xd, " : "");
+              "*q, const double *u,\n    const double *x, const double *z, %s%sdouble *out)\n{\n",
+              what, rows, columns, name, rename->near ? "const double *near, " : "",
+              of_rates ? "const double *xd, " : "");
     add_locals(out, rename, entries, count);
     for (int i = 0; i < shared.definitions.count; i++) {
         text_addf(out, "    const double %s = ", expr_name(shared.definitions.at[i].symbol));
         expr_print(out, shared.definitions.at[i].value, NOTATION_C);
         text_add(out, ";\n");
     }
-    text_addf(out, "\n    (void)p, (void)t, (void)q, (void)u, (void)x, (void)z%s;\n",
-              of_rates ? ", (void)xd" : "");
+    text_addf(out, "\n    (void)p, (void)t, (void)q, (void)u, (void)x, (void)z%s%s;\n",
+              rename->near ? ", (void)near" : "", of_rates ? ", (void)xd" : "");
     for (int i = 0; i < count; i++) {
         text_addf(out, "    out[%d] = ", i);
         expr_print(out, shared.roots[i], NOTATION_C);
@@ -244,7 +251,7 @@ static void add_list(Text *out, const char *array, const char *what,
                   i == 0 ? what : "");
 }
 
-static void add_head(Text *out, const View *view)
+static void add_head(Text *out, const View *view, bool near)
 {
     const System *system = view->system;
 
@@ -268,6 +275,13 @@ static void add_head(Text *out, const View *view)
     add_list(out, "u", "  (speeds)", system_u, system, system_nu(system));
     add_list(out, "x", "  (network states)", system_x, system, system_nx(system));
     add_list(out, "z", "  (algebraic unknowns)", system_z, system, system_nz(system));
+    for (int i = 0; near && i < system_turned_count(system); i++) {
+        const Turned *turned = system_turned(system, i);
+
+        text_addf(out,
+                  " *   near[%d] %s  (picks the turn: any value less than half a turn from %s)\n",
+                  i, expr_name(turned->near), turned->name);
+    }
     text_add(out, " */\n#include <math.h>\n\n"
                   "static inline double sign(double v) { return (v > 0) - (v < 0); }\n"
                   "static inline double step(double v) { return v >= 0; }\n"
@@ -303,10 +317,13 @@ Status write_c(const View *view, Text *out, Diag *diag)
     LIST(Expr) all = {0};
     Status status = OK;
 
-    add_head(out, view);
     for (int i = 0; i < COUNT(blocks); i++)
-        for (int j = 0; j < blocks[i].rows * blocks[i].columns; j++)
+        for (int j = 0; j < blocks[i].rows * blocks[i].columns; j++) {
             LIST_PUSH(all, blocks[i].entries[j]);
+            rename.near =
+                rename.near || (expr_kinds(blocks[i].entries[j]) & 1U << SYMBOL_TURN) != 0;
+        }
+    add_head(out, view, rename.near);
     add_tables(out, all.at, all.count);
     for (int i = 0; i < COUNT(blocks); i++) {
         CHECK(poll(view->watch));

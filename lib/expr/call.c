@@ -18,6 +18,13 @@ static double v_asin(const double *x)  { return asin(x[0]); }
 static double v_acos(const double *x)  { return acos(x[0]); }
 static double v_atan(const double *x)  { return atan(x[0]); }
 static double v_atan2(const double *x) { return atan2(x[0], x[1]); }
+static double v_unwrap(const double *x)
+{
+    const double turn = 6.283185307179586;
+    double angle = atan2(x[0], x[1]);
+
+    return angle + turn * rint((x[2] - angle) / turn);
+}
 static double v_sinh(const double *x)  { return sinh(x[0]); }
 static double v_cosh(const double *x)  { return cosh(x[0]); }
 static double v_tanh(const double *x)  { return tanh(x[0]); }
@@ -95,7 +102,7 @@ static Expr d_atan(Arena *arena, Expr e, const Expr *rates)
     return expr_div(arena, rates[0], one_and_square(arena, 1, arg(e, 0)));
 }
 
-/* (x*y' - y*x')/(x^2 + y^2) */
+/* (x*y' - y*x')/(x^2 + y^2), in every turn */
 static Expr d_atan2(Arena *arena, Expr e, const Expr *rates)
 {
     Expr y = arg(e, 0);

@@ -61,6 +61,7 @@ typedef enum SymbolKind {
     SYMBOL_MULTIPLIER,   /* an entry of lambda */
     SYMBOL_EFFORT,       /* an unknown driver effort, or a source that a driver finds */
     SYMBOL_JERK,         /* an entry of u'' (inverse runs) */
+    SYMBOL_TURN,         /* what an angle of full turns lies next to: kept beside q */
     SYMBOL_VARIABLE,     /* a name of the user's that formulation replaces: h9.fx, h8'' */
     SYMBOL_ARGUMENT,     /* an argument of a law */
     SYMBOL_TABLE         /* data of a table; no expr_kinds() tells of it */

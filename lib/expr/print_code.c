@@ -160,6 +160,8 @@ static Level sign_power_level(Expr base, Expr exponent, Number number)
 /* --- functions --- */
 
 static const char *const c_patterns[OP_COUNT] = {
+    [OP_UNWRAP] =
+        "(atan2($0, $1) + 6.283185307179586*rint((%2 - atan2($0, $1))/6.283185307179586))",
     [OP_SIGN] = "((%0 > 0.0) - (%0 < 0.0))",
     [OP_STEP] = "(%0 >= 0.0)",
     [OP_RAMP] = "fmax($0, 0.0)",
@@ -167,6 +169,8 @@ static const char *const c_patterns[OP_COUNT] = {
 };
 
 static const char *const matlab_patterns[OP_COUNT] = {
+    [OP_UNWRAP] =
+        "(atan2($0, $1) + 6.283185307179586*round((%2 - atan2($0, $1))/6.283185307179586))",
     [OP_ABS] = "abs($0)",
     [OP_MIN] = "min($0, $1)",
     [OP_MAX] = "max($0, $1)",
@@ -180,6 +184,7 @@ static const char *const matlab_patterns[OP_COUNT] = {
 };
 
 static const char *const python_patterns[OP_COUNT] = {
+    [OP_UNWRAP] = "(math.atan2($0, $1) + math.tau*round((%2 - math.atan2($0, $1))/math.tau))",
     [OP_ABS] = "abs($0)",
     [OP_SIGN] = "((%0 > 0) - (%0 < 0))",
     [OP_MIN] = "min($0, $1)",
@@ -197,6 +202,8 @@ static const char *const python_patterns[OP_COUNT] = {
 };
 
 static const char *const fortran_patterns[OP_COUNT] = {
+    [OP_UNWRAP] = ("(atan2($0, $1) + 6.283185307179586d0*anint((%2 - atan2($0, $1))"
+                   "/6.283185307179586d0))"),
     [OP_ABS] = "abs($0)",
     [OP_SIGN] = "(merge(1.0d0, 0.0d0, %0 > 0.0d0) - merge(1.0d0, 0.0d0, %0 < 0.0d0))",
     [OP_MIN] = "min($0, $1)",

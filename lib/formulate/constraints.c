@@ -189,9 +189,10 @@ static Status driver_shown(System *system, Row *row, Diag *diag)
 
         if (steps.turn[k].coordinate != row->coordinate)
             continue;
-        chord_turn(system, owner, &steps, k, &turn);
-        if (turn.angle != NULL)
+        if (turned_angle(system, row->owner, row->coordinate) == NULL)
             continue;
+        chord_turn(system, owner, &steps, k, &turn);
+        turned_drive(system, row->owner, row->coordinate, row->prescribed);
         row->phi = expr_neg(arena, angle_missed(system, &turn, row->prescribed));
         return OK;
     }

@@ -184,6 +184,14 @@ static Status chord_value(System *system, const Instance *owner, int coordinate,
 
         if (steps.turn[k].coordinate != coordinate)
             continue;
+        if (steps_are_tied(&steps) && !owner->is_virtual) { /* its shift knows all turns */
+            *out = expr_div(system->arena, slide_value(system, owner, &steps.shift[0]),
+                            steps.shift[0].scale);
+            return OK;
+        }
+        *out = turned_angle(system, owner->number, coordinate);
+        if (*out != NULL)
+            return OK;
         chord_turn(system, owner, &steps, k, &turn);
         *out = turn.angle != NULL ? turn.angle
                                   : expr_call2(system->arena, OP_ATAN2, turn.sine, turn.cosine);

@@ -23,6 +23,7 @@ libcore_la_SOURCES += \
 	lib/formulate/smooth.c \
 	lib/formulate/state_space.c lib/formulate/state_space.h \
 	lib/formulate/switches.c \
+	lib/formulate/turned.c \
 	lib/formulate/system.c lib/formulate/system.h lib/formulate/system_impl.h \
 	lib/formulate/vanished.c \
 	lib/formulate/variables.c \

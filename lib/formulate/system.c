@@ -322,6 +322,7 @@ static Status build(System *system, Diag *diag)
     }
     add_drives(system);
     frames_build(system);
+    turned_build(system);
     motion_build(system);
     system->is_early = true;
     CHECK(network_build(system, diag));
@@ -453,6 +454,7 @@ void system_free(System *system)
     LIST_FREE(system->quaternions);
     LIST_FREE(system->chains);
     LIST_FREE(system->masses);
+    LIST_FREE(system->turned);
     LIST_FREE(system->rows);
     LIST_FREE(system->vanished);
     LIST_FREE(system->parameters);

@@ -72,6 +72,22 @@ Expr system_n_entry(const System *system, int i, int j);
 /* first of four Euler parameters to be kept at unit length, or -1: call with 0, 1, ... */
 int system_quaternion(const System *system, int i);
 
+/* --- angles of chords over full turns --- */
+
+/* A turn of a chord that no sum of other turns tells, only its sine and cosine: the angle is the
+ * one nearest to `near`, which whoever runs the system keeps next to it (theory 2). */
+typedef struct Turned {
+    const char *name; /* of the joint's coordinate */
+    Expr near;        /* symbol: an angle less than half a turn away */
+    Expr angle;       /* in q and near */
+    Expr prescribed;  /* what a driver makes it, in t and parameters; NULL: there is none */
+} Turned;
+
+int system_turned_count(const System *system);
+const Turned *system_turned(const System *system, int i);
+/* Its rate, for keeping `near` next to it: bounded also where sine and cosine vanish together. */
+MUST_USE Status system_turned_rate(System *system, int i, Expr *out, Diag *diag);
+
 /* --- constraints --- */
 
 typedef struct ConstraintRow {

@@ -133,6 +133,14 @@ typedef struct Row {
     ConstraintRow told;
 } Row;
 
+typedef struct TurnedChord {
+    Turned told;
+    int instance;
+    int coordinate;
+    Expr sine; /* both times one factor, 1 where the joint holds */
+    Expr cosine;
+} TurnedChord;
+
 typedef struct Given {
     Expr symbol; /* a parameter */
     double value;
@@ -237,6 +245,7 @@ struct System {
     ChainMotion *motions;
     Vec *alpha0; /* of chains, in the axes of their resolve chain */
     Vec *a0;     /* of nodes */
+    LIST(TurnedChord) turned;
     LIST(Mass) masses;
     LIST(Row) rows;
     LIST(Row) vanished;     /* rows that hold in every position: no lambda tells what they carry */
@@ -382,6 +391,12 @@ typedef struct ChordTurn {
 /* `which` of one or two turns */
 void chord_turn(System *system, const Instance *owner, const Steps *steps, int which,
                 ChordTurn *out);
+/* (turned.c) which turns of chords are told by sine and cosine alone */
+void turned_build(System *system);
+/* the angle of such a turn; NULL: it is none of them */
+Expr turned_angle(const System *system, int instance, int coordinate);
+/* a driver makes it so */
+void turned_drive(System *system, int instance, int coordinate, Expr prescribed);
 /* the way from tail to head along a slide's axis */
 Expr slide_value(System *system, const Instance *owner, const Step *slide);
 /* (attitude.c) Euler parameters of a frame against ground, and of a head against a tail, scalar

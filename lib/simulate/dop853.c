@@ -90,13 +90,15 @@ static double scaled_norm(const Dop853 *d, const double *v)
 static void choose_scale(Dop853 *d, const double *a, const double *b)
 {
     const Control *control = &d->base.control;
-    const double *cap = d->base.ode->cap;
+    const double *cap = d->base.ode->cap, *slack = d->base.ode->slack;
 
     for (int i = 0; i < d->n; i++) {
         double size = fmax(fabs(a[i]), fabs(b[i]));
 
         size = cap != NULL ? fmin(size, cap[i]) : size;
         d->scale[i] = AIM * (control->atol + control->rtol * size);
+        if (slack != NULL)
+            d->scale[i] = fmax(d->scale[i], slack[i]);
     }
 }
 

@@ -357,6 +357,8 @@ Status run_equilibrium(System *system, const Model *model, const Setting *settin
     for (int i = 0; i < l->n; i++) /* less than rounding of 1 rad or 1 m is nothing */
         r->start.y[i] = fabs(v[i]) < 1e-15 ? 0 : v[i];
     memcpy(r->start.y + l->n + l->nu, v + l->n, (size_t)l->nx * sizeof(double));
+    memcpy(r->start.y + layout_turned(l), v + statics_length(e.statics) - l->turned,
+           (size_t)l->turned * sizeof(double));
     guess_network(&e, r);
     if (!motion_project(r->motion, 0, r->start.y))
         CHECK(diag_set(diag, E_SINGULAR, "the equilibrium is a singular position"));

@@ -391,8 +391,7 @@ int events_time_only(const Events *events)
 /* the roots of a probe at (t, y); NULL where the equations have no solution */
 static const double *roots_at(const Events *events, Probe *probe, double t, const double *y)
 {
-    const Layout *l = events->plan.layout;
-    RowValues row = {.t = t, .q = y, .u = y + l->n, .x = y + l->n + l->nu};
+    RowValues row = row_of_state(events->plan.layout, t, y);
     Solved solved;
 
     if (events->solved) {

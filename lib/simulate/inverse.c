@@ -237,6 +237,7 @@ static const double *values_of(const Inverse *in, Probe *probe)
     const Layout *l = in->l;
     const double *v = in->values;
     RowValues row = {.t = v[l->t],
+                     .near = v + l->near,
                      .q = v + l->q,
                      .u = v + l->u,
                      .x = v + l->x,
@@ -379,6 +380,8 @@ static Status solve_row(Inverse *in, int row, Diag *diag)
         return solver_failure(diag, r->grid.times[row], "the accelerations are undefined");
     memset(in->values, 0, (size_t)l->count * sizeof(double));
     in->values[l->t] = r->grid.times[row];
+    for (int k = 0; k < l->turned; k++)
+        in->values[l->near + k] = y[layout_turned(l) + k];
     memcpy(in->values + l->q, y, (size_t)(l->n + l->nu + l->nx) * sizeof(double));
     memcpy(in->values + l->rates, solved.rates, (size_t)(l->nx + l->nz) * sizeof(double));
     memcpy(in->values + l->acceleration, solved.acceleration, (size_t)l->nu * sizeof(double));

@@ -280,15 +280,14 @@ static int unknown(const Work *w, int k)
 static void evaluate(Work *w)
 {
     const Layout *l = w->l;
-    RowValues row = {.t = w->order->at,
-                     .q = w->y,
-                     .u = w->y + l->n,
-                     .x = w->y + l->n + l->nu,
-                     .acceleration = w->follow,
-                     .multipliers = w->follow + l->nu,
-                     .rates = w->follow + l->nu + l->m,
-                     .z = w->follow + l->nu + l->m + l->nx};
-    const double *values = gradients_at(&w->gradients, &row);
+    RowValues row = row_of_state(l, w->order->at, w->y);
+    const double *values;
+
+    row.acceleration = w->follow;
+    row.multipliers = w->follow + l->nu;
+    row.rates = w->follow + l->nu + l->m;
+    row.z = w->follow + l->nu + l->m + l->nx;
+    values = gradients_at(&w->gradients, &row);
 
     memcpy(w->values, values, (size_t)(w->rows.count * (1 + w->at.count)) * sizeof(double));
     for (int r = 0; r < w->unknowns; r++)
@@ -352,7 +351,7 @@ static Status fix_point(Work *w, Diag *diag)
         diag_hint(diag, "take another instant, or another start");
         return E_SINGULAR;
     }
-    row = (RowValues){.t = order->at, .q = w->y, .u = w->y + l->n};
+    row = row_of_state(l, order->at, w->y);
     geometry = probe_values(w->geometry, &row);
     w->phi_u = NEW_ARRAY(double, l->m * l->nu);
     w->map = NEW_ARRAY(double, 2 * l->n * l->nu);

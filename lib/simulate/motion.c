@@ -16,7 +16,8 @@
 
 #define PROJECTION_SWEEPS 8
 #define TURNS             50
-#define WORN              0.1 /* of Phi_d's pivot ratio when it was chosen */
+#define SLACK             0.03 /* rad: what a step may leave between an angle and its reference */
+#define WORN              0.1  /* of Phi_d's pivot ratio when it was chosen */
 
 struct Motion {
     const Equations *eq;
@@ -29,11 +30,11 @@ struct Motion {
     Embed *embed;
     NetSolve *network;
     bool is_evaluated, is_factored, is_embedded_factored; /* at t, q */
-    double t, *q;
-    const double *solved; /* [x'; z] */
+    double t, *q, *near;                                  /* references of angles */
+    const double *solved;                                 /* [x'; z] */
     double *solved_before;
     double *top, *bottom, *du, *kept, *lambda, *lambda_all;
-    double *dae_weight, *row_size;
+    double *dae_weight, *row_size, *slack;
     MotionCounts counts;
 };
 
@@ -43,18 +44,29 @@ static bool dae_residual(void *context, double t, const double *w, const double 
                          double *out);
 static bool dae_start(void *context, double t, const double *y, double *w, double *w_rate);
 
+/* of the references in y */
+static int turned_place(const Equations *eq)
+{
+    return eq->n + eq->nu + eq->nx;
+}
+
 static void describe_ode(Motion *mo)
 {
     const Equations *eq = mo->eq;
     int y = motion_length(mo);
 
-    mo->ode = (Ode){.n = eq->n + eq->nu + eq->nx,
+    mo->ode = (Ode){.n = turned_place(eq) + eq->turned_count,
                     .quadratures = 1,
                     .context = mo,
                     .rate = rate,
                     .cap = eq->cap};
-    if (mo->used > 0 || eq->quaternion_count > 0)
+    if (mo->used > 0 || eq->quaternion_count > 0 || eq->turned_count > 0)
         mo->ode.project = project;
+    mo->slack = NEW_ARRAY(double, mo->ode.n);
+    for (int k = 0; k < eq->turned_count; k++)
+        mo->slack[turned_place(eq) + k] = SLACK;
+    if (eq->turned_count > 0)
+        mo->ode.slack = mo->slack;
     mo->ode.dae.n = y + (mo->options.embedded ? 0 : 2 * mo->used);
     mo->ode.dae.context = mo;
     mo->ode.dae.residual = dae_residual;
@@ -90,6 +102,7 @@ Motion *motion_new(const Equations *eq, const MotionOptions *options)
     mo->solved = netsolve_values(mo->network);
     mo->solved_before = NEW_ARRAY(double, eq->nx + eq->nz);
     mo->q = NEW_ARRAY(double, eq->n);
+    mo->near = NEW_ARRAY(double, eq->turned_count);
     mo->top = NEW_ARRAY(double, eq->nu);
     mo->bottom = NEW_ARRAY(double, mo->used);
     mo->du = NEW_ARRAY(double, eq->nu);
@@ -113,6 +126,8 @@ void motion_free(Motion *mo)
     netsolve_free(mo->network);
     mem_free(mo->solved_before);
     mem_free(mo->q);
+    mem_free(mo->near);
+    mem_free(mo->slack);
     mem_free(mo->top);
     mem_free(mo->bottom);
     mem_free(mo->du);
@@ -131,7 +146,7 @@ const Ode *motion_ode(const Motion *mo)
 
 int motion_length(const Motion *mo)
 {
-    return mo->eq->n + mo->eq->nu + mo->eq->nx + 1;
+    return turned_place(mo->eq) + mo->eq->turned_count + 1;
 }
 
 void motion_window(Motion *mo, double low, double high)
@@ -169,15 +184,36 @@ MotionCounts motion_counts(const Motion *mo)
 
 /* --- evaluation --- */
 
-static void at_position(Motion *mo, double t, const double *q)
+/* whether references are those of the last evaluation, or so near that they choose the same turns
+ */
+static bool turns_alike(const Motion *mo, const double *near)
+{
+    for (int k = 0; k < mo->eq->turned_count; k++)
+        if (!(fabs(near[k] - mo->near[k]) < 1))
+            return false;
+    return true;
+}
+
+/* before eq->position() */
+static void set_near(Motion *mo, const double *y)
+{
+    if (mo->eq->turned_count == 0)
+        return;
+    memcpy(mo->near, y + turned_place(mo->eq), (size_t)mo->eq->turned_count * sizeof(double));
+    mo->eq->near(mo->eq->context, mo->near);
+}
+
+static void at_position(Motion *mo, double t, const double *y)
 {
     size_t bytes = (size_t)mo->eq->n * sizeof(double);
 
-    if (mo->is_evaluated && mo->t == t && memcmp(mo->q, q, bytes) == 0)
+    if (mo->is_evaluated && mo->t == t && memcmp(mo->q, y, bytes) == 0 &&
+        turns_alike(mo, y + turned_place(mo->eq)))
         return;
-    mo->eq->position(mo->eq->context, t, q);
+    set_near(mo, y);
+    mo->eq->position(mo->eq->context, t, y);
     mo->t = t;
-    memcpy(mo->q, q, bytes);
+    memcpy(mo->q, y, bytes);
     mo->is_evaluated = true;
     mo->is_factored = false;
     mo->is_embedded_factored = false;
@@ -230,6 +266,8 @@ void motion_switches(Motion *mo, double t, const double *y, double *out)
             out[i] = NAN;
         return;
     }
+    if (eq->turned_count > 0)
+        eq->near(eq->context, y + turned_place(eq));
     eq->switches(eq->context, t, y, y + eq->n, y + eq->n + eq->nu, out);
 }
 
@@ -287,7 +325,9 @@ static void write_rates(const Motion *mo, double *out)
     memcpy(out, eq->q_rate, (size_t)eq->n * sizeof(double));
     memcpy(out + eq->n, mo->du, (size_t)eq->nu * sizeof(double));
     memcpy(out + eq->n + eq->nu, mo->solved, (size_t)eq->nx * sizeof(double));
-    out[eq->n + eq->nu + eq->nx] = eq->power != NULL ? *eq->power : 0;
+    if (eq->turned_count > 0)
+        memcpy(out + turned_place(eq), eq->turned_rate, (size_t)eq->turned_count * sizeof(double));
+    out[turned_place(eq) + eq->turned_count] = eq->power != NULL ? *eq->power : 0;
 }
 
 /* A network that reads u' or lambda, while forces read the network: each in turn, until nothing
@@ -393,6 +433,15 @@ static double distance(const Motion *mo)
     return largest;
 }
 
+void equations_turn(const Equations *eq, double t, const double *q, double *a)
+{
+    if (eq->turned_count == 0)
+        return;
+    eq->near(eq->context, a);
+    eq->position(eq->context, t, q);
+    memcpy(a, eq->turned, (size_t)eq->turned_count * sizeof(double));
+}
+
 void equations_normalise(const Equations *eq, double *q)
 {
     for (int i = 0; i < eq->quaternion_count; i++) {
@@ -421,14 +470,14 @@ static void move(Motion *mo, const double *du, double *q)
 /* Simplified Newton: one factorisation serves all sweeps. They go on to the limit of rounding: what
  * is left as a residual turns the motion off its branch at a singular position. At most a hundredth
  * of the run's tolerance may be left where they don't get there. */
-static bool project_position(Motion *mo, double t, double *q)
+static bool project_position(Motion *mo, double t, double *y)
 {
-    double size = fmax(1, vector_largest(q, mo->eq->n));
+    double size = fmax(1, vector_largest(y, mo->eq->n));
     double enough = fmax(1e-13 * size, fmin(1e-2 * mo->options.tolerance, 1e-9));
     double left, before = INFINITY;
 
-    equations_normalise(mo->eq, q);
-    at_position(mo, t, q);
+    equations_normalise(mo->eq, y);
+    at_position(mo, t, y);
     measure_rows(mo);
     left = distance(mo);
     if (left <= 1e-16 * size)
@@ -442,9 +491,9 @@ static bool project_position(Motion *mo, double t, double *q)
         for (int k = 0; k < mo->used; k++)
             mo->bottom[k] = -mo->eq->phi[mo->rows[k]];
         kkt_solve(mo->kkt, NULL, mo->bottom, mo->du, mo->lambda);
-        move(mo, mo->du, q);
+        move(mo, mo->du, y);
         /* the factors stay those of the first sweep */
-        mo->eq->position(mo->eq->context, t, q);
+        mo->eq->position(mo->eq->context, t, y);
         left = distance(mo);
         if (!isfinite(left))
             break;
@@ -453,11 +502,11 @@ static bool project_position(Motion *mo, double t, double *q)
     return left <= enough;
 }
 
-static bool project_velocity(Motion *mo, double t, const double *q, double *u, const double *x)
+static bool project_velocity(Motion *mo, double t, const double *y, double *u, const double *x)
 {
     const Equations *eq = mo->eq;
 
-    at_position(mo, t, q);
+    at_position(mo, t, y);
     if (!factor(mo))
         return false;
     eq->velocity(eq->context, u, x);
@@ -481,7 +530,14 @@ bool motion_project(Motion *mo, double t, double *y)
     if (mo->ode.project == NULL)
         return true;
     t = fmin(fmax(t, mo->low), mo->high);
-    return project_position(mo, t, y) && project_velocity(mo, t, y, y + eq->n, y + eq->n + eq->nu);
+    if (mo->used == 0 && eq->quaternion_count == 0)
+        at_position(mo, t, y);
+    else if (!project_position(mo, t, y) ||
+             !project_velocity(mo, t, y, y + eq->n, y + eq->n + eq->nu))
+        return false;
+    if (eq->turned_count > 0)
+        memcpy(y + turned_place(eq), eq->turned, (size_t)eq->turned_count * sizeof(double));
+    return true;
 }
 
 static bool project(void *context, double t, double *y)
@@ -602,7 +658,7 @@ static bool dae_residual(void *context, double t, const double *w, const double 
 {
     Motion *mo = context;
     const Equations *eq = mo->eq;
-    int x = eq->n + eq->nu, work = x + eq->nx;
+    int x = eq->n + eq->nu, turned = turned_place(eq), work = turned + eq->turned_count;
 
     if (!evaluate(mo, t, w))
         return false;
@@ -627,6 +683,8 @@ static bool dae_residual(void *context, double t, const double *w, const double 
     }
     for (int i = 0; i < eq->nx; i++)
         out[x + i] = w_rate[x + i] - mo->solved[i];
+    for (int k = 0; k < eq->turned_count; k++)
+        out[turned + k] = w_rate[turned + k] - eq->turned_rate[k];
     out[work] = w_rate[work] - (eq->power != NULL ? *eq->power : 0);
     return vector_is_finite(out, mo->ode.dae.n);
 }

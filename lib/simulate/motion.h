@@ -4,8 +4,13 @@
  *     M u' + Phi_u^T lambda = F,   G([x'; z]) = 0
  *
  * Equations is what a model supplies: functions that bring arrays up to date. A Motion
- * solves them, in the augmented or the embedded form, and is an Ode in y = (q, u, x, work).
- * It evaluates nothing twice for the same arguments, and allocates nothing after motion_new(). */
+ * solves them, in the augmented or the embedded form, and is an Ode in y = (q, u, x, a, work).
+ *
+ * a are references of angles that only a sine and a cosine tell: each such angle is the one nearest
+ * to its a, over any number of turns. They are integrated by the angles' rates, and a projection
+ * puts them on the angles. The rest reads no more of them than the turn, and doesn't feel them
+ * move. It evaluates nothing twice for the same arguments, and allocates nothing after
+ * motion_new(). */
 #ifndef COTREE_SIMULATE_MOTION_H
 #define COTREE_SIMULATE_MOTION_H
 
@@ -13,10 +18,12 @@
 
 typedef struct Equations {
     int n, nu, m, nx, nz;
+    int turned_count; /* of a */
     void *context;
-    /* bring phi, phi_u, mass, map up to date */
+    void (*near)(void *context, const double *a); /* a for the calls below; NULL: there are none */
+    /* bring phi, phi_u, mass, map, turned up to date */
     void (*position)(void *context, double t, const double *q);
-    /* then q_rate, nu, gamma; network, network_rhs where network_at is NULL */
+    /* then q_rate, turned_rate, nu, gamma; network, network_rhs where network_at is NULL */
     void (*velocity)(void *context, const double *u, const double *x);
     /* then network and network_residual at w = [x'; z]; NULL: the network is linear, A w = r */
     void (*network_at)(void *context, const double *w);
@@ -26,11 +33,13 @@ typedef struct Equations {
     void (*network_solved)(void *context, const double *solved);
     /* then power; NULL when it is known before. `multipliers` of all m rows. */
     void (*accelerated)(void *context, const double *acceleration, const double *multipliers);
-    const double *phi;     /* m */
-    const double *phi_u;   /* m x nu */
-    const double *mass;    /* nu x nu */
-    const double *map;     /* n x nu: N; NULL: identity, n == nu */
-    const double *q_rate;  /* n */
+    const double *phi;    /* m */
+    const double *phi_u;  /* m x nu */
+    const double *mass;   /* nu x nu */
+    const double *map;    /* n x nu: N; NULL: identity, n == nu */
+    const double *q_rate; /* n */
+    const double *turned; /* turned_count: the angles near a, and their rates */
+    const double *turned_rate;
     const double *nu_rate; /* m: right-hand side of the velocity constraints */
     const double *gamma;   /* m */
     int network_entries;   /* of A = dG/dw */
@@ -41,7 +50,7 @@ typedef struct Equations {
     bool network_is_constant;       /* A never changes in a run */
     const double *force;            /* nu */
     const double *power;            /* 1: work done on the system per time, W; NULL: not known */
-    const double *cap;              /* n+nu+nx, for Ode; may be NULL */
+    const double *cap;              /* n+nu+nx+turned_count, for Ode; may be NULL */
     const int *quaternions;         /* first of each four Euler parameters */
     int quaternion_count;
     /* conditions whose change of sign may bend or break the equations; time_only ones first */
@@ -51,6 +60,8 @@ typedef struct Equations {
                      double *out);
 } Equations;
 
+/* Put a onto the angles at (t, q). */
+void equations_turn(const Equations *equations, double t, const double *q, double *a);
 /* Bring each four Euler parameters of q to unit length. */
 void equations_normalise(const Equations *equations, double *q);
 

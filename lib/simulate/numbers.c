@@ -41,6 +41,10 @@ Layout *layout_new(System *system)
     l->nx = system_nx(system);
     l->nz = system_nz(system);
     l->t = append(l, &room, expr_symbol(system_arena(system), "t", SYMBOL_TIME));
+    l->turned = system_turned_count(system);
+    l->near = l->count;
+    for (int i = 0; i < l->turned; i++)
+        (void)append(l, &room, system_turned(system, i)->near);
     l->q = l->count;
     for (int i = 0; i < l->n; i++)
         (void)append(l, &room, system_q(system, i)->symbol);
@@ -216,12 +220,19 @@ static void put(double *inputs, int first, const double *values, int count)
         memset(inputs + first, 0, (size_t)count * sizeof(double));
 }
 
+RowValues row_of_state(const Layout *l, double t, const double *y)
+{
+    return (RowValues){
+        .t = t, .q = y, .u = y + l->n, .x = y + l->n + l->nu, .near = y + layout_turned(l)};
+}
+
 const double *probe_values(Probe *probe, const RowValues *row)
 {
     const Layout *l = probe->layout;
     double *inputs = workspace_inputs(probe->workspace);
 
     inputs[l->t] = row->t;
+    put(inputs, l->near, row->near, l->turned);
     put(inputs, l->q, row->q, l->n);
     put(inputs, l->u, row->u, l->nu);
     put(inputs, l->x, row->x, l->nx);
@@ -235,6 +246,24 @@ const double *probe_values(Probe *probe, const RowValues *row)
     return workspace_roots(probe->workspace);
 }
 
+Status parameters_driven(Parameters *parameters, const Layout *layout, int k, double *out,
+                         Diag *diag)
+{
+    const Expr prescribed = system_turned(layout->system, k)->prescribed;
+    const RowValues row = {.t = 0};
+    Probe *probe = NULL;
+    Status status = OK;
+
+    *out = NAN;
+    if (prescribed == NULL)
+        return OK;
+    CHECK(probe_new(layout, parameters, &prescribed, 1, &probe, diag));
+    *out = probe_values(probe, &row)[0];
+done:
+    probe_free(probe);
+    return status;
+}
+
 /* --- equations --- */
 
 struct Numbers {
@@ -246,6 +275,13 @@ struct Numbers {
     bool is_network_new; /* network_workspace has seen t, q, u, x as they are */
     double *cap;
 };
+
+static void turned(void *context, const double *references)
+{
+    Numbers *nb = context;
+
+    put(workspace_inputs(nb->workspace), nb->layout->near, references, nb->layout->turned);
+}
 
 static void position(void *context, double t, const double *q)
 {
@@ -325,6 +361,8 @@ static void switches(void *context, double t, const double *q, const double *u, 
     double *inputs = workspace_inputs(nb->switch_workspace);
 
     inputs[nb->layout->t] = t;
+    put(inputs, nb->layout->near, workspace_inputs(nb->workspace) + nb->layout->near,
+        nb->layout->turned);
     put(inputs, nb->layout->q, q, nb->layout->n);
     put(inputs, nb->layout->u, u, nb->layout->nu);
     put(inputs, nb->layout->x, x, nb->layout->nx);
@@ -337,6 +375,23 @@ static void switches(void *context, double t, const double *q, const double *u, 
 }
 
 typedef LIST(Expr) Roots;
+
+/* angles that count turns, then their rates */
+static Status push_turned(Roots *roots, System *system, Diag *diag)
+{
+    Status status = OK;
+
+    for (int i = 0; i < system_turned_count(system); i++)
+        LIST_PUSH(*roots, system_turned(system, i)->angle);
+    for (int i = 0; i < system_turned_count(system); i++) {
+        Expr rate;
+
+        CHECK(system_turned_rate(system, i, &rate, diag));
+        LIST_PUSH(*roots, rate);
+    }
+done:
+    return status;
+}
 
 /* append a block; its first place */
 static int block(Roots *roots, const Expr *entries, int count)
@@ -432,10 +487,12 @@ static Status compile_equations(Numbers *nb, Parameters *parameters, Diag *diag)
     int rhs = block(&roots, r->network_rhs, iterates ? 0 : l->nx + l->nz);
     int force = block(&roots, r->force, l->nu);
     int work = block(&roots, &power, 1);
-    int map = roots.count;
+    int angles = roots.count;
+    int map = roots.count + 2 * l->turned;
     const double *at;
     Status status = OK;
 
+    CHECK(push_turned(&roots, l->system, diag));
     for (int i = 0; i < l->n && !is_identity(l->system); i++)
         for (int j = 0; j < l->nu; j++)
             LIST_PUSH(roots, system_n_entry(l->system, i, j));
@@ -452,6 +509,8 @@ static Status compile_equations(Numbers *nb, Parameters *parameters, Diag *diag)
     nb->eq.network_rhs = at + rhs;
     nb->eq.force = at + force;
     nb->eq.power = at + work;
+    nb->eq.turned = at + angles;
+    nb->eq.turned_rate = at + angles + l->turned;
     nb->eq.map = map < roots.count ? at + map : NULL;
     nb->eq.accelerated = stage_of(power) == STAGE_ACCELERATION ? accelerated : NULL;
     nb->eq.network_reads = stage == STAGE_ACCELERATION ? network_reads : NULL;
@@ -501,7 +560,9 @@ Status numbers_new(const Layout *layout, Parameters *parameters, Numbers **out, 
                          .m = layout->m,
                          .nx = layout->nx,
                          .nz = layout->nz,
+                         .turned_count = layout->turned,
                          .context = nb,
+                         .near = turned,
                          .position = position,
                          .velocity = velocity,
                          .network_solved = network_solved,
@@ -511,9 +572,12 @@ Status numbers_new(const Layout *layout, Parameters *parameters, Numbers **out, 
     nb->quaternions = NEW_ARRAY(int, count);
     for (int i = 0; i < count; i++)
         nb->quaternions[i] = system_quaternion(layout->system, i);
-    nb->cap = NEW_ARRAY(double, layout->n + layout->nu + layout->nx);
-    for (int i = 0; i < layout->n + layout->nu + layout->nx; i++)
-        nb->cap[i] = i < layout->n && system_q(layout->system, i)->is_angle ? 1 : INFINITY;
+    nb->cap = NEW_ARRAY(double, layout_turned(layout) + layout->turned);
+    for (int i = 0; i < layout_turned(layout) + layout->turned; i++)
+        nb->cap[i] =
+            i >= layout_turned(layout) || (i < layout->n && system_q(layout->system, i)->is_angle)
+                ? 1
+                : INFINITY;
     nb->eq.cap = nb->cap;
     nb->eq.quaternions = nb->quaternions;
     nb->eq.quaternion_count = count;

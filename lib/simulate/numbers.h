@@ -1,8 +1,8 @@
 /* numbers.h: a System's expressions in numbers: programs, and where their inputs stand
  *
- * A Layout fixes the order of inputs for all programs over one system: t, q, u, x, x', z, u',
- * lambda, efforts, u''; a program's parameters come behind these. Numbers is the reading to run as
- * Equations; a Probe computes any other expressions at a row. */
+ * A Layout fixes the order of inputs for all programs over one system: t, references of angles that
+ * count turns, q, u, x, x', z, u', lambda, efforts, u''; a program's parameters come behind these.
+ * Numbers is the reading to run as Equations; a Probe computes any other expressions at a row. */
 #ifndef COTREE_SIMULATE_NUMBERS_H
 #define COTREE_SIMULATE_NUMBERS_H
 
@@ -13,11 +13,17 @@
 
 typedef struct Layout {
     System *system;
-    int n, nu, m, nx, nz, ne;
-    int t, q, u, x, rates, z, acceleration, multipliers, efforts, jerk; /* first of each */
+    int n, nu, m, nx, nz, ne, turned;
+    int t, near, q, u, x, rates, z, acceleration, multipliers, efforts, jerk; /* first of each */
     int count;
     Expr *symbols; /* count */
 } Layout;
+
+/* y of a run is q, u, x, references, work */
+static inline int layout_turned(const Layout *l) /* place of the first reference in it */
+{
+    return l->n + l->nu + l->nx;
+}
 
 Layout *layout_new(System *system); /* new; free with layout_free(). Symbols of u'' are made. */
 void layout_free(Layout *layout);
@@ -35,13 +41,19 @@ void parameters_keep(Parameters *parameters, const Expr *roots, int count);
 double parameters_value(Parameters *parameters, Expr symbol); /* kept, else asked and kept */
 /* the number of an expression of parameters alone */
 double parameters_evaluate(Parameters *parameters, Expr e);
+/* what a driver makes of the k-th angle that counts turns at t = 0; NAN: none drives it */
+MUST_USE Status parameters_driven(Parameters *parameters, const Layout *layout, int k, double *out,
+                                  Diag *diag);
 void parameters_free(Parameters *parameters);
 
 /* what a row knows; arrays may be NULL for 0 */
 typedef struct RowValues {
     double t;
-    const double *q, *u, *x, *rates, *z, *acceleration, *multipliers, *efforts, *jerk;
+    const double *near, *q, *u, *x, *rates, *z, *acceleration, *multipliers, *efforts, *jerk;
 } RowValues;
+
+/* t, and what y holds */
+RowValues row_of_state(const Layout *layout, double t, const double *y);
 
 typedef struct Probe Probe;
 /* Compile; the layout outlives the probe. Fails as program_new() does. */

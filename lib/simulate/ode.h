@@ -42,6 +42,9 @@ typedef struct Ode {
     /* n: |y_i| counts up to here in a relative tolerance (an angle of many turns isn't known less
      * well than one of a few); NULL: all of it */
     const double *cap;
+    /* n: errors of y_i up to here don't count, projected as it is after each step; NULL: all do.
+     * Methods that don't project leave it aside. */
+    const double *slack;
     Dae dae; /* entries 0..n+quadratures-1 of w are y; n 0: not offered */
 } Ode;
 

@@ -127,13 +127,15 @@ static Status start(Stepper *stepper, double t, const double *y, Diag *diag)
 static void choose_scale(Radau *r)
 {
     const Control *control = &r->base.control;
-    const double *cap = r->base.ode->cap;
+    const double *cap = r->base.ode->cap, *slack = r->base.ode->slack;
 
     for (int i = 0; i < r->n; i++) {
         double size = fabs(r->old[i]);
 
         size = cap != NULL ? fmin(size, cap[i]) : size;
         r->scale[i] = control->atol + control->rtol * size;
+        if (slack != NULL)
+            r->scale[i] = fmax(r->scale[i], slack[i]);
     }
 }
 

@@ -16,10 +16,10 @@ typedef enum Level { LEVEL_POSITION, LEVEL_VELOCITY, LEVEL_STATE, LEVEL_COUNT } 
 typedef struct Target {
     Expr expr;
     Level level;
-    int place;     /* unknown that it is, alone; -1 */
-    int column;    /* unknown that is held with it; -1: it is an equation */
-    bool is_angle; /* an arc tangent: full turns don't count */
-    int gradient;  /* root of its first derivative */
+    int place;    /* unknown that it is, alone; -1 */
+    int column;   /* unknown that is held with it; -1: it is an equation */
+    int turned;   /* angle of turns that it is; -1 */
+    int gradient; /* root of its first derivative */
 } Target;
 
 struct Reset {
@@ -80,7 +80,7 @@ static int column_of(const Reset *reset, const Target *target)
 static Status classify(const Reset *reset, Target *target, const char *name, int primes, Diag *diag)
 {
     const unsigned known = 1U << SYMBOL_TIME | 1U << SYMBOL_PARAMETER | 1U << SYMBOL_COORDINATE |
-                           1U << SYMBOL_SPEED | 1U << SYMBOL_STATE;
+                           1U << SYMBOL_SPEED | 1U << SYMBOL_STATE | 1U << SYMBOL_TURN;
     const unsigned kinds = expr_kinds(target->expr);
     const Layout *l = reset->plan.layout;
 
@@ -100,7 +100,10 @@ static Status classify(const Reset *reset, Target *target, const char *name, int
         if (l->symbols[level_first(l, target->level) + i] == target->expr)
             target->place = i;
     target->column = column_of(reset, target);
-    target->is_angle = expr_kind(target->expr) == EXPR_CALL && expr_op(target->expr) == OP_ATAN2;
+    target->turned = -1;
+    for (int k = 0; k < l->turned; k++)
+        if (system_turned(l->system, k)->angle == target->expr)
+            target->turned = k;
     return OK;
 }
 
@@ -144,9 +147,7 @@ Status reset_compile(Reset *reset, Diag *diag)
 
 static const double *probe_here(const Reset *reset)
 {
-    const Layout *l = reset->plan.layout;
-    const double *y = reset->y;
-    RowValues row = {.t = reset->t, .q = y, .u = y + l->n, .x = y + l->n + l->nu};
+    const RowValues row = row_of_state(reset->plan.layout, reset->t, reset->y);
 
     return probe_values(reset->probe, &row);
 }
@@ -161,13 +162,6 @@ static double energy(const Reset *reset)
 static bool is_chosen(const Reset *reset, int k, Level level)
 {
     return reset->targets.at[k].level == level && !isnan(reset->values[k]);
-}
-
-static double missed(const Reset *reset, int k, double value)
-{
-    double by = value - reset->values[k];
-
-    return reset->targets.at[k].is_angle ? remainder(by, 2 * 3.14159265358979323846) : by;
 }
 
 /* put the unknowns in place that are set by themselves; how many equations are left */
@@ -206,7 +200,7 @@ static void equations_at(const Reset *reset, Level level, bool with_direct, doub
 
         if (!is_chosen(reset, k, level) || (!with_direct && target->column >= 0))
             continue;
-        residual[at] = missed(reset, k, values[k]);
+        residual[at] = values[k] - reset->values[k];
         for (int j = 0; jacobian != NULL && j < columns; j++) {
             double sum = level != LEVEL_POSITION || eq->map == NULL ? gradient[j] : 0;
 
@@ -380,10 +374,21 @@ static bool solve_speeds(Reset *reset)
     return sound;
 }
 
+/* angles are looked for in the turn that is asked for */
+static void begin_turns(const Reset *reset)
+{
+    double *near = reset->y + layout_turned(reset->plan.layout);
+
+    for (int k = 0; k < reset->targets.count; k++)
+        if (reset->targets.at[k].turned >= 0 && is_chosen(reset, k, LEVEL_POSITION))
+            near[reset->targets.at[k].turned] = reset->values[k];
+}
+
 bool reset_apply(Reset *reset, double t, const double *values, double *y)
 {
     const Equations *eq = reset->plan.equations;
-    int length = eq->n + eq->nu + eq->nx + 1;
+    int turned = layout_turned(reset->plan.layout);
+    int length = turned + eq->turned_count + 1;
     double before;
     double after;
     bool met = true;
@@ -393,6 +398,7 @@ bool reset_apply(Reset *reset, double t, const double *values, double *y)
     reset->y = NEW_ARRAY(double, length);
     memcpy(reset->y, y, (size_t)length * sizeof(double));
     before = energy(reset);
+    begin_turns(reset);
     if (any_chosen(reset, LEVEL_POSITION))
         met = solve_least_squares(reset, LEVEL_POSITION);
     if (met && any_chosen(reset, LEVEL_STATE))
@@ -400,6 +406,7 @@ bool reset_apply(Reset *reset, double t, const double *values, double *y)
     if (met && (any_chosen(reset, LEVEL_POSITION) || any_chosen(reset, LEVEL_VELOCITY)))
         met = solve_speeds(reset);
     if (met) {
+        equations_turn(eq, t, reset->y, reset->y + turned);
         after = energy(reset);
         if (isfinite(after - before))
             reset->y[length - 1] += after - before;

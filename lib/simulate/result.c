@@ -6,6 +6,8 @@
 #include <math.h>
 #include <string.h>
 
+#define TURNED 0.25 /* rad: parts of what lies between two rows, for counting turns */
+
 /* --- life --- */
 
 /* a variable of an earlier result at its first row */
@@ -252,7 +254,7 @@ bool result_row(Result *r, double t, const double *y, const double *driven, RowV
     const Layout *l = r->layout;
     Solved solved;
 
-    *out = (RowValues){.t = t, .q = y, .u = y + l->n, .x = y + l->n + l->nu};
+    *out = row_of_state(l, t, y);
     if (driven != NULL) {
         out->rates = driven;
         out->z = driven + l->nx;
@@ -376,6 +378,33 @@ static void interpolate(const Result *r, int row, double t, const double *rate_a
     }
 }
 
+/* References of angles at t, from those of the row before it: in parts that no angle turns far in.
+ * y, from its interpolation, keeps what else it has. */
+static void follow_turns(Result *r, int row, double t, const double *rates, double *y)
+{
+    enum { MOST_PARTS = 1000000 };
+    const Layout *l = r->layout;
+    const double *next = rates + r->grid.length, *kept = r->grid.states;
+    double *there = NEW_ARRAY(double, r->grid.length);
+    double from = r->grid.times[row], fastest = 0;
+    int first = layout_turned(l), parts;
+
+    for (int k = first; k < first + l->turned; k++)
+        fastest = fmax(fastest, fmax(fabs(rates[k]), fabs(next[k])));
+    parts = (int)fmin(MOST_PARTS, ceil(fastest * (t - from) / TURNED));
+    kept += (ptrdiff_t)row * r->grid.length + first;
+    for (int i = 1; i <= parts; i++) {
+        double at = from + (t - from) * i / parts;
+
+        interpolate(r, row, at, rates, next, there);
+        memcpy(there + first, kept, (size_t)l->turned * sizeof(double));
+        equations_turn(numbers_equations(r->numbers), at, there, there + first);
+        memcpy(y + first, there + first, (size_t)l->turned * sizeof(double));
+        kept = y + first;
+    }
+    mem_free(there);
+}
+
 bool result_between(Result *r, double t, double *y)
 {
     const double *times = r->grid.times;
@@ -398,6 +427,8 @@ bool result_between(Result *r, double t, double *y)
     sound = row_rates(r, row, rates) && row_rates(r, row + 1, rates + r->grid.length);
     if (sound) {
         interpolate(r, row, t, rates, rates + r->grid.length, y);
+        if (r->layout->turned > 0)
+            follow_turns(r, row, t, rates, y);
         sound = motion_project(r->motion, t, y);
     }
     mem_free(rates);

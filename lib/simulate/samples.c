@@ -105,14 +105,11 @@ Status samples_take(Samples *s, double t, double *y, bool *due, Diag *diag)
     l = s->layout;
     if (!motion_solve(s->motion, t, y, &solved))
         return solver_failure(diag, t, "the equations have no solution at a sampling instant");
-    row = (RowValues){.t = t,
-                      .q = y,
-                      .u = y + l->n,
-                      .x = y + l->n + l->nu,
-                      .rates = solved.rates,
-                      .z = solved.algebraic,
-                      .acceleration = solved.acceleration,
-                      .multipliers = solved.multipliers};
+    row = row_of_state(l, t, y);
+    row.rates = solved.rates;
+    row.z = solved.algebraic;
+    row.acceleration = solved.acceleration;
+    row.multipliers = solved.multipliers;
     values = probe_values(s->next, &row);
     for (int i = 0; i < s->count; i++)
         if (is_due(&s->at[i], t))

@@ -11,6 +11,8 @@
 #define LEAST_RTOL   1e-13
 #define MOST_ROWS    20000000
 #define POINTS       4   /* between rows of a driven run, where events are looked for */
+#define TURNED       2.0 /* rad: what an angle that counts turns may go at once in a driven run, */
+#define MISSED       0.5 /* and how far off its prediction */
 #define FEW          100 /* unknowns up to which radau's dense factors beat bdf's */
 #define UNRESOLVED   0.1 /* difference of two runs, rad or m, that makes them different motions */
 #define AUTO         "auto"
@@ -341,7 +343,7 @@ static bool reach(Result *r, double from, double to, double *y, int depth)
     double h = to - from;
     double *trial = NEW_ARRAY(double, r->grid.length);
     double *rate = NEW_ARRAY(double, r->grid.length);
-    double moved = 0;
+    double moved = 0, turned = 0;
     bool sound = ode->rate(ode->context, from, y, rate);
 
     for (int i = 0; i < l->n; i++) {
@@ -351,12 +353,18 @@ static bool reach(Result *r, double from, double to, double *y, int depth)
     }
     for (int i = l->n; i < r->grid.length; i++)
         trial[i] = y[i];
-    memcpy(rate, trial, (size_t)l->n * sizeof(double));
+    for (int i = layout_turned(l); i < layout_turned(l) + l->turned; i++) {
+        trial[i] = y[i] + h * rate[i];
+        turned = fmax(turned, fabs(h * rate[i]));
+    }
+    memcpy(rate, trial, (size_t)r->grid.length * sizeof(double));
     sound = sound && motion_project(r->motion, to, trial);
     for (int i = 0; i < l->n; i++)
         moved = fmax(moved, fabs(trial[i] - rate[i]));
+    for (int i = layout_turned(l); i < layout_turned(l) + l->turned; i++)
+        turned = fmax(turned, TURNED / MISSED * fabs(trial[i] - rate[i]));
     /* far from the prediction is perhaps another branch */
-    sound = sound && moved < 0.1;
+    sound = sound && moved < 0.1 && turned < TURNED;
     if (sound)
         memcpy(y, trial, (size_t)r->grid.length * sizeof(double));
     mem_free(trial);

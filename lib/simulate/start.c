@@ -25,9 +25,8 @@ typedef struct Given {
     const StartValue *value;
     Expr expr;
     Level level;
-    int place;     /* coordinate, speed or state that it is, alone; -1 */
-    int column;    /* unknown that holding it holds: the place, or a coordinate's speed; -1 */
-    bool is_angle; /* an arc tangent: full turns don't count */
+    int place;  /* coordinate, speed or state that it is, alone; -1 */
+    int column; /* unknown that holding it holds: the place, or a coordinate's speed; -1 */
 } Given;
 
 typedef struct Assembly {
@@ -39,6 +38,7 @@ typedef struct Assembly {
     double *y;
     Given *given;
     int given_count;
+    StartValue *driven; /* what drivers make of angles that count turns */
 } Assembly;
 
 /* equations of one problem: rows of the system, then picked values as expressions */
@@ -99,7 +99,6 @@ static Status classify(Assembly *a, Given *given, Diag *diag)
                                                        : LEVEL_POSITION;
     given->place = place_of(a, given->expr, given->level);
     given->column = column_of(a, given->place, given->level);
-    given->is_angle = expr_kind(given->expr) == EXPR_CALL && expr_op(given->expr) == OP_ATAN2;
     return OK;
 }
 
@@ -108,9 +107,10 @@ static Status read_given(Assembly *a, Diag *diag)
     const StartValues *start = a->setting->start;
     Status status = OK;
 
+    a->given = NEW_ARRAY(Given, (start != NULL ? start->count : 0) + a->l->turned);
+    a->driven = NEW_ARRAY(StartValue, a->l->turned);
     if (start == NULL || a->setting->from != NULL)
         return OK;
-    a->given = NEW_ARRAY(Given, start->count);
     for (int i = 0; i < start->count; i++) {
         Given *given = &a->given[a->given_count];
 
@@ -131,8 +131,12 @@ static RowValues row_values(const Problem *p, const double *y)
     const Layout *l = p->a->l;
     const double *tail = p->row + l->n + l->nu + l->nx;
 
-    return (RowValues){
-        .q = y, .u = y + l->n, .x = y + l->n + l->nu, .rates = tail, .z = tail + l->nx};
+    return (RowValues){.q = y,
+                       .u = y + l->n,
+                       .x = y + l->n + l->nu,
+                       .rates = tail,
+                       .z = tail + l->nx,
+                       .near = p->a->y + layout_turned(l)};
 }
 
 /* symbols of the unknowns of a level, one run of the layout's but for the network's */
@@ -231,13 +235,8 @@ static void evaluate_probe(const Problem *p, const double *y, int first, double 
         const double *gradient = gradients + (ptrdiff_t)i * p->symbols;
 
         residual[first + i] = values[i];
-        if (i >= extra) {
-            const Given *given = p->picked[i - extra];
-
-            residual[first + i] -= given->value->value;
-            if (given->is_angle)
-                residual[first + i] = remainder(residual[first + i], 2 * 3.14159265358979323846);
-        }
+        if (i >= extra)
+            residual[first + i] -= p->picked[i - extra]->value->value;
         if (jacobian != NULL && p->level == LEVEL_POSITION)
             along_speeds(p, gradient, jacobian + (ptrdiff_t)(first + i) * p->columns);
         else if (jacobian != NULL)
@@ -391,6 +390,34 @@ static void begin_position(Assembly *a, WarmValue warm, void *context)
                 a->y[given->place] = given->value->value;
         }
     equations_normalise(a->eq, a->y);
+}
+
+/* Angles of chords are looked for in the turn that a given value chooses, or an earlier result;
+ * else in the one about 0. What a driver makes of them is given like others, since its own equation
+ * can't tell an angle from half a turn off. */
+static Status begin_turns(Assembly *a, WarmValue warm, void *context, Diag *diag)
+{
+    const Layout *l = a->l;
+    Status status = OK;
+
+    for (int k = 0; k < l->turned; k++) {
+        const Turned *turned = system_turned(l->system, k);
+        double value = warm != NULL ? warm(context, turned->name) : NAN;
+
+        a->driven[k].name = turned->name;
+        CHECK(parameters_driven(a->parameters, l, k, &a->driven[k].value, diag));
+        if (!isnan(a->driven[k].value))
+            a->given[a->given_count++] =
+                (Given){.value = &a->driven[k], .expr = turned->angle, .place = -1, .column = -1};
+        for (int guesses = 1; guesses >= 0; guesses--)
+            for (int i = 0; i < a->given_count; i++)
+                if (a->given[i].expr == turned->angle &&
+                    a->given[i].value->is_guess == (guesses == 1))
+                    value = a->given[i].value->value;
+        a->y[layout_turned(l) + k] = isfinite(value) ? value : 0;
+    }
+done:
+    return status;
 }
 
 /* Guesses that are no coordinates weigh as much as equations first: a branch on which they are far
@@ -735,18 +762,21 @@ Status start_find(const Layout *layout, Parameters *parameters, const Numbers *n
                   .out = out};
     Status status = OK;
 
-    *out = (Assembled){.y = NEW_ARRAY(double, layout->n + layout->nu + layout->nx + 1),
+    *out = (Assembled){.y = NEW_ARRAY(double, layout_turned(layout) + layout->turned + 1),
                        .network = NEW_ARRAY(double, layout->nx + layout->nz),
                        .rows = NEW_ARRAY(int, layout->m)};
     a.y = out->y;
     CHECK(read_given(&a, diag));
     begin_position(&a, warm, warm_context);
+    CHECK(begin_turns(&a, warm, warm_context, diag));
     CHECK(find_position(&a, diag));
+    equations_turn(a.eq, 0, a.y, a.y + layout_turned(layout));
     find_rank(&a);
     CHECK(find_velocity(&a, diag));
     CHECK(find_network(&a, setting->from != NULL ? warm : NULL, warm_context, diag));
 done:
     mem_free(a.given);
+    mem_free(a.driven);
     return status;
 }
 

@@ -11,7 +11,7 @@
 #include "simulate/numbers.h"
 
 typedef struct Assembled {
-    double *y;       /* q, u, x, 0 */
+    double *y;       /* q, u, x, references of angles, 0 */
     double *network; /* x', z: where the first search for them begins */
     int *rows;       /* independent constraint rows, rising */
     int row_count;

@@ -11,7 +11,7 @@
  * Euler parameters have the same speeds in the same order. */
 typedef struct Map {
     int *start, *speed;
-    Probe *probe; /* N */
+    Probe *probe; /* N, angles that count turns */
     double *base; /* N(q0) */
     double *at;   /* dq/ds where the last slopes were asked for */
 } Map;
@@ -35,8 +35,10 @@ struct Statics {
     Parameters parameters;
     Expr load, leak;
     int n, length;
+    int near;     /* in v, references of angles: behind the unknowns */
     double *v;    /* base */
-    Probe *probe; /* residuals, slopes */
+    Probe *probe; /* residuals, slopes, angles that count turns: from place to place */
+    int angles;   /* the first of these */
     Map map;
     LIST(Part) parts;
     int entries;
@@ -99,8 +101,10 @@ static Status make_system(Statics *s, const Model *model, const Watch *watch, Di
     CHECK(system_new_leaking(model, vary, &of, s->leak, watch, &s->system, diag));
     s->l = layout_new(s->system);
     s->n = s->l->nu + s->l->nx + s->l->m + s->l->nz;
-    s->length = s->l->n + s->l->nx + s->l->m + s->l->nz;
-    if (s->l->n != theirs->n || s->l->nx != theirs->nx || s->l->m != theirs->m)
+    s->near = s->l->n + s->l->nx + s->l->m + s->l->nz;
+    s->length = s->near + s->l->turned;
+    if (s->l->n != theirs->n || s->l->nx != theirs->nx || s->l->m != theirs->m ||
+        s->l->turned != theirs->turned)
         CHECK(diag_set(diag, E_MODEL, "at rest this model has other unknowns than in motion"));
 done:
     return status;
@@ -161,6 +165,8 @@ static Status make_map(Statics *s, Diag *diag)
     }
     map->base = NEW_ARRAY(double, roots.count);
     map->at = NEW_ARRAY(double, roots.count);
+    for (int k = 0; k < s->l->turned; k++)
+        LIST_PUSH(roots, system_turned(s->system, k)->angle);
     status = probe_new(s->l, &s->parameters, roots.at, roots.count, &map->probe, diag);
     LIST_FREE(roots);
     return status;
@@ -363,6 +369,9 @@ static Status make_rows(Statics *s, Diag *diag)
     draft_rows(s, &draft);
     list_inertia(s);
     make_pattern(s, &draft);
+    s->angles = draft.roots.count;
+    for (int k = 0; k < s->l->turned; k++)
+        LIST_PUSH(draft.roots, system_turned(s->system, k)->angle);
     status = probe_new(s->l, &s->parameters, draft.roots.at, draft.roots.count, &s->probe, diag);
     LIST_FREE(draft.roots);
     LIST_FREE(draft.row);
@@ -388,6 +397,8 @@ Status statics_new(const Model *model, Result *start, const Watch *watch, Static
     memcpy(s->v, start->start.y, (size_t)theirs->n * sizeof(double));
     memcpy(s->v + theirs->n, start->start.y + theirs->n + theirs->nu,
            (size_t)theirs->nx * sizeof(double));
+    memcpy(s->v + s->near, start->start.y + layout_turned(theirs),
+           (size_t)theirs->turned * sizeof(double));
     statics_rebase(s);
     *out = s;
     s = NULL;
@@ -459,8 +470,11 @@ static RowValues row_of(const Statics *s, const double *v)
 {
     const Layout *l = s->l;
 
-    return (RowValues){
-        .q = v, .x = v + l->n, .multipliers = v + l->n + l->nx, .z = v + l->n + l->nx + l->m};
+    return (RowValues){.near = v + s->near,
+                       .q = v,
+                       .x = v + l->n,
+                       .multipliers = v + l->n + l->nx,
+                       .z = v + l->n + l->nx + l->m};
 }
 
 double *statics_base(Statics *s)
@@ -474,6 +488,8 @@ void statics_rebase(Statics *s)
     const double *map = probe_values(s->map.probe, &row);
 
     memcpy(s->map.base, map, (size_t)s->map.start[s->l->n] * sizeof(double));
+    memcpy(s->v + s->near, map + s->map.start[s->l->n], (size_t)s->l->turned * sizeof(double));
+    memcpy(s->place + s->near, s->v + s->near, (size_t)s->l->turned * sizeof(double));
     s->values = NULL;
 }
 
@@ -487,6 +503,7 @@ void statics_place(const Statics *s, const double *w, double *v)
 {
     place_coordinates(s, w, v, NULL);
     memcpy(v + s->l->n, w + s->l->nu, (size_t)(s->n - s->l->nu) * sizeof(double));
+    memmove(v + s->near, s->place + s->near, (size_t)s->l->turned * sizeof(double));
 }
 
 /* --- numbers --- */
@@ -500,6 +517,7 @@ static void look(Statics *s, const double *w)
     memcpy(s->w, w, (size_t)s->n * sizeof(double));
     statics_place(s, w, s->place);
     s->values = probe_values(s->probe, &row);
+    memcpy(s->place + s->near, s->values + s->angles, (size_t)s->l->turned * sizeof(double));
 }
 
 const double *statics_residual(Statics *s, const double *w)

@@ -2,8 +2,9 @@
  *
  *     F(q, 0, x, z) - Phi_u^T lambda = 0,   Phi(q) = 0,   G([0; z], q, 0, x) = 0
  *
- * for v = (q, x, lambda, z), with sources and drivers as they are at t = 0. A search moves in
- * w = (s, x, lambda, z), of which there are as many as equations: from a base v0 it is
+ * for v = (q, x, lambda, z, references of angles that count turns), with sources and drivers as
+ * they are at t = 0. A search moves in w = (s, x, lambda, z), of which there are as many as
+ * equations: from a base v0 it is
  *
  *     q = q0 + N(q0) s,   each four Euler parameters brought to unit length.
  *
@@ -40,6 +41,7 @@ double *statics_base(Statics *statics); /* v0; after writing: statics_rebase() *
 void statics_rebase(Statics *statics);  /* the base is new, or the knobs are */
 /* w of the base: s is 0 */
 void statics_begin(const Statics *statics, double *w);
+/* angles in the turn that they had at the last place whose numbers were asked for */
 void statics_place(const Statics *statics, const double *w, double *v);
 
 /* --- numbers at w; borrowed, until the next place --- */

@@ -34,3 +34,6 @@ test_events_LDADD = $(unit_ldadd)
 UNIT_TESTS += test_table
 test_table_SOURCES = tests/unit/test_table.c tests/unit/session_kit.h tests/unit/test.h
 test_table_LDADD = $(unit_ldadd)
+UNIT_TESTS += test_turned
+test_turned_SOURCES = tests/unit/test_turned.c tests/unit/session_kit.h tests/unit/test.h
+test_turned_LDADD = $(unit_ldadd)
