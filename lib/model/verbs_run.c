@@ -124,9 +124,10 @@ const Verb verbs_run[] = {
          "reactions, voltages and currents. The search begins at the assembled start, so 'init' "
          "and "
          "'guess' choose which of several equilibria it is; stable or not makes no difference. "
-         "First by Newton's method with line search; where that fails, gravity, forces and sources "
-         "grow from nothing; then a conductance beside each part whose current is an expression of "
-         "its voltage shrinks to nothing; then everything creeps until it rests. What is found is "
+         "First by Newton's method with line search, beside mechanics once more after the network "
+         "has settled with positions held; where that fails, gravity, forces and sources grow from "
+         "nothing; then a conductance beside each part whose current is an expression of its "
+         "voltage shrinks to nothing; then everything creeps until it rests. What is found is "
          "printed, and is where the next runs start, until 'init' or 'assemble'.",
      .example = PENDULUM "spring k1 h1 k=2 rest=60 deg\nequilibrium\nmodes",
      .see = "op linearize modes assemble"},

@@ -1,10 +1,11 @@
 /* equilibrium.c: where everything rests
  *
- * Newton's method from the assembled start (search.c). Where that fails one of its conditions is
- * relaxed and taken back in steps as long as Newton's method follows: first gravity, forces and
- * sources grow from nothing; then a conductance beside every part whose current is an expression of
- * its voltage shrinks to nothing. At last everything creeps, masses and storage elements its
- * resistance, until it rests. */
+ * Newton's method from the assembled start (search.c), or from where the network has settled beside
+ * mechanics that stands still. Where that fails one of the conditions is relaxed and taken back in
+ * steps as long as Newton's method follows: first gravity, forces and sources grow from nothing;
+ * then a conductance beside every part whose current is an expression of its voltage shrinks to
+ * nothing. At last everything creeps, masses and storage elements its resistance, until it rests:
+ * pseudo-transient continuation (Kelley and Keyes 1998). */
 #include "simulate/result.h"
 
 #include "base/memory.h"
@@ -30,12 +31,31 @@ typedef struct Quest {
     const Layout *l;
     int n;         /* of equations */
     double *begun; /* base */
+    double *kept;  /* the same, while something is tried */
 } Quest;
 
 static void begin_again(Quest *e)
 {
     memcpy(statics_base(e->statics), e->begun, (size_t)statics_length(e->statics) * sizeof(double));
     statics_rebase(e->statics);
+}
+
+/* Newton's method at once, or once the network has settled beside mechanics that stands still */
+static bool seek(Quest *e)
+{
+    const size_t bytes = (size_t)statics_length(e->statics) * sizeof(double);
+    double *base = statics_base(e->statics);
+
+    if (search_run(e->search))
+        return true;
+    if (e->l->nu == 0 || e->l->nx + e->l->nz == 0)
+        return false;
+    memcpy(e->kept, base, bytes);
+    if (search_settle(e->search) && search_run(e->search))
+        return true;
+    memcpy(base, e->kept, bytes);
+    statics_rebase(e->statics);
+    return false;
 }
 
 /* --- paths --- */
@@ -69,14 +89,14 @@ static Status follow(Quest *e, const Path *path, bool *found)
     Status status = OK;
 
     begin_again(e);
-    *found = path->turn(e->statics, 0) && search_run(e->search);
+    *found = path->turn(e->statics, 0) && seek(e);
     while (*found && reached < 1 && share > LEAST_SHARE) {
         const double next = fmin(1, reached + share);
 
         CHECK(poll(e->watch));
         report(e->watch, path->phase, reached);
         (void)path->turn(e->statics, next);
-        if (search_run(e->search)) {
+        if (seek(e)) {
             reached = next;
             share *= 2;
         } else {
@@ -129,20 +149,21 @@ done:
     return status;
 }
 
-/* the step, or as much of it as leaves the equations in sight; how the residuals have grown */
+/* the step, or as little of it as leaves the equations in sight; how the residuals have grown */
 static double creep_on(Quest *e, Creep *c)
 {
-    double share = 1, growth;
+    const double before = search_growth(e->search, c->w);
+    double growth = before > 0 ? INFINITY : 0;
 
-    for (;; share /= 4) {
+    for (double share = 1; growth > GROWTH && share > LEAST_SHARE; share /= 4) {
         for (int k = 0; k < e->n; k++)
             c->right[k] = c->w[k] + share * c->step[k];
-        growth = search_growth(e->search, c->right) / search_growth(e->search, c->w);
-        if (growth <= GROWTH || share < LEAST_SHARE)
-            break;
+        growth = search_growth(e->search, c->right) / before;
     }
-    statics_place(e->statics, c->right, statics_base(e->statics));
-    statics_rebase(e->statics);
+    if (isfinite(growth) && before > 0) {
+        statics_place(e->statics, c->right, statics_base(e->statics));
+        statics_rebase(e->statics);
+    }
     return growth;
 }
 
@@ -174,7 +195,7 @@ static Status creep(Quest *e, bool *found, Diag *diag)
         growth = creep_on(e, &c);
         resistance *= fmin(4, fmax(0.3, 0.7 * growth));
     }
-    *found = search_run(e->search);
+    *found = seek(e);
     CHECK(poll(e->watch));
 done:
     creep_close(&c);
@@ -278,7 +299,7 @@ static void remark_freedom(const Quest *e, Result *r)
 
 static Status solve(Quest *e, Diag *diag)
 {
-    bool found = search_run(e->search);
+    bool found = seek(e);
     Status status = OK;
 
     CHECK(poll(e->watch));
@@ -309,6 +330,7 @@ static Status quest_open(Quest *e, const Model *model, Result *start, const Watc
     e->n = statics_count(e->statics);
     bytes = (size_t)statics_length(e->statics) * sizeof(double);
     e->begun = NEW_ARRAY(double, statics_length(e->statics));
+    e->kept = NEW_ARRAY(double, statics_length(e->statics));
     memcpy(e->begun, statics_base(e->statics), bytes);
     e->search = search_new(e->statics, watch);
     if (e->search == NULL)
@@ -322,6 +344,7 @@ static void quest_close(Quest *e)
     search_free(e->search);
     statics_free(e->statics);
     mem_free(e->begun);
+    mem_free(e->kept);
 }
 
 /* what was found is where a search for z begins */

@@ -42,8 +42,9 @@ struct Search {
     int speeds;             /* of w: steps */
     const int *start, *row; /* pattern of the Jacobian */
     Factors *factors;
-    double *kept;         /* base */
-    double *size, *entry; /* of rows: their terms, and their largest entries */
+    double *kept;                  /* base */
+    bool is_held;                  /* the mechanics */
+    double *missed, *size, *entry; /* of rows: residuals, their terms, their largest entries */
     SUNContext context;
     void *memory;
     N_Vector w, unit, weight; /* of a unit, of a residual: KINSOL's scales */
@@ -107,6 +108,13 @@ static int solver_solve(SUNLinearSolver solver, SUNMatrix matrix, N_Vector step,
                : SUNLS_PACKAGE_FAIL_UNREC;
 }
 
+static void residual_at(const Search *s, const double *w, double *out)
+{
+    memcpy(out, statics_residual(s->statics, w), (size_t)s->n * sizeof(double));
+    if (s->is_held)
+        statics_hold(s->statics, out, NULL);
+}
+
 static int residual(N_Vector w, N_Vector out, void *data)
 {
     const Search *s = data;
@@ -114,8 +122,7 @@ static int residual(N_Vector w, N_Vector out, void *data)
 
     if (poll(s->watch) != OK)
         return -1;
-    memcpy(values, statics_residual(s->statics, N_VGetArrayPointer(w)),
-           (size_t)s->n * sizeof(double));
+    residual_at(s, N_VGetArrayPointer(w), values);
     for (int i = 0; i < s->n; i++)
         if (!(fabs(values[i]) * NV_Ith_S(s->weight, i) <= LARGEST))
             values[i] = LARGEST / NV_Ith_S(s->weight, i);
@@ -134,6 +141,8 @@ static int jacobian(N_Vector w, N_Vector f, SUNMatrix matrix, void *data, N_Vect
         SUNSparseMatrix_IndexValues(matrix)[k] = s->row[k];
         SUNSparseMatrix_Data(matrix)[k] = values[k];
     }
+    if (s->is_held)
+        statics_hold(s->statics, NULL, SUNSparseMatrix_Data(matrix));
     return 0;
 }
 
@@ -202,6 +211,7 @@ Search *search_new(Statics *statics, const Watch *watch)
     s->watch = watch;
     s->n = statics_count(statics);
     s->kept = NEW_ARRAY(double, statics_length(statics));
+    s->missed = NEW_ARRAY(double, s->n);
     s->size = NEW_ARRAY(double, s->n);
     s->entry = NEW_ARRAY(double, s->n);
     s->speeds = statics_layout(statics)->nu;
@@ -231,6 +241,7 @@ void search_free(Search *s)
     SUNContext_Free(&s->context);
     factors_free(s->factors);
     mem_free(s->kept);
+    mem_free(s->missed);
     mem_free(s->size);
     mem_free(s->entry);
     mem_free(s);
@@ -238,7 +249,7 @@ void search_free(Search *s)
 
 /* --- rounds --- */
 
-/* w at the base, and sizes of its rows; false where something isn't finite */
+/* w at the base, its residuals and sizes of rows; false where something isn't finite */
 static bool look(Search *s)
 {
     double *w = N_VGetArrayPointer(s->w);
@@ -246,20 +257,14 @@ static bool look(Search *s)
 
     statics_begin(s->statics, w);
     values = statics_jacobian(s->statics, w);
-    if (!vector_is_finite(values, s->start[s->n]) ||
-        !vector_is_finite(statics_residual(s->statics, w), s->n))
+    residual_at(s, w, s->missed);
+    if (!vector_is_finite(values, s->start[s->n]) || !vector_is_finite(s->missed, s->n))
         return false;
     statics_sizes(s->statics, w, s->size);
     memset(s->entry, 0, (size_t)s->n * sizeof(double));
     for (int k = 0; k < s->start[s->n]; k++)
         s->entry[s->row[k]] = fmax(s->entry[s->row[k]], fabs(values[k]));
     return true;
-}
-
-/* after look() */
-static const double *residual_here(const Search *s)
-{
-    return statics_residual(s->statics, N_VGetArrayPointer(s->w));
 }
 
 static bool holds(const Search *s, int i, double missed)
@@ -271,14 +276,13 @@ static bool holds(const Search *s, int i, double missed)
  * force, or of an unknown of 1, at least, while reactions and currents are still to come. */
 static void weigh(Search *s, double share)
 {
-    const double *missed = residual_here(s);
     double force = 0;
 
     for (int i = 0; i < s->speeds; i++)
-        force = fmax(force, fmax(s->size[i], fabs(missed[i])));
+        force = fmax(force, fmax(s->size[i], fabs(s->missed[i])));
     for (int i = 0; i < s->n; i++) {
         const double least = share * (i < s->speeds && force > 0 ? force : s->entry[i]);
-        const double weight = fmax(least, fmax(s->size[i], fabs(missed[i])));
+        const double weight = fmax(least, fmax(s->size[i], fabs(s->missed[i])));
 
         NV_Ith_S(s->weight, i) = weight > 0 ? 1 / weight : 1;
     }
@@ -287,10 +291,9 @@ static void weigh(Search *s, double share)
 /* after look() */
 static bool all_hold(const Search *s)
 {
-    const double *missed = residual_here(s);
 
     for (int i = 0; i < s->n; i++)
-        if (!holds(s, i, missed[i]))
+        if (!holds(s, i, s->missed[i]))
             return false;
     return true;
 }
@@ -298,11 +301,10 @@ static bool all_hold(const Search *s)
 /* after weigh(): the residuals as KINSOL sums them */
 static double measure(const Search *s)
 {
-    const double *missed = residual_here(s);
     double sum = 0;
 
     for (int i = 0; i < s->n; i++)
-        sum += missed[i] * NV_Ith_S(s->weight, i) * missed[i] * NV_Ith_S(s->weight, i);
+        sum += s->missed[i] * NV_Ith_S(s->weight, i) * s->missed[i] * NV_Ith_S(s->weight, i);
     return sqrt(sum);
 }
 
@@ -342,7 +344,7 @@ static bool go_on(Search *s)
         if (all_hold(s)) {
             share = LITTLE_SHARE;
             weigh(s, share);
-            if (code < 0 || worst(s, residual_here(s)) <= FINE)
+            if (code < 0 || worst(s, s->missed) <= FINE)
                 return true;
         } else if (code < 0) {
             /* the fall may be seen once residuals are measured anew */
@@ -369,6 +371,16 @@ bool search_run(Search *s)
     return false;
 }
 
+bool search_settle(Search *s)
+{
+    bool found;
+
+    s->is_held = true;
+    found = search_run(s);
+    s->is_held = false;
+    return found;
+}
+
 /* --- about the base --- */
 
 double search_growth(Search *s, const double *w)
@@ -383,7 +395,7 @@ bool search_holds(Search *s, int i, double *missed)
 {
     const bool finite = look(s);
 
-    *missed = residual_here(s)[i];
+    *missed = s->missed[i];
     return finite && holds(s, i, *missed);
 }
 

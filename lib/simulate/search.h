@@ -20,6 +20,9 @@ void search_free(Search *search); /* NULL is fine */
  * found, or the watch said stop; the base stays. */
 bool search_run(Search *search);
 
+/* The same with the mechanics held where it is (statics_hold()): the network settles beside it. */
+bool search_settle(Search *search);
+
 /* --- about the base --- */
 
 /* the largest residual at w, each over what it is measured by at the base; INFINITY: undefined */

@@ -302,8 +302,14 @@ typedef struct Item {
     int row, column;
     int slope, map; /* -1: none */
     int inertia;    /* -1: none */
-} Item;
+} Item;             /* neither: an unknown's own place */
 typedef LIST(Item) Items;
+
+/* the place in w of the unknown that goes with a mechanical row: a step, or a multiplier */
+static int own_column(const Statics *s, int row)
+{
+    return row < s->l->nu ? row : row + s->l->nx;
+}
 
 static void list_items(const Statics *s, const Draft *draft, Items *items)
 {
@@ -319,6 +325,8 @@ static void list_items(const Statics *s, const Draft *draft, Items *items)
     }
     for (int k = 0; k < s->inertia.count; k++)
         LIST_PUSH(*items, (Item){s->inertia.at[k].row, s->inertia.at[k].column, -1, -1, k});
+    for (int i = 0; i < l->nu + l->m; i++)
+        LIST_PUSH(*items, (Item){i, own_column(s, i), -1, -1, -1});
 }
 
 /* the pattern of the Jacobian with inertia, by columns, and where in it everything stands */
@@ -349,7 +357,7 @@ static void make_pattern(Statics *s, const Draft *draft)
             }
             if (item->inertia >= 0)
                 s->inertia.at[item->inertia].place = seen[item->row] - 1;
-            else
+            else if (item->slope >= 0)
                 LIST_PUSH(s->parts, (Part){item->slope, seen[item->row] - 1, item->map});
         }
         s->column_start[c + 1] = s->entries;
@@ -558,6 +566,23 @@ void statics_sizes(const Statics *s, const double *w, double *size)
 
         for (int k = s->column_start[c]; k < s->column_start[c + 1]; k++)
             size[s->row[k]] += fabs(s->jacobian[k]) * place;
+    }
+}
+
+void statics_hold(const Statics *s, double *residual, double *jacobian)
+{
+    const Layout *l = s->l;
+    const int rows = l->nu + l->m;
+
+    for (int i = 0; i < rows && residual != NULL; i++)
+        residual[i] = 0;
+    for (int c = 0; c < s->n && jacobian != NULL; c++) {
+        const bool is_state = c >= l->nu && c < l->nu + l->nx;
+        const bool is_own = !is_state && c < l->nu + l->nx + l->m;
+
+        for (int k = s->column_start[c]; k < s->column_start[c + 1]; k++)
+            if (is_own || s->row[k] < rows)
+                jacobian[k] = is_own && s->row[k] < rows && own_column(s, s->row[k]) == c;
     }
 }
 

@@ -56,6 +56,10 @@ void statics_pattern(const Statics *statics, const int **start, const int **row)
  * After statics_jacobian(). */
 void statics_sizes(const Statics *statics, const double *w, double *size);
 
+/* Hold the mechanics: where s and lambda stand stay as they are, whatever the forces. Its residuals
+ * become 0; its rows and columns of the Jacobian those of 1. Either may be NULL. */
+void statics_hold(const Statics *statics, double *residual, double *jacobian);
+
 /* Add `share` times the mass matrix (by s) and the storage elements' part of A (by x) at w to
  * entries of the Jacobian. Compiles at its first call. */
 MUST_USE Status statics_add_inertia(Statics *statics, const double *w, double share,
