@@ -12,7 +12,7 @@ EXTRA_DIST += doc/pictures/list \
 	doc/pictures/loudspeaker.txt doc/pictures/maglev.txt doc/pictures/microphone.txt \
 	doc/pictures/slider-crank.txt
 # what is made stands in the folder of the build
-TEXI2DVI = texi2dvi -I doc -I $(srcdir)/doc
+doc/cotree.pdf doc/cotree.dvi: export TEXINPUTS = doc:$(srcdir)/doc:
 doc/cotree.html doc/cotree.pdf doc/cotree.dvi: doc/pictures/drawn
 doc/pictures/drawn: doc/pictures/list cotree$(EXEEXT)
 	$(srcdir)/scripts/dev/pictures ./cotree png doc/pictures
