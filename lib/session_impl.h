@@ -107,14 +107,29 @@ void session_remark_free(ct_session *session);
 
 void run_free(Run *run);
 /* What a run is told, made from the model as it is. */
+/* what must not come to 0 in a run, each with its event and with its value at the start */
+typedef struct BoundWatch {
+    LIST(Bound) bounds;
+    LIST(Event) events;
+    LIST(double) from;
+    Pool *pool;
+} BoundWatch;
+
 typedef struct Order {
     ParameterValues *parameters;
     StartValues start;
     const Event **events;
+    BoundWatch watch;
     Setting setting;
 } Order;
 void order_make(ct_session *session, Order *order);
 void order_free(Order *order); /* what it holds */
+/* Watch where the laws of the system's parts end, in a run that the order is for; `old`: the one
+ * that it goes on with, or NULL. Afterwards: E_SOLVER, with the part and what came to 0, where one
+ * did; else the status that the run had. */
+void watch_bounds(System *system, const Result *old, Order *order);
+MUST_USE Status check_bounds(const Order *order, Result *result, Status status, Diag *diag);
+void watch_free(BoundWatch *watch);
 /* the result and the parameters that it was made with */
 Run order_done(Order *order, Result *result);
 /* the assembled start of the model as it is, made when it isn't there yet; borrowed */

@@ -61,6 +61,7 @@ void order_free(Order *order)
 {
     mem_free(order->start.at);
     mem_free(order->events);
+    watch_free(&order->watch);
     if (order->parameters != NULL) {
         Run run = {NULL, order->parameters};
 
@@ -267,6 +268,20 @@ static void remark_critical(ct_session *session, Result *result)
     mem_free(values);
 }
 
+/* what the run had to say, less the end at a bound, which is an error and said as one */
+static void remark_run(ct_session *session, const char *lines)
+{
+    while (*lines != '\0') {
+        const size_t length = strcspn(lines, "\n");
+        char *line = mem_text(lines, length);
+
+        if (strstr(line, BOUND_MARK) == NULL)
+            session_remark(session, line);
+        mem_free(line);
+        lines += length + (lines[length] == '\n');
+    }
+}
+
 static void keep_run(ct_session *session, Order *order, Result *result)
 {
     Text line = {0};
@@ -276,7 +291,7 @@ static void keep_run(ct_session *session, Order *order, Result *result)
     session_note_freedoms(session, result);
     session->start_is_later = false;
     session->changed = false;
-    session_remark(session, result_remarks(result));
+    remark_run(session, result_remarks(result));
     remark_critical(session, result);
     (void)snprintf(name, sizeof name, "run%d", session->runs.count);
     report_line(&line, result, name);
@@ -295,9 +310,12 @@ static Status run_new(ct_session *session, RunFunction *function, const RunOptio
     CHECK(session_system(session, &system, diag));
     order_make(session, &order);
     CHECK(session_check_freedoms(session, system, &order.setting, diag));
+    if (function == run_simulate)
+        watch_bounds(system, NULL, &order);
     status = function(system, &order.setting, options, &result, diag);
     if (result == NULL)
         goto done;
+    status = check_bounds(&order, result, status, diag);
     /* also what was computed before a stop or a failure */
     keep_run(session, &order, result);
 done:
@@ -338,9 +356,12 @@ static Status run_on(ct_session *session, const Statement *s, const RunOptions *
     old = session->runs.at[session->runs.count - 1].result;
     options = options_from(old, said);
     order_make(session, &order);
+    watch_bounds(result_system((Result *)old), old, &order);
     status = run_resume(old, &order.setting, &options, &result, diag);
-    if (result != NULL)
+    if (result != NULL) {
+        status = check_bounds(&order, result, status, diag);
         keep_run(session, &order, result);
+    }
     order_free(&order);
     return status;
 }

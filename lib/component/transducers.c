@@ -237,10 +237,13 @@ const Component component_platecap = {
     .members = capacitive_members,
     .member_count = COUNT(capacitive_members),
     .check = platecap_check,
-    .help = "A capacitor whose capacitance is a law of a joint's coordinate s: its charge is "
-            "C(s)*v, and it pushes the tip along s with 1/2*dC/ds*v^2. Plates of area A are "
-            "C=eps*A/s where s is the gap, and C=eps*A/(d - s) where s counts towards the fixed "
-            "plate at d. Other variables can't stand in C, since they would do work, too.",
+    .help =
+        "A capacitor whose capacitance is a law of a joint's coordinate s: its charge is "
+        "C(s)*v, and it pushes the tip along s with 1/2*dC/ds*v^2. Plates of area A are "
+        "C=eps*A/s where s is the gap, and C=eps*A/(d - s) where s counts towards the fixed "
+        "plate at d. Other variables can't stand in C, since they would do work, too. A run that "
+        "closes the gap ends there with an error; 'event closed when=d - s < 1e-6 do=stop' ends "
+        "it before.",
     .example = "scene planar\nbody plate mass=1e-3 inertia=0\nprismatic s ground plate axis=x\n"
                "spring k1 s k=100\ndamper d1 s d=0.1\nvsource E1 a 0 10\n"
                "resistor R1 a b 10 kohm\nplatecap C1 s b 0 C=1e-10/(1e-3 - s)\n"

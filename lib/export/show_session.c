@@ -239,11 +239,18 @@ static void print_times(Text *out, const EventRecord *record)
         text_addf(out, " s%s", record->ended ? ", which ended the run" : "");
 }
 
+/* events of the model, and what ended the run as one */
+static bool is_told(const EventRecord *record)
+{
+    return record->count > 0 || strstr(record->name, BOUND_MARK) == NULL;
+}
+
 Status show_events(const View *view, const Selection *selection, Text *out, Diag *diag)
 {
     const int count = model_event_count(view->model);
-    const int past = view->result != NULL ? result_event_count(view->result) : 0;
+    const int all = view->result != NULL ? result_event_count(view->result) : 0;
     Table table = table_for("lll");
+    int past = 0;
 
     (void)selection, (void)diag;
     for (int i = 0; i < count; i++) {
@@ -258,14 +265,21 @@ Status show_events(const View *view, const Selection *selection, Text *out, Diag
     }
     table_print(out, &table, 0);
     table_free(&table);
+    for (int i = 0; i < all; i++) {
+        const EventRecord record = result_event(view->result, i);
+
+        past += is_told(&record);
+    }
     if (count + past == 0)
         text_add(out, "no events\n");
     if (past > 0)
         text_add(out, "in the last run:\n");
-    for (int i = 0; i < past; i++) {
+    for (int i = 0; i < all; i++) {
         const EventRecord record = result_event(view->result, i);
         Text lead = {0}, times = {0};
 
+        if (!is_told(&record))
+            continue;
         print_times(&times, &record);
         text_addf(&lead, "  %s  ", record.name);
         layout_words(out, view->page.columns, lead.at, times.at);

@@ -3,7 +3,7 @@ libcore_la_SOURCES += \
 	lib/formulate/common_turns.c \
 	lib/formulate/composite.c \
 	lib/formulate/constraints.c \
-	lib/formulate/critical.c \
+	lib/formulate/bounds.c lib/formulate/critical.c \
 	lib/formulate/coordinate.c \
 	lib/formulate/dynamics.c \
 	lib/formulate/efforts.c \

@@ -242,6 +242,18 @@ typedef struct Critical {
 /* the i-th of the system, 0, 1 ...; false after the last */
 bool system_critical(System *system, int i, Critical *out);
 
+/* --- where the law of a part that stores ends --- */
+
+typedef struct Bound {
+    const char *instance; /* whose law it is; borrowed */
+    Expr measure;         /* over the user's variables: the law holds while it keeps its sign */
+    bool is_gap;          /* charge or flux grow beyond bounds there; else they vanish */
+} Bound;
+/* All of a system: a new array, mem_free(). O(parts). */
+int system_bounds(System *system, Bound **out);
+/* The event that watches one in a run is called "C2 at its bound": no event of a model is. */
+#define BOUND_MARK " at its bound"
+
 /* --- inverse runs: drivers, and what supplies their motion --- */
 
 typedef struct Drive {

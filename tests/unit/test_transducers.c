@@ -288,6 +288,72 @@ static void sensor_of_a_force_tells_the_weight(void)
                  "R1.i", 0.5 * 20 / 100, 1e-9);
 }
 
+/* --- where laws end --- */
+
+#define PULLED_IN                                                                                  \
+    "scene planar\neA = 5e-5; s0 = 0.05\nbody plate mass=0.1\nprismatic s ground plate axis=x\n"   \
+    "spring k s k=200 d=0.8\nvsource E1 a 0 2000\nresistor R1 a b 10\n"                            \
+    "platecap C2 s b 0 C=eA/(s0 - s)\ninit C2.v = 0\n"
+
+/* whatever the method, and however long the steps: the way through the gap is no way */
+static void a_gap_that_closes_ends_the_run(void)
+{
+    static const char *const methods[] = {"dop853", "radau", "bdf", "ida", "rk4 step=0.0001"};
+    double when = 0;
+
+    for (int i = 0; i < COUNT(methods); i++) {
+        Kit kit = kit_new();
+        char line[80];
+
+        EXPECT_DONE(&kit, PULLED_IN);
+        (void)snprintf(line, sizeof line, "simulate 1 every=0.01 method=%s", methods[i]);
+        EXPECT_FAILS(&kit, line,
+                     "the gap of C2 closed: s0 - s came to 0, where its law has no bound");
+        EXPECT_HOLDS(kit.error.hint, "event closed when=s0 - s < 0.0005 do=stop");
+        /* what was computed is kept, up to there */
+        EXPECT_NEAR(kit_value(&kit, "s"), 0.05, 1e-7);
+        when = i == 0 ? kit_value(&kit, "max(t)") : when;
+        EXPECT_NEAR(kit_value(&kit, "max(t)"), when, 1e-6 * when + (i == 4 ? 1e-5 : 0));
+        EXPECT_DONE(&kit, "show events");
+        EXPECT_HOLDS(kit.text, "C2 at its bound");
+        /* the way out that the hint tells */
+        EXPECT_DONE(&kit, "event closed when=s0 - s < 0.0005 do=stop\n");
+        EXPECT_DONE(&kit, line);
+        EXPECT_NEAR(kit_value(&kit, "s"), 0.0495, 1e-9);
+        EXPECT_DONE(&kit, "show events");
+        EXPECT_LACKS(kit.text, "C2 at its bound");
+        kit_free(&kit);
+    }
+}
+
+/* L0 - k s: a coil that leaves its core, by a law that is straight for too long */
+static void a_law_that_falls_to_nothing_ends_the_run(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, "scene planar\nL0 = 0.1; k = 1; v = 2\nbody core mass=1\n"
+                      "prismatic s ground core axis=x\nisource I1 0 a 0.01\n"
+                      "solenoid X s a 0 L=L0 - k*s R=1\ninit s = 0, s' = v\n");
+    EXPECT_FAILS(&kit, "simulate 1 every=0.01", "the law of X came to its end: L0 - k*s fell to 0");
+    EXPECT_HOLDS(kit.error.hint, "event closed when=L0 - k*s < 0.001 do=stop");
+    EXPECT_NEAR(kit_value(&kit, "s"), 0.1, 1e-6);
+    kit_free(&kit);
+}
+
+/* a measure that is negative from the start */
+static void a_gap_may_be_counted_backwards(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, "scene planar\neA = 5e-5; s0 = 0.05\nbody plate mass=0.1\n"
+                      "prismatic s ground plate axis=x\nspring k s k=200 d=0.8\n"
+                      "vsource E1 a 0 2000\nresistor R1 a b 10\n"
+                      "platecap C2 s b 0 C=-eA/(s + s0)\ninit s = -0.1, s' = 0, C2.v = 0\n");
+    EXPECT_FAILS(&kit, "simulate 1 every=0.01", "the gap of C2 closed: s0 + s came to 0");
+    EXPECT_HOLDS(kit.error.hint, "event closed when=s0 + s > -0.0005 do=stop");
+    kit_free(&kit);
+}
+
 int main(void)
 {
     RUN(every_transducer_balances_its_power);
@@ -301,5 +367,8 @@ int main(void)
     RUN(energy_is_kept_through_transducers);
     RUN(sensors_tell_without_a_load);
     RUN(sensor_of_a_force_tells_the_weight);
+    RUN(a_gap_that_closes_ends_the_run);
+    RUN(a_law_that_falls_to_nothing_ends_the_run);
+    RUN(a_gap_may_be_counted_backwards);
     return test_end();
 }
