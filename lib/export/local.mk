@@ -13,4 +13,4 @@ libcore_la_SOURCES += lib/export/help.h lib/export/help.c lib/export/help_topics
 
 # files in other formats
 libcore_la_SOURCES += lib/export/write.h lib/export/write_csv.c lib/export/write_latex.c \
-	lib/export/write_c.c
+	lib/export/write_c.c lib/export/tables.h lib/export/tables.c

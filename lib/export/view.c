@@ -2,6 +2,7 @@
 #include "export/view.h"
 
 #include "export/abbreviate.h"
+#include "export/tables.h"
 
 #include <ctype.h>
 #include <stdio.h>
@@ -405,7 +406,8 @@ void view_equations(Text *out, const View *view, Equations *equations)
         names = abbreviate(model_arena(view->model), terms, count, &naming);
         scatter(equations, names.roots);
     }
-    /* programs want names before they are used, readers afterwards */
+    /* programs want data and names before they are used, readers names afterwards */
+    tables_print(out, view->page.notation, "", terms, count);
     if (is_language(view))
         print_definitions(out, view, &names);
     for (int i = 0; i < equations->count; i++)

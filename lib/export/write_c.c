@@ -6,6 +6,7 @@
  * these. Symbols become local variables with the user's names, made into
  * identifiers. */
 #include "export/abbreviate.h"
+#include "export/tables.h"
 #include "export/write.h"
 
 #include "base/names.h"
@@ -226,17 +227,7 @@ static void add_tables(Text *out, const Expr *roots, int count)
             "    return order == 2 ? a * m[i] + b * m[i + 1] : order == 3 ? (m[i + 1] - m[i]) / h "
             ": "
             "0;\n}\n");
-    for (int i = 0; i < found; i++) {
-        const Curve *table = expr_data(symbols[i]);
-
-        text_addf(out, "\n/* column %s of %s */\nstatic const double %s[] = {%d", table->column,
-                  table->file, expr_name(symbols[i]), table->count);
-        for (int k = 0; k < 3 * table->count; k++) {
-            text_add(out, k % 4 == 0 ? ",\n    " : ", ");
-            text_number(out, table->data[k], 17);
-        }
-        text_add(out, "};\n");
-    }
+    tables_print(out, NOTATION_C, "\n", roots, count);
     mem_free(symbols);
 }
 

@@ -149,6 +149,8 @@ Expr expr_table(Arena *arena, Expr data, Expr x, int order);
 const Curve *expr_data(Expr symbol); /* of a SYMBOL_TABLE; NULL for others */
 /* the SYMBOL_TABLEs that occur, each once; new array, free with mem_free() */
 int expr_tables(const Expr *roots, int count, Expr **symbols);
+/* Which derivatives of a table occur in roots: bit 1 << order. */
+unsigned expr_table_orders(const Expr *roots, int count, Expr symbol);
 
 /* --- the table of functions --- */
 

@@ -261,9 +261,32 @@ static void c_call(Printer *printer, Expr e)
     say_call(printer, e, c_patterns, "");
 }
 
+/* table1_, table1_d ...: functions, whose names may not begin as those of C */
+static void matlab_symbol(Text *out, Expr symbol)
+{
+    if (expr_data(symbol) != NULL)
+        text_addf(out, "%s_", expr_name(symbol) + 1);
+    else
+        code_symbol(out, symbol);
+}
+
+static void matlab_table(Printer *printer, Expr e)
+{
+    static const char *const derivatives[CURVE_ORDERS] = {"(", "d(", "dd(", "ddd("};
+    const Expr *args = node_args(e);
+
+    say_node(printer, args[0], LEVEL_ATOM);
+    say(printer, derivatives[(int)expr_value(args[2])]);
+    say_node(printer, args[1], LEVEL_ANY);
+    say(printer, ")");
+}
+
 static void matlab_call(Printer *printer, Expr e)
 {
-    say_call(printer, e, matlab_patterns, "");
+    if (e->op == OP_TABLE && expr_data(node_args(e)[0]) != NULL)
+        matlab_table(printer, e);
+    else
+        say_call(printer, e, matlab_patterns, "");
 }
 
 static void python_call(Printer *printer, Expr e)
@@ -290,14 +313,17 @@ static Level closed_level(Expr e)
 
 /* clang-format off */
 #define INLINE .plus = " + ", .minus = " - ", .times = "*", .open = "(", .close = ")", \
-               .symbol = code_symbol, .fraction = code_fraction
+               .fraction = code_fraction
 
-const Dialect dialect_c = {INLINE, .number = c_number, .power = c_power,
-    .power_level = c_power_level, .call = c_call, .call_level = operator_level};
-const Dialect dialect_matlab = {INLINE, .number = plain_number, .power = matlab_power,
-    .power_level = sign_power_level, .call = matlab_call, .call_level = matlab_level};
-const Dialect dialect_python = {INLINE, .number = plain_number, .power = star_power,
-    .power_level = sign_power_level, .call = python_call, .call_level = closed_level};
-const Dialect dialect_fortran = {INLINE, .number = fortran_number, .power = star_power,
-    .power_level = sign_power_level, .call = fortran_call, .call_level = closed_level};
+const Dialect dialect_c = {INLINE, .symbol = code_symbol, .number = c_number,
+    .power = c_power, .power_level = c_power_level, .call = c_call, .call_level = operator_level};
+const Dialect dialect_matlab = {INLINE, .symbol = matlab_symbol, .number = plain_number,
+    .power = matlab_power, .power_level = sign_power_level, .call = matlab_call,
+    .call_level = matlab_level};
+const Dialect dialect_python = {INLINE, .symbol = code_symbol, .number = plain_number,
+    .power = star_power, .power_level = sign_power_level, .call = python_call,
+    .call_level = closed_level};
+const Dialect dialect_fortran = {INLINE, .symbol = code_symbol, .number = fortran_number,
+    .power = star_power, .power_level = sign_power_level, .call = fortran_call,
+    .call_level = closed_level};
 /* clang-format on */

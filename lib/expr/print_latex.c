@@ -100,12 +100,31 @@ static void latex_word(Text *out, const char *word, size_t length, int primes)
     text_char(out, '}');
 }
 
+/* "table" with the file and the column below */
+static void latex_table(Text *out, const Curve *curve)
+{
+    const char *const words[] = {curve->file, curve->column[0] != '\0' ? ", " : "", curve->column};
+
+    text_add(out, "\\operatorname{table}_{\\text{");
+    for (int i = 0; i < COUNT(words); i++)
+        for (const char *c = words[i]; *c != '\0'; c++) {
+            if (strchr("#$%&_{}", *c) != NULL)
+                text_char(out, '\\');
+            text_char(out, strchr("\\~^", *c) != NULL ? ' ' : *c);
+        }
+    text_add(out, "}}");
+}
+
 static void latex_symbol(Text *out, Expr symbol)
 {
     const char *name = expr_name(symbol);
     size_t end = strlen(name);
     int primes = 0;
 
+    if (expr_data(symbol) != NULL) {
+        latex_table(out, expr_data(symbol));
+        return;
+    }
     if (node_symbol(symbol)->latex != NULL) {
         text_add(out, node_symbol(symbol)->latex);
         return;
@@ -220,6 +239,16 @@ static void latex_call(Printer *printer, Expr e)
         say(printer, " \\\\ ");
         say_node(printer, args[2], LEVEL_ANY);
         say(printer, " & \\text{otherwise} \\end{cases}");
+        return;
+    }
+    if (e->op == OP_TABLE && expr_data(args[0]) != NULL) {
+        static const char *const primes[CURVE_ORDERS] = {"", "'", "''", "'''"};
+
+        say_node(printer, args[0], LEVEL_ATOM);
+        say(printer, primes[(int)expr_value(args[2])]);
+        say(printer, "\\left(");
+        say_node(printer, args[1], LEVEL_ANY);
+        say(printer, "\\right)");
         return;
     }
     say(printer, names[e->op]);

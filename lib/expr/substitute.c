@@ -161,6 +161,23 @@ int expr_tables(const Expr *roots, int count, Expr **symbols)
     return found.count;
 }
 
+unsigned expr_table_orders(const Expr *roots, int count, Expr symbol)
+{
+    Walk walk = {0};
+    unsigned orders = 0;
+
+    for (int i = 0; i < count; i++)
+        walk_below(&walk, roots[i], 0, NULL, NULL);
+    for (int i = 0; i < walk.count; i++) {
+        Expr e = walk.nodes[i];
+
+        if (e->kind == EXPR_CALL && e->op == OP_TABLE && node_args(e)[0] == symbol)
+            orders |= 1U << (unsigned)expr_value(node_args(e)[2]);
+    }
+    walk_free(&walk);
+    return orders;
+}
+
 /* --- looking --- */
 
 ExprKind expr_kind(Expr e)

@@ -6,6 +6,7 @@
 #include "compile/program.h"
 #include "expr/expr.h"
 
+#include <stdlib.h>
 #include <unistd.h>
 
 #define FILE_NAME "test_table_data.csv"
@@ -226,6 +227,77 @@ static void wrong_data_are_refused_at_their_place(void)
     (void)unlink(FILE_NAME);
 }
 
+/* --- in other notations --- */
+
+/* the hat's cubics by hand: 1.5 d - 0.5 d^3 up, 1 - 1.5 d^2 + 0.5 d^3 down */
+static void programs_are_given_the_data(void)
+{
+    Kit kit = kit_new();
+
+    write_file("x,y\n-1,0\n0,1\n1,0\n");
+    EXPECT_DONE(&kit, "scene planar\nbody m mass=1\nprismatic s ground m axis=x\n"
+                      "actuator F s force=table(\"" FILE_NAME "\", s, \"y\")\n"
+                      "show forces as matlab\n");
+    EXPECT_HOLDS(kit.text, "% column y of " FILE_NAME "\n"
+                           "table1_ = @(v) ppval(mkpp([-1, 0, 1], ...\n"
+                           "    [-0.5, 0, 1.5, 0; ...\n"
+                           "    0.5, -1.5, 0, 1]), min(max(v, -1), 1));\n");
+    EXPECT_HOLDS(kit.text, "forces(1) = table1_(s);\n");
+    EXPECT_DONE(&kit, "show forces as c\n");
+    EXPECT_HOLDS(kit.text,
+                 "static const double _table1[] = {3,\n    -1, 0, 1, 0,\n    1, 0, 0, -3,\n"
+                 "    0};\nforces[0] = table(_table1, s, 0.0);\n");
+    EXPECT_DONE(&kit, "show forces as latex\n");
+    EXPECT_HOLDS(kit.text, "\\operatorname{table}_{\\text{test\\_table\\_data.csv, y}}"
+                           "\\left(s\\right)");
+    EXPECT_DONE(&kit, "show (table(\"" FILE_NAME "\", s, 2, 2)) as matlab\n");
+    EXPECT_HOLDS(kit.text, "table1_dd = @(v) (-1 <= v & v <= 1).*ppval(mkpp([-1, 0, 1], ...\n"
+                           "    [-3, 0; ...\n    3, -3]), v);\n");
+    EXPECT_LACKS(kit.text, "table1_ = ");
+    kit_free(&kit);
+    (void)unlink(FILE_NAME);
+}
+
+/* value and derivatives, inside and outside, as an interpreter of the language finds them */
+static void octave_computes_the_same(void)
+{
+    Kit kit = kit_new();
+    FILE *script = fopen("test_table.m", "w"), *pipe;
+
+    write_file("x,y\n-1,0.5\n0,1\n0.25,-3\n1,2\n");
+    EXPECT_DONE(&kit, "scene planar\nbody m mass=1\nprismatic s ground m axis=x\n");
+    for (int order = 0; order < 4; order++) {
+        char line[120];
+
+        (void)snprintf(line, sizeof line, "output w%d = table(\"" FILE_NAME "\", s, 2, %d)", order,
+                       order);
+        EXPECT_DONE(&kit, line);
+    }
+    EXPECT_DONE(&kit, "show outputs as matlab");
+    EXPECT(script != NULL);
+    if (script != NULL) {
+        (void)fprintf(script,
+                      "for s = -1.3:0.1:1.3\n%s\nprintf('%%.17g\\n', w0, w1, w2, w3);\nend\n",
+                      kit.text);
+        (void)fclose(script);
+        pipe = popen("octave-cli -q --norc test_table.m 2>/dev/null", "r");
+        for (int i = 0; i < 4 * 27; i++) {
+            const int point = i / 4, order = i % 4;
+            char expression[120];
+            double got = NAN;
+
+            EXPECT(pipe != NULL && fscanf(pipe, "%lf", &got) == 1);
+            (void)snprintf(expression, sizeof expression, "table(\"" FILE_NAME "\", %.17g, 2, %d)",
+                           -1.3 + 0.1 * point, order);
+            EXPECT_NEAR(got, kit_value(&kit, expression), 1e-9);
+        }
+        EXPECT(pipe != NULL && pclose(pipe) >= 0);
+    }
+    (void)unlink("test_table.m");
+    (void)unlink(FILE_NAME);
+    kit_free(&kit);
+}
+
 int main(void)
 {
     RUN(three_points_make_the_known_curve);
@@ -235,5 +307,10 @@ int main(void)
     RUN(columns_go_by_number_and_by_name);
     RUN(a_source_follows_its_data_and_their_slope);
     RUN(wrong_data_are_refused_at_their_place);
+    RUN(programs_are_given_the_data);
+    if (system("octave-cli --version >/dev/null 2>&1") == 0) /* NOLINT(cert-env33-c) */
+        RUN(octave_computes_the_same);
+    else
+        SKIP("octave_computes_the_same", "no octave-cli (package octave)");
     return test_end();
 }
