@@ -52,6 +52,7 @@ static Status assemble_real(ct_session *session, const Setting *setting, Model *
     plain.warm = NULL;
     if (status == OK)
         status = system_new(*model, &session->watch, system, diag);
+    plain.model = *model;
     if (status == OK)
         status = run_assemble(*system, &plain, out, diag);
     return status == E_STOPPED ? status : OK;

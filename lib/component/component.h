@@ -142,8 +142,18 @@ typedef enum RelationKind {
     RELATION_INDUCTIVE,  /* v = content' + rest */
     RELATION_PORT,       /* of a part with two edges: v = value or i = inverse, over the v and i of
                             the other edge; each edge gives one of them, as the tree asks */
-    RELATION_FREE        /* value = 0, which gives neither: a nullor's output, an ideal switch */
+    RELATION_FREE,       /* value = 0, which gives neither: a nullor's output */
+    RELATION_IDEAL       /* closed v = on i + least, open i = v/off: see Ideal */
 } RelationKind;
+
+/* A switch or diode without resistance on one side or on both. Runs take the side that it is on as
+ * its relation; elsewhere both are one equation, which gives neither v nor i. */
+typedef struct Ideal {
+    Expr when;  /* what closes it; NULL: a diode, which closes at v > least and opens at i < 0 */
+    Expr on;    /* resistance when it is closed, or 0 */
+    Expr off;   /* when it is open; NULL: nothing flows. A diode has none */
+    Expr least; /* across it when it is closed */
+} Ideal;
 
 /* of one scalar edge; over t, parameters and the user's variables, its own among them */
 typedef struct Relation {
@@ -154,6 +164,7 @@ typedef struct Relation {
     Expr rest;    /* back-emf, resistance of a winding; 0 */
     Expr stored;  /* energy in the edge, J; NULL: none, or it isn't known in closed form */
     Expr smooth;  /* what `value` holds the rate of, so that it may not jump; NULL: nothing */
+    Ideal ideal;  /* of RELATION_IDEAL */
 } Relation;
 
 /* a state of a part's own, x' = rate, or one that is held and replaced at each sampling instant */

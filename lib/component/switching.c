@@ -4,9 +4,9 @@
  *   exponential   i = Is (exp(v/(n Vt)) - 1) + G v,  Vt = k T/q at T = 300.15 K (27 degrees
  *                 Celsius), G = 1e-12 S, without which diodes that all block leave voltages open
  *   piecewise     i = v/Roff below Vf, Vf/Roff + (v - Vf)/Ron above it
- *   ideal         i >= 0, v <= Vf, i (v - Vf) = 0, written as i = max(0, i + g (v - Vf)) with
- *                 g = 1 S; any g > 0 has the same solutions
- * The comparisons in max and if are located by runs. */
+ *   ideal         i >= 0, v <= Vf, i (v - Vf) = 0
+ * The comparisons in max and if are located by runs, and so are the ends of an ideal part's sides.
+ */
 #include "component/component_rows.h"
 
 #include <string.h>
@@ -88,10 +88,9 @@ static void diode_relation(const Instance *instance, Arena *arena, int which, co
         *out = (Relation){.kind = RELATION_CONDUCTIVE,
                           .value = piecewise(instance, arena, motion->across, excess)};
     } else {
-        Expr i = motion->through;
-        Expr flows = expr_call2(arena, OP_MAX, expr_int(arena, 0), expr_add(arena, i, excess));
-
-        *out = (Relation){.kind = RELATION_FREE, .value = expr_sub(arena, i, flows)};
+        *out = (Relation){
+            .kind = RELATION_IDEAL,
+            .ideal = {.on = expr_int(arena, 0), .least = instance_scalar(instance, "Vf")}};
     }
 }
 
@@ -159,19 +158,18 @@ static void switch_relation(const Instance *instance, Arena *arena, int which,
     Expr when = instance_scalar(instance, "when");
     Expr on = instance_scalar(instance, "Ron");
     Expr off = instance_scalar(instance, "Roff");
-    Expr closed = expr_sub(arena, motion->across, expr_mul(arena, on, motion->through));
-    Expr open = motion->through;
 
-    (void)which;
-    if (given(instance, "Ron") && given(instance, "Roff")) {
+    (void)which, (void)motion;
+    if (given(instance, "Ron") && given(instance, "Roff"))
         *out = (Relation){.kind = RELATION_RESISTIVE,
                           .value = expr_if(arena, when, on, off),
                           .rest = expr_int(arena, 0)};
-        return;
-    }
-    if (given(instance, "Roff"))
-        open = expr_sub(arena, motion->across, expr_mul(arena, off, motion->through));
-    *out = (Relation){.kind = RELATION_FREE, .value = expr_if(arena, when, closed, open)};
+    else
+        *out = (Relation){.kind = RELATION_IDEAL,
+                          .ideal = {.when = when,
+                                    .on = on,
+                                    .off = given(instance, "Roff") ? off : NULL,
+                                    .least = expr_int(arena, 0)}};
 }
 
 static Status switch_check(const Instance *instance, Arena *arena, bool planar, Diag *diag)

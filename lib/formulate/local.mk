@@ -3,7 +3,9 @@ libcore_la_SOURCES += \
 	lib/formulate/common_turns.c \
 	lib/formulate/composite.c \
 	lib/formulate/constraints.c \
-	lib/formulate/bounds.c lib/formulate/critical.c \
+	lib/formulate/bounds.c \
+	lib/formulate/counting.c \
+	lib/formulate/critical.c \
 	lib/formulate/coordinate.c \
 	lib/formulate/dynamics.c \
 	lib/formulate/efforts.c \
@@ -11,6 +13,7 @@ libcore_la_SOURCES += \
 	lib/formulate/energy.c \
 	lib/formulate/frames.c \
 	lib/formulate/framesum.c \
+	lib/formulate/ideal.c \
 	lib/formulate/motion.c \
 	lib/formulate/network.c \
 	lib/formulate/network_order.c \

@@ -91,6 +91,8 @@ static void read_relation(System *system, Branchlike *branch)
     instance->row->relation(&source, arena, branch->which, &motion, &branch->relation);
     if (system->leak != NULL)
         add_leak(system, motion.across, &branch->relation);
+    if (branch->relation.kind == RELATION_IDEAL)
+        ideal_take_side(system, branch);
 }
 
 /* what couplings bring to the relations of two parts */
@@ -456,6 +458,7 @@ static Status by_relation(System *system, Branchlike *branch, bool *given, Expr 
             return resolve(system, branch->branch ? relation->value : relation->inverse, out, diag);
         break;
     case RELATION_FREE:
+    case RELATION_IDEAL:
         break;
     }
     *given = false;
@@ -572,8 +575,9 @@ static void add_branches(System *system)
             int edge = system->instances[i].scalar_edges[k];
 
             system->scalar_of_edge[edge] = system->branches.count;
-            LIST_PUSH(system->branches,
-                      (Branchlike){.edge = edge, .instance = i, .which = k, .unknown = -1});
+            LIST_PUSH(
+                system->branches,
+                (Branchlike){.edge = edge, .instance = i, .which = k, .unknown = -1, .ideal = -1});
         }
 }
 

@@ -77,6 +77,7 @@ static Status relation_row(System *system, Unknown *y, Diag *diag)
     Expr value = NULL;
     Expr rest = NULL;
     Expr content = NULL;
+    bool shared = false;
     Status status = OK;
 
     CHECK(network_across(system, branch, &v, diag));
@@ -119,9 +120,16 @@ static Status relation_row(System *system, Unknown *y, Diag *diag)
         CHECK(port_row(system, branch, y, diag));
         break;
     case RELATION_FREE:
+    case RELATION_IDEAL:
         y->left = value;
         y->right = expr_int(arena, 0);
         break;
+    }
+    if (branch->ideal >= 0)
+        CHECK(ideal_share(system, branch, &shared, &value, diag));
+    if (shared) {
+        y->left = value;
+        y->right = expr_int(arena, 0);
     }
 done:
     return status;
@@ -246,12 +254,18 @@ static Status cant_be_met(System *system, const Unknown *y, Diag *diag)
     const Branchlike *branch = y->branchlike >= 0 ? &system->branches.at[y->branchlike] : NULL;
     RelationKind kind = branch != NULL ? branch->relation.kind : RELATION_FREE;
 
+    bool ideal = branch != NULL && branch->ideal >= 0;
+
     if (kind == RELATION_ACROSS && !branch->branch) {
-        (void)diag_set(diag, E_MODEL, "the sources %s form a circuit",
+        (void)diag_set(diag, E_MODEL,
+                       ideal ? "%s form a circuit without resistance"
+                             : "the sources %s form a circuit",
                        network_company(system, branch));
         diag_hint(diag, "put a resistance into it, or leave one of them out");
     } else if (kind == RELATION_THROUGH && branch->branch) {
-        (void)diag_set(diag, E_MODEL, "nothing but the sources %s joins two parts of the network",
+        (void)diag_set(diag, E_MODEL,
+                       ideal ? "%s leave a current no way"
+                             : "nothing but the sources %s joins two parts of the network",
                        network_company(system, branch));
         diag_hint(diag, "put a resistance across one of them");
     } else {

@@ -9,8 +9,8 @@
 static int normal_order(const System *system, const Branchlike *branch)
 {
     switch (branch->relation.kind) {
-    case RELATION_ACROSS:
-        return 10;
+    case RELATION_ACROSS: /* closed switches stay out before sources do, */
+        return branch->ideal < 0 ? 10 : 11;
     case RELATION_CAPACITIVE:
         return 20;
     case RELATION_PORT:
@@ -20,9 +20,10 @@ static int normal_order(const System *system, const Branchlike *branch)
         return 30;
     case RELATION_INDUCTIVE:
         return 40;
-    case RELATION_THROUGH:
-        return 50;
+    case RELATION_THROUGH: /* and open ones come in before sources */
+        return branch->ideal < 0 ? 50 : 49;
     case RELATION_FREE:
+    case RELATION_IDEAL:
         break;
     }
     return graph_edge(system->graph, branch->edge)->preference[0];

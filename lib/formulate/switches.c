@@ -68,6 +68,12 @@ int system_switches(System *system, const Expr **conditions, int *time_only)
         gather(system, system->run.phi, system->rows.count, &seen, &room);
         gather(system, system->run.gamma, system->rows.count, &seen, &room);
         gather(system, system->run.network_residual, w, &seen, &room);
+        for (int i = 0; i < system->ideals.count; i++) {
+            IdealSwitch ideal;
+
+            if (system_ideal(system, i, &ideal, NULL) == OK && ideal.when != NULL)
+                gather(system, &ideal.when, 1, &seen, &room);
+        }
         mem_free(seen);
         /* those of time alone first, each once */
         for (int i = 0; i < system->switches.count; i++)
@@ -82,24 +88,4 @@ int system_switches(System *system, const Expr **conditions, int *time_only)
     *conditions = system->switches.at;
     *time_only = system->switches_of_time;
     return system->switches.count;
-}
-
-const char *system_ideal_switch(const System *system)
-{
-    for (int i = 0; i < system->branches.count; i++) {
-        const Branchlike *branch = &system->branches.at[i];
-        Expr value = branch->relation.value;
-
-        if (branch->relation.kind != RELATION_FREE)
-            continue;
-        for (int k = -1; k < expr_arg_count(value); k++) {
-            Expr part = k < 0 ? value : expr_arg(value, k);
-
-            while (expr_kind(part) == EXPR_PRODUCT)
-                part = expr_arg(part, expr_arg_count(part) - 1);
-            if (expr_kind(part) == EXPR_CALL && (expr_op(part) == OP_MAX || expr_op(part) == OP_IF))
-                return system->instances[branch->instance].name;
-        }
-    }
-    return NULL;
 }

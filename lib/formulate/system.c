@@ -114,6 +114,8 @@ void system_take_outputs(System *system, const Model *model)
 {
     int count = model_output_count(model);
 
+    for (int i = 0; i < system->modes.count; i++)
+        system_take_outputs(system->modes.at[i], model);
     system->output_count = count;
     system->output_names = pool_alloc(system->pool, (size_t)count * sizeof(char *));
     system->outputs = pool_alloc(system->pool, (size_t)count * sizeof(Expr));
@@ -352,8 +354,21 @@ typedef struct Order {
     VaryValue vary;
     void *context;
     Expr leak;
+    const bool *closed; /* sides of ideal switches; NULL: in no mode */
+    int closed_count;
     const Watch *watch;
 } Order;
+
+static const bool *keep_sides(System *system, const Order *order)
+{
+    size_t bytes = (size_t)order->closed_count * sizeof(bool);
+    bool *kept = pool_alloc(system->pool, bytes);
+
+    if (order->closed == NULL)
+        return NULL;
+    memcpy(kept, order->closed, bytes);
+    return kept;
+}
 
 static Status make_as(const Order *order, bool *has_no_states, System **out, Diag *diag)
 {
@@ -369,6 +384,7 @@ static Status make_as(const Order *order, bool *has_no_states, System **out, Dia
     system->asked_form = order->form;
     system->network_form = order->taken;
     system->leak = order->leak;
+    system->closed = keep_sides(system, order);
     system->watch = watch;
     system->planar = model_is_planar(model);
     for (int i = 0; i < 3; i++)
@@ -397,14 +413,14 @@ done:
 
 /* Controlled sources among inductors or capacitors alone leave no state form; the equations of the
  * trees as they are can still be brought to order. */
-static Status make(const Model *model, NetworkForm form, VaryValue vary, void *context, Expr leak,
-                   const Watch *watch, System **out, Diag *diag)
+static Status make(Order order, System **out, Diag *diag)
 {
-    Order order = {model, form, form, vary, context, leak, watch};
     bool has_no_states = false;
     Diag why = {0};
-    Status status = make_as(&order, &has_no_states, out, diag);
+    Status status;
 
+    order.taken = order.form;
+    status = make_as(&order, &has_no_states, out, diag);
     if (status != E_MODEL || !has_no_states)
         return status;
     order.taken = NETWORK_TREE;
@@ -414,30 +430,76 @@ static Status make(const Model *model, NetworkForm form, VaryValue vary, void *c
 Status system_new_varied(const Model *model, VaryValue vary, void *context, const Watch *watch,
                          System **out, Diag *diag)
 {
-    return make(model, NETWORK_STATE, vary, context, NULL, watch, out, diag);
+    return make((Order){.model = model, .vary = vary, .context = context, .watch = watch}, out,
+                diag);
+}
+
+Status system_new_like(const System *other, const Model *model, VaryValue vary, void *context,
+                       const Watch *watch, System **out, Diag *diag)
+{
+    return make((Order){.model = model,
+                        .vary = vary,
+                        .context = context,
+                        .closed = other->closed,
+                        .closed_count = other->ideals.count,
+                        .watch = watch},
+                out, diag);
 }
 
 Status system_new_leaking(const Model *model, VaryValue vary, void *context, Expr leak,
                           const Watch *watch, System **out, Diag *diag)
 {
-    return make(model, NETWORK_STATE, vary, context, leak, watch, out, diag);
+    return make(
+        (Order){.model = model, .vary = vary, .context = context, .leak = leak, .watch = watch},
+        out, diag);
 }
 
 Status system_new_form(const Model *model, NetworkForm form, const Watch *watch, System **out,
                        Diag *diag)
 {
-    return make(model, form, NULL, NULL, NULL, watch, out, diag);
+    return make((Order){.model = model, .form = form, .watch = watch}, out, diag);
 }
 
 Status system_new(const Model *model, const Watch *watch, System **out, Diag *diag)
 {
-    return make(model, model_network_form(model), NULL, NULL, NULL, watch, out, diag);
+    return system_new_form(model, model_network_form(model), watch, out, diag);
+}
+
+Status system_mode(System *whole, const Model *model, const bool *closed, const Watch *watch,
+                   System **out, Diag *diag)
+{
+    size_t bytes = (size_t)whole->ideals.count * sizeof(bool);
+    System *mode = NULL;
+    Status status = OK;
+
+    for (int i = 0; i < whole->modes.count; i++)
+        if (memcmp(whole->modes.at[i]->closed, closed, bytes) == 0) {
+            *out = whole->modes.at[i];
+            return OK;
+        }
+    if (whole->revision != model_revision(model)) {
+        (void)diag_set(diag, E_MODEL, "the model has changed since its equations were made");
+        diag_hint(diag, "its ideal switches can't go over to another side: start a new run");
+        return E_MODEL;
+    }
+    CHECK(make(
+        (Order){
+            .model = model, .closed = closed, .closed_count = whole->ideals.count, .watch = watch},
+        &mode, diag));
+    LIST_PUSH(whole->modes, mode);
+    *out = mode;
+done:
+    return status;
 }
 
 void system_free(System *system)
 {
     if (system == NULL)
         return;
+    for (int i = 0; i < system->modes.count; i++)
+        system_free(system->modes.at[i]);
+    LIST_FREE(system->modes);
+    LIST_FREE(system->ideals);
     for (TreeKind kind = 0; kind < TREE_KINDS; kind++) {
         tree_free(system->trees[kind]);
         sign_matrix_free(system->cutsets[kind]);
@@ -666,77 +728,4 @@ int system_drive_count(const System *system)
 const Drive *system_drive(const System *system, int i)
 {
     return &system->drives.at[i];
-}
-
-/* --- counting --- */
-
-static const Expr *run_block(const System *system, Block block)
-{
-    const Reading *run = &system->run;
-
-    switch (block) {
-    case BLOCK_MASS:
-        return run->mass;
-    case BLOCK_FORCES:
-        return run->force;
-    case BLOCK_CONSTRAINTS:
-        return run->phi;
-    case BLOCK_JACOBIAN:
-        return run->phi_u;
-    case BLOCK_VELOCITY:
-        return run->nu;
-    case BLOCK_ACCELERATION:
-        return run->gamma;
-    case BLOCK_NETWORK_RHS:
-        return run->network_rhs;
-    case BLOCK_NETWORK: /* sparse */
-    case BLOCK_EMBEDDED_MASS:
-    case BLOCK_EMBEDDED_FORCES:
-    case BLOCK_COUNT:
-        break;
-    }
-    return NULL;
-}
-
-/* the entries of A that aren't 0 */
-static OpCount count_network(const System *system, bool shared)
-{
-    const Reading *run = &system->run;
-    Expr *entries = NEW_ARRAY(Expr, run->network_entries);
-    OpCount count;
-
-    for (int i = 0; i < run->network_entries; i++)
-        entries[i] = run->network[i].value;
-    count = shared ? expr_count_shared(entries, run->network_entries)
-                   : expr_count(entries, run->network_entries);
-    mem_free(entries);
-    return count;
-}
-
-Status system_count(System *system, Block block, bool shared, OpCount *out, Diag *diag)
-{
-    int rows;
-    int columns;
-    const Expr *run = run_block(system, block);
-    Expr *entries;
-    Status status = OK;
-
-    if (block == BLOCK_NETWORK) {
-        *out = count_network(system, shared);
-        return OK;
-    }
-    system_block_size(system, block, &rows, &columns);
-    if (shared && run != NULL) {
-        *out = expr_count_shared(run, rows * columns);
-        return OK;
-    }
-    entries = NEW_ARRAY(Expr, (size_t)rows * (size_t)columns);
-    for (int r = 0; r < rows; r++)
-        for (int c = 0; c < columns; c++)
-            CHECK(system_show(system, block, r, c, &entries[r * columns + c], diag));
-    *out =
-        shared ? expr_count_shared(entries, rows * columns) : expr_count(entries, rows * columns);
-done:
-    mem_free(entries);
-    return status;
 }

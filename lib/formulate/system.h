@@ -25,6 +25,9 @@ MUST_USE Status system_new(const Model *model, const Watch *watch, System **out,
 typedef Expr (*VaryValue)(void *context, const Instance *instance, int param, Expr value);
 MUST_USE Status system_new_varied(const Model *model, VaryValue vary, void *context,
                                   const Watch *watch, System **out, Diag *diag);
+/* And in the mode of another system of that model. */
+MUST_USE Status system_new_like(const System *other, const Model *model, VaryValue vary,
+                                void *context, const Watch *watch, System **out, Diag *diag);
 /* And with a conductance `leak` beside every scalar edge whose through variable is an expression of
  * its across variable: where a search for its state may begin. */
 MUST_USE Status system_new_leaking(const Model *model, VaryValue vary, void *context, Expr leak,
@@ -223,12 +226,34 @@ Expr system_potential(System *system);
 Expr system_power(System *system);
 
 /* conditions at which the right-hand side may jump or kink: the difference a - b of every
- * comparison in the equations, in (t, q, u, x); time-only ones first. Count, and *time_only how
- * many of them. */
+ * comparison in the equations and in what closes ideal switches, in (t, q, u, x); time-only ones
+ * first. Count, and *time_only how many of them. */
 int system_switches(System *system, const Expr **conditions, int *time_only);
-/* A diode or switch without any resistance, by name: what it stands beside may leave the equations
- * without a solution, on one side of it or the other. NULL: there is none */
-const char *system_ideal_switch(const System *system);
+
+/* --- ideal switches: diodes and switches without resistance ---
+ *
+ * A system holds both sides of each in one equation. Its modes are systems in which every one of
+ * them is on a side, with the tree, the states and the equations of that. theory.md 8. */
+
+typedef struct IdealSwitch {
+    const char *name;
+    int row;         /* of G, where both sides are in one equation; else -1 */
+    Expr when;       /* what closes it, of this system's variables; NULL: a diode */
+    Expr across;     /* less what is across it when it is closed and nothing flows */
+    Expr through;    /* both as this system tells them */
+    Expr on;         /* across = on through when it is closed */
+    Expr off, least; /* across + least = off through when it is open; off NULL: nothing flows */
+    Expr margin;     /* of a diode in a mode: positive as long as it stays on its side; else NULL */
+} IdealSwitch;
+
+int system_ideal_count(const System *system);
+/* Fails as system_resolve() does. */
+MUST_USE Status system_ideal(System *system, int i, IdealSwitch *out, Diag *diag);
+/* The system in which they are on these sides, one an ideal switch: made when asked for first, and
+ * owned by `whole`. Fails as system_new() does where there is no such network, and with E_MODEL
+ * where the model is no longer what `whole` was made of. */
+MUST_USE Status system_mode(System *whole, const Model *model, const bool *closed,
+                            const Watch *watch, System **out, Diag *diag);
 
 /* --- three-angle sequences, which lose a freedom where their first and last axis fall together ---
  */

@@ -175,6 +175,7 @@ typedef struct Branchlike { /* a scalar edge */
     int unknown;   /* its v or i is one; -1 */
     bool busy;     /* its v or i is being followed */
     bool is_steep; /* a chord whose v is the unknown, i following from it */
+    int ideal;     /* which of the ideal switches it is; -1 */
     Expr v, i;     /* once known */
 } Branchlike;
 
@@ -257,6 +258,9 @@ struct System {
     NetworkForm asked_form; /* the same, where that exists */
     bool has_no_states;     /* a state form needs ever more derivatives */
     Expr leak; /* S, beside parts whose current is an expression of their voltage; NULL: none */
+    LIST(int) ideals;   /* branches that are ideal switches */
+    const bool *closed; /* one an ideal switch: the side it is on; NULL: both are in one equation */
+    LIST(System *) modes; /* of those whose sides are open, made so far */
     LIST(Branchlike) branches;
     int *scalar_of_edge; /* edge of the graph -> branches, or -1 */
     LIST(Unknown) unknowns;
@@ -484,6 +488,12 @@ const char *network_company(System *system, const Branchlike *branch);
 /* Whether an edge of a port gives its own variable (v of a branch, i of a chord) by the other edge;
  * where it doesn't its equation is the other of the two. */
 bool port_gives_own(System *system, const Branchlike *branch);
+/* the relation of an ideal switch, on its side or of both (ideal.c) */
+void ideal_take_side(System *system, Branchlike *branch);
+/* What closed switches alone in a circuit share, or open ones alone in a cutset: currents as if by
+ * equal resistances, voltages likewise. *shared: it is so, and *out = 0 */
+MUST_USE Status ideal_share(System *system, const Branchlike *branch, bool *shared, Expr *out,
+                            Diag *diag);
 /* what changes sign where a function jumps or kinks; NULL: it does neither (switches.c) */
 Expr switch_condition(Arena *arena, Expr e);
 /* e is differentiated in time for `who`: E_MODEL where it jumps */

@@ -350,14 +350,13 @@ static void quest_close(Quest *e)
 /* what was found is where a search for z begins */
 static void guess_network(const Quest *e, Result *r)
 {
-    const Layout *l = r->layout;
+    const Layout *l = r->phases.at[0]->layout;
 
     if (e->l->nz != l->nz)
         return;
     memset(r->start.network, 0, (size_t)l->nx * sizeof(double));
     memcpy(r->start.network + l->nx, statics_base(e->statics) + l->n + l->nx + l->m,
            (size_t)l->nz * sizeof(double));
-    motion_guess(r->motion, r->start.network);
 }
 
 Status run_equilibrium(System *system, const Model *model, const Setting *setting, Result **out,
@@ -374,22 +373,23 @@ Status run_equilibrium(System *system, const Model *model, const Setting *settin
     CHECK(result_refuse_by(r, diag));
     CHECK(quest_open(&e, model, r, setting->watch, diag));
     CHECK(solve(&e, diag));
-    l = r->layout;
+    l = r->phases.at[0]->layout;
     v = statics_base(e.statics);
-    memset(r->start.y, 0, (size_t)r->grid.length * sizeof(double));
+    memset(r->start.y, 0, (size_t)(l->n + l->nu + l->nx) * sizeof(double));
     for (int i = 0; i < l->n; i++) /* less than rounding of 1 rad or 1 m is nothing */
         r->start.y[i] = fabs(v[i]) < 1e-15 ? 0 : v[i];
     memcpy(r->start.y + l->n + l->nu, v + l->n, (size_t)l->nx * sizeof(double));
     memcpy(r->start.y + layout_turned(l), v + statics_length(e.statics) - l->turned,
            (size_t)l->turned * sizeof(double));
     guess_network(&e, r);
-    if (!motion_project(r->motion, 0, r->start.y))
+    CHECK(result_begin(r, setting, diag));
+    if (!motion_project(r->phase->motion, 0, r->begin))
         CHECK(diag_set(diag, E_SINGULAR, "the equilibrium is a singular position"));
     remark_freedom(&e, r);
-    if (vector_largest(r->start.y + l->n, l->nu) > 0)
+    if (vector_largest(r->begin + l->n, l->nu) > 0)
         text_add(&r->remarks, "drivers move at t = 0: runs start from here with their speeds\n");
-    grid_add(&r->grid, 0, r->start.y);
-    motion_residuals(r->motion, 0, r->start.y, &position, &velocity);
+    result_add_row(r, 0, r->begin);
+    motion_residuals(r->phase->motion, 0, r->begin, &position, &velocity);
     r->report.position_residual = position;
     r->report.velocity_residual = velocity;
     *out = r;

@@ -28,20 +28,25 @@ typedef struct Condition {
     double largest;
 } Condition;
 
-typedef struct Item {
-    const char *name, *condition;
-    EventAction action;
-    bool is_live;  /* the model has it still */
+/* how an event has fared */
+typedef struct Course {
     bool is_known; /* whether it holds: it was looked at */
     bool from_start, holds, ended;
     bool is_resumed; /* an earlier run told how it began */
     LIST(double) times;
-    Expr when;    /* over the layout's symbols */
-    Expr formula; /* over the symbols of conditions */
-    int earlier;  /* times that an earlier run brought */
-    int first_value, value_count;
+    int earlier;               /* times that an earlier run brought */
     double last, gap, longest; /* of times, and pauses between them */
     int faster, packed;
+} Course;
+
+typedef struct Item {
+    const char *name, *condition;
+    EventAction action;
+    bool is_live; /* the model has it still */
+    Expr when;    /* over the layout's symbols */
+    Expr formula; /* over the symbols of conditions */
+    int first_value, value_count;
+    Course course;
 } Item;
 
 struct Events {
@@ -171,9 +176,7 @@ static Status read_event(Events *events, const Event *event, Diag *diag)
                  .condition = keep(events, event->condition),
                  .action = event->action,
                  .is_live = true,
-                 .last = -INFINITY,
-                 .gap = INFINITY,
-                 .longest = 0};
+                 .course = {.last = -INFINITY, .gap = INFINITY}};
     Diag why = {0};
     Status status = read_condition(events, &item, event, &why);
 
@@ -264,7 +267,7 @@ void events_free(Events *events)
     if (events == NULL)
         return;
     for (int i = 0; i < events->items.count; i++)
-        LIST_FREE(events->items.at[i].times);
+        LIST_FREE(events->items.at[i].course.times);
     LIST_FREE(events->items);
     LIST_FREE(events->conditions);
     LIST_FREE(events->values);
@@ -297,11 +300,11 @@ EventRecord events_record(const Events *events, int i)
     return (EventRecord){.name = item->name,
                          .condition = item->condition,
                          .action = item->action,
-                         .from_start = item->from_start,
-                         .holds = item->holds,
-                         .ended = item->ended,
-                         .count = item->times.count,
-                         .times = item->times.at};
+                         .from_start = item->course.from_start,
+                         .holds = item->course.holds,
+                         .ended = item->course.ended,
+                         .count = item->course.times.count,
+                         .times = item->course.times.at};
 }
 
 static void take_over(Events *events, const Item *old)
@@ -312,7 +315,7 @@ static void take_over(Events *events, const Item *old)
         if (strcmp(events->items.at[i].name, old->name) == 0 &&
             strcmp(events->items.at[i].condition, old->condition) == 0)
             item = &events->items.at[i];
-    if (item == NULL && old->times.count == 0)
+    if (item == NULL && old->course.times.count == 0)
         return;
     if (item == NULL) {
         LIST_PUSH(events->items, (Item){.name = keep(events, old->name),
@@ -320,13 +323,13 @@ static void take_over(Events *events, const Item *old)
                                         .action = old->action});
         item = &events->items.at[events->items.count - 1];
     }
-    item->is_known = item->is_live && old->is_known;
-    item->is_resumed = old->is_known;
-    item->holds = old->holds;
-    item->from_start = old->from_start;
-    for (int i = 0; i < old->times.count; i++)
-        LIST_PUSH(item->times, old->times.at[i]);
-    item->earlier = item->times.count;
+    item->course.is_known = item->is_live && old->course.is_known;
+    item->course.is_resumed = old->course.is_known;
+    item->course.holds = old->course.holds;
+    item->course.from_start = old->course.from_start;
+    for (int i = 0; i < old->course.times.count; i++)
+        LIST_PUSH(item->course.times, old->course.times.at[i]);
+    item->course.earlier = item->course.times.count;
 }
 
 void events_go_on(Events *events, const Events *earlier)
@@ -335,14 +338,31 @@ void events_go_on(Events *events, const Events *earlier)
         take_over(events, &earlier->items.at[i]);
 }
 
+void events_hand_over(Events *events, Events *from)
+{
+    for (int i = 0; i < from->items.count; i++) {
+        Item *old = &from->items.at[i];
+        Course kept;
+
+        if (i == events->items.count) /* of an earlier run */
+            LIST_PUSH(events->items, (Item){.name = keep(events, old->name),
+                                            .condition = keep(events, old->condition),
+                                            .action = old->action});
+        kept = events->items.at[i].course;
+        events->items.at[i].course = old->course;
+        old->course = kept;
+    }
+}
+
 static void tell_times(const Item *item, Text *out)
 {
-    int count = item->times.count - item->earlier;
+    int count = item->course.times.count - item->course.earlier;
 
     for (int i = 0; i < count && i < SHOWN; i++)
-        text_addf(out, "%s%.9g", i > 0 ? ", " : "", item->times.at[item->earlier + i]);
+        text_addf(out, "%s%.9g", i > 0 ? ", " : "",
+                  item->course.times.at[item->course.earlier + i]);
     if (count > SHOWN)
-        text_addf(out, " ... %.9g", item->times.at[item->times.count - 1]);
+        text_addf(out, " ... %.9g", item->course.times.at[item->course.times.count - 1]);
     text_add(out, " s\n");
 }
 
@@ -350,14 +370,14 @@ void events_tell(const Events *events, Text *out)
 {
     for (int i = 0; i < events_count(events); i++) {
         const Item *item = &events->items.at[i];
-        int count = item->times.count - item->earlier;
+        int count = item->course.times.count - item->course.earlier;
 
-        if (item->from_start && !item->ended && !item->is_resumed)
+        if (item->course.from_start && !item->course.ended && !item->course.is_resumed)
             text_addf(out,
                       "event %s: %s holds at the start; it must be false before it can become "
                       "true\n",
                       item->name, item->condition);
-        if (count == 0 || item->ended)
+        if (count == 0 || item->course.ended)
             continue;
         text_addf(out, "event %s: %s became true ", item->name, item->condition);
         if (count > 1)
@@ -368,11 +388,12 @@ void events_tell(const Events *events, Text *out)
     for (int i = 0; i < events_count(events); i++) {
         const Item *item = &events->items.at[i];
 
-        if (item->ended)
+        if (item->course.ended)
             text_addf(out, "event %s ended the run at t = %.9g s: %s%s\n", item->name,
-                      item->times.at[item->times.count - 1], item->condition,
-                      item->from_start && item->times.count == 1 ? " holds at the start"
-                                                                 : " became true");
+                      item->course.times.at[item->course.times.count - 1], item->condition,
+                      item->course.from_start && item->course.times.count == 1
+                          ? " holds at the start"
+                          : " became true");
     }
 }
 
@@ -520,10 +541,10 @@ static void settle_again(Events *events, double t, double span, const double *y,
 
 static void note(Item *item, double t)
 {
-    LIST_PUSH(item->times, t);
-    item->holds = true;
+    LIST_PUSH(item->course.times, t);
+    item->course.holds = true;
     if (item->action == EVENT_STOP)
-        item->ended = true;
+        item->course.ended = true;
 }
 
 bool events_begin(Events *events, double t, const double *y)
@@ -534,11 +555,11 @@ bool events_begin(Events *events, double t, const double *y)
     for (int i = 0; i < events->items.count && holding != NULL; i++) {
         Item *item = &events->items.at[i];
 
-        if (!item->is_live || item->is_known)
+        if (!item->is_live || item->course.is_known)
             continue;
-        item->is_known = true;
-        item->holds = item->from_start = holding[i] != 0 && !isnan(holding[i]);
-        if (item->holds && item->action == EVENT_STOP) {
+        item->course.is_known = true;
+        item->course.holds = item->course.from_start = holding[i] != 0 && !isnan(holding[i]);
+        if (item->course.holds && item->action == EVENT_STOP) {
             note(item, t);
             stop = true;
         }
@@ -554,8 +575,8 @@ bool events_follow(Events *events, const int *sides)
         Item *item = &events->items.at[i];
         bool now = is_true(events, item, sides);
 
-        due = due || (now && !item->holds);
-        item->holds = item->holds && now;
+        due = due || (now && !item->course.holds);
+        item->course.holds = item->course.holds && now;
     }
     return due;
 }
@@ -565,7 +586,7 @@ static Status happens_endlessly(const Item *item, double t, Diag *diag)
     (void)diag_set(diag, E_SOLVER,
                    "at t = %.9g s: event %s happens without end: %s became true %d times, at last "
                    "%.3g s after the time before",
-                   t, item->name, item->condition, item->times.count, item->gap);
+                   t, item->name, item->condition, item->course.times.count, item->course.gap);
     diag_hint(diag, "another event can end the run before it comes to that, do=stop, for instance "
                     "where the speed is small");
     return E_SOLVER;
@@ -584,18 +605,18 @@ Status events_are_stuck(const Events *events, int condition, double t, Diag *dia
 /* ever sooner after one another, so that they add up to an instant, or without a pause at all */
 static Status check_pace(Item *item, double t, double span, Diag *diag)
 {
-    double gap = t - item->last;
-    double ratio = gap / item->gap;
+    double gap = t - item->course.last;
+    double ratio = gap / item->course.gap;
     double left = ratio < 1 ? gap * ratio / (1 - ratio) : INFINITY;
 
-    item->faster = gap < item->gap ? item->faster + 1 : 0;
-    item->packed = gap <= PACKED * span ? item->packed + 1 : 0;
-    item->last = t;
-    item->gap = gap;
+    item->course.faster = gap < item->course.gap ? item->course.faster + 1 : 0;
+    item->course.packed = gap <= PACKED * span ? item->course.packed + 1 : 0;
+    item->course.last = t;
+    item->course.gap = gap;
     if (isfinite(gap))
-        item->longest = fmax(item->longest, gap);
-    if (item->packed <= PACKED_MOST &&
-        !(item->faster >= FASTER_MOST && gap <= SHRUNK * item->longest &&
+        item->course.longest = fmax(item->course.longest, gap);
+    if (item->course.packed <= PACKED_MOST &&
+        !(item->course.faster >= FASTER_MOST && gap <= SHRUNK * item->course.longest &&
           gap <= FASTER_SPAN * span && left <= FASTER_SPAN * span))
         return OK;
     return happens_endlessly(item, t, diag);
@@ -608,8 +629,8 @@ static Status check_away(const Events *events, double t, const bool *due, const 
     for (int i = 0; i < events->items.count; i++) {
         const Item *item = &events->items.at[i];
 
-        if (due[i] && item->value_count > 0 && item->times.count >= BOUNCES &&
-            item->gap <= SHRUNK * item->longest && is_true(events, item, sides))
+        if (due[i] && item->value_count > 0 && item->course.times.count >= BOUNCES &&
+            item->course.gap <= SHRUNK * item->course.longest && is_true(events, item, sides))
             return happens_endlessly(item, t, diag);
     }
     return OK;
@@ -700,7 +721,8 @@ Status events_happen(Events *events, double t, double span, double *y, int *side
 
         (void)events_follow(events, sides);
         for (int i = 0; i < events->items.count; i++) {
-            due[i] = !events->items.at[i].holds && is_true(events, &events->items.at[i], sides);
+            due[i] =
+                !events->items.at[i].course.holds && is_true(events, &events->items.at[i], sides);
             again = again || due[i];
         }
         if (!again)
@@ -728,7 +750,7 @@ bool events_are_due(Events *events, double t, const double *y)
     const double *holding = roots_at(events, events->holding, t, y);
 
     for (int i = 0; i < events->items.count && holding != NULL; i++)
-        if (events->items.at[i].is_live && !events->items.at[i].holds && holding[i] != 0 &&
+        if (events->items.at[i].is_live && !events->items.at[i].course.holds && holding[i] != 0 &&
             !isnan(holding[i]))
             return true;
     return false;
@@ -745,13 +767,13 @@ Status events_take(Events *events, double t, double span, const double *y, bool 
         Item *item = &events->items.at[i];
         bool now = item->is_live && holding[i] != 0 && !isnan(holding[i]);
 
-        if (now && !item->holds) {
+        if (now && !item->course.holds) {
             note(item, t);
             *happened = true;
             *stop = *stop || item->action == EVENT_STOP;
             CHECK(check_pace(item, t, span, diag));
         }
-        item->holds = now;
+        item->course.holds = now;
     }
 done:
     return status;

@@ -33,6 +33,8 @@ int events_count(const Events *events); /* 0 for NULL, here and below */
 EventRecord events_record(const Events *events, int i);
 /* The records of an earlier run that this one goes on with. */
 void events_go_on(Events *events, const Events *earlier);
+/* What happened, from the same events in another phase of a run; `from` is as it began then. */
+void events_hand_over(Events *events, Events *from);
 /* text about what happened, in lines */
 void events_tell(const Events *events, Text *out);
 

@@ -24,7 +24,7 @@ typedef LIST(Turning) Turnings;
 /* admissible speeds at the start: freedoms x nu, row by row; new */
 static double *find_motions(Result *r)
 {
-    const Equations *eq = numbers_equations(r->numbers);
+    const Equations *eq = numbers_equations(r->phase->numbers);
     const int nu = eq->nu, m = eq->m, rank = r->start.row_count;
     double *motions = NEW_ARRAY(double, (nu - rank) * nu);
     gsl_matrix *rows;
@@ -72,7 +72,7 @@ static void angular_velocity(Result *r, const char *frame, Expr out[3])
 static Status find_turnings(Result *r, const char *tail, const char *head, Turnings *out,
                             Diag *diag)
 {
-    const int nu = r->layout->nu;
+    const int nu = r->phase->layout->nu;
     double *motions = find_motions(r);
     Probe *probe = NULL;
     Expr roots[3], of_tail[3];
@@ -82,7 +82,7 @@ static Status find_turnings(Result *r, const char *tail, const char *head, Turni
     angular_velocity(r, tail, of_tail);
     for (int i = 0; i < 3; i++)
         roots[i] = expr_sub(system_arena(r->system), roots[i], of_tail[i]);
-    CHECK(probe_new(r->layout, &r->parameters, roots, 3, &probe, diag));
+    CHECK(probe_new(r->phase->layout, &r->parameters, roots, 3, &probe, diag));
     for (int i = 0; i < result_freedoms(r); i++) {
         const RowValues row = {.q = r->start.y, .u = motions + (ptrdiff_t)i * nu};
         const double *values = probe_values(probe, &row);

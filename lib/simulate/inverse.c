@@ -371,12 +371,12 @@ static Status solve_row(Inverse *in, int row, Diag *diag)
 {
     Result *r = in->result;
     const Layout *l = in->l;
-    double *y = r->grid.states + (ptrdiff_t)row * r->grid.length;
+    double *y = grid_row(&r->grid, row);
     double *out = r->driven.values + (ptrdiff_t)row * r->driven.length;
     Solved solved;
     Status status = OK;
 
-    if (!motion_solve(r->motion, r->grid.times[row], y, &solved))
+    if (!motion_solve(r->phase->motion, r->grid.times[row], y, &solved))
         return solver_failure(diag, r->grid.times[row], "the accelerations are undefined");
     memset(in->values, 0, (size_t)l->count * sizeof(double));
     in->values[l->t] = r->grid.times[row];
@@ -399,17 +399,17 @@ done:
 
 Status inverse_solve(Result *r, Diag *diag)
 {
-    Inverse in = {.result = r, .l = r->layout, .by_source = inverse_finds_states(r)};
+    Inverse in = {.result = r, .l = r->phase->layout, .by_source = inverse_finds_states(r)};
     Status status = OK;
 
-    if (r->layout->ne == 0)
+    if (r->phase->layout->ne == 0)
         return OK; /* every effort is a multiplier */
-    in.values = NEW_ARRAY(double, r->layout->count);
+    in.values = NEW_ARRAY(double, r->phase->layout->count);
     CHECK(sort_unknowns(&in, diag));
     CHECK(compile_motion(&in, diag));
     if (in.by_source)
         CHECK(compile_network(&in, diag));
-    r->driven.length = r->layout->jerk - r->layout->rates;
+    r->driven.length = r->phase->layout->jerk - r->phase->layout->rates;
     r->driven.values = NEW_ARRAY(double, r->grid.count * r->driven.length);
     for (int row = 0; row < r->grid.count; row++)
         CHECK(solve_row(&in, row, diag));

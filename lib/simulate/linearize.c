@@ -28,6 +28,7 @@ typedef struct RowPlaces {
 
 typedef struct Work {
     const LinearOrder *order;
+    Phase *phase;   /* of the result, at the point */
     System *varied; /* NULL: the result's own will do */
     System *system;
     Layout *l;
@@ -112,6 +113,18 @@ static Status check_input(const LinearOrder *order, int i, Diag *diag)
     return E_NAME;
 }
 
+static Status find_point(Work *w, Diag *diag)
+{
+    const Result *about = w->order->about;
+    int rows = about->grid.count;
+
+    if (result_between(w->order->about, w->order->at, &w->phase, &w->y))
+        return OK;
+    return diag_set(diag, E_VALUE, "t = %.6g s is outside the run, which goes from %.6g to %.6g s",
+                    w->order->at, rows > 0 ? about->grid.times[0] : 0,
+                    rows > 0 ? about->grid.times[rows - 1] : 0);
+}
+
 static Status open_system(Work *w, Diag *diag)
 {
     const LinearOrder *order = w->order;
@@ -134,7 +147,8 @@ static Status open_system(Work *w, Diag *diag)
         text_free(&name);
         needed = needed || order->inputs[i].source != NULL;
     }
-    w->system = order->about->system;
+    CHECK(find_point(w, diag));
+    w->system = w->phase->system;
     if (needed && system_revision(w->system) != model_revision(order->model)) {
         (void)diag_set(diag, E_MODEL,
                        "the model has changed since the run, so its sources are no "
@@ -143,7 +157,7 @@ static Status open_system(Work *w, Diag *diag)
         CHECK(E_MODEL);
     }
     if (needed) {
-        CHECK(system_new_varied(order->model, vary, &of, order->watch, &w->varied, diag));
+        CHECK(system_new_like(w->system, order->model, vary, &of, order->watch, &w->varied, diag));
         w->system = w->varied;
     }
     w->l = layout_new(w->system);
@@ -325,9 +339,7 @@ static bool find_rates(Work *w)
 static Status fix_point(Work *w, Diag *diag)
 {
     const LinearOrder *order = w->order;
-    const Layout *l = w->l, *theirs = order->about->layout;
-    int rows = order->about->grid.count;
-    const double *times = order->about->grid.times;
+    const Layout *l = w->l, *theirs = w->phase->layout;
     const double *geometry;
     RowValues row;
 
@@ -336,14 +348,9 @@ static Status fix_point(Work *w, Diag *diag)
     w->used = order->about->start.row_count;
     w->freedoms = l->nu - w->used;
     w->unknowns = l->nu + w->used + l->nx + l->nz;
-    w->y = NEW_ARRAY(double, order->about->grid.length);
     w->follow = NEW_ARRAY(double, l->nu + l->m + l->nx + l->nz);
     w->values = NEW_ARRAY(double, w->rows.count *(1 + w->at.count));
     w->matrix = NEW_ARRAY(double, w->unknowns * w->unknowns);
-    if (!result_between(order->about, order->at, w->y))
-        return diag_set(diag, E_VALUE,
-                        "t = %.6g s is outside the run, which goes from %.6g to %.6g s", order->at,
-                        rows > 0 ? times[0] : 0, rows > 0 ? times[rows - 1] : 0);
     if (!find_rates(w)) {
         (void)diag_set(diag, E_SINGULAR,
                        "the equations are dependent there: nothing linear tells how "

@@ -1,4 +1,7 @@
 libcore_la_SOURCES += \
+  lib/simulate/between.c \
+  lib/simulate/commute.c \
+  lib/simulate/commute.h \
   lib/simulate/cvode.c \
   lib/simulate/dop853.c \
   lib/simulate/dop853_table.h \
@@ -13,6 +16,8 @@ libcore_la_SOURCES += \
   lib/simulate/factors.h \
   lib/simulate/freedoms.c \
   lib/simulate/freedoms.h \
+  lib/simulate/grid.c \
+  lib/simulate/grid.h \
   lib/simulate/ida.c \
   lib/simulate/inverse.c \
   lib/simulate/inverse.h \
@@ -26,6 +31,10 @@ libcore_la_SOURCES += \
   lib/simulate/linearize.h \
   lib/simulate/march.c \
   lib/simulate/march.h \
+  lib/simulate/march_events.c \
+  lib/simulate/march_impl.h \
+  lib/simulate/march_jumps.c \
+  lib/simulate/march_switches.c \
   lib/simulate/method.c \
   lib/simulate/methods.def \
   lib/simulate/modes.c \
@@ -38,6 +47,8 @@ libcore_la_SOURCES += \
   lib/simulate/numbers.c \
   lib/simulate/numbers.h \
   lib/simulate/ode.h \
+  lib/simulate/phase.c \
+  lib/simulate/phase.h \
   lib/simulate/radau.c \
   lib/simulate/rank.c \
   lib/simulate/rank.h \
@@ -56,10 +67,14 @@ libcore_la_SOURCES += \
   lib/simulate/search.c \
   lib/simulate/search.h \
   lib/simulate/simulate.c \
+  lib/simulate/sides.c \
+  lib/simulate/sides.h \
   lib/simulate/sparse.c \
   lib/simulate/sparse.h \
   lib/simulate/start.c \
   lib/simulate/start.h \
+  lib/simulate/start_impl.h \
+  lib/simulate/start_network.c \
   lib/simulate/statics.c \
   lib/simulate/statics.h \
   lib/simulate/transfer.c \

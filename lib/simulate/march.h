@@ -6,43 +6,54 @@
  * it; a condition in the state is located on the interpolant, and the step is taken again up to it.
  * Conditions of events are located likewise. The instant at which an event happens is a row, or two
  * of equal time where it gives new values: before and behind.
- */
+ *
+ * What ideal switches do to the equations makes legs: at each instant where a switch was met, an
+ * event or a jump, whoever ordered the run says which equations hold behind it. */
 #ifndef COTREE_SIMULATE_MARCH_H
 #define COTREE_SIMULATE_MARCH_H
 
 #include "base/text.h"
 #include "base/watch.h"
 #include "simulate/events.h"
+#include "simulate/grid.h"
 #include "simulate/samples.h"
 
-typedef struct MarchPlan {
+/* equations, and what goes with them */
+typedef struct Leg {
+    int phase; /* its number: rows bear it */
     const Equations *equations;
     Motion *motion;
-    Events *events;       /* NULL: none */
-    Samples *samples;     /* NULL: none */
-    const Method *method; /* NULL: dop853 until it finds the problem stiff, then `stiff` */
-    const Method *stiff;
-    bool stiff_decays; /* `stiff` is no help where what limits the steps swings */
+    Events *events;      /* NULL: none */
+    Samples *samples;    /* NULL: none */
+    const Method *stiff; /* where plan.method is NULL */
+    bool stiff_decays;   /* `stiff` is no help where what limits the steps swings */
+} Leg;
+
+/* Which leg goes on from (t, y), where y is of `leg`; `behind` is the instant just behind t, where
+ * sources have jumped, and `last` how long the last step was (0: there was none). Another one goes
+ * into *leg, its y into *out, borrowed until the next call; where it is the same, both stay. Fails
+ * where there is none. */
+typedef Status (*Commute)(void *context, double t, double behind, double last, const double *y,
+                          Leg *leg, const double **out, Diag *diag);
+
+typedef struct MarchPlan {
+    Leg leg;                  /* to begin with */
+    Commute commute;          /* NULL: it goes on to the end */
+    void *context;            /* of commute */
+    const Equations *in_time; /* whose conditions of t alone are those of all legs; NULL: leg's */
+    const Method *method;     /* NULL: dop853 until it finds the problem stiff, then leg.stiff */
     Control control;
     double from, to; /* s */
     double every;    /* output step, s */
     bool skip_first; /* the row at `from` is there already */
+    Grid *corners;   /* rows where one leg ends and the next begins, two each; NULL: not kept */
     const Watch *watch;
 } MarchPlan;
-
-/* Rows of (t, y), y as the motion has it, in one growing block. */
-typedef struct Grid {
-    int length; /* of y */
-    int count, room;
-    double *times;
-    double *states; /* count x length */
-} Grid;
-void grid_add(Grid *grid, double t, const double *y);
-void grid_free(Grid *grid); /* what it holds; it is empty again */
 
 typedef struct MarchReport {
     Counts counts;
     const Method *method; /* in use at the end */
+    Events *events;       /* of the last leg */
     double reached;
     double position_residual, velocity_residual; /* largest over the rows */
     Text remarks;                                /* lines */
@@ -51,10 +62,5 @@ typedef struct MarchReport {
 /* Rows are appended to `grid` and the report filled also when it fails: E_SOLVER, E_STOPPED. */
 MUST_USE Status march(const MarchPlan *plan, const double *start, Grid *grid, MarchReport *out,
                       Diag *diag);
-
-/* Number of grid rows behind `from` up to `to`; grid_time(k) for k = 1.. is the k-th of them. Times
- * are products, so that they don't gather rounding. */
-int grid_rows(double from, double to, double every);
-double grid_time(double from, double to, double every, int k);
 
 #endif

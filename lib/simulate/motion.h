@@ -55,6 +55,7 @@ typedef struct Equations {
     int quaternion_count;
     /* conditions whose change of sign may bend or break the equations; time_only ones first */
     int switch_count, time_only;
+    int margin_count; /* the last of them: positive as long as ideal switches stay on their sides */
     bool switches_read_network; /* [x'; z] of the last network_solved() */
     void (*switches)(void *context, double t, const double *q, const double *u, const double *x,
                      double *out);

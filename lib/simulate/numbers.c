@@ -521,6 +521,28 @@ done:
     return status;
 }
 
+/* what tells whether ideal switches stay on their sides */
+static Status add_margins(Numbers *nb, Roots *roots, Diag *diag)
+{
+    System *system = nb->layout->system;
+    Status status = OK;
+
+    for (int i = 0; i < system_ideal_count(system); i++) {
+        IdealSwitch ideal;
+        Stage stage;
+
+        CHECK(system_ideal(system, i, &ideal, diag));
+        stage = ideal.margin != NULL ? stage_of(ideal.margin) : STAGE_PARAMETER;
+        if (stage == STAGE_PARAMETER || stage > STAGE_NETWORK)
+            continue;
+        nb->eq.switches_read_network = nb->eq.switches_read_network || stage == STAGE_NETWORK;
+        LIST_PUSH(*roots, ideal.margin);
+        nb->eq.margin_count++;
+    }
+done:
+    return status;
+}
+
 /* conditions that can be looked at before the accelerations are known */
 static Status compile_switches(Numbers *nb, Parameters *parameters, Diag *diag)
 {
@@ -539,6 +561,7 @@ static Status compile_switches(Numbers *nb, Parameters *parameters, Diag *diag)
         LIST_PUSH(roots, conditions[i]);
         nb->eq.time_only += i < time_only;
     }
+    CHECK(add_margins(nb, &roots, diag));
     nb->eq.switch_count = roots.count;
     if (roots.count > 0)
         CHECK(compile(nb->layout, parameters, roots.at, roots.count, &nb->switch_program,

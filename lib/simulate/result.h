@@ -2,11 +2,9 @@
 #ifndef COTREE_SIMULATE_RESULT_H
 #define COTREE_SIMULATE_RESULT_H
 
-#include "simulate/events.h"
 #include "simulate/march.h"
-#include "simulate/netdae.h"
-#include "simulate/numbers.h"
-#include "simulate/start.h"
+#include "simulate/phase.h"
+#include "simulate/sides.h"
 
 /* What is known at the rows of a driven run beside (q, u, x), one block a row: x', z, u', lambda,
  * efforts. */
@@ -17,17 +15,19 @@ typedef struct Driven {
 
 struct Result {
     RunKind kind;
-    System *system;
-    Layout *layout;
+    System *system; /* the whole */
     Parameters parameters;
-    Numbers *numbers;
-    Motion *motion;
-    NetDae *network; /* NULL where there is mechanics */
-    Assembled start;
-    Grid grid; /* of (q, u, x, work) */
+    LIST(Phase *)
+    phases;           /* the first is of the whole, and where there are ideal switches no row's */
+    Phase *phase;     /* in which it starts */
+    Sides *sides;     /* NULL: there are no ideal switches */
+    Assembled start;  /* of the whole */
+    double *begin;    /* y of the phase in which it starts */
+    double tolerance; /* of the run: bounds what a projection may leave */
+    Grid grid;        /* of (q, u, x, work) */
+    Grid corners;     /* where phases end and begin, two rows each */
     Driven driven;
-    Events *events;   /* NULL: none */
-    Samples *samples; /* NULL: none */
+    Events *events; /* NULL: none */
     RunReport report;
     Text remarks;
 };
@@ -39,15 +39,32 @@ MUST_USE Status result_open(RunKind kind, System *system, const Setting *setting
 MUST_USE Status result_reopen(const Result *old, const Setting *setting, Result **out, Diag *diag);
 /* E_MODEL where a driver's motion is supplied by another effort (by=): for inverse runs alone */
 MUST_USE Status result_refuse_by(const Result *result, Diag *diag);
-/* New, or NULL where there are none: the setting's events at the result's start, going on with what
- * happened in `earlier` (NULL: nothing). */
-MUST_USE Status result_make_events(Result *result, const Events *earlier, const Setting *setting,
-                                   Events **out, Diag *diag);
-/* Everything at (t, y); `driven` the row's block, or NULL to solve. False: no solution. */
-bool result_row(Result *result, double t, const double *y, const double *driven, RowValues *out);
+/* What solves the equations of a phase, as the result's start and the setting ask for. */
+MUST_USE Status result_open_phase(Result *result, Phase *phase, const Setting *setting, Diag *diag);
+/* New, or NULL where there are none: the setting's events in the equations of a phase, going on
+ * with what happened in `earlier` (NULL: nothing). */
+MUST_USE Status result_make_events(Result *result, const Phase *phase, const Events *earlier,
+                                   const Setting *setting, Events **out, Diag *diag);
+/* The phase that it starts in and `begin`, from `start`. */
+MUST_USE Status result_begin(Result *result, const Setting *setting, Diag *diag);
 /* Energy balance over the rows, into the report. */
 MUST_USE Status result_balance(Result *result, Diag *diag);
-/* (q, u, x, work) between two rows, projected; false outside the run */
-bool result_between(Result *result, double t, double *y);
+/* a row of the phase that it starts in */
+void result_add_row(Result *result, double t, const double *y);
+/* for all phases, also those that a run comes to later */
+void result_tolerance(Result *result, double tolerance);
+/* the phase of a row */
+Phase *result_phase(const Result *result, int row);
+/* a row's block of a driven run; NULL: the equations are to be solved */
+const double *result_driven(const Result *result, int row);
+/* A probe of a phase for expressions over user's variables, and its values at (t, y), `count` of
+ * them: NAN where the equations have no solution. */
+MUST_USE Status result_probe(Result *result, const Phase *phase, const Expr *items, int count,
+                             Probe **out, Diag *diag);
+void result_probe_at(Phase *phase, Probe *probe, double t, const double *y, const double *driven,
+                     int count, double *out);
+/* (q, u, x, work) between two rows, projected: a new array, and the phase that it is of; false
+ * outside the run */
+bool result_between(Result *result, double t, Phase **phase, double **y);
 
 #endif

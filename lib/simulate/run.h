@@ -73,6 +73,7 @@ typedef double (*ParameterValue)(void *context, Expr symbol);
 typedef struct Setting {
     ParameterValue parameter;
     void *context;
+    const Model *model; /* the system's: its ideal switches make others of it */
     Form form;
     const char *const *independent; /* names; borrowed during the call */
     int independent_count;

@@ -2,6 +2,7 @@
 #include "simulate/result.h"
 
 #include "base/memory.h"
+#include "simulate/commute.h"
 #include "simulate/inverse.h"
 
 #include <math.h>
@@ -13,7 +14,6 @@
 #define POINTS       4   /* between rows of a driven run, where events are looked for */
 #define TURNED       2.0 /* rad: what an angle that counts turns may go at once in a driven run, */
 #define MISSED       0.5 /* and how far off its prediction */
-#define FEW          100 /* unknowns up to which radau's dense factors beat bdf's */
 #define UNRESOLVED   0.1 /* difference of two runs, rad or m, that makes them different motions */
 #define AUTO         "auto"
 #define DEFAULT_RTOL 1e-8
@@ -93,33 +93,58 @@ static Status complete_options(const RunOptions *given, RunOptions *out, Diag *d
 
 /* --- forward --- */
 
-static const Method *stiff_method(const Result *r)
-{
-    if (motion_length(r->motion) + r->layout->nz <= FEW)
-        return &method_radau;
-    return r->network != NULL ? &method_ida : &method_bdf;
-}
-
 static MarchPlan plan_of(const Result *r, const Setting *setting, const RunOptions *options,
-                         const Method *method)
+                         const Method *method, Events *events)
 {
     return (MarchPlan){
-        .equations = numbers_equations(r->numbers),
-        .motion = r->motion,
-        .events = r->events,
-        .samples = r->samples,
+        .leg = commute_leg(r, r->phase, events),
         .method = method,
-        .stiff = stiff_method(r),
-        .stiff_decays = stiff_method(r) != &method_radau,
         .control = {.rtol = options->rtol, .atol = options->atol, .step = options->step},
         .every = options->every,
         .watch = setting->watch};
 }
 
+/* A march from the result's begin. Where ideal switches change the equations, `corners` gets rows
+ * between them. */
+static Status march_phases(Result *r, const Setting *setting, MarchPlan *plan, Grid *grid,
+                           Grid *corners, MarchReport *out, Diag *diag)
+{
+    Commuting commuting = {
+        .result = r, .setting = setting, .span = plan->to - plan->from, .stuck = NAN};
+    Status status;
+
+    if (r->sides != NULL) {
+        plan->commute = commute;
+        plan->context = &commuting;
+        plan->in_time = numbers_equations(r->phases.at[0]->numbers);
+        plan->corners = corners;
+    }
+    status = march(plan, r->begin, grid, out, diag);
+    commuting_free(&commuting);
+    return status;
+}
+
+static MotionCounts counts_of(const Result *r)
+{
+    MotionCounts sum = {.singular_time = NAN};
+
+    for (int i = 0; i < r->phases.count; i++) {
+        MotionCounts counts = {.singular_time = NAN};
+
+        if (r->phases.at[i]->motion != NULL)
+            counts = motion_counts(r->phases.at[i]->motion);
+        sum.factorisations += counts.factorisations;
+        sum.regularised += counts.regularised;
+        if (!(sum.singular_time <= counts.singular_time) && !isnan(counts.singular_time))
+            sum.singular_time = counts.singular_time;
+    }
+    return sum;
+}
+
 static void fill_report(Result *r, const MarchReport *march, const RunOptions *options,
                         bool stopped, double began)
 {
-    MotionCounts counts = motion_counts(r->motion);
+    MotionCounts counts = counts_of(r);
 
     r->report.method = march->method->name;
     r->report.rtol = options->rtol;
@@ -141,7 +166,7 @@ static void fill_report(Result *r, const MarchReport *march, const RunOptions *o
 
 static void remark_march(Result *r, const MarchReport *march, const RunOptions *options)
 {
-    MotionCounts counts = motion_counts(r->motion);
+    MotionCounts counts = counts_of(r);
 
     if (march->remarks.at != NULL)
         text_add(&r->remarks, march->remarks.at);
@@ -156,17 +181,19 @@ static void remark_march(Result *r, const MarchReport *march, const RunOptions *
         text_add(&r->remarks, "a tolerance below 1e-10 gains nothing through singular positions\n");
 }
 
-/* The largest difference at times that both grids have; events lie at times of their own. */
-static double largest_difference(const Grid *a, int first, const Grid *b)
+/* The largest difference at times that both grids have; events lie at times of their own, and one
+ * that a switch falls on may be of either phase. */
+static double largest_difference(const Result *r, int first, const Grid *b)
 {
+    const Grid *a = &r->grid;
     double largest = 0;
 
     for (int i = first, j = 0; i < a->count && j < b->count;) {
         double behind = a->times[i] - b->times[j];
+        int length = behind == 0 && a->phase[i] == b->phase[j] ? result_phase(r, i)->length : 0;
 
-        for (int k = 0; behind == 0 && k < a->length - 1; k++)
-            largest = fmax(largest, fabs(a->states[(ptrdiff_t)i * a->length + k] -
-                                         b->states[(ptrdiff_t)j * b->length + k]));
+        for (int k = 0; k < length - 1; k++)
+            largest = fmax(largest, fabs(grid_row(a, i)[k] - grid_row(b, j)[k]));
         i += behind <= 0;
         j += behind >= 0;
     }
@@ -187,13 +214,12 @@ static Status estimate_error(Result *r, const Setting *setting, const RunOptions
 
     finer.rtol = fmax(LEAST_RTOL, options->rtol / 10);
     finer.atol = options->atol / 10;
-    plan = plan_of(r, setting, &finer, method);
-    plan.events = events;
+    plan = plan_of(r, setting, &finer, method, events);
     plan.from = r->grid.times[first];
     plan.to = to;
-    status = march(&plan, r->start.y, &grid, &march_report, diag);
+    status = march_phases(r, setting, &plan, &grid, NULL, &march_report, diag);
     if (status == OK)
-        largest = largest_difference(&r->grid, first, &grid);
+        largest = largest_difference(r, first, &grid);
     if (status == OK)
         r->report.global_error = 2 * largest;
     if (status == OK && r->report.global_error > UNRESOLVED)
@@ -221,14 +247,16 @@ static Status go(Result *r, const Setting *setting, const RunOptions *given, dou
 
     CHECK(complete_options(given, &options, diag));
     CHECK(find_method(options.method, &method, diag));
-    motion_tolerance(r->motion, options.atol);
-    plan = plan_of(r, setting, &options, method);
+    result_tolerance(r, options.atol);
+    plan = plan_of(r, setting, &options, method, r->events);
     plan.from = from;
     plan.to = from + options.duration;
     plan.skip_first = skip_first;
     if (options.check)
-        CHECK(result_make_events(r, r->events, setting, &again, diag));
-    status = march(&plan, r->start.y, &r->grid, &report_of, diag);
+        CHECK(result_make_events(r, r->phase, r->events, setting, &again, diag));
+    status = march_phases(r, setting, &plan, &r->grid, &r->corners, &report_of, diag);
+    if (report_of.events != r->events)
+        events_hand_over(r->events, report_of.events);
     if (status == E_SOLVER)
         network_hint(r->system, diag);
     remark_march(r, &report_of, &options);
@@ -247,7 +275,7 @@ done:
 /* drivers whose motion another effort supplies belong to inverse runs */
 Status result_refuse_by(const Result *r, Diag *diag)
 {
-    const Layout *l = r->layout;
+    const Layout *l = r->phase->layout;
 
     for (int i = 0; i < l->ne; i++) {
         (void)diag_set(diag, E_MODEL, "a driver with by= is for inverse runs: %s is not known here",
@@ -265,8 +293,8 @@ Status run_assemble(System *system, const Setting *setting, Result **out, Diag *
     double position = 0, velocity = 0;
 
     CHECK(result_open(RUN_START, system, setting, &r, diag));
-    grid_add(&r->grid, 0, r->start.y);
-    motion_residuals(r->motion, 0, r->start.y, &position, &velocity);
+    result_add_row(r, 0, r->begin);
+    motion_residuals(r->phase->motion, 0, r->begin, &position, &velocity);
     r->report.position_residual = position;
     r->report.velocity_residual = velocity;
     *out = r;
@@ -322,10 +350,10 @@ done:
 
 static Status check_driven(const Result *r, Diag *diag)
 {
-    int left = r->layout->nu - r->start.row_count;
+    int left = r->phase->layout->nu - r->start.row_count;
     int drivers = 0;
 
-    for (int k = 0; k < r->layout->m; k++)
+    for (int k = 0; k < r->phase->layout->m; k++)
         drivers += system_constraint(r->system, k)->is_driver;
     if (left == 0)
         return OK;
@@ -338,27 +366,27 @@ static Status check_driven(const Result *r, Diag *diag)
 /* The next row from the last one: predicted, then projected; in halves where that fails. */
 static bool reach(Result *r, double from, double to, double *y, int depth)
 {
-    const Layout *l = r->layout;
-    const Ode *ode = motion_ode(r->motion);
+    const Layout *l = r->phase->layout;
+    const Ode *ode = motion_ode(r->phase->motion);
     double h = to - from;
-    double *trial = NEW_ARRAY(double, r->grid.length);
-    double *rate = NEW_ARRAY(double, r->grid.length);
+    double *trial = NEW_ARRAY(double, r->phase->length);
+    double *rate = NEW_ARRAY(double, r->phase->length);
     double moved = 0, turned = 0;
     bool sound = ode->rate(ode->context, from, y, rate);
 
     for (int i = 0; i < l->n; i++) {
-        double bend = numbers_equations(r->numbers)->map == NULL ? rate[l->n + i] : 0;
+        double bend = numbers_equations(r->phase->numbers)->map == NULL ? rate[l->n + i] : 0;
 
         trial[i] = y[i] + h * rate[i] + h * h / 2 * bend;
     }
-    for (int i = l->n; i < r->grid.length; i++)
+    for (int i = l->n; i < r->phase->length; i++)
         trial[i] = y[i];
     for (int i = layout_turned(l); i < layout_turned(l) + l->turned; i++) {
         trial[i] = y[i] + h * rate[i];
         turned = fmax(turned, fabs(h * rate[i]));
     }
-    memcpy(rate, trial, (size_t)r->grid.length * sizeof(double));
-    sound = sound && motion_project(r->motion, to, trial);
+    memcpy(rate, trial, (size_t)r->phase->length * sizeof(double));
+    sound = sound && motion_project(r->phase->motion, to, trial);
     for (int i = 0; i < l->n; i++)
         moved = fmax(moved, fabs(trial[i] - rate[i]));
     for (int i = layout_turned(l); i < layout_turned(l) + l->turned; i++)
@@ -366,7 +394,7 @@ static bool reach(Result *r, double from, double to, double *y, int depth)
     /* far from the prediction is perhaps another branch */
     sound = sound && moved < 0.1 && turned < TURNED;
     if (sound)
-        memcpy(y, trial, (size_t)r->grid.length * sizeof(double));
+        memcpy(y, trial, (size_t)r->phase->length * sizeof(double));
     mem_free(trial);
     mem_free(rate);
     if (sound || depth == 0)
@@ -378,10 +406,10 @@ static void add_position(Result *r, double t, const double *y)
 {
     double position = 0, velocity = 0;
 
-    motion_residuals(r->motion, t, y, &position, &velocity);
+    motion_residuals(r->phase->motion, t, y, &position, &velocity);
     r->report.position_residual = fmax(r->report.position_residual, position);
     r->report.velocity_residual = fmax(r->report.velocity_residual, velocity);
-    grid_add(&r->grid, t, y);
+    result_add_row(r, t, y);
     r->report.reached = t;
 }
 
@@ -389,9 +417,9 @@ static void add_position(Result *r, double t, const double *y)
  * y from the earlier one to it. */
 static double locate_event(Result *r, double low, double high, double *y)
 {
-    double *trial = NEW_ARRAY(double, r->grid.length);
-    double *found = NEW_ARRAY(double, r->grid.length);
-    size_t bytes = (size_t)r->grid.length * sizeof(double);
+    double *trial = NEW_ARRAY(double, r->phase->length);
+    double *found = NEW_ARRAY(double, r->phase->length);
+    size_t bytes = (size_t)r->phase->length * sizeof(double);
 
     memcpy(found, y, bytes);
     if (!reach(r, low, high, found, 12))
@@ -421,8 +449,8 @@ static double locate_event(Result *r, double low, double high, double *y)
 static Status follow_events(Result *r, double from, double to, double span, double *y, bool *stop,
                             Diag *diag)
 {
-    double *trial = NEW_ARRAY(double, r->grid.length);
-    size_t bytes = (size_t)r->grid.length * sizeof(double);
+    double *trial = NEW_ARRAY(double, r->phase->length);
+    size_t bytes = (size_t)r->phase->length * sizeof(double);
     double last = from;
     Status status = OK;
 
@@ -452,13 +480,13 @@ done:
 static Status positions(Result *r, const Setting *setting, const RunOptions *options, Diag *diag)
 {
     int rows = grid_rows(0, options->duration, options->every);
-    double *y = NEW_ARRAY(double, r->grid.length);
+    double *y = NEW_ARRAY(double, r->phase->length);
     double last = 0;
     bool stop = false;
     Status status = OK;
 
-    memcpy(y, r->start.y, (size_t)r->grid.length * sizeof(double));
-    if (!motion_project(r->motion, 0, y))
+    memcpy(y, r->begin, (size_t)r->phase->length * sizeof(double));
+    if (!motion_project(r->phase->motion, 0, y))
         CHECK(solver_failure(diag, 0, "the start does not meet the constraints"));
     for (int k = 0; k <= rows && !stop; k++) {
         double t = k > 0 ? grid_time(0, options->duration, options->every, k) : 0;
@@ -495,8 +523,15 @@ static Status drive(Result *r, const Setting *setting, const RunOptions *given, 
 
     CHECK(complete_options(given, &options, diag));
     CHECK(check_driven(r, diag));
-    motion_tolerance(r->motion, 1e-12);
-    if (r->layout->nx > 0 && !inverse_finds_states(r)) {
+    result_tolerance(r, 1e-12);
+    if (r->phase->layout->ne > 0 && r->sides != NULL) {
+        status = diag_set(diag, E_MODEL,
+                          "what supplies a driver's motion can't be found through "
+                          "ideal switches");
+        diag_hint(diag, "give diodes and switches Ron= and Roff=");
+        goto done;
+    }
+    if (r->sides != NULL || (r->phase->layout->nx > 0 && !inverse_finds_states(r))) {
         options.rtol = fmin(options.rtol, 1e-10);
         options.atol = fmin(options.atol, 1e-10);
         CHECK(go(r, setting, &options, 0, false, diag));

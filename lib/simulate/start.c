@@ -1,11 +1,8 @@
-/* start.c: assembly */
-#include "simulate/start.h"
+/* start.c: assembly: positions, speeds, independent constraints */
+#include "simulate/start_impl.h"
 
-#include "base/memory.h"
 #include "base/random.h"
-#include "simulate/least.h"
 #include "simulate/linear.h"
-#include "simulate/netsolve.h"
 #include "simulate/rank.h"
 #include "simulate/redundant.h"
 #include "simulate/rows.h"
@@ -17,40 +14,6 @@
 #define TRIES      24    /* other starts, when the first leads nowhere */
 #define FAR        2.0   /* rad or m: a dependent coordinate that moved further is spoken of */
 #define RANK_RATIO 1e-9
-
-typedef enum Level { LEVEL_POSITION, LEVEL_VELOCITY, LEVEL_NETWORK } Level;
-
-/* one initial value or guess */
-typedef struct Given {
-    const StartValue *value;
-    Expr expr;
-    Level level;
-    int place;  /* coordinate, speed or state that it is, alone; -1 */
-    int column; /* unknown that holding it holds: the place, or a coordinate's speed; -1 */
-} Given;
-
-typedef struct Assembly {
-    const Layout *l;
-    Parameters *parameters;
-    const Equations *eq;
-    const Setting *setting;
-    Assembled *out;
-    double *y;
-    Given *given;
-    int given_count;
-    StartValue *driven; /* what drivers make of angles that count turns */
-} Assembly;
-
-/* equations of one problem: rows of the system, then picked values as expressions */
-typedef struct Problem {
-    Assembly *a;
-    Level level;
-    const Given **picked;
-    int count, system_rows, columns;
-    Probe *probe; /* values, then gradients, value by value, over the level's own symbols */
-    int symbols;
-    double *row; /* y-like, and x', z behind */
-} Problem;
 
 /* --- what was given --- */
 
@@ -80,7 +43,7 @@ static int column_of(const Assembly *a, int place, Level level)
     return -1;
 }
 
-static Status classify(Assembly *a, Given *given, Diag *diag)
+Status start_classify(Assembly *a, Given *given, Diag *diag)
 {
     const unsigned dynamic = 1U << SYMBOL_ACCELERATION | 1U << SYMBOL_MULTIPLIER |
                              1U << SYMBOL_EFFORT | 1U << SYMBOL_JERK;
@@ -117,7 +80,7 @@ static Status read_given(Assembly *a, Diag *diag)
         given->value = &start->at[i];
         CHECK(system_variable(a->l->system, given->value->name, given->value->primes, &given->expr,
                               diag));
-        CHECK(classify(a, given, diag));
+        CHECK(start_classify(a, given, diag));
         a->given_count++;
     }
 done:
@@ -165,7 +128,7 @@ static int network_rows_of(const Layout *l)
     return count;
 }
 
-static Status problem_open(Problem *p, Assembly *a, Level level, bool guesses, Diag *diag)
+Status start_open_problem(Problem *p, Assembly *a, Level level, bool guesses, Diag *diag)
 {
     const Layout *l = a->l;
     Arena *arena = system_arena(l->system);
@@ -200,7 +163,7 @@ static Status problem_open(Problem *p, Assembly *a, Level level, bool guesses, D
     return status;
 }
 
-static void problem_close(Problem *p)
+void start_close_problem(Problem *p)
 {
     probe_free(p->probe);
     mem_free(p->picked);
@@ -299,7 +262,7 @@ static void evaluate_network(void *context, const double *v, double *residual, d
     evaluate_probe(p, p->row, 0, residual, jacobian);
 }
 
-static Rows rows_of(Problem *p)
+Rows start_rows(Problem *p)
 {
     Rows rows = {.columns = p->columns, .length = p->symbols, .context = p};
 
@@ -326,7 +289,7 @@ static void name_row(Text *text, const Layout *l, int k)
 }
 
 /* "h9 (x) is missed by 0.03; ..." with the values that were given */
-static Status tell_conflict(const Problem *p, const double *residual, const char *what, Diag *diag)
+Status start_conflict(const Problem *p, const double *residual, const char *what, Diag *diag)
 {
     Text text = {0}, values = {0};
     int shown = 0;
@@ -433,11 +396,11 @@ static Status pull(Assembly *a, Diag *diag)
         needed = needed || (a->given[i].level == LEVEL_POSITION && a->given[i].place < 0);
     if (!needed)
         return OK;
-    CHECK(problem_open(&p, a, LEVEL_POSITION, true, diag));
-    rows = rows_of(&p);
+    CHECK(start_open_problem(&p, a, LEVEL_POSITION, true, diag));
+    rows = start_rows(&p);
     (void)least_solve(&rows, NULL, NULL, TOLERANCE, a->y, NULL);
 done:
-    problem_close(&p);
+    start_close_problem(&p);
     return status;
 }
 
@@ -488,7 +451,7 @@ static Status find_position(Assembly *a, Diag *diag)
     Rows rows;
     Status status = OK;
 
-    CHECK(problem_open(&p, a, LEVEL_POSITION, false, diag));
+    CHECK(start_open_problem(&p, a, LEVEL_POSITION, false, diag));
     for (int i = 0; i < p.count; i++)
         if (p.picked[i]->column >= 0)
             held[p.picked[i]->column] = true;
@@ -497,23 +460,23 @@ static Status find_position(Assembly *a, Diag *diag)
     for (int i = 0; i < p.count; i++)
         if (p.picked[i]->column >= 0)
             a->y[p.picked[i]->place] = p.picked[i]->value->value;
-    rows = rows_of(&p);
+    rows = start_rows(&p);
     residual = NEW_ARRAY(double, rows.rows);
     if (!least_solve(&rows, held, NULL, TOLERANCE, a->y, residual)) {
         if (!try_around(&p, &rows, held, begun)) {
-            CHECK(tell_conflict(&p, residual, "the parts can't be put together", diag));
+            CHECK(start_conflict(&p, residual, "the parts can't be put together", diag));
         }
     }
     remark_moved(a, begun);
 done:
-    problem_close(&p);
+    start_close_problem(&p);
     mem_free(begun);
     mem_free(residual);
     mem_free(held);
     return status;
 }
 
-/* --- velocity, network --- */
+/* --- velocity --- */
 
 static Status find_velocity(Assembly *a, Diag *diag)
 {
@@ -535,155 +498,13 @@ static Status find_velocity(Assembly *a, Diag *diag)
                 held[given->column] = guesses == 0;
             }
         }
-    CHECK(problem_open(&p, a, LEVEL_VELOCITY, false, diag));
-    rows = rows_of(&p);
+    CHECK(start_open_problem(&p, a, LEVEL_VELOCITY, false, diag));
+    rows = start_rows(&p);
     residual = NEW_ARRAY(double, rows.rows);
     if (!least_solve(&rows, held, NULL, 1e-11, a->y + l->n, residual))
-        CHECK(tell_conflict(&p, residual, "no speeds satisfy the constraints", diag));
+        CHECK(start_conflict(&p, residual, "no speeds satisfy the constraints", diag));
 done:
-    problem_close(&p);
-    mem_free(held);
-    mem_free(residual);
-    return status;
-}
-
-void network_hint(const System *system, Diag *diag)
-{
-    const char *name = system_ideal_switch(system);
-
-    if (name != NULL)
-        diag_hint(diag,
-                  "%s is ideal: beside capacitors and inductors give it Ron= and Roff=, such as "
-                  "Ron=1 mohm Roff=1 Mohm",
-                  name);
-}
-
-/* whether the network has a solution at the start; what stands behind the states in v is where the
- * search begins */
-static Status check_network(Assembly *a, const double *v, Diag *diag)
-{
-    const Layout *l = a->l;
-    const Equations *eq = a->eq;
-    NetSolve *solve;
-    int lost;
-    Status status = OK;
-
-    if (l->nx + l->nz == 0 || eq->network_reads != NULL)
-        return OK; /* or once the motion is known */
-    solve = netsolve_new(eq);
-    memcpy(netsolve_values(solve), v + l->nx, (size_t)(l->nx + l->nz) * sizeof(double));
-    eq->position(eq->context, 0, a->y);
-    eq->velocity(eq->context, a->y + l->n, a->y + l->n + l->nu);
-    if (netsolve_find(solve)) {
-        memcpy(a->out->network, netsolve_values(solve), (size_t)(l->nx + l->nz) * sizeof(double));
-        goto done;
-    }
-    lost = netsolve_undetermined(solve);
-    if (lost >= 0)
-        status = diag_set(diag, E_SINGULAR, "no equation of the network determines %s",
-                          expr_name(l->symbols[l->rates + lost]));
-    else
-        status =
-            diag_set(diag, E_SINGULAR, "the network's equations have no solution at the start");
-    if (system_ideal_switch(l->system) != NULL)
-        network_hint(l->system, diag);
-    else
-        diag_hint(diag, lost >= 0 ? "a source or an ideal part fixes the same thing twice: put a "
-                                    "resistance or a capacitance there"
-                                  : "other initial values, or a resistance beside the part that is "
-                                    "steep, may help");
-done:
-    netsolve_free(solve);
-    return status;
-}
-
-/* v at rest: what are states in state form is 0 */
-static Status rest_network(Assembly *a, double *v, Diag *diag)
-{
-    const Layout *l = a->l;
-    Assembly rest = *a;
-    Problem p = {0};
-    StartValue *values = NULL;
-    Rows rows;
-    int count = 0;
-    Status status = OK;
-
-    while (system_at_rest(l->system, count) != NULL)
-        count++;
-    values = NEW_ARRAY(StartValue, count);
-    rest.given = NEW_ARRAY(Given, count);
-    rest.given_count = count;
-    for (int i = 0; i < count; i++) {
-        values[i].name = system_at_rest(l->system, i);
-        rest.given[i].value = &values[i];
-        CHECK(system_variable(l->system, values[i].name, 0, &rest.given[i].expr, diag));
-        CHECK(classify(&rest, &rest.given[i], diag));
-    }
-    CHECK(problem_open(&p, &rest, LEVEL_NETWORK, false, diag));
-    rows = rows_of(&p);
-    (void)least_solve(&rows, NULL, NULL, 1e-11, v, NULL);
-done:
-    problem_close(&p);
-    mem_free(rest.given);
-    mem_free(values);
-    return status;
-}
-
-static Status find_network(Assembly *a, WarmValue from, void *context, Diag *diag)
-{
-    const Layout *l = a->l;
-    Problem p = {0};
-    double *v = NEW_ARRAY(double, 2 * l->nx + l->nz);
-    double *residual = NULL;
-    bool *held = NEW_ARRAY(bool, 2 * l->nx + l->nz);
-    bool needed = system_invariant(l->system, 0) != NULL;
-    Rows rows;
-    Status status = OK;
-
-    if (system_at_rest(l->system, 0) != NULL && from == NULL)
-        CHECK(rest_network(a, v, diag));
-    for (int i = 0; system_sample(l->system, i) != NULL; i++) {
-        const OwnSample *own = system_sample(l->system, i);
-
-        v[own->state] = parameters_evaluate(a->parameters, own->initial);
-    }
-    for (int i = 0; i < l->nx && from != NULL; i++) {
-        double value = from(context, system_x(l->system, i)->name);
-
-        if (isfinite(value))
-            v[i] = value;
-    }
-    for (int i = 0; i < l->nz && from != NULL; i++) {
-        double value = from(context, system_z(l->system, i)->name);
-
-        v[2 * l->nx + i] = isfinite(value) ? value : 0;
-    }
-    for (int i = 0; i < a->given_count; i++) {
-        const Given *given = &a->given[i];
-
-        if (given->level != LEVEL_NETWORK)
-            continue;
-        /* one state under two names, and not of one value */
-        needed = needed || (given->column >= 0 && held[given->column] && !given->value->is_guess &&
-                            v[given->column] != given->value->value);
-        if (given->column >= 0 && (!held[given->column] || !given->value->is_guess)) {
-            v[given->column] = given->value->value;
-            held[given->column] = !given->value->is_guess;
-        }
-        needed = needed || (given->column < 0 && !given->value->is_guess);
-    }
-    if (needed) {
-        CHECK(problem_open(&p, a, LEVEL_NETWORK, false, diag));
-        rows = rows_of(&p);
-        residual = NEW_ARRAY(double, rows.rows);
-        if (!least_solve(&rows, held, NULL, 1e-11, v, residual))
-            CHECK(tell_conflict(&p, residual, "the network's initial values contradict", diag));
-    }
-    memcpy(a->y + l->n + l->nu, v, (size_t)l->nx * sizeof(double));
-    CHECK(check_network(a, v, diag));
-done:
-    problem_close(&p);
-    mem_free(v);
+    start_close_problem(&p);
     mem_free(held);
     mem_free(residual);
     return status;
@@ -703,7 +524,7 @@ static bool nearby(Assembly *a, uint64_t *seed, double *q, double *residual)
     p.row = NEW_ARRAY(double, l->n);
     for (int i = 0; i < l->n; i++)
         q[i] = a->y[i] + 1e-2 * random_unit(seed);
-    rows = rows_of(&p);
+    rows = start_rows(&p);
     met = least_solve(&rows, NULL, NULL, TOLERANCE, q, residual);
     if (met)
         a->eq->position(a->eq->context, 0, q);
@@ -757,6 +578,7 @@ Status start_find(const Layout *layout, Parameters *parameters, const Numbers *n
 {
     Assembly a = {.l = layout,
                   .parameters = parameters,
+                  .numbers = numbers,
                   .eq = numbers_equations(numbers),
                   .setting = setting,
                   .out = out};
@@ -773,7 +595,7 @@ Status start_find(const Layout *layout, Parameters *parameters, const Numbers *n
     equations_turn(a.eq, 0, a.y, a.y + layout_turned(layout));
     find_rank(&a);
     CHECK(find_velocity(&a, diag));
-    CHECK(find_network(&a, setting->from != NULL ? warm : NULL, warm_context, diag));
+    CHECK(start_find_network(&a, setting->from != NULL ? warm : NULL, warm_context, diag));
 done:
     mem_free(a.given);
     mem_free(a.driven);

@@ -12,10 +12,8 @@ static Status run(Problem *p, const char *method, bool embedded, double rtol, co
     MotionOptions options = {
         .embedded = embedded, .rows = p->rows, .row_count = p->eq.m, .tolerance = rtol};
     Motion *motion = motion_new(&p->eq, &options);
-    MarchPlan plan = {.equations = &p->eq,
-                      .motion = motion,
+    MarchPlan plan = {.leg = {.equations = &p->eq, .motion = motion, .stiff = &method_radau},
                       .method = method != NULL ? method_find(method) : NULL,
-                      .stiff = &method_radau,
                       .control = {.rtol = rtol, .atol = rtol},
                       .to = to,
                       .every = every};
@@ -28,7 +26,7 @@ static Status run(Problem *p, const char *method, bool embedded, double rtol, co
 
 static double last(const Grid *grid, int i)
 {
-    return grid->states[(grid->count - 1) * grid->length + i];
+    return grid_row(grid, grid->count - 1)[i];
 }
 
 static Stepper *spring_stepper(Problem *p, Motion **motion, const Method *method, double h)
@@ -192,7 +190,7 @@ static void four_bar_passes_its_singular_positions(void)
             EXPECT_NEAR(cos(last(&grid, 0)), 0.87815017879120930116, 1e-5);
         }
         for (int i = 0; i < grid.count; i++)
-            EXPECT_NEAR(sin(grid.states[i * grid.length + 2]), 0, digits >= 6 ? 1e-3 : 0.1);
+            EXPECT_NEAR(sin(grid_row(&grid, i)[2]), 0, digits >= 6 ? 1e-3 : 0.1);
         grid_free(&grid);
     }
 }
@@ -211,7 +209,7 @@ static void a_switch_in_time_is_met_exactly(void)
 
         problem_coil(&p, 0.1);
         EXPECT(run(&p, names[i], false, 1e-11, start, 1, 0.1, &grid, &out, NULL) == OK);
-        EXPECT_NEAR(grid.states[5 * grid.length + 2], at_switch, bound);
+        EXPECT_NEAR(grid_row(&grid, 5)[2], at_switch, bound);
         EXPECT_NEAR(last(&grid, 2), -1 + (1 + at_switch) * exp(-5), bound);
         if (i == 0)
             EXPECT(out.counts.rejected == 0); /* no step felt the jump */
@@ -279,7 +277,7 @@ static void a_stopped_run_keeps_its_rows(void)
     Problem p;
     MotionOptions options = {.rows = p.rows, .row_count = 2, .tolerance = 1e-10};
     Motion *motion;
-    MarchPlan plan = {.equations = &p.eq,
+    MarchPlan plan = {.leg = {.equations = &p.eq},
                       .control = {.rtol = 1e-10, .atol = 1e-10},
                       .to = 1000,
                       .every = 0.01,
@@ -290,7 +288,7 @@ static void a_stopped_run_keeps_its_rows(void)
 
     problem_pendulum(&p, false);
     motion = motion_new(&p.eq, &options);
-    plan.motion = motion;
+    plan.leg.motion = motion;
     EXPECT(march(&plan, pendulum_start, &grid, &out, &diag) == E_STOPPED);
     EXPECT(grid.count > 10 && grid.count < 100000);
     EXPECT(strncmp(diag.message, "stopped at t = ", 15) == 0);

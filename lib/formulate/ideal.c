@@ -1,0 +1,191 @@
+/* ideal.c: switches and diodes without resistance
+ *
+ * A system with both sides of each in one equation is for looking at, and for operating points:
+ *
+ *     diode    i = max(0, i + g (v - least)), g = 1 S; any g > 0 has the same solutions
+ *     switch   v = on i while it is closed, v = off i or i = 0 while it is open
+ *
+ * In a mode each is on one side. A closed one is a source of across, an open one a source of
+ * through variables, of nothing: so the normal tree is another one, and with it what is a state.
+ * Where closed ones alone make a circuit nothing tells what each of them carries, and where open
+ * ones alone part the network, nothing what is across each: they share alike, as equal resistances
+ * would, however small or large. theory.md 8. */
+#include "formulate/system_impl.h"
+
+#include <string.h>
+
+/* --- relations --- */
+
+static Expr both_sides(System *system, const Ideal *ideal, Expr v, Expr i)
+{
+    Arena *arena = system->arena;
+    Expr excess = expr_sub(arena, v, ideal->least);
+    Expr open = i;
+
+    if (ideal->when == NULL)
+        return expr_sub(arena, i,
+                        expr_call2(arena, OP_MAX, expr_int(arena, 0), expr_add(arena, i, excess)));
+    if (ideal->off != NULL)
+        open = expr_sub(arena, v, expr_mul(arena, ideal->off, i));
+    return expr_if(arena, ideal->when, expr_sub(arena, excess, expr_mul(arena, ideal->on, i)),
+                   open);
+}
+
+/* one side, as the relation of a source or a resistor */
+static void one_side(System *system, bool closed, Relation *relation)
+{
+    const Ideal *ideal = &relation->ideal;
+    Expr zero = expr_int(system->arena, 0);
+
+    relation->rest = zero;
+    if (closed && expr_is_zero(ideal->on)) {
+        relation->kind = RELATION_ACROSS;
+        relation->value = ideal->least;
+    } else if (closed) {
+        relation->kind = RELATION_RESISTIVE;
+        relation->value = ideal->on;
+        relation->rest = ideal->least;
+    } else if (ideal->off != NULL) {
+        relation->kind = RELATION_RESISTIVE;
+        relation->value = ideal->off;
+    } else {
+        relation->kind = RELATION_THROUGH;
+        relation->value = zero;
+    }
+}
+
+void ideal_take_side(System *system, Branchlike *branch)
+{
+    const Instance *instance = &system->instances[branch->instance];
+    Relation *relation = &branch->relation;
+
+    branch->ideal = system->ideals.count;
+    LIST_PUSH(system->ideals, (int)(branch - system->branches.at));
+    if (system->closed != NULL)
+        one_side(system, system->closed[branch->ideal], relation);
+    else
+        relation->value = both_sides(system, &relation->ideal,
+                                     instance_across(instance, system->arena, branch->which),
+                                     instance_through(instance, system->arena, branch->which));
+}
+
+/* --- what sources of nothing share --- */
+
+/* an ideal switch without resistance on that side */
+static bool is_on_side(const Branchlike *branch, RelationKind kind)
+{
+    return branch->ideal >= 0 && branch->relation.kind == kind;
+}
+
+/* of a closed chord: i around the circuit. Where voltages are left over there is none. */
+static Status share_circuit(System *system, const Branchlike *branch, bool *shared, Expr *out,
+                            Diag *diag)
+{
+    const Edge *edge = graph_edge(system->graph, branch->edge);
+    const Tree *tree = system->trees[branch_tree(system, branch)];
+    int room = tree_depth(tree, edge->tail) + tree_depth(tree, edge->head);
+    int *edges = NEW_ARRAY(int, room);
+    int *signs = NEW_ARRAY(int, room);
+    int count = tree_path(tree, edge->tail, edge->head, edges, signs);
+    Expr left = expr_neg(system->arena, branch->relation.value);
+    Status status = OK;
+
+    *shared = true;
+    *out = branch->i;
+    for (int k = 0; k < count && *shared; k++) {
+        Branchlike *other = &system->branches.at[system->scalar_of_edge[edges[k]]];
+        Expr sign = expr_int(system->arena, signs[k]);
+        Expr i;
+
+        *shared = is_on_side(other, RELATION_ACROSS);
+        if (!*shared)
+            break;
+        CHECK(network_through(system, other, &i, diag));
+        *out = expr_sub(system->arena, *out, expr_mul(system->arena, sign, i));
+        left = expr_add(system->arena, left, expr_mul(system->arena, sign, other->relation.value));
+    }
+    *shared = *shared && expr_is_zero(expr_fold(system->arena, left));
+done:
+    mem_free(edges);
+    mem_free(signs);
+    return status;
+}
+
+/* of an open branch: v across the cutset */
+static Status share_cutset(System *system, const Branchlike *branch, bool *shared, Expr *out,
+                           Diag *diag)
+{
+    const SignMatrix *cutsets = system->cutsets[branch_tree(system, branch)];
+    Status status = OK;
+
+    *shared = true;
+    *out = branch->v;
+    for (int k = cutsets->start[branch->cutset]; k < cutsets->start[branch->cutset + 1] && *shared;
+         k++) {
+        Branchlike *chord = &system->branches.at[system->scalar_of_edge[cutsets->column[k]]];
+        Expr v;
+
+        if (chord == branch)
+            continue;
+        *shared = is_on_side(chord, RELATION_THROUGH);
+        CHECK(network_across(system, chord, &v, diag));
+        *out = cutsets->entry[k] < 0 ? expr_sub(system->arena, *out, v)
+                                     : expr_add(system->arena, *out, v);
+    }
+done:
+    return status;
+}
+
+Status ideal_share(System *system, const Branchlike *branch, bool *shared, Expr *out, Diag *diag)
+{
+    *shared = false;
+    if (system->network_form != NETWORK_STATE)
+        return OK;
+    if (!branch->branch && branch->relation.kind == RELATION_ACROSS)
+        return share_circuit(system, branch, shared, out, diag);
+    if (branch->branch && branch->relation.kind == RELATION_THROUGH)
+        return share_cutset(system, branch, shared, out, diag);
+    return OK;
+}
+
+/* --- looking --- */
+
+int system_ideal_count(const System *system)
+{
+    return system->ideals.count;
+}
+
+/* where the unknown of the branch, and so its equation, stands in [x'; z] */
+static int row_of(const System *system, const Branchlike *branch)
+{
+    if (system->closed != NULL || branch->unknown < 0)
+        return -1;
+    for (int k = 0; k < system->z.count; k++)
+        if (system->z.at[k].symbol == system->unknowns.at[branch->unknown].symbol)
+            return system->x.count + k;
+    return -1;
+}
+
+Status system_ideal(System *system, int i, IdealSwitch *out, Diag *diag)
+{
+    Branchlike *branch = &system->branches.at[system->ideals.at[i]];
+    const Ideal *ideal = &branch->relation.ideal;
+    IdealSwitch found = {.name = system->instances[branch->instance].name,
+                         .row = row_of(system, branch)};
+    Status status = OK;
+
+    CHECK(network_across(system, branch, &found.across, diag));
+    CHECK(network_through(system, branch, &found.through, diag));
+    CHECK(resolve(system, ideal->least, &found.least, diag));
+    CHECK(resolve(system, ideal->on, &found.on, diag));
+    found.across = expr_sub(system->arena, found.across, found.least);
+    if (ideal->off != NULL)
+        CHECK(resolve(system, ideal->off, &found.off, diag));
+    if (ideal->when != NULL)
+        CHECK(resolve(system, ideal->when, &found.when, diag));
+    else if (system->closed != NULL)
+        found.margin = system->closed[i] ? found.through : expr_neg(system->arena, found.across);
+    *out = found;
+done:
+    return status;
+}

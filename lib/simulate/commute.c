@@ -1,0 +1,305 @@
+/* commute.c: which phase of a result goes on
+ *
+ * What is carried over an instant are coordinates, speeds, and the states of the whole: every mode
+ * tells those, and its own states are some of them. */
+#include "simulate/commute.h"
+
+#include "base/memory.h"
+#include "simulate/linear.h"
+
+#include <math.h>
+#include <string.h>
+
+#define JUMP       1e-6 /* of a state, more than location may change it, */
+#define ERRORS     100  /* and of the tolerance: what errors may */
+#define START_STEP 1e-9 /* s: for the sides at a start, where no run says what is short */
+#define LOOK       1e-4 /* of the last step: how far to look ahead for the sides, */
+#define NEAREST    1e-9 /* but not less than this of the run, */
+#define FURTHEST   1e-6 /* and no more than this */
+
+static int number_of(const Result *r, const Phase *phase)
+{
+    for (int i = 0; i < r->phases.count; i++)
+        if (r->phases.at[i] == phase)
+            return i;
+    return -1;
+}
+
+/* --- states of the whole --- */
+
+static Status compile_states(Result *r, Phase *phase, Diag *diag)
+{
+    const Layout *whole = r->phases.at[0]->layout;
+    LIST(Expr) roots = {0};
+    Status status = OK;
+
+    for (int i = 0; i < whole->nx; i++) {
+        Expr state;
+
+        CHECK(system_variable(phase->system, system_x(whole->system, i)->name, 0, &state, diag));
+        LIST_PUSH(roots, state);
+    }
+    for (int i = 0; system_invariant(phase->system, i) != NULL; i++)
+        LIST_PUSH(roots, system_invariant(phase->system, i));
+    CHECK(probe_new(phase->layout, &r->parameters, roots.at, roots.count, &phase->states, diag));
+done:
+    LIST_FREE(roots);
+    return status;
+}
+
+/* false: the phase has no solution at (t, y) */
+static bool states_at(const Result *r, Phase *phase, double t, const double *y, RowValues *row,
+                      double *out)
+{
+    if (!phase_row(phase, t, y, row))
+        return false;
+    memcpy(out, probe_values(phase->states, row),
+           (size_t)r->phases.at[0]->layout->nx * sizeof(double));
+    return true;
+}
+
+/* y of a phase from (q, u), states of the whole, and references of angles */
+static Status enter(const Result *r, const Phase *phase, const double *y, const double *x,
+                    const double *near, double work, double *out, Diag *diag)
+{
+    const Layout *l = phase->layout, *whole = r->phases.at[0]->layout;
+
+    memcpy(out, y, (size_t)(l->n + l->nu) * sizeof(double));
+    for (int i = 0; i < l->nx; i++) {
+        int k = 0;
+
+        while (k < whole->nx &&
+               strcmp(system_x(whole->system, k)->name, system_x(l->system, i)->name) != 0)
+            k++;
+        if (k == whole->nx)
+            return diag_set(diag, E_MODEL, "%s is no state on the other side of an ideal switch",
+                            system_x(l->system, i)->name);
+        out[l->n + l->nu + i] = x[k];
+    }
+    memcpy(out + layout_turned(l), near, (size_t)l->turned * sizeof(double));
+    out[phase->length - 1] = work;
+    return OK;
+}
+
+/* --- impulses --- */
+
+static void name_sides(const Result *r, const bool *before, const bool *closed, Text *out)
+{
+    for (int k = 0; k < system_ideal_count(r->system); k++) {
+        IdealSwitch ideal;
+
+        if (closed[k] == before[k] || system_ideal(r->system, k, &ideal, NULL) != OK)
+            continue;
+        text_addf(out, "%s%s %s", out->length > 0 ? ", " : "", ideal.name,
+                  closed[k] ? "closes" : "opens");
+    }
+}
+
+/* What the states of the whole have to be in the phase that begins at (t, y), against what they
+ * were: none may jump. `before` are the sides that were. */
+static Status check_impulse(const Result *r, Phase *phase, double t, const double *y,
+                            const bool *before, const double *x, Diag *diag)
+{
+    const Layout *whole = r->phases.at[0]->layout;
+    double largest = vector_largest(x, whole->nx);
+    const double *now;
+    Text sides = {0};
+    RowValues row;
+    Status status = OK;
+
+    if (!phase_row(phase, t, y, &row))
+        return OK; /* that has its own message */
+    now = probe_values(phase->states, &row);
+    largest = fmax(largest, vector_largest(now, whole->nx));
+    for (int i = 0; i < whole->nx && status == OK; i++)
+        if (fabs(now[i] - x[i]) > JUMP * fmax(fabs(now[i]), fabs(x[i])) + ERRORS * r->tolerance) {
+            name_sides(r, before, phase->closed, &sides);
+            status = diag_set(diag, E_SOLVER,
+                              "%s at t = %.9g s, and %s would jump from %.6g to "
+                              "%.6g",
+                              sides.at != NULL ? sides.at : "sources jump", t,
+                              system_x(whole->system, i)->name, x[i], now[i]);
+        }
+    for (int i = 0; system_invariant(phase->system, i) != NULL && status == OK; i++)
+        if (fabs(now[whole->nx + i]) > JUMP * largest + ERRORS * r->tolerance) {
+            name_sides(r, before, phase->closed, &sides);
+            status = diag_set(diag, E_SOLVER, "%s at t = %.9g s, and what is stored would jump",
+                              sides.at != NULL ? sides.at : "sources jump", t);
+        }
+    if (status != OK)
+        diag_hint(diag, "a resistance in that circuit, a diode for the current, or Ron= and Roff= "
+                        "of the switch, make it a fast change");
+    text_free(&sides);
+    return status;
+}
+
+/* --- phases --- */
+
+Status commute_phase(Result *r, const Setting *setting, const bool *closed, Phase **out, Diag *diag)
+{
+    int count = system_ideal_count(r->system);
+    Phase *phase = NULL;
+    System *system;
+    Status status = OK;
+
+    for (int i = 1; i < r->phases.count; i++)
+        if (memcmp(r->phases.at[i]->closed, closed, (size_t)count * sizeof(bool)) == 0) {
+            *out = r->phases.at[i];
+            return OK;
+        }
+    CHECK(system_mode(r->system, setting->model, closed, setting->watch, &system, diag));
+    CHECK(phase_new(system, &r->parameters, closed, count, &phase, diag));
+    CHECK(result_open_phase(r, phase, setting, diag));
+    CHECK(compile_states(r, phase, diag));
+    LIST_PUSH(r->phases, phase);
+    *out = phase;
+    phase = NULL;
+done:
+    phase_free(phase);
+    return status;
+}
+
+Leg commute_leg(const Result *r, const Phase *phase, Events *events)
+{
+    const Method *stiff = phase_stiff_method(phase);
+
+    return (Leg){.phase = number_of(r, phase),
+                 .equations = numbers_equations(phase->numbers),
+                 .motion = phase->motion,
+                 .events = events,
+                 .samples = phase->samples,
+                 .stiff = stiff,
+                 .stiff_decays = stiff != &method_radau};
+}
+
+/* --- the start --- */
+
+Status commute_begin(Result *r, const Setting *setting, Diag *diag)
+{
+    const Layout *whole = r->phases.at[0]->layout;
+    const double *x = r->start.y + whole->n + whole->nu;
+    SidesAt at = {.t = 0,
+                  .step = START_STEP,
+                  .q = r->start.y,
+                  .u = r->start.y + whole->n,
+                  .near = r->start.y + layout_turned(whole),
+                  .x = x,
+                  .x_behind = x};
+    bool *closed = NEW_ARRAY(bool, system_ideal_count(r->system));
+    bool *none = NEW_ARRAY(bool, system_ideal_count(r->system));
+    Phase *phase;
+    Status status = OK;
+
+    CHECK(sides_find(r->sides, &at, closed, diag));
+    CHECK(commute_phase(r, setting, closed, &phase, diag));
+    r->phase = phase;
+    mem_free(r->begin);
+    r->begin = NEW_ARRAY(double, phase->length);
+    CHECK(enter(r, phase, r->start.y, x, at.near, 0, r->begin, diag));
+    CHECK(check_impulse(r, phase, 0, r->begin, none, x, diag));
+    CHECK(start_solve(phase->layout, phase->numbers, r->begin, NULL, NULL, diag));
+done:
+    mem_free(closed);
+    mem_free(none);
+    return status;
+}
+
+/* --- in a run --- */
+
+void commuting_free(Commuting *c)
+{
+    mem_free(c->y);
+    c->y = NULL;
+}
+
+/* y a step on, as the phase goes */
+static void go_ahead(const Phase *phase, double t, double step, const double *y, double *out)
+{
+    const Ode *ode = motion_ode(phase->motion);
+    double *rate = NEW_ARRAY(double, phase->length);
+    bool sound = ode->rate(ode->context, t, y, rate);
+
+    for (int i = 0; i < phase->length; i++)
+        out[i] = y[i] + (sound ? step * rate[i] : 0);
+    mem_free(rate);
+}
+
+static Status take_over_events(Result *r, Phase *next, const Setting *setting, Events **events,
+                               Diag *diag)
+{
+    Status status = OK;
+
+    if (*events == NULL)
+        return OK;
+    if (next->events == NULL)
+        CHECK(result_make_events(r, next, NULL, setting, &next->events, diag));
+    if (next->events != *events)
+        events_hand_over(next->events, *events);
+    *events = next->events;
+done:
+    return status;
+}
+
+/* How far to look ahead, as numbers tell times apart. Where nothing changed at t when it was looked
+ * at last, all the same it is asked again: so what changes is too slow to be seen. */
+static double step_from(Commuting *c, double t, double last)
+{
+    double step = fmin(fmax(LOOK * last, NEAREST * c->span), FURTHEST * c->span);
+    volatile double ahead;
+
+    c->again = t == c->stuck ? fmin(10 * c->again, 1e3) : 1;
+    ahead = t + c->again * step;
+    return ahead - t;
+}
+
+Status commute(void *context, double t, double behind, double last, const double *y, Leg *leg,
+               const double **out, Diag *diag)
+{
+    Commuting *c = context;
+    Result *r = c->result;
+    Phase *now = r->phases.at[leg->phase], *next = NULL;
+    const Layout *whole = r->phases.at[0]->layout;
+    int count = system_ideal_count(r->system);
+    bool *closed = NEW_ARRAY(bool, count);
+    double *x = NEW_ARRAY(double, whole->nx);
+    double *x_behind = NEW_ARRAY(double, whole->nx);
+    double *ahead = NEW_ARRAY(double, now->length);
+    Events *events = leg->events;
+    RowValues row = {.t = t};
+    SidesAt at = {.t = behind,
+                  .step = step_from(c, behind, last),
+                  .q = ahead,
+                  .u = ahead + whole->n,
+                  .near = ahead + layout_turned(now->layout),
+                  .x = x,
+                  .x_behind = x_behind};
+    Status status = OK;
+
+    go_ahead(now, t, at.step, y, ahead);
+    if (!states_at(r, now, t, y, &row, x))
+        CHECK(solver_failure(diag, t, "the network has no solution"));
+    if (!states_at(r, now, t + at.step, ahead, &row, x_behind))
+        memcpy(x_behind, x, (size_t)whole->nx * sizeof(double));
+    at.acceleration = row.acceleration;
+    at.multipliers = row.multipliers;
+    memcpy(closed, now->closed, (size_t)count * sizeof(bool));
+    CHECK(sides_find(r->sides, &at, closed, diag));
+    c->stuck = behind;
+    if (memcmp(closed, now->closed, (size_t)count * sizeof(bool)) == 0)
+        goto done;
+    c->stuck = NAN;
+    CHECK(commute_phase(r, c->setting, closed, &next, diag));
+    CHECK(take_over_events(r, next, c->setting, &events, diag));
+    commuting_free(c);
+    c->y = NEW_ARRAY(double, next->length);
+    CHECK(enter(r, next, y, x, y + layout_turned(now->layout), y[now->length - 1], c->y, diag));
+    CHECK(check_impulse(r, next, behind, c->y, now->closed, x, diag));
+    *leg = commute_leg(r, next, events);
+    *out = c->y;
+done:
+    mem_free(closed);
+    mem_free(x);
+    mem_free(x_behind);
+    mem_free(ahead);
+    return status;
+}

@@ -1,0 +1,215 @@
+/* march_switches.c: where conditions in the state change sign: located, met, crossed */
+#include "simulate/march_impl.h"
+
+#include "simulate/linear.h"
+
+#include <math.h>
+#include <string.h>
+
+#define POINTS      5 /* of a step, where they are looked at */
+#define ZENO_EVENTS 100
+#define ZENO_SPAN   1e-9 /* of the run */
+
+/* --- conditions --- */
+
+void march_evaluate(March *m, double t, const double *y)
+{
+    const Equations *eq = m->eq;
+
+    if (eq->switch_count > 0)
+        motion_switches(m->leg.motion, t, y, m->conditions);
+    if (m->count > eq->switch_count)
+        events_conditions(m->ev, t, y, m->conditions + eq->switch_count);
+}
+
+bool march_is_of_event(const March *m, int i)
+{
+    return i >= m->eq->switch_count;
+}
+
+static bool is_of_time(const March *m, int i)
+{
+    return march_is_of_event(m, i) ? i - m->eq->switch_count < events_time_only(m->ev)
+                                   : i < m->eq->time_only;
+}
+
+int march_state_conditions(const March *m)
+{
+    return m->count - m->eq->time_only - events_time_only(m->ev);
+}
+
+/* --- conditions in the state --- */
+
+void march_conditions_at(March *m, double t)
+{
+    m->stepper->method->at(m->stepper, t, m->y);
+    march_evaluate(m, t, m->y);
+}
+
+/* what says that the leg is the right one, as long as it is positive */
+static bool is_margin(const March *m, int i)
+{
+    return i < m->eq->switch_count && i >= m->eq->switch_count - m->eq->margin_count;
+}
+
+void march_begin_modes(March *m)
+{
+    if (m->eq->switch_count == m->eq->time_only)
+        return;
+    march_conditions_at(m, m->stepper->t);
+    for (int i = m->eq->time_only; i < m->eq->switch_count; i++) {
+        m->mode[i] = is_margin(m, i) ? 1 : sign_of(m->conditions[i]);
+        m->largest[i] = fabs(m->conditions[i]);
+        m->band[i] = is_margin(m, i) && m->conditions[i] < 0 ? -10 * m->conditions[i] : 0;
+    }
+}
+
+/* whether condition i, as evaluated last, has left its mode; learns a mode not known yet */
+static bool has_switched(March *m, int i)
+{
+    double value = m->conditions[i];
+
+    m->largest[i] = fmax(m->largest[i], fabs(value));
+    if (!(fabs(value) > m->band[i]))
+        return false;
+    m->band[i] = 0;
+    if (m->mode[i] == 0) /* what had no value till now becomes what it is */
+        m->mode[i] = march_is_of_event(m, i) ? -sign_of(value) : sign_of(value);
+    return sign_of(value) != m->mode[i] && value != 0;
+}
+
+int march_find_switch(March *m, double *when)
+{
+    double low = m->scanned, high = m->stepper->t;
+    int found = -1;
+
+    for (int k = 1; k <= POINTS && found < 0; k++) {
+        double t = k == POINTS
+                       ? m->stepper->t
+                       : m->stepper->before + (m->stepper->t - m->stepper->before) * k / POINTS;
+
+        if (t < m->scanned)
+            continue;
+        march_conditions_at(m, t);
+        for (int i = 0; i < m->count; i++)
+            if (!is_of_time(m, i) && has_switched(m, i) && found < 0)
+                found = i;
+        if (found < 0)
+            low = t;
+        else
+            high = t;
+    }
+    if (found < 0)
+        return -1;
+    for (int i = 0; i < 100 && high - low > 4e-16 * fmax(fabs(high), 1e-300); i++) {
+        double middle = low + (high - low) / 2;
+        bool switched = false;
+
+        march_conditions_at(m, middle);
+        for (int k = 0; k < m->count; k++)
+            if (!is_of_time(m, k) && m->conditions[k] != 0 && m->mode[k] != 0 &&
+                sign_of(m->conditions[k]) != m->mode[k] && fabs(m->conditions[k]) > m->band[k]) {
+                switched = true;
+                found = k;
+            }
+        if (switched)
+            high = middle;
+        else
+            low = middle;
+    }
+    *when = high;
+    return found;
+}
+
+double march_condition_rate(March *m, int i, double *value)
+{
+    const Ode *ode = motion_ode(m->leg.motion);
+    const Stepper *s = m->stepper;
+    double h = 1e-7 * fmax(1e-3, s->t - s->before);
+
+    march_conditions_at(m, s->t);
+    *value = m->conditions[i];
+    if (!ode->rate(ode->context, s->t, s->y, m->slope))
+        return 0;
+    for (int k = 0; k < m->length; k++)
+        m->y[k] = s->y[k] + h * m->slope[k];
+    march_evaluate(m, s->t + h, m->y);
+    return (m->conditions[i] - *value) / h;
+}
+
+/* Take the last step again until it ends just before the switch, so that none of its stages has
+ * seen what is behind: Newton's method on the length of the step. */
+static Status approach(March *m, int i, double when, double *value, double *slope, Diag *diag)
+{
+    double aim = 1e-13 * m->largest[i] * m->mode[i];
+    double before = m->stepper->before, end = m->stepper->t;
+    Status status = OK;
+
+    for (int k = 0; k < 12; k++) {
+        CHECK(m->stepper->method->shorten(m->stepper, when, diag));
+        *slope = march_condition_rate(m, i, value);
+        if (*value * m->mode[i] > 0 && fabs(*value) <= 1e-11 * m->largest[i])
+            break;
+        if (*slope * m->mode[i] >= 0)
+            break; /* a grazing contact: no clean root */
+        when = fmin(end, fmax(before + 1e-3 * (when - before), when - (*value - aim) / *slope));
+    }
+done:
+    return status;
+}
+
+/* From just before a switch to just behind it: so short a way that Euler's rule is exact. */
+static bool cross(March *m, int i, double value, double slope)
+{
+    Stepper *s = m->stepper;
+    double h = fmax(4e-16 * fabs(s->t), 2 * fabs(value / slope));
+
+    for (int k = 0; k < 20; k++, h *= 2) {
+        for (int j = 0; j < m->length; j++)
+            m->y[j] = s->y[j] + h * m->slope[j];
+        march_evaluate(m, s->t + h, m->y);
+        if (sign_of(m->conditions[i]) == -m->mode[i]) {
+            memcpy(s->y, m->y, (size_t)m->length * sizeof(double));
+            s->t += h;
+            return true;
+        }
+    }
+    return false;
+}
+
+Status march_check_pace(March *m, int i, Diag *diag)
+{
+    double span = m->plan->to - m->plan->from;
+
+    if (m->stepper->t - m->switched_since > ZENO_SPAN * span) {
+        m->switched_since = m->stepper->t;
+        m->switches = 0;
+    }
+    if (++m->switches <= ZENO_EVENTS)
+        return OK;
+    if (march_is_of_event(m, i))
+        return events_are_stuck(m->ev, i - m->eq->switch_count, m->stepper->t, diag);
+    return solver_failure(diag, m->stepper->t,
+                          "a condition in the equations switches to and fro without end");
+}
+
+Status march_meet_switch(March *m, int i, double when, Diag *diag)
+{
+    double value = 0, slope = 0;
+    Status status = OK;
+
+    /* a switch on the very start of the step can't be told from the one just met */
+    if (when > m->stepper->before) {
+        CHECK(approach(m, i, when, &value, &slope, diag));
+        CHECK(march_add_rows(m, diag));
+        if (slope * m->mode[i] < 0 && value * m->mode[i] > 0)
+            (void)cross(m, i, value, slope);
+    }
+    march_conditions_at(m, m->stepper->t);
+    m->band[i] = fmax(10 * fabs(m->conditions[i]), 1e-10 * m->largest[i]);
+    m->mode[i] = is_margin(m, i) ? 1 : -m->mode[i];
+    CHECK(march_check_pace(m, i, diag));
+    CHECK(march_go_on(m, m->stepper->t, m->stepper->y, diag));
+done:
+    return status;
+}

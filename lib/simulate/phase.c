@@ -1,0 +1,74 @@
+/* phase.c: equations of a part of a run */
+#include "simulate/phase.h"
+
+#include "base/memory.h"
+
+#include <string.h>
+
+#define FEW 100 /* unknowns up to which radau's dense factors beat bdf's */
+
+Status phase_new(System *system, Parameters *parameters, const bool *closed, int count, Phase **out,
+                 Diag *diag)
+{
+    Phase *phase = NEW(Phase);
+    Status status = OK;
+
+    phase->system = system;
+    phase->layout = layout_new(system);
+    if (closed != NULL) {
+        phase->closed = NEW_ARRAY(bool, count);
+        memcpy(phase->closed, closed, (size_t)count * sizeof(bool));
+    }
+    CHECK(numbers_new(phase->layout, parameters, &phase->numbers, diag));
+    *out = phase;
+    phase = NULL;
+done:
+    phase_free(phase);
+    return status;
+}
+
+Status phase_open(Phase *phase, Parameters *parameters, const MotionOptions *options, Diag *diag)
+{
+    phase->motion = motion_new(numbers_equations(phase->numbers), options);
+    phase->length = motion_length(phase->motion);
+    phase->network = netdae_new(phase->layout, parameters, phase->motion);
+    if (phase->network != NULL)
+        motion_offer(phase->motion, netdae_equations(phase->network));
+    return samples_new(phase->layout, parameters, phase->motion, &phase->samples, diag);
+}
+
+void phase_free(Phase *phase)
+{
+    if (phase == NULL)
+        return;
+    events_free(phase->events);
+    samples_free(phase->samples);
+    probe_free(phase->states);
+    netdae_free(phase->network);
+    motion_free(phase->motion);
+    numbers_free(phase->numbers);
+    layout_free(phase->layout);
+    mem_free(phase->closed);
+    mem_free(phase);
+}
+
+const Method *phase_stiff_method(const Phase *phase)
+{
+    if (phase->length + phase->layout->nz <= FEW)
+        return &method_radau;
+    return phase->network != NULL ? &method_ida : &method_bdf;
+}
+
+bool phase_row(Phase *phase, double t, const double *y, RowValues *out)
+{
+    Solved solved;
+
+    *out = row_of_state(phase->layout, t, y);
+    if (!motion_solve(phase->motion, t, y, &solved))
+        return false;
+    out->rates = solved.rates;
+    out->z = solved.algebraic;
+    out->acceleration = solved.acceleration;
+    out->multipliers = solved.multipliers;
+    return true;
+}

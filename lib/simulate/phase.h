@@ -1,0 +1,42 @@
+/* phase.h: the equations of a part of a run, and all that computes them
+ *
+ * A model without ideal switches has one. With them there is one of the whole, in which each
+ * switch is on both sides and which no row is of, and one for each mode that a run comes to. */
+#ifndef COTREE_SIMULATE_PHASE_H
+#define COTREE_SIMULATE_PHASE_H
+
+#include "simulate/events.h"
+#include "simulate/netdae.h"
+#include "simulate/numbers.h"
+#include "simulate/samples.h"
+#include "simulate/start.h"
+
+typedef struct Phase {
+    System *system; /* borrowed */
+    bool *closed;   /* sides of its ideal switches; NULL: it is in no mode */
+    Layout *layout;
+    Numbers *numbers;
+    Motion *motion;  /* NULL, with all that follows, until phase_open() */
+    int length;      /* of y */
+    NetDae *network; /* NULL where there is mechanics */
+    Events *events;  /* NULL: none, or not made yet */
+    Samples *samples;
+    Probe *states; /* the network states of the whole, where it is a mode */
+} Phase;
+
+/* New: programs compiled; phase_free(). Borrows the system and the parameters; `closed` is copied,
+ * `count` sides; NULL: in no mode. */
+MUST_USE Status phase_new(System *system, Parameters *parameters, const bool *closed, int count,
+                          Phase **out, Diag *diag);
+/* What solves its equations. `rows` of the start are copied. Fails with E_NAME for an independent
+ * coordinate that the trees don't have, and as samples_new() does. */
+MUST_USE Status phase_open(Phase *phase, Parameters *parameters, const MotionOptions *options,
+                           Diag *diag);
+void phase_free(Phase *phase); /* NULL is fine */
+
+/* what a run goes over to where its equations turn out to be stiff */
+const Method *phase_stiff_method(const Phase *phase);
+/* Everything at (t, y). False: no solution. */
+bool phase_row(Phase *phase, double t, const double *y, RowValues *out);
+
+#endif

@@ -1,0 +1,401 @@
+/* sides.c: sides of ideal switches behind an instant */
+#include "simulate/sides.h"
+
+#include "base/memory.h"
+#include "base/text.h"
+#include "simulate/linear.h"
+#include "simulate/netsolve.h"
+
+#include <math.h>
+#include <string.h>
+
+#define OPEN_LEAK   1e-12 /* S: shares voltages that nothing else tells, and is seen nowhere else */
+#define CLOSED_LEAK 1e-20 /* ohm: likewise currents, */
+#define FORWARD_LEAK                                                                               \
+    1e-9             /* and where there is a forward voltage, with what rounding leaves of it */
+#define NOISE  1e-12 /* of the largest current or voltage: too small to tell a side from */
+#define ROUNDS 8     /* in which conditions and diodes may set each other off */
+
+typedef enum When { ALWAYS, OPEN, CLOSED } When;
+
+/* an entry of the matrix: root of the probe, in force on one side of an ideal switch */
+typedef struct Term {
+    int place; /* in the pattern */
+    int root;
+    int ideal;
+    When when;
+    bool by_state; /* times h: x = x0 + h x' */
+} Term;
+
+typedef struct Row {
+    int root;
+    int row;
+    int ideal;
+    When when;
+} Row;
+
+struct Sides {
+    const Layout *l;
+    int n, count; /* unknowns [x'; z]; ideal switches */
+    LIST(Row) rows;
+    LIST(Term) terms;
+    LIST(int) pattern_row;
+    LIST(int) pattern_column;
+    Equations eq; /* for the solver */
+    double *network, *residual;
+    NetSolve *solve;
+    Probe *equations; /* roots of rows and terms */
+    Probe *looks;     /* through and across of each, and what closes it */
+    bool *has_when;
+    const SidesAt *at;
+    double step;
+    bool *closed;
+    double *x; /* behind the step */
+    double *through, *across, *wanted;
+};
+
+/* --- equations --- */
+
+static RowValues row_values(const Sides *s, const double *w)
+{
+    return (RowValues){.t = s->at->t + s->step,
+                       .near = s->at->near,
+                       .q = s->at->q,
+                       .u = s->at->u,
+                       .x = s->x,
+                       .rates = w,
+                       .z = w + s->l->nx,
+                       .acceleration = s->at->acceleration,
+                       .multipliers = s->at->multipliers};
+}
+
+static bool is_in_force(const Sides *s, int ideal, When when)
+{
+    return when == ALWAYS || s->closed[ideal] == (when == CLOSED);
+}
+
+static void take_step(Sides *s, const double *w)
+{
+    for (int i = 0; i < s->l->nx; i++)
+        s->x[i] = s->at->x[i] + s->step * w[i];
+}
+
+static void network_at(void *context, const double *w)
+{
+    Sides *s = context;
+    RowValues row;
+    const double *values;
+
+    take_step(s, w);
+    row = row_values(s, w);
+    values = probe_values(s->equations, &row);
+    memset(s->network, 0, (size_t)s->pattern_row.count * sizeof(double));
+    for (int k = 0; k < s->rows.count; k++)
+        if (is_in_force(s, s->rows.at[k].ideal, s->rows.at[k].when))
+            s->residual[s->rows.at[k].row] = values[s->rows.at[k].root];
+    for (int k = 0; k < s->terms.count; k++) {
+        const Term *term = &s->terms.at[k];
+
+        if (is_in_force(s, term->ideal, term->when))
+            s->network[term->place] += (term->by_state ? s->step : 1) * values[term->root];
+    }
+}
+
+/* --- making --- */
+
+typedef struct Roots {
+    LIST(Expr) at;
+    int *column; /* by expr_symbol_number(): 1 + place in [x'; z], of x, x' and z; 0: none */
+    int symbols;
+    LIST(int) place; /* of the row at hand: 1 + place in the pattern, by column */
+} Roots;
+
+static void number_columns(const Sides *s, Roots *roots)
+{
+    const Layout *l = s->l;
+    const int parts[][3] = {{l->x, l->nx, 0}, {l->rates, l->nx, 0}, {l->z, l->nz, l->nx}};
+
+    for (int i = 0; i < l->count; i++)
+        if (expr_symbol_number(l->symbols[i]) >= roots->symbols)
+            roots->symbols = expr_symbol_number(l->symbols[i]) + 1;
+    roots->column = NEW_ARRAY(int, roots->symbols);
+    for (int p = 0; p < COUNT(parts); p++)
+        for (int i = 0; i < parts[p][1]; i++)
+            roots->column[expr_symbol_number(l->symbols[parts[p][0] + i])] = 1 + parts[p][2] + i;
+}
+
+static int find_place(Sides *s, int row, int column, int first)
+{
+    for (int k = first; k < s->pattern_row.count; k++)
+        if (s->pattern_row.at[k] == row && s->pattern_column.at[k] == column)
+            return k;
+    LIST_PUSH(s->pattern_row, row);
+    LIST_PUSH(s->pattern_column, column);
+    return s->pattern_row.count - 1;
+}
+
+/* One row, or one side of it. Entries of a row stand together from `first` on. */
+static void add_row(Sides *s, Roots *roots, int row, Expr residual, int ideal, When when, int first)
+{
+    Expr *symbols;
+    int count = expr_symbols(&residual, 1, &symbols);
+
+    LIST_PUSH(s->rows, (Row){.root = roots->at.count, .row = row, .ideal = ideal, .when = when});
+    LIST_PUSH(roots->at, residual);
+    for (int i = 0; i < count; i++) {
+        int number = expr_symbol_number(symbols[i]);
+        int column = number < roots->symbols ? roots->column[number] - 1 : -1;
+        Expr slope;
+
+        if (column < 0)
+            continue;
+        slope = expr_diff(system_arena(s->l->system), residual, symbols[i]);
+        if (expr_is_zero(slope))
+            continue;
+        LIST_PUSH(s->terms, (Term){.place = find_place(s, row, column, first),
+                                   .root = roots->at.count,
+                                   .ideal = ideal,
+                                   .when = when,
+                                   .by_state = expr_symbol_kind(symbols[i]) == SYMBOL_STATE});
+        LIST_PUSH(roots->at, slope);
+    }
+    mem_free(symbols);
+}
+
+/* closed: v - least = on i; open: i = v/off, or 0; and a leak beside each */
+static void add_sides(Sides *s, Roots *roots, int k, const IdealSwitch *ideal)
+{
+    Arena *arena = system_arena(s->l->system);
+    Expr v = expr_add(arena, ideal->across, ideal->least);
+    double leak = expr_is_zero(ideal->least) ? CLOSED_LEAK : FORWARD_LEAK;
+    Expr closed = expr_sub(
+        arena, ideal->across,
+        expr_mul(arena, expr_add(arena, ideal->on, expr_real(arena, leak)), ideal->through));
+    Expr open = ideal->off != NULL
+                    ? expr_sub(arena, v, expr_mul(arena, ideal->off, ideal->through))
+                    : expr_sub(arena, ideal->through,
+                               expr_mul(arena, expr_real(arena, OPEN_LEAK), ideal->across));
+    int first = s->pattern_row.count;
+
+    add_row(s, roots, ideal->row, closed, k, CLOSED, first);
+    add_row(s, roots, ideal->row, open, k, OPEN, first);
+}
+
+static Status compile(Sides *s, Parameters *parameters, Diag *diag)
+{
+    const Reading *run = system_run(s->l->system);
+    Arena *arena = system_arena(s->l->system);
+    bool *taken = NEW_ARRAY(bool, s->n);
+    Roots roots = {0};
+    LIST(Expr) looks = {0};
+    Status status = OK;
+
+    number_columns(s, &roots);
+    for (int k = 0; k < s->count; k++) {
+        IdealSwitch ideal;
+
+        CHECK(system_ideal(s->l->system, k, &ideal, diag));
+        taken[ideal.row] = true;
+        add_sides(s, &roots, k, &ideal);
+        s->has_when[k] = ideal.when != NULL;
+        LIST_PUSH(looks, ideal.through);
+        LIST_PUSH(looks, ideal.across);
+        LIST_PUSH(looks, ideal.when != NULL ? ideal.when : expr_int(arena, 0));
+    }
+    for (int i = 0; i < s->n; i++)
+        if (!taken[i])
+            add_row(s, &roots, i, run->network_residual[i], 0, ALWAYS, s->pattern_row.count);
+    CHECK(probe_new(s->l, parameters, roots.at.at, roots.at.count, &s->equations, diag));
+    CHECK(probe_new(s->l, parameters, looks.at, looks.count, &s->looks, diag));
+done:
+    LIST_FREE(roots.at);
+    LIST_FREE(looks);
+    mem_free(roots.column);
+    mem_free(taken);
+    return status;
+}
+
+Status sides_new(const Layout *whole, Parameters *parameters, Sides **out, Diag *diag)
+{
+    Sides *s = NEW(Sides);
+    Status status = OK;
+
+    s->l = whole;
+    s->n = whole->nx + whole->nz;
+    s->count = system_ideal_count(whole->system);
+    s->has_when = NEW_ARRAY(bool, s->count);
+    s->x = NEW_ARRAY(double, whole->nx);
+    s->through = NEW_ARRAY(double, s->count);
+    s->across = NEW_ARRAY(double, s->count);
+    s->wanted = NEW_ARRAY(double, s->count);
+    CHECK(compile(s, parameters, diag));
+    s->network = NEW_ARRAY(double, s->pattern_row.count);
+    s->residual = NEW_ARRAY(double, s->n);
+    s->eq = (Equations){.nx = whole->nx,
+                        .nz = whole->nz,
+                        .context = s,
+                        .network_at = network_at,
+                        .network_entries = s->pattern_row.count,
+                        .network_row = s->pattern_row.at,
+                        .network_column = s->pattern_column.at,
+                        .network = s->network,
+                        .network_residual = s->residual};
+    s->solve = netsolve_new(&s->eq);
+    *out = s;
+    s = NULL;
+done:
+    sides_free(s);
+    return status;
+}
+
+void sides_free(Sides *s)
+{
+    if (s == NULL)
+        return;
+    netsolve_free(s->solve);
+    probe_free(s->equations);
+    probe_free(s->looks);
+    LIST_FREE(s->rows);
+    LIST_FREE(s->terms);
+    LIST_FREE(s->pattern_row);
+    LIST_FREE(s->pattern_column);
+    mem_free(s->network);
+    mem_free(s->residual);
+    mem_free(s->has_when);
+    mem_free(s->x);
+    mem_free(s->through);
+    mem_free(s->across);
+    mem_free(s->wanted);
+    mem_free(s);
+}
+
+/* --- sides --- */
+
+static const char *name_of(const Sides *s, int k)
+{
+    IdealSwitch ideal;
+
+    return system_ideal(s->l->system, k, &ideal, NULL) == OK ? ideal.name : "";
+}
+
+static bool solve(Sides *s)
+{
+    double *w = netsolve_values(s->solve);
+    RowValues row;
+    const double *values;
+
+    if (!netsolve_find(s->solve))
+        return false;
+    take_step(s, w);
+    row = row_values(s, w);
+    values = probe_values(s->looks, &row);
+    for (int k = 0; k < s->count; k++) {
+        s->through[k] = values[3 * k];
+        s->across[k] = values[3 * k + 1];
+    }
+    return true;
+}
+
+static bool is_wrong(const Sides *s, int k)
+{
+    double least = s->closed[k] ? NOISE * vector_largest(s->through, s->count)
+                                : NOISE * vector_largest(s->across, s->count);
+
+    return !s->has_when[k] && (s->closed[k] ? s->through[k] < -least : s->across[k] > least);
+}
+
+/* Diodes go over until none is wrong: all that are at a time, and where that goes in circles the
+ * first of them alone, which ends wherever the network is passive. */
+static bool settle_diodes(Sides *s)
+{
+    int together = 2 * s->count + 8;
+    int most = together + (1 << (s->count < 12 ? s->count : 12));
+
+    for (int turn = 0; turn < most; turn++) {
+        bool right = true;
+
+        if (!solve(s))
+            return false;
+        for (int k = 0; k < s->count && (right || turn < together); k++)
+            if (is_wrong(s, k)) {
+                s->closed[k] = !s->closed[k];
+                right = false;
+            }
+        if (right)
+            return true;
+    }
+    return false;
+}
+
+/* Sides of switches with a condition, from states as they go on and what else is known. True: one
+ * of them goes over, *which. */
+static bool follow_conditions(Sides *s, int *which)
+{
+    const double *w = netsolve_values(s->solve);
+    RowValues row = row_values(s, w);
+    const double *values;
+    bool changed = false;
+
+    row.x = s->at->x_behind;
+    values = probe_values(s->looks, &row);
+    for (int k = 0; k < s->count; k++) {
+        bool wanted = values[3 * k + 2] != 0;
+
+        if (!s->has_when[k] || s->closed[k] == wanted)
+            continue;
+        s->closed[k] = wanted;
+        *which = k;
+        changed = true;
+    }
+    return changed;
+}
+
+static Status tell_none(const Sides *s, Diag *diag)
+{
+    Text names = {0};
+
+    for (int k = 0; k < s->count && k < 8; k++)
+        text_addf(&names, "%s%s", k > 0 ? ", " : "", name_of(s, k));
+    (void)diag_set(diag, E_SOLVER,
+                   "at t = %.9g s the network has no solution, however %s%s are closed and open",
+                   s->at->t, names.at, s->count > 8 ? " ..." : "");
+    diag_hint(diag, "give a switch or diode where sources or currents meet it Ron= and Roff=, "
+                    "such as Ron=1 mohm Roff=1 Mohm");
+    text_free(&names);
+    return E_SOLVER;
+}
+
+Status sides_find(Sides *s, const SidesAt *at, bool *closed, Diag *diag)
+{
+    size_t bytes = (size_t)s->count * sizeof(bool);
+    bool *before = NEW_ARRAY(bool, s->count);
+    int which = 0;
+    Status status = OK;
+
+    s->at = at;
+    s->step = at->step;
+    s->closed = closed;
+    memcpy(before, closed, bytes);
+    memset(netsolve_values(s->solve), 0, (size_t)s->l->nx * sizeof(double));
+    for (int round = 0;; round++) {
+        if (!settle_diodes(s)) {
+            status = tell_none(s, diag);
+            goto done;
+        }
+        if (!follow_conditions(s, &which))
+            break;
+        if (round == ROUNDS) {
+            status = diag_set(diag, E_SOLVER,
+                              "at t = %.9g s %s is neither closed nor open: what it does makes its "
+                              "condition say the contrary",
+                              at->t, name_of(s, which));
+            diag_hint(diag, "let the condition read states, or leave a gap between two conditions");
+            goto done;
+        }
+    }
+done:
+    if (status != OK)
+        memcpy(closed, before, bytes);
+    mem_free(before);
+    return status;
+}

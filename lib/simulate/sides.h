@@ -1,0 +1,34 @@
+/* sides.h: which ideal switches are closed just behind an instant
+ *
+ * A step of vanishing length by the implicit Euler rule, G((x - x0)/h, z; x, t + h) = 0, in which
+ * each ideal switch is on one of its sides: such that all closed diodes carry a current forwards
+ * and all open ones a voltage backwards, and other switches are as their conditions say. Where x
+ * can't go on steadily it jumps in that step, and the sides are those behind the jump.
+ * Camlibel, Heemels, Schumacher (2002) for networks; the exchange of sides is Murty's (1974). */
+#ifndef COTREE_SIMULATE_SIDES_H
+#define COTREE_SIMULATE_SIDES_H
+
+#include "simulate/numbers.h"
+
+typedef struct Sides Sides;
+
+/* New; free with sides_free(). Borrows all. `whole` is of a system that is in no mode. Fails as
+ * probe_new() and system_ideal() do. */
+MUST_USE Status sides_new(const Layout *whole, Parameters *parameters, Sides **out, Diag *diag);
+void sides_free(Sides *sides); /* NULL is fine */
+
+/* the instant; arrays by the layout of the whole */
+typedef struct SidesAt {
+    double t;    /* s */
+    double step; /* h, s: short against all that happens, long against rounding of t */
+    const double *q, *u, *near;               /* at t + h; references of angles */
+    const double *x;                          /* at t */
+    const double *x_behind;                   /* at t + h, where sides stay as they are */
+    const double *acceleration, *multipliers; /* at t; NULL: not known */
+} SidesAt;
+
+/* The sides behind t from those before it, one an ideal switch. Fails with E_SOLVER where there are
+ * none; `closed` is as it was then. */
+MUST_USE Status sides_find(Sides *sides, const SidesAt *at, bool *closed, Diag *diag);
+
+#endif
