@@ -136,16 +136,16 @@ const Component component_diode = {
     .preference = 30,
     .relation = diode_relation,
     .check = diode_check,
-    .help = "Conducts from plus to minus. With Is= it is exponential, i = Is*(exp(v/(n*Vt)) - 1) "
-            "with Vt = k*T/q = 25.865 mV at 27 degrees Celsius, and a leakage of 1 pA a volt. With "
-            "Ron= (and Roff=, Vf=) it is "
-            "made of two straight lines that meet at the forward voltage Vf. With neither it is "
-            "ideal: no current backwards, no voltage (or Vf) forwards; then the circuit has to "
-            "leave both open, so in series with an inductor it needs Ron= and Roff=. Runs locate "
-            "where it starts and ceases to conduct.",
-    .example = "# bridge rectifier\nvsource V1 a b 10*sin(314*t)\ndiode D1 a p Ron=0.1 Roff=1e6\n"
-               "diode D2 b p Ron=0.1 Roff=1e6\ndiode D3 0 a Ron=0.1 Roff=1e6\n"
-               "diode D4 0 b Ron=0.1 Roff=1e6\ncapacitor C1 p 0 1 mF\nresistor R1 p 0 100 ohm\n"
+    .help =
+        "Conducts from plus to minus. With Is= it is exponential, i = Is*(exp(v/(n*Vt)) - 1) "
+        "with Vt = k*T/q = 25.865 mV at 27 degrees Celsius, and a leakage of 1 pA a volt. With "
+        "Ron= (and Roff=, Vf=) it is "
+        "made of two straight lines that meet at the forward voltage Vf. With neither it is "
+        "ideal: no current backwards, no voltage (or Vf) forwards. Runs locate where it starts and "
+        "ceases to conduct. An ideal one then makes another tree, with other states: what is "
+        "stored goes on from there, and can't jump.",
+    .example = "# bridge rectifier\nvsource V1 a b 10*sin(314*t)\ndiode D1 a p\ndiode D2 b p\n"
+               "diode D3 0 a\ndiode D4 0 b\ncapacitor C1 p 0 1 mF\nresistor R1 p 0 100 ohm\n"
                "init C1.v = 0\nsimulate 0.06\nprint p.v",
     .see = "switch resistor",
 };
@@ -201,11 +201,12 @@ const Component component_switch = {
     .help = "Closed while the condition holds, open while it doesn't. The condition is of time "
             "(when=t > 0.1), of variables (when=C1.v > 5), or of both (&&, ||, !). With Ron= and "
             "Roff= it is one or the other resistance; without them it is ideal: no voltage when "
-            "closed, no current when open, which the circuit has to allow. Runs locate where it "
-            "switches.",
+            "closed, no current when open. Runs locate where it switches. An ideal one then makes "
+            "another tree, with other states; a voltage or current that is stored can't jump, so a "
+            "coil needs a diode for its current where a switch opens.",
     .example =
-        "vsource V1 a 0 12\nswitch S1 a b when=t > 1 [ms] && t < 4 [ms] Ron=0.1 Roff=1 Mohm\n"
-        "resistor R1 b 0 100 ohm\ncapacitor C1 b 0 10 uF\ninit C1.v = 0\n"
-        "simulate 0.01 every=0.0001\nprint max(b.v), b.v",
+        "# buck converter\nvsource V1 a 0 12\nswitch S1 a b when=t*50e3 - floor(t*50e3) < 0.4\n"
+        "diode D1 0 b\ninductor L1 b c 100 uH\ncapacitor C1 c 0 22 uF\nresistor R1 c 0 5\n"
+        "init L1.i = 0, C1.v = 0\nsimulate 0.002 every=1e-6\nprint c.v, max(L1.i)",
     .see = "diode resistor event",
 };

@@ -247,7 +247,7 @@ static double step_from(Commuting *c, double t, double last)
     double step = fmin(fmax(LOOK * last, NEAREST * c->span), FURTHEST * c->span);
     volatile double ahead;
 
-    c->again = t == c->stuck ? fmin(10 * c->again, 1e3) : 1;
+    c->again = fabs(t - c->stuck) <= step ? fmin(10 * c->again, 1e3) : 1;
     ahead = t + c->again * step;
     return ahead - t;
 }

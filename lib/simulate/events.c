@@ -46,6 +46,8 @@ typedef struct Item {
     Expr when;    /* over the layout's symbols */
     Expr formula; /* over the symbols of conditions */
     int first_value, value_count;
+    const char
+        *refused; /* why ideal switches, as they are, let no values be given; NULL: they do */
     Course course;
 } Item;
 
@@ -182,6 +184,10 @@ static Status read_event(Events *events, const Event *event, Diag *diag)
 
     if (status == OK)
         status = read_values(events, &item, event, &why);
+    if (status == E_VALUE && events->plan.in_mode) { /* said where it comes to that */
+        item.refused = keep(events, why.message);
+        status = OK;
+    }
     LIST_PUSH(events->items, item);
     if (status == OK)
         return OK;
@@ -645,6 +651,10 @@ static Status apply_values(Events *events, double t, const bool *due, double *y,
 
     for (int k = 0; k < events->values.count; k++)
         events->targets[k] = NAN;
+    for (int i = 0; i < events->items.count; i++)
+        if (due[i] && events->items.at[i].refused != NULL)
+            return diag_set(diag, E_SOLVER, "at t = %.9g s: event %s: %s, as ideal switches stand",
+                            t, events->items.at[i].name, events->items.at[i].refused);
     if (events->values.count == 0)
         return OK;
     values = roots_at(events, events->right, t, y);

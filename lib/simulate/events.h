@@ -23,6 +23,7 @@ typedef struct EventsPlan {
     const int *rows;
     int row_count;
     RunKind kind;
+    bool in_mode; /* ideal switches may hold what an event gives a value to: an error only then */
     const Event *const *events;
     int event_count;
 } EventsPlan;

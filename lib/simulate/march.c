@@ -141,6 +141,7 @@ static void open_leg(March *m, const Leg *leg)
     m->conditions = NEW_ARRAY(double, conditions);
     m->largest = NEW_ARRAY(double, conditions);
     m->band = NEW_ARRAY(double, conditions);
+    m->noise = NEW_ARRAY(double, conditions);
     m->mode = NEW_ARRAY(int, conditions);
     m->stepper = m->out->method->create(motion_ode(leg->motion), &m->control);
 }
@@ -154,6 +155,7 @@ static void close_leg(March *m)
     mem_free(m->conditions);
     mem_free(m->largest);
     mem_free(m->band);
+    mem_free(m->noise);
     mem_free(m->mode);
 }
 

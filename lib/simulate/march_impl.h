@@ -27,7 +27,8 @@ typedef struct March {
     double *y, *slope;            /* one y, one y' */
     double *conditions, *largest; /* values and largest sizes of conditions */
     int *mode;                    /* sign of each condition on this side of its next switch */
-    double *band;                 /* sizes too small to tell a sign from, behind a switch */
+    double *band;                 /* sizes too small to tell a sign from, behind a switch, */
+    double *noise;                /* and anywhere: of margins */
     int next_row, rows;
     double scanned;        /* of the last step, up to here conditions are followed */
     int switches;          /* close together */

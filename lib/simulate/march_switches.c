@@ -1,12 +1,15 @@
 /* march_switches.c: where conditions in the state change sign: located, met, crossed */
 #include "simulate/march_impl.h"
 
+#include "base/random.h"
 #include "simulate/linear.h"
 
 #include <math.h>
 #include <string.h>
 
-#define POINTS      5 /* of a step, where they are looked at */
+#define LOOKS       20000 /* at conditions that follow sources, in a run */
+#define POINTS      5     /* of a step, where they are looked at */
+#define MOVES       3     /* that tell how far errors reach */
 #define ZENO_EVENTS 100
 #define ZENO_SPAN   1e-9 /* of the run */
 
@@ -52,6 +55,35 @@ static bool is_margin(const March *m, int i)
     return i < m->eq->switch_count && i >= m->eq->switch_count - m->eq->margin_count;
 }
 
+/* What errors of the state within the tolerance can do to margins: less than that tells no sign. By
+ * a few moves of all states at once, as far as the tolerance lets them. */
+static void find_noise(March *m)
+{
+    uint64_t seed = 1;
+    double *here;
+
+    if (m->eq->margin_count == 0)
+        return;
+    here = NEW_ARRAY(double, m->eq->switch_count);
+    memcpy(here, m->conditions, (size_t)m->eq->switch_count * sizeof(double));
+    for (int i = 0; i < m->eq->switch_count; i++)
+        m->noise[i] = 0;
+    for (int turn = 0; turn < MOVES; turn++) {
+        for (int k = 0; k < m->length; k++) {
+            double tolerance = m->control.rtol * fabs(m->stepper->y[k]) + m->control.atol;
+
+            m->y[k] = m->stepper->y[k] + tolerance * random_unit(&seed);
+        }
+        motion_switches(m->leg.motion, m->stepper->t, m->y, m->conditions);
+        for (int i = 0; i < m->eq->switch_count; i++)
+            if (is_margin(m, i) && fabs(m->conditions[i] - here[i]) > m->noise[i])
+                m->noise[i] = fabs(m->conditions[i] - here[i]);
+    }
+    memcpy(m->conditions, here, (size_t)m->eq->switch_count * sizeof(double));
+    memcpy(m->band, m->noise, (size_t)m->eq->switch_count * sizeof(double));
+    mem_free(here);
+}
+
 void march_begin_modes(March *m)
 {
     if (m->eq->switch_count == m->eq->time_only)
@@ -60,8 +92,9 @@ void march_begin_modes(March *m)
     for (int i = m->eq->time_only; i < m->eq->switch_count; i++) {
         m->mode[i] = is_margin(m, i) ? 1 : sign_of(m->conditions[i]);
         m->largest[i] = fabs(m->conditions[i]);
-        m->band[i] = is_margin(m, i) && m->conditions[i] < 0 ? -10 * m->conditions[i] : 0;
+        m->band[i] = 0;
     }
+    find_noise(m);
 }
 
 /* whether condition i, as evaluated last, has left its mode; learns a mode not known yet */
@@ -72,21 +105,32 @@ static bool has_switched(March *m, int i)
     m->largest[i] = fmax(m->largest[i], fabs(value));
     if (!(fabs(value) > m->band[i]))
         return false;
-    m->band[i] = 0;
+    m->band[i] = m->noise[i];
     if (m->mode[i] == 0) /* what had no value till now becomes what it is */
         m->mode[i] = march_is_of_event(m, i) ? -sign_of(value) : sign_of(value);
     return sign_of(value) != m->mode[i] && value != 0;
 }
 
+/* Steps are as short as states want them. What a source does to a condition while no state moves
+ * asks for points of its own. */
+static int points_in(const March *m, double length)
+{
+    double span = m->plan->to - m->plan->from;
+
+    if (!m->eq->switches_follow_time)
+        return POINTS;
+    return (int)fmax(POINTS, ceil(length / span * LOOKS));
+}
+
 int march_find_switch(March *m, double *when)
 {
     double low = m->scanned, high = m->stepper->t;
+    double length = m->stepper->t - m->stepper->before;
+    int points = points_in(m, length);
     int found = -1;
 
-    for (int k = 1; k <= POINTS && found < 0; k++) {
-        double t = k == POINTS
-                       ? m->stepper->t
-                       : m->stepper->before + (m->stepper->t - m->stepper->before) * k / POINTS;
+    for (int k = 1; k <= points && found < 0; k++) {
+        double t = k == points ? m->stepper->t : m->stepper->before + length * k / points;
 
         if (t < m->scanned)
             continue;
@@ -206,7 +250,7 @@ Status march_meet_switch(March *m, int i, double when, Diag *diag)
             (void)cross(m, i, value, slope);
     }
     march_conditions_at(m, m->stepper->t);
-    m->band[i] = fmax(10 * fabs(m->conditions[i]), 1e-10 * m->largest[i]);
+    m->band[i] = fmax(10 * fabs(m->conditions[i]), fmax(1e-10 * m->largest[i], m->noise[i]));
     m->mode[i] = is_margin(m, i) ? 1 : -m->mode[i];
     CHECK(march_check_pace(m, i, diag));
     CHECK(march_go_on(m, m->stepper->t, m->stepper->y, diag));

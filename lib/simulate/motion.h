@@ -57,6 +57,7 @@ typedef struct Equations {
     int switch_count, time_only;
     int margin_count; /* the last of them: positive as long as ideal switches stay on their sides */
     bool switches_read_network; /* [x'; z] of the last network_solved() */
+    bool switches_follow_time;  /* those that aren't of time alone hold t too */
     void (*switches)(void *context, double t, const double *q, const double *u, const double *x,
                      double *out);
 } Equations;

@@ -543,6 +543,21 @@ done:
     return status;
 }
 
+/* whether conditions change with t alone, while no state does */
+static bool follow_time(const Numbers *nb, const Roots *conditions)
+{
+    const Reading *run = system_run(nb->layout->system);
+    const unsigned solved = 1U << SYMBOL_ALGEBRAIC | 1U << SYMBOL_STATE_RATE;
+    unsigned kinds = 0;
+
+    for (int i = nb->eq.time_only; i < conditions->count; i++)
+        kinds |= expr_kinds(conditions->at[i]);
+    if ((kinds & solved) != 0)
+        for (int i = 0; i < nb->layout->nx + nb->layout->nz; i++)
+            kinds |= expr_kinds(run->network_residual[i]);
+    return (kinds & 1U << SYMBOL_TIME) != 0;
+}
+
 /* conditions that can be looked at before the accelerations are known */
 static Status compile_switches(Numbers *nb, Parameters *parameters, Diag *diag)
 {
@@ -563,6 +578,7 @@ static Status compile_switches(Numbers *nb, Parameters *parameters, Diag *diag)
     }
     CHECK(add_margins(nb, &roots, diag));
     nb->eq.switch_count = roots.count;
+    nb->eq.switches_follow_time = follow_time(nb, &roots);
     if (roots.count > 0)
         CHECK(compile(nb->layout, parameters, roots.at, roots.count, &nb->switch_program,
                       &nb->switch_workspace, NULL, diag));

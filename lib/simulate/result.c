@@ -156,6 +156,7 @@ Status result_make_events(Result *r, const Phase *phase, const Events *earlier,
                              .rows = r->start.rows,
                              .row_count = r->start.row_count,
                              .kind = r->kind,
+                             .in_mode = phase->closed != NULL,
                              .events = setting->events,
                              .event_count = setting->event_count};
     Status status = OK;

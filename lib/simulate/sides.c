@@ -42,7 +42,8 @@ struct Sides {
     LIST(int) pattern_row;
     LIST(int) pattern_column;
     Equations eq; /* for the solver */
-    double *network, *residual;
+    double *network, *residual, *rhs, *zeros;
+    bool is_linear;
     NetSolve *solve;
     Probe *equations; /* roots of rows and terms */
     Probe *looks;     /* through and across of each, and what closes it */
@@ -101,6 +102,14 @@ static void network_at(void *context, const double *w)
     }
 }
 
+/* a linear network is solved at once: A w = r, r = -G at w = 0 */
+static void bring_linear(Sides *s)
+{
+    network_at(s, s->zeros);
+    for (int i = 0; i < s->n; i++)
+        s->rhs[i] = -s->residual[i];
+}
+
 /* --- making --- */
 
 typedef struct Roots {
@@ -137,6 +146,7 @@ static int find_place(Sides *s, int row, int column, int first)
 /* One row, or one side of it. Entries of a row stand together from `first` on. */
 static void add_row(Sides *s, Roots *roots, int row, Expr residual, int ideal, When when, int first)
 {
+    const unsigned unknowns = 1U << SYMBOL_STATE | 1U << SYMBOL_STATE_RATE | 1U << SYMBOL_ALGEBRAIC;
     Expr *symbols;
     int count = expr_symbols(&residual, 1, &symbols);
 
@@ -152,6 +162,7 @@ static void add_row(Sides *s, Roots *roots, int row, Expr residual, int ideal, W
         slope = expr_diff(system_arena(s->l->system), residual, symbols[i]);
         if (expr_is_zero(slope))
             continue;
+        s->is_linear = s->is_linear && (expr_kinds(slope) & unknowns) == 0;
         LIST_PUSH(s->terms, (Term){.place = find_place(s, row, column, first),
                                    .root = roots->at.count,
                                    .ideal = ideal,
@@ -181,6 +192,16 @@ static void add_sides(Sides *s, Roots *roots, int k, const IdealSwitch *ideal)
     add_row(s, roots, ideal->row, open, k, OPEN, first);
 }
 
+static Status refuse_form(const Sides *s, const char *name, Diag *diag)
+{
+    (void)diag_set(diag, E_MODEL, "%s is ideal, and each side of it makes another tree", name);
+    diag_hint(diag, system_network_form(s->l->system) == NETWORK_TREE
+                        ? "'set network state' runs it; the form of the user's tree wants Ron= and "
+                          "Roff="
+                        : "this network has no state form: give it Ron= and Roff=");
+    return E_MODEL;
+}
+
 static Status compile(Sides *s, Parameters *parameters, Diag *diag)
 {
     const Reading *run = system_run(s->l->system);
@@ -188,6 +209,8 @@ static Status compile(Sides *s, Parameters *parameters, Diag *diag)
     bool *taken = NEW_ARRAY(bool, s->n);
     Roots roots = {0};
     LIST(Expr) looks = {0};
+    const bool of_tree =
+        system_network_form(s->l->system) == NETWORK_TREE && !system_tree_is_normal(s->l->system);
     Status status = OK;
 
     number_columns(s, &roots);
@@ -195,6 +218,10 @@ static Status compile(Sides *s, Parameters *parameters, Diag *diag)
         IdealSwitch ideal;
 
         CHECK(system_ideal(s->l->system, k, &ideal, diag));
+        if (ideal.row < 0 || of_tree) {
+            status = refuse_form(s, ideal.name, diag);
+            goto done;
+        }
         taken[ideal.row] = true;
         add_sides(s, &roots, k, &ideal);
         s->has_when[k] = ideal.when != NULL;
@@ -222,6 +249,7 @@ Status sides_new(const Layout *whole, Parameters *parameters, Sides **out, Diag 
 
     s->l = whole;
     s->n = whole->nx + whole->nz;
+    s->is_linear = true;
     s->count = system_ideal_count(whole->system);
     s->has_when = NEW_ARRAY(bool, s->count);
     s->x = NEW_ARRAY(double, whole->nx);
@@ -231,14 +259,17 @@ Status sides_new(const Layout *whole, Parameters *parameters, Sides **out, Diag 
     CHECK(compile(s, parameters, diag));
     s->network = NEW_ARRAY(double, s->pattern_row.count);
     s->residual = NEW_ARRAY(double, s->n);
+    s->rhs = NEW_ARRAY(double, s->n);
+    s->zeros = NEW_ARRAY(double, s->n);
     s->eq = (Equations){.nx = whole->nx,
                         .nz = whole->nz,
                         .context = s,
-                        .network_at = network_at,
+                        .network_at = s->is_linear ? NULL : network_at,
                         .network_entries = s->pattern_row.count,
                         .network_row = s->pattern_row.at,
                         .network_column = s->pattern_column.at,
                         .network = s->network,
+                        .network_rhs = s->rhs,
                         .network_residual = s->residual};
     s->solve = netsolve_new(&s->eq);
     *out = s;
@@ -261,6 +292,8 @@ void sides_free(Sides *s)
     LIST_FREE(s->pattern_column);
     mem_free(s->network);
     mem_free(s->residual);
+    mem_free(s->rhs);
+    mem_free(s->zeros);
     mem_free(s->has_when);
     mem_free(s->x);
     mem_free(s->through);
@@ -284,6 +317,8 @@ static bool solve(Sides *s)
     RowValues row;
     const double *values;
 
+    if (s->is_linear)
+        bring_linear(s);
     if (!netsolve_find(s->solve))
         return false;
     take_step(s, w);

@@ -11,3 +11,6 @@ test_operating_LDADD = $(unit_ldadd)
 UNIT_TESTS += test_statics
 test_statics_SOURCES = tests/unit/test_statics.c tests/unit/session_kit.h tests/unit/test.h
 test_statics_LDADD = $(unit_ldadd)
+UNIT_TESTS += test_ideal
+test_ideal_SOURCES = tests/unit/test_ideal.c tests/unit/session_kit.h tests/unit/test.h
+test_ideal_LDADD = $(unit_ldadd)

@@ -236,4 +236,11 @@ UNUSED static double kit_value(Kit *kit, const char *expression)
     "revolute h ground p\n"                                                                        \
     "init h = 60 deg, h' = 0\n"
 
+/* the lines fail, with this in the message */
+#define EXPECT_FAILS(kit, lines, part)                                                             \
+    do {                                                                                           \
+        EXPECT(kit_do(kit, lines) != CT_OK);                                                       \
+        EXPECT_HOLDS((kit)->error.message, part);                                                  \
+    } while (0)
+
 #endif

@@ -247,21 +247,6 @@ static void a_switch_at_the_end_keeps_the_last_row(void)
     kit_free(&kit);
 }
 
-/* without resistances the coil's current has nowhere to go when the diode ends */
-static void an_ideal_diode_beside_a_coil_says_the_way_out(void)
-{
-    Kit kit = kit_new();
-
-    EXPECT_DONE(&kit, "vsource E a 0 10*sin(100*pi*t)\ndiode D a b\ninductor L b c 10 mH\n"
-                      "resistor R c 0 10\n");
-    EXPECT_FAILS(&kit, "simulate 0.04\n", "no solution");
-    EXPECT_HOLDS(kit.error.hint, "D is ideal: beside capacitors and inductors give it Ron= and");
-    EXPECT_DONE(&kit, "clear\nvsource E a 0 10*sin(100*pi*t)\n"
-                      "diode D a b Ron=1 mohm Roff=1 Mohm\ncapacitor C b 0 100 uF\n"
-                      "resistor R b 0 100\nsimulate 0.005\nexpect C.v ~ 10 within 0.02\n");
-    kit_free(&kit);
-}
-
 static void a_step_across_capacitors_is_refused(void)
 {
     Kit kit = kit_new();
@@ -330,7 +315,6 @@ int main(void)
     RUN(a_sampled_controller_counts_in_periods);
     RUN(a_controlled_current_among_coils_is_integrated);
     RUN(a_switch_at_the_end_keeps_the_last_row);
-    RUN(an_ideal_diode_beside_a_coil_says_the_way_out);
     RUN(a_step_across_capacitors_is_refused);
     RUN(a_tree_that_needs_a_jump_differentiated_is_refused);
     RUN(sources_against_each_other_are_refused);
