@@ -218,7 +218,7 @@ Search *search_new(Statics *statics, const Watch *watch)
     statics_pattern(statics, &s->start, &s->row);
     s->factors =
         factors_new(s->n, s->start, s->row, !statics_is_network(statics) || s->n <= MOST_FULL);
-    if (open_solver(s))
+    if (s->n == 0 || open_solver(s))
         return s;
     search_free(s);
     return NULL;

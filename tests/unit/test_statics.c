@@ -147,6 +147,13 @@ static void a_node_that_floats_beside_a_mechanism_is_named(void)
     kit_free(&kit);
 }
 
+static void nothing_rests_and_what_is_driven_does(void)
+{
+    rests("equilibrium\n");
+    rests("scene planar\nbody m mass=1 inertia=1\nrevolute h ground m\n"
+          "driver D h = 1 + t\nequilibrium\nexpect h ~ 1 within 1e-15\n");
+}
+
 /* --- mechanisms --- */
 
 /* hinges of a planar four-bar in space: half of what they hold the others hold too. At rest two
@@ -328,6 +335,7 @@ int main(void)
     RUN(a_diode_rests_on_a_sensed_position);
     RUN(a_cylinder_carries_its_load);
     RUN(a_node_that_floats_beside_a_mechanism_is_named);
+    RUN(nothing_rests_and_what_is_driven_does);
     RUN(a_redundant_four_bar_hangs_down);
     RUN(a_spatial_pendulum_points_along_what_pulls_it);
     RUN(a_singular_equilibrium_is_come_close_to);
