@@ -54,6 +54,7 @@ SCRIPT_TESTS = \
 	tests/cases/spatial_slider_crank \
 	tests/cases/tours \
 	tests/dev/tools_tell_right_from_wrong \
+	tests/doc/equations_come_out_on_paper \
 	tests/doc/manual_and_readme_are_true \
 	tests/install/installed_library_builds_a_program
 TESTS += $(SCRIPT_TESTS)

@@ -5,6 +5,7 @@ libcore_la_SOURCES += lib/export/layout.h lib/export/layout.c \
 	lib/export/show_session.c lib/export/show_linear.c lib/export/show_transfer.c \
 	lib/export/show_state.c \
 	lib/export/count.h lib/export/count.c \
+	lib/export/latex_lines.h lib/export/latex_lines.c \
 	lib/export/info.h lib/export/info.c lib/export/draw.c
 
 # help, reference and completion

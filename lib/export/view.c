@@ -2,6 +2,7 @@
 #include "export/view.h"
 
 #include "export/abbreviate.h"
+#include "export/latex_lines.h"
 #include "export/tables.h"
 
 #include <ctype.h>
@@ -38,48 +39,29 @@ char *view_name(const Syntax *syntax)
     return text_done(&name);
 }
 
-/* terms of a latex sum that stand outside brackets go to lines of their own when the
- * whole is longer than this; source is about twice as long as what it prints */
-enum { LATEX_LINE = 130 };
-
-static void add_latex_body(Text *out, const char *body)
-{
-    int depth = 0;
-    size_t line = 0;
-
-    for (size_t i = 0; body[i] != '\0'; i++) {
-        if (body[i] == '{' || body[i] == '(' || body[i] == '[')
-            depth++;
-        if (body[i] == '}' || body[i] == ')' || body[i] == ']')
-            depth--;
-        if (depth == 0 && line > LATEX_LINE && body[i] == ' ' &&
-            (body[i + 1] == '+' || body[i + 1] == '-') && body[i + 2] == ' ') {
-            text_add(out, " \\\\\n  &\\quad ");
-            line = 0;
-            continue;
-        }
-        text_char(out, body[i]);
-        line++;
-    }
-}
+/* In digits: a left side that is wider stands alone, and what an article has behind one. All lines
+ * of a block begin behind its widest left side. */
+enum { LATEX_LEFT = 10, LATEX_LINE = 55 };
 
 /* a long left side has its lines to itself, and the relation begins one of its own */
 static void add_latex(Text *out, const char *left, const char *relation, const char *right)
 {
+    const double width = latex_width(left);
+
     text_add(out, "  ");
     if (relation == NULL) {
         text_add(out, "& ");
-        add_latex_body(out, left);
-    } else if (strlen(left) > LATEX_LINE / 3) {
+        latex_wrap(out, left, LATEX_LINE);
+    } else if (width > LATEX_LEFT) {
         text_add(out, "& ");
-        add_latex_body(out, left);
-        if (strlen(left) + strlen(right) > LATEX_LINE)
+        latex_wrap(out, left, LATEX_LINE);
+        if (width + latex_width(right) > LATEX_LINE)
             text_add(out, " \\\\\n  &\\quad");
         text_add(out, relation);
-        add_latex_body(out, right);
+        latex_wrap(out, right, LATEX_LINE);
     } else {
         text_addf(out, "%s &%s", left, relation);
-        add_latex_body(out, right);
+        latex_wrap(out, right, LATEX_LINE);
     }
     text_add(out, " \\\\\n");
 }

@@ -1,5 +1,6 @@
 /* test_export.c: wrapping, named subexpressions, files in other formats */
 #include "export/abbreviate.h"
+#include "export/latex_lines.h"
 #include "export/layout.h"
 #include "export/write.h"
 #include "session_kit.h"
@@ -50,6 +51,80 @@ static void nothing_is_lost_by_wrapping(void)
         text_free(&flat);
         text_free(&bare);
     }
+}
+
+/* --- LaTeX --- */
+
+/* the rows of what latex_wrap() writes; the widest, and how often it holds a word */
+static double widest_row(const char *text)
+{
+    double widest = 0;
+
+    while (*text != '\0') {
+        const char *end = strstr(text, " \\\\\n");
+        const size_t length = end != NULL ? (size_t)(end - text) : strlen(text);
+        char *row = mem_text(text, length);
+
+        widest = fmax(widest, latex_width(row));
+        mem_free(row);
+        text += length + (end != NULL ? strlen(" \\\\\n") : 0);
+    }
+    return widest;
+}
+
+static int occurrences(const char *text, const char *word)
+{
+    int count = 0;
+
+    for (; (text = strstr(text, word)) != NULL; text++)
+        count++;
+    return count;
+}
+
+static void latex_breaks_outside_brackets_first(void)
+{
+    Text out = {0};
+
+    latex_wrap(&out, "a\\,\\left(b + c\\right) + d\\,\\cos\\left(e - f\\right) - g", 16);
+    EXPECT_TEXT(out.at, "a\\,\\left(b + c\\right) \\\\\n"
+                        "  &\\quad + d\\,\\cos\\left(e - f\\right) \\\\\n  &\\quad - g");
+    text_free(&out);
+}
+
+static void brackets_of_latex_are_in_pairs_on_each_row(void)
+{
+    Text sum = {0}, out = {0};
+
+    text_add(&sum, "k\\,\\left(a_{0}");
+    for (int i = 1; i < 40; i++)
+        text_addf(&sum, " %c b\\,\\left(a_{%d} + \\sin^{2}\\left(x_{%d}\\right)\\right)",
+                  i % 3 == 0 ? '-' : '+', i, i);
+    text_add(&sum, "\\right)");
+    latex_wrap(&out, sum.at, 50);
+    EXPECT(widest_row(out.at) <= 54);
+    EXPECT(occurrences(out.at, " \\\\\n") >= 8);
+    for (const char *row = out.at; row != NULL; row = strstr(row + 1, " \\\\\n")) {
+        const char *end = strstr(row + 1, " \\\\\n");
+        char *text = mem_text(row, end != NULL ? (size_t)(end - row) : strlen(row));
+
+        EXPECT(occurrences(text, "\\left") == occurrences(text, "\\right"));
+        mem_free(text);
+    }
+    text_free(&sum);
+    text_free(&out);
+}
+
+static void a_wide_fraction_becomes_a_factor(void)
+{
+    Text out = {0};
+
+    latex_wrap(&out, "\\frac{aaaaaaaaaaaa + bbbbbbbbbbbb + cccccccccccc}{d}", 34);
+    EXPECT_TEXT(out.at, "\\frac{1}{d}\\,\\left(aaaaaaaaaaaa + bbbbbbbbbbbb\\right. \\\\\n"
+                        "  &\\quad \\left. {} + cccccccccccc\\right)");
+    text_free(&out);
+    latex_wrap(&out, "\\frac{a + b}{c}", 30);
+    EXPECT_TEXT(out.at, "\\frac{a + b}{c}");
+    text_free(&out);
 }
 
 static void a_page_without_width_never_wraps(void)
@@ -285,6 +360,9 @@ int main(void)
     RUN(formulas_break_before_signs_outside_brackets);
     RUN(a_formula_without_signs_breaks_at_products);
     RUN(nothing_is_lost_by_wrapping);
+    RUN(latex_breaks_outside_brackets_first);
+    RUN(brackets_of_latex_are_in_pairs_on_each_row);
+    RUN(a_wide_fraction_becomes_a_factor);
     RUN(a_page_without_width_never_wraps);
     RUN(words_wrap_below_their_lead);
     RUN(tables_align_and_leave_no_blanks_behind);
