@@ -181,8 +181,8 @@ static void remark_march(Result *r, const MarchReport *march, const RunOptions *
         text_add(&r->remarks, "a tolerance below 1e-10 gains nothing through singular positions\n");
 }
 
-/* The largest difference at times that both grids have; events lie at times of their own, and one
- * that a switch falls on may be of either phase. */
+/* The largest difference of (q, u, x) at times that both grids have; events lie at times of their
+ * own, and one that a switch falls on may be of either phase. */
 static double largest_difference(const Result *r, int first, const Grid *b)
 {
     const Grid *a = &r->grid;
@@ -190,9 +190,11 @@ static double largest_difference(const Result *r, int first, const Grid *b)
 
     for (int i = first, j = 0; i < a->count && j < b->count;) {
         double behind = a->times[i] - b->times[j];
-        int length = behind == 0 && a->phase[i] == b->phase[j] ? result_phase(r, i)->length : 0;
+        int length = behind == 0 && a->phase[i] == b->phase[j]
+                         ? layout_turned(result_phase(r, i)->layout)
+                         : 0;
 
-        for (int k = 0; k < length - 1; k++)
+        for (int k = 0; k < length; k++)
             largest = fmax(largest, fabs(grid_row(a, i)[k] - grid_row(b, j)[k]));
         i += behind <= 0;
         j += behind >= 0;

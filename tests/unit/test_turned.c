@@ -105,6 +105,18 @@ static void both_angles_of_a_universal_joint_count_turns(void)
     kit_free(&kit);
 }
 
+/* a screw as a chord is told by its shift, which knows all turns */
+static void a_screw_that_is_a_chord_counts_turns(void)
+{
+    static const char *const items[] = {"a", "b", "b'", "b.s", "k.effort", NULL};
+
+    compare("gravity [0, 0, -9.81]\nbody A mass=1 inertia=[0.2, 0.3, 0.25]\n"
+            "body B mass=0.5 inertia=[0.02, 0.03, 0.01]\nrevolute a ground A axis=[1, 0.2, 0]\n"
+            "arm ta A [0.1, 0, 0]\nscrew b ta B axis=z pitch=0.01\nspring k b k=0.01 rest=0\n"
+            "init a=0.1, b=20, a'=0, b'=15\n",
+            "simulate 3 every=0.5 rtol=1e-11 atol=1e-11", items, 1e-7);
+}
+
 /* nothing but rotation: steps are as long as the integrator likes, and rows many turns apart */
 static void no_turn_is_lost_in_long_steps(void)
 {
@@ -308,6 +320,7 @@ int main(void)
     RUN(a_chord_turns_as_the_branch_does);
     RUN(every_method_counts_the_same_turns);
     RUN(both_angles_of_a_universal_joint_count_turns);
+    RUN(a_screw_that_is_a_chord_counts_turns);
     RUN(no_turn_is_lost_in_long_steps);
     RUN(a_resumed_run_goes_on_in_its_turn);
     RUN(a_second_run_finds_the_same_turns);
