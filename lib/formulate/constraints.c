@@ -155,6 +155,18 @@ static Expr angle_missed(System *system, const ChordTurn *turn, Expr f)
                     expr_mul(arena, expr_cos(arena, f), turn->sine));
 }
 
+/* for what looks for positions: sine and cosine together know half a turn */
+static void compare_angle(System *system, const char *name, const ChordTurn *turn, Expr f)
+{
+    Arena *arena = system->arena;
+    Expr along = expr_add(arena, expr_mul(arena, expr_cos(arena, f), turn->cosine),
+                          expr_mul(arena, expr_sin(arena, f), turn->sine));
+    AngleOff compared = {
+        name, expr_call2(arena, OP_ATAN2, expr_neg(arena, angle_missed(system, turn, f)), along)};
+
+    LIST_PUSH(system->angles_off, compared);
+}
+
 static Expr tie_shown(System *system, const Row *row)
 {
     Arena *arena = system->arena;
@@ -168,7 +180,9 @@ static Expr tie_shown(System *system, const Row *row)
     chord_turn(system, joint, &steps, 0, &turn);
     if (turn.angle != NULL)
         return expr_sub(arena, s, expr_mul(arena, row->lead, turn.angle));
-    return expr_mul(arena, row->lead, angle_missed(system, &turn, expr_div(arena, s, row->lead)));
+    s = expr_div(arena, s, row->lead);
+    compare_angle(system, joint->coord[steps.turn[0].coordinate], &turn, s);
+    return expr_mul(arena, row->lead, angle_missed(system, &turn, s));
 }
 
 /* a driven coordinate less what it is to be */
@@ -190,9 +204,10 @@ static Status driver_shown(System *system, Row *row, Diag *diag)
         if (steps.turn[k].coordinate != row->coordinate)
             continue;
         if (turned_angle(system, row->owner, row->coordinate) == NULL)
-            continue;
+            continue; /* the coordinate is a sum, or told by a shift */
         chord_turn(system, owner, &steps, k, &turn);
         turned_drive(system, row->owner, row->coordinate, row->prescribed);
+        compare_angle(system, owner->coord[row->coordinate], &turn, row->prescribed);
         row->phi = expr_neg(arena, angle_missed(system, &turn, row->prescribed));
         return OK;
     }

@@ -517,6 +517,7 @@ void system_free(System *system)
     LIST_FREE(system->chains);
     LIST_FREE(system->masses);
     LIST_FREE(system->turned);
+    LIST_FREE(system->angles_off);
     LIST_FREE(system->rows);
     LIST_FREE(system->vanished);
     LIST_FREE(system->parameters);

@@ -91,6 +91,14 @@ const Turned *system_turned(const System *system, int i);
 /* Its rate, for keeping `near` next to it: bounded also where sine and cosine vanish together. */
 MUST_USE Status system_turned_rate(System *system, int i, Expr *out, Diag *diag);
 
+/* An angle that a constraint compares by its sine alone, which half a turn off holds too: how far
+ * it is off, within half a turn, in q, t and parameters. NULL at the end */
+typedef struct AngleOff {
+    const char *name; /* of the coordinate */
+    Expr off;
+} AngleOff;
+const AngleOff *system_angle_off(const System *system, int i);
+
 /* --- constraints --- */
 
 typedef struct ConstraintRow {

@@ -247,6 +247,7 @@ struct System {
     Vec *alpha0; /* of chains, in the axes of their resolve chain */
     Vec *a0;     /* of nodes */
     LIST(TurnedChord) turned;
+    LIST(AngleOff) angles_off;
     LIST(Mass) masses;
     LIST(Row) rows;
     LIST(Row) vanished;     /* rows that hold in every position: no lambda tells what they carry */

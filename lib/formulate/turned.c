@@ -79,6 +79,11 @@ const Turned *system_turned(const System *system, int i)
     return &system->turned.at[i].told;
 }
 
+const AngleOff *system_angle_off(const System *system, int i)
+{
+    return i < system->angles_off.count ? &system->angles_off.at[i] : NULL;
+}
+
 /* (c s' - s c') r/(r^2 + 1e-8), r = s^2 + c^2: c s' - s c' where the joint holds, r being 1 */
 Status system_turned_rate(System *system, int i, Expr *out, Diag *diag)
 {

@@ -75,6 +75,7 @@ libcore_la_SOURCES += \
   lib/simulate/start.h \
   lib/simulate/start_impl.h \
   lib/simulate/start_network.c \
+  lib/simulate/start_turns.c \
   lib/simulate/statics.c \
   lib/simulate/statics.h \
   lib/simulate/transfer.c \

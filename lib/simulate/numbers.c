@@ -246,24 +246,6 @@ const double *probe_values(Probe *probe, const RowValues *row)
     return workspace_roots(probe->workspace);
 }
 
-Status parameters_driven(Parameters *parameters, const Layout *layout, int k, double *out,
-                         Diag *diag)
-{
-    const Expr prescribed = system_turned(layout->system, k)->prescribed;
-    const RowValues row = {.t = 0};
-    Probe *probe = NULL;
-    Status status = OK;
-
-    *out = NAN;
-    if (prescribed == NULL)
-        return OK;
-    CHECK(probe_new(layout, parameters, &prescribed, 1, &probe, diag));
-    *out = probe_values(probe, &row)[0];
-done:
-    probe_free(probe);
-    return status;
-}
-
 /* --- equations --- */
 
 struct Numbers {

@@ -41,9 +41,6 @@ void parameters_keep(Parameters *parameters, const Expr *roots, int count);
 double parameters_value(Parameters *parameters, Expr symbol); /* kept, else asked and kept */
 /* the number of an expression of parameters alone */
 double parameters_evaluate(Parameters *parameters, Expr e);
-/* what a driver makes of the k-th angle that counts turns at t = 0; NAN: none drives it */
-MUST_USE Status parameters_driven(Parameters *parameters, const Layout *layout, int k, double *out,
-                                  Diag *diag);
 void parameters_free(Parameters *parameters);
 
 /* what a row knows; arrays may be NULL for 0 */

@@ -68,10 +68,19 @@ Status start_classify(Assembly *a, Given *given, Diag *diag)
 static Status read_given(Assembly *a, Diag *diag)
 {
     const StartValues *start = a->setting->start;
+    int own = 0;
     Status status = OK;
 
-    a->given = NEW_ARRAY(Given, (start != NULL ? start->count : 0) + a->l->turned);
-    a->driven = NEW_ARRAY(StartValue, a->l->turned);
+    while (system_angle_off(a->l->system, own) != NULL)
+        own++;
+    a->given = NEW_ARRAY(Given, (start != NULL ? start->count : 0) + own);
+    a->own = NEW_ARRAY(StartValue, own);
+    for (; a->given_count < own; a->given_count++) {
+        const AngleOff *angle = system_angle_off(a->l->system, a->given_count);
+
+        a->own[a->given_count].name = angle->name;
+        a->given[a->given_count] = (Given){&a->own[a->given_count], angle->off, 0, -1, -1, true};
+    }
     if (start == NULL || a->setting->from != NULL)
         return OK;
     for (int i = 0; i < start->count; i++) {
@@ -303,7 +312,9 @@ Status start_conflict(const Problem *p, const double *residual, const char *what
         }
         if (shown > 1)
             text_add(&text, ", ");
-        if (k >= p->system_rows)
+        if (k >= p->system_rows && p->picked[k - p->system_rows]->is_own)
+            text_add(&text, p->picked[k - p->system_rows]->value->name);
+        else if (k >= p->system_rows)
             name_given(&text, p->picked[k - p->system_rows]->value);
         else if (p->level == LEVEL_NETWORK)
             text_addf(&text, "the network's equation %d", k + 1);
@@ -312,7 +323,8 @@ Status start_conflict(const Problem *p, const double *residual, const char *what
         text_addf(&text, " by %.3g", fabs(residual[k]));
     }
     for (int i = 0; i < p->a->given_count; i++)
-        if (!p->a->given[i].value->is_guess && p->a->given[i].level <= p->level) {
+        if (!p->a->given[i].value->is_guess && p->a->given[i].level <= p->level &&
+            !p->a->given[i].is_own) {
             if (values.length > 0)
                 text_add(&values, ", ");
             name_given(&values, p->a->given[i].value);
@@ -353,34 +365,6 @@ static void begin_position(Assembly *a, WarmValue warm, void *context)
                 a->y[given->place] = given->value->value;
         }
     equations_normalise(a->eq, a->y);
-}
-
-/* Angles of chords are looked for in the turn that a given value chooses, or an earlier result;
- * else in the one about 0. What a driver makes of them is given like others, since its own equation
- * can't tell an angle from half a turn off. */
-static Status begin_turns(Assembly *a, WarmValue warm, void *context, Diag *diag)
-{
-    const Layout *l = a->l;
-    Status status = OK;
-
-    for (int k = 0; k < l->turned; k++) {
-        const Turned *turned = system_turned(l->system, k);
-        double value = warm != NULL ? warm(context, turned->name) : NAN;
-
-        a->driven[k].name = turned->name;
-        CHECK(parameters_driven(a->parameters, l, k, &a->driven[k].value, diag));
-        if (!isnan(a->driven[k].value))
-            a->given[a->given_count++] =
-                (Given){.value = &a->driven[k], .expr = turned->angle, .place = -1, .column = -1};
-        for (int guesses = 1; guesses >= 0; guesses--)
-            for (int i = 0; i < a->given_count; i++)
-                if (a->given[i].expr == turned->angle &&
-                    a->given[i].value->is_guess == (guesses == 1))
-                    value = a->given[i].value->value;
-        a->y[layout_turned(l) + k] = isfinite(value) ? value : 0;
-    }
-done:
-    return status;
 }
 
 /* Guesses that are no coordinates weigh as much as equations first: a branch on which they are far
@@ -590,7 +574,8 @@ Status start_find(const Layout *layout, Parameters *parameters, const Numbers *n
     a.y = out->y;
     CHECK(read_given(&a, diag));
     begin_position(&a, warm, warm_context);
-    CHECK(begin_turns(&a, warm, warm_context, diag));
+    CHECK(start_turns(layout, parameters, setting, warm, warm_context, a.y + layout_turned(layout),
+                      diag));
     CHECK(find_position(&a, diag));
     equations_turn(a.eq, 0, a.y, a.y + layout_turned(layout));
     find_rank(&a);
@@ -598,7 +583,7 @@ Status start_find(const Layout *layout, Parameters *parameters, const Numbers *n
     CHECK(start_find_network(&a, setting->from != NULL ? warm : NULL, warm_context, diag));
 done:
     mem_free(a.given);
-    mem_free(a.driven);
+    mem_free(a.own);
     return status;
 }
 

@@ -13,8 +13,9 @@ typedef struct Given {
     const StartValue *value;
     Expr expr;
     Level level;
-    int place;  /* coordinate, speed or state that it is, alone; -1 */
-    int column; /* unknown that holding it holds: the place, or a coordinate's speed; -1 */
+    int place;   /* coordinate, speed or state that it is, alone; -1 */
+    int column;  /* unknown that holding it holds: the place, or a coordinate's speed; -1 */
+    bool is_own; /* the system's: the user said nothing of it */
 } Given;
 
 typedef struct Assembly {
@@ -27,7 +28,7 @@ typedef struct Assembly {
     double *y;
     Given *given;
     int given_count;
-    StartValue *driven; /* what drivers make of angles that count turns */
+    StartValue *own; /* of angles that are not to be half a turn off */
 } Assembly;
 
 /* equations of one problem: rows of the system, then picked values as expressions */

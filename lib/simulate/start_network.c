@@ -31,6 +31,8 @@ Status start_solve(const Layout *l, const Numbers *numbers, const double *y, con
     solve = netsolve_new(eq);
     if (guess != NULL)
         memcpy(netsolve_values(solve), guess, (size_t)(l->nx + l->nz) * sizeof(double));
+    if (l->turned > 0)
+        eq->near(eq->context, y + layout_turned(l));
     eq->position(eq->context, 0, y);
     eq->velocity(eq->context, y + l->n, y + l->n + l->nu);
     if (netsolve_find(solve)) {

@@ -117,6 +117,38 @@ static void a_screw_that_is_a_chord_counts_turns(void)
             "simulate 3 every=0.5 rtol=1e-11 atol=1e-11", items, 1e-7);
 }
 
+/* sin(b - s/lead) = 0 holds half a turn off, too: the assembly doesn't end there */
+static void an_assembly_is_not_half_a_turn_off(void)
+{
+    for (int k = -4; k <= 8; k++) {
+        Kit kit = kit_new();
+        char line[200];
+
+        (void)snprintf(line, sizeof line,
+                       "body A mass=1 inertia=[0.2, 0.3, 0.25]\n"
+                       "body B mass=0.5 inertia=[0.02, 0.03, 0.01]\n"
+                       "revolute a ground A axis=x\nscrew b A B axis=z pitch=0.01\n");
+        EXPECT_DONE(&kit, line);
+        (void)snprintf(line, sizeof line, "tree a B\ninit a=0.3, b=%d\nassemble", 2 * k);
+        EXPECT_DONE(&kit, line);
+        EXPECT_NEAR(kit_value(&kit, "b"), 2 * k, 1e-9);
+        /* B has turned about its own z by b, and about x by a before: trace of the rotation */
+        EXPECT_NEAR(fabs(kit_value(&kit, "B.q0")), fabs(cos(k) * cos(0.15)), 1e-9);
+        kit_free(&kit);
+    }
+}
+
+static void a_driver_that_can_not_be_met_is_told(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, ARMS CHORD "driver D b = 1\ninit b = 2");
+    EXPECT(kit_do(&kit, "assemble") != CT_OK);
+    EXPECT_HOLDS(kit.error.message, "given: b = 2");
+    EXPECT_HOLDS(kit.error.message, "D (driver)");
+    kit_free(&kit);
+}
+
 /* nothing but rotation: steps are as long as the integrator likes, and rows many turns apart */
 static void no_turn_is_lost_in_long_steps(void)
 {
@@ -187,6 +219,16 @@ static void switches_in_the_equations_see_the_turns(void)
 
     compare(ARMS START "actuator m b torque=if(b > 3*pi, -1, 1)\n",
             "simulate 6 rtol=1e-12 atol=1e-12", items, 1e-7);
+}
+
+/* a circuit that reads the angle, through an ideal diode: one phase hands the turn to the next */
+static void phases_of_ideal_switches_see_the_turns(void)
+{
+    static const char *const items[] = {"a", "b", "b'", "b at 3", "max(D.i)", "mean(M.i)", NULL};
+
+    compare(ARMS EFFORTS START "motor M b e 0 R=1 L=0.1 Kt=0.8 Kv=0.8\n"
+                               "vsource V f 0 30*sin(3*t) + 0.1*b\ndiode D f e\n",
+            "simulate 6 every=0.1 rtol=1e-11 atol=1e-11", items, 1e-6);
 }
 
 /* --- the start --- */
@@ -321,12 +363,15 @@ int main(void)
     RUN(every_method_counts_the_same_turns);
     RUN(both_angles_of_a_universal_joint_count_turns);
     RUN(a_screw_that_is_a_chord_counts_turns);
+    RUN(an_assembly_is_not_half_a_turn_off);
+    RUN(a_driver_that_can_not_be_met_is_told);
     RUN(no_turn_is_lost_in_long_steps);
     RUN(a_resumed_run_goes_on_in_its_turn);
     RUN(a_second_run_finds_the_same_turns);
     RUN(events_see_the_turns);
     RUN(a_new_value_chooses_its_turn);
     RUN(switches_in_the_equations_see_the_turns);
+    RUN(phases_of_ideal_switches_see_the_turns);
     RUN(a_given_value_chooses_the_turn);
     RUN(an_equilibrium_keeps_its_turn);
     RUN(another_tree_takes_over_the_turn);
