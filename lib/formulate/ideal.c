@@ -150,6 +150,24 @@ Status ideal_share(System *system, const Branchlike *branch, bool *shared, Expr 
 
 /* --- looking --- */
 
+int system_scalar_count(const System *system)
+{
+    return system->branches.count;
+}
+
+Status system_scalar(System *system, int i, ScalarPair *out, Diag *diag)
+{
+    Branchlike *branch = &system->branches.at[i];
+    ScalarPair pair = {.domain = graph_edge(system->graph, branch->edge)->domain};
+    Status status = OK;
+
+    CHECK(network_across(system, branch, &pair.across, diag));
+    CHECK(network_through(system, branch, &pair.through, diag));
+    *out = pair;
+done:
+    return status;
+}
+
 int system_ideal_count(const System *system)
 {
     return system->ideals.count;
@@ -171,6 +189,7 @@ Status system_ideal(System *system, int i, IdealSwitch *out, Diag *diag)
     Branchlike *branch = &system->branches.at[system->ideals.at[i]];
     const Ideal *ideal = &branch->relation.ideal;
     IdealSwitch found = {.name = system->instances[branch->instance].name,
+                         .domain = graph_edge(system->graph, branch->edge)->domain,
                          .row = row_of(system, branch)};
     Status status = OK;
 

@@ -245,6 +245,7 @@ int system_switches(System *system, const Expr **conditions, int *time_only);
 
 typedef struct IdealSwitch {
     const char *name;
+    Domain domain;
     int row;         /* of G, where both sides are in one equation; else -1 */
     Expr when;       /* what closes it, of this system's variables; NULL: a diode */
     Expr across;     /* less what is across it when it is closed and nothing flows */
@@ -253,6 +254,14 @@ typedef struct IdealSwitch {
     Expr off, least; /* across + least = off through when it is open; off NULL: nothing flows */
     Expr margin;     /* of a diode in a mode: positive as long as it stays on its side; else NULL */
 } IdealSwitch;
+
+/* Across and through variable of a scalar edge, 0, 1 ... */
+typedef struct ScalarPair {
+    Domain domain;
+    Expr across, through;
+} ScalarPair;
+int system_scalar_count(const System *system);
+MUST_USE Status system_scalar(System *system, int i, ScalarPair *out, Diag *diag);
 
 int system_ideal_count(const System *system);
 /* Fails as system_resolve() does. */

@@ -15,7 +15,8 @@
 #define START_STEP 1e-9 /* s: for the sides at a start, where no run says what is short */
 #define LOOK       1e-4 /* of the last step: how far to look ahead for the sides, */
 #define NEAREST    1e-9 /* but not less than this of the run, */
-#define FURTHEST   1e-6 /* and no more than this */
+#define FURTHEST   1e-6 /* and no more than this, */
+#define STUCK      1e-4 /* or this, where the sides stay and all the same their margins end */
 
 static int number_of(const Result *r, const Phase *phase)
 {
@@ -247,8 +248,8 @@ static double step_from(Commuting *c, double t, double last)
     double step = fmin(fmax(LOOK * last, NEAREST * c->span), FURTHEST * c->span);
     volatile double ahead;
 
-    c->again = fabs(t - c->stuck) <= step ? fmin(10 * c->again, 1e3) : 1;
-    ahead = t + c->again * step;
+    c->again = fabs(t - c->stuck) <= step ? 10 * c->again : 1;
+    ahead = t + fmin(c->again * step, STUCK * c->span);
     return ahead - t;
 }
 

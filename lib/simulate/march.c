@@ -189,14 +189,14 @@ done:
     return status;
 }
 
-Status march_go_on(March *m, double t, const double *y, Diag *diag)
+Status march_go_on(March *m, double t, const double *y, bool *entered, Diag *diag)
 {
     const MarchPlan *plan = m->plan;
     bool changed = plan->commute != NULL;
-    bool entered = false;
     double last = m->stepper->t > m->stepper->before ? m->stepper->t - m->stepper->before : 0;
     Status status = OK;
 
+    *entered = false;
     memmove(m->y, y, (size_t)m->length * sizeof(double));
     for (int round = 0; changed && !m->is_over; round++) {
         const double *behind = NULL;
@@ -208,13 +208,13 @@ Status march_go_on(March *m, double t, const double *y, Diag *diag)
         if (behind == NULL)
             break;
         add_corner(m, t, m->y);
-        entered = true;
+        *entered = true;
         CHECK(enter_leg(m, &next, t, behind, &changed, diag));
         memcpy(m->y, m->stepper->y, (size_t)m->length * sizeof(double));
     }
     motion_window(m->leg.motion, m->low, m->high);
     CHECK(m->stepper->method->start(m->stepper, t, m->y, diag));
-    if (entered)
+    if (*entered)
         march_begin_modes(m);
 done:
     return status;
@@ -256,6 +256,7 @@ done:
 static Status all_stretches(March *m, Diag *diag)
 {
     const MarchPlan *plan = m->plan;
+    bool entered;
     Status status = OK;
 
     for (int i = 0; i <= m->jumps.count && !m->is_over; i++) {
@@ -265,7 +266,7 @@ static Status all_stretches(March *m, Diag *diag)
         m->high = last ? INFINITY : end;
         /* jumps that rounding alone tells apart are one */
         if (end - m->stepper->t > 1e-13 * (plan->to - plan->from)) {
-            CHECK(march_go_on(m, m->stepper->t, m->stepper->y, diag));
+            CHECK(march_go_on(m, m->stepper->t, m->stepper->y, &entered, diag));
             CHECK(stretch(m, fmin(end, plan->to), diag));
         }
         if (!last && !m->is_over) {

@@ -114,7 +114,7 @@ Status march_meet_event(March *m, int i, double when, Diag *diag)
     events_settle(m->ev, t, span, m->y, i - first, sides);
     CHECK(take_events(m, t, sides, &changed, diag));
     CHECK(march_check_pace(m, i, diag));
-    CHECK(march_go_on(m, t, m->y, diag));
+    CHECK(march_go_on(m, t, m->y, &changed, diag));
 done:
     mem_free(sides);
     mem_free(y);

@@ -43,8 +43,9 @@ bool march_add_row(March *m, double t);
 bool march_has_row(const March *m, double t);
 /* rows of the output grid up to the stepper's time */
 MUST_USE Status march_add_rows(March *m, Diag *diag);
-/* Start the stepper anew at (t, y): in another leg, where ideal switches go over to other sides. */
-MUST_USE Status march_go_on(March *m, double t, const double *y, Diag *diag);
+/* Start the stepper anew at (t, y): in another leg, where ideal switches go over to other sides
+ * (*entered). */
+MUST_USE Status march_go_on(March *m, double t, const double *y, bool *entered, Diag *diag);
 
 /* --- conditions of t alone (march_jumps.c) --- */
 

@@ -9,6 +9,8 @@
 
 #define LOOKS       20000 /* at conditions that follow sources, in a run */
 #define POINTS      5     /* of a step, where they are looked at */
+#define ROUNDING    1e-13 /* of the largest margin: what rounding does to any */
+#define MOST_NOISE  1e-6  /* likewise: more than that is none */
 #define MOVES       3     /* that tell how far errors reach */
 #define ZENO_EVENTS 100
 #define ZENO_SPAN   1e-9 /* of the run */
@@ -55,6 +57,12 @@ static bool is_margin(const March *m, int i)
     return i < m->eq->switch_count && i >= m->eq->switch_count - m->eq->margin_count;
 }
 
+static double largest_margin(const March *m)
+{
+    return vector_largest(m->largest + m->eq->switch_count - m->eq->margin_count,
+                          m->eq->margin_count);
+}
+
 /* What errors of the state within the tolerance can do to margins: less than that tells no sign. By
  * a few moves of all states at once, as far as the tolerance lets them. */
 static void find_noise(March *m)
@@ -67,7 +75,7 @@ static void find_noise(March *m)
     here = NEW_ARRAY(double, m->eq->switch_count);
     memcpy(here, m->conditions, (size_t)m->eq->switch_count * sizeof(double));
     for (int i = 0; i < m->eq->switch_count; i++)
-        m->noise[i] = 0;
+        m->noise[i] = is_margin(m, i) ? ROUNDING * largest_margin(m) : 0;
     for (int turn = 0; turn < MOVES; turn++) {
         for (int k = 0; k < m->length; k++) {
             double tolerance = m->control.rtol * fabs(m->stepper->y[k]) + m->control.atol;
@@ -240,6 +248,7 @@ Status march_check_pace(March *m, int i, Diag *diag)
 Status march_meet_switch(March *m, int i, double when, Diag *diag)
 {
     double value = 0, slope = 0;
+    bool is_told = is_margin(m, i), entered;
     Status status = OK;
 
     /* a switch on the very start of the step can't be told from the one just met */
@@ -251,9 +260,12 @@ Status march_meet_switch(March *m, int i, double when, Diag *diag)
     }
     march_conditions_at(m, m->stepper->t);
     m->band[i] = fmax(10 * fabs(m->conditions[i]), fmax(1e-10 * m->largest[i], m->noise[i]));
-    m->mode[i] = is_margin(m, i) ? 1 : -m->mode[i];
+    m->mode[i] = is_told ? 1 : -m->mode[i];
     CHECK(march_check_pace(m, i, diag));
-    CHECK(march_go_on(m, m->stepper->t, m->stepper->y, diag));
+    CHECK(march_go_on(m, m->stepper->t, m->stepper->y, &entered, diag));
+    if (is_told && !entered)
+        m->noise[i] = m->band[i] =
+            fmin(10 * fmax(m->noise[i], m->band[i]), MOST_NOISE * largest_margin(m));
 done:
     return status;
 }

@@ -9,12 +9,10 @@
 #include <math.h>
 #include <string.h>
 
-#define OPEN_LEAK   1e-12 /* S: shares voltages that nothing else tells, and is seen nowhere else */
-#define CLOSED_LEAK 1e-20 /* ohm: likewise currents, */
-#define FORWARD_LEAK                                                                               \
-    1e-9             /* and where there is a forward voltage, with what rounding leaves of it */
-#define NOISE  1e-12 /* of the largest current or voltage: too small to tell a side from */
-#define ROUNDS 8     /* in which conditions and diodes may set each other off */
+#define OPEN_LEAK   1e-13 /* S: shares voltages that nothing else tells; too small to be seen, */
+#define CLOSED_LEAK 1e-11 /* ohm: likewise currents; and large enough against rounding */
+#define NOISE       1e-12 /* of the largest current or voltage: too small to tell a side from */
+#define ROUNDS      8     /* in which conditions and diodes may set each other off */
 
 typedef enum When { ALWAYS, OPEN, CLOSED } When;
 
@@ -46,13 +44,17 @@ struct Sides {
     bool is_linear;
     NetSolve *solve;
     Probe *equations; /* roots of rows and terms */
-    Probe *looks;     /* through and across of each, and what closes it */
+    Probe *looks;     /* through and across of each, and what closes it; then of all edges */
     bool *has_when;
+    int edges;
+    Domain *domain; /* of each, then of all edges */
     const SidesAt *at;
     double step;
     bool *closed;
     double *x; /* behind the step */
-    double *through, *across, *wanted;
+    double *through, *across;
+    double largest[DOMAIN_COUNT][2]; /* across and through variable of any edge, by domain, */
+    double known[DOMAIN_COUNT][2];   /* and what they have been since the first instant */
 };
 
 /* --- equations --- */
@@ -178,10 +180,9 @@ static void add_sides(Sides *s, Roots *roots, int k, const IdealSwitch *ideal)
 {
     Arena *arena = system_arena(s->l->system);
     Expr v = expr_add(arena, ideal->across, ideal->least);
-    double leak = expr_is_zero(ideal->least) ? CLOSED_LEAK : FORWARD_LEAK;
     Expr closed = expr_sub(
         arena, ideal->across,
-        expr_mul(arena, expr_add(arena, ideal->on, expr_real(arena, leak)), ideal->through));
+        expr_mul(arena, expr_add(arena, ideal->on, expr_real(arena, CLOSED_LEAK)), ideal->through));
     Expr open = ideal->off != NULL
                     ? expr_sub(arena, v, expr_mul(arena, ideal->off, ideal->through))
                     : expr_sub(arena, ideal->through,
@@ -209,6 +210,7 @@ static Status compile(Sides *s, Parameters *parameters, Diag *diag)
     bool *taken = NEW_ARRAY(bool, s->n);
     Roots roots = {0};
     LIST(Expr) looks = {0};
+    ScalarPair edge;
     const bool of_tree =
         system_network_form(s->l->system) == NETWORK_TREE && !system_tree_is_normal(s->l->system);
     Status status = OK;
@@ -225,6 +227,7 @@ static Status compile(Sides *s, Parameters *parameters, Diag *diag)
         taken[ideal.row] = true;
         add_sides(s, &roots, k, &ideal);
         s->has_when[k] = ideal.when != NULL;
+        s->domain[k] = ideal.domain;
         LIST_PUSH(looks, ideal.through);
         LIST_PUSH(looks, ideal.across);
         LIST_PUSH(looks, ideal.when != NULL ? ideal.when : expr_int(arena, 0));
@@ -232,6 +235,12 @@ static Status compile(Sides *s, Parameters *parameters, Diag *diag)
     for (int i = 0; i < s->n; i++)
         if (!taken[i])
             add_row(s, &roots, i, run->network_residual[i], 0, ALWAYS, s->pattern_row.count);
+    for (int i = 0; i < s->edges; i++) {
+        CHECK(system_scalar(s->l->system, i, &edge, diag));
+        s->domain[s->count + i] = edge.domain;
+        LIST_PUSH(looks, edge.across);
+        LIST_PUSH(looks, edge.through);
+    }
     CHECK(probe_new(s->l, parameters, roots.at.at, roots.at.count, &s->equations, diag));
     CHECK(probe_new(s->l, parameters, looks.at, looks.count, &s->looks, diag));
 done:
@@ -255,7 +264,8 @@ Status sides_new(const Layout *whole, Parameters *parameters, Sides **out, Diag 
     s->x = NEW_ARRAY(double, whole->nx);
     s->through = NEW_ARRAY(double, s->count);
     s->across = NEW_ARRAY(double, s->count);
-    s->wanted = NEW_ARRAY(double, s->count);
+    s->edges = system_scalar_count(whole->system);
+    s->domain = NEW_ARRAY(Domain, s->count + s->edges);
     CHECK(compile(s, parameters, diag));
     s->network = NEW_ARRAY(double, s->pattern_row.count);
     s->residual = NEW_ARRAY(double, s->n);
@@ -298,7 +308,7 @@ void sides_free(Sides *s)
     mem_free(s->x);
     mem_free(s->through);
     mem_free(s->across);
-    mem_free(s->wanted);
+    mem_free(s->domain);
     mem_free(s);
 }
 
@@ -328,13 +338,21 @@ static bool solve(Sides *s)
         s->through[k] = values[3 * k];
         s->across[k] = values[3 * k + 1];
     }
+    memset(s->largest, 0, sizeof s->largest);
+    for (int i = 0; i < s->edges; i++)
+        for (int side = 0; side < 2; side++) {
+            double *largest = &s->largest[s->domain[s->count + i]][side];
+
+            *largest = fmax(*largest, fabs(values[3 * s->count + 2 * i + side]));
+        }
     return true;
 }
 
 static bool is_wrong(const Sides *s, int k)
 {
-    double least = s->closed[k] ? NOISE * vector_largest(s->through, s->count)
-                                : NOISE * vector_largest(s->across, s->count);
+    Domain domain = s->domain[k];
+    int side = s->closed[k];
+    double least = NOISE * fmax(s->largest[domain][side], s->known[domain][side]);
 
     return !s->has_when[k] && (s->closed[k] ? s->through[k] < -least : s->across[k] > least);
 }
@@ -428,6 +446,9 @@ Status sides_find(Sides *s, const SidesAt *at, bool *closed, Diag *diag)
             goto done;
         }
     }
+    for (int i = 0; i < DOMAIN_COUNT; i++)
+        for (int side = 0; side < 2; side++)
+            s->known[i][side] = fmax(s->known[i][side], s->largest[i][side]);
 done:
     if (status != OK)
         memcpy(closed, before, bytes);
