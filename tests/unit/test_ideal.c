@@ -1,4 +1,6 @@
 /* test_ideal.c: ideal diodes and switches beside what stores: closed forms, and what is refused */
+#include "../random.h"
+#include "base/text.h"
 #include "session_kit.h"
 
 #include <math.h>
@@ -257,6 +259,95 @@ static void diodes_side_by_side_share_the_current(void)
     kit_free(&kit);
 }
 
+/* --- at random --- */
+
+static const char *const nodes[] = {"0", "n1", "n2", "n3", "n4"};
+enum { NODES = sizeof nodes / sizeof nodes[0] };
+
+/* two different nodes, and where they stand in a statement */
+static void random_ends(uint64_t *seed, char ends[16])
+{
+    int a = (int)(test_random(seed) % NODES);
+    int b = (a + 1 + (int)(test_random(seed) % (NODES - 1))) % NODES;
+
+    (void)snprintf(ends, 16, "%s %s", nodes[a], nodes[b]);
+}
+
+static void random_parts(Text *out, uint64_t *seed, const char *kind, char letter, int count,
+                         double least, double most, const char *unit)
+{
+    char ends[16];
+
+    for (int i = 0; i < count; i++) {
+        random_ends(seed, ends);
+        text_addf(out, "%s %c%d %s %.3g %s\n", kind, letter, i, ends,
+                  test_uniform(seed, least, most), unit);
+    }
+}
+
+/* A source behind a resistance, diodes that lead to every node, and a few parts anywhere.
+ * The number of diodes. */
+static int random_network(Text *out, uint64_t seed)
+{
+    int diodes = NODES + (int)(test_random(&seed) % 3);
+    char ends[16];
+
+    text_addf(out, "vsource E s 0 %.3g*sin(%.4g*t)\nresistor RS s n1 2\n",
+              test_uniform(&seed, 5, 20), test_uniform(&seed, 100, 700));
+    for (int i = 0; i < diodes; i++) {
+        random_ends(&seed, ends);
+        if (i < NODES && test_random(&seed) % 2 == 0)
+            text_addf(out, "diode D%d %s %s\n", i, nodes[i % NODES], nodes[(i + 1) % NODES]);
+        else
+            text_addf(out, "diode D%d %s\n", i, ends);
+    }
+    random_parts(out, &seed, "resistor", 'R', 3, 10, 200, "ohm");
+    random_parts(out, &seed, "capacitor", 'C', (int)(test_random(&seed) % 3), 10, 300, "uF");
+    random_parts(out, &seed, "inductor", 'L', (int)(test_random(&seed) % 3), 5, 100, "mH");
+    if (test_random(&seed) % 3 == 0) {
+        random_ends(&seed, ends);
+        text_addf(out, "switch S %s when=sin(%.4g*t) > 0.3\n", ends, test_uniform(&seed, 300, 900));
+    }
+    text_add(out, "simulate 0.05 every=0.0001\n");
+    return diodes;
+}
+
+/* circuits and cutsets hold by the form of the equations: what is left are the diodes' laws */
+static void diodes_keep_their_law_in_any_network(void)
+{
+    int solved = 0, refused = 0;
+
+    for (uint64_t seed = 1; seed <= 80; seed++) {
+        Kit kit = kit_new();
+        Text text = {0};
+        int diodes = random_network(&text, seed);
+
+        if (kit_do(&kit, text.at) != CT_OK) {
+            /* a switch may close on a charge, or open on a current */
+            if (strstr(kit.error.message, "would jump") == NULL)
+                printf("%s%s\n", text.at, kit.error.message);
+            EXPECT_HOLDS(kit.error.message, "would jump");
+            refused++;
+        } else {
+            solved++;
+        }
+        for (int i = 0; i < diodes && kit.error.message[0] == '\0'; i++) {
+            char value[64];
+
+            (void)snprintf(value, sizeof value, "min(D%d.i)", i);
+            EXPECT(kit_value(&kit, value) > -1e-5);
+            (void)snprintf(value, sizeof value, "max(D%d.v)", i);
+            EXPECT(kit_value(&kit, value) < 1e-5);
+            (void)snprintf(value, sizeof value, "max(abs(D%d.power))", i);
+            EXPECT(kit_value(&kit, value) < 1e-5);
+        }
+        text_free(&text);
+        kit_free(&kit);
+    }
+    EXPECT(solved >= 60);
+    EXPECT(refused > 0);
+}
+
 /* --- what goes with it --- */
 
 static void a_run_goes_on_where_it_ended(void)
@@ -415,6 +506,7 @@ int main(void)
     RUN(diodes_take_over_from_switches);
     RUN(diodes_in_a_row_share_the_voltage);
     RUN(diodes_side_by_side_share_the_current);
+    RUN(diodes_keep_their_law_in_any_network);
     RUN(a_run_goes_on_where_it_ended);
     RUN(an_operating_point_chooses_the_sides);
     RUN(linear_equations_are_those_of_the_instant);
