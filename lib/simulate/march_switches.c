@@ -210,13 +210,24 @@ done:
     return status;
 }
 
+/* whether no state goes further along the slope in h than errors may; where a problem is stiff the
+ * slope is steep beside any motion */
+static bool is_short(const March *m, double h)
+{
+    for (int k = 0; k < m->length - 1; k++)
+        if (!(fabs(h * m->slope[k]) <=
+              10 * (m->control.rtol * fabs(m->stepper->y[k]) + m->control.atol)))
+            return false;
+    return true;
+}
+
 /* From just before a switch to just behind it: so short a way that Euler's rule is exact. */
 static bool cross(March *m, int i, double value, double slope)
 {
     Stepper *s = m->stepper;
     double h = fmax(4e-16 * fabs(s->t), 2 * fabs(value / slope));
 
-    for (int k = 0; k < 20; k++, h *= 2) {
+    for (int k = 0; k < 20 && is_short(m, h); k++, h *= 2) {
         for (int j = 0; j < m->length; j++)
             m->y[j] = s->y[j] + h * m->slope[j];
         march_evaluate(m, s->t + h, m->y);
