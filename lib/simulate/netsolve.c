@@ -13,6 +13,7 @@
 #define ROUNDING   1e-7 /* a step that no longer shrinks below this is rounding */
 #define LEAST      1e-4 /* damping */
 #define FURTHEST   4096
+#define PLAIN      20    /* whole steps from piece to piece */
 #define SHORTEST   1e-14 /* the same on the way down over kinks */
 
 struct NetSolve {
@@ -199,7 +200,24 @@ static bool descend(NetSolve *s)
     return false;
 }
 
-static bool solve_newton(NetSolve *s, bool over_kinks)
+/* ways to take a step of Newton's: so much of it that corrections fall, that the misfit falls, or
+ * all of it, from one straight piece to the next, as of diodes of two lines */
+typedef enum Way { BY_CORRECTION, BY_MISFIT, BY_PIECES, WAYS } Way;
+
+static bool take_step(NetSolve *s, Way way, int turn)
+{
+    double share = turn < PLAIN ? 1 : 1 - fmod(turn * 0.381966011, 1); /* out of circles */
+
+    if (way == BY_CORRECTION)
+        return advance(s, norm(s, s->step));
+    if (way == BY_MISFIT)
+        return descend(s);
+    for (int i = 0; i < s->n; i++)
+        s->w[i] -= share * s->step[i];
+    return true;
+}
+
+static bool solve_newton(NetSolve *s, Way way)
 {
     const Equations *eq = s->eq;
 
@@ -218,7 +236,7 @@ static bool solve_newton(NetSolve *s, bool over_kinks)
                 s->w[i] -= s->step[i];
             return true;
         }
-        if (over_kinks ? !descend(s) : !advance(s, norm(s, s->step)))
+        if (!take_step(s, way, k))
             return is_small(s, s->step, ROUNDING);
     }
     return false;
@@ -238,12 +256,12 @@ bool netsolve_find(NetSolve *s)
     kept = NEW_ARRAY(double, s->n);
     memcpy(kept, s->w, (size_t)s->n * sizeof(double));
     /* from the last solution, then from nothing: the last one may belong to another branch */
-    for (int k = 0; k < 4 && !found; k++) {
-        if (k > 1)
+    for (int k = 0; k < 2 * WAYS && !found; k++) {
+        if (k >= WAYS)
             memset(s->w, 0, (size_t)s->n * sizeof(double));
         else
             memcpy(s->w, kept, (size_t)s->n * sizeof(double));
-        found = solve_newton(s, k % 2 == 1);
+        found = solve_newton(s, k % WAYS);
     }
     if (!found)
         memcpy(s->w, kept, (size_t)s->n * sizeof(double));
