@@ -14,6 +14,7 @@
 #include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
 
 #define MAX_TRIES 100000 /* inner steps that CVODE may take for one of ours: one mode makes one */
+#define STUCK     10     /* steps on end that end where they began */
 
 typedef struct Cvode {
     Stepper base;
@@ -25,6 +26,7 @@ typedef struct Cvode {
     SUNLinearSolver linear;
     SUNNonlinearSolver nonlinear;
     Counts earlier; /* of integrations before the last restart */
+    int stuck;      /* steps on end that were too short for numbers to tell their ends apart */
     char reason[200];
 } Cvode;
 
@@ -148,6 +150,7 @@ static Status start(Stepper *stepper, double t, const double *y, Diag *diag)
         return solver_failure(diag, t, "SUNDIALS could not be started");
     memmove(c->base.y, y, (size_t)c->all * sizeof(double));
     c->base.t = c->base.before = t;
+    c->stuck = 0;
     memcpy(N_VGetArrayPointer(c->y), y, (size_t)c->all * sizeof(double));
     c->earlier = c->base.counts;
     code = c->linear == NULL && c->nonlinear == NULL ? first_start(c, t)
@@ -169,6 +172,10 @@ static Status step(Stepper *stepper, double end, Diag *diag)
     keep_counts(c);
     if (code < 0)
         return solver_failure(diag, c->base.before, c->reason);
+    /* CVODE itself only warns: where a solution has no end, its steps would shrink without one */
+    c->stuck = reached > c->base.before ? 0 : c->stuck + 1;
+    if (c->stuck >= STUCK)
+        return solver_failure(diag, c->base.before, "the step became too small");
     c->base.t = reached;
     memcpy(c->base.y, N_VGetArrayPointer(c->y), (size_t)c->all * sizeof(double));
     (void)CVodeGetCurrentStep(c->memory, &c->base.next);

@@ -514,6 +514,31 @@ static void parts_that_no_longer_fit_are_told(void)
     kit_free(&kit);
 }
 
+/* s'' = 6 s^2 by s = 1/(1 - t)^2: no method gets past t = 1, and none tries without end */
+static void a_solution_that_ends_ends_the_run(void)
+{
+    static const struct {
+        const char *method, *told;
+    } methods[] = {{"dop853", "the step became too small"},
+                   {"adams", "the step became too small"},
+                   {"bdf", "the step became too small"},
+                   {"ida", "the corrector convergence failed"},
+                   {"radau", "no solution just behind this instant"},
+                   {"rk4", "no solution one step on"}};
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, "scene planar\ngravity [0, 0]\nbody m1 mass=1\n"
+                      "prismatic s ground m1 axis=x\nactuator F s force=6*s^2\n"
+                      "init s = 1, s' = 2\n");
+    for (size_t i = 0; i < sizeof methods / sizeof methods[0]; i++) {
+        char line[60];
+
+        (void)snprintf(line, sizeof line, "simulate 3 method=%s", methods[i].method);
+        EXPECT_FAILS(&kit, line, methods[i].told);
+    }
+    kit_free(&kit);
+}
+
 int main(void)
 {
     RUN(a_run_keeps_energy_and_meets_the_start);
@@ -539,5 +564,6 @@ int main(void)
     RUN(a_stopped_derivation_leaves_the_session_whole);
     RUN(angular_speeds_of_joints_can_be_given);
     RUN(parts_that_no_longer_fit_are_told);
+    RUN(a_solution_that_ends_ends_the_run);
     return test_end();
 }
