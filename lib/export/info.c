@@ -165,6 +165,24 @@ static bool print_parameter(Text *out, const View *view, const char *name)
     return false;
 }
 
+static bool print_law(Text *out, const View *view, const char *name)
+{
+    const Expr *arguments;
+    int count;
+    const Expr body = model_law(view->model, name, &arguments, &count);
+    char *text;
+
+    if (body == NULL)
+        return false;
+    text_addf(out, "%s: law, %s(", name, name);
+    for (int i = 0; i < count; i++)
+        text_addf(out, "%s%s", i > 0 ? ", " : "", expr_name(arguments[i]));
+    text = expr_text(body);
+    text_addf(out, ") = %s\n", text);
+    mem_free(text);
+    return true;
+}
+
 static bool print_output(Text *out, const View *view, const char *name)
 {
     for (int i = 0; i < model_output_count(view->model); i++) {
@@ -262,9 +280,9 @@ Status info_print(const View *view, const char *name, Place place, Text *out, Di
         print_instance(out, view, instance);
         return OK;
     }
-    if (print_parameter(out, view, name) || print_output(out, view, name) ||
-        print_event(out, view, name) || print_variable(out, view, name) ||
-        print_node(out, view, name))
+    if (print_parameter(out, view, name) || print_law(out, view, name) ||
+        print_output(out, view, name) || print_event(out, view, name) ||
+        print_variable(out, view, name) || print_node(out, view, name))
         return OK;
     for (int i = 0; (candidate = model_name(view->model, i)) != NULL; i++)
         suggest_offer(&suggest, candidate);

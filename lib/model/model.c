@@ -352,6 +352,22 @@ Expr model_output(const Model *model, int i, const char **name)
     return d->body;
 }
 
+Expr model_law(const Model *model, const char *name, const Expr **arguments, int *count)
+{
+    const State *state = model->state;
+    const Thing *thing = state_thing(state, name);
+    const Definition *law;
+
+    if (thing == NULL || thing->kind != THING_DEFINITION)
+        return NULL;
+    law = &state->definitions.at[thing->index];
+    if (law->kind != DEFINES_LAW)
+        return NULL;
+    *arguments = law->arguments;
+    *count = law->argument_count;
+    return law->body;
+}
+
 int model_event_count(const Model *model)
 {
     return model->state->events.count;

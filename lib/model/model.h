@@ -70,6 +70,8 @@ double model_number(const Model *model, Expr e);
  * it is put in place. */
 int model_output_count(const Model *model);
 Expr model_output(const Model *model, int i, const char **name);
+/* the law of that name: its body over `count` arguments; NULL: there is none */
+Expr model_law(const Model *model, const char *name, const Expr **arguments, int *count);
 
 /* initial values and guesses: variable (by name and primes), value (expression of parameters) */
 typedef struct Start {

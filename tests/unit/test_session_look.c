@@ -268,12 +268,13 @@ static void info_knows_every_kind_of_name(void)
                  {"R7", "parameter, R7 = 1.2"},
                  {"p1", "arm"},
                  {"power", "output"},
+                 {"grow", "grow: law, grow(x, y) = R7*x + y^2\n"},
                  {"e", "terminal"},
                  {"ground", "the datum"}};
     Kit kit = kit_new();
     char line[40];
 
-    EXPECT_DONE(&kit, MOTOR_ARM "output power = M7.v*M7.i\n");
+    EXPECT_DONE(&kit, MOTOR_ARM "output power = M7.v*M7.i\ngrow(x, y) = R7*x + y^2\n");
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
         (void)snprintf(line, sizeof line, "info %s", names[i].name);
         EXPECT_DONE(&kit, line);
