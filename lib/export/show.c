@@ -279,15 +279,17 @@ static bool is_mere_name(const View *view, const Syntax *syntax)
             strcmp(expr_name(e), syntax->text) == 0);
 }
 
-static Status show_item(const View *view, const Statement *statement, const Operand *operand,
-                        Text *out, Diag *diag)
+static Status show_item(const View *view, const Statement *statement, int item, Text *out,
+                        Diag *diag)
 {
+    const Operand *operand = statement->operands.at + item;
+    const int number = statement->operands.count > 1 ? item + 1 : 0;
     Diag ignored = {0};
 
     if (statement->as == NULL && is_mere_name(view, operand->value) &&
         info_print(view, operand->value->text, operand->place, out, &ignored) == OK)
         return OK;
-    return show_expression(view, operand->value, out, diag);
+    return show_expression(view, operand->value, number, out, diag);
 }
 
 Status show(const View *view, const Statement *statement, Text *out, Diag *diag)
@@ -306,7 +308,7 @@ Status show(const View *view, const Statement *statement, Text *out, Diag *diag)
     for (int i = 0; status == OK && i < statement->operands.count; i++) {
         const Operand *operand = statement->operands.at + i;
 
-        status = show_item(&in_notation, statement, operand, out, diag);
+        status = show_item(&in_notation, statement, i, out, diag);
         if (status != OK && diag->place.line == 0)
             diag->place = operand->place;
         if (status != OK && i == 0)

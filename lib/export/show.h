@@ -86,8 +86,11 @@ void modes_csv(const Modes *modes, bool with_header, Text *out);
 /* what an event of the model does, in words: "stops", "s1' = -0.8*s1'" */
 void event_print(Text *out, const Event *event);
 
-/* one variable or expression of the user's: `left = its expression` */
-MUST_USE Status show_expression(const View *view, const Syntax *syntax, Text *out, Diag *diag);
+/* One variable or expression of the user's: `left = its expression`. Programming languages get a
+ * left side that they can assign to: what is no variable is `value`, with its number behind (0: it
+ * is the only one). */
+MUST_USE Status show_expression(const View *view, const Syntax *syntax, int number, Text *out,
+                                Diag *diag);
 
 /* a run's report: what ran, its work, residuals and energy; without its remarks */
 void report_print(Text *out, const Result *result, const char *name);

@@ -493,23 +493,54 @@ done:
     return status;
 }
 
-Status show_expression(const View *view, const Syntax *syntax, Text *out, Diag *diag)
+/* In programs, what is no variable needs a name that the model has not given */
+static char *free_name(const View *view, int number)
+{
+    const char *name;
+    Text text = {0};
+
+    text_add(&text, "value");
+    if (number > 0)
+        text_addf(&text, "%d", number);
+    for (int i = 0; (name = model_name(view->model, i)) != NULL; i++)
+        if (strcmp(name, text.at) == 0) {
+            text_char(&text, '_');
+            i = -1;
+        }
+    return text_done(&text);
+}
+
+/* the left side of what is shown: as the user wrote it, or as the notation can have it */
+static char *left_side(const View *view, const Syntax *syntax, Expr user, int number)
+{
+    const Notation notation = view->page.notation;
+    char *written, *name;
+
+    if (notation == NOTATION_LATEX)
+        return view_expression(view, user);
+    if (notation != NOTATION_C && notation != NOTATION_MATLAB)
+        return view_name(syntax);
+    while (syntax->kind == SYNTAX_GROUP && syntax->primes == 0)
+        syntax = syntax->args[0];
+    written = view_name(syntax);
+    name = syntax->kind != SYNTAX_VARIABLE
+               ? free_name(view, number)
+               : view_expression(view,
+                                 expr_symbol(model_arena(view->model), written, SYMBOL_VARIABLE));
+    mem_free(written);
+    return name;
+}
+
+Status show_expression(const View *view, const Syntax *syntax, int number, Text *out, Diag *diag)
 {
     Equations equations = {0};
     Status status = OK;
-    Text latex = {0};
-    char *name;
     Expr user, e;
 
     CHECK(model_expression(view->model, syntax, &user, diag));
     CHECK(system_resolve(view->system, user, &e, diag));
-    if (view->page.notation == NOTATION_LATEX) {
-        expr_print(&latex, user, NOTATION_LATEX);
-        name = text_done(&latex);
-    } else {
-        name = view_name(syntax);
-    }
-    view_value(&equations, name, expr_fold(model_arena(view->model), e));
+    view_value(&equations, left_side(view, syntax, user, number),
+               expr_fold(model_arena(view->model), e));
     view_open(out, view);
     view_equations(out, view, &equations);
     view_close(out, view);

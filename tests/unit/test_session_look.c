@@ -88,6 +88,30 @@ static void every_topic_fits_the_page(void)
     }
 }
 
+/* what stands on the left of an assignment has to be something that can be assigned to */
+static void programs_assign_to_names(void)
+{
+    static const struct {
+        const char *line, *text;
+    } shown[] = {{"show (2*s) as c", "value = 2.0*s;\n"},
+                 {"show ((s)) as c", "s = s;\n"},
+                 {"show sin(s) (s - 1) as matlab", "value1 = sin(s);\nvalue2 = s - 1;\n"},
+                 {"show F.effort as c", "F_effort = 6.0*s;\n"},
+                 {"show F.effort as matlab", "F_effort = 6*s;\n"},
+                 {"show s'' as matlab", "s_dd = s_dd;\n"},
+                 {"show (2*s) as text", "(2*s) = 2*s\n"},
+                 {"value = 3; show (2*s) as c", "value_ = 2.0*s;\n"}};
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, "scene planar\nbody m1 mass=1\nprismatic s ground m1 axis=x\n"
+                      "actuator F s force=6*s\n");
+    for (int i = 0; i < COUNT(shown); i++) {
+        EXPECT_DONE(&kit, shown[i].line);
+        EXPECT_TEXT(kit.text, shown[i].text);
+    }
+    kit_free(&kit);
+}
+
 static void latex_has_its_brackets_in_pairs(void)
 {
     Kit kit = kit_new();
@@ -387,6 +411,7 @@ int main(void)
     RUN(rates_of_constraints_are_linear_in_rates);
     RUN(the_motor_arm_has_a_mechanical_and_an_electrical_equation);
     RUN(every_topic_fits_the_page);
+    RUN(programs_assign_to_names);
     RUN(latex_has_its_brackets_in_pairs);
     RUN(entries_and_variables_can_be_asked_for);
     RUN(what_cannot_be_shown_is_refused_with_a_way_out);
