@@ -57,6 +57,7 @@ struct Events {
     LIST(Item) items;
     LIST(Condition) conditions; /* time-only ones first, once all are read */
     int time_only;
+    bool follows_time; /* whether any other changes with t alone */
     LIST(Expr) values; /* right-hand sides, in order of the items */
     double *targets;   /* one a value; NAN: leave */
     Reset *reset;
@@ -229,6 +230,9 @@ static Status compile_all(Events *events, Diag *diag)
         LIST_PUSH(roots, events->conditions.at[i].difference);
     for (int i = 0; i < events->items.count; i++)
         LIST_PUSH(roots, events->items.at[i].when);
+    events->follows_time =
+        roots.at != NULL && layout_follows_time(events->plan.layout, roots.at + events->time_only,
+                                                events->conditions.count - events->time_only);
     CHECK(compile(events, roots.at, events->time_only, &events->time, diag));
     CHECK(compile(events, roots.at, events->conditions.count, &events->state, diag));
     CHECK(compile(events, roots.at + events->conditions.count, events->items.count,
@@ -413,6 +417,11 @@ int events_condition_count(const Events *events)
 int events_time_only(const Events *events)
 {
     return events != NULL ? events->time_only : 0;
+}
+
+bool events_follow_time(const Events *events)
+{
+    return events != NULL && events->follows_time;
 }
 
 /* the roots of a probe at (t, y); NULL where the equations have no solution */

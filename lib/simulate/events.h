@@ -2,8 +2,7 @@
  *
  * A condition is a formula of comparisons a < b; what each decides is the sign of a - b, a "side":
  * -1 where it holds, +1 where not, 0 not known. Whoever drives the run follows the sides
- * (events_conditions) and locates their changes; the formula then says which events become true.
- * All evaluation of conditions goes through events_conditions() and events_holding(). */
+ * (events_conditions) and locates their changes; the formula then says which events become true. */
 #ifndef COTREE_SIMULATE_EVENTS_H
 #define COTREE_SIMULATE_EVENTS_H
 
@@ -12,9 +11,8 @@
 typedef struct Events Events;
 
 /* New; events_free(). Borrows the layout, parameters, equations and motion; copies what it keeps of
- * the events. `rows` are the constraint rows in use. With `driven`, the motion is prescribed.
- * Fails with E_MODEL where such a run can't have an event, E_VALUE for a variable that can't be
- * set, the errors of system_resolve(). */
+ * the events. `rows` are the constraint rows in use. Fails with E_MODEL where such a run can't have
+ * an event, E_VALUE for a variable that can't be set, the errors of system_resolve(). */
 typedef struct EventsPlan {
     const Layout *layout;
     Parameters *parameters;
@@ -43,6 +41,8 @@ void events_tell(const Events *events, Text *out);
 
 int events_condition_count(const Events *events);
 int events_time_only(const Events *events); /* the first of them, which hold t alone */
+/* whether any other changes with t alone, while no state does */
+bool events_follow_time(const Events *events);
 /* values a - b of all conditions at (t, y); NAN where the equations have no solution */
 void events_conditions(Events *events, double t, const double *y, double *out);
 /* of the time-only ones */

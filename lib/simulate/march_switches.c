@@ -125,7 +125,7 @@ static int points_in(const March *m, double length)
 {
     double span = m->plan->to - m->plan->from;
 
-    if (!m->eq->switches_follow_time)
+    if (!m->eq->switches_follow_time && !events_follow_time(m->ev))
         return POINTS;
     return (int)fmax(POINTS, ceil(length / span * LOOKS));
 }

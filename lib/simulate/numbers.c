@@ -525,17 +525,16 @@ done:
     return status;
 }
 
-/* whether conditions change with t alone, while no state does */
-static bool follow_time(const Numbers *nb, const Roots *conditions)
+bool layout_follows_time(const Layout *l, const Expr *roots, int count)
 {
-    const Reading *run = system_run(nb->layout->system);
+    const Reading *run = system_run(l->system);
     const unsigned solved = 1U << SYMBOL_ALGEBRAIC | 1U << SYMBOL_STATE_RATE;
     unsigned kinds = 0;
 
-    for (int i = nb->eq.time_only; i < conditions->count; i++)
-        kinds |= expr_kinds(conditions->at[i]);
+    for (int i = 0; i < count; i++)
+        kinds |= expr_kinds(roots[i]);
     if ((kinds & solved) != 0)
-        for (int i = 0; i < nb->layout->nx + nb->layout->nz; i++)
+        for (int i = 0; i < l->nx + l->nz; i++)
             kinds |= expr_kinds(run->network_residual[i]);
     return (kinds & 1U << SYMBOL_TIME) != 0;
 }
@@ -560,7 +559,9 @@ static Status compile_switches(Numbers *nb, Parameters *parameters, Diag *diag)
     }
     CHECK(add_margins(nb, &roots, diag));
     nb->eq.switch_count = roots.count;
-    nb->eq.switches_follow_time = follow_time(nb, &roots);
+    nb->eq.switches_follow_time =
+        roots.at != NULL && layout_follows_time(nb->layout, roots.at + nb->eq.time_only,
+                                                roots.count - nb->eq.time_only);
     if (roots.count > 0)
         CHECK(compile(nb->layout, parameters, roots.at, roots.count, &nb->switch_program,
                       &nb->switch_workspace, NULL, diag));

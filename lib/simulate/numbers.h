@@ -27,6 +27,8 @@ static inline int layout_turned(const Layout *l) /* place of the first reference
 
 Layout *layout_new(System *system); /* new; free with layout_free(). Symbols of u'' are made. */
 void layout_free(Layout *layout);
+/* whether any of the roots changes with t alone, while no state does */
+bool layout_follows_time(const Layout *layout, const Expr *roots, int count);
 
 /* Values of parameters, kept from the start of a run on. */
 typedef struct Parameters {

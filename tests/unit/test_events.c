@@ -129,6 +129,19 @@ static void a_capacitor_that_is_emptied_makes_a_saw_tooth(void)
     kit_free(&kit);
 }
 
+/* no state says how short the steps have to be */
+static void what_follows_a_source_is_seen_in_every_period(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, "vsource E a 0 10*sin(100*pi*t)\nresistor R1 a b 100\nresistor R2 b 0 100\n"
+                      "event high when=b.v > 2 do=mark\nsimulate 1 every=10 ms\n");
+    for (int k = 0; k < 50; k++)
+        EXPECT_NEAR(time_of(&kit, "high", k), asin(0.4) / (100 * M_PI) + 0.02 * k, 1e-12);
+    EXPECT(isnan(time_of(&kit, "high", 50)));
+    kit_free(&kit);
+}
+
 static void a_condition_may_hold_forces_and_accelerations(void)
 {
     Kit kit = kit_new();
@@ -567,6 +580,7 @@ int main(void)
     RUN(a_stopped_run_goes_on_and_does_not_stop_there_again);
     RUN(marks_lie_at_quarters_of_the_pendulums_period);
     RUN(a_capacitor_that_is_emptied_makes_a_saw_tooth);
+    RUN(what_follows_a_source_is_seen_in_every_period);
     RUN(a_condition_may_hold_forces_and_accelerations);
     RUN(an_instant_in_time_is_exact_and_a_row);
     RUN(every_operator_of_conditions_works);
