@@ -56,9 +56,26 @@ static void gather(System *system, const Expr *roots, int count, bool **seen, ui
     LIST_FREE(stack);
 }
 
+/* Those of t alone are looked for before a run, in the whole: what a mode makes one of them, as the
+ * voltage of a resistor that a switch lays on a source, is followed like the others. */
+static bool is_of_time(System *system, Expr condition)
+{
+    const Expr *known;
+    int count = 0;
+
+    if ((expr_kinds(condition) & ~(1U << SYMBOL_TIME | 1U << SYMBOL_PARAMETER)) != 0)
+        return false;
+    if (system->whole == NULL)
+        return true;
+    (void)system_switches(system->whole, &known, &count);
+    for (int i = 0; i < count; i++)
+        if (known[i] == condition)
+            return true;
+    return false;
+}
+
 int system_switches(System *system, const Expr **conditions, int *time_only)
 {
-    const unsigned state = ~(1U << SYMBOL_TIME | 1U << SYMBOL_PARAMETER);
     int w = system->x.count + system->z.count;
     bool *seen = NULL;
     uint32_t room = 0;
@@ -77,7 +94,7 @@ int system_switches(System *system, const Expr **conditions, int *time_only)
         mem_free(seen);
         /* those of time alone first, each once */
         for (int i = 0; i < system->switches.count; i++)
-            if ((expr_kinds(system->switches.at[i]) & state) == 0) {
+            if (is_of_time(system, system->switches.at[i])) {
                 Expr condition = system->switches.at[i];
 
                 system->switches.at[i] = system->switches.at[system->switches_of_time];

@@ -486,6 +486,7 @@ Status system_mode(System *whole, const Model *model, const bool *closed, const 
         (Order){
             .model = model, .closed = closed, .closed_count = whole->ideals.count, .watch = watch},
         &mode, diag));
+    mode->whole = whole;
     LIST_PUSH(whole->modes, mode);
     *out = mode;
 done:

@@ -235,7 +235,7 @@ Expr system_power(System *system);
 
 /* conditions at which the right-hand side may jump or kink: the difference a - b of every
  * comparison in the equations and in what closes ideal switches, in (t, q, u, x); time-only ones
- * first. Count, and *time_only how many of them. */
+ * first. Count, and *time_only how many of them: in a mode those that hold t alone in the whole. */
 int system_switches(System *system, const Expr **conditions, int *time_only);
 
 /* --- ideal switches: diodes and switches without resistance ---

@@ -262,6 +262,7 @@ struct System {
     LIST(int) ideals;   /* branches that are ideal switches */
     const bool *closed; /* one an ideal switch: the side it is on; NULL: both are in one equation */
     LIST(System *) modes; /* of those whose sides are open, made so far */
+    System *whole;        /* one of whose modes it is, and which owns it; NULL: none */
     LIST(Branchlike) branches;
     int *scalar_of_edge; /* edge of the graph -> branches, or -1 */
     LIST(Unknown) unknowns;

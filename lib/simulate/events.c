@@ -98,27 +98,49 @@ static void add_condition(Events *events, Expr comparison)
     text_free(&name);
 }
 
+typedef LIST(Expr) Comparisons;
+
 /* the comparisons that a formula is made of */
-static void gather(Events *events, Expr e)
+static void gather(Comparisons *out, Expr e)
 {
     if (expr_kind(e) != EXPR_CALL || (expr_kinds(e) & ~(1U << SYMBOL_PARAMETER)) == 0)
         return;
     if (expr_op(e) == OP_LT || expr_op(e) == OP_LE)
-        add_condition(events, e);
+        LIST_PUSH(*out, e);
     else
         for (int i = 0; i < expr_arg_count(e); i++)
-            gather(events, expr_arg(e, i));
+            gather(out, expr_arg(e, i));
+}
+
+/* whether the whole, which a run looks for conditions of t alone in, has this comparison too */
+static bool is_in_whole(const Events *events, const Comparisons *whole, Expr comparison)
+{
+    if (events->plan.whole == NULL)
+        return true;
+    for (int i = 0; i < whole->count; i++)
+        if (whole->at[i] == comparison)
+            return true;
+    return false;
 }
 
 static void time_first(Events *events)
 {
+    const EventsPlan *plan = &events->plan;
+    Comparisons whole = {0};
+    Expr when;
+
+    for (int i = 0; i < plan->event_count && plan->whole != NULL; i++)
+        if (system_resolve(plan->whole, plan->events[i]->when, &when, NULL) == OK)
+            gather(&whole, when);
     for (int i = 0; i < events->conditions.count; i++)
-        if (holds_time_alone(events->conditions.at[i].difference)) {
+        if (holds_time_alone(events->conditions.at[i].difference) &&
+            is_in_whole(events, &whole, events->conditions.at[i].comparison)) {
             Condition condition = events->conditions.at[i];
 
             events->conditions.at[i] = events->conditions.at[events->time_only];
             events->conditions.at[events->time_only++] = condition;
         }
+    LIST_FREE(whole);
 }
 
 /* what a driven run can't tell while it finds the positions, or no run at all */
@@ -140,12 +162,16 @@ static Status check_known(const Events *events, Expr e, Diag *diag)
 
 static Status read_condition(Events *events, Item *item, const Event *event, Diag *diag)
 {
+    Comparisons found = {0};
     Status status = OK;
 
     CHECK(system_resolve(events->plan.layout->system, event->when, &item->when, diag));
     CHECK(check_known(events, item->when, diag));
-    gather(events, item->when);
+    gather(&found, item->when);
+    for (int i = 0; i < found.count; i++)
+        add_condition(events, found.at[i]);
 done:
+    LIST_FREE(found);
     return status;
 }
 
@@ -185,7 +211,7 @@ static Status read_event(Events *events, const Event *event, Diag *diag)
 
     if (status == OK)
         status = read_values(events, &item, event, &why);
-    if (status == E_VALUE && events->plan.in_mode) { /* said where it comes to that */
+    if (status == E_VALUE && events->plan.whole != NULL) { /* said where it comes to that */
         item.refused = keep(events, why.message);
         status = OK;
     }

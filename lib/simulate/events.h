@@ -21,7 +21,8 @@ typedef struct EventsPlan {
     const int *rows;
     int row_count;
     RunKind kind;
-    bool in_mode; /* ideal switches may hold what an event gives a value to: an error only then */
+    System *whole; /* one of whose modes the layout's system is: there ideal switches may hold what
+                      an event gives a value to, which is an error only then. NULL: it is none */
     const Event *const *events;
     int event_count;
 } EventsPlan;
@@ -40,7 +41,8 @@ void events_tell(const Events *events, Text *out);
 /* --- conditions and sides --- */
 
 int events_condition_count(const Events *events);
-int events_time_only(const Events *events); /* the first of them, which hold t alone */
+/* The first of them, which hold t alone; in a mode those that do so in the whole. */
+int events_time_only(const Events *events);
 /* whether any other changes with t alone, while no state does */
 bool events_follow_time(const Events *events);
 /* values a - b of all conditions at (t, y); NAN where the equations have no solution */

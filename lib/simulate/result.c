@@ -156,7 +156,7 @@ Status result_make_events(Result *r, const Phase *phase, const Events *earlier,
                              .rows = r->start.rows,
                              .row_count = r->start.row_count,
                              .kind = r->kind,
-                             .in_mode = phase->closed != NULL,
+                             .whole = phase->closed != NULL ? r->system : NULL,
                              .events = setting->events,
                              .event_count = setting->event_count};
     Status status = OK;

@@ -412,6 +412,26 @@ static void events_see_what_diodes_carry(void)
     kit_free(&kit);
 }
 
+/* S1 lays a resistor on the source, and its voltage is a function of time from then on */
+static void what_a_switch_makes_a_function_of_time_is_followed(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, "vsource E a 0 10*sin(100*pi*t)\nswitch S1 a b when=t > 1 [ms]\n"
+                      "resistor R1 b 0 100\nswitch S2 b c when=b.v > 5\nresistor R2 c 0 100\n"
+                      "event high when=b.v > 5 do=mark\nevent late when=t > 4 [ms] do=mark\n"
+                      "simulate 40 ms every=0.1 ms\n");
+    for (int i = 0; i < 100; i++) {
+        double t = 0.04 * i / 100 + 1e-5, wave = sin(100 * PI * t);
+
+        expect_at(&kit, "S2.i", t, wave > 0.5 ? 0.1 * wave : 0, 1e-9);
+    }
+    EXPECT_DONE(&kit, "show events\n");
+    EXPECT_HOLDS(kit.text, "high  2 times: 0.00166666666667 0.0216666666667 s");
+    EXPECT_HOLDS(kit.text, "late  0.004 s");
+    kit_free(&kit);
+}
+
 /* a second run at a tenth of the tolerance goes through the same phases */
 static void the_error_of_a_run_is_told(void)
 {
@@ -511,6 +531,7 @@ int main(void)
     RUN(an_operating_point_chooses_the_sides);
     RUN(linear_equations_are_those_of_the_instant);
     RUN(events_see_what_diodes_carry);
+    RUN(what_a_switch_makes_a_function_of_time_is_followed);
     RUN(the_error_of_a_run_is_told);
     RUN(a_chopped_motor_keeps_its_energy);
     RUN(nothing_stored_may_jump);
