@@ -478,8 +478,10 @@ Status system_mode(System *whole, const Model *model, const bool *closed, const 
             return OK;
         }
     if (whole->revision != model_revision(model)) {
-        (void)diag_set(diag, E_MODEL, "the model has changed since its equations were made");
-        diag_hint(diag, "its ideal switches can't go over to another side: start a new run");
+        (void)diag_set(diag, E_MODEL,
+                       "the ideal switches ask for equations that aren't made yet, of a model that "
+                       "has changed since");
+        diag_hint(diag, "start a new run");
         return E_MODEL;
     }
     CHECK(make(

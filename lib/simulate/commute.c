@@ -241,6 +241,25 @@ done:
     return status;
 }
 
+/* The phase that a run goes over to at t. Where there is none the run ends there, and keeps what it
+ * has. */
+static Status next_phase(const Commuting *c, double t, const bool *closed, Phase **out, Diag *diag)
+{
+    Diag why = {0};
+    Status status = commute_phase(c->result, c->setting, closed, out, &why);
+
+    if (status == OK)
+        return OK;
+    if (status != E_MODEL) {
+        (void)diag_set(diag, status, "%s", why.message);
+    } else {
+        status = E_SOLVER;
+        (void)diag_set(diag, status, "at t = %.9g s %s", t, why.message);
+    }
+    diag_hint(diag, "%s", why.hint);
+    return status;
+}
+
 /* How far to look ahead, as numbers tell times apart. Where nothing changed at t when it was looked
  * at last, all the same it is asked again: so what changes is too slow to be seen. */
 static double step_from(Commuting *c, double t, double last)
@@ -289,7 +308,7 @@ Status commute(void *context, double t, double behind, double last, const double
     if (memcmp(closed, now->closed, (size_t)count * sizeof(bool)) == 0)
         goto done;
     c->stuck = NAN;
-    CHECK(commute_phase(r, c->setting, closed, &next, diag));
+    CHECK(next_phase(c, behind, closed, &next, diag));
     CHECK(take_over_events(r, next, c->setting, &events, diag));
     commuting_free(c);
     c->y = NEW_ARRAY(double, next->length);

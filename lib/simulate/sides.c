@@ -410,7 +410,7 @@ static Status tell_none(const Sides *s, Diag *diag)
     for (int k = 0; k < s->count && k < 8; k++)
         text_addf(&names, "%s%s", k > 0 ? ", " : "", name_of(s, k));
     (void)diag_set(diag, E_SOLVER,
-                   "at t = %.9g s the network has no solution, however %s%s are closed and open",
+                   "at t = %.9g s the network has no solution, whichever of %s%s are closed",
                    s->at->t, names.at, s->count > 8 ? " ..." : "");
     diag_hint(diag, "give a switch or diode where sources or currents meet it Ron= and Roff=, "
                     "such as Ron=1 mohm Roff=1 Mohm");
