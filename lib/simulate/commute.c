@@ -18,19 +18,11 @@
 #define FURTHEST   1e-6 /* and no more than this, */
 #define STUCK      1e-4 /* or this, where the sides stay and all the same their margins end */
 
-static int number_of(const Result *r, const Phase *phase)
-{
-    for (int i = 0; i < r->phases.count; i++)
-        if (r->phases.at[i] == phase)
-            return i;
-    return -1;
-}
-
 /* --- states of the whole --- */
 
 static Status compile_states(Result *r, Phase *phase, Diag *diag)
 {
-    const Layout *whole = r->phases.at[0]->layout;
+    const Layout *whole = result_whole(r)->layout;
     LIST(Expr) roots = {0};
     Status status = OK;
 
@@ -55,7 +47,7 @@ static bool states_at(const Result *r, Phase *phase, double t, const double *y, 
     if (!phase_row(phase, t, y, row))
         return false;
     memcpy(out, probe_values(phase->states, row),
-           (size_t)r->phases.at[0]->layout->nx * sizeof(double));
+           (size_t)result_whole(r)->layout->nx * sizeof(double));
     return true;
 }
 
@@ -63,7 +55,7 @@ static bool states_at(const Result *r, Phase *phase, double t, const double *y, 
 static Status enter(const Result *r, const Phase *phase, const double *y, const double *x,
                     const double *near, double work, double *out, Diag *diag)
 {
-    const Layout *l = phase->layout, *whole = r->phases.at[0]->layout;
+    const Layout *l = phase->layout, *whole = result_whole(r)->layout;
 
     memcpy(out, y, (size_t)(l->n + l->nu) * sizeof(double));
     for (int i = 0; i < l->nx; i++) {
@@ -101,7 +93,7 @@ static void name_sides(const Result *r, const bool *before, const bool *closed, 
 static Status check_impulse(const Result *r, Phase *phase, double t, const double *y,
                             const bool *before, const double *x, Diag *diag)
 {
-    const Layout *whole = r->phases.at[0]->layout;
+    const Layout *whole = result_whole(r)->layout;
     double largest = vector_largest(x, whole->nx);
     const double *now;
     Text sides = {0};
@@ -164,7 +156,7 @@ Leg commute_leg(const Result *r, const Phase *phase, Events *events)
 {
     const Method *stiff = phase_stiff_method(phase);
 
-    return (Leg){.phase = number_of(r, phase),
+    return (Leg){.phase = result_phase_number(r, phase),
                  .equations = numbers_equations(phase->numbers),
                  .motion = phase->motion,
                  .events = events,
@@ -177,7 +169,7 @@ Leg commute_leg(const Result *r, const Phase *phase, Events *events)
 
 Status commute_begin(Result *r, const Setting *setting, Diag *diag)
 {
-    const Layout *whole = r->phases.at[0]->layout;
+    const Layout *whole = result_whole(r)->layout;
     const double *x = r->start.y + whole->n + whole->nu;
     SidesAt at = {.t = 0,
                   .step = START_STEP,
@@ -278,7 +270,7 @@ Status commute(void *context, double t, double behind, double last, const double
     Commuting *c = context;
     Result *r = c->result;
     Phase *now = r->phases.at[leg->phase], *next = NULL;
-    const Layout *whole = r->phases.at[0]->layout;
+    const Layout *whole = result_whole(r)->layout;
     int count = system_ideal_count(r->system);
     bool *closed = NEW_ARRAY(bool, count);
     double *x = NEW_ARRAY(double, whole->nx);

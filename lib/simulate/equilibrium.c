@@ -350,7 +350,7 @@ static void quest_close(Quest *e)
 /* what was found is where a search for z begins */
 static void guess_network(const Quest *e, Result *r)
 {
-    const Layout *l = r->phases.at[0]->layout;
+    const Layout *l = result_whole(r)->layout;
 
     if (e->l->nz != l->nz)
         return;
@@ -373,7 +373,7 @@ Status run_equilibrium(System *system, const Model *model, const Setting *settin
     CHECK(result_refuse_by(r, diag));
     CHECK(quest_open(&e, model, r, setting->watch, diag));
     CHECK(solve(&e, diag));
-    l = r->phases.at[0]->layout;
+    l = result_whole(r)->layout;
     v = statics_base(e.statics);
     memset(r->start.y, 0, (size_t)(l->n + l->nu + l->nx) * sizeof(double));
     for (int i = 0; i < l->n; i++) /* less than rounding of 1 rad or 1 m is nothing */

@@ -11,6 +11,20 @@
 
 /* --- rows --- */
 
+Phase *result_whole(const Result *r)
+{
+    return r->phases.at[0];
+}
+
+int result_phase_number(const Result *r, const Phase *phase)
+{
+    int number = 0;
+
+    while (r->phases.at[number] != phase)
+        number++;
+    return number;
+}
+
 Phase *result_phase(const Result *r, int row)
 {
     return r->phases.at[r->grid.phase[row]];
@@ -172,7 +186,7 @@ done:
 
 Status result_begin(Result *r, const Setting *setting, Diag *diag)
 {
-    Phase *whole = r->phases.at[0];
+    Phase *whole = result_whole(r);
     Status status = OK;
 
     if (r->sides != NULL)
@@ -196,7 +210,7 @@ Status result_open(RunKind kind, System *system, const Setting *setting, Result 
     Status status = OK;
 
     CHECK(prepare(kind, system, setting, &r, diag));
-    whole = r->phases.at[0];
+    whole = result_whole(r);
     CHECK(start_find(whole->layout, &r->parameters, whole->numbers, setting,
                      warm != NULL ? warm_value : NULL, (void *)warm, &r->start, diag));
     CHECK(result_begin(r, setting, diag));
@@ -218,7 +232,7 @@ static Status copy_phases(Result *r, const Result *old, const Setting *setting, 
     Status status = OK;
 
     if (r->sides == NULL)
-        return result_open_phase(r, r->phases.at[0], setting, diag);
+        return result_open_phase(r, result_whole(r), setting, diag);
     for (int i = 1; i < old->phases.count; i++)
         CHECK(commute_phase(r, setting, old->phases.at[i]->closed, &phase, diag));
 done:
@@ -228,7 +242,7 @@ done:
 Status result_reopen(const Result *old, const Setting *setting, Result **out, Diag *diag)
 {
     int last = old->grid.count - 1;
-    int m = old->phases.at[0]->layout->m;
+    int m = result_whole(old)->layout->m;
     Result *r = NULL;
     Status status = OK;
 
@@ -391,11 +405,7 @@ Status result_values(Result *r, const Expr *items, int count, double *out, Diag 
 
 void result_add_row(Result *r, double t, const double *y)
 {
-    int number = 0;
-
-    while (r->phases.at[number] != r->phase)
-        number++;
-    grid_add(&r->grid, t, number, y, r->phase->length);
+    grid_add(&r->grid, t, result_phase_number(r, r->phase), y, r->phase->length);
 }
 
 void result_tolerance(Result *r, double tolerance)

@@ -53,6 +53,9 @@ MUST_USE Status result_balance(Result *result, Diag *diag);
 void result_add_row(Result *result, double t, const double *y);
 /* for all phases, also those that a run comes to later */
 void result_tolerance(Result *result, double tolerance);
+/* the phase of the whole: the only one where there are no ideal switches */
+Phase *result_whole(const Result *result);
+int result_phase_number(const Result *result, const Phase *phase); /* as rows bear it */
 /* the phase of a row */
 Phase *result_phase(const Result *result, int row);
 /* a row's block of a driven run; NULL: the equations are to be solved */

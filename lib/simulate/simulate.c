@@ -116,7 +116,7 @@ static Status march_phases(Result *r, const Setting *setting, MarchPlan *plan, G
     if (r->sides != NULL) {
         plan->commute = commute;
         plan->context = &commuting;
-        plan->in_time = numbers_equations(r->phases.at[0]->numbers);
+        plan->in_time = numbers_equations(result_whole(r)->numbers);
         plan->corners = corners;
     }
     status = march(plan, r->begin, grid, out, diag);

@@ -87,7 +87,7 @@ static double parameter(void *context, Expr symbol)
 
 static Status make_system(Statics *s, const Model *model, const Watch *watch, Diag *diag)
 {
-    const Layout *theirs = s->start->phases.at[0]->layout;
+    const Layout *theirs = result_whole(s->start)->layout;
     Arena *arena = model_arena(model);
     Vary of = {.arena = arena,
                .time = expr_symbol(arena, "t", SYMBOL_TIME),
@@ -392,7 +392,7 @@ static Status make_rows(Statics *s, Diag *diag)
 Status statics_new(const Model *model, Result *start, const Watch *watch, Statics **out, Diag *diag)
 {
     Statics *s = NEW(Statics);
-    const Layout *theirs = start->phases.at[0]->layout;
+    const Layout *theirs = result_whole(start)->layout;
     Status status = OK;
 
     s->start = start;
