@@ -253,7 +253,6 @@ static Status cant_be_met(System *system, const Unknown *y, Diag *diag)
 {
     const Branchlike *branch = y->branchlike >= 0 ? &system->branches.at[y->branchlike] : NULL;
     RelationKind kind = branch != NULL ? branch->relation.kind : RELATION_FREE;
-
     bool ideal = branch != NULL && branch->ideal >= 0;
 
     if (kind == RELATION_ACROSS && !branch->branch) {
@@ -357,7 +356,6 @@ static Status add_rows(Rows *rows, Diag *diag)
                                             : expr_sub(arena, expr_open(arena, y->left),
                                                        expr_open(arena, y->right));
         bool is_state = expr_symbol_kind(y->symbol) == SYMBOL_STATE;
-
         int first = rows->entries.count;
         Expr left = y->left;
         Expr right = y->right;

@@ -25,7 +25,7 @@ MUST_USE Status system_new(const Model *model, const Watch *watch, System **out,
 typedef Expr (*VaryValue)(void *context, const Instance *instance, int param, Expr value);
 MUST_USE Status system_new_varied(const Model *model, VaryValue vary, void *context,
                                   const Watch *watch, System **out, Diag *diag);
-/* And in the mode of another system of that model. */
+/* And in the mode of another system, made of that model as it is now. */
 MUST_USE Status system_new_like(const System *other, const Model *model, VaryValue vary,
                                 void *context, const Watch *watch, System **out, Diag *diag);
 /* And with a conductance `leak` beside every scalar edge whose through variable is an expression of

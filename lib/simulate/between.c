@@ -33,7 +33,7 @@ typedef struct End {
     double t;
     Phase *phase;
     const double *y, *driven;
-    double *rate; /* of (q, u, x, work) */
+    double *rate; /* of y */
 } End;
 
 /* the last row up to t; -1: there is none */

@@ -506,11 +506,6 @@ static bool is_true(const Events *events, const Item *item, const int *sides)
 
 /* --- sides --- */
 
-static int sign_of(double v)
-{
-    return (v > 0) - (v < 0);
-}
-
 /* Conditions here and after one and two short steps of Euler's rule; how long they are, or 0. */
 static double look_ahead(Events *events, double t, double span, const double *y)
 {

@@ -40,6 +40,12 @@ void events_tell(const Events *events, Text *out);
 
 /* --- conditions and sides --- */
 
+/* which side a difference is on; 0 for NAN too */
+static inline int sign_of(double v)
+{
+    return (v > 0) - (v < 0);
+}
+
 int events_condition_count(const Events *events);
 /* The first of them, which hold t alone; in a mode those that do so in the whole. */
 int events_time_only(const Events *events);

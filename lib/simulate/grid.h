@@ -16,7 +16,9 @@ typedef struct Grid {
     ptrdiff_t capacity; /* of it */
 } Grid;
 
+/* a row behind the last one; y is copied */
 void grid_add(Grid *grid, double t, int phase, const double *y, int length);
+/* all rows of another one, of the same phases */
 void grid_append(Grid *grid, const Grid *more);
 double *grid_row(const Grid *grid, int row); /* y; borrowed, until a row is added */
 void grid_free(Grid *grid);                  /* what it holds; it is empty again */

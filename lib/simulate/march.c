@@ -132,6 +132,7 @@ static void open_leg(March *m, const Leg *leg)
     m->length = motion_length(leg->motion);
     conditions = m->count;
     length = m->length;
+    /* march_find_jumps() asks the equations of the whole, which may have more of both */
     if (in_time != NULL && in_time->switch_count + events_condition_count(m->ev) > conditions)
         conditions = in_time->switch_count + events_condition_count(m->ev);
     if (in_time != NULL && in_time->n + in_time->nu + in_time->nx > length)
@@ -245,12 +246,9 @@ done:
 /* held states at a sampling instant, where the stepper stands */
 static Status take_samples(March *m, double t, Diag *diag)
 {
-    bool due = false;
-    Status status = OK;
+    bool due;
 
-    CHECK(samples_take(m->leg.samples, t, m->stepper->y, &due, diag));
-done:
-    return status;
+    return samples_take(m->leg.samples, t, m->stepper->y, &due, diag);
 }
 
 static Status all_stretches(March *m, Diag *diag)

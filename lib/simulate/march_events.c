@@ -101,7 +101,7 @@ Status march_meet_event(March *m, int i, double when, Diag *diag)
     int *sides = NEW_ARRAY(int, m->count - first);
     double *y = NEW_ARRAY(double, m->length);
     double t = reach_zero(m, i, when);
-    bool changed;
+    bool changed, entered;
     Status status = OK;
 
     memcpy(y, m->y, bytes);
@@ -114,7 +114,7 @@ Status march_meet_event(March *m, int i, double when, Diag *diag)
     events_settle(m->ev, t, span, m->y, i - first, sides);
     CHECK(take_events(m, t, sides, &changed, diag));
     CHECK(march_check_pace(m, i, diag));
-    CHECK(march_go_on(m, t, m->y, &changed, diag));
+    CHECK(march_go_on(m, t, m->y, &entered, diag));
 done:
     mem_free(sides);
     mem_free(y);

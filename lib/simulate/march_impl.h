@@ -5,7 +5,7 @@
 #include "base/memory.h"
 #include "simulate/march.h"
 
-/* between two numbers one behind another (or around one on which the condition is 0) */
+/* s: between two numbers one behind another (or around one on which the condition is 0) */
 typedef struct Jump {
     double before, behind;
 } Jump;
@@ -24,7 +24,7 @@ typedef struct March {
     Counts earlier; /* of steppers given up */
     LIST(Jump) jumps;
     double low, high;             /* the time that rates see stays between */
-    double *y, *slope;            /* one y, one y' */
+    double *y, *slope;            /* one y, one y'; room for those of plan->in_time */
     double *conditions, *largest; /* values and largest sizes of conditions */
     int *mode;                    /* sign of each condition on this side of its next switch */
     double *band;                 /* sizes too small to tell a sign from, behind a switch, */
@@ -49,7 +49,6 @@ MUST_USE Status march_go_on(March *m, double t, const double *y, bool *entered, 
 
 /* --- conditions of t alone (march_jumps.c) --- */
 
-int sign_of(double v);
 void march_find_jumps(March *m); /* in order of time, into m->jumps */
 
 /* --- conditions of the state (march_switches.c) --- */

@@ -6,11 +6,6 @@
 #define SAMPLES 20000 /* of the run, at least, where they are looked at */
 #define MOST    2000000
 
-int sign_of(double v)
-{
-    return (v > 0) - (v < 0);
-}
-
 static const Equations *equations_in_time(const March *m)
 {
     return m->plan->in_time != NULL ? m->plan->in_time : m->eq;

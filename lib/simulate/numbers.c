@@ -458,6 +458,7 @@ static Status compile_equations(Numbers *nb, Parameters *parameters, Diag *diag)
     Expr power = system_power(l->system);
     Stage stage = network_shape(nb);
     bool iterates = r->network_nonlinear || stage > STAGE_VELOCITY;
+    bool mapped = !is_identity(l->system);
     Roots roots = {0};
     int phi = block(&roots, r->phi, l->m);
     int phi_u = block(&roots, r->phi_u, l->m * l->nu);
@@ -475,7 +476,7 @@ static Status compile_equations(Numbers *nb, Parameters *parameters, Diag *diag)
     Status status = OK;
 
     CHECK(push_turned(&roots, l->system, diag));
-    for (int i = 0; i < l->n && !is_identity(l->system); i++)
+    for (int i = 0; i < l->n && mapped; i++)
         for (int j = 0; j < l->nu; j++)
             LIST_PUSH(roots, system_n_entry(l->system, i, j));
     parameters_keep(parameters, roots.at, roots.count);

@@ -28,8 +28,7 @@ typedef struct Phase {
  * `count` sides; NULL: in no mode. */
 MUST_USE Status phase_new(System *system, Parameters *parameters, const bool *closed, int count,
                           Phase **out, Diag *diag);
-/* What solves its equations. `rows` of the start are copied. Fails with E_NAME for an independent
- * coordinate that the trees don't have, and as samples_new() does. */
+/* What solves its equations; once. The options are copied. Fails as samples_new() does. */
 MUST_USE Status phase_open(Phase *phase, Parameters *parameters, const MotionOptions *options,
                            Diag *diag);
 void phase_free(Phase *phase); /* NULL is fine */

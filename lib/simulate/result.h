@@ -24,7 +24,7 @@ struct Result {
     Assembled start;  /* of the whole */
     double *begin;    /* y of the phase in which it starts */
     double tolerance; /* of the run: bounds what a projection may leave */
-    Grid grid;        /* of (q, u, x, work) */
+    Grid grid;        /* rows of y */
     Grid corners;     /* where phases end and begin, two rows each */
     Driven driven;
     Events *events; /* NULL: none */
@@ -35,11 +35,13 @@ struct Result {
 /* A new result of no rows: programs compiled, start found, motion ready. */
 MUST_USE Status result_open(RunKind kind, System *system, const Setting *setting, Result **out,
                             Diag *diag);
-/* the same, started where another one ended */
+/* The same with the rows of another one, to go on where that ended. `old` and its system are
+ * unchanged but for modes that it comes to. */
 MUST_USE Status result_reopen(const Result *old, const Setting *setting, Result **out, Diag *diag);
 /* E_MODEL where a driver's motion is supplied by another effort (by=): for inverse runs alone */
 MUST_USE Status result_refuse_by(const Result *result, Diag *diag);
-/* What solves the equations of a phase, as the result's start and the setting ask for. */
+/* What solves the equations of a phase, as the result's start and the setting ask for. Fails with
+ * E_NAME for an independent coordinate that the trees don't have, and as phase_open() does. */
 MUST_USE Status result_open_phase(Result *result, Phase *phase, const Setting *setting, Diag *diag);
 /* New, or NULL where there are none: the setting's events in the equations of a phase, going on
  * with what happened in `earlier` (NULL: nothing). */
@@ -66,8 +68,8 @@ MUST_USE Status result_probe(Result *result, const Phase *phase, const Expr *ite
                              Probe **out, Diag *diag);
 void result_probe_at(Phase *phase, Probe *probe, double t, const double *y, const double *driven,
                      int count, double *out);
-/* (q, u, x, work) between two rows, projected: a new array, and the phase that it is of; false
- * outside the run */
+/* y between two rows, projected: a new array, and the phase that it is of. False outside the run,
+ * and where the equations have no solution; *y is NULL then, or as it was. */
 bool result_between(Result *result, double t, Phase **phase, double **y);
 
 #endif

@@ -25,6 +25,7 @@ typedef struct Term {
     bool by_state; /* times h: x = x0 + h x' */
 } Term;
 
+/* an equation, or one side of it */
 typedef struct Row {
     int root;
     int row;

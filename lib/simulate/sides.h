@@ -24,7 +24,7 @@ typedef struct SidesAt {
     const double *q, *u, *near;               /* at t + h; references of angles */
     const double *x;                          /* at t */
     const double *x_behind;                   /* at t + h, where sides stay as they are */
-    const double *acceleration, *multipliers; /* at t; NULL: not known */
+    const double *acceleration, *multipliers; /* at t + h; NULL: not known, taken for 0 */
 } SidesAt;
 
 /* The sides behind t from those before it, one an ideal switch. Fails with E_SOLVER where there are

@@ -35,7 +35,7 @@ MUST_USE Status start_solve(const Layout *layout, const Numbers *numbers, const 
 MUST_USE Status start_turns(const Layout *layout, Parameters *parameters, const Setting *setting,
                             WarmValue warm, void *warm_context, double *near, Diag *diag);
 /* The way out where a network has no solution, if an ideal diode or switch may be why. */
-void network_hint(const System *system, Diag *diag);
+void network_hint(System *system, Diag *diag);
 void start_free(Assembled *start); /* what it holds */
 
 #endif

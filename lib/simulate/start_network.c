@@ -6,12 +6,12 @@
 #include <math.h>
 #include <string.h>
 
-void network_hint(const System *system, Diag *diag)
+void network_hint(System *system, Diag *diag)
 {
     IdealSwitch ideal;
 
     if (diag != NULL && diag->hint[0] == '\0' && system_ideal_count(system) > 0 &&
-        system_ideal((System *)system, 0, &ideal, NULL) == OK)
+        system_ideal(system, 0, &ideal, NULL) == OK)
         diag_hint(diag,
                   "%s is ideal: where the network can't be on either side of it, give it Ron= and "
                   "Roff=, such as Ron=1 mohm Roff=1 Mohm",
