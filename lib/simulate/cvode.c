@@ -198,8 +198,10 @@ static Status shorten(Stepper *stepper, double t, Diag *diag)
     const Ode *ode = c->base.ode;
 
     at(stepper, t, c->base.y);
-    if (ode->project != NULL && !ode->project(ode->context, t, c->base.y))
+    if (ode->project != NULL && !ode->project(ode->context, t, c->base.y)) {
+        memcpy(c->base.y, N_VGetArrayPointer(c->y), (size_t)c->all * sizeof(double));
         return solver_failure(diag, t, "the equations have no solution at a switch");
+    }
     c->base.t = t;
     return OK;
 }

@@ -415,6 +415,8 @@ static Status shorten(Stepper *stepper, double t, Diag *diag)
         d->step = 0;
         return OK;
     }
+    if (d->step != 0 && !d->has_dense)
+        make_dense(d); /* while there are its stages */
     if (!try_step(d, h) || !settle(d, t, h))
         return solver_failure(diag, t, "the equations have no solution at a switch");
     d->base.next = h;

@@ -244,8 +244,10 @@ static Status shorten(Stepper *stepper, double t, Diag *diag)
     const Ode *ode = d->base.ode;
 
     at(stepper, t, d->base.y);
-    if (ode->project != NULL && !ode->project(ode->context, t, d->base.y))
+    if (ode->project != NULL && !ode->project(ode->context, t, d->base.y)) {
+        memcpy(d->base.y, N_VGetArrayPointer(d->w), (size_t)d->all * sizeof(double));
         return solver_failure(diag, t, "the equations have no solution at a switch");
+    }
     d->base.t = t;
     return OK;
 }

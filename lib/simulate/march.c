@@ -31,14 +31,14 @@ bool march_has_row(const March *m, double t)
     return grid->count > 0 && t - grid->times[grid->count - 1] <= 1e-12 * m->plan->every;
 }
 
-Status march_add_rows(March *m, Diag *diag)
+static Status add_rows_to(March *m, double end, Diag *diag)
 {
     const MarchPlan *plan = m->plan;
 
     for (; m->next_row <= m->rows; m->next_row++) {
         double t = grid_time(plan->from, plan->to, plan->every, m->next_row);
 
-        if (t > m->stepper->t)
+        if (t > end)
             break;
         if (march_has_row(m, t))
             continue; /* an event's instant */
@@ -47,6 +47,25 @@ Status march_add_rows(March *m, Diag *diag)
             return solver_failure(diag, t, "the constraints can't be met");
     }
     return OK;
+}
+
+Status march_add_rows(March *m, Diag *diag)
+{
+    return add_rows_to(m, m->stepper->t, diag);
+}
+
+Status march_cut(March *m, double t, Diag *diag)
+{
+    Status status = OK;
+
+    CHECK(add_rows_to(m, t, diag)); /* while the interpolant has its end */
+    m->stepper->method->at(m->stepper, t, m->y);
+    if (!motion_project(m->leg.motion, t, m->y))
+        CHECK(solver_failure(diag, t, "the constraints can't be met"));
+    memcpy(m->stepper->y, m->y, (size_t)m->length * sizeof(double));
+    m->stepper->t = t;
+done:
+    return status;
 }
 
 /* --- steps --- */

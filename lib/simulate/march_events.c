@@ -55,22 +55,20 @@ bool march_matters(March *m, int i)
 }
 
 /* The last step again, until it ends where condition i is zero as near as numbers tell, by Newton's
- * method; m->y and the time there. Where a step can't be as short as that, the interpolant has y.
- */
-static double reach_zero(March *m, int i, double when)
+ * method; m->y and the time there, *zero. Where a step can't be as short as that, the interpolant
+ * has y. */
+static Status reach_zero(March *m, int i, double when, double *zero, Diag *diag)
 {
     const Stepper *s = m->stepper;
     size_t bytes = (size_t)m->length * sizeof(double);
     double before = s->before, end = s->t, t = when;
-    double *kept = NEW_ARRAY(double, m->length);
     double value = 0, slope = 0, left = 0;
-    Diag ignored;
+    Diag ignored = {0};
+    Status status = OK;
 
     for (int k = 0; k < 12 && t > before; k++) {
-        s->method->at(m->stepper, t, kept);
         if (s->method->shorten(m->stepper, t, &ignored) != OK) {
-            memcpy(m->stepper->y, kept, bytes);
-            m->stepper->t = t;
+            CHECK(march_cut(m, t, diag));
             left = 0;
             break;
         }
@@ -82,15 +80,16 @@ static double reach_zero(March *m, int i, double when)
     }
     if (t <= before) {
         s->method->at(m->stepper, before, m->y);
-        mem_free(kept);
-        return before;
+        *zero = before;
+        return OK;
     }
     t = s->t;
     memcpy(m->y, s->y, bytes);
     for (int k = 0; k < m->length && fabs(left) <= 1e-3 * (t - before); k++)
         m->y[k] += left * m->slope[k];
-    mem_free(kept);
-    return fabs(left) <= 1e-3 * (t - before) ? t + left : t;
+    *zero = fabs(left) <= 1e-3 * (t - before) ? t + left : t;
+done:
+    return status;
 }
 
 Status march_meet_event(March *m, int i, double when, Diag *diag)
@@ -100,10 +99,11 @@ Status march_meet_event(March *m, int i, double when, Diag *diag)
     size_t bytes = (size_t)m->length * sizeof(double);
     int *sides = NEW_ARRAY(int, m->count - first);
     double *y = NEW_ARRAY(double, m->length);
-    double t = reach_zero(m, i, when);
+    double t = when;
     bool changed, entered;
     Status status = OK;
 
+    CHECK(reach_zero(m, i, when, &t, diag));
     memcpy(y, m->y, bytes);
     m->stepper->t = fmin(m->stepper->t, t);
     CHECK(march_add_rows(m, diag));

@@ -43,6 +43,9 @@ bool march_add_row(March *m, double t);
 bool march_has_row(const March *m, double t);
 /* rows of the output grid up to the stepper's time */
 MUST_USE Status march_add_rows(March *m, Diag *diag);
+/* End the last step at t, inside it, as its interpolant has it there: with the rows before, and to
+ * be started anew. */
+MUST_USE Status march_cut(March *m, double t, Diag *diag);
 /* Start the stepper anew at (t, y): in another leg, where ideal switches go over to other sides
  * (*entered). */
 MUST_USE Status march_go_on(March *m, double t, const double *y, bool *entered, Diag *diag);

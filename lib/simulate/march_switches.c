@@ -190,15 +190,21 @@ double march_condition_rate(March *m, int i, double *value)
 }
 
 /* Take the last step again until it ends just before the switch, so that none of its stages has
- * seen what is behind: Newton's method on the length of the step. */
+ * seen what is behind: Newton's method on the length of the step. Where the step can't be taken
+ * again, what it tells of the switch has to do. */
 static Status approach(March *m, int i, double when, double *value, double *slope, Diag *diag)
 {
     double aim = 1e-13 * m->largest[i] * m->mode[i];
     double before = m->stepper->before, end = m->stepper->t;
+    Diag ignored = {0};
     Status status = OK;
 
     for (int k = 0; k < 12; k++) {
-        CHECK(m->stepper->method->shorten(m->stepper, when, diag));
+        if (m->stepper->method->shorten(m->stepper, when, &ignored) != OK) {
+            *slope = 0;
+            CHECK(march_cut(m, when, diag));
+            break;
+        }
         *slope = march_condition_rate(m, i, value);
         if (*value * m->mode[i] > 0 && fabs(*value) <= 1e-11 * m->largest[i])
             break;

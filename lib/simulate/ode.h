@@ -79,7 +79,8 @@ typedef struct Method {
     Status (*step)(Stepper *stepper, double end, Diag *diag);
     /* y at t in the last step; not projected */
     void (*at)(Stepper *stepper, double t, double *y);
-    /* Take the last step again so that it ends at t, inside it; then start anew from there. */
+    /* Take the last step again so that it ends at t, inside it; then start anew from there. Where
+     * that fails, at() and y still tell of the last step as it was. */
     Status (*shorten)(Stepper *stepper, double t, Diag *diag);
 } Method;
 

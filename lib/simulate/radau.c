@@ -435,11 +435,24 @@ static void at(Stepper *stepper, double t, double *y)
     }
 }
 
+/* the stages of a step of length h instead of the last one, as its polynomial has them */
+static void guess_shorter(Radau *r, double h)
+{
+    for (int k = 0; k < 3; k++)
+        r->base.method->at(&r->base, r->base.before + nodes[k] * h, r->f + k * r->all);
+    for (int k = 0; k < 3; k++)
+        for (int i = 0; i < r->all; i++)
+            r->z[k * r->all + i] = r->f[k * r->all + i] - r->old[i];
+}
+
 static Status shorten(Stepper *stepper, double t, Diag *diag)
 {
     Radau *r = (Radau *)stepper;
+    size_t bytes = (size_t)r->all * sizeof(double);
     double h = t - r->base.before;
+    double *stages, *rate;
     int used;
+    Status status = OK;
 
     if (h <= 0) { /* back to where the step began */
         r->base.t = r->base.before;
@@ -448,11 +461,20 @@ static Status shorten(Stepper *stepper, double t, Diag *diag)
         r->step = 0;
         return OK;
     }
-    guess_stages(r, h, false);
-    if (evaluate(r, r->base.before, r->old, r->rate) && find_jacobian(r) && factor(r, h) &&
-        solve_stages(r, h, &used) == CONVERGED && settle(r, t, h))
-        return OK;
-    return solver_failure(diag, t, "the equations have no solution at a switch");
+    stages = NEW_ARRAY(double, 3 * r->all);
+    rate = NEW_ARRAY(double, r->all);
+    memcpy(stages, r->z, 3 * bytes);
+    memcpy(rate, r->rate, bytes);
+    guess_shorter(r, h);
+    if (!(evaluate(r, r->base.before, r->old, r->rate) && find_jacobian(r) && factor(r, h) &&
+          solve_stages(r, h, &used) == CONVERGED && settle(r, t, h))) {
+        status = solver_failure(diag, t, "the equations have no solution at a switch");
+        memcpy(r->z, stages, 3 * bytes);
+        memcpy(r->rate, rate, bytes);
+    }
+    mem_free(stages);
+    mem_free(rate);
+    return status;
 }
 
 const Method method_radau = {

@@ -122,10 +122,22 @@ static void at(Stepper *stepper, double t, double *y)
 static Status shorten(Stepper *stepper, double t, Diag *diag)
 {
     Rk4 *r = (Rk4 *)stepper;
+    size_t bytes = (size_t)r->all * sizeof(double);
+    double end = r->base.t;
+    double *y = NEW_ARRAY(double, r->all), *rate = NEW_ARRAY(double, r->all);
+    Status status = OK;
 
-    if (!advance(r, t - r->base.before, t))
-        return solver_failure(diag, t, "the equations have no solution at a switch");
-    return OK;
+    memcpy(y, r->base.y, bytes);
+    memcpy(rate, r->rate, bytes);
+    if (!advance(r, t - r->base.before, t)) {
+        status = solver_failure(diag, t, "the equations have no solution at a switch");
+        r->base.t = end;
+        memcpy(r->base.y, y, bytes);
+        memcpy(r->rate, rate, bytes);
+    }
+    mem_free(y);
+    mem_free(rate);
+    return status;
 }
 
 const Method method_rk4 = {

@@ -298,6 +298,67 @@ static void an_inverse_run_wants_a_smooth_driver(void)
     kit_free(&kit);
 }
 
+/* a run in steps cut at every kink of a diode, against one by another method */
+static void steps_are_cut_at_kinks_of_diodes(void)
+{
+    static const struct {
+        const char *network, *method;
+        double instants[3];
+    } runs[] = {{"scene planar\n"
+                 "vsource E s 0 5*sin(700*t)\n"
+                 "resistor RS s n1 5\n"
+                 "diode DT2 n1 n2 Ron=0.1 Roff=1e5\n"
+                 "diode DT3 n3 n2 Ron=0.1 Roff=1e5\n"
+                 "resistor R0 0 n1 50\n"
+                 "resistor R1 n3 n2 50\n"
+                 "resistor R2 n1 n2 200\n"
+                 "capacitor C0 n1 n2 10 uF\n"
+                 "diode D0 0 n1 Ron=0.1 Roff=1e5\n"
+                 "switch S 0 n3 when=sin(300*t)>0 Ron=0.1 Roff=1e5\n"
+                 "init C0.v=0\n",
+                 "method=radau",
+                 {0.0314, 0.0315, 0.05}},
+                {"scene planar\n"
+                 "vsource E s 0 20*sin(100*t)\n"
+                 "resistor RS s n1 5\n"
+                 "resistor RT2 n1 n2 50\n"
+                 "diode DT3 n1 n3 Ron=0.01 Roff=1e6\n"
+                 "resistor R0 n3 n2 50\n"
+                 "resistor R1 n3 n1 1000\n"
+                 "resistor R2 n1 n2 50\n"
+                 "capacitor C0 0 n3 1 uF\n"
+                 "capacitor C1 0 n1 100 uF\n"
+                 "inductor L0 n3 n2 1 mH\n"
+                 "diode D0 n1 n3 Ron=0.01 Roff=1e6\n"
+                 "diode D1 n3 n2 Ron=0.01 Roff=1e6\n"
+                 "diode D2 n1 n3 Ron=0.01 Roff=1e6\n"
+                 "switch S n1 n3 when=sin(300*t)>0 Ron=0.01 Roff=1e6\n"
+                 "init C0.v=0, C1.v=0, L0.i=0\n",
+                 "",
+                 {0.0162, 0.01622, 0.05}}};
+
+    for (size_t i = 0; i < sizeof runs / sizeof runs[0]; i++) {
+        Kit kit = kit_new();
+        double values[3];
+        char line[80];
+
+        EXPECT_DONE(&kit, runs[i].network);
+        (void)snprintf(line, sizeof line, "simulate 0.05 every=0.00001 %s\n", runs[i].method);
+        EXPECT_DONE(&kit, line);
+        for (int k = 0; k < 3; k++) {
+            (void)snprintf(line, sizeof line, "C0.v at %.5f", runs[i].instants[k]);
+            values[k] = kit_value(&kit, line);
+        }
+        EXPECT_DONE(&kit, "simulate 0.05 every=0.00001 method=bdf rtol=1e-9 atol=1e-9\n");
+        for (int k = 0; k < 3; k++) {
+            (void)snprintf(line, sizeof line, "expect C0.v ~ %.9g within 1e-5 at %.5f\n", values[k],
+                           runs[i].instants[k]);
+            EXPECT_DONE(&kit, line);
+        }
+        kit_free(&kit);
+    }
+}
+
 int main(void)
 {
     RUN(both_forms_of_a_microphone_move_alike);
@@ -319,5 +380,6 @@ int main(void)
     RUN(a_tree_that_needs_a_jump_differentiated_is_refused);
     RUN(sources_against_each_other_are_refused);
     RUN(an_inverse_run_wants_a_smooth_driver);
+    RUN(steps_are_cut_at_kinks_of_diodes);
     return test_end();
 }
