@@ -12,7 +12,8 @@ static int axes_of(const System *system, int node)
     return system->chains.at[system->frames[node].chain].resolve;
 }
 
-Expr sums_project(System *system, const Sums *sums, int speed)
+/* the row of a speed: its cutset projected on its motion */
+static Expr sums_project(System *system, const Sums *sums, int speed)
 {
     const Speed *own = &system->speeds[speed];
     Expr row = expr_int(system->arena, 0);

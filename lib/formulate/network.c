@@ -187,7 +187,7 @@ bool network_knows(const System *system, Expr symbol)
     return number < system->unknown_of.count && system->unknown_of.at[number] > 0;
 }
 
-int network_new_unknown(System *system, Unknown unknown, const char *name, SymbolKind kind)
+static int new_unknown(System *system, Unknown unknown, const char *name, SymbolKind kind)
 {
     unknown.symbol = expr_symbol(system->arena, name, kind);
     LIST_PUSH(system->unknowns, unknown);
@@ -222,7 +222,7 @@ static Expr add_rate(System *system, int unknown, SymbolKind kind)
 
 static int add_state(System *system, Unknown unknown, const char *name)
 {
-    int k = network_new_unknown(system, unknown, name, SYMBOL_STATE);
+    int k = new_unknown(system, unknown, name, SYMBOL_STATE);
 
     if (system->network_form == NETWORK_STATE)
         (void)add_rate(system, k, SYMBOL_STATE_RATE);
@@ -260,8 +260,8 @@ static Status keep_unknown(System *system, Branchlike *branch, Diag *diag)
 
     if (branch->unknown >= 0)
         return OK;
-    branch->unknown = network_new_unknown(system, unknown_of_branch(system, branch), name,
-                                          state_form ? SYMBOL_ALGEBRAIC : SYMBOL_STATE);
+    branch->unknown = new_unknown(system, unknown_of_branch(system, branch), name,
+                                  state_form ? SYMBOL_ALGEBRAIC : SYMBOL_STATE);
     if (!steep)
         return OK;
     branch->is_steep = true;
@@ -316,7 +316,7 @@ Status network_rate(System *system, Expr symbol, Expr *out, Diag *diag)
         /* algebraic, or the rate of a state: its equation differentiated tells it */
         Unknown more = {.branchlike = -1, .own = -1, .instance = y->instance, .derives = k};
         const char *name = system_keep(system, "%s'", expr_name(symbol));
-        int added = network_new_unknown(system, more, name, SYMBOL_ALGEBRAIC);
+        int added = new_unknown(system, more, name, SYMBOL_ALGEBRAIC);
 
         *out = system->unknowns.at[added].symbol;
         push_rate(system, &system->unknowns.at[k], *out, false);
@@ -360,7 +360,7 @@ done:
 }
 
 /* minus the sum of the chords' through variables in the cutset */
-Status cutset_through(System *system, Branchlike *branch, Expr *out, Diag *diag)
+static Status cutset_through(System *system, Branchlike *branch, Expr *out, Diag *diag)
 {
     const SignMatrix *cutsets = system->cutsets[branch_tree(system, branch)];
     LIST(Expr) terms = {0};

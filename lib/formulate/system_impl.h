@@ -359,8 +359,6 @@ Sums *loads_sum(System *system, const Loads *loads);
 Loads loads_new(System *system);
 /* m (g - a) and -(I alpha + w x I w) of every mass */
 void loads_add_inertia(System *system, Loads *loads, const Vec *alpha, const Vec *a);
-/* row j of the cutset projected on its motion */
-Expr sums_project(System *system, const Sums *sums, int speed);
 void loads_add_force(System *system, Loads *loads, int node, Vec force, int chain);
 void loads_add_torque(System *system, Loads *loads, int node, Vec torque, int chain);
 /* a force or torque `effort` along a coordinate of an instance, on its head and reversed on its
@@ -470,7 +468,6 @@ Branchlike *scalar_branch(System *system, const Instance *instance, int which);
 /* its member names: "i", or of an edge with a suffix "s.i" */
 const char *branch_member(System *system, const Branchlike *branch, bool through);
 TreeKind branch_tree(const System *system, const Branchlike *branch);
-int network_new_unknown(System *system, Unknown unknown, const char *name, SymbolKind kind);
 /* the next rate of a network symbol; E_MISSING where it can't be told */
 MUST_USE Status network_rate(System *system, Expr symbol, Expr *out, Diag *diag);
 bool network_knows(const System *system, Expr symbol);
@@ -482,9 +479,8 @@ void network_list(System *system);
 MUST_USE Status network_bring_order(System *system, Diag *diag);
 /* what an expression is where all its symbols have values that the seed chooses, 0.7 to 1.3 */
 double value_somewhere(Expr e, uint32_t seed);
-/* v of a chord along its circuit, i of a branch from its cutset */
+/* v of a chord along its circuit */
 MUST_USE Status circuit_across(System *system, Branchlike *branch, Expr *out, Diag *diag);
-MUST_USE Status cutset_through(System *system, Branchlike *branch, Expr *out, Diag *diag);
 /* names of the edges in the circuit of a chord or the cutset of a branch; in the pool */
 const char *network_company(System *system, const Branchlike *branch);
 /* Whether an edge of a port gives its own variable (v of a branch, i of a chord) by the other edge;

@@ -60,8 +60,6 @@ bool march_is_of_event(const March *m, int condition);
 int march_state_conditions(const March *m); /* how many */
 /* all conditions at (t, y), into m->conditions */
 void march_evaluate(March *m, double t, const double *y);
-/* all of them where the stepper's interpolant is at t, which goes into m->y */
-void march_conditions_at(March *m, double t);
 /* signs of those of the equations where the stepper stands; those of events go on as they are */
 void march_begin_modes(March *m);
 /* The first switch in the last step that isn't followed yet: its condition, and a time just behind

@@ -45,7 +45,8 @@ int march_state_conditions(const March *m)
 
 /* --- conditions in the state --- */
 
-void march_conditions_at(March *m, double t)
+/* all of them where the stepper's interpolant is at t, which goes into m->y */
+static void conditions_at(March *m, double t)
 {
     m->stepper->method->at(m->stepper, t, m->y);
     march_evaluate(m, t, m->y);
@@ -96,7 +97,7 @@ void march_begin_modes(March *m)
 {
     if (m->eq->switch_count == m->eq->time_only)
         return;
-    march_conditions_at(m, m->stepper->t);
+    conditions_at(m, m->stepper->t);
     for (int i = m->eq->time_only; i < m->eq->switch_count; i++) {
         m->mode[i] = is_margin(m, i) ? 1 : sign_of(m->conditions[i]);
         m->largest[i] = fabs(m->conditions[i]);
@@ -142,7 +143,7 @@ int march_find_switch(March *m, double *when)
 
         if (t < m->scanned)
             continue;
-        march_conditions_at(m, t);
+        conditions_at(m, t);
         for (int i = 0; i < m->count; i++)
             if (!is_of_time(m, i) && has_switched(m, i) && found < 0)
                 found = i;
@@ -157,7 +158,7 @@ int march_find_switch(March *m, double *when)
         double middle = low + (high - low) / 2;
         bool switched = false;
 
-        march_conditions_at(m, middle);
+        conditions_at(m, middle);
         for (int k = 0; k < m->count; k++)
             if (!is_of_time(m, k) && m->conditions[k] != 0 && m->mode[k] != 0 &&
                 sign_of(m->conditions[k]) != m->mode[k] && fabs(m->conditions[k]) > m->band[k]) {
@@ -179,7 +180,7 @@ double march_condition_rate(March *m, int i, double *value)
     const Stepper *s = m->stepper;
     double h = 1e-7 * fmax(1e-3, s->t - s->before);
 
-    march_conditions_at(m, s->t);
+    conditions_at(m, s->t);
     *value = m->conditions[i];
     if (!ode->rate(ode->context, s->t, s->y, m->slope))
         return 0;
@@ -275,7 +276,7 @@ Status march_meet_switch(March *m, int i, double when, Diag *diag)
         if (slope * m->mode[i] < 0 && value * m->mode[i] > 0)
             (void)cross(m, i, value, slope);
     }
-    march_conditions_at(m, m->stepper->t);
+    conditions_at(m, m->stepper->t);
     m->band[i] = fmax(10 * fabs(m->conditions[i]), fmax(1e-10 * m->largest[i], m->noise[i]));
     m->mode[i] = is_told ? 1 : -m->mode[i];
     CHECK(march_check_pace(m, i, diag));

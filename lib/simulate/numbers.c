@@ -106,7 +106,8 @@ double parameters_value(Parameters *p, Expr symbol)
     return p->values[p->count++];
 }
 
-void parameters_keep(Parameters *p, const Expr *roots, int count)
+/* the parameters that roots hold, from now on as they are */
+static void keep_parameters(Parameters *p, const Expr *roots, int count)
 {
     Expr *symbols;
     int found = expr_symbols(roots, count, &symbols);
@@ -440,7 +441,7 @@ static Status compile_network(Numbers *nb, Parameters *parameters, Diag *diag)
     int residual = block(&roots, r->network_residual, l->nx + l->nz);
     Status status = OK;
 
-    parameters_keep(parameters, roots.at, roots.count);
+    keep_parameters(parameters, roots.at, roots.count);
     CHECK(compile(l, parameters, roots.at, roots.count, &nb->network_program,
                   &nb->network_workspace, NULL, diag));
     nb->eq.network = workspace_roots(nb->network_workspace) + network;
@@ -479,7 +480,7 @@ static Status compile_equations(Numbers *nb, Parameters *parameters, Diag *diag)
     for (int i = 0; i < l->n && mapped; i++)
         for (int j = 0; j < l->nu; j++)
             LIST_PUSH(roots, system_n_entry(l->system, i, j));
-    parameters_keep(parameters, roots.at, roots.count);
+    keep_parameters(parameters, roots.at, roots.count);
     CHECK(compile(l, parameters, roots.at, roots.count, &nb->program, &nb->workspace, NULL, diag));
     at = workspace_roots(nb->workspace);
     nb->eq.phi = at + phi;

@@ -39,7 +39,6 @@ typedef struct Parameters {
     double *values;
 } Parameters;
 
-void parameters_keep(Parameters *parameters, const Expr *roots, int count);
 double parameters_value(Parameters *parameters, Expr symbol); /* kept, else asked and kept */
 /* the number of an expression of parameters alone */
 double parameters_evaluate(Parameters *parameters, Expr e);
