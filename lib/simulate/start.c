@@ -570,6 +570,7 @@ Status start_find(const Layout *layout, Parameters *parameters, const Numbers *n
 
     *out = (Assembled){.y = NEW_ARRAY(double, layout_turned(layout) + layout->turned + 1),
                        .network = NEW_ARRAY(double, layout->nx + layout->nz),
+                       .guess = NEW_ARRAY(double, layout->nz),
                        .rows = NEW_ARRAY(int, layout->m)};
     a.y = out->y;
     CHECK(read_given(&a, diag));
@@ -591,6 +592,7 @@ void start_free(Assembled *start)
 {
     mem_free(start->y);
     mem_free(start->network);
+    mem_free(start->guess);
     mem_free(start->rows);
     text_free(&start->remarks);
     *start = (Assembled){0};

@@ -13,6 +13,7 @@
 typedef struct Assembled {
     double *y;       /* q, u, x, references of angles, 0 */
     double *network; /* x', z: where the first search for them begins */
+    double *guess;   /* z as the user guesses it, else 0 */
     int *rows;       /* independent constraint rows, rising */
     int row_count;
     Text remarks; /* lines */

@@ -91,6 +91,15 @@ done:
     return status;
 }
 
+/* where in z a guess of the user belongs; -1: it is of something else */
+static int guessed_place(const Layout *l, const Given *given)
+{
+    for (int i = 0; i < l->nz && given->value->is_guess; i++)
+        if (l->symbols[l->z + i] == given->expr)
+            return i;
+    return -1;
+}
+
 Status start_find_network(Assembly *a, WarmValue from, void *context, Diag *diag)
 {
     const Layout *l = a->l;
@@ -122,9 +131,12 @@ Status start_find_network(Assembly *a, WarmValue from, void *context, Diag *diag
     }
     for (int i = 0; i < a->given_count; i++) {
         const Given *given = &a->given[i];
+        int guessed = guessed_place(l, given);
 
         if (given->level != LEVEL_NETWORK)
             continue;
+        if (guessed >= 0)
+            a->out->guess[guessed] = v[2 * l->nx + guessed] = given->value->value;
         /* one state under two names, and not of one value */
         needed = needed || (given->column >= 0 && held[given->column] && !given->value->is_guess &&
                             v[given->column] != given->value->value);

@@ -389,6 +389,17 @@ static Status make_rows(Statics *s, Diag *diag)
 
 /* --- life --- */
 
+/* what the user guessed, where a search for it begins */
+static void guess_network(Statics *s, const Layout *theirs)
+{
+    double *z = s->v + s->l->n + s->l->nx + s->l->m;
+
+    for (int k = 0; k < theirs->nz; k++)
+        for (int i = 0; i < s->l->nz && s->start->start.guess[k] != 0; i++)
+            if (strcmp(system_z(s->system, i)->name, system_z(theirs->system, k)->name) == 0)
+                z[i] = s->start->start.guess[k];
+}
+
 Status statics_new(const Model *model, Result *start, const Watch *watch, Statics **out, Diag *diag)
 {
     Statics *s = NEW(Statics);
@@ -407,6 +418,7 @@ Status statics_new(const Model *model, Result *start, const Watch *watch, Static
            (size_t)theirs->nx * sizeof(double));
     memcpy(s->v + s->near, start->start.y + layout_turned(theirs),
            (size_t)theirs->turned * sizeof(double));
+    guess_network(s, theirs);
     statics_rebase(s);
     *out = s;
     s = NULL;

@@ -326,6 +326,31 @@ static void beside_a_network_sources_grow(void)
              LOADS, "expect h - 4 + 4*sin(2*h) ~ 0 within 1e-12\nexpect M.i ~ 4 within 1e-13\n");
 }
 
+/* a cubic with three solutions, the middle one beyond reach of the others' slopes */
+static void a_guess_of_a_network_chooses_among_its_solutions(void)
+{
+    static const struct {
+        const char *guess, *found;
+    } guesses[] = {{"1.9", "1.8"}, {"1.05", "1"}, {"0.1", "0.2"}};
+    static const char *const runs[] = {"assemble\n", "equilibrium\n", "op\n",
+                                       "simulate 1 every=0.1\n"};
+
+    for (int i = 0; i < COUNT(guesses); i++)
+        for (int k = 0; k < COUNT(runs); k++) {
+            Kit kit = kit_new();
+            char line[80];
+
+            EXPECT_DONE(&kit, "vsource E a 0 1.44\nresistor R a b 1\n"
+                              "isource I b 0 4*(I.v - 0.2)*(I.v - 1)*(I.v - 1.8) + 1.44 - I.v\n");
+            (void)snprintf(line, sizeof line, "guess I.v = %s\n", guesses[i].guess);
+            EXPECT_DONE(&kit, line);
+            EXPECT_DONE(&kit, runs[k]);
+            (void)snprintf(line, sizeof line, "expect I.v ~ %s within 1e-9\n", guesses[i].found);
+            EXPECT_DONE(&kit, line);
+            kit_free(&kit);
+        }
+}
+
 int main(void)
 {
     RUN(a_ball_rests_below_a_magnet_where_the_pull_is_its_weight);
@@ -343,5 +368,6 @@ int main(void)
     RUN(a_network_settles_before_mechanics_moves);
     RUN(beside_mechanics_leaks_shrink_where_loads_cannot_grow);
     RUN(beside_a_network_sources_grow);
+    RUN(a_guess_of_a_network_chooses_among_its_solutions);
     return test_end();
 }
