@@ -225,8 +225,12 @@ static bool parse_power(const char *text, size_t length, size_t *at, int *power)
         ++*at;
     }
     *power = 0;
-    for (digits = 0; *at + digits < length && isdigit((unsigned char)text[*at + digits]); digits++)
+    /* a third digit is too much, however many follow */
+    for (digits = 0; digits < 3 && *at + digits < length; digits++) {
+        if (!isdigit((unsigned char)text[*at + digits]))
+            break;
         *power = *power * 10 + (text[*at + digits] - '0');
+    }
     if (digits == 0 || digits > 2)
         return false;
     *at += digits;

@@ -90,6 +90,7 @@ static void faults_are_located(void)
     expect_fault("m s", 2);
     expect_fault("m^x", 2);
     expect_fault("m^0.5", 3);
+    expect_fault("m^2222222222222222222", 2);
     expect_fault("2/s", 0);
     expect_fault("m^99*m^99", 5);
     expect_fault("N*(m)", 2);
