@@ -27,7 +27,9 @@ typedef struct Curve {
 } Curve;
 
 typedef struct Picture {
-    const ct_expression *versus; /* NULL: t */
+    const ct_expression *versus; /* NULL: t, each run's own */
+    char *time_label;            /* of t */
+    double time_scale;           /* to the unit of the label */
     Block *blocks;
     int blocks_count;
     Curve *curves;
@@ -103,16 +105,43 @@ static ct_status fill_block(const Call *call, Picture *picture, int number, ct_e
     return status;
 }
 
+/* What t is shown in, of `vs t [ms]`. The unit's size is that of the run's end in it. */
+static ct_status find_time_unit(const Call *call, const ct_expression *versus, Picture *picture,
+                                ct_error *error)
+{
+    double *values = NULL;
+    char **names = NULL;
+    int rows, columns;
+    ct_status status =
+        ct_table(call->session, &versus, 1, 0, &values, &rows, &columns, &names, error);
+
+    if (status != CT_OK)
+        return status;
+    if (strcmp(names[1], "t") != 0 && values[2 * (rows - 1)] != 0) {
+        picture->time_scale = values[2 * (rows - 1) + 1] / values[2 * (rows - 1)];
+        free(picture->time_label);
+        picture->time_label = copy_text(names[1]);
+    }
+    ct_free(values);
+    ct_words_free(names);
+    return CT_OK;
+}
+
 static ct_status gather(const Call *call, Picture *picture, ct_error *error)
 {
     ct_status status = CT_OK;
     const ct_expression *versus = ct_versus(call->statement);
     const char *word = versus != NULL ? ct_expression_word(versus) : NULL;
+    bool over_time = versus == NULL || (word != NULL && strcmp(word, "t") == 0);
 
-    picture->versus = word != NULL && strcmp(word, "t") == 0 ? NULL : versus;
+    picture->versus = over_time ? NULL : versus;
+    picture->time_label = copy_text("t [s]");
+    picture->time_scale = 1;
     lay_out_curves(picture, call->statement);
     for (int i = 0; i < picture->blocks_count && status == CT_OK; i++)
         status = fill_block(call, picture, i, error);
+    if (status == CT_OK && over_time && versus != NULL)
+        status = find_time_unit(call, versus, picture, error);
     return status;
 }
 
@@ -125,6 +154,7 @@ static void picture_free(Picture *picture)
     }
     free(picture->blocks);
     free(picture->curves);
+    free(picture->time_label);
 }
 
 /* --- commands --- */
@@ -152,11 +182,11 @@ static const char *unit_of(const char *name)
 static void put_labels(FILE *out, const Picture *picture, bool as_text)
 {
     const Block *first = &picture->blocks[0];
-    const char *x = first->names[x_column(picture, first)];
     const char *unit = unit_of(curve_name(picture, 0));
 
     fputs("set xlabel ", out);
-    put_quoted(out, strcmp(x, "t") == 0 ? "t [s]" : x);
+    put_quoted(out, picture->versus != NULL ? first->names[x_column(picture, first)]
+                                            : picture->time_label);
 
     fprintf(out, " noenhanced\nset key noenhanced %s\n",
             as_text ? "below" : "outside right top Left reverse samplen 2");
@@ -184,7 +214,8 @@ static void put_blocks(FILE *out, const Picture *picture)
         fprintf(out, "$block%d << end\n", b);
         for (int i = 0; i < block->rows; i++)
             for (int j = 0; j < block->columns; j++)
-                fprintf(out, "%.17g%c", block->values[i * block->columns + j],
+                fprintf(out, "%.17g%c",
+                        block->values[i * block->columns + j] * (j == 0 ? picture->time_scale : 1),
                         j == block->columns - 1 ? '\n' : ' ');
         fputs("end\n", out);
     }
