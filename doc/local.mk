@@ -8,9 +8,9 @@ EXTRA_DIST += scripts/dev/docs
 # pictures: those of characters, for Info and plain text, are kept; the others are drawn by gnuplot
 # when the manual is made as html or pdf
 EXTRA_DIST += doc/pictures/list \
-	doc/pictures/arm.txt doc/pictures/crane.txt doc/pictures/lift.txt \
-	doc/pictures/loudspeaker.txt doc/pictures/maglev.txt doc/pictures/microphone.txt \
-	doc/pictures/slider-crank.txt
+	doc/pictures/arm.txt doc/pictures/converter.txt doc/pictures/crane.txt \
+	doc/pictures/lift.txt doc/pictures/loudspeaker.txt doc/pictures/maglev.txt \
+	doc/pictures/microphone.txt doc/pictures/slider-crank.txt
 # what is made stands in the folder of the build
 doc/cotree.pdf doc/cotree.dvi: export TEXINPUTS = doc:$(srcdir)/doc:
 doc/cotree.html doc/cotree.pdf doc/cotree.dvi: doc/pictures/drawn
@@ -18,9 +18,9 @@ doc/pictures/drawn: doc/pictures/list cotree$(EXEEXT)
 	$(srcdir)/scripts/dev/pictures ./cotree png doc/pictures
 	@touch $@
 drawn_pictures = \
-	doc/pictures/arm.png doc/pictures/crane.png doc/pictures/lift.png \
-	doc/pictures/loudspeaker.png doc/pictures/maglev.png doc/pictures/microphone.png \
-	doc/pictures/slider-crank.png
+	doc/pictures/arm.png doc/pictures/converter.png doc/pictures/crane.png \
+	doc/pictures/lift.png doc/pictures/loudspeaker.png doc/pictures/maglev.png \
+	doc/pictures/microphone.png doc/pictures/slider-crank.png
 CLEANFILES += doc/pictures/drawn $(drawn_pictures)
 
 # the pages name them as they stand beside the manual: pictures/arm.png

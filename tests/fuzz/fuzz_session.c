@@ -26,6 +26,15 @@ static const char *const models[] = {
     "output power = M7.v*M7.i; spring k1 J1 k=3",
     "gravity [0, 0, -9.81]; body b mass=1 inertia=[1, 2, 3]; arm p b [0, 0, 1];"
     "revolute h ground p axis=[1, 1, 0]; body c mass=1 inertia=[1, 1, 1]; weld w b c",
+    "vsource V1 a 0 12; switch S1 a b when=t*5 - floor(t*5) < 0.4; diode D1 0 b;"
+    "inductor L1 b c 1; capacitor C1 c 0 0.1; resistor R1 c 0 50; init L1.i = 0, C1.v = 0",
+    "Vp = 325; w = 10; vsource Va a 0 Vp*sin(w*t); vsource Vb b 0 Vp*sin(w*t - 2*pi/3);"
+    "vsource Vc c 0 Vp*sin(w*t + 2*pi/3); diode D1 a p; diode D2 b p; diode D3 c p; diode D4 n a;"
+    "diode D5 n b; diode D6 n c; inductor L1 p q 1; resistor R1 q n 20; init L1.i = 0",
+    "scene planar; body m1 mass=1 inertia=0.02; revolute h1 ground m1; vsource V1 a 0 24;"
+    "motor M1 h1 x y R=1 L=0.1 Kt=0.1 Kv=0.1; pwm(t) = t - floor(t) - 0.7; init h1 = 0, h1' = 0;"
+    "switch S1 a x when=pwm(t) < 0; switch S2 x 0 when=pwm(t) >= 0; switch S3 a y when=pwm(t) >= 0;"
+    "switch S4 y 0 when=pwm(t) < 0; init M1.i = 0",
 };
 
 /* whether the call that goes on has had its share of time */
