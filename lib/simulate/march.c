@@ -311,7 +311,7 @@ static Status run(March *m, const double *start, Diag *diag)
     m->stepper->t = plan->from;
     if (events_count(m->ev) > 0)
         CHECK(march_begin_events(m, diag));
-    march_find_jumps(m);
+    CHECK(march_find_jumps(m, diag));
     CHECK(all_stretches(m, diag));
     /* a row on the very end that rounding, or a switch on it, left out */
     if (!m->is_over) {

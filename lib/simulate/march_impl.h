@@ -52,7 +52,8 @@ MUST_USE Status march_go_on(March *m, double t, const double *y, bool *entered, 
 
 /* --- conditions of t alone (march_jumps.c) --- */
 
-void march_find_jumps(March *m); /* in order of time, into m->jumps */
+/* in order of time, into m->jumps; E_SOLVER: there are too many to tell */
+MUST_USE Status march_find_jumps(March *m, Diag *diag);
 
 /* --- conditions of the state (march_switches.c) --- */
 
