@@ -210,6 +210,84 @@ static void bench_stiff(int sections)
     model_free(model);
 }
 
+/* --- ideal parts against resistances --- */
+
+enum { PERIODS = 1000 };
+
+typedef struct Switched {
+    RunReport report;
+    double average; /* of the output, V */
+} Switched;
+
+/* A buck converter over PERIODS of its switch, from rest. Its output is averaged over the last
+ * tenth, on a grid that the edges of the switch fall on. */
+static Switched switched(const char *keys)
+{
+    StartValues none = {0};
+    const RunOptions options = {.duration = 20e-6 * PERIODS, .every = 1e-6};
+    Switched out = {.report = {.wall = NAN}, .average = NAN};
+    System *system = NULL;
+    Result *result = NULL;
+    Text text = {0};
+    Diag diag = {0};
+    Model *model;
+
+    text_addf(&text,
+              "vsource V1 a 0 12\nswitch S1 a b when=t*50e3 - floor(t*50e3) < 0.4%s\n"
+              "diode D1 0 b%s\ninductor L1 b c 100 uH\ncapacitor C1 c 0 22 uF\n"
+              "resistor R1 c 0 50\n",
+              keys, keys);
+    model = model_of(text.at);
+    text_free(&text);
+
+    const Setting setting = {
+        .parameter = parameter_value, .context = model, .model = model, .start = &none};
+
+    if (system_new(model, NULL, &system, &diag) == OK && system_run(system) != NULL &&
+        run_simulate(system, &setting, &options, &result, &diag) == OK) {
+        const int rows = result_rows(result), from = rows - 1 - rows / 10;
+        double *values = NEW_ARRAY(double, rows);
+        Expr output;
+
+        out.report = *result_report(result);
+        if (system_variable(system, "C1.v", 0, &output, &diag) == OK &&
+            result_values(result, &output, 1, values, &diag) == OK) {
+            out.average = (values[from] + values[rows - 1]) / 2;
+            for (int i = from + 1; i < rows - 1; i++)
+                out.average += values[i];
+            out.average /= rows - 1 - from;
+        }
+        mem_free(values);
+    } else {
+        printf("# converter: %s\n", diag.message);
+    }
+    result_free(result);
+    system_free(system);
+    model_free(model);
+    return out;
+}
+
+static void bench_converter(void)
+{
+    Switched ideal = {0}, real = {0};
+    double ideal_time = 1e300, real_time = 1e300;
+
+    for (int i = 0; i < 3; i++) {
+        ideal = switched("");
+        real = switched(" Ron=1e-3 Roff=1e6");
+        ideal_time = fmin(ideal_time, ideal.report.wall);
+        real_time = fmin(real_time, real.report.wall);
+    }
+    bench_line("network.converter_1000_ideal", ideal_time, "s");
+    bench_line("network.converter_1000_ideal_steps", (double)ideal.report.steps, "steps");
+    bench_line("network.converter_1000_ideal_rhs", (double)ideal.report.evaluations, "evaluations");
+    bench_line("network.converter_1000_real", real_time, "s");
+    bench_line("network.converter_1000_real_steps", (double)real.report.steps, "steps");
+    bench_line("network.converter_1000_real_rhs", (double)real.report.evaluations, "evaluations");
+    bench_line("network.converter_1000_ideal_of_real", ideal_time / real_time, "ratio");
+    bench_line("network.converter_1000_averages_apart", fabs(ideal.average - real.average), "V");
+}
+
 /* --- side by side --- */
 
 /* rows of numbers between blanks or commas; other lines are passed over */
@@ -394,6 +472,7 @@ int main(int argc, char **argv)
     bench_ladder(argv[1], LONG);
     bench_diodes(argv[1], LONG);
     bench_stiff(LONG);
+    bench_converter();
     side_by_side(argv[1], argv[2]);
     return 0;
 }
