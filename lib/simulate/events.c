@@ -1,9 +1,5 @@
-/* events.c: conditions in numbers, what happens when they become true, and a record of it */
-#include "simulate/events.h"
-
-#include "base/memory.h"
-#include "base/text.h"
-#include "simulate/reset.h"
+/* events.c: conditions in numbers, and what happens when they become true */
+#include "simulate/events_impl.h"
 
 #include <math.h>
 #include <string.h>
@@ -18,64 +14,8 @@
 #define FASTER_SPAN 1e-6  /* that add up to less than this, of the run, likewise: */
 #define SHRUNK      1e-3  /* bounces, whose pauses are this part of the longest one */
 #define BOUNCES     4     /* so many of them at least */
-#define SHOWN       6     /* times in a remark */
-
-/* one comparison a < b: its difference, and what stands for it in a formula */
-typedef struct Condition {
-    Expr comparison;
-    Expr difference;
-    Expr symbol;
-    double largest;
-} Condition;
-
-/* how an event has fared */
-typedef struct Course {
-    bool is_known; /* whether it holds: it was looked at */
-    bool from_start, holds, ended;
-    bool is_resumed; /* an earlier run told how it began */
-    LIST(double) times;
-    int earlier;               /* times that an earlier run brought */
-    double last, gap, longest; /* of times, and pauses between them */
-    int faster, packed;
-} Course;
-
-typedef struct Item {
-    const char *name, *condition;
-    EventAction action;
-    bool is_live; /* the model has it still */
-    Expr when;    /* over the layout's symbols */
-    Expr formula; /* over the symbols of conditions */
-    int first_value, value_count;
-    const char
-        *refused; /* why ideal switches, as they are, let no values be given; NULL: they do */
-    Course course;
-} Item;
-
-struct Events {
-    EventsPlan plan;
-    Pool *pool;
-    LIST(Item) items;
-    LIST(Condition) conditions; /* time-only ones first, once all are read */
-    int time_only;
-    bool follows_time; /* whether any other changes with t alone */
-    LIST(Expr) values; /* right-hand sides, in order of the items */
-    double *targets;   /* one a value; NAN: leave */
-    Reset *reset;
-    Probe *time, *state; /* differences */
-    Probe *holding;      /* conditions of items as they stand */
-    Probe *right;        /* values */
-    bool solved;         /* whether any of these needs accelerations or the network's unknowns */
-    double *y[3];        /* places to look ahead */
-    double *rate;
-    double *here[3];
-};
 
 /* --- reading --- */
-
-static const char *keep(Events *events, const char *text)
-{
-    return pool_text(events->pool, text, strlen(text));
-}
 
 static bool holds_time_alone(Expr e)
 {
@@ -201,8 +141,8 @@ done:
 
 static Status read_event(Events *events, const Event *event, Diag *diag)
 {
-    Item item = {.name = keep(events, event->name),
-                 .condition = keep(events, event->condition),
+    Item item = {.name = events_keep(events, event->name),
+                 .condition = events_keep(events, event->condition),
                  .action = event->action,
                  .is_live = true,
                  .course = {.last = -INFINITY, .gap = INFINITY}};
@@ -212,7 +152,7 @@ static Status read_event(Events *events, const Event *event, Diag *diag)
     if (status == OK)
         status = read_values(events, &item, event, &why);
     if (status == E_VALUE && events->plan.whole != NULL) { /* said where it comes to that */
-        item.refused = keep(events, why.message);
+        item.refused = events_keep(events, why.message);
         status = OK;
     }
     LIST_PUSH(events->items, item);
@@ -320,117 +260,6 @@ void events_free(Events *events)
     mem_free(events->rate);
     pool_free(events->pool);
     mem_free(events);
-}
-
-/* --- records --- */
-
-int events_count(const Events *events)
-{
-    return events != NULL ? events->items.count : 0;
-}
-
-EventRecord events_record(const Events *events, int i)
-{
-    const Item *item = &events->items.at[i];
-
-    return (EventRecord){.name = item->name,
-                         .condition = item->condition,
-                         .action = item->action,
-                         .from_start = item->course.from_start,
-                         .holds = item->course.holds,
-                         .ended = item->course.ended,
-                         .count = item->course.times.count,
-                         .times = item->course.times.at};
-}
-
-static void take_over(Events *events, const Item *old)
-{
-    Item *item = NULL;
-
-    for (int i = 0; i < events->items.count && item == NULL; i++)
-        if (strcmp(events->items.at[i].name, old->name) == 0 &&
-            strcmp(events->items.at[i].condition, old->condition) == 0)
-            item = &events->items.at[i];
-    if (item == NULL && old->course.times.count == 0)
-        return;
-    if (item == NULL) {
-        LIST_PUSH(events->items, (Item){.name = keep(events, old->name),
-                                        .condition = keep(events, old->condition),
-                                        .action = old->action});
-        item = &events->items.at[events->items.count - 1];
-    }
-    item->course.is_known = item->is_live && old->course.is_known;
-    item->course.is_resumed = old->course.is_known;
-    item->course.holds = old->course.holds;
-    item->course.from_start = old->course.from_start;
-    for (int i = 0; i < old->course.times.count; i++)
-        LIST_PUSH(item->course.times, old->course.times.at[i]);
-    item->course.earlier = item->course.times.count;
-}
-
-void events_go_on(Events *events, const Events *earlier)
-{
-    for (int i = 0; i < events_count(earlier); i++)
-        take_over(events, &earlier->items.at[i]);
-}
-
-void events_hand_over(Events *events, Events *from)
-{
-    for (int i = 0; i < from->items.count; i++) {
-        Item *old = &from->items.at[i];
-        Course kept;
-
-        if (i == events->items.count) /* of an earlier run */
-            LIST_PUSH(events->items, (Item){.name = keep(events, old->name),
-                                            .condition = keep(events, old->condition),
-                                            .action = old->action});
-        kept = events->items.at[i].course;
-        events->items.at[i].course = old->course;
-        old->course = kept;
-    }
-}
-
-static void tell_times(const Item *item, Text *out)
-{
-    int count = item->course.times.count - item->course.earlier;
-
-    for (int i = 0; i < count && i < SHOWN; i++)
-        text_addf(out, "%s%.9g", i > 0 ? ", " : "",
-                  item->course.times.at[item->course.earlier + i]);
-    if (count > SHOWN)
-        text_addf(out, " ... %.9g", item->course.times.at[item->course.times.count - 1]);
-    text_add(out, " s\n");
-}
-
-void events_tell(const Events *events, Text *out)
-{
-    for (int i = 0; i < events_count(events); i++) {
-        const Item *item = &events->items.at[i];
-        int count = item->course.times.count - item->course.earlier;
-
-        if (item->course.from_start && !item->course.ended && !item->course.is_resumed)
-            text_addf(out,
-                      "event %s: %s holds at the start; it must be false before it can become "
-                      "true\n",
-                      item->name, item->condition);
-        if (count == 0 || item->course.ended)
-            continue;
-        text_addf(out, "event %s: %s became true ", item->name, item->condition);
-        if (count > 1)
-            text_addf(out, "%d times, ", count);
-        text_add(out, "at t = ");
-        tell_times(item, out);
-    }
-    for (int i = 0; i < events_count(events); i++) {
-        const Item *item = &events->items.at[i];
-
-        if (item->course.ended)
-            text_addf(out, "event %s ended the run at t = %.9g s: %s%s\n", item->name,
-                      item->course.times.at[item->course.times.count - 1], item->condition,
-                      item->course.from_start && item->course.times.count == 1
-                          ? " holds at the start"
-                          : " became true");
-    }
 }
 
 /* --- values --- */

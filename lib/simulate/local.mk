@@ -12,6 +12,8 @@ libcore_la_SOURCES += \
   lib/simulate/equilibrium.c \
   lib/simulate/events.c \
   lib/simulate/events.h \
+  lib/simulate/events_impl.h \
+  lib/simulate/events_record.c \
   lib/simulate/factors.c \
   lib/simulate/factors.h \
   lib/simulate/freedoms.c \

@@ -106,20 +106,21 @@ static MarchPlan plan_of(const Result *r, const Setting *setting, const RunOptio
 
 /* A march from the result's begin. Where ideal switches change the equations, `corners` gets rows
  * between them. */
-static Status march_phases(Result *r, const Setting *setting, MarchPlan *plan, Grid *grid,
+static Status march_phases(Result *r, const Setting *setting, const MarchPlan *plan, Grid *grid,
                            Grid *corners, MarchReport *out, Diag *diag)
 {
     Commuting commuting = {
         .result = r, .setting = setting, .span = plan->to - plan->from, .stuck = NAN};
+    MarchPlan through = *plan;
     Status status;
 
     if (r->sides != NULL) {
-        plan->commute = commute;
-        plan->context = &commuting;
-        plan->in_time = numbers_equations(result_whole(r)->numbers);
-        plan->corners = corners;
+        through.commute = commute;
+        through.context = &commuting;
+        through.in_time = numbers_equations(result_whole(r)->numbers);
+        through.corners = corners;
     }
-    status = march(plan, r->begin, grid, out, diag);
+    status = march(&through, r->begin, grid, out, diag);
     commuting_free(&commuting);
     return status;
 }
