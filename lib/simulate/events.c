@@ -282,17 +282,11 @@ bool events_follow_time(const Events *events)
 /* the roots of a probe at (t, y); NULL where the equations have no solution */
 static const double *roots_at(const Events *events, Probe *probe, double t, const double *y)
 {
-    RowValues row = row_of_state(events->plan.layout, t, y);
-    Solved solved;
+    const Layout *l = events->plan.layout;
+    RowValues row = row_of_state(l, t, y);
 
-    if (events->solved) {
-        if (!motion_solve(events->plan.motion, t, y, &solved))
-            return NULL;
-        row.rates = solved.rates;
-        row.z = solved.algebraic;
-        row.acceleration = solved.acceleration;
-        row.multipliers = solved.multipliers;
-    }
+    if (events->solved && !row_solve(l, events->plan.motion, t, y, &row))
+        return NULL;
     return probe_values(probe, &row);
 }
 

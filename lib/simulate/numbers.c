@@ -227,6 +227,20 @@ RowValues row_of_state(const Layout *l, double t, const double *y)
         .t = t, .q = y, .u = y + l->n, .x = y + l->n + l->nu, .near = y + layout_turned(l)};
 }
 
+bool row_solve(const Layout *l, Motion *motion, double t, const double *y, RowValues *out)
+{
+    Solved solved;
+
+    *out = row_of_state(l, t, y);
+    if (!motion_solve(motion, t, y, &solved))
+        return false;
+    out->rates = solved.rates;
+    out->z = solved.algebraic;
+    out->acceleration = solved.acceleration;
+    out->multipliers = solved.multipliers;
+    return true;
+}
+
 const double *probe_values(Probe *probe, const RowValues *row)
 {
     const Layout *l = probe->layout;

@@ -52,6 +52,9 @@ typedef struct RowValues {
 
 /* t, and what y holds */
 RowValues row_of_state(const Layout *layout, double t, const double *y);
+/* and what the motion solves for there, borrowed until the next call on it; false: it has no
+ * solution, and the row is without */
+bool row_solve(const Layout *layout, Motion *motion, double t, const double *y, RowValues *out);
 
 typedef struct Probe Probe;
 /* Compile; the layout outlives the probe. Fails as program_new() does. */

@@ -61,14 +61,5 @@ const Method *phase_stiff_method(const Phase *phase)
 
 bool phase_row(Phase *phase, double t, const double *y, RowValues *out)
 {
-    Solved solved;
-
-    *out = row_of_state(phase->layout, t, y);
-    if (!motion_solve(phase->motion, t, y, &solved))
-        return false;
-    out->rates = solved.rates;
-    out->z = solved.algebraic;
-    out->acceleration = solved.acceleration;
-    out->multipliers = solved.multipliers;
-    return true;
+    return row_solve(phase->layout, phase->motion, t, y, out);
 }

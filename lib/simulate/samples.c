@@ -93,7 +93,6 @@ static bool is_due(const Sample *sample, double t)
 Status samples_take(Samples *s, double t, double *y, bool *due, Diag *diag)
 {
     const Layout *l;
-    Solved solved;
     RowValues row;
     const double *values;
 
@@ -103,13 +102,8 @@ Status samples_take(Samples *s, double t, double *y, bool *due, Diag *diag)
     if (!*due)
         return OK;
     l = s->layout;
-    if (!motion_solve(s->motion, t, y, &solved))
+    if (!row_solve(l, s->motion, t, y, &row))
         return solver_failure(diag, t, "the equations have no solution at a sampling instant");
-    row = row_of_state(l, t, y);
-    row.rates = solved.rates;
-    row.z = solved.algebraic;
-    row.acceleration = solved.acceleration;
-    row.multipliers = solved.multipliers;
     values = probe_values(s->next, &row);
     for (int i = 0; i < s->count; i++)
         if (is_due(&s->at[i], t))
