@@ -20,6 +20,26 @@
 
 /* --- states of the whole --- */
 
+/* which states of the whole the phase's own are, by name */
+static Status find_states(const Result *r, Phase *phase, Diag *diag)
+{
+    const Layout *l = phase->layout, *whole = result_whole(r)->layout;
+
+    phase->among_whole = NEW_ARRAY(int, l->nx);
+    for (int i = 0; i < l->nx; i++) {
+        int k = 0;
+
+        while (k < whole->nx &&
+               strcmp(system_x(whole->system, k)->name, system_x(l->system, i)->name) != 0)
+            k++;
+        if (k == whole->nx)
+            return diag_set(diag, E_MODEL, "%s is no state on the other side of an ideal switch",
+                            system_x(l->system, i)->name);
+        phase->among_whole[i] = k;
+    }
+    return OK;
+}
+
 static Status compile_states(Result *r, Phase *phase, Diag *diag)
 {
     const Layout *whole = result_whole(r)->layout;
@@ -52,26 +72,16 @@ static bool states_at(const Result *r, Phase *phase, double t, const double *y, 
 }
 
 /* y of a phase from (q, u), states of the whole, and references of angles */
-static Status enter(const Result *r, const Phase *phase, const double *y, const double *x,
-                    const double *near, double work, double *out, Diag *diag)
+static void enter(const Phase *phase, const double *y, const double *x, const double *near,
+                  double work, double *out)
 {
-    const Layout *l = phase->layout, *whole = result_whole(r)->layout;
+    const Layout *l = phase->layout;
 
     memcpy(out, y, (size_t)(l->n + l->nu) * sizeof(double));
-    for (int i = 0; i < l->nx; i++) {
-        int k = 0;
-
-        while (k < whole->nx &&
-               strcmp(system_x(whole->system, k)->name, system_x(l->system, i)->name) != 0)
-            k++;
-        if (k == whole->nx)
-            return diag_set(diag, E_MODEL, "%s is no state on the other side of an ideal switch",
-                            system_x(l->system, i)->name);
-        out[l->n + l->nu + i] = x[k];
-    }
+    for (int i = 0; i < l->nx; i++)
+        out[l->n + l->nu + i] = x[phase->among_whole[i]];
     memcpy(out + layout_turned(l), near, (size_t)l->turned * sizeof(double));
     out[phase->length - 1] = work;
-    return OK;
 }
 
 /* --- impulses --- */
@@ -143,6 +153,7 @@ Status commute_phase(Result *r, const Setting *setting, const bool *closed, Phas
     CHECK(system_mode(r->system, setting->model, closed, setting->watch, &system, diag));
     CHECK(phase_new(system, &r->parameters, closed, count, &phase, diag));
     CHECK(result_open_phase(r, phase, setting, diag));
+    CHECK(find_states(r, phase, diag));
     CHECK(compile_states(r, phase, diag));
     LIST_PUSH(r->phases, phase);
     *out = phase;
@@ -188,7 +199,7 @@ Status commute_begin(Result *r, const Setting *setting, Diag *diag)
     r->phase = phase;
     mem_free(r->begin);
     r->begin = NEW_ARRAY(double, phase->length);
-    CHECK(enter(r, phase, r->start.y, x, at.near, 0, r->begin, diag));
+    enter(phase, r->start.y, x, at.near, 0, r->begin);
     CHECK(check_impulse(r, phase, 0, r->begin, none, x, diag));
     CHECK(start_solve(phase->layout, phase->numbers, r->begin, NULL, NULL, diag));
 done:
@@ -304,7 +315,7 @@ Status commute(void *context, double t, double behind, double last, const double
     CHECK(take_over_events(r, next, c->setting, &events, diag));
     commuting_free(c);
     c->y = NEW_ARRAY(double, next->length);
-    CHECK(enter(r, next, y, x, y + layout_turned(now->layout), y[now->length - 1], c->y, diag));
+    enter(next, y, x, y + layout_turned(now->layout), y[now->length - 1], c->y);
     CHECK(check_impulse(r, next, behind, c->y, now->closed, x, diag));
     *leg = commute_leg(r, next, events);
     *out = c->y;

@@ -44,6 +44,7 @@ void phase_free(Phase *phase)
     events_free(phase->events);
     samples_free(phase->samples);
     probe_free(phase->states);
+    mem_free(phase->among_whole);
     netdae_free(phase->network);
     motion_free(phase->motion);
     numbers_free(phase->numbers);

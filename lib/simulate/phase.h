@@ -21,7 +21,8 @@ typedef struct Phase {
     NetDae *network; /* NULL where there is mechanics */
     Events *events;  /* NULL: none, or not made yet */
     Samples *samples;
-    Probe *states; /* the network states of the whole, where it is a mode */
+    Probe *states;    /* the network states of the whole, where it is a mode, */
+    int *among_whole; /* and which of those its own are */
 } Phase;
 
 /* New: programs compiled; phase_free(). Borrows the system and the parameters; `closed` is copied,

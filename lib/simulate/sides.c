@@ -119,7 +119,6 @@ typedef struct Roots {
     LIST(Expr) at;
     int *column; /* by expr_symbol_number(): 1 + place in [x'; z], of x, x' and z; 0: none */
     int symbols;
-    LIST(int) place; /* of the row at hand: 1 + place in the pattern, by column */
 } Roots;
 
 static void number_columns(const Sides *s, Roots *roots)
