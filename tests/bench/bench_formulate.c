@@ -6,6 +6,7 @@
 
 #include "../random.h"
 #include "bench.h"
+#include "bench_model.h"
 
 #include <math.h>
 #include <string.h>
@@ -32,29 +33,6 @@ static char *chain_text(int joints)
     }
     text_add(&text, "tree joint\n");
     return text_done(&text);
-}
-
-/* NULL and a line about it where a statement fails */
-static Model *model_of(const char *text)
-{
-    Model *model = model_new();
-    size_t next = 0;
-
-    while (next < strlen(text)) {
-        Statement *statement = NULL;
-        Diag diag = {0};
-        Status status = statement_parse(text, 1, (SyntaxOptions){0}, &next, &statement, &diag);
-
-        if (status == OK && statement->kind != STATEMENT_EMPTY)
-            status = model_apply(model, statement, &diag);
-        statement_free(statement);
-        if (status != OK) {
-            printf("# %s\n", diag.message);
-            model_free(model);
-            return NULL;
-        }
-    }
-    return model;
 }
 
 static void chain_line(int joints, const char *what, double value, const char *unit)
@@ -87,7 +65,7 @@ static void bench_chain(int joints)
     int tries = joints > 50 ? 2 : 5;
 
     for (int i = 0; i < tries; i++) {
-        Model *model = model_of(text);
+        Model *model = bench_model(text);
         System *system = NULL;
         Diag diag = {0};
         double began;

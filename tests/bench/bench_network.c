@@ -9,6 +9,7 @@
 #include "simulate/run.h"
 
 #include "bench.h"
+#include "bench_model.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -43,25 +44,6 @@ static bool shell(const char *command)
 
 /* --- equations and evaluations --- */
 
-static Model *model_of(const char *text)
-{
-    Model *model = model_new();
-    size_t next = 0;
-
-    while (next < strlen(text)) {
-        Statement *statement = NULL;
-        Diag diag = {0};
-
-        if (statement_parse(text, 1, (SyntaxOptions){0}, &next, &statement, &diag) != OK)
-            break;
-        if (statement->kind == STATEMENT_VERB && model_applies(statement->verb) &&
-            model_apply(model, statement, &diag) != OK)
-            printf("# %s\n", diag.message);
-        statement_free(statement);
-    }
-    return model;
-}
-
 /* what a script below tests/oracle/spice writes of so many sections */
 static Model *model_by(const char *scripts, const char *script, int sections)
 {
@@ -71,7 +53,7 @@ static Model *model_by(const char *scripts, const char *script, int sections)
 
     text_addf(&command, "'%s/../tests/oracle/spice/%s' ct %d", scripts, script, sections);
     text = printed(command.at);
-    model = model_of(text);
+    model = bench_model(text);
     mem_free(text);
     text_free(&command);
     return model;
@@ -97,7 +79,8 @@ static void bench_ladder(const char *scripts, int sections)
         Diag diag = {0};
         double began = bench_now();
 
-        if (system_new(model, NULL, &system, &diag) == OK && system_run(system) != NULL) {
+        if (model != NULL && system_new(model, NULL, &system, &diag) == OK &&
+            system_run(system) != NULL) {
             formulation = fmin(formulation, bench_now() - began);
             if (run_simulate(system, &setting, &options, &result, &diag) == OK) {
                 const RunReport *report = result_report(result);
@@ -134,7 +117,8 @@ static void bench_diodes(const char *scripts, int count)
         Diag diag = {0};
         double began = bench_now();
 
-        if (system_new(model, NULL, &system, &diag) == OK && system_run(system) != NULL) {
+        if (model != NULL && system_new(model, NULL, &system, &diag) == OK &&
+            system_run(system) != NULL) {
             formulation = fmin(formulation, bench_now() - began);
             began = bench_now();
             if (run_equilibrium(system, model, &setting, &result, &diag) == OK)
@@ -164,7 +148,7 @@ static Model *stiff_ladder(int sections)
     for (int k = 1; k <= sections; k++)
         text_addf(&text, "resistor R%d n%d n%d %d\ncapacitor C%d n%d 0 %s\n", k, k - 1, k,
                   k % 2 == 1 ? 1 : 100, k, k, k % 10 == 0 ? "1 nF" : "1 uF");
-    model = model_of(text.at);
+    model = bench_model(text.at);
     text_free(&text);
     return model;
 }
@@ -192,7 +176,8 @@ static void bench_stiff(int sections)
     System *system = NULL;
     Diag diag = {0};
 
-    if (system_new(model, NULL, &system, &diag) == OK && system_run(system) != NULL) {
+    if (model != NULL && system_new(model, NULL, &system, &diag) == OK &&
+        system_run(system) != NULL) {
         double sparse = time_of(system, &setting, "ida");
         double dense = time_of(system, &setting, "bdf");
         char name[64];
@@ -237,13 +222,14 @@ static Switched switched(const char *keys)
               "diode D1 0 b%s\ninductor L1 b c 100 uH\ncapacitor C1 c 0 22 uF\n"
               "resistor R1 c 0 50\n",
               keys, keys);
-    model = model_of(text.at);
+    model = bench_model(text.at);
     text_free(&text);
 
     const Setting setting = {
         .parameter = parameter_value, .context = model, .model = model, .start = &none};
 
-    if (system_new(model, NULL, &system, &diag) == OK && system_run(system) != NULL &&
+    if (model != NULL && system_new(model, NULL, &system, &diag) == OK &&
+        system_run(system) != NULL &&
         run_simulate(system, &setting, &options, &result, &diag) == OK) {
         const int rows = result_rows(result), from = rows - 1 - rows / 10;
         double *values = NEW_ARRAY(double, rows);

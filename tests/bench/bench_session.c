@@ -5,6 +5,7 @@
 #include "formulate/system.h"
 
 #include "bench.h"
+#include "bench_model.h"
 
 #include <dirent.h>
 #include <stdlib.h>
@@ -26,28 +27,12 @@ static char *file_text(const char *path)
     return text_done(&text);
 }
 
-/* What a script builds; statements that look, run or check are passed over. NULL: it can't be. */
+/* what a script builds; NULL: it can't be */
 static Model *model_of(const char *path)
 {
     char *text = file_text(path);
-    size_t next = 0, length = text == NULL ? 0 : strlen(text);
-    Model *model = model_new();
-    Diag diag;
+    Model *model = text != NULL ? bench_model(text) : NULL;
 
-    while (model != NULL && next < length) {
-        Statement *statement = NULL;
-        Status status = statement_parse(text, 1, (SyntaxOptions){0}, &next, &statement, &diag);
-
-        if (status == OK &&
-            (statement->kind == STATEMENT_PARAMETER || statement->kind == STATEMENT_LAW ||
-             (statement->kind == STATEMENT_VERB && model_applies(statement->verb))))
-            status = model_apply(model, statement, &diag);
-        statement_free(statement);
-        if (status != OK) {
-            model_free(model);
-            model = NULL;
-        }
-    }
     mem_free(text);
     return model;
 }
