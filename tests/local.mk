@@ -33,11 +33,12 @@ include tests/bench/simulate.mk
 include tests/bench/session.mk
 include tests/bench/network.mk
 include tests/fuzz/fuzz.mk
+include tests/family/family.mk
 
-check_PROGRAMS += $(UNIT_TESTS)
-TESTS += $(UNIT_TESTS)
+check_PROGRAMS += $(UNIT_TESTS) $(FAMILIES)
+TESTS += $(UNIT_TESTS) $(FAMILIES)
 EXTRA_PROGRAMS += $(BENCHES) $(FUZZERS)
-EXTRA_DIST += tests/claims.sh
+EXTRA_DIST += tests/claims.sh tests/family/family.h
 
 # tests that are scripts
 SCRIPT_TESTS = \

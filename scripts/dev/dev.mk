@@ -52,6 +52,14 @@ fuzz: san/Makefile
 		san/$$fuzzer --seconds $$each --seed $(FUZZ_SEED) $(srcdir)/scripts || exit 1; \
 	done
 
+# random members of families, for so many seconds in all, from that seed; make check has a few
+STRESS_SECONDS = 600
+STRESS_SEED = $$(date +%s)
+stress: $(FAMILIES)
+	@seed=$(STRESS_SEED); set -- $(FAMILIES); each=$$(($(STRESS_SECONDS) / $$#)); failed=0; \
+	echo "seed $$seed, $$each s for each of $$# programs"; \
+	for family; do ./$$family --seed $$seed --seconds $$each || failed=1; done; exit $$failed
+
 fuzzers: $(FUZZERS) all
 
 coverage:
@@ -67,4 +75,4 @@ mostlyclean-local:
 distclean-local:
 	rm -rf san coverage bench.work
 
-.PHONY: check-total check-san lint format bench bench-record fuzz fuzzers coverage
+.PHONY: check-total check-san lint format bench bench-record fuzz fuzzers stress coverage

@@ -1,0 +1,129 @@
+/* family.h: random members of a family, each held against an answer that cotree has no part in
+ *
+ * A program lists its families and ends with `return family_main(families, COUNT(families), argc,
+ * argv);`. As a test it runs a fixed number of members from a fixed seed and prints "N passed, N
+ * failed, N skipped", one claim a family. `make stress` calls it as
+ *
+ *     NAME --seed N --seconds S      members until time is over, each family its share
+ *     NAME --seed N --member M       that one again, with its story
+ *
+ * A member's random numbers follow from seed and member alone. */
+#ifndef COTREE_TESTS_FAMILY_H
+#define COTREE_TESTS_FAMILY_H
+
+#include "../random.h"
+
+#include <stdarg.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+/* what became of a member: REFUSED is an error or a mark where one may be; it is counted */
+typedef enum Verdict { AGREES, REFUSED, DISAGREES } Verdict;
+
+typedef struct Member {
+    uint64_t random;   /* state for test_random() and test_uniform() */
+    bool told;         /* --member: print what helps */
+    char story[16384]; /* what was tried and what came out; printed where it disagrees */
+    size_t length;
+} Member;
+
+typedef struct Family {
+    const char *name; /* the claim */
+    int members;      /* in make check: a few seconds in all */
+    double refused;   /* largest part of the members that may be refused */
+    double wrong;     /* likewise of those that may disagree; 0 but for a stated bound */
+    Verdict (*run)(Member *member);
+} Family;
+
+/* add to the story */
+__attribute__((format(printf, 2, 3), unused)) static void tell(Member *member, const char *format,
+                                                               ...)
+{
+    va_list arguments;
+    const size_t room = sizeof member->story - member->length;
+
+    va_start(arguments, format);
+    const int more = vsnprintf(member->story + member->length, room, format, arguments);
+    va_end(arguments);
+    if (more > 0)
+        member->length += (size_t)more < room ? (size_t)more : room - 1;
+}
+
+static Verdict family_member(const Family *family, uint64_t seed, int number, Member *member)
+{
+    memset(member, 0, offsetof(Member, story));
+    member->story[0] = '\0';
+    member->length = 0;
+    member->random = seed * 0x9E3779B97F4A7C15U + (uint64_t)number;
+    (void)test_random(&member->random);
+    return family->run(member);
+}
+
+static double family_clock(void)
+{
+    struct timespec now;
+
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+/* whether the family keeps its claim */
+static bool family_run(const Family *family, uint64_t seed, double seconds)
+{
+    static Member member;
+    const double end = family_clock() + seconds;
+    int count[3] = {0}, number = 0;
+
+    for (; seconds > 0 ? family_clock() < end : number < family->members; number++) {
+        const Verdict verdict = family_member(family, seed, number, &member);
+
+        count[verdict]++;
+        if (verdict == DISAGREES && count[DISAGREES] <= 3)
+            printf("%s: seed %llu, member %d\n%s\n", family->name, (unsigned long long)seed, number,
+                   member.story);
+    }
+    printf("%s: %d agree, %d refused, %d disagree\n", family->name, count[AGREES], count[REFUSED],
+           count[DISAGREES]);
+    return count[DISAGREES] <= family->wrong * number && count[REFUSED] <= family->refused * number;
+}
+
+__attribute__((unused)) static int family_main(const Family *families, int count, int argc,
+                                               char **argv)
+{
+    unsigned long long seed = 1;
+    double seconds = 0;
+    int member = -1, failed = 0;
+
+    setvbuf(stdout, NULL, _IOLBF, 0);
+    for (int i = 1; i + 1 < argc; i += 2) {
+        if (strcmp(argv[i], "--seed") == 0)
+            seed = strtoull(argv[i + 1], NULL, 10);
+        else if (strcmp(argv[i], "--seconds") == 0)
+            seconds = strtod(argv[i + 1], NULL);
+        else if (strcmp(argv[i], "--member") == 0)
+            member = atoi(argv[i + 1]);
+    }
+    for (int i = 0; i < count; i++) {
+        if (member >= 0) {
+            static Member one;
+            static const char *const verdicts[] = {"agrees", "refused", "disagrees"};
+            const Verdict verdict = family_member(&families[i], seed, member, &one);
+
+            printf("%s: member %d %s\n%s\n", families[i].name, member, verdicts[verdict],
+                   one.story);
+        } else if (!family_run(&families[i], seed, seconds / count)) {
+            printf("FAILED %s\n", families[i].name);
+            failed++;
+        }
+    }
+    if (member < 0)
+        printf("%d passed, %d failed, 0 skipped\n", count - failed, failed);
+    return failed > 0 ? 1 : 0;
+}
+
+#endif
