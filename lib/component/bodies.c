@@ -4,6 +4,11 @@
  * another one of the same body. */
 #include "component/component_rows.h"
 
+#include <math.h>
+
+#define ROUNDING 1e-12 /* of the largest entry of a tensor: what its arithmetic may have left */
+#define CARELESS 1e-6  /* of half the trace: entries typed with six digits are not spoken of */
+
 /* clang-format off */
 static const Param body_params[] = {
     /* name      kind           unit       default  meaning */
@@ -32,40 +37,91 @@ static void body_inertia(const Instance *instance, Arena *arena, bool planar, Ex
     *mass = instance_scalar(instance, "mass");
 }
 
-static bool is_negative(Expr e)
+/* Whether a + rounding*1 of a symmetric 3 x 3 matrix is positive definite: by the pivots of its
+ * Cholesky factor. Entries as body_inertia() has them. */
+static bool is_positive(const double a[6], double rounding)
 {
-    return expr_is_number(e) && expr_value(e) < 0.0;
+    const double d0 = a[0] + rounding, l1 = a[3] / d0, l2 = a[4] / d0;
+    const double d1 = a[1] + rounding - l1 * a[3];
+    const double m = a[5] - l2 * a[3];
+
+    return d0 > 0 && d1 > 0 && a[2] + rounding - l2 * a[4] - m * m / d1 > 0;
+}
+
+/* the tensor as numbers, and what rounding may leave of an entry; false where it isn't told */
+static bool read_tensor(const Instance *instance, double out[6], double *rounding)
+{
+    const Value *inertia = instance_value(instance, "inertia");
+
+    *rounding = 0;
+    for (int i = 0; i < 6; i++) {
+        if (i < inertia->count && !expr_is_number(inertia->at[i]))
+            return false;
+        out[i] = i < inertia->count ? expr_value(inertia->at[i]) : 0;
+        *rounding = fmax(*rounding, ROUNDING * fabs(out[i]));
+    }
+    return true;
+}
+
+static Status refuse_inertia(const Instance *instance, bool planar, Diag *diag)
+{
+    const char *const axes[] = {"x", "y", "z"};
+    double a[6], rounding;
+    Status status = OK;
+
+    if (!read_tensor(instance, a, &rounding) || rounding == 0)
+        return OK;
+    for (int i = 0; i < (planar ? 1 : 3); i++)
+        if (a[i] < 0) {
+            status = diag_set(diag, E_VALUE, "a moment of inertia of %s is negative: %g about %s",
+                              instance->name, a[i], axes[planar ? 2 : i]);
+            diag_hint(diag, "it is zero or positive");
+            return status;
+        }
+    if (planar || is_positive(a, rounding))
+        return OK;
+    status = diag_set(diag, E_VALUE,
+                      "no body has the inertia of %s: about some axis its moment is negative",
+                      instance->name);
+    diag_hint(diag, "the entries of the tensor are Ixx, Iyy, Izz, Ixy, Ixz, Iyz, the last three "
+                    "with the sign of -sum m*x*y; each is at most sqrt(Ixx*Iyy) in size");
+    return status;
 }
 
 static Status body_check(const Instance *instance, Arena *arena, bool planar, Diag *diag)
 {
-    const Value *inertia = instance_value(instance, "inertia");
-    double I[3];
+    Expr mass = instance_scalar(instance, "mass");
     Status status = OK;
 
     CHECK(attitude_check(instance, arena, planar, diag));
-    if (is_negative(instance_scalar(instance, "mass")))
-        return diag_set(diag, E_VALUE, "the mass of %s is negative", instance->name);
-    for (int i = 0; i < inertia->count && i < 3; i++)
-        if (is_negative(inertia->at[i]))
-            return diag_set(diag, E_VALUE, "a moment of inertia of %s is negative", instance->name);
-    if (inertia->count < 3)
-        return OK;
-    for (int i = 0; i < 3; i++) {
-        if (!expr_is_number(inertia->at[i]))
-            return OK;
-        I[i] = expr_value(inertia->at[i]);
+    if (expr_is_number(mass) && expr_value(mass) < 0) {
+        status = diag_set(diag, E_VALUE, "the mass of %s is negative: %g", instance->name,
+                          expr_value(mass));
+        diag_hint(diag, "it is zero or positive");
+        goto done;
     }
-    /* Ixx = int y^2+z^2 dm and so on: none is larger than the other two together */
-    for (int i = 0; i < 3; i++)
-        if (I[i] > (I[(i + 1) % 3] + I[(i + 2) % 3]) * (1.0 + 1e-9)) {
-            status = diag_set(diag, E_VALUE, "no body has the moments of inertia %g, %g, %g of %s",
-                              I[0], I[1], I[2], instance->name);
-            diag_hint(diag, "none of them can be larger than the sum of the other two");
-            return status;
-        }
+    CHECK(refuse_inertia(instance, planar, diag));
 done:
     return status;
+}
+
+/* Ixx = int y^2+z^2 dm and so on: int x^2 dm is half the trace less Ixx, and no sum of squares is
+ * negative about any axis. A model may mean such a tensor all the same (what turns with a body and
+ * isn't of it), and the equations can do with it. */
+static void body_doubt(const Instance *instance, bool planar, Text *out)
+{
+    double a[6], rounding, half;
+
+    if (planar || !read_tensor(instance, a, &rounding) || rounding == 0)
+        return;
+    half = (a[0] + a[1] + a[2]) / 2;
+    for (int i = 0; i < 6; i++)
+        a[i] = i < 3 ? half - a[i] : -a[i];
+    if (!is_positive(a, rounding + CARELESS * half))
+        text_addf(out,
+                  "no rigid body has the inertia of %s: a principal moment is larger than the sum "
+                  "of the other two\n",
+                  instance->name);
 }
 
 const Component component_body = {
@@ -87,11 +143,13 @@ const Component component_body = {
     .steps = free_steps,
     .inertia = body_inertia,
     .check = body_check,
+    .doubt = body_doubt,
     .help =
         "Makes a rigid body and the frame of its name, at the mass centre. In the graph it is an "
         "edge from ground to that frame. As a branch it brings absolute coordinates (planar: "
         "x y theta; spatial: x y z and Euler parameters q0 q1 q2 q3, or with euler= three angles "
-        "a1 a2 a3, which have a singular attitude), as a chord its motion follows from the joints.",
+        "a1 a2 a3, which have a singular attitude), as a chord its motion follows from the joints. "
+        "Mass and moments of inertia may be 0, and about no axis negative.",
     .example = "scene planar\ngravity [0, -9.81]\nbody ball mass=0.2 inertia=1e-4\n"
                "init ball.vx = 3, ball.vy = 4\nsimulate 1\nprint ball.x, ball.y",
     .see = "arm gravity force revolute",

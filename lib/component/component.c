@@ -65,8 +65,11 @@ static Status check_number(const Instance *instance, const char *param, bool zer
 
     if (!expr_is_number(value) || expr_value(value) > 0.0 || (zero && expr_value(value) == 0.0))
         return OK;
-    (void)diag_set(diag, E_VALUE, "%s of %s is %s", param, instance->name,
-                   expr_value(value) == 0.0 ? "zero" : "negative");
+    if (expr_value(value) == 0.0)
+        (void)diag_set(diag, E_VALUE, "%s of %s is zero", param, instance->name);
+    else
+        (void)diag_set(diag, E_VALUE, "%s of %s is negative: %g", param, instance->name,
+                       expr_value(value));
     diag_hint(diag, zero ? "it is zero or positive" : "it has to be positive");
     return E_VALUE;
 }

@@ -238,9 +238,11 @@ struct Component {
     void (*own_state)(const Instance *instance, Arena *arena, int k, OwnState *out);
     const Member *members; /* beyond those that its family has */
     int member_count;
-    /* refuse values that no model could have (a negative mass is none of them unless numeric); may
-     * be NULL */
+    /* Refuse values that no model could have. Values of parameters alone are numbers here, and only
+     * numbers are looked at. May be NULL. */
     Status (*check)(const Instance *instance, Arena *arena, bool planar, Diag *diag);
+    /* add a line about numbers that are legal and unlikely; may be NULL */
+    void (*doubt)(const Instance *instance, bool planar, Text *out);
     const char *help;
     const char *example; /* statements from an empty session that run */
     const char *see;

@@ -113,22 +113,19 @@ static Status motor_check(const Instance *instance, Arena *arena, bool planar, D
     (void)arena;
     (void)planar;
     static const char *const positive[] = {"R", "L", "J", "B"};
-    Status status;
+    Status status = OK;
 
     if (!instance_value(instance, "Kt")->given && !instance_value(instance, "Kv")->given) {
         status = diag_set(diag, E_VALUE, "motor %s needs Kt= or Kv=", instance->name);
         diag_hint(diag, "torque per current in N*m/A; the two are one number in SI");
         return status;
     }
-    for (int i = 0; i < COUNT(positive); i++) {
-        Expr value = instance_scalar(instance, positive[i]);
-
-        if (expr_is_number(value) && expr_value(value) < 0.0)
-            return diag_set(diag, E_VALUE, "%s of %s is negative", positive[i], instance->name);
-    }
+    for (int i = 0; i < COUNT(positive); i++)
+        CHECK(check_not_negative(instance, positive[i], diag));
     if (expr_is_zero(instance_scalar(instance, "ratio")))
-        return diag_set(diag, E_VALUE, "the gear ratio of %s is zero", instance->name);
-    return OK;
+        status = diag_set(diag, E_VALUE, "the gear ratio of %s is zero", instance->name);
+done:
+    return status;
 }
 
 const Component component_motor = {

@@ -413,8 +413,7 @@ Status apply_component(State **state, const Statement *statement, Outcome *outco
     if (draft.coordinate_names != NULL)
         CHECK(rename_coordinates(&draft));
     CHECK(part_check_plane(*state, draft.part, direction_place(&draft), diag));
-    if (row->check != NULL)
-        CHECK(row->check(draft.part, draft.state->arena, draft.state->planar, diag));
+    CHECK(part_check(draft.state, draft.part, &outcome->remarks, diag));
 
     text = statement_full_text(statement);
     commit(&draft, text);

@@ -68,7 +68,7 @@ double definition_value(State *state, int definition)
     return state->definitions.at[definition].value;
 }
 
-static double body_value(State *state, Expr body)
+double state_number(State *state, Expr body)
 {
     NumberList stack = {0};
 
@@ -187,21 +187,46 @@ static Status replace_line(State **state, int index, const char *text, const Sco
     return OK;
 }
 
+static void set_body(State *state, Definition *d, Expr body)
+{
+    d->body = body;
+    for (int i = 0; i < state->parameters.count; i++)
+        state->definitions.at[state->parameters.at[i]].is_known = false;
+}
+
+/* Give the parameter another body, unless parts refuse the values that follow. */
+static Status try_body(State *state, Definition *d, Expr body, const Statement *statement,
+                       Outcome *outcome, Diag *diag)
+{
+    const Expr before = d->body;
+    Diag fault = {0};
+    Status status;
+
+    set_body(state, d, body);
+    status = parts_check_after(state, index_of(state, d), &outcome->remarks, &fault);
+    if (status == OK)
+        return OK;
+    status = diag_at(diag, status, statement->value->place, "%s = %g is refused: %s", d->name,
+                     definition_value(state, index_of(state, d)), fault.message);
+    diag_hint(diag, "%s", fault.hint);
+    set_body(state, d, before);
+    return status;
+}
+
 static Status change_parameter(State *state, Definition *d, Expr body, const Statement *statement,
                                const Scope *scope, const char *text, Outcome *outcome, Diag *diag)
 {
     Line *line = &state->lines.at[d->line];
+    const Expr before = d->body;
     Status status = OK;
 
     CHECK(definition_check_circle(state, index_of(state, d), scope->uses.at, scope->uses.count,
                                   statement->name_place, diag));
-    if (d->body != body)
+    CHECK(try_body(state, d, body, statement, outcome, diag));
+    if (body != before)
         outcome->effect = EFFECT_VALUES;
     line->text = state_text(state, text);
     line_uses(state, line, scope);
-    d->body = body;
-    for (int i = 0; i < state->parameters.count; i++)
-        state->definitions.at[state->parameters.at[i]].is_known = false;
 done:
     return status;
 }
@@ -218,7 +243,7 @@ Status apply_parameter(State **state, const Statement *statement, Outcome *outco
     if (d == NULL)
         CHECK(check_new_name(s, statement->name, DEFINES_PARAMETER, statement->name_place, diag));
     CHECK(scope_expression(&scope, statement->value, &body, diag));
-    if (!isfinite(body_value(s, body))) {
+    if (!isfinite(state_number(s, body))) {
         status = diag_at(diag, E_DOMAIN, statement->value->place, "%s has no finite value here",
                          statement->name);
         goto done;

@@ -207,6 +207,14 @@ typedef struct Wanted {
 Status param_read(Scope *scope, Wanted wanted, const Syntax *syntax, Value *out, Diag *diag);
 void param_fallback(State *state, const Param *param, Value *out);
 
+/* --- whether they make sense (model_check.c) --- */
+
+/* Refuse numbers that values of the part can't be, those of parameters as they are now; what is
+ * legal and unlikely is remarked. */
+Status part_check(State *state, const Instance *part, Text *remarks, Diag *diag);
+/* the same for all parts that a new value of the definition reaches */
+Status parts_check_after(State *state, int definition, Text *remarks, Diag *diag);
+
 Status key_unknown(const Component *row, const char *key, Place place, Diag *diag);
 /* In a planar scene no step of a part leaves the plane. */
 Status part_check_plane(const State *state, const Instance *part, Place place, Diag *diag);
@@ -214,6 +222,8 @@ Status part_check_plane(const State *state, const Instance *part, Place place, D
 /* --- definitions and lines --- */
 
 double definition_value(State *state, int definition);
+/* an expression of parameters alone, as they are now */
+double state_number(State *state, Expr body);
 /* Refuses when `uses` lead back to the definition. */
 Status definition_check_circle(const State *state, int definition, const int *uses, int count,
                                Place place, Diag *diag);

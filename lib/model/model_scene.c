@@ -191,8 +191,8 @@ static Status set_pair(State **state, const Pair *pair, Outcome *outcome, Diag *
     status = part_check_plane(s, part, pair->value->place, diag);
     if (status == OK)
         status = keeps_coordinates(s, part, pair, diag);
-    if (status == OK && part->row->check != NULL)
-        status = part->row->check(part, s->arena, s->planar, diag);
+    if (status == OK)
+        status = part_check(s, part, &outcome->remarks, diag);
     if (status != OK) {
         part->values = kept;
         goto done;

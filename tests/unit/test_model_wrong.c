@@ -267,12 +267,22 @@ static void spatial_scenes_have_mistakes_of_their_own(void)
         {"gravity [0, -9.81]", 9, "gravity has 3 components, not 2", "scene planar"},
         {"body q mass=1 inertia=2", 23, "a vector is expected", "[Ixx, Iyy, Izz]"},
         {"body q mass=1 inertia=[1, 2]", 23, "inertia has 3 or 6 entries, not 2", "Ixy"},
-        {"body q mass=1 inertia=[1, 1, 9]", 1, "no body has the moments of inertia", "sum"},
+        {"body q mass=1 inertia=[1, -1, 1]", 1, "moment of inertia of q is negative: -1 about y",
+         "zero or positive"},
+        {"body q mass=1 inertia=[1, 1, 1, 2, 0, 0]", 1, "no body has the inertia of q", "tensor"},
+        {"body q mass=-mu inertia=[1, 1, 1]", 1, "the mass of q is negative: -3", "positive"},
+        {"mu = -1", 6, "mu = -1 is refused: the mass of m is negative: -0.5", "positive"},
+        {"nu = -mu", 6, "nu = -3 is refused: a moment of inertia of m is negative: -3 about x", ""},
+        {"f(x) = x - 9", 1, "what uses f would fail: the mass of m2 is negative: -6", "positive"},
+        {"set m.mass = mu - 4", 1, "the mass of m is negative: -1", "positive"},
+        {"mu = 0", 6, "mass of w has no finite value", ""},
         {"driver Q m.q1 = t", 10, "m.q1 is an Euler parameter", ""},
         {"scene planar", 7, "the scene can't become planar any more", ""},
         {"torque T m 3", 12, "a vector is expected", ""},
     };
-    Model *model = model_of("body m mass=1 inertia=[1, 1, 1]\n");
+    Model *model = model_of("mu = 3\nnu = 2\nhalf = mu/2\nf(x) = x\n"
+                            "body m mass=half inertia=[nu, nu, nu]\nbody m2 mass=f(mu)\n"
+                            "body w mass=1/mu\n");
     char *saved = model_save(model);
     char *graph = graph_text(model);
 
@@ -280,6 +290,26 @@ static void spatial_scenes_have_mistakes_of_their_own(void)
         check_wrong(model, &spatial[i], saved, graph);
     mem_free(saved);
     mem_free(graph);
+    model_free(model);
+}
+
+/* massless links and rods are bodies; what no rigid body has is told and taken */
+static void zero_and_unlikely_inertia_is_taken(void)
+{
+    Model *model = model_of("mu = 1\nbody m mass=mu inertia=[mu, mu, 0]\n");
+    Diag diag = {0};
+
+    EXPECT(apply_text(model, "mu = 0", &diag) == OK);
+    EXPECT_TEXT(model_remarks(model), "");
+    EXPECT(apply_text(model, "body n mass=0 inertia=[0, mu, mu]", &diag) == OK);
+    EXPECT(apply_text(model, "body rod mass=1 inertia=[0.5, 0.5, 1, 0.5, 0, 0]", &diag) == OK);
+    EXPECT_TEXT(model_remarks(model), "");
+    EXPECT(apply_text(model, "body q mass=1 inertia=[1, 1, 9]", &diag) == OK);
+    EXPECT(strstr(model_remarks(model), "no rigid body has the inertia of q") != NULL);
+    EXPECT(apply_text(model, "set n.inertia = [1, 1, 2 + mu]", &diag) == OK);
+    EXPECT_TEXT(model_remarks(model), "");
+    EXPECT(apply_text(model, "mu = 1", &diag) == OK);
+    EXPECT(strstr(model_remarks(model), "no rigid body has the inertia of n") != NULL);
     model_free(model);
 }
 
@@ -334,6 +364,7 @@ int main(void)
 {
     RUN(wrong_statements_say_why_and_change_nothing);
     RUN(spatial_scenes_have_mistakes_of_their_own);
+    RUN(zero_and_unlikely_inertia_is_taken);
     RUN(an_empty_model_refuses_too);
     RUN(a_scene_that_what_was_said_forbids_is_refused);
     RUN(a_tree_that_the_graph_outgrew_is_refused_later);
