@@ -207,7 +207,8 @@ static Status read_options(ct_session *session, const Statement *s, RunOptions *
     } numbers[] = {{"every", &options.every},
                    {"rtol", &options.rtol},
                    {"atol", &options.atol},
-                   {"step", &options.step}};
+                   {"step", &options.step},
+                   {"maxstep", &options.most}};
     Status status;
 
     if (s->operands.count != 1) {
@@ -338,6 +339,10 @@ static RunOptions options_from(const Result *old, const RunOptions *said)
         options.method = report->method;
     if (options.every == 0)
         options.every = report->every;
+    if (options.step == 0)
+        options.step = report->step;
+    if (options.most == 0)
+        options.most = report->most;
     return options;
 }
 

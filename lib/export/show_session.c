@@ -142,6 +142,19 @@ static void add_quality(Table *table, const RunReport *report)
     }
 }
 
+/* what the user asked of steps */
+static void add_step(Table *table, const RunReport *report)
+{
+    if (report->step > 0) {
+        table_cell(table, "step");
+        table_cellf(table, "%.3g s", report->step);
+    }
+    if (report->most > 0) {
+        table_cell(table, "largest step");
+        table_cellf(table, "%.3g s", report->most);
+    }
+}
+
 void report_print(Text *out, const Result *result, const char *name)
 {
     const RunReport *report = result_report(result);
@@ -161,6 +174,7 @@ void report_print(Text *out, const Result *result, const char *name)
     if (result_kind(result) == RUN_SIMULATE) {
         table_cell(&table, "tolerances");
         table_cellf(&table, "rtol %.3g, atol %.3g", report->rtol, report->atol);
+        add_step(&table, report);
     }
     add_work(&table, report);
     add_quality(&table, report);

@@ -1,7 +1,7 @@
 /* verbs_run.c: rows of what runs a model and looks at runs */
 #include "model/verbs.h"
 
-#define RUN_KEYS WORDS("every", "rtol", "atol", "method", "step", "check", "realtime")
+#define RUN_KEYS WORDS("every", "rtol", "atol", "method", "step", "maxstep", "check", "realtime")
 #define SWING    PENDULUM "init h1 = 60 deg\n"
 
 const Verb verbs_run[] = {
@@ -43,7 +43,8 @@ const Verb verbs_run[] = {
      .group = GROUP_RUN,
      .shape = "vk>",
      .keys = RUN_KEYS,
-     .usage = "simulate TIME [every=..] [rtol=..] [atol=..] [method=..] [step=..] [check=on]",
+     .usage = "simulate TIME [every=..] [rtol=..] [atol=..] [method=..] [step=..] [maxstep=..] "
+              "[check=on]",
      .brief = "forward dynamics",
      .help =
          "Integrates the equations from 0 to TIME, in seconds, and keeps the result as run1, run2 "
@@ -53,6 +54,7 @@ const Verb verbs_run[] = {
          "  atol=      absolute tolerance of a step\n"
          "  method=    auto, or dop853 radau bdf adams ida rk4 symplectic ...\n"
          "  step=      the step of methods that have a fixed one\n"
+         "  maxstep=   the largest step of any method, in seconds\n"
          "  check=on   estimates the error of the whole run\n"
          "  realtime=on   goes no faster than the clock\n"
          "Ctrl-C stops a run and keeps what it has; 'resume' goes on.",

@@ -164,9 +164,12 @@ static Status step(Stepper *stepper, double end, Diag *diag)
 {
     Cvode *c = (Cvode *)stepper;
     double reached = c->base.t;
-    int code = CVodeSetStopTime(c->memory, end);
+    int code = CVodeSetStopTime(c->memory, stepper_stop(&c->base, end));
 
     c->base.before = c->base.t;
+    if (code == 0) /* growth is bounded there; a stop time cuts a step that is grown already */
+        code = CVodeSetMaxStep(c->memory,
+                               stepper_allowed(&c->base, control_largest(&c->base.control)));
     if (code == 0)
         code = CVode(c->memory, end, c->y, &reached, CV_ONE_STEP);
     keep_counts(c);

@@ -309,8 +309,7 @@ static double trim(const Dop853 *d, double h, double end)
 {
     double left = end - d->base.before;
 
-    if (d->base.control.step > 0)
-        h = fmin(h, d->base.control.step);
+    h = stepper_allowed(&d->base, fmin(h, control_asked(&d->base.control)));
     if (h >= left || left - h < 1e-10 * h)
         return left;
     return h > 0.5 * left ? 0.5 * left : h;

@@ -210,9 +210,12 @@ static Status step(Stepper *stepper, double end, Diag *diag)
     Ida *d = (Ida *)stepper;
     long steps = 0, failures = 0, jacobians = 0;
     double reached = d->base.t;
-    int code = IDASetStopTime(d->memory, end);
+    int code = IDASetStopTime(d->memory, stepper_stop(&d->base, end));
 
     d->base.before = d->base.t;
+    if (code == 0) /* growth is bounded there; a stop time cuts a step that is grown already */
+        code =
+            IDASetMaxStep(d->memory, stepper_allowed(&d->base, control_largest(&d->base.control)));
     if (code == 0)
         code = IDASolve(d->memory, end, &reached, d->w, d->rate, IDA_ONE_STEP);
     (void)IDAGetNumSteps(d->memory, &steps);
@@ -225,6 +228,7 @@ static Status step(Stepper *stepper, double end, Diag *diag)
         return solver_failure(diag, d->base.before, d->reason);
     d->base.t = reached;
     memcpy(d->base.y, N_VGetArrayPointer(d->w), (size_t)d->all * sizeof(double));
+    (void)IDAGetCurrentStep(d->memory, &d->base.next);
     return OK;
 }
 

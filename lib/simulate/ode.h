@@ -51,15 +51,26 @@ typedef struct Ode {
 typedef struct Control {
     double rtol, atol;
     double step;  /* fixed or largest step, s; 0: free */
+    double most;  /* largest step, s, also of methods whose steps are fixed; 0: free */
     double first; /* step to begin with; 0: chosen */
     double span;  /* of the whole run, s; 0: not known */
 } Control;
+
+/* largest step that was asked for */
+static inline double control_asked(const Control *control)
+{
+    double step = control->step > 0 ? control->step : HUGE_VAL;
+
+    return control->most > 0 ? fmin(step, control->most) : step;
+}
 
 /* Largest step of methods that look at one to three places of a step: where nothing goes on they
  * would step over a pulse and never know. */
 static inline double control_largest(const Control *control)
 {
-    return control->step > 0 ? control->step : control->span > 0 ? control->span / 50 : HUGE_VAL;
+    double asked = control_asked(control);
+
+    return asked < HUGE_VAL ? asked : control->span > 0 ? control->span / 50 : HUGE_VAL;
 }
 
 typedef struct Counts {
@@ -93,9 +104,27 @@ struct Stepper {
     double t;      /* its end */
     double *y;     /* y at t, projected where the method projects */
     double next;   /* step it would take next, s */
+    double bound;  /* by whoever drives it: no longer step now, s; 0: free */
     bool is_stiff; /* explicit methods: steps are cut by stability, not by accuracy */
     bool swings;   /* ... and what cuts them swings rather than decays */
 };
+
+/* h, or what is allowed of it */
+static inline double stepper_allowed(const Stepper *stepper, double h)
+{
+    return stepper->bound > 0 ? fmin(h, stepper->bound) : h;
+}
+
+/* Where a method that grows its steps by itself has to stop for the bound, or at `end`. A stop just
+ * behind its next step would leave a sliver for the one after it. */
+static inline double stepper_stop(const Stepper *stepper, double end)
+{
+    double bound = stepper->bound;
+
+    if (!(bound > 0) || (stepper->next > 0 && stepper->next <= bound))
+        return end;
+    return fmin(end, stepper->t + bound);
+}
 
 /* The row of that name, or NULL; row i, or NULL at the end. */
 const Method *method_find(const char *name);

@@ -328,7 +328,7 @@ static double trim(const Radau *r, double h, double end)
 {
     double left = end - r->base.before;
 
-    h = fmin(h, control_largest(&r->base.control));
+    h = stepper_allowed(&r->base, fmin(h, control_largest(&r->base.control)));
     if (h >= left || left - h < 1e-10 * h)
         return left;
     return h > 0.5 * left ? 0.5 * left : h;

@@ -90,7 +90,7 @@ static Status step(Stepper *stepper, double end, Diag *diag)
 {
     Rk4 *r = (Rk4 *)stepper;
     double left = end - r->base.t;
-    double h = r->base.control.step;
+    double h = stepper_allowed(&r->base, control_asked(&r->base.control));
     bool last = h <= 0 || h >= left * (1 - 1e-9);
 
     memcpy(r->old, r->base.y, (size_t)r->all * sizeof(double));

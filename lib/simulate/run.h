@@ -16,6 +16,7 @@ typedef struct RunOptions {
     double rtol;        /* 0: 1e-8 */
     double atol;        /* times 1 m, 1 rad, 1 m/s, 1 A; 0: as rtol */
     double step;        /* fixed or largest step, s; 0: free */
+    double most;        /* largest step, s, of all methods; 0: free */
     const char *method; /* a row of methods.def; NULL: auto */
     bool check;         /* run again at a tenth of the tolerance and report the global error */
 } RunOptions;
@@ -38,6 +39,8 @@ typedef struct RunReport {
     double wall;         /* s */
     double reached;      /* last time */
     double every;        /* output step, s; 0: there is none */
+    double step;         /* fixed or largest step that was asked for, s; 0: none */
+    double most;         /* largest step that was asked for, s; 0: none */
     bool stopped;        /* by Ctrl-C */
 } RunReport;
 

@@ -70,8 +70,9 @@ static Status complete_options(const RunOptions *given, RunOptions *out, Diag *d
     *out = *given;
     if (!(out->duration > 0) || !isfinite(out->duration))
         return diag_set(diag, E_VALUE, "a run takes a duration above 0, in seconds");
-    if (!(out->every >= 0) || !(out->rtol >= 0) || !(out->atol >= 0) || !(out->step >= 0))
-        return diag_set(diag, E_VALUE, "every, rtol, atol and step can't be below 0");
+    if (!(out->every >= 0) || !(out->rtol >= 0) || !(out->atol >= 0) || !(out->step >= 0) ||
+        !(out->most >= 0))
+        return diag_set(diag, E_VALUE, "every, rtol, atol, step and maxstep can't be below 0");
     if (out->every == 0)
         out->every = out->duration / 500;
     if (out->rtol == 0)
@@ -96,12 +97,14 @@ static Status complete_options(const RunOptions *given, RunOptions *out, Diag *d
 static MarchPlan plan_of(const Result *r, const Setting *setting, const RunOptions *options,
                          const Method *method, Events *events)
 {
-    return (MarchPlan){
-        .leg = commute_leg(r, r->phase, events),
-        .method = method,
-        .control = {.rtol = options->rtol, .atol = options->atol, .step = options->step},
-        .every = options->every,
-        .watch = setting->watch};
+    return (MarchPlan){.leg = commute_leg(r, r->phase, events),
+                       .method = method,
+                       .control = {.rtol = options->rtol,
+                                   .atol = options->atol,
+                                   .step = options->step,
+                                   .most = options->most},
+                       .every = options->every,
+                       .watch = setting->watch};
 }
 
 /* A march from the result's begin. Where ideal switches change the equations, `corners` gets rows
@@ -161,6 +164,8 @@ static void fill_report(Result *r, const MarchReport *march, const RunOptions *o
     r->report.velocity_residual = march->velocity_residual;
     r->report.reached = march->reached;
     r->report.every = options->every;
+    r->report.step = options->step;
+    r->report.most = options->most;
     r->report.stopped = stopped;
     r->report.wall = seconds() - began;
 }
