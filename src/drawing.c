@@ -60,16 +60,23 @@ const char *drawing_color(int i)
     return colors[i % COLORS];
 }
 
-/* a quote in it is doubled */
+/* Between double quotes a backslash begins an escape, a backquote a command of a system's shell and
+ * an @ the name of a macro, before anything else is looked at: what isn't harmless everywhere goes
+ * by its number. In single quotes two primes in a row can't be told from one. */
 void put_quoted(FILE *out, const char *text)
 {
-    fputc('\'', out);
+    fputc('"', out);
     for (; *text != '\0'; text++) {
-        if (*text == '\'')
-            fputc('\'', out);
-        fputc(*text == '\n' ? ' ' : *text, out);
+        const unsigned char c = (unsigned char)*text;
+
+        if (c < ' ' || c == 0x7F)
+            fputc(' ', out);
+        else if (strchr("\"'\\`@$%{}", c) != NULL)
+            fprintf(out, "\\%03o", c);
+        else
+            fputc(c, out);
     }
-    fputc('\'', out);
+    fputc('"', out);
 }
 
 void put_title(FILE *out, const char *title)

@@ -25,6 +25,9 @@ static struct {
     char *history_file; /* NULL: there is no place for one */
     char *line;         /* what readline handed over */
     bool done;
+    bool at_once; /* keys were waiting when the line began: they were pasted, or typed ahead */
+    int keys;     /* taken since then */
+    sigset_t wait;
     char **words; /* of the completion going on */
     size_t words_start;
 } edit;
@@ -160,6 +163,97 @@ static int on_tab(int count, int key)
     return 0;
 }
 
+/* --- pasting --- */
+
+/* Line ends of a pasted text become newlines, in place. Carriage return and newline are one end,
+ * and so are two carriage returns where every end is twice there: a terminal has made them of the
+ * others. */
+static void settle_line_ends(char *text)
+{
+    bool doubled = true;
+    size_t length = 0;
+
+    for (const char *at = text; *at != '\0';) {
+        const size_t run = strspn(at, "\r");
+
+        doubled = doubled && (run % 2 == 0 || at[run] == '\n');
+        at += run > 0 ? run : 1;
+    }
+    for (const char *at = text; *at != '\0'; at++) {
+        const bool returns = *at == '\r';
+
+        text[length++] = returns ? '\n' : *at;
+        if (returns && (at[1] == '\n' || (doubled && at[1] == '\r')))
+            at++;
+    }
+    text[length] = '\0';
+}
+
+/* Wait for a key; false: Ctrl-C, or nothing more can come. */
+static bool wait_for_key(void)
+{
+    struct pollfd keys = {.fd = STDIN_FILENO, .events = POLLIN};
+    int ready;
+
+    do
+        ready = ppoll(&keys, 1, NULL, &edit.wait);
+    while (ready < 0 && errno == EINTR && !interrupt_asked());
+    return ready > 0 && !interrupt_asked();
+}
+
+/* What the terminal puts between its marks of a paste, put in as one piece: readline's own way of
+ * it makes two line ends of a carriage return with a newline. */
+static int on_paste(int count, int key)
+{
+    static const char end[] = "\033[201~";
+    const size_t end_length = sizeof end - 1;
+    Paper paper;
+    size_t length = 0;
+    int c = 0;
+    bool is_whole = false;
+
+    (void)count;
+    (void)key;
+    paper_open(&paper);
+    while (!is_whole && wait_for_key() && (c = rl_read_key()) > 0) {
+        putc(c, paper.out);
+        length++;
+        if (c == end[end_length - 1] && fflush(paper.out) == 0)
+            is_whole = length >= end_length &&
+                       memcmp(paper.text + length - end_length, end, end_length) == 0;
+    }
+
+    char *text = paper_close(&paper);
+
+    if (is_whole)
+        text[length - end_length] = '\0';
+    settle_line_ends(text);
+    if (is_whole)
+        rl_insert_text(text);
+    free(text);
+    return 0;
+}
+
+/* Without such marks a line end may come as a carriage return, which ends the line, and a newline,
+ * which would be a line of its own. */
+static int on_newline(int count, int key)
+{
+    if (edit.at_once && edit.keys == 1 && rl_end == 0)
+        return 0;
+    return rl_newline(count, key);
+}
+
+static void bind_pasting(void)
+{
+    Keymap maps[] = {emacs_standard_keymap, vi_insertion_keymap, vi_movement_keymap};
+
+    for (size_t i = 0; i < sizeof maps / sizeof maps[0]; i++) {
+        rl_bind_key_in_map('\n', on_newline, maps[i]);
+        if (maps[i] != vi_movement_keymap)
+            rl_bind_keyseq_in_map("\033[200~", on_paste, maps[i]);
+    }
+}
+
 /* --- history --- */
 
 void line_edit_open(ct_session *session)
@@ -172,6 +266,7 @@ void line_edit_open(ct_session *session)
     rl_initialize();
     rl_variable_bind("enable-bracketed-paste", "on");
     rl_bind_key('\t', on_tab);
+    bind_pasting();
     using_history();
 
     /* with times in the file, an entry may have several lines */
@@ -241,19 +336,21 @@ static ReadResult drop_line(void)
 ReadResult line_edit_read(const char *prompt, char **line)
 {
     struct pollfd keys = {.fd = STDIN_FILENO, .events = POLLIN};
-    sigset_t wait;
     ReadResult result = READ_LINE;
 
     *line = NULL;
     edit.line = NULL;
     edit.done = false;
+    edit.at_once = poll(&keys, 1, 0) > 0;
+    edit.keys = 0;
     fflush(stdout);
     if (interrupt_resized())
         rl_reset_screen_size();
-    interrupt_hold(&wait);
+    interrupt_hold(&edit.wait);
     rl_callback_handler_install(prompt, on_line);
     while (!edit.done && result == READ_LINE) {
-        int ready = ppoll(&keys, 1, NULL, &wait);
+        /* a paste may have been given up meanwhile */
+        int ready = interrupt_asked() ? 0 : ppoll(&keys, 1, NULL, &edit.wait);
 
         if (interrupt_asked())
             result = drop_line();
@@ -261,12 +358,13 @@ ReadResult line_edit_read(const char *prompt, char **line)
             take_back_terminal();
         else if (interrupt_resized())
             rl_resize_terminal();
-        else if (ready > 0)
+        else if (ready > 0) {
+            edit.keys++;
             rl_callback_read_char();
-        else if (ready < 0 && errno != EINTR)
+        } else if (ready < 0 && errno != EINTR)
             result = READ_END;
     }
-    interrupt_release(&wait);
+    interrupt_release(&edit.wait);
     interrupt_clear();
     if (result != READ_LINE)
         return result;

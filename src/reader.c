@@ -10,11 +10,15 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Longer than any model's statement, and what is read of a file that is no script is little. */
+enum { LONGEST = 4 << 20 }; /* bytes of a logical line */
+
 struct Reader {
     FILE *file;       /* NULL: text or prompt */
     const char *text; /* what is left of it; NULL: file or prompt */
     const char *name; /* NULL: prompt */
     int line;         /* of the last physical line */
+    bool returned;    /* that one ended with a carriage return: a newline behind is its own */
     char *pasted;     /* a block with newlines, typed as one; NULL */
     size_t pasted_at; /* what was taken of it */
 };
@@ -59,30 +63,70 @@ bool reader_is_prompt(const Reader *reader)
 
 /* --- physical lines --- */
 
+static ReadResult fail_long(ct_error *error)
+{
+    error_say(error, "the line is longer than %d MB", LONGEST >> 20);
+    error_hint(error, "is it a script? Many numbers go into a file: table(\"data.csv\", x)");
+    return READ_FAILED;
+}
+
+/* the next character; a signal that asks for nothing (a window's new size) is passed over */
+static int next_character(FILE *file)
+{
+    int c;
+
+    do {
+        clearerr(file);
+        errno = 0;
+        c = getc_unlocked(file);
+    } while (c == EOF && errno == EINTR && !interrupt_asked());
+    return c;
+}
+
+/* The characters up to the end of a line, which may be a newline, a carriage return or both; the
+ * newline behind a carriage return is looked for only with the next line, since a terminal or a
+ * pipe may not send one for long. */
 static ReadResult read_file(Reader *reader, char **line, ct_error *error)
 {
-    size_t room = 0;
+    Paper paper;
+    int c = 0;
+    size_t length = 0;
+    ReadResult result = READ_LINE;
 
-    *line = NULL;
-    errno = 0;
+    paper_open(&paper);
+    for (c = next_character(reader->file); c != EOF; c = next_character(reader->file)) {
+        const bool is_rest = c == '\n' && length == 0 && reader->returned;
 
-    ssize_t length = getline(line, &room, reader->file);
-
-    if (length < 0) {
+        reader->returned = c == '\r';
+        if (is_rest)
+            continue;
+        if (c == '\n' || c == '\r')
+            break;
+        if (c == '\0') {
+            error_say(error, "the line holds a zero byte, so this is no script");
+            result = READ_FAILED;
+            break;
+        }
+        if (++length > LONGEST) {
+            result = fail_long(error);
+            break;
+        }
+        putc_unlocked(c, paper.out);
+    }
+    if (c == EOF && interrupt_asked()) {
+        result = READ_CLEARED;
+    } else if (c == EOF && ferror(reader->file)) {
+        error_say(error, "can't read: %s", strerror(errno));
+        result = READ_FAILED;
+    } else if (c == EOF && length == 0) {
+        result = READ_END;
+    }
+    *line = paper_close(&paper);
+    if (result != READ_LINE) {
         free(*line);
         *line = NULL;
-        if (interrupt_asked())
-            return READ_CLEARED;
-        if (!ferror(reader->file))
-            return READ_END;
-        error_say(error, "can't read: %s", strerror(errno));
-        return READ_FAILED;
     }
-    if (strlen(*line) != (size_t)length) {
-        error_say(error, "the line holds a zero byte, so this is no script");
-        return READ_FAILED;
-    }
-    return READ_LINE;
+    return result;
 }
 
 /* the next line of a text; false at its end */
@@ -91,10 +135,13 @@ static bool cut_line(const char *text, size_t *at, char **line)
     if (text[*at] == '\0')
         return false;
 
-    size_t length = strcspn(text + *at, "\n");
+    size_t length = strcspn(text + *at, "\r\n");
 
     *line = copy_piece(text + *at, length);
-    *at += length + (text[*at + length] == '\n');
+    *at += length;
+    if (text[*at] == '\r' && text[*at + 1] == '\n')
+        (*at)++;
+    *at += text[*at] != '\0';
     return true;
 }
 
@@ -146,15 +193,13 @@ static ReadResult read_physical(Reader *reader, bool mark, bool more, char **lin
 
 /* --- logical lines --- */
 
-/* The line's end is taken off; a backslash there goes on, unless a comment took it. Blanks behind
- * the backslash are taken off too, since nobody sees them. */
+/* A backslash at the line's end goes on, unless a comment took it. Blanks behind the backslash are
+ * taken off, since nobody sees them. */
 static bool goes_on(char *line)
 {
     size_t length = strlen(line), last;
     bool in_string = false;
 
-    while (length > 0 && strchr("\r\n", line[length - 1]) != NULL)
-        line[--length] = '\0';
     for (size_t i = 0; i < length; i++) {
         if (line[i] == '"')
             in_string = !in_string;
@@ -169,45 +214,52 @@ static bool goes_on(char *line)
     return true;
 }
 
-static void join(char **text, const char *line)
-{
-    char *joined = *text == NULL ? copy_text(line) : copy_format("%s\n%s", *text, line);
-
-    free(*text);
-    *text = joined;
-}
-
 /* An editor's byte order mark is not part of the first statement. */
 static size_t mark_length(const Reader *reader, const char *line)
 {
     return reader->line == 1 && strncmp(line, "\xEF\xBB\xBF", 3) == 0 ? 3 : 0;
 }
 
-ReadResult reader_next(Reader *reader, bool mark, char **text, Origin *origin, ct_error *error)
+/* Physical lines up to one that does not go on, onto `paper`. */
+static ReadResult read_logical(Reader *reader, bool mark, Paper *paper, int *prompt,
+                               ct_error *error)
 {
     ReadResult result;
-    char *line = NULL;
-    int prompt = 0;
+    size_t length = 0;
+    int count = 0;
     bool more = false;
 
-    *text = NULL;
+    do {
+        char *line = NULL;
+
+        result = read_physical(reader, mark, more, &line, prompt, error);
+        if (result == READ_LINE) {
+            more = goes_on(line);
+            length += strlen(line) + 1;
+            fprintf(paper->out, "%s%s", count++ > 0 ? "\n" : "", line + mark_length(reader, line));
+        }
+        free(line);
+        if (result == READ_LINE && length > LONGEST + 1)
+            result = fail_long(error);
+    } while (more && result == READ_LINE);
+
+    /* a backslash on the last line of all: what stands before it is the statement */
+    return result == READ_END && count > 0 ? READ_LINE : result;
+}
+
+ReadResult reader_next(Reader *reader, bool mark, char **text, Origin *origin, ct_error *error)
+{
+    Paper paper;
+    int prompt = 0;
+
     if (reader_is_prompt(reader) && reader->pasted == NULL)
         reader->line = 0;
     *origin = (Origin){reader->name, reader->line + 1, 0};
-    do {
-        result = read_physical(reader, mark, more, &line, &prompt, error);
-        if (result != READ_LINE)
-            break;
-        more = goes_on(line);
-        join(text, line + mark_length(reader, line));
-        free(line);
-        line = NULL;
-    } while (more);
-    free(line);
+    paper_open(&paper);
 
-    /* a backslash on the last line of all: what stands before it is the statement */
-    if (result == READ_END && *text != NULL)
-        result = READ_LINE;
+    ReadResult result = read_logical(reader, mark, &paper, &prompt, error);
+
+    *text = paper_close(&paper);
     if (result != READ_LINE) {
         free(*text);
         *text = NULL;

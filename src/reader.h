@@ -1,7 +1,8 @@
 /* reader.h: logical lines, from a file, a pipe, a string or the prompt
  *
  * A physical line that ends with a backslash goes on in the next one, unless the backslash
- * stands in a comment. Lines may end as elsewhere, with a carriage return. */
+ * stands in a comment. Lines may end as elsewhere, with a carriage return alone or before the
+ * newline. */
 #ifndef COTREE_SRC_READER_H
 #define COTREE_SRC_READER_H
 

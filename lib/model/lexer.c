@@ -14,7 +14,7 @@ Lexer lexer_start(const char *text, size_t offset, int line, Pool *pool)
     Lexer lexer = {.text = text, .at = offset, .line = line, .pool = pool};
 
     for (size_t i = 0; i < offset; i++)
-        if (text[i] == '\n') {
+        if (text[i] == '\n' || (text[i] == '\r' && text[i + 1] != '\n')) {
             lexer.line++;
             lexer.line_start = i + 1;
         }
@@ -52,22 +52,20 @@ static bool is_name_part(char c)
     return is_letter(c) || is_digit(c) || c == '_';
 }
 
+/* length of a line's end; 0: there is none */
+static size_t line_break(const char *text)
+{
+    if (text[0] == '\r' && text[1] == '\n')
+        return 2;
+    return text[0] == '\n' || text[0] == '\r' ? 1 : 0;
+}
+
 /* length of a line break behind a "\", the "\" included; 0: there is none */
 static size_t joint(const char *text)
 {
     if (text[0] != '\\')
         return 0;
-    if (text[1] == '\n')
-        return 2;
-    return text[1] == '\r' && text[2] == '\n' ? 3 : 0;
-}
-
-/* length of a line's end; 0: there is none */
-static size_t line_break(const char *text)
-{
-    if (text[0] == '\n')
-        return 1;
-    return text[0] == '\r' && (text[1] == '\n' || text[1] == '\0') ? (text[1] == '\n' ? 2 : 1) : 0;
+    return line_break(text + 1) > 0 ? 1 + line_break(text + 1) : 0;
 }
 
 static void step_line(Lexer *lexer, size_t length)
@@ -163,9 +161,7 @@ static Status strange_character(const Lexer *lexer, Diag *diag)
     if (length == 0 || (unsigned char)*c < ' ' || *c == 0x7F) {
         Lexer copy = *lexer;
 
-        if (*c != '\r')
-            return step_character(&copy, diag);
-        return diag_at(diag, E_SYNTAX, place, "control character 0x0D");
+        return step_character(&copy, diag);
     }
     (void)diag_at(diag, E_SYNTAX, place, "unexpected character '%.*s'", (int)length, c);
     for (int i = 0; length > 1 && i < COUNT(lookalikes); i++)

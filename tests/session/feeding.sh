@@ -20,9 +20,13 @@ done <model.ct
 cotree "$@" >lines.txt || echo "lines: $?"
 tr '\n' '\r' <model.ct | sed 's/\r/\r\n/g' >crlf.ct
 cotree crlf.ct >crlf.txt || echo "crlf: $?"
+tr '\n' '\r' <model.ct >cr.ct
+cotree cr.ct >cr.txt || echo "cr: $?"
+cotree -e "$(cat crlf.ct)" >crlf_text.txt || echo "crlf as text: $?"
+cotree -e "$(cat cr.ct)" >cr_text.txt || echo "cr as text: $?"
 { printf '\357\273\277'; cat model.ct; } >mark.ct
 cotree mark.ct >mark.txt || echo "mark: $?"
 test -s file.txt || echo "nothing was printed"
-for other in again pipe named source lines crlf mark; do
+for other in again pipe named source lines crlf cr crlf_text cr_text mark; do
     cmp file.txt $other.txt
 done

@@ -9,9 +9,11 @@ terminal_tests = \
     tests/terminal/interrupt_line.exp \
     tests/terminal/interrupt_run.exp \
     tests/terminal/paste.exp \
+    tests/terminal/paste_returns.exp \
     tests/terminal/pager.exp \
     tests/terminal/plot_text.exp \
     tests/terminal/plot_file.exp \
+    tests/terminal/plot_titles.exp \
     tests/terminal/bode.exp \
     tests/terminal/gnuplot_missing.exp \
     tests/terminal/gnuplot_killed.exp \
