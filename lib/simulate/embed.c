@@ -144,6 +144,11 @@ double embed_condition(const Embed *e)
     return e->chosen_ratio > 0 ? e->ratio / e->chosen_ratio : 1;
 }
 
+double embed_pivots(const Embed *e)
+{
+    return e->ratio;
+}
+
 /* u_d of a speed whose independent part is given: Phi_d u_d = right - Phi_i u_i, right in `column`
  */
 static void solve_dependent(const Embed *e, double *column, double *out, int stride)

@@ -19,6 +19,7 @@ const int *embed_independent(const Embed *embed); /* nu - m, rising */
 /* Factor at these numbers; false when Phi_d or G^T M G is singular. */
 bool embed_factor(Embed *embed, const double *mass, const double *phi_u, const int *rows);
 double embed_condition(const Embed *embed); /* pivot ratio of Phi_d, of its choice at 1 */
+double embed_pivots(const Embed *embed);    /* the ratio itself */
 void embed_solve(Embed *embed, const double *force, const double *gamma, double *du);
 /* out[j] = (G^T v)_j, nu - m of them */
 void embed_reduce(const Embed *embed, const double *v, double *out);

@@ -7,16 +7,22 @@
 #include <math.h>
 #include <string.h>
 
-#define PIVOT_RATIO 1e-5 /* of the compliance; below: near a singular configuration */
+#define PIVOT_RATIO 1e-5 /* of G G^T; below: near a singular configuration */
 #define SUSPECT     3e-2 /* pivot ratio of the LU above which nothing can be near singular */
 #define EPSILON     1e-8 /* of the largest diagonal entry of G M^-1 G^T */
-#define SWEEPS      2    /* of refinement */
+#define SWEEPS      2    /* of refinement at least, */
+#define MOST_SWEEPS 30   /* and as long as each leaves less than */
+#define CONTRACTION 0.3  /* of the correction before: what is slower, epsilon is to hold back */
+#define ROUNDING    1e-15
+#define LEAST_REACH 1e-9 /* of the largest: what is less is rounding */
 
 struct Kkt {
     int nu, m, size;
     double *matrix; /* scaled, as it is, for residuals */
     double *scale;  /* size: unknown = scale * scaled unknown */
-    double *norm;   /* m: largest mass-norm of each row so far */
+    double *norm;   /* of all rows: largest mass-norm of each so far */
+    /* largest entry of each column, and norm of each of all rows, so far */
+    double *reach, *row_reach;
     double *right, *answer, *residual;
     double *factor;     /* nu x nu, a Cholesky factor */
     double *bound;      /* m x nu */
@@ -25,7 +31,7 @@ struct Kkt {
     bool regularised;
 };
 
-Kkt *kkt_new(int nu, int m)
+Kkt *kkt_new(int nu, int m, int all)
 {
     Kkt *kkt = NEW(Kkt);
     int size = nu + m;
@@ -35,7 +41,9 @@ Kkt *kkt_new(int nu, int m)
     kkt->size = size;
     kkt->matrix = NEW_ARRAY(double, size *size);
     kkt->scale = NEW_ARRAY(double, size);
-    kkt->norm = NEW_ARRAY(double, m);
+    kkt->norm = NEW_ARRAY(double, all);
+    kkt->reach = NEW_ARRAY(double, nu);
+    kkt->row_reach = NEW_ARRAY(double, all);
     kkt->right = NEW_ARRAY(double, size);
     kkt->answer = NEW_ARRAY(double, size);
     kkt->residual = NEW_ARRAY(double, size);
@@ -53,6 +61,8 @@ void kkt_free(Kkt *kkt)
     mem_free(kkt->matrix);
     mem_free(kkt->scale);
     mem_free(kkt->norm);
+    mem_free(kkt->reach);
+    mem_free(kkt->row_reach);
     mem_free(kkt->right);
     mem_free(kkt->answer);
     mem_free(kkt->residual);
@@ -106,11 +116,11 @@ static void choose_scale(Kkt *kkt, const double *mass, const double *phi_u, cons
 
         for (int i = 0; i < nu; i++)
             norm += row[i] * kkt->scale[i] * row[i] * kkt->scale[i];
-        kkt->norm[k] = fmax(kkt->norm[k], sqrt(norm));
-        largest = fmax(largest, kkt->norm[k]);
+        kkt->norm[rows[k]] = fmax(kkt->norm[rows[k]], sqrt(norm));
+        largest = fmax(largest, kkt->norm[rows[k]]);
     }
     for (int k = 0; k < kkt->m; k++) {
-        double norm = fmax(kkt->norm[k], 1e-3 * largest);
+        double norm = fmax(kkt->norm[rows[k]], 1e-3 * largest);
 
         kkt->scale[nu + k] = norm > 0 ? 1 / norm : 1;
     }
@@ -157,23 +167,14 @@ static bool cholesky(double *l, int n, double least_pivot)
     return true;
 }
 
-/* kkt->factor = Cholesky factor of M, or of M + G^T G, scaled; false when it isn't positive
- * definite */
-static bool factor_mass(Kkt *kkt, bool stiffened)
+/* kkt->factor = Cholesky factor of M, scaled; false when it isn't positive definite */
+static bool factor_mass(Kkt *kkt)
 {
-    int nu = kkt->nu, size = kkt->size;
-    double *l = kkt->factor;
+    int nu = kkt->nu;
 
     for (int i = 0; i < nu; i++)
-        memcpy(l + i * nu, kkt->matrix + i * size, (size_t)nu * sizeof(double));
-    for (int k = nu; k < size && stiffened; k++) {
-        const double *row = kkt->matrix + k * size;
-
-        for (int i = 0; i < nu; i++)
-            for (int j = 0; row[i] != 0 && j <= i; j++)
-                l[i * nu + j] += row[i] * row[j];
-    }
-    return cholesky(l, nu, 1e-14);
+        memcpy(kkt->factor + i * nu, kkt->matrix + i * kkt->size, (size_t)nu * sizeof(double));
+    return cholesky(kkt->factor, nu, 1e-14);
 }
 
 /* kkt->bound (m x nu) = G L^-T, L the factor: its rows' products are G (L L^T)^-1 G^T */
@@ -208,24 +209,38 @@ static double dot(const double *a, const double *b, int n)
     return sum;
 }
 
-/* Whether the compliance S = G M^-1 G^T is near singular: by the pivots of S (1 + S)^-1, which
- * is G (M + G^T G)^-1 G^T and exists for massless bodies too. Those of the LU only
- * raise suspicion: an exchange of rows splits one of size sigma^2 into two of size sigma. */
-static bool is_near_singular(Kkt *kkt)
+/* Lengths are told from angles by the largest entry that each column has had: what a unit of the
+ * speed moves. */
+static void measure_columns(Kkt *kkt, const double *phi_u, const int *rows)
 {
-    int m = kkt->m;
-    double *s = kkt->compliance;
-    double largest = 0;
+    for (int k = 0; k < kkt->m; k++)
+        for (int i = 0; i < kkt->nu; i++)
+            kkt->reach[i] = fmax(kkt->reach[i], fabs(phi_u[rows[k] * kkt->nu + i]));
+}
 
-    if (!factor_mass(kkt, true))
-        return true;
-    find_bound(kkt);
+/* Whether rows of G are nearly dependent: by the pivots of G G^T, columns of G over their reach,
+ * rows over the largest norm that they have had. Those of the LU only raise suspicion: an exchange
+ * of rows splits one of size sigma^2 into two of size sigma, and light parts between heavy ones
+ * make small pivots that are none of the geometry's. */
+static bool is_near_singular(Kkt *kkt, const double *phi_u, const int *rows)
+{
+    const int m = kkt->m, nu = kkt->nu;
+    const double least = LEAST_REACH * vector_largest(kkt->reach, nu);
+    double *s = kkt->compliance, *g = kkt->bound;
+
+    for (int k = 0; k < m; k++) {
+        double *reach = &kkt->row_reach[rows[k]];
+
+        for (int i = 0; i < nu; i++)
+            g[k * nu + i] = phi_u[rows[k] * nu + i] / fmax(kkt->reach[i], least);
+        *reach = fmax(*reach, sqrt(dot(g + k * nu, g + k * nu, nu)));
+        for (int i = 0; i<nu && * reach> 0; i++)
+            g[k * nu + i] /= *reach;
+    }
     for (int i = 0; i < m; i++)
         for (int j = 0; j <= i; j++)
-            s[i * m + j] = dot(kkt->bound + i * kkt->nu, kkt->bound + j * kkt->nu, kkt->nu);
-    for (int i = 0; i < m; i++)
-        largest = fmax(largest, s[i * m + i]);
-    return !cholesky(s, m, PIVOT_RATIO * largest);
+            s[i * m + j] = dot(g + i * nu, g + j * nu, nu);
+    return !cholesky(s, m, PIVOT_RATIO);
 }
 
 /* largest diagonal entry of G M^-1 G^T, scaled; 1 where M can't be inverted */
@@ -233,7 +248,7 @@ static double largest_compliance(Kkt *kkt)
 {
     double largest = 1;
 
-    if (!factor_mass(kkt, false))
+    if (!factor_mass(kkt))
         return 1;
     find_bound(kkt);
     for (int k = 0; k < kkt->m; k++) {
@@ -251,13 +266,14 @@ bool kkt_factor(Kkt *kkt, const double *mass, const double *phi_u, const int *ro
     bool sound;
 
     choose_scale(kkt, mass, phi_u, rows);
+    measure_columns(kkt, phi_u, rows);
     fill_matrix(kkt, mass, phi_u, rows);
     if (!vector_is_finite(kkt->matrix, kkt->size * kkt->size))
         return false;
     memcpy(lu_matrix(kkt->lu), kkt->matrix, bytes);
     kkt->regularised = false;
     sound = lu_factor(kkt->lu) && lu_pivot_ratio(kkt->lu) > 1e-14;
-    if (kkt->m == 0 || lu_pivot_ratio(kkt->lu) > SUSPECT || !is_near_singular(kkt))
+    if (kkt->m == 0 || lu_pivot_ratio(kkt->lu) > SUSPECT || !is_near_singular(kkt, phi_u, rows))
         return sound;
 
     kkt->regularised = true;
@@ -273,15 +289,30 @@ bool kkt_is_regularised(const Kkt *kkt)
     return kkt->regularised;
 }
 
+/* the size of the correction. One sweep makes the solution exact to what the rows themselves
+ * determine, however they are scaled (Skeel 1980): masses many decades apart. */
+static double refine_once(Kkt *kkt)
+{
+    matrix_times(kkt->matrix, kkt->size, kkt->size, kkt->answer, kkt->residual);
+    for (int i = 0; i < kkt->size; i++)
+        kkt->residual[i] = kkt->right[i] - kkt->residual[i];
+    lu_solve(kkt->lu, kkt->residual);
+    for (int i = 0; i < kkt->size; i++)
+        kkt->answer[i] += kkt->residual[i];
+    return vector_largest(kkt->residual, kkt->size);
+}
+
 static void refine(Kkt *kkt)
 {
-    for (int sweep = 0; sweep < SWEEPS; sweep++) {
-        matrix_times(kkt->matrix, kkt->size, kkt->size, kkt->answer, kkt->residual);
-        for (int i = 0; i < kkt->size; i++)
-            kkt->residual[i] = kkt->right[i] - kkt->residual[i];
-        lu_solve(kkt->lu, kkt->residual);
-        for (int i = 0; i < kkt->size; i++)
-            kkt->answer[i] += kkt->residual[i];
+    double before = INFINITY;
+
+    for (int sweep = 0; sweep < MOST_SWEEPS; sweep++) {
+        const double size = refine_once(kkt);
+
+        if (size <= ROUNDING * vector_largest(kkt->answer, kkt->size) ||
+            (sweep + 1 >= SWEEPS && !(size < CONTRACTION * before)))
+            break;
+        before = size;
     }
 }
 
@@ -297,6 +328,8 @@ void kkt_solve(Kkt *kkt, const double *top, const double *bottom, double *du, do
     lu_solve(kkt->lu, kkt->answer);
     if (kkt->regularised)
         refine(kkt);
+    else if (lu_pivot_ratio(kkt->lu) < SUSPECT)
+        (void)refine_once(kkt);
     for (int i = 0; i < nu; i++)
         du[i] = kkt->answer[i] * kkt->scale[i];
     for (int k = 0; k < kkt->m; k++)

@@ -2,10 +2,12 @@
  *
  * M is nu x nu, symmetric, possibly singular; G holds the m constraint rows in use. Unknowns
  * are scaled to unit mass and rows of G to unit mass-norm at its largest so far. Near a singular
- * configuration (least pivot of G M^-1 G^T under 1e-5 of the largest) a small -epsilon in the empty
- * corner keeps the solution bounded, and two sweeps of refinement against the true matrix take its
- * effect back where the equations determine the answer (quasi-definite regularisation, Vanderbei
- * 1995). */
+ * configuration a small -epsilon in the empty corner keeps the solution bounded, and sweeps of
+ * refinement against the true matrix take its effect back where the equations determine the answer
+ * (quasi-definite regularisation, Vanderbei 1995).
+ *
+ * A configuration is singular by its geometry, whatever the masses: what counts are the pivots of
+ * G G^T, columns and rows of G brought to like size. */
 #ifndef COTREE_SIMULATE_KKT_H
 #define COTREE_SIMULATE_KKT_H
 
@@ -13,7 +15,8 @@
 
 typedef struct Kkt Kkt;
 
-Kkt *kkt_new(int nu, int m); /* new; free with kkt_free() */
+/* New, for m rows in use of `all`; free with kkt_free(). */
+Kkt *kkt_new(int nu, int m, int all);
 void kkt_free(Kkt *kkt);     /* NULL is fine */
 /* Factor. `rows` picks the m rows of phi_u (row by row, nu columns); borrowed during the call.
  * False when no solution can be had at all: M singular where nothing holds it, or NaN. O((nu+m)^3).

@@ -97,16 +97,19 @@ static Status hand_over(March *m, Diag *diag)
     return stiff->start(m->stepper, t, m->y, diag);
 }
 
-/* The same accelerations by other independent ones: the integrator needn't know. */
-static void repartition(March *m)
+/* The accelerations stay the same, so that a stepper needn't know, except where multipliers of rows
+ * are among its unknowns. */
+static Status renew(March *m, Diag *diag)
 {
-    const Stepper *s = m->stepper;
+    Stepper *s = m->stepper;
+    const Renewed renewed = motion_renew(m->leg.motion, s->t, s->y);
 
-    if (!motion_is_worn(m->leg.motion))
-        return;
-    memcpy(m->y, s->y, (size_t)m->length * sizeof(double));
-    if (motion_project(m->leg.motion, s->t, m->y) && motion_repartition(m->leg.motion, s->t, m->y))
+    if (renewed.independent)
         text_addf(&m->out->remarks, "independent coordinates chosen anew at t = %.6g s\n", s->t);
+    if (!renewed.rows || s->method != &method_ida)
+        return OK;
+    memcpy(m->y, s->y, (size_t)m->length * sizeof(double));
+    return s->method->start(s, s->t, m->y, diag);
 }
 
 static Status one_step(March *m, double end, Diag *diag)
@@ -128,7 +131,7 @@ static Status one_step(March *m, double end, Diag *diag)
         m->scanned = when;
     }
     CHECK(march_add_rows(m, diag));
-    repartition(m);
+    CHECK(renew(m, diag));
     if (m->plan->method == NULL && m->stepper->is_stiff &&
         !(m->leg.stiff_decays && m->stepper->swings))
         CHECK(hand_over(m, diag));
@@ -304,7 +307,7 @@ static Status run(March *m, const double *start, Diag *diag)
 
     memcpy(m->y, start, (size_t)m->length * sizeof(double));
     CHECK(samples_take(m->leg.samples, plan->from, m->y, &due, diag));
-    (void)motion_repartition(m->leg.motion, plan->from, m->y);
+    motion_partition(m->leg.motion, plan->from, m->y);
     if (!plan->skip_first && !march_add_row(m, plan->from))
         return solver_failure(diag, plan->from, "the start does not meet the constraints");
     memcpy(m->stepper->y, m->y, (size_t)m->length * sizeof(double));

@@ -17,13 +17,17 @@
 #define PROJECTION_SWEEPS 8
 #define TURNS             50
 #define SLACK             0.03 /* rad: what a step may leave between an angle and its reference */
-#define WORN              0.1  /* of Phi_d's pivot ratio when it was chosen */
+#define SUSPECT           1e-2 /* pivot ratio of Phi_d above which no position is singular */
+#define WORN              0.1  /* of the rows' pivot ratio when they were chosen */
+#define POOR              1e-2 /* pivot ratio of rows that others may better */
 
 struct Motion {
     const Equations *eq;
     MotionOptions options;
     int *rows, *wanted;
-    int used; /* constraint rows in use */
+    int used;              /* constraint rows in use */
+    double row_ratio;      /* their pivots when they were chosen; 0: not known yet */
+    bool is_repartitioned; /* since the last renewal */
     Ode ode;
     double low, high; /* time window of evaluations */
     Kkt *kkt;
@@ -38,6 +42,7 @@ struct Motion {
     MotionCounts counts;
 };
 
+static bool choose_independent(Motion *mo);
 static bool rate(void *context, double t, const double *y, double *out);
 static bool project(void *context, double t, double *y);
 static bool dae_residual(void *context, double t, const double *w, const double *w_rate,
@@ -95,7 +100,7 @@ Motion *motion_new(const Equations *eq, const MotionOptions *options)
     mo->options.independent = mo->wanted;
     mo->low = -INFINITY;
     mo->high = INFINITY;
-    mo->kkt = kkt_new(eq->nu, mo->used);
+    mo->kkt = kkt_new(eq->nu, mo->used, eq->m);
     if (options->embedded)
         mo->embed = embed_new(eq->nu, mo->used);
     mo->network = netsolve_new(eq);
@@ -286,10 +291,23 @@ static bool solve_augmented(Motion *mo)
     return true;
 }
 
+/* Accelerations don't depend on which speeds are independent, as long as Phi_d is sound: where it
+ * is worn others are taken, in the middle of a step too. Near a singular position no choice is
+ * sound, and the augmented form tells the same accelerations. */
 static bool solve_embedded(Motion *mo)
 {
-    if (!factor_embedded(mo))
-        return false;
+    bool sound = factor_embedded(mo);
+
+    if (!sound || embed_condition(mo->embed) < WORN) {
+        mo->is_repartitioned = choose_independent(mo) || mo->is_repartitioned;
+        sound = factor_embedded(mo);
+    }
+    if (!sound || embed_pivots(mo->embed) < SUSPECT) {
+        if (!solve_augmented(mo))
+            return false;
+        if (!sound || kkt_is_regularised(mo->kkt))
+            return true;
+    }
     pick_rows(mo, mo->eq->gamma, mo->bottom);
     embed_solve(mo->embed, mo->eq->force, mo->bottom, mo->du);
     return true;
@@ -565,29 +583,75 @@ void motion_residuals(Motion *mo, double t, const double *y, double *position, d
 
 /* --- embedded form --- */
 
-bool motion_repartition(Motion *mo, double t, const double *y)
+static bool choose_independent(Motion *mo)
 {
-    int freedoms = mo->eq->nu - mo->used;
-    bool changed = false;
+    const int freedoms = mo->eq->nu - mo->used;
+    bool changed;
     int *before;
 
-    if (mo->embed == NULL)
-        return false;
     before = NEW_ARRAY(int, freedoms);
     memcpy(before, embed_independent(mo->embed), (size_t)freedoms * sizeof(int));
-    at_position(mo, t, y);
     mo->is_embedded_factored = false;
-    if (embed_choose(mo->embed, mo->eq->phi_u, mo->rows, mo->wanted, mo->options.independent_count))
-        changed = memcmp(before, embed_independent(mo->embed), (size_t)freedoms * sizeof(int)) != 0;
-    (void)factor_embedded(mo);
+    changed = embed_choose(mo->embed, mo->eq->phi_u, mo->rows, mo->wanted,
+                           mo->options.independent_count) &&
+              memcmp(before, embed_independent(mo->embed), (size_t)freedoms * sizeof(int)) != 0;
     mo->options.independent_count = 0; /* a later choice is by pivots alone */
     mem_free(before);
     return changed;
 }
 
-bool motion_is_worn(const Motion *mo)
+void motion_partition(Motion *mo, double t, const double *y)
 {
-    return mo->embed != NULL && embed_condition(mo->embed) < WORN;
+    if (mo->embed == NULL)
+        return;
+    at_position(mo, t, y);
+    (void)choose_independent(mo);
+    (void)factor_embedded(mo);
+    mo->is_repartitioned = false;
+}
+
+/* Other rows in place of worn ones, where all of them offer better. */
+static bool renew_rows(Motion *mo)
+{
+    const Equations *eq = mo->eq;
+    int *rows;
+    double ratio;
+    bool changed;
+
+    if (mo->used == eq->m || mo->used == 0)
+        return false;
+    ratio = rank_ratio(eq->phi_u, eq->nu, mo->rows, mo->used);
+    if (mo->row_ratio == 0)
+        mo->row_ratio = ratio;
+    if (ratio > fmax(WORN * mo->row_ratio, POOR))
+        return false;
+    rows = NEW_ARRAY(int, mo->used);
+    mo->row_ratio = rank_choose(eq->phi_u, eq->m, eq->nu, mo->used, rows);
+    changed =
+        mo->row_ratio > ratio / WORN && memcmp(rows, mo->rows, (size_t)mo->used * sizeof(int)) != 0;
+    if (changed)
+        memcpy(mo->rows, rows, (size_t)mo->used * sizeof(int));
+    else
+        mo->row_ratio = ratio;
+    mem_free(rows);
+    return changed;
+}
+
+Renewed motion_renew(Motion *mo, double t, const double *y)
+{
+    Renewed renewed = {.independent = mo->is_repartitioned};
+
+    mo->is_repartitioned = false;
+    if (mo->used == mo->eq->m || mo->used == 0)
+        return renewed;
+    at_position(mo, t, y);
+    renewed.rows = renew_rows(mo);
+    if (renewed.rows) {
+        mo->is_factored = false;
+        if (mo->embed != NULL)
+            renewed.independent = choose_independent(mo) || renewed.independent;
+    }
+    return renewed;
 }
 
 static int motion_freedoms(const Motion *mo)

@@ -69,7 +69,7 @@ void equations_normalise(const Equations *equations, double *q);
 
 typedef struct MotionOptions {
     bool embedded;
-    const int *rows; /* constraint rows in use, independent ones */
+    const int *rows; /* constraint rows in use at first, independent ones */
     int row_count;
     const int *independent; /* speeds asked for as independent (embedded); may be NULL */
     int independent_count;
@@ -112,11 +112,16 @@ void motion_offer(Motion *motion, const Dae *dae);
 /* atol of the run, once it is known: bounds what a projection may leave */
 void motion_tolerance(Motion *motion, double tolerance);
 
-/* Choose independent speeds anew at y, which lies on the manifold; true when they changed. Does
- * nothing in the augmented form. */
-bool motion_repartition(Motion *motion, double t, const double *y);
-/* whether the partition has become ill-conditioned since it was chosen */
-bool motion_is_worn(const Motion *motion);
+/* What was chosen at a configuration and wears out along the way: independent speeds of the
+ * embedded form, and constraint rows where some are redundant. Off the manifold a redundant row
+ * looks independent, so that rows are chosen where a state has been projected. */
+typedef struct Renewed {
+    bool rows, independent; /* chosen anew since the last call, and now others */
+} Renewed;
+/* Choose independent speeds at y, as asked for; does nothing in the augmented form. */
+void motion_partition(Motion *motion, double t, const double *y);
+/* At y, just projected: choose anew what has worn out. */
+Renewed motion_renew(Motion *motion, double t, const double *y);
 
 typedef struct MotionCounts {
     int64_t factorisations;

@@ -56,10 +56,36 @@ static double row_norm(const double *row, int n)
     return norm;
 }
 
+/* rows of the matrix (NULL: all of them) as columns of unit size; new */
+static gsl_matrix *unit_rows(const double *matrix, int nu, const int *rows, int count)
+{
+    gsl_matrix *out = gsl_matrix_alloc((size_t)nu, (size_t)count);
+    double largest = 0;
+
+    for (int k = 0; k < count; k++)
+        largest = fmax(largest, row_norm(matrix + (rows != NULL ? rows[k] : k) * nu, nu));
+    for (int k = 0; k < count; k++) {
+        const double *row = matrix + (rows != NULL ? rows[k] : k) * nu;
+        double norm = row_norm(row, nu);
+        bool is_zero = !(norm > 1e-10 * largest); /* rounding alone */
+
+        for (int j = 0; j < nu; j++)
+            gsl_matrix_set(out, (size_t)j, (size_t)k, is_zero ? 0 : row[j] / norm);
+    }
+    return out;
+}
+
+/* the first `count` in order of pivots, rising, then the others, rising */
+static void put_order(const Pivoted *p, int m, int count, int *order)
+{
+    for (int k = 0; k < m; k++)
+        order[k] = (int)gsl_permutation_get(p->order, (size_t)k);
+    qsort(order, (size_t)count, sizeof(int), rising);
+    qsort(order + count, (size_t)(m - count), sizeof(int), rising);
+}
+
 int rank_rows(const double *matrix, int m, int nu, double threshold, int *order)
 {
-    double largest = 0;
-    gsl_matrix *transpose;
     Pivoted p;
 
     if (m == 0 || nu == 0) {
@@ -67,26 +93,51 @@ int rank_rows(const double *matrix, int m, int nu, double threshold, int *order)
             order[k] = k;
         return 0;
     }
-    transpose = gsl_matrix_alloc((size_t)nu, (size_t)m);
-    for (int k = 0; k < m; k++)
-        largest = fmax(largest, row_norm(matrix + k * nu, nu));
-    for (int k = 0; k < m; k++) {
-        double norm = row_norm(matrix + k * nu, nu);
-        bool is_zero = !(norm > 1e-10 * largest); /* rounding alone */
-
-        for (int j = 0; j < nu; j++)
-            gsl_matrix_set(transpose, (size_t)j, (size_t)k,
-                           is_zero ? 0 : matrix[k * nu + j] / norm);
-    }
-    p = factor(transpose, threshold);
-    if (order != NULL) {
-        for (int k = 0; k < m; k++)
-            order[k] = (int)gsl_permutation_get(p.order, (size_t)k);
-        qsort(order, (size_t)p.rank, sizeof(int), rising);
-        qsort(order + p.rank, (size_t)(m - p.rank), sizeof(int), rising);
-    }
+    p = factor(unit_rows(matrix, nu, NULL, m), threshold);
+    if (order != NULL)
+        put_order(&p, m, p.rank, order);
     release(&p);
     return p.rank;
+}
+
+static double pivot_ratio(const Pivoted *p, int count)
+{
+    const double first = fabs(gsl_matrix_get(p->qr, 0, 0));
+    const double last = fabs(gsl_matrix_get(p->qr, (size_t)count - 1, (size_t)count - 1));
+
+    return first > 0 ? last / first : 0;
+}
+
+double rank_choose(const double *matrix, int m, int nu, int count, int *rows)
+{
+    int *order;
+    double ratio;
+    Pivoted p;
+
+    if (count == 0)
+        return 1;
+    order = NEW_ARRAY(int, m);
+    p = factor(unit_rows(matrix, nu, NULL, m), 0);
+    put_order(&p, m, count, order);
+    for (int k = 0; k < count; k++)
+        rows[k] = order[k];
+    ratio = pivot_ratio(&p, count);
+    release(&p);
+    mem_free(order);
+    return ratio;
+}
+
+double rank_ratio(const double *matrix, int nu, const int *rows, int count)
+{
+    double ratio;
+    Pivoted p;
+
+    if (count == 0)
+        return 1;
+    p = factor(unit_rows(matrix, nu, rows, count), 0);
+    ratio = pivot_ratio(&p, count);
+    release(&p);
+    return ratio;
 }
 
 void rank_least_multipliers(const double *phi_u, int m, int nu, double *lambda)

@@ -8,6 +8,13 @@
  * Loan (2013), 5.4.2. */
 int rank_rows(const double *matrix, int m, int nu, double threshold, int *order);
 
+/* The `count` rows that are the least dependent on each other, rising, and what is told of them is
+ * rank_ratio(). O(nu m count). */
+double rank_choose(const double *matrix, int m, int nu, int count, int *rows);
+/* Least over largest pivot of some rows, brought to unit size first: how independent they are.
+ * O(nu count^2). */
+double rank_ratio(const double *matrix, int nu, const int *rows, int count);
+
 /* The least multipliers of those that give the same forces: lambda's part in the range of
  * phi_u. In place. O(nu m^2). */
 void rank_least_multipliers(const double *phi_u, int m, int nu, double *lambda);

@@ -357,7 +357,7 @@ static bool solve_speeds(Reset *reset)
     for (int k = 0; k < reset->targets.count; k++)
         if (is_chosen(reset, k, LEVEL_VELOCITY))
             rows[count++] = all++;
-    kkt = kkt_new(eq->nu, count);
+    kkt = kkt_new(eq->nu, count, room);
     eq->position(eq->context, reset->t, reset->y);
     for (int sweep = 0; sweep <= SWEEPS && sound; sweep++) {
         velocity_rows(reset, matrix, missing);

@@ -90,7 +90,7 @@ static double kkt_residual(const double *mass, const double *phi_u, const double
 static void kkt_and_embedded_form_agree(void)
 {
     uint64_t seed = 2;
-    Kkt *kkt = kkt_new(NU, M);
+    Kkt *kkt = kkt_new(NU, M, M);
     Embed *embed = embed_new(NU, M);
 
     for (int trial = 0; trial < 100; trial++) {
@@ -131,7 +131,7 @@ static void massless_speeds_are_held_by_their_constraints(void)
     const double mass[9] = {1, 0, 0, 0, 1, 0, 0, 0, 0}, phi_u[6] = {1, 0, 0, 0, 1, 1};
     const double top[3] = {0, -9.81, 0}, bottom[2] = {0, 0};
     double du[3], lambda[2];
-    Kkt *kkt = kkt_new(3, 2);
+    Kkt *kkt = kkt_new(3, 2, 2);
 
     EXPECT(kkt_factor(kkt, mass, phi_u, all_rows));
     EXPECT(!kkt_is_regularised(kkt));
@@ -145,7 +145,7 @@ static void massless_speeds_are_held_by_their_constraints(void)
 static void a_free_massless_speed_has_no_acceleration(void)
 {
     const double mass[4] = {1, 0, 0, 0}, phi_u[2] = {1, 0};
-    Kkt *kkt = kkt_new(2, 1), *bare = kkt_new(2, 0);
+    Kkt *kkt = kkt_new(2, 1, 1), *bare = kkt_new(2, 0, 0);
 
     EXPECT(!kkt_factor(bare, mass, NULL, NULL));
     EXPECT(!kkt_factor(kkt, mass, phi_u, all_rows));
@@ -158,7 +158,7 @@ static void a_row_that_fades_is_regularised(void)
     double mass[4] = {1, 0, 0, 1}, phi_u[4] = {1, 0, 1, 1};
     const double top[2] = {1, 0}, bottom[2] = {0, 0};
     double du[2], lambda[2];
-    Kkt *kkt = kkt_new(2, 2);
+    Kkt *kkt = kkt_new(2, 2, 2);
 
     EXPECT(kkt_factor(kkt, mass, phi_u, all_rows));
     EXPECT(!kkt_is_regularised(kkt));
@@ -172,6 +172,46 @@ static void a_row_that_fades_is_regularised(void)
     EXPECT(kkt_factor(kkt, mass, phi_u, all_rows));
     kkt_solve(kkt, top, bottom, du, lambda);
     EXPECT_NEAR(lambda[0] + lambda[1], 1, 1e-6);
+    kkt_free(kkt);
+}
+
+/* a light slide between two heavy ones, the second of which hangs on it: no position of it is
+ * singular, whatever the masses are */
+static void a_light_part_between_heavy_ones_is_no_singularity(void)
+{
+    const double phi_u[6] = {1, -1, 0, 0, 1, -1};
+    const double bottom[2] = {0, 0};
+
+    for (double ratio = 1e-8; ratio < 1e9; ratio *= 10) {
+        const double mass[9] = {1, 0, 0, 0, ratio, 0, 0, 0, 1}, top[3] = {0, 0, 1};
+        double du[3], lambda[2];
+        Kkt *kkt = kkt_new(3, 2, 2);
+
+        EXPECT(kkt_factor(kkt, mass, phi_u, all_rows));
+        EXPECT(!kkt_is_regularised(kkt));
+        kkt_solve(kkt, top, bottom, du, lambda);
+        EXPECT_NEAR(du[0] * (2 + ratio), 1, 1e-13);
+        EXPECT_NEAR(lambda[1] * (2 + ratio), -(1 + ratio), 1e-13 * (2 + ratio));
+        kkt_free(kkt);
+    }
+}
+
+/* what epsilon holds back is what is singular; the rest is exact all the same */
+static void what_is_only_nearly_singular_is_exact(void)
+{
+    double mass[9] = {1, 0, 0, 0, 1e-4, 0, 0, 0, 1}, phi_u[6] = {1, 0, 0, 1, 1, 0};
+    const double top[3] = {1, 2, 3}, bottom[2] = {0, 1e-3};
+    double du[3], lambda[2];
+    Kkt *kkt = kkt_new(3, 2, 2);
+
+    EXPECT(kkt_factor(kkt, mass, phi_u, all_rows));
+    phi_u[4] = 1e-3; /* the rows become parallel */
+    EXPECT(kkt_factor(kkt, mass, phi_u, all_rows));
+    EXPECT(kkt_is_regularised(kkt));
+    kkt_solve(kkt, top, bottom, du, lambda);
+    EXPECT_NEAR(du[0], 0, 1e-12);
+    EXPECT_NEAR(du[1], 1, 1e-9);
+    EXPECT_NEAR(du[2], 3, 1e-12);
     kkt_free(kkt);
 }
 
@@ -249,6 +289,8 @@ int main(void)
     RUN(massless_speeds_are_held_by_their_constraints);
     RUN(a_free_massless_speed_has_no_acceleration);
     RUN(a_row_that_fades_is_regularised);
+    RUN(a_light_part_between_heavy_ones_is_no_singularity);
+    RUN(what_is_only_nearly_singular_is_exact);
     RUN(rank_finds_the_row_that_follows);
     RUN(least_multipliers_give_the_same_forces);
     RUN(least_squares_goes_to_the_near_solution);
