@@ -146,25 +146,27 @@ typedef enum RelationKind {
     RELATION_IDEAL       /* closed v = on i + least, open i = v/off: see Ideal */
 } RelationKind;
 
-/* A switch or diode without resistance on one side or on both. Runs take the side that it is on as
- * its relation; elsewhere both are one equation, which gives neither v nor i. */
+/* A switch or diode. Runs take the side that it is on as its relation. Elsewhere both sides are one
+ * equation, which of an ideal one, without resistance on one side or on both, gives neither v nor
+ * i. Closed v = on i + least, but through the open side's v = least, i = least/off. */
 typedef struct Ideal {
-    Expr when;  /* what closes it; NULL: a diode, which closes at v > least and opens at i < 0 */
+    Expr when;  /* what closes it; NULL: a diode, which closes at v > least and opens below */
     Expr on;    /* resistance when it is closed, or 0 */
-    Expr off;   /* when it is open; NULL: nothing flows. A diode has none */
-    Expr least; /* across it when it is closed */
+    Expr off;   /* when it is open; NULL: nothing flows */
+    Expr least; /* across it when it begins to conduct */
 } Ideal;
 
 /* of one scalar edge; over t, parameters and the user's variables, its own among them */
 typedef struct Relation {
     RelationKind kind;
     Expr value;
-    Expr inverse; /* RESISTIVE whose value holds the edge's own i: i over its v; may be NULL */
-    Expr content; /* charge or flux; its kin in other domains */
-    Expr rest;    /* back-emf, resistance of a winding; 0 */
-    Expr stored;  /* energy in the edge, J; NULL: none, or it isn't known in closed form */
-    Expr smooth;  /* what `value` holds the rate of, so that it may not jump; NULL: nothing */
-    Ideal ideal;  /* of RELATION_IDEAL */
+    Expr inverse;  /* RESISTIVE whose value holds the edge's own i: i over its v; may be NULL */
+    Expr content;  /* charge or flux; its kin in other domains */
+    Expr rest;     /* back-emf, resistance of a winding; 0 */
+    Expr stored;   /* energy in the edge, J; NULL: none, or it isn't known in closed form */
+    Expr smooth;   /* what `value` holds the rate of, so that it may not jump; NULL: nothing */
+    Ideal ideal;   /* of RELATION_IDEAL, and where the part `switches` */
+    bool switches; /* between two resistances: `ideal` tells them, `value` holds both */
 } Relation;
 
 /* a state of a part's own, x' = rate, or one that is held and replaced at each sampling instant */

@@ -65,33 +65,39 @@ static Expr exponential(const Instance *instance, Arena *arena, Expr v)
 static Expr piecewise(const Instance *instance, Arena *arena, Expr v, Expr excess)
 {
     Expr zero = expr_int(arena, 0);
-    Expr above = expr_div(arena, excess, instance_scalar(instance, "Ron"));
-    Expr leak;
+    Expr leak = instance_scalar(instance, "Roff");
+    Expr above = expr_add(arena, expr_div(arena, excess, instance_scalar(instance, "Ron")),
+                          expr_div(arena, instance_scalar(instance, "Vf"), leak));
 
-    if (!given(instance, "Roff"))
-        return expr_call2(arena, OP_MAX, zero, above);
-    leak = instance_scalar(instance, "Roff");
-    above = expr_add(arena, above, expr_div(arena, instance_scalar(instance, "Vf"), leak));
     return expr_if(arena, expr_call2(arena, OP_LT, zero, excess), above, expr_div(arena, v, leak));
+}
+
+/* what an instance has for its two sides */
+static Ideal two_sides(const Instance *instance, Expr when, Expr least)
+{
+    return (Ideal){.when = when,
+                   .on = instance_scalar(instance, "Ron"),
+                   .off = given(instance, "Roff") ? instance_scalar(instance, "Roff") : NULL,
+                   .least = least};
 }
 
 static void diode_relation(const Instance *instance, Arena *arena, int which, const Motion1 *motion,
                            Relation *out)
 {
-    Expr excess = expr_sub(arena, motion->across, instance_scalar(instance, "Vf"));
+    Expr least = instance_scalar(instance, "Vf");
+    Expr excess = expr_sub(arena, motion->across, least);
 
     (void)which;
-    if (given(instance, "Is")) {
+    if (given(instance, "Is"))
         *out = (Relation){.kind = RELATION_CONDUCTIVE,
                           .value = exponential(instance, arena, motion->across)};
-    } else if (given(instance, "Ron")) {
+    else if (given(instance, "Roff"))
         *out = (Relation){.kind = RELATION_CONDUCTIVE,
-                          .value = piecewise(instance, arena, motion->across, excess)};
-    } else {
-        *out = (Relation){
-            .kind = RELATION_IDEAL,
-            .ideal = {.on = expr_int(arena, 0), .least = instance_scalar(instance, "Vf")}};
-    }
+                          .value = piecewise(instance, arena, motion->across, excess),
+                          .ideal = two_sides(instance, NULL, least),
+                          .switches = true};
+    else
+        *out = (Relation){.kind = RELATION_IDEAL, .ideal = two_sides(instance, NULL, least)};
 }
 
 static Status diode_check(const Instance *instance, Arena *arena, bool planar, Diag *diag)
@@ -156,20 +162,17 @@ static void switch_relation(const Instance *instance, Arena *arena, int which,
                             const Motion1 *motion, Relation *out)
 {
     Expr when = instance_scalar(instance, "when");
-    Expr on = instance_scalar(instance, "Ron");
-    Expr off = instance_scalar(instance, "Roff");
+    Ideal sides = two_sides(instance, when, expr_int(arena, 0));
 
     (void)which, (void)motion;
-    if (given(instance, "Ron") && given(instance, "Roff"))
+    if (sides.off != NULL && !expr_is_zero(sides.on))
         *out = (Relation){.kind = RELATION_RESISTIVE,
-                          .value = expr_if(arena, when, on, off),
-                          .rest = expr_int(arena, 0)};
+                          .value = expr_if(arena, when, sides.on, sides.off),
+                          .rest = expr_int(arena, 0),
+                          .ideal = sides,
+                          .switches = true};
     else
-        *out = (Relation){.kind = RELATION_IDEAL,
-                          .ideal = {.when = when,
-                                    .on = on,
-                                    .off = given(instance, "Roff") ? off : NULL,
-                                    .least = expr_int(arena, 0)}};
+        *out = (Relation){.kind = RELATION_IDEAL, .ideal = sides};
 }
 
 static Status switch_check(const Instance *instance, Arena *arena, bool planar, Diag *diag)

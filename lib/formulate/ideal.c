@@ -19,16 +19,35 @@
 static Expr both_sides(System *system, const Ideal *ideal, Expr v, Expr i)
 {
     Arena *arena = system->arena;
-    Expr excess = expr_sub(arena, v, ideal->least);
+    Expr closed = expr_sub(arena, expr_sub(arena, v, ideal->least), expr_mul(arena, ideal->on, i));
     Expr open = i;
 
     if (ideal->when == NULL)
         return expr_sub(arena, i,
-                        expr_call2(arena, OP_MAX, expr_int(arena, 0), expr_add(arena, i, excess)));
+                        expr_call2(arena, OP_MAX, expr_int(arena, 0), expr_add(arena, i, closed)));
     if (ideal->off != NULL)
         open = expr_sub(arena, v, expr_mul(arena, ideal->off, i));
-    return expr_if(arena, ideal->when, expr_sub(arena, excess, expr_mul(arena, ideal->on, i)),
-                   open);
+    return expr_if(arena, ideal->when, closed, open);
+}
+
+/* Between two resistances: the side is a number of the run, and the equation of both is this one,
+ * which gives neither v nor i: a large resistance times a current, and a voltage over a small one,
+ * would tell little but rounding.
+ *
+ *     closed = 1: v = on (i - least/off) + least, closed = 0: v/off = i */
+static Expr either_side(System *system, Expr closed, const Ideal *ideal, Expr v, Expr i)
+{
+    Arena *arena = system->arena;
+    Expr one = expr_int(arena, 1);
+    Expr meets =
+        expr_mul(arena, ideal->least, expr_sub(arena, one, expr_div(arena, ideal->on, ideal->off)));
+
+    return expr_add(
+        arena,
+        expr_mul(arena, closed,
+                 expr_sub(arena, expr_sub(arena, v, meets), expr_mul(arena, ideal->on, i))),
+        expr_mul(arena, expr_sub(arena, one, closed),
+                 expr_sub(arena, expr_div(arena, v, ideal->off), i)));
 }
 
 /* one side, as the relation of a source or a resistor */
@@ -57,16 +76,23 @@ static void one_side(System *system, bool closed, Relation *relation)
 void ideal_take_side(System *system, Branchlike *branch)
 {
     const Instance *instance = &system->instances[branch->instance];
+    const char *name = graph_edge(system->graph, branch->edge)->name;
     Relation *relation = &branch->relation;
+    Expr v = instance_across(instance, system->arena, branch->which);
+    Expr i = instance_through(instance, system->arena, branch->which);
 
     branch->ideal = system->ideals.count;
     LIST_PUSH(system->ideals, (int)(branch - system->branches.at));
-    if (system->closed != NULL)
+    if (relation->switches && system->takes_sides) {
+        branch->closed =
+            expr_symbol(system->arena, system_keep(system, "#%s.closed", name), SYMBOL_PARAMETER);
+        relation->kind = RELATION_IDEAL;
+        relation->value = either_side(system, branch->closed, &relation->ideal, v, i);
+    } else if (relation->kind == RELATION_IDEAL && system->closed != NULL) {
         one_side(system, system->closed[branch->ideal], relation);
-    else
-        relation->value = both_sides(system, &relation->ideal,
-                                     instance_across(instance, system->arena, branch->which),
-                                     instance_through(instance, system->arena, branch->which));
+    } else if (relation->kind == RELATION_IDEAL) {
+        relation->value = both_sides(system, &relation->ideal, v, i);
+    }
 }
 
 /* --- what sources of nothing share --- */
@@ -74,7 +100,7 @@ void ideal_take_side(System *system, Branchlike *branch)
 /* an ideal switch without resistance on that side */
 static bool is_on_side(const Branchlike *branch, RelationKind kind)
 {
-    return branch->ideal >= 0 && branch->relation.kind == kind;
+    return branch->ideal >= 0 && !branch->relation.switches && branch->relation.kind == kind;
 }
 
 /* of a closed chord: i around the circuit. Where voltages are left over there is none. */
@@ -173,15 +199,60 @@ int system_ideal_count(const System *system)
     return system->ideals.count;
 }
 
+static const Branchlike *switching(const System *system, int i)
+{
+    return &system->branches.at[system->ideals.at[i]];
+}
+
+bool system_is_ideal(const System *system, int i)
+{
+    return !switching(system, i)->relation.switches;
+}
+
+int system_truly_ideal_count(const System *system)
+{
+    int count = 0;
+
+    for (int i = 0; i < system->ideals.count; i++)
+        count += system_is_ideal(system, i);
+    return count;
+}
+
+Expr system_side(const System *system, int i)
+{
+    return switching(system, i)->closed;
+}
+
+bool system_has_modes(const System *system)
+{
+    if (system->ideals.count == 0)
+        return false;
+    return system_truly_ideal_count(system) > 0 ||
+           (system->network_form == system->asked_form &&
+            (system->network_form == NETWORK_STATE || !system->leaves_trees));
+}
+
 /* where the unknown of the branch, and so its equation, stands in [x'; z] */
 static int row_of(const System *system, const Branchlike *branch)
 {
-    if (system->closed != NULL || branch->unknown < 0)
+    if (system->closed != NULL || branch->unknown < 0 || branch->relation.switches)
         return -1;
     for (int k = 0; k < system->z.count; k++)
         if (system->z.at[k].symbol == system->unknowns.at[branch->unknown].symbol)
             return system->x.count + k;
     return -1;
+}
+
+/* of a diode in a mode: of an open one its voltage backwards, of a closed one its current */
+static Expr margin_of(const System *system, int i, const IdealSwitch *diode)
+{
+    Arena *arena = system->arena;
+    Expr backwards = expr_neg(arena, diode->across);
+
+    if (diode->closed == NULL)
+        return system->closed[i] ? diode->through : backwards;
+    return expr_add(arena, expr_mul(arena, diode->closed, diode->through),
+                    expr_mul(arena, expr_sub(arena, expr_int(arena, 1), diode->closed), backwards));
 }
 
 Status system_ideal(System *system, int i, IdealSwitch *out, Diag *diag)
@@ -198,12 +269,16 @@ Status system_ideal(System *system, int i, IdealSwitch *out, Diag *diag)
     CHECK(resolve(system, ideal->least, &found.least, diag));
     CHECK(resolve(system, ideal->on, &found.on, diag));
     found.across = expr_sub(system->arena, found.across, found.least);
+    found.closed = branch->closed;
     if (ideal->off != NULL)
         CHECK(resolve(system, ideal->off, &found.off, diag));
     if (ideal->when != NULL)
         CHECK(resolve(system, ideal->when, &found.when, diag));
-    else if (system->closed != NULL)
-        found.margin = system->closed[i] ? found.through : expr_neg(system->arena, found.across);
+    else if (ideal->off != NULL)
+        found.through =
+            expr_sub(system->arena, found.through, expr_div(system->arena, found.least, found.off));
+    if (ideal->when == NULL && system->closed != NULL)
+        found.margin = margin_of(system, i, &found);
     *out = found;
 done:
     return status;

@@ -91,7 +91,7 @@ static void read_relation(System *system, Branchlike *branch)
     instance->row->relation(&source, arena, branch->which, &motion, &branch->relation);
     if (system->leak != NULL)
         add_leak(system, motion.across, &branch->relation);
-    if (branch->relation.kind == RELATION_IDEAL)
+    if (branch->relation.kind == RELATION_IDEAL || branch->relation.switches)
         ideal_take_side(system, branch);
 }
 

@@ -356,6 +356,7 @@ typedef struct Order {
     Expr leak;
     const bool *closed; /* sides of ideal switches; NULL: in no mode */
     int closed_count;
+    bool takes_sides; /* of other switches as numbers */
     const Watch *watch;
 } Order;
 
@@ -385,6 +386,7 @@ static Status make_as(const Order *order, bool *has_no_states, System **out, Dia
     system->network_form = order->taken;
     system->leak = order->leak;
     system->closed = keep_sides(system, order);
+    system->takes_sides = order->takes_sides;
     system->watch = watch;
     system->planar = model_is_planar(model);
     for (int i = 0; i < 3; i++)
@@ -442,6 +444,7 @@ Status system_new_like(const System *other, const Model *model, VaryValue vary, 
                         .context = context,
                         .closed = other->closed,
                         .closed_count = other->ideals.count,
+                        .takes_sides = other->takes_sides,
                         .watch = watch},
                 out, diag);
 }
@@ -465,33 +468,74 @@ Status system_new(const Model *model, const Watch *watch, System **out, Diag *di
     return system_new_form(model, model_network_form(model), watch, out, diag);
 }
 
+/* the equations of sides that `whole` has none of yet */
+static Status make_sided(System *whole, const Model *model, const bool *closed, const Watch *watch,
+                         System **out, Diag *diag)
+{
+    Status status = OK;
+
+    if (whole->revision != model_revision(model)) {
+        (void)diag_set(diag, E_MODEL,
+                       "the switches ask for equations that aren't made yet, of a model that has "
+                       "changed since");
+        diag_hint(diag, "start a new run");
+        return E_MODEL;
+    }
+    CHECK(make((Order){.model = model,
+                       .closed = closed,
+                       .closed_count = whole->ideals.count,
+                       .takes_sides = true,
+                       .watch = watch},
+               out, diag));
+    (*out)->whole = whole;
+done:
+    return status;
+}
+
+/* whether the ideal switches are on the sides of that mode */
+static bool is_mode(const System *mode, const bool *closed)
+{
+    for (int i = 0; i < mode->ideals.count; i++)
+        if (system_is_ideal(mode, i) && mode->closed[i] != closed[i])
+            return false;
+    return true;
+}
+
 Status system_mode(System *whole, const Model *model, const bool *closed, const Watch *watch,
                    System **out, Diag *diag)
 {
-    size_t bytes = (size_t)whole->ideals.count * sizeof(bool);
     System *mode = NULL;
     Status status = OK;
 
     for (int i = 0; i < whole->modes.count; i++)
-        if (memcmp(whole->modes.at[i]->closed, closed, bytes) == 0) {
+        if (is_mode(whole->modes.at[i], closed)) {
             *out = whole->modes.at[i];
             return OK;
         }
-    if (whole->revision != model_revision(model)) {
-        (void)diag_set(diag, E_MODEL,
-                       "the ideal switches ask for equations that aren't made yet, of a model that "
-                       "has changed since");
-        diag_hint(diag, "start a new run");
-        return E_MODEL;
-    }
-    CHECK(make(
-        (Order){
-            .model = model, .closed = closed, .closed_count = whole->ideals.count, .watch = watch},
-        &mode, diag));
-    mode->whole = whole;
+    CHECK(make_sided(whole, model, closed, watch, &mode, diag));
     LIST_PUSH(whole->modes, mode);
     *out = mode;
 done:
+    return status;
+}
+
+Status system_sided(System *whole, const Model *model, const Watch *watch, System **out, Diag *diag)
+{
+    int ideal = system_truly_ideal_count(whole);
+    bool *closed = NULL;
+    Status status = OK;
+
+    if (ideal == whole->ideals.count)
+        whole->sided = whole;
+    else if (whole->sided == NULL && ideal > 0)
+        CHECK(make_sided(whole, model, NULL, watch, &whole->sided, diag));
+    else if (whole->sided == NULL) {
+        closed = NEW_ARRAY(bool, whole->ideals.count);
+        CHECK(system_mode(whole, model, closed, watch, &whole->sided, diag));
+    }
+    *out = whole->sided;
+done:
+    mem_free(closed);
     return status;
 }
 
@@ -499,6 +543,8 @@ void system_free(System *system)
 {
     if (system == NULL)
         return;
+    if (system->sided != NULL && system->sided != system && system->sided->closed == NULL)
+        system_free(system->sided); /* else it is one of the modes */
     for (int i = 0; i < system->modes.count; i++)
         system_free(system->modes.at[i]);
     LIST_FREE(system->modes);

@@ -238,20 +238,23 @@ Expr system_power(System *system);
  * first. Count, and *time_only how many of them: in a mode those that hold t alone in the whole. */
 int system_switches(System *system, const Expr **conditions, int *time_only);
 
-/* --- ideal switches: diodes and switches without resistance ---
+/* --- switches: diodes and switches, ideal or between two resistances ---
  *
- * A system holds both sides of each in one equation. Its modes are systems in which every one of
- * them is on a side, with the tree, the states and the equations of that. theory.md 8. */
+ * A system holds both sides of each in one equation. Its modes are systems in which every ideal one
+ * is on a side, with the tree, the states and the equations of that; the side of one between two
+ * resistances is a number there, which a run sets, since all else is the same. theory.md 8. */
 
 typedef struct IdealSwitch {
     const char *name;
     Domain domain;
     int row;         /* of G, where both sides are in one equation; else -1 */
     Expr when;       /* what closes it, of this system's variables; NULL: a diode */
-    Expr across;     /* less what is across it when it is closed and nothing flows */
-    Expr through;    /* both as this system tells them */
+    Expr across;     /* less what is across it where its sides meet, */
+    Expr through;    /* and less what flows there; both as this system tells them */
     Expr on;         /* across = on through when it is closed */
-    Expr off, least; /* across + least = off through when it is open; off NULL: nothing flows */
+    Expr off, least; /* across + least = off through when it is open, or, of a diode that leaks,
+                        across = off through; off NULL: nothing flows */
+    Expr closed;     /* symbol: 1 or 0, where the side is a number of the run; else NULL */
     Expr margin;     /* of a diode in a mode: positive as long as it stays on its side; else NULL */
 } IdealSwitch;
 
@@ -263,12 +266,22 @@ typedef struct ScalarPair {
 int system_scalar_count(const System *system);
 MUST_USE Status system_scalar(System *system, int i, ScalarPair *out, Diag *diag);
 
-int system_ideal_count(const System *system);
+int system_ideal_count(const System *system);      /* of all switches */
+bool system_is_ideal(const System *system, int i); /* else it is between two resistances */
+/* Whether runs go through modes: not with resistances alone where another form than that of states
+ * was asked for. */
+bool system_has_modes(const System *system);
+/* the symbol of a side that is a number in this system; NULL: it isn't */
+Expr system_side(const System *system, int i);
 /* Fails as system_resolve() does. */
 MUST_USE Status system_ideal(System *system, int i, IdealSwitch *out, Diag *diag);
-/* The system in which they are on these sides, one an ideal switch: made when asked for first, and
- * owned by `whole`. Fails as system_new() does where there is no such network, and with E_MODEL
- * where the model is no longer what `whole` was made of. */
+/* The system from which sides are found: `whole` with both sides of ideal switches in one equation,
+ * and numbers for those of others. Owned by it. Fails as system_mode(). */
+MUST_USE Status system_sided(System *whole, const Model *model, const Watch *watch, System **out,
+                             Diag *diag);
+/* The system in which they are on these sides, one a switch; those between resistances don't count.
+ * Made when asked for first, and owned by `whole`. Fails as system_new() does where there is no
+ * such network, and with E_MODEL where the model is no longer what `whole` was made of. */
 MUST_USE Status system_mode(System *whole, const Model *model, const bool *closed,
                             const Watch *watch, System **out, Diag *diag);
 

@@ -175,7 +175,9 @@ typedef struct Branchlike { /* a scalar edge */
     int unknown;   /* its v or i is one; -1 */
     bool busy;     /* its v or i is being followed */
     bool is_steep; /* a chord whose v is the unknown, i following from it */
-    int ideal;     /* which of the ideal switches it is; -1 */
+    int ideal;     /* which of the switches it is; -1 */
+    Expr closed;   /* of one between two resistances: 1 or 0, a number of the run; NULL: it is none,
+                      or both sides are in its equation */
     Expr v, i;     /* once known */
 } Branchlike;
 
@@ -259,10 +261,12 @@ struct System {
     NetworkForm asked_form; /* the same, where that exists */
     bool has_no_states;     /* a state form needs ever more derivatives */
     Expr leak; /* S, beside parts whose current is an expression of their voltage; NULL: none */
-    LIST(int) ideals;   /* branches that are ideal switches */
-    const bool *closed; /* one an ideal switch: the side it is on; NULL: both are in one equation */
+    LIST(int) ideals;   /* branches that switch, */
+    const bool *closed; /* and the side that each ideal one is on; NULL: both are in one equation */
+    bool takes_sides;   /* those between two resistances: their sides are numbers of the run */
     LIST(System *) modes; /* of those whose sides are open, made so far */
-    System *whole;        /* one of whose modes it is, and which owns it; NULL: none */
+    System *sided;        /* the same whose sides are looked for; it or one of the modes */
+    System *whole;        /* that it was made for, and which owns it; NULL: none */
     LIST(Branchlike) branches;
     int *scalar_of_edge; /* edge of the graph -> branches, or -1 */
     LIST(Unknown) unknowns;
@@ -486,7 +490,9 @@ const char *network_company(System *system, const Branchlike *branch);
 /* Whether an edge of a port gives its own variable (v of a branch, i of a chord) by the other edge;
  * where it doesn't its equation is the other of the two. */
 bool port_gives_own(System *system, const Branchlike *branch);
-/* the relation of an ideal switch, on its side or of both (ideal.c) */
+/* how many switches are without resistance on one side or on both (ideal.c) */
+int system_truly_ideal_count(const System *system);
+/* the relation of a switch, on its side or of both (ideal.c) */
 void ideal_take_side(System *system, Branchlike *branch);
 /* What closed switches alone in a circuit share, or open ones alone in a cutset: currents as if by
  * equal resistances, voltages likewise. *shared: it is so, and *out = 0 */

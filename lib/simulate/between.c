@@ -96,6 +96,7 @@ static bool find_rate(End *end)
     const Layout *l = end->phase->layout;
     const Ode *ode = motion_ode(end->phase->motion);
 
+    phase_enter(end->phase);
     if (!ode->rate(ode->context, end->t, end->y, end->rate))
         return false;
     if (end->driven != NULL) {

@@ -151,6 +151,12 @@ Status commute_phase(Result *r, const Setting *setting, const bool *closed, Phas
             return OK;
         }
     CHECK(system_mode(r->system, setting->model, closed, setting->watch, &system, diag));
+    for (int i = 1; i < r->phases.count; i++)
+        if (r->phases.at[i]->system == system) {
+            *out = phase_new_like(r->phases.at[i], closed, count);
+            LIST_PUSH(r->phases, *out);
+            return OK;
+        }
     CHECK(phase_new(system, &r->parameters, closed, count, &phase, diag));
     CHECK(result_open_phase(r, phase, setting, diag));
     CHECK(find_states(r, phase, diag));
@@ -167,6 +173,7 @@ Leg commute_leg(const Result *r, const Phase *phase, Events *events)
 {
     const Method *stiff = phase_stiff_method(phase);
 
+    phase_enter(phase);
     return (Leg){.phase = result_phase_number(r, phase),
                  .equations = numbers_equations(phase->numbers),
                  .motion = phase->motion,
@@ -228,18 +235,19 @@ static void go_ahead(const Phase *phase, double t, double step, const double *y,
     mem_free(rate);
 }
 
-static Status take_over_events(Result *r, Phase *next, const Setting *setting, Events **events,
-                               Diag *diag)
+static Status take_over_events(Result *r, const Phase *now, const Phase *next,
+                               const Setting *setting, Events **events, Diag *diag)
 {
+    Events **theirs = &next->like->events;
     Status status = OK;
 
-    if (*events == NULL)
+    if (*events == NULL || next->like == now->like)
         return OK;
-    if (next->events == NULL)
-        CHECK(result_make_events(r, next, NULL, setting, &next->events, diag));
-    if (next->events != *events)
-        events_hand_over(next->events, *events);
-    *events = next->events;
+    if (*theirs == NULL)
+        CHECK(result_make_events(r, next, NULL, setting, theirs, diag));
+    if (*theirs != *events)
+        events_hand_over(*theirs, *events);
+    *events = *theirs;
 done:
     return status;
 }
@@ -312,7 +320,7 @@ Status commute(void *context, double t, double behind, double last, const double
         goto done;
     c->stuck = NAN;
     CHECK(next_phase(c, behind, closed, &next, diag));
-    CHECK(take_over_events(r, next, c->setting, &events, diag));
+    CHECK(take_over_events(r, now, next, c->setting, &events, diag));
     commuting_free(c);
     c->y = NEW_ARRAY(double, next->length);
     enter(next, y, x, y + layout_turned(now->layout), y[now->length - 1], c->y);

@@ -161,6 +161,8 @@ static Status open_system(Work *w, Diag *diag)
         w->system = w->varied;
     }
     w->l = layout_new(w->system);
+    if (w->phase->closed != NULL)
+        layout_take_sides(w->l, w->phase->closed);
     w->parameters = (Parameters){.value = parameter, .context = w};
 done:
     return status;

@@ -21,6 +21,9 @@ void march_evaluate(March *m, double t, const double *y)
 {
     const Equations *eq = m->eq;
 
+    /* the time that rates see: on a jump what is behind it */
+    t = motion_clock(m->leg.motion, t);
+
     if (eq->switch_count > 0)
         motion_switches(m->leg.motion, t, y, m->conditions);
     if (m->count > eq->switch_count)

@@ -35,6 +35,7 @@ struct Motion {
     NetSolve *network;
     bool is_evaluated, is_factored, is_embedded_factored; /* at t, q */
     double t, *q, *near;                                  /* references of angles */
+    uint64_t sides;                                       /* of switches, likewise */
     const double *solved;                                 /* [x'; z] */
     double *solved_before;
     double *top, *bottom, *du, *kept, *lambda, *lambda_all;
@@ -208,16 +209,22 @@ static void set_near(Motion *mo, const double *y)
     mo->eq->near(mo->eq->context, mo->near);
 }
 
+static uint64_t sides_of(const Motion *mo)
+{
+    return mo->eq->sides != NULL ? *mo->eq->sides : 0;
+}
+
 static void at_position(Motion *mo, double t, const double *y)
 {
     size_t bytes = (size_t)mo->eq->n * sizeof(double);
 
-    if (mo->is_evaluated && mo->t == t && memcmp(mo->q, y, bytes) == 0 &&
-        turns_alike(mo, y + turned_place(mo->eq)))
+    if (mo->is_evaluated && mo->t == t && mo->sides == sides_of(mo) &&
+        memcmp(mo->q, y, bytes) == 0 && turns_alike(mo, y + turned_place(mo->eq)))
         return;
     set_near(mo, y);
     mo->eq->position(mo->eq->context, t, y);
     mo->t = t;
+    mo->sides = sides_of(mo);
     memcpy(mo->q, y, bytes);
     mo->is_evaluated = true;
     mo->is_factored = false;

@@ -18,7 +18,9 @@
 
 typedef struct Equations {
     int n, nu, m, nx, nz;
-    int turned_count; /* of a */
+    int turned_count;      /* of a */
+    const uint64_t *sides; /* counts changes of switches between resistances, which make equations
+                              of other numbers of them; NULL: there are none */
     void *context;
     void (*near)(void *context, const double *a); /* a for the calls below; NULL: there are none */
     /* bring phi, phi_u, mass, map, turned up to date */

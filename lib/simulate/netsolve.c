@@ -19,7 +19,8 @@
 struct NetSolve {
     const Equations *eq;
     Sparse *matrix;
-    bool is_factored; /* and stays so */
+    bool is_factored; /* and stays so, as long as switches stay */
+    uint64_t sides;   /* of those, as they were then */
     int n;
     double *w, *step, *trial, *next, *size;
     double *weight; /* of the equations, where their residuals are compared */
@@ -67,14 +68,26 @@ int netsolve_undetermined(const NetSolve *s)
 
 static bool solve_linear(NetSolve *s)
 {
-    if (!s->is_factored) {
+    uint64_t sides = s->eq->sides != NULL ? *s->eq->sides : 0;
+
+    if (!s->is_factored || s->sides != sides) {
+        s->is_factored = false;
         if (!sparse_factor(s->matrix, s->eq->network))
             return false;
         s->is_factored = s->eq->network_is_constant;
+        s->sides = sides;
     }
     memcpy(s->w, s->eq->network_rhs, (size_t)s->n * sizeof(double));
     sparse_solve(s->matrix, s->w);
     return true;
+}
+
+void netsolve_refine(NetSolve *s)
+{
+    memcpy(s->step, s->eq->network_residual, (size_t)s->n * sizeof(double));
+    sparse_solve(s->matrix, s->step);
+    for (int i = 0; i < s->n; i++)
+        s->w[i] -= s->step[i];
 }
 
 /* --- Newton --- */

@@ -16,6 +16,9 @@ void netsolve_free(NetSolve *solve);                /* NULL is fine */
 bool netsolve_find(NetSolve *solve);
 /* [x'; z] of the last netsolve_find(); a start for the next one may be written here */
 double *netsolve_values(NetSolve *solve);
+/* The same solution of a linear network, less what `network_residual` at it says that rounding
+ * left, by the factors there are. */
+void netsolve_refine(NetSolve *solve);
 /* after a failure: an unknown, counted in [x'; z], that no equation determines; -1: not known */
 int netsolve_undetermined(const NetSolve *solve);
 

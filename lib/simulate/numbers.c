@@ -29,6 +29,31 @@ static Expr jerk_symbol(System *system, int i)
     return symbol;
 }
 
+static void find_sides(Layout *l)
+{
+    int count = system_ideal_count(l->system);
+    bool any = false;
+
+    l->side = NEW_ARRAY(Expr, count);
+    for (int i = 0; i < count; i++) {
+        l->side[i] = system_side(l->system, i);
+        any = any || l->side[i] != NULL;
+    }
+    l->closed = NEW_ARRAY(bool, count);
+    l->switches = any ? count : 0;
+}
+
+void layout_take_sides(Layout *l, const bool *closed)
+{
+    bool changed = false;
+
+    for (int i = 0; i < l->switches; i++) {
+        changed = changed || (l->side[i] != NULL && l->closed[i] != closed[i]);
+        l->closed[i] = closed[i];
+    }
+    l->sides += changed;
+}
+
 Layout *layout_new(System *system)
 {
     Layout *l = NEW(Layout);
@@ -75,6 +100,7 @@ Layout *layout_new(System *system)
             (void)append(l, &room, effort);
     }
     l->ne = l->count - l->efforts;
+    find_sides(l);
     l->jerk = l->count;
     for (int i = 0; i < l->nu; i++)
         (void)append(l, &room, jerk_symbol(system, i));
@@ -86,6 +112,8 @@ void layout_free(Layout *layout)
     if (layout == NULL)
         return;
     mem_free(layout->symbols);
+    mem_free(layout->side);
+    mem_free(layout->closed);
     mem_free(layout);
 }
 
@@ -106,14 +134,28 @@ double parameters_value(Parameters *p, Expr symbol)
     return p->values[p->count++];
 }
 
+/* A symbol that is a side of a switch in this layout: its number; -1: it is none */
+static int side_of(const Layout *layout, Expr symbol)
+{
+    for (int i = 0; i < layout->switches; i++)
+        if (layout->side[i] == symbol)
+            return i;
+    return -1;
+}
+
+/* an input of a program that is a side of a switch */
+typedef struct SideInput {
+    int input, side;
+} SideInput;
+
 /* the parameters that roots hold, from now on as they are */
-static void keep_parameters(Parameters *p, const Expr *roots, int count)
+static void keep_parameters(const Layout *l, Parameters *p, const Expr *roots, int count)
 {
     Expr *symbols;
     int found = expr_symbols(roots, count, &symbols);
 
     for (int i = 0; i < found; i++)
-        if (expr_symbol_kind(symbols[i]) == SYMBOL_PARAMETER)
+        if (expr_symbol_kind(symbols[i]) == SYMBOL_PARAMETER && side_of(l, symbols[i]) < 0)
             (void)parameters_value(p, symbols[i]);
     mem_free(symbols);
 }
@@ -135,11 +177,42 @@ void parameters_free(Parameters *p)
     *p = (Parameters){0};
 }
 
-/* A program over the layout and whatever parameters its roots hold; its workspace has these set,
- * and what depends on them alone computed. `own`: these parameters, new, in the order of inputs
- * behind the layout's; may be NULL. */
+/* A program over the layout and whatever parameters its roots hold, and its workspace. */
+typedef struct Machine {
+    const Layout *layout;
+    Program *program;
+    Workspace *workspace;
+    Expr *own; /* these parameters, in the order of inputs behind the layout's, ended by NULL */
+    LIST(SideInput) sides; /* those of them that are sides of switches, */
+    uint64_t seen;         /* as they were then */
+} Machine;
+
+static void machine_close(Machine *machine)
+{
+    workspace_free(machine->workspace);
+    program_free(machine->program);
+    mem_free(machine->own);
+    LIST_FREE(machine->sides);
+}
+
+/* Its inputs. Where switches have gone over since the last call, with what follows from that. */
+static double *machine_inputs(Machine *machine)
+{
+    double *inputs = workspace_inputs(machine->workspace);
+
+    if (machine->seen == machine->layout->sides)
+        return inputs;
+    machine->seen = machine->layout->sides;
+    for (int i = 0; i < machine->sides.count; i++)
+        inputs[machine->sides.at[i].input] = machine->layout->closed[machine->sides.at[i].side];
+    if (machine->sides.count > 0)
+        workspace_run(machine->workspace, STAGE_PARAMETER, STAGE_PARAMETER);
+    return inputs;
+}
+
+/* Its workspace has the parameters set, and what depends on them alone computed. */
 static Status compile(const Layout *layout, Parameters *parameters, const Expr *roots, int count,
-                      Program **program, Workspace **workspace, Expr **own, Diag *diag)
+                      Machine *out, Diag *diag)
 {
     Expr *symbols;
     int found = expr_symbols(roots, count, &symbols);
@@ -147,20 +220,29 @@ static Status compile(const Layout *layout, Parameters *parameters, const Expr *
     int input_count = layout->count;
     Status status;
 
+    out->layout = layout;
     memcpy(inputs, layout->symbols, (size_t)layout->count * sizeof(Expr));
     for (int i = 0; i < found; i++)
         if (expr_symbol_kind(symbols[i]) == SYMBOL_PARAMETER)
             inputs[input_count++] = symbols[i];
-    status = program_new(roots, count, inputs, input_count, program, diag);
+    status = program_new(roots, count, inputs, input_count, &out->program, diag);
     if (status == OK) {
-        *workspace = workspace_new(*program);
-        for (int i = layout->count; i < input_count; i++)
-            workspace_inputs(*workspace)[i] = parameters_value(parameters, inputs[i]);
-        workspace_run(*workspace, STAGE_PARAMETER, STAGE_PARAMETER);
-    }
-    if (status == OK && own != NULL) {
-        *own = NEW_ARRAY(Expr, input_count - layout->count + 1);
-        memcpy(*own, inputs + layout->count, (size_t)(input_count - layout->count) * sizeof(Expr));
+        out->workspace = workspace_new(out->program);
+        for (int i = layout->count; i < input_count; i++) {
+            int side = side_of(layout, inputs[i]);
+
+            if (side >= 0)
+                LIST_PUSH(out->sides, (SideInput){i, side});
+            else
+                workspace_inputs(out->workspace)[i] = parameters_value(parameters, inputs[i]);
+        }
+        out->own = NEW_ARRAY(Expr, input_count - layout->count + 1);
+        memcpy(out->own, inputs + layout->count,
+               (size_t)(input_count - layout->count) * sizeof(Expr));
+        out->seen = layout->sides + 1; /* none: */
+        (void)machine_inputs(out);
+        if (out->sides.count == 0)
+            workspace_run(out->workspace, STAGE_PARAMETER, STAGE_PARAMETER);
     }
     mem_free(symbols);
     mem_free(inputs);
@@ -171,9 +253,7 @@ static Status compile(const Layout *layout, Parameters *parameters, const Expr *
 
 struct Probe {
     const Layout *layout;
-    Program *program;
-    Workspace *workspace;
-    Expr *own; /* parameters, ended by NULL */
+    Machine machine;
 };
 
 Status probe_new(const Layout *layout, Parameters *parameters, const Expr *roots, int count,
@@ -183,8 +263,7 @@ Status probe_new(const Layout *layout, Parameters *parameters, const Expr *roots
     Status status;
 
     probe->layout = layout;
-    status = compile(layout, parameters, roots, count, &probe->program, &probe->workspace,
-                     &probe->own, diag);
+    status = compile(layout, parameters, roots, count, &probe->machine, diag);
     if (status == OK)
         *out = probe;
     else
@@ -196,18 +275,18 @@ void probe_free(Probe *probe)
 {
     if (probe == NULL)
         return;
-    workspace_free(probe->workspace);
-    program_free(probe->program);
-    mem_free(probe->own);
+    machine_close(&probe->machine);
     mem_free(probe);
 }
 
 bool probe_turn(Probe *probe, Expr parameter, double value)
 {
-    for (int i = 0; probe->own[i] != NULL; i++)
-        if (probe->own[i] == parameter) {
-            workspace_inputs(probe->workspace)[probe->layout->count + i] = value;
-            workspace_run(probe->workspace, STAGE_PARAMETER, STAGE_PARAMETER);
+    Workspace *workspace = probe->machine.workspace;
+
+    for (int i = 0; probe->machine.own[i] != NULL; i++)
+        if (probe->machine.own[i] == parameter) {
+            workspace_inputs(workspace)[probe->layout->count + i] = value;
+            workspace_run(workspace, STAGE_PARAMETER, STAGE_PARAMETER);
             return true;
         }
     return false;
@@ -244,7 +323,7 @@ bool row_solve(const Layout *l, Motion *motion, double t, const double *y, RowVa
 const double *probe_values(Probe *probe, const RowValues *row)
 {
     const Layout *l = probe->layout;
-    double *inputs = workspace_inputs(probe->workspace);
+    double *inputs = machine_inputs(&probe->machine);
 
     inputs[l->t] = row->t;
     put(inputs, l->near, row->near, l->turned);
@@ -257,8 +336,8 @@ const double *probe_values(Probe *probe, const RowValues *row)
     put(inputs, l->multipliers, row->multipliers, l->m);
     put(inputs, l->efforts, row->efforts, l->ne);
     put(inputs, l->jerk, row->jerk, l->nu);
-    workspace_run(probe->workspace, STAGE_TIME, STAGE_ACCELERATION);
-    return workspace_roots(probe->workspace);
+    workspace_run(probe->machine.workspace, STAGE_TIME, STAGE_ACCELERATION);
+    return workspace_roots(probe->machine.workspace);
 }
 
 /* --- equations --- */
@@ -266,8 +345,7 @@ const double *probe_values(Probe *probe, const RowValues *row)
 struct Numbers {
     Equations eq;
     const Layout *layout;
-    Program *program, *switch_program, *network_program;
-    Workspace *workspace, *switch_workspace, *network_workspace;
+    Machine main, switching, network;
     int *quaternions, *network_places;
     bool is_network_new; /* network_workspace has seen t, q, u, x as they are */
     double *cap;
@@ -277,33 +355,33 @@ static void turned(void *context, const double *references)
 {
     Numbers *nb = context;
 
-    put(workspace_inputs(nb->workspace), nb->layout->near, references, nb->layout->turned);
+    put(machine_inputs(&nb->main), nb->layout->near, references, nb->layout->turned);
 }
 
 static void position(void *context, double t, const double *q)
 {
     Numbers *nb = context;
-    double *inputs = workspace_inputs(nb->workspace);
+    double *inputs = machine_inputs(&nb->main);
 
     inputs[nb->layout->t] = t;
     put(inputs, nb->layout->q, q, nb->layout->n);
-    workspace_run(nb->workspace, STAGE_TIME, STAGE_POSITION);
+    workspace_run(nb->main.workspace, STAGE_TIME, STAGE_POSITION);
 }
 
 static void velocity(void *context, const double *u, const double *x)
 {
     Numbers *nb = context;
-    double *inputs = workspace_inputs(nb->workspace);
+    double *inputs = machine_inputs(&nb->main);
 
     put(inputs, nb->layout->u, u, nb->layout->nu);
     put(inputs, nb->layout->x, x, nb->layout->nx);
-    workspace_run(nb->workspace, STAGE_VELOCITY, STAGE_VELOCITY);
+    workspace_run(nb->main.workspace, STAGE_VELOCITY, STAGE_VELOCITY);
     nb->is_network_new = true;
 }
 
-static void copy_inputs(const Numbers *nb, int first, int count)
+static void copy_inputs(Numbers *nb, int first, int count)
 {
-    memcpy(workspace_inputs(nb->network_workspace) + first, workspace_inputs(nb->workspace) + first,
+    memcpy(machine_inputs(&nb->network) + first, machine_inputs(&nb->main) + first,
            (size_t)count * sizeof(double));
 }
 
@@ -311,13 +389,13 @@ static void network_at(void *context, const double *w)
 {
     Numbers *nb = context;
     const Layout *l = nb->layout;
-    double *inputs = workspace_inputs(nb->network_workspace);
+    double *inputs = machine_inputs(&nb->network);
 
     put(inputs, l->rates, w, l->nx);
     put(inputs, l->z, w + l->nx, l->nz);
     if (nb->is_network_new)
         copy_inputs(nb, l->t, l->rates - l->t);
-    workspace_run(nb->network_workspace, nb->is_network_new ? STAGE_TIME : STAGE_NETWORK,
+    workspace_run(nb->network.workspace, nb->is_network_new ? STAGE_TIME : STAGE_NETWORK,
                   STAGE_ACCELERATION);
     nb->is_network_new = false;
 }
@@ -325,7 +403,7 @@ static void network_at(void *context, const double *w)
 static void network_reads(void *context, const double *acceleration, const double *multipliers)
 {
     Numbers *nb = context;
-    double *inputs = workspace_inputs(nb->network_workspace);
+    double *inputs = machine_inputs(&nb->network);
 
     put(inputs, nb->layout->acceleration, acceleration, nb->layout->nu);
     put(inputs, nb->layout->multipliers, multipliers, nb->layout->m);
@@ -334,40 +412,39 @@ static void network_reads(void *context, const double *acceleration, const doubl
 static void network_solved(void *context, const double *solved)
 {
     Numbers *nb = context;
-    double *inputs = workspace_inputs(nb->workspace);
+    double *inputs = machine_inputs(&nb->main);
 
     put(inputs, nb->layout->rates, solved, nb->layout->nx);
     put(inputs, nb->layout->z, solved + nb->layout->nx, nb->layout->nz);
-    workspace_run(nb->workspace, STAGE_NETWORK, STAGE_NETWORK);
+    workspace_run(nb->main.workspace, STAGE_NETWORK, STAGE_NETWORK);
 }
 
 static void accelerated(void *context, const double *acceleration, const double *multipliers)
 {
     Numbers *nb = context;
-    double *inputs = workspace_inputs(nb->workspace);
+    double *inputs = machine_inputs(&nb->main);
 
     put(inputs, nb->layout->acceleration, acceleration, nb->layout->nu);
     put(inputs, nb->layout->multipliers, multipliers, nb->layout->m);
-    workspace_run(nb->workspace, STAGE_ACCELERATION, STAGE_ACCELERATION);
+    workspace_run(nb->main.workspace, STAGE_ACCELERATION, STAGE_ACCELERATION);
 }
 
 static void switches(void *context, double t, const double *q, const double *u, const double *x,
                      double *out)
 {
     Numbers *nb = context;
-    double *inputs = workspace_inputs(nb->switch_workspace);
+    double *inputs = machine_inputs(&nb->switching);
 
     inputs[nb->layout->t] = t;
-    put(inputs, nb->layout->near, workspace_inputs(nb->workspace) + nb->layout->near,
-        nb->layout->turned);
+    put(inputs, nb->layout->near, machine_inputs(&nb->main) + nb->layout->near, nb->layout->turned);
     put(inputs, nb->layout->q, q, nb->layout->n);
     put(inputs, nb->layout->u, u, nb->layout->nu);
     put(inputs, nb->layout->x, x, nb->layout->nx);
     if (nb->eq.switches_read_network)
-        memcpy(inputs + nb->layout->rates, workspace_inputs(nb->workspace) + nb->layout->rates,
+        memcpy(inputs + nb->layout->rates, machine_inputs(&nb->main) + nb->layout->rates,
                (size_t)(nb->layout->nx + nb->layout->nz) * sizeof(double));
-    workspace_run(nb->switch_workspace, STAGE_TIME, STAGE_NETWORK);
-    memcpy(out, workspace_roots(nb->switch_workspace),
+    workspace_run(nb->switching.workspace, STAGE_TIME, STAGE_NETWORK);
+    memcpy(out, workspace_roots(nb->switching.workspace),
            (size_t)nb->eq.switch_count * sizeof(double));
 }
 
@@ -455,11 +532,10 @@ static Status compile_network(Numbers *nb, Parameters *parameters, Diag *diag)
     int residual = block(&roots, r->network_residual, l->nx + l->nz);
     Status status = OK;
 
-    keep_parameters(parameters, roots.at, roots.count);
-    CHECK(compile(l, parameters, roots.at, roots.count, &nb->network_program,
-                  &nb->network_workspace, NULL, diag));
-    nb->eq.network = workspace_roots(nb->network_workspace) + network;
-    nb->eq.network_residual = workspace_roots(nb->network_workspace) + residual;
+    keep_parameters(l, parameters, roots.at, roots.count);
+    CHECK(compile(l, parameters, roots.at, roots.count, &nb->network, diag));
+    nb->eq.network = workspace_roots(nb->network.workspace) + network;
+    nb->eq.network_residual = workspace_roots(nb->network.workspace) + residual;
     nb->eq.network_at = network_at;
 done:
     LIST_FREE(roots);
@@ -494,9 +570,9 @@ static Status compile_equations(Numbers *nb, Parameters *parameters, Diag *diag)
     for (int i = 0; i < l->n && mapped; i++)
         for (int j = 0; j < l->nu; j++)
             LIST_PUSH(roots, system_n_entry(l->system, i, j));
-    keep_parameters(parameters, roots.at, roots.count);
-    CHECK(compile(l, parameters, roots.at, roots.count, &nb->program, &nb->workspace, NULL, diag));
-    at = workspace_roots(nb->workspace);
+    keep_parameters(l, parameters, roots.at, roots.count);
+    CHECK(compile(l, parameters, roots.at, roots.count, &nb->main, diag));
+    at = workspace_roots(nb->main.workspace);
     nb->eq.phi = at + phi;
     nb->eq.phi_u = at + phi_u;
     nb->eq.mass = at + mass;
@@ -579,8 +655,7 @@ static Status compile_switches(Numbers *nb, Parameters *parameters, Diag *diag)
         roots.at != NULL && layout_follows_time(nb->layout, roots.at + nb->eq.time_only,
                                                 roots.count - nb->eq.time_only);
     if (roots.count > 0)
-        CHECK(compile(nb->layout, parameters, roots.at, roots.count, &nb->switch_program,
-                      &nb->switch_workspace, NULL, diag));
+        CHECK(compile(nb->layout, parameters, roots.at, roots.count, &nb->switching, diag));
 done:
     LIST_FREE(roots);
     return status;
@@ -599,6 +674,7 @@ Status numbers_new(const Layout *layout, Parameters *parameters, Numbers **out, 
                          .nx = layout->nx,
                          .nz = layout->nz,
                          .turned_count = layout->turned,
+                         .sides = &layout->sides,
                          .context = nb,
                          .near = turned,
                          .position = position,
@@ -632,12 +708,9 @@ void numbers_free(Numbers *nb)
 {
     if (nb == NULL)
         return;
-    workspace_free(nb->workspace);
-    program_free(nb->program);
-    workspace_free(nb->network_workspace);
-    program_free(nb->network_program);
-    workspace_free(nb->switch_workspace);
-    program_free(nb->switch_program);
+    machine_close(&nb->main);
+    machine_close(&nb->network);
+    machine_close(&nb->switching);
     mem_free(nb->quaternions);
     mem_free(nb->network_places);
     mem_free(nb->cap);

@@ -13,6 +13,10 @@
 
 typedef struct Layout {
     System *system;
+    Expr *side;   /* one a switch: symbol of the side that it is on; NULL: that is no number here */
+    bool *closed; /* one a switch: that side */
+    int switches;
+    uint64_t sides; /* counts changes of them: what was computed with others is outdated */
     int n, nu, m, nx, nz, ne, turned;
     int t, near, q, u, x, rates, z, acceleration, multipliers, efforts, jerk; /* first of each */
     int count;
@@ -27,6 +31,8 @@ static inline int layout_turned(const Layout *l) /* place of the first reference
 
 Layout *layout_new(System *system); /* new; free with layout_free(). Symbols of u'' are made. */
 void layout_free(Layout *layout);
+/* Sides of switches that are numbers, from now on in all programs over the layout; one a switch. */
+void layout_take_sides(Layout *layout, const bool *closed);
 /* whether any of the roots changes with t alone, while no state does */
 bool layout_follows_time(const Layout *layout, const Expr *roots, int count);
 

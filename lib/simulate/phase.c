@@ -7,6 +7,14 @@
 
 #define FEW 100 /* unknowns up to which radau's dense factors beat bdf's */
 
+static bool *copy_sides(const bool *closed, int count)
+{
+    bool *copy = NEW_ARRAY(bool, count);
+
+    memcpy(copy, closed, (size_t)count * sizeof(bool));
+    return copy;
+}
+
 Status phase_new(System *system, Parameters *parameters, const bool *closed, int count, Phase **out,
                  Diag *diag)
 {
@@ -15,16 +23,31 @@ Status phase_new(System *system, Parameters *parameters, const bool *closed, int
 
     phase->system = system;
     phase->layout = layout_new(system);
-    if (closed != NULL) {
-        phase->closed = NEW_ARRAY(bool, count);
-        memcpy(phase->closed, closed, (size_t)count * sizeof(bool));
-    }
+    phase->like = phase;
+    if (closed != NULL)
+        phase->closed = copy_sides(closed, count);
+    phase_enter(phase);
     CHECK(numbers_new(phase->layout, parameters, &phase->numbers, diag));
     *out = phase;
     phase = NULL;
 done:
     phase_free(phase);
     return status;
+}
+
+Phase *phase_new_like(Phase *other, const bool *closed, int count)
+{
+    Phase *phase = NEW(Phase);
+
+    *phase = *other->like;
+    phase->closed = copy_sides(closed, count);
+    return phase;
+}
+
+void phase_enter(const Phase *phase)
+{
+    if (phase->closed != NULL)
+        layout_take_sides(phase->layout, phase->closed);
 }
 
 Status phase_open(Phase *phase, Parameters *parameters, const MotionOptions *options, Diag *diag)
@@ -41,6 +64,11 @@ void phase_free(Phase *phase)
 {
     if (phase == NULL)
         return;
+    mem_free(phase->closed);
+    if (phase->like != phase) {
+        mem_free(phase);
+        return;
+    }
     events_free(phase->events);
     samples_free(phase->samples);
     probe_free(phase->states);
@@ -49,7 +77,6 @@ void phase_free(Phase *phase)
     motion_free(phase->motion);
     numbers_free(phase->numbers);
     layout_free(phase->layout);
-    mem_free(phase->closed);
     mem_free(phase);
 }
 
@@ -62,5 +89,6 @@ const Method *phase_stiff_method(const Phase *phase)
 
 bool phase_row(Phase *phase, double t, const double *y, RowValues *out)
 {
+    phase_enter(phase);
     return row_solve(phase->layout, phase->motion, t, y, out);
 }

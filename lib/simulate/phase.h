@@ -1,7 +1,9 @@
 /* phase.h: the equations of a part of a run, and all that computes them
  *
- * A model without ideal switches has one. With them there is one of the whole, in which each
- * switch is on both sides and which no row is of, and one for each mode that a run comes to. */
+ * A model without switches has one. With them there is one of the whole, in which each switch is on
+ * both sides and which no row is of, and one for each mode that a run comes to. Modes in which the
+ * ideal switches are on the same sides share their equations, in which other switches are numbers:
+ * phase_enter() sets these before anything but phase_row() reads them. */
 #ifndef COTREE_SIMULATE_PHASE_H
 #define COTREE_SIMULATE_PHASE_H
 
@@ -11,24 +13,30 @@
 #include "simulate/samples.h"
 #include "simulate/start.h"
 
-typedef struct Phase {
+typedef struct Phase Phase;
+struct Phase {
     System *system; /* borrowed */
-    bool *closed;   /* sides of its ideal switches; NULL: it is in no mode */
+    bool *closed;   /* sides of its switches; NULL: it is in no mode */
+    Phase *like;    /* that it shares all below with, and which owns it; itself */
     Layout *layout;
     Numbers *numbers;
     Motion *motion;  /* NULL, with all that follows, until phase_open() */
     int length;      /* of y */
     NetDae *network; /* NULL where there is mechanics */
-    Events *events;  /* NULL: none, or not made yet */
+    Events *events;  /* of `like`; NULL: none, or not made yet */
     Samples *samples;
     Probe *states;    /* the network states of the whole, where it is a mode, */
     int *among_whole; /* and which of those its own are */
-} Phase;
+};
 
 /* New: programs compiled; phase_free(). Borrows the system and the parameters; `closed` is copied,
  * `count` sides; NULL: in no mode. */
 MUST_USE Status phase_new(System *system, Parameters *parameters, const bool *closed, int count,
                           Phase **out, Diag *diag);
+/* New: the mode of `closed` with the equations of another phase, which outlives it. */
+Phase *phase_new_like(Phase *other, const bool *closed, int count);
+/* Its switches are on their sides in the equations that it may share with others. */
+void phase_enter(const Phase *phase);
 /* What solves its equations; once. The options are copied. Fails as samples_new() does. */
 MUST_USE Status phase_open(Phase *phase, Parameters *parameters, const MotionOptions *options,
                            Diag *diag);

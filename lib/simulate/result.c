@@ -42,6 +42,7 @@ static bool find_row(Phase *phase, double t, const double *y, const double *driv
 
     if (driven == NULL)
         return phase_row(phase, t, y, out);
+    phase_enter(phase);
     *out = row_of_state(l, t, y);
     out->rates = driven;
     out->z = driven + l->nx;
@@ -123,11 +124,23 @@ done:
     return status;
 }
 
+/* What supplies a driver's motion is found in the equations of the whole, as long as no ideal
+ * switch is in them. */
+static bool goes_through_modes(RunKind kind, const Layout *whole)
+{
+    bool any_ideal = false;
+
+    for (int i = 0; i < system_ideal_count(whole->system); i++)
+        any_ideal = any_ideal || system_is_ideal(whole->system, i);
+    return system_has_modes(whole->system) && (any_ideal || kind != RUN_INVERSE || whole->ne == 0);
+}
+
 static Status prepare(RunKind kind, System *system, const Setting *setting, Result **out,
                       Diag *diag)
 {
     Result *r = NEW(Result);
     Phase *whole = NULL;
+    System *sided;
     Status status = OK;
 
     r->kind = kind;
@@ -138,8 +151,10 @@ static Status prepare(RunKind kind, System *system, const Setting *setting, Resu
     r->report.singular_time = NAN;
     CHECK(phase_new(system, &r->parameters, NULL, 0, &whole, diag));
     LIST_PUSH(r->phases, whole);
-    if (system_ideal_count(system) > 0)
-        CHECK(sides_new(whole->layout, &r->parameters, &r->sides, diag));
+    if (goes_through_modes(kind, whole->layout)) {
+        CHECK(system_sided(system, setting->model, setting->watch, &sided, diag));
+        CHECK(sides_new(sided, &r->parameters, &r->sides, diag));
+    }
     *out = r;
     r = NULL;
 done:
@@ -211,7 +226,7 @@ Status result_open(RunKind kind, System *system, const Setting *setting, Result 
 
     CHECK(prepare(kind, system, setting, &r, diag));
     whole = result_whole(r);
-    CHECK(start_find(whole->layout, &r->parameters, whole->numbers, setting,
+    CHECK(start_find(whole->layout, &r->parameters, whole->numbers, setting, r->sides != NULL,
                      warm != NULL ? warm_value : NULL, (void *)warm, &r->start, diag));
     CHECK(result_begin(r, setting, diag));
     text_add(&r->remarks, r->start.remarks.at != NULL ? r->start.remarks.at : "");

@@ -11,7 +11,9 @@
 
 #define OPEN_LEAK   1e-13 /* S: shares voltages that nothing else tells; too small to be seen, */
 #define CLOSED_LEAK 1e-11 /* ohm: likewise currents; and large enough against rounding */
-#define NOISE       1e-12 /* of the largest current or voltage: too small to tell a side from */
+#define NOISE       1e-12 /* of the largest current or voltage: too small to tell a side from, */
+#define MOST_NOISE  1e-8  /* or where that leads in circles, up to this */
+#define ROUNDING    1e-15 /* of the largest voltage, in that of a closed one with a resistance */
 #define ROUNDS      8     /* in which conditions and diodes may set each other off */
 
 typedef enum When { ALWAYS, OPEN, CLOSED } When;
@@ -33,9 +35,11 @@ typedef struct Row {
     When when;
 } Row;
 
+enum { THROUGH, ACROSS, WHEN, ON, LOOKS }; /* at each switch */
+
 struct Sides {
-    const Layout *l;
-    int n, count; /* unknowns [x'; z]; ideal switches */
+    Layout *l;    /* of the system in which sides are open or numbers */
+    int n, count; /* unknowns [x'; z]; switches */
     LIST(Row) rows;
     LIST(Term) terms;
     LIST(int) pattern_row;
@@ -45,15 +49,17 @@ struct Sides {
     bool is_linear;
     NetSolve *solve;
     Probe *equations; /* roots of rows and terms */
-    Probe *looks;     /* through and across of each, and what closes it; then of all edges */
+    Probe *looks;     /* LOOKS at each; then through and across of all edges */
     bool *has_when;
     int edges;
     Domain *domain; /* of each, then of all edges */
     const SidesAt *at;
     double step;
+    double noise; /* of the largest current or voltage */
     bool *closed;
-    double *x; /* behind the step */
-    double *through, *across;
+    double *x;                       /* behind the step */
+    double *through, *across;        /* behind where its sides meet, */
+    double *on;                      /* and its resistance when it is closed */
     double largest[DOMAIN_COUNT][2]; /* across and through variable of any edge, by domain, */
     double known[DOMAIN_COUNT][2];   /* and what they have been since the first instant */
 };
@@ -220,17 +226,20 @@ static Status compile(Sides *s, Parameters *parameters, Diag *diag)
         IdealSwitch ideal;
 
         CHECK(system_ideal(s->l->system, k, &ideal, diag));
-        if (ideal.row < 0 || of_tree) {
+        if (ideal.closed == NULL && (ideal.row < 0 || of_tree)) {
             status = refuse_form(s, ideal.name, diag);
             goto done;
         }
-        taken[ideal.row] = true;
-        add_sides(s, &roots, k, &ideal);
+        if (ideal.closed == NULL) {
+            taken[ideal.row] = true;
+            add_sides(s, &roots, k, &ideal);
+        }
         s->has_when[k] = ideal.when != NULL;
         s->domain[k] = ideal.domain;
         LIST_PUSH(looks, ideal.through);
         LIST_PUSH(looks, ideal.across);
         LIST_PUSH(looks, ideal.when != NULL ? ideal.when : expr_int(arena, 0));
+        LIST_PUSH(looks, ideal.on);
     }
     for (int i = 0; i < s->n; i++)
         if (!taken[i])
@@ -251,28 +260,29 @@ done:
     return status;
 }
 
-Status sides_new(const Layout *whole, Parameters *parameters, Sides **out, Diag *diag)
+Status sides_new(System *system, Parameters *parameters, Sides **out, Diag *diag)
 {
     Sides *s = NEW(Sides);
     Status status = OK;
 
-    s->l = whole;
-    s->n = whole->nx + whole->nz;
+    s->l = layout_new(system);
+    s->n = s->l->nx + s->l->nz;
     s->is_linear = true;
-    s->count = system_ideal_count(whole->system);
+    s->count = system_ideal_count(system);
     s->has_when = NEW_ARRAY(bool, s->count);
-    s->x = NEW_ARRAY(double, whole->nx);
+    s->x = NEW_ARRAY(double, s->l->nx);
     s->through = NEW_ARRAY(double, s->count);
     s->across = NEW_ARRAY(double, s->count);
-    s->edges = system_scalar_count(whole->system);
+    s->on = NEW_ARRAY(double, s->count);
+    s->edges = system_scalar_count(system);
     s->domain = NEW_ARRAY(Domain, s->count + s->edges);
     CHECK(compile(s, parameters, diag));
     s->network = NEW_ARRAY(double, s->pattern_row.count);
     s->residual = NEW_ARRAY(double, s->n);
     s->rhs = NEW_ARRAY(double, s->n);
     s->zeros = NEW_ARRAY(double, s->n);
-    s->eq = (Equations){.nx = whole->nx,
-                        .nz = whole->nz,
+    s->eq = (Equations){.nx = s->l->nx,
+                        .nz = s->l->nz,
                         .context = s,
                         .network_at = s->is_linear ? NULL : network_at,
                         .network_entries = s->pattern_row.count,
@@ -308,7 +318,9 @@ void sides_free(Sides *s)
     mem_free(s->x);
     mem_free(s->through);
     mem_free(s->across);
+    mem_free(s->on);
     mem_free(s->domain);
+    layout_free(s->l);
     mem_free(s);
 }
 
@@ -327,23 +339,29 @@ static bool solve(Sides *s)
     RowValues row;
     const double *values;
 
+    layout_take_sides(s->l, s->closed);
     if (s->is_linear)
         bring_linear(s);
     if (!netsolve_find(s->solve))
         return false;
+    if (s->is_linear && s->n > 0) {
+        network_at(s, w);
+        netsolve_refine(s->solve);
+    }
     take_step(s, w);
     row = row_values(s, w);
     values = probe_values(s->looks, &row);
     for (int k = 0; k < s->count; k++) {
-        s->through[k] = values[3 * k];
-        s->across[k] = values[3 * k + 1];
+        s->through[k] = values[LOOKS * k + THROUGH];
+        s->across[k] = values[LOOKS * k + ACROSS];
+        s->on[k] = values[LOOKS * k + ON];
     }
     memset(s->largest, 0, sizeof s->largest);
     for (int i = 0; i < s->edges; i++)
         for (int side = 0; side < 2; side++) {
             double *largest = &s->largest[s->domain[s->count + i]][side];
 
-            *largest = fmax(*largest, fabs(values[3 * s->count + 2 * i + side]));
+            *largest = fmax(*largest, fabs(values[LOOKS * s->count + 2 * i + side]));
         }
     return true;
 }
@@ -352,18 +370,18 @@ static bool is_wrong(const Sides *s, int k)
 {
     Domain domain = s->domain[k];
     int side = s->closed[k];
-    double least = NOISE * fmax(s->largest[domain][side], s->known[domain][side]);
+    double least = s->noise * fmax(s->largest[domain][side], s->known[domain][side]);
 
+    if (s->closed[k] &&
+        s->on[k] > 0) /* the current is a small difference over a small resistance */
+        least = fmax(least, s->noise / NOISE * ROUNDING * s->largest[domain][0] / s->on[k]);
     return !s->has_when[k] && (s->closed[k] ? s->through[k] < -least : s->across[k] > least);
 }
 
 /* Diodes go over until none is wrong: all that are at a time, and where that goes in circles the
  * first of them alone, which ends wherever the network is passive. */
-static bool settle_diodes(Sides *s)
+static bool settle_with(Sides *s, int together, int most)
 {
-    int together = 2 * s->count + 8;
-    int most = together + (1 << (s->count < 12 ? s->count : 12));
-
     for (int turn = 0; turn < most; turn++) {
         bool right = true;
 
@@ -380,6 +398,18 @@ static bool settle_diodes(Sides *s)
     return false;
 }
 
+/* Where circles are so small that rounding may be what makes them, that is taken for nothing. */
+static bool settle_diodes(Sides *s)
+{
+    int together = 2 * s->count + 8;
+    int most = 1 << (s->count < 12 ? s->count : 12);
+
+    for (s->noise = NOISE; s->noise < MOST_NOISE; s->noise *= 10)
+        if (settle_with(s, together, 2 * together))
+            return true;
+    return settle_with(s, together, together + most);
+}
+
 /* Sides of switches with a condition, from states as they go on and what else is known. True: one
  * of them goes over, *which. */
 static bool follow_conditions(Sides *s, int *which)
@@ -392,7 +422,7 @@ static bool follow_conditions(Sides *s, int *which)
     row.x = s->at->x_behind;
     values = probe_values(s->looks, &row);
     for (int k = 0; k < s->count; k++) {
-        bool wanted = values[3 * k + 2] != 0;
+        bool wanted = values[LOOKS * k + WHEN] != 0;
 
         if (!s->has_when[k] || s->closed[k] == wanted)
             continue;

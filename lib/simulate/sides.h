@@ -12,9 +12,9 @@
 
 typedef struct Sides Sides;
 
-/* New; free with sides_free(). Borrows all. `whole` is of a system that is in no mode. Fails as
+/* New; free with sides_free(). Borrows all. `system` is that of system_sided(). Fails as
  * probe_new() and system_ideal() do. */
-MUST_USE Status sides_new(const Layout *whole, Parameters *parameters, Sides **out, Diag *diag);
+MUST_USE Status sides_new(System *system, Parameters *parameters, Sides **out, Diag *diag);
 void sides_free(Sides *sides); /* NULL is fine */
 
 /* the instant; arrays by the layout of the whole */

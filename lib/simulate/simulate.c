@@ -135,7 +135,7 @@ static MotionCounts counts_of(const Result *r)
     for (int i = 0; i < r->phases.count; i++) {
         MotionCounts counts = {.singular_time = NAN};
 
-        if (r->phases.at[i]->motion != NULL)
+        if (r->phases.at[i]->motion != NULL && r->phases.at[i]->like == r->phases.at[i])
             counts = motion_counts(r->phases.at[i]->motion);
         sum.factorisations += counts.factorisations;
         sum.regularised += counts.regularised;

@@ -557,14 +557,15 @@ static void find_rank(Assembly *a)
 }
 
 Status start_find(const Layout *layout, Parameters *parameters, const Numbers *numbers,
-                  const Setting *setting, WarmValue warm, void *warm_context, Assembled *out,
-                  Diag *diag)
+                  const Setting *setting, bool has_modes, WarmValue warm, void *warm_context,
+                  Assembled *out, Diag *diag)
 {
     Assembly a = {.l = layout,
                   .parameters = parameters,
                   .numbers = numbers,
                   .eq = numbers_equations(numbers),
                   .setting = setting,
+                  .has_modes = has_modes,
                   .out = out};
     Status status = OK;
 

@@ -21,11 +21,13 @@ typedef struct Assembled {
 
 /* Fails with E_ASSEMBLE, naming what can't be met, and the errors of system_variable(). `warm`
  * tells the value of a variable in an earlier result (NAN: not known); NULL: there is none. Where
- * the setting has a `from`, that is the earlier result, and what was given is left aside. */
+ * the setting has a `from`, that is the earlier result, and what was given is left aside. With
+ * `has_modes` the network's equations are solved later, once the sides of its switches are known.
+ */
 typedef double (*WarmValue)(void *context, const char *name);
 MUST_USE Status start_find(const Layout *layout, Parameters *parameters, const Numbers *numbers,
-                           const Setting *setting, WarmValue warm, void *warm_context,
-                           Assembled *out, Diag *diag);
+                           const Setting *setting, bool has_modes, WarmValue warm,
+                           void *warm_context, Assembled *out, Diag *diag);
 /* x' and z at y = (q, u, x, references of angles), of t = 0, from a guess [x'; z] (NULL: 0): into
  * `out`, unless NULL. Fails with E_SINGULAR where there are none, naming what nothing determines.
  */

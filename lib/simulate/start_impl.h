@@ -25,6 +25,7 @@ typedef struct Assembly {
     const Equations *eq;
     const Setting *setting;
     Assembled *out;
+    bool has_modes; /* sides of switches are found behind the states */
     double *y;
     Given *given;
     int given_count;

@@ -9,9 +9,12 @@
 void network_hint(System *system, Diag *diag)
 {
     IdealSwitch ideal;
+    int i = 0;
 
-    if (diag != NULL && diag->hint[0] == '\0' && system_ideal_count(system) > 0 &&
-        system_ideal(system, 0, &ideal, NULL) == OK)
+    while (i < system_ideal_count(system) && !system_is_ideal(system, i))
+        i++;
+    if (diag != NULL && diag->hint[0] == '\0' && i < system_ideal_count(system) &&
+        system_ideal(system, i, &ideal, NULL) == OK)
         diag_hint(diag,
                   "%s is ideal: where the network can't be on either side of it, give it Ron= and "
                   "Roff=, such as Ron=1 mohm Roff=1 Mohm",
@@ -155,8 +158,8 @@ Status start_find_network(Assembly *a, WarmValue from, void *context, Diag *diag
     }
     memcpy(a->y + l->n + l->nu, v, (size_t)l->nx * sizeof(double));
     memcpy(a->out->network, v + l->nx, (size_t)(l->nx + l->nz) * sizeof(double));
-    /* with ideal switches on both sides there may be none */
-    if (system_ideal_count(l->system) == 0)
+    /* with switches on both sides there may be none */
+    if (!a->has_modes)
         CHECK(start_solve(l, a->numbers, a->y, a->out->network, a->out->network, diag));
 done:
     start_close_problem(&p);

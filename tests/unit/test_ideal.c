@@ -4,6 +4,7 @@
 #include "session_kit.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 #define PI 3.14159265358979323846
 
@@ -200,6 +201,53 @@ static void a_buck_converter_rests_where_its_current_ends(void)
 }
 
 /* what the coil of a flyback converter holds goes into the load, through the transformer */
+/* Steps of the last run, from its report. */
+static int steps_of_run(Kit *kit)
+{
+    const char *steps;
+
+    EXPECT_DONE(kit, "show run\n");
+    steps = kit->text != NULL ? strstr(kit->text, "steps") : NULL;
+    return steps != NULL ? atoi(steps + strcspn(steps, "0123456789")) : -1;
+}
+
+/* A chopper whose duty a controller holds from sample to sample: what its condition compares jumps
+ * with the time of the samples, and in between it follows time alone. */
+static void expect_chopper(const char *parts, double on_switch, double on_diode)
+{
+    const double E = 24, Vf = 0.5, L = 1e-3, period = 1e-4, duty = 0.4;
+    const double R1 = 0.8 + on_switch, R2 = 0.8 + on_diode;
+    double current = 0;
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, "Ts = 1e-4\nvsource V s 0 24\ninductor L s y 1 mH\nresistor R y x 0.8\n"
+                      "gain c cc 0 of=0.4 k=1 period=Ts\n");
+    EXPECT_DONE(&kit, parts);
+    EXPECT_DONE(&kit, "init L.i = 0\nsimulate 0.005 every=1e-5 rtol=1e-10\n");
+    for (int k = 1; k <= 50; k++) {
+        current = E / R1 + (current - E / R1) * exp(-R1 / L * duty * period);
+        expect_at(&kit, "L.i", (k - 1 + duty) * period, current, 1e-6);
+        current = -Vf / R2 + (current + Vf / R2) * exp(-R2 / L * (1 - duty) * period);
+        expect_at(&kit, "L.i", k * period, current, 1e-6);
+    }
+    EXPECT(steps_of_run(&kit) >= 100 && steps_of_run(&kit) <= 250);
+    kit_free(&kit);
+}
+
+static void a_sampled_duty_holds_in_every_period(void)
+{
+    expect_chopper("switch S x 0 when=t/Ts - floor(t/Ts) < cc.v\ndiode D x s Vf=0.5\n", 0, 0);
+    expect_chopper("switch S x 0 when=t/Ts - floor(t/Ts) < cc.v Ron=0.02 Roff=1e10\n"
+                   "diode D x s Ron=0.01 Roff=1e10 Vf=0.5\n",
+                   0.02, 0.01);
+    expect_chopper("switch S x 0 when=t/Ts - floor(t/Ts) < cc.v\n"
+                   "diode D x s Ron=0.01 Roff=1e10 Vf=0.5\n",
+                   0, 0.01);
+    expect_chopper("switch S x 0 when=t/Ts - floor(t/Ts) < cc.v Ron=0.02\n"
+                   "diode D x s Ron=0.01 Vf=0.5\n",
+                   0.02, 0.01);
+}
+
 static void a_flyback_converter_hands_over_energy(void)
 {
     Kit kit = kit_new();
@@ -567,6 +615,7 @@ int main(void)
     RUN(a_multiplier_doubles_twice);
     RUN(a_buck_converter_goes_on_without_a_gap);
     RUN(a_buck_converter_rests_where_its_current_ends);
+    RUN(a_sampled_duty_holds_in_every_period);
     RUN(a_flyback_converter_hands_over_energy);
     RUN(diodes_take_over_from_switches);
     RUN(diodes_in_a_row_share_the_voltage);
