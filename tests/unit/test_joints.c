@@ -377,7 +377,7 @@ static const struct {
     {"universal q a b axes=[x, [0, 0, 0]]",  26, "axes is zero", ""},
     {"universal q a b axes=[x, x]",           1, "the axes of q stand at 0 deg", "square arms"},
     {"universal q a b axes=[x, [1, 1, 0]]",   1, "the axes of q stand at 45 deg", "square arms"},
-    {"universal q a b axes=[x, [p, 1, 0]]",   1, "not square to each other whatever", "rotation="},
+    {"universal q a b axes=[x, [p, 1, 0]]",   1, "the axes of q stand at 45 deg", "square arms"},
     {"universal q a b axis=x",               17, "'universal' has no key 'axis'", "axes"},
     {"universal q a b coord=c1",             17, "'universal' has no key 'coord'", "coords"},
     {"universal q a b coords=[c1]",          24, "universal has 2 coordinates, 1 named", "coords="},

@@ -204,8 +204,10 @@ static void a_sampled_gain_holds_its_output(void)
                           "expect C.v ~ 0.9*0.8^3 within 1e-9 at 0.35\n");
     }
     EXPECT_DONE(&kit, "resume 1\nexpect C.v ~ 0.8^20 within 1e-9\n");
-    EXPECT_DONE(&kit, "p = 0; set G.period = p\n");
-    EXPECT_FAILS(&kit, "simulate 1\n", "the sampling period of G.held is 0 s");
+    EXPECT_FAILS(&kit, "p = 0; set G.period = p\n", "period of G is zero");
+    EXPECT_DONE(&kit, "p = 0.1; set G.period = p\n");
+    EXPECT_FAILS(&kit, "p = -1\n", "period of G is negative");
+    EXPECT_DONE(&kit, "simulate 1\nexpect C.v ~ 0.8^10 within 1e-9\n");
     kit_free(&kit);
 }
 
