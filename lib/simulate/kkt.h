@@ -17,7 +17,7 @@ typedef struct Kkt Kkt;
 
 /* New, for m rows in use of `all`; free with kkt_free(). */
 Kkt *kkt_new(int nu, int m, int all);
-void kkt_free(Kkt *kkt);     /* NULL is fine */
+void kkt_free(Kkt *kkt); /* NULL is fine */
 /* Factor. `rows` picks the m rows of phi_u (row by row, nu columns); borrowed during the call.
  * False when no solution can be had at all: M singular where nothing holds it, or NaN. O((nu+m)^3).
  */
