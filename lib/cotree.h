@@ -149,6 +149,9 @@ int ct_run_count(const ct_session *session); /* runs so far: run1 ... */
  * end of the last run or the assembled start, as the language says. */
 ct_status ct_value(ct_session *session, const ct_expression *expression, const ct_expression *at,
                    double *value, ct_error *error);
+/* The value of a key that is a time, as every=, in s; `name` is what messages call it. */
+ct_status ct_duration(ct_session *session, const ct_expression *expression, const char *name,
+                      double *value, ct_error *error);
 /* A table: first column t, then one an item, of the last run (or the run the items name). `count`
  * 0: all coordinates and speeds. `every` > 0: on that grid, else the run's. `values` is new, rows x
  * (columns), row by row; `names` new (ct_words_free), with the unit asked for behind a name in

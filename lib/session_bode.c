@@ -84,25 +84,27 @@ done:
     return status;
 }
 
-/* a frequency in Hz; one whose unit has an angle is an angular frequency */
+/* a frequency in Hz; one whose dimension has an angle is an angular frequency */
 static Status read_frequency(const Model *model, const Pair *pair, double *out, Diag *diag)
 {
     static const Dimension rate = {{0, 0, -1, 0, 0, 0}};
     const Syntax *value = pair->value;
+    Dimension dimension = rate;
     Status status;
     Expr e;
 
-    if (value->has_unit && !dimension_same(value->unit.dimension, rate)) {
-        diag_at(diag, E_UNIT, value->unit_place, "%s= is a frequency", pair->name);
-        diag_hint(diag, "%s=1 kHz, or %s=10 [rad/s]", pair->name, pair->name);
-        return E_UNIT;
-    }
     CHECK(model_expression(model, value, &e, diag));
     if ((expr_kinds(e) & ~(1U << SYMBOL_PARAMETER)) != 0)
         return diag_at(diag, E_VALUE, value->place, "%s must be a number, or made of parameters",
                        pair->name);
+    if (model_dimension(model, value, &dimension) && !dimension_same(dimension, rate)) {
+        diag_at(diag, E_UNIT, value->has_unit ? value->unit_place : value->place,
+                "%s= is a frequency", pair->name);
+        diag_hint(diag, "%s=1 kHz, or %s=10 [rad/s]", pair->name, pair->name);
+        return E_UNIT;
+    }
     *out = model_number(model, e);
-    if (value->has_unit && value->unit.dimension.power[5] != 0)
+    if (dimension_has_angle(dimension))
         *out /= 2 * M_PI;
     if (!isfinite(*out) || *out <= 0)
         return diag_at(diag, E_VALUE, value->place, "%s must be a frequency above 0", pair->name);
@@ -117,6 +119,7 @@ static Status read_points(const Model *model, const Pair *pair, int *out, Diag *
     Expr e;
 
     CHECK(model_expression(model, pair->value, &e, diag));
+    CHECK(model_check_unit(model, pair->value, "1", "points", diag));
     value = (expr_kinds(e) & ~(1U << SYMBOL_PARAMETER)) == 0 ? model_number(model, e) : NAN;
     if (!(value >= 2 && value <= MOST_POINTS && value == floor(value)))
         return diag_at(diag, E_VALUE, pair->value->place, "points= is a whole number from 2 to %d",

@@ -529,6 +529,8 @@ Status formula_new(ct_session *session, const Syntax *syntax, Formula *out, Diag
         bare.has_unit = false;
     }
     status = cut_any(&cut, &bare, &formula.whole, diag);
+    if (status == OK)
+        status = model_check_shown(session->model, syntax, diag);
     if (status != OK) {
         formula_free(&formula);
         return status;

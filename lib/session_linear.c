@@ -81,6 +81,7 @@ static Status read_point(ct_session *session, const Statement *s, Asked *asked, 
     } else {
         run = session->runs.at + session->runs.count - 1;
         CHECK(model_expression(session->model, at, &e, diag));
+        CHECK(model_check_unit(session->model, at, "s", "an instant", diag));
         if ((expr_kinds(e) & ~(1U << SYMBOL_PARAMETER)) != 0)
             return diag_at(diag, E_VALUE, at->place,
                            "an instant is a number, or made of parameters");
@@ -144,6 +145,8 @@ static Status read_lists(ct_session *session, const Statement *s, Asked *asked, 
         CHECK(read_input(session->model, item, asked, diag));
     for (int i = 0; (item = item_of(outputs, i)) != NULL; i++) {
         status = model_expression(session->model, item, &e, diag);
+        if (status == OK)
+            status = model_check_shown(session->model, item, diag);
         if (status != OK && diag->place.line == 0)
             diag->place = item->place;
         CHECK(status);

@@ -150,14 +150,15 @@ Status session_source(ct_session *session, Run **out, Diag *diag)
 
 /* --- options --- */
 
-static Status number_of(ct_session *session, const Syntax *syntax, const char *what, double *out,
-                        Diag *diag)
+static Status number_of(ct_session *session, const Syntax *syntax, const char *unit,
+                        const char *what, double *out, Diag *diag)
 {
     Status status;
     Expr e;
     double value;
 
     CHECK(model_expression(session->model, syntax, &e, diag));
+    CHECK(model_check_unit(session->model, syntax, unit, what, diag));
     if ((expr_kinds(e) & ~(1U << SYMBOL_PARAMETER)) != 0) {
         diag_at(diag, E_VALUE, syntax->place, "%s must be a number, or made of parameters", what);
         return E_VALUE;
@@ -203,12 +204,13 @@ static Status read_options(ct_session *session, const Statement *s, RunOptions *
     RunOptions options = {0};
     const struct {
         const char *key;
+        const char *unit; /* atol is of lengths, voltages ... alike, each in SI */
         double *value;
-    } numbers[] = {{"every", &options.every},
-                   {"rtol", &options.rtol},
-                   {"atol", &options.atol},
-                   {"step", &options.step},
-                   {"maxstep", &options.most}};
+    } numbers[] = {{"every", "s", &options.every},
+                   {"rtol", "1", &options.rtol},
+                   {"atol", "1", &options.atol},
+                   {"step", "s", &options.step},
+                   {"maxstep", "s", &options.most}};
     Status status;
 
     if (s->operands.count != 1) {
@@ -216,14 +218,15 @@ static Status read_options(ct_session *session, const Statement *s, RunOptions *
         diag_hint(diag, "%s 10 every=0.01", s->verb);
         return E_SYNTAX;
     }
-    CHECK(
-        number_of(session, s->operands.at[0].value, "the time of a run", &options.duration, diag));
+    CHECK(number_of(session, s->operands.at[0].value, "s", "the time of a run", &options.duration,
+                    diag));
     for (int i = 0; i < s->pairs.count; i++) {
         const Pair *pair = s->pairs.at + i;
 
         for (int k = 0; k < COUNT(numbers); k++)
             if (strcmp(pair->name, numbers[k].key) == 0)
-                CHECK(number_of(session, pair->value, pair->name, numbers[k].value, diag));
+                CHECK(number_of(session, pair->value, numbers[k].unit, pair->name, numbers[k].value,
+                                diag));
         if (strcmp(pair->name, "method") == 0)
             CHECK(method_of(pair->value, &options.method, diag));
         if (strcmp(pair->name, "check") == 0)

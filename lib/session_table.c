@@ -18,6 +18,7 @@ static Status instant_of(ct_session *session, const Syntax *at, double *out, Dia
     Status status;
 
     CHECK(formula_new(session, at, &formula, diag));
+    CHECK(model_check_unit(session->model, at, "s", "an instant", diag));
     if (formula_needs_run(&formula)) {
         status = diag_at(diag, E_VALUE, at->place, "an instant is a number, or made of parameters");
         goto done;
@@ -54,6 +55,19 @@ done:
     if (status != OK && diag->place.line == 0)
         diag->place = syntax->place;
     return status;
+}
+
+ct_status ct_duration(ct_session *session, const ct_expression *expression, const char *name,
+                      double *value, ct_error *error)
+{
+    Status status;
+    Diag diag = {0};
+
+    session_begin(session);
+    CHECK(value_of(session, syntax_of(expression), NULL, value, &diag));
+    CHECK(model_check_unit(session->model, syntax_of(expression), "s", name, &diag));
+done:
+    return session_report(status, &diag, error);
 }
 
 ct_status ct_value(ct_session *session, const ct_expression *expression, const ct_expression *at,
@@ -265,8 +279,12 @@ static Status expect_near(ct_session *session, const Statement *s, const Syntax 
 
     CHECK(value_of(session, left, at, &value, diag));
     CHECK(value_of(session, s->near_value, at, &expected, diag));
-    if (s->within != NULL)
+    CHECK(model_check_alike(session->model, left, s->near_value, diag));
+    if (s->within != NULL) {
         CHECK(value_of(session, s->within, at, &tolerance, diag));
+        CHECK(model_check_alike(session->model, left, s->within, diag));
+        CHECK(model_check_alike(session->model, s->near_value, s->within, diag));
+    }
     /* a value that isn't a number is never near */
     if (!(fabs(value - expected) <= tolerance)) {
         syntax_print(&text, left);

@@ -169,7 +169,7 @@ ct_status command_table(Call *call, ct_error *error)
     ct_status status = CT_OK;
 
     if (step != NULL)
-        status = ct_value(call->session, step, NULL, &every, error);
+        status = ct_duration(call->session, step, "every", &every, error);
     if (status == CT_OK && step != NULL && !(every > 0))
         status = ct_error_at(statement, step, error, "every= is a time above zero");
     if (status != CT_OK)

@@ -195,7 +195,7 @@ typedef struct OpRow {
 } OpRow;
 
 static const OpRow rows[] = {
-#define OP(id, name, args, derivative, c, latex, value) {name, args, derivative, value},
+#define OP(id, name, args, derivative, c, latex, value, dimension) {name, args, derivative, value},
 #include "expr/ops.def"
 #undef OP
 };

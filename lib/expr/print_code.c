@@ -222,7 +222,7 @@ static const char *const fortran_patterns[OP_COUNT] = {
 };
 
 static const char *const c_names[] = {
-#define OP(id, name, args, derivative, c, latex, value) c,
+#define OP(id, name, args, derivative, c, latex, value, dimension) c,
 #include "expr/ops.def"
 #undef OP
 };

@@ -182,7 +182,7 @@ static void latex_fraction(Printer *printer, const Fraction *fraction)
 }
 
 static const char *const names[] = {
-#define OP(id, name, args, derivative, c, latex, value) latex,
+#define OP(id, name, args, derivative, c, latex, value, dimension) latex,
 #include "expr/ops.def"
 #undef OP
 };

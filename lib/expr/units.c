@@ -129,6 +129,7 @@ static Unit unit_of(const UnitRow *row, long long num, long long den)
         unit.den /= 10;
     }
     memcpy(unit.dimension.power, row->power, sizeof row->power);
+    unit.is_cycles = strcmp(row->name, "Hz") == 0;
     set_factor(&unit);
     return unit;
 }
@@ -162,6 +163,49 @@ bool unit_find(const char *name, Unit *unit)
     return find_part(name, strlen(name), unit);
 }
 
+/* --- arithmetic of dimensions --- */
+
+bool dimension_same(Dimension a, Dimension b)
+{
+    return memcmp(a.power, b.power, 5) == 0;
+}
+
+bool dimension_has_angle(Dimension d)
+{
+    return d.power[5] != 0;
+}
+
+static bool dimension_is_none(Dimension d)
+{
+    static const Dimension none;
+
+    return memcmp(&d, &none, sizeof d) == 0;
+}
+
+bool dimension_times(Dimension a, Dimension b, int power, Dimension *out)
+{
+    for (int i = 0; i < 6; i++) {
+        long long sum = a.power[i] + (long long)power * b.power[i];
+
+        if (sum > SCHAR_MAX || sum < SCHAR_MIN)
+            return false;
+        a.power[i] = (signed char)sum;
+    }
+    *out = a;
+    return true;
+}
+
+bool dimension_root(Dimension a, Dimension *out)
+{
+    for (int i = 0; i < 6; i++) {
+        if (i < 5 && a.power[i] % 2 != 0)
+            return false;
+        a.power[i] /= 2;
+    }
+    *out = a;
+    return true;
+}
+
 /* --- compound units --- */
 
 static long long gcd(long long a, long long b)
@@ -183,13 +227,9 @@ static bool multiply(Unit *unit, const Unit *by, int sign)
 
     unit->factor = sign > 0 ? unit->factor * by->factor : unit->factor / by->factor;
     unit->pi_power += sign * by->pi_power;
-    for (int i = 0; i < 6; i++) {
-        int power = unit->dimension.power[i] + sign * by->dimension.power[i];
-
-        if (power > SCHAR_MAX || power < SCHAR_MIN)
-            return false;
-        unit->dimension.power[i] = (signed char)power;
-    }
+    unit->is_cycles = by->is_cycles && dimension_is_none(unit->dimension) && sign > 0;
+    if (!dimension_times(unit->dimension, by->dimension, sign, &unit->dimension))
+        return false;
     if (unit->den != 0) {
         long long left = gcd(unit->num, den);
         long long right = gcd(num, unit->den);
@@ -309,12 +349,7 @@ const char *unit_name(int i)
     return i >= 0 && i < COUNT(rows) ? rows[i].name : NULL;
 }
 
-/* --- dimensions --- */
-
-bool dimension_same(Dimension a, Dimension b)
-{
-    return memcmp(a.power, b.power, 5) == 0;
-}
+/* --- printing dimensions --- */
 
 /* How much there is to write: the sum of all powers. */
 static int dimension_size(Dimension d)

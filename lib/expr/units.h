@@ -18,6 +18,7 @@ typedef struct Unit {
     long long den; /* 0 where the exact factor doesn't fit, and `factor` alone counts */
     int pi_power;
     Dimension dimension;
+    bool is_cycles; /* Hz: a count of turns each second, where 1/s may be an angular rate */
 } Unit;
 
 /* One unit name with an optional SI prefix: mm, kohm, uF, deg, rpm. False where unknown. No
@@ -29,6 +30,11 @@ bool unit_parse(const char *text, size_t length, Unit *unit, size_t *fault);
 /* what was probably meant by an unknown unit name, or NULL */
 const char *unit_suggest(const char *name);
 bool dimension_same(Dimension a, Dimension b);
+bool dimension_has_angle(Dimension d);
+/* a * b^power; false, *out unchanged, where an exponent no longer fits */
+bool dimension_times(Dimension a, Dimension b, int power, Dimension *out);
+/* the square root; false where an exponent is odd (an angle's doesn't count) */
+bool dimension_root(Dimension a, Dimension *out);
 /* kg*m^2, with a name where that is shorter: N, V, N/m, N*m (of work and of torque), 1 for none */
 void dimension_print(Text *text, Dimension dimension);
 /* every unit name without prefix, for completion: call with 0, 1, ... until NULL */

@@ -1,5 +1,6 @@
 # the live model
-libcore_la_SOURCES += lib/model/model.h lib/model/model_impl.h lib/model/model_draft.h \
+libcore_la_SOURCES += lib/model/measure.h lib/model/measure.c lib/model/measure_check.c \
+	lib/model/model.h lib/model/model_impl.h lib/model/model_draft.h \
 	lib/model/syntax.h \
 	lib/model/model.c lib/model/model_build.c lib/model/model_check.c lib/model/model_data.c lib/model/model_define.c \
 	lib/model/model_event.c lib/model/model_function.c lib/model/model_lines.c lib/model/model_names.c \

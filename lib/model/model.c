@@ -429,6 +429,39 @@ done:
     return status;
 }
 
+Status model_check_shown(const Model *model, const Syntax *item, Diag *diag)
+{
+    const Scope scope = ask(model);
+
+    return unit_check_shown(&scope, item, diag);
+}
+
+Status model_check_unit(const Model *model, const Syntax *syntax, const char *unit,
+                        const char *name, Diag *diag)
+{
+    const Scope scope = ask(model);
+
+    return unit_check(&scope, syntax, unit, name, diag);
+}
+
+bool model_dimension(const Model *model, const Syntax *syntax, Dimension *out)
+{
+    const Scope scope = ask(model);
+    Measure measure;
+
+    if (measure_of(&scope, syntax, &measure, NULL) != OK || measure.kind != MEASURE_KNOWN)
+        return false;
+    *out = measure.dimension;
+    return true;
+}
+
+Status model_check_alike(const Model *model, const Syntax *left, const Syntax *right, Diag *diag)
+{
+    const Scope scope = ask(model);
+
+    return unit_check_compared(&scope, left, right, diag);
+}
+
 bool model_call_takes_text(const Syntax *syntax)
 {
     return syntax->kind == SYNTAX_CALL && function_takes_text(syntax->text);

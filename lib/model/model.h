@@ -138,6 +138,18 @@ MUST_USE Status model_expression(const Model *model, const Syntax *syntax, Expr 
 MUST_USE Status model_call(const Model *model, const Syntax *syntax, const Expr *args, Expr *out,
                            Diag *diag);
 bool model_call_takes_text(const Syntax *syntax);
+/* Dimensions, of texts whose names are known; each fails with E_UNIT at its place. What can't be
+ * inferred fits everything. */
+/* an item: its sums and arguments, and the unit behind it that it is to be shown in */
+MUST_USE Status model_check_shown(const Model *model, const Syntax *item, Diag *diag);
+/* the value of a key, "every", that is in `unit` */
+MUST_USE Status model_check_unit(const Model *model, const Syntax *syntax, const char *unit,
+                                 const char *name, Diag *diag);
+/* False where it isn't known. */
+bool model_dimension(const Model *model, const Syntax *syntax, Dimension *out);
+/* two that are compared */
+MUST_USE Status model_check_alike(const Model *model, const Syntax *left, const Syntax *right,
+                                  Diag *diag);
 /* whether the dotted name means a variable that can be asked for, with that many primes; if not,
  * why */
 MUST_USE Status model_check_variable(const Model *model, const char *path, int primes, Place place,

@@ -163,7 +163,7 @@ static Status check_new_name(const State *state, const char *name, DefinitionKin
 /* The line of a definition says something new: make the state anew from its lines. On failure
  * nothing has changed. */
 static Status replace_line(State **state, int index, const char *text, const Scope *scope,
-                           Place place, Outcome *outcome, Diag *diag)
+                           Place place, Effect effect, Outcome *outcome, Diag *diag)
 {
     Line *line = &(*state)->lines.at[(*state)->definitions.at[index].line];
     Line before = *line;
@@ -183,7 +183,7 @@ static Status replace_line(State **state, int index, const char *text, const Sco
     }
     state_free(*state);
     *state = next;
-    outcome->effect = EFFECT_EQUATIONS;
+    outcome->effect = effect;
     return OK;
 }
 
@@ -213,18 +213,28 @@ static Status try_body(State *state, Definition *d, Expr body, const Statement *
     return status;
 }
 
-static Status change_parameter(State *state, Definition *d, Expr body, const Statement *statement,
-                               const Scope *scope, const char *text, Outcome *outcome, Diag *diag)
+/* A value of another dimension may not fit where the name is used. */
+static Status change_parameter(State **in, Definition *d, Expr body, Measure measure,
+                               const Statement *statement, const Scope *scope, const char *text,
+                               Outcome *outcome, Diag *diag)
 {
+    State *state = *in;
     Line *line = &state->lines.at[d->line];
     const Expr before = d->body;
+    const Effect effect = body != before ? EFFECT_VALUES : EFFECT_NONE;
     Status status = OK;
 
     CHECK(definition_check_circle(state, index_of(state, d), scope->uses.at, scope->uses.count,
                                   statement->name_place, diag));
     CHECK(try_body(state, d, body, statement, outcome, diag));
-    if (body != before)
-        outcome->effect = EFFECT_VALUES;
+    if (!measure_same(d->measure, measure)) {
+        status = replace_line(in, index_of(state, d), text, scope, statement->value->place, effect,
+                              outcome, diag);
+        if (status != OK)
+            set_body(state, d, before);
+        return status;
+    }
+    outcome->effect = effect;
     line->text = state_text(state, text);
     line_uses(state, line, scope);
 done:
@@ -238,18 +248,20 @@ Status apply_parameter(State **state, const Statement *statement, Outcome *outco
     Scope scope = {.state = s, .kind = SCOPE_PARAMETER};
     char *text = statement_full_text(statement);
     Expr body = NULL;
+    Measure measure;
     Status status = OK;
 
     if (d == NULL)
         CHECK(check_new_name(s, statement->name, DEFINES_PARAMETER, statement->name_place, diag));
     CHECK(scope_expression(&scope, statement->value, &body, diag));
+    CHECK(measure_of(&scope, statement->value, &measure, diag));
     if (!isfinite(state_number(s, body))) {
         status = diag_at(diag, E_DOMAIN, statement->value->place, "%s has no finite value here",
                          statement->name);
         goto done;
     }
     if (d != NULL) {
-        status = change_parameter(s, d, body, statement, &scope, text, outcome, diag);
+        status = change_parameter(state, d, body, measure, statement, &scope, text, outcome, diag);
         goto done;
     }
     LIST_PUSH(s->parameters,
@@ -258,7 +270,8 @@ Status apply_parameter(State **state, const Statement *statement, Outcome *outco
                   (Definition){.kind = DEFINES_PARAMETER,
                                .name = statement->name,
                                .symbol = expr_symbol(s->arena, statement->name, SYMBOL_PARAMETER),
-                               .body = body},
+                               .body = body,
+                               .measure = measure},
                   text, &scope));
 done:
     LIST_FREE(scope.uses);
@@ -278,6 +291,7 @@ static Expr *argument_symbols(State *state, const Statement *statement)
     return arguments;
 }
 
+/* whether equations with the one are those with the other */
 static bool is_same_law(const Definition *law, const Statement *statement, Expr body)
 {
     bool same = law->body == body && law->argument_count == statement->argument_count;
@@ -305,15 +319,18 @@ Status apply_law(State **state, const Statement *statement, Outcome *outcome, Di
     if (law != NULL) {
         CHECK(definition_check_circle(s, index_of(s, law), scope.uses.at, scope.uses.count,
                                       statement->name_place, diag));
-        if (!is_same_law(law, statement, body))
-            status = replace_line(state, index_of(s, law), text, &scope, statement->name_place,
-                                  outcome, diag);
+        /* in other words also where it comes to the same: their units may differ */
+        if (strcmp(s->lines.at[law->line].text, text) != 0)
+            status = replace_line(
+                state, index_of(s, law), text, &scope, statement->name_place,
+                is_same_law(law, statement, body) ? EFFECT_NONE : EFFECT_EQUATIONS, outcome, diag);
         goto done;
     }
     (void)add_definition(s,
                          (Definition){.kind = DEFINES_LAW,
                                       .name = statement->name,
                                       .body = body,
+                                      .syntax = syntax_copy(s->pool, statement->value),
                                       .arguments = argument_symbols(s, statement),
                                       .argument_count = statement->argument_count},
                          text, &scope);
@@ -334,25 +351,26 @@ static bool is_used(const State *state, int definition)
     return false;
 }
 
-static Status change_output(State **state, Definition *output, Expr body, const Pair *pair,
-                            const Scope *scope, const char *text, Outcome *outcome, Diag *diag)
+static Status change_output(State **state, Definition *output, Expr body, Measure measure,
+                            const Pair *pair, const Scope *scope, const char *text,
+                            Outcome *outcome, Diag *diag)
 {
     State *s = *state;
     Line *line = &s->lines.at[output->line];
+    bool is_same = output->body == body;
     Status status = OK;
 
     CHECK(definition_check_circle(s, index_of(s, output), scope->uses.at, scope->uses.count,
                                   pair->name_place, diag));
-    if (output->body == body)
-        goto done;
-    if (is_used(s, index_of(s, output))) {
-        status =
-            replace_line(state, index_of(s, output), text, scope, pair->name_place, outcome, diag);
+    if (is_used(s, index_of(s, output)) && !(is_same && measure_same(output->measure, measure))) {
+        status = replace_line(state, index_of(s, output), text, scope, pair->name_place,
+                              is_same ? EFFECT_NONE : EFFECT_EQUATIONS, outcome, diag);
         goto done;
     }
     line->text = state_text(s, text);
     line_uses(s, line, scope);
     output->body = body;
+    output->measure = measure;
 done:
     return status;
 }
@@ -364,6 +382,7 @@ static Status output_pair(State **state, const Pair *pair, Outcome *outcome, Dia
     Scope scope = {.state = s, .kind = SCOPE_OUTPUT};
     Text text = {0};
     Expr body = NULL;
+    Measure measure;
     Status status = OK;
 
     if (pair->primes > 0 || strchr(pair->name, '.') != NULL) {
@@ -373,16 +392,19 @@ static Status output_pair(State **state, const Pair *pair, Outcome *outcome, Dia
     if (output == NULL)
         CHECK(check_new_name(s, pair->name, DEFINES_OUTPUT, pair->name_place, diag));
     CHECK(scope_expression(&scope, pair->value, &body, diag));
+    CHECK(measure_of(&scope, pair->value, &measure, diag));
     text_addf(&text, "output %s = ", pair->name);
     syntax_print(&text, pair->value);
     if (output != NULL) {
-        status = change_output(state, output, body, pair, &scope, text.at, outcome, diag);
+        status = change_output(state, output, body, measure, pair, &scope, text.at, outcome, diag);
         goto done;
     }
-    LIST_PUSH(s->outputs,
-              add_definition(s,
-                             (Definition){.kind = DEFINES_OUTPUT, .name = pair->name, .body = body},
-                             text.at, &scope));
+    LIST_PUSH(s->outputs, add_definition(s,
+                                         (Definition){.kind = DEFINES_OUTPUT,
+                                                      .name = pair->name,
+                                                      .body = body,
+                                                      .measure = measure},
+                                         text.at, &scope));
 done:
     LIST_FREE(scope.uses);
     text_free(&text);

@@ -35,15 +35,26 @@ static const struct {
 /* figures of a whole run, of one argument */
 static const char *const run_figures[] = {"min", "max", "mean", "rms"};
 
-/* entries of what `show` prints */
+/* entries of what `show` prints; where each has a unit of its own there is none here */
 static const struct {
     const char *name;
     int args;
+    const char *unit;
 } entries[] = {
-    {"lambda", 1},   {"mass", 2},         {"forces", 1},      {"constraints", 1},   {"jacobian", 2},
-    {"velocity", 1}, {"acceleration", 1}, {"modes.omega", 1}, {"modes.damping", 1}, {"linear.A", 2},
-    {"linear.B", 2}, {"linear.C", 2},     {"linear.D", 2},
+    {"lambda", 1, NULL},       {"mass", 2, NULL},           {"forces", 1, NULL},
+    {"constraints", 1, NULL},  {"jacobian", 2, NULL},       {"velocity", 1, NULL},
+    {"acceleration", 1, NULL}, {"modes.omega", 1, "rad/s"}, {"modes.damping", 1, "1"},
+    {"linear.A", 2, NULL},     {"linear.B", 2, NULL},       {"linear.C", 2, NULL},
+    {"linear.D", 2, NULL},
 };
+
+const char *entry_unit(const char *name)
+{
+    for (int i = 0; i < COUNT(entries); i++)
+        if (strcmp(entries[i].name, name) == 0)
+            return entries[i].unit;
+    return NULL;
+}
 
 /* the row of a function that a name in an expression may mean; -1: none */
 static int find_function(const char *name)

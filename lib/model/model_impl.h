@@ -9,6 +9,7 @@
 #define COTREE_MODEL_MODEL_IMPL_H
 
 #include "base/names.h"
+#include "model/measure.h"
 #include "model/model.h"
 
 typedef LIST(const char *) NameList;
@@ -34,8 +35,10 @@ typedef enum DefinitionKind {
 typedef struct Definition {
     DefinitionKind kind;
     const char *name;
-    Expr symbol; /* of a parameter */
-    Expr body;   /* of a law: over its arguments */
+    Expr symbol;          /* of a parameter */
+    Expr body;            /* of a law: over its arguments */
+    const Syntax *syntax; /* of a law: its text, in the state's pool */
+    Measure measure;      /* of a parameter or output */
     Expr *arguments;
     int argument_count;
     const Event *event; /* of an event; in the state's pool */
@@ -134,6 +137,11 @@ const char *syntax_name(const Syntax *syntax);
 /* whether `name` can become a new name; `taken_as` is what it would be ("a parameter") */
 Status name_is_free(const State *state, const char *name, Place place, Diag *diag);
 Domain terminal_domain(const State *state, const char *name); /* of one that there is */
+/* length of "run12." or "last." at the start; 0: none */
+size_t run_prefix(const char *path);
+/* units of variables of the model as a whole, of entries of what is shown; NULL: none or unknown */
+const char *whole_unit(const char *path);
+const char *entry_unit(const char *name);
 Status name_unknown(const State *state, const char *what, const char *name, Place place,
                     Diag *diag);
 /* "a revolute", "a parameter": what a name is */
@@ -194,8 +202,37 @@ void scope_use(Scope *scope, int definition);
 Status function_call(Scope *scope, const Syntax *syntax, const Expr *args, Expr *out, Diag *diag);
 /* d/dt along the primed names of variables */
 Status time_derivative(Arena *arena, Expr e, int primes, Place place, Expr *out, Diag *diag);
-/* a literal's unit against the one that `name` wants */
-Status unit_check(const Syntax *syntax, const char *unit, const char *name, Diag *diag);
+
+/* --- dimensions (measure.c, measure_check.c) --- */
+
+/* Of an expression whose names are known. Fails with E_UNIT at the operand or argument that can't
+ * stand where it does. */
+Status measure_of(const Scope *scope, const Syntax *syntax, Measure *out, Diag *diag);
+/* of a text's unit, which is known to be well written; NULL: any */
+Measure measure_of_unit(const char *unit);
+/* of a variable by its own name, without primes */
+Measure variable_measure(const State *state, const Instance *own, const char *name);
+bool measure_same(Measure a, Measure b);
+bool measures_fit(Measure a, Measure b);
+/* Two that are `what` ("added"): their measure, or E_UNIT at one of them. */
+Status measures_join(Measure a, Measure b, const Syntax *left, const Syntax *right,
+                     const char *what, Measure *out, Diag *diag);
+bool measure_is_plain(Measure measure); /* no dimension, not even an angle */
+void measure_print(Text *text, Measure measure);
+/* the way out where these two don't fit */
+#define SI_HINT "a plain number is taken as SI"
+void measure_hint(Measure a, Measure b, const char *otherwise, Diag *diag);
+
+/* A value, or each entry of a vector, against the unit that `name` wants; NULL: any. What was
+ * written without units is in SI. */
+Status unit_check(const Scope *scope, const Syntax *syntax, const char *unit, const char *name,
+                  Diag *diag);
+/* entries of a direction, which have one dimension, whichever */
+Status unit_check_alike(const Scope *scope, const Syntax *syntax, const char *name, Diag *diag);
+/* two values that are compared */
+Status unit_check_compared(const Scope *scope, const Syntax *left, const Syntax *right, Diag *diag);
+/* an item, and the unit behind it that it is to be shown in */
+Status unit_check_shown(const Scope *scope, const Syntax *item, Diag *diag);
 
 /* --- values of parts (model_param.c) --- */
 
@@ -258,8 +295,8 @@ void starts_save(const State *state, Text *text);
 Status starts_copy(State *to, const State *from, NameList *broken, Text *remarks, Diag *diag);
 
 /* Refuses a variable that follows from the rest, and so can't be given a value; its own name. A
- * literal's unit is checked. */
-Status start_check(const State *state, const Pair *pair, Text *name, Diag *diag);
+ * value's unit is checked. */
+Status start_check(const Scope *scope, const Pair *pair, Text *name, Diag *diag);
 
 /* --- one function a verb --- */
 

@@ -10,10 +10,13 @@
 static const char *const reserved[] = {"t",     "pi",    "ground", "gnd",    "energy", "constraint",
                                        "model", "count", "modes",  "linear", "last"};
 
-/* variables of the model as a whole */
-static const char *const model_variables[] = {
-    "energy.kinetic", "energy.potential", "energy.total", "constraint.error",
-    "model.n",        "model.m",          "model.dof"};
+/* variables of the model as a whole; the error is of lengths and angles alike */
+static const struct {
+    const char *name;
+    const char *unit;
+} model_variables[] = {{"energy.kinetic", "J"},    {"energy.potential", "J"}, {"energy.total", "J"},
+                       {"constraint.error", NULL}, {"model.n", "1"},          {"model.m", "1"},
+                       {"model.dof", "1"}};
 
 /* what a count can be of: blocks of equations */
 static const char *const blocks[] = {"constraints", "jacobian", "velocity", "acceleration", "mass",
@@ -28,8 +31,7 @@ static bool is_one_of(const char *name, size_t length, const char *const *words,
     return false;
 }
 
-/* length of "run12." or "last." at the start; 0: none */
-static size_t run_prefix(const char *path)
+size_t run_prefix(const char *path)
 {
     size_t length = 3;
 
@@ -232,12 +234,26 @@ static bool is_count(const char *path)
            is_one_of(dot + 1, strlen(dot + 1), operations, COUNT(operations));
 }
 
+static int model_variable(const char *path)
+{
+    for (int i = 0; i < COUNT(model_variables); i++)
+        if (strcmp(model_variables[i].name, path) == 0)
+            return i;
+    return -1;
+}
+
+const char *whole_unit(const char *path)
+{
+    int variable = model_variable(path);
+
+    return is_count(path) ? "1" : variable >= 0 ? model_variables[variable].unit : NULL;
+}
+
 /* energy.total, model.n, count.mass.add */
 static Status whole_resolve(const char *path, int primes, unsigned allow, Place place, Text *name,
                             bool *found, Diag *diag)
 {
-    bool is_known =
-        is_count(path) || is_one_of(path, strlen(path), model_variables, COUNT(model_variables));
+    bool is_known = is_count(path) || model_variable(path) >= 0;
     size_t first = strcspn(path, ".");
 
     *found = is_known || (path[first] == '.' && is_one_of(path, first, reserved, COUNT(reserved)));
@@ -247,7 +263,7 @@ static Status whole_resolve(const char *path, int primes, unsigned allow, Place 
         Suggest suggest = suggest_for(path);
 
         for (int i = 0; i < COUNT(model_variables); i++)
-            suggest_offer(&suggest, model_variables[i]);
+            suggest_offer(&suggest, model_variables[i].name);
         (void)diag_at(diag, E_NAME, place, "unknown variable '%s'", path);
         if (suggest.best != NULL)
             diag_hint(diag, "did you mean '%s'?", suggest.best);

@@ -10,22 +10,38 @@
 typedef Status Read(Scope *scope, const Wanted *wanted, const Syntax *syntax, Value *out,
                     Diag *diag);
 
-/* the unit that counts here: "N/m|N*m" is the first on a length, the second on an angle */
-static Status check_unit(const Wanted *wanted, const Syntax *syntax, Diag *diag)
+/* a direction has no length: [3 mm, 4 mm, 0] is one */
+static Status check_axes(const Scope *scope, const Wanted *wanted, const Syntax *syntax, Diag *diag)
 {
+    Status status = OK;
+
+    if (wanted->param->kind == PARAM_AXIS)
+        return unit_check_alike(scope, syntax, wanted->param->name, diag);
+    for (int i = 0; i < syntax->count; i++)
+        CHECK(unit_check_alike(scope, syntax->args[i], wanted->param->name, diag));
+done:
+    return status;
+}
+
+/* the unit that counts here: "N/m|N*m" is the first on a length, the second on an angle */
+static Status check_unit(const Scope *scope, const Wanted *wanted, const Syntax *syntax, Diag *diag)
+{
+    ParamKind kind = wanted->param->kind;
     const char *unit = wanted->param->unit;
     const char *bar = unit != NULL ? strchr(unit, '|') : NULL;
     char *first;
     Status status;
 
-    if (unit == NULL)
+    if (unit == NULL || kind == PARAM_ROTATION)
         return OK;
+    if (kind == PARAM_AXIS || kind == PARAM_AXES)
+        return check_axes(scope, wanted, syntax, diag);
     if (bar == NULL)
-        return unit_check(syntax, unit, wanted->param->name, diag);
+        return unit_check(scope, syntax, unit, wanted->param->name, diag);
     if (wanted->on_angle)
-        return unit_check(syntax, bar + 1, wanted->param->name, diag);
+        return unit_check(scope, syntax, bar + 1, wanted->param->name, diag);
     first = mem_text(unit, (size_t)(bar - unit));
-    status = unit_check(syntax, first, wanted->param->name, diag);
+    status = unit_check(scope, syntax, first, wanted->param->name, diag);
     mem_free(first);
     return status;
 }
@@ -290,8 +306,8 @@ static Status rotation(Scope *scope, const Syntax *syntax, Expr R[9], Diag *diag
         diag_hint(diag, "the scene is planar: turn about z");
         goto done;
     }
-    CHECK(unit_check(syntax->args[0], "rad", "an angle", diag));
     CHECK(scope_expression(scope, syntax->args[0], &angle, diag));
+    CHECK(unit_check(scope, syntax->args[0], "rad", "an angle", diag));
     turn_matrix(scope->state->arena, syntax->text[0] - 'x', angle, R);
 done:
     return status;
@@ -350,8 +366,8 @@ Status param_read(Scope *scope, Wanted wanted, const Syntax *syntax, Value *out,
 
     if (scope->kind != SCOPE_DRIVE)
         scope->kind = is_law(wanted.param->kind) ? SCOPE_EFFORT : SCOPE_NUMBER;
-    CHECK(check_unit(&wanted, syntax, diag));
     CHECK(readers[wanted.param->kind](scope, &wanted, syntax, out, diag));
+    CHECK(check_unit(scope, &wanted, syntax, diag));
     out->given = true;
 done:
     return status;

@@ -3,53 +3,23 @@
 
 #include <string.h>
 
-/* of a terminal's potential; NULL: the name is none */
-static const char *potential_unit(const State *state, const char *name)
-{
-    const char *dot = strrchr(name, '.');
-    char *terminal = mem_text(name, dot != NULL ? (size_t)(dot - name) : 0);
-    const char *unit = NULL;
-
-    if (names_find(state->terminals, terminal) >= 0)
-        unit = domain_across_unit(terminal_domain(state, terminal));
-    mem_free(terminal);
-    return unit;
-}
-
-/* The unit that a variable's value is in: that of its member or coordinate, per second for each
- * prime. */
+/* what the unit of a value given for a variable has to be, per second for each prime; "" any */
 static void unit_of(const State *state, const char *name, int primes, Text *unit)
 {
-    const char *wanted = "";
-    const Thing *thing = state_thing(state, name);
-    const Instance *part = state_owner(state, name, &wanted);
-    const char *base = NULL;
-    const Member *member;
+    Measure measure = variable_measure(state, NULL, name);
 
-    if (thing != NULL && thing->kind != THING_DEFINITION) {
-        static const char *const units[] = {"m", "rad", "1"};
-        int coordinate = thing->kind == THING_COORDINATE ? thing->coordinate : 0;
-
-        base = units[state->parts.at[thing->index]->coord_kind[coordinate]];
-    }
-    for (int i = 0; base == NULL && part != NULL &&
-                    (member = component_member(part->row, state->planar, i)) != NULL;
-         i++)
-        if (strcmp(member->name, wanted) == 0)
-            base = member->unit;
-    if (base == NULL && part == NULL)
-        base = potential_unit(state, name);
-    if (base != NULL) {
-        text_add(unit, base);
-        for (int i = 0; i < primes; i++)
-            text_add(unit, "/s");
-    }
+    if (measure.kind != MEASURE_KNOWN)
+        return;
+    dimension_print(unit, measure.dimension);
+    for (int i = 0; i < primes; i++)
+        text_add(unit, "/s");
 }
 
 /* A value can be given to what the start is made of: positions and rates, voltages, currents and
  * what they store. */
-Status start_check(const State *state, const Pair *pair, Text *name, Diag *diag)
+Status start_check(const Scope *scope, const Pair *pair, Text *name, Diag *diag)
 {
+    const State *state = scope->state;
     Text again = {0};
     Text unit = {0};
     Status status = OK;
@@ -65,7 +35,7 @@ Status start_check(const State *state, const Pair *pair, Text *name, Diag *diag)
     }
     unit_of(state, name->at, pair->primes, &unit);
     if (unit.at != NULL)
-        CHECK(unit_check(pair->value, unit.at, pair->name, diag));
+        CHECK(unit_check(scope, pair->value, unit.at, pair->name, diag));
 done:
     text_free(&again);
     text_free(&unit);
@@ -81,7 +51,7 @@ static Status read_start(State *state, const Pair *pair, bool is_guess, StartEnt
     int entry_name = 0;
     Status status = OK;
 
-    CHECK(start_check(state, pair, &name, diag));
+    CHECK(start_check(&scope, pair, &name, diag));
     CHECK(scope_expression(&scope, pair->value, &value, diag));
     text_add(&text, name.at);
     text_fill(&text, '\'', pair->primes);

@@ -72,46 +72,6 @@ static Expr number(Arena *arena, const Syntax *syntax)
     return syntax->has_unit ? expr_mul(arena, value, unit_factor(arena, &syntax->unit)) : value;
 }
 
-/* An angle counts as a number, but a length for each angle (a pitch in m/rev) is no length: it
- * would be taken for one radian. */
-static bool unit_fits(Dimension wanted, Dimension given)
-{
-    const Dimension length = {{1, 0, 0, 0, 0, 0}};
-    bool is_length = memcmp(&wanted, &length, sizeof length) == 0;
-
-    return dimension_same(wanted, given) && !(is_length && given.power[5] != 0);
-}
-
-/* the part of `unit` before or behind the bar was chosen by the caller */
-Status unit_check(const Syntax *syntax, const char *unit, const char *name, Diag *diag)
-{
-    Unit wanted;
-    size_t fault;
-
-    while (syntax->kind == SYNTAX_GROUP ||
-           (syntax->kind == SYNTAX_UNARY && strcmp(syntax->text, "!") != 0))
-        syntax = syntax->args[0];
-    if (syntax->kind == SYNTAX_VECTOR && !syntax->has_unit)
-        for (int i = 0; i < syntax->count; i++) {
-            Status status = unit_check(syntax->args[i], unit, name, diag);
-            if (status != OK)
-                return status;
-        }
-    if ((syntax->kind != SYNTAX_NUMBER && syntax->kind != SYNTAX_VECTOR) || !syntax->has_unit)
-        return OK;
-    if (!unit_parse(unit, strlen(unit), &wanted, &fault) ||
-        unit_fits(wanted.dimension, syntax->unit.dimension))
-        return OK;
-    if (strcmp(unit, "1") == 0)
-        (void)diag_at(diag, E_UNIT, syntax->unit_place, "%s has no unit, got %s", name,
-                      syntax->unit_text);
-    else
-        (void)diag_at(diag, E_UNIT, syntax->unit_place, "%s expected for %s, got %s", unit, name,
-                      syntax->unit_text);
-    diag_hint(diag, "a plain number is taken as SI");
-    return E_UNIT;
-}
-
 /* --- derivatives in time --- */
 
 Status time_derivative(Arena *arena, Expr e, int primes, Place place, Expr *out, Diag *diag)
@@ -407,11 +367,13 @@ static Status convert(Scope *scope, const Syntax *syntax, Expr *out, Diag *diag)
 Status scope_expression(Scope *scope, const Syntax *syntax, Expr *out, Diag *diag)
 {
     Expr e = NULL;
+    Measure measure;
     Status status;
 
     arena_reset(scope->state->arena); /* what others failed to build is not this text's fault */
     status = convert(scope, syntax, &e, diag);
-
+    if (status == OK)
+        status = measure_of(scope, syntax, &measure, diag);
     if (status == OK)
         *out = e;
     return status;
@@ -452,6 +414,8 @@ done:
     return status;
 }
 
+static Status convert_vector(Scope *scope, const Syntax *syntax, Expr *out, int *count, Diag *diag);
+
 static Status vector_binary(Scope *scope, const Syntax *syntax, Expr *out, int *count, Diag *diag)
 {
     Arena *arena = scope->state->arena;
@@ -467,9 +431,9 @@ static Status vector_binary(Scope *scope, const Syntax *syntax, Expr *out, int *
     if (both ? op != '+' && op != '-' : op != '*' && (op != '/' || is_vector(right)))
         return diag_at(diag, E_VALUE, syntax->op_place, "'%s' is not between %s", syntax->text,
                        both ? "two vectors" : "a vector and a number in this order");
-    CHECK(scope_vector(scope, is_vector(left) ? left : right, out, count, diag));
+    CHECK(convert_vector(scope, is_vector(left) ? left : right, out, count, diag));
     if (both) {
-        CHECK(scope_vector(scope, right, other, &n, diag));
+        CHECK(convert_vector(scope, right, other, &n, diag));
         if (n != *count)
             return diag_at(diag, E_VALUE, syntax->op_place, "vectors of %d and %d entries", *count,
                            n);
@@ -483,7 +447,7 @@ done:
     return status;
 }
 
-Status scope_vector(Scope *scope, const Syntax *syntax, Expr *out, int *count, Diag *diag)
+static Status convert_vector(Scope *scope, const Syntax *syntax, Expr *out, int *count, Diag *diag)
 {
     Arena *arena = scope->state->arena;
     Status status = OK;
@@ -498,11 +462,22 @@ Status scope_vector(Scope *scope, const Syntax *syntax, Expr *out, int *count, D
     default:
         if (syntax->primes > 0 || strcmp(syntax->text, "!") == 0)
             return diag_at(diag, E_VALUE, syntax->place, "this can't be done with a vector");
-        CHECK(scope_vector(scope, syntax->args[0], out, count, diag));
+        CHECK(convert_vector(scope, syntax->args[0], out, count, diag));
         if (syntax->kind == SYNTAX_UNARY && syntax->text[0] == '-')
             for (int i = 0; i < *count; i++)
                 out[i] = expr_neg(arena, out[i]);
     }
+done:
+    return status;
+}
+
+Status scope_vector(Scope *scope, const Syntax *syntax, Expr *out, int *count, Diag *diag)
+{
+    Measure measure;
+    Status status;
+
+    CHECK(convert_vector(scope, syntax, out, count, diag));
+    CHECK(measure_of(scope, syntax, &measure, diag));
 done:
     return status;
 }

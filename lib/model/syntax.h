@@ -153,6 +153,8 @@ void statement_free(Statement *statement); /* NULL is fine */
 
 /* Read `text` as a single expression (an item: a variable, call or expression, with unit). */
 MUST_USE Status syntax_parse_expression(const char *text, Pool *pool, Syntax **out, Diag *diag);
+/* a copy of a tree that lives as long as the pool */
+Syntax *syntax_copy(Pool *pool, const Syntax *syntax);
 /* Write a tree back as text that parses to the same tree. */
 void syntax_print(Text *text, const Syntax *syntax);
 

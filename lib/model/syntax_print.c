@@ -1,7 +1,20 @@
-/* syntax_print.c: an expression's tree back to text */
+/* syntax_print.c: an expression's tree, copied and back to text */
 #include "model/syntax.h"
 
 #include <string.h>
+
+Syntax *syntax_copy(Pool *pool, const Syntax *syntax)
+{
+    Syntax *copy = pool_alloc(pool, sizeof *copy);
+
+    *copy = *syntax;
+    copy->text = pool_text(pool, syntax->text, strlen(syntax->text));
+    copy->unit_text = pool_text(pool, syntax->unit_text, strlen(syntax->unit_text));
+    copy->args = pool_alloc(pool, sizeof *copy->args * ((size_t)syntax->count + 1));
+    for (int i = 0; i < syntax->count; i++)
+        copy->args[i] = syntax_copy(pool, syntax->args[i]);
+    return copy;
+}
 
 static void print_arguments(Text *text, const Syntax *syntax)
 {

@@ -37,3 +37,6 @@ test_table_LDADD = $(unit_ldadd)
 UNIT_TESTS += test_turned
 test_turned_SOURCES = tests/unit/test_turned.c tests/unit/session_kit.h tests/unit/test.h
 test_turned_LDADD = $(unit_ldadd)
+UNIT_TESTS += test_units
+test_units_SOURCES = tests/unit/test_units.c tests/unit/session_kit.h tests/unit/test.h
+test_units_LDADD = $(unit_ldadd)

@@ -41,18 +41,22 @@ static ct_status kit_print(Kit *kit, const ct_statement *statement)
 static ct_status kit_table(Kit *kit, const ct_statement *statement)
 {
     const ct_expression *items[64];
-    const int count = ct_operand_count(statement);
+    int count = ct_operand_count(statement);
     double *values = NULL, every = 0;
     char **names = NULL;
     int rows, columns;
-    ct_status status;
+    ct_status status = CT_OK;
 
     for (int i = 0; i < count && i < 64; i++)
         items[i] = ct_operand(statement, i);
+    if (ct_versus(statement) != NULL && count < 64)
+        items[count++] = ct_versus(statement);
     if (ct_key_value(statement, "every") != NULL)
-        (void)ct_value(kit->session, ct_key_value(statement, "every"), NULL, &every, &kit->error);
-    status =
-        ct_table(kit->session, items, count, every, &values, &rows, &columns, &names, &kit->error);
+        status = ct_duration(kit->session, ct_key_value(statement, "every"), "every", &every,
+                             &kit->error);
+    if (status == CT_OK)
+        status = ct_table(kit->session, items, count, every, &values, &rows, &columns, &names,
+                          &kit->error);
     if (status == CT_OK) {
         ct_free(values);
         ct_words_free(names);

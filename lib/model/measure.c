@@ -1,0 +1,573 @@
+/* measure.c: dimensions of expressions, from their text
+ *
+ * A walk over the syntax tree with a Measure for each node. Laws are looked into with the
+ * measures of their arguments; what was found of one is kept while the walk lasts. */
+#include "model/model_impl.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    SECOND = 2, /* places of Dimension.power */
+    ANGLE = 5,
+    MOST_NESTED = 60, /* laws in one another; what lies deeper isn't looked into */
+    MOST_LAWS = 5000 /* bodies that one statement looks into: laws may call each other twice over */
+};
+
+static const Measure any = {.kind = MEASURE_ANY};
+static const Measure number = {.kind = MEASURE_NUMBER};
+static const Measure ratio = {.kind = MEASURE_RATIO};
+
+/* --- arithmetic --- */
+
+bool measure_same(Measure a, Measure b)
+{
+    return a.kind == b.kind && memcmp(&a.dimension, &b.dimension, sizeof a.dimension) == 0 &&
+           a.has_units == b.has_units && a.has_time == b.has_time && a.is_literal == b.is_literal &&
+           a.is_cycles == b.is_cycles;
+}
+
+static bool is_angular_rate(Dimension d)
+{
+    static const Dimension rate = {{0, 0, -1, 0, 0, 1}};
+
+    return memcmp(&d, &rate, sizeof d) == 0;
+}
+
+/* 50 Hz are no 50 rad/s */
+static bool turns_clash(Measure a, Measure b)
+{
+    return (a.is_cycles && is_angular_rate(b.dimension)) ||
+           (b.is_cycles && is_angular_rate(a.dimension));
+}
+
+bool measures_fit(Measure a, Measure b)
+{
+    if (a.kind != MEASURE_KNOWN || b.kind != MEASURE_KNOWN)
+        return true;
+    if (turns_clash(a, b))
+        return false;
+    /* as many seconds more or less as a bare t leaves out; without units all of them */
+    if ((a.has_time || b.has_time) && !a.has_units && !b.has_units)
+        return true;
+    if (a.has_time || b.has_time)
+        a.dimension.power[SECOND] = b.dimension.power[SECOND];
+    return dimension_same(a.dimension, b.dimension);
+}
+
+/* of a sum of two that fit */
+static Measure joined(Measure a, Measure b)
+{
+    Measure out = a;
+
+    if (a.kind == MEASURE_KNOWN && b.kind == MEASURE_KNOWN) {
+        out = a.has_time ? b : a;
+        out.has_units = a.has_units || b.has_units;
+        out.is_literal = a.is_literal && b.is_literal;
+        out.is_cycles = a.is_cycles && b.is_cycles;
+        return out;
+    }
+    if (a.kind == MEASURE_KNOWN || b.kind == MEASURE_KNOWN)
+        return a.kind == MEASURE_KNOWN ? a : b;
+    if (a.kind == MEASURE_ANY || b.kind == MEASURE_ANY)
+        return any;
+    return a.kind == MEASURE_RATIO ? b : a;
+}
+
+/* a * b, or a / b where `sign` is -1 */
+static Measure product(Measure a, Measure b, int sign)
+{
+    Measure out = {.kind = MEASURE_KNOWN};
+
+    if (a.kind == MEASURE_ANY || b.kind == MEASURE_ANY)
+        return any;
+    if (a.kind == MEASURE_NUMBER || b.kind == MEASURE_NUMBER)
+        return a.kind == MEASURE_KNOWN || b.kind == MEASURE_KNOWN ? any : number;
+    if (a.kind == MEASURE_RATIO && b.kind == MEASURE_RATIO)
+        return ratio;
+    out.has_units = a.has_units || b.has_units;
+    out.has_time = a.has_time || b.has_time;
+    return dimension_times(a.dimension, b.dimension, sign, &out.dimension) ? out : any;
+}
+
+static Measure root(Measure a)
+{
+    a.is_literal = a.is_cycles = false;
+    return a.kind != MEASURE_KNOWN || dimension_root(a.dimension, &a.dimension) ? a : any;
+}
+
+static Measure whole_power(Measure a, int power)
+{
+    static const Dimension none;
+    Measure out = a;
+
+    out.is_literal = out.is_cycles = false;
+    return dimension_times(none, a.dimension, power, &out.dimension) ? out : any;
+}
+
+static bool has_dimension(Measure a)
+{
+    static const Dimension none;
+
+    return a.kind == MEASURE_KNOWN && !dimension_same(a.dimension, none);
+}
+
+static Measure of_unit(const Unit *unit)
+{
+    return (Measure){.kind = MEASURE_KNOWN,
+                     .dimension = unit->dimension,
+                     .has_units = true,
+                     .is_literal = true,
+                     .is_cycles = unit->is_cycles};
+}
+
+Measure measure_of_unit(const char *unit)
+{
+    Unit read;
+    size_t fault;
+    Measure out = any;
+
+    if (unit != NULL && unit_parse(unit, strlen(unit), &read, &fault)) {
+        out.kind = MEASURE_KNOWN;
+        out.dimension = read.dimension;
+    }
+    return out;
+}
+
+static Measure rate_of(Measure a, int primes)
+{
+    static const Dimension second = {{0, 0, 1, 0, 0, 0}};
+
+    if (primes == 0)
+        return a;
+    a.is_literal = a.is_cycles = false;
+    return a.kind == MEASURE_KNOWN && dimension_times(a.dimension, second, -primes, &a.dimension)
+               ? a
+               : any;
+}
+
+/* --- what is said where two don't fit --- */
+
+bool measure_is_plain(Measure measure)
+{
+    static const Dimension none;
+
+    return memcmp(&measure.dimension, &none, sizeof none) == 0;
+}
+
+void measure_print(Text *text, Measure measure)
+{
+    if (measure_is_plain(measure))
+        text_add(text, "a number");
+    else if (measure.is_cycles)
+        text_add(text, "Hz");
+    else
+        dimension_print(text, measure.dimension);
+}
+
+void measure_hint(Measure a, Measure b, const char *otherwise, Diag *diag)
+{
+    diag_hint(diag, "%s",
+              turns_clash(a, b) ? "1 Hz is one turn each second: write [rev/s], or [rad/s]"
+                                : otherwise);
+}
+
+Status measures_join(Measure a, Measure b, const Syntax *left, const Syntax *right,
+                     const char *what, Measure *out, Diag *diag)
+{
+    const Syntax *guilty = a.has_units && !b.has_units ? left : right;
+    Text first = {0};
+    Text second = {0};
+
+    if (measures_fit(a, b)) {
+        *out = joined(a, b);
+        return OK;
+    }
+    measure_print(&first, a);
+    measure_print(&second, b);
+    (void)diag_at(diag, E_UNIT, guilty->place, "%s and %s can't be %s", first.at, second.at, what);
+    measure_hint(a, b, SI_HINT, diag);
+    text_free(&first);
+    text_free(&second);
+    return E_UNIT;
+}
+
+/* --- the walk --- */
+
+typedef struct LawMeasure { /* of a law, for arguments of these measures */
+    int law;
+    const Measure *given;
+    Measure measure;
+} LawMeasure;
+
+typedef struct Known {
+    Pool *pool; /* of `given`; NULL until a law was met */
+    LIST(LawMeasure) laws;
+} Known;
+
+typedef struct Walk {
+    const Scope *scope;
+    const Definition *law; /* that is looked into; NULL: the scope's own text */
+    const Measure *given;  /* of its arguments */
+    int depth;
+    Known *known;
+    Diag *diag;
+} Walk;
+
+static Status walk(const Walk *w, const Syntax *syntax, Measure *out);
+
+/* --- names --- */
+
+static bool find_argument(const Walk *w, const char *name, Measure *out)
+{
+    int count = w->law != NULL ? w->law->argument_count : w->scope->argument_count;
+
+    for (int i = 0; i < count; i++) {
+        const char *argument =
+            w->law != NULL ? expr_name(w->law->arguments[i]) : w->scope->arguments[i];
+
+        if (strcmp(argument, name) == 0) {
+            *out = w->law != NULL ? w->given[i] : any;
+            return true;
+        }
+    }
+    return false;
+}
+
+static const Definition *find_definition(const State *state, const char *name)
+{
+    const Thing *thing = state_thing(state, name);
+
+    return thing != NULL && thing->kind == THING_DEFINITION ? &state->definitions.at[thing->index]
+                                                            : NULL;
+}
+
+static Measure of_name(const Walk *w, const Syntax *syntax)
+{
+    const State *state = w->scope->state;
+    const char *name = syntax->text + run_prefix(syntax->text);
+    const Definition *d = find_definition(state, name);
+    Measure out;
+
+    if (find_argument(w, syntax->text, &out))
+        return syntax->primes == 0 ? out : any;
+    if (strcmp(name, "t") == 0) {
+        out = measure_of_unit("s");
+        out.has_time = true;
+        return out;
+    }
+    if (strcmp(name, "pi") == 0)
+        return ratio;
+    if (d != NULL)
+        return rate_of(d->measure, syntax->primes);
+    return rate_of(variable_measure(state, w->scope->own, name), syntax->primes);
+}
+
+/* --- operators --- */
+
+/* a power that is written as a number, in halves */
+static bool half_powers(const Syntax *syntax, int *out)
+{
+    const Syntax *const *args = (const Syntax *const *)syntax->args;
+    double value = 0;
+    int top = 0;
+    int bottom = 0;
+
+    if (syntax->kind == SYNTAX_GROUP && syntax->primes == 0)
+        return half_powers(args[0], out);
+    if (syntax->kind == SYNTAX_UNARY && syntax->text[0] != '!' && half_powers(args[0], &top)) {
+        *out = syntax->text[0] == '-' ? -top : top;
+        return true;
+    }
+    if (syntax->kind == SYNTAX_BINARY && strcmp(syntax->text, "/") == 0 &&
+        half_powers(args[0], &top) && half_powers(args[1], &bottom) && bottom != 0 &&
+        2 * top % bottom == 0) {
+        *out = 2 * top / bottom;
+        return true;
+    }
+    if (syntax->kind != SYNTAX_NUMBER || syntax->has_unit)
+        return false;
+    value = 2 * strtod(syntax->text, NULL);
+    *out = value < 1000 ? (int)value : 1;
+    return value < 1000 && floor(value) == value;
+}
+
+static Status power(const Walk *w, const Syntax *syntax, Measure base, Measure exponent,
+                    Measure *out)
+{
+    const Measure plain = {.kind = MEASURE_KNOWN};
+    int halves = 0;
+    Text text = {0};
+
+    if (exponent.has_units && !measures_fit(exponent, plain)) {
+        measure_print(&text, exponent);
+        (void)diag_at(w->diag, E_UNIT, syntax->args[1]->place, "a power is a number, not %s",
+                      text.at);
+        diag_hint(w->diag, SI_HINT);
+        text_free(&text);
+        return E_UNIT;
+    }
+    *out = base;
+    if (!has_dimension(base))
+        out->is_literal = out->is_cycles = false;
+    else if (!half_powers(syntax->args[1], &halves))
+        *out = any;
+    else
+        *out = halves % 2 == 0 ? whole_power(base, halves / 2) : root(whole_power(base, halves));
+    return OK;
+}
+
+static Status binary(const Walk *w, const Syntax *syntax, Measure *out)
+{
+    const Syntax *left = syntax->args[0];
+    const Syntax *right = syntax->args[1];
+    const char *op = syntax->text;
+    Measure a = any;
+    Measure b = any;
+    Status status = OK;
+
+    CHECK(walk(w, left, &a));
+    CHECK(walk(w, right, &b));
+    if (strcmp(op, "*") == 0 || strcmp(op, "/") == 0)
+        *out = product(a, b, op[0] == '*' ? 1 : -1);
+    else if (strcmp(op, "^") == 0)
+        CHECK(power(w, syntax, a, b, out));
+    else if (strcmp(op, "+") == 0 || strcmp(op, "-") == 0)
+        CHECK(
+            measures_join(a, b, left, right, op[0] == '+' ? "added" : "subtracted", out, w->diag));
+    else {
+        if (strcmp(op, "&&") != 0 && strcmp(op, "||") != 0)
+            CHECK(measures_join(a, b, left, right, "compared", out, w->diag));
+        *out = ratio;
+    }
+done:
+    return status;
+}
+
+/* --- calls --- */
+
+static const struct {
+    const char *name;
+    const char *rule; /* as in ops.def */
+} rules[] = {
+#define OP(id, name, args, derivative, c, latex, value, dimension) {name, dimension},
+#include "expr/ops.def"
+#undef OP
+    {"pulse", "txxttttt=x"},
+    {"pwl", "ttx=x"},
+    {"table", "...=?"},
+    {"mean", "xx=x"},
+    {"rms", "xx=x"}};
+
+static const char *find_rule(const char *name)
+{
+    for (int i = 0; i < COUNT(rules); i++)
+        if (strcmp(rules[i].name, name) == 0)
+            return rules[i].rule;
+    return NULL;
+}
+
+/* The letter of argument i: behind the last the last two go on. */
+static char rule_letter(const char *rule, int i)
+{
+    int count = (int)strcspn(rule, "=");
+
+    if (i < count)
+        return rule[i];
+    return count >= 2 ? rule[count - 2 + (i - count) % 2] : '.';
+}
+
+static Status number_argument(const Walk *w, const Syntax *call, int i, Measure given)
+{
+    Measure wanted = {.kind = MEASURE_KNOWN};
+    Text text = {0};
+
+    if (!given.has_units || measures_fit(given, wanted))
+        return OK;
+    measure_print(&text, given);
+    (void)diag_at(w->diag, E_UNIT, call->args[i]->place, "%s takes a number or an angle, not %s",
+                  call->text, text.at);
+    diag_hint(w->diag, SI_HINT);
+    text_free(&text);
+    return E_UNIT;
+}
+
+static Measure rule_value(char letter, Measure x)
+{
+    switch (letter) {
+    case 'x':
+        return x;
+    case 'q':
+        return root(x);
+    case 'r':
+        return ratio;
+    case 'a':
+        return measure_of_unit("rad");
+    default:
+        return any;
+    }
+}
+
+static Status by_rule(const Walk *w, const Syntax *call, const char *rule, const Measure *args,
+                      Measure *out)
+{
+    /* joined so far of each letter, and who began */
+    Measure joined[2] = {number, number};
+    const Syntax *first[2] = {NULL, NULL};
+    Status status = OK;
+
+    for (int i = 0; i < call->count; i++) {
+        char letter = rule_letter(rule, i);
+        int which = letter == 't';
+
+        if (letter == 'n')
+            CHECK(number_argument(w, call, i, args[i]));
+        if (letter != 'x' && letter != 't')
+            continue;
+        if (first[which] == NULL) {
+            first[which] = call->args[i];
+            joined[which] = args[i];
+        }
+        CHECK(measures_join(joined[which], args[i], first[which], call->args[i],
+                            "arguments of one kind", &joined[which], w->diag));
+    }
+    *out = rule_value(strchr(rule, '=')[1], joined[0]);
+done:
+    return status;
+}
+
+static const LawMeasure *find_law(const Known *known, int law, const Measure *given, int count)
+{
+    for (int i = 0; i < known->laws.count; i++) {
+        const LawMeasure *kept = &known->laws.at[i];
+        bool same = kept->law == law;
+
+        for (int k = 0; same && k < count; k++)
+            same = measure_same(kept->given[k], given[k]);
+        if (same)
+            return kept;
+    }
+    return NULL;
+}
+
+/* What is wrong inside is said at the call. */
+static Status by_law(const Walk *w, const Syntax *call, int index, const Measure *args,
+                     Measure *out)
+{
+    const Definition *law = &w->scope->state->definitions.at[index];
+    Diag fault = {0};
+    Walk inside = {w->scope, law, NULL, w->depth + 1, w->known, &fault};
+    const LawMeasure *kept;
+    Measure *given;
+    Status status;
+
+    *out = any;
+    if (law->kind != DEFINES_LAW || call->count != law->argument_count || w->depth >= MOST_NESTED ||
+        w->known->laws.count >= MOST_LAWS)
+        return OK;
+    kept = find_law(w->known, index, args, call->count);
+    if (kept != NULL) {
+        *out = kept->measure;
+        return OK;
+    }
+    if (w->known->pool == NULL)
+        w->known->pool = pool_new(1024);
+    given = pool_alloc(w->known->pool, sizeof *given * (size_t)call->count);
+    memcpy(given, args, sizeof *given * (size_t)call->count);
+    inside.given = given;
+    status = walk(&inside, law->syntax, out);
+    if (status == OK) {
+        LIST_PUSH(w->known->laws, (LawMeasure){index, given, *out});
+        return OK;
+    }
+    (void)diag_at(w->diag, status, call->place, "in %s: %s", call->text, fault.message);
+    diag_hint(w->diag, "%s", fault.hint);
+    return status;
+}
+
+static Status call(const Walk *w, const Syntax *syntax, Measure *out)
+{
+    const Thing *thing = state_thing(w->scope->state, syntax->text);
+    const char *rule = find_rule(syntax->text);
+    Measure *args = NEW_ARRAY(Measure, syntax->count);
+    Status status = OK;
+
+    for (int i = 0; i < syntax->count; i++)
+        CHECK(walk(w, syntax->args[i], &args[i]));
+    *out = measure_of_unit(entry_unit(syntax->text));
+    if (rule != NULL)
+        CHECK(by_rule(w, syntax, rule, args, out));
+    else if (thing != NULL && thing->kind == THING_DEFINITION)
+        CHECK(by_law(w, syntax, thing->index, args, out));
+    *out = rate_of(*out, syntax->primes);
+done:
+    mem_free(args);
+    return status;
+}
+
+/* --- nodes --- */
+
+/* of a vector: what its entries have in common; they may differ */
+static Status vector(const Walk *w, const Syntax *syntax, Measure *out)
+{
+    Measure entry = any;
+    Measure whole = number;
+    Status status = OK;
+
+    for (int i = 0; i < syntax->count; i++) {
+        CHECK(walk(w, syntax->args[i], &entry));
+        whole = i == 0 ? entry : measures_fit(whole, entry) ? joined(whole, entry) : any;
+    }
+    *out = whole;
+    if (syntax->has_unit)
+        *out = whole.kind == MEASURE_KNOWN ? product(whole, of_unit(&syntax->unit), 1)
+                                           : of_unit(&syntax->unit);
+done:
+    return status;
+}
+
+static Status walk(const Walk *w, const Syntax *syntax, Measure *out)
+{
+    Status status = OK;
+
+    *out = any;
+    switch (syntax->kind) {
+    case SYNTAX_NUMBER:
+        *out = syntax->has_unit ? of_unit(&syntax->unit) : number;
+        break;
+    case SYNTAX_STRING:
+        break;
+    case SYNTAX_VARIABLE:
+        *out = of_name(w, syntax);
+        break;
+    case SYNTAX_CALL:
+        return call(w, syntax, out);
+    case SYNTAX_VECTOR:
+        return vector(w, syntax, out);
+    case SYNTAX_GROUP:
+        CHECK(walk(w, syntax->args[0], out));
+        *out = rate_of(*out, syntax->primes);
+        break;
+    case SYNTAX_UNARY:
+        CHECK(walk(w, syntax->args[0], out));
+        if (syntax->text[0] == '!')
+            *out = ratio;
+        break;
+    case SYNTAX_BINARY:
+        return binary(w, syntax, out);
+    }
+done:
+    return status;
+}
+
+Status measure_of(const Scope *scope, const Syntax *syntax, Measure *out, Diag *diag)
+{
+    Known known = {0};
+    const Walk w = {scope, NULL, NULL, 0, &known, diag};
+    Status status = walk(&w, syntax, out);
+
+    LIST_FREE(known.laws);
+    pool_free(known.pool);
+    return status;
+}
