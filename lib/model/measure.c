@@ -266,6 +266,23 @@ static Measure of_name(const Walk *w, const Syntax *syntax)
 
 /* --- operators --- */
 
+/* 10 V + t is meant as it is: what is made of t, without units, fits a sum as a number does */
+static Measure term(Measure a)
+{
+    return a.kind == MEASURE_KNOWN && a.has_time && !a.has_units ? number : a;
+}
+
+static Status sum(const Walk *w, const Syntax *syntax, Measure a, Measure b, Measure *out)
+{
+    const char *what = syntax->text[0] == '+' ? "added" : "subtracted";
+
+    if (term(a).kind != MEASURE_NUMBER || term(b).kind != MEASURE_NUMBER) {
+        a = term(a);
+        b = term(b);
+    }
+    return measures_join(a, b, syntax->args[0], syntax->args[1], what, out, w->diag);
+}
+
 /* a power that is written as a number, in halves */
 static bool half_powers(const Syntax *syntax, int *out)
 {
@@ -334,8 +351,7 @@ static Status binary(const Walk *w, const Syntax *syntax, Measure *out)
     else if (strcmp(op, "^") == 0)
         CHECK(power(w, syntax, a, b, out));
     else if (strcmp(op, "+") == 0 || strcmp(op, "-") == 0)
-        CHECK(
-            measures_join(a, b, left, right, op[0] == '+' ? "added" : "subtracted", out, w->diag));
+        CHECK(sum(w, syntax, a, b, out));
     else {
         if (strcmp(op, "&&") != 0 && strcmp(op, "||") != 0)
             CHECK(measures_join(a, b, left, right, "compared", out, w->diag));

@@ -5,9 +5,9 @@
  * quantity of any dimension, so nothing is known of its product with one. Two dimensions that
  * are known and differ can't be added or compared, and a value with a unit written in it can't
  * stand where another dimension is wanted (a key, an argument of sin). What isn't known passes;
- * what has no units may be meant in SI (force=-s, sin(s)); the seconds of a bare t may be left
- * out (sin(t), 30 deg*t). All this is decided where a statement is applied, and costs nothing
- * later. */
+ * what has no units may be meant in SI (force=-s, sin(s)), and a bare t in a sum, too (10 V + t);
+ * beside units its seconds may be left out (30 deg*t). All this is decided where a statement is
+ * applied, and costs nothing later. */
 #ifndef COTREE_MODEL_MEASURE_H
 #define COTREE_MODEL_MEASURE_H
 
