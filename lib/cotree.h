@@ -104,6 +104,15 @@ const char *
 ct_remarks(const ct_session *session); /* lines that the last call had to say to the user; "" */
 ct_status ct_undo(ct_session *session, ct_error *error); /* ct_remarks() names what was undone */
 ct_status ct_redo(ct_session *session, ct_error *error);
+/* What changes the model from ct_begin_group() to ct_end_group(), which takes what that returned,
+ * is undone and done again together, as what it is `called`. Returns how many statements that are.
+ */
+int ct_begin_group(ct_session *session);
+int ct_end_group(ct_session *session, int outer, const char *called);
+/* The statements that made the model as it is, in full and in order, each with a number that no
+ * other statement of the session has; those behind one that was undone are new ones. */
+int ct_step_count(const ct_session *session);
+const char *ct_step(const ct_session *session, int i, int *number);
 void ct_clear(ct_session *session);
 char *ct_save(const ct_session *session);      /* new: a script that rebuilds the model */
 bool ct_is_changed(const ct_session *session); /* since the last run */

@@ -335,7 +335,10 @@ static Status try_trees(ct_session *session, const Statement *s, Diag *diag)
     if (status != E_BRANCH)
         return status;
     diag->place = s->verb_place;
-    return model_undo(session->model, &ignored) == OK ? E_BRANCH : E_MODEL;
+    if (model_undo(session->model, &ignored) != OK)
+        return E_MODEL;
+    model_forget_undone(session->model);
+    return E_BRANCH;
 }
 
 ct_status ct_apply(ct_session *session, const ct_statement *statement, ct_error *error)
@@ -404,6 +407,26 @@ ct_status ct_undo(ct_session *session, ct_error *error)
 ct_status ct_redo(ct_session *session, ct_error *error)
 {
     return move_over(session, model_redo, "done again", error);
+}
+
+int ct_begin_group(ct_session *session)
+{
+    return model_begin_group(session->model);
+}
+
+int ct_end_group(ct_session *session, int outer, const char *called)
+{
+    return model_end_group(session->model, outer, called);
+}
+
+int ct_step_count(const ct_session *session)
+{
+    return model_step_count(session->model);
+}
+
+const char *ct_step(const ct_session *session, int i, int *number)
+{
+    return model_step(session->model, i, number);
 }
 
 void ct_clear(ct_session *session)

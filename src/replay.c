@@ -72,12 +72,36 @@ ct_status replay(Shell *shell, Reader *reader)
         free(text);
         if (first == CT_OK)
             first = status;
+        if (status != CT_OK)
+            shell->stopped_at = origin.line;
         if (status == CT_STOPPED || result == READ_FAILED ||
             (status != CT_OK && !shell->keep_going))
             break;
     }
     reader_free(reader);
     return first;
+}
+
+/* The file is one step to undo, also where it ended early: then what stands is said, if
+ * something `goes_on` with it. */
+static void end_file(Shell *shell, const char *path, int group, bool goes_on, ct_status status)
+{
+    char *called = copy_format("source \"%s\"", path);
+    const int count = ct_end_group(shell->session, group, called);
+    const char *plural = count == 1 ? "" : "s";
+
+    free(called);
+    if (status == CT_OK || !goes_on)
+        return;
+    if (count == 0)
+        remark("%s ended at line %d: nothing of it changed the model", path, shell->stopped_at);
+    else if (shell->keep_going && status != CT_STOPPED)
+        remark("%s: what did not fail stands (%d statement%s); undo takes that back", path, count,
+               plural);
+    else
+        remark("%s ended at line %d: what it made before (%d statement%s) stands; undo takes that "
+               "back",
+               path, shell->stopped_at, count, plural);
 }
 
 ct_status replay_file(Shell *shell, const char *path, ct_error *error)
@@ -97,8 +121,13 @@ ct_status replay_file(Shell *shell, const char *path, ct_error *error)
 
     shell->script = piped ? NULL : path;
 
+    /* typed lines go back one by one, a file as a whole */
+    const int group = piped ? 0 : ct_begin_group(shell->session);
     ct_status status = replay(shell, reader_of_file(file, piped ? "<stdin>" : path));
 
+    if (!piped)
+        end_file(shell, path, group, shell->depth == 1 && (outer == NULL || shell->keep_going),
+                 status);
     shell->script = outer;
     if (status != CT_OK)
         *error = (ct_error){.status = status};

@@ -25,7 +25,8 @@ typedef struct Shell {
     bool keep_going;
     bool quitting;
     bool unicode;
-    int depth;  /* of files within files */
+    int depth;      /* of files within files */
+    int stopped_at; /* line at which a script ended early */
     int failed; /* statements in scripts that failed, and those whose expectation did not hold */
     int unmet;
 } Shell;

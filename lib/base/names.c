@@ -78,6 +78,18 @@ int names_add(Names *names, const char *name)
     return number;
 }
 
+/* Nobody who came before stepped over the slot of the last one. */
+void names_trim(Names *names, int count)
+{
+    while (names->list.count > count) {
+        char *last = names->list.at[names->list.count - 1];
+
+        names->slots[slot_of(names, last)] = 0;
+        names->list.count--;
+        mem_free(last);
+    }
+}
+
 const char *names_get(const Names *names, int number)
 {
     return names->list.at[number];

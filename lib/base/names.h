@@ -10,6 +10,7 @@ Names *names_new(void);
 void names_free(Names *names);
 int names_find(const Names *names, const char *name);  /* its number, or -1 */
 int names_add(Names *names, const char *name);         /* found or new: 0, 1, 2 ... */
+void names_trim(Names *names, int count);              /* forget those from `count` on */
 const char *names_get(const Names *names, int number); /* borrowed */
 int names_count(const Names *names);
 

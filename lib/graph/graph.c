@@ -115,6 +115,42 @@ int graph_add_edge(Graph *graph, const Edge *edge)
     return number;
 }
 
+GraphMark graph_mark(const Graph *graph)
+{
+    return (GraphMark){graph->nodes.count, graph->edges.count, pool_mark(graph->texts)};
+}
+
+/* names are found by their first bearer: it goes with its name's last bearer, or stays */
+static int names_left(const int *first, int count, int bearers)
+{
+    while (count > 0 && first[count - 1] >= bearers)
+        count--;
+    return count;
+}
+
+void graph_trim(Graph *graph, const GraphMark *mark)
+{
+    while (graph->edges.count > mark->edges) {
+        const Edge *edge = &graph->edges.at[--graph->edges.count];
+
+        graph->at.at[edge->tail].edges.count--;
+        if (edge->head != edge->tail)
+            graph->at.at[edge->head].edges.count--;
+    }
+    while (graph->nodes.count > mark->nodes) {
+        graph->nodes.count--;
+        LIST_FREE(graph->at.at[graph->nodes.count].edges);
+    }
+    graph->at.count = graph->nodes.count;
+    graph->first_node.count =
+        names_left(graph->first_node.at, graph->first_node.count, mark->nodes);
+    graph->first_edge.count =
+        names_left(graph->first_edge.at, graph->first_edge.count, mark->edges);
+    names_trim(graph->node_names, graph->first_node.count);
+    names_trim(graph->edge_names, graph->first_edge.count);
+    pool_release(graph->texts, mark->texts);
+}
+
 int graph_node_count(const Graph *graph)
 {
     return graph->nodes.count;

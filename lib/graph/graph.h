@@ -8,6 +8,7 @@
 #define COTREE_GRAPH_GRAPH_H
 
 #include "base/diag.h"
+#include "base/memory.h"
 
 /* one row a domain: id, name, across variable, through variable, unit of each */
 #define DOMAINS(X)                                                                                 \
@@ -73,6 +74,13 @@ void graph_free(Graph *graph); /* NULL is fine */
 int graph_add_node(Graph *graph, const char *name, Domain domain, bool datum);
 /* `edge` is copied, its name too; tail and head must be nodes of the edge's domain (assert). */
 int graph_add_edge(Graph *graph, const Edge *edge);
+/* Back to a graph that this one grew from: nodes and edges made since then go. */
+typedef struct GraphMark {
+    int nodes, edges;
+    PoolMark texts;
+} GraphMark;
+GraphMark graph_mark(const Graph *graph);
+void graph_trim(Graph *graph, const GraphMark *mark);
 int graph_node_count(const Graph *graph);
 int graph_edge_count(const Graph *graph);
 const Node *graph_node(const Graph *graph, int node); /* borrowed until the graph grows */

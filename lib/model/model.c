@@ -1,40 +1,27 @@
-/* model.c: a model is the statements it accepted, in order, and the state they made
- *
- * Undo and redo move over that order: the state is made anew from what is left. */
-#include "model/model_impl.h"
+/* model.c: a model is the statements it accepted, in order, and the state they made */
+#include "model/model_history.h"
 
 #include <math.h>
 #include <string.h>
 
-typedef struct Accepted {
-    const char *text; /* the statement in full */
-    Effect effect;
-    int before;         /* steps before it that are undone with it */
-    const char *called; /* what they are called together; NULL: text */
-} Accepted;
-
 struct Model {
     Arena *arena;
-    Pool *pool; /* texts of steps */
     State *state;
     DataFinder finder;
-    LIST(Accepted) steps;
-    int done; /* steps that count; those behind can be redone */
+    History history;
     const char *undone;
     char *remarks;
     uint64_t revision;
     uint64_t values;
 };
 
-static const char clear_text[] = "clear";
-
 Model *model_new(void)
 {
     Model *model = NEW(Model);
 
     model->arena = arena_new();
-    model->pool = pool_new(0);
     model->state = state_new(model->arena);
+    history_open(&model->history);
     model->undone = "";
     model->remarks = mem_text("", 0);
     return model;
@@ -46,8 +33,7 @@ void model_free(Model *model)
         return;
     state_free(model->state);
     arena_free(model->arena);
-    pool_free(model->pool);
-    LIST_FREE(model->steps);
+    history_close(&model->history);
     mem_free(model->remarks);
     mem_free(model);
 }
@@ -66,42 +52,56 @@ static void set_remarks(Model *model, Text *remarks)
     model->remarks = text_done(remarks);
 }
 
-static void add_step(Model *model, const char *text, Effect effect)
-{
-    model->steps.count = model->done;
-    LIST_PUSH(model->steps,
-              (Accepted){.text = pool_text(model->pool, text, strlen(text)), .effect = effect});
-    model->done++;
-}
-
 void model_join(Model *model, int count, const char *called)
 {
-    Accepted *last = &model->steps.at[model->done - 1];
+    history_join(&model->history, count, called);
+}
 
-    last->before = count - 1;
-    last->called = pool_text(model->pool, called, strlen(called));
+int model_begin_group(Model *model)
+{
+    const int outer = model->history.low;
+
+    model->history.low = model->history.done;
+    return outer;
+}
+
+int model_end_group(Model *model, int outer, const char *called)
+{
+    History *history = &model->history;
+    const int count = history->done - history->low;
+
+    if (count > 0)
+        history_join(history, count, called);
+    if (outer < history->low)
+        history->low = outer;
+    return count;
+}
+
+int model_step_count(const Model *model)
+{
+    return model->history.done;
+}
+
+const char *model_step(const Model *model, int i, int *serial)
+{
+    *serial = model->history.list.at[i].serial;
+    return model->history.list.at[i].text;
 }
 
 Status model_apply(Model *model, const Statement *statement, Diag *diag)
 {
     Status status = OK;
     Outcome outcome = {EFFECT_NONE, {0}};
-    char *text = NULL;
 
     CHECK(data_read_statement(&model->finder, model->arena, statement, !model->finder.given, diag));
-    CHECK(state_apply(&model->state, statement, &outcome, diag));
+    CHECK(history_take(&model->history, &model->state, statement, &outcome, diag));
     set_remarks(model, &outcome.remarks);
     count_effect(model, outcome.effect);
-    if (statement->kind != STATEMENT_EMPTY) {
-        text = statement_full_text(statement);
-        add_step(model, text, outcome.effect);
-    }
 done:
     if (status != OK) {
         Text none = {0};
         set_remarks(model, &none);
     }
-    mem_free(text);
     text_free(&outcome.remarks);
     return status;
 }
@@ -125,75 +125,33 @@ const char *model_remarks(const Model *model)
 
 /* --- undo and redo --- */
 
-/* the state that the first `count` steps make */
-static Status replay(const Model *model, int count, State **out, Diag *diag)
+static Status move(Model *model, Status (*go)(History *, State **, const char **, Effect *, Diag *),
+                   Diag *diag)
 {
-    Status status = OK;
-    State *state = state_new(model->arena);
-    Statement *statement = NULL;
-    int first = count;
-
-    while (first > 0 && strcmp(model->steps.at[first - 1].text, clear_text) != 0)
-        first--;
-    for (int i = first; i < count; i++) {
-        Outcome outcome = {EFFECT_NONE, {0}};
-        size_t next = 0;
-
-        CHECK(statement_parse(model->steps.at[i].text, i + 1, (SyntaxOptions){false}, &next,
-                              &statement, diag));
-        status = state_apply(&state, statement, &outcome, diag);
-        text_free(&outcome.remarks);
-        if (status != OK)
-            goto done;
-        statement_free(statement);
-        statement = NULL;
-    }
-    *out = state;
-    state = NULL;
-done:
-    statement_free(statement);
-    state_free(state);
-    return status;
-}
-
-static Status move_to(Model *model, int count, const Accepted *over, Diag *diag)
-{
-    Status status = OK;
-    State *state = NULL;
+    Effect effect = EFFECT_NONE;
     Text none = {0};
+    Status status = OK;
 
-    CHECK(replay(model, count, &state, diag));
-    state_free(model->state);
-    model->state = state;
-    model->done = count;
-    model->undone = over->called != NULL ? over->called : over->text;
+    CHECK(go(&model->history, &model->state, &model->undone, &effect, diag));
     set_remarks(model, &none);
-    count_effect(model, over->effect);
+    count_effect(model, effect);
 done:
     return status;
 }
 
 Status model_undo(Model *model, Diag *diag)
 {
-    const Accepted *last;
-
-    if (model->done == 0)
-        return diag_set(diag, E_MISSING, "there is nothing to undo");
-    last = &model->steps.at[model->done - 1];
-    return move_to(model, model->done - 1 - last->before, last, diag);
+    return move(model, history_undo, diag);
 }
 
 Status model_redo(Model *model, Diag *diag)
 {
-    int last = model->done;
+    return move(model, history_redo, diag);
+}
 
-    if (model->done == model->steps.count)
-        return diag_set(diag, E_MISSING, "there is nothing to redo");
-    /* the step that takes the next one along, if one does */
-    for (int i = model->done; i < model->steps.count; i++)
-        if (i - model->steps.at[i].before == model->done)
-            last = i;
-    return move_to(model, last + 1, &model->steps.at[last], diag);
+void model_forget_undone(Model *model)
+{
+    model->history.list.count = model->history.done;
 }
 
 const char *model_undone(const Model *model)
@@ -205,10 +163,8 @@ void model_clear(Model *model)
 {
     Text none = {0};
 
-    state_free(model->state);
-    model->state = state_new(model->arena);
+    history_clear(&model->history, &model->state);
     set_remarks(model, &none);
-    add_step(model, clear_text, EFFECT_EQUATIONS);
     count_effect(model, EFFECT_EQUATIONS);
 }
 

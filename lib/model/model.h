@@ -24,8 +24,16 @@ const char *model_remarks(const Model *model); /* of the last model_apply(), lin
 MUST_USE Status model_undo(Model *model,
                            Diag *diag); /* the last statement; E_MISSING when there is none */
 MUST_USE Status model_redo(Model *model, Diag *diag);
+void model_forget_undone(Model *model); /* nothing is left to redo */
 /* The last `count` statements, at least one, are undone and done again as one, that of `called`. */
 void model_join(Model *model, int count, const char *called);
+/* Steps from model_begin_group() to model_end_group(), which takes what that returned, are undone
+ * together; how many there are. Groups may lie within groups. */
+int model_begin_group(Model *model);
+int model_end_group(Model *model, int outer, const char *called);
+/* the steps that count: the statement of each, in full, and a number that no other step has */
+int model_step_count(const Model *model);
+const char *model_step(const Model *model, int i, int *serial);
 const char *model_undone(const Model *model); /* text of the statement that undo/redo moved over */
 void model_clear(Model *model);               /* as model_new(); can be undone */
 char *model_save(const Model *model);         /* new: a script that rebuilds it */

@@ -175,14 +175,13 @@ static Status replace_line(State **state, int index, const char *text, const Sco
     line->text = state_text(*state, text);
     line_uses(*state, line, scope);
     status = state_rebuild(*state, -1, &next, NULL, &outcome->remarks, &fault);
+    *line = before;
     if (status != OK) {
-        *line = before;
         status = diag_at(diag, status, place, "what uses %s would fail: %s", name, fault.message);
         diag_hint(diag, "%s", fault.hint);
         return status;
     }
-    state_free(*state);
-    *state = next;
+    state_replace(state, next);
     outcome->effect = effect;
     return OK;
 }
@@ -202,6 +201,7 @@ static Status try_body(State *state, Definition *d, Expr body, const Statement *
     Diag fault = {0};
     Status status;
 
+    state_keep_definition(state, index_of(state, d));
     set_body(state, d, body);
     status = parts_check_after(state, index_of(state, d), &outcome->remarks, &fault);
     if (status == OK)
@@ -235,6 +235,7 @@ static Status change_parameter(State **in, Definition *d, Expr body, Measure mea
         return status;
     }
     outcome->effect = effect;
+    state_keep_line(state, d->line);
     line->text = state_text(state, text);
     line_uses(state, line, scope);
 done:
@@ -367,6 +368,8 @@ static Status change_output(State **state, Definition *output, Expr body, Measur
                               is_same ? EFFECT_NONE : EFFECT_EQUATIONS, outcome, diag);
         goto done;
     }
+    state_keep_line(s, output->line);
+    state_keep_definition(s, index_of(s, output));
     line->text = state_text(s, text);
     line_uses(s, line, scope);
     output->body = body;

@@ -1,9 +1,10 @@
 /* model_impl.h: what the files of the model share
  *
  * A State is everything that accepted statements made; it can be built anew from its
- * lines at any time, which is how names are deleted, laws replaced and steps undone. A
- * statement is read and checked in full before it changes its State, or it builds
- * another State and puts that in place, so that a failure leaves nothing behind.
+ * lines at any time, which is how names are deleted and laws replaced. A statement is
+ * read and checked in full before it changes its State, or it builds another State and
+ * puts that in place, so that a failure leaves nothing behind. What it adds goes to the
+ * ends of the lists, and what it changes in place is noted: that is the way back.
  * Strings and parts live in the State's pool, expressions in the model's arena. */
 #ifndef COTREE_MODEL_MODEL_IMPL_H
 #define COTREE_MODEL_MODEL_IMPL_H
@@ -72,6 +73,44 @@ typedef struct Choice { /* of one tree */
     NameList excluded;
 } Choice;
 
+/* What a State is besides its lists. */
+typedef struct Setup {
+    bool planar;
+    Expr gravity[3];
+    const char *title;
+    int datum[DOMAIN_COUNT];
+    int group_count;
+    Form form;
+    NetworkForm network_form;
+} Setup;
+
+/* --- what was changed in place, as it was before (model_mark.c) --- */
+
+typedef enum ChangeKind {
+    CHANGED_LINE,
+    CHANGED_DEFINITION,
+    CHANGED_VALUES, /* of a part */
+    CHANGED_CHOICE, /* of a tree */
+    CHANGED_INDEPENDENT,
+    CHANGED_SETUP,
+    ADDED_START,
+    REMOVED_START
+} ChangeKind;
+
+typedef struct Change {
+    ChangeKind kind;
+    int at; /* which line, definition, part, tree, start */
+    union {
+        Line line;
+        Definition definition;
+        Value *values;
+        Choice *choice; /* given, as are the two below */
+        NameList *independent;
+        Setup *setup;
+        StartEntry start;
+    } was;
+} Change;
+
 typedef struct State {
     Arena *arena; /* the model's */
     Pool *pool;
@@ -101,6 +140,9 @@ typedef struct State {
     NameList independent;
     Tree *trees[TREE_KINDS];
     bool has_trees;
+    LIST(Change) changes;
+    struct State *before; /* the one that this took the place of, as it was then; NULL */
+    int number;           /* how many the model had before this one */
 } State;
 
 /* what a statement changed */
@@ -115,7 +157,7 @@ typedef struct Outcome {
 typedef Status Apply(State **state, const Statement *statement, Outcome *outcome, Diag *diag);
 
 State *state_new(Arena *arena);
-void state_free(State *state); /* NULL is fine */
+void state_free(State *state); /* with those before it; NULL is fine */
 Apply state_apply;
 /* a copy in the state's pool */
 const char *state_text(State *state, const char *text);
@@ -125,9 +167,40 @@ const Instance *state_part(const State *state, const char *name);
  * the dot, or "", in *member. NULL: no part. */
 const Instance *state_owner(const State *state, const char *path, const char **member);
 void state_name(State *state, const char *name, ThingKind kind, int index, int coordinate);
+/* Put another state in the place of *state, which stays before it. */
+void state_replace(State **state, State *next);
 /* The graph or a choice changed. */
 void state_forget_trees(State *state);
 Status state_trees(State *state, const Tree *trees[TREE_KINDS], Diag *diag);
+
+/* --- the way back (model_mark.c) --- */
+
+/* A state as a statement found it. */
+typedef struct StateMark {
+    int state; /* its number */
+    PoolMark pool;
+    GraphMark graph;
+    int names, terminals, parts, edge_owners, definitions, parameters, outputs, events, lines,
+        start_names, changes;
+} StateMark;
+
+StateMark state_mark(const State *state);
+/* Back to what *state was at the mark; false, with nothing changed, where that is too long ago. */
+bool state_go_back(State **state, const StateMark *mark);
+/* Let go of the states before that are more than a session should hold; a bound in bytes. */
+void state_forget_before(State *state, size_t bytes);
+void state_free_changes(State *state);
+Setup state_setup(const State *state);
+/* Note what a statement changed of the setup. */
+void state_note_setup(State *state, const Setup *before);
+/* Before one is changed in place: */
+void state_keep_line(State *state, int line);
+void state_keep_definition(State *state, int definition);
+void state_keep_choice(State *state, TreeKind kind);
+void state_keep_independent(State *state);
+void state_keep_values(State *state, int part, Value *values); /* as they were */
+/* where the starts stand, from the one at `first` on (model_start.c) */
+void starts_index(State *state, int first);
 
 /* --- names in a statement (model_names.c) --- */
 

@@ -49,8 +49,10 @@ void line_supersede(State *state, int part, const char *key)
     for (int i = 0; i < state->lines.count; i++) {
         Line *line = &state->lines.at[i];
 
-        if (line->part == part && line->key != NULL && strcmp(line->key, key) == 0)
-            line->is_gone = true;
+        if (line->part != part || line->is_gone || line->key == NULL || strcmp(line->key, key) != 0)
+            continue;
+        state_keep_line(state, i);
+        line->is_gone = true;
     }
 }
 
@@ -175,6 +177,7 @@ Status state_rebuild(const State *old, int without, State **out, NameList *broke
     }
     choices_copy(state, old, remarks);
     CHECK(starts_copy(state, old, broken, remarks, diag));
+    state_forget_before(state, 0);
     *out = state;
     state = NULL;
 done:
@@ -198,8 +201,9 @@ Status apply_pairs(State **state, const Statement *statement, ApplyPair *apply, 
     for (int i = 0; i < statement->pairs.count; i++)
         CHECK(apply(&work, &statement->pairs.at[i], outcome, diag));
     if (statement->pairs.count > 1)
-        state_free(*state);
-    *state = work;
+        state_replace(state, work);
+    else
+        *state = work;
     work = NULL;
 done:
     if (statement->pairs.count > 1)

@@ -59,15 +59,14 @@ static Status change_scene(State **state, Line *line, const Statement *statement
     line->text = state_text(*state, text);
     mem_free(text);
     status = state_rebuild(*state, -1, &next, NULL, NULL, &fault);
+    line->text = before;
     if (status != OK) {
-        line->text = before;
         status = diag_at(diag, status, place, "the scene can't become %s any more: %s",
                          statement->operands.at[0].value->text, fault.message);
         diag_hint(diag, "%s", fault.hint);
         return status;
     }
-    state_free(*state);
-    *state = next;
+    state_replace(state, next);
     return OK;
 }
 
@@ -197,6 +196,7 @@ static Status set_pair(State **state, const Pair *pair, Outcome *outcome, Diag *
         part->values = kept;
         goto done;
     }
+    state_keep_values(s, part->number, kept);
     text_addf(&text, "set %s = ", pair->name);
     syntax_print(&text, pair->value);
     line_supersede(s, part->number, part->row->params[index].name);
@@ -329,8 +329,7 @@ Status apply_delete(State **state, const Statement *statement, Outcome *outcome,
         goto done;
     }
     outcome->effect = (*state)->lines.at[line].definition >= 0 ? EFFECT_NONE : EFFECT_EQUATIONS;
-    state_free(*state);
-    *state = next;
+    state_replace(state, next);
     next = NULL;
 done:
     state_free(next);

@@ -71,8 +71,7 @@ done:
     return status;
 }
 
-/* where the starts stand, from the one at `first` on */
-static void index_starts(State *state, int first)
+void starts_index(State *state, int first)
 {
     while (state->start_of.count < names_count(state->start_names))
         LIST_PUSH(state->start_of, -1);
@@ -82,33 +81,31 @@ static void index_starts(State *state, int first)
 
 static void remove_start(State *state, int at)
 {
+    LIST_PUSH(state->changes,
+              (Change){.kind = REMOVED_START, .at = at, .was.start = state->starts.at[at]});
     state->start_of.at[state->starts.at[at].name] = -1;
     state->starts.count--;
     memmove(&state->starts.at[at], &state->starts.at[at + 1],
             sizeof *state->starts.at * (size_t)(state->starts.count - at));
-    index_starts(state, at);
+    starts_index(state, at);
 }
 
 /* a later value replaces an earlier one of the same variable */
 static void put_start(State *state, const StartEntry *entry)
 {
-    index_starts(state, state->starts.count);
+    starts_index(state, state->starts.count);
     if (state->start_of.at[entry->name] >= 0)
         remove_start(state, state->start_of.at[entry->name]);
     LIST_PUSH(state->starts, *entry);
-    index_starts(state, state->starts.count - 1);
+    LIST_PUSH(state->changes, (Change){.kind = ADDED_START});
+    starts_index(state, state->starts.count - 1);
 }
 
 static void forget_starts(State *state, bool guesses)
 {
-    int kept = 0;
-
-    for (int i = 0; i < state->starts.count; i++)
-        if (state->starts.at[i].start.is_guess != guesses)
-            state->starts.at[kept++] = state->starts.at[i];
-    state->starts.count = kept;
-    state->start_of.count = 0;
-    index_starts(state, 0);
+    for (int i = state->starts.count - 1; i >= 0; i--)
+        if (state->starts.at[i].start.is_guess == guesses)
+            remove_start(state, i);
 }
 
 static Status apply_starts(State *state, const Statement *statement, bool is_guess,
@@ -183,6 +180,7 @@ Status apply_form(State **state, const Statement *statement, Outcome *outcome, D
     if (statement->pairs.count > 0)
         CHECK(read_independent(s, statement->pairs.at[0].value, &names, diag));
     s->form = embedded ? FORM_EMBEDDED : FORM_AUGMENTED;
+    state_keep_independent(s);
     LIST_FREE(s->independent);
     for (int i = 0; i < names.count; i++)
         LIST_PUSH(s->independent, names.at[i]);

@@ -32,10 +32,8 @@ void state_forget_trees(State *state)
     state->has_trees = false;
 }
 
-void state_free(State *state)
+static void free_one(State *state)
 {
-    if (state == NULL)
-        return;
     state_forget_trees(state);
     graph_free(state->graph);
     names_free(state->names);
@@ -57,8 +55,19 @@ void state_free(State *state)
         LIST_FREE(state->choices[kind].chosen);
         LIST_FREE(state->choices[kind].excluded);
     }
+    state_free_changes(state);
     pool_free(state->pool);
     mem_free(state);
+}
+
+void state_free(State *state)
+{
+    while (state != NULL) {
+        State *before = state->before;
+
+        free_one(state);
+        state = before;
+    }
 }
 
 const char *state_text(State *state, const char *text)

@@ -479,6 +479,7 @@ static void request_commit(Request *request)
 
         if (!request->touched[kind])
             continue;
+        state_keep_choice(request->state, kind);
         *choice = request->choices[kind];
         request->choices[kind] = before;
     }

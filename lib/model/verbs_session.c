@@ -28,7 +28,7 @@ const Verb verbs_session[] = {
      .usage = "undo",
      .brief = "takes the last change of the model back",
      .help = "Takes back the last statement that changed the model, and says which. As often as "
-             "there are any.",
+             "there are any. What a file changed is taken back together.",
      .example = PENDULUM "delete h1\nundo\nshow edges",
      .see = "redo history"},
     {.name = "redo",
@@ -53,7 +53,8 @@ const Verb verbs_session[] = {
      .shape = "s",
      .usage = "source \"FILE\"",
      .brief = "replays a script",
-     .help = "Runs the statements of a file as if they were typed. The first error stops it.",
+     .help = "Runs the statements of a file as if they were typed. The first error stops it: what "
+             "the file did before stands, and 'undo' takes it back.",
      .example = PENDULUM "save \"pendulum.ct\"\nclear\nsource \"pendulum.ct\"\nshow edges",
      .see = "save record"},
     {.name = "save",

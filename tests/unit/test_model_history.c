@@ -130,6 +130,112 @@ static void undo_and_redo_pass_the_same_states(void)
     }
 }
 
+/* what the model is after a number of steps, told by the texts of those steps */
+static bool is_as_made_anew(const Model *model)
+{
+    Model *fresh = model_new();
+    Snapshot wanted;
+    int serial;
+    bool same;
+
+    for (int i = 0; i < model_step_count(model); i++)
+        if (strcmp(model_step(model, i, &serial), "clear") == 0)
+            model_clear(fresh);
+        else
+            EXPECT(apply_text(fresh, model_step(model, i, &serial), NULL) == OK);
+    wanted = snapshot(fresh);
+    same = is_at(model, &wanted);
+    mem_free(wanted.save);
+    mem_free(wanted.graph);
+    model_free(fresh);
+    return same;
+}
+
+static void walks_back_and_forth_end_where_the_statements_lead(void)
+{
+    for (uint64_t round = 0; round < 40; round++) {
+        uint64_t seed = 4711 + round;
+        Model *model = model_of("scene planar\nk0 = 1; k1 = 2; k2 = 3");
+        int groups[2];
+        int depth = 0;
+
+        for (int i = 0; i < 300; i++) {
+            const uint64_t what = test_random(&seed) % 16;
+            char *text = random_statement(&seed);
+
+            if (what < 9)
+                (void)!apply_text(model, text, NULL);
+            else if (what < 12)
+                (void)!model_undo(model, NULL);
+            else if (what < 14)
+                (void)!model_redo(model, NULL);
+            else if (what < 15 && depth < 2)
+                groups[depth++] = model_begin_group(model);
+            else if (what < 15) {
+                depth--;
+                EXPECT(model_end_group(model, groups[depth], "group") >= 0);
+            } else if (test_random(&seed) % 8 == 0)
+                model_clear(model);
+            mem_free(text);
+            if (i % 5 == 0)
+                EXPECT(is_as_made_anew(model));
+        }
+        while (model_undo(model, NULL) == OK)
+            EXPECT(model_step_count(model) % 7 != 0 || is_as_made_anew(model));
+        EXPECT(model_step_count(model) == 0);
+        while (model_redo(model, NULL) == OK)
+            EXPECT(model_step_count(model) % 7 != 0 || is_as_made_anew(model));
+        EXPECT(is_as_made_anew(model));
+        model_free(model);
+    }
+}
+
+/* a deleted name makes another state, and so many are not all kept */
+static void what_is_no_longer_kept_is_made_anew(void)
+{
+    Model *model = model_of("scene planar\nk = 1\nbody a mass=k");
+    enum { MANY = 2400 };
+
+    for (int i = 0; i < MANY; i++) {
+        EXPECT(apply_text(model, "body b mass=2", NULL) == OK);
+        EXPECT(apply_text(model, "delete b", NULL) == OK);
+    }
+    for (int i = 2 * MANY; i > 0; i--) {
+        EXPECT(model_undo(model, NULL) == OK);
+        EXPECT(model_step_count(model) == 3 + i - 1);
+        EXPECT((model_find(model, "b") != NULL) == (i % 2 == 0));
+    }
+    EXPECT(is_as_made_anew(model));
+    EXPECT(model_redo(model, NULL) == OK && model_find(model, "b") != NULL);
+    model_free(model);
+}
+
+static void a_group_is_one_step(void)
+{
+    Model *model = model_of("a = 1");
+    const int outer = model_begin_group(model);
+    int inner;
+
+    EXPECT(apply_text(model, "b = 2", NULL) == OK);
+    inner = model_begin_group(model);
+    EXPECT(apply_text(model, "c = 3", NULL) == OK && apply_text(model, "d = 4", NULL) == OK);
+    EXPECT(model_end_group(model, inner, "inner") == 2);
+    EXPECT(model_end_group(model, outer, "outer") == 3);
+    EXPECT(model_undo(model, NULL) == OK && model_parameter_count(model) == 1);
+    EXPECT_TEXT(model_undone(model), "outer");
+    EXPECT(model_redo(model, NULL) == OK && model_parameter_count(model) == 4);
+    EXPECT(model_undo(model, NULL) == OK && model_undo(model, NULL) == OK);
+    EXPECT(model_redo(model, NULL) == OK && model_parameter_count(model) == 1);
+
+    /* a group that goes back behind its own beginning has what it made since */
+    inner = model_begin_group(model);
+    EXPECT(model_undo(model, NULL) == OK && apply_text(model, "e = 5", NULL) == OK);
+    EXPECT(model_end_group(model, inner, "back") == 1);
+    EXPECT(model_undo(model, NULL) == OK && model_parameter_count(model) == 0);
+    EXPECT(model_undo(model, NULL) == E_MISSING);
+    model_free(model);
+}
+
 static void what_is_saved_rebuilds_the_model(void)
 {
     for (uint64_t round = 0; round < 30; round++) {
@@ -324,6 +430,9 @@ static void statements_cost_about_the_same_however_many_there_are(void)
 int main(void)
 {
     RUN(undo_and_redo_pass_the_same_states);
+    RUN(walks_back_and_forth_end_where_the_statements_lead);
+    RUN(what_is_no_longer_kept_is_made_anew);
+    RUN(a_group_is_one_step);
     RUN(what_is_saved_rebuilds_the_model);
     RUN(clearing_can_be_undone);
     RUN(a_new_statement_ends_redo);

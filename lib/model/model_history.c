@@ -1,0 +1,183 @@
+/* model_history.c: the statements that a model accepted, and the way back and forth over them */
+#include "model/model_history.h"
+
+#include <string.h>
+
+/* Of states that others took the place of (a name deleted, a law replaced), which are quicker kept
+ * than made anew. */
+static const size_t most_kept = (size_t)128 << 20; /* bytes */
+
+void history_open(History *history)
+{
+    *history = (History){.texts = pool_new(0)};
+}
+
+void history_close(History *history)
+{
+    pool_free(history->texts);
+    LIST_FREE(history->list);
+}
+
+static Accepted *add(History *history, const char *text, Effect effect, const StateMark *mark)
+{
+    history->list.count = history->done++;
+    LIST_PUSH(history->list, (Accepted){.text = pool_text(history->texts, text, strlen(text)),
+                                        .effect = effect,
+                                        .mark = *mark,
+                                        .serial = ++history->serial});
+    return &history->list.at[history->list.count - 1];
+}
+
+/* Apply, and have the way back. */
+static Status apply_marked(State **state, const Statement *statement, StateMark *mark,
+                           Outcome *outcome, Diag *diag)
+{
+    const Setup setup = state_setup(*state);
+    Status status = OK;
+
+    *mark = state_mark(*state);
+    CHECK(state_apply(state, statement, outcome, diag));
+    if ((*state)->number == mark->state)
+        state_note_setup(*state, &setup);
+    else
+        state_forget_before(*state, most_kept);
+done:
+    return status;
+}
+
+Status history_take(History *history, State **state, const Statement *statement, Outcome *outcome,
+                    Diag *diag)
+{
+    StateMark mark;
+    char *text = NULL;
+    Status status = OK;
+
+    CHECK(apply_marked(state, statement, &mark, outcome, diag));
+    if (statement->kind != STATEMENT_EMPTY) {
+        text = statement_full_text(statement);
+        add(history, text, outcome->effect, &mark);
+    }
+done:
+    mem_free(text);
+    return status;
+}
+
+void history_clear(History *history, State **state)
+{
+    const StateMark mark = state_mark(*state);
+
+    state_replace(state, state_new((*state)->arena));
+    state_forget_before(*state, most_kept);
+    add(history, "clear", EFFECT_EQUATIONS, &mark)->clears = true;
+}
+
+void history_join(History *history, int count, const char *called)
+{
+    Accepted *last = &history->list.at[history->done - 1];
+
+    last->before = count - 1;
+    last->called = pool_text(history->texts, called, strlen(called));
+    last[1 - count].after = count - 1;
+}
+
+/* --- back and forth --- */
+
+static Status take_again(State **state, Accepted *step, Diag *diag)
+{
+    Statement *statement = NULL;
+    Outcome outcome = {EFFECT_NONE, {0}};
+    size_t next = 0;
+    Status status = OK;
+
+    if (step->clears) {
+        step->mark = state_mark(*state);
+        state_replace(state, state_new((*state)->arena));
+        return OK;
+    }
+    CHECK(statement_parse(step->text, 1, (SyntaxOptions){false}, &next, &statement, diag));
+    CHECK(apply_marked(state, statement, &step->mark, &outcome, diag));
+done:
+    text_free(&outcome.remarks);
+    statement_free(statement);
+    return status;
+}
+
+/* the state that the first `count` steps make, from their texts */
+static Status make_anew(History *history, int count, State **state, Diag *diag)
+{
+    State *made = state_new((*state)->arena);
+    int first = count;
+    Status status = OK;
+
+    while (first > 0 && !history->list.at[first - 1].clears)
+        first--;
+    made->number = history->list.at[first].mark.state;
+    for (int i = first; i < count; i++)
+        CHECK(take_again(&made, &history->list.at[i], diag));
+    state_free(*state);
+    *state = made;
+    made = NULL;
+done:
+    state_free(made);
+    return status;
+}
+
+static Effect effect_of(const History *history, int from, int to)
+{
+    Effect effect = EFFECT_NONE;
+
+    for (int i = from; i < to; i++)
+        if (history->list.at[i].effect > effect)
+            effect = history->list.at[i].effect;
+    return effect;
+}
+
+static const char *name_of(const Accepted *step)
+{
+    return step->called != NULL ? step->called : step->text;
+}
+
+Status history_undo(History *history, State **state, const char **over, Effect *effect, Diag *diag)
+{
+    const Accepted *last;
+    int to;
+    Status status = OK;
+
+    if (history->done == 0)
+        return diag_set(diag, E_MISSING, "there is nothing to undo");
+    last = &history->list.at[history->done - 1];
+    to = history->done - 1 - last->before;
+    if (!state_go_back(state, &history->list.at[to].mark))
+        CHECK(make_anew(history, to, state, diag));
+    *over = name_of(last);
+    *effect = effect_of(history, to, history->done);
+    history->done = to;
+    if (to < history->low)
+        history->low = to;
+done:
+    return status;
+}
+
+Status history_redo(History *history, State **state, const char **over, Effect *effect, Diag *diag)
+{
+    const int from = history->done;
+    Status status = OK;
+    int to;
+
+    if (from == history->list.count)
+        return diag_set(diag, E_MISSING, "there is nothing to redo");
+    to = from + 1 + history->list.at[from].after;
+    for (int i = from; i < to; i++) {
+        status = take_again(state, &history->list.at[i], diag);
+        if (status != OK) {
+            if (i > from && !state_go_back(state, &history->list.at[from].mark))
+                status = make_anew(history, from, state, diag);
+            goto done;
+        }
+    }
+    *over = name_of(&history->list.at[to - 1]);
+    *effect = effect_of(history, from, to);
+    history->done = to;
+done:
+    return status;
+}

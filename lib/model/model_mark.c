@@ -1,0 +1,278 @@
+/* model_mark.c: the way back over a statement, without making the state anew
+ *
+ * Most statements only add: parts, names, lines go to the ends of lists, and a mark of
+ * their lengths is the way back. What a statement changes in place is kept as it was,
+ * in the order of the changes. A state that took the place of another keeps that one,
+ * in which nothing is changed any more. */
+#include "model/model_impl.h"
+
+#include <string.h>
+
+StateMark state_mark(const State *state)
+{
+    return (StateMark){.state = state->number,
+                       .pool = pool_mark(state->pool),
+                       .graph = graph_mark(state->graph),
+                       .names = state->things.count,
+                       .terminals = state->terminal_nodes.count,
+                       .parts = state->parts.count,
+                       .edge_owners = state->edge_owner.count,
+                       .definitions = state->definitions.count,
+                       .parameters = state->parameters.count,
+                       .outputs = state->outputs.count,
+                       .events = state->events.count,
+                       .lines = state->lines.count,
+                       .start_names = names_count(state->start_names),
+                       .changes = state->changes.count};
+}
+
+/* --- keeping --- */
+
+static Change *keep(State *state, ChangeKind kind, int at)
+{
+    LIST_PUSH(state->changes, (Change){.kind = kind, .at = at});
+    return &state->changes.at[state->changes.count - 1];
+}
+
+void state_keep_line(State *state, int line)
+{
+    keep(state, CHANGED_LINE, line)->was.line = state->lines.at[line];
+}
+
+void state_keep_definition(State *state, int definition)
+{
+    keep(state, CHANGED_DEFINITION, definition)->was.definition = state->definitions.at[definition];
+}
+
+void state_keep_values(State *state, int part, Value *values)
+{
+    keep(state, CHANGED_VALUES, part)->was.values = values;
+}
+
+static void copy_names(NameList *to, const NameList *from)
+{
+    for (int i = 0; i < from->count; i++)
+        LIST_PUSH(*to, from->at[i]);
+}
+
+void state_keep_choice(State *state, TreeKind kind)
+{
+    const Choice *choice = &state->choices[kind];
+    Choice *copy = NEW(Choice);
+
+    copy->absolute = choice->absolute;
+    copy_names(&copy->chosen, &choice->chosen);
+    copy_names(&copy->excluded, &choice->excluded);
+    keep(state, CHANGED_CHOICE, (int)kind)->was.choice = copy;
+}
+
+void state_keep_independent(State *state)
+{
+    NameList *copy = NEW(NameList);
+
+    copy_names(copy, &state->independent);
+    keep(state, CHANGED_INDEPENDENT, 0)->was.independent = copy;
+}
+
+Setup state_setup(const State *state)
+{
+    Setup setup;
+
+    memset(&setup, 0, sizeof setup); /* blanks between members, too: setups are compared */
+    setup.planar = state->planar;
+    memcpy(setup.gravity, state->gravity, sizeof setup.gravity);
+    setup.title = state->title;
+    memcpy(setup.datum, state->datum, sizeof setup.datum);
+    setup.group_count = state->group_count;
+    setup.form = state->form;
+    setup.network_form = state->network_form;
+    return setup;
+}
+
+void state_note_setup(State *state, const Setup *before)
+{
+    const Setup now = state_setup(state);
+
+    if (memcmp(&now, before, sizeof now) == 0)
+        return;
+
+    Setup *copy = NEW(Setup);
+
+    memcpy(copy, before, sizeof *copy);
+    keep(state, CHANGED_SETUP, 0)->was.setup = copy;
+}
+
+/* --- back --- */
+
+static void restore_setup(State *state, const Setup *setup)
+{
+    state->planar = setup->planar;
+    memcpy(state->gravity, setup->gravity, sizeof state->gravity);
+    state->title = setup->title;
+    memcpy(state->datum, setup->datum, sizeof state->datum);
+    state->group_count = setup->group_count;
+    state->form = setup->form;
+    state->network_form = setup->network_form;
+}
+
+/* values of parameters follow from one another */
+static void restore_definition(State *state, int at, const Definition *was)
+{
+    state->definitions.at[at] = *was;
+    for (int i = 0; i < state->parameters.count; i++)
+        state->definitions.at[state->parameters.at[i]].is_known = false;
+}
+
+static void restore_choice(State *state, int kind, Choice *was)
+{
+    Choice *choice = &state->choices[kind];
+
+    LIST_FREE(choice->chosen);
+    LIST_FREE(choice->excluded);
+    *choice = *was;
+    *was = (Choice){false, {0}, {0}};
+}
+
+static void restore_start(State *state, int at, const StartEntry *was)
+{
+    LIST_PUSH(state->starts, *was);
+    memmove(&state->starts.at[at + 1], &state->starts.at[at],
+            sizeof *state->starts.at * (size_t)(state->starts.count - 1 - at));
+    state->starts.at[at] = *was;
+}
+
+static void restore(State *state, Change *change)
+{
+    switch (change->kind) {
+    case CHANGED_LINE:
+        state->lines.at[change->at] = change->was.line;
+        break;
+    case CHANGED_DEFINITION:
+        restore_definition(state, change->at, &change->was.definition);
+        break;
+    case CHANGED_VALUES:
+        state->parts.at[change->at]->values = change->was.values;
+        break;
+    case CHANGED_CHOICE:
+        restore_choice(state, change->at, change->was.choice);
+        break;
+    case CHANGED_INDEPENDENT:
+        LIST_FREE(state->independent);
+        copy_names((NameList *)&state->independent, change->was.independent);
+        break;
+    case CHANGED_SETUP:
+        restore_setup(state, change->was.setup);
+        break;
+    case ADDED_START:
+        state->starts.count--;
+        break;
+    case REMOVED_START:
+        restore_start(state, change->at, &change->was.start);
+        break;
+    }
+}
+
+static void change_free(Change *change)
+{
+    if (change->kind == CHANGED_CHOICE) {
+        LIST_FREE(change->was.choice->chosen);
+        LIST_FREE(change->was.choice->excluded);
+        mem_free(change->was.choice);
+    } else if (change->kind == CHANGED_INDEPENDENT) {
+        LIST_FREE(*change->was.independent);
+        mem_free(change->was.independent);
+    } else if (change->kind == CHANGED_SETUP)
+        mem_free(change->was.setup);
+}
+
+void state_free_changes(State *state)
+{
+    for (int i = 0; i < state->changes.count; i++)
+        change_free(&state->changes.at[i]);
+    LIST_FREE(state->changes);
+}
+
+static void restore_changes(State *state, int count)
+{
+    bool starts = false;
+
+    while (state->changes.count > count) {
+        Change *change = &state->changes.at[--state->changes.count];
+
+        starts = starts || change->kind == ADDED_START || change->kind == REMOVED_START;
+        restore(state, change);
+        change_free(change);
+    }
+    if (starts) {
+        state->start_of.count = 0;
+        starts_index(state, 0);
+    }
+}
+
+static void trim(State *state, const StateMark *mark)
+{
+    state_forget_trees(state);
+    names_trim(state->names, mark->names);
+    state->things.count = mark->names;
+    names_trim(state->terminals, mark->terminals);
+    state->terminal_nodes.count = mark->terminals;
+    state->parts.count = mark->parts;
+    state->edge_owner.count = mark->edge_owners;
+    state->definitions.count = mark->definitions;
+    state->parameters.count = mark->parameters;
+    state->outputs.count = mark->outputs;
+    state->events.count = mark->events;
+    state->lines.count = mark->lines;
+    names_trim(state->start_names, mark->start_names);
+    if (state->start_of.count > mark->start_names)
+        state->start_of.count = mark->start_names;
+    graph_trim(state->graph, &mark->graph);
+    pool_release(state->pool, mark->pool);
+}
+
+bool state_go_back(State **state, const StateMark *mark)
+{
+    const State *found = *state;
+
+    while (found != NULL && found->number != mark->state)
+        found = found->before;
+    if (found == NULL)
+        return false;
+    while (*state != found) {
+        State *gone = *state;
+
+        *state = gone->before;
+        gone->before = NULL;
+        state_free(gone);
+    }
+    restore_changes(*state, mark->changes);
+    trim(*state, mark);
+    return true;
+}
+
+void state_replace(State **state, State *next)
+{
+    State *first = next;
+    int more = 1;
+
+    for (; first->before != NULL; more++)
+        first = first->before;
+    first->before = *state;
+    for (State *s = next; more > 0; s = s->before)
+        s->number = (*state)->number + more--;
+    *state = next;
+}
+
+void state_forget_before(State *state, size_t bytes)
+{
+    size_t held = 0;
+
+    for (; state->before != NULL; state = state->before) {
+        held += pool_bytes(state->before->pool);
+        if (held > bytes) {
+            state_free(state->before);
+            state->before = NULL;
+            return;
+        }
+    }
+}
