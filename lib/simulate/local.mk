@@ -69,6 +69,8 @@ libcore_la_SOURCES += \
   lib/simulate/search.c \
   lib/simulate/search.h \
   lib/simulate/simulate.c \
+  lib/simulate/shifted.c \
+  lib/simulate/shifted.h \
   lib/simulate/sides.c \
   lib/simulate/sides.h \
   lib/simulate/sparse.c \

@@ -13,7 +13,7 @@ struct NetDae {
     Dae dae;
     Slopes slopes;
     Probe *probe; /* G, power, slopes */
-    bool is_compiled;
+    bool is_compiled, is_linear;
     /* pattern of the Jacobian, and which place of it a slope is added to */
     int entries;
     int *row, *column, *place;
@@ -142,6 +142,9 @@ static bool compile(NetDae *d)
     LIST_PUSH(roots, system_power(l->system));
     for (int k = 0; k < d->slopes.count; k++)
         LIST_PUSH(roots, d->slopes.value[k]);
+    d->is_linear = true;
+    for (int k = 0; k < d->slopes.count; k++)
+        d->is_linear = d->is_linear && stage_of(d->slopes.value[k]) == STAGE_PARAMETER;
     status = probe_new(l, d->parameters, roots.at, roots.count, &d->probe, NULL);
     LIST_FREE(roots);
     find_pattern(d);
@@ -205,6 +208,13 @@ static bool start(void *context, double t, const double *y, double *w, double *w
     return vector_is_finite(w, d->dae.n) && vector_is_finite(w_rate, d->dae.n);
 }
 
+static bool is_linear(void *context)
+{
+    NetDae *d = context;
+
+    return (d->is_compiled || compile(d)) && d->is_linear;
+}
+
 static int pattern(void *context, const int **row, const int **column)
 {
     const NetDae *d = context;
@@ -229,7 +239,8 @@ NetDae *netdae_new(const Layout *l, Parameters *parameters, Motion *motion)
                    .residual = residual,
                    .start = start,
                    .pattern = pattern,
-                   .jacobian = jacobian};
+                   .jacobian = jacobian,
+                   .is_linear = is_linear};
     d->weight = NEW_ARRAY(double, d->dae.n);
     d->has_rate = NEW_ARRAY(bool, d->dae.n);
     for (int i = 0; i < d->dae.n; i++) {

@@ -29,6 +29,8 @@ typedef struct Dae {
     int (*pattern)(void *context, const int **row, const int **column);
     bool (*jacobian)(void *context, double t, double c, const double *w, const double *rate,
                      double *values);
+    /* Whether dF/dw and dF/dw' stay as they are until a restart. NULL: not known. */
+    bool (*is_linear)(void *context);
 } Dae;
 
 typedef struct Ode {

@@ -82,8 +82,10 @@ void phase_free(Phase *phase)
 
 const Method *phase_stiff_method(const Phase *phase)
 {
-    if (phase->length + phase->layout->nz <= FEW)
-        return &method_radau;
+    if (phase->length + phase->layout->nz <= FEW ||
+        (phase->closed != NULL && phase->network != NULL))
+        return &method_radau; /* also sparse, where a method of many steps would always begin anew
+                               */
     return phase->network != NULL ? &method_ida : &method_bdf;
 }
 

@@ -1,12 +1,12 @@
 /* radau.c: implicit Runge-Kutta of order 5 for stiff equations, three Radau IIA stages
  *
  * Hairer and Wanner (1996), Solving ODE II, IV.8: with stages y + z_i at c_i h,
- * z = h (A x 1) f(y + z), solved by simplified Newton with J = df/dy by differences, kept while
- * the iteration contracts well. The error is that of their embedded formula of order 3, filtered by
+ * z = h (A x 1) f(y + z), solved by simplified Newton with J = df/dy, kept while the iteration
+ * contracts well. A^-1 = T diag(g, [a b; -b a]) T^-1 splits its linear system into a real one and a
+ * complex one. The error is that of their embedded formula of order 3, filtered by
  * (g/h - J)^-1 so that stiff parts don't blow it up. Between the ends of a step the collocation
  * polynomial is read, whose error the step control bounds as well. */
-#include "simulate/linear.h"
-#include "simulate/ode.h"
+#include "simulate/shifted.h"
 
 #include "base/memory.h"
 
@@ -31,8 +31,25 @@ static const double weights[3][3] = {
 };
 /* of z in the error formula (IV.8.19), with the real eigenvalue g of A^-1 */
 static const double embedded[3] = {(-13 - 7 * ROOT6) / 3, (-13 + 7 * ROOT6) / 3, -1.0 / 3};
+static const double inverse[3][3] = { /* A^-1 */
+    {(3.2247448713915890491),  (1.1678400846904054949),  (-0.25319726474218082619)},
+    {(-3.5678400846904054949), (0.7752551286084109510),  (1.0531972647421808262)},
+    {(5.5319726474218082619),  (-7.5319726474218082619), (5)},
+};
+static const double split[3][3] = { /* T^-1 */
+    {4.1787185915519047273,  0.32768282076106238708,  0.52337644549944954804},
+    {-4.1787185915519047273, -0.32768282076106238708, 0.47662355450055045196},
+    {0.50287263494578687595, -2.5719269498556054292,  0.59603920482822492497},
+};
+static const double joined[3][3] = { /* T */
+    {0.094438762488975241487, -0.14125529502095420843, 0.030029194105147424492},
+    {0.25021312296533331138,  0.204129352293799932,    -0.38294211275726193780},
+    {1, 1, 0},
+};
 /* clang-format on */
-#define EIGENVALUE 3.63783425274449573220 /* 30 / (6 + 81^(1/3) - 9^(1/3)) */
+#define EIGENVALUE 3.6378342527444957322 /* g = 30 / (6 + 81^(1/3) - 9^(1/3)) */
+#define PAIR_REAL  2.6810828736277521339 /* a */
+#define PAIR_TURN  3.0504301992474105694 /* b */
 
 typedef struct Radau {
     Stepper base;
@@ -40,10 +57,11 @@ typedef struct Radau {
     double *old, *old_rate, *rate, *scale;
     double *z, *f, *delta; /* 3 x all, 3 x all, 3 x n */
     double *point, *error, *column;
-    double *jacobian; /* n x n */
-    Lu *stages, *filter;
+    double *part; /* 3 x n: of the split system */
+    Shifted *shifted;
     double factored; /* step that they belong to; 0: none */
     bool fresh;      /* the Jacobian belongs to `old` */
+    bool is_linear;  /* it does as long as nothing starts anew */
     double step;     /* of the last step */
     double contraction;
     bool was_rejected;
@@ -76,9 +94,8 @@ static Stepper *create(const Ode *ode, const Control *control)
     r->point = NEW_ARRAY(double, all);
     r->error = NEW_ARRAY(double, all);
     r->column = NEW_ARRAY(double, all);
-    r->jacobian = NEW_ARRAY(double, n *n);
-    r->stages = lu_new(3 * n);
-    r->filter = lu_new(n);
+    r->part = NEW_ARRAY(double, 3 * n);
+    r->shifted = shifted_new(ode, &r->base.counts);
     return &r->base;
 }
 
@@ -99,9 +116,8 @@ static void destroy(Stepper *stepper)
     mem_free(r->point);
     mem_free(r->error);
     mem_free(r->column);
-    mem_free(r->jacobian);
-    lu_free(r->stages);
-    lu_free(r->filter);
+    mem_free(r->part);
+    shifted_free(r->shifted);
     mem_free(r);
 }
 
@@ -113,7 +129,7 @@ static Status start(Stepper *stepper, double t, const double *y, Diag *diag)
     r->base.t = r->base.before = t;
     r->base.next = r->base.control.first;
     r->factored = 0;
-    r->fresh = false;
+    r->fresh = r->is_linear = false;
     r->contraction = 1;
     r->was_rejected = false;
     r->step = 0;
@@ -152,46 +168,48 @@ static double scaled_norm(const Radau *r, const double *v, int count)
     return sqrt(sum / (r->n > 0 ? count * r->n : 1));
 }
 
-/* df/dy at `old`, by differences */
+/* df/dy at `old` */
 static bool find_jacobian(Radau *r)
 {
-    int n = r->n;
-
-    memcpy(r->point, r->old, (size_t)r->all * sizeof(double));
-    for (int j = 0; j < n; j++) {
-        double h = sqrt(DBL_EPSILON * fmax(1e-5, fabs(r->old[j])));
-
-        r->point[j] = r->old[j] + h;
-        h = r->point[j] - r->old[j];
-        if (!evaluate(r, r->base.before, r->point, r->column))
-            return false;
-        for (int i = 0; i < n; i++)
-            r->jacobian[i * n + j] = (r->column[i] - r->old_rate[i]) / h;
-        r->point[j] = r->old[j];
-    }
-    r->base.counts.jacobians++;
+    if (!shifted_differentiate(r->shifted, r->base.before, r->old, r->old_rate))
+        return false;
     r->fresh = true;
+    r->is_linear = shifted_is_linear(r->shifted);
     r->factored = 0;
     return true;
 }
 
-/* 1 - h A x J and g/h - J */
+/* g/h - J, and (a - ib)/h - J */
 static bool factor(Radau *r, double h)
 {
-    int n = r->n;
-    double *a = lu_matrix(r->stages), *b = lu_matrix(r->filter);
+    r->factored = shifted_factor(r->shifted, EIGENVALUE / h, PAIR_REAL / h, PAIR_TURN / h) ? h : 0;
+    return r->factored > 0;
+}
+
+/* sums of three vectors by the rows of a matrix */
+static void combine(int n, const double matrix[3][3], const double *from, double *out)
+{
+    for (int i = 0; i < n; i++)
+        for (int k = 0; k < 3; k++)
+            out[k * n + i] = matrix[k][0] * from[i] + matrix[k][1] * from[n + i] +
+                             matrix[k][2] * from[2 * n + i];
+}
+
+/* A step of Newton's: (A^-1/h x 1 - 1 x J) delta = f - A^-1/h z */
+static void correct_stages(Radau *r, double h)
+{
+    int n = r->n, all = r->all;
 
     for (int k = 0; k < 3; k++)
         for (int i = 0; i < n; i++)
-            for (int l = 0; l < 3; l++)
-                for (int j = 0; j < n; j++)
-                    a[(k * n + i) * 3 * n + l * n + j] =
-                        (k == l && i == j) - h * weights[k][l] * r->jacobian[i * n + j];
-    for (int i = 0; i < n; i++)
-        for (int j = 0; j < n; j++)
-            b[i * n + j] = (i == j ? EIGENVALUE / h : 0) - r->jacobian[i * n + j];
-    r->factored = lu_factor(r->stages) && lu_factor(r->filter) ? h : 0;
-    return n == 0 || r->factored > 0;
+            r->delta[k * n + i] =
+                r->f[k * all + i] - (inverse[k][0] * r->z[i] + inverse[k][1] * r->z[all + i] +
+                                     inverse[k][2] * r->z[2 * all + i]) /
+                                        h;
+    combine(n, split, r->delta, r->part);
+    shifted_solve(r->shifted, r->part);
+    shifted_solve_pair(r->shifted, r->part + n, r->part + 2 * n);
+    combine(n, joined, r->part, r->delta);
 }
 
 /* where the last step's polynomial leads, as a first guess of the stages */
@@ -232,15 +250,7 @@ static Outcome solve_stages(Radau *r, double h, int *used)
 
         if (!evaluate_stages(r, h))
             return UNDEFINED;
-        for (int k = 0; k < 3; k++)
-            for (int i = 0; i < n; i++) {
-                double sum = -r->z[k * all + i];
-
-                for (int l = 0; l < 3; l++)
-                    sum += h * weights[k][l] * r->f[l * all + i];
-                r->delta[k * n + i] = sum;
-            }
-        lu_solve(r->stages, r->delta);
+        correct_stages(r, h);
         size = scaled_norm(r, r->delta, 3);
         if (!isfinite(size))
             return UNDEFINED;
@@ -248,6 +258,10 @@ static Outcome solve_stages(Radau *r, double h, int *used)
             for (int i = 0; i < n; i++)
                 r->z[k * all + i] += r->delta[k * n + i];
         *used = it;
+        if (r->is_linear) { /* that was all; quadratures want the rates there */
+            r->contraction = 0;
+            return evaluate_stages(r, h) ? CONVERGED : UNDEFINED;
+        }
         if (it > 1) {
             r->contraction = size / before;
             if (r->contraction >= 0.99)
@@ -277,7 +291,7 @@ static double step_error(Radau *r, double h)
                 sum += embedded[k] * r->z[k * r->all + i];
             r->error[i] = rate[i] + sum / h;
         }
-        lu_solve(r->filter, r->error);
+        shifted_solve(r->shifted, r->error);
         size = scaled_norm(r, r->error, 1);
         if (size < 1 || !(r->was_rejected || r->step == 0) || pass == 1)
             break;
@@ -376,7 +390,7 @@ static Status step(Stepper *stepper, double end, Diag *diag)
     Radau *r = (Radau *)stepper;
     int failures = 0;
     double h = r->base.next;
-    bool keep = r->factored > 0 && r->contraction < CONTRACTS;
+    bool keep = r->is_linear || (r->factored > 0 && r->contraction < CONTRACTS);
 
     if (r->base.next > 0)
         guess_stages(r, trim(r, h, end + r->base.before - r->base.t), true);
@@ -392,7 +406,7 @@ static Status step(Stepper *stepper, double end, Diag *diag)
     while (!try_step(r, &h, end, &failures)) {
         r->base.counts.rejected++;
         r->was_rejected = true;
-        if (keep) /* it was an old Jacobian's fault, perhaps */
+        if (keep && !r->is_linear) /* it was an old Jacobian's fault, perhaps */
             r->fresh = keep = false;
         if (failures >= MAX_REJECTIONS)
             return solver_failure(diag, r->base.before,
@@ -466,8 +480,8 @@ static Status shorten(Stepper *stepper, double t, Diag *diag)
     memcpy(stages, r->z, 3 * bytes);
     memcpy(rate, r->rate, bytes);
     guess_shorter(r, h);
-    if (!(evaluate(r, r->base.before, r->old, r->rate) && find_jacobian(r) && factor(r, h) &&
-          solve_stages(r, h, &used) == CONVERGED && settle(r, t, h))) {
+    if (!(evaluate(r, r->base.before, r->old, r->rate) && (r->is_linear || find_jacobian(r)) &&
+          factor(r, h) && solve_stages(r, h, &used) == CONVERGED && settle(r, t, h))) {
         status = solver_failure(diag, t, "the equations have no solution at a switch");
         memcpy(r->z, stages, 3 * bytes);
         memcpy(r->rate, rate, bytes);
