@@ -64,7 +64,8 @@ static Measure joined(Measure a, Measure b)
     if (a.kind == MEASURE_KNOWN && b.kind == MEASURE_KNOWN) {
         out = a.has_time ? b : a;
         out.has_units = a.has_units || b.has_units;
-        out.is_literal = a.is_literal && b.is_literal;
+        out.is_literal = a.is_literal && b.is_literal &&
+                         memcmp(&a.dimension, &b.dimension, sizeof a.dimension) == 0;
         out.is_cycles = a.is_cycles && b.is_cycles;
         return out;
     }

@@ -3,6 +3,8 @@
 
 #include <string.h>
 
+enum { LONGEST_NAME = 40 }; /* of an item in a message; it stands below it anyway */
+
 /* --- variables --- */
 
 /* of a terminal's potential; NULL: the name is none */
@@ -92,7 +94,7 @@ static bool is_pitch(Measure wanted, Measure given)
     static const Dimension length = {{1, 0, 0, 0, 0, 0}};
 
     return memcmp(&wanted.dimension, &length, sizeof length) == 0 && given.is_literal &&
-           given.dimension.power[5] != 0;
+           given.dimension.power[5] < 0;
 }
 
 static Status refuse(const Syntax *syntax, Measure wanted, const char *unit, const char *name,
@@ -185,6 +187,10 @@ Status unit_check_shown(const Scope *scope, const Syntax *item, Diag *diag)
         goto done;
     plain.has_unit = false;
     syntax_print(&name, &plain);
+    if (name.length > LONGEST_NAME) {
+        text_free(&name);
+        text_add(&name, "this");
+    }
     measure_print(&text, given);
     status = diag_at(diag, E_UNIT, item->unit_place, "%s is %s%s: it can't be shown in %s", name.at,
                      measure_is_plain(given) ? "" : "in ", text.at, item->unit_text);

@@ -1,2 +1,6 @@
 # random members of families against answers from elsewhere: a few with a fixed seed in `make
 # check`, any number in `make stress`, which calls each as `NAME --seed N --seconds N`
+FAMILIES += family_units
+family_units_SOURCES = tests/family/family_units.c tests/family/family.h \
+	tests/unit/session_kit.h tests/unit/test.h
+family_units_LDADD = libcotree.la $(unit_ldadd)
