@@ -126,3 +126,8 @@ void workspace_run(Workspace *workspace, Stage from, Stage to)
     for (int i = program->first_root[from]; i < program->first_root[to + 1]; i++)
         workspace->roots[program->roots[i].root] = workspace->slots[program->roots[i].slot];
 }
+
+void workspace_errors(const Workspace *workspace, const double *input_errors, double *root_errors)
+{
+    program_bound(workspace->program, workspace->slots, input_errors, root_errors);
+}

@@ -58,5 +58,11 @@ double *workspace_inputs(Workspace *workspace);
 void workspace_run(Workspace *workspace, Stage from, Stage to);
 /* The values of the roots, in order; a root's is current once its stage was run. Borrowed. */
 const double *workspace_roots(const Workspace *workspace);
+/* How far the roots of the last run may be off, every stage being current: by what was rounded on
+ * the way, and where the inputs are off by `input_errors`. No bound: INFINITY or NAN. */
+void workspace_errors(const Workspace *workspace, const double *input_errors, double *root_errors);
+/* how far a number may be from the one that was meant: half a unit in its last place, 0 for one of
+ * few digits in binary */
+double number_error(double value);
 
 #endif

@@ -79,6 +79,8 @@ ShowFunction show_linear, show_transfer, show_state;
 /* E_MISSING where there is nothing linear, or no input or output of it */
 MUST_USE Status linear_check_pairs(const Linear *linear, Diag *diag);
 /* a line a mode; what moves on lines of its own where that is wider than the page (0: never) */
+/* a number of which `error` is open: six digits, or those that are known, one at least */
+void linear_known(Text *out, double value, double error);
 void modes_print(const Modes *modes, int columns, Text *out);
 /* a row a mode, with the amplitude and phase of every part */
 void modes_csv(const Modes *modes, bool with_header, Text *out);

@@ -5,10 +5,9 @@
 #include <math.h>
 #include <string.h>
 
-enum { MOST_PARTS = 6 }; /* of a mode, in its line */
+enum { MOST_PARTS = 6, DIGITS = 6 }; /* of a mode, in its line; of a number */
 
 #define LEAST_PART 1e-3 /* of the largest */
-#define NOISE      1e-13
 
 static const char letters[] = "ABCD";
 
@@ -38,23 +37,17 @@ static void print_rounded(Text *out, const LinearMatrix *m)
 {
     Text align = {0};
     Table table;
-    double largest = 0;
 
     text_char(&align, 'l');
     text_fill(&align, 'r', m->columns);
     table = table_for(align.at);
-    for (int k = 0; k < m->rows * m->columns; k++)
-        largest = fmax(largest, fabs(m->at[k]));
     table_cellf(&table, "%c", m->letter);
     for (int j = 0; j < m->columns; j++)
         table_cell(&table, m->column_names[j]);
     for (int i = 0; i < m->rows; i++) {
         table_cell(&table, m->row_names[i]);
-        for (int j = 0; j < m->columns; j++) {
-            double entry = m->at[i * m->columns + j];
-
-            table_cellf(&table, "%.6g", fabs(entry) > NOISE * largest ? entry : 0.0);
-        }
+        for (int j = 0; j < m->columns; j++)
+            table_cellf(&table, "%.6g", m->at[i * m->columns + j]);
     }
     table_print(out, &table, 0);
     table_free(&table);
@@ -197,16 +190,54 @@ static char *shape_text(const Modes *modes, const Mode *mode)
     return text_done(&text);
 }
 
+void linear_known(Text *out, double value, double error)
+{
+    const double digits = error > 0 && value != 0 ? floor(log10(fabs(value) / error)) : DIGITS;
+
+    text_number(out, value, digits < 1 ? 1 : digits < DIGITS ? (int)digits : DIGITS);
+}
+
+static void add_known(Table *table, double value, double error)
+{
+    Text text = {0};
+
+    linear_known(&text, value, error);
+    table_cell(table, text.at);
+    text_free(&text);
+}
+
+/* "-1 +- 3i", with as many digits as are known; "0? +- 3i" where growing or fading isn't */
 static void add_figures(Table *table, const Mode *mode, int number)
 {
+    const double error = mode->error;
+    Text text = {0};
+
     table_cellf(table, "%d", number);
-    if (mode->imaginary > 0)
-        table_cellf(table, "%.6g +- %.6gi", mode->real, mode->imaginary);
-    else
-        table_cellf(table, "%.6g", mode->real);
-    table_cellf(table, "%.6g", mode->omega);
-    table_cellf(table, "%.6g", mode->omega / (2 * M_PI));
-    table_cellf(table, "%.6g", mode->damping);
+    linear_known(&text, mode->real, error);
+    text_add(&text, mode->is_doubtful ? "?" : "");
+    if (mode->imaginary > 0) {
+        text_add(&text, " +- ");
+        linear_known(&text, mode->imaginary, error);
+        text_char(&text, 'i');
+    }
+    table_cell(table, text.at);
+    add_known(table, mode->omega, error);
+    add_known(table, mode->omega / (2 * M_PI), error / (2 * M_PI));
+    add_known(table, mode->damping, mode->omega > 0 ? error / mode->omega : 0);
+    text_free(&text);
+}
+
+/* what the marks mean, with how little is known */
+static void add_doubts(const Modes *modes, Text *out)
+{
+    double largest = 0;
+
+    for (int i = 0; i < modes->count; i++)
+        if (modes->at[i].is_doubtful)
+            largest = fmax(largest, modes->at[i].error);
+    if (largest > 0)
+        text_addf(out, "? 0 within %.2g 1/s: rounding leaves open whether it grows or fades\n",
+                  largest);
 }
 
 /* Rows of figures with what moves: behind them where the page has room for every part, else on
@@ -263,6 +294,7 @@ void modes_print(const Modes *modes, int columns, Text *out)
         shapes[i + 1] = shape_text(modes, &modes->at[i]);
     }
     print_shapes(&figures, shapes, columns, out);
+    add_doubts(modes, out);
     for (int i = 0; i <= modes->count; i++)
         mem_free(shapes[i]);
     mem_free(shapes);
@@ -271,8 +303,8 @@ void modes_print(const Modes *modes, int columns, Text *out)
 
 void modes_csv(const Modes *modes, bool with_header, Text *out)
 {
-    static const char *const titles[] = {"mode",  "real",      "imaginary",
-                                         "omega", "frequency", "damping"};
+    static const char *const titles[] = {"mode",      "real",    "imaginary", "omega",
+                                         "frequency", "damping", "error"};
     const int columns = COUNT(titles) + 2 * modes->parts;
     char **names = NEW_ARRAY(char *, columns);
     double *values = NEW_ARRAY(double, modes->count *columns);
@@ -289,8 +321,8 @@ void modes_csv(const Modes *modes, bool with_header, Text *out)
     for (int i = 0; i < modes->count; i++) {
         const Mode *mode = &modes->at[i];
         const double figures[] = {
-            i + 1,        mode->real, mode->imaginary, mode->omega, mode->omega / (2 * M_PI),
-            mode->damping};
+            i + 1,         mode->real, mode->imaginary, mode->omega, mode->omega / (2 * M_PI),
+            mode->damping, mode->error};
         double *row = values + (ptrdiff_t)i * columns;
 
         memcpy(row, figures, sizeof figures);

@@ -7,6 +7,8 @@
 
 enum { DIGITS = 6, ALL_DIGITS = 17 };
 
+#define SLIGHT 1e-9 /* errors of zeros, relative */
+
 /* --- polynomials and roots --- */
 
 /* "2 s^2 - s + 0.5"; in latex s^{10} */
@@ -55,8 +57,64 @@ static void add_factor(Text *out, const double *at, int degree)
     text_add(out, is_sum ? ")" : "");
 }
 
+/* what a zero is to be small against: itself, or where it is 0 the least of all others */
+static double scale_of_zero(const Transfer *t, const Root *zero)
+{
+    double least = hypot(zero->real, zero->imaginary);
+
+    for (int i = 0; i < t->zeros + t->poles && zero->real == 0 && zero->imaginary == 0; i++) {
+        const Root *root = i < t->zeros ? &t->zero[i] : &t->pole[i - t->zeros];
+        const double size = hypot(root->real, root->imaginary);
+
+        least = size > 0 && (least == 0 || size < least) ? size : least;
+    }
+    return least;
+}
+
+/* Whether a root wants a mark. What a pole decides is where it stands from 0, however near; a zero
+ * of an error as small as SLIGHT does what it would at 0. */
+static bool wants_mark(const Transfer *t, const Root *root)
+{
+    const bool is_zero = root >= t->zero && root < t->zero + t->zeros;
+
+    return root_is_doubtful(root) && !(is_zero && root->error <= SLIGHT * scale_of_zero(t, root));
+}
+
+/* "-2 +- 3i", "+-3i"; "0?" where the side of 0 can't be told */
+static void add_root(Text *out, const Transfer *t, const Root *root)
+{
+    const bool is_doubtful = wants_mark(t, root);
+
+    if (root->real != 0 || root->imaginary == 0 || is_doubtful)
+        linear_known(out, root->real, root->error);
+    text_add(out, is_doubtful ? "?" : "");
+    if (root->imaginary > 0) {
+        text_add(out, root->real != 0 || is_doubtful ? " +- " : "+-");
+        linear_known(out, root->imaginary, root->error);
+        text_char(out, 'i');
+    }
+}
+
+/* what the marks mean */
+static void add_doubts(Table *table, const Transfer *t)
+{
+    double largest = 0;
+
+    for (int i = 0; i < t->zeros + t->poles; i++) {
+        const Root *root = i < t->zeros ? &t->zero[i] : &t->pole[i - t->zeros];
+
+        if (wants_mark(t, root))
+            largest = fmax(largest, root->error);
+    }
+    if (largest > 0) {
+        table_cell(table, "?");
+        table_cellf(table, "0 within %.2g 1/s: rounding leaves open on which side", largest);
+    }
+}
+
 /* "0, -1, -2 +- 3i" */
-static void add_roots(Table *table, const char *title, const Root *roots, int count)
+static void add_roots(Table *table, const char *title, const Transfer *t, const Root *roots,
+                      int count)
 {
     Text text = {0};
 
@@ -66,13 +124,7 @@ static void add_roots(Table *table, const char *title, const Root *roots, int co
         if (roots[i].imaginary < 0)
             continue;
         text_add(&text, text.length > 0 ? ", " : "");
-        if (roots[i].real != 0 || roots[i].imaginary == 0)
-            text_number(&text, roots[i].real, DIGITS);
-        if (roots[i].imaginary > 0) {
-            text_add(&text, roots[i].real != 0 ? " +- " : "+-");
-            text_number(&text, roots[i].imaginary, DIGITS);
-            text_char(&text, 'i');
-        }
+        add_root(&text, t, &roots[i]);
     }
     table_cell(table, title);
     table_cell(table, text.at);
@@ -121,8 +173,9 @@ static void print_text(Text *out, const View *view, const Transfer *t, int outpu
         table_cellf(&table, "%.*g", DIGITS, t->gain);
         table_cell(&table, "at rest");
         table_cellf(&table, last != 0 ? "%.*g" : "no bound", DIGITS, t->numerator[t->zeros] / last);
-        add_roots(&table, "zeros", t->zero, t->zeros);
-        add_roots(&table, "poles", t->pole, t->poles);
+        add_roots(&table, "zeros", t, t->zero, t->zeros);
+        add_roots(&table, "poles", t, t->pole, t->poles);
+        add_doubts(&table, t);
     }
     add_left_out(&table, t);
     table_print(out, &table, 2);

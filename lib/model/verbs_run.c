@@ -158,7 +158,8 @@ const Verb verbs_run[] = {
          "parameters, the deviation is a small turn about each axis (m1.turnX). Inputs are "
          "sources, "
          "actuators and parameters; outputs any variables or expressions. All entries are exact "
-         "derivatives. 'show linear' prints them again, linear.A(1,2) is one entry.",
+         "derivatives; one that rounding can't tell from 0 is 0. 'show linear' prints them again, "
+         "linear.A(1,2) is one entry.",
      .example =
          SWING "actuator a1 h1 torque=0\nequilibrium\nlinearize inputs=[a1] outputs=[h1, m1.ax]\n"
                "print linear.A(2,1)",
@@ -175,8 +176,9 @@ const Verb verbs_run[] = {
          "about an instant of the last run. A pair of conjugates is one mode: its natural "
          "frequency "
          "omega, its damping ratio, and what moves, the largest first and as 1; a minus is half a "
-         "turn behind. modes.omega(1) and modes.damping(1) are figures of the slowest; 'export csv "
-         "modes' writes them all.",
+         "turn behind. Digits are those that are known, six at most; 0? says that rounding leaves "
+         "open whether it grows or fades. modes.omega(1) and modes.damping(1) are figures of the "
+         "slowest; 'export csv modes' writes them all, with the error of each eigenvalue.",
      .example = PENDULUM "equilibrium\nmodes\nexpect modes.omega(1) ~ sqrt(9.81/1.1) within 1e-9\n"
                          "export csv modes",
      .see = "equilibrium linearize"},

@@ -1,15 +1,13 @@
 /* linearize.h: linear equations about a point of a result, and their modes
  *
- *     y' = A y + B w,   v = C y + D w
- *
- * y: deviations of independent coordinates, of their speeds, and of network states; w: of inputs;
- * v: of outputs. Where rotations are Euler parameters, y holds small turns about the axes in which
- * the speeds are. Every entry is exact to rounding: the equations M u' + Phi_u^T lambda = F,
- * Phi_u u' = gamma, A [x'; z] = r and their constraints are differentiated in symbols, and the
- * derivatives evaluated and put together along the constraints. */
+ * The equations M u' + Phi_u^T lambda = F, Phi_u u' = gamma, A [x'; z] = r and their constraints
+ * are differentiated in symbols, and the derivatives evaluated and put together along the
+ * constraints. Every entry comes with a bound of what rounding, of the numbers given and on the
+ * way, leaves open. */
 #ifndef COTREE_SIMULATE_LINEARIZE_H
 #define COTREE_SIMULATE_LINEARIZE_H
 
+#include "simulate/linear_equations.h"
 #include "simulate/run.h"
 
 typedef struct LinearInput {
@@ -31,27 +29,17 @@ typedef struct LinearOrder {
     const Watch *watch;
 } LinearOrder;
 
-typedef struct Linear {
-    double at;
-    int freedoms;                       /* the first of the states; as many speeds follow */
-    int states, inputs, outputs, parts; /* parts: all coordinates, then network states */
-    double *a, *b, *c, *d;              /* row by row */
-    double *motion;                     /* parts x states: how each moves with y */
-    bool is_shifted; /* states are less what jumps with the inputs, as voltages of capacitors in a
-                        circuit with a source do: b and d count from there */
-    char **state_names, **input_names, **output_names, **part_names;
-} Linear;
-
 /* New; free with linear_free(). Fails with E_SINGULAR where the equations are dependent, E_VALUE
  * for an instant outside the run, E_NAME and E_MODEL for inputs, the errors of system_resolve(). */
 MUST_USE Status linearize(const LinearOrder *order, Linear **out, Diag *diag);
-void linear_free(Linear *linear); /* NULL is fine */
 
 /* A pair of conjugate eigenvalues, or a real one. */
 typedef struct Mode {
     double real, imaginary; /* eigenvalue, 1/s; imaginary >= 0 */
     double omega;           /* its absolute value, rad/s */
     double damping;         /* -real / omega; 0 where omega is */
+    double error;           /* the eigenvalue is known to, 1/s */
+    bool is_doubtful;       /* whether it grows or fades can't be told: real is 0 */
     double *amplitude;      /* parts: the largest is 1 */
     double *phase;          /* rad, in (-pi, pi], of the largest 0 */
 } Mode;

@@ -1,12 +1,12 @@
 libcore_la_SOURCES += \
   lib/simulate/between.c \
+  lib/simulate/blocks.c \
+  lib/simulate/blocks.h \
   lib/simulate/commute.c \
   lib/simulate/commute.h \
   lib/simulate/cvode.c \
   lib/simulate/dop853.c \
   lib/simulate/dop853_table.h \
-  lib/simulate/eigen.c \
-  lib/simulate/eigen.h \
   lib/simulate/embed.c \
   lib/simulate/embed.h \
   lib/simulate/equilibrium.c \
@@ -29,8 +29,12 @@ libcore_la_SOURCES += \
   lib/simulate/least.h \
   lib/simulate/linear.c \
   lib/simulate/linear.h \
+  lib/simulate/linear_equations.h \
   lib/simulate/linearize.c \
   lib/simulate/linearize.h \
+  lib/simulate/linearize_columns.c \
+  lib/simulate/linearize_impl.h \
+  lib/simulate/linearize_point.c \
   lib/simulate/march.c \
   lib/simulate/march.h \
   lib/simulate/march_events.c \
@@ -42,10 +46,10 @@ libcore_la_SOURCES += \
   lib/simulate/modes.c \
   lib/simulate/motion.c \
   lib/simulate/motion.h \
-  lib/simulate/netsolve.c \
-  lib/simulate/netsolve.h \
   lib/simulate/netdae.c \
   lib/simulate/netdae.h \
+  lib/simulate/netsolve.c \
+  lib/simulate/netsolve.h \
   lib/simulate/numbers.c \
   lib/simulate/numbers.h \
   lib/simulate/ode.h \
@@ -66,15 +70,23 @@ libcore_la_SOURCES += \
   lib/simulate/run.h \
   lib/simulate/samples.c \
   lib/simulate/samples.h \
+  lib/simulate/schur.c \
+  lib/simulate/schur.h \
   lib/simulate/search.c \
   lib/simulate/search.h \
-  lib/simulate/simulate.c \
   lib/simulate/shifted.c \
   lib/simulate/shifted.h \
   lib/simulate/sides.c \
   lib/simulate/sides.h \
+  lib/simulate/simulate.c \
+  lib/simulate/single.c \
+  lib/simulate/single.h \
   lib/simulate/sparse.c \
   lib/simulate/sparse.h \
+  lib/simulate/spectrum.c \
+  lib/simulate/spectrum.h \
+  lib/simulate/square.c \
+  lib/simulate/square.h \
   lib/simulate/start.c \
   lib/simulate/start.h \
   lib/simulate/start_impl.h \
@@ -83,4 +95,7 @@ libcore_la_SOURCES += \
   lib/simulate/statics.c \
   lib/simulate/statics.h \
   lib/simulate/transfer.c \
-  lib/simulate/transfer.h
+  lib/simulate/transfer.h \
+  lib/simulate/wide.h \
+  lib/simulate/zeros.c \
+  lib/simulate/zeros.h

@@ -1,56 +1,16 @@
 /* modes.c: eigenvalues of a linear system, and which parts move
  *
- * Eigenvalues by the Francis method on the balanced matrix (GSL). What stands for itself and its
- * conjugate is one mode. The eigenvector moves every coordinate, dependent ones too. */
+ * What stands for itself and its conjugate is one mode. The eigenvector moves every coordinate,
+ * dependent ones too. */
 #include "simulate/linearize.h"
 
 #include "base/memory.h"
-#include "simulate/eigen.h"
+#include "simulate/spectrum.h"
 
-#include <gsl/gsl_complex_math.h>
-#include <gsl/gsl_eigen.h>
-#include <gsl/gsl_errno.h>
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #define SAME 1e-6 /* sizes of parts that count as equal */
-
-typedef struct Eigen {
-    gsl_vector_complex *values;
-    gsl_matrix_complex *vectors;
-} Eigen;
-
-static bool solve(const Linear *linear, Eigen *out)
-{
-    size_t n = (size_t)linear->states;
-    gsl_matrix *a = gsl_matrix_alloc(n, n);
-    gsl_eigen_nonsymmv_workspace *work = gsl_eigen_nonsymmv_alloc(n);
-    gsl_error_handler_t *handler = gsl_set_error_handler_off();
-    int code;
-
-    linear_clean(linear, a->data);
-    out->values = gsl_vector_complex_alloc(n);
-    out->vectors = gsl_matrix_complex_alloc(n, n);
-    gsl_eigen_nonsymmv_params(1, work);
-    code = gsl_eigen_nonsymmv(a, out->values, out->vectors, work);
-    (void)gsl_set_error_handler(handler);
-    linear_clean(linear, a->data);
-    eigen_set_zeros(a->data, linear->states, out->values);
-    gsl_matrix_free(a);
-    gsl_eigen_nonsymmv_free(work);
-    return code == GSL_SUCCESS;
-}
-
-/* what rounding can make of a 0 among eigenvalues of this size */
-static double rounding(const Linear *linear, const Eigen *eigen)
-{
-    double largest = 0;
-
-    for (size_t i = 0; i < (size_t)linear->states; i++)
-        largest = fmax(largest, gsl_complex_abs(gsl_vector_complex_get(eigen->values, i)));
-    return 4 * linear->states * 2.220446049250313e-16 * largest;
-}
 
 /* amplitudes and phases over the largest part, the first of those that are as large */
 static void scale_shape(Mode *mode, int parts)
@@ -71,26 +31,24 @@ static void scale_shape(Mode *mode, int parts)
     }
 }
 
-static void fill_mode(const Linear *linear, const Eigen *eigen, size_t which, double noise,
+static void fill_mode(const Linear *linear, const Root *root, const double complex *vector,
                       Mode *mode)
 {
-    gsl_complex value = gsl_vector_complex_get(eigen->values, which);
-
-    mode->real = fabs(GSL_REAL(value)) > noise ? GSL_REAL(value) : 0;
-    mode->imaginary = GSL_IMAG(value);
+    mode->real = root->real;
+    mode->imaginary = root->imaginary;
     mode->omega = hypot(mode->real, mode->imaginary);
     mode->damping = mode->omega > 0 ? -mode->real / mode->omega + 0.0 : 0;
+    mode->error = root->error;
+    mode->is_doubtful = root_is_doubtful(root);
     mode->amplitude = NEW_ARRAY(double, linear->parts);
     mode->phase = NEW_ARRAY(double, linear->parts);
     for (int p = 0; p < linear->parts; p++) {
-        gsl_complex sum = gsl_complex_rect(0, 0);
+        double complex sum = 0;
 
         for (int s = 0; s < linear->states; s++)
-            sum = gsl_complex_add(
-                sum, gsl_complex_mul_real(gsl_matrix_complex_get(eigen->vectors, (size_t)s, which),
-                                          linear->motion[p * linear->states + s]));
-        mode->amplitude[p] = gsl_complex_abs(sum);
-        mode->phase[p] = mode->amplitude[p] > 0 ? gsl_complex_arg(sum) : 0;
+            sum += vector[s] * linear->motion[p * linear->states + s];
+        mode->amplitude[p] = cabs(sum);
+        mode->phase[p] = mode->amplitude[p] > 0 ? carg(sum) : 0;
     }
     scale_shape(mode, linear->parts);
 }
@@ -121,9 +79,9 @@ static void sort(Modes *modes)
 
 Status modes_find(const Linear *linear, Modes **out, Diag *diag)
 {
-    Eigen eigen = {NULL, NULL};
+    Spectrum *spectrum = spectrum_new(linear->a, linear->a_error, linear->states);
+    double complex *vector = mem_array((size_t)linear->states, sizeof *vector);
     Modes *modes = NEW(Modes);
-    double noise;
     Status status = OK;
 
     modes->parts = linear->parts;
@@ -131,21 +89,23 @@ Status modes_find(const Linear *linear, Modes **out, Diag *diag)
     modes->part_names = NEW_ARRAY(char *, linear->parts);
     for (int p = 0; p < linear->parts; p++)
         modes->part_names[p] = mem_text(linear->part_names[p], strlen(linear->part_names[p]));
-    if (linear->states > 0) {
-        if (!solve(linear, &eigen))
-            CHECK(diag_set(diag, E_SOLVER, "the eigenvalues can't be found"));
-        noise = rounding(linear, &eigen);
-        for (size_t i = 0; i < (size_t)linear->states; i++)
-            if (GSL_IMAG(gsl_vector_complex_get(eigen.values, i)) >= 0)
-                fill_mode(linear, &eigen, i, noise, &modes->at[modes->count++]);
-        sort(modes);
+    if (spectrum == NULL)
+        CHECK(diag_set(diag, E_SOLVER, "the eigenvalues can't be found"));
+    for (int k = 0; k < linear->states; k++) {
+        const Root *root = &spectrum_roots(spectrum)[k];
+
+        if (root->imaginary < 0)
+            continue;
+        spectrum_vector(spectrum, k, vector);
+        fill_mode(linear, root, vector, &modes->at[modes->count++]);
     }
+    sort(modes);
     *out = modes;
     modes = NULL;
 done:
     modes_free(modes);
-    gsl_vector_complex_free(eigen.values);
-    gsl_matrix_complex_free(eigen.vectors);
+    spectrum_free(spectrum);
+    mem_free(vector);
     return status;
 }
 

@@ -320,11 +320,8 @@ bool row_solve(const Layout *l, Motion *motion, double t, const double *y, RowVa
     return true;
 }
 
-const double *probe_values(Probe *probe, const RowValues *row)
+static void put_row(const Layout *l, const RowValues *row, double *inputs)
 {
-    const Layout *l = probe->layout;
-    double *inputs = machine_inputs(&probe->machine);
-
     inputs[l->t] = row->t;
     put(inputs, l->near, row->near, l->turned);
     put(inputs, l->q, row->q, l->n);
@@ -336,8 +333,27 @@ const double *probe_values(Probe *probe, const RowValues *row)
     put(inputs, l->multipliers, row->multipliers, l->m);
     put(inputs, l->efforts, row->efforts, l->ne);
     put(inputs, l->jerk, row->jerk, l->nu);
+}
+
+const double *probe_values(Probe *probe, const RowValues *row)
+{
+    put_row(probe->layout, row, machine_inputs(&probe->machine));
     workspace_run(probe->machine.workspace, STAGE_TIME, STAGE_ACCELERATION);
     return workspace_roots(probe->machine.workspace);
+}
+
+void probe_errors(const Probe *probe, const RowValues *errors, double *out)
+{
+    const Layout *l = probe->machine.layout;
+    const Workspace *workspace = probe->machine.workspace;
+    const int count = program_input_count(probe->machine.program);
+    double *inputs = NEW_ARRAY(double, count);
+
+    put_row(l, errors, inputs);
+    for (int i = l->count; i < count; i++)
+        inputs[i] = number_error(workspace_inputs(probe->machine.workspace)[i]);
+    workspace_errors(workspace, inputs, out);
+    mem_free(inputs);
 }
 
 /* --- equations --- */

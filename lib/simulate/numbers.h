@@ -71,6 +71,9 @@ void probe_free(Probe *probe); /* NULL is fine */
 bool probe_turn(Probe *probe, Expr parameter, double value);
 /* the values of the roots; borrowed, until the next call */
 const double *probe_values(Probe *probe, const RowValues *row);
+/* How far these values may be off where the row is off by `errors`; t and parameters are as
+ * number_error() has them. */
+void probe_errors(const Probe *probe, const RowValues *errors, double *out);
 
 typedef struct Numbers Numbers;
 /* Compile the reading to run. `layout` and `parameters` outlive it. */

@@ -7,7 +7,8 @@
 #ifndef COTREE_SIMULATE_TRANSFER_H
 #define COTREE_SIMULATE_TRANSFER_H
 
-#include "simulate/eigen.h"
+#include "simulate/linear_equations.h"
+#include "simulate/spectrum.h"
 
 typedef struct Transfer {
     double gain; /* 0: the input doesn't reach the output */
@@ -16,7 +17,7 @@ typedef struct Transfer {
     double *numerator, *denominator; /* falling powers of s; zeros + 1, poles + 1; the first of the
                                         denominator is 1 */
     int idle;                        /* states left out since input and output don't meet in them */
-    int cancelled;                   /* poles left out against zeros as large to rounding */
+    int cancelled; /* poles left out against zeros that rounding can't tell apart */
 } Transfer;
 
 /* New; free with transfer_free(). E_SOLVER where poles or zeros can't be found. O(n^3). */

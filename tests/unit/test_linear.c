@@ -161,7 +161,8 @@ static void shapes_tell_what_moves_with_and_against(void)
     EXPECT_HOLDS(kit.text, "h1 1, h2 0.414\n");
     EXPECT_HOLDS(kit.text, "h2 1, h1 -0.414\n");
     EXPECT_DONE(&kit, "export csv modes");
-    EXPECT_HOLDS(kit.text, "mode,real,imaginary,omega,frequency,damping,h1,h1 phase [deg],h2,");
+    EXPECT_HOLDS(kit.text,
+                 "mode,real,imaginary,omega,frequency,damping,error,h1,h1 phase [deg],h2,");
     kit_free(&kit);
 }
 

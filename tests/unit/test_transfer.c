@@ -353,6 +353,76 @@ static void what_is_shown_of_another_model_is_said(void)
     kit_free(&kit);
 }
 
+/* --- parts far apart --- */
+
+#define STAGE(k, from)                                                                             \
+    "vccs g" k " n" k " 0 n" from " 0 gain=1\nresistor r" k " n" k " 0 1e5\ninductor l" k " n" k   \
+    " 0 1\n"
+#define FOUR_STAGES                                                                                \
+    "isource iin 0 n1 0\nresistor r1 n1 0 1e5\ninductor l1 n1 0 1\n" STAGE("2", "1")               \
+        STAGE("3", "2") STAGE("4", "3") "linearize inputs=[iin] outputs=[n4.v]\n"
+
+/* -1e20 s^4/(s + 1e5)^4 */
+static double complex stages(double complex s)
+{
+    return -1e20 * cpow(s / (s + 1e5), 4);
+}
+
+static void equal_stages_have_equal_poles(void)
+{
+    Kit kit = kit_new();
+    Bode table;
+
+    EXPECT_DONE(&kit, FOUR_STAGES "modes\n");
+    EXPECT_HOLDS(kit.text, "   1           -100000         100000  15915.5        1  l4.i 1\n");
+    EXPECT_HOLDS(kit.text, "   4           -100000         100000  15915.5        1  l4.i 1\n");
+    EXPECT_DONE(&kit, "show transfer\n");
+    EXPECT_HOLDS(kit.text, "poles    -100000, -100000, -100000, -100000\n");
+    EXPECT_HOLDS(kit.text, "zeros    0?, 0?, 0?, 0?\n");
+    EXPECT_HOLDS(kit.text, "?        0 within ");
+    EXPECT_DONE(&kit, "show linear\n");
+    EXPECT_HOLDS(kit.text, "l4.i    1e+20   -1e+15    1e+10  -100000\n");
+    table = bode(&kit, "bode from=1 kHz to=1 MHz points=50");
+    expect_response(&table, 0, stages, 540, 1e-9);
+    bode_free(&table);
+    kit_free(&kit);
+}
+
+static double complex slow(double complex s)
+{
+    return 1e24 / ((s + 1e12) * (s + 1e6) * (s + 1e-6));
+}
+
+static void a_slow_pole_is_seen_beside_fast_ones(void)
+{
+    Kit kit = kit_new();
+    Bode table;
+
+    EXPECT_DONE(&kit, "vsource V a 0 0\nresistor R1 a b 1\ncapacitor C1 b 0 1 pF\n"
+                      "vccs G 0 c b 0 gain=1\nresistor R2 c 0 1e6\ncapacitor C2 c 0 1e-12\n"
+                      "vccs G2 0 d c 0 gain=1\nresistor R3 d 0 1e6\ncapacitor C3 d 0 1\n"
+                      "linearize inputs=[V] outputs=[d.v]\nshow transfer\n");
+    EXPECT_HOLDS(kit.text, "  at rest  1e+12\n  poles    -1e-06, -1e+06, -1e+12\n");
+    table = bode(&kit, "bode from=1e-9 to=1e14 points=100");
+    expect_response(&table, 0, slow, 0, 1e-9);
+    bode_free(&table);
+    kit_free(&kit);
+}
+
+/* a leak far below the rounding of what it stands beside */
+static void what_rounding_decides_is_marked(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, "resistor R1 a b 1\nresistor R2 a 0 1e20\ncapacitor C1 a 0 1\n"
+                      "capacitor C2 b 0 1\nmodes\n");
+    EXPECT_HOLDS(kit.text, "   1                0?");
+    EXPECT_HOLDS(kit.text, "   2                -2");
+    EXPECT_HOLDS(kit.text, "? 0 within ");
+    EXPECT_HOLDS(kit.text, "rounding leaves open whether it grows or fades\n");
+    kit_free(&kit);
+}
+
 int main(void)
 {
     RUN(a_low_pass_falls_by_20_decibels_a_decade);
@@ -363,6 +433,9 @@ int main(void)
     RUN(what_floats_has_two_poles_at_0);
     RUN(equal_poles_and_zeros_are_left_out);
     RUN(a_long_ladder_keeps_its_digits);
+    RUN(equal_stages_have_equal_poles);
+    RUN(a_slow_pole_is_seen_beside_fast_ones);
+    RUN(what_rounding_decides_is_marked);
     RUN(coefficients_go_to_other_programs);
     RUN(a_response_needs_something_linear_and_a_range);
     RUN(without_a_range_all_roots_are_in_sight);
