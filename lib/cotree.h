@@ -45,7 +45,8 @@ typedef struct ct_hooks {
     bool (*stop)(void *context); /* whether to stop what is going on; called often; may be NULL */
     void (*progress)(void *context, const char *phase,
                      double fraction); /* fraction < 0: unknown; may be NULL */
-    /* where a file is that a statement reads data from: new, malloc(); NULL: as named */
+    /* where a file is that a statement reads data from: new, malloc(); NULL: it may not be read.
+     * Without the hook it is where its name says. */
     char *(*find_file)(void *context, const char *name);
     /* what `set` takes beside the session's own settings, for completion: a name, the words it may
      * be set to, NULL; NULL instead: no more; may be NULL */

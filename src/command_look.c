@@ -103,6 +103,9 @@ static ct_status draw_file(Call *call, const char *path, bool append, ct_error *
         return ct_error_at(call->statement, NULL, error,
                            "a drawing goes to svg, png, pdf, dot or txt, not to '.%s'", type);
 
+    if (file_may_write(path, &why) != CT_OK)
+        return ct_error_at(call->statement, NULL, error, "%s", why.message);
+
     ct_status status = ct_draw(call->session, !as_text, &text, error);
 
     if (status != CT_OK)

@@ -3,10 +3,12 @@
 #include "copy.h"
 #include "file.h"
 #include "replay.h"
+#include "saved.h"
 
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 enum { DEEPEST = 20 }; /* files within files */
 
@@ -41,10 +43,15 @@ ct_status command_source(Call *call, ct_error *error)
     }
 
     char *path = file_beside(shell->script, name);
+    const bool is_first = shell->depth == 0 && ct_step_count(call->session) == 0;
 
     shell->depth++;
     status = replay_file(shell, path, &inner);
     shell->depth--;
+
+    /* a model that a file makes alone is in that file */
+    if (status == CT_OK && is_first)
+        unsaved_settle(shell->unsaved, call->session);
     if (status != CT_OK && inner.message[0] == '\0')
         *error = inner;
     else if (status != CT_OK)
@@ -53,20 +60,39 @@ ct_status command_source(Call *call, ct_error *error)
     return status;
 }
 
+/* whether a key that is a switch is on */
+static ct_status read_switch(const Call *call, const char *key, bool *on, ct_error *error)
+{
+    const ct_expression *value = ct_key_value(call->statement, key);
+    const char *word = value != NULL ? ct_expression_word(value) : "off";
+
+    *on = word != NULL && strcmp(word, "on") == 0;
+    if (*on || (word != NULL && strcmp(word, "off") == 0))
+        return CT_OK;
+    return ct_error_at(call->statement, value, error, "%s is on or off", key);
+}
+
 ct_status command_save(Call *call, ct_error *error)
 {
     const char *path;
+    bool overwrite = false;
     ct_error why;
+    struct stat info;
     ct_status status = find_path(call, &path, error);
 
+    if (status == CT_OK)
+        status = read_switch(call, "overwrite", &overwrite, error);
     if (status != CT_OK)
         return status;
 
     char *script = ct_save(call->session);
 
-    if (file_write(path, script, strlen(script), false, &why) != CT_OK)
+    if (saved_write(path, script, overwrite, &why) != CT_OK) {
         status =
             ct_error_at(call->statement, ct_operand(call->statement, 0), error, "%s", why.message);
+        error_hint(error, "%s", why.hint);
+    } else if (stat(path, &info) == 0 && S_ISREG(info.st_mode))
+        unsaved_settle(call->shell->unsaved, call->session);
     ct_free(script);
     return status;
 }
@@ -81,6 +107,11 @@ ct_status command_record(Call *call, ct_error *error)
     if (status != CT_OK)
         return status;
     if (strcmp(path, "off") != 0) {
+        ct_error why;
+
+        if (file_may_write(path, &why) != CT_OK)
+            return ct_error_at(call->statement, ct_operand(call->statement, 0), error, "%s",
+                               why.message);
         file = fopen(path, "ae");
         if (file == NULL)
             return ct_error_at(call->statement, ct_operand(call->statement, 0), error,
@@ -90,6 +121,105 @@ ct_status command_record(Call *call, ct_error *error)
         fclose(shell->record);
     shell->record = file;
     return CT_OK;
+}
+
+/* --- what was left unsaved --- */
+
+/* Apply the statements of a leftover; how many failed. A last line without an end was cut off. */
+static int apply_leftover(Shell *shell, const Leftover *leftover, FILE *file)
+{
+    const char *outer = shell->script;
+    char *line = NULL, *script = NULL;
+    size_t room = 0;
+    ssize_t length;
+    Origin origin = {leftover->path, 0, 0};
+    int failed = 0;
+
+    while (!shell->quitting && (length = getline(&line, &room, file)) > 0 &&
+           line[length - 1] == '\n') {
+        line[length - 1] = '\0';
+        origin.line++;
+
+        const char *folder = unsaved_folder(line);
+
+        if (folder != NULL) {
+            free(script);
+            script = copy_format("%s/recovered", folder);
+            shell->script = script;
+        }
+        failed += line[0] != '#' && shell_run_line(shell, &origin, line, false) != CT_OK;
+    }
+    shell->script = outer;
+    free(script);
+    free(line);
+    return failed;
+}
+
+static ct_status recover(Call *call, Leftover *leftover, ct_error *error)
+{
+    Shell *shell = call->shell;
+    FILE *file = fopen(leftover->path, "re");
+
+    if (file == NULL)
+        return ct_error_at(call->statement, NULL, error, "can't read '%s': %s", leftover->path,
+                           strerror(errno));
+
+    const int group = ct_begin_group(call->session);
+
+    if (ct_step_count(call->session) > 0)
+        ct_clear(call->session);
+    shell->depth++;
+
+    const int failed = apply_leftover(shell, leftover, file);
+
+    shell->depth--;
+    fclose(file);
+    ct_end_group(call->session, group, "recover");
+    unsaved_follow(shell->unsaved, call->session, shell->script);
+    if (failed > 0) {
+        ct_error_at(call->statement, NULL, error, "%d of its %d statements failed", failed,
+                    leftover->statements);
+        error_hint(error, "they are all in '%s', which stays", leftover->path);
+        return CT_FAILED;
+    }
+    remark("recovered: %d statement%s, the last of %s", leftover->statements,
+           leftover->statements == 1 ? "" : "s", leftover->when);
+
+    /* the file goes when this session keeps the same */
+    unsaved_drop(leftover, unsaved_is_kept(shell->unsaved));
+    return CT_OK;
+}
+
+/* `recover`, `recover list`, `recover drop` */
+ct_status command_recover(Call *call, ct_error *error)
+{
+    const Shell *shell = call->shell;
+    const char *word = call_word(call, 0);
+    const int steps = ct_step_count(call->session);
+    int count;
+    Leftover *leftovers = unsaved_find(&count);
+    ct_status status = CT_OK;
+
+    if (count == 0 && word != NULL) {
+        put_text(call->out, "nothing was left unsaved");
+    } else if (count == 0) {
+        status = ct_error_at(call->statement, NULL, error, "nothing was left unsaved");
+    } else if (word != NULL && strcmp(word, "list") == 0) {
+        for (int i = 0; i < count; i++)
+            fprintf(call->out, "%s  %d statement%s  %s\n", leftovers[i].when,
+                    leftovers[i].statements, leftovers[i].statements == 1 ? "" : "s",
+                    leftovers[i].path);
+    } else if (word != NULL) {
+        unsaved_drop_all(leftovers, count, true);
+        return CT_OK;
+    } else if (unsaved_is_kept(shell->unsaved) || (shell->unsaved == NULL && steps > 0)) {
+        status = ct_error_at(call->statement, NULL, error, "the model that is here is not saved");
+        error_hint(error, "save \"model.ct\" or clear, then recover");
+    } else {
+        status = recover(call, &leftovers[0], error);
+    }
+    unsaved_drop_all(leftovers, count, false);
+    return status;
 }
 
 /* --- back and forth --- */

@@ -271,6 +271,11 @@ ct_status drawing_check(const Call *call, const char **path, ct_error *error)
         error_hint(error, "the name's ending says the format: \"plot.png\"");
         return CT_FAILED;
     }
+
+    ct_error why;
+
+    if (*path != NULL && file_may_write(*path, &why) != CT_OK)
+        return ct_error_at(statement, NULL, error, "%s", why.message);
     return CT_OK;
 }
 

@@ -16,6 +16,68 @@ static ct_status say(ct_error *error, const char *what, const char *path)
     return CT_FAILED;
 }
 
+/* --- what may be read and written --- */
+
+static struct {
+    bool on;
+    char *folder; /* without links; NULL: it is not there */
+} confined;
+
+void file_confine(const char *script)
+{
+    const char *slash = script != NULL ? strrchr(script, '/') : NULL;
+    char *folder = slash == NULL     ? copy_text(".")
+                   : slash == script ? copy_text("/")
+                                     : copy_piece(script, (size_t)(slash - script));
+
+    free(confined.folder);
+    confined.on = true;
+    confined.folder = realpath(folder, NULL);
+    free(folder);
+}
+
+bool file_is_confined(void)
+{
+    return confined.on;
+}
+
+/* whether a path without links leads to something below the folder */
+static bool is_below(const char *path, const char *folder)
+{
+    const size_t length = strlen(folder);
+
+    return strcmp(folder, "/") == 0 || (strncmp(path, folder, length) == 0 && path[length] == '/');
+}
+
+ct_status file_may_read(const char *path, ct_error *error)
+{
+    if (!confined.on)
+        return CT_OK;
+
+    char *real = realpath(path, NULL);
+    ct_status status = CT_OK;
+
+    if (real == NULL) {
+        status = say(error, "read", path);
+    } else if (confined.folder == NULL || !is_below(real, confined.folder)) {
+        status =
+            error_say(error, "'%s' may not be read: it lies outside the script's folder", path);
+        error_hint(error, "--safe keeps to that folder");
+    }
+    free(real);
+    return status;
+}
+
+ct_status file_may_write(const char *path, ct_error *error)
+{
+    if (!confined.on)
+        return CT_OK;
+    error_say(error, "'%s' is not written: this is a --safe session", path);
+    return CT_FAILED;
+}
+
+/* --- whole files --- */
+
 static bool is_replaceable(const char *path)
 {
     struct stat info;
@@ -25,6 +87,8 @@ static bool is_replaceable(const char *path)
 
 ct_status file_place(const char *path, char **place, ct_error *error)
 {
+    if (file_may_write(path, error) != CT_OK)
+        return CT_FAILED;
     if (!is_replaceable(path)) {
         *place = copy_text(path);
         return CT_OK;
@@ -100,6 +164,8 @@ ct_status file_write(const char *path, const char *text, size_t length, bool app
 {
     char *place = NULL;
 
+    if (file_may_write(path, error) != CT_OK)
+        return CT_FAILED;
     if (append)
         return write_all(path, "ae", path, text, length, error);
 

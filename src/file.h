@@ -4,6 +4,14 @@
 
 #include "cotree.h"
 
+/* From now on no file is written, and none is read but those below the folder of `script`, by
+ * whatever way a name leads out of it; NULL: below the current folder. One rule for the whole
+ * process, as its rights are. */
+void file_confine(const char *script);
+bool file_is_confined(void);
+ct_status file_may_read(const char *path, ct_error *error);
+ct_status file_may_write(const char *path, ct_error *error);
+
 /* Write a text. A regular file is replaced in one step (a temporary one beside it, renamed), so
  * that a failed write leaves the old one; `append`, pipes and devices are written straight.
  * CT_FAILED with a message naming the file. */

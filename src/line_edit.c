@@ -273,7 +273,8 @@ void line_edit_open(ct_session *session)
     history_comment_char = '#';
     history_write_timestamps = 1;
     stifle_history(HISTORY_KEPT);
-    edit.history_file = file_in_home("XDG_STATE_HOME", ".local/state", "history", true);
+    if (!file_is_confined())
+        edit.history_file = file_in_home("XDG_STATE_HOME", ".local/state", "history", true);
     if (edit.history_file != NULL)
         read_history(edit.history_file);
 }

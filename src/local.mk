@@ -18,8 +18,10 @@ cotree_SOURCES = \
     src/progress.c src/progress.h \
     src/reader.c src/reader.h \
     src/replay.c src/replay.h \
+    src/saved.c src/saved.h \
     src/settings.c src/settings.h \
     src/shell.c src/shell.h \
-    src/terminal.c src/terminal.h
+    src/terminal.c src/terminal.h \
+    src/unsaved.c src/unsaved.h
 cotree_CPPFLAGS = $(AM_CPPFLAGS) $(READLINE_CFLAGS)
 cotree_LDADD = libcotree.la $(READLINE_LIBS)

@@ -17,7 +17,14 @@
 /* exit statuses */
 enum { DONE = 0, FAILED = 1, WRONG_USAGE = 2, UNMET = 3 };
 
-enum { OPTION_SEED = 256, OPTION_VERSION, OPTION_HELP, OPTION_REFERENCE, OPTION_NO_INIT };
+enum {
+    OPTION_SEED = 256,
+    OPTION_VERSION,
+    OPTION_HELP,
+    OPTION_REFERENCE,
+    OPTION_NO_INIT,
+    OPTION_SAFE
+};
 
 static const struct option long_options[] = {
     {"execute", required_argument, NULL, 'e'},
@@ -25,6 +32,7 @@ static const struct option long_options[] = {
     {"keep-going", no_argument, NULL, 'k'},
     {"quiet", no_argument, NULL, 'q'},
     {"no-init", no_argument, NULL, OPTION_NO_INIT},
+    {"safe", no_argument, NULL, OPTION_SAFE},
     {"seed", required_argument, NULL, OPTION_SEED},
     {"reference", required_argument, NULL, OPTION_REFERENCE},
     {"version", no_argument, NULL, OPTION_VERSION},
@@ -42,6 +50,7 @@ static const char usage[] =
     "  -k, --keep-going         go on after a statement that failed\n"
     "  -q, --quiet              no banner, no remarks\n"
     "      --no-init            don't read the start-up file\n"
+    "      --safe               write no file, and read none outside the script's folder\n"
     "      --seed N             start of random numbers\n"
     "      --reference FORMAT   print the reference of the language: texinfo, man or words\n"
     "      --version            print the version\n"
@@ -50,7 +59,7 @@ static const char usage[] =
     "Exit status: 0 done, 1 a statement failed or was stopped, 2 wrong usage,\n"
     "3 an `expect` did not hold.\n"
     "Environment: GNUPLOT, PAGER, XDG_CONFIG_HOME (cotree/init.ct), XDG_STATE_HOME\n"
-    "(cotree/history), NO_COLOR.\n";
+    "(cotree/history, cotree/unsaved), NO_COLOR.\n";
 
 /* What the command line asks for; sources in their order. */
 typedef struct Request {
@@ -63,6 +72,7 @@ typedef struct Request {
     bool keep_going;
     bool quiet;
     bool no_init;
+    bool safe;
     const char *seed;
 } Request;
 
@@ -149,6 +159,9 @@ static int read_options(Request *request, int argc, char **argv)
         case OPTION_NO_INIT:
             request->no_init = true;
             break;
+        case OPTION_SAFE:
+            request->safe = true;
+            break;
         case OPTION_SEED:
             request->seed = optarg;
             break;
@@ -193,6 +206,20 @@ static void run_init_file(Shell *shell)
     free(path);
 }
 
+static void tell_leftovers(void)
+{
+    int count;
+    Leftover *leftovers = unsaved_find(&count);
+    const int statements = count > 0 ? leftovers[0].statements : 0;
+
+    if (count > 0)
+        remark("left unsaved on %s: a model of %d statement%s; recover brings it back",
+               leftovers[0].when, statements, statements == 1 ? "" : "s");
+    if (count > 1)
+        remark("recover list tells the %d that there are", count);
+    unsaved_drop_all(leftovers, count, false);
+}
+
 static void run_prompt(Shell *shell, bool no_init)
 {
     if (!shell->quiet)
@@ -202,9 +229,14 @@ static void run_prompt(Shell *shell, bool no_init)
                ct_version());
     if (!no_init)
         run_init_file(shell);
+    shell->unsaved = unsaved_open(shell->session);
+    if (!shell->quiet)
+        tell_leftovers();
     line_edit_open(shell->session);
     replay(shell, reader_of_prompt());
     line_edit_close();
+    if (unsaved_is_kept(shell->unsaved) && !shell->quiet)
+        remark("the model was not saved: it is kept, and recover brings it back");
 }
 
 /* --- all of it --- */
@@ -233,6 +265,8 @@ static int run(const Request *request)
     bool piped = !typed && (request->count == 0 || request->interactive);
     ct_error error;
 
+    if (request->safe)
+        file_confine(NULL);
     interrupt_setup(typed);
     shell_open(&shell);
     shell.interactive = typed;
@@ -248,7 +282,7 @@ static int run(const Request *request)
     }
     run_sources(&shell, request);
     if (typed && !shell.quitting)
-        run_prompt(&shell, request->no_init);
+        run_prompt(&shell, request->no_init || request->safe);
     else if (piped && !shell.quitting && (shell.failed + shell.unmet == 0 || shell.keep_going))
         replay_file(&shell, "-", &error);
 

@@ -2,6 +2,7 @@
 #include "replay.h"
 
 #include "copy.h"
+#include "file.h"
 #include "interrupt.h"
 
 #include <errno.h>
@@ -107,10 +108,18 @@ static void end_file(Shell *shell, const char *path, int group, bool goes_on, ct
 ct_status replay_file(Shell *shell, const char *path, ct_error *error)
 {
     bool piped = strcmp(path, "-") == 0;
-    FILE *file = piped ? stdin : fopen(path, "re");
     struct stat info;
 
     *error = (ct_error){.status = CT_OK};
+
+    /* what the user names may be read, and what lies around it */
+    if (file_is_confined() && !piped && shell->depth == 0)
+        file_confine(path);
+    else if (!piped && file_may_read(path, error) != CT_OK)
+        return CT_FAILED;
+
+    FILE *file = piped ? stdin : fopen(path, "re");
+
     if (file == NULL)
         return error_say(error, "can't read '%s': %s", path, strerror(errno));
     if (!piped && fstat(fileno(file), &info) == 0 && S_ISDIR(info.st_mode)) {
@@ -129,6 +138,8 @@ ct_status replay_file(Shell *shell, const char *path, ct_error *error)
         end_file(shell, path, group, shell->depth == 1 && (outer == NULL || shell->keep_going),
                  status);
     shell->script = outer;
+    if (file_is_confined() && shell->depth == 0)
+        file_confine(NULL);
     if (status != CT_OK)
         *error = (ct_error){.status = status};
     return status;

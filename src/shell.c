@@ -35,8 +35,15 @@ static void hook_progress(void *context, const char *phase, double fraction)
 static char *hook_find_file(void *context, const char *name)
 {
     const Shell *shell = context;
+    char *path = file_beside(shell->script, name);
+    ct_error why;
 
-    return file_beside(shell->script, name);
+    /* a file that isn't there is the library's to tell */
+    if (access(path, F_OK) == 0 && file_may_read(path, &why) != CT_OK) {
+        free(path);
+        return NULL;
+    }
+    return path;
 }
 
 static const char *const *hook_setting(void *context, int i)
@@ -74,6 +81,7 @@ void shell_close(Shell *shell)
         free(shell->history[i]);
     free(shell->history);
     free(shell->last_plot);
+    unsaved_close(shell->unsaved);
     gnuplot_close(shell->gnuplot);
     ct_session_free(shell->session);
 }
@@ -205,6 +213,7 @@ static ct_status carry_out(Shell *shell, const ct_statement *statement, ct_error
     progress_end(&shell->progress);
     if ((status == CT_OK || status == CT_STOPPED) && (row == NULL || (row->flags & OWN) == 0))
         say_remarks(shell);
+    unsaved_follow(shell->unsaved, shell->session, shell->script);
     if (status == CT_OK && depth == 0 && (row == NULL || (row->flags & FORGOTTEN) == 0))
         status = keep(shell, statement, error);
     return status;

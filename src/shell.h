@@ -7,6 +7,7 @@
 #include "gnuplot.h"
 #include "progress.h"
 #include "settings.h"
+#include "unsaved.h"
 
 #include <stdio.h>
 
@@ -16,6 +17,7 @@ typedef struct Shell {
     Progress progress;
     Gnuplot *gnuplot; /* NULL until something is drawn */
     FILE *record;     /* NULL: nothing is recorded */
+    Unsaved *unsaved; /* NULL: what is typed isn't kept */
     char **history;   /* accepted statements */
     int history_count;
     char *last_plot;    /* the statement that drew last; NULL */

@@ -118,7 +118,8 @@ typedef enum Form { FORM_AUGMENTED, FORM_EMBEDDED } Form;
  * user's; or those that follow from the user's trees. */
 /* Where the files are that statements name. */
 typedef struct DataFinder {
-    char *(*find)(void *context, const char *name); /* new, malloc(): its path; NULL: as named */
+    char *(*find)(void *context,
+                  const char *name); /* new, malloc(): its path; NULL: not to be read */
     void *context;
     bool given; /* what is shared is not read anew */
 } DataFinder;

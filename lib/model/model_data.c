@@ -156,17 +156,45 @@ done:
     return status;
 }
 
+/* far more than a table has, far less than fills the memory where a file has no end */
+enum { LONGEST_LINE = 1 << 20, MOST_ROWS = 10000000 };
+
+/* The next line without its end, which may be a newline, a carriage return or both; E_MISSING with
+ * nothing said at the end of the file. */
+static Status next_line(Reader *r, FILE *in, Text *line)
+{
+    int c;
+
+    text_free(line);
+    text_add(line, "");
+    r->line++;
+    while ((c = getc(in)) != EOF && c != '\n' && c != '\r') {
+        if (c == '\0')
+            return diag_at(r->diag, E_VALUE, r->place, "line %d of %s holds a zero byte", r->line,
+                           r->file);
+        if (line->length >= LONGEST_LINE)
+            return diag_at(r->diag, E_VALUE, r->place, "line %d of %s is longer than %d bytes",
+                           r->line, r->file, LONGEST_LINE);
+        text_char(line, (char)c);
+    }
+    if (c == '\r') {
+        const int behind = getc(in);
+
+        if (behind != '\n')
+            (void)ungetc(behind, in);
+    }
+    return c == EOF && line->length == 0 ? E_MISSING : OK;
+}
+
 static Status read_stream(Reader *r, FILE *in)
 {
     Cells cells = {0};
-    char *line = NULL;
-    size_t room = 0;
+    Text line = {0};
     bool begun = false;
     Status status = OK;
 
-    while (getline(&line, &room, in) >= 0) {
-        r->line++;
-        split(line, &cells);
+    while ((status = next_line(r, in, &line)) == OK) {
+        split(line.at, &cells);
         if (cells.at.count == 0 || cells.at.at[0][0] == '#')
             continue;
         if (!begun) {
@@ -178,12 +206,18 @@ static Status read_stream(Reader *r, FILE *in)
                 continue;
         }
         CHECK(take_row(r, &cells));
+        if (r->x.count > MOST_ROWS)
+            CHECK(diag_at(r->diag, E_VALUE, r->place, "%s has more than %d rows", r->file,
+                          MOST_ROWS));
     }
+    if (status != E_MISSING)
+        goto done;
+    status = OK;
     if (r->x.count < 2)
         status = diag_at(r->diag, E_VALUE, r->place, "%s has %d row%s of numbers; a curve takes 2",
                          r->file, r->x.count, r->x.count == 1 ? "" : "s");
 done:
-    free(line);
+    text_free(&line);
     LIST_FREE(cells.at);
     return status;
 }
@@ -198,9 +232,15 @@ static Status read_call(const DataFinder *finder, Arena *arena, const Syntax *ca
                 .column_place = call->count > 2 ? call->args[2]->place : call->args[0]->place,
                 .diag = diag};
     char *path = finder->find != NULL ? finder->find(finder->context, r.file) : NULL;
-    FILE *in = fopen(path != NULL ? path : r.file, "r");
+    const bool is_refused = finder->find != NULL && path == NULL;
+    FILE *in = is_refused ? NULL : fopen(path != NULL ? path : r.file, "r");
     Status status = OK;
 
+    if (is_refused) {
+        (void)diag_at(diag, E_VALUE, r.place, "'%s' may not be read here", r.file);
+        diag_hint(diag, "a --safe session reads only what lies in the script's folder");
+        CHECK(E_VALUE);
+    }
     if (in == NULL) {
         (void)diag_at(diag, E_MISSING, r.place, "can't read '%s': %s", r.file, strerror(errno));
         diag_hint(diag, "a name is meant from the folder of the script, or from the current one");

@@ -59,13 +59,28 @@ const Verb verbs_session[] = {
      .see = "save record"},
     {.name = "save",
      .group = GROUP_SESSION,
-     .shape = "s",
-     .usage = "save \"FILE\"",
+     .shape = "sk",
+     .keys = WORDS("overwrite"),
+     .usage = "save \"FILE\" [overwrite=on]",
      .brief = "writes a script that rebuilds the model",
      .help = "The file holds the statements that the model is made of, and can be read, edited and "
-             "replayed.",
+             "replayed. A file that is there is replaced in one step if it is as 'save' wrote it, "
+             "which its first line tells; any other with overwrite=on.",
      .example = PENDULUM "save \"pendulum.ct\"",
      .see = "source record"},
+    {.name = "recover",
+     .group = GROUP_SESSION,
+     .shape = "W>",
+     .words = WORDS("list", "drop"),
+     .usage = "recover [list|drop]",
+     .brief = "brings back a model that was left unsaved",
+     .help =
+         "What is typed at the prompt is kept in a file of the session's own until the model is "
+         "saved, and stays there when the session ends in whatever way. 'recover' makes the "
+         "model anew from the newest such file, which undo takes back; 'recover list' tells "
+         "which there are, 'recover drop' removes them.",
+     .example = "recover list",
+     .see = "save undo"},
     {.name = "record",
      .group = GROUP_SESSION,
      .shape = "o",

@@ -10,6 +10,7 @@ terminal_tests = \
     tests/terminal/interrupt_run.exp \
     tests/terminal/paste.exp \
     tests/terminal/paste_returns.exp \
+    tests/terminal/recover.exp \
     tests/terminal/pager.exp \
     tests/terminal/plot_text.exp \
     tests/terminal/plot_file.exp \

@@ -78,8 +78,8 @@ static ct_status kit_other(Kit *kit, const ct_statement *statement)
 {
     ct_session *session = kit->session;
     const char *verb = ct_verb(statement);
-    static const char *const shell[] = {"source",   "save", "record", "history", "time",
-                                        "complete", "quit", "help",   "apropos", "animate"};
+    static const char *const shell[] = {"source",   "recover", "save", "record",  "history", "time",
+                                        "complete", "quit",    "help", "apropos", "animate"};
 
     for (size_t i = 0; i < sizeof shell / sizeof shell[0]; i++)
         if (strcmp(verb, shell[i]) == 0)
