@@ -61,6 +61,13 @@ static bool is_margin(const March *m, int i)
     return i < m->eq->switch_count && i >= m->eq->switch_count - m->eq->margin_count;
 }
 
+static bool is_steep(const March *m, int i)
+{
+    int k = i - (m->eq->switch_count - m->eq->margin_count);
+
+    return m->eq->margin_is_steep != NULL && m->eq->margin_is_steep(m->eq->context, k);
+}
+
 static double largest_margin(const March *m)
 {
     return vector_largest(m->largest + m->eq->switch_count - m->eq->margin_count,
@@ -88,7 +95,8 @@ static void find_noise(March *m)
         }
         motion_switches(m->leg.motion, m->stepper->t, m->y, m->conditions);
         for (int i = 0; i < m->eq->switch_count; i++)
-            if (is_margin(m, i) && fabs(m->conditions[i] - here[i]) > m->noise[i])
+            if (is_margin(m, i) && !is_steep(m, i) &&
+                fabs(m->conditions[i] - here[i]) > m->noise[i])
                 m->noise[i] = fabs(m->conditions[i] - here[i]);
     }
     memcpy(m->conditions, here, (size_t)m->eq->switch_count * sizeof(double));

@@ -58,6 +58,9 @@ typedef struct Equations {
     /* conditions whose change of sign may bend or break the equations; time_only ones first */
     int switch_count, time_only;
     int margin_count; /* the last of them: positive as long as ideal switches stay on their sides */
+    /* Whether the k-th margin is the current through a small resistance: it tells its sign although
+     * errors of states, were they any, would move it far. NULL: none is. */
+    bool (*margin_is_steep)(void *context, int k);
     bool switches_read_network; /* [x'; z] of the last network_solved() */
     bool switches_follow_time;  /* those that aren't of time alone hold t too */
     void (*switches)(void *context, double t, const double *q, const double *u, const double *x,

@@ -363,6 +363,7 @@ struct Numbers {
     const Layout *layout;
     Machine main, switching, network;
     int *quaternions, *network_places;
+    LIST(int) margins;   /* whose they are, of the switches */
     bool is_network_new; /* network_workspace has seen t, q, u, x as they are */
     double *cap;
 };
@@ -462,6 +463,14 @@ static void switches(void *context, double t, const double *q, const double *u, 
     workspace_run(nb->switching.workspace, STAGE_TIME, STAGE_NETWORK);
     memcpy(out, workspace_roots(nb->switching.workspace),
            (size_t)nb->eq.switch_count * sizeof(double));
+}
+
+static bool margin_is_steep(void *context, int k)
+{
+    const Numbers *nb = context;
+    int i = nb->margins.at[k];
+
+    return nb->layout->side[i] != NULL && nb->layout->closed[i];
 }
 
 typedef LIST(Expr) Roots;
@@ -627,6 +636,7 @@ static Status add_margins(Numbers *nb, Roots *roots, Diag *diag)
             continue;
         nb->eq.switches_read_network = nb->eq.switches_read_network || stage == STAGE_NETWORK;
         LIST_PUSH(*roots, ideal.margin);
+        LIST_PUSH(nb->margins, i);
         nb->eq.margin_count++;
     }
 done:
@@ -696,7 +706,8 @@ Status numbers_new(const Layout *layout, Parameters *parameters, Numbers **out, 
                          .position = position,
                          .velocity = velocity,
                          .network_solved = network_solved,
-                         .switches = switches};
+                         .switches = switches,
+                         .margin_is_steep = margin_is_steep};
     while (system_quaternion(layout->system, count) >= 0)
         count++;
     nb->quaternions = NEW_ARRAY(int, count);
@@ -727,6 +738,7 @@ void numbers_free(Numbers *nb)
     machine_close(&nb->main);
     machine_close(&nb->network);
     machine_close(&nb->switching);
+    LIST_FREE(nb->margins);
     mem_free(nb->quaternions);
     mem_free(nb->network_places);
     mem_free(nb->cap);

@@ -56,7 +56,10 @@ __attribute__((format(printf, 2, 3), unused)) static void tell(Member *member, c
 
 static Verdict family_member(const Family *family, uint64_t seed, int number, Member *member)
 {
+    const bool told = member->told;
+
     memset(member, 0, offsetof(Member, story));
+    member->told = told;
     member->story[0] = '\0';
     member->length = 0;
     member->random = seed * 0x9E3779B97F4A7C15U + (uint64_t)number;
@@ -112,8 +115,10 @@ __attribute__((unused)) static int family_main(const Family *families, int count
         if (member >= 0) {
             static Member one;
             static const char *const verdicts[] = {"agrees", "refused", "disagrees"};
-            const Verdict verdict = family_member(&families[i], seed, member, &one);
+            Verdict verdict;
 
+            one.told = true;
+            verdict = family_member(&families[i], seed, member, &one);
             printf("%s: member %d %s\n%s\n", families[i].name, member, verdicts[verdict],
                    one.story);
         } else if (!family_run(&families[i], seed, seconds / count)) {

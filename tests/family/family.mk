@@ -8,3 +8,7 @@ family_units_LDADD = libcotree.la $(unit_ldadd)
 FAMILIES += family_linear
 family_linear_SOURCES = tests/family/family_linear.c tests/unit/session_kit.h tests/unit/test.h
 family_linear_LDADD = $(unit_ldadd)
+
+FAMILIES += family_diodes
+family_diodes_SOURCES = tests/family/family_diodes.c
+family_diodes_LDADD = libcotree.la $(unit_ldadd)

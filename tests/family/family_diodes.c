@@ -1,0 +1,641 @@
+/* family_diodes.c: random networks of diodes and switches, with resistances and ideal, against an
+ * integration of its own in fine fixed steps; rectifiers and multipliers against closed forms
+ *
+ * The oracle writes each network's node equations by the implicit Euler method: capacitors and
+ * coils are conductances beside sources, sources of voltage stand behind resistances, diodes are of
+ * two straight lines. In each step diodes go over until none is wrong (Murty 1974). Runs of n and
+ * of 2n steps are extrapolated, and differ by what they may be off. An ideal part is one of 10
+ * uohm and 100 Gohm to the oracle. */
+#include "../unit/session_kit.h"
+#include "family.h"
+
+#include <math.h>
+
+#define PI 3.14159265358979323846
+
+enum { NODES = 8, PARTS = 40, POINTS = 6 };
+
+/* --- networks --- */
+
+typedef enum Kind { RESISTOR, CAPACITOR, COIL, SOURCE, DIODE, SWITCH } Kind;
+
+typedef struct Part {
+    Kind kind;
+    int plus, minus; /* 0: ground */
+    double value;    /* ohm, F, H; of a source its amplitude */
+    double series;   /* of a source, behind which it stands, or of a switch, ohm; 0: none */
+    double on, off, least;
+    double phase, level; /* of a source; of a switch, closed while sin(w t + phase) > level */
+    double start;        /* V of a capacitor */
+} Part;
+
+typedef struct Network {
+    int nodes, count; /* without ground */
+    bool ideal;
+    double omega, end; /* rad/s, s */
+    Part part[PARTS];
+} Network;
+
+static double decades(uint64_t *random, double low, double high)
+{
+    return low * pow(high / low, test_uniform(random, 0, 1));
+}
+
+static Part *add(Network *net, Kind kind, int plus, int minus)
+{
+    Part *part = &net->part[net->count++];
+
+    *part = (Part){.kind = kind, .plus = plus, .minus = minus};
+    return part;
+}
+
+static int pick(uint64_t *random, int count)
+{
+    return (int)(test_random(random) % (uint64_t)count);
+}
+
+/* two nodes that aren't the same */
+static void pick_ends(uint64_t *random, const Network *net, int ends[2])
+{
+    ends[0] = pick(random, net->nodes + 1);
+    ends[1] = (ends[0] + 1 + pick(random, net->nodes)) % (net->nodes + 1);
+}
+
+/* join two nodes; false: they were */
+static bool join(int *joined, const int ends[2])
+{
+    int a = ends[0], b = ends[1];
+
+    while (joined[a] != a)
+        a = joined[a];
+    while (joined[b] != b)
+        b = joined[b];
+    joined[a] = b;
+    return a != b;
+}
+
+static void add_diodes(Network *net, uint64_t *random, int count)
+{
+    const double least = pick(random, 2) * 0.7;
+
+    for (int i = 0; i < count; i++) {
+        int ends[2];
+        Part *diode;
+
+        pick_ends(random, net, ends);
+        diode = add(net, DIODE, ends[0], ends[1]);
+        diode->on = net->ideal ? 1e-5 : decades(random, 0.01, 10);
+        diode->off = net->ideal ? 1e11 : decades(random, 1e5, 1e8);
+        diode->least = net->ideal && pick(random, 2) ? 0 : least;
+    }
+}
+
+static void make(Network *net, uint64_t *random, bool ideal)
+{
+    const int diodes = 3 + pick(random, 10);
+    int joined[NODES + 1]; /* by capacitors: another node, or itself */
+    bool given = !ideal && pick(random, 2);
+
+    *net = (Network){.nodes = 3 + pick(random, NODES - 2), .ideal = ideal};
+    net->omega = 2 * PI * decades(random, 50, 1000);
+    net->end = 2.3 * 2 * PI / net->omega;
+    for (int i = 0; i < 1 + pick(random, 2); i++) {
+        Part *source = add(net, SOURCE, 1 + pick(random, net->nodes), 0);
+
+        source->value = decades(random, 1, 100);
+        source->phase = pick(random, 2) ? test_uniform(random, -PI, PI) : 0;
+        source->series = decades(random, 10, 1000);
+    }
+    for (int node = 1; node <= net->nodes; node++) /* nothing hangs in the air */
+        add(net, RESISTOR, node, pick(random, node))->value = decades(random, 100, 1e5);
+    for (int i = 0; i <= NODES; i++)
+        joined[i] = i;
+    for (int i = pick(random, 4); i > 0; i--) {
+        int ends[2];
+        Part *part;
+
+        pick_ends(random, net, ends);
+        part = add(net, CAPACITOR, ends[0], ends[1]);
+        part->value = decades(random, 1e-8, 1e-5);
+        part->start = test_uniform(random, -20, 20);
+        given = join(joined, ends) && given;
+    }
+    for (int i = 0; i < net->count; i++) /* in a circuit of capacitors the last one follows */
+        net->part[i].start *= given;
+    for (int i = pick(random, 3); i > 0; i--) { /* beside a resistor: no current is cut off */
+        int ends[2];
+
+        pick_ends(random, net, ends);
+        add(net, COIL, ends[0], ends[1])->value = decades(random, 1e-3, 1);
+        add(net, RESISTOR, ends[0], ends[1])->value = decades(random, 10, 1e4);
+    }
+    for (int i = pick(random, 3); i > 0; i--) {
+        int ends[2];
+        Part *part;
+
+        pick_ends(random, net, ends);
+        part = add(net, SWITCH, ends[0], ends[1]);
+        part->on = ideal ? 1e-5 : decades(random, 0.01, 10);
+        part->off = ideal ? 1e11 : decades(random, 1e5, 1e8);
+        part->phase = test_uniform(random, -PI, PI);
+        part->level = test_uniform(random, -0.5, 0.5);
+        part->series = decades(random, 1, 100);
+    }
+    add_diodes(net, random, diodes);
+}
+
+/* --- the same as a script --- */
+
+typedef struct Script {
+    char text[8192];
+    size_t length;
+} Script;
+
+__attribute__((format(printf, 2, 3))) static void put(Script *script, const char *format, ...)
+{
+    va_list arguments;
+
+    va_start(arguments, format);
+    script->length += (size_t)vsnprintf(script->text + script->length,
+                                        sizeof script->text - script->length, format, arguments);
+    va_end(arguments);
+}
+
+static void put_part(Script *script, const Network *net, int i)
+{
+    const Part *p = &net->part[i];
+    char ends[64], sides[64] = "";
+
+    (void)snprintf(ends, sizeof ends, "%s%d %s%d", p->plus > 0 ? "n" : "", p->plus,
+                   p->minus > 0 ? "n" : "", p->minus);
+    if (!net->ideal)
+        (void)snprintf(sides, sizeof sides, " Ron=%.17g Roff=%.17g", p->on, p->off);
+    switch (p->kind) {
+    case RESISTOR:
+        put(script, "resistor R%d %s %.17g\n", i, ends, p->value);
+        break;
+    case CAPACITOR:
+        put(script, "capacitor C%d %s %.17g\n", i, ends, p->value);
+        break;
+    case COIL:
+        put(script, "inductor L%d %s %.17g\n", i, ends, p->value);
+        break;
+    case SOURCE:
+        put(script, "vsource V%d s%d 0 %.17g*sin(w*t + %.17g)\nresistor RS%d s%d n%d %.17g\n", i, i,
+            p->value, p->phase, i, i, p->plus, p->series);
+        break;
+    case DIODE:
+        put(script, "diode D%d %s Vf=%.17g%s\n", i, ends, p->least, sides);
+        break;
+    case SWITCH:
+        put(script, "switch S%d %s%d m%d when=sin(w*t + %.17g) > %.17g%s\n", i,
+            p->plus > 0 ? "n" : "", p->plus, i, p->phase, p->level, sides);
+        put(script, "resistor RS%d m%d %s%d %.17g\n", i, i, p->minus > 0 ? "n" : "", p->minus,
+            p->series);
+        break;
+    }
+}
+
+static void write_script(Script *script, const Network *net)
+{
+    bool any = false;
+
+    script->length = 0;
+    put(script, "w = %.17g\n", net->omega);
+    for (int i = 0; i < net->count; i++)
+        put_part(script, net, i);
+    for (int i = 0; i < net->count; i++)
+        if (net->part[i].kind == CAPACITOR && net->part[i].start != 0) {
+            put(script, "%s C%d.v = %.17g", any ? "," : "init", i, net->part[i].start);
+            any = true;
+        }
+    put(script, "%ssimulate %.17g every=%.17g rtol=1e-9 atol=1e-10\n", any ? "\n" : "", net->end,
+        net->end / POINTS); /* rows at the points: between them a transient may lie */
+}
+
+/* --- the oracle --- */
+
+typedef double Values[POINTS][NODES + 1 + PARTS]; /* node voltages, then states */
+
+typedef struct Oracle {
+    const Network *net;
+    double step;
+    double v[NODES + 1];
+    double state[PARTS]; /* V of capacitors, A of coils */
+    bool closed[PARTS];
+} Oracle;
+
+static double across(const Oracle *o, const Part *p)
+{
+    return o->v[p->plus] - o->v[p->minus];
+}
+
+static bool is_closed(const Network *net, const Part *p, double t)
+{
+    return sin(net->omega * t + p->phase) > p->level;
+}
+
+/* where the first switch goes over between two instants; else the later one */
+static double next_switch(const Network *net, double from, double to)
+{
+    const double first = from + 1e-9 * (to - from);
+
+    for (int i = 0; i < net->count; i++) {
+        const Part *p = &net->part[i];
+        double low = first;
+
+        if (p->kind != SWITCH || is_closed(net, p, first) == is_closed(net, p, to))
+            continue;
+        for (int k = 0; k < 60; k++) {
+            const double middle = (low + to) / 2;
+
+            if (is_closed(net, p, middle) == is_closed(net, p, first))
+                low = middle;
+            else
+                to = middle;
+        }
+    }
+    return to;
+}
+
+/* i = conductance v + rest of a part in a step that ends at t */
+static void line_of(const Oracle *o, int i, double t, double *conductance, double *rest)
+{
+    const Part *p = &o->net->part[i];
+    double value;
+
+    *conductance = *rest = 0;
+    switch (p->kind) {
+    case RESISTOR:
+        *conductance = 1 / p->value;
+        break;
+    case CAPACITOR:
+        *conductance = p->value / o->step;
+        *rest = -*conductance * o->state[i];
+        break;
+    case COIL:
+        *conductance = o->step / p->value;
+        *rest = o->state[i];
+        break;
+    case SOURCE:
+        value = p->value * sin(o->net->omega * t + p->phase);
+        *conductance = 1 / p->series;
+        *rest = -value / p->series;
+        break;
+    case DIODE:
+        *conductance = 1 / (o->closed[i] ? p->on : p->off);
+        *rest = o->closed[i] ? p->least / p->off - p->least / p->on : 0;
+        break;
+    case SWITCH: /* it doesn't go over within a step */
+        value = is_closed(o->net, p, t - o->step / 2) ? p->on : p->off;
+        *conductance = 1 / (value + p->series);
+        break;
+    }
+}
+
+/* node voltages by Gauss's method: the matrix is symmetric and positive definite */
+static void solve_nodes(Oracle *o, double t)
+{
+    double a[NODES + 1][NODES + 2] = {{0}};
+    const int n = o->net->nodes;
+
+    for (int i = 0; i < o->net->count; i++) {
+        const Part *p = &o->net->part[i];
+        double conductance, rest;
+
+        line_of(o, i, t, &conductance, &rest);
+        a[p->plus][p->plus] += conductance;
+        a[p->minus][p->minus] += conductance;
+        a[p->plus][p->minus] -= conductance;
+        a[p->minus][p->plus] -= conductance;
+        a[p->plus][NODES + 1] -= rest;
+        a[p->minus][NODES + 1] += rest;
+    }
+    for (int c = 1; c <= n; c++)
+        for (int r = c + 1; r <= n; r++) {
+            const double f = a[r][c] / a[c][c];
+
+            for (int k = c; k <= n && f != 0; k++)
+                a[r][k] -= f * a[c][k];
+            a[r][NODES + 1] -= f * a[c][NODES + 1];
+        }
+    for (int r = n; r > 0; r--) {
+        o->v[r] = a[r][NODES + 1];
+        for (int k = r + 1; k <= n; k++)
+            o->v[r] -= a[r][k] * o->v[k];
+        o->v[r] /= a[r][r];
+    }
+}
+
+static void take_step(Oracle *o, double t)
+{
+    for (int turn = 0; turn < 2000; turn++) {
+        bool right = true;
+
+        solve_nodes(o, t);
+        for (int i = 0; i < o->net->count && (right || turn < 50); i++) {
+            const Part *p = &o->net->part[i];
+            const double excess = across(o, p) - p->least;
+
+            if (p->kind == DIODE && (o->closed[i] ? excess < -1e-9 * p->on : excess > 1e-12)) {
+                o->closed[i] = !o->closed[i];
+                right = false;
+            }
+        }
+        if (right)
+            break;
+    }
+    for (int i = 0; i < o->net->count; i++) {
+        const Part *p = &o->net->part[i];
+
+        if (p->kind == CAPACITOR)
+            o->state[i] = across(o, p);
+        else if (p->kind == COIL)
+            o->state[i] += o->step / p->value * across(o, p);
+    }
+}
+
+/* Node voltages and states at POINTS instants, of so many steps between two. At the start and
+ * behind each switch there may be fast changes, and steps grow from short ones. */
+static void integrate(const Network *net, int steps, Values out)
+{
+    const double step = net->end / POINTS / steps;
+    const double grow = 1 + 60.0 / steps;
+    double most = 1e-6 * step;
+    Oracle o = {.net = net};
+
+    for (int i = 0; i < net->count; i++)
+        o.state[i] = net->part[i].start;
+    for (int k = 0; k < POINTS; k++) {
+        const double end = net->end * (k + 1) / POINTS;
+
+        for (double t = net->end * k / POINTS, to; t < end; t = to) {
+            const double wanted = end - t < 1.5 * most ? end : t + fmin(most, step);
+
+            to = next_switch(net, t, wanted);
+            o.step = to - t;
+            take_step(&o, to);
+            most = to < wanted ? 1e-6 * step : fmin(grow * most, step);
+        }
+        memcpy(out[k], o.v, sizeof o.v);
+        memcpy(out[k] + NODES + 1, o.state, sizeof o.state);
+    }
+}
+
+/* --- side by side --- */
+
+/* what is told of a network whatever open ideal diodes part: states, and with resistances nodes */
+static bool is_told(const Network *net, int k, char name[16])
+{
+    if (k > 0 && k <= net->nodes)
+        (void)snprintf(name, 16, "n%d.v", k);
+    else if (k > NODES && k - NODES - 1 < net->count && net->part[k - NODES - 1].kind == CAPACITOR)
+        (void)snprintf(name, 16, "C%d.v", k - NODES - 1);
+    else if (k > NODES && k - NODES - 1 < net->count && net->part[k - NODES - 1].kind == COIL)
+        (void)snprintf(name, 16, "L%d.i", k - NODES - 1);
+    else
+        return false;
+    return true;
+}
+
+static double largest_of(const Values a, const Values b, int k)
+{
+    double largest = 0;
+
+    for (int i = 0; i < POINTS; i++)
+        largest = fmax(largest, fabs(a[i][k] - b[i][k]));
+    return largest;
+}
+
+/* With shorter steps where the network swings fast; how far apart the node voltages are then. */
+static void integrate_twice(const Network *net, double size, Values coarse, Values fine)
+{
+    for (int steps = 2000; steps < 50000; steps *= 4) {
+        double apart = 0;
+
+        integrate(net, steps, coarse);
+        integrate(net, 2 * steps, fine);
+        for (int k = 1; k <= net->nodes; k++)
+            apart = fmax(apart, largest_of(fine, coarse, k));
+        if (apart < 1e-4 * size)
+            return;
+    }
+}
+
+static Verdict compare(Member *m, const Network *net, Kit *kit)
+{
+    static Values coarse, fine;
+    const double within = net->ideal ? 1e-4 : 1e-5;
+    double size = 0; /* V of the largest source */
+    Verdict verdict = AGREES;
+
+    for (int i = 0; i < net->count; i++)
+        if (net->part[i].kind == SOURCE)
+            size = fmax(size, net->part[i].value);
+    integrate_twice(net, size, coarse, fine);
+    for (int k = 0; k < NODES + 1 + PARTS; k++) {
+        char name[16], look[64];
+        double largest, apart = largest_of(fine, coarse, k);
+
+        if (!is_told(net, k, name))
+            continue;
+        largest = name[0] != 'L' ? size : size * (net->ideal ? 0.5 : 1e-3);
+        if (apart > 1e-3 * largest)
+            continue; /* too fast for any of these steps */
+        for (int i = 0; i < POINTS; i++) {
+            const double wanted = 2 * fine[i][k] - coarse[i][k];
+            double got;
+
+            (void)snprintf(look, sizeof look, "%s at %.17g", name, net->end * (i + 1) / POINTS);
+            got = kit_value(kit, look);
+            if (fabs(got - wanted) <= 3 * apart + within * largest)
+                continue;
+            tell(m, "%s is %.9g, not %.9g within %.2g\n", look, got, wanted, apart);
+            verdict = DISAGREES;
+        }
+    }
+    return verdict;
+}
+
+static Verdict run_network(Member *m, bool ideal)
+{
+    Script *script = malloc(sizeof *script);
+    Kit kit = kit_new();
+    Network net;
+    Verdict verdict;
+
+    make(&net, &m->random, ideal);
+    write_script(script, &net);
+    tell(m, "%s", script->text);
+    if (kit_do(&kit, script->text) != CT_OK) {
+        tell(m, "%s\n", kit.error.message);
+        verdict = DISAGREES;
+    } else {
+        verdict = compare(m, &net, &kit);
+    }
+    kit_free(&kit);
+    free(script);
+    return verdict;
+}
+
+static Verdict networks_with_resistances(Member *m)
+{
+    return run_network(m, false);
+}
+
+static Verdict networks_of_ideal_parts(Member *m)
+{
+    return run_network(m, true);
+}
+
+/* --- closed forms --- */
+
+typedef struct Rectifier {
+    double E, w, r, R, C, Vf; /* source, all in series with the diode, load */
+} Rectifier;
+
+/* C v' = (E sin wt - Vf - v)/r - v/R from v at `from`: a wave, and what decays */
+static double conducting(const Rectifier *p, double from, double v, double t)
+{
+    const double g = 1 / p->r + 1 / p->R, rate = g / p->C;
+    const double size = p->E / p->r / hypot(g, p->w * p->C), turn = atan2(p->w * p->C, g);
+    const double rest = -p->Vf / p->r / g;
+
+    return size * sin(p->w * t - turn) + rest +
+           (v - size * sin(p->w * from - turn) - rest) * exp(-rate * (t - from));
+}
+
+static double blocking(const Rectifier *p, double from, double v, double t)
+{
+    return v * exp(-(t - from) / (p->R * p->C));
+}
+
+/* the diode's voltage less Vf, and r times its current, is positive while it conducts */
+static double forward(const Rectifier *p, double t, double v)
+{
+    return p->E * sin(p->w * t) - p->Vf - v;
+}
+
+typedef double (*Law)(const Rectifier *p, double from, double v, double t);
+
+/* v at `end`, by pieces, from rest */
+static double rectified(const Rectifier *p, double end)
+{
+    double from = 0, v = 0;
+    bool conducts = forward(p, 1e-9 / p->w, 0) > 0;
+
+    while (from < end) {
+        const Law law = conducts ? conducting : blocking;
+        const double step = 2 * PI / p->w / 2000;
+        double low = from + 1e-9 * step, high;
+        double t = low + step;
+
+        for (; t < end && (forward(p, t, law(p, from, v, t)) > 0) == conducts; t += step)
+            low = t;
+        if (t >= end && (forward(p, end, law(p, from, v, end)) > 0) == conducts)
+            return law(p, from, v, end);
+        high = fmin(t, end);
+        for (int k = 0; k < 100; k++) {
+            const double middle = (low + high) / 2;
+
+            if ((forward(p, middle, law(p, from, v, middle)) > 0) == conducts)
+                low = middle;
+            else
+                high = middle;
+        }
+        v = law(p, from, v, high);
+        from = high;
+        conducts = !conducts;
+    }
+    return v;
+}
+
+static Verdict rectifiers(Member *m)
+{
+    const double Ron = decades(&m->random, 1e-3, 10), Rs = decades(&m->random, 0.1, 100);
+    const double f = decades(&m->random, 10, 1e4);
+    Rectifier p = {.E = decades(&m->random, 2, 1000),
+                   .w = 2 * PI * f,
+                   .r = Ron + Rs,
+                   .Vf = pick(&m->random, 2) * test_uniform(&m->random, 0, 1)};
+    Verdict verdict = AGREES;
+    Kit kit = kit_new();
+    char text[600];
+
+    p.C = decades(&m->random, 0.01, 10) / f / p.r;
+    p.R = p.r * decades(&m->random, 1, 1e3);
+    (void)snprintf(text, sizeof text,
+                   "vsource E s 0 %.17g*sin(%.17g*t)\nresistor RS s a %.17g\n"
+                   "diode D a b Ron=%.17g Roff=1e14 Vf=%.17g\ncapacitor C b 0 %.17g\n"
+                   "resistor R b 0 %.17g\nsimulate %.17g every=%.17g rtol=1e-9\n",
+                   p.E, p.w, Rs, Ron, p.Vf, p.C, p.R, 3.1 / f, 0.31 / f);
+    tell(m, "%s", text);
+    if (kit_do(&kit, text) != CT_OK) {
+        tell(m, "%s\n", kit.error.message);
+        verdict = DISAGREES;
+    }
+    for (int k = 1; k <= 10 && verdict == AGREES; k++) {
+        const double t = 3.1 / f * k / 10, wanted = rectified(&p, t);
+        double got;
+
+        (void)snprintf(text, sizeof text, "b.v at %.17g", t);
+        got = kit_value(&kit, text);
+        if (!(fabs(got - wanted) <= 1e-6 * p.E)) {
+            tell(m, "%s is %.12g, not %.12g\n", text, got, wanted);
+            verdict = DISAGREES;
+        }
+    }
+    kit_free(&kit);
+    return verdict;
+}
+
+/* Unloaded, each stage adds twice the amplitude less both forward voltages. */
+static Verdict multipliers(Member *m)
+{
+    const int stages = 1 + pick(&m->random, 3);
+    const double E = decades(&m->random, 10, 500), C = decades(&m->random, 1e-8, 1e-6);
+    const double Vf = pick(&m->random, 2) * 0.7, Ron = decades(&m->random, 0.1, 10);
+    const double wanted = 2 * stages * (E - Vf);
+    Script *script = malloc(sizeof *script);
+    Verdict verdict = AGREES;
+    Kit kit = kit_new();
+
+    script->length = 0;
+    put(script, "vsource V s0 0 %.17g*sin(2000*pi*t)\nresistor RS s0 a0 10\n", E);
+    for (int k = 1; k <= stages; k++)
+        put(script,
+            "capacitor Ca%d a%d a%d %.17g\ndiode Da%d b%d a%d Vf=%g Ron=%g Roff=1e13\n"
+            "diode Db%d a%d b%d Vf=%g Ron=%g Roff=1e13\ncapacitor Cb%d b%d b%d %.17g\n",
+            k, k - 1, k, C, k, k - 1, k, Vf, Ron, k, k, k, Vf, Ron, k, k, k - 1, C);
+    put(script, "resistor R0 b0 0 1e-3\nsimulate 0.15 every=1e-3 rtol=1e-6\n");
+    tell(m, "%s", script->text);
+    if (kit_do(&kit, script->text) != CT_OK) {
+        tell(m, "%s\n", kit.error.message);
+        verdict = DISAGREES;
+    } else {
+        char look[32];
+        double got;
+
+        (void)snprintf(look, sizeof look, "b%d.v", stages);
+        got = kit_value(&kit, look);
+        if (!(fabs(got - wanted) <= 2e-3 * wanted)) {
+            tell(m, "%s is %.9g, not %.9g\n", look, got, wanted);
+            verdict = DISAGREES;
+        }
+    }
+    kit_free(&kit);
+    free(script);
+    return verdict;
+}
+
+int main(int argc, char **argv)
+{
+    static const Family families[] = {
+        {"networks with resistances follow fine steps", 15, 0, 0, networks_with_resistances},
+        {"networks of ideal parts follow fine steps", 15, 0, 0, networks_of_ideal_parts},
+        {"rectifiers follow their closed form", 40, 0, 0, rectifiers},
+        {"multipliers end where no diode conducts", 3, 0, 0, multipliers},
+    };
+
+    return test_faults + family_main(families, sizeof families / sizeof families[0], argc, argv);
+}
