@@ -159,6 +159,9 @@ int ct_run_count(const ct_session *session); /* runs so far: run1 ... */
  * end of the last run or the assembled start, as the language says. */
 ct_status ct_value(ct_session *session, const ct_expression *expression, const ct_expression *at,
                    double *value, ct_error *error);
+/* The SI unit of an expression where its dimension is known: new, "N*m"; NULL: it isn't, or it is a
+ * number. */
+char *ct_unit(const ct_session *session, const ct_expression *expression);
 /* The value of a key that is a time, as every=, in s; `name` is what messages call it. */
 ct_status ct_duration(ct_session *session, const ct_expression *expression, const char *name,
                       double *value, ct_error *error);

@@ -57,6 +57,19 @@ done:
     return status;
 }
 
+char *ct_unit(const ct_session *session, const ct_expression *expression)
+{
+    static const Dimension none;
+    Dimension dimension = none;
+    Text unit = {0};
+
+    if (!model_dimension(session->model, syntax_of(expression), &dimension) ||
+        memcmp(&dimension, &none, sizeof none) == 0)
+        return NULL;
+    dimension_print(&unit, dimension_without_angle(dimension));
+    return text_done(&unit);
+}
+
 ct_status ct_duration(ct_session *session, const ct_expression *expression, const char *name,
                       double *value, ct_error *error)
 {

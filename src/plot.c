@@ -18,6 +18,7 @@ typedef struct Block {
     int rows;
     int columns;
     char **names;
+    char **labels; /* the names, each with its unit in brackets */
 } Block;
 
 typedef struct Curve {
@@ -79,6 +80,30 @@ static void lay_out_curves(Picture *picture, const ct_statement *statement)
     }
 }
 
+/* the unit in brackets at the end of a name, "" if none */
+static const char *unit_of(const char *name)
+{
+    const char *open = strrchr(name, '[');
+
+    return open != NULL && name[strlen(name) - 1] == ']' ? open : "";
+}
+
+/* What has no unit behind it is in that of its dimension, where this is known. */
+static void label_columns(const Call *call, Block *block, const ct_expression *const *items)
+{
+    block->labels = copy_check(calloc((size_t)block->columns + 1, sizeof *block->labels));
+    for (int j = 0; j < block->columns; j++) {
+        const char *name = block->names[j];
+        char *unit =
+            j > 0 && unit_of(name)[0] == '\0' ? ct_unit(call->session, items[j - 1]) : NULL;
+        const size_t room = strlen(name) + (unit != NULL ? strlen(unit) : 0) + 4;
+
+        block->labels[j] = copy_check(malloc(room));
+        (void)snprintf(block->labels[j], room, unit != NULL ? "%s [%s]" : "%s", name, unit);
+        ct_free(unit);
+    }
+}
+
 static ct_status fill_block(const Call *call, Picture *picture, int number, ct_error *error)
 {
     Block *block = &picture->blocks[number];
@@ -96,6 +121,8 @@ static ct_status fill_block(const Call *call, Picture *picture, int number, ct_e
     ct_status status = ct_table(call->session, items, count, 0, &block->values, &block->rows,
                                 &block->columns, &block->names, error);
 
+    if (status == CT_OK)
+        label_columns(call, block, items);
     free(items);
     if (status == CT_OK && block->rows < 2) {
         ct_error_at(call->statement, NULL, error, "there is no run to plot");
@@ -151,6 +178,9 @@ static void picture_free(Picture *picture)
         free(picture->blocks[i].run);
         ct_free(picture->blocks[i].values);
         ct_words_free(picture->blocks[i].names);
+        for (int j = 0; picture->blocks[i].labels != NULL && j < picture->blocks[i].columns; j++)
+            free(picture->blocks[i].labels[j]);
+        free(picture->blocks[i].labels);
     }
     free(picture->blocks);
     free(picture->curves);
@@ -163,20 +193,12 @@ static const char *curve_name(const Picture *picture, int i)
 {
     const Curve *curve = &picture->curves[i];
 
-    return picture->blocks[curve->block].names[curve->column];
+    return picture->blocks[curve->block].labels[curve->column];
 }
 
 static int x_column(const Picture *picture, const Block *block)
 {
     return picture->versus != NULL ? block->columns - 1 : 0;
-}
-
-/* the unit in brackets at the end of a name, "" if none */
-static const char *unit_of(const char *name)
-{
-    const char *open = strrchr(name, '[');
-
-    return open != NULL && name[strlen(name) - 1] == ']' ? open : "";
 }
 
 static void put_labels(FILE *out, const Picture *picture, bool as_text)
@@ -185,7 +207,7 @@ static void put_labels(FILE *out, const Picture *picture, bool as_text)
     const char *unit = unit_of(curve_name(picture, 0));
 
     fputs("set xlabel ", out);
-    put_quoted(out, picture->versus != NULL ? first->names[x_column(picture, first)]
+    put_quoted(out, picture->versus != NULL ? first->labels[x_column(picture, first)]
                                             : picture->time_label);
 
     fprintf(out, " noenhanced\nset key noenhanced %s\n",

@@ -175,6 +175,16 @@ bool dimension_has_angle(Dimension d)
     return d.power[5] != 0;
 }
 
+Dimension dimension_without_angle(Dimension d)
+{
+    static const int beside[] = {0, 1, 3, 4};
+
+    for (int i = 0; i < COUNT(beside); i++)
+        if (d.power[beside[i]] != 0)
+            d.power[5] = 0;
+    return d;
+}
+
 static bool dimension_is_none(Dimension d)
 {
     static const Dimension none;

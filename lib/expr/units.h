@@ -31,6 +31,8 @@ bool unit_parse(const char *text, size_t length, Unit *unit, size_t *fault);
 const char *unit_suggest(const char *name);
 bool dimension_same(Dimension a, Dimension b);
 bool dimension_has_angle(Dimension d);
+/* Without the angle beside a length, mass, current or temperature: r*h' is in m/s. */
+Dimension dimension_without_angle(Dimension d);
 /* a * b^power; false, *out unchanged, where an exponent no longer fits */
 bool dimension_times(Dimension a, Dimension b, int power, Dimension *out);
 /* the square root; false where an exponent is odd (an angle's doesn't count) */

@@ -209,7 +209,8 @@ const Verb verbs_run[] = {
      .brief = "draws variables of runs",
      .help = "Draws with gnuplot: in a window, without a display in the terminal, into a file with "
              "'>' (png, svg, pdf). Each item is a variable, a call or an expression in brackets; a "
-             "unit in brackets behind it says what to draw it in. A bare name means the last run, "
+             "unit in brackets behind it says what to draw it in; without one it is in SI, and "
+             "the axis says which where that is known. A bare name means the last run, "
              "run2.h8 another one. 'plot last' draws the last plot again.",
      .example = SWING "simulate 2 every=0.01\nplot h1 [deg] (h1'/2) vs t",
      .see = "simulate print table export"},

@@ -307,6 +307,44 @@ static void a_change_of_dimension_reformulates_nothing(void)
     kit_free(&kit);
 }
 
+/* what axes say */
+static void expect_unit(Kit *kit, const char *item, const char *unit)
+{
+    char line[200];
+    size_t next = 0;
+    ct_statement *statement = NULL;
+    char *got = NULL;
+
+    (void)snprintf(line, sizeof line, "print %s", item);
+    EXPECT(ct_parse(line, 1, false, &next, &statement, &kit->error) == CT_OK);
+    got = ct_unit(kit->session, ct_operand(statement, 0));
+    EXPECT_TEXT(got != NULL ? got : "", unit);
+    ct_free(got);
+    ct_statement_free(statement);
+}
+
+static void the_unit_of_an_item_is_told_where_it_is_known(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, RUN_SCENE);
+    expect_unit(&kit, "h1", "rad");
+    expect_unit(&kit, "h1''", "rad/s^2");
+    expect_unit(&kit, "r*h1'", "m/s");
+    expect_unit(&kit, "run1.s1'", "m/s");
+    expect_unit(&kit, "max(R.i)^2", "A^2");
+    expect_unit(&kit, "R.v*R.i", "W");
+    expect_unit(&kit, "P'", "W/s");
+    expect_unit(&kit, "h1.effort*h1'", "W");
+    expect_unit(&kit, "C(h1)", "");
+    expect_unit(&kit, "E(s1)", "V");
+    expect_unit(&kit, "2*s1", "");
+    expect_unit(&kit, "s1/r", "");
+    expect_unit(&kit, "nothing", "");
+    expect_unit(&kit, "s1 + h1", "");
+    kit_free(&kit);
+}
+
 /* laws that call each other twice over are looked into once for each kind of argument */
 static void nested_laws_take_no_longer_than_they_are_long(void)
 {
@@ -330,6 +368,7 @@ int main(void)
     RUN(a_parameter_is_held_to_its_dimension_where_it_is_used);
     RUN(a_law_or_output_is_held_to_its_dimension_where_it_is_used);
     RUN(a_change_of_dimension_reformulates_nothing);
+    RUN(the_unit_of_an_item_is_told_where_it_is_known);
     RUN(nested_laws_take_no_longer_than_they_are_long);
     return test_end();
 }
