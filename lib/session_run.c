@@ -431,6 +431,19 @@ done:
     return status;
 }
 
+/* where a message that begins with a key ("rtol= ...") belongs */
+static Place place_of_message(const Statement *s, const char *message)
+{
+    for (int i = 0; i < s->pairs.count; i++) {
+        const Pair *pair = &s->pairs.at[i];
+        const size_t length = strlen(pair->name);
+
+        if (strncmp(message, pair->name, length) == 0 && message[length] == '=')
+            return pair->name_place;
+    }
+    return s->verb_place;
+}
+
 ct_status ct_run(ct_session *session, const ct_statement *statement, ct_error *error)
 {
     const Statement *s = statement_of(statement);
@@ -440,7 +453,7 @@ ct_status ct_run(ct_session *session, const ct_statement *statement, ct_error *e
     session_begin(session);
     status = run_any(session, s, &diag);
     if (status != OK && diag.place.line == 0 && s->kind == STATEMENT_VERB)
-        diag.place = s->verb_place;
+        diag.place = place_of_message(s, diag.message);
     session_sweep(session);
     return session_report(status, &diag, error);
 }

@@ -449,11 +449,8 @@ static Status export_dot(const ExportJob *job, Text *out, Diag *diag)
 
 static const struct {
     const char *name;
-    Status (*write)(const ExportJob *job, Text *out, Diag *diag); /* NULL: a later version's */
-} formats[] = {
-    {"csv", export_csv}, {"latex", export_latex}, {"c", export_c},  {"dot", export_dot},
-    {"fortran", NULL},   {"matlab", NULL},        {"python", NULL}, {"fmu", NULL},
-};
+    Status (*write)(const ExportJob *job, Text *out, Diag *diag);
+} formats[] = {{"csv", export_csv}, {"latex", export_latex}, {"c", export_c}, {"dot", export_dot}};
 
 ct_status ct_export(ct_session *session, const ct_statement *statement, bool with_header,
                     char **text, ct_error *error)
@@ -470,13 +467,8 @@ ct_status ct_export(ct_session *session, const ct_statement *statement, bool wit
     status = diag_at(&diag, E_NAME, place, "no format is called '%s'", name);
     diag_hint(&diag, "csv, c, latex or dot");
     for (int i = 0; i < COUNT(formats); i++)
-        if (strcmp(formats[i].name, name) == 0 && formats[i].write != NULL)
+        if (strcmp(formats[i].name, name) == 0)
             status = formats[i].write(&job, &out, &diag);
-        else if (strcmp(formats[i].name, name) == 0) {
-            status =
-                diag_at(&diag, E_MISSING, place, "'export %s' comes with a later version", name);
-            diag_hint(&diag, "csv, c, latex or dot");
-        }
     if (status == OK)
         *text = text_done(&out);
     text_free(&out);

@@ -256,15 +256,14 @@ bool help_print(Text *out, const char *word)
 bool help_word(int i, const char **word)
 {
     Verb verb;
-    int verbs = 0, topics = 0;
+    int topics = 0;
 
-    if (verb_at(i, &verb)) {
-        *word = verb.name;
-        return true;
-    }
-    while (verb_at(verbs, &verb))
-        verbs++;
-    i -= verbs;
+    /* what is there; pages of what comes later are found by those who know its name */
+    for (int v = 0; verb_at(v, &verb); v++)
+        if (!verb.later && i-- == 0) {
+            *word = verb.name;
+            return true;
+        }
     while (help_topic_at(topics) != NULL)
         topics++;
     if (i < topics) {
@@ -274,8 +273,8 @@ bool help_word(int i, const char **word)
     i -= topics;
     /* topics of show that aren't verbs too */
     for (int t = 0; topic_at(t) != NULL; t++)
-        if (!verb_find(topic_at(t)->name, &verb) && help_topic_find(topic_at(t)->name) == NULL &&
-            i-- == 0) {
+        if (topic_at(t)->show != NULL && !verb_find(topic_at(t)->name, &verb) &&
+            help_topic_find(topic_at(t)->name) == NULL && i-- == 0) {
             *word = topic_at(t)->name;
             return true;
         }
@@ -308,12 +307,14 @@ void help_apropos(Text *out, const char *word)
     Verb verb;
 
     for (int i = 0; verb_at(i, &verb); i++)
-        if (mentions(verb.name, word) || mentions(verb.brief, word) || mentions(verb.help, word)) {
+        if (!verb.later && (mentions(verb.name, word) || mentions(verb.brief, word) ||
+                            mentions(verb.help, word))) {
             table_cell(&table, verb.name);
             table_cell(&table, verb.brief);
         }
     for (int i = 0; topic_at(i) != NULL; i++)
-        if (mentions(topic_at(i)->name, word) || mentions(topic_at(i)->brief, word)) {
+        if (topic_at(i)->show != NULL &&
+            (mentions(topic_at(i)->name, word) || mentions(topic_at(i)->brief, word))) {
             table_cellf(&table, "show %s", topic_at(i)->name);
             table_cell(&table, topic_at(i)->brief);
         }

@@ -144,11 +144,11 @@ static void write_topics(Text *out)
     Table table = table_for("ll");
 
     text_add(out, "Topics:\n");
-    for (int i = 0; topic_at(i) != NULL; i++) {
-        table_cell(&table, topic_at(i)->name);
-        table_cellf(&table, "%s%s", topic_at(i)->brief,
-                    topic_at(i)->show == NULL ? " (in a later version)" : "");
-    }
+    for (int i = 0; topic_at(i) != NULL; i++)
+        if (topic_at(i)->show != NULL) {
+            table_cell(&table, topic_at(i)->name);
+            table_cell(&table, topic_at(i)->brief);
+        }
     table_print(out, &table, 2);
     table_free(&table);
 }

@@ -93,7 +93,7 @@ static Status check_word(const Parser *parser, const Verb *verb, const Token *to
     Suggest suggest = suggest_for(token->text);
     Text list = {0};
 
-    if (verb->words == NULL || is_word(verb, token->text))
+    if (verb->words == NULL || is_word(verb, token->text) || word_is_later(verb->name, token->text))
         return OK;
     for (const char *const *w = verb->words; *w != NULL; w++) {
         suggest_offer(&suggest, *w);

@@ -402,14 +402,30 @@ void statement_free(Statement *statement)
     pool_free(pool);
 }
 
-static Status check_later_keys(const Statement *statement, Diag *diag)
+static Status check_later_parts(const Statement *statement, Diag *diag)
 {
+    const Operand *word = statement->operands.count > 0 ? &statement->operands.at[0] : NULL;
+
+    if (word != NULL && statement->row.words != NULL &&
+        word_is_later(statement->verb, word->value->text)) {
+        Text usage = {0};
+
+        (void)diag_at(diag, E_MISSING, word->place, "'%s %s' comes with a later version",
+                      statement->verb, word->value->text);
+        verb_usage(&usage, &statement->row);
+        diag_hint(diag, "usage: %s", usage.at);
+        text_free(&usage);
+        return E_MISSING;
+    }
     for (int i = 0; i < statement->pairs.count; i++) {
         const Pair *pair = &statement->pairs.at[i];
 
-        if (key_is_later(statement->verb, pair->name))
-            return diag_at(diag, E_MISSING, pair->name_place, "'%s=' comes with a later version",
-                           pair->name);
+        if (key_is_later(statement->verb, pair->name)) {
+            (void)diag_at(diag, E_MISSING, pair->name_place, "'%s=' comes with a later version",
+                          pair->name);
+            diag_hint(diag, "without it '%s' does what it does today", statement->verb);
+            return E_MISSING;
+        }
     }
     return OK;
 }
@@ -427,7 +443,7 @@ Status statement_check_version(const Statement *statement, Diag *diag)
             diag_hint(diag, "%s", s->row.brief);
             return E_MISSING;
         }
-        CHECK(check_later_keys(s, diag));
+        CHECK(check_later_parts(s, diag));
     }
 done:
     return status;

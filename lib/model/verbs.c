@@ -225,8 +225,9 @@ const char *verb_habit(const char *word)
         {"echo", "did you mean 'print'?"},
         {"assert", "did you mean 'expect'?"},
         {"if", "a choice inside an expression is if(c, a, b)"},
-        {"for", "there are no loops; 'sweep' repeats a statement"},
-        {"while", "there are no loops; 'sweep' repeats a statement"},
+        {"for", "there are no loops: a statement stands once for each time"},
+        {"while", "there are no loops: a statement stands once for each time; 'event' acts when "
+                  "a condition becomes true"},
     };
 
     for (int i = 0; i < COUNT(habits); i++)

@@ -24,8 +24,9 @@ extern const Verb verbs_later[];   /* what comes with later versions, components
 /* every row once, in any order: quicker than verb_at() */
 bool verb_any(int i, Verb *verb);
 
-/* whether a key of a row that is here comes with a later version */
+/* whether a key of a row that is here, or a word of its operands, comes with a later version */
 bool key_is_later(const char *verb, const char *key);
+bool word_is_later(const char *verb, const char *word);
 
 /* What people used to other programs type, and how it is written here; NULL: nothing known. */
 const char *verb_habit(const char *word);

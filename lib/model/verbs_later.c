@@ -38,15 +38,30 @@ const Verb verbs_later[] = {
 };
 /* clang-format on */
 
+/* keys and words of rows that are here */
+static const struct {
+    const char *verb;
+    const char *key; /* or NULL */
+    const char *word;
+} parts[] = {{"arm", "at", NULL},          {"simulate", "realtime", NULL},
+             {"resume", "realtime", NULL}, {"export", NULL, "fortran"},
+             {"export", NULL, "matlab"},   {"export", NULL, "python"},
+             {"export", NULL, "fmu"}};
+
 bool key_is_later(const char *verb, const char *key)
 {
-    static const struct {
-        const char *verb;
-        const char *key;
-    } keys[] = {{"arm", "at"}};
+    for (int i = 0; i < COUNT(parts); i++)
+        if (parts[i].key != NULL && strcmp(parts[i].key, key) == 0 &&
+            strcmp(parts[i].verb, verb) == 0)
+            return true;
+    return false;
+}
 
-    for (int i = 0; i < COUNT(keys); i++)
-        if (strcmp(keys[i].verb, verb) == 0 && strcmp(keys[i].key, key) == 0)
+bool word_is_later(const char *verb, const char *word)
+{
+    for (int i = 0; i < COUNT(parts); i++)
+        if (parts[i].word != NULL && strcmp(parts[i].word, word) == 0 &&
+            strcmp(parts[i].verb, verb) == 0)
             return true;
     return false;
 }

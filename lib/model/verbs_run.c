@@ -1,7 +1,7 @@
 /* verbs_run.c: rows of what runs a model and looks at runs */
 #include "model/verbs.h"
 
-#define RUN_KEYS WORDS("every", "rtol", "atol", "method", "step", "maxstep", "check", "realtime")
+#define RUN_KEYS WORDS("every", "rtol", "atol", "method", "step", "maxstep", "check")
 #define SWING    PENDULUM "init h1 = 60 deg\n"
 
 const Verb verbs_run[] = {
@@ -52,11 +52,10 @@ const Verb verbs_run[] = {
          "  every=     distance of the points that are kept\n"
          "  rtol=      relative tolerance of a step\n"
          "  atol=      absolute tolerance of a step\n"
-         "  method=    auto, or dop853 radau bdf adams ida rk4 symplectic ...\n"
+         "  method=    auto, or dop853 radau bdf adams ida rk4: 'help methods'\n"
          "  step=      the step of methods that have a fixed one\n"
          "  maxstep=   the largest step of any method, in seconds\n"
          "  check=on   estimates the error of the whole run\n"
-         "  realtime=on   goes no faster than the clock\n"
          "Ctrl-C stops a run and keeps what it has; 'resume' goes on.",
      .example = SWING "simulate 2 every=0.01 rtol=1e-8 atol=1e-10 method=auto\nprint h1, h1'",
      .see = "init resume plot print table show"},
@@ -239,8 +238,8 @@ const Verb verbs_run[] = {
     {.name = "export",
      .group = GROUP_RUN,
      .shape = "wI>",
-     .words = WORDS("csv", "c", "fortran", "matlab", "python", "latex", "dot", "fmu"),
-     .usage = "export csv [ITEM...]|c|fortran|matlab|python|latex|dot|fmu [> \"FILE\"]",
+     .words = WORDS("csv", "c", "latex", "dot"),
+     .usage = "export csv [ITEM...]|c|latex|dot [> \"FILE\"]",
      .brief = "numbers, equations or code for other programs",
      .help =
          "'export csv' writes the last run: first column t, then the items as they are written, "

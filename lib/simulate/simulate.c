@@ -521,6 +521,27 @@ done:
     return status;
 }
 
+/* what only an integration acts on */
+static Status refuse_idle(const RunOptions *given, Diag *diag)
+{
+    const struct {
+        const char *key;
+        bool given;
+    } idle[] = {{"rtol", given->rtol > 0},         {"atol", given->atol > 0},
+                {"method", given->method != NULL}, {"step", given->step > 0},
+                {"maxstep", given->most > 0},      {"check", given->check}};
+
+    for (int i = 0; i < COUNT(idle); i++)
+        if (idle[i].given) {
+            (void)diag_set(diag, E_VALUE, "%s= has nothing to act on: here nothing is integrated",
+                           idle[i].key);
+            diag_hint(diag, "the drivers give the motion, and the constraints are solved at each "
+                            "instant as exactly as numbers allow; every= sets the instants");
+            return E_VALUE;
+        }
+    return OK;
+}
+
 /* Positions follow from the drivers; states of a network that nobody asks back from are
  * integrated along. */
 static Status drive(Result *r, const Setting *setting, const RunOptions *given, Diag *diag)
@@ -544,6 +565,7 @@ static Status drive(Result *r, const Setting *setting, const RunOptions *given, 
         options.atol = fmin(options.atol, 1e-10);
         CHECK(go(r, setting, &options, 0, false, diag));
     } else {
+        CHECK(refuse_idle(given, diag));
         CHECK(positions(r, setting, &options, diag));
     }
 done:

@@ -40,3 +40,7 @@ test_turned_LDADD = $(unit_ldadd)
 UNIT_TESTS += test_units
 test_units_SOURCES = tests/unit/test_units.c tests/unit/session_kit.h tests/unit/test.h
 test_units_LDADD = $(unit_ldadd)
+
+UNIT_TESTS += test_keys
+test_keys_SOURCES = tests/unit/test_keys.c tests/unit/session_kit.h tests/unit/test.h
+test_keys_LDADD = $(unit_ldadd)

@@ -1,0 +1,231 @@
+/* test_keys.c: keys that a verb has are read, others refused, and what is offered is there */
+#include "session_kit.h"
+
+#include "model/syntax.h"
+
+/* the statement of the verb in its example, with `key` as something that isn't there */
+typedef struct Spoiled {
+    Text before; /* the lines in front */
+    Text line;
+    int column; /* of the wrong name */
+} Spoiled;
+
+#define NOTHING "nonesuch"
+
+/* of a key that takes any new name: one that can't be */
+static const char *wrong_value(const char *key)
+{
+    return strcmp(key, "coord") == 0 ? "2" : NOTHING;
+}
+
+static void spoil(Spoiled *out, const Statement *s, const char *line, size_t length,
+                  const char *key)
+{
+    for (int i = 0; i < s->pairs.count; i++) {
+        const Pair *pair = &s->pairs.at[i];
+
+        if (strcmp(pair->name, key) != 0)
+            continue;
+        const size_t at = (size_t)pair->value->place.column - 1;
+
+        text_add_n(&out->line, line, at);
+        out->column = (int)out->line.length + 1;
+        text_add(&out->line, wrong_value(key));
+        text_add_n(&out->line, line + at + pair->value->place.width,
+                   length - at - (size_t)pair->value->place.width);
+        return;
+    }
+    text_add_n(&out->line, line, length);
+    text_addf(&out->line, " %s=", key);
+    out->column = (int)out->line.length + 1;
+    text_add(&out->line, wrong_value(key));
+}
+
+static bool find(const Verb *verb, const char *key, Spoiled *out)
+{
+    const char *line = verb->example;
+
+    while (line != NULL && *line != '\0') {
+        const size_t length = strcspn(line, "\n");
+        Statement *s = NULL;
+        Diag diag = {0};
+        size_t next = 0;
+        bool found = false;
+        char *alone = mem_text(line, length);
+
+        if (statement_parse(alone, 1, (SyntaxOptions){false}, &next, &s, &diag) == OK &&
+            next == length) {
+            found = s->verb != NULL && strcmp(s->verb, verb->name) == 0 && s->redirect == NULL;
+            if (found)
+                spoil(out, s, line, length, key);
+        }
+        statement_free(s);
+        mem_free(alone);
+        if (found)
+            return true;
+        text_add_n(&out->before, line, length);
+        text_add(&out->before, "\n");
+        line += length + (line[length] == '\n');
+    }
+    return false;
+}
+
+static void try_key(const Verb *verb, const char *key)
+{
+    Kit kit = kit_new();
+    Spoiled spoiled = {0};
+
+    if (!find(verb, key, &spoiled)) {
+        test_faults++;
+        printf("%s: no statement of it in its example\n", verb->name);
+    } else {
+        if (spoiled.before.at != NULL)
+            EXPECT_DONE(&kit, spoiled.before.at);
+        if (kit_do(&kit, spoiled.line.at) != CT_FAILED) {
+            test_faults++;
+            printf("%s: passes\n", spoiled.line.at);
+        } else if (kit.error.column != spoiled.column &&
+                   strstr(kit.error.message, "given twice") == NULL) {
+            test_faults++;
+            printf("%s: column %d, wanted %d: %s\n", spoiled.line.at, kit.error.column,
+                   spoiled.column, kit.error.message);
+        }
+    }
+    text_free(&spoiled.before);
+    text_free(&spoiled.line);
+    kit_free(&kit);
+}
+
+static void every_key_is_read(void)
+{
+    Verb verb;
+
+    /* what the shell carries out (save) is tried by its sessions */
+    for (int i = 0; verb_at(i, &verb); i++)
+        for (int k = 0; !verb.later && verb.group != GROUP_SESSION && verb_key(&verb, k) != NULL;
+             k++)
+            try_key(&verb, verb_key(&verb, k));
+}
+
+/* no verb but those that take any pairs has a key that isn't in its row */
+static void no_other_key_passes(void)
+{
+    Verb verb;
+
+    for (int i = 0; verb_at(i, &verb); i++) {
+        Kit kit = kit_new();
+        Spoiled spoiled = {0};
+
+        if (!verb.later && strchr(verb.shape, 'k') != NULL && find(&verb, "nokey", &spoiled)) {
+            EXPECT(kit_do(&kit, spoiled.before.at != NULL ? spoiled.before.at : "") == CT_OK);
+            EXPECT_FAILS(&kit, spoiled.line.at, "has no key 'nokey'");
+        }
+        text_free(&spoiled.before);
+        text_free(&spoiled.line);
+        kit_free(&kit);
+    }
+}
+
+static void keys_without_anything_to_act_on_are_refused(void)
+{
+    static const char *const keys[] = {"rtol=1e-6", "atol=1e-6", "method=radau",
+                                       "step=0.01", "maxstep=1", "check=on"};
+    static const char *const verbs[] = {"kinematics", "inverse"};
+
+    for (size_t v = 0; v < sizeof verbs / sizeof verbs[0]; v++)
+        for (size_t k = 0; k < sizeof keys / sizeof keys[0]; k++) {
+            Kit kit = kit_new();
+            char line[80];
+
+            EXPECT_DONE(&kit, PENDULUM "init none\ndriver D1 h = t\n");
+            (void)snprintf(line, sizeof line, "%s 1 every=0.1 %s", verbs[v], keys[k]);
+            EXPECT_FAILS(&kit, line, "nothing is integrated");
+            EXPECT(kit.error.column == (int)strlen(verbs[v]) + 14);
+            kit_free(&kit);
+        }
+}
+
+/* --- what is offered --- */
+
+static bool comes_later(const char *text)
+{
+    Statement *s = NULL;
+    Diag diag = {0};
+    size_t next = 0;
+    bool later = statement_parse(text, 1, (SyntaxOptions){false}, &next, &s, &diag) == OK &&
+                 statement_check_version(s, &diag) == E_MISSING;
+
+    statement_free(s);
+    return later;
+}
+
+static void help_and_hints_offer_what_is_there(void)
+{
+    static const char *const habits[] = {"for", "while", "run", "joint", "exit", "list", "echo"};
+    static const char *const formats[] = {"fortran", "matlab", "python", "fmu"};
+    char *page = ct_help("simulate"), *formats_page = ct_help("export"), *overview = ct_help("");
+    Kit kit = kit_new();
+    Verb verb;
+
+    EXPECT_LACKS(page, "symplectic");
+    EXPECT_LACKS(page, "realtime");
+    EXPECT(comes_later("simulate 1 realtime=on"));
+    for (size_t i = 0; i < sizeof formats / sizeof formats[0]; i++) {
+        char line[40];
+
+        EXPECT_LACKS(formats_page, formats[i]);
+        (void)snprintf(line, sizeof line, "export %s", formats[i]);
+        EXPECT(comes_later(line));
+    }
+    for (size_t i = 0; i < sizeof habits / sizeof habits[0]; i++) {
+        EXPECT(kit_do(&kit, habits[i]) == CT_FAILED);
+        for (int v = 0; verb_at(v, &verb); v++) {
+            char quoted[40];
+
+            (void)snprintf(quoted, sizeof quoted, "'%s'", verb.name);
+            if (verb.later)
+                EXPECT_LACKS(kit.error.hint, quoted);
+        }
+    }
+    ct_free(page);
+    ct_free(formats_page);
+    ct_free(overview);
+    kit_free(&kit);
+}
+
+/* every word that is offered behind `export`, `show`, `help` and `simulate 1 method=` is taken */
+static void completion_offers_what_is_there(void)
+{
+    static const char *const lines[] = {"export ", "show ", "help ", "simulate 1 "};
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, PENDULUM);
+    for (size_t i = 0; i < sizeof lines / sizeof lines[0]; i++) {
+        size_t start;
+        char **words = ct_complete(kit.session, lines[i], strlen(lines[i]), &start);
+        int count = 0;
+
+        for (; words != NULL && words[count] != NULL; count++) {
+            char line[120];
+            Verb verb;
+
+            (void)snprintf(line, sizeof line, "%s%s", lines[i], words[count]);
+            EXPECT(!comes_later(line));
+            EXPECT(strncmp(lines[i], "help", 4) != 0 || !verb_find(words[count], &verb) ||
+                   !verb.later);
+        }
+        EXPECT(count > 3);
+        ct_words_free(words);
+    }
+    kit_free(&kit);
+}
+
+int main(void)
+{
+    RUN(every_key_is_read);
+    RUN(no_other_key_passes);
+    RUN(keys_without_anything_to_act_on_are_refused);
+    RUN(help_and_hints_offer_what_is_there);
+    RUN(completion_offers_what_is_there);
+    return test_end();
+}
