@@ -184,6 +184,14 @@ Expr expr_diff(Arena *arena, Expr e, Expr symbol);
 Expr expr_diff_along(Arena *arena, Expr e, const Expr *symbols, const Expr *rates, int count);
 /* Replace symbols (all at once, not in one another). */
 Expr expr_substitute(Arena *arena, Expr e, const Expr *symbols, const Expr *values, int count);
+/* Replace nodes wherever they stand, but not within one another, and symbols among them: from[i] by
+ * to[i], in place in `roots`. Each node is visited once for all roots. */
+void expr_replace(Arena *arena, Expr *roots, int root_count, const Expr *from, const Expr *to,
+                  int count);
+/* The nodes below some roots for which `wanted` holds, each once, children first; new array, free
+ * with mem_free(). */
+typedef bool (*NodeWanted)(Expr e, void *context);
+int expr_find(const Expr *roots, int count, NodeWanted wanted, void *context, Expr **out);
 bool expr_depends(Expr e, Expr symbol);
 /* Mark, for each SymbolKind, whether a symbol of that kind occurs: bit 1 << kind. Kept in the node:
  * O(1). */

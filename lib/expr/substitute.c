@@ -82,6 +82,24 @@ Expr expr_substitute(Arena *arena, Expr e, const Expr *symbols, const Expr *valu
     return finish(&images, e);
 }
 
+void expr_replace(Arena *arena, Expr *roots, int root_count, const Expr *from, const Expr *to,
+                  int count)
+{
+    Images images = {0};
+
+    for (int i = 0; i < count; i++) {
+        if (walk_add(&images.walk, from[i]) == images.of.count)
+            LIST_PUSH(images.of, to[i]);
+    }
+    for (int i = 0; i < root_count; i++)
+        walk_below(&images.walk, roots[i], 0, NULL, NULL); /* what is replaced is found there */
+    rebuild_all(arena, &images, NULL, NULL);
+    for (int i = 0; i < root_count; i++)
+        roots[i] = image_of(&images, roots[i]);
+    walk_free(&images.walk);
+    LIST_FREE(images.of);
+}
+
 Expr expr_change(Arena *arena, Expr e, NodeChange change, void *context)
 {
     Images images = {0};
@@ -104,6 +122,21 @@ Expr expr_open(Arena *arena, Expr e)
 }
 
 /* --- asking --- */
+
+int expr_find(const Expr *roots, int count, NodeWanted wanted, void *context, Expr **out)
+{
+    Walk walk = {0};
+    LIST(Expr) found = {0};
+
+    for (int i = 0; i < count; i++)
+        walk_below(&walk, roots[i], 0, NULL, NULL);
+    for (int i = 0; i < walk.count; i++)
+        if (wanted(walk.nodes[i], context))
+            LIST_PUSH(found, walk.nodes[i]);
+    walk_free(&walk);
+    *out = found.at;
+    return found.count;
+}
 
 bool expr_depends(Expr e, Expr symbol)
 {

@@ -16,8 +16,9 @@ static int normal_order(const System *system, const Branchlike *branch)
     case RELATION_PORT:
         return 25;
     case RELATION_RESISTIVE:
-    case RELATION_CONDUCTIVE:
         return 30;
+    case RELATION_CONDUCTIVE: /* what diodes isolate is joined before */
+        return 35;
     case RELATION_INDUCTIVE:
         return 40;
     case RELATION_THROUGH: /* and open ones come in before sources */

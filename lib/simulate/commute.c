@@ -179,6 +179,7 @@ Leg commute_leg(const Result *r, const Phase *phase, Events *events)
                  .motion = phase->motion,
                  .events = events,
                  .samples = phase->samples,
+                 .onset = phase->onset,
                  .stiff = stiff,
                  .stiff_decays = stiff != &method_radau};
 }

@@ -209,6 +209,19 @@ static Status shorten(Stepper *stepper, double t, Diag *diag)
     return OK;
 }
 
+/* the slope of the history's polynomial, once there is one */
+static bool slope(Stepper *stepper, double *rate)
+{
+    Cvode *c = (Cvode *)stepper;
+
+    if (!(c->base.t > c->base.before) || CVodeGetDky(c->memory, c->base.t, 1, c->out) != 0)
+        return false;
+    memcpy(rate, N_VGetArrayPointer(c->out), (size_t)c->all * sizeof(double));
+    return true;
+}
+
+static const double nodes[] = {1};
+
 const Method method_bdf = {
     .name = "bdf",
     .brief = "CVODE, backward differentiation, for stiff equations; rows are projected",
@@ -218,6 +231,12 @@ const Method method_bdf = {
     .step = step,
     .at = at,
     .shorten = shorten,
+    .slope = slope,
+    .nodes = nodes,
+    .node_count = COUNT(nodes),
+    .has_history = true,
+    .sees_little = true,
+    .pulse_steps = 24,
 };
 
 const Method method_adams = {
@@ -229,4 +248,10 @@ const Method method_adams = {
     .step = step,
     .at = at,
     .shorten = shorten,
+    .slope = slope,
+    .nodes = nodes,
+    .node_count = COUNT(nodes),
+    .has_history = true,
+    .sees_little = true,
+    .pulse_steps = 24,
 };

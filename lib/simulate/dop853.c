@@ -422,6 +422,14 @@ static Status shorten(Stepper *stepper, double t, Diag *diag)
     return OK;
 }
 
+static bool slope(Stepper *stepper, double *rate)
+{
+    const Dop853 *d = (const Dop853 *)stepper;
+
+    memcpy(rate, d->k[12], (size_t)d->all * sizeof(double));
+    return true;
+}
+
 const Method method_dop853 = {
     .name = "dop853",
     .brief = "explicit Runge-Kutta 8(5,3), Dormand and Prince; projects after each step",
@@ -431,4 +439,8 @@ const Method method_dop853 = {
     .step = step,
     .at = at,
     .shorten = shorten,
+    .slope = slope,
+    .nodes = nodes,
+    .node_count = 12,
+    .pulse_steps = 3,
 };

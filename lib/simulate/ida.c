@@ -18,13 +18,15 @@
 #include <sunmatrix/sunmatrix_sparse.h>
 
 #define MAX_TRIES 100000
+#define FINER     1e-2 /* of the tolerance: for what has no rate, */
+#define FINE      1e-4 /* but not finer than this where the tolerance itself isn't */
 
 typedef struct Ida {
     Stepper base;
     int all, n; /* of y; of w */
     SUNContext context;
     void *memory;
-    N_Vector w, rate, out, tolerance;
+    N_Vector w, rate, out;
     SUNMatrix matrix;
     SUNLinearSolver linear;
     Counts earlier;
@@ -70,7 +72,6 @@ static Stepper *create(const Ode *ode, const Control *control)
     d->w = N_VNew_Serial(d->n, d->context);
     d->rate = N_VNew_Serial(d->n, d->context);
     d->out = N_VNew_Serial(d->n, d->context);
-    d->tolerance = N_VNew_Serial(d->n, d->context);
     d->memory = IDACreate(d->context);
     return &d->base;
 }
@@ -90,7 +91,6 @@ static void destroy(Stepper *stepper)
         N_VDestroy(d->w);
         N_VDestroy(d->rate);
         N_VDestroy(d->out);
-        N_VDestroy(d->tolerance);
     }
     SUNContext_Free(&d->context);
     mem_free(d->base.y);
@@ -159,19 +159,36 @@ static int suppress(Ida *d)
     return code == 0 ? IDASetSuppressAlg(d->memory, SUNTRUE) : code;
 }
 
+/* One over what an error of each unknown counts from. What has no rate follows from what has, and
+ * is solved for more finely than a loose tolerance asks: a diode's voltage a tenth of a volt off is
+ * no place to begin Newton's method from. */
+static int find_weights(N_Vector w, N_Vector weights, void *data)
+{
+    const Ida *d = data;
+    const Dae *dae = &d->base.ode->dae;
+    const Control *control = &d->base.control;
+
+    for (int i = 0; i < d->n; i++) {
+        double error = control->rtol * fabs(NV_Ith_S(w, i)) + control->atol * dae->weight[i];
+
+        if (dae->has_rate != NULL && !dae->has_rate[i])
+            error = fmin(error, fmax(FINER * error, FINE));
+        NV_Ith_S(weights, i) = 1 / error;
+    }
+    return 0;
+}
+
 static int first_start(Ida *d, double t)
 {
     const Control *control = &d->base.control;
     int code = IDAInit(d->memory, residual, t, d->w, d->rate);
 
-    for (int i = 0; i < d->n; i++)
-        NV_Ith_S(d->tolerance, i) = control->atol * d->base.ode->dae.weight[i];
     if (code == 0)
         code = IDASetUserData(d->memory, d);
     if (code == 0)
         code = IDASetErrHandlerFn(d->memory, keep_reason, d);
     if (code == 0)
-        code = IDASVtolerances(d->memory, control->rtol, d->tolerance);
+        code = IDAWFtolerances(d->memory, find_weights);
     if (code == 0)
         code = IDASetMaxNumSteps(d->memory, MAX_TRIES);
     if (code == 0)
@@ -205,27 +222,45 @@ static Status start(Stepper *stepper, double t, const double *y, Diag *diag)
     return code == 0 ? OK : solver_failure(diag, t, d->reason);
 }
 
-static Status step(Stepper *stepper, double end, Diag *diag)
+/* one step of IDA's own, to `end` at most */
+static int advance(Ida *d, double end, double *reached)
 {
-    Ida *d = (Ida *)stepper;
-    long steps = 0, failures = 0, jacobians = 0;
-    double reached = d->base.t;
     int code = IDASetStopTime(d->memory, stepper_stop(&d->base, end));
 
-    d->base.before = d->base.t;
     if (code == 0) /* growth is bounded there; a stop time cuts a step that is grown already */
         code =
             IDASetMaxStep(d->memory, stepper_allowed(&d->base, control_largest(&d->base.control)));
-    if (code == 0)
-        code = IDASolve(d->memory, end, &reached, d->w, d->rate, IDA_ONE_STEP);
+    return code == 0 ? IDASolve(d->memory, end, reached, d->w, d->rate, IDA_ONE_STEP) : code;
+}
+
+static void keep_counts(Ida *d)
+{
+    long steps = 0, failures = 0, jacobians = 0;
+
     (void)IDAGetNumSteps(d->memory, &steps);
     (void)IDAGetNumErrTestFails(d->memory, &failures);
     (void)IDAGetNumJacEvals(d->memory, &jacobians);
     d->base.counts.steps = d->earlier.steps + steps;
     d->base.counts.rejected = d->earlier.rejected + failures;
     d->base.counts.jacobians = d->earlier.jacobians + jacobians;
+}
+
+static Status step(Stepper *stepper, double end, Diag *diag)
+{
+    Ida *d = (Ida *)stepper;
+    double before = d->base.t, reached = before;
+    int code = advance(d, end, &reached);
+
+    keep_counts(d);
+    /* Newton's method finds no way from the history of a steep element: from consistent values it
+     * does */
+    if (code == IDA_CONV_FAIL && start(stepper, before, d->base.y, diag) == OK) {
+        code = advance(d, end, &reached);
+        keep_counts(d);
+    }
+    d->base.before = before;
     if (code < 0)
-        return solver_failure(diag, d->base.before, d->reason);
+        return solver_failure(diag, before, d->reason);
     d->base.t = reached;
     memcpy(d->base.y, N_VGetArrayPointer(d->w), (size_t)d->all * sizeof(double));
     (void)IDAGetCurrentStep(d->memory, &d->base.next);
@@ -256,6 +291,19 @@ static Status shorten(Stepper *stepper, double t, Diag *diag)
     return OK;
 }
 
+/* the slope of the history's polynomial, once there is one */
+static bool slope(Stepper *stepper, double *rate)
+{
+    Ida *d = (Ida *)stepper;
+
+    if (!(d->base.t > d->base.before) || IDAGetDky(d->memory, d->base.t, 1, d->out) != 0)
+        return false;
+    memcpy(rate, N_VGetArrayPointer(d->out), (size_t)d->all * sizeof(double));
+    return true;
+}
+
+static const double nodes[] = {1};
+
 const Method method_ida = {
     .name = "ida",
     .brief =
@@ -267,4 +315,10 @@ const Method method_ida = {
     .step = step,
     .at = at,
     .shorten = shorten,
+    .slope = slope,
+    .nodes = nodes,
+    .node_count = COUNT(nodes),
+    .has_history = true,
+    .sees_little = true,
+    .pulse_steps = 24,
 };

@@ -47,6 +47,8 @@ libcore_la_SOURCES += \
   lib/simulate/motion.c \
   lib/simulate/motion.h \
   lib/simulate/netdae.c \
+  lib/simulate/onset.c \
+  lib/simulate/onset.h \
   lib/simulate/netdae.h \
   lib/simulate/netsolve.c \
   lib/simulate/netsolve.h \
@@ -93,6 +95,8 @@ libcore_la_SOURCES += \
   lib/simulate/start_network.c \
   lib/simulate/start_turns.c \
   lib/simulate/statics.c \
+  lib/simulate/steep.c \
+  lib/simulate/steep.h \
   lib/simulate/statics.h \
   lib/simulate/transfer.c \
   lib/simulate/transfer.h \

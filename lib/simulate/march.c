@@ -112,12 +112,36 @@ static Status renew(March *m, Diag *diag)
     return s->method->start(s, s->t, m->y, diag);
 }
 
+/* a step that passes over nothing that acts for a short time */
+static Status seeing_step(March *m, double end, Diag *diag)
+{
+    const Method *method = m->stepper->method;
+    double when = 0, last = m->stepper->t;
+    Diag ignored = {0};
+    Status status = OK;
+
+    if (m->is_taken_back) { /* once rows and conditions have been read from its history */
+        m->is_taken_back = false;
+        memcpy(m->y, m->stepper->y, (size_t)m->length * sizeof(double));
+        CHECK(method->start(m->stepper, last, m->y, diag));
+    }
+    CHECK(method->step(m->stepper, onset_before_step(m->leg.onset, m->stepper, end), diag));
+    if (!(m->stepper->t > last) || !onset_after_step(m->leg.onset, m->stepper, &when))
+        return OK;
+    /* where it can't be taken back it stays: what it passed over it has seen the end of */
+    if (method->shorten(m->stepper, when, &ignored) != OK)
+        return OK;
+    m->is_taken_back = method->has_history;
+done:
+    return status;
+}
+
 static Status one_step(March *m, double end, Diag *diag)
 {
     Status status = OK;
     double when = 0;
 
-    CHECK(m->stepper->method->step(m->stepper, end, diag));
+    CHECK(seeing_step(m, end, diag));
     m->scanned = m->stepper->before;
     while (march_state_conditions(m) > 0) {
         int i = march_find_switch(m, &when);
@@ -237,6 +261,8 @@ Status march_go_on(March *m, double t, const double *y, bool *entered, Diag *dia
     }
     motion_window(m->leg.motion, m->low, m->high);
     CHECK(m->stepper->method->start(m->stepper, t, m->y, diag));
+    m->is_taken_back = false;
+    onset_forget(m->leg.onset);
     if (*entered)
         march_begin_modes(m);
 done:

@@ -16,6 +16,7 @@
 #include "base/watch.h"
 #include "simulate/events.h"
 #include "simulate/grid.h"
+#include "simulate/onset.h"
 #include "simulate/samples.h"
 
 /* equations, and what goes with them */
@@ -25,6 +26,7 @@ typedef struct Leg {
     Motion *motion;
     Events *events;      /* NULL: none */
     Samples *samples;    /* NULL: none */
+    Onset *onset;        /* NULL: nothing acts for a short time */
     const Method *stiff; /* where plan.method is NULL */
     bool stiff_decays;   /* `stiff` is no help where what limits the steps swings */
 } Leg;

@@ -34,6 +34,7 @@ typedef struct March {
     int switches;          /* close together */
     double switched_since; /* the first of them */
     bool is_over;          /* an event has ended the run */
+    bool is_taken_back;    /* the last step, and its method has to start anew */
 } March;
 
 /* --- rows (march.c) --- */

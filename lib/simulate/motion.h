@@ -96,6 +96,9 @@ typedef struct Solved {
     const double *rates;        /* nx: x' */
     const double *algebraic;    /* nz: z */
 } Solved;
+/* [x'; z] at (t, y): borrowed, until the next call; what the last evaluation found is told again
+ * where it was at that time. NULL: there is no solution. */
+const double *motion_network(Motion *motion, double t, const double *y);
 /* where the next search for x' and z begins: [x'; z] */
 void motion_guess(Motion *motion, const double *network);
 bool motion_solve(Motion *motion, double t, const double *y, Solved *out);

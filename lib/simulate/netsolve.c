@@ -2,15 +2,20 @@
 #include "simulate/netsolve.h"
 
 #include "base/memory.h"
+#include "base/random.h"
 #include "simulate/linear.h"
 #include "simulate/sparse.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
 #define ITERATIONS 100
 #define ENOUGH     1e-9 /* of a step; what is left then is its square */
 #define ROUNDING   1e-7 /* a step that no longer shrinks below this is rounding */
+#define PATIENCE   4    /* steps before rounding is thought of */
+#define MOVES      3    /* that tell how far it reaches, */
+#define DIGITS     4    /* of so many units in the last place */
 #define LEAST      1e-4 /* damping */
 #define FURTHEST   4096
 #define PLAIN      20    /* whole steps from piece to piece */
@@ -23,6 +28,7 @@ struct NetSolve {
     uint64_t sides;   /* of those, as they were then */
     int n;
     double *w, *step, *trial, *next, *size;
+    double *noise;  /* in their residuals */
     double *weight; /* of the equations, where their residuals are compared */
 };
 
@@ -38,6 +44,7 @@ NetSolve *netsolve_new(const Equations *eq)
     s->trial = NEW_ARRAY(double, s->n);
     s->next = NEW_ARRAY(double, s->n);
     s->size = NEW_ARRAY(double, s->n);
+    s->noise = NEW_ARRAY(double, s->n);
     s->weight = NEW_ARRAY(double, s->n);
     return s;
 }
@@ -52,6 +59,7 @@ void netsolve_free(NetSolve *s)
     mem_free(s->trial);
     mem_free(s->next);
     mem_free(s->size);
+    mem_free(s->noise);
     mem_free(s->weight);
     mem_free(s);
 }
@@ -118,6 +126,31 @@ static bool is_small(const NetSolve *s, const double *step, double share)
         if (!(fabs(step[i]) <= share * fabs(s->w[i]) + 1e-3 * share * s->size[i] + 1e-14))
             return false;
     return true;
+}
+
+/* Every equation is met as far as numbers can tell: a move of w by its last digits changes it as
+ * much. So ends the search for what hardly anything determines, as the potential of what diodes
+ * isolate. */
+static bool is_met(NetSolve *s)
+{
+    const Equations *eq = s->eq;
+    uint64_t seed = 1;
+    bool met = true;
+
+    eq->network_at(eq->context, s->w);
+    memcpy(s->next, eq->network_residual, (size_t)s->n * sizeof(double));
+    memset(s->noise, 0, (size_t)s->n * sizeof(double));
+    for (int turn = 0; turn < MOVES; turn++) {
+        for (int i = 0; i < s->n; i++)
+            s->trial[i] = s->w[i] * (1 + DIGITS * DBL_EPSILON * random_unit(&seed));
+        eq->network_at(eq->context, s->trial);
+        for (int i = 0; i < s->n; i++)
+            s->noise[i] = fmax(s->noise[i], fabs(eq->network_residual[i] - s->next[i]));
+    }
+    for (int i = 0; i < s->n; i++)
+        met = met && fabs(s->next[i]) <= s->noise[i];
+    eq->network_at(eq->context, s->w);
+    return met;
 }
 
 /* The correction behind w - share * step, by the factors there are; NAN where there is none. */
@@ -233,6 +266,7 @@ static bool take_step(NetSolve *s, Way way, int turn)
 static bool solve_newton(NetSolve *s, Way way)
 {
     const Equations *eq = s->eq;
+    double before = INFINITY;
 
     for (int i = 0; i < s->n; i++)
         s->size[i] = fmax(fabs(s->w[i]), 1e-3);
@@ -249,8 +283,11 @@ static bool solve_newton(NetSolve *s, Way way)
                 s->w[i] -= s->step[i];
             return true;
         }
+        if (k >= PATIENCE && norm(s, s->step) > before / 2 && is_met(s))
+            return true;
+        before = norm(s, s->step);
         if (!take_step(s, way, k))
-            return is_small(s, s->step, ROUNDING);
+            return is_small(s, s->step, ROUNDING) || is_met(s);
     }
     return false;
 }

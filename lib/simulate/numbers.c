@@ -160,14 +160,14 @@ static void keep_parameters(const Layout *l, Parameters *p, const Expr *roots, i
     mem_free(symbols);
 }
 
-static double value_in(void *context, Expr symbol)
+double parameters_value_in(void *context, Expr symbol)
 {
     return parameters_value(context, symbol);
 }
 
 double parameters_evaluate(Parameters *p, Expr e)
 {
-    return expr_evaluate(e, value_in, p);
+    return expr_evaluate(e, parameters_value_in, p);
 }
 
 void parameters_free(Parameters *p)
@@ -290,6 +290,11 @@ bool probe_turn(Probe *probe, Expr parameter, double value)
             return true;
         }
     return false;
+}
+
+double *probe_input(Probe *probe, int place)
+{
+    return workspace_inputs(probe->machine.workspace) + place;
 }
 
 static void put(double *inputs, int first, const double *values, int count)

@@ -50,6 +50,9 @@ double parameters_value(Parameters *parameters, Expr symbol); /* kept, else aske
 double parameters_evaluate(Parameters *parameters, Expr e);
 void parameters_free(Parameters *parameters);
 
+/* for expr_evaluate() and the like; the context is the Parameters */
+double parameters_value_in(void *parameters, Expr symbol);
+
 /* what a row knows; arrays may be NULL for 0 */
 typedef struct RowValues {
     double t;
@@ -69,6 +72,9 @@ MUST_USE Status probe_new(const Layout *layout, Parameters *parameters, const Ex
 void probe_free(Probe *probe); /* NULL is fine */
 /* Another value of a parameter, for this probe alone. False: no root holds it. */
 bool probe_turn(Probe *probe, Expr parameter, double value);
+/* The number of a symbol that somebody has put behind those of the layout, `place` among its
+ * symbols: write here. */
+double *probe_input(Probe *probe, int place);
 /* the values of the roots; borrowed, until the next call */
 const double *probe_values(Probe *probe, const RowValues *row);
 /* How far these values may be off where the row is off by `errors`; t and parameters are as

@@ -11,6 +11,7 @@
 #include "base/diag.h"
 
 #include <math.h>
+#include <stddef.h>
 #include <stdint.h>
 
 /* The same motion for solvers of implicit equations F(t, w, w') = 0; w holds y and multipliers, or
@@ -95,6 +96,14 @@ typedef struct Method {
     /* Take the last step again so that it ends at t, inside it; then start anew from there. Where
      * that fails, at() and y still tell of the last step as it was. */
     Status (*shorten)(Stepper *stepper, double t, Diag *diag);
+    /* y' at the stepper's time, without an evaluation; false: not known. NULL: never */
+    bool (*slope)(Stepper *stepper, double *rate);
+    /* what a step sees of the equations: places in it, as parts of its length, */
+    const double *nodes;
+    int node_count;
+    bool has_history;   /* the steps before, too: it starts anew after shorten(); */
+    bool sees_little;   /* too little to find what happens in between */
+    double pulse_steps; /* that a pulse of the equations takes, to come out right */
 } Method;
 
 struct Stepper {
@@ -126,6 +135,17 @@ static inline double stepper_stop(const Stepper *stepper, double end)
     if (!(bound > 0) || (stepper->next > 0 && stepper->next <= bound))
         return end;
     return fmin(end, stepper->t + bound);
+}
+
+/* y' at the stepper's time */
+static inline bool stepper_slope(Stepper *stepper, double *rate)
+{
+    const Ode *ode = stepper->ode;
+
+    if (stepper->method->slope != NULL && stepper->method->slope(stepper, rate))
+        return true;
+    stepper->counts.evaluations++;
+    return ode->rate(ode->context, stepper->t, stepper->y, rate);
 }
 
 /* The row of that name, or NULL; row i, or NULL at the end. */

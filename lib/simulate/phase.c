@@ -52,12 +52,19 @@ void phase_enter(const Phase *phase)
 
 Status phase_open(Phase *phase, Parameters *parameters, const MotionOptions *options, Diag *diag)
 {
+    Status status = OK;
+
     phase->motion = motion_new(numbers_equations(phase->numbers), options);
     phase->length = motion_length(phase->motion);
     phase->network = netdae_new(phase->layout, parameters, phase->motion);
     if (phase->network != NULL)
         motion_offer(phase->motion, netdae_equations(phase->network));
-    return samples_new(phase->layout, parameters, phase->motion, &phase->samples, diag);
+    CHECK(samples_new(phase->layout, parameters, phase->motion, &phase->samples, diag));
+    CHECK(steep_new(phase->layout, parameters, phase->motion, numbers_equations(phase->numbers),
+                    &phase->steep, diag));
+    phase->onset = onset_new(phase->steep, motion_ode(phase->motion));
+done:
+    return status;
 }
 
 void phase_free(Phase *phase)
@@ -71,6 +78,8 @@ void phase_free(Phase *phase)
     }
     events_free(phase->events);
     samples_free(phase->samples);
+    onset_free(phase->onset);
+    steep_free(phase->steep);
     probe_free(phase->states);
     mem_free(phase->among_whole);
     netdae_free(phase->network);

@@ -10,6 +10,7 @@
 #include "simulate/events.h"
 #include "simulate/netdae.h"
 #include "simulate/numbers.h"
+#include "simulate/onset.h"
 #include "simulate/samples.h"
 #include "simulate/start.h"
 
@@ -25,6 +26,8 @@ struct Phase {
     NetDae *network; /* NULL where there is mechanics */
     Events *events;  /* of `like`; NULL: none, or not made yet */
     Samples *samples;
+    Steep *steep; /* what can act for a short time, and the search for it; NULL: nothing */
+    Onset *onset;
     Probe *states;    /* the network states of the whole, where it is a mode, */
     int *among_whole; /* and which of those its own are */
 };

@@ -491,6 +491,14 @@ static Status shorten(Stepper *stepper, double t, Diag *diag)
     return status;
 }
 
+static bool slope(Stepper *stepper, double *rate)
+{
+    const Radau *r = (const Radau *)stepper;
+
+    memcpy(rate, r->rate, (size_t)r->all * sizeof(double));
+    return true;
+}
+
 const Method method_radau = {
     .name = "radau",
     .brief =
@@ -502,4 +510,9 @@ const Method method_radau = {
     .step = step,
     .at = at,
     .shorten = shorten,
+    .slope = slope,
+    .nodes = nodes,
+    .node_count = COUNT(nodes),
+    .sees_little = true,
+    .pulse_steps = 16,
 };

@@ -140,6 +140,16 @@ static Status shorten(Stepper *stepper, double t, Diag *diag)
     return status;
 }
 
+static bool slope(Stepper *stepper, double *rate)
+{
+    const Rk4 *r = (const Rk4 *)stepper;
+
+    memcpy(rate, r->rate, (size_t)r->all * sizeof(double));
+    return true;
+}
+
+static const double nodes[] = {0.5, 1};
+
 const Method method_rk4 = {
     .name = "rk4",
     .brief = "classical Runge-Kutta, fixed steps (step=, else one a row); projects after each step",
@@ -149,4 +159,9 @@ const Method method_rk4 = {
     .step = step,
     .at = at,
     .shorten = shorten,
+    .slope = slope,
+    .nodes = nodes,
+    .node_count = COUNT(nodes),
+    .sees_little = true,
+    .pulse_steps = 24,
 };

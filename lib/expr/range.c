@@ -1,0 +1,328 @@
+/* range.c: interval arithmetic over a list of nodes, operands first
+ *
+ * Bounds are rounded as doubles are: a bound may be short of the true one by some units in the last
+ * place, which nobody here asks for. */
+#include "expr/range.h"
+
+#include "expr/expr_impl.h"
+
+#include <math.h>
+#include <string.h>
+
+#define POINTS 8 /* where functions without a rule are looked at in an interval */
+
+typedef struct Node {
+    ExprKind kind;
+    Op op;
+    int first, count;   /* of its operands in `operands` */
+    double value;       /* of a number or another symbol, or an exponent */
+    bool is_fixed;      /* no symbol in it: `value` */
+    const Curve *curve; /* of a table */
+    int order;          /* of its derivative */
+} Node;
+
+struct Ranges {
+    Node *nodes;
+    int node_count;
+    int *operands;
+    Range *at; /* of the nodes */
+    int symbol;
+    int *roots;
+    Range *out;
+    int count;
+};
+
+static const Range everything = {-INFINITY, INFINITY};
+
+static Range hull(Range a, Range b)
+{
+    return (Range){fmin(a.low, b.low), fmax(a.high, b.high)};
+}
+
+static Range point(double x)
+{
+    return isnan(x) ? everything : (Range){x, x};
+}
+
+/* 0 times what is without bound is 0: it is the bound of something finite */
+static double times(double a, double b)
+{
+    return a == 0 || b == 0 ? 0 : a * b;
+}
+
+static Range product(Range a, Range b)
+{
+    Range one = {times(a.low, b.low), times(a.low, b.high)};
+    Range two = {times(a.high, b.low), times(a.high, b.high)};
+
+    return (Range){fmin(fmin(one.low, one.high), fmin(two.low, two.high)),
+                   fmax(fmax(one.low, one.high), fmax(two.low, two.high))};
+}
+
+static Range power(Range a, double p)
+{
+    bool is_whole = p == floor(p);
+    bool is_even = is_whole && fmod(p, 2) == 0;
+    double low = pow(a.low, p), high = pow(a.high, p);
+    bool crosses = a.low < 0 && a.high > 0;
+
+    if (!is_whole && a.low < 0)
+        return a.high < 0 ? everything : (Range){0, p > 0 ? pow(a.high, p) : INFINITY};
+    if (p < 0 && a.low <= 0 && a.high >= 0)
+        return is_even ? (Range){fmin(low, high), INFINITY} : everything;
+    if (is_even && crosses)
+        return (Range){0, fmax(low, high)};
+    return (Range){fmin(low, high), fmax(low, high)};
+}
+
+/* of cos: where it has its tops and bottoms between */
+static Range cosine(Range a)
+{
+    double turn = 2 * acos(-1.0);
+    Range out = {fmin(cos(a.low), cos(a.high)), fmax(cos(a.low), cos(a.high))};
+
+    if (!(a.high - a.low < turn))
+        return (Range){-1, 1};
+    if (floor(a.high / turn) > floor(a.low / turn) || floor(a.low / turn) * turn == a.low)
+        out.high = 1;
+    if (floor(a.high / turn - 0.5) > floor(a.low / turn - 0.5))
+        out.low = -1;
+    return out;
+}
+
+static Range rising(Op op, Range a)
+{
+    Range out = {op_value(op, &a.low), op_value(op, &a.high)};
+
+    if (isnan(out.low))
+        out.low = -INFINITY;
+    if (isnan(out.high))
+        out.high = INFINITY;
+    return out;
+}
+
+static Range tangent(Range a)
+{
+    double half = acos(-1.0);
+
+    if (!(a.high - a.low < half) || floor(a.high / half - 0.5) > floor(a.low / half - 0.5))
+        return everything;
+    return (Range){tan(a.low), tan(a.high)};
+}
+
+/* a claim: 1 where it must hold, 0 where it can't */
+static Range claim(bool must, bool can)
+{
+    return (Range){must, can};
+}
+
+static Range compared(Op op, Range a, Range b)
+{
+    bool apart = a.high < b.low || b.high < a.low;
+    bool same = a.low == a.high && b.low == b.high && a.low == b.low;
+
+    switch (op) {
+    case OP_LT:
+        return claim(a.high < b.low, a.low < b.high);
+    case OP_LE:
+        return claim(a.high <= b.low, a.low <= b.high);
+    case OP_EQ:
+        return claim(same, !apart);
+    default:
+        return claim(apart, !same);
+    }
+}
+
+static bool is_true(Range a)
+{
+    return a.low > 0 || a.high < 0;
+}
+
+static bool can_be_true(Range a)
+{
+    return a.low != 0 || a.high != 0;
+}
+
+/* by some points, and half of what these differ by beyond them */
+static Range by_points(const Node *node, const Range *args, const int *operands)
+{
+    Range out = {INFINITY, -INFINITY};
+    double spread;
+
+    if (node->count > 2 && node->curve == NULL)
+        return everything;
+    for (int i = 0; i <= POINTS; i++)
+        for (int k = 0; k <= (node->count == 2 ? POINTS : 0); k++) {
+            Range a = args[operands[node->curve != NULL ? 1 : 0]];
+            Range b = node->count == 2 ? args[operands[1]] : a;
+            double x[2] = {a.low + (a.high - a.low) * i / POINTS,
+                           b.low + (b.high - b.low) * k / POINTS};
+            double y = node->curve != NULL ? curve_value(node->curve, x[0], node->order)
+                                           : op_value(node->op, x);
+
+            if (!isfinite(y))
+                return everything;
+            out = hull(out, point(y));
+        }
+    spread = (out.high - out.low) / 2;
+    return (Range){out.low - spread, out.high + spread};
+}
+
+static Range call(const Node *node, const Range *all, const int *operands)
+{
+    Range a = all[operands[0]];
+    Range b = node->count > 1 ? all[operands[1]] : a;
+
+    switch (node->op) {
+    case OP_SIN:
+        return cosine((Range){a.low - acos(0.0), a.high - acos(0.0)});
+    case OP_COS:
+        return cosine(a);
+    case OP_TAN:
+        return tangent(a);
+    case OP_COSH:
+        return a.low < 0 && a.high > 0 ? (Range){1, cosh(fmax(-a.low, a.high))}
+                                       : (Range){cosh(fmin(fabs(a.low), fabs(a.high))),
+                                                 cosh(fmax(fabs(a.low), fabs(a.high)))};
+    case OP_ABS:
+        return a.low < 0 && a.high > 0
+                   ? (Range){0, fmax(-a.low, a.high)}
+                   : (Range){fmin(fabs(a.low), fabs(a.high)), fmax(fabs(a.low), fabs(a.high))};
+    case OP_ACOS:
+        return (Range){acos(fmin(1, a.high)), acos(fmax(-1, a.low))};
+    case OP_ASIN:
+    case OP_ATAN:
+    case OP_SINH:
+    case OP_TANH:
+    case OP_EXP:
+    case OP_LOG:
+    case OP_SQRT:
+    case OP_SIGN:
+    case OP_STEP:
+    case OP_RAMP:
+    case OP_FLOOR:
+    case OP_HOLD:
+        return node->op == OP_HOLD ? a : rising(node->op, a);
+    case OP_MIN:
+        return (Range){fmin(a.low, b.low), fmin(a.high, b.high)};
+    case OP_MAX:
+        return (Range){fmax(a.low, b.low), fmax(a.high, b.high)};
+    case OP_LT:
+    case OP_LE:
+    case OP_EQ:
+    case OP_NE:
+        return compared(node->op, a, b);
+    case OP_AND:
+        return claim(is_true(a) && is_true(b), can_be_true(a) && can_be_true(b));
+    case OP_OR:
+        return claim(is_true(a) || is_true(b), can_be_true(a) || can_be_true(b));
+    case OP_NOT:
+        return claim(!can_be_true(a), !is_true(a));
+    case OP_IF:
+        if (is_true(a))
+            return b;
+        return can_be_true(a) ? hull(b, all[operands[2]]) : all[operands[2]];
+    default:
+        return by_points(node, all, operands);
+    }
+}
+
+static Range range_of(const Ranges *r, const Node *node)
+{
+    const int *operands = r->operands + node->first;
+    Range out;
+
+    switch (node->kind) {
+    case EXPR_SUM:
+        out = r->at[operands[0]];
+        for (int i = 1; i < node->count; i++) {
+            out.low += r->at[operands[i]].low;
+            out.high += r->at[operands[i]].high;
+        }
+        return out;
+    case EXPR_PRODUCT:
+        out = r->at[operands[0]];
+        for (int i = 1; i < node->count; i++)
+            out = product(out, r->at[operands[i]]);
+        return out;
+    case EXPR_POWER:
+        out = r->at[operands[1]];
+        if (out.low == out.high)
+            return power(r->at[operands[0]], out.low);
+        if (r->at[operands[0]].low > 0) /* a^b = exp(b log a) */
+            return rising(OP_EXP, product(out, rising(OP_LOG, r->at[operands[0]])));
+        return everything;
+    case EXPR_CALL:
+        return call(node, r->at, operands);
+    default:
+        return point(node->value);
+    }
+}
+
+Ranges *ranges_new(const Expr *roots, int count, Expr symbol, SymbolValue value, void *context)
+{
+    Ranges *r = NEW(Ranges);
+    Walk walk = {0};
+    int operands = 0;
+
+    for (int i = 0; i < count; i++)
+        walk_below(&walk, roots[i], 0, NULL, NULL);
+    for (int i = 0; i < walk.count; i++)
+        operands += walk.nodes[i]->count;
+    r->nodes = NEW_ARRAY(Node, walk.count);
+    r->node_count = walk.count;
+    r->operands = NEW_ARRAY(int, operands);
+    r->at = NEW_ARRAY(Range, walk.count);
+    r->roots = NEW_ARRAY(int, count);
+    r->out = NEW_ARRAY(Range, count);
+    r->count = count;
+    r->symbol = walk_find(&walk, symbol);
+    operands = 0;
+    for (int i = 0; i < walk.count; i++) {
+        Expr e = walk.nodes[i];
+        Node *node = &r->nodes[i];
+
+        *node = (Node){.kind = expr_kind(e), .first = operands, .count = e->count};
+        for (int k = 0; k < e->count; k++)
+            r->operands[operands++] = walk_find(&walk, expr_arg(e, k));
+        if (node->kind == EXPR_CALL) {
+            node->op = expr_op(e);
+            if (node->op == OP_TABLE) {
+                node->curve = expr_data(expr_arg(e, 0));
+                node->order = (int)expr_value(expr_arg(e, 2));
+            }
+        } else if (node->kind == EXPR_SYMBOL) {
+            node->value = e == symbol || expr_data(e) != NULL ? 0 : value(context, e);
+        } else if (e->count == 0) {
+            node->value = expr_value(e);
+        }
+    }
+    for (int i = 0; i < count; i++)
+        r->roots[i] = walk_find(&walk, roots[i]);
+    walk_free(&walk);
+    return r;
+}
+
+void ranges_free(Ranges *r)
+{
+    if (r == NULL)
+        return;
+    mem_free(r->nodes);
+    mem_free(r->operands);
+    mem_free(r->at);
+    mem_free(r->roots);
+    mem_free(r->out);
+    mem_free(r);
+}
+
+const Range *ranges_over(Ranges *r, Range over)
+{
+    for (int i = 0; i < r->node_count; i++) {
+        r->at[i] = i == r->symbol ? over : range_of(r, &r->nodes[i]);
+        if (isnan(r->at[i].low) || isnan(r->at[i].high))
+            r->at[i] = everything;
+    }
+    for (int i = 0; i < r->count; i++)
+        r->out[i] = r->at[r->roots[i]];
+    return r->out;
+}

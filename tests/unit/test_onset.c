@@ -1,0 +1,134 @@
+/* test_onset.c: what acts for a short time is not stepped over: by any method, as its tolerance
+ * says
+ *
+ * Answers come from closed forms, from ngspice 39 at reltol 1e-5 (multiplier), and from DOP853 at
+ * 1e-12 with steps of 1/400 of a period by another program (rectifier, doubler). */
+#include "session_kit.h"
+
+#define COUNT(array) ((int)(sizeof(array) / sizeof((array)[0])))
+
+static const char *const adaptive[] = {"auto", "dop853", "radau", "bdf", "adams", "ida"};
+
+#define SUPPLY "vsource V s0 0 100*sin(2*pi*1e3*t)\nresistor Rs s0 s 10\n"
+#define RECTIFIER                                                                                  \
+    SUPPLY "diode D s b Is=1e-12\ncapacitor C b 0 1 uF\nresistor RL b 0 10000\ninit C.v = 0\n"
+#define DOUBLER                                                                                    \
+    SUPPLY "capacitor Ca s a 1 uF\ndiode Da 0 a Is=1e-12\ndiode Db a b Is=1e-12\n"                 \
+           "capacitor Cb b 0 1 uF\nresistor RL b 0 1e6\n"
+#define CART "scene planar\ngravity [0, 0]\nbody m mass=2\nprismatic s ground m axis=x\n"
+
+/* the model run by a method, and what an expression is then */
+static double answer(const char *model, const char *run, const char *method, const char *expression)
+{
+    Kit kit = kit_new();
+    char line[200];
+    double value;
+
+    EXPECT_DONE(&kit, model);
+    (void)snprintf(line, sizeof line, "%s method=%s\n", run, method);
+    EXPECT_DONE(&kit, line);
+    value = kit_value(&kit, expression);
+    kit_free(&kit);
+    return value;
+}
+
+static void expect_of_all(const char *model, const char *run, const char *expression, double value,
+                          double error)
+{
+    for (int i = 0; i < COUNT(adaptive); i++) {
+        const double got = answer(model, run, adaptive[i], expression);
+
+        if (!(fabs(got - value) <= error)) {
+            test_faults++;
+            printf("%s by %s: %s is %.10g, not %.10g\n", run, adaptive[i], expression, got, value);
+        }
+    }
+}
+
+static void a_rectifier_conducts_at_every_tolerance(void)
+{
+    expect_of_all(RECTIFIER, "simulate 0.02 every=1e-5 rtol=1e-3", "b.v", 92.03197, 2);
+    expect_of_all(RECTIFIER, "simulate 0.02 every=1e-5 rtol=1e-5", "b.v", 92.03197, 0.05);
+    expect_of_all(RECTIFIER, "simulate 0.02 every=1e-5", "b.v", 92.03197, 1e-4);
+    expect_of_all(RECTIFIER, "simulate 0.02 every=1e-5", "mean(b.v)", 94.31795, 1e-3);
+}
+
+static void a_doubler_stays_below_twice_the_peak(void)
+{
+    expect_of_all(DOUBLER, "simulate 0.02 every=1e-5", "b.v", 198.36, 5e-3);
+    expect_of_all(DOUBLER, "simulate 0.02 every=1e-5 rtol=1e-4", "b.v", 198.36, 1);
+}
+
+static void a_multiplier_of_exponential_diodes_runs(void)
+{
+    static const char *const model =
+        SUPPLY "capacitor Ca1 s a1 1 uF\ndiode Da1 0 a1 Is=1e-12\ndiode Db1 a1 b1 Is=1e-12\n"
+               "capacitor Cb1 0 b1 1 uF\ncapacitor Ca2 a1 a2 1 uF\ndiode Da2 b1 a2 Is=1e-12\n"
+               "diode Db2 a2 b2 Is=1e-12\ncapacitor Cb2 b1 b2 1 uF\ncapacitor Ca3 a2 a3 1 uF\n"
+               "diode Da3 b2 a3 Is=1e-12\ndiode Db3 a3 b3 Is=1e-12\ncapacitor Cb3 b2 b3 1 uF\n"
+               "resistor RL b3 0 1e6\n";
+
+    expect_of_all(model, "simulate 0.02 every=1e-4 rtol=1e-6", "b3.v", 438.412, 0.05);
+}
+
+static void a_pulse_in_a_long_run_is_seen(void)
+{
+    static const char *const charge =
+        "capacitor C b 0 1\nisource I 0 b exp(-((t - 5)/0.01)^2)\nresistor R b 0 1e6\n"
+        "init C.v = 0\n";
+    const double area = 0.01 * sqrt(acos(-1.0));
+
+    expect_of_all(charge, "simulate 10", "b.v", area * exp(-5e-6), 1e-6);
+    expect_of_all(charge, "simulate 10000", "b.v", area * exp(-9995e-6), 1e-6);
+    expect_of_all(CART "actuator f s force=3*exp(-((t - 5)/0.01)^2)\ninit s = 0, s' = 0\n",
+                  "simulate 10", "s", 3 * area / 2 * 5, 1e-5);
+}
+
+/* A cart passes a bump of force that is short against its way: it does work +W, then -W. */
+static void a_bump_on_the_way_is_felt(void)
+{
+    /* force 2000 (s - 5)/w exp(-((s - 5)/w)^2): the potential at its top is 1000 w = 1 J of 4 J */
+    expect_of_all(CART "actuator f s force=-1000*exp(-((s - 5)/0.001)^2)\ninit s = 0, s' = 2\n",
+                  "simulate 5", "s'", sqrt(4 - 1000 * 0.001 * sqrt(acos(-1.0))), 1e-5);
+}
+
+static void maxstep_bounds_every_method(void)
+{
+    static const char *const methods[] = {"auto", "radau", "bdf", "adams", "ida", "rk4"};
+
+    for (int i = 0; i < COUNT(methods); i++) {
+        Kit kit = kit_new();
+        char line[100];
+        const char *at;
+
+        EXPECT_DONE(&kit, "capacitor C a 0 1\nresistor R a 0 1\ninit C.v = 1\n");
+        (void)snprintf(line, sizeof line, "simulate 1 maxstep=0.001 method=%s\n", methods[i]);
+        EXPECT_DONE(&kit, line);
+        EXPECT_DONE(&kit, "show run\n");
+        EXPECT_HOLDS(kit.text, "largest step");
+        at = kit.text != NULL ? strstr(kit.text, "\nsteps") : NULL;
+        EXPECT(at != NULL && atoi(at + strlen("\nsteps") + strspn(at + 6, " ")) >= 1000);
+        kit_free(&kit);
+    }
+}
+
+static void a_step_bound_below_nothing_is_refused(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, "capacitor C a 0 1\nresistor R a 0 1\ninit C.v = 1\n");
+    EXPECT_FAILS(&kit, "simulate 1 maxstep=-1\n", "maxstep");
+    kit_free(&kit);
+}
+
+int main(void)
+{
+    RUN(a_rectifier_conducts_at_every_tolerance);
+    RUN(a_doubler_stays_below_twice_the_peak);
+    RUN(a_multiplier_of_exponential_diodes_runs);
+    RUN(a_pulse_in_a_long_run_is_seen);
+    RUN(a_bump_on_the_way_is_felt);
+    RUN(maxstep_bounds_every_method);
+    RUN(a_step_bound_below_nothing_is_refused);
+    return test_end();
+}
