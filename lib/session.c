@@ -34,6 +34,7 @@ void ct_session_hooks(ct_session *session, const ct_hooks *hooks)
     session->watch = (Watch){.context = session->hooks.context,
                              .stop = session->hooks.stop,
                              .progress = session->hooks.progress};
+    model_find_entries(session->model, &(EntryFinder){session_entry_dimension, session});
     model_find_data(session->model, &(DataFinder){.find = session->hooks.find_file,
                                                   .context = session->hooks.context});
 }

@@ -4,6 +4,7 @@
 #include "export/show.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 Status session_equilibrium(ct_session *session, const Statement *s, Diag *diag)
@@ -271,6 +272,74 @@ static Status linear_entry(const ct_session *session, int entry, const int *inde
                         entries[entry].name, matrix.rows, matrix.columns);
     *out = matrix.at[(index[0] - 1) * matrix.columns + index[1] - 1];
     return OK;
+}
+
+/* what the name of a state or output means */
+static bool text_dimension(const Model *model, const char *text, Dimension *out)
+{
+    Pool *pool = pool_new(1024);
+    Syntax *syntax = NULL;
+    const bool found = syntax_parse_expression(text, pool, &syntax, NULL) == OK &&
+                       model_dimension(model, syntax, out);
+
+    pool_free(pool);
+    return found;
+}
+
+/* of a parameter, or of the value of a source or an actuator */
+static bool input_dimension(const Model *model, const char *name, Dimension *out)
+{
+    const Instance *source = model_find(model, name);
+    Unit unit;
+    size_t fault;
+    int param;
+
+    if (source == NULL)
+        return text_dimension(model, name, out);
+    param = component_param(source->row, "value");
+    if (param < 0)
+        param = component_param(source->row, source->on_angle ? "torque" : "force");
+    if (param < 0 || source->row->params[param].unit == NULL ||
+        !unit_parse(source->row->params[param].unit, strlen(source->row->params[param].unit), &unit,
+                    &fault))
+        return false;
+    *out = unit.dimension;
+    return true;
+}
+
+/* a whole number from 1 that is written out; 0: something else */
+static int written_index(const Syntax *syntax)
+{
+    return syntax->kind == SYNTAX_NUMBER && !syntax->has_unit &&
+                   syntax->text[strspn(syntax->text, "0123456789")] == '\0' &&
+                   strlen(syntax->text) < 6
+               ? atoi(syntax->text)
+               : 0;
+}
+
+/* rows are of rates of states, or of outputs; columns of states, or of inputs */
+bool session_entry_dimension(void *context, const Syntax *call, Dimension *out)
+{
+    static const Dimension second = {{0, 0, 1, 0, 0, 0}};
+    const ct_session *session = context;
+    const int entry = session_entry(call->text);
+    Dimension row, column;
+    LinearMatrix matrix;
+    int i, j;
+
+    if (entry < 0 || entries[entry].of != NULL || session->linear == NULL || call->count != 2)
+        return false;
+    matrix = linear_matrix(session->linear, strchr(entries[entry].name, '.')[1]);
+    i = written_index(call->args[0]);
+    j = written_index(call->args[1]);
+    if (i < 1 || i > matrix.rows || j < 1 || j > matrix.columns ||
+        !text_dimension(session->model, matrix.row_names[i - 1], &row) ||
+        !(matrix.column_names == session->linear->input_names ? input_dimension : text_dimension)(
+            session->model, matrix.column_names[j - 1], &column))
+        return false;
+    return dimension_times(row, column, -1, out) &&
+           (matrix.row_names != session->linear->state_names ||
+            dimension_times(*out, second, -1, out));
 }
 
 Status session_entry_value(const ct_session *session, int entry, const int *index, int count,

@@ -15,6 +15,22 @@ static ct_status finish(Status status, Text *out, const Diag *diag, char **text,
     return session_report(status, diag, error);
 }
 
+/* a formula is in SI, whatever its number would be shown in */
+static Status check_no_units(const Statement *s, Diag *diag)
+{
+    for (int i = 0; i < s->operands.count; i++) {
+        const Syntax *value = s->operands.at[i].value;
+
+        if (!value->has_unit || value->kind == SYNTAX_NUMBER || value->kind == SYNTAX_VECTOR)
+            continue;
+        (void)diag_at(diag, E_UNIT, value->unit_place, "a formula is in SI, not in %s",
+                      value->unit_text);
+        diag_hint(diag, "'print' shows its value in a unit");
+        return E_UNIT;
+    }
+    return OK;
+}
+
 ct_status ct_show(ct_session *session, const ct_statement *statement, char **text, ct_error *error)
 {
     const Statement *s = statement_of(statement);
@@ -25,6 +41,7 @@ ct_status ct_show(ct_session *session, const ct_statement *statement, char **tex
     Need need;
 
     session_begin(session);
+    CHECK(check_no_units(s, &diag));
     CHECK(show_need(session->model, s, &need, &diag));
     if (need == NEED_SYSTEM)
         CHECK(session_shown(session, &view.system, &diag));

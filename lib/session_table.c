@@ -386,7 +386,7 @@ static bool is_modes(const Statement *s)
 {
     const Syntax *item = s->operands.count == 2 ? s->operands.at[1].value : NULL;
 
-    return item != NULL && item->kind == SYNTAX_VARIABLE && item->primes == 0 &&
+    return item != NULL && item->kind == SYNTAX_VARIABLE && item->primes == 0 && !item->has_unit &&
            strcmp(item->text, "modes") == 0;
 }
 

@@ -503,6 +503,18 @@ static Status by_law(const Walk *w, const Syntax *call, int index, const Measure
     return status;
 }
 
+/* an entry of what is shown, or of what was found */
+static Measure of_entry(const Walk *w, const Syntax *call)
+{
+    const EntryFinder *entries = w->scope->entries;
+    Measure out = measure_of_unit(entry_unit(call->text));
+
+    if (out.kind == MEASURE_ANY && entries != NULL && entries->dimension != NULL &&
+        entries->dimension(entries->context, call, &out.dimension))
+        out.kind = MEASURE_KNOWN;
+    return out;
+}
+
 static Status call(const Walk *w, const Syntax *syntax, Measure *out)
 {
     const Thing *thing = state_thing(w->scope->state, syntax->text);
@@ -512,7 +524,7 @@ static Status call(const Walk *w, const Syntax *syntax, Measure *out)
 
     for (int i = 0; i < syntax->count; i++)
         CHECK(walk(w, syntax->args[i], &args[i]));
-    *out = measure_of_unit(entry_unit(syntax->text));
+    *out = of_entry(w, syntax);
     if (rule != NULL)
         CHECK(by_rule(w, syntax, rule, args, out));
     else if (thing != NULL && thing->kind == THING_DEFINITION)

@@ -120,9 +120,9 @@ static Status refuse(const Syntax *syntax, Measure wanted, const char *unit, con
 Status unit_check(const Scope *scope, const Syntax *syntax, const char *unit, const char *name,
                   Diag *diag)
 {
-    Measure wanted = measure_of_unit(unit);
     const Syntax *core = bare(syntax);
     Measure given = {0};
+    Measure wanted;
     Status status = OK;
 
     if (core->kind == SYNTAX_VECTOR && !core->has_unit) {
@@ -131,7 +131,10 @@ Status unit_check(const Scope *scope, const Syntax *syntax, const char *unit, co
         return OK;
     }
     CHECK(measure_of(scope, syntax, &given, diag));
-    if (given.has_units && (!measures_fit(wanted, given) || is_pitch(wanted, given)))
+    if (!given.has_units)
+        return OK;
+    wanted = measure_of_unit(unit);
+    if (!measures_fit(wanted, given) || is_pitch(wanted, given))
         status = refuse(syntax, wanted, unit, name, given, diag);
 done:
     return status;

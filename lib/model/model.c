@@ -8,6 +8,7 @@ struct Model {
     Arena *arena;
     State *state;
     DataFinder finder;
+    EntryFinder entries;
     History history;
     const char *undone;
     char *remarks;
@@ -116,6 +117,11 @@ void model_share_data(Model *to, const Model *from)
     to->finder = from->finder;
     to->finder.given = true;
     arena_share_tables(to->arena, from->arena);
+}
+
+void model_find_entries(Model *model, const EntryFinder *finder)
+{
+    model->entries = *finder;
 }
 
 const char *model_remarks(const Model *model)
@@ -358,7 +364,7 @@ NetworkForm model_network_form(const Model *model)
 
 static Scope ask(const Model *model)
 {
-    return (Scope){.state = model->state, .kind = SCOPE_ASK};
+    return (Scope){.state = model->state, .kind = SCOPE_ASK, .entries = &model->entries};
 }
 
 Status model_expression(const Model *model, const Syntax *syntax, Expr *out, Diag *diag)

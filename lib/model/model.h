@@ -147,6 +147,14 @@ MUST_USE Status model_expression(const Model *model, const Syntax *syntax, Expr 
 MUST_USE Status model_call(const Model *model, const Syntax *syntax, const Expr *args, Expr *out,
                            Diag *diag);
 bool model_call_takes_text(const Syntax *syntax);
+/* What tells dimensions of entries that only the model's owner knows, as linear.A(1,2): false where
+ * it doesn't, either. */
+typedef struct EntryFinder {
+    bool (*dimension)(void *context, const Syntax *call, Dimension *out);
+    void *context;
+} EntryFinder;
+void model_find_entries(Model *model, const EntryFinder *finder);
+
 /* Dimensions, of texts whose names are known; each fails with E_UNIT at its place. What can't be
  * inferred fits everything. */
 /* an item: its sums and arguments, and the unit behind it that it is to be shown in */

@@ -263,8 +263,9 @@ typedef struct Scope {
     ScopeKind kind;
     const char *const *arguments; /* of a law */
     int argument_count;
-    const Instance *own; /* the part in the making */
-    NumberList uses;     /* definitions met */
+    const Instance *own;        /* the part in the making */
+    const EntryFinder *entries; /* NULL: none */
+    NumberList uses;            /* definitions met */
 } Scope;
 
 Status scope_expression(Scope *scope, const Syntax *syntax, Expr *out, Diag *diag);

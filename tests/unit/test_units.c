@@ -70,11 +70,15 @@ static const struct {
     {"print t [m]", "t is in s", 9},
     {"print h1' [Hz]", "it can't be shown in [Hz]", 11},
     {"print w0 [Hz]", "it can't be shown in [Hz]", 10},
+    {"print linear.A(1,1) [s]", "linear.A(1, 1) is in 1/s", 21},
     {"table h1 s1 [A]", "s1 is in m", 13},
     {"table h1 every=1 m", "s expected for every, got m", 18},
     {"plot h1 s1 [V]", "s1 is in m", 12},
     {"plot h1 vs s1 [V]", "s1 is in m", 15},
     {"plot h1 vs t [V]", "t is in s", 14},
+    {"show h1' [deg/s]", "a formula is in SI, not in [deg/s]", 10},
+    {"show (h1*s1) [V]", "a formula is in SI, not in [V]", 14},
+    {"export csv modes [kg]", "unknown name 'modes'", 12},
     {"export csv h1 [kg]", "h1 is in rad", 15},
     {"linearize inputs=[V] outputs=[h1 + s1]", "rad and m can't be added", 36},
     /* times, tolerances, frequencies */
@@ -345,6 +349,40 @@ static void the_unit_of_an_item_is_told_where_it_is_known(void)
     kit_free(&kit);
 }
 
+/* rows of A and B are rates of states, of C and D outputs; columns states and inputs */
+static void entries_of_linear_equations_have_units_of_their_own(void)
+{
+    static const struct {
+        const char *entry;
+        const char *right;
+        const char *wrong;
+    } entries[] = {
+        {"linear.A(1,2)", "[1/s*s]", "[1/s]"},
+        {"linear.A(2,1)", "[1/s^2]", "[1/s]"},
+        {"linear.A(3,3)", "[1/ms]", "[V]"},
+        {"linear.B(2,1)", "[rad/s^2/N/m]", "[rad/s^2/N]"},
+        {"linear.B(3,2)", "[A/s/V]", "[A/s]"},
+        {"linear.C(1,1)", "[1]", "[m]"},
+        {"linear.C(2,1)", "[m/s^2/rad]", "[m/s]"},
+        {"linear.C(3,3)", "[W/A]", "[W]"},
+        {"linear.D(2,1)", "[m/s^2/N/m]", "[1/kg]"},
+        {"linear.D(3,2)", "[W/V]", "[W/A]"},
+    };
+    Kit kit = kit_new();
+    char line[100];
+
+    EXPECT_DONE(&kit, PENDULUM "actuator u h torque=0\nvsource V a 0 1\nresistor R a b 2\n"
+                               "inductor L1 b 0 1 mH\nequilibrium\n"
+                               "linearize inputs=[u, V] outputs=[h, m.ax, R.v*R.i]");
+    for (size_t i = 0; i < sizeof entries / sizeof entries[0]; i++) {
+        (void)snprintf(line, sizeof line, "print %s %s", entries[i].entry, entries[i].right);
+        EXPECT_DONE(&kit, line);
+        (void)snprintf(line, sizeof line, "print %s %s", entries[i].entry, entries[i].wrong);
+        EXPECT_FAILS(&kit, line, "it can't be shown in");
+    }
+    kit_free(&kit);
+}
+
 /* laws that call each other twice over are looked into once for each kind of argument */
 static void nested_laws_take_no_longer_than_they_are_long(void)
 {
@@ -369,6 +407,7 @@ int main(void)
     RUN(a_law_or_output_is_held_to_its_dimension_where_it_is_used);
     RUN(a_change_of_dimension_reformulates_nothing);
     RUN(the_unit_of_an_item_is_told_where_it_is_known);
+    RUN(entries_of_linear_equations_have_units_of_their_own);
     RUN(nested_laws_take_no_longer_than_they_are_long);
     return test_end();
 }
