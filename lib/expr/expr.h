@@ -192,6 +192,10 @@ void expr_replace(Arena *arena, Expr *roots, int root_count, const Expr *from, c
  * with mem_free(). */
 typedef bool (*NodeWanted)(Expr e, void *context);
 int expr_find(const Expr *roots, int count, NodeWanted wanted, void *context, Expr **out);
+/* What becomes of a node, given it over what became of its arguments. */
+typedef Expr (*NodeChange)(Arena *arena, Expr e, void *context);
+/* Change every node below e, each once and upward. O(nodes) */
+Expr expr_change(Arena *arena, Expr e, NodeChange change, void *context);
 bool expr_depends(Expr e, Expr symbol);
 /* Mark, for each SymbolKind, whether a symbol of that kind occurs: bit 1 << kind. Kept in the node:
  * O(1). */

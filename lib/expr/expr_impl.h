@@ -154,12 +154,6 @@ Rank heap_pop(Heap *heap); /* of a heap that isn't empty */
 /* The node of e's kind and operator over other arguments, simplified. */
 Expr expr_rebuild(Arena *arena, Expr e, const Expr *args);
 
-/* What becomes of a node, given it over what became of its arguments. */
-typedef Expr (*NodeChange)(Arena *arena, Expr e, void *context);
-
-/* Change every node below e, each once and upward. */
-Expr expr_change(Arena *arena, Expr e, NodeChange change, void *context);
-
 /* --- call.c --- */
 
 /* derivative of the call e, given those of its arguments */

@@ -59,6 +59,11 @@ done:
     return status;
 }
 
+Status system_rate(System *system, Expr e, Expr *out, Diag *diag)
+{
+    return rate_of(system, e, out, diag);
+}
+
 bool steps_are_tied(const Steps *steps)
 {
     return steps->shift_count == 1 && steps->turn_count == 1 &&

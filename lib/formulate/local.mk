@@ -25,6 +25,7 @@ libcore_la_SOURCES += \
 	lib/formulate/show.c \
 	lib/formulate/smooth.c \
 	lib/formulate/state_space.c lib/formulate/state_space.h \
+	lib/formulate/surfaces.h \
 	lib/formulate/switches.c \
 	lib/formulate/turned.c \
 	lib/formulate/system.c lib/formulate/system.h lib/formulate/system_impl.h \

@@ -1,4 +1,5 @@
 /* network_rows.c: equations of the network's unknowns, G([x'; z], ...) = 0, and their Jacobian */
+#include "formulate/surfaces.h"
 #include "formulate/system_impl.h"
 
 #include <assert.h>
@@ -303,6 +304,8 @@ static Status add_row(Rows *rows, int row, Expr residual, const Unknown *y, Diag
         LIST_PUSH(rows->entries,
                   (Entry){row, rows->column.at[expr_symbol_number(symbols[i])] - 1, slope});
     }
+    run->network_nonlinear =
+        run->network_nonlinear || switch_jumps_over(arena, residual, solved_kinds);
     if (rows->entries.count == first)
         CHECK(cant_be_met(system, y, diag));
     run->network_residual[row] = residual;

@@ -582,6 +582,7 @@ void system_free(System *system)
     LIST_FREE(system->network_shown);
     LIST_FREE(system->drives);
     LIST_FREE(system->switches);
+    LIST_FREE(system->surfaces);
     pool_free(system->pool);
     mem_free(system);
 }

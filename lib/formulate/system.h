@@ -233,10 +233,24 @@ Expr system_potential(System *system);
  * lambda where drivers work. */
 Expr system_power(System *system);
 
-/* conditions at which the right-hand side may jump or kink: the difference a - b of every
- * comparison in the equations and in what closes ideal switches, in (t, q, u, x); time-only ones
- * first. Count, and *time_only how many of them: in a mode those that hold t alone in the whole. */
-int system_switches(System *system, const Expr **conditions, int *time_only);
+/* A condition at which the right-hand side may jump or kink: the difference a - b of a comparison
+ * in the equations and in what closes ideal switches, the argument of a kink, in (t, q, u, x, z).
+ */
+typedef struct Switch {
+    Expr condition;
+    Expr call;   /* whose it is */
+    int surface; /* on which the equations jump, in the state; -1: they bend at most */
+} Switch;
+/* All of them, time-only ones first, and *time_only how many of those: in a mode those that hold t
+ * alone in the whole. */
+int system_switches(System *system, const Switch **switches, int *time_only);
+/* What is 0 on a surface, each once whatever its scale and sign; NULL at the end. */
+Expr system_surface(System *system, int i);
+/* The part whose values jump or bend where that is 0, for messages; NULL: not known. */
+const char *system_jumping_part(System *system, Expr condition);
+/* the derivative of e along the motion, in u', x' and what else they solve for; E_MISSING where it
+ * can't be told */
+MUST_USE Status system_rate(System *system, Expr e, Expr *out, Diag *diag);
 
 /* --- switches: diodes and switches, ideal or between two resistances ---
  *

@@ -294,7 +294,8 @@ struct System {
     Sums *actual;             /* with u', lambda: for reactions */
     Vec *actual_a;            /* accelerations of nodes */
     Vec *actual_alpha;        /* of chains */
-    LIST(Expr) switches;
+    LIST(Switch) switches;
+    LIST(Expr) surfaces; /* where they jump, in the state */
     int switches_of_time;
     bool switches_known;
     int64_t terms_guessed; /* of M written out; 0: not guessed yet */

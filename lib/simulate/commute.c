@@ -146,13 +146,14 @@ Status commute_phase(Result *r, const Setting *setting, const bool *closed, Phas
     Status status = OK;
 
     for (int i = 1; i < r->phases.count; i++)
-        if (memcmp(r->phases.at[i]->closed, closed, (size_t)count * sizeof(bool)) == 0) {
+        if (r->phases.at[i]->on_count == 0 &&
+            memcmp(r->phases.at[i]->closed, closed, (size_t)count * sizeof(bool)) == 0) {
             *out = r->phases.at[i];
             return OK;
         }
     CHECK(system_mode(r->system, setting->model, closed, setting->watch, &system, diag));
     for (int i = 1; i < r->phases.count; i++)
-        if (r->phases.at[i]->system == system) {
+        if (r->phases.at[i]->system == system && r->phases.at[i]->on_count == 0) {
             *out = phase_new_like(r->phases.at[i], closed, count);
             LIST_PUSH(r->phases, *out);
             return OK;
@@ -161,6 +162,68 @@ Status commute_phase(Result *r, const Setting *setting, const bool *closed, Phas
     CHECK(result_open_phase(r, phase, setting, diag));
     CHECK(find_states(r, phase, diag));
     CHECK(compile_states(r, phase, diag));
+    LIST_PUSH(r->phases, phase);
+    *out = phase;
+    phase = NULL;
+done:
+    phase_free(phase);
+    return status;
+}
+
+/* whether a phase stays on these sides of surfaces */
+static bool is_on(const Phase *phase, const OnSurface *on, int count)
+{
+    if (phase->on_count != count)
+        return false;
+    for (int i = 0; i < count; i++)
+        if (phase->on[i].surface != on[i].surface || phase->on[i].side != on[i].side)
+            return false;
+    return true;
+}
+
+/* The phase of the same system on these sides of surfaces: with switches on the same sides, or
+ * NULL; *shared: any, or NULL. */
+static Phase *find_on(const Result *r, const Phase *like, const OnSurface *on, int count,
+                      Phase **shared)
+{
+    size_t bytes = (size_t)system_ideal_count(r->system) * sizeof(bool);
+
+    *shared = NULL;
+    for (int i = 0; i < r->phases.count; i++) {
+        Phase *phase = r->phases.at[i];
+
+        if (phase->motion == NULL || phase->system != like->system || !is_on(phase, on, count) ||
+            (phase->closed == NULL) != (like->closed == NULL))
+            continue;
+        *shared = phase;
+        if (like->closed == NULL || memcmp(phase->closed, like->closed, bytes) == 0)
+            return phase;
+    }
+    return NULL;
+}
+
+Status commute_phase_on(Result *r, const Setting *setting, const Phase *like, const OnSurface *on,
+                        int count, Phase **out, Diag *diag)
+{
+    int ideals = system_ideal_count(r->system);
+    Phase *shared, *phase = NULL;
+    Status status = OK;
+
+    *out = find_on(r, like, on, count, &shared);
+    if (*out != NULL)
+        return OK;
+    if (shared != NULL) {
+        *out = phase_new_like(shared, like->closed, ideals);
+        LIST_PUSH(r->phases, *out);
+        return OK;
+    }
+    CHECK(
+        phase_new_on(like->system, &r->parameters, like->closed, ideals, on, count, &phase, diag));
+    CHECK(result_open_phase(r, phase, setting, diag));
+    if (like->closed != NULL) {
+        CHECK(find_states(r, phase, diag));
+        CHECK(compile_states(r, phase, diag));
+    }
     LIST_PUSH(r->phases, phase);
     *out = phase;
     phase = NULL;
@@ -236,8 +299,8 @@ static void go_ahead(const Phase *phase, double t, double step, const double *y,
     mem_free(rate);
 }
 
-static Status take_over_events(Result *r, const Phase *now, const Phase *next,
-                               const Setting *setting, Events **events, Diag *diag)
+Status commute_events(Result *r, const Phase *now, const Phase *next, const Setting *setting,
+                      Events **events, Diag *diag)
 {
     Events **theirs = &next->like->events;
     Status status = OK;
@@ -321,7 +384,7 @@ Status commute(void *context, double t, double behind, double last, const double
         goto done;
     c->stuck = NAN;
     CHECK(next_phase(c, behind, closed, &next, diag));
-    CHECK(take_over_events(r, now, next, c->setting, &events, diag));
+    CHECK(commute_events(r, now, next, c->setting, &events, diag));
     commuting_free(c);
     c->y = NEW_ARRAY(double, next->length);
     enter(next, y, x, y + layout_turned(now->layout), y[now->length - 1], c->y);

@@ -12,6 +12,13 @@ MUST_USE Status commute_begin(Result *result, const Setting *setting, Diag *diag
 MUST_USE Status commute_phase(Result *result, const Setting *setting, const bool *closed,
                               Phase **out, Diag *diag);
 
+/* The phase that differs from another one by the sides of surfaces that it stays on. */
+MUST_USE Status commute_phase_on(Result *result, const Setting *setting, const Phase *like,
+                                 const OnSurface *on, int count, Phase **out, Diag *diag);
+/* `events`, which go on in another phase; NULL: there are none */
+MUST_USE Status commute_events(Result *result, const Phase *now, const Phase *next,
+                               const Setting *setting, Events **events, Diag *diag);
+
 typedef struct Commuting {
     Result *result;
     const Setting *setting;

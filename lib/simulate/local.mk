@@ -25,6 +25,7 @@ libcore_la_SOURCES += \
   lib/simulate/inverse.h \
   lib/simulate/kkt.c \
   lib/simulate/kkt.h \
+  lib/simulate/layout.c \
   lib/simulate/least.c \
   lib/simulate/least.h \
   lib/simulate/linear.c \
@@ -40,6 +41,7 @@ libcore_la_SOURCES += \
   lib/simulate/march_events.c \
   lib/simulate/march_impl.h \
   lib/simulate/march_jumps.c \
+  lib/simulate/march_slide.c \
   lib/simulate/march_switches.c \
   lib/simulate/method.c \
   lib/simulate/methods.def \
@@ -50,11 +52,14 @@ libcore_la_SOURCES += \
   lib/simulate/onset.c \
   lib/simulate/onset.h \
   lib/simulate/netdae.h \
+  lib/simulate/motion_impl.h \
+  lib/simulate/motion_surfaces.c \
   lib/simulate/netsolve.c \
   lib/simulate/netsolve.h \
   lib/simulate/numbers.c \
   lib/simulate/numbers.h \
   lib/simulate/ode.h \
+  lib/simulate/parameters.c \
   lib/simulate/phase.c \
   lib/simulate/phase.h \
   lib/simulate/radau.c \
@@ -78,9 +83,13 @@ libcore_la_SOURCES += \
   lib/simulate/search.h \
   lib/simulate/shifted.c \
   lib/simulate/shifted.h \
+  lib/simulate/signs.c \
+  lib/simulate/signs.h \
+  lib/simulate/simulate.c \
+  lib/simulate/slide.c \
+  lib/simulate/slide.h \
   lib/simulate/sides.c \
   lib/simulate/sides.h \
-  lib/simulate/simulate.c \
   lib/simulate/single.c \
   lib/simulate/single.h \
   lib/simulate/sparse.c \

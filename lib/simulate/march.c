@@ -165,6 +165,17 @@ done:
 
 /* --- legs --- */
 
+/* the surfaces of the leg, with what is known of them from legs of the same system */
+static void open_surfaces(March *m)
+{
+    m->surfaces = 0;
+    for (int i = 0; i < m->eq->switch_count; i++)
+        if (equations_guard(m->eq, i).surface >= m->surfaces)
+            m->surfaces = equations_guard(m->eq, i).surface + 1;
+    if (m->reach == NULL)
+        m->reach = NEW_ARRAY(double, m->surfaces);
+}
+
 /* what goes with the equations of the leg */
 static void open_leg(March *m, const Leg *leg)
 {
@@ -190,6 +201,7 @@ static void open_leg(March *m, const Leg *leg)
     m->band = NEW_ARRAY(double, conditions);
     m->noise = NEW_ARRAY(double, conditions);
     m->mode = NEW_ARRAY(int, conditions);
+    open_surfaces(m);
     m->stepper = m->out->method->create(motion_ode(leg->motion), &m->control);
 }
 
@@ -212,10 +224,7 @@ static void add_corner(March *m, double t, const double *y)
         grid_add(m->plan->corners, t, m->leg.phase, y, m->length);
 }
 
-/* From here on other equations hold, with y for a state: where what events ask for changed it,
- * *changed. */
-static Status enter_leg(March *m, const Leg *leg, double t, const double *y, bool *changed,
-                        Diag *diag)
+Status march_enter(March *m, const Leg *leg, double t, const double *y, bool *changed, Diag *diag)
 {
     bool is_stiff = m->plan->method == NULL && m->out->method != &method_dop853;
     Status status = OK;
@@ -232,6 +241,26 @@ static Status enter_leg(March *m, const Leg *leg, double t, const double *y, boo
     *changed = false;
     if (events_count(m->ev) > 0)
         CHECK(march_resume_events(m, changed, diag));
+done:
+    return status;
+}
+
+/* the leg that goes on where the stepper stands: not the last one where that is on surfaces */
+static Status settle_surfaces(March *m, bool *entered, Diag *diag)
+{
+    bool changed = m->surfaces > 0;
+    Status status = OK;
+
+    for (int round = 0; changed && !m->is_over; round++) {
+        bool slides;
+
+        if (round == ROUNDS)
+            CHECK(solver_failure(diag, m->stepper->t,
+                                 "events and discontinuities set each other off"));
+        CHECK(march_slide(m, &slides, &changed, diag));
+        *entered = *entered || slides;
+        m->root = ROOT_ANY;
+    }
 done:
     return status;
 }
@@ -256,16 +285,23 @@ Status march_go_on(March *m, double t, const double *y, bool *entered, Diag *dia
             break;
         add_corner(m, t, m->y);
         *entered = true;
-        CHECK(enter_leg(m, &next, t, behind, &changed, diag));
+        mem_free(m->reach);
+        m->reach = NULL;
+        CHECK(march_enter(m, &next, t, behind, &changed, diag));
         memcpy(m->y, m->stepper->y, (size_t)m->length * sizeof(double));
     }
     motion_window(m->leg.motion, m->low, m->high);
+    m->stepper->t = t;
+    memcpy(m->stepper->y, m->y, (size_t)m->length * sizeof(double));
+    CHECK(settle_surfaces(m, entered, diag));
+    memcpy(m->y, m->stepper->y, (size_t)m->length * sizeof(double));
     CHECK(m->stepper->method->start(m->stepper, t, m->y, diag));
     m->is_taken_back = false;
     onset_forget(m->leg.onset);
     if (*entered)
         march_begin_modes(m);
 done:
+    m->root = ROOT_ANY;
     return status;
 }
 
@@ -334,10 +370,12 @@ static Status run(March *m, const double *start, Diag *diag)
     memcpy(m->y, start, (size_t)m->length * sizeof(double));
     CHECK(samples_take(m->leg.samples, plan->from, m->y, &due, diag));
     motion_partition(m->leg.motion, plan->from, m->y);
-    if (!plan->skip_first && !march_add_row(m, plan->from))
-        return solver_failure(diag, plan->from, "the start does not meet the constraints");
     memcpy(m->stepper->y, m->y, (size_t)m->length * sizeof(double));
     m->stepper->t = plan->from;
+    CHECK(settle_surfaces(m, &due, diag));
+    memcpy(m->y, m->stepper->y, (size_t)m->length * sizeof(double));
+    if (!plan->skip_first && !march_add_row(m, plan->from))
+        return solver_failure(diag, plan->from, "the start does not meet the constraints");
     if (events_count(m->ev) > 0)
         CHECK(march_begin_events(m, diag));
     CHECK(march_find_jumps(m, diag));
@@ -363,6 +401,7 @@ Status march(const MarchPlan *plan, const double *start, Grid *grid, MarchReport
                .high = INFINITY,
                .next_row = 1,
                .rows = grid_rows(plan->from, plan->to, plan->every),
+               .root = ROOT_ANY,
                .switched_since = -INFINITY};
     Status status;
 
@@ -376,5 +415,6 @@ Status march(const MarchPlan *plan, const double *start, Grid *grid, MarchReport
     out->counts = m.earlier;
     out->events = m.ev;
     LIST_FREE(m.jumps);
+    mem_free(m.reach);
     return status;
 }

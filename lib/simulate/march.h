@@ -38,10 +38,26 @@ typedef struct Leg {
 typedef Status (*Commute)(void *context, double t, double behind, double last, const double *y,
                           Leg *leg, const double **out, Diag *diag);
 
+/* A surface that the run stands on, or whose side it keeps. */
+typedef struct Meeting {
+    int surface;
+    int side; /* of it, that its sign has come to: the motion leaves it there; 0: not known */
+    bool far; /* it isn't on the surface but on that side */
+} Meeting;
+
+/* Which leg goes on from (t, y), on surfaces that its equations jump on: across them, off them or
+ * along them. `low` and `high` bound the time that rates see. Where it is another one, *entered, it
+ * goes into *leg. Fails where none goes on. */
+typedef Status (*Choose)(void *context, double t, double low, double high, const double *y,
+                         const Meeting *at, int count, Leg *leg, bool *entered, Diag *diag);
+
 typedef struct MarchPlan {
-    Leg leg;                  /* to begin with */
-    Commute commute;          /* NULL: it goes on to the end */
-    void *context;            /* of commute */
+    Leg leg;         /* to begin with */
+    Commute commute; /* NULL: it goes on to the end */
+    Choose choose;   /* where equations jump on surfaces */
+    void *context;   /* of both */
+    /* what a condition is about, for messages */
+    void (*tell)(void *context, const Leg *leg, int condition, Text *out);
     const Equations *in_time; /* whose conditions of t alone are those of all legs; NULL: leg's */
     const Method *method;     /* NULL: dop853 until it finds the problem stiff, then leg.stiff */
     Control control;

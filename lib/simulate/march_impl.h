@@ -10,6 +10,9 @@ typedef struct Jump {
     double before, behind;
 } Jump;
 
+/* what is known of surfaces where a run goes on */
+enum Root { ROOT_ANY = -1, ROOT_NONE = -2 };
+
 typedef struct March {
     const MarchPlan *plan;
     Leg leg;
@@ -31,6 +34,9 @@ typedef struct March {
     double *noise;                /* and anywhere: of margins */
     int next_row, rows;
     double scanned;        /* of the last step, up to here conditions are followed */
+    double *reach;         /* largest size of what is 0 on each surface of the leg, */
+    int surfaces;          /* so many */
+    int root;              /* condition whose surface is met; or one of Root */
     int switches;          /* close together */
     double switched_since; /* the first of them */
     bool is_over;          /* an event has ended the run */
@@ -50,6 +56,20 @@ MUST_USE Status march_cut(March *m, double t, Diag *diag);
 /* Start the stepper anew at (t, y): in another leg, where ideal switches go over to other sides
  * (*entered). */
 MUST_USE Status march_go_on(March *m, double t, const double *y, bool *entered, Diag *diag);
+
+/* From here on other equations hold, with y for a state; *changed: events gave it new values. */
+MUST_USE Status march_enter(March *m, const Leg *leg, double t, const double *y, bool *changed,
+                            Diag *diag);
+
+/* --- surfaces (march_slide.c) --- */
+
+/* The leg that goes on where the stepper stands, where that is on surfaces. */
+MUST_USE Status march_slide(March *m, bool *entered, bool *changed, Diag *diag);
+/* what is 0 on a surface is so, as far as rounding lets one tell */
+double march_on_surface(const March *m, int condition);
+/* conditions' modes on surfaces, and how large they get */
+void march_begin_surfaces(March *m);
+void march_reach(March *m);
 
 /* --- conditions of t alone (march_jumps.c) --- */
 

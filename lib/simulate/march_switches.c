@@ -9,6 +9,7 @@
 
 #define LOOKS       20000 /* at conditions that follow sources, in a run */
 #define POINTS      5     /* of a step, where they are looked at */
+#define SLIDING     40    /* likewise, where a force may leave its interval for a moment */
 #define ROUNDING    1e-13 /* of the largest margin: what rounding does to any */
 #define MOST_NOISE  1e-6  /* likewise: more than that is none */
 #define MOVES       3     /* that tell how far errors reach */
@@ -115,6 +116,7 @@ void march_begin_modes(March *m)
         m->band[i] = 0;
     }
     find_noise(m);
+    march_begin_surfaces(m);
 }
 
 /* whether condition i, as evaluated last, has left its mode; learns a mode not known yet */
@@ -136,10 +138,11 @@ static bool has_switched(March *m, int i)
 static int points_in(const March *m, double length)
 {
     double span = m->plan->to - m->plan->from;
+    int points = m->eq->slide_count > 0 ? SLIDING : POINTS;
 
     if (!m->eq->switches_follow_time && !events_follow_time(m->ev))
-        return POINTS;
-    return (int)fmax(POINTS, ceil(length / span * LOOKS));
+        return points;
+    return (int)fmax(points, ceil(length / span * LOOKS));
 }
 
 int march_find_switch(March *m, double *when)
@@ -258,6 +261,22 @@ static bool cross(March *m, int i, double value, double slope)
     return false;
 }
 
+static Status switches_endlessly(const March *m, int i, Diag *diag)
+{
+    Text what = {0};
+
+    if (m->plan->tell == NULL)
+        text_add(&what, "a condition in the equations");
+    else
+        m->plan->tell(m->plan->context, &m->leg, i, &what);
+    (void)diag_set(diag, E_SOLVER, "at t = %.9g s: %s switches to and fro without end",
+                   m->stepper->t, what.at);
+    diag_hint(diag, "a hysteresis, or a steep but continuous law such as tanh(x/0.001) in the "
+                    "place of sign(x), has a motion there");
+    text_free(&what);
+    return E_SOLVER;
+}
+
 Status march_check_pace(March *m, int i, Diag *diag)
 {
     double span = m->plan->to - m->plan->from;
@@ -270,12 +289,25 @@ Status march_check_pace(March *m, int i, Diag *diag)
         return OK;
     if (march_is_of_event(m, i))
         return events_are_stuck(m->ev, i - m->eq->switch_count, m->stepper->t, diag);
-    return solver_failure(diag, m->stepper->t,
-                          "a condition in the equations switches to and fro without end");
+    return switches_endlessly(m, i, diag);
+}
+
+/* Behind a surface that was crossed: whether the motion is led back to it. Where it couldn't be
+ * crossed that is for others to tell, too. */
+static bool is_led_back(March *m, int i, bool crossed)
+{
+    double value = 0, rate;
+
+    if (!crossed)
+        return true;
+    rate = march_condition_rate(m, i, &value);
+    return rate * value < 0;
 }
 
 Status march_meet_switch(March *m, int i, double when, Diag *diag)
 {
+    const Guard guard = equations_guard(m->eq, i);
+    bool on_surface = guard.side != 0 || guard.end != 0, crossed = false;
     double value = 0, slope = 0;
     bool is_told = is_margin(m, i), entered;
     Status status = OK;
@@ -284,13 +316,14 @@ Status march_meet_switch(March *m, int i, double when, Diag *diag)
     if (when > m->stepper->before) {
         CHECK(approach(m, i, when, &value, &slope, diag));
         CHECK(march_add_rows(m, diag));
-        if (slope * m->mode[i] < 0 && value * m->mode[i] > 0)
-            (void)cross(m, i, value, slope);
+        if (!on_surface && slope * m->mode[i] < 0 && value * m->mode[i] > 0)
+            crossed = cross(m, i, value, slope);
     }
     conditions_at(m, m->stepper->t);
     m->band[i] = fmax(10 * fabs(m->conditions[i]), fmax(1e-10 * m->largest[i], m->noise[i]));
     m->mode[i] = is_told ? 1 : -m->mode[i];
     CHECK(march_check_pace(m, i, diag));
+    m->root = on_surface || (guard.surface >= 0 && is_led_back(m, i, crossed)) ? i : ROOT_NONE;
     CHECK(march_go_on(m, m->stepper->t, m->stepper->y, &entered, diag));
     if (is_told && !entered)
         m->noise[i] = m->band[i] =

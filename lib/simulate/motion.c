@@ -2,13 +2,10 @@
  *
  * The matrix factored last is kept with the t and q it belongs to: a projection that ends
  * at q leaves it ready for the first evaluation there. */
-#include "simulate/motion.h"
+#include "simulate/motion_impl.h"
 
 #include "base/memory.h"
-#include "simulate/embed.h"
-#include "simulate/kkt.h"
 #include "simulate/linear.h"
-#include "simulate/netsolve.h"
 #include "simulate/rank.h"
 
 #include <math.h>
@@ -20,28 +17,6 @@
 #define SUSPECT           1e-2 /* pivot ratio of Phi_d above which no position is singular */
 #define WORN              0.1  /* of the rows' pivot ratio when they were chosen */
 #define POOR              1e-2 /* pivot ratio of rows that others may better */
-
-struct Motion {
-    const Equations *eq;
-    MotionOptions options;
-    int *rows, *wanted;
-    int used;              /* constraint rows in use */
-    double row_ratio;      /* their pivots when they were chosen; 0: not known yet */
-    bool is_repartitioned; /* since the last renewal */
-    Ode ode;
-    double low, high; /* time window of evaluations */
-    Kkt *kkt;
-    Embed *embed;
-    NetSolve *network;
-    bool is_evaluated, is_factored, is_embedded_factored; /* at t, q */
-    double t, *q, *near;                                  /* references of angles */
-    uint64_t sides;                                       /* of switches, likewise */
-    const double *solved;                                 /* [x'; z] */
-    double *solved_before;
-    double *top, *bottom, *du, *kept, *lambda, *lambda_all;
-    double *dae_weight, *row_size, *slack;
-    MotionCounts counts;
-};
 
 static bool choose_independent(Motion *mo);
 static bool rate(void *context, double t, const double *y, double *out);
@@ -66,7 +41,7 @@ static void describe_ode(Motion *mo)
                     .context = mo,
                     .rate = rate,
                     .cap = eq->cap};
-    if (mo->used > 0 || eq->quaternion_count > 0 || eq->turned_count > 0)
+    if (mo->used > 0 || eq->quaternion_count > 0 || eq->turned_count > 0 || eq->slide_count > 0)
         mo->ode.project = project;
     mo->slack = NEW_ARRAY(double, mo->ode.n);
     for (int k = 0; k < eq->turned_count; k++)
@@ -117,6 +92,8 @@ Motion *motion_new(const Equations *eq, const MotionOptions *options)
     mo->lambda_all = NEW_ARRAY(double, eq->m);
     mo->row_size = NEW_ARRAY(double, eq->m);
     mo->counts.singular_time = NAN;
+    if (eq->slide_count > 0)
+        motion_open_surfaces(mo);
     describe_ode(mo);
     return mo;
 }
@@ -130,6 +107,10 @@ void motion_free(Motion *mo)
     kkt_free(mo->kkt);
     embed_free(mo->embed);
     netsolve_free(mo->network);
+    signs_free(mo->signs);
+    mem_free(mo->slip);
+    mem_free(mo->off);
+    mem_free(mo->way);
     mem_free(mo->solved_before);
     mem_free(mo->q);
     mem_free(mo->near);
@@ -256,8 +237,8 @@ static bool factor_embedded(Motion *mo)
     return mo->is_embedded_factored;
 }
 
-/* everything but the solution for u': false where the network can't be solved */
-static bool evaluate(Motion *mo, double t, const double *y)
+/* what evaluate() does, with signs on surfaces as they are */
+bool motion_evaluate(Motion *mo, double t, const double *y)
 {
     const Equations *eq = mo->eq;
 
@@ -267,6 +248,13 @@ static bool evaluate(Motion *mo, double t, const double *y)
         return false;
     eq->network_solved(eq->context, mo->solved);
     return true;
+}
+
+/* everything but the solution for u': false where the network can't be solved, or no signs keep the
+ * motion on its surfaces */
+static bool evaluate(Motion *mo, double t, const double *y)
+{
+    return mo->signs != NULL ? motion_find_signs(mo, t, y) : motion_evaluate(mo, t, y);
 }
 
 const double *motion_network(Motion *mo, double t, const double *y)
@@ -396,7 +384,7 @@ static bool solve_plain(Motion *mo)
     return mo->eq->network_reads != NULL ? solve_together(mo) : solve_augmented(mo);
 }
 
-static bool solve_motion(Motion *mo)
+bool motion_solve_rates(Motion *mo)
 {
     if (mo->embed == NULL)
         return solve_plain(mo);
@@ -407,7 +395,7 @@ static bool rate(void *context, double t, const double *y, double *out)
 {
     Motion *mo = context;
 
-    if (!evaluate(mo, t, y) || !solve_motion(mo))
+    if (!evaluate(mo, t, y) || !motion_solve_rates(mo))
         return false;
     bring_power(mo, mo->du);
     write_rates(mo, out);
@@ -434,6 +422,7 @@ bool motion_solve(Motion *mo, double t, const double *y, Solved *out)
         return false;
     spread_multipliers(mo);
     *out = (Solved){.acceleration = mo->du,
+                    .signs = mo->signs != NULL ? signs_values(mo->signs) : NULL,
                     .multipliers = mo->lambda_all,
                     .rates = mo->solved,
                     .algebraic = mo->solved + mo->eq->nx};
@@ -567,6 +556,8 @@ bool motion_project(Motion *mo, double t, double *y)
         at_position(mo, t, y);
     else if (!project_position(mo, t, y) ||
              !project_velocity(mo, t, y, y + eq->n, y + eq->n + eq->nu))
+        return false;
+    if (mo->signs != NULL && !motion_project_surfaces(mo, t, y))
         return false;
     if (eq->turned_count > 0)
         memcpy(y + turned_place(eq), eq->turned, (size_t)eq->turned_count * sizeof(double));

@@ -16,6 +16,18 @@
 
 #include "simulate/ode.h"
 
+#include <stddef.h>
+
+typedef struct Solved Solved;
+
+/* What a condition of the equations watches. */
+typedef struct Guard {
+    int surface; /* that the equations jump on; -1: they bend at most */
+    int side;    /* of it, that they stay on; 0: they jump, or slide along it */
+    int end; /* of the interval of its sign that is left there: -1 or 1; 0: it isn't slid along */
+    bool solved; /* what is 0 on it is solved for with the jump: it is always stayed on a side of */
+} Guard;
+
 typedef struct Equations {
     int n, nu, m, nx, nz;
     int turned_count;      /* of a */
@@ -63,9 +75,21 @@ typedef struct Equations {
     bool (*margin_is_steep)(void *context, int k);
     bool switches_read_network; /* [x'; z] of the last network_solved() */
     bool switches_follow_time;  /* those that aren't of time alone hold t too */
+    const Guard *guards;        /* switch_count; NULL: they bend at most */
     void (*switches)(void *context, double t, const double *q, const double *u, const double *x,
                      double *out);
+    /* surfaces that the motion slides along: their signs are found such that slip is 0 */
+    int slide_count;
+    void (*slide)(void *context, const double *signs); /* before velocity() */
+    /* at a row that is solved: how fast each is left, and how far off it is (slide_count each) */
+    void (*slip)(void *context, double t, const double *y, const Solved *solved, double *slip,
+                 double *off);
 } Equations;
+
+static inline Guard equations_guard(const Equations *eq, int condition)
+{
+    return eq->guards != NULL ? eq->guards[condition] : (Guard){.surface = -1};
+}
 
 /* Put a onto the angles at (t, q). */
 void equations_turn(const Equations *equations, double t, const double *q, double *a);
@@ -90,18 +114,23 @@ const Ode *motion_ode(const Motion *motion);
 int motion_length(const Motion *motion); /* of y, work included */
 
 /* Solved at a row: all numbers there are. Borrowed, until the next call on the motion. */
-typedef struct Solved {
+struct Solved {
     const double *acceleration; /* nu: u' */
     const double *multipliers;  /* m: lambda, of minimum norm where rows are redundant */
     const double *rates;        /* nx: x' */
     const double *algebraic;    /* nz: z */
-} Solved;
+    const double *signs;        /* slide_count: of surfaces that are slid along */
+};
 /* [x'; z] at (t, y): borrowed, until the next call; what the last evaluation found is told again
  * where it was at that time. NULL: there is no solution. */
 const double *motion_network(Motion *motion, double t, const double *y);
 /* where the next search for x' and z begins: [x'; z] */
 void motion_guess(Motion *motion, const double *network);
 bool motion_solve(Motion *motion, double t, const double *y, Solved *out);
+
+/* Slip where the signs are given (slide_count each). */
+bool motion_slip(Motion *motion, double t, const double *y, const double *signs, double *slip,
+                 double *off);
 
 /* Position and velocity back onto the constraints, mass-orthogonally: at most 8 sweeps. */
 bool motion_project(Motion *motion, double t, double *y);

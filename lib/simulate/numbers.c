@@ -6,133 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-/* --- layout --- */
-
-static int append(Layout *layout, int *room, Expr symbol)
-{
-    if (layout->count == *room) {
-        *room = *room < 32 ? 64 : 2 * *room;
-        layout->symbols = mem_grow(layout->symbols, (size_t)*room, sizeof(Expr));
-    }
-    layout->symbols[layout->count] = symbol;
-    return layout->count++;
-}
-
-static Expr jerk_symbol(System *system, int i)
-{
-    Text name = {0};
-    Expr symbol;
-
-    text_addf(&name, "%s'", expr_name(system_acceleration(system, i)));
-    symbol = expr_symbol(system_arena(system), name.at, SYMBOL_JERK);
-    text_free(&name);
-    return symbol;
-}
-
-static void find_sides(Layout *l)
-{
-    int count = system_ideal_count(l->system);
-    bool any = false;
-
-    l->side = NEW_ARRAY(Expr, count);
-    for (int i = 0; i < count; i++) {
-        l->side[i] = system_side(l->system, i);
-        any = any || l->side[i] != NULL;
-    }
-    l->closed = NEW_ARRAY(bool, count);
-    l->switches = any ? count : 0;
-}
-
-void layout_take_sides(Layout *l, const bool *closed)
-{
-    bool changed = false;
-
-    for (int i = 0; i < l->switches; i++) {
-        changed = changed || (l->side[i] != NULL && l->closed[i] != closed[i]);
-        l->closed[i] = closed[i];
-    }
-    l->sides += changed;
-}
-
-Layout *layout_new(System *system)
-{
-    Layout *l = NEW(Layout);
-    int room = 0;
-
-    l->system = system;
-    l->n = system_n(system);
-    l->nu = system_nu(system);
-    l->m = system_m(system);
-    l->nx = system_nx(system);
-    l->nz = system_nz(system);
-    l->t = append(l, &room, expr_symbol(system_arena(system), "t", SYMBOL_TIME));
-    l->turned = system_turned_count(system);
-    l->near = l->count;
-    for (int i = 0; i < l->turned; i++)
-        (void)append(l, &room, system_turned(system, i)->near);
-    l->q = l->count;
-    for (int i = 0; i < l->n; i++)
-        (void)append(l, &room, system_q(system, i)->symbol);
-    l->u = l->count;
-    for (int i = 0; i < l->nu; i++)
-        (void)append(l, &room, system_u(system, i)->symbol);
-    l->x = l->count;
-    for (int i = 0; i < l->nx; i++)
-        (void)append(l, &room, system_x(system, i)->symbol);
-    l->rates = l->count;
-    for (int i = 0; i < l->nx; i++)
-        (void)append(l, &room, system_state_rate(system, i));
-    l->z = l->count;
-    for (int i = 0; i < l->nz; i++)
-        (void)append(l, &room, system_z(system, i)->symbol);
-    l->acceleration = l->count;
-    for (int i = 0; i < l->nu; i++)
-        (void)append(l, &room, system_acceleration(system, i));
-    l->multipliers = l->count;
-    for (int k = 0; k < l->m; k++)
-        (void)append(l, &room, system_multiplier(system, k));
-    l->efforts = l->count;
-    for (int k = 0; k < system_drive_count(system); k++) {
-        Expr effort = system_drive(system, k)->effort;
-
-        /* a driver's own effort is minus its multiplier, and no unknown of its own */
-        if (expr_kind(effort) == EXPR_SYMBOL && expr_symbol_kind(effort) == SYMBOL_EFFORT)
-            (void)append(l, &room, effort);
-    }
-    l->ne = l->count - l->efforts;
-    find_sides(l);
-    l->jerk = l->count;
-    for (int i = 0; i < l->nu; i++)
-        (void)append(l, &room, jerk_symbol(system, i));
-    return l;
-}
-
-void layout_free(Layout *layout)
-{
-    if (layout == NULL)
-        return;
-    mem_free(layout->symbols);
-    mem_free(layout->side);
-    mem_free(layout->closed);
-    mem_free(layout);
-}
-
-/* --- parameters --- */
-
-double parameters_value(Parameters *p, Expr symbol)
-{
-    for (int i = 0; i < p->count; i++)
-        if (p->symbols[i] == symbol)
-            return p->values[i];
-    if (p->count == p->room) {
-        p->room = p->room < 16 ? 32 : 2 * p->room;
-        p->symbols = mem_grow(p->symbols, (size_t)p->room, sizeof(Expr));
-        p->values = mem_grow(p->values, (size_t)p->room, sizeof(double));
-    }
-    p->symbols[p->count] = symbol;
-    p->values[p->count] = p->value != NULL ? p->value(p->context, symbol) : NAN;
-    return p->values[p->count++];
-}
+/* --- machines --- */
 
 /* A symbol that is a side of a switch in this layout: its number; -1: it is none */
 static int side_of(const Layout *layout, Expr symbol)
@@ -158,23 +32,6 @@ static void keep_parameters(const Layout *l, Parameters *p, const Expr *roots, i
         if (expr_symbol_kind(symbols[i]) == SYMBOL_PARAMETER && side_of(l, symbols[i]) < 0)
             (void)parameters_value(p, symbols[i]);
     mem_free(symbols);
-}
-
-double parameters_value_in(void *context, Expr symbol)
-{
-    return parameters_value(context, symbol);
-}
-
-double parameters_evaluate(Parameters *p, Expr e)
-{
-    return expr_evaluate(e, parameters_value_in, p);
-}
-
-void parameters_free(Parameters *p)
-{
-    mem_free(p->symbols);
-    mem_free(p->values);
-    *p = (Parameters){0};
 }
 
 /* A program over the layout and whatever parameters its roots hold, and its workspace. */
@@ -260,10 +117,14 @@ Status probe_new(const Layout *layout, Parameters *parameters, const Expr *roots
                  Probe **out, Diag *diag)
 {
     Probe *probe = NEW(Probe);
+    Expr *put = NEW_ARRAY(Expr, count);
     Status status;
 
+    for (int i = 0; i < count; i++)
+        put[i] = layout_on_surfaces(layout, roots[i]);
     probe->layout = layout;
-    status = compile(layout, parameters, roots, count, &probe->machine, diag);
+    status = compile(layout, parameters, put, count, &probe->machine, diag);
+    mem_free(put);
     if (status == OK)
         *out = probe;
     else
@@ -322,6 +183,7 @@ bool row_solve(const Layout *l, Motion *motion, double t, const double *y, RowVa
     out->z = solved.algebraic;
     out->acceleration = solved.acceleration;
     out->multipliers = solved.multipliers;
+    out->signs = solved.signs;
     return true;
 }
 
@@ -332,6 +194,7 @@ static void put_row(const Layout *l, const RowValues *row, double *inputs)
     put(inputs, l->q, row->q, l->n);
     put(inputs, l->u, row->u, l->nu);
     put(inputs, l->x, row->x, l->nx);
+    put(inputs, l->signs, row->signs, l->slides);
     put(inputs, l->rates, row->rates, l->nx);
     put(inputs, l->z, row->z, l->nz);
     put(inputs, l->acceleration, row->acceleration, l->nu);
@@ -367,6 +230,9 @@ struct Numbers {
     Equations eq;
     const Layout *layout;
     Machine main, switching, network;
+    Probe *slip;   /* of surfaces that are slid along: h', or what of it they reach, and h */
+    Guard *guards; /* of the conditions, */
+    Expr *told;    /* which are these for a user; NULL: margins */
     int *quaternions, *network_places;
     LIST(int) margins;   /* whose they are, of the switches */
     bool is_network_new; /* network_workspace has seen t, q, u, x as they are */
@@ -399,6 +265,31 @@ static void velocity(void *context, const double *u, const double *x)
     put(inputs, nb->layout->x, x, nb->layout->nx);
     workspace_run(nb->main.workspace, STAGE_VELOCITY, STAGE_VELOCITY);
     nb->is_network_new = true;
+}
+
+static void slide(void *context, const double *signs)
+{
+    Numbers *nb = context;
+
+    put(machine_inputs(&nb->main), nb->layout->signs, signs, nb->layout->slides);
+}
+
+static void slip(void *context, double t, const double *y, const Solved *solved, double *slip,
+                 double *off)
+{
+    const Numbers *nb = context;
+    const Layout *l = nb->layout;
+    RowValues row = row_of_state(l, t, y);
+    const double *values;
+
+    row.signs = solved->signs;
+    row.rates = solved->rates;
+    row.z = solved->algebraic;
+    row.acceleration = solved->acceleration;
+    row.multipliers = solved->multipliers;
+    values = probe_values(nb->slip, &row);
+    memcpy(slip, values, (size_t)l->slides * sizeof(double));
+    memcpy(off, values + l->slides, (size_t)l->slides * sizeof(double));
 }
 
 static void copy_inputs(Numbers *nb, int first, int count)
@@ -462,6 +353,8 @@ static void switches(void *context, double t, const double *q, const double *u, 
     put(inputs, nb->layout->q, q, nb->layout->n);
     put(inputs, nb->layout->u, u, nb->layout->nu);
     put(inputs, nb->layout->x, x, nb->layout->nx);
+    put(inputs, nb->layout->signs, machine_inputs(&nb->main) + nb->layout->signs,
+        nb->layout->slides);
     if (nb->eq.switches_read_network)
         memcpy(inputs + nb->layout->rates, machine_inputs(&nb->main) + nb->layout->rates,
                (size_t)(nb->layout->nx + nb->layout->nz) * sizeof(double));
@@ -507,6 +400,16 @@ static int block(Roots *roots, const Expr *entries, int count)
     return first;
 }
 
+/* the same on the sides of the layout's surfaces */
+static int block_on(const Layout *l, Roots *roots, const Expr *entries, int count)
+{
+    int first = roots->count;
+
+    for (int i = 0; i < count; i++)
+        LIST_PUSH(*roots, layout_on_surfaces(l, entries[i]));
+    return first;
+}
+
 static bool is_identity(System *system)
 {
     int n = system_n(system), nu = system_nu(system);
@@ -532,7 +435,7 @@ static Stage network_shape(Numbers *nb)
     for (int i = 0; i < r->network_entries; i++) {
         nb->network_places[i] = r->network[i].row;
         nb->network_places[r->network_entries + i] = r->network[i].column;
-        if (stage_of(r->network[i].value) > STAGE_PARAMETER)
+        if (stage_of(layout_on_surfaces(nb->layout, r->network[i].value)) > STAGE_PARAMETER)
             nb->eq.network_is_constant = false;
         if (stage_of(r->network[i].value) > stage)
             stage = stage_of(r->network[i].value);
@@ -543,12 +446,13 @@ static Stage network_shape(Numbers *nb)
     return stage;
 }
 
-static int network_block(Roots *roots, const Reading *r)
+static int network_block(const Layout *l, Roots *roots)
 {
+    const Reading *r = system_run(l->system);
     int first = roots->count;
 
     for (int i = 0; i < r->network_entries; i++)
-        LIST_PUSH(*roots, r->network[i].value);
+        LIST_PUSH(*roots, layout_on_surfaces(l, r->network[i].value));
     return first;
 }
 
@@ -558,8 +462,8 @@ static Status compile_network(Numbers *nb, Parameters *parameters, Diag *diag)
     const Layout *l = nb->layout;
     const Reading *r = system_run(l->system);
     Roots roots = {0};
-    int network = network_block(&roots, r);
-    int residual = block(&roots, r->network_residual, l->nx + l->nz);
+    int network = network_block(l, &roots);
+    int residual = block_on(l, &roots, r->network_residual, l->nx + l->nz);
     Status status = OK;
 
     keep_parameters(l, parameters, roots.at, roots.count);
@@ -585,12 +489,12 @@ static Status compile_equations(Numbers *nb, Parameters *parameters, Diag *diag)
     int phi_u = block(&roots, r->phi_u, l->m * l->nu);
     int mass = block(&roots, r->mass, l->nu * l->nu);
     int nu_rate = block(&roots, r->nu, l->m);
-    int gamma = block(&roots, r->gamma, l->m);
+    int gamma = block_on(l, &roots, r->gamma, l->m);
     int q_rate = block(&roots, r->q_rate, l->n);
-    int network = iterates ? 0 : network_block(&roots, r);
-    int rhs = block(&roots, r->network_rhs, iterates ? 0 : l->nx + l->nz);
-    int force = block(&roots, r->force, l->nu);
-    int work = block(&roots, &power, 1);
+    int network = iterates ? 0 : network_block(l, &roots);
+    int rhs = block_on(l, &roots, r->network_rhs, iterates ? 0 : l->nx + l->nz);
+    int force = block_on(l, &roots, r->force, l->nu);
+    int work = block_on(l, &roots, &power, 1);
     int angles = roots.count;
     int map = roots.count + 2 * l->turned;
     const double *at;
@@ -640,7 +544,7 @@ static Status add_margins(Numbers *nb, Roots *roots, Diag *diag)
         if (stage == STAGE_PARAMETER || stage > STAGE_NETWORK)
             continue;
         nb->eq.switches_read_network = nb->eq.switches_read_network || stage == STAGE_NETWORK;
-        LIST_PUSH(*roots, ideal.margin);
+        LIST_PUSH(*roots, layout_on_surfaces(nb->layout, ideal.margin));
         LIST_PUSH(nb->margins, i);
         nb->eq.margin_count++;
     }
@@ -648,47 +552,165 @@ done:
     return status;
 }
 
-bool layout_follows_time(const Layout *l, const Expr *roots, int count)
-{
-    const Reading *run = system_run(l->system);
-    const unsigned solved = 1U << SYMBOL_ALGEBRAIC | 1U << SYMBOL_STATE_RATE;
-    unsigned kinds = 0;
+typedef struct Conditions {
+    Roots roots;
+    Roots told;
+    LIST(Guard) guards;
+} Conditions;
 
-    for (int i = 0; i < count; i++)
-        kinds |= expr_kinds(roots[i]);
-    if ((kinds & solved) != 0)
-        for (int i = 0; i < l->nx + l->nz; i++)
-            kinds |= expr_kinds(run->network_residual[i]);
-    return (kinds & 1U << SYMBOL_TIME) != 0;
+static void push_condition(Numbers *nb, Conditions *c, Expr condition, Guard guard)
+{
+    Stage stage = stage_of(condition);
+
+    if (stage == STAGE_PARAMETER || stage > STAGE_NETWORK)
+        return;
+    nb->eq.switches_read_network = nb->eq.switches_read_network || stage == STAGE_NETWORK;
+    guard.solved = guard.surface >= 0 && stage == STAGE_NETWORK;
+    LIST_PUSH(c->roots, condition);
+    LIST_PUSH(c->told,
+              guard.surface >= 0 ? system_surface(nb->layout->system, guard.surface) : condition);
+    LIST_PUSH(c->guards, guard);
+}
+
+/* what watches a surface that the equations stay on: whether its sign leaves -1 .. 1; or its side
+ */
+static void push_surface(Numbers *nb, Conditions *c, int number, const Surface *surface)
+{
+    Arena *arena = system_arena(nb->layout->system);
+
+    if (surface->side != 0) {
+        push_condition(nb, c, surface->measure, (Guard){number, .side = surface->side});
+        return;
+    }
+    nb->eq.switches_read_network = true; /* with which signs are found */
+    push_condition(nb, c, expr_sub(arena, expr_int(arena, 1), surface->sign),
+                   (Guard){number, .end = 1});
+    push_condition(nb, c, expr_add(arena, expr_int(arena, 1), surface->sign),
+                   (Guard){number, .end = -1});
+}
+
+/* the entry of the layout's surfaces; NULL: it is none of them */
+static const Surface *find_surface(const Layout *l, Expr condition)
+{
+    int way;
+    Expr surface =
+        l->surface_count > 0 ? surface_of(system_arena(l->system), condition, &way) : NULL;
+
+    for (int i = 0; i < l->surface_count; i++)
+        if (l->surfaces[i].condition == surface)
+            return &l->surfaces[i];
+    return NULL;
+}
+
+static bool is_watched(const Conditions *c, int surface)
+{
+    for (int i = 0; i < c->guards.count; i++)
+        if (surface >= 0 && c->guards.at[i].surface == surface)
+            return true;
+    return false;
 }
 
 /* conditions that can be looked at before the accelerations are known */
-static Status compile_switches(Numbers *nb, Parameters *parameters, Diag *diag)
+static void push_conditions(Numbers *nb, Conditions *c)
 {
-    const Expr *conditions;
+    const Layout *l = nb->layout;
+    const Switch *switches;
     int time_only = 0;
-    int count = system_switches(nb->layout->system, &conditions, &time_only);
-    Roots roots = {0};
-    Status status = OK;
+    int count = system_switches(l->system, &switches, &time_only);
 
     for (int i = 0; i < count; i++) {
-        Stage stage = stage_of(conditions[i]);
+        int number = switches[i].surface;
+        const Surface *on = i < time_only ? NULL : find_surface(l, switches[i].condition);
+        int before = c->roots.count;
 
-        if (stage == STAGE_PARAMETER || stage > STAGE_NETWORK)
+        if (is_watched(c, number))
             continue;
-        nb->eq.switches_read_network = nb->eq.switches_read_network || stage == STAGE_NETWORK;
-        LIST_PUSH(roots, conditions[i]);
-        nb->eq.time_only += i < time_only;
+        if (number >= 0 && on != NULL)
+            push_surface(nb, c, number, on);
+        else if (number >= 0)
+            push_condition(nb, c, layout_on_surfaces(l, system_surface(l->system, number)),
+                           (Guard){.surface = number});
+        else if (on == NULL) /* else its bend lies on a surface that is watched */
+            push_condition(nb, c, layout_on_surfaces(l, switches[i].condition),
+                           (Guard){.surface = -1});
+        nb->eq.time_only += i < time_only ? c->roots.count - before : 0;
     }
-    CHECK(add_margins(nb, &roots, diag));
-    nb->eq.switch_count = roots.count;
+}
+
+static Status compile_switches(Numbers *nb, Parameters *parameters, Diag *diag)
+{
+    Conditions c = {0};
+    Status status = OK;
+
+    push_conditions(nb, &c);
+    CHECK(add_margins(nb, &c.roots, diag));
+    while (c.guards.count < c.roots.count)
+        LIST_PUSH(c.guards, (Guard){.surface = -1});
+    while (c.told.count < c.roots.count)
+        LIST_PUSH(c.told, NULL);
+    nb->eq.switch_count = c.roots.count;
     nb->eq.switches_follow_time =
-        roots.at != NULL && layout_follows_time(nb->layout, roots.at + nb->eq.time_only,
-                                                roots.count - nb->eq.time_only);
-    if (roots.count > 0)
-        CHECK(compile(nb->layout, parameters, roots.at, roots.count, &nb->switching, diag));
+        c.roots.at != NULL && layout_follows_time(nb->layout, c.roots.at + nb->eq.time_only,
+                                                  c.roots.count - nb->eq.time_only);
+    if (c.roots.count > 0)
+        CHECK(compile(nb->layout, parameters, c.roots.at, c.roots.count, &nb->switching, diag));
+    nb->eq.guards = nb->guards = c.guards.at;
+    c.guards.at = NULL;
+    nb->told = c.told.at;
+    c.told.at = NULL;
+done:
+    LIST_FREE(c.told);
+    LIST_FREE(c.roots);
+    LIST_FREE(c.guards);
+    return status;
+}
+
+/* How a surface is left: by h where signs reach that, else h', else h''; and what has to be 0
+ * beside it. */
+static Status slip_of(const Layout *l, Expr h, Expr *slip, Expr *off, Diag *diag)
+{
+    const unsigned solved = 1U << SYMBOL_ALGEBRAIC | 1U << SYMBOL_STATE_RATE;
+    const unsigned reached = solved | 1U << SYMBOL_ACCELERATION;
+    Status status = OK;
+
+    *slip = h;
+    *off = expr_int(system_arena(l->system), 0);
+    if ((expr_kinds(h) & solved) != 0)
+        return OK;
+    *off = h;
+    CHECK(system_rate(l->system, h, slip, diag));
+    if ((expr_kinds(*slip) & reached) != 0)
+        return OK;
+    *off = *slip;
+    CHECK(system_rate(l->system, *off, slip, diag));
+done:
+    return status;
+}
+
+static Status compile_slip(Numbers *nb, Parameters *parameters, Diag *diag)
+{
+    const Layout *l = nb->layout;
+    Roots roots = {0};
+    Roots off = {0};
+    Status status = OK;
+
+    nb->eq.slide_count = l->slides;
+    if (l->slides == 0)
+        return OK;
+    nb->eq.slide = slide;
+    nb->eq.slip = slip;
+    for (int i = 0; i < l->slides; i++) {
+        Expr both[2];
+
+        CHECK(slip_of(l, l->surfaces[i].measure, &both[0], &both[1], diag));
+        LIST_PUSH(roots, both[0]);
+        LIST_PUSH(off, both[1]);
+    }
+    (void)block(&roots, off.at, off.count);
+    CHECK(probe_new(l, parameters, roots.at, roots.count, &nb->slip, diag));
 done:
     LIST_FREE(roots);
+    LIST_FREE(off);
     return status;
 }
 
@@ -729,6 +751,7 @@ Status numbers_new(const Layout *layout, Parameters *parameters, Numbers **out, 
     nb->eq.quaternion_count = count;
     CHECK(compile_equations(nb, parameters, diag));
     CHECK(compile_switches(nb, parameters, diag));
+    CHECK(compile_slip(nb, parameters, diag));
     *out = nb;
     nb = NULL;
 done:
@@ -747,10 +770,18 @@ void numbers_free(Numbers *nb)
     mem_free(nb->quaternions);
     mem_free(nb->network_places);
     mem_free(nb->cap);
+    probe_free(nb->slip);
+    mem_free(nb->guards);
+    mem_free(nb->told);
     mem_free(nb);
 }
 
 const Equations *numbers_equations(const Numbers *nb)
 {
     return &nb->eq;
+}
+
+Expr numbers_condition(const Numbers *nb, int i)
+{
+    return nb->told[i];
 }

@@ -1,12 +1,14 @@
 /* numbers.h: a System's expressions in numbers: programs, and where their inputs stand
  *
  * A Layout fixes the order of inputs for all programs over one system: t, references of angles that
- * count turns, q, u, x, x', z, u', lambda, efforts, u''; a program's parameters come behind these.
- * Numbers is the reading to run as Equations; a Probe computes any other expressions at a row. */
+ * count turns, q, u, x, signs on surfaces, x', z, u', lambda, efforts, u''; a program's parameters
+ * come behind these. Numbers is the reading to run as Equations; a Probe computes any other
+ * expressions at a row. Both are on the layout's sides of its surfaces (formulate/surfaces.h). */
 #ifndef COTREE_SIMULATE_NUMBERS_H
 #define COTREE_SIMULATE_NUMBERS_H
 
 #include "compile/program.h"
+#include "formulate/surfaces.h"
 #include "formulate/system.h"
 #include "simulate/motion.h"
 #include "simulate/run.h"
@@ -17,10 +19,12 @@ typedef struct Layout {
     bool *closed; /* one a switch: that side */
     int switches;
     uint64_t sides; /* counts changes of them: what was computed with others is outdated */
-    int n, nu, m, nx, nz, ne, turned;
-    int t, near, q, u, x, rates, z, acceleration, multipliers, efforts, jerk; /* first of each */
+    int n, nu, m, nx, nz, ne, turned, slides;
+    int t, near, q, u, x, signs, rates, z, acceleration, multipliers, efforts, jerk; /* first */
     int count;
     Expr *symbols; /* count */
+    Surface *surfaces;
+    int surface_count; /* those that it slides along come first: `slides` of them */
 } Layout;
 
 /* y of a run is q, u, x, references, work */
@@ -30,6 +34,13 @@ static inline int layout_turned(const Layout *l) /* place of the first reference
 }
 
 Layout *layout_new(System *system); /* new; free with layout_free(). Symbols of u'' are made. */
+/* The same on sides of some of the system's surfaces, by number: -1 or 1; 0: it slides along. */
+typedef struct OnSurface {
+    int surface, side;
+} OnSurface;
+Layout *layout_new_on(System *system, const OnSurface *on, int count);
+/* e on the sides of the layout's surfaces */
+Expr layout_on_surfaces(const Layout *layout, Expr e);
 void layout_free(Layout *layout);
 /* Sides of switches that are numbers, from now on in all programs over the layout; one a switch. */
 void layout_take_sides(Layout *layout, const bool *closed);
@@ -56,7 +67,8 @@ double parameters_value_in(void *parameters, Expr symbol);
 /* what a row knows; arrays may be NULL for 0 */
 typedef struct RowValues {
     double t;
-    const double *near, *q, *u, *x, *rates, *z, *acceleration, *multipliers, *efforts, *jerk;
+    const double *near, *q, *u, *x, *signs, *rates, *z, *acceleration, *multipliers, *efforts,
+        *jerk;
 } RowValues;
 
 /* t, and what y holds */
@@ -87,5 +99,8 @@ MUST_USE Status numbers_new(const Layout *layout, Parameters *parameters, Number
                             Diag *diag);
 void numbers_free(Numbers *numbers); /* NULL is fine */
 const Equations *numbers_equations(const Numbers *numbers);
+/* what condition i of the equations compares with 0; NULL: it is whether a diode stays on its side
+ */
+Expr numbers_condition(const Numbers *numbers, int i);
 
 #endif

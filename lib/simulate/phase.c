@@ -18,14 +18,24 @@ static bool *copy_sides(const bool *closed, int count)
 Status phase_new(System *system, Parameters *parameters, const bool *closed, int count, Phase **out,
                  Diag *diag)
 {
+    return phase_new_on(system, parameters, closed, count, NULL, 0, out, diag);
+}
+
+Status phase_new_on(System *system, Parameters *parameters, const bool *closed, int count,
+                    const OnSurface *on, int on_count, Phase **out, Diag *diag)
+{
     Phase *phase = NEW(Phase);
     Status status = OK;
 
     phase->system = system;
-    phase->layout = layout_new(system);
+    phase->layout = layout_new_on(system, on, on_count);
     phase->like = phase;
     if (closed != NULL)
         phase->closed = copy_sides(closed, count);
+    phase->on = NEW_ARRAY(OnSurface, on_count);
+    for (int i = 0; i < on_count; i++)
+        phase->on[i] = on[i];
+    phase->on_count = on_count;
     phase_enter(phase);
     CHECK(numbers_new(phase->layout, parameters, &phase->numbers, diag));
     *out = phase;
@@ -56,7 +66,8 @@ Status phase_open(Phase *phase, Parameters *parameters, const MotionOptions *opt
 
     phase->motion = motion_new(numbers_equations(phase->numbers), options);
     phase->length = motion_length(phase->motion);
-    phase->network = netdae_new(phase->layout, parameters, phase->motion);
+    if (phase->on_count == 0)
+        phase->network = netdae_new(phase->layout, parameters, phase->motion);
     if (phase->network != NULL)
         motion_offer(phase->motion, netdae_equations(phase->network));
     CHECK(samples_new(phase->layout, parameters, phase->motion, &phase->samples, diag));
@@ -86,6 +97,7 @@ void phase_free(Phase *phase)
     motion_free(phase->motion);
     numbers_free(phase->numbers);
     layout_free(phase->layout);
+    mem_free(phase->on);
     mem_free(phase);
 }
 

@@ -19,6 +19,8 @@ struct Phase {
     System *system; /* borrowed */
     bool *closed;   /* sides of its switches; NULL: it is in no mode */
     Phase *like;    /* that it shares all below with, and which owns it; itself */
+    OnSurface *on;  /* surfaces whose sides it stays on, or along which it slides */
+    int on_count;
     Layout *layout;
     Numbers *numbers;
     Motion *motion;  /* NULL, with all that follows, until phase_open() */
@@ -36,6 +38,9 @@ struct Phase {
  * `count` sides; NULL: in no mode. */
 MUST_USE Status phase_new(System *system, Parameters *parameters, const bool *closed, int count,
                           Phase **out, Diag *diag);
+/* The same on sides of surfaces that its equations jump on. */
+MUST_USE Status phase_new_on(System *system, Parameters *parameters, const bool *closed, int count,
+                             const OnSurface *on, int on_count, Phase **out, Diag *diag);
 /* New: the mode of `closed` with the equations of another phase, which outlives it. */
 Phase *phase_new_like(Phase *other, const bool *closed, int count);
 /* Its switches are on their sides in the equations that it may share with others. */

@@ -247,9 +247,15 @@ static Status copy_phases(Result *r, const Result *old, const Setting *setting, 
     Status status = OK;
 
     if (r->sides == NULL)
-        return result_open_phase(r, result_whole(r), setting, diag);
-    for (int i = 1; i < old->phases.count; i++)
-        CHECK(commute_phase(r, setting, old->phases.at[i]->closed, &phase, diag));
+        CHECK(result_open_phase(r, result_whole(r), setting, diag));
+    for (int i = 1; i < old->phases.count; i++) {
+        const Phase *like = old->phases.at[i];
+
+        if (like->on_count > 0)
+            CHECK(commute_phase_on(r, setting, like, like->on, like->on_count, &phase, diag));
+        else
+            CHECK(commute_phase(r, setting, like->closed, &phase, diag));
+    }
 done:
     return status;
 }

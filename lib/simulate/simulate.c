@@ -4,6 +4,7 @@
 #include "base/memory.h"
 #include "simulate/commute.h"
 #include "simulate/inverse.h"
+#include "simulate/slide.h"
 
 #include <math.h>
 #include <string.h>
@@ -117,11 +118,13 @@ static Status march_phases(Result *r, const Setting *setting, const MarchPlan *p
     MarchPlan through = *plan;
     Status status;
 
+    through.choose = slide_choose;
+    through.tell = slide_tell;
+    through.context = &commuting;
+    through.corners = corners;
     if (r->sides != NULL) {
         through.commute = commute;
-        through.context = &commuting;
         through.in_time = numbers_equations(result_whole(r)->numbers);
-        through.corners = corners;
     }
     status = march(&through, r->begin, grid, out, diag);
     commuting_free(&commuting);

@@ -12,3 +12,6 @@ family_linear_LDADD = $(unit_ldadd)
 FAMILIES += family_diodes
 family_diodes_SOURCES = tests/family/family_diodes.c
 family_diodes_LDADD = libcotree.la $(unit_ldadd)
+FAMILIES += family_sliding
+family_sliding_SOURCES = tests/family/family_sliding.c
+family_sliding_LDADD = libcotree.la $(unit_ldadd)

@@ -14,7 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static int test_passed, test_failed, test_skipped, test_faults;
+__attribute__((unused)) static int test_passed, test_failed, test_skipped, test_faults;
 
 /* run one claim */
 #define RUN(claim)                                                                                 \

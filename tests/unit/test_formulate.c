@@ -472,13 +472,13 @@ static void switching_conditions_of_time_come_first(void)
         scene_new("scene planar\nbody m1 mass=1 inertia=1\nprismatic s1 ground m1 axis=x\n"
                   "actuator a1 s1 force=if(s1 > 1, 2, 3) + step(t - 4) + abs(s1')");
     System *system = scene_system(model);
-    const Expr *conditions = NULL;
+    const Switch *conditions = NULL;
     int of_time = 0;
 
     EXPECT(system_switches(system, &conditions, &of_time) == 3);
     EXPECT(of_time == 1);
-    EXPECT(conditions != NULL &&
-           identical(model_arena(model), conditions[0], scene_expression(model, system, "t - 4")));
+    EXPECT(conditions != NULL && identical(model_arena(model), conditions[0].condition,
+                                           scene_expression(model, system, "t - 4")));
     system_free(system);
     model_free(model);
 }
