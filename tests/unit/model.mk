@@ -15,3 +15,7 @@ UNIT_TESTS += test_model_history
 test_model_history_SOURCES = tests/unit/test_model_history.c tests/unit/test_model.h \
 	tests/unit/test.h
 test_model_history_LDADD = $(unit_ldadd)
+
+UNIT_TESTS += test_units_rows
+test_units_rows_SOURCES = tests/unit/test_units_rows.c tests/unit/test_model.h tests/unit/test.h
+test_units_rows_LDADD = $(unit_ldadd)
