@@ -11,7 +11,7 @@
 enum {
     SECOND = 2, /* places of Dimension.power */
     ANGLE = 5,
-    MOST_NESTED = 60, /* laws in one another; what lies deeper isn't looked into */
+    DEEPEST = 4000,  /* levels of laws in one another; what lies deeper isn't looked into */
     MOST_LAWS = 5000 /* bodies that one statement looks into: laws may call each other twice over */
 };
 
@@ -205,13 +205,14 @@ typedef struct LawMeasure { /* of a law, for arguments of these measures */
 typedef struct Known {
     Pool *pool; /* of `given`; NULL until a law was met */
     LIST(LawMeasure) laws;
+    const char *guilty; /* the law that a fault stands in; NULL */
 } Known;
 
 typedef struct Walk {
     const Scope *scope;
     const Definition *law; /* that is looked into; NULL: the scope's own text */
     const Measure *given;  /* of its arguments */
-    int depth;
+    int depth;             /* levels of syntax trees above */
     Known *known;
     Diag *diag;
 } Walk;
@@ -468,21 +469,22 @@ static const LawMeasure *find_law(const Known *known, int law, const Measure *gi
     return NULL;
 }
 
-/* What is wrong inside is said at the call. */
+/* What is wrong inside is said at the call, of the law that it stands in. */
 static Status by_law(const Walk *w, const Syntax *call, int index, const Measure *args,
                      Measure *out)
 {
     const Definition *law = &w->scope->state->definitions.at[index];
     Diag fault = {0};
-    Walk inside = {w->scope, law, NULL, w->depth + 1, w->known, &fault};
+    Walk inside = {w->scope, law, NULL, 0, w->known, w->law == NULL ? &fault : w->diag};
     const LawMeasure *kept;
     Measure *given;
     Status status;
 
     *out = any;
-    if (law->kind != DEFINES_LAW || call->count != law->argument_count || w->depth >= MOST_NESTED ||
-        w->known->laws.count >= MOST_LAWS)
+    if (law->kind != DEFINES_LAW || call->count != law->argument_count ||
+        w->depth + law->syntax->height > DEEPEST || w->known->laws.count >= MOST_LAWS)
         return OK;
+    inside.depth = w->depth + law->syntax->height;
     kept = find_law(w->known, index, args, call->count);
     if (kept != NULL) {
         *out = kept->measure;
@@ -498,8 +500,12 @@ static Status by_law(const Walk *w, const Syntax *call, int index, const Measure
         LIST_PUSH(w->known->laws, (LawMeasure){index, given, *out});
         return OK;
     }
-    (void)diag_at(w->diag, status, call->place, "in %s: %s", call->text, fault.message);
-    diag_hint(w->diag, "%s", fault.hint);
+    if (w->known->guilty == NULL)
+        w->known->guilty = law->name;
+    if (w->law == NULL) {
+        (void)diag_at(w->diag, status, call->place, "in %s: %s", w->known->guilty, fault.message);
+        diag_hint(w->diag, "%s", fault.hint);
+    }
     return status;
 }
 
