@@ -155,8 +155,12 @@ Suggest suggest_for(const char *word)
 void suggest_offer(Suggest *suggest, const char *candidate)
 {
     int length = (int)strlen(suggest->word);
-    int limit = length <= 2 ? 1 : length <= 6 ? 2 : 3;
+    int limit = length <= 3 ? 1 : length <= 6 ? 2 : 3;
     int distance = text_distance(suggest->word, candidate, limit);
+
+    /* its beginning is the likeliest of slips */
+    if (length > 1 && distance > 1 && strncmp(suggest->word, candidate, (size_t)length) == 0)
+        distance = 1;
 
     /* a short word that shares no letter is no likely slip */
     if (distance >= (int)strlen(candidate) || distance >= length + (length == 1))

@@ -11,6 +11,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #define PI 3.14159265358979323846
 
@@ -339,14 +340,21 @@ bool unit_parse(const char *text, size_t length, Unit *unit, size_t *fault)
     return false;
 }
 
+const char *unit_spelled(const char *name)
+{
+    for (int i = 0; i < COUNT(meant); i++)
+        if (strcmp(meant[i].word, name) == 0 ||
+            (strlen(name) > 3 && strcasecmp(meant[i].word, name) == 0))
+            return meant[i].unit;
+    return NULL;
+}
+
 const char *unit_suggest(const char *name)
 {
     Suggest suggest = suggest_for(name);
 
-    for (int i = 0; i < COUNT(meant); i++) {
-        if (strcmp(meant[i].word, name) == 0)
-            return meant[i].unit;
-    }
+    if (unit_spelled(name) != NULL)
+        return unit_spelled(name);
     for (int i = 0; i < COUNT(rows); i++)
         suggest_offer(&suggest, rows[i].name);
     for (int i = 0; i < COUNT(common); i++)

@@ -27,6 +27,8 @@ bool unit_find(const char *name, Unit *unit);
 /* A compound unit, the text between brackets: kN/m, m/s^2, 1/s. On failure *fault is the
  * offset of the part that isn't understood. */
 bool unit_parse(const char *text, size_t length, Unit *unit, size_t *fault);
+/* the unit that a word such as "sec" or "volts" stands for, or NULL */
+const char *unit_spelled(const char *name);
 /* what was probably meant by an unknown unit name, or NULL */
 const char *unit_suggest(const char *name);
 bool dimension_same(Dimension a, Dimension b);

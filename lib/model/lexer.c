@@ -5,6 +5,7 @@
  * swallow a script. */
 #include "model/lexer.h"
 
+#include <ctype.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -167,6 +168,10 @@ static Status strange_character(const Lexer *lexer, Diag *diag)
     for (int i = 0; length > 1 && i < COUNT(lookalikes); i++)
         if (strncmp(c, lookalikes[i].text, length) == 0)
             diag_hint(diag, "write %s", lookalikes[i].meant);
+    if (*c == '%' && lexer->at > 0 && isdigit((unsigned char)c[-1])) {
+        diag_hint(diag, "a part of a hundred is written /100");
+        return E_SYNTAX;
+    }
     for (int i = 0; length == 1 && i < COUNT(meant); i++)
         if (*c == meant[i].c)
             diag_hint(diag, "%s", meant[i].hint);

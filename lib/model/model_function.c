@@ -1,5 +1,6 @@
 /* model_function.c: calls: functions of the table, pulses and polygons, laws, entries of what is
  * shown, figures of a run */
+#include "model/habits.h"
 #include "model/model_impl.h"
 
 #include <ctype.h>
@@ -332,9 +333,18 @@ static Status call_unknown(const State *state, const Syntax *syntax, Diag *diag)
         if (state->definitions.at[i].kind == DEFINES_LAW)
             suggest_offer(&suggest, state->definitions.at[i].name);
     (void)diag_at(diag, E_NAME, syntax->place, "unknown function '%s'", syntax->text);
-    if (suggest.best != NULL)
+    if (habit_hint(HABIT_FUNCTION, syntax->text) != NULL)
+        diag_hint(diag, "%s", habit_hint(HABIT_FUNCTION, syntax->text));
+    else if (suggest.best != NULL)
         diag_hint(diag, "did you mean '%s'?", suggest.best);
+    else
+        diag_hint(diag, "'help functions' lists them");
     return E_NAME;
+}
+
+bool function_exists(const char *name)
+{
+    return find_function(name) >= 0 || find_builder(name) >= 0;
 }
 
 Status function_call(Scope *scope, const Syntax *syntax, const Expr *args, Expr *out, Diag *diag)

@@ -2,6 +2,7 @@
  *
  * A variable's own name is its coordinate's ("theta1", "m1.x"), or owner and member
  * ("h9.fx"); primes follow behind it. */
+#include "model/habits.h"
 #include "model/model_impl.h"
 
 #include <ctype.h>
@@ -98,11 +99,19 @@ const char *state_name_at(const State *state, int i)
 Status name_unknown(const State *state, const char *what, const char *name, Place place, Diag *diag)
 {
     Suggest suggest = suggest_for(name);
+    Unit unit;
 
     for (int i = 0; state_name_at(state, i) != NULL; i++)
         suggest_offer(&suggest, state_name_at(state, i));
     (void)diag_at(diag, E_NAME, place, "unknown %s '%s'", what, name);
-    if (suggest.best != NULL)
+    if (habit_hint(HABIT_NAME, name) != NULL)
+        diag_hint(diag, "%s", habit_hint(HABIT_NAME, name));
+    else if (function_exists(name))
+        diag_hint(diag, "it is a function, and takes its argument in brackets: %s(x)", name);
+    else if (suggest.best == NULL && (unit_find(name, &unit) || unit_spelled(name) != NULL))
+        diag_hint(diag, "a unit stands behind a number, 2 m, and a compound one in brackets there: "
+                        "2 [N*m], 2 [rad/s]");
+    else if (suggest.best != NULL)
         diag_hint(diag, "did you mean '%s'?", suggest.best);
     return E_NAME;
 }

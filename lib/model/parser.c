@@ -1,6 +1,7 @@
 /* parser.c: the tokens of a statement, looked at and read; what is said where they stop making
  * sense */
 #include "model/parser.h"
+#include "model/habits.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -128,29 +129,66 @@ Status parser_expected(const Parser *parser, const char *what)
     return E_SYNTAX;
 }
 
+bool parser_hint_comma(const Parser *parser)
+{
+    const int comma = token_is(parser_token(parser), ",") ? 0 : -1;
+    const Token *sign, *whole, *part;
+
+    if (parser->at + comma < 1)
+        return false;
+    sign = parser_peek(parser, comma);
+    whole = parser_peek(parser, comma - 1);
+    part = parser_peek(parser, comma + 1);
+    if (!token_is(sign, ",") || whole->kind != TOKEN_NUMBER || part->kind != TOKEN_NUMBER ||
+        whole->end != sign->start || part->start != sign->end)
+        return false;
+    diag_hint(parser->diag, "decimals stand behind a point: %s.%s%s", whole->text, part->text,
+              strlen(part->text) == 3 ? "; thousands have no comma" : "");
+    return true;
+}
+
+/* what was meant, by the tokens about the place */
+static const char *unexpected_hint(const Parser *parser)
+{
+    const Token *token = parser_token(parser), *behind = parser_peek(parser, 1);
+    const Token *before = parser_before(parser);
+    const bool is_first = parser->at == 0;
+    const bool is_operand = token->kind == TOKEN_PATH || token->kind == TOKEN_NUMBER;
+
+    if (token_is(token, ")") || token_is(token, "]"))
+        return "this bracket closes nothing";
+    if (token_is(token, "["))
+        return "a bracket is never an index: entries are written x(2); a unit in brackets stands "
+               "behind a number or a vector";
+    if (token_is(token, "="))
+        return "a comparison is written ==";
+    if (token_is(token, ","))
+        return "one comma stands between two operands";
+    if (token_is(token, "?"))
+        return "a choice is written if(c, a, b)";
+    if (token_is(token, "<") && token_is(behind, ">"))
+        return "'not equal' is written !=";
+    if (token->kind == TOKEN_PATH && habit_hint(HABIT_OPERATOR, token->text) != NULL)
+        return habit_hint(HABIT_OPERATOR, token->text);
+    if (!is_first && is_operand && before->kind == TOKEN_PATH && strcmp(before->text, "not") == 0)
+        return habit_hint(HABIT_OPERATOR, "not");
+    if (!is_first && is_operand && before->kind == TOKEN_PATH && function_exists(before->text))
+        return "a function's argument stands in brackets: sin(2)";
+    if (!is_first && (before->kind == TOKEN_NUMBER || token_is(before, ")")) &&
+        (is_operand || token_is(token, "(")))
+        return "a product needs its *";
+    return NULL;
+}
+
 Status parser_unexpected(const Parser *parser)
 {
-    const Token *token = parser_token(parser);
-    const Token *before = parser_before(parser);
-    bool behind_value = parser->at > 0 && (before->kind == TOKEN_NUMBER || token_is(before, ")"));
+    const char *hint = unexpected_hint(parser);
     char room[100];
 
-    (void)diag_at(parser->diag, E_SYNTAX, token->place, "unexpected %s",
-                  token_describe(token, room, sizeof room));
-    if (token_is(token, ")") || token_is(token, "]"))
-        diag_hint(parser->diag, "this bracket closes nothing");
-    else if (token_is(token, "["))
-        diag_hint(
-            parser->diag,
-            "a bracket is never an index: entries are written x(2); a unit in brackets stands "
-            "behind a number or a vector");
-    else if (token_is(token, "="))
-        diag_hint(parser->diag, "a comparison is written ==");
-    else if (token_is(token, ","))
-        diag_hint(parser->diag, "one comma stands between two operands");
-    else if (behind_value &&
-             (token->kind == TOKEN_PATH || token->kind == TOKEN_NUMBER || token_is(token, "(")))
-        diag_hint(parser->diag, "a product needs its *");
+    (void)diag_at(parser->diag, E_SYNTAX, parser_token(parser)->place, "unexpected %s",
+                  token_describe(parser_token(parser), room, sizeof room));
+    if (!parser_hint_comma(parser) && hint != NULL)
+        diag_hint(parser->diag, "%s", hint);
     return E_SYNTAX;
 }
 
@@ -170,8 +208,11 @@ Status parser_unclosed(const Parser *parser, const Token *open)
 {
     if (parser_ends(parser)) {
         (void)diag_at(parser->diag, E_SYNTAX, open->place, "'%s' is not closed", open->text);
-        diag_hint(parser->diag,
-                  "brackets close on their line; a line goes on after '\\' at its end");
+        if (parser->text[parser_token(parser)->start] == ';')
+            diag_hint(parser->diag, "entries of a vector stand between commas");
+        else
+            diag_hint(parser->diag,
+                      "brackets close on their line; a line goes on after '\\' at its end");
         return E_SYNTAX;
     }
     (void)parser_expected(parser, open->text[0] == '(' ? "')'" : "']'");

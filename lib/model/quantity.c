@@ -3,6 +3,7 @@
  * Which words are units the grammar can't say: a word behind a literal is its unit,
  * unless "=" stands behind it (then it is the next key) or the verb's row gives it a
  * meaning. A unit in brackets may stand behind anything that is shown. */
+#include "model/habits.h"
 #include "model/parser.h"
 
 #include <string.h>
@@ -64,23 +65,61 @@ static bool is_prefix(const char *word)
     return false;
 }
 
+/* what a compound unit was meant to be: other signs than * between units, "N.m", "N m"; NULL: none
+ */
+static const char *with_stars(const Parser *parser, const char *text)
+{
+    char *copy = pool_text(parser->pool, text, strlen(text));
+    Unit unit;
+    size_t fault;
+    bool changed = false;
+
+    for (char *c = copy; *c != '\0'; c++)
+        if (strchr(". -", *c) != NULL) {
+            *c = '*';
+            changed = true;
+        }
+    return changed && unit_parse(copy, strlen(copy), &unit, &fault) ? copy : NULL;
+}
+
+/* 4k7: a prefix in the place of the decimal point */
+static bool is_resistor_code(const char *word)
+{
+    char prefix[2] = {word[0], '\0'};
+
+    return is_prefix(prefix) && word[1] != '\0' &&
+           strspn(word + 1, "0123456789") == strlen(word + 1);
+}
+
 static Status unknown_unit(Parser *parser, const Syntax *literal, const Token *name)
 {
     const char *number = literal->kind == SYNTAX_NUMBER ? literal->text : "[...]";
     const char *suggestion = strchr(name->text, '.') == NULL ? unit_suggest(name->text) : NULL;
+    const char *compound = with_stars(parser, name->text);
     bool call = token_is(parser_peek(parser, 1), "(") && parser_peek(parser, 1)->touches;
+    bool is_constant = strcmp(name->text, "pi") == 0 || strcmp(name->text, "t") == 0;
+    Diag *diag = parser->diag;
 
-    (void)diag_at(parser->diag, E_UNIT, name->place, "unknown unit '%s'", name->text);
+    (void)diag_at(diag, E_UNIT, name->place, "unknown unit '%s'", name->text);
     if (is_key(parser, name->text))
-        diag_hint(parser->diag, "a key takes its '=': %s=...", name->text);
+        diag_hint(diag, "a key takes its '=': %s=...", name->text);
     else if (is_prefix(name->text))
-        diag_hint(parser->diag, "an SI prefix needs a unit: write %s kohm, %s kN ... or %se3",
-                  number, number, number);
-    else if (suggestion != NULL && !call)
-        diag_hint(parser->diag, "did you mean '%s'? A product needs its *", suggestion);
+        diag_hint(diag, "an SI prefix needs a unit: write %s kohm, %s kN ... or %se3", number,
+                  number, number);
+    else if (is_resistor_code(name->text))
+        diag_hint(diag, "a prefix stands before a unit: %s.%s %cohm, or %s.%se3", number,
+                  name->text + 1, name->text[0], number, name->text + 1);
+    else if (compound != NULL)
+        diag_hint(diag, "units multiply with *, in brackets: %s [%s]", number, compound);
+    else if (habit_hint(HABIT_OPERATOR, name->text) != NULL && !call)
+        diag_hint(diag, "%s", habit_hint(HABIT_OPERATOR, name->text));
+    else if (habit_hint(HABIT_UNIT, name->text) != NULL && !call)
+        diag_hint(diag, "%s", habit_hint(HABIT_UNIT, name->text));
+    else if (suggestion != NULL && !call && !is_constant)
+        diag_hint(diag, "did you mean '%s'? A product needs its *: %s*%s", suggestion, number,
+                  name->text);
     else
-        diag_hint(parser->diag, "a product needs its *: %s*%s%s", number, name->text,
-                  call ? "(...)" : "");
+        diag_hint(diag, "a product needs its *: %s*%s%s", number, name->text, call ? "(...)" : "");
     return E_UNIT;
 }
 
@@ -122,8 +161,13 @@ Status parse_unit(Parser *parser, Syntax *node)
         const char *word =
             pool_text(parser->pool, inside + fault, strcspn(inside + fault, " \t*/^"));
         const char *suggestion = word[0] != '\0' ? unit_suggest(word) : NULL;
+        const char *compound = with_stars(parser, inside);
 
-        if (suggestion != NULL)
+        if (compound != NULL)
+            diag_hint(parser->diag, "units multiply with *: [%s]", compound);
+        else if (habit_hint(HABIT_UNIT, word) != NULL)
+            diag_hint(parser->diag, "%s", habit_hint(HABIT_UNIT, word));
+        else if (suggestion != NULL)
             diag_hint(parser->diag, "did you mean '%s'?", suggestion);
         else
             diag_hint(parser->diag, "a bracket behind a value is its unit, as in [kg*m^2]");

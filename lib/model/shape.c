@@ -437,7 +437,8 @@ static Status after_pair(const Parser *parser, const Statement *statement)
 
     (void)diag_at(parser->diag, E_SYNTAX, token->place, "unexpected '%s' behind the value of '%s'",
                   token->text, last->name);
-    if (token->kind == TOKEN_PATH || token->kind == TOKEN_NUMBER || parser_sees(parser, "("))
+    if (!parser_hint_comma(parser) &&
+        (token->kind == TOKEN_PATH || token->kind == TOKEN_NUMBER || parser_sees(parser, "(")))
         diag_hint(parser->diag, "behind the first '=' stand only pairs, as in %s=...%s", last->name,
                   product ? "; a product needs its *" : "");
     return E_SYNTAX;

@@ -6,6 +6,7 @@
  *           | [ "virtual" ] VERB { operand [ "," ] } { pair [ "," ] } [ ":" statement ]
  *             [ redirect ] ; */
 #include "component/component.h"
+#include "model/habits.h"
 #include "model/parser.h"
 #include "model/verbs.h"
 
@@ -43,6 +44,15 @@ static int find_shortened(const char *word, Verb *verb)
     return count;
 }
 
+/* x := 3, x == 3, x += 3 */
+static bool is_assignment(const Parser *parser)
+{
+    const Token *sign = parser_peek(parser, 1);
+
+    return token_is(sign, "==") || (strchr(":+-*/", sign->text[0]) != NULL &&
+                                    sign->text[0] != '\0' && token_is(parser_peek(parser, 2), "="));
+}
+
 static Status unknown_verb(const Parser *parser, const Token *token)
 {
     Suggest suggest = suggest_for(token->text);
@@ -52,8 +62,10 @@ static Status unknown_verb(const Parser *parser, const Token *token)
     (void)diag_at(parser->diag, E_NAME, token->place, "unknown command '%s'", token->text);
     for (int i = 0; verb_any(i, &verb); i++)
         suggest_offer(&suggest, verb.name);
-    if (verb_habit(token->text) != NULL)
-        diag_hint(parser->diag, "%s", verb_habit(token->text));
+    if (is_assignment(parser))
+        diag_hint(parser->diag, "a parameter is written %s = ...", token->text);
+    else if (habit_hint(HABIT_VERB, token->text) != NULL)
+        diag_hint(parser->diag, "%s", habit_hint(HABIT_VERB, token->text));
     else if (behind->kind == TOKEN_SYMBOL && strcmp(behind->text, "(") == 0 && !behind->touches)
         diag_hint(parser->diag, "the bracket of a law touches its name: %s(x) = ...", token->text);
     else if (!parser->options.shortened && find_shortened(token->text, &verb) == 1)

@@ -164,6 +164,7 @@ bool verb_at(int i, Verb *verb); /* 0, 1, ... in the order of the manual; false 
 const char *verb_key(const Verb *verb, int i); /* 0, 1, ...; NULL at the end */
 void verb_usage(Text *text, const Verb *verb); /* one line */
 const char *group_title(VerbGroup group);      /* "Mechanical components" ... */
+bool function_exists(const char *name);        /* of expressions: sin, pulse ... */
 
 /* OK, or E_MISSING at the verb or key of a statement that comes with a later version. */
 MUST_USE Status statement_check_version(const Statement *statement, Diag *diag);

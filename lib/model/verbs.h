@@ -28,7 +28,4 @@ bool verb_any(int i, Verb *verb);
 bool key_is_later(const char *verb, const char *key);
 bool word_is_later(const char *verb, const char *word);
 
-/* What people used to other programs type, and how it is written here; NULL: nothing known. */
-const char *verb_habit(const char *word);
-
 #endif

@@ -157,6 +157,8 @@ static void what_cannot_be_shown_is_refused_with_a_way_out(void)
     /* clang-format off */
     static const struct { const char *line; int column; const char *message, *hint; } wrong[] = {
         {"show constraint", 6,  "nothing to show is called 'constraint'", "show constraints"},
+        {"show eq",         6,  "nothing to show is called 'eq'", "'show equations'"},
+        {"show con",        6,  "nothing to show is called 'con'", "'show constraints'"},
         {"show derivation", 6,  "comes with a later version",   "help show"},
         {"show mass 9",     11, "there is no row 9",            ""},
         {"show mass 1 9",   11, "there is no column 9",         ""},
