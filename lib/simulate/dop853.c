@@ -111,7 +111,8 @@ static double first_step(Dop853 *d, double t, double span)
     choose_scale(d, d->base.y, d->base.y);
     size = scaled_norm(d, d->base.y);
     slope = scaled_norm(d, d->k[0]);
-    h = size < 1e-5 || slope < 1e-5 ? 1e-6 : 0.01 * size / slope;
+    /* what is next to nothing needn't stay so: within the tolerance it may change at once */
+    h = size < 1e-5 || slope < 1e-5 ? 1e-6 : 0.01 * fmax(size, 1) / slope;
     h = fmin(h, span);
     for (int i = 0; i < d->all; i++)
         d->stage_point[i] = d->base.y[i] + h * d->k[0][i];

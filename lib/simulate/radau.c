@@ -333,7 +333,7 @@ static bool settle(Radau *r, double t, double h)
 static double first_step(const Radau *r, double span)
 {
     double slope = scaled_norm(r, r->rate, 1), size = scaled_norm(r, r->old, 1);
-    double h = slope > 1e-5 && size > 1e-5 ? 1e-2 * size / slope : 1e-6;
+    double h = slope > 1e-5 && size > 1e-5 ? 1e-2 * fmax(size, 1) / slope : 1e-6;
 
     return fmin(h, span);
 }
