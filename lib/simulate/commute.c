@@ -10,7 +10,7 @@
 #include <math.h>
 #include <string.h>
 
-#define JUMP       1e-6 /* of a state, more than location may change it, */
+#define JUMP       1e-6 /* of the largest of its kind, more than location may change it, */
 #define ERRORS     100  /* and of the tolerance: what errors may */
 #define START_STEP 1e-9 /* s: for the sides at a start, where no run says what is short */
 #define LOOK       1e-4 /* of the last step: how far to look ahead for the sides, */
@@ -98,6 +98,21 @@ static void name_sides(const Result *r, const bool *before, const bool *closed, 
     }
 }
 
+/* the largest voltage or current so far of any edge, as the state is the one or the other */
+static double largest_like(const Result *r, const char *state)
+{
+    const char *kind = strrchr(state, '.');
+    double largest = 0;
+
+    for (Domain domain = 0; domain < DOMAIN_COUNT && kind != NULL; domain++) {
+        if (strcmp(kind + 1, domain_across(domain)) == 0)
+            largest = fmax(largest, sides_largest(r->sides, domain, false));
+        if (strcmp(kind + 1, domain_through(domain)) == 0)
+            largest = fmax(largest, sides_largest(r->sides, domain, true));
+    }
+    return largest;
+}
+
 /* What the states of the whole have to be in the phase that begins at (t, y), against what they
  * were: none may jump. `before` are the sides that were. */
 static Status check_impulse(const Result *r, Phase *phase, double t, const double *y,
@@ -115,7 +130,9 @@ static Status check_impulse(const Result *r, Phase *phase, double t, const doubl
     now = probe_values(phase->states, &row);
     largest = fmax(largest, vector_largest(now, whole->nx));
     for (int i = 0; i < whole->nx && status == OK; i++)
-        if (fabs(now[i] - x[i]) > JUMP * fmax(fabs(now[i]), fabs(x[i])) + ERRORS * r->tolerance) {
+        if (fabs(now[i] - x[i]) >
+            JUMP * fmax(largest_like(r, system_x(whole->system, i)->name), fabs(now[i])) +
+                ERRORS * r->tolerance) {
             name_sides(r, before, phase->closed, &sides);
             status = diag_set(diag, E_SOLVER,
                               "%s at t = %.9g s, and %s would jump from %.6g to "

@@ -10,7 +10,7 @@
 #include <string.h>
 
 #define OPEN_LEAK   1e-13 /* S: shares voltages that nothing else tells; too small to be seen, */
-#define CLOSED_LEAK 1e-11 /* ohm: likewise currents; and large enough against rounding */
+#define CLOSED_LEAK 1e-9  /* ohm: likewise currents; and large enough against rounding */
 #define NOISE       1e-12 /* of the largest current or voltage: too small to tell a side from, */
 #define MOST_NOISE  1e-8  /* or where that leads in circles, up to this */
 #define ROUNDING    1e-15 /* of the largest voltage, in that of a closed one with a resistance */
@@ -322,6 +322,11 @@ void sides_free(Sides *s)
     mem_free(s->domain);
     layout_free(s->l);
     mem_free(s);
+}
+
+double sides_largest(const Sides *s, Domain domain, bool through)
+{
+    return s->known[domain][through];
 }
 
 /* --- sides --- */
