@@ -15,6 +15,7 @@
 #include <string.h>
 
 #define STAGES         16
+#define FIRST_SEEN     5 /* stage with a weight in the result: those before, but 0, have none */
 #define AIM            0.1 /* of the tolerance, a step: some hundred of them then add up to about it */
 #define SAFETY         0.9
 #define SHRINK         (1 / 3.0)
@@ -441,7 +442,7 @@ const Method method_dop853 = {
     .at = at,
     .shorten = shorten,
     .slope = slope,
-    .nodes = nodes,
-    .node_count = 12,
+    .nodes = nodes + FIRST_SEEN,
+    .node_count = 12 - FIRST_SEEN,
     .pulse_steps = 3,
 };

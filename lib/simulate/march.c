@@ -6,7 +6,9 @@
 #include <math.h>
 #include <string.h>
 
-#define ROUNDS 20 /* events and ideal switches that set each other off at one instant */
+#define FINER           0.1   /* of the tolerance, where errors add up */
+#define LEAST_TOLERANCE 1e-13 /* that numbers allow */
+#define ROUNDS          20    /* events and ideal switches that set each other off at one instant */
 
 /* --- rows --- */
 
@@ -82,6 +84,18 @@ static void give_up_stepper(March *m)
     m->stepper = NULL;
 }
 
+/* Errors of methods with a history add up over the many short steps of pulses. */
+static Stepper *new_stepper(const March *m, const Method *method)
+{
+    Control control = m->control;
+
+    if (method->has_history && onset_has_elements(m->leg.onset)) {
+        control.rtol = fmax(control.rtol * FINER, LEAST_TOLERANCE);
+        control.atol *= FINER;
+    }
+    return method->create(motion_ode(m->leg.motion), &control);
+}
+
 /* The explicit method has found that stability limits its steps. */
 static Status hand_over(March *m, Diag *diag)
 {
@@ -92,7 +106,7 @@ static Status hand_over(March *m, Diag *diag)
     m->control.first = m->stepper->next;
     text_addf(&m->out->remarks, "stiff from t = %.6g s: went on with %s\n", t, stiff->name);
     give_up_stepper(m);
-    m->stepper = stiff->create(motion_ode(m->leg.motion), &m->control);
+    m->stepper = new_stepper(m, stiff);
     m->out->method = stiff;
     return stiff->start(m->stepper, t, m->y, diag);
 }
@@ -202,7 +216,7 @@ static void open_leg(March *m, const Leg *leg)
     m->noise = NEW_ARRAY(double, conditions);
     m->mode = NEW_ARRAY(int, conditions);
     open_surfaces(m);
-    m->stepper = m->out->method->create(motion_ode(leg->motion), &m->control);
+    m->stepper = new_stepper(m, m->out->method);
 }
 
 static void close_leg(March *m)

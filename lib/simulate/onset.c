@@ -52,6 +52,7 @@ struct Onset {
     double *slope, *scale;
     double *seen;    /* what the step's places see of each source */
     double *earlier; /* sources at the start of the step before */
+    double planned;  /* no step that goes so far was cut short */
     double *onset;   /* where each source begins to act, foreseen; s */
     int age;         /* of the effects, in steps */
     Pulse *element_pulses, *source_pulses;
@@ -84,7 +85,7 @@ Onset *onset_new(Steep *steep, const Ode *ode)
     o->onset = NEW_ARRAY(double, j);
     o->element_pulses = NEW_ARRAY(Pulse, k);
     o->source_pulses = NEW_ARRAY(Pulse, j);
-    o->is_first = true;
+    onset_forget(o);
     return o;
 }
 
@@ -111,12 +112,19 @@ void onset_free(Onset *o)
     mem_free(o);
 }
 
+bool onset_has_elements(const Onset *o)
+{
+    return o != NULL && o->elements > 0;
+}
+
 void onset_forget(Onset *o)
 {
     if (o == NULL)
         return;
     memset(o->element_pulses, 0, (size_t)o->elements * sizeof(Pulse));
     memset(o->source_pulses, 0, (size_t)o->sources * sizeof(Pulse));
+    for (int j = 0; j < o->sources; j++)
+        o->onset[j] = NAN;
     o->age = 0;
     o->is_first = true;
 }
@@ -468,7 +476,7 @@ static double next_unseen(Onset *o, const Stepper *stepper, double end)
     for (int j = 0; j < o->sources; j++) {
         double at;
 
-        if (o->onset[j] == o->t && !o->is_first)
+        if (o->onset[j] == o->t)
             o->source_pulses[j] =
                 source_pulse(o, j, delta_of(o, j, stepper, to), end, method->pulse_steps);
         if (!(way[j] > 0) || o->seen[j] >= SEEN * way[j])
@@ -512,24 +520,21 @@ double onset_before_step(Onset *o, Stepper *stepper, double end)
     stepper->bound = bound < end - o->t ? bound : 0;
     memcpy(o->earlier, o->source_at, (size_t)o->sources * sizeof(double));
     o->is_first = false;
+    o->planned = fmin(first, o->t + o->h * (1 - 1e-9));
     return first;
 }
 
-bool onset_after_step(Onset *o, const Stepper *stepper, double *when)
+/* whether elements have acted in the last step, on the way that led to where it is */
+static bool has_conducted(Onset *o, const Stepper *stepper, double *when)
 {
     Search search = {o, conduction, REACHED, 0, 0, 1, INTERVALS};
-    double h, x;
-    double *a;
+    double h = stepper->t - o->t, x;
+    double *a = NEW_ARRAY(double, o->elements);
     bool is_open = true, passed = false;
 
-    if (o == NULL || o->elements == 0 || !o->is_affine)
-        return false;
-    h = stepper->t - o->t;
-    a = NEW_ARRAY(double, o->elements);
     if (steep_arguments(o->steep, stepper->t, stepper->y, a)) {
         const Range *sources = steep_sources_over(o->steep, (Range){stepper->t, stepper->t});
 
-        /* on the way that led to where it is */
         for (int k = 0; k < o->elements; k++) {
             double way = a[k] - o->at.a[k];
 
@@ -547,4 +552,19 @@ bool onset_after_step(Onset *o, const Stepper *stepper, double *when)
     }
     mem_free(a);
     return passed;
+}
+
+bool onset_after_step(Onset *o, const Stepper *stepper, double *when)
+{
+    double first;
+
+    if (o == NULL || (o->elements > 0 && o->is_affine && has_conducted(o, stepper, when)))
+        return o != NULL;
+    /* a step that was tried again, shorter, has looked in other places than foreseen */
+    if (o->sources == 0 || !(stepper->t < o->planned))
+        return false;
+    o->h = stepper->t - o->t;
+    first = next_unseen(o, stepper, stepper->t);
+    *when = first;
+    return first < stepper->t;
 }

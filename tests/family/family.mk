@@ -15,3 +15,7 @@ family_diodes_LDADD = libcotree.la $(unit_ldadd)
 FAMILIES += family_sliding
 family_sliding_SOURCES = tests/family/family_sliding.c
 family_sliding_LDADD = libcotree.la $(unit_ldadd)
+FAMILIES += family_pulses
+family_pulses_SOURCES = tests/family/family_pulses.c tests/family/family.h tests/random.h \
+	tests/unit/session_kit.h tests/unit/test.h
+family_pulses_LDADD = libcotree.la $(unit_ldadd)
