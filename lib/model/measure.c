@@ -62,10 +62,12 @@ static Measure joined(Measure a, Measure b)
     Measure out = a;
 
     if (a.kind == MEASURE_KNOWN && b.kind == MEASURE_KNOWN) {
+        const bool same = memcmp(&a.dimension, &b.dimension, sizeof a.dimension) == 0;
+
         out = a.has_time ? b : a;
         out.has_units = a.has_units || b.has_units;
-        out.is_literal = a.is_literal && b.is_literal &&
-                         memcmp(&a.dimension, &b.dimension, sizeof a.dimension) == 0;
+        out.has_time = out.has_time || (same && (a.has_time || b.has_time)); /* t - 1 s */
+        out.is_literal = a.is_literal && b.is_literal && same;
         out.is_cycles = a.is_cycles && b.is_cycles;
         return out;
     }
@@ -188,7 +190,11 @@ Status measures_join(Measure a, Measure b, const Syntax *left, const Syntax *rig
     measure_print(&first, a);
     measure_print(&second, b);
     (void)diag_at(diag, E_UNIT, guilty->place, "%s and %s can't be %s", first.at, second.at, what);
-    measure_hint(a, b, SI_HINT, diag);
+    if (measure_is_plain(a) || measure_is_plain(b))
+        diag_hint(diag, "a quotient that has lost its unit takes another: (...)*1 [%s]",
+                  measure_is_plain(a) ? second.at : first.at);
+    else
+        measure_hint(a, b, SI_HINT, diag);
     text_free(&first);
     text_free(&second);
     return E_UNIT;
@@ -278,7 +284,7 @@ static Status sum(const Walk *w, const Syntax *syntax, Measure a, Measure b, Mea
 {
     const char *what = syntax->text[0] == '+' ? "added" : "subtracted";
 
-    if (term(a).kind != MEASURE_NUMBER || term(b).kind != MEASURE_NUMBER) {
+    if (!measures_fit(a, b)) {
         a = term(a);
         b = term(b);
     }

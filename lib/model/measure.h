@@ -6,8 +6,9 @@
  * are known and differ can't be added or compared, and a value with a unit written in it can't
  * stand where another dimension is wanted (a key, an argument of sin). What isn't known passes;
  * what has no units may be meant in SI (force=-s, sin(s)), and a bare t in a sum, too (10 V + t);
- * beside units its seconds may be left out (30 deg*t). All this is decided where a statement is
- * applied, and costs nothing later. */
+ * beside units its seconds may be left out (30 deg*t). A quotient that has lost its dimension is a
+ * number to a key, but not to a sum. All this is decided where a statement is applied, and costs
+ * nothing later. */
 #ifndef COTREE_MODEL_MEASURE_H
 #define COTREE_MODEL_MEASURE_H
 

@@ -131,7 +131,8 @@ Status unit_check(const Scope *scope, const Syntax *syntax, const char *unit, co
         return OK;
     }
     CHECK(measure_of(scope, syntax, &given, diag));
-    if (!given.has_units)
+    /* a ratio is a number, and that is taken as SI */
+    if (!given.has_units || measure_is_plain(given))
         return OK;
     wanted = measure_of_unit(unit);
     if (!measures_fit(wanted, given) || is_pitch(wanted, given))
