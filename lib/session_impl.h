@@ -188,4 +188,7 @@ MUST_USE Status formula_rows(ct_session *session, const Formula *formulas, int c
                              Run *source, const double *times, int rows, double *out, int stride,
                              int first, Diag *diag);
 
+/* Give a message without a place that of the variable it names, among items that were asked for. */
+void session_place_item(const Syntax *const *items, int count, Diag *diag);
+
 #endif

@@ -163,6 +163,17 @@ done:
     return status;
 }
 
+/* the output or else the inputs that a message is about */
+static void place_key(const Statement *s, Diag *diag)
+{
+    const Syntax *outputs = value_of_key(s, "outputs"), *inputs = value_of_key(s, "inputs");
+
+    if (outputs != NULL)
+        session_place_item((const Syntax *const[]){outputs, outputs}, 2, diag);
+    if (diag->place.line == 0 && inputs != NULL)
+        diag->place = inputs->place;
+}
+
 static Status find_linear(ct_session *session, const Statement *s, Linear **out, Diag *diag)
 {
     Asked asked = {.order = {.at = 0}};
@@ -171,8 +182,8 @@ static Status find_linear(ct_session *session, const Statement *s, Linear **out,
     CHECK(read_point(session, s, &asked, diag));
     CHECK(read_lists(session, s, &asked, diag));
     status = linearize(&asked.order, out, diag);
-    if (status == E_NAME && diag->place.line == 0 && value_of_key(s, "inputs") != NULL)
-        diag->place = value_of_key(s, "inputs")->place;
+    if (status == E_NAME && diag->place.line == 0)
+        place_key(s, diag);
 done:
     asked_free(&asked);
     return status;

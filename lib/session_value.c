@@ -66,11 +66,53 @@ bool formula_needs_run(const Formula *formula)
     return false;
 }
 
+/* an instant of one run that another hasn't */
+static Status refuse_instant(const Leaf *leaf, const Result *result, double at, Diag *diag)
+{
+    const double *times = result_times(result);
+    const int rows = result_rows(result);
+
+    (void)diag_set(diag, E_VALUE, "run%d has no value at t = %.6g s: it goes from %.6g to %.6g s",
+                   leaf->run + 1, at, rows > 0 ? times[0] : 0, rows > 0 ? times[rows - 1] : 0);
+    diag_hint(diag, "runs are compared at the instants of the last of them: make that the shorter "
+                    "one, or ask 'at' an instant of both");
+    return E_VALUE;
+}
+
+/* Where a formula takes the ends of several runs, they are of different instants: say so. */
+static void remark_ends(ct_session *session, const Formula *formula, Run *source)
+{
+    const Run *first = NULL;
+
+    for (int i = 0; i < formula->leaves.count; i++) {
+        const Leaf *leaf = formula->leaves.at + i;
+        const Run *run = needs_run(leaf) ? leaf_run(session, leaf, source) : NULL;
+        double end, other;
+        Text line = {0};
+
+        if (run == NULL)
+            continue;
+        first = first != NULL ? first : run;
+        end = result_times(first->result)[result_rows(first->result) - 1];
+        other = result_times(run->result)[result_rows(run->result) - 1];
+        if (end == other)
+            continue;
+        text_addf(&line,
+                  "each run is taken at its own end, %.6g s and %.6g s; 'at' takes one "
+                  "instant of both",
+                  end, other);
+        session_remark(session, line.at);
+        text_free(&line);
+        return;
+    }
+}
+
 /* the value of a leaf at an instant of its run, or at its end */
 static Status evaluate_leaf(ct_session *session, const Leaf *leaf, Run *run, const double *at,
                             double *out, Diag *diag)
 {
     const double *times;
+    Status status;
 
     if (leaf->kind == LEAF_CONSTANT) {
         *out = leaf->value;
@@ -81,9 +123,12 @@ static Status evaluate_leaf(ct_session *session, const Leaf *leaf, Run *run, con
         return OK;
     }
     times = result_times(run->result);
-    return result_values_at(
+    status = result_values_at(
         run->result, &leaf->expr, 1,
         at != NULL ? snap(run->result, *at) : times[result_rows(run->result) - 1], out, diag);
+    return status == E_VALUE && leaf->run >= 0 && at != NULL
+               ? refuse_instant(leaf, run->result, *at, diag)
+               : status;
 }
 
 Status formula_value(ct_session *session, const Formula *formula, Run *source, const double *at,
@@ -92,6 +137,8 @@ Status formula_value(ct_session *session, const Formula *formula, Run *source, c
     double *values = NEW_ARRAY(double, formula->leaves.count);
     Status status = OK;
 
+    if (at == NULL)
+        remark_ends(session, formula, source);
     for (int i = 0; i < formula->leaves.count; i++) {
         const Leaf *leaf = formula->leaves.at + i;
 

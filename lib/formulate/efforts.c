@@ -11,8 +11,16 @@ static Status line_motion(System *system, const Instance *instance, Effort *effo
     Vec v[2];
     const int ends[2] = {instance->tail, instance->head};
 
-    if (expr_is_zero(length))
-        return diag_set(diag, E_MODEL, "%s: its two frames are at the same point", instance->name);
+    if (expr_is_zero(length)) {
+        (void)diag_set(diag, E_MODEL,
+                       "the frames of %s, %s and %s, are always at the same point, where its line "
+                       "has no direction",
+                       instance->name, graph_node(system->graph, instance->tail)->name,
+                       graph_node(system->graph, instance->head)->name);
+        diag_hint(diag, "let one of them be an arm away from there, or let it act on a joint, "
+                        "which has no line");
+        return E_MODEL;
+    }
     for (int i = 0; i < 2; i++) {
         const Frame *frame = &system->frames[ends[i]];
 
@@ -54,6 +62,24 @@ Status effort_of(System *system, const Instance *instance, Effort *out, Diag *di
     *out = effort;
 done:
     return status;
+}
+
+bool system_line(System *system, int *next, FrameLine *out)
+{
+    for (; *next < system->instance_count; ++*next) {
+        const Instance *instance = &system->instances[*next];
+        Effort effort;
+
+        if (instance->row->effort == NULL || instance->joint >= 0 || instance->tail < 0 ||
+            instance->head < 0 || effort_of(system, instance, &effort, NULL) != OK ||
+            !effort.is_line)
+            continue;
+        *out = (FrameLine){instance->name, graph_node(system->graph, instance->tail)->name,
+                           graph_node(system->graph, instance->head)->name, effort.displacement};
+        ++*next;
+        return true;
+    }
+    return false;
 }
 
 Status wrench_of(System *system, const Instance *instance, Vec *force, Vec *torque, int *chain,

@@ -99,6 +99,17 @@ typedef struct AngleOff {
 } AngleOff;
 const AngleOff *system_angle_off(const System *system, int i);
 
+/* --- parts between two frames --- */
+
+/* what pulls along a line: its distance, which is nowhere 0 */
+typedef struct FrameLine {
+    const char *name, *tail, *head; /* of the part and its frames */
+    Expr length;
+} FrameLine;
+
+/* The next one from instance *next (0) on; false at the end. */
+bool system_line(System *system, int *next, FrameLine *out);
+
 /* --- constraints --- */
 
 typedef struct ConstraintRow {

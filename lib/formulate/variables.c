@@ -539,8 +539,12 @@ static Status member_variable(System *system, const char *path, Expr *out, Diag 
     const char *end = path_owner(system, path, &instance, &node);
     const char *member = *end == '.' ? end + 1 : "";
 
-    if (instance == NULL && node < 0)
-        return diag_set(diag, E_NAME, "nothing is called '%s'", path);
+    /* the model knows the name, so these equations are older */
+    if (instance == NULL && node < 0) {
+        (void)diag_set(diag, E_NAME, "'%s' came after the run, which has no values of it", path);
+        diag_hint(diag, "what comes later is in the next run: simulate 1");
+        return E_NAME;
+    }
     if (node >= 0 && graph_node(system->graph, node)->domain != DOMAIN_MECHANICAL &&
         (instance == NULL || instance->scalar_count == 0))
         return terminal_variable(system, node, out, diag);

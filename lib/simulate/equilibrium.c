@@ -9,6 +9,7 @@
 #include "simulate/result.h"
 
 #include "base/memory.h"
+#include "simulate/causes.h"
 #include "simulate/factors.h"
 #include "simulate/linear.h"
 #include "simulate/rows.h"
@@ -372,8 +373,12 @@ Status run_equilibrium(System *system, const Model *model, const Setting *settin
     CHECK(result_open(RUN_START, system, setting, &r, diag));
     CHECK(result_refuse_by(r, diag));
     CHECK(quest_open(&e, model, r, setting->watch, diag));
-    CHECK(solve(&e, diag));
     l = result_whole(r)->layout;
+    status = solve(&e, diag);
+    if (status == E_SOLVER && cause_meeting(l, &r->parameters, 0, r->start.y,
+                                            "no equilibrium can be found from there", diag))
+        status = E_SINGULAR;
+    CHECK(status);
     v = statics_base(e.statics);
     memset(r->start.y, 0, (size_t)(l->n + l->nu + l->nx) * sizeof(double));
     for (int i = 0; i < l->n; i++) /* less than rounding of 1 rad or 1 m is nothing */

@@ -5,6 +5,7 @@
 #include "simulate/linearize_impl.h"
 
 #include "base/memory.h"
+#include "simulate/causes.h"
 
 #include <string.h>
 
@@ -319,8 +320,11 @@ static void open_room(Work *w)
         w->y_error[i] = number_error(w->y[i]);
 }
 
-static Status refuse_dependent(Diag *diag)
+static Status refuse_dependent(Work *w, Diag *diag)
 {
+    if (cause_tell(w->l, &w->parameters, w->order->at, w->y, "nothing linear tells how it moves",
+                   diag))
+        return E_SINGULAR;
     (void)diag_set(diag, E_SINGULAR,
                    "the equations are dependent there: nothing linear tells how "
                    "it moves");
@@ -337,21 +341,21 @@ Status linear_point(Work *w, Diag *diag)
         return diag_set(diag, E_MODEL, "with these inputs the model has other unknowns");
     open_room(w);
     if (!find_rates(w))
-        CHECK(refuse_dependent(diag));
+        CHECK(refuse_dependent(w, diag));
     evaluate_geometry(w);
     CHECK(choose_independent(w, diag));
     if (!factor_dependent(w))
-        CHECK(refuse_dependent(diag));
+        CHECK(refuse_dependent(w, diag));
     evaluate_errors(w);
     bound_state(w);
     evaluate_geometry(w);
     evaluate_errors(w);
     if (!factor_dependent(w) || !bound_rates(w))
-        CHECK(refuse_dependent(diag));
+        CHECK(refuse_dependent(w, diag));
     evaluate_errors(w);
     factor(w);
     if (!square_is_regular(w->equations))
-        CHECK(refuse_dependent(diag));
+        CHECK(refuse_dependent(w, diag));
 done:
     return status;
 }

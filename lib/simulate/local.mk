@@ -2,6 +2,8 @@ libcore_la_SOURCES += \
   lib/simulate/between.c \
   lib/simulate/blocks.c \
   lib/simulate/blocks.h \
+  lib/simulate/causes.c \
+  lib/simulate/causes.h \
   lib/simulate/commute.c \
   lib/simulate/commute.h \
   lib/simulate/cvode.c \

@@ -2,6 +2,7 @@
 #include "simulate/result.h"
 
 #include "base/memory.h"
+#include "simulate/causes.h"
 #include "simulate/commute.h"
 
 #include <math.h>
@@ -169,6 +170,9 @@ static Status check_start(Result *r, Diag *diag)
 
     if (motion_solve(r->phase->motion, 0, r->begin, &solved))
         return OK;
+    if (cause_tell(r->phase->layout, &r->parameters, 0, r->begin,
+                   "no accelerations can be found at the start", diag))
+        return E_SINGULAR;
     (void)diag_set(diag, E_SINGULAR, "no accelerations can be found at the start");
     diag_hint(diag, "a part that moves freely needs a mass or an inertia; a circuit needs every "
                     "current and voltage determined");

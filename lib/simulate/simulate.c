@@ -2,6 +2,7 @@
 #include "simulate/result.h"
 
 #include "base/memory.h"
+#include "simulate/causes.h"
 #include "simulate/commute.h"
 #include "simulate/inverse.h"
 #include "simulate/slide.h"
@@ -424,6 +425,14 @@ static void add_position(Result *r, double t, const double *y)
     r->report.reached = t;
 }
 
+static Status lost(Result *r, double last, double t, const double *y, Diag *diag)
+{
+    if (cause_meeting(r->phase->layout, &r->parameters, last, y, "nothing tells how it moves on",
+                      diag))
+        return E_SINGULAR;
+    return solver_failure(diag, t, "the drivers lead where the parts can't follow");
+}
+
 /* Between two instants, the later of which events are due at: the first such instant, by halves;
  * y from the earlier one to it. */
 static double locate_event(Result *r, double low, double high, double *y)
@@ -471,7 +480,7 @@ static Status follow_events(Result *r, double from, double to, double span, doub
 
         memcpy(trial, y, bytes);
         if (!reach(r, last, t, trial, 12))
-            CHECK(solver_failure(diag, t, "the drivers lead where the parts can't follow"));
+            CHECK(lost(r, last, t, y, diag));
         if (events_are_due(r->events, t, trial)) {
             t = locate_event(r, last, t, y);
         } else {
@@ -508,7 +517,7 @@ static Status positions(Result *r, const Setting *setting, const RunOptions *opt
         if (k > 0 && events_count(r->events) > 0)
             CHECK(follow_events(r, last, t, options->duration, y, &stop, diag));
         else if (k > 0 && !reach(r, last, t, y, 12))
-            CHECK(solver_failure(diag, t, "the drivers lead where the parts can't follow"));
+            CHECK(lost(r, last, t, y, diag));
         if (!stop && (k == 0 || r->report.reached < t)) /* else an event's instant */
             add_position(r, t, y);
         if (k == 0 && events_count(r->events) > 0)

@@ -50,3 +50,7 @@ test_keys_LDADD = $(unit_ldadd)
 UNIT_TESTS += test_sliding
 test_sliding_SOURCES = tests/unit/test_sliding.c tests/unit/session_kit.h tests/unit/test.h
 test_sliding_LDADD = $(unit_ldadd)
+
+UNIT_TESTS += test_causes
+test_causes_SOURCES = tests/unit/test_causes.c tests/unit/session_kit.h tests/unit/test.h
+test_causes_LDADD = $(unit_ldadd)

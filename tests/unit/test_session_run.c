@@ -379,7 +379,7 @@ static void items_of_several_runs_stand_on_one_grid(void)
     EXPECT_DONE(&kit, "export csv h run1.h");
     EXPECT(kit.text != NULL && strstr(kit.text, "\n1,") == NULL);
     EXPECT(kit_do(&kit, "simulate 2\nexport csv h run1.h") == CT_FAILED);
-    EXPECT_HOLDS(kit.error.message, "outside the run");
+    EXPECT_HOLDS(kit.error.message, "run1 has no value at t = 1.004 s");
     kit_free(&kit);
 }
 

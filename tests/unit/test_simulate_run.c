@@ -167,8 +167,9 @@ static void forces_are_no_initial_values(void)
 
 static void a_start_without_accelerations_is_refused(void)
 {
-    expect_message("scene planar\nbody p mass=1 inertia=0\nrevolute h ground p\nsimulate 1",
-                   E_SINGULAR, "no accelerations can be found at the start");
+    expect_message(
+        "scene planar\nbody p mass=1 inertia=0\nrevolute h ground p\nsimulate 1", E_SINGULAR,
+        "no accelerations can be found at the start: what h moves has no mass or inertia");
 }
 
 static void a_repeated_joint_is_redundant(void)
