@@ -14,7 +14,8 @@
 #define NOISE       1e-12 /* of the largest current or voltage: too small to tell a side from, */
 #define MOST_NOISE  1e-8  /* or where that leads in circles, up to this */
 #define ROUNDING    1e-15 /* of the largest voltage, in that of a closed one with a resistance */
-#define ROUNDS      8     /* in which conditions and diodes may set each other off */
+#define FORGET      0.5 /* of the largest current or voltage from instant to instant: surges end */
+#define ROUNDS      8   /* in which conditions and diodes may set each other off */
 
 typedef enum When { ALWAYS, OPEN, CLOSED } When;
 
@@ -61,7 +62,7 @@ struct Sides {
     double *through, *across;        /* behind where its sides meet, */
     double *on;                      /* and its resistance when it is closed */
     double largest[DOMAIN_COUNT][2]; /* across and through variable of any edge, by domain, */
-    double known[DOMAIN_COUNT][2];   /* and what they have been since the first instant */
+    double known[DOMAIN_COUNT][2];   /* and what they have been lately */
 };
 
 /* --- equations --- */
@@ -483,7 +484,7 @@ Status sides_find(Sides *s, const SidesAt *at, bool *closed, Diag *diag)
     }
     for (int i = 0; i < DOMAIN_COUNT; i++)
         for (int side = 0; side < 2; side++)
-            s->known[i][side] = fmax(s->known[i][side], s->largest[i][side]);
+            s->known[i][side] = fmax(FORGET * s->known[i][side], s->largest[i][side]);
 done:
     if (status != OK)
         memcpy(closed, before, bytes);

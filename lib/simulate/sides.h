@@ -31,7 +31,7 @@ typedef struct SidesAt {
  * none; `closed` is as it was then. */
 MUST_USE Status sides_find(Sides *sides, const SidesAt *at, bool *closed, Diag *diag);
 
-/* the largest across or through variable of a domain's edges behind all instants so far */
+/* the largest across or through variable of a domain's edges lately */
 double sides_largest(const Sides *sides, Domain domain, bool through);
 
 #endif

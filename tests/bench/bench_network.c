@@ -270,8 +270,74 @@ static void bench_converter(void)
     bench_line("network.converter_1000_real", real_time, "s");
     bench_line("network.converter_1000_real_steps", (double)real.report.steps, "steps");
     bench_line("network.converter_1000_real_rhs", (double)real.report.evaluations, "evaluations");
-    bench_line("network.converter_1000_ideal_of_real", ideal_time / real_time, "ratio");
+    bench_line("network.converter_1000_real_of_ideal", real_time / ideal_time, "ratio");
     bench_line("network.converter_1000_averages_apart", fabs(ideal.average - real.average), "V");
+}
+
+/* --- multipliers --- */
+
+/* Of so many stages, over 20 periods from rest. */
+static Switched multiplied(int stages, const char *keys)
+{
+    StartValues none = {0};
+    const RunOptions options = {.duration = 0.02, .every = 1e-4};
+    Switched out = {.report = {.wall = NAN}, .average = NAN};
+    System *system = NULL;
+    Result *result = NULL;
+    Text text = {0};
+    Diag diag = {0};
+    Model *model;
+
+    text_add(&text, "vsource V s0 0 100*sin(2*pi*1e3*t)\nresistor RS s0 a0 10\n");
+    for (int k = 1; k <= stages; k++)
+        text_addf(&text,
+                  "capacitor Ca%d a%d a%d 1 uF\ndiode Da%d b%d a%d%s\ndiode Db%d a%d b%d%s\n"
+                  "capacitor Cb%d b%d b%d 1 uF\n",
+                  k, k - 1, k, k, k - 1, k, keys, k, k, k, keys, k, k - 1, k);
+    text_addf(&text, "resistor R0 b0 0 1e-3\nresistor RL b%d 0 1e6\n", stages);
+    model = bench_model(text.at);
+    text_free(&text);
+
+    const Setting setting = {
+        .parameter = parameter_value, .context = model, .model = model, .start = &none};
+
+    if (model != NULL && system_new(model, NULL, &system, &diag) == OK &&
+        system_run(system) != NULL &&
+        run_simulate(system, &setting, &options, &result, &diag) == OK)
+        out.report = *result_report(result);
+    else
+        printf("# multiplier of %d: %s\n", stages, diag.message);
+    result_free(result);
+    system_free(system);
+    model_free(model);
+    return out;
+}
+
+static void bench_multiplier(int stages, int runs)
+{
+    double ideal_time = 1e300, real_time = 1e300;
+    double ideal_steps = NAN, real_steps = NAN;
+    char name[80];
+
+    for (int i = 0; i < runs; i++) {
+        const Switched ideal = multiplied(stages, "");
+        const Switched real = multiplied(stages, " Ron=0.1 Roff=1e7");
+
+        ideal_time = fmin(ideal_time, ideal.report.wall);
+        real_time = fmin(real_time, real.report.wall);
+        ideal_steps = (double)ideal.report.steps;
+        real_steps = (double)real.report.steps;
+    }
+    (void)snprintf(name, sizeof name, "network.multiplier_%d_ideal", stages);
+    bench_line(name, ideal_time, "s");
+    (void)snprintf(name, sizeof name, "network.multiplier_%d_ideal_steps", stages);
+    bench_line(name, ideal_steps, "steps");
+    (void)snprintf(name, sizeof name, "network.multiplier_%d_real", stages);
+    bench_line(name, real_time, "s");
+    (void)snprintf(name, sizeof name, "network.multiplier_%d_real_steps", stages);
+    bench_line(name, real_steps, "steps");
+    (void)snprintf(name, sizeof name, "network.multiplier_%d_real_of_ideal", stages);
+    bench_line(name, real_time / ideal_time, "ratio");
 }
 
 /* --- side by side --- */
@@ -459,6 +525,8 @@ int main(int argc, char **argv)
     bench_diodes(argv[1], LONG);
     bench_stiff(LONG);
     bench_converter();
+    bench_multiplier(3, 3);
+    bench_multiplier(10, 1);
     side_by_side(argv[1], argv[2]);
     return 0;
 }
