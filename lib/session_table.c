@@ -164,12 +164,19 @@ static void all_items(const Run *source, Formula *formulas, Sheet *sheet)
     }
 }
 
+static const double MOST_VALUES = 2e7; /* of a table: far more than is read, far less than memory */
+
+static double last_time(const Run *run)
+{
+    return result_times(run->result)[result_rows(run->result) - 1];
+}
+
 /* the times of a grid of its own: from the run's start in even steps, its end included */
 static double *even_times(const Run *grid, double every, int *rows)
 {
     const double *times = result_times(grid->result);
-    const double first = times[0], last = times[result_rows(grid->result) - 1];
-    const int steps = (int)fmin((last - first) / every + 1e-9, 1e8);
+    const double first = times[0];
+    const int steps = (int)((last_time(grid) - first) / every + 1e-9);
     double *out = NEW_ARRAY(double, steps + 1);
 
     for (int i = 0; i <= steps; i++)
@@ -185,6 +192,13 @@ static Status fill_sheet(ct_session *session, const Formula *formulas, int count
     const double *stamps;
     Status status;
 
+    if (every > 0 &&
+        last_time(grid) - result_times(grid->result)[0] > every * MOST_VALUES / (count + 1)) {
+        (void)diag_set(diag, E_VALUE, "that makes %.3g rows",
+                       (last_time(grid) - result_times(grid->result)[0]) / every);
+        diag_hint(diag, "take a larger step, every=");
+        return E_VALUE;
+    }
     if (every > 0 && result_rows(grid->result) > 1)
         times = even_times(grid, every, &sheet->rows);
     else

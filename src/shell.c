@@ -221,17 +221,16 @@ static ct_status carry_out(Shell *shell, const ct_statement *statement, ct_error
 
 /* --- a line --- */
 
-/* Step over blanks, separators and `word`; where it isn't there, or no word follows that it could
+/* Step over `word` and the blanks behind it; where it isn't there, or no word follows that it could
  * be about, stay. `alone`: it may also end the text. */
 static bool step_over(const char *text, size_t *next, const char *word, bool alone)
 {
-    size_t start = *next + strspn(text + *next, " \t;");
     size_t length = strlen(word);
 
-    if (strncmp(text + start, word, length) != 0 || strchr(" \t", text[start + length]) == NULL)
+    if (strncmp(text + *next, word, length) != 0 || strchr(" \t", text[*next + length]) == NULL)
         return false; /* strchr() finds the end of the text, too */
 
-    size_t end = start + length + strspn(text + start + length, " \t");
+    size_t end = *next + length + strspn(text + *next + length, " \t");
 
     if ((text[end] == '\0' && !alone) || text[end] == '=' || text[end] == '#' || text[end] == ';')
         return false;
@@ -250,22 +249,51 @@ static void complete(Shell *shell, const char *line)
     ct_words_free(words);
 }
 
-static ct_status run_next(Shell *shell, const Origin *origin, const char *text, size_t *next,
-                          bool shortened)
+/* A logical line and how far it was run. The library reads what is left as a text of its own, since
+ * it would count lines from the text's beginning for each statement. */
+typedef struct Line {
+    const Origin *origin;
+    const char *text;
+    size_t next;
+    int number;   /* of the physical line that goes on at `next` */
+    size_t begin; /* of it in the text */
+} Line;
+
+static void step_lines(Line *line, size_t to)
 {
+    for (; line->next < to; line->next++)
+        if (line->text[line->next] == '\n') {
+            line->number++;
+            line->begin = line->next + 1;
+        }
+}
+
+/* from a place in the rest to that in the line */
+static void shift_place(const Line *line, ct_error *error)
+{
+    if (error->line == line->number && error->column > 0)
+        error->column += (int)(line->next - line->begin);
+}
+
+static ct_status run_next(Shell *shell, Line *line, bool shortened)
+{
+    const Origin *origin = line->origin;
+    const char *text = line->text + line->next;
+    size_t next = 0;
+
     ct_statement *statement = NULL;
     ct_error error = {.status = CT_OK};
     bool timed = false;
 
-    if (step_over(text, next, "complete", true)) {
-        complete(shell, text + *next);
-        *next = strlen(text);
+    if (step_over(text, &next, "complete", true)) {
+        complete(shell, text + next);
+        line->next += strlen(text);
         return CT_OK;
     }
-    while (step_over(text, next, "time", false))
+    while (step_over(text, &next, "time", false))
         timed = true;
 
-    ct_status status = ct_parse(text, origin->line, shortened, next, &statement, &error);
+    ct_status status = ct_parse(text, line->number, shortened, &next, &statement, &error);
 
     if (status == CT_OK && !ct_statement_is_empty(statement)) {
         double began = progress_clock();
@@ -276,20 +304,37 @@ static ct_status run_next(Shell *shell, const Origin *origin, const char *text, 
     }
 
     /* what happened in another file was told there: here is the way to it */
+    shift_place(line, &error);
     if (status != CT_OK && error.message[0] != '\0')
-        complain(origin, text, &error);
+        complain(origin, line->text, &error);
     else if (status != CT_OK && origin->name != NULL)
         remark("%s:%d: in %s", origin->name, origin->line, ct_statement_text(statement));
     ct_statement_free(statement);
+    step_lines(line, line->next + next);
     return status;
+}
+
+/* after Ctrl-C between statements of a line */
+static ct_status stop_line(const Line *line)
+{
+    ct_error error;
+
+    error_say(&error, "the rest of the line was not run");
+    error.status = CT_STOPPED;
+    complain(line->origin, line->text, &error);
+    return CT_STOPPED;
 }
 
 ct_status shell_run_line(Shell *shell, const Origin *origin, const char *text, bool shortened)
 {
-    size_t next = 0, length = strlen(text);
+    Line line = {.origin = origin, .text = text, .number = origin->line};
     ct_status status = CT_OK;
 
-    while (status == CT_OK && next < length && !shell->quitting)
-        status = run_next(shell, origin, text, &next, shortened);
+    while (status == CT_OK) {
+        step_lines(&line, line.next + strspn(text + line.next, " \t;"));
+        if (text[line.next] == '\0' || shell->quitting)
+            break;
+        status = interrupt_asked() ? stop_line(&line) : run_next(shell, &line, shortened);
+    }
     return status;
 }

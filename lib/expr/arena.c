@@ -447,9 +447,12 @@ void arena_watch(Arena *arena, const Watch *watch)
     arena->watch = watch;
 }
 
-void arena_limit(Arena *arena, int64_t nodes)
+int64_t arena_limit(Arena *arena, int64_t nodes)
 {
+    const int64_t before = arena->limit;
+
     arena->limit = nodes < NODE_LIMIT ? nodes : NODE_LIMIT;
+    return before;
 }
 
 ArenaMark *arena_mark(Arena *arena)

@@ -76,8 +76,9 @@ const char *arena_failure(const Arena *arena); /* what failed, in words; borrowe
 void arena_reset(Arena *arena);                /* forget the failure */
 void arena_watch(Arena *arena,
                  const Watch *watch); /* borrowed; looked at every few thousand nodes */
-/* At most that many nodes; beyond, the arena fails with E_MEMORY. Some 67 million at first. */
-void arena_limit(Arena *arena, int64_t nodes);
+/* At most that many nodes; beyond, the arena fails with E_MEMORY. Some 67 million at first. Returns
+ * the limit until now. */
+int64_t arena_limit(Arena *arena, int64_t nodes);
 
 /* Scratch work: whatever was built after the mark is forgotten by the release. */
 typedef struct ArenaMark ArenaMark;

@@ -10,6 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+enum { LONGEST_NAME = 1000 }; /* dots and members included */
+
 Lexer lexer_start(const char *text, size_t offset, int line, Pool *pool)
 {
     Lexer lexer = {.text = text, .at = offset, .line = line, .pool = pool};
@@ -238,6 +240,9 @@ static Status read_path(Lexer *lexer, Token *token, Diag *diag)
         lexer->at++;
     }
     finish_token(lexer, TOKEN_PATH, start, token);
+    if (lexer->at - start > LONGEST_NAME)
+        return diag_at(diag, E_SYNTAX, token->place, "a name has at most %d characters",
+                       LONGEST_NAME);
     return OK;
 }
 

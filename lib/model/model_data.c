@@ -212,6 +212,8 @@ static Status read_stream(Reader *r, FILE *in)
     }
     if (status != E_MISSING)
         goto done;
+    if (ferror(in))
+        CHECK(diag_at(r->diag, E_VALUE, r->place, "can't read '%s': %s", r->file, strerror(errno)));
     status = OK;
     if (r->x.count < 2)
         status = diag_at(r->diag, E_VALUE, r->place, "%s has %d row%s of numbers; a curve takes 2",

@@ -240,6 +240,15 @@ static Status call_function(Scope *scope, const Syntax *syntax, int function, co
     return OK;
 }
 
+/* each of its points is looked at in each step */
+static Status too_long(const Syntax *syntax, Diag *diag)
+{
+    (void)diag_at(diag, E_VALUE, syntax->place, "%s with %d points is too long", syntax->text,
+                  syntax->count / 2);
+    diag_hint(diag, "table(\"data.csv\", t) makes a curve through the points of a file");
+    return E_VALUE;
+}
+
 static Status call_law(Scope *scope, const Syntax *syntax, int index, const Expr *args, Expr *out,
                        Diag *diag)
 {
@@ -358,6 +367,8 @@ Status function_call(Scope *scope, const Syntax *syntax, const Expr *args, Expr 
     if (function >= 0)
         return call_function(scope, syntax, function, args, out, diag);
     if (builder >= 0) {
+        if (syntax->count > builders[builder].most && builders[builder].build == build_polygon)
+            return too_long(syntax, diag);
         if (syntax->count < builders[builder].least || syntax->count > builders[builder].most)
             return wrong_count(syntax, builders[builder].usage, diag);
         return builders[builder].build(scope, syntax, args, out, diag);

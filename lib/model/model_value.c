@@ -364,14 +364,36 @@ static Status convert(Scope *scope, const Syntax *syntax, Expr *out, Diag *diag)
     return status;
 }
 
+/* New nodes that one expression may take: far above what anybody writes. A law that calls another
+ * twice, which calls another twice, and so on, doubles with each. */
+enum { MOST_NODES = 1 << 18 };
+
+static Status convert_bounded(Scope *scope, const Syntax *syntax, Expr *out, Diag *diag)
+{
+    Arena *arena = scope->state->arena;
+    const int64_t limit = arena_limit(arena, arena_nodes(arena) + MOST_NODES);
+    ArenaMark *mark = arena_mark(arena);
+    Status status;
+
+    arena_reset(arena); /* what others failed to build is not this text's fault */
+    status = convert(scope, syntax, out, diag);
+    (void)arena_limit(arena, limit);
+    if (status == OK) {
+        arena_keep(arena, mark);
+        return OK;
+    }
+    arena_release(arena, mark);
+    if (status == E_MEMORY)
+        diag_hint(diag, "a law that calls another twice doubles it");
+    return status;
+}
+
 Status scope_expression(Scope *scope, const Syntax *syntax, Expr *out, Diag *diag)
 {
     Expr e = NULL;
     Measure measure;
-    Status status;
+    Status status = convert_bounded(scope, syntax, &e, diag);
 
-    arena_reset(scope->state->arena); /* what others failed to build is not this text's fault */
-    status = convert(scope, syntax, &e, diag);
     if (status == OK)
         status = measure_of(scope, syntax, &measure, diag);
     if (status == OK)

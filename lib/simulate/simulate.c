@@ -13,6 +13,7 @@
 
 #define LEAST_RTOL   1e-13
 #define MOST_ROWS    20000000
+#define MOST_VALUES  2e8 /* in all rows: 1.6 GB */
 #define POINTS       4   /* between rows of a driven run, where events are looked for */
 #define TURNED       2.0 /* rad: what an angle that counts turns may go at once in a driven run, */
 #define MISSED       0.5 /* and how far off its prediction */
@@ -67,8 +68,12 @@ static Status find_method(const char *name, const Method **out, Diag *diag)
 }
 
 /* the options with their defaults in place */
-static Status complete_options(const RunOptions *given, RunOptions *out, Diag *diag)
+static Status complete_options(const Result *r, const RunOptions *given, RunOptions *out,
+                               Diag *diag)
 {
+    const Layout *layout = r->phase->layout;
+    const int width = 2 + layout->n + layout->nu + layout->nx;
+
     *out = *given;
     if (!(out->duration > 0) || !isfinite(out->duration))
         return diag_set(diag, E_VALUE, "a run takes a duration above 0, in seconds");
@@ -86,7 +91,7 @@ static Status complete_options(const RunOptions *given, RunOptions *out, Diag *d
         diag_hint(diag, "1e-12 is about the finest that makes sense");
         return E_VALUE;
     }
-    if (out->duration / out->every > MOST_ROWS) {
+    if (out->duration / out->every > fmin(MOST_ROWS, MOST_VALUES / width)) {
         (void)diag_set(diag, E_VALUE, "that makes %.3g rows", out->duration / out->every);
         diag_hint(diag, "take a larger step of output, every=");
         return E_VALUE;
@@ -257,7 +262,7 @@ static Status go(Result *r, const Setting *setting, const RunOptions *given, dou
     Status status = OK;
     double began = seconds();
 
-    CHECK(complete_options(given, &options, diag));
+    CHECK(complete_options(r, given, &options, diag));
     CHECK(find_method(options.method, &method, diag));
     result_tolerance(r, options.atol);
     plan = plan_of(r, setting, &options, method, r->events);
@@ -562,7 +567,7 @@ static Status drive(Result *r, const Setting *setting, const RunOptions *given, 
     double began = seconds();
     Status status = OK;
 
-    CHECK(complete_options(given, &options, diag));
+    CHECK(complete_options(r, given, &options, diag));
     CHECK(check_driven(r, diag));
     result_tolerance(r, 1e-12);
     if (r->phase->layout->ne > 0 && r->sides != NULL) {
