@@ -7,6 +7,9 @@
 
 #include <math.h>
 
+/* Speeds of the largest mass matrix: it is dense, and some 100 bytes stand behind each entry. */
+enum { MOST_SPEEDS_RUN = 4000 };
+
 static int axes_of(const System *system, int node)
 {
     return system->chains.at[system->frames[node].chain].resolve;
@@ -18,9 +21,9 @@ static Expr sums_project(System *system, const Sums *sums, int speed)
     const Speed *own = &system->speeds[speed];
     Expr row = expr_int(system->arena, 0);
 
-    if (own->chain >= 0)
+    if (own->chain >= 0 && !vec_is_zero(sums->torque[own->turn_node]))
         row = vec_dot(system->arena, own->turn, sums->torque[own->turn_node]);
-    if (own->slide_node >= 0)
+    if (own->slide_node >= 0 && !vec_is_zero(sums->force[own->slide_node]))
         row = expr_add(system->arena, row,
                        vec_dot(system->arena, own->slide, sums->force[own->slide_node]));
     return row;
@@ -133,6 +136,7 @@ static Status mass_matrix(System *system)
     Status status = OK;
 
     for (int k = 0; k < n; k++) {
+        const PoolMark mark = pool_mark(system->pool);
         Loads loads = loads_new(system);
         Sums *sums;
 
@@ -145,7 +149,8 @@ static Status mass_matrix(System *system)
         }
         sums = loads_sum(system, &loads);
         for (int j = 0; j < n; j++)
-            columns[k * n + j] = sums_project(system, sums, j);
+            columns[(size_t)k * (size_t)n + (size_t)j] = sums_project(system, sums, j);
+        pool_release(system->pool, mark);
         CHECK(poll(system->watch));
     }
     for (int j = 0; j < n; j++)
@@ -350,6 +355,17 @@ done:
     return status;
 }
 
+static Status check_size(const System *system, Diag *diag)
+{
+    if (system->u.count <= MOST_SPEEDS_RUN)
+        return OK;
+    (void)diag_set(diag, E_MODEL, "the mechanism has %d speeds; %d are the most here",
+                   system->u.count, MOST_SPEEDS_RUN);
+    diag_hint(diag,
+              "a joint in place of a free body takes speeds away, and so does a planar scene");
+    return E_MODEL;
+}
+
 Status dynamics_build(System *system, Diag *diag)
 {
     int n = system->u.count;
@@ -357,6 +373,7 @@ Status dynamics_build(System *system, Diag *diag)
     Sums *sums;
     Status status = OK;
 
+    CHECK(check_size(system, diag));
     system->run.mass = pool_alloc(system->pool, (size_t)n * (size_t)n * sizeof(Expr));
     system->run.force = pool_alloc(system->pool, (size_t)n * sizeof(Expr));
     if (n == 0)

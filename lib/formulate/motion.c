@@ -194,6 +194,11 @@ Sums *loads_sum(System *system, const Loads *loads)
         int n = order[i];
         const Frame *frame = &system->frames[n];
         int axes = axes_of(system, n);
+
+        /* most loads of a motion of few bodies are none */
+        if (vec_is_zero(sums->force[n]))
+            continue;
+
         Vec force = sums->force[n] = vec_hold(arena, sums->force[n]);
         Vec moment = vec_cross(arena, frame->step, force);
 
@@ -207,6 +212,10 @@ Sums *loads_sum(System *system, const Loads *loads)
     for (int i = nodes - 1; i > 0; i--) {
         int n = order[i];
         int parent = tree_parent(rotation, n);
+
+        if (vec_is_zero(sums->torque[n]))
+            continue;
+
         Vec torque = sums->torque[n] = vec_hold(arena, sums->torque[n]);
 
         torque = expressed(system, torque, axes_of(system, n), axes_of(system, parent));

@@ -65,6 +65,31 @@ static double norm_of(const double *v, int n)
     return sqrt(sum);
 }
 
+/* a = J J^T. In coordinates of bodies a row has few entries, so only those are multiplied. */
+static void square(const Least *l, double *a)
+{
+    const int m = l->rows->rows, n = l->rows->columns;
+    int *place = NEW_ARRAY(int, n);
+
+    for (int i = 0; i < m; i++) {
+        const double *row = l->jacobian + (ptrdiff_t)i * n;
+        int count = 0;
+
+        for (int k = 0; k < n; k++)
+            if (row[k] != 0)
+                place[count++] = k;
+        for (int j = 0; j <= i; j++) {
+            const double *other = l->jacobian + (ptrdiff_t)j * n;
+            double sum = 0;
+
+            for (int k = 0; k < count; k++)
+                sum += row[place[k]] * other[place[k]];
+            a[i * m + j] = a[j * m + i] = sum;
+        }
+    }
+    mem_free(place);
+}
+
 /* l->step = -J^T (J J^T + damping 1)^-1 r; false when that can't be solved */
 static bool find_step(Least *l, double damping)
 {
@@ -72,14 +97,7 @@ static bool find_step(Least *l, double damping)
     double *a = lu_matrix(l->lu);
     double largest = 0;
 
-    for (int i = 0; i < m; i++)
-        for (int j = 0; j <= i; j++) {
-            double sum = 0;
-
-            for (int k = 0; k < n; k++)
-                sum += l->jacobian[i * n + k] * l->jacobian[j * n + k];
-            a[i * m + j] = a[j * m + i] = sum;
-        }
+    square(l, a);
     for (int i = 0; i < m; i++)
         largest = fmax(largest, a[i * m + i]);
     for (int i = 0; i < m; i++)

@@ -50,6 +50,11 @@ try -e "$model; simulate -1"
 try -e "$model; simulate 1; table m.y every=1e-9"
 try -e "$model; simulate 1; table m.y every=0"
 try -e "$model; simulate 1; print m.y at 1e300"
+echo '--- bodies'
+awk 'BEGIN { for (i = 0; i < 3000; i++) print "body b" i " mass=1 inertia=[1,2,3]"; print "simulate 1" }' >bodies.ct
+try bodies.ct
+awk 'BEGIN { for (i = 0; i < 150; i++) print "body b" i " mass=1 inertia=[1,2,3]"; print "gravity [0,0,-2]"; print "simulate 1 every=1 method=rk4 step=0.5"; print "print b149.z" }' >bodies.ct
+try bodies.ct
 echo '--- undo'
 awk 'BEGIN { for (i = 0; i < 10000; i++) print "p" i " = " i; for (i = 0; i < 9999; i++) print "undo"; print "show params" }' >undo.ct
 try undo.ct
