@@ -6,6 +6,7 @@
 #include <math.h>
 #include <string.h>
 
+#define MANY            100   /* tolerances that an estimated error has to miss to be told */
 #define FINER           0.1   /* of the tolerance, where errors add up */
 #define LEAST_TOLERANCE 1e-13 /* that numbers allow */
 #define ROUNDS          20    /* events and ideal switches that set each other off at one instant */
@@ -80,6 +81,10 @@ static void give_up_stepper(March *m)
     m->earlier.rejected += m->stepper->counts.rejected;
     m->earlier.evaluations += m->stepper->counts.evaluations;
     m->earlier.jacobians += m->stepper->counts.jacobians;
+    if (m->stepper->missed > m->missed) {
+        m->missed = m->stepper->missed;
+        m->missed_at = m->stepper->missed_at;
+    }
     m->stepper->method->destroy(m->stepper);
     m->stepper = NULL;
 }
@@ -426,6 +431,11 @@ Status march(const MarchPlan *plan, const double *start, Grid *grid, MarchReport
     open_leg(&m, &plan->leg);
     status = run(&m, start, diag);
     close_leg(&m);
+    if (m.missed > MANY)
+        text_addf(&out->remarks,
+                  "%s controls no error: a step at t = %.6g s may be off by %.2g times the "
+                  "tolerance; take a smaller step=, or another method\n",
+                  method->name, m.missed_at, m.missed);
     out->counts = m.earlier;
     out->events = m.ev;
     LIST_FREE(m.jumps);

@@ -39,6 +39,8 @@ typedef struct March {
     int root;              /* condition whose surface is met; or one of Root */
     int switches;          /* close together */
     double switched_since; /* the first of them */
+    double missed;         /* largest estimated error of a fixed step, in tolerances */
+    double missed_at;      /* s */
     bool is_over;          /* an event has ended the run */
     bool is_taken_back;    /* the last step, and its method has to start anew */
 } March;

@@ -111,13 +111,15 @@ struct Stepper {
     const Ode *ode;
     Control control;
     Counts counts;
-    double before; /* start of the last step */
-    double t;      /* its end */
-    double *y;     /* y at t, projected where the method projects */
-    double next;   /* step it would take next, s */
-    double bound;  /* by whoever drives it: no longer step now, s; 0: free */
-    bool is_stiff; /* explicit methods: steps are cut by stability, not by accuracy */
-    bool swings;   /* ... and what cuts them swings rather than decays */
+    double before;    /* start of the last step */
+    double t;         /* its end */
+    double *y;        /* y at t, projected where the method projects */
+    double next;      /* step it would take next, s */
+    double bound;     /* by whoever drives it: no longer step now, s; 0: free */
+    double missed;    /* fixed steps: largest estimated error of one, in tolerances, */
+    double missed_at; /* and when that was, s */
+    bool is_stiff;    /* explicit methods: steps are cut by stability, not by accuracy */
+    bool swings;      /* ... and what cuts them swings rather than decays */
 };
 
 /* h, or what is allowed of it */

@@ -92,6 +92,23 @@ static void a_bump_on_the_way_is_felt(void)
                   "simulate 5", "s'", sqrt(4 - 1000 * 0.001 * sqrt(acos(-1.0))), 1e-5);
 }
 
+/* fixed steps promise nothing, and a run that they make wrong says so */
+static void fixed_steps_tell_what_they_miss(void)
+{
+    static const char *const pulse = "capacitor C b 0 1\ninit C.v = 0\nresistor R b 0 1e6\n"
+                                     "isource I 0 b exp(-((t - 5)/0.01)^2)\n";
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, pulse);
+    EXPECT_DONE(&kit, "simulate 10 method=rk4\nshow run\n");
+    EXPECT(fabs(kit_value(&kit, "b.v") - 0.0177245) > 1e-4);
+    EXPECT_HOLDS(kit.text, "rk4 controls no error");
+    EXPECT_DONE(&kit, "simulate 10 method=rk4 step=1e-4\nshow run\n");
+    EXPECT(fabs(kit_value(&kit, "b.v") - 0.0177245) < 1e-6);
+    EXPECT_LACKS(kit.text, "controls no error");
+    kit_free(&kit);
+}
+
 static void maxstep_bounds_every_method(void)
 {
     static const char *const methods[] = {"auto", "radau", "bdf", "adams", "ida", "rk4"};
@@ -128,6 +145,7 @@ int main(void)
     RUN(a_multiplier_of_exponential_diodes_runs);
     RUN(a_pulse_in_a_long_run_is_seen);
     RUN(a_bump_on_the_way_is_felt);
+    RUN(fixed_steps_tell_what_they_miss);
     RUN(maxstep_bounds_every_method);
     RUN(a_step_bound_below_nothing_is_refused);
     return test_end();
