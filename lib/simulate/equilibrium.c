@@ -33,6 +33,11 @@ typedef struct Quest {
     int n;         /* of equations */
     double *begun; /* base */
     double *kept;  /* the same, while something is tried */
+    Bound *bounds; /* where laws of parts end, */
+    int bound_count;
+    Probe *measures; /* what comes to 0 there, */
+    double *sides;   /* and its values where the search began */
+    int beyond;      /* bound behind which the last solution was; -1: none was */
 } Quest;
 
 static void begin_again(Quest *e)
@@ -41,18 +46,58 @@ static void begin_again(Quest *e)
     statics_rebase(e->statics);
 }
 
+static const double *measures_here(const Quest *e)
+{
+    const double *v = statics_base(e->statics);
+    const RowValues row = {
+        .q = v, .x = v + e->l->n, .near = v + statics_length(e->statics) - e->l->turned};
+
+    return probe_values(e->measures, &row);
+}
+
+/* A solution behind the end of a part's law, as a plate beyond its electrode, is none. */
+static bool is_within(Quest *e)
+{
+    const double *values = e->bound_count > 0 ? measures_here(e) : NULL;
+
+    for (int i = 0; i < e->bound_count; i++)
+        if (values[i] * e->sides[i] < 0) {
+            e->beyond = i;
+            return false;
+        }
+    return true;
+}
+
+static bool run_within(Quest *e)
+{
+    const size_t bytes = (size_t)statics_length(e->statics) * sizeof(double);
+    double *base = statics_base(e->statics);
+    double *before = NEW_ARRAY(double, statics_length(e->statics));
+    bool found;
+
+    memcpy(before, base, bytes);
+    found = search_run(e->search);
+    if (found && !is_within(e)) {
+        found = false;
+        memcpy(base, before, bytes);
+        statics_rebase(e->statics);
+    }
+    mem_free(before);
+    return found;
+}
+
 /* Newton's method at once, or once the network has settled beside mechanics that stands still */
 static bool seek(Quest *e)
 {
     const size_t bytes = (size_t)statics_length(e->statics) * sizeof(double);
     double *base = statics_base(e->statics);
 
-    if (search_run(e->search))
+    if (run_within(e))
         return true;
     if (e->l->nu == 0 || e->l->nx + e->l->nz == 0)
         return false;
     memcpy(e->kept, base, bytes);
-    if (search_settle(e->search) && search_run(e->search))
+    if (search_settle(e->search) && run_within(e))
         return true;
     memcpy(base, e->kept, bytes);
     statics_rebase(e->statics);
@@ -244,10 +289,29 @@ static void name_row(const Quest *e, int i, double missed, Text *text)
     }
 }
 
+static Status tell_beyond(const Quest *e, Diag *diag)
+{
+    const Bound *bound = &e->bounds[e->beyond];
+    char *measure = expr_text(bound->measure);
+
+    (void)diag_set(
+        diag, E_SOLVER,
+        "no equilibrium was found on this side of where %s = 0, where the law of %s ends", measure,
+        bound->instance);
+    diag_hint(diag, bound->is_gap ? "a field that pulls stronger than what holds against it closes "
+                                    "the gap: a smaller voltage or current, or a stop"
+                                  : "'init' and 'guess' choose where the search starts");
+    mem_free(measure);
+    return E_SOLVER;
+}
+
 static Status tell_failure(Quest *e, Diag *diag)
 {
     Text text = {0};
     int shown = 0;
+
+    if (e->beyond >= 0)
+        return tell_beyond(e, diag);
 
     for (int i = 0; i < e->n && shown < 6; i++) {
         double missed;
@@ -319,13 +383,32 @@ done:
     return status;
 }
 
+static Status open_bounds(Quest *e, Result *start, Diag *diag)
+{
+    Expr *measures = NULL;
+    Status status = OK;
+
+    e->bound_count = system_bounds(e->l->system, &e->bounds);
+    if (e->bound_count == 0)
+        return OK;
+    measures = NEW_ARRAY(Expr, e->bound_count);
+    for (int i = 0; i < e->bound_count; i++)
+        CHECK(system_resolve(e->l->system, e->bounds[i].measure, &measures[i], diag));
+    CHECK(probe_new(e->l, &start->parameters, measures, e->bound_count, &e->measures, diag));
+    e->sides = NEW_ARRAY(double, e->bound_count);
+    memcpy(e->sides, measures_here(e), (size_t)e->bound_count * sizeof(double));
+done:
+    mem_free(measures);
+    return status;
+}
+
 static Status quest_open(Quest *e, const Model *model, Result *start, const Watch *watch,
                          Diag *diag)
 {
     size_t bytes;
     Status status = OK;
 
-    *e = (Quest){.watch = watch};
+    *e = (Quest){.watch = watch, .beyond = -1};
     CHECK(statics_new(model, start, watch, &e->statics, diag));
     e->l = statics_layout(e->statics);
     e->n = statics_count(e->statics);
@@ -333,6 +416,7 @@ static Status quest_open(Quest *e, const Model *model, Result *start, const Watc
     e->begun = NEW_ARRAY(double, statics_length(e->statics));
     e->kept = NEW_ARRAY(double, statics_length(e->statics));
     memcpy(e->begun, statics_base(e->statics), bytes);
+    CHECK(open_bounds(e, start, diag));
     e->search = search_new(e->statics, watch);
     if (e->search == NULL)
         CHECK(diag_set(diag, E_SOLVER, "SUNDIALS could not be started"));
@@ -343,6 +427,9 @@ done:
 static void quest_close(Quest *e)
 {
     search_free(e->search);
+    probe_free(e->measures);
+    mem_free(e->bounds);
+    mem_free(e->sides);
     statics_free(e->statics);
     mem_free(e->begun);
     mem_free(e->kept);
