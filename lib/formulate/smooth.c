@@ -8,6 +8,10 @@
 #include <math.h>
 #include <string.h>
 
+#define NARROW 1e-14 /* of a time: as near as its numbers are told apart */
+#define WIDER  8
+#define CHANGE 1e-10 /* of a value: more than rounding */
+
 typedef struct AtTime {
     Expr time;
     double t;
@@ -44,21 +48,25 @@ static bool instant_of(Arena *arena, Expr condition, AtTime *at)
     return fabs(move) <= 1e-12 * fabs(at->t) + 1e-300;
 }
 
-static double change_about(Expr e, AtTime at, double step)
+static double change_about(Expr e, AtTime at, double step, double *size)
 {
     AtTime before = {at.time, at.t - step};
     AtTime behind = {at.time, at.t + step};
+    double first = expr_evaluate(e, value_at, &before), last = expr_evaluate(e, value_at, &behind);
 
-    return fabs(expr_evaluate(e, value_at, &behind) - expr_evaluate(e, value_at, &before));
+    *size = fabs(first) + fabs(last);
+    return fabs(last - first);
 }
 
-/* a change that does not shrink with the time it is given */
+/* A change that does not grow with the time it is given, however short a ramp may be: over times
+ * that numbers just tell apart. */
 static bool jumps_at(Expr e, AtTime at)
 {
-    double step = 1e-6 * fabs(at.t) + 1e-15;
-    double wide = change_about(e, at, step);
+    double step = NARROW * fabs(at.t) + NARROW * NARROW;
+    double size;
+    double narrow = change_about(e, at, step, &size);
 
-    return wide > 0 && !(change_about(e, at, step / 100) <= wide / 2);
+    return narrow > CHANGE * size && !(change_about(e, at, WIDER * step, &size) > 2 * narrow);
 }
 
 static bool jumps(Arena *arena, Expr e)
