@@ -123,16 +123,28 @@ static void level_symbols(const Problem *p, Expr *out)
     if (p->level == LEVEL_VELOCITY)
         for (int i = 0; i < l->nu; i++)
             out[k++] = l->symbols[l->u + i];
-    for (int i = 0; p->level == LEVEL_NETWORK && i < 2 * l->nx + l->nz; i++)
+    for (int i = 0; p->level >= LEVEL_NETWORK && i < p->symbols; i++)
         out[k++] = l->symbols[l->x + i]; /* x, x', z stand together */
 }
 
-/* the network's equations, and what states have to satisfy besides */
-static int network_rows_of(const Layout *l)
+bool start_is_of_states(const Given *given)
 {
-    int count = l->nx + l->nz;
+    const unsigned solved = 1U << SYMBOL_ALGEBRAIC | 1U << SYMBOL_STATE_RATE;
 
-    while (system_invariant(l->system, count - l->nx - l->nz) != NULL)
+    return given->level == LEVEL_NETWORK && (expr_kinds(given->expr) & solved) == 0;
+}
+
+static bool is_of_level(const Given *given, Level level)
+{
+    return level == LEVEL_STATES ? start_is_of_states(given) : given->level == level;
+}
+
+/* what states have to satisfy by themselves */
+static int invariants_of(const Layout *l)
+{
+    int count = 0;
+
+    while (system_invariant(l->system, count) != NULL)
         count++;
     return count;
 }
@@ -141,26 +153,28 @@ Status start_open_problem(Problem *p, Assembly *a, Level level, bool guesses, Di
 {
     const Layout *l = a->l;
     Arena *arena = system_arena(l->system);
-    int extra = level == LEVEL_NETWORK ? network_rows_of(l) : 0;
+    int equations = level == LEVEL_NETWORK ? l->nx + l->nz : 0;
+    int extra = level >= LEVEL_NETWORK ? equations + invariants_of(l) : 0;
     LIST(Expr) roots = {0};
     Expr *symbols;
     Status status;
 
-    *p = (Problem){.a = a, .level = level, .system_rows = level == LEVEL_NETWORK ? extra : l->m};
+    *p = (Problem){.a = a, .level = level, .system_rows = level >= LEVEL_NETWORK ? extra : l->m};
     p->symbols = level == LEVEL_POSITION   ? l->n
                  : level == LEVEL_VELOCITY ? l->nu
+                 : level == LEVEL_STATES   ? l->nx
                                            : 2 * l->nx + l->nz;
     p->columns = level == LEVEL_POSITION ? l->nu : p->symbols;
     p->picked = NEW_ARRAY(const Given *, a->given_count);
     p->row = NEW_ARRAY(double, l->n + l->nu + 2 * l->nx + l->nz);
     for (int i = 0; i < a->given_count; i++)
-        if (a->given[i].level == level && (guesses || !a->given[i].value->is_guess))
+        if (is_of_level(&a->given[i], level) && (guesses || !a->given[i].value->is_guess))
             p->picked[p->count++] = &a->given[i];
     symbols = NEW_ARRAY(Expr, p->symbols);
     level_symbols(p, symbols);
     for (int i = 0; i < extra; i++)
-        LIST_PUSH(roots, i < l->nx + l->nz ? row_network(l, i)
-                                           : system_invariant(l->system, i - l->nx - l->nz));
+        LIST_PUSH(roots,
+                  i < equations ? row_network(l, i) : system_invariant(l->system, i - equations));
     for (int i = 0; i < p->count; i++)
         LIST_PUSH(roots, p->picked[i]->expr);
     for (int i = 0; i < extra + p->count; i++)
@@ -196,7 +210,7 @@ static void evaluate_probe(const Problem *p, const double *y, int first, double 
                            double *jacobian)
 {
     RowValues row = row_values(p, y);
-    int extra = p->level == LEVEL_NETWORK ? p->system_rows : 0;
+    int extra = p->level >= LEVEL_NETWORK ? p->system_rows : 0;
     const double *values, *gradients;
 
     if (extra + p->count == 0)
@@ -316,7 +330,7 @@ Status start_conflict(const Problem *p, const double *residual, const char *what
             text_add(&text, p->picked[k - p->system_rows]->value->name);
         else if (k >= p->system_rows)
             name_given(&text, p->picked[k - p->system_rows]->value);
-        else if (p->level == LEVEL_NETWORK)
+        else if (p->level >= LEVEL_NETWORK)
             text_addf(&text, "the network's equation %d", k + 1);
         else
             name_row(&text, p->a->l, k);

@@ -6,7 +6,8 @@
 #include "simulate/least.h"
 #include "simulate/start.h"
 
-typedef enum Level { LEVEL_POSITION, LEVEL_VELOCITY, LEVEL_NETWORK } Level;
+/* LEVEL_STATES: of a problem only, states by themselves of what LEVEL_NETWORK holds */
+typedef enum Level { LEVEL_POSITION, LEVEL_VELOCITY, LEVEL_NETWORK, LEVEL_STATES } Level;
 
 /* one initial value or guess */
 typedef struct Given {
@@ -45,6 +46,8 @@ typedef struct Problem {
 
 /* what a given value is, and on which level */
 MUST_USE Status start_classify(Assembly *assembly, Given *given, Diag *diag);
+/* whether states alone tell it, of all that the network solves for */
+bool start_is_of_states(const Given *given);
 /* The equations of a level: those of the system, then what was given, guesses too where asked for.
  * Fails as probe_new() does. */
 MUST_USE Status start_open_problem(Problem *problem, Assembly *assembly, Level level, bool guesses,

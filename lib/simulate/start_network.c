@@ -110,7 +110,8 @@ Status start_find_network(Assembly *a, WarmValue from, void *context, Diag *diag
     double *v = NEW_ARRAY(double, 2 * l->nx + l->nz);
     double *residual = NULL;
     bool *held = NEW_ARRAY(bool, 2 * l->nx + l->nz);
-    bool needed = system_invariant(l->system, 0) != NULL;
+    bool needed = system_invariant(l->system, 0) != NULL; /* states have to be solved for, */
+    bool solves = false;                                  /* and what follows from them too */
     Rows rows;
     Status status = OK;
 
@@ -147,10 +148,13 @@ Status start_find_network(Assembly *a, WarmValue from, void *context, Diag *diag
             v[given->column] = given->value->value;
             held[given->column] = !given->value->is_guess;
         }
-        needed = needed || (given->column < 0 && !given->value->is_guess);
+        if (given->column < 0 && !given->value->is_guess) {
+            needed = true;
+            solves = solves || !start_is_of_states(given);
+        }
     }
     if (needed) {
-        CHECK(start_open_problem(&p, a, LEVEL_NETWORK, false, diag));
+        CHECK(start_open_problem(&p, a, solves ? LEVEL_NETWORK : LEVEL_STATES, false, diag));
         rows = start_rows(&p);
         residual = NEW_ARRAY(double, rows.rows);
         if (!least_solve(&rows, held, NULL, 1e-11, v, residual))
