@@ -370,8 +370,8 @@ ct_status ct_apply(ct_session *session, const ct_statement *statement, ct_error 
             CHECK(try_trees(session, s, &diag));
         session_remark(session, model_remarks(session->model));
     }
-    if (s->verb != NULL && strcmp(s->verb, "init") == 0)
-        session->at_rest = false;
+    if (s->verb != NULL && strcmp(s->verb, "init") == 0 && s->operands.count > 0)
+        session->at_rest = false; /* init none; what others don't speak of stays at rest */
     if (is_search(s) ? model_revision(session->model) != revision : !keeps_values(s))
         note_change(session, revision, text_chooses(s->verb));
     if (chooses_trees(s) && status == OK) {

@@ -36,6 +36,7 @@ struct ct_session {
     Run start;              /* assembled from the model as it is; result NULL: not yet */
     Run warm;               /* the start before that: where guesses come from */
     bool at_rest;           /* start, or else warm, is an equilibrium, from which runs start */
+    int rests_since;        /* statements of starts: earlier ones it has taken the place of */
     Linear *linear;         /* the last linearisation; NULL */
     bool linear_is_old;     /* the model has changed since */
     Modes *modes;           /* and modes */

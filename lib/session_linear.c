@@ -21,6 +21,7 @@ Status session_equilibrium(ct_session *session, const Statement *s, Diag *diag)
     session_forget_start(session);
     session->start = order_done(&order, result);
     session->at_rest = true;
+    session->rests_since = model_start_statements(session->model);
     session->start_is_later = true;
     session_remark(session, result_remarks(result));
 done:

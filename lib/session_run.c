@@ -77,21 +77,37 @@ static const Result *resting_start(const ct_session *session)
     return session->start.result != NULL ? session->start.result : session->warm.result;
 }
 
+/* an equilibrium takes the place of what was given before it */
+static bool is_in_force(const ct_session *session, int i)
+{
+    return resting_start(session) == NULL ||
+           model_start_statement(session->model, i) >= session->rests_since;
+}
+
+static bool any_in_force(const ct_session *session)
+{
+    for (int i = 0; i < model_start_count(session->model); i++)
+        if (is_in_force(session, i))
+            return true;
+    return false;
+}
+
 void order_make(ct_session *session, Order *order)
 {
     const Model *model = session->model;
     const int count = model_start_count(model);
 
     order->parameters = parameters_now(model);
-    order->start.count = count;
     order->start.at = mem_array((size_t)count, sizeof *order->start.at);
     for (int i = 0; i < count; i++) {
         const Start *start = model_start(model, i);
 
-        order->start.at[i].name = start->name;
-        order->start.at[i].primes = start->primes;
-        order->start.at[i].value = model_number(model, start->value);
-        order->start.at[i].is_guess = start->is_guess;
+        if (is_in_force(session, i))
+            order->start.at[order->start.count++] =
+                (StartValue){.name = start->name,
+                             .primes = start->primes,
+                             .value = model_number(model, start->value),
+                             .is_guess = start->is_guess};
     }
     order->events = mem_array((size_t)model_event_count(model), sizeof *order->events);
     for (int i = 0; i < model_event_count(model); i++)
@@ -390,7 +406,7 @@ static Status find_start(ct_session *session, const Statement *s, Diag *diag)
 
     (void)s;
     session_forget_start(session);
-    session->at_rest = false;
+    session->at_rest = session->at_rest && any_in_force(session);
     CHECK(session_start(session, &start, diag));
     session->start_is_later = true;
 done:

@@ -91,6 +91,9 @@ typedef struct Start {
 } Start;
 int model_start_count(const Model *model);
 const Start *model_start(const Model *model, int i);
+/* Statements that have given starts, so far; and which of them gave one. */
+int model_start_statements(const Model *model);
+int model_start_statement(const Model *model, int i);
 
 /* what happens when a condition becomes true */
 typedef enum EventAction { EVENT_MARK, EVENT_STOP, EVENT_SET } EventAction;

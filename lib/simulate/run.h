@@ -84,7 +84,7 @@ typedef struct Setting {
     int event_count;
     const StartValues *start;
     const Result *warm; /* configuration by coordinate name to start guesses from; NULL: none */
-    const Result *from; /* start where this one does, instead of at `start`; NULL: there */
+    const Result *from; /* start where this one does, but for what `start` tells; NULL: there */
     const Watch *watch;
 } Setting;
 

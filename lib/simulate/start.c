@@ -81,7 +81,7 @@ static Status read_given(Assembly *a, Diag *diag)
         a->own[a->given_count].name = angle->name;
         a->given[a->given_count] = (Given){&a->own[a->given_count], angle->off, 0, -1, -1, true};
     }
-    if (start == NULL || a->setting->from != NULL)
+    if (start == NULL)
         return OK;
     for (int i = 0; i < start->count; i++) {
         Given *given = &a->given[a->given_count];

@@ -25,8 +25,7 @@ static double given_value(const Setting *setting, const char *name)
     double value = NAN;
     bool is_guess = true;
 
-    for (int i = 0; setting->from == NULL && setting->start != NULL && i < setting->start->count;
-         i++) {
+    for (int i = 0; setting->start != NULL && i < setting->start->count; i++) {
         const StartValue *given = &setting->start->at[i];
 
         if (given->primes == 0 && strcmp(given->name, name) == 0 &&
