@@ -54,3 +54,6 @@ test_sliding_LDADD = $(unit_ldadd)
 UNIT_TESTS += test_causes
 test_causes_SOURCES = tests/unit/test_causes.c tests/unit/session_kit.h tests/unit/test.h
 test_causes_LDADD = $(unit_ldadd)
+UNIT_TESTS += test_kept
+test_kept_SOURCES = tests/unit/test_kept.c tests/unit/session_kit.h tests/unit/test.h
+test_kept_LDADD = $(unit_ldadd)

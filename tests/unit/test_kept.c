@@ -1,0 +1,109 @@
+/* test_kept.c: starts and resting places: what was given, what is kept, what doesn't exist */
+#include "session_kit.h"
+
+static bool is_near(double got, double expected, double within)
+{
+    return fabs(got - expected) <= within;
+}
+
+#define STAR                                                                                       \
+    "vsource V1 a s 10*sin(314*t)\nvsource V2 b s 10*sin(314*t - 2.0944)\n"                        \
+    "vsource V3 c s 10*sin(314*t + 2.0944)\n"                                                      \
+    "inductor L1 a p 1 mH\ninductor L2 b q 1 mH\ninductor L3 c r 1 mH\n"                           \
+    "diode D1 p 0 Ron=1e-3 Roff=1e3 Vf=0.7\ndiode D2 q 0 Ron=1e-3 Roff=1e3 Vf=0.7\n"               \
+    "diode D3 r 0 Ron=1e-3 Roff=1e3 Vf=0.7\n"
+
+/* the third current is minus the sum of the others, whatever the diodes do */
+static void currents_of_a_star_begin_as_given(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, STAR "init L1.i = 0, L2.i = 0\nsimulate 0.001\n");
+    kit_free(&kit);
+    kit = kit_new();
+    EXPECT_DONE(&kit, STAR "init L1.i = 1, L2.i = 2, L3.i = -3\nassemble\n");
+    EXPECT(is_near(kit_value(&kit, "L1.i"), 1, 1e-9));
+    EXPECT(is_near(kit_value(&kit, "L2.i"), 2, 1e-9));
+    EXPECT(is_near(kit_value(&kit, "L3.i"), -3, 1e-9));
+    kit_free(&kit);
+    kit = kit_new();
+    EXPECT_FAILS(&kit, STAR "init L1.i = 1, L2.i = 2, L3.i = 3\nsimulate 0.001\n", "L1.i = 1");
+    kit_free(&kit);
+}
+
+/* pull-in at V^2 = 8 k d^3/(27 eps A), with s = d/3 there */
+static void no_plate_rests_beyond_its_electrode(void)
+{
+    static const char *const ways[] = {"d - s", "s"};
+
+    for (int way = 0; way < 2; way++) {
+        Kit kit = kit_new();
+        char text[600];
+
+        (void)snprintf(text, sizeof text,
+                       "scene planar\nd = 2e-6; k = 5; A = 1e-8; eps0 = 8.854e-12\n"
+                       "body p mass=1e-10 inertia=0\nprismatic s ground p axis=x\n"
+                       "spring k1 s k=k rest=%s\nVpi = sqrt(8*k*d^3/(27*eps0*A))\n"
+                       "vsource V a 0 0.9*Vpi\nresistor R a b 1000\n"
+                       "platecap C s b 0 C=eps0*A/(%s)\ninit s = %s\nequilibrium\n",
+                       way == 0 ? "0" : "d", ways[way], way == 0 ? "0" : "d");
+        EXPECT_DONE(&kit, text);
+        EXPECT(is_near(kit_value(&kit, way == 0 ? "s/d" : "1 - s/d"), 0.177292, 1e-5));
+        EXPECT_FAILS(&kit, "set V.value = 1.05*Vpi\nequilibrium\n", "the law of C ends");
+        EXPECT_FAILS(&kit, "set V.value = 30*Vpi\nequilibrium\n", "the law of C ends");
+        kit_free(&kit);
+    }
+}
+
+/* a capacitor on the source alone: its current is that of the ramp, however short that is */
+static void a_short_ramp_is_a_ramp(void)
+{
+    static const char *const smooth[] = {
+        "pulse(t, 0, 1, 1e-8, 1e-7, 1e-7, 1e-7, 1)", "pulse(t, 0, 1, 1, 1e-12, 1e-12, 1e-7, 3)",
+        "pulse(t, 0, 1, 0, 1e-12, 1e-9, 1e-7, 3)", "1e9*sin(t)", "ramp(t)^2"};
+    static const char *const rough[] = {"pulse(t, 0, 1, 0, 0, 1e-7, 1e-7, 1)",
+                                        "pulse(t, 0, 1, 1e-8, 1e-7, 0, 1e-7)", "step(t - 1e-7)"};
+    char text[200];
+
+    for (size_t i = 0; i < sizeof smooth / sizeof smooth[0]; i++) {
+        Kit kit = kit_new();
+
+        (void)snprintf(text, sizeof text, "vsource V b 0 %s\ncapacitor C b 0 1\nsimulate 4e-7\n",
+                       smooth[i]);
+        EXPECT_DONE(&kit, text);
+        kit_free(&kit);
+    }
+    for (size_t i = 0; i < sizeof rough / sizeof rough[0]; i++) {
+        Kit kit = kit_new();
+
+        (void)snprintf(text, sizeof text, "vsource V b 0 %s\ncapacitor C b 0 1\nsimulate 4e-7\n",
+                       rough[i]);
+        EXPECT_FAILS(&kit, text, "impulse through C");
+        kit_free(&kit);
+    }
+}
+
+static void an_operating_point_stays_but_for_what_is_given(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, "vsource V a 0 10\nresistor R1 a b 1000\ncapacitor C1 b 0 1 uF\n"
+                      "resistor R2 b c 1000\ncapacitor C2 c 0 1 uF\nresistor R3 c 0 1000\n"
+                      "init C1.v = 5, C2.v = 7\nop\ninit C1.v = 0\nassemble\n");
+    EXPECT(is_near(kit_value(&kit, "C1.v"), 0, 1e-12));
+    EXPECT(is_near(kit_value(&kit, "C2.v"), 10.0 / 3, 1e-6));
+    EXPECT_DONE(&kit, "simulate 1e-9\n");
+    EXPECT(is_near(kit_value(&kit, "C2.v"), 10.0 / 3, 1e-4));
+    EXPECT_DONE(&kit, "init none\nassemble\n");
+    EXPECT(is_near(kit_value(&kit, "C2.v"), 0, 1e-12));
+    kit_free(&kit);
+}
+
+int main(void)
+{
+    RUN(currents_of_a_star_begin_as_given);
+    RUN(no_plate_rests_beyond_its_electrode);
+    RUN(a_short_ramp_is_a_ramp);
+    RUN(an_operating_point_stays_but_for_what_is_given);
+    return test_end();
+}
