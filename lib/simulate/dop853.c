@@ -141,7 +141,7 @@ static double step_error(Dop853 *d, double h)
         sum3 += e3 * e3;
     }
     under = sum5 + 0.01 * sum3;
-    return under > 0 ? fabs(h) * sum5 / sqrt(under * d->n) : under;
+    return under > 0 ? fabs(h) * sum5 / sqrt(under * d->n) / stepper_blur(&d->base) : under;
 }
 
 /* J w by a difference along w, J the Jacobian at the new point */

@@ -7,8 +7,13 @@
 #include <math.h>
 #include <string.h>
 
-#define PIVOT_RATIO 1e-5 /* of G G^T; below: near a singular configuration */
-#define SUSPECT     3e-2 /* pivot ratio of the LU above which nothing can be near singular */
+#define NEAR     1e-2  /* pivot ratio of G G^T; below: a singular configuration isn't far, */
+#define SINGULAR 1e-5  /* and here epsilon is needed */
+#define SUSPECT  1e-1  /* pivot ratio of the LU above which nothing can be near singular */
+#define ROUNDED  1e-14 /* of speeds, once over a pivot: what rounding of positions leaves of them  \
+                        */
+#define MOST_BLUR   1e-8 /* what epsilon makes of that */
+#define INEXACT     3e-2 /* pivot ratio of the LU below which a sweep of refinement is due */
 #define EPSILON     1e-8 /* of the largest diagonal entry of G M^-1 G^T */
 #define SWEEPS      2    /* of refinement at least, */
 #define MOST_SWEEPS 30   /* and as long as each leaves less than */
@@ -28,6 +33,7 @@ struct Kkt {
     double *bound;      /* m x nu */
     double *compliance; /* m x m */
     Lu *lu;
+    double pivot; /* of the last configuration: how independent its rows are */
     bool regularised;
 };
 
@@ -143,10 +149,13 @@ static void fill_matrix(Kkt *kkt, const double *mass, const double *phi_u, const
         }
 }
 
-/* Cholesky factor, in place, of the lower half of an n x n matrix; false unless it is positive
- * definite. Entries in front of the first one of a row stay 0 and are passed over. */
-static bool cholesky(double *l, int n, double least_pivot)
+/* Cholesky factor, in place, of the lower half of an n x n matrix: the least pivot; where that
+ * isn't positive the factor ends there. Entries in front of the first one of a row stay 0 and are
+ * passed over. */
+static double cholesky(double *l, int n)
 {
+    double least = INFINITY;
+
     for (int i = 0; i < n; i++) {
         double *row = l + i * n;
         int first = 0;
@@ -159,12 +168,14 @@ static bool cholesky(double *l, int n, double least_pivot)
 
             for (int k = first; k < j; k++)
                 sum -= row[k] * other[k];
-            if (i == j && !(sum > least_pivot))
-                return false;
+            if (i == j)
+                least = fmin(least, sum);
+            if (i == j && !(sum > 0))
+                return sum;
             row[j] = i == j ? sqrt(sum) : sum / other[j];
         }
     }
-    return true;
+    return least;
 }
 
 /* kkt->factor = Cholesky factor of M, scaled; false when it isn't positive definite */
@@ -174,7 +185,7 @@ static bool factor_mass(Kkt *kkt)
 
     for (int i = 0; i < nu; i++)
         memcpy(kkt->factor + i * nu, kkt->matrix + i * kkt->size, (size_t)nu * sizeof(double));
-    return cholesky(kkt->factor, nu, 1e-14);
+    return cholesky(kkt->factor, nu) > 1e-14;
 }
 
 /* kkt->bound (m x nu) = G L^-T, L the factor: its rows' products are G (L L^T)^-1 G^T */
@@ -218,29 +229,30 @@ static void measure_columns(Kkt *kkt, const double *phi_u, const int *rows)
             kkt->reach[i] = fmax(kkt->reach[i], fabs(phi_u[rows[k] * kkt->nu + i]));
 }
 
-/* Whether rows of G are nearly dependent: by the pivots of G G^T, columns of G over their reach,
- * rows over the largest norm that they have had. Those of the LU only raise suspicion: an exchange
- * of rows splits one of size sigma^2 into two of size sigma, and light parts between heavy ones
- * make small pivots that are none of the geometry's. */
-static bool is_near_singular(Kkt *kkt, const double *phi_u, const int *rows)
+/* How independent the rows of G are: the least pivot of G G^T, columns of G over their reach, rows
+ * over the largest norm that they have had. Those of the LU only raise suspicion: an exchange of
+ * rows splits one of size sigma^2 into two of size sigma, and light parts between heavy ones make
+ * small pivots that are none of the geometry's. */
+static double least_pivot(Kkt *kkt, const double *phi_u, const int *rows)
 {
     const int m = kkt->m, nu = kkt->nu;
     const double least = LEAST_REACH * vector_largest(kkt->reach, nu);
     double *s = kkt->compliance, *g = kkt->bound;
 
     for (int k = 0; k < m; k++) {
-        double *reach = &kkt->row_reach[rows[k]];
+        double norm;
 
         for (int i = 0; i < nu; i++)
             g[k * nu + i] = phi_u[rows[k] * nu + i] / fmax(kkt->reach[i], least);
-        *reach = fmax(*reach, sqrt(dot(g + k * nu, g + k * nu, nu)));
-        for (int i = 0; i<nu && * reach> 0; i++)
-            g[k * nu + i] /= *reach;
+        norm = fmax(kkt->row_reach[rows[k]], sqrt(dot(g + k * nu, g + k * nu, nu)));
+        kkt->row_reach[rows[k]] = norm;
+        for (int i = 0; i < nu && norm > 0; i++)
+            g[k * nu + i] /= norm;
     }
     for (int i = 0; i < m; i++)
         for (int j = 0; j <= i; j++)
             s[i * m + j] = dot(g + i * nu, g + j * nu, nu);
-    return !cholesky(s, m, PIVOT_RATIO);
+    return fmax(0, cholesky(s, m));
 }
 
 /* largest diagonal entry of G M^-1 G^T, scaled; 1 where M can't be inverted */
@@ -273,7 +285,9 @@ bool kkt_factor(Kkt *kkt, const double *mass, const double *phi_u, const int *ro
     memcpy(lu_matrix(kkt->lu), kkt->matrix, bytes);
     kkt->regularised = false;
     sound = lu_factor(kkt->lu) && lu_pivot_ratio(kkt->lu) > 1e-14;
-    if (kkt->m == 0 || lu_pivot_ratio(kkt->lu) > SUSPECT || !is_near_singular(kkt, phi_u, rows))
+    kkt->pivot =
+        kkt->m > 0 && lu_pivot_ratio(kkt->lu) < SUSPECT ? least_pivot(kkt, phi_u, rows) : 1;
+    if (kkt->pivot > SINGULAR)
         return sound;
 
     kkt->regularised = true;
@@ -282,6 +296,16 @@ bool kkt_factor(Kkt *kkt, const double *mass, const double *phi_u, const int *ro
     for (int k = kkt->nu; k < kkt->size; k++)
         lu_matrix(kkt->lu)[k * kkt->size + k] = -epsilon;
     return lu_factor(kkt->lu);
+}
+
+bool kkt_is_near_singular(const Kkt *kkt)
+{
+    return kkt->pivot < NEAR;
+}
+
+double kkt_blur(const Kkt *kkt)
+{
+    return kkt->pivot < NEAR ? fmin(MOST_BLUR, ROUNDED / (kkt->pivot + 1e-300)) : 0;
 }
 
 bool kkt_is_regularised(const Kkt *kkt)
@@ -328,7 +352,7 @@ void kkt_solve(Kkt *kkt, const double *top, const double *bottom, double *du, do
     lu_solve(kkt->lu, kkt->answer);
     if (kkt->regularised)
         refine(kkt);
-    else if (lu_pivot_ratio(kkt->lu) < SUSPECT)
+    else if (lu_pivot_ratio(kkt->lu) < INEXACT)
         (void)refine_once(kkt);
     for (int i = 0; i < nu; i++)
         du[i] = kkt->answer[i] * kkt->scale[i];

@@ -21,6 +21,7 @@
 static bool choose_independent(Motion *mo);
 static bool rate(void *context, double t, const double *y, double *out);
 static bool project(void *context, double t, double *y);
+static double blur(void *context);
 static bool dae_residual(void *context, double t, const double *w, const double *w_rate,
                          double *out);
 static bool dae_start(void *context, double t, const double *y, double *w, double *w_rate);
@@ -40,6 +41,7 @@ static void describe_ode(Motion *mo)
                     .quadratures = 1,
                     .context = mo,
                     .rate = rate,
+                    .blur = mo->used > 0 ? blur : NULL,
                     .cap = eq->cap};
     if (mo->used > 0 || eq->quaternion_count > 0 || eq->turned_count > 0 || eq->slide_count > 0)
         mo->ode.project = project;
@@ -89,6 +91,7 @@ Motion *motion_new(const Equations *eq, const MotionOptions *options)
     mo->du = NEW_ARRAY(double, eq->nu);
     mo->kept = NEW_ARRAY(double, eq->nu);
     mo->lambda = NEW_ARRAY(double, mo->used);
+    mo->nearest = NEW_ARRAY(double, motion_length(mo));
     mo->lambda_all = NEW_ARRAY(double, eq->m);
     mo->row_size = NEW_ARRAY(double, eq->m);
     mo->counts.singular_time = NAN;
@@ -120,6 +123,7 @@ void motion_free(Motion *mo)
     mem_free(mo->du);
     mem_free(mo->kept);
     mem_free(mo->lambda);
+    mem_free(mo->nearest);
     mem_free(mo->lambda_all);
     mem_free(mo->row_size);
     mem_free(mo->dae_weight);
@@ -224,6 +228,7 @@ static bool factor(Motion *mo)
         if (isnan(mo->counts.singular_time))
             mo->counts.singular_time = mo->t;
     }
+    mo->blur = fmax(mo->blur, kkt_blur(mo->kkt));
     mo->is_factored = true;
     return true;
 }
@@ -391,11 +396,25 @@ bool motion_solve_rates(Motion *mo)
     return (mo->eq->network_reads == NULL || solve_together(mo)) && solve_embedded(mo);
 }
 
+/* Off the manifold the constraints contradict each other a little, and near a singular position the
+ * accelerations that obey them grow without bound: there they are those of the nearest state on it.
+ */
+static bool solve_on_manifold(Motion *mo, double t, const double *y)
+{
+    if (!evaluate(mo, t, y) || !motion_solve_rates(mo))
+        return false;
+    if (mo->used == 0 || !mo->is_factored || !kkt_is_near_singular(mo->kkt))
+        return true;
+    memcpy(mo->nearest, y, (size_t)motion_length(mo) * sizeof(double));
+    return motion_project(mo, t, mo->nearest) && evaluate(mo, t, mo->nearest) &&
+           motion_solve_rates(mo);
+}
+
 static bool rate(void *context, double t, const double *y, double *out)
 {
     Motion *mo = context;
 
-    if (!evaluate(mo, t, y) || !motion_solve_rates(mo))
+    if (!solve_on_manifold(mo, t, y))
         return false;
     bring_power(mo, mo->du);
     write_rates(mo, out);
@@ -562,6 +581,15 @@ bool motion_project(Motion *mo, double t, double *y)
     if (eq->turned_count > 0)
         memcpy(y + turned_place(eq), eq->turned, (size_t)eq->turned_count * sizeof(double));
     return true;
+}
+
+static double blur(void *context)
+{
+    Motion *mo = context;
+    const double largest = mo->blur;
+
+    mo->blur = 0;
+    return largest;
 }
 
 static bool project(void *context, double t, double *y)

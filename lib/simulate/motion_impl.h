@@ -15,6 +15,7 @@ struct Motion {
     int used;              /* constraint rows in use */
     double row_ratio;      /* their pivots when they were chosen; 0: not known yet */
     bool is_repartitioned; /* since the last renewal */
+    double blur;           /* largest since it was asked for */
     Ode ode;
     double low, high; /* time window of evaluations */
     Kkt *kkt;
@@ -28,6 +29,7 @@ struct Motion {
     const double *solved;                                 /* [x'; z] */
     double *solved_before;
     double *top, *bottom, *du, *kept, *lambda, *lambda_all;
+    double *nearest; /* a y */
     double *dae_weight, *row_size, *slack;
     MotionCounts counts;
 };

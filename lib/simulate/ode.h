@@ -48,6 +48,9 @@ typedef struct Ode {
     /* n: errors of y_i up to here don't count, projected as it is after each step; NULL: all do.
      * Methods that don't project leave it aside. */
     const double *slack;
+    /* Largest relative error that rounding may have left of rates since the last call; NULL: as
+     * anywhere. No step is shortened for the sake of less. */
+    double (*blur)(void *context);
     Dae dae; /* entries 0..n+quadratures-1 of w are y; n 0: not offered */
 } Ode;
 
@@ -148,6 +151,15 @@ static inline bool stepper_slope(Stepper *stepper, double *rate)
         return true;
     stepper->counts.evaluations++;
     return ode->rate(ode->context, stepper->t, stepper->y, rate);
+}
+
+/* How many times the tolerance an error may be, since rounding leaves no less; at least 1. Asked
+ * once a step. */
+static inline double stepper_blur(const Stepper *s)
+{
+    const double blur = s->ode->blur != NULL ? s->ode->blur(s->ode->context) : 0;
+
+    return fmax(1, blur / s->control.rtol);
 }
 
 /* The row of that name, or NULL; row i, or NULL at the end. */

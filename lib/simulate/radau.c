@@ -301,7 +301,7 @@ static double step_error(Radau *r, double h)
         if (!evaluate(r, r->base.before, r->point, r->column))
             break;
     }
-    return fmax(size, 1e-10);
+    return fmax(size / stepper_blur(&r->base), 1e-10);
 }
 
 /* the new point at t, projected, and its rate */

@@ -179,21 +179,24 @@ static void fill_report(Result *r, const MarchReport *march, const RunOptions *o
     r->report.wall = seconds() - began;
 }
 
-static void remark_march(Result *r, const MarchReport *march, const RunOptions *options)
+/* how much accuracy is lost there is not known: a run of check=on measures it */
+static void remark_singular(Result *r)
 {
-    MotionCounts counts = counts_of(r);
+    const MotionCounts counts = counts_of(r);
 
+    if (counts.regularised > 0)
+        text_addf(&r->remarks,
+                  "passed near a singular position, first at t = %.6g s: rounding leaves its mark "
+                  "there at any tolerance; check=on measures what\n",
+                  counts.singular_time);
+}
+
+static void remark_march(Result *r, const MarchReport *march)
+{
     if (march->remarks.at != NULL)
         text_add(&r->remarks, march->remarks.at);
     events_tell(r->events, &r->remarks);
-    if (counts.regularised > 0)
-        text_addf(
-            &r->remarks,
-            "passed near a singular position, first at t = %.6g s; about 1e-7 is the accuracy "
-            "to be had there\n",
-            counts.singular_time);
-    if (counts.regularised > 0 && options->rtol < 1e-10)
-        text_add(&r->remarks, "a tolerance below 1e-10 gains nothing through singular positions\n");
+    remark_singular(r);
 }
 
 /* The largest difference of (q, u, x) at times that both grids have; events lie at times of their
@@ -276,7 +279,7 @@ static Status go(Result *r, const Setting *setting, const RunOptions *given, dou
         events_hand_over(r->events, report_of.events);
     if (status == E_SOLVER)
         network_hint(r->system, diag);
-    remark_march(r, &report_of, &options);
+    remark_march(r, &report_of);
     text_free(&report_of.remarks);
     fill_report(r, &report_of, &options, status == E_STOPPED, began);
     if (status == OK && options.check)
@@ -532,6 +535,9 @@ static Status positions(Result *r, const Setting *setting, const RunOptions *opt
 done:
     mem_free(y);
     events_tell(r->events, &r->remarks);
+    remark_singular(r);
+    r->report.regularised = counts_of(r).regularised;
+    r->report.singular_time = counts_of(r).singular_time;
     r->report.every = options->every;
     r->report.method = "newton";
     r->report.steps = r->grid.count;

@@ -19,3 +19,8 @@ FAMILIES += family_pulses
 family_pulses_SOURCES = tests/family/family_pulses.c tests/family/family.h tests/random.h \
 	tests/unit/session_kit.h tests/unit/test.h
 family_pulses_LDADD = libcotree.la $(unit_ldadd)
+
+FAMILIES += family_mechanisms
+family_mechanisms_SOURCES = tests/family/family_mechanisms.c tests/family/mechanisms.h \
+	tests/family/one_freedom.h tests/family/script.h
+family_mechanisms_LDADD = libcotree.la $(unit_ldadd)

@@ -1,0 +1,27 @@
+/* script.h: the statements of a member, written piece by piece */
+#ifndef COTREE_TESTS_SCRIPT_H
+#define COTREE_TESTS_SCRIPT_H
+
+#include <stdarg.h>
+#include <stdio.h>
+
+typedef struct Script {
+    char text[32768];
+    size_t length;
+} Script;
+
+__attribute__((format(printf, 2, 3), unused)) static void write_line(Script *script,
+                                                                     const char *format, ...)
+{
+    va_list arguments;
+    const size_t room = sizeof script->text - script->length - 2;
+
+    va_start(arguments, format);
+    const int more = vsnprintf(script->text + script->length, room, format, arguments);
+    va_end(arguments);
+    script->length += more < 0 ? 0 : (size_t)more < room ? (size_t)more : room - 1;
+    script->text[script->length++] = '\n';
+    script->text[script->length] = '\0';
+}
+
+#endif
