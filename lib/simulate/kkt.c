@@ -7,11 +7,12 @@
 #include <math.h>
 #include <string.h>
 
-#define NEAR     1e-2  /* pivot ratio of G G^T; below: a singular configuration isn't far, */
-#define SINGULAR 1e-5  /* and here epsilon is needed */
-#define SUSPECT  1e-1  /* pivot ratio of the LU above which nothing can be near singular */
-#define ROUNDED  1e-14 /* of speeds, once over a pivot: what rounding of positions leaves of them  \
-                        */
+#define NEAR     1e-2 /* pivot ratio of G G^T; below: a singular configuration isn't far, */
+#define SINGULAR 1e-5 /* and here epsilon is needed */
+#define SUSPECT  1e-1 /* pivot ratio of the LU above which nothing can be near singular */
+#define ROUNDED                                                                                    \
+    1e-14 /* of speeds, once over a pivot: what rounding of positions leaves of them               \
+           */
 #define MOST_BLUR   1e-8 /* what epsilon makes of that */
 #define INEXACT     3e-2 /* pivot ratio of the LU below which a sweep of refinement is due */
 #define EPSILON     1e-8 /* of the largest diagonal entry of G M^-1 G^T */

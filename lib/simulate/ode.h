@@ -153,13 +153,16 @@ static inline bool stepper_slope(Stepper *stepper, double *rate)
     return ode->rate(ode->context, stepper->t, stepper->y, rate);
 }
 
-/* How many times the tolerance an error may be, since rounding leaves no less; at least 1. Asked
+#define BENT 0.03 /* of the tolerance, where estimates are not to be believed */
+
+/* What part of the tolerance an error may be, or how many times it, since rounding leaves no less.
+ * Where the rates are blurred they bend sharply too, and estimates of errors see too little. Asked
  * once a step. */
 static inline double stepper_blur(const Stepper *s)
 {
     const double blur = s->ode->blur != NULL ? s->ode->blur(s->ode->context) : 0;
 
-    return fmax(1, blur / s->control.rtol);
+    return blur > 0 ? fmax(BENT, blur / s->control.rtol) : 1;
 }
 
 /* The row of that name, or NULL; row i, or NULL at the end. */
