@@ -55,7 +55,7 @@ libcore_la_SOURCES += \
   lib/simulate/onset.h \
   lib/simulate/netdae.h \
   lib/simulate/motion_impl.h \
-  lib/simulate/motion_surfaces.c \
+  lib/simulate/motion_renew.c lib/simulate/motion_surfaces.c \
   lib/simulate/netsolve.c \
   lib/simulate/netsolve.h \
   lib/simulate/numbers.c \

@@ -15,10 +15,7 @@
 #define TURNS             50
 #define SLACK             0.03 /* rad: what a step may leave between an angle and its reference */
 #define SUSPECT           1e-2 /* pivot ratio of Phi_d above which no position is singular */
-#define WORN              0.1  /* of the rows' pivot ratio when they were chosen */
-#define POOR              1e-2 /* pivot ratio of rows that others may better */
 
-static bool choose_independent(Motion *mo);
 static bool rate(void *context, double t, const double *y, double *out);
 static bool project(void *context, double t, double *y);
 static double blur(void *context);
@@ -199,7 +196,7 @@ static uint64_t sides_of(const Motion *mo)
     return mo->eq->sides != NULL ? *mo->eq->sides : 0;
 }
 
-static void at_position(Motion *mo, double t, const double *y)
+void motion_at_position(Motion *mo, double t, const double *y)
 {
     size_t bytes = (size_t)mo->eq->n * sizeof(double);
 
@@ -233,7 +230,7 @@ static bool factor(Motion *mo)
     return true;
 }
 
-static bool factor_embedded(Motion *mo)
+bool motion_factor_embedded(Motion *mo)
 {
     if (mo->is_embedded_factored)
         return true;
@@ -247,7 +244,7 @@ bool motion_evaluate(Motion *mo, double t, const double *y)
 {
     const Equations *eq = mo->eq;
 
-    at_position(mo, motion_clock(mo, t), y);
+    motion_at_position(mo, motion_clock(mo, t), y);
     eq->velocity(eq->context, y + eq->n, y + eq->n + eq->nu);
     if (!netsolve_find(mo->network))
         return false;
@@ -304,11 +301,11 @@ static bool solve_augmented(Motion *mo)
  * sound, and the augmented form tells the same accelerations. */
 static bool solve_embedded(Motion *mo)
 {
-    bool sound = factor_embedded(mo);
+    bool sound = motion_factor_embedded(mo);
 
-    if (!sound || embed_condition(mo->embed) < WORN) {
-        mo->is_repartitioned = choose_independent(mo) || mo->is_repartitioned;
-        sound = factor_embedded(mo);
+    if (!sound || embed_condition(mo->embed) < MOTION_WORN) {
+        mo->is_repartitioned = motion_choose_independent(mo) || mo->is_repartitioned;
+        sound = motion_factor_embedded(mo);
     }
     if (!sound || embed_pivots(mo->embed) < SUSPECT) {
         if (!solve_augmented(mo))
@@ -518,7 +515,7 @@ static bool project_position(Motion *mo, double t, double *y)
     double left, before = INFINITY;
 
     equations_normalise(mo->eq, y);
-    at_position(mo, t, y);
+    motion_at_position(mo, t, y);
     measure_rows(mo);
     left = distance(mo);
     if (left <= 1e-16 * size)
@@ -547,7 +544,7 @@ static bool project_velocity(Motion *mo, double t, const double *y, double *u, c
 {
     const Equations *eq = mo->eq;
 
-    at_position(mo, t, y);
+    motion_at_position(mo, t, y);
     if (!factor(mo))
         return false;
     eq->velocity(eq->context, u, x);
@@ -572,7 +569,7 @@ bool motion_project(Motion *mo, double t, double *y)
         return true;
     t = fmin(fmax(t, mo->low), mo->high);
     if (mo->used == 0 && eq->quaternion_count == 0)
-        at_position(mo, t, y);
+        motion_at_position(mo, t, y);
     else if (!project_position(mo, t, y) ||
              !project_velocity(mo, t, y, y + eq->n, y + eq->n + eq->nu))
         return false;
@@ -601,7 +598,7 @@ void motion_residuals(Motion *mo, double t, const double *y, double *position, d
 {
     const Equations *eq = mo->eq;
 
-    at_position(mo, t, y);
+    motion_at_position(mo, t, y);
     eq->velocity(eq->context, y + eq->n, y + eq->n + eq->nu);
     *position = vector_largest(eq->phi, eq->m);
     *velocity = 0;
@@ -617,77 +614,6 @@ void motion_residuals(Motion *mo, double t, const double *y, double *position, d
 
 /* --- embedded form --- */
 
-static bool choose_independent(Motion *mo)
-{
-    const int freedoms = mo->eq->nu - mo->used;
-    bool changed;
-    int *before;
-
-    before = NEW_ARRAY(int, freedoms);
-    memcpy(before, embed_independent(mo->embed), (size_t)freedoms * sizeof(int));
-    mo->is_embedded_factored = false;
-    changed = embed_choose(mo->embed, mo->eq->phi_u, mo->rows, mo->wanted,
-                           mo->options.independent_count) &&
-              memcmp(before, embed_independent(mo->embed), (size_t)freedoms * sizeof(int)) != 0;
-    mo->options.independent_count = 0; /* a later choice is by pivots alone */
-    mem_free(before);
-    return changed;
-}
-
-void motion_partition(Motion *mo, double t, const double *y)
-{
-    if (mo->embed == NULL)
-        return;
-    at_position(mo, t, y);
-    (void)choose_independent(mo);
-    (void)factor_embedded(mo);
-    mo->is_repartitioned = false;
-}
-
-/* Other rows in place of worn ones, where all of them offer better. */
-static bool renew_rows(Motion *mo)
-{
-    const Equations *eq = mo->eq;
-    int *rows;
-    double ratio;
-    bool changed;
-
-    if (mo->used == eq->m || mo->used == 0)
-        return false;
-    ratio = rank_ratio(eq->phi_u, eq->nu, mo->rows, mo->used);
-    if (mo->row_ratio == 0)
-        mo->row_ratio = ratio;
-    if (ratio > fmax(WORN * mo->row_ratio, POOR))
-        return false;
-    rows = NEW_ARRAY(int, mo->used);
-    mo->row_ratio = rank_choose(eq->phi_u, eq->m, eq->nu, mo->used, rows);
-    changed =
-        mo->row_ratio > ratio / WORN && memcmp(rows, mo->rows, (size_t)mo->used * sizeof(int)) != 0;
-    if (changed)
-        memcpy(mo->rows, rows, (size_t)mo->used * sizeof(int));
-    else
-        mo->row_ratio = ratio;
-    mem_free(rows);
-    return changed;
-}
-
-Renewed motion_renew(Motion *mo, double t, const double *y)
-{
-    Renewed renewed = {.independent = mo->is_repartitioned};
-
-    mo->is_repartitioned = false;
-    if (mo->used == mo->eq->m || mo->used == 0)
-        return renewed;
-    at_position(mo, t, y);
-    renewed.rows = renew_rows(mo);
-    if (renewed.rows) {
-        mo->is_factored = false;
-        if (mo->embed != NULL)
-            renewed.independent = choose_independent(mo) || renewed.independent;
-    }
-    return renewed;
-}
-
 static int motion_freedoms(const Motion *mo)
 {
     return mo->eq->nu - mo->used;
@@ -701,7 +627,7 @@ static bool embedded_residual(Motion *mo, const double *u_rate, double *out)
     const Equations *eq = mo->eq;
     int f = motion_freedoms(mo);
 
-    if (!factor_embedded(mo))
+    if (!motion_factor_embedded(mo))
         return false;
     matrix_times(eq->mass, eq->nu, eq->nu, u_rate, mo->top);
     for (int j = 0; j < eq->nu; j++)

@@ -36,6 +36,14 @@ struct Motion {
 
 /* --- motion.c --- */
 
+#define MOTION_WORN 0.1 /* of the pivot ratio when they were chosen: rows, independent speeds */
+
+/* the equations' positions at (t, y), which the factors below belong to */
+void motion_at_position(Motion *motion, double t, const double *y);
+bool motion_factor_embedded(Motion *motion);
+/* Choose independent speeds where the equations stand; true when they are others (motion_renew.c).
+ */
+bool motion_choose_independent(Motion *motion);
 /* Everything but the solution for u', with signs on surfaces as they are: false where the network
  * can't be solved. */
 bool motion_evaluate(Motion *motion, double t, const double *y);
