@@ -20,6 +20,9 @@
 #define SEEN                                                                                       \
     0.125 /* of what a source does in a step: a place that sees this much leaves it to the         \
              error estimate */
+#define AHEAD     16.0  /* steps that are looked over at once for sources that hardly bend, */
+#define LONGER    1.5   /* also when they get longer by this: */
+#define STRAIGHT  0.125 /* of its range there, that a source may leave a straight line in a step */
 #define INTERVALS 2000  /* that a search may look at: where it ends then, a step has to end, too */
 #define FINEST    1e-12 /* of the way: no search goes on below it */
 #define BEND      0.025 /* of its range in a run: a source bends no more in a step, see bend_bound() */
@@ -51,10 +54,12 @@ struct Onset {
     double *leaks;  /* slopes of those that block; NAN: it has its own */
     double *slope, *scale;
     double *seen;    /* what the step's places see of each source */
-    double *earlier; /* sources at the start of the step before */
-    double planned;  /* no step that goes so far was cut short */
-    double *onset;   /* where each source begins to act, foreseen; s */
-    int age;         /* of the effects, in steps */
+    double t_before; /* start of the step before; NAN: there is none */
+    double clear;    /* up to here sources are straight enough for steps up to */
+    double clear_step;
+    double planned; /* no step that goes so far was cut short */
+    double *onset;  /* where each source begins to act, foreseen; s */
+    int age;        /* of the effects, in steps */
     Pulse *element_pulses, *source_pulses;
 };
 
@@ -81,7 +86,6 @@ Onset *onset_new(Steep *steep, const Ode *ode)
     o->slope = NEW_ARRAY(double, o->length);
     o->scale = NEW_ARRAY(double, o->length);
     o->seen = NEW_ARRAY(double, j);
-    o->earlier = NEW_ARRAY(double, j);
     o->onset = NEW_ARRAY(double, j);
     o->element_pulses = NEW_ARRAY(Pulse, k);
     o->source_pulses = NEW_ARRAY(Pulse, j);
@@ -105,7 +109,6 @@ void onset_free(Onset *o)
     mem_free(o->scale);
     mem_free(o->leaks);
     mem_free(o->seen);
-    mem_free(o->earlier);
     mem_free(o->onset);
     mem_free(o->element_pulses);
     mem_free(o->source_pulses);
@@ -125,6 +128,8 @@ void onset_forget(Onset *o)
     memset(o->source_pulses, 0, (size_t)o->sources * sizeof(Pulse));
     for (int j = 0; j < o->sources; j++)
         o->onset[j] = NAN;
+    o->t = NAN;
+    o->clear = -INFINITY;
     o->age = 0;
     o->is_first = true;
 }
@@ -424,14 +429,46 @@ static void look_at(Onset *o, double t, const double *from)
         o->seen[j] = fmax(o->seen[j], fabs((at[j].low + at[j].high) / 2 - from[j]));
 }
 
-/* what the places where the method looks see of the sources, and what it remembers */
-static void look_around(Onset *o, const Method *method, double h)
+/* What the places where the method looks, and what it remembers, see of the sources: as many as are
+ * needed for enough of each one's way. */
+static void look_around(Onset *o, const Method *method, double h, const double *way)
 {
-    for (int j = 0; j < o->sources; j++)
-        o->seen[j] =
-            method->has_history && !o->is_first ? fabs(o->source_at[j] - o->earlier[j]) : 0;
-    for (int i = 0; i < method->node_count; i++)
+    int i = method->node_count;
+
+    memset(o->seen, 0, (size_t)o->sources * sizeof(double));
+    if (method->has_history && !isnan(o->t_before))
+        look_at(o, o->t_before, o->source_at);
+    while (i-- > 0) { /* the end first */
+        bool enough = true;
+
         look_at(o, o->t + method->nodes[i] * h, o->source_at);
+        for (int j = 0; j < o->sources && enough; j++)
+            enough = o->seen[j] >= SEEN * way[j];
+        if (enough)
+            return;
+    }
+}
+
+/* Whether no source can hide anything in this step, for it bends too little: looked for some steps
+ * ahead at once. */
+static bool is_clear(Onset *o, double h, double end)
+{
+    const Range *over;
+    Range ahead = {o->t, fmin(end, o->t + AHEAD * h)};
+
+    if (o->t + h <= o->clear && h <= o->clear_step)
+        return true;
+    h *= LONGER;
+    over = steep_sources_over(o->steep, ahead);
+    for (int j = 0; j < o->sources; j++)
+        o->seen[j] = over[j].high - over[j].low;
+    over = steep_bends_over(o->steep, ahead);
+    for (int j = 0; j < o->sources; j++)
+        if (!(fmax(fabs(over[j].low), fabs(over[j].high)) * h * h / 8 <= STRAIGHT * o->seen[j]))
+            return false;
+    o->clear = ahead.high;
+    o->clear_step = h;
+    return true;
 }
 
 /* what source j may do until `to` while a step sees nothing of it */
@@ -467,18 +504,29 @@ static double next_unseen(Onset *o, const Stepper *stepper, double end)
 {
     const Method *method = stepper->method;
     double to = fmin(end, o->t + o->h), first = end;
-    double *way = NEW_ARRAY(double, o->sources);
-    const Range *over = steep_sources_over(o->steep, (Range){o->t, to});
+    double *way;
+    const Range *over;
+    bool is_onset = false;
 
     for (int j = 0; j < o->sources; j++)
+        is_onset = is_onset || o->onset[j] == o->t;
+    if (!is_onset && is_clear(o, to - o->t, end))
+        return end;
+    take_sources(o, o->t);
+    way = NEW_ARRAY(double, o->sources);
+    over = steep_sources_over(o->steep, (Range){o->t, to});
+    for (int j = 0; j < o->sources; j++)
         way[j] = fmax(over[j].high - o->source_at[j], o->source_at[j] - over[j].low);
-    look_around(o, method, to - o->t);
+    look_around(o, method, to - o->t, way);
     for (int j = 0; j < o->sources; j++) {
         double at;
 
-        if (o->onset[j] == o->t)
-            o->source_pulses[j] =
-                source_pulse(o, j, delta_of(o, j, stepper, to), end, method->pulse_steps);
+        if (o->onset[j] == o->t) {
+            double delta = delta_of(o, j, stepper, to);
+
+            o->source_pulses[j] = source_pulse(o, j, delta, end, method->pulse_steps);
+            o->onset[j] = NAN;
+        }
         if (!(way[j] > 0) || o->seen[j] >= SEEN * way[j])
             continue;
         at = unseen(o, j, stepper, to);
@@ -499,14 +547,15 @@ double onset_before_step(Onset *o, Stepper *stepper, double end)
 
     if (o == NULL)
         return end;
+    o->t_before = o->t;
     o->t = stepper->t;
     o->h = fmin(stepper->next > 0 ? stepper->next : end - o->t, end - o->t);
     o->h = fmin(o->h, control_asked(&stepper->control));
     choose_scale(o, stepper);
-    take_sources(o, o->t);
     if (o->is_first && o->sources > 0)
         steep_span(o->steep, o->t, end);
     if (o->elements > 0) {
+        take_sources(o, o->t);
         if (stepper->method->sees_little)
             bound = bend_bound(o, end);
         o->h = fmin(o->h, bound);
@@ -518,7 +567,6 @@ double onset_before_step(Onset *o, Stepper *stepper, double end)
         first = fmin(first, next_unseen(o, stepper, first));
     bound = fmin(bound, bound_by(o->source_pulses, o->sources, o->t));
     stepper->bound = bound < end - o->t ? bound : 0;
-    memcpy(o->earlier, o->source_at, (size_t)o->sources * sizeof(double));
     o->is_first = false;
     o->planned = fmin(first, o->t + o->h * (1 - 1e-9));
     return first;
