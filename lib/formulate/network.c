@@ -89,6 +89,10 @@ static void read_relation(System *system, Branchlike *branch)
     source = *instance;
     found_value(system, &source);
     instance->row->relation(&source, arena, branch->which, &motion, &branch->relation);
+    /* a source of current that follows its own voltage is a resistor */
+    if (branch->relation.kind == RELATION_THROUGH &&
+        !expr_is_zero(expr_diff(arena, branch->relation.value, motion.across)))
+        branch->relation.kind = RELATION_CONDUCTIVE;
     if (system->leak != NULL)
         add_leak(system, motion.across, &branch->relation);
     if (branch->relation.kind == RELATION_IDEAL || branch->relation.switches)

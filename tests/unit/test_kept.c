@@ -99,8 +99,23 @@ static void an_operating_point_stays_but_for_what_is_given(void)
     kit_free(&kit);
 }
 
+/* the source is a conductance g that an event makes a thousandth: the coil's flux stays */
+static void a_source_that_follows_its_own_voltage_is_a_resistor(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, "capacitor Q q 0 1\nvsource V a 0 50\nisource S a b S.v*(1 + 999*Q.v)\n"
+                      "inductor L b c 0.1\nresistor R c 0 1\n"
+                      "event off when=t >= 0.5 Q.v = 0\ninit L.i = 0, Q.v = 1\n"
+                      "simulate 0.5 every=0.1\n");
+    EXPECT(is_near(kit_value(&kit, "max(L.i)"), 50 / 1.001 * (1 - exp(-0.5 * 10.01)), 1e-4));
+    EXPECT(is_near(kit_value(&kit, "L.i"), kit_value(&kit, "max(L.i)"), 1e-9));
+    kit_free(&kit);
+}
+
 int main(void)
 {
+    RUN(a_source_that_follows_its_own_voltage_is_a_resistor);
     RUN(currents_of_a_star_begin_as_given);
     RUN(no_plate_rests_beyond_its_electrode);
     RUN(a_short_ramp_is_a_ramp);
