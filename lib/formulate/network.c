@@ -11,7 +11,7 @@
 
 #include <string.h>
 
-#define DEEP 100 /* followed edges, from which on variables stay unknown rather than go further */
+#define DEEP 30 /* followed edges, from which on variables stay unknown: resolve() goes to 40 */
 
 static const Instance *owner_of(const System *system, const Branchlike *branch)
 {

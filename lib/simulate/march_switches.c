@@ -11,9 +11,11 @@
 #define POINTS      5     /* of a step, where they are looked at */
 #define SLIDING     40    /* likewise, where a force may leave its interval for a moment */
 #define ROUNDING    1e-13 /* of the largest margin: what rounding does to any */
+#define NOTHING     1e-4  /* of the absolute tolerance: where all is next to nothing, as at rest */
 #define MOST_NOISE  1e-6  /* likewise: more than that is none */
 #define MOVES       3     /* that tell how far errors reach */
 #define ZENO_EVENTS 100
+#define ZENO_EACH   10   /* of every condition, which all may go over at one instant */
 #define ZENO_SPAN   1e-9 /* of the run */
 
 /* --- conditions --- */
@@ -87,7 +89,8 @@ static void find_noise(March *m)
     here = NEW_ARRAY(double, m->eq->switch_count);
     memcpy(here, m->conditions, (size_t)m->eq->switch_count * sizeof(double));
     for (int i = 0; i < m->eq->switch_count; i++)
-        m->noise[i] = is_margin(m, i) ? ROUNDING * largest_margin(m) : 0;
+        m->noise[i] =
+            is_margin(m, i) ? fmax(ROUNDING * largest_margin(m), NOTHING * m->control.atol) : 0;
     for (int turn = 0; turn < MOVES; turn++) {
         for (int k = 0; k < m->length; k++) {
             double tolerance = m->control.rtol * fabs(m->stepper->y[k]) + m->control.atol;
@@ -285,7 +288,7 @@ Status march_check_pace(March *m, int i, Diag *diag)
         m->switched_since = m->stepper->t;
         m->switches = 0;
     }
-    if (++m->switches <= ZENO_EVENTS)
+    if (++m->switches <= ZENO_EVENTS + ZENO_EACH * m->count)
         return OK;
     if (march_is_of_event(m, i))
         return events_are_stuck(m->ev, i - m->eq->switch_count, m->stepper->t, diag);

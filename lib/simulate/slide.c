@@ -359,7 +359,7 @@ void slide_tell(void *context, const Leg *leg, int condition, Text *out)
     if (text != NULL)
         text_addf(out, "the sign of %s", text);
     else
-        text_add(out, "an ideal diode");
+        text_add(out, "a diode");
     if (part != NULL)
         text_addf(out, " (%s)", part);
     mem_free(text);

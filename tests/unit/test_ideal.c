@@ -248,6 +248,37 @@ static void a_sampled_duty_holds_in_every_period(void)
                    0.02, 0.01);
 }
 
+/* Diodes with resistances that all begin at once: fifty behind each other, where what follows from
+ * each leads through all others; and a multiplier, whose voltage is that of ideal ones less what
+ * 0.1 ohm takes, in a few hundred steps a period. */
+static void many_diodes_with_resistances_run(void)
+{
+    char line[200];
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, "vsource V n0 0 10*sin(2*pi*1e3*t)\n");
+    for (int k = 1; k <= 50; k++) {
+        (void)snprintf(line, sizeof line,
+                       "resistor R%d n%d n%d 10\ndiode D%d n%d m%d Ron=0.1 Roff=1e7\n"
+                       "capacitor C%d m%d 0 0.1 uF\nresistor L%d m%d 0 1e4\n",
+                       k, k - 1, k, k, k, k, k, k, k, k);
+        EXPECT_DONE(&kit, line);
+    }
+    EXPECT_DONE(&kit, "simulate 0.5 ms every=1e-5\nexpect (m1.v > m2.v) ~ 1 within 0\n"
+                      "expect (m49.v > m50.v) ~ 1 within 0\nclear\n");
+    EXPECT_DONE(&kit, "vsource V s0 0 100*sin(2*pi*1e3*t)\nresistor Rs s0 s 10\n"
+                      "capacitor Ca1 s a1 1 uF\ndiode Da1 0 a1 Ron=0.1 Roff=1e7\n"
+                      "diode Db1 a1 b1 Ron=0.1 Roff=1e7\ncapacitor Cb1 0 b1 1 uF\n"
+                      "capacitor Ca2 a1 a2 1 uF\ndiode Da2 b1 a2 Ron=0.1 Roff=1e7\n"
+                      "diode Db2 a2 b2 Ron=0.1 Roff=1e7\ncapacitor Cb2 b1 b2 1 uF\n"
+                      "capacitor Ca3 a2 a3 1 uF\ndiode Da3 b2 a3 Ron=0.1 Roff=1e7\n"
+                      "diode Db3 a3 b3 Ron=0.1 Roff=1e7\ncapacitor Cb3 b2 b3 1 uF\n"
+                      "resistor RL b3 0 1e6\nsimulate 0.02 every=1e-4\n"
+                      "expect b3.v ~ 440.459 within 0.3\n");
+    EXPECT(steps_of_run(&kit) < 12000);
+    kit_free(&kit);
+}
+
 static void a_flyback_converter_hands_over_energy(void)
 {
     Kit kit = kit_new();
@@ -616,6 +647,7 @@ int main(void)
     RUN(a_buck_converter_goes_on_without_a_gap);
     RUN(a_buck_converter_rests_where_its_current_ends);
     RUN(a_sampled_duty_holds_in_every_period);
+    RUN(many_diodes_with_resistances_run);
     RUN(a_flyback_converter_hands_over_energy);
     RUN(diodes_take_over_from_switches);
     RUN(diodes_in_a_row_share_the_voltage);
