@@ -57,3 +57,6 @@ test_causes_LDADD = $(unit_ldadd)
 UNIT_TESTS += test_kept
 test_kept_SOURCES = tests/unit/test_kept.c tests/unit/session_kit.h tests/unit/test.h
 test_kept_LDADD = $(unit_ldadd)
+UNIT_TESTS += test_costs
+test_costs_SOURCES = tests/unit/test_costs.c tests/unit/test.h
+test_costs_LDADD = $(unit_ldadd)
