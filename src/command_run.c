@@ -186,13 +186,6 @@ ct_status command_table(Call *call, ct_error *error)
         ct_free(table.values);
         ct_words_free(table.names);
     }
-    if (status != CT_OK && error->line == 0 && step != NULL) {
-        const ct_error why = *error;
-
-        ct_error_at(statement, step, error, "%s", why.message);
-        error_hint(error, "%s", why.hint);
-        error->status = status;
-    }
     free(items);
     return status;
 }

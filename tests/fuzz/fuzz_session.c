@@ -177,6 +177,27 @@ static void check_completion(ct_session *session, const char *text)
     mutate_claim(start <= cursor, "completion begins before the cursor");
 }
 
+/* back over everything and forth again: the same model, and an empty one between */
+static void check_way_back(ct_session *session)
+{
+    char *before = ct_save(session);
+    const int steps = ct_step_count(session);
+    int moves = 0;
+    char *middle;
+
+    while (ct_step_count(session) > 0 && ct_undo(session, NULL) == CT_OK)
+        moves++;
+    mutate_claim(ct_step_count(session) == 0, "everything can be undone");
+    middle = ct_save(session);
+    mutate_claim(middle[0] == '\0', "and nothing is left then");
+    while (moves-- > 0)
+        mutate_claim(ct_redo(session, NULL) == CT_OK, "what was undone can be done again");
+    mutate_claim(ct_step_count(session) == steps, "with as many steps");
+    check_unchanged(session, before);
+    ct_free(middle);
+    ct_free(before);
+}
+
 static void target(const char *text)
 {
     size_t length = strlen(text);
@@ -187,6 +208,8 @@ static void target(const char *text)
     apply(session, models[length % (sizeof models / sizeof *models)], &began);
     apply(session, text, &began);
     check_completion(session, text);
+    began = clock();
+    check_way_back(session);
     ct_session_free(session);
 }
 
