@@ -550,7 +550,8 @@ double onset_before_step(Onset *o, Stepper *stepper, double end)
     o->t_before = o->t;
     o->t = stepper->t;
     o->h = fmin(stepper->next > 0 ? stepper->next : end - o->t, end - o->t);
-    o->h = fmin(o->h, control_asked(&stepper->control));
+    o->h = fmin(o->h, stepper->method->sees_little ? control_largest(&stepper->control)
+                                                   : control_asked(&stepper->control));
     choose_scale(o, stepper);
     if (o->is_first && o->sources > 0)
         steep_span(o->steep, o->t, end);
