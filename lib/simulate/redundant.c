@@ -110,10 +110,12 @@ void redundant_tell(const System *system, const double *phi_u, const int *order,
         name_repeated(system, order, rank, shares, joint, out);
         text_char(out, '\n');
     }
-    text_addf(out,
-              "%d degree%s of freedom without what is redundant; the reactions told there are the "
-              "least that balance (minimum norm)\n",
-              nu - rank, nu - rank == 1 ? "" : "s");
+    text_addf(
+        out,
+        "%d degree%s of freedom without what is redundant; reactions there are not determined: "
+        "those told are the least (minimum norm) of the joints outside the tree, and depend "
+        "on it\n",
+        nu - rank, nu - rank == 1 ? "" : "s");
     mem_free(told);
     mem_free(shares);
 }
