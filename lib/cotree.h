@@ -102,7 +102,8 @@ const char *ct_expression_word(
  * done and no error, for other verbs. On failure the model is as it was. */
 ct_status ct_apply(ct_session *session, const ct_statement *statement, ct_error *error);
 const char *
-ct_remarks(const ct_session *session); /* lines that the last call had to say to the user; "" */
+ct_remarks(const ct_session *session); /* lines that the last call had to say to the user; "". Those
+                                         that begin with "warning: " are for quiet ones, too */
 ct_status ct_undo(ct_session *session, ct_error *error); /* ct_remarks() names what was undone */
 ct_status ct_redo(ct_session *session, ct_error *error);
 /* What changes the model from ct_begin_group() to ct_end_group(), which takes what that returned,

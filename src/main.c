@@ -48,7 +48,7 @@ static const char usage[] =
     "  -e, --execute STATEMENT  run a statement; repeatable\n"
     "  -i, --interactive        go on at the prompt afterwards\n"
     "  -k, --keep-going         go on after a statement that failed\n"
-    "  -q, --quiet              no banner, no remarks\n"
+    "  -q, --quiet              no banner, no remarks but warnings\n"
     "      --no-init            don't read the start-up file\n"
     "      --safe               write no file, and read none outside the script's folder\n"
     "      --seed N             start of random numbers\n"

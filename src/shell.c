@@ -172,13 +172,18 @@ static ct_status command(Shell *shell, const Command *row, const ct_statement *s
     return status;
 }
 
+/* a line at a time; in quiet sessions warnings alone */
 static void say_remarks(const Shell *shell)
 {
-    const char *remarks = ct_remarks(shell->session);
-    size_t length = strlen(remarks);
+    static const char warning[] = "warning: ";
 
-    if (length > 0 && !shell->quiet)
-        remark("%.*s", (int)(remarks[length - 1] == '\n' ? length - 1 : length), remarks);
+    for (const char *line = ct_remarks(shell->session); *line != '\0';) {
+        size_t length = strcspn(line, "\n");
+
+        if (!shell->quiet || strncmp(line, warning, sizeof warning - 1) == 0)
+            remark("%.*s", (int)length, line);
+        line += length + (line[length] == '\n');
+    }
 }
 
 /* Keep an accepted statement, in the history and the recording. */
