@@ -179,7 +179,11 @@ static Expr tie_shown(System *system, const Row *row)
     s = slide_value(system, joint, &steps.shift[0]);
     chord_turn(system, joint, &steps, 0, &turn);
     if (turn.angle != NULL)
-        return expr_sub(arena, s, expr_mul(arena, row->lead, turn.angle));
+        return expr_sub(
+            arena, s,
+            expr_mul(arena, row->lead,
+                     expr_add(arena, turn.angle,
+                              turned_whole(system, joint->number, steps.turn[0].coordinate))));
     s = expr_div(arena, s, row->lead);
     compare_angle(system, joint->coord[steps.turn[0].coordinate], &turn, s);
     return expr_mul(arena, row->lead, angle_missed(system, &turn, s));
@@ -310,6 +314,8 @@ static Status row_vanishes(System *system, const Row *row, Sample *const *sample
     *vanishes = false;
     if (!row_is_constant(system, row, samples, &value))
         return OK;
+    if (row->kind == ROW_ANGLE)
+        value = remainder(value, 2 * M_PI); /* whole turns are none */
     if (fabs(value) > MISFIT) {
         (void)diag_set(diag, E_ASSEMBLE,
                        "%s can't be assembled: its equation along %s is %.6g = 0 in every position",

@@ -198,7 +198,8 @@ static Status chord_value(System *system, const Instance *owner, int coordinate,
         if (*out != NULL)
             return OK;
         chord_turn(system, owner, &steps, k, &turn);
-        *out = turn.angle != NULL ? turn.angle
+        *out = turn.angle != NULL ? expr_add(system->arena, turn.angle,
+                                             turned_whole(system, owner->number, coordinate))
                                   : expr_call2(system->arena, OP_ATAN2, turn.sine, turn.cosine);
         return OK;
     }

@@ -22,7 +22,7 @@ static Expr phi_entry(System *system, int k, int j, Diag *diag, Status *status)
     Expr entry = expr_int(system->arena, 0);
 
     if (*status == OK)
-        *status = system_show(system, BLOCK_JACOBIAN, k, j, &entry, diag);
+        *status = show_entry(system, BLOCK_JACOBIAN, k, j, &entry, diag);
     return entry;
 }
 
@@ -189,13 +189,13 @@ static Status project(System *system, int row, Block block, int column, Expr *ou
 
     CHECK(partition(system, &part, diag));
     independent = independent_speed(system, &part, row);
-    CHECK(system_show(system, block, independent, column, &sum, diag));
+    CHECK(show_entry(system, block, independent, column, &sum, diag));
     for (int i = 0; i < part.m; i++) {
         Expr ratio = follow(system, &part, i, independent, diag, &status);
         Expr entry;
 
         CHECK(status);
-        CHECK(system_show(system, block, part.dependent[i], column, &entry, diag));
+        CHECK(show_entry(system, block, part.dependent[i], column, &entry, diag));
         sum = expr_add(system->arena, sum, expr_mul(system->arena, ratio, entry));
     }
     *out = sum;

@@ -8,6 +8,8 @@ libcore_la_SOURCES += \
 	lib/formulate/critical.c \
 	lib/formulate/coordinate.c \
 	lib/formulate/dynamics.c \
+	lib/formulate/edges.c \
+	lib/formulate/edges.h \
 	lib/formulate/efforts.c \
 	lib/formulate/embedded.c \
 	lib/formulate/energy.c \

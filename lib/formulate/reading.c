@@ -60,7 +60,7 @@ static Status write_out(System *system, Expr *out, Diag *diag)
 
         system_block_size(system, blocks[b], &rows, &columns);
         for (int i = 0; i < rows * columns; i++)
-            CHECK(system_show(system, blocks[b], i / columns, i % columns, out++, diag));
+            CHECK(show_entry(system, blocks[b], i / columns, i % columns, out++, diag));
     }
 done:
     return status;

@@ -54,6 +54,9 @@ static double symbol_value(void *context, Expr symbol)
     for (int i = 0; i < system->parameters.count; i++)
         if (system->parameters.at[i].symbol == symbol)
             return sample->parameter[i];
+    for (int i = 0; i < system->counted.count; i++)
+        if (system->counted.at[i].told.symbol == symbol)
+            return 0;
     return NAN;
 }
 

@@ -501,7 +501,7 @@ bool system_writes_out(System *system)
     return !is_large(system);
 }
 
-Status system_show(System *system, Block block, int row, int column, Expr *out, Diag *diag)
+Status show_entry(System *system, Block block, int row, int column, Expr *out, Diag *diag)
 {
     int rows;
     int columns;
@@ -530,5 +530,14 @@ Status system_show(System *system, Block block, int row, int column, Expr *out, 
     }
     *out = *entry;
 done:
+    return status;
+}
+
+Status system_show(System *system, Block block, int row, int column, Expr *out, Diag *diag)
+{
+    Status status = show_entry(system, block, row, column, out, diag);
+
+    if (status == OK)
+        *out = system_plain(system, *out);
     return status;
 }

@@ -336,6 +336,7 @@ static Status build(System *system, Diag *diag)
     system->is_early = false;
     CHECK(network_rows(system, diag));
     CHECK(reading_choose(system, diag));
+    turned_add_rows(system);
     CHECK(poll(system->watch));
     if (arena_status(system->arena) != OK) {
         status = diag_set(diag, arena_status(system->arena), "the equations can't be formed: %s",
@@ -566,6 +567,7 @@ void system_free(System *system)
     LIST_FREE(system->chains);
     LIST_FREE(system->masses);
     LIST_FREE(system->turned);
+    LIST_FREE(system->counted);
     LIST_FREE(system->angles_off);
     LIST_FREE(system->rows);
     LIST_FREE(system->vanished);

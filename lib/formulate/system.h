@@ -91,6 +91,20 @@ const Turned *system_turned(const System *system, int i);
 /* Its rate, for keeping `near` next to it: bounded also where sine and cosine vanish together. */
 MUST_USE Status system_turned_rate(System *system, int i, Expr *out, Diag *diag);
 
+/* Where turns about one axis add up around a circuit their sum is known but for whole turns: what
+ * is added to the sum, and stays as it is in a run. A start chooses it, so that angles begin where
+ * they were given, or within half a turn of 0. */
+typedef struct WholeTurns {
+    const char *name; /* of the chord's coordinate whose angle it is; NULL: */
+    int row;          /* it belongs to this constraint, which says that the sum is 0 */
+    Expr sum;         /* of angles, in q and parameters; of a coordinate */
+    Expr symbol;      /* rad; a parameter of no model */
+} WholeTurns;
+int system_whole_turns_count(const System *system);
+const WholeTurns *system_whole_turns(const System *system, int i);
+/* The same expression for a reader, who isn't told of whole turns. */
+Expr system_plain(const System *system, Expr e);
+
 /* An angle that a constraint compares by its sine alone, which half a turn off holds too: how far
  * it is off, within half a turn, in q, t and parameters. NULL at the end */
 typedef struct AngleOff {

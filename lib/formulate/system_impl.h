@@ -141,6 +141,11 @@ typedef struct TurnedChord {
     Expr cosine;
 } TurnedChord;
 
+typedef struct CountedChord { /* whose angle is a sum */
+    WholeTurns told;
+    int instance, coordinate;
+} CountedChord;
+
 typedef struct Given {
     Expr symbol; /* a parameter */
     double value;
@@ -249,6 +254,7 @@ struct System {
     Vec *alpha0; /* of chains, in the axes of their resolve chain */
     Vec *a0;     /* of nodes */
     LIST(TurnedChord) turned;
+    LIST(CountedChord) counted;
     LIST(AngleOff) angles_off;
     LIST(Mass) masses;
     LIST(Row) rows;
@@ -404,6 +410,10 @@ void chord_turn(System *system, const Instance *owner, const Steps *steps, int w
 void turned_build(System *system);
 /* the angle of such a turn; NULL: it is none of them */
 Expr turned_angle(const System *system, int instance, int coordinate);
+/* the whole turns that the angle of a chord has beside the sum that tells it; 0: it has none */
+Expr turned_whole(const System *system, int instance, int coordinate);
+/* to rows of angles that sum up to 0, in the reading to run */
+void turned_add_rows(System *system);
 /* a driver makes it so */
 void turned_drive(System *system, int instance, int coordinate, Expr prescribed);
 /* the way from tail to head along a slide's axis */
@@ -532,6 +542,8 @@ bool system_writes_out(System *system);
 /* --- the cheaper reading (reading.c) --- */
 
 MUST_USE Status reading_choose(System *system, Diag *diag);
+/* an entry of what is shown, whole turns with it (show.c) */
+MUST_USE Status show_entry(System *system, Block block, int row, int column, Expr *out, Diag *diag);
 
 /* --- the embedded form (embedded.c) --- */
 

@@ -6,6 +6,80 @@
  * back onto the angle wherever they put q back onto the constraints. */
 #include "formulate/system_impl.h"
 
+static Expr whole_symbol(System *system, const char *name)
+{
+    return expr_symbol(system->arena, system_keep(system, "#turns of %s", name), SYMBOL_PARAMETER);
+}
+
+static void add_counted(System *system, const Instance *joint, int coordinate, Expr sum)
+{
+    const char *name = joint->coord[coordinate];
+    const CountedChord chord = {.told = {name, -1, sum, whole_symbol(system, name)},
+                                .instance = joint->number,
+                                .coordinate = coordinate};
+
+    LIST_PUSH(system->counted, chord);
+}
+
+void turned_add_rows(System *system)
+{
+    for (int k = 0; k < system->rows.count; k++) {
+        const Row *row = &system->rows.at[k];
+        const char *name = system->instances[row->told.instance].name;
+        const CountedChord chord = {
+            .told = {NULL, k, row->phi,
+                     whole_symbol(system, system_keep(system, "row %d, %s", k, name))},
+            .instance = -1,
+            .coordinate = -1};
+
+        if (row->kind != ROW_ANGLE)
+            continue;
+        LIST_PUSH(system->counted, chord);
+        system->run.phi[k] = expr_add(system->arena, system->run.phi[k], chord.told.symbol);
+        if (system->definitions.phi != system->run.phi)
+            system->definitions.phi[k] =
+                expr_add(system->arena, system->definitions.phi[k], chord.told.symbol);
+    }
+}
+
+Expr turned_whole(const System *system, int instance, int coordinate)
+{
+    for (int i = 0; i < system->counted.count; i++)
+        if (system->counted.at[i].instance == instance &&
+            system->counted.at[i].coordinate == coordinate)
+            return system->counted.at[i].told.symbol;
+    return expr_int(system->arena, 0);
+}
+
+int system_whole_turns_count(const System *system)
+{
+    return system->counted.count;
+}
+
+const WholeTurns *system_whole_turns(const System *system, int i)
+{
+    return &system->counted.at[i].told;
+}
+
+Expr system_plain(const System *system, Expr e)
+{
+    int count = system->counted.count;
+    Expr *symbols, *zeros;
+
+    if (count == 0 || (expr_kinds(e) & 1U << SYMBOL_PARAMETER) == 0)
+        return e;
+    symbols = NEW_ARRAY(Expr, count);
+    zeros = NEW_ARRAY(Expr, count);
+    for (int i = 0; i < count; i++) {
+        symbols[i] = system->counted.at[i].told.symbol;
+        zeros[i] = expr_int(system->arena, 0);
+    }
+    e = expr_substitute(system->arena, e, symbols, zeros, count);
+    mem_free(symbols);
+    mem_free(zeros);
+    return e;
+}
+
 static void add_turned(System *system, const Instance *joint, const Steps *steps, int which)
 {
     Arena *arena = system->arena;
@@ -14,8 +88,13 @@ static void add_turned(System *system, const Instance *joint, const Steps *steps
     ChordTurn turn;
 
     chord_turn(system, joint, steps, which, &turn);
-    if (turn.angle != NULL ||
-        ((expr_kinds(turn.sine) | expr_kinds(turn.cosine)) & 1U << SYMBOL_COORDINATE) == 0)
+    if (turn.angle != NULL) {
+        add_counted(system, joint, coordinate, turn.angle);
+        return;
+    }
+    if (steps_are_tied(steps) && !joint->is_virtual)
+        return; /* told by the shift */
+    if (((expr_kinds(turn.sine) | expr_kinds(turn.cosine)) & 1U << SYMBOL_COORDINATE) == 0)
         return;
     chord.sine = turn.sine;
     chord.cosine = turn.cosine;
@@ -36,8 +115,6 @@ void turned_build(System *system)
         if (joint->row->steps == NULL || joint->edge < 0)
             continue;
         instance_steps(system, joint, &steps);
-        if (steps_are_tied(&steps) && !joint->is_virtual)
-            continue; /* told by the shift */
         /* three turns in a chord have no angles that could be told */
         for (int k = 0; k < steps.turn_count && steps.turn_count < 3; k++)
             if (system->coordinate[i][steps.turn[k].coordinate] < 0)

@@ -525,7 +525,7 @@ static Status entry_variable(System *system, const char *path, bool *found, Expr
         if (row < 1 || column < 1 || row > rows || column > columns)
             return diag_set(diag, E_VALUE, "%s: %s has %d rows and %d columns", path,
                             block_name(block), rows, columns);
-        return system_show(system, block, row - 1, column - 1, out, diag);
+        return show_entry(system, block, row - 1, column - 1, out, diag);
     }
     return OK;
 }

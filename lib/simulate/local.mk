@@ -45,6 +45,8 @@ libcore_la_SOURCES += \
   lib/simulate/march_jumps.c \
   lib/simulate/march_slide.c \
   lib/simulate/march_switches.c \
+  lib/simulate/matrix3.c \
+  lib/simulate/matrix3.h \
   lib/simulate/method.c \
   lib/simulate/methods.def \
   lib/simulate/modes.c \
@@ -96,14 +98,19 @@ libcore_la_SOURCES += \
   lib/simulate/single.h \
   lib/simulate/sparse.c \
   lib/simulate/sparse.h \
+  lib/simulate/skeleton.c \
+  lib/simulate/skeleton.h \
+  lib/simulate/skeleton_rows.c \
   lib/simulate/spectrum.c \
   lib/simulate/spectrum.h \
   lib/simulate/square.c \
   lib/simulate/square.h \
   lib/simulate/start.c \
+  lib/simulate/start_given.c \
   lib/simulate/start.h \
   lib/simulate/start_impl.h \
   lib/simulate/start_network.c \
+  lib/simulate/start_place.c \
   lib/simulate/start_turns.c \
   lib/simulate/statics.c \
   lib/simulate/steep.c \

@@ -140,17 +140,21 @@ void probe_free(Probe *probe)
     mem_free(probe);
 }
 
-bool probe_turn(Probe *probe, Expr parameter, double value)
+/* another value of one of a machine's parameters; false: it holds none such */
+static bool machine_set(const Machine *machine, const Layout *layout, Expr parameter, double value)
 {
-    Workspace *workspace = probe->machine.workspace;
-
-    for (int i = 0; probe->machine.own[i] != NULL; i++)
-        if (probe->machine.own[i] == parameter) {
-            workspace_inputs(workspace)[probe->layout->count + i] = value;
-            workspace_run(workspace, STAGE_PARAMETER, STAGE_PARAMETER);
+    for (int i = 0; machine->own != NULL && machine->own[i] != NULL; i++)
+        if (machine->own[i] == parameter) {
+            workspace_inputs(machine->workspace)[layout->count + i] = value;
+            workspace_run(machine->workspace, STAGE_PARAMETER, STAGE_PARAMETER);
             return true;
         }
     return false;
+}
+
+bool probe_turn(Probe *probe, Expr parameter, double value)
+{
+    return machine_set(&probe->machine, probe->layout, parameter, value);
 }
 
 double *probe_input(Probe *probe, int place)
@@ -749,6 +753,12 @@ Status numbers_new(const Layout *layout, Parameters *parameters, Numbers **out, 
     nb->eq.cap = nb->cap;
     nb->eq.quaternions = nb->quaternions;
     nb->eq.quaternion_count = count;
+    for (int i = 0; i < system_whole_turns_count(layout->system); i++) {
+        Expr whole = system_whole_turns(layout->system, i)->symbol;
+
+        if (!parameters_keep(parameters, whole))
+            parameters_set(parameters, whole, 0);
+    }
     CHECK(compile_equations(nb, parameters, diag));
     CHECK(compile_switches(nb, parameters, diag));
     CHECK(compile_slip(nb, parameters, diag));
@@ -774,6 +784,15 @@ void numbers_free(Numbers *nb)
     mem_free(nb->guards);
     mem_free(nb->told);
     mem_free(nb);
+}
+
+void numbers_set(Numbers *nb, Expr parameter, double value)
+{
+    (void)machine_set(&nb->main, nb->layout, parameter, value);
+    (void)machine_set(&nb->switching, nb->layout, parameter, value);
+    (void)machine_set(&nb->network, nb->layout, parameter, value);
+    if (nb->slip != NULL)
+        (void)probe_turn(nb->slip, parameter, value);
 }
 
 const Equations *numbers_equations(const Numbers *nb)

@@ -56,7 +56,9 @@ typedef struct Parameters {
     double *values;
 } Parameters;
 
-double parameters_value(Parameters *parameters, Expr symbol); /* kept, else asked and kept */
+double parameters_value(Parameters *parameters, Expr symbol);    /* kept, else asked and kept */
+bool parameters_keep(const Parameters *parameters, Expr symbol); /* whether it is */
+void parameters_set(Parameters *parameters, Expr symbol, double value); /* kept from now on */
 /* the number of an expression of parameters alone */
 double parameters_evaluate(Parameters *parameters, Expr e);
 void parameters_free(Parameters *parameters);
@@ -94,11 +96,14 @@ const double *probe_values(Probe *probe, const RowValues *row);
 void probe_errors(const Probe *probe, const RowValues *errors, double *out);
 
 typedef struct Numbers Numbers;
-/* Compile the reading to run. `layout` and `parameters` outlive it. */
+/* Whole turns of sums of angles are 0 where `parameters` keeps no others.
+ * Compile the reading to run. `layout` and `parameters` outlive it. */
 MUST_USE Status numbers_new(const Layout *layout, Parameters *parameters, Numbers **out,
                             Diag *diag);
 void numbers_free(Numbers *numbers); /* NULL is fine */
 const Equations *numbers_equations(const Numbers *numbers);
+/* Another value of a parameter in all of its programs, where they hold it. */
+void numbers_set(Numbers *numbers, Expr parameter, double value);
 /* what condition i of the equations compares with 0; NULL: it is whether a diode stays on its side
  */
 Expr numbers_condition(const Numbers *numbers, int i);

@@ -5,19 +5,37 @@
 
 #include <math.h>
 
+bool parameters_keep(const Parameters *p, Expr symbol)
+{
+    for (int i = 0; i < p->count; i++)
+        if (p->symbols[i] == symbol)
+            return true;
+    return false;
+}
+
+void parameters_set(Parameters *p, Expr symbol, double value)
+{
+    int at = 0;
+
+    while (at < p->count && p->symbols[at] != symbol)
+        at++;
+    if (at == p->room) {
+        p->room = p->room < 16 ? 32 : 2 * p->room;
+        p->symbols = mem_grow(p->symbols, (size_t)p->room, sizeof(Expr));
+        p->values = mem_grow(p->values, (size_t)p->room, sizeof(double));
+    }
+    p->count += at == p->count;
+    p->symbols[at] = symbol;
+    p->values[at] = value;
+}
+
 double parameters_value(Parameters *p, Expr symbol)
 {
     for (int i = 0; i < p->count; i++)
         if (p->symbols[i] == symbol)
             return p->values[i];
-    if (p->count == p->room) {
-        p->room = p->room < 16 ? 32 : 2 * p->room;
-        p->symbols = mem_grow(p->symbols, (size_t)p->room, sizeof(Expr));
-        p->values = mem_grow(p->values, (size_t)p->room, sizeof(double));
-    }
-    p->symbols[p->count] = symbol;
-    p->values[p->count] = p->value != NULL ? p->value(p->context, symbol) : NAN;
-    return p->values[p->count++];
+    parameters_set(p, symbol, p->value != NULL ? p->value(p->context, symbol) : NAN);
+    return p->values[p->count - 1];
 }
 
 double parameters_value_in(void *context, Expr symbol)

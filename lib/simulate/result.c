@@ -264,6 +264,18 @@ done:
     return status;
 }
 
+/* sums of angles go on in the turns that the start chose */
+static void keep_whole_turns(Result *r, const Result *old)
+{
+    for (int i = 0; i < system_whole_turns_count(r->system); i++) {
+        Expr whole = system_whole_turns(r->system, i)->symbol;
+        double value = parameters_value((Parameters *)&old->parameters, whole);
+
+        parameters_set(&r->parameters, whole, value);
+        numbers_set(result_whole(r)->numbers, whole, value);
+    }
+}
+
 Status result_reopen(const Result *old, const Setting *setting, Result **out, Diag *diag)
 {
     int last = old->grid.count - 1;
@@ -272,6 +284,7 @@ Status result_reopen(const Result *old, const Setting *setting, Result **out, Di
     Status status = OK;
 
     CHECK(prepare(old->kind, old->system, setting, &r, diag));
+    keep_whole_turns(r, old);
     r->start.rows = NEW_ARRAY(int, m);
     memcpy(r->start.rows, old->start.rows, (size_t)m * sizeof(int));
     r->start.row_count = old->start.row_count;

@@ -11,90 +11,10 @@
 #include <string.h>
 
 #define TOLERANCE  1e-12 /* of scaled residuals */
+#define CLOSED     1e-13 /* m, rad: what rounding leaves of residuals */
 #define TRIES      24    /* other starts, when the first leads nowhere */
 #define FAR        2.0   /* rad or m: a dependent coordinate that moved further is spoken of */
 #define RANK_RATIO 1e-9
-
-/* --- what was given --- */
-
-static int place_of(const Assembly *a, Expr e, Level level)
-{
-    const Layout *l = a->l;
-    int first = level == LEVEL_POSITION ? l->q : level == LEVEL_VELOCITY ? l->u : l->x;
-    int count = level == LEVEL_POSITION ? l->n : level == LEVEL_VELOCITY ? l->nu : l->nx;
-
-    for (int i = 0; i < count; i++)
-        if (l->symbols[first + i] == e)
-            return i;
-    return -1;
-}
-
-/* positions are corrected in speeds: that of a coordinate which has one of its own */
-static int column_of(const Assembly *a, int place, Level level)
-{
-    Expr rate;
-
-    if (place < 0 || level != LEVEL_POSITION || a->eq->map == NULL)
-        return place;
-    rate = system_q_rate(a->l->system, place);
-    for (int j = 0; j < a->l->nu; j++)
-        if (system_u(a->l->system, j)->symbol == rate)
-            return j;
-    return -1;
-}
-
-Status start_classify(Assembly *a, Given *given, Diag *diag)
-{
-    const unsigned dynamic = 1U << SYMBOL_ACCELERATION | 1U << SYMBOL_MULTIPLIER |
-                             1U << SYMBOL_EFFORT | 1U << SYMBOL_JERK;
-    const unsigned network = 1U << SYMBOL_STATE | 1U << SYMBOL_ALGEBRAIC | 1U << SYMBOL_STATE_RATE;
-    unsigned kinds = expr_kinds(given->expr);
-    const char *name = given->value->name;
-
-    if ((kinds & dynamic) != 0) {
-        (void)diag_set(diag, E_ASSEMBLE, "%s%.*s follows from forces and can't be an initial value",
-                       name, given->value->primes, "''''");
-        diag_hint(diag, "give positions, speeds, currents and voltages of storage elements");
-        return E_ASSEMBLE;
-    }
-    given->level = (kinds & network) != 0              ? LEVEL_NETWORK
-                   : (kinds & 1U << SYMBOL_SPEED) != 0 ? LEVEL_VELOCITY
-                                                       : LEVEL_POSITION;
-    given->place = place_of(a, given->expr, given->level);
-    given->column = column_of(a, given->place, given->level);
-    return OK;
-}
-
-static Status read_given(Assembly *a, Diag *diag)
-{
-    const StartValues *start = a->setting->start;
-    int own = 0;
-    Status status = OK;
-
-    while (system_angle_off(a->l->system, own) != NULL)
-        own++;
-    a->given = NEW_ARRAY(Given, (start != NULL ? start->count : 0) + own);
-    a->own = NEW_ARRAY(StartValue, own);
-    for (; a->given_count < own; a->given_count++) {
-        const AngleOff *angle = system_angle_off(a->l->system, a->given_count);
-
-        a->own[a->given_count].name = angle->name;
-        a->given[a->given_count] = (Given){&a->own[a->given_count], angle->off, 0, -1, -1, true};
-    }
-    if (start == NULL)
-        return OK;
-    for (int i = 0; i < start->count; i++) {
-        Given *given = &a->given[a->given_count];
-
-        given->value = &start->at[i];
-        CHECK(system_variable(a->l->system, given->value->name, given->value->primes, &given->expr,
-                              diag));
-        CHECK(start_classify(a, given, diag));
-        a->given_count++;
-    }
-done:
-    return status;
-}
 
 /* --- one problem --- */
 
@@ -168,7 +88,8 @@ Status start_open_problem(Problem *p, Assembly *a, Level level, bool guesses, Di
     p->picked = NEW_ARRAY(const Given *, a->given_count);
     p->row = NEW_ARRAY(double, l->n + l->nu + 2 * l->nx + l->nz);
     for (int i = 0; i < a->given_count; i++)
-        if (is_of_level(&a->given[i], level) && (guesses || !a->given[i].value->is_guess))
+        if (is_of_level(&a->given[i], level) && a->given[i].expr != NULL &&
+            (guesses || !a->given[i].value->is_guess))
             p->picked[p->count++] = &a->given[i];
     symbols = NEW_ARRAY(Expr, p->symbols);
     level_symbols(p, symbols);
@@ -222,7 +143,7 @@ static void evaluate_probe(const Problem *p, const double *y, int first, double 
 
         residual[first + i] = values[i];
         if (i >= extra)
-            residual[first + i] -= p->picked[i - extra]->value->value;
+            residual[first + i] -= p->picked[i - extra]->target;
         if (jacobian != NULL && p->level == LEVEL_POSITION)
             along_speeds(p, gradient, jacobian + (ptrdiff_t)(first + i) * p->columns);
         else if (jacobian != NULL)
@@ -357,32 +278,8 @@ Status start_conflict(const Problem *p, const double *residual, const char *what
 
 /* --- position --- */
 
-static void begin_position(Assembly *a, WarmValue warm, void *context)
-{
-    const Layout *l = a->l;
-
-    for (int i = 0; system_quaternion(l->system, i) >= 0; i++)
-        a->y[system_quaternion(l->system, i)] = 1;
-    for (int i = 0; i < l->n && warm != NULL; i++) {
-        double value = warm(context, system_q(l->system, i)->name);
-
-        if (isfinite(value))
-            a->y[i] = value;
-    }
-    /* guesses first, so that what is given has the last word */
-    for (int guesses = 1; guesses >= 0; guesses--)
-        for (int i = 0; i < a->given_count; i++) {
-            const Given *given = &a->given[i];
-
-            if (given->level == LEVEL_POSITION && given->place >= 0 &&
-                given->value->is_guess == (guesses == 1))
-                a->y[given->place] = given->value->value;
-        }
-    equations_normalise(a->eq, a->y);
-}
-
-/* Guesses that are no coordinates weigh as much as equations first: a branch on which they are far
- * off is no place to end. */
+/* Guesses of what says nothing of frames alone weigh as much as equations first: a branch on which
+ * they are far off is no place to end. */
 static Status pull(Assembly *a, Diag *diag)
 {
     Problem p = {0};
@@ -391,10 +288,12 @@ static Status pull(Assembly *a, Diag *diag)
     Status status = OK;
 
     for (int i = 0; i < a->given_count; i++)
-        needed = needed || (a->given[i].level == LEVEL_POSITION && a->given[i].place < 0);
+        needed = needed || (a->given[i].level == LEVEL_POSITION && a->given[i].value->is_guess &&
+                            a->given[i].stand.kind == STANDS_NOT);
     if (!needed)
         return OK;
     CHECK(start_open_problem(&p, a, LEVEL_POSITION, true, diag));
+    start_align(&p);
     rows = start_rows(&p);
     (void)least_solve(&rows, NULL, NULL, TOLERANCE, a->y, NULL);
 done:
@@ -412,8 +311,8 @@ static void remark_moved(Assembly *a, const double *begun)
             furthest = i;
     if (l->n > 0 && fabs(a->y[furthest] - begun[furthest]) > FAR)
         text_addf(&a->out->remarks,
-                  "assembled far from where it began: %s went from %.4g to %.4g; a guess chooses "
-                  "another assembly\n",
+                  "warning: assembled far from where it began: %s went from %.4g to %.4g; a guess "
+                  "chooses another assembly\n",
                   system_q(l->system, furthest)->name, begun[furthest], a->y[furthest]);
 }
 
@@ -428,10 +327,11 @@ static bool try_around(Problem *p, const Rows *rows, const bool *held, const dou
 
         for (int i = 0; i < a->l->n; i++)
             a->y[i] = begun[i] + (held[i] ? 0 : size * random_unit(&seed));
-        if (least_solve(rows, held, NULL, TOLERANCE, a->y, NULL)) {
+        if (least_solve(rows, held, NULL, TOLERANCE, a->y, NULL) &&
+            skeleton_reversed_at(a->skeleton, a->y) == NULL) {
             text_addf(&a->out->remarks,
-                      "assembled from a start moved by up to %g; guesses make sure "
-                      "that it is the assembly meant\n",
+                      "warning: assembled from a start moved by up to %g; guesses make sure that "
+                      "it is the assembly meant\n",
                       size);
             return true;
         }
@@ -439,14 +339,80 @@ static bool try_around(Problem *p, const Rows *rows, const bool *held, const dou
     return false;
 }
 
-static Status find_position(Assembly *a, Diag *diag)
+/* E_ASSEMBLE: all equations hold, but a joint stands the wrong way round */
+static Status refuse_reversed(const Link *link, Diag *diag)
+{
+    (void)diag_set(diag, E_ASSEMBLE,
+                   "%s closes with its axis reversed alone: the axis of its tail and that of its "
+                   "tip are opposite wherever everything else holds",
+                   link->instance->name);
+    diag_hint(diag, "turn one of its frames by half a turn (rotation= of an arm), or guess a start "
+                    "from which it closes as it is meant");
+    return E_ASSEMBLE;
+}
+
+/* Coordinates that have no expression are where they were given, also once positions moved. */
+static Status check_told(Assembly *a, Diag *diag)
+{
+    Status status = OK;
+
+    for (int i = 0; i < a->given_count && status == OK; i++) {
+        const Given *given = &a->given[i];
+        double near[MAX_COORDS] = {0}, value;
+
+        if (given->expr != NULL || given->value->is_guess)
+            continue;
+        for (int j = 0; j < a->given_count; j++)
+            if (a->given[j].expr == NULL && a->given[j].stand.instance == given->stand.instance)
+                near[a->given[j].stand.which] = a->given[j].target;
+        value = skeleton_value(a->skeleton, a->y, given->stand.instance, given->stand.which, near);
+        if (!(fabs(value - given->target) < 1e-9)) {
+            status = diag_set(diag, E_ASSEMBLE,
+                              "the parts can't be put together; missed: %s = %.6g by %.3g",
+                              given->value->name, given->target, fabs(value - given->target));
+            diag_hint(diag, "leave one of the given values out, or make it a guess");
+        }
+    }
+    return status;
+}
+
+/* Meet what the placing left: given values that aren't of frames, or loops that it couldn't close.
+ */
+static Status correct(Problem *p, const bool *held, const double *begun, bool closed, Diag *diag)
+{
+    Assembly *a = p->a;
+    Rows rows = start_rows(p);
+    double *residual = NEW_ARRAY(double, rows.rows);
+    double *missed = NEW_ARRAY(double, rows.rows);
+    const Link *reversed = NULL;
+    bool met = true;
+    Status status = OK;
+
+    rows.evaluate(rows.context, a->y, residual, NULL);
+    for (int i = 0; i < rows.rows; i++)
+        met = met && fabs(residual[i]) <= CLOSED;
+    if (met && closed)
+        goto done;
+    met = least_solve(&rows, held, NULL, TOLERANCE, a->y, missed);
+    reversed = met ? skeleton_reversed_at(a->skeleton, a->y) : NULL;
+    if ((!met || reversed != NULL) && !try_around(p, &rows, held, begun))
+        CHECK(reversed != NULL
+                  ? refuse_reversed(reversed, diag)
+                  : start_conflict(p, missed, "the parts can't be put together", diag));
+    CHECK(check_told(a, diag));
+    remark_moved(a, begun);
+done:
+    mem_free(residual);
+    mem_free(missed);
+    return status;
+}
+
+static Status find_position(Assembly *a, bool closed, Diag *diag)
 {
     const Layout *l = a->l;
     Problem p = {0};
     double *begun = NEW_ARRAY(double, l->n);
-    double *residual = NULL;
     bool *held = NEW_ARRAY(bool, l->nu + l->n);
-    Rows rows;
     Status status = OK;
 
     CHECK(start_open_problem(&p, a, LEVEL_POSITION, false, diag));
@@ -457,19 +423,12 @@ static Status find_position(Assembly *a, Diag *diag)
     CHECK(pull(a, diag));
     for (int i = 0; i < p.count; i++)
         if (p.picked[i]->column >= 0)
-            a->y[p.picked[i]->place] = p.picked[i]->value->value;
-    rows = start_rows(&p);
-    residual = NEW_ARRAY(double, rows.rows);
-    if (!least_solve(&rows, held, NULL, TOLERANCE, a->y, residual)) {
-        if (!try_around(&p, &rows, held, begun)) {
-            CHECK(start_conflict(&p, residual, "the parts can't be put together", diag));
-        }
-    }
-    remark_moved(a, begun);
+            a->y[p.picked[i]->place] = p.picked[i]->target;
+    start_align(&p);
+    CHECK(correct(&p, held, begun, closed, diag));
 done:
     start_close_problem(&p);
     mem_free(begun);
-    mem_free(residual);
     mem_free(held);
     return status;
 }
@@ -570,7 +529,7 @@ static void find_rank(Assembly *a)
     mem_free(residual);
 }
 
-Status start_find(const Layout *layout, Parameters *parameters, const Numbers *numbers,
+Status start_find(const Layout *layout, Parameters *parameters, Numbers *numbers,
                   const Setting *setting, bool has_modes, WarmValue warm, void *warm_context,
                   Assembled *out, Diag *diag)
 {
@@ -581,6 +540,7 @@ Status start_find(const Layout *layout, Parameters *parameters, const Numbers *n
                   .setting = setting,
                   .has_modes = has_modes,
                   .out = out};
+    bool closed;
     Status status = OK;
 
     *out = (Assembled){.y = NEW_ARRAY(double, layout_turned(layout) + layout->turned + 1),
@@ -588,16 +548,16 @@ Status start_find(const Layout *layout, Parameters *parameters, const Numbers *n
                        .guess = NEW_ARRAY(double, layout->nz),
                        .rows = NEW_ARRAY(int, layout->m)};
     a.y = out->y;
-    CHECK(read_given(&a, diag));
-    begin_position(&a, warm, warm_context);
-    CHECK(start_turns(layout, parameters, setting, warm, warm_context, a.y + layout_turned(layout),
-                      diag));
-    CHECK(find_position(&a, diag));
+    a.skeleton = skeleton_new(layout, parameters);
+    CHECK(start_read_given(&a, diag));
+    CHECK(start_place(&a, warm, warm_context, &closed, diag));
+    CHECK(find_position(&a, closed, diag));
     equations_turn(a.eq, 0, a.y, a.y + layout_turned(layout));
     find_rank(&a);
     CHECK(find_velocity(&a, diag));
     CHECK(start_find_network(&a, setting->from != NULL ? warm : NULL, warm_context, diag));
 done:
+    skeleton_free(a.skeleton);
     mem_free(a.given);
     mem_free(a.own);
     return status;

@@ -25,7 +25,7 @@ typedef struct Assembled {
  * `has_modes` the network's equations are solved later, once the sides of its switches are known.
  */
 typedef double (*WarmValue)(void *context, const char *name);
-MUST_USE Status start_find(const Layout *layout, Parameters *parameters, const Numbers *numbers,
+MUST_USE Status start_find(const Layout *layout, Parameters *parameters, Numbers *numbers,
                            const Setting *setting, bool has_modes, WarmValue warm,
                            void *warm_context, Assembled *out, Diag *diag);
 /* x' and z at y = (q, u, x, references of angles), of t = 0, from a guess [x'; z] (NULL: 0): into
@@ -33,10 +33,6 @@ MUST_USE Status start_find(const Layout *layout, Parameters *parameters, const N
  */
 MUST_USE Status start_solve(const Layout *layout, const Numbers *numbers, const double *y,
                             const double *guess, double *out, Diag *diag);
-/* References of angles that count turns, before the search: in the turn that a driver or a given
- * value chooses, else a guess, an earlier result, or 0 (start_turns.c). */
-MUST_USE Status start_turns(const Layout *layout, Parameters *parameters, const Setting *setting,
-                            WarmValue warm, void *warm_context, double *near, Diag *diag);
 /* The way out where a network has no solution, if an ideal diode or switch may be why. */
 void network_hint(System *system, Diag *diag);
 void start_free(Assembled *start); /* what it holds */

@@ -1,12 +1,11 @@
-/* start_turns.c: the turns in which a start looks for angles */
-#include "simulate/start.h"
+/* start_turns.c: where drivers have coordinates at the start, and whole turns of sums of angles */
+#include "simulate/start_impl.h"
 
 #include <math.h>
 #include <string.h>
 
-/* where a driver has an angle at t = 0 */
-static Status find_driven(const Layout *layout, Parameters *parameters, Expr prescribed,
-                          double *out, Diag *diag)
+Status start_driven(const Layout *layout, Parameters *parameters, Expr prescribed, double *out,
+                    Diag *diag)
 {
     const RowValues row = {.t = 0};
     Probe *probe = NULL;
@@ -19,39 +18,42 @@ done:
     return status;
 }
 
-/* the value of that name, or a guess of it where there is none; NAN */
-static double given_value(const Setting *setting, const char *name)
+static double whole(double angle)
 {
-    double value = NAN;
-    bool is_guess = true;
-
-    for (int i = 0; setting->start != NULL && i < setting->start->count; i++) {
-        const StartValue *given = &setting->start->at[i];
-
-        if (given->primes == 0 && strcmp(given->name, name) == 0 &&
-            (is_guess || !given->is_guess)) {
-            value = given->value;
-            is_guess = given->is_guess;
-        }
-    }
-    return value;
+    return 2 * M_PI * round(angle / (2 * M_PI));
 }
 
-Status start_turns(const Layout *layout, Parameters *parameters, const Setting *setting,
-                   WarmValue warm, void *warm_context, double *near, Diag *diag)
+Status start_whole_turns(Assembly *a, const double *angles, Diag *diag)
 {
+    const Layout *l = a->l;
+    const int count = system_whole_turns_count(l->system);
+    Expr *sums = NEW_ARRAY(Expr, count);
+    double *turns = NEW_ARRAY(double, count);
+    const RowValues row = row_of_state(l, 0, a->y);
+    const double *values;
+    Probe *probe = NULL;
     Status status = OK;
 
-    for (int k = 0; k < layout->turned; k++) {
-        const Turned *turned = system_turned(layout->system, k);
-        double value = given_value(setting, turned->name);
+    for (int i = 0; i < count; i++) {
+        const WholeTurns *of = system_whole_turns(l->system, i);
 
-        if (turned->prescribed != NULL)
-            CHECK(find_driven(layout, parameters, turned->prescribed, &value, diag));
-        else if (isnan(value) && warm != NULL)
-            value = warm(warm_context, turned->name);
-        near[k] = isfinite(value) ? value : 0;
+        sums[i] = of->sum;
+        parameters_set(a->parameters, of->symbol, 0);
+    }
+    if (count == 0)
+        goto done;
+    CHECK(probe_new(l, a->parameters, sums, count, &probe, diag));
+    values = probe_values(probe, &row);
+    for (int i = 0; i < count; i++) {
+        const WholeTurns *of = system_whole_turns(l->system, i);
+
+        turns[i] = whole(of->name != NULL ? angles[i] - values[i] : -values[i]);
+        parameters_set(a->parameters, of->symbol, turns[i]);
+        numbers_set(a->numbers, of->symbol, turns[i]);
     }
 done:
+    probe_free(probe);
+    mem_free(sums);
+    mem_free(turns);
     return status;
 }

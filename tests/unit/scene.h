@@ -126,6 +126,8 @@ __attribute__((unused)) static double scene_value(void *context, Expr symbol)
     const SceneState *state = context;
     uint64_t random = state->seed + 77U * (uint64_t)expr_symbol_number(symbol);
 
+    if (expr_symbol_kind(symbol) == SYMBOL_PARAMETER && expr_name(symbol)[0] == '#')
+        return 0; /* whole turns of a sum of angles */
     if (expr_symbol_kind(symbol) == SYMBOL_PARAMETER)
         return model_parameter_value(state->model, symbol);
     if (scene_is_parameter(symbol))

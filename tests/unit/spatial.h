@@ -394,10 +394,25 @@ static char *choose_trees(const Model *model, int choice, uint64_t *random)
     return text_done(&text);
 }
 
+/* the joint that closes the loop does so where its coordinates are 0 */
+static void guess_closing(Model *model, const char *coordinate)
+{
+    const size_t length = strlen(coordinate);
+    char line[80];
+
+    if (strncmp(coordinate + 1, "99", 2) != 0)
+        return;
+    snprintf(line, sizeof line, "guess %s = %d", coordinate,
+             length > 3 && strcmp(coordinate + length - 3, ".q0") == 0);
+    scene_add(model, line);
+}
+
 /* those of the guesses that are coordinates of the system: others may be told in more than one way
  */
 static void add_guesses(Model *model, const System *system, const char *guesses)
 {
+    for (int i = 0; i < system_n(system); i++)
+        guess_closing(model, system_q(system, i)->name);
     while (guesses != NULL && *guesses != '\0') {
         size_t length = strcspn(guesses, "\n");
         char *line = mem_text(guesses, length);

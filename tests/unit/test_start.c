@@ -1,0 +1,211 @@
+/* test_start.c: the start is the one described: senses of axes, turns, signs of Euler parameters */
+#include "session_kit.h"
+
+#define CLOSE 1e-12
+
+static void expect_value(Kit *kit, const char *name, double wanted)
+{
+    const double got = kit_value(kit, name);
+
+    if (!(fabs(got - wanted) <= CLOSE)) {
+        test_faults++;
+        printf("%s is %.17g, not %.17g\n", name, got, wanted);
+    }
+}
+
+/* a weld on a frame that is turned by 120 deg about z: its four parameters up to their sign */
+static void welded_frames_are_turned_alike(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, "body b mass=1 inertia=[1, 2, 3]\n"
+                      "arm a ground [1, 0, 0] rotation=z(120 deg)\n"
+                      "arm u b [0, 0, 0]\n"
+                      "weld w a u\n"
+                      "tree absolute\n");
+    expect_value(&kit, "u.q0*u.q3", 0.5 * sin(M_PI / 3));
+    expect_value(&kit, "u.q0^2", 0.25);
+    EXPECT_DONE(&kit, "init b.q0 = -0.5, b.q1 = 0, b.q2 = 0, b.q3 = -0.866025403784439\n");
+    expect_value(&kit, "u.q0*u.q3", 0.5 * sin(M_PI / 3));
+    kit_free(&kit);
+}
+
+/* the body hangs where 30 degrees about -y put it: half a turn about z, then the arm */
+static void angles_of_chords_place_bodies(void)
+{
+    static const char *const trees[] = {"tree joint\n", "tree absolute\n",
+                                        "tree translation r\ntree rotation j\n",
+                                        "tree translation j\ntree rotation r\n"};
+
+    for (size_t i = 0; i < sizeof trees / sizeof trees[0]; i++) {
+        Kit kit = kit_new();
+
+        EXPECT_DONE(&kit, "arm hm ground [0, 0, 0] rotation=z(180 deg)\n"
+                          "body r mass=1 inertia=[0.1, 0.1, 0.1]\n"
+                          "arm ra r [-0.5, 0, 0]\n"
+                          "revolute j hm ra axis=y\n");
+        EXPECT_DONE(&kit, trees[i]);
+        EXPECT_DONE(&kit, "init j = 30 deg, j' = 0\n");
+        expect_value(&kit, "r.x", -0.5 * cos(M_PI / 6));
+        expect_value(&kit, "r.y", 0);
+        expect_value(&kit, "r.z", -0.5 * sin(M_PI / 6));
+        expect_value(&kit, "j", M_PI / 6);
+        kit_free(&kit);
+    }
+}
+
+#define FOUR_BAR                                                                                   \
+    "body a mass=1 inertia=[1, 1, 1]\n"                                                            \
+    "body b mass=1 inertia=[1, 1, 1]\n"                                                            \
+    "body c mass=1 inertia=[1, 1, 1]\n"                                                            \
+    "arm g ground [1, 0, 0]\n"                                                                     \
+    "arm a1 a [0, 1, 0]\n"                                                                         \
+    "arm b1 b [1, 0, 0]\n"                                                                         \
+    "revolute h1 ground a\n"                                                                       \
+    "revolute h2 a1 b\n"                                                                           \
+    "revolute h3 g c\n"
+
+/* the axes of the closing hinge are opposite in every position, whatever the trees */
+static void reversed_axes_are_refused(void)
+{
+    static const char *const trees[] = {"", "tree absolute\n",
+                                        "tree translation h1 h2 h4\ntree rotation h1 h3 h4\n"};
+
+    for (size_t i = 0; i < sizeof trees / sizeof trees[0]; i++) {
+        Kit kit = kit_new();
+
+        EXPECT_DONE(&kit, FOUR_BAR "arm c1 c [0, 1, 0] rotation=x(180 deg)\n"
+                                   "revolute h4 b1 c1\n");
+        EXPECT_DONE(&kit, trees[i]);
+        EXPECT_FAILS(&kit, "init h1 = 0.3\nassemble\n", "axis");
+        EXPECT_HOLDS(kit.error.message, "reversed");
+        EXPECT_HOLDS(kit.error.message, "h");
+        kit_free(&kit);
+    }
+}
+
+static void axes_that_agree_close_the_loop(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, FOUR_BAR "arm c1 c [0, 1, 0]\nrevolute h4 b1 c1\n"
+                               "tree absolute\ninit h1 = 0.3\nassemble\n");
+    expect_value(&kit, "h3", 0.3);
+    expect_value(&kit, "h2", -0.3);
+    expect_value(&kit, "h4", 0.3);
+    kit_free(&kit);
+}
+
+/* told by the place of its mass centre, 1.25 rad from the vertical */
+static void angles_start_within_half_a_turn(void)
+{
+    static const char *const trees[] = {"tree joint\n", "tree absolute\n"};
+
+    for (size_t i = 0; i < sizeof trees / sizeof trees[0]; i++) {
+        Kit kit = kit_new();
+
+        EXPECT_DONE(&kit, "gravity [0, 0, -9.81]\n"
+                          "body a mass=1 inertia=[1, 1, 1]\n"
+                          "arm p a [0, 0, 0.5]\n"
+                          "revolute h ground p axis=x\n"
+                          "spring k h k=1\n");
+        EXPECT_DONE(&kit, trees[i]);
+        EXPECT_DONE(&kit, "init a.y = 0.474492309677793, a.z = -0.157661181197634\n");
+        expect_value(&kit, "h", 1.25);
+        expect_value(&kit, "k.effort", -1.25);
+        EXPECT_DONE(&kit, "init none\ninit h = 13\n");
+        expect_value(&kit, "h", 13);
+        expect_value(&kit, "k.effort", -13);
+        kit_free(&kit);
+    }
+}
+
+/* around a planar loop angles add up but for whole turns */
+static void given_angles_close_a_loop_modulo_turns(void)
+{
+    static const char *const trees[] = {"tree h1 h2 s\n", "tree absolute\n", "tree h1 h2 h3\n"};
+
+    for (size_t i = 0; i < sizeof trees / sizeof trees[0]; i++) {
+        Kit kit = kit_new();
+
+        EXPECT_DONE(&kit, "scene planar\n"
+                          "body a mass=1 inertia=1\n"
+                          "body b mass=1 inertia=1\n"
+                          "body c mass=1 inertia=1\n"
+                          "revolute h1 ground a\n"
+                          "revolute h2 a b\n"
+                          "revolute h3 b c\n"
+                          "prismatic s ground c axis=x\n");
+        EXPECT_DONE(&kit, trees[i]);
+        EXPECT_DONE(&kit, "init h1 = 2.5, h2 = 2.5\n");
+        expect_value(&kit, "h3", 2 * M_PI - 5);
+        EXPECT_DONE(&kit, "init h1 = 2.5, h2 = 2.5, h3 = -5\n");
+        expect_value(&kit, "h3", -5);
+        EXPECT_DONE(&kit, "simulate 0.1\n");
+        kit_free(&kit);
+    }
+}
+
+/* typed with six digits; two of four that leave nothing to the others */
+static void rounded_parameters_move_nothing(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, "body b mass=1 inertia=[1, 2, 3]\ninit b.q0 = 0.866025, b.q3 = 0.5\n");
+    expect_value(&kit, "b.x", 0);
+    expect_value(&kit, "b.q1", 0);
+    expect_value(&kit, "b.q0/b.q3", 0.866025 / 0.5);
+    EXPECT_DONE(&kit, "init none\ninit b.q0 = -0.6, b.q3 = -0.8\n");
+    expect_value(&kit, "b.q0*b.q3", 0.48);
+    EXPECT_FAILS(&kit, "init b.q0 = 1, b.q1 = 1, b.q2 = 0, b.q3 = 0\nassemble\n", "b.q0");
+    kit_free(&kit);
+}
+
+/* three angles of a chord have no formula, but place what hangs on it */
+static void three_angles_of_a_chord_place_bodies(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, "body b mass=1 inertia=[1, 2, 3]\n"
+                      "arm e b [0, 0, 1]\n"
+                      "spherical s ground e euler=zyx\n"
+                      "tree absolute\n"
+                      "init s.a1 = 0, s.a2 = 0, s.a3 = 30 deg\n");
+    expect_value(&kit, "b.y", 0.5);
+    expect_value(&kit, "b.z", -cos(M_PI / 6));
+    kit_free(&kit);
+}
+
+static void driven_runs_start_from_the_same(void)
+{
+    static const char *const runs[] = {"kinematics 0.5\n", "inverse 0.5\n"};
+
+    for (size_t i = 0; i < sizeof runs / sizeof runs[0]; i++) {
+        Kit kit = kit_new();
+
+        EXPECT_DONE(&kit, "arm hm ground [0, 0, 0] rotation=z(180 deg)\n"
+                          "body r mass=1 inertia=[0.1, 0.1, 0.1]\n"
+                          "arm ra r [-0.5, 0, 0]\n"
+                          "revolute j hm ra axis=y\n"
+                          "tree absolute\n"
+                          "driver D j = pi/6 + t\n");
+        EXPECT_DONE(&kit, runs[i]);
+        EXPECT(fabs(kit_value(&kit, "r.x") + 0.5 * cos(M_PI / 6 + 0.5)) < 1e-9);
+        EXPECT(fabs(kit_value(&kit, "j") - M_PI / 6 - 0.5) < 1e-9);
+        kit_free(&kit);
+    }
+}
+
+int main(void)
+{
+    RUN(welded_frames_are_turned_alike);
+    RUN(angles_of_chords_place_bodies);
+    RUN(reversed_axes_are_refused);
+    RUN(axes_that_agree_close_the_loop);
+    RUN(angles_start_within_half_a_turn);
+    RUN(given_angles_close_a_loop_modulo_turns);
+    RUN(rounded_parameters_move_nothing);
+    RUN(three_angles_of_a_chord_place_bodies);
+    RUN(driven_runs_start_from_the_same);
+    return test_end();
+}
