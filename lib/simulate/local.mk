@@ -110,7 +110,10 @@ libcore_la_SOURCES += \
   lib/simulate/start.h \
   lib/simulate/start_impl.h \
   lib/simulate/start_network.c \
+  lib/simulate/start_known.c \
   lib/simulate/start_place.c \
+  lib/simulate/start_place_impl.h \
+  lib/simulate/start_search.c \
   lib/simulate/start_turns.c \
   lib/simulate/statics.c \
   lib/simulate/steep.c \
