@@ -159,7 +159,9 @@ OpCount system_program_count(const System *system)
     gather(roots, &count, run->mass, nu * nu);
     gather(roots, &count, run->force, nu);
     gather(roots, &count, run->phi_u, m * nu);
-    gather(roots, &count, run->phi, m);
+    for (int k = 0; k < m; k++) /* whole turns are added once */
+        roots[count++] =
+            system->rows.at[k].kind == ROW_ANGLE ? system_plain(system, run->phi[k]) : run->phi[k];
     gather(roots, &count, run->nu, m);
     gather(roots, &count, run->gamma, m);
     for (int i = 0; i < run->network_entries; i++)

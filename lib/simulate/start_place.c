@@ -292,7 +292,7 @@ static Status hand_out(Placing *p, Diag *diag)
 }
 
 /* what nobody gave and that moved far */
-static void remark_moved(Placing *p)
+static void remark_moved(Placing *p, const double *from)
 {
     int link = -1, which = 0;
     double furthest = FAR, to = 0;
@@ -300,7 +300,7 @@ static void remark_moved(Placing *p)
     for (int i = 0; i < p->s->link_count; i++)
         for (int k = 0; k < p->s->links[i].instance->coord_count; k++) {
             const Instance *instance = p->s->links[i].instance;
-            const double begun = p->begun[place_at(i, k)], now = p->c[place_at(i, k)];
+            const double begun = from[place_at(i, k)], now = p->c[place_at(i, k)];
             double moved = fabs(now - begun);
 
             if (!place_has(p, i, k) || instance->coord_kind[k] == COORDINATE_PARAMETER)
@@ -319,7 +319,7 @@ static void remark_moved(Placing *p)
                   "warning: assembled far from where it began: %s went from %.4g to %.4g; a guess "
                   "chooses "
                   "another assembly\n",
-                  p->s->links[link].instance->coord[which], p->begun[place_at(link, which)], to);
+                  p->s->links[link].instance->coord[which], from[place_at(link, which)], to);
 }
 
 static void placing_free(Placing *p)
@@ -341,6 +341,7 @@ static void placing_free(Placing *p)
 Status start_place(Assembly *a, WarmValue warm, void *context, bool *closed, Diag *diag)
 {
     Placing p = {.a = a, .warm = warm, .warm_context = context};
+    double *from = NULL; /* where the search began that guesses have no part in */
     int size;
     Status status = OK;
 
@@ -365,11 +366,14 @@ Status start_place(Assembly *a, WarmValue warm, void *context, bool *closed, Dia
     place_columns(&p);
     if (is_guessed_elsewhere(&p))
         (void)place_search(&p, true);
+    from = NEW_ARRAY(double, size);
+    memcpy(from, p.c, (size_t)size * sizeof(double));
     *closed = place_search(&p, false);
     place_poses(&p, p.c);
-    remark_moved(&p);
+    remark_moved(&p, from);
     CHECK(hand_out(&p, diag));
 done:
+    mem_free(from);
     placing_free(&p);
     return status;
 }
