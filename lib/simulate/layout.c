@@ -143,6 +143,14 @@ Layout *layout_new_on(System *system, const OnSurface *on, int count)
     return l;
 }
 
+int layout_side_of(const Layout *layout, Expr symbol)
+{
+    for (int i = 0; i < layout->switches; i++)
+        if (layout->side[i] == symbol)
+            return i;
+    return -1;
+}
+
 void layout_free(Layout *layout)
 {
     if (layout == NULL)

@@ -8,15 +8,6 @@
 
 /* --- machines --- */
 
-/* A symbol that is a side of a switch in this layout: its number; -1: it is none */
-static int side_of(const Layout *layout, Expr symbol)
-{
-    for (int i = 0; i < layout->switches; i++)
-        if (layout->side[i] == symbol)
-            return i;
-    return -1;
-}
-
 /* an input of a program that is a side of a switch */
 typedef struct SideInput {
     int input, side;
@@ -29,7 +20,7 @@ static void keep_parameters(const Layout *l, Parameters *p, const Expr *roots, i
     int found = expr_symbols(roots, count, &symbols);
 
     for (int i = 0; i < found; i++)
-        if (expr_symbol_kind(symbols[i]) == SYMBOL_PARAMETER && side_of(l, symbols[i]) < 0)
+        if (expr_symbol_kind(symbols[i]) == SYMBOL_PARAMETER && layout_side_of(l, symbols[i]) < 0)
             (void)parameters_value(p, symbols[i]);
     mem_free(symbols);
 }
@@ -86,7 +77,7 @@ static Status compile(const Layout *layout, Parameters *parameters, const Expr *
     if (status == OK) {
         out->workspace = workspace_new(out->program);
         for (int i = layout->count; i < input_count; i++) {
-            int side = side_of(layout, inputs[i]);
+            int side = layout_side_of(layout, inputs[i]);
 
             if (side >= 0)
                 LIST_PUSH(out->sides, (SideInput){i, side});
@@ -141,20 +132,22 @@ void probe_free(Probe *probe)
 }
 
 /* another value of one of a machine's parameters; false: it holds none such */
-static bool machine_set(const Machine *machine, const Layout *layout, Expr parameter, double value)
+static bool machine_set(const Machine *machine, Expr parameter, double value)
 {
-    for (int i = 0; machine->own != NULL && machine->own[i] != NULL; i++)
-        if (machine->own[i] == parameter) {
-            workspace_inputs(machine->workspace)[layout->count + i] = value;
-            workspace_run(machine->workspace, STAGE_PARAMETER, STAGE_PARAMETER);
-            return true;
-        }
-    return false;
+    int i = 0;
+
+    while (machine->own != NULL && machine->own[i] != NULL && machine->own[i] != parameter)
+        i++;
+    if (machine->own == NULL || machine->own[i] == NULL)
+        return false;
+    workspace_inputs(machine->workspace)[machine->layout->count + i] = value;
+    workspace_run(machine->workspace, STAGE_PARAMETER, STAGE_PARAMETER);
+    return true;
 }
 
 bool probe_turn(Probe *probe, Expr parameter, double value)
 {
-    return machine_set(&probe->machine, probe->layout, parameter, value);
+    return machine_set(&probe->machine, parameter, value);
 }
 
 double *probe_input(Probe *probe, int place)
@@ -753,12 +746,7 @@ Status numbers_new(const Layout *layout, Parameters *parameters, Numbers **out, 
     nb->eq.cap = nb->cap;
     nb->eq.quaternions = nb->quaternions;
     nb->eq.quaternion_count = count;
-    for (int i = 0; i < system_whole_turns_count(layout->system); i++) {
-        Expr whole = system_whole_turns(layout->system, i)->symbol;
-
-        if (!parameters_keep(parameters, whole))
-            parameters_set(parameters, whole, 0);
-    }
+    parameters_begin_turns(parameters, layout->system);
     CHECK(compile_equations(nb, parameters, diag));
     CHECK(compile_switches(nb, parameters, diag));
     CHECK(compile_slip(nb, parameters, diag));
@@ -788,11 +776,11 @@ void numbers_free(Numbers *nb)
 
 void numbers_set(Numbers *nb, Expr parameter, double value)
 {
-    (void)machine_set(&nb->main, nb->layout, parameter, value);
-    (void)machine_set(&nb->switching, nb->layout, parameter, value);
-    (void)machine_set(&nb->network, nb->layout, parameter, value);
-    if (nb->slip != NULL)
-        (void)probe_turn(nb->slip, parameter, value);
+    const Machine *const machines[] = {&nb->main, &nb->switching, &nb->network,
+                                       nb->slip != NULL ? &nb->slip->machine : &nb->main};
+
+    for (int i = 0; i < COUNT(machines); i++)
+        (void)machine_set(machines[i], parameter, value);
 }
 
 const Equations *numbers_equations(const Numbers *nb)

@@ -41,6 +41,8 @@ typedef struct OnSurface {
 Layout *layout_new_on(System *system, const OnSurface *on, int count);
 /* e on the sides of the layout's surfaces */
 Expr layout_on_surfaces(const Layout *layout, Expr e);
+/* A symbol that is a side of a switch in this layout: its number; -1: it is none */
+int layout_side_of(const Layout *layout, Expr symbol);
 void layout_free(Layout *layout);
 /* Sides of switches that are numbers, from now on in all programs over the layout; one a switch. */
 void layout_take_sides(Layout *layout, const bool *closed);
@@ -56,9 +58,10 @@ typedef struct Parameters {
     double *values;
 } Parameters;
 
-double parameters_value(Parameters *parameters, Expr symbol);    /* kept, else asked and kept */
-bool parameters_keep(const Parameters *parameters, Expr symbol); /* whether it is */
+double parameters_value(Parameters *parameters, Expr symbol); /* kept, else asked and kept */
 void parameters_set(Parameters *parameters, Expr symbol, double value); /* kept from now on */
+/* Whole turns of sums of angles are 0 where no others are kept. */
+void parameters_begin_turns(Parameters *parameters, const System *system);
 /* the number of an expression of parameters alone */
 double parameters_evaluate(Parameters *parameters, Expr e);
 void parameters_free(Parameters *parameters);
@@ -96,8 +99,7 @@ const double *probe_values(Probe *probe, const RowValues *row);
 void probe_errors(const Probe *probe, const RowValues *errors, double *out);
 
 typedef struct Numbers Numbers;
-/* Whole turns of sums of angles are 0 where `parameters` keeps no others.
- * Compile the reading to run. `layout` and `parameters` outlive it. */
+/* Compile the reading to run. `layout` and `parameters` outlive it. */
 MUST_USE Status numbers_new(const Layout *layout, Parameters *parameters, Numbers **out,
                             Diag *diag);
 void numbers_free(Numbers *numbers); /* NULL is fine */

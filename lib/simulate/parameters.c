@@ -5,14 +5,6 @@
 
 #include <math.h>
 
-bool parameters_keep(const Parameters *p, Expr symbol)
-{
-    for (int i = 0; i < p->count; i++)
-        if (p->symbols[i] == symbol)
-            return true;
-    return false;
-}
-
 void parameters_set(Parameters *p, Expr symbol, double value)
 {
     int at = 0;
@@ -36,6 +28,19 @@ double parameters_value(Parameters *p, Expr symbol)
             return p->values[i];
     parameters_set(p, symbol, p->value != NULL ? p->value(p->context, symbol) : NAN);
     return p->values[p->count - 1];
+}
+
+void parameters_begin_turns(Parameters *p, const System *system)
+{
+    for (int i = 0; i < system_whole_turns_count(system); i++) {
+        Expr whole = system_whole_turns(system, i)->symbol;
+        bool is_kept = false;
+
+        for (int k = 0; k < p->count; k++)
+            is_kept = is_kept || p->symbols[k] == whole;
+        if (!is_kept)
+            parameters_set(p, whole, 0);
+    }
 }
 
 double parameters_value_in(void *context, Expr symbol)
