@@ -153,6 +153,18 @@ static void add_left_out(Table *table, const Transfer *t)
     text_free(&text);
 }
 
+/* coefficients of many fast roots may be beyond what numbers hold */
+static bool has_coefficients(const Transfer *t)
+{
+    for (int i = 0; i <= t->zeros; i++)
+        if (!isfinite(t->numerator[i]))
+            return false;
+    for (int i = 0; i <= t->poles; i++)
+        if (!isfinite(t->denominator[i]))
+            return false;
+    return true;
+}
+
 static void print_text(Text *out, const View *view, const Transfer *t, int output, int input)
 {
     const Linear *linear = view->linear;
@@ -160,8 +172,12 @@ static void print_text(Text *out, const View *view, const Transfer *t, int outpu
     Text lead = {0}, body = {0};
 
     text_addf(&lead, "%s/%s = ", linear->output_names[output], linear->input_names[input]);
-    add_factor(&body, t->numerator, t->zeros);
-    if (t->poles > 0) {
+    if (has_coefficients(t))
+        add_factor(&body, t->numerator, t->zeros);
+    else
+        text_addf(&body, "gain prod(s - zero)/prod(s - pole), %d zeros and %d poles", t->zeros,
+                  t->poles);
+    if (t->poles > 0 && has_coefficients(t)) {
         text_char(&body, '/');
         add_factor(&body, t->denominator, t->poles);
     }
@@ -171,8 +187,11 @@ static void print_text(Text *out, const View *view, const Transfer *t, int outpu
 
         table_cell(&table, "gain");
         table_cellf(&table, "%.*g", DIGITS, t->gain);
-        table_cell(&table, "at rest");
-        table_cellf(&table, last != 0 ? "%.*g" : "no bound", DIGITS, t->numerator[t->zeros] / last);
+        if (has_coefficients(t))
+            table_cell(&table, "at rest");
+        if (has_coefficients(t))
+            table_cellf(&table, last != 0 ? "%.*g" : "no bound", DIGITS,
+                        t->numerator[t->zeros] / last);
         add_roots(&table, "zeros", t, t->zero, t->zeros);
         add_roots(&table, "poles", t, t->pole, t->poles);
         add_doubts(&table, t);
@@ -234,6 +253,13 @@ static Status print_one(const View *view, int output, int input, Text *out, Diag
     CHECK(poll(view->watch));
     CHECK(transfer_new(view->linear, output, input, &t, diag));
     text_addf(&name, "%s/%s", view->linear->output_names[output], view->linear->input_names[input]);
+    if (!has_coefficients(t) &&
+        (notation == NOTATION_LATEX || notation == NOTATION_C || notation == NOTATION_MATLAB)) {
+        (void)diag_set(diag, E_VALUE, "the coefficients of %s are beyond what numbers hold",
+                       name.at);
+        diag_hint(diag, "'show transfer' tells its gain, zeros and poles");
+        CHECK(E_VALUE);
+    }
     if (notation == NOTATION_LATEX) {
         print_latex(out, t, output, input);
     } else if (notation == NOTATION_C || notation == NOTATION_MATLAB) {

@@ -158,7 +158,8 @@ Status transfer_new(const Linear *linear, int output, int input, Transfer **out,
     t->zero = NEW_ARRAY(Root, s.n);
     t->idle = linear->states - s.n;
     if (!find_poles(&s, t->pole) || !zeros_find(&s, t->pole, t->zero, &t->zeros, &t->gain))
-        CHECK(diag_set(diag, E_SOLVER, "the poles and zeros of %s against %s can't be found",
+        CHECK(diag_set(diag, E_SOLVER,
+                       "the gain, poles and zeros of %s against %s are beyond what numbers hold",
                        linear->output_names[output], linear->input_names[input]));
     t->poles = t->gain != 0 ? s.n : 0;
     sort(t->pole, t->poles);

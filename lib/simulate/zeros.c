@@ -12,6 +12,7 @@
 #include "base/memory.h"
 #include "simulate/schur.h"
 
+#include <float.h>
 #include <string.h>
 
 enum { MOST_STEPS = 6 };
@@ -31,15 +32,19 @@ typedef struct Wider {
 /* --- the gain --- */
 
 /* How often the output is passed by: the first of d, c b, c A b ... that isn't 0, by its bound, and
- * its value; n + 1 where there is none. */
+ * its value, INFINITY where no number holds it; n + 1 where there is none. */
 static int find_gain(const Single *s, double *gain)
 {
     const int n = s->n;
     Wide *v = NEW_ARRAY(Wide, n), *next = NEW_ARRAY(Wide, n);
     double *off = NEW_ARRAY(double, n), *next_off = NEW_ARRAY(double, n);
-    double error = s->d_error;
-    int degree = 0;
+    double error = s->d_error, norm = 0;
+    int degree = 0, unit;
 
+    /* powers of A stay in range in units of time in which A is about 1 */
+    for (int i = 0; i < n * n; i++)
+        norm = fmax(norm, fabs(s->a[i]));
+    unit = norm > 0 ? ilogb(norm) : 0;
     *gain = s->d;
     for (int i = 0; i < n; i++) {
         v[i] = wide_of(s->b[i]);
@@ -62,10 +67,11 @@ static int find_gain(const Single *s, double *gain)
             next_off[i] = 0;
             for (int j = 0; j < n; j++) {
                 const double size = fabs(v[j].high) + off[j];
+                const double entry = ldexp(s->a[i * n + j], -unit);
 
-                next[i] = wide_add(next[i], wide_times(v[j], s->a[i * n + j]));
-                next_off[i] += fabs(s->a[i * n + j]) * (off[j] + n * WIDE_UNIT * size) +
-                               s->a_error[i * n + j] * size;
+                next[i] = wide_add(next[i], wide_times(v[j], entry));
+                next_off[i] += fabs(entry) * (off[j] + n * WIDE_UNIT * size) +
+                               ldexp(s->a_error[i * n + j], -unit) * size;
             }
         }
         memcpy(v, next, (size_t)n * sizeof *v);
@@ -73,6 +79,11 @@ static int find_gain(const Single *s, double *gain)
     }
     if (degree > n)
         *gain = 0;
+    else if (degree > 1 && (ilogb(*gain) + (degree - 1) * unit < DBL_MIN_EXP ||
+                            ilogb(*gain) + (degree - 1) * unit >= DBL_MAX_EXP))
+        *gain = INFINITY;
+    else if (degree > 1)
+        *gain = ldexp(*gain, (degree - 1) * unit);
     mem_free(v);
     mem_free(next);
     mem_free(off);
@@ -354,9 +365,9 @@ bool zeros_find(const Single *single, const Root *pole, Root *zero, int *count, 
     const int n = single->n, degree = find_gain(single, gain);
     Wider whole = wider_new(n), left = wider_new(n);
     double complex *value = NULL;
-    bool sound = true;
+    bool sound = isfinite(*gain);
 
-    *count = *gain != 0 ? n - degree : 0;
+    *count = sound && *gain != 0 ? n - degree : 0;
     if (*count > 0) {
         widen(single, &whole);
         widen(single, &left);

@@ -409,6 +409,27 @@ static void a_slow_pole_is_seen_beside_fast_ones(void)
     kit_free(&kit);
 }
 
+static void coefficients_that_no_number_holds_are_not_printed(void)
+{
+    Kit kit = kit_new();
+    char line[200];
+
+    EXPECT_DONE(&kit, "vsource E1 n0 0 0\n");
+    for (int k = 1; k <= 30; k++) {
+        (void)snprintf(line, sizeof line, "resistor R%d n%d n%d 1e-6\ncapacitor C%d n%d 0 1e-6\n",
+                       k, k - 1, k, k, k);
+        EXPECT_DONE(&kit, line);
+    }
+    EXPECT_DONE(&kit, "linearize inputs=[E1] outputs=[C30.v, C1.v]\n");
+    EXPECT_FAILS(&kit, "show transfer 1 1", "beyond what numbers hold");
+    EXPECT_DONE(&kit, "show transfer 2 1\n");
+    EXPECT_LACKS(kit.text, "inf");
+    EXPECT_HOLDS(kit.text, "29 zeros and 30 poles");
+    EXPECT_HOLDS(kit.text, "poles  -2.65182e+09, -2.38242e+10");
+    EXPECT_FAILS(&kit, "show transfer 2 1 as c", "beyond what numbers hold");
+    kit_free(&kit);
+}
+
 /* a leak far below the rounding of what it stands beside */
 static void what_rounding_decides_is_marked(void)
 {
@@ -436,6 +457,7 @@ int main(void)
     RUN(equal_stages_have_equal_poles);
     RUN(a_slow_pole_is_seen_beside_fast_ones);
     RUN(what_rounding_decides_is_marked);
+    RUN(coefficients_that_no_number_holds_are_not_printed);
     RUN(coefficients_go_to_other_programs);
     RUN(a_response_needs_something_linear_and_a_range);
     RUN(without_a_range_all_roots_are_in_sight);
