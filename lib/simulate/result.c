@@ -127,13 +127,13 @@ done:
 
 /* What supplies a driver's motion is found in the equations of the whole, as long as no ideal
  * switch is in them. */
-static bool goes_through_modes(RunKind kind, const Layout *whole)
+static bool goes_through_modes(const Layout *whole)
 {
     bool any_ideal = false;
 
     for (int i = 0; i < system_ideal_count(whole->system); i++)
         any_ideal = any_ideal || system_is_ideal(whole->system, i);
-    return system_has_modes(whole->system) && (any_ideal || kind != RUN_INVERSE || whole->ne == 0);
+    return system_has_modes(whole->system) && (any_ideal || whole->ne == 0);
 }
 
 static Status prepare(RunKind kind, System *system, const Setting *setting, Result **out,
@@ -152,7 +152,7 @@ static Status prepare(RunKind kind, System *system, const Setting *setting, Resu
     r->report.singular_time = NAN;
     CHECK(phase_new(system, &r->parameters, NULL, 0, &whole, diag));
     LIST_PUSH(r->phases, whole);
-    if (goes_through_modes(kind, whole->layout)) {
+    if (goes_through_modes(whole->layout)) {
         CHECK(system_sided(system, setting->model, setting->watch, &sided, diag));
         CHECK(sides_new(sided, &r->parameters, &r->sides, diag));
     }

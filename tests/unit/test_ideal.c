@@ -572,6 +572,12 @@ static void efforts_of_drivers_pass_no_ideal_diode(void)
                       "motor M h y 0 Kt=0.1 R=0.5 L=1 mH\ndriver K h = t^2 by=E\n");
     EXPECT_FAILS(&kit, "inverse 1\n", "can't be found through ideal switches");
     EXPECT_HOLDS(kit.error.hint, "Ron=");
+    /* the way out that the hint tells: K' is 2 t, M' likewise 0.02, and D drops 0.01 M.i */
+    EXPECT_DONE(&kit, "clear\nscene planar\ngravity [0, 0]\nbody m1 mass=1 inertia=0.01\n"
+                      "revolute h ground m1\nvsource E x 0 1\ndiode D x y Ron=0.01 Roff=1e8\n"
+                      "motor M h y 0 Kt=0.1 R=0.5 L=1 mH\ndriver K h = t^2 by=E\n"
+                      "inverse 1\nexpect M.i ~ 0.2 within 1e-9\n"
+                      "expect D.v ~ 0.002 within 1e-6\nkinematics 1\n");
     kit_free(&kit);
 }
 
