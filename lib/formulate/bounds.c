@@ -70,3 +70,29 @@ int system_bounds(System *system, Bound **out)
     *out = bounds.at;
     return bounds.count;
 }
+
+int system_storages(System *system, Storage **out)
+{
+    LIST(Storage) storages = {0};
+
+    for (int b = 0; b < system->branches.count; b++) {
+        const Branchlike *branch = &system->branches.at[b];
+        const Instance *instance = &system->instances[branch->instance];
+        bool holds_charge = branch->relation.kind == RELATION_CAPACITIVE;
+        Expr own, content;
+
+        if ((!holds_charge && branch->relation.kind != RELATION_INDUCTIVE) ||
+            branch->relation.content == NULL || !moves(coefficient(system, branch)))
+            continue;
+        own = holds_charge ? instance_across(instance, system->arena, branch->which)
+                           : instance_through(instance, system->arena, branch->which);
+        if (system_resolve(system, own, &own, NULL) != OK ||
+            system_resolve(system, branch->relation.content, &content, NULL) != OK)
+            continue;
+        for (int i = 0; i < system->x.count; i++)
+            if (system->x.at[i].symbol == own)
+                LIST_PUSH(storages, ((Storage){i, content}));
+    }
+    *out = storages.at;
+    return storages.count;
+}

@@ -345,6 +345,15 @@ typedef struct Bound {
 } Bound;
 /* All of a system: a new array, mem_free(). O(parts). */
 int system_bounds(System *system, Bound **out);
+
+/* --- charges and fluxes that what moves changes: C(s) v, L(s) i --- */
+
+typedef struct Storage {
+    int state;    /* in x: the voltage or current */
+    Expr content; /* charge or flux */
+} Storage;
+/* Those of states: a new array, mem_free(). O(parts). */
+int system_storages(System *system, Storage **out);
 /* The event that watches one in a run is called "C2 at its bound": no event of a model is. */
 #define BOUND_MARK " at its bound"
 

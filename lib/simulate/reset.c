@@ -4,12 +4,14 @@
 #include "base/memory.h"
 #include "simulate/kkt.h"
 #include "simulate/least.h"
+#include "simulate/linear.h"
 
 #include <math.h>
 #include <string.h>
 
 #define TOLERANCE 1e-11 /* of what is set and of the constraints, as assembly has it */
 #define SWEEPS    3     /* of a problem that is linear but for rounding */
+#define KEEPING   10    /* of charges and fluxes */
 
 typedef enum Level { LEVEL_POSITION, LEVEL_VELOCITY, LEVEL_STATE, LEVEL_COUNT } Level;
 
@@ -25,6 +27,9 @@ typedef struct Target {
 struct Reset {
     ResetPlan plan;
     LIST(Target) targets;
+    Storage *storages; /* whose charge or flux stays */
+    int storage_count;
+    int stored;   /* root of the first charge or flux; their derivatives follow all of them */
     Probe *probe; /* the targets, kinetic and potential energy, derivatives of the targets */
     /* of the call under way */
     double t;
@@ -46,6 +51,7 @@ void reset_free(Reset *reset)
     if (reset == NULL)
         return;
     LIST_FREE(reset->targets);
+    mem_free(reset->storages);
     probe_free(reset->probe);
     mem_free(reset);
 }
@@ -138,6 +144,14 @@ Status reset_compile(Reset *reset, Diag *diag)
             LIST_PUSH(roots, expr_diff(arena, target->expr,
                                        l->symbols[level_first(l, target->level) + i]));
     }
+    reset->storage_count = system_storages(l->system, &reset->storages);
+    reset->stored = roots.count;
+    for (int k = 0; k < reset->storage_count; k++)
+        LIST_PUSH(roots, reset->storages[k].content);
+    for (int k = 0; k < reset->storage_count; k++)
+        for (int i = 0; i < reset->storage_count; i++)
+            LIST_PUSH(roots, expr_diff(arena, reset->storages[k].content,
+                                       l->symbols[l->x + reset->storages[i].state]));
     status = probe_new(l, reset->plan.parameters, roots.at, roots.count, &reset->probe, diag);
     LIST_FREE(roots);
     return status;
@@ -374,6 +388,50 @@ static bool solve_speeds(Reset *reset)
     return sound;
 }
 
+/* --- charges and fluxes --- */
+
+static bool is_set(const Reset *reset, int state)
+{
+    for (int k = 0; k < reset->targets.count; k++)
+        if (is_chosen(reset, k, LEVEL_STATE) && reset->targets.at[k].place == state)
+            return true;
+    return false;
+}
+
+/* What moves changes voltages and currents, and leaves charges and fluxes as they were, but for
+ * those that were given: Newton's method. */
+static bool keep_stored(const Reset *reset, const double *before)
+{
+    int n = reset->storage_count;
+    double *x = reset->y + reset->plan.equations->n + reset->plan.equations->nu;
+    double *missed = NEW_ARRAY(double, n);
+    Lu *lu = lu_new(n);
+    bool met = n == 0;
+
+    for (int sweep = 0; sweep < KEEPING && !met; sweep++) {
+        const double *values = probe_here(reset) + reset->stored;
+
+        met = true;
+        for (int k = 0; k < n; k++) {
+            bool set = is_set(reset, reset->storages[k].state);
+
+            missed[k] = set ? 0 : before[k] - values[k];
+            met = met && fabs(missed[k]) <= 1e-15 * fabs(before[k]);
+            for (int i = 0; i < n; i++)
+                lu_matrix(lu)[k * n + i] = set ? k == i : values[n + k * n + i];
+        }
+        if (met || !lu_factor(lu))
+            break;
+        lu_solve(lu, missed);
+        for (int k = 0; k < n; k++)
+            x[reset->storages[k].state] += missed[k];
+        met = sweep == KEEPING - 1;
+    }
+    lu_free(lu);
+    mem_free(missed);
+    return met && vector_is_finite(x, reset->plan.equations->nx);
+}
+
 /* angles are looked for in the turn that is asked for */
 static void begin_turns(const Reset *reset)
 {
@@ -389,6 +447,7 @@ bool reset_apply(Reset *reset, double t, const double *values, double *y)
     const Equations *eq = reset->plan.equations;
     int turned = layout_turned(reset->plan.layout);
     int length = turned + eq->turned_count + 1;
+    double *stored = NEW_ARRAY(double, reset->storage_count);
     double before;
     double after;
     bool met = true;
@@ -398,11 +457,15 @@ bool reset_apply(Reset *reset, double t, const double *values, double *y)
     reset->y = NEW_ARRAY(double, length);
     memcpy(reset->y, y, (size_t)length * sizeof(double));
     before = energy(reset);
+    if (reset->storage_count > 0)
+        memcpy(stored, probe_here(reset) + reset->stored,
+               (size_t)reset->storage_count * sizeof(double));
     begin_turns(reset);
     if (any_chosen(reset, LEVEL_POSITION))
         met = solve_least_squares(reset, LEVEL_POSITION);
     if (met && any_chosen(reset, LEVEL_STATE))
         met = solve_least_squares(reset, LEVEL_STATE);
+    met = met && keep_stored(reset, stored);
     if (met && (any_chosen(reset, LEVEL_POSITION) || any_chosen(reset, LEVEL_VELOCITY)))
         met = solve_speeds(reset);
     if (met) {
@@ -412,6 +475,7 @@ bool reset_apply(Reset *reset, double t, const double *values, double *y)
             reset->y[length - 1] += after - before;
         memcpy(y, reset->y, (size_t)length * sizeof(double));
     }
+    mem_free(stored);
     mem_free(reset->y);
     reset->y = NULL;
     return met;

@@ -113,8 +113,26 @@ static void a_source_that_follows_its_own_voltage_is_a_resistor(void)
     kit_free(&kit);
 }
 
+/* s goes from 1 to 0.1 at once: the flux is that of 10 V/R before it, and decays from there */
+static void flux_and_charge_stay_where_a_law_moves(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, "scene planar\nbody m mass=1 inertia=0\nprismatic s ground m axis=x\n"
+                      "vsource V a 0 10\nresistor R a b 1\ninductor L b 0 L=0.1*s\n"
+                      "resistor Rc c 0 1e9\ncapacitor C c 0 1e-6*s\n"
+                      "event jump when=t >= 0.5 s = 0.1\n"
+                      "init s = 1, s' = 0, L.i = 0, C.v = 3\nsimulate 0.5 every=0.1\n");
+    EXPECT(is_near(kit_value(&kit, "L.flux"), 1 - exp(-5), 1e-7));
+    EXPECT(is_near(kit_value(&kit, "L.i"), 100 * (1 - exp(-5)), 1e-5));
+    EXPECT(is_near(kit_value(&kit, "C.q"), 3e-6, 1e-8));
+    EXPECT(is_near(kit_value(&kit, "C.v"), 30, 0.02));
+    kit_free(&kit);
+}
+
 int main(void)
 {
+    RUN(flux_and_charge_stay_where_a_law_moves);
     RUN(a_source_that_follows_its_own_voltage_is_a_resistor);
     RUN(currents_of_a_star_begin_as_given);
     RUN(no_plate_rests_beyond_its_electrode);
