@@ -28,9 +28,9 @@
 #define BEND      0.025 /* of its range in a run: a source bends no more in a step, see bend_bound() */
 #define GROWTH    10    /* that a step may have over the last one */
 #define EFFECTS   8     /* steps for which effects are good */
-#define LATE      0.9 /* of a step: what begins behind is left to the next one */
-#define OPEN      0.5 /* of u below its threshold: an element that has done with it */
-#define PIECES    64  /* of a run, for the size of sources */
+#define LATE      0.9   /* of a step: what begins behind is left to the next one */
+#define OPEN      0.5   /* of u below its threshold: an element that has done with it */
+#define NOISE     1e-14 /* of a source's range in a run: what the rounding of its terms may leave */
 
 typedef struct Pulse {
     bool is_on;
@@ -147,6 +147,15 @@ typedef struct Search {
     int left; /* intervals to go */
 } Search;
 
+/* whether it may have passed somewhere between: at first as terms are, then closer */
+static bool may_pass(Search *s, Range over)
+{
+    Steep *steep = s->o->steep;
+
+    return s->excess(s, over, steep_sources_over(steep, over)) > 0 &&
+           s->excess(s, over, steep_sources_close(steep, over)) > 0;
+}
+
 /* first place, or INFINITY; halves from left to right */
 static double first_place(Search *s, double from, double to)
 {
@@ -159,8 +168,7 @@ static double first_place(Search *s, double from, double to)
     for (;;) {
         double middle = low + (high - low) / 2;
 
-        if (!(s->excess(s, (Range){low, high}, steep_sources_over(steep, (Range){low, high})) >
-              0)) {
+        if (!may_pass(s, (Range){low, high})) {
             /* nothing here: on to the next piece, twice as long where halves were cleared */
             if (high >= to)
                 return INFINITY;
@@ -471,12 +479,14 @@ static bool is_clear(Onset *o, double h, double end)
     return true;
 }
 
-/* what source j may do until `to` while a step sees nothing of it */
+/* What source j may do until `to` while a step sees nothing of it. Where terms cancel, intervals
+ * promise more than there is, and at a point rounding alone would keep that promise. */
 static double delta_of(Onset *o, int j, const Stepper *stepper, double to)
 {
     double effect = steep_effect_of_source(o->steep, j, o->t, stepper->y, o->scale);
+    double delta = effect > 0 ? AIM / ((to - o->t) * effect) : INFINITY;
 
-    return effect > 0 ? AIM / ((to - o->t) * effect) : INFINITY;
+    return fmax(delta, NOISE * steep_source_size(o->steep, j));
 }
 
 static double way_at(Onset *o, int j, double t)

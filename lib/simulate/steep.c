@@ -34,7 +34,8 @@ typedef struct Element {
 typedef struct Source {
     Expr function;
     int input;
-    double size; /* its range in a run, s; 0: not known */
+    double size;        /* its range in a run, s; 0: not known */
+    bool is_continuous; /* its derivative tells how far it goes */
 } Source;
 
 struct Steep {
@@ -44,7 +45,9 @@ struct Steep {
     const Equations *eq;
     LIST(Element) elements;
     LIST(Source) sources;
-    Ranges *values, *bends;
+    Ranges *values, *slopes, *bends;
+    Range *closer; /* of sources */
+    double *reach; /* likewise: how far each gets from the middle of an interval */
     Layout inputs; /* the layout, and the inputs of elements and sources */
     Probe *probe;  /* G, F, gamma, arguments, A; NULL: not made yet */
     bool has_failed;
@@ -89,12 +92,31 @@ static bool is_element(Expr e)
            (expr_kinds(e) & MOVING) != 0 && (expr_kinds(e) & AFTER) == 0;
 }
 
+/* jumps have a derivative of zero, and of data some points alone tell the range */
+static bool may_jump(Expr e, void *context)
+{
+    const Op op = expr_kind(e) == EXPR_CALL ? expr_op(e) : OP_SIN;
+
+    (void)context;
+    return op == OP_SIGN || op == OP_STEP || op == OP_FLOOR || op == OP_IF || op == OP_HOLD ||
+           op == OP_TABLE || op == OP_ATAN2 || op == OP_UNWRAP || (op >= OP_LT && op <= OP_NOT);
+}
+
+static bool is_continuous(Expr e)
+{
+    Expr *jumps;
+    const int count = expr_find(&e, 1, may_jump, NULL, &jumps);
+
+    mem_free(jumps);
+    return count == 0;
+}
+
 static void add_source(Steep *s, Expr e)
 {
     for (int i = 0; i < s->sources.count; i++)
         if (s->sources.at[i].function == e)
             return;
-    LIST_PUSH(s->sources, (Source){.function = e});
+    LIST_PUSH(s->sources, (Source){.function = e, .is_continuous = is_continuous(e)});
 }
 
 /* exp(min(c, x)) is exp(x) as far as it goes */
@@ -184,8 +206,13 @@ static void find_ranges(Steep *s)
         functions[i] = s->sources.at[i].function;
     s->values = ranges_new(functions, s->sources.count, time, parameters_value_in, s->parameters);
     for (int i = 0; i < s->sources.count; i++)
-        functions[i] = expr_diff(arena, expr_diff(arena, functions[i], time), time);
+        functions[i] = expr_diff(arena, functions[i], time);
+    s->slopes = ranges_new(functions, s->sources.count, time, parameters_value_in, s->parameters);
+    for (int i = 0; i < s->sources.count; i++)
+        functions[i] = expr_diff(arena, functions[i], time);
     s->bends = ranges_new(functions, s->sources.count, time, parameters_value_in, s->parameters);
+    s->closer = NEW_ARRAY(Range, s->sources.count);
+    s->reach = NEW_ARRAY(double, s->sources.count);
     mem_free(functions);
 }
 
@@ -218,7 +245,10 @@ void steep_free(Steep *s)
     LIST_FREE(s->elements);
     LIST_FREE(s->sources);
     ranges_free(s->values);
+    ranges_free(s->slopes);
     ranges_free(s->bends);
+    mem_free(s->closer);
+    mem_free(s->reach);
     probe_free(s->probe);
     sparse_free(s->network);
     mem_free(s->inputs.symbols);
@@ -250,6 +280,33 @@ const Range *steep_bends_over(Steep *s, Range over)
 {
     over = (Range){motion_clock(s->motion, over.low), motion_clock(s->motion, over.high)};
     return ranges_over(s->bends, over);
+}
+
+/* the part of a that lies within reach of b's middle too, where that makes sense */
+static Range narrowed(Range a, Range b, double reach)
+{
+    const double middle = (b.low + b.high) / 2, half = (b.high - b.low) / 2 + reach;
+    const Range out = {fmax(a.low, middle - half), fmin(a.high, middle + half)};
+
+    return out.low <= out.high ? out : a;
+}
+
+const Range *steep_sources_close(Steep *s, Range over)
+{
+    const double low = motion_clock(s->motion, over.low), high = motion_clock(s->motion, over.high);
+    const double middle = low + (high - low) / 2;
+    const Range *at;
+
+    at = ranges_over(s->slopes, (Range){low, high});
+    for (int j = 0; j < s->sources.count; j++)
+        s->reach[j] = fmax(fabs(at[j].low), fabs(at[j].high)) * (high - low) / 2;
+    memcpy(s->closer, ranges_over(s->values, (Range){low, high}),
+           (size_t)s->sources.count * sizeof(Range));
+    at = ranges_over(s->values, (Range){middle, middle});
+    for (int j = 0; j < s->sources.count; j++)
+        if (s->sources.at[j].is_continuous && isfinite(s->reach[j]))
+            s->closer[j] = narrowed(s->closer[j], at[j], s->reach[j]);
+    return s->closer;
 }
 
 void steep_span(Steep *s, double from, double to)
