@@ -213,8 +213,18 @@ static bool is_asked(const Placing *p, const Instance *instance)
     return false;
 }
 
-/* Coordinates of a link where its frames stand now: angles within half a turn of where they began,
- * or of what they were given as. What places frames and was given stays as it is. */
+/* Whether coordinate k has its whole turns from no statement and no run that goes on: an earlier
+ * start tells where the search begins, and no more. Those of a screw are a way. */
+static bool is_within_half_a_turn(const Placing *p, int link, int k)
+{
+    const Link *l = &p->s->links[link];
+
+    return p->known[place_at(link, k)] == KNOWN_NOT && !l->is_tied &&
+           l->instance->coord_kind[k] == COORDINATE_ANGLE && p->a->setting->from == NULL;
+}
+
+/* Coordinates of a link where its frames stand now: angles within half a turn of what they were
+ * given or guessed as, or of 0. What places frames and was given stays as it is. */
 static void read_link(Placing *p, int link)
 {
     const Link *l = &p->s->links[link];
@@ -226,7 +236,8 @@ static void read_link(Placing *p, int link)
         begin_half(p, link, false);
     }
     for (int k = 0; k < MAX_COORDS; k++)
-        if (isnan(p->begun[place_at(link, k)]))
+        if (isnan(p->begun[place_at(link, k)]) ||
+            (k < l->instance->coord_count && is_within_half_a_turn(p, link, k)))
             p->begun[place_at(link, k)] = 0;
     memcpy(read, p->begun + place_at(link, 0), sizeof read);
     pose_between(&p->poses[l->tail], &p->poses[l->head], &relative);

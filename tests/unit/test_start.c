@@ -120,6 +120,25 @@ static void angles_start_within_half_a_turn(void)
     }
 }
 
+/* what the starts before were has no part in the turn of an angle that nobody gives */
+static void turns_do_not_pile_up_over_starts(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, "scene planar\nbody a mass=1 inertia=1\narm e a [1, 0]\n"
+                      "body b mass=1 inertia=1\nrevolute h1 ground a\nrevolute h2 e b\n"
+                      "virtual revolute v ground b\ntree rotation h1 v\n");
+    for (int i = 0; i < 8; i++) {
+        char line[80];
+
+        (void)snprintf(line, sizeof line, "init h1 = %d, h2 = %g\nassemble\n", i % 3 - 1,
+                       i % 2 == 0 ? 1.9 : -1.9);
+        EXPECT_DONE(&kit, line);
+        expect_value(&kit, "v", i % 3 - 1 + (i % 2 == 0 ? 1.9 : -1.9));
+    }
+    kit_free(&kit);
+}
+
 /* around a planar loop angles add up but for whole turns */
 static void given_angles_close_a_loop_modulo_turns(void)
 {
@@ -198,6 +217,7 @@ static void driven_runs_start_from_the_same(void)
 
 int main(void)
 {
+    RUN(turns_do_not_pile_up_over_starts);
     RUN(welded_frames_are_turned_alike);
     RUN(angles_of_chords_place_bodies);
     RUN(reversed_axes_are_refused);
