@@ -84,6 +84,17 @@ static void a_pulse_in_a_long_run_is_seen(void)
                   "simulate 10", "s", 3 * area / 2 * 5, 1e-5);
 }
 
+/* Stages of a step fell about this pulse so that its estimate of order 5 vanished by chance. */
+static void no_chance_hides_a_pulse_from_an_estimate(void)
+{
+    static const char *const charge =
+        "capacitor C b 0 1.4602726574349629\ninit C.v = 0\n"
+        "isource I 0 b 17104.5727*exp(-((t - 0.15087589205985813)/0.013075265114778353)^2)\n";
+    const double right = 17104.5727 * 0.013075265114778353 * sqrt(acos(-1.0)) / 1.4602726574349629;
+
+    expect_of_all(charge, "simulate 1.3658752076926908 rtol=2.41e-05", "b.v", right, 0.1);
+}
+
 /* A cart passes a bump of force that is short against its way: it does work +W, then -W. */
 static void a_bump_on_the_way_is_felt(void)
 {
@@ -144,6 +155,7 @@ int main(void)
     RUN(a_doubler_stays_below_twice_the_peak);
     RUN(a_multiplier_of_exponential_diodes_runs);
     RUN(a_pulse_in_a_long_run_is_seen);
+    RUN(no_chance_hides_a_pulse_from_an_estimate);
     RUN(a_bump_on_the_way_is_felt);
     RUN(fixed_steps_tell_what_they_miss);
     RUN(maxstep_bounds_every_method);
