@@ -184,7 +184,10 @@ int system_scalar_count(const System *system)
 Status system_scalar(System *system, int i, ScalarPair *out, Diag *diag)
 {
     Branchlike *branch = &system->branches.at[i];
-    ScalarPair pair = {.domain = graph_edge(system->graph, branch->edge)->domain};
+    ScalarPair pair = {.name = system->instances[branch->instance].name,
+                       .domain = graph_edge(system->graph, branch->edge)->domain,
+                       .gives_across = branch->relation.kind == RELATION_ACROSS,
+                       .gives_through = branch->relation.kind == RELATION_THROUGH};
     Status status = OK;
 
     CHECK(network_across(system, branch, &pair.across, diag));

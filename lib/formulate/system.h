@@ -299,7 +299,9 @@ typedef struct IdealSwitch {
 
 /* Across and through variable of a scalar edge, 0, 1 ... */
 typedef struct ScalarPair {
+    const char *name; /* of its part; borrowed */
     Domain domain;
+    bool gives_across, gives_through; /* as a source, whatever meets it */
     Expr across, through;
 } ScalarPair;
 int system_scalar_count(const System *system);

@@ -6,11 +6,12 @@
 
 #include "base/memory.h"
 #include "simulate/linear.h"
+#include "simulate/share.h"
 
 #include <math.h>
 #include <string.h>
 
-#define JUMP       1e-6 /* of the largest of its kind, more than location may change it, */
+#define JUMP       1e-6 /* of the largest state, more than location may change it, */
 #define ERRORS     100  /* and of the tolerance: what errors may */
 #define START_STEP 1e-9 /* s: for the sides at a start, where no run says what is short */
 #define LOOK       1e-4 /* of the last step: how far to look ahead for the sides, */
@@ -60,17 +61,6 @@ done:
     return status;
 }
 
-/* false: the phase has no solution at (t, y) */
-static bool states_at(const Result *r, Phase *phase, double t, const double *y, RowValues *row,
-                      double *out)
-{
-    if (!phase_row(phase, t, y, row))
-        return false;
-    memcpy(out, probe_values(phase->states, row),
-           (size_t)result_whole(r)->layout->nx * sizeof(double));
-    return true;
-}
-
 /* y of a phase from (q, u), states of the whole, and references of angles */
 static void enter(const Phase *phase, const double *y, const double *x, const double *near,
                   double work, double *out)
@@ -98,25 +88,32 @@ static void name_sides(const Result *r, const bool *before, const bool *closed, 
     }
 }
 
-/* the largest voltage or current so far of any edge, as the state is the one or the other */
-static double largest_like(const Result *r, const char *state)
+/* An impulse of one kind would be given by a source of the other alone, where there is one. */
+static Status refuse_jump(const Result *r, const char *sides, double t, double step,
+                          const char *state, double from, double to, Diag *diag)
 {
-    const char *kind = strrchr(state, '.');
-    double largest = 0;
+    const char *source = sides_source(r->sides, step);
+    Text who = {0};
 
-    for (Domain domain = 0; domain < DOMAIN_COUNT && kind != NULL; domain++) {
-        if (strcmp(kind + 1, domain_across(domain)) == 0)
-            largest = fmax(largest, sides_largest(r->sides, domain, false));
-        if (strcmp(kind + 1, domain_through(domain)) == 0)
-            largest = fmax(largest, sides_largest(r->sides, domain, true));
-    }
-    return largest;
+    if (source != NULL)
+        text_addf(&who, ": %s alone would have to give the impulse", source);
+    (void)diag_set(diag, E_SOLVER, "%s at t = %.9g s, and %s would jump from %.6g to %.6g%s", sides,
+                   t, state, from, to, who.at != NULL ? who.at : "");
+    text_free(&who);
+    return E_SOLVER;
 }
 
-/* What the states of the whole have to be in the phase that begins at (t, y), against what they
- * were: none may jump. `before` are the sides that were. */
-static Status check_impulse(const Result *r, Phase *phase, double t, const double *y,
-                            const bool *before, const double *x, Diag *diag)
+/* where a phase is entered, as its sides were found */
+typedef struct Entering {
+    double t, step;
+    const bool *before; /* the sides that were */
+    bool may_share;     /* else no state may jump: nothing was stored before */
+} Entering;
+
+/* What the states of the whole have to be in the phase that begins at (t, y), against x, what they
+ * were: none may jump but those that share what they store, which y and x are set to. */
+static Status check_impulse(Result *r, Phase *phase, const Entering *entry, double *y, double *x,
+                            Diag *diag)
 {
     const Layout *whole = result_whole(r)->layout;
     double largest = vector_largest(x, whole->nx);
@@ -124,31 +121,37 @@ static Status check_impulse(const Result *r, Phase *phase, double t, const doubl
     Text sides = {0};
     RowValues row;
     Status status = OK;
+    int jumping = 0;
 
-    if (!phase_row(phase, t, y, &row))
+    if (!phase_row(phase, entry->t, y, &row))
         return OK; /* that has its own message */
     now = probe_values(phase->states, &row);
     largest = fmax(largest, vector_largest(now, whole->nx));
-    for (int i = 0; i < whole->nx && status == OK; i++)
-        if (fabs(now[i] - x[i]) >
-            JUMP * fmax(largest_like(r, system_x(whole->system, i)->name), fabs(now[i])) +
-                ERRORS * r->tolerance) {
-            name_sides(r, before, phase->closed, &sides);
-            status = diag_set(diag, E_SOLVER,
-                              "%s at t = %.9g s, and %s would jump from %.6g to "
-                              "%.6g",
-                              sides.at != NULL ? sides.at : "sources jump", t,
-                              system_x(whole->system, i)->name, x[i], now[i]);
+    name_sides(r, entry->before, phase->closed, &sides);
+    if (sides.at == NULL)
+        text_add(&sides, "sources jump");
+    while (jumping < whole->nx && !share_is_jump(r, jumping, x[jumping], now[jumping]))
+        jumping++;
+    if (jumping < whole->nx) {
+        const double from = x[jumping], to = now[jumping];
+
+        if (entry->may_share && share_stored(r, phase, entry->t, entry->step, sides.at, y, x)) {
+            const Entering shared = {.t = entry->t, .step = entry->step, .before = entry->before};
+
+            status = check_impulse(r, phase, &shared, y, x, diag);
+            goto done;
         }
+        status = refuse_jump(r, sides.at, entry->t, entry->step,
+                             system_x(whole->system, jumping)->name, from, to, diag);
+    }
     for (int i = 0; system_invariant(phase->system, i) != NULL && status == OK; i++)
-        if (fabs(now[whole->nx + i]) > JUMP * largest + ERRORS * r->tolerance) {
-            name_sides(r, before, phase->closed, &sides);
+        if (fabs(now[whole->nx + i]) > JUMP * largest + ERRORS * r->tolerance)
             status = diag_set(diag, E_SOLVER, "%s at t = %.9g s, and what is stored would jump",
-                              sides.at != NULL ? sides.at : "sources jump", t);
-        }
+                              sides.at, entry->t);
     if (status != OK)
         diag_hint(diag, "a resistance in that circuit, a diode for the current, or Ron= and Roff= "
                         "of the switch, make it a fast change");
+done:
     text_free(&sides);
     return status;
 }
@@ -269,7 +272,7 @@ Leg commute_leg(const Result *r, const Phase *phase, Events *events)
 Status commute_begin(Result *r, const Setting *setting, Diag *diag)
 {
     const Layout *whole = result_whole(r)->layout;
-    const double *x = r->start.y + whole->n + whole->nu;
+    double *x = r->start.y + whole->n + whole->nu;
     SidesAt at = {.t = 0,
                   .step = START_STEP,
                   .q = r->start.y,
@@ -288,7 +291,7 @@ Status commute_begin(Result *r, const Setting *setting, Diag *diag)
     mem_free(r->begin);
     r->begin = NEW_ARRAY(double, phase->length);
     enter(phase, r->start.y, x, at.near, 0, r->begin);
-    CHECK(check_impulse(r, phase, 0, r->begin, none, x, diag));
+    CHECK(check_impulse(r, phase, &(Entering){.step = at.step, .before = none}, r->begin, x, diag));
     CHECK(start_solve(phase->layout, phase->numbers, r->begin, NULL, NULL, diag));
 done:
     mem_free(closed);
@@ -378,6 +381,7 @@ Status commute(void *context, double t, double behind, double last, const double
     double *ahead = NEW_ARRAY(double, now->length);
     Events *events = leg->events;
     RowValues row = {.t = t};
+    Entering entry;
     SidesAt at = {.t = behind,
                   .step = step_from(c, behind, last),
                   .q = ahead,
@@ -388,9 +392,9 @@ Status commute(void *context, double t, double behind, double last, const double
     Status status = OK;
 
     go_ahead(now, t, at.step, y, ahead);
-    if (!states_at(r, now, t, y, &row, x))
+    if (!phase_states(now, t, y, whole->nx, &row, x))
         CHECK(solver_failure(diag, t, "the network has no solution"));
-    if (!states_at(r, now, t + at.step, ahead, &row, x_behind))
+    if (!phase_states(now, t + at.step, ahead, whole->nx, &row, x_behind))
         memcpy(x_behind, x, (size_t)whole->nx * sizeof(double));
     at.acceleration = row.acceleration;
     at.multipliers = row.multipliers;
@@ -405,7 +409,8 @@ Status commute(void *context, double t, double behind, double last, const double
     commuting_free(c);
     c->y = NEW_ARRAY(double, next->length);
     enter(next, y, x, y + layout_turned(now->layout), y[now->length - 1], c->y);
-    CHECK(check_impulse(r, next, behind, c->y, now->closed, x, diag));
+    entry = (Entering){.t = behind, .step = at.step, .before = now->closed, .may_share = true};
+    CHECK(check_impulse(r, next, &entry, c->y, x, diag));
     *leg = commute_leg(r, next, events);
     *out = c->y;
 done:

@@ -85,6 +85,8 @@ libcore_la_SOURCES += \
   lib/simulate/schur.h \
   lib/simulate/search.c \
   lib/simulate/search.h \
+  lib/simulate/share.c \
+  lib/simulate/share.h \
   lib/simulate/shifted.c \
   lib/simulate/shifted.h \
   lib/simulate/signs.c \

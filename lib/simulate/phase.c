@@ -115,3 +115,11 @@ bool phase_row(Phase *phase, double t, const double *y, RowValues *out)
     phase_enter(phase);
     return row_solve(phase->layout, phase->motion, t, y, out);
 }
+
+bool phase_states(Phase *phase, double t, const double *y, int count, RowValues *row, double *out)
+{
+    if (!phase_row(phase, t, y, row))
+        return false;
+    memcpy(out, probe_values(phase->states, row), (size_t)count * sizeof(double));
+    return true;
+}

@@ -54,5 +54,7 @@ void phase_free(Phase *phase); /* NULL is fine */
 const Method *phase_stiff_method(const Phase *phase);
 /* Everything at (t, y). False: no solution. */
 bool phase_row(Phase *phase, double t, const double *y, RowValues *out);
+/* And the first `count` states of the whole, of a mode. False: no solution. */
+bool phase_states(Phase *phase, double t, const double *y, int count, RowValues *row, double *out);
 
 #endif

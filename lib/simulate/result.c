@@ -4,6 +4,7 @@
 #include "base/memory.h"
 #include "simulate/causes.h"
 #include "simulate/commute.h"
+#include "simulate/share.h"
 
 #include <math.h>
 #include <string.h>
@@ -311,6 +312,7 @@ void result_free(Result *r)
         phase_free(r->phases.at[i]);
     LIST_FREE(r->phases);
     sides_free(r->sides);
+    shares_free(r->shares);
     parameters_free(&r->parameters);
     start_free(&r->start);
     mem_free(r->begin);

@@ -13,6 +13,8 @@ typedef struct Driven {
     double *values; /* rows x length; NULL: rows are solved when asked for */
 } Driven;
 
+typedef struct Shares Shares;
+
 struct Result {
     RunKind kind;
     System *system; /* the whole */
@@ -21,6 +23,7 @@ struct Result {
     phases;           /* the first is of the whole, and where there are ideal switches no row's */
     Phase *phase;     /* in which it starts */
     Sides *sides;     /* NULL: there are no ideal switches */
+    Shares *shares;   /* of what is stored, where switches join parts; NULL: none yet */
     Assembled start;  /* of the whole */
     double *begin;    /* y of the phase in which it starts */
     double tolerance; /* of the run: bounds what a projection may leave */

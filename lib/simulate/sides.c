@@ -14,8 +14,10 @@
 #define NOISE       1e-12 /* of the largest current or voltage: too small to tell a side from, */
 #define MOST_NOISE  1e-8  /* or where that leads in circles, up to this */
 #define ROUNDING    1e-15 /* of the largest voltage, in that of a closed one with a resistance */
-#define FORGET      0.5 /* of the largest current or voltage from instant to instant: surges end */
-#define ROUNDS      8   /* in which conditions and diodes may set each other off */
+#define FORGET      0.5  /* of the largest current or voltage from instant to instant: surges end */
+#define IMPULSE     1e-3 /* of the largest: more than leaks and what is no impulse */
+#define HALVED      0.2  /* of the largest, that its change with the step has to be */
+#define ROUNDS      8    /* in which conditions and diodes may set each other off */
 
 typedef enum When { ALWAYS, OPEN, CLOSED } When;
 
@@ -53,7 +55,8 @@ struct Sides {
     Probe *looks;     /* LOOKS at each; then through and across of all edges */
     bool *has_when;
     int edges;
-    Domain *domain; /* of each, then of all edges */
+    Domain *domain;      /* of each, then of all edges */
+    const char **source; /* of each edge across and through: the part that gives it; NULL: none */
     const SidesAt *at;
     double step;
     double noise; /* of the largest current or voltage */
@@ -248,6 +251,8 @@ static Status compile(Sides *s, Parameters *parameters, Diag *diag)
     for (int i = 0; i < s->edges; i++) {
         CHECK(system_scalar(s->l->system, i, &edge, diag));
         s->domain[s->count + i] = edge.domain;
+        s->source[2 * i] = edge.gives_across ? edge.name : NULL;
+        s->source[2 * i + 1] = edge.gives_through ? edge.name : NULL;
         LIST_PUSH(looks, edge.across);
         LIST_PUSH(looks, edge.through);
     }
@@ -277,6 +282,7 @@ Status sides_new(System *system, Parameters *parameters, Sides **out, Diag *diag
     s->on = NEW_ARRAY(double, s->count);
     s->edges = system_scalar_count(system);
     s->domain = NEW_ARRAY(Domain, s->count + s->edges);
+    s->source = NEW_ARRAY(const char *, 2 * s->edges);
     CHECK(compile(s, parameters, diag));
     s->network = NEW_ARRAY(double, s->pattern_row.count);
     s->residual = NEW_ARRAY(double, s->n);
@@ -321,6 +327,7 @@ void sides_free(Sides *s)
     mem_free(s->across);
     mem_free(s->on);
     mem_free(s->domain);
+    mem_free(s->source);
     layout_free(s->l);
     mem_free(s);
 }
@@ -490,4 +497,60 @@ done:
         memcpy(closed, before, bytes);
     mem_free(before);
     return status;
+}
+
+/* --- impulses --- */
+
+bool sides_land(Sides *s, double step, double *x)
+{
+    s->step = step;
+    memset(netsolve_values(s->solve), 0, (size_t)s->l->nx * sizeof(double));
+    if (!solve(s))
+        return false;
+    memcpy(x, s->x, (size_t)s->l->nx * sizeof(double));
+    return true;
+}
+
+/* across and through variables of all edges behind a step */
+static bool edges_behind(Sides *s, double step, double *out)
+{
+    RowValues row;
+
+    s->step = step;
+    memset(netsolve_values(s->solve), 0, (size_t)s->l->nx * sizeof(double));
+    if (!solve(s))
+        return false;
+    row = row_values(s, netsolve_values(s->solve));
+    memcpy(out, probe_values(s->looks, &row) + (ptrdiff_t)LOOKS * s->count,
+           (size_t)(2 * s->edges) * sizeof(double));
+    return true;
+}
+
+/* An impulse is what halves when its step is doubled. */
+const char *sides_source(Sides *s, double step)
+{
+    double *longer = NEW_ARRAY(double, 2 * s->edges);
+    double *impulse = NEW_ARRAY(double, 2 * s->edges);
+    double largest[DOMAIN_COUNT][2] = {{0}}; /* of changes, and of values */
+    double whole[DOMAIN_COUNT][2] = {{0}};
+    const char *source = NULL;
+    const bool sound = edges_behind(s, step, impulse) && edges_behind(s, 2 * step, longer);
+
+    for (int i = 0; i < 2 * s->edges && sound; i++) {
+        const Domain domain = s->domain[s->count + i / 2];
+
+        whole[domain][i % 2] = fmax(whole[domain][i % 2], fabs(impulse[i]));
+        impulse[i] = fabs(impulse[i] - longer[i]);
+        largest[domain][i % 2] = fmax(largest[domain][i % 2], impulse[i]);
+    }
+    for (int i = 0; i < 2 * s->edges && sound && source == NULL; i++) {
+        const Domain domain = s->domain[s->count + i / 2];
+
+        if (largest[domain][i % 2] > HALVED * whole[domain][i % 2] &&
+            impulse[i] > IMPULSE * largest[domain][i % 2])
+            source = s->source[i % 2 == 0 ? i + 1 : i - 1];
+    }
+    mem_free(longer);
+    mem_free(impulse);
+    return source;
 }

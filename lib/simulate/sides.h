@@ -31,6 +31,12 @@ typedef struct SidesAt {
  * none; `closed` is as it was then. */
 MUST_USE Status sides_find(Sides *sides, const SidesAt *at, bool *closed, Diag *diag);
 
+/* From the instant that sides were looked for last, while that stands, with these sides: the states
+ * behind a step. False: no solution. */
+bool sides_land(Sides *sides, double step, double *x);
+/* the name of a source that would have to give an impulse there; NULL: none */
+const char *sides_source(Sides *sides, double step);
+
 /* the largest across or through variable of a domain's edges lately */
 double sides_largest(const Sides *sides, Domain domain, bool through);
 

@@ -5,6 +5,7 @@
 #include "simulate/causes.h"
 #include "simulate/commute.h"
 #include "simulate/inverse.h"
+#include "simulate/share.h"
 #include "simulate/slide.h"
 
 #include <math.h>
@@ -195,6 +196,7 @@ static void remark_march(Result *r, const MarchReport *march)
 {
     if (march->remarks.at != NULL)
         text_add(&r->remarks, march->remarks.at);
+    share_tell(r);
     events_tell(r->events, &r->remarks);
     remark_singular(r);
 }

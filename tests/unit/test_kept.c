@@ -130,8 +130,80 @@ static void flux_and_charge_stay_where_a_law_moves(void)
     kit_free(&kit);
 }
 
+/* in closed form: C1 and C2 decay by themselves, share what is left, and decay together */
+static void capacitors_that_a_switch_joins_share_their_charge(void)
+{
+    Kit kit = kit_new();
+    const double v1 = 10 * exp(-1), v2 = 2 * exp(-1.0 / 3), v = (v1 + 3 * v2) / 4;
+
+    EXPECT_DONE(&kit, "capacitor C1 a 0 1 uF\ncapacitor C2 b 0 3 uF\nresistor R1 a 0 1 kohm\n"
+                      "resistor R2 b 0 1 kohm\nswitch S a b when=t > 1 [ms]\n"
+                      "init C1.v = 10, C2.v = 2\nsimulate 5 ms every=1e-4 rtol=1e-9\n");
+    EXPECT_HOLDS(ct_remarks(kit.session),
+                 "S closes at t = 0.001 s: C1 and C2 share their charge, 1.89");
+    EXPECT(is_near(kit_value(&kit, "C1.v"), v * exp(-2), 1e-7));
+    EXPECT(is_near(kit_value(&kit, "C2.v"), v * exp(-2), 1e-7));
+    kit_free(&kit);
+}
+
+static void coils_that_a_switch_puts_in_series_share_their_flux(void)
+{
+    Kit kit = kit_new();
+    const double before = 10 * (1 - exp(-0.5)), behind = before / 4;
+
+    EXPECT_DONE(&kit, "vsource V a 0 10\nresistor R1 a b 1\ninductor L1 b c 0.1\n"
+                      "inductor L2 c d 0.3\nresistor R2 d 0 1\nswitch S c 0 when=t < 0.05\n"
+                      "init L1.i = 0, L2.i = 0\nsimulate 0.1 rtol=1e-9\n");
+    EXPECT_HOLDS(ct_remarks(kit.session),
+                 "S opens at t = 0.05 s: L1 and L2 share their flux, 0.58");
+    EXPECT(is_near(kit_value(&kit, "L1.i"), 5 + (behind - 5) * exp(-0.25), 1e-7));
+    EXPECT(is_near(kit_value(&kit, "L2.i"), 5 + (behind - 5) * exp(-0.25), 1e-7));
+    kit_free(&kit);
+}
+
+static void a_source_that_would_give_an_impulse_is_named(void)
+{
+    static const char *const scenes[][2] = {
+        {"vsource E a 0 10\nswitch S a b when=t > 1 [ms]\ncapacitor C b 0 1 uF\n"
+         "resistor R b 0 1 kohm\nsimulate 5 ms\n",
+         "C.v would jump from 0 to 10: E alone would have to give the impulse"},
+        {"vsource E a 0 10\nswitch S a b when=t > 1 [ms]\ncapacitor C b c 1 uF\n"
+         "capacitor C2 c 0 1 uF\nresistor R c 0 1 kohm\nsimulate 5 ms\n",
+         "E alone would have to give the impulse"},
+        {"isource J 0 a 2\ninductor L a b 0.1\nswitch S a 0 when=t < 0.1\nresistor R b 0 1\n"
+         "simulate 1\n",
+         "L.i would jump from 0 to 2: J alone would have to give the impulse"},
+    };
+
+    for (size_t i = 0; i < sizeof scenes / sizeof scenes[0]; i++) {
+        Kit kit = kit_new();
+
+        EXPECT_FAILS(&kit, scenes[i][0], scenes[i][1]);
+        EXPECT_HOLDS(kit.error.hint, "a resistance in that circuit");
+        kit_free(&kit);
+    }
+}
+
+/* A follower has no way to take its load's charge back: what it does is no sharing. */
+static void an_amplifier_is_not_taken_for_a_capacitor(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_FAILS(&kit,
+                 "capacitor C1 a 0 1 uF\nresistor R1 a 0 1 Mohm\nvcvs A o 0 a 0 gain=0.5\n"
+                 "capacitor C2 b 0 1 uF\nresistor R2 b 0 1 Mohm\nswitch S o b when=t > 1 [ms]\n"
+                 "init C1.v = 10, C2.v = 0\nsimulate 5 ms\n",
+                 "would jump");
+    EXPECT_HOLDS(kit.error.message, "A alone would have to give the impulse");
+    kit_free(&kit);
+}
+
 int main(void)
 {
+    RUN(capacitors_that_a_switch_joins_share_their_charge);
+    RUN(coils_that_a_switch_puts_in_series_share_their_flux);
+    RUN(a_source_that_would_give_an_impulse_is_named);
+    RUN(an_amplifier_is_not_taken_for_a_capacitor);
     RUN(flux_and_charge_stay_where_a_law_moves);
     RUN(a_source_that_follows_its_own_voltage_is_a_resistor);
     RUN(currents_of_a_star_begin_as_given);
