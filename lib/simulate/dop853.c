@@ -18,7 +18,8 @@
 #define FIRST_SEEN     5 /* stage with a weight in the result: those before, but 0, have none */
 #define AIM            0.1 /* of the tolerance, a step: some hundred of them then add up to about it */
 #define SAFETY         0.9
-#define LUCK           40.0 /* times the root of the tolerance; estimates of order 3: 1 to 30 of it */
+#define LUCK           60.0 /* times the root of the tolerance; estimates of order 3: 1 to 60 of it */
+#define STEEP_LUCK     10.0 /* the same where an element may cease to conduct within the step */
 #define SHRINK         (1 / 3.0)
 #define GROW           6.0
 #define STIFF_BOUNDARY 6.1
@@ -147,7 +148,8 @@ static double step_error(Dop853 *d, double h)
     if (!(under > 0))
         return under;
     h = fabs(h);
-    third_order = h * sqrt(sum3 / d->n * d->base.control.rtol) / LUCK;
+    third_order =
+        h * sqrt(sum3 / d->n * d->base.control.rtol) / (d->base.may_bend ? STEEP_LUCK : LUCK);
     return fmax(h * sum5 / sqrt(under * d->n) / stepper_blur(&d->base), third_order * third_order);
 }
 

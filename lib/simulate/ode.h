@@ -119,6 +119,7 @@ struct Stepper {
     double *y;        /* y at t, projected where the method projects */
     double next;      /* step it would take next, s */
     double bound;     /* by whoever drives it: no longer step now, s; 0: free */
+    bool may_bend;    /* likewise: something steep acts that may end within the step */
     double missed;    /* fixed steps: largest estimated error of one, in tolerances, */
     double missed_at; /* and when that was, s */
     bool is_stiff;    /* explicit methods: steps are cut by stability, not by accuracy */

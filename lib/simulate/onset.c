@@ -578,6 +578,9 @@ double onset_before_step(Onset *o, Stepper *stepper, double end)
         first = fmin(first, next_unseen(o, stepper, first));
     bound = fmin(bound, bound_by(o->source_pulses, o->sources, o->t));
     stepper->bound = bound < end - o->t ? bound : 0;
+    stepper->may_bend = false;
+    for (int k = 0; k < o->elements; k++)
+        stepper->may_bend = stepper->may_bend || o->conducts[k];
     o->is_first = false;
     o->planned = fmin(first, o->t + o->h * (1 - 1e-9));
     return first;

@@ -53,6 +53,21 @@ static void a_rectifier_conducts_at_every_tolerance(void)
     expect_of_all(RECTIFIER, "simulate 0.02 every=1e-5", "mean(b.v)", 94.31795, 1e-3);
 }
 
+/* A bridge that conducts from the start on and blocks within a step of dop853, which saw little of
+ * it. Right: RK4 by another program, steps halved until 1e-6 agrees. */
+static void an_end_of_conduction_is_resolved(void)
+{
+    static const char *const bridge =
+        "vsource V p e 11.384202358521602*exp((cos(2633.8117491381386*t) - "
+        "1)/0.08116715650528529)\n"
+        "resistor Rs p s 0.53403023889954204\ncapacitor C b 0 0.00013303761169652334\n"
+        "resistor RL b 0 1520.9015639514619\ninit C.v = 0\n"
+        "diode D1 s b Is=1.1528e-12 n=1.1341158\ndiode D2 e b Is=1.1528e-12 n=1.1341158\n"
+        "diode D3 0 s Is=1.1528e-12 n=1.1341158\ndiode D4 0 e Is=1.1528e-12 n=1.1341158\n";
+
+    expect_of_all(bridge, "simulate 0.00073408919976743821 rtol=4.23e-06", "C.v", 5.861104, 1e-3);
+}
+
 static void a_doubler_stays_below_twice_the_peak(void)
 {
     expect_of_all(DOUBLER, "simulate 0.02 every=1e-5", "b.v", 198.36, 5e-3);
@@ -152,6 +167,7 @@ static void a_step_bound_below_nothing_is_refused(void)
 int main(void)
 {
     RUN(a_rectifier_conducts_at_every_tolerance);
+    RUN(an_end_of_conduction_is_resolved);
     RUN(a_doubler_stays_below_twice_the_peak);
     RUN(a_multiplier_of_exponential_diodes_runs);
     RUN(a_pulse_in_a_long_run_is_seen);
