@@ -13,6 +13,7 @@
 #define ROUNDING    1e-13 /* of the largest margin: what rounding does to any */
 #define NOTHING     1e-4  /* of the absolute tolerance: where all is next to nothing, as at rest */
 #define MOST_NOISE  1e-6  /* likewise: more than that is none */
+#define DEEPER      2     /* times what a margin begins with */
 #define MOVES       3     /* that tell how far errors reach */
 #define ZENO_EVENTS 100
 #define ZENO_EACH   10   /* of every condition, which all may go over at one instant */
@@ -56,6 +57,18 @@ static void conditions_at(March *m, double t)
 {
     m->stepper->method->at(m->stepper, t, m->y);
     march_evaluate(m, t, m->y);
+}
+
+/* all of them a little way h, which is the result, further than the stepper's end along m->slope */
+static double conditions_ahead(March *m)
+{
+    const Stepper *s = m->stepper;
+    double h = 1e-7 * fmax(1e-3, s->t - s->before);
+
+    for (int k = 0; k < m->length; k++)
+        m->y[k] = s->y[k] + h * m->slope[k];
+    march_evaluate(m, s->t + h, m->y);
+    return h;
 }
 
 /* what says that the leg is the right one, as long as it is positive */
@@ -108,6 +121,30 @@ static void find_noise(March *m)
     mem_free(here);
 }
 
+/* The leg is the one that goes on a little behind where it begins. Margins that are still negative
+ * there, and on their way up, are so because an instant is located only so well: they tell nothing
+ * as long as they fall no deeper. */
+static void let_margins_rise(March *m)
+{
+    const Ode *ode = motion_ode(m->leg.motion);
+    const Stepper *s = m->stepper;
+    bool negative = false;
+    double *here;
+
+    conditions_at(m, s->t);
+    for (int i = m->eq->time_only; i < m->eq->switch_count; i++)
+        negative = negative || (is_margin(m, i) && m->conditions[i] < -m->noise[i]);
+    if (!negative || !ode->rate(ode->context, s->t, s->y, m->slope))
+        return;
+    here = NEW_ARRAY(double, m->eq->switch_count);
+    memcpy(here, m->conditions, (size_t)m->eq->switch_count * sizeof(double));
+    conditions_ahead(m);
+    for (int i = m->eq->time_only; i < m->eq->switch_count; i++)
+        if (is_margin(m, i) && here[i] < -m->noise[i] && m->conditions[i] > here[i])
+            m->band[i] = fmax(m->band[i], -DEEPER * here[i]);
+    mem_free(here);
+}
+
 void march_begin_modes(March *m)
 {
     if (m->eq->switch_count == m->eq->time_only)
@@ -119,6 +156,7 @@ void march_begin_modes(March *m)
         m->band[i] = 0;
     }
     find_noise(m);
+    let_margins_rise(m);
     march_begin_surfaces(m);
 }
 
@@ -130,10 +168,21 @@ static bool has_switched(March *m, int i)
     m->largest[i] = fmax(m->largest[i], fabs(value));
     if (!(fabs(value) > m->band[i]))
         return false;
-    m->band[i] = m->noise[i];
     if (m->mode[i] == 0) /* what had no value till now becomes what it is */
         m->mode[i] = march_is_of_event(m, i) ? -sign_of(value) : sign_of(value);
-    return sign_of(value) != m->mode[i] && value != 0;
+    if (sign_of(value) == m->mode[i] || value == 0)
+        return false;
+    m->band[i] = m->noise[i];
+    return true;
+}
+
+/* Where nothing has switched up to here, what has come clear of its band needs it no more. Not
+ * earlier: between here and the last point it may be what holds. */
+static void forget_bands(March *m)
+{
+    for (int i = 0; i < m->count; i++)
+        if (!is_of_time(m, i) && fabs(m->conditions[i]) > m->band[i])
+            m->band[i] = m->noise[i];
 }
 
 /* Steps are as short as states want them. What a source does to a condition while no state moves
@@ -164,10 +213,12 @@ int march_find_switch(March *m, double *when)
         for (int i = 0; i < m->count; i++)
             if (!is_of_time(m, i) && has_switched(m, i) && found < 0)
                 found = i;
-        if (found < 0)
+        if (found < 0) {
             low = t;
-        else
+            forget_bands(m);
+        } else {
             high = t;
+        }
     }
     if (found < 0)
         return -1;
@@ -195,15 +246,13 @@ double march_condition_rate(March *m, int i, double *value)
 {
     const Ode *ode = motion_ode(m->leg.motion);
     const Stepper *s = m->stepper;
-    double h = 1e-7 * fmax(1e-3, s->t - s->before);
+    double h;
 
     conditions_at(m, s->t);
     *value = m->conditions[i];
     if (!ode->rate(ode->context, s->t, s->y, m->slope))
         return 0;
-    for (int k = 0; k < m->length; k++)
-        m->y[k] = s->y[k] + h * m->slope[k];
-    march_evaluate(m, s->t + h, m->y);
+    h = conditions_ahead(m);
     return (m->conditions[i] - *value) / h;
 }
 
@@ -274,8 +323,11 @@ static Status switches_endlessly(const March *m, int i, Diag *diag)
         m->plan->tell(m->plan->context, &m->leg, i, &what);
     (void)diag_set(diag, E_SOLVER, "at t = %.9g s: %s switches to and fro without end",
                    m->stepper->t, what.at);
-    diag_hint(diag, "a hysteresis, or a steep but continuous law such as tanh(x/0.001) in the "
-                    "place of sign(x), has a motion there");
+    if (is_margin(m, i))
+        diag_hint(diag, "smaller rtol= and atol= locate its switching more closely");
+    else
+        diag_hint(diag, "a hysteresis, or a steep but continuous law such as tanh(x/0.001) in the "
+                        "place of sign(x), has a motion there");
     text_free(&what);
     return E_SOLVER;
 }
@@ -328,9 +380,11 @@ Status march_meet_switch(March *m, int i, double when, Diag *diag)
     CHECK(march_check_pace(m, i, diag));
     m->root = on_surface || (guard.surface >= 0 && is_led_back(m, i, crossed)) ? i : ROOT_NONE;
     CHECK(march_go_on(m, m->stepper->t, m->stepper->y, &entered, diag));
-    if (is_told && !entered)
+    if (is_told && !entered) {
         m->noise[i] = m->band[i] =
             fmin(10 * fmax(m->noise[i], m->band[i]), MOST_NOISE * largest_margin(m));
+        let_margins_rise(m);
+    }
 done:
     return status;
 }

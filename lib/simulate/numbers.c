@@ -792,3 +792,8 @@ Expr numbers_condition(const Numbers *nb, int i)
 {
     return nb->told[i];
 }
+
+int numbers_margin(const Numbers *nb, int i)
+{
+    return nb->margins.at[i - (nb->eq.switch_count - nb->eq.margin_count)];
+}

@@ -109,5 +109,7 @@ void numbers_set(Numbers *numbers, Expr parameter, double value);
 /* what condition i of the equations compares with 0; NULL: it is whether a diode stays on its side
  */
 Expr numbers_condition(const Numbers *numbers, int i);
+/* the switch, of system_ideal(), that a condition is the margin of, where that gives NULL */
+int numbers_margin(const Numbers *numbers, int condition);
 
 #endif

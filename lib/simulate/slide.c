@@ -352,14 +352,16 @@ void slide_tell(void *context, const Leg *leg, int condition, Text *out)
 {
     const Commuting *c = context;
     System *system = c->result->phases.at[leg->phase]->system;
-    Expr h = numbers_condition(c->result->phases.at[leg->phase]->numbers, condition);
+    const Numbers *numbers = c->result->phases.at[leg->phase]->numbers;
+    Expr h = numbers_condition(numbers, condition);
     const char *part = h != NULL ? system_jumping_part(system, h) : NULL;
     char *text = h != NULL ? expr_text(h) : NULL;
+    IdealSwitch diode;
 
     if (text != NULL)
         text_addf(out, "the sign of %s", text);
-    else
-        text_add(out, "a diode");
+    else if (system_ideal(system, numbers_margin(numbers, condition), &diode, NULL) == OK)
+        text_add(out, diode.name);
     if (part != NULL)
         text_addf(out, " (%s)", part);
     mem_free(text);

@@ -327,6 +327,17 @@ static void solve_nodes(Oracle *o, double t)
     }
 }
 
+/* What a closed diode's voltage tells no backward current from: rounding, for 0.1 nA through 100
+ * kohm is 10 uV; more only where diodes would go over for ever. */
+static double told_by_rounding(const Oracle *o, const Part *p, int turn)
+{
+    double largest = 0;
+
+    for (int i = 1; i <= o->net->nodes; i++)
+        largest = fmax(largest, fabs(o->v[i]));
+    return fmax(turn < 200 ? 0 : 1e-9 * p->on, 1e-15 * largest);
+}
+
 static void take_step(Oracle *o, double t)
 {
     for (int turn = 0; turn < 2000; turn++) {
@@ -337,7 +348,8 @@ static void take_step(Oracle *o, double t)
             const Part *p = &o->net->part[i];
             const double excess = across(o, p) - p->least;
 
-            if (p->kind == DIODE && (o->closed[i] ? excess < -1e-9 * p->on : excess > 1e-12)) {
+            if (p->kind == DIODE &&
+                (o->closed[i] ? excess < -told_by_rounding(o, p, turn) : excess > 1e-12)) {
                 o->closed[i] = !o->closed[i];
                 right = false;
             }
