@@ -23,6 +23,8 @@ libcore_la_SOURCES += \
   lib/simulate/grid.c \
   lib/simulate/grid.h \
   lib/simulate/ida.c \
+  lib/simulate/headway.c \
+  lib/simulate/headway.h \
   lib/simulate/inverse.c \
   lib/simulate/inverse.h \
   lib/simulate/kkt.c \

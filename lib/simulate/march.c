@@ -174,6 +174,8 @@ static Status one_step(March *m, double end, Diag *diag)
         m->scanned = when;
     }
     CHECK(march_add_rows(m, diag));
+    CHECK(
+        headway_check(&m->headway, m->stepper, m->earlier.steps + m->stepper->counts.steps, diag));
     CHECK(renew(m, diag));
     if (m->plan->method == NULL && m->stepper->is_stiff &&
         !(m->leg.stiff_decays && m->stepper->swings))
@@ -416,6 +418,7 @@ Status march(const MarchPlan *plan, const double *start, Grid *grid, MarchReport
                .grid = grid,
                .out = out,
                .control = plan->control,
+               .headway = {.t = plan->from},
                .low = -INFINITY,
                .high = INFINITY,
                .next_row = 1,

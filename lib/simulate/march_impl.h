@@ -3,6 +3,7 @@
 #define COTREE_SIMULATE_MARCH_IMPL_H
 
 #include "base/memory.h"
+#include "simulate/headway.h"
 #include "simulate/march.h"
 
 /* s: between two numbers one behind another (or around one on which the condition is 0) */
@@ -25,6 +26,7 @@ typedef struct March {
     Stepper *stepper;
     Control control;
     Counts earlier; /* of steppers given up */
+    Headway headway;
     LIST(Jump) jumps;
     double low, high;             /* the time that rates see stays between */
     double *y, *slope;            /* one y, one y'; room for those of plan->in_time */

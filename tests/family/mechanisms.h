@@ -90,7 +90,6 @@ static Verdict run_trial(Member *member, Trial *trial, double tolerance)
     Kit kit = kit_new();
     const double bound = trial->size * fmax(1e3 * tolerance, 1e-6);
     double miss;
-    fputs(trial->script.text, stderr);
     ct_status status = kit_do(&kit, trial->script.text);
 
     tell(member, "%s", trial->script.text);
