@@ -139,6 +139,9 @@ static void add_quality(Table *table, const RunReport *report)
     if (!isnan(report->global_error)) {
         table_cell(table, "global error");
         table_cellf(table, "%.2g", report->global_error);
+    } else if (report->is_unresolved) {
+        table_cell(table, "global error");
+        table_cell(table, "not resolved");
     }
 }
 

@@ -12,13 +12,17 @@
 #include <string.h>
 #include <time.h>
 
-#define LEAST_RTOL   1e-13
-#define MOST_ROWS    20000000
-#define MOST_VALUES  2e8 /* in all rows: 1.6 GB */
-#define POINTS       4   /* between rows of a driven run, where events are looked for */
-#define TURNED       2.0 /* rad: what an angle that counts turns may go at once in a driven run, */
-#define MISSED       0.5 /* and how far off its prediction */
-#define UNRESOLVED   0.1 /* difference of two runs, rad or m, that makes them different motions */
+#define LEAST_RTOL  1e-13
+#define MOST_ROWS   20000000
+#define MOST_VALUES 2e8  /* in all rows: 1.6 GB */
+#define POINTS      4    /* between rows of a driven run, where events are looked for */
+#define TURNED      2.0  /* rad: what an angle that counts turns may go at once in a driven run, */
+#define MISSED      0.5  /* and how far off its prediction */
+#define UNRESOLVED  0.05 /* difference of two runs, rad or m, that makes them different motions */
+/* what a difference of two runs, at a tolerance and a tenth of it, is taken times, since it may be
+ * less than the error: of methods that take single steps, and of those with a history */
+#define ONE_STEP     2.0
+#define MULTISTEP    6.0
 #define AUTO         "auto"
 #define DEFAULT_RTOL 1e-8
 
@@ -222,16 +226,29 @@ static double largest_difference(const Result *r, int first, const Grid *b)
     return largest;
 }
 
-/* a second run at a tenth of the tolerance: twice the largest difference over the grid; `events`
- * are those of the first as they were at its start */
+/* what a difference tells of the error, for methods that the two runs came to */
+static void report_difference(Result *r, double largest, const Method *a, const Method *b)
+{
+    r->report.is_unresolved = !(largest <= UNRESOLVED);
+    if (r->report.is_unresolved)
+        text_add(&r->remarks,
+                 "not resolved: a run at a tenth of the tolerance ends elsewhere; take "
+                 "a smaller rtol, or a shorter run\n");
+    else
+        r->report.global_error =
+            largest * (a->has_history || b->has_history ? MULTISTEP : ONE_STEP);
+}
+
+/* a second run at a tenth of the tolerance; `used` is the method that the first came to, `events`
+ * are its events as they were at its start */
 static Status estimate_error(Result *r, const Setting *setting, const RunOptions *options,
-                             const Method *method, Events *events, int first, double to, Diag *diag)
+                             const Method *method, const Method *used, Events *events, int first,
+                             double to, Diag *diag)
 {
     RunOptions finer = *options;
     MarchPlan plan;
     MarchReport march_report;
     Grid grid = {0};
-    double largest = 0;
     Status status;
 
     finer.rtol = fmax(LEAST_RTOL, options->rtol / 10);
@@ -241,14 +258,7 @@ static Status estimate_error(Result *r, const Setting *setting, const RunOptions
     plan.to = to;
     status = march_phases(r, setting, &plan, &grid, NULL, &march_report, diag);
     if (status == OK)
-        largest = largest_difference(r, first, &grid);
-    if (status == OK)
-        r->report.global_error = 2 * largest;
-    if (status == OK && r->report.global_error > UNRESOLVED)
-        text_addf(&r->remarks,
-                  "not resolved: a run at a tenth of the tolerance ends elsewhere (by up to %.2g); "
-                  "take a smaller rtol, or a shorter run\n",
-                  largest);
+        report_difference(r, largest_difference(r, first, &grid), used, march_report.method);
     text_free(&march_report.remarks);
     grid_free(&grid);
     return status;
@@ -285,7 +295,8 @@ static Status go(Result *r, const Setting *setting, const RunOptions *given, dou
     text_free(&report_of.remarks);
     fill_report(r, &report_of, &options, status == E_STOPPED, began);
     if (status == OK && options.check)
-        status = estimate_error(r, setting, &options, method, again, first, plan.to, diag);
+        status = estimate_error(r, setting, &options, method, report_of.method, again, first,
+                                plan.to, diag);
     if (result_balance(r, NULL) != OK)
         r->report.energy_drift = NAN;
     r->report.wall = seconds() - began;
