@@ -34,15 +34,15 @@ typedef struct RunReport {
     double velocity_residual; /* largest |Phi_u u - nu| */
     double energy_drift;      /* largest |E - E0 - work| */
     double energy_swing;      /* largest kinetic energy less the smallest: scale of the above */
-    double global_error; /* of check=on, estimated, largest over grid and coordinates; NAN: not
-                            asked, or not known */
-    bool is_unresolved;  /* check=on found another motion */
-    double wall;         /* s */
-    double reached;      /* last time */
-    double every;        /* output step, s; 0: there is none */
-    double step;         /* fixed or largest step that was asked for, s; 0: none */
-    double most;         /* largest step that was asked for, s; 0: none */
-    bool stopped;        /* by Ctrl-C */
+    double global_error;      /* of check=on, estimated, largest over grid and coordinates; NAN: not
+                                 asked, or not known */
+    bool is_unresolved;       /* check=on found another motion */
+    double wall;              /* s */
+    double reached;           /* last time */
+    double every;             /* output step, s; 0: there is none */
+    double step;              /* fixed or largest step that was asked for, s; 0: none */
+    double most;              /* largest step that was asked for, s; 0: none */
+    bool stopped;             /* by Ctrl-C */
 } RunReport;
 
 /* How an event of the model fared in a run. */

@@ -418,47 +418,6 @@ static void a_second_run_estimates_the_error(void)
     script_close(&script);
 }
 
-/* the differences of two runs by themselves, and the error that check=on makes of them */
-static void methods_with_a_history_are_trusted_less(void)
-{
-    static const struct {
-        const char *method;
-        double factor;
-    } cases[] = {{"dop853", 2}, {"radau", 2}, {"adams", 6}, {"bdf", 6}, {"ida", 6}};
-
-    for (int i = 0; i < COUNT(cases); i++) {
-        Script script = run(PENDULUM "init h = 2, h' = 0", (Changes){0});
-        StartValue values[2] = {{"h", 0, 2, false}, {"h", 1, 0, false}};
-        StartValues start = {2, values};
-        Setting setting = {.parameter = script_parameter, .context = script.model, .start = &start};
-        RunOptions options = {.duration = 2,
-                              .every = 2,
-                              .rtol = 1e-6,
-                              .atol = 1e-6,
-                              .method = cases[i].method,
-                              .check = true};
-        Result *fine = NULL;
-        Expr e[2];
-        double got[2], finer[2], difference;
-        Diag diag = {0};
-
-        EXPECT(system_new(script.model, NULL, &script.system, &diag) == OK);
-        EXPECT(run_simulate(script.system, &setting, &options, &script.result, &diag) == OK);
-        options.check = false;
-        options.rtol /= 10;
-        options.atol /= 10;
-        EXPECT(run_simulate(script.system, &setting, &options, &fine, &diag) == OK);
-        e[0] = expr_symbol(system_arena(script.system), "h", SYMBOL_VARIABLE);
-        e[1] = expr_symbol(system_arena(script.system), "h'", SYMBOL_VARIABLE);
-        EXPECT(result_values_at(script.result, e, 2, 2, got, &diag) == OK);
-        EXPECT(result_values_at(fine, e, 2, 2, finer, &diag) == OK);
-        difference = fmax(fabs(got[0] - finer[0]), fabs(got[1] - finer[1]));
-        EXPECT_NEAR(result_report(script.result)->global_error / difference, cases[i].factor, 1e-6);
-        result_free(fine);
-        script_close(&script);
-    }
-}
-
 static void an_unresolved_run_is_told(void)
 {
     Script script =
@@ -790,7 +749,6 @@ int main(void)
     RUN(values_between_rows_are_interpolated_and_projected);
     RUN(an_instant_outside_the_run_is_refused);
     RUN(a_second_run_estimates_the_error);
-    RUN(methods_with_a_history_are_trusted_less);
     RUN(an_unresolved_run_is_told);
     RUN(the_report_balances_energy);
     RUN(drivers_work);

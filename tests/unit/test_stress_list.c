@@ -39,8 +39,58 @@ static void the_way_out_leads_out(void)
     kit_free(&kit);
 }
 
+/* --- what check=on makes of two runs --- */
+
+static void methods_with_a_history_are_trusted_less(void)
+{
+    static const struct {
+        const char *method;
+        double factor;
+    } cases[] = {{"dop853", 2}, {"radau", 2}, {"adams", 6}, {"bdf", 6}, {"ida", 6}};
+
+    for (int i = 0; i < 5; i++) {
+        Kit kit = kit_new();
+        char run[100];
+        double told = 0, angle, speed, difference;
+        const char *at;
+
+        EXPECT_DONE(&kit, PENDULUM);
+        (void)snprintf(run, sizeof run, "simulate 2 every=2 rtol=1e-6 method=%s check=on",
+                       cases[i].method);
+        EXPECT_DONE(&kit, run);
+        EXPECT_DONE(&kit, "show run");
+        EXPECT_HOLDS(kit.text, "global error");
+        at = kit.text != NULL ? strstr(kit.text, "global error") : NULL;
+        EXPECT(at != NULL && sscanf(at + strlen("global error"), "%lf", &told) == 1);
+        angle = kit_value(&kit, "h");
+        speed = kit_value(&kit, "h'");
+        (void)snprintf(run, sizeof run, "simulate 2 every=2 rtol=1e-7 method=%s", cases[i].method);
+        EXPECT_DONE(&kit, run);
+        difference = fmax(fabs(angle - kit_value(&kit, "h")), fabs(speed - kit_value(&kit, "h'")));
+        /* it is printed in two digits */
+        EXPECT_NEAR(told / difference, cases[i].factor, 0.06 * cases[i].factor);
+        kit_free(&kit);
+    }
+}
+
+static void what_is_not_resolved_has_no_number(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, PENDULUM "body p2 mass=2 inertia=0.5\narm b m [0, -1.5]\n"
+                               "arm c p2 [0, 1.5]\nrevolute k b c\ninit h = 3\n"
+                               "simulate 100 rtol=1e-5 check=on");
+    EXPECT_HOLDS(ct_remarks(kit.session), "not resolved: ");
+    EXPECT_LACKS(ct_remarks(kit.session), "e-");
+    EXPECT_DONE(&kit, "show run");
+    EXPECT_HOLDS(kit.text, "global error       not resolved");
+    kit_free(&kit);
+}
+
 int main(void)
 {
+    RUN(methods_with_a_history_are_trusted_less);
+    RUN(what_is_not_resolved_has_no_number);
     RUN(a_tolerance_below_rounding_is_told);
     RUN(the_way_out_leads_out);
     return test_end();
