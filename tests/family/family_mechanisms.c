@@ -484,7 +484,8 @@ int main(int argc, char **argv)
         {"cranks_pass_their_flat_positions", 12, 0, 0, cranks_pass_their_flat_positions},
         {"an_equal_slider_crank_keeps_its_way", 20, 0, 0, an_equal_slider_crank_keeps_its_way},
         {"a_kite_folds_and_opens_again", 20, 0, 0, a_kite_folds_and_opens_again},
-        /* trees that go through a crank of no mass leave more rounding than some tolerances: told */
+        /* trees that go through a crank of no mass leave more rounding than some tolerances: told
+         */
         {"masses_and_lengths_may_be_decades_apart", 30, 0.1, 0,
          masses_and_lengths_may_be_decades_apart},
         {"bricards_loop_keeps_its_accuracy", 4, 0, 0, bricards_loop_keeps_its_accuracy},
