@@ -190,14 +190,16 @@ static bool are_shared(const Result *r, const double *moves, const double *x, co
     return true;
 }
 
-/* whether the equations lead there within a short time */
+/* whether the equations lead there within a short time, and no source has a part in it */
 static bool is_led_to(const Result *r, double step, const double *x, const double *now)
 {
     const Layout *whole = result_whole(r)->layout;
     double *landed = NEW_ARRAY(double, whole->nx);
+    double longer = 0.1;
     bool met = false;
 
-    for (double longer = 1; longer <= LONGEST && !met; longer *= 10) {
+    while (longer < LONGEST && !met) {
+        longer *= 10;
         met = sides_land(r->sides, longer * step, landed);
         for (int i = 0; i < whole->nx && met; i++) {
             double size = 0;
@@ -209,7 +211,7 @@ static bool is_led_to(const Result *r, double step, const double *x, const doubl
         }
     }
     mem_free(landed);
-    return met;
+    return met && sides_source(r->sides, longer * step) == NULL;
 }
 
 /* --- what is said --- */
@@ -273,8 +275,8 @@ bool share_stored(Result *r, Phase *phase, double t, double step, const char *si
     double *now = NEW_ARRAY(double, nx);
     double before = 0, behind = 0;
     RowValues row;
-    bool met = open_shares(r) && sides_source(r->sides, step) == NULL &&
-               find_moves(phase, t, y, x, nx, moves) && phase_states(phase, t, y, nx, &row, now);
+    bool met = open_shares(r) && find_moves(phase, t, y, x, nx, moves) &&
+               phase_states(phase, t, y, nx, &row, now);
 
     for (int i = 0; i < nx && met; i++)
         missed[i] = x[i] - now[i];

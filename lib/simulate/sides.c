@@ -16,6 +16,7 @@
 #define ROUNDING    1e-15 /* of the largest voltage, in that of a closed one with a resistance */
 #define FORGET      0.5  /* of the largest current or voltage from instant to instant: surges end */
 #define IMPULSE     1e-3 /* of the largest: more than leaks and what is no impulse */
+#define SHORTEST    1e-7 /* of the step, to see impulses by */
 #define HALVED      0.2  /* of the largest, that its change with the step has to be */
 #define ROUNDS      8    /* in which conditions and diodes may set each other off */
 
@@ -526,14 +527,14 @@ static bool edges_behind(Sides *s, double step, double *out)
     return true;
 }
 
-/* An impulse is what halves when its step is doubled. */
-const char *sides_source(Sides *s, double step)
+/* An impulse is what halves when its step is doubled. False: there is none. */
+static bool find_source(Sides *s, double step, const char **source)
 {
     double *longer = NEW_ARRAY(double, 2 * s->edges);
     double *impulse = NEW_ARRAY(double, 2 * s->edges);
     double largest[DOMAIN_COUNT][2] = {{0}}; /* of changes, and of values */
     double whole[DOMAIN_COUNT][2] = {{0}};
-    const char *source = NULL;
+    bool found = false;
     const bool sound = edges_behind(s, step, impulse) && edges_behind(s, 2 * step, longer);
 
     for (int i = 0; i < 2 * s->edges && sound; i++) {
@@ -543,14 +544,27 @@ const char *sides_source(Sides *s, double step)
         impulse[i] = fabs(impulse[i] - longer[i]);
         largest[domain][i % 2] = fmax(largest[domain][i % 2], impulse[i]);
     }
-    for (int i = 0; i < 2 * s->edges && sound && source == NULL; i++) {
+    for (int i = 0; i < 2 * s->edges && sound; i++) {
         const Domain domain = s->domain[s->count + i / 2];
 
-        if (largest[domain][i % 2] > HALVED * whole[domain][i % 2] &&
-            impulse[i] > IMPULSE * largest[domain][i % 2])
-            source = s->source[i % 2 == 0 ? i + 1 : i - 1];
+        if (!(largest[domain][i % 2] > HALVED * whole[domain][i % 2]))
+            continue;
+        found = true;
+        if (*source == NULL && impulse[i] > IMPULSE * largest[domain][i % 2])
+            *source = s->source[i % 2 == 0 ? i + 1 : i - 1];
     }
     mem_free(longer);
     mem_free(impulse);
+    return found;
+}
+
+/* by shorter steps too, where what is no impulse may hide it */
+const char *sides_source(Sides *s, double step)
+{
+    const char *source = NULL;
+    double tried = step;
+
+    while (tried > SHORTEST * step && !find_source(s, tried, &source))
+        tried /= 10;
     return source;
 }

@@ -28,3 +28,7 @@ FAMILIES += family_assembly
 family_assembly_SOURCES = tests/family/family_assembly.c tests/family/family.h tests/random.h \
   tests/unit/session_kit.h tests/unit/test.h
 family_assembly_LDADD = libcotree.la $(unit_ldadd)
+
+FAMILIES += family_events
+family_events_SOURCES = tests/family/family_events.c tests/family/family.h tests/family/script.h
+family_events_LDADD = libcotree.la $(unit_ldadd)
