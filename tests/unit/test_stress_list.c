@@ -87,8 +87,206 @@ static void what_is_not_resolved_has_no_number(void)
     kit_free(&kit);
 }
 
+/* --- when to hand over to a stiff method --- */
+
+static double steps_of(Kit *kit, const char *rtol, const char *method)
+{
+    char run[100];
+    const char *at;
+    double steps = NAN;
+
+    (void)snprintf(run, sizeof run, "simulate 1 every=1 rtol=%s method=%s", rtol, method);
+    EXPECT_DONE(kit, run);
+    EXPECT_DONE(kit, "show run");
+    at = kit->text != NULL ? strstr(kit->text, "\nsteps") : NULL;
+    EXPECT(at != NULL && sscanf(at + strlen("\nsteps"), "%lf", &steps) == 1);
+    return steps;
+}
+
+/* Steps that a tolerance ten times finer leaves as many (within a twentieth) are cut by stability;
+ * those it makes a tenth more, by accuracy; in between either may be said. */
+static int check_hand_over(Kit *kit, const char *coarse, const char *fine)
+{
+    const double ratio = steps_of(kit, fine, "dop853") / steps_of(kit, coarse, "dop853");
+    bool is_handed;
+
+    EXPECT(!isnan(steps_of(kit, fine, "auto")));
+    is_handed = kit->text != NULL && strstr(kit->text, "radau") != NULL;
+    if (ratio < 1.05)
+        EXPECT(is_handed);
+    if (ratio > 1.1)
+        EXPECT(!is_handed);
+    return is_handed;
+}
+
+static void what_stability_limits_is_handed_over(void)
+{
+    int handed = 0, count = 0;
+
+    for (int e = 2; e <= 8; e++) {
+        Kit kit = kit_new();
+        char text[400];
+
+        (void)snprintf(text, sizeof text,
+                       "scene planar\nbody a mass=1 inertia=1\nbody b mass=1 inertia=1\n"
+                       "revolute h ground a\nrevolute g a b\ntorque T a sin(t)\n"
+                       "spring k1 g k=1e%d\ndamper d1 g d=%.17g\n",
+                       e, 1.4 * pow(10, 0.5 * e));
+        EXPECT_DONE(&kit, text);
+        handed += check_hand_over(&kit, "1e-5", "1e-6") + check_hand_over(&kit, "1e-8", "1e-9");
+        count += 2;
+        kit_free(&kit);
+    }
+    EXPECT(handed > 0 && handed < count);
+}
+
+static void time_constants_of_coils_are_handed_over(void)
+{
+    int handed = 0;
+
+    for (int e = 1; e <= 5; e++) {
+        Kit kit = kit_new();
+        char text[200];
+
+        (void)snprintf(text, sizeof text,
+                       "vsource V1 a 0 sin(t)\nresistor R1 a b 1\ninductor L2 b 0 1e-%d\n", e);
+        EXPECT_DONE(&kit, text);
+        handed += check_hand_over(&kit, "1e-5", "1e-6") + check_hand_over(&kit, "1e-8", "1e-9");
+        kit_free(&kit);
+    }
+    EXPECT(handed > 0 && handed < 10);
+    for (int e = 6; e <= 7; e++) { /* dop853 would take a million steps */
+        Kit kit = kit_new();
+        char text[200];
+
+        (void)snprintf(text, sizeof text,
+                       "vsource V1 a 0 sin(t)\nresistor R1 a b 1\ninductor L2 b 0 1e-%d\n", e);
+        EXPECT_DONE(&kit, text);
+        EXPECT(steps_of(&kit, "1e-6", "auto") < 500);
+        /* i = sin(t) - L cos(t) + O(L^2), R = 1 */
+        EXPECT_NEAR(kit_value(&kit, "L2.i"), sin(1) - pow(10, -e) * cos(1), 1e-6);
+        kit_free(&kit);
+    }
+}
+
+/* --- loops that don't close --- */
+
+static void a_loop_too_long_does_not_run(void)
+{
+    static const char *const trees[] = {"", "tree absolute\n", "cotree h1\n", "cotree h2\n"};
+
+    for (int k = 0; k < 4; k++) {
+        Kit kit = kit_new();
+        char text[400];
+
+        (void)snprintf(text, sizeof text,
+                       "scene planar\nbody a mass=1 inertia=1\nbody b mass=1 inertia=1\n"
+                       "arm a1 a [-0.5, 0]; arm a2 a [0.5, 0]\n"
+                       "arm b1 b [-0.5, 0]; arm b2 b [0.5, 0]\narm g ground [2.001, 0]\n"
+                       "revolute h1 ground a1; revolute h2 a2 b1; revolute h3 b2 g\n%s",
+                       trees[k]);
+        EXPECT_DONE(&kit, text);
+        EXPECT_FAILS(&kit, "simulate 1", "the parts can't be put together");
+        EXPECT(kit_do(&kit, "show run") != CT_OK ||
+               strstr(kit.text, "simulate") == NULL); /* no run is left behind */
+        kit_free(&kit);
+    }
+}
+
+/* --- impacts --- */
+
+#define DROPPED                                                                                    \
+    "scene planar\ngravity [0, -9.81]\nbody m1 mass=1\nprismatic s1 ground m1 axis=y\n"            \
+    "event hit when=s1 < 0 s1'=-0.8*s1'\n"
+
+/* leaps get shorter by 0.8 each: they pile up at (1 + 2 0.8/0.2) times the first fall */
+static void impacts_without_end_end_a_run(void)
+{
+    Kit kit = kit_new();
+    double t = NAN;
+
+    EXPECT_DONE(&kit, DROPPED "init s1 = 1");
+    EXPECT_FAILS(&kit, "simulate 10", "event hit happens without end");
+    EXPECT_HOLDS(kit.error.hint, "do=stop");
+    EXPECT(sscanf(kit.error.message, "at t = %lf", &t) == 1);
+    EXPECT_NEAR(t, 9 * sqrt(2 / 9.81), 1e-4);
+    kit_free(&kit);
+}
+
+static void an_impact_at_the_very_start_is_one(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, DROPPED "init s1 = 0, s1' = -1\nsimulate 0.1 every=0.01");
+    EXPECT_NEAR(kit_value(&kit, "s1"), 0.08 - 9.81 * 0.005, 1e-12);
+    EXPECT_NEAR(kit_value(&kit, "s1'"), 0.8 - 0.981, 1e-12);
+    kit_free(&kit);
+}
+
+/* both at t = 0.5, with and without a row of output there */
+static void two_impacts_at_once_both_count(void)
+{
+    static const char *const runs[] = {"simulate 1 every=0.1", "simulate 1 every=0.03",
+                                       "simulate 1 every=0.25 method=radau",
+                                       "simulate 1 every=0.5 method=ida"};
+
+    for (int i = 0; i < 4; i++) {
+        Kit kit = kit_new();
+
+        EXPECT_DONE(&kit,
+                    "scene planar\nbody a mass=1\nbody b mass=2\nprismatic s1 ground a axis=x\n"
+                    "prismatic s2 ground b axis=x\ninit s1=1, s1'=-2, s2=2, s2'=-4\n"
+                    "event ha when=s1 < 0 s1'=-0.5*s1'\nevent hb when=s2 < 0 s2'=-0.25*s2'\n");
+        EXPECT_DONE(&kit, runs[i]);
+        EXPECT_NEAR(kit_value(&kit, "s1"), 0.5, 1e-9);
+        EXPECT_NEAR(kit_value(&kit, "s1'"), 1, 1e-9);
+        EXPECT_NEAR(kit_value(&kit, "s2"), 0.5, 1e-9);
+        EXPECT_NEAR(kit_value(&kit, "s2'"), 1, 1e-9);
+        kit_free(&kit);
+    }
+}
+
+/* --- the same again --- */
+
+static void a_run_repeats_to_the_last_byte(void)
+{
+    static const char *const methods[] = {"auto", "dop853", "radau", "adams", "bdf", "ida", "rk4"};
+
+    for (int i = 0; i < 7; i++) {
+        double values[2][3];
+
+        for (int pass = 0; pass < 3; pass++) { /* the third in the session of the second */
+            static Kit kit;
+            char run[80];
+            double *v = values[pass > 0];
+
+            if (pass < 2) {
+                kit = kit_new();
+                EXPECT_DONE(&kit, SLIDER_CRANK CRANK_START);
+            }
+            (void)snprintf(run, sizeof run, "simulate 0.5 method=%s", methods[i]);
+            EXPECT_DONE(&kit, run);
+            v[0] = kit_value(&kit, "h8");
+            v[1] = kit_value(&kit, "s11'");
+            v[2] = kit_value(&kit, "h10 at 0.1234");
+            if (pass > 0) {
+                EXPECT(memcmp(values[0], values[1], sizeof values[0]) == 0);
+            }
+            if (pass != 1)
+                kit_free(&kit);
+        }
+    }
+}
+
 int main(void)
 {
+    RUN(what_stability_limits_is_handed_over);
+    RUN(time_constants_of_coils_are_handed_over);
+    RUN(a_loop_too_long_does_not_run);
+    RUN(impacts_without_end_end_a_run);
+    RUN(an_impact_at_the_very_start_is_one);
+    RUN(two_impacts_at_once_both_count);
+    RUN(a_run_repeats_to_the_last_byte);
     RUN(methods_with_a_history_are_trusted_less);
     RUN(what_is_not_resolved_has_no_number);
     RUN(a_tolerance_below_rounding_is_told);
