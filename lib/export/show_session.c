@@ -126,13 +126,20 @@ static void add_work(Table *table, const RunReport *report)
     }
 }
 
+/* whether there is a drift to tell, as against what moved: both are numbers */
+static bool tells_energy(const RunReport *report)
+{
+    return report->energy_swing > 0 && isfinite(report->energy_swing) &&
+           !isnan(report->energy_drift);
+}
+
 static void add_quality(Table *table, const RunReport *report)
 {
     table_cell(table, "position residual");
     table_cellf(table, "%.2g", report->position_residual);
     table_cell(table, "velocity residual");
     table_cellf(table, "%.2g", report->velocity_residual);
-    if (report->energy_swing > 0) {
+    if (tells_energy(report)) {
         table_cell(table, "energy drift");
         table_cellf(table, "%.2g J of %.3g J", report->energy_drift, report->energy_swing);
     }
@@ -199,7 +206,7 @@ void report_line(Text *out, const Result *result, const char *name)
     if (result_kind(result) == RUN_SIMULATE)
         text_addf(out, "; %lld steps, %lld evaluations", (long long)report->steps,
                   (long long)report->evaluations);
-    if (report->energy_swing > 0)
+    if (tells_energy(report))
         text_addf(out, "; energy drift %.2g J of %.3g J", report->energy_drift,
                   report->energy_swing);
     text_char(out, '\n');

@@ -63,6 +63,7 @@ typedef struct MarchPlan {
     Control control;
     double from, to; /* s */
     double every;    /* output step, s */
+    bool asks;       /* the tolerance was given: fixed steps tell of any miss */
     bool skip_first; /* the row at `from` is there already */
     Grid *corners;   /* rows where one leg ends and the next begins, two each; NULL: not kept */
     const Watch *watch;

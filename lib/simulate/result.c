@@ -470,11 +470,11 @@ static Status ask_energies(Result *r, const Phase *phase, const void *context, P
 Status result_balance(Result *r, Diag *diag)
 {
     double *energies = NEW_ARRAY(double, 2 * r->grid.count);
-    double first = 0, least = INFINITY, largest = -INFINITY;
+    double first = 0, least = INFINITY, largest = -INFINITY, drift = 0;
+    bool is_known = true;
     Status status = OK;
 
     CHECK(ask_rows(r, ask_energies, NULL, 2, energies, diag));
-    r->report.energy_drift = 0;
     for (int i = 0; i < r->grid.count; i++) {
         const double *value = energies + 2 * (ptrdiff_t)i;
         double work = grid_row(&r->grid, i)[result_phase(r, i)->length - 1];
@@ -482,10 +482,12 @@ Status result_balance(Result *r, Diag *diag)
 
         if (i == 0)
             first = balance;
-        r->report.energy_drift = fmax(r->report.energy_drift, fabs(balance - first));
+        drift = fmax(drift, fabs(balance - first));
+        is_known = is_known && isfinite(balance);
         least = fmin(least, value[0]);
         largest = fmax(largest, value[0]);
     }
+    r->report.energy_drift = is_known ? drift : (double)NAN;
     r->report.energy_swing = r->grid.count > 0 ? largest - least : 0;
 done:
     mem_free(energies);

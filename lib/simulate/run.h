@@ -32,7 +32,7 @@ typedef struct RunReport {
     double singular_time;     /* first of these; NAN: none */
     double position_residual; /* largest |Phi| on the output grid */
     double velocity_residual; /* largest |Phi_u u - nu| */
-    double energy_drift;      /* largest |E - E0 - work| */
+    double energy_drift;      /* largest |E - E0 - work|; NAN: no number holds it */
     double energy_swing;      /* largest kinetic energy less the smallest: scale of the above */
     double global_error;      /* of check=on, estimated, largest over grid and coordinates; NAN: not
                                  asked, or not known */

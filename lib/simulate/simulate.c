@@ -231,16 +231,17 @@ static void report_difference(Result *r, double largest, const Method *a, const 
 {
     r->report.is_unresolved = !(largest <= UNRESOLVED);
     if (r->report.is_unresolved)
-        text_add(&r->remarks,
-                 "not resolved: a run at a tenth of the tolerance ends elsewhere; take "
-                 "a smaller rtol, or a shorter run\n");
+        text_addf(&r->remarks,
+                  "not resolved: a run %s ends elsewhere; take a smaller %s, or a shorter run\n",
+                  b == &method_rk4 ? "in half the step" : "at a tenth of the tolerance",
+                  b == &method_rk4 ? "step" : "rtol");
     else
         r->report.global_error =
             largest * (a->has_history || b->has_history ? MULTISTEP : ONE_STEP);
 }
 
-/* a second run at a tenth of the tolerance; `used` is the method that the first came to, `events`
- * are its events as they were at its start */
+/* a second run at a tenth of the tolerance, or in half the fixed step; `used` is the method that
+ * the first came to, `events` are its events as they were at its start */
 static Status estimate_error(Result *r, const Setting *setting, const RunOptions *options,
                              const Method *method, const Method *used, Events *events, int first,
                              double to, Diag *diag)
@@ -253,6 +254,8 @@ static Status estimate_error(Result *r, const Setting *setting, const RunOptions
 
     finer.rtol = fmax(LEAST_RTOL, options->rtol / 10);
     finer.atol = options->atol / 10;
+    if (method == &method_rk4)
+        finer.step = (options->step > 0 ? options->step : options->every) / 2;
     plan = plan_of(r, setting, &finer, method, events);
     plan.from = r->grid.times[first];
     plan.to = to;
@@ -281,6 +284,7 @@ static Status go(Result *r, const Setting *setting, const RunOptions *given, dou
     CHECK(find_method(options.method, &method, diag));
     result_tolerance(r, options.atol);
     plan = plan_of(r, setting, &options, method, r->events);
+    plan.asks = given->rtol > 0 || given->atol > 0;
     plan.from = from;
     plan.to = from + options.duration;
     plan.skip_first = skip_first;

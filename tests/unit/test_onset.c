@@ -5,6 +5,10 @@
  * 1e-12 with steps of 1/400 of a period by another program (rectifier, doubler). */
 #include "session_kit.h"
 
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
 #define COUNT(array) ((int)(sizeof(array) / sizeof((array)[0])))
 
 static const char *const adaptive[] = {"auto", "dop853", "radau", "bdf", "adams", "ida"};
@@ -135,6 +139,44 @@ static void fixed_steps_tell_what_they_miss(void)
     kit_free(&kit);
 }
 
+/* a tolerance that is given to fixed steps is kept or its miss told, however small; check=on takes
+ * half the step: the answer is exp(-1), missed by about step^4/120 */
+static void fixed_steps_answer_for_a_tolerance(void)
+{
+    Kit kit = kit_new();
+    const char *at;
+    double told, missed;
+
+    EXPECT_DONE(&kit, "capacitor C a 0 1\nresistor R a 0 1\ninit C.v = 1\n");
+    EXPECT_DONE(&kit, "simulate 1 method=rk4 step=0.1 rtol=1e-7\nshow run\n");
+    EXPECT_HOLDS(kit.text, "rk4 controls no error");
+    EXPECT_DONE(&kit, "simulate 1 method=rk4 step=0.1 rtol=1e-4\nshow run\n");
+    EXPECT_LACKS(kit.text, "controls no error");
+    EXPECT_DONE(&kit, "simulate 1 method=rk4 step=0.1 check=on\n");
+    missed = fabs(kit_value(&kit, "C.v") - exp(-1));
+    EXPECT_DONE(&kit, "show run\n");
+    at = kit.text != NULL ? strstr(kit.text, "global error") : NULL;
+    told = at != NULL ? atof(at + strlen("global error")) : 0;
+    EXPECT(told > missed && told < 10 * missed);
+    kit_free(&kit);
+}
+
+/* what no number holds is left out of a report, not printed as nan nor passed over */
+static void no_drift_is_told_of_energies_beyond_numbers(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, "scene planar\ngravity [0, -10]\nbody m mass=1\n"
+                      "prismatic s ground m axis=y\ninit s = 0, s' = 0\n"
+                      "capacitor C a 0 1\nresistor R a 0 1\n");
+    EXPECT_DONE(&kit, "init C.v = 1\nsimulate 1\nshow run\n");
+    EXPECT_HOLDS(kit.text, "energy drift");
+    EXPECT_DONE(&kit, "init C.v = 1e170\nsimulate 1\nshow run\n");
+    EXPECT_LACKS(kit.text, "energy drift");
+    EXPECT_LACKS(kit.text, "nan");
+    kit_free(&kit);
+}
+
 static void maxstep_bounds_every_method(void)
 {
     static const char *const methods[] = {"auto", "radau", "bdf", "adams", "ida", "rk4"};
@@ -174,6 +216,8 @@ int main(void)
     RUN(no_chance_hides_a_pulse_from_an_estimate);
     RUN(a_bump_on_the_way_is_felt);
     RUN(fixed_steps_tell_what_they_miss);
+    RUN(fixed_steps_answer_for_a_tolerance);
+    RUN(no_drift_is_told_of_energies_beyond_numbers);
     RUN(maxstep_bounds_every_method);
     RUN(a_step_bound_below_nothing_is_refused);
     return test_end();
