@@ -325,7 +325,7 @@ static int written_index(const Syntax *syntax)
     return syntax->kind == SYNTAX_NUMBER && !syntax->has_unit &&
                    syntax->text[strspn(syntax->text, "0123456789")] == '\0' &&
                    strlen(syntax->text) < 6
-               ? atoi(syntax->text)
+               ? (int)strtol(syntax->text, NULL, 10)
                : 0;
 }
 
@@ -335,7 +335,7 @@ bool session_entry_dimension(void *context, const Syntax *call, Dimension *out)
     static const Dimension second = {{0, 0, 1, 0, 0, 0}};
     const ct_session *session = context;
     const int entry = session_entry(call->text);
-    Dimension row, column;
+    Dimension row = {{0}}, column = {{0}};
     LinearMatrix matrix;
     int i, j;
 

@@ -343,7 +343,7 @@ Leftover *unsaved_find(int *count)
     Leftover *all = copy_check(calloc((size_t)(found > 0 ? found : 0) + 1, sizeof *all));
 
     *count = 0;
-    for (int i = 0; i < found; i++) {
+    for (int i = 0; entries != NULL && i < found; i++) {
         if (take(folder, entries[i]->d_name, &all[*count])) {
             if (all[*count].statements > 0)
                 (*count)++;

@@ -59,12 +59,10 @@ bool measures_fit(Measure a, Measure b)
 /* of a sum of two that fit */
 static Measure joined(Measure a, Measure b)
 {
-    Measure out = a;
-
     if (a.kind == MEASURE_KNOWN && b.kind == MEASURE_KNOWN) {
         const bool same = memcmp(&a.dimension, &b.dimension, sizeof a.dimension) == 0;
+        Measure out = a.has_time ? b : a;
 
-        out = a.has_time ? b : a;
         out.has_units = a.has_units || b.has_units;
         out.has_time = out.has_time || (same && (a.has_time || b.has_time)); /* t - 1 s */
         out.is_literal = a.is_literal && b.is_literal && same;

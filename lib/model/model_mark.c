@@ -76,10 +76,8 @@ void state_keep_independent(State *state)
 
 Setup state_setup(const State *state)
 {
-    Setup setup;
+    Setup setup = {.planar = state->planar};
 
-    memset(&setup, 0, sizeof setup); /* blanks between members, too: setups are compared */
-    setup.planar = state->planar;
     memcpy(setup.gravity, state->gravity, sizeof setup.gravity);
     setup.title = state->title;
     memcpy(setup.datum, state->datum, sizeof setup.datum);
@@ -89,11 +87,23 @@ Setup state_setup(const State *state)
     return setup;
 }
 
+static bool setup_same(const Setup *a, const Setup *b)
+{
+    for (int i = 0; i < COUNT(a->gravity); i++)
+        if (a->gravity[i] != b->gravity[i])
+            return false;
+    for (int i = 0; i < COUNT(a->datum); i++)
+        if (a->datum[i] != b->datum[i])
+            return false;
+    return a->planar == b->planar && a->title == b->title && a->group_count == b->group_count &&
+           a->form == b->form && a->network_form == b->network_form;
+}
+
 void state_note_setup(State *state, const Setup *before)
 {
     const Setup now = state_setup(state);
 
-    if (memcmp(&now, before, sizeof now) == 0)
+    if (setup_same(&now, before))
         return;
 
     Setup *copy = NEW(Setup);

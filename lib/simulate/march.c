@@ -90,15 +90,14 @@ static void give_up_stepper(March *m)
 }
 
 /* Errors of methods with a history add up over the many short steps of pulses. */
-static Stepper *new_stepper(const March *m, const Method *method)
+static Stepper *new_stepper(March *m, const Method *method)
 {
-    Control control = m->control;
-
+    m->finer = m->control;
     if (method->has_history && onset_has_elements(m->leg.onset)) {
-        control.rtol = fmax(control.rtol * FINER, LEAST_TOLERANCE);
-        control.atol *= FINER;
+        m->finer.rtol = fmax(m->control.rtol * FINER, LEAST_TOLERANCE);
+        m->finer.atol *= FINER;
     }
-    return method->create(motion_ode(m->leg.motion), &control);
+    return method->create(motion_ode(m->leg.motion), &m->finer);
 }
 
 /* The explicit method has found that stability limits its steps. */

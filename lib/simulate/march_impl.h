@@ -24,7 +24,7 @@ typedef struct March {
     Grid *grid;
     MarchReport *out;
     Stepper *stepper;
-    Control control;
+    Control control, finer; /* as asked for, and as the stepper has it */
     Counts earlier; /* of steppers given up */
     Headway headway;
     LIST(Jump) jumps;

@@ -17,8 +17,8 @@ void shifted_free(Shifted *shifted); /* NULL is fine */
 bool shifted_differentiate(Shifted *shifted, double t, const double *y, const double *rate);
 /* whether that is J at any later time, too, until a restart, and f(t, y) = J y + f(t, 0) */
 bool shifted_is_linear(const Shifted *shifted);
-/* Factor for s, real, and for alpha - i beta. False: singular. */
-bool shifted_factor(Shifted *shifted, double s, double alpha, double beta);
+/* Factor for a real shift, and for alpha - i beta. False: singular. */
+bool shifted_factor(Shifted *shifted, double shift, double alpha, double beta);
 /* The first n of b become the solution; of the complex system b + i c. */
 void shifted_solve(Shifted *shifted, double *b);
 void shifted_solve_pair(Shifted *shifted, double *b, double *c);

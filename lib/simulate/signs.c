@@ -51,11 +51,6 @@ double *signs_values(Signs *s)
     return s->values;
 }
 
-const double *signs_matrix(const Signs *s)
-{
-    return s->matrix;
-}
-
 bool signs_slopes(Signs *s, SignsTrial trial, void *context, double *slip)
 {
     if (!trial(context, s->values, slip))

@@ -15,9 +15,7 @@ typedef bool (*SignsTrial)(void *context, const double *signs, double *slip);
 Signs *signs_new(int count);        /* new, all 0; free with signs_free() */
 void signs_free(Signs *signs);      /* NULL is fine */
 double *signs_values(Signs *signs); /* of the last search, where the next one begins */
-/* d slip_i / d sign_k, row by row, after signs_find() or signs_slopes() */
-const double *signs_matrix(const Signs *signs);
-/* The matrix at the values; slip there goes into `slip`. */
+/* d slip_i / d sign_k, at the values, becomes the matrix; slip there goes into `slip`. */
 bool signs_slopes(Signs *signs, SignsTrial trial, void *context, double *slip);
 /* matrix x = b in the place of b (n x n); where the matrix is singular the least x, if there is
  * any.

@@ -73,7 +73,7 @@ double complex root_with_noise(double complex value, double noise, double *error
     return value;
 }
 
-double perron_bound(double *matrix, int n)
+double perron_bound(const double *matrix, int n)
 {
     double *v = NEW_ARRAY(double, n), *w = NEW_ARRAY(double, n);
     double bound = 0;

@@ -257,13 +257,16 @@ typedef struct Outlet {
 
 typedef LIST(Outlet) Outlets;
 
-/* where the angle of a chord goes that has that name */
-static void push_named(const Placing *p, const char *name, double *to, Outlets *outlets)
+/* the angle of a chord that has that name goes to the outlet's place */
+static void push_named(const Placing *p, const char *name, Outlet outlet, Outlets *outlets)
 {
     const Stand stand = system_stand(p->s->system, name);
 
-    if (stand.kind == STANDS_COORDINATE)
-        LIST_PUSH(*outlets, (Outlet){p->s->link_at[stand.instance->edge], stand.which, to});
+    if (stand.kind != STANDS_COORDINATE)
+        return;
+    outlet.link = p->s->link_at[stand.instance->edge];
+    outlet.k = stand.which;
+    LIST_PUSH(*outlets, outlet);
 }
 
 /* q, references of angles, and the angles that are sums */
@@ -284,10 +287,12 @@ static Status hand_out(Placing *p, Diag *diag)
                 LIST_PUSH(outlets, (Outlet){i, k, &p->a->y[place]});
         }
     for (int i = 0; i < l->turned; i++)
-        push_named(p, system_turned(l->system, i)->name, &p->a->y[layout_turned(l) + i], &outlets);
+        push_named(p, system_turned(l->system, i)->name,
+                   (Outlet){.to = &p->a->y[layout_turned(l) + i]}, &outlets);
     for (int i = 0; i < sums; i++)
         if (system_whole_turns(l->system, i)->name != NULL)
-            push_named(p, system_whole_turns(l->system, i)->name, &angles[i], &outlets);
+            push_named(p, system_whole_turns(l->system, i)->name, (Outlet){.to = &angles[i]},
+                       &outlets);
     for (int i = 0; i < outlets.count; i++) {
         const Outlet *outlet = &outlets.at[i];
 

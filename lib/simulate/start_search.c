@@ -181,7 +181,7 @@ static int ask_rows(const Placing *p, const Ask *asked, LinkRow *rows, int *tail
     Pose relative;
 
     *tail = link->tail;
-    *head = number >= 0 ? link->head : told->head;
+    *head = number >= 0 || told == NULL ? link->head : told->head;
     pose_between(&p->poses[*tail], &p->poses[*head], &relative);
     switch (asked->kind) {
     case ASK_SHIFT:
@@ -192,6 +192,8 @@ static int ask_rows(const Placing *p, const Ask *asked, LinkRow *rows, int *tail
         link_tie_row(link, &relative, rows);
         return 1;
     case ASK_WISH:
+        if (told == NULL)
+            return 0;
         if (told->group >= 0)
             memcpy(near, p->groups + place_at(told->group, 0), sizeof near);
         near[told->k] = told->value;

@@ -380,14 +380,16 @@ static void integrate(const Network *net, int steps, Values out)
         o.state[i] = net->part[i].start;
     for (int k = 0; k < POINTS; k++) {
         const double end = net->end * (k + 1) / POINTS;
+        double t = net->end * k / POINTS;
 
-        for (double t = net->end * k / POINTS, to; t < end; t = to) {
+        while (t < end) {
             const double wanted = end - t < 1.5 * most ? end : t + fmin(most, step);
+            const double to = next_switch(net, t, wanted);
 
-            to = next_switch(net, t, wanted);
             o.step = to - t;
             take_step(&o, to);
             most = to < wanted ? 1e-6 * step : fmin(grow * most, step);
+            t = to;
         }
         memcpy(out[k], o.v, sizeof o.v);
         memcpy(out[k] + NODES + 1, o.state, sizeof o.state);

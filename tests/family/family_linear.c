@@ -324,10 +324,8 @@ static Verdict chains_of_neighbours(Member *member)
     const double span = test_uniform(&member->random, 0, 10);
 
     for (int i = 0; i < n; i++) {
-        double left = i > 0 ? a[i * n + i - 1] : 0;
-
         if (i > 0) {
-            left = a[i * n + i - 1] = decades(member, span);
+            const double left = a[i * n + i - 1] = decades(member, span);
             a[(i - 1) * n + i] = decades(member, span);
             beside[i - 1] = (Real)left * (Real)a[(i - 1) * n + i];
         }
@@ -488,9 +486,9 @@ static Verdict judge_model(Member *member, const char *script, const Known *know
     if (kit_do(&kit, script) != CT_OK || kit_do(&kit, "modes\n") != CT_OK) {
         tell(member, "%s\n", kit.error.message);
     } else {
-        is_marked = strchr(kit.text, '?') != NULL;
+        is_marked = kit.text != NULL && strchr(kit.text, '?') != NULL;
         (void)kit_do(&kit, "export csv modes\n");
-        count = read_modes(kit.text, is_marked, root, 64);
+        count = kit.text != NULL ? read_modes(kit.text, is_marked, root, 64) : 0;
         tell(member, "%d modes of %d\n", count, n);
         if (count == n)
             verdict = judge(member, "modes", root, known, n);

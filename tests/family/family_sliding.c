@@ -13,7 +13,7 @@ enum { MOST_MASSES = 4, STATES = 2 * MOST_MASSES };
 
 typedef struct Masses {
     int count;
-    double mass[MOST_MASSES], spring[MOST_MASSES], joined[MOST_MASSES], damper[MOST_MASSES];
+    double mass[MOST_MASSES], spring[MOST_MASSES], joined[MOST_MASSES + 1], damper[MOST_MASSES];
     double friction[MOST_MASSES], belt[MOST_MASSES];
     double constant[MOST_MASSES], swing[MOST_MASSES], pace[MOST_MASSES], phase[MOST_MASSES];
     double start[STATES]; /* places, then speeds */
