@@ -25,7 +25,7 @@ typedef struct March {
     MarchReport *out;
     Stepper *stepper;
     Control control, finer; /* as asked for, and as the stepper has it */
-    Counts earlier; /* of steppers given up */
+    Counts earlier;         /* of steppers given up */
     Headway headway;
     LIST(Jump) jumps;
     double low, high;             /* the time that rates see stays between */
