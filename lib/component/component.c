@@ -129,7 +129,13 @@ static Expr variable(Arena *arena, const char *owner, const char *member, int pr
     Text name = {0};
     Expr symbol;
 
-    text_addf(&name, "%s%s%s%.*s", owner, member[0] != '\0' ? "." : "", member, primes, "''''");
+    /* a mode asks for each of a network's names: put together without a format */
+    text_add(&name, owner);
+    if (member[0] != '\0') {
+        text_char(&name, '.');
+        text_add(&name, member);
+    }
+    text_fill(&name, '\'', primes);
     symbol = expr_symbol(arena, name.at, SYMBOL_VARIABLE);
     text_free(&name);
     return symbol;
@@ -167,7 +173,11 @@ static Expr edge_variable(const Instance *instance, Arena *arena, int which, con
     Text name = {0};
     Expr symbol;
 
-    text_addf(&name, "%s%s%s", edge->suffix, edge->suffix[0] != '\0' ? "." : "", member);
+    if (edge->suffix[0] == '\0')
+        return instance_variable(instance, arena, member);
+    text_add(&name, edge->suffix);
+    text_char(&name, '.');
+    text_add(&name, member);
     symbol = instance_variable(instance, arena, name.at);
     text_free(&name);
     return symbol;
