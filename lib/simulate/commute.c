@@ -13,6 +13,7 @@
 
 #define JUMP       1e-6 /* of the largest state, more than location may change it, */
 #define ERRORS     100  /* and of the tolerance: what errors may */
+#define ROUNDS     8    /* in which what is shared may set off more */
 #define START_STEP 1e-9 /* s: for the sides at a start, where no run says what is short */
 #define LOOK       1e-4 /* of the last step: how far to look ahead for the sides, */
 #define NEAREST    1e-9 /* but not less than this of the run, */
@@ -108,11 +109,12 @@ typedef struct Entering {
     double t, step;
     const bool *before; /* the sides that were */
     bool may_share;     /* else no state may jump: nothing was stored before */
+    bool shared;        /* and that was done */
 } Entering;
 
 /* What the states of the whole have to be in the phase that begins at (t, y), against x, what they
  * were: none may jump but those that share what they store, which y and x are set to. */
-static Status check_impulse(Result *r, Phase *phase, const Entering *entry, double *y, double *x,
+static Status check_impulse(Result *r, Phase *phase, Entering *entry, double *y, double *x,
                             Diag *diag)
 {
     const Layout *whole = result_whole(r)->layout;
@@ -136,8 +138,9 @@ static Status check_impulse(Result *r, Phase *phase, const Entering *entry, doub
         const double from = x[jumping], to = now[jumping];
 
         if (entry->may_share && share_stored(r, phase, entry->t, entry->step, sides.at, y, x)) {
-            const Entering shared = {.t = entry->t, .step = entry->step, .before = entry->before};
+            Entering shared = {.t = entry->t, .step = entry->step, .before = entry->before};
 
+            entry->shared = true;
             status = check_impulse(r, phase, &shared, y, x, diag);
             goto done;
         }
@@ -367,6 +370,40 @@ static double step_from(Commuting *c, double t, double last)
     return ahead - t;
 }
 
+/* Enter the phase of `closed` from y of another one. Behind what is shared at once diodes may be
+ * the wrong way round, and conditions may read something else: sides are looked for again. */
+static Status go_over(Commuting *c, double t, const SidesAt *at, double *x, double *x_behind,
+                      bool *closed, const Phase *from, const double *y, Phase **out, Diag *diag)
+{
+    Result *r = c->result;
+    const size_t bytes = (size_t)system_ideal_count(r->system) * sizeof(bool);
+    Status status = OK;
+
+    for (int round = 0; round < ROUNDS; round++) {
+        Entering entry = {.t = t, .step = at->step, .before = from->closed, .may_share = true};
+        double *entered;
+
+        CHECK(next_phase(c, t, closed, out, diag));
+        entered = NEW_ARRAY(double, (*out)->length);
+        enter(*out, y, x, y + layout_turned(from->layout), y[from->length - 1], entered);
+        commuting_free(c);
+        c->y = entered;
+        CHECK(check_impulse(r, *out, &entry, c->y, x, diag));
+        if (!entry.shared)
+            goto done;
+        sides_calm(r->sides);
+        memcpy(x_behind, x, (size_t)result_whole(r)->layout->nx * sizeof(double));
+        CHECK(sides_find(r->sides, at, closed, diag));
+        if (memcmp(closed, (*out)->closed, bytes) == 0)
+            goto done;
+        from = *out;
+        y = c->y;
+    }
+    status = solver_failure(diag, t, "what is shared makes ideal switches go over without end");
+done:
+    return status;
+}
+
 Status commute(void *context, double t, double behind, double last, const double *y, Leg *leg,
                const double **out, Diag *diag)
 {
@@ -381,7 +418,6 @@ Status commute(void *context, double t, double behind, double last, const double
     double *ahead = NEW_ARRAY(double, now->length);
     Events *events = leg->events;
     RowValues row = {.t = t};
-    Entering entry;
     SidesAt at = {.t = behind,
                   .step = step_from(c, behind, last),
                   .q = ahead,
@@ -404,13 +440,8 @@ Status commute(void *context, double t, double behind, double last, const double
     if (memcmp(closed, now->closed, (size_t)count * sizeof(bool)) == 0)
         goto done;
     c->stuck = NAN;
-    CHECK(next_phase(c, behind, closed, &next, diag));
+    CHECK(go_over(c, behind, &at, x, x_behind, closed, now, y, &next, diag));
     CHECK(commute_events(r, now, next, c->setting, &events, diag));
-    commuting_free(c);
-    c->y = NEW_ARRAY(double, next->length);
-    enter(next, y, x, y + layout_turned(now->layout), y[now->length - 1], c->y);
-    entry = (Entering){.t = behind, .step = at.step, .before = now->closed, .may_share = true};
-    CHECK(check_impulse(r, next, &entry, c->y, x, diag));
     *leg = commute_leg(r, next, events);
     *out = c->y;
 done:

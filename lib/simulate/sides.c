@@ -502,6 +502,11 @@ done:
 
 /* --- impulses --- */
 
+void sides_calm(Sides *s)
+{
+    memset(s->known, 0, sizeof s->known);
+}
+
 bool sides_land(Sides *s, double step, double *x)
 {
     s->step = step;

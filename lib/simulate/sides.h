@@ -31,6 +31,8 @@ typedef struct SidesAt {
  * none; `closed` is as it was then. */
 MUST_USE Status sides_find(Sides *sides, const SidesAt *at, bool *closed, Diag *diag);
 
+/* Behind a surge: what was largest lately no longer counts. */
+void sides_calm(Sides *sides);
 /* From the instant that sides were looked for last, while that stands, with these sides: the states
  * behind a step. False: no solution. */
 bool sides_land(Sides *sides, double step, double *x);

@@ -198,8 +198,23 @@ static void an_amplifier_is_not_taken_for_a_capacitor(void)
     kit_free(&kit);
 }
 
+/* D lets the charge through that C2 takes, and none back */
+static void a_diode_closes_behind_what_is_shared(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, "capacitor C1 a 0 1 uF\nresistor R1 a 0 1 Mohm\ndiode D b 0\n"
+                      "capacitor C2 b c 3 uF\nresistor R2 b 0 1 Gohm\nresistor R3 c 0 1 Mohm\n"
+                      "switch S a c when=t > 1 [ms]\ninit C1.v = 8, C2.v = 0\nsimulate 1\n");
+    EXPECT(is_near(kit_value(&kit, "D.i"), 0, 1e-15));
+    EXPECT(is_near(kit_value(&kit, "C2.v"), -2 * exp(-1e-3 / 4), 1e-2));
+    EXPECT(is_near(kit_value(&kit, "C1.v"), 2 * exp(-2 * 0.999), 1e-2));
+    kit_free(&kit);
+}
+
 int main(void)
 {
+    RUN(a_diode_closes_behind_what_is_shared);
     RUN(capacitors_that_a_switch_joins_share_their_charge);
     RUN(coils_that_a_switch_puts_in_series_share_their_flux);
     RUN(a_source_that_would_give_an_impulse_is_named);
