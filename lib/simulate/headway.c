@@ -9,6 +9,7 @@
 #define STEPS        5000 /* so many ought to go */
 #define PART         5e-3 /* this part of the run; else it would take a million and more */
 #define NOTICED      0.01 /* of the tolerance: stable steps make less of the last bit of y */
+#define HOPELESS     1e-7 /* less of the run: the motion has no end it could reach */
 #define NEIGHBOURS   4
 #define ENOUGH_STEPS 1e4  /* of a run whose tolerance is attainable */
 #define COARSEST     1e-7 /* a tolerance that is worth trying */
@@ -76,5 +77,7 @@ Status headway_check(Headway *headway, Stepper *s, int64_t steps, Diag *diag)
     /* short steps that were asked for are as they should be */
     if (!(way < PART * s->control.span) || 2 * h > control_asked(&s->control))
         return OK;
+    if (way < HOPELESS * s->control.span)
+        return solver_failure(diag, s->t, "the step became too small");
     return rounding(s, h) > NOTICED ? give_up(s, h, diag) : OK;
 }

@@ -64,5 +64,5 @@ UNIT_TESTS += test_costs
 test_costs_SOURCES = tests/unit/test_costs.c tests/unit/test.h
 test_costs_LDADD = $(unit_ldadd)
 UNIT_TESTS += test_stress_list
-test_stress_list_SOURCES = tests/unit/test_stress_list.c tests/unit/session_kit.h tests/unit/test.h
+test_stress_list_SOURCES = tests/unit/test_stress_list.c tests/random.h tests/unit/session_kit.h tests/unit/test.h
 test_stress_list_LDADD = $(unit_ldadd)

@@ -1,4 +1,5 @@
 /* test_stress_list.c: what brings solvers down, each with what has to become of it */
+#include "../random.h"
 #include "session_kit.h"
 
 /* --- tolerances that rounding doesn't leave --- */
@@ -193,6 +194,94 @@ static void a_loop_too_long_does_not_run(void)
     }
 }
 
+/* --- bad guesses --- */
+
+/* a crank of 0.3 m, a coupler of 0.9 m, a rocker of 0.8 m, 1 m of ground between; every coordinate
+ * is guessed up to `off` wrong. Whether coupler and rocker
+ * bend the way that they did. */
+static bool keeps_its_mode(uint64_t *seed, double off, const char *tree)
+{
+    const double phi = test_uniform(seed, 0, 6.28);
+    const double tx = 0.3 * cos(phi), ty = 0.3 * sin(phi), dx = 1 - tx, dy = -ty;
+    const double square = dx * dx + dy * dy, along = (0.81 - 0.64 + square) / (2 * square);
+    const double across = sqrt(0.81 / square - along * along);
+    const double px = tx + along * dx - across * dy, py = ty + along * dy + across * dx;
+    const double coupler = atan2(py - ty, px - tx), rocker = atan2(py, px - 1);
+    const double right[13] = {
+        tx / 2, ty / 2, phi, (tx + px) / 2, (ty + py) / 2, coupler,         (1 + px) / 2,
+        py / 2, rocker, phi, coupler - phi, rocker,        rocker - coupler};
+    static const char *const names[13] = {"c.x",     "c.y", "c.theta", "k.x",     "k.y",
+                                          "k.theta", "b.x", "b.y",     "b.theta", "h1",
+                                          "h2",      "h3",  "h4"};
+    Kit kit = kit_new();
+    bool kept;
+
+    EXPECT_DONE(&kit,
+                "scene planar\narm g ground [1, 0]\nbody c mass=1 inertia=1\n"
+                "arm ca c [-0.15, 0]; arm cb c [0.15, 0]\nbody k mass=1 inertia=1\n"
+                "arm ka k [-0.45, 0]; arm kb k [0.45, 0]\nbody b mass=1 inertia=1\n"
+                "arm ba b [-0.4, 0]; arm bb b [0.4, 0]\n"
+                "revolute h1 ground ca; revolute h2 cb ka; revolute h3 g ba; revolute h4 kb bb\n");
+    EXPECT_DONE(&kit, tree);
+    for (int i = 0; i < 13; i++) {
+        char text[80];
+
+        (void)snprintf(text, sizeof text, "guess %s=%.17g", names[i],
+                       right[i] + test_uniform(seed, -off, off));
+        EXPECT_DONE(&kit, text);
+    }
+    kept = kit_do(&kit, "assemble") == CT_OK &&
+           sin(kit_value(&kit, "b.theta") - kit_value(&kit, "k.theta")) * sin(rocker - coupler) > 0;
+    kit_free(&kit);
+    return kept;
+}
+
+static void bad_guesses_keep_their_mode(void)
+{
+    static const struct {
+        double off, kept;
+    } cases[] = {{0.1, 0.99}, {0.3, 0.95}};
+    static const char *const trees[] = {"", "tree absolute", "cotree h2"};
+    enum { TRIALS = 25 };
+    uint64_t seed = 7;
+
+    for (int i = 0; i < 2; i++)
+        for (int k = 0; k < 3; k++) {
+            int kept = 0;
+
+            for (int trial = 0; trial < TRIALS; trial++)
+                kept += keeps_its_mode(&seed, cases[i].off, trees[k]);
+            EXPECT(kept >= cases[i].kept * TRIALS);
+        }
+}
+
+/* --- a force that becomes no number --- */
+
+static void a_force_without_a_value_stops_the_run(void)
+{
+    static const char *const methods[] = {"auto", "dop853", "radau", "adams", "bdf", "ida", "rk4"};
+    static const char *const forces[] = {"sqrt(0.5 - t)", "log(1 - 2*t)"};
+
+    for (int i = 0; i < 7; i++)
+        for (int k = 0; k < 2; k++) {
+            Kit kit = kit_new();
+            char text[200];
+            double t = NAN;
+
+            (void)snprintf(text, sizeof text,
+                           "scene planar\nbody a mass=1\nprismatic s ground a axis=x\n"
+                           "force F a [%s, 0]\ninit s' = 1\n",
+                           forces[k]);
+            EXPECT_DONE(&kit, text);
+            (void)snprintf(text, sizeof text, "simulate 1 every=0.01 method=%s", methods[i]);
+            EXPECT_FAILS(&kit, text, "at t = ");
+            EXPECT(sscanf(kit.error.message, "at t = %lf", &t) == 1);
+            EXPECT_NEAR(t, 0.5, 0.011);           /* rk4's steps are fixed */
+            EXPECT(!isnan(kit_value(&kit, "s"))); /* what was reached is kept, and is a number */
+            kit_free(&kit);
+        }
+}
+
 /* --- impacts --- */
 
 #define DROPPED                                                                                    \
@@ -283,6 +372,8 @@ int main(void)
     RUN(what_stability_limits_is_handed_over);
     RUN(time_constants_of_coils_are_handed_over);
     RUN(a_loop_too_long_does_not_run);
+    RUN(bad_guesses_keep_their_mode);
+    RUN(a_force_without_a_value_stops_the_run);
     RUN(impacts_without_end_end_a_run);
     RUN(an_impact_at_the_very_start_is_one);
     RUN(two_impacts_at_once_both_count);
