@@ -87,6 +87,8 @@ static void name_sides(const Result *r, const bool *before, const bool *closed, 
         text_addf(out, "%s%s %s", out->length > 0 ? ", " : "", ideal.name,
                   closed[k] ? "closes" : "opens");
     }
+    if (out->length == 0)
+        text_add(out, "sources jump");
 }
 
 /* An impulse of one kind would be given by a source of the other alone, where there is one. */
@@ -129,14 +131,12 @@ static Status check_impulse(Result *r, Phase *phase, Entering *entry, double *y,
         return OK; /* that has its own message */
     now = probe_values(phase->states, &row);
     largest = fmax(largest, vector_largest(now, whole->nx));
-    name_sides(r, entry->before, phase->closed, &sides);
-    if (sides.at == NULL)
-        text_add(&sides, "sources jump");
     while (jumping < whole->nx && !share_is_jump(r, jumping, x[jumping], now[jumping]))
         jumping++;
     if (jumping < whole->nx) {
         const double from = x[jumping], to = now[jumping];
 
+        name_sides(r, entry->before, phase->closed, &sides);
         if (entry->may_share && share_stored(r, phase, entry->t, entry->step, sides.at, y, x)) {
             Entering shared = {.t = entry->t, .step = entry->step, .before = entry->before};
 
@@ -148,9 +148,11 @@ static Status check_impulse(Result *r, Phase *phase, Entering *entry, double *y,
                              system_x(whole->system, jumping)->name, from, to, diag);
     }
     for (int i = 0; system_invariant(phase->system, i) != NULL && status == OK; i++)
-        if (fabs(now[whole->nx + i]) > JUMP * largest + ERRORS * r->tolerance)
+        if (fabs(now[whole->nx + i]) > JUMP * largest + ERRORS * r->tolerance) {
+            name_sides(r, entry->before, phase->closed, &sides);
             status = diag_set(diag, E_SOLVER, "%s at t = %.9g s, and what is stored would jump",
                               sides.at, entry->t);
+        }
     if (status != OK)
         diag_hint(diag, "a resistance in that circuit, a diode for the current, or Ron= and Roff= "
                         "of the switch, make it a fast change");
