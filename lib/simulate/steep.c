@@ -36,6 +36,7 @@ typedef struct Source {
     int input;
     double size;        /* its range in a run, s; 0: not known */
     bool is_continuous; /* its derivative tells how far it goes */
+    bool has_corners;   /* that derivative may jump */
 } Source;
 
 struct Steep {
@@ -47,6 +48,7 @@ struct Steep {
     LIST(Source) sources;
     Ranges *values, *slopes, *bends;
     Range *closer; /* of sources */
+    Range *bent;   /* likewise, corners with them */
     double *reach; /* likewise: how far each gets from the middle of an interval */
     Layout inputs; /* the layout, and the inputs of elements and sources */
     Probe *probe;  /* G, F, gamma, arguments, A; NULL: not made yet */
@@ -205,13 +207,16 @@ static void find_ranges(Steep *s)
     for (int i = 0; i < s->sources.count; i++)
         functions[i] = s->sources.at[i].function;
     s->values = ranges_new(functions, s->sources.count, time, parameters_value_in, s->parameters);
-    for (int i = 0; i < s->sources.count; i++)
+    for (int i = 0; i < s->sources.count; i++) {
         functions[i] = expr_diff(arena, functions[i], time);
+        s->sources.at[i].has_corners = !is_continuous(functions[i]);
+    }
     s->slopes = ranges_new(functions, s->sources.count, time, parameters_value_in, s->parameters);
     for (int i = 0; i < s->sources.count; i++)
         functions[i] = expr_diff(arena, functions[i], time);
     s->bends = ranges_new(functions, s->sources.count, time, parameters_value_in, s->parameters);
     s->closer = NEW_ARRAY(Range, s->sources.count);
+    s->bent = NEW_ARRAY(Range, s->sources.count);
     s->reach = NEW_ARRAY(double, s->sources.count);
     mem_free(functions);
 }
@@ -248,6 +253,7 @@ void steep_free(Steep *s)
     ranges_free(s->slopes);
     ranges_free(s->bends);
     mem_free(s->closer);
+    mem_free(s->bent);
     mem_free(s->reach);
     probe_free(s->probe);
     sparse_free(s->network);
@@ -276,10 +282,24 @@ const Range *steep_sources_over(Steep *s, Range over)
     return ranges_over(s->values, over);
 }
 
+/* A corner bends without bound, and no second derivative tells of it: the first one varies. */
 const Range *steep_bends_over(Steep *s, Range over)
 {
+    bool any = false;
+
     over = (Range){motion_clock(s->motion, over.low), motion_clock(s->motion, over.high)};
-    return ranges_over(s->bends, over);
+    for (int j = 0; j < s->sources.count; j++)
+        any = any || s->sources.at[j].has_corners;
+    if (!any)
+        return ranges_over(s->bends, over);
+    memcpy(s->bent, ranges_over(s->bends, over), (size_t)s->sources.count * sizeof(Range));
+    for (int j = 0; j < s->sources.count; j++) {
+        const Range slope = ranges_over(s->slopes, over)[j];
+
+        if (s->sources.at[j].has_corners && slope.low < slope.high)
+            s->bent[j] = (Range){-INFINITY, INFINITY};
+    }
+    return s->bent;
 }
 
 /* the part of a that lies within reach of b's middle too, where that makes sense */

@@ -103,6 +103,14 @@ static void a_pulse_in_a_long_run_is_seen(void)
                   "simulate 10", "s", 3 * area / 2 * 5, 1e-5);
 }
 
+/* 1000 A for 2 ms with edges of 1 ms: corners that no second derivative tells of */
+static void corners_are_not_stepped_over(void)
+{
+    expect_of_all("capacitor C b 0 1\ninit C.v = 0\n"
+                  "isource I 0 b pulse(t, 0, 1000, 5, 1e-3, 1e-3, 2e-3, 2000)\n",
+                  "simulate 1000", "b.v", 3, 1e-4);
+}
+
 /* Stages of a step fell about this pulse so that its estimate of order 5 vanished by chance. */
 static void no_chance_hides_a_pulse_from_an_estimate(void)
 {
@@ -213,6 +221,7 @@ int main(void)
     RUN(a_doubler_stays_below_twice_the_peak);
     RUN(a_multiplier_of_exponential_diodes_runs);
     RUN(a_pulse_in_a_long_run_is_seen);
+    RUN(corners_are_not_stepped_over);
     RUN(no_chance_hides_a_pulse_from_an_estimate);
     RUN(a_bump_on_the_way_is_felt);
     RUN(fixed_steps_tell_what_they_miss);
