@@ -9,7 +9,7 @@
 #define STEPS        5000 /* so many ought to go */
 #define PART         5e-3 /* this part of the run; else it would take a million and more */
 #define NOTICED      0.01 /* of the tolerance: stable steps make less of the last bit of y */
-#define HOPELESS     1e-7 /* less of the run: the motion has no end it could reach */
+#define HOPELESS     1e-9 /* less of the run: time itself has hardly more digits */
 #define NEIGHBOURS   4
 #define ENOUGH_STEPS 1e4  /* of a run whose tolerance is attainable */
 #define COARSEST     1e-7 /* a tolerance that is worth trying */

@@ -522,7 +522,7 @@ static void a_solution_that_ends_ends_the_run(void)
     } methods[] = {{"dop853", "the step became too small"},
                    {"adams", "the step became too small"},
                    {"bdf", "the step became too small"},
-                   {"ida", "the corrector convergence failed"},
+                   {"ida", "the step became too small"},
                    {"radau", "no solution just behind this instant"},
                    {"rk4", "no solution one step on"}};
     Kit kit = kit_new();
