@@ -467,7 +467,9 @@ ct_status ct_run(ct_session *session, const ct_statement *statement, ct_error *e
     Diag diag = {0};
 
     session_begin(session);
-    status = run_any(session, s, &diag);
+    status = statement_check_version(s, &diag);
+    if (status == OK)
+        status = run_any(session, s, &diag);
     if (status != OK && diag.place.line == 0 && s->kind == STATEMENT_VERB)
         diag.place = place_of_message(s, diag.message);
     session_sweep(session);

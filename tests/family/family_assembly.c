@@ -90,7 +90,7 @@ typedef enum Kind {
 enum { PLANE_KINDS = CYLINDRICAL };
 
 typedef struct Coordinate {
-    char member[12]; /* ".s", "" for the joint's own name */
+    char member[24]; /* ".s", "" for the joint's own name */
     double value;    /* NAN: one of four parameters, told together */
     bool is_angle;
 } Coordinate;
@@ -187,7 +187,7 @@ static void random_unit4(Member *m, double q[4])
 static void add_parameters(Joint *j, const double q[4])
 {
     for (int i = 0; i < 4; i++) {
-        char member[12];
+        char member[24];
 
         snprintf(member, sizeof member, ".q%d", i);
         add_coordinate(j, member, q[i], false);
@@ -216,7 +216,7 @@ static Pose three_turns(Member *m, Joint *j)
     strcpy(j->sequence, sequences[pick(m, 6)]);
     for (int i = 0; i < 3; i++) {
         double u[3] = {0};
-        char member[12];
+        char member[24];
         /* the sets of angles are told apart by the sign of the one between */
         const bool returns = j->sequence[0] == j->sequence[2];
         const double angle = i != 1    ? between(m, -1.4, 1.4)
@@ -369,7 +369,7 @@ static void write_joint(Scene *s, int number)
                                              "cylindrical", "screw",      "universal", "spherical",
                                              "spherical",   "planarjoint"};
     const Joint *j = &s->joint[number];
-    char tail[12], head[12], name[12];
+    char tail[24], head[24], name[12];
 
     snprintf(tail, sizeof tail, "t%d", number);
     snprintf(head, sizeof head, "h%d", number);

@@ -21,7 +21,7 @@ try -e 'print table("folder", 1)'
 echo '--- lines'
 { repeat ';' 1000000; echo 'print 1'; } >many.ct
 try many.ct
-{ repeat 'a=1;' 200000; echo 'print a; b'; } >many.ct
+{ repeat 'a=1;' 40000; echo 'print a; b'; } >many.ct
 try many.ct
 repeat 'print 1 ' 1000000 >long.ct
 try long.ct
