@@ -339,7 +339,7 @@ Leftover *unsaved_find(int *count)
 {
     char *folder = file_is_confined() ? NULL : find_folder(false);
     struct dirent **entries = NULL;
-    const int found = folder != NULL ? scandir(folder, &entries, NULL, NULL) : 0;
+    const int found = folder != NULL ? scandir(folder, &entries, NULL, alphasort) : 0;
     Leftover *all = copy_check(calloc((size_t)(found > 0 ? found : 0) + 1, sizeof *all));
 
     *count = 0;

@@ -58,7 +58,7 @@ static void make(Row *row, uint64_t *random, double store, double loss, bool in_
 
 static int group_of(const Row *row, const bool *joined, int k)
 {
-    while (k > 0 && joined[k])
+    while (k > 0 && k < MOST && joined[k])
         k = row->to[k];
     return k;
 }

@@ -13,7 +13,7 @@ enum { MOST_MASSES = 4, STATES = 2 * MOST_MASSES };
 
 typedef struct Masses {
     int count;
-    double mass[MOST_MASSES], spring[MOST_MASSES], joined[MOST_MASSES + 1], damper[MOST_MASSES];
+    double mass[MOST_MASSES], spring[MOST_MASSES], joined[MOST_MASSES], damper[MOST_MASSES];
     double friction[MOST_MASSES], belt[MOST_MASSES];
     double constant[MOST_MASSES], swing[MOST_MASSES], pace[MOST_MASSES], phase[MOST_MASSES];
     double start[STATES]; /* places, then speeds */
@@ -30,7 +30,7 @@ static double load(const Masses *m, int i, double t, const double *y)
     double sum = m->constant[i] + m->swing[i] * sin(m->pace[i] * t + m->phase[i]);
 
     sum -= m->spring[i] * y[i] + m->damper[i] * y[m->count + i];
-    if (i > 0)
+    if (i > 0 && i < MOST_MASSES)
         sum -= m->joined[i] * (y[i] - y[i - 1]);
     if (i + 1 < m->count)
         sum -= m->joined[i + 1] * (y[i] - y[i + 1]);

@@ -676,7 +676,7 @@ static Verdict parameters_keep_the_dimension_they_are_used_in(Member *member)
     if (!made.is_known || kit_do(&kit, line) != CT_OK)
         verdict = DISAGREES;
     m.length = 0;
-    next = make_literal(&m, other);
+    (void)make_literal(&m, other);
     (void)snprintf(again, sizeof again, "p0 = %s", m.text);
     tell(member, "%s is refused\n", again);
     if (kit_do(&kit, again) == CT_OK || strstr(kit.error.message, "what uses p0") == NULL)

@@ -182,7 +182,8 @@ static void a_light_part_between_heavy_ones_is_no_singularity(void)
     const double phi_u[6] = {1, -1, 0, 0, 1, -1};
     const double bottom[2] = {0, 0};
 
-    for (double ratio = 1e-8; ratio < 1e9; ratio *= 10) {
+    for (int decade = -8; decade <= 8; decade++) {
+        const double ratio = pow(10, decade);
         const double mass[9] = {1, 0, 0, 0, ratio, 0, 0, 0, 1}, top[3] = {0, 0, 1};
         double du[3], lambda[2];
         Kkt *kkt = kkt_new(3, 2, 2);

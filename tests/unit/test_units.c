@@ -186,14 +186,12 @@ static const char *const right[] = {
     "print E(t) [V], E(h1), E(2*pi*1 kHz*t), E(f0*t), sin(t), exp(-t), sin(2*pi*f0*t), 2^t",
     "print sqrt(m1.x^2 + m1.y^2) [m], sqrt(2*g*r), sqrt(5 [N/m]/(2 kg)) + w0",
     "print min(s1, r, 3) [m], max(h1) + 3 deg, max(h1, 3), rms(R.i) [A], if(t > 1, r, s1) [m]",
-    "print atan2(s1, r) [deg], atan(s1/r) + h1, s1/r + h1 + 1, sin(h1)*E0 + 2 V, r*sin(h1) + "
-    "s1",
-    "print mean(h1')*1 s + h1, h1 + 1, (h1 == pi), -r^2 + A0, (r^-1) [1/m], A0^(1/2) [m], "
-    "A0^0.5 "
-    "+ "
-    "r",
-    "print pulse(t, 0, 1 V, 0, 1 ms, 1 ms, 1 s, 2 s) [V], pwl(t, 0, 0, 1 s, 5 V) [V], abs(r) + "
-    "s1",
+    "print atan2(s1, r) [deg], atan(s1/r) + h1, s1/r + h1 + 1",
+    "print sin(h1)*E0 + 2 V, r*sin(h1) + s1",
+    "print mean(h1')*1 s + h1, h1 + 1, (h1 == pi), -r^2 + A0, (r^-1) [1/m]",
+    "print A0^(1/2) [m], A0^0.5 + r",
+    "print pulse(t, 0, 1 V, 0, 1 ms, 1 ms, 1 s, 2 s) [V], pwl(t, 0, 0, 1 s, 5 V) [V]",
+    "print abs(r) + s1",
     "print 30 deg*t [deg], t + t^2, t - h1, (2 [m/s]*t) [m], sin(5 [rad/s]*t + 30 deg)",
     "print linear.A(1,1), constraint.error [m]",
     "plot (h1/2) [deg] s1 [mm] vs t [ms]",
