@@ -7,16 +7,17 @@
 #include <stdint.h>
 #include <string.h>
 
-/* length of the text's line of that number, counted from 1; -1: there is none */
+/* Length of the text's line of that number, counted from 1; -1: there is none. A line ends in a
+ * newline, a carriage return or both. */
 static int line_length(const char *text, int line)
 {
     for (; line > 1; line--) {
-        text = strchr(text, '\n');
-        if (text == NULL)
+        text += strcspn(text, "\r\n");
+        if (*text == '\0')
             return -1;
-        text++;
+        text += strncmp(text, "\r\n", 2) == 0 ? 2 : 1;
     }
-    return (int)strcspn(text, "\n");
+    return (int)strcspn(text, "\r\n");
 }
 
 static void check_fault(const char *text, const Diag *diag)
