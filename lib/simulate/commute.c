@@ -259,8 +259,6 @@ done:
 
 Leg commute_leg(const Result *r, const Phase *phase, Events *events)
 {
-    const Method *stiff = phase_stiff_method(phase);
-
     phase_enter(phase);
     return (Leg){.phase = result_phase_number(r, phase),
                  .equations = numbers_equations(phase->numbers),
@@ -268,8 +266,7 @@ Leg commute_leg(const Result *r, const Phase *phase, Events *events)
                  .events = events,
                  .samples = phase->samples,
                  .onset = phase->onset,
-                 .stiff = stiff,
-                 .stiff_decays = stiff != &method_radau};
+                 .stiff = phase_stiff_method(phase)};
 }
 
 /* --- the start --- */

@@ -64,7 +64,7 @@ static Stepper *create(const Method *method, const Ode *ode, const Control *cont
     c->y = N_VNew_Serial(all, c->context);
     c->out = N_VNew_Serial(all, c->context);
     c->tolerance = N_VNew_Serial(all, c->context);
-    c->memory = CVodeCreate(method == &method_bdf ? CV_BDF : CV_ADAMS, c->context);
+    c->memory = CVodeCreate(method->is_stiff ? CV_BDF : CV_ADAMS, c->context);
     return &c->base;
 }
 
@@ -119,7 +119,7 @@ static int first_start(Cvode *c, double t)
         code = CVodeSetMaxStep(c->memory, control_largest(&c->base.control));
     if (code != 0)
         return code;
-    if (c->base.method == &method_bdf) {
+    if (c->base.method->is_stiff) {
         c->matrix = SUNDenseMatrix(c->all, c->all, c->context);
         c->linear = SUNLinSol_Dense(c->y, c->matrix, c->context);
         return CVodeSetLinearSolver(c->memory, c->linear, c->matrix);
@@ -237,6 +237,7 @@ const Method method_bdf = {
     .has_history = true,
     .sees_little = true,
     .pulse_steps = 24,
+    .is_stiff = true,
 };
 
 const Method method_adams = {

@@ -321,4 +321,6 @@ const Method method_ida = {
     .has_history = true,
     .sees_little = true,
     .pulse_steps = 24,
+    .is_stiff = true,
+    .solves_dae = true,
 };

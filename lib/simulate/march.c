@@ -124,7 +124,7 @@ static Status renew(March *m, Diag *diag)
 
     if (renewed.independent)
         text_addf(&m->out->remarks, "independent coordinates chosen anew at t = %.6g s\n", s->t);
-    if (!renewed.rows || s->method != &method_ida)
+    if (!renewed.rows || !s->method->solves_dae)
         return OK;
     memcpy(m->y, s->y, (size_t)m->length * sizeof(double));
     return s->method->start(s, s->t, m->y, diag);
@@ -177,7 +177,7 @@ static Status one_step(March *m, double end, Diag *diag)
         headway_check(&m->headway, m->stepper, m->earlier.steps + m->stepper->counts.steps, diag));
     CHECK(renew(m, diag));
     if (m->plan->method == NULL && m->stepper->is_stiff &&
-        !(m->leg.stiff_decays && m->stepper->swings))
+        (m->leg.stiff->is_a_stable || !m->stepper->swings))
         CHECK(hand_over(m, diag));
 done:
     return status;
@@ -246,7 +246,7 @@ static void add_corner(March *m, double t, const double *y)
 
 Status march_enter(March *m, const Leg *leg, double t, const double *y, bool *changed, Diag *diag)
 {
-    bool is_stiff = m->plan->method == NULL && m->out->method != &method_dop853;
+    bool is_stiff = m->plan->method == NULL && m->out->method->is_stiff;
     Status status = OK;
 
     close_leg(m);
@@ -412,7 +412,7 @@ done:
 
 Status march(const MarchPlan *plan, const double *start, Grid *grid, MarchReport *out, Diag *diag)
 {
-    const Method *method = plan->method != NULL ? plan->method : &method_dop853;
+    const Method *method = plan->method != NULL ? plan->method : method_for((MethodNeed){0});
     March m = {.plan = plan,
                .grid = grid,
                .out = out,
@@ -426,7 +426,7 @@ Status march(const MarchPlan *plan, const double *start, Grid *grid, MarchReport
                .switched_since = -INFINITY};
     Status status;
 
-    if (method == &method_rk4 && !(m.control.step > 0))
+    if (method->has_fixed_step && !(m.control.step > 0))
         m.control.step = plan->every;
     m.control.span = plan->to - plan->from;
     *out = (MarchReport){.method = method, .reached = plan->from};

@@ -28,7 +28,6 @@ typedef struct Leg {
     Samples *samples;    /* NULL: none */
     Onset *onset;        /* NULL: nothing acts for a short time */
     const Method *stiff; /* where plan.method is NULL */
-    bool stiff_decays;   /* `stiff` is no help where what limits the steps swings */
 } Leg;
 
 /* Which leg goes on from (t, y), where y is of `leg`; `behind` is the instant just behind t, where

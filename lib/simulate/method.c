@@ -24,6 +24,15 @@ const Method *method_find(const char *name)
     return NULL;
 }
 
+const Method *method_for(MethodNeed need)
+{
+    for (int i = 0; i < COUNT(rows); i++)
+        if (rows[i]->is_stiff == need.stiff && rows[i]->has_history == need.history &&
+            rows[i]->solves_dae == need.dae && !rows[i]->has_fixed_step)
+            return rows[i];
+    return NULL;
+}
+
 Status solver_failure(Diag *diag, double t, const char *reason)
 {
     return diag_set(diag, E_SOLVER, "at t = %.9g s: %s", t, reason);

@@ -107,6 +107,11 @@ typedef struct Method {
     bool has_history;   /* the steps before, too: it starts anew after shorten(); */
     bool sees_little;   /* too little to find what happens in between */
     double pulse_steps; /* that a pulse of the equations takes, to come out right */
+    /* what it can */
+    bool is_stiff;    /* its steps are not limited by stability, where what limits them decays; */
+    bool is_a_stable; /* nor where it swings */
+    bool has_fixed_step; /* and so controls no error */
+    bool solves_dae;     /* takes ode->dae where it is offered: multipliers are unknowns, too */
 } Method;
 
 struct Stepper {
@@ -170,16 +175,22 @@ static inline double stepper_blur(const Stepper *s)
 const Method *method_find(const char *name);
 const Method *method_row(int i);
 
+/* What is wanted of a method that nobody named. */
+typedef struct MethodNeed {
+    bool stiff;   /* is for stiff equations, */
+    bool history; /* goes by many steps rather than anew from each */
+    bool dae;     /* and has multipliers among its unknowns */
+} MethodNeed;
+/* the first row that is so, and controls its error */
+const Method *method_for(MethodNeed need);
+
 /* An error of the solver at time t, in words: "at t = 0.3 s: ...". */
 Status solver_failure(Diag *diag, double t, const char *reason);
 
 #define MAX_REJECTIONS 10 /* in a row, by NaN or a projection that fails, end a run */
 
-extern const Method method_dop853;
-extern const Method method_radau;
-extern const Method method_rk4;
-extern const Method method_bdf;
-extern const Method method_adams;
-extern const Method method_ida;
+#define METHOD(row) extern const Method row;
+#include "simulate/methods.def"
+#undef METHOD
 
 #endif

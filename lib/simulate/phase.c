@@ -103,11 +103,13 @@ void phase_free(Phase *phase)
 
 const Method *phase_stiff_method(const Phase *phase)
 {
-    if (phase->length + phase->layout->nz <= FEW ||
-        (phase->closed != NULL && phase->network != NULL))
-        return &method_radau; /* also sparse, where a method of many steps would always begin anew
-                               */
-    return phase->network != NULL ? &method_ida : &method_bdf;
+    const bool is_network = phase->network != NULL;
+    /* with switches a method of many steps would always begin anew */
+    const bool one_step =
+        phase->length + phase->layout->nz <= FEW || (phase->closed != NULL && is_network);
+
+    return method_for(
+        (MethodNeed){.stiff = true, .history = !one_step, .dae = !one_step && is_network});
 }
 
 bool phase_row(Phase *phase, double t, const double *y, RowValues *out)

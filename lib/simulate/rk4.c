@@ -215,4 +215,5 @@ const Method method_rk4 = {
     .node_count = COUNT(nodes),
     .sees_little = true,
     .pulse_steps = 24,
+    .has_fixed_step = true,
 };

@@ -233,8 +233,8 @@ static void report_difference(Result *r, double largest, const Method *a, const 
     if (r->report.is_unresolved)
         text_addf(&r->remarks,
                   "not resolved: a run %s ends elsewhere; take a smaller %s, or a shorter run\n",
-                  b == &method_rk4 ? "in half the step" : "at a tenth of the tolerance",
-                  b == &method_rk4 ? "step" : "rtol");
+                  b->has_fixed_step ? "in half the step" : "at a tenth of the tolerance",
+                  b->has_fixed_step ? "step" : "rtol");
     else
         r->report.global_error =
             largest * (a->has_history || b->has_history ? MULTISTEP : ONE_STEP);
@@ -254,7 +254,7 @@ static Status estimate_error(Result *r, const Setting *setting, const RunOptions
 
     finer.rtol = fmax(LEAST_RTOL, options->rtol / 10);
     finer.atol = options->atol / 10;
-    if (method == &method_rk4)
+    if (method != NULL && method->has_fixed_step)
         finer.step = (options->step > 0 ? options->step : options->every) / 2;
     plan = plan_of(r, setting, &finer, method, events);
     plan.from = r->grid.times[first];
@@ -274,7 +274,7 @@ static Status go(Result *r, const Setting *setting, const RunOptions *given, dou
     const Method *method;
     RunOptions options;
     MarchPlan plan;
-    MarchReport report_of = {.method = &method_dop853};
+    MarchReport report_of = {.method = method_for((MethodNeed){0})};
     Events *again = NULL; /* for a second run */
     int first = skip_first ? r->grid.count - 1 : 0;
     Status status = OK;
