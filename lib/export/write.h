@@ -2,11 +2,14 @@
 #ifndef COTREE_EXPORT_WRITE_H
 #define COTREE_EXPORT_WRITE_H
 
-#include "export/view.h"
+#include "present/view.h"
+#include "simulate/analyse/linearize.h"
 
 /* numbers row by row, 17 digits; names quoted where they hold a comma or a quote (RFC 4180) */
 void write_csv(Text *out, const char *const *names, const double *values, int rows, int columns,
                bool with_header);
+/* a row a mode, with the amplitude and phase of every part */
+void write_modes_csv(const Modes *modes, bool with_header, Text *out);
 
 /* a document of all equations that compiles with amsmath alone */
 MUST_USE Status write_latex(const View *view, Text *out, Diag *diag);

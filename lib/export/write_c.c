@@ -5,9 +5,9 @@
  * take the rates xd of x, too, and where angles of chords count turns all of them take values near
  * these. Symbols become local variables with the user's names, made into
  * identifiers. */
-#include "export/abbreviate.h"
-#include "export/tables.h"
 #include "export/write.h"
+#include "present/abbreviate.h"
+#include "present/tables.h"
 
 #include "base/names.h"
 

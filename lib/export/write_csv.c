@@ -40,3 +40,40 @@ void write_csv(Text *out, const char *const *names, const double *values, int ro
             text_char(out, c + 1 < columns ? ',' : '\n');
         }
 }
+
+void write_modes_csv(const Modes *modes, bool with_header, Text *out)
+{
+    static const char *const titles[] = {"mode",      "real",    "imaginary", "omega",
+                                         "frequency", "damping", "error"};
+    const int columns = COUNT(titles) + 2 * modes->parts;
+    char **names = NEW_ARRAY(char *, columns);
+    double *values = NEW_ARRAY(double, modes->count *columns);
+
+    for (int c = 0; c < COUNT(titles); c++)
+        names[c] = mem_text(titles[c], strlen(titles[c]));
+    for (int p = 0; p < modes->parts; p++) {
+        Text text = {0};
+
+        text_addf(&text, "%s phase [deg]", modes->part_names[p]);
+        names[COUNT(titles) + 2 * p] = mem_text(modes->part_names[p], strlen(modes->part_names[p]));
+        names[COUNT(titles) + 2 * p + 1] = text_done(&text);
+    }
+    for (int i = 0; i < modes->count; i++) {
+        const Mode *mode = &modes->at[i];
+        const double figures[] = {
+            i + 1,         mode->real, mode->imaginary, mode->omega, mode->omega / (2 * M_PI),
+            mode->damping, mode->error};
+        double *row = values + (ptrdiff_t)i * columns;
+
+        memcpy(row, figures, sizeof figures);
+        for (int p = 0; p < modes->parts; p++) {
+            row[COUNT(figures) + 2 * p] = mode->amplitude[p];
+            row[COUNT(figures) + 2 * p + 1] = mode->phase[p] * 180 / M_PI;
+        }
+    }
+    write_csv(out, (const char *const *)names, values, modes->count, columns, with_header);
+    for (int c = 0; c < columns; c++)
+        mem_free(names[c]);
+    mem_free(names);
+    mem_free(values);
+}

@@ -1,6 +1,6 @@
 /* write_latex.c: every equation of a model as a document */
-#include "export/show.h"
 #include "export/write.h"
+#include "present/show.h"
 
 static void add_escaped(Text *out, const char *text)
 {

@@ -1,6 +1,8 @@
 /* model.c: a model is the statements it accepted, in order, and the state they made */
 #include "model/model_history.h"
 
+#include "language/functions.h"
+
 #include <math.h>
 #include <string.h>
 

@@ -8,7 +8,7 @@
 
 #include "component/component.h"
 #include "graph/tree.h"
-#include "model/syntax.h"
+#include "language/syntax.h"
 
 typedef struct Model Model;
 

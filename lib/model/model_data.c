@@ -4,6 +4,7 @@
  * columns. Lines that begin with # are comments. The first column is x and grows. What was read
  * stays with the arena under the file's name and the column's, so that a statement that is
  * applied anew by undo finds the data that it was made with. */
+#include "language/functions.h"
 #include "model/model_impl.h"
 
 #include <errno.h>

@@ -1,40 +1,21 @@
 /* model_function.c: calls: functions of the table, pulses and polygons, laws, entries of what is
  * shown, figures of a run */
-#include "model/habits.h"
+#include "language/functions.h"
+#include "language/habits.h"
 #include "model/model_impl.h"
 
-#include <ctype.h>
+#include <assert.h>
 #include <string.h>
 
 typedef Status Build(Scope *scope, const Syntax *syntax, const Expr *args, Expr *out, Diag *diag);
 
 static Build build_pulse, build_polygon, build_table;
 
+/* what builds the shapes of the table of functions */
 static const struct {
     const char *name;
-    int least;
-    int most;
-    const char *usage;
     Build *build;
-    bool takes_text;
-} builders[] = {
-    {"pulse", 7, 8, "pulse(t, low, high, delay, rise, fall, width, period)", build_pulse, false},
-    {"pwl", 3, 10001, "pwl(t, t0, v0, t1, v1, ...)", build_polygon, false},
-    {"table", 2, 4, "table(\"file.csv\", x, column)", build_table, true},
-};
-
-static const struct {
-    const char *name;
-    int args;
-    Op op;
-} functions[] = {
-#define OP(id, name, args, ...) {name, args, OP_##id},
-#include "expr/ops.def"
-#undef OP
-};
-
-/* figures of a whole run, of one argument */
-static const char *const run_figures[] = {"min", "max", "mean", "rms"};
+} builders[] = {{"pulse", build_pulse}, {"pwl", build_polygon}, {"table", build_table}};
 
 /* entries of what `show` prints; where each has a unit of its own there is none here */
 static const struct {
@@ -55,40 +36,6 @@ const char *entry_unit(const char *name)
         if (strcmp(entries[i].name, name) == 0)
             return entries[i].unit;
     return NULL;
-}
-
-/* the row of a function that a name in an expression may mean; -1: none */
-static int find_function(const char *name)
-{
-    if (!isalpha((unsigned char)name[0]) || strcmp(name, "hold") == 0)
-        return -1;
-    for (int i = 0; i < COUNT(functions); i++)
-        if (strcmp(functions[i].name, name) == 0)
-            return i;
-    return -1;
-}
-
-static int find_builder(const char *name)
-{
-    for (int i = 0; i < COUNT(builders); i++)
-        if (strcmp(builders[i].name, name) == 0)
-            return i;
-    return -1;
-}
-
-static bool is_figure(const char *name)
-{
-    for (int i = 0; i < COUNT(run_figures); i++)
-        if (strcmp(run_figures[i], name) == 0)
-            return true;
-    return false;
-}
-
-bool function_takes_text(const char *name)
-{
-    int builder = find_builder(name);
-
-    return builder >= 0 && builders[builder].takes_text;
 }
 
 static Status wrong_count(const Syntax *syntax, const char *usage, Diag *diag)
@@ -220,23 +167,21 @@ static Status build_table(Scope *scope, const Syntax *syntax, const Expr *args, 
 
 /* --- the rest --- */
 
-static Status call_function(Scope *scope, const Syntax *syntax, int function, const Expr *args,
-                            Expr *out, Diag *diag)
+static Status call_function(Scope *scope, const Syntax *syntax, const Function *row,
+                            const Expr *args, Expr *out, Diag *diag)
 {
     Arena *arena = scope->state->arena;
-    Op op = functions[function].op;
-    int wanted = functions[function].args;
-    bool folds = op == OP_MIN || op == OP_MAX;
+    bool folds = row->most > row->least;
 
-    if (folds ? syntax->count < wanted : syntax->count != wanted) {
+    if (syntax->count < row->least || syntax->count > row->most) {
         (void)diag_at(diag, E_VALUE, syntax->place, "%s takes %d argument%s%s, got %d",
-                      syntax->text, wanted, wanted == 1 ? "" : "s", folds ? " or more" : "",
+                      syntax->text, row->least, row->least == 1 ? "" : "s", folds ? " or more" : "",
                       syntax->count);
         return E_VALUE;
     }
-    *out = expr_call(arena, op, args);
-    for (int i = wanted; i < syntax->count; i++)
-        *out = expr_call2(arena, op, *out, args[i]);
+    *out = expr_call(arena, row->op, args);
+    for (int i = row->least; i < syntax->count; i++)
+        *out = expr_call2(arena, row->op, *out, args[i]);
     return OK;
 }
 
@@ -323,6 +268,7 @@ static Status call_unknown(const State *state, const Syntax *syntax, Diag *diag)
 {
     Suggest suggest = suggest_for(syntax->text);
     const Thing *thing = state_thing(state, syntax->text);
+    Function row;
     Text what = {0};
 
     if (thing != NULL) {
@@ -333,11 +279,9 @@ static Status call_unknown(const State *state, const Syntax *syntax, Diag *diag)
         text_free(&what);
         return E_NAME;
     }
-    for (int i = 0; i < COUNT(functions); i++)
-        if (find_function(functions[i].name) >= 0)
-            suggest_offer(&suggest, functions[i].name);
-    for (int i = 0; i < COUNT(builders); i++)
-        suggest_offer(&suggest, builders[i].name);
+    for (int i = 0; function_at(i, &row); i++)
+        if (row.kind != FUNCTION_FIGURE)
+            suggest_offer(&suggest, row.name);
     for (int i = 0; i < state->definitions.count; i++)
         if (state->definitions.at[i].kind == DEFINES_LAW)
             suggest_offer(&suggest, state->definitions.at[i].name);
@@ -351,28 +295,35 @@ static Status call_unknown(const State *state, const Syntax *syntax, Diag *diag)
     return E_NAME;
 }
 
-bool function_exists(const char *name)
+static Status call_shape(Scope *scope, const Syntax *syntax, const Function *row, const Expr *args,
+                         Expr *out, Diag *diag)
 {
-    return find_function(name) >= 0 || find_builder(name) >= 0;
+    Build *build = NULL;
+
+    for (int i = 0; i < COUNT(builders); i++)
+        if (strcmp(builders[i].name, row->name) == 0)
+            build = builders[i].build;
+    assert(build != NULL);
+    if (syntax->count > row->most && build == build_polygon)
+        return too_long(syntax, diag);
+    if (syntax->count < row->least || syntax->count > row->most)
+        return wrong_count(syntax, row->usage, diag);
+    return build(scope, syntax, args, out, diag);
 }
 
 Status function_call(Scope *scope, const Syntax *syntax, const Expr *args, Expr *out, Diag *diag)
 {
     const Thing *thing = state_thing(scope->state, syntax->text);
-    int function = find_function(syntax->text);
-    int builder = find_builder(syntax->text);
+    bool is_known;
+    Function row;
 
-    if (is_figure(syntax->text) && (function < 0 || syntax->count == 1))
+    is_known = function_find(syntax->text, &row);
+    if (function_is_figure(syntax->text) && (!is_known || syntax->count == 1))
         return call_figure(scope, syntax, args, out, diag);
-    if (function >= 0)
-        return call_function(scope, syntax, function, args, out, diag);
-    if (builder >= 0) {
-        if (syntax->count > builders[builder].most && builders[builder].build == build_polygon)
-            return too_long(syntax, diag);
-        if (syntax->count < builders[builder].least || syntax->count > builders[builder].most)
-            return wrong_count(syntax, builders[builder].usage, diag);
-        return builders[builder].build(scope, syntax, args, out, diag);
-    }
+    if (is_known && row.kind == FUNCTION_OPERATION)
+        return call_function(scope, syntax, &row, args, out, diag);
+    if (is_known)
+        return call_shape(scope, syntax, &row, args, out, diag);
     if (thing != NULL && thing->kind == THING_DEFINITION)
         return call_law(scope, syntax, thing->index, args, out, diag);
     for (int i = 0; i < COUNT(entries); i++)

@@ -219,7 +219,6 @@ Status name_unknown(const State *state, const char *what, const char *name, Plac
                     Diag *diag);
 /* "a revolute", "a parameter": what a name is */
 void name_describe(const State *state, const Thing *thing, Text *text);
-bool function_takes_text(const char *name); /* file names among its arguments */
 /* the next name that matters for suggestions: 0, 1, ...; NULL at the end */
 const char *state_name_at(const State *state, int i);
 

@@ -2,7 +2,8 @@
  *
  * A variable's own name is its coordinate's ("theta1", "m1.x"), or owner and member
  * ("h9.fx"); primes follow behind it. */
-#include "model/habits.h"
+#include "language/functions.h"
+#include "language/habits.h"
 #include "model/model_impl.h"
 
 #include <ctype.h>
@@ -99,6 +100,7 @@ const char *state_name_at(const State *state, int i)
 Status name_unknown(const State *state, const char *what, const char *name, Place place, Diag *diag)
 {
     Suggest suggest = suggest_for(name);
+    Function row;
     Unit unit;
 
     for (int i = 0; state_name_at(state, i) != NULL; i++)
@@ -106,7 +108,7 @@ Status name_unknown(const State *state, const char *what, const char *name, Plac
     (void)diag_at(diag, E_NAME, place, "unknown %s '%s'", what, name);
     if (habit_hint(HABIT_NAME, name) != NULL)
         diag_hint(diag, "%s", habit_hint(HABIT_NAME, name));
-    else if (function_exists(name))
+    else if (function_find(name, &row))
         diag_hint(diag, "it is a function, and takes its argument in brackets: %s(x)", name);
     else if (suggest.best == NULL && (unit_find(name, &unit) || unit_spelled(name) != NULL))
         diag_hint(diag, "a unit stands behind a number, 2 m, and a compound one in brackets there: "

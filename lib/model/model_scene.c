@@ -1,6 +1,6 @@
 /* model_scene.c: scene, gravity, title; changing and deleting what is there */
+#include "language/verbs.h"
 #include "model/model_impl.h"
-#include "model/verbs.h"
 
 #include <assert.h>
 #include <string.h>

@@ -3,6 +3,7 @@
  * Numbers are exact where their decimals and units are; a unit turns its number to SI.
  * Parameters stay symbols, laws and outputs are put in place, variables become symbols
  * of their own names. A Scope says what may occur. */
+#include "language/functions.h"
 #include "model/model_impl.h"
 
 #include <math.h>

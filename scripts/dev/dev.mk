@@ -23,7 +23,7 @@ san/Makefile:
 
 # make lint PARTS="format size": only these
 lint:
-	@CC='$(CC)' CPPFLAGS='-D_GNU_SOURCE -I$(abs_top_builddir) $(GSL_CFLAGS) $(KLU_CFLAGS)' \
+	@BUILD='$(abs_top_builddir)' CC='$(CC)' CPPFLAGS='-D_GNU_SOURCE -I$(abs_top_builddir) $(GSL_CFLAGS) $(KLU_CFLAGS)' \
 		$(dev)/lint $(PARTS)
 
 format:

@@ -6,7 +6,7 @@
  * they read and write; the error is that of three waveforms against a run at 1e-11. ngspice is of
  * second order, so that its time at the program's error follows: t*sqrt(error/error'). */
 #include "formulate/system.h"
-#include "simulate/run.h"
+#include "simulate/run/run.h"
 
 #include "bench.h"
 #include "bench_model.h"

@@ -8,8 +8,8 @@
 #include "../unit/session_kit.h"
 #include "family.h"
 
-#include "simulate/spectrum.h"
-#include "simulate/transfer.h"
+#include "algebra/spectrum.h"
+#include "simulate/analyse/transfer.h"
 
 #include <math.h>
 

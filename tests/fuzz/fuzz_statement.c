@@ -2,7 +2,7 @@
 #include "mutate.h"
 
 #include "base/memory.h"
-#include "model/syntax.h"
+#include "language/syntax.h"
 
 #include <stdint.h>
 #include <string.h>

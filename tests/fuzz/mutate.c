@@ -7,7 +7,7 @@
 
 #include "base/memory.h"
 #include "base/text.h"
-#include "model/syntax.h"
+#include "language/syntax.h"
 
 #include <fcntl.h>
 #include <ftw.h>

@@ -4,7 +4,7 @@
 #ifndef COTREE_TESTS_SIMULATE_PROBLEMS_H
 #define COTREE_TESTS_SIMULATE_PROBLEMS_H
 
-#include "simulate/motion.h"
+#include "simulate/equations/motion.h"
 
 #include <math.h>
 #include <string.h>

@@ -6,7 +6,7 @@
 #define COTREE_TESTS_SIMULATE_SCRIPT_H
 
 #include "formulate/system.h"
-#include "simulate/run.h"
+#include "simulate/run/run.h"
 #include "test.h"
 
 /* what a test has differently from the script */

@@ -7,7 +7,7 @@
 
 #include "scene.h"
 
-#include "simulate/run.h"
+#include "simulate/run/run.h"
 
 #include <gsl/gsl_linalg.h>
 

@@ -1,8 +1,8 @@
 /* test_export.c: wrapping, named subexpressions, files in other formats */
-#include "export/abbreviate.h"
-#include "export/latex_lines.h"
-#include "export/layout.h"
 #include "export/write.h"
+#include "present/abbreviate.h"
+#include "present/latex_lines.h"
+#include "present/layout.h"
 #include "session_kit.h"
 
 #include <unistd.h>

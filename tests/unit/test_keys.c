@@ -1,7 +1,7 @@
 /* test_keys.c: keys that a verb has are read, others refused, and what is offered is there */
 #include "session_kit.h"
 
-#include "model/syntax.h"
+#include "language/syntax.h"
 
 /* the statement of the verb in its example, with `key` as something that isn't there */
 typedef struct Spoiled {

@@ -8,7 +8,7 @@
  * to the balance of energy. */
 #include "scene.h"
 
-#include "simulate/run.h"
+#include "simulate/run/run.h"
 
 #include <stdarg.h>
 

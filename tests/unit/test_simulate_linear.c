@@ -1,9 +1,9 @@
 /* test_simulate_linear.c: LU, KKT, embedded form, rank, least squares on matrices made up here */
-#include "simulate/embed.h"
-#include "simulate/kkt.h"
-#include "simulate/least.h"
-#include "simulate/linear.h"
-#include "simulate/rank.h"
+#include "algebra/kkt.h"
+#include "algebra/least.h"
+#include "algebra/linear.h"
+#include "algebra/rank.h"
+#include "simulate/equations/embed.h"
 
 #include "test.h"
 

@@ -1,5 +1,5 @@
 /* test_simulate_march.c: integrators, projection, switches on systems written by hand */
-#include "simulate/march.h"
+#include "simulate/run/march.h"
 
 #include "base/memory.h"
 #include "simulate_problems.h"

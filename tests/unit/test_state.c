@@ -2,7 +2,7 @@
 #include "session_kit.h"
 
 #include "formulate/state_space.h"
-#include "session_impl.h"
+#include "session/session_impl.h"
 
 /* --- closed forms --- */
 

@@ -2,7 +2,7 @@
 #include "test.h"
 
 #include "base/memory.h"
-#include "model/syntax.h"
+#include "language/syntax.h"
 
 #include <ftw.h>
 

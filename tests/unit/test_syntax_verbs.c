@@ -3,7 +3,7 @@
 
 #include "base/memory.h"
 #include "component/component.h"
-#include "model/syntax.h"
+#include "language/syntax.h"
 
 static bool is_empty(const char *text)
 {

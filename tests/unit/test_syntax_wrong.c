@@ -1,7 +1,7 @@
 /* test_syntax_wrong.c: wrong statements are refused at their place, with the way out */
 #include "test.h"
 
-#include "model/syntax.h"
+#include "language/syntax.h"
 #include "wrong.h"
 
 /* what refuses the statement: its text alone, or not */

@@ -5,7 +5,7 @@
  * start. */
 #include "scene.h"
 
-#include "simulate/run.h"
+#include "simulate/run/run.h"
 
 enum { MOST_PAIRS = 50, MOST_TRIES = 400 };
 

@@ -1,0 +1,34 @@
+/* kkt.h: the matrix [M G^T; G 0] of accelerations and multipliers
+ *
+ * M is nu x nu, symmetric, possibly singular; G holds the m constraint rows in use. Unknowns
+ * are scaled to unit mass and rows of G to unit mass-norm at its largest so far. Near a singular
+ * configuration a small -epsilon in the empty corner keeps the solution bounded, and sweeps of
+ * refinement against the true matrix take its effect back where the equations determine the answer
+ * (quasi-definite regularisation, Vanderbei 1995).
+ *
+ * A configuration is singular by its geometry, whatever the masses: what counts are the pivots of
+ * G G^T, columns and rows of G brought to like size. */
+#ifndef COTREE_ALGEBRA_KKT_H
+#define COTREE_ALGEBRA_KKT_H
+
+#include <stdbool.h>
+
+typedef struct Kkt Kkt;
+
+/* New, for m rows in use of `all`; free with kkt_free(). */
+Kkt *kkt_new(int nu, int m, int all);
+void kkt_free(Kkt *kkt); /* NULL is fine */
+/* Factor. `rows` picks the m rows of phi_u (row by row, nu columns); borrowed during the call.
+ * False when no solution can be had at all: M singular where nothing holds it, or NaN. O((nu+m)^3).
+ */
+bool kkt_factor(Kkt *kkt, const double *mass, const double *phi_u, const int *rows);
+/* of the last kkt_factor(): whether a singular configuration isn't far, and whether it is so near
+ * that epsilon is there */
+bool kkt_is_near_singular(const Kkt *kkt);
+bool kkt_is_regularised(const Kkt *kkt);
+/* relative size of what rounding may leave of speeds and accelerations there; 0: as elsewhere */
+double kkt_blur(const Kkt *kkt);
+/* M du + G^T lambda = top, G du = bottom. `top` may be NULL for 0; du may be `top`. O((nu+m)^2). */
+void kkt_solve(Kkt *kkt, const double *top, const double *bottom, double *du, double *lambda);
+
+#endif

@@ -1,0 +1,208 @@
+/* least.c: Levenberg-Marquardt in the form for few equations and many unknowns */
+#include "algebra/least.h"
+
+#include "algebra/linear.h"
+#include "base/memory.h"
+
+#include <math.h>
+#include <string.h>
+
+#define ITERATIONS 200
+#define RIDGE      1e-15 /* of the largest diagonal entry: keeps redundant rows solvable */
+
+typedef struct Least {
+    const Rows *rows;
+    const bool *held;
+    double *scale;            /* rows */
+    double *residual, *trial; /* rows, scaled */
+    double *jacobian;         /* rows x columns, scaled */
+    double *step, *weights;   /* columns; rows */
+    double *v, *next;         /* length */
+    Lu *lu;
+} Least;
+
+static void evaluate(Least *l, const double *v, double *residual, bool with_jacobian)
+{
+    int n = l->rows->columns;
+
+    l->rows->evaluate(l->rows->context, v, residual, with_jacobian ? l->jacobian : NULL);
+    for (int k = 0; k < l->rows->rows; k++) {
+        residual[k] *= l->scale[k];
+        for (int j = 0; with_jacobian && j < n; j++)
+            l->jacobian[k * n + j] *= l->held != NULL && l->held[j] ? 0 : l->scale[k];
+    }
+}
+
+static void choose_scale(Least *l, const double *weight)
+{
+    int n = l->rows->columns;
+    double largest = 0;
+
+    for (int k = 0; k < l->rows->rows; k++)
+        l->scale[k] = 1;
+    evaluate(l, l->v, l->residual, true);
+    for (int k = 0; k < l->rows->rows; k++) {
+        double norm = 0;
+
+        for (int j = 0; j < n; j++)
+            norm = hypot(norm, l->jacobian[k * n + j]);
+        l->scale[k] = norm;
+        largest = fmax(largest, norm);
+    }
+    for (int k = 0; k < l->rows->rows; k++) {
+        double norm = fmax(l->scale[k], 1e-3 * largest);
+
+        l->scale[k] = (weight != NULL ? weight[k] : 1) / (norm > 0 ? norm : 1);
+    }
+}
+
+static double norm_of(const double *v, int n)
+{
+    double sum = 0;
+
+    for (int i = 0; i < n; i++)
+        sum += v[i] * v[i];
+    return sqrt(sum);
+}
+
+/* a = J J^T. In coordinates of bodies a row has few entries, so only those are multiplied. */
+static void square(const Least *l, double *a)
+{
+    const int m = l->rows->rows, n = l->rows->columns;
+    int *place = NEW_ARRAY(int, n);
+
+    for (int i = 0; i < m; i++) {
+        const double *row = l->jacobian + (ptrdiff_t)i * n;
+        int count = 0;
+
+        for (int k = 0; k < n; k++)
+            if (row[k] != 0)
+                place[count++] = k;
+        for (int j = 0; j <= i; j++) {
+            const double *other = l->jacobian + (ptrdiff_t)j * n;
+            double sum = 0;
+
+            for (int k = 0; k < count; k++)
+                sum += row[place[k]] * other[place[k]];
+            a[i * m + j] = a[j * m + i] = sum;
+        }
+    }
+    mem_free(place);
+}
+
+/* l->step = -J^T (J J^T + damping 1)^-1 r; false when that can't be solved */
+static bool find_step(Least *l, double damping)
+{
+    int m = l->rows->rows, n = l->rows->columns;
+    double *a = lu_matrix(l->lu);
+    double largest = 0;
+
+    square(l, a);
+    for (int i = 0; i < m; i++)
+        largest = fmax(largest, a[i * m + i]);
+    for (int i = 0; i < m; i++)
+        a[i * m + i] += damping + RIDGE * fmax(largest, 1e-30);
+    if (!lu_factor(l->lu))
+        return false;
+    memcpy(l->weights, l->residual, (size_t)m * sizeof(double));
+    lu_solve(l->lu, l->weights);
+    for (int j = 0; j < n; j++) {
+        l->step[j] = 0;
+        for (int i = 0; i < m; i++)
+            l->step[j] -= l->jacobian[i * n + j] * l->weights[i];
+    }
+    return vector_is_finite(l->step, n);
+}
+
+static void take(Least *l)
+{
+    memcpy(l->next, l->v, (size_t)l->rows->length * sizeof(double));
+    if (l->rows->move != NULL)
+        l->rows->move(l->rows->context, l->next, l->step);
+    else
+        for (int j = 0; j < l->rows->columns; j++)
+            l->next[j] += l->step[j];
+    evaluate(l, l->next, l->trial, false);
+}
+
+/* what the linear model promises to be left after the step */
+static double promised(const Least *l)
+{
+    double sum = 0;
+
+    for (int i = 0; i < l->rows->rows; i++) {
+        double left = l->residual[i];
+
+        for (int j = 0; j < l->rows->columns; j++)
+            left += l->jacobian[i * l->rows->columns + j] * l->step[j];
+        sum += left * left;
+    }
+    return sqrt(sum);
+}
+
+/* Steps until nothing gets better. Damping follows how well the linear model told the step. */
+static void descend(Least *l, double tolerance)
+{
+    int m = l->rows->rows;
+    double mu = 1;
+
+    for (int i = 0, polish = 0; i < ITERATIONS && polish < 3; i++) {
+        double before, after, gain;
+
+        evaluate(l, l->v, l->residual, true);
+        before = norm_of(l->residual, m);
+        if (before == 0 || !find_step(l, mu * before))
+            return;
+        take(l);
+        after = norm_of(l->trial, m);
+        if (vector_largest(l->residual, m) < tolerance)
+            polish++;
+        if (!(after < before)) {
+            if (polish > 0)
+                return;
+            mu = mu * 4 + 1e-6;
+            if (mu > 1e12)
+                return;
+            continue;
+        }
+        memcpy(l->v, l->next, (size_t)l->rows->length * sizeof(double));
+        gain = (before - after) / fmax(before - promised(l), 1e-300);
+        mu *= gain > 0.75 ? 0.1 : gain > 0.25 ? 1 : 4;
+        if (before - after < 1e-12 * before && polish == 0)
+            return; /* a minimum that is no solution */
+    }
+}
+
+bool least_solve(const Rows *rows, const bool *held, const double *weight, double tolerance,
+                 double *v, double *residual)
+{
+    int m = rows->rows, n = rows->columns;
+    Least l = {.rows = rows,
+               .held = held,
+               .scale = NEW_ARRAY(double, m),
+               .residual = NEW_ARRAY(double, m),
+               .trial = NEW_ARRAY(double, m),
+               .jacobian = NEW_ARRAY(double, m *n),
+               .step = NEW_ARRAY(double, n),
+               .weights = NEW_ARRAY(double, m),
+               .v = v,
+               .next = NEW_ARRAY(double, rows->length),
+               .lu = lu_new(m)};
+    bool solved;
+
+    choose_scale(&l, weight);
+    descend(&l, tolerance);
+    evaluate(&l, v, l.residual, false);
+    solved = vector_largest(l.residual, m) < tolerance;
+    if (residual != NULL)
+        rows->evaluate(rows->context, v, residual, NULL);
+    mem_free(l.scale);
+    mem_free(l.residual);
+    mem_free(l.trial);
+    mem_free(l.jacobian);
+    mem_free(l.step);
+    mem_free(l.weights);
+    mem_free(l.next);
+    lu_free(l.lu);
+    return solved;
+}

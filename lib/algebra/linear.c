@@ -1,0 +1,174 @@
+/* linear.c: LU with partial pivoting, in place */
+#include "algebra/linear.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+#include <string.h>
+
+struct Lu {
+    int n;
+    double *a;      /* n x n: multipliers below, U on and above the diagonal */
+    int *exchanged; /* row that step k brought up */
+    int *filled; /* columns of the pivot row that aren't 0: systems of many bodies are mostly 0 */
+    double ratio;
+};
+
+Lu *lu_new(int n)
+{
+    Lu *lu = NEW(Lu);
+
+    lu->n = n;
+    lu->a = NEW_ARRAY(double, n *n);
+    lu->exchanged = NEW_ARRAY(int, n);
+    lu->filled = NEW_ARRAY(int, n);
+    return lu;
+}
+
+void lu_free(Lu *lu)
+{
+    if (lu == NULL)
+        return;
+    mem_free(lu->a);
+    mem_free(lu->exchanged);
+    mem_free(lu->filled);
+    mem_free(lu);
+}
+
+double *lu_matrix(Lu *lu)
+{
+    return lu->a;
+}
+
+double lu_pivot_ratio(const Lu *lu)
+{
+    return lu->ratio;
+}
+
+static int largest_below(const Lu *lu, int k)
+{
+    int best = k;
+
+    for (int i = k + 1; i < lu->n; i++)
+        if (fabs(lu->a[i * lu->n + k]) > fabs(lu->a[best * lu->n + k]))
+            best = i;
+    return best;
+}
+
+static void exchange(Lu *lu, int k, int p)
+{
+    double *a = lu->a + k * lu->n, *b = lu->a + p * lu->n;
+
+    lu->exchanged[k] = p;
+    for (int j = 0; j < lu->n && p != k; j++) {
+        double kept = a[j];
+
+        a[j] = b[j];
+        b[j] = kept;
+    }
+}
+
+/* rows below k less their share of row k */
+static void eliminate(Lu *lu, int k)
+{
+    int n = lu->n, count = 0;
+    const double *top = lu->a + k * n;
+
+    for (int j = k + 1; j < n; j++)
+        if (top[j] != 0)
+            lu->filled[count++] = j;
+    for (int i = k + 1; i < n; i++) {
+        double *row = lu->a + i * n;
+        double factor;
+
+        if (row[k] == 0)
+            continue;
+        factor = row[k] / top[k];
+        row[k] = factor;
+        if (2 * count < n - k)
+            for (int j = 0; j < count; j++)
+                row[lu->filled[j]] -= factor * top[lu->filled[j]];
+        else
+            for (int j = k + 1; j < n; j++)
+                row[j] -= factor * top[j];
+    }
+}
+
+bool lu_factor(Lu *lu)
+{
+    int n = lu->n;
+    double least = INFINITY, largest = 0;
+
+    lu->ratio = 0;
+    for (int k = 0; k < n; k++) {
+        double pivot;
+
+        exchange(lu, k, largest_below(lu, k));
+        pivot = fabs(lu->a[k * n + k]);
+        if (!(pivot > 0) || !isfinite(pivot))
+            return false;
+        least = fmin(least, pivot);
+        largest = fmax(largest, pivot);
+        eliminate(lu, k);
+    }
+    lu->ratio = n > 0 ? least / largest : 1;
+    return true;
+}
+
+void lu_solve(const Lu *lu, double *b)
+{
+    int n = lu->n;
+
+    for (int k = 0; k < n; k++) {
+        int p = lu->exchanged[k];
+        double kept = b[p];
+
+        b[p] = b[k];
+        b[k] = kept;
+    }
+    for (int i = 1; i < n; i++) {
+        const double *row = lu->a + i * n;
+        double sum = b[i];
+
+        for (int j = 0; j < i; j++)
+            sum -= row[j] * b[j];
+        b[i] = sum;
+    }
+    for (int i = n - 1; i >= 0; i--) {
+        const double *row = lu->a + i * n;
+        double sum = b[i];
+
+        for (int j = i + 1; j < n; j++)
+            sum -= row[j] * b[j];
+        b[i] = sum / row[i];
+    }
+}
+
+void matrix_times(const double *matrix, int rows, int columns, const double *v, double *out)
+{
+    for (int i = 0; i < rows; i++) {
+        double sum = 0;
+
+        for (int j = 0; j < columns; j++)
+            sum += matrix[i * columns + j] * v[j];
+        out[i] = sum;
+    }
+}
+
+double vector_largest(const double *v, int n)
+{
+    double largest = 0;
+
+    for (int i = 0; i < n; i++)
+        if (!(fabs(v[i]) <= largest))
+            largest = fabs(v[i]);
+    return largest;
+}
+
+bool vector_is_finite(const double *v, int n)
+{
+    for (int i = 0; i < n; i++)
+        if (!isfinite(v[i]))
+            return false;
+    return true;
+}

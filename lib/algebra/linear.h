@@ -1,0 +1,26 @@
+/* linear.h: small dense linear algebra without allocation in its use
+ *
+ * Matrices stand row by row. An Lu holds one square matrix and its factors; fill
+ * lu_matrix(), factor, then solve as often as wanted. */
+#ifndef COTREE_ALGEBRA_LINEAR_H
+#define COTREE_ALGEBRA_LINEAR_H
+
+#include <stdbool.h>
+
+typedef struct Lu Lu;
+
+Lu *lu_new(int n);         /* new, all 0; free with lu_free() */
+void lu_free(Lu *lu);      /* NULL is fine */
+double *lu_matrix(Lu *lu); /* n x n; overwritten by lu_factor() */
+/* Factor in place with row exchanges (Gauss). False when a pivot is 0 or not finite. O(n^3). */
+bool lu_factor(Lu *lu);
+/* least over largest pivot in size, of the last lu_factor(); 0 when singular */
+double lu_pivot_ratio(const Lu *lu);
+void lu_solve(const Lu *lu, double *b); /* b becomes the solution; O(n^2) */
+
+/* out = matrix * v, rows x columns */
+void matrix_times(const double *matrix, int rows, int columns, const double *v, double *out);
+double vector_largest(const double *v, int n); /* max |v_i|; NAN when one is */
+bool vector_is_finite(const double *v, int n);
+
+#endif

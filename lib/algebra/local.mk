@@ -1,0 +1,22 @@
+libcore_la_SOURCES += \
+  lib/algebra/blocks.c \
+  lib/algebra/blocks.h \
+  lib/algebra/kkt.c \
+  lib/algebra/kkt.h \
+  lib/algebra/least.c \
+  lib/algebra/least.h \
+  lib/algebra/linear.c \
+  lib/algebra/linear.h \
+  lib/algebra/matrix3.c \
+  lib/algebra/matrix3.h \
+  lib/algebra/rank.c \
+  lib/algebra/rank.h \
+  lib/algebra/schur.c \
+  lib/algebra/schur.h \
+  lib/algebra/sparse.c \
+  lib/algebra/sparse.h \
+  lib/algebra/spectrum.c \
+  lib/algebra/spectrum.h \
+  lib/algebra/square.c \
+  lib/algebra/square.h \
+  lib/algebra/wide.h

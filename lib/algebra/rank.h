@@ -1,0 +1,22 @@
+/* rank.h: which constraint rows say something new */
+#ifndef COTREE_ALGEBRA_RANK_H
+#define COTREE_ALGEBRA_RANK_H
+
+/* Rank of the m x nu matrix by QR with pivoting of its transpose, rows brought to unit size first;
+ * what is below `threshold` of the largest counts as 0. order[0..rank-1] are independent rows,
+ * rising; the rest, rising too, depend on them. order (m) may be NULL. O(nu m^2). Golub and Van
+ * Loan (2013), 5.4.2. */
+int rank_rows(const double *matrix, int m, int nu, double threshold, int *order);
+
+/* The `count` rows that are the least dependent on each other, rising, and what is told of them is
+ * rank_ratio(). O(nu m count). */
+double rank_choose(const double *matrix, int m, int nu, int count, int *rows);
+/* Least over largest pivot of some rows, brought to unit size first: how independent they are.
+ * O(nu count^2). */
+double rank_ratio(const double *matrix, int nu, const int *rows, int count);
+
+/* The least multipliers of those that give the same forces: lambda's part in the range of
+ * phi_u. In place. O(nu m^2). */
+void rank_least_multipliers(const double *phi_u, int m, int nu, double *lambda);
+
+#endif

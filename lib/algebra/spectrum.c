@@ -1,0 +1,638 @@
+/* spectrum.c: eigenvalues block by block, and how far each may be off
+ *
+ * A matrix is put into blocks that don't act back (blocks.h); a block is balanced, and its
+ * eigenvalues and vectors are found in numbers of twice the digits. The matrix is disturbed by what
+ * its entries may be off before, so that multiple eigenvalues split as far as they would under
+ * errors, and no farther; its first order is taken back from the eigenvalues at the end.
+ *
+ * With A = sum lambda_k x_k y_k^T an eigenvalue is off by |y|^T |dA| |x| (Stewart and Sun 1990).
+ * Of a group c about mu, which can't be told apart, none is farther from mu than r where the sum
+ * over j of theta_j/r^(j+1) is 1, theta_j being the spectral radius of |N_j| |dA|, N_j the sum over
+ * c of (lambda_k - mu)^j x_k y_k^T: the resolvent's principal part (Kato 1995, I.5). */
+#include "algebra/spectrum.h"
+
+#include "algebra/blocks.h"
+#include "algebra/schur.h"
+#include "base/memory.h"
+
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define UNIT       0x1p-53 /* an entry is a double at best */
+#define SECOND     2       /* of the first order, for what it leaves out */
+#define WITHIN     4       /* errors: m equal ones split to pi of them, and no farther */
+#define STRUCTURAL 1e3     /* of the method's rounding: what is below, and stays there, is 0 */
+
+/* of one block: right vectors as columns, left ones as rows */
+typedef struct Part {
+    int size;
+    const int *state;
+    WideComplex *right, *left;
+    double *error; /* size x size */
+    int first;     /* its first root */
+} Part;
+
+struct Spectrum {
+    int n;
+    double *a;
+    Blocks blocks;
+    Part *part;
+    Root *root;
+    double complex *value; /* of each root before groups were joined */
+    int *column;           /* of its part's vectors */
+    int *part_of;          /* by root */
+};
+
+/* --- roots --- */
+
+bool root_is_doubtful(const Root *root)
+{
+    return !root->is_on_axis && root->error > 0 && root->real == 0;
+}
+
+Root root_make(double complex value, double error)
+{
+    Root root = {.real = creal(value), .imaginary = cimag(value), .error = error};
+
+    if (fabs(root.real) <= error)
+        root.real = 0;
+    if (fabs(root.imaginary) <= error && root.real == 0)
+        root.imaginary = 0;
+    root.real += 0.0; /* never -0 */
+    return root;
+}
+
+double complex root_with_noise(double complex value, double noise, double *error)
+{
+    if (cabs(value) <= STRUCTURAL * noise && *error <= UNIT * STRUCTURAL * noise) {
+        *error = 0;
+        return 0;
+    }
+    *error += noise;
+    return value;
+}
+
+double perron_bound(const double *matrix, int n)
+{
+    double *v = NEW_ARRAY(double, n), *w = NEW_ARRAY(double, n);
+    double bound = 0;
+
+    for (int i = 0; i < n; i++)
+        v[i] = 1;
+    /* each round bounds it from above; a few come close */
+    for (int round = 0; round < 12; round++) {
+        double largest = 0;
+
+        bound = 0;
+        for (int i = 0; i < n; i++) {
+            w[i] = 0;
+            for (int j = 0; j < n; j++)
+                w[i] += matrix[i * n + j] * v[j];
+            if (!(w[i] / v[i] <= bound))
+                bound = w[i] / v[i];
+            largest = fmax(largest, w[i]);
+        }
+        if (!isfinite(bound) || largest == 0)
+            break;
+        /* a little of the old keeps all above 0 */
+        for (int i = 0; i < n; i++)
+            v[i] = w[i] / largest + 1e-3 * v[i];
+    }
+    mem_free(v);
+    mem_free(w);
+    return bound;
+}
+
+double disturbance(int i, int j)
+{
+    uint64_t z = ((uint64_t)i << 32) + (uint64_t)j + 0x9E3779B97F4A7C15U;
+
+    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9U; /* splitmix64 (Steele, Lea and Flood 2014) */
+    z = (z ^ (z >> 27)) * 0x94D049BB133111EBU;
+    return ((double)((z ^ (z >> 31)) >> 11) + 0.5) * 0x1p-52 - 1;
+}
+
+/* --- groups --- */
+
+typedef struct Groups {
+    const double complex *value;
+    int count;
+    int *group, *partner; /* of a root; the conjugate one, itself where real */
+    double complex *mean; /* of a group, by the number of its first root */
+    double *error;
+    int *members; /* room */
+    GroupError *error_of;
+    void *context;
+} Groups;
+
+/* Real ones are those that are farther from every other's conjugate than from their own. */
+static void find_partners(Groups *g)
+{
+    for (int i = 0; i < g->count; i++)
+        g->partner[i] = -1;
+    for (int i = 0; i < g->count; i++) {
+        double best = fabs(cimag(g->value[i]));
+
+        if (g->partner[i] >= 0)
+            continue;
+        g->partner[i] = i;
+        for (int j = i + 1; j < g->count; j++) {
+            const double off = cabs(g->value[i] - conj(g->value[j]));
+
+            if (g->partner[j] >= 0 || off >= best)
+                continue;
+            best = off;
+            g->partner[i] = j;
+        }
+        g->partner[g->partner[i]] = i;
+    }
+}
+
+static int members_of(const Groups *g, int group)
+{
+    int count = 0;
+
+    for (int i = 0; i < g->count; i++)
+        if (g->group[i] == group)
+            g->members[count++] = i;
+    return count;
+}
+
+static void measure(Groups *g, int group)
+{
+    const int count = members_of(g, group);
+    bool is_real = true;
+    double complex sum = 0;
+    double spread = 0;
+    int mirror;
+
+    for (int k = 0; k < count; k++) {
+        sum += g->value[g->members[k]] / count;
+        is_real = is_real && g->group[g->partner[g->members[k]]] == group;
+    }
+    g->mean[group] = is_real ? creal(sum) : sum;
+    for (int k = 0; k < count; k++)
+        spread = fmax(spread, cabs(g->value[g->members[k]] - sum));
+    g->error[group] = fmax(spread, g->error_of(g->context, g->members, count, sum));
+    /* the conjugate ones exactly */
+    mirror = g->group[g->partner[group]];
+    g->mean[mirror] = conj(g->mean[group]);
+    g->error[mirror] = g->error[group];
+}
+
+static int unite(Groups *g, int one, int other)
+{
+    const int kept = one < other ? one : other, gone = one < other ? other : one;
+
+    for (int i = 0; i < g->count; i++)
+        if (g->group[i] == gone)
+            g->group[i] = kept;
+    return kept;
+}
+
+/* the two groups about within each other's errors that are closest */
+static bool closest_groups(const Groups *g, int *one, int *other)
+{
+    double best = INFINITY;
+
+    for (int i = 0; i < g->count; i++)
+        for (int j = i + 1; j < g->count; j++) {
+            double off;
+
+            if (g->group[i] != i || g->group[j] != j)
+                continue;
+            off = cabs(g->mean[i] - g->mean[j]);
+            if (off > WITHIN * (g->error[i] + g->error[j]) || off >= best)
+                continue;
+            best = off;
+            *one = i;
+            *other = j;
+        }
+    return isfinite(best);
+}
+
+void roots_join(const double complex *value, const double *error, int count, GroupError *error_of,
+                void *context, Root *out)
+{
+    Groups g = {value,
+                count,
+                NEW_ARRAY(int, count),
+                NEW_ARRAY(int, count),
+                mem_array((size_t)count, sizeof(double complex)),
+                NEW_ARRAY(double, count),
+                NEW_ARRAY(int, count),
+                error_of,
+                context};
+    int one = 0, other = 0;
+
+    find_partners(&g);
+    for (int i = 0; i < count; i++) {
+        const int p = g.partner[i];
+
+        g.group[i] = i;
+        /* conjugate ones exactly */
+        g.mean[i] = p == i ? creal(value[i]) : (value[i] + conj(value[p])) / 2;
+        g.error[i] = fmax(error[i], error[p]);
+    }
+    while (closest_groups(&g, &one, &other)) {
+        const int mirror_one = g.group[g.partner[one]], mirror_other = g.group[g.partner[other]];
+        const int kept = unite(&g, one, other);
+
+        (void)unite(&g, g.group[mirror_one], g.group[mirror_other]);
+        measure(&g, g.group[kept]);
+    }
+    for (int i = 0; i < count; i++)
+        out[i] = root_make(g.mean[g.group[i]], SECOND * g.error[g.group[i]]);
+    mem_free(g.group);
+    mem_free(g.partner);
+    mem_free(g.mean);
+    mem_free(g.error);
+    mem_free(g.members);
+}
+
+/* --- one block --- */
+
+/* sum over members of (lambda - mean)^power x y^T, in size, times dA: its spectral radius */
+static double theta(const Part *part, const double complex *value, const int *members, int count,
+                    double complex mean, int power)
+{
+    const int n = part->size;
+    double *product = NEW_ARRAY(double, n *n);
+    double radius;
+
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < n; j++) {
+            WideComplex sum = wide_real(wide_of(0));
+            double size;
+
+            for (int k = 0; k < count; k++) {
+                const int m = members[k];
+                WideComplex term = wide_cmul(part->right[i * n + m], part->left[m * n + j]);
+
+                for (int p = 0; p < power; p++)
+                    term = wide_cmul(term, wide_from(value[m] - mean));
+                sum = wide_cadd(sum, term);
+            }
+            size = cabs(wide_to(sum));
+            for (int c = 0; c < n && size > 0; c++)
+                product[i * n + c] += size * part->error[j * n + c];
+        }
+    radius = perron_bound(product, n);
+    mem_free(product);
+    return radius;
+}
+
+typedef struct Grouping {
+    const Part *part;
+    const double complex *value; /* as disturbed */
+} Grouping;
+
+/* r = max (m theta_j)^(1/(j+1)) has a sum of 1 at most */
+static double group_error(void *context, const int *members, int count, double complex mean)
+{
+    const Grouping *g = context;
+    double complex middle = 0;
+    double radius = 0;
+
+    (void)mean;
+    for (int k = 0; k < count; k++)
+        middle += g->value[members[k]] / count;
+    for (int power = 0; power < count; power++)
+        radius = fmax(radius, pow(count * theta(g->part, g->value, members, count, middle, power),
+                                  1.0 / (power + 1)));
+    return radius;
+}
+
+/* |y|^T |dA| |x|, and y^T d x of the disturbance d */
+static double single_error(const Part *part, int k, const double *disturbed, double complex *moved)
+{
+    const int n = part->size;
+    double sum = 0;
+
+    *moved = 0;
+    for (int i = 0; i < n; i++) {
+        const double complex y = wide_to(part->left[k * n + i]);
+        double complex row = 0;
+        double size = 0;
+
+        for (int j = 0; j < n; j++) {
+            const double complex x = wide_to(part->right[j * n + k]);
+
+            size += part->error[i * n + j] * cabs(x);
+            row += disturbed[i * n + j] * x;
+        }
+        sum += cabs(y) * size;
+        *moved += y * row;
+    }
+    return sum;
+}
+
+/* what the method rounds, which has the scaled matrix as a whole before it */
+static double method_error(const Part *part, const double *block, const double *scale, int k)
+{
+    const int n = part->size;
+    double norm = 0, x = 0, y = 0;
+
+    for (int i = 0; i < n; i++) {
+        double row = 0;
+
+        for (int j = 0; j < n; j++)
+            row += fabs(block[i * n + j]) * scale[i] / scale[j];
+        norm = fmax(norm, row);
+        x = fmax(x, scale[i] * cabs(wide_to(part->right[i * n + k])));
+        y += cabs(wide_to(part->left[k * n + i])) / scale[i];
+    }
+    return n * WIDE_UNIT * norm * x * y;
+}
+
+/* eigenvalues and vectors of the block as it is scaled and disturbed */
+static bool decompose(const Part *part, const double *block, const double *disturbed,
+                      const double *scale, double complex *value)
+{
+    const int n = part->size;
+    Wide *a = NEW_ARRAY(Wide, n * n);
+    WideComplex *t = NEW_ARRAY(WideComplex, n * n), *z = NEW_ARRAY(WideComplex, n * n);
+    bool sound;
+
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < n; j++)
+            a[i * n + j] =
+                wide_times(wide_sum(block[i * n + j], disturbed[i * n + j]), scale[i] / scale[j]);
+    sound = schur(a, n, t, z);
+    if (sound)
+        schur_vectors(t, z, n, part->right, part->left);
+    for (int i = 0; i < n && sound; i++) {
+        value[i] = wide_to(t[i * n + i]);
+        sound = isfinite(cabs(value[i]));
+        for (int k = 0; k < n; k++) {
+            part->right[i * n + k] = wide_ctimes(part->right[i * n + k], wide_of(1 / scale[i]));
+            part->left[k * n + i] = wide_ctimes(part->left[k * n + i], wide_of(scale[i]));
+        }
+    }
+    mem_free(a);
+    mem_free(t);
+    mem_free(z);
+    return sound;
+}
+
+/* the largest entry of each right vector about 1 */
+static void normalise(const Part *part)
+{
+    const int n = part->size;
+
+    for (int k = 0; k < n; k++) {
+        double largest = 0, scale;
+
+        for (int i = 0; i < n; i++)
+            largest = fmax(largest, wide_size(part->right[i * n + k]));
+        if (!(largest > 0 && isfinite(largest)))
+            continue;
+        scale = ldexp(1, -ilogb(largest));
+        for (int i = 0; i < n; i++) {
+            part->right[i * n + k] = wide_ctimes(part->right[i * n + k], wide_of(scale));
+            part->left[k * n + i] = wide_ctimes(part->left[k * n + i], wide_of(1 / scale));
+        }
+    }
+}
+
+static void place_on_axis(const Part *part, const double *block, Root *root)
+{
+    const int n = part->size;
+    bool *pattern = NEW_ARRAY(bool, n *n);
+    int near = 0;
+
+    for (int i = 0; i < n * n; i++)
+        pattern[i] = block[i] != 0 || part->error[i] != 0;
+    if (blocks_alternate(pattern, n))
+        for (int k = 0; k < n; k++) {
+            /* mirrored about the axis it would be another within its error */
+            near = 0;
+            for (int j = 0; j < n; j++)
+                near += hypot(root[j].real + root[k].real, root[j].imaginary - root[k].imaginary) <=
+                        root[j].error + root[k].error;
+            root[k].is_on_axis = root[k].real == 0 && near == 1;
+            if (root[k].is_on_axis && root[k].imaginary == 0)
+                root[k].error = 0;
+        }
+    mem_free(pattern);
+}
+
+static bool solve_part(const Part *part, const double *block, double complex *value, Root *root)
+{
+    const int n = part->size;
+    double *scale = NEW_ARRAY(double, n), *size = NEW_ARRAY(double, n *n);
+    double *disturbed = NEW_ARRAY(double, n *n), *error = NEW_ARRAY(double, n);
+    double complex *taken_back = mem_array((size_t)n, sizeof *taken_back);
+    Grouping grouping = {part, value};
+    bool sound;
+
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < n; j++) {
+            const int k = i * n + j;
+
+            part->error[k] = fmax(part->error[k], UNIT * fabs(block[k]));
+            size[k] = fabs(block[k]) + part->error[k];
+            disturbed[k] = disturbance(i, j) * part->error[k];
+        }
+    balance(size, n, scale);
+    sound = decompose(part, block, disturbed, scale, value);
+    if (sound)
+        normalise(part);
+    for (int k = 0; k < n && sound; k++) {
+        double complex moved;
+
+        error[k] = single_error(part, k, disturbed, &moved);
+        taken_back[k] =
+            root_with_noise(value[k] - moved, method_error(part, block, scale, k), &error[k]);
+    }
+    if (sound) {
+        roots_join(taken_back, error, n, group_error, &grouping, root);
+        place_on_axis(part, block, root);
+    }
+    mem_free(scale);
+    mem_free(size);
+    mem_free(disturbed);
+    mem_free(error);
+    mem_free(taken_back);
+    return sound;
+}
+
+/* --- all blocks --- */
+
+static bool fill_part(Spectrum *s, const double *error, int b, int first)
+{
+    const int size = s->blocks.start[b + 1] - s->blocks.start[b];
+    Part *part = &s->part[b];
+    double *block = NEW_ARRAY(double, size *size);
+    bool sound = true;
+
+    *part = (Part){size,
+                   s->blocks.order + s->blocks.start[b],
+                   NEW_ARRAY(WideComplex, size * size),
+                   NEW_ARRAY(WideComplex, size * size),
+                   NEW_ARRAY(double, size *size),
+                   first};
+    for (int i = 0; i < size; i++)
+        for (int j = 0; j < size; j++) {
+            block[i * size + j] = s->a[part->state[i] * s->n + part->state[j]];
+            part->error[i * size + j] = error[part->state[i] * s->n + part->state[j]];
+        }
+    if (size == 1) {
+        s->value[first] = block[0];
+        s->root[first] = root_make(block[0], part->error[0]);
+        part->right[0] = part->left[0] = wide_real(wide_of(1));
+    } else {
+        sound = solve_part(part, block, s->value + first, s->root + first);
+    }
+    for (int k = 0; k < size; k++) {
+        s->part_of[first + k] = b;
+        s->column[first + k] = k;
+    }
+    mem_free(block);
+    return sound;
+}
+
+/* of a pair the one above the axis first: roots of a part in order */
+static int by_place(const void *a, const void *b)
+{
+    const Root *x = a, *y = b;
+
+    if (x->real != y->real)
+        return x->real > y->real ? -1 : 1;
+    if (fabs(x->imaginary) != fabs(y->imaginary))
+        return fabs(x->imaginary) < fabs(y->imaginary) ? -1 : 1;
+    return (x->imaginary < y->imaginary) - (x->imaginary > y->imaginary);
+}
+
+static void sort_part(Spectrum *s, const Part *part)
+{
+    for (int i = part->first + 1; i < part->first + part->size; i++)
+        for (int k = i; k > part->first && by_place(&s->root[k - 1], &s->root[k]) > 0; k--) {
+            const Root root = s->root[k];
+            const double complex value = s->value[k];
+            const int column = s->column[k];
+
+            s->root[k] = s->root[k - 1];
+            s->value[k] = s->value[k - 1];
+            s->column[k] = s->column[k - 1];
+            s->root[k - 1] = root;
+            s->value[k - 1] = value;
+            s->column[k - 1] = column;
+        }
+}
+
+Spectrum *spectrum_new(const double *a, const double *error, int n)
+{
+    Spectrum *s = NEW(Spectrum);
+    bool *pattern = NEW_ARRAY(bool, n *n);
+    bool sound = true;
+
+    s->n = n;
+    s->a = NEW_ARRAY(double, n *n);
+    s->root = NEW_ARRAY(Root, n);
+    s->value = mem_array((size_t)n, sizeof *s->value);
+    s->column = NEW_ARRAY(int, n);
+    s->part_of = NEW_ARRAY(int, n);
+    for (int i = 0; i < n * n; i++) {
+        s->a[i] = a[i];
+        pattern[i] = a[i] != 0 || error[i] != 0;
+        sound = sound && isfinite(a[i]) && isfinite(error[i]);
+    }
+    s->blocks = blocks_find(pattern, n);
+    s->part = NEW_ARRAY(Part, s->blocks.count);
+    for (int b = 0; b < s->blocks.count && sound; b++) {
+        sound = fill_part(s, error, b, s->blocks.start[b]);
+        if (sound)
+            sort_part(s, &s->part[b]);
+    }
+    mem_free(pattern);
+    if (sound)
+        return s;
+    spectrum_free(s);
+    return NULL;
+}
+
+void spectrum_free(Spectrum *spectrum)
+{
+    if (spectrum == NULL)
+        return;
+    for (int b = 0; b < spectrum->blocks.count; b++) {
+        mem_free(spectrum->part[b].right);
+        mem_free(spectrum->part[b].left);
+        mem_free(spectrum->part[b].error);
+    }
+    blocks_free(&spectrum->blocks);
+    mem_free(spectrum->part);
+    mem_free(spectrum->a);
+    mem_free(spectrum->root);
+    mem_free(spectrum->value);
+    mem_free(spectrum->column);
+    mem_free(spectrum->part_of);
+    mem_free(spectrum);
+}
+
+const Root *spectrum_roots(const Spectrum *spectrum)
+{
+    return spectrum->root;
+}
+
+/* --- vectors --- */
+
+static void shrink(WideComplex *x, int n)
+{
+    double largest = 0;
+
+    for (int i = 0; i < n; i++)
+        largest = fmax(largest, wide_size(x[i]));
+    if (largest > 0 && isfinite(largest))
+        for (int i = 0; i < n; i++)
+            x[i] = wide_ctimes(x[i], wide_of(ldexp(1, -ilogb(largest))));
+}
+
+/* Carry x on into a part that root k's acts on: (lambda - A) x = what acts on it. */
+static void carry_on(const Spectrum *s, const Part *part, int k, WideComplex *x)
+{
+    const int m = part->size;
+    WideComplex *force = NEW_ARRAY(WideComplex, m);
+    bool moves = false;
+
+    for (int i = 0; i < m; i++)
+        for (int j = 0; j < s->n; j++)
+            if (wide_size(x[j]) > 0 && s->a[part->state[i] * s->n + j] != 0) {
+                force[i] = wide_cadd(force[i],
+                                     wide_ctimes(x[j], wide_of(s->a[part->state[i] * s->n + j])));
+                moves = true;
+            }
+    for (int r = 0; r < m && moves; r++) {
+        const int other = part->first + r, column = s->column[other];
+        const double least =
+            fmax(fmax(s->root[k].error + s->root[other].error, 1e-100), UNIT * cabs(s->value[k]));
+        const double complex off = s->value[k] - s->value[other];
+        WideComplex share = wide_real(wide_of(0));
+
+        for (int i = 0; i < m; i++)
+            share = wide_cadd(share, wide_cmul(part->left[column * m + i], force[i]));
+        share = wide_cdiv(share, wide_from(cabs(off) > least ? off : least));
+        for (int i = 0; i < m; i++)
+            x[part->state[i]] =
+                wide_cadd(x[part->state[i]], wide_cmul(part->right[i * m + column], share));
+    }
+    if (moves)
+        shrink(x, s->n);
+    mem_free(force);
+}
+
+void spectrum_vector(const Spectrum *s, int k, double complex *out)
+{
+    const Part *own = &s->part[s->part_of[k]];
+    WideComplex *x = NEW_ARRAY(WideComplex, s->n);
+
+    for (int i = 0; i < own->size; i++)
+        x[own->state[i]] = own->right[i * own->size + s->column[k]];
+    for (int b = s->part_of[k] + 1; b < s->blocks.count; b++)
+        carry_on(s, &s->part[b], k, x);
+    for (int i = 0; i < s->n; i++)
+        out[i] = wide_to(x[i]);
+    mem_free(x);
+}

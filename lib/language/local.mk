@@ -1,0 +1,23 @@
+libcore_la_SOURCES += \
+  lib/language/expression.c \
+  lib/language/functions.c \
+  lib/language/functions.h \
+  lib/language/habits.c \
+  lib/language/habits.h \
+  lib/language/lexer.c \
+  lib/language/lexer.h \
+  lib/language/operand.c \
+  lib/language/parser.c \
+  lib/language/parser.h \
+  lib/language/quantity.c \
+  lib/language/shape.c \
+  lib/language/statement.c \
+  lib/language/syntax.h \
+  lib/language/syntax_print.c \
+  lib/language/verbs.c \
+  lib/language/verbs.h \
+  lib/language/verbs_build.c \
+  lib/language/verbs_later.c \
+  lib/language/verbs_look.c \
+  lib/language/verbs_run.c \
+  lib/language/verbs_session.c

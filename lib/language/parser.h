@@ -1,0 +1,79 @@
+/* parser.h: tokens to expression trees; what statement.c and parser.c share */
+#ifndef COTREE_LANGUAGE_PARSER_H
+#define COTREE_LANGUAGE_PARSER_H
+
+#include "language/lexer.h"
+#include "language/syntax.h"
+
+typedef struct Parser {
+    const char *text;
+    Pool *pool;               /* borrowed; trees live there */
+    LIST(Token) tokens;       /* of one statement, TOKEN_END last */
+    int at;                   /* the token to read */
+    LIST(Syntax *) arguments; /* of the calls and vectors that are open */
+    int depth;                /* of brackets, signs and statements within each other */
+    int brackets;             /* that are open */
+    bool prints;              /* a ">" outside brackets writes to a file */
+    bool lists;               /* a "[" behind an expression outside brackets shows it in a unit */
+    const char *const *stops; /* words that end an operand; NULL: none */
+    const Verb *row;          /* whose operands are read; NULL: none */
+    SyntaxOptions options;
+    Diag *diag;
+} Parser;
+
+/* Read the tokens of a statement. */
+MUST_USE Status parser_start(Parser *parser, Lexer *lexer);
+void parser_free(Parser *parser);
+
+const Token *parser_token(const Parser *parser);       /* to be read next */
+const Token *parser_peek(const Parser *parser, int n); /* the n-th behind it */
+const Token *parser_before(const Parser *parser);      /* read last */
+bool token_is(const Token *token, const char *symbol);
+/* "'x'", "the end of the statement" ...; may use `room` */
+const char *token_describe(const Token *token, char room[], size_t size);
+bool parser_sees(const Parser *parser, const char *symbol);
+bool parser_take(Parser *parser, const char *symbol); /* read it if it is there */
+bool parser_ends(const Parser *parser);
+bool parser_took_comma(const Parser *parser);      /* as the token before */
+bool parser_sees_pair(const Parser *parser);       /* path { "'" } "=" */
+bool parser_sees_place(const Parser *parser);      /* a path or 0 */
+bool parser_sees_comparison(const Parser *parser); /* its sign */
+bool parser_sees_stop(const Parser *parser); /* a stop word, or ">" where it writes to a file */
+
+/* E_SYNTAX "expected WHAT before/at ..." at the next token */
+Status parser_expected(const Parser *parser, const char *what);
+/* E_SYNTAX "unexpected ..." at the next token, with the hint that its kind calls for */
+/* 2,5 where one value stands: a hint, and true */
+bool parser_hint_comma(const Parser *parser);
+Status parser_unexpected(const Parser *parser);
+/* E_SYNTAX where the bracket `open` should be closed */
+Status parser_unclosed(const Parser *parser, const Token *open);
+/* depth of what may call itself; leave with parser->depth-- */
+MUST_USE Status parser_enter(Parser *parser);
+
+/* A new node without arguments; in the parser's pool. */
+Syntax *syntax_new(Parser *parser, SyntaxKind kind, const char *text, Place place);
+/* Give a node the arguments put aside since there were `start`. Fails where the tree gets too
+ * high. */
+MUST_USE Status syntax_take(Parser *parser, Syntax *node, int start);
+
+/* Each reads what its line of the grammar says, and fails at the place. */
+MUST_USE Status parse_expression(Parser *parser, Syntax **out);
+MUST_USE Status parse_sum(Parser *parser, Syntax **out);
+MUST_USE Status parse_primary(Parser *parser, Syntax **out);
+MUST_USE Status parse_unit(Parser *parser, Syntax *node);         /* in brackets */
+MUST_USE Status parse_literal_unit(Parser *parser, Syntax *node); /* if there is one */
+MUST_USE Status parse_shown(Parser *parser, Syntax **out);        /* sum [ unit ] */
+MUST_USE Status parse_item(Parser *parser, Syntax **out);
+MUST_USE Status parse_place(Parser *parser, Syntax **out);
+MUST_USE Status parse_edge(Parser *parser, Syntax **out); /* a place, or a path in brackets */
+MUST_USE Status parse_word(Parser *parser, Syntax **out); /* NAME, NUMBER without unit or STRING */
+MUST_USE Status parse_name(Parser *parser, const Token **out); /* NAME without a dot */
+MUST_USE Status parse_path(Parser *parser, const char **path, int *primes, Place *place);
+MUST_USE Status parse_shape(Parser *parser, Statement *statement); /* what follows its verb */
+MUST_USE Status parse_statement(Parser *parser, Statement *statement);
+
+/* E_NAME where a name can't be given another meaning */
+MUST_USE Status parser_check_reserved(const Parser *parser, const Token *name);
+
+#endif

@@ -1,0 +1,462 @@
+/* statement.c: texts to statements
+ *
+ * statement = NAME "=" expr
+ *           | NAME "(" NAME { "," NAME } ")" "=" expr
+ *           | "?" [ WORD ]
+ *           | [ "virtual" ] VERB { operand [ "," ] } { pair [ "," ] } [ ":" statement ]
+ *             [ redirect ] ; */
+#include "component/component.h"
+#include "language/habits.h"
+#include "language/parser.h"
+#include "language/verbs.h"
+
+#include <string.h>
+
+/* --- verbs --- */
+
+static Status ambiguous_verb(const Parser *parser, const Token *token)
+{
+    size_t length = strlen(token->text);
+    Text list = {0};
+    Verb verb;
+
+    for (int i = 0; verb_at(i, &verb); i++)
+        if (strncmp(verb.name, token->text, length) == 0 && !verb.later)
+            text_addf(&list, "%s%s", list.length > 0 ? ", " : "", verb.name);
+    (void)diag_at(parser->diag, E_NAME, token->place, "'%s' is ambiguous: %s", token->text,
+                  list.at);
+    diag_hint(parser->diag, "write a letter more");
+    text_free(&list);
+    return E_NAME;
+}
+
+/* How many verbs start so; *verb is the last of them. */
+static int find_shortened(const char *word, Verb *verb)
+{
+    int count = 0;
+    Verb row;
+
+    for (int i = 0; verb_any(i, &row); i++)
+        if (!row.later && strncmp(row.name, word, strlen(word)) == 0) {
+            *verb = row;
+            count++;
+        }
+    return count;
+}
+
+/* x := 3, x == 3, x += 3 */
+static bool is_assignment(const Parser *parser)
+{
+    const Token *sign = parser_peek(parser, 1);
+
+    return token_is(sign, "==") || (strchr(":+-*/", sign->text[0]) != NULL &&
+                                    sign->text[0] != '\0' && token_is(parser_peek(parser, 2), "="));
+}
+
+static Status unknown_verb(const Parser *parser, const Token *token)
+{
+    Suggest suggest = suggest_for(token->text);
+    const Token *behind = parser_peek(parser, 1);
+    Verb verb;
+
+    (void)diag_at(parser->diag, E_NAME, token->place, "unknown command '%s'", token->text);
+    for (int i = 0; verb_any(i, &verb); i++)
+        suggest_offer(&suggest, verb.name);
+    if (is_assignment(parser))
+        diag_hint(parser->diag, "a parameter is written %s = ...", token->text);
+    else if (habit_hint(HABIT_VERB, token->text) != NULL)
+        diag_hint(parser->diag, "%s", habit_hint(HABIT_VERB, token->text));
+    else if (behind->kind == TOKEN_SYMBOL && strcmp(behind->text, "(") == 0 && !behind->touches)
+        diag_hint(parser->diag, "the bracket of a law touches its name: %s(x) = ...", token->text);
+    else if (!parser->options.shortened && find_shortened(token->text, &verb) == 1)
+        diag_hint(parser->diag, "a script spells words out: '%s'", verb.name);
+    else if (suggest.best != NULL)
+        diag_hint(parser->diag, "did you mean '%s'?", suggest.best);
+    else
+        diag_hint(parser->diag, "'help' lists the commands; to see a value: print %s", token->text);
+    return E_NAME;
+}
+
+static Status find_verb(Parser *parser, const Token *token, Verb *verb)
+{
+    Verb found;
+    int count;
+
+    if (verb_find(token->text, verb))
+        return OK;
+    if (!parser->options.shortened)
+        return unknown_verb(parser, token);
+    count = find_shortened(token->text, &found);
+    if (count == 0)
+        return unknown_verb(parser, token);
+    if (count > 1)
+        return ambiguous_verb(parser, token);
+    *verb = found;
+    return OK;
+}
+
+static Status parse_verb(Parser *parser, Statement *statement)
+{
+    const Token *token = parser_token(parser);
+    Status status = OK;
+
+    CHECK(find_verb(parser, token, &statement->row));
+    parser->at++;
+    if (strcmp(statement->row.name, "virtual") == 0) {
+        token = parser_token(parser);
+        if (token->kind != TOKEN_PATH) {
+            (void)parser_expected(parser, "a joint's keyword");
+            diag_hint(parser->diag, "usage: %s", statement->row.usage);
+            return E_SYNTAX;
+        }
+        CHECK(find_verb(parser, token, &statement->row));
+        parser->at++;
+        if (!statement->row.later && (statement->row.component == NULL ||
+                                      statement->row.component->family != FAMILY_JOINT)) {
+            (void)diag_at(parser->diag, E_SYNTAX, token->place, "'%s' can't be virtual",
+                          token->text);
+            diag_hint(parser->diag, "only joints can, as in: virtual revolute vh16 m1 m3");
+            return E_SYNTAX;
+        }
+        statement->is_virtual = true;
+    }
+    statement->kind = STATEMENT_VERB;
+    statement->verb = statement->row.name;
+    statement->verb_place = token->place;
+    CHECK(parse_shape(parser, statement));
+done:
+    return status;
+}
+
+/* "?" [ WORD ] */
+static Status parse_question(Parser *parser, Statement *statement)
+{
+    statement->kind = STATEMENT_VERB;
+    statement->verb = "help";
+    statement->verb_place = parser_token(parser)->place;
+    (void)verb_find("help", &statement->row);
+    parser->at++;
+    return parse_shape(parser, statement);
+}
+
+/* --- definitions --- */
+
+static bool is_function(const char *name)
+{
+    static const char *const more[] = {"pulse", "pwl", "table", "mean", "rms", "normal", "uniform"};
+    static const char *const operations[] = {
+#define OP(id, text, ...) text,
+#include "expr/ops.def"
+#undef OP
+    };
+
+    for (int i = 0; i < COUNT(operations); i++)
+        if (strcmp(name, operations[i]) == 0)
+            return true;
+    for (int i = 0; i < COUNT(more); i++)
+        if (strcmp(name, more[i]) == 0)
+            return true;
+    return false;
+}
+
+/* the tokens between a name and "=" of `NAME ( ... ) =`; 0: it is no law */
+static int law_length(const Parser *parser)
+{
+    int n = 1;
+
+    if (parser_peek(parser, 1)->text[0] != '(' || parser_peek(parser, 1)->kind != TOKEN_SYMBOL ||
+        !parser_peek(parser, 1)->touches)
+        return 0;
+    while (parser_peek(parser, n)->kind != TOKEN_END &&
+           strcmp(parser_peek(parser, n)->text, ")") != 0)
+        n++;
+    return parser_peek(parser, n + 1)->kind == TOKEN_SYMBOL &&
+                   strcmp(parser_peek(parser, n + 1)->text, "=") == 0
+               ? n
+               : 0;
+}
+
+static Status check_defined_name(const Parser *parser, const Token *name, bool law)
+{
+    Text usage = {0};
+    Verb verb;
+
+    if (verb_find(name->text, &verb)) {
+        verb_usage(&usage, &verb);
+        (void)diag_at(parser->diag, E_NAME, name->place, "'%s' is a command and can't be a %s",
+                      name->text, law ? "law" : "parameter");
+        diag_hint(parser->diag, "as a command: %s", usage.at != NULL ? usage.at : verb.name);
+        text_free(&usage);
+        return E_NAME;
+    }
+    if (law && is_function(name->text)) {
+        (void)diag_at(parser->diag, E_NAME, name->place, "'%s' is a function and can't be a law",
+                      name->text);
+        diag_hint(parser->diag, "choose another name");
+        return E_NAME;
+    }
+    return parser_check_reserved(parser, name);
+}
+
+static Status parse_definition_value(Parser *parser, Statement *statement)
+{
+    Status status = OK;
+
+    CHECK(parse_expression(parser, &statement->value));
+    if (parser_ends(parser))
+        return OK;
+    if (parser_sees(parser, ">") || parser_sees(parser, ">>")) {
+        (void)diag_at(parser->diag, E_SYNTAX, parser_token(parser)->place,
+                      "a definition prints nothing that could go to a file");
+        diag_hint(parser->diag, "to see its value: print %s", statement->name);
+        return E_SYNTAX;
+    }
+    (void)parser_unexpected(parser);
+    if (parser_sees_pair(parser))
+        diag_hint(parser->diag, "statements on one line stand between ';'");
+    else if (parser_token(parser)->kind == TOKEN_PATH)
+        diag_hint(parser->diag, "a product needs its *");
+    status = E_SYNTAX;
+done:
+    return status;
+}
+
+/* NAME "=" expr */
+static Status parse_parameter(Parser *parser, Statement *statement)
+{
+    Status status = OK;
+    const Token *name;
+
+    CHECK(parse_name(parser, &name));
+    CHECK(check_defined_name(parser, name, false));
+    statement->kind = STATEMENT_PARAMETER;
+    statement->name = name->text;
+    statement->name_place = name->place;
+    parser->at++;
+    CHECK(parse_definition_value(parser, statement));
+done:
+    return status;
+}
+
+/* NAME "(" NAME { "," NAME } ")" "=" expr */
+static Status parse_law(Parser *parser, Statement *statement)
+{
+    int room = law_length(parser);
+    Status status = OK;
+    const Token *name;
+
+    CHECK(parse_name(parser, &name));
+    CHECK(check_defined_name(parser, name, true));
+    statement->kind = STATEMENT_LAW;
+    statement->name = name->text;
+    statement->name_place = name->place;
+    statement->arguments = pool_alloc(parser->pool, (size_t)room * sizeof(char *));
+    parser->at++;
+    if (parser_sees(parser, ")")) {
+        (void)parser_expected(parser, "an argument");
+        diag_hint(parser->diag, "without arguments it is a parameter: %s = ...", name->text);
+        return E_SYNTAX;
+    }
+    do {
+        const Token *argument;
+
+        CHECK(parse_name(parser, &argument));
+        for (int i = 0; i < statement->argument_count; i++)
+            if (strcmp(statement->arguments[i], argument->text) == 0)
+                return diag_at(parser->diag, E_NAME, argument->place, "'%s' is there twice",
+                               argument->text);
+        statement->arguments[statement->argument_count++] = argument->text;
+    } while (parser_take(parser, ","));
+    if (!parser_take(parser, ")"))
+        CHECK(parser_expected(parser, "',' or ')'"));
+    parser->at++;
+    CHECK(parse_definition_value(parser, statement));
+done:
+    return status;
+}
+
+/* x.y = ..., x' = ...: which verb was meant */
+static Status refuse_pair(Parser *parser)
+{
+    const Token *token = parser_token(parser);
+    bool primes = parser_peek(parser, 1)->kind == TOKEN_PRIMES;
+    Place place =
+        primes ? place_between(token->place, parser_peek(parser, 1)->place) : token->place;
+    const char *p = primes ? parser_peek(parser, 1)->text : "";
+
+    (void)diag_at(parser->diag, E_SYNTAX, place, "'%s%s' can't be defined", token->text, p);
+    if (primes)
+        diag_hint(parser->diag, "an initial value is given by: init %s%s = ...", token->text, p);
+    else
+        diag_hint(parser->diag,
+                  "an initial value is given by: init %s = ...; a part's key by: set %s = ...",
+                  token->text, token->text);
+    return E_SYNTAX;
+}
+
+static Status refuse_start(Parser *parser)
+{
+    (void)diag_at(parser->diag, E_SYNTAX, parser_token(parser)->place,
+                  "a statement starts with a word");
+    if (parser_sees(parser, "!"))
+        diag_hint(parser->diag, "there is no way to a system shell");
+    else
+        diag_hint(parser->diag, "to see a value: print ...");
+    return E_SYNTAX;
+}
+
+Status parse_statement(Parser *parser, Statement *statement)
+{
+    const Token *first = parser_token(parser);
+    Status status = OK;
+
+    if (parser_sees(parser, "?"))
+        CHECK(parse_question(parser, statement));
+    else if (first->kind != TOKEN_PATH)
+        CHECK(refuse_start(parser));
+    else if (parser_sees_pair(parser)) {
+        if (strchr(first->text, '.') != NULL || parser_peek(parser, 1)->kind == TOKEN_PRIMES)
+            CHECK(refuse_pair(parser));
+        CHECK(parse_parameter(parser, statement));
+    } else if (law_length(parser) > 0)
+        CHECK(parse_law(parser, statement));
+    else
+        CHECK(parse_verb(parser, statement));
+
+    statement->text =
+        text_slice(parser->pool, parser->text, first->start, parser_before(parser)->end);
+    statement->place = place_between(first->place, parser_before(parser)->place);
+done:
+    return status;
+}
+
+/* --- the text --- */
+
+/* l: the rest of the line goes to the statement as it stands */
+static bool takes_line(Lexer lexer, Verb *verb, Token *token)
+{
+    return lexer_next(&lexer, token, NULL) == OK && token->kind == TOKEN_PATH &&
+           verb_find(token->text, verb) && strcmp(verb->shape, "l") == 0;
+}
+
+static void parse_line(Parser *parser, Lexer *lexer, const Verb *verb, const Token *token,
+                       Statement *statement, size_t *next)
+{
+    size_t end = lexer_line_end(lexer);
+    size_t start = token->end < end ? token->end + 1 : end;
+    Syntax *line = pool_alloc(parser->pool, sizeof *line);
+    Place place = token->place;
+
+    place.column += token->place.width + 1;
+    place.width = end > start ? (int)(end - start) : 1;
+    *line = (Syntax){.kind = SYNTAX_STRING,
+                     .text = text_slice(parser->pool, parser->text, start, end),
+                     .unit_text = "",
+                     .height = 1,
+                     .place = place,
+                     .op_place = place};
+    LIST_PUSH(statement->operands, (Operand){0, line, place});
+    statement->kind = STATEMENT_VERB;
+    statement->verb = verb->name;
+    statement->row = *verb;
+    statement->verb_place = token->place;
+    statement->place = token->place;
+    statement->text = text_slice(parser->pool, parser->text, token->start, end);
+    while (parser->text[end] == '\r' || parser->text[end] == '\n')
+        end++;
+    *next = end;
+}
+
+Status statement_parse(const char *text, int line, SyntaxOptions options, size_t *next,
+                       Statement **out, Diag *diag)
+{
+    Statement *statement = NEW(Statement);
+    Pool *pool = pool_new(4096);
+    Lexer lexer = lexer_start(text, *next, line, pool);
+    Parser parser = {.text = text, .pool = pool, .options = options, .diag = diag};
+    Status status = OK;
+    size_t end = *next;
+    Token first;
+    Verb verb;
+
+    statement->pool = pool;
+    statement->text = "";
+    if (takes_line(lexer, &verb, &first))
+        parse_line(&parser, &lexer, &verb, &first, statement, &end);
+    else {
+        CHECK(parser_start(&parser, &lexer));
+        CHECK(lexer_finish(&lexer, &end, diag));
+        if (!parser_ends(&parser))
+            CHECK(parse_statement(&parser, statement));
+        else
+            statement->place = parser_token(&parser)->place;
+    }
+    *next = end;
+    *out = statement;
+    statement = NULL;
+done:
+    parser_free(&parser);
+    statement_free(statement);
+    return status;
+}
+
+void statement_free(Statement *statement)
+{
+    Pool *pool = statement != NULL ? statement->pool : NULL;
+
+    if (statement == NULL)
+        return;
+    for (Statement *s = statement; s != NULL; s = s->rest) {
+        LIST_FREE(s->operands);
+        LIST_FREE(s->pairs);
+    }
+    mem_free(statement);
+    pool_free(pool);
+}
+
+static Status check_later_parts(const Statement *statement, Diag *diag)
+{
+    const Operand *word = statement->operands.count > 0 ? &statement->operands.at[0] : NULL;
+
+    if (word != NULL && statement->row.words != NULL &&
+        word_is_later(statement->verb, word->value->text)) {
+        Text usage = {0};
+
+        (void)diag_at(diag, E_MISSING, word->place, "'%s %s' comes with a later version",
+                      statement->verb, word->value->text);
+        verb_usage(&usage, &statement->row);
+        diag_hint(diag, "usage: %s", usage.at);
+        text_free(&usage);
+        return E_MISSING;
+    }
+    for (int i = 0; i < statement->pairs.count; i++) {
+        const Pair *pair = &statement->pairs.at[i];
+
+        if (key_is_later(statement->verb, pair->name)) {
+            (void)diag_at(diag, E_MISSING, pair->name_place, "'%s=' comes with a later version",
+                          pair->name);
+            diag_hint(diag, "without it '%s' does what it does today", statement->verb);
+            return E_MISSING;
+        }
+    }
+    return OK;
+}
+
+Status statement_check_version(const Statement *statement, Diag *diag)
+{
+    Status status = OK;
+
+    for (const Statement *s = statement; s != NULL; s = s->rest) {
+        if (s->kind != STATEMENT_VERB)
+            continue;
+        if (s->row.later) {
+            (void)diag_at(diag, E_MISSING, s->verb_place, "'%s' comes with a later version",
+                          s->verb);
+            diag_hint(diag, "%s", s->row.brief);
+            return E_MISSING;
+        }
+        CHECK(check_later_parts(s, diag));
+    }
+done:
+    return status;
+}

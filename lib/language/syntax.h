@@ -1,0 +1,171 @@
+/* syntax.h: text to statements, by the grammar of the command language
+ *
+ * The parser knows words, numbers, units, brackets and their places, and from the
+ * verb's row how its operands are read (language.md, "What could be read in two ways");
+ * what names mean is the model's business. A Statement owns its tree of Syntax nodes. */
+#ifndef COTREE_LANGUAGE_SYNTAX_H
+#define COTREE_LANGUAGE_SYNTAX_H
+
+#include "base/diag.h"
+#include "base/memory.h"
+#include "expr/units.h"
+
+/* Trees are no higher than this, so that walking one needs no more stack than that. */
+enum { SYNTAX_HEIGHT = 1000 };
+
+typedef enum SyntaxKind {
+    SYNTAX_NUMBER,   /* text: the literal as written; unit where one stands behind it */
+    SYNTAX_STRING,   /* text: without the quotes */
+    SYNTAX_VARIABLE, /* text: the path; primes */
+    SYNTAX_CALL,     /* text: the path; args; primes */
+    SYNTAX_VECTOR,   /* args; unit */
+    SYNTAX_UNARY,    /* text: "-", "+" or "!"; one arg */
+    SYNTAX_BINARY,   /* text: "+" "-" "*" "/" "^" "<" "<=" ">" ">=" "==" "!=" "&&" "||"; two args */
+    SYNTAX_GROUP     /* ( expr ) with primes: one arg */
+} SyntaxKind;
+
+typedef struct Syntax {
+    SyntaxKind kind;
+    const char *text; /* borrowed from the statement's pool; never NULL */
+    int primes;
+    bool has_unit;
+    Unit unit;
+    const char *unit_text; /* as written: "mm", "[kN/m]"; "" without one */
+    Place unit_place;
+    int height; /* 1 for a leaf; never more than SYNTAX_HEIGHT */
+    int count;
+    struct Syntax **args;
+    Place place; /* of the whole; for a binary the operator's is op_place */
+    Place op_place;
+} Syntax;
+
+/* Behind a number or a vector a unit says what it is in; behind anything else, which only an item
+ * of a list may have (plot, table, print ...), what to show it in. */
+
+typedef struct Operand {
+    int sign;      /* '+' or '-' in `tree + a - b`, else 0 */
+    Syntax *value; /* a name, place or word is a SYNTAX_VARIABLE; `0` a SYNTAX_NUMBER */
+    Place place;
+} Operand;
+
+typedef struct Pair { /* key=value, or `h8' = 10` of init, driver, set, event, output */
+    const char *name; /* the path, without primes */
+    int primes;
+    Syntax *value;
+    Place name_place;
+} Pair;
+
+/* The rows of verbs: grammar, help and completion; who runs a verb is not said here. */
+typedef enum VerbGroup {
+    GROUP_SCENE,
+    GROUP_MECHANICAL,
+    GROUP_ELECTRICAL,
+    GROUP_VARIABLES,
+    GROUP_TREES,
+    GROUP_LOOK,
+    GROUP_RUN,
+    GROUP_SESSION
+} VerbGroup;
+
+typedef struct Verb {
+    const char *name;
+    VerbGroup group;
+    /* How operands are read, one letter each, in order:
+     *   n a new name              p a place (dotted name, or 0)   P a place that may be absent
+     *   w one of the row's words, or any word where it has none    W such a word, may be absent
+     *   v a value (expression)    V values that may be absent     e expressions between commas
+     *   i items, at least one     I items, maybe none             t tree edges with signs
+     *   s a string                o a string, or one of the words
+     *   x words, names, numbers and items, maybe none             l the rest of the line, as it is
+     *   C a condition, or a ~ b within tol                        T a statement, to the end
+     *   y maybe `vs ITEM`         @ maybe `at EXPR`               a maybe `as WORD`
+     *   k keys of the row         = pairs, at least one unless operands came before
+     *   > may be redirected       : a colon and a statement       * the letter before, repeated */
+    const char *shape;
+    /* both ended by NULL; NULL: none */
+    const char *const *words; /* words with a meaning of their own in its operands: they win over
+                                 names, which stand in brackets then: `tree (rotation)` */
+    const char *const *keys;
+    const char *usage;   /* one line; NULL: verb_usage() */
+    const char *brief;   /* one line, no full stop */
+    const char *help;    /* a paragraph or more; NULL where it is `later` */
+    const char *example; /* statements that run from an empty session, lines separated by \n; NULL
+                            where it is `later` */
+    const char *see;     /* other words, between blanks */
+    const struct Component *component; /* where the verb makes one; its text is the component's */
+    bool later;                        /* known, but comes with a later version */
+} Verb;
+
+typedef enum StatementKind {
+    STATEMENT_EMPTY,
+    STATEMENT_PARAMETER,
+    STATEMENT_LAW,
+    STATEMENT_VERB
+} StatementKind;
+
+typedef struct Statement {
+    StatementKind kind;
+    const char *verb; /* as in the table, also where shortened; NULL unless a verb */
+    Verb row;         /* of a verb; its name is NULL otherwise */
+    bool is_virtual;  /* `virtual revolute ...` */
+    Place verb_place;
+    const char *name; /* parameter or law */
+    Place name_place;
+    const char **arguments; /* of a law */
+    int argument_count;
+    Syntax *value; /* of a parameter or law */
+    LIST(Operand) operands;
+    LIST(Pair) pairs;
+    /* trailing words with a fixed meaning, NULL where absent */
+    Syntax *at;         /* print, expect, table ... at EXPR */
+    Syntax *versus;     /* plot ... vs ITEM */
+    Syntax *near_value; /* expect a ~ b: b */
+    Syntax *within;
+    const char *as; /* show X as WORD */
+    Place as_place;
+    struct Statement *rest; /* sweep ... : STATEMENT */
+    const char *redirect;   /* file of > or >> */
+    bool append;
+    Place redirect_place;
+    const char
+        *text; /* the statement's own text, trimmed, continuation lines joined: for save and undo */
+    Place place;
+    Pool *pool;
+} Statement;
+
+/* How a text is read. */
+typedef struct SyntaxOptions {
+    bool shortened; /* verbs may be shortened while unambiguous (at the prompt) */
+} SyntaxOptions;
+
+/* Read one statement after the other of a text.
+ *
+ * text   a physical line, several joined by "\" at their ends, or a whole script
+ * line   its number, for places
+ * next   in: byte offset to start from (0); out: where the next statement starts
+ * out    a new statement, statement_free(); kind EMPTY where only blanks and comments were left
+ *
+ * At the end *next is strlen(text). Call until then. Fails with E_SYNTAX, E_UNIT or E_NAME, at the
+ * place. */
+MUST_USE Status statement_parse(const char *text, int line, SyntaxOptions options, size_t *next,
+                                Statement **out, Diag *diag);
+void statement_free(Statement *statement); /* NULL is fine */
+
+/* Read `text` as a single expression (an item: a variable, call or expression, with unit). */
+MUST_USE Status syntax_parse_expression(const char *text, Pool *pool, Syntax **out, Diag *diag);
+/* a copy of a tree that lives as long as the pool */
+Syntax *syntax_copy(Pool *pool, const Syntax *syntax);
+/* Write a tree back as text that parses to the same tree. */
+void syntax_print(Text *text, const Syntax *syntax);
+
+/* Rows by value; what they point to is const. False: unknown, *verb unchanged. */
+bool verb_find(const char *name, Verb *verb); /* exact */
+bool verb_at(int i, Verb *verb); /* 0, 1, ... in the order of the manual; false at the end */
+const char *verb_key(const Verb *verb, int i); /* 0, 1, ...; NULL at the end */
+void verb_usage(Text *text, const Verb *verb); /* one line */
+const char *group_title(VerbGroup group);      /* "Mechanical components" ... */
+
+/* OK, or E_MISSING at the verb or key of a statement that comes with a later version. */
+MUST_USE Status statement_check_version(const Statement *statement, Diag *diag);
+
+#endif

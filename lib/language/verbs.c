@@ -1,0 +1,190 @@
+/* verbs.c: the rows of verbs: those of the tables, and those that components give
+ *
+ * A component's verb is read off its row: its places and values are the shape, its
+ * params the keys, its help the help. */
+#include "language/verbs.h"
+
+#include "component/component.h"
+
+#include <assert.h>
+#include <ctype.h>
+#include <string.h>
+
+static const Verb *const tables[] = {verbs_build, verbs_look, verbs_run, verbs_session,
+                                     verbs_later};
+
+/* by Places: what follows the name */
+static const struct {
+    const char *shape;
+    const char *usage;
+} places[] = {
+    [PLACES_NONE] = {"nVk", ""},
+    [PLACES_FROM] = {"npVk", " FRAME"},
+    [PLACES_FRAMES] = {"nppVk", " TAIL TIP"},
+    [PLACES_ON] = {"npVk", " FRAME"},
+    [PLACES_LINK] = {"npPVk", " TAIL TIP|JOINT"},
+    [PLACES_COORDINATE] = {"n=", " COORDINATE = EXPR [by=SOURCE]"},
+    [PLACES_TERMINALS] = {"nppVk", " PLUS MINUS"},
+    [PLACES_TRANSDUCER] = {"npppVk", " JOINT PLUS MINUS"},
+    [PLACES_SENSED] = {"nvppVk", " VARIABLE PLUS MINUS"},
+    [PLACES_PARTS] = {"nppVk", " PART PART"},
+};
+
+/* by number of terminals, where the parts's places are those alone */
+static const char *const terminal_shapes[] = {[2] = "nppVk", [3] = "npppVk", [4] = "nppppVk"};
+
+static const char *component_shape(const Component *row)
+{
+    return row->places == PLACES_TERMINALS ? terminal_shapes[component_terminals(row)]
+                                           : places[row->places].shape;
+}
+
+static VerbGroup component_group(const Component *row)
+{
+    return row->family >= FAMILY_SCALAR ? GROUP_ELECTRICAL : GROUP_MECHANICAL;
+}
+
+static Verb component_verb(const Component *row)
+{
+    return (Verb){.name = row->name,
+                  .group = component_group(row),
+                  .shape = component_shape(row),
+                  .brief = row->brief,
+                  .help = row->help,
+                  .example = row->example,
+                  .see = row->see,
+                  .component = row};
+}
+
+bool verb_find(const char *name, Verb *verb)
+{
+    const Component *row = component_find(name);
+
+    if (row != NULL) {
+        *verb = component_verb(row);
+        return true;
+    }
+    for (int i = 0; i < COUNT(tables); i++)
+        for (const Verb *v = tables[i]; v->name != NULL; v++)
+            if (strcmp(v->name, name) == 0) {
+                *verb = *v;
+                return true;
+            }
+    return false;
+}
+
+bool verb_any(int i, Verb *verb)
+{
+    for (int n = 0; component_at(n) != NULL; n++)
+        if (i-- == 0) {
+            *verb = component_verb(component_at(n));
+            return true;
+        }
+    for (int n = 0; n < COUNT(tables); n++)
+        for (const Verb *v = tables[n]; v->name != NULL; v++)
+            if (i-- == 0) {
+                *verb = *v;
+                return true;
+            }
+    return false;
+}
+
+bool verb_at(int i, Verb *verb)
+{
+    for (VerbGroup group = GROUP_SCENE; group <= GROUP_SESSION; group++) {
+        const Component *row;
+
+        for (int n = 0; (row = component_at(n)) != NULL; n++)
+            if (component_group(row) == group && i-- == 0) {
+                *verb = component_verb(row);
+                return true;
+            }
+        for (int n = 0; n < COUNT(tables); n++)
+            for (const Verb *v = tables[n]; v->name != NULL; v++)
+                if (v->group == group && i-- == 0) {
+                    *verb = *v;
+                    return true;
+                }
+    }
+    return false;
+}
+
+/* the key that names a joint's coordinates; NULL: it has none */
+static const char *coordinate_key(const Component *row)
+{
+    if (row->family != FAMILY_JOINT || row->coord_count == 0)
+        return NULL;
+    return row->coord_count == 1 ? "coord" : "coords";
+}
+
+const char *verb_key(const Verb *verb, int i)
+{
+    const Component *row = verb->component;
+    int n = 0;
+
+    if (row == NULL) {
+        while (verb->keys != NULL && verb->keys[n] != NULL && n < i)
+            n++;
+        return verb->keys != NULL ? verb->keys[n] : NULL;
+    }
+    if (row->places == PLACES_COORDINATE)
+        return i == 0 ? "by" : NULL;
+    if (i < row->param_count)
+        return row->params[i].name;
+    return i == row->param_count ? coordinate_key(row) : NULL;
+}
+
+/* [in=ground|body]; of a long list only its start */
+static void add_words(Text *text, const Param *param)
+{
+    enum { LONG = 30 };
+
+    assert(param->fallback != NULL); /* it lists the words */
+
+    size_t first = strcspn(param->fallback, "|");
+
+    if (strlen(param->fallback) < LONG)
+        text_addf(text, " [%s=%s]", param->name, param->fallback);
+    else
+        text_addf(text, " [%s=%.*s|...]", param->name, (int)first, param->fallback);
+}
+
+void verb_usage(Text *text, const Verb *verb)
+{
+    const Component *row = verb->component;
+
+    if (row == NULL) {
+        text_add(text, verb->usage != NULL ? verb->usage : verb->name);
+        return;
+    }
+    text_addf(text, "%s NAME%s", row->name,
+              row->terminal_usage != NULL ? row->terminal_usage : places[row->places].usage);
+    for (int i = 0; row->places != PLACES_COORDINATE && i < row->param_count; i++) {
+        const Param *param = &row->params[i];
+        bool must = param->fallback == NULL;
+
+        if (param->positional)
+            text_addf(text, must ? " %s" : " [%s]", param->name);
+        else if (param->kind == PARAM_WORD)
+            add_words(text, param);
+        else
+            text_addf(text, must ? " %s=.." : " [%s=..]", param->name);
+    }
+    if (coordinate_key(row) != NULL)
+        text_addf(text, " [%s=..]", coordinate_key(row));
+}
+
+const char *group_title(VerbGroup group)
+{
+    static const char *const titles[] = {
+        [GROUP_SCENE] = "Scene",
+        [GROUP_MECHANICAL] = "Mechanical components",
+        [GROUP_ELECTRICAL] = "Electrical and mechatronic components",
+        [GROUP_VARIABLES] = "Variables and subsystems",
+        [GROUP_TREES] = "Trees",
+        [GROUP_LOOK] = "Looking",
+        [GROUP_RUN] = "Running",
+        [GROUP_SESSION] = "Sessions",
+    };
+    return titles[group];
+}

@@ -1,0 +1,288 @@
+/* count.c: what equations cost, by the counting rule of the manual (help count) */
+#include "present/count.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+#include <string.h>
+
+const char *count_block_name(int i)
+{
+    return i < 0 || i > BLOCK_COUNT ? NULL : i < BLOCK_COUNT ? block_name((Block)i) : "total";
+}
+
+static void add_counts(OpCount *sum, OpCount more)
+{
+    *sum = op_count_plus(*sum, more);
+}
+
+/* M and F, or what the embedded form has instead of them */
+static bool is_of(Form form, Block block)
+{
+    switch (block) {
+    case BLOCK_MASS:
+    case BLOCK_FORCES:
+        return form == FORM_AUGMENTED;
+    case BLOCK_EMBEDDED_MASS:
+    case BLOCK_EMBEDDED_FORCES:
+        return form == FORM_EMBEDDED;
+    default:
+        return true;
+    }
+}
+
+static Form form_of(const View *view)
+{
+    const char *const *independent;
+    int count;
+
+    return model_form(view->model, &independent, &count);
+}
+
+/* the form that can be written out: the embedded one has a bound on constraints */
+static Form written_form(System *system, Form form)
+{
+    int rows, columns;
+    Diag ignored;
+    Expr e;
+
+    system_block_size(system, BLOCK_EMBEDDED_FORCES, &rows, &columns);
+    return form == FORM_EMBEDDED && rows > 0 &&
+                   system_show(system, BLOCK_EMBEDDED_FORCES, 0, 0, &e, &ignored) == OK
+               ? FORM_EMBEDDED
+               : FORM_AUGMENTED;
+}
+
+Status count_total(System *system, Form form, bool shared, OpCount *out, Diag *diag)
+{
+    const Form written = written_form(system, form);
+    OpCount sum = {0, 0, 0};
+    Status status = OK;
+
+    for (int b = 0; b < BLOCK_COUNT; b++) {
+        OpCount count;
+
+        if (!is_of(written, (Block)b))
+            continue;
+        CHECK(system_count(system, (Block)b, shared, &count, diag));
+        add_counts(&sum, count);
+    }
+    *out = sum;
+done:
+    return status;
+}
+
+Status count_block(System *system, Form form, const char *name, bool shared, OpCount *out,
+                   Diag *diag)
+{
+    Suggest suggest = suggest_for(name);
+
+    for (int b = 0; b < BLOCK_COUNT; b++)
+        if (strcmp(block_name((Block)b), name) == 0)
+            return system_count(system, (Block)b, shared, out, diag);
+    if (strcmp(name, "total") == 0)
+        return count_total(system, form, shared, out, diag);
+    for (int i = 0; count_block_name(i) != NULL; i++)
+        suggest_offer(&suggest, count_block_name(i));
+    diag_set(diag, E_NAME, "no block of equations is called '%s'", name);
+    if (suggest.best != NULL)
+        diag_hint(diag, "did you mean '%s'?", suggest.best);
+    else
+        diag_hint(diag, "one of mass forces constraints jacobian velocity acceleration network "
+                        "network_rhs total");
+    return E_NAME;
+}
+
+/* --- the table of blocks --- */
+
+/* a count that nobody would wait for is told by its size alone */
+static void count_cell(Table *table, int64_t count)
+{
+    const int64_t exact = 1000000000;
+
+    if (count < exact)
+        table_cellf(table, "%" PRId64, count);
+    else
+        table_cellf(table, count < (int64_t)1 << 62 ? "%.1e" : ">%.1e", (double)count);
+}
+
+static void count_cells(Table *table, OpCount count)
+{
+    count_cell(table, count.add);
+    count_cell(table, count.mul);
+    count_cell(table, count.fun);
+}
+
+static void heading(Table *table)
+{
+    for (int twice = 0; twice < 2; twice++) {
+        table_cell(table, "add");
+        table_cell(table, "mul");
+        table_cell(table, "fun");
+    }
+}
+
+static Status block_row(Table *table, const View *view, const char *name, Diag *diag)
+{
+    OpCount written, shared;
+    Status status;
+
+    CHECK(count_block(view->system, form_of(view), name, false, &written, diag));
+    CHECK(count_block(view->system, form_of(view), name, true, &shared, diag));
+    table_cell(table, name);
+    count_cells(table, written);
+    count_cells(table, shared);
+done:
+    return status;
+}
+
+static bool is_empty(const View *view, Block block)
+{
+    int rows, columns;
+
+    system_block_size(view->system, block, &rows, &columns);
+    return rows * columns == 0;
+}
+
+static Status print_blocks(const View *view, const Statement *statement, Text *out, Diag *diag)
+{
+    Table table = table_for("lrrrrrr");
+    Status status = OK;
+
+    table_cell(&table, "");
+    heading(&table);
+    for (int i = 0; i < statement->operands.count; i++) {
+        status = block_row(&table, view, statement->operands.at[i].value->text, diag);
+        if (status != OK)
+            diag->place = statement->operands.at[i].place;
+        if (status != OK)
+            goto done;
+    }
+    if (statement->operands.count == 0) {
+        const Form form = written_form(view->system, form_of(view));
+
+        for (int b = 0; b < BLOCK_COUNT; b++)
+            if (is_of(form, (Block)b) && !is_empty(view, (Block)b))
+                CHECK(block_row(&table, view, block_name((Block)b), diag));
+        CHECK(block_row(&table, view, "total", diag));
+    }
+    text_add(out, "operations as written, and after common subexpressions are shared\n");
+    if (form_of(view) != written_form(view->system, form_of(view)))
+        text_add(out, "(of the augmented form: the embedded one has too many constraints to be "
+                      "written out)\n");
+    table_print(out, &table, 0);
+done:
+    table_free(&table);
+    return status;
+}
+
+/* --- trees side by side --- */
+
+static char *list_choice(const Model *model, const Tree *tree)
+{
+    const Graph *graph = model_graph(model);
+    Text text = {0};
+
+    for (int e = 0; e < graph_edge_count(graph); e++)
+        if (graph_edge_in(graph, e, tree_kind(tree)) && tree_has(tree, e) &&
+            graph_branching(graph, e, tree_kind(tree)) != BRANCH_ALWAYS)
+            text_addf(&text, "%s%s", text.length > 0 ? " " : "", graph_edge(graph, e)->name);
+    return text_done(&text);
+}
+
+char *tree_brief(const Model *model, const Tree *const trees[TREE_KINDS])
+{
+    char *names[TREE_KINDS] = {NULL};
+    Text text = {0};
+    bool same;
+
+    for (int k = 0; k < TREE_KINDS; k++)
+        names[k] = trees[k] != NULL ? list_choice(model, trees[k]) : NULL;
+    same = names[TREE_TRANSLATION] != NULL && names[TREE_ROTATION] != NULL &&
+           strcmp(names[TREE_TRANSLATION], names[TREE_ROTATION]) == 0;
+    for (int k = 0; k < TREE_KINDS; k++) {
+        if (names[k] == NULL || names[k][0] == '\0' || (same && k == TREE_ROTATION))
+            continue;
+        text_addf(&text, "%s%s%s%s", text.length > 0 ? "; " : "",
+                  same && k == TREE_TRANSLATION ? "" : tree_kind_name((TreeKind)k),
+                  same && k == TREE_TRANSLATION ? "" : " ", names[k]);
+    }
+    for (int k = 0; k < TREE_KINDS; k++)
+        mem_free(names[k]);
+    return text_done(&text);
+}
+
+Status tree_cost(const View *view, TreeCost *out, Diag *diag)
+{
+    const Tree *trees[TREE_KINDS] = {NULL};
+    TreeCost cost = {.trees = NULL};
+    Status status;
+
+    CHECK(model_trees(view->model, trees, diag));
+    CHECK(count_total(view->system, form_of(view), false, &cost.written, diag));
+    CHECK(count_total(view->system, form_of(view), true, &cost.shared, diag));
+    cost.n = system_n(view->system);
+    cost.m = system_m(view->system);
+    cost.trees = tree_brief(view->model, trees);
+    *out = cost;
+done:
+    return status;
+}
+
+int tree_costs_add(TreeCosts *costs, TreeCost *cost)
+{
+    for (int i = 0; i < costs->count; i++)
+        if (strcmp(costs->at[i].trees, cost->trees) == 0) {
+            mem_free(costs->at[i].trees);
+            costs->at[i] = *cost;
+            return i;
+        }
+    LIST_PUSH(*costs, *cost);
+    return costs->count - 1;
+}
+
+void tree_costs_free(TreeCosts *costs)
+{
+    for (int i = 0; i < costs->count; i++)
+        mem_free(costs->at[i].trees);
+    LIST_FREE(*costs);
+}
+
+static void print_costs(const View *view, const TreeCosts *costs, Text *out)
+{
+    Table table = table_for("rrrrrrrrr");
+    char lead[16];
+
+    table_cell(&table, "");
+    table_cell(&table, "n");
+    table_cell(&table, "m");
+    heading(&table);
+    for (int i = 0; i < costs->count; i++) {
+        const TreeCost *cost = costs->at + i;
+
+        table_cellf(&table, "%d", i + 1);
+        table_cellf(&table, "%d", cost->n);
+        table_cellf(&table, "%d", cost->m);
+        count_cells(&table, cost->written);
+        count_cells(&table, cost->shared);
+    }
+    layout_words(out, view->page.columns, "",
+                 "trees so far: n coordinates, m constraints, operations of all blocks as written "
+                 "and after common subexpressions are shared");
+    table_print(out, &table, 0);
+    for (int i = 0; i < costs->count; i++) {
+        (void)snprintf(lead, sizeof lead, "%d: ", i + 1);
+        layout_words(out, view->page.columns, lead, costs->at[i].trees);
+    }
+    table_free(&table);
+}
+
+Status count_print(const View *view, const Statement *statement, const TreeCosts *costs, Text *out,
+                   Diag *diag)
+{
+    if (statement->operands.count == 1 &&
+        strcmp(statement->operands.at[0].value->text, "trees") == 0) {
+        print_costs(view, costs, out);
+        return OK;
+    }
+    return print_blocks(view, statement, out, diag);
+}

@@ -1,0 +1,337 @@
+/* help.c: what the tables say about a word */
+#include "present/help.h"
+
+#include "language/functions.h"
+#include "present/layout.h"
+#include "present/show.h"
+
+#include <stdio.h>
+#include <string.h>
+#include <strings.h>
+
+enum { HELP_WIDTH = 78, WIDE = 20 /* for the default of a key */ };
+
+/* --- pieces of a page --- */
+
+bool component_key(const Component *row, int i, KeyText *out)
+{
+    if (i >= row->param_count)
+        return false;
+    *out = (KeyText){row->params[i].name, row->params[i].unit == NULL ? "any" : row->params[i].unit,
+                     row->params[i].fallback == NULL ? "" : row->params[i].fallback,
+                     row->params[i].meaning};
+    return true;
+}
+
+/* "parameters|zxz|zyz": the first word is what holds, behind the meaning stand all */
+static void add_choice(Table *table, const KeyText *key)
+{
+    const size_t first = strcspn(key->fallback, "|");
+    Text meaning = {0};
+
+    text_add_n(&meaning, key->fallback, first);
+    table_cell(table, meaning.at);
+    text_free(&meaning);
+    text_addf(&meaning, "%s: ", key->meaning);
+    for (const char *c = key->fallback; *c != '\0'; c++)
+        if (*c == '|')
+            text_add(&meaning, ", ");
+        else
+            text_char(&meaning, *c);
+    table_cell(table, meaning.at);
+    text_free(&meaning);
+}
+
+static void add_keys(Text *out, const Component *row)
+{
+    Table table = table_for("llll");
+    KeyText key;
+
+    for (int i = 0; component_key(row, i, &key); i++) {
+        table_cell(&table, key.name);
+        table_cell(&table, strcmp(key.unit, "1") == 0 ? "" : key.unit);
+        if (strlen(key.fallback) > WIDE) {
+            add_choice(&table, &key);
+        } else {
+            table_cell(&table, key.fallback);
+            table_cell(&table, key.meaning);
+        }
+    }
+    if (table.cells.count > 0) {
+        Table headed = table_for("llll");
+
+        table_cell(&headed, "key");
+        table_cell(&headed, "unit");
+        table_cell(&headed, "default");
+        table_cell(&headed, "meaning");
+        for (int i = 0; i < table.cells.count; i++)
+            table_cell(&headed, table.cells.at[i]);
+        text_char(out, '\n');
+        table_wrap(out, &headed, 2, HELP_WIDTH);
+        table_free(&headed);
+    }
+    table_free(&table);
+}
+
+static void add_members(Text *out, const Component *row)
+{
+    Table table = table_for("lll");
+    const Member *member;
+
+    for (int i = 0; (member = component_member(row, false, i)) != NULL; i++) {
+        table_cellf(&table, "NAME.%s", member->name);
+        table_cell(&table,
+                   member->unit == NULL || strcmp(member->unit, "1") == 0 ? "" : member->unit);
+        table_cell(&table, member->meaning);
+    }
+    if (table.cells.count > 0) {
+        text_add(out, "\nCan be asked for:\n");
+        table_wrap(out, &table, 2, HELP_WIDTH);
+    }
+    table_free(&table);
+}
+
+static void add_indented(Text *out, const char *lines)
+{
+    while (*lines != '\0') {
+        const size_t length = strcspn(lines, "\n");
+
+        text_add(out, "    ");
+        text_add_n(out, lines, length);
+        text_char(out, '\n');
+        lines += length + (lines[length] == '\n');
+    }
+}
+
+/* "  do=stop    the run ends there": where the second column starts, else the first */
+static size_t second_column(const char *line)
+{
+    const size_t first = strspn(line, " ");
+    const char *gap = strstr(line + first, "  ");
+
+    return gap != NULL ? (size_t)(gap - line) + strspn(gap, " ") : first;
+}
+
+/* lines that begin with a blank are rows, and stay so where they fit */
+static void add_paragraphs(Text *out, const char *lines)
+{
+    while (*lines != '\0') {
+        const size_t length = strcspn(lines, "\n");
+        char *line = mem_text(lines, length);
+
+        if (line[0] != ' ') {
+            layout_words(out, HELP_WIDTH, "", line);
+        } else if (text_width(line) <= HELP_WIDTH) {
+            text_addf(out, "%s\n", line);
+        } else {
+            const size_t start = second_column(line);
+            char *lead = mem_text(line, start);
+
+            layout_words(out, HELP_WIDTH, lead, line + start);
+            mem_free(lead);
+        }
+        mem_free(line);
+        lines += length + (lines[length] == '\n');
+    }
+}
+
+/* what belongs to the verb but stands in tables of its own */
+static void add_topics(Text *out, const char *verb)
+{
+    for (int i = 0; help_topic_at(i) != NULL; i++)
+        if (help_topic_at(i)->page != NULL && strcmp(help_topic_at(i)->page, verb) == 0) {
+            text_char(out, '\n');
+            help_topic_at(i)->write(out);
+        }
+}
+
+/* --- a page --- */
+
+static void add_verb(Text *out, const Verb *verb)
+{
+    Text line = {0};
+
+    text_addf(out, "%s - %s\n", verb->name, verb->brief);
+    if (verb->later) {
+        text_add(out, "\nComes with a later version.\n");
+        return;
+    }
+    verb_usage(&line, verb);
+    text_char(out, '\n');
+    layout_words(out, HELP_WIDTH, "  usage: ", line.at != NULL ? line.at : verb->name);
+    text_free(&line);
+    if (verb->component != NULL)
+        add_keys(out, verb->component);
+    if (verb->help != NULL) {
+        text_char(out, '\n');
+        add_paragraphs(out, verb->help);
+    }
+    add_topics(out, verb->name);
+    if (verb->component != NULL)
+        add_members(out, verb->component);
+    if (verb->example != NULL) {
+        text_add(out, "\nExample:\n");
+        add_indented(out, verb->example);
+    }
+    if (verb->see != NULL && verb->see[0] != '\0')
+        text_addf(out, "\nSee also: %s\n", verb->see);
+}
+
+static bool add_function(Text *out, const char *word)
+{
+    Function row;
+
+    if (!function_find(word, &row) || row.kind != FUNCTION_OPERATION)
+        return false;
+    text_addf(out, "%s - a function of %d argument%s; 'help functions' lists them all\n", word,
+              row.least, row.least == 1 ? "" : "s");
+    return true;
+}
+
+static void add_overview(Text *out)
+{
+    Verb verb;
+    Text names = {0};
+    VerbGroup group = GROUP_SCENE;
+    char lead[64];
+
+    text_add(out, "'help WORD' tells about a verb, a component or a topic, 'apropos WORD' finds "
+                  "words.\nThe Tab key completes what is half typed.\n\n");
+    for (int i = 0; verb_at(i, &verb) || names.length > 0; i++) {
+        const bool more = verb_at(i, &verb);
+
+        if (names.length > 0 && (!more || verb.group != group)) {
+            text_addf(out, "%s\n", group_title(group));
+            (void)snprintf(lead, sizeof lead, "  ");
+            layout_words(out, HELP_WIDTH, lead, names.at);
+            text_free(&names);
+        }
+        if (!more)
+            break;
+        group = verb.group;
+        if (!verb.later)
+            text_addf(&names, "%s%s", names.length > 0 ? " " : "", verb.name);
+    }
+    for (int i = 0; help_topic_at(i) != NULL; i++)
+        text_addf(&names, "%s%s", i > 0 ? " " : "", help_topic_at(i)->name);
+    text_add(out, "Topics of help\n");
+    layout_words(out, HELP_WIDTH, "  ", names.at);
+    text_free(&names);
+}
+
+bool help_print(Text *out, const char *word)
+{
+    const HelpTopic *about;
+    const Topic *topic;
+    Verb verb;
+    bool known = true;
+
+    if (word == NULL || word[0] == '\0')
+        add_overview(out);
+    else if (verb_find(word, &verb))
+        add_verb(out, &verb);
+    else if ((about = help_topic_find(word)) != NULL) {
+        text_addf(out, "%s - %s\n\n", about->name, about->brief);
+        about->write(out);
+    } else if ((topic = topic_find(word)) != NULL)
+        text_addf(out, "show %s - %s%s\n", topic->name, topic->brief,
+                  topic->show == NULL ? " (in a later version)" : "");
+    else
+        known = add_function(out, word);
+    return known;
+}
+
+/* --- finding words --- */
+
+bool help_word(int i, const char **word)
+{
+    Verb verb;
+    int topics = 0;
+
+    /* what is there; pages of what comes later are found by those who know its name */
+    for (int v = 0; verb_at(v, &verb); v++)
+        if (!verb.later && i-- == 0) {
+            *word = verb.name;
+            return true;
+        }
+    while (help_topic_at(topics) != NULL)
+        topics++;
+    if (i < topics) {
+        *word = help_topic_at(i)->name;
+        return true;
+    }
+    i -= topics;
+    /* topics of show that aren't verbs too */
+    for (int t = 0; topic_at(t) != NULL; t++)
+        if (topic_at(t)->show != NULL && !verb_find(topic_at(t)->name, &verb) &&
+            help_topic_find(topic_at(t)->name) == NULL && i-- == 0) {
+            *word = topic_at(t)->name;
+            return true;
+        }
+    return false;
+}
+
+/* a word that goes on as the one typed, else the nearest */
+const char *help_suggest(const char *word)
+{
+    Suggest suggest = suggest_for(word);
+    const size_t length = strlen(word);
+    const char *candidate;
+
+    for (int i = 0; length > 2 && help_word(i, &candidate); i++)
+        if (strncmp(candidate, word, length) == 0)
+            return candidate;
+    for (int i = 0; help_word(i, &candidate); i++)
+        suggest_offer(&suggest, candidate);
+    return suggest.best;
+}
+
+static bool mentions(const char *text, const char *word)
+{
+    return text != NULL && strcasestr(text, word) != NULL;
+}
+
+void help_apropos(Text *out, const char *word)
+{
+    Table table = table_for("ll");
+    Verb verb;
+
+    for (int i = 0; verb_at(i, &verb); i++)
+        if (!verb.later && (mentions(verb.name, word) || mentions(verb.brief, word) ||
+                            mentions(verb.help, word))) {
+            table_cell(&table, verb.name);
+            table_cell(&table, verb.brief);
+        }
+    for (int i = 0; topic_at(i) != NULL; i++)
+        if (topic_at(i)->show != NULL &&
+            (mentions(topic_at(i)->name, word) || mentions(topic_at(i)->brief, word))) {
+            table_cellf(&table, "show %s", topic_at(i)->name);
+            table_cell(&table, topic_at(i)->brief);
+        }
+    for (int i = 0; help_topic_at(i) != NULL; i++) {
+        Text body = {0};
+
+        help_topic_at(i)->write(&body);
+        if (mentions(help_topic_at(i)->name, word) || mentions(help_topic_at(i)->brief, word) ||
+            mentions(body.at, word)) {
+            table_cellf(&table, "help %s", help_topic_at(i)->name);
+            table_cell(&table, help_topic_at(i)->brief);
+        }
+        text_free(&body);
+    }
+    table_print(out, &table, 0);
+    table_free(&table);
+}
+
+bool help_example(int i, const char **name, const char **text)
+{
+    Verb verb;
+
+    for (int v = 0; verb_at(v, &verb); v++)
+        if (verb.example != NULL && i-- == 0) {
+            *name = verb.name;
+            *text = verb.example;
+            return true;
+        }
+    return false;
+}

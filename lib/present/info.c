@@ -1,0 +1,398 @@
+/* info.c: everything about one name */
+#include "present/info.h"
+
+#include "present/show.h"
+
+#include <string.h>
+
+/* which way things count positive, by family */
+static const char *const conventions[] = {
+    [FAMILY_BODY] = "position and angle of the body against ground",
+    [FAMILY_ARM] = "fixed in the body of its tail; x y theta are against ground",
+    [FAMILY_JOINT] = "a positive coordinate moves or turns the tip against the tail; fx ... act on "
+                     "the tip, reversed on the tail",
+    [FAMILY_DRIVER] = "the effort acts along the coordinate, on the tip",
+    [FAMILY_FORCE] = "acts on the tip, reversed on the tail; pulling together is negative",
+    [FAMILY_SCALAR] = "v is plus against minus; i flows from plus to minus inside",
+    [FAMILY_TRANSDUCER] = "v is plus against minus; i flows from plus to minus inside; the torque "
+                          "acts on the joint's tip",
+};
+
+/* in which trees the edge is a branch; its own name in front where a part has several */
+static void add_standing(Table *table, const View *view, int edge, bool several)
+{
+    const Graph *graph = model_graph(view->model);
+    const Tree *trees[TREE_KINDS] = {NULL};
+    Diag ignored;
+
+    /* an unfinished tree is no reason not to tell the rest */
+    if (edge < 0 || model_trees(view->model, trees, &ignored) != OK)
+        return;
+    for (int k = 0; k < TREE_KINDS; k++) {
+        if (trees[k] == NULL || !graph_edge_in(graph, edge, (TreeKind)k))
+            continue;
+        if (several)
+            table_cell(table, graph_edge(graph, edge)->name);
+        else
+            table_cell(table, tree_kind_name((TreeKind)k));
+        table_cellf(table, "%s%s", tree_has(trees[k], edge) ? "branch (tree)" : "chord (cotree)",
+                    tree_has(trees[k], edge) && tree_was_completed(trees[k], edge) ? ", completed"
+                                                                                   : "");
+    }
+}
+
+static void add_ends(Table *table, const View *view, const Instance *instance)
+{
+    const Graph *graph = model_graph(view->model);
+    const int edges[] = {instance->edge, instance->scalar_edges[0], instance->scalar_edges[1]};
+
+    for (int i = 0; i < COUNT(edges); i++) {
+        const Edge *edge = edges[i] >= 0 ? graph_edge(graph, edges[i]) : NULL;
+
+        if (edge == NULL)
+            continue;
+        table_cell(table, domain_name(edge->domain));
+        table_cellf(table, "%s -> %s", graph_node(graph, edge->tail)->name,
+                    graph_node(graph, edge->head)->name);
+    }
+    if (instance->joint >= 0) {
+        table_cell(table, "acts on");
+        table_cell(table, model_instance(view->model, instance->joint)->name);
+    }
+    if (instance->parts[0] >= 0) {
+        table_cell(table, "couples");
+        table_cellf(table, "%s %s", model_instance(view->model, instance->parts[0])->name,
+                    model_instance(view->model, instance->parts[1])->name);
+    }
+    if (instance->sensed != NULL) {
+        char *text = expr_text(instance->sensed);
+
+        table_cell(table, "of");
+        table_cell(table, text);
+        mem_free(text);
+    }
+}
+
+static void add_values(Table *table, const Instance *instance)
+{
+    for (int i = 0; i < instance->row->param_count; i++) {
+        const Param *param = &instance->row->params[i];
+        const Value *value = &instance->values[i];
+        Text text = {0};
+
+        for (int k = 0; k < value->count; k++) {
+            char *entry = expr_text(value->at[k]);
+
+            layout_item(&text, entry);
+            mem_free(entry);
+        }
+        if (value->word != NULL)
+            text_add(&text, value->word);
+        /* long defaults tell nothing: no turn, no further moments */
+        if (text.length > 0 && (value->given || value->count <= 3)) {
+            const bool plain = param->unit == NULL || strcmp(param->unit, "1") == 0;
+
+            table_cell(table, param->name);
+            table_cellf(table, value->count > 1 ? "[%s]%s%s%s" : "%s%s%s%s", text.at,
+                        plain ? "" : " ", plain ? "" : param->unit,
+                        value->given ? "" : "  (not said)");
+        }
+        text_free(&text);
+    }
+}
+
+static void add_variables(Text *out, const View *view, const Instance *instance)
+{
+    Text names = {0};
+    const Member *member;
+
+    for (int c = 0; c < instance->coord_count; c++)
+        text_addf(&names, "%s%s %s'", names.length > 0 ? " " : "", instance->coord[c],
+                  instance->coord[c]);
+    for (int i = 0;
+         (member = component_member(instance->row, model_is_planar(view->model), i)) != NULL; i++)
+        text_addf(&names, "%s%s.%s", names.length > 0 ? " " : "", instance->name, member->name);
+    if (names.length > 0)
+        layout_words(out, view->page.columns, "can be asked for: ", names.at);
+    text_free(&names);
+}
+
+static void print_instance(Text *out, const View *view, const Instance *instance)
+{
+    Table table = table_for("ll");
+    Text coordinates = {0};
+
+    text_addf(out, "%s: %s%s, %s\n", instance->name, instance->is_virtual ? "virtual " : "",
+              instance->row->name, instance->row->brief);
+    add_ends(&table, view, instance);
+    add_standing(&table, view, instance->edge, false);
+    for (int k = 0; k < instance->scalar_count; k++)
+        add_standing(&table, view, instance->scalar_edges[k], instance->scalar_count > 1);
+    for (int c = 0; c < instance->coord_count; c++)
+        layout_item(&coordinates, instance->coord[c]);
+    if (coordinates.length > 0) {
+        table_cell(&table, instance->coord_count == 1 ? "coordinate" : "coordinates");
+        table_cell(&table, coordinates.at);
+    }
+    text_free(&coordinates);
+    add_values(&table, instance);
+    table_print(out, &table, 2);
+    table_free(&table);
+    layout_words(out, view->page.columns, "sign: ", conventions[instance->row->family]);
+    add_variables(out, view, instance);
+    if (instance->text != NULL)
+        text_addf(out, "made by: %s\n", instance->text);
+}
+
+static bool print_parameter(Text *out, const View *view, const char *name)
+{
+    for (int i = 0; i < model_parameter_count(view->model); i++) {
+        Expr definition;
+        const Expr symbol = model_parameter(view->model, i, &definition);
+        char *text;
+
+        if (strcmp(expr_name(symbol), name) != 0)
+            continue;
+        text = expr_text(definition);
+        text_addf(out, "%s: parameter, %s = ", name, name);
+        if (!expr_is_number(definition))
+            text_addf(out, "%s = ", text);
+        text_number(out, model_parameter_value(view->model, symbol), 10);
+        text_char(out, '\n');
+        mem_free(text);
+        return true;
+    }
+    return false;
+}
+
+static bool print_law(Text *out, const View *view, const char *name)
+{
+    const Expr *arguments;
+    int count;
+    const Expr body = model_law(view->model, name, &arguments, &count);
+    char *text;
+
+    if (body == NULL)
+        return false;
+    text_addf(out, "%s: law, %s(", name, name);
+    for (int i = 0; i < count; i++)
+        text_addf(out, "%s%s", i > 0 ? ", " : "", expr_name(arguments[i]));
+    text = expr_text(body);
+    text_addf(out, ") = %s\n", text);
+    mem_free(text);
+    return true;
+}
+
+static bool print_output(Text *out, const View *view, const char *name)
+{
+    for (int i = 0; i < model_output_count(view->model); i++) {
+        const char *output;
+        const Expr e = model_output(view->model, i, &output);
+        char *text;
+
+        if (strcmp(output, name) != 0)
+            continue;
+        text = expr_text(e);
+        text_addf(out, "%s: output, %s = %s\n", name, name, text);
+        mem_free(text);
+        return true;
+    }
+    return false;
+}
+
+static bool print_event(Text *out, const View *view, const char *name)
+{
+    for (int i = 0; i < model_event_count(view->model); i++) {
+        const Event *event = model_event(view->model, i);
+        Text action = {0};
+
+        if (strcmp(event->name, name) != 0)
+            continue;
+        event_print(&action, event);
+        text_addf(out, "%s: event, when %s: %s\nmade by: %s\n", name, event->condition, action.at,
+                  event->text);
+        text_free(&action);
+        return true;
+    }
+    return false;
+}
+
+static bool print_node(Text *out, const View *view, const char *name)
+{
+    const Graph *graph = model_graph(view->model);
+    const int node = graph_find_node(graph, name);
+    const int *edges;
+    Text names = {0};
+    int count;
+
+    if (node < 0)
+        return false;
+    count = graph_edges_at(graph, node, &edges);
+    for (int i = 0; i < count; i++) {
+        const Edge *edge = graph_edge(graph, edges[i]);
+
+        text_addf(&names, "%s%s (%s)", i > 0 ? ", " : "", edge->name,
+                  edge->tail == node ? "starts here" : "ends here");
+    }
+    text_addf(out, "%s: %s %s%s\n", name, domain_name(graph_node(graph, node)->domain),
+              graph_node(graph, node)->domain == DOMAIN_MECHANICAL ? "frame" : "terminal",
+              graph_node(graph, node)->datum ? ", the datum" : "");
+    layout_words(out, view->page.columns, "  edges: ", names.at != NULL ? names.at : "none");
+    text_free(&names);
+    return true;
+}
+
+/* h9.fx: what it means and in which unit; a coordinate: whose it is */
+static bool print_variable(Text *out, const View *view, const char *name)
+{
+    const Instance *owner;
+    const Member *member;
+    const char *wanted;
+    int index;
+
+    if (model_coordinate(view->model, name, &owner, &index)) {
+        text_addf(out, "%s: coordinate of %s, in %s\n", name, owner->name,
+                  owner->coord_kind[index] == COORDINATE_LENGTH  ? "m"
+                  : owner->coord_kind[index] == COORDINATE_ANGLE ? "rad"
+                                                                 : "1");
+        return true;
+    }
+    owner = model_owner(view->model, name, &wanted);
+    for (int i = 0;
+         owner != NULL &&
+         (member = component_member(owner->row, model_is_planar(view->model), i)) != NULL;
+         i++)
+        if (strcmp(member->name, wanted) == 0) {
+            text_addf(out, "%s: of %s, %s", name, owner->name, member->meaning);
+            text_addf(out, member->unit != NULL ? "; in %s\n" : "\n", member->unit);
+            return true;
+        }
+    return false;
+}
+
+Status info_print(const View *view, const char *name, Place place, Text *out, Diag *diag)
+{
+    const Instance *instance = model_find(view->model, name);
+    Suggest suggest = suggest_for(name);
+    const char *candidate;
+
+    if (instance != NULL) {
+        print_instance(out, view, instance);
+        return OK;
+    }
+    if (print_parameter(out, view, name) || print_law(out, view, name) ||
+        print_output(out, view, name) || print_event(out, view, name) ||
+        print_variable(out, view, name) || print_node(out, view, name))
+        return OK;
+    for (int i = 0; (candidate = model_name(view->model, i)) != NULL; i++)
+        suggest_offer(&suggest, candidate);
+    diag_at(diag, E_NAME, place, "nothing is called '%s'", name);
+    if (suggest.best != NULL)
+        diag_hint(diag, "did you mean '%s'?", suggest.best);
+    else
+        diag_hint(diag,
+                  "'show graph' and 'show params' list the names of the model, 'help %s' may "
+                  "know the word",
+                  name);
+    return E_NAME;
+}
+
+/* --- check --- */
+
+static bool is_used(const Model *model, Expr symbol)
+{
+    for (int i = 0; i < model_count(model); i++) {
+        const Instance *instance = model_instance(model, i);
+
+        for (int p = 0; p < instance->row->param_count; p++)
+            for (int k = 0; k < instance->values[p].count; k++)
+                if (expr_depends(instance->values[p].at[k], symbol))
+                    return true;
+    }
+    for (int i = 0; i < model_parameter_count(model); i++) {
+        Expr definition;
+
+        if (model_parameter(model, i, &definition) != symbol && expr_depends(definition, symbol))
+            return true;
+    }
+    for (int i = 0; i < model_output_count(model); i++) {
+        const char *name;
+
+        if (expr_depends(model_output(model, i, &name), symbol))
+            return true;
+    }
+    for (int i = 0; i < model_event_count(model); i++) {
+        const Event *event = model_event(model, i);
+
+        if (expr_depends(event->when, symbol))
+            return true;
+        for (int k = 0; k < event->value_count; k++)
+            if (expr_depends(event->values[k].value, symbol))
+                return true;
+    }
+    for (int i = 0; i < 3; i++)
+        if (expr_depends(model_gravity(model)[i], symbol))
+            return true;
+    for (int i = 0; i < model_start_count(model); i++)
+        if (expr_depends(model_start(model, i)->value, symbol))
+            return true;
+    return false;
+}
+
+static void add_unused(const View *view, Text *out)
+{
+    const Graph *graph = model_graph(view->model);
+    Text frames = {0}, parameters = {0};
+
+    for (int n = 0; n < graph_node_count(graph); n++) {
+        const int *edges;
+        const bool alone = graph_edges_at(graph, n, &edges) < 2;
+        const Node *node = graph_node(graph, n);
+
+        if (alone && !node->datum)
+            layout_item(&frames, node->name);
+    }
+    for (int i = 0; i < model_parameter_count(view->model); i++) {
+        Expr definition;
+        const Expr symbol = model_parameter(view->model, i, &definition);
+
+        if (!is_used(view->model, symbol))
+            layout_item(&parameters, expr_name(symbol));
+    }
+    if (frames.length > 0)
+        layout_words(out, view->page.columns, "ends that nothing is tied to: ", frames.at);
+    if (parameters.length > 0)
+        layout_words(out, view->page.columns, "parameters that nothing uses: ", parameters.at);
+    text_free(&frames);
+    text_free(&parameters);
+}
+
+void check_print(const View *view, const Result *start, const char *why, Text *out)
+{
+    const System *system = view->system;
+    const char *line;
+
+    layout_count(out, system_n(system), "coordinate", "coordinates");
+    text_add(out, ", ");
+    layout_count(out, system_m(system), "constraint", "constraints");
+    text_add(out, ": ");
+    view_freedoms(out, system, start != NULL ? result_freedoms(start) : -1);
+    text_char(out, '\n');
+    if (system_nx(system) + system_nz(system) > 0) {
+        text_add(out, "network: ");
+        layout_count(out, system_nx(system), "state", "states");
+        text_add(out, ", ");
+        layout_count(out, system_nz(system), "algebraic unknown", "algebraic unknowns");
+        text_char(out, '\n');
+    }
+    for (int i = 0; (line = system_dropped(system, i)) != NULL; i++)
+        layout_words(out, view->page.columns, "vanished: ", line);
+    for (int i = 0; (line = system_remark(system, i)) != NULL; i++)
+        layout_words(out, view->page.columns, "", line);
+    add_unused(view, out);
+    if (start != NULL && result_remarks(start)[0] != '\0')
+        layout_words(out, view->page.columns, "", result_remarks(start));
+    text_add(out, start != NULL ? "the start can be assembled\n" : "the start can't be assembled");
+    if (start == NULL)
+        text_addf(out, ": %s\n", why);
+}

@@ -1,0 +1,52 @@
+/* layout.h: formulas, paragraphs and tables as lines of text
+ *
+ * A Page says how wide and in which notation; everything is appended to a Text that
+ * the caller owns. Widths are columns on a terminal, not bytes. */
+#ifndef COTREE_PRESENT_LAYOUT_H
+#define COTREE_PRESENT_LAYOUT_H
+
+#include "base/memory.h"
+#include "expr/expr.h"
+
+typedef struct Page {
+    int columns; /* 0: never wrap */
+    bool unicode;
+    Notation notation;
+} Page;
+
+/* `lead` and `body` with a line end; the body is wrapped before + and - (outside brackets
+ * rather than inside), later lines are indented to the end of the lead. */
+void layout_formula(Text *out, const Page *page, const char *lead, const char *body);
+
+/* Words between blanks, wrapped; later lines are indented to the end of the lead. Line ends in
+ * `words` are kept. */
+void layout_words(Text *out, int columns, const char *lead, const char *words);
+
+/* The same of items between commas, which hold together: "a 1, b 0.2 (3 deg)". */
+void layout_items(Text *out, int columns, const char *lead, const char *items);
+int layout_widest_item(const char *items);
+
+/* "h8, h10, s11" */
+void layout_item(Text *out, const char *item); /* with a comma where `out` isn't empty */
+
+/* "1 constraint", "2 constraints" */
+void layout_count(Text *out, int count, const char *one, const char *many);
+
+/* A table of short cells: columns as wide as their widest cell, two blanks apart. */
+typedef struct Table {
+    int columns;
+    const char *align; /* one letter a column: l or r */
+    LIST(char *) cells;
+} Table;
+
+Table table_for(const char *align);
+void table_cell(Table *table, const char *text);
+void table_cellf(Table *table, const char *format, ...) PRINTF(2, 3);
+int table_width(const Table *table);
+void table_print(Text *out, const Table *table, int indent);
+/* The same, the words of the last column wrapped: beside the others, where the page leaves too
+ * little room below them. */
+void table_wrap(Text *out, const Table *table, int indent, int columns);
+void table_free(Table *table);
+
+#endif

@@ -1,0 +1,318 @@
+/* show.c: the topics of `show`, and what stands behind them */
+#include "present/show.h"
+
+#include "present/info.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* clang-format off */
+static const Topic topics[] = {
+    {"graph",        "nodes and edges of the linear graph",                NEED_MODEL,  BEHIND_NOTHING, show_graph},
+    {"nodes",        "frames and terminals",                               NEED_MODEL,  BEHIND_NOTHING, show_nodes},
+    {"edges",        "edges, their ends, and where they stand in the trees", NEED_MODEL, BEHIND_EDGES,  show_edges},
+    {"tree",         "branches and chords of each tree",                   NEED_MODEL,  BEHIND_NOTHING, show_tree},
+    {"incidence",    "incidence matrix: +1 where an edge starts, -1 where it ends", NEED_MODEL, BEHIND_EDGES, show_incidence},
+    {"circuits",     "fundamental circuits, one a chord",                  NEED_MODEL,  BEHIND_EDGES,   show_circuits},
+    {"cutsets",      "fundamental cutsets, one a branch",                  NEED_MODEL,  BEHIND_EDGES,   show_cutsets},
+    {"coordinates",  "coordinates and network unknowns, in their order",   NEED_SYSTEM, BEHIND_NOTHING, show_coordinates},
+    {"constraints",  "constraint equations; velocity, acceleration: their rates", NEED_SYSTEM, BEHIND_LEVEL, show_constraints},
+    {"jacobian",     "derivatives of the constraints by the coordinates",  NEED_SYSTEM, BEHIND_NUMBERS, show_jacobian},
+    {"mass",         "mass matrix M",                                      NEED_SYSTEM, BEHIND_NUMBERS, show_mass},
+    {"forces",       "right side F of the motion equations",               NEED_SYSTEM, BEHIND_NUMBERS, show_forces},
+    {"equations",    "all equations, row by row",                          NEED_SYSTEM, BEHIND_NOTHING, show_equations},
+    {"network",      "electrical equations, and those of other scalar domains", NEED_SYSTEM, BEHIND_NOTHING, show_network},
+    {"outputs",      "outputs and their expressions",                      NEED_MODEL,  BEHIND_NOTHING, show_outputs},
+    {"params",       "parameters and their values",                        NEED_MODEL,  BEHIND_NOTHING, show_params},
+    {"structure",    "sizes, and where M and the jacobian are not zero",   NEED_RUNNING, BEHIND_NOTHING, show_structure},
+    {"run",          "report of the last run",                             NEED_RUN,    BEHIND_NOTHING, show_run},
+    {"settings",     "how the session computes and prints",                NEED_MODEL,  BEHIND_NOTHING, show_settings},
+    {"program",      "the straight-line program that a run evaluates",     NEED_RUNNING, BEHIND_NOTHING, show_program},
+    {"state",        "a linear network as x' = A x + B u",                 NEED_MODEL,  BEHIND_NOTHING, show_state},
+    {"linear",       "matrices of the last linearisation",                 NEED_MODEL,  BEHIND_NOTHING, show_linear},
+    {"transfer",     "transfer functions of the last linearisation",       NEED_MODEL,  BEHIND_PAIR,    show_transfer},
+    {"derivation",   "how an equation came about, step by step",           NEED_MODEL,  BEHIND_NOTHING, NULL},
+    {"events",       "events, and when they happened in the last run",     NEED_MODEL,  BEHIND_NOTHING, show_events},
+};
+
+static const struct { const char *word; Notation notation; } notations[] = {
+    {"text", NOTATION_TEXT}, {"latex", NOTATION_LATEX}, {"c", NOTATION_C},
+    {"matlab", NOTATION_MATLAB}, {"tree", NOTATION_TREE},
+};
+/* clang-format on */
+
+const Topic *topic_find(const char *name)
+{
+    for (int i = 0; i < COUNT(topics); i++)
+        if (strcmp(topics[i].name, name) == 0)
+            return &topics[i];
+    return NULL;
+}
+
+const Topic *topic_at(int i)
+{
+    return i >= 0 && i < COUNT(topics) ? &topics[i] : NULL;
+}
+
+bool notation_find(const char *word, Notation *notation)
+{
+    for (int i = 0; i < COUNT(notations); i++)
+        if (strcmp(notations[i].word, word) == 0) {
+            *notation = notations[i].notation;
+            return true;
+        }
+    return false;
+}
+
+const char *notation_name(int i)
+{
+    return i >= 0 && i < COUNT(notations) ? notations[i].word : NULL;
+}
+
+/* the topic's row, NULL where the first operand is a variable or an expression */
+static const Topic *find_topic(const Statement *statement)
+{
+    const Syntax *first = statement->operands.count > 0 ? statement->operands.at[0].value : NULL;
+
+    return first != NULL && first->kind == SYNTAX_VARIABLE && first->primes == 0
+               ? topic_find(first->text)
+               : NULL;
+}
+
+bool show_is_linear(const Statement *statement)
+{
+    const Topic *topic = find_topic(statement);
+
+    return topic != NULL &&
+           (strcmp(topic->name, "linear") == 0 || strcmp(topic->name, "transfer") == 0);
+}
+
+/* whether any of what is to be shown is a formula, which equations are needed for */
+static bool has_formula(const Model *model, const Statement *statement)
+{
+    for (int i = 0; i < statement->operands.count; i++) {
+        Expr e;
+        Diag ignored = {0};
+
+        if (model_expression(model, statement->operands.at[i].value, &e, &ignored) == OK)
+            return true;
+    }
+    return false;
+}
+
+Status show_need(const Model *model, const Statement *statement, Need *need, Diag *diag)
+{
+    const Topic *topic = find_topic(statement);
+
+    if (statement->operands.count == 0) {
+        diag_at(diag, E_SYNTAX, statement->verb_place, "'show' needs a topic");
+        diag_hint(diag, "show graph, tree, coordinates, constraints, mass, forces, equations ...; "
+                        "'help show' lists them");
+        return E_SYNTAX;
+    }
+    if (topic != NULL && topic->show == NULL) {
+        diag_at(diag, E_MISSING, statement->operands.at[0].place,
+                "'show %s' comes with a later version", topic->name);
+        diag_hint(diag, "'help show' lists what can be shown");
+        return E_MISSING;
+    }
+    if (topic != NULL)
+        *need = topic->need;
+    else
+        *need = has_formula(model, statement) ? NEED_SYSTEM : NEED_MODEL;
+    return OK;
+}
+
+static Status has_room(const Topic *topic, const Operand *operand, const Selection *selection,
+                       Diag *diag)
+{
+    if (selection->number_count < COUNT(selection->numbers))
+        return OK;
+    return diag_at(diag, E_SYNTAX, operand->place,
+                   topic->behind == BEHIND_PAIR
+                       ? "a transfer function has an output and an input only"
+                       : "an entry has a row and a column only");
+}
+
+static Status take_number(const Topic *topic, const Operand *operand, Selection *selection,
+                          Diag *diag)
+{
+    const Syntax *value = operand->value;
+    char *end = NULL;
+    const long number = strtol(value->text, &end, 10);
+    Status status = OK;
+
+    if (topic->behind != BEHIND_NUMBERS && topic->behind != BEHIND_LEVEL &&
+        topic->behind != BEHIND_PAIR)
+        return diag_at(diag, E_SYNTAX, operand->place, "'show %s' takes no numbers", topic->name);
+    if (*end != '\0' || number < 1 || number > 1000000 || value->has_unit)
+        return diag_at(diag, E_VALUE, operand->place, "rows and columns are counted 1, 2, 3 ...");
+    CHECK(has_room(topic, operand, selection, diag));
+    selection->numbers[selection->number_count++] = (int)number;
+done:
+    return status;
+}
+
+/* the output, then the input of that name */
+static Status take_output_or_input(const View *view, const Topic *topic, const Operand *operand,
+                                   Selection *selection, Diag *diag)
+{
+    const Linear *linear = view->linear;
+    const bool is_output = selection->number_count == 0;
+    const char *what = is_output ? "output" : "input";
+    char *const *names;
+    char *name = view_name(operand->value);
+    Suggest suggest = suggest_for(name);
+    int found = 0;
+    Status status = OK;
+
+    CHECK(linear_check_pairs(linear, diag));
+    CHECK(has_room(topic, operand, selection, diag));
+    names = is_output ? linear->output_names : linear->input_names;
+    for (int i = 0; i < (is_output ? linear->outputs : linear->inputs); i++) {
+        suggest_offer(&suggest, names[i]);
+        if (strcmp(names[i], name) == 0)
+            found = i + 1;
+    }
+    if (found == 0) {
+        status = diag_at(diag, E_NAME, operand->place, "%s is no %s of the last linearisation",
+                         name, what);
+        if (suggest.best != NULL)
+            diag_hint(diag, "did you mean '%s'?", suggest.best);
+        else
+            diag_hint(diag, "'show transfer' takes an output, then an input: show transfer %s %s",
+                      linear->output_names[0], linear->input_names[0]);
+        goto done;
+    }
+    selection->numbers[selection->number_count++] = found;
+done:
+    mem_free(name);
+    return status;
+}
+
+static Status take_name(const View *view, const Topic *topic, const Operand *operand,
+                        Selection *selection, const char **names, Diag *diag)
+{
+    const char *name = operand->value->text;
+    Suggest suggest = suggest_for(name);
+
+    if (topic->behind == BEHIND_LEVEL && selection->level == NULL &&
+        (strcmp(name, "velocity") == 0 || strcmp(name, "acceleration") == 0)) {
+        selection->level = name;
+        return OK;
+    }
+    if (topic->behind == BEHIND_LEVEL)
+        return diag_at(diag, E_SYNTAX, operand->place,
+                       "'show constraints' may be followed by velocity or acceleration and a row");
+    if (topic->behind != BEHIND_EDGES)
+        return diag_at(diag, E_SYNTAX, operand->place, "'show %s' takes no names", topic->name);
+    if (graph_find_edge(model_graph(view->model), name) < 0) {
+        for (int i = 0; i < graph_edge_count(model_graph(view->model)); i++)
+            suggest_offer(&suggest, graph_edge(model_graph(view->model), i)->name);
+        diag_at(diag, E_NAME, operand->place, "no edge is called '%s'", name);
+        if (suggest.best != NULL)
+            diag_hint(diag, "did you mean '%s'?", suggest.best);
+        else
+            diag_hint(diag, "'show edges' lists them");
+        return E_NAME;
+    }
+    names[selection->name_count++] = name;
+    return OK;
+}
+
+static Status show_topic(const View *view, const Topic *topic, const Statement *statement,
+                         Text *out, Diag *diag)
+{
+    const char **names = NEW_ARRAY(const char *, statement->operands.count);
+    Selection selection = {.names = names};
+    Status status = OK;
+
+    for (int i = 1; i < statement->operands.count; i++) {
+        const Operand *operand = statement->operands.at + i;
+
+        if (operand->value->kind == SYNTAX_NUMBER) {
+            CHECK(take_number(topic, operand, &selection, diag));
+        } else if (topic->behind == BEHIND_PAIR) {
+            CHECK(take_output_or_input(view, topic, operand, &selection, diag));
+        } else if (operand->value->kind == SYNTAX_VARIABLE && operand->value->primes == 0) {
+            CHECK(take_name(view, topic, operand, &selection, names, diag));
+        } else {
+            status = diag_at(diag, E_SYNTAX, operand->place, "expected a %s behind '%s'",
+                             topic->behind == BEHIND_EDGES ? "name" : "number", topic->name);
+            goto done;
+        }
+    }
+    status = topic->show(view, &selection, out, diag);
+    if (status != OK && diag->place.line == 0)
+        diag->place = statement->operands.at[statement->operands.count > 1 ? 1 : 0].place;
+done:
+    mem_free(names);
+    return status;
+}
+
+/* a word that is neither topic nor variable was probably meant as a topic */
+static Status unknown_topic(const Operand *operand, Status status, Diag *diag)
+{
+    Suggest suggest = suggest_for(operand->value->text);
+
+    for (int i = 0; i < COUNT(topics); i++)
+        suggest_offer(&suggest, topics[i].name);
+    if (status == E_NAME && suggest.best != NULL && operand->value->kind == SYNTAX_VARIABLE) {
+        diag_at(diag, E_NAME, operand->place, "nothing to show is called '%s'",
+                operand->value->text);
+        diag_hint(diag, "did you mean 'show %s'?", suggest.best);
+    }
+    return status;
+}
+
+/* A name that stands for no formula, or for itself alone: a part, a frame, a parameter, a
+ * coordinate that the trees leave independent. */
+static bool is_mere_name(const View *view, const Syntax *syntax)
+{
+    Expr user, e;
+    Diag ignored = {0};
+
+    if (syntax->kind != SYNTAX_VARIABLE || syntax->primes > 0)
+        return false;
+    return model_expression(view->model, syntax, &user, &ignored) != OK ||
+           (system_resolve(view->system, user, &e, &ignored) == OK && expr_kind(e) == EXPR_SYMBOL &&
+            strcmp(expr_name(e), syntax->text) == 0);
+}
+
+static Status show_item(const View *view, const Statement *statement, int item, Text *out,
+                        Diag *diag)
+{
+    const Operand *operand = statement->operands.at + item;
+    const int number = statement->operands.count > 1 ? item + 1 : 0;
+    Diag ignored = {0};
+
+    if (statement->as == NULL && is_mere_name(view, operand->value) &&
+        info_print(view, operand->value->text, operand->place, out, &ignored) == OK)
+        return OK;
+    return show_expression(view, operand->value, number, out, diag);
+}
+
+Status show(const View *view, const Statement *statement, Text *out, Diag *diag)
+{
+    View in_notation = *view;
+    const Topic *topic = find_topic(statement);
+    Status status = OK;
+
+    if (statement->as != NULL && !notation_find(statement->as, &in_notation.page.notation)) {
+        diag_at(diag, E_NAME, statement->as_place, "no notation is called '%s'", statement->as);
+        diag_hint(diag, "one of text, latex, c, matlab, tree");
+        return E_NAME;
+    }
+    if (topic != NULL)
+        return show_topic(&in_notation, topic, statement, out, diag);
+    for (int i = 0; status == OK && i < statement->operands.count; i++) {
+        const Operand *operand = statement->operands.at + i;
+
+        status = show_item(&in_notation, statement, i, out, diag);
+        if (status != OK && diag->place.line == 0)
+            diag->place = operand->place;
+        if (status != OK && i == 0)
+            status = unknown_topic(operand, status, diag);
+    }
+    return status;
+}

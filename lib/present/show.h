@@ -1,0 +1,100 @@
+/* show.h: the topics of `show`
+ *
+ * A topic is a row: its name, what it needs, what may stand behind it, and the function
+ * that writes it. */
+#ifndef COTREE_PRESENT_SHOW_H
+#define COTREE_PRESENT_SHOW_H
+
+#include "present/view.h"
+
+typedef enum Need {
+    NEED_MODEL,
+    NEED_SYSTEM,  /* equations as the trees give them */
+    NEED_RUNNING, /* equations as a run evaluates them */
+    NEED_RUN      /* the last run; equations too */
+} Need;
+
+typedef enum Behind { /* what may stand behind a topic */
+                      BEHIND_NOTHING,
+                      BEHIND_NUMBERS, /* a row, a row and a column */
+                      BEHIND_EDGES,   /* names of edges */
+                      BEHIND_LEVEL,   /* velocity or acceleration, and rows */
+                      BEHIND_PAIR     /* an output and an input of what was linearized, by number or
+                                         name */
+} Behind;
+
+typedef struct Selection {
+    int numbers[2]; /* from 1 */
+    int number_count;
+    const char *const *names;
+    int name_count;
+    const char *level; /* "velocity", "acceleration" or NULL */
+} Selection;
+
+typedef struct Topic {
+    const char *name;
+    const char *brief;
+    Need need;
+    Behind behind;
+    /* NULL: comes with a later version */
+    Status (*show)(const View *view, const Selection *selection, Text *out, Diag *diag);
+} Topic;
+
+const Topic *topic_find(const char *name); /* NULL: none */
+const Topic *topic_at(int i);              /* 0, 1, ... until NULL */
+
+bool show_is_linear(const Statement *statement); /* shows the last linearisation */
+/* What the statement `show ...` needs; a variable (`show h9.fx`) needs equations, the name of a
+ * part (`show R1`) only the model. */
+MUST_USE Status show_need(const Model *model, const Statement *statement, Need *need, Diag *diag);
+/* Write what the statement asks for; of a name that no formula stands behind, what `info` tells.
+ * Fails with E_NAME for an unknown topic or edge, E_VALUE for an entry beyond the last, E_MISSING
+ * for topics of later versions, the errors of equations. */
+MUST_USE Status show(const View *view, const Statement *statement, Text *out, Diag *diag);
+/* the notation of `as WORD`; false: unknown */
+bool notation_find(const char *word, Notation *notation);
+const char *notation_name(int i); /* 0, 1, ... until NULL */
+
+/* --- the functions of topics --- */
+typedef Status ShowFunction(const View *view, const Selection *selection, Text *out, Diag *diag);
+
+ShowFunction show_graph, show_nodes, show_edges, show_tree, show_incidence, show_circuits,
+    show_cutsets, show_structure;
+ShowFunction show_coordinates, show_constraints, show_jacobian, show_mass, show_forces,
+    show_equations, show_network, show_events;
+ShowFunction show_outputs, show_params, show_run, show_settings, show_program;
+
+/* a matrix of the linear equations, by its letter */
+typedef struct LinearMatrix {
+    char letter;
+    const double *at; /* rows x columns */
+    int rows, columns;
+    char *const *row_names;
+    char *const *column_names;
+} LinearMatrix;
+LinearMatrix linear_matrix(const Linear *linear, char letter);
+/* A, B, C, D with the names of their rows and columns */
+void linear_print(const View *view, const Linear *linear, Text *out);
+ShowFunction show_linear, show_transfer, show_state;
+/* E_MISSING where there is nothing linear, or no input or output of it */
+MUST_USE Status linear_check_pairs(const Linear *linear, Diag *diag);
+/* a line a mode; what moves on lines of its own where that is wider than the page (0: never) */
+/* a number of which `error` is open: six digits, or those that are known, one at least */
+void linear_known(Text *out, double value, double error);
+void modes_print(const Modes *modes, int columns, Text *out);
+
+/* what an event of the model does, in words: "stops", "s1' = -0.8*s1'" */
+void event_print(Text *out, const Event *event);
+
+/* One variable or expression of the user's: `left = its expression`. Programming languages get a
+ * left side that they can assign to: what is no variable is `value`, with its number behind (0: it
+ * is the only one). */
+MUST_USE Status show_expression(const View *view, const Syntax *syntax, int number, Text *out,
+                                Diag *diag);
+
+/* a run's report: what ran, its work, residuals and energy; without its remarks */
+void report_print(Text *out, const Result *result, const char *name);
+/* the same in a line: how far it came, its work, its drift */
+void report_line(Text *out, const Result *result, const char *name);
+
+#endif

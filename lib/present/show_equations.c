@@ -1,0 +1,549 @@
+/* show_equations.c: coordinates, constraints, M, F and the network, as a person writes them
+ *
+ * M u' + Phi_u^T lambda = F, a row a speed; Phi = 0; left = right of each network unknown. */
+#include "present/show.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/* --- what is counted and in which order --- */
+
+static char *name_list(const Variable *(*variable)(const System *, int), const System *system,
+                       int count)
+{
+    Text names = {0};
+
+    for (int i = 0; i < count; i++)
+        layout_item(&names, variable(system, i)->name);
+    return text_done(&names);
+}
+
+static void add_freedom(Text *out, const View *view)
+{
+    const System *system = view->system;
+    const int n = system_n(system), nu = system_nu(system), m = system_m(system);
+    char *names = name_list(system_q, system, n);
+    Text line = {0};
+
+    layout_count(&line, m, "constraint", "constraints");
+    text_add(&line, " in ");
+    layout_count(&line, n, "coordinate", "coordinates");
+    if (n > 0)
+        text_addf(&line, " (%s)", names);
+    if (nu != n)
+        text_addf(&line, ", %d speeds", nu);
+    text_add(&line, ": ");
+    view_freedoms(&line, system, view->freedoms);
+    view_comment(out, view, line.at);
+    text_free(&line);
+    mem_free(names);
+}
+
+static void add_dropped(Text *out, const View *view)
+{
+    const char *line;
+
+    for (int i = 0; (line = system_dropped(view->system, i)) != NULL; i++) {
+        if (i == 0)
+            view_comment(out, view, "vanished identically:");
+        if (view->page.notation == NOTATION_TEXT || view->page.notation == NOTATION_UNICODE)
+            layout_words(out, view->page.columns, "  ", line);
+        else
+            view_comment(out, view, line);
+    }
+}
+
+static const char *edge_name(const View *view, const Variable *variable)
+{
+    if (variable->edge < 0)
+        return system_instance_name(view->system, variable->instance);
+    return graph_edge(model_graph(view->model), variable->edge)->name;
+}
+
+static const char *coordinate_kind(const System *system, int coordinate)
+{
+    for (int i = 0; system_quaternion(system, i) >= 0; i++)
+        if (coordinate >= system_quaternion(system, i) &&
+            coordinate < system_quaternion(system, i) + 4)
+            return "parameter";
+    return system_q(system, coordinate)->is_angle ? "angle" : "length";
+}
+
+static void coordinate_rows(Table *table, const View *view)
+{
+    for (int i = 0; i < system_n(view->system); i++) {
+        const Variable *q = system_q(view->system, i);
+        char *rate = expr_text(system_q_rate(view->system, i));
+
+        table_cellf(table, "%d", i + 1);
+        table_cell(table, q->name);
+        table_cell(table, coordinate_kind(view->system, i));
+        table_cell(table, edge_name(view, q));
+        table_cell(table, rate);
+        mem_free(rate);
+    }
+}
+
+static void unknown_rows(Table *table, const View *view)
+{
+    for (int i = 0; i < system_nx(view->system) + system_nz(view->system); i++) {
+        const bool is_state = i < system_nx(view->system);
+        const Variable *v = is_state ? system_x(view->system, i)
+                                     : system_z(view->system, i - system_nx(view->system));
+
+        table_cellf(table, "%d", i + 1);
+        table_cell(table, v->name);
+        table_cell(table, is_state ? "state" : "algebraic");
+        table_cell(table, edge_name(view, v));
+        table_cell(table, "");
+    }
+}
+
+Status show_coordinates(const View *view, const Selection *selection, Text *out, Diag *diag)
+{
+    Table table = table_for("rllll");
+
+    (void)selection, (void)diag;
+    table_cell(&table, "");
+    table_cell(&table, "variable");
+    table_cell(&table, "kind");
+    table_cell(&table, "of");
+    table_cell(&table, "rate");
+    coordinate_rows(&table, view);
+    unknown_rows(&table, view);
+    add_freedom(out, view);
+    if (table.cells.count > table.columns)
+        table_print(out, &table, 0);
+    table_free(&table);
+    return OK;
+}
+
+/* --- entries of blocks --- */
+
+static Status check_numbers(const View *view, Block block, const Selection *selection, Diag *diag)
+{
+    int rows, columns;
+
+    system_block_size(view->system, block, &rows, &columns);
+    if (selection->number_count > 0 && selection->numbers[0] > rows)
+        return diag_set(diag, E_VALUE, "%s has %d row%s, so there is no row %d", block_name(block),
+                        rows, rows == 1 ? "" : "s", selection->numbers[0]);
+    if (selection->number_count > 1 && selection->numbers[1] > columns)
+        return diag_set(diag, E_VALUE, "%s has %d column%s, so there is no column %d",
+                        block_name(block), columns, columns == 1 ? "" : "s", selection->numbers[1]);
+    return OK;
+}
+
+static bool is_chosen(const Selection *selection, int row, int column)
+{
+    return (selection->number_count < 1 || selection->numbers[0] == row + 1) &&
+           (selection->number_count < 2 || selection->numbers[1] == column + 1);
+}
+
+/* Entries of a block under their names; of a symmetric one those on and above the diagonal,
+ * unless a row was asked for. Zeros are left out where many entries are written. */
+static Status add_entries(Text *out, const View *view, Block block, const char *letter,
+                          const Selection *selection, Diag *diag)
+{
+    Equations equations = {0};
+    Status status = OK;
+    int rows, columns;
+    const bool whole = selection->number_count == 0;
+
+    CHECK(check_numbers(view, block, selection, diag));
+    system_block_size(view->system, block, &rows, &columns);
+    for (int r = 0; r < rows; r++)
+        for (int c = whole && block == BLOCK_MASS ? r : 0; c < columns; c++) {
+            const bool vector = columns == 1 && block != BLOCK_MASS && block != BLOCK_JACOBIAN;
+            Expr e;
+
+            if (!is_chosen(selection, r, c))
+                continue;
+            CHECK(poll(view->watch));
+            CHECK(system_show(view->system, block, r, c, &e, diag));
+            if (expr_is_zero(e) && !vector && selection->number_count < 2)
+                continue;
+            view_value(&equations,
+                       view_entry_name(view, block_name(block), letter, r, vector ? -1 : c), e);
+        }
+    view_open(out, view);
+    view_equations(out, view, &equations);
+    view_close(out, view);
+done:
+    equations_free(&equations);
+    return status;
+}
+
+static void add_block_title(Text *out, const View *view, const char *what, const char *rows,
+                            const char *note)
+{
+    Text line = {0};
+
+    text_addf(&line, "%s; %s%s", what, rows, note);
+    view_comment(out, view, line.at);
+    text_free(&line);
+}
+
+Status show_mass(const View *view, const Selection *selection, Text *out, Diag *diag)
+{
+    const int nu = system_nu(view->system);
+
+    if (selection->number_count == 0) {
+        char *names = name_list(system_u, view->system, nu);
+        char what[64];
+        Text rows = {0};
+
+        (void)snprintf(what, sizeof what, "mass matrix, %d x %d, symmetric", nu, nu);
+        text_addf(&rows, "rows and columns %s", names);
+        add_block_title(out, view, what, rows.at, "; entries not listed are 0");
+        text_free(&rows);
+        mem_free(names);
+    }
+    return add_entries(out, view, BLOCK_MASS, "M", selection, diag);
+}
+
+Status show_forces(const View *view, const Selection *selection, Text *out, Diag *diag)
+{
+    if (selection->number_count == 0) {
+        char *names = name_list(system_u, view->system, system_nu(view->system));
+        Text rows = {0};
+
+        text_addf(&rows, "rows %s", names);
+        add_block_title(out, view, "right side F of the motion equations", rows.at, "");
+        text_free(&rows);
+        mem_free(names);
+    }
+    return add_entries(out, view, BLOCK_FORCES, "F", selection, diag);
+}
+
+Status show_jacobian(const View *view, const Selection *selection, Text *out, Diag *diag)
+{
+    if (system_m(view->system) == 0) {
+        add_freedom(out, view);
+        return OK;
+    }
+    if (selection->number_count == 0) {
+        char *names = name_list(system_u, view->system, system_nu(view->system));
+        char what[80];
+        Text rows = {0};
+
+        (void)snprintf(what, sizeof what, "jacobian of the constraints, %d x %d",
+                       system_m(view->system), system_nu(view->system));
+        text_addf(&rows, "columns %s", names);
+        add_block_title(out, view, what, rows.at, "; entries not listed are 0");
+        text_free(&rows);
+        mem_free(names);
+    }
+    return add_entries(out, view, BLOCK_JACOBIAN, "\\Phi", selection, diag);
+}
+
+/* --- equations --- */
+
+/* "h9  x:  " with the edge's name once, all as wide as the widest */
+static char *constraint_lead(const View *view, int k, int name_width, int direction_width)
+{
+    const ConstraintRow *row = system_constraint(view->system, k);
+    const Graph *graph = model_graph(view->model);
+    const bool again = k > 0 && system_constraint(view->system, k - 1)->edge == row->edge;
+    const char *name = again || row->edge < 0 ? "" : graph_edge(graph, row->edge)->name;
+    Text lead = {0};
+    char direction[32];
+
+    (void)snprintf(direction, sizeof direction, "%s:", row->direction);
+    text_addf(&lead, "%-*s  %-*s  ", name_width, name, direction_width + 1, direction);
+    return text_done(&lead);
+}
+
+static void lead_widths(const View *view, int *name_width, int *direction_width)
+{
+    const Graph *graph = model_graph(view->model);
+
+    *name_width = *direction_width = 0;
+    for (int k = 0; k < system_m(view->system); k++) {
+        const ConstraintRow *row = system_constraint(view->system, k);
+        const int name = row->edge < 0 ? 0 : text_width(graph_edge(graph, row->edge)->name);
+        const int direction = text_width(row->direction);
+
+        *name_width = name > *name_width ? name : *name_width;
+        *direction_width = direction > *direction_width ? direction : *direction_width;
+    }
+}
+
+/* sum of Phi_u[k][j] * rate_j, the left side of a rate of constraint k */
+static Status push_jacobian_row(const View *view, Equation *equation, int k, bool acceleration,
+                                Diag *diag)
+{
+    Status status = OK;
+
+    for (int j = 0; j < system_nu(view->system); j++) {
+        const Expr rate =
+            acceleration ? system_acceleration(view->system, j) : system_u(view->system, j)->symbol;
+        Expr entry;
+
+        CHECK(system_show(view->system, BLOCK_JACOBIAN, k, j, &entry, diag));
+        if (!expr_is_zero(entry))
+            LIST_PUSH(equation->left, (Term){entry, rate});
+    }
+done:
+    return status;
+}
+
+/* the equation of row k: Phi = 0, Phi_u u = nu or Phi_u u' = gamma */
+static Status push_constraint(const View *view, Equations *equations, int k, const char *level,
+                              Diag *diag)
+{
+    Equation equation = {.lead = NULL, .name = NULL, .left = {0}, .right = {0}};
+    Status status = OK;
+    int name_width, direction_width;
+    Expr e;
+
+    if (level == NULL) {
+        CHECK(system_show(view->system, BLOCK_CONSTRAINTS, k, 0, &e, diag));
+        LIST_PUSH(equation.left, (Term){e, NULL});
+    } else {
+        const bool acceleration = strcmp(level, "acceleration") == 0;
+
+        CHECK(push_jacobian_row(view, &equation, k, acceleration, diag));
+        CHECK(system_show(view->system, acceleration ? BLOCK_ACCELERATION : BLOCK_VELOCITY, k, 0,
+                          &e, diag));
+        LIST_PUSH(equation.right, (Term){e, NULL});
+    }
+    lead_widths(view, &name_width, &direction_width);
+    equation.lead = constraint_lead(view, k, name_width, direction_width);
+    LIST_PUSH(*equations, equation);
+    return OK;
+done:
+    LIST_FREE(equation.left);
+    LIST_FREE(equation.right);
+    return status;
+}
+
+Status show_constraints(const View *view, const Selection *selection, Text *out, Diag *diag)
+{
+    Equations equations = {0};
+    Status status = OK;
+
+    CHECK(check_numbers(view, BLOCK_CONSTRAINTS, selection, diag));
+    for (int k = 0; k < system_m(view->system); k++)
+        if (is_chosen(selection, k, 0) && selection->number_count < 2)
+            CHECK(push_constraint(view, &equations, k, selection->level, diag));
+    if (selection->number_count == 0)
+        add_freedom(out, view);
+    if (equations.count > 0) {
+        view_open(out, view);
+        view_equations(out, view, &equations);
+        view_close(out, view);
+    }
+    if (selection->number_count == 0)
+        add_dropped(out, view);
+done:
+    equations_free(&equations);
+    return status;
+}
+
+/* row i of the embedded form, Mt u' = Ft */
+static Status push_embedded(const View *view, Equations *equations, int i, Diag *diag)
+{
+    Equation equation = {.lead = NULL, .name = NULL, .left = {0}, .right = {0}};
+    Status status = OK;
+    Text lead = {0};
+    Expr e;
+
+    for (int j = 0; j < system_nu(view->system); j++) {
+        CHECK(poll(view->watch));
+        CHECK(system_show(view->system, BLOCK_EMBEDDED_MASS, i, j, &e, diag));
+        if (!expr_is_zero(e))
+            LIST_PUSH(equation.left, (Term){e, system_acceleration(view->system, j)});
+    }
+    CHECK(system_show(view->system, BLOCK_EMBEDDED_FORCES, i, 0, &e, diag));
+    LIST_PUSH(equation.right, (Term){e, NULL});
+    text_addf(&lead, "%d:  ", i + 1);
+    equation.lead = text_done(&lead);
+    LIST_PUSH(*equations, equation);
+    return OK;
+done:
+    LIST_FREE(equation.left);
+    LIST_FREE(equation.right);
+    return status;
+}
+
+/* row i of M u' + Phi_u^T lambda = F */
+static Status push_motion(const View *view, Equations *equations, int i, int lead_width, Diag *diag)
+{
+    Equation equation = {.lead = NULL, .name = NULL, .left = {0}, .right = {0}};
+    Status status = OK;
+    Text lead = {0};
+    char name[80];
+    Expr e;
+
+    CHECK(poll(view->watch));
+    for (int j = 0; j < system_nu(view->system); j++) {
+        CHECK(system_show(view->system, BLOCK_MASS, i, j, &e, diag));
+        if (!expr_is_zero(e))
+            LIST_PUSH(equation.left, (Term){e, system_acceleration(view->system, j)});
+    }
+    for (int k = 0; k < system_m(view->system); k++) {
+        CHECK(system_show(view->system, BLOCK_JACOBIAN, k, i, &e, diag));
+        if (!expr_is_zero(e))
+            LIST_PUSH(equation.left, (Term){e, system_multiplier(view->system, k)});
+    }
+    CHECK(system_show(view->system, BLOCK_FORCES, i, 0, &e, diag));
+    LIST_PUSH(equation.right, (Term){e, NULL});
+    (void)snprintf(name, sizeof name, "%s:", edge_name(view, system_u(view->system, i)));
+    text_addf(&lead, "%-*s  ", lead_width, name);
+    equation.lead = text_done(&lead);
+    LIST_PUSH(*equations, equation);
+    return OK;
+done:
+    LIST_FREE(equation.left);
+    LIST_FREE(equation.right);
+    return status;
+}
+
+static Status push_motions(const View *view, Equations *equations, int lead_width, Diag *diag)
+{
+    const char *const *independent;
+    const int m = system_m(view->system), nu = system_nu(view->system);
+    int count;
+    Status status = OK;
+    const bool embedded = model_form(view->model, &independent, &count) == FORM_EMBEDDED && m > 0;
+
+    for (int i = 0; embedded && i < nu - m; i++)
+        CHECK(push_embedded(view, equations, i, diag));
+    for (int i = 0; !embedded && i < nu; i++)
+        CHECK(push_motion(view, equations, i, lead_width, diag));
+done:
+    return status;
+}
+
+/* "M7: L7*i' = ..." */
+static void push_network(const View *view, Equations *equations, int lead_width)
+{
+    for (int i = 0; i < system_network_count(view->system); i++) {
+        Equation equation = {.lead = NULL, .name = NULL, .left = {0}, .right = {0}};
+        const Variable of = {.edge = system_network_edge(view->system, i)};
+        Text lead = {0};
+        char name[80];
+        Expr left, right;
+
+        system_network_equation(view->system, i, &left, &right);
+        LIST_PUSH(equation.left, (Term){left, NULL});
+        LIST_PUSH(equation.right, (Term){right, NULL});
+        (void)snprintf(name, sizeof name, "%s:", edge_name(view, &of));
+        text_addf(&lead, "%-*s  ", lead_width, name);
+        equation.lead = text_done(&lead);
+        LIST_PUSH(*equations, equation);
+    }
+}
+
+static int edge_lead_width(const View *view)
+{
+    const System *system = view->system;
+    int width = 0;
+
+    for (int i = 0; i < system_nu(system) + system_nx(system) + system_nz(system); i++) {
+        const int j = i - system_nu(system), k = j - system_nx(system);
+        const Variable *v = j < 0   ? system_u(system, i)
+                            : k < 0 ? system_x(system, j)
+                                    : system_z(system, k);
+        const int w = text_width(edge_name(view, v)) + 1;
+
+        width = w > width ? w : width;
+    }
+    return width;
+}
+
+Status show_network(const View *view, const Selection *selection, Text *out, Diag *diag)
+{
+    Equations equations = {0};
+
+    (void)selection, (void)diag;
+    if (system_network_count(view->system) == 0) {
+        view_comment(out, view,
+                     "no network: no electrical or other scalar component has an "
+                     "equation of its own");
+        return OK;
+    }
+    push_network(view, &equations, edge_lead_width(view));
+    view_open(out, view);
+    view_equations(out, view, &equations);
+    view_close(out, view);
+    return OK;
+}
+
+Status show_equations(const View *view, const Selection *selection, Text *out, Diag *diag)
+{
+    Equations equations = {0};
+    Status status = OK;
+    const int width = edge_lead_width(view);
+
+    (void)selection;
+    CHECK(push_motions(view, &equations, width, diag));
+    for (int k = 0; k < system_m(view->system); k++)
+        CHECK(push_constraint(view, &equations, k, NULL, diag));
+    push_network(view, &equations, width);
+    add_freedom(out, view);
+    if (equations.count > 0) {
+        view_open(out, view);
+        view_equations(out, view, &equations);
+        view_close(out, view);
+    }
+done:
+    equations_free(&equations);
+    return status;
+}
+
+/* In programs, what is no variable needs a name that the model has not given */
+static char *free_name(const View *view, int number)
+{
+    const char *name;
+    Text text = {0};
+
+    text_add(&text, "value");
+    if (number > 0)
+        text_addf(&text, "%d", number);
+    for (int i = 0; (name = model_name(view->model, i)) != NULL; i++)
+        if (strcmp(name, text.at) == 0) {
+            text_char(&text, '_');
+            i = -1;
+        }
+    return text_done(&text);
+}
+
+/* the left side of what is shown: as the user wrote it, or as the notation can have it */
+static char *left_side(const View *view, const Syntax *syntax, Expr user, int number)
+{
+    const Notation notation = view->page.notation;
+    char *written, *name;
+
+    if (notation == NOTATION_LATEX)
+        return view_expression(view, user);
+    if (notation != NOTATION_C && notation != NOTATION_MATLAB)
+        return view_name(syntax);
+    while (syntax->kind == SYNTAX_GROUP && syntax->primes == 0)
+        syntax = syntax->args[0];
+    written = view_name(syntax);
+    name = syntax->kind != SYNTAX_VARIABLE
+               ? free_name(view, number)
+               : view_expression(view,
+                                 expr_symbol(model_arena(view->model), written, SYMBOL_VARIABLE));
+    mem_free(written);
+    return name;
+}
+
+Status show_expression(const View *view, const Syntax *syntax, int number, Text *out, Diag *diag)
+{
+    Equations equations = {0};
+    Status status = OK;
+    Expr user, e;
+
+    CHECK(model_expression(view->model, syntax, &user, diag));
+    CHECK(system_resolve(view->system, user, &e, diag));
+    view_value(&equations, left_side(view, syntax, user, number),
+               expr_fold(model_arena(view->model), e));
+    view_open(out, view);
+    view_equations(out, view, &equations);
+    view_close(out, view);
+done:
+    return status;
+}

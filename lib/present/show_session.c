@@ -1,0 +1,406 @@
+/* show_session.c: parameters, outputs, settings, the last run, the program and the structure */
+#include "compile/program.h"
+#include "present/show.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+Status show_params(const View *view, const Selection *selection, Text *out, Diag *diag)
+{
+    Table table = table_for("lll");
+
+    (void)selection, (void)diag;
+    for (int i = 0; i < model_parameter_count(view->model); i++) {
+        Expr definition;
+        const Expr symbol = model_parameter(view->model, i, &definition);
+        char *text = expr_text(definition);
+        Text value = {0};
+
+        text_number(&value, model_parameter_value(view->model, symbol), 10);
+        table_cell(&table, expr_name(symbol));
+        table_cellf(&table, "= %s", value.at);
+        table_cell(&table, expr_is_number(definition) ? "" : text);
+        text_free(&value);
+        mem_free(text);
+    }
+    if (table.cells.count == 0)
+        text_add(out, "no parameters\n");
+    table_print(out, &table, 0);
+    table_free(&table);
+    return OK;
+}
+
+Status show_outputs(const View *view, const Selection *selection, Text *out, Diag *diag)
+{
+    Equations equations = {0};
+
+    (void)selection, (void)diag;
+    if (model_output_count(view->model) == 0) {
+        view_comment(out, view, "no outputs");
+        return OK;
+    }
+    for (int i = 0; i < model_output_count(view->model); i++) {
+        const char *name;
+        const Expr e = model_output(view->model, i, &name);
+
+        view_value(&equations, mem_text(name, strlen(name)), e);
+    }
+    view_open(out, view);
+    view_equations(out, view, &equations);
+    view_close(out, view);
+    return OK;
+}
+
+Status show_settings(const View *view, const Selection *selection, Text *out, Diag *diag)
+{
+    const char *const *independent;
+    int count;
+    const Form form = model_form(view->model, &independent, &count);
+    const Expr *gravity = model_gravity(view->model);
+    Table table = table_for("ll");
+    Text text = {0};
+
+    (void)selection, (void)diag;
+    table_cell(&table, "scene");
+    table_cell(&table, model_is_planar(view->model) ? "planar" : "spatial");
+    for (int i = 0; i < (model_is_planar(view->model) ? 2 : 3); i++) {
+        char *component = expr_text(gravity[i]);
+
+        layout_item(&text, component);
+        mem_free(component);
+    }
+    table_cell(&table, "gravity");
+    table_cellf(&table, "[%s]", text.at);
+    text_free(&text);
+    for (int i = 0; i < count; i++)
+        layout_item(&text, independent[i]);
+    table_cell(&table, "form");
+    table_cellf(&table, "%s%s%s", form == FORM_EMBEDDED ? "embedded" : "augmented",
+                form == FORM_EMBEDDED ? ", independent " : "",
+                form != FORM_EMBEDDED ? ""
+                : count > 0           ? text.at
+                                      : "chosen by pivoting");
+    text_free(&text);
+    table_cell(&table, "network");
+    table_cell(&table, model_network_form(view->model) == NETWORK_TREE ? "tree" : "state");
+    table_cell(&table, "evaluator");
+    table_cell(&table, "interpreter");
+    table_print(out, &table, 0);
+    table_free(&table);
+    return OK;
+}
+
+/* --- the last run --- */
+
+static const char *kind_name(RunKind kind)
+{
+    static const char *const names[] = {
+        [RUN_START] = "assemble",
+        [RUN_SIMULATE] = "simulate",
+        [RUN_KINEMATICS] = "kinematics",
+        [RUN_INVERSE] = "inverse",
+    };
+    return names[kind];
+}
+
+static void add_work(Table *table, const RunReport *report)
+{
+    if (report->steps > 0) {
+        table_cell(table, "steps");
+        table_cellf(table, "%" PRId64 " (%" PRId64 " rejected)", report->steps, report->rejected);
+    }
+    if (report->evaluations > 0) {
+        table_cell(table, "evaluations");
+        table_cellf(table, "%" PRId64, report->evaluations);
+    }
+    if (report->factorisations > 0) {
+        table_cell(table, "factorisations");
+        table_cellf(table, "%" PRId64, report->factorisations);
+    }
+    if (report->regularised > 0) {
+        table_cell(table, "near singular");
+        table_cellf(table, "%" PRId64 " factorisations, first at t = %.6g s", report->regularised,
+                    report->singular_time);
+    }
+}
+
+/* whether there is a drift to tell, as against what moved: both are numbers */
+static bool tells_energy(const RunReport *report)
+{
+    return report->energy_swing > 0 && isfinite(report->energy_swing) &&
+           !isnan(report->energy_drift);
+}
+
+static void add_quality(Table *table, const RunReport *report)
+{
+    table_cell(table, "position residual");
+    table_cellf(table, "%.2g", report->position_residual);
+    table_cell(table, "velocity residual");
+    table_cellf(table, "%.2g", report->velocity_residual);
+    if (tells_energy(report)) {
+        table_cell(table, "energy drift");
+        table_cellf(table, "%.2g J of %.3g J", report->energy_drift, report->energy_swing);
+    }
+    if (!isnan(report->global_error)) {
+        table_cell(table, "global error");
+        table_cellf(table, "%.2g", report->global_error);
+    } else if (report->is_unresolved) {
+        table_cell(table, "global error");
+        table_cell(table, "not resolved");
+    }
+}
+
+/* what the user asked of steps */
+static void add_step(Table *table, const RunReport *report)
+{
+    if (report->step > 0) {
+        table_cell(table, "step");
+        table_cellf(table, "%.3g s", report->step);
+    }
+    if (report->most > 0) {
+        table_cell(table, "largest step");
+        table_cellf(table, "%.3g s", report->most);
+    }
+}
+
+void report_print(Text *out, const Result *result, const char *name)
+{
+    const RunReport *report = result_report(result);
+    const double *times = result_times(result);
+    const int rows = result_rows(result);
+    Table table = table_for("ll");
+
+    table_cell(&table, name);
+    table_cellf(&table, "%s%s%s%s", kind_name(result_kind(result)),
+                report->method != NULL ? ", " : "", report->method != NULL ? report->method : "",
+                report->stopped ? ", stopped" : "");
+    table_cell(&table, "time");
+    if (rows > 1)
+        table_cellf(&table, "%.6g ... %.6g s, %d rows", times[0], times[rows - 1], rows);
+    else
+        table_cellf(&table, "%.6g s", rows > 0 ? times[0] : 0.0);
+    if (result_kind(result) == RUN_SIMULATE) {
+        table_cell(&table, "tolerances");
+        table_cellf(&table, "rtol %.3g, atol %.3g", report->rtol, report->atol);
+        add_step(&table, report);
+    }
+    add_work(&table, report);
+    add_quality(&table, report);
+    table_print(out, &table, 0);
+    table_free(&table);
+}
+
+void report_line(Text *out, const Result *result, const char *name)
+{
+    const RunReport *report = result_report(result);
+    const double *times = result_times(result);
+    const int rows = result_rows(result);
+
+    text_addf(out, "%s: ", name);
+    if (rows > 1)
+        text_addf(out, "%.6g ... %.6g s, %d rows", times[0], times[rows - 1], rows);
+    else
+        text_add(out, "its start only");
+    if (result_kind(result) == RUN_SIMULATE)
+        text_addf(out, "; %lld steps, %lld evaluations", (long long)report->steps,
+                  (long long)report->evaluations);
+    if (tells_energy(report))
+        text_addf(out, "; energy drift %.2g J of %.3g J", report->energy_drift,
+                  report->energy_swing);
+    text_char(out, '\n');
+}
+
+Status show_run(const View *view, const Selection *selection, Text *out, Diag *diag)
+{
+    const char *remarks;
+
+    (void)selection;
+    if (view->result == NULL) {
+        diag_set(diag, E_MISSING, "there is no run yet");
+        diag_hint(diag, "'simulate 10' makes one");
+        return E_MISSING;
+    }
+    report_print(out, view->result, "run");
+    remarks = result_remarks(view->result);
+    if (remarks[0] != '\0') {
+        text_add(out, remarks);
+        if (remarks[strlen(remarks) - 1] != '\n')
+            text_char(out, '\n');
+    }
+    return OK;
+}
+
+/* --- events --- */
+
+void event_print(Text *out, const Event *event)
+{
+    static const char *const actions[] = {
+        [EVENT_MARK] = "marks", [EVENT_STOP] = "stops the run", [EVENT_SET] = ""};
+
+    text_add(out, actions[event->action]);
+    for (int i = 0; i < event->value_count; i++) {
+        const NewValue *value = &event->values[i];
+        char *text = expr_text(value->value);
+
+        text_addf(out, "%s%s%.*s = %s", i > 0 ? ", " : "", value->name, value->primes, "'''''''''",
+                  text);
+        mem_free(text);
+    }
+}
+
+/* "3 times: 0.45 1.17 1.75 s" */
+static void print_times(Text *out, const EventRecord *record)
+{
+    if (record->count == 0)
+        text_add(out, record->from_start ? "not again: held at the start" : "not at all");
+    else if (record->count > 1)
+        text_addf(out, "%d times: ", record->count);
+    for (int i = 0; i < record->count; i++)
+        text_addf(out, "%s%.12g", i > 0 ? " " : "", record->times[i]);
+    if (record->count > 0)
+        text_addf(out, " s%s", record->ended ? ", which ended the run" : "");
+}
+
+/* events of the model, and what ended the run as one */
+static bool is_told(const EventRecord *record)
+{
+    return record->count > 0 || strstr(record->name, BOUND_MARK) == NULL;
+}
+
+Status show_events(const View *view, const Selection *selection, Text *out, Diag *diag)
+{
+    const int count = model_event_count(view->model);
+    const int all = view->result != NULL ? result_event_count(view->result) : 0;
+    Table table = table_for("lll");
+    int past = 0;
+
+    (void)selection, (void)diag;
+    for (int i = 0; i < count; i++) {
+        const Event *event = model_event(view->model, i);
+        Text action = {0};
+
+        event_print(&action, event);
+        table_cell(&table, event->name);
+        table_cell(&table, event->condition);
+        table_cell(&table, action.at);
+        text_free(&action);
+    }
+    table_print(out, &table, 0);
+    table_free(&table);
+    for (int i = 0; i < all; i++) {
+        const EventRecord record = result_event(view->result, i);
+
+        past += is_told(&record);
+    }
+    if (count + past == 0)
+        text_add(out, "no events\n");
+    if (past > 0)
+        text_add(out, "in the last run:\n");
+    for (int i = 0; i < all; i++) {
+        const EventRecord record = result_event(view->result, i);
+        Text lead = {0}, times = {0};
+
+        if (!is_told(&record))
+            continue;
+        print_times(&times, &record);
+        text_addf(&lead, "  %s  ", record.name);
+        layout_words(out, view->page.columns, lead.at, times.at);
+        text_free(&lead);
+        text_free(&times);
+    }
+    return OK;
+}
+
+/* --- what is evaluated --- */
+
+static void push_reading(const System *system, Expr **roots, int *count)
+{
+    const Reading *r = system_run(system);
+    const int nu = system_nu(system), m = system_m(system), n = system_n(system);
+    const int k = system_nx(system) + system_nz(system);
+    const struct {
+        const Expr *at;
+        int count;
+    } parts[] = {
+        {r->phi, m},    {r->phi_u, m * nu},       {r->nu, m},    {r->gamma, m}, {r->mass, nu * nu},
+        {r->force, nu}, {r->network_residual, k}, {r->q_rate, n}};
+    LIST(Expr) all = {0};
+
+    for (int p = 0; p < COUNT(parts); p++)
+        for (int i = 0; i < parts[p].count; i++)
+            LIST_PUSH(all, parts[p].at[i]);
+    for (int i = 0; i < r->network_entries; i++)
+        LIST_PUSH(all, r->network[i].value);
+    *roots = all.at;
+    *count = all.count;
+}
+
+Status show_program(const View *view, const Selection *selection, Text *out, Diag *diag)
+{
+    Expr *roots, *symbols = NULL;
+    Program *program = NULL;
+    Status status;
+    int count, inputs;
+
+    (void)selection;
+    push_reading(view->system, &roots, &count);
+    inputs = expr_symbols(roots, count, &symbols);
+    CHECK(program_new(roots, count, symbols, inputs, &program, diag));
+    program_print(out, program);
+done:
+    program_free(program);
+    mem_free(symbols);
+    mem_free(roots);
+    return status;
+}
+
+static void add_pattern(Text *out, const char *title, const Expr *entries, int rows, int columns)
+{
+    int filled = 0;
+
+    for (int i = 0; i < rows * columns; i++)
+        filled += !expr_is_zero(entries[i]);
+    text_addf(out, "%s, %d x %d, %d not zero\n", title, rows, columns, filled);
+    for (int r = 0; r < rows && columns <= 60; r++) {
+        text_add(out, "  ");
+        for (int c = 0; c < columns; c++)
+            text_add(out, expr_is_zero(entries[r * columns + c]) ? " ." : " x");
+        text_char(out, '\n');
+    }
+}
+
+Status show_structure(const View *view, const Selection *selection, Text *out, Diag *diag)
+{
+    const System *system = view->system;
+    const Reading *reading = system_run(system);
+    const int nu = system_nu(system), m = system_m(system);
+    const int k = system_nx(system) + system_nz(system);
+    Table table = table_for("lr");
+
+    (void)selection, (void)diag;
+    table_cell(&table, "coordinates");
+    table_cellf(&table, "%d", system_n(system));
+    table_cell(&table, "speeds");
+    table_cellf(&table, "%d", nu);
+    table_cell(&table, "constraints");
+    table_cellf(&table, "%d", m);
+    table_cell(&table, "network states");
+    table_cellf(&table, "%d", system_nx(system));
+    table_cell(&table, "algebraic unknowns");
+    table_cellf(&table, "%d", system_nz(system));
+    table_print(out, &table, 0);
+    table_free(&table);
+    if (nu > 0)
+        add_pattern(out, "mass matrix", reading->mass, nu, nu);
+    if (m > 0)
+        add_pattern(out, "jacobian", reading->phi_u, m, nu);
+    if (k > 0) {
+        Expr *dense = system_network_matrix(system);
+
+        add_pattern(out, "network", dense, k, k);
+        mem_free(dense);
+    }
+    return OK;
+}

@@ -1,0 +1,413 @@
+/* view.c: equations in every notation, and long ones over named subexpressions */
+#include "present/view.h"
+
+#include "present/abbreviate.h"
+#include "present/latex_lines.h"
+#include "present/tables.h"
+
+#include <ctype.h>
+#include <stdio.h>
+#include <string.h>
+
+char *view_expression(const View *view, Expr e)
+{
+    Text text = {0};
+
+    expr_print(&text, e, view->page.notation);
+    return text_done(&text);
+}
+
+void view_freedoms(Text *out, const System *system, int freedoms)
+{
+    const int nu = system_nu(system), m = system_m(system);
+
+    if (freedoms >= 0 || m == 0)
+        layout_count(out, freedoms >= 0 ? freedoms : nu, "degree of freedom", "degrees of freedom");
+    else
+        text_addf(out, "n - m = %d", nu - m);
+}
+
+char *view_name(const Syntax *syntax)
+{
+    Text printed = {0}, name = {0};
+
+    syntax_print(&printed, syntax);
+    for (const char *c = printed.at; *c != '\0'; c++)
+        if (*c != ' ' || c == printed.at || c[-1] != ',')
+            text_char(&name, *c);
+    text_free(&printed);
+    return text_done(&name);
+}
+
+/* In digits: a left side that is wider stands alone, and what an article has behind one. All lines
+ * of a block begin behind its widest left side. */
+enum { LATEX_LEFT = 10, LATEX_LINE = 55 };
+
+/* a long left side has its lines to itself, and the relation begins one of its own */
+static void add_latex(Text *out, const char *left, const char *relation, const char *right)
+{
+    const double width = latex_width(left);
+
+    text_add(out, "  ");
+    if (relation == NULL) {
+        text_add(out, "& ");
+        latex_wrap(out, left, LATEX_LINE);
+    } else if (width > LATEX_LEFT) {
+        text_add(out, "& ");
+        latex_wrap(out, left, LATEX_LINE);
+        if (width + latex_width(right) > LATEX_LINE)
+            text_add(out, " \\\\\n  &\\quad");
+        text_add(out, relation);
+        latex_wrap(out, right, LATEX_LINE);
+    } else {
+        text_addf(out, "%s &%s", left, relation);
+        latex_wrap(out, right, LATEX_LINE);
+    }
+    text_add(out, " \\\\\n");
+}
+
+enum { SHORT_LEFT = 24 }; /* columns */
+
+void view_line(Text *out, const View *view, const char *lead, const char *left,
+               const char *relation, const char *right)
+{
+    Text body = {0};
+    Page page = view->page;
+
+    switch (view->page.notation) {
+    case NOTATION_LATEX:
+        add_latex(out, left, relation, right);
+        return;
+    case NOTATION_C:
+    case NOTATION_MATLAB:
+        text_addf(out, "%s%s%s;\n", left, relation != NULL ? relation : "",
+                  relation != NULL ? right : "");
+        return;
+    case NOTATION_TREE:
+        text_addf(out, "%s%s%s\n%s%s", lead, left, relation != NULL ? relation : "",
+                  relation != NULL ? right : "", relation != NULL ? "\n" : "");
+        return;
+    default:
+        /* lines that go on stand below the right side, where the left one is short */
+        if (relation != NULL && text_width(lead) + text_width(left) <= SHORT_LEFT) {
+            text_addf(&body, "%s%s%s", lead, left, relation);
+            layout_formula(out, &page, body.at, right);
+        } else {
+            text_addf(&body, "%s%s%s", left, relation != NULL ? relation : "",
+                      relation != NULL ? right : "");
+            layout_formula(out, &page, lead, body.at);
+        }
+        text_free(&body);
+    }
+}
+
+void view_open(Text *out, const View *view)
+{
+    if (view->page.notation == NOTATION_LATEX)
+        text_add(out, "\\begin{align*}\n");
+}
+
+void view_close(Text *out, const View *view)
+{
+    if (view->page.notation != NOTATION_LATEX)
+        return;
+    /* the last line ends without \\ */
+    if (out->length > 4 && strcmp(out->at + out->length - 4, " \\\\\n") == 0) {
+        out->length -= 4;
+        out->at[out->length] = '\0';
+        text_char(out, '\n');
+    }
+    text_add(out, "\\end{align*}\n");
+}
+
+void view_comment(Text *out, const View *view, const char *words)
+{
+    switch (view->page.notation) {
+    case NOTATION_LATEX:
+    case NOTATION_MATLAB:
+        text_addf(out, "%% %s\n", words);
+        break;
+    case NOTATION_C:
+        text_addf(out, "/* %s */\n", words);
+        break;
+    default:
+        layout_words(out, view->page.columns, "", words);
+    }
+}
+
+char *view_entry_name(const View *view, const char *text, const char *letter, int row, int column)
+{
+    Text name = {0};
+
+    switch (view->page.notation) {
+    case NOTATION_LATEX:
+        if (column < 0)
+            text_addf(&name, "%s_{%d}", letter, row + 1);
+        else
+            text_addf(&name, "%s_{%d,%d}", letter, row + 1, column + 1);
+        break;
+    case NOTATION_C:
+        if (column < 0)
+            text_addf(&name, "%s[%d]", text, row);
+        else
+            text_addf(&name, "%s[%d][%d]", text, row, column);
+        break;
+    default:
+        if (column < 0)
+            text_addf(&name, "%s(%d)", text, row + 1);
+        else
+            text_addf(&name, "%s(%d,%d)", text, row + 1, column + 1);
+    }
+    return text_done(&name);
+}
+
+/* a prefix that begins no name of the user's followed by digits */
+static const char *free_prefix(const Model *model)
+{
+    static const char *const prefixes[] = {"w", "v", "z", "w_"};
+
+    for (int p = 0; p + 1 < COUNT(prefixes); p++) {
+        const size_t length = strlen(prefixes[p]);
+        bool taken = false;
+        const char *name;
+
+        for (int i = 0; !taken && (name = model_name(model, i)) != NULL; i++)
+            taken = strncmp(name, prefixes[p], length) == 0 && isdigit((unsigned char)name[length]);
+        if (!taken)
+            return prefixes[p];
+    }
+    return prefixes[COUNT(prefixes) - 1];
+}
+
+/* "(a + b)*x", or the coefficient or symbol alone */
+static char *write_term(const View *view, const Term *term)
+{
+    const char *times = view->page.notation == NOTATION_LATEX     ? " "
+                        : view->page.notation == NOTATION_UNICODE ? "·"
+                                                                  : "*";
+    const Expr c = term->coefficient;
+    Text text = {0};
+    char *coefficient, *symbol;
+
+    if (term->symbol == NULL)
+        return view_expression(view, c);
+    symbol = view_expression(view, term->symbol);
+    coefficient = view_expression(view, c);
+    if (expr_is(c, 1) || expr_is(c, -1))
+        text_addf(&text, "%s%s", expr_is(c, -1) ? "-" : "", symbol);
+    else if (expr_kind(c) == EXPR_SUM)
+        text_addf(&text,
+                  view->page.notation == NOTATION_LATEX ? "\\left(%s\\right)%s%s" : "(%s)%s%s",
+                  coefficient, times, symbol);
+    else
+        text_addf(&text, "%s%s%s", coefficient, times, symbol);
+    mem_free(coefficient);
+    mem_free(symbol);
+    return text_done(&text);
+}
+
+/* terms one behind the other; a term's own sign becomes the sum's */
+static char *write_sum(const View *view, const Term *terms, int count)
+{
+    Text text = {0};
+
+    for (int i = 0; i < count; i++) {
+        char *term;
+
+        if (expr_is_zero(terms[i].coefficient))
+            continue;
+        term = write_term(view, &terms[i]);
+        if (text.length == 0)
+            text_add(&text, term);
+        else if (term[0] == '-')
+            text_addf(&text, " - %s", term + 1 + (term[1] == ' '));
+        else
+            text_addf(&text, " + %s", term);
+        mem_free(term);
+    }
+    if (text.length == 0)
+        text_add(&text, "0");
+    return text_done(&text);
+}
+
+static bool is_language(const View *view)
+{
+    return view->page.notation == NOTATION_C || view->page.notation == NOTATION_MATLAB ||
+           view->page.notation == NOTATION_PYTHON || view->page.notation == NOTATION_FORTRAN;
+}
+
+static void print_equation(Text *out, const View *view, const Equation *equation)
+{
+    char *left = equation->name != NULL ? mem_text(equation->name, strlen(equation->name))
+                                        : write_sum(view, equation->left.at, equation->left.count);
+    char *right = write_sum(view, equation->right.at, equation->right.count);
+
+    view_line(out, view, equation->lead != NULL ? equation->lead : "", left, " = ", right);
+    mem_free(left);
+    mem_free(right);
+}
+
+/* left - right = 0 under a name */
+static void make_residual(const View *view, Equation *equation, int number)
+{
+    Arena *arena = model_arena(view->model);
+    LIST(Term) terms = {0};
+
+    if (equation->name != NULL)
+        return;
+    equation->name = view_entry_name(view, "residual", "r", number, -1);
+    for (int i = 0; i < equation->left.count; i++)
+        LIST_PUSH(terms, equation->left.at[i]);
+    for (int i = 0; i < equation->right.count; i++)
+        LIST_PUSH(terms, (Term){expr_neg(arena, equation->right.at[i].coefficient),
+                                equation->right.at[i].symbol});
+    equation->left.count = equation->right.count = 0;
+    for (int i = 0; i < terms.count; i++)
+        LIST_PUSH(equation->right, terms.at[i]);
+    LIST_FREE(terms);
+}
+
+static void print_definitions(Text *out, const View *view, const Abbreviation *names)
+{
+    for (int i = 0; i < names->definitions.count; i++) {
+        const Definition *definition = names->definitions.at + i;
+        char *left = view_expression(view, definition->symbol);
+        char *right = view_expression(view, definition->value);
+        Text typed = {0};
+
+        if (view->page.notation == NOTATION_C)
+            text_add(&typed, "const double ");
+        text_add(&typed, left);
+        view_line(out, view, i == 0 ? "where " : "      ", typed.at, " = ", right);
+        text_free(&typed);
+        mem_free(left);
+        mem_free(right);
+    }
+}
+
+/* what picks the turn of an angle, where terms hold such */
+static void print_turns(Text *out, const View *view, const Expr *terms, int count)
+{
+    Text names = {0}, words = {0};
+
+    for (int i = 0; i < system_turned_count(view->system); i++) {
+        const Expr near = system_turned(view->system, i)->near;
+        bool used = false;
+
+        for (int k = 0; !used && k < count; k++)
+            used = expr_depends(terms[k], near);
+        if (!used)
+            continue;
+        text_add(&names, names.length > 0 ? ", " : "");
+        expr_print(&names, near, view->page.notation);
+    }
+    if (names.length == 0)
+        return;
+    if (view->page.notation == NOTATION_LATEX)
+        text_addf(
+            &words,
+            "\\text{unwrap}(y, x, a)\\colon\\text{ the angle of }(x, y)\\text{ that is nearest "
+            "to }a;\\ %s\\text{: kept less than half a turn from it}",
+            names.at);
+    else if (is_language(view))
+        text_addf(&words, "%s: any value less than half a turn from the angle picks its turn",
+                  names.at);
+    else
+        text_addf(&words,
+                  "unwrap(y, x, a) is the angle of (x, y) that is nearest to a; runs keep %s less "
+                  "than half a turn from the angle",
+                  names.at);
+    if (view->page.notation == NOTATION_LATEX)
+        view_line(out, view, "", words.at, NULL, "");
+    else
+        view_comment(out, view, words.at);
+    text_free(&names);
+    text_free(&words);
+}
+
+/* every term of every equation, in order: what abbreviate() works on */
+static int gather(Equations *equations, Expr **terms, bool *is_long)
+{
+    LIST(Expr) all = {0};
+
+    *is_long = false;
+    for (int i = 0; i < equations->count; i++) {
+        Equation *equation = equations->at + i;
+        const int from = all.count;
+
+        for (int k = 0; k < equation->left.count; k++)
+            LIST_PUSH(all, equation->left.at[k].coefficient);
+        for (int k = 0; k < equation->right.count; k++)
+            LIST_PUSH(all, equation->right.at[k].coefficient);
+        if (all.count > from &&
+            op_count_total(expr_count(all.at + from, all.count - from)) > VIEW_BUDGET)
+            *is_long = true;
+    }
+    *terms = all.at;
+    return all.count;
+}
+
+static void scatter(Equations *equations, const Expr *terms)
+{
+    for (int i = 0; i < equations->count; i++) {
+        Equation *equation = equations->at + i;
+
+        for (int k = 0; k < equation->left.count; k++)
+            equation->left.at[k].coefficient = *terms++;
+        for (int k = 0; k < equation->right.count; k++)
+            equation->right.at[k].coefficient = *terms++;
+    }
+}
+
+void equations_free(Equations *equations)
+{
+    for (int i = 0; i < equations->count; i++) {
+        mem_free(equations->at[i].lead);
+        mem_free(equations->at[i].name);
+        LIST_FREE(equations->at[i].left);
+        LIST_FREE(equations->at[i].right);
+    }
+    LIST_FREE(*equations);
+}
+
+void view_equations(Text *out, const View *view, Equations *equations)
+{
+    const Naming naming = {free_prefix(view->model), 4, 24};
+    Abbreviation names = {0};
+    Expr *terms = NULL;
+    Text notes = {0};
+    bool is_long;
+    int count;
+
+    for (int i = 0; is_language(view) && i < equations->count; i++)
+        make_residual(view, equations->at + i, i);
+    count = gather(equations, &terms, &is_long);
+    if (view->system != NULL)
+        print_turns(is_language(view) ? out : &notes, view, terms, count);
+    if (is_long) {
+        names = abbreviate(model_arena(view->model), terms, count, &naming);
+        scatter(equations, names.roots);
+    }
+    /* programs want data and names before they are used, readers names afterwards */
+    tables_print(out, view->page.notation, "", terms, count);
+    if (is_language(view))
+        print_definitions(out, view, &names);
+    for (int i = 0; i < equations->count; i++)
+        print_equation(out, view, equations->at + i);
+    if (!is_language(view))
+        print_definitions(out, view, &names);
+    text_add(out, notes.at != NULL ? notes.at : "");
+    text_free(&notes);
+    abbreviation_free(&names);
+    mem_free(terms);
+    equations_free(equations);
+}
+
+void view_value(Equations *equations, char *name, Expr e)
+{
+    Equation equation = {.lead = NULL, .left = {0}, .right = {0}};
+
+    equation.name = name;
+    LIST_PUSH(equation.right, (Term){e, NULL});
+    LIST_PUSH(*equations, equation);
+}

@@ -1,0 +1,72 @@
+/* view.h: what is looked at, and how it is written
+ *
+ * A View borrows a model, the equations made of it and its last run; what a topic does
+ * not need may be NULL. Everything in lib/export writes from a View to a Text. */
+#ifndef COTREE_PRESENT_VIEW_H
+#define COTREE_PRESENT_VIEW_H
+
+#include "formulate/system.h"
+#include "present/layout.h"
+#include "simulate/analyse/linearize.h"
+
+typedef struct View {
+    const Model *model;
+    System *system;       /* of the model as it is; NULL unless equations are needed */
+    Result *result;       /* the last run; NULL */
+    const Linear *linear; /* the last linearisation; NULL */
+    int freedoms;         /* degrees of freedom where an assembly told them; -1 */
+    Page page;
+    const Watch *watch;
+} View;
+
+/* `left relation right` as a line of the notation, behind `lead` in text. Latex gets an alignment
+ * mark before the relation. */
+void view_line(Text *out, const View *view, const char *lead, const char *left,
+               const char *relation, const char *right);
+
+/* "2 degrees of freedom" where they are known or nothing constrains them, else the difference "n -
+ * m = 1": redundant constraints make it less than what is free */
+void view_freedoms(Text *out, const System *system, int freedoms);
+
+/* what the user called it: "mass(1,2)", "(h8 - s11)"; new string */
+char *view_name(const Syntax *syntax);
+
+/* an expression in the view's notation; new string */
+char *view_expression(const View *view, Expr e);
+
+/* An equation between sums, or a name and its value: terms are written in their order, each a
+ * coefficient and behind it a symbol (or NULL). */
+typedef struct Term {
+    Expr coefficient;
+    Expr symbol;
+} Term;
+
+typedef struct Equation {
+    char *lead; /* what stands before it in text: "h9  x:  "; given; NULL: nothing */
+    char *name; /* the left side, where it isn't a sum; given; NULL */
+    LIST(Term) left;
+    LIST(Term) right; /* no terms: 0 */
+} Equation;
+typedef LIST(Equation) Equations;
+
+/* Print the equations and free the list. An equation of more than VIEW_BUDGET operations makes
+ * all of them be written over named subexpressions, listed behind as `where`. Programming languages
+ * know no equations: they get `residual = left - right`. */
+enum { VIEW_BUDGET = 2000 };
+void view_equations(Text *out, const View *view, Equations *equations);
+void equations_free(Equations *equations); /* an empty list is fine */
+/* the commonest one: name = e */
+void view_value(Equations *equations, char *name, Expr e);
+
+/* "mass(1,2)", or as the notation writes it: M_{1,2}, M[0][1], M(1,2); new string.
+ * column -1: of a vector */
+char *view_entry_name(const View *view, const char *text, const char *letter, int row, int column);
+
+/* begin and end of what latex aligns; nothing in other notations */
+void view_open(Text *out, const View *view);
+void view_close(Text *out, const View *view);
+
+/* "a remark" as the notation writes comments */
+void view_comment(Text *out, const View *view, const char *words);
+
+#endif

@@ -1,0 +1,16 @@
+libcore_la_SOURCES += \
+  lib/session/session.c \
+  lib/session/session_bode.c \
+  lib/session/session_bounds.c \
+  lib/session/session_formula.c \
+  lib/session/session_freedoms.c \
+  lib/session/session_help.c \
+  lib/session/session_impl.h \
+  lib/session/session_linear.c \
+  lib/session/session_look.c \
+  lib/session/session_run.c \
+  lib/session/session_statement.c \
+  lib/session/session_table.c \
+  lib/session/session_trees.c \
+  lib/session/session_value.c \
+  lib/cotree.h

@@ -1,0 +1,458 @@
+/* session.c: life of a session, statements that build, and what was said */
+#include "session/session_impl.h"
+
+#include "config.h"
+
+#include <limits.h>
+#include <stdio.h>
+#include <string.h>
+
+const char *ct_version(void)
+{
+    return PACKAGE_VERSION;
+}
+
+void ct_free(void *piece)
+{
+    mem_free(piece);
+}
+
+ct_session *ct_session_new(const ct_hooks *hooks)
+{
+    ct_session *session = NEW(ct_session);
+
+    session->model = model_new();
+    session->start_is_later = true;
+    session->changed = true;
+    ct_session_hooks(session, hooks);
+    return session;
+}
+
+void ct_session_hooks(ct_session *session, const ct_hooks *hooks)
+{
+    session->hooks = hooks != NULL ? *hooks : (ct_hooks){0};
+    session->watch = (Watch){.context = session->hooks.context,
+                             .stop = session->hooks.stop,
+                             .progress = session->hooks.progress};
+    model_find_entries(session->model, &(EntryFinder){session_entry_dimension, session});
+    model_find_data(session->model, &(DataFinder){.find = session->hooks.find_file,
+                                                  .context = session->hooks.context});
+}
+
+static void drop_runs(ct_session *session)
+{
+    for (int i = 0; i < session->runs.count; i++)
+        run_free(session->runs.at + i);
+    LIST_FREE(session->runs);
+    run_free(&session->start);
+    run_free(&session->warm);
+    session->at_rest = false;
+    linear_free(session->linear);
+    session->linear = NULL;
+    modes_free(session->modes);
+    session->modes = NULL;
+    session->told = NULL;
+    for (int i = 0; i < session->systems.count; i++)
+        system_free(session->systems.at[i]);
+    LIST_FREE(session->systems);
+}
+
+void ct_session_free(ct_session *session)
+{
+    if (session == NULL)
+        return;
+    drop_runs(session);
+    tree_costs_free(&session->costs);
+    text_free(&session->remarks);
+    model_free(session->model);
+    mem_free(session);
+}
+
+/* --- errors and remarks --- */
+
+ct_status session_report(Status status, const Diag *diag, ct_error *error)
+{
+    const ct_status public = status == OK          ? CT_OK
+                             : status == E_STOPPED ? CT_STOPPED
+                             : status == E_EXPECT  ? CT_UNMET
+                                                   : CT_FAILED;
+
+    if (error == NULL)
+        return public;
+    memset(error, 0, sizeof *error);
+    error->status = public;
+    if (status == OK)
+        return public;
+    error->line = diag->place.line;
+    error->column = diag->place.column;
+    error->width = diag->place.width;
+    /* a function that stopped needn't have said so */
+    (void)snprintf(error->message, sizeof error->message, "%s",
+                   diag->status == status && diag->message[0] != '\0' ? diag->message
+                                                                      : status_text(status));
+    (void)snprintf(error->hint, sizeof error->hint, "%s", diag->status == status ? diag->hint : "");
+    return public;
+}
+
+void session_begin(ct_session *session)
+{
+    text_free(&session->remarks);
+}
+
+void session_remark(ct_session *session, const char *lines)
+{
+    if (lines == NULL || lines[0] == '\0')
+        return;
+    text_add(&session->remarks, lines);
+    if (lines[strlen(lines) - 1] != '\n')
+        text_char(&session->remarks, '\n');
+}
+
+const char *ct_remarks(const ct_session *session)
+{
+    return session->remarks.at != NULL ? session->remarks.at : "";
+}
+
+/* --- equations --- */
+
+static bool is_named(const ct_session *session, const System *system)
+{
+    for (int i = 0; i < session->runs.count; i++)
+        if (result_system(session->runs.at[i].result) == system)
+            return true;
+    return (session->start.result != NULL && result_system(session->start.result) == system) ||
+           (session->warm.result != NULL && result_system(session->warm.result) == system);
+}
+
+void session_sweep(ct_session *session)
+{
+    int kept = 0;
+
+    for (int i = 0; i < session->systems.count; i++) {
+        System *system = session->systems.at[i];
+
+        if (system_holds(system, session->model) || is_named(session, system))
+            session->systems.at[kept++] = system;
+        else
+            system_free(system);
+    }
+    session->systems.count = kept;
+}
+
+static Status system_of_form(ct_session *session, NetworkForm form, System **out, Diag *diag)
+{
+    System *system = NULL;
+    Status status = OK;
+
+    for (int i = 0; i < session->systems.count; i++)
+        if (system_holds(session->systems.at[i], session->model) &&
+            system_network_form(session->systems.at[i]) == form) {
+            *out = session->systems.at[i];
+            return OK;
+        }
+    report(&session->watch, "equations", -1);
+    CHECK(system_new_form(session->model, form, &session->watch, &system, diag));
+    LIST_PUSH(session->systems, system);
+    session_sweep(session);
+    *out = system;
+done:
+    return status;
+}
+
+Status session_system(ct_session *session, System **out, Diag *diag)
+{
+    return system_of_form(session, model_network_form(session->model), out, diag);
+}
+
+Status session_shown(ct_session *session, System **out, Diag *diag)
+{
+    Diag why = {0};
+    Status status = OK;
+
+    CHECK(session_system(session, out, diag));
+    if (system_tree_is_normal(*out))
+        return OK;
+    status = system_of_form(session, NETWORK_TREE, out, &why);
+    if (status != OK && status != E_STOPPED) {
+        Text line = {0};
+
+        text_addf(&line, "network in state form: %s\n",
+                  status == E_MODEL ? why.message
+                                    : "the equations of these trees can't be solved for their "
+                                      "highest derivatives");
+        session_remark(session, line.at);
+        text_free(&line);
+        status = session_system(session, out, diag);
+    } else if (status != OK) {
+        *diag = why;
+    }
+done:
+    return status;
+}
+
+View session_view(const ct_session *session)
+{
+    const int runs = session->runs.count;
+
+    return (View){.model = session->model,
+                  .result = runs > 0 ? session->runs.at[runs - 1].result : NULL,
+                  .linear = session->linear,
+                  .freedoms = session_freedoms(session),
+                  .page = {.columns = session->hooks.columns,
+                           .unicode = session->hooks.unicode,
+                           .notation = session->hooks.unicode ? NOTATION_UNICODE : NOTATION_TEXT},
+                  .watch = &session->watch};
+}
+
+/* --- building --- */
+
+/* a statement that says how to look at runs, and changes none */
+static bool keeps_values(const Statement *statement)
+{
+    static const char *const verbs[] = {"output", "title", "guess"};
+
+    for (int i = 0; statement->verb != NULL && i < COUNT(verbs); i++)
+        if (strcmp(statement->verb, verbs[i]) == 0)
+            return true;
+    return false;
+}
+
+/* whether the statement of that text chose trees or the form, and so left the graph alone */
+static bool text_chooses(const char *text)
+{
+    static const char *const verbs[] = {"tree", "cotree", "form"};
+
+    for (int i = 0; text != NULL && i < COUNT(verbs); i++) {
+        const size_t length = strlen(verbs[i]);
+
+        if (strncmp(text, verbs[i], length) == 0 && (text[length] == ' ' || text[length] == '\0'))
+            return true;
+    }
+    return false;
+}
+
+static bool chooses_trees(const Statement *statement)
+{
+    return statement->verb != NULL &&
+           (strcmp(statement->verb, "tree") == 0 || strcmp(statement->verb, "cotree") == 0);
+}
+
+static bool is_search(const Statement *statement)
+{
+    return chooses_trees(statement) && statement->operands.count == 1 &&
+           statement->operands.at[0].sign == 0 &&
+           statement->operands.at[0].value->kind == SYNTAX_VARIABLE &&
+           strcmp(statement->operands.at[0].value->text, "best") == 0;
+}
+
+static void add_counts(Text *line, OpCount count)
+{
+    text_add(line, line->at[line->length - 1] == 'e' ? ": " : "; ");
+    if (op_count_total(count) > INT_MAX) {
+        text_add(line, "far too many operations to be written out");
+        return;
+    }
+    layout_count(line, (int)count.add, "addition", "additions");
+    text_add(line, ", ");
+    layout_count(line, (int)count.mul, "multiplication", "multiplications");
+    text_add(line, ", ");
+    layout_count(line, (int)count.fun, "function", "functions");
+}
+
+/* What the trees just chosen make of the model, next to what they were before: said only where the
+ * model is whole, and where counting costs no more than a glance. */
+enum { GLANCE = 40 }; /* edges */
+
+static void remark_trees(ct_session *session)
+{
+    const int before = session->cost_now < session->costs.count ? session->cost_now : -1;
+    View view = session_view(session);
+    TreeCost cost, old = {0};
+    Text line = {0};
+    Diag ignored;
+
+    if (graph_edge_count(model_graph(session->model)) > GLANCE ||
+        session_shown(session, &view.system, &ignored) != OK)
+        return;
+    if (before >= 0)
+        old = session->costs.at[before];
+    if (tree_cost(&view, &cost, &ignored) != OK)
+        return;
+    layout_count(&line, cost.n, "coordinate", "coordinates");
+    text_add(&line, ", ");
+    layout_count(&line, cost.m, "constraint", "constraints");
+    text_add(&line, ", ");
+    view_freedoms(&line, view.system, view.freedoms);
+    add_counts(&line, cost.written);
+    if (before >= 0 &&
+        (old.written.add != cost.written.add || old.written.mul != cost.written.mul ||
+         old.written.fun != cost.written.fun)) {
+        text_add(&line, " (before");
+        add_counts(&line, old.written);
+        text_char(&line, ')');
+    }
+    session_remark(session, line.at);
+    text_free(&line);
+    session->cost_now = tree_costs_add(&session->costs, &cost);
+}
+
+/* the trees that the model has before it is changed, to compare with */
+static void log_trees(ct_session *session)
+{
+    View view = session_view(session);
+    TreeCost cost;
+    Diag ignored;
+
+    if (session->costs.count == 0 && graph_edge_count(model_graph(session->model)) > 0 &&
+        graph_edge_count(model_graph(session->model)) <= GLANCE &&
+        session_shown(session, &view.system, &ignored) == OK &&
+        tree_cost(&view, &cost, &ignored) == OK)
+        session->cost_now = tree_costs_add(&session->costs, &cost);
+}
+
+static void note_change(ct_session *session, uint64_t revision, bool trees_only)
+{
+    session->changed = true;
+    session->linear_is_old = true;
+    session->start_is_later = true;
+    session->told = NULL;
+    session_forget_start(session);
+    /* figures of another graph say nothing about this one */
+    if (model_revision(session->model) != revision && !trees_only)
+        tree_costs_free(&session->costs);
+    session_sweep(session);
+}
+
+/* Trees that take freedoms away are refused at once where the present values can be assembled, and
+ * what was before stays. */
+static Status try_trees(ct_session *session, const Statement *s, Diag *diag)
+{
+    Diag ignored;
+    Status status = OK;
+
+    if (graph_edge_count(model_graph(session->model)) > GLANCE)
+        return OK;
+    status = session_try_trees(session, diag);
+    if (status != E_BRANCH)
+        return status;
+    diag->place = s->verb_place;
+    if (model_undo(session->model, &ignored) != OK)
+        return E_MODEL;
+    model_forget_undone(session->model);
+    return E_BRANCH;
+}
+
+ct_status ct_apply(ct_session *session, const ct_statement *statement, ct_error *error)
+{
+    const Statement *s = statement_of(statement);
+    const uint64_t revision = model_revision(session->model);
+    Status status = OK;
+    Diag diag = {0};
+
+    session_begin(session);
+    if (s->kind == STATEMENT_EMPTY)
+        return session_report(OK, &diag, error);
+    CHECK(statement_check_version(s, &diag));
+    if (s->verb != NULL &&
+        (!model_applies(s->verb) || (strcmp(s->verb, "tree") == 0 && s->operands.count == 0)))
+        return CT_NOT_MINE;
+    if (chooses_trees(s))
+        log_trees(session);
+    if (is_search(s)) {
+        status = session_best_trees(session, &diag);
+        if (status != OK && diag.place.line == 0)
+            diag.place = s->verb_place;
+        if (status == OK)
+            CHECK(try_trees(session, s, &diag));
+    } else {
+        CHECK(model_apply(session->model, s, &diag));
+        if (chooses_trees(s))
+            CHECK(try_trees(session, s, &diag));
+        session_remark(session, model_remarks(session->model));
+    }
+    if (s->verb != NULL && strcmp(s->verb, "init") == 0 && s->operands.count > 0)
+        session->at_rest = false; /* init none; what others don't speak of stays at rest */
+    if (is_search(s) ? model_revision(session->model) != revision : !keeps_values(s))
+        note_change(session, revision, text_chooses(s->verb));
+    if (chooses_trees(s) && status == OK) {
+        remark_trees(session);
+        session_remark_free(session);
+    }
+done:
+    return session_report(status, &diag, error);
+}
+
+/* --- undo and the rest --- */
+
+static ct_status move_over(ct_session *session, Status (*move)(Model *, Diag *), const char *what,
+                           ct_error *error)
+{
+    const uint64_t revision = model_revision(session->model);
+    Status status;
+    Diag diag = {0};
+
+    session_begin(session);
+    CHECK(move(session->model, &diag));
+    session->at_rest = false;
+    text_addf(&session->remarks, "%s: %s\n", what, model_undone(session->model));
+    note_change(session, revision, text_chooses(model_undone(session->model)));
+done:
+    return session_report(status, &diag, error);
+}
+
+ct_status ct_undo(ct_session *session, ct_error *error)
+{
+    return move_over(session, model_undo, "undone", error);
+}
+
+ct_status ct_redo(ct_session *session, ct_error *error)
+{
+    return move_over(session, model_redo, "done again", error);
+}
+
+int ct_begin_group(ct_session *session)
+{
+    return model_begin_group(session->model);
+}
+
+int ct_end_group(ct_session *session, int outer, const char *called)
+{
+    return model_end_group(session->model, outer, called);
+}
+
+int ct_step_count(const ct_session *session)
+{
+    return model_step_count(session->model);
+}
+
+const char *ct_step(const ct_session *session, int i, int *number)
+{
+    return model_step(session->model, i, number);
+}
+
+void ct_clear(ct_session *session)
+{
+    session_begin(session);
+    model_clear(session->model);
+    drop_runs(session);
+    tree_costs_free(&session->costs);
+    session->changed = true;
+    session->start_is_later = true;
+}
+
+char *ct_save(const ct_session *session)
+{
+    return model_save(session->model);
+}
+
+bool ct_is_changed(const ct_session *session)
+{
+    return session->changed;
+}
+
+const char *ct_title(const ct_session *session)
+{
+    const char *title = model_title(session->model);
+
+    return title != NULL ? title : "";
+}

@@ -1,0 +1,311 @@
+/* session_bode.c: bode: gain and phase of outputs against inputs of the last linearisation */
+#include "session/session_impl.h"
+
+#include "export/write.h"
+#include "present/show.h"
+#include "simulate/analyse/transfer.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { USUAL_POINTS = 200, MOST_POINTS = 100000 };
+
+/* what was asked for */
+typedef struct Bode {
+    const Linear *linear; /* borrowed */
+    double from, to;      /* Hz; 0: as the roots suggest */
+    int points;
+    LIST(int) outputs;
+    LIST(Transfer *) transfers; /* of each output, against each input */
+} Bode;
+
+/* columns f, then gain and phase of each pair */
+typedef struct Sheet {
+    double *values;
+    int rows, columns;
+    LIST(char *) names; /* ended by NULL */
+} Sheet;
+
+static void bode_free(Bode *bode)
+{
+    for (int i = 0; i < bode->transfers.count; i++)
+        transfer_free(bode->transfers.at[i]);
+    LIST_FREE(bode->transfers);
+    LIST_FREE(bode->outputs);
+}
+
+static void sheet_free(Sheet *sheet)
+{
+    for (int i = 0; i < sheet->names.count; i++)
+        mem_free(sheet->names.at[i]);
+    LIST_FREE(sheet->names);
+    mem_free(sheet->values);
+}
+
+/* --- reading --- */
+
+static Status find_output(const Bode *bode, const Operand *operand, int *out, Diag *diag)
+{
+    char *name = view_name(operand->value);
+    Suggest suggest = suggest_for(name);
+    Status status = OK;
+
+    for (int i = 0; i < bode->linear->outputs; i++) {
+        suggest_offer(&suggest, bode->linear->output_names[i]);
+        if (strcmp(bode->linear->output_names[i], name) == 0) {
+            *out = i;
+            goto done;
+        }
+    }
+    status =
+        diag_at(diag, E_NAME, operand->place, "%s is no output of the last linearisation", name);
+    if (suggest.best != NULL)
+        diag_hint(diag, "did you mean '%s'?", suggest.best);
+    else
+        diag_hint(diag, "linearize inputs=[V1] outputs=[%s]", name);
+done:
+    mem_free(name);
+    return status;
+}
+
+static Status read_outputs(const Statement *s, Bode *bode, Diag *diag)
+{
+    Status status = OK;
+
+    for (int i = 0; i < s->operands.count; i++) {
+        int output = 0;
+
+        CHECK(find_output(bode, &s->operands.at[i], &output, diag));
+        LIST_PUSH(bode->outputs, output);
+    }
+    for (int i = 0; s->operands.count == 0 && i < bode->linear->outputs; i++)
+        LIST_PUSH(bode->outputs, i);
+done:
+    return status;
+}
+
+/* a frequency in Hz; one whose dimension has an angle is an angular frequency */
+static Status read_frequency(const Model *model, const Pair *pair, double *out, Diag *diag)
+{
+    static const Dimension rate = {{0, 0, -1, 0, 0, 0}};
+    const Syntax *value = pair->value;
+    Dimension dimension = rate;
+    Status status;
+    Expr e;
+
+    CHECK(model_expression(model, value, &e, diag));
+    if ((expr_kinds(e) & ~(1U << SYMBOL_PARAMETER)) != 0)
+        return diag_at(diag, E_VALUE, value->place, "%s must be a number, or made of parameters",
+                       pair->name);
+    if (model_dimension(model, value, &dimension) && !dimension_same(dimension, rate)) {
+        diag_at(diag, E_UNIT, value->has_unit ? value->unit_place : value->place,
+                "%s= is a frequency", pair->name);
+        diag_hint(diag, "%s=1 kHz, or %s=10 [rad/s]", pair->name, pair->name);
+        return E_UNIT;
+    }
+    *out = model_number(model, e);
+    if (dimension_has_angle(dimension))
+        *out /= 2 * M_PI;
+    if (!isfinite(*out) || *out <= 0)
+        return diag_at(diag, E_VALUE, value->place, "%s must be a frequency above 0", pair->name);
+done:
+    return status;
+}
+
+static Status read_points(const Model *model, const Pair *pair, int *out, Diag *diag)
+{
+    Status status;
+    double value;
+    Expr e;
+
+    CHECK(model_expression(model, pair->value, &e, diag));
+    CHECK(model_check_unit(model, pair->value, "1", "points", diag));
+    value = (expr_kinds(e) & ~(1U << SYMBOL_PARAMETER)) == 0 ? model_number(model, e) : NAN;
+    if (!(value >= 2 && value <= MOST_POINTS && value == floor(value)))
+        return diag_at(diag, E_VALUE, pair->value->place, "points= is a whole number from 2 to %d",
+                       MOST_POINTS);
+    *out = (int)value;
+done:
+    return status;
+}
+
+static Status read_keys(const Model *model, const Statement *s, Bode *bode, Diag *diag)
+{
+    const Pair *last = NULL;
+    Status status = OK;
+
+    bode->points = USUAL_POINTS;
+    for (int i = 0; i < s->pairs.count; i++) {
+        const Pair *pair = s->pairs.at + i;
+
+        if (strcmp(pair->name, "points") == 0) {
+            CHECK(read_points(model, pair, &bode->points, diag));
+            continue;
+        }
+        last = pair;
+        CHECK(read_frequency(model, pair, strcmp(pair->name, "from") == 0 ? &bode->from : &bode->to,
+                             diag));
+    }
+    if (last != NULL && bode->from > 0 && bode->to > 0 && bode->from >= bode->to) {
+        diag_at(diag, E_VALUE, last->value->place, "the frequencies go up: from= is below to=");
+        CHECK(E_VALUE);
+    }
+done:
+    return status;
+}
+
+/* --- numbers --- */
+
+/* a decade around all poles and zeros that aren't 0 */
+static void suggest_range(Bode *bode)
+{
+    double least = INFINITY, most = 0;
+
+    for (int k = 0; k < bode->transfers.count; k++) {
+        const Transfer *t = bode->transfers.at[k];
+
+        for (int i = 0; i < t->poles + t->zeros; i++) {
+            const Root root = i < t->poles ? t->pole[i] : t->zero[i - t->poles];
+            const double f = hypot(root.real, root.imaginary) / (2 * M_PI);
+
+            least = f > 0 ? fmin(least, f) : least;
+            most = fmax(most, f);
+        }
+    }
+    if (most == 0)
+        least = most = 1;
+    least = pow(10, floor(log10(least / 5)));
+    most = pow(10, ceil(log10(most * 5)));
+    /* where one is given, and beyond them, the other is two decades away */
+    if (bode->from == 0)
+        bode->from = bode->to > 0 && bode->to <= least ? bode->to / 100 : least;
+    if (bode->to == 0)
+        bode->to = bode->from >= most ? bode->from * 100 : most;
+}
+
+static Status find_transfers(Bode *bode, const Watch *watch, Diag *diag)
+{
+    Status status = OK;
+
+    for (int k = 0; k < bode->outputs.count; k++)
+        for (int i = 0; i < bode->linear->inputs; i++) {
+            Transfer *t = NULL;
+
+            CHECK(poll(watch));
+            CHECK(transfer_new(bode->linear, bode->outputs.at[k], i, &t, diag));
+            LIST_PUSH(bode->transfers, t);
+        }
+done:
+    return status;
+}
+
+static char *name_of(const Linear *linear, const char *what, int output, int input,
+                     const char *unit)
+{
+    Text text = {0};
+
+    text_addf(&text, "%s %s/%s [%s]", what, linear->output_names[output],
+              linear->input_names[input], unit);
+    return text_done(&text);
+}
+
+static Status fill_sheet(const Bode *bode, const Watch *watch, Sheet *sheet, Diag *diag)
+{
+    const int rows = bode->points, pairs = bode->transfers.count;
+    double *omega = NEW_ARRAY(double, rows), *gain = NEW_ARRAY(double, rows),
+           *phase = NEW_ARRAY(double, rows);
+    Status status = OK;
+
+    (void)diag;
+    sheet->rows = rows;
+    sheet->columns = 1 + 2 * pairs;
+    sheet->values = mem_array((size_t)rows * (size_t)sheet->columns, sizeof(double));
+    LIST_PUSH(sheet->names, mem_text("f [Hz]", 6));
+    for (int r = 0; r < rows; r++) {
+        const double f =
+            r == rows - 1 ? bode->to
+                          : bode->from * pow(bode->to / bode->from, (double)r / (double)(rows - 1));
+
+        sheet->values[r * sheet->columns] = f;
+        omega[r] = 2 * M_PI * f;
+    }
+    for (int k = 0; k < pairs; k++) {
+        const int output = bode->outputs.at[k / bode->linear->inputs];
+        const int input = k % bode->linear->inputs;
+
+        CHECK(poll(watch));
+        transfer_response(bode->linear, output, input, bode->transfers.at[k], omega, rows, gain,
+                          phase);
+        LIST_PUSH(sheet->names, name_of(bode->linear, "gain", output, input, "dB"));
+        LIST_PUSH(sheet->names, name_of(bode->linear, "phase", output, input, "deg"));
+        for (int r = 0; r < rows; r++) {
+            sheet->values[r * sheet->columns + 1 + 2 * k] = gain[r];
+            sheet->values[r * sheet->columns + 2 + 2 * k] = phase[r];
+        }
+    }
+    LIST_PUSH(sheet->names, NULL);
+done:
+    mem_free(omega);
+    mem_free(gain);
+    mem_free(phase);
+    return status;
+}
+
+static Status make_sheet(ct_session *session, const Statement *s, Sheet *out, Diag *diag)
+{
+    Bode bode = {.linear = session->linear};
+    Sheet sheet = {0};
+    Status status;
+
+    session_begin(session);
+    CHECK(linear_check_pairs(session->linear, diag));
+    session_remark_linear(session);
+    CHECK(read_outputs(s, &bode, diag));
+    CHECK(read_keys(session->model, s, &bode, diag));
+    CHECK(find_transfers(&bode, &session->watch, diag));
+    suggest_range(&bode);
+    CHECK(fill_sheet(&bode, &session->watch, &sheet, diag));
+    *out = sheet;
+    sheet = (Sheet){0};
+done:
+    if (status != OK && diag->place.line == 0)
+        diag->place = s->verb_place;
+    bode_free(&bode);
+    sheet_free(&sheet);
+    return status;
+}
+
+/* --- the public functions --- */
+
+ct_status ct_bode(ct_session *session, const ct_statement *statement, double **values, int *rows,
+                  int *columns, char ***names, ct_error *error)
+{
+    Sheet sheet = {0};
+    Diag diag = {0};
+    const Status status = make_sheet(session, statement_of(statement), &sheet, &diag);
+
+    if (status == OK) {
+        *values = sheet.values;
+        *rows = sheet.rows;
+        *columns = sheet.columns;
+        *names = sheet.names.at;
+    }
+    return session_report(status, &diag, error);
+}
+
+ct_status ct_bode_csv(ct_session *session, const ct_statement *statement, bool with_header,
+                      char **text, ct_error *error)
+{
+    Sheet sheet = {0};
+    Text out = {0};
+    Diag diag = {0};
+    const Status status = make_sheet(session, statement_of(statement), &sheet, &diag);
+
+    if (status == OK) {
+        write_csv(&out, (const char *const *)sheet.names.at, sheet.values, sheet.rows,
+                  sheet.columns, with_header);
+        *text = text_done(&out);
+    }
+    sheet_free(&sheet);
+    return session_report(status, &diag, error);
+}

@@ -1,0 +1,540 @@
+/* session_formula.c: an expression of the user's cut into what runs and the session know
+ *
+ * An expression is cut into leaves: subtrees that the model understands are variables of
+ * one run; functions of runs (max(h8)), counts and sizes are numbers. What joins the
+ * leaves is evaluated over their values. Mostly there is one leaf and nothing to join. */
+#include "session/session_impl.h"
+
+#include <ctype.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+void formula_free(Formula *formula)
+{
+    LIST_FREE(formula->leaves);
+}
+
+/* --- numbers that the session knows --- */
+
+/* functions of one argument over a run's rows, of which there is at least one */
+typedef double Reduction(const double *times, const double *values, int count);
+
+static double reduce_min(const double *times, const double *values, int count)
+{
+    double out = values[0];
+
+    (void)times;
+    for (int i = 1; i < count; i++)
+        out = values[i] < out ? values[i] : out;
+    return out;
+}
+
+static double reduce_max(const double *times, const double *values, int count)
+{
+    double out = values[0];
+
+    (void)times;
+    for (int i = 1; i < count; i++)
+        out = values[i] > out ? values[i] : out;
+    return out;
+}
+
+/* by the trapezoidal rule: rows of events lie between those of the grid */
+static double mean_power(const double *times, const double *values, int count, int power)
+{
+    double span = times[count - 1] - times[0];
+    double sum = 0;
+
+    if (!(span > 0))
+        return pow(values[count - 1], power);
+    for (int i = 1; i < count; i++)
+        sum += (times[i] - times[i - 1]) * (pow(values[i - 1], power) + pow(values[i], power)) / 2;
+    return sum / span;
+}
+
+static double reduce_mean(const double *times, const double *values, int count)
+{
+    return mean_power(times, values, count, 1);
+}
+
+static double reduce_rms(const double *times, const double *values, int count)
+{
+    return sqrt(mean_power(times, values, count, 2));
+}
+
+static const struct {
+    const char *name;
+    Reduction *reduce;
+} reductions[] = {
+    {"min", reduce_min}, {"max", reduce_max}, {"mean", reduce_mean}, {"rms", reduce_rms}};
+
+static Reduction *find_reduction(const Syntax *syntax)
+{
+    if (syntax->kind != SYNTAX_CALL || syntax->count != 1)
+        return NULL;
+    for (int i = 0; i < COUNT(reductions); i++)
+        if (strcmp(reductions[i].name, syntax->text) == 0)
+            return reductions[i].reduce;
+    return NULL;
+}
+
+/* Freedoms as 'check' tells them: by what the constraints leave free at the start. Where there is
+ * none that could be assembled, by their number, and that is said. */
+static Status model_freedoms(ct_session *session, System *system, double *out, Diag *diag)
+{
+    const int difference = system_nu(system) - system_m(system);
+    Run *start;
+    Text line = {0};
+    Status status = OK;
+
+    *out = difference;
+    if (system_m(system) == 0)
+        return OK;
+    if (session_freedoms(session) < 0) {
+        status = session_start(session, &start, diag);
+        if (status == E_STOPPED)
+            return status;
+    }
+    if (session_freedoms(session) >= 0) {
+        *out = session_freedoms(session);
+        return OK;
+    }
+    text_addf(&line,
+              "model.dof is n - m = %d, whatever constraints repeat others: the start can't be "
+              "assembled",
+              difference);
+    session_remark(session, line.at);
+    text_free(&line);
+    *diag = (Diag){0};
+    return OK;
+}
+
+/* sizes of the model: model.n ... */
+static Status model_size(ct_session *session, const char *path, double *out, Diag *diag)
+{
+    System *system;
+    Status status;
+
+    CHECK(session_system(session, &system, diag));
+    if (strcmp(path, "model.n") == 0)
+        *out = system_n(system);
+    else if (strcmp(path, "model.m") == 0)
+        *out = system_m(system);
+    else if (strcmp(path, "model.dof") == 0)
+        status = model_freedoms(session, system, out, diag);
+    else {
+        diag_set(diag, E_NAME, "there is no '%s'", path);
+        diag_hint(diag, "model.n, model.m and model.dof: coordinates, constraints, freedoms");
+        status = E_NAME;
+    }
+done:
+    return status;
+}
+
+/* count.mass.add, count.shared.mass.add */
+static Status count_size(ct_session *session, const char *path, double *out, Diag *diag)
+{
+    const bool shared = strncmp(path, "count.shared.", 13) == 0;
+    const char *block = path + (shared ? 13 : 6);
+    const char *dot = strrchr(block, '.');
+    char *name = mem_text(block, dot != NULL ? (size_t)(dot - block) : strlen(block));
+    const char *const *independent;
+    System *system;
+    OpCount count;
+    Status status = OK;
+    int independents;
+
+    CHECK(session_system(session, &system, diag));
+    CHECK(count_block(system, model_form(session->model, &independent, &independents), name, shared,
+                      &count, diag));
+    if (dot != NULL && strcmp(dot, ".add") == 0)
+        *out = (double)count.add;
+    else if (dot != NULL && strcmp(dot, ".mul") == 0)
+        *out = (double)count.mul;
+    else if (dot != NULL && strcmp(dot, ".fun") == 0)
+        *out = (double)count.fun;
+    else {
+        diag_set(diag, E_NAME, "'%s' needs .add, .mul or .fun at its end", path);
+        status = E_NAME;
+    }
+done:
+    mem_free(name);
+    return status;
+}
+
+static const struct {
+    const char *prefix;
+    Status (*value)(ct_session *session, const char *path, double *out, Diag *diag);
+} sizes[] = {{"model.", model_size}, {"count.", count_size}};
+
+static int find_size(const char *path)
+{
+    for (int i = 0; i < COUNT(sizes); i++)
+        if (strncmp(path, sizes[i].prefix, strlen(sizes[i].prefix)) == 0)
+            return i;
+    return -1;
+}
+
+/* run2.h8: the number of the run and where the rest begins; 0: no such prefix */
+static int run_prefix(const char *path, const char **rest)
+{
+    char *end;
+    long number;
+
+    if (strncmp(path, "run", 3) != 0 || !isdigit((unsigned char)path[3]))
+        return 0;
+    number = strtol(path + 3, &end, 10);
+    if (*end != '.' || number < 1 || number > 1000000)
+        return 0;
+    *rest = end + 1;
+    return (int)number;
+}
+
+/* --- cutting --- */
+
+static bool is_entry(const Syntax *syntax)
+{
+    return syntax->kind == SYNTAX_CALL && session_entry(syntax->text) >= 0;
+}
+
+/* whether the model understands the whole subtree; run: the one that all its names have, 0: none */
+static bool is_pure(const Syntax *syntax, int *run, bool *bare)
+{
+    const char *rest;
+
+    if (find_reduction(syntax) != NULL)
+        return false;
+    if (syntax->kind == SYNTAX_VARIABLE || syntax->kind == SYNTAX_CALL) {
+        const int prefix = run_prefix(syntax->text, &rest);
+
+        if (find_size(syntax->text) >= 0 || is_entry(syntax))
+            return false;
+        if (prefix > 0 && *run > 0 && prefix != *run)
+            return false;
+        if (prefix > 0)
+            *run = prefix;
+        else if (syntax->kind == SYNTAX_VARIABLE)
+            *bare = true;
+    }
+    for (int i = 0; i < syntax->count; i++)
+        if (!is_pure(syntax->args[i], run, bare))
+            return false;
+    return *run == 0 || !*bare;
+}
+
+/* the tree without its run prefixes, in the pool */
+static Syntax *strip(Pool *pool, const Syntax *syntax)
+{
+    Syntax *out = pool_alloc(pool, sizeof *out);
+    const char *rest;
+
+    *out = *syntax;
+    if ((syntax->kind == SYNTAX_VARIABLE || syntax->kind == SYNTAX_CALL) &&
+        run_prefix(syntax->text, &rest) > 0)
+        out->text = rest;
+    out->args = pool_alloc(pool, sizeof *out->args * (size_t)(syntax->count + 1));
+    for (int i = 0; i < syntax->count; i++)
+        out->args[i] = strip(pool, syntax->args[i]);
+    return out;
+}
+
+typedef struct Cut {
+    ct_session *session;
+    Formula *formula;
+} Cut;
+
+static Expr push_leaf(Cut *cut, Leaf leaf)
+{
+    char name[24];
+
+    (void)snprintf(name, sizeof name, "#%d", cut->formula->leaves.count + 1);
+    leaf.symbol = expr_symbol(model_arena(cut->session->model), name, SYMBOL_ARGUMENT);
+    LIST_PUSH(cut->formula->leaves, leaf);
+    return leaf.symbol;
+}
+
+Expr session_put_outputs(const Model *model, Expr e)
+{
+    const int count = model_output_count(model);
+    Arena *arena = model_arena(model);
+    Expr *symbols = NEW_ARRAY(Expr, count), *values = NEW_ARRAY(Expr, count);
+
+    for (int i = 0; i < count; i++) {
+        const char *name;
+
+        values[i] = model_output(model, i, &name);
+        symbols[i] = expr_symbol(arena, name, SYMBOL_VARIABLE);
+    }
+    for (int depth = 0; depth < count; depth++) {
+        const Expr next = expr_substitute(arena, e, symbols, values, count);
+
+        if (next == e)
+            break;
+        e = next;
+    }
+    mem_free(symbols);
+    mem_free(values);
+    return e;
+}
+
+/* sizes that outputs ask for, as numbers */
+static Status put_sizes(ct_session *session, Expr *e, Diag *diag)
+{
+    Arena *arena = model_arena(session->model);
+    Expr *symbols = NULL, *numbers;
+    const int count = expr_symbols(e, 1, &symbols);
+    int used = 0;
+    Status status = OK;
+
+    numbers = NEW_ARRAY(Expr, count);
+    for (int i = 0; i < count; i++) {
+        const char *name = expr_name(symbols[i]);
+        const int size = find_size(name);
+        double value;
+
+        if (size < 0 || expr_symbol_kind(symbols[i]) != SYMBOL_VARIABLE)
+            continue;
+        CHECK(sizes[size].value(session, name, &value, diag));
+        symbols[used] = symbols[i];
+        numbers[used++] = expr_real(arena, value);
+    }
+    *e = expr_substitute(arena, *e, symbols, numbers, used);
+done:
+    mem_free(symbols);
+    mem_free(numbers);
+    return status;
+}
+
+static Status cut_pure(Cut *cut, const Syntax *syntax, int run, Expr *out, Diag *diag)
+{
+    ct_session *session = cut->session;
+    Pool *pool = pool_new(4096);
+    Status status = OK;
+    Expr e;
+
+    if (run > session->runs.count) {
+        diag_at(diag, E_NAME, syntax->place, "there is no run%d", run);
+        if (session->runs.count > 0)
+            diag_hint(diag, "the last one is run%d", session->runs.count);
+        else
+            diag_hint(diag, "there is no run yet: 'simulate 10' makes one");
+        status = E_NAME;
+        goto done;
+    }
+    CHECK(model_expression(session->model, run > 0 ? strip(pool, syntax) : syntax, &e, diag));
+    e = session_put_outputs(session->model, e);
+    CHECK(put_sizes(session, &e, diag));
+    *out = expr_is_number(e)
+               ? e
+               : push_leaf(cut, (Leaf){.kind = LEAF_VARIABLE, .expr = e, .run = run - 1});
+done:
+    pool_free(pool);
+    return status;
+}
+
+static Status cut_any(Cut *cut, const Syntax *syntax, Expr *out, Diag *diag);
+
+/* over the rows of the run that the argument names, else the last; its value at the start where
+ * there is no run */
+static Status cut_reduction(Cut *cut, const Syntax *syntax, Reduction *reduce, Expr *out,
+                            Diag *diag)
+{
+    ct_session *session = cut->session;
+    Formula argument = {0};
+    double *values = NULL;
+    Run *source, *grid;
+    Status status = OK;
+    int rows;
+
+    if (session->runs.count == 0) {
+        diag_at(diag, E_MISSING, syntax->place,
+                "'%s' of one argument is taken over the last run, "
+                "and there is none yet",
+                syntax->text);
+        diag_hint(diag, "'simulate 10' makes one");
+        return E_MISSING;
+    }
+    source = session->runs.at + session->runs.count - 1;
+    CHECK(formula_new(session, syntax->args[0], &argument, diag));
+    grid = formula_grid(session, &argument, 1, source);
+    rows = result_rows(grid->result);
+    values = NEW_ARRAY(double, rows);
+    CHECK(formula_rows(session, &argument, 1, grid, source, NULL, rows, values, 1, 0, diag));
+    *out = push_leaf(
+        cut, (Leaf){.kind = LEAF_CONSTANT,
+                    .value = rows > 0 ? reduce(result_times(grid->result), values, rows) : NAN,
+                    .run = -1});
+done:
+    formula_free(&argument);
+    mem_free(values);
+    return status;
+}
+
+static Status cut_size(Cut *cut, const Syntax *syntax, Expr *out, Diag *diag)
+{
+    double value = 0;
+    Status status;
+
+    status = sizes[find_size(syntax->text)].value(cut->session, syntax->text, &value, diag);
+    if (status != OK) {
+        if (diag->place.line == 0)
+            diag->place = syntax->place;
+        return status;
+    }
+    *out = push_leaf(cut, (Leaf){.kind = LEAF_CONSTANT, .value = value, .run = -1});
+    return OK;
+}
+
+/* linear.A(1,2): its numbers are numbers, or made of parameters */
+static Status cut_entry(Cut *cut, const Syntax *syntax, Expr *out, Diag *diag)
+{
+    int index[2] = {0, 0};
+    double value = 0;
+    Status status = OK;
+
+    for (int i = 0; i < syntax->count && i < COUNT(index); i++) {
+        Formula formula = {0};
+
+        CHECK(formula_new(cut->session, syntax->args[i], &formula, diag));
+        if (!formula_needs_run(&formula))
+            status = formula_value(cut->session, &formula, NULL, NULL, &value, diag);
+        else
+            status = diag_at(diag, E_VALUE, syntax->args[i]->place,
+                             "an entry of %s is picked by whole numbers from 1", syntax->text);
+        formula_free(&formula);
+        CHECK(status);
+        index[i] = value == floor(value) && fabs(value) < 1e6 ? (int)value : 0;
+    }
+    CHECK(session_entry_value(cut->session, session_entry(syntax->text), index, syntax->count,
+                              &value, diag));
+    *out = push_leaf(cut, (Leaf){.kind = LEAF_CONSTANT, .value = value, .run = -1});
+done:
+    if (status != OK && diag->place.line == 0)
+        diag->place = syntax->place;
+    return status;
+}
+
+static Expr join_binary(Arena *arena, const char *operator, Expr a, Expr b)
+{
+    static const struct {
+        const char *name;
+        Expr (*build)(Arena *arena, Expr a, Expr b);
+    } arithmetic[] = {
+        {"+", expr_add}, {"-", expr_sub}, {"*", expr_mul}, {"/", expr_div}, {"^", expr_pow}};
+    static const struct {
+        const char *name;
+        Op op;
+        bool swapped;
+    } comparisons[] = {{"<", OP_LT, false},   {"<=", OP_LE, false}, {">", OP_LT, true},
+                       {">=", OP_LE, true},   {"==", OP_EQ, false}, {"!=", OP_NE, false},
+                       {"&&", OP_AND, false}, {"||", OP_OR, false}};
+
+    for (int i = 0; i < COUNT(arithmetic); i++)
+        if (strcmp(arithmetic[i].name, operator) == 0)
+            return arithmetic[i].build(arena, a, b);
+    for (int i = 0; i < COUNT(comparisons); i++)
+        if (strcmp(comparisons[i].name, operator) == 0)
+            return expr_call2(arena, comparisons[i].op, comparisons[i].swapped ? b : a,
+                              comparisons[i].swapped ? a : b);
+    return NULL;
+}
+
+/* a function or law of leaves; the parameters that a law brings are leaves more */
+static Status cut_call(Cut *cut, const Syntax *syntax, const Expr *args, Expr *out, Diag *diag)
+{
+    Arena *arena = model_arena(cut->session->model);
+    Expr *symbols = NULL, *leaves = NULL;
+    int count, used = 0;
+    Status status = OK;
+
+    CHECK(model_call(cut->session->model, syntax, args, out, diag));
+    count = expr_symbols(out, 1, &symbols);
+    leaves = NEW_ARRAY(Expr, count);
+    for (int i = 0; i < count; i++) {
+        const SymbolKind kind = expr_symbol_kind(symbols[i]);
+
+        if (kind == SYMBOL_ARGUMENT || kind == SYMBOL_TABLE)
+            continue;
+        symbols[used] = symbols[i];
+        leaves[used++] =
+            push_leaf(cut, (Leaf){.kind = LEAF_VARIABLE, .expr = symbols[i], .run = -1});
+    }
+    *out = expr_substitute(arena, *out, symbols, leaves, used);
+done:
+    mem_free(symbols);
+    mem_free(leaves);
+    return status;
+}
+
+/* a subtree that holds more than the model understands: its parts, joined */
+static Status cut_joined(Cut *cut, const Syntax *syntax, Expr *out, Diag *diag)
+{
+    Arena *arena = model_arena(cut->session->model);
+    Expr *args = NEW_ARRAY(Expr, syntax->count);
+    Status status = OK;
+
+    /* the name of a file is no value */
+    for (int i = 0; i < syntax->count; i++)
+        if (syntax->args[i]->kind != SYNTAX_STRING || !model_call_takes_text(syntax))
+            CHECK(cut_any(cut, syntax->args[i], &args[i], diag));
+    *out = NULL;
+    if (syntax->primes == 0 && syntax->kind == SYNTAX_GROUP)
+        *out = args[0];
+    else if (syntax->kind == SYNTAX_UNARY)
+        *out = syntax->text[0] == '-'   ? expr_neg(arena, args[0])
+               : syntax->text[0] == '!' ? expr_call1(arena, OP_NOT, args[0])
+                                        : args[0];
+    else if (syntax->kind == SYNTAX_BINARY)
+        *out = join_binary(arena, syntax->text, args[0], args[1]);
+    else if (syntax->primes == 0 && syntax->kind == SYNTAX_CALL)
+        CHECK(cut_call(cut, syntax, args, out, diag));
+    if (*out == NULL)
+        status = diag_at(diag, E_VALUE, syntax->place,
+                         "this can't be made of values of several runs, of functions of runs or "
+                         "of counts");
+done:
+    mem_free(args);
+    return status;
+}
+
+static Status cut_any(Cut *cut, const Syntax *syntax, Expr *out, Diag *diag)
+{
+    Reduction *reduce = find_reduction(syntax);
+    int run = 0;
+    bool bare = false;
+
+    if (reduce != NULL)
+        return cut_reduction(cut, syntax, reduce, out, diag);
+    if (syntax->kind == SYNTAX_VARIABLE && find_size(syntax->text) >= 0)
+        return cut_size(cut, syntax, out, diag);
+    if (is_entry(syntax))
+        return cut_entry(cut, syntax, out, diag);
+    if (is_pure(syntax, &run, &bare))
+        return cut_pure(cut, syntax, run, out, diag);
+    return cut_joined(cut, syntax, out, diag);
+}
+
+Status formula_new(ct_session *session, const Syntax *syntax, Formula *out, Diag *diag)
+{
+    Formula formula = {.scale = 1};
+    Cut cut = {session, &formula};
+    Syntax bare = *syntax;
+    Status status;
+
+    /* behind a literal a unit is what it is in, behind anything else what to show it in */
+    if (syntax->has_unit && syntax->kind != SYNTAX_NUMBER && syntax->kind != SYNTAX_VECTOR) {
+        formula.scale = 1 / syntax->unit.factor;
+        bare.has_unit = false;
+    }
+    status = cut_any(&cut, &bare, &formula.whole, diag);
+    if (status == OK)
+        status = model_check_shown(session->model, syntax, diag);
+    if (status != OK) {
+        formula_free(&formula);
+        return status;
+    }
+    *out = formula;
+    return OK;
+}

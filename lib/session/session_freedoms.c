@@ -1,0 +1,142 @@
+/* session_freedoms.c: virtual joints among the branches are held against trees of real edges */
+#include "session/session_impl.h"
+
+#include "simulate/analyse/freedoms.h"
+
+#include <string.h>
+
+typedef struct Branches { /* virtual ones */
+    LIST(const Instance *) joints;
+    LIST(const char *) ends; /* tail and head of each */
+} Branches;
+
+static void branches_free(Branches *branches)
+{
+    LIST_FREE(branches->joints);
+    LIST_FREE(branches->ends);
+}
+
+static Status find_branches(const Model *model, Branches *out, Diag *diag)
+{
+    const Tree *trees[TREE_KINDS] = {NULL};
+    const Graph *graph = model_graph(model);
+    Status status;
+
+    CHECK(model_trees(model, trees, diag));
+    for (int i = 0; trees[TREE_TRANSLATION] != NULL && i < model_count(model); i++) {
+        const Instance *joint = model_instance(model, i);
+
+        if (!joint->is_virtual || joint->edge < 0 ||
+            (!tree_has(trees[TREE_TRANSLATION], joint->edge) &&
+             !tree_has(trees[TREE_ROTATION], joint->edge)))
+            continue;
+        LIST_PUSH(out->joints, joint);
+        LIST_PUSH(out->ends, graph_node(graph, joint->tail)->name);
+        LIST_PUSH(out->ends, graph_node(graph, joint->head)->name);
+    }
+done:
+    return status;
+}
+
+/* the same start in trees of real edges; *out NULL where there is none to compare with */
+static Status assemble_real(ct_session *session, const Setting *setting, Model **model,
+                            System **system, Result **out, Diag *diag)
+{
+    Setting plain = *setting;
+    char *base = model_save(session->model);
+    Status status = session_model_copy(session, base, "tree joint\n", model, diag);
+
+    mem_free(base);
+    plain.form = FORM_AUGMENTED;
+    plain.independent_count = 0;
+    plain.warm = NULL;
+    if (status == OK)
+        status = system_new(*model, &session->watch, system, diag);
+    plain.model = *model;
+    if (status == OK)
+        status = run_assemble(*system, &plain, out, diag);
+    return status == E_STOPPED ? status : OK;
+}
+
+Status session_check_freedoms(ct_session *session, System *system, const Setting *setting,
+                              Diag *diag)
+{
+    Branches branches = {0};
+    Model *model = NULL;
+    System *real_system = NULL;
+    Result *real = NULL, *with = NULL;
+    Setting plain = *setting;
+    Status status = OK;
+    Diag ignored;
+
+    if (session->covered == model_revision(session->model) + 1)
+        return OK;
+    CHECK(find_branches(session->model, &branches, diag));
+    if (branches.joints.count == 0)
+        goto done;
+    CHECK(assemble_real(session, setting, &model, &real_system, &real, diag));
+    plain.form = FORM_AUGMENTED;
+    plain.independent_count = 0;
+    /* a start that can't be found has its own message, from the run */
+    if (real == NULL || run_assemble(system, &plain, &with, &ignored) != OK)
+        goto done;
+    CHECK(freedoms_compare(real, with, branches.joints.at,
+                           (const char *const(*)[2])(const void *)branches.ends.at,
+                           branches.joints.count, diag));
+    session->covered = model_revision(session->model) + 1;
+done:
+    result_free(real);
+    result_free(with);
+    system_free(real_system);
+    model_free(model);
+    branches_free(&branches);
+    return status;
+}
+
+void session_note_freedoms(ct_session *session, const Result *result)
+{
+    if (system_revision(result_system((Result *)result)) != model_revision(session->model))
+        return;
+    session->freed = model_revision(session->model) + 1;
+    session->freedoms = result_freedoms(result);
+}
+
+int session_freedoms(const ct_session *session)
+{
+    return session->freed == model_revision(session->model) + 1 ? session->freedoms : -1;
+}
+
+Status session_try_trees(ct_session *session, Diag *diag)
+{
+    Order order = {0};
+    Result *result = NULL;
+    System *system;
+    Diag why;
+    Status status = session_system(session, &system, &why);
+
+    if (status != OK)
+        return OK;
+    order_make(session, &order);
+    status = session_check_freedoms(session, system, &order.setting, &why);
+    if (status == E_BRANCH && diag != NULL)
+        *diag = why;
+    if (status == OK && run_assemble(system, &order.setting, &result, &why) == OK)
+        session_note_freedoms(session, result);
+    result_free(result);
+    order_free(&order);
+    return status == E_BRANCH ? status : OK;
+}
+
+void session_remark_free(ct_session *session)
+{
+    Branches branches = {0};
+
+    if (find_branches(session->model, &branches, NULL) == OK)
+        for (int i = 0; i < branches.joints.count; i++)
+            if (strcmp(branches.joints.at[i]->row->name, "free") == 0)
+                text_addf(&session->remarks,
+                          "%s covers every motion of its frames: it adds coordinates, and the "
+                          "equations of what it displaced\n",
+                          branches.joints.at[i]->name);
+    branches_free(&branches);
+}

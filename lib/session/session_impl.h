@@ -1,0 +1,195 @@
+/* session_impl.h: what a session holds, for the files of lib/session*.c
+ *
+ * A model, the equations made of it, its runs, and what was said last. Systems are
+ * made when needed and kept while they are those of the model or a run names them. */
+#ifndef COTREE_SESSION_SESSION_IMPL_H
+#define COTREE_SESSION_SESSION_IMPL_H
+
+#include "cotree.h"
+
+#include "base/memory.h"
+#include "base/text.h"
+#include "model/model.h"
+#include "present/count.h"
+#include "present/view.h"
+#include "simulate/analyse/linearize.h"
+#include "simulate/run/run.h"
+
+/* Values of parameters when a run began; lives as long as the run. */
+typedef struct ParameterValues {
+    const Model *model; /* for parameters made later */
+    LIST(Expr) symbols;
+    LIST(double) values;
+} ParameterValues;
+
+typedef struct Run {
+    Result *result;
+    ParameterValues *parameters;
+} Run;
+
+struct ct_session {
+    ct_hooks hooks;
+    Watch watch; /* the hooks, as lib/ knows them */
+    Model *model;
+    LIST(System *) systems; /* of the runs and, last, of the model as it was when asked last */
+    LIST(Run) runs;         /* run1 is the first */
+    Run start;              /* assembled from the model as it is; result NULL: not yet */
+    Run warm;               /* the start before that: where guesses come from */
+    bool at_rest;           /* start, or else warm, is an equilibrium, from which runs start */
+    int rests_since;        /* statements of starts: earlier ones it has taken the place of */
+    Linear *linear;         /* the last linearisation; NULL */
+    bool linear_is_old;     /* the model has changed since */
+    Modes *modes;           /* and modes */
+    const char *told;       /* verb whose finding ct_report() tells; NULL: as runs have it */
+    bool start_is_later;    /* a bare name means the start, not the end of the last run */
+    bool changed;           /* since the last run */
+    uint64_t covered;       /* revision whose virtual branches lose no freedom, and 1 */
+    uint64_t freed;         /* revision whose freedoms are known, and 1 */
+    int freedoms;
+    TreeCosts costs;
+    int cost_now; /* of the trees chosen last, a place in `costs` */
+    Text remarks; /* of the last call; at NULL: none */
+};
+
+/* hands the statement behind the public name; never NULL for NULL-free input */
+static inline const Statement *statement_of(const ct_statement *statement)
+{
+    return (const Statement *)(const void *)statement;
+}
+static inline const Syntax *syntax_of(const ct_expression *expression)
+{
+    return (const Syntax *)(const void *)expression;
+}
+static inline const ct_expression *expression_of(const Syntax *syntax)
+{
+    return (const ct_expression *)(const void *)syntax;
+}
+
+/* the public error of a status: returns what the public function returns */
+ct_status session_report(Status status, const Diag *diag, ct_error *error);
+/* before anything that may remark */
+void session_begin(ct_session *session);
+void session_remark(ct_session *session, const char *lines);
+
+/* the equations of the model as it is; borrowed */
+MUST_USE Status session_system(ct_session *session, System **out, Diag *diag);
+/* The equations that are shown: those of the trees as they are, also where a run takes a network
+ * in state form. */
+Status session_shown(ct_session *session, System **out, Diag *diag);
+/* free systems that neither the model nor a run needs any more */
+void session_sweep(ct_session *session);
+/* what there is to look at; `system` and `result` as needed */
+View session_view(const ct_session *session);
+
+/* --- trees (session_trees.c) --- */
+
+/* `tree best`: search, put the cheapest trees in place, and remark what was compared. Bounded by a
+ * number of formulations and a time. E_STOPPED leaves the best so far in place. */
+MUST_USE Status session_best_trees(ct_session *session, Diag *diag);
+/* new: a model that two texts of statements make, one after the other, with the session's data */
+MUST_USE Status session_model_copy(const ct_session *session, const char *base, const char *more,
+                                   Model **out, Diag *diag);
+
+/* --- virtual branches (session_freedoms.c) --- */
+
+/* Assemble in trees of real edges and in those of the system, and compare the freedoms, once a
+ * revision. E_BRANCH names a virtual branch that takes some away. */
+MUST_USE Status session_check_freedoms(ct_session *session, System *system, const Setting *setting,
+                                       Diag *diag);
+/* The same for trees just chosen, quietly: E_BRANCH, or OK, also where nothing can be assembled. */
+MUST_USE Status session_try_trees(ct_session *session, Diag *diag);
+/* what an assembly of the model as it is told of its freedoms; -1: there was none */
+void session_note_freedoms(ct_session *session, const Result *result);
+int session_freedoms(const ct_session *session);
+/* warn of virtual free joints among the branches */
+void session_remark_free(ct_session *session);
+
+/* --- runs --- */
+
+void run_free(Run *run);
+/* What a run is told, made from the model as it is. */
+/* what must not come to 0 in a run, each with its event and with its value at the start */
+typedef struct BoundWatch {
+    LIST(Bound) bounds;
+    LIST(Event) events;
+    LIST(double) from;
+    Pool *pool;
+} BoundWatch;
+
+typedef struct Order {
+    ParameterValues *parameters;
+    StartValues start;
+    const Event **events;
+    BoundWatch watch;
+    Setting setting;
+} Order;
+void order_make(ct_session *session, Order *order);
+void order_free(Order *order); /* what it holds */
+/* Watch where the laws of the system's parts end, in a run that the order is for; `old`: the one
+ * that it goes on with, or NULL. Afterwards: E_SOLVER, with the part and what came to 0, where one
+ * did; else the status that the run had. */
+void watch_bounds(System *system, const Result *old, Order *order);
+MUST_USE Status check_bounds(const Order *order, Result *result, Status status, Diag *diag);
+void watch_free(BoundWatch *watch);
+/* the result and the parameters that it was made with */
+Run order_done(Order *order, Result *result);
+/* the assembled start of the model as it is, made when it isn't there yet; borrowed */
+MUST_USE Status session_start(ct_session *session, Run **out, Diag *diag);
+/* what a bare name means: the last run, or the start; NULL diag place */
+MUST_USE Status session_source(ct_session *session, Run **out, Diag *diag);
+/* the start is no longer that of the model; it stays as what guesses come from */
+void session_forget_start(ct_session *session);
+
+typedef Status Analysis(ct_session *session, const Statement *statement, Diag *diag);
+Analysis session_equilibrium, session_linearize, session_modes;
+/* says so where the last linearisation is of another model */
+void session_remark_linear(ct_session *session);
+/* entries of what these found (linear.A, modes.omega): a number for the name; -1: none */
+int session_entry(const char *name);
+MUST_USE Status session_entry_value(const ct_session *session, int entry, const int *index,
+                                    int count, double *out, Diag *diag);
+/* of an entry whose numbers are written out; `session` is the context of an EntryFinder */
+bool session_entry_dimension(void *session, const Syntax *call, Dimension *out);
+
+/* --- values --- */
+
+/* outputs written out, also in one another: a run older than an output knows its parts */
+Expr session_put_outputs(const Model *model, Expr e);
+
+/* An expression of the user's over variables, runs and counts, ready to be evaluated. */
+typedef enum LeafKind { LEAF_CONSTANT, LEAF_VARIABLE } LeafKind;
+
+typedef struct Leaf {
+    LeafKind kind;
+    double value; /* of a constant */
+    Expr expr;    /* of a variable: over names of the user's */
+    int run;      /* place in session->runs, or -1 for what a bare name means */
+    Expr symbol;  /* that stands for it in `whole` */
+} Leaf;
+
+typedef struct Formula {
+    LIST(Leaf) leaves;
+    Expr whole;   /* over the leaves' symbols */
+    double scale; /* 1 / unit to be shown in */
+} Formula;
+
+void formula_free(Formula *formula);
+/* Read an expression: names checked, functions of runs computed. */
+MUST_USE Status formula_new(ct_session *session, const Syntax *syntax, Formula *out, Diag *diag);
+bool formula_needs_run(const Formula *formula); /* or is made of numbers and parameters alone */
+/* one number: at an instant (at not NULL), else at the end; `source` what bare names mean, NULL
+ * where no run is needed */
+MUST_USE Status formula_value(ct_session *session, const Formula *formula, Run *source,
+                              const double *at, double *out, Diag *diag);
+/* the run whose grid a list is on: the one that its items name, else `source` */
+Run *formula_grid(ct_session *session, const Formula *formulas, int count, Run *source);
+/* values at `rows` times of several formulas, row by row: out is rows x stride, from column
+ * `first` on; times NULL: the rows of `grid` */
+MUST_USE Status formula_rows(ct_session *session, const Formula *formulas, int count, Run *grid,
+                             Run *source, const double *times, int rows, double *out, int stride,
+                             int first, Diag *diag);
+
+/* Give a message without a place that of the variable it names, among items that were asked for. */
+void session_place_item(const Syntax *const *items, int count, Diag *diag);
+
+#endif

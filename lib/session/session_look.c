@@ -1,0 +1,138 @@
+/* session_look.c: show, count, check, info, tree, draw */
+#include "session/session_impl.h"
+
+#include "present/info.h"
+#include "present/show.h"
+
+#include <string.h>
+
+/* hands the text over, or frees it and reports what went wrong */
+static ct_status finish(Status status, Text *out, const Diag *diag, char **text, ct_error *error)
+{
+    if (status == OK)
+        *text = text_done(out);
+    text_free(out);
+    return session_report(status, diag, error);
+}
+
+/* a formula is in SI, whatever its number would be shown in */
+static Status check_no_units(const Statement *s, Diag *diag)
+{
+    for (int i = 0; i < s->operands.count; i++) {
+        const Syntax *value = s->operands.at[i].value;
+
+        if (!value->has_unit || value->kind == SYNTAX_NUMBER || value->kind == SYNTAX_VECTOR)
+            continue;
+        (void)diag_at(diag, E_UNIT, value->unit_place, "a formula is in SI, not in %s",
+                      value->unit_text);
+        diag_hint(diag, "'print' shows its value in a unit");
+        return E_UNIT;
+    }
+    return OK;
+}
+
+ct_status ct_show(ct_session *session, const ct_statement *statement, char **text, ct_error *error)
+{
+    const Statement *s = statement_of(statement);
+    View view = session_view(session);
+    Text out = {0};
+    Diag diag = {0};
+    Status status;
+    Need need;
+
+    session_begin(session);
+    CHECK(check_no_units(s, &diag));
+    CHECK(show_need(session->model, s, &need, &diag));
+    if (need == NEED_SYSTEM)
+        CHECK(session_shown(session, &view.system, &diag));
+    if (need == NEED_RUNNING)
+        CHECK(session_system(session, &view.system, &diag));
+    CHECK(show(&view, s, &out, &diag));
+    if (show_is_linear(s))
+        session_remark_linear(session);
+done:
+    return finish(status, &out, &diag, text, error);
+}
+
+ct_status ct_count(ct_session *session, const ct_statement *statement, char **text, ct_error *error)
+{
+    View view = session_view(session);
+    TreeCost cost;
+    Text out = {0};
+    Diag diag = {0};
+    Status status;
+
+    session_begin(session);
+    CHECK(session_shown(session, &view.system, &diag));
+    CHECK(tree_cost(&view, &cost, &diag));
+    session->cost_now = tree_costs_add(&session->costs, &cost);
+    CHECK(count_print(&view, statement_of(statement), &session->costs, &out, &diag));
+done:
+    return finish(status, &out, &diag, text, error);
+}
+
+ct_status ct_check(ct_session *session, char **text, ct_error *error)
+{
+    View view = session_view(session);
+    Run *start = NULL;
+    Text out = {0};
+    Diag diag = {0}, why = {0};
+    Status status;
+
+    session_begin(session);
+    CHECK(session_system(session, &view.system, &diag));
+    /* a start that can't be assembled is an answer here, a stop isn't */
+    status = session_start(session, &start, &why);
+    if (status == E_STOPPED)
+        goto done;
+    status = OK;
+    session_begin(session); /* the report holds what the start had to remark */
+    check_print(&view, start != NULL ? start->result : NULL, why.message, &out);
+done:
+    return finish(status, &out, &diag, text, error);
+}
+
+ct_status ct_info(ct_session *session, const ct_statement *statement, char **text, ct_error *error)
+{
+    const Statement *s = statement_of(statement);
+    const View view = session_view(session);
+    Text out = {0};
+    Diag diag = {0};
+    Status status = OK;
+
+    session_begin(session);
+    if (s->operands.count == 0) {
+        status = diag_at(&diag, E_SYNTAX, s->verb_place, "'info' needs a name");
+        diag_hint(&diag, "'show graph' and 'show params' list them");
+    }
+    for (int i = 0; status == OK && i < s->operands.count; i++)
+        status =
+            info_print(&view, s->operands.at[i].value->text, s->operands.at[i].place, &out, &diag);
+    return finish(status, &out, &diag, text, error);
+}
+
+ct_status ct_tree_text(ct_session *session, char **text, ct_error *error)
+{
+    const View view = session_view(session);
+    const Selection all = {.number_count = 0};
+    Text out = {0};
+    Diag diag = {0};
+
+    session_begin(session);
+    return finish(show_tree(&view, &all, &out, &diag), &out, &diag, text, error);
+}
+
+ct_status ct_draw(ct_session *session, bool dot, char **text, ct_error *error)
+{
+    const View view = session_view(session);
+    Text out = {0};
+    Diag diag = {0};
+    Status status = OK;
+
+    session_begin(session);
+    if (dot)
+        draw_dot(&view, &out);
+    else
+        status = draw_text(&view, &out, &diag);
+    return finish(status, &out, &diag, text, error);
+}

@@ -1,0 +1,542 @@
+/* session_run.c: simulate, kinematics, inverse, resume, assemble, and their reports */
+#include "session/session_impl.h"
+
+#include "present/show.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* --- parameters --- */
+
+static ParameterValues *parameters_now(const Model *model)
+{
+    ParameterValues *values = NEW(ParameterValues);
+
+    values->model = model;
+    for (int i = 0; i < model_parameter_count(model); i++) {
+        Expr definition;
+        const Expr symbol = model_parameter(model, i, &definition);
+
+        LIST_PUSH(values->symbols, symbol);
+        LIST_PUSH(values->values, model_parameter_value(model, symbol));
+    }
+    return values;
+}
+
+/* as the run had it; a parameter made since, as it is now */
+static double parameter_value(void *context, Expr symbol)
+{
+    const ParameterValues *values = context;
+
+    for (int i = 0; i < values->symbols.count; i++)
+        if (values->symbols.at[i] == symbol)
+            return values->values.at[i];
+    return model_parameter_value(values->model, symbol);
+}
+
+void run_free(Run *run)
+{
+    result_free(run->result);
+    if (run->parameters != NULL) {
+        LIST_FREE(run->parameters->symbols);
+        LIST_FREE(run->parameters->values);
+    }
+    mem_free(run->parameters);
+    *run = (Run){NULL, NULL};
+}
+
+void session_forget_start(ct_session *session)
+{
+    if (session->start.result == NULL)
+        return;
+    run_free(&session->warm);
+    session->warm = session->start;
+    session->start = (Run){NULL, NULL};
+}
+
+/* --- what a run is told --- */
+
+void order_free(Order *order)
+{
+    mem_free(order->start.at);
+    mem_free(order->events);
+    watch_free(&order->watch);
+    if (order->parameters != NULL) {
+        Run run = {NULL, order->parameters};
+
+        run_free(&run);
+    }
+}
+
+/* the equilibrium from which runs start; NULL: there is none */
+static const Result *resting_start(const ct_session *session)
+{
+    if (!session->at_rest)
+        return NULL;
+    return session->start.result != NULL ? session->start.result : session->warm.result;
+}
+
+/* an equilibrium takes the place of what was given before it */
+static bool is_in_force(const ct_session *session, int i)
+{
+    return resting_start(session) == NULL ||
+           model_start_statement(session->model, i) >= session->rests_since;
+}
+
+static bool any_in_force(const ct_session *session)
+{
+    for (int i = 0; i < model_start_count(session->model); i++)
+        if (is_in_force(session, i))
+            return true;
+    return false;
+}
+
+void order_make(ct_session *session, Order *order)
+{
+    const Model *model = session->model;
+    const int count = model_start_count(model);
+
+    order->parameters = parameters_now(model);
+    order->start.at = mem_array((size_t)count, sizeof *order->start.at);
+    for (int i = 0; i < count; i++) {
+        const Start *start = model_start(model, i);
+
+        if (is_in_force(session, i))
+            order->start.at[order->start.count++] =
+                (StartValue){.name = start->name,
+                             .primes = start->primes,
+                             .value = model_number(model, start->value),
+                             .is_guess = start->is_guess};
+    }
+    order->events = mem_array((size_t)model_event_count(model), sizeof *order->events);
+    for (int i = 0; i < model_event_count(model); i++)
+        order->events[i] = model_event(model, i);
+    order->setting = (Setting){.parameter = parameter_value,
+                               .context = order->parameters,
+                               .model = model,
+                               .events = order->events,
+                               .event_count = model_event_count(model),
+                               .start = &order->start,
+                               .warm = session->warm.result,
+                               .from = resting_start(session),
+                               .watch = &session->watch};
+    order->setting.form =
+        model_form(model, &order->setting.independent, &order->setting.independent_count);
+}
+
+Run order_done(Order *order, Result *result)
+{
+    Run run = {result, order->parameters};
+
+    order->parameters = NULL;
+    return run;
+}
+
+Status session_start(ct_session *session, Run **out, Diag *diag)
+{
+    Order order = {0};
+    Result *result = NULL;
+    System *system;
+    Status status = OK;
+
+    if (session->start.result == NULL) {
+        CHECK(session_system(session, &system, diag));
+        order_make(session, &order);
+        CHECK(session_check_freedoms(session, system, &order.setting, diag));
+        CHECK(run_assemble(system, &order.setting, &result, diag));
+        session->start = order_done(&order, result);
+        session_note_freedoms(session, result);
+        session_remark(session, result_remarks(result));
+    }
+    *out = &session->start;
+done:
+    order_free(&order);
+    return status;
+}
+
+Status session_source(ct_session *session, Run **out, Diag *diag)
+{
+    if (session->runs.count > 0 && !session->start_is_later) {
+        *out = session->runs.at + session->runs.count - 1;
+        return OK;
+    }
+    return session_start(session, out, diag);
+}
+
+/* --- options --- */
+
+static Status number_of(ct_session *session, const Syntax *syntax, const char *unit,
+                        const char *what, double *out, Diag *diag)
+{
+    Status status;
+    Expr e;
+    double value;
+
+    CHECK(model_expression(session->model, syntax, &e, diag));
+    CHECK(model_check_unit(session->model, syntax, unit, what, diag));
+    if ((expr_kinds(e) & ~(1U << SYMBOL_PARAMETER)) != 0) {
+        diag_at(diag, E_VALUE, syntax->place, "%s must be a number, or made of parameters", what);
+        return E_VALUE;
+    }
+    value = model_number(session->model, e);
+    if (!isfinite(value) || value <= 0)
+        return diag_at(diag, E_VALUE, syntax->place, "%s must be positive, not %g", what, value);
+    *out = value;
+done:
+    return status;
+}
+
+static Status method_of(const Syntax *syntax, const char **out, Diag *diag)
+{
+    Suggest suggest = suggest_for(syntax->text);
+    const char *name, *brief;
+
+    for (int i = 0; (name = run_method(i, &brief)) != NULL; i++) {
+        if (strcmp(name, syntax->text) == 0) {
+            *out = name;
+            return OK;
+        }
+        suggest_offer(&suggest, name);
+    }
+    diag_at(diag, E_NAME, syntax->place, "no method is called '%s'", syntax->text);
+    if (suggest.best != NULL)
+        diag_hint(diag, "did you mean '%s'? 'help methods' lists them", suggest.best);
+    else
+        diag_hint(diag, "'help methods' lists them");
+    return E_NAME;
+}
+
+static Status switch_of(const Syntax *syntax, const char *key, bool *out, Diag *diag)
+{
+    if (strcmp(syntax->text, "on") != 0 && strcmp(syntax->text, "off") != 0)
+        return diag_at(diag, E_VALUE, syntax->place, "%s is on or off", key);
+    *out = strcmp(syntax->text, "on") == 0;
+    return OK;
+}
+
+static Status read_options(ct_session *session, const Statement *s, RunOptions *out, Diag *diag)
+{
+    RunOptions options = {0};
+    const struct {
+        const char *key;
+        const char *unit; /* atol is of lengths, voltages ... alike, each in SI */
+        double *value;
+    } numbers[] = {{"every", "s", &options.every},
+                   {"rtol", "1", &options.rtol},
+                   {"atol", "1", &options.atol},
+                   {"step", "s", &options.step},
+                   {"maxstep", "s", &options.most}};
+    Status status;
+
+    if (s->operands.count != 1) {
+        diag_at(diag, E_SYNTAX, s->verb_place, "'%s' needs a time", s->verb);
+        diag_hint(diag, "%s 10 every=0.01", s->verb);
+        return E_SYNTAX;
+    }
+    CHECK(number_of(session, s->operands.at[0].value, "s", "the time of a run", &options.duration,
+                    diag));
+    for (int i = 0; i < s->pairs.count; i++) {
+        const Pair *pair = s->pairs.at + i;
+
+        for (int k = 0; k < COUNT(numbers); k++)
+            if (strcmp(pair->name, numbers[k].key) == 0)
+                CHECK(number_of(session, pair->value, numbers[k].unit, pair->name, numbers[k].value,
+                                diag));
+        if (strcmp(pair->name, "method") == 0)
+            CHECK(method_of(pair->value, &options.method, diag));
+        if (strcmp(pair->name, "check") == 0)
+            CHECK(switch_of(pair->value, "check", &options.check, diag));
+    }
+    *out = options;
+done:
+    return status;
+}
+
+/* --- the verbs --- */
+
+typedef Status RunFunction(System *system, const Setting *setting, const RunOptions *options,
+                           Result **out, Diag *diag);
+
+/* The run is the last one now, and what it was like is said. */
+/* three-angle sequences that came near their critical angle, by joint and angle */
+static void remark_critical(ct_session *session, Result *result)
+{
+    const double near = 0.02; /* the sine of about a degree */
+    int rows = result_rows(result);
+    double *values = NEW_ARRAY(double, rows);
+    Critical critical;
+
+    for (int i = 0; system_critical(result_system(result), i, &critical); i++) {
+        int worst = 0;
+        Text line = {0};
+        Diag diag = {0};
+
+        if (rows == 0 || result_values(result, &critical.measure, 1, values, &diag) != OK)
+            continue;
+        for (int r = 1; r < rows; r++)
+            if (fabs(values[r]) < fabs(values[worst]))
+                worst = r;
+        if (!(fabs(values[worst]) < near))
+            continue;
+        text_addf(
+            &line, "the turns of %s are singular at %s = %s, which it came near at t = %.6g s",
+            critical.instance, critical.coordinate, critical.angles, result_times(result)[worst]);
+        text_add(&line, "; another sequence or Euler parameters avoid it");
+        session_remark(session, line.at);
+        text_free(&line);
+    }
+    mem_free(values);
+}
+
+/* what the run had to say, less the end at a bound, which is an error and said as one */
+static void remark_run(ct_session *session, const char *lines)
+{
+    while (*lines != '\0') {
+        const size_t length = strcspn(lines, "\n");
+        char *line = mem_text(lines, length);
+
+        if (strstr(line, BOUND_MARK) == NULL)
+            session_remark(session, line);
+        mem_free(line);
+        lines += length + (lines[length] == '\n');
+    }
+}
+
+static void keep_run(ct_session *session, Order *order, Result *result)
+{
+    Text line = {0};
+    char name[32];
+
+    LIST_PUSH(session->runs, order_done(order, result));
+    session_note_freedoms(session, result);
+    session->start_is_later = false;
+    session->changed = false;
+    remark_run(session, result_remarks(result));
+    remark_critical(session, result);
+    (void)snprintf(name, sizeof name, "run%d", session->runs.count);
+    report_line(&line, result, name);
+    session_remark(session, line.at);
+    text_free(&line);
+}
+
+static Status run_new(ct_session *session, RunFunction *function, const RunOptions *options,
+                      Diag *diag)
+{
+    Order order = {0};
+    Result *result = NULL;
+    System *system;
+    Status status;
+
+    CHECK(session_system(session, &system, diag));
+    order_make(session, &order);
+    CHECK(session_check_freedoms(session, system, &order.setting, diag));
+    if (function == run_simulate)
+        watch_bounds(system, NULL, &order);
+    status = function(system, &order.setting, options, &result, diag);
+    if (result == NULL)
+        goto done;
+    status = check_bounds(&order, result, status, diag);
+    /* also what was computed before a stop or a failure */
+    keep_run(session, &order, result);
+done:
+    order_free(&order);
+    return status;
+}
+
+/* what isn't said again is as in the run that goes on */
+static RunOptions options_from(const Result *old, const RunOptions *said)
+{
+    const RunReport *report = result_report(old);
+    RunOptions options = *said;
+
+    if (options.rtol == 0)
+        options.rtol = report->rtol;
+    if (options.atol == 0)
+        options.atol = report->atol;
+    if (options.method == NULL)
+        options.method = report->method;
+    if (options.every == 0)
+        options.every = report->every;
+    if (options.step == 0)
+        options.step = report->step;
+    if (options.most == 0)
+        options.most = report->most;
+    return options;
+}
+
+static Status run_on(ct_session *session, const Statement *s, const RunOptions *said, Diag *diag)
+{
+    RunOptions options;
+    const Result *old;
+    Order order = {0};
+    Result *result = NULL;
+    Status status = OK;
+
+    if (session->runs.count == 0) {
+        diag_at(diag, E_MISSING, s->verb_place, "there is no run to go on with");
+        diag_hint(diag, "'simulate 10' makes one");
+        return E_MISSING;
+    }
+    old = session->runs.at[session->runs.count - 1].result;
+    options = options_from(old, said);
+    order_make(session, &order);
+    watch_bounds(result_system((Result *)old), old, &order);
+    status = run_resume(old, &order.setting, &options, &result, diag);
+    if (result != NULL) {
+        status = check_bounds(&order, result, status, diag);
+        keep_run(session, &order, result);
+    }
+    order_free(&order);
+    return status;
+}
+
+static const struct {
+    const char *verb;
+    RunFunction *function; /* NULL: goes on */
+} runs[] = {{"simulate", run_simulate},
+            {"kinematics", run_kinematics},
+            {"inverse", run_inverse},
+            {"resume", NULL}};
+
+static Status find_start(ct_session *session, const Statement *s, Diag *diag)
+{
+    Run *start;
+    Status status;
+
+    (void)s;
+    session_forget_start(session);
+    session->at_rest = session->at_rest && any_in_force(session);
+    CHECK(session_start(session, &start, diag));
+    session->start_is_later = true;
+done:
+    return status;
+}
+
+/* what tells about the start, or about an instant */
+static const struct {
+    const char *verb;
+    Analysis *analyse;
+} analyses[] = {{"assemble", find_start},
+                {"equilibrium", session_equilibrium},
+                {"op", session_equilibrium},
+                {"linearize", session_linearize},
+                {"modes", session_modes}};
+
+static Status run_any(ct_session *session, const Statement *s, Diag *diag)
+{
+    RunOptions options;
+    Status status = OK;
+
+    for (int i = 0; s->verb != NULL && i < COUNT(analyses); i++)
+        if (strcmp(s->verb, analyses[i].verb) == 0) {
+            CHECK(analyses[i].analyse(session, s, diag));
+            session->told = analyses[i].verb;
+            return OK;
+        }
+    for (int i = 0; s->verb != NULL && i < COUNT(runs); i++)
+        if (strcmp(s->verb, runs[i].verb) == 0) {
+            CHECK(read_options(session, s, &options, diag));
+            session->told = NULL;
+            return runs[i].function != NULL ? run_new(session, runs[i].function, &options, diag)
+                                            : run_on(session, s, &options, diag);
+        }
+    status = diag_at(diag, E_NAME, s->place, "'%s' is no verb that runs",
+                     s->verb != NULL ? s->verb : s->text);
+done:
+    return status;
+}
+
+/* where a message that begins with a key ("rtol= ...") belongs */
+static Place place_of_message(const Statement *s, const char *message)
+{
+    for (int i = 0; i < s->pairs.count; i++) {
+        const Pair *pair = &s->pairs.at[i];
+        const size_t length = strlen(pair->name);
+
+        if (strncmp(message, pair->name, length) == 0 && message[length] == '=')
+            return pair->name_place;
+    }
+    return s->verb_place;
+}
+
+ct_status ct_run(ct_session *session, const ct_statement *statement, ct_error *error)
+{
+    const Statement *s = statement_of(statement);
+    Status status;
+    Diag diag = {0};
+
+    session_begin(session);
+    status = statement_check_version(s, &diag);
+    if (status == OK)
+        status = run_any(session, s, &diag);
+    if (status != OK && diag.place.line == 0 && s->kind == STATEMENT_VERB)
+        diag.place = place_of_message(s, diag.message);
+    session_sweep(session);
+    return session_report(status, &diag, error);
+}
+
+int ct_run_count(const ct_session *session)
+{
+    return session->runs.count;
+}
+
+/* --- reports --- */
+
+static const Variable *unknown_at(const System *system, int i)
+{
+    const int n = system_n(system), nu = system_nu(system), nx = system_nx(system);
+
+    return i < n             ? system_q(system, i)
+           : i < n + nu      ? system_u(system, i - n)
+           : i < n + nu + nx ? system_x(system, i - n - nu)
+                             : system_z(system, i - n - nu - nx);
+}
+
+/* every coordinate, speed and network unknown at the start */
+static void print_configuration(Text *out, Result *start)
+{
+    const System *system = result_system(start);
+    const int count = system_n(system) + system_nu(system) + system_nx(system) + system_nz(system);
+    Expr *items = NEW_ARRAY(Expr, count);
+    double *values = NEW_ARRAY(double, count);
+    Table table = table_for("ll");
+    Diag ignored;
+
+    for (int i = 0; i < count; i++)
+        items[i] = unknown_at(system, i)->symbol;
+    if (result_values(start, items, count, values, &ignored) == OK) {
+        for (int i = 0; i < count; i++) {
+            table_cell(&table, unknown_at(system, i)->name);
+            if (i < system_n(system) && unknown_at(system, i)->is_angle)
+                table_cellf(&table, "%.9g rad (%.6g deg)", values[i], values[i] * 180 / M_PI);
+            else
+                table_cellf(&table, "%.9g", values[i]);
+        }
+        table_print(out, &table, 0);
+    }
+    table_free(&table);
+    mem_free(items);
+    mem_free(values);
+}
+
+char *ct_report(ct_session *session)
+{
+    Text text = {0};
+    const int count = session->runs.count;
+    char name[32];
+
+    if (session->told != NULL && strcmp(session->told, "linearize") == 0) {
+        const View view = session_view(session);
+
+        linear_print(&view, session->linear, &text);
+    } else if (session->told != NULL && strcmp(session->told, "modes") == 0) {
+        modes_print(session->modes, session->hooks.columns, &text);
+    } else if (session->start_is_later && session->start.result != NULL) {
+        print_configuration(&text, session->start.result);
+    } else if (count > 0) {
+        (void)snprintf(name, sizeof name, "run%d", count);
+        report_print(&text, session->runs.at[count - 1].result, name);
+    }
+    return text_done(&text);
+}

@@ -1,0 +1,156 @@
+/* session_statement.c: statements as a program sees them */
+#include "session/session_impl.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+ct_status ct_parse(const char *text, int line, bool shortened, size_t *next, ct_statement **out,
+                   ct_error *error)
+{
+    Statement *statement = NULL;
+    Diag diag = {0};
+    const Status status = statement_parse(text, line, (SyntaxOptions){.shortened = shortened}, next,
+                                          &statement, &diag);
+
+    if (status == OK)
+        *out = (ct_statement *)(void *)statement;
+    return session_report(status, &diag, error);
+}
+
+void ct_statement_free(ct_statement *statement)
+{
+    statement_free((Statement *)(void *)statement);
+}
+
+bool ct_statement_is_empty(const ct_statement *statement)
+{
+    return statement_of(statement)->kind == STATEMENT_EMPTY;
+}
+
+const char *ct_statement_text(const ct_statement *statement)
+{
+    const char *text = statement_of(statement)->text;
+
+    return text != NULL ? text : "";
+}
+
+const char *ct_verb(const ct_statement *statement)
+{
+    const char *verb = statement_of(statement)->verb;
+
+    return verb != NULL ? verb : "";
+}
+
+int ct_operand_count(const ct_statement *statement)
+{
+    return statement_of(statement)->operands.count;
+}
+
+const ct_expression *ct_operand(const ct_statement *statement, int i)
+{
+    const Statement *s = statement_of(statement);
+
+    return i >= 0 && i < s->operands.count ? expression_of(s->operands.at[i].value) : NULL;
+}
+
+int ct_operand_sign(const ct_statement *statement, int i)
+{
+    const Statement *s = statement_of(statement);
+
+    return i >= 0 && i < s->operands.count ? s->operands.at[i].sign : 0;
+}
+
+int ct_key_count(const ct_statement *statement)
+{
+    return statement_of(statement)->pairs.count;
+}
+
+const char *ct_key(const ct_statement *statement, int i, const ct_expression **value)
+{
+    const Statement *s = statement_of(statement);
+
+    if (i < 0 || i >= s->pairs.count)
+        return NULL;
+    if (value != NULL)
+        *value = expression_of(s->pairs.at[i].value);
+    return s->pairs.at[i].name;
+}
+
+const ct_expression *ct_key_value(const ct_statement *statement, const char *key)
+{
+    const Statement *s = statement_of(statement);
+
+    for (int i = 0; i < s->pairs.count; i++)
+        if (strcmp(s->pairs.at[i].name, key) == 0)
+            return expression_of(s->pairs.at[i].value);
+    return NULL;
+}
+
+const ct_expression *ct_at(const ct_statement *statement)
+{
+    return expression_of(statement_of(statement)->at);
+}
+
+const ct_expression *ct_versus(const ct_statement *statement)
+{
+    return expression_of(statement_of(statement)->versus);
+}
+
+const ct_expression *ct_near(const ct_statement *statement)
+{
+    return expression_of(statement_of(statement)->near_value);
+}
+
+const ct_expression *ct_within(const ct_statement *statement)
+{
+    return expression_of(statement_of(statement)->within);
+}
+
+const char *ct_as(const ct_statement *statement)
+{
+    return statement_of(statement)->as;
+}
+
+const char *ct_redirect(const ct_statement *statement, bool *append)
+{
+    if (append != NULL)
+        *append = statement_of(statement)->append;
+    return statement_of(statement)->redirect;
+}
+
+ct_status ct_error_at(const ct_statement *statement, const ct_expression *expression,
+                      ct_error *error, const char *format, ...)
+{
+    const Statement *s = statement_of(statement);
+    const Place place = expression != NULL          ? syntax_of(expression)->place
+                        : s->kind == STATEMENT_VERB ? s->verb_place
+                                                    : s->place;
+    va_list args;
+
+    if (error == NULL)
+        return CT_FAILED;
+    *error = (ct_error){
+        .status = CT_FAILED, .line = place.line, .column = place.column, .width = place.width};
+    va_start(args, format);
+    (void)vsnprintf(error->message, sizeof error->message, format, args);
+    va_end(args);
+    return CT_FAILED;
+}
+
+char *ct_expression_text(const ct_expression *expression)
+{
+    Text text = {0};
+
+    syntax_print(&text, syntax_of(expression));
+    return text_done(&text);
+}
+
+const char *ct_expression_word(const ct_expression *expression)
+{
+    const Syntax *syntax = syntax_of(expression);
+
+    return (syntax->kind == SYNTAX_VARIABLE && syntax->primes == 0) || syntax->kind == SYNTAX_STRING
+               ? syntax->text
+               : NULL;
+}

@@ -1,0 +1,527 @@
+/* session_table.c: values, tables, expectations and exports for programs */
+#include "session/session_impl.h"
+
+#include "export/write.h"
+#include "present/info.h"
+#include "present/show.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* --- one value --- */
+
+/* an instant: an expression of numbers, parameters and functions of runs */
+static Status instant_of(ct_session *session, const Syntax *at, double *out, Diag *diag)
+{
+    Formula formula = {0};
+    Status status;
+
+    CHECK(formula_new(session, at, &formula, diag));
+    CHECK(model_check_unit(session->model, at, "s", "an instant", diag));
+    if (formula_needs_run(&formula)) {
+        status = diag_at(diag, E_VALUE, at->place, "an instant is a number, or made of parameters");
+        goto done;
+    }
+    CHECK(formula_value(session, &formula, NULL, NULL, out, diag));
+done:
+    formula_free(&formula);
+    return status;
+}
+
+/* what bare names mean: with `at` the last run, and only without one the start */
+static Status source_at(ct_session *session, const double *at, Run **out, Diag *diag)
+{
+    if (at != NULL && session->runs.count > 0) {
+        *out = session->runs.at + session->runs.count - 1;
+        return OK;
+    }
+    return session_source(session, out, diag);
+}
+
+static Status value_of(ct_session *session, const Syntax *syntax, const double *at, double *out,
+                       Diag *diag)
+{
+    Formula formula = {0};
+    Run *source = NULL;
+    Status status;
+
+    CHECK(formula_new(session, syntax, &formula, diag));
+    if (formula_needs_run(&formula))
+        CHECK(source_at(session, at, &source, diag));
+    CHECK(formula_value(session, &formula, source, at, out, diag));
+done:
+    formula_free(&formula);
+    if (status != OK && diag->place.line == 0)
+        diag->place = syntax->place;
+    return status;
+}
+
+char *ct_unit(const ct_session *session, const ct_expression *expression)
+{
+    static const Dimension none;
+    Dimension dimension = none;
+    Text unit = {0};
+
+    if (!model_dimension(session->model, syntax_of(expression), &dimension) ||
+        memcmp(&dimension, &none, sizeof none) == 0)
+        return NULL;
+    dimension_print(&unit, dimension_without_angle(dimension));
+    return text_done(&unit);
+}
+
+ct_status ct_duration(ct_session *session, const ct_expression *expression, const char *name,
+                      double *value, ct_error *error)
+{
+    Status status;
+    Diag diag = {0};
+
+    session_begin(session);
+    CHECK(value_of(session, syntax_of(expression), NULL, value, &diag));
+    CHECK(model_check_unit(session->model, syntax_of(expression), "s", name, &diag));
+done:
+    return session_report(status, &diag, error);
+}
+
+ct_status ct_value(ct_session *session, const ct_expression *expression, const ct_expression *at,
+                   double *value, ct_error *error)
+{
+    double instant;
+    Status status;
+    Diag diag = {0};
+
+    session_begin(session);
+    if (at != NULL)
+        CHECK(instant_of(session, syntax_of(at), &instant, &diag));
+    CHECK(value_of(session, syntax_of(expression), at != NULL ? &instant : NULL, value, &diag));
+done:
+    return session_report(status, &diag, error);
+}
+
+/* --- tables --- */
+
+typedef struct Sheet {
+    double *values;
+    int rows, columns;
+    LIST(char *) names; /* ended by NULL once it is done */
+} Sheet;
+
+static void sheet_free(Sheet *sheet)
+{
+    mem_free(sheet->values);
+    for (int i = 0; i < sheet->names.count; i++)
+        mem_free(sheet->names.at[i]);
+    LIST_FREE(sheet->names);
+}
+
+/* the item as written; the unit that it is shown in stands behind it in brackets */
+static char *column_name(const Syntax *item)
+{
+    Syntax bare = *item;
+    Text name = {0};
+    char *written;
+
+    if (item->kind != SYNTAX_NUMBER && item->kind != SYNTAX_VECTOR)
+        bare.has_unit = false;
+    written = view_name(&bare);
+    text_add(&name, written);
+    mem_free(written);
+    if (item->has_unit && !bare.has_unit)
+        text_addf(&name, item->unit_text[0] == '[' ? " %s" : " [%s]", item->unit_text);
+    return text_done(&name);
+}
+
+static Status read_items(ct_session *session, const Syntax *const *items, int count,
+                         Formula *formulas, Sheet *sheet, Diag *diag)
+{
+    Status status = OK;
+
+    for (int i = 0; i < count; i++) {
+        status = formula_new(session, items[i], &formulas[i], diag);
+        if (status != OK && diag->place.line == 0)
+            diag->place = items[i]->place;
+        if (status != OK)
+            return status;
+        LIST_PUSH(sheet->names, column_name(items[i]));
+    }
+    return status;
+}
+
+/* all coordinates and speeds of the source */
+static void all_items(const Run *source, Formula *formulas, Sheet *sheet)
+{
+    const System *system = result_system(source->result);
+    const int n = system_n(system), nu = system_nu(system);
+
+    for (int i = 0; i < n + nu; i++) {
+        const Variable *v = i < n ? system_q(system, i) : system_u(system, i - n);
+        const Leaf leaf = {
+            .kind = LEAF_VARIABLE, .expr = v->symbol, .run = -1, .symbol = v->symbol};
+
+        formulas[i] = (Formula){.scale = 1, .whole = v->symbol};
+        LIST_PUSH(formulas[i].leaves, leaf);
+        LIST_PUSH(sheet->names, mem_text(v->name, strlen(v->name)));
+    }
+}
+
+static const double MOST_VALUES = 2e7; /* of a table: far more than is read, far less than memory */
+
+static double last_time(const Run *run)
+{
+    return result_times(run->result)[result_rows(run->result) - 1];
+}
+
+/* the times of a grid of its own: from the run's start in even steps, its end included */
+static double *even_times(const Run *grid, double every, int *rows)
+{
+    const double *times = result_times(grid->result);
+    const double first = times[0];
+    const int steps = (int)((last_time(grid) - first) / every + 1e-9);
+    double *out = NEW_ARRAY(double, steps + 1);
+
+    for (int i = 0; i <= steps; i++)
+        out[i] = first + i * every;
+    *rows = steps + 1;
+    return out;
+}
+
+static Status fill_sheet(ct_session *session, const Formula *formulas, int count, Run *grid,
+                         Run *source, double every, Sheet *sheet, Diag *diag)
+{
+    double *times = NULL;
+    const double *stamps;
+    Status status;
+
+    if (every > 0 &&
+        last_time(grid) - result_times(grid->result)[0] > every * MOST_VALUES / (count + 1)) {
+        (void)diag_set(diag, E_VALUE, "that makes %.3g rows",
+                       (last_time(grid) - result_times(grid->result)[0]) / every);
+        diag_hint(diag, "take a larger step, every=");
+        return E_VALUE;
+    }
+    if (every > 0 && result_rows(grid->result) > 1)
+        times = even_times(grid, every, &sheet->rows);
+    else
+        sheet->rows = result_rows(grid->result);
+    stamps = times != NULL ? times : result_times(grid->result);
+    sheet->columns = count + 1;
+    sheet->values = mem_array((size_t)sheet->rows * (size_t)(count + 1), sizeof *sheet->values);
+    for (int r = 0; r < sheet->rows; r++)
+        sheet->values[(size_t)r * (size_t)(count + 1)] = stamps[r];
+    CHECK(formula_rows(session, formulas, count, grid, source, times, sheet->rows, sheet->values,
+                       count + 1, 1, diag));
+done:
+    mem_free(times);
+    return status;
+}
+
+/* a variable in it of which the message speaks: in quotes, or of its run at the beginning */
+static const Syntax *spoken_of(const Syntax *syntax, const char *message)
+{
+    const char *name = syntax->text;
+    const Syntax *found = NULL;
+    Text quoted = {0};
+    size_t run; /* characters of "run1." */
+
+    if (strncmp(name, "run", 3) == 0 || strncmp(name, "last.", 5) == 0)
+        name += strcspn(name, ".") + (strchr(name, '.') != NULL);
+    text_addf(&quoted, "'%s'", name);
+    run = (size_t)(name - syntax->text);
+    if (syntax->kind == SYNTAX_VARIABLE &&
+        (strstr(message, quoted.at) != NULL ||
+         (run > 1 && strncmp(syntax->text, message, run - 1) == 0 && message[run - 1] == ' ')))
+        found = syntax;
+    text_free(&quoted);
+    for (int i = 0; i < syntax->count && found == NULL; i++)
+        found = spoken_of(syntax->args[i], message);
+    return found;
+}
+
+/* which of the items a message without a place is about */
+void session_place_item(const Syntax *const *items, int count, Diag *diag)
+{
+    for (int i = 0; i < count && diag->place.line == 0; i++) {
+        const Syntax *found = spoken_of(items[i], diag->message);
+
+        if (found != NULL)
+            diag->place = found->place;
+    }
+    if (diag->place.line == 0 && count == 1)
+        diag->place = items[0]->place;
+}
+
+static Status make_sheet(ct_session *session, const Syntax *const *items, int count, Run *source,
+                         double every, Sheet *out, Diag *diag)
+{
+    Sheet sheet = {0};
+    int columns = count;
+    Formula *formulas = NULL;
+    Status status = OK;
+
+    LIST_PUSH(sheet.names, mem_text("t", 1));
+    if (count == 0) {
+        const System *system = result_system(source->result);
+
+        columns = system_n(system) + system_nu(system);
+        formulas = NEW_ARRAY(Formula, columns);
+        all_items(source, formulas, &sheet);
+    } else {
+        formulas = NEW_ARRAY(Formula, columns);
+        CHECK(read_items(session, items, count, formulas, &sheet, diag));
+    }
+    CHECK(fill_sheet(session, formulas, columns, formula_grid(session, formulas, columns, source),
+                     source, every, &sheet, diag));
+    LIST_PUSH(sheet.names, NULL);
+    *out = sheet;
+    sheet = (Sheet){0};
+done:
+    if (status != OK)
+        session_place_item(items, count, diag);
+    for (int i = 0; i < columns; i++)
+        if (formulas != NULL)
+            formula_free(&formulas[i]);
+    mem_free(formulas);
+    sheet_free(&sheet);
+    return status;
+}
+
+/* the last run even when the model changed since: what is drawn is what ran */
+static Status last_run(ct_session *session, Run **out, Diag *diag)
+{
+    if (session->runs.count == 0)
+        return session_start(session, out, diag);
+    *out = session->runs.at + session->runs.count - 1;
+    return OK;
+}
+
+ct_status ct_table(ct_session *session, const ct_expression *const *items, int count, double every,
+                   double **values, int *rows, int *columns, char ***names, ct_error *error)
+{
+    const Syntax **list = NEW_ARRAY(const Syntax *, count);
+    Sheet sheet = {0};
+    Run *source = NULL;
+    Status status;
+    Diag diag = {0};
+
+    session_begin(session);
+    for (int i = 0; i < count; i++)
+        list[i] = syntax_of(items[i]);
+    CHECK(last_run(session, &source, &diag));
+    CHECK(make_sheet(session, list, count, source, every, &sheet, &diag));
+    *values = sheet.values;
+    *rows = sheet.rows;
+    *columns = sheet.columns;
+    *names = sheet.names.at;
+done:
+    mem_free(list);
+    return session_report(status, &diag, error);
+}
+
+/* --- expectations --- */
+
+static bool is_comparison(const Syntax *syntax)
+{
+    return syntax->kind == SYNTAX_BINARY && syntax->text[0] != '\0' &&
+           strchr("<>=!", syntax->text[0]) != NULL;
+}
+
+static const char *at_words(char *buffer, size_t size, const double *at)
+{
+    if (at == NULL)
+        return "";
+    (void)snprintf(buffer, size, " at t = %.6g", *at);
+    return buffer;
+}
+
+static Status expect_near(ct_session *session, const Statement *s, const Syntax *left,
+                          const double *at, Diag *diag)
+{
+    double value, expected, tolerance = 0;
+    char when[48];
+    Status status;
+    Text text = {0};
+
+    CHECK(value_of(session, left, at, &value, diag));
+    CHECK(value_of(session, s->near_value, at, &expected, diag));
+    CHECK(model_check_alike(session->model, left, s->near_value, diag));
+    if (s->within != NULL) {
+        CHECK(value_of(session, s->within, at, &tolerance, diag));
+        CHECK(model_check_alike(session->model, left, s->within, diag));
+        CHECK(model_check_alike(session->model, s->near_value, s->within, diag));
+    }
+    /* a value that isn't a number is never near */
+    if (!(fabs(value - expected) <= tolerance)) {
+        syntax_print(&text, left);
+        status = diag_at(diag, E_EXPECT, left->place,
+                         "%s is %.15g%s, expected %.15g within %.3g: off by %.3g", text.at, value,
+                         at_words(when, sizeof when, at), expected, tolerance, value - expected);
+    }
+done:
+    text_free(&text);
+    return status;
+}
+
+static Status expect_condition(ct_session *session, const Syntax *condition, const double *at,
+                               Diag *diag)
+{
+    double holds, left, right;
+    char when[48];
+    Status status;
+    Text text = {0};
+
+    CHECK(value_of(session, condition, at, &holds, diag));
+    if (holds != 0 && !isnan(holds))
+        goto done;
+    syntax_print(&text, condition);
+    if (is_comparison(condition)) {
+        CHECK(value_of(session, condition->args[0], at, &left, diag));
+        CHECK(value_of(session, condition->args[1], at, &right, diag));
+        status = diag_at(diag, E_EXPECT, condition->place,
+                         "%s does not hold%s: left is %.15g, right is %.15g", text.at,
+                         at_words(when, sizeof when, at), left, right);
+    } else {
+        status = diag_at(diag, E_EXPECT, condition->place, "%s does not hold%s", text.at,
+                         at_words(when, sizeof when, at));
+    }
+done:
+    text_free(&text);
+    return status;
+}
+
+ct_status ct_expect(ct_session *session, const ct_statement *statement, ct_error *error)
+{
+    const Statement *s = statement_of(statement);
+    double instant = 0;
+    const double *at = NULL;
+    Status status;
+    Diag diag = {0};
+
+    session_begin(session);
+    if (s->operands.count == 0) {
+        status = diag_at(&diag, E_SYNTAX, s->verb_place, "'expect' needs a condition");
+        diag_hint(&diag, "expect h8 ~ 1.05 within 1e-3 at 0.5");
+        goto done;
+    }
+    if (s->at != NULL) {
+        CHECK(instant_of(session, s->at, &instant, &diag));
+        at = &instant;
+    }
+    if (s->near_value != NULL)
+        status = expect_near(session, s, s->operands.at[0].value, at, &diag);
+    else
+        status = expect_condition(session, s->operands.at[0].value, at, &diag);
+done:
+    return session_report(status, &diag, error);
+}
+
+/* --- exports --- */
+
+typedef struct ExportJob {
+    ct_session *session;
+    const Statement *statement;
+    bool with_header;
+} ExportJob;
+
+static Status export_modes(const ExportJob *job, Text *out, Diag *diag)
+{
+    if (job->session->modes == NULL) {
+        diag_at(diag, E_MISSING, job->statement->operands.at[1].place, "there are no modes yet");
+        diag_hint(diag, "'modes' finds them");
+        return E_MISSING;
+    }
+    write_modes_csv(job->session->modes, job->with_header, out);
+    return OK;
+}
+
+static bool is_modes(const Statement *s)
+{
+    const Syntax *item = s->operands.count == 2 ? s->operands.at[1].value : NULL;
+
+    return item != NULL && item->kind == SYNTAX_VARIABLE && item->primes == 0 && !item->has_unit &&
+           strcmp(item->text, "modes") == 0;
+}
+
+static Status export_csv(const ExportJob *job, Text *out, Diag *diag)
+{
+    const Statement *s = job->statement;
+    const int count = s->operands.count - 1;
+    const Syntax **items = NEW_ARRAY(const Syntax *, count);
+    Sheet sheet = {0};
+    Run *source = NULL;
+    Status status;
+
+    if (is_modes(s)) {
+        status = export_modes(job, out, diag);
+        goto done;
+    }
+    for (int i = 0; i < count; i++)
+        items[i] = s->operands.at[i + 1].value;
+    CHECK(session_source(job->session, &source, diag));
+    CHECK(make_sheet(job->session, items, count, source, 0, &sheet, diag));
+    write_csv(out, (const char *const *)sheet.names.at, sheet.values, sheet.rows, sheet.columns,
+              job->with_header);
+done:
+    sheet_free(&sheet);
+    mem_free(items);
+    return status;
+}
+
+static Status export_equations(const ExportJob *job, bool shown,
+                               Status (*write)(const View *, Text *, Diag *), Text *out, Diag *diag)
+{
+    View view = session_view(job->session);
+    Status status;
+
+    CHECK(shown ? session_shown(job->session, &view.system, diag)
+                : session_system(job->session, &view.system, diag));
+    CHECK(write(&view, out, diag));
+done:
+    return status;
+}
+
+static Status export_latex(const ExportJob *job, Text *out, Diag *diag)
+{
+    return export_equations(job, true, write_latex, out, diag);
+}
+
+static Status export_c(const ExportJob *job, Text *out, Diag *diag)
+{
+    return export_equations(job, false, write_c, out, diag);
+}
+
+static Status export_dot(const ExportJob *job, Text *out, Diag *diag)
+{
+    const View view = session_view(job->session);
+
+    (void)diag;
+    draw_dot(&view, out);
+    return OK;
+}
+
+static const struct {
+    const char *name;
+    Status (*write)(const ExportJob *job, Text *out, Diag *diag);
+} formats[] = {{"csv", export_csv}, {"latex", export_latex}, {"c", export_c}, {"dot", export_dot}};
+
+ct_status ct_export(ct_session *session, const ct_statement *statement, bool with_header,
+                    char **text, ct_error *error)
+{
+    const Statement *s = statement_of(statement);
+    const ExportJob job = {session, s, with_header};
+    const char *name = s->operands.count > 0 ? s->operands.at[0].value->text : "";
+    const Place place = s->operands.count > 0 ? s->operands.at[0].place : s->verb_place;
+    Status status;
+    Text out = {0};
+    Diag diag = {0};
+
+    session_begin(session);
+    status = diag_at(&diag, E_NAME, place, "no format is called '%s'", name);
+    diag_hint(&diag, "csv, c, latex or dot");
+    for (int i = 0; i < COUNT(formats); i++)
+        if (strcmp(formats[i].name, name) == 0)
+            status = formats[i].write(&job, &out, &diag);
+    if (status == OK)
+        *text = text_done(&out);
+    text_free(&out);
+    return session_report(status, &diag, error);
+}

@@ -1,0 +1,268 @@
+/* session_value.c: what a formula is worth: at an instant, or over the rows of a run */
+#include "session/session_impl.h"
+
+#include <math.h>
+
+typedef struct LeafValues {
+    const Formula *formula;
+    const double *values; /* one a leaf */
+} LeafValues;
+
+static double leaf_value(void *context, Expr symbol)
+{
+    const LeafValues *values = context;
+
+    for (int i = 0; i < values->formula->leaves.count; i++)
+        if (values->formula->leaves.at[i].symbol == symbol)
+            return values->values[i];
+    return NAN;
+}
+
+static double join(const Formula *formula, const double *values)
+{
+    LeafValues leaves = {formula, values};
+
+    if (formula->leaves.count == 1 && formula->whole == formula->leaves.at[0].symbol)
+        return values[0] * formula->scale;
+    return expr_evaluate(formula->whole, leaf_value, &leaves) * formula->scale;
+}
+
+static Run *leaf_run(ct_session *session, const Leaf *leaf, Run *source)
+{
+    return leaf->run >= 0 ? session->runs.at + leaf->run : source;
+}
+
+/* a time of the grid that is meant: within rounding of one, that one */
+static double snap(const Result *result, double t)
+{
+    const double *times = result_times(result);
+    int low = 0, high = result_rows(result) - 1;
+
+    while (high - low > 1) {
+        const int middle = (low + high) / 2;
+
+        if (times[middle] <= t)
+            low = middle;
+        else
+            high = middle;
+    }
+    for (int i = low; i <= high; i++)
+        if (fabs(times[i] - t) <= 1e-9 * (1 + fabs(t)))
+            return times[i];
+    return t;
+}
+
+/* a leaf of parameters and numbers alone needs no run */
+static bool needs_run(const Leaf *leaf)
+{
+    return leaf->kind == LEAF_VARIABLE && (expr_kinds(leaf->expr) & ~(1U << SYMBOL_PARAMETER)) != 0;
+}
+
+bool formula_needs_run(const Formula *formula)
+{
+    for (int i = 0; i < formula->leaves.count; i++)
+        if (needs_run(formula->leaves.at + i) && formula->leaves.at[i].run < 0)
+            return true;
+    return false;
+}
+
+/* an instant of one run that another hasn't */
+static Status refuse_instant(const Leaf *leaf, const Result *result, double at, Diag *diag)
+{
+    const double *times = result_times(result);
+    const int rows = result_rows(result);
+
+    (void)diag_set(diag, E_VALUE, "run%d has no value at t = %.6g s: it goes from %.6g to %.6g s",
+                   leaf->run + 1, at, rows > 0 ? times[0] : 0, rows > 0 ? times[rows - 1] : 0);
+    diag_hint(diag, "runs are compared at the instants of the last of them: make that the shorter "
+                    "one, or ask 'at' an instant of both");
+    return E_VALUE;
+}
+
+/* Where a formula takes the ends of several runs, they are of different instants: say so. */
+static void remark_ends(ct_session *session, const Formula *formula, Run *source)
+{
+    const Run *first = NULL;
+
+    for (int i = 0; i < formula->leaves.count; i++) {
+        const Leaf *leaf = formula->leaves.at + i;
+        const Run *run = needs_run(leaf) ? leaf_run(session, leaf, source) : NULL;
+        double end, other;
+        Text line = {0};
+
+        if (run == NULL)
+            continue;
+        first = first != NULL ? first : run;
+        end = result_times(first->result)[result_rows(first->result) - 1];
+        other = result_times(run->result)[result_rows(run->result) - 1];
+        if (end == other)
+            continue;
+        text_addf(&line,
+                  "each run is taken at its own end, %.6g s and %.6g s; 'at' takes one "
+                  "instant of both",
+                  end, other);
+        session_remark(session, line.at);
+        text_free(&line);
+        return;
+    }
+}
+
+/* the value of a leaf at an instant of its run, or at its end */
+static Status evaluate_leaf(ct_session *session, const Leaf *leaf, Run *run, const double *at,
+                            double *out, Diag *diag)
+{
+    const double *times;
+    Status status;
+
+    if (leaf->kind == LEAF_CONSTANT) {
+        *out = leaf->value;
+        return OK;
+    }
+    if (!needs_run(leaf)) {
+        *out = model_number(session->model, leaf->expr);
+        return OK;
+    }
+    times = result_times(run->result);
+    status = result_values_at(
+        run->result, &leaf->expr, 1,
+        at != NULL ? snap(run->result, *at) : times[result_rows(run->result) - 1], out, diag);
+    return status == E_VALUE && leaf->run >= 0 && at != NULL
+               ? refuse_instant(leaf, run->result, *at, diag)
+               : status;
+}
+
+Status formula_value(ct_session *session, const Formula *formula, Run *source, const double *at,
+                     double *out, Diag *diag)
+{
+    double *values = NEW_ARRAY(double, formula->leaves.count);
+    Status status = OK;
+
+    if (at == NULL)
+        remark_ends(session, formula, source);
+    for (int i = 0; i < formula->leaves.count; i++) {
+        const Leaf *leaf = formula->leaves.at + i;
+
+        CHECK(evaluate_leaf(session, leaf, leaf_run(session, leaf, source), at, &values[i], diag));
+    }
+    *out = join(formula, values);
+done:
+    mem_free(values);
+    return status;
+}
+
+Run *formula_grid(ct_session *session, const Formula *formulas, int count, Run *source)
+{
+    Run *grid = NULL;
+
+    for (int f = 0; f < count; f++)
+        for (int i = 0; i < formulas[f].leaves.count; i++) {
+            const Leaf *leaf = formulas[f].leaves.at + i;
+            Run *run = leaf_run(session, leaf, source);
+
+            if (!needs_run(leaf))
+                continue;
+            /* bare names decide; runs of several lists keep to the first */
+            if (grid == NULL || run == source)
+                grid = run;
+        }
+    return grid != NULL ? grid : source;
+}
+
+/* columns of the leaves of one run on its own rows, all in one pass */
+static Status own_rows(const Formula *formulas, int count, Run *run, ct_session *session,
+                       Run *source, double **columns, int rows, Diag *diag)
+{
+    LIST(Expr) items = {0};
+    LIST(int) places = {0};
+    double *values = NULL;
+    Status status = OK;
+    int place = 0;
+
+    for (int f = 0; f < count; f++)
+        for (int i = 0; i < formulas[f].leaves.count; i++, place++) {
+            const Leaf *leaf = formulas[f].leaves.at + i;
+
+            if (leaf->kind == LEAF_VARIABLE && leaf_run(session, leaf, source) == run) {
+                LIST_PUSH(items, leaf->expr);
+                LIST_PUSH(places, place);
+            }
+        }
+    if (items.count > 0) {
+        values = mem_array((size_t)rows * (size_t)items.count, sizeof *values);
+        CHECK(result_values(run->result, items.at, items.count, values, diag));
+        for (int r = 0; r < rows; r++)
+            for (int i = 0; i < items.count; i++)
+                columns[places.at[i]][r] = values[(size_t)r * (size_t)items.count + (size_t)i];
+    }
+done:
+    LIST_FREE(items);
+    LIST_FREE(places);
+    mem_free(values);
+    return status;
+}
+
+/* columns of the other leaves, at given times */
+static Status other_rows(ct_session *session, const Formula *formulas, int count, const Run *own,
+                         Run *source, const double *times, double **columns, int rows, Diag *diag)
+{
+    Status status = OK;
+    int place = 0;
+
+    for (int f = 0; f < count; f++)
+        for (int i = 0; i < formulas[f].leaves.count; i++, place++) {
+            const Leaf *leaf = formulas[f].leaves.at + i;
+            Run *run = leaf_run(session, leaf, source);
+
+            if (leaf->kind == LEAF_VARIABLE && run == own)
+                continue;
+            for (int r = 0; r < rows; r++) {
+                CHECK(poll(&session->watch));
+                CHECK(evaluate_leaf(session, leaf, run, &times[r], &columns[place][r], diag));
+            }
+        }
+done:
+    return status;
+}
+
+static void join_rows(const Formula *formulas, int count, double **columns, int rows, double *out,
+                      int stride, int first)
+{
+    int place = 0;
+
+    for (int f = 0; f < count; f++) {
+        const int leaves = formulas[f].leaves.count;
+        double *values = NEW_ARRAY(double, leaves);
+
+        for (int r = 0; r < rows; r++) {
+            for (int i = 0; i < leaves; i++)
+                values[i] = columns[place + i][r];
+            out[(size_t)r * (size_t)stride + (size_t)(first + f)] = join(&formulas[f], values);
+        }
+        place += leaves;
+        mem_free(values);
+    }
+}
+
+Status formula_rows(ct_session *session, const Formula *formulas, int count, Run *grid, Run *source,
+                    const double *times, int rows, double *out, int stride, int first, Diag *diag)
+{
+    int leaves = 0;
+    double **columns;
+    Status status = OK;
+
+    for (int f = 0; f < count; f++)
+        leaves += formulas[f].leaves.count;
+    columns = NEW_ARRAY(double *, leaves);
+    for (int i = 0; i < leaves; i++)
+        columns[i] = NEW_ARRAY(double, rows);
+    if (times == NULL)
+        CHECK(own_rows(formulas, count, grid, session, source, columns, rows, diag));
+    CHECK(other_rows(session, formulas, count, times == NULL ? grid : NULL, source,
+                     times == NULL ? result_times(grid->result) : times, columns, rows, diag));
+    join_rows(formulas, count, columns, rows, out, stride, first);
+done:
+    for (int i = 0; i < leaves; i++)
+        mem_free(columns[i]);
+    mem_free(columns);
+    return status;
+}

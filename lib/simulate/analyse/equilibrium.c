@@ -1,0 +1,493 @@
+/* equilibrium.c: where everything rests
+ *
+ * Newton's method from the assembled start (search.c), or from where the network has settled beside
+ * mechanics that stands still. Where that fails one of the conditions is relaxed and taken back in
+ * steps as long as Newton's method follows: first gravity, forces and sources grow from nothing;
+ * then a conductance beside every part whose current is an expression of its voltage shrinks to
+ * nothing. At last everything creeps, masses and storage elements its resistance, until it rests:
+ * pseudo-transient continuation (Kelley and Keyes 1998). */
+#include "simulate/run/result.h"
+
+#include "algebra/linear.h"
+#include "base/memory.h"
+#include "simulate/analyse/factors.h"
+#include "simulate/analyse/search.h"
+#include "simulate/equations/causes.h"
+#include "simulate/equations/rows.h"
+
+#include <math.h>
+#include <string.h>
+
+#define CREEP_STEPS 500
+#define CREEP       0.3   /* rad or m in a step of creeping */
+#define GROWTH      100   /* of residuals, in one */
+#define LEAST_SHARE 1e-4  /* of a path, in a step */
+#define LEAK        1e-1  /* S, to begin with */
+#define NO_LEAK     1e-14 /* S, from which on there is none */
+
+typedef struct Quest {
+    Statics *statics;
+    Search *search;
+    const Watch *watch;
+    const Layout *l;
+    int n;         /* of equations */
+    double *begun; /* base */
+    double *kept;  /* the same, while something is tried */
+    Bound *bounds; /* where laws of parts end, */
+    int bound_count;
+    Probe *measures; /* what comes to 0 there, */
+    double *sides;   /* and its values where the search began */
+    int beyond;      /* bound behind which the last solution was; -1: none was */
+} Quest;
+
+static void begin_again(Quest *e)
+{
+    memcpy(statics_base(e->statics), e->begun, (size_t)statics_length(e->statics) * sizeof(double));
+    statics_rebase(e->statics);
+}
+
+static const double *measures_here(const Quest *e)
+{
+    const double *v = statics_base(e->statics);
+    const RowValues row = {
+        .q = v, .x = v + e->l->n, .near = v + statics_length(e->statics) - e->l->turned};
+
+    return probe_values(e->measures, &row);
+}
+
+/* A solution behind the end of a part's law, as a plate beyond its electrode, is none. */
+static bool is_within(Quest *e)
+{
+    const double *values = e->bound_count > 0 ? measures_here(e) : NULL;
+
+    for (int i = 0; i < e->bound_count; i++)
+        if (values[i] * e->sides[i] < 0) {
+            e->beyond = i;
+            return false;
+        }
+    return true;
+}
+
+static bool run_within(Quest *e)
+{
+    const size_t bytes = (size_t)statics_length(e->statics) * sizeof(double);
+    double *base = statics_base(e->statics);
+    double *before = NEW_ARRAY(double, statics_length(e->statics));
+    bool found;
+
+    memcpy(before, base, bytes);
+    found = search_run(e->search);
+    if (found && !is_within(e)) {
+        found = false;
+        memcpy(base, before, bytes);
+        statics_rebase(e->statics);
+    }
+    mem_free(before);
+    return found;
+}
+
+/* Newton's method at once, or once the network has settled beside mechanics that stands still */
+static bool seek(Quest *e)
+{
+    const size_t bytes = (size_t)statics_length(e->statics) * sizeof(double);
+    double *base = statics_base(e->statics);
+
+    if (run_within(e))
+        return true;
+    if (e->l->nu == 0 || e->l->nx + e->l->nz == 0)
+        return false;
+    memcpy(e->kept, base, bytes);
+    if (search_settle(e->search) && run_within(e))
+        return true;
+    memcpy(base, e->kept, bytes);
+    statics_rebase(e->statics);
+    return false;
+}
+
+/* --- paths --- */
+
+/* from an easier problem at 0 to the one that was set at 1; `turn` is false where nothing changes
+ * on the way */
+typedef struct Path {
+    const char *phase;
+    double first; /* step */
+    bool (*turn)(Statics *statics, double reached);
+} Path;
+
+static bool turn_load(Statics *statics, double reached)
+{
+    return statics_turn_load(statics, reached);
+}
+
+static bool turn_leak(Statics *statics, double reached)
+{
+    return statics_turn_leak(statics, reached < 1 ? LEAK * pow(NO_LEAK / LEAK, reached) : 0);
+}
+
+static const Path paths[] = {
+    {"equilibrium: loads", 0.25, turn_load},
+    {"equilibrium: leaks", 1.0 / 13, turn_leak},
+};
+
+static Status follow(Quest *e, const Path *path, bool *found)
+{
+    double reached = 0, share = path->first;
+    Status status = OK;
+
+    begin_again(e);
+    *found = path->turn(e->statics, 0) && seek(e);
+    while (*found && reached < 1 && share > LEAST_SHARE) {
+        const double next = fmin(1, reached + share);
+
+        CHECK(poll(e->watch));
+        report(e->watch, path->phase, reached);
+        (void)path->turn(e->statics, next);
+        if (seek(e)) {
+            reached = next;
+            share *= 2;
+        } else {
+            share /= 4;
+        }
+    }
+    CHECK(poll(e->watch));
+    *found = reached >= 1;
+done:
+    (void)path->turn(e->statics, 1);
+    return status;
+}
+
+/* --- creeping --- */
+
+typedef struct Creep {
+    Factors *factors;
+    double *w, *step, *right, *jacobian;
+} Creep;
+
+static void creep_close(Creep *c)
+{
+    factors_free(c->factors);
+    mem_free(c->w);
+    mem_free(c->step);
+    mem_free(c->right);
+    mem_free(c->jacobian);
+}
+
+/* (J + resistance * inertia) dw = -residual: a step backward Euler. *moves: there is one, and it is
+ * short enough. */
+static Status creep_step(Quest *e, Creep *c, double resistance, bool *moves, Diag *diag)
+{
+    const double *values, *missed;
+    const int *start, *row;
+    Status status = OK;
+
+    statics_pattern(e->statics, &start, &row);
+    statics_begin(e->statics, c->w);
+    values = statics_jacobian(e->statics, c->w);
+    missed = statics_residual(e->statics, c->w);
+    memcpy(c->jacobian, values, (size_t)start[e->n] * sizeof(double));
+    for (int i = 0; i < e->n; i++)
+        c->right[i] = -missed[i];
+    CHECK(statics_add_inertia(e->statics, c->w, resistance, c->jacobian, diag));
+    *moves = factors_make(c->factors, c->jacobian) &&
+             factors_solve(c->factors, c->right, c->step) >= 0 &&
+             vector_largest(c->step, e->l->nu) <= CREEP;
+done:
+    return status;
+}
+
+/* the step, or as little of it as leaves the equations in sight; how the residuals have grown */
+static double creep_on(Quest *e, Creep *c)
+{
+    const double before = search_growth(e->search, c->w);
+    double growth = before > 0 ? INFINITY : 0;
+
+    for (double share = 1; growth > GROWTH && share > LEAST_SHARE; share /= 4) {
+        for (int k = 0; k < e->n; k++)
+            c->right[k] = c->w[k] + share * c->step[k];
+        growth = search_growth(e->search, c->right) / before;
+    }
+    if (isfinite(growth) && before > 0) {
+        statics_place(e->statics, c->right, statics_base(e->statics));
+        statics_rebase(e->statics);
+    }
+    return growth;
+}
+
+static Status creep(Quest *e, bool *found, Diag *diag)
+{
+    const int *start, *row;
+    Creep c;
+    double resistance = 1e4;
+    Status status = OK;
+
+    statics_pattern(e->statics, &start, &row);
+    c = (Creep){.factors = factors_new(e->n, start, row, search_may_be_full(e->search)),
+                .w = NEW_ARRAY(double, e->n),
+                .step = NEW_ARRAY(double, e->n),
+                .right = NEW_ARRAY(double, e->n),
+                .jacobian = NEW_ARRAY(double, start[e->n])};
+    begin_again(e);
+    for (int i = 0; i < CREEP_STEPS && resistance > 1e-10 && resistance < 1e12; i++) {
+        double growth;
+        bool moves;
+
+        CHECK(poll(e->watch));
+        report(e->watch, "equilibrium: creeping", -1);
+        CHECK(creep_step(e, &c, resistance, &moves, diag));
+        if (!moves) {
+            resistance *= 4;
+            continue;
+        }
+        growth = creep_on(e, &c);
+        resistance *= fmin(4, fmax(0.3, 0.7 * growth));
+    }
+    *found = seek(e);
+    CHECK(poll(e->watch));
+done:
+    creep_close(&c);
+    return status;
+}
+
+/* --- messages --- */
+
+/* the name of a state or an algebraic unknown, by its number in (x, z) */
+static const char *network_unknown(const Quest *e, int i)
+{
+    const System *system = e->l->system;
+
+    return i < e->l->nx ? system_x(system, i)->name : system_z(system, i - e->l->nx)->name;
+}
+
+/* the same for a place in w; NULL: of the mechanics */
+static const char *network_place(const Quest *e, int i)
+{
+    const Layout *l = e->l;
+
+    if (i < l->nu || (i >= l->nu + l->nx && i < l->nu + l->nx + l->m))
+        return NULL;
+    return network_unknown(e, i < l->nu + l->nx ? i - l->nu : i - l->nu - l->m);
+}
+
+static void name_row(const Quest *e, int i, double missed, Text *text)
+{
+    const Layout *l = e->l;
+
+    if (i < l->nu) {
+        int q = speed_coordinate(l->system, i);
+
+        text_addf(text, "the forces on %s by %.3g",
+                  q >= 0 ? system_q(l->system, q)->name : system_u(l->system, i)->name,
+                  fabs(missed));
+    } else if (i < l->nu + l->m) {
+        const ConstraintRow *row = system_constraint(l->system, i - l->nu);
+
+        text_addf(text, "%s (%s) by %.3g", system_instance_name(l->system, row->instance),
+                  row->direction, fabs(missed));
+    } else {
+        text_addf(text, "the equation of %s by %.3g", network_unknown(e, i - l->nu - l->m),
+                  fabs(missed));
+    }
+}
+
+static Status tell_beyond(const Quest *e, Diag *diag)
+{
+    const Bound *bound = &e->bounds[e->beyond];
+    char *measure = expr_text(bound->measure);
+
+    (void)diag_set(
+        diag, E_SOLVER,
+        "no equilibrium was found on this side of where %s = 0, where the law of %s ends", measure,
+        bound->instance);
+    diag_hint(diag, bound->is_gap ? "a field that pulls stronger than what holds against it closes "
+                                    "the gap: a smaller voltage or current, or a stop"
+                                  : "'init' and 'guess' choose where the search starts");
+    mem_free(measure);
+    return E_SOLVER;
+}
+
+static Status tell_failure(Quest *e, Diag *diag)
+{
+    Text text = {0};
+    int shown = 0;
+
+    if (e->beyond >= 0)
+        return tell_beyond(e, diag);
+
+    for (int i = 0; i < e->n && shown < 6; i++) {
+        double missed;
+
+        if (search_holds(e->search, i, &missed))
+            continue;
+        text_add(&text, shown++ > 0 ? ", " : "");
+        name_row(e, i, missed, &text);
+    }
+    (void)diag_set(diag, E_SOLVER, "no equilibrium was found; missed: %s",
+                   text.at != NULL ? text.at : "nothing, but it is undefined there");
+    diag_hint(diag, "there is none where something keeps moving; else 'init' and 'guess' choose "
+                    "where the search starts");
+    text_free(&text);
+    return E_SOLVER;
+}
+
+/* a network too large for full matrices, if it is singular */
+static Status refuse_singular(Quest *e, Diag *diag)
+{
+    const int singular = search_may_be_full(e->search) ? -1 : search_undetermined(e->search);
+
+    if (singular < 0)
+        return OK;
+    (void)diag_set(diag, E_SINGULAR, "at rest nothing determines %s", network_place(e, singular));
+    diag_hint(diag, "lead a resistor, as large as you like, past the capacitors there, or put "
+                    "one into the circuit of inductors");
+    return E_SINGULAR;
+}
+
+static void remark_freedom(const Quest *e, Result *r)
+{
+    const int rank = search_rank(e->search);
+    const int left = rank < 0 ? 0 : e->n - rank - (e->l->m - r->start.row_count);
+    const int loose = left == 1 && e->n - rank == 1 ? search_undetermined(e->search) : -1;
+    const char *name = loose >= 0 ? network_place(e, loose) : NULL;
+
+    if (left <= 0)
+        return;
+    if (name != NULL)
+        text_addf(&r->remarks,
+                  "at rest nothing determines %s: it stays as near to its start as may be\n", name);
+    else
+        text_addf(&r->remarks,
+                  "the equilibrium is one of many: %d direction%s in which nothing pushes back\n",
+                  left, left == 1 ? "" : "s");
+}
+
+/* --- the result --- */
+
+static Status solve(Quest *e, Diag *diag)
+{
+    bool found = seek(e);
+    Status status = OK;
+
+    CHECK(poll(e->watch));
+    for (int i = 0; i < COUNT(paths) && !found; i++)
+        CHECK(follow(e, &paths[i], &found));
+    if (!found) {
+        begin_again(e);
+        CHECK(refuse_singular(e, diag));
+        CHECK(creep(e, &found, diag));
+    }
+    if (!found)
+        CHECK(tell_failure(e, diag));
+done:
+    if (status == E_STOPPED)
+        (void)diag_set(diag, E_STOPPED, "stopped while looking for an equilibrium");
+    return status;
+}
+
+static Status open_bounds(Quest *e, Result *start, Diag *diag)
+{
+    Expr *measures = NULL;
+    Status status = OK;
+
+    e->bound_count = system_bounds(e->l->system, &e->bounds);
+    if (e->bound_count == 0)
+        return OK;
+    measures = NEW_ARRAY(Expr, e->bound_count);
+    for (int i = 0; i < e->bound_count; i++)
+        CHECK(system_resolve(e->l->system, e->bounds[i].measure, &measures[i], diag));
+    CHECK(probe_new(e->l, &start->parameters, measures, e->bound_count, &e->measures, diag));
+    e->sides = NEW_ARRAY(double, e->bound_count);
+    memcpy(e->sides, measures_here(e), (size_t)e->bound_count * sizeof(double));
+done:
+    mem_free(measures);
+    return status;
+}
+
+static Status quest_open(Quest *e, const Model *model, Result *start, const Watch *watch,
+                         Diag *diag)
+{
+    size_t bytes;
+    Status status = OK;
+
+    *e = (Quest){.watch = watch, .beyond = -1};
+    CHECK(statics_new(model, start, watch, &e->statics, diag));
+    e->l = statics_layout(e->statics);
+    e->n = statics_count(e->statics);
+    bytes = (size_t)statics_length(e->statics) * sizeof(double);
+    e->begun = NEW_ARRAY(double, statics_length(e->statics));
+    e->kept = NEW_ARRAY(double, statics_length(e->statics));
+    memcpy(e->begun, statics_base(e->statics), bytes);
+    CHECK(open_bounds(e, start, diag));
+    e->search = search_new(e->statics, watch);
+    if (e->search == NULL)
+        CHECK(diag_set(diag, E_SOLVER, "SUNDIALS could not be started"));
+done:
+    return status;
+}
+
+static void quest_close(Quest *e)
+{
+    search_free(e->search);
+    probe_free(e->measures);
+    mem_free(e->bounds);
+    mem_free(e->sides);
+    statics_free(e->statics);
+    mem_free(e->begun);
+    mem_free(e->kept);
+}
+
+/* what was found is where a search for z begins */
+static void guess_network(const Quest *e, Result *r)
+{
+    const Layout *l = result_whole(r)->layout;
+
+    if (e->l->nz != l->nz)
+        return;
+    memset(r->start.network, 0, (size_t)l->nx * sizeof(double));
+    memcpy(r->start.network + l->nx, statics_base(e->statics) + l->n + l->nx + l->m,
+           (size_t)l->nz * sizeof(double));
+}
+
+Status run_equilibrium(System *system, const Model *model, const Setting *setting, Result **out,
+                       Diag *diag)
+{
+    Result *r = NULL;
+    Quest e = {0};
+    const Layout *l;
+    const double *v;
+    double position = 0, velocity = 0;
+    Status status = OK;
+
+    CHECK(result_open(RUN_START, system, setting, &r, diag));
+    CHECK(result_refuse_by(r, diag));
+    CHECK(quest_open(&e, model, r, setting->watch, diag));
+    l = result_whole(r)->layout;
+    status = solve(&e, diag);
+    if (status == E_SOLVER && cause_meeting(l, &r->parameters, 0, r->start.y,
+                                            "no equilibrium can be found from there", diag))
+        status = E_SINGULAR;
+    CHECK(status);
+    v = statics_base(e.statics);
+    memset(r->start.y, 0, (size_t)(l->n + l->nu + l->nx) * sizeof(double));
+    for (int i = 0; i < l->n; i++) /* less than rounding of 1 rad or 1 m is nothing */
+        r->start.y[i] = fabs(v[i]) < 1e-15 ? 0 : v[i];
+    memcpy(r->start.y + l->n + l->nu, v + l->n, (size_t)l->nx * sizeof(double));
+    memcpy(r->start.y + layout_turned(l), v + statics_length(e.statics) - l->turned,
+           (size_t)l->turned * sizeof(double));
+    guess_network(&e, r);
+    CHECK(result_begin(r, setting, diag));
+    if (!motion_project(r->phase->motion, 0, r->begin))
+        CHECK(diag_set(diag, E_SINGULAR, "the equilibrium is a singular position"));
+    remark_freedom(&e, r);
+    if (vector_largest(r->begin + l->n, l->nu) > 0)
+        text_add(&r->remarks, "drivers move at t = 0: runs start from here with their speeds\n");
+    result_add_row(r, 0, r->begin);
+    motion_residuals(r->phase->motion, 0, r->begin, &position, &velocity);
+    r->report.position_residual = position;
+    r->report.velocity_residual = velocity;
+    *out = r;
+    r = NULL;
+done:
+    quest_close(&e);
+    result_free(r);
+    return status;
+}

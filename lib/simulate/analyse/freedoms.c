@@ -1,0 +1,185 @@
+/* freedoms.c: the admissible motions of two trees compared
+ *
+ * The columns of the null space of Phi_u are the admissible speeds. What one frame turns
+ * against another along them spans the turns that it can make; those of the real joints
+ * that are outside the span of the others are lost. */
+#include "simulate/analyse/freedoms.h"
+
+#include "base/memory.h"
+#include "base/text.h"
+#include "simulate/run/result.h"
+
+#include <gsl/gsl_linalg.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#define LOST 1e-6 /* rad/s per unit of speed: less is rounding */
+
+typedef struct Turning {
+    double at[3]; /* ground axes */
+} Turning;
+typedef LIST(Turning) Turnings;
+
+/* admissible speeds at the start: freedoms x nu, row by row; new */
+static double *find_motions(Result *r)
+{
+    const Equations *eq = numbers_equations(r->phase->numbers);
+    const int nu = eq->nu, m = eq->m, rank = r->start.row_count;
+    double *motions = NEW_ARRAY(double, (nu - rank) * nu);
+    gsl_matrix *rows;
+    gsl_vector *tau;
+
+    for (int i = 0; i < nu - rank; i++)
+        motions[i * nu + rank + i] = 1;
+    if (rank == 0)
+        return motions;
+    eq->position(eq->context, 0, r->start.y);
+    rows = gsl_matrix_alloc((size_t)nu, (size_t)rank);
+    tau = gsl_vector_alloc((size_t)rank);
+    for (int k = 0; k < rank && k < m; k++)
+        for (int j = 0; j < nu; j++)
+            gsl_matrix_set(rows, (size_t)j, (size_t)k, eq->phi_u[r->start.rows[k] * nu + j]);
+    (void)gsl_linalg_QR_decomp(rows, tau);
+    for (int i = 0; i < nu - rank; i++) {
+        gsl_vector_view motion = gsl_vector_view_array(motions + (ptrdiff_t)i * nu, (size_t)nu);
+
+        (void)gsl_linalg_QR_Qvec(rows, tau, &motion.vector);
+    }
+    gsl_matrix_free(rows);
+    gsl_vector_free(tau);
+    return motions;
+}
+
+/* the components of angular velocity of a frame, ground axes; zero for what it doesn't have */
+static void angular_velocity(Result *r, const char *frame, Expr out[3])
+{
+    static const char *const members[] = {"wx", "wy", "wz"};
+    Diag ignored;
+
+    for (int i = 0; i < 3; i++) {
+        char name[300];
+
+        (void)snprintf(name, sizeof name, "%s.%s", frame, members[i]);
+        /* ground has none, and a plane only the last */
+        if (strcmp(frame, "ground") == 0 ||
+            system_variable(r->system, name, 0, &out[i], &ignored) != OK)
+            out[i] = expr_int(system_arena(r->system), 0);
+    }
+}
+
+/* what the head turns against the tail along each admissible motion */
+static Status find_turnings(Result *r, const char *tail, const char *head, Turnings *out,
+                            Diag *diag)
+{
+    const int nu = r->phase->layout->nu;
+    double *motions = find_motions(r);
+    Probe *probe = NULL;
+    Expr roots[3], of_tail[3];
+    Status status;
+
+    angular_velocity(r, head, roots);
+    angular_velocity(r, tail, of_tail);
+    for (int i = 0; i < 3; i++)
+        roots[i] = expr_sub(system_arena(r->system), roots[i], of_tail[i]);
+    CHECK(probe_new(r->phase->layout, &r->parameters, roots, 3, &probe, diag));
+    for (int i = 0; i < result_freedoms(r); i++) {
+        const RowValues row = {.q = r->start.y, .u = motions + (ptrdiff_t)i * nu};
+        const double *values = probe_values(probe, &row);
+
+        LIST_PUSH(*out, (Turning){{values[0], values[1], values[2]}});
+    }
+done:
+    probe_free(probe);
+    mem_free(motions);
+    return status;
+}
+
+/* a less its parts along a basis of unit vectors; the size that is left */
+static double reduce(double a[3], const Turning *basis, int count)
+{
+    for (int b = 0; b < count; b++) {
+        double along = 0;
+
+        for (int i = 0; i < 3; i++)
+            along += a[i] * basis[b].at[i];
+        for (int i = 0; i < 3; i++)
+            a[i] -= along * basis[b].at[i];
+    }
+    return hypot(hypot(a[0], a[1]), a[2]);
+}
+
+/* the turn that `real` has and `with` lacks, of unit size; false: there is none */
+static bool find_lost(const Turnings *real, const Turnings *with, double out[3])
+{
+    Turning basis[3];
+    int count = 0;
+    double largest = LOST;
+
+    for (int i = 0; i < with->count && count < 3; i++) {
+        Turning t = with->at[i];
+        double size = reduce(t.at, basis, count);
+
+        if (size < LOST)
+            continue;
+        for (int k = 0; k < 3; k++)
+            t.at[k] /= size;
+        basis[count++] = t;
+    }
+    for (int i = 0; i < real->count; i++) {
+        Turning t = real->at[i];
+        double size = reduce(t.at, basis, count);
+
+        for (int k = 0; size > largest && k < 3; k++)
+            out[k] = t.at[k] / size;
+        largest = fmax(largest, size);
+    }
+    return largest > LOST;
+}
+
+/* "x", or "[0, 0.6, 0.8]" */
+static void name_axis(const double axis[3], Text *out)
+{
+    for (int i = 0; i < 3; i++)
+        if (fabs(axis[i]) > 1 - 1e-9) {
+            text_char(out, "xyz"[i]);
+            return;
+        }
+    text_addf(out, "[%.3g, %.3g, %.3g]", axis[0] + 0.0, axis[1] + 0.0, axis[2] + 0.0);
+}
+
+Status freedoms_compare(Result *real, Result *with, const Instance *const *joints,
+                        const char *const (*frames)[2], int count, Diag *diag)
+{
+    const int lost = result_freedoms(real) - result_freedoms(with);
+    Text axis = {0};
+    Status status = OK;
+
+    if (lost <= 0)
+        return OK;
+    for (int j = 0; j < count; j++) {
+        Turnings before = {0}, after = {0};
+        double turn[3] = {0};
+        bool found = find_turnings(real, frames[j][0], frames[j][1], &before, diag) == OK &&
+                     find_turnings(with, frames[j][0], frames[j][1], &after, diag) == OK &&
+                     find_lost(&before, &after, turn);
+
+        LIST_FREE(before);
+        LIST_FREE(after);
+        if (!found)
+            continue;
+        name_axis(turn, &axis);
+        status = diag_set(diag, E_BRANCH,
+                          "%s can also turn about %s (ground axes) against %s; %s does not cover "
+                          "that",
+                          frames[j][1], axis.at, frames[j][0], joints[j]->name);
+        diag_hint(diag, "a virtual joint with that freedom does; tree - %s makes it a chord",
+                  joints[j]->name);
+        text_free(&axis);
+        return status;
+    }
+    status = diag_set(diag, E_BRANCH, "%s takes away %d of %d freedoms", joints[0]->name, lost,
+                      result_freedoms(real));
+    diag_hint(diag, "tree - %s makes it a chord", joints[0]->name);
+    return status;
+}

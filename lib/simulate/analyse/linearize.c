@@ -1,0 +1,268 @@
+/* linearize.c: derivatives of the equations along the constraints
+ *
+ * With w = (q, u, x) and what follows from it, e = (u', lambda, x', z), all equations are
+ * E(w, e, inputs) = 0, and a deviation of w gives E_e de = -E_w dw. A deviation of one state moves
+ * the dependent coordinates and speeds along: Phi_u ds = 0, (Phi_u u - nu)_q dq + Phi_u du = 0, dq
+ * = N ds. */
+#include "simulate/analyse/linearize_impl.h"
+
+#include "base/memory.h"
+
+#include <string.h>
+
+/* --- the equations, with symbols for inputs --- */
+
+typedef struct Vary {
+    const LinearOrder *order;
+    const Expr *symbols;
+    Arena *arena;
+    Expr since; /* time from the point on */
+} Vary;
+
+/* the value that an input adds to: of a source, of an actuator */
+static bool is_input(const Instance *instance, int param)
+{
+    static const char *const names[] = {"value", "force", "torque", "pressure", "flow"};
+    const Param *row = &instance->row->params[param];
+
+    for (int i = 0; i < COUNT(names); i++)
+        if (strcmp(row->name, names[i]) == 0 && instance->values[param].count == 1)
+            return row->positional || instance->values[param].given;
+    return false;
+}
+
+static Expr vary(void *context, const Instance *instance, int param, Expr value)
+{
+    const Vary *v = context;
+
+    for (int i = 0; instance != NULL && i < v->order->input_count; i++) {
+        const char *source = v->order->inputs[i].source;
+
+        if (source != NULL && strcmp(source, instance->name) == 0 && is_input(instance, param))
+            value = expr_sum(
+                v->arena,
+                (Expr[]){value, v->symbols[i],
+                         expr_mul(v->arena, v->symbols[v->order->input_count + i], v->since)},
+                3);
+    }
+    return value;
+}
+
+static double parameter(void *context, Expr symbol)
+{
+    const Work *w = context;
+
+    for (int i = 0; i < 2 * w->order->input_count; i++)
+        if (w->inputs[i] == symbol && w->order->inputs[i % w->order->input_count].source != NULL)
+            return 0;
+    return parameters_value(&w->order->about->parameters, symbol);
+}
+
+static Status check_input(const LinearOrder *order, int i, Diag *diag)
+{
+    const char *name = order->inputs[i].source;
+    const Instance *instance = name != NULL ? model_find(order->model, name) : NULL;
+
+    if (name == NULL)
+        return OK;
+    for (int k = 0; instance != NULL && instance->row->family != FAMILY_DRIVER &&
+                    k < instance->row->param_count;
+         k++)
+        if (is_input(instance, k))
+            return OK;
+    (void)diag_set(diag, E_NAME, "%s has no value that an input could be", name);
+    diag_hint(diag, "inputs are sources, actuators, and parameters: F = 0 N; force "
+                    "F1 m1 [F, 0]; linearize inputs=[F]");
+    return E_NAME;
+}
+
+static Status find_point(Work *w, Diag *diag)
+{
+    const Result *about = w->order->about;
+    int rows = about->grid.count;
+
+    if (result_between(w->order->about, w->order->at, &w->phase, &w->y))
+        return OK;
+    return diag_set(diag, E_VALUE, "t = %.6g s is outside the run, which goes from %.6g to %.6g s",
+                    w->order->at, rows > 0 ? about->grid.times[0] : 0,
+                    rows > 0 ? about->grid.times[rows - 1] : 0);
+}
+
+static Status open_system(Work *w, Diag *diag)
+{
+    const LinearOrder *order = w->order;
+    Arena *arena = system_arena(order->about->system);
+    Vary of = {order, NULL, arena,
+               expr_sub(arena, expr_symbol(arena, "t", SYMBOL_TIME), expr_real(arena, order->at))};
+    bool needed = false;
+    Status status = OK;
+
+    w->inputs = NEW_ARRAY(Expr, 2 * order->input_count);
+    of.symbols = w->inputs;
+    for (int i = 0; i < order->input_count; i++) {
+        Text name = {0};
+
+        CHECK(check_input(order, i, diag));
+        text_addf(&name, order->inputs[i].source != NULL ? "#%s" : "%s", order->inputs[i].name);
+        w->inputs[i] = expr_symbol(arena, name.at, SYMBOL_PARAMETER);
+        text_addf(&name, "#rate");
+        w->inputs[order->input_count + i] = expr_symbol(arena, name.at, SYMBOL_PARAMETER);
+        text_free(&name);
+        needed = needed || order->inputs[i].source != NULL;
+    }
+    CHECK(find_point(w, diag));
+    w->system = w->phase->system;
+    if (needed && system_revision(w->system) != model_revision(order->model)) {
+        (void)diag_set(diag, E_MODEL,
+                       "the model has changed since the run, so its sources are no "
+                       "inputs there");
+        diag_hint(diag, "run it again, or linearize about the start");
+        CHECK(E_MODEL);
+    }
+    if (needed) {
+        CHECK(system_new_like(w->system, order->model, vary, &of, order->watch, &w->varied, diag));
+        w->system = w->varied;
+    }
+    w->l = layout_new(w->system);
+    if (w->phase->closed != NULL)
+        layout_take_sides(w->l, w->phase->closed);
+    w->parameters = (Parameters){.value = parameter, .context = w};
+done:
+    return status;
+}
+
+/* --- programs --- */
+
+static void place_columns(Work *w)
+{
+    const Layout *l = w->l;
+    Columns *at = &w->at;
+    const struct {
+        int *place;
+        const Expr *symbols;
+        int count;
+    } parts[] = {{&at->q, l->symbols + l->q, l->n},
+                 {&at->u, l->symbols + l->u, l->nu},
+                 {&at->x, l->symbols + l->x, l->nx},
+                 {&at->acceleration, l->symbols + l->acceleration, l->nu},
+                 {&at->multipliers, l->symbols + l->multipliers, l->m},
+                 {&at->rates, l->symbols + l->rates, l->nx},
+                 {&at->z, l->symbols + l->z, l->nz},
+                 {&at->inputs, w->inputs, 2 * w->order->input_count}};
+
+    at->symbols = NEW_ARRAY(Expr, l->count + 2 * w->order->input_count);
+    for (int p = 0; p < COUNT(parts); p++) {
+        *parts[p].place = at->count;
+        for (int i = 0; i < parts[p].count; i++)
+            at->symbols[at->count++] = parts[p].symbols[i];
+    }
+}
+
+typedef LIST(Expr) Roots;
+
+static Status push_rows(Work *w, Roots *roots, Diag *diag)
+{
+    const Layout *l = w->l;
+    const Reading *run = system_run(l->system);
+    Status status = OK;
+
+    w->rows.balance = roots->count;
+    for (int j = 0; j < l->nu; j++)
+        LIST_PUSH(*roots, row_balance(l, j));
+    w->rows.acceleration = roots->count;
+    for (int k = 0; k < l->m; k++)
+        LIST_PUSH(*roots, row_acceleration(l, k));
+    w->rows.network = roots->count;
+    for (int i = 0; i < l->nx + l->nz; i++)
+        LIST_PUSH(*roots, row_network(l, i));
+    w->rows.velocity = roots->count;
+    for (int k = 0; k < l->m; k++)
+        LIST_PUSH(*roots, row_velocity(l, k));
+    w->rows.phi = roots->count;
+    for (int k = 0; k < l->m; k++)
+        LIST_PUSH(*roots, run->phi[k]);
+    w->rows.q_rate = roots->count;
+    for (int i = 0; i < l->n; i++)
+        LIST_PUSH(*roots, run->q_rate[i]);
+    w->rows.outputs = roots->count;
+    for (int i = 0; i < w->order->output_count; i++) {
+        Expr e;
+
+        CHECK(system_resolve(l->system, w->order->outputs[i], &e, diag));
+        LIST_PUSH(*roots, e);
+    }
+    w->rows.count = roots->count;
+done:
+    return status;
+}
+
+static Status compile(Work *w, Diag *diag)
+{
+    const Layout *l = w->l;
+    const Reading *run = system_run(l->system);
+    Roots rows = {0}, geometry = {0};
+    Status status = OK;
+
+    place_columns(w);
+    CHECK(push_rows(w, &rows, diag));
+    CHECK(gradients_open(l, &w->parameters, rows.at, rows.count, w->at.symbols, w->at.count,
+                         &w->gradients, diag));
+    for (int i = 0; i < l->m * l->nu; i++)
+        LIST_PUSH(geometry, run->phi_u[i]);
+    for (int i = 0; i < l->n; i++)
+        for (int j = 0; j < l->nu; j++)
+            LIST_PUSH(geometry, system_n_entry(l->system, i, j));
+    for (int i = 0; i < l->n; i++)
+        for (int j = 0; j < l->nu; j++)
+            LIST_PUSH(geometry,
+                      expr_diff_along(system_arena(l->system), system_n_entry(l->system, i, j),
+                                      l->symbols + l->q, run->q_rate, l->n));
+    CHECK(probe_new(l, &w->parameters, geometry.at, geometry.count, &w->geometry, diag));
+done:
+    LIST_FREE(rows);
+    LIST_FREE(geometry);
+    return status;
+}
+
+/* --- the order --- */
+
+static void work_free(Work *w)
+{
+    gradients_free(&w->gradients);
+    probe_free(w->geometry);
+    parameters_free(&w->parameters);
+    layout_free(w->l);
+    system_free(w->varied);
+    embed_free(w->embed);
+    mem_free(w->inputs);
+    mem_free(w->at.symbols);
+    square_free(w->equations);
+    square_free(w->held);
+    mem_free(w->y);
+    mem_free(w->y_error);
+    mem_free(w->follow);
+    mem_free(w->follow_error);
+    mem_free(w->values);
+    mem_free(w->phi_u);
+    mem_free(w->map);
+    mem_free(w->matrix);
+    mem_free(w->matrix_error);
+    mem_free(w->dependent);
+    mem_free(w->dependent_error);
+}
+
+Status linearize(const LinearOrder *order, Linear **out, Diag *diag)
+{
+    Work w = {.order = order};
+    Status status = OK;
+
+    report(order->watch, "linearizing", -1);
+    CHECK(result_refuse_by(order->about, diag));
+    CHECK(open_system(&w, diag));
+    CHECK(compile(&w, diag));
+    CHECK(linear_point(&w, diag));
+    CHECK(linear_columns(&w, out, diag));
+done:
+    work_free(&w);
+    return status;
+}

@@ -1,0 +1,380 @@
+/* linearize_columns.c: what a deviation of a state or an input brings with it, column by column */
+#include "simulate/analyse/linearize_impl.h"
+
+#include "algebra/linear.h"
+#include "base/memory.h"
+
+#include <string.h>
+
+/* --- deviations --- */
+
+typedef struct Deviation {
+    Number *s, *u, *q; /* nu, nu, n */
+    Number *follow;    /* unknowns */
+    Number *right;     /* the same, or used */
+    int input;         /* that deviates by 1, or -1 */
+    int state;         /* network state that does, or -1 */
+} Deviation;
+
+static const Number one = {1, 0}, none = {0, 0};
+
+static void by_map(const Work *w, const Number *s, Number *q)
+{
+    for (int i = 0; i < w->l->n; i++) {
+        q[i] = none;
+        for (int j = 0; j < w->l->nu; j++)
+            number_add(&q[i], w->map[i * w->l->nu + j], s[j]);
+    }
+}
+
+/* derivative of a row along all that deviates but what follows */
+static Number along(const Work *w, const Deviation *d, int row)
+{
+    Number sum = d->input >= 0 ? gradient(w, row, w->at.inputs + d->input) : none;
+
+    if (d->state >= 0)
+        number_add(&sum, gradient(w, row, w->at.x + d->state), one);
+    for (int i = 0; i < w->l->n; i++)
+        number_add(&sum, gradient(w, row, w->at.q + i), d->q[i]);
+    for (int j = 0; j < w->l->nu; j++)
+        number_add(&sum, gradient(w, row, w->at.u + j), d->u[j]);
+    return sum;
+}
+
+/* E_e follow = -right */
+static void solve(const Work *w, Deviation *d)
+{
+    const int n = w->unknowns;
+    double *b = NEW_ARRAY(double, n), *error = NEW_ARRAY(double, n);
+    double *found = NEW_ARRAY(double, n), *off = NEW_ARRAY(double, n);
+
+    for (int r = 0; r < n; r++) {
+        b[r] = -d->right[r].value;
+        error[r] = d->right[r].error;
+    }
+    square_solve(w->equations, b, error, found, off);
+    for (int k = 0; k < n; k++)
+        d->follow[k] = (Number){found[k], off[k]};
+    mem_free(b);
+    mem_free(error);
+    mem_free(found);
+    mem_free(off);
+}
+
+/* everything that a deviation of independent ones, a state or an input brings with it */
+static void spread(const Work *w, Deviation *d)
+{
+    const int *rows = w->order->about->start.rows;
+    const int nu = w->l->nu;
+    Number *moving = NEW_ARRAY(Number, nu);
+
+    /* speeds apart: the velocity rows deviate with position first */
+    for (int r = 0; r < w->used; r++)
+        d->right[r] =
+            d->input >= 0 ? gradient(w, w->rows.phi + rows[r], w->at.inputs + d->input) : none;
+    linear_complete(w, d->right, d->s);
+    by_map(w, d->s, d->q);
+    for (int j = 0; j < nu; j++) {
+        moving[j] = d->u[j];
+        d->u[j] = none;
+    }
+    for (int r = 0; r < w->used; r++)
+        d->right[r] = along(w, d, w->rows.velocity + rows[r]);
+    for (int j = 0; j < nu; j++)
+        d->u[j] = moving[j];
+    linear_complete(w, d->right, d->u);
+    for (int r = 0; r < w->unknowns; r++)
+        d->right[r] = along(w, d, linear_equation(w, r));
+    solve(w, d);
+    mem_free(moving);
+}
+
+/* rate of the deviation s_j: N s' = (N u)_q dq + N du - N' s; columns of N are orthogonal */
+static Number turn_rate(const Work *w, const Deviation *d, int j)
+{
+    const int n = w->l->n, nu = w->l->nu;
+    Number sum = none, norm = none, out;
+
+    for (int i = 0; i < n; i++) {
+        const Number entry = w->map[i * nu + j];
+        Number rate = none;
+
+        if (entry.value == 0 && entry.error == 0)
+            continue;
+        for (int k = 0; k < n; k++)
+            number_add(&rate, gradient(w, w->rows.q_rate + i, w->at.q + k), d->q[k]);
+        for (int k = 0; k < nu; k++) {
+            const Number s = {-d->s[k].value, d->s[k].error};
+
+            number_add(&rate, w->map[i * nu + k], d->u[k]);
+            number_add(&rate, w->map_rate[i * nu + k], s);
+        }
+        number_add(&sum, entry, rate);
+        number_add(&norm, entry, entry);
+    }
+    out.value = sum.value / norm.value;
+    out.error = (sum.error + fabs(out.value) * norm.error) / norm.value +
+                fabs(fma(out.value, norm.value, -sum.value)) / norm.value;
+    return out;
+}
+
+/* --- columns of A and C, of B and D --- */
+
+/* one column of rates, or of outputs */
+typedef struct Column {
+    double *at, *error;
+    int stride;
+} Column;
+
+static Column column_of(double *at, double *error, int column, int stride)
+{
+    return (Column){at + column, error + column, stride};
+}
+
+/* what can't be told from 0 is 0 */
+static void put(const Column *column, int row, Number number)
+{
+    const bool is_zero = fabs(number.value) <= number.error;
+
+    column->at[(ptrdiff_t)row * column->stride] = is_zero ? 0 : number.value;
+    column->error[(ptrdiff_t)row * column->stride] = number.error;
+}
+
+static Number get(const Column *column, int row)
+{
+    return (Number){column->at[(ptrdiff_t)row * column->stride],
+                    column->error[(ptrdiff_t)row * column->stride]};
+}
+
+static void write_column(const Work *w, const Deviation *d, const Column *rates,
+                         const Column *outputs)
+{
+    const Layout *l = w->l;
+    const int *independent = embed_independent(w->embed);
+    int f = w->freedoms;
+
+    for (int i = 0; i < f; i++) {
+        put(rates, i, turn_rate(w, d, independent[i]));
+        put(rates, f + i, d->follow[independent[i]]);
+    }
+    for (int i = 0; i < l->nx; i++)
+        put(rates, 2 * f + i, d->follow[l->nu + w->used + i]);
+    for (int o = 0; o < w->order->output_count; o++) {
+        Number sum = along(w, d, w->rows.outputs + o);
+
+        for (int k = 0; k < w->unknowns; k++)
+            number_add(&sum, gradient(w, w->rows.outputs + o, linear_unknown(w, k)), d->follow[k]);
+        put(outputs, o, sum);
+    }
+}
+
+/* Rates of an input that the equations hold, x' = A x + B u + B1 u', as where a source closes a
+ * circuit of capacitors: of x - B1 u the equations hold none, x~' = A x~ + (B + A B1) u. */
+static Status take_rate(const Work *w, Deviation *d, int input, Linear *out, Diag *diag)
+{
+    double *b1 = NEW_ARRAY(double, 2 * out->states), *d1 = NEW_ARRAY(double, 2 * out->outputs);
+    const Column rates = {b1, b1 + out->states, 1}, direct = {d1, d1 + out->outputs, 1};
+    const Column b = column_of(out->b, out->b_error, input, out->inputs);
+    const Column through = column_of(out->d, out->d_error, input, out->inputs);
+    Status status = OK;
+
+    for (int j = 0; j < w->l->nu; j++)
+        d->s[j] = d->u[j] = none;
+    d->state = -1;
+    d->input = out->inputs + input;
+    spread(w, d);
+    write_column(w, d, &rates, &direct);
+    for (int o = 0; o < out->outputs; o++)
+        if (d1[o] != 0) {
+            (void)diag_set(diag, E_MODEL, "%s follows the rate of %s, which is no linear output",
+                           out->output_names[o], out->input_names[input]);
+            diag_hint(diag, "a resistance in the circuit of capacitors and source makes it one");
+            CHECK(E_MODEL);
+        }
+    for (int i = 0; i < out->states; i++)
+        out->is_shifted = out->is_shifted || b1[i] != 0;
+    for (int k = 0; k < out->states; k++) {
+        Number sum = get(&b, k);
+
+        for (int i = 0; i < out->states; i++) {
+            const Column a = column_of(out->a, out->a_error, i, out->states);
+
+            number_add(&sum, get(&a, k), get(&rates, i));
+        }
+        put(&b, k, sum);
+    }
+    for (int o = 0; o < out->outputs; o++) {
+        Number sum = get(&through, o);
+
+        for (int i = 0; i < out->states; i++) {
+            const Column c = column_of(out->c, out->c_error, i, out->states);
+
+            number_add(&sum, get(&c, o), get(&rates, i));
+        }
+        put(&through, o, sum);
+    }
+done:
+    mem_free(b1);
+    mem_free(d1);
+    return status;
+}
+
+static Status write_columns(const Work *w, Linear *out, Diag *diag)
+{
+    const Layout *l = w->l;
+    int f = w->freedoms;
+    Deviation d = {.s = NEW_ARRAY(Number, l->nu),
+                   .u = NEW_ARRAY(Number, l->nu),
+                   .q = NEW_ARRAY(Number, l->n),
+                   .follow = NEW_ARRAY(Number, w->unknowns),
+                   .right = NEW_ARRAY(Number, w->unknowns)};
+    Status status = OK;
+
+    for (int c = 0; c < out->states + out->inputs; c++) {
+        const bool is_input = c >= out->states;
+        const int column = is_input ? c - out->states : c;
+        const int stride = is_input ? out->inputs : out->states;
+        const Column rates = is_input ? column_of(out->b, out->b_error, column, stride)
+                                      : column_of(out->a, out->a_error, column, stride);
+        const Column outputs = is_input ? column_of(out->d, out->d_error, column, stride)
+                                        : column_of(out->c, out->c_error, column, stride);
+
+        for (int j = 0; j < l->nu; j++) {
+            d.s[j] = c < f && embed_independent(w->embed)[c] == j ? one : none;
+            d.u[j] = c >= f && c < 2 * f && embed_independent(w->embed)[c - f] == j ? one : none;
+        }
+        d.state = c >= 2 * f && !is_input ? c - 2 * f : -1;
+        d.input = is_input ? column : -1;
+        CHECK(poll(w->order->watch));
+        spread(w, &d);
+        write_column(w, &d, &rates, &outputs);
+        for (int j = 0; j < l->nu && !is_input; j++)
+            out->motion[j * out->states + c] = d.s[j].value;
+        for (int i = 0; i < l->nx && !is_input; i++)
+            out->motion[(l->nu + i) * out->states + c] = d.state == i;
+    }
+    for (int i = 0; i < out->inputs; i++)
+        CHECK(take_rate(w, &d, i, out, diag));
+done:
+    mem_free(d.s);
+    mem_free(d.u);
+    mem_free(d.q);
+    mem_free(d.follow);
+    mem_free(d.right);
+    return status;
+}
+
+/* --- the result --- */
+
+/* "h8"; for an angular velocity m1.Wx "m1.turnX", a small turn about that axis */
+static char *part_name(const Work *w, int speed)
+{
+    int i = speed_coordinate(w->system, speed);
+    const char *name = system_u(w->system, speed)->name;
+    const char *axis = strrchr(name, '.');
+    Text text = {0};
+
+    if (i >= 0)
+        text_add(&text, system_q(w->system, i)->name);
+    else if (axis != NULL)
+        text_addf(&text, "%.*s.turn%c", (int)(axis - name), name,
+                  axis[1] != '\0' ? axis[strlen(axis) - 1] - 'a' + 'A' : ' ');
+    else
+        text_addf(&text, "turn %s", name);
+    return text_done(&text);
+}
+
+static char *copy(const char *text)
+{
+    return mem_text(text, strlen(text));
+}
+
+static Linear *linear_new(const Work *w)
+{
+    const LinearOrder *order = w->order;
+    const Layout *l = w->l;
+    Linear *out = NEW(Linear);
+    int f = w->freedoms;
+
+    out->at = order->at;
+    out->freedoms = f;
+    out->states = 2 * f + l->nx;
+    out->inputs = order->input_count;
+    out->outputs = order->output_count;
+    out->parts = l->nu + l->nx;
+    out->a = NEW_ARRAY(double, out->states * out->states);
+    out->b = NEW_ARRAY(double, out->states * out->inputs);
+    out->c = NEW_ARRAY(double, out->outputs * out->states);
+    out->d = NEW_ARRAY(double, out->outputs * out->inputs);
+    out->a_error = NEW_ARRAY(double, out->states * out->states);
+    out->b_error = NEW_ARRAY(double, out->states * out->inputs);
+    out->c_error = NEW_ARRAY(double, out->outputs * out->states);
+    out->d_error = NEW_ARRAY(double, out->outputs * out->inputs);
+    out->motion = NEW_ARRAY(double, out->parts * out->states);
+    out->state_names = NEW_ARRAY(char *, out->states);
+    out->input_names = NEW_ARRAY(char *, out->inputs);
+    out->output_names = NEW_ARRAY(char *, out->outputs);
+    out->part_names = NEW_ARRAY(char *, out->parts);
+    for (int j = 0; j < l->nu; j++)
+        out->part_names[j] = part_name(w, j);
+    for (int i = 0; i < f; i++) {
+        int j = embed_independent(w->embed)[i];
+
+        out->state_names[i] = copy(out->part_names[j]);
+        out->state_names[f + i] = copy(system_u(w->system, j)->name);
+    }
+    for (int i = 0; i < l->nx; i++) {
+        out->state_names[2 * f + i] = copy(system_x(w->system, i)->name);
+        out->part_names[l->nu + i] = copy(system_x(w->system, i)->name);
+    }
+    for (int i = 0; i < out->inputs; i++)
+        out->input_names[i] = copy(order->inputs[i].name);
+    for (int i = 0; i < out->outputs; i++)
+        out->output_names[i] = copy(order->output_names[i]);
+    return out;
+}
+
+static void free_names(char **names, int count)
+{
+    for (int i = 0; i < count; i++)
+        mem_free(names[i]);
+    mem_free(names);
+}
+
+void linear_free(Linear *linear)
+{
+    if (linear == NULL)
+        return;
+    mem_free(linear->a);
+    mem_free(linear->b);
+    mem_free(linear->c);
+    mem_free(linear->d);
+    mem_free(linear->a_error);
+    mem_free(linear->b_error);
+    mem_free(linear->c_error);
+    mem_free(linear->d_error);
+    mem_free(linear->motion);
+    free_names(linear->state_names, linear->states);
+    free_names(linear->input_names, linear->inputs);
+    free_names(linear->output_names, linear->outputs);
+    free_names(linear->part_names, linear->parts);
+    mem_free(linear);
+}
+
+Status linear_columns(const Work *w, Linear **out, Diag *diag)
+{
+    Linear *linear = linear_new(w);
+    Status status;
+
+    CHECK(write_columns(w, linear, diag));
+    if (!vector_is_finite(linear->a, linear->states * linear->states)) {
+        (void)diag_set(diag, E_SINGULAR, "the equations have no derivatives there");
+        diag_hint(diag, "a distance of 0 or an angle at its limit has none: take another point");
+        CHECK(E_SINGULAR);
+    }
+    *out = linear;
+    linear = NULL;
+done:
+    linear_free(linear);
+    return status;
+}

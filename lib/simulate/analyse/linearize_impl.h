@@ -1,0 +1,88 @@
+/* linearize_impl.h: what the files of linearize() share
+ *
+ * linearize.c puts the equations together, linearize_point.c evaluates them where they are wanted,
+ * with what every number may be off by, linearize_columns.c goes through the deviations. */
+#ifndef COTREE_SIMULATE_ANALYSE_LINEARIZE_IMPL_H
+#define COTREE_SIMULATE_ANALYSE_LINEARIZE_IMPL_H
+
+#include "algebra/square.h"
+#include "algebra/wide.h"
+#include "simulate/analyse/linearize.h"
+#include "simulate/equations/embed.h"
+#include "simulate/equations/rows.h"
+#include "simulate/run/result.h"
+
+/* places of the symbols by which everything is differentiated */
+typedef struct Columns {
+    int q, u, x, acceleration, multipliers, rates, z, inputs, count;
+    Expr *symbols;
+} Columns;
+
+/* and of the rows that are */
+typedef struct RowPlaces {
+    int balance, acceleration, network, velocity, phi, q_rate, outputs, count;
+} RowPlaces;
+
+/* a number and how far it may be off */
+typedef struct Number {
+    double value, error;
+} Number;
+
+/* add a product; what that rounds away is known */
+static inline void number_add(Number *sum, Number a, Number b)
+{
+    const Wide product = wide_product(a.value, b.value);
+    const Wide total = wide_sum(sum->value, product.high);
+
+    sum->value = total.high;
+    sum->error += fabs(product.low) + fabs(total.low) + fabs(a.value) * b.error +
+                  a.error * (fabs(b.value) + b.error);
+}
+
+typedef struct Work {
+    const LinearOrder *order;
+    Phase *phase;   /* of the result, at the point */
+    System *varied; /* NULL: the result's own will do */
+    System *system;
+    Layout *l;
+    Parameters parameters;
+    Expr *inputs; /* symbols, then of their rates */
+    Columns at;
+    RowPlaces rows;
+    Gradients gradients;
+    Probe *geometry; /* Phi_u, N, N' */
+    double *y;
+    double *follow;       /* u', lambda, x', z */
+    double *y_error;      /* of q, u, x */
+    double *follow_error; /* likewise */
+    Number *values;       /* of rows, then gradients, at the point */
+    Number *phi_u, *map, *map_rate;
+    double *matrix, *matrix_error; /* E_e over the rows in use */
+    Square *equations;             /* its factors */
+    double *dependent, *dependent_error;
+    Square *held; /* factors of Phi_u's dependent columns, over the rows in use */
+    Embed *embed;
+    int used, freedoms, unknowns; /* unknowns: nu + used + nx + nz */
+} Work;
+
+static inline Number gradient(const Work *w, int row, int column)
+{
+    return w->values[w->rows.count + row * w->at.count + column];
+}
+
+/* --- linearize_point.c --- */
+
+/* Solve for what follows from the state, and evaluate everything there; choose independent
+ * coordinates. E_SINGULAR where equations are dependent, E_MODEL, E_VALUE. */
+Status linear_point(Work *w, Diag *diag);
+int linear_equation(const Work *w, int r); /* row of the r-th of the equations in use */
+int linear_unknown(const Work *w, int k);  /* column of the k-th of what follows */
+bool linear_is_independent(const Work *w, int speed);
+/* Complete v, whose independent entries are set: Phi_u v + right = 0 in the dependent ones. */
+void linear_complete(const Work *w, const Number *right, Number *v);
+
+/* --- linearize_columns.c --- */
+
+Status linear_columns(const Work *w, Linear **out, Diag *diag);
+
+#endif

@@ -1,0 +1,361 @@
+/* linearize_point.c: the point about which is linearized, and how far its numbers may be off
+ *
+ * Given coordinates are taken as meant up to half a unit in their last place. Dependent ones, and
+ * what follows from all, may be off by what their equations still miss there. */
+#include "simulate/analyse/linearize_impl.h"
+
+#include "base/memory.h"
+#include "simulate/equations/causes.h"
+
+#include <string.h>
+
+enum { MOST_STEPS = 8 }; /* of Newton's method; equations that are linear in it take two */
+
+/* --- equations in use --- */
+
+int linear_equation(const Work *w, int r)
+{
+    const Layout *l = w->l;
+
+    if (r < l->nu)
+        return w->rows.balance + r;
+    if (r < l->nu + w->used)
+        return w->rows.acceleration + w->order->about->start.rows[r - l->nu];
+    return w->rows.network + r - l->nu - w->used;
+}
+
+int linear_unknown(const Work *w, int k)
+{
+    const Layout *l = w->l;
+
+    if (k < l->nu)
+        return w->at.acceleration + k;
+    if (k < l->nu + w->used)
+        return w->at.multipliers + w->order->about->start.rows[k - l->nu];
+    k -= l->nu + w->used;
+    return k < l->nx ? w->at.rates + k : w->at.z + k - l->nx;
+}
+
+static RowValues row_with(const Work *w, double t, const double *y, const double *follow)
+{
+    const Layout *l = w->l;
+    RowValues row = row_of_state(l, t, y);
+
+    row.acceleration = follow;
+    row.multipliers = follow + l->nu;
+    row.rates = follow + l->nu + l->m;
+    row.z = follow + l->nu + l->m + l->nx;
+    return row;
+}
+
+static void fill_matrix(const Work *w)
+{
+    for (int r = 0; r < w->unknowns; r++)
+        for (int k = 0; k < w->unknowns; k++) {
+            const Number entry = gradient(w, linear_equation(w, r), linear_unknown(w, k));
+
+            w->matrix[r * w->unknowns + k] = entry.value;
+            w->matrix_error[r * w->unknowns + k] = entry.error;
+        }
+}
+
+static void evaluate(Work *w)
+{
+    const RowValues row = row_with(w, w->order->at, w->y, w->follow);
+    const double *values = gradients_at(&w->gradients, &row);
+
+    for (int i = 0; i < w->rows.count * (1 + w->at.count); i++)
+        w->values[i] = (Number){values[i], 0};
+    fill_matrix(w);
+}
+
+/* after evaluate() */
+static void evaluate_errors(Work *w)
+{
+    const int count = w->rows.count * (1 + w->at.count);
+    RowValues row = row_with(w, number_error(w->order->at), w->y_error, w->follow_error);
+    double *errors = NEW_ARRAY(double, count);
+
+    row.near = NULL; /* which turn it is, is certain */
+    probe_errors(w->gradients.probe, &row, errors);
+    for (int i = 0; i < count; i++)
+        w->values[i].error = errors[i];
+    fill_matrix(w);
+    mem_free(errors);
+}
+
+/* --- what follows from the state --- */
+
+static void factor(Work *w)
+{
+    square_free(w->equations);
+    w->equations = square_new(w->matrix, w->matrix_error, w->unknowns);
+}
+
+static void residuals(const Work *w, double *right, double *error)
+{
+    for (int r = 0; r < w->unknowns; r++) {
+        const Number value = w->values[linear_equation(w, r)];
+
+        right[r] = -value.value;
+        error[r] = value.error;
+    }
+}
+
+/* u', lambda, x', z at the point, by Newton; linear equations but for F in x' and z */
+static bool find_rates(Work *w)
+{
+    double *right = NEW_ARRAY(double, w->unknowns), *error = NEW_ARRAY(double, w->unknowns);
+    double *step = NEW_ARRAY(double, w->unknowns);
+    bool sound = true, moves = true;
+
+    evaluate(w);
+    for (int i = 0; i < MOST_STEPS && sound && moves; i++) {
+        factor(w);
+        residuals(w, right, error);
+        sound = square_is_regular(w->equations);
+        if (sound)
+            square_solve(w->equations, right, NULL, step, NULL);
+        moves = false;
+        for (int k = 0; k < w->unknowns && sound; k++) {
+            double *follow = &w->follow[linear_unknown(w, k) - w->at.acceleration];
+
+            *follow += step[k];
+            moves = moves || fabs(step[k]) > 4 * 0x1p-52 * fabs(*follow);
+            sound = isfinite(*follow);
+        }
+        if (sound)
+            evaluate(w);
+    }
+    mem_free(right);
+    mem_free(error);
+    mem_free(step);
+    return sound;
+}
+
+/* what these equations miss still, with their errors, is what their unknowns may be off by */
+static bool bound_rates(Work *w)
+{
+    double *right = NEW_ARRAY(double, w->unknowns), *error = NEW_ARRAY(double, w->unknowns);
+    double *step = NEW_ARRAY(double, w->unknowns), *off = NEW_ARRAY(double, w->unknowns);
+    bool sound;
+
+    factor(w);
+    sound = square_is_regular(w->equations);
+    residuals(w, right, error);
+    if (sound)
+        square_solve(w->equations, right, error, step, off);
+    for (int k = 0; k < w->unknowns && sound; k++)
+        w->follow_error[linear_unknown(w, k) - w->at.acceleration] = fabs(step[k]) + off[k];
+    mem_free(right);
+    mem_free(error);
+    mem_free(step);
+    mem_free(off);
+    return sound;
+}
+
+/* --- geometry --- */
+
+static void evaluate_geometry(Work *w)
+{
+    const Layout *l = w->l;
+    const int constraints = l->m * l->nu, map = l->n * l->nu, count = constraints + 2 * map;
+    const RowValues row = row_of_state(l, w->order->at, w->y);
+    RowValues off = row_of_state(l, number_error(w->order->at), w->y_error);
+    const double *geometry = probe_values(w->geometry, &row);
+    double *errors = NEW_ARRAY(double, count);
+
+    off.near = NULL;
+    probe_errors(w->geometry, &off, errors);
+    for (int i = 0; i < count; i++) {
+        const Number number = {geometry[i], errors[i]};
+
+        if (i < constraints)
+            w->phi_u[i] = number;
+        else
+            w->map[i - constraints] = number;
+    }
+    mem_free(errors);
+}
+
+bool linear_is_independent(const Work *w, int speed)
+{
+    for (int i = 0; i < w->freedoms; i++)
+        if (embed_independent(w->embed)[i] == speed)
+            return true;
+    return false;
+}
+
+static Status choose_independent(Work *w, Diag *diag)
+{
+    const LinearOrder *order = w->order;
+    int *wanted = NEW_ARRAY(int, order->independent_count);
+    double *phi_u = NEW_ARRAY(double, w->l->m * w->l->nu);
+    int count = 0;
+    Status status = OK;
+
+    for (int k = 0; k < order->independent_count; k++)
+        for (int j = 0; j < w->l->nu; j++) {
+            int i = speed_coordinate(w->system, j);
+
+            if (i >= 0 && strcmp(system_q(w->system, i)->name, order->independent[k]) == 0)
+                wanted[count++] = j;
+        }
+    for (int i = 0; i < w->l->m * w->l->nu; i++)
+        phi_u[i] = w->phi_u[i].value;
+    w->embed = embed_new(w->l->nu, w->used);
+    if (!embed_choose(w->embed, phi_u, order->about->start.rows, wanted, count))
+        status =
+            diag_set(diag, E_SINGULAR,
+                     "a singular position: no choice of coordinates describes the motion there");
+    mem_free(wanted);
+    mem_free(phi_u);
+    return status;
+}
+
+/* Phi_u's dependent columns */
+static bool factor_dependent(Work *w)
+{
+    const int nu = w->l->nu, m = w->used;
+
+    for (int r = 0; r < m; r++)
+        for (int j = 0, column = 0; j < nu; j++) {
+            const Number entry = w->phi_u[w->order->about->start.rows[r] * nu + j];
+
+            if (linear_is_independent(w, j))
+                continue;
+            w->dependent[r * m + column] = entry.value;
+            w->dependent_error[r * m + column++] = entry.error;
+        }
+    square_free(w->held);
+    w->held = square_new(w->dependent, w->dependent_error, m);
+    return square_is_regular(w->held);
+}
+
+void linear_complete(const Work *w, const Number *right, Number *v)
+{
+    const int nu = w->l->nu, m = w->used;
+    const int *rows = w->order->about->start.rows;
+    double *b = NEW_ARRAY(double, m), *error = NEW_ARRAY(double, m);
+    double *found = NEW_ARRAY(double, m), *off = NEW_ARRAY(double, m);
+
+    for (int r = 0; r < m; r++) {
+        Number sum = right[r];
+
+        for (int j = 0; j < nu; j++)
+            if (linear_is_independent(w, j))
+                number_add(&sum, w->phi_u[rows[r] * nu + j], v[j]);
+        b[r] = -sum.value;
+        error[r] = sum.error;
+    }
+    square_solve(w->held, b, error, found, off);
+    for (int j = 0, column = 0; j < nu; j++)
+        if (!linear_is_independent(w, j)) {
+            v[j] = (Number){found[column], off[column]};
+            column++;
+        }
+    mem_free(b);
+    mem_free(error);
+    mem_free(found);
+    mem_free(off);
+}
+
+/* --- errors of the state --- */
+
+/* what rows miss, at the place of the row of constraint 0, moved onto dependent speeds */
+static void miss(const Work *w, int first, Number *moves)
+{
+    Number *right = NEW_ARRAY(Number, w->used);
+
+    for (int r = 0; r < w->used; r++) {
+        const Number value = w->values[first + w->order->about->start.rows[r]];
+
+        right[r] = (Number){value.value, value.error};
+    }
+    for (int j = 0; j < w->l->nu; j++)
+        moves[j] = (Number){0, 0};
+    linear_complete(w, right, moves);
+    mem_free(right);
+}
+
+static void bound_state(Work *w)
+{
+    const Layout *l = w->l;
+    Number *moves = NEW_ARRAY(Number, l->nu);
+
+    miss(w, w->rows.phi, moves);
+    for (int i = 0; i < l->n; i++)
+        for (int j = 0; j < l->nu; j++)
+            w->y_error[i] +=
+                fabs(w->map[i * l->nu + j].value) * (fabs(moves[j].value) + moves[j].error);
+    evaluate_errors(w);
+    miss(w, w->rows.velocity, moves);
+    for (int j = 0; j < l->nu; j++)
+        w->y_error[l->n + j] += fabs(moves[j].value) + moves[j].error;
+    mem_free(moves);
+}
+
+/* --- the point --- */
+
+static void open_room(Work *w)
+{
+    const Layout *l = w->l;
+    const int follow = l->nu + l->m + l->nx + l->nz;
+
+    w->used = w->order->about->start.row_count;
+    w->freedoms = l->nu - w->used;
+    w->unknowns = l->nu + w->used + l->nx + l->nz;
+    w->follow = NEW_ARRAY(double, follow);
+    w->follow_error = NEW_ARRAY(double, follow);
+    w->y_error = NEW_ARRAY(double, layout_turned(l) + l->turned);
+    w->values = NEW_ARRAY(Number, w->rows.count * (1 + w->at.count));
+    w->matrix = NEW_ARRAY(double, w->unknowns * w->unknowns);
+    w->matrix_error = NEW_ARRAY(double, w->unknowns * w->unknowns);
+    w->phi_u = NEW_ARRAY(Number, l->m * l->nu);
+    w->map = NEW_ARRAY(Number, 2 * l->n * l->nu);
+    w->map_rate = w->map + l->n * l->nu;
+    w->dependent = NEW_ARRAY(double, w->used * w->used);
+    w->dependent_error = NEW_ARRAY(double, w->used * w->used);
+    for (int i = 0; i < layout_turned(l); i++)
+        w->y_error[i] = number_error(w->y[i]);
+}
+
+static Status refuse_dependent(Work *w, Diag *diag)
+{
+    if (cause_tell(w->l, &w->parameters, w->order->at, w->y, "nothing linear tells how it moves",
+                   diag))
+        return E_SINGULAR;
+    (void)diag_set(diag, E_SINGULAR,
+                   "the equations are dependent there: nothing linear tells how "
+                   "it moves");
+    diag_hint(diag, "take another instant, or another start");
+    return E_SINGULAR;
+}
+
+Status linear_point(Work *w, Diag *diag)
+{
+    const Layout *l = w->l, *theirs = w->phase->layout;
+    Status status = OK;
+
+    if (l->n != theirs->n || l->nu != theirs->nu || l->m != theirs->m || l->nx != theirs->nx)
+        return diag_set(diag, E_MODEL, "with these inputs the model has other unknowns");
+    open_room(w);
+    if (!find_rates(w))
+        CHECK(refuse_dependent(w, diag));
+    evaluate_geometry(w);
+    CHECK(choose_independent(w, diag));
+    if (!factor_dependent(w))
+        CHECK(refuse_dependent(w, diag));
+    evaluate_errors(w);
+    bound_state(w);
+    evaluate_geometry(w);
+    evaluate_errors(w);
+    if (!factor_dependent(w) || !bound_rates(w))
+        CHECK(refuse_dependent(w, diag));
+    evaluate_errors(w);
+    factor(w);
+    if (!square_is_regular(w->equations))
+        CHECK(refuse_dependent(w, diag));
+done:
+    return status;
+}

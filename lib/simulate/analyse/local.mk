@@ -1,0 +1,23 @@
+libcore_la_SOURCES += \
+  lib/simulate/analyse/equilibrium.c \
+  lib/simulate/analyse/factors.c \
+  lib/simulate/analyse/factors.h \
+  lib/simulate/analyse/freedoms.c \
+  lib/simulate/analyse/freedoms.h \
+  lib/simulate/analyse/linear_equations.h \
+  lib/simulate/analyse/linearize.c \
+  lib/simulate/analyse/linearize.h \
+  lib/simulate/analyse/linearize_columns.c \
+  lib/simulate/analyse/linearize_impl.h \
+  lib/simulate/analyse/linearize_point.c \
+  lib/simulate/analyse/modes.c \
+  lib/simulate/analyse/search.c \
+  lib/simulate/analyse/search.h \
+  lib/simulate/analyse/single.c \
+  lib/simulate/analyse/single.h \
+  lib/simulate/analyse/statics.c \
+  lib/simulate/analyse/statics.h \
+  lib/simulate/analyse/transfer.c \
+  lib/simulate/analyse/transfer.h \
+  lib/simulate/analyse/zeros.c \
+  lib/simulate/analyse/zeros.h

@@ -1,0 +1,453 @@
+/* search.c: KINSOL with a solver of linear equations that bears singular ones */
+#include "simulate/analyse/search.h"
+
+#include "algebra/linear.h"
+#include "base/memory.h"
+#include "simulate/analyse/factors.h"
+
+#include <gsl/gsl_linalg.h>
+#include <kinsol/kinsol.h>
+#include <math.h>
+#include <nvector/nvector_serial.h>
+#include <string.h>
+#include <sunmatrix/sunmatrix_sparse.h>
+
+/* what is found */
+#define ENOUGH 1e-9  /* residual over the terms of its row */
+#define LEAST  1e-15 /* residual over the largest entry of its row: unknowns of no size */
+#define FINE   1e-12 /* residual over its weight: no further round */
+
+/* rounds */
+#define ROUNDS       12
+#define ROUND        20    /* iterations in one */
+#define SLOW         0.99  /* of the residuals left after a round: it gets nowhere */
+#define SETTLED      1e-15 /* residual over its weight: the end of a round */
+#define STILL        1e-15 /* step in itself, likewise */
+#define LITTLE       1e-6  /* a state, reaction or voltage below which a step is small in itself */
+#define LITTLE_SHARE 1e-9  /* of the largest force, or entry of a row: least weight at last */
+
+/* steps */
+#define LONGEST 1.0  /* rad or m */
+#define SHORT   1e-4 /* share of a step, below which the search for its length ends */
+#define LARGEST 1e60 /* residual over its weight: undefined places are as bad as this */
+
+/* full matrices */
+#define MOST_FULL 300 /* unknowns of a network */
+#define FEW_SVD   100 /* unknowns to find what moves most */
+
+struct Search {
+    Statics *statics;
+    const Watch *watch;
+    int n;
+    int speeds;             /* of w: steps */
+    const int *start, *row; /* pattern of the Jacobian */
+    Factors *factors;
+    double *kept;                  /* base */
+    bool is_held;                  /* the mechanics */
+    double *missed, *size, *entry; /* of rows: residuals, their terms, their largest entries */
+    SUNContext context;
+    void *memory;
+    N_Vector w, unit, weight; /* of a unit, of a residual: KINSOL's scales */
+    SUNMatrix matrix;
+    SUNLinearSolver linear;
+};
+
+/* --- what KINSOL calls --- */
+
+static SUNLinearSolver_Type solver_type(SUNLinearSolver solver)
+{
+    (void)solver;
+    return SUNLINEARSOLVER_DIRECT;
+}
+
+static SUNLinearSolver_ID solver_id(SUNLinearSolver solver)
+{
+    (void)solver;
+    return SUNLINEARSOLVER_CUSTOM;
+}
+
+static int solver_setup(SUNLinearSolver solver, SUNMatrix matrix)
+{
+    const Search *s = solver->content;
+
+    return factors_make(s->factors, SUNSparseMatrix_Data(matrix)) ? SUNLS_SUCCESS
+                                                                  : SUNLS_LUFACT_FAIL;
+}
+
+/* a step's length as KINSOL measures it once it was made */
+static double length_of(const Search *s, const double *step)
+{
+    double length = 0;
+
+    for (int i = 0; i < s->n; i++) {
+        const double w = NV_Ith_S(s->w, i);
+
+        length = fmax(length, fabs(step[i]) /
+                                  (1 / NV_Ith_S(s->unit, i) + fmax(fabs(w), fabs(w + step[i]))));
+    }
+    return length;
+}
+
+/* No part moves further than LONGEST. `right` stays, as if the step were whole: its fall of the
+ * residuals is never too good then, and KINSOL makes no step longer. */
+static int solver_solve(SUNLinearSolver solver, SUNMatrix matrix, N_Vector step, N_Vector right,
+                        realtype tolerance)
+{
+    const Search *s = solver->content;
+    double *w = N_VGetArrayPointer(step);
+    double furthest;
+
+    (void)matrix, (void)tolerance;
+    if (factors_solve(s->factors, N_VGetArrayPointer(right), w) < 0)
+        return SUNLS_PACKAGE_FAIL_UNREC;
+    furthest = vector_largest(w, s->speeds);
+    for (int i = 0; i < s->n && furthest > LONGEST; i++)
+        w[i] *= LONGEST / furthest;
+    return KINSetScaledStepTol(s->memory, fmax(STILL, SHORT * length_of(s, w))) == 0
+               ? SUNLS_SUCCESS
+               : SUNLS_PACKAGE_FAIL_UNREC;
+}
+
+static void residual_at(const Search *s, const double *w, double *out)
+{
+    memcpy(out, statics_residual(s->statics, w), (size_t)s->n * sizeof(double));
+    if (s->is_held)
+        statics_hold(s->statics, out, NULL);
+}
+
+static int residual(N_Vector w, N_Vector out, void *data)
+{
+    const Search *s = data;
+    double *values = N_VGetArrayPointer(out);
+
+    if (poll(s->watch) != OK)
+        return -1;
+    residual_at(s, N_VGetArrayPointer(w), values);
+    for (int i = 0; i < s->n; i++)
+        if (!(fabs(values[i]) * NV_Ith_S(s->weight, i) <= LARGEST))
+            values[i] = LARGEST / NV_Ith_S(s->weight, i);
+    return 0;
+}
+
+static int jacobian(N_Vector w, N_Vector f, SUNMatrix matrix, void *data, N_Vector a, N_Vector b)
+{
+    const Search *s = data;
+    const double *values = statics_jacobian(s->statics, N_VGetArrayPointer(w));
+
+    (void)f, (void)a, (void)b;
+    for (int c = 0; c <= s->n; c++)
+        SUNSparseMatrix_IndexPointers(matrix)[c] = s->start[c];
+    for (int k = 0; k < s->start[s->n]; k++) {
+        SUNSparseMatrix_IndexValues(matrix)[k] = s->row[k];
+        SUNSparseMatrix_Data(matrix)[k] = values[k];
+    }
+    if (s->is_held)
+        statics_hold(s->statics, NULL, SUNSparseMatrix_Data(matrix));
+    return 0;
+}
+
+/* NOLINTNEXTLINE(readability-non-const-parameter): the type is that of SUNDIALS */
+static void keep_quiet(int code, const char *module, const char *function, char *message,
+                       void *data)
+{
+    (void)code, (void)module, (void)function, (void)message, (void)data;
+}
+
+/* --- life --- */
+
+static bool open_linear(Search *s)
+{
+    s->linear = SUNLinSolNewEmpty(s->context);
+    if (s->linear == NULL)
+        return false;
+    s->linear->content = s;
+    s->linear->ops->gettype = solver_type;
+    s->linear->ops->getid = solver_id;
+    s->linear->ops->setup = solver_setup;
+    s->linear->ops->solve = solver_solve;
+    return true;
+}
+
+static bool open_solver(Search *s)
+{
+    int code;
+
+    if (SUNContext_Create(NULL, &s->context) != 0)
+        return false;
+    s->w = N_VNew_Serial(s->n, s->context);
+    s->unit = N_VNew_Serial(s->n, s->context);
+    s->weight = N_VNew_Serial(s->n, s->context);
+    for (int i = 0; i < s->n; i++)
+        NV_Ith_S(s->unit, i) = i < s->speeds ? 1 : 1 / LITTLE;
+    s->matrix = SUNSparseMatrix(s->n, s->n, s->start[s->n] + 1, CSC_MAT, s->context);
+    s->memory = KINCreate(s->context);
+    if (!open_linear(s) || s->matrix == NULL || s->memory == NULL)
+        return false;
+    code = KINInit(s->memory, residual, s->w);
+    if (code == 0)
+        code = KINSetUserData(s->memory, s);
+    if (code == 0)
+        code = KINSetErrHandlerFn(s->memory, keep_quiet, NULL);
+    if (code == 0)
+        code = KINSetLinearSolver(s->memory, s->linear, s->matrix);
+    if (code == 0)
+        code = KINSetJacFn(s->memory, jacobian);
+    if (code == 0)
+        code = KINSetMaxSetupCalls(s->memory, 1);
+    if (code == 0)
+        code = KINSetNumMaxIters(s->memory, ROUND);
+    if (code == 0)
+        code = KINSetMaxNewtonStep(s->memory, LARGEST);
+    if (code == 0)
+        code = KINSetFuncNormTol(s->memory, SETTLED);
+    return code == 0 && KINSetScaledStepTol(s->memory, STILL) == 0;
+}
+
+Search *search_new(Statics *statics, const Watch *watch)
+{
+    Search *s = NEW(Search);
+
+    s->statics = statics;
+    s->watch = watch;
+    s->n = statics_count(statics);
+    s->kept = NEW_ARRAY(double, statics_length(statics));
+    s->missed = NEW_ARRAY(double, s->n);
+    s->size = NEW_ARRAY(double, s->n);
+    s->entry = NEW_ARRAY(double, s->n);
+    s->speeds = statics_layout(statics)->nu;
+    statics_pattern(statics, &s->start, &s->row);
+    s->factors =
+        factors_new(s->n, s->start, s->row, !statics_is_network(statics) || s->n <= MOST_FULL);
+    if (s->n == 0 || open_solver(s))
+        return s;
+    search_free(s);
+    return NULL;
+}
+
+void search_free(Search *s)
+{
+    if (s == NULL)
+        return;
+    KINFree(&s->memory);
+    if (s->linear != NULL)
+        SUNLinSolFreeEmpty(s->linear);
+    if (s->matrix != NULL)
+        SUNMatDestroy(s->matrix);
+    if (s->context != NULL) {
+        N_VDestroy(s->w);
+        N_VDestroy(s->unit);
+        N_VDestroy(s->weight);
+    }
+    SUNContext_Free(&s->context);
+    factors_free(s->factors);
+    mem_free(s->kept);
+    mem_free(s->missed);
+    mem_free(s->size);
+    mem_free(s->entry);
+    mem_free(s);
+}
+
+/* --- rounds --- */
+
+/* w at the base, its residuals and sizes of rows; false where something isn't finite */
+static bool look(Search *s)
+{
+    double *w = N_VGetArrayPointer(s->w);
+    const double *values;
+
+    statics_begin(s->statics, w);
+    values = statics_jacobian(s->statics, w);
+    residual_at(s, w, s->missed);
+    if (!vector_is_finite(values, s->start[s->n]) || !vector_is_finite(s->missed, s->n))
+        return false;
+    statics_sizes(s->statics, w, s->size);
+    memset(s->entry, 0, (size_t)s->n * sizeof(double));
+    for (int k = 0; k < s->start[s->n]; k++)
+        s->entry[s->row[k]] = fmax(s->entry[s->row[k]], fabs(values[k]));
+    return true;
+}
+
+static bool holds(const Search *s, int i, double missed)
+{
+    return fabs(missed) <= fmax(ENOUGH * s->size[i], LEAST * s->entry[i]);
+}
+
+/* After look(): what a residual is measured by, its terms or itself; but by `share` of the largest
+ * force, or of an unknown of 1, at least, while reactions and currents are still to come. */
+static void weigh(Search *s, double share)
+{
+    double force = 0;
+
+    for (int i = 0; i < s->speeds; i++)
+        force = fmax(force, fmax(s->size[i], fabs(s->missed[i])));
+    for (int i = 0; i < s->n; i++) {
+        const double least = share * (i < s->speeds && force > 0 ? force : s->entry[i]);
+        const double weight = fmax(least, fmax(s->size[i], fabs(s->missed[i])));
+
+        NV_Ith_S(s->weight, i) = weight > 0 ? 1 / weight : 1;
+    }
+}
+
+/* after look() */
+static bool all_hold(const Search *s)
+{
+
+    for (int i = 0; i < s->n; i++)
+        if (!holds(s, i, s->missed[i]))
+            return false;
+    return true;
+}
+
+/* after weigh(): the residuals as KINSOL sums them */
+static double measure(const Search *s)
+{
+    double sum = 0;
+
+    for (int i = 0; i < s->n; i++)
+        sum += s->missed[i] * NV_Ith_S(s->weight, i) * s->missed[i] * NV_Ith_S(s->weight, i);
+    return sqrt(sum);
+}
+
+/* after weigh(): the largest */
+static double worst(const Search *s, const double *missed)
+{
+    double largest = 0;
+
+    for (int i = 0; i < s->n; i++)
+        largest = fmax(largest, fabs(missed[i]) * NV_Ith_S(s->weight, i));
+    return vector_is_finite(missed, s->n) ? largest : INFINITY;
+}
+
+/* the rounds of search_run(), which leave the base where they end */
+static bool go_on(Search *s)
+{
+    bool is_stuck = false;
+    double share = 1; /* each balance is measured by the largest, until all hold */
+
+    if (!look(s))
+        return false;
+    for (int round = 0; round < ROUNDS; round++) {
+        double before;
+        int code;
+
+        weigh(s, share);
+        before = measure(s);
+        code = KINSol(s->memory, s->w, KIN_LINESEARCH, s->unit, s->weight);
+        if (poll(s->watch) != OK || !vector_is_finite(N_VGetArrayPointer(s->w), s->n))
+            return false;
+        statics_place(s->statics, N_VGetArrayPointer(s->w), statics_base(s->statics));
+        statics_rebase(s->statics);
+        if (!look(s))
+            return false;
+        if (code == KIN_MAXITER_REACHED && measure(s) < SLOW * before)
+            continue;
+        if (all_hold(s)) {
+            share = LITTLE_SHARE;
+            weigh(s, share);
+            if (code < 0 || worst(s, s->missed) <= FINE)
+                return true;
+        } else if (code < 0) {
+            /* the fall may be seen once residuals are measured anew */
+            if (is_stuck)
+                return false;
+            is_stuck = true;
+        }
+    }
+    return all_hold(s);
+}
+
+bool search_run(Search *s)
+{
+    const size_t bytes = (size_t)statics_length(s->statics) * sizeof(double);
+    double *base = statics_base(s->statics);
+
+    if (s->n == 0)
+        return true;
+    memcpy(s->kept, base, bytes);
+    if (go_on(s))
+        return true;
+    memcpy(base, s->kept, bytes);
+    statics_rebase(s->statics);
+    return false;
+}
+
+bool search_settle(Search *s)
+{
+    bool found;
+
+    s->is_held = true;
+    found = search_run(s);
+    s->is_held = false;
+    return found;
+}
+
+/* --- about the base --- */
+
+double search_growth(Search *s, const double *w)
+{
+    if (!look(s))
+        return INFINITY;
+    weigh(s, 1);
+    return worst(s, statics_residual(s->statics, w));
+}
+
+bool search_holds(Search *s, int i, double *missed)
+{
+    const bool finite = look(s);
+
+    *missed = s->missed[i];
+    return finite && holds(s, i, *missed);
+}
+
+int search_rank(Search *s)
+{
+    if (s->n == 0)
+        return 0;
+    if (!look(s) ||
+        !factors_make(s->factors, statics_jacobian(s->statics, N_VGetArrayPointer(s->w))))
+        return -1;
+    return factors_solve(s->factors, s->size, N_VGetArrayPointer(s->w));
+}
+
+/* what moves most where the equations stay as they are; -1: nothing may. O(n^3) */
+static int loosest(const Search *s, const double *values)
+{
+    const size_t n = (size_t)s->n;
+    gsl_matrix *u = gsl_matrix_calloc(n, n), *moves = gsl_matrix_alloc(n, n);
+    gsl_vector *sizes = gsl_vector_alloc(n), *work = gsl_vector_alloc(n);
+    size_t most = 0;
+    bool is_loose;
+
+    for (int c = 0; c < s->n; c++)
+        for (int k = s->start[c]; k < s->start[c + 1]; k++)
+            if (values[k] != 0)
+                gsl_matrix_set(u, (size_t)s->row[k], (size_t)c, values[k] / s->entry[s->row[k]]);
+    (void)gsl_linalg_SV_decomp(u, moves, sizes, work);
+    for (size_t i = 1; i < n; i++)
+        if (fabs(gsl_matrix_get(moves, i, n - 1)) >
+            fabs(gsl_matrix_get(moves, most, n - 1)) * (1 + 1e-9))
+            most = i;
+    is_loose = gsl_vector_get(sizes, n - 1) <= 1e-13 * gsl_vector_get(sizes, 0);
+    gsl_matrix_free(u);
+    gsl_matrix_free(moves);
+    gsl_vector_free(sizes);
+    gsl_vector_free(work);
+    return is_loose ? (int)most : -1;
+}
+
+int search_undetermined(Search *s)
+{
+    const double *values;
+    int column;
+
+    if (s->n == 0 || !look(s))
+        return -1;
+    values = statics_jacobian(s->statics, N_VGetArrayPointer(s->w));
+    column = factors_singular(s->factors, values);
+    return column < 0 && s->n <= FEW_SVD ? loosest(s, values) : column;
+}
+
+bool search_may_be_full(const Search *s)
+{
+    return factors_may_be_full(s->factors);
+}

@@ -1,0 +1,40 @@
+/* search.h: Newton's method for the equations of rest
+ *
+ * KINSOL searches in w from the base (line search on the residuals, each over the size of its terms
+ * where a round begins; Hindmarsh and others 2005), and the base follows: a round ends after some
+ * steps, before small turns have become large ones. Steps come from sparse factors; where these are
+ * small or nearly singular from full ones of as many columns as are independent, so that redundant
+ * constraints and freedoms that nothing holds do no harm. */
+#ifndef COTREE_SIMULATE_ANALYSE_SEARCH_H
+#define COTREE_SIMULATE_ANALYSE_SEARCH_H
+
+#include "simulate/analyse/statics.h"
+
+typedef struct Search Search;
+
+/* New, or NULL where SUNDIALS can't be started; free with search_free(). Borrows. */
+Search *search_new(Statics *statics, const Watch *watch);
+void search_free(Search *search); /* NULL is fine */
+
+/* From the base to a place where every equation holds, which is the base then. False: none was
+ * found, or the watch said stop; the base stays. */
+bool search_run(Search *search);
+
+/* The same with the mechanics held where it is (statics_hold()): the network settles beside it. */
+bool search_settle(Search *search);
+
+/* --- about the base --- */
+
+/* the largest residual at w, each over what it is measured by at the base; INFINITY: undefined */
+double search_growth(Search *search, const double *w);
+
+/* whether equation i holds; *missed tells by how much it doesn't */
+bool search_holds(Search *search, int i, double *missed);
+/* unknowns that the equations determine there; -1: singular, and too large to tell */
+int search_rank(Search *search);
+/* a place in w of an unknown that nothing determines; -1: not known. O(n^3) where n is small. */
+int search_undetermined(Search *search);
+/* whether full matrices are small enough */
+bool search_may_be_full(const Search *search);
+
+#endif

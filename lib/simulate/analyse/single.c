@@ -1,0 +1,276 @@
+/* single.c: which states stand between an input and an output, and (s - A)^-1 */
+#include "simulate/analyse/single.h"
+
+#include "algebra/schur.h"
+#include "base/memory.h"
+
+#include <string.h>
+
+/* --- states between input and output --- */
+
+/* Mark what is reached from marked states; `back`: what reaches them. */
+static void follow(const double *a, int n, bool back, bool *marked)
+{
+    int *queue = NEW_ARRAY(int, n);
+    int count = 0;
+
+    for (int i = 0; i < n; i++)
+        if (marked[i])
+            queue[count++] = i;
+    for (int k = 0; k < count; k++)
+        for (int i = 0; i < n; i++)
+            if (!marked[i] && (back ? a[queue[k] * n + i] : a[i * n + queue[k]]) != 0) {
+                marked[i] = true;
+                queue[count++] = i;
+            }
+    mem_free(queue);
+}
+
+static int find_kept(const Linear *linear, int output, int input, int *kept)
+{
+    const int n = linear->states;
+    bool *moved = NEW_ARRAY(bool, n), *seen = NEW_ARRAY(bool, n);
+    int count = 0;
+
+    for (int i = 0; i < n; i++) {
+        moved[i] = linear->b[i * linear->inputs + input] != 0;
+        seen[i] = linear->c[output * n + i] != 0;
+    }
+    follow(linear->a, n, false, moved);
+    follow(linear->a, n, true, seen);
+    for (int i = 0; i < n; i++)
+        if (moved[i] && seen[i])
+            kept[count++] = i;
+    mem_free(moved);
+    mem_free(seen);
+    return count;
+}
+
+/* of a state; with input and output as one more state everything acts on everything */
+static void find_scale(const Single *s, double *scale)
+{
+    const int n = s->n, m = n + 1;
+    double *size = NEW_ARRAY(double, m *m);
+
+    for (int i = 0; i < n; i++) {
+        for (int j = 0; j < n; j++)
+            size[i * m + j] = fabs(s->a[i * n + j]);
+        size[i * m + n] = fabs(s->b[i]);
+        size[n * m + i] = fabs(s->c[i]);
+    }
+    balance(size, m, scale);
+    mem_free(size);
+}
+
+static void apply_scale(Single *s, const double *scale)
+{
+    const int n = s->n;
+
+    for (int i = 0; i < n; i++) {
+        const double by = scale[i] / scale[n];
+
+        for (int j = 0; j < n; j++) {
+            s->a[i * n + j] *= scale[i] / scale[j];
+            s->a_error[i * n + j] *= scale[i] / scale[j];
+        }
+        s->b[i] *= by;
+        s->b_error[i] *= by;
+        s->c[i] /= by;
+        s->c_error[i] /= by;
+    }
+}
+
+Single single_new(const Linear *linear, int output, int input)
+{
+    const int all = linear->states, entry = output * linear->inputs + input;
+    int *kept = NEW_ARRAY(int, all);
+    const int n = find_kept(linear, output, input, kept);
+    Single s = {.n = n,
+                .a = NEW_ARRAY(double, n *n),
+                .b = NEW_ARRAY(double, n),
+                .c = NEW_ARRAY(double, n),
+                .d = linear->d[entry],
+                .a_error = NEW_ARRAY(double, n *n),
+                .b_error = NEW_ARRAY(double, n),
+                .c_error = NEW_ARRAY(double, n),
+                .d_error = linear->d_error[entry]};
+    double *scale = NEW_ARRAY(double, n + 1);
+
+    for (int i = 0; i < n; i++) {
+        s.b[i] = linear->b[kept[i] * linear->inputs + input];
+        s.b_error[i] = linear->b_error[kept[i] * linear->inputs + input];
+        s.c[i] = linear->c[output * all + kept[i]];
+        s.c_error[i] = linear->c_error[output * all + kept[i]];
+        for (int j = 0; j < n; j++) {
+            s.a[i * n + j] = linear->a[kept[i] * all + kept[j]];
+            s.a_error[i * n + j] = linear->a_error[kept[i] * all + kept[j]];
+        }
+    }
+    find_scale(&s, scale);
+    apply_scale(&s, scale);
+    mem_free(kept);
+    mem_free(scale);
+    return s;
+}
+
+void single_free(Single *single)
+{
+    mem_free(single->a);
+    mem_free(single->b);
+    mem_free(single->c);
+    mem_free(single->a_error);
+    mem_free(single->b_error);
+    mem_free(single->c_error);
+}
+
+/* --- the resolvent --- */
+
+struct Resolvent {
+    int n;
+    Wide *h, *q; /* A = Q H Q^T */
+    double norm;
+    WideComplex *factors; /* n x n: U on and above the diagonal */
+    WideComplex *factor;  /* of step k: what was taken of row k from the row below */
+    bool *exchanged;      /* step k exchanged its two rows before */
+};
+
+Resolvent *resolvent_new(const Wide *a, int n)
+{
+    Resolvent *r = NEW(Resolvent);
+
+    *r = (Resolvent){n,
+                     NEW_ARRAY(Wide, n * n),
+                     NEW_ARRAY(Wide, n * n),
+                     0,
+                     NEW_ARRAY(WideComplex, n * n),
+                     NEW_ARRAY(WideComplex, n),
+                     NEW_ARRAY(bool, n)};
+    for (int i = 0; i < n * n; i++) {
+        r->h[i] = a[i];
+        r->norm = fmax(r->norm, fabs(a[i].high));
+    }
+    hessenberg(r->h, n, r->q);
+    return r;
+}
+
+void resolvent_free(Resolvent *resolvent)
+{
+    if (resolvent == NULL)
+        return;
+    mem_free(resolvent->h);
+    mem_free(resolvent->q);
+    mem_free(resolvent->factors);
+    mem_free(resolvent->factor);
+    mem_free(resolvent->exchanged);
+    mem_free(resolvent);
+}
+
+static void eliminate(Resolvent *r, int k)
+{
+    const int n = r->n;
+    WideComplex *row = r->factors + (ptrdiff_t)k * n, *next = row + n;
+
+    r->exchanged[k] = wide_size(next[k]) > wide_size(row[k]);
+    for (int j = k; j < n && r->exchanged[k]; j++) {
+        const WideComplex kept = row[j];
+
+        row[j] = next[j];
+        next[j] = kept;
+    }
+    r->factor[k] = wide_real(wide_of(0));
+    if (wide_size(next[k]) == 0)
+        return;
+    r->factor[k] = wide_cdiv(next[k], row[k]);
+    for (int j = k + 1; j < n; j++)
+        next[j] = wide_csub(next[j], wide_cmul(r->factor[k], row[j]));
+}
+
+bool resolvent_at(Resolvent *r, WideComplex s)
+{
+    const int n = r->n;
+    const double least = fmax(WIDE_UNIT * fmax(r->norm, wide_size(s)), 1e-290);
+    bool apart = true;
+
+    for (int i = 0; i < n; i++)
+        for (int j = i > 0 ? i - 1 : 0; j < n; j++) {
+            const WideComplex entry = wide_real(wide_neg(r->h[i * n + j]));
+
+            r->factors[i * n + j] = i == j ? wide_cadd(s, entry) : entry;
+        }
+    for (int k = 0; k + 1 < n; k++)
+        eliminate(r, k);
+    for (int k = 0; k < n; k++)
+        if (wide_size(r->factors[k * n + k]) == 0) {
+            r->factors[k * n + k] = wide_real(wide_of(least));
+            apart = false;
+        }
+    return apart;
+}
+
+static void exchange(WideComplex *x, int k)
+{
+    const WideComplex kept = x[k];
+
+    x[k] = x[k + 1];
+    x[k + 1] = kept;
+}
+
+void resolvent_right(const Resolvent *r, const Wide *b, WideComplex *x)
+{
+    const int n = r->n;
+    WideComplex *z = NEW_ARRAY(WideComplex, n);
+
+    for (int i = 0; i < n; i++) {
+        Wide sum = wide_of(0);
+
+        for (int j = 0; j < n; j++)
+            sum = wide_add(sum, wide_mul(r->q[j * n + i], b[j]));
+        z[i] = wide_real(sum);
+    }
+    for (int k = 0; k + 1 < n; k++) {
+        if (r->exchanged[k])
+            exchange(z, k);
+        z[k + 1] = wide_csub(z[k + 1], wide_cmul(r->factor[k], z[k]));
+    }
+    for (int k = n - 1; k >= 0; k--) {
+        for (int j = k + 1; j < n; j++)
+            z[k] = wide_csub(z[k], wide_cmul(r->factors[k * n + j], z[j]));
+        z[k] = wide_cdiv(z[k], r->factors[k * n + k]);
+    }
+    for (int i = 0; i < n; i++) {
+        x[i] = wide_real(wide_of(0));
+        for (int j = 0; j < n; j++)
+            x[i] = wide_cadd(x[i], wide_ctimes(z[j], r->q[i * n + j]));
+    }
+    mem_free(z);
+}
+
+void resolvent_left(const Resolvent *r, const Wide *c, WideComplex *y)
+{
+    const int n = r->n;
+    WideComplex *z = NEW_ARRAY(WideComplex, n);
+
+    for (int i = 0; i < n; i++) {
+        Wide sum = wide_of(0);
+
+        for (int j = 0; j < n; j++)
+            sum = wide_add(sum, wide_mul(r->q[j * n + i], c[j]));
+        z[i] = wide_real(sum);
+    }
+    for (int k = 0; k < n; k++) {
+        for (int j = 0; j < k; j++)
+            z[k] = wide_csub(z[k], wide_cmul(r->factors[j * n + k], z[j]));
+        z[k] = wide_cdiv(z[k], r->factors[k * n + k]);
+    }
+    for (int k = n - 2; k >= 0; k--) {
+        z[k] = wide_csub(z[k], wide_cmul(r->factor[k], z[k + 1]));
+        if (r->exchanged[k])
+            exchange(z, k);
+    }
+    for (int i = 0; i < n; i++) {
+        y[i] = wide_real(wide_of(0));
+        for (int j = 0; j < n; j++)
+            y[i] = wide_cadd(y[i], wide_ctimes(z[j], r->q[i * n + j]));
+    }
+    mem_free(z);
+}

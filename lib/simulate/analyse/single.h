@@ -1,0 +1,36 @@
+/* single.h: linear equations from one input to one output, and their resolvent
+ *
+ *     x' = A x + b u,   y = c x + d u
+ *
+ * Matrices stand row by row. */
+#ifndef COTREE_SIMULATE_ANALYSE_SINGLE_H
+#define COTREE_SIMULATE_ANALYSE_SINGLE_H
+
+#include "algebra/wide.h"
+#include "simulate/analyse/linear_equations.h"
+
+typedef struct Single {
+    int n;
+    double *a, *b, *c; /* n x n, n, n */
+    double d;
+    double *a_error, *b_error, *c_error; /* how far each may be off */
+    double d_error;
+} Single;
+
+/* The states that the input moves and the output sees, by the entries that aren't 0, scaled by
+ * powers of 2 so that input, states and output balance. Free with single_free(). */
+Single single_new(const Linear *linear, int output, int input);
+void single_free(Single *single);
+
+/* (s - A)^-1 at one s after another, with A as a Hessenberg matrix (Laub 1981). */
+typedef struct Resolvent Resolvent;
+Resolvent *resolvent_new(const Wide *a, int n); /* new; resolvent_free(). O(n^3) */
+void resolvent_free(Resolvent *resolvent);      /* NULL is fine */
+/* From now on at s; false: s is an eigenvalue, and the least that tells it from s stands in for 0.
+ * O(n^2) */
+bool resolvent_at(Resolvent *resolvent, WideComplex s);
+/* x = (s - A)^-1 b, and y = (s - A)^-T c; O(n^2) */
+void resolvent_right(const Resolvent *resolvent, const Wide *b, WideComplex *x);
+void resolvent_left(const Resolvent *resolvent, const Wide *c, WideComplex *y);
+
+#endif

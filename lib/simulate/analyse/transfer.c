@@ -1,0 +1,257 @@
+/* transfer.c: poles, zeros and gain of one output against one input; frequency response
+ *
+ * States through which no way leads from the input to the output are left out first, by the
+ * entries of A, B, C that aren't 0. Poles are eigenvalues of what is left (spectrum.h); zeros see
+ * zeros.h. The response is solved for, frequency by frequency; roots only tell the turns of its
+ * phase. */
+#include "simulate/analyse/transfer.h"
+
+#include "base/memory.h"
+#include "simulate/analyse/single.h"
+#include "simulate/analyse/zeros.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#define KNOWN 1e-3 /* a root known to less of its size isn't left out against another */
+
+/* --- roots --- */
+
+static double size_of(Root root)
+{
+    return hypot(root.real, root.imaginary);
+}
+
+static int by_size(const void *a, const void *b)
+{
+    const Root *x = a, *y = b;
+    if (size_of(*x) != size_of(*y))
+        return size_of(*x) < size_of(*y) ? -1 : 1;
+    if (x->real != y->real)
+        return x->real > y->real ? -1 : 1;
+    return (x->imaginary < y->imaginary) - (x->imaginary > y->imaginary);
+}
+
+static void sort(Root *roots, int count)
+{
+    if (count > 0)
+        qsort(roots, (size_t)count, sizeof *roots, by_size);
+}
+
+static bool find_poles(const Single *s, Root *pole)
+{
+    Spectrum *spectrum = spectrum_new(s->a, s->a_error, s->n);
+    const bool sound = spectrum != NULL;
+
+    for (int i = 0; i < s->n && sound; i++)
+        pole[i] = spectrum_roots(spectrum)[i];
+    spectrum_free(spectrum);
+    return sound;
+}
+
+static void remove_root(Root *roots, int *count, int which)
+{
+    for (int i = which; i + 1 < *count; i++)
+        roots[i] = roots[i + 1];
+    (*count)--;
+}
+
+/* a pole and a zero lie within each other's errors, and these tell something of where */
+static bool is_same(const Root *pole, const Root *zero)
+{
+    const double apart = hypot(pole->real - zero->real, pole->imaginary - zero->imaginary);
+    const double error = pole->error + zero->error;
+
+    return apart <= error && (error <= KNOWN * size_of(*pole) || size_of(*pole) == 0);
+}
+
+/* the pair of those that are closest, of those above or on the real axis */
+static bool closest(const Transfer *t, int *pole, int *zero)
+{
+    double best = INFINITY;
+
+    for (int p = 0; p < t->poles; p++)
+        for (int z = 0; z < t->zeros; z++) {
+            double apart = hypot(t->pole[p].real - t->zero[z].real,
+                                 t->pole[p].imaginary - t->zero[z].imaginary);
+
+            if (t->pole[p].imaginary < 0 || t->zero[z].imaginary < 0 ||
+                (t->pole[p].imaginary > 0) != (t->zero[z].imaginary > 0) || apart >= best ||
+                !is_same(&t->pole[p], &t->zero[z]))
+                continue;
+            best = apart;
+            *pole = p;
+            *zero = z;
+        }
+    return isfinite(best);
+}
+
+static void drop_pair(Root *roots, int *count, int which)
+{
+    Root root = roots[which];
+
+    remove_root(roots, count, which);
+    for (int i = 0; root.imaginary > 0 && i < *count; i++)
+        if (roots[i].real == root.real && roots[i].imaginary == -root.imaginary) {
+            remove_root(roots, count, i);
+            break;
+        }
+}
+
+/* Leave out poles and zeros that can't be told apart. */
+static void cancel(Transfer *t)
+{
+    const int before = t->poles;
+    int pole = 0, zero = 0;
+
+    for (;;) {
+        if (!closest(t, &pole, &zero))
+            break;
+        drop_pair(t->pole, &t->poles, pole);
+        drop_pair(t->zero, &t->zeros, zero);
+    }
+    t->cancelled = before - t->poles;
+}
+
+/* --- polynomials --- */
+
+/* gain times the product of (s - root), falling powers: new, count + 1 */
+static double *expand(const Root *roots, int count, double gain)
+{
+    double *out = NEW_ARRAY(double, count + 1);
+    int degree = 0;
+
+    out[0] = gain;
+    for (int i = 0; i < count; i++) {
+        double linear = roots[i].imaginary > 0 ? -2 * roots[i].real : -roots[i].real;
+        double constant = roots[i].imaginary > 0 ? size_of(roots[i]) * size_of(roots[i]) : 0;
+
+        if (roots[i].imaginary < 0)
+            continue;
+        degree += roots[i].imaginary > 0 ? 2 : 1;
+        for (int k = degree; k > 0; k--) /* behind the old degree all are 0 */
+            out[k] += linear * out[k - 1] + (k > 1 ? constant * out[k - 2] : 0);
+    }
+    for (int k = 0; k <= count; k++)
+        out[k] += 0.0; /* never -0 */
+    return out;
+}
+
+void transfer_free(Transfer *transfer)
+{
+    if (transfer == NULL)
+        return;
+    mem_free(transfer->zero);
+    mem_free(transfer->pole);
+    mem_free(transfer->numerator);
+    mem_free(transfer->denominator);
+    mem_free(transfer);
+}
+
+Status transfer_new(const Linear *linear, int output, int input, Transfer **out, Diag *diag)
+{
+    Single s = single_new(linear, output, input);
+    Transfer *t = NEW(Transfer);
+    Status status = OK;
+
+    t->pole = NEW_ARRAY(Root, s.n);
+    t->zero = NEW_ARRAY(Root, s.n);
+    t->idle = linear->states - s.n;
+    if (!find_poles(&s, t->pole) || !zeros_find(&s, t->pole, t->zero, &t->zeros, &t->gain))
+        CHECK(diag_set(diag, E_SOLVER,
+                       "the gain, poles and zeros of %s against %s are beyond what numbers hold",
+                       linear->output_names[output], linear->input_names[input]));
+    t->poles = t->gain != 0 ? s.n : 0;
+    sort(t->pole, t->poles);
+    sort(t->zero, t->zeros);
+    cancel(t);
+    t->numerator = expand(t->zero, t->zeros, t->gain);
+    t->denominator = expand(t->pole, t->poles, 1);
+    *out = t;
+    t = NULL;
+done:
+    transfer_free(t);
+    single_free(&s);
+    return status;
+}
+
+/* --- frequency response --- */
+
+/* argument of the product of (j omega - root), continuous in omega; `halves` counts what are half
+ * turns at its start */
+static double turns_of(const Root *roots, int count, double omega, int *halves)
+{
+    double sum = 0;
+
+    for (int i = 0; i < count; i++) {
+        const double turn = atan2(omega - roots[i].imaginary, fabs(roots[i].real));
+
+        sum += roots[i].real > 0 ? -turn : turn;
+        *halves += roots[i].real > 0 && roots[i].imaginary == 0;
+    }
+    return sum;
+}
+
+/* the phase as the roots tell it; at its start, where nothing integrates, 0 or half a turn */
+static double phase_by_roots(const Transfer *t, double omega)
+{
+    int above = t->gain < 0, below = 0;
+    double phase = turns_of(t->zero, t->zeros, omega, &above);
+
+    phase -= turns_of(t->pole, t->poles, omega, &below);
+    if ((above + below) % 2 != 0)
+        phase += below % 2 != 0 ? -M_PI : M_PI;
+    return phase;
+}
+
+static Wide *widen(const double *from, int count)
+{
+    Wide *out = NEW_ARRAY(Wide, count);
+
+    for (int i = 0; i < count; i++)
+        out[i] = wide_of(from[i]);
+    return out;
+}
+
+/* d + c (s - A)^-1 b; INFINITY at a pole */
+static double complex respond(const Single *s, Resolvent *resolvent, const Wide *b, double omega,
+                              WideComplex *x)
+{
+    WideComplex sum = wide_real(wide_of(s->d));
+
+    if (!resolvent_at(resolvent, wide_complex(wide_of(0), wide_of(omega))))
+        return INFINITY;
+    resolvent_right(resolvent, b, x);
+    for (int i = 0; i < s->n; i++)
+        sum = wide_cadd(sum, wide_ctimes(x[i], wide_of(s->c[i])));
+    return wide_to(sum);
+}
+
+void transfer_response(const Linear *linear, int output, int input, const Transfer *transfer,
+                       const double *omega, int count, double *gain, double *phase)
+{
+    Single s = single_new(linear, output, input);
+    Wide *a = widen(s.a, s.n * s.n), *b = widen(s.b, s.n);
+    Resolvent *resolvent = resolvent_new(a, s.n);
+    WideComplex *x = NEW_ARRAY(WideComplex, s.n);
+
+    for (int i = 0; i < count; i++) {
+        double complex h = respond(&s, resolvent, b, omega[i], x);
+        double turns = phase_by_roots(transfer, omega[i]);
+
+        gain[i] = 20 * log10(cabs(h));
+        /* the response is as exact as A; the roots tell which turn it is on */
+        if (transfer->gain == 0)
+            phase[i] = 0;
+        else if (h == 0 || !isfinite(cabs(h)))
+            phase[i] = turns * 180 / M_PI;
+        else
+            phase[i] =
+                (carg(h) + 2 * M_PI * nearbyint((turns - carg(h)) / (2 * M_PI))) * 180 / M_PI;
+    }
+    mem_free(a);
+    mem_free(b);
+    mem_free(x);
+    resolvent_free(resolvent);
+    single_free(&s);
+}

@@ -1,0 +1,387 @@
+/* zeros.c: zeros of one output against one input
+ *
+ * The gain is the first of d, c b, c A b ... that can be told from 0. As often as one is passed by,
+ * the output is turned into one state (Householder), which is 0 then, and whose rate takes the
+ * place of the output; that takes a state away. Zeros are the eigenvalues of A - b d^-1 c that is
+ * left (Emami-Naeini and Van Dooren 1982), disturbed a little so that multiple ones split; single
+ * ones are brought to H(z) = 0 by Newton's method. A zero z is off by (|dH(z)| + |H(z)|)/|H'(z)|;
+ * one that comes m times, of which s is the distance of a split one from the mean, by the m-th root
+ * of m s^(m-1) times that. */
+#include "simulate/analyse/zeros.h"
+
+#include "algebra/schur.h"
+#include "base/memory.h"
+
+#include <float.h>
+#include <string.h>
+
+enum { MOST_STEPS = 6 };
+
+#define UNIT  0x1p-53
+#define ALONE 0.1  /* a step less than this of the way to the next zero */
+#define NEAR  1e-3 /* of its error is as good as 0 */
+#define SPLIT 1e-7 /* relative; closer than its square is as good as the same */
+
+/* in more digits */
+typedef struct Wider {
+    int n, stride;
+    Wide *a, *b, *c;
+    Wide d;
+} Wider;
+
+/* --- the gain --- */
+
+/* How often the output is passed by: the first of d, c b, c A b ... that isn't 0, by its bound, and
+ * its value, INFINITY where no number holds it; n + 1 where there is none. */
+static int find_gain(const Single *s, double *gain)
+{
+    const int n = s->n;
+    Wide *v = NEW_ARRAY(Wide, n), *next = NEW_ARRAY(Wide, n);
+    double *off = NEW_ARRAY(double, n), *next_off = NEW_ARRAY(double, n);
+    double error = s->d_error, norm = 0;
+    int degree = 0, unit;
+
+    /* powers of A stay in range in units of time in which A is about 1 */
+    for (int i = 0; i < n * n; i++)
+        norm = fmax(norm, fabs(s->a[i]));
+    unit = norm > 0 ? ilogb(norm) : 0;
+    *gain = s->d;
+    for (int i = 0; i < n; i++) {
+        v[i] = wide_of(s->b[i]);
+        off[i] = s->b_error[i];
+    }
+    while (!(fabs(*gain) > error) && degree <= n) {
+        Wide sum = wide_of(0);
+
+        error = 0;
+        for (int i = 0; i < n; i++) {
+            const double size = fabs(v[i].high) + off[i];
+
+            sum = wide_add(sum, wide_times(v[i], s->c[i]));
+            error += fabs(s->c[i]) * (off[i] + n * WIDE_UNIT * size) + s->c_error[i] * size;
+        }
+        *gain = wide_double(sum);
+        degree++;
+        for (int i = 0; i < n; i++) {
+            next[i] = wide_of(0);
+            next_off[i] = 0;
+            for (int j = 0; j < n; j++) {
+                const double size = fabs(v[j].high) + off[j];
+                const double entry = ldexp(s->a[i * n + j], -unit);
+
+                next[i] = wide_add(next[i], wide_times(v[j], entry));
+                next_off[i] += fabs(entry) * (off[j] + n * WIDE_UNIT * size) +
+                               ldexp(s->a_error[i * n + j], -unit) * size;
+            }
+        }
+        memcpy(v, next, (size_t)n * sizeof *v);
+        memcpy(off, next_off, (size_t)n * sizeof *off);
+    }
+    if (degree > n)
+        *gain = 0;
+    else if (degree > 1 && (ilogb(*gain) + (degree - 1) * unit < DBL_MIN_EXP ||
+                            ilogb(*gain) + (degree - 1) * unit >= DBL_MAX_EXP))
+        *gain = INFINITY;
+    else if (degree > 1)
+        *gain = ldexp(*gain, (degree - 1) * unit);
+    mem_free(v);
+    mem_free(next);
+    mem_free(off);
+    mem_free(next_off);
+    return degree;
+}
+
+/* --- one state less --- */
+
+/* Turn the states so that c = [0 .. 0 r]. */
+static void turn_output(Wider *s)
+{
+    const int n = s->n;
+    Wide *v = NEW_ARRAY(Wide, n), square = wide_of(0), norm, beta;
+    double largest = 0;
+
+    for (int i = 0; i < n; i++)
+        largest = fmax(largest, fabs(s->c[i].high));
+    for (int i = 0; i < n && largest > 0; i++) {
+        v[i] = wide_times(s->c[i], ldexp(1, -ilogb(largest)));
+        square = wide_add(square, wide_mul(v[i], v[i]));
+    }
+    norm = wide_sqrt(square);
+    if (v[n - 1].high < 0)
+        norm = wide_neg(norm);
+    /* v^T v = 2 norm (norm + v_n) */
+    beta = wide_mul(norm, wide_add(norm, v[n - 1]));
+    v[n - 1] = wide_add(v[n - 1], norm);
+    if (beta.high > 0) {
+        beta = wide_div(wide_of(1), beta);
+        for (int i = 0; i < n; i++)
+            wide_reflect(s->a + (ptrdiff_t)i * s->stride, n, 1, 0, v, beta);
+        for (int j = 0; j < n; j++)
+            wide_reflect(s->a + j, n, s->stride, 0, v, beta);
+        wide_reflect(s->b, n, 1, 0, v, beta);
+    }
+    mem_free(v);
+}
+
+/* the last state is 0, its rate the new output */
+static void drop_last(Wider *s)
+{
+    const int n = --s->n;
+
+    s->d = s->b[n];
+    for (int j = 0; j < n; j++)
+        s->c[j] = s->a[n * s->stride + j];
+}
+
+static double complex *reduced_roots(const Wider *s)
+{
+    const int n = s->n;
+    double complex *value = mem_array((size_t)n, sizeof *value);
+    Wide *a = NEW_ARRAY(Wide, n * n);
+    WideComplex *t = NEW_ARRAY(WideComplex, n * n);
+    double *size = NEW_ARRAY(double, n *n), *scale = NEW_ARRAY(double, n);
+
+    for (int i = 0; i < n; i++) {
+        const Wide factor = wide_div(s->b[i], s->d);
+
+        for (int j = 0; j < n; j++) {
+            Wide *entry = &a[i * n + j];
+
+            *entry = wide_sub(s->a[i * s->stride + j], wide_mul(factor, s->c[j]));
+            size[i * n + j] = fabs(entry->high);
+            *entry = wide_add(*entry, wide_product(entry->high, UNIT * disturbance(i, j)));
+        }
+    }
+    balance(size, n, scale);
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < n; j++)
+            a[i * n + j] = wide_times(a[i * n + j], scale[i] / scale[j]);
+    if (schur(a, n, t, NULL)) {
+        for (int i = 0; i < n; i++)
+            value[i] = wide_to(t[i * n + i]);
+    } else {
+        mem_free(value);
+        value = NULL;
+    }
+    mem_free(a);
+    mem_free(t);
+    mem_free(size);
+    mem_free(scale);
+    return value;
+}
+
+/* --- errors --- */
+
+/* H at a place, with what its vectors tell */
+typedef struct Trial {
+    const Single *s;
+    const Wider *wide;
+    Resolvent *resolvent;
+    WideComplex *x, *y; /* (z - A)^-1 b, (z - A)^-T c */
+    double complex value, slope;
+    double error; /* of the value */
+    double least; /* what counts as a size beside 0: the least pole's that isn't 0 */
+} Trial;
+
+static double least_error(double value, double error)
+{
+    return fmax(error, UNIT * fabs(value));
+}
+
+/* |dH|: |y|^T |dA| |x| + |y|^T |db| + |dc| |x| + |dd| */
+static double value_error(const Single *s, const WideComplex *x, const WideComplex *y)
+{
+    const int n = s->n;
+    double sum = least_error(s->d, s->d_error);
+
+    for (int i = 0; i < n; i++) {
+        double size = least_error(s->b[i], s->b_error[i]);
+
+        for (int j = 0; j < n; j++)
+            size += least_error(s->a[i * n + j], s->a_error[i * n + j]) * cabs(wide_to(x[j]));
+        sum +=
+            cabs(wide_to(y[i])) * size + least_error(s->c[i], s->c_error[i]) * cabs(wide_to(x[i]));
+    }
+    return sum;
+}
+
+/* what the method rounds, which has the scaled matrices as a whole before it */
+static double method_error(const Single *s, const WideComplex *x, const WideComplex *y)
+{
+    const int n = s->n;
+    double norm = fabs(s->d), right = 1, left = 1;
+
+    for (int i = 0; i < n; i++) {
+        norm = fmax(norm, fmax(fabs(s->b[i]), fabs(s->c[i])));
+        for (int j = 0; j < n; j++)
+            norm = fmax(norm, fabs(s->a[i * n + j]));
+        right += cabs(wide_to(x[i]));
+        left += cabs(wide_to(y[i]));
+    }
+    return n * WIDE_UNIT * norm * right * left;
+}
+
+static void go_to(Trial *at, double complex z)
+{
+    WideComplex value = wide_real(at->wide->d), slope = wide_real(wide_of(0));
+
+    (void)resolvent_at(at->resolvent, wide_from(z));
+    resolvent_right(at->resolvent, at->wide->b, at->x);
+    resolvent_left(at->resolvent, at->wide->c, at->y);
+    for (int i = 0; i < at->s->n; i++) {
+        value = wide_cadd(value, wide_ctimes(at->x[i], at->wide->c[i]));
+        slope = wide_csub(slope, wide_cmul(at->y[i], at->x[i]));
+    }
+    at->value = wide_to(value);
+    at->slope = wide_to(slope);
+    at->error = value_error(at->s, at->x, at->y);
+}
+
+/* Where doubles don't hold how equal ones split: in a circle, of their size or the least pole's. */
+static double complex split_of(const double complex *first, int count, int k, double least)
+{
+    const double size = fmax(cabs(first[k]), least);
+    int equal = 0, before = 0;
+    double angle;
+
+    for (int i = 0; i < count; i++)
+        if (cabs(first[i] - first[k]) <= SPLIT * SPLIT * size) {
+            equal++;
+            before += i < k;
+        }
+    angle = 2 * M_PI * before / equal;
+    return equal > 1 ? SPLIT * size * cexp(I * (cimag(first[k]) < 0 ? -angle : angle)) : 0;
+}
+
+/* Newton's method where others are far; how far it is off then */
+static double improve(Trial *at, const double complex *first, double complex *value, int count,
+                      int k)
+{
+    double nearest = INFINITY, noise, error;
+
+    for (int i = 0; i < count; i++)
+        if (i != k)
+            nearest = fmin(nearest, cabs(first[i] - first[k]));
+    value[k] += split_of(first, count, k, at->least);
+    go_to(at, value[k]);
+    for (int step = 0; step < MOST_STEPS; step++) {
+        const double complex by = at->value / at->slope;
+
+        if (!(cabs(by) <= ALONE * nearest) || cabs(at->value) <= NEAR * at->error)
+            break;
+        value[k] -= cimag(value[k]) == 0 ? creal(by) : by;
+        go_to(at, value[k]);
+    }
+    if (at->slope == 0)
+        return INFINITY;
+    noise = method_error(at->s, at->x, at->y) / cabs(at->slope);
+    error = at->error / cabs(at->slope);
+    value[k] = root_with_noise(value[k], noise, &error);
+    return error > 0 ? error + cabs(at->value / at->slope) : 0;
+}
+
+typedef struct Split {
+    const double complex *value;
+    const double *error;
+} Split;
+
+static double group_error(void *context, const int *members, int count, double complex mean)
+{
+    const Split *split = context;
+    double largest = 0;
+
+    for (int k = 0; k < count; k++) {
+        const double off = cabs(split->value[members[k]] - mean);
+
+        largest =
+            fmax(largest, pow(count * split->error[members[k]] * pow(off, count - 1), 1.0 / count));
+    }
+    return largest;
+}
+
+static void bound_zeros(const Single *s, const Wider *wide, double least, double complex *value,
+                        int count, Root *zero)
+{
+    Trial at = {.s = s,
+                .wide = wide,
+                .least = least,
+                .resolvent = resolvent_new(wide->a, s->n),
+                .x = NEW_ARRAY(WideComplex, s->n),
+                .y = NEW_ARRAY(WideComplex, s->n)};
+    double complex *first = mem_array((size_t)count, sizeof *first);
+    double *error = NEW_ARRAY(double, count);
+    Split split = {value, error};
+
+    memcpy(first, value, (size_t)count * sizeof *first);
+    for (int k = 0; k < count; k++)
+        error[k] = improve(&at, first, value, count, k);
+    roots_join(value, error, count, group_error, &split, zero);
+    resolvent_free(at.resolvent);
+    mem_free(at.x);
+    mem_free(at.y);
+    mem_free(first);
+    mem_free(error);
+}
+
+/* --- zeros --- */
+
+static Wider wider_new(int n)
+{
+    return (Wider){n, n, NEW_ARRAY(Wide, n * n), NEW_ARRAY(Wide, n), NEW_ARRAY(Wide, n), {0, 0}};
+}
+
+static void wider_free(Wider *wider)
+{
+    mem_free(wider->a);
+    mem_free(wider->b);
+    mem_free(wider->c);
+}
+
+static void widen(const Single *s, Wider *out)
+{
+    for (int i = 0; i < s->n; i++) {
+        out->b[i] = wide_of(s->b[i]);
+        out->c[i] = wide_of(s->c[i]);
+        for (int j = 0; j < s->n; j++)
+            out->a[i * s->n + j] = wide_of(s->a[i * s->n + j]);
+    }
+    out->d = wide_of(s->d);
+}
+
+static double least_of(const Root *root, int count)
+{
+    double least = 0;
+
+    for (int i = 0; i < count; i++) {
+        const double size = hypot(root[i].real, root[i].imaginary);
+
+        least = size > 0 && (least == 0 || size < least) ? size : least;
+    }
+    return least > 0 ? least : 1;
+}
+
+bool zeros_find(const Single *single, const Root *pole, Root *zero, int *count, double *gain)
+{
+    const int n = single->n, degree = find_gain(single, gain);
+    Wider whole = wider_new(n), left = wider_new(n);
+    double complex *value = NULL;
+    bool sound = isfinite(*gain);
+
+    *count = sound && *gain != 0 ? n - degree : 0;
+    if (*count > 0) {
+        widen(single, &whole);
+        widen(single, &left);
+        for (int k = 0; k < degree; k++) {
+            turn_output(&left);
+            drop_last(&left);
+        }
+        value = reduced_roots(&left);
+        sound = value != NULL;
+    }
+    if (sound && *count > 0)
+        bound_zeros(single, &whole, least_of(pole, n), value, *count, zero);
+    wider_free(&whole);
+    wider_free(&left);
+    mem_free(value);
+    return sound;
+}

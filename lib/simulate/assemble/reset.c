@@ -1,0 +1,482 @@
+/* reset.c: new values for some variables, then the constraints again */
+#include "simulate/assemble/reset.h"
+
+#include "algebra/kkt.h"
+#include "algebra/least.h"
+#include "algebra/linear.h"
+#include "base/memory.h"
+
+#include <math.h>
+#include <string.h>
+
+#define TOLERANCE 1e-11 /* of what is set and of the constraints, as assembly has it */
+#define SWEEPS    3     /* of a problem that is linear but for rounding */
+#define KEEPING   10    /* of charges and fluxes */
+
+typedef enum Level { LEVEL_POSITION, LEVEL_VELOCITY, LEVEL_STATE, LEVEL_COUNT } Level;
+
+typedef struct Target {
+    Expr expr;
+    Level level;
+    int place;    /* unknown that it is, alone; -1 */
+    int column;   /* unknown that is held with it; -1: it is an equation */
+    int turned;   /* angle of turns that it is; -1 */
+    int gradient; /* root of its first derivative */
+} Target;
+
+struct Reset {
+    ResetPlan plan;
+    LIST(Target) targets;
+    Storage *storages; /* whose charge or flux stays */
+    int storage_count;
+    int stored;   /* root of the first charge or flux; their derivatives follow all of them */
+    Probe *probe; /* the targets, kinetic and potential energy, derivatives of the targets */
+    /* of the call under way */
+    double t;
+    const double *values;
+    double *y;
+    Level level;
+};
+
+Reset *reset_new(const ResetPlan *plan)
+{
+    Reset *reset = NEW(Reset);
+
+    reset->plan = *plan;
+    return reset;
+}
+
+void reset_free(Reset *reset)
+{
+    if (reset == NULL)
+        return;
+    LIST_FREE(reset->targets);
+    mem_free(reset->storages);
+    probe_free(reset->probe);
+    mem_free(reset);
+}
+
+/* --- what can be set --- */
+
+static int level_first(const Layout *l, Level level)
+{
+    return level == LEVEL_POSITION ? l->q : level == LEVEL_VELOCITY ? l->u : l->x;
+}
+
+static int level_count(const Layout *l, Level level)
+{
+    return level == LEVEL_POSITION ? l->n : level == LEVEL_VELOCITY ? l->nu : l->nx;
+}
+
+/* Positions are corrected in speeds: by that of a coordinate which has one of its own. */
+static int column_of(const Reset *reset, const Target *target)
+{
+    const Layout *l = reset->plan.layout;
+    Expr rate;
+
+    if (target->place < 0 || target->level != LEVEL_POSITION || reset->plan.equations->map == NULL)
+        return target->place;
+    rate = system_q_rate(l->system, target->place);
+    for (int j = 0; j < l->nu; j++)
+        if (l->symbols[l->u + j] == rate)
+            return j;
+    return -1;
+}
+
+static Status classify(const Reset *reset, Target *target, const char *name, int primes, Diag *diag)
+{
+    const unsigned known = 1U << SYMBOL_TIME | 1U << SYMBOL_PARAMETER | 1U << SYMBOL_COORDINATE |
+                           1U << SYMBOL_SPEED | 1U << SYMBOL_STATE | 1U << SYMBOL_TURN;
+    const unsigned kinds = expr_kinds(target->expr);
+    const Layout *l = reset->plan.layout;
+
+    if ((kinds & ~known) != 0 ||
+        (kinds & (1U << SYMBOL_COORDINATE | 1U << SYMBOL_SPEED | 1U << SYMBOL_STATE)) == 0) {
+        (void)diag_set(diag, E_VALUE, "%s%.*s follows from the rest and can't be set", name, primes,
+                       "''''");
+        diag_hint(diag, "coordinates and their rates can, and voltages and currents of storage "
+                        "elements that are states");
+        return E_VALUE;
+    }
+    target->level = (kinds & 1U << SYMBOL_STATE) != 0   ? LEVEL_STATE
+                    : (kinds & 1U << SYMBOL_SPEED) != 0 ? LEVEL_VELOCITY
+                                                        : LEVEL_POSITION;
+    target->place = -1;
+    for (int i = 0; i < level_count(l, target->level); i++)
+        if (l->symbols[level_first(l, target->level) + i] == target->expr)
+            target->place = i;
+    target->column = column_of(reset, target);
+    target->turned = -1;
+    for (int k = 0; k < l->turned; k++)
+        if (system_turned(l->system, k)->angle == target->expr)
+            target->turned = k;
+    return OK;
+}
+
+Status reset_add(Reset *reset, const char *name, int primes, Diag *diag)
+{
+    Target target = {0};
+    Status status = OK;
+
+    CHECK(system_variable(reset->plan.layout->system, name, primes, &target.expr, diag));
+    CHECK(classify(reset, &target, name, primes, diag));
+    LIST_PUSH(reset->targets, target);
+done:
+    return status;
+}
+
+Status reset_compile(Reset *reset, Diag *diag)
+{
+    const Layout *l = reset->plan.layout;
+    Arena *arena = system_arena(l->system);
+    LIST(Expr) roots = {0};
+    Status status;
+
+    for (int k = 0; k < reset->targets.count; k++)
+        LIST_PUSH(roots, reset->targets.at[k].expr);
+    LIST_PUSH(roots, system_kinetic(l->system));
+    LIST_PUSH(roots, system_potential(l->system));
+    for (int k = 0; k < reset->targets.count; k++) {
+        Target *target = &reset->targets.at[k];
+
+        target->gradient = roots.count;
+        for (int i = 0; i < level_count(l, target->level); i++)
+            LIST_PUSH(roots, expr_diff(arena, target->expr,
+                                       l->symbols[level_first(l, target->level) + i]));
+    }
+    reset->storage_count = system_storages(l->system, &reset->storages);
+    reset->stored = roots.count;
+    for (int k = 0; k < reset->storage_count; k++)
+        LIST_PUSH(roots, reset->storages[k].content);
+    for (int k = 0; k < reset->storage_count; k++)
+        for (int i = 0; i < reset->storage_count; i++)
+            LIST_PUSH(roots, expr_diff(arena, reset->storages[k].content,
+                                       l->symbols[l->x + reset->storages[i].state]));
+    status = probe_new(l, reset->plan.parameters, roots.at, roots.count, &reset->probe, diag);
+    LIST_FREE(roots);
+    return status;
+}
+
+/* --- evaluation --- */
+
+static const double *probe_here(const Reset *reset)
+{
+    const RowValues row = row_of_state(reset->plan.layout, reset->t, reset->y);
+
+    return probe_values(reset->probe, &row);
+}
+
+static double energy(const Reset *reset)
+{
+    const double *values = probe_here(reset) + reset->targets.count;
+
+    return values[0] + values[1];
+}
+
+static bool is_chosen(const Reset *reset, int k, Level level)
+{
+    return reset->targets.at[k].level == level && !isnan(reset->values[k]);
+}
+
+/* put the unknowns in place that are set by themselves; how many equations are left */
+static int put_direct(Reset *reset, Level level, bool *held)
+{
+    const Layout *l = reset->plan.layout;
+    double *first = reset->y + (level_first(l, level) - l->q);
+    int equations = 0;
+
+    for (int k = 0; k < reset->targets.count; k++) {
+        const Target *target = &reset->targets.at[k];
+
+        if (!is_chosen(reset, k, level))
+            continue;
+        if (target->place >= 0)
+            first[target->place] = reset->values[k];
+        if (target->column >= 0)
+            held[target->column] = true;
+        else
+            equations++;
+    }
+    return equations;
+}
+
+/* residuals and derivatives of the chosen equations of the level, by its own unknowns */
+static void equations_at(const Reset *reset, Level level, bool with_direct, double *residual,
+                         double *jacobian, int columns)
+{
+    const Equations *eq = reset->plan.equations;
+    const double *values = probe_here(reset);
+    int at = 0;
+
+    for (int k = 0; k < reset->targets.count; k++) {
+        const Target *target = &reset->targets.at[k];
+        const double *gradient = values + target->gradient;
+
+        if (!is_chosen(reset, k, level) || (!with_direct && target->column >= 0))
+            continue;
+        residual[at] = values[k] - reset->values[k];
+        for (int j = 0; jacobian != NULL && j < columns; j++) {
+            double sum = level != LEVEL_POSITION || eq->map == NULL ? gradient[j] : 0;
+
+            for (int i = 0; level == LEVEL_POSITION && eq->map != NULL && i < eq->n; i++)
+                sum += gradient[i] * eq->map[i * eq->nu + j];
+            jacobian[at * columns + j] = sum;
+        }
+        at++;
+    }
+}
+
+/* --- positions and states: least squares --- */
+
+static void evaluate_position(void *context, const double *v, double *residual, double *jacobian)
+{
+    const Reset *reset = context;
+    const Equations *eq = reset->plan.equations;
+
+    memcpy(reset->y, v, (size_t)eq->n * sizeof(double));
+    eq->position(eq->context, reset->t, v);
+    memcpy(residual, eq->phi, (size_t)eq->m * sizeof(double));
+    if (jacobian != NULL)
+        memcpy(jacobian, eq->phi_u, (size_t)(eq->m * eq->nu) * sizeof(double));
+    equations_at(reset, LEVEL_POSITION, false, residual + eq->m,
+                 jacobian != NULL ? jacobian + eq->m * eq->nu : NULL, eq->nu);
+}
+
+static void move_position(void *context, double *v, const double *step)
+{
+    const Reset *reset = context;
+    const Equations *eq = reset->plan.equations;
+
+    for (int i = 0; i < eq->n; i++) {
+        v[i] += eq->map == NULL ? step[i] : 0;
+        for (int j = 0; eq->map != NULL && j < eq->nu; j++)
+            v[i] += eq->map[i * eq->nu + j] * step[j];
+    }
+    equations_normalise(eq, v);
+}
+
+static void evaluate_state(void *context, const double *v, double *residual, double *jacobian)
+{
+    const Reset *reset = context;
+    const Equations *eq = reset->plan.equations;
+
+    memcpy(reset->y + eq->n + eq->nu, v, (size_t)eq->nx * sizeof(double));
+    equations_at(reset, LEVEL_STATE, false, residual, jacobian, eq->nx);
+}
+
+static bool any_chosen(const Reset *reset, Level level)
+{
+    for (int k = 0; k < reset->targets.count; k++)
+        if (is_chosen(reset, k, level))
+            return true;
+    return false;
+}
+
+static bool solve_least_squares(Reset *reset, Level level)
+{
+    const Equations *eq = reset->plan.equations;
+    bool is_position = level == LEVEL_POSITION;
+    int columns = is_position ? eq->nu : eq->nx;
+    bool *held = NEW_ARRAY(bool, columns);
+    Rows rows = {.columns = columns,
+                 .length = is_position ? eq->n : eq->nx,
+                 .context = reset,
+                 .evaluate = is_position ? evaluate_position : evaluate_state,
+                 .move = is_position ? move_position : NULL};
+    double *first = reset->y + (is_position ? 0 : eq->n + eq->nu);
+    double *v = NEW_ARRAY(double, rows.length);
+    bool met = true;
+
+    rows.rows = put_direct(reset, level, held) + (is_position ? eq->m : 0);
+    if (is_position)
+        equations_normalise(eq, first);
+    memcpy(v, first, (size_t)rows.length * sizeof(double));
+    if (rows.rows > 0)
+        met = least_solve(&rows, held, NULL, TOLERANCE, v, NULL);
+    memcpy(first, v, (size_t)rows.length * sizeof(double));
+    mem_free(held);
+    mem_free(v);
+    return met;
+}
+
+/* --- speeds: the least change in the mass metric --- */
+
+/* A du = r with A the constraint rows and what is set; r is what is missed. */
+static void velocity_rows(const Reset *reset, double *matrix, double *missing)
+{
+    const Equations *eq = reset->plan.equations;
+    const double *u = reset->y + eq->n;
+
+    eq->velocity(eq->context, u, u + eq->nu);
+    memcpy(matrix, eq->phi_u, (size_t)(eq->m * eq->nu) * sizeof(double));
+    for (int k = 0; k < eq->m; k++) {
+        missing[k] = -eq->nu_rate[k];
+        for (int j = 0; j < eq->nu; j++)
+            missing[k] += eq->phi_u[k * eq->nu + j] * u[j];
+    }
+    equations_at(reset, LEVEL_VELOCITY, true, missing + eq->m, matrix + eq->m * eq->nu, eq->nu);
+}
+
+static bool velocity_sweep(const Reset *reset, Kkt *kkt, const double *matrix, const int *rows,
+                           int count, const double *missing)
+{
+    const Equations *eq = reset->plan.equations;
+    double *bottom = NEW_ARRAY(double, count);
+    double *lambda = NEW_ARRAY(double, count);
+    double *du = NEW_ARRAY(double, eq->nu);
+    bool sound = kkt_factor(kkt, eq->mass, matrix, rows);
+
+    for (int k = 0; k < count; k++)
+        bottom[k] = -missing[rows[k]];
+    if (sound) {
+        kkt_solve(kkt, NULL, bottom, du, lambda);
+        for (int j = 0; j < eq->nu; j++)
+            reset->y[eq->n + j] += du[j];
+    }
+    mem_free(bottom);
+    mem_free(lambda);
+    mem_free(du);
+    return sound;
+}
+
+static bool is_met(const Reset *reset, const double *missing, int count)
+{
+    const Equations *eq = reset->plan.equations;
+    double size = 1;
+
+    for (int j = 0; j < eq->nu; j++)
+        size = fmax(size, fabs(reset->y[eq->n + j]));
+    for (int k = 0; k < count; k++)
+        if (!(fabs(missing[k]) <= 100 * TOLERANCE * size))
+            return false;
+    return true;
+}
+
+static bool solve_speeds(Reset *reset)
+{
+    const Equations *eq = reset->plan.equations;
+    int room = eq->m + reset->targets.count;
+    double *matrix = NEW_ARRAY(double, room * eq->nu);
+    double *missing = NEW_ARRAY(double, room);
+    int *rows = NEW_ARRAY(int, room);
+    bool *held = NEW_ARRAY(bool, eq->nu);
+    int count = reset->plan.row_count;
+    int all = eq->m;
+    bool sound = true;
+    Kkt *kkt;
+
+    (void)put_direct(reset, LEVEL_VELOCITY, held);
+    for (int k = 0; k < count; k++)
+        rows[k] = reset->plan.rows[k];
+    for (int k = 0; k < reset->targets.count; k++)
+        if (is_chosen(reset, k, LEVEL_VELOCITY))
+            rows[count++] = all++;
+    kkt = kkt_new(eq->nu, count, room);
+    eq->position(eq->context, reset->t, reset->y);
+    for (int sweep = 0; sweep <= SWEEPS && sound; sweep++) {
+        velocity_rows(reset, matrix, missing);
+        if (is_met(reset, missing, all) || sweep == SWEEPS)
+            break;
+        sound = velocity_sweep(reset, kkt, matrix, rows, count, missing);
+    }
+    sound = sound && is_met(reset, missing, all);
+    kkt_free(kkt);
+    mem_free(matrix);
+    mem_free(missing);
+    mem_free(rows);
+    mem_free(held);
+    return sound;
+}
+
+/* --- charges and fluxes --- */
+
+static bool is_set(const Reset *reset, int state)
+{
+    for (int k = 0; k < reset->targets.count; k++)
+        if (is_chosen(reset, k, LEVEL_STATE) && reset->targets.at[k].place == state)
+            return true;
+    return false;
+}
+
+/* What moves changes voltages and currents, and leaves charges and fluxes as they were, but for
+ * those that were given: Newton's method. */
+static bool keep_stored(const Reset *reset, const double *before)
+{
+    int n = reset->storage_count;
+    double *x = reset->y + reset->plan.equations->n + reset->plan.equations->nu;
+    double *missed = NEW_ARRAY(double, n);
+    Lu *lu = lu_new(n);
+    bool met = n == 0;
+
+    for (int sweep = 0; sweep < KEEPING && !met; sweep++) {
+        const double *values = probe_here(reset) + reset->stored;
+
+        met = true;
+        for (int k = 0; k < n; k++) {
+            bool set = is_set(reset, reset->storages[k].state);
+
+            missed[k] = set ? 0 : before[k] - values[k];
+            met = met && fabs(missed[k]) <= 1e-15 * fabs(before[k]);
+            for (int i = 0; i < n; i++)
+                lu_matrix(lu)[k * n + i] = set ? k == i : values[n + k * n + i];
+        }
+        if (met || !lu_factor(lu))
+            break;
+        lu_solve(lu, missed);
+        for (int k = 0; k < n; k++)
+            x[reset->storages[k].state] += missed[k];
+        met = sweep == KEEPING - 1;
+    }
+    lu_free(lu);
+    mem_free(missed);
+    return met && vector_is_finite(x, reset->plan.equations->nx);
+}
+
+/* angles are looked for in the turn that is asked for */
+static void begin_turns(const Reset *reset)
+{
+    double *near = reset->y + layout_turned(reset->plan.layout);
+
+    for (int k = 0; k < reset->targets.count; k++)
+        if (reset->targets.at[k].turned >= 0 && is_chosen(reset, k, LEVEL_POSITION))
+            near[reset->targets.at[k].turned] = reset->values[k];
+}
+
+bool reset_apply(Reset *reset, double t, const double *values, double *y)
+{
+    const Equations *eq = reset->plan.equations;
+    int turned = layout_turned(reset->plan.layout);
+    int length = turned + eq->turned_count + 1;
+    double *stored = NEW_ARRAY(double, reset->storage_count);
+    double before;
+    double after;
+    bool met = true;
+
+    reset->t = t;
+    reset->values = values;
+    reset->y = NEW_ARRAY(double, length);
+    memcpy(reset->y, y, (size_t)length * sizeof(double));
+    before = energy(reset);
+    if (reset->storage_count > 0)
+        memcpy(stored, probe_here(reset) + reset->stored,
+               (size_t)reset->storage_count * sizeof(double));
+    begin_turns(reset);
+    if (any_chosen(reset, LEVEL_POSITION))
+        met = solve_least_squares(reset, LEVEL_POSITION);
+    if (met && any_chosen(reset, LEVEL_STATE))
+        met = solve_least_squares(reset, LEVEL_STATE);
+    met = met && keep_stored(reset, stored);
+    if (met && (any_chosen(reset, LEVEL_POSITION) || any_chosen(reset, LEVEL_VELOCITY)))
+        met = solve_speeds(reset);
+    if (met) {
+        equations_turn(eq, t, reset->y, reset->y + turned);
+        after = energy(reset);
+        if (isfinite(after - before))
+            reset->y[length - 1] += after - before;
+        memcpy(y, reset->y, (size_t)length * sizeof(double));
+    }
+    mem_free(stored);
+    mem_free(reset->y);
+    reset->y = NULL;
+    return met;
+}

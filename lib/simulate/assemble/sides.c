@@ -1,0 +1,575 @@
+/* sides.c: sides of ideal switches behind an instant */
+#include "simulate/assemble/sides.h"
+
+#include "algebra/linear.h"
+#include "base/memory.h"
+#include "base/text.h"
+#include "simulate/equations/netsolve.h"
+
+#include <math.h>
+#include <string.h>
+
+#define OPEN_LEAK   1e-13 /* S: shares voltages that nothing else tells; too small to be seen, */
+#define CLOSED_LEAK 1e-9  /* ohm: likewise currents; and large enough against rounding */
+#define NOISE       1e-12 /* of the largest current or voltage: too small to tell a side from, */
+#define MOST_NOISE  1e-8  /* or where that leads in circles, up to this */
+#define ROUNDING    1e-15 /* of the largest voltage, in that of a closed one with a resistance */
+#define FORGET      0.5  /* of the largest current or voltage from instant to instant: surges end */
+#define IMPULSE     1e-3 /* of the largest: more than leaks and what is no impulse */
+#define SHORTEST    1e-7 /* of the step, to see impulses by */
+#define HALVED      0.2  /* of the largest, that its change with the step has to be */
+#define ROUNDS      8    /* in which conditions and diodes may set each other off */
+
+typedef enum When { ALWAYS, OPEN, CLOSED } When;
+
+/* an entry of the matrix: root of the probe, in force on one side of an ideal switch */
+typedef struct Term {
+    int place; /* in the pattern */
+    int root;
+    int ideal;
+    When when;
+    bool by_state; /* times h: x = x0 + h x' */
+} Term;
+
+/* an equation, or one side of it */
+typedef struct Row {
+    int root;
+    int row;
+    int ideal;
+    When when;
+} Row;
+
+enum { THROUGH, ACROSS, WHEN, ON, LOOKS }; /* at each switch */
+
+struct Sides {
+    Layout *l;    /* of the system in which sides are open or numbers */
+    int n, count; /* unknowns [x'; z]; switches */
+    LIST(Row) rows;
+    LIST(Term) terms;
+    LIST(int) pattern_row;
+    LIST(int) pattern_column;
+    Equations eq; /* for the solver */
+    double *network, *residual, *rhs, *zeros;
+    bool is_linear;
+    NetSolve *solve;
+    Probe *equations; /* roots of rows and terms */
+    Probe *looks;     /* LOOKS at each; then through and across of all edges */
+    bool *has_when;
+    int edges;
+    Domain *domain;      /* of each, then of all edges */
+    const char **source; /* of each edge across and through: the part that gives it; NULL: none */
+    const SidesAt *at;
+    double step;
+    double noise; /* of the largest current or voltage */
+    bool *closed;
+    double *x;                       /* behind the step */
+    double *through, *across;        /* behind where its sides meet, */
+    double *on;                      /* and its resistance when it is closed */
+    double largest[DOMAIN_COUNT][2]; /* across and through variable of any edge, by domain, */
+    double known[DOMAIN_COUNT][2];   /* and what they have been lately */
+};
+
+/* --- equations --- */
+
+static RowValues row_values(const Sides *s, const double *w)
+{
+    return (RowValues){.t = s->at->t + s->step,
+                       .near = s->at->near,
+                       .q = s->at->q,
+                       .u = s->at->u,
+                       .x = s->x,
+                       .rates = w,
+                       .z = w + s->l->nx,
+                       .acceleration = s->at->acceleration,
+                       .multipliers = s->at->multipliers};
+}
+
+static bool is_in_force(const Sides *s, int ideal, When when)
+{
+    return when == ALWAYS || s->closed[ideal] == (when == CLOSED);
+}
+
+static void take_step(Sides *s, const double *w)
+{
+    for (int i = 0; i < s->l->nx; i++)
+        s->x[i] = s->at->x[i] + s->step * w[i];
+}
+
+static void network_at(void *context, const double *w)
+{
+    Sides *s = context;
+    RowValues row;
+    const double *values;
+
+    take_step(s, w);
+    row = row_values(s, w);
+    values = probe_values(s->equations, &row);
+    memset(s->network, 0, (size_t)s->pattern_row.count * sizeof(double));
+    for (int k = 0; k < s->rows.count; k++)
+        if (is_in_force(s, s->rows.at[k].ideal, s->rows.at[k].when))
+            s->residual[s->rows.at[k].row] = values[s->rows.at[k].root];
+    for (int k = 0; k < s->terms.count; k++) {
+        const Term *term = &s->terms.at[k];
+
+        if (is_in_force(s, term->ideal, term->when))
+            s->network[term->place] += (term->by_state ? s->step : 1) * values[term->root];
+    }
+}
+
+/* a linear network is solved at once: A w = r, r = -G at w = 0 */
+static void bring_linear(Sides *s)
+{
+    network_at(s, s->zeros);
+    for (int i = 0; i < s->n; i++)
+        s->rhs[i] = -s->residual[i];
+}
+
+/* --- making --- */
+
+typedef struct Roots {
+    LIST(Expr) at;
+    int *column; /* by expr_symbol_number(): 1 + place in [x'; z], of x, x' and z; 0: none */
+    int symbols;
+} Roots;
+
+static void number_columns(const Sides *s, Roots *roots)
+{
+    const Layout *l = s->l;
+    const int parts[][3] = {{l->x, l->nx, 0}, {l->rates, l->nx, 0}, {l->z, l->nz, l->nx}};
+
+    for (int i = 0; i < l->count; i++)
+        if (expr_symbol_number(l->symbols[i]) >= roots->symbols)
+            roots->symbols = expr_symbol_number(l->symbols[i]) + 1;
+    roots->column = NEW_ARRAY(int, roots->symbols);
+    for (int p = 0; p < COUNT(parts); p++)
+        for (int i = 0; i < parts[p][1]; i++)
+            roots->column[expr_symbol_number(l->symbols[parts[p][0] + i])] = 1 + parts[p][2] + i;
+}
+
+static int find_place(Sides *s, int row, int column, int first)
+{
+    for (int k = first; k < s->pattern_row.count; k++)
+        if (s->pattern_row.at[k] == row && s->pattern_column.at[k] == column)
+            return k;
+    LIST_PUSH(s->pattern_row, row);
+    LIST_PUSH(s->pattern_column, column);
+    return s->pattern_row.count - 1;
+}
+
+/* One row, or one side of it. Entries of a row stand together from `first` on. */
+static void add_row(Sides *s, Roots *roots, int row, Expr residual, int ideal, When when, int first)
+{
+    const unsigned unknowns = 1U << SYMBOL_STATE | 1U << SYMBOL_STATE_RATE | 1U << SYMBOL_ALGEBRAIC;
+    Expr *symbols;
+    int count = expr_symbols(&residual, 1, &symbols);
+
+    LIST_PUSH(s->rows, (Row){.root = roots->at.count, .row = row, .ideal = ideal, .when = when});
+    LIST_PUSH(roots->at, residual);
+    for (int i = 0; i < count; i++) {
+        int number = expr_symbol_number(symbols[i]);
+        int column = number < roots->symbols ? roots->column[number] - 1 : -1;
+        Expr slope;
+
+        if (column < 0)
+            continue;
+        slope = expr_diff(system_arena(s->l->system), residual, symbols[i]);
+        if (expr_is_zero(slope))
+            continue;
+        s->is_linear = s->is_linear && (expr_kinds(slope) & unknowns) == 0;
+        LIST_PUSH(s->terms, (Term){.place = find_place(s, row, column, first),
+                                   .root = roots->at.count,
+                                   .ideal = ideal,
+                                   .when = when,
+                                   .by_state = expr_symbol_kind(symbols[i]) == SYMBOL_STATE});
+        LIST_PUSH(roots->at, slope);
+    }
+    mem_free(symbols);
+}
+
+/* closed: v - least = on i; open: i = v/off, or 0; and a leak beside each */
+static void add_sides(Sides *s, Roots *roots, int k, const IdealSwitch *ideal)
+{
+    Arena *arena = system_arena(s->l->system);
+    Expr v = expr_add(arena, ideal->across, ideal->least);
+    Expr closed = expr_sub(
+        arena, ideal->across,
+        expr_mul(arena, expr_add(arena, ideal->on, expr_real(arena, CLOSED_LEAK)), ideal->through));
+    Expr open = ideal->off != NULL
+                    ? expr_sub(arena, v, expr_mul(arena, ideal->off, ideal->through))
+                    : expr_sub(arena, ideal->through,
+                               expr_mul(arena, expr_real(arena, OPEN_LEAK), ideal->across));
+    int first = s->pattern_row.count;
+
+    add_row(s, roots, ideal->row, closed, k, CLOSED, first);
+    add_row(s, roots, ideal->row, open, k, OPEN, first);
+}
+
+static Status refuse_form(const Sides *s, const char *name, Diag *diag)
+{
+    (void)diag_set(diag, E_MODEL, "%s is ideal, and each side of it makes another tree", name);
+    diag_hint(diag, system_network_form(s->l->system) == NETWORK_TREE
+                        ? "'set network state' runs it; the form of the user's tree wants Ron= and "
+                          "Roff="
+                        : "this network has no state form: give it Ron= and Roff=");
+    return E_MODEL;
+}
+
+static Status compile(Sides *s, Parameters *parameters, Diag *diag)
+{
+    const Reading *run = system_run(s->l->system);
+    Arena *arena = system_arena(s->l->system);
+    bool *taken = NEW_ARRAY(bool, s->n);
+    Roots roots = {0};
+    LIST(Expr) looks = {0};
+    ScalarPair edge;
+    const bool of_tree =
+        system_network_form(s->l->system) == NETWORK_TREE && !system_tree_is_normal(s->l->system);
+    Status status = OK;
+
+    number_columns(s, &roots);
+    for (int k = 0; k < s->count; k++) {
+        IdealSwitch ideal;
+
+        CHECK(system_ideal(s->l->system, k, &ideal, diag));
+        if (ideal.closed == NULL && (ideal.row < 0 || of_tree)) {
+            status = refuse_form(s, ideal.name, diag);
+            goto done;
+        }
+        if (ideal.closed == NULL) {
+            taken[ideal.row] = true;
+            add_sides(s, &roots, k, &ideal);
+        }
+        s->has_when[k] = ideal.when != NULL;
+        s->domain[k] = ideal.domain;
+        LIST_PUSH(looks, ideal.through);
+        LIST_PUSH(looks, ideal.across);
+        LIST_PUSH(looks, ideal.when != NULL ? ideal.when : expr_int(arena, 0));
+        LIST_PUSH(looks, ideal.on);
+    }
+    for (int i = 0; i < s->n; i++)
+        if (!taken[i])
+            add_row(s, &roots, i, run->network_residual[i], 0, ALWAYS, s->pattern_row.count);
+    for (int i = 0; i < s->edges; i++) {
+        CHECK(system_scalar(s->l->system, i, &edge, diag));
+        s->domain[s->count + i] = edge.domain;
+        s->source[2 * i] = edge.gives_across ? edge.name : NULL;
+        s->source[2 * i + 1] = edge.gives_through ? edge.name : NULL;
+        LIST_PUSH(looks, edge.across);
+        LIST_PUSH(looks, edge.through);
+    }
+    CHECK(probe_new(s->l, parameters, roots.at.at, roots.at.count, &s->equations, diag));
+    CHECK(probe_new(s->l, parameters, looks.at, looks.count, &s->looks, diag));
+done:
+    LIST_FREE(roots.at);
+    LIST_FREE(looks);
+    mem_free(roots.column);
+    mem_free(taken);
+    return status;
+}
+
+Status sides_new(System *system, Parameters *parameters, Sides **out, Diag *diag)
+{
+    Sides *s = NEW(Sides);
+    Status status = OK;
+
+    s->l = layout_new(system);
+    s->n = s->l->nx + s->l->nz;
+    s->is_linear = true;
+    s->count = system_ideal_count(system);
+    s->has_when = NEW_ARRAY(bool, s->count);
+    s->x = NEW_ARRAY(double, s->l->nx);
+    s->through = NEW_ARRAY(double, s->count);
+    s->across = NEW_ARRAY(double, s->count);
+    s->on = NEW_ARRAY(double, s->count);
+    s->edges = system_scalar_count(system);
+    s->domain = NEW_ARRAY(Domain, s->count + s->edges);
+    s->source = NEW_ARRAY(const char *, 2 * s->edges);
+    CHECK(compile(s, parameters, diag));
+    s->network = NEW_ARRAY(double, s->pattern_row.count);
+    s->residual = NEW_ARRAY(double, s->n);
+    s->rhs = NEW_ARRAY(double, s->n);
+    s->zeros = NEW_ARRAY(double, s->n);
+    s->eq = (Equations){.nx = s->l->nx,
+                        .nz = s->l->nz,
+                        .context = s,
+                        .network_at = s->is_linear ? NULL : network_at,
+                        .network_entries = s->pattern_row.count,
+                        .network_row = s->pattern_row.at,
+                        .network_column = s->pattern_column.at,
+                        .network = s->network,
+                        .network_rhs = s->rhs,
+                        .network_residual = s->residual};
+    s->solve = netsolve_new(&s->eq);
+    *out = s;
+    s = NULL;
+done:
+    sides_free(s);
+    return status;
+}
+
+void sides_free(Sides *s)
+{
+    if (s == NULL)
+        return;
+    netsolve_free(s->solve);
+    probe_free(s->equations);
+    probe_free(s->looks);
+    LIST_FREE(s->rows);
+    LIST_FREE(s->terms);
+    LIST_FREE(s->pattern_row);
+    LIST_FREE(s->pattern_column);
+    mem_free(s->network);
+    mem_free(s->residual);
+    mem_free(s->rhs);
+    mem_free(s->zeros);
+    mem_free(s->has_when);
+    mem_free(s->x);
+    mem_free(s->through);
+    mem_free(s->across);
+    mem_free(s->on);
+    mem_free(s->domain);
+    mem_free(s->source);
+    layout_free(s->l);
+    mem_free(s);
+}
+
+double sides_largest(const Sides *s, Domain domain, bool through)
+{
+    return s->known[domain][through];
+}
+
+/* --- sides --- */
+
+static const char *name_of(const Sides *s, int k)
+{
+    IdealSwitch ideal;
+
+    return system_ideal(s->l->system, k, &ideal, NULL) == OK ? ideal.name : "";
+}
+
+static bool solve(Sides *s)
+{
+    double *w = netsolve_values(s->solve);
+    RowValues row;
+    const double *values;
+
+    layout_take_sides(s->l, s->closed);
+    if (s->is_linear)
+        bring_linear(s);
+    if (!netsolve_find(s->solve))
+        return false;
+    if (s->is_linear && s->n > 0) {
+        network_at(s, w);
+        netsolve_refine(s->solve);
+    }
+    take_step(s, w);
+    row = row_values(s, w);
+    values = probe_values(s->looks, &row);
+    for (int k = 0; k < s->count; k++) {
+        s->through[k] = values[LOOKS * k + THROUGH];
+        s->across[k] = values[LOOKS * k + ACROSS];
+        s->on[k] = values[LOOKS * k + ON];
+    }
+    memset(s->largest, 0, sizeof s->largest);
+    for (int i = 0; i < s->edges; i++)
+        for (int side = 0; side < 2; side++) {
+            double *largest = &s->largest[s->domain[s->count + i]][side];
+
+            *largest = fmax(*largest, fabs(values[LOOKS * s->count + 2 * i + side]));
+        }
+    return true;
+}
+
+static bool is_wrong(const Sides *s, int k)
+{
+    Domain domain = s->domain[k];
+    int side = s->closed[k];
+    double least = s->noise * fmax(s->largest[domain][side], s->known[domain][side]);
+
+    if (s->closed[k] &&
+        s->on[k] > 0) /* the current is a small difference over a small resistance */
+        least = fmax(least, s->noise / NOISE * ROUNDING * s->largest[domain][0] / s->on[k]);
+    return !s->has_when[k] && (s->closed[k] ? s->through[k] < -least : s->across[k] > least);
+}
+
+/* Diodes go over until none is wrong: all that are at a time, and where that goes in circles the
+ * first of them alone, which ends wherever the network is passive. */
+static bool settle_with(Sides *s, int together, int most)
+{
+    for (int turn = 0; turn < most; turn++) {
+        bool right = true;
+
+        if (!solve(s))
+            return false;
+        for (int k = 0; k < s->count && (right || turn < together); k++)
+            if (is_wrong(s, k)) {
+                s->closed[k] = !s->closed[k];
+                right = false;
+            }
+        if (right)
+            return true;
+    }
+    return false;
+}
+
+/* Where circles are so small that rounding may be what makes them, that is taken for nothing. */
+static bool settle_diodes(Sides *s)
+{
+    int together = 2 * s->count + 8;
+    int most = 1 << (s->count < 12 ? s->count : 12);
+
+    for (s->noise = NOISE; s->noise < MOST_NOISE; s->noise *= 10)
+        if (settle_with(s, together, 2 * together))
+            return true;
+    return settle_with(s, together, together + most);
+}
+
+/* Sides of switches with a condition, from states as they go on and what else is known. True: one
+ * of them goes over, *which. */
+static bool follow_conditions(Sides *s, int *which)
+{
+    const double *w = netsolve_values(s->solve);
+    RowValues row = row_values(s, w);
+    const double *values;
+    bool changed = false;
+
+    row.x = s->at->x_behind;
+    values = probe_values(s->looks, &row);
+    for (int k = 0; k < s->count; k++) {
+        bool wanted = values[LOOKS * k + WHEN] != 0;
+
+        if (!s->has_when[k] || s->closed[k] == wanted)
+            continue;
+        s->closed[k] = wanted;
+        *which = k;
+        changed = true;
+    }
+    return changed;
+}
+
+static Status tell_none(const Sides *s, Diag *diag)
+{
+    Text names = {0};
+
+    for (int k = 0; k < s->count && k < 8; k++)
+        text_addf(&names, "%s%s", k > 0 ? ", " : "", name_of(s, k));
+    (void)diag_set(diag, E_SOLVER,
+                   "at t = %.9g s the network has no solution, whichever of %s%s are closed",
+                   s->at->t, names.at, s->count > 8 ? " ..." : "");
+    diag_hint(diag, "give a switch or diode where sources or currents meet it Ron= and Roff=, "
+                    "such as Ron=1 mohm Roff=1 Mohm");
+    text_free(&names);
+    return E_SOLVER;
+}
+
+Status sides_find(Sides *s, const SidesAt *at, bool *closed, Diag *diag)
+{
+    size_t bytes = (size_t)s->count * sizeof(bool);
+    bool *before = NEW_ARRAY(bool, s->count);
+    int which = 0;
+    Status status = OK;
+
+    s->at = at;
+    s->step = at->step;
+    s->closed = closed;
+    memcpy(before, closed, bytes);
+    memset(netsolve_values(s->solve), 0, (size_t)s->l->nx * sizeof(double));
+    for (int round = 0;; round++) {
+        if (!settle_diodes(s)) {
+            status = tell_none(s, diag);
+            goto done;
+        }
+        if (!follow_conditions(s, &which))
+            break;
+        if (round == ROUNDS) {
+            status = diag_set(diag, E_SOLVER,
+                              "at t = %.9g s %s is neither closed nor open: what it does makes its "
+                              "condition say the contrary",
+                              at->t, name_of(s, which));
+            diag_hint(diag, "let the condition read states, or leave a gap between two conditions");
+            goto done;
+        }
+    }
+    for (int i = 0; i < DOMAIN_COUNT; i++)
+        for (int side = 0; side < 2; side++)
+            s->known[i][side] = fmax(FORGET * s->known[i][side], s->largest[i][side]);
+done:
+    if (status != OK)
+        memcpy(closed, before, bytes);
+    mem_free(before);
+    return status;
+}
+
+/* --- impulses --- */
+
+void sides_calm(Sides *s)
+{
+    memset(s->known, 0, sizeof s->known);
+}
+
+bool sides_land(Sides *s, double step, double *x)
+{
+    s->step = step;
+    memset(netsolve_values(s->solve), 0, (size_t)s->l->nx * sizeof(double));
+    if (!solve(s))
+        return false;
+    memcpy(x, s->x, (size_t)s->l->nx * sizeof(double));
+    return true;
+}
+
+/* across and through variables of all edges behind a step */
+static bool edges_behind(Sides *s, double step, double *out)
+{
+    RowValues row;
+
+    s->step = step;
+    memset(netsolve_values(s->solve), 0, (size_t)s->l->nx * sizeof(double));
+    if (!solve(s))
+        return false;
+    row = row_values(s, netsolve_values(s->solve));
+    memcpy(out, probe_values(s->looks, &row) + (ptrdiff_t)LOOKS * s->count,
+           (size_t)(2 * s->edges) * sizeof(double));
+    return true;
+}
+
+/* An impulse is what halves when its step is doubled. False: there is none. */
+static bool find_source(Sides *s, double step, const char **source)
+{
+    double *longer = NEW_ARRAY(double, 2 * s->edges);
+    double *impulse = NEW_ARRAY(double, 2 * s->edges);
+    double largest[DOMAIN_COUNT][2] = {{0}}; /* of changes, and of values */
+    double whole[DOMAIN_COUNT][2] = {{0}};
+    bool found = false;
+    const bool sound = edges_behind(s, step, impulse) && edges_behind(s, 2 * step, longer);
+
+    for (int i = 0; i < 2 * s->edges && sound; i++) {
+        const Domain domain = s->domain[s->count + i / 2];
+
+        whole[domain][i % 2] = fmax(whole[domain][i % 2], fabs(impulse[i]));
+        impulse[i] = fabs(impulse[i] - longer[i]);
+        largest[domain][i % 2] = fmax(largest[domain][i % 2], impulse[i]);
+    }
+    for (int i = 0; i < 2 * s->edges && sound; i++) {
+        const Domain domain = s->domain[s->count + i / 2];
+
+        if (!(largest[domain][i % 2] > HALVED * whole[domain][i % 2]))
+            continue;
+        found = true;
+        if (*source == NULL && impulse[i] > IMPULSE * largest[domain][i % 2])
+            *source = s->source[i % 2 == 0 ? i + 1 : i - 1];
+    }
+    mem_free(longer);
+    mem_free(impulse);
+    return found;
+}
+
+/* by shorter steps too, where what is no impulse may hide it */
+const char *sides_source(Sides *s, double step)
+{
+    const char *source = NULL;
+    double tried = step;
+
+    while (tried > SHORTEST * step && !find_source(s, tried, &source))
+        tried /= 10;
+    return source;
+}

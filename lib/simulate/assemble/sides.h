@@ -1,0 +1,45 @@
+/* sides.h: which ideal switches are closed just behind an instant
+ *
+ * A step of vanishing length by the implicit Euler rule, G((x - x0)/h, z; x, t + h) = 0, in which
+ * each ideal switch is on one of its sides: such that all closed diodes carry a current forwards
+ * and all open ones a voltage backwards, and other switches are as their conditions say. Where x
+ * can't go on steadily it jumps in that step, and the sides are those behind the jump.
+ * Camlibel, Heemels, Schumacher (2002) for networks; the exchange of sides is Murty's (1974). */
+#ifndef COTREE_SIMULATE_ASSEMBLE_SIDES_H
+#define COTREE_SIMULATE_ASSEMBLE_SIDES_H
+
+#include "simulate/equations/numbers.h"
+
+typedef struct Sides Sides;
+
+/* New; free with sides_free(). Borrows all. `system` is that of system_sided(). Fails as
+ * probe_new() and system_ideal() do. */
+MUST_USE Status sides_new(System *system, Parameters *parameters, Sides **out, Diag *diag);
+void sides_free(Sides *sides); /* NULL is fine */
+
+/* the instant; arrays by the layout of the whole */
+typedef struct SidesAt {
+    double t;    /* s */
+    double step; /* h, s: short against all that happens, long against rounding of t */
+    const double *q, *u, *near;               /* at t + h; references of angles */
+    const double *x;                          /* at t */
+    const double *x_behind;                   /* at t + h, where sides stay as they are */
+    const double *acceleration, *multipliers; /* at t + h; NULL: not known, taken for 0 */
+} SidesAt;
+
+/* The sides behind t from those before it, one an ideal switch. Fails with E_SOLVER where there are
+ * none; `closed` is as it was then. */
+MUST_USE Status sides_find(Sides *sides, const SidesAt *at, bool *closed, Diag *diag);
+
+/* Behind a surge: what was largest lately no longer counts. */
+void sides_calm(Sides *sides);
+/* From the instant that sides were looked for last, while that stands, with these sides: the states
+ * behind a step. False: no solution. */
+bool sides_land(Sides *sides, double step, double *x);
+/* the name of a source that would have to give an impulse there; NULL: none */
+const char *sides_source(Sides *sides, double step);
+
+/* the largest across or through variable of a domain's edges lately */
+double sides_largest(const Sides *sides, Domain domain, bool through);
+
+#endif

@@ -1,0 +1,91 @@
+/* skeleton.h: bodies, arms and joints in numbers: where frames stand, and what joints ask of it
+ *
+ * A Link is a mechanical edge. Its coordinates c place the head against the tail: shifts in the
+ * axes of the tail, then turns or Euler parameters, then a constant rotation R_0. It is read the
+ * other way round, too, which knows no trees: a branch and a chord have the same coordinates where
+ * the frames stand alike. Directions count with their sense here, unlike in Phi, which an axis
+ * satisfies that is turned round. R_ab takes components in frame b to those in frame a. */
+#ifndef COTREE_SIMULATE_ASSEMBLE_SKELETON_H
+#define COTREE_SIMULATE_ASSEMBLE_SKELETON_H
+
+#include "formulate/edges.h"
+#include "simulate/equations/numbers.h"
+
+typedef struct Pose { /* of a frame against another */
+    double R[9];      /* row by row */
+    double p[3];      /* m, axes of the other */
+} Pose;
+
+typedef struct LinkStep {
+    double axis[3]; /* unit vector */
+    double scale;   /* of its coordinate; 1 but for a screw's shift */
+    int coordinate;
+} LinkStep;
+
+typedef struct Link {
+    const Instance *instance;
+    int edge, tail, head; /* nodes */
+    bool holds;           /* a joint that isn't virtual: its frames can move in no other way */
+    int shift_count, turn_count;
+    LinkStep shift[3], turn[3];
+    bool has_parameters; /* Euler parameters, in coordinates first_parameter..+3, in place of turns
+                          */
+    int first_parameter;
+    bool is_tied; /* a screw */
+    double constant[3];
+    double R0[9];
+} Link;
+
+typedef struct Skeleton {
+    const System *system;
+    int node_count, datum;
+    int link_count;
+    Link *links;
+    int *link_at; /* number of the link of an edge that has one */
+    Link frame;   /* a frame against the datum: x y z, Euler parameters; in a plane x y, an angle */
+} Skeleton;
+
+/* New; NULL where there is nothing mechanical. */
+Skeleton *skeleton_new(const Layout *layout, Parameters *parameters);
+void skeleton_free(Skeleton *skeleton); /* NULL is fine */
+
+/* Poses of all nodes against the datum along two trees, from coordinates (links x MAX_COORDS). */
+void skeleton_poses(const Skeleton *skeleton, const Tree *rotation, const Tree *translation,
+                    const double *c, Pose *poses);
+void pose_between(const Pose *tail, const Pose *head, Pose *out);
+
+void link_pose(const Link *link, const double *c, Pose *out);
+/* Coordinates of a pose: angles are those nearest to what `c` holds before, Euler parameters of the
+ * two signs those nearer to it. */
+void link_read(const Link *link, const Pose *relative, double *c);
+/* World axis of turn k, the tail's rotation given */
+void link_turn_axis(const Link *link, const double *c, const double *R_tail, int k, double *out);
+/* Move a rotation of Euler parameters or of three turns by a small turn `d` in the axes that it
+ * leads to. */
+void link_turn_by(const Link *link, double *c, const double d[3]);
+void link_attitude(const Link *link, const double *c, double E[9]); /* its turns, without R_0 */
+
+/* What a joint asks of a pose: a residual, 0 where it holds, and its derivatives by a turn and a
+ * shift of the head, both in the axes of the tail. */
+typedef struct LinkRow {
+    double value;
+    double by_turn[3], by_shift[3];
+} LinkRow;
+enum { LINK_ROWS = 4 }; /* at most, of one of the following */
+int link_shift_rows(const Link *link, const Pose *relative, LinkRow *rows);
+int link_turn_rows(const Link *link, const Pose *relative, LinkRow *rows);
+void link_tie_row(const Link *link, const Pose *relative, LinkRow *row); /* of a screw */
+/* of coordinate k being `value`; `near` (MAX_COORDS) chooses among turns and signs */
+void link_value_row(const Link *link, const Pose *relative, const double *near, int k, double value,
+                    LinkRow *row);
+
+/* The first joint whose directions lie the wrong way round, by more than a third of half a turn;
+ * NULL: all agree. */
+const Link *skeleton_reversed(const Skeleton *skeleton, const Pose *poses);
+/* The same at coordinates q of the system, along its trees; NULL for no skeleton. */
+const Link *skeleton_reversed_at(const Skeleton *skeleton, const double *q);
+/* A coordinate of an instance there, of its turns those nearest to `near`. */
+double skeleton_value(const Skeleton *skeleton, const double *q, const Instance *instance, int k,
+                      const double near[MAX_COORDS]);
+
+#endif

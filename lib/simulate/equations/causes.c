@@ -1,0 +1,71 @@
+/* causes.c: frames at the same point, and what has no mass */
+#include "simulate/equations/causes.h"
+
+#include "simulate/equations/rows.h"
+
+#include <math.h>
+
+#define CLOSE 1e-12 /* m: positions are solved to less */
+
+static bool value_at(const Layout *l, Parameters *parameters, Expr e, double t, const double *y,
+                     double *out)
+{
+    const RowValues row = row_of_state(l, t, y);
+    Probe *probe = NULL;
+    Diag ignored = {0};
+
+    if (probe_new(l, parameters, &e, 1, &probe, &ignored) != OK)
+        return false;
+    *out = probe_values(probe, &row)[0];
+    probe_free(probe);
+    return true;
+}
+
+/* a spring, damper or actuator between frames that meet: it has no direction there */
+bool cause_meeting(const Layout *l, Parameters *parameters, double t, const double *y,
+                   const char *what, Diag *diag)
+{
+    FrameLine line;
+    double length;
+
+    for (int next = 0; system_line(l->system, &next, &line);)
+        if (value_at(l, parameters, line.length, t, y, &length) && fabs(length) < CLOSE) {
+            (void)diag_set(diag, E_SINGULAR,
+                           "%s: the frames of %s, %s and %s, are at the same point, where its line "
+                           "has no direction",
+                           what, line.name, line.tail, line.head);
+            diag_hint(diag, "start where they are apart, with 'init' or 'guess'; what acts on a "
+                            "joint has no line");
+            return true;
+        }
+    return false;
+}
+
+/* a coordinate whose row of the mass matrix is empty */
+static bool tell_massless(const Layout *l, const char *what, Diag *diag)
+{
+    const Reading *run = system_run(l->system);
+
+    for (int j = 0; j < l->nu; j++) {
+        bool is_empty = true;
+        int q;
+
+        for (int k = 0; k < l->nu && is_empty; k++)
+            is_empty = expr_is_zero(run->mass[j * l->nu + k]);
+        if (!is_empty)
+            continue;
+        q = speed_coordinate(l->system, j);
+        (void)diag_set(diag, E_SINGULAR, "%s: what %s moves has no mass or inertia", what,
+                       q >= 0 ? system_q(l->system, q)->name : system_u(l->system, j)->name);
+        diag_hint(diag, "a body turns with inertia=, beside mass=: body m1 mass=2 inertia=0.1 in "
+                        "the plane, inertia=[0.1, 0.2, 0.2] in space");
+        return true;
+    }
+    return false;
+}
+
+bool cause_tell(const Layout *layout, Parameters *parameters, double t, const double *y,
+                const char *what, Diag *diag)
+{
+    return cause_meeting(layout, parameters, t, y, what, diag) || tell_massless(layout, what, diag);
+}

@@ -1,0 +1,27 @@
+/* embed.h: the embedded form: independent accelerations without multipliers
+ *
+ * With u = (u_d, u_i), G = [J; 1], J = -Phi_d^-1 Phi_i: Phi_u G = 0, and
+ * [G^T M; Phi_u] u' = [G^T F; gamma] is solved as a system in u_i' alone. */
+#ifndef COTREE_SIMULATE_EQUATIONS_EMBED_H
+#define COTREE_SIMULATE_EQUATIONS_EMBED_H
+
+#include <stdbool.h>
+
+typedef struct Embed Embed;
+
+Embed *embed_new(int nu, int m); /* new; free with embed_free() */
+void embed_free(Embed *embed);   /* NULL is fine */
+/* Choose dependent speeds by elimination with full pivoting of the rows of phi_u; the `wanted` ones
+ * become independent as far as the rows allow. False when the rows are dependent. */
+bool embed_choose(Embed *embed, const double *phi_u, const int *rows, const int *wanted,
+                  int wanted_count);
+const int *embed_independent(const Embed *embed); /* nu - m, rising */
+/* Factor at these numbers; false when Phi_d or G^T M G is singular. */
+bool embed_factor(Embed *embed, const double *mass, const double *phi_u, const int *rows);
+double embed_condition(const Embed *embed); /* pivot ratio of Phi_d, of its choice at 1 */
+double embed_pivots(const Embed *embed);    /* the ratio itself */
+void embed_solve(Embed *embed, const double *force, const double *gamma, double *du);
+/* out[j] = (G^T v)_j, nu - m of them */
+void embed_reduce(const Embed *embed, const double *v, double *out);
+
+#endif

@@ -1,0 +1,734 @@
+/* motion.c: accelerations, multipliers and network rates from the equations; projection
+ *
+ * The matrix factored last is kept with the t and q it belongs to: a projection that ends
+ * at q leaves it ready for the first evaluation there. */
+#include "simulate/equations/motion_impl.h"
+
+#include "algebra/linear.h"
+#include "algebra/rank.h"
+#include "base/memory.h"
+
+#include <math.h>
+#include <string.h>
+
+#define PROJECTION_SWEEPS 8
+#define TURNS             50
+#define SLACK             0.03 /* rad: what a step may leave between an angle and its reference */
+#define SUSPECT           1e-2 /* pivot ratio of Phi_d above which no position is singular */
+
+static bool rate(void *context, double t, const double *y, double *out);
+static bool project(void *context, double t, double *y);
+static double blur(void *context);
+static bool dae_residual(void *context, double t, const double *w, const double *w_rate,
+                         double *out);
+static bool dae_start(void *context, double t, const double *y, double *w, double *w_rate);
+
+/* of the references in y */
+static int turned_place(const Equations *eq)
+{
+    return eq->n + eq->nu + eq->nx;
+}
+
+static void describe_ode(Motion *mo)
+{
+    const Equations *eq = mo->eq;
+    int y = motion_length(mo);
+
+    mo->ode = (Ode){.n = turned_place(eq) + eq->turned_count,
+                    .quadratures = 1,
+                    .context = mo,
+                    .rate = rate,
+                    .blur = mo->used > 0 ? blur : NULL,
+                    .cap = eq->cap};
+    if (mo->used > 0 || eq->quaternion_count > 0 || eq->turned_count > 0 || eq->slide_count > 0)
+        mo->ode.project = project;
+    mo->slack = NEW_ARRAY(double, mo->ode.n);
+    for (int k = 0; k < eq->turned_count; k++)
+        mo->slack[turned_place(eq) + k] = SLACK;
+    if (eq->turned_count > 0)
+        mo->ode.slack = mo->slack;
+    mo->ode.dae.n = y + (mo->options.embedded ? 0 : 2 * mo->used);
+    mo->ode.dae.context = mo;
+    mo->ode.dae.residual = dae_residual;
+    mo->ode.dae.start = dae_start;
+    mo->dae_weight = NEW_ARRAY(double, mo->ode.dae.n);
+    for (int i = 0; i < mo->ode.dae.n; i++)
+        mo->dae_weight[i] = 1;
+    mo->dae_weight[y - 1] = 1e20; /* work steers nothing */
+    mo->ode.dae.weight = mo->dae_weight;
+}
+
+Motion *motion_new(const Equations *eq, const MotionOptions *options)
+{
+    Motion *mo = NEW(Motion);
+
+    mo->eq = eq;
+    mo->options = *options;
+    mo->used = options->row_count;
+    mo->rows = NEW_ARRAY(int, mo->used);
+    for (int k = 0; k < mo->used; k++)
+        mo->rows[k] = options->rows[k];
+    mo->wanted = NEW_ARRAY(int, options->independent_count);
+    for (int k = 0; k < options->independent_count; k++)
+        mo->wanted[k] = options->independent[k];
+    mo->options.rows = mo->rows;
+    mo->options.independent = mo->wanted;
+    mo->low = -INFINITY;
+    mo->high = INFINITY;
+    mo->kkt = kkt_new(eq->nu, mo->used, eq->m);
+    if (options->embedded)
+        mo->embed = embed_new(eq->nu, mo->used);
+    mo->network = netsolve_new(eq);
+    mo->solved = netsolve_values(mo->network);
+    mo->solved_before = NEW_ARRAY(double, eq->nx + eq->nz);
+    mo->q = NEW_ARRAY(double, eq->n);
+    mo->near = NEW_ARRAY(double, eq->turned_count);
+    mo->top = NEW_ARRAY(double, eq->nu);
+    mo->bottom = NEW_ARRAY(double, mo->used);
+    mo->du = NEW_ARRAY(double, eq->nu);
+    mo->kept = NEW_ARRAY(double, eq->nu);
+    mo->lambda = NEW_ARRAY(double, mo->used);
+    mo->nearest = NEW_ARRAY(double, motion_length(mo));
+    mo->lambda_all = NEW_ARRAY(double, eq->m);
+    mo->row_size = NEW_ARRAY(double, eq->m);
+    mo->counts.singular_time = NAN;
+    if (eq->slide_count > 0)
+        motion_open_surfaces(mo);
+    describe_ode(mo);
+    return mo;
+}
+
+void motion_free(Motion *mo)
+{
+    if (mo == NULL)
+        return;
+    mem_free(mo->rows);
+    mem_free(mo->wanted);
+    kkt_free(mo->kkt);
+    embed_free(mo->embed);
+    netsolve_free(mo->network);
+    signs_free(mo->signs);
+    mem_free(mo->slip);
+    mem_free(mo->off);
+    mem_free(mo->way);
+    mem_free(mo->solved_before);
+    mem_free(mo->q);
+    mem_free(mo->near);
+    mem_free(mo->slack);
+    mem_free(mo->top);
+    mem_free(mo->bottom);
+    mem_free(mo->du);
+    mem_free(mo->kept);
+    mem_free(mo->lambda);
+    mem_free(mo->nearest);
+    mem_free(mo->lambda_all);
+    mem_free(mo->row_size);
+    mem_free(mo->dae_weight);
+    mem_free(mo);
+}
+
+const Ode *motion_ode(const Motion *mo)
+{
+    return &mo->ode;
+}
+
+int motion_length(const Motion *mo)
+{
+    return turned_place(mo->eq) + mo->eq->turned_count + 1;
+}
+
+void motion_window(Motion *mo, double low, double high)
+{
+    mo->low = low;
+    mo->high = high;
+}
+
+void motion_guess(Motion *mo, const double *network)
+{
+    if (mo->eq->nx + mo->eq->nz > 0)
+        memcpy(netsolve_values(mo->network), network,
+               (size_t)(mo->eq->nx + mo->eq->nz) * sizeof(double));
+}
+
+double motion_clock(const Motion *mo, double t)
+{
+    return fmin(fmax(t, mo->low), mo->high);
+}
+
+void motion_offer(Motion *mo, const Dae *dae)
+{
+    mo->ode.dae = *dae;
+}
+
+void motion_tolerance(Motion *mo, double tolerance)
+{
+    mo->options.tolerance = tolerance;
+}
+
+MotionCounts motion_counts(const Motion *mo)
+{
+    return mo->counts;
+}
+
+/* --- evaluation --- */
+
+/* whether references are those of the last evaluation, or so near that they choose the same turns
+ */
+static bool turns_alike(const Motion *mo, const double *near)
+{
+    for (int k = 0; k < mo->eq->turned_count; k++)
+        if (!(fabs(near[k] - mo->near[k]) < 1))
+            return false;
+    return true;
+}
+
+/* before eq->position() */
+static void set_near(Motion *mo, const double *y)
+{
+    if (mo->eq->turned_count == 0)
+        return;
+    memcpy(mo->near, y + turned_place(mo->eq), (size_t)mo->eq->turned_count * sizeof(double));
+    mo->eq->near(mo->eq->context, mo->near);
+}
+
+static uint64_t sides_of(const Motion *mo)
+{
+    return mo->eq->sides != NULL ? *mo->eq->sides : 0;
+}
+
+void motion_at_position(Motion *mo, double t, const double *y)
+{
+    size_t bytes = (size_t)mo->eq->n * sizeof(double);
+
+    if (mo->is_evaluated && mo->t == t && mo->sides == sides_of(mo) &&
+        memcmp(mo->q, y, bytes) == 0 && turns_alike(mo, y + turned_place(mo->eq)))
+        return;
+    set_near(mo, y);
+    mo->eq->position(mo->eq->context, t, y);
+    mo->t = t;
+    mo->sides = sides_of(mo);
+    memcpy(mo->q, y, bytes);
+    mo->is_evaluated = true;
+    mo->is_factored = false;
+    mo->is_embedded_factored = false;
+}
+
+static bool factor(Motion *mo)
+{
+    if (mo->is_factored)
+        return true;
+    mo->counts.factorisations++;
+    if (!kkt_factor(mo->kkt, mo->eq->mass, mo->eq->phi_u, mo->rows))
+        return false;
+    if (kkt_is_regularised(mo->kkt)) {
+        mo->counts.regularised++;
+        if (isnan(mo->counts.singular_time))
+            mo->counts.singular_time = mo->t;
+    }
+    mo->blur = fmax(mo->blur, kkt_blur(mo->kkt));
+    mo->is_factored = true;
+    return true;
+}
+
+bool motion_factor_embedded(Motion *mo)
+{
+    if (mo->is_embedded_factored)
+        return true;
+    mo->counts.factorisations++;
+    mo->is_embedded_factored = embed_factor(mo->embed, mo->eq->mass, mo->eq->phi_u, mo->rows);
+    return mo->is_embedded_factored;
+}
+
+/* what evaluate() does, with signs on surfaces as they are */
+bool motion_evaluate(Motion *mo, double t, const double *y)
+{
+    const Equations *eq = mo->eq;
+
+    motion_at_position(mo, motion_clock(mo, t), y);
+    eq->velocity(eq->context, y + eq->n, y + eq->n + eq->nu);
+    if (!netsolve_find(mo->network))
+        return false;
+    eq->network_solved(eq->context, mo->solved);
+    return true;
+}
+
+/* everything but the solution for u': false where the network can't be solved, or no signs keep the
+ * motion on its surfaces */
+static bool evaluate(Motion *mo, double t, const double *y)
+{
+    return mo->signs != NULL ? motion_find_signs(mo, t, y) : motion_evaluate(mo, t, y);
+}
+
+const double *motion_network(Motion *mo, double t, const double *y)
+{
+    bool is_there = mo->is_evaluated && mo->t == motion_clock(mo, t) &&
+                    vector_is_finite(mo->solved, mo->eq->nx + mo->eq->nz);
+
+    return is_there || evaluate(mo, t, y) ? mo->solved : NULL;
+}
+
+void motion_switches(Motion *mo, double t, const double *y, double *out)
+{
+    const Equations *eq = mo->eq;
+
+    if (eq->switches_read_network && !evaluate(mo, t, y)) {
+        for (int i = 0; i < eq->switch_count; i++)
+            out[i] = NAN;
+        return;
+    }
+    if (eq->turned_count > 0)
+        eq->near(eq->context, y + turned_place(eq));
+    eq->switches(eq->context, t, y, y + eq->n, y + eq->n + eq->nu, out);
+}
+
+static void pick_rows(const Motion *mo, const double *all, double *out)
+{
+    for (int k = 0; k < mo->used; k++)
+        out[k] = all[mo->rows[k]];
+}
+
+static bool solve_augmented(Motion *mo)
+{
+    if (!factor(mo))
+        return false;
+    pick_rows(mo, mo->eq->gamma, mo->bottom);
+    kkt_solve(mo->kkt, mo->eq->force, mo->bottom, mo->du, mo->lambda);
+    return true;
+}
+
+/* Accelerations don't depend on which speeds are independent, as long as Phi_d is sound: where it
+ * is worn others are taken, in the middle of a step too. Near a singular position no choice is
+ * sound, and the augmented form tells the same accelerations. */
+static bool solve_embedded(Motion *mo)
+{
+    bool sound = motion_factor_embedded(mo);
+
+    if (!sound || embed_condition(mo->embed) < MOTION_WORN) {
+        mo->is_repartitioned = motion_choose_independent(mo) || mo->is_repartitioned;
+        sound = motion_factor_embedded(mo);
+    }
+    if (!sound || embed_pivots(mo->embed) < SUSPECT) {
+        if (!solve_augmented(mo))
+            return false;
+        if (!sound || kkt_is_regularised(mo->kkt))
+            return true;
+    }
+    pick_rows(mo, mo->eq->gamma, mo->bottom);
+    embed_solve(mo->embed, mo->eq->force, mo->bottom, mo->du);
+    return true;
+}
+
+/* The multipliers of rows in use among all; 0 for the others. */
+static void place_multipliers(Motion *mo)
+{
+    memset(mo->lambda_all, 0, (size_t)mo->eq->m * sizeof(double));
+    for (int k = 0; k < mo->used; k++)
+        mo->lambda_all[mo->rows[k]] = mo->lambda[k];
+}
+
+/* after u' is known: power may read it and the multipliers, also in the embedded form */
+static void bring_power(Motion *mo, const double *acceleration)
+{
+    if (mo->eq->accelerated == NULL)
+        return;
+    if (mo->embed != NULL) {
+        memcpy(mo->kept, acceleration, (size_t)mo->eq->nu * sizeof(double));
+        if (!solve_augmented(mo))
+            return;
+        memcpy(mo->du, mo->kept, (size_t)mo->eq->nu * sizeof(double));
+    }
+    place_multipliers(mo);
+    mo->eq->accelerated(mo->eq->context, mo->du, mo->lambda_all);
+}
+
+static void write_rates(const Motion *mo, double *out)
+{
+    const Equations *eq = mo->eq;
+
+    memcpy(out, eq->q_rate, (size_t)eq->n * sizeof(double));
+    memcpy(out + eq->n, mo->du, (size_t)eq->nu * sizeof(double));
+    memcpy(out + eq->n + eq->nu, mo->solved, (size_t)eq->nx * sizeof(double));
+    if (eq->turned_count > 0)
+        memcpy(out + turned_place(eq), eq->turned_rate, (size_t)eq->turned_count * sizeof(double));
+    out[turned_place(eq) + eq->turned_count] = eq->power != NULL ? *eq->power : 0;
+}
+
+/* A network that reads u' or lambda, while forces read the network: each in turn, until nothing
+ * changes. Where forces don't read what follows from it, the second turn is the last. */
+static bool solve_together(Motion *mo)
+{
+    const Equations *eq = mo->eq;
+    int n = eq->nx + eq->nz;
+
+    for (int k = 0; k < TURNS; k++) {
+        bool changed = false;
+
+        if (!solve_augmented(mo))
+            return false;
+        place_multipliers(mo);
+        memcpy(mo->solved_before, mo->solved, (size_t)n * sizeof(double));
+        eq->network_reads(eq->context, mo->du, mo->lambda_all);
+        if (!netsolve_find(mo->network))
+            return false;
+        for (int i = 0; i < n; i++)
+            changed = changed || !(fabs(mo->solved[i] - mo->solved_before[i]) <=
+                                   1e-13 * fabs(mo->solved[i]) + 1e-15);
+        if (!changed)
+            return true;
+        eq->network_solved(eq->context, mo->solved);
+    }
+    return false;
+}
+
+/* u' and lambda in the augmented form, with what the network reads of them */
+static bool solve_plain(Motion *mo)
+{
+    return mo->eq->network_reads != NULL ? solve_together(mo) : solve_augmented(mo);
+}
+
+bool motion_solve_rates(Motion *mo)
+{
+    if (mo->embed == NULL)
+        return solve_plain(mo);
+    return (mo->eq->network_reads == NULL || solve_together(mo)) && solve_embedded(mo);
+}
+
+/* Off the manifold the constraints contradict each other a little, and near a singular position the
+ * accelerations that obey them grow without bound: there they are those of the nearest state on it.
+ */
+static bool solve_on_manifold(Motion *mo, double t, const double *y)
+{
+    if (!evaluate(mo, t, y) || !motion_solve_rates(mo))
+        return false;
+    if (mo->used == 0 || !mo->is_factored || !kkt_is_near_singular(mo->kkt))
+        return true;
+    memcpy(mo->nearest, y, (size_t)motion_length(mo) * sizeof(double));
+    return motion_project(mo, t, mo->nearest) && evaluate(mo, t, mo->nearest) &&
+           motion_solve_rates(mo);
+}
+
+static bool rate(void *context, double t, const double *y, double *out)
+{
+    Motion *mo = context;
+
+    if (!solve_on_manifold(mo, t, y))
+        return false;
+    bring_power(mo, mo->du);
+    write_rates(mo, out);
+    return vector_is_finite(out, mo->ode.n);
+}
+
+/* Multipliers of all rows from those in use: the least of all that give the same forces. */
+static void spread_multipliers(Motion *mo)
+{
+    const Equations *eq = mo->eq;
+
+    if (mo->used == eq->m) {
+        for (int k = 0; k < mo->used; k++)
+            mo->lambda_all[mo->rows[k]] = mo->lambda[k];
+        return;
+    }
+    place_multipliers(mo);
+    rank_least_multipliers(eq->phi_u, eq->m, eq->nu, mo->lambda_all);
+}
+
+bool motion_solve(Motion *mo, double t, const double *y, Solved *out)
+{
+    if (!evaluate(mo, t, y) || !solve_plain(mo))
+        return false;
+    spread_multipliers(mo);
+    *out = (Solved){.acceleration = mo->du,
+                    .signs = mo->signs != NULL ? signs_values(mo->signs) : NULL,
+                    .multipliers = mo->lambda_all,
+                    .rates = mo->solved,
+                    .algebraic = mo->solved + mo->eq->nx};
+    return vector_is_finite(mo->du, mo->eq->nu) && vector_is_finite(mo->lambda_all, mo->eq->m) &&
+           vector_is_finite(mo->solved, mo->eq->nx + mo->eq->nz);
+}
+
+/* --- projection --- */
+
+/* Residuals are measured as distances: a row over the largest entry it has had in Phi_u. */
+static void measure_rows(Motion *mo)
+{
+    for (int k = 0; k < mo->used; k++) {
+        double largest = vector_largest(mo->eq->phi_u + mo->rows[k] * mo->eq->nu, mo->eq->nu);
+
+        mo->row_size[k] = fmax(mo->row_size[k], largest);
+    }
+}
+
+static double distance(const Motion *mo)
+{
+    double largest = 0;
+
+    for (int k = 0; k < mo->used; k++) {
+        double size = fabs(mo->eq->phi[mo->rows[k]]) / fmax(mo->row_size[k], 1e-6);
+
+        if (!(size <= largest))
+            largest = size;
+    }
+    return largest;
+}
+
+void equations_turn(const Equations *eq, double t, const double *q, double *a)
+{
+    if (eq->turned_count == 0)
+        return;
+    eq->near(eq->context, a);
+    eq->position(eq->context, t, q);
+    memcpy(a, eq->turned, (size_t)eq->turned_count * sizeof(double));
+}
+
+void equations_normalise(const Equations *eq, double *q)
+{
+    for (int i = 0; i < eq->quaternion_count; i++) {
+        double *p = q + eq->quaternions[i];
+        double norm = sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2] + p[3] * p[3]);
+
+        for (int j = 0; j < 4 && norm > 0; j++)
+            p[j] /= norm;
+    }
+}
+
+static void move(Motion *mo, const double *du, double *q)
+{
+    const Equations *eq = mo->eq;
+
+    for (int i = 0; i < eq->n; i++) {
+        double sum = eq->map == NULL ? du[i] : 0;
+
+        for (int j = 0; eq->map != NULL && j < eq->nu; j++)
+            sum += eq->map[i * eq->nu + j] * du[j];
+        q[i] += sum;
+    }
+    equations_normalise(eq, q);
+}
+
+/* Simplified Newton: one factorisation serves all sweeps. They go on to the limit of rounding: what
+ * is left as a residual turns the motion off its branch at a singular position. At most a hundredth
+ * of the run's tolerance may be left where they don't get there. */
+static bool project_position(Motion *mo, double t, double *y)
+{
+    double size = fmax(1, vector_largest(y, mo->eq->n));
+    double enough = fmax(1e-13 * size, fmin(1e-2 * mo->options.tolerance, 1e-9));
+    double left, before = INFINITY;
+
+    equations_normalise(mo->eq, y);
+    motion_at_position(mo, t, y);
+    measure_rows(mo);
+    left = distance(mo);
+    if (left <= 1e-16 * size)
+        return true;
+    if (!factor(mo))
+        return false;
+    for (int sweep = 0; sweep < PROJECTION_SWEEPS && left > 1e-16 * size; sweep++) {
+        if (left <= 1e-13 * size && left > 0.5 * before)
+            break; /* rounding */
+        before = left;
+        for (int k = 0; k < mo->used; k++)
+            mo->bottom[k] = -mo->eq->phi[mo->rows[k]];
+        kkt_solve(mo->kkt, NULL, mo->bottom, mo->du, mo->lambda);
+        move(mo, mo->du, y);
+        /* the factors stay those of the first sweep */
+        mo->eq->position(mo->eq->context, t, y);
+        left = distance(mo);
+        if (!isfinite(left))
+            break;
+    }
+    mo->is_evaluated = false;
+    return left <= enough;
+}
+
+static bool project_velocity(Motion *mo, double t, const double *y, double *u, const double *x)
+{
+    const Equations *eq = mo->eq;
+
+    motion_at_position(mo, t, y);
+    if (!factor(mo))
+        return false;
+    eq->velocity(eq->context, u, x);
+    for (int k = 0; k < mo->used; k++) {
+        const double *row = eq->phi_u + mo->rows[k] * eq->nu;
+
+        mo->bottom[k] = eq->nu_rate[mo->rows[k]];
+        for (int j = 0; j < eq->nu; j++)
+            mo->bottom[k] -= row[j] * u[j];
+    }
+    kkt_solve(mo->kkt, NULL, mo->bottom, mo->du, mo->lambda);
+    for (int j = 0; j < eq->nu; j++)
+        u[j] += mo->du[j];
+    return vector_is_finite(u, eq->nu);
+}
+
+bool motion_project(Motion *mo, double t, double *y)
+{
+    const Equations *eq = mo->eq;
+
+    if (mo->ode.project == NULL)
+        return true;
+    t = fmin(fmax(t, mo->low), mo->high);
+    if (mo->used == 0 && eq->quaternion_count == 0)
+        motion_at_position(mo, t, y);
+    else if (!project_position(mo, t, y) ||
+             !project_velocity(mo, t, y, y + eq->n, y + eq->n + eq->nu))
+        return false;
+    if (mo->signs != NULL && !motion_project_surfaces(mo, t, y))
+        return false;
+    if (eq->turned_count > 0)
+        memcpy(y + turned_place(eq), eq->turned, (size_t)eq->turned_count * sizeof(double));
+    return true;
+}
+
+static double blur(void *context)
+{
+    Motion *mo = context;
+    const double largest = mo->blur;
+
+    mo->blur = 0;
+    return largest;
+}
+
+static bool project(void *context, double t, double *y)
+{
+    return motion_project(context, t, y);
+}
+
+void motion_residuals(Motion *mo, double t, const double *y, double *position, double *velocity)
+{
+    const Equations *eq = mo->eq;
+
+    motion_at_position(mo, t, y);
+    eq->velocity(eq->context, y + eq->n, y + eq->n + eq->nu);
+    *position = vector_largest(eq->phi, eq->m);
+    *velocity = 0;
+    for (int k = 0; k < eq->m; k++) {
+        double sum = -eq->nu_rate[k];
+
+        for (int j = 0; j < eq->nu; j++)
+            sum += eq->phi_u[k * eq->nu + j] * y[eq->n + j];
+        if (!(fabs(sum) <= *velocity))
+            *velocity = fabs(sum);
+    }
+}
+
+/* --- embedded form --- */
+
+static int motion_freedoms(const Motion *mo)
+{
+    return mo->eq->nu - mo->used;
+}
+
+/* --- implicit form --- */
+
+/* Embedded: q' = N u, G^T (M u' - F) = 0, Phi_u u' = gamma. */
+static bool embedded_residual(Motion *mo, const double *u_rate, double *out)
+{
+    const Equations *eq = mo->eq;
+    int f = motion_freedoms(mo);
+
+    if (!motion_factor_embedded(mo))
+        return false;
+    matrix_times(eq->mass, eq->nu, eq->nu, u_rate, mo->top);
+    for (int j = 0; j < eq->nu; j++)
+        mo->top[j] -= eq->force[j];
+    embed_reduce(mo->embed, mo->top, out);
+    for (int k = 0; k < mo->used; k++) {
+        double sum = -eq->gamma[mo->rows[k]];
+
+        for (int j = 0; j < eq->nu; j++)
+            sum += eq->phi_u[mo->rows[k] * eq->nu + j] * u_rate[j];
+        out[f + k] = sum;
+    }
+    return true;
+}
+
+/* Stabilised index 2: q' = N (u + Phi_u^T mu), M u' + Phi_u^T lambda = F, Phi = 0, Phi_u u = nu;
+ * lambda and mu are the rates of the last 2 m unknowns. */
+static void augmented_residual(Motion *mo, const double *w, const double *w_rate, double *out)
+{
+    const Equations *eq = mo->eq;
+    int tail = motion_length(mo);
+    const double *u = w + eq->n, *lambda = w_rate + tail, *mu = lambda + mo->used;
+    double *force_rows = out + eq->n;
+
+    memset(mo->du, 0, (size_t)eq->nu * sizeof(double));
+    matrix_times(eq->mass, eq->nu, eq->nu, w_rate + eq->n, force_rows);
+    for (int j = 0; j < eq->nu; j++)
+        force_rows[j] -= eq->force[j];
+    for (int k = 0; k < mo->used; k++) {
+        const double *row = eq->phi_u + mo->rows[k] * eq->nu;
+        double sum = -eq->nu_rate[mo->rows[k]];
+
+        for (int j = 0; j < eq->nu; j++) {
+            sum += row[j] * u[j];
+            force_rows[j] += row[j] * lambda[k];
+            mo->du[j] += row[j] * mu[k];
+        }
+        out[tail + k] = eq->phi[mo->rows[k]];
+        out[tail + mo->used + k] = sum;
+    }
+    for (int i = 0; i < eq->n; i++) { /* q' = N (u + Phi_u^T mu) */
+        double sum = eq->map == NULL ? mo->du[i] : 0;
+
+        for (int j = 0; eq->map != NULL && j < eq->nu; j++)
+            sum += eq->map[i * eq->nu + j] * mo->du[j];
+        out[i] -= sum;
+    }
+}
+
+static bool dae_residual(void *context, double t, const double *w, const double *w_rate,
+                         double *out)
+{
+    Motion *mo = context;
+    const Equations *eq = mo->eq;
+    int x = eq->n + eq->nu, turned = turned_place(eq), work = turned + eq->turned_count;
+
+    if (!evaluate(mo, t, w))
+        return false;
+    if (eq->network_reads != NULL && !solve_together(mo))
+        return false;
+    if (eq->accelerated != NULL) {
+        memset(mo->lambda_all, 0, (size_t)eq->m * sizeof(double));
+        for (int k = 0; k < mo->used && mo->embed == NULL; k++)
+            mo->lambda_all[mo->rows[k]] = w_rate[motion_length(mo) + k];
+        if (mo->embed != NULL && solve_augmented(mo))
+            for (int k = 0; k < mo->used; k++)
+                mo->lambda_all[mo->rows[k]] = mo->lambda[k];
+        eq->accelerated(eq->context, w_rate + eq->n, mo->lambda_all);
+    }
+    for (int i = 0; i < eq->n; i++)
+        out[i] = w_rate[i] - eq->q_rate[i];
+    if (mo->embed != NULL) {
+        if (!embedded_residual(mo, w_rate + eq->n, out + eq->n))
+            return false;
+    } else {
+        augmented_residual(mo, w, w_rate, out);
+    }
+    for (int i = 0; i < eq->nx; i++)
+        out[x + i] = w_rate[x + i] - mo->solved[i];
+    for (int k = 0; k < eq->turned_count; k++)
+        out[turned + k] = w_rate[turned + k] - eq->turned_rate[k];
+    out[work] = w_rate[work] - (eq->power != NULL ? *eq->power : 0);
+    return vector_is_finite(out, mo->ode.dae.n);
+}
+
+static bool dae_start(void *context, double t, const double *y, double *w, double *w_rate)
+{
+    Motion *mo = context;
+    int tail = motion_length(mo);
+
+    memset(w, 0, (size_t)mo->ode.dae.n * sizeof(double));
+    memset(w_rate, 0, (size_t)mo->ode.dae.n * sizeof(double));
+    memcpy(w, y, (size_t)tail * sizeof(double));
+    if (!evaluate(mo, t, y) || !solve_plain(mo))
+        return false;
+    bring_power(mo, mo->du);
+    write_rates(mo, w_rate);
+    if (mo->embed == NULL)
+        for (int k = 0; k < mo->used; k++) {
+            w_rate[tail + k] = mo->lambda[k];
+            mo->dae_weight[tail + k] = fmax(1, fabs(mo->lambda[k]));
+        }
+    return vector_is_finite(w_rate, mo->ode.dae.n);
+}

@@ -1,0 +1,170 @@
+/* motion.h: the equations of a system in numbers: rates, multipliers, projection
+ *
+ *     q' = N u,   Phi(q,t) = 0,   Phi_u u = nu,   Phi_u u' = gamma
+ *     M u' + Phi_u^T lambda = F,   G([x'; z]) = 0
+ *
+ * Equations is what a model supplies: functions that bring arrays up to date. A Motion
+ * solves them, in the augmented or the embedded form, and is an Ode in y = (q, u, x, a, work).
+ *
+ * a are references of angles that only a sine and a cosine tell: each such angle is the one nearest
+ * to its a, over any number of turns. They are integrated by the angles' rates, and a projection
+ * puts them on the angles. The rest reads no more of them than the turn, and doesn't feel them
+ * move. It evaluates nothing twice for the same arguments, and allocates nothing after
+ * motion_new(). */
+#ifndef COTREE_SIMULATE_EQUATIONS_MOTION_H
+#define COTREE_SIMULATE_EQUATIONS_MOTION_H
+
+#include "simulate/integrate/ode.h"
+
+#include <stddef.h>
+
+typedef struct Solved Solved;
+
+/* What a condition of the equations watches. */
+typedef struct Guard {
+    int surface; /* that the equations jump on; -1: they bend at most */
+    int side;    /* of it, that they stay on; 0: they jump, or slide along it */
+    int end; /* of the interval of its sign that is left there: -1 or 1; 0: it isn't slid along */
+    bool solved; /* what is 0 on it is solved for with the jump: it is always stayed on a side of */
+} Guard;
+
+typedef struct Equations {
+    int n, nu, m, nx, nz;
+    int turned_count;      /* of a */
+    const uint64_t *sides; /* counts changes of switches between resistances, which make equations
+                              of other numbers of them; NULL: there are none */
+    void *context;
+    void (*near)(void *context, const double *a); /* a for the calls below; NULL: there are none */
+    /* bring phi, phi_u, mass, map, turned up to date */
+    void (*position)(void *context, double t, const double *q);
+    /* then q_rate, turned_rate, nu, gamma; network, network_rhs where network_at is NULL */
+    void (*velocity)(void *context, const double *u, const double *x);
+    /* then network and network_residual at w = [x'; z]; NULL: the network is linear, A w = r */
+    void (*network_at)(void *context, const double *w);
+    /* u' and the multipliers of all m rows, for a network that reads them; NULL: it doesn't */
+    void (*network_reads)(void *context, const double *acceleration, const double *multipliers);
+    /* then force; `solved` is [x'; z] */
+    void (*network_solved)(void *context, const double *solved);
+    /* then power; NULL when it is known before. `multipliers` of all m rows. */
+    void (*accelerated)(void *context, const double *acceleration, const double *multipliers);
+    const double *phi;    /* m */
+    const double *phi_u;  /* m x nu */
+    const double *mass;   /* nu x nu */
+    const double *map;    /* n x nu: N; NULL: identity, n == nu */
+    const double *q_rate; /* n */
+    const double *turned; /* turned_count: the angles near a, and their rates */
+    const double *turned_rate;
+    const double *nu_rate; /* m: right-hand side of the velocity constraints */
+    const double *gamma;   /* m */
+    int network_entries;   /* of A = dG/dw */
+    const int *network_row, *network_column;
+    const double *network;          /* network_entries */
+    const double *network_rhs;      /* nx+nz: r */
+    const double *network_residual; /* nx+nz: G */
+    bool network_is_constant;       /* A never changes in a run */
+    const double *force;            /* nu */
+    const double *power;            /* 1: work done on the system per time, W; NULL: not known */
+    const double *cap;              /* n+nu+nx+turned_count, for Ode; may be NULL */
+    const int *quaternions;         /* first of each four Euler parameters */
+    int quaternion_count;
+    /* conditions whose change of sign may bend or break the equations; time_only ones first */
+    int switch_count, time_only;
+    int margin_count; /* the last of them: positive as long as ideal switches stay on their sides */
+    /* Whether the k-th margin is the current through a small resistance: it tells its sign although
+     * errors of states, were they any, would move it far. NULL: none is. */
+    bool (*margin_is_steep)(void *context, int k);
+    bool switches_read_network; /* [x'; z] of the last network_solved() */
+    bool switches_follow_time;  /* those that aren't of time alone hold t too */
+    const Guard *guards;        /* switch_count; NULL: they bend at most */
+    void (*switches)(void *context, double t, const double *q, const double *u, const double *x,
+                     double *out);
+    /* surfaces that the motion slides along: their signs are found such that slip is 0 */
+    int slide_count;
+    void (*slide)(void *context, const double *signs); /* before velocity() */
+    /* at a row that is solved: how fast each is left, and how far off it is (slide_count each) */
+    void (*slip)(void *context, double t, const double *y, const Solved *solved, double *slip,
+                 double *off);
+} Equations;
+
+static inline Guard equations_guard(const Equations *eq, int condition)
+{
+    return eq->guards != NULL ? eq->guards[condition] : (Guard){.surface = -1};
+}
+
+/* Put a onto the angles at (t, q). */
+void equations_turn(const Equations *equations, double t, const double *q, double *a);
+/* Bring each four Euler parameters of q to unit length. */
+void equations_normalise(const Equations *equations, double *q);
+
+typedef struct MotionOptions {
+    bool embedded;
+    const int *rows; /* constraint rows in use at first, independent ones */
+    int row_count;
+    const int *independent; /* speeds asked for as independent (embedded); may be NULL */
+    int independent_count;
+    double tolerance; /* atol of the run: bounds what a projection may leave */
+} MotionOptions;
+
+typedef struct Motion Motion;
+
+/* New; borrows the equations, copies the options. Free with motion_free(). */
+Motion *motion_new(const Equations *equations, const MotionOptions *options);
+void motion_free(Motion *motion); /* NULL is fine */
+const Ode *motion_ode(const Motion *motion);
+int motion_length(const Motion *motion); /* of y, work included */
+
+/* Solved at a row: all numbers there are. Borrowed, until the next call on the motion. */
+struct Solved {
+    const double *acceleration; /* nu: u' */
+    const double *multipliers;  /* m: lambda, of minimum norm where rows are redundant */
+    const double *rates;        /* nx: x' */
+    const double *algebraic;    /* nz: z */
+    const double *signs;        /* slide_count: of surfaces that are slid along */
+};
+/* [x'; z] at (t, y): borrowed, until the next call; what the last evaluation found is told again
+ * where it was at that time. NULL: there is no solution. */
+const double *motion_network(Motion *motion, double t, const double *y);
+/* where the next search for x' and z begins: [x'; z] */
+void motion_guess(Motion *motion, const double *network);
+bool motion_solve(Motion *motion, double t, const double *y, Solved *out);
+
+/* Slip where the signs are given (slide_count each). */
+bool motion_slip(Motion *motion, double t, const double *y, const double *signs, double *slip,
+                 double *off);
+
+/* Position and velocity back onto the constraints, mass-orthogonally: at most 8 sweeps. */
+bool motion_project(Motion *motion, double t, double *y);
+/* largest |Phi| and |Phi_u u - nu| over all rows */
+void motion_residuals(Motion *motion, double t, const double *y, double *position,
+                      double *velocity);
+/* Conditions of switching at a row; NAN where the network has no solution there. */
+void motion_switches(Motion *motion, double t, const double *y, double *out);
+/* The time that rates see is kept within [low, high], so that a step up to a switch
+ * never looks behind it. */
+void motion_window(Motion *motion, double low, double high);
+double motion_clock(const Motion *motion, double t); /* t within that */
+/* Other implicit equations of the same unknowns, for the motion's Ode; borrowed. */
+void motion_offer(Motion *motion, const Dae *dae);
+
+/* atol of the run, once it is known: bounds what a projection may leave */
+void motion_tolerance(Motion *motion, double tolerance);
+
+/* What was chosen at a configuration and wears out along the way: independent speeds of the
+ * embedded form, and constraint rows where some are redundant. Off the manifold a redundant row
+ * looks independent, so that rows are chosen where a state has been projected. */
+typedef struct Renewed {
+    bool rows, independent; /* chosen anew since the last call, and now others */
+} Renewed;
+/* Choose independent speeds at y, as asked for; does nothing in the augmented form. */
+void motion_partition(Motion *motion, double t, const double *y);
+/* At y, just projected: choose anew what has worn out. */
+Renewed motion_renew(Motion *motion, double t, const double *y);
+
+typedef struct MotionCounts {
+    int64_t factorisations;
+    int64_t regularised;
+    double singular_time; /* first time of one; NAN */
+} MotionCounts;
+MotionCounts motion_counts(const Motion *motion);
+
+#endif

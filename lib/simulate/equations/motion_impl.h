@@ -1,0 +1,61 @@
+/* motion_impl.h: what the files of a motion share */
+#ifndef COTREE_SIMULATE_EQUATIONS_MOTION_IMPL_H
+#define COTREE_SIMULATE_EQUATIONS_MOTION_IMPL_H
+
+#include "algebra/kkt.h"
+#include "simulate/equations/embed.h"
+#include "simulate/equations/motion.h"
+#include "simulate/equations/netsolve.h"
+#include "simulate/equations/signs.h"
+
+struct Motion {
+    const Equations *eq;
+    MotionOptions options;
+    int *rows, *wanted;
+    int used;              /* constraint rows in use */
+    double row_ratio;      /* their pivots when they were chosen; 0: not known yet */
+    bool is_repartitioned; /* since the last renewal */
+    double blur;           /* largest since it was asked for */
+    Ode ode;
+    double low, high; /* time window of evaluations */
+    Kkt *kkt;
+    Embed *embed;
+    NetSolve *network;
+    Signs *signs; /* NULL: no surface is slid along */
+    double *slip, *off, *way;
+    bool is_evaluated, is_factored, is_embedded_factored; /* at t, q */
+    double t, *q, *near;                                  /* references of angles */
+    uint64_t sides;                                       /* of switches, likewise */
+    const double *solved;                                 /* [x'; z] */
+    double *solved_before;
+    double *top, *bottom, *du, *kept, *lambda, *lambda_all;
+    double *nearest; /* a y */
+    double *dae_weight, *row_size, *slack;
+    MotionCounts counts;
+};
+
+/* --- motion.c --- */
+
+#define MOTION_WORN 0.1 /* of the pivot ratio when they were chosen: rows, independent speeds */
+
+/* the equations' positions at (t, y), which the factors below belong to */
+void motion_at_position(Motion *motion, double t, const double *y);
+bool motion_factor_embedded(Motion *motion);
+/* Choose independent speeds where the equations stand; true when they are others (motion_renew.c).
+ */
+bool motion_choose_independent(Motion *motion);
+/* Everything but the solution for u', with signs on surfaces as they are: false where the network
+ * can't be solved. */
+bool motion_evaluate(Motion *motion, double t, const double *y);
+/* then u', in the form of the run */
+bool motion_solve_rates(Motion *motion);
+
+/* --- motion_surfaces.c --- */
+
+void motion_open_surfaces(Motion *motion);
+/* motion_evaluate() with the signs that keep the motion on its surfaces; false: there are none */
+bool motion_find_signs(Motion *motion, double t, const double *y);
+/* y back onto the surfaces, along what signs do to the rates */
+bool motion_project_surfaces(Motion *motion, double t, double *y);
+
+#endif

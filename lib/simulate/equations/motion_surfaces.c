@@ -1,0 +1,128 @@
+/* motion_surfaces.c: a motion that slides along surfaces its equations jump on
+ *
+ * What jumps there stands in the equations as a sign between -1 and 1, which is found such that the
+ * motion stays. A projection onto the surfaces goes the way that signs push it. */
+#include "simulate/equations/motion_impl.h"
+
+#include "algebra/linear.h"
+#include "base/memory.h"
+
+#include <math.h>
+#include <string.h>
+
+#define SWEEPS 4
+
+void motion_open_surfaces(Motion *mo)
+{
+    int count = mo->eq->slide_count;
+
+    mo->signs = signs_new(count);
+    mo->slip = NEW_ARRAY(double, count);
+    mo->off = NEW_ARRAY(double, count);
+    mo->way = NEW_ARRAY(double, (count + 1) * motion_length(mo));
+}
+
+typedef struct Where {
+    Motion *motion;
+    double t;
+    const double *y;
+} Where;
+
+/* slip and how far off, everything solved with these signs */
+static bool try_signs(void *context, const double *signs, double *slip)
+{
+    const Where *at = context;
+    Motion *mo = at->motion;
+    Solved solved = {.acceleration = mo->du,
+                     .rates = mo->solved,
+                     .algebraic = mo->solved + mo->eq->nx,
+                     .signs = signs};
+
+    mo->eq->slide(mo->eq->context, signs);
+    if (!motion_evaluate(mo, at->t, at->y) || !motion_solve_rates(mo))
+        return false;
+    mo->eq->slip(mo->eq->context, motion_clock(mo, at->t), at->y, &solved, slip, mo->off);
+    return vector_is_finite(slip, mo->eq->slide_count);
+}
+
+bool motion_slip(Motion *mo, double t, const double *y, const double *signs, double *slip,
+                 double *off)
+{
+    Where at = {mo, t, y};
+
+    if (!try_signs(&at, signs, slip))
+        return false;
+    memcpy(off, mo->off, (size_t)mo->eq->slide_count * sizeof(double));
+    return true;
+}
+
+bool motion_find_signs(Motion *mo, double t, const double *y)
+{
+    Where at = {mo, t, y};
+
+    return signs_find(mo->signs, try_signs, &at);
+}
+
+/* --- projection --- */
+
+/* u' and x' as they were solved last, in their places of y; 0 elsewhere */
+static void keep_way(const Motion *mo, double *way)
+{
+    const Equations *eq = mo->eq;
+
+    memset(way, 0, (size_t)motion_length(mo) * sizeof(double));
+    memcpy(way + eq->n, mo->du, (size_t)eq->nu * sizeof(double));
+    memcpy(way + eq->n + eq->nu, mo->solved, (size_t)eq->nx * sizeof(double));
+}
+
+/* One move along what unit signs do to the rates, which changes what is off as they change slip. */
+static bool sweep_surfaces(Motion *mo, const Where *at, double *y)
+{
+    int count = mo->eq->slide_count, length = motion_length(mo);
+    double *values = signs_values(mo->signs);
+    double *base = mo->way + count * length;
+
+    if (!signs_slopes(mo->signs, try_signs, (void *)at, mo->slip) ||
+        !try_signs((void *)at, values, mo->slip))
+        return false;
+    keep_way(mo, base);
+    memcpy(mo->slip, mo->off, (size_t)count * sizeof(double));
+    for (int k = 0; k < count; k++) {
+        double *way = mo->way + k * length;
+
+        values[k] += 1;
+        if (!try_signs((void *)at, values, mo->off))
+            return false;
+        values[k] -= 1;
+        keep_way(mo, way);
+        for (int i = 0; i < length; i++)
+            way[i] -= base[i];
+    }
+    if (!signs_solve(mo->signs, mo->slip))
+        return false;
+    for (int k = 0; k < count; k++)
+        for (int i = 0; i < length; i++)
+            y[i] += mo->slip[k] * mo->way[k * length + i];
+    return true;
+}
+
+bool motion_project_surfaces(Motion *mo, double t, double *y)
+{
+    Where at = {mo, t, y};
+    double size = fmax(1, vector_largest(y, motion_length(mo) - 1));
+    double before = INFINITY;
+
+    for (int sweep = 0; sweep < SWEEPS; sweep++) {
+        double left;
+
+        if (!try_signs(&at, signs_values(mo->signs), mo->slip))
+            return false;
+        left = vector_largest(mo->off, mo->eq->slide_count);
+        if (left <= 1e-15 * size || (left <= 1e-12 * size && left >= 0.5 * before))
+            return true;
+        before = left;
+        if (!sweep_surfaces(mo, &at, y))
+            return false;
+    }
+    return true;
+}

@@ -1,0 +1,320 @@
+/* netsolve.c: the network's equations in numbers */
+#include "simulate/equations/netsolve.h"
+
+#include "algebra/linear.h"
+#include "algebra/sparse.h"
+#include "base/memory.h"
+#include "base/random.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#define ITERATIONS 100
+#define ENOUGH     1e-9 /* of a step; what is left then is its square */
+#define ROUNDING   1e-7 /* a step that no longer shrinks below this is rounding */
+#define PATIENCE   4    /* steps before rounding is thought of */
+#define MOVES      3    /* that tell how far it reaches, */
+#define DIGITS     4    /* of so many units in the last place */
+#define LEAST      1e-4 /* damping */
+#define FURTHEST   4096
+#define PLAIN      20    /* whole steps from piece to piece */
+#define SHORTEST   1e-14 /* the same on the way down over kinks */
+
+struct NetSolve {
+    const Equations *eq;
+    Sparse *matrix;
+    bool is_factored; /* and stays so, as long as switches stay */
+    uint64_t sides;   /* of those, as they were then */
+    int n;
+    double *w, *step, *trial, *next, *size;
+    double *noise;  /* in their residuals */
+    double *weight; /* of the equations, where their residuals are compared */
+};
+
+NetSolve *netsolve_new(const Equations *eq)
+{
+    NetSolve *s = NEW(NetSolve);
+
+    s->eq = eq;
+    s->n = eq->nx + eq->nz;
+    s->matrix = sparse_new(s->n, eq->network_entries, eq->network_row, eq->network_column);
+    s->w = NEW_ARRAY(double, s->n);
+    s->step = NEW_ARRAY(double, s->n);
+    s->trial = NEW_ARRAY(double, s->n);
+    s->next = NEW_ARRAY(double, s->n);
+    s->size = NEW_ARRAY(double, s->n);
+    s->noise = NEW_ARRAY(double, s->n);
+    s->weight = NEW_ARRAY(double, s->n);
+    return s;
+}
+
+void netsolve_free(NetSolve *s)
+{
+    if (s == NULL)
+        return;
+    sparse_free(s->matrix);
+    mem_free(s->w);
+    mem_free(s->step);
+    mem_free(s->trial);
+    mem_free(s->next);
+    mem_free(s->size);
+    mem_free(s->noise);
+    mem_free(s->weight);
+    mem_free(s);
+}
+
+double *netsolve_values(NetSolve *s)
+{
+    return s->w;
+}
+
+int netsolve_undetermined(const NetSolve *s)
+{
+    return sparse_singular(s->matrix);
+}
+
+static bool solve_linear(NetSolve *s)
+{
+    uint64_t sides = s->eq->sides != NULL ? *s->eq->sides : 0;
+
+    if (!s->is_factored || s->sides != sides) {
+        s->is_factored = false;
+        if (!sparse_factor(s->matrix, s->eq->network))
+            return false;
+        s->is_factored = s->eq->network_is_constant;
+        s->sides = sides;
+    }
+    memcpy(s->w, s->eq->network_rhs, (size_t)s->n * sizeof(double));
+    sparse_solve(s->matrix, s->w);
+    return true;
+}
+
+void netsolve_refine(NetSolve *s)
+{
+    memcpy(s->step, s->eq->network_residual, (size_t)s->n * sizeof(double));
+    sparse_solve(s->matrix, s->step);
+    for (int i = 0; i < s->n; i++)
+        s->w[i] -= s->step[i];
+}
+
+/* --- Newton --- */
+
+/* A^-1 G at w, with the factors there are */
+static bool correction(NetSolve *s, double *out)
+{
+    memcpy(out, s->eq->network_residual, (size_t)s->n * sizeof(double));
+    if (!vector_is_finite(out, s->n))
+        return false;
+    sparse_solve(s->matrix, out);
+    return vector_is_finite(out, s->n);
+}
+
+static double norm(const NetSolve *s, const double *v)
+{
+    double sum = 0;
+
+    for (int i = 0; i < s->n; i++)
+        sum += (v[i] / s->size[i]) * (v[i] / s->size[i]);
+    return sqrt(sum / s->n);
+}
+
+/* every component is met to `share` of itself */
+static bool is_small(const NetSolve *s, const double *step, double share)
+{
+    for (int i = 0; i < s->n; i++)
+        if (!(fabs(step[i]) <= share * fabs(s->w[i]) + 1e-3 * share * s->size[i] + 1e-14))
+            return false;
+    return true;
+}
+
+/* Every equation is met as far as numbers can tell: a move of w by its last digits changes it as
+ * much. So ends the search for what hardly anything determines, as the potential of what diodes
+ * isolate. */
+static bool is_met(NetSolve *s)
+{
+    const Equations *eq = s->eq;
+    uint64_t seed = 1;
+    bool met = true;
+
+    eq->network_at(eq->context, s->w);
+    memcpy(s->next, eq->network_residual, (size_t)s->n * sizeof(double));
+    memset(s->noise, 0, (size_t)s->n * sizeof(double));
+    for (int turn = 0; turn < MOVES; turn++) {
+        for (int i = 0; i < s->n; i++)
+            s->trial[i] = s->w[i] * (1 + DIGITS * DBL_EPSILON * random_unit(&seed));
+        eq->network_at(eq->context, s->trial);
+        for (int i = 0; i < s->n; i++)
+            s->noise[i] = fmax(s->noise[i], fabs(eq->network_residual[i] - s->next[i]));
+    }
+    for (int i = 0; i < s->n; i++)
+        met = met && fabs(s->next[i]) <= s->noise[i];
+    eq->network_at(eq->context, s->w);
+    return met;
+}
+
+/* The correction behind w - share * step, by the factors there are; NAN where there is none. */
+static double correction_at(NetSolve *s, double share)
+{
+    for (int i = 0; i < s->n; i++)
+        s->trial[i] = s->w[i] - share * s->step[i];
+    s->eq->network_at(s->eq->context, s->trial);
+    return correction(s, s->next) ? norm(s, s->next) : (double)NAN;
+}
+
+/* Beyond a full step: down an exponential, as of a diode, each one is as long as the last. */
+static double furthest(NetSolve *s, double full)
+{
+    double share = 1;
+
+    while (share < FURTHEST) {
+        double next = correction_at(s, 2 * share);
+
+        if (!(next <= full / 2))
+            break;
+        full = next;
+        share *= 2;
+    }
+    return share;
+}
+
+/* One damped step; false where even the smallest share of it makes nothing better. */
+static bool advance(NetSolve *s, double before)
+{
+    double share = 1;
+
+    while (share >= LEAST) {
+        double next = correction_at(s, share);
+
+        if (!(next <= (1 - share / 4) * before)) {
+            share /= 2;
+            continue;
+        }
+        if (share == 1 && next > before / 4)
+            share = furthest(s, next);
+        for (int i = 0; i < s->n; i++)
+            s->w[i] -= share * s->step[i];
+        return true;
+    }
+    return false;
+}
+
+/* how far the equations are from being met */
+static double misfit(const NetSolve *s)
+{
+    double sum = 0;
+
+    for (int i = 0; i < s->n; i++)
+        sum += (s->eq->network_residual[i] * s->weight[i]) *
+               (s->eq->network_residual[i] * s->weight[i]);
+    return sqrt(sum);
+}
+
+/* of each equation, by its largest term at the start */
+static void weigh(NetSolve *s)
+{
+    const Equations *eq = s->eq;
+
+    memset(s->weight, 0, (size_t)s->n * sizeof(double));
+    for (int k = 0; k < eq->network_entries; k++) {
+        double *weight = &s->weight[eq->network_row[k]];
+
+        *weight = fmax(*weight, fabs(eq->network[k]) * s->size[eq->network_column[k]]);
+    }
+    for (int i = 0; i < s->n; i++)
+        s->weight[i] = s->weight[i] > 0 ? 1 / s->weight[i] : 1;
+}
+
+/* The same along the misfit. Behind a kink, as of a diode, slopes are other ones by many orders,
+ * and corrections with the slopes before it tell nothing; the misfit still falls. */
+static bool descend(NetSolve *s)
+{
+    const Equations *eq = s->eq;
+    double before = misfit(s);
+    double share = 1;
+
+    while (share >= SHORTEST) {
+        for (int i = 0; i < s->n; i++)
+            s->trial[i] = s->w[i] - share * s->step[i];
+        eq->network_at(eq->context, s->trial);
+        if (vector_is_finite(eq->network_residual, s->n) && misfit(s) <= (1 - share / 4) * before) {
+            memcpy(s->w, s->trial, (size_t)s->n * sizeof(double));
+            return true;
+        }
+        share /= 2;
+    }
+    return false;
+}
+
+/* ways to take a step of Newton's: so much of it that corrections fall, that the misfit falls, or
+ * all of it, from one straight piece to the next, as of diodes of two lines */
+typedef enum Way { BY_CORRECTION, BY_MISFIT, BY_PIECES, WAYS } Way;
+
+static bool take_step(NetSolve *s, Way way, int turn)
+{
+    double share = turn < PLAIN ? 1 : 1 - fmod(turn * 0.381966011, 1); /* out of circles */
+
+    if (way == BY_CORRECTION)
+        return advance(s, norm(s, s->step));
+    if (way == BY_MISFIT)
+        return descend(s);
+    for (int i = 0; i < s->n; i++)
+        s->w[i] -= share * s->step[i];
+    return true;
+}
+
+static bool solve_newton(NetSolve *s, Way way)
+{
+    const Equations *eq = s->eq;
+    double before = INFINITY;
+
+    for (int i = 0; i < s->n; i++)
+        s->size[i] = fmax(fabs(s->w[i]), 1e-3);
+    for (int k = 0; k < ITERATIONS; k++) {
+        eq->network_at(eq->context, s->w);
+        if (!sparse_factor(s->matrix, eq->network) || !correction(s, s->step))
+            return false;
+        for (int i = 0; i < s->n; i++)
+            s->size[i] = fmax(s->size[i], fabs(s->w[i]));
+        if (k == 0)
+            weigh(s);
+        if (is_small(s, s->step, ENOUGH)) {
+            for (int i = 0; i < s->n; i++)
+                s->w[i] -= s->step[i];
+            return true;
+        }
+        if (k >= PATIENCE && norm(s, s->step) > before / 2 && is_met(s))
+            return true;
+        before = norm(s, s->step);
+        if (!take_step(s, way, k))
+            return is_small(s, s->step, ROUNDING) || is_met(s);
+    }
+    return false;
+}
+
+bool netsolve_find(NetSolve *s)
+{
+    double *kept;
+    bool found = false;
+
+    if (s->n == 0)
+        return true;
+    if (s->eq->network_at == NULL)
+        return solve_linear(s) && vector_is_finite(s->w, s->n);
+    if (!vector_is_finite(s->w, s->n))
+        memset(s->w, 0, (size_t)s->n * sizeof(double));
+    kept = NEW_ARRAY(double, s->n);
+    memcpy(kept, s->w, (size_t)s->n * sizeof(double));
+    /* from the last solution, then from nothing: the last one may belong to another branch */
+    for (int k = 0; k < 2 * WAYS && !found; k++) {
+        if (k >= WAYS)
+            memset(s->w, 0, (size_t)s->n * sizeof(double));
+        else
+            memcpy(s->w, kept, (size_t)s->n * sizeof(double));
+        found = solve_newton(s, k % WAYS);
+    }
+    if (!found)
+        memcpy(s->w, kept, (size_t)s->n * sizeof(double));
+    mem_free(kept);
+    return found;
+}

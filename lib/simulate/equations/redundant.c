@@ -1,0 +1,121 @@
+/* redundant.c: which joints a dependent constraint row repeats
+ *
+ * A dependent row is a combination of the independent ones; the joints of those that take
+ * part are what it repeats. Rows are brought to unit size first. */
+#include "simulate/equations/redundant.h"
+
+#include "base/memory.h"
+
+#include <gsl/gsl_linalg.h>
+#include <math.h>
+#include <stdbool.h>
+
+#define PART 1e-6 /* of a combination: less is rounding */
+
+static double size_of(const double *row, int nu)
+{
+    double size = 0;
+
+    for (int j = 0; j < nu; j++)
+        size = hypot(size, row[j]);
+    return size;
+}
+
+/* shares of the independent rows in the others: (m - rank) x rank */
+static void find_shares(const double *phi_u, int m, int nu, const int *order, int rank,
+                        double *shares)
+{
+    gsl_matrix *rows = gsl_matrix_alloc((size_t)nu, (size_t)rank);
+    gsl_vector *tau = gsl_vector_alloc((size_t)rank);
+    gsl_vector *row = gsl_vector_alloc((size_t)nu);
+    gsl_vector *residual = gsl_vector_alloc((size_t)nu);
+
+    for (int i = 0; i < rank; i++) {
+        const double *from = phi_u + (ptrdiff_t)order[i] * nu;
+        double size = size_of(from, nu);
+
+        for (int j = 0; j < nu; j++)
+            gsl_matrix_set(rows, (size_t)j, (size_t)i, from[j] / size);
+    }
+    (void)gsl_linalg_QR_decomp(rows, tau);
+    for (int k = rank; k < m; k++) {
+        const double *from = phi_u + (ptrdiff_t)order[k] * nu;
+        double size = size_of(from, nu);
+        gsl_vector_view share =
+            gsl_vector_view_array(shares + (ptrdiff_t)(k - rank) * rank, (size_t)rank);
+
+        for (int j = 0; j < nu; j++)
+            gsl_vector_set(row, (size_t)j, size > 0 ? from[j] / size : 0);
+        (void)gsl_linalg_QR_lssolve(rows, tau, row, &share.vector, residual);
+    }
+    gsl_matrix_free(rows);
+    gsl_vector_free(tau);
+    gsl_vector_free(row);
+    gsl_vector_free(residual);
+}
+
+/* the joints that the rows of one joint repeat, each once */
+static void name_repeated(const System *system, const int *order, int rank, const double *shares,
+                          int joint, Text *out)
+{
+    const int m = system_m(system);
+    bool *named = NEW_ARRAY(bool, m);
+    int count = 0;
+
+    for (int i = 0; i < rank; i++) {
+        const int other = system_constraint(system, order[i])->instance;
+        bool takes_part = false;
+
+        for (int k = rank; k < m; k++)
+            takes_part = takes_part || (system_constraint(system, order[k])->instance == joint &&
+                                        fabs(shares[(k - rank) * rank + i]) > PART);
+        for (int before = 0; before < i; before++)
+            takes_part =
+                takes_part &&
+                !(named[before] && system_constraint(system, order[before])->instance == other);
+        if (!takes_part || other == joint)
+            continue;
+        named[i] = true;
+        text_addf(out, count++ > 0 ? ", %s" : " repeats %s", system_instance_name(system, other));
+    }
+    if (count == 0)
+        text_add(out, " follows from the rest");
+    mem_free(named);
+}
+
+void redundant_tell(const System *system, const double *phi_u, const int *order, int rank,
+                    Text *out)
+{
+    const int m = system_m(system), nu = system_nu(system);
+    double *shares = NEW_ARRAY(double, (m - rank) * rank);
+    bool *told = NEW_ARRAY(bool, m);
+
+    if (rank > 0)
+        find_shares(phi_u, m, nu, order, rank, shares);
+    for (int k = rank; k < m; k++) {
+        const int joint = system_constraint(system, order[k])->instance;
+
+        if (told[k])
+            continue;
+        text_addf(out, "redundant: %s (", system_instance_name(system, joint));
+        for (int same = k; same < m; same++) {
+            const ConstraintRow *row = system_constraint(system, order[same]);
+
+            if (row->instance != joint)
+                continue;
+            told[same] = true;
+            text_addf(out, same > k ? ", %s" : "%s", row->direction);
+        }
+        text_char(out, ')');
+        name_repeated(system, order, rank, shares, joint, out);
+        text_char(out, '\n');
+    }
+    text_addf(
+        out,
+        "%d degree%s of freedom without what is redundant; reactions there are not determined: "
+        "those told are the least (minimum norm) of the joints outside the tree, and depend "
+        "on it\n",
+        nu - rank, nu - rank == 1 ? "" : "s");
+    mem_free(told);
+    mem_free(shares);
+}

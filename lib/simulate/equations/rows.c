@@ -1,0 +1,177 @@
+/* rows.c: residuals in symbols, their derivatives, and steps from them */
+#include "simulate/equations/rows.h"
+
+#include "algebra/linear.h"
+#include "base/memory.h"
+
+#include <gsl/gsl_linalg.h>
+#include <math.h>
+#include <string.h>
+
+#define RANK_RATIO 1e-12
+
+static Expr plus_product(Arena *arena, Expr sum, Expr a, Expr b)
+{
+    return expr_add(arena, sum, expr_mul(arena, a, b));
+}
+
+Expr row_balance(const Layout *l, int speed)
+{
+    const Reading *run = system_run(l->system);
+    Arena *arena = system_arena(l->system);
+    Expr sum = expr_neg(arena, run->force[speed]);
+
+    for (int k = 0; k < l->nu; k++)
+        sum =
+            plus_product(arena, sum, run->mass[speed * l->nu + k], l->symbols[l->acceleration + k]);
+    for (int k = 0; k < l->m; k++)
+        sum =
+            plus_product(arena, sum, run->phi_u[k * l->nu + speed], l->symbols[l->multipliers + k]);
+    return sum;
+}
+
+/* Phi_u v - right */
+static Expr rate_row(const Layout *l, int constraint, int first, Expr right)
+{
+    const Reading *run = system_run(l->system);
+    Arena *arena = system_arena(l->system);
+    Expr sum = expr_neg(arena, right);
+
+    for (int k = 0; k < l->nu; k++)
+        sum = plus_product(arena, sum, run->phi_u[constraint * l->nu + k], l->symbols[first + k]);
+    return sum;
+}
+
+Expr row_acceleration(const Layout *l, int constraint)
+{
+    return rate_row(l, constraint, l->acceleration, system_run(l->system)->gamma[constraint]);
+}
+
+Expr row_velocity(const Layout *l, int constraint)
+{
+    return rate_row(l, constraint, l->u, system_run(l->system)->nu[constraint]);
+}
+
+Expr row_network(const Layout *l, int equation)
+{
+    return system_run(l->system)->network_residual[equation];
+}
+
+int speed_coordinate(const System *system, int speed)
+{
+    for (int i = 0; i < system_n(system); i++)
+        if (expr_is(system_n_entry(system, i, speed), 1))
+            return i;
+    return -1;
+}
+
+/* --- derivatives --- */
+
+Status gradients_open(const Layout *layout, Parameters *parameters, const Expr *rows, int row_count,
+                      const Expr *symbols, int symbol_count, Gradients *out, Diag *diag)
+{
+    Expr *roots = NEW_ARRAY(Expr, row_count * (1 + symbol_count));
+    int at = row_count;
+    Status status;
+
+    *out = (Gradients){.rows = row_count, .columns = symbol_count};
+    if (row_count > 0)
+        memcpy(roots, rows, (size_t)row_count * sizeof(Expr));
+    for (int i = 0; i < row_count; i++)
+        for (int j = 0; j < symbol_count; j++)
+            roots[at++] = expr_diff(system_arena(layout->system), rows[i], symbols[j]);
+    status = probe_new(layout, parameters, roots, at, &out->probe, diag);
+    mem_free(roots);
+    return status;
+}
+
+void gradients_free(Gradients *gradients)
+{
+    probe_free(gradients->probe);
+    *gradients = (Gradients){0};
+}
+
+const double *gradients_at(Gradients *gradients, const RowValues *row)
+{
+    return probe_values(gradients->probe, row);
+}
+
+/* --- steps --- */
+
+/* largest entry of a row or a column, 1 where there is none */
+static double size_of(const double *first, int count, int stride)
+{
+    double largest = 0;
+
+    for (int i = 0; i < count; i++)
+        largest = fmax(largest, fabs(first[(ptrdiff_t)i * stride]));
+    return largest > 0 ? largest : 1;
+}
+
+/* `a` and `b` by rows of like size, then `a` by columns of like size: scale (columns) */
+static void load(const double *matrix, int rows, int columns, const double *right, gsl_matrix *a,
+                 gsl_vector *b, double *scale)
+{
+    for (int i = 0; i < rows; i++) {
+        double size = size_of(matrix + (ptrdiff_t)i * columns, columns, 1);
+
+        for (int j = 0; j < columns; j++)
+            gsl_matrix_set(a, (size_t)i, (size_t)j, matrix[(ptrdiff_t)i * columns + j] / size);
+        gsl_vector_set(b, (size_t)i, right[i] / size);
+    }
+    for (int j = 0; j < columns; j++) {
+        scale[j] = size_of(gsl_matrix_const_ptr(a, 0, (size_t)j), (int)a->size1, (int)a->tda);
+        for (size_t i = 0; i < a->size1; i++)
+            *gsl_matrix_ptr(a, i, (size_t)j) /= scale[j];
+    }
+}
+
+static int solve_loaded(gsl_matrix *a, const gsl_vector *b, gsl_vector *x)
+{
+    gsl_vector *tau = gsl_vector_alloc(a->size2), *norms = gsl_vector_alloc(a->size2);
+    gsl_vector *residual = gsl_vector_alloc(a->size1);
+    gsl_permutation *order = gsl_permutation_alloc(a->size2);
+    size_t rank = 0;
+    int sign = 0;
+
+    (void)gsl_linalg_QRPT_decomp(a, tau, order, &sign, norms);
+    while (rank < a->size2 &&
+           fabs(gsl_matrix_get(a, rank, rank)) > RANK_RATIO * fabs(gsl_matrix_get(a, 0, 0)))
+        rank++;
+    gsl_vector_set_zero(x);
+    if (rank > 0)
+        (void)gsl_linalg_QRPT_lssolve2(a, tau, order, b, rank, x, residual);
+    gsl_vector_free(tau);
+    gsl_vector_free(norms);
+    gsl_vector_free(residual);
+    gsl_permutation_free(order);
+    return (int)rank;
+}
+
+int rows_solve(const double *matrix, int rows, int columns, const double *right, double *out)
+{
+    /* rows of zeros below few rows: the factorisation takes no wide matrix */
+    size_t tall = (size_t)(rows > columns ? rows : columns);
+    gsl_matrix *a;
+    gsl_vector *b, *x;
+    double *scale;
+    int rank;
+
+    if (!vector_is_finite(matrix, rows * columns) || !vector_is_finite(right, rows))
+        return -1;
+    if (columns == 0)
+        return 0;
+    a = gsl_matrix_calloc(tall, (size_t)columns);
+    b = gsl_vector_calloc(tall);
+    x = gsl_vector_alloc((size_t)columns);
+    scale = NEW_ARRAY(double, columns);
+    load(matrix, rows, columns, right, a, b, scale);
+    rank = solve_loaded(a, b, x);
+    for (int j = 0; j < columns; j++)
+        out[j] = gsl_vector_get(x, (size_t)j) / scale[j];
+    gsl_matrix_free(a);
+    gsl_vector_free(b);
+    gsl_vector_free(x);
+    mem_free(scale);
+    return vector_is_finite(out, columns) ? rank : -1;
+}

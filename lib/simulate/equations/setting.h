@@ -1,0 +1,41 @@
+/* setting.h: what a run takes from the session: values of parameters, initial values, events
+ *
+ * Everything is borrowed during the call, but for what a result asks again. */
+#ifndef COTREE_SIMULATE_EQUATIONS_SETTING_H
+#define COTREE_SIMULATE_EQUATIONS_SETTING_H
+
+#include "formulate/system.h"
+
+/* Initial values in force: lists of the model, as numbers. */
+typedef struct StartValue {
+    const char *name; /* variable */
+    int primes;
+    double value;
+    bool is_guess;
+} StartValue;
+typedef struct StartValues {
+    int count;
+    StartValue *at;
+} StartValues;
+
+typedef struct Result Result; /* simulate/run/run.h */
+
+/* Numbers of a parameter, asked once a run. Results keep the answers; they ask again for parameters
+ * that only a later question about them brings in, so `context` outlives them. */
+typedef double (*ParameterValue)(void *context, Expr symbol);
+typedef struct Setting {
+    ParameterValue parameter;
+    void *context;
+    const Model *model; /* the system's: its ideal switches make others of it */
+    Form form;
+    const char *const *independent; /* names; borrowed during the call */
+    int independent_count;
+    const Event *const *events; /* borrowed during the call; what a result needs it copies */
+    int event_count;
+    const StartValues *start;
+    const Result *warm; /* configuration by coordinate name to start guesses from; NULL: none */
+    const Result *from; /* start where this one does, but for what `start` tells; NULL: there */
+    const Watch *watch;
+} Setting;
+
+#endif

@@ -1,0 +1,222 @@
+/* signs.c: signs on surfaces that a motion slides along */
+#include "simulate/equations/signs.h"
+
+#include "algebra/linear.h"
+#include "base/memory.h"
+
+#include <math.h>
+#include <string.h>
+
+#define MOVES    30
+#define PROBED   1e-6  /* of a sign, for differences */
+#define NEAR     1e-11 /* of a sign: near enough */
+#define SINGULAR 1e-11 /* least over largest pivot */
+#define DAMPED   1e-10 /* of the largest entry's square */
+#define TURNS    4
+#define FAR      100  /* a sign that isn't between its ends, nor soon behind one */
+#define BEYOND   1e-6 /* of a sign, past an end */
+#define HALVES   40
+#define ROUNDS   10
+
+struct Signs {
+    int count;
+    double *values, *slip, *matrix, *move;
+};
+
+Signs *signs_new(int count)
+{
+    Signs *s = NEW(Signs);
+
+    s->count = count;
+    s->values = NEW_ARRAY(double, count);
+    s->slip = NEW_ARRAY(double, count);
+    s->move = NEW_ARRAY(double, count);
+    s->matrix = NEW_ARRAY(double, count *count);
+    return s;
+}
+
+void signs_free(Signs *s)
+{
+    if (s == NULL)
+        return;
+    mem_free(s->values);
+    mem_free(s->slip);
+    mem_free(s->move);
+    mem_free(s->matrix);
+    mem_free(s);
+}
+
+double *signs_values(Signs *s)
+{
+    return s->values;
+}
+
+bool signs_slopes(Signs *s, SignsTrial trial, void *context, double *slip)
+{
+    if (!trial(context, s->values, slip))
+        return false;
+    for (int k = 0; k < s->count; k++) {
+        double kept = s->values[k];
+        double step = kept > 0 ? -PROBED : PROBED;
+        bool sound;
+
+        s->values[k] = kept + step;
+        sound = trial(context, s->values, s->move);
+        s->values[k] = kept;
+        if (!sound)
+            return false;
+        for (int i = 0; i < s->count; i++)
+            s->matrix[i * s->count + k] = (s->move[i] - slip[i]) / step;
+    }
+    return true;
+}
+
+/* (A^T A + d) x = A^T b, d so small that a few turns on what is left find the least x */
+static bool least(const double *a, int n, double *b)
+{
+    Lu *lu = lu_new(n);
+    double *x = NEW_ARRAY(double, n);
+    double *move = NEW_ARRAY(double, n);
+    double small = DAMPED * vector_largest(a, n * n) * vector_largest(a, n * n);
+    bool sound;
+
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < n; j++) {
+            double sum = i == j ? small : 0;
+
+            for (int k = 0; k < n; k++)
+                sum += a[k * n + i] * a[k * n + j];
+            lu_matrix(lu)[i * n + j] = sum;
+        }
+    sound = lu_factor(lu);
+    for (int turn = 0; turn < TURNS && sound; turn++) {
+        for (int i = 0; i < n; i++) {
+            move[i] = 0;
+            for (int k = 0; k < n; k++)
+                move[i] += a[k * n + i] * b[k];
+        }
+        lu_solve(lu, move);
+        for (int k = 0; k < n; k++) {
+            x[k] += move[k];
+            for (int i = 0; i < n; i++)
+                b[k] -= a[k * n + i] * move[i];
+        }
+    }
+    memcpy(b, x, (size_t)n * sizeof(double));
+    mem_free(x);
+    mem_free(move);
+    lu_free(lu);
+    return sound;
+}
+
+bool signs_least(const double *matrix, int n, double *b)
+{
+    Lu *lu = lu_new(n);
+    bool sound;
+
+    memcpy(lu_matrix(lu), matrix, (size_t)(n * n) * sizeof(double));
+    sound = lu_factor(lu) && lu_pivot_ratio(lu) > SINGULAR;
+    if (sound)
+        lu_solve(lu, b);
+    else
+        sound = least(matrix, n, b);
+    lu_free(lu);
+    return sound && vector_is_finite(b, n);
+}
+
+bool signs_solve(Signs *s, double *slip)
+{
+    for (int i = 0; i < s->count; i++)
+        slip[i] = -slip[i];
+    return signs_least(s->matrix, s->count, slip);
+}
+
+static bool newton(Signs *s, SignsTrial trial, void *context)
+{
+    double before = INFINITY;
+
+    for (int turn = 0; turn < MOVES; turn++) {
+        double moved;
+
+        if (!signs_slopes(s, trial, context, s->slip) || !signs_solve(s, s->slip))
+            return false;
+        moved = vector_largest(s->slip, s->count);
+        for (int i = 0; i < s->count; i++)
+            s->values[i] += s->slip[i];
+        /* as near as rounding lets them come */
+        if (moved <= NEAR * fmax(1, vector_largest(s->values, s->count)) ||
+            (turn > 2 && moved > 0.5 * before && moved < 1e-6))
+            return trial(context, s->values, s->move);
+        before = moved;
+        if (!(fabs(moved) < FAR))
+            return false;
+    }
+    return false;
+}
+
+/* Sign k alone between its ends, by halves. Where slip there is all on one side: false, *sound. */
+static bool bisect(Signs *s, int k, SignsTrial trial, void *context, bool *sound)
+{
+    double ends[2] = {-1, 1}, slip[2];
+
+    *sound = true;
+    for (int i = 0; i < 2 && *sound; i++) {
+        s->values[k] = ends[i];
+        *sound = trial(context, s->values, s->slip);
+        slip[i] = s->slip[k];
+    }
+    if (!*sound || slip[0] * slip[1] > 0)
+        return false;
+    for (int turn = 0; turn < HALVES && *sound; turn++) {
+        s->values[k] = (ends[0] + ends[1]) / 2;
+        *sound = trial(context, s->values, s->slip);
+        ends[s->slip[k] * slip[0] > 0 ? 0 : 1] = s->values[k];
+    }
+    return *sound;
+}
+
+/* Signs beyond an end, which is where they leave it, unless there are others between. */
+static bool look_between(Signs *s, SignsTrial trial, void *context)
+{
+    double *kept = NEW_ARRAY(double, s->count);
+    bool moved = false, sound = true;
+
+    memcpy(kept, s->values, (size_t)s->count * sizeof(double));
+    for (int k = 0; k < s->count && sound; k++)
+        if (fabs(kept[k]) > 1 + BEYOND) {
+            if (bisect(s, k, trial, context, &sound))
+                moved = true;
+            else
+                s->values[k] = kept[k];
+        }
+    if (!moved || !sound || !newton(s, trial, context)) {
+        memcpy(s->values, kept, (size_t)s->count * sizeof(double));
+        sound = trial(context, s->values, s->move);
+    }
+    mem_free(kept);
+    return sound;
+}
+
+static bool is_beyond(const Signs *s)
+{
+    return vector_largest(s->values, s->count) > 1 + BEYOND;
+}
+
+bool signs_find(Signs *s, SignsTrial trial, void *context)
+{
+    bool found = newton(s, trial, context);
+
+    /* where slip bends strongly, one by one, for Newton's method to begin near */
+    for (int round = 0; round < ROUNDS && !found; round++) {
+        for (int k = 0; k < s->count; k++) {
+            bool sound, between = bisect(s, k, trial, context, &sound);
+
+            if (!sound)
+                return false;
+            if (!between)
+                s->values[k] = 0;
+        }
+        found = newton(s, trial, context);
+    }
+    return found && (!is_beyond(s) || look_between(s, trial, context));
+}

@@ -1,0 +1,736 @@
+/* steep.c: equations with steep functions and sources in the place of inputs
+ *
+ * An element N(a) becomes n + s (a - a0), whose n, s and a0 are inputs: s is next to nothing
+ * where it doesn't conduct. A source becomes an input. What is left is solved for w as a linear
+ * system; how it answers to inputs is found by differences, exact where it is affine. */
+#include "simulate/equations/steep.h"
+
+#include "algebra/linear.h"
+#include "algebra/sparse.h"
+#include "base/memory.h"
+
+#include <math.h>
+#include <string.h>
+
+#define LEAST_POWER 8  /* exponents from which on a power is steep */
+#define PIECES      64 /* of a run, for the ranges of sources in it */
+#define ELEMENT     1e6 /* what an element is moved by: the smallest saturation current still shows */
+
+#define SOLVED (1U << SYMBOL_STATE_RATE | 1U << SYMBOL_ALGEBRAIC)
+#define MOVING                                                                                     \
+    (SOLVED | 1U << SYMBOL_COORDINATE | 1U << SYMBOL_SPEED | 1U << SYMBOL_STATE | 1U << SYMBOL_TURN)
+#define AFTER                                                                                      \
+    (1U << SYMBOL_ACCELERATION | 1U << SYMBOL_MULTIPLIER | 1U << SYMBOL_EFFORT | 1U << SYMBOL_JERK)
+
+typedef struct Element {
+    Expr call;
+    Expr argument;
+    Op op; /* OP_HOLD: a power */
+    double exponent;
+    bool is_bent; /* the argument isn't affine in variables */
+    int inputs;   /* places of n, s and a0 in the layout */
+} Element;
+
+typedef struct Source {
+    Expr function;
+    int input;
+    double size;        /* its range in a run, s; 0: not known */
+    bool is_continuous; /* its derivative tells how far it goes */
+    bool has_corners;   /* that derivative may jump */
+} Source;
+
+struct Steep {
+    const Layout *l;
+    Parameters *parameters;
+    Motion *motion;
+    const Equations *eq;
+    LIST(Element) elements;
+    LIST(Source) sources;
+    Ranges *values, *slopes, *bends;
+    Range *closer; /* of sources */
+    Range *bent;   /* likewise, corners with them */
+    double *reach; /* likewise: how far each gets from the middle of an interval */
+    Layout inputs; /* the layout, and the inputs of elements and sources */
+    Probe *probe;  /* G, F, gamma, arguments, A; NULL: not made yet */
+    bool has_failed;
+    int force, gamma, argument, matrix; /* places of the roots */
+    Sparse *network;
+    double *here;                   /* roots at the point */
+    double *w, *moved, *answer, *y; /* w there; w moved, change of w, y moved */
+    double t;
+    RowValues row;
+};
+
+/* --- what there is --- */
+
+/* of t and parameters, none of which is the side of a switch */
+static bool is_of_time(const Layout *l, Expr e)
+{
+    const unsigned kinds = expr_kinds(e);
+
+    if ((kinds & 1U << SYMBOL_TIME) == 0 ||
+        (kinds & ~(1U << SYMBOL_TIME | 1U << SYMBOL_PARAMETER)) != 0)
+        return false;
+    for (int i = 0; i < l->switches; i++)
+        if (l->side[i] != NULL && expr_depends(e, l->side[i]))
+            return false;
+    return true;
+}
+
+static bool is_steep_op(Op op)
+{
+    return op == OP_EXP || op == OP_TANH || op == OP_SINH || op == OP_COSH;
+}
+
+static bool is_steep_power(Expr e)
+{
+    return expr_kind(e) == EXPR_POWER && expr_is_number(expr_arg(e, 1)) &&
+           fabs(expr_value(expr_arg(e, 1))) >= LEAST_POWER;
+}
+
+static bool is_element(Expr e)
+{
+    return ((expr_kind(e) == EXPR_CALL && is_steep_op(expr_op(e))) || is_steep_power(e)) &&
+           (expr_kinds(e) & MOVING) != 0 && (expr_kinds(e) & AFTER) == 0;
+}
+
+/* jumps have a derivative of zero, and of data some points alone tell the range */
+static bool may_jump(Expr e, void *context)
+{
+    const Op op = expr_kind(e) == EXPR_CALL ? expr_op(e) : OP_SIN;
+
+    (void)context;
+    return op == OP_SIGN || op == OP_STEP || op == OP_FLOOR || op == OP_IF || op == OP_HOLD ||
+           op == OP_TABLE || op == OP_ATAN2 || op == OP_UNWRAP || (op >= OP_LT && op <= OP_NOT);
+}
+
+static bool is_continuous(Expr e)
+{
+    Expr *jumps;
+    const int count = expr_find(&e, 1, may_jump, NULL, &jumps);
+
+    mem_free(jumps);
+    return count == 0;
+}
+
+static void add_source(Steep *s, Expr e)
+{
+    for (int i = 0; i < s->sources.count; i++)
+        if (s->sources.at[i].function == e)
+            return;
+    LIST_PUSH(s->sources, (Source){.function = e, .is_continuous = is_continuous(e)});
+}
+
+/* exp(min(c, x)) is exp(x) as far as it goes */
+static Expr without_cap(Expr argument)
+{
+    if (expr_kind(argument) == EXPR_CALL && expr_op(argument) == OP_MIN &&
+        expr_is_number(expr_arg(argument, 0)))
+        return expr_arg(argument, 1);
+    return argument;
+}
+
+static bool is_bent(Arena *arena, Expr argument)
+{
+    Expr *symbols;
+    int count = expr_symbols(&argument, 1, &symbols);
+    bool bent = false;
+
+    for (int i = 0; i < count && !bent; i++)
+        if ((expr_kinds(symbols[i]) & MOVING) != 0)
+            bent = (expr_kinds(expr_diff(arena, argument, symbols[i])) & MOVING) != 0;
+    mem_free(symbols);
+    return bent;
+}
+
+/* what stands in e of time alone, where e holds more than that */
+static void add_sources_of(Steep *s, Expr e)
+{
+    for (int i = 0; i < expr_arg_count(e); i++)
+        if (is_of_time(s->l, expr_arg(e, i)))
+            add_source(s, expr_arg(e, i));
+}
+
+static bool holds_time_or_is_element(Expr e, void *context)
+{
+    return is_element(e) || ((expr_kinds(e) & 1U << SYMBOL_TIME) != 0 && !is_of_time(context, e));
+}
+
+static void find_all(Steep *s, const Expr *roots, int count)
+{
+    Expr *nodes;
+    int found = expr_find(roots, count, holds_time_or_is_element, (void *)s->l, &nodes);
+
+    for (int i = 0; i < count; i++)
+        if (is_of_time(s->l, roots[i]))
+            add_source(s, roots[i]);
+    for (int i = 0; i < found; i++) {
+        if (is_element(nodes[i])) {
+            const bool is_power = expr_kind(nodes[i]) == EXPR_POWER;
+            Expr argument = without_cap(expr_arg(nodes[i], 0));
+
+            LIST_PUSH(s->elements,
+                      (Element){.call = nodes[i],
+                                .argument = argument,
+                                .is_bent = is_bent(system_arena(s->l->system), argument),
+                                .op = is_power ? OP_HOLD : expr_op(nodes[i]),
+                                .exponent = is_power ? expr_value(expr_arg(nodes[i], 1)) : 0});
+        }
+        add_sources_of(s, nodes[i]);
+    }
+    mem_free(nodes);
+}
+
+typedef LIST(Expr) Roots;
+
+/* G, F and gamma */
+static Roots equations_of(const Layout *l)
+{
+    const Reading *r = system_run(l->system);
+    Roots roots = {0};
+
+    for (int i = 0; i < l->nx + l->nz; i++)
+        LIST_PUSH(roots, r->network_residual[i]);
+    for (int i = 0; i < l->nu; i++)
+        LIST_PUSH(roots, r->force[i]);
+    for (int i = 0; i < l->m; i++)
+        LIST_PUSH(roots, r->gamma[i]);
+    return roots;
+}
+
+static void find_ranges(Steep *s)
+{
+    Arena *arena = system_arena(s->l->system);
+    Expr time = s->l->symbols[s->l->t];
+    Expr *functions = NEW_ARRAY(Expr, s->sources.count);
+
+    for (int i = 0; i < s->sources.count; i++)
+        functions[i] = s->sources.at[i].function;
+    s->values = ranges_new(functions, s->sources.count, time, parameters_value_in, s->parameters);
+    for (int i = 0; i < s->sources.count; i++) {
+        functions[i] = expr_diff(arena, functions[i], time);
+        s->sources.at[i].has_corners = !is_continuous(functions[i]);
+    }
+    s->slopes = ranges_new(functions, s->sources.count, time, parameters_value_in, s->parameters);
+    for (int i = 0; i < s->sources.count; i++)
+        functions[i] = expr_diff(arena, functions[i], time);
+    s->bends = ranges_new(functions, s->sources.count, time, parameters_value_in, s->parameters);
+    s->closer = NEW_ARRAY(Range, s->sources.count);
+    s->bent = NEW_ARRAY(Range, s->sources.count);
+    s->reach = NEW_ARRAY(double, s->sources.count);
+    mem_free(functions);
+}
+
+Status steep_new(const Layout *l, Parameters *parameters, Motion *motion, const Equations *eq,
+                 Steep **out, Diag *diag)
+{
+    Steep *s = NEW(Steep);
+    Roots roots = equations_of(l);
+
+    *out = NULL;
+    *s = (Steep){.l = l, .parameters = parameters, .motion = motion, .eq = eq};
+    find_all(s, roots.at, roots.count);
+    LIST_FREE(roots);
+    if (s->elements.count == 0 && s->sources.count == 0) {
+        steep_free(s);
+        return OK;
+    }
+    find_ranges(s);
+    *out = s;
+    return arena_status(system_arena(l->system)) == OK
+               ? OK
+               : diag_set(diag, arena_status(system_arena(l->system)), "%s",
+                          arena_failure(system_arena(l->system)));
+}
+
+void steep_free(Steep *s)
+{
+    if (s == NULL)
+        return;
+    LIST_FREE(s->elements);
+    LIST_FREE(s->sources);
+    ranges_free(s->values);
+    ranges_free(s->slopes);
+    ranges_free(s->bends);
+    mem_free(s->closer);
+    mem_free(s->bent);
+    mem_free(s->reach);
+    probe_free(s->probe);
+    sparse_free(s->network);
+    mem_free(s->inputs.symbols);
+    mem_free(s->here);
+    mem_free(s->w);
+    mem_free(s->moved);
+    mem_free(s->answer);
+    mem_free(s->y);
+    mem_free(s);
+}
+
+int steep_elements(const Steep *s)
+{
+    return s->elements.count;
+}
+
+int steep_sources(const Steep *s)
+{
+    return s->sources.count;
+}
+
+const Range *steep_sources_over(Steep *s, Range over)
+{
+    over = (Range){motion_clock(s->motion, over.low), motion_clock(s->motion, over.high)};
+    return ranges_over(s->values, over);
+}
+
+/* A corner bends without bound, and no second derivative tells of it: the first one varies. */
+const Range *steep_bends_over(Steep *s, Range over)
+{
+    bool any = false;
+
+    over = (Range){motion_clock(s->motion, over.low), motion_clock(s->motion, over.high)};
+    for (int j = 0; j < s->sources.count; j++)
+        any = any || s->sources.at[j].has_corners;
+    if (!any)
+        return ranges_over(s->bends, over);
+    memcpy(s->bent, ranges_over(s->bends, over), (size_t)s->sources.count * sizeof(Range));
+    for (int j = 0; j < s->sources.count; j++) {
+        const Range slope = ranges_over(s->slopes, over)[j];
+
+        if (s->sources.at[j].has_corners && slope.low < slope.high)
+            s->bent[j] = (Range){-INFINITY, INFINITY};
+    }
+    return s->bent;
+}
+
+/* the part of a that lies within reach of b's middle too, where that makes sense */
+static Range narrowed(Range a, Range b, double reach)
+{
+    const double middle = (b.low + b.high) / 2, half = (b.high - b.low) / 2 + reach;
+    const Range out = {fmax(a.low, middle - half), fmin(a.high, middle + half)};
+
+    return out.low <= out.high ? out : a;
+}
+
+const Range *steep_sources_close(Steep *s, Range over)
+{
+    const double low = motion_clock(s->motion, over.low), high = motion_clock(s->motion, over.high);
+    const double middle = low + (high - low) / 2;
+    const Range *at;
+
+    at = ranges_over(s->slopes, (Range){low, high});
+    for (int j = 0; j < s->sources.count; j++)
+        s->reach[j] = fmax(fabs(at[j].low), fabs(at[j].high)) * (high - low) / 2;
+    memcpy(s->closer, ranges_over(s->values, (Range){low, high}),
+           (size_t)s->sources.count * sizeof(Range));
+    at = ranges_over(s->values, (Range){middle, middle});
+    for (int j = 0; j < s->sources.count; j++)
+        if (s->sources.at[j].is_continuous && isfinite(s->reach[j]))
+            s->closer[j] = narrowed(s->closer[j], at[j], s->reach[j]);
+    return s->closer;
+}
+
+void steep_span(Steep *s, double from, double to)
+{
+    double piece = (to - from) / PIECES;
+    Range *all = NEW_ARRAY(Range, s->sources.count);
+
+    for (int p = 0; p < PIECES; p++) {
+        const Range *over =
+            steep_sources_over(s, (Range){from + p * piece, from + (p + 1) * piece});
+
+        for (int j = 0; j < s->sources.count; j++) {
+            all[j].low = p == 0 ? over[j].low : fmin(all[j].low, over[j].low);
+            all[j].high = p == 0 ? over[j].high : fmax(all[j].high, over[j].high);
+        }
+    }
+    for (int j = 0; j < s->sources.count; j++) {
+        double size = all[j].high - all[j].low;
+
+        s->sources.at[j].size = isfinite(size) ? size : 0;
+    }
+    mem_free(all);
+}
+
+double steep_source_size(const Steep *s, int j)
+{
+    return s->sources.at[j].size;
+}
+
+Range steep_size(const Steep *s, int k, Range a)
+{
+    const Element *element = &s->elements.at[k];
+    Range size = {a.low <= 0 && a.high >= 0 ? 0 : fmin(fabs(a.low), fabs(a.high)),
+                  fmax(fabs(a.low), fabs(a.high))};
+
+    switch (element->op) {
+    case OP_EXP:
+        return a;
+    case OP_TANH: /* what is left to 1 */
+        return (Range){-2 * size.high, -2 * size.low};
+    case OP_HOLD:
+        size = (Range){element->exponent * log(size.low), element->exponent * log(size.high)};
+        return size.low <= size.high ? size : (Range){size.high, size.low};
+    default:
+        return size;
+    }
+}
+
+/* --- the equations over inputs --- */
+
+static int new_input(Steep *s, const char *name)
+{
+    Text text = {0};
+    int place = s->inputs.count++;
+
+    text_addf(&text, "%s %d", name, place);
+    s->inputs.symbols = mem_grow(s->inputs.symbols, (size_t)s->inputs.count, sizeof(Expr));
+    s->inputs.symbols[place] = expr_symbol(system_arena(s->l->system), text.at, SYMBOL_EFFORT);
+    text_free(&text);
+    return place;
+}
+
+static void make_inputs(Steep *s)
+{
+    s->inputs = *s->l;
+    s->inputs.symbols = NEW_ARRAY(Expr, s->l->count);
+    memcpy(s->inputs.symbols, s->l->symbols, (size_t)s->l->count * sizeof(Expr));
+    for (int i = 0; i < s->sources.count; i++)
+        s->sources.at[i].input = new_input(s, "source");
+    for (int k = 0; k < s->elements.count; k++) {
+        s->elements.at[k].inputs = new_input(s, "value");
+        (void)new_input(s, "slope");
+        (void)new_input(s, "argument");
+    }
+}
+
+/* roots with inputs in the place of sources and elements, then arguments of elements */
+static void put_inputs(const Steep *s, Roots *roots)
+{
+    Arena *arena = system_arena(s->l->system);
+    Roots from = {0}, to = {0};
+    Roots arguments = {0};
+
+    for (int i = 0; i < s->sources.count; i++) {
+        LIST_PUSH(from, s->sources.at[i].function);
+        LIST_PUSH(to, s->inputs.symbols[s->sources.at[i].input]);
+    }
+    for (int k = 0; k < s->elements.count; k++)
+        LIST_PUSH(arguments, s->elements.at[k].argument);
+    expr_replace(arena, arguments.at, arguments.count, from.at, to.at, from.count);
+    for (int k = 0; k < s->elements.count; k++) {
+        const Expr *own = s->inputs.symbols + s->elements.at[k].inputs;
+        Expr moved = expr_sub(arena, arguments.at[k], own[2]);
+        Expr capped = expr_arg(s->elements.at[k].call, 0);
+
+        if (capped != s->elements.at[k].argument) { /* and beyond the cap, as a diode goes on */
+            Expr beyond = expr_sub(arena, s->elements.at[k].argument, expr_arg(capped, 0));
+
+            LIST_PUSH(from, expr_call2(arena, OP_MAX, expr_int(arena, 0), beyond));
+            LIST_PUSH(to, expr_int(arena, 0));
+        }
+        LIST_PUSH(from, s->elements.at[k].call);
+        LIST_PUSH(to, expr_add(arena, own[0], expr_mul(arena, own[1], moved)));
+    }
+    expr_replace(arena, roots->at, roots->count, from.at, to.at, from.count);
+    for (int k = 0; k < arguments.count; k++)
+        LIST_PUSH(*roots, arguments.at[k]);
+    LIST_FREE(from);
+    LIST_FREE(to);
+    LIST_FREE(arguments);
+}
+
+static bool compile(Steep *s)
+{
+    const Layout *l = s->l;
+    const Reading *r = system_run(l->system);
+    int n = l->nx + l->nz, entries = r->network_entries;
+    Roots roots = equations_of(l);
+    int *row = NEW_ARRAY(int, entries), *column = NEW_ARRAY(int, entries);
+
+    make_inputs(s);
+    s->force = n;
+    s->gamma = n + l->nu;
+    s->argument = roots.count;
+    put_inputs(s, &roots);
+    s->matrix = roots.count;
+    for (int i = 0; i < entries; i++) {
+        row[i] = r->network[i].row;
+        column[i] = r->network[i].column;
+        LIST_PUSH(
+            roots,
+            expr_diff(
+                system_arena(l->system), roots.at[row[i]],
+                l->symbols[column[i] < l->nx ? l->rates + column[i] : l->z + column[i] - l->nx]));
+    }
+    s->network = sparse_new(n, entries, row, column);
+    s->here = NEW_ARRAY(double, roots.count);
+    s->w = NEW_ARRAY(double, n);
+    s->moved = NEW_ARRAY(double, n);
+    s->answer = NEW_ARRAY(double, n + l->nu);
+    s->y = NEW_ARRAY(double, motion_length(s->motion));
+    s->has_failed =
+        probe_new(&s->inputs, s->parameters, roots.at, roots.count, &s->probe, NULL) != OK;
+    mem_free(row);
+    mem_free(column);
+    LIST_FREE(roots);
+    return !s->has_failed;
+}
+
+static bool is_ready(Steep *s)
+{
+    return s->probe != NULL || (!s->has_failed && compile(s));
+}
+
+/* --- about a point --- */
+
+static const double *roots_at(Steep *s, const double *y, const double *w)
+{
+    s->inputs.sides = s->l->sides;
+    s->row = row_of_state(s->l, s->t, y);
+    s->row.rates = w;
+    s->row.z = w + s->l->nx;
+    return probe_values(s->probe, &s->row);
+}
+
+static void set_sources(Steep *s, double t)
+{
+    const Range *at = steep_sources_over(s, (Range){t, t});
+
+    for (int i = 0; i < s->sources.count; i++)
+        *probe_input(s->probe, s->sources.at[i].input) = (at[i].low + at[i].high) / 2;
+}
+
+static void set_element(Steep *s, int k, double n, double slope, double a)
+{
+    double *inputs = probe_input(s->probe, s->elements.at[k].inputs);
+
+    inputs[0] = n;
+    inputs[1] = slope;
+    inputs[2] = a;
+}
+
+/* w, sources and the row at (t, y) */
+static bool go_to(Steep *s, double t, const double *y)
+{
+    const double *w;
+
+    if (!is_ready(s))
+        return false;
+    w = motion_network(s->motion, t, y);
+    if (w == NULL)
+        return false;
+    memcpy(s->w, w, (size_t)(s->l->nx + s->l->nz) * sizeof(double));
+    s->t = motion_clock(s->motion, t);
+    set_sources(s, s->t);
+    return true;
+}
+
+bool steep_arguments(Steep *s, double t, const double *y, double *a)
+{
+    if (!go_to(s, t, y))
+        return false;
+    memcpy(a, roots_at(s, y, s->w) + s->argument, (size_t)s->elements.count * sizeof(double));
+    return vector_is_finite(a, s->elements.count);
+}
+
+/* N and its slope at a */
+static void value_of(const Element *element, double a, double *n, double *slope)
+{
+    switch (element->op) {
+    case OP_EXP:
+        *n = *slope = exp(a);
+        return;
+    case OP_TANH:
+        *n = tanh(a);
+        *slope = 1 - *n * *n;
+        return;
+    case OP_SINH:
+        *n = sinh(a);
+        *slope = cosh(a);
+        return;
+    case OP_COSH:
+        *n = cosh(a);
+        *slope = sinh(a);
+        return;
+    default:
+        *n = pow(a, element->exponent);
+        *slope = element->exponent * pow(a, element->exponent - 1);
+    }
+}
+
+/* From now on about (t, y): roots in `here`, the network factored. */
+static bool settle(Steep *s, const double *y, const double *leaks, const double *a)
+{
+    const double *roots;
+
+    for (int k = 0; k < s->elements.count; k++) {
+        double n, slope;
+
+        value_of(&s->elements.at[k], a[k], &n, &slope);
+        set_element(s, k, n, isnan(leaks[k]) ? slope : leaks[k], a[k]);
+    }
+    memcpy(s->y, y, (size_t)motion_length(s->motion) * sizeof(double));
+    roots = roots_at(s, y, s->w);
+    memcpy(s->here, roots,
+           (size_t)(s->matrix + system_run(s->l->system)->network_entries) * sizeof(double));
+    return s->l->nx + s->l->nz == 0 || sparse_factor(s->network, s->here + s->matrix);
+}
+
+/* How w answers to what has moved the roots, per `by`; into s->answer. */
+static void answer(Steep *s, const double *roots, double by)
+{
+    int n = s->l->nx + s->l->nz;
+
+    for (int i = 0; i < n; i++)
+        s->answer[i] = -(roots[i] - s->here[i]) / by;
+    if (n > 0)
+        sparse_solve(s->network, s->answer);
+}
+
+/* How arguments answer to the same, w going with it; y is where that has gone. */
+static void arguments_answer(Steep *s, const double *y, double by, double *out, int stride)
+{
+    const double *roots;
+    int n = s->l->nx + s->l->nz;
+
+    answer(s, roots_at(s, y, s->w), by);
+    for (int i = 0; i < n; i++)
+        s->moved[i] = s->w[i] + by * s->answer[i];
+    roots = roots_at(s, y, s->moved);
+    for (int k = 0; k < s->elements.count; k++)
+        out[k * stride] = (roots[s->argument + k] - s->here[s->argument + k]) / by;
+}
+
+/* a = rate (x - t) + bend (x - t)^2 by its values at the end of the way, of which `rate` holds the
+ * slope so far, and half way */
+static void find_bends(Steep *s, const double *y, const double *slope, double by, double *moved,
+                       Affine *out)
+{
+    bool any = false;
+
+    memset(out->bend, 0, (size_t)s->elements.count * sizeof(double));
+    for (int k = 0; k < s->elements.count; k++)
+        any = any || s->elements.at[k].is_bent;
+    if (!any)
+        return;
+    for (int i = 0; i < motion_length(s->motion); i++)
+        moved[i] = y[i] + by / 2 * slope[i];
+    arguments_answer(s, moved, by / 2, out->bend, 1);
+    for (int k = 0; k < s->elements.count; k++) {
+        double bend = s->elements.at[k].is_bent ? 2 * (out->rate[k] - out->bend[k]) / by : 0;
+
+        out->bend[k] = bend;
+        out->rate[k] -= bend * by;
+    }
+}
+
+/* The way to look along y', s: a step, but no further than y is large. Differences are taken over
+ * such ways, for rounding may be 1e12 times larger in what nothing but leakage determines. */
+static double way_along(const double *y, const double *slope, int length, double h)
+{
+    for (int i = 0; i < length; i++)
+        if (h * fabs(slope[i]) > fabs(y[i]) + 1)
+            h = (fabs(y[i]) + 1) / fabs(slope[i]);
+    return h;
+}
+
+static double way_of_source(const Steep *s, int j)
+{
+    return s->sources.at[j].size > 0 ? s->sources.at[j].size : 1;
+}
+
+bool steep_linearise(Steep *s, double t, const double *y, const double *slope, double h,
+                     const double *leaks, Affine *out)
+{
+    int length = motion_length(s->motion);
+    double by = way_along(y, slope, length - 1, h);
+    double *moved;
+
+    if (!steep_arguments(s, t, y, out->a) || !settle(s, y, leaks, out->a))
+        return false;
+    moved = NEW_ARRAY(double, length);
+    for (int i = 0; i < length; i++)
+        moved[i] = y[i] + by * slope[i];
+    arguments_answer(s, moved, by, out->rate, 1);
+    find_bends(s, y, slope, by, moved, out);
+    for (int j = 0; j < s->sources.count; j++) {
+        double *input = probe_input(s->probe, s->sources.at[j].input);
+        double kept = *input;
+
+        by = way_of_source(s, j);
+        *input = kept + by;
+        arguments_answer(s, y, by, out->by_source + j, s->sources.count);
+        *input = kept;
+    }
+    mem_free(moved);
+    return vector_is_finite(out->rate, s->elements.count) &&
+           vector_is_finite(out->by_source, s->elements.count * s->sources.count);
+}
+
+/* the largest rate that answers, over its scale: of states, and of speeds as if each body moved
+ * alone */
+static double effect(Steep *s, double by, const double *scale)
+{
+    const Layout *l = s->l;
+    int n = l->nx + l->nz;
+    const double *roots = roots_at(s, s->y, s->w);
+    double largest = 0;
+
+    answer(s, roots, by);
+    for (int i = 0; i < n; i++)
+        s->moved[i] = s->w[i] + by * s->answer[i];
+    if (l->nu > 0)
+        roots = roots_at(s, s->y, s->moved);
+    for (int i = 0; i < l->nx; i++)
+        largest = fmax(largest, fabs(s->answer[i]) / scale[l->n + l->nu + i]);
+    for (int j = 0; j < l->nu; j++) {
+        double force = (roots[s->force + j] - s->here[s->force + j]) / by;
+        double mass = s->eq->mass[j * l->nu + j];
+
+        if (mass > 0)
+            largest = fmax(largest, fabs(force / mass) / scale[l->n + j]);
+    }
+    for (int k = 0; k < l->m; k++) {
+        double gamma = fabs(roots[s->gamma + k] - s->here[s->gamma + k]) / by;
+        double size = vector_largest(s->eq->phi_u + k * l->nu, l->nu);
+
+        for (int j = 0; j < l->nu && size > 0; j++)
+            if (s->eq->phi_u[k * l->nu + j] != 0)
+                largest = fmax(largest, gamma / size / scale[l->n + j]);
+    }
+    return largest;
+}
+
+double steep_effect_of_element(Steep *s, int k, const double *scale)
+{
+    double *input = probe_input(s->probe, s->elements.at[k].inputs);
+    double kept = *input, out;
+
+    *input = kept + ELEMENT;
+    out = effect(s, ELEMENT, scale);
+    *input = kept;
+    return out;
+}
+
+double steep_effect_of_source(Steep *s, int k, double t, const double *y, const double *scale)
+{
+    double *input, kept, out, by;
+    double *a = NEW_ARRAY(double, s->elements.count);
+    double *leaks = NEW_ARRAY(double, s->elements.count);
+    bool sound = steep_arguments(s, t, y, a);
+
+    for (int i = 0; i < s->elements.count; i++)
+        leaks[i] = NAN;
+    sound = sound && settle(s, y, leaks, a);
+    mem_free(a);
+    mem_free(leaks);
+    if (!sound)
+        return INFINITY;
+    input = probe_input(s->probe, s->sources.at[k].input);
+    by = way_of_source(s, k);
+    kept = *input;
+    *input = kept + by;
+    out = effect(s, by, scale);
+    *input = kept;
+    return out;
+}

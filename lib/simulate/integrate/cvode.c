@@ -1,0 +1,258 @@
+/* cvode.c: SUNDIALS CVODE, BDF and Adams, on y' = f(t, y)
+ *
+ * Multistep methods run without projection: their history isn't on the manifold, and what is read
+ * from a step is projected by whoever reads it. They restart at order 1 after a jump. */
+#include "simulate/integrate/ode.h"
+
+#include "base/memory.h"
+
+#include <cvode/cvode.h>
+#include <nvector/nvector_serial.h>
+#include <string.h>
+#include <sunlinsol/sunlinsol_dense.h>
+#include <sunmatrix/sunmatrix_dense.h>
+#include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
+
+#define MAX_TRIES 100000 /* inner steps that CVODE may take for one of ours: one mode makes one */
+#define STUCK     10     /* steps on end that end where they began */
+
+typedef struct Cvode {
+    Stepper base;
+    int all;
+    SUNContext context;
+    void *memory;
+    N_Vector y, out, tolerance;
+    SUNMatrix matrix;
+    SUNLinearSolver linear;
+    SUNNonlinearSolver nonlinear;
+    Counts earlier; /* of integrations before the last restart */
+    int stuck;      /* steps on end that were too short for numbers to tell their ends apart */
+    char reason[200];
+} Cvode;
+
+/* CVODE's own words belong into our message, not on the terminal */
+static void keep_reason(int code, const char *module, const char *function, char *message,
+                        void *data)
+{
+    Cvode *c = data;
+
+    (void)code, (void)module, (void)function;
+    (void)snprintf(c->reason, sizeof c->reason, "%s", message);
+}
+
+static int rate(realtype t, N_Vector y, N_Vector out, void *data)
+{
+    Cvode *c = data;
+
+    c->base.counts.evaluations++;
+    return c->base.ode->rate(c->base.ode->context, t, N_VGetArrayPointer(y),
+                             N_VGetArrayPointer(out))
+               ? 0
+               : 1;
+}
+
+static Stepper *create(const Method *method, const Ode *ode, const Control *control)
+{
+    Cvode *c = NEW(Cvode);
+    int all = ode->n + ode->quadratures;
+
+    c->base = (Stepper){.method = method, .ode = ode, .control = *control};
+    c->all = all;
+    c->base.y = NEW_ARRAY(double, all);
+    if (SUNContext_Create(NULL, &c->context) != 0)
+        return &c->base; /* start() reports it */
+    c->y = N_VNew_Serial(all, c->context);
+    c->out = N_VNew_Serial(all, c->context);
+    c->tolerance = N_VNew_Serial(all, c->context);
+    c->memory = CVodeCreate(method->is_stiff ? CV_BDF : CV_ADAMS, c->context);
+    return &c->base;
+}
+
+static Stepper *create_bdf(const Ode *ode, const Control *control)
+{
+    return create(&method_bdf, ode, control);
+}
+
+static Stepper *create_adams(const Ode *ode, const Control *control)
+{
+    return create(&method_adams, ode, control);
+}
+
+static void destroy(Stepper *stepper)
+{
+    Cvode *c = (Cvode *)stepper;
+
+    if (c == NULL)
+        return;
+    CVodeFree(&c->memory);
+    if (c->linear != NULL)
+        SUNLinSolFree(c->linear);
+    if (c->nonlinear != NULL)
+        SUNNonlinSolFree(c->nonlinear);
+    if (c->matrix != NULL)
+        SUNMatDestroy(c->matrix);
+    if (c->context != NULL) {
+        N_VDestroy(c->y);
+        N_VDestroy(c->out);
+        N_VDestroy(c->tolerance);
+    }
+    SUNContext_Free(&c->context);
+    mem_free(c->base.y);
+    mem_free(c);
+}
+
+static int first_start(Cvode *c, double t)
+{
+    int code = CVodeInit(c->memory, rate, t, c->y);
+
+    for (int i = 0; i < c->all; i++) /* a quadrature's own error doesn't steer the step */
+        NV_Ith_S(c->tolerance, i) = i < c->base.ode->n ? c->base.control.atol : 1e10;
+    if (code == 0)
+        code = CVodeSetUserData(c->memory, c);
+    if (code == 0)
+        code = CVodeSetErrHandlerFn(c->memory, keep_reason, c);
+    if (code == 0)
+        code = CVodeSVtolerances(c->memory, c->base.control.rtol, c->tolerance);
+    if (code == 0)
+        code = CVodeSetMaxNumSteps(c->memory, MAX_TRIES);
+    if (code == 0)
+        code = CVodeSetMaxStep(c->memory, control_largest(&c->base.control));
+    if (code != 0)
+        return code;
+    if (c->base.method->is_stiff) {
+        c->matrix = SUNDenseMatrix(c->all, c->all, c->context);
+        c->linear = SUNLinSol_Dense(c->y, c->matrix, c->context);
+        return CVodeSetLinearSolver(c->memory, c->linear, c->matrix);
+    }
+    c->nonlinear = SUNNonlinSol_FixedPoint(c->y, 0, c->context);
+    return CVodeSetNonlinearSolver(c->memory, c->nonlinear);
+}
+
+static void keep_counts(Cvode *c)
+{
+    long steps = 0, failures = 0, jacobians = 0;
+
+    (void)CVodeGetNumSteps(c->memory, &steps);
+    (void)CVodeGetNumErrTestFails(c->memory, &failures);
+    if (c->linear != NULL)
+        (void)CVodeGetNumJacEvals(c->memory, &jacobians);
+    c->base.counts.steps = c->earlier.steps + steps;
+    c->base.counts.rejected = c->earlier.rejected + failures;
+    c->base.counts.jacobians = c->earlier.jacobians + jacobians;
+}
+
+static Status start(Stepper *stepper, double t, const double *y, Diag *diag)
+{
+    Cvode *c = (Cvode *)stepper;
+    int code;
+
+    if (c->memory == NULL)
+        return solver_failure(diag, t, "SUNDIALS could not be started");
+    memmove(c->base.y, y, (size_t)c->all * sizeof(double));
+    c->base.t = c->base.before = t;
+    c->stuck = 0;
+    memcpy(N_VGetArrayPointer(c->y), y, (size_t)c->all * sizeof(double));
+    c->earlier = c->base.counts;
+    code = c->linear == NULL && c->nonlinear == NULL ? first_start(c, t)
+                                                     : CVodeReInit(c->memory, t, c->y);
+    if (code == 0 && c->base.control.first > 0)
+        code = CVodeSetInitStep(c->memory, c->base.control.first);
+    return code == 0 ? OK : solver_failure(diag, t, c->reason);
+}
+
+static Status step(Stepper *stepper, double end, Diag *diag)
+{
+    Cvode *c = (Cvode *)stepper;
+    double reached = c->base.t;
+    int code = CVodeSetStopTime(c->memory, stepper_stop(&c->base, end));
+
+    c->base.before = c->base.t;
+    if (code == 0) /* growth is bounded there; a stop time cuts a step that is grown already */
+        code = CVodeSetMaxStep(c->memory,
+                               stepper_allowed(&c->base, control_largest(&c->base.control)));
+    if (code == 0)
+        code = CVode(c->memory, end, c->y, &reached, CV_ONE_STEP);
+    keep_counts(c);
+    if (code < 0)
+        return solver_failure(diag, c->base.before, c->reason);
+    /* CVODE itself only warns: where a solution has no end, its steps would shrink without one */
+    c->stuck = reached > c->base.before ? 0 : c->stuck + 1;
+    if (c->stuck >= STUCK)
+        return solver_failure(diag, c->base.before, "the step became too small");
+    c->base.t = reached;
+    memcpy(c->base.y, N_VGetArrayPointer(c->y), (size_t)c->all * sizeof(double));
+    (void)CVodeGetCurrentStep(c->memory, &c->base.next);
+    return OK;
+}
+
+static void at(Stepper *stepper, double t, double *y)
+{
+    Cvode *c = (Cvode *)stepper;
+
+    if (t != c->base.t && CVodeGetDky(c->memory, t, 0, c->out) == 0)
+        memcpy(y, N_VGetArrayPointer(c->out), (size_t)c->all * sizeof(double));
+    else
+        memcpy(y, c->base.y, (size_t)c->all * sizeof(double));
+}
+
+static Status shorten(Stepper *stepper, double t, Diag *diag)
+{
+    Cvode *c = (Cvode *)stepper;
+    const Ode *ode = c->base.ode;
+
+    at(stepper, t, c->base.y);
+    if (ode->project != NULL && !ode->project(ode->context, t, c->base.y)) {
+        memcpy(c->base.y, N_VGetArrayPointer(c->y), (size_t)c->all * sizeof(double));
+        return solver_failure(diag, t, "the equations have no solution at a switch");
+    }
+    c->base.t = t;
+    return OK;
+}
+
+/* the slope of the history's polynomial, once there is one */
+static bool slope(Stepper *stepper, double *rate)
+{
+    Cvode *c = (Cvode *)stepper;
+
+    if (!(c->base.t > c->base.before) || CVodeGetDky(c->memory, c->base.t, 1, c->out) != 0)
+        return false;
+    memcpy(rate, N_VGetArrayPointer(c->out), (size_t)c->all * sizeof(double));
+    return true;
+}
+
+static const double nodes[] = {1};
+
+const Method method_bdf = {
+    .name = "bdf",
+    .brief = "CVODE, backward differentiation, for stiff equations; rows are projected",
+    .create = create_bdf,
+    .destroy = destroy,
+    .start = start,
+    .step = step,
+    .at = at,
+    .shorten = shorten,
+    .slope = slope,
+    .nodes = nodes,
+    .node_count = COUNT(nodes),
+    .has_history = true,
+    .sees_little = true,
+    .pulse_steps = 24,
+    .is_stiff = true,
+};
+
+const Method method_adams = {
+    .name = "adams",
+    .brief = "CVODE, Adams-Moulton; rows are projected",
+    .create = create_adams,
+    .destroy = destroy,
+    .start = start,
+    .step = step,
+    .at = at,
+    .shorten = shorten,
+    .slope = slope,
+    .nodes = nodes,
+    .node_count = COUNT(nodes),
+    .has_history = true,
+    .sees_little = true,
+    .pulse_steps = 24,
+};

@@ -1,0 +1,457 @@
+/* dop853.c: explicit Runge-Kutta of order 8 with error control and dense output of order 7
+ *
+ * Dormand and Prince's pair as given by Hairer, Norsett and Wanner (1993), II.5 and II.10. A
+ * projection after each accepted step comes before the first stage of the next, so it costs no
+ * evaluation; the dense output ends at the projected point. The stiffness indicator is theirs
+ * too (Solving ODE II, IV.2): h |f(a) - f(b)| / |a - b| over the two points at the end of a step
+ * stays above 6.1 when stability, not accuracy, limits the steps. Whether what limits them decays
+ * or swings is asked of the Jacobian: backward differentiation is no help against swinging. */
+#include "simulate/integrate/dop853_table.h"
+#include "simulate/integrate/ode.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+#include <string.h>
+
+#define STAGES         16
+#define FIRST_SEEN     5 /* stage with a weight in the result: those before, but 0, have none */
+#define AIM            0.1 /* of the tolerance, a step: some hundred of them then add up to about it */
+#define SAFETY         0.9
+#define LUCK           60.0 /* times the root of the tolerance; estimates of order 3: 1 to 60 of it */
+#define STEEP_LUCK     10.0 /* the same where an element may cease to conduct within the step */
+#define SHRINK         (1 / 3.0)
+#define GROW           6.0
+#define STIFF_BOUNDARY 6.1
+#define STIFF_COUNT    15
+#define CALM_COUNT     6
+#define DIFFERENCE     1e-7 /* of y, for a derivative */
+
+typedef struct Dop853 {
+    Stepper base;
+    int n, all; /* in the error test; with quadratures */
+    double *k[STAGES];
+    double *old, *new, *stage_point, *scale;
+    double *dense[7];
+    bool has_dense; /* dense[] belong to the last step */
+    double step;    /* of the last step */
+    bool was_rejected;
+    int stiff, calm; /* steps above and below the boundary */
+} Dop853;
+
+typedef struct Terms {
+    const Term *at;
+    int count;
+} Terms;
+
+/* clang-format off */
+static const Terms stages[STAGES] = {
+    {NULL, 0},
+#define STAGE(i) {stage##i, COUNT(stage##i)}
+    STAGE(1), STAGE(2), STAGE(3), STAGE(4), STAGE(5), STAGE(6), STAGE(7), STAGE(8),
+    STAGE(9), STAGE(10), STAGE(11), STAGE(12), STAGE(13), STAGE(14), STAGE(15),
+#undef STAGE
+};
+static const Terms dense_rows[4] = {
+    {dense3, COUNT(dense3)}, {dense4, COUNT(dense4)}, {dense5, COUNT(dense5)},
+    {dense6, COUNT(dense6)},
+};
+/* clang-format on */
+
+static double weighted(const Dop853 *d, const Terms *terms, int i)
+{
+    double sum = 0;
+
+    for (int j = 0; j < terms->count; j++)
+        sum += terms->at[j].weight * d->k[terms->at[j].stage][i];
+    return sum;
+}
+
+static bool evaluate(Dop853 *d, double t, const double *y, double *rate)
+{
+    d->base.counts.evaluations++;
+    return d->base.ode->rate(d->base.ode->context, t, y, rate);
+}
+
+/* k[stage] from the stages before it; false where f is undefined */
+static bool take_stage(Dop853 *d, int stage, double h, double *point)
+{
+    for (int i = 0; i < d->all; i++)
+        point[i] = d->old[i] + h * weighted(d, &stages[stage], i);
+    return evaluate(d, d->base.before + nodes[stage] * h, point, d->k[stage]);
+}
+
+static double scaled_norm(const Dop853 *d, const double *v)
+{
+    double sum = 0;
+
+    for (int i = 0; i < d->n; i++)
+        sum += v[i] / d->scale[i] * (v[i] / d->scale[i]);
+    return sqrt(sum / (d->n > 0 ? d->n : 1));
+}
+
+static void choose_scale(Dop853 *d, const double *a, const double *b)
+{
+    const Control *control = &d->base.control;
+    const double *cap = d->base.ode->cap, *slack = d->base.ode->slack;
+
+    for (int i = 0; i < d->n; i++) {
+        double size = fmax(fabs(a[i]), fabs(b[i]));
+
+        size = cap != NULL ? fmin(size, cap[i]) : size;
+        d->scale[i] = AIM * (control->atol + control->rtol * size);
+        if (slack != NULL)
+            d->scale[i] = fmax(d->scale[i], slack[i]);
+    }
+}
+
+/* A first step: the one whose explicit Euler result, compared with f there, promises an error
+ * of a hundredth (Hairer, Norsett, Wanner 1993, II.4). */
+static double first_step(Dop853 *d, double t, double span)
+{
+    double size, slope, bend, h, h2;
+
+    choose_scale(d, d->base.y, d->base.y);
+    size = scaled_norm(d, d->base.y);
+    slope = scaled_norm(d, d->k[0]);
+    /* what is next to nothing needn't stay so: within the tolerance it may change at once */
+    h = size < 1e-5 || slope < 1e-5 ? 1e-6 : 0.01 * fmax(size, 1) / slope;
+    h = fmin(h, span);
+    for (int i = 0; i < d->all; i++)
+        d->stage_point[i] = d->base.y[i] + h * d->k[0][i];
+    if (!evaluate(d, t + h, d->stage_point, d->k[1]))
+        return 1e-3 * h;
+    for (int i = 0; i < d->n; i++)
+        d->k[2][i] = d->k[1][i] - d->k[0][i];
+    bend = scaled_norm(d, d->k[2]) / h;
+    h2 = fmax(slope, bend) <= 1e-15 ? fmax(1e-6, h * 1e-3) : pow(0.01 / fmax(slope, bend), 1.0 / 8);
+    return fmin(fmin(100 * h, h2), span);
+}
+
+/* Error of the step just tried, in units of the tolerance (their equation II.10.17). The estimate
+ * of order 5 may vanish by chance where a pulse falls between the stages. Where steps resolve what
+ * they cross, the estimate of order 3 falls like the root of the tolerance. */
+static double step_error(Dop853 *d, double h)
+{
+    static const Terms five = {error5, COUNT(error5)}, three = {third, COUNT(third)};
+    double sum5 = 0, sum3 = 0, under, third_order;
+
+    choose_scale(d, d->old, d->new);
+    for (int i = 0; i < d->n; i++) {
+        double e5 = weighted(d, &five, i) / d->scale[i];
+        double e3 = (weighted(d, &stages[12], i) - weighted(d, &three, i)) / d->scale[i];
+
+        sum5 += e5 * e5;
+        sum3 += e3 * e3;
+    }
+    under = sum5 + 0.01 * sum3;
+    if (!(under > 0))
+        return under;
+    h = fabs(h);
+    third_order =
+        h * sqrt(sum3 / d->n * d->base.control.rtol) / (d->base.may_bend ? STEEP_LUCK : LUCK);
+    return fmax(h * sum5 / sqrt(under * d->n) / stepper_blur(&d->base), third_order * third_order);
+}
+
+/* J w by a difference along w, J the Jacobian at the new point */
+static bool apply_jacobian(Dop853 *d, const double *w, double *out)
+{
+    double size = scaled_norm(d, w);
+    double step = fmax(1, DIFFERENCE / (AIM * d->base.control.rtol)) / size;
+
+    if (!(size > 0) || !isfinite(step))
+        return false;
+    for (int i = 0; i < d->all; i++)
+        d->stage_point[i] = d->base.y[i] + (i < d->n ? step * w[i] : 0);
+    if (!evaluate(d, d->base.t, d->stage_point, out))
+        return false;
+    for (int i = 0; i < d->n; i++)
+        out[i] = (out[i] - d->k[12][i]) / step;
+    return true;
+}
+
+static double scaled_product(const Dop853 *d, const double *v, const double *w)
+{
+    double sum = 0;
+
+    for (int i = 0; i < d->n; i++)
+        sum += v[i] / d->scale[i] * (w[i] / d->scale[i]);
+    return sum;
+}
+
+/* Whether the fastest part of the motion swings, rather than decays: J^(k+2) w = a J^(k+1) w + b
+ * J^k w for k = 0, 1 by least squares, w what is left of a difference after two products with J.
+ * The roots of x^2 = a x + b are its eigenvalues; swinging ones are further from the real axis than
+ * from the imaginary one. */
+static bool swings(Dop853 *d)
+{
+    double *w[] = {d->dense[0], d->dense[1], d->dense[2], d->dense[3]}; /* free until asked for */
+    double p[4][4];
+    double rate, a, b, d11, d12, d22, r1, r2, det;
+
+    for (int i = 0; i < d->n; i++)
+        w[0][i] = d->base.y[i] - d->stage_point[i];
+    if (!apply_jacobian(d, w[0], w[1]) || !apply_jacobian(d, w[1], w[0]))
+        return false;
+    for (int k = 0; k < 3; k++)
+        if (!apply_jacobian(d, w[k], w[k + 1]))
+            return false;
+    rate = scaled_norm(d, w[1]) / scaled_norm(d, w[0]);
+    for (int j = 0; j < 4; j++)
+        for (int k = 0; k < 4; k++)
+            p[j][k] = scaled_product(d, w[j], w[k]) / pow(rate, j + k);
+    /* a trace more on the diagonal: w may be a multiple of J w */
+    d12 = p[0][1] + p[1][2];
+    d11 = (p[1][1] + p[2][2]) * (1 + 1e-6);
+    d22 = (p[0][0] + p[1][1]) * (1 + 1e-6);
+    r1 = p[1][2] + p[2][3];
+    r2 = p[0][2] + p[1][3];
+    det = d11 * d22 - d12 * d12;
+    a = (r1 * d22 - r2 * d12) / det;
+    b = (d11 * r2 - d12 * r1) / det;
+    return 0.25 * a * a + b < 0 && a * a < -2 * b;
+}
+
+static void watch_stiffness(Dop853 *d, double h)
+{
+    double rates = 0, points = 0;
+
+    for (int i = 0; i < d->n; i++) {
+        double dk = d->k[12][i] - d->k[11][i];
+        double dy = d->base.y[i] - d->stage_point[i];
+
+        rates += dk * dk;
+        points += dy * dy;
+    }
+    if (points > 0 && h * sqrt(rates / points) > STIFF_BOUNDARY) {
+        d->calm = 0;
+        if (++d->stiff >= STIFF_COUNT) {
+            d->base.is_stiff = true;
+            d->base.swings = swings(d);
+            d->stiff = 0;
+        }
+    } else if (++d->calm >= CALM_COUNT) {
+        d->stiff = 0;
+    }
+}
+
+/* Stages 1 to 11 and the new point, from d->old at base.before. `stage_point` keeps that of stage
+ * 11. */
+static bool try_step(Dop853 *d, double h)
+{
+    for (int stage = 1; stage < 12; stage++)
+        if (!take_stage(d, stage, h, d->stage_point))
+            return false;
+    for (int i = 0; i < d->all; i++)
+        d->new[i] = d->old[i] + h *weighted(d, &stages[12], i);
+    return true;
+}
+
+/* the new point at t: on the manifold, with its rate in k[12] */
+static bool settle(Dop853 *d, double t, double h)
+{
+    const Ode *ode = d->base.ode;
+
+    if (ode->project != NULL && !ode->project(ode->context, t, d->new))
+        return false;
+    if (!evaluate(d, t, d->new, d->k[12]))
+        return false;
+    d->base.t = t;
+    d->step = h;
+    d->has_dense = false;
+    memcpy(d->base.y, d->new, (size_t)d->all * sizeof(double));
+    return true;
+}
+
+static Stepper *create(const Ode *ode, const Control *control)
+{
+    Dop853 *d = NEW(Dop853);
+
+    d->base = (Stepper){.method = &method_dop853, .ode = ode, .control = *control};
+    d->n = ode->n;
+    d->all = ode->n + ode->quadratures;
+    d->base.y = NEW_ARRAY(double, d->all);
+    for (int i = 0; i < STAGES; i++)
+        d->k[i] = NEW_ARRAY(double, d->all);
+    for (int i = 0; i < COUNT(d->dense); i++)
+        d->dense[i] = NEW_ARRAY(double, d->all);
+    d->old = NEW_ARRAY(double, d->all);
+    d->new = NEW_ARRAY(double, d->all);
+    d->stage_point = NEW_ARRAY(double, d->all);
+    d->scale = NEW_ARRAY(double, d->all);
+    return &d->base;
+}
+
+static void destroy(Stepper *stepper)
+{
+    Dop853 *d = (Dop853 *)stepper;
+
+    if (d == NULL)
+        return;
+    mem_free(d->base.y);
+    for (int i = 0; i < STAGES; i++)
+        mem_free(d->k[i]);
+    for (int i = 0; i < COUNT(d->dense); i++)
+        mem_free(d->dense[i]);
+    mem_free(d->old);
+    mem_free(d->new);
+    mem_free(d->stage_point);
+    mem_free(d->scale);
+    mem_free(d);
+}
+
+static Status start(Stepper *stepper, double t, const double *y, Diag *diag)
+{
+    Dop853 *d = (Dop853 *)stepper;
+
+    memmove(d->base.y, y, (size_t)d->all * sizeof(double));
+    d->base.t = d->base.before = t;
+    d->base.next = d->base.control.first;
+    d->was_rejected = false;
+    d->has_dense = false;
+    d->step = 0;
+    if (!evaluate(d, t, d->base.y, d->k[12]))
+        return solver_failure(diag, t, "the accelerations are undefined");
+    return OK;
+}
+
+/* the step to try next, trimmed so that `end` is met and no sliver is left before it */
+static double trim(const Dop853 *d, double h, double end)
+{
+    double left = end - d->base.before;
+
+    h = stepper_allowed(&d->base, fmin(h, control_asked(&d->base.control)));
+    if (h >= left || left - h < 1e-10 * h)
+        return left;
+    return h > 0.5 * left ? 0.5 * left : h;
+}
+
+static Status step(Stepper *stepper, double end, Diag *diag)
+{
+    Dop853 *d = (Dop853 *)stepper;
+    int failures = 0;
+    double h;
+
+    memcpy(d->old, d->base.y, (size_t)d->all * sizeof(double));
+    memcpy(d->k[0], d->k[12], (size_t)d->all * sizeof(double));
+    d->base.before = d->base.t;
+    h = d->base.next > 0 ? d->base.next : first_step(d, d->base.t, end - d->base.t);
+    for (;;) {
+        double tried = trim(d, h, end);
+        double t = tried == end - d->base.before ? end : d->base.before + tried;
+        bool sound, accepted = false;
+        double error = NAN;
+
+        if (!(tried > 4e-16 * fabs(t)))
+            return solver_failure(diag, d->base.before, "the step became too small");
+        sound = try_step(d, tried);
+        if (sound)
+            error = step_error(d, tried);
+        sound = sound && isfinite(error);
+        if (sound && error <= 1) {
+            accepted = settle(d, t, tried);
+            sound = accepted;
+        }
+        if (accepted) {
+            double factor = error > 0 ? SAFETY * pow(error, -1.0 / 8) : GROW;
+
+            factor = fmin(d->was_rejected ? 1 : GROW, fmax(SHRINK, factor));
+            /* a step cut to meet `end` says nothing against the longer one */
+            d->base.next =
+                fmax(tried * factor, tried < h && error <= 1 ? fmin(h, tried * GROW) : 0);
+            d->was_rejected = false;
+            d->base.counts.steps++;
+            watch_stiffness(d, tried);
+            return OK;
+        }
+        d->base.counts.rejected++;
+        d->was_rejected = true;
+        if (!sound && ++failures >= MAX_REJECTIONS)
+            return solver_failure(diag, d->base.before,
+                                  "the equations have no solution just behind this instant (ten "
+                                  "ever shorter steps failed)");
+        h = sound ? tried * fmax(SHRINK, SAFETY * pow(error, -1.0 / 8)) : 0.5 * tried;
+    }
+}
+
+/* the interpolant of the last step (II.6.20 and the appendix): three more stages, on demand */
+static void make_dense(Dop853 *d)
+{
+    double h = d->step;
+
+    for (int stage = 13; stage < STAGES; stage++)
+        (void)take_stage(d, stage, h, d->stage_point); /* NaN there shows in what is read */
+    for (int i = 0; i < d->all; i++) {
+        double dy = d->base.y[i] - d->old[i];
+
+        d->dense[0][i] = dy;
+        d->dense[1][i] = h * d->k[0][i] - dy;
+        d->dense[2][i] = dy - h * d->k[12][i] - d->dense[1][i];
+        for (int j = 0; j < 4; j++)
+            d->dense[3 + j][i] = h * weighted(d, &dense_rows[j], i);
+    }
+    d->has_dense = true;
+}
+
+static void at(Stepper *stepper, double t, double *y)
+{
+    Dop853 *d = (Dop853 *)stepper;
+    double s = d->step != 0 ? (t - d->base.before) / d->step : 1;
+
+    if (d->step == 0 || t == d->base.t) {
+        memcpy(y, d->base.y, (size_t)d->all * sizeof(double));
+        return;
+    }
+    if (!d->has_dense)
+        make_dense(d);
+    for (int i = 0; i < d->all; i++) {
+        double sum = 0;
+
+        for (int j = 6; j >= 0; j--)
+            sum = (sum + d->dense[j][i]) * (j % 2 == 0 ? s : 1 - s);
+        y[i] = d->old[i] + sum;
+    }
+}
+
+static Status shorten(Stepper *stepper, double t, Diag *diag)
+{
+    Dop853 *d = (Dop853 *)stepper;
+    double h = t - d->base.before;
+
+    if (h <= 0) { /* back to where the step began */
+        d->base.t = d->base.before;
+        memcpy(d->base.y, d->old, (size_t)d->all * sizeof(double));
+        memcpy(d->k[12], d->k[0], (size_t)d->all * sizeof(double));
+        d->step = 0;
+        return OK;
+    }
+    if (d->step != 0 && !d->has_dense)
+        make_dense(d); /* while there are its stages */
+    if (!try_step(d, h) || !settle(d, t, h))
+        return solver_failure(diag, t, "the equations have no solution at a switch");
+    d->base.next = h;
+    return OK;
+}
+
+static bool slope(Stepper *stepper, double *rate)
+{
+    const Dop853 *d = (const Dop853 *)stepper;
+
+    memcpy(rate, d->k[12], (size_t)d->all * sizeof(double));
+    return true;
+}
+
+const Method method_dop853 = {
+    .name = "dop853",
+    .brief = "explicit Runge-Kutta 8(5,3), Dormand and Prince; projects after each step",
+    .create = create,
+    .destroy = destroy,
+    .start = start,
+    .step = step,
+    .at = at,
+    .shorten = shorten,
+    .slope = slope,
+    .nodes = nodes + FIRST_SEEN,
+    .node_count = 12 - FIRST_SEEN,
+    .pulse_steps = 3,
+};

@@ -1,0 +1,83 @@
+/* headway.c: whether steps get anywhere, or are as short as rounding makes them */
+#include "simulate/integrate/headway.h"
+
+#include "base/memory.h"
+
+#include <float.h>
+#include <math.h>
+
+#define STEPS        5000 /* so many ought to go */
+#define PART         5e-3 /* this part of the run; else it would take a million and more */
+#define NOTICED      0.01 /* of the tolerance: stable steps make less of the last bit of y */
+#define HOPELESS     1e-9 /* less of the run: time itself has hardly more digits */
+#define NEIGHBOURS   4
+#define ENOUGH_STEPS 1e4  /* of a run whose tolerance is attainable */
+#define COARSEST     1e-7 /* a tolerance that is worth trying */
+
+/* Largest part of its tolerance that an entry's rate, times h, changes by where y changes in its
+ * last bit. */
+static double rounding(Stepper *s, double h)
+{
+    const Ode *ode = s->ode;
+    const int all = ode->n + ode->quadratures;
+    double *beside = NEW_ARRAY(double, all);
+    double *rate = NEW_ARRAY(double, all);
+    double *other = NEW_ARRAY(double, all);
+    double largest = 0;
+    bool sound = ode->rate(ode->context, s->t, s->y, rate);
+
+    for (int pass = 0; sound && pass < NEIGHBOURS; pass++) {
+        for (int i = 0; i < all; i++) {
+            const int bits = (i * (pass + 2) + pass) % 3 - 1; /* -1, 0, 1 in changing patterns */
+
+            beside[i] = s->y[i] * (1 + bits * DBL_EPSILON);
+        }
+        sound = ode->rate(ode->context, s->t, beside, other);
+        s->counts.evaluations++;
+        for (int i = 0; sound && i < ode->n; i++) {
+            const double size = ode->cap != NULL ? fmin(fabs(s->y[i]), ode->cap[i]) : fabs(s->y[i]);
+
+            largest = fmax(largest, h * fabs(other[i] - rate[i]) /
+                                        (s->control.atol + s->control.rtol * size));
+        }
+    }
+    mem_free(beside);
+    mem_free(rate);
+    mem_free(other);
+    return largest;
+}
+
+static Status give_up(const Stepper *s, double h, Diag *diag)
+{
+    const double rtol = s->control.rtol;
+    const double coarser = pow(10, ceil(log10(rtol * s->control.span / (h * ENOUGH_STEPS))));
+
+    (void)solver_failure(diag, s->t,
+                         "the tolerance is below what rounding leaves of the accelerations: steps "
+                         "have become too short to get anywhere");
+    if (coarser <= COARSEST)
+        diag_hint(diag, "another tree may leave less rounding; or try rtol=%.0e", coarser);
+    else
+        diag_hint(diag, "another tree may leave less rounding; lengths, masses or stiffnesses many "
+                        "decades apart leave much");
+    return E_SOLVER;
+}
+
+Status headway_check(Headway *headway, Stepper *s, int64_t steps, Diag *diag)
+{
+    const int64_t count = steps - headway->steps;
+    const double way = s->t - headway->t;
+    double h;
+
+    if (count < STEPS)
+        return OK;
+    h = way / (double)count;
+    headway->steps = steps;
+    headway->t = s->t;
+    /* short steps that were asked for are as they should be */
+    if (!(way < PART * s->control.span) || 2 * h > control_asked(&s->control))
+        return OK;
+    if (way < HOPELESS * s->control.span)
+        return solver_failure(diag, s->t, "the step became too small");
+    return rounding(s, h) > NOTICED ? give_up(s, h, diag) : OK;
+}

@@ -1,0 +1,21 @@
+/* headway.h: whether steps get anywhere, or are as short as rounding makes them
+ *
+ * Where a tolerance is below what rounding leaves of the rates, estimates of errors shrink like the
+ * step and no longer like its power: steps become so short that a run has no end. It is told from
+ * one that is long for good reasons by rates next to y: what they change by, times the step, is
+ * the error then. */
+#ifndef COTREE_SIMULATE_INTEGRATE_HEADWAY_H
+#define COTREE_SIMULATE_INTEGRATE_HEADWAY_H
+
+#include "simulate/integrate/ode.h"
+
+typedef struct Headway {
+    int64_t steps; /* when it was last looked at */
+    double t;      /* s */
+} Headway;
+
+/* To be called after each step, with the number of steps of the whole run; a look costs a few
+ * evaluations in some thousand steps, and only where the run would take a million. E_SOLVER. */
+MUST_USE Status headway_check(Headway *headway, Stepper *stepper, int64_t steps, Diag *diag);
+
+#endif

@@ -1,0 +1,14 @@
+libcore_la_SOURCES += \
+  lib/simulate/integrate/cvode.c \
+  lib/simulate/integrate/dop853.c \
+  lib/simulate/integrate/dop853_table.h \
+  lib/simulate/integrate/headway.c \
+  lib/simulate/integrate/headway.h \
+  lib/simulate/integrate/ida.c \
+  lib/simulate/integrate/method.c \
+  lib/simulate/integrate/methods.def \
+  lib/simulate/integrate/ode.h \
+  lib/simulate/integrate/radau.c \
+  lib/simulate/integrate/rk4.c \
+  lib/simulate/integrate/shifted.c \
+  lib/simulate/integrate/shifted.h

@@ -1,0 +1,196 @@
+/* ode.h: what an integrator needs to know of a problem, and what it offers
+ *
+ *     y' = f(t, y),   y on a manifold that project() restores
+ *
+ * A Stepper is one integration under way: it takes accepted steps, each not beyond a given
+ * time, and tells y anywhere in the last one. Methods are rows of methods.def; whoever drives a
+ * stepper owns output, switches and stopping. */
+#ifndef COTREE_SIMULATE_INTEGRATE_ODE_H
+#define COTREE_SIMULATE_INTEGRATE_ODE_H
+
+#include "base/diag.h"
+
+#include <math.h>
+#include <stddef.h>
+#include <stdint.h>
+
+/* The same motion for solvers of implicit equations F(t, w, w') = 0; w holds y and multipliers, or
+ * what else is algebraic. */
+typedef struct Dae {
+    int n;
+    void *context;
+    bool (*residual)(void *context, double t, const double *w, const double *rate, double *out);
+    /* consistent w and w' at (t, y) */
+    bool (*start)(void *context, double t, const double *y, double *w, double *rate);
+    const double *weight; /* n: absolute tolerance of w_i is atol * weight */
+    /* n: whether a rate of w_i stands in F; NULL: take all for such */
+    const bool *has_rate;
+    /* Places of dF/dw + c dF/dw' that may not be 0, each place at most once; known from the first
+     * start() on. NULL: not offered. */
+    int (*pattern)(void *context, const int **row, const int **column);
+    bool (*jacobian)(void *context, double t, double c, const double *w, const double *rate,
+                     double *values);
+    /* Whether dF/dw and dF/dw' stay as they are until a restart. NULL: not known. */
+    bool (*is_linear)(void *context);
+} Dae;
+
+typedef struct Ode {
+    int n;           /* unknowns that count in the error test */
+    int quadratures; /* further entries of y that f doesn't read, behind them */
+    void *context;
+    /* y' at (t, y); false: undefined there, try a shorter step */
+    bool (*rate)(void *context, double t, const double *y, double *rate);
+    /* move y back onto its manifold; false: can't. NULL: there is none */
+    bool (*project)(void *context, double t, double *y);
+    /* n: |y_i| counts up to here in a relative tolerance (an angle of many turns isn't known less
+     * well than one of a few); NULL: all of it */
+    const double *cap;
+    /* n: errors of y_i up to here don't count, projected as it is after each step; NULL: all do.
+     * Methods that don't project leave it aside. */
+    const double *slack;
+    /* Largest relative error that rounding may have left of rates since the last call; NULL: as
+     * anywhere. No step is shortened for the sake of less. */
+    double (*blur)(void *context);
+    Dae dae; /* entries 0..n+quadratures-1 of w are y; n 0: not offered */
+} Ode;
+
+typedef struct Control {
+    double rtol, atol;
+    double step;  /* fixed or largest step, s; 0: free */
+    double most;  /* largest step, s, also of methods whose steps are fixed; 0: free */
+    double first; /* step to begin with; 0: chosen */
+    double span;  /* of the whole run, s; 0: not known */
+} Control;
+
+/* largest step that was asked for */
+static inline double control_asked(const Control *control)
+{
+    double step = control->step > 0 ? control->step : HUGE_VAL;
+
+    return control->most > 0 ? fmin(step, control->most) : step;
+}
+
+/* Largest step of methods that look at one to three places of a step: where nothing goes on they
+ * would step over a pulse and never know. */
+static inline double control_largest(const Control *control)
+{
+    double asked = control_asked(control);
+
+    return asked < HUGE_VAL ? asked : control->span > 0 ? control->span / 50 : HUGE_VAL;
+}
+
+typedef struct Counts {
+    int64_t steps, rejected, evaluations, jacobians;
+} Counts;
+
+typedef struct Stepper Stepper;
+typedef struct Method {
+    const char *name;
+    const char *brief;
+    /* new stepper at (t, y); `ode` and what it points to outlive it */
+    Stepper *(*create)(const Ode *ode, const Control *control);
+    void (*destroy)(Stepper *stepper);
+    /* (Re)start at (t, y), as after a jump. E_SOLVER when f is undefined there. */
+    Status (*start)(Stepper *stepper, double t, const double *y, Diag *diag);
+    /* One accepted step, at most to `end` (which it meets exactly when it can). E_SOLVER. */
+    Status (*step)(Stepper *stepper, double end, Diag *diag);
+    /* y at t in the last step; not projected */
+    void (*at)(Stepper *stepper, double t, double *y);
+    /* Take the last step again so that it ends at t, inside it; then start anew from there. Where
+     * that fails, at() and y still tell of the last step as it was. */
+    Status (*shorten)(Stepper *stepper, double t, Diag *diag);
+    /* y' at the stepper's time, without an evaluation; false: not known. NULL: never */
+    bool (*slope)(Stepper *stepper, double *rate);
+    /* what a step sees of the equations: places in it, as parts of its length, */
+    const double *nodes;
+    int node_count;
+    bool has_history;   /* the steps before, too: it starts anew after shorten(); */
+    bool sees_little;   /* too little to find what happens in between */
+    double pulse_steps; /* that a pulse of the equations takes, to come out right */
+    /* what it can */
+    bool is_stiff;    /* its steps are not limited by stability, where what limits them decays; */
+    bool is_a_stable; /* nor where it swings */
+    bool has_fixed_step; /* and so controls no error */
+    bool solves_dae;     /* takes ode->dae where it is offered: multipliers are unknowns, too */
+} Method;
+
+struct Stepper {
+    const Method *method;
+    const Ode *ode;
+    Control control;
+    Counts counts;
+    double before;    /* start of the last step */
+    double t;         /* its end */
+    double *y;        /* y at t, projected where the method projects */
+    double next;      /* step it would take next, s */
+    double bound;     /* by whoever drives it: no longer step now, s; 0: free */
+    bool may_bend;    /* likewise: something steep acts that may end within the step */
+    double missed;    /* fixed steps: largest estimated error of one, in tolerances, */
+    double missed_at; /* and when that was, s */
+    bool is_stiff;    /* explicit methods: steps are cut by stability, not by accuracy */
+    bool swings;      /* ... and what cuts them swings rather than decays */
+};
+
+/* h, or what is allowed of it */
+static inline double stepper_allowed(const Stepper *stepper, double h)
+{
+    return stepper->bound > 0 ? fmin(h, stepper->bound) : h;
+}
+
+/* Where a method that grows its steps by itself has to stop for the bound, or at `end`. A stop just
+ * behind its next step would leave a sliver for the one after it. */
+static inline double stepper_stop(const Stepper *stepper, double end)
+{
+    double bound = stepper->bound;
+
+    if (!(bound > 0) || (stepper->next > 0 && stepper->next <= bound))
+        return end;
+    return fmin(end, stepper->t + bound);
+}
+
+/* y' at the stepper's time */
+static inline bool stepper_slope(Stepper *stepper, double *rate)
+{
+    const Ode *ode = stepper->ode;
+
+    if (stepper->method->slope != NULL && stepper->method->slope(stepper, rate))
+        return true;
+    stepper->counts.evaluations++;
+    return ode->rate(ode->context, stepper->t, stepper->y, rate);
+}
+
+#define BENT 0.03 /* of the tolerance, where estimates are not to be believed */
+
+/* What part of the tolerance an error may be, or how many times it, since rounding leaves no less.
+ * Where the rates are blurred they bend sharply too, and estimates of errors see too little. Asked
+ * once a step. */
+static inline double stepper_blur(const Stepper *s)
+{
+    const double blur = s->ode->blur != NULL ? s->ode->blur(s->ode->context) : 0;
+
+    return blur > 0 ? fmax(BENT, blur / s->control.rtol) : 1;
+}
+
+/* The row of that name, or NULL; row i, or NULL at the end. */
+const Method *method_find(const char *name);
+const Method *method_row(int i);
+
+/* What is wanted of a method that nobody named. */
+typedef struct MethodNeed {
+    bool stiff;   /* is for stiff equations, */
+    bool history; /* goes by many steps rather than anew from each */
+    bool dae;     /* and has multipliers among its unknowns */
+} MethodNeed;
+/* the first row that is so, and controls its error */
+const Method *method_for(MethodNeed need);
+
+/* An error of the solver at time t, in words: "at t = 0.3 s: ...". */
+Status solver_failure(Diag *diag, double t, const char *reason);
+
+#define MAX_REJECTIONS 10 /* in a row, by NaN or a projection that fails, end a run */
+
+#define METHOD(row) extern const Method row;
+#include "simulate/integrate/methods.def"
+#undef METHOD
+
+#endif

@@ -1,0 +1,520 @@
+/* radau.c: implicit Runge-Kutta of order 5 for stiff equations, three Radau IIA stages
+ *
+ * Hairer and Wanner (1996), Solving ODE II, IV.8: with stages y + z_i at c_i h,
+ * z = h (A x 1) f(y + z), solved by simplified Newton with J = df/dy, kept while the iteration
+ * contracts well. A^-1 = T diag(g, [a b; -b a]) T^-1 splits its linear system into a real one and a
+ * complex one. The error is that of their embedded formula of order 3, filtered by
+ * (g/h - J)^-1 so that stiff parts don't blow it up. Between the ends of a step the collocation
+ * polynomial is read, whose error the step control bounds as well. */
+#include "simulate/integrate/shifted.h"
+
+#include "base/memory.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#define ITERATIONS 10
+#define SAFETY     0.9
+#define SHRINK     0.125
+#define GROW       5.0
+#define CONTRACTS  1e-3 /* a Jacobian this good is kept */
+
+#define ROOT6 2.44948974278317809820
+
+/* clang-format off */
+static const double nodes[3] = {(4 - ROOT6) / 10, (4 + ROOT6) / 10, 1};
+static const double weights[3][3] = {
+    {(88 - 7 * ROOT6) / 360,     (296 - 169 * ROOT6) / 1800, (-2 + 3 * ROOT6) / 225},
+    {(296 + 169 * ROOT6) / 1800, (88 + 7 * ROOT6) / 360,     (-2 - 3 * ROOT6) / 225},
+    {(16 - ROOT6) / 36,          (16 + ROOT6) / 36,          1.0 / 9},
+};
+/* of z in the error formula (IV.8.19), with the real eigenvalue g of A^-1 */
+static const double embedded[3] = {(-13 - 7 * ROOT6) / 3, (-13 + 7 * ROOT6) / 3, -1.0 / 3};
+static const double inverse[3][3] = { /* A^-1 */
+    {(3.2247448713915890491),  (1.1678400846904054949),  (-0.25319726474218082619)},
+    {(-3.5678400846904054949), (0.7752551286084109510),  (1.0531972647421808262)},
+    {(5.5319726474218082619),  (-7.5319726474218082619), (5)},
+};
+static const double split[3][3] = { /* T^-1 */
+    {4.1787185915519047273,  0.32768282076106238708,  0.52337644549944954804},
+    {-4.1787185915519047273, -0.32768282076106238708, 0.47662355450055045196},
+    {0.50287263494578687595, -2.5719269498556054292,  0.59603920482822492497},
+};
+static const double joined[3][3] = { /* T */
+    {0.094438762488975241487, -0.14125529502095420843, 0.030029194105147424492},
+    {0.25021312296533331138,  0.204129352293799932,    -0.38294211275726193780},
+    {1, 1, 0},
+};
+/* clang-format on */
+#define EIGENVALUE 3.6378342527444957322 /* g = 30 / (6 + 81^(1/3) - 9^(1/3)) */
+#define PAIR_REAL  2.6810828736277521339 /* a */
+#define PAIR_TURN  3.0504301992474105694 /* b */
+
+typedef struct Radau {
+    Stepper base;
+    int n, all; /* in the error test; with quadratures */
+    double *old, *old_rate, *rate, *scale;
+    double *z, *f, *delta; /* 3 x all, 3 x all, 3 x n */
+    double *point, *error, *column;
+    double *part; /* 3 x n: of the split system */
+    Shifted *shifted;
+    double factored; /* step that they belong to; 0: none */
+    bool fresh;      /* the Jacobian belongs to `old` */
+    bool is_linear;  /* it does as long as nothing starts anew */
+    double step;     /* of the last step */
+    double contraction;
+    bool was_rejected;
+} Radau;
+
+typedef enum Outcome { CONVERGED, DIVERGED, UNDEFINED } Outcome;
+
+static bool evaluate(Radau *r, double t, const double *y, double *rate)
+{
+    r->base.counts.evaluations++;
+    return r->base.ode->rate(r->base.ode->context, t, y, rate);
+}
+
+static Stepper *create(const Ode *ode, const Control *control)
+{
+    Radau *r = NEW(Radau);
+    int n = ode->n, all = ode->n + ode->quadratures;
+
+    r->base = (Stepper){.method = &method_radau, .ode = ode, .control = *control};
+    r->n = n;
+    r->all = all;
+    r->base.y = NEW_ARRAY(double, all);
+    r->old = NEW_ARRAY(double, all);
+    r->old_rate = NEW_ARRAY(double, all);
+    r->rate = NEW_ARRAY(double, all);
+    r->scale = NEW_ARRAY(double, n);
+    r->z = NEW_ARRAY(double, 3 * all);
+    r->f = NEW_ARRAY(double, 3 * all);
+    r->delta = NEW_ARRAY(double, 3 * n);
+    r->point = NEW_ARRAY(double, all);
+    r->error = NEW_ARRAY(double, all);
+    r->column = NEW_ARRAY(double, all);
+    r->part = NEW_ARRAY(double, 3 * n);
+    r->shifted = shifted_new(ode, &r->base.counts);
+    return &r->base;
+}
+
+static void destroy(Stepper *stepper)
+{
+    Radau *r = (Radau *)stepper;
+
+    if (r == NULL)
+        return;
+    mem_free(r->base.y);
+    mem_free(r->old);
+    mem_free(r->old_rate);
+    mem_free(r->rate);
+    mem_free(r->scale);
+    mem_free(r->z);
+    mem_free(r->f);
+    mem_free(r->delta);
+    mem_free(r->point);
+    mem_free(r->error);
+    mem_free(r->column);
+    mem_free(r->part);
+    shifted_free(r->shifted);
+    mem_free(r);
+}
+
+static Status start(Stepper *stepper, double t, const double *y, Diag *diag)
+{
+    Radau *r = (Radau *)stepper;
+
+    memmove(r->base.y, y, (size_t)r->all * sizeof(double));
+    r->base.t = r->base.before = t;
+    r->base.next = r->base.control.first;
+    r->factored = 0;
+    r->fresh = r->is_linear = false;
+    r->contraction = 1;
+    r->was_rejected = false;
+    r->step = 0;
+    if (!evaluate(r, t, r->base.y, r->rate))
+        return solver_failure(diag, t, "the accelerations are undefined");
+    return OK;
+}
+
+/* --- pieces of a step --- */
+
+static void choose_scale(Radau *r)
+{
+    const Control *control = &r->base.control;
+    const double *cap = r->base.ode->cap, *slack = r->base.ode->slack;
+
+    for (int i = 0; i < r->n; i++) {
+        double size = fabs(r->old[i]);
+
+        size = cap != NULL ? fmin(size, cap[i]) : size;
+        r->scale[i] = control->atol + control->rtol * size;
+        if (slack != NULL)
+            r->scale[i] = fmax(r->scale[i], slack[i]);
+    }
+}
+
+static double scaled_norm(const Radau *r, const double *v, int count)
+{
+    double sum = 0;
+
+    for (int k = 0; k < count; k++)
+        for (int i = 0; i < r->n; i++) {
+            double part = v[k * r->n + i] / r->scale[i];
+
+            sum += part * part;
+        }
+    return sqrt(sum / (r->n > 0 ? count * r->n : 1));
+}
+
+/* df/dy at `old` */
+static bool find_jacobian(Radau *r)
+{
+    if (!shifted_differentiate(r->shifted, r->base.before, r->old, r->old_rate))
+        return false;
+    r->fresh = true;
+    r->is_linear = shifted_is_linear(r->shifted);
+    r->factored = 0;
+    return true;
+}
+
+/* g/h - J, and (a - ib)/h - J */
+static bool factor(Radau *r, double h)
+{
+    r->factored = shifted_factor(r->shifted, EIGENVALUE / h, PAIR_REAL / h, PAIR_TURN / h) ? h : 0;
+    return r->factored > 0;
+}
+
+/* sums of three vectors by the rows of a matrix */
+static void combine(int n, const double matrix[3][3], const double *from, double *out)
+{
+    for (int i = 0; i < n; i++)
+        for (int k = 0; k < 3; k++)
+            out[k * n + i] = matrix[k][0] * from[i] + matrix[k][1] * from[n + i] +
+                             matrix[k][2] * from[2 * n + i];
+}
+
+/* A step of Newton's: (A^-1/h x 1 - 1 x J) delta = f - A^-1/h z */
+static void correct_stages(Radau *r, double h)
+{
+    int n = r->n, all = r->all;
+
+    for (int k = 0; k < 3; k++)
+        for (int i = 0; i < n; i++)
+            r->delta[k * n + i] =
+                r->f[k * all + i] - (inverse[k][0] * r->z[i] + inverse[k][1] * r->z[all + i] +
+                                     inverse[k][2] * r->z[2 * all + i]) /
+                                        h;
+    combine(n, split, r->delta, r->part);
+    shifted_solve(r->shifted, r->part);
+    shifted_solve_pair(r->shifted, r->part + n, r->part + 2 * n);
+    combine(n, joined, r->part, r->delta);
+}
+
+/* where the last step's polynomial leads, as a first guess of the stages */
+static void guess_stages(Radau *r, double h, bool extrapolate)
+{
+    if (!extrapolate || r->step == 0) {
+        memset(r->z, 0, (size_t)(3 * r->all) * sizeof(double));
+        return;
+    }
+    for (int k = 0; k < 3; k++)
+        r->base.method->at(&r->base, r->base.t + nodes[k] * h, r->f + k * r->all);
+    for (int k = 0; k < 3; k++)
+        for (int i = 0; i < r->all; i++)
+            r->z[k * r->all + i] = r->f[k * r->all + i] - r->base.y[i];
+}
+
+static bool evaluate_stages(Radau *r, double h)
+{
+    for (int k = 0; k < 3; k++) {
+        for (int i = 0; i < r->all; i++)
+            r->point[i] = r->old[i] + r->z[k * r->all + i];
+        if (!evaluate(r, r->base.before + nodes[k] * h, r->point, r->f + k * r->all))
+            return false;
+    }
+    return true;
+}
+
+/* Simplified Newton for the stages; *used tells its iterations. */
+static Outcome solve_stages(Radau *r, double h, int *used)
+{
+    int n = r->n, all = r->all;
+    double enough =
+        fmax(10 * DBL_EPSILON / r->base.control.rtol, fmin(0.01, sqrt(r->base.control.rtol)));
+    double before = 0;
+
+    for (int it = 1; it <= ITERATIONS; it++) {
+        double size, eta = 1;
+
+        if (!evaluate_stages(r, h))
+            return UNDEFINED;
+        correct_stages(r, h);
+        size = scaled_norm(r, r->delta, 3);
+        if (!isfinite(size))
+            return UNDEFINED;
+        for (int k = 0; k < 3; k++)
+            for (int i = 0; i < n; i++)
+                r->z[k * all + i] += r->delta[k * n + i];
+        *used = it;
+        if (r->is_linear) { /* that was all; quadratures want the rates there */
+            r->contraction = 0;
+            return evaluate_stages(r, h) ? CONVERGED : UNDEFINED;
+        }
+        if (it > 1) {
+            r->contraction = size / before;
+            if (r->contraction >= 0.99)
+                return size < 1e-3 * enough ? CONVERGED : DIVERGED;
+            eta = r->contraction / (1 - r->contraction);
+        }
+        if (eta * size <= enough || size == 0)
+            return CONVERGED;
+        before = size;
+    }
+    return DIVERGED;
+}
+
+/* error of the embedded formula, in units of the tolerance */
+static double step_error(Radau *r, double h)
+{
+    double size;
+
+    for (int pass = 0; pass < 2; pass++) {
+        /* a second look where the first says no at a start: stiff parts that are not settled */
+        const double *rate = pass == 0 ? r->old_rate : r->column;
+
+        for (int i = 0; i < r->n; i++) {
+            double sum = 0;
+
+            for (int k = 0; k < 3; k++)
+                sum += embedded[k] * r->z[k * r->all + i];
+            r->error[i] = rate[i] + sum / h;
+        }
+        shifted_solve(r->shifted, r->error);
+        size = scaled_norm(r, r->error, 1);
+        if (size < 1 || !(r->was_rejected || r->step == 0) || pass == 1)
+            break;
+        memcpy(r->point, r->old, (size_t)r->all * sizeof(double));
+        for (int i = 0; i < r->n; i++)
+            r->point[i] += r->error[i];
+        if (!evaluate(r, r->base.before, r->point, r->column))
+            break;
+    }
+    return fmax(size / stepper_blur(&r->base), 1e-10);
+}
+
+/* the new point at t, projected, and its rate */
+static bool settle(Radau *r, double t, double h)
+{
+    const Ode *ode = r->base.ode;
+
+    for (int i = 0; i < r->all; i++)
+        r->point[i] = r->old[i] + r->z[2 * r->all + i];
+    for (int i = r->n; i < r->all; i++) { /* quadratures, by the weights of the last stage */
+        double sum = 0;
+
+        for (int k = 0; k < 3; k++)
+            sum += weights[2][k] * r->f[k * r->all + i];
+        r->point[i] = r->old[i] + h * sum;
+    }
+    if (ode->project != NULL && !ode->project(ode->context, t, r->point))
+        return false;
+    if (!evaluate(r, t, r->point, r->rate))
+        return false;
+    memcpy(r->base.y, r->point, (size_t)r->all * sizeof(double));
+    r->base.t = t;
+    r->step = h;
+    return true;
+}
+
+/* --- steps --- */
+
+static double first_step(const Radau *r, double span)
+{
+    double slope = scaled_norm(r, r->rate, 1), size = scaled_norm(r, r->old, 1);
+    double h = slope > 1e-5 && size > 1e-5 ? 1e-2 * fmax(size, 1) / slope : 1e-6;
+
+    return fmin(h, span);
+}
+
+static double trim(const Radau *r, double h, double end)
+{
+    double left = end - r->base.before;
+
+    h = stepper_allowed(&r->base, fmin(h, control_largest(&r->base.control)));
+    if (h >= left || left - h < 1e-10 * h)
+        return left;
+    return h > 0.5 * left ? 0.5 * left : h;
+}
+
+/* One try; false: go on with the shorter step *h. */
+static bool try_step(Radau *r, double *h, double end, int *failures)
+{
+    double tried = trim(r, *h, end);
+    double t = tried == end - r->base.before ? end : r->base.before + tried;
+    double error, factor_of;
+    int used = 0;
+    Outcome outcome = UNDEFINED;
+
+    if ((r->fresh || find_jacobian(r)) && (r->factored == tried || factor(r, tried)))
+        outcome = solve_stages(r, tried, &used);
+    if (outcome != CONVERGED) {
+        *failures += outcome == UNDEFINED;
+        *h = 0.5 * tried;
+        return false;
+    }
+    error = step_error(r, tried);
+    factor_of = SAFETY * (2.0 * ITERATIONS + 1) / (2.0 * ITERATIONS + used) * pow(error, -0.25);
+    factor_of = fmin(r->was_rejected ? 1 : GROW, fmax(SHRINK, factor_of));
+    if (!(error < 1)) {
+        *h = tried * fmin(0.9, factor_of);
+        return false;
+    }
+    if (!settle(r, t, tried)) {
+        *failures += 1;
+        *h = 0.5 * tried;
+        return false;
+    }
+    /* factors are kept where the step hardly changes */
+    if (factor_of > 1 && factor_of < 1.2)
+        factor_of = 1;
+    r->base.next = tried * factor_of;
+    if (tried < *h)
+        r->base.next = fmax(r->base.next, fmin(*h, tried * GROW));
+    return true;
+}
+
+static Status step(Stepper *stepper, double end, Diag *diag)
+{
+    Radau *r = (Radau *)stepper;
+    int failures = 0;
+    double h = r->base.next;
+    bool keep = r->is_linear || (r->factored > 0 && r->contraction < CONTRACTS);
+
+    if (r->base.next > 0)
+        guess_stages(r, trim(r, h, end + r->base.before - r->base.t), true);
+    memcpy(r->old, r->base.y, (size_t)r->all * sizeof(double));
+    memcpy(r->old_rate, r->rate, (size_t)r->all * sizeof(double));
+    r->base.before = r->base.t;
+    choose_scale(r);
+    if (!(h > 0)) {
+        h = first_step(r, end - r->base.t);
+        guess_stages(r, h, false);
+    }
+    r->fresh = keep;
+    while (!try_step(r, &h, end, &failures)) {
+        r->base.counts.rejected++;
+        r->was_rejected = true;
+        if (keep && !r->is_linear) /* it was an old Jacobian's fault, perhaps */
+            r->fresh = keep = false;
+        if (failures >= MAX_REJECTIONS)
+            return solver_failure(diag, r->base.before,
+                                  "the equations have no solution just behind this instant (ten "
+                                  "ever shorter steps failed)");
+        if (!(h > 4e-16 * fabs(r->base.before)))
+            return solver_failure(diag, r->base.before, "the step became too small");
+        guess_stages(r, h, false);
+    }
+    r->was_rejected = false;
+    r->base.counts.steps++;
+    return OK;
+}
+
+/* the cubic through the start of the step and its three stages, the last of them projected */
+static void at(Stepper *stepper, double t, double *y)
+{
+    Radau *r = (Radau *)stepper;
+    double s = r->step > 0 ? (t - r->base.before) / r->step : 1;
+    double basis[3];
+
+    if (r->step == 0 || t == r->base.t) {
+        memcpy(y, r->base.y, (size_t)r->all * sizeof(double));
+        return;
+    }
+    for (int k = 0; k < 3; k++) {
+        basis[k] = s / nodes[k];
+        for (int l = 0; l < 3; l++)
+            if (l != k)
+                basis[k] *= (s - nodes[l]) / (nodes[k] - nodes[l]);
+    }
+    for (int i = 0; i < r->all; i++)
+        y[i] = r->old[i] + basis[0] * r->z[i] + basis[1] * r->z[r->all + i] +
+               basis[2] * (r->base.y[i] - r->old[i]);
+    for (int i = r->n; i < r->all; i++) { /* quadratures have no stages: values and slopes */
+        double dy = r->base.y[i] - r->old[i], h = r->step;
+
+        y[i] = r->old[i] + s * dy +
+               s * (s - 1) * ((1 - 2 * s) * dy + (s - 1) * h * r->old_rate[i] + s * h * r->rate[i]);
+    }
+}
+
+/* the stages of a step of length h instead of the last one, as its polynomial has them */
+static void guess_shorter(Radau *r, double h)
+{
+    for (int k = 0; k < 3; k++)
+        r->base.method->at(&r->base, r->base.before + nodes[k] * h, r->f + k * r->all);
+    for (int k = 0; k < 3; k++)
+        for (int i = 0; i < r->all; i++)
+            r->z[k * r->all + i] = r->f[k * r->all + i] - r->old[i];
+}
+
+static Status shorten(Stepper *stepper, double t, Diag *diag)
+{
+    Radau *r = (Radau *)stepper;
+    size_t bytes = (size_t)r->all * sizeof(double);
+    double h = t - r->base.before;
+    double *stages, *rate;
+    int used;
+    Status status = OK;
+
+    if (h <= 0) { /* back to where the step began */
+        r->base.t = r->base.before;
+        memcpy(r->base.y, r->old, (size_t)r->all * sizeof(double));
+        memcpy(r->rate, r->old_rate, (size_t)r->all * sizeof(double));
+        r->step = 0;
+        return OK;
+    }
+    stages = NEW_ARRAY(double, 3 * r->all);
+    rate = NEW_ARRAY(double, r->all);
+    memcpy(stages, r->z, 3 * bytes);
+    memcpy(rate, r->rate, bytes);
+    guess_shorter(r, h);
+    if (!(evaluate(r, r->base.before, r->old, r->rate) && (r->is_linear || find_jacobian(r)) &&
+          factor(r, h) && solve_stages(r, h, &used) == CONVERGED && settle(r, t, h))) {
+        status = solver_failure(diag, t, "the equations have no solution at a switch");
+        memcpy(r->z, stages, 3 * bytes);
+        memcpy(r->rate, rate, bytes);
+    }
+    mem_free(stages);
+    mem_free(rate);
+    return status;
+}
+
+static bool slope(Stepper *stepper, double *rate)
+{
+    const Radau *r = (const Radau *)stepper;
+
+    memcpy(rate, r->rate, (size_t)r->all * sizeof(double));
+    return true;
+}
+
+const Method method_radau = {
+    .name = "radau",
+    .brief =
+        "implicit Runge-Kutta of order 5 (Radau IIA), for stiff equations; projects after each "
+        "step",
+    .create = create,
+    .destroy = destroy,
+    .start = start,
+    .step = step,
+    .at = at,
+    .shorten = shorten,
+    .slope = slope,
+    .nodes = nodes,
+    .node_count = COUNT(nodes),
+    .sees_little = true,
+    .pulse_steps = 16,
+    .is_stiff = true,
+    .is_a_stable = true,
+};

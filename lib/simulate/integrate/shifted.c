@@ -1,0 +1,233 @@
+/* shifted.c: (s - J) d = b, dense or by a network's sparse equations */
+#include "simulate/integrate/shifted.h"
+
+#include "algebra/linear.h"
+#include "algebra/sparse.h"
+#include "base/memory.h"
+
+#include <float.h>
+#include <string.h>
+
+#define FEW 100 /* states, up to which dense factors beat sparse ones of all unknowns */
+
+struct Shifted {
+    const Ode *ode;
+    Counts *counts;
+    int n;
+    bool is_linear;
+    /* dense */
+    double *jacobian, *point, *column; /* n x n; y; its rate */
+    Lu *real, *pair;                   /* n; 2n */
+    /* sparse; entries of dF/dw and dF/dw' */
+    int entries;
+    const int *at_row, *at_column;
+    double *still, *moving;
+    double *w, *w_rate, *right, *values;
+    Sparse *sparse_real, *sparse_pair;
+};
+
+static bool is_sparse(const Shifted *s)
+{
+    return s->ode->dae.pattern != NULL && s->n > FEW;
+}
+
+Shifted *shifted_new(const Ode *ode, Counts *counts)
+{
+    Shifted *s = NEW(Shifted);
+    int n = ode->n, all = n + ode->quadratures;
+
+    s->ode = ode;
+    s->counts = counts;
+    s->n = n;
+    if (is_sparse(s)) {
+        s->w = NEW_ARRAY(double, ode->dae.n);
+        s->w_rate = NEW_ARRAY(double, ode->dae.n);
+        s->right = NEW_ARRAY(double, 2 * ode->dae.n);
+        return s;
+    }
+    s->jacobian = NEW_ARRAY(double, n *n);
+    s->point = NEW_ARRAY(double, all);
+    s->column = NEW_ARRAY(double, all);
+    s->right = NEW_ARRAY(double, 2 * n);
+    s->real = lu_new(n);
+    s->pair = lu_new(2 * n);
+    return s;
+}
+
+void shifted_free(Shifted *s)
+{
+    if (s == NULL)
+        return;
+    mem_free(s->jacobian);
+    mem_free(s->point);
+    mem_free(s->column);
+    lu_free(s->real);
+    lu_free(s->pair);
+    mem_free(s->still);
+    mem_free(s->moving);
+    mem_free(s->w);
+    mem_free(s->w_rate);
+    mem_free(s->right);
+    mem_free(s->values);
+    sparse_free(s->sparse_real);
+    sparse_free(s->sparse_pair);
+    mem_free(s);
+}
+
+/* --- J --- */
+
+static bool by_differences(Shifted *s, double t, const double *y, const double *rate)
+{
+    int n = s->n;
+
+    /* of straight lines a long difference is the most exact */
+    double straight = s->is_linear ? fmax(1e-3, vector_largest(y, n)) : 0;
+
+    memcpy(s->point, y, (size_t)(n + s->ode->quadratures) * sizeof(double));
+    for (int j = 0; j < n; j++) {
+        double h = straight > 0 ? straight : sqrt(DBL_EPSILON * fmax(1e-5, fabs(y[j])));
+
+        s->point[j] = y[j] + h;
+        h = s->point[j] - y[j];
+        s->counts->evaluations++;
+        if (!s->ode->rate(s->ode->context, t, s->point, s->column))
+            return false;
+        for (int i = 0; i < n; i++)
+            s->jacobian[i * n + j] = (s->column[i] - rate[i]) / h;
+        s->point[j] = y[j];
+    }
+    return true;
+}
+
+/* the pattern of s - J, and the same of a complex s in real numbers: [a b; -b a], where only dF/dw'
+ * has a part in b */
+static void find_pattern(Shifted *s)
+{
+    int n = s->ode->dae.n;
+    int *row, *column;
+
+    s->entries = s->ode->dae.pattern(s->ode->dae.context, &s->at_row, &s->at_column);
+    s->still = NEW_ARRAY(double, s->entries);
+    s->moving = NEW_ARRAY(double, s->entries);
+    s->values = NEW_ARRAY(double, 4 * s->entries);
+    row = NEW_ARRAY(int, 4 * s->entries);
+    column = NEW_ARRAY(int, 4 * s->entries);
+    for (int k = 0; k < s->entries; k++)
+        for (int part = 0; part < 4; part++) {
+            row[4 * k + part] = s->at_row[k] + n * (part / 2);
+            column[4 * k + part] = s->at_column[k] + n * (part % 2);
+        }
+    s->sparse_real = sparse_new(n, s->entries, s->at_row, s->at_column);
+    s->sparse_pair = sparse_new(2 * n, 4 * s->entries, row, column);
+    mem_free(row);
+    mem_free(column);
+}
+
+static bool by_equations(Shifted *s, double t, const double *y)
+{
+    const Dae *dae = &s->ode->dae;
+
+    s->counts->evaluations++;
+    if (!dae->start(dae->context, t, y, s->w, s->w_rate))
+        return false;
+    if (s->sparse_real == NULL)
+        find_pattern(s);
+    if (!dae->jacobian(dae->context, t, 0, s->w, s->w_rate, s->still) ||
+        !dae->jacobian(dae->context, t, 1, s->w, s->w_rate, s->moving))
+        return false;
+    for (int k = 0; k < s->entries; k++)
+        s->moving[k] -= s->still[k];
+    return true;
+}
+
+bool shifted_differentiate(Shifted *s, double t, const double *y, const double *rate)
+{
+    const Dae *dae = &s->ode->dae;
+
+    s->counts->jacobians++;
+    s->is_linear = dae->is_linear != NULL && dae->is_linear(dae->context);
+    return is_sparse(s) ? by_equations(s, t, y) : by_differences(s, t, y, rate);
+}
+
+bool shifted_is_linear(const Shifted *s)
+{
+    return s->is_linear;
+}
+
+/* --- factors --- */
+
+static bool factor_dense(Shifted *s, double shift, double alpha, double beta)
+{
+    int n = s->n;
+    double *a = lu_matrix(s->real), *b = lu_matrix(s->pair);
+
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < n; j++) {
+            double *pair = b + i * 2 * n + j;
+            double entry = s->jacobian[i * n + j];
+
+            a[i * n + j] = (i == j) * shift - entry;
+            pair[0] = pair[2 * n * n + n] = (i == j) * alpha - entry;
+            pair[n] = (i == j) * beta;
+            pair[2 * n * n] = (i == j) * -beta;
+        }
+    return lu_factor(s->real) && lu_factor(s->pair);
+}
+
+bool shifted_factor(Shifted *s, double shift, double alpha, double beta)
+{
+    if (s->n == 0)
+        return true;
+    if (!is_sparse(s))
+        return factor_dense(s, shift, alpha, beta);
+    for (int k = 0; k < s->entries; k++)
+        s->values[k] = s->still[k] + shift * s->moving[k];
+    if (!sparse_factor(s->sparse_real, s->values))
+        return false;
+    for (int k = 0; k < s->entries; k++) {
+        double *part = s->values + 4 * k;
+
+        part[0] = part[3] = s->still[k] + alpha * s->moving[k];
+        part[1] = beta * s->moving[k];
+        part[2] = -part[1];
+    }
+    return sparse_factor(s->sparse_pair, s->values);
+}
+
+/* dF/dw' b, for a part of y only */
+static void bring_right(const Shifted *s, const double *b, double *out)
+{
+    memset(out, 0, (size_t)s->ode->dae.n * sizeof(double));
+    for (int k = 0; k < s->entries; k++)
+        if (s->at_column[k] < s->n)
+            out[s->at_row[k]] += s->moving[k] * b[s->at_column[k]];
+}
+
+void shifted_solve(Shifted *s, double *b)
+{
+    if (!is_sparse(s)) {
+        lu_solve(s->real, b);
+        return;
+    }
+    bring_right(s, b, s->right);
+    sparse_solve(s->sparse_real, s->right);
+    memcpy(b, s->right, (size_t)s->n * sizeof(double));
+}
+
+void shifted_solve_pair(Shifted *s, double *b, double *c)
+{
+    size_t bytes = (size_t)s->n * sizeof(double);
+    int second = is_sparse(s) ? s->ode->dae.n : s->n;
+
+    if (is_sparse(s)) {
+        bring_right(s, b, s->right);
+        bring_right(s, c, s->right + second);
+        sparse_solve(s->sparse_pair, s->right);
+    } else {
+        memcpy(s->right, b, bytes);
+        memcpy(s->right + second, c, bytes);
+        lu_solve(s->pair, s->right);
+    }
+    memcpy(b, s->right, bytes);
+    memcpy(c, s->right + second, bytes);
+}

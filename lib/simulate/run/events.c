@@ -1,0 +1,643 @@
+/* events.c: conditions in numbers, and what happens when they become true */
+#include "simulate/run/events_impl.h"
+
+#include <math.h>
+#include <string.h>
+
+#define AT_ZERO     1e-12 /* of the run: instants that are not told apart */
+#define AHEAD       1e-7  /* of the run: how far to look for the way a condition goes */
+#define NEAR_ZERO   1e-13 /* of a condition's largest size, where it was zero just before */
+#define ROUNDS      100   /* events that set each other off at one instant */
+#define PACKED      1e-9  /* of the run: events as close as that, */
+#define PACKED_MOST 100   /* so many of them in a row, are without end */
+#define FASTER_MOST 8     /* events ever sooner after one another, */
+#define FASTER_SPAN 1e-6  /* that add up to less than this, of the run, likewise: */
+#define SHRUNK      1e-3  /* bounces, whose pauses are this part of the longest one */
+#define BOUNCES     4     /* so many of them at least */
+
+/* --- reading --- */
+
+static bool holds_time_alone(Expr e)
+{
+    return (expr_kinds(e) & ~(1U << SYMBOL_TIME | 1U << SYMBOL_PARAMETER)) == 0;
+}
+
+static void add_condition(Events *events, Expr comparison)
+{
+    Arena *arena = system_arena(events->plan.layout->system);
+    Condition condition = {.comparison = comparison};
+    Text name = {0};
+
+    for (int i = 0; i < events->conditions.count; i++)
+        if (events->conditions.at[i].comparison == comparison)
+            return;
+    text_addf(&name, "#event %d", events->conditions.count + 1);
+    condition.difference = expr_sub(arena, expr_arg(comparison, 0), expr_arg(comparison, 1));
+    condition.symbol = expr_symbol(arena, name.at, SYMBOL_ARGUMENT);
+    LIST_PUSH(events->conditions, condition);
+    text_free(&name);
+}
+
+typedef LIST(Expr) Comparisons;
+
+/* the comparisons that a formula is made of */
+static void gather(Comparisons *out, Expr e)
+{
+    if (expr_kind(e) != EXPR_CALL || (expr_kinds(e) & ~(1U << SYMBOL_PARAMETER)) == 0)
+        return;
+    if (expr_op(e) == OP_LT || expr_op(e) == OP_LE)
+        LIST_PUSH(*out, e);
+    else
+        for (int i = 0; i < expr_arg_count(e); i++)
+            gather(out, expr_arg(e, i));
+}
+
+/* whether the whole, which a run looks for conditions of t alone in, has this comparison too */
+static bool is_in_whole(const Events *events, const Comparisons *whole, Expr comparison)
+{
+    if (events->plan.whole == NULL)
+        return true;
+    for (int i = 0; i < whole->count; i++)
+        if (whole->at[i] == comparison)
+            return true;
+    return false;
+}
+
+static void time_first(Events *events)
+{
+    const EventsPlan *plan = &events->plan;
+    Comparisons whole = {0};
+    Expr when;
+
+    for (int i = 0; i < plan->event_count && plan->whole != NULL; i++)
+        if (system_resolve(plan->whole, plan->events[i]->when, &when, NULL) == OK)
+            gather(&whole, when);
+    for (int i = 0; i < events->conditions.count; i++)
+        if (holds_time_alone(events->conditions.at[i].difference) &&
+            is_in_whole(events, &whole, events->conditions.at[i].comparison)) {
+            Condition condition = events->conditions.at[i];
+
+            events->conditions.at[i] = events->conditions.at[events->time_only];
+            events->conditions.at[events->time_only++] = condition;
+        }
+    LIST_FREE(whole);
+}
+
+/* what a driven run can't tell while it finds the positions, or no run at all */
+static Status check_known(const Events *events, Expr e, Diag *diag)
+{
+    const unsigned never = 1U << SYMBOL_EFFORT | 1U << SYMBOL_JERK;
+    const unsigned later = 1U << SYMBOL_STATE | 1U << SYMBOL_ALGEBRAIC | 1U << SYMBOL_STATE_RATE |
+                           1U << SYMBOL_MULTIPLIER;
+    const bool supplied = events->plan.layout->ne > 0;
+
+    if ((expr_kinds(e) & (supplied ? never | later : never)) == 0)
+        return OK;
+    (void)diag_set(diag, E_MODEL,
+                   "forces, currents and voltages are found after the positions, "
+                   "where a driver has by=");
+    diag_hint(diag, "a condition on positions and rates can be followed");
+    return E_MODEL;
+}
+
+static Status read_condition(Events *events, Item *item, const Event *event, Diag *diag)
+{
+    Comparisons found = {0};
+    Status status = OK;
+
+    CHECK(system_resolve(events->plan.layout->system, event->when, &item->when, diag));
+    CHECK(check_known(events, item->when, diag));
+    gather(&found, item->when);
+    for (int i = 0; i < found.count; i++)
+        add_condition(events, found.at[i]);
+done:
+    LIST_FREE(found);
+    return status;
+}
+
+static Status read_values(Events *events, Item *item, const Event *event, Diag *diag)
+{
+    Status status = OK;
+
+    item->first_value = events->values.count;
+    if (event->action == EVENT_SET && events->plan.kind != RUN_SIMULATE) {
+        (void)diag_set(diag, E_MODEL, "new values are for `simulate`: here drivers say the motion");
+        diag_hint(diag, "do=mark and do=stop work in driven runs");
+        return E_MODEL;
+    }
+    for (int i = 0; i < event->value_count; i++) {
+        const NewValue *value = &event->values[i];
+        Expr resolved = NULL;
+
+        CHECK(reset_add(events->reset, value->name, value->primes, diag));
+        CHECK(system_resolve(events->plan.layout->system, value->value, &resolved, diag));
+        CHECK(check_known(events, resolved, diag));
+        LIST_PUSH(events->values, resolved);
+        item->value_count++;
+    }
+done:
+    return status;
+}
+
+static Status read_event(Events *events, const Event *event, Diag *diag)
+{
+    Item item = {.name = events_keep(events, event->name),
+                 .condition = events_keep(events, event->condition),
+                 .action = event->action,
+                 .is_live = true,
+                 .course = {.last = -INFINITY, .gap = INFINITY}};
+    Diag why = {0};
+    Status status = read_condition(events, &item, event, &why);
+
+    if (status == OK)
+        status = read_values(events, &item, event, &why);
+    if (status == E_VALUE && events->plan.whole != NULL) { /* said where it comes to that */
+        item.refused = events_keep(events, why.message);
+        status = OK;
+    }
+    LIST_PUSH(events->items, item);
+    if (status == OK)
+        return OK;
+    (void)diag_set(diag, status, "event %s: %s", event->name, why.message);
+    diag_hint(diag, "%s", why.hint);
+    return status;
+}
+
+static void write_formulas(Events *events)
+{
+    int count = events->conditions.count;
+    Expr *from = NEW_ARRAY(Expr, count);
+    Expr *to = NEW_ARRAY(Expr, count);
+
+    for (int i = 0; i < count; i++) {
+        from[i] = events->conditions.at[i].comparison;
+        to[i] = events->conditions.at[i].symbol;
+    }
+    for (int i = 0; i < events->items.count; i++)
+        events->items.at[i].formula = expr_substitute(system_arena(events->plan.layout->system),
+                                                      events->items.at[i].when, from, to, count);
+    mem_free(from);
+    mem_free(to);
+}
+
+static Status compile(Events *events, const Expr *roots, int count, Probe **out, Diag *diag)
+{
+    for (int i = 0; roots != NULL && i < count; i++)
+        events->solved = events->solved || stage_of(roots[i]) > STAGE_VELOCITY;
+    return probe_new(events->plan.layout, events->plan.parameters, roots, count, out, diag);
+}
+
+static Status compile_all(Events *events, Diag *diag)
+{
+    LIST(Expr) roots = {0};
+    Status status = OK;
+
+    for (int i = 0; i < events->conditions.count; i++)
+        LIST_PUSH(roots, events->conditions.at[i].difference);
+    for (int i = 0; i < events->items.count; i++)
+        LIST_PUSH(roots, events->items.at[i].when);
+    events->follows_time =
+        roots.at != NULL && layout_follows_time(events->plan.layout, roots.at + events->time_only,
+                                                events->conditions.count - events->time_only);
+    CHECK(compile(events, roots.at, events->time_only, &events->time, diag));
+    CHECK(compile(events, roots.at, events->conditions.count, &events->state, diag));
+    CHECK(compile(events, roots.at + events->conditions.count, events->items.count,
+                  &events->holding, diag));
+    CHECK(compile(events, events->values.at, events->values.count, &events->right, diag));
+    CHECK(reset_compile(events->reset, diag));
+done:
+    LIST_FREE(roots);
+    return status;
+}
+
+Status events_new(const EventsPlan *plan, Events **out, Diag *diag)
+{
+    const ResetPlan reset = {plan->layout, plan->parameters, plan->equations, plan->rows,
+                             plan->row_count};
+    Events *events = NEW(Events);
+    Status status = OK;
+
+    events->plan = *plan;
+    events->pool = pool_new(0);
+    events->reset = reset_new(&reset);
+    for (int i = 0; i < plan->event_count; i++)
+        CHECK(read_event(events, plan->events[i], diag));
+    time_first(events);
+    write_formulas(events);
+    CHECK(compile_all(events, diag));
+    events->targets = NEW_ARRAY(double, events->values.count);
+    events->rate = NEW_ARRAY(double, motion_length(plan->motion));
+    for (int i = 0; i < COUNT(events->y); i++) {
+        events->y[i] = NEW_ARRAY(double, motion_length(plan->motion));
+        events->here[i] = NEW_ARRAY(double, events->conditions.count);
+    }
+    *out = events;
+    events = NULL;
+done:
+    events_free(events);
+    return status;
+}
+
+void events_free(Events *events)
+{
+    if (events == NULL)
+        return;
+    for (int i = 0; i < events->items.count; i++)
+        LIST_FREE(events->items.at[i].course.times);
+    LIST_FREE(events->items);
+    LIST_FREE(events->conditions);
+    LIST_FREE(events->values);
+    mem_free(events->targets);
+    reset_free(events->reset);
+    probe_free(events->time);
+    probe_free(events->state);
+    probe_free(events->holding);
+    probe_free(events->right);
+    for (int i = 0; i < COUNT(events->y); i++) {
+        mem_free(events->y[i]);
+        mem_free(events->here[i]);
+    }
+    mem_free(events->rate);
+    pool_free(events->pool);
+    mem_free(events);
+}
+
+/* --- values --- */
+
+int events_condition_count(const Events *events)
+{
+    return events != NULL ? events->conditions.count : 0;
+}
+
+int events_time_only(const Events *events)
+{
+    return events != NULL ? events->time_only : 0;
+}
+
+bool events_follow_time(const Events *events)
+{
+    return events != NULL && events->follows_time;
+}
+
+/* the roots of a probe at (t, y); NULL where the equations have no solution */
+static const double *roots_at(const Events *events, Probe *probe, double t, const double *y)
+{
+    const Layout *l = events->plan.layout;
+    RowValues row = row_of_state(l, t, y);
+
+    if (events->solved && !row_solve(l, events->plan.motion, t, y, &row))
+        return NULL;
+    return probe_values(probe, &row);
+}
+
+void events_conditions(Events *events, double t, const double *y, double *out)
+{
+    int count = events->conditions.count;
+    const double *values = roots_at(events, events->state, t, y);
+
+    for (int i = 0; i < count; i++) {
+        out[i] = values != NULL ? values[i] : NAN;
+        events->conditions.at[i].largest = fmax(events->conditions.at[i].largest, fabs(out[i]));
+    }
+}
+
+void events_time_conditions(Events *events, double t, double *out)
+{
+    RowValues row = {.t = t};
+
+    if (events->time_only > 0)
+        memcpy(out, probe_values(events->time, &row), (size_t)events->time_only * sizeof(double));
+}
+
+static double symbol_value(void *context, Expr symbol)
+{
+    const Events *events = ((void **)context)[0];
+    const int *sides = ((void **)context)[1];
+
+    for (int i = 0; i < events->conditions.count; i++)
+        if (events->conditions.at[i].symbol == symbol)
+            return sides[i] < 0;
+    return parameters_value(events->plan.parameters, symbol);
+}
+
+static bool is_true(const Events *events, const Item *item, const int *sides)
+{
+    const void *context[] = {events, sides};
+
+    return item->is_live && expr_evaluate(item->formula, symbol_value, (void *)context) != 0;
+}
+
+/* --- sides --- */
+
+/* Conditions here and after one and two short steps of Euler's rule; how long they are, or 0. */
+static double look_ahead(Events *events, double t, double span, const double *y)
+{
+    const Ode *ode = motion_ode(events->plan.motion);
+    int length = motion_length(events->plan.motion);
+    double h = AHEAD * span;
+
+    memcpy(events->y[0], y, (size_t)length * sizeof(double));
+    for (int k = 0; k < 3; k++) {
+        events_conditions(events, t + k * h, events->y[k], events->here[k]);
+        if (k == 2)
+            break;
+        if (!ode->rate(ode->context, t + k * h, events->y[k], events->rate))
+            return 0;
+        for (int i = 0; i < length; i++)
+            events->y[k + 1][i] = events->y[k][i] + h * events->rate[i];
+    }
+    return h;
+}
+
+/* the way that condition i goes: by its rate, or where it has none by how that changes */
+static double direction(const Events *events, int i)
+{
+    double first = events->here[1][i] - events->here[0][i];
+    double second = events->here[2][i] - events->here[1][i];
+
+    return fabs(first) > 1e-3 * fabs(second - first) ? first : first + second;
+}
+
+void events_settle(Events *events, double t, double span, const double *y, int root, int *sides)
+{
+    double h = look_ahead(events, t, span, y);
+
+    for (int i = events->time_only; i < events->conditions.count; i++) {
+        double value = events->here[0][i];
+        double way = h > 0 ? direction(events, i) : 0;
+        bool is_zero = i == root || fabs(value) * h <= fabs(way) * AT_ZERO * span;
+
+        if (!is_zero)
+            sides[i] = sign_of(value);
+        else if (way != 0 && isfinite(way))
+            sides[i] = sign_of(way);
+        else if (i == root)
+            sides[i] = -sides[i];
+    }
+}
+
+/* Behind new values: a condition whose zero the event was at has not moved from it, unless it is
+ * one of those that did. */
+static void settle_again(Events *events, double t, double span, const double *y, const bool *zero,
+                         int *sides)
+{
+    double h = look_ahead(events, t, span, y);
+
+    for (int i = events->time_only; i < events->conditions.count; i++) {
+        double value = events->here[0][i];
+        double way = h > 0 ? direction(events, i) : 0;
+        double near = zero[i] ? NEAR_ZERO * events->conditions.at[i].largest : 0;
+        bool is_zero = fabs(value) <= near || fabs(value) * h <= fabs(way) * AT_ZERO * span;
+
+        if (!is_zero)
+            sides[i] = sign_of(value);
+        else if (way != 0 && isfinite(way))
+            sides[i] = sign_of(way);
+    }
+}
+
+/* --- what happens --- */
+
+static void note(Item *item, double t)
+{
+    LIST_PUSH(item->course.times, t);
+    item->course.holds = true;
+    if (item->action == EVENT_STOP)
+        item->course.ended = true;
+}
+
+bool events_begin(Events *events, double t, const double *y)
+{
+    const double *holding = roots_at(events, events->holding, t, y);
+    bool stop = false;
+
+    for (int i = 0; i < events->items.count && holding != NULL; i++) {
+        Item *item = &events->items.at[i];
+
+        if (!item->is_live || item->course.is_known)
+            continue;
+        item->course.is_known = true;
+        item->course.holds = item->course.from_start = holding[i] != 0 && !isnan(holding[i]);
+        if (item->course.holds && item->action == EVENT_STOP) {
+            note(item, t);
+            stop = true;
+        }
+    }
+    return stop;
+}
+
+bool events_follow(Events *events, const int *sides)
+{
+    bool due = false;
+
+    for (int i = 0; i < events->items.count; i++) {
+        Item *item = &events->items.at[i];
+        bool now = is_true(events, item, sides);
+
+        due = due || (now && !item->course.holds);
+        item->course.holds = item->course.holds && now;
+    }
+    return due;
+}
+
+static Status happens_endlessly(const Item *item, double t, Diag *diag)
+{
+    (void)diag_set(diag, E_SOLVER,
+                   "at t = %.9g s: event %s happens without end: %s became true %d times, at last "
+                   "%.3g s after the time before",
+                   t, item->name, item->condition, item->course.times.count, item->course.gap);
+    diag_hint(diag, "another event can end the run before it comes to that, do=stop, for instance "
+                    "where the speed is small");
+    return E_SOLVER;
+}
+
+Status events_are_stuck(const Events *events, int condition, double t, Diag *diag)
+{
+    const Expr symbol = events->conditions.at[condition].symbol;
+
+    for (int i = 0; i < events->items.count; i++)
+        if (events->items.at[i].is_live && expr_depends(events->items.at[i].formula, symbol))
+            return happens_endlessly(&events->items.at[i], t, diag);
+    return diag_set(diag, E_SOLVER, "at t = %.9g s: an event happens without end", t);
+}
+
+/* ever sooner after one another, so that they add up to an instant, or without a pause at all */
+static Status check_pace(Item *item, double t, double span, Diag *diag)
+{
+    double gap = t - item->course.last;
+    double ratio = gap / item->course.gap;
+    double left = ratio < 1 ? gap * ratio / (1 - ratio) : INFINITY;
+
+    item->course.faster = gap < item->course.gap ? item->course.faster + 1 : 0;
+    item->course.packed = gap <= PACKED * span ? item->course.packed + 1 : 0;
+    item->course.last = t;
+    item->course.gap = gap;
+    if (isfinite(gap))
+        item->course.longest = fmax(item->course.longest, gap);
+    if (item->course.packed <= PACKED_MOST &&
+        !(item->course.faster >= FASTER_MOST && gap <= SHRUNK * item->course.longest &&
+          gap <= FASTER_SPAN * span && left <= FASTER_SPAN * span))
+        return OK;
+    return happens_endlessly(item, t, diag);
+}
+
+/* Bounces too small to be told from rest: the new values no longer lead away from the condition. */
+static Status check_away(const Events *events, double t, const bool *due, const int *sides,
+                         Diag *diag)
+{
+    for (int i = 0; i < events->items.count; i++) {
+        const Item *item = &events->items.at[i];
+
+        if (due[i] && item->value_count > 0 && item->course.times.count >= BOUNCES &&
+            item->course.gap <= SHRUNK * item->course.longest && is_true(events, item, sides))
+            return happens_endlessly(item, t, diag);
+    }
+    return OK;
+}
+
+/* the new values of the items that are due */
+static Status apply_values(Events *events, double t, const bool *due, double *y, bool *changed,
+                           Diag *diag)
+{
+    const double *values;
+    Text names = {0};
+
+    for (int k = 0; k < events->values.count; k++)
+        events->targets[k] = NAN;
+    for (int i = 0; i < events->items.count; i++)
+        if (due[i] && events->items.at[i].refused != NULL)
+            return diag_set(diag, E_SOLVER, "at t = %.9g s: event %s: %s, as ideal switches stand",
+                            t, events->items.at[i].name, events->items.at[i].refused);
+    if (events->values.count == 0)
+        return OK;
+    values = roots_at(events, events->right, t, y);
+    for (int i = 0; i < events->items.count; i++) {
+        const Item *item = &events->items.at[i];
+
+        if (!due[i] || item->value_count == 0)
+            continue;
+        text_addf(&names, "%s%s", names.length > 0 ? ", " : "", item->name);
+        for (int k = 0; k < item->value_count && values != NULL; k++)
+            events->targets[item->first_value + k] = values[item->first_value + k];
+    }
+    if (names.length == 0)
+        return OK;
+    if (values != NULL && reset_apply(events->reset, t, events->targets, y)) {
+        *changed = true;
+        text_free(&names);
+        return OK;
+    }
+    (void)diag_set(diag, E_SOLVER, "at t = %.9g s: the new values of event %s can't be met", t,
+                   names.at);
+    diag_hint(diag, "what the constraints tie together can't be set apart");
+    text_free(&names);
+    return E_SOLVER;
+}
+
+/* one round: who is due, and what comes of it */
+static Status happen_once(Events *events, double t, double span, bool *due, double *y,
+                          bool *changed, bool *stop, Diag *diag)
+{
+    Status status = OK;
+
+    for (int i = 0; i < events->items.count; i++)
+        if (due[i]) {
+            note(&events->items.at[i], t);
+            *stop = *stop || events->items.at[i].action == EVENT_STOP;
+            CHECK(check_pace(&events->items.at[i], t, span, diag));
+        }
+    CHECK(apply_values(events, t, due, y, changed, diag));
+done:
+    return status;
+}
+
+static Status without_end(const Events *events, double t, const bool *due, Diag *diag)
+{
+    Text names = {0};
+
+    for (int i = 0; i < events->items.count; i++)
+        if (due[i])
+            text_addf(&names, "%s%s", names.length > 0 ? ", " : "", events->items.at[i].name);
+    (void)diag_set(diag, E_SOLVER, "at t = %.9g s: events set each other off without end: %s", t,
+                   names.length > 0 ? names.at : "none");
+    diag_hint(diag, "their new values make each other's conditions true");
+    text_free(&names);
+    return E_SOLVER;
+}
+
+Status events_happen(Events *events, double t, double span, double *y, int *sides, bool *changed,
+                     bool *stop, Diag *diag)
+{
+    int count = events->conditions.count;
+    bool *due = NEW_ARRAY(bool, events->items.count);
+    bool *zero = NEW_ARRAY(bool, count);
+    double *values = NEW_ARRAY(double, count);
+    Status status = OK;
+
+    *changed = *stop = false;
+    events_conditions(events, t, y, values);
+    for (int i = 0; i < count; i++)
+        zero[i] = fabs(values[i]) <= NEAR_ZERO * events->conditions.at[i].largest;
+    for (int round = 0;; round++) {
+        bool again = false;
+        bool moved = false;
+
+        (void)events_follow(events, sides);
+        for (int i = 0; i < events->items.count; i++) {
+            due[i] =
+                !events->items.at[i].course.holds && is_true(events, &events->items.at[i], sides);
+            again = again || due[i];
+        }
+        if (!again)
+            break;
+        if (round == ROUNDS)
+            CHECK(without_end(events, t, due, diag));
+        CHECK(happen_once(events, t, span, due, y, &moved, stop, diag));
+        if (!moved)
+            break;
+        *changed = true;
+        settle_again(events, t, span, y, zero, sides);
+        CHECK(check_away(events, t, due, sides, diag));
+    }
+done:
+    mem_free(due);
+    mem_free(zero);
+    mem_free(values);
+    return status;
+}
+
+/* --- driven runs --- */
+
+bool events_are_due(Events *events, double t, const double *y)
+{
+    const double *holding = roots_at(events, events->holding, t, y);
+
+    for (int i = 0; i < events->items.count && holding != NULL; i++)
+        if (events->items.at[i].is_live && !events->items.at[i].course.holds && holding[i] != 0 &&
+            !isnan(holding[i]))
+            return true;
+    return false;
+}
+
+Status events_take(Events *events, double t, double span, const double *y, bool *happened,
+                   bool *stop, Diag *diag)
+{
+    const double *holding = roots_at(events, events->holding, t, y);
+    Status status = OK;
+
+    *happened = *stop = false;
+    for (int i = 0; i < events->items.count && holding != NULL; i++) {
+        Item *item = &events->items.at[i];
+        bool now = item->is_live && holding[i] != 0 && !isnan(holding[i]);
+
+        if (now && !item->course.holds) {
+            note(item, t);
+            *happened = true;
+            *stop = *stop || item->action == EVENT_STOP;
+            CHECK(check_pace(item, t, span, diag));
+        }
+        item->course.holds = now;
+    }
+done:
+    return status;
+}

@@ -1,0 +1,425 @@
+/* inverse.c: efforts, currents and sources from the motion, row by row
+ *
+ * R = M u' + G^T lambda - F(w) = 0   in lambda (multipliers but those of drivers whose effort
+ * stands elsewhere) and w: entries of x, z, efforts that F holds R' = 0 in lambda', w', with u''
+ * from (Phi_u u' - gamma)' = 0 A [x'; z] - r = 0                  in what is left of z and the
+ * efforts
+ *
+ * Each is a problem of least squares of full rank; a rank that falls is an effort that can't work.
+ */
+#include "simulate/run/inverse.h"
+
+#include "algebra/linear.h"
+#include "base/memory.h"
+
+#include <gsl/gsl_linalg.h>
+#include <math.h>
+#include <string.h>
+
+#define ITERATIONS 30
+
+/* an unknown: its place in the layout, and its symbol */
+typedef LIST(int) Unknowns;
+
+typedef struct Inverse {
+    Result *result;
+    const Layout *l;
+    Unknowns forces;  /* unknowns of R: multipliers first, then w */
+    int multipliers;  /* how many of them */
+    Unknowns sources; /* unknowns of the network's equations */
+    bool by_source;
+    Probe *balance; /* R, then its Jacobian by `forces` */
+    Probe *jerk;    /* rows of (gamma - Phi_u u')', then Phi_u */
+    Probe *moving;  /* R' at constant `forces` */
+    Probe *network; /* its rows, then their Jacobian by `sources` */
+    double *values; /* a row, laid out */
+} Inverse;
+
+static bool is_symbol(Expr e, SymbolKind kind)
+{
+    return expr_kind(e) == EXPR_SYMBOL && expr_symbol_kind(e) == kind;
+}
+
+bool inverse_finds_states(const Result *r)
+{
+    for (int i = 0; i < system_drive_count(r->system); i++)
+        if (system_drive(r->system, i)->by_source)
+            return true;
+    return false;
+}
+
+/* --- what is unknown --- */
+
+static bool is_supplied_elsewhere(const Result *r, int constraint)
+{
+    for (int i = 0; i < system_drive_count(r->system); i++) {
+        const Drive *drive = system_drive(r->system, i);
+
+        if (drive->constraint == constraint && is_symbol(drive->effort, SYMBOL_EFFORT))
+            return true;
+    }
+    return false;
+}
+
+static bool is_in_forces(const Layout *l, Expr symbol)
+{
+    const Reading *run = system_run(l->system);
+
+    for (int j = 0; j < l->nu; j++)
+        if (expr_depends(run->force[j], symbol))
+            return true;
+    return false;
+}
+
+static Status sort_unknowns(Inverse *in, Diag *diag)
+{
+    const Layout *l = in->l;
+
+    for (int k = 0; k < in->result->start.row_count; k++)
+        if (!is_supplied_elsewhere(in->result, in->result->start.rows[k]))
+            LIST_PUSH(in->forces, l->multipliers + in->result->start.rows[k]);
+    in->multipliers = in->forces.count;
+    for (int i = 0; i < l->nx && in->by_source; i++) {
+        if (!is_in_forces(l, l->symbols[l->x + i])) {
+            (void)diag_set(diag, E_MODEL,
+                           "%s does not follow from the motion, so the sources can't be found",
+                           expr_name(l->symbols[l->x + i]));
+            diag_hint(diag, "drive the motion by its joints, and read what the motors take");
+            return E_MODEL;
+        }
+        LIST_PUSH(in->forces, l->x + i);
+    }
+    /* the rate of a current is one of a force, and so u'' */
+    if (in->by_source && l->nx > 0 && system_rough_driver(l->system, 2) != NULL) {
+        (void)diag_set(diag, E_MODEL,
+                       "the sources need rates of currents, and the acceleration that %s asks for "
+                       "jumps",
+                       system_rough_driver(l->system, 2));
+        diag_hint(diag, "drive by a motion with a continuous second derivative");
+        return E_MODEL;
+    }
+    for (int i = 0; i < l->nz && in->by_source; i++)
+        if (is_in_forces(l, l->symbols[l->z + i]))
+            LIST_PUSH(in->forces, l->z + i);
+        else
+            LIST_PUSH(in->sources, l->z + i);
+    for (int i = 0; i < l->ne; i++)
+        if (is_in_forces(l, l->symbols[l->efforts + i]))
+            LIST_PUSH(in->forces, l->efforts + i);
+        else
+            LIST_PUSH(in->sources, l->efforts + i);
+    return OK;
+}
+
+/* --- programs --- */
+
+typedef LIST(Expr) Roots;
+
+/* M u' + Phi_u^T lambda - F, row j */
+static Expr balance_row(const Inverse *in, int j)
+{
+    const Layout *l = in->l;
+    const Reading *run = system_run(l->system);
+    Arena *arena = system_arena(l->system);
+    Expr sum = expr_neg(arena, run->force[j]);
+
+    for (int k = 0; k < l->nu; k++)
+        sum = expr_add(arena, sum,
+                       expr_mul(arena, run->mass[j * l->nu + k], l->symbols[l->acceleration + k]));
+    for (int k = 0; k < in->multipliers; k++) {
+        int row = in->forces.at[k] - l->multipliers;
+
+        sum = expr_add(arena, sum,
+                       expr_mul(arena, run->phi_u[row * l->nu + j], l->symbols[in->forces.at[k]]));
+    }
+    return sum;
+}
+
+static void push_gradients(const Inverse *in, Roots *roots, int rows, const Unknowns *unknowns)
+{
+    for (int i = 0; i < rows; i++)
+        for (int k = 0; k < unknowns->count; k++)
+            LIST_PUSH(*roots, expr_diff(system_arena(in->l->system), roots->at[i],
+                                        in->l->symbols[unknowns->at[k]]));
+}
+
+/* d/dt along the motion; u' moves too, or stands still */
+static Expr along(const Inverse *in, Expr e, bool with_acceleration)
+{
+    const Layout *l = in->l;
+    Arena *arena = system_arena(l->system);
+    const Reading *run = system_run(l->system);
+    int count = 1 + l->n + l->nu + (with_acceleration ? l->nu : 0);
+    Expr *symbols = NEW_ARRAY(Expr, count);
+    Expr *rates = NEW_ARRAY(Expr, count);
+    int k = 0;
+    Expr out;
+
+    symbols[k] = l->symbols[l->t];
+    rates[k++] = expr_int(arena, 1);
+    for (int i = 0; i < l->n; i++) {
+        symbols[k] = l->symbols[l->q + i];
+        rates[k++] = run->q_rate[i];
+    }
+    for (int i = 0; i < l->nu; i++) {
+        symbols[k] = l->symbols[l->u + i];
+        rates[k++] = l->symbols[l->acceleration + i];
+    }
+    for (int i = 0; i < l->nu && with_acceleration; i++) {
+        symbols[k] = l->symbols[l->acceleration + i];
+        rates[k++] = l->symbols[l->jerk + i];
+    }
+    out = expr_diff_along(arena, e, symbols, rates, count);
+    mem_free(symbols);
+    mem_free(rates);
+    return out;
+}
+
+static Status open_probe(Inverse *in, Roots *roots, Probe **out, Diag *diag)
+{
+    Status status = probe_new(in->l, &in->result->parameters, roots->at, roots->count, out, diag);
+
+    LIST_FREE(*roots);
+    return status;
+}
+
+static Status compile_motion(Inverse *in, Diag *diag)
+{
+    const Layout *l = in->l;
+    const Reading *run = system_run(l->system);
+    Arena *arena = system_arena(l->system);
+    Roots roots = {0};
+    Status status = OK;
+
+    for (int j = 0; j < l->nu; j++)
+        LIST_PUSH(roots, balance_row(in, j));
+    push_gradients(in, &roots, l->nu, &in->forces);
+    CHECK(open_probe(in, &roots, &in->balance, diag));
+    if (!in->by_source)
+        goto done;
+
+    for (int k = 0; k < l->m; k++) {
+        Expr sum = run->gamma[k];
+
+        for (int j = 0; j < l->nu; j++)
+            sum = expr_sub(
+                arena, sum,
+                expr_mul(arena, run->phi_u[k * l->nu + j], l->symbols[l->acceleration + j]));
+        LIST_PUSH(roots, along(in, sum, false));
+    }
+    for (int k = 0; k < l->m * l->nu; k++)
+        LIST_PUSH(roots, run->phi_u[k]);
+    CHECK(open_probe(in, &roots, &in->jerk, diag));
+    for (int j = 0; j < l->nu; j++)
+        LIST_PUSH(roots, along(in, balance_row(in, j), true));
+    CHECK(open_probe(in, &roots, &in->moving, diag));
+done:
+    return status;
+}
+
+static Status compile_network(Inverse *in, Diag *diag)
+{
+    const Layout *l = in->l;
+    const Reading *run = system_run(l->system);
+    int w = l->nx + l->nz;
+    Roots roots = {0};
+
+    for (int i = 0; i < w; i++)
+        LIST_PUSH(roots, run->network_residual[i]);
+    push_gradients(in, &roots, w, &in->sources);
+    return open_probe(in, &roots, &in->network, diag);
+}
+
+/* --- numbers --- */
+
+static const double *values_of(const Inverse *in, Probe *probe)
+{
+    const Layout *l = in->l;
+    const double *v = in->values;
+    RowValues row = {.t = v[l->t],
+                     .near = v + l->near,
+                     .q = v + l->q,
+                     .u = v + l->u,
+                     .x = v + l->x,
+                     .rates = v + l->rates,
+                     .z = v + l->z,
+                     .acceleration = v + l->acceleration,
+                     .multipliers = v + l->multipliers,
+                     .efforts = v + l->efforts,
+                     .jerk = v + l->jerk};
+
+    return probe_values(probe, &row);
+}
+
+/* The least-squares solution of matrix * out = right by pivoted QR; false when the columns are
+ * dependent. */
+static bool solve_least(const double *matrix, int rows, int columns, const double *right,
+                        double *out)
+{
+    size_t tall = (size_t)(rows > columns ? rows : columns);
+    gsl_matrix *a;
+    gsl_vector *tau, *norm, *b, *x, *residual;
+    gsl_permutation *order;
+    int sign;
+    bool full = true;
+
+    if (columns == 0)
+        return true;
+    a = gsl_matrix_calloc(tall, (size_t)columns);
+    b = gsl_vector_calloc(tall);
+    for (int i = 0; i < rows; i++) {
+        for (int j = 0; j < columns; j++)
+            gsl_matrix_set(a, (size_t)i, (size_t)j, matrix[i * columns + j]);
+        gsl_vector_set(b, (size_t)i, right[i]);
+    }
+    tau = gsl_vector_alloc((size_t)columns);
+    norm = gsl_vector_alloc((size_t)columns);
+    x = gsl_vector_alloc((size_t)columns);
+    residual = gsl_vector_alloc(tall);
+    order = gsl_permutation_alloc((size_t)columns);
+    (void)gsl_linalg_QRPT_decomp(a, tau, order, &sign, norm);
+    for (int j = 0; j < columns; j++)
+        full = full && fabs(gsl_matrix_get(a, (size_t)j, (size_t)j)) >
+                           1e-12 * fabs(gsl_matrix_get(a, 0, 0));
+    if (full) {
+        (void)gsl_linalg_QRPT_lssolve(a, tau, order, b, x, residual);
+        for (int j = 0; j < columns; j++)
+            out[j] = gsl_vector_get(x, (size_t)j);
+    }
+    gsl_matrix_free(a);
+    gsl_vector_free(b);
+    gsl_vector_free(tau);
+    gsl_vector_free(norm);
+    gsl_vector_free(x);
+    gsl_vector_free(residual);
+    gsl_permutation_free(order);
+    return full;
+}
+
+static Status cant_produce(const Inverse *in, const Unknowns *unknowns, Diag *diag)
+{
+    Text names = {0};
+
+    for (int k = 0; k < unknowns->count; k++)
+        if (unknowns->at[k] < in->l->multipliers || unknowns->at[k] >= in->l->efforts)
+            text_addf(&names, "%s%s", names.length > 0 ? ", " : "",
+                      expr_name(in->l->symbols[unknowns->at[k]]));
+    (void)diag_set(diag, E_SINGULAR, "at t = %.6g s no %s can produce the motion asked for",
+                   in->values[in->l->t], names.length > 0 ? names.at : "effort");
+    diag_hint(diag, "each driver takes an effort of its own, on a coordinate that it moves");
+    text_free(&names);
+    return E_SINGULAR;
+}
+
+/* Newton's method on rows of a probe that holds residuals and gradients: linear ones end after one
+ * step and a look. */
+static Status solve_rows(Inverse *in, Probe *probe, int rows, const Unknowns *unknowns, Diag *diag)
+{
+    double *step = NEW_ARRAY(double, unknowns->count);
+    double size = INFINITY, scale = 1;
+    Status status = OK;
+
+    for (int i = 0; i < ITERATIONS && size > 1e-14 * scale; i++) {
+        const double *values = values_of(in, probe);
+
+        if (!vector_is_finite(values, rows) ||
+            !solve_least(values + rows, rows, unknowns->count, values, step))
+            CHECK(cant_produce(in, unknowns, diag));
+        scale = 1;
+        for (int k = 0; k < unknowns->count; k++) {
+            in->values[unknowns->at[k]] -= step[k];
+            scale = fmax(scale, fabs(in->values[unknowns->at[k]]));
+        }
+        size = vector_largest(step, unknowns->count);
+    }
+    if (rows > unknowns->count || size > 1e-8 * scale) {
+        const double *values = values_of(in, probe);
+
+        if (!(vector_largest(values, rows) <= 1e-7 * scale))
+            CHECK(cant_produce(in, unknowns, diag));
+    }
+done:
+    mem_free(step);
+    return status;
+}
+
+/* rates of the unknowns of R, for those that are network states */
+static Status find_rates(Inverse *in, Diag *diag)
+{
+    const Layout *l = in->l;
+    double *rates = NEW_ARRAY(double, in->forces.count);
+    const double *values = values_of(in, in->jerk);
+    Status status = OK;
+
+    if (!solve_least(values + l->m, l->m, l->nu, values, in->values + l->jerk))
+        CHECK(cant_produce(in, &in->forces, diag));
+    values = values_of(in, in->moving);
+    if (!solve_least(values_of(in, in->balance) + l->nu, l->nu, in->forces.count, values, rates))
+        CHECK(cant_produce(in, &in->forces, diag));
+    for (int k = in->multipliers; k < in->forces.count; k++) {
+        int place = in->forces.at[k];
+
+        if (place >= l->x && place < l->x + l->nx)
+            in->values[l->rates + place - l->x] = -rates[k];
+    }
+done:
+    mem_free(rates);
+    return status;
+}
+
+static Status solve_row(Inverse *in, int row, Diag *diag)
+{
+    Result *r = in->result;
+    const Layout *l = in->l;
+    double *y = grid_row(&r->grid, row);
+    double *out = r->driven.values + (ptrdiff_t)row * r->driven.length;
+    Solved solved;
+    Status status = OK;
+
+    if (!motion_solve(r->phase->motion, r->grid.times[row], y, &solved))
+        return solver_failure(diag, r->grid.times[row], "the accelerations are undefined");
+    memset(in->values, 0, (size_t)l->count * sizeof(double));
+    in->values[l->t] = r->grid.times[row];
+    for (int k = 0; k < l->turned; k++)
+        in->values[l->near + k] = y[layout_turned(l) + k];
+    memcpy(in->values + l->q, y, (size_t)(l->n + l->nu + l->nx) * sizeof(double));
+    memcpy(in->values + l->rates, solved.rates, (size_t)(l->nx + l->nz) * sizeof(double));
+    memcpy(in->values + l->acceleration, solved.acceleration, (size_t)l->nu * sizeof(double));
+    CHECK(solve_rows(in, in->balance, l->nu, &in->forces, diag));
+    if (in->by_source) {
+        CHECK(find_rates(in, diag));
+        CHECK(solve_rows(in, in->network, l->nx + l->nz, &in->sources, diag));
+    }
+    memcpy(y + l->n + l->nu, in->values + l->x, (size_t)l->nx * sizeof(double));
+    /* x', z, u', lambda, efforts stand in the layout as they do here */
+    memcpy(out, in->values + l->rates, (size_t)r->driven.length * sizeof(double));
+done:
+    return status;
+}
+
+Status inverse_solve(Result *r, Diag *diag)
+{
+    Inverse in = {.result = r, .l = r->phase->layout, .by_source = inverse_finds_states(r)};
+    Status status = OK;
+
+    if (r->phase->layout->ne == 0)
+        return OK; /* every effort is a multiplier */
+    in.values = NEW_ARRAY(double, r->phase->layout->count);
+    CHECK(sort_unknowns(&in, diag));
+    CHECK(compile_motion(&in, diag));
+    if (in.by_source)
+        CHECK(compile_network(&in, diag));
+    r->driven.length = r->phase->layout->jerk - r->phase->layout->rates;
+    r->driven.values = NEW_ARRAY(double, r->grid.count * r->driven.length);
+    for (int row = 0; row < r->grid.count; row++)
+        CHECK(solve_row(&in, row, diag));
+done:
+    probe_free(in.balance);
+    probe_free(in.jerk);
+    probe_free(in.moving);
+    probe_free(in.network);
+    LIST_FREE(in.forces);
+    LIST_FREE(in.sources);
+    mem_free(in.values);
+    return status;
+}

@@ -1,0 +1,199 @@
+/* march_events.c: events of the model in a forward run */
+#include "simulate/run/march_impl.h"
+
+#include <math.h>
+#include <string.h>
+
+#define EVENT_NOISE 1e-13 /* of a condition's largest size: too small to tell a side from */
+
+/* a row at an event's instant, unless there is one */
+static Status add_instant(March *m, double t, bool again, Diag *diag)
+{
+    if (!again && march_has_row(m, t))
+        return OK;
+    if (!march_add_row(m, t))
+        return solver_failure(diag, t, "the constraints can't be met");
+    return OK;
+}
+
+/* What comes of the sides that events' conditions have now, at t and y; *changed: new values. The
+ * stepper is brought there, to be started anew. */
+static Status take_events(March *m, double t, int *sides, bool *changed, Diag *diag)
+{
+    double span = m->plan->to - m->plan->from;
+    int first = m->eq->switch_count;
+    Status status = OK;
+
+    *changed = false;
+    if (events_follow(m->ev, sides)) {
+        CHECK(add_instant(m, t, false, diag));
+        CHECK(events_happen(m->ev, t, span, m->y, sides, changed, &m->is_over, diag));
+        if (*changed)
+            CHECK(add_instant(m, t, true, diag));
+    }
+    for (int i = first; i < m->count; i++)
+        m->mode[i] = sides[i - first];
+    march_evaluate(m, t, m->y);
+    for (int i = first; i < m->count; i++)
+        if (fabs(m->conditions[i]) <= EVENT_NOISE * m->largest[i])
+            m->band[i] = fmax(10 * fabs(m->conditions[i]), EVENT_NOISE * m->largest[i]);
+    m->stepper->t = t;
+    memcpy(m->stepper->y, m->y, (size_t)m->length * sizeof(double));
+done:
+    return status;
+}
+
+bool march_matters(March *m, int i)
+{
+    const int *sides = m->mode + m->eq->switch_count;
+
+    m->mode[i] = -m->mode[i];
+    if (!events_follow(m->ev, sides))
+        return false;
+    m->mode[i] = -m->mode[i];
+    return true;
+}
+
+/* The last step again, until it ends where condition i is zero as near as numbers tell, by Newton's
+ * method; m->y and the time there, *zero. Where a step can't be as short as that, the interpolant
+ * has y. */
+static Status reach_zero(March *m, int i, double when, double *zero, Diag *diag)
+{
+    const Stepper *s = m->stepper;
+    size_t bytes = (size_t)m->length * sizeof(double);
+    double before = s->before, end = s->t, t = when;
+    double value = 0, slope = 0, left = 0;
+    Diag ignored = {0};
+    Status status = OK;
+
+    for (int k = 0; k < 12 && t > before; k++) {
+        if (s->method->shorten(m->stepper, t, &ignored) != OK) {
+            CHECK(march_cut(m, t, diag));
+            left = 0;
+            break;
+        }
+        slope = march_condition_rate(m, i, &value);
+        left = slope * m->mode[i] < 0 ? -value / slope : 0; /* else a grazing contact */
+        if (fabs(left) <= 4e-16 * fabs(t) || (left > 0 && t + left > end))
+            break;
+        t = fmax(before + 1e-3 * (t - before), t + left);
+    }
+    if (t <= before) {
+        s->method->at(m->stepper, before, m->y);
+        *zero = before;
+        return OK;
+    }
+    t = s->t;
+    memcpy(m->y, s->y, bytes);
+    for (int k = 0; k < m->length && fabs(left) <= 1e-3 * (t - before); k++)
+        m->y[k] += left * m->slope[k];
+    *zero = fabs(left) <= 1e-3 * (t - before) ? t + left : t;
+done:
+    return status;
+}
+
+Status march_meet_event(March *m, int i, double when, Diag *diag)
+{
+    double span = m->plan->to - m->plan->from;
+    int first = m->eq->switch_count;
+    size_t bytes = (size_t)m->length * sizeof(double);
+    int *sides = NEW_ARRAY(int, m->count - first);
+    double *y = NEW_ARRAY(double, m->length);
+    double t = when;
+    bool changed, entered;
+    Status status = OK;
+
+    CHECK(reach_zero(m, i, when, &t, diag));
+    memcpy(y, m->y, bytes);
+    m->stepper->t = fmin(m->stepper->t, t);
+    CHECK(march_add_rows(m, diag));
+    memcpy(m->y, y, bytes);
+    if (!motion_project(m->leg.motion, t, m->y))
+        CHECK(solver_failure(diag, t, "the constraints can't be met"));
+    memcpy(sides, m->mode + first, (size_t)(m->count - first) * sizeof(int));
+    events_settle(m->ev, t, span, m->y, i - first, sides);
+    CHECK(take_events(m, t, sides, &changed, diag));
+    CHECK(march_check_pace(m, i, diag));
+    CHECK(march_go_on(m, t, m->y, &entered, diag));
+done:
+    mem_free(sides);
+    mem_free(y);
+    return status;
+}
+
+Status march_meet_time(March *m, Jump jump, Diag *diag)
+{
+    int first = m->eq->switch_count;
+    int timed = events_time_only(m->ev);
+    int *sides = NEW_ARRAY(int, m->count - first);
+    double *values = NEW_ARRAY(double, timed);
+    bool moved = false;
+    bool changed;
+    Status status = OK;
+
+    memcpy(sides, m->mode + first, (size_t)(m->count - first) * sizeof(int));
+    if (timed > 0)
+        events_time_conditions(m->ev, jump.behind, values);
+    for (int i = 0; i < timed; i++)
+        if (sign_of(values[i]) != 0 && sign_of(values[i]) != sides[i]) {
+            sides[i] = sign_of(values[i]);
+            moved = true;
+        }
+    if (moved) {
+        memcpy(m->y, m->stepper->y, (size_t)m->length * sizeof(double));
+        CHECK(take_events(m, fmax(m->stepper->t, jump.before + (jump.behind - jump.before) / 2),
+                          sides, &changed, diag));
+    }
+done:
+    mem_free(values);
+    mem_free(sides);
+    return status;
+}
+
+/* sides of all conditions where the run is, at (t, m->y) or just behind it */
+static void find_sides(March *m, double t, int *sides)
+{
+    int timed = events_time_only(m->ev);
+    double *values = NEW_ARRAY(double, timed);
+    double now = fmax(t, m->low);
+
+    events_time_conditions(m->ev, now, values);
+    for (int i = 0; i < timed; i++)
+        sides[i] = sign_of(values[i]);
+    events_time_conditions(m->ev, nextafter(now, INFINITY), values);
+    for (int i = 0; i < timed; i++)
+        sides[i] = sides[i] != 0 ? sides[i] : sign_of(values[i]);
+    events_settle(m->ev, t, m->plan->to - m->plan->from, m->y, -1, sides);
+    march_evaluate(m, t, m->y);
+    for (int i = m->eq->switch_count; i < m->count; i++)
+        m->largest[i] = fabs(m->conditions[i]);
+    mem_free(values);
+}
+
+Status march_begin_events(March *m, Diag *diag)
+{
+    int *sides = NEW_ARRAY(int, m->count - m->eq->switch_count);
+    bool changed;
+    Status status = OK;
+
+    m->is_over = events_begin(m->ev, m->plan->from, m->y);
+    if (m->is_over)
+        goto done;
+    find_sides(m, m->plan->from, sides);
+    CHECK(take_events(m, m->plan->from, sides, &changed, diag));
+done:
+    mem_free(sides);
+    return status;
+}
+
+Status march_resume_events(March *m, bool *changed, Diag *diag)
+{
+    int *sides = NEW_ARRAY(int, m->count - m->eq->switch_count);
+    Status status = OK;
+
+    find_sides(m, m->stepper->t, sides);
+    CHECK(take_events(m, m->stepper->t, sides, changed, diag));
+done:
+    mem_free(sides);
+    return status;
+}

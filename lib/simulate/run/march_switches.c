@@ -1,0 +1,390 @@
+/* march_switches.c: where conditions in the state change sign: located, met, crossed */
+#include "simulate/run/march_impl.h"
+
+#include "algebra/linear.h"
+#include "base/random.h"
+
+#include <math.h>
+#include <string.h>
+
+#define LOOKS       20000 /* at conditions that follow sources, in a run */
+#define POINTS      5     /* of a step, where they are looked at */
+#define SLIDING     40    /* likewise, where a force may leave its interval for a moment */
+#define ROUNDING    1e-13 /* of the largest margin: what rounding does to any */
+#define NOTHING     1e-4  /* of the absolute tolerance: where all is next to nothing, as at rest */
+#define MOST_NOISE  1e-6  /* likewise: more than that is none */
+#define DEEPER      2     /* times what a margin begins with */
+#define MOVES       3     /* that tell how far errors reach */
+#define ZENO_EVENTS 100
+#define ZENO_EACH   10   /* of every condition, which all may go over at one instant */
+#define ZENO_SPAN   1e-9 /* of the run */
+
+/* --- conditions --- */
+
+void march_evaluate(March *m, double t, const double *y)
+{
+    const Equations *eq = m->eq;
+
+    /* the time that rates see: on a jump what is behind it */
+    t = motion_clock(m->leg.motion, t);
+
+    if (eq->switch_count > 0)
+        motion_switches(m->leg.motion, t, y, m->conditions);
+    if (m->count > eq->switch_count)
+        events_conditions(m->ev, t, y, m->conditions + eq->switch_count);
+}
+
+bool march_is_of_event(const March *m, int i)
+{
+    return i >= m->eq->switch_count;
+}
+
+static bool is_of_time(const March *m, int i)
+{
+    return march_is_of_event(m, i) ? i - m->eq->switch_count < events_time_only(m->ev)
+                                   : i < m->eq->time_only;
+}
+
+int march_state_conditions(const March *m)
+{
+    return m->count - m->eq->time_only - events_time_only(m->ev);
+}
+
+/* --- conditions in the state --- */
+
+/* all of them where the stepper's interpolant is at t, which goes into m->y */
+static void conditions_at(March *m, double t)
+{
+    m->stepper->method->at(m->stepper, t, m->y);
+    march_evaluate(m, t, m->y);
+}
+
+/* all of them a little way h, which is the result, further than the stepper's end along m->slope */
+static double conditions_ahead(March *m)
+{
+    const Stepper *s = m->stepper;
+    double h = 1e-7 * fmax(1e-3, s->t - s->before);
+
+    for (int k = 0; k < m->length; k++)
+        m->y[k] = s->y[k] + h * m->slope[k];
+    march_evaluate(m, s->t + h, m->y);
+    return h;
+}
+
+/* what says that the leg is the right one, as long as it is positive */
+static bool is_margin(const March *m, int i)
+{
+    return i < m->eq->switch_count && i >= m->eq->switch_count - m->eq->margin_count;
+}
+
+static bool is_steep(const March *m, int i)
+{
+    int k = i - (m->eq->switch_count - m->eq->margin_count);
+
+    return m->eq->margin_is_steep != NULL && m->eq->margin_is_steep(m->eq->context, k);
+}
+
+static double largest_margin(const March *m)
+{
+    return vector_largest(m->largest + m->eq->switch_count - m->eq->margin_count,
+                          m->eq->margin_count);
+}
+
+/* What errors of the state within the tolerance can do to margins: less than that tells no sign. By
+ * a few moves of all states at once, as far as the tolerance lets them. */
+static void find_noise(March *m)
+{
+    uint64_t seed = 1;
+    double *here;
+
+    if (m->eq->margin_count == 0)
+        return;
+    here = NEW_ARRAY(double, m->eq->switch_count);
+    memcpy(here, m->conditions, (size_t)m->eq->switch_count * sizeof(double));
+    for (int i = 0; i < m->eq->switch_count; i++)
+        m->noise[i] =
+            is_margin(m, i) ? fmax(ROUNDING * largest_margin(m), NOTHING * m->control.atol) : 0;
+    for (int turn = 0; turn < MOVES; turn++) {
+        for (int k = 0; k < m->length; k++) {
+            double tolerance = m->control.rtol * fabs(m->stepper->y[k]) + m->control.atol;
+
+            m->y[k] = m->stepper->y[k] + tolerance * random_unit(&seed);
+        }
+        motion_switches(m->leg.motion, m->stepper->t, m->y, m->conditions);
+        for (int i = 0; i < m->eq->switch_count; i++)
+            if (is_margin(m, i) && !is_steep(m, i) &&
+                fabs(m->conditions[i] - here[i]) > m->noise[i])
+                m->noise[i] = fabs(m->conditions[i] - here[i]);
+    }
+    memcpy(m->conditions, here, (size_t)m->eq->switch_count * sizeof(double));
+    memcpy(m->band, m->noise, (size_t)m->eq->switch_count * sizeof(double));
+    mem_free(here);
+}
+
+/* The leg is the one that goes on a little behind where it begins. Margins that are still negative
+ * there, and on their way up, are so because an instant is located only so well: they tell nothing
+ * as long as they fall no deeper. */
+static void let_margins_rise(March *m)
+{
+    const Ode *ode = motion_ode(m->leg.motion);
+    const Stepper *s = m->stepper;
+    bool negative = false;
+    double *here;
+
+    conditions_at(m, s->t);
+    for (int i = m->eq->time_only; i < m->eq->switch_count; i++)
+        negative = negative || (is_margin(m, i) && m->conditions[i] < -m->noise[i]);
+    if (!negative || !ode->rate(ode->context, s->t, s->y, m->slope))
+        return;
+    here = NEW_ARRAY(double, m->eq->switch_count);
+    memcpy(here, m->conditions, (size_t)m->eq->switch_count * sizeof(double));
+    conditions_ahead(m);
+    for (int i = m->eq->time_only; i < m->eq->switch_count; i++)
+        if (is_margin(m, i) && here[i] < -m->noise[i] && m->conditions[i] > here[i])
+            m->band[i] = fmax(m->band[i], -DEEPER * here[i]);
+    mem_free(here);
+}
+
+void march_begin_modes(March *m)
+{
+    if (m->eq->switch_count == m->eq->time_only)
+        return;
+    conditions_at(m, m->stepper->t);
+    for (int i = m->eq->time_only; i < m->eq->switch_count; i++) {
+        m->mode[i] = is_margin(m, i) ? 1 : sign_of(m->conditions[i]);
+        m->largest[i] = fabs(m->conditions[i]);
+        m->band[i] = 0;
+    }
+    find_noise(m);
+    let_margins_rise(m);
+    march_begin_surfaces(m);
+}
+
+/* whether condition i, as evaluated last, has left its mode; learns a mode not known yet */
+static bool has_switched(March *m, int i)
+{
+    double value = m->conditions[i];
+
+    m->largest[i] = fmax(m->largest[i], fabs(value));
+    if (!(fabs(value) > m->band[i]))
+        return false;
+    if (m->mode[i] == 0) /* what had no value till now becomes what it is */
+        m->mode[i] = march_is_of_event(m, i) ? -sign_of(value) : sign_of(value);
+    if (sign_of(value) == m->mode[i] || value == 0)
+        return false;
+    m->band[i] = m->noise[i];
+    return true;
+}
+
+/* Where nothing has switched up to here, what has come clear of its band needs it no more. Not
+ * earlier: between here and the last point it may be what holds. */
+static void forget_bands(March *m)
+{
+    for (int i = 0; i < m->count; i++)
+        if (!is_of_time(m, i) && fabs(m->conditions[i]) > m->band[i])
+            m->band[i] = m->noise[i];
+}
+
+/* Steps are as short as states want them. What a source does to a condition while no state moves
+ * asks for points of its own. */
+static int points_in(const March *m, double length)
+{
+    double span = m->plan->to - m->plan->from;
+    int points = m->eq->slide_count > 0 ? SLIDING : POINTS;
+
+    if (!m->eq->switches_follow_time && !events_follow_time(m->ev))
+        return points;
+    return (int)fmax(points, ceil(length / span * LOOKS));
+}
+
+int march_find_switch(March *m, double *when)
+{
+    double low = m->scanned, high = m->stepper->t;
+    double length = m->stepper->t - m->stepper->before;
+    int points = points_in(m, length);
+    int found = -1;
+
+    for (int k = 1; k <= points && found < 0; k++) {
+        double t = k == points ? m->stepper->t : m->stepper->before + length * k / points;
+
+        if (t < m->scanned)
+            continue;
+        conditions_at(m, t);
+        for (int i = 0; i < m->count; i++)
+            if (!is_of_time(m, i) && has_switched(m, i) && found < 0)
+                found = i;
+        if (found < 0) {
+            low = t;
+            forget_bands(m);
+        } else {
+            high = t;
+        }
+    }
+    if (found < 0)
+        return -1;
+    for (int i = 0; i < 100 && high - low > 4e-16 * fmax(fabs(high), 1e-300); i++) {
+        double middle = low + (high - low) / 2;
+        bool switched = false;
+
+        conditions_at(m, middle);
+        for (int k = 0; k < m->count; k++)
+            if (!is_of_time(m, k) && m->conditions[k] != 0 && m->mode[k] != 0 &&
+                sign_of(m->conditions[k]) != m->mode[k] && fabs(m->conditions[k]) > m->band[k]) {
+                switched = true;
+                found = k;
+            }
+        if (switched)
+            high = middle;
+        else
+            low = middle;
+    }
+    *when = high;
+    return found;
+}
+
+double march_condition_rate(March *m, int i, double *value)
+{
+    const Ode *ode = motion_ode(m->leg.motion);
+    const Stepper *s = m->stepper;
+    double h;
+
+    conditions_at(m, s->t);
+    *value = m->conditions[i];
+    if (!ode->rate(ode->context, s->t, s->y, m->slope))
+        return 0;
+    h = conditions_ahead(m);
+    return (m->conditions[i] - *value) / h;
+}
+
+/* Take the last step again until it ends just before the switch, so that none of its stages has
+ * seen what is behind: Newton's method on the length of the step. Where the step can't be taken
+ * again, what it tells of the switch has to do. */
+static Status approach(March *m, int i, double when, double *value, double *slope, Diag *diag)
+{
+    double aim = 1e-13 * m->largest[i] * m->mode[i];
+    double before = m->stepper->before, end = m->stepper->t;
+    Diag ignored = {0};
+    Status status = OK;
+
+    for (int k = 0; k < 12; k++) {
+        if (m->stepper->method->shorten(m->stepper, when, &ignored) != OK) {
+            *slope = 0;
+            CHECK(march_cut(m, when, diag));
+            break;
+        }
+        *slope = march_condition_rate(m, i, value);
+        if (*value * m->mode[i] > 0 && fabs(*value) <= 1e-11 * m->largest[i])
+            break;
+        if (*slope * m->mode[i] >= 0)
+            break; /* a grazing contact: no clean root */
+        when = fmin(end, fmax(before + 1e-3 * (when - before), when - (*value - aim) / *slope));
+    }
+done:
+    return status;
+}
+
+/* whether no state goes further along the slope in h than errors may; where a problem is stiff the
+ * slope is steep beside any motion */
+static bool is_short(const March *m, double h)
+{
+    for (int k = 0; k < m->length - 1; k++)
+        if (!(fabs(h * m->slope[k]) <=
+              10 * (m->control.rtol * fabs(m->stepper->y[k]) + m->control.atol)))
+            return false;
+    return true;
+}
+
+/* From just before a switch to just behind it: so short a way that Euler's rule is exact. */
+static bool cross(March *m, int i, double value, double slope)
+{
+    Stepper *s = m->stepper;
+    double h = fmax(4e-16 * fabs(s->t), 2 * fabs(value / slope));
+
+    for (int k = 0; k < 20 && is_short(m, h); k++, h *= 2) {
+        for (int j = 0; j < m->length; j++)
+            m->y[j] = s->y[j] + h * m->slope[j];
+        march_evaluate(m, s->t + h, m->y);
+        if (sign_of(m->conditions[i]) == -m->mode[i]) {
+            memcpy(s->y, m->y, (size_t)m->length * sizeof(double));
+            s->t += h;
+            return true;
+        }
+    }
+    return false;
+}
+
+static Status switches_endlessly(const March *m, int i, Diag *diag)
+{
+    Text what = {0};
+
+    if (m->plan->tell == NULL)
+        text_add(&what, "a condition in the equations");
+    else
+        m->plan->tell(m->plan->context, &m->leg, i, &what);
+    (void)diag_set(diag, E_SOLVER, "at t = %.9g s: %s switches to and fro without end",
+                   m->stepper->t, what.at);
+    if (is_margin(m, i))
+        diag_hint(diag, "smaller rtol= and atol= locate its switching more closely");
+    else
+        diag_hint(diag, "a hysteresis, or a steep but continuous law such as tanh(x/0.001) in the "
+                        "place of sign(x), has a motion there");
+    text_free(&what);
+    return E_SOLVER;
+}
+
+Status march_check_pace(March *m, int i, Diag *diag)
+{
+    double span = m->plan->to - m->plan->from;
+
+    if (m->stepper->t - m->switched_since > ZENO_SPAN * span) {
+        m->switched_since = m->stepper->t;
+        m->switches = 0;
+    }
+    if (++m->switches <= ZENO_EVENTS + ZENO_EACH * m->count)
+        return OK;
+    if (march_is_of_event(m, i))
+        return events_are_stuck(m->ev, i - m->eq->switch_count, m->stepper->t, diag);
+    return switches_endlessly(m, i, diag);
+}
+
+/* Behind a surface that was crossed: whether the motion is led back to it. Where it couldn't be
+ * crossed that is for others to tell, too. */
+static bool is_led_back(March *m, int i, bool crossed)
+{
+    double value = 0, rate;
+
+    if (!crossed)
+        return true;
+    rate = march_condition_rate(m, i, &value);
+    return rate * value < 0;
+}
+
+Status march_meet_switch(March *m, int i, double when, Diag *diag)
+{
+    const Guard guard = equations_guard(m->eq, i);
+    bool on_surface = guard.side != 0 || guard.end != 0, crossed = false;
+    double value = 0, slope = 0;
+    bool is_told = is_margin(m, i), entered;
+    Status status = OK;
+
+    /* a switch on the very start of the step can't be told from the one just met */
+    if (when > m->stepper->before) {
+        CHECK(approach(m, i, when, &value, &slope, diag));
+        CHECK(march_add_rows(m, diag));
+        if (!on_surface && slope * m->mode[i] < 0 && value * m->mode[i] > 0)
+            crossed = cross(m, i, value, slope);
+    }
+    conditions_at(m, m->stepper->t);
+    m->band[i] = fmax(10 * fabs(m->conditions[i]), fmax(1e-10 * m->largest[i], m->noise[i]));
+    m->mode[i] = is_told ? 1 : -m->mode[i];
+    CHECK(march_check_pace(m, i, diag));
+    m->root = on_surface || (guard.surface >= 0 && is_led_back(m, i, crossed)) ? i : ROOT_NONE;
+    CHECK(march_go_on(m, m->stepper->t, m->stepper->y, &entered, diag));
+    if (is_told && !entered) {
+        m->noise[i] = m->band[i] =
+            fmin(10 * fmax(m->noise[i], m->band[i]), MOST_NOISE * largest_margin(m));
+        let_margins_rise(m);
+    }
+done:
+    return status;
+}

@@ -1,0 +1,632 @@
+/* onset.c: the search for the first place in a step where something begins to act
+ *
+ * Between two times the range of a source, by interval arithmetic, bounds what elements and sources
+ * can do there; halving finds the first place. An element acts from u = ln(AIM / (h effect)) on,
+ * u = ln N its size: the logarithm makes a rough effect good enough. */
+#include "simulate/run/onset.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+#include <string.h>
+
+#define AIM       0.1   /* of the tolerance, in a step: that is to act */
+#define NEAR      1.0   /* of u below its threshold: an element that near counts as conducting */
+#define REACHED   0.25  /* of u below its threshold: as good as there */
+#define LEAK      1e3   /* less than at its threshold: what one that blocks lets through as well */
+#define MOST_SIZE 300.0 /* of u: the logarithm of what numbers can be */
+#define RISE      3.0   /* of u: the first step in a pulse goes no further */
+#define GROWN     20.0  /* the same of a source, in what it is to act */
+#define SEEN                                                                                       \
+    0.125 /* of what a source does in a step: a place that sees this much leaves it to the         \
+             error estimate */
+#define AHEAD     16.0  /* steps that are looked over at once for sources that hardly bend, */
+#define LONGER    1.5   /* also when they get longer by this: */
+#define STRAIGHT  0.125 /* of its range there, that a source may leave a straight line in a step */
+#define INTERVALS 2000  /* that a search may look at: where it ends then, a step has to end, too */
+#define FINEST    1e-12 /* of the way: no search goes on below it */
+#define BEND      0.025 /* of its range in a run: a source bends no more in a step, see bend_bound() */
+#define GROWTH    10    /* that a step may have over the last one */
+#define EFFECTS   8     /* steps for which effects are good */
+#define LATE      0.9   /* of a step: what begins behind is left to the next one */
+#define OPEN      0.5   /* of u below its threshold: an element that has done with it */
+#define NOISE     1e-14 /* of a source's range in a run: what the rounding of its terms may leave */
+
+typedef struct Pulse {
+    bool is_on;
+    double from, first; /* it began here, with a step no longer than this, s; */
+    double until;       /* it lasts to here, */
+    double bound;       /* and steps are bounded so, s */
+} Pulse;
+
+struct Onset {
+    Steep *steep;
+    const Ode *ode;
+    int elements, sources, length;
+    /* about the start of a step */
+    double t, h;
+    bool is_affine; /* `at` is known there */
+    bool is_first;  /* nothing has been looked at before */
+    Affine at;
+    double *source_at; /* values of the sources */
+    double *threshold, *effect;
+    bool *conducts; /* elements over their thresholds, or nearly */
+    double *leaks;  /* slopes of those that block; NAN: it has its own */
+    double *slope, *scale;
+    double *seen;    /* what the step's places see of each source */
+    double t_before; /* start of the step before; NAN: there is none */
+    double clear;    /* up to here sources are straight enough for steps up to */
+    double clear_step;
+    double planned; /* no step that goes so far was cut short */
+    double *onset;  /* where each source begins to act, foreseen; s */
+    int age;        /* of the effects, in steps */
+    Pulse *element_pulses, *source_pulses;
+};
+
+Onset *onset_new(Steep *steep, const Ode *ode)
+{
+    Onset *o;
+    int k, j;
+
+    if (steep == NULL)
+        return NULL;
+    o = NEW(Onset);
+    o->steep = steep;
+    o->ode = ode;
+    o->elements = k = steep_elements(steep);
+    o->sources = j = steep_sources(steep);
+    o->length = ode->n + ode->quadratures;
+    o->at = (Affine){NEW_ARRAY(double, k), NEW_ARRAY(double, k), NEW_ARRAY(double, k),
+                     NEW_ARRAY(double, k *j)};
+    o->source_at = NEW_ARRAY(double, j);
+    o->threshold = NEW_ARRAY(double, k);
+    o->effect = NEW_ARRAY(double, k);
+    o->conducts = NEW_ARRAY(bool, k);
+    o->leaks = NEW_ARRAY(double, k);
+    o->slope = NEW_ARRAY(double, o->length);
+    o->scale = NEW_ARRAY(double, o->length);
+    o->seen = NEW_ARRAY(double, j);
+    o->onset = NEW_ARRAY(double, j);
+    o->element_pulses = NEW_ARRAY(Pulse, k);
+    o->source_pulses = NEW_ARRAY(Pulse, j);
+    onset_forget(o);
+    return o;
+}
+
+void onset_free(Onset *o)
+{
+    if (o == NULL)
+        return;
+    mem_free(o->at.a);
+    mem_free(o->at.rate);
+    mem_free(o->at.bend);
+    mem_free(o->at.by_source);
+    mem_free(o->source_at);
+    mem_free(o->threshold);
+    mem_free(o->effect);
+    mem_free(o->conducts);
+    mem_free(o->slope);
+    mem_free(o->scale);
+    mem_free(o->leaks);
+    mem_free(o->seen);
+    mem_free(o->onset);
+    mem_free(o->element_pulses);
+    mem_free(o->source_pulses);
+    mem_free(o);
+}
+
+bool onset_has_elements(const Onset *o)
+{
+    return o != NULL && o->elements > 0;
+}
+
+void onset_forget(Onset *o)
+{
+    if (o == NULL)
+        return;
+    memset(o->element_pulses, 0, (size_t)o->elements * sizeof(Pulse));
+    memset(o->source_pulses, 0, (size_t)o->sources * sizeof(Pulse));
+    for (int j = 0; j < o->sources; j++)
+        o->onset[j] = NAN;
+    o->t = NAN;
+    o->clear = -INFINITY;
+    o->age = 0;
+    o->is_first = true;
+}
+
+/* --- what is looked for --- */
+
+/* first time in (from, to] at which a quantity passes a level, upwards or downwards */
+typedef struct Search {
+    Onset *o;
+    /* above 0: it may have passed somewhere in the interval `over` */
+    double (*excess)(struct Search *search, Range over, const Range *sources);
+    double slack; /* this much below 0 is passed, at a point */
+    int which;    /* element or source */
+    double level, sign;
+    int left; /* intervals to go */
+} Search;
+
+/* whether it may have passed somewhere between: at first as terms are, then closer */
+static bool may_pass(Search *s, Range over)
+{
+    Steep *steep = s->o->steep;
+
+    return s->excess(s, over, steep_sources_over(steep, over)) > 0 &&
+           s->excess(s, over, steep_sources_close(steep, over)) > 0;
+}
+
+/* first place, or INFINITY; halves from left to right */
+static double first_place(Search *s, double from, double to)
+{
+    Steep *steep = s->o->steep;
+    double finest = FINEST * (to - from) + 4e-16 * fabs(to);
+    double low = from, high = to;
+
+    if (!(to > from))
+        return INFINITY;
+    for (;;) {
+        double middle = low + (high - low) / 2;
+
+        if (!may_pass(s, (Range){low, high})) {
+            /* nothing here: on to the next piece, twice as long where halves were cleared */
+            if (high >= to)
+                return INFINITY;
+            middle = 2 * (high - low);
+            low = high;
+            high = fmin(to, low + middle);
+            if (to - high < 0.25 * (high - low))
+                high = to;
+        } else if (high - low <= finest) {
+            return high;
+        } else {
+            high = middle;
+        }
+        if (s->excess(s, (Range){low, low}, steep_sources_over(steep, (Range){low, low})) >
+            -s->slack)
+            return low;
+        if (--s->left <= 0)
+            return high;
+    }
+}
+
+/* an element's argument in an interval */
+static Range argument_over(const Onset *o, int k, Range over, const Range *sources)
+{
+    double rate = o->at.rate[k], bend = o->at.bend[k];
+    double from = over.low - o->t, to = over.high - o->t;
+    double a = (rate + bend * from) * from, b = (rate + bend * to) * to;
+    double top = bend != 0 ? -rate / (2 * bend) : -1;
+    Range out = {o->at.a[k] + fmin(a, b), o->at.a[k] + fmax(a, b)};
+
+    if (top > from && top < to) {
+        double there = o->at.a[k] + rate / 2 * top;
+
+        out = (Range){fmin(out.low, there), fmax(out.high, there)};
+    }
+
+    for (int j = 0; j < o->sources; j++) {
+        double by = o->at.by_source[k * o->sources + j];
+
+        if (by == 0)
+            continue;
+        a = by * (sources[j].low - o->source_at[j]);
+        b = by * (sources[j].high - o->source_at[j]);
+        out.low += fmin(a, b);
+        out.high += fmax(a, b);
+    }
+    return out;
+}
+
+/* some element that doesn't conduct, over its threshold */
+static double conduction(Search *s, Range over, const Range *sources)
+{
+    const Onset *o = s->o;
+    double most = -INFINITY;
+
+    for (int k = 0; k < o->elements; k++)
+        if (!o->conducts[k])
+            most = fmax(most, steep_size(o->steep, k, argument_over(o, k, over, sources)).high -
+                                  o->threshold[k]);
+    return most;
+}
+
+/* one element's size beyond the level */
+static double size_beyond(Search *s, Range over, const Range *sources)
+{
+    Range u = steep_size(s->o->steep, s->which, argument_over(s->o, s->which, over, sources));
+
+    return s->sign > 0 ? u.high - s->level : s->level - u.low;
+}
+
+/* a source's way from where it was, beyond the level */
+static double way_beyond(Search *s, Range over, const Range *sources)
+{
+    double here = s->o->source_at[s->which];
+    double low = sources[s->which].low - here, high = sources[s->which].high - here;
+    double most = fmax(fabs(low), fabs(high));
+    double least = low <= 0 && high >= 0 ? 0 : fmin(fabs(low), fabs(high));
+
+    (void)over;
+    return s->sign > 0 ? most - s->level : s->level - least;
+}
+
+/* --- about a step's start --- */
+
+static void choose_scale(Onset *o, const Stepper *stepper)
+{
+    const Control *control = &stepper->control;
+
+    for (int i = 0; i < o->length; i++) {
+        double size = fabs(stepper->y[i]);
+
+        if (o->ode->cap != NULL && i < o->ode->n)
+            size = fmin(size, o->ode->cap[i]);
+        o->scale[i] = control->atol + control->rtol * size;
+    }
+}
+
+static void take_sources(Onset *o, double t)
+{
+    const Range *at = steep_sources_over(o->steep, (Range){t, t});
+
+    for (int j = 0; j < o->sources; j++)
+        o->source_at[j] = (at[j].low + at[j].high) / 2;
+}
+
+static double threshold_of(double h, double effect)
+{
+    return effect > 0 ? log(AIM / (h * effect)) : INFINITY;
+}
+
+static double size_at(const Onset *o, int k)
+{
+    return steep_size(o->steep, k, (Range){o->at.a[k], o->at.a[k]}).high;
+}
+
+static bool linearise(Onset *o, const Stepper *stepper)
+{
+    const double *y = stepper->y;
+
+    if (steep_linearise(o->steep, stepper->t, y, o->slope, o->h, o->leaks, &o->at))
+        return true;
+    /* what is open all around determines nothing: with the slopes there are, then */
+    for (int k = 0; k < o->elements; k++)
+        o->leaks[k] = NAN;
+    return steep_linearise(o->steep, stepper->t, y, o->slope, o->h, o->leaks, &o->at);
+}
+
+static bool find_effects(Onset *o, const Stepper *stepper)
+{
+    if (o->age++ % EFFECTS == 0) {
+        if (!linearise(o, stepper))
+            return false;
+        for (int k = 0; k < o->elements; k++)
+            o->effect[k] = steep_effect_of_element(o->steep, k, o->scale);
+    }
+    for (int k = 0; k < o->elements; k++)
+        o->threshold[k] = threshold_of(o->h, o->effect[k]);
+    return true;
+}
+
+/* --- pulses --- */
+
+/* from what passes two levels: when it has risen, and when it is over */
+static Pulse pulse_of(Search *rise, Search *fall, double t, double end, double steps)
+{
+    double top = first_place(rise, t, end);
+    double until = first_place(fall, top < end ? top : t, end);
+
+    top = fmin(top, end);
+    until = fmin(until, end);
+    return (Pulse){
+        .is_on = true, .from = t, .first = top - t, .until = until, .bound = (until - t) / steps};
+}
+
+/* an element that has just reached its threshold */
+static Pulse element_pulse(Onset *o, int k, double end, double steps)
+{
+    Search rise = {o, size_beyond, 0, k, size_at(o, k) + RISE, 1, INTERVALS};
+    Search fall = {o, size_beyond, 0, k, o->threshold[k] - NEAR, -1, INTERVALS};
+
+    return pulse_of(&rise, &fall, o->t, end, steps);
+}
+
+/* a source that has just begun to act */
+static Pulse source_pulse(Onset *o, int j, double delta, double end, double steps)
+{
+    Search rise = {o, way_beyond, 0, j, GROWN * delta, 1, INTERVALS};
+    Search fall = {o, way_beyond, 0, j, 2 * delta, -1, INTERVALS};
+
+    return pulse_of(&rise, &fall, o->t, end, steps);
+}
+
+/* One that outlasts what was foreseen goes on with twice the bound. */
+static void prolong(Pulse *pulse, double t, double steps)
+{
+    pulse->bound *= 2;
+    pulse->until = t + steps * pulse->bound;
+}
+
+static double bound_by(const Pulse *pulses, int count, double t)
+{
+    double bound = INFINITY;
+
+    for (int i = 0; i < count; i++)
+        if (pulses[i].is_on && t < pulses[i].until) {
+            bound = fmin(bound, pulses[i].bound);
+            if (t == pulses[i].from)
+                bound = fmin(bound, pulses[i].first);
+        }
+    return bound;
+}
+
+/* --- elements --- */
+
+static void follow_pulses(Onset *o, double end, double steps)
+{
+    for (int k = 0; k < o->elements; k++) {
+        Pulse *pulse = &o->element_pulses[k];
+
+        if (!o->conducts[k])
+            pulse->is_on = false;
+        else if (pulse->is_on && o->t >= pulse->until)
+            prolong(pulse, o->t, steps);
+        else if (!pulse->is_on && o->is_first) /* where it begins nothing rises */
+            *pulse = (Pulse){.is_on = true, .from = NAN, .until = INFINITY, .bound = INFINITY};
+        else if (!pulse->is_on)
+            *pulse = element_pulse(o, k, end, steps);
+    }
+}
+
+/* A multistep or implicit method sees little of a source that turns within a step. One that bends
+ * by so much of its range, a tenth of a period of a sine, ends it; looked for as far as steps may
+ * grow.
+ */
+static double bend_bound(Onset *o, double end)
+{
+    double far = fmin(GROWTH * o->h, end - o->t), h = far;
+
+    for (int turn = 0; turn < 60; turn++, h *= 0.7) {
+        const Range *bends = steep_bends_over(o->steep, (Range){o->t, o->t + h});
+        bool is_short = true;
+
+        for (int j = 0; j < o->sources && is_short; j++) {
+            double bend = fmax(fabs(bends[j].low), fabs(bends[j].high)) * h * h / 8;
+
+            is_short = !(isfinite(bend) && steep_source_size(o->steep, j) > 0 &&
+                         bend > BEND * steep_source_size(o->steep, j));
+        }
+        if (is_short)
+            break;
+    }
+    return h < far ? h : INFINITY;
+}
+
+/* Where the next element begins to conduct, at most `end`. */
+static double next_conduction(Onset *o, Stepper *stepper, double end)
+{
+    const double steps = stepper->method->pulse_steps;
+    Search search = {o, conduction, REACHED, 0, 0, 1, INTERVALS};
+
+    o->is_affine = false;
+    if (!stepper_slope(stepper, o->slope) ||
+        !steep_arguments(o->steep, o->t, stepper->y, o->at.a) || !find_effects(o, stepper))
+        return end;
+    for (int k = 0; k < o->elements; k++) {
+        o->conducts[k] = size_at(o, k) >= o->threshold[k] - NEAR;
+        o->leaks[k] = o->conducts[k] && (o->is_first || o->element_pulses[k].is_on)
+                          ? (double)NAN
+                          : exp(fmin(o->threshold[k], MOST_SIZE)) / LEAK;
+    }
+    if (!linearise(o, stepper))
+        return end;
+    o->is_affine = true;
+    follow_pulses(o, end, steps);
+    o->h = fmin(o->h, bound_by(o->element_pulses, o->elements, o->t));
+    return fmin(end, first_place(&search, o->t, o->t + o->h));
+}
+
+/* --- sources --- */
+
+static void look_at(Onset *o, double t, const double *from)
+{
+    const Range *at = steep_sources_over(o->steep, (Range){t, t});
+
+    for (int j = 0; j < o->sources; j++)
+        o->seen[j] = fmax(o->seen[j], fabs((at[j].low + at[j].high) / 2 - from[j]));
+}
+
+/* What the places where the method looks, and what it remembers, see of the sources: as many as are
+ * needed for enough of each one's way. */
+static void look_around(Onset *o, const Method *method, double h, const double *way)
+{
+    int i = method->node_count;
+
+    memset(o->seen, 0, (size_t)o->sources * sizeof(double));
+    if (method->has_history && !isnan(o->t_before))
+        look_at(o, o->t_before, o->source_at);
+    while (i-- > 0) { /* the end first */
+        bool enough = true;
+
+        look_at(o, o->t + method->nodes[i] * h, o->source_at);
+        for (int j = 0; j < o->sources && enough; j++)
+            enough = o->seen[j] >= SEEN * way[j];
+        if (enough)
+            return;
+    }
+}
+
+/* Whether no source can hide anything in this step, for it bends too little: looked for some steps
+ * ahead at once. */
+static bool is_clear(Onset *o, double h, double end)
+{
+    const Range *over;
+    Range ahead = {o->t, fmin(end, o->t + AHEAD * h)};
+
+    if (o->t + h <= o->clear && h <= o->clear_step)
+        return true;
+    h *= LONGER;
+    over = steep_sources_over(o->steep, ahead);
+    for (int j = 0; j < o->sources; j++)
+        o->seen[j] = over[j].high - over[j].low;
+    over = steep_bends_over(o->steep, ahead);
+    for (int j = 0; j < o->sources; j++)
+        if (!(fmax(fabs(over[j].low), fabs(over[j].high)) * h * h / 8 <= STRAIGHT * o->seen[j]))
+            return false;
+    o->clear = ahead.high;
+    o->clear_step = h;
+    return true;
+}
+
+/* What source j may do until `to` while a step sees nothing of it. Where terms cancel, intervals
+ * promise more than there is, and at a point rounding alone would keep that promise. */
+static double delta_of(Onset *o, int j, const Stepper *stepper, double to)
+{
+    double effect = steep_effect_of_source(o->steep, j, o->t, stepper->y, o->scale);
+    double delta = effect > 0 ? AIM / ((to - o->t) * effect) : INFINITY;
+
+    return fmax(delta, NOISE * steep_source_size(o->steep, j));
+}
+
+static double way_at(Onset *o, int j, double t)
+{
+    const Range *at = steep_sources_over(o->steep, (Range){t, t});
+
+    return fabs((at[j].low + at[j].high) / 2 - o->source_at[j]);
+}
+
+/* Where source j begins to do what no place of the step sees; INFINITY: it doesn't. */
+static double unseen(Onset *o, int j, const Stepper *stepper, double to)
+{
+    double delta = delta_of(o, j, stepper, to);
+    Search peak = {o, way_beyond, 0, j, fmax(delta, o->seen[j] / SEEN), 1, INTERVALS};
+    Search leaves = {o, way_beyond, 0, j, delta, 1, INTERVALS};
+    double at = first_place(&peak, o->t, to);
+
+    /* an interval may promise more than there is */
+    if (!(at <= to) || (peak.left > 0 && way_at(o, j, at) < 0.5 * peak.level))
+        return INFINITY;
+    return first_place(&leaves, o->t, to);
+}
+
+static double next_unseen(Onset *o, const Stepper *stepper, double end)
+{
+    const Method *method = stepper->method;
+    double to = fmin(end, o->t + o->h), first = end;
+    double *way;
+    const Range *over;
+    bool is_onset = false;
+
+    for (int j = 0; j < o->sources; j++)
+        is_onset = is_onset || o->onset[j] == o->t;
+    if (!is_onset && is_clear(o, to - o->t, end))
+        return end;
+    take_sources(o, o->t);
+    way = NEW_ARRAY(double, o->sources);
+    over = steep_sources_over(o->steep, (Range){o->t, to});
+    for (int j = 0; j < o->sources; j++)
+        way[j] = fmax(over[j].high - o->source_at[j], o->source_at[j] - over[j].low);
+    look_around(o, method, to - o->t, way);
+    for (int j = 0; j < o->sources; j++) {
+        double at;
+
+        if (o->onset[j] == o->t) {
+            double delta = delta_of(o, j, stepper, to);
+
+            o->source_pulses[j] = source_pulse(o, j, delta, end, method->pulse_steps);
+            o->onset[j] = NAN;
+        }
+        if (!(way[j] > 0) || o->seen[j] >= SEEN * way[j])
+            continue;
+        at = unseen(o, j, stepper, to);
+        if (!(at > o->t && at < to))
+            continue;
+        o->onset[j] = at;
+        first = fmin(first, at);
+    }
+    mem_free(way);
+    return first;
+}
+
+/* --- steps --- */
+
+double onset_before_step(Onset *o, Stepper *stepper, double end)
+{
+    double bound = INFINITY, first = end;
+
+    if (o == NULL)
+        return end;
+    o->t_before = o->t;
+    o->t = stepper->t;
+    o->h = fmin(stepper->next > 0 ? stepper->next : end - o->t, end - o->t);
+    o->h = fmin(o->h, stepper->method->sees_little ? control_largest(&stepper->control)
+                                                   : control_asked(&stepper->control));
+    choose_scale(o, stepper);
+    if (o->is_first && o->sources > 0)
+        steep_span(o->steep, o->t, end);
+    if (o->elements > 0) {
+        take_sources(o, o->t);
+        if (stepper->method->sees_little)
+            bound = bend_bound(o, end);
+        o->h = fmin(o->h, bound);
+        first = next_conduction(o, stepper, end);
+        bound = fmin(bound, bound_by(o->element_pulses, o->elements, o->t));
+    }
+    o->h = fmin(o->h, bound);
+    if (o->sources > 0)
+        first = fmin(first, next_unseen(o, stepper, first));
+    bound = fmin(bound, bound_by(o->source_pulses, o->sources, o->t));
+    stepper->bound = bound < end - o->t ? bound : 0;
+    stepper->may_bend = false;
+    for (int k = 0; k < o->elements; k++)
+        stepper->may_bend = stepper->may_bend || o->conducts[k];
+    o->is_first = false;
+    o->planned = fmin(first, o->t + o->h * (1 - 1e-9));
+    return first;
+}
+
+/* whether elements have acted in the last step, on the way that led to where it is */
+static bool has_conducted(Onset *o, const Stepper *stepper, double *when)
+{
+    Search search = {o, conduction, REACHED, 0, 0, 1, INTERVALS};
+    double h = stepper->t - o->t, x;
+    double *a = NEW_ARRAY(double, o->elements);
+    bool is_open = true, passed = false;
+
+    if (steep_arguments(o->steep, stepper->t, stepper->y, a)) {
+        const Range *sources = steep_sources_over(o->steep, (Range){stepper->t, stepper->t});
+
+        for (int k = 0; k < o->elements; k++) {
+            double way = a[k] - o->at.a[k];
+
+            for (int j = 0; j < o->sources; j++)
+                way -= o->at.by_source[k * o->sources + j] *
+                       ((sources[j].low + sources[j].high) / 2 - o->source_at[j]);
+            o->at.rate[k] = way / h - o->at.bend[k] * h;
+            is_open = is_open &&
+                      (o->conducts[k] ||
+                       steep_size(o->steep, k, (Range){a[k], a[k]}).high < o->threshold[k] - OPEN);
+        }
+        x = first_place(&search, o->t, stepper->t);
+        passed = x > o->t && (x < o->t + LATE * h || (is_open && x < stepper->t));
+        *when = x;
+    }
+    mem_free(a);
+    return passed;
+}
+
+bool onset_after_step(Onset *o, const Stepper *stepper, double *when)
+{
+    double first;
+
+    if (o == NULL || (o->elements > 0 && o->is_affine && has_conducted(o, stepper, when)))
+        return o != NULL;
+    /* a step that was tried again, shorter, has looked in other places than foreseen */
+    if (o->sources == 0 || !(stepper->t < o->planned))
+        return false;
+    o->h = stepper->t - o->t;
+    first = next_unseen(o, stepper, stepper->t);
+    *when = first;
+    return first < stepper->t;
+}

@@ -1,0 +1,34 @@
+/* onset.h: steps that don't pass over what acts for a short time
+ *
+ * A step looks at the equations in a few places. A diode that conducts between two of them, or a
+ * pulse of a source, leaves no trace: the error estimate is small and the answer wrong. So before
+ * each step the way ahead is searched for the first place where a steep element begins to act, or a
+ * source leaves what the step's places show of it, and the step ends there: no event, no restart,
+ * the solution is smooth. Behind it the steps are bounded as long as the pulse lasts. After each
+ * step the same search with the way that it really went finds what was not foreseen.
+ *
+ * To act is to change a state by a tenth of the tolerance in a step. */
+#ifndef COTREE_SIMULATE_RUN_ONSET_H
+#define COTREE_SIMULATE_RUN_ONSET_H
+
+#include "simulate/equations/steep.h"
+#include "simulate/integrate/ode.h"
+
+typedef struct Onset Onset;
+
+/* New; onset_free(). Borrows; `steep` NULL: nothing can act for a short time, and NULL comes out.
+ */
+Onset *onset_new(Steep *steep, const Ode *ode);
+void onset_free(Onset *onset); /* NULL is fine, here and below */
+/* A step from the stepper's time, at most to `end`: where it has to end instead. Bounds the
+ * stepper's steps. */
+double onset_before_step(Onset *onset, Stepper *stepper, double end);
+/* Whether the last step has passed over something: then the place in it where it should have
+ * ended. */
+bool onset_after_step(Onset *onset, const Stepper *stepper, double *when);
+/* whether there are steep elements */
+bool onset_has_elements(const Onset *onset);
+/* Forget pulses that last: equations or states have changed. */
+void onset_forget(Onset *onset);
+
+#endif

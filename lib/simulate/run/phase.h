@@ -1,0 +1,60 @@
+/* phase.h: the equations of a part of a run, and all that computes them
+ *
+ * A model without switches has one. With them there is one of the whole, in which each switch is on
+ * both sides and which no row is of, and one for each mode that a run comes to. Modes in which the
+ * ideal switches are on the same sides share their equations, in which other switches are numbers:
+ * phase_enter() sets these before anything but phase_row() reads them. */
+#ifndef COTREE_SIMULATE_RUN_PHASE_H
+#define COTREE_SIMULATE_RUN_PHASE_H
+
+#include "simulate/assemble/start.h"
+#include "simulate/equations/netdae.h"
+#include "simulate/equations/numbers.h"
+#include "simulate/run/events.h"
+#include "simulate/run/onset.h"
+#include "simulate/run/samples.h"
+
+typedef struct Phase Phase;
+struct Phase {
+    System *system; /* borrowed */
+    bool *closed;   /* sides of its switches; NULL: it is in no mode */
+    Phase *like;    /* that it shares all below with, and which owns it; itself */
+    OnSurface *on;  /* surfaces whose sides it stays on, or along which it slides */
+    int on_count;
+    Layout *layout;
+    Numbers *numbers;
+    Motion *motion;  /* NULL, with all that follows, until phase_open() */
+    int length;      /* of y */
+    NetDae *network; /* NULL where there is mechanics */
+    Events *events;  /* of `like`; NULL: none, or not made yet */
+    Samples *samples;
+    Steep *steep; /* what can act for a short time, and the search for it; NULL: nothing */
+    Onset *onset;
+    Probe *states;    /* the network states of the whole, where it is a mode, */
+    int *among_whole; /* and which of those its own are */
+};
+
+/* New: programs compiled; phase_free(). Borrows the system and the parameters; `closed` is copied,
+ * `count` sides; NULL: in no mode. */
+MUST_USE Status phase_new(System *system, Parameters *parameters, const bool *closed, int count,
+                          Phase **out, Diag *diag);
+/* The same on sides of surfaces that its equations jump on. */
+MUST_USE Status phase_new_on(System *system, Parameters *parameters, const bool *closed, int count,
+                             const OnSurface *on, int on_count, Phase **out, Diag *diag);
+/* New: the mode of `closed` with the equations of another phase, which outlives it. */
+Phase *phase_new_like(Phase *other, const bool *closed, int count);
+/* Its switches are on their sides in the equations that it may share with others. */
+void phase_enter(const Phase *phase);
+/* What solves its equations; once. The options are copied. Fails as samples_new() does. */
+MUST_USE Status phase_open(Phase *phase, Parameters *parameters, const MotionOptions *options,
+                           Diag *diag);
+void phase_free(Phase *phase); /* NULL is fine */
+
+/* what a run goes over to where its equations turn out to be stiff */
+const Method *phase_stiff_method(const Phase *phase);
+/* Everything at (t, y). False: no solution. */
+bool phase_row(Phase *phase, double t, const double *y, RowValues *out);
+/* And the first `count` states of the whole, of a mode. False: no solution. */
+bool phase_states(Phase *phase, double t, const double *y, int count, RowValues *row, double *out);
+
+#endif

@@ -1,0 +1,24 @@
+/* share.h: what is stored, where ideal switches join capacitors or put coils in series
+ *
+ * Impulses of current leave the charge of each cutset of capacitors as it was, and impulses of
+ * voltage the flux of each circuit of coils: of all that the network behind the instant may store,
+ * it is the nearest to what was stored, as energy measures it. */
+#ifndef COTREE_SIMULATE_RUN_SHARE_H
+#define COTREE_SIMULATE_RUN_SHARE_H
+
+#include "simulate/run/result.h"
+
+/* more than errors can explain, of a state of the whole */
+bool share_is_jump(const Result *result, int state, double from, double to);
+
+/* Share what is stored in a phase that begins at (t, y): y, and x, the states of the whole; `step`
+ * is that from which its sides were found, at this instant. The energy that is lost counts as work,
+ * and is told with `sides`, what switches. False, and nothing is changed, where a source would have
+ * to give a part of it, or where nothing that is stored tells what becomes of a state. */
+bool share_stored(Result *result, Phase *phase, double t, double step, const char *sides, double *y,
+                  double *x);
+/* what is said of all that were shared, after a run */
+void share_tell(Result *result);
+void shares_free(Shares *shares); /* NULL is fine */
+
+#endif

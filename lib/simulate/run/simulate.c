@@ -1,0 +1,645 @@
+/* simulate.c: runs: forward, resumed, driven */
+#include "simulate/run/result.h"
+
+#include "base/memory.h"
+#include "simulate/equations/causes.h"
+#include "simulate/run/commute.h"
+#include "simulate/run/inverse.h"
+#include "simulate/run/share.h"
+#include "simulate/run/slide.h"
+
+#include <math.h>
+#include <string.h>
+#include <time.h>
+
+#define LEAST_RTOL  1e-13
+#define MOST_ROWS   20000000
+#define MOST_VALUES 2e8  /* in all rows: 1.6 GB */
+#define POINTS      4    /* between rows of a driven run, where events are looked for */
+#define TURNED      2.0  /* rad: what an angle that counts turns may go at once in a driven run, */
+#define MISSED      0.5  /* and how far off its prediction */
+#define UNRESOLVED  0.05 /* difference of two runs, rad or m, that makes them different motions */
+/* what a difference of two runs, at a tolerance and a tenth of it, is taken times, since it may be
+ * less than the error: of methods that take single steps, and of those with a history */
+#define ONE_STEP     2.0
+#define MULTISTEP    6.0
+#define AUTO         "auto"
+#define DEFAULT_RTOL 1e-8
+
+const char *run_method(int i, const char **brief)
+{
+    const Method *method = method_row(i - 1);
+
+    if (i == 0) {
+        *brief =
+            "dop853, and once the equations turn out to be stiff radau, or ida on large networks";
+        return AUTO;
+    }
+    if (method == NULL)
+        return NULL;
+    *brief = method->brief;
+    return method->name;
+}
+
+static double seconds(void)
+{
+    struct timespec now;
+
+    (void)clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+/* --- options --- */
+
+static Status find_method(const char *name, const Method **out, Diag *diag)
+{
+    Suggest suggest = suggest_for(name != NULL ? name : AUTO);
+    const char *brief;
+
+    *out = NULL;
+    if (name == NULL || strcmp(name, AUTO) == 0)
+        return OK;
+    *out = method_find(name);
+    if (*out != NULL)
+        return OK;
+    for (int i = 0; run_method(i, &brief) != NULL; i++)
+        suggest_offer(&suggest, run_method(i, &brief));
+    (void)diag_set(diag, E_NAME, "there is no method '%s'", name);
+    if (suggest.best != NULL)
+        diag_hint(diag, "did you mean '%s'?", suggest.best);
+    else
+        diag_hint(diag, "help methods lists them");
+    return E_NAME;
+}
+
+/* the options with their defaults in place */
+static Status complete_options(const Result *r, const RunOptions *given, RunOptions *out,
+                               Diag *diag)
+{
+    const Layout *layout = r->phase->layout;
+    const int width = 2 + layout->n + layout->nu + layout->nx;
+
+    *out = *given;
+    if (!(out->duration > 0) || !isfinite(out->duration))
+        return diag_set(diag, E_VALUE, "a run takes a duration above 0, in seconds");
+    if (!(out->every >= 0) || !(out->rtol >= 0) || !(out->atol >= 0) || !(out->step >= 0) ||
+        !(out->most >= 0))
+        return diag_set(diag, E_VALUE, "every, rtol, atol, step and maxstep can't be below 0");
+    if (out->every == 0)
+        out->every = out->duration / 500;
+    if (out->rtol == 0)
+        out->rtol = DEFAULT_RTOL;
+    if (out->atol == 0)
+        out->atol = out->rtol;
+    if (out->rtol < LEAST_RTOL) {
+        (void)diag_set(diag, E_VALUE, "rtol=%g is finer than numbers are", out->rtol);
+        diag_hint(diag, "1e-12 is about the finest that makes sense");
+        return E_VALUE;
+    }
+    if (out->duration / out->every > fmin(MOST_ROWS, MOST_VALUES / width)) {
+        (void)diag_set(diag, E_VALUE, "that makes %.3g rows", out->duration / out->every);
+        diag_hint(diag, "take a larger step of output, every=");
+        return E_VALUE;
+    }
+    return OK;
+}
+
+/* --- forward --- */
+
+static MarchPlan plan_of(const Result *r, const Setting *setting, const RunOptions *options,
+                         const Method *method, Events *events)
+{
+    return (MarchPlan){.leg = commute_leg(r, r->phase, events),
+                       .method = method,
+                       .control = {.rtol = options->rtol,
+                                   .atol = options->atol,
+                                   .step = options->step,
+                                   .most = options->most},
+                       .every = options->every,
+                       .watch = setting->watch};
+}
+
+/* A march from the result's begin. Where ideal switches change the equations, `corners` gets rows
+ * between them. */
+static Status march_phases(Result *r, const Setting *setting, const MarchPlan *plan, Grid *grid,
+                           Grid *corners, MarchReport *out, Diag *diag)
+{
+    Commuting commuting = {
+        .result = r, .setting = setting, .span = plan->to - plan->from, .stuck = NAN};
+    MarchPlan through = *plan;
+    Status status;
+
+    through.choose = slide_choose;
+    through.tell = slide_tell;
+    through.context = &commuting;
+    through.corners = corners;
+    if (r->sides != NULL) {
+        through.commute = commute;
+        through.in_time = numbers_equations(result_whole(r)->numbers);
+    }
+    status = march(&through, r->begin, grid, out, diag);
+    commuting_free(&commuting);
+    return status;
+}
+
+static MotionCounts counts_of(const Result *r)
+{
+    MotionCounts sum = {.singular_time = NAN};
+
+    for (int i = 0; i < r->phases.count; i++) {
+        MotionCounts counts = {.singular_time = NAN};
+
+        if (r->phases.at[i]->motion != NULL && r->phases.at[i]->like == r->phases.at[i])
+            counts = motion_counts(r->phases.at[i]->motion);
+        sum.factorisations += counts.factorisations;
+        sum.regularised += counts.regularised;
+        if (!(sum.singular_time <= counts.singular_time) && !isnan(counts.singular_time))
+            sum.singular_time = counts.singular_time;
+    }
+    return sum;
+}
+
+static void fill_report(Result *r, const MarchReport *march, const RunOptions *options,
+                        bool stopped, double began)
+{
+    MotionCounts counts = counts_of(r);
+
+    r->report.method = march->method->name;
+    r->report.rtol = options->rtol;
+    r->report.atol = options->atol;
+    r->report.steps = march->counts.steps;
+    r->report.rejected = march->counts.rejected;
+    r->report.evaluations = march->counts.evaluations;
+    r->report.jacobians = march->counts.jacobians;
+    r->report.factorisations = counts.factorisations;
+    r->report.regularised = counts.regularised;
+    r->report.singular_time = counts.singular_time;
+    r->report.position_residual = march->position_residual;
+    r->report.velocity_residual = march->velocity_residual;
+    r->report.reached = march->reached;
+    r->report.every = options->every;
+    r->report.step = options->step;
+    r->report.most = options->most;
+    r->report.stopped = stopped;
+    r->report.wall = seconds() - began;
+}
+
+/* how much accuracy is lost there is not known: a run of check=on measures it */
+static void remark_singular(Result *r)
+{
+    const MotionCounts counts = counts_of(r);
+
+    if (counts.regularised > 0)
+        text_addf(&r->remarks,
+                  "passed near a singular position, first at t = %.6g s: rounding leaves its mark "
+                  "there at any tolerance; check=on measures what\n",
+                  counts.singular_time);
+}
+
+static void remark_march(Result *r, const MarchReport *march)
+{
+    if (march->remarks.at != NULL)
+        text_add(&r->remarks, march->remarks.at);
+    share_tell(r);
+    events_tell(r->events, &r->remarks);
+    remark_singular(r);
+}
+
+/* The largest difference of (q, u, x) at times that both grids have; events lie at times of their
+ * own, and one that a switch falls on may be of either phase. */
+static double largest_difference(const Result *r, int first, const Grid *b)
+{
+    const Grid *a = &r->grid;
+    double largest = 0;
+
+    for (int i = first, j = 0; i < a->count && j < b->count;) {
+        double behind = a->times[i] - b->times[j];
+        int length = behind == 0 && a->phase[i] == b->phase[j]
+                         ? layout_turned(result_phase(r, i)->layout)
+                         : 0;
+
+        for (int k = 0; k < length; k++)
+            largest = fmax(largest, fabs(grid_row(a, i)[k] - grid_row(b, j)[k]));
+        i += behind <= 0;
+        j += behind >= 0;
+    }
+    return largest;
+}
+
+/* what a difference tells of the error, for methods that the two runs came to */
+static void report_difference(Result *r, double largest, const Method *a, const Method *b)
+{
+    r->report.is_unresolved = !(largest <= UNRESOLVED);
+    if (r->report.is_unresolved)
+        text_addf(&r->remarks,
+                  "not resolved: a run %s ends elsewhere; take a smaller %s, or a shorter run\n",
+                  b->has_fixed_step ? "in half the step" : "at a tenth of the tolerance",
+                  b->has_fixed_step ? "step" : "rtol");
+    else
+        r->report.global_error =
+            largest * (a->has_history || b->has_history ? MULTISTEP : ONE_STEP);
+}
+
+/* a second run at a tenth of the tolerance, or in half the fixed step; `used` is the method that
+ * the first came to, `events` are its events as they were at its start */
+static Status estimate_error(Result *r, const Setting *setting, const RunOptions *options,
+                             const Method *method, const Method *used, Events *events, int first,
+                             double to, Diag *diag)
+{
+    RunOptions finer = *options;
+    MarchPlan plan;
+    MarchReport march_report;
+    Grid grid = {0};
+    Status status;
+
+    finer.rtol = fmax(LEAST_RTOL, options->rtol / 10);
+    finer.atol = options->atol / 10;
+    if (method != NULL && method->has_fixed_step)
+        finer.step = (options->step > 0 ? options->step : options->every) / 2;
+    plan = plan_of(r, setting, &finer, method, events);
+    plan.from = r->grid.times[first];
+    plan.to = to;
+    status = march_phases(r, setting, &plan, &grid, NULL, &march_report, diag);
+    if (status == OK)
+        report_difference(r, largest_difference(r, first, &grid), used, march_report.method);
+    text_free(&march_report.remarks);
+    grid_free(&grid);
+    return status;
+}
+
+/* March a result whose start is set; it is kept also when that ends early. */
+static Status go(Result *r, const Setting *setting, const RunOptions *given, double from,
+                 bool skip_first, Diag *diag)
+{
+    const Method *method;
+    RunOptions options;
+    MarchPlan plan;
+    MarchReport report_of = {.method = method_for((MethodNeed){0})};
+    Events *again = NULL; /* for a second run */
+    int first = skip_first ? r->grid.count - 1 : 0;
+    Status status = OK;
+    double began = seconds();
+
+    CHECK(complete_options(r, given, &options, diag));
+    CHECK(find_method(options.method, &method, diag));
+    result_tolerance(r, options.atol);
+    plan = plan_of(r, setting, &options, method, r->events);
+    plan.asks = given->rtol > 0 || given->atol > 0;
+    plan.from = from;
+    plan.to = from + options.duration;
+    plan.skip_first = skip_first;
+    if (options.check)
+        CHECK(result_make_events(r, r->phase, r->events, setting, &again, diag));
+    status = march_phases(r, setting, &plan, &r->grid, &r->corners, &report_of, diag);
+    if (report_of.events != r->events)
+        events_hand_over(r->events, report_of.events);
+    if (status == E_SOLVER)
+        network_hint(r->system, diag);
+    remark_march(r, &report_of);
+    text_free(&report_of.remarks);
+    fill_report(r, &report_of, &options, status == E_STOPPED, began);
+    if (status == OK && options.check)
+        status = estimate_error(r, setting, &options, method, report_of.method, again, first,
+                                plan.to, diag);
+    if (result_balance(r, NULL) != OK)
+        r->report.energy_drift = NAN;
+    r->report.wall = seconds() - began;
+done:
+    events_free(again);
+    return status;
+}
+
+/* drivers whose motion another effort supplies belong to inverse runs */
+Status result_refuse_by(const Result *r, Diag *diag)
+{
+    const Layout *l = r->phase->layout;
+
+    for (int i = 0; i < l->ne; i++) {
+        (void)diag_set(diag, E_MODEL, "a driver with by= is for inverse runs: %s is not known here",
+                       expr_name(l->symbols[l->efforts + i]));
+        diag_hint(diag, "use `inverse`, or leave by= out");
+        return E_MODEL;
+    }
+    return OK;
+}
+
+Status run_assemble(System *system, const Setting *setting, Result **out, Diag *diag)
+{
+    Result *r = NULL;
+    Status status = OK;
+    double position = 0, velocity = 0;
+
+    CHECK(result_open(RUN_START, system, setting, &r, diag));
+    result_add_row(r, 0, r->begin);
+    motion_residuals(r->phase->motion, 0, r->begin, &position, &velocity);
+    r->report.position_residual = position;
+    r->report.velocity_residual = velocity;
+    *out = r;
+    r = NULL;
+done:
+    result_free(r);
+    return status;
+}
+
+/* hand out what there is, unless there is nothing */
+static void give(Result *r, Status status, Result **out)
+{
+    bool kept = r != NULL && r->grid.count > 0 &&
+                (status == OK || status == E_STOPPED || status == E_SOLVER);
+
+    *out = kept ? r : NULL;
+    if (!kept)
+        result_free(r);
+}
+
+Status run_simulate(System *system, const Setting *setting, const RunOptions *options, Result **out,
+                    Diag *diag)
+{
+    Result *r = NULL;
+    Status status = OK;
+
+    CHECK(result_open(RUN_SIMULATE, system, setting, &r, diag));
+    CHECK(result_refuse_by(r, diag));
+    CHECK(go(r, setting, options, 0, false, diag));
+done:
+    give(r, status, out);
+    return status;
+}
+
+Status run_resume(const Result *old, const Setting *setting, const RunOptions *options,
+                  Result **out, Diag *diag)
+{
+    Result *r = NULL;
+    Status status = OK;
+
+    if (old->kind != RUN_SIMULATE || old->grid.count == 0) {
+        *out = NULL;
+        return diag_set(diag, E_MISSING, "only a forward run can be resumed");
+    }
+    CHECK(result_reopen(old, setting, &r, diag));
+    CHECK(go(r, setting, options, old->grid.times[old->grid.count - 1], true, diag));
+done:
+    give(r, status, out);
+    return status;
+}
+
+/* --- driven --- */
+
+static Status check_driven(const Result *r, Diag *diag)
+{
+    int left = r->phase->layout->nu - r->start.row_count;
+    int drivers = 0;
+
+    for (int k = 0; k < r->phase->layout->m; k++)
+        drivers += system_constraint(r->system, k)->is_driver;
+    if (left == 0)
+        return OK;
+    (void)diag_set(diag, E_MODEL, "%d freedom%s left: %d driver%s %d more", left,
+                   left == 1 ? " is" : "s are", drivers, drivers == 1 ? " wants" : "s want", left);
+    diag_hint(diag, "add a driver for each, or use `simulate`");
+    return E_MODEL;
+}
+
+/* The next row from the last one: predicted, then projected; in halves where that fails. */
+static bool reach(Result *r, double from, double to, double *y, int depth)
+{
+    const Layout *l = r->phase->layout;
+    const Ode *ode = motion_ode(r->phase->motion);
+    double h = to - from;
+    double *trial = NEW_ARRAY(double, r->phase->length);
+    double *rate = NEW_ARRAY(double, r->phase->length);
+    double moved = 0, turned = 0;
+    bool sound = ode->rate(ode->context, from, y, rate);
+
+    for (int i = 0; i < l->n; i++) {
+        double bend = numbers_equations(r->phase->numbers)->map == NULL ? rate[l->n + i] : 0;
+
+        trial[i] = y[i] + h * rate[i] + h * h / 2 * bend;
+    }
+    for (int i = l->n; i < r->phase->length; i++)
+        trial[i] = y[i];
+    for (int i = layout_turned(l); i < layout_turned(l) + l->turned; i++) {
+        trial[i] = y[i] + h * rate[i];
+        turned = fmax(turned, fabs(h * rate[i]));
+    }
+    memcpy(rate, trial, (size_t)r->phase->length * sizeof(double));
+    sound = sound && motion_project(r->phase->motion, to, trial);
+    for (int i = 0; i < l->n; i++)
+        moved = fmax(moved, fabs(trial[i] - rate[i]));
+    for (int i = layout_turned(l); i < layout_turned(l) + l->turned; i++)
+        turned = fmax(turned, TURNED / MISSED * fabs(trial[i] - rate[i]));
+    /* far from the prediction is perhaps another branch */
+    sound = sound && moved < 0.1 && turned < TURNED;
+    if (sound)
+        memcpy(y, trial, (size_t)r->phase->length * sizeof(double));
+    mem_free(trial);
+    mem_free(rate);
+    if (sound || depth == 0)
+        return sound;
+    return reach(r, from, from + h / 2, y, depth - 1) && reach(r, from + h / 2, to, y, depth - 1);
+}
+
+static void add_position(Result *r, double t, const double *y)
+{
+    double position = 0, velocity = 0;
+
+    motion_residuals(r->phase->motion, t, y, &position, &velocity);
+    r->report.position_residual = fmax(r->report.position_residual, position);
+    r->report.velocity_residual = fmax(r->report.velocity_residual, velocity);
+    result_add_row(r, t, y);
+    r->report.reached = t;
+}
+
+static Status lost(Result *r, double last, double t, const double *y, Diag *diag)
+{
+    if (cause_meeting(r->phase->layout, &r->parameters, last, y, "nothing tells how it moves on",
+                      diag))
+        return E_SINGULAR;
+    return solver_failure(diag, t, "the drivers lead where the parts can't follow");
+}
+
+/* Between two instants, the later of which events are due at: the first such instant, by halves;
+ * y from the earlier one to it. */
+static double locate_event(Result *r, double low, double high, double *y)
+{
+    double *trial = NEW_ARRAY(double, r->phase->length);
+    double *found = NEW_ARRAY(double, r->phase->length);
+    size_t bytes = (size_t)r->phase->length * sizeof(double);
+
+    memcpy(found, y, bytes);
+    if (!reach(r, low, high, found, 12))
+        memcpy(found, y, bytes);
+    for (;;) {
+        double middle = low + (high - low) / 2;
+
+        memcpy(trial, y, bytes);
+        if (middle <= low || middle >= high || !reach(r, low, middle, trial, 12))
+            break;
+        if (events_are_due(r->events, middle, trial)) {
+            high = middle;
+            memcpy(found, trial, bytes);
+        } else {
+            low = middle;
+            memcpy(y, trial, bytes);
+        }
+    }
+    memcpy(y, found, bytes);
+    mem_free(trial);
+    mem_free(found);
+    return high;
+}
+
+/* Events between two rows, looked for at points between; y from the earlier one to the later one,
+ * or to where an event ends the run. */
+static Status follow_events(Result *r, double from, double to, double span, double *y, bool *stop,
+                            Diag *diag)
+{
+    double *trial = NEW_ARRAY(double, r->phase->length);
+    size_t bytes = (size_t)r->phase->length * sizeof(double);
+    double last = from;
+    Status status = OK;
+
+    for (int k = 1; k <= POINTS && !*stop;) {
+        double t = k == POINTS ? to : from + (to - from) * k / POINTS;
+        bool happened = false;
+
+        memcpy(trial, y, bytes);
+        if (!reach(r, last, t, trial, 12))
+            CHECK(lost(r, last, t, y, diag));
+        if (events_are_due(r->events, t, trial)) {
+            t = locate_event(r, last, t, y);
+        } else {
+            memcpy(y, trial, bytes);
+            k++;
+        }
+        CHECK(events_take(r->events, t, span, y, &happened, stop, diag));
+        if (happened)
+            add_position(r, t, y);
+        last = t;
+    }
+done:
+    mem_free(trial);
+    return status;
+}
+
+static Status positions(Result *r, const Setting *setting, const RunOptions *options, Diag *diag)
+{
+    int rows = grid_rows(0, options->duration, options->every);
+    double *y = NEW_ARRAY(double, r->phase->length);
+    double last = 0;
+    bool stop = false;
+    Status status = OK;
+
+    memcpy(y, r->begin, (size_t)r->phase->length * sizeof(double));
+    if (!motion_project(r->phase->motion, 0, y))
+        CHECK(solver_failure(diag, 0, "the start does not meet the constraints"));
+    for (int k = 0; k <= rows && !stop; k++) {
+        double t = k > 0 ? grid_time(0, options->duration, options->every, k) : 0;
+
+        if (poll(setting->watch) != OK)
+            CHECK(diag_set(diag, E_STOPPED, "stopped at t = %.6g s", last));
+        report(setting->watch, "kinematics", t / options->duration);
+        if (k > 0 && events_count(r->events) > 0)
+            CHECK(follow_events(r, last, t, options->duration, y, &stop, diag));
+        else if (k > 0 && !reach(r, last, t, y, 12))
+            CHECK(lost(r, last, t, y, diag));
+        if (!stop && (k == 0 || r->report.reached < t)) /* else an event's instant */
+            add_position(r, t, y);
+        if (k == 0 && events_count(r->events) > 0)
+            stop = events_begin(r->events, 0, y);
+        last = t;
+    }
+done:
+    mem_free(y);
+    events_tell(r->events, &r->remarks);
+    remark_singular(r);
+    r->report.regularised = counts_of(r).regularised;
+    r->report.singular_time = counts_of(r).singular_time;
+    r->report.every = options->every;
+    r->report.method = "newton";
+    r->report.steps = r->grid.count;
+    return status;
+}
+
+/* what only an integration acts on */
+static Status refuse_idle(const RunOptions *given, Diag *diag)
+{
+    const struct {
+        const char *key;
+        bool given;
+    } idle[] = {{"rtol", given->rtol > 0},         {"atol", given->atol > 0},
+                {"method", given->method != NULL}, {"step", given->step > 0},
+                {"maxstep", given->most > 0},      {"check", given->check}};
+
+    for (int i = 0; i < COUNT(idle); i++)
+        if (idle[i].given) {
+            (void)diag_set(diag, E_VALUE, "%s= has nothing to act on: here nothing is integrated",
+                           idle[i].key);
+            diag_hint(diag, "the drivers give the motion, and the constraints are solved at each "
+                            "instant as exactly as numbers allow; every= sets the instants");
+            return E_VALUE;
+        }
+    return OK;
+}
+
+/* Positions follow from the drivers; states of a network that nobody asks back from are
+ * integrated along. */
+static Status drive(Result *r, const Setting *setting, const RunOptions *given, Diag *diag)
+{
+    RunOptions options;
+    double began = seconds();
+    Status status = OK;
+
+    CHECK(complete_options(r, given, &options, diag));
+    CHECK(check_driven(r, diag));
+    result_tolerance(r, 1e-12);
+    if (r->phase->layout->ne > 0 && r->sides != NULL) {
+        status = diag_set(diag, E_MODEL,
+                          "what supplies a driver's motion can't be found through "
+                          "ideal switches");
+        diag_hint(diag, "give diodes and switches Ron= and Roff=");
+        goto done;
+    }
+    if (r->sides != NULL || (r->phase->layout->nx > 0 && !inverse_finds_states(r))) {
+        options.rtol = fmin(options.rtol, 1e-10);
+        options.atol = fmin(options.atol, 1e-10);
+        CHECK(go(r, setting, &options, 0, false, diag));
+    } else {
+        CHECK(refuse_idle(given, diag));
+        CHECK(positions(r, setting, &options, diag));
+    }
+done:
+    r->report.wall = seconds() - began;
+    return status;
+}
+
+Status run_kinematics(System *system, const Setting *setting, const RunOptions *options,
+                      Result **out, Diag *diag)
+{
+    Result *r = NULL;
+    Status status = OK;
+
+    CHECK(result_open(RUN_KINEMATICS, system, setting, &r, diag));
+    CHECK(drive(r, setting, options, diag));
+done:
+    give(r, status, out);
+    return status;
+}
+
+Status run_inverse(System *system, const Setting *setting, const RunOptions *options, Result **out,
+                   Diag *diag)
+{
+    Result *r = NULL;
+    Status status = OK;
+    Status driven;
+
+    CHECK(result_open(RUN_INVERSE, system, setting, &r, diag));
+    driven = drive(r, setting, options, diag);
+    if (driven != OK && driven != E_STOPPED && driven != E_SOLVER)
+        CHECK(driven);
+    CHECK(inverse_solve(r, diag));
+    status = driven;
+done:
+    give(r, status, out);
+    return status;
+}

@@ -1,0 +1,17 @@
+/* slide.h: across a surface that the equations jump on, off it, or along it
+ *
+ * The signs on all surfaces that a run stands on are such that each is at an end of -1 .. 1 and the
+ * motion leaves to that side, or between them and the motion stays: a linear complementarity
+ * problem with bounds (theory.md 8). */
+#ifndef COTREE_SIMULATE_RUN_SLIDE_H
+#define COTREE_SIMULATE_RUN_SLIDE_H
+
+#include "simulate/run/commute.h"
+
+/* the Choose of a plan; `context` is a Commuting */
+MUST_USE Status slide_choose(void *context, double t, double low, double high, const double *y,
+                             const Meeting *at, int count, Leg *leg, bool *entered, Diag *diag);
+/* what a condition of a leg is about: "s' (actuator f)"; `context` is a Commuting */
+void slide_tell(void *context, const Leg *leg, int condition, Text *out);
+
+#endif
