@@ -12,14 +12,14 @@
 /* clang-format off */
 static const Param body_params[] = {
     /* name      kind           unit       default  meaning */
-    {"mass",    PARAM_SCALAR,  "kg",      NULL,    "mass", false},
-    {"inertia", PARAM_INERTIA, "kg*m^2",  "0",     "about the mass centre, in the body's axes: planar one number, spatial [Ixx, Iyy, Izz] or [Ixx, Iyy, Izz, Ixy, Ixz, Iyz] (tensor entries)", false},
+    {"mass",    PARAM_SCALAR,  "kg",      NULL,    "mass", 0},
+    {"inertia", PARAM_INERTIA, "kg*m^2",  "0",     "about the mass centre, in the body's axes: planar one number, spatial [Ixx, Iyy, Izz] or [Ixx, Iyy, Izz, Ixy, Ixz, Iyz] (tensor entries)", 0},
     EULER_PARAM,
 };
 
 static const Param arm_params[] = {
-    {"position", PARAM_VECTOR,   "m", "0", "of the new frame's origin, in the axes of the frame it starts from", true},
-    {"rotation", PARAM_ROTATION, "1", "1", "how the new frame is turned: z(90 deg)*x(a) about z, then about the new x", false},
+    {"position", PARAM_VECTOR,   "m", "0", "of the new frame's origin, in the axes of the frame it starts from", POSITIONAL},
+    {"rotation", PARAM_ROTATION, "1", "1", "how the new frame is turned: z(90 deg)*x(a) about z, then about the new x", 0},
 };
 /* clang-format on */
 

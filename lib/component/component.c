@@ -32,6 +32,27 @@ int component_param(const Component *row, const char *name)
     return -1;
 }
 
+int component_source(const Component *row)
+{
+    for (int i = 0; i < row->param_count; i++)
+        if ((row->params[i].use & GIVES_SOURCE) != 0 && row->params[i].fallback == NULL)
+            return i;
+    return -1;
+}
+
+int instance_input(const Instance *instance)
+{
+    for (int i = 0; i < instance->row->param_count; i++) {
+        const Value *value = &instance->values[i];
+        const int use = instance->row->params[i].use;
+
+        if ((use & GIVES) != 0 && value->count == 1 && value->at[0] != NULL &&
+            (value->given || (use & POSITIONAL) != 0))
+            return i;
+    }
+    return -1;
+}
+
 const CoordinateRow *instance_coords(const Instance *instance, bool planar, int *count)
 {
     const Component *row = instance->row;

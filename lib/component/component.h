@@ -35,6 +35,13 @@ typedef enum ParamKind {
     PARAM_WORD       /* one of the words in `fallback`, between '|', the first is the default */
 } ParamKind;
 
+typedef enum ParamUse {
+    POSITIONAL = 1,   /* may stand without its key behind the places: arm r m [..] */
+    GIVES_SOURCE = 2, /* across or through, whatever the rest of the network does */
+    GIVES_LOAD = 4,   /* an effort that acts on bodies from outside */
+    GIVES = GIVES_SOURCE | GIVES_LOAD
+} ParamUse;
+
 typedef struct Param {
     const char *name;
     ParamKind kind;
@@ -43,8 +50,7 @@ typedef struct Param {
     const char *fallback; /* the default: a number (for vectors: each entry), an axis' letter (for
                              axes: two), the words; NULL: must be given */
     const char *meaning;
-    bool positional; /* may stand without its key behind the places (arm r m [..], resistor R1 a b
-                        10) */
+    int use; /* of ParamUse */
 } Param;
 
 typedef struct Value {
@@ -284,6 +290,9 @@ const CoordinateRow *instance_coords(const Instance *instance, bool planar, int 
 const Component *component_find(const char *name);           /* exact; NULL */
 const Component *component_at(int i);                        /* 0, 1, ...; NULL at the end */
 int component_param(const Component *row, const char *name); /* -1: none */
+int component_source(const Component *row); /* the param that makes it a source; -1: none */
+/* the one of its params that gives something from outside, a single number; -1: none */
+int instance_input(const Instance *instance);
 const Value *instance_value(const Instance *instance,
                             const char *name);                    /* assert that the row has it */
 Expr instance_scalar(const Instance *instance, const char *name); /* its only entry */

@@ -85,25 +85,25 @@ done:
 
 /* clang-format off */
 static const Param gain_params[] = {
-    {"of", PARAM_LAW, NULL, NULL, "the input, any expression", false},
-    {"k",  PARAM_LAW, NULL, NULL, "what it is multiplied by", false},
+    {"of", PARAM_LAW, NULL, NULL, "the input, any expression", 0},
+    {"k",  PARAM_LAW, NULL, NULL, "what it is multiplied by", 0},
     BLOCK_PARAMS,
 };
 static const Param sum_params[] = {
-    {"of", PARAM_LIST_LAWS, NULL, NULL, "what is added: [a.v, -b.v]", false},
+    {"of", PARAM_LIST_LAWS, NULL, NULL, "what is added: [a.v, -b.v]", 0},
     BLOCK_PARAMS,
 };
 static const Param integrator_params[] = {
-    {"of",      PARAM_LAW,    NULL, NULL, "the input, any expression", false},
-    {"k",       PARAM_LAW,    NULL, "1",  "output's rate per input", false},
-    {"initial", PARAM_SCALAR, "V",  "0",  "the output at the start", false},
+    {"of",      PARAM_LAW,    NULL, NULL, "the input, any expression", 0},
+    {"k",       PARAM_LAW,    NULL, "1",  "output's rate per input", 0},
+    {"initial", PARAM_SCALAR, "V",  "0",  "the output at the start", 0},
     BLOCK_PARAMS,
 };
 static const Param lag_params[] = {
-    {"of",      PARAM_LAW,    NULL, NULL, "the input, any expression", false},
-    {"k",       PARAM_LAW,    NULL, "1",  "output per input at rest", false},
-    {"T",       PARAM_SCALAR, "s",  NULL, "time constant", false},
-    {"initial", PARAM_SCALAR, "V",  "0",  "the output at the start", false},
+    {"of",      PARAM_LAW,    NULL, NULL, "the input, any expression", 0},
+    {"k",       PARAM_LAW,    NULL, "1",  "output per input at rest", 0},
+    {"T",       PARAM_SCALAR, "s",  NULL, "time constant", 0},
+    {"initial", PARAM_SCALAR, "V",  "0",  "the output at the start", 0},
     BLOCK_PARAMS,
 };
 

@@ -6,22 +6,22 @@
 
 /* clang-format off */
 static const Param vcvs_params[] = {
-    {"gain", PARAM_LAW, "1", NULL, "voltage per controlling voltage", false},
+    {"gain", PARAM_LAW, "1", NULL, "voltage per controlling voltage", 0},
 };
 static const Param vccs_params[] = {
-    {"gain", PARAM_LAW, "S", NULL, "current per controlling voltage", false},
+    {"gain", PARAM_LAW, "S", NULL, "current per controlling voltage", 0},
 };
 static const Param ccvs_params[] = {
-    {"of",   PARAM_LAW, "A",   NULL, "the controlling current, as R1.i", false},
-    {"gain", PARAM_LAW, "ohm", NULL, "voltage per controlling current", false},
+    {"of",   PARAM_LAW, "A",   NULL, "the controlling current, as R1.i", 0},
+    {"gain", PARAM_LAW, "ohm", NULL, "voltage per controlling current", 0},
 };
 static const Param cccs_params[] = {
-    {"of",   PARAM_LAW, "A", NULL, "the controlling current, as R1.i", false},
-    {"gain", PARAM_LAW, "1", NULL, "current per controlling current", false},
+    {"of",   PARAM_LAW, "A", NULL, "the controlling current, as R1.i", 0},
+    {"gain", PARAM_LAW, "1", NULL, "current per controlling current", 0},
 };
 
 static const Param sensor_params[] = {
-    {"gain", PARAM_LAW, NULL, "1", "volts per unit of what is sensed", false},
+    {"gain", PARAM_LAW, NULL, "1", "volts per unit of what is sensed", 0},
 };
 /* clang-format on */
 

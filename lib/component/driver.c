@@ -3,7 +3,7 @@
 
 /* clang-format off */
 static const Param params[] = {
-    {"value", PARAM_LAW, "m|rad", NULL, "what the coordinate follows: an expression of t and parameters", false},
+    {"value", PARAM_LAW, "m|rad", NULL, "what the coordinate follows: an expression of t and parameters", 0},
 };
 
 static const Member members[] = {

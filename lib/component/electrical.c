@@ -7,23 +7,23 @@
 
 /* clang-format off */
 static const Param resistor_params[] = {
-    {"R", PARAM_LAW, "ohm", NULL, "resistance", true},
+    {"R", PARAM_LAW, "ohm", NULL, "resistance", POSITIONAL},
 };
 static const Param capacitor_params[] = {
-    {"C", PARAM_LAW, "F", NULL, "capacitance, charge per voltage", true},
+    {"C", PARAM_LAW, "F", NULL, "capacitance, charge per voltage", POSITIONAL},
 };
 static const Param inductor_params[] = {
-    {"L", PARAM_LAW, "H", NULL, "inductance, flux per current", true},
+    {"L", PARAM_LAW, "H", NULL, "inductance, flux per current", POSITIONAL},
 };
 static const Param coupling_params[] = {
-    {"k", PARAM_SCALAR, "1", "0", "coupling factor, M/sqrt(L1*L2), between -1 and 1", false},
-    {"M", PARAM_SCALAR, "H", "0", "or the mutual inductance", false},
+    {"k", PARAM_SCALAR, "1", "0", "coupling factor, M/sqrt(L1*L2), between -1 and 1", 0},
+    {"M", PARAM_SCALAR, "H", "0", "or the mutual inductance", 0},
 };
 static const Param vsource_params[] = {
-    {"value", PARAM_LAW, "V", NULL, "voltage, of t, parameters and variables", true},
+    {"value", PARAM_LAW, "V", NULL, "voltage, of t, parameters and variables", POSITIONAL | GIVES_SOURCE},
 };
 static const Param isource_params[] = {
-    {"value", PARAM_LAW, "A", NULL, "current, of t, parameters and variables", true},
+    {"value", PARAM_LAW, "A", NULL, "current, of t, parameters and variables", POSITIONAL | GIVES_SOURCE},
 };
 
 static const Member capacitor_members[] = {

@@ -7,29 +7,29 @@
 
 /* clang-format off */
 static const Param force_params[] = {
-    {"force", PARAM_LAWS, "N", NULL, "components along x, y (and z)", true},
-    {"in",    PARAM_WORD, NULL, "ground|body", "whose axes the components are in", false},
+    {"force", PARAM_LAWS, "N", NULL, "components along x, y (and z)", POSITIONAL | GIVES_LOAD},
+    {"in",    PARAM_WORD, NULL, "ground|body", "whose axes the components are in", 0},
 };
 
 static const Param torque_params[] = {
-    {"torque", PARAM_MOMENT, "N*m", NULL, "planar one number, spatial components along x, y, z", true},
-    {"in",     PARAM_WORD, NULL, "ground|body", "whose axes the components are in", false},
+    {"torque", PARAM_MOMENT, "N*m", NULL, "planar one number, spatial components along x, y, z", POSITIONAL | GIVES_LOAD},
+    {"in",     PARAM_WORD, NULL, "ground|body", "whose axes the components are in", 0},
 };
 
 static const Param spring_params[] = {
-    {"k",      PARAM_SCALAR, "N/m|N*m",     NULL, "stiffness", false},
-    {"length", PARAM_SCALAR, "m|rad",       "0",  "of the relaxed spring between two frames", false},
-    {"rest",   PARAM_SCALAR, "m|rad",       "0",  "coordinate at which a spring on a joint is relaxed", false},
-    {"d",      PARAM_SCALAR, "N*s/m|N*m*s", "0",  "damping beside the spring", false},
+    {"k",      PARAM_SCALAR, "N/m|N*m",     NULL, "stiffness", 0},
+    {"length", PARAM_SCALAR, "m|rad",       "0",  "of the relaxed spring between two frames", 0},
+    {"rest",   PARAM_SCALAR, "m|rad",       "0",  "coordinate at which a spring on a joint is relaxed", 0},
+    {"d",      PARAM_SCALAR, "N*s/m|N*m*s", "0",  "damping beside the spring", 0},
 };
 
 static const Param damper_params[] = {
-    {"d", PARAM_LAW, "N*s/m|N*m*s", NULL, "force per rate, against the motion", false},
+    {"d", PARAM_LAW, "N*s/m|N*m*s", NULL, "force per rate, against the motion", 0},
 };
 
 static const Param actuator_params[] = {
-    {"force",  PARAM_LAW, "N",   "0", "between two frames, or on a slide's coordinate", false},
-    {"torque", PARAM_LAW, "N*m", "0", "on the coordinate of a hinge", false},
+    {"force",  PARAM_LAW, "N",   "0", "between two frames, or on a slide's coordinate", GIVES_LOAD},
+    {"torque", PARAM_LAW, "N*m", "0", "on the coordinate of a hinge", GIVES_LOAD},
 };
 
 static const Member effort_members[] = {

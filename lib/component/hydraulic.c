@@ -6,30 +6,30 @@
 
 /* clang-format off */
 static const Param pipe_params[] = {
-    {"R", PARAM_LAW,    "Pa*s/m^3",   "0", "pressure per flow, of laminar flow", false},
-    {"k", PARAM_SCALAR, "Pa*s^2/m^6", "0", "pressure per flow squared, of turbulent flow: k*q*|q|", false},
+    {"R", PARAM_LAW,    "Pa*s/m^3",   "0", "pressure per flow, of laminar flow", 0},
+    {"k", PARAM_SCALAR, "Pa*s^2/m^6", "0", "pressure per flow squared, of turbulent flow: k*q*|q|", 0},
 };
 static const Param valve_params[] = {
-    {"R",    PARAM_SCALAR, "Pa*s/m^3",   "0",  "pressure per flow while it is open, of laminar flow", false},
-    {"k",    PARAM_SCALAR, "Pa*s^2/m^6", "0",  "pressure per flow squared while it is open: k*q*|q|", false},
-    {"when", PARAM_LAW,    NULL,         NULL, "condition under which it is open", false},
-    {"Roff", PARAM_SCALAR, "Pa*s/m^3",   "0",  "pressure per flow of what leaks through it closed; 0: nothing does", false},
+    {"R",    PARAM_SCALAR, "Pa*s/m^3",   "0",  "pressure per flow while it is open, of laminar flow", 0},
+    {"k",    PARAM_SCALAR, "Pa*s^2/m^6", "0",  "pressure per flow squared while it is open: k*q*|q|", 0},
+    {"when", PARAM_LAW,    NULL,         NULL, "condition under which it is open", 0},
+    {"Roff", PARAM_SCALAR, "Pa*s/m^3",   "0",  "pressure per flow of what leaks through it closed; 0: nothing does", 0},
 };
 static const Param tank_params[] = {
-    {"A",   PARAM_SCALAR, "m^2",    "0",    "area of the surface; C = A/(rho*g)", false},
-    {"rho", PARAM_SCALAR, "kg/m^3", "1000", "density of the liquid, with A=", false},
-    {"g",   PARAM_SCALAR, "m/s^2",  "9.81", "acceleration of free fall, with A=", false},
-    {"C",   PARAM_SCALAR, "m^3/Pa", "0",    "volume per pressure, instead of A=", false},
+    {"A",   PARAM_SCALAR, "m^2",    "0",    "area of the surface; C = A/(rho*g)", 0},
+    {"rho", PARAM_SCALAR, "kg/m^3", "1000", "density of the liquid, with A=", 0},
+    {"g",   PARAM_SCALAR, "m/s^2",  "9.81", "acceleration of free fall, with A=", 0},
+    {"C",   PARAM_SCALAR, "m^3/Pa", "0",    "volume per pressure, instead of A=", 0},
 };
 static const Param inertance_params[] = {
-    {"I", PARAM_SCALAR, "Pa*s^2/m^3", NULL, "pressure per rate of flow: density*length/area of a pipe", false},
+    {"I", PARAM_SCALAR, "Pa*s^2/m^3", NULL, "pressure per rate of flow: density*length/area of a pipe", 0},
 };
 static const Param pump_params[] = {
-    {"pressure", PARAM_LAW, "Pa",    "0", "of plus against minus, whatever the flow", false},
-    {"flow",     PARAM_LAW, "m^3/s", "0", "given to plus, taken from minus, whatever the pressure", false},
+    {"pressure", PARAM_LAW, "Pa",    "0", "of plus against minus, whatever the flow", GIVES_SOURCE},
+    {"flow",     PARAM_LAW, "m^3/s", "0", "given to plus, taken from minus, whatever the pressure", GIVES_SOURCE},
 };
 static const Param cylinder_params[] = {
-    {"area", PARAM_SCALAR, "m^2", NULL, "of the piston", false},
+    {"area", PARAM_SCALAR, "m^2", NULL, "of the piston", 0},
 };
 
 static const Member tank_members[] = {

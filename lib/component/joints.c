@@ -6,11 +6,11 @@
 
 /* clang-format off */
 static const Param axis_params[] = {
-    {"axis", PARAM_AXIS, "1", "z", "x y z -x -y -z, or a vector in the axes of the tail", false},
+    {"axis", PARAM_AXIS, "1", "z", "x y z -x -y -z, or a vector in the axes of the tail", 0},
 };
 
 static const Param normal_params[] = {
-    {"normal", PARAM_AXIS, "1", "z", "of the plane, in the axes of the tail", false},
+    {"normal", PARAM_AXIS, "1", "z", "of the plane, in the axes of the tail", 0},
 };
 
 static const CoordinateRow turn_coords[] = {{"", COORDINATE_ANGLE, true}};

@@ -5,14 +5,14 @@
 
 /* clang-format off */
 static const Param cross_params[] = {
-    {"axes", PARAM_AXES, "1", "x y", "the first in the axes of the tail, the second in those that the first turn made; square to each other", false},
+    {"axes", PARAM_AXES, "1", "x y", "the first in the axes of the tail, the second in those that the first turn made; square to each other", 0},
 };
 
 static const Param euler_params[] = {EULER_PARAM};
 
 static const CoordinateRow cross_coords[] = {
-    {"a1", COORDINATE_ANGLE, true},
-    {"a2", COORDINATE_ANGLE, true},
+    {"a1", COORDINATE_ANGLE, POSITIONAL},
+    {"a2", COORDINATE_ANGLE, POSITIONAL},
 };
 /* clang-format on */
 

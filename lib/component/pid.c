@@ -11,27 +11,27 @@
 
 /* clang-format off */
 static const Param pd_params[] = {
-    {"ref",    PARAM_LAW,    NULL, NULL, "what is wanted, any expression", false},
-    {"of",     PARAM_LAW,    NULL, NULL, "what is measured, any expression", false},
-    {"Kp",     PARAM_LAW,    NULL, NULL, "output per error, ref - of", false},
-    {"Kd",     PARAM_LAW,    NULL, NULL, "output per rate of the error", false},
-    {"filter", PARAM_SCALAR, "s",  "0",  "time constant of the rate", false},
+    {"ref",    PARAM_LAW,    NULL, NULL, "what is wanted, any expression", 0},
+    {"of",     PARAM_LAW,    NULL, NULL, "what is measured, any expression", 0},
+    {"Kp",     PARAM_LAW,    NULL, NULL, "output per error, ref - of", 0},
+    {"Kd",     PARAM_LAW,    NULL, NULL, "output per rate of the error", 0},
+    {"filter", PARAM_SCALAR, "s",  "0",  "time constant of the rate", 0},
     BLOCK_PARAMS,
 };
 static const Param pid_params[] = {
-    {"ref",     PARAM_LAW,    NULL, NULL, "what is wanted, any expression", false},
-    {"of",      PARAM_LAW,    NULL, NULL, "what is measured, any expression", false},
-    {"Kp",      PARAM_LAW,    NULL, NULL, "output per error, ref - of", false},
-    {"Ki",      PARAM_LAW,    NULL, NULL, "output per integral of the error", false},
-    {"Kd",      PARAM_LAW,    NULL, "0",  "output per rate of the error", false},
-    {"filter",  PARAM_SCALAR, "s",  "0",  "time constant of the rate", false},
-    {"initial", PARAM_SCALAR, NULL, "0",  "the integral at the start", false},
+    {"ref",     PARAM_LAW,    NULL, NULL, "what is wanted, any expression", 0},
+    {"of",      PARAM_LAW,    NULL, NULL, "what is measured, any expression", 0},
+    {"Kp",      PARAM_LAW,    NULL, NULL, "output per error, ref - of", 0},
+    {"Ki",      PARAM_LAW,    NULL, NULL, "output per integral of the error", 0},
+    {"Kd",      PARAM_LAW,    NULL, "0",  "output per rate of the error", 0},
+    {"filter",  PARAM_SCALAR, "s",  "0",  "time constant of the rate", 0},
+    {"initial", PARAM_SCALAR, NULL, "0",  "the integral at the start", 0},
     BLOCK_PARAMS,
 };
 static const Param transfer_params[] = {
-    {"of",  PARAM_LAW,  NULL, NULL, "the input, any expression", false},
-    {"num", PARAM_LIST, NULL, NULL, "coefficients of the numerator, highest power first", false},
-    {"den", PARAM_LIST, NULL, NULL, "those of the denominator", false},
+    {"of",  PARAM_LAW,  NULL, NULL, "the input, any expression", 0},
+    {"num", PARAM_LIST, NULL, NULL, "coefficients of the numerator, highest power first", 0},
+    {"den", PARAM_LIST, NULL, NULL, "those of the denominator", 0},
     BLOCK_PARAMS,
 };
 

@@ -8,8 +8,8 @@
 
 /* clang-format off */
 static const Param screw_params[] = {
-    {"pitch", PARAM_SCALAR, "m", NULL, "shift along the axis for one full turn; negative for a left-hand thread", false},
-    {"axis",  PARAM_AXIS,   "1", "z",  "x y z -x -y -z, or a vector in the axes of the tail", false},
+    {"pitch", PARAM_SCALAR, "m", NULL, "shift along the axis for one full turn; negative for a left-hand thread", 0},
+    {"axis",  PARAM_AXIS,   "1", "z",  "x y z -x -y -z, or a vector in the axes of the tail", 0},
 };
 
 static const CoordinateRow screw_coords[] = {{"theta", COORDINATE_ANGLE, true}};

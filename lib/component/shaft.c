@@ -6,20 +6,20 @@
 
 /* clang-format off */
 static const Param flywheel_params[] = {
-    {"J", PARAM_SCALAR, "kg*m^2", NULL, "moment of inertia", false},
+    {"J", PARAM_SCALAR, "kg*m^2", NULL, "moment of inertia", 0},
 };
 static const Param shaft_params[] = {
-    {"k", PARAM_SCALAR, "N*m/rad",   "0", "torque per twist; 0: a damper alone", false},
-    {"d", PARAM_SCALAR, "N*m*s/rad", "0", "torque per rate, beside the spring", false},
+    {"k", PARAM_SCALAR, "N*m/rad",   "0", "torque per twist; 0: a damper alone", 0},
+    {"d", PARAM_SCALAR, "N*m*s/rad", "0", "torque per rate, beside the spring", 0},
 };
 static const Param gear_params[] = {
-    {"ratio", PARAM_SCALAR, "1", NULL, "turns of the first shaft for one of the second", false},
+    {"ratio", PARAM_SCALAR, "1", NULL, "turns of the first shaft for one of the second", 0},
 };
 static const Param torquesource_params[] = {
-    {"value", PARAM_LAW, "N*m", NULL, "torque on the first terminal, of t, parameters and variables", true},
+    {"value", PARAM_LAW, "N*m", NULL, "torque on the first terminal, of t, parameters and variables", POSITIONAL | GIVES_SOURCE},
 };
 static const Param speedsource_params[] = {
-    {"value", PARAM_LAW, "rad/s", NULL, "rate of the first terminal against the second", true},
+    {"value", PARAM_LAW, "rad/s", NULL, "rate of the first terminal against the second", POSITIONAL | GIVES_SOURCE},
 };
 
 static const Member flywheel_members[] = {

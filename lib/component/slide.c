@@ -6,17 +6,17 @@
 
 /* clang-format off */
 static const Param slug_params[] = {
-    {"m", PARAM_SCALAR, "kg", NULL, "mass", false},
+    {"m", PARAM_SCALAR, "kg", NULL, "mass", 0},
 };
 static const Param rod_params[] = {
-    {"k", PARAM_SCALAR, "N/m",   "0", "force per deflection; 0: a damper alone", false},
-    {"d", PARAM_SCALAR, "N*s/m", "0", "force per velocity, beside the spring", false},
+    {"k", PARAM_SCALAR, "N/m",   "0", "force per deflection; 0: a damper alone", 0},
+    {"d", PARAM_SCALAR, "N*s/m", "0", "force per velocity, beside the spring", 0},
 };
 static const Param forcesource_params[] = {
-    {"value", PARAM_LAW, "N", NULL, "force on the first terminal, of t, parameters and variables", true},
+    {"value", PARAM_LAW, "N", NULL, "force on the first terminal, of t, parameters and variables", POSITIONAL | GIVES_SOURCE},
 };
 static const Param velocitysource_params[] = {
-    {"value", PARAM_LAW, "m/s", NULL, "velocity of the first terminal against the second", true},
+    {"value", PARAM_LAW, "m/s", NULL, "velocity of the first terminal against the second", POSITIONAL | GIVES_SOURCE},
 };
 
 static const Member slug_members[] = {

@@ -13,16 +13,16 @@
 
 /* clang-format off */
 static const Param diode_params[] = {
-    {"Is",   PARAM_LAW, "A",   "0", "saturation current: makes it exponential", false},
-    {"n",    PARAM_LAW, "1",   "1", "emission coefficient, with Is=", false},
-    {"Ron",  PARAM_LAW, "ohm", "0", "resistance above the forward voltage; 0 if not given", false},
-    {"Roff", PARAM_LAW, "ohm", "0", "resistance below it, with Ron=; nothing flows if not given", false},
-    {"Vf",   PARAM_LAW, "V",   "0", "forward voltage, from which on it conducts; not with Is=", false},
+    {"Is",   PARAM_LAW, "A",   "0", "saturation current: makes it exponential", 0},
+    {"n",    PARAM_LAW, "1",   "1", "emission coefficient, with Is=", 0},
+    {"Ron",  PARAM_LAW, "ohm", "0", "resistance above the forward voltage; 0 if not given", 0},
+    {"Roff", PARAM_LAW, "ohm", "0", "resistance below it, with Ron=; nothing flows if not given", 0},
+    {"Vf",   PARAM_LAW, "V",   "0", "forward voltage, from which on it conducts; not with Is=", 0},
 };
 static const Param switch_params[] = {
-    {"when", PARAM_LAW, NULL,  NULL, "the condition that closes it, as t > 0.1 or h8 < 0", false},
-    {"Ron",  PARAM_LAW, "ohm", "0",  "resistance when it is closed", false},
-    {"Roff", PARAM_LAW, "ohm", "0",  "resistance when it is open; nothing flows if not given", false},
+    {"when", PARAM_LAW, NULL,  NULL, "the condition that closes it, as t > 0.1 or h8 < 0", 0},
+    {"Ron",  PARAM_LAW, "ohm", "0",  "resistance when it is closed", 0},
+    {"Roff", PARAM_LAW, "ohm", "0",  "resistance when it is open; nothing flows if not given", 0},
 };
 /* clang-format on */
 

@@ -6,16 +6,16 @@
 
 /* clang-format off */
 static const Param heatcap_params[] = {
-    {"C", PARAM_SCALAR, "J/K", NULL, "heat per temperature: mass times specific heat", false},
+    {"C", PARAM_SCALAR, "J/K", NULL, "heat per temperature: mass times specific heat", 0},
 };
 static const Param heatres_params[] = {
-    {"R", PARAM_LAW, "K/W", NULL, "temperature per heat flow", false},
+    {"R", PARAM_LAW, "K/W", NULL, "temperature per heat flow", 0},
 };
 static const Param heatsource_params[] = {
-    {"value", PARAM_LAW, "W", NULL, "heat flow into the first terminal, of t, parameters and variables", true},
+    {"value", PARAM_LAW, "W", NULL, "heat flow into the first terminal, of t, parameters and variables", POSITIONAL | GIVES_SOURCE},
 };
 static const Param tempsource_params[] = {
-    {"value", PARAM_LAW, "K", NULL, "temperature of the first terminal against the second", true},
+    {"value", PARAM_LAW, "K", NULL, "temperature of the first terminal against the second", POSITIONAL | GIVES_SOURCE},
 };
 
 static const Member heatcap_members[] = {

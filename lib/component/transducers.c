@@ -14,32 +14,32 @@
 
 /* clang-format off */
 static const Param motor_params[] = {
-    {"R",     PARAM_SCALAR, "ohm",       NULL, "resistance of the winding", false},
-    {"L",     PARAM_SCALAR, "H",         "0",  "its inductance; 0 makes the current algebraic", false},
-    {"Kt",    PARAM_SCALAR, "N*m/A",     "0",  "torque per current, at the motor's shaft; as Kv if not given", false},
-    {"Kv",    PARAM_SCALAR, "V*s/rad",   "0",  "voltage per rate, at the motor's shaft; as Kt if not given", false},
-    {"J",     PARAM_SCALAR, "kg*m^2",    "0",  "inertia of the rotor, at the motor's shaft", false},
-    {"B",     PARAM_SCALAR, "N*m*s/rad", "0",  "friction per rate, at the motor's shaft", false},
-    {"ratio", PARAM_SCALAR, "1",         "1",  "turns of the motor's shaft for one of the joint", false},
+    {"R",     PARAM_SCALAR, "ohm",       NULL, "resistance of the winding", 0},
+    {"L",     PARAM_SCALAR, "H",         "0",  "its inductance; 0 makes the current algebraic", 0},
+    {"Kt",    PARAM_SCALAR, "N*m/A",     "0",  "torque per current, at the motor's shaft; as Kv if not given", 0},
+    {"Kv",    PARAM_SCALAR, "V*s/rad",   "0",  "voltage per rate, at the motor's shaft; as Kt if not given", 0},
+    {"J",     PARAM_SCALAR, "kg*m^2",    "0",  "inertia of the rotor, at the motor's shaft", 0},
+    {"B",     PARAM_SCALAR, "N*m*s/rad", "0",  "friction per rate, at the motor's shaft", 0},
+    {"ratio", PARAM_SCALAR, "1",         "1",  "turns of the motor's shaft for one of the joint", 0},
 };
 
 static const Param platecap_params[] = {
-    {"C", PARAM_LAW, "F", NULL, "capacitance, an expression of the coordinate: eps*A/(d - s)", false},
+    {"C", PARAM_LAW, "F", NULL, "capacitance, an expression of the coordinate: eps*A/(d - s)", 0},
 };
 static const Param solenoid_params[] = {
-    {"L", PARAM_LAW,    "H",   NULL, "inductance, an expression of the coordinate", false},
-    {"R", PARAM_SCALAR, "ohm", "0",  "resistance of the winding", false},
+    {"L", PARAM_LAW,    "H",   NULL, "inductance, an expression of the coordinate", 0},
+    {"R", PARAM_SCALAR, "ohm", "0",  "resistance of the winding", 0},
 };
 static const Param voicecoil_params[] = {
-    {"K", PARAM_LAW,    "N/A|N*m/A", NULL, "force per current, which is voltage per rate", false},
-    {"R", PARAM_SCALAR, "ohm",       "0",  "resistance of the winding", false},
-    {"L", PARAM_SCALAR, "H",         "0",  "its inductance; 0 makes the current algebraic", false},
+    {"K", PARAM_LAW,    "N/A|N*m/A", NULL, "force per current, which is voltage per rate", 0},
+    {"R", PARAM_SCALAR, "ohm",       "0",  "resistance of the winding", 0},
+    {"L", PARAM_SCALAR, "H",         "0",  "its inductance; 0 makes the current algebraic", 0},
 };
 static const Param piezo_params[] = {
-    {"C",    PARAM_SCALAR, "F",           NULL, "capacitance of the stack held at its length", false},
-    {"d",    PARAM_SCALAR, "m/V|rad/V",   NULL, "free stroke per voltage", false},
-    {"k",    PARAM_SCALAR, "N/m|N*m/rad", NULL, "stiffness at constant voltage", false},
-    {"rest", PARAM_SCALAR, "m|rad",       "0",  "the coordinate at which it is neither pushed nor charged", false},
+    {"C",    PARAM_SCALAR, "F",           NULL, "capacitance of the stack held at its length", 0},
+    {"d",    PARAM_SCALAR, "m/V|rad/V",   NULL, "free stroke per voltage", 0},
+    {"k",    PARAM_SCALAR, "N/m|N*m/rad", NULL, "stiffness at constant voltage", 0},
+    {"rest", PARAM_SCALAR, "m|rad",       "0",  "the coordinate at which it is neither pushed nor charged", 0},
 };
 
 static const Member capacitive_members[] = {

@@ -7,14 +7,14 @@
 
 /* clang-format off */
 static const Param transformer_params[] = {
-    {"n", PARAM_LAW, "1", NULL, "turns of the first side for one of the second", false},
+    {"n", PARAM_LAW, "1", NULL, "turns of the first side for one of the second", 0},
 };
 static const Param gyrator_params[] = {
-    {"r", PARAM_LAW, "ohm", NULL, "voltage of either side per current of the other", false},
+    {"r", PARAM_LAW, "ohm", NULL, "voltage of either side per current of the other", 0},
 };
 static const Param potentiometer_params[] = {
-    {"R",  PARAM_LAW, "ohm", NULL, "resistance from end to end", false},
-    {"at", PARAM_LAW, "1",   NULL, "where the wiper stands: 0 at A, 1 at B", false},
+    {"R",  PARAM_LAW, "ohm", NULL, "resistance from end to end", 0},
+    {"at", PARAM_LAW, "1",   NULL, "where the wiper stands: 0 at A, 1 at B", 0},
 };
 
 static const Member sides[] = {

@@ -46,7 +46,7 @@ TreeKind branch_tree(const System *system, const Branchlike *branch)
 /* a source whose value an inverse run finds: that unknown in the place of the value */
 static void found_value(System *system, Instance *source)
 {
-    int param = component_param(source->row, "value");
+    int param = component_source(source->row);
     size_t size = (size_t)source->row->param_count * sizeof(Value);
 
     for (int i = 0; i < system->drives.count; i++) {

@@ -41,16 +41,9 @@ typedef struct Space {
 /* the value of a source that nothing else decides */
 static bool is_source(const Instance *instance, int param)
 {
-    static const char *const names[] = {"value", "pressure", "flow"};
-    const Value *value = &instance->values[param];
-
-    if (instance->row->family != FAMILY_SCALAR || value->count != 1 || value->at[0] == NULL ||
-        (expr_kinds(value->at[0]) & ~constant_kinds) != 0)
-        return false;
-    for (int i = 0; i < COUNT(names); i++)
-        if (strcmp(instance->row->params[param].name, names[i]) == 0)
-            return value->given || instance->row->params[param].positional;
-    return false;
+    return param == instance_input(instance) &&
+           (instance->row->params[param].use & GIVES_SOURCE) != 0 &&
+           (expr_kinds(instance->values[param].at[0]) & ~constant_kinds) == 0;
 }
 
 static void find_sources(Space *s)

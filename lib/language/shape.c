@@ -159,7 +159,7 @@ static Status read_values_maybe(Parser *parser, Statement *statement)
     Status status = OK;
 
     for (int i = 0; row != NULL && i < row->param_count; i++)
-        most += row->params[i].positional ? 1 : 0;
+        most += (row->params[i].use & POSITIONAL) != 0;
     while (most-- > 0 && !parser_ends(parser) && !parser_sees_pair(parser))
         CHECK(read_value(parser, statement));
 done:

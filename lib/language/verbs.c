@@ -163,7 +163,7 @@ void verb_usage(Text *text, const Verb *verb)
         const Param *param = &row->params[i];
         bool must = param->fallback == NULL;
 
-        if (param->positional)
+        if ((param->use & POSITIONAL) != 0)
             text_addf(text, must ? " %s" : " [%s]", param->name);
         else if (param->kind == PARAM_WORD)
             add_words(text, param);

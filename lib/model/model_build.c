@@ -27,7 +27,7 @@ static Status read_positional(Draft *draft)
     Text form = {0};
 
     for (int i = 0; i < row->param_count && draft->at < draft->statement->operands.count; i++) {
-        if (!row->params[i].positional)
+        if ((row->params[i].use & POSITIONAL) == 0)
             continue;
         operand = &draft->statement->operands.at[draft->at++];
         CHECK(give(draft, i, operand->value, operand->place));
@@ -76,7 +76,7 @@ static Status read_by(Draft *draft, const Pair *pair)
     if (source == NULL || source->row->family != FAMILY_SCALAR)
         return coordinate_resolve(draft->state, name, pair->value->place, &part->by,
                                   &part->by_coordinate, draft->diag);
-    if (component_param(source->row, "value") < 0) {
+    if (component_source(source->row) < 0) {
         (void)diag_at(draft->diag, E_VALUE, pair->value->place, "%s is a %s, not a source", name,
                       source->row->name);
         diag_hint(draft->diag, "a vsource or isource can supply a motion");
@@ -133,7 +133,8 @@ static Status read_values(Draft *draft)
             continue;
         if (param->fallback == NULL) {
             status = diag_at(draft->diag, E_VALUE, statement_end(statement), "%s %s needs %s%s",
-                             row->name, part->name, param->name, param->positional ? "" : "=");
+                             row->name, part->name, param->name,
+                             (param->use & POSITIONAL) != 0 ? "" : "=");
             diag_hint(draft->diag, "%s: %s", param->name, param->meaning);
             goto done;
         }

@@ -92,7 +92,7 @@ done:
 
 Status apply_gravity(State **state, const Statement *statement, Outcome *outcome, Diag *diag)
 {
-    static const Param param = {"gravity", PARAM_VECTOR, "m/s^2", NULL, "", true};
+    static const Param param = {"gravity", PARAM_VECTOR, "m/s^2", NULL, "", POSITIONAL};
     State *s = *state;
     Scope scope = {.state = s};
     Value value = {0};

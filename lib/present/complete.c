@@ -401,7 +401,7 @@ static bool takes_value(const Verb *verb)
     bool takes = verb->component == NULL;
 
     for (int i = 0; !takes && i < verb->component->param_count; i++)
-        takes = verb->component->params[i].positional;
+        takes = (verb->component->params[i].use & POSITIONAL) != 0;
     return takes;
 }
 

@@ -308,9 +308,7 @@ static bool input_dimension(const Model *model, const char *name, Dimension *out
 
     if (source == NULL)
         return text_dimension(model, name, out);
-    param = component_param(source->row, "value");
-    if (param < 0)
-        param = component_param(source->row, source->on_angle ? "torque" : "force");
+    param = instance_input(source);
     if (param < 0 || source->row->params[param].unit == NULL ||
         !unit_parse(source->row->params[param].unit, strlen(source->row->params[param].unit), &unit,
                     &fault))

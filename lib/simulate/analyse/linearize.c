@@ -19,18 +19,6 @@ typedef struct Vary {
     Expr since; /* time from the point on */
 } Vary;
 
-/* the value that an input adds to: of a source, of an actuator */
-static bool is_input(const Instance *instance, int param)
-{
-    static const char *const names[] = {"value", "force", "torque", "pressure", "flow"};
-    const Param *row = &instance->row->params[param];
-
-    for (int i = 0; i < COUNT(names); i++)
-        if (strcmp(row->name, names[i]) == 0 && instance->values[param].count == 1)
-            return row->positional || instance->values[param].given;
-    return false;
-}
-
 static Expr vary(void *context, const Instance *instance, int param, Expr value)
 {
     const Vary *v = context;
@@ -38,7 +26,8 @@ static Expr vary(void *context, const Instance *instance, int param, Expr value)
     for (int i = 0; instance != NULL && i < v->order->input_count; i++) {
         const char *source = v->order->inputs[i].source;
 
-        if (source != NULL && strcmp(source, instance->name) == 0 && is_input(instance, param))
+        if (source != NULL && strcmp(source, instance->name) == 0 &&
+            param == instance_input(instance))
             value = expr_sum(
                 v->arena,
                 (Expr[]){value, v->symbols[i],
@@ -65,11 +54,8 @@ static Status check_input(const LinearOrder *order, int i, Diag *diag)
 
     if (name == NULL)
         return OK;
-    for (int k = 0; instance != NULL && instance->row->family != FAMILY_DRIVER &&
-                    k < instance->row->param_count;
-         k++)
-        if (is_input(instance, k))
-            return OK;
+    if (instance != NULL && instance_input(instance) >= 0)
+        return OK;
     (void)diag_set(diag, E_NAME, "%s has no value that an input could be", name);
     diag_hint(diag, "inputs are sources, actuators, and parameters: F = 0 N; force "
                     "F1 m1 [F, 0]; linearize inputs=[F]");

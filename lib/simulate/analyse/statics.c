@@ -57,23 +57,13 @@ typedef struct Vary {
     Expr time, zero, load;
 } Vary;
 
-static bool is_load(const Instance *instance, int param)
-{
-    static const char *const names[] = {"value", "force", "torque", "pressure", "flow"};
-
-    for (int i = 0; i < COUNT(names) && instance->row->family != FAMILY_DRIVER; i++)
-        if (strcmp(instance->row->params[param].name, names[i]) == 0)
-            return true;
-    return false;
-}
-
 static Expr vary(void *context, const Instance *instance, int param, Expr value)
 {
     const Vary *v = context;
     Expr still = expr_substitute(v->arena, value, &v->time, &v->zero, 1);
+    const bool acts = instance == NULL || (instance->row->params[param].use & GIVES) != 0;
 
-    return instance == NULL || is_load(instance, param) ? expr_mul(v->arena, v->load, still)
-                                                        : still;
+    return acts ? expr_mul(v->arena, v->load, still) : still;
 }
 
 static double parameter(void *context, Expr symbol)
