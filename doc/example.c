@@ -2,16 +2,15 @@
 #include <cotree.h>
 
 #include <stdio.h>
-#include <string.h>
 
 /* carry out one line: the model takes what builds, ct_run() what runs */
 static ct_status line_do(ct_session *session, const char *line, ct_error *error)
 {
-    size_t next = 0;
+    ct_cursor cursor = {.text = line, .line = 1};
 
-    while (next < strlen(line)) {
+    while (line[cursor.next] != '\0') {
         ct_statement *statement;
-        ct_status status = ct_parse(line, 1, false, &next, &statement, error);
+        ct_status status = ct_parse(&cursor, false, &statement, error);
 
         if (status != CT_OK)
             return status;
@@ -43,11 +42,11 @@ int main(void)
         status = line_do(session, lines[i], &error);
 
     if (status == CT_OK) {
-        size_t next = 0;
+        ct_cursor question = {.text = "print h", .line = 1};
         ct_statement *statement;
         double angle;
 
-        status = ct_parse("print h", 1, false, &next, &statement, &error);
+        status = ct_parse(&question, false, &statement, &error);
         if (status == CT_OK) {
             status = ct_value(session, ct_operand(statement, 0), NULL, &angle, &error);
             ct_statement_free(statement);

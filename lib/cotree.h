@@ -64,12 +64,19 @@ void ct_free(void *piece);
 
 /* --- statements --- */
 
-/* Read the next statement of a logical line (physical lines joined by a backslash at their ends).
- * `*next`: offset to start from, 0 first; afterwards that of the next statement, the length
- * at the end. `shortened`: verbs may be shortened. *out is new (ct_statement_free) and may be
- * empty. */
-ct_status ct_parse(const char *text, int line, bool shortened, size_t *next, ct_statement **out,
-                   ct_error *error);
+/* A text of statements and how far it was read; {.text = text, .line = 1} begins. */
+typedef struct ct_cursor {
+    const char *text;  /* the caller's; any number of lines */
+    size_t next;       /* offset of the next statement; the text's length at the end */
+    int line;          /* number of the physical line there */
+    size_t line_start; /* offset at which that line begins */
+} ct_cursor;
+
+/* Read the next statement, and step over it; after an error the cursor stays where it is. A
+ * logical line is physical lines joined by a backslash at their ends. `shortened`: verbs may be
+ * shortened. *out is new (ct_statement_free) and may be empty. Reading a text to its end costs its
+ * length. */
+ct_status ct_parse(ct_cursor *cursor, bool shortened, ct_statement **out, ct_error *error);
 void ct_statement_free(ct_statement *statement);
 bool ct_statement_is_empty(const ct_statement *statement);
 const char *ct_statement_text(const ct_statement *statement);

@@ -287,14 +287,14 @@ static ct_status plot(Call *call, const char *path, ct_error *error)
 static ct_status plot_again(Call *call, const char *path, ct_error *error)
 {
     ct_statement *last = NULL;
-    size_t next = 0;
+    ct_cursor cursor = {.text = call->shell->last_plot, .line = 1};
 
     if (call->shell->last_plot == NULL)
         return ct_error_at(call->statement, ct_operand(call->statement, 0), error,
                            "nothing was plotted yet");
 
     ct_error why;
-    ct_status status = ct_parse(call->shell->last_plot, 1, true, &next, &last, &why);
+    ct_status status = ct_parse(&cursor, true, &last, &why);
     Call again = *call;
 
     again.statement = last;

@@ -254,51 +254,22 @@ static void complete(Shell *shell, const char *line)
     ct_words_free(words);
 }
 
-/* A logical line and how far it was run. The library reads what is left as a text of its own, since
- * it would count lines from the text's beginning for each statement. */
-typedef struct Line {
-    const Origin *origin;
-    const char *text;
-    size_t next;
-    int number;   /* of the physical line that goes on at `next` */
-    size_t begin; /* of it in the text */
-} Line;
-
-static void step_lines(Line *line, size_t to)
+/* the next statement of a logical line */
+static ct_status run_next(Shell *shell, const Origin *origin, ct_cursor *line, bool shortened)
 {
-    for (; line->next < to; line->next++)
-        if (line->text[line->next] == '\n') {
-            line->number++;
-            line->begin = line->next + 1;
-        }
-}
-
-/* from a place in the rest to that in the line */
-static void shift_place(const Line *line, ct_error *error)
-{
-    if (error->line == line->number && error->column > 0)
-        error->column += (int)(line->next - line->begin);
-}
-
-static ct_status run_next(Shell *shell, Line *line, bool shortened)
-{
-    const Origin *origin = line->origin;
-    const char *text = line->text + line->next;
-    size_t next = 0;
-
     ct_statement *statement = NULL;
     ct_error error = {.status = CT_OK};
     bool timed = false;
 
-    if (step_over(text, &next, "complete", true)) {
-        complete(shell, text + next);
-        line->next += strlen(text);
+    if (step_over(line->text, &line->next, "complete", true)) {
+        complete(shell, line->text + line->next);
+        line->next += strlen(line->text + line->next);
         return CT_OK;
     }
-    while (step_over(text, &next, "time", false))
+    while (step_over(line->text, &line->next, "time", false))
         timed = true;
 
-    ct_status status = ct_parse(text, line->number, shortened, &next, &statement, &error);
+    ct_status status = ct_parse(line, shortened, &statement, &error);
 
     if (status == CT_OK && !ct_statement_is_empty(statement)) {
         double began = progress_clock();
@@ -309,37 +280,36 @@ static ct_status run_next(Shell *shell, Line *line, bool shortened)
     }
 
     /* what happened in another file was told there: here is the way to it */
-    shift_place(line, &error);
     if (status != CT_OK && error.message[0] != '\0')
         complain(origin, line->text, &error);
     else if (status != CT_OK && origin->name != NULL)
         remark("%s:%d: in %s", origin->name, origin->line, ct_statement_text(statement));
     ct_statement_free(statement);
-    step_lines(line, line->next + next);
     return status;
 }
 
 /* after Ctrl-C between statements of a line */
-static ct_status stop_line(const Line *line)
+static ct_status stop_line(const Origin *origin, const char *text)
 {
     ct_error error;
 
     error_say(&error, "the rest of the line was not run");
     error.status = CT_STOPPED;
-    complain(line->origin, line->text, &error);
+    complain(origin, text, &error);
     return CT_STOPPED;
 }
 
 ct_status shell_run_line(Shell *shell, const Origin *origin, const char *text, bool shortened)
 {
-    Line line = {.origin = origin, .text = text, .number = origin->line};
+    ct_cursor line = {.text = text, .line = origin->line};
     ct_status status = CT_OK;
 
     while (status == CT_OK) {
-        step_lines(&line, line.next + strspn(text + line.next, " \t;"));
+        line.next += strspn(text + line.next, " \t;");
         if (text[line.next] == '\0' || shell->quitting)
             break;
-        status = interrupt_asked() ? stop_line(&line) : run_next(shell, &line, shortened);
+        status =
+            interrupt_asked() ? stop_line(origin, text) : run_next(shell, origin, &line, shortened);
     }
     return status;
 }

@@ -293,7 +293,7 @@ Status parse_expression(Parser *parser, Syntax **out)
 
 Status syntax_parse_expression(const char *text, Pool *pool, Syntax **out, Diag *diag)
 {
-    Lexer lexer = lexer_start(text, 0, 1, pool);
+    Lexer lexer = lexer_start(&(Cursor){.text = text, .line = 1}, pool);
     Parser parser = {.text = text, .pool = pool, .diag = diag};
     Status status = OK;
     Syntax *read = NULL;

@@ -12,17 +12,28 @@
 
 enum { LONGEST_NAME = 1000 }; /* dots and members included */
 
-Lexer lexer_start(const char *text, size_t offset, int line, Pool *pool)
+Cursor cursor_at(const char *text, int line, size_t offset)
 {
-    Lexer lexer = {.text = text, .at = offset, .line = line, .pool = pool};
+    Cursor cursor = {.text = text, .line = line, .next = offset};
 
     for (size_t i = 0; i < offset; i++)
         if (text[i] == '\n' || (text[i] == '\r' && text[i + 1] != '\n')) {
-            lexer.line++;
-            lexer.line_start = i + 1;
+            cursor.line++;
+            cursor.line_start = i + 1;
         }
+    return cursor;
+}
+
+Lexer lexer_start(const Cursor *cursor, Pool *pool)
+{
+    Lexer lexer = {.text = cursor->text,
+                   .at = cursor->next,
+                   .line = cursor->line,
+                   .line_start = cursor->line_start,
+                   .pool = pool};
+
     /* what some editors put before the first line */
-    if (offset == 0 && strncmp(text, "\xEF\xBB\xBF", 3) == 0)
+    if (lexer.at == 0 && strncmp(lexer.text, "\xEF\xBB\xBF", 3) == 0)
         lexer.at = 3;
     return lexer;
 }
@@ -376,7 +387,7 @@ done:
     return status;
 }
 
-Status lexer_finish(Lexer *lexer, size_t *next, Diag *diag)
+Status lexer_finish(Lexer *lexer, Diag *diag)
 {
     Status status = OK;
 
@@ -392,20 +403,29 @@ Status lexer_finish(Lexer *lexer, size_t *next, Diag *diag)
             else
                 CHECK(step_character(lexer, diag));
         }
-        lexer->at += line_break(lexer->text + lexer->at);
+        if (lexer->text[lexer->at] != '\0')
+            step_line(lexer, line_break(lexer->text + lexer->at));
     }
-    *next = lexer->at;
 done:
     return status;
 }
 
-size_t lexer_line_end(const Lexer *lexer)
+void lexer_skip_line(Lexer *lexer)
 {
-    size_t at = lexer->at;
+    while (lexer->text[lexer->at] != '\0' && line_break(lexer->text + lexer->at) == 0) {
+        size_t length = joint(lexer->text + lexer->at);
 
-    while (lexer->text[at] != '\0' && line_break(lexer->text + at) == 0)
-        at += joint(lexer->text + at) > 0 ? joint(lexer->text + at) : 1;
-    return at;
+        if (length > 0)
+            step_line(lexer, length);
+        else
+            lexer->at++;
+    }
+}
+
+void lexer_skip_breaks(Lexer *lexer)
+{
+    while (line_break(lexer->text + lexer->at) > 0)
+        step_line(lexer, line_break(lexer->text + lexer->at));
 }
 
 const char *text_slice(Pool *pool, const char *text, size_t start, size_t end)

@@ -33,20 +33,33 @@ typedef struct Lexer {
     Token last; /* the token before, where touching matters */
 } Lexer;
 
-/* Start at an offset of a text whose first line has that number. */
-Lexer lexer_start(const char *text, size_t offset, int line, Pool *pool);
+/* A text of statements and how far it was read; {.text = text, .line = 1} begins. What lines went
+ * before is remembered, since counting them anew for each statement costs their square. */
+typedef struct Cursor {
+    const char *text; /* borrowed */
+    size_t next;      /* offset of the next statement */
+    int line;         /* number of the physical line there */
+    size_t line_start;
+} Cursor;
+
+/* A text of which the statements before an offset were read. O(offset). */
+Cursor cursor_at(const char *text, int line, size_t offset);
+
+/* Start where a text was read to. */
+Lexer lexer_start(const Cursor *cursor, Pool *pool);
 
 /* Read the next token. At the end of a statement the lexer stays before what ended it, and gives
  * TOKEN_END again. Fails with E_SYNTAX at a character that no token has, a string without an end,
  * bytes that aren't UTF-8 or a number too large for a double. */
 MUST_USE Status lexer_next(Lexer *lexer, Token *token, Diag *diag);
 
-/* Step over what ended the statement, comment included: the offset of the next one. Fails with
- * E_SYNTAX at bytes of a comment that aren't UTF-8. */
-MUST_USE Status lexer_finish(Lexer *lexer, size_t *next, Diag *diag);
+/* Step over what ended the statement, comment included, to the next one. Fails with E_SYNTAX at
+ * bytes of a comment that aren't UTF-8. */
+MUST_USE Status lexer_finish(Lexer *lexer, Diag *diag);
 
-/* The offset at which the logical line ends. */
-size_t lexer_line_end(const Lexer *lexer);
+/* Step to the end of the logical line, and over it and the empty lines that follow. */
+void lexer_skip_line(Lexer *lexer);
+void lexer_skip_breaks(Lexer *lexer);
 
 /* A stretch of a text as one line: where a "\" joined lines stands one blank. New in `pool`. */
 const char *text_slice(Pool *pool, const char *text, size_t start, size_t end);

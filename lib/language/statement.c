@@ -340,9 +340,11 @@ static bool takes_line(Lexer lexer, Verb *verb, Token *token)
 }
 
 static void parse_line(Parser *parser, Lexer *lexer, const Verb *verb, const Token *token,
-                       Statement *statement, size_t *next)
+                       Statement *statement)
 {
-    size_t end = lexer_line_end(lexer);
+    lexer_skip_line(lexer);
+
+    size_t end = lexer->at;
     size_t start = token->end < end ? token->end + 1 : end;
     Syntax *line = pool_alloc(parser->pool, sizeof *line);
     Place place = token->place;
@@ -362,41 +364,49 @@ static void parse_line(Parser *parser, Lexer *lexer, const Verb *verb, const Tok
     statement->verb_place = token->place;
     statement->place = token->place;
     statement->text = text_slice(parser->pool, parser->text, token->start, end);
-    while (parser->text[end] == '\r' || parser->text[end] == '\n')
-        end++;
-    *next = end;
+    lexer_skip_breaks(lexer);
 }
 
-Status statement_parse(const char *text, int line, SyntaxOptions options, size_t *next,
-                       Statement **out, Diag *diag)
+Status statement_read(Cursor *cursor, SyntaxOptions options, Statement **out, Diag *diag)
 {
     Statement *statement = NEW(Statement);
     Pool *pool = pool_new(4096);
-    Lexer lexer = lexer_start(text, *next, line, pool);
-    Parser parser = {.text = text, .pool = pool, .options = options, .diag = diag};
+    Lexer lexer = lexer_start(cursor, pool);
+    Parser parser = {.text = cursor->text, .pool = pool, .options = options, .diag = diag};
     Status status = OK;
-    size_t end = *next;
     Token first;
     Verb verb;
 
     statement->pool = pool;
     statement->text = "";
     if (takes_line(lexer, &verb, &first))
-        parse_line(&parser, &lexer, &verb, &first, statement, &end);
+        parse_line(&parser, &lexer, &verb, &first, statement);
     else {
         CHECK(parser_start(&parser, &lexer));
-        CHECK(lexer_finish(&lexer, &end, diag));
+        CHECK(lexer_finish(&lexer, diag));
         if (!parser_ends(&parser))
             CHECK(parse_statement(&parser, statement));
         else
             statement->place = parser_token(&parser)->place;
     }
-    *next = end;
+    cursor->next = lexer.at;
+    cursor->line = lexer.line;
+    cursor->line_start = lexer.line_start;
     *out = statement;
     statement = NULL;
 done:
     parser_free(&parser);
     statement_free(statement);
+    return status;
+}
+
+Status statement_parse(const char *text, int line, SyntaxOptions options, size_t *next,
+                       Statement **out, Diag *diag)
+{
+    Cursor cursor = cursor_at(text, line, *next);
+    const Status status = statement_read(&cursor, options, out, diag);
+
+    *next = status == OK ? cursor.next : *next;
     return status;
 }
 

@@ -9,6 +9,7 @@
 #include "base/diag.h"
 #include "base/memory.h"
 #include "expr/units.h"
+#include "language/lexer.h"
 
 /* Trees are no higher than this, so that walking one needs no more stack than that. */
 enum { SYNTAX_HEIGHT = 1000 };
@@ -138,7 +139,11 @@ typedef struct SyntaxOptions {
     bool shortened; /* verbs may be shortened while unambiguous (at the prompt) */
 } SyntaxOptions;
 
-/* Read one statement after the other of a text.
+/* Read the next statement of a text; at its end the cursor stands at strlen(text). *out is as
+ * for statement_parse(), and so are the failures, at which the cursor stays. */
+MUST_USE Status statement_read(Cursor *cursor, SyntaxOptions options, Statement **out, Diag *diag);
+
+/* Read one statement after the other of a short text, since each counts lines from its beginning.
  *
  * text   a physical line, several joined by "\" at their ends, or a whole script
  * line   its number, for places

@@ -5,16 +5,20 @@
 #include <stdio.h>
 #include <string.h>
 
-ct_status ct_parse(const char *text, int line, bool shortened, size_t *next, ct_statement **out,
-                   ct_error *error)
+ct_status ct_parse(ct_cursor *cursor, bool shortened, ct_statement **out, ct_error *error)
 {
+    Cursor inner = {cursor->text, cursor->next, cursor->line, cursor->line_start};
     Statement *statement = NULL;
     Diag diag = {0};
-    const Status status = statement_parse(text, line, (SyntaxOptions){.shortened = shortened}, next,
-                                          &statement, &diag);
+    const Status status =
+        statement_read(&inner, (SyntaxOptions){.shortened = shortened}, &statement, &diag);
 
-    if (status == OK)
+    if (status == OK) {
+        cursor->next = inner.next;
+        cursor->line = inner.line;
+        cursor->line_start = inner.line_start;
         *out = (ct_statement *)(void *)statement;
+    }
     return session_report(status, &diag, error);
 }
 

@@ -461,11 +461,10 @@ static void set_up(Maker *m, Kit *kit, Dim dim)
 static ct_status value_of(Kit *kit, const char *text, double *value)
 {
     char line[TEXT + 300];
-    size_t next = 0;
     ct_statement *statement = NULL;
 
     (void)snprintf(line, sizeof line, "print %s", text);
-    if (ct_parse(line, 1, false, &next, &statement, &kit->error) != CT_OK)
+    if (ct_parse(&(ct_cursor){.text = line, .line = 1}, false, &statement, &kit->error) != CT_OK)
         return CT_FAILED;
 
     const ct_status status =

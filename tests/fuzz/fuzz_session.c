@@ -144,26 +144,27 @@ static void check_unchanged(const ct_session *session, const char *before)
 /* Apply a text; the rest of it is left when a statement fails. */
 static void apply(ct_session *session, const char *text, clock_t *began)
 {
-    size_t next = 0, length = strlen(text);
+    ct_cursor cursor = {.text = text, .line = 1};
+    const size_t length = strlen(text);
 
-    while (next < length) {
+    while (cursor.next < length) {
         ct_error error = {0};
         ct_statement *statement = NULL;
-        size_t start = next;
+        size_t start = cursor.next;
         char *before = ct_save(session);
-        ct_status status = ct_parse(text, 1, length % 2 == 0, &next, &statement, &error);
+        ct_status status = ct_parse(&cursor, length % 2 == 0, &statement, &error);
 
         *began = clock();
         if (status == CT_OK) {
-            mutate_claim(next > start, "reading goes forward");
+            mutate_claim(cursor.next > start, "reading goes forward");
             status = carry_out(session, statement, &error);
             ct_statement_free(statement);
         } else
-            next = length;
+            cursor.next = length;
         if (status == CT_FAILED) {
             check_error(text, &error);
             check_unchanged(session, before);
-            next = length;
+            cursor.next = length;
         }
         ct_free(before);
     }

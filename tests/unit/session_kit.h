@@ -121,13 +121,13 @@ static ct_status kit_other(Kit *kit, const ct_statement *statement)
 UNUSED static ct_status kit_do(Kit *kit, const char *text)
 {
     const size_t length = strlen(text);
-    size_t next = 0;
+    ct_cursor cursor = {.text = text, .line = 1};
     ct_status status = CT_OK;
 
-    while (status == CT_OK && next < length) {
+    while (status == CT_OK && cursor.next < length) {
         ct_statement *statement = NULL;
 
-        status = ct_parse(text, 1, false, &next, &statement, &kit->error);
+        status = ct_parse(&cursor, false, &statement, &kit->error);
         if (status != CT_OK)
             break;
         ct_free(kit->text);
@@ -146,12 +146,11 @@ UNUSED static ct_status kit_do(Kit *kit, const char *text)
 UNUSED static double kit_value(Kit *kit, const char *expression)
 {
     char line[400];
-    size_t next = 0;
     ct_statement *statement = NULL;
     double value = NAN;
 
     (void)snprintf(line, sizeof line, "print %s", expression);
-    if (ct_parse(line, 1, false, &next, &statement, &kit->error) != CT_OK)
+    if (ct_parse(&(ct_cursor){.text = line, .line = 1}, false, &statement, &kit->error) != CT_OK)
         return NAN;
     if (ct_value(kit->session, ct_operand(statement, 0), ct_at(statement), &value, &kit->error) !=
         CT_OK)

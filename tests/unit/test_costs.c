@@ -10,6 +10,7 @@
 #include <math.h>
 #include <stddef.h>
 #include <string.h>
+#include <time.h>
 
 #if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__)
 #define COUNTS 1
@@ -47,16 +48,17 @@ static double cost_of(void (*write)(Text *text, int n), int n)
     Text text = {0};
     ct_session *session = ct_session_new(NULL);
     double before;
-    size_t next = 0;
-
     write(&text, n);
+
+    ct_cursor cursor = {.text = text.at, .line = 1};
+
     before = asked;
-    while (text.at[next] != '\0') {
+    while (text.at[cursor.next] != '\0') {
         ct_statement *statement = NULL;
         ct_error error = {0};
         ct_status status;
 
-        if (ct_parse(text.at, 1, false, &next, &statement, &error) != CT_OK)
+        if (ct_parse(&cursor, false, &statement, &error) != CT_OK)
             break;
         if (strcmp(ct_verb(statement), "undo") == 0)
             status = ct_undo(session, &error);
@@ -144,6 +146,42 @@ static void chain_of_bodies(Text *text, int n)
     text_add(text, "tree absolute\nassemble\n");
 }
 
+/* seconds of the processor to read a text to its end */
+static double reading_time(const char *piece, int n)
+{
+    Text text = {0};
+
+    for (int i = 0; i < n; i++)
+        text_add(&text, piece);
+
+    ct_cursor cursor = {.text = text.at, .line = 1};
+    const clock_t began = clock();
+
+    while (text.at[cursor.next] != '\0') {
+        ct_statement *statement = NULL;
+        ct_error error;
+
+        if (ct_parse(&cursor, false, &statement, &error) != CT_OK)
+            break;
+        ct_statement_free(statement);
+    }
+
+    const double took = (double)(clock() - began) / CLOCKS_PER_SEC;
+
+    EXPECT(cursor.next == text.length);
+    text_free(&text);
+    return took;
+}
+
+/* it costs its square where lines before are counted for each statement */
+static void a_text_is_read_in_the_time_of_its_length(void)
+{
+    static const char *const pieces[] = {";", "a = 1\n", "a = 1 # \r\n\n", "a = \\\n1;"};
+
+    for (size_t i = 0; i < sizeof pieces / sizeof pieces[0]; i++)
+        EXPECT(reading_time(pieces[i], 100000) < 30 * reading_time(pieces[i], 10000));
+}
+
 static void statements_cost_the_same_however_many_there_are(void)
 {
     expect_growth(parameters, 2000, 1);
@@ -165,6 +203,7 @@ static void equations_cost_the_square_of_the_bodies(void)
 
 int main(void)
 {
+    RUN(a_text_is_read_in_the_time_of_its_length);
     RUN(statements_cost_the_same_however_many_there_are);
     RUN(going_back_costs_no_more_than_going_forth);
     RUN(equations_cost_the_square_of_the_bodies);

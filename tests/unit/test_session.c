@@ -7,10 +7,10 @@ static void a_statement_is_handed_out_in_parts(void)
     ct_statement *statement = NULL;
     const ct_expression *value = NULL;
     ct_error error;
-    size_t next = 0;
+    ct_cursor cursor = {.text = line, .line = 3};
     char *text;
 
-    EXPECT(ct_parse(line, 3, false, &next, &statement, &error) == CT_OK);
+    EXPECT(ct_parse(&cursor, false, &statement, &error) == CT_OK);
     EXPECT_TEXT(ct_verb(statement), "simulate");
     EXPECT_TEXT(ct_statement_text(statement), "simulate 10 every=0.01 method=bdf");
     EXPECT(ct_operand_count(statement) == 1 && ct_key_count(statement) == 2);
@@ -23,14 +23,14 @@ static void a_statement_is_handed_out_in_parts(void)
     ct_free(text);
     ct_statement_free(statement);
 
-    EXPECT(ct_parse(line, 3, false, &next, &statement, &error) == CT_OK);
+    EXPECT(ct_parse(&cursor, false, &statement, &error) == CT_OK);
     EXPECT_TEXT(ct_verb(statement), "print");
     EXPECT(ct_at(statement) != NULL && ct_versus(statement) == NULL);
     EXPECT(ct_error_at(statement, ct_at(statement), &error, "no %s", "good") == CT_FAILED);
     EXPECT(error.line == 3 && error.column == 48);
     EXPECT_TEXT(error.message, "no good");
     ct_statement_free(statement);
-    EXPECT(next == strlen(line));
+    EXPECT(cursor.next == strlen(line));
 }
 
 static void trailing_words_have_their_own_calls(void)
@@ -43,9 +43,8 @@ static void trailing_words_have_their_own_calls(void)
     bool append = true;
 
     for (int i = 0; i < 4; i++) {
-        size_t next = 0;
-
-        EXPECT(ct_parse(lines[i], 1, false, &next, &statement, &error) == CT_OK);
+        EXPECT(ct_parse(&(ct_cursor){.text = lines[i], .line = 1}, false, &statement, &error) ==
+               CT_OK);
         if (i == 0) {
             EXPECT_TEXT(ct_expression_word(ct_versus(statement)), "s11");
             EXPECT_TEXT(ct_redirect(statement, &append), "a.png");
@@ -68,9 +67,9 @@ static void a_bad_line_is_refused_at_its_place(void)
 {
     ct_statement *statement = NULL;
     ct_error error;
-    size_t next = 0;
 
-    EXPECT(ct_parse("plto h8", 7, false, &next, &statement, &error) == CT_FAILED);
+    EXPECT(ct_parse(&(ct_cursor){.text = "plto h8", .line = 7}, false, &statement, &error) ==
+           CT_FAILED);
     EXPECT(error.line == 7 && error.column == 1 && error.width == 4);
     EXPECT_HOLDS(error.hint, "plot");
 }
@@ -79,10 +78,10 @@ static void an_empty_line_is_an_empty_statement(void)
 {
     ct_statement *statement = NULL;
     ct_error error;
-    size_t next = 0;
     Kit kit = kit_new();
 
-    EXPECT(ct_parse("  # only words", 1, false, &next, &statement, &error) == CT_OK);
+    EXPECT(ct_parse(&(ct_cursor){.text = "  # only words", .line = 1}, false, &statement, &error) ==
+           CT_OK);
     EXPECT(ct_statement_is_empty(statement));
     EXPECT_TEXT(ct_verb(statement), "");
     EXPECT(ct_apply(kit.session, statement, &error) == CT_OK);
@@ -98,9 +97,8 @@ static void apply_leaves_looking_and_running_to_the_caller(void)
 
     for (size_t i = 0; i < sizeof lines / sizeof lines[0]; i++) {
         ct_statement *statement = NULL;
-        size_t next = 0;
-
-        EXPECT(ct_parse(lines[i], 1, false, &next, &statement, &kit.error) == CT_OK);
+        EXPECT(ct_parse(&(ct_cursor){.text = lines[i], .line = 1}, false, &statement, &kit.error) ==
+               CT_OK);
         EXPECT(ct_apply(kit.session, statement, &kit.error) == CT_NOT_MINE);
         ct_statement_free(statement);
     }

@@ -374,11 +374,11 @@ static void completion_offers_the_verbs_and_keys_of_every_example(void)
         while (*text != '\0') {
             const size_t length = strcspn(text, "\n");
             char line[400];
-            size_t next = 0;
             ct_statement *statement = NULL;
 
             (void)snprintf(line, sizeof line, "%.*s", (int)length, text);
-            if (ct_parse(line, 1, false, &next, &statement, &kit.error) == CT_OK) {
+            if (ct_parse(&(ct_cursor){.text = line, .line = 1}, false, &statement, &kit.error) ==
+                CT_OK) {
                 const char *verb = ct_verb(statement);
                 char half[80];
 

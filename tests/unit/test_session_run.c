@@ -288,10 +288,9 @@ static void a_table_has_a_row_an_instant_and_names_as_written(void)
     double *values = NULL;
     char **names = NULL;
     int rows, columns;
-    size_t next = 0;
 
     EXPECT_DONE(&kit, PENDULUM "simulate 1 every=0.1");
-    EXPECT(ct_parse(line, 1, false, &next, &statement, &kit.error) == CT_OK);
+    EXPECT(ct_parse(&(ct_cursor){.text = line, .line = 1}, false, &statement, &kit.error) == CT_OK);
     for (int i = 0; i < 4; i++)
         items[i] = ct_operand(statement, i);
     EXPECT(ct_table(kit.session, items, 4, 0, &values, &rows, &columns, &names, &kit.error) ==
@@ -346,7 +345,6 @@ static void csv_has_a_header_and_reads_back_to_the_last_bit(void)
     Kit kit = kit_new();
     ct_statement *statement = NULL;
     char *text = NULL;
-    size_t next = 0;
     const char *line;
     double t, h;
 
@@ -358,7 +356,8 @@ static void csv_has_a_header_and_reads_back_to_the_last_bit(void)
     EXPECT(sscanf(line, "%lf,%lf", &t, &h) == 2);
     EXPECT(t == kit_value(&kit, "t at 0.3") && h == kit_value(&kit, "h at 0.3"));
 
-    EXPECT(ct_parse("export csv h", 1, false, &next, &statement, &kit.error) == CT_OK);
+    EXPECT(ct_parse(&(ct_cursor){.text = "export csv h", .line = 1}, false, &statement,
+                    &kit.error) == CT_OK);
     EXPECT(ct_export(kit.session, statement, false, &text, &kit.error) == CT_OK);
     EXPECT(text != NULL && strncmp(text, "0,1.047", 7) == 0);
     ct_free(text);

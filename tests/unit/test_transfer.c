@@ -14,10 +14,9 @@ typedef struct Bode {
 static Bode bode(Kit *kit, const char *line)
 {
     ct_statement *statement = NULL;
-    size_t next = 0;
     Bode out = {0};
 
-    if (ct_parse(line, 1, false, &next, &statement, &kit->error) != CT_OK ||
+    if (ct_parse(&(ct_cursor){.text = line, .line = 1}, false, &statement, &kit->error) != CT_OK ||
         ct_bode(kit->session, statement, &out.values, &out.rows, &out.columns, &out.names,
                 &kit->error) != CT_OK) {
         test_faults++;

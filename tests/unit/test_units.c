@@ -343,12 +343,12 @@ static void deep_laws_end(void)
 static void expect_unit(Kit *kit, const char *item, const char *unit)
 {
     char line[200];
-    size_t next = 0;
     ct_statement *statement = NULL;
     char *got = NULL;
 
     (void)snprintf(line, sizeof line, "print %s", item);
-    EXPECT(ct_parse(line, 1, false, &next, &statement, &kit->error) == CT_OK);
+    EXPECT(ct_parse(&(ct_cursor){.text = line, .line = 1}, false, &statement, &kit->error) ==
+           CT_OK);
     got = ct_unit(kit->session, ct_operand(statement, 0));
     EXPECT_TEXT(got != NULL ? got : "", unit);
     ct_free(got);
