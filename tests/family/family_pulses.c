@@ -14,7 +14,8 @@
 #define LEAKAGE 1e-12
 #define MOST    4e5 /* steps of a reference */
 #define PLACES  12  /* at which states are compared */
-#define MISSES  100 /* tolerances by which a run may be off */
+#define MISSES  100 /* tolerances by which a run may be off, */
+#define ADDED   30  /* and by what adds up over the steps of one pulse */
 
 static const char *const methods[] = {"auto", "dop853", "radau", "bdf", "adams", "ida"};
 
@@ -364,14 +365,14 @@ static Verdict bursts(Member *m)
     off = fabs(speed - area / mass) / (rtol * fmax(1, area / mass));
     tell(m, "%.12g for %.12g: off by %.3g tolerances\n", speed, area / mass, off);
     kit_free(&kit);
-    return off <= MISSES ? AGREES : DISAGREES;
+    return off <= ADDED ? AGREES : DISAGREES;
 }
 
 int main(int argc, char **argv)
 {
     static const Family families[] = {
         {"supplies_are_what_fixed_steps_find", 40, 0, 1e-3, supplies},
-        {"bursts_in_long_runs_are_seen", 60, 0, 1e-3, bursts},
+        {"bursts_in_long_runs_are_seen", 60, 0, 0, bursts},
     };
 
     (void)test_faults; /* verdicts count here */

@@ -111,6 +111,16 @@ static void corners_are_not_stepped_over(void)
                   "simulate 1000", "b.v", 3, 1e-4);
 }
 
+/* Errors of each short step were much alike, and added up to 104 times the tolerance by bdf. */
+static void errors_in_a_pulse_do_not_add_up(void)
+{
+    expect_of_all("scene planar\ngravity [0, 0]\nbody b mass=8.7906324098600983\n"
+                  "prismatic s ground b axis=x\ninit s = 0, s' = 0\nactuator f s "
+                  "force=899.2637852660655*exp(-((t - 6.5360073478131167)/0.0031386229433967472)^2)"
+                  "\n",
+                  "simulate 7.4530661217881145 rtol=3.49e-07", "s'", 0.569090145867, 5e-6);
+}
+
 /* Stages of a step fell about this pulse so that its estimate of order 5 vanished by chance. */
 static void no_chance_hides_a_pulse_from_an_estimate(void)
 {
@@ -120,6 +130,49 @@ static void no_chance_hides_a_pulse_from_an_estimate(void)
     const double right = 17104.5727 * 0.013075265114778353 * sqrt(acos(-1.0)) / 1.4602726574349629;
 
     expect_of_all(charge, "simulate 1.3658752076926908 rtol=2.41e-05", "b.v", right, 0.1);
+}
+
+/* An element that settles within a step, or ceases to conduct in it, while estimates see little of
+ * that. Right: RK4 by another program, steps halved until 1e-8 agrees. */
+static void a_turn_of_an_element_is_resolved(void)
+{
+    static const char *const half =
+        "vsource V p 0 23.361797683254206*exp((cos(66896.13242599697*t) - 1)/0.24200974148217869)\n"
+        "resistor Rs p s 0.13223593069863271\ncapacitor C b 0 5.0799147048492068e-05\n"
+        "resistor RL b 0 38.116490720446969\ninit C.v = 0\n"
+        "diode D s b Is=2.7927707099181155e-16 n=1.39305686772791\n";
+    static const char *const bridge =
+        "vsource V p e 131.56137631216112*sin(33214.370856182613*t)\n"
+        "resistor Rs p s 0.64990063285106647\ncapacitor C b 0 2.4112342817795909e-05\n"
+        "resistor RL b 0 135.53202878812945\ninit C.v = 0\n"
+        "diode D1 s b Is=8.6466798011461296e-14 n=1.5005988536466282\n"
+        "diode D2 e b Is=8.6466798011461296e-14 n=1.5005988536466282\n"
+        "diode D3 0 s Is=8.6466798011461296e-14 n=1.5005988536466282\n"
+        "diode D4 0 e Is=8.6466798011461296e-14 n=1.5005988536466282\n";
+
+    expect_of_all(half, "simulate 0.00073774824071355953 every=6.1479020059463299e-05 rtol=7.98e-9",
+                  "C.v at 0.000184437060178389897", 17.8671226696, 4e-6);
+    expect_of_all(bridge,
+                  "simulate 0.00086900270761250701 every=7.2416892301042251e-05 rtol=4.58e-9",
+                  "C.v at 0.000434501353806253506", 125.22264906, 1.2e-5);
+}
+
+/* Newton's method goes on by 0.03 V a step where a diode takes 250 V at once; the answer meets its
+ * law and Ohm's. */
+static void a_diode_behind_a_high_source_starts(void)
+{
+    Kit kit = kit_new();
+    double v, i;
+
+    EXPECT_DONE(&kit, "vsource V p 0 250*cos(2800*t)\nresistor R p s 6.7\n"
+                      "capacitor C b 0 1 uF\ninit C.v = 0\n"
+                      "diode D s b Is=2.4450447287002747e-15 n=1.1314141825918675\nassemble\n");
+    v = kit_value(&kit, "D.v");
+    i = kit_value(&kit, "D.i");
+    EXPECT(fabs(v + 6.7 * i - 250) < 1e-9);
+    EXPECT(fabs(v - 1.1314141825918675 * 1.380649e-23 * 300.15 / 1.602176634e-19 *
+                        log1p(i / 2.4450447287002747e-15)) < 1e-9);
+    kit_free(&kit);
 }
 
 /* A cart passes a bump of force that is short against its way: it does work +W, then -W. */
@@ -218,10 +271,13 @@ int main(void)
 {
     RUN(a_rectifier_conducts_at_every_tolerance);
     RUN(an_end_of_conduction_is_resolved);
+    RUN(a_turn_of_an_element_is_resolved);
+    RUN(a_diode_behind_a_high_source_starts);
     RUN(a_doubler_stays_below_twice_the_peak);
     RUN(a_multiplier_of_exponential_diodes_runs);
     RUN(a_pulse_in_a_long_run_is_seen);
     RUN(corners_are_not_stepped_over);
+    RUN(errors_in_a_pulse_do_not_add_up);
     RUN(no_chance_hides_a_pulse_from_an_estimate);
     RUN(a_bump_on_the_way_is_felt);
     RUN(fixed_steps_tell_what_they_miss);

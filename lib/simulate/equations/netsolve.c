@@ -20,6 +20,12 @@
 #define FURTHEST   4096
 #define PLAIN      20    /* whole steps from piece to piece */
 #define SHORTEST   1e-14 /* the same on the way down over kinks */
+#define NEARBY     12    /* steps to a solution near the last one, */
+#define CLOSE      1e-3  /* as close as that needs be */
+/* sources come up from so small a share of theirs, times so much at once, or a little at least */
+#define LEAST_SHARE  1e-16
+#define FACTOR       4.0
+#define LEAST_FACTOR 1.01
 
 struct NetSolve {
     const Equations *eq;
@@ -292,6 +298,61 @@ static bool solve_newton(NetSolve *s, Way way)
     return false;
 }
 
+/* Whole steps to G(w) = left G(0), `origin` = G(0), as near as it takes to go on from there. */
+static bool solve_near(NetSolve *s, const double *origin, double left)
+{
+    const Equations *eq = s->eq;
+
+    for (int k = 0; k < NEARBY; k++) {
+        eq->network_at(eq->context, s->w);
+        for (int i = 0; i < s->n; i++)
+            s->step[i] = eq->network_residual[i] - left * origin[i];
+        if (!sparse_factor(s->matrix, eq->network))
+            return false;
+        sparse_solve(s->matrix, s->step);
+        if (!vector_is_finite(s->step, s->n))
+            return false;
+        for (int i = 0; i < s->n; i++) {
+            s->w[i] -= s->step[i];
+            s->size[i] = fmax(s->size[i], fabs(s->w[i]));
+        }
+        if (is_small(s, s->step, CLOSE))
+            return true;
+    }
+    return false;
+}
+
+/* From w = 0, where G(w) = G(0), on the way G(w) = (1 - share) G(0): sources come up from nothing
+ * through the decades that an exponential takes, each solution a start for the next. */
+static bool solve_rising(NetSolve *s)
+{
+    double *origin = NEW_ARRAY(double, s->n), *last = NEW_ARRAY(double, s->n);
+    double share = LEAST_SHARE, factor = FACTOR;
+    bool arrived = false;
+
+    memset(s->w, 0, (size_t)s->n * sizeof(double));
+    for (int i = 0; i < s->n; i++)
+        s->size[i] = 1e-3;
+    s->eq->network_at(s->eq->context, s->w);
+    memcpy(origin, s->eq->network_residual, (size_t)s->n * sizeof(double));
+    while (!arrived && factor > LEAST_FACTOR) {
+        const double next = fmin(1, share * factor);
+
+        if (solve_near(s, origin, 1 - next)) {
+            memcpy(last, s->w, (size_t)s->n * sizeof(double));
+            share = next;
+            arrived = share == 1;
+            factor = fmin(FACTOR, factor * factor);
+        } else {
+            memcpy(s->w, last, (size_t)s->n * sizeof(double));
+            factor = sqrt(factor);
+        }
+    }
+    mem_free(origin);
+    mem_free(last);
+    return arrived && solve_newton(s, BY_CORRECTION);
+}
+
 bool netsolve_find(NetSolve *s)
 {
     double *kept;
@@ -313,6 +374,7 @@ bool netsolve_find(NetSolve *s)
             memcpy(s->w, kept, (size_t)s->n * sizeof(double));
         found = solve_newton(s, k % WAYS);
     }
+    found = found || solve_rising(s);
     if (!found)
         memcpy(s->w, kept, (size_t)s->n * sizeof(double));
     mem_free(kept);

@@ -15,13 +15,14 @@
 
 #define MAX_TRIES 100000 /* inner steps that CVODE may take for one of ours: one mode makes one */
 #define STUCK     10     /* steps on end that end where they began */
+#define NO_ERROR  1e10   /* a tolerance that nothing comes near */
 
 typedef struct Cvode {
     Stepper base;
     int all;
     SUNContext context;
     void *memory;
-    N_Vector y, out, tolerance;
+    N_Vector y, out;
     SUNMatrix matrix;
     SUNLinearSolver linear;
     SUNNonlinearSolver nonlinear;
@@ -63,7 +64,6 @@ static Stepper *create(const Method *method, const Ode *ode, const Control *cont
         return &c->base; /* start() reports it */
     c->y = N_VNew_Serial(all, c->context);
     c->out = N_VNew_Serial(all, c->context);
-    c->tolerance = N_VNew_Serial(all, c->context);
     c->memory = CVodeCreate(method->is_stiff ? CV_BDF : CV_ADAMS, c->context);
     return &c->base;
 }
@@ -94,25 +94,37 @@ static void destroy(Stepper *stepper)
     if (c->context != NULL) {
         N_VDestroy(c->y);
         N_VDestroy(c->out);
-        N_VDestroy(c->tolerance);
     }
     SUNContext_Free(&c->context);
     mem_free(c->base.y);
     mem_free(c);
 }
 
+/* One over what an error of each unknown counts from; a quadrature's own doesn't steer the step. */
+static int find_weights(N_Vector y, N_Vector weights, void *data)
+{
+    const Cvode *c = data;
+    const Control *control = &c->base.control;
+    const double part = stepper_part(&c->base);
+
+    for (int i = 0; i < c->all; i++) {
+        const double atol = i < c->base.ode->n ? part * control->atol : NO_ERROR;
+
+        NV_Ith_S(weights, i) = 1 / (part * control->rtol * fabs(NV_Ith_S(y, i)) + atol);
+    }
+    return 0;
+}
+
 static int first_start(Cvode *c, double t)
 {
     int code = CVodeInit(c->memory, rate, t, c->y);
 
-    for (int i = 0; i < c->all; i++) /* a quadrature's own error doesn't steer the step */
-        NV_Ith_S(c->tolerance, i) = i < c->base.ode->n ? c->base.control.atol : 1e10;
     if (code == 0)
         code = CVodeSetUserData(c->memory, c);
     if (code == 0)
         code = CVodeSetErrHandlerFn(c->memory, keep_reason, c);
     if (code == 0)
-        code = CVodeSVtolerances(c->memory, c->base.control.rtol, c->tolerance);
+        code = CVodeWFtolerances(c->memory, find_weights);
     if (code == 0)
         code = CVodeSetMaxNumSteps(c->memory, MAX_TRIES);
     if (code == 0)

@@ -19,7 +19,7 @@
 #define AIM            0.1 /* of the tolerance, a step: some hundred of them then add up to about it */
 #define SAFETY         0.9
 #define LUCK           60.0 /* times the root of the tolerance; estimates of order 3: 1 to 60 of it */
-#define STEEP_LUCK     10.0 /* the same where an element may cease to conduct within the step */
+#define STEEP_LUCK     2.0 /* the same where an element may cease to conduct within the step */
 #define SHRINK         (1 / 3.0)
 #define GROW           6.0
 #define STIFF_BOUNDARY 6.1

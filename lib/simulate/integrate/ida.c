@@ -167,9 +167,11 @@ static int find_weights(N_Vector w, N_Vector weights, void *data)
     const Ida *d = data;
     const Dae *dae = &d->base.ode->dae;
     const Control *control = &d->base.control;
+    const double part = stepper_part(&d->base);
 
     for (int i = 0; i < d->n; i++) {
-        double error = control->rtol * fabs(NV_Ith_S(w, i)) + control->atol * dae->weight[i];
+        double error =
+            part * (control->rtol * fabs(NV_Ith_S(w, i)) + control->atol * dae->weight[i]);
 
         if (dae->has_rate != NULL && !dae->has_rate[i])
             error = fmin(error, fmax(FINER * error, FINE));

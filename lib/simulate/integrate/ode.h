@@ -125,6 +125,7 @@ struct Stepper {
     double next;      /* step it would take next, s */
     double bound;     /* by whoever drives it: no longer step now, s; 0: free */
     bool may_bend;    /* likewise: something steep acts that may end within the step */
+    bool has_pulses;  /* likewise: what acts for a short time takes many short steps */
     double missed;    /* fixed steps: largest estimated error of one, in tolerances, */
     double missed_at; /* and when that was, s */
     bool is_stiff;    /* explicit methods: steps are cut by stability, not by accuracy */
@@ -146,6 +147,18 @@ static inline double stepper_stop(const Stepper *stepper, double end)
     if (!(bound > 0) || (stepper->next > 0 && stepper->next <= bound))
         return end;
     return fmin(end, stepper->t + bound);
+}
+
+#define ADDED_UP        0.1   /* of the tolerance, where errors add up */
+#define LEAST_TOLERANCE 1e-13 /* that numbers allow */
+
+/* The part of the tolerance that one step may take up. Errors of a method with a history are much
+ * alike from step to step, and add up over the many short steps of pulses. */
+static inline double stepper_part(const Stepper *stepper)
+{
+    return stepper->method->has_history && stepper->has_pulses
+               ? fmax(ADDED_UP, fmin(1, LEAST_TOLERANCE / stepper->control.rtol))
+               : 1;
 }
 
 /* y' at the stepper's time */

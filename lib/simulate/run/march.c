@@ -6,10 +6,8 @@
 #include <math.h>
 #include <string.h>
 
-#define MANY            100   /* tolerances that an estimated error has to miss to be told */
-#define FINER           0.1   /* of the tolerance, where errors add up */
-#define LEAST_TOLERANCE 1e-13 /* that numbers allow */
-#define ROUNDS          20    /* events and ideal switches that set each other off at one instant */
+#define MANY   100 /* tolerances that an estimated error has to miss to be told */
+#define ROUNDS 20  /* events and ideal switches that set each other off at one instant */
 
 /* --- rows --- */
 
@@ -89,15 +87,9 @@ static void give_up_stepper(March *m)
     m->stepper = NULL;
 }
 
-/* Errors of methods with a history add up over the many short steps of pulses. */
 static Stepper *new_stepper(March *m, const Method *method)
 {
-    m->finer = m->control;
-    if (method->has_history && onset_has_elements(m->leg.onset)) {
-        m->finer.rtol = fmax(m->control.rtol * FINER, LEAST_TOLERANCE);
-        m->finer.atol *= FINER;
-    }
-    return method->create(motion_ode(m->leg.motion), &m->finer);
+    return method->create(motion_ode(m->leg.motion), &m->control);
 }
 
 /* The explicit method has found that stability limits its steps. */

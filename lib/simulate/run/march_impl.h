@@ -24,8 +24,8 @@ typedef struct March {
     Grid *grid;
     MarchReport *out;
     Stepper *stepper;
-    Control control, finer; /* as asked for, and as the stepper has it */
-    Counts earlier;         /* of steppers given up */
+    Control control; /* as asked for */
+    Counts earlier;  /* of steppers given up */
     Headway headway;
     LIST(Jump) jumps;
     double low, high;             /* the time that rates see stays between */

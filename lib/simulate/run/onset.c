@@ -16,6 +16,7 @@
 #define LEAK      1e3   /* less than at its threshold: what one that blocks lets through as well */
 #define MOST_SIZE 300.0 /* of u: the logarithm of what numbers can be */
 #define RISE      3.0   /* of u: the first step in a pulse goes no further */
+#define SETTLING  6.0   /* and no later one further while it still grows */
 #define GROWN     20.0  /* the same of a source, in what it is to act */
 #define SEEN                                                                                       \
     0.125 /* of what a source does in a step: a place that sees this much leaves it to the         \
@@ -45,8 +46,9 @@ struct Onset {
     int elements, sources, length;
     /* about the start of a step */
     double t, h;
-    bool is_affine; /* `at` is known there */
-    bool is_first;  /* nothing has been looked at before */
+    bool is_affine;  /* `at` is known there */
+    bool is_first;   /* nothing has been looked at before */
+    bool has_pulses; /* there are steep elements, or sources have bent within a step */
     Affine at;
     double *source_at; /* values of the sources */
     double *threshold, *effect;
@@ -76,6 +78,7 @@ Onset *onset_new(Steep *steep, const Ode *ode)
     o->elements = k = steep_elements(steep);
     o->sources = j = steep_sources(steep);
     o->length = ode->n + ode->quadratures;
+    o->has_pulses = k > 0;
     o->at = (Affine){NEW_ARRAY(double, k), NEW_ARRAY(double, k), NEW_ARRAY(double, k),
                      NEW_ARRAY(double, k *j)};
     o->source_at = NEW_ARRAY(double, j);
@@ -113,11 +116,6 @@ void onset_free(Onset *o)
     mem_free(o->element_pulses);
     mem_free(o->source_pulses);
     mem_free(o);
-}
-
-bool onset_has_elements(const Onset *o)
-{
-    return o != NULL && o->elements > 0;
 }
 
 void onset_forget(Onset *o)
@@ -256,13 +254,14 @@ static double way_beyond(Search *s, Range over, const Range *sources)
 static void choose_scale(Onset *o, const Stepper *stepper)
 {
     const Control *control = &stepper->control;
+    const double part = stepper_part(stepper);
 
     for (int i = 0; i < o->length; i++) {
         double size = fabs(stepper->y[i]);
 
         if (o->ode->cap != NULL && i < o->ode->n)
             size = fmin(size, o->ode->cap[i]);
-        o->scale[i] = control->atol + control->rtol * size;
+        o->scale[i] = part * (control->atol + control->rtol * size);
     }
 }
 
@@ -403,8 +402,23 @@ static double bend_bound(Onset *o, double end)
     return h < far ? h : INFINITY;
 }
 
-/* Where the next element begins to conduct, at most `end`. */
-static double next_conduction(Onset *o, Stepper *stepper, double end)
+/* One that conducts goes through many orders of magnitude before it settles, and an estimate of
+ * errors over more than some of them at once means little: how far to go for these, s. */
+static double growth_bound(Onset *o)
+{
+    double bound = INFINITY;
+
+    for (int k = 0; k < o->elements; k++) {
+        Search grown = {o, size_beyond, 0, k, size_at(o, k) + SETTLING, 1, INTERVALS};
+
+        if (o->conducts[k])
+            bound = fmin(bound, first_place(&grown, o->t, o->t + fmin(o->h, bound)) - o->t);
+    }
+    return bound;
+}
+
+/* Where the next element begins to conduct, at most `end`; *bound of the steps until then. */
+static double next_conduction(Onset *o, Stepper *stepper, double end, double *bound)
 {
     const double steps = stepper->method->pulse_steps;
     Search search = {o, conduction, REACHED, 0, 0, 1, INTERVALS};
@@ -423,7 +437,9 @@ static double next_conduction(Onset *o, Stepper *stepper, double end)
         return end;
     o->is_affine = true;
     follow_pulses(o, end, steps);
-    o->h = fmin(o->h, bound_by(o->element_pulses, o->elements, o->t));
+    *bound = fmin(*bound, growth_bound(o));
+    *bound = fmin(*bound, bound_by(o->element_pulses, o->elements, o->t));
+    o->h = fmin(o->h, *bound);
     return fmin(end, first_place(&search, o->t, o->t + o->h));
 }
 
@@ -522,6 +538,7 @@ static double next_unseen(Onset *o, const Stepper *stepper, double end)
         is_onset = is_onset || o->onset[j] == o->t;
     if (!is_onset && is_clear(o, to - o->t, end))
         return end;
+    o->has_pulses = o->has_pulses || stepper->next > 0;
     take_sources(o, o->t);
     way = NEW_ARRAY(double, o->sources);
     over = steep_sources_over(o->steep, (Range){o->t, to});
@@ -570,13 +587,12 @@ double onset_before_step(Onset *o, Stepper *stepper, double end)
         if (stepper->method->sees_little)
             bound = bend_bound(o, end);
         o->h = fmin(o->h, bound);
-        first = next_conduction(o, stepper, end);
-        bound = fmin(bound, bound_by(o->element_pulses, o->elements, o->t));
+        first = next_conduction(o, stepper, end, &bound);
     }
-    o->h = fmin(o->h, bound);
     if (o->sources > 0)
         first = fmin(first, next_unseen(o, stepper, first));
     bound = fmin(bound, bound_by(o->source_pulses, o->sources, o->t));
+    stepper->has_pulses = o->has_pulses;
     stepper->bound = bound < end - o->t ? bound : 0;
     stepper->may_bend = false;
     for (int k = 0; k < o->elements; k++)

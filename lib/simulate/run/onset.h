@@ -26,8 +26,6 @@ double onset_before_step(Onset *onset, Stepper *stepper, double end);
 /* Whether the last step has passed over something: then the place in it where it should have
  * ended. */
 bool onset_after_step(Onset *onset, const Stepper *stepper, double *when);
-/* whether there are steep elements */
-bool onset_has_elements(const Onset *onset);
 /* Forget pulses that last: equations or states have changed. */
 void onset_forget(Onset *onset);
 
