@@ -329,7 +329,7 @@ static Verdict masses_stick_and_slip(Member *member)
 int main(int argc, char **argv)
 {
     const Family families[] = {
-        {"masses_stick_and_slip", 120, 0.05, 0.003, masses_stick_and_slip},
+        {"masses_stick_and_slip", 120, 0.01, 0, masses_stick_and_slip},
     };
 
     return family_main(families, (int)(sizeof families / sizeof families[0]), argc, argv);

@@ -116,6 +116,73 @@ static void what_can_t_be_resolved_is_named(void)
     kit_free(&kit);
 }
 
+/* masses on a row of springs, some of which stick from time to time */
+#define ROW_OF_MASSES                                                                              \
+    "scene planar\n"                                                                               \
+    "body m0 mass=1.77095 inertia=0\n"                                                             \
+    "prismatic s0 ground m0 axis=x\n"                                                              \
+    "body m1 mass=2.30869 inertia=0\n"                                                             \
+    "prismatic s1 ground m1 axis=x\n"                                                              \
+    "body m2 mass=0.599202 inertia=0\n"                                                            \
+    "prismatic s2 ground m2 axis=x\n"                                                              \
+    "body m3 mass=2.81632 inertia=0\n"                                                             \
+    "prismatic s3 ground m3 axis=x\n"                                                              \
+    "actuator f2 s2 force=if(s2' > 0.0488819, -3.52729, if(s2' < 0.0488819, 3.52729, 0))\n"        \
+    "actuator f0 s0 force=if(s0' > -0.406218, -4.36506, if(s0' < -0.406218, 4.36506, 0))\n"        \
+    "actuator f3 s3 force=-3.28693*sign(s3')\n"                                                    \
+    "actuator f1 s1 force=if(s1' > 0, -1.42032, if(s1' < 0, 1.42032, 0))\n"                        \
+    "actuator v1 s0 force=22.9192*(s1 - s0)\n"                                                     \
+    "actuator v2 s1 force=34.603*(s2 - s1)\n"                                                      \
+    "spring k3 s3 k=25.2451\n"                                                                     \
+    "actuator v3 s2 force=32.2117*(s3 - s2)\n"                                                     \
+    "spring k2 s2 k=25.2074\n"                                                                     \
+    "spring k0 s0 k=14.0323\n"                                                                     \
+    "actuator l3 s3 force=3.7802 + 0*sin(1.30643*t + 2.45755)\n"                                   \
+    "actuator u3 s3 force=-32.2117*(s3 - s2)\n"                                                    \
+    "damper d1 s1 d=0.668588\n"                                                                    \
+    "spring k1 s1 k=14.8202\n"                                                                     \
+    "actuator l0 s0 force=3.08573*sin(5.18425*t + 4.74276)\n"                                      \
+    "actuator l2 s2 force=2.93476*sin(2.97611*t + 5.20023)\n"                                      \
+    "actuator u2 s2 force=-34.603*(s2 - s1)\n"                                                     \
+    "damper d3 s3 d=0.577794\n"                                                                    \
+    "actuator l1 s1 force=6.53002*sin(1.75441*t + 5.87387)\n"                                      \
+    "actuator u1 s1 force=-22.9192*(s1 - s0)\n"                                                    \
+    "init s0 = 0, s0' = 0\n"                                                                       \
+    "init s1 = -0.300335, s1' = 0\n"                                                               \
+    "init s2 = 0.230199, s2' = -0.889643\n"                                                        \
+    "init s3 = 0, s3' = 0.934923\n"
+
+/* while others slip, one that sticks stays where it is, whatever rounding leaves of its force */
+static void what_sticks_stays_by_every_method(void)
+{
+    static const char *const methods[] = {"dop853", "radau", "bdf", "adams", "ida"};
+
+    for (size_t k = 0; k < sizeof methods / sizeof methods[0]; k++) {
+        Kit kit = kit_new();
+        char line[80];
+
+        EXPECT_DONE(&kit, ROW_OF_MASSES);
+        (void)snprintf(line, sizeof line, "simulate 1.15 rtol=1e-11 method=%s\n", methods[k]);
+        EXPECT(kit_do(&kit, line) == CT_OK);
+        EXPECT(is_near(kit_value(&kit, "max(abs(s3')*(t > 1))"), 0, 1e-12));
+        EXPECT(is_near(kit_value(&kit, "max(if(t > 1, s3, 0)) - min(if(t > 1, s3, 1))"), 0, 1e-11));
+        kit_free(&kit);
+    }
+}
+
+/* each way of sliding has independent speeds of its own */
+static void embedded_equations_stick_and_slip(void)
+{
+    Kit plain = kit_new(), embedded = kit_new();
+
+    EXPECT_DONE(&plain, ROW_OF_MASSES "simulate 2 rtol=1e-10\n");
+    EXPECT_DONE(&embedded, ROW_OF_MASSES "form embedded\nsimulate 2 rtol=1e-9 method=ida\n");
+    EXPECT(is_near(kit_value(&embedded, "s0"), kit_value(&plain, "s0"), 1e-5));
+    EXPECT(is_near(kit_value(&embedded, "s2'"), kit_value(&plain, "s2'"), 1e-5));
+    kit_free(&plain);
+    kit_free(&embedded);
+}
+
 int main(void)
 {
     RUN(a_mass_that_rubs_comes_to_rest);
@@ -126,5 +193,7 @@ int main(void)
     RUN(a_drop_against_a_current_that_follows_at_once);
     RUN(two_surfaces_end_in_a_point);
     RUN(what_can_t_be_resolved_is_named);
+    RUN(what_sticks_stays_by_every_method);
+    RUN(embedded_equations_stick_and_slip);
     return test_end();
 }

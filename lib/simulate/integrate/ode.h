@@ -10,6 +10,7 @@
 
 #include "base/diag.h"
 
+#include <float.h>
 #include <math.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -53,6 +54,12 @@ typedef struct Ode {
     double (*blur)(void *context);
     Dae dae; /* entries 0..n+quadratures-1 of w are y; n 0: not offered */
 } Ode;
+
+/* by how much to move an unknown to tell a derivative from a difference */
+static inline double ode_increment(double y)
+{
+    return sqrt(DBL_EPSILON * fmax(1e-5, fabs(y)));
+}
 
 typedef struct Control {
     double rtol, atol;

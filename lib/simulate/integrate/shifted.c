@@ -85,7 +85,7 @@ static bool by_differences(Shifted *s, double t, const double *y, const double *
 
     memcpy(s->point, y, (size_t)(n + s->ode->quadratures) * sizeof(double));
     for (int j = 0; j < n; j++) {
-        double h = straight > 0 ? straight : sqrt(DBL_EPSILON * fmax(1e-5, fabs(y[j])));
+        double h = straight > 0 ? straight : ode_increment(y[j]);
 
         s->point[j] = y[j] + h;
         h = s->point[j] - y[j];

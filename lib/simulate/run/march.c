@@ -247,6 +247,7 @@ Status march_enter(March *m, const Leg *leg, double t, const double *y, bool *ch
     open_leg(m, leg);
     motion_window(m->leg.motion, m->low, m->high);
     add_corner(m, t, y);
+    motion_partition(leg->motion, t, y);
     memcpy(m->y, y, (size_t)m->length * sizeof(double));
     memcpy(m->stepper->y, y, (size_t)m->length * sizeof(double));
     m->stepper->t = t;
