@@ -150,6 +150,10 @@ void chord_turn(System *system, const Instance *owner, const Steps *steps, int w
         out->sine = vec_dot(arena, frame_vector(system, owner->tail, n2), axis);
         out->cosine = vec_dot(arena, frame_vector(system, owner->tail, n1), axis);
     }
+    /* what stands still in these trees is an angle, and has whole turns like any other */
+    if (out->angle == NULL &&
+        ((expr_kinds(out->sine) | expr_kinds(out->cosine)) & 1U << SYMBOL_COORDINATE) == 0)
+        out->angle = expr_call2(arena, OP_ATAN2, out->sine, out->cosine);
     LIST_FREE(turns);
 }
 

@@ -94,8 +94,6 @@ static void add_turned(System *system, const Instance *joint, const Steps *steps
     }
     if (steps_are_tied(steps) && !joint->is_virtual)
         return; /* told by the shift */
-    if (((expr_kinds(turn.sine) | expr_kinds(turn.cosine)) & 1U << SYMBOL_COORDINATE) == 0)
-        return;
     chord.sine = turn.sine;
     chord.cosine = turn.cosine;
     chord.told.name = joint->coord[coordinate];

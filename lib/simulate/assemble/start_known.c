@@ -70,23 +70,63 @@ done:
     return status;
 }
 
-/* Given parameters that leave nothing to the others: those are 0. */
+/* Four Euler parameters of which some are known (NAN: not): the others are 0 where nothing is left
+ * to them. A last one has one of two signs, `sign` or else that of attitudes nearest to none. What
+ * that makes of all four: they are not known, guessed, or as well known as those that are. */
+static Known complete_four(double q[4], double sign)
+{
+    double left = 1;
+    int missing = 0, last = 0;
+
+    for (int k = 0; k < 4; k++)
+        if (isnan(q[k])) {
+            last = k;
+            missing++;
+        } else {
+            left -= q[k] * q[k];
+        }
+    if (fabs(left) < 1e-15) {
+        for (int k = 0; k < 4; k++)
+            q[k] = isnan(q[k]) ? 0 : q[k];
+        return KNOWN_GIVEN;
+    }
+    if (missing == 1 && left > 0)
+        q[last] = copysign(sqrt(left), sign);
+    return missing == 0 ? KNOWN_GIVEN : missing == 1 && left > 0 ? KNOWN_GUESSED : KNOWN_NOT;
+}
+
+static Known lesser(Known a, Known b)
+{
+    return a < b ? a : b;
+}
+
+/* from those that are known at least so well */
+static void complete_attitude(Placing *p, int link, Known least)
+{
+    const int first = place_at(link, p->s->links[link].first_parameter);
+    double q[4], sign = 1;
+    Known known;
+
+    for (int k = 0; k < 4; k++) {
+        q[k] = p->known[first + k] >= least ? p->begun[first + k] : NAN;
+        if (isnan(q[k]) && !isnan(p->begun[first + k]))
+            sign = p->begun[first + k];
+    }
+    known = lesser(complete_four(q, sign), least);
+    for (int k = 0; k < 4; k++)
+        if (known > p->known[first + k]) {
+            p->known[first + k] = known;
+            p->begun[first + k] = q[k];
+        }
+}
+
 static void complete_parameters(Placing *p)
 {
-    for (int i = 0; i < p->s->link_count; i++) {
-        const Link *l = &p->s->links[i];
-        double left = 1;
-
-        for (int k = 0; l->has_parameters && k < 4; k++)
-            if (p->known[place_at(i, l->first_parameter + k)] == KNOWN_GIVEN)
-                left -= p->begun[place_at(i, l->first_parameter + k)] *
-                        p->begun[place_at(i, l->first_parameter + k)];
-        for (int k = 0; l->has_parameters && fabs(left) < 1e-15 && k < 4; k++)
-            if (p->known[place_at(i, l->first_parameter + k)] != KNOWN_GIVEN) {
-                p->known[place_at(i, l->first_parameter + k)] = KNOWN_GIVEN;
-                p->begun[place_at(i, l->first_parameter + k)] = 0;
-            }
-    }
+    for (int i = 0; i < p->s->link_count; i++)
+        if (p->s->links[i].has_parameters) {
+            complete_attitude(p, i, KNOWN_GIVEN);
+            complete_attitude(p, i, KNOWN_GUESSED);
+        }
 }
 
 /* the link by which a frame is made: a body's own edge, or an arm; -1 */
@@ -155,11 +195,13 @@ static void place_body(Placing *p, int node, const double *told, Known known)
     Pose in_body, stands;
     int body = body_of(p, node, &in_body);
 
-    for (int k = shifts; k < shifts + (p->s->frame.has_parameters ? 4 : 1); k++)
-        whole = whole && !isnan(told[k]);
-    if (body < 0 || !whole || is_half_told(p, body, true))
-        return;
     memcpy(c, told, sizeof c);
+    if (p->s->frame.has_parameters)
+        known = lesser(known, complete_four(c + shifts, 1));
+    else if (isnan(told[shifts]))
+        known = KNOWN_NOT;
+    if (body < 0 || known == KNOWN_NOT || is_half_told(p, body, true))
+        return;
     link_pose(&p->s->frame, c, &stands);
     matrix3_transpose(in_body.R, back);
     matrix3_times(stands.R, back, stands.R);
@@ -197,8 +239,7 @@ static void place_bodies(Placing *p, bool guesses)
             told[place_at(p->s->links[wish->link].head, wish->k)] = wish->value;
     }
     for (int node = 0; node < p->s->node_count; node++)
-        if (!isnan(told[place_at(node, p->s->frame.shift_count)]))
-            place_body(p, node, told + place_at(node, 0), guesses ? KNOWN_GUESSED : KNOWN_GIVEN);
+        place_body(p, node, told + place_at(node, 0), guesses ? KNOWN_GUESSED : KNOWN_GIVEN);
     mem_free(told);
 }
 
