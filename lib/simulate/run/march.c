@@ -163,6 +163,7 @@ static Status one_step(March *m, double end, Diag *diag)
         if (march_matters(m, i))
             return march_meet_event(m, i, when, diag);
         m->scanned = when;
+        m->band[i] = m->noise[i];
     }
     CHECK(march_add_rows(m, diag));
     CHECK(
@@ -212,6 +213,10 @@ static void open_leg(March *m, const Leg *leg)
     m->largest = NEW_ARRAY(double, conditions);
     m->band = NEW_ARRAY(double, conditions);
     m->noise = NEW_ARRAY(double, conditions);
+    m->blur = NEW_ARRAY(double, conditions);
+    m->depth = NEW_ARRAY(double, conditions);
+    m->depth_low = NEW_ARRAY(double, conditions);
+    m->depth_high = NEW_ARRAY(double, conditions);
     m->mode = NEW_ARRAY(int, conditions);
     open_surfaces(m);
     m->stepper = new_stepper(m, m->out->method);
@@ -227,6 +232,10 @@ static void close_leg(March *m)
     mem_free(m->largest);
     mem_free(m->band);
     mem_free(m->noise);
+    mem_free(m->blur);
+    mem_free(m->depth);
+    mem_free(m->depth_low);
+    mem_free(m->depth_high);
     mem_free(m->mode);
 }
 

@@ -15,6 +15,7 @@
 #define MOST_NOISE  1e-6  /* likewise: more than that is none */
 #define DEEPER      2     /* times what a margin begins with */
 #define MOVES       3     /* that tell how far errors reach */
+#define BY_HALVES   4     /* so often a search goes by halves */
 #define ZENO_EVENTS 100
 #define ZENO_EACH   10   /* of every condition, which all may go over at one instant */
 #define ZENO_SPAN   1e-9 /* of the run */
@@ -104,6 +105,7 @@ static void find_noise(March *m)
     for (int i = 0; i < m->eq->switch_count; i++)
         m->noise[i] =
             is_margin(m, i) ? fmax(ROUNDING * largest_margin(m), NOTHING * m->control.atol) : 0;
+    memset(m->blur, 0, (size_t)m->count * sizeof(double));
     for (int turn = 0; turn < MOVES; turn++) {
         for (int k = 0; k < m->length; k++) {
             double tolerance = m->control.rtol * fabs(m->stepper->y[k]) + m->control.atol;
@@ -112,10 +114,12 @@ static void find_noise(March *m)
         }
         motion_switches(m->leg.motion, m->stepper->t, m->y, m->conditions);
         for (int i = 0; i < m->eq->switch_count; i++)
-            if (is_margin(m, i) && !is_steep(m, i) &&
-                fabs(m->conditions[i] - here[i]) > m->noise[i])
-                m->noise[i] = fabs(m->conditions[i] - here[i]);
+            if (is_margin(m, i))
+                m->blur[i] = fmax(m->blur[i], fabs(m->conditions[i] - here[i]));
     }
+    for (int i = 0; i < m->eq->switch_count; i++)
+        if (is_margin(m, i) && !is_steep(m, i))
+            m->noise[i] = m->blur[i] = fmax(m->noise[i], m->blur[i]);
     memcpy(m->conditions, here, (size_t)m->eq->switch_count * sizeof(double));
     memcpy(m->band, m->noise, (size_t)m->eq->switch_count * sizeof(double));
     mem_free(here);
@@ -160,20 +164,18 @@ void march_begin_modes(March *m)
     march_begin_surfaces(m);
 }
 
-/* whether condition i, as evaluated last, has left its mode; learns a mode not known yet */
-static bool has_switched(March *m, int i)
+/* Whether condition i, as evaluated last, has left its mode; learns a mode not known yet. Inside a
+ * step the interpolant errs as much as the tolerance lets it. */
+static bool has_switched(March *m, int i, bool inside)
 {
     double value = m->conditions[i];
 
     m->largest[i] = fmax(m->largest[i], fabs(value));
-    if (!(fabs(value) > m->band[i]))
+    if (!(fabs(value) > (inside ? fmax(m->band[i], m->blur[i]) : m->band[i])))
         return false;
     if (m->mode[i] == 0) /* what had no value till now becomes what it is */
         m->mode[i] = march_is_of_event(m, i) ? -sign_of(value) : sign_of(value);
-    if (sign_of(value) == m->mode[i] || value == 0)
-        return false;
-    m->band[i] = m->noise[i];
-    return true;
+    return sign_of(value) != m->mode[i] && value != 0;
 }
 
 /* Where nothing has switched up to here, what has come clear of its band needs it no more. Not
@@ -197,47 +199,129 @@ static int points_in(const March *m, double length)
     return (int)fmax(points, ceil(length / span * LOOKS));
 }
 
-int march_find_switch(March *m, double *when)
+/* How far inside its mode each condition of the state is, as evaluated last; negative: beyond its
+ * band, and so switched. */
+static void find_depths(const March *m, double *out)
 {
-    double low = m->scanned, high = m->stepper->t;
+    for (int k = 0; k < m->count; k++)
+        out[k] = is_of_time(m, k) || m->conditions[k] == 0 || m->mode[k] == 0
+                     ? INFINITY
+                     : m->mode[k] * m->conditions[k] + m->band[k];
+}
+
+/* Where the first of the conditions that are switched at `high` would cross if all were straight
+ * from `low` on, by depths there and here; as a part of the way. */
+static double first_crossing(const March *m, double share_low, double share_high)
+{
+    double first = 1;
+
+    for (int k = 0; k < m->count; k++) {
+        double inside = share_low * m->depth_low[k], beyond = -share_high * m->depth_high[k];
+
+        if (m->depth_high[k] < 0 && isfinite(inside))
+            first = fmin(first, inside > 0 ? inside / (inside + beyond) : 0);
+    }
+    return first;
+}
+
+/* any that is switched, by depths; -1: none */
+static int one_switched(const March *m, const double *depth)
+{
+    for (int k = m->count - 1; k >= 0; k--)
+        if (depth[k] < 0)
+            return k;
+    return -1;
+}
+
+/* The first condition that switches between low, where none has, and *high, which becomes a time
+ * just behind that: by false position, with the weight of an end that stays halved (Illinois), and
+ * by halves where that is slow. `found` has switched at *high. */
+static int locate_first(March *m, double low, double *high, int found)
+{
+    double share_low = 1, share_high = 1;
+    int last = 0; /* end that moved last: -1 low, 1 high */
+
+    find_depths(m, m->depth_high);
+    conditions_at(m, low);
+    find_depths(m, m->depth_low);
+    for (int k = 1; k <= 100; k++) {
+        const double least = 2e-16 * fmax(fabs(*high), 1e-300), width = *high - low;
+        double part = k % BY_HALVES == 0 ? 0.5 : first_crossing(m, share_low, share_high);
+        double t = fmin(fmax(low + part * width, low + least), *high - least);
+        double *depth = m->depth;
+        int which;
+
+        if (!(width > 2 * least))
+            break;
+        conditions_at(m, t);
+        find_depths(m, depth);
+        which = one_switched(m, depth);
+        if (which >= 0) {
+            *high = t;
+            found = which;
+            m->depth = m->depth_high;
+            m->depth_high = depth;
+            share_low = last == 1 ? share_low / 2 : 1;
+            share_high = 1;
+            last = 1;
+        } else {
+            low = t;
+            m->depth = m->depth_low;
+            m->depth_low = depth;
+            share_high = last == -1 ? share_high / 2 : 1;
+            share_low = 1;
+            last = -1;
+        }
+    }
+    return found;
+}
+
+/* The first point of the last step at which a condition has switched, *at, and a point *low before
+ * it where none has. -1: there is none. */
+static int find_switched(March *m, double *low, double *at)
+{
     double length = m->stepper->t - m->stepper->before;
     int points = points_in(m, length);
     int found = -1;
 
-    for (int k = 1; k <= points && found < 0; k++) {
-        double t = k == points ? m->stepper->t : m->stepper->before + length * k / points;
-
-        if (t < m->scanned)
+    *low = m->scanned;
+    for (int k = 1; k <= points; k++) {
+        *at = k == points ? m->stepper->t : m->stepper->before + length * k / points;
+        if (*at < m->scanned)
             continue;
-        conditions_at(m, t);
+        conditions_at(m, *at);
         for (int i = 0; i < m->count; i++)
-            if (!is_of_time(m, i) && has_switched(m, i) && found < 0)
+            if (!is_of_time(m, i) && has_switched(m, i, k < points) && found < 0)
                 found = i;
-        if (found < 0) {
-            low = t;
-            forget_bands(m);
-        } else {
-            high = t;
-        }
+        if (found >= 0)
+            return found;
+        *low = *at;
+        forget_bands(m);
     }
+    return -1;
+}
+
+/* Currents through small resistances show what is stiff in a step, which is right at its end and
+ * anything before: a switch is believed once a step that ends there tells it. */
+static bool retake(March *m, int found, double t)
+{
+    const Method *method = m->stepper->method;
+    Diag ignored = {0};
+
+    return is_margin(m, found) && is_steep(m, found) && !method->has_history && t < m->stepper->t &&
+           method->shorten(m->stepper, t, &ignored) == OK;
+}
+
+int march_find_switch(March *m, double *when)
+{
+    double low, high;
+    int found = find_switched(m, &low, &high);
+
+    while (found >= 0 && retake(m, found, high))
+        found = find_switched(m, &low, &high);
     if (found < 0)
         return -1;
-    for (int i = 0; i < 100 && high - low > 4e-16 * fmax(fabs(high), 1e-300); i++) {
-        double middle = low + (high - low) / 2;
-        bool switched = false;
-
-        conditions_at(m, middle);
-        for (int k = 0; k < m->count; k++)
-            if (!is_of_time(m, k) && m->conditions[k] != 0 && m->mode[k] != 0 &&
-                sign_of(m->conditions[k]) != m->mode[k] && fabs(m->conditions[k]) > m->band[k]) {
-                switched = true;
-                found = k;
-            }
-        if (switched)
-            high = middle;
-        else
-            low = middle;
-    }
+    found = locate_first(m, low, &high, found);
     *when = high;
     return found;
 }
@@ -256,33 +340,6 @@ double march_condition_rate(March *m, int i, double *value)
     return (m->conditions[i] - *value) / h;
 }
 
-/* Take the last step again until it ends just before the switch, so that none of its stages has
- * seen what is behind: Newton's method on the length of the step. Where the step can't be taken
- * again, what it tells of the switch has to do. */
-static Status approach(March *m, int i, double when, double *value, double *slope, Diag *diag)
-{
-    double aim = 1e-13 * m->largest[i] * m->mode[i];
-    double before = m->stepper->before, end = m->stepper->t;
-    Diag ignored = {0};
-    Status status = OK;
-
-    for (int k = 0; k < 12; k++) {
-        if (m->stepper->method->shorten(m->stepper, when, &ignored) != OK) {
-            *slope = 0;
-            CHECK(march_cut(m, when, diag));
-            break;
-        }
-        *slope = march_condition_rate(m, i, value);
-        if (*value * m->mode[i] > 0 && fabs(*value) <= 1e-11 * m->largest[i])
-            break;
-        if (*slope * m->mode[i] >= 0)
-            break; /* a grazing contact: no clean root */
-        when = fmin(end, fmax(before + 1e-3 * (when - before), when - (*value - aim) / *slope));
-    }
-done:
-    return status;
-}
-
 /* whether no state goes further along the slope in h than errors may; where a problem is stiff the
  * slope is steep beside any motion */
 static bool is_short(const March *m, double h)
@@ -292,6 +349,55 @@ static bool is_short(const March *m, double h)
               10 * (m->control.rtol * fabs(m->stepper->y[k]) + m->control.atol)))
             return false;
     return true;
+}
+
+/* Move the stepper's end to t along m->slope; false: that is no short way. */
+static bool move_end(March *m, double t)
+{
+    Stepper *s = m->stepper;
+    double h = t - s->t;
+
+    if (!is_short(m, h))
+        return false;
+    for (int k = 0; k < m->length; k++)
+        s->y[k] += h * m->slope[k];
+    s->t = t;
+    return true;
+}
+
+/* Take the last step again until it ends just before the switch, so that none of its stages has
+ * seen what is behind: Newton's method on the length of the step. Behind a margin the equations are
+ * the same, and last moves so short that Euler's rule is exact will do. Where the step can't be
+ * taken again, what it tells of the switch has to do. */
+static Status approach(March *m, int i, double when, double *value, double *slope, Diag *diag)
+{
+    double enough = fmax(1e-11 * m->largest[i], is_margin(m, i) ? m->noise[i] : 0);
+    /* what began beyond 0 is met where it leaves its band */
+    double band = is_margin(m, i) && m->band[i] > m->noise[i] ? m->band[i] : 0;
+    double before = m->stepper->before, end = m->stepper->t;
+    Diag ignored = {0};
+    Status status = OK;
+
+    for (int k = 0; k < 12; k++) {
+        double inside;
+
+        if ((k == 0 || !is_margin(m, i) || !move_end(m, when)) &&
+            m->stepper->method->shorten(m->stepper, when, &ignored) != OK) {
+            *slope = 0;
+            CHECK(march_cut(m, when, diag));
+            break;
+        }
+        *slope = march_condition_rate(m, i, value);
+        inside = *value * m->mode[i] + band;
+        if (inside > 0 && inside <= enough)
+            break;
+        if (*slope * m->mode[i] >= 0)
+            break; /* a grazing contact: no clean root */
+        when -= (inside - 1e-2 * enough) / (*slope * m->mode[i]);
+        when = fmin(end, fmax(before + 1e-3 * (m->stepper->t - before), when));
+    }
+done:
+    return status;
 }
 
 /* From just before a switch to just behind it: so short a way that Euler's rule is exact. */
@@ -371,6 +477,10 @@ Status march_meet_switch(March *m, int i, double when, Diag *diag)
     if (when > m->stepper->before) {
         CHECK(approach(m, i, when, &value, &slope, diag));
         CHECK(march_add_rows(m, diag));
+        if (is_told && value > m->noise[i] && slope > 0) { /* the interpolant erred */
+            m->is_taken_back = m->stepper->method->has_history;
+            return OK;
+        }
         if (!on_surface && slope * m->mode[i] < 0 && value * m->mode[i] > 0)
             crossed = cross(m, i, value, slope);
     }
