@@ -13,12 +13,13 @@
 #define ROUNDED                                                                                    \
     1e-14 /* of speeds, once over a pivot: what rounding of positions leaves of them               \
            */
-#define MOST_BLUR   1e-8 /* what epsilon makes of that */
-#define INEXACT     3e-2 /* pivot ratio of the LU below which a sweep of refinement is due */
-#define EPSILON     1e-8 /* of the largest diagonal entry of G M^-1 G^T */
-#define SWEEPS      2    /* of refinement at least, */
-#define MOST_SWEEPS 30   /* and as long as each leaves less than */
-#define CONTRACTION 0.3  /* of the correction before: what is slower, epsilon is to hold back */
+#define MOST_BLUR   1e-8  /* what epsilon makes of that */
+#define INEXACT     3e-2  /* pivot ratio of the LU below which a sweep of refinement is due, */
+#define SETTLED     1e-11 /* and another where it corrects more than this */
+#define EPSILON     1e-8  /* of the largest diagonal entry of G M^-1 G^T */
+#define SWEEPS      2     /* of refinement at least, */
+#define MOST_SWEEPS 30    /* and as long as each leaves less than */
+#define CONTRACTION 0.3   /* of the correction before: what is slower, epsilon is to hold back */
 #define ROUNDING    1e-15
 #define LEAST_REACH 1e-9 /* of the largest: what is less is rounding */
 
@@ -327,15 +328,15 @@ static double refine_once(Kkt *kkt)
     return vector_largest(kkt->residual, kkt->size);
 }
 
-static void refine(Kkt *kkt)
+static void refine(Kkt *kkt, int least, double enough)
 {
     double before = INFINITY;
 
     for (int sweep = 0; sweep < MOST_SWEEPS; sweep++) {
         const double size = refine_once(kkt);
 
-        if (size <= ROUNDING * vector_largest(kkt->answer, kkt->size) ||
-            (sweep + 1 >= SWEEPS && !(size < CONTRACTION * before)))
+        if (size <= enough * vector_largest(kkt->answer, kkt->size) ||
+            (sweep + 1 >= least && !(size < CONTRACTION * before)))
             break;
         before = size;
     }
@@ -352,9 +353,9 @@ void kkt_solve(Kkt *kkt, const double *top, const double *bottom, double *du, do
     memcpy(kkt->answer, kkt->right, (size_t)kkt->size * sizeof(double));
     lu_solve(kkt->lu, kkt->answer);
     if (kkt->regularised)
-        refine(kkt);
+        refine(kkt, SWEEPS, ROUNDING);
     else if (lu_pivot_ratio(kkt->lu) < INEXACT)
-        (void)refine_once(kkt);
+        refine(kkt, 1, SETTLED);
     for (int i = 0; i < nu; i++)
         du[i] = kkt->answer[i] * kkt->scale[i];
     for (int k = 0; k < kkt->m; k++)

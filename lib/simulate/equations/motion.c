@@ -29,6 +29,16 @@ static int turned_place(const Equations *eq)
     return eq->n + eq->nu + eq->nx;
 }
 
+static void open_projection(Motion *mo)
+{
+    const int nu = mo->eq->nu;
+
+    mo->nearest_kkt = kkt_new(nu, mo->used, mo->eq->m);
+    mo->unit = NEW_ARRAY(double, nu *nu);
+    for (int i = 0; i < nu; i++)
+        mo->unit[i * nu + i] = 1;
+}
+
 static void describe_ode(Motion *mo)
 {
     const Equations *eq = mo->eq;
@@ -92,6 +102,8 @@ Motion *motion_new(const Equations *eq, const MotionOptions *options)
     mo->lambda_all = NEW_ARRAY(double, eq->m);
     mo->row_size = NEW_ARRAY(double, eq->m);
     mo->counts.singular_time = NAN;
+    if (mo->used > 0)
+        open_projection(mo);
     if (eq->slide_count > 0)
         motion_open_surfaces(mo);
     describe_ode(mo);
@@ -105,6 +117,8 @@ void motion_free(Motion *mo)
     mem_free(mo->rows);
     mem_free(mo->wanted);
     kkt_free(mo->kkt);
+    kkt_free(mo->nearest_kkt);
+    mem_free(mo->unit);
     embed_free(mo->embed);
     netsolve_free(mo->network);
     signs_free(mo->signs);
@@ -213,21 +227,25 @@ void motion_at_position(Motion *mo, double t, const double *y)
     mo->is_embedded_factored = false;
 }
 
-static bool factor(Motion *mo)
+static bool factor_with(Motion *mo, Kkt *kkt, const double *mass)
 {
-    if (mo->is_factored)
-        return true;
     mo->counts.factorisations++;
-    if (!kkt_factor(mo->kkt, mo->eq->mass, mo->eq->phi_u, mo->rows))
+    if (!kkt_factor(kkt, mass, mo->eq->phi_u, mo->rows))
         return false;
-    if (kkt_is_regularised(mo->kkt)) {
+    if (kkt_is_regularised(kkt)) {
         mo->counts.regularised++;
         if (isnan(mo->counts.singular_time))
             mo->counts.singular_time = mo->t;
     }
-    mo->blur = fmax(mo->blur, kkt_blur(mo->kkt));
-    mo->is_factored = true;
+    mo->blur = fmax(mo->blur, kkt_blur(kkt));
     return true;
+}
+
+static bool factor(Motion *mo)
+{
+    if (!mo->is_factored)
+        mo->is_factored = factor_with(mo, mo->kkt, mo->eq->mass);
+    return mo->is_factored;
 }
 
 bool motion_factor_embedded(Motion *mo)
@@ -454,7 +472,7 @@ static void measure_rows(Motion *mo)
     for (int k = 0; k < mo->used; k++) {
         double largest = vector_largest(mo->eq->phi_u + mo->rows[k] * mo->eq->nu, mo->eq->nu);
 
-        mo->row_size[k] = fmax(mo->row_size[k], largest);
+        mo->row_size[mo->rows[k]] = fmax(mo->row_size[mo->rows[k]], largest);
     }
 }
 
@@ -463,7 +481,7 @@ static double distance(const Motion *mo)
     double largest = 0;
 
     for (int k = 0; k < mo->used; k++) {
-        double size = fabs(mo->eq->phi[mo->rows[k]]) / fmax(mo->row_size[k], 1e-6);
+        double size = fabs(mo->eq->phi[mo->rows[k]]) / fmax(mo->row_size[mo->rows[k]], 1e-6);
 
         if (!(size <= largest))
             largest = size;
@@ -505,7 +523,10 @@ static void move(Motion *mo, const double *du, double *q)
     equations_normalise(eq, q);
 }
 
-/* Simplified Newton: one factorisation serves all sweeps. They go on to the limit of rounding: what
+/* The nearest position by how errors are measured, not by masses: where rounding is what is left as
+ * a residual, a light crank at its dead centre would go far to spare a heavy rocker some 1e-16 rad.
+ *
+ * Simplified Newton: one factorisation serves all sweeps. They go on to the limit of rounding: what
  * is left as a residual turns the motion off its branch at a singular position. At most a hundredth
  * of the run's tolerance may be left where they don't get there. */
 static bool project_position(Motion *mo, double t, double *y)
@@ -520,7 +541,7 @@ static bool project_position(Motion *mo, double t, double *y)
     left = distance(mo);
     if (left <= 1e-16 * size)
         return true;
-    if (!factor(mo))
+    if (!factor_with(mo, mo->nearest_kkt, mo->unit))
         return false;
     for (int sweep = 0; sweep < PROJECTION_SWEEPS && left > 1e-16 * size; sweep++) {
         if (left <= 1e-13 * size && left > 0.5 * before)
@@ -528,7 +549,7 @@ static bool project_position(Motion *mo, double t, double *y)
         before = left;
         for (int k = 0; k < mo->used; k++)
             mo->bottom[k] = -mo->eq->phi[mo->rows[k]];
-        kkt_solve(mo->kkt, NULL, mo->bottom, mo->du, mo->lambda);
+        kkt_solve(mo->nearest_kkt, NULL, mo->bottom, mo->du, mo->lambda);
         move(mo, mo->du, y);
         /* the factors stay those of the first sweep */
         mo->eq->position(mo->eq->context, t, y);

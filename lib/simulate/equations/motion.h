@@ -132,7 +132,8 @@ bool motion_solve(Motion *motion, double t, const double *y, Solved *out);
 bool motion_slip(Motion *motion, double t, const double *y, const double *signs, double *slip,
                  double *off);
 
-/* Position and velocity back onto the constraints, mass-orthogonally: at most 8 sweeps. */
+/* Back onto the constraints: to the nearest position in at most 8 sweeps, and to the velocity there
+ * that differs by the least kinetic energy. */
 bool motion_project(Motion *motion, double t, double *y);
 /* largest |Phi| and |Phi_u u - nu| over all rows */
 void motion_residuals(Motion *motion, double t, const double *y, double *position,

@@ -19,6 +19,8 @@ struct Motion {
     Ode ode;
     double low, high; /* time window of evaluations */
     Kkt *kkt;
+    Kkt *nearest_kkt; /* with 1 for all masses; NULL: there are no constraints */
+    double *unit;     /* nu x nu */
     Embed *embed;
     NetSolve *network;
     Signs *signs; /* NULL: no surface is slid along */
