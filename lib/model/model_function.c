@@ -46,18 +46,16 @@ static Status wrong_count(const Syntax *syntax, const char *usage, Diag *diag)
     return E_VALUE;
 }
 
-/* --- pulses, as sums of ramps, and polygons --- */
+/* --- pulses, from two edges, and polygons --- */
 
-/* from 0 at x = 0 to 1 at x = width; one that takes no time is a step */
+/* From 0 at x = 0 to 1 at x = width, and exactly these before and after, so that a pulse leaves
+ * nothing behind. One that takes no time is a step. */
 static Expr edge(Arena *arena, Expr x, Expr width)
 {
-    Expr rise;
-
     if (expr_is_zero(width))
         return expr_call1(arena, OP_STEP, x);
-    rise = expr_sub(arena, expr_call1(arena, OP_RAMP, x),
-                    expr_call1(arena, OP_RAMP, expr_sub(arena, x, width)));
-    return expr_div(arena, rise, width);
+    return expr_call1(arena, OP_RAMP,
+                      expr_call2(arena, OP_MIN, expr_int(arena, 1), expr_div(arena, x, width)));
 }
 
 static Status build_pulse(Scope *scope, const Syntax *syntax, const Expr *args, Expr *out,
