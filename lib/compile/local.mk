@@ -5,4 +5,5 @@ libcore_la_SOURCES += \
 	lib/compile/opcodes.def \
 	lib/compile/program.c lib/compile/program.h \
 	lib/compile/program_impl.h \
-	lib/compile/schedule.c
+	lib/compile/schedule.c \
+	lib/compile/stage.c

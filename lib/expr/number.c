@@ -280,7 +280,7 @@ Expr expr_decimal(Arena *arena, const char *text)
     int64_t den;
 
     if (*text == '-')
-        return expr_neg(arena, expr_decimal(arena, text + 1));
+        return number_node(arena, number_neg(number_of(expr_decimal(arena, text + 1))));
     if (decimal_exact(text, &num, &den))
         return node_rational(arena, num, den);
     return expr_real(arena, strtod(text, NULL));

@@ -18,6 +18,8 @@ typedef struct Parser {
     const char *const *stops; /* words that end an operand; NULL: none */
     const Verb *row;          /* whose operands are read; NULL: none */
     SyntaxOptions options;
+    /* how a statement behind a verb is read (`time simulate 2`); the grammar calls itself there */
+    Status (*statement)(struct Parser *parser, Statement *statement);
     Diag *diag;
 } Parser;
 
@@ -71,7 +73,6 @@ MUST_USE Status parse_word(Parser *parser, Syntax **out); /* NAME, NUMBER withou
 MUST_USE Status parse_name(Parser *parser, const Token **out); /* NAME without a dot */
 MUST_USE Status parse_path(Parser *parser, const char **path, int *primes, Place *place);
 MUST_USE Status parse_shape(Parser *parser, Statement *statement); /* what follows its verb */
-MUST_USE Status parse_statement(Parser *parser, Statement *statement);
 
 /* E_NAME where a name can't be given another meaning */
 MUST_USE Status parser_check_reserved(const Parser *parser, const Token *name);

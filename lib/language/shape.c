@@ -339,7 +339,7 @@ static Status read_statement(Parser *parser, Statement *statement)
         CHECK(parser_expected(parser, "a statement"));
     CHECK(parser_enter(parser));
     statement->rest = pool_alloc(parser->pool, sizeof *statement->rest);
-    CHECK(parse_statement(parser, statement->rest));
+    CHECK(parser->statement(parser, statement->rest));
     parser->depth--;
 done:
     return status;

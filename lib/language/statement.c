@@ -305,7 +305,7 @@ static Status refuse_start(Parser *parser)
     return E_SYNTAX;
 }
 
-Status parse_statement(Parser *parser, Statement *statement)
+static Status parse_statement(Parser *parser, Statement *statement)
 {
     const Token *first = parser_token(parser);
     Status status = OK;
@@ -372,7 +372,11 @@ Status statement_read(Cursor *cursor, SyntaxOptions options, Statement **out, Di
     Statement *statement = NEW(Statement);
     Pool *pool = pool_new(4096);
     Lexer lexer = lexer_start(cursor, pool);
-    Parser parser = {.text = cursor->text, .pool = pool, .options = options, .diag = diag};
+    Parser parser = {.text = cursor->text,
+                     .pool = pool,
+                     .options = options,
+                     .statement = parse_statement,
+                     .diag = diag};
     Status status = OK;
     Token first;
     Verb verb;
