@@ -19,51 +19,6 @@ Expr partial(System *system, Expr e, int speed)
     return sum;
 }
 
-Status rate_of(System *system, Expr e, Expr *out, Diag *diag)
-{
-    const unsigned late = 1U << SYMBOL_ACCELERATION | 1U << SYMBOL_MULTIPLIER | 1U << SYMBOL_EFFORT;
-    Expr *symbols = NULL;
-    LIST(Expr) moved = {0};
-    LIST(Expr) rates = {0};
-    int count = 0;
-    Status status = OK;
-
-    if ((expr_kinds(e) & late) != 0)
-        CHECK(diag_set(diag, E_MISSING,
-                       "this derivative needs one of an acceleration or of a multiplier"));
-    for (int i = 0; i < system->q.count; i++) {
-        LIST_PUSH(moved, system->q.at[i].symbol);
-        LIST_PUSH(rates, system_q_rate(system, i));
-    }
-    for (int i = 0; i < system->u.count; i++) {
-        LIST_PUSH(moved, system->u.at[i].symbol);
-        LIST_PUSH(rates, system->accelerations[i]);
-    }
-    count = expr_symbols(&e, 1, &symbols);
-    for (int i = 0; i < count; i++) {
-        Expr rate;
-
-        if (!network_knows(system, symbols[i]))
-            continue;
-        CHECK(network_rate(system, symbols[i], &rate, diag));
-        LIST_PUSH(moved, symbols[i]);
-        LIST_PUSH(rates, rate);
-    }
-    LIST_PUSH(moved, expr_symbol(system->arena, "t", SYMBOL_TIME));
-    LIST_PUSH(rates, expr_int(system->arena, 1));
-    *out = expr_diff_along(system->arena, e, moved.at, rates.at, moved.count);
-done:
-    mem_free(symbols);
-    LIST_FREE(moved);
-    LIST_FREE(rates);
-    return status;
-}
-
-Status system_rate(System *system, Expr e, Expr *out, Diag *diag)
-{
-    return rate_of(system, e, out, diag);
-}
-
 bool steps_are_tied(const Steps *steps)
 {
     return steps->shift_count == 1 && steps->turn_count == 1 &&

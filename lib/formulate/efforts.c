@@ -172,3 +172,43 @@ Status efforts_add(System *system, Loads *loads, bool joints, Diag *diag)
 done:
     return status;
 }
+
+void loads_add_row(System *system, Loads *loads, const Row *row, Expr lambda)
+{
+    Arena *arena = system->arena;
+    int tail = system->frames[row->tail].chain;
+    int chain = row->kind == ROW_DATUM ? 0 : tail;
+    Expr push = expr_neg(arena, lambda);
+    Vec along = row->n;
+
+    if (row->kind == ROW_DRIVER) {
+        loads_add_effort(system, loads, &system->instances[row->owner], row->coordinate, push);
+        return;
+    }
+    if (row->kind == ROW_DOT) {
+        Vec b = vec_express(system, row->b, system->frames[row->head].chain, tail);
+
+        along = vec_hold(arena, vec_cross(arena, b, along));
+    }
+    along = vec_scale(arena, push, along);
+    if (row->told.rotation) {
+        loads_add_torque(system, loads, row->head, along, chain);
+        loads_add_torque(system, loads, row->tail, vec_neg(arena, along), chain);
+        return;
+    }
+    loads_add_force(system, loads, row->head, along, chain);
+    loads_add_force(system, loads, row->tail, vec_neg(arena, along), chain);
+    if (row->kind == ROW_TIE) {
+        Vec moment = vec_scale(arena, expr_neg(arena, row->lead), along);
+
+        loads_add_torque(system, loads, row->head, moment, chain);
+        loads_add_torque(system, loads, row->tail, vec_neg(arena, moment), chain);
+    }
+    if (row->kind == ROW_TAIL || row->kind == ROW_TIE) {
+        Vec way =
+            vec_sub(arena, node_position(system, row->head), node_position(system, row->tail));
+        Vec moment = vec_cross(arena, way, vec_express(system, along, chain, 0));
+
+        loads_add_torque(system, loads, row->tail, vec_neg(arena, moment), 0);
+    }
+}

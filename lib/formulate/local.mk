@@ -15,22 +15,22 @@ libcore_la_SOURCES += \
 	lib/formulate/energy.c \
 	lib/formulate/frames.c \
 	lib/formulate/framesum.c \
-	lib/formulate/ideal.c \
-	lib/formulate/motion.c \
-	lib/formulate/network.c \
+	lib/formulate/ideal.c lib/formulate/ideal_share.c \
+	lib/formulate/kinks.c lib/formulate/motion.c \
+	lib/formulate/network.c lib/formulate/network_build.c \
 	lib/formulate/network_order.c \
 	lib/formulate/network_rows.c \
 	lib/formulate/network_tree.c \
 	lib/formulate/reactions.c \
-	lib/formulate/reading.c \
-	lib/formulate/sample.c \
+	lib/formulate/rates.c lib/formulate/reading.c \
+	lib/formulate/resolve.c lib/formulate/sample.c lib/formulate/scalar_edges.c \
 	lib/formulate/show.c \
 	lib/formulate/smooth.c \
 	lib/formulate/state_space.c lib/formulate/state_space.h \
 	lib/formulate/surfaces.h \
 	lib/formulate/switches.c \
-	lib/formulate/turned.c \
-	lib/formulate/system.c lib/formulate/system.h lib/formulate/system_impl.h \
+	lib/formulate/turned.c lib/formulate/turned_build.c \
+	lib/formulate/system.c lib/formulate/system_build.c lib/formulate/system.h lib/formulate/system_impl.h \
 	lib/formulate/vanished.c \
 	lib/formulate/variables.c \
 	lib/formulate/vector.c

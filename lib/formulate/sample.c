@@ -64,3 +64,18 @@ double sample_number(Sample *sample, Expr e)
 {
     return expr_is_number(e) ? expr_value(e) : expr_evaluate(e, symbol_value, sample);
 }
+
+static double some_value(void *context, Expr symbol)
+{
+    uint32_t x = (uint32_t)expr_symbol_number(symbol) * 2654435761U + *(const uint32_t *)context;
+
+    x ^= x >> 15;
+    x *= 2246822519U;
+    x ^= x >> 13;
+    return 0.7 + 0.6 * (double)x / 4294967296.0;
+}
+
+double value_somewhere(Expr e, uint32_t seed)
+{
+    return expr_evaluate(e, some_value, &seed);
+}

@@ -306,6 +306,9 @@ struct System {
     bool switches_known;
     int64_t terms_guessed; /* of M written out; 0: not guessed yet */
     int depth;             /* of variables being resolved */
+    /* how a name becomes an expression: system_variable(), which all that tells one stands before
+     */
+    Status (*variable)(System *system, const char *path, int primes, Expr *out, Diag *diag);
 };
 
 /* --- vectors (vector.c) --- */
@@ -479,6 +482,7 @@ MUST_USE Status network_normal_tree(System *system, TreeKind kind, Diag *diag);
 MUST_USE Status network_rows(System *system, Diag *diag);
 /* the equation of an unknown, left = right */
 MUST_USE Status network_row(System *system, int unknown, Diag *diag);
+const Instance *branch_owner(const System *system, const Branchlike *branch);
 Branchlike *scalar_branch(System *system, const Instance *instance, int which);
 /* its member names: "i", or of an edge with a suffix "s.i" */
 const char *branch_member(System *system, const Branchlike *branch, bool through);
@@ -486,6 +490,12 @@ TreeKind branch_tree(const System *system, const Branchlike *branch);
 /* the next rate of a network symbol; E_MISSING where it can't be told */
 MUST_USE Status network_rate(System *system, Expr symbol, Expr *out, Diag *diag);
 bool network_knows(const System *system, Expr symbol);
+/* the number of a new unknown, whose symbol is of that name and kind */
+int network_new_unknown(System *system, Unknown unknown, const char *name, SymbolKind kind);
+/* one rate more of an unknown, as a symbol */
+Expr network_add_rate(System *system, int unknown, SymbolKind kind);
+/* one whose equation is the relation of that edge, without symbol yet */
+Unknown unknown_of_branch(const System *system, const Branchlike *branch);
 /* `symbol` is the rate of that order of an unknown */
 void network_know(System *system, Expr symbol, int unknown, int order);
 /* the unknowns as states x and algebraic z of the System: new ones behind the old */

@@ -1,0 +1,161 @@
+/* rates.c: derivatives along the motion, and the network's unknowns, whose rates may be unknowns
+ *
+ * The rate of a coordinate is told by speeds, that of a speed by an acceleration; the rate of a
+ * network's unknown is a symbol, or what its equation differentiated gives. */
+#include "formulate/system_impl.h"
+
+#include <string.h>
+
+/* --- unknowns of the network --- */
+
+void network_know(System *system, Expr symbol, int unknown, int order)
+{
+    int number = expr_symbol_number(symbol);
+
+    while (system->unknown_of.count <= number) {
+        LIST_PUSH(system->unknown_of, 0);
+        LIST_PUSH(system->rate_of, 0);
+    }
+    system->unknown_of.at[number] = 1 + unknown;
+    system->rate_of.at[number] = order;
+}
+
+bool network_knows(const System *system, Expr symbol)
+{
+    int number = expr_symbol_number(symbol);
+
+    return number < system->unknown_of.count && system->unknown_of.at[number] > 0;
+}
+
+int network_new_unknown(System *system, Unknown unknown, const char *name, SymbolKind kind)
+{
+    unknown.symbol = expr_symbol(system->arena, name, kind);
+    LIST_PUSH(system->unknowns, unknown);
+    network_know(system, unknown.symbol, system->unknowns.count - 1, 0);
+    return system->unknowns.count - 1;
+}
+
+/* one that is an expression leaves the order as it is */
+static void push_rate(System *system, Unknown *y, Expr rate, bool is_expression)
+{
+    Expr *rates = pool_alloc(system->pool, (size_t)(y->known + 1) * sizeof(Expr));
+
+    if (y->known > 0)
+        memcpy(rates, y->rates, (size_t)y->known * sizeof(Expr));
+    rates[y->known++] = rate;
+    y->rates = rates;
+    if (!is_expression)
+        y->order = y->known;
+}
+
+/* one rate more of an unknown, as a symbol */
+Expr network_add_rate(System *system, int unknown, SymbolKind kind)
+{
+    Unknown *y = &system->unknowns.at[unknown];
+    const char *last = expr_name(y->order > 0 ? y->rates[y->order - 1] : y->symbol);
+    Expr rate = expr_symbol(system->arena, system_keep(system, "%s'", last), kind);
+
+    push_rate(system, y, rate, false);
+    network_know(system, rate, unknown, y->order);
+    return rate;
+}
+
+/* how often the equation of an unknown has been differentiated */
+static int derivations(const System *system, int unknown)
+{
+    int count = 0;
+
+    for (; system->unknowns.at[unknown].derives >= 0; count++)
+        unknown = system->unknowns.at[unknown].derives;
+    return count;
+}
+
+Status network_rate(System *system, Expr symbol, Expr *out, Diag *diag)
+{
+    int number = expr_symbol_number(symbol);
+    int k = system->unknown_of.at[number] - 1;
+    int order = system->rate_of.at[number];
+    Unknown *y = &system->unknowns.at[k];
+    Status status = OK;
+
+    if (order < y->known) {
+        *out = y->rates[order];
+        return OK;
+    }
+    if (!system->is_network_open)
+        return diag_set(diag, E_MISSING,
+                        "the derivative of %s is not among the network's equations",
+                        expr_name(symbol));
+    if (order + derivations(system, k) >=
+        (system->network_form == NETWORK_TREE ? NETWORK_ORDER : 3)) {
+        system->has_no_states = system->network_form == NETWORK_STATE;
+        (void)diag_set(diag, E_MODEL, "the network's equations need ever more derivatives of %s",
+                       expr_name(y->symbol));
+        diag_hint(diag, "a source controlled by it stands among inductors or capacitors alone: "
+                        "put a resistance there");
+        return E_MODEL;
+    }
+    if (y->order < y->known) {
+        CHECK(rate_of(system, y->rates[y->known - 1], out, diag));
+        push_rate(system, &system->unknowns.at[k], *out, true);
+    } else if (system->network_form == NETWORK_TREE) {
+        *out = network_add_rate(system, k, SYMBOL_STATE);
+    } else {
+        /* algebraic, or the rate of a state: its equation differentiated tells it */
+        Unknown more = {.branchlike = -1, .own = -1, .instance = y->instance, .derives = k};
+        const char *name = system_keep(system, "%s'", expr_name(symbol));
+        int added = network_new_unknown(system, more, name, SYMBOL_ALGEBRAIC);
+
+        *out = system->unknowns.at[added].symbol;
+        push_rate(system, &system->unknowns.at[k], *out, false);
+    }
+done:
+    return status;
+}
+
+/* --- along the motion --- */
+
+Status rate_of(System *system, Expr e, Expr *out, Diag *diag)
+{
+    const unsigned late = 1U << SYMBOL_ACCELERATION | 1U << SYMBOL_MULTIPLIER | 1U << SYMBOL_EFFORT;
+    Expr *symbols = NULL;
+    LIST(Expr) moved = {0};
+    LIST(Expr) rates = {0};
+    int count = 0;
+    Status status = OK;
+
+    if ((expr_kinds(e) & late) != 0)
+        CHECK(diag_set(diag, E_MISSING,
+                       "this derivative needs one of an acceleration or of a multiplier"));
+    for (int i = 0; i < system->q.count; i++) {
+        LIST_PUSH(moved, system->q.at[i].symbol);
+        LIST_PUSH(rates, system_q_rate(system, i));
+    }
+    for (int i = 0; i < system->u.count; i++) {
+        LIST_PUSH(moved, system->u.at[i].symbol);
+        LIST_PUSH(rates, system->accelerations[i]);
+    }
+    count = expr_symbols(&e, 1, &symbols);
+    for (int i = 0; i < count; i++) {
+        Expr rate;
+
+        if (!network_knows(system, symbols[i]))
+            continue;
+        CHECK(network_rate(system, symbols[i], &rate, diag));
+        LIST_PUSH(moved, symbols[i]);
+        LIST_PUSH(rates, rate);
+    }
+    LIST_PUSH(moved, expr_symbol(system->arena, "t", SYMBOL_TIME));
+    LIST_PUSH(rates, expr_int(system->arena, 1));
+    *out = expr_diff_along(system->arena, e, moved.at, rates.at, moved.count);
+done:
+    mem_free(symbols);
+    LIST_FREE(moved);
+    LIST_FREE(rates);
+    return status;
+}
+
+Status system_rate(System *system, Expr e, Expr *out, Diag *diag)
+{
+    return rate_of(system, e, out, diag);
+}

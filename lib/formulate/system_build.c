@@ -1,0 +1,530 @@
+/* system_build.c: a System from a model: copied parts, variables, and the order in which it is
+ * built */
+#include "formulate/system_impl.h"
+
+#include <string.h>
+
+/* --- copies of what the model may change later --- */
+
+static void copy_instances(System *system, const Model *model)
+{
+    int count = model_count(model);
+
+    system->instance_count = count;
+    system->instances = pool_alloc(system->pool, (size_t)count * sizeof *system->instances);
+    system->coordinate = pool_alloc(system->pool, (size_t)count * sizeof *system->coordinate);
+    system->speed = pool_alloc(system->pool, (size_t)count * sizeof *system->speed);
+    for (int i = 0; i < count; i++) {
+        const Instance *from = model_instance(model, i);
+        Instance *to = &system->instances[i];
+        size_t size = (size_t)from->row->param_count * sizeof(Value);
+
+        *to = *from;
+        to->name = system_keep(system, "%s", from->name);
+        to->text = NULL;
+        if (from->coordinate != NULL)
+            to->coordinate = system_keep(system, "%s", from->coordinate);
+        for (int k = 0; k < MAX_TERMINALS; k++)
+            if (from->terminal_names[k] != NULL)
+                to->terminal_names[k] = system_keep(system, "%s", from->terminal_names[k]);
+        to->values = pool_alloc(system->pool, size);
+        if (size > 0)
+            memcpy(to->values, from->values, size);
+        for (int p = 0; p < from->row->param_count; p++)
+            if (from->values[p].word != NULL)
+                to->values[p].word = system_keep(system, "%s", from->values[p].word);
+        for (int c = 0; c < MAX_COORDS; c++) {
+            system->coordinate[i][c] = system->speed[i][c] = -1;
+            if (c < from->coord_count)
+                to->coord[c] = system_keep(system, "%s", from->coord[c]);
+        }
+    }
+}
+
+/* the first that bears a name is found by it */
+static void enter_names(System *system)
+{
+    system->instance_names = names_new();
+    system->coordinate_names = names_new();
+    for (int i = 0; i < system->instance_count; i++) {
+        const Instance *instance = &system->instances[i];
+
+        (void)names_add(system->instance_names, instance->name);
+        for (int c = 0; c < instance->coord_count; c++)
+            if (names_add(system->coordinate_names, instance->coord[c]) ==
+                system->coordinate_owners.count)
+                LIST_PUSH(system->coordinate_owners, (CoordinateOwner){i, c});
+    }
+}
+
+static void vary_values(System *system, VaryValue vary, void *context)
+{
+    for (int i = 0; i < system->instance_count; i++) {
+        Instance *instance = &system->instances[i];
+
+        for (int k = 0; k < instance->row->param_count; k++)
+            for (int c = 0; c < instance->values[k].count; c++)
+                instance->values[k].at[c] = vary(context, instance, k, instance->values[k].at[c]);
+    }
+    for (int i = 0; i < 3; i++)
+        system->gravity.at[i] = vary(context, NULL, -1, system->gravity.at[i]);
+}
+
+static Status copy_graph(System *system, const Model *model, Diag *diag)
+{
+    const Graph *graph = model_graph(model);
+    const Tree *trees[TREE_KINDS];
+    Status status = OK;
+
+    CHECK(model_trees(model, trees, diag));
+    system->graph = graph_new();
+    for (int i = 0; i < graph_node_count(graph); i++) {
+        const Node *node = graph_node(graph, i);
+
+        (void)graph_add_node(system->graph, node->name, node->domain, node->datum);
+    }
+    for (int i = 0; i < graph_edge_count(graph); i++)
+        (void)graph_add_edge(system->graph, graph_edge(graph, i));
+    for (TreeKind kind = 0; kind < TREE_KINDS; kind++) {
+        TreeChoice choice = {0};
+
+        if (trees[kind] == NULL)
+            continue;
+        choice.branches = tree_branches(trees[kind]);
+        choice.branch_count = tree_branch_count(trees[kind]);
+        CHECK(tree_complete(system->graph, kind, &choice, true, &system->trees[kind], diag));
+    }
+done:
+    return status;
+}
+
+void system_take_outputs(System *system, const Model *model)
+{
+    int count = model_output_count(model);
+
+    for (int i = 0; i < system->modes.count; i++)
+        system_take_outputs(system->modes.at[i], model);
+    system->output_count = count;
+    system->output_names = pool_alloc(system->pool, (size_t)count * sizeof(char *));
+    system->outputs = pool_alloc(system->pool, (size_t)count * sizeof(Expr));
+    for (int i = 0; i < count; i++) {
+        const char *name;
+
+        system->outputs[i] = model_output(model, i, &name);
+        system->output_names[i] = system_keep(system, "%s", name);
+    }
+}
+
+static void copy_form(System *system, const Model *model)
+{
+    const char *const *names = NULL;
+
+    system->form = model_form(model, &names, &system->independent_count);
+    system->independent =
+        pool_alloc(system->pool, (size_t)system->independent_count * sizeof(char *));
+    for (int i = 0; i < system->independent_count; i++)
+        system->independent[i] = system_keep(system, "%s", names[i]);
+}
+
+/* --- variables --- */
+
+static void add_speed(System *system, const Instance *instance, const char *name, bool is_angle)
+{
+    LIST_PUSH(system->u, (Variable){.name = name,
+                                    .symbol = expr_symbol(system->arena, name, SYMBOL_SPEED),
+                                    .edge = instance->edge,
+                                    .instance = instance->number,
+                                    .is_angle = is_angle});
+}
+
+static void add_coordinate(System *system, const Instance *instance, int c)
+{
+    const char *name = instance->coord[c];
+    bool is_angle = instance->coord_kind[c] == COORDINATE_ANGLE;
+
+    system->coordinate[instance->number][c] = system->q.count;
+    LIST_PUSH(system->q, (Variable){.name = name,
+                                    .symbol = expr_symbol(system->arena, name, SYMBOL_COORDINATE),
+                                    .edge = instance->edge,
+                                    .instance = instance->number,
+                                    .is_angle = is_angle});
+    if (instance->coord_kind[c] == COORDINATE_PARAMETER)
+        return;
+    system->speed[instance->number][c] = system->u.count;
+    add_speed(system, instance, system_keep(system, "%s'", name), is_angle);
+}
+
+/* four Euler parameters go with three components of angular velocity, in the axes of the head */
+static void add_parameters(System *system, const Instance *instance, int first)
+{
+    static const char *const speeds[] = {"Wx", "Wy", "Wz"};
+
+    LIST_PUSH(system->quaternions, system->q.count);
+    system->speed[instance->number][first] = system->u.count;
+    for (int c = first; c < first + 4; c++)
+        add_coordinate(system, instance, c);
+    for (int i = 0; i < 3; i++)
+        add_speed(system, instance, system_keep(system, "%s.%s", instance->name, speeds[i]), true);
+}
+
+/* coordinates of branches, each half in the tree of its half, in order of the edges' making */
+static void add_coordinates(System *system)
+{
+    const Tree *const halves[2] = {system->trees[TREE_TRANSLATION], system->trees[TREE_ROTATION]};
+
+    for (int i = 0; i < system->instance_count; i++) {
+        const Instance *instance = &system->instances[i];
+
+        if (instance->row->steps == NULL || instance->edge < 0)
+            continue;
+        for (int c = 0; c < instance->coord_count; c++) {
+            bool branch = tree_has(halves[instance->coord_rotation[c]], instance->edge);
+
+            if (instance->coord_kind[c] != COORDINATE_PARAMETER && branch)
+                add_coordinate(system, instance, c);
+            else if (branch) {
+                add_parameters(system, instance, c);
+                c += 3;
+            }
+        }
+    }
+    system->accelerations = pool_alloc(system->pool, (size_t)system->u.count * sizeof(Expr));
+    system->speeds = pool_alloc(system->pool, (size_t)system->u.count * sizeof *system->speeds);
+    for (int j = 0; j < system->u.count; j++) {
+        system->accelerations[j] = expr_symbol(
+            system->arena, system_keep(system, "%s'", system->u.at[j].name), SYMBOL_ACCELERATION);
+        system->speeds[j].chain = system->speeds[j].slide_node = -1;
+    }
+}
+
+/* p' = N w, N = 1/2 [-e^T; e0 1 + S(e)] */
+static void parameter_rates(System *system, int first, int speed)
+{
+    Arena *arena = system->arena;
+    Expr half = expr_rational(arena, 1, 2);
+    Expr p[4];
+
+    for (int i = 0; i < 4; i++)
+        p[i] = expr_mul(arena, half, system->q.at[first + i].symbol);
+    for (int i = 0; i < 4; i++) {
+        CoordinateRate *rate = &system->coordinate_rates[first + i];
+
+        rate->count = 3;
+        for (int k = 0; k < 3; k++) {
+            int row = i - 1;
+
+            rate->speed[k] = speed + k;
+            if (i == 0)
+                rate->entry[k] = expr_neg(arena, p[1 + k]);
+            else if (row == k)
+                rate->entry[k] = p[0];
+            else if (k == (row + 1) % 3)
+                rate->entry[k] = expr_neg(arena, p[1 + 3 - row - k]);
+            else
+                rate->entry[k] = p[1 + 3 - row - k];
+        }
+    }
+}
+
+static void add_rates(System *system)
+{
+    Arena *arena = system->arena;
+    size_t count = (size_t)system->q.count;
+
+    system->coordinate_rates = pool_alloc(system->pool, count * sizeof *system->coordinate_rates);
+    system->run.q_rate = pool_alloc(system->pool, count * sizeof(Expr));
+    for (int i = 0; i < system->instance_count; i++)
+        for (int c = 0; c < system->instances[i].coord_count; c++) {
+            int place = system->coordinate[i][c];
+            int speed = system->speed[i][c];
+
+            if (place < 0 || speed < 0)
+                continue;
+            if (system->instances[i].coord_kind[c] == COORDINATE_PARAMETER)
+                parameter_rates(system, place, speed);
+            else
+                system->coordinate_rates[place] =
+                    (CoordinateRate){1, {speed}, {expr_int(arena, 1)}};
+        }
+    for (int i = 0; i < system->q.count; i++) {
+        const CoordinateRate *rate = &system->coordinate_rates[i];
+
+        system->run.q_rate[i] = expr_int(arena, 0);
+        for (int k = 0; k < rate->count; k++)
+            system->run.q_rate[i] =
+                expr_add(arena, system->run.q_rate[i],
+                         expr_mul(arena, rate->entry[k], system->u.at[rate->speed[k]].symbol));
+    }
+}
+
+/* what supplies the motion of each driver */
+static void add_drives(System *system)
+{
+    for (int i = 0; i < system->instance_count; i++) {
+        const Instance *driver = &system->instances[i];
+        Drive drive = {.instance = i, .constraint = -1};
+
+        if (driver->row->family != FAMILY_DRIVER)
+            continue;
+        drive.by_source = driver->by >= 0 && driver->by_coordinate < 0;
+        if (driver->by >= 0) {
+            const Instance *by = &system->instances[driver->by];
+            const char *name = drive.by_source ? system_keep(system, "%s.value", by->name)
+                                               : system_keep(system, "%s.effort",
+                                                             by->coord[driver->by_coordinate]);
+
+            drive.effort = expr_symbol(system->arena, name, SYMBOL_EFFORT);
+        }
+        LIST_PUSH(system->drives, drive);
+    }
+}
+
+/* multipliers, and the rows of drivers */
+static void number_rows(System *system)
+{
+    system->multipliers = pool_alloc(system->pool, (size_t)system->rows.count * sizeof(Expr));
+    for (int k = 0; k < system->rows.count; k++) {
+        const char *name = system_keep(system, "lambda(%d)", k + 1);
+
+        system->multipliers[k] = expr_symbol(system->arena, name, SYMBOL_MULTIPLIER);
+        for (int i = 0; i < system->drives.count; i++) {
+            Drive *drive = &system->drives.at[i];
+
+            if (!system->rows.at[k].told.is_driver ||
+                system->rows.at[k].told.instance != drive->instance)
+                continue;
+            drive->constraint = k;
+            if (drive->effort == NULL)
+                drive->effort = expr_neg(system->arena, system->multipliers[k]);
+        }
+    }
+}
+
+/* --- life --- */
+
+static Status build(System *system, Diag *diag)
+{
+    Status status = OK;
+
+    if (system->trees[TREE_TRANSLATION] != NULL) {
+        add_coordinates(system);
+        add_rates(system);
+    }
+    add_drives(system);
+    frames_build(system);
+    turned_build(system);
+    motion_build(system);
+    system->is_early = true;
+    CHECK(network_build(system, diag));
+    if (system->trees[TREE_TRANSLATION] != NULL)
+        CHECK(constraints_build(system, diag));
+    number_rows(system);
+    if (system->trees[TREE_TRANSLATION] != NULL)
+        CHECK(dynamics_build(system, diag));
+    system->is_early = false;
+    CHECK(network_rows(system, diag));
+    CHECK(reading_choose(system, diag));
+    turned_add_rows(system);
+    CHECK(poll(system->watch));
+    if (arena_status(system->arena) != OK) {
+        status = diag_set(diag, arena_status(system->arena), "the equations can't be formed: %s",
+                          arena_failure(system->arena));
+        arena_reset(system->arena);
+    }
+done:
+    return status;
+}
+
+/* what is asked of a new System */
+typedef struct Order {
+    const Model *model;
+    NetworkForm form;  /* asked for */
+    NetworkForm taken; /* this one or, where a state form doesn't exist, the other */
+    VaryValue vary;
+    void *context;
+    Expr leak;
+    const bool *closed; /* sides of ideal switches; NULL: in no mode */
+    int closed_count;
+    bool takes_sides; /* of other switches as numbers */
+    const Watch *watch;
+} Order;
+
+static const bool *keep_sides(System *system, const Order *order)
+{
+    size_t bytes = (size_t)order->closed_count * sizeof(bool);
+    bool *kept = pool_alloc(system->pool, bytes);
+
+    if (order->closed == NULL)
+        return NULL;
+    memcpy(kept, order->closed, bytes);
+    return kept;
+}
+
+static Status make_as(const Order *order, bool *has_no_states, System **out, Diag *diag)
+{
+    const Model *model = order->model;
+    const Watch *watch = order->watch;
+    System *system = NEW(System);
+    Status status = OK;
+
+    system->pool = pool_new(0);
+    system->model = model;
+    system->arena = model_arena(model);
+    system->revision = model_revision(model);
+    system->asked_form = order->form;
+    system->network_form = order->taken;
+    system->leak = order->leak;
+    system->closed = keep_sides(system, order);
+    system->takes_sides = order->takes_sides;
+    system->watch = watch;
+    system->variable = system_variable;
+    system->planar = model_is_planar(model);
+    for (int i = 0; i < 3; i++)
+        system->gravity.at[i] = model_gravity(model)[i];
+    report(watch, "formulating", -1.0);
+    parameters_take(system, model);
+    copy_instances(system, model);
+    enter_names(system);
+    if (order->vary != NULL)
+        vary_values(system, order->vary, order->context);
+    CHECK(copy_graph(system, model, diag));
+    system_take_outputs(system, model);
+    copy_form(system, model);
+    CHECK(build(system, diag));
+    *out = system;
+    system->model = NULL;
+    system->watch = NULL;
+    system = NULL;
+done:
+    if (status == E_STOPPED)
+        (void)diag_set(diag, E_STOPPED, "stopped while the equations were formed");
+    *has_no_states = system != NULL && system->has_no_states;
+    system_free(system);
+    return status;
+}
+
+/* Controlled sources among inductors or capacitors alone leave no state form; the equations of the
+ * trees as they are can still be brought to order. */
+static Status make(Order order, System **out, Diag *diag)
+{
+    bool has_no_states = false;
+    Diag why = {0};
+    Status status;
+
+    order.taken = order.form;
+    status = make_as(&order, &has_no_states, out, diag);
+    if (status != E_MODEL || !has_no_states)
+        return status;
+    order.taken = NETWORK_TREE;
+    return make_as(&order, &has_no_states, out, &why) == OK ? OK : status;
+}
+
+Status system_new_varied(const Model *model, VaryValue vary, void *context, const Watch *watch,
+                         System **out, Diag *diag)
+{
+    return make((Order){.model = model, .vary = vary, .context = context, .watch = watch}, out,
+                diag);
+}
+
+Status system_new_like(const System *other, const Model *model, VaryValue vary, void *context,
+                       const Watch *watch, System **out, Diag *diag)
+{
+    return make((Order){.model = model,
+                        .vary = vary,
+                        .context = context,
+                        .closed = other->closed,
+                        .closed_count = other->ideals.count,
+                        .takes_sides = other->takes_sides,
+                        .watch = watch},
+                out, diag);
+}
+
+Status system_new_leaking(const Model *model, VaryValue vary, void *context, Expr leak,
+                          const Watch *watch, System **out, Diag *diag)
+{
+    return make(
+        (Order){.model = model, .vary = vary, .context = context, .leak = leak, .watch = watch},
+        out, diag);
+}
+
+Status system_new_form(const Model *model, NetworkForm form, const Watch *watch, System **out,
+                       Diag *diag)
+{
+    return make((Order){.model = model, .form = form, .watch = watch}, out, diag);
+}
+
+Status system_new(const Model *model, const Watch *watch, System **out, Diag *diag)
+{
+    return system_new_form(model, model_network_form(model), watch, out, diag);
+}
+
+/* the equations of sides that `whole` has none of yet */
+static Status make_sided(System *whole, const Model *model, const bool *closed, const Watch *watch,
+                         System **out, Diag *diag)
+{
+    Status status = OK;
+
+    if (whole->revision != model_revision(model)) {
+        (void)diag_set(diag, E_MODEL,
+                       "the switches ask for equations that aren't made yet, of a model that has "
+                       "changed since");
+        diag_hint(diag, "start a new run");
+        return E_MODEL;
+    }
+    CHECK(make((Order){.model = model,
+                       .closed = closed,
+                       .closed_count = whole->ideals.count,
+                       .takes_sides = true,
+                       .watch = watch},
+               out, diag));
+    (*out)->whole = whole;
+done:
+    return status;
+}
+
+/* whether the ideal switches are on the sides of that mode */
+static bool is_mode(const System *mode, const bool *closed)
+{
+    for (int i = 0; i < mode->ideals.count; i++)
+        if (system_is_ideal(mode, i) && mode->closed[i] != closed[i])
+            return false;
+    return true;
+}
+
+Status system_mode(System *whole, const Model *model, const bool *closed, const Watch *watch,
+                   System **out, Diag *diag)
+{
+    System *mode = NULL;
+    Status status = OK;
+
+    for (int i = 0; i < whole->modes.count; i++)
+        if (is_mode(whole->modes.at[i], closed)) {
+            *out = whole->modes.at[i];
+            return OK;
+        }
+    CHECK(make_sided(whole, model, closed, watch, &mode, diag));
+    LIST_PUSH(whole->modes, mode);
+    *out = mode;
+done:
+    return status;
+}
+
+Status system_sided(System *whole, const Model *model, const Watch *watch, System **out, Diag *diag)
+{
+    int ideal = system_truly_ideal_count(whole);
+    bool *closed = NULL;
+    Status status = OK;
+
+    if (ideal == whole->ideals.count)
+        whole->sided = whole;
+    else if (whole->sided == NULL && ideal > 0)
+        CHECK(make_sided(whole, model, NULL, watch, &whole->sided, diag));
+    else if (whole->sided == NULL) {
+        closed = NEW_ARRAY(bool, whole->ideals.count);
+        CHECK(system_mode(whole, model, closed, watch, &whole->sided, diag));
+    }
+    *out = whole->sided;
+done:
+    mem_free(closed);
+    return status;
+}
