@@ -35,6 +35,7 @@ struct Kkt {
     double *bound;      /* m x nu */
     double *compliance; /* m x m */
     Lu *lu;
+    const Watch *watch;
     double pivot; /* of the last configuration: how independent its rows are */
     bool regularised;
 };
@@ -60,6 +61,11 @@ Kkt *kkt_new(int nu, int m, int all)
     kkt->compliance = NEW_ARRAY(double, m *m);
     kkt->lu = lu_new(size);
     return kkt;
+}
+
+void kkt_set_watch(Kkt *kkt, const Watch *watch)
+{
+    kkt->watch = watch;
 }
 
 void kkt_free(Kkt *kkt)
@@ -251,9 +257,7 @@ static double least_pivot(Kkt *kkt, const double *phi_u, const int *rows)
         for (int i = 0; i < nu && norm > 0; i++)
             g[k * nu + i] /= norm;
     }
-    for (int i = 0; i < m; i++)
-        for (int j = 0; j <= i; j++)
-            s[i * m + j] = dot(g + i * nu, g + j * nu, nu);
+    matrix_gram(g, m, nu, s);
     return fmax(0, cholesky(s, m));
 }
 
@@ -286,7 +290,7 @@ bool kkt_factor(Kkt *kkt, const double *mass, const double *phi_u, const int *ro
         return false;
     memcpy(lu_matrix(kkt->lu), kkt->matrix, bytes);
     kkt->regularised = false;
-    sound = lu_factor(kkt->lu) && lu_pivot_ratio(kkt->lu) > 1e-14;
+    sound = lu_factor_watched(kkt->lu, kkt->watch) && lu_pivot_ratio(kkt->lu) > 1e-14;
     kkt->pivot =
         kkt->m > 0 && lu_pivot_ratio(kkt->lu) < SUSPECT ? least_pivot(kkt, phi_u, rows) : 1;
     if (kkt->pivot > SINGULAR)
@@ -297,7 +301,7 @@ bool kkt_factor(Kkt *kkt, const double *mass, const double *phi_u, const int *ro
     memcpy(lu_matrix(kkt->lu), kkt->matrix, bytes);
     for (int k = kkt->nu; k < kkt->size; k++)
         lu_matrix(kkt->lu)[k * kkt->size + k] = -epsilon;
-    return lu_factor(kkt->lu);
+    return lu_factor_watched(kkt->lu, kkt->watch);
 }
 
 bool kkt_is_near_singular(const Kkt *kkt)

@@ -11,16 +11,20 @@
 #ifndef COTREE_ALGEBRA_KKT_H
 #define COTREE_ALGEBRA_KKT_H
 
+#include "base/watch.h"
+
 #include <stdbool.h>
 
 typedef struct Kkt Kkt;
 
 /* New, for m rows in use of `all`; free with kkt_free(). */
 Kkt *kkt_new(int nu, int m, int all);
+/* who may stop kkt_factor(), borrowed; NULL: nobody */
+void kkt_set_watch(Kkt *kkt, const Watch *watch);
 void kkt_free(Kkt *kkt); /* NULL is fine */
 /* Factor. `rows` picks the m rows of phi_u (row by row, nu columns); borrowed during the call.
- * False when no solution can be had at all: M singular where nothing holds it, or NaN. O((nu+m)^3).
- */
+ * False when no solution can be had at all: M singular where nothing holds it, or NaN; or it was
+ * stopped. O((nu+m)^3). */
 bool kkt_factor(Kkt *kkt, const double *mass, const double *phi_u, const int *rows);
 /* of the last kkt_factor(): whether a singular configuration isn't far, and whether it is so near
  * that epsilon is there */

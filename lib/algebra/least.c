@@ -65,31 +65,6 @@ static double norm_of(const double *v, int n)
     return sqrt(sum);
 }
 
-/* a = J J^T. In coordinates of bodies a row has few entries, so only those are multiplied. */
-static void square(const Least *l, double *a)
-{
-    const int m = l->rows->rows, n = l->rows->columns;
-    int *place = NEW_ARRAY(int, n);
-
-    for (int i = 0; i < m; i++) {
-        const double *row = l->jacobian + (ptrdiff_t)i * n;
-        int count = 0;
-
-        for (int k = 0; k < n; k++)
-            if (row[k] != 0)
-                place[count++] = k;
-        for (int j = 0; j <= i; j++) {
-            const double *other = l->jacobian + (ptrdiff_t)j * n;
-            double sum = 0;
-
-            for (int k = 0; k < count; k++)
-                sum += row[place[k]] * other[place[k]];
-            a[i * m + j] = a[j * m + i] = sum;
-        }
-    }
-    mem_free(place);
-}
-
 /* l->step = -J^T (J J^T + damping 1)^-1 r; false when that can't be solved */
 static bool find_step(Least *l, double damping)
 {
@@ -97,12 +72,15 @@ static bool find_step(Least *l, double damping)
     double *a = lu_matrix(l->lu);
     double largest = 0;
 
-    square(l, a);
+    matrix_gram(l->jacobian, m, n, a);
+    for (int i = 0; i < m; i++)
+        for (int j = 0; j < i; j++)
+            a[j * m + i] = a[i * m + j];
     for (int i = 0; i < m; i++)
         largest = fmax(largest, a[i * m + i]);
     for (int i = 0; i < m; i++)
         a[i * m + i] += damping + RIDGE * fmax(largest, 1e-30);
-    if (!lu_factor(l->lu))
+    if (!lu_factor_watched(l->lu, l->rows->watch))
         return false;
     memcpy(l->weights, l->residual, (size_t)m * sizeof(double));
     lu_solve(l->lu, l->weights);
@@ -151,7 +129,7 @@ static void descend(Least *l, double tolerance)
 
         evaluate(l, l->v, l->residual, true);
         before = norm_of(l->residual, m);
-        if (before == 0 || !find_step(l, mu * before))
+        if (before == 0 || poll(l->rows->watch) != OK || !find_step(l, mu * before))
             return;
         take(l);
         after = norm_of(l->trial, m);

@@ -6,6 +6,8 @@
 #ifndef COTREE_ALGEBRA_LEAST_H
 #define COTREE_ALGEBRA_LEAST_H
 
+#include "base/watch.h"
+
 #include <stdbool.h>
 
 typedef struct Rows {
@@ -16,12 +18,13 @@ typedef struct Rows {
     void (*evaluate)(void *context, const double *v, double *residual, double *jacobian);
     /* v moved by `step` (columns); NULL: v += step, length == columns */
     void (*move)(void *context, double *v, const double *step);
+    const Watch *watch; /* NULL: never stops */
 } Rows;
 
 /* Improve v until every scaled residual is below `tolerance`, and then until rounding stops it.
  * held (columns, may be NULL): directions that don't move. weight (rows, may be NULL): of each row.
  * True when the tolerance was met; v is the best point found either way, `residual` (rows, may be
- * NULL) its residuals, unscaled. */
+ * NULL) its residuals, unscaled. The watch ends it early. */
 bool least_solve(const Rows *rows, const bool *held, const double *weight, double tolerance,
                  double *v, double *residual);
 

@@ -96,6 +96,11 @@ static void eliminate(Lu *lu, int k)
 
 bool lu_factor(Lu *lu)
 {
+    return lu_factor_watched(lu, NULL);
+}
+
+bool lu_factor_watched(Lu *lu, const Watch *watch)
+{
     int n = lu->n;
     double least = INFINITY, largest = 0;
 
@@ -103,6 +108,8 @@ bool lu_factor(Lu *lu)
     for (int k = 0; k < n; k++) {
         double pivot;
 
+        if (poll(watch) != OK)
+            return false;
         exchange(lu, k, largest_below(lu, k));
         pivot = fabs(lu->a[k * n + k]);
         if (!(pivot > 0) || !isfinite(pivot))
@@ -153,6 +160,29 @@ void matrix_times(const double *matrix, int rows, int columns, const double *v, 
             sum += matrix[i * columns + j] * v[j];
         out[i] = sum;
     }
+}
+
+void matrix_gram(const double *matrix, int rows, int columns, double *out)
+{
+    int *place = NEW_ARRAY(int, columns);
+
+    for (int i = 0; i < rows; i++) {
+        const double *row = matrix + (ptrdiff_t)i * columns;
+        int count = 0;
+
+        for (int k = 0; k < columns; k++)
+            if (row[k] != 0)
+                place[count++] = k;
+        for (int j = 0; j <= i; j++) {
+            const double *other = matrix + (ptrdiff_t)j * columns;
+            double sum = 0;
+
+            for (int k = 0; k < count; k++)
+                sum += row[place[k]] * other[place[k]];
+            out[(ptrdiff_t)i * rows + j] = sum;
+        }
+    }
+    mem_free(place);
 }
 
 double vector_largest(const double *v, int n)

@@ -5,6 +5,8 @@
 #ifndef COTREE_ALGEBRA_LINEAR_H
 #define COTREE_ALGEBRA_LINEAR_H
 
+#include "base/watch.h"
+
 #include <stdbool.h>
 
 typedef struct Lu Lu;
@@ -14,12 +16,16 @@ void lu_free(Lu *lu);      /* NULL is fine */
 double *lu_matrix(Lu *lu); /* n x n; overwritten by lu_factor() */
 /* Factor in place with row exchanges (Gauss). False when a pivot is 0 or not finite. O(n^3). */
 bool lu_factor(Lu *lu);
+/* the same, false when the watch says stop, too */
+bool lu_factor_watched(Lu *lu, const Watch *watch);
 /* least over largest pivot in size, of the last lu_factor(); 0 when singular */
 double lu_pivot_ratio(const Lu *lu);
 void lu_solve(const Lu *lu, double *b); /* b becomes the solution; O(n^2) */
 
 /* out = matrix * v, rows x columns */
 void matrix_times(const double *matrix, int rows, int columns, const double *v, double *out);
+/* out (rows x rows, its lower half) = matrix * matrix^T, of rows that may be mostly 0 */
+void matrix_gram(const double *matrix, int rows, int columns, double *out);
 double vector_largest(const double *v, int n); /* max |v_i|; NAN when one is */
 bool vector_is_finite(const double *v, int n);
 

@@ -1,45 +1,156 @@
-/* rank.c: rank decisions by pivoted QR */
+/* rank.c: rank decisions by pivoted QR
+ *
+ * Householder's reflections I - tau v v^T, columns exchanged such that the longest remainder comes
+ * next. A row of constraints moves few bodies, so a reflection touches few entries, and most
+ * columns not at all: only what isn't 0 is worked on. */
 #include "algebra/rank.h"
 
 #include "base/memory.h"
 
-#include <gsl/gsl_blas.h>
-#include <gsl/gsl_linalg.h>
 #include <math.h>
 #include <stdbool.h>
 #include <stdlib.h>
 
 #define THRESHOLD 1e-9
+#define STALE     1.5e-8 /* of its square: a length that fell this far has lost half its digits */
 
 typedef struct Pivoted {
-    gsl_matrix *qr;
-    gsl_vector *tau;
-    gsl_permutation *order;
+    int rows, columns, least;
+    double *entries;
+    double **column; /* in the order of pivots: R on and above the diagonal, v (1 first) below it */
+    double *tau;     /* least */
+    int *order;      /* which column of the matrix */
+    int *filled;     /* where the reflection at hand isn't 0 */
     int rank;
 } Pivoted;
 
-static Pivoted factor(gsl_matrix *matrix, double threshold)
+static Pivoted pivoted_new(int rows, int columns)
 {
-    size_t least = matrix->size1 < matrix->size2 ? matrix->size1 : matrix->size2;
-    Pivoted p = {.qr = matrix,
-                 .tau = gsl_vector_alloc(least),
-                 .order = gsl_permutation_alloc(matrix->size2)};
-    gsl_vector *norms = gsl_vector_alloc(matrix->size2);
-    int sign = 0;
+    const int least = rows < columns ? rows : columns;
+    Pivoted p = {.rows = rows,
+                 .columns = columns,
+                 .least = least,
+                 .entries = NEW_ARRAY(double, (ptrdiff_t)rows *columns),
+                 .column = NEW_ARRAY(double *, columns),
+                 .tau = NEW_ARRAY(double, least),
+                 .order = NEW_ARRAY(int, columns),
+                 .filled = NEW_ARRAY(int, rows)};
 
-    (void)gsl_linalg_QRPT_decomp(matrix, p.tau, p.order, &sign, norms);
-    while (p.rank < (int)least && fabs(gsl_matrix_get(matrix, (size_t)p.rank, (size_t)p.rank)) >
-                                      threshold * fabs(gsl_matrix_get(matrix, 0, 0)))
-        p.rank++;
-    gsl_vector_free(norms);
+    for (int j = 0; j < columns; j++) {
+        p.column[j] = p.entries + (ptrdiff_t)j * rows;
+        p.order[j] = j;
+    }
     return p;
 }
 
 static void release(Pivoted *p)
 {
-    gsl_matrix_free(p->qr);
-    gsl_vector_free(p->tau);
-    gsl_permutation_free(p->order);
+    mem_free(p->entries);
+    mem_free(p->column);
+    mem_free(p->tau);
+    mem_free(p->order);
+    mem_free(p->filled);
+}
+
+static double square_of(const double *v, int from, int to)
+{
+    double sum = 0;
+
+    for (int i = from; i < to; i++)
+        sum += v[i] * v[i];
+    return sum;
+}
+
+/* the longest remainder comes to place k */
+static void exchange(Pivoted *p, int k, double *square, double *fresh)
+{
+    int best = k;
+
+    for (int j = k + 1; j < p->columns; j++)
+        if (square[j] > square[best])
+            best = j;
+
+    double *const column = p->column[k];
+    const int order = p->order[k];
+
+    p->column[k] = p->column[best];
+    p->order[k] = p->order[best];
+    p->column[best] = column;
+    p->order[best] = order;
+    square[best] = square[k];
+    fresh[best] = fresh[k];
+}
+
+/* Column k becomes R's entry and the reflection that takes what is below to 0: how many entries
+ * that has in p->filled. */
+static int reflect(Pivoted *p, int k)
+{
+    double *const v = p->column[k];
+    const double length = sqrt(square_of(v, k, p->rows));
+    const double beta = v[k] > 0 ? -length : length;
+    int count = 0;
+
+    for (int i = k + 1; i < p->rows; i++)
+        if (v[i] != 0)
+            p->filled[count++] = i;
+    if (count == 0) {
+        p->tau[k] = 0;
+        return 0;
+    }
+    p->tau[k] = (beta - v[k]) / beta;
+    for (int i = 0; i < count; i++)
+        v[p->filled[i]] /= v[k] - beta;
+    v[k] = beta;
+    return count;
+}
+
+/* x less its part along v_k, doubled */
+static void apply(const Pivoted *p, int k, const int *filled, int count, double *x)
+{
+    const double *const v = p->column[k];
+    double part = x[k];
+
+    for (int i = 0; i < count; i++)
+        part += v[filled[i]] * x[filled[i]];
+    part *= p->tau[k];
+    if (part == 0)
+        return;
+    x[k] -= part;
+    for (int i = 0; i < count; i++)
+        x[filled[i]] -= part * v[filled[i]];
+}
+
+/* E_STOPPED leaves the rest as it is. O(rows columns least), less for what is 0. */
+static Status factor(Pivoted *p, double threshold, const Watch *watch)
+{
+    double *square = NEW_ARRAY(double, p->columns); /* of the remainder of each column, */
+    double *fresh = NEW_ARRAY(double, p->columns);  /* and when it was last computed */
+    Status status = OK;
+
+    for (int j = 0; j < p->columns; j++)
+        square[j] = fresh[j] = square_of(p->column[j], 0, p->rows);
+    for (int k = 0; k < p->least; k++) {
+        int count;
+
+        CHECK(poll(watch));
+        exchange(p, k, square, fresh);
+        count = reflect(p, k);
+        for (int j = k + 1; j < p->columns; j++) {
+            double *const x = p->column[j];
+
+            apply(p, k, p->filled, count, x);
+            square[j] -= x[k] * x[k];
+            if (square[j] <= STALE * fresh[j])
+                square[j] = fresh[j] = square_of(x, k + 1, p->rows);
+        }
+    }
+    while (p->rank < p->least &&
+           fabs(p->column[p->rank][p->rank]) > threshold * fabs(p->column[0][0]))
+        p->rank++;
+done:
+    mem_free(square);
+    mem_free(fresh);
+    return status;
 }
 
 static int rising(const void *a, const void *b)
@@ -52,26 +163,30 @@ static double row_norm(const double *row, int n)
     double norm = 0;
 
     for (int j = 0; j < n; j++)
-        norm = hypot(norm, row[j]);
+        if (row[j] != 0)
+            norm = hypot(norm, row[j]);
     return norm;
 }
 
-/* rows of the matrix (NULL: all of them) as columns of unit size; new */
-static gsl_matrix *unit_rows(const double *matrix, int nu, const int *rows, int count)
+/* rows of the matrix (NULL: all of them) as columns of unit size */
+static Pivoted unit_rows(const double *matrix, int nu, const int *rows, int count)
 {
-    gsl_matrix *out = gsl_matrix_alloc((size_t)nu, (size_t)count);
+    Pivoted out = pivoted_new(nu, count);
+    double *norm = NEW_ARRAY(double, count);
     double largest = 0;
 
-    for (int k = 0; k < count; k++)
-        largest = fmax(largest, row_norm(matrix + (rows != NULL ? rows[k] : k) * nu, nu));
     for (int k = 0; k < count; k++) {
-        const double *row = matrix + (rows != NULL ? rows[k] : k) * nu;
-        double norm = row_norm(row, nu);
-        bool is_zero = !(norm > 1e-10 * largest); /* rounding alone */
-
-        for (int j = 0; j < nu; j++)
-            gsl_matrix_set(out, (size_t)j, (size_t)k, is_zero ? 0 : row[j] / norm);
+        norm[k] = row_norm(matrix + (ptrdiff_t)(rows != NULL ? rows[k] : k) * nu, nu);
+        largest = fmax(largest, norm[k]);
     }
+    for (int k = 0; k < count; k++) {
+        const double *row = matrix + (ptrdiff_t)(rows != NULL ? rows[k] : k) * nu;
+        bool is_zero = !(norm[k] > 1e-10 * largest); /* rounding alone */
+
+        for (int j = 0; j < nu && !is_zero; j++)
+            out.column[k][j] = row[j] / norm[k];
+    }
+    mem_free(norm);
     return out;
 }
 
@@ -79,31 +194,35 @@ static gsl_matrix *unit_rows(const double *matrix, int nu, const int *rows, int 
 static void put_order(const Pivoted *p, int m, int count, int *order)
 {
     for (int k = 0; k < m; k++)
-        order[k] = (int)gsl_permutation_get(p->order, (size_t)k);
+        order[k] = p->order[k];
     qsort(order, (size_t)count, sizeof(int), rising);
     qsort(order + count, (size_t)(m - count), sizeof(int), rising);
 }
 
-int rank_rows(const double *matrix, int m, int nu, double threshold, int *order)
+Status rank_rows(const double *matrix, int m, int nu, double threshold, const Watch *watch,
+                 int *rank, int *order)
 {
     Pivoted p;
+    Status status = OK;
 
-    if (m == 0 || nu == 0) {
-        for (int k = 0; k < m && order != NULL; k++)
-            order[k] = k;
-        return 0;
-    }
-    p = factor(unit_rows(matrix, nu, NULL, m), threshold);
-    if (order != NULL)
-        put_order(&p, m, p.rank, order);
+    *rank = 0;
+    for (int k = 0; k < m; k++)
+        order[k] = k;
+    if (m == 0 || nu == 0)
+        return OK;
+    p = unit_rows(matrix, nu, NULL, m);
+    CHECK(factor(&p, threshold, watch));
+    *rank = p.rank;
+    put_order(&p, m, p.rank, order);
+done:
     release(&p);
-    return p.rank;
+    return status;
 }
 
 static double pivot_ratio(const Pivoted *p, int count)
 {
-    const double first = fabs(gsl_matrix_get(p->qr, 0, 0));
-    const double last = fabs(gsl_matrix_get(p->qr, (size_t)count - 1, (size_t)count - 1));
+    const double first = fabs(p->column[0][0]);
+    const double last = fabs(p->column[count - 1][count - 1]);
 
     return first > 0 ? last / first : 0;
 }
@@ -117,7 +236,8 @@ double rank_choose(const double *matrix, int m, int nu, int count, int *rows)
     if (count == 0)
         return 1;
     order = NEW_ARRAY(int, m);
-    p = factor(unit_rows(matrix, nu, NULL, m), 0);
+    p = unit_rows(matrix, nu, NULL, m);
+    (void)factor(&p, 0, NULL);
     put_order(&p, m, count, order);
     for (int k = 0; k < count; k++)
         rows[k] = order[k];
@@ -134,29 +254,40 @@ double rank_ratio(const double *matrix, int nu, const int *rows, int count)
 
     if (count == 0)
         return 1;
-    p = factor(unit_rows(matrix, nu, rows, count), 0);
+    p = unit_rows(matrix, nu, rows, count);
+    (void)factor(&p, 0, NULL);
     ratio = pivot_ratio(&p, count);
     release(&p);
     return ratio;
 }
 
+/* the reflection of step k alone */
+static void apply_alone(Pivoted *p, int k, double *x)
+{
+    int count = 0;
+
+    for (int i = k + 1; i < p->rows; i++)
+        if (p->column[k][i] != 0)
+            p->filled[count++] = i;
+    apply(p, k, p->filled, count, x);
+}
+
 void rank_least_multipliers(const double *phi_u, int m, int nu, double *lambda)
 {
-    gsl_vector_view v;
-    gsl_matrix *copy;
     Pivoted p;
 
     if (m == 0 || nu == 0)
         return;
-    copy = gsl_matrix_alloc((size_t)m, (size_t)nu);
+    p = pivoted_new(m, nu);
     for (int k = 0; k < m; k++)
         for (int j = 0; j < nu; j++)
-            gsl_matrix_set(copy, (size_t)k, (size_t)j, phi_u[k * nu + j]);
-    p = factor(copy, THRESHOLD);
-    v = gsl_vector_view_array(lambda, (size_t)m);
-    (void)gsl_linalg_QR_QTvec(p.qr, p.tau, &v.vector);
+            p.column[j][k] = phi_u[k * nu + j];
+    (void)factor(&p, THRESHOLD, NULL);
+    for (int k = 0; k < p.least; k++)
+        apply_alone(&p, k, lambda);
     for (int k = p.rank; k < m; k++)
         lambda[k] = 0;
-    (void)gsl_linalg_QR_Qvec(p.qr, p.tau, &v.vector);
+    for (int k = p.least - 1; k >= 0; k--)
+        apply_alone(&p, k, lambda);
     release(&p);
 }

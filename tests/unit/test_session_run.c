@@ -1,6 +1,10 @@
 /* test_session_run.c: runs, values, tables, expectations */
 #include "session_kit.h"
 
+#include "base/text.h"
+
+#include <time.h>
+
 static void a_run_keeps_energy_and_meets_the_start(void)
 {
     Kit kit = kit_new();
@@ -473,6 +477,75 @@ static void a_stopped_derivation_leaves_the_session_whole(void)
 
 /* angular speeds of a joint with Euler parameters, in the axes of its head: those of the arm there
  * while the tail rests; the same whatever trees they are given in */
+/* a chain of hinged bodies in their own coordinates, turned the wrong way: work for assembly */
+static void write_chain(Text *text, int n)
+{
+    for (int i = 0; i < n; i++) {
+        text_addf(text, "body b%d mass=1 inertia=[1, 2, 3]; arm p%d b%d [0, 0, 1]\n", i, i, i);
+        text_addf(text, "arm q%d b%d [0, 0, -1]\n", i, i);
+        if (i == 0)
+            text_add(text, "revolute h0 ground p0 axis=x\n");
+        else
+            text_addf(text, "revolute h%d q%d p%d axis=x\n", i, i - 1, i);
+    }
+    text_add(text, "tree absolute; init b3.y = 2, b3.q1 = 0.3\n");
+}
+
+typedef struct Asked {
+    int left;       /* how often it is answered with no */
+    clock_t last;   /* when it was asked */
+    double longest; /* s of the processor between two questions */
+} Asked;
+
+static bool note_question(void *context)
+{
+    Asked *asked = context;
+    const clock_t now = clock();
+
+    asked->longest = fmax(asked->longest, (double)(now - asked->last) / CLOCKS_PER_SEC);
+    asked->last = now;
+    return asked->left-- <= 0;
+}
+
+static void a_start_can_be_stopped_anywhere(void)
+{
+    Asked asked = {.left = 1000000000};
+    const ct_hooks hooks = {.context = &asked, .stop = note_question, .columns = 80};
+    Kit kit = {.session = ct_session_new(&hooks)};
+    Text text = {0};
+    int questions, stops = 0;
+
+    write_chain(&text, 20);
+    EXPECT_DONE(&kit, text.at);
+    asked.last = clock();
+    EXPECT_DONE(&kit, "assemble");
+    EXPECT(asked.longest < 0.5);
+    EXPECT_DONE(&kit, "init b3.y = 2.01");
+    asked.left = 1000000000;
+    EXPECT_DONE(&kit, "assemble");
+    questions = 1000000000 - asked.left;
+
+    for (int left = 1; left < questions / 2; left += 1 + questions / 17) {
+        /* what was computed is kept: another value asks for it anew */
+        (void)snprintf(text.at, text.length, "init b3.y = %.17g", 2 + 1e-3 * left);
+        asked.left = 1000000000;
+        EXPECT_DONE(&kit, text.at);
+        asked.left = left;
+        if (kit_do(&kit, "assemble") == CT_OK) {
+            /* the question came when everything was found */
+            asked.left = 1000000000;
+            EXPECT(kit_value(&kit, "constraint.error") < 1e-9);
+            continue;
+        }
+        EXPECT(kit.error.status == CT_STOPPED);
+        EXPECT_HOLDS(kit.error.message, "stopped");
+        stops++;
+    }
+    EXPECT(stops > 5);
+    text_free(&text);
+    kit_free(&kit);
+}
+
 static void angular_speeds_of_joints_can_be_given(void)
 {
     static const char *const trees[] = {"tree joint\n", "tree absolute\n",
@@ -561,6 +634,7 @@ int main(void)
     RUN(formats_of_later_versions_say_so);
     RUN(a_stopped_run_keeps_what_it_has);
     RUN(a_stopped_derivation_leaves_the_session_whole);
+    RUN(a_start_can_be_stopped_anywhere);
     RUN(angular_speeds_of_joints_can_be_given);
     RUN(parts_that_no_longer_fit_are_told);
     RUN(a_solution_that_ends_ends_the_run);

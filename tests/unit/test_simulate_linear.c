@@ -219,13 +219,80 @@ static void what_is_only_nearly_singular_is_exact(void)
 static void rank_finds_the_row_that_follows(void)
 {
     double rows[4 * 3] = {1, 2, 3, 0, 1e-3, 1e-3, 1, 2.001, 3.001, 5, 0, 0};
-    int order[4];
+    int order[4], rank;
 
-    EXPECT(rank_rows(rows, 4, 3, 1e-9, order) == 3);
+    EXPECT(rank_rows(rows, 4, 3, 1e-9, NULL, &rank, order) == OK && rank == 3);
     rows[9] = 0; /* a row of zeros */
-    EXPECT(rank_rows(rows, 4, 3, 1e-9, order) == 2);
+    EXPECT(rank_rows(rows, 4, 3, 1e-9, NULL, &rank, order) == OK && rank == 2);
     EXPECT(order[0] < order[1] && order[2] < order[3]);
     EXPECT(order[2] == 3 || order[3] == 3);
+}
+
+static bool count_down(void *context)
+{
+    int *left = context;
+
+    return (*left)-- <= 0;
+}
+
+static void long_work_asks_whether_to_stop(void)
+{
+    enum { N = 60 };
+    double matrix[N * N];
+    int order[N], rank = -1, left = N / 2;
+    uint64_t seed = 5;
+    const Watch watch = {.context = &left, .stop = count_down};
+    Lu *lu = lu_new(N);
+
+    random_matrix(&seed, matrix, N * N);
+    EXPECT(rank_rows(matrix, N, N, 1e-9, &watch, &rank, order) == E_STOPPED);
+    left = 10 * N;
+    EXPECT(rank_rows(matrix, N, N, 1e-9, &watch, &rank, order) == OK && rank == N);
+    EXPECT(left <= 9 * N); /* at least once a column */
+
+    left = N / 2;
+    memcpy(lu_matrix(lu), matrix, sizeof matrix);
+    EXPECT(!lu_factor_watched(lu, &watch));
+    left = 10 * N;
+    memcpy(lu_matrix(lu), matrix, sizeof matrix);
+    EXPECT(lu_factor_watched(lu, &watch));
+    lu_free(lu);
+}
+
+/* Rows that follow from others, of any scale: as many as were made are found, and they span. */
+static void rank_is_that_of_the_making(void)
+{
+    enum { WIDE = 14, HIGH = 20 };
+    uint64_t seed = 11;
+
+    for (int trial = 0; trial < 200; trial++) {
+        const int made = 1 + trial % 12;
+        double rows[HIGH * WIDE] = {0}, chosen[HIGH * WIDE];
+        int order[HIGH], rank;
+
+        for (int i = 0; i < HIGH; i++) {
+            double *row = rows + i * WIDE;
+            const double scale = pow(10, test_uniform(&seed, -3, 3));
+
+            /* one entry of its own, and two that others may have */
+            for (int k = 0; i < made && k < 3; k++)
+                row[k == 0 ? i : made + (int)(test_random(&seed) % (unsigned)(WIDE - made))] =
+                    test_uniform(&seed, 0.5, 1);
+            for (int k = 0; i >= made && k < 2; k++) {
+                const double *of = rows + (int)(test_random(&seed) % (unsigned)made) * WIDE;
+                const double share = test_uniform(&seed, -1, 1);
+
+                for (int j = 0; j < WIDE; j++)
+                    row[j] += share * of[j];
+            }
+            for (int j = 0; j < WIDE; j++)
+                row[j] *= scale;
+        }
+        EXPECT(rank_rows(rows, HIGH, WIDE, 1e-9, NULL, &rank, order) == OK && rank == made);
+        for (int k = 0; k < made; k++)
+            memcpy(chosen + k * WIDE, rows + order[k] * WIDE, WIDE * sizeof(double));
+        EXPECT(rank_rows(chosen, made, WIDE, 1e-9, NULL, &rank, order) == OK && rank == made);
+    }
 }
 
 static void least_multipliers_give_the_same_forces(void)
@@ -293,6 +360,8 @@ int main(void)
     RUN(a_light_part_between_heavy_ones_is_no_singularity);
     RUN(what_is_only_nearly_singular_is_exact);
     RUN(rank_finds_the_row_that_follows);
+    RUN(long_work_asks_whether_to_stop);
+    RUN(rank_is_that_of_the_making);
     RUN(least_multipliers_give_the_same_forces);
     RUN(least_squares_goes_to_the_near_solution);
     RUN(least_squares_keeps_what_is_held);

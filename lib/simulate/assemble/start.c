@@ -208,7 +208,8 @@ static void evaluate_network(void *context, const double *v, double *residual, d
 
 Rows start_rows(Problem *p)
 {
-    Rows rows = {.columns = p->columns, .length = p->symbols, .context = p};
+    Rows rows = {
+        .columns = p->columns, .length = p->symbols, .context = p, .watch = p->a->setting->watch};
 
     rows.rows = p->system_rows + p->count;
     rows.evaluate = p->level == LEVEL_POSITION   ? evaluate_position
@@ -322,7 +323,7 @@ static bool try_around(Problem *p, const Rows *rows, const bool *held, const dou
     Assembly *a = p->a;
     uint64_t seed = 1;
 
-    for (int k = 0; k < TRIES; k++) {
+    for (int k = 0; k < TRIES && poll(rows->watch) == OK; k++) {
         double size = k < TRIES / 3 ? 0.1 : k < 2 * TRIES / 3 ? 0.5 : 1.5;
 
         for (int i = 0; i < a->l->n; i++)
@@ -491,23 +492,26 @@ static bool nearby(Assembly *a, uint64_t *seed, double *q, double *residual)
 
 /* Independent rows, from the assembled position and two near it: a rank that falls at one place
  * only is a singularity, not a redundancy. */
-static void find_rank(Assembly *a)
+static Status find_rank(Assembly *a)
 {
     const Layout *l = a->l;
+    const Watch *watch = a->setting->watch;
     int *order = NEW_ARRAY(int, l->m);
     double *q = NEW_ARRAY(double, l->n);
     double *residual = NEW_ARRAY(double, l->m);
     uint64_t seed = 7;
     int here, best;
+    Status status = OK;
 
     a->eq->position(a->eq->context, 0, a->y);
-    here = best = rank_rows(a->eq->phi_u, l->m, l->nu, RANK_RATIO, a->out->rows);
+    CHECK(rank_rows(a->eq->phi_u, l->m, l->nu, RANK_RATIO, watch, &here, a->out->rows));
+    best = here;
     for (int k = 0; k < 2 && best < l->m; k++) {
         int rank;
 
         if (!nearby(a, &seed, q, residual))
             continue;
-        rank = rank_rows(a->eq->phi_u, l->m, l->nu, 1e-7, order);
+        CHECK(rank_rows(a->eq->phi_u, l->m, l->nu, 1e-7, watch, &rank, order));
         if (rank > best) {
             best = rank;
             memcpy(a->out->rows, order, (size_t)l->m * sizeof(int));
@@ -524,9 +528,11 @@ static void find_rank(Assembly *a)
             a->eq->position(a->eq->context, 0, a->y);
         redundant_tell(l->system, a->eq->phi_u, a->out->rows, best, &a->out->remarks);
     }
+done:
     mem_free(order);
     mem_free(q);
     mem_free(residual);
+    return status;
 }
 
 Status start_find(const Layout *layout, Parameters *parameters, Numbers *numbers,
@@ -553,10 +559,13 @@ Status start_find(const Layout *layout, Parameters *parameters, Numbers *numbers
     CHECK(start_place(&a, warm, warm_context, &closed, diag));
     CHECK(find_position(&a, closed, diag));
     equations_turn(a.eq, 0, a.y, a.y + layout_turned(layout));
-    find_rank(&a);
+    CHECK(find_rank(&a));
     CHECK(find_velocity(&a, diag));
     CHECK(start_find_network(&a, setting->from != NULL ? warm : NULL, warm_context, diag));
 done:
+    /* what was stopped has found nothing, and says so in many ways */
+    if (poll(setting->watch) != OK)
+        status = diag_set(diag, E_STOPPED, "stopped while the start was looked for");
     skeleton_free(a.skeleton);
     mem_free(a.given);
     mem_free(a.own);

@@ -299,7 +299,7 @@ static bool try_around(Placing *p, const Rows *rows, const double *from, const b
     uint64_t seed = 1;
     bool met = false;
 
-    for (int k = 0; k < TRIES && !met; k++) {
+    for (int k = 0; k < TRIES && !met && poll(rows->watch) == OK; k++) {
         double size = k < TRIES / 3 ? 0.1 : k < 2 * TRIES / 3 ? 0.5 : 1.5;
 
         for (int j = 0; j < rows->columns; j++)
@@ -361,6 +361,7 @@ bool place_search(Placing *p, bool guesses)
                   .columns = p->columns.count,
                   .length = p->s->link_count * MAX_COORDS,
                   .context = &s,
+                  .watch = p->a->setting->watch,
                   .evaluate = evaluate,
                   .move = move};
     residual = NEW_ARRAY(double, rows.rows);

@@ -86,6 +86,7 @@ Motion *motion_new(const Equations *eq, const MotionOptions *options)
     mo->low = -INFINITY;
     mo->high = INFINITY;
     mo->kkt = kkt_new(eq->nu, mo->used, eq->m);
+    kkt_set_watch(mo->kkt, options->watch);
     if (options->embedded)
         mo->embed = embed_new(eq->nu, mo->used);
     mo->network = netsolve_new(eq);

@@ -14,6 +14,7 @@
 #ifndef COTREE_SIMULATE_EQUATIONS_MOTION_H
 #define COTREE_SIMULATE_EQUATIONS_MOTION_H
 
+#include "base/watch.h"
 #include "simulate/integrate/ode.h"
 
 #include <stddef.h>
@@ -97,6 +98,7 @@ void equations_turn(const Equations *equations, double t, const double *q, doubl
 void equations_normalise(const Equations *equations, double *q);
 
 typedef struct MotionOptions {
+    const Watch *watch; /* who may stop a factorisation, borrowed; NULL: nobody */
     bool embedded;
     const int *rows; /* constraint rows in use at first, independent ones */
     int row_count;

@@ -35,7 +35,7 @@ typedef struct Setting {
     const StartValues *start;
     const Result *warm; /* configuration by coordinate name to start guesses from; NULL: none */
     const Result *from; /* start where this one does, but for what `start` tells; NULL: there */
-    const Watch *watch;
+    const Watch *watch; /* borrowed as long as what is made with it */
 } Setting;
 
 #endif

@@ -338,10 +338,12 @@ static Status stretch(March *m, double end, Diag *diag)
 
     march_begin_modes(m);
     while (end - m->stepper->t > least && !m->is_over) {
-        if (poll(plan->watch) != OK)
-            return diag_set(diag, E_STOPPED, "stopped at t = %.6g s", m->stepper->t);
         report(plan->watch, "simulate", (m->stepper->t - plan->from) / (plan->to - plan->from));
-        CHECK(one_step(m, end, diag));
+        status = poll(plan->watch) == OK ? one_step(m, end, diag) : E_STOPPED;
+        /* a step that is stopped within fails in its own words */
+        if (status != OK && poll(plan->watch) != OK)
+            return diag_set(diag, E_STOPPED, "stopped at t = %.6g s", m->stepper->t);
+        CHECK(status);
     }
     if (!m->is_over)
         m->stepper->t = end;

@@ -111,7 +111,8 @@ static Status find_independent(const Layout *l, const Setting *setting, int *out
 Status result_open_phase(Result *r, Phase *phase, const Setting *setting, Diag *diag)
 {
     int *independent = NEW_ARRAY(int, setting->independent_count);
-    MotionOptions options = {.embedded = setting->form == FORM_EMBEDDED && r->kind == RUN_SIMULATE,
+    MotionOptions options = {.watch = setting->watch,
+                             .embedded = setting->form == FORM_EMBEDDED && r->kind == RUN_SIMULATE,
                              .rows = r->start.rows,
                              .row_count = r->start.row_count,
                              .independent = independent,

@@ -334,6 +334,8 @@ Status run_assemble(System *system, const Setting *setting, Result **out, Diag *
     motion_residuals(r->phase->motion, 0, r->begin, &position, &velocity);
     r->report.position_residual = position;
     r->report.velocity_residual = velocity;
+    if (poll(setting->watch) != OK)
+        CHECK(diag_set(diag, E_STOPPED, "stopped at the start"));
     *out = r;
     r = NULL;
 done:
