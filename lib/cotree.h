@@ -81,6 +81,11 @@ void ct_statement_free(ct_statement *statement);
 bool ct_statement_is_empty(const ct_statement *statement);
 const char *ct_statement_text(const ct_statement *statement);
 const char *ct_verb(const ct_statement *statement); /* full; "" for NAME = expr and f(x) = expr */
+/* Who carries a statement out: ct_apply(), ct_run(), or whoever calls, by the functions below. */
+typedef enum ct_room { CT_MODEL, CT_SESSION, CT_CALLER } ct_room;
+ct_room ct_carrier(const ct_statement *statement);
+bool ct_prints(const ct_statement *statement); /* something, which `>` may send to a file */
+const ct_statement *ct_rest(const ct_statement *statement); /* of `time STATEMENT`; NULL */
 int ct_operand_count(const ct_statement *statement);
 const ct_expression *ct_operand(const ct_statement *statement, int i);
 int ct_operand_sign(const ct_statement *statement, int i); /* '+', '-' or 0 */

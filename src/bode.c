@@ -127,7 +127,7 @@ static ct_status write_table(const Call *call, const char *path, bool append, ct
     return status;
 }
 
-ct_status command_bode(Call *call, ct_error *error)
+static ct_status command_bode(Call *call, ct_error *error)
 {
     Response response = {0};
     const Drawing drawing = {put_commands, &response, ct_title(call->session)};
@@ -147,3 +147,8 @@ ct_status command_bode(Call *call, ct_error *error)
     ct_words_free(response.names);
     return status;
 }
+
+const Command commands_bode[] = {
+    {"bode", command_bode, NULL, WRITES | UNPAGED},
+    {NULL, NULL, NULL, 0},
+};

@@ -3,25 +3,20 @@
 
 #include <string.h>
 
-static bool has_no_operand(const ct_statement *statement)
-{
-    return ct_operand_count(statement) == 0;
-}
-
-static const Command table[] = {
-#define COMMAND(verb, run, takes, flags) {verb, run, takes, flags},
-#include "commands.def"
-#undef COMMAND
-};
+static const Command *const tables[] = {commands_look, commands_run,  commands_session,
+                                        commands_plot, commands_bode, commands_shell};
 
 const Command *command_find(const ct_statement *statement)
 {
+    static const Command run = {"", command_run, NULL, 0};
     const char *verb = ct_verb(statement);
 
-    for (size_t i = 0; i < sizeof table / sizeof table[0]; i++)
-        if (strcmp(table[i].verb, verb) == 0)
-            return table[i].takes == NULL || table[i].takes(statement) ? &table[i] : NULL;
-    return NULL;
+    for (size_t i = 0; i < sizeof tables / sizeof tables[0]; i++)
+        for (const Command *row = tables[i]; row->verb != NULL; row++)
+            if (strcmp(row->verb, verb) == 0 &&
+                (row->takes != NULL ? row->takes(statement) : ct_carrier(statement) == CT_CALLER))
+                return row;
+    return ct_carrier(statement) == CT_SESSION ? &run : NULL;
 }
 
 void put_text(FILE *out, const char *text)

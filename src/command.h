@@ -1,8 +1,8 @@
 /* command.h: the verbs that the shell carries out itself, as a table
  *
- * Grammar and help of every verb are the library's. A row here says what looks, runs or
- * draws; what it prints goes to `out`, from where it reaches the screen, the pager or
- * the file behind `>`. Every other verb goes to ct_apply(). */
+ * Grammar and help of every verb are the library's, which also says who carries it out. A row
+ * here stands in the file that does it; what it prints goes to `out`, from where it reaches
+ * the screen, the pager or the file behind `>`. */
 #ifndef COTREE_SRC_COMMAND_H
 #define COTREE_SRC_COMMAND_H
 
@@ -20,20 +20,19 @@ typedef ct_status CommandFunction(Call *call, ct_error *error);
 
 enum {
     WRITES = 1,    /* sees to `> "file"` itself */
-    SILENT = 2,    /* prints nothing that could go to a file */
-    FORGOTTEN = 4, /* is not for history and recording */
-    UNPAGED = 8,   /* prints what fits the screen as it is */
-    OWN = 16       /* is the shell's alone: the session has nothing to remark */
+    FORGOTTEN = 2, /* is not for history and recording */
+    UNPAGED = 4,   /* prints what fits the screen as it is */
+    OWN = 8        /* is the shell's alone: the session has nothing to remark */
 };
 
 typedef struct Command {
     const char *verb;
     CommandFunction *run;
-    bool (*takes)(const ct_statement *statement); /* NULL: every statement of the verb */
+    bool (*takes)(const ct_statement *statement); /* NULL: all that the library leaves to it */
     int flags;
 } Command;
 
-/* the row for a statement; NULL: the model's */
+/* the row for a statement; NULL: the model's, or nobody's */
 const Command *command_find(const ct_statement *statement);
 
 /* print lines; an end of line is added where it is missing */
@@ -41,8 +40,9 @@ void put_text(FILE *out, const char *text);
 /* the word, name or string that stands as operand i; NULL */
 const char *call_word(const Call *call, int i);
 
-#define COMMAND(verb, run, takes, flags) CommandFunction run;
-#include "commands.def"
-#undef COMMAND
+/* by file, each ended by a row without a verb */
+extern const Command commands_look[], commands_run[], commands_session[], commands_plot[],
+    commands_bode[], commands_shell[];
+CommandFunction command_run; /* what the session runs */
 
 #endif

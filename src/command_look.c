@@ -15,7 +15,7 @@ static ct_status put(Call *call, ct_status status, char *text)
     return status;
 }
 
-ct_status command_show(Call *call, ct_error *error)
+static ct_status command_show(Call *call, ct_error *error)
 {
     char *text = NULL;
     const char *topic = call_word(call, 0);
@@ -27,7 +27,7 @@ ct_status command_show(Call *call, ct_error *error)
     return status;
 }
 
-ct_status command_count(Call *call, ct_error *error)
+static ct_status command_count(Call *call, ct_error *error)
 {
     char *text = NULL;
     ct_status status = ct_count(call->session, call->statement, &text, error);
@@ -35,7 +35,7 @@ ct_status command_count(Call *call, ct_error *error)
     return put(call, status, text);
 }
 
-ct_status command_check(Call *call, ct_error *error)
+static ct_status command_check(Call *call, ct_error *error)
 {
     char *text = NULL;
     ct_status status = ct_check(call->session, &text, error);
@@ -43,7 +43,7 @@ ct_status command_check(Call *call, ct_error *error)
     return put(call, status, text);
 }
 
-ct_status command_info(Call *call, ct_error *error)
+static ct_status command_info(Call *call, ct_error *error)
 {
     char *text = NULL;
     ct_status status = ct_info(call->session, call->statement, &text, error);
@@ -51,7 +51,7 @@ ct_status command_info(Call *call, ct_error *error)
     return put(call, status, text);
 }
 
-ct_status command_tree(Call *call, ct_error *error)
+static ct_status command_tree(Call *call, ct_error *error)
 {
     char *text = NULL;
     ct_status status = ct_tree_text(call->session, &text, error);
@@ -125,7 +125,7 @@ static ct_status draw_file(Call *call, const char *path, bool append, ct_error *
     return status;
 }
 
-ct_status command_draw(Call *call, ct_error *error)
+static ct_status command_draw(Call *call, ct_error *error)
 {
     bool append;
     const char *path = ct_redirect(call->statement, &append);
@@ -153,7 +153,7 @@ static ct_status unknown_word(const Call *call, const char *word, ct_error *erro
     return CT_FAILED;
 }
 
-ct_status command_help(Call *call, ct_error *error)
+static ct_status command_help(Call *call, ct_error *error)
 {
     const char *word = call_word(call, 0);
     char *text = ct_help(word != NULL ? word : "");
@@ -161,7 +161,7 @@ ct_status command_help(Call *call, ct_error *error)
     return text != NULL ? put(call, CT_OK, text) : unknown_word(call, word, error);
 }
 
-ct_status command_apropos(Call *call, ct_error *error)
+static ct_status command_apropos(Call *call, ct_error *error)
 {
     const char *word = call_word(call, 0);
 
@@ -177,3 +177,15 @@ ct_status command_apropos(Call *call, ct_error *error)
     }
     return put(call, CT_OK, text);
 }
+
+const Command commands_look[] = {
+    {"show", command_show, NULL, 0},
+    {"count", command_count, NULL, 0},
+    {"check", command_check, NULL, 0},
+    {"info", command_info, NULL, 0},
+    {"tree", command_tree, NULL, 0},
+    {"draw", command_draw, NULL, WRITES},
+    {"help", command_help, NULL, FORGOTTEN | OWN},
+    {"apropos", command_apropos, NULL, FORGOTTEN | OWN},
+    {NULL, NULL, NULL, 0},
+};

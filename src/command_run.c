@@ -7,17 +7,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-ct_status command_run(Call *call, ct_error *error)
-{
-    return ct_run(call->session, call->statement, error);
-}
-
 /* what was found is what was asked for */
-ct_status command_assemble(Call *call, ct_error *error)
+ct_status command_run(Call *call, ct_error *error)
 {
     ct_status status = ct_run(call->session, call->statement, error);
 
-    if (status == CT_OK) {
+    if (status == CT_OK && ct_prints(call->statement)) {
         char *text = ct_report(call->session);
 
         put_text(call->out, text);
@@ -26,7 +21,7 @@ ct_status command_assemble(Call *call, ct_error *error)
     return status;
 }
 
-ct_status command_expect(Call *call, ct_error *error)
+static ct_status command_expect(Call *call, ct_error *error)
 {
     return ct_expect(call->session, call->statement, error);
 }
@@ -98,7 +93,7 @@ static void put_printed(const Call *call, const Printed *lines, int count)
     }
 }
 
-ct_status command_print(Call *call, ct_error *error)
+static ct_status command_print(Call *call, ct_error *error)
 {
     int count = ct_operand_count(call->statement);
     Printed *lines = copy_check(calloc((size_t)count + 1, sizeof *lines));
@@ -159,7 +154,7 @@ static void put_table(const Call *call, const Table *table)
     free(widths);
 }
 
-ct_status command_table(Call *call, ct_error *error)
+static ct_status command_table(Call *call, ct_error *error)
 {
     const ct_statement *statement = call->statement;
     int count = ct_operand_count(statement);
@@ -192,7 +187,7 @@ ct_status command_table(Call *call, ct_error *error)
 
 /* --- export --- */
 
-ct_status command_export(Call *call, ct_error *error)
+static ct_status command_export(Call *call, ct_error *error)
 {
     bool append = false;
     const char *path = ct_redirect(call->statement, &append);
@@ -205,3 +200,11 @@ ct_status command_export(Call *call, ct_error *error)
     ct_free(text);
     return status;
 }
+
+const Command commands_run[] = {
+    {"expect", command_expect, NULL, 0},
+    {"print", command_print, NULL, 0},
+    {"table", command_table, NULL, 0},
+    {"export", command_export, NULL, 0},
+    {NULL, NULL, NULL, 0},
+};

@@ -25,7 +25,7 @@ static ct_status find_path(const Call *call, const char **path, ct_error *error)
 
 /* --- files of statements --- */
 
-ct_status command_source(Call *call, ct_error *error)
+static ct_status command_source(Call *call, ct_error *error)
 {
     Shell *shell = call->shell;
     const ct_statement *statement = call->statement;
@@ -72,7 +72,7 @@ static ct_status read_switch(const Call *call, const char *key, bool *on, ct_err
     return ct_error_at(call->statement, value, error, "%s is on or off", key);
 }
 
-ct_status command_save(Call *call, ct_error *error)
+static ct_status command_save(Call *call, ct_error *error)
 {
     const char *path;
     bool overwrite = false;
@@ -97,7 +97,7 @@ ct_status command_save(Call *call, ct_error *error)
     return status;
 }
 
-ct_status command_record(Call *call, ct_error *error)
+static ct_status command_record(Call *call, ct_error *error)
 {
     Shell *shell = call->shell;
     const char *path;
@@ -191,7 +191,7 @@ static ct_status recover(Call *call, Leftover *leftover, ct_error *error)
 }
 
 /* `recover`, `recover list`, `recover drop` */
-ct_status command_recover(Call *call, ct_error *error)
+static ct_status command_recover(Call *call, ct_error *error)
 {
     const Shell *shell = call->shell;
     const char *word = call_word(call, 0);
@@ -224,24 +224,24 @@ ct_status command_recover(Call *call, ct_error *error)
 
 /* --- back and forth --- */
 
-ct_status command_undo(Call *call, ct_error *error)
+static ct_status command_undo(Call *call, ct_error *error)
 {
     return ct_undo(call->session, error);
 }
 
-ct_status command_redo(Call *call, ct_error *error)
+static ct_status command_redo(Call *call, ct_error *error)
 {
     return ct_redo(call->session, error);
 }
 
-ct_status command_clear(Call *call, ct_error *error)
+static ct_status command_clear(Call *call, ct_error *error)
 {
     (void)error;
     ct_clear(call->session);
     return CT_OK;
 }
 
-ct_status command_history(Call *call, ct_error *error)
+static ct_status command_history(Call *call, ct_error *error)
 {
     const Shell *shell = call->shell;
 
@@ -251,14 +251,28 @@ ct_status command_history(Call *call, ct_error *error)
     return CT_OK;
 }
 
-ct_status command_set(Call *call, ct_error *error)
+static ct_status command_set(Call *call, ct_error *error)
 {
     return settings_apply(&call->shell->settings, call->statement, error);
 }
 
-ct_status command_quit(Call *call, ct_error *error)
+static ct_status command_quit(Call *call, ct_error *error)
 {
     (void)error;
     call->shell->quitting = true;
     return CT_OK;
 }
+
+const Command commands_session[] = {
+    {"source", command_source, NULL, OWN},
+    {"save", command_save, NULL, OWN},
+    {"record", command_record, NULL, FORGOTTEN | OWN},
+    {"recover", command_recover, NULL, FORGOTTEN | OWN},
+    {"undo", command_undo, NULL, 0},
+    {"redo", command_redo, NULL, 0},
+    {"clear", command_clear, NULL, 0},
+    {"history", command_history, NULL, FORGOTTEN | OWN},
+    {"quit", command_quit, NULL, FORGOTTEN | OWN},
+    {"set", command_set, settings_own, OWN},
+    {NULL, NULL, NULL, 0},
+};

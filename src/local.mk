@@ -2,7 +2,7 @@
 bin_PROGRAMS += cotree
 cotree_SOURCES = \
     src/bode.c \
-    src/command.c src/command.h src/commands.def \
+    src/command.c src/command.h \
     src/command_look.c src/command_run.c src/command_session.c \
     src/complain.c src/complain.h \
     src/copy.c src/copy.h \

@@ -310,7 +310,7 @@ static ct_status plot_again(Call *call, const char *path, ct_error *error)
     return status;
 }
 
-ct_status command_plot(Call *call, ct_error *error)
+static ct_status command_plot(Call *call, ct_error *error)
 {
     const ct_statement *statement = call->statement;
     const char *word = call_word(call, 0);
@@ -332,3 +332,8 @@ ct_status command_plot(Call *call, ct_error *error)
     }
     return status;
 }
+
+const Command commands_plot[] = {
+    {"plot", command_plot, NULL, WRITES | UNPAGED},
+    {NULL, NULL, NULL, 0},
+};

@@ -2,8 +2,7 @@
  *
  * A line is read statement by statement. What a command prints is collected first and goes to the
  * screen, the pager or a file when the command has succeeded; so a statement that fails prints
- * nothing but its error. `time STATEMENT` and `complete LINE` are handled before the grammar,
- * since what follows them is a statement or a line of its own. */
+ * nothing but its error. */
 #include "shell.h"
 
 #include "command.h"
@@ -136,8 +135,7 @@ static ct_status build(Shell *shell, const ct_statement *statement, ct_error *er
     ct_status status = ct_apply(shell->session, statement, error);
 
     if (status == CT_NOT_MINE)
-        return ct_error_at(statement, NULL, error, "'%s' is not there in this version",
-                           ct_verb(statement));
+        return ct_error_at(statement, NULL, error, "nobody carries out '%s'", ct_verb(statement));
     return status;
 }
 
@@ -147,10 +145,6 @@ static ct_status command(Shell *shell, const Command *row, const ct_statement *s
     const char *file = find_redirect(statement);
     Paper paper;
     int rows, columns;
-
-    if (file != NULL && (row->flags & SILENT) != 0)
-        return ct_error_at(statement, NULL, error, "'%s' prints nothing to write to a file",
-                           row->verb);
 
     /* lines are broken for a screen only: files and pipes are for programs */
     terminal_size(&rows, &columns);
@@ -224,60 +218,49 @@ static ct_status carry_out(Shell *shell, const ct_statement *statement, ct_error
     return status;
 }
 
-/* --- a line --- */
+/* --- what takes a statement or a line of its own --- */
 
-/* Step over `word` and the blanks behind it; where it isn't there, or no word follows that it could
- * be about, stay. `alone`: it may also end the text. */
-static bool step_over(const char *text, size_t *next, const char *word, bool alone)
+static ct_status command_time(Call *call, ct_error *error)
 {
-    size_t length = strlen(word);
+    const double began = progress_clock();
+    const ct_status status = carry_out(call->shell, ct_rest(call->statement), error);
 
-    if (strncmp(text + *next, word, length) != 0 || strchr(" \t", text[*next + length]) == NULL)
-        return false; /* strchr() finds the end of the text, too */
-
-    size_t end = *next + length + strspn(text + *next + length, " \t");
-
-    if ((text[end] == '\0' && !alone) || text[end] == '=' || text[end] == '#' || text[end] == ';')
-        return false;
-    *next = end;
-    return true;
+    remark("time: %.3f s", progress_clock() - began);
+    return status;
 }
 
-/* `complete LINE`: what Tab would offer */
-static void complete(Shell *shell, const char *line)
+/* what Tab would offer */
+static ct_status command_complete(Call *call, ct_error *error)
 {
+    const char *line = call_word(call, 0);
     size_t start;
-    char **words = ct_complete(shell->session, line, strlen(line), &start);
+    char **words = ct_complete(call->session, line, strlen(line), &start);
 
+    (void)error;
     for (int i = 0; words != NULL && words[i] != NULL; i++)
-        puts(words[i]);
+        put_text(call->out, words[i]);
     ct_words_free(words);
+    return CT_OK;
 }
+
+const Command commands_shell[] = {
+    {"time", command_time, NULL, FORGOTTEN | OWN},
+    {"complete", command_complete, NULL, FORGOTTEN | OWN | UNPAGED},
+    {NULL, NULL, NULL, 0},
+};
+
+/* --- a line --- */
 
 /* the next statement of a logical line */
 static ct_status run_next(Shell *shell, const Origin *origin, ct_cursor *line, bool shortened)
 {
     ct_statement *statement = NULL;
     ct_error error = {.status = CT_OK};
-    bool timed = false;
-
-    if (step_over(line->text, &line->next, "complete", true)) {
-        complete(shell, line->text + line->next);
-        line->next += strlen(line->text + line->next);
-        return CT_OK;
-    }
-    while (step_over(line->text, &line->next, "time", false))
-        timed = true;
 
     ct_status status = ct_parse(line, shortened, &statement, &error);
 
-    if (status == CT_OK && !ct_statement_is_empty(statement)) {
-        double began = progress_clock();
-
+    if (status == CT_OK && !ct_statement_is_empty(statement))
         status = carry_out(shell, statement, &error);
-        if (timed)
-            remark("time: %.3f s", progress_clock() - began);
-    }
 
     /* what happened in another file was told there: here is the way to it */
     if (status != CT_OK && error.message[0] != '\0')

@@ -174,6 +174,7 @@ const Component component_arm = {
     .domain = DOMAIN_MECHANICAL,
     .places = PLACES_FROM,
     .brief = "a further frame fixed in the body of a frame, or on ground",
+    .later_keys = (const char *const[]){"at", NULL},
     .params = arm_params,
     .param_count = COUNT(arm_params),
     .translation = BRANCH_ALWAYS,

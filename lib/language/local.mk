@@ -16,8 +16,9 @@ libcore_la_SOURCES += \
   lib/language/syntax_print.c \
   lib/language/verbs.c \
   lib/language/verbs.h \
-  lib/language/verbs_build.c \
-  lib/language/verbs_later.c \
-  lib/language/verbs_look.c \
-  lib/language/verbs_run.c \
-  lib/language/verbs_session.c
+  lib/language/verbs.def \
+  lib/language/verbs_build.def \
+  lib/language/verbs_later.def \
+  lib/language/verbs_look.def \
+  lib/language/verbs_run.def \
+  lib/language/verbs_session.def

@@ -80,20 +80,13 @@ static Status read_place_maybe(Parser *parser, Statement *statement)
                                                                   : OK;
 }
 
-static bool is_word(const Verb *verb, const char *word)
-{
-    for (const char *const *w = verb->words; w != NULL && *w != NULL; w++)
-        if (strcmp(*w, word) == 0)
-            return true;
-    return false;
-}
-
 static Status check_word(const Parser *parser, const Verb *verb, const Token *token)
 {
     Suggest suggest = suggest_for(token->text);
     Text list = {0};
 
-    if (verb->words == NULL || is_word(verb, token->text) || word_is_later(verb->name, token->text))
+    if (verb->words == NULL || words_hold(verb->words, token->text) ||
+        words_hold(verb->later_words, token->text))
         return OK;
     for (const char *const *w = verb->words; *w != NULL; w++) {
         suggest_offer(&suggest, *w);
@@ -132,7 +125,7 @@ static Status read_word_maybe(Parser *parser, Statement *statement)
     const Verb *verb = &statement->row;
 
     return token->kind == TOKEN_PATH && !parser_sees_pair(parser) &&
-                   (verb->words == NULL || is_word(verb, token->text))
+                   (verb->words == NULL || words_hold(verb->words, token->text))
                ? read_word(parser, statement)
                : OK;
 }
@@ -242,7 +235,7 @@ static Status read_edges(Parser *parser, Statement *statement)
     int edges = 0;
     bool signed_edges = false;
 
-    if (first->kind == TOKEN_PATH && is_word(&statement->row, first->text)) {
+    if (first->kind == TOKEN_PATH && words_hold(statement->row.words, first->text)) {
         CHECK(parse_word(parser, &value));
         push_operand(parser, statement, value, 0);
     }
@@ -303,7 +296,7 @@ static Status read_string_or_word(Parser *parser, Statement *statement)
 {
     const Token *token = parser_token(parser);
 
-    return token->kind == TOKEN_PATH && is_word(&statement->row, token->text)
+    return token->kind == TOKEN_PATH && words_hold(statement->row.words, token->text)
                ? read_word(parser, statement)
                : read_string(parser, statement);
 }
@@ -474,7 +467,8 @@ static Status check_key(const Parser *parser, const Verb *verb)
     Suggest suggest = suggest_for(token->text);
     Text list = {0};
 
-    if ((verb->later && verb->keys == NULL) || key_is_later(verb->name, token->text))
+    if ((verb->room == ROOM_LATER && verb->keys == NULL) ||
+        words_hold(verb->later_keys, token->text))
         return OK;
     for (int i = 0; verb_key(verb, i) != NULL; i++) {
         if (strcmp(verb_key(verb, i), token->text) == 0) {
@@ -554,7 +548,8 @@ static Status check_end(const Parser *parser, const Statement *statement)
 {
     if (parser_ends(parser))
         return OK;
-    if ((parser_sees(parser, ">") || parser_sees(parser, ">>")) && !parser->prints) {
+    if ((parser_sees(parser, ">") || parser_sees(parser, ">>")) &&
+        strchr(statement->row.shape, '>') == NULL) {
         (void)diag_at(parser->diag, E_SYNTAX, parser_token(parser)->place,
                       "'%s' prints nothing that could go to a file", statement->verb);
         diag_hint(parser->diag, "'help %s' tells what it does", statement->verb);
@@ -606,7 +601,7 @@ Status parse_shape(Parser *parser, Statement *statement)
             stops[count++] = stop_words[i].word;
     parser->stops = stops;
     parser->row = &statement->row;
-    parser->prints = strchr(shape, '>') != NULL;
+    parser->prints = strpbrk(shape, ">!") != NULL;
 
     for (const char *letter = shape; *letter != '\0'; letter++) {
         CHECK(read_letter(parser, *letter, statement));

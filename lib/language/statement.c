@@ -21,7 +21,7 @@ static Status ambiguous_verb(const Parser *parser, const Token *token)
     Verb verb;
 
     for (int i = 0; verb_at(i, &verb); i++)
-        if (strncmp(verb.name, token->text, length) == 0 && !verb.later)
+        if (strncmp(verb.name, token->text, length) == 0 && verb.room != ROOM_LATER)
             text_addf(&list, "%s%s", list.length > 0 ? ", " : "", verb.name);
     (void)diag_at(parser->diag, E_NAME, token->place, "'%s' is ambiguous: %s", token->text,
                   list.at);
@@ -37,7 +37,7 @@ static int find_shortened(const char *word, Verb *verb)
     Verb row;
 
     for (int i = 0; verb_any(i, &row); i++)
-        if (!row.later && strncmp(row.name, word, strlen(word)) == 0) {
+        if (row.room != ROOM_LATER && strncmp(row.name, word, strlen(word)) == 0) {
             *verb = row;
             count++;
         }
@@ -102,7 +102,7 @@ static Status parse_verb(Parser *parser, Statement *statement)
 
     CHECK(find_verb(parser, token, &statement->row));
     parser->at++;
-    if (strcmp(statement->row.name, "virtual") == 0) {
+    if (statement->row.room == ROOM_LANGUAGE) {
         token = parser_token(parser);
         if (token->kind != TOKEN_PATH) {
             (void)parser_expected(parser, "a joint's keyword");
@@ -111,8 +111,9 @@ static Status parse_verb(Parser *parser, Statement *statement)
         }
         CHECK(find_verb(parser, token, &statement->row));
         parser->at++;
-        if (!statement->row.later && (statement->row.component == NULL ||
-                                      statement->row.component->family != FAMILY_JOINT)) {
+        if (statement->row.room != ROOM_LATER &&
+            (statement->row.component == NULL ||
+             statement->row.component->family != FAMILY_JOINT)) {
             (void)diag_at(parser->diag, E_SYNTAX, token->place, "'%s' can't be virtual",
                           token->text);
             diag_hint(parser->diag, "only joints can, as in: virtual revolute vh16 m1 m3");
@@ -432,8 +433,7 @@ static Status check_later_parts(const Statement *statement, Diag *diag)
 {
     const Operand *word = statement->operands.count > 0 ? &statement->operands.at[0] : NULL;
 
-    if (word != NULL && statement->row.words != NULL &&
-        word_is_later(statement->verb, word->value->text)) {
+    if (word != NULL && words_hold(statement->row.later_words, word->value->text)) {
         Text usage = {0};
 
         (void)diag_at(diag, E_MISSING, word->place, "'%s %s' comes with a later version",
@@ -446,7 +446,7 @@ static Status check_later_parts(const Statement *statement, Diag *diag)
     for (int i = 0; i < statement->pairs.count; i++) {
         const Pair *pair = &statement->pairs.at[i];
 
-        if (key_is_later(statement->verb, pair->name)) {
+        if (words_hold(statement->row.later_keys, pair->name)) {
             (void)diag_at(diag, E_MISSING, pair->name_place, "'%s=' comes with a later version",
                           pair->name);
             diag_hint(diag, "without it '%s' does what it does today", statement->verb);
@@ -463,7 +463,7 @@ Status statement_check_version(const Statement *statement, Diag *diag)
     for (const Statement *s = statement; s != NULL; s = s->rest) {
         if (s->kind != STATEMENT_VERB)
             continue;
-        if (s->row.later) {
+        if (s->row.room == ROOM_LATER) {
             (void)diag_at(diag, E_MISSING, s->verb_place, "'%s' comes with a later version",
                           s->verb);
             diag_hint(diag, "%s", s->row.brief);

@@ -56,7 +56,48 @@ typedef struct Pair { /* key=value, or `h8' = 10` of init, driver, set, event, o
     Place name_place;
 } Pair;
 
-/* The rows of verbs: grammar, help and completion; who runs a verb is not said here. */
+/* --- the rows of verbs: grammar, help, completion, what they change, who carries them out --- */
+
+typedef enum Room {
+    ROOM_LANGUAGE, /* the parser: stands before another verb, and is read with it */
+    ROOM_MODEL,    /* changes the model */
+    ROOM_SESSION,  /* runs it */
+    ROOM_CALLER,   /* whoever calls the library: the shell */
+    ROOM_LATER     /* nobody: it comes with a later version */
+} Room;
+
+/* of what there was before */
+typedef enum VerbChanges {
+    CHANGES_NOTHING,
+    CHANGES_NAMES, /* how runs are looked at or begin to be sought: none becomes another's */
+    CHANGES_START,
+    CHANGES_TREES,
+    CHANGES_FORM, /* of the equations */
+    CHANGES_MODEL
+} VerbChanges;
+
+/* where completion finds what may stand behind a verb or a key, beside values */
+typedef enum Offers {
+    OFFERS_VALUES, /* nothing of its own */
+    OFFERS_TOPICS,
+    OFFERS_HELP,
+    OFFERS_BLOCKS,
+    OFFERS_EDGES,
+    OFFERS_REMOVABLE,
+    OFFERS_TOLD,
+    OFFERS_SETTABLE,
+    OFFERS_COORDINATES,
+    OFFERS_OUTPUTS,
+    OFFERS_EVENTS,
+    OFFERS_METHODS
+} Offers;
+
+typedef struct VerbKey {
+    const char *name;
+    Offers offers;
+    const char *words; /* that it takes, between '|' */
+} VerbKey;
+
 typedef enum VerbGroup {
     GROUP_SCENE,
     GROUP_MECHANICAL,
@@ -70,6 +111,10 @@ typedef enum VerbGroup {
 
 typedef struct Verb {
     const char *name;
+    int number; /* VERB_NAME of verbs.h; -1: a component's */
+    Room room;
+    VerbChanges changes;
+    bool shows_alone; /* without operands it is the caller's, and shows what there is */
     VerbGroup group;
     /* How operands are read, one letter each, in order:
      *   n a new name              p a place (dotted name, or 0)   P a place that may be absent
@@ -81,20 +126,24 @@ typedef struct Verb {
      *   C a condition, or a ~ b within tol                        T a statement, to the end
      *   y maybe `vs ITEM`         @ maybe `at EXPR`               a maybe `as WORD`
      *   k keys of the row         = pairs, at least one unless operands came before
-     *   > may be redirected       : a colon and a statement       * the letter before, repeated */
+     *   > prints, maybe to a file ! prints nothing, `>` is refused
+     *   : a colon and a statement * the letter before, repeated */
     const char *shape;
     /* both ended by NULL; NULL: none */
     const char *const *words; /* words with a meaning of their own in its operands: they win over
                                  names, which stand in brackets then: `tree (rotation)` */
-    const char *const *keys;
+    const VerbKey *keys;
+    /* what comes with a later version, ended by NULL; NULL: nothing */
+    const char *const *later_words;
+    const char *const *later_keys;
+    Offers offers;
     const char *usage;   /* one line; NULL: verb_usage() */
     const char *brief;   /* one line, no full stop */
-    const char *help;    /* a paragraph or more; NULL where it is `later` */
+    const char *help;    /* a paragraph or more; NULL where it comes later */
     const char *example; /* statements that run from an empty session, lines separated by \n; NULL
-                            where it is `later` */
+                            where it comes later */
     const char *see;     /* other words, between blanks */
     const struct Component *component; /* where the verb makes one; its text is the component's */
-    bool later;                        /* known, but comes with a later version */
 } Verb;
 
 typedef enum StatementKind {

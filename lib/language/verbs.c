@@ -10,8 +10,35 @@
 #include <ctype.h>
 #include <string.h>
 
-static const Verb *const tables[] = {verbs_build, verbs_look, verbs_run, verbs_session,
-                                     verbs_later};
+/* A small model that examples start from: a pendulum, 1 m long. */
+#define PENDULUM                                                                                   \
+    "scene planar\n"                                                                               \
+    "gravity [0, -9.81]\n"                                                                         \
+    "body m1 mass=1 inertia=0.1\n"                                                                 \
+    "arm p1 m1 [0, 1]\n"                                                                           \
+    "revolute h1 ground p1\n"
+
+#define KEY(word)                                                                                  \
+    {                                                                                              \
+        .name = word                                                                               \
+    }
+#define KEY_OF(word, from)                                                                         \
+    {                                                                                              \
+        .name = word, .offers = from                                                               \
+    }
+#define KEY_WORDS(word, those)                                                                     \
+    {                                                                                              \
+        .name = word, .words = those                                                               \
+    }
+#define KEYS(...) ((const VerbKey[]){__VA_ARGS__, {.name = NULL}})
+
+/* clang-format off */
+static const Verb table[] = {
+#define EVERY_VERB(word, where, ...)                                                               \
+    {.name = #word, .number = VERB_##word, .room = where, __VA_ARGS__},
+#include "language/verbs.def"
+};
+/* clang-format on */
 
 /* by Places: what follows the name */
 static const struct {
@@ -47,8 +74,12 @@ static VerbGroup component_group(const Component *row)
 static Verb component_verb(const Component *row)
 {
     return (Verb){.name = row->name,
+                  .number = -1,
+                  .room = ROOM_MODEL,
+                  .changes = CHANGES_MODEL,
                   .group = component_group(row),
                   .shape = component_shape(row),
+                  .later_keys = row->later_keys,
                   .brief = row->brief,
                   .help = row->help,
                   .example = row->example,
@@ -64,12 +95,11 @@ bool verb_find(const char *name, Verb *verb)
         *verb = component_verb(row);
         return true;
     }
-    for (int i = 0; i < COUNT(tables); i++)
-        for (const Verb *v = tables[i]; v->name != NULL; v++)
-            if (strcmp(v->name, name) == 0) {
-                *verb = *v;
-                return true;
-            }
+    for (int i = 0; i < COUNT(table); i++)
+        if (strcmp(table[i].name, name) == 0) {
+            *verb = table[i];
+            return true;
+        }
     return false;
 }
 
@@ -80,13 +110,9 @@ bool verb_any(int i, Verb *verb)
             *verb = component_verb(component_at(n));
             return true;
         }
-    for (int n = 0; n < COUNT(tables); n++)
-        for (const Verb *v = tables[n]; v->name != NULL; v++)
-            if (i-- == 0) {
-                *verb = *v;
-                return true;
-            }
-    return false;
+    if (i >= 0 && i < COUNT(table))
+        *verb = table[i];
+    return i >= 0 && i < COUNT(table);
 }
 
 bool verb_at(int i, Verb *verb)
@@ -99,12 +125,11 @@ bool verb_at(int i, Verb *verb)
                 *verb = component_verb(row);
                 return true;
             }
-        for (int n = 0; n < COUNT(tables); n++)
-            for (const Verb *v = tables[n]; v->name != NULL; v++)
-                if (v->group == group && i-- == 0) {
-                    *verb = *v;
-                    return true;
-                }
+        for (int n = 0; n < COUNT(table); n++)
+            if (table[n].group == group && i-- == 0) {
+                *verb = table[n];
+                return true;
+            }
     }
     return false;
 }
@@ -123,9 +148,9 @@ const char *verb_key(const Verb *verb, int i)
     int n = 0;
 
     if (row == NULL) {
-        while (verb->keys != NULL && verb->keys[n] != NULL && n < i)
+        while (verb->keys != NULL && verb->keys[n].name != NULL && n < i)
             n++;
-        return verb->keys != NULL ? verb->keys[n] : NULL;
+        return verb->keys != NULL ? verb->keys[n].name : NULL;
     }
     if (row->places == PLACES_COORDINATE)
         return i == 0 ? "by" : NULL;
@@ -172,6 +197,13 @@ void verb_usage(Text *text, const Verb *verb)
     }
     if (coordinate_key(row) != NULL)
         text_addf(text, " [%s=..]", coordinate_key(row));
+}
+
+bool words_hold(const char *const *words, const char *word)
+{
+    while (words != NULL && *words != NULL && strcmp(*words, word) != 0)
+        words++;
+    return words != NULL && *words != NULL;
 }
 
 const char *group_title(VerbGroup group)

@@ -15,11 +15,9 @@ typedef struct Model Model;
 Model *model_new(void); /* new, empty; spatial */
 void model_free(Model *model);
 
-/* Apply one statement that builds: scene, gravity, title, components, NAME=, laws, driver,
- * output, event, init, guess, tree, cotree, form, set NAME.key, delete. Says nothing.
+/* Apply one statement that builds: a parameter, a law, or a verb of ROOM_MODEL. Says nothing.
  * Remarks for the user (what was completed, what was kept) are model_remarks(). */
 MUST_USE Status model_apply(Model *model, const Statement *statement, Diag *diag);
-bool model_applies(const char *verb);          /* whether model_apply() takes this verb */
 const char *model_remarks(const Model *model); /* of the last model_apply(), lines; may be "" */
 MUST_USE Status model_undo(Model *model,
                            Diag *diag); /* the last statement; E_MISSING when there is none */

@@ -373,8 +373,8 @@ Status start_check(const Scope *scope, const Pair *pair, Text *name, Diag *diag)
 
 /* --- one function a verb --- */
 
-Apply apply_parameter, apply_law, apply_output, apply_component, apply_scene, apply_gravity,
-    apply_title, apply_init, apply_event, apply_guess, apply_form, apply_tree, apply_cotree,
-    apply_set, apply_delete;
+Apply apply_parameter, apply_law, apply_component;
+#define MODEL_VERB(word, ...) Apply apply_##word;
+#include "language/verbs.def"
 
 #endif

@@ -1,4 +1,5 @@
 /* model_state.c: making, freeing and looking at a state; which verb is applied by whom */
+#include "language/verbs.h"
 #include "model/model_impl.h"
 
 #include <string.h>
@@ -116,28 +117,10 @@ void state_name(State *state, const char *name, ThingKind kind, int index, int c
 
 /* --- verbs --- */
 
-static const struct {
-    const char *verb;
-    Apply *apply;
-} verbs[] = {
-    {"scene", apply_scene},   {"gravity", apply_gravity}, {"title", apply_title},
-    {"output", apply_output}, {"init", apply_init},       {"guess", apply_guess},
-    {"tree", apply_tree},     {"cotree", apply_cotree},   {"form", apply_form},
-    {"set", apply_set},       {"delete", apply_delete},   {"event", apply_event},
+static Apply *const verbs[VERB_COUNT] = {
+#define MODEL_VERB(word, ...) [VERB_##word] = apply_##word,
+#include "language/verbs.def"
 };
-
-static Apply *apply_for(const char *verb)
-{
-    for (int i = 0; i < COUNT(verbs); i++)
-        if (strcmp(verbs[i].verb, verb) == 0)
-            return verbs[i].apply;
-    return component_find(verb) != NULL ? apply_component : NULL;
-}
-
-bool model_applies(const char *verb)
-{
-    return apply_for(verb) != NULL;
-}
 
 Status state_apply(State **state, const Statement *statement, Outcome *outcome, Diag *diag)
 {
@@ -154,7 +137,7 @@ Status state_apply(State **state, const Statement *statement, Outcome *outcome, 
         apply = apply_law;
         break;
     case STATEMENT_VERB:
-        apply = apply_for(statement->verb);
+        apply = statement->row.component != NULL ? apply_component : verbs[statement->row.number];
         break;
     }
     if (apply == NULL)

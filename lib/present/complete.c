@@ -48,9 +48,8 @@ static void offer_verbs(Line *line)
     Verb verb;
 
     for (int i = 0; verb_at(i, &verb); i++)
-        if (!verb.later)
+        if (verb.room != ROOM_LATER)
             offer(line, verb.name);
-    offer(line, "virtual");
 }
 
 static void offer_joints_types(Line *line)
@@ -326,19 +325,22 @@ static void offer_axes(Line *line)
 
 /* --- operands --- */
 
-/* verbs whose words stand in other tables than their row, or are names of one kind */
+/* words that stand in other tables than the row, or are names of one kind */
 static const struct {
-    const char *verb;
     void (*offer)(Line *line);
     bool alone; /* instead of the row's words, not besides them */
 } sources[] = {
-    {"show", offer_show, true},          {"help", offer_help_words, true},
-    {"apropos", offer_help_words, true}, {"count", offer_blocks, true},
-    {"tree", offer_edges, false},        {"cotree", offer_edges, false},
-    {"delete", offer_removable, false},  {"info", offer_told, false},
-    {"set", offer_set, false},           {"init", offer_coordinates, false},
-    {"guess", offer_coordinates, false}, {"bode", offer_linear_outputs, true},
-    {"event", offer_event, false},
+    [OFFERS_TOPICS] = {offer_show, true},
+    [OFFERS_HELP] = {offer_help_words, true},
+    [OFFERS_BLOCKS] = {offer_blocks, true},
+    [OFFERS_EDGES] = {offer_edges, false},
+    [OFFERS_REMOVABLE] = {offer_removable, false},
+    [OFFERS_TOLD] = {offer_told, false},
+    [OFFERS_SETTABLE] = {offer_set, false},
+    [OFFERS_COORDINATES] = {offer_coordinates, false},
+    [OFFERS_OUTPUTS] = {offer_linear_outputs, true},
+    [OFFERS_EVENTS] = {offer_event, false},
+    [OFFERS_METHODS] = {offer_methods, true},
 };
 
 /* the place-th place of a component */
@@ -384,13 +386,11 @@ static void offer_place(Line *line, const Component *row, int place)
 /* the row's words stand at its first operand only */
 static void offer_row_words(Line *line, const Verb *verb)
 {
-    bool words = line->before.count == 1 && verb->words != NULL;
+    const bool words =
+        line->before.count == 1 && verb->words != NULL && !sources[verb->offers].alone;
 
-    for (int i = 0; i < COUNT(sources); i++)
-        if (strcmp(sources[i].verb, verb->name) == 0) {
-            words = words && !sources[i].alone;
-            sources[i].offer(line);
-        }
+    if (sources[verb->offers].offer != NULL)
+        sources[verb->offers].offer(line);
     for (int i = 0; words && verb->words[i] != NULL; i++)
         offer(line, verb->words[i]);
 }
@@ -407,14 +407,9 @@ static bool takes_value(const Verb *verb)
 
 static void offer_letter(Line *line, const Verb *verb, char letter, int place)
 {
-    bool has_source = verb->words != NULL;
-    bool is_alone = false; /* no other values than the source's */
+    const bool has_source = verb->words != NULL || sources[verb->offers].offer != NULL;
+    const bool is_alone = sources[verb->offers].alone; /* no other values than the source's */
 
-    for (int i = 0; i < COUNT(sources); i++)
-        if (strcmp(sources[i].verb, verb->name) == 0) {
-            has_source = true;
-            is_alone = sources[i].alone;
-        }
     switch (letter) {
     case 'p':
     case 'P':
@@ -505,7 +500,7 @@ static const Param *find_param(const Line *line, const Verb *verb, const char *k
     const char *member = key;
     int i;
 
-    if (strcmp(verb->name, "set") == 0) {
+    if (verb->offers == OFFERS_SETTABLE) {
         const Instance *instance = model_owner(line->known->model, key, &member);
 
         row = instance != NULL ? instance->row : NULL;
@@ -517,19 +512,20 @@ static const Param *find_param(const Line *line, const Verb *verb, const char *k
 static void offer_key_value(Line *line, const Verb *verb, const char *key)
 {
     const Param *param = find_param(line, verb, key);
+    const VerbKey *row = verb->keys;
 
-    if (strcmp(verb->name, "set") == 0 && offer_setting(line, key))
+    while (row != NULL && (row->name == NULL || strcmp(row->name, key) != 0))
+        row = row->name != NULL ? row + 1 : NULL;
+    if (verb->offers == OFFERS_SETTABLE && offer_setting(line, key))
         return;
     if (param != NULL && param->kind == PARAM_WORD)
         offer_alternatives(line, param->fallback);
     else if (param != NULL && (param->kind == PARAM_AXIS || param->kind == PARAM_AXES))
         offer_axes(line);
-    else if (strcmp(key, "method") == 0)
-        offer_methods(line);
-    else if (strcmp(key, "independent") == 0)
-        offer_coordinates(line);
-    else if (strcmp(verb->name, "event") == 0 && strcmp(key, "do") == 0)
-        offer_alternatives(line, "stop|mark");
+    else if (row != NULL && row->words != NULL)
+        offer_alternatives(line, row->words);
+    else if (row != NULL && sources[row->offers].offer != NULL)
+        sources[row->offers].offer(line);
     else
         offer_values(line);
 }
@@ -575,7 +571,7 @@ static void offer_members(Line *line, const Verb *verb)
             offer_member(line, base, domain_across(graph_node(graph, node)->domain));
         return;
     }
-    if (verb != NULL && strcmp(verb->name, "set") == 0) {
+    if (verb != NULL && verb->offers == OFFERS_SETTABLE) {
         for (int i = 0; i < instance->row->param_count; i++)
             offer_member(line, instance->name, instance->row->params[i].name);
         return;
@@ -697,12 +693,14 @@ static bool has_pair(const Line *line)
 
 static void offer_behind_verb(Line *line)
 {
-    const bool is_virtual = strcmp(line->before.at[0], "virtual") == 0;
     const char *last = line->before.at[line->before.count - 1];
     Verb verb;
     char key[128];
-    bool known = line->before.count > (is_virtual ? 1 : 0) &&
-                 verb_find(line->before.at[is_virtual ? 1 : 0], &verb);
+    bool known = verb_find(line->before.at[0], &verb);
+    const bool is_virtual = known && verb.room == ROOM_LANGUAGE;
+
+    if (is_virtual)
+        known = line->before.count > 1 && verb_find(line->before.at[1], &verb);
 
     if (line->prefix[0] != '\0' && strchr(line->prefix, '.') == NULL && follows_number(line))
         offer_units(line);

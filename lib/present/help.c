@@ -152,7 +152,7 @@ static void add_verb(Text *out, const Verb *verb)
     Text line = {0};
 
     text_addf(out, "%s - %s\n", verb->name, verb->brief);
-    if (verb->later) {
+    if (verb->room == ROOM_LATER) {
         text_add(out, "\nComes with a later version.\n");
         return;
     }
@@ -209,7 +209,7 @@ static void add_overview(Text *out)
         if (!more)
             break;
         group = verb.group;
-        if (!verb.later)
+        if (verb.room != ROOM_LATER)
             text_addf(&names, "%s%s", names.length > 0 ? " " : "", verb.name);
     }
     for (int i = 0; help_topic_at(i) != NULL; i++)
@@ -250,7 +250,7 @@ bool help_word(int i, const char **word)
 
     /* what is there; pages of what comes later are found by those who know its name */
     for (int v = 0; verb_at(v, &verb); v++)
-        if (!verb.later && i-- == 0) {
+        if (verb.room != ROOM_LATER && i-- == 0) {
             *word = verb.name;
             return true;
         }
@@ -297,8 +297,8 @@ void help_apropos(Text *out, const char *word)
     Verb verb;
 
     for (int i = 0; verb_at(i, &verb); i++)
-        if (!verb.later && (mentions(verb.name, word) || mentions(verb.brief, word) ||
-                            mentions(verb.help, word))) {
+        if (verb.room != ROOM_LATER && (mentions(verb.name, word) || mentions(verb.brief, word) ||
+                                        mentions(verb.help, word))) {
             table_cell(&table, verb.name);
             table_cell(&table, verb.brief);
         }

@@ -115,7 +115,7 @@ static void add_texinfo_verb(Text *out, const Verb *verb)
     text_add(out, "}\n");
     add_texinfo(out, verb->brief);
     text_add(out, ".\n");
-    if (verb->later) {
+    if (verb->room == ROOM_LATER) {
         text_add(out, "It comes with a later version.\n");
         return;
     }
@@ -205,7 +205,7 @@ void reference_man(Text *out)
     for (int i = 0; verb_at(i, &verb); i++) {
         Text usage = {0};
 
-        if (verb.later)
+        if (verb.room == ROOM_LATER)
             continue;
         if ((int)verb.group != group)
             text_addf(out, ".SS %s\n", group_title(verb.group));

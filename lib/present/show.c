@@ -29,8 +29,8 @@ static const Topic topics[] = {
     {"settings",     "how the session computes and prints",                NEED_MODEL,  BEHIND_NOTHING, show_settings},
     {"program",      "the straight-line program that a run evaluates",     NEED_RUNNING, BEHIND_NOTHING, show_program},
     {"state",        "a linear network as x' = A x + B u",                 NEED_MODEL,  BEHIND_NOTHING, show_state},
-    {"linear",       "matrices of the last linearisation",                 NEED_MODEL,  BEHIND_NOTHING, show_linear},
-    {"transfer",     "transfer functions of the last linearisation",       NEED_MODEL,  BEHIND_PAIR,    show_transfer},
+    {"linear",       "matrices of the last linearisation",                 NEED_LINEAR, BEHIND_NOTHING, show_linear},
+    {"transfer",     "transfer functions of the last linearisation",       NEED_LINEAR, BEHIND_PAIR,    show_transfer},
     {"derivation",   "how an equation came about, step by step",           NEED_MODEL,  BEHIND_NOTHING, NULL},
     {"events",       "events, and when they happened in the last run",     NEED_MODEL,  BEHIND_NOTHING, show_events},
 };
@@ -77,14 +77,6 @@ static const Topic *find_topic(const Statement *statement)
     return first != NULL && first->kind == SYNTAX_VARIABLE && first->primes == 0
                ? topic_find(first->text)
                : NULL;
-}
-
-bool show_is_linear(const Statement *statement)
-{
-    const Topic *topic = find_topic(statement);
-
-    return topic != NULL &&
-           (strcmp(topic->name, "linear") == 0 || strcmp(topic->name, "transfer") == 0);
 }
 
 /* whether any of what is to be shown is a formula, which equations are needed for */

@@ -11,7 +11,8 @@ typedef enum Need {
     NEED_MODEL,
     NEED_SYSTEM,  /* equations as the trees give them */
     NEED_RUNNING, /* equations as a run evaluates them */
-    NEED_RUN      /* the last run; equations too */
+    NEED_RUN,     /* the last run; equations too */
+    NEED_LINEAR   /* the last linearisation */
 } Need;
 
 typedef enum Behind { /* what may stand behind a topic */
@@ -43,7 +44,6 @@ typedef struct Topic {
 const Topic *topic_find(const char *name); /* NULL: none */
 const Topic *topic_at(int i);              /* 0, 1, ... until NULL */
 
-bool show_is_linear(const Statement *statement); /* shows the last linearisation */
 /* What the statement `show ...` needs; a variable (`show h9.fx`) needs equations, the name of a
  * part (`show R1`) only the model. */
 MUST_USE Status show_need(const Model *model, const Statement *statement, Need *need, Diag *diag);

@@ -206,35 +206,26 @@ View session_view(const ct_session *session)
 
 /* --- building --- */
 
-/* a statement that says how to look at runs, and changes none */
-static bool keeps_values(const Statement *statement)
+/* what the statement of that text changed; a parameter, a law: the model */
+static VerbChanges changes_of(const char *text)
 {
-    static const char *const verbs[] = {"output", "title", "guess"};
+    char *word = mem_text(text, strcspn(text, " "));
+    Verb verb;
+    const bool found = verb_find(word, &verb);
 
-    for (int i = 0; statement->verb != NULL && i < COUNT(verbs); i++)
-        if (strcmp(statement->verb, verbs[i]) == 0)
-            return true;
-    return false;
+    mem_free(word);
+    return found ? verb.changes : CHANGES_MODEL;
 }
 
-/* whether the statement of that text chose trees or the form, and so left the graph alone */
-static bool text_chooses(const char *text)
+/* whether it chose trees or the form, and so left the graph alone */
+static bool chooses(VerbChanges changes)
 {
-    static const char *const verbs[] = {"tree", "cotree", "form"};
-
-    for (int i = 0; text != NULL && i < COUNT(verbs); i++) {
-        const size_t length = strlen(verbs[i]);
-
-        if (strncmp(text, verbs[i], length) == 0 && (text[length] == ' ' || text[length] == '\0'))
-            return true;
-    }
-    return false;
+    return changes == CHANGES_TREES || changes == CHANGES_FORM;
 }
 
 static bool chooses_trees(const Statement *statement)
 {
-    return statement->verb != NULL &&
-           (strcmp(statement->verb, "tree") == 0 || strcmp(statement->verb, "cotree") == 0);
+    return statement->row.changes == CHANGES_TREES;
 }
 
 static bool is_search(const Statement *statement)
@@ -345,6 +336,7 @@ static Status try_trees(ct_session *session, const Statement *s, Diag *diag)
 ct_status ct_apply(ct_session *session, const ct_statement *statement, ct_error *error)
 {
     const Statement *s = statement_of(statement);
+    const VerbChanges changes = s->kind == STATEMENT_VERB ? s->row.changes : CHANGES_MODEL;
     const uint64_t revision = model_revision(session->model);
     Status status = OK;
     Diag diag = {0};
@@ -352,9 +344,7 @@ ct_status ct_apply(ct_session *session, const ct_statement *statement, ct_error 
     session_begin(session);
     if (s->kind == STATEMENT_EMPTY)
         return session_report(OK, &diag, error);
-    CHECK(statement_check_version(s, &diag));
-    if (s->verb != NULL &&
-        (!model_applies(s->verb) || (strcmp(s->verb, "tree") == 0 && s->operands.count == 0)))
+    if (session_room(s) != ROOM_MODEL)
         return CT_NOT_MINE;
     if (chooses_trees(s))
         log_trees(session);
@@ -370,10 +360,10 @@ ct_status ct_apply(ct_session *session, const ct_statement *statement, ct_error 
             CHECK(try_trees(session, s, &diag));
         session_remark(session, model_remarks(session->model));
     }
-    if (s->verb != NULL && strcmp(s->verb, "init") == 0 && s->operands.count > 0)
+    if (changes == CHANGES_START && s->operands.count > 0)
         session->at_rest = false; /* init none; what others don't speak of stays at rest */
-    if (is_search(s) ? model_revision(session->model) != revision : !keeps_values(s))
-        note_change(session, revision, text_chooses(s->verb));
+    if (is_search(s) ? model_revision(session->model) != revision : changes != CHANGES_NAMES)
+        note_change(session, revision, chooses(changes));
     if (chooses_trees(s) && status == OK) {
         remark_trees(session);
         session_remark_free(session);
@@ -395,7 +385,7 @@ static ct_status move_over(ct_session *session, Status (*move)(Model *, Diag *),
     CHECK(move(session->model, &diag));
     session->at_rest = false;
     text_addf(&session->remarks, "%s: %s\n", what, model_undone(session->model));
-    note_change(session, revision, text_chooses(model_undone(session->model)));
+    note_change(session, revision, chooses(changes_of(model_undone(session->model))));
 done:
     return session_report(status, &diag, error);
 }

@@ -27,6 +27,9 @@ typedef struct Run {
     ParameterValues *parameters;
 } Run;
 
+/* tells what a verb found */
+typedef void Report(const ct_session *session, Text *out);
+
 struct ct_session {
     ct_hooks hooks;
     Watch watch; /* the hooks, as lib/ knows them */
@@ -40,7 +43,7 @@ struct ct_session {
     Linear *linear;         /* the last linearisation; NULL */
     bool linear_is_old;     /* the model has changed since */
     Modes *modes;           /* and modes */
-    const char *told;       /* verb whose finding ct_report() tells; NULL: as runs have it */
+    Report *told;           /* what ct_report() tells; NULL: as runs have it */
     bool start_is_later;    /* a bare name means the start, not the end of the last run */
     bool changed;           /* since the last run */
     uint64_t covered;       /* revision whose virtual branches lose no freedom, and 1 */
@@ -63,6 +66,14 @@ static inline const Syntax *syntax_of(const ct_expression *expression)
 static inline const ct_expression *expression_of(const Syntax *syntax)
 {
     return (const ct_expression *)(const void *)syntax;
+}
+
+/* who carries it out */
+static inline Room session_room(const Statement *s)
+{
+    if (s->kind != STATEMENT_VERB)
+        return ROOM_MODEL;
+    return s->row.shows_alone && s->operands.count == 0 ? ROOM_CALLER : s->row.room;
 }
 
 /* the public error of a status: returns what the public function returns */
@@ -140,8 +151,12 @@ MUST_USE Status session_source(ct_session *session, Run **out, Diag *diag);
 /* the start is no longer that of the model; it stays as what guesses come from */
 void session_forget_start(ct_session *session);
 
+/* --- one function a verb --- */
+
 typedef Status Analysis(ct_session *session, const Statement *statement, Diag *diag);
-Analysis session_equilibrium, session_linearize, session_modes;
+#define SESSION_VERB(word, ...) Analysis session_##word;
+#include "language/verbs.def"
+
 /* says so where the last linearisation is of another model */
 void session_remark_linear(ct_session *session);
 /* entries of what these found (linear.A, modes.omega): a number for the name; -1: none */

@@ -23,10 +23,16 @@ Status session_equilibrium(ct_session *session, const Statement *s, Diag *diag)
     session->at_rest = true;
     session->rests_since = model_start_statements(session->model);
     session->start_is_later = true;
+    session->told = NULL;
     session_remark(session, result_remarks(result));
 done:
     order_free(&order);
     return status;
+}
+
+Status session_op(ct_session *session, const Statement *s, Diag *diag)
+{
+    return session_equilibrium(session, s, diag);
 }
 
 /* --- what a linearisation is told --- */
@@ -190,6 +196,13 @@ done:
     return status;
 }
 
+static void tell_linear(const ct_session *session, Text *out)
+{
+    const View view = session_view(session);
+
+    linear_print(&view, session->linear, out);
+}
+
 Status session_linearize(ct_session *session, const Statement *s, Diag *diag)
 {
     Linear *linear = NULL;
@@ -199,6 +212,7 @@ Status session_linearize(ct_session *session, const Statement *s, Diag *diag)
     linear_free(session->linear);
     session->linear = linear;
     session->linear_is_old = false;
+    session->told = tell_linear;
 done:
     return status;
 }
@@ -207,6 +221,11 @@ void session_remark_linear(ct_session *session)
 {
     if (session->linear != NULL && session->linear_is_old)
         session_remark(session, "linearized before the model changed");
+}
+
+static void tell_modes(const ct_session *session, Text *out)
+{
+    modes_print(session->modes, session->hooks.columns, out);
 }
 
 Status session_modes(ct_session *session, const Statement *s, Diag *diag)
@@ -219,6 +238,7 @@ Status session_modes(ct_session *session, const Statement *s, Diag *diag)
     CHECK(modes_find(linear, &modes, diag));
     modes_free(session->modes);
     session->modes = modes;
+    session->told = tell_modes;
 done:
     linear_free(linear);
     return status;

@@ -48,7 +48,7 @@ ct_status ct_show(ct_session *session, const ct_statement *statement, char **tex
     if (need == NEED_RUNNING)
         CHECK(session_system(session, &view.system, &diag));
     CHECK(show(&view, s, &out, &diag));
-    if (show_is_linear(s))
+    if (need == NEED_LINEAR)
         session_remark_linear(session);
 done:
     return finish(status, &out, &diag, text, error);

@@ -1,6 +1,7 @@
 /* session_run.c: simulate, kinematics, inverse, resume, assemble, and their reports */
 #include "session/session_impl.h"
 
+#include "language/verbs.h"
 #include "present/show.h"
 
 #include <math.h>
@@ -320,20 +321,22 @@ static void keep_run(ct_session *session, Order *order, Result *result)
     text_free(&line);
 }
 
-static Status run_new(ct_session *session, RunFunction *function, const RunOptions *options,
-                      Diag *diag)
+static Status run_new(ct_session *session, const Statement *s, RunFunction *function, Diag *diag)
 {
+    RunOptions options;
     Order order = {0};
     Result *result = NULL;
     System *system;
     Status status;
 
+    CHECK(read_options(session, s, &options, diag));
+    session->told = NULL;
     CHECK(session_system(session, &system, diag));
     order_make(session, &order);
     CHECK(session_check_freedoms(session, system, &order.setting, diag));
     if (function == run_simulate)
         watch_bounds(system, NULL, &order);
-    status = function(system, &order.setting, options, &result, diag);
+    status = function(system, &order.setting, &options, &result, diag);
     if (result == NULL)
         goto done;
     status = check_bounds(&order, result, status, diag);
@@ -365,21 +368,23 @@ static RunOptions options_from(const Result *old, const RunOptions *said)
     return options;
 }
 
-static Status run_on(ct_session *session, const Statement *s, const RunOptions *said, Diag *diag)
+Status session_resume(ct_session *session, const Statement *s, Diag *diag)
 {
-    RunOptions options;
+    RunOptions said, options;
     const Result *old;
     Order order = {0};
     Result *result = NULL;
     Status status = OK;
 
+    CHECK(read_options(session, s, &said, diag));
+    session->told = NULL;
     if (session->runs.count == 0) {
         diag_at(diag, E_MISSING, s->verb_place, "there is no run to go on with");
         diag_hint(diag, "'simulate 10' makes one");
         return E_MISSING;
     }
     old = session->runs.at[session->runs.count - 1].result;
-    options = options_from(old, said);
+    options = options_from(old, &said);
     order_make(session, &order);
     watch_bounds(result_system((Result *)old), old, &order);
     status = run_resume(old, &order.setting, &options, &result, diag);
@@ -387,19 +392,27 @@ static Status run_on(ct_session *session, const Statement *s, const RunOptions *
         status = check_bounds(&order, result, status, diag);
         keep_run(session, &order, result);
     }
+done:
     order_free(&order);
     return status;
 }
 
-static const struct {
-    const char *verb;
-    RunFunction *function; /* NULL: goes on */
-} runs[] = {{"simulate", run_simulate},
-            {"kinematics", run_kinematics},
-            {"inverse", run_inverse},
-            {"resume", NULL}};
+Status session_simulate(ct_session *session, const Statement *s, Diag *diag)
+{
+    return run_new(session, s, run_simulate, diag);
+}
 
-static Status find_start(ct_session *session, const Statement *s, Diag *diag)
+Status session_kinematics(ct_session *session, const Statement *s, Diag *diag)
+{
+    return run_new(session, s, run_kinematics, diag);
+}
+
+Status session_inverse(ct_session *session, const Statement *s, Diag *diag)
+{
+    return run_new(session, s, run_inverse, diag);
+}
+
+Status session_assemble(ct_session *session, const Statement *s, Diag *diag)
 {
     Run *start;
     Status status;
@@ -409,42 +422,22 @@ static Status find_start(ct_session *session, const Statement *s, Diag *diag)
     session->at_rest = session->at_rest && any_in_force(session);
     CHECK(session_start(session, &start, diag));
     session->start_is_later = true;
+    session->told = NULL;
 done:
     return status;
 }
 
-/* what tells about the start, or about an instant */
-static const struct {
-    const char *verb;
-    Analysis *analyse;
-} analyses[] = {{"assemble", find_start},
-                {"equilibrium", session_equilibrium},
-                {"op", session_equilibrium},
-                {"linearize", session_linearize},
-                {"modes", session_modes}};
-
 static Status run_any(ct_session *session, const Statement *s, Diag *diag)
 {
-    RunOptions options;
-    Status status = OK;
+    static Analysis *const verbs[VERB_COUNT] = {
+#define SESSION_VERB(word, ...) [VERB_##word] = session_##word,
+#include "language/verbs.def"
+    };
 
-    for (int i = 0; s->verb != NULL && i < COUNT(analyses); i++)
-        if (strcmp(s->verb, analyses[i].verb) == 0) {
-            CHECK(analyses[i].analyse(session, s, diag));
-            session->told = analyses[i].verb;
-            return OK;
-        }
-    for (int i = 0; s->verb != NULL && i < COUNT(runs); i++)
-        if (strcmp(s->verb, runs[i].verb) == 0) {
-            CHECK(read_options(session, s, &options, diag));
-            session->told = NULL;
-            return runs[i].function != NULL ? run_new(session, runs[i].function, &options, diag)
-                                            : run_on(session, s, &options, diag);
-        }
-    status = diag_at(diag, E_NAME, s->place, "'%s' is no verb that runs",
-                     s->verb != NULL ? s->verb : s->text);
-done:
-    return status;
+    if (s->kind == STATEMENT_VERB && s->row.room == ROOM_SESSION)
+        return verbs[s->row.number](session, s, diag);
+    return diag_at(diag, E_NAME, s->place, "'%s' is no verb that runs",
+                   s->verb != NULL ? s->verb : s->text);
 }
 
 /* where a message that begins with a key ("rtol= ...") belongs */
@@ -467,9 +460,7 @@ ct_status ct_run(ct_session *session, const ct_statement *statement, ct_error *e
     Diag diag = {0};
 
     session_begin(session);
-    status = statement_check_version(s, &diag);
-    if (status == OK)
-        status = run_any(session, s, &diag);
+    status = run_any(session, s, &diag);
     if (status != OK && diag.place.line == 0 && s->kind == STATEMENT_VERB)
         diag.place = place_of_message(s, diag.message);
     session_sweep(session);
@@ -526,12 +517,8 @@ char *ct_report(ct_session *session)
     const int count = session->runs.count;
     char name[32];
 
-    if (session->told != NULL && strcmp(session->told, "linearize") == 0) {
-        const View view = session_view(session);
-
-        linear_print(&view, session->linear, &text);
-    } else if (session->told != NULL && strcmp(session->told, "modes") == 0) {
-        modes_print(session->modes, session->hooks.columns, &text);
+    if (session->told != NULL) {
+        session->told(session, &text);
     } else if (session->start_is_later && session->start.result != NULL) {
         print_configuration(&text, session->start.result);
     } else if (count > 0) {

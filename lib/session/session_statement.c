@@ -10,14 +10,18 @@ ct_status ct_parse(ct_cursor *cursor, bool shortened, ct_statement **out, ct_err
     Cursor inner = {cursor->text, cursor->next, cursor->line, cursor->line_start};
     Statement *statement = NULL;
     Diag diag = {0};
-    const Status status =
+    Status status =
         statement_read(&inner, (SyntaxOptions){.shortened = shortened}, &statement, &diag);
 
+    if (status == OK)
+        status = statement_check_version(statement, &diag);
     if (status == OK) {
         cursor->next = inner.next;
         cursor->line = inner.line;
         cursor->line_start = inner.line_start;
         *out = (ct_statement *)(void *)statement;
+    } else {
+        statement_free(statement);
     }
     return session_report(status, &diag, error);
 }
@@ -44,6 +48,25 @@ const char *ct_verb(const ct_statement *statement)
     const char *verb = statement_of(statement)->verb;
 
     return verb != NULL ? verb : "";
+}
+
+ct_room ct_carrier(const ct_statement *statement)
+{
+    const Room room = session_room(statement_of(statement));
+
+    return room == ROOM_MODEL ? CT_MODEL : room == ROOM_SESSION ? CT_SESSION : CT_CALLER;
+}
+
+bool ct_prints(const ct_statement *statement)
+{
+    const Verb *row = &statement_of(statement)->row;
+
+    return row->name != NULL && strchr(row->shape, '>') != NULL;
+}
+
+const ct_statement *ct_rest(const ct_statement *statement)
+{
+    return (const ct_statement *)(const void *)statement_of(statement)->rest;
 }
 
 int ct_operand_count(const ct_statement *statement)

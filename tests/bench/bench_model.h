@@ -21,7 +21,7 @@ static Model *bench_model(const char *text)
 
         if (status == OK &&
             (statement->kind == STATEMENT_PARAMETER || statement->kind == STATEMENT_LAW ||
-             (statement->kind == STATEMENT_VERB && model_applies(statement->verb))))
+             (statement->kind == STATEMENT_VERB && statement->row.room == ROOM_MODEL)))
             status = model_apply(model, statement, &diag);
         statement_free(statement);
         if (status != OK) {

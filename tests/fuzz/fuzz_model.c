@@ -58,7 +58,7 @@ static void apply_all(Model *model, const char *text, int most)
             continue;
         }
         if (statement->kind != STATEMENT_EMPTY &&
-            (statement->kind != STATEMENT_VERB || model_applies(statement->verb)))
+            (statement->kind != STATEMENT_VERB || statement->row.room == ROOM_MODEL))
             apply_one(model, statement);
         statement_free(statement);
     }

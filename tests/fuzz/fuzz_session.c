@@ -92,29 +92,15 @@ static ct_status look(ct_session *session, const ct_statement *statement, ct_err
     return status;
 }
 
-static bool is_any(const char *verb, const char *const *verbs)
-{
-    while (*verbs != NULL && strcmp(verb, *verbs) != 0)
-        verbs++;
-    return *verbs != NULL;
-}
-
 static ct_status carry_out(ct_session *session, const ct_statement *statement, ct_error *error)
 {
-    static const char *const runs[] = {"simulate", "kinematics", "inverse",
-                                       "assemble", "resume",     NULL};
+    const ct_room carrier = ct_carrier(statement);
     const char *verb = ct_verb(statement);
-    ct_status status;
 
     if (ct_statement_is_empty(statement))
         return CT_OK;
-    if (strcmp(verb, "tree") == 0 && ct_operand_count(statement) == 0)
-        return look(session, statement, error);
-    status = ct_apply(session, statement, error);
-    if (status != CT_NOT_MINE)
-        return status;
-    if (is_any(verb, runs))
-        return ct_run(session, statement, error);
+    if (carrier != CT_CALLER)
+        return (carrier == CT_MODEL ? ct_apply : ct_run)(session, statement, error);
     if (strcmp(verb, "undo") == 0)
         return ct_undo(session, error);
     if (strcmp(verb, "redo") == 0)

@@ -182,7 +182,7 @@ static void script_statement(Script *script, const Statement *statement, const C
             LIST_PUSH(script->items, script_expression(script, statement->operands.at[i].value));
         return;
     }
-    if (statement->kind == STATEMENT_VERB && !model_applies(statement->verb))
+    if (statement->kind == STATEMENT_VERB && statement->row.room != ROOM_MODEL)
         return;
     if (model_apply(script->model, statement, &diag) != OK)
         script_fail(statement->text, &diag);

@@ -102,7 +102,8 @@ static void every_key_is_read(void)
 
     /* what the shell carries out (save) is tried by its sessions */
     for (int i = 0; verb_at(i, &verb); i++)
-        for (int k = 0; !verb.later && verb.group != GROUP_SESSION && verb_key(&verb, k) != NULL;
+        for (int k = 0;
+             verb.room != ROOM_LATER && verb.group != GROUP_SESSION && verb_key(&verb, k) != NULL;
              k++)
             try_key(&verb, verb_key(&verb, k));
 }
@@ -116,7 +117,8 @@ static void no_other_key_passes(void)
         Kit kit = kit_new();
         Spoiled spoiled = {0};
 
-        if (!verb.later && strchr(verb.shape, 'k') != NULL && find(&verb, "nokey", &spoiled)) {
+        if (verb.room != ROOM_LATER && strchr(verb.shape, 'k') != NULL &&
+            find(&verb, "nokey", &spoiled)) {
             EXPECT(kit_do(&kit, spoiled.before.at != NULL ? spoiled.before.at : "") == CT_OK);
             EXPECT_FAILS(&kit, spoiled.line.at, "has no key 'nokey'");
         }
@@ -183,7 +185,7 @@ static void help_and_hints_offer_what_is_there(void)
             char quoted[40];
 
             (void)snprintf(quoted, sizeof quoted, "'%s'", verb.name);
-            if (verb.later)
+            if (verb.room == ROOM_LATER)
                 EXPECT_LACKS(kit.error.hint, quoted);
         }
     }
@@ -212,7 +214,7 @@ static void completion_offers_what_is_there(void)
             (void)snprintf(line, sizeof line, "%s%s", lines[i], words[count]);
             EXPECT(!comes_later(line));
             EXPECT(strncmp(lines[i], "help", 4) != 0 || !verb_find(words[count], &verb) ||
-                   !verb.later);
+                   verb.room != ROOM_LATER);
         }
         EXPECT(count > 3);
         ct_words_free(words);

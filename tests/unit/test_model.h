@@ -20,7 +20,7 @@ __attribute__((unused)) static Status apply_text(Model *model, const char *text,
 
         status = statement_parse(text, line, (SyntaxOptions){false}, &next, &statement, diag);
         if (status == OK && statement->kind != STATEMENT_EMPTY &&
-            (statement->kind != STATEMENT_VERB || model_applies(statement->verb)))
+            (statement->kind != STATEMENT_VERB || statement->row.room == ROOM_MODEL))
             status = model_apply(model, statement, diag);
         statement_free(statement);
         for (; next > 0; next--)

@@ -17,7 +17,7 @@ static void rows_are_found_by_their_names(void)
 
     for (int i = 0; verb_at(i, &verb); i++) {
         EXPECT(verb_find(verb.name, &found) && strcmp(found.name, verb.name) == 0);
-        EXPECT(found.later == verb.later);
+        EXPECT(found.room == verb.room);
     }
     EXPECT(!verb_find("plto", &found));
 }
@@ -41,7 +41,7 @@ static void every_component_has_a_verb(void)
     Verb verb;
 
     for (int i = 0; (row = component_at(i)) != NULL; i++)
-        EXPECT(verb_find(row->name, &verb) && verb.component == row && !verb.later);
+        EXPECT(verb_find(row->name, &verb) && verb.component == row && verb.room != ROOM_LATER);
 }
 
 static void every_row_has_its_texts(void)
@@ -50,7 +50,7 @@ static void every_row_has_its_texts(void)
 
     for (int i = 0; verb_at(i, &verb); i++) {
         bool whole = !is_empty(verb.brief) && verb.brief[strlen(verb.brief) - 1] != '.' &&
-                     (verb.later ||
+                     (verb.room == ROOM_LATER ||
                       (!is_empty(verb.help) && !is_empty(verb.example) && !is_empty(verb.see)));
         Text usage = {0};
 
@@ -90,7 +90,7 @@ static void every_example_reads(void)
 
     for (int i = 0; verb_at(i, &verb); i++) {
         const char *text = verb.example != NULL ? verb.example : "";
-        bool itself = verb.later;
+        bool itself = verb.room == ROOM_LATER;
         size_t next = 0;
 
         while (next < strlen(text)) {
@@ -120,7 +120,7 @@ static void every_letter_of_a_shape_is_known(void)
     Verb verb;
 
     for (int i = 0; verb_at(i, &verb); i++)
-        EXPECT(strspn(verb.shape, "npPwWvVeiItsoxlCTy@ak=>:*") == strlen(verb.shape));
+        EXPECT(strspn(verb.shape, "npPwWvVeiItsoxlCTy@ak=>!:*") == strlen(verb.shape));
 }
 
 static void keys_of_a_component_are_its_params(void)
