@@ -1,6 +1,8 @@
 libcore_la_SOURCES += \
   lib/algebra/blocks.c \
   lib/algebra/blocks.h \
+  lib/algebra/hessenberg_form.c \
+  lib/algebra/hessenberg_form.h \
   lib/algebra/kkt.c \
   lib/algebra/kkt.h \
   lib/algebra/least.c \

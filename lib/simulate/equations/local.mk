@@ -4,6 +4,8 @@ libcore_la_SOURCES += \
   lib/simulate/equations/embed.c \
   lib/simulate/equations/embed.h \
   lib/simulate/equations/layout.c \
+  lib/simulate/equations/mode_forms.c \
+  lib/simulate/equations/mode_forms.h \
   lib/simulate/equations/motion.c \
   lib/simulate/equations/motion.h \
   lib/simulate/equations/motion_impl.h \

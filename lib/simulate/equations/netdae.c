@@ -3,6 +3,7 @@
 
 #include "algebra/linear.h"
 #include "base/memory.h"
+#include "simulate/equations/mode_forms.h"
 
 #include <string.h>
 
@@ -19,6 +20,7 @@ struct NetDae {
     int *row, *column, *place;
     double *weight;
     bool *has_rate;
+    ModeForms *forms; /* where the equations are linear; NULL: not asked for yet */
 };
 
 /* --- derivatives --- */
@@ -224,6 +226,22 @@ static int pattern(void *context, const int **row, const int **column)
     return d->entries;
 }
 
+static const HessenbergForm *known(void *context)
+{
+    const NetDae *d = context;
+
+    return d->forms != NULL ? mode_forms_find(d->forms, d->l->closed) : NULL;
+}
+
+static const HessenbergForm *keep(void *context, HessenbergForm *given)
+{
+    NetDae *d = context;
+
+    if (d->forms == NULL)
+        d->forms = mode_forms_new(d->l->switches);
+    return mode_forms_keep(d->forms, d->l->closed, given);
+}
+
 NetDae *netdae_new(const Layout *l, Parameters *parameters, Motion *motion)
 {
     NetDae *d;
@@ -240,7 +258,9 @@ NetDae *netdae_new(const Layout *l, Parameters *parameters, Motion *motion)
                    .start = start,
                    .pattern = pattern,
                    .jacobian = jacobian,
-                   .is_linear = is_linear};
+                   .is_linear = is_linear,
+                   .known = known,
+                   .keep = keep};
     d->weight = NEW_ARRAY(double, d->dae.n);
     d->has_rate = NEW_ARRAY(bool, d->dae.n);
     for (int i = 0; i < d->dae.n; i++) {
@@ -256,6 +276,7 @@ void netdae_free(NetDae *d)
 {
     if (d == NULL)
         return;
+    mode_forms_free(d->forms);
     slopes_free(&d->slopes);
     probe_free(d->probe);
     mem_free(d->row);

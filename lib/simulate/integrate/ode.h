@@ -8,6 +8,7 @@
 #ifndef COTREE_SIMULATE_INTEGRATE_ODE_H
 #define COTREE_SIMULATE_INTEGRATE_ODE_H
 
+#include "algebra/hessenberg_form.h"
 #include "base/diag.h"
 
 #include <float.h>
@@ -33,6 +34,10 @@ typedef struct Dae {
                      double *values);
     /* Whether dF/dw and dF/dw' stay as they are until a restart. NULL: not known. */
     bool (*is_linear)(void *context);
+    /* Then, whether w' = J w + ... is known in a form for many shifts from an earlier time at which
+     * the same equations held; NULL: it isn't. What is kept is the callee's from then on. */
+    const HessenbergForm *(*known)(void *context);
+    const HessenbergForm *(*keep)(void *context, HessenbergForm *given);
 } Dae;
 
 typedef struct Ode {

@@ -258,9 +258,9 @@ static Outcome solve_stages(Radau *r, double h, int *used)
             for (int i = 0; i < n; i++)
                 r->z[k * all + i] += r->delta[k * n + i];
         *used = it;
-        if (r->is_linear) { /* that was all; quadratures want the rates there */
+        if (r->is_linear) { /* that was all */
             r->contraction = 0;
-            return evaluate_stages(r, h) ? CONVERGED : UNDEFINED;
+            return CONVERGED;
         }
         if (it > 1) {
             r->contraction = size / before;
@@ -309,6 +309,9 @@ static bool settle(Radau *r, double t, double h)
 {
     const Ode *ode = r->base.ode;
 
+    /* quadratures want the rates at the stages as they have come out */
+    if (r->is_linear && r->all > r->n && !evaluate_stages(r, h))
+        return false;
     for (int i = 0; i < r->all; i++)
         r->point[i] = r->old[i] + r->z[2 * r->all + i];
     for (int i = r->n; i < r->all; i++) { /* quadratures, by the weights of the last stage */

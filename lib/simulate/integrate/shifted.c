@@ -1,4 +1,4 @@
-/* shifted.c: (s - J) d = b, dense or by a network's sparse equations */
+/* shifted.c: (s - J) d = b, dense, in a Hessenberg form or by a network's sparse equations */
 #include "simulate/integrate/shifted.h"
 
 #include "algebra/linear.h"
@@ -18,6 +18,10 @@ struct Shifted {
     /* dense */
     double *jacobian, *point, *column; /* n x n; y; its rate */
     Lu *real, *pair;                   /* n; 2n */
+    /* of linear equations, where there are few: kept by them, or else here */
+    const HessenbergForm *form;
+    HessenbergForm *own_form;
+    ShiftedFactors *form_real, *form_pair;
     /* sparse; entries of dF/dw and dF/dw' */
     int entries;
     const int *at_row, *at_column;
@@ -49,8 +53,6 @@ Shifted *shifted_new(const Ode *ode, Counts *counts)
     s->point = NEW_ARRAY(double, all);
     s->column = NEW_ARRAY(double, all);
     s->right = NEW_ARRAY(double, 2 * n);
-    s->real = lu_new(n);
-    s->pair = lu_new(2 * n);
     return s;
 }
 
@@ -63,6 +65,9 @@ void shifted_free(Shifted *s)
     mem_free(s->column);
     lu_free(s->real);
     lu_free(s->pair);
+    hessenberg_form_free(s->own_form);
+    shifted_factors_free(s->form_real);
+    shifted_factors_free(s->form_pair);
     mem_free(s->still);
     mem_free(s->moving);
     mem_free(s->w);
@@ -140,12 +145,41 @@ static bool by_equations(Shifted *s, double t, const double *y)
     return true;
 }
 
+/* J of linear equations, in its form for many shifts */
+static bool find_form(Shifted *s, double t, const double *y, const double *rate)
+{
+    const Dae *dae = &s->ode->dae;
+    HessenbergForm *found;
+
+    if (s->form_real == NULL) {
+        s->form_real = shifted_factors_new(s->n);
+        s->form_pair = shifted_factors_new(s->n);
+    }
+    s->form = dae->known != NULL ? dae->known(dae->context) : NULL;
+    if (s->form != NULL)
+        return true;
+    if (!by_differences(s, t, y, rate) || !vector_is_finite(s->jacobian, s->n * s->n))
+        return false;
+    s->counts->jacobians++;
+    found = hessenberg_form_new(s->jacobian, s->n);
+    if (dae->keep != NULL) {
+        s->form = dae->keep(dae->context, found);
+        return true;
+    }
+    hessenberg_form_free(s->own_form);
+    s->form = s->own_form = found;
+    return true;
+}
+
 bool shifted_differentiate(Shifted *s, double t, const double *y, const double *rate)
 {
     const Dae *dae = &s->ode->dae;
 
-    s->counts->jacobians++;
     s->is_linear = dae->is_linear != NULL && dae->is_linear(dae->context);
+    s->form = NULL;
+    if (s->is_linear && !is_sparse(s))
+        return find_form(s, t, y, rate);
+    s->counts->jacobians++;
     return is_sparse(s) ? by_equations(s, t, y) : by_differences(s, t, y, rate);
 }
 
@@ -159,8 +193,14 @@ bool shifted_is_linear(const Shifted *s)
 static bool factor_dense(Shifted *s, double shift, double alpha, double beta)
 {
     int n = s->n;
-    double *a = lu_matrix(s->real), *b = lu_matrix(s->pair);
+    double *a, *b;
 
+    if (s->real == NULL) {
+        s->real = lu_new(n);
+        s->pair = lu_new(2 * n);
+    }
+    a = lu_matrix(s->real);
+    b = lu_matrix(s->pair);
     for (int i = 0; i < n; i++)
         for (int j = 0; j < n; j++) {
             double *pair = b + i * 2 * n + j;
@@ -178,6 +218,9 @@ bool shifted_factor(Shifted *s, double shift, double alpha, double beta)
 {
     if (s->n == 0)
         return true;
+    if (s->form != NULL)
+        return hessenberg_form_factor(s->form, shift, s->form_real) &&
+               hessenberg_form_factor_complex(s->form, alpha, -beta, s->form_pair);
     if (!is_sparse(s))
         return factor_dense(s, shift, alpha, beta);
     for (int k = 0; k < s->entries; k++)
@@ -205,6 +248,10 @@ static void bring_right(const Shifted *s, const double *b, double *out)
 
 void shifted_solve(Shifted *s, double *b)
 {
+    if (s->form != NULL) {
+        hessenberg_form_solve(s->form, s->form_real, b);
+        return;
+    }
     if (!is_sparse(s)) {
         lu_solve(s->real, b);
         return;
@@ -219,6 +266,10 @@ void shifted_solve_pair(Shifted *s, double *b, double *c)
     size_t bytes = (size_t)s->n * sizeof(double);
     int second = is_sparse(s) ? s->ode->dae.n : s->n;
 
+    if (s->form != NULL) {
+        hessenberg_form_solve_complex(s->form, s->form_pair, b, c);
+        return;
+    }
     if (is_sparse(s)) {
         bring_right(s, b, s->right);
         bring_right(s, c, s->right + second);
