@@ -28,7 +28,8 @@
 typedef enum Verdict { AGREES, REFUSED, DISAGREES } Verdict;
 
 typedef struct Member {
-    uint64_t random;   /* state for test_random() and test_uniform() */
+    uint64_t random; /* state for test_random() and test_uniform() */
+    int number;
     bool told;         /* --member: print what helps */
     char story[16384]; /* what was tried and what came out; printed where it disagrees */
     size_t length;
@@ -62,6 +63,7 @@ static Verdict family_member(const Family *family, uint64_t seed, int number, Me
 
     memset(member, 0, offsetof(Member, story));
     member->told = told;
+    member->number = number;
     member->story[0] = '\0';
     member->length = 0;
     member->random = seed * 0x9E3779B97F4A7C15U + (uint64_t)number;

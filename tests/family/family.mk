@@ -25,10 +25,15 @@ family_mechanisms_SOURCES = tests/family/family_mechanisms.c tests/family/mechan
 	tests/family/one_freedom.h tests/family/script.h
 family_mechanisms_LDADD = libcotree.la $(unit_ldadd)
 FAMILIES += family_assembly
-family_assembly_SOURCES = tests/family/family_assembly.c tests/family/scenes.h tests/family/jointed.h tests/family/family.h tests/random.h \
+family_assembly_SOURCES = tests/family/family_assembly.c tests/family/standing.h tests/family/scenes.h tests/family/jointed.h tests/family/family.h tests/random.h \
   tests/unit/session_kit.h tests/unit/test.h
 family_assembly_LDADD = libcotree.la $(unit_ldadd)
 
 FAMILIES += family_events
 family_events_SOURCES = tests/family/family_events.c tests/family/family.h tests/family/script.h
 family_events_LDADD = libcotree.la $(unit_ldadd)
+
+FAMILIES += family_moved
+family_moved_SOURCES = tests/family/family_moved.c tests/family/standing.h tests/family/scenes.h \
+	tests/family/jointed.h tests/family/family.h tests/random.h
+family_moved_LDADD = libcotree.la $(unit_ldadd)

@@ -3,10 +3,7 @@
  * cotree is told of where the bodies of a random scene stand by joint coordinates, by body
  * coordinates, or by some of each, as initial values or as guesses, in trees of all kinds; then its
  * trees are changed, and what was told is forgotten. The poses come from scenes.h. */
-#include "../unit/session_kit.h"
-#include "scenes.h"
-
-#define NEAR 1e-8 /* m, rad: numbers are written to the last digit */
+#include "standing.h"
 
 /* --- telling --- */
 
@@ -113,70 +110,6 @@ static void tell_start(Member *m, const Scene *s, Told *told, Scene *out)
 
 /* --- comparing --- */
 
-static double value(Kit *kit, const char *head, int number, const char *member)
-{
-    char name[40];
-
-    snprintf(name, sizeof name, "%s%d%s", head, number, member);
-    return kit_value(kit, name);
-}
-
-/* where a body stands; in a plane its angle stands for the parameters */
-static Pose read_body(Kit *kit, const Scene *s, int body)
-{
-    static const char *const places[] = {".x", ".y", ".z"};
-    static const char *const parameters[] = {".q0", ".q1", ".q2", ".q3"};
-    static const double z[3] = {0, 0, 1};
-    Pose p = here;
-
-    if (s->planar)
-        p = turned(z, value(kit, "b", body, ".theta"));
-    for (int i = 0; i < 4 && !s->planar; i++)
-        p.q[i] = value(kit, "b", body, parameters[i]);
-    for (int i = 0; i < (s->planar ? 2 : 3); i++)
-        p.r[i] = value(kit, "b", body, places[i]);
-    return p;
-}
-
-static void read_joint(Kit *kit, const Scene *s, int number, double *c)
-{
-    for (int k = 0; k < s->joint[number].count; k++)
-        c[k] = value(kit, "j", number, coordinate_name(&s->joint[number], k));
-}
-
-static double worst(double a, double b)
-{
-    return isnan(a) || isnan(b) ? NAN : fmax(a, b);
-}
-
-/* How far the coordinates that are reported are from those that follow from where the bodies
- * stand; three angles of a chord can't be told. */
-static double off_consistent(Member *m, Kit *kit, const Scene *s, const Pose *bodies)
-{
-    static const double nothing[MOST_COORDINATES];
-    double off = 0;
-
-    for (int i = 0; i < s->all; i++) {
-        const Joint *j = &s->joint[i];
-        double c[MOST_COORDINATES], wrong;
-        Pose stands, says;
-        bool silent;
-
-        read_joint(kit, s, i, c);
-        stands = compose(inverse(compose(j->tail_body < 0 ? here : bodies[j->tail_body], j->tail)),
-                         compose(j->head_body < 0 ? here : bodies[j->head_body], j->head));
-        silent = j->kind == SPHERICAL_ANGLES && isnan(c[0]);
-        says = joint_pose(j, silent ? nothing : c);
-        wrong = tells_place(j) ? place_off(stands.r, says.r) : 0;
-        if (!silent)
-            wrong = worst(wrong, attitude_off(stands.q, says.q));
-        if (!(wrong < NEAR))
-            tell(m, "j%d is off by %.3g from where its bodies stand\n", i, wrong);
-        off = worst(off, wrong);
-    }
-    return off;
-}
-
 /* Angles that were told or guessed as they were, others within half a turn of 0. */
 static double off_angles(Member *m, Kit *kit, const Scene *s, const Told *told)
 {
@@ -200,21 +133,6 @@ static double off_angles(Member *m, Kit *kit, const Scene *s, const Told *told)
                 tell(m, "j%d%s is %.12g, not %.12g\n", i, coordinate_name(j, k), c[k], j->c[k]);
             off = worst(off, fabs(wrong));
         }
-    }
-    return off;
-}
-
-static double off_bodies(Member *m, const Scene *s, const Pose *are, const Pose *belong)
-{
-    double off = 0;
-
-    for (int i = 0; i < s->bodies; i++) {
-        const double wrong =
-            worst(place_off(are[i].r, belong[i].r), attitude_off(are[i].q, belong[i].q));
-
-        if (!(wrong < NEAR))
-            tell(m, "b%d is off by %.3g\n", i, wrong);
-        off = worst(off, wrong);
     }
     return off;
 }
@@ -280,8 +198,70 @@ static Verdict told_member(Member *m)
     return right ? AGREES : DISAGREES;
 }
 
+/* --- counted --- */
+
+/* One joint in any attitude, or a chain of four hinges, by bodies alone: kinds take turns. */
+static Verdict counted_member(Member *m)
+{
+    static const Kind kinds[] = {WELD, PRISMATIC, SCREW, CYLINDRICAL, PLANARJOINT, REVOLUTE};
+    static Scene s, out;
+    const Told told = {.joint = {true, true, true, true}};
+    const Kind kind = kinds[m->number % 6];
+    Kit kit = kit_new();
+    bool right;
+
+    make_chain(m, &s, kind, kind == REVOLUTE ? 4 : 1);
+    out.length = 0;
+    write(&out, "%stree absolute\n", s.text);
+    for (int i = 0; i < s.bodies; i++)
+        tell_joint(m, &s, i, &told, &out);
+    write(&out, "assemble\n");
+    right = agrees(m, &kit, &s, &told, out.text);
+    kit_free(&kit);
+    return right ? AGREES : DISAGREES;
+}
+
+/* --- loops that close the wrong way round --- */
+
+static bool names_open_joint(const char *message)
+{
+    static const char *const words[] = {" closes only with its ", "can't be assembled",
+                                        "can't be put together"};
+    bool found = false;
+
+    for (size_t i = 0; i < sizeof words / sizeof words[0]; i++)
+        found = found || strstr(message, words[i]) != NULL;
+    return found && strchr(message, 'j') != NULL;
+}
+
+static Verdict reversed_member(Member *m)
+{
+    static Scene s, out;
+    bool right = true;
+
+    make_reversed(m, &s);
+    for (int choice = 0; choice < 3 && right; choice++) {
+        Kit kit = kit_new();
+        Told told;
+
+        out.length = 0;
+        write(&out, "%s", s.text);
+        write_trees(m, &s, choice, &out);
+        tell_start(m, &s, &told, &out);
+        write(&out, "assemble\n");
+        /* as reversed, or as open in trees that have the last joint as a branch */
+        right = kit_do(&kit, out.text) != CT_OK && names_open_joint(kit.error.message);
+        if (!right || m->told)
+            tell(m, "%s\n%s", kit.error.message, out.text);
+        kit_free(&kit);
+    }
+    return right ? AGREES : DISAGREES;
+}
+
 static const Family families[] = {
-    {"starts_are_the_ones_described", 60, 0, 0, told_member},
+    {"starts_are_the_ones_described", 36, 0, 0, told_member},
+    {"joints_in_any_attitude_stand_as_told_in_absolute_coordinates", 6 * 25, 0, 0, counted_member},
+    {"loops_that_close_with_an_axis_reversed_are_refused", 20, 0, 0, reversed_member},
 };
 
 int main(int argc, char **argv)

@@ -302,6 +302,26 @@ static inline void random_axes(Member *m, bool along_z, Joint *j)
     }
 }
 
+/* coordinates that the joint may have */
+static inline void draw_coordinates(Member *m, const Joint *j, double *c)
+{
+    for (int k = 0; k < j->count; k++)
+        c[k] = is_angle(j, k) ? random_angle(m)
+               /* its shift knows all turns */
+               : j->kind == SCREW ? between(m, -9, 9)
+                                  : between(m, -1, 1);
+    if (first_parameter(j) >= 0)
+        random_attitude(m, c + first_parameter(j));
+    if (j->kind == SPHERICAL_ANGLES) {
+        /* the two sets of angles are told apart by the one between */
+        const bool returns = j->sequence[0] == j->sequence[2];
+
+        c[0] = between(m, -1.4, 1.4);
+        c[1] = returns ? between(m, 0.2, 1.4) : between(m, -1.2, 1.2);
+        c[2] = between(m, -1.4, 1.4);
+    }
+}
+
 /* axes and coordinates of a joint whose kind is chosen */
 static inline void draw_joint(Member *m, bool along_z, Joint *j)
 {
@@ -311,21 +331,7 @@ static inline void draw_joint(Member *m, bool along_z, Joint *j)
 
     random_axes(m, along_z, j);
     j->count = j->kind == FREE && j->in_plane ? 3 : counts[j->kind];
-    for (int k = 0; k < j->count; k++)
-        j->c[k] = is_angle(j, k) ? random_angle(m)
-                  /* its shift knows all turns */
-                  : j->kind == SCREW ? between(m, -9, 9)
-                                     : between(m, -1, 1);
-    if (first_parameter(j) >= 0)
-        random_attitude(m, j->c + first_parameter(j));
-    if (j->kind == SPHERICAL_ANGLES) {
-        /* the two sets of angles are told apart by the one between */
-        const bool returns = j->sequence[0] == j->sequence[2];
-
-        j->c[0] = between(m, -1.4, 1.4);
-        j->c[1] = returns ? between(m, 0.2, 1.4) : between(m, -1.2, 1.2);
-        j->c[2] = between(m, -1.4, 1.4);
-    }
+    draw_coordinates(m, j, j->c);
 }
 
 #endif

@@ -17,8 +17,10 @@ enum { UNCOUNTED = 40 };
 
 typedef struct Scene {
     bool planar, parallel; /* all axes one way */
-    int bodies, joints;    /* these make trees and loops; */
-    int all;               /* virtual ones behind them */
+    Kind only;             /* joints of one kind; KINDS: of any */
+    bool is_chain;
+    int bodies, joints; /* these make trees and loops; */
+    int all;            /* virtual ones behind them */
     Joint joint[JOINTS];
     Pose body[BODIES];
     char text[ROOM];
@@ -119,9 +121,10 @@ static inline Kind random_kind(Member *m, const Scene *s)
 {
     static const Kind parallel[] = {REVOLUTE, REVOLUTE, PRISMATIC, CYLINDRICAL, WELD, SCREW};
 
-    return s->planar     ? (Kind)pick(m, PLANE_KINDS)
-           : s->parallel ? parallel[pick(m, (int)(sizeof parallel / sizeof parallel[0]))]
-                         : (Kind)pick(m, KINDS);
+    return s->only != KINDS ? s->only
+           : s->planar      ? (Kind)pick(m, PLANE_KINDS)
+           : s->parallel    ? parallel[pick(m, (int)(sizeof parallel / sizeof parallel[0]))]
+                            : (Kind)pick(m, KINDS);
 }
 
 static inline void write_bodies(Member *m, Scene *s)
@@ -152,7 +155,7 @@ static inline void hang(Member *m, Scene *s, int number)
     j->kind = random_kind(m, s);
     j->in_plane = s->planar;
     do
-        other = pick(m, (closes ? s->bodies : number) + 1) - 1;
+        other = s->is_chain ? body - 1 : pick(m, (closes ? s->bodies : number) + 1) - 1;
     while (other == body);
     j->tail = random_frame(m, s);
     j->head = random_frame(m, s);
@@ -207,6 +210,7 @@ static inline void look(Member *m, Scene *s, int number)
 static inline void make_scene(Member *m, Scene *s, bool with_loops, bool with_virtuals)
 {
     memset(s, 0, sizeof *s);
+    s->only = KINDS;
     s->planar = pick(m, 4) == 0;
     s->bodies = 1 + pick(m, BODIES);
     s->parallel = !s->planar && pick(m, 4) == 0;
@@ -219,6 +223,44 @@ static inline void make_scene(Member *m, Scene *s, bool with_loops, bool with_vi
             look(m, s, i);
     write_bodies(m, s);
     for (int i = 0; i < s->all; i++)
+        write_joint(s, i);
+}
+
+/* a chain of joints of one kind */
+static inline void make_chain(Member *m, Scene *s, Kind kind, int count)
+{
+    memset(s, 0, sizeof *s);
+    s->only = kind;
+    s->is_chain = true;
+    s->bodies = s->joints = s->all = count;
+    for (int i = 0; i < count; i++)
+        hang(m, s, i);
+    write_bodies(m, s);
+    for (int i = 0; i < count; i++)
+        write_joint(s, i);
+}
+
+/* All axes one way, and one more joint whose tip is turned by half a turn across them: it can be
+ * closed with its axis reversed alone. */
+static inline void make_reversed(Member *m, Scene *s)
+{
+    static const Kind kinds[] = {REVOLUTE, CYLINDRICAL, PRISMATIC, WELD};
+    static const double x[3] = {1, 0, 0};
+    Joint *j;
+
+    memset(s, 0, sizeof *s);
+    s->only = KINDS;
+    s->parallel = true;
+    s->bodies = 2 + pick(m, BODIES - 1);
+    s->joints = s->all = s->bodies + 1;
+    for (int i = 0; i < s->bodies; i++)
+        hang(m, s, i);
+    s->only = kinds[pick(m, 4)];
+    hang(m, s, s->bodies);
+    j = &s->joint[s->bodies];
+    j->head = compose(j->head, turned(x, M_PI));
+    write_bodies(m, s);
+    for (int i = 0; i < s->joints; i++)
         write_joint(s, i);
 }
 

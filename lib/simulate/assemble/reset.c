@@ -5,6 +5,7 @@
 #include "algebra/least.h"
 #include "algebra/linear.h"
 #include "base/memory.h"
+#include "simulate/assemble/skeleton.h"
 
 #include <math.h>
 #include <string.h>
@@ -12,6 +13,7 @@
 #define TOLERANCE 1e-11 /* of what is set and of the constraints, as assembly has it */
 #define SWEEPS    3     /* of a problem that is linear but for rounding */
 #define KEEPING   10    /* of charges and fluxes */
+#define STAGES    16    /* of a way from the present values to those that are set */
 
 typedef enum Level { LEVEL_POSITION, LEVEL_VELOCITY, LEVEL_STATE, LEVEL_COUNT } Level;
 
@@ -29,8 +31,9 @@ struct Reset {
     LIST(Target) targets;
     Storage *storages; /* whose charge or flux stays */
     int storage_count;
-    int stored;   /* root of the first charge or flux; their derivatives follow all of them */
-    Probe *probe; /* the targets, kinetic and potential energy, derivatives of the targets */
+    int stored;         /* root of the first charge or flux; their derivatives follow all of them */
+    Skeleton *skeleton; /* NULL: nothing is mechanical, or no positions were set yet */
+    Probe *probe;       /* the targets, kinetic and potential energy, derivatives of the targets */
     /* of the call under way */
     double t;
     const double *values;
@@ -52,6 +55,7 @@ void reset_free(Reset *reset)
         return;
     LIST_FREE(reset->targets);
     mem_free(reset->storages);
+    skeleton_free(reset->skeleton);
     probe_free(reset->probe);
     mem_free(reset);
 }
@@ -299,6 +303,74 @@ static bool solve_least_squares(Reset *reset, Level level)
     return met;
 }
 
+static Reversal reversal_here(Reset *reset)
+{
+    if (reset->skeleton == NULL)
+        reset->skeleton = skeleton_new(reset->plan.layout, reset->plan.parameters);
+    return skeleton_reversal(reset->skeleton, reset->y);
+}
+
+/* angles are looked for in the turn that is asked for */
+static void begin_turns(const Reset *reset)
+{
+    double *near = reset->y + layout_turned(reset->plan.layout);
+
+    for (int k = 0; k < reset->targets.count; k++)
+        if (reset->targets.at[k].turned >= 0 && is_chosen(reset, k, LEVEL_POSITION))
+            near[reset->targets.at[k].turned] = reset->values[k];
+}
+
+/* Positions in stages, from the present values of what is set to the new ones. */
+static bool go_by_stages(Reset *reset)
+{
+    const double *last = reset->values;
+    double *values = NEW_ARRAY(double, reset->targets.count);
+    double *from = NEW_ARRAY(double, reset->targets.count);
+    bool met = true;
+
+    memcpy(from, probe_here(reset), (size_t)reset->targets.count * sizeof(double));
+    reset->values = values;
+    for (int stage = 1; stage <= STAGES && met; stage++) {
+        for (int k = 0; k < reset->targets.count; k++)
+            values[k] = from[k] + (last[k] - from[k]) * stage / STAGES;
+        begin_turns(reset);
+        met = solve_least_squares(reset, LEVEL_POSITION);
+    }
+    reset->values = last;
+    mem_free(values);
+    mem_free(from);
+    return met;
+}
+
+/* Positions at once, and in stages where that leads nowhere or to an axis that lies the wrong way
+ * round, which equations alone don't tell. */
+static bool solve_positions(Reset *reset, Text *why)
+{
+    const Layout *l = reset->plan.layout;
+    const size_t bytes = (size_t)(layout_turned(l) + l->turned) * sizeof(double);
+    double *begun = mem_array((size_t)(layout_turned(l) + l->turned), sizeof(double));
+    Reversal reversal = {.link = NULL}, later;
+    bool met;
+
+    memcpy(begun, reset->y, bytes);
+    begin_turns(reset);
+    met = solve_least_squares(reset, LEVEL_POSITION);
+    if (met)
+        reversal = reversal_here(reset);
+    if (!met || reversal.link != NULL) {
+        memcpy(reset->y, begun, bytes);
+        met = go_by_stages(reset);
+        later = met ? reversal_here(reset) : reversal;
+        met = later.link == NULL && met;
+        if (later.link != NULL) {
+            text_addf(why, "%s would close with ", later.link->instance->name);
+            reversal_tell(reset->skeleton, &later, why);
+        }
+    }
+    mem_free(begun);
+    return met;
+}
+
 /* --- speeds: the least change in the mass metric --- */
 
 /* A du = r with A the constraint rows and what is set; r is what is missed. */
@@ -432,17 +504,7 @@ static bool keep_stored(const Reset *reset, const double *before)
     return met && vector_is_finite(x, reset->plan.equations->nx);
 }
 
-/* angles are looked for in the turn that is asked for */
-static void begin_turns(const Reset *reset)
-{
-    double *near = reset->y + layout_turned(reset->plan.layout);
-
-    for (int k = 0; k < reset->targets.count; k++)
-        if (reset->targets.at[k].turned >= 0 && is_chosen(reset, k, LEVEL_POSITION))
-            near[reset->targets.at[k].turned] = reset->values[k];
-}
-
-bool reset_apply(Reset *reset, double t, const double *values, double *y)
+bool reset_apply(Reset *reset, double t, const double *values, double *y, Text *why)
 {
     const Equations *eq = reset->plan.equations;
     int turned = layout_turned(reset->plan.layout);
@@ -460,9 +522,8 @@ bool reset_apply(Reset *reset, double t, const double *values, double *y)
     if (reset->storage_count > 0)
         memcpy(stored, probe_here(reset) + reset->stored,
                (size_t)reset->storage_count * sizeof(double));
-    begin_turns(reset);
     if (any_chosen(reset, LEVEL_POSITION))
-        met = solve_least_squares(reset, LEVEL_POSITION);
+        met = solve_positions(reset, why);
     if (met && any_chosen(reset, LEVEL_STATE))
         met = solve_least_squares(reset, LEVEL_STATE);
     met = met && keep_stored(reset, stored);

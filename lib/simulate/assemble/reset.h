@@ -7,6 +7,7 @@
 #ifndef COTREE_SIMULATE_ASSEMBLE_RESET_H
 #define COTREE_SIMULATE_ASSEMBLE_RESET_H
 
+#include "base/text.h"
 #include "simulate/equations/numbers.h"
 
 typedef struct Reset Reset;
@@ -27,7 +28,8 @@ MUST_USE Status reset_add(Reset *reset, const char *name, int primes, Diag *diag
 /* after the last of them; O(variables * unknowns) expressions */
 MUST_USE Status reset_compile(Reset *reset, Diag *diag);
 /* Give values (NAN: leave) to the variables at (t, y); y is (q, u, x, work). False: there are no
- * such positions, speeds or states, and y is as it was. */
-bool reset_apply(Reset *reset, double t, const double *values, double *y);
+ * such positions, speeds or states, and y is as it was; where a joint would close with its axis
+ * reversed alone, `why` tells. */
+bool reset_apply(Reset *reset, double t, const double *values, double *y, Text *why);
 
 #endif

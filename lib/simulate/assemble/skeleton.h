@@ -8,6 +8,7 @@
 #ifndef COTREE_SIMULATE_ASSEMBLE_SKELETON_H
 #define COTREE_SIMULATE_ASSEMBLE_SKELETON_H
 
+#include "base/text.h"
 #include "formulate/edges.h"
 #include "simulate/equations/numbers.h"
 
@@ -79,11 +80,17 @@ void link_tie_row(const Link *link, const Pose *relative, LinkRow *row); /* of a
 void link_value_row(const Link *link, const Pose *relative, const double *near, int k, double value,
                     LinkRow *row);
 
-/* The first joint whose directions lie the wrong way round, by more than a third of half a turn;
- * NULL: all agree. */
-const Link *skeleton_reversed(const Skeleton *skeleton, const Pose *poses);
-/* The same at coordinates q of the system, along its trees; NULL for no skeleton. */
-const Link *skeleton_reversed_at(const Skeleton *skeleton, const double *q);
+/* a joint whose directions lie the wrong way round, by more than a third of half a turn */
+typedef struct Reversal {
+    const Link *link; /* NULL: all agree */
+    bool is_twisted;  /* a screw whose turn is not that of its shift */
+    double
+        about[3]; /* by that its head is turned further than the joint lets it; axes of the tail */
+} Reversal;
+/* The first one at coordinates q of the system, along its trees; none for no skeleton. */
+Reversal skeleton_reversal(const Skeleton *skeleton, const double *q);
+/* "its axis reversed: z of t4 and z of h4 point opposite ways" */
+void reversal_tell(const Skeleton *skeleton, const Reversal *reversal, Text *out);
 /* A coordinate of an instance there, of its turns those nearest to `near`. */
 double skeleton_value(const Skeleton *skeleton, const double *q, const Instance *instance, int k,
                       const double near[MAX_COORDS]);

@@ -209,11 +209,12 @@ void link_tie_row(const Link *link, const Pose *relative, LinkRow *row)
     }
 }
 
-const Link *skeleton_reversed(const Skeleton *s, const Pose *poses)
+static Reversal find_reversal(const Skeleton *s, const Pose *poses)
 {
     for (int i = 0; i < s->link_count; i++) {
         const Link *link = &s->links[i];
         LinkRow rows[LINK_ROWS];
+        Reversal found = {.link = link};
         Pose relative;
         double size = 0;
         int count;
@@ -222,12 +223,20 @@ const Link *skeleton_reversed(const Skeleton *s, const Pose *poses)
             continue;
         pose_between(&poses[link->tail], &poses[link->head], &relative);
         count = link_turn_rows(link, &relative, rows);
-        for (int k = 0; k < count; k++)
+        for (int k = 0; k < count; k++) {
             size = hypot(size, rows[k].value);
+            found.about[k] = rows[k].value; /* of a joint that lets it turn in no way */
+        }
         if (size > REVERSED)
-            return link;
+            return found;
+        if (link->is_tied) {
+            link_tie_row(link, &relative, rows);
+            found.is_twisted = fabs(rows[0].value) > REVERSED * fabs(link->shift[0].scale);
+        }
+        if (found.is_twisted)
+            return found;
     }
-    return NULL;
+    return (Reversal){.link = NULL};
 }
 
 /* poses of the nodes at coordinates of the system, along its trees; new */
@@ -248,17 +257,70 @@ static Pose *poses_at(const Skeleton *s, const double *q)
     return poses;
 }
 
-const Link *skeleton_reversed_at(const Skeleton *s, const double *q)
+Reversal skeleton_reversal(const Skeleton *s, const double *q)
 {
-    const Link *reversed = NULL;
+    Reversal found = {.link = NULL};
 
     if (s != NULL) {
         Pose *poses = poses_at(s, q);
 
-        reversed = skeleton_reversed(s, poses);
+        found = find_reversal(s, poses);
         mem_free(poses);
     }
-    return reversed;
+    return found;
+}
+
+/* of the two senses of a half turn the one whose largest component is positive */
+static void choose_sense(double u[3])
+{
+    double largest = 0;
+
+    for (int k = 0; k < 3; k++)
+        if (fabs(u[k]) > fabs(largest))
+            largest = u[k];
+    for (int k = 0; k < 3; k++)
+        u[k] *= largest < 0 ? -1 : 1;
+}
+
+/* -y, or [0.6, 0.8, 0] */
+static void add_axis(const double *u, Text *out)
+{
+    const double rounding = 1e-6;
+
+    for (int k = 0; k < 3; k++)
+        if (fabs(u[k]) > (1 - rounding) * sqrt(vector3_dot(u, u))) {
+            text_addf(out, "%s%c", u[k] < 0 ? "-" : "", "xyz"[k]);
+            return;
+        }
+    text_addf(out, "[%.6g, %.6g, %.6g]", u[0], u[1], u[2]);
+}
+
+void reversal_tell(const Skeleton *s, const Reversal *reversal, Text *out)
+{
+    const Graph *graph = system_graph(s->system);
+    const Link *link = reversal->link;
+    const char *tail = graph_node(graph, link->tail)->name;
+    const char *head = graph_node(graph, link->head)->name;
+    double u[3];
+
+    if (reversal->is_twisted) {
+        text_addf(out, "its turn half a turn off: %s against %s is not turned as its shift asks",
+                  head, tail);
+        return;
+    }
+    text_addf(out, "its %s reversed: ", link->turn_count > 0 ? "axis" : "tip");
+    if (link->turn_count > 0) {
+        add_axis(link->turn[0].axis, out);
+        text_addf(out, " of %s and ", tail);
+        add_axis(link->turn[0].axis, out);
+        text_addf(out, " of %s point opposite ways", head);
+        return;
+    }
+    memcpy(u, reversal->about, sizeof u);
+    choose_sense(u);
+    text_addf(out, "%s is turned against %s by half a turn about ", head, tail);
+    add_axis(u, out);
+    text_addf(out, " of %s", tail);
 }
 
 double skeleton_value(const Skeleton *s, const double *q, const Instance *instance, int k,

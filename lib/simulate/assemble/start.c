@@ -329,7 +329,7 @@ static bool try_around(Problem *p, const Rows *rows, const bool *held, const dou
         for (int i = 0; i < a->l->n; i++)
             a->y[i] = begun[i] + (held[i] ? 0 : size * random_unit(&seed));
         if (least_solve(rows, held, NULL, TOLERANCE, a->y, NULL) &&
-            skeleton_reversed_at(a->skeleton, a->y) == NULL) {
+            skeleton_reversal(a->skeleton, a->y).link == NULL) {
             text_addf(&a->out->remarks,
                       "warning: assembled from a start moved by up to %g; guesses make sure that "
                       "it is the assembly meant\n",
@@ -341,14 +341,16 @@ static bool try_around(Problem *p, const Rows *rows, const bool *held, const dou
 }
 
 /* E_ASSEMBLE: all equations hold, but a joint stands the wrong way round */
-static Status refuse_reversed(const Link *link, Diag *diag)
+static Status refuse_reversed(const Assembly *a, const Reversal *reversal, Diag *diag)
 {
-    (void)diag_set(diag, E_ASSEMBLE,
-                   "%s closes with its axis reversed alone: the axis of its tail and that of its "
-                   "tip are opposite wherever everything else holds",
-                   link->instance->name);
+    Text text = {0};
+
+    reversal_tell(a->skeleton, reversal, &text);
+    (void)diag_set(diag, E_ASSEMBLE, "%s closes only with %s wherever everything else holds",
+                   reversal->link->instance->name, text.at);
     diag_hint(diag, "turn one of its frames by half a turn (rotation= of an arm), or guess a start "
                     "from which it closes as it is meant");
+    text_free(&text);
     return E_ASSEMBLE;
 }
 
@@ -385,7 +387,7 @@ static Status correct(Problem *p, const bool *held, const double *begun, bool cl
     Rows rows = start_rows(p);
     double *residual = NEW_ARRAY(double, rows.rows);
     double *missed = NEW_ARRAY(double, rows.rows);
-    const Link *reversed = NULL;
+    Reversal reversed = {.link = NULL};
     bool met = true;
     Status status = OK;
 
@@ -395,10 +397,11 @@ static Status correct(Problem *p, const bool *held, const double *begun, bool cl
     if (met && closed)
         goto done;
     met = least_solve(&rows, held, NULL, TOLERANCE, a->y, missed);
-    reversed = met ? skeleton_reversed_at(a->skeleton, a->y) : NULL;
-    if ((!met || reversed != NULL) && !try_around(p, &rows, held, begun))
-        CHECK(reversed != NULL
-                  ? refuse_reversed(reversed, diag)
+    if (met)
+        reversed = skeleton_reversal(a->skeleton, a->y);
+    if ((!met || reversed.link != NULL) && !try_around(p, &rows, held, begun))
+        CHECK(reversed.link != NULL
+                  ? refuse_reversed(a, &reversed, diag)
                   : start_conflict(p, missed, "the parts can't be put together", diag));
     CHECK(check_told(a, diag));
     remark_moved(a, begun);

@@ -500,7 +500,7 @@ static Status apply_values(Events *events, double t, const bool *due, double *y,
                            Diag *diag)
 {
     const double *values;
-    Text names = {0};
+    Text names = {0}, why = {0};
 
     for (int k = 0; k < events->values.count; k++)
         events->targets[k] = NAN;
@@ -522,15 +522,16 @@ static Status apply_values(Events *events, double t, const bool *due, double *y,
     }
     if (names.length == 0)
         return OK;
-    if (values != NULL && reset_apply(events->reset, t, events->targets, y)) {
+    if (values != NULL && reset_apply(events->reset, t, events->targets, y, &why)) {
         *changed = true;
         text_free(&names);
         return OK;
     }
-    (void)diag_set(diag, E_SOLVER, "at t = %.9g s: the new values of event %s can't be met", t,
-                   names.at);
+    (void)diag_set(diag, E_SOLVER, "at t = %.9g s: the new values of event %s can't be met%s%s", t,
+                   names.at, why.length > 0 ? ": " : "", why.length > 0 ? why.at : "");
     diag_hint(diag, "what the constraints tie together can't be set apart");
     text_free(&names);
+    text_free(&why);
     return E_SOLVER;
 }
 
