@@ -193,7 +193,7 @@ ct_status ct_bode_csv(ct_session *session, const ct_statement *statement, bool w
                       char **text, ct_error *error); /* the same as csv; new */
 /* expect CONDITION, expect A ~ B within TOL: CT_UNMET with the two values in the message */
 ct_status ct_expect(ct_session *session, const ct_statement *statement, ct_error *error);
-/* export csv|c|latex|dot: text to be written where the caller likes. new */
+/* export FORMAT ...: text to be written where the caller likes. new */
 ct_status ct_export(ct_session *session, const ct_statement *statement, bool with_header,
                     char **text, ct_error *error);
 const char *ct_title(const ct_session *session);

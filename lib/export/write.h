@@ -1,21 +1,34 @@
-/* write.h: files in other formats */
+/* write.h: files in other formats
+ *
+ * A format is a line of formats.def, and its row here: what it needs, and who writes it. */
 #ifndef COTREE_EXPORT_WRITE_H
 #define COTREE_EXPORT_WRITE_H
 
-#include "present/view.h"
+#include "present/show.h"
 #include "simulate/analyse/linearize.h"
+
+/* What is to be written; `view` has the equations that the format needs. */
+typedef struct Exported {
+    View view;
+    /* of NEED_RUN: numbers row by row, and the names of their columns, */
+    const char *const *names;
+    const double *values;
+    int rows, columns;
+    const Modes *modes; /* or these; NULL */
+    bool with_header;   /* the file is new */
+} Exported;
+
+typedef struct Format {
+    Need need;
+    Status (*write)(const Exported *what, Text *out, Diag *diag);
+} Format;
+
+#define FORMAT(word, brief) extern const Format format_##word;
+#include "language/formats.def"
+const Format *format_find(const char *name); /* NULL: none */
 
 /* numbers row by row, 17 digits; names quoted where they hold a comma or a quote (RFC 4180) */
 void write_csv(Text *out, const char *const *names, const double *values, int rows, int columns,
                bool with_header);
-/* a row a mode, with the amplitude and phase of every part */
-void write_modes_csv(const Modes *modes, bool with_header, Text *out);
-
-/* a document of all equations that compiles with amsmath alone */
-MUST_USE Status write_latex(const View *view, Text *out, Diag *diag);
-
-/* C source: a function a block (M, F, Phi, Phi_u, gamma ...), straight-line, each common
- * subexpression computed once; needs math.h alone */
-MUST_USE Status write_c(const View *view, Text *out, Diag *diag);
 
 #endif

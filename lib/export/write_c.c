@@ -279,8 +279,11 @@ static void add_head(Text *out, const View *view, bool near)
                   "static inline double ramp(double v) { return v > 0 ? v : 0; }\n");
 }
 
-Status write_c(const View *view, Text *out, Diag *diag)
+/* a function a block (M, F, Phi, Phi_u, gamma ...), straight-line, each common subexpression
+ * computed once; needs math.h alone */
+static Status write(const Exported *what, Text *out, Diag *diag)
 {
+    const View *view = &what->view;
     const System *system = view->system;
     const Reading *r = system_run(system);
     const int nu = system_nu(system), m = system_m(system), n = system_n(system);
@@ -331,3 +334,5 @@ done:
     rename_free(&rename);
     return status;
 }
+
+const Format format_c = {NEED_RUNNING, write};

@@ -41,7 +41,8 @@ void write_csv(Text *out, const char *const *names, const double *values, int ro
         }
 }
 
-void write_modes_csv(const Modes *modes, bool with_header, Text *out)
+/* a row a mode, with the amplitude and phase of every part */
+static void write_modes(const Modes *modes, bool with_header, Text *out)
 {
     static const char *const titles[] = {"mode",      "real",    "imaginary", "omega",
                                          "frequency", "damping", "error"};
@@ -77,3 +78,15 @@ void write_modes_csv(const Modes *modes, bool with_header, Text *out)
     mem_free(names);
     mem_free(values);
 }
+
+static Status write(const Exported *what, Text *out, Diag *diag)
+{
+    (void)diag;
+    if (what->modes != NULL)
+        write_modes(what->modes, what->with_header, out);
+    else
+        write_csv(out, what->names, what->values, what->rows, what->columns, what->with_header);
+    return OK;
+}
+
+const Format format_csv = {NEED_RUN, write};

@@ -18,8 +18,10 @@ static void add_escaped(Text *out, const char *text)
     }
 }
 
-Status write_latex(const View *view, Text *out, Diag *diag)
+/* a document of all equations that compiles with amsmath alone */
+static Status write(const Exported *what, Text *out, Diag *diag)
 {
+    const View *view = &what->view;
     static const struct {
         const char *title;
         ShowFunction *show;
@@ -55,3 +57,5 @@ Status write_latex(const View *view, Text *out, Diag *diag)
 done:
     return status;
 }
+
+const Format format_latex = {NEED_SYSTEM, write};

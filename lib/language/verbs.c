@@ -32,6 +32,15 @@
     }
 #define KEYS(...) ((const VerbKey[]){__VA_ARGS__, {.name = NULL}})
 
+static const char *const formats[] = {
+#define FORMAT(word, brief) #word,
+#include "language/formats.def"
+    NULL};
+static const char *const later_formats[] = {
+#define LATER_FORMAT(word) #word,
+#include "language/formats.def"
+    NULL};
+
 /* clang-format off */
 static const Verb table[] = {
 #define EVERY_VERB(word, where, ...)                                                               \

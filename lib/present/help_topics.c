@@ -85,6 +85,19 @@ static void write_methods(Text *out)
     table_free(&table);
 }
 
+static void write_formats(Text *out)
+{
+    Table table = table_for("ll");
+
+#define FORMAT(word, brief)                                                                        \
+    table_cell(&table, #word);                                                                     \
+    table_cell(&table, brief);
+#include "language/formats.def"
+    layout_words(out, TOPIC_WIDTH, "", "export WORD takes one of these:");
+    table_wrap(out, &table, 2, TOPIC_WIDTH);
+    table_free(&table);
+}
+
 static void write_counting(Text *out)
 {
     layout_words(
@@ -186,6 +199,7 @@ static const HelpTopic topics[] = {
     {"variables", "what can be printed, plotted and expected",  write_variables, NULL},
     {"topics",    "what show can show",                         write_topics,    NULL},
     {"methods",   "integration methods of simulate",            write_methods,   "simulate"},
+    {"formats",   "what export writes",                         write_formats,   "export"},
     {"counting",  "the rule by which operations are counted",   write_counting,  "count"},
     {"keys",      "keys at the prompt",                         write_keys,      NULL},
 };

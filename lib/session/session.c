@@ -190,6 +190,13 @@ done:
     return status;
 }
 
+Status session_prepare(ct_session *session, Need need, View *view, Diag *diag)
+{
+    return need == NEED_SYSTEM    ? session_shown(session, &view->system, diag)
+           : need == NEED_RUNNING ? session_system(session, &view->system, diag)
+                                  : OK;
+}
+
 View session_view(const ct_session *session)
 {
     const int runs = session->runs.count;

@@ -11,7 +11,7 @@
 #include "base/text.h"
 #include "model/model.h"
 #include "present/count.h"
-#include "present/view.h"
+#include "present/show.h"
 #include "simulate/analyse/linearize.h"
 #include "simulate/run/run.h"
 
@@ -87,6 +87,8 @@ MUST_USE Status session_system(ct_session *session, System **out, Diag *diag);
 /* The equations that are shown: those of the trees as they are, also where a run takes a network
  * in state form. */
 Status session_shown(ct_session *session, System **out, Diag *diag);
+/* the equations that something needs which is to be shown */
+MUST_USE Status session_prepare(ct_session *session, Need need, View *view, Diag *diag);
 /* free systems that neither the model nor a run needs any more */
 void session_sweep(ct_session *session);
 /* what there is to look at; `system` and `result` as needed */

@@ -43,10 +43,7 @@ ct_status ct_show(ct_session *session, const ct_statement *statement, char **tex
     session_begin(session);
     CHECK(check_no_units(s, &diag));
     CHECK(show_need(session->model, s, &need, &diag));
-    if (need == NEED_SYSTEM)
-        CHECK(session_shown(session, &view.system, &diag));
-    if (need == NEED_RUNNING)
-        CHECK(session_system(session, &view.system, &diag));
+    CHECK(session_prepare(session, need, &view, &diag));
     CHECK(show(&view, s, &out, &diag));
     if (need == NEED_LINEAR)
         session_remark_linear(session);

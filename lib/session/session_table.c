@@ -416,23 +416,6 @@ done:
 
 /* --- exports --- */
 
-typedef struct ExportJob {
-    ct_session *session;
-    const Statement *statement;
-    bool with_header;
-} ExportJob;
-
-static Status export_modes(const ExportJob *job, Text *out, Diag *diag)
-{
-    if (job->session->modes == NULL) {
-        diag_at(diag, E_MISSING, job->statement->operands.at[1].place, "there are no modes yet");
-        diag_hint(diag, "'modes' finds them");
-        return E_MISSING;
-    }
-    write_modes_csv(job->session->modes, job->with_header, out);
-    return OK;
-}
-
 static bool is_modes(const Statement *s)
 {
     const Syntax *item = s->operands.count == 2 ? s->operands.at[1].value : NULL;
@@ -441,87 +424,69 @@ static bool is_modes(const Statement *s)
            strcmp(item->text, "modes") == 0;
 }
 
-static Status export_csv(const ExportJob *job, Text *out, Diag *diag)
+/* numbers of the last run, or the modes */
+static Status read_numbers(ct_session *session, const Statement *s, Sheet *sheet, Exported *what,
+                           Diag *diag)
 {
-    const Statement *s = job->statement;
     const int count = s->operands.count - 1;
     const Syntax **items = NEW_ARRAY(const Syntax *, count);
-    Sheet sheet = {0};
     Run *source = NULL;
-    Status status;
+    Status status = OK;
 
-    if (is_modes(s)) {
-        status = export_modes(job, out, diag);
-        goto done;
+    what->modes = is_modes(s) ? session->modes : NULL;
+    if (is_modes(s) && what->modes == NULL) {
+        status = diag_at(diag, E_MISSING, s->operands.at[1].place, "there are no modes yet");
+        diag_hint(diag, "'modes' finds them");
     }
+    if (status != OK || is_modes(s))
+        goto done;
     for (int i = 0; i < count; i++)
         items[i] = s->operands.at[i + 1].value;
-    CHECK(session_source(job->session, &source, diag));
-    CHECK(make_sheet(job->session, items, count, source, 0, &sheet, diag));
-    write_csv(out, (const char *const *)sheet.names.at, sheet.values, sheet.rows, sheet.columns,
-              job->with_header);
+    CHECK(session_source(session, &source, diag));
+    CHECK(make_sheet(session, items, count, source, 0, sheet, diag));
+    what->names = (const char *const *)sheet->names.at;
+    what->values = sheet->values;
+    what->rows = sheet->rows;
+    what->columns = sheet->columns;
 done:
-    sheet_free(&sheet);
     mem_free(items);
     return status;
 }
 
-static Status export_equations(const ExportJob *job, bool shown,
-                               Status (*write)(const View *, Text *, Diag *), Text *out, Diag *diag)
+/* what the format needs; only one of numbers has items */
+static Status prepare(ct_session *session, const Statement *s, Need need, Sheet *sheet,
+                      Exported *what, Diag *diag)
 {
-    View view = session_view(job->session);
-    Status status;
-
-    CHECK(shown ? session_shown(job->session, &view.system, diag)
-                : session_system(job->session, &view.system, diag));
-    CHECK(write(&view, out, diag));
-done:
-    return status;
+    if (need == NEED_RUN)
+        return read_numbers(session, s, sheet, what, diag);
+    if (s->operands.count > 1)
+        return diag_at(diag, E_SYNTAX, s->operands.at[1].place, "'export %s' takes no items",
+                       s->operands.at[0].value->text);
+    return session_prepare(session, need, &what->view, diag);
 }
-
-static Status export_latex(const ExportJob *job, Text *out, Diag *diag)
-{
-    return export_equations(job, true, write_latex, out, diag);
-}
-
-static Status export_c(const ExportJob *job, Text *out, Diag *diag)
-{
-    return export_equations(job, false, write_c, out, diag);
-}
-
-static Status export_dot(const ExportJob *job, Text *out, Diag *diag)
-{
-    const View view = session_view(job->session);
-
-    (void)diag;
-    draw_dot(&view, out);
-    return OK;
-}
-
-static const struct {
-    const char *name;
-    Status (*write)(const ExportJob *job, Text *out, Diag *diag);
-} formats[] = {{"csv", export_csv}, {"latex", export_latex}, {"c", export_c}, {"dot", export_dot}};
 
 ct_status ct_export(ct_session *session, const ct_statement *statement, bool with_header,
                     char **text, ct_error *error)
 {
     const Statement *s = statement_of(statement);
-    const ExportJob job = {session, s, with_header};
     const char *name = s->operands.count > 0 ? s->operands.at[0].value->text : "";
-    const Place place = s->operands.count > 0 ? s->operands.at[0].place : s->verb_place;
-    Status status;
+    const Format *format = format_find(name);
+    Exported what = {.view = session_view(session), .with_header = with_header};
+    Sheet sheet = {0};
     Text out = {0};
     Diag diag = {0};
+    Status status;
 
     session_begin(session);
-    status = diag_at(&diag, E_NAME, place, "no format is called '%s'", name);
-    diag_hint(&diag, "csv, c, latex or dot");
-    for (int i = 0; i < COUNT(formats); i++)
-        if (strcmp(formats[i].name, name) == 0)
-            status = formats[i].write(&job, &out, &diag);
-    if (status == OK)
-        *text = text_done(&out);
+    if (format == NULL) {
+        status = diag_at(&diag, E_NAME, s->verb_place, "no format is called '%s'", name);
+        goto done;
+    }
+    CHECK(prepare(session, s, format->need, &sheet, &what, &diag));
+    CHECK(format->write(&what, &out, &diag));
+    *text = text_done(&out);
+done:
+    sheet_free(&sheet);
     text_free(&out);
     return session_report(status, &diag, error);
 }
