@@ -3,6 +3,9 @@
 
 #include <math.h>
 
+#define SAME     1e-9  /* of the way between two rows: an instant that near to one is that one */
+#define ROUNDING 1e-14 /* of the instant, likewise */
+
 typedef struct LeafValues {
     const Formula *formula;
     const double *values; /* one a leaf */
@@ -47,7 +50,7 @@ static double snap(const Result *result, double t)
             high = middle;
     }
     for (int i = low; i <= high; i++)
-        if (fabs(times[i] - t) <= 1e-9 * (1 + fabs(t)))
+        if (fabs(times[i] - t) <= SAME * (times[high] - times[low]) + ROUNDING * fabs(t))
             return times[i];
     return t;
 }
@@ -205,6 +208,7 @@ done:
 static Status other_rows(ct_session *session, const Formula *formulas, int count, const Run *own,
                          Run *source, const double *times, double **columns, int rows, Diag *diag)
 {
+    const Run *prepared = NULL;
     Status status = OK;
     int place = 0;
 
@@ -215,6 +219,10 @@ static Status other_rows(ct_session *session, const Formula *formulas, int count
 
             if (leaf->kind == LEAF_VARIABLE && run == own)
                 continue;
+            if (leaf->kind == LEAF_VARIABLE && needs_run(leaf) && run != prepared) {
+                CHECK(result_prepare(run->result, times, rows, &session->watch, diag));
+                prepared = run;
+            }
             for (int r = 0; r < rows; r++) {
                 CHECK(poll(&session->watch));
                 CHECK(evaluate_leaf(session, leaf, run, &times[r], &columns[place][r], diag));

@@ -64,14 +64,14 @@ static Status check_input(const LinearOrder *order, int i, Diag *diag)
 
 static Status find_point(Work *w, Diag *diag)
 {
-    const Result *about = w->order->about;
-    int rows = about->grid.count;
+    const double *y, *driven;
+    Status status = OK;
 
-    if (result_between(w->order->about, w->order->at, &w->phase, &w->y))
-        return OK;
-    return diag_set(diag, E_VALUE, "t = %.6g s is outside the run, which goes from %.6g to %.6g s",
-                    w->order->at, rows > 0 ? about->grid.times[0] : 0,
-                    rows > 0 ? about->grid.times[rows - 1] : 0);
+    CHECK(result_at(w->order->about, w->order->at, &w->phase, &y, &driven, diag));
+    w->y = NEW_ARRAY(double, w->phase->length);
+    memcpy(w->y, y, (size_t)w->phase->length * sizeof(double));
+done:
+    return status;
 }
 
 static Status open_system(Work *w, Diag *diag)

@@ -1,12 +1,20 @@
-/* between.c: results between their rows, by interpolation and projection */
+/* between.c: results between their rows
+ *
+ * Rows may lie far apart, and no interpolation knows what happened between them. So that part of
+ * the run is taken again, from the row or corner before to the one behind, whose steps are read
+ * where they were asked for. Where nothing was integrated, positions are interpolated and put back
+ * on constraints and drivers, which tell all. */
 #include "simulate/run/result.h"
 
 #include "base/memory.h"
+#include "simulate/run/commute.h"
+#include "simulate/run/inverse.h"
 
 #include <math.h>
 #include <string.h>
 
-#define TURNED 0.25 /* rad: parts of what lies between two rows, for counting turns */
+#define SAME   1e-12 /* of an output step: times that are one */
+#define TURNED 0.25  /* rad: parts of what lies between two rows, for counting turns */
 
 /* Hermite polynomial of degree 5 through value, rate and second rate at both ends (s in 0..1),
  * and its rate */
@@ -33,7 +41,8 @@ typedef struct End {
     double t;
     Phase *phase;
     const double *y, *driven;
-    double *rate; /* of y */
+    bool is_sampled; /* what is due has been sampled, as in a row it is only at the start */
+    double *rate;    /* of y */
 } End;
 
 /* the last row up to t; -1: there is none */
@@ -57,6 +66,7 @@ static End row_end(const Result *r, int row)
     return (End){.t = r->grid.times[row],
                  .phase = result_phase(r, row),
                  .y = grid_row(&r->grid, row),
+                 .is_sampled = row == 0,
                  .driven = result_driven(r, row)};
 }
 
@@ -64,7 +74,8 @@ static End corner_end(const Result *r, int corner)
 {
     return (End){.t = r->corners.times[corner],
                  .phase = r->phases.at[r->corners.phase[corner]],
-                 .y = grid_row(&r->corners, corner)};
+                 .y = grid_row(&r->corners, corner),
+                 .is_sampled = true};
 }
 
 /* The nearest ends around t, the same one twice where it is at t or behind the last row; false
@@ -175,60 +186,158 @@ static bool find_between(End ends[2], double t, double *y)
     return sound;
 }
 
-bool result_between(Result *r, double t, Phase **phase, double **y)
-{
-    End ends[2];
+/* --- that part of the run again --- */
 
-    if (!find_ends(r, t, ends))
-        return false;
-    *phase = ends[0].phase;
-    *y = NEW_ARRAY(double, ends[0].phase->length);
-    if (find_between(ends, t, *y))
-        return true;
-    mem_free(*y);
-    *y = NULL;
-    return false;
+static bool is_integrated(const Result *r)
+{
+    return r->kind != RUN_START && r->report.method != NULL &&
+           method_find(r->report.method) != NULL;
 }
 
-/* efforts of a driven run, straight between rows; new, NULL where it is none */
-static double *driven_between(const Result *r, double t)
+/* from one end to the other by the run's method, in steps as it would have taken them */
+static Status go_again(Result *r, const End ends[2], const double *times, int count,
+                       const Watch *watch, Diag *diag)
 {
-    int row = last_row(&r->grid, t), next;
-    double *driven, h, s;
+    const Grid *grid = &r->grid;
+    MarchPlan plan = {.leg = commute_leg(r, ends[0].phase, NULL),
+                      .method = method_find(r->report.method),
+                      .control = {.rtol = r->report.rtol,
+                                  .atol = r->report.atol,
+                                  .step = r->report.step,
+                                  .most = r->report.most},
+                      .from = ends[0].t,
+                      .to = ends[1].t,
+                      .every = r->report.every,
+                      .times = times,
+                      .time_count = count,
+                      .jumps = &r->jumps,
+                      .span = grid->times[grid->count - 1] - grid->times[0],
+                      .skip_first = true,
+                      .is_sampled = ends[0].is_sampled,
+                      .watch = watch};
+    MarchReport report;
+    const Status status = march(&plan, ends[0].y, &r->asked, &report, diag);
 
-    if (r->driven.values == NULL)
-        return NULL;
-    row = row < 0 ? 0 : row;
-    next = row < r->grid.count - 1 ? row + 1 : row;
-    h = r->grid.times[next] - r->grid.times[row];
-    s = h > 0 ? (t - r->grid.times[row]) / h : 0;
-    driven = NEW_ARRAY(double, r->driven.length);
-    for (int i = 0; i < r->driven.length; i++)
-        driven[i] = (1 - s) * result_driven(r, row)[i] + s * result_driven(r, next)[i];
-    return driven;
+    text_free(&report.remarks);
+    LIST_FREE(report.jumps);
+    return status;
+}
+
+/* Rows at times between two ends. */
+static Status fill_between(Result *r, End ends[2], const double *times, int count,
+                           const Watch *watch, Diag *diag)
+{
+    double *y;
+    Status status = OK;
+
+    if (is_integrated(r))
+        return go_again(r, ends, times, count, watch, diag);
+    y = NEW_ARRAY(double, ends[0].phase->length);
+    for (int i = 0; i < count; i++) {
+        if (!find_between(ends, times[i], y))
+            CHECK(solver_failure(diag, times[i], "the constraints can't be met"));
+        grid_add(&r->asked, times[i], result_phase_number(r, ends[0].phase), y,
+                 ends[0].phase->length);
+    }
+done:
+    mem_free(y);
+    return status;
+}
+
+/* Of rising times, those behind the first that lie before `end` with it. */
+static int count_until(const double *times, int count, double end)
+{
+    int i = 1;
+
+    while (i < count && times[i] > times[i - 1] && times[i] < end)
+        i++;
+    return i;
+}
+
+static Status fill(Result *r, const double *times, int count, const Watch *watch, Diag *diag)
+{
+    const double end = count > 0 ? times[count - 1] : 0;
+    Status status = OK;
+
+    grid_free(&r->asked);
+    for (int i = 0, group; i < count; i += group) {
+        const double last = r->asked.count > 0 ? r->asked.times[r->asked.count - 1] : -INFINITY;
+        End ends[2];
+
+        group = 1;
+        CHECK(poll(watch));
+        report(watch, "between rows", end > 0 ? times[i] / end : 0);
+        if (!(times[i] > last) || !find_ends(r, times[i], ends) || ends[0].y == ends[1].y ||
+            ends[0].phase != ends[1].phase)
+            continue;
+        group = count_until(times + i, count - i, ends[1].t);
+        CHECK(fill_between(r, ends, times + i, group, watch, diag));
+    }
+    if (r->driven.values != NULL && r->asked.count > 0)
+        CHECK(inverse_solve(r, &r->asked, &r->asked_driven, diag));
+done:
+    return status;
+}
+
+Status result_prepare(Result *r, const double *times, int count, const Watch *watch, Diag *diag)
+{
+    Diag ignored = {0};
+    const Status status = fill(r, times, count, watch, &ignored);
+
+    return status == E_STOPPED ? diag_set(diag, status, "%s", ignored.message) : OK;
+}
+
+/* the row that was asked for at t; -1: none was */
+static int asked_row(const Result *r, double t)
+{
+    const int row = last_row(&r->asked, t);
+
+    return row >= 0 && t - r->asked.times[row] <= SAME * r->report.every ? row : -1;
+}
+
+Status result_at(Result *r, double t, Phase **phase, const double **y, const double **driven,
+                 Diag *diag)
+{
+    const Grid *grid = &r->grid;
+    End ends[2];
+    int row;
+    Status status = OK;
+
+    if (!find_ends(r, t, ends))
+        return diag_set(diag, E_VALUE,
+                        "t = %.6g s is outside the run, which goes from %.6g to %.6g s", t,
+                        grid->count > 0 ? grid->times[0] : 0,
+                        grid->count > 0 ? grid->times[grid->count - 1] : 0);
+    *phase = ends[0].phase;
+    *y = ends[0].y;
+    *driven = ends[0].driven;
+    if (ends[0].y == ends[1].y)
+        goto done;
+    if (asked_row(r, t) < 0)
+        CHECK(fill(r, &t, 1, NULL, diag));
+    row = asked_row(r, t);
+    if (row < 0)
+        CHECK(solver_failure(diag, t, "the run has no value between two of its rows"));
+    *phase = r->phases.at[r->asked.phase[row]];
+    *y = grid_row(&r->asked, row);
+    *driven = r->driven.values != NULL
+                  ? r->asked_driven.values + (ptrdiff_t)row * r->asked_driven.length
+                  : NULL;
+done:
+    return status;
 }
 
 Status result_values_at(Result *r, const Expr *items, int count, double at, double *out, Diag *diag)
 {
-    int rows = r->grid.count;
-    Phase *phase = r->phase;
-    double *y = NULL, *driven = NULL;
+    Phase *phase;
+    const double *y, *driven;
     Probe *probe = NULL;
-    bool found = result_between(r, at, &phase, &y);
     Status status = OK;
 
+    CHECK(result_at(r, at, &phase, &y, &driven, diag));
     CHECK(result_probe(r, phase, items, count, &probe, diag));
-    if (!found)
-        CHECK(diag_set(diag, E_VALUE,
-                       "t = %.6g s is outside the run, which goes from %.6g to "
-                       "%.6g s",
-                       at, rows > 0 ? r->grid.times[0] : 0,
-                       rows > 0 ? r->grid.times[rows - 1] : 0));
-    driven = driven_between(r, at);
     result_probe_at(phase, probe, at, y, driven, count, out);
 done:
     probe_free(probe);
-    mem_free(driven);
-    mem_free(y);
     return status;
 }

@@ -367,19 +367,18 @@ done:
     return status;
 }
 
-static Status solve_row(Inverse *in, int row, Diag *diag)
+/* a row at (t, y), of which the states are found; its block into `out` */
+static Status solve_row(Inverse *in, double t, double *y, double *out, Diag *diag)
 {
     Result *r = in->result;
     const Layout *l = in->l;
-    double *y = grid_row(&r->grid, row);
-    double *out = r->driven.values + (ptrdiff_t)row * r->driven.length;
     Solved solved;
     Status status = OK;
 
-    if (!motion_solve(r->phase->motion, r->grid.times[row], y, &solved))
-        return solver_failure(diag, r->grid.times[row], "the accelerations are undefined");
+    if (!motion_solve(r->phase->motion, t, y, &solved))
+        return solver_failure(diag, t, "the accelerations are undefined");
     memset(in->values, 0, (size_t)l->count * sizeof(double));
-    in->values[l->t] = r->grid.times[row];
+    in->values[l->t] = t;
     for (int k = 0; k < l->turned; k++)
         in->values[l->near + k] = y[layout_turned(l) + k];
     memcpy(in->values + l->q, y, (size_t)(l->n + l->nu + l->nx) * sizeof(double));
@@ -392,12 +391,12 @@ static Status solve_row(Inverse *in, int row, Diag *diag)
     }
     memcpy(y + l->n + l->nu, in->values + l->x, (size_t)l->nx * sizeof(double));
     /* x', z, u', lambda, efforts stand in the layout as they do here */
-    memcpy(out, in->values + l->rates, (size_t)r->driven.length * sizeof(double));
+    memcpy(out, in->values + l->rates, (size_t)(l->jerk - l->rates) * sizeof(double));
 done:
     return status;
 }
 
-Status inverse_solve(Result *r, Diag *diag)
+Status inverse_solve(Result *r, Grid *rows, Driven *out, Diag *diag)
 {
     Inverse in = {.result = r, .l = r->phase->layout, .by_source = inverse_finds_states(r)};
     Status status = OK;
@@ -409,10 +408,12 @@ Status inverse_solve(Result *r, Diag *diag)
     CHECK(compile_motion(&in, diag));
     if (in.by_source)
         CHECK(compile_network(&in, diag));
-    r->driven.length = r->phase->layout->jerk - r->phase->layout->rates;
-    r->driven.values = NEW_ARRAY(double, r->grid.count * r->driven.length);
-    for (int row = 0; row < r->grid.count; row++)
-        CHECK(solve_row(&in, row, diag));
+    out->length = r->phase->layout->jerk - r->phase->layout->rates;
+    mem_free(out->values);
+    out->values = NEW_ARRAY(double, rows->count * out->length);
+    for (int row = 0; row < rows->count; row++)
+        CHECK(solve_row(&in, rows->times[row], grid_row(rows, row),
+                        out->values + (ptrdiff_t)row * out->length, diag));
 done:
     probe_free(in.balance);
     probe_free(in.jerk);

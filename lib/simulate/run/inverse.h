@@ -12,8 +12,8 @@
 
 /* whether network states follow from the motion, instead of being integrated */
 bool inverse_finds_states(const Result *result);
-/* Fill result->driven at every row, and the network states found. Fails with E_SINGULAR where no
- * effort produces the motion, E_MODEL where it isn't told by the motion alone. */
-MUST_USE Status inverse_solve(Result *result, Diag *diag);
+/* Fill a block for each of some rows, and the network states found into them. Fails with E_SINGULAR
+ * where no effort produces the motion, E_MODEL where it isn't told by the motion alone. */
+MUST_USE Status inverse_solve(Result *result, Grid *rows, Driven *out, Diag *diag);
 
 #endif

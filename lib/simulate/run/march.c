@@ -37,7 +37,8 @@ static Status add_rows_to(March *m, double end, Diag *diag)
     const MarchPlan *plan = m->plan;
 
     for (; m->next_row <= m->rows; m->next_row++) {
-        double t = grid_time(plan->from, plan->to, plan->every, m->next_row);
+        double t = plan->times != NULL ? plan->times[m->next_row - 1]
+                                       : grid_time(plan->from, plan->to, plan->every, m->next_row);
 
         if (t > end)
             break;
@@ -392,7 +393,8 @@ static Status run(March *m, const double *start, Diag *diag)
     Status status = OK;
 
     memcpy(m->y, start, (size_t)m->length * sizeof(double));
-    CHECK(samples_take(m->leg.samples, plan->from, m->y, &due, diag));
+    if (!plan->is_sampled)
+        CHECK(samples_take(m->leg.samples, plan->from, m->y, &due, diag));
     motion_partition(m->leg.motion, plan->from, m->y);
     memcpy(m->stepper->y, m->y, (size_t)m->length * sizeof(double));
     m->stepper->t = plan->from;
@@ -425,14 +427,15 @@ Status march(const MarchPlan *plan, const double *start, Grid *grid, MarchReport
                .low = -INFINITY,
                .high = INFINITY,
                .next_row = 1,
-               .rows = grid_rows(plan->from, plan->to, plan->every),
+               .rows = plan->times != NULL ? plan->time_count
+                                           : grid_rows(plan->from, plan->to, plan->every),
                .root = ROOT_ANY,
                .switched_since = -INFINITY};
     Status status;
 
     if (method->has_fixed_step && !(m.control.step > 0))
         m.control.step = plan->every;
-    m.control.span = plan->to - plan->from;
+    m.control.span = plan->span > 0 ? plan->span : plan->to - plan->from;
     *out = (MarchReport){.method = method, .reached = plan->from};
     open_leg(&m, &plan->leg);
     status = run(&m, start, diag);
@@ -444,7 +447,7 @@ Status march(const MarchPlan *plan, const double *start, Grid *grid, MarchReport
                   method->name, m.missed_at, m.missed);
     out->counts = m.earlier;
     out->events = m.ev;
-    LIST_FREE(m.jumps);
+    out->jumps = m.jumps;
     mem_free(m.reach);
     return status;
 }

@@ -50,6 +50,12 @@ typedef struct Meeting {
 typedef Status (*Choose)(void *context, double t, double low, double high, const double *y,
                          const Meeting *at, int count, Leg *leg, bool *entered, Diag *diag);
 
+/* s: between two numbers one behind another (or around one on which a condition is 0) */
+typedef struct Jump {
+    double before, behind;
+} Jump;
+typedef LIST(Jump) Jumps;
+
 typedef struct MarchPlan {
     Leg leg;         /* to begin with */
     Commute commute; /* NULL: it goes on to the end */
@@ -60,11 +66,16 @@ typedef struct MarchPlan {
     const Equations *in_time; /* whose conditions of t alone are those of all legs; NULL: leg's */
     const Method *method;     /* NULL: dop853 until it finds the problem stiff, then leg.stiff */
     Control control;
-    double from, to; /* s */
-    double every;    /* output step, s */
-    bool asks;       /* the tolerance was given: fixed steps tell of any miss */
-    bool skip_first; /* the row at `from` is there already */
-    Grid *corners;   /* rows where one leg ends and the next begins, two each; NULL: not kept */
+    double from, to;     /* s */
+    double every;        /* output step, s */
+    const double *times; /* rows at these times instead, which rise, behind `from`; NULL */
+    int time_count;
+    const Jumps *jumps; /* where conditions of t alone change sign; NULL: it finds out */
+    double span;        /* of the run that it goes over a part of, s; 0: it is the whole */
+    bool asks;          /* the tolerance was given: fixed steps tell of any miss */
+    bool skip_first;    /* the row at `from` is there already */
+    bool is_sampled;    /* what is due at `from` has been sampled */
+    Grid *corners;      /* rows where one leg ends and the next begins, two each; NULL: not kept */
     const Watch *watch;
 } MarchPlan;
 
@@ -74,10 +85,12 @@ typedef struct MarchReport {
     Events *events;       /* of the last leg */
     double reached;
     double position_residual, velocity_residual; /* largest over the rows */
+    Jumps jumps;                                 /* that it met or would have met */
     Text remarks;                                /* lines */
 } MarchReport;
 
-/* Rows are appended to `grid` and the report filled also when it fails: E_SOLVER, E_STOPPED. */
+/* Rows are appended to `grid` and the report filled also when it fails: E_SOLVER, E_STOPPED. The
+ * caller frees remarks and jumps. */
 MUST_USE Status march(const MarchPlan *plan, const double *start, Grid *grid, MarchReport *out,
                       Diag *diag);
 

@@ -6,11 +6,6 @@
 #include "simulate/integrate/headway.h"
 #include "simulate/run/march.h"
 
-/* s: between two numbers one behind another (or around one on which the condition is 0) */
-typedef struct Jump {
-    double before, behind;
-} Jump;
-
 /* what is known of surfaces where a run goes on */
 enum Root { ROOT_ANY = -1, ROOT_NONE = -2 };
 
@@ -27,7 +22,7 @@ typedef struct March {
     Control control; /* as asked for */
     Counts earlier;  /* of steppers given up */
     Headway headway;
-    LIST(Jump) jumps;
+    Jumps jumps;
     double low, high;             /* the time that rates see stays between */
     double *y, *slope;            /* one y, one y'; room for those of plan->in_time */
     double *conditions, *largest; /* values and largest sizes of conditions */

@@ -149,8 +149,17 @@ Status march_find_jumps(March *m, Diag *diag)
 {
     int count = equations_in_time(m)->time_only + events_time_only(m->ev);
     double t = samples_next(m->leg.samples, m->plan->from);
+    const Jumps *known = m->plan->jumps;
     Status status = OK;
 
+    /* what is due at the start is sampled before it */
+    for (int i = 0; known != NULL && i < known->count; i++)
+        if (known->at[i].before < m->plan->to &&
+            (known->at[i].before > m->plan->from ||
+             (known->at[i].before == m->plan->from && known->at[i].behind > m->plan->from)))
+            LIST_PUSH(m->jumps, known->at[i]);
+    if (known != NULL)
+        return OK;
     while (t < m->plan->to) {
         LIST_PUSH(m->jumps, ((Jump){t, t}));
         t = samples_next(m->leg.samples, t);

@@ -93,12 +93,12 @@ Status march_slide(March *m, bool *entered, bool *changed, Diag *diag)
     double *y = NEW_ARRAY(double, m->length);
     double t = m->stepper->t;
     Leg next = m->leg;
-    bool on;
+    bool on = false;
     int count = m->root != ROOT_NONE ? find_meetings(m, at, &on) : 0;
     Status status = OK;
 
     *entered = *changed = false;
-    if (m->root == ROOT_NONE || (count == 0 && !on))
+    if (m->plan->choose == NULL || m->root == ROOT_NONE || (count == 0 && !on))
         goto done;
     memcpy(y, m->stepper->y, (size_t)m->length * sizeof(double));
     CHECK(

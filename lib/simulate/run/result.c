@@ -293,6 +293,8 @@ Status result_reopen(const Result *old, const Setting *setting, Result **out, Di
     CHECK(copy_phases(r, old, setting, diag));
     grid_append(&r->grid, &old->grid);
     grid_append(&r->corners, &old->corners);
+    for (int i = 0; i < old->jumps.count; i++)
+        LIST_PUSH(r->jumps, old->jumps.at[i]);
     r->phase = result_phase(r, last);
     r->begin = NEW_ARRAY(double, r->phase->length);
     memcpy(r->begin, grid_row(&r->grid, last), (size_t)r->phase->length * sizeof(double));
@@ -319,6 +321,9 @@ void result_free(Result *r)
     mem_free(r->begin);
     grid_free(&r->grid);
     grid_free(&r->corners);
+    grid_free(&r->asked);
+    mem_free(r->asked_driven.values);
+    LIST_FREE(r->jumps);
     mem_free(r->driven.values);
     text_free(&r->remarks);
     mem_free(r);

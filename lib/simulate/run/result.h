@@ -30,7 +30,10 @@ struct Result {
     double tolerance; /* of the run: bounds what a projection may leave */
     Grid grid;        /* rows of y */
     Grid corners;     /* where phases end and begin, two rows each */
+    Jumps jumps;      /* where its equations change at times of their own */
     Driven driven;
+    Grid asked; /* rows between those, where they were asked for last, */
+    Driven asked_driven;
     Events *events; /* NULL: none */
     RunReport report;
     Text remarks;
@@ -72,8 +75,10 @@ MUST_USE Status result_probe(Result *result, const Phase *phase, const Expr *ite
                              Probe **out, Diag *diag);
 void result_probe_at(Phase *phase, Probe *probe, double t, const double *y, const double *driven,
                      int count, double *out);
-/* y between two rows, projected: a new array, and the phase that it is of. False outside the run,
- * and where the equations have no solution; *y is NULL then, or as it was. */
-bool result_between(Result *result, double t, Phase **phase, double **y);
+/* What the run was at t: y, its phase, and the block of a driven run (NULL: the equations are to be
+ * solved), all borrowed until the next call. Between rows, that part of the run is taken again.
+ * Fails with E_VALUE outside the run, and with E_SOLVER where the equations have no solution. */
+MUST_USE Status result_at(Result *result, double t, Phase **phase, const double **y,
+                          const double **driven, Diag *diag);
 
 #endif

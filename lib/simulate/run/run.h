@@ -101,8 +101,12 @@ const double *result_times(const Result *result);
  * row: out is rows x count. `t` is the row's time. */
 MUST_USE Status result_values(Result *result, const Expr *items, int count, double *out,
                               Diag *diag);
-/* the same at one instant of the run, between rows by interpolation and projection; E_VALUE outside
- * the run */
+/* What is asked for next are these instants, rising: found in one go. Where that fails, or there is
+ * no such instant, asking for it tells. Fails with E_STOPPED. */
+MUST_USE Status result_prepare(Result *result, const double *times, int count, const Watch *watch,
+                               Diag *diag);
+/* The same as result_values() at one instant of the run. Between rows that part of the run is taken
+ * again, with its own steps and tolerance. E_VALUE outside the run. */
 MUST_USE Status result_values_at(Result *result, const Expr *items, int count, double at,
                                  double *out, Diag *diag);
 

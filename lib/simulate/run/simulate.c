@@ -263,6 +263,7 @@ static Status estimate_error(Result *r, const Setting *setting, const RunOptions
     if (status == OK)
         report_difference(r, largest_difference(r, first, &grid), used, march_report.method);
     text_free(&march_report.remarks);
+    LIST_FREE(march_report.jumps);
     grid_free(&grid);
     return status;
 }
@@ -297,6 +298,9 @@ static Status go(Result *r, const Setting *setting, const RunOptions *given, dou
         network_hint(r->system, diag);
     remark_march(r, &report_of);
     text_free(&report_of.remarks);
+    for (int i = 0; i < report_of.jumps.count; i++)
+        LIST_PUSH(r->jumps, report_of.jumps.at[i]);
+    LIST_FREE(report_of.jumps);
     fill_report(r, &report_of, &options, status == E_STOPPED, began);
     if (status == OK && options.check)
         status = estimate_error(r, setting, &options, method, report_of.method, again, first,
@@ -639,7 +643,7 @@ Status run_inverse(System *system, const Setting *setting, const RunOptions *opt
     driven = drive(r, setting, options, diag);
     if (driven != OK && driven != E_STOPPED && driven != E_SOLVER)
         CHECK(driven);
-    CHECK(inverse_solve(r, diag));
+    CHECK(inverse_solve(r, &r->grid, &r->driven, diag));
     status = driven;
 done:
     give(r, status, out);
