@@ -591,12 +591,10 @@ static void a_solution_that_ends_ends_the_run(void)
 {
     static const struct {
         const char *method, *told;
-    } methods[] = {{"dop853", "the step became too small"},
-                   {"adams", "the step became too small"},
-                   {"bdf", "the step became too small"},
-                   {"ida", "the step became too small"},
-                   {"radau", "no solution just behind this instant"},
-                   {"rk4", "no solution one step on"}};
+    } methods[] = {
+        {"dop853", "the step became too small"},           {"adams", "the step became too small"},
+        {"bdf", "no solution just behind this instant"},   {"ida", "the step became too small"},
+        {"radau", "no solution just behind this instant"}, {"rk4", "no solution one step on"}};
     Kit kit = kit_new();
 
     EXPECT_DONE(&kit, "scene planar\ngravity [0, 0]\nbody m1 mass=1\n"

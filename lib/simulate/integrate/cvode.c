@@ -211,6 +211,9 @@ static Status step(Stepper *stepper, double end, Diag *diag)
     if (code == 0)
         code = CVode(c->memory, end, c->y, &reached, CV_ONE_STEP);
     keep_counts(c);
+    if (code == CV_REPTD_RHSFUNC_ERR)
+        return solver_failure(diag, c->base.before,
+                              "the equations have no solution just behind this instant");
     if (code < 0)
         return solver_failure(diag, c->base.before, c->reason);
     /* CVODE itself only warns: where a solution has no end, its steps would shrink without one */

@@ -248,6 +248,8 @@ static void bring_right(const Shifted *s, const double *b, double *out)
 
 void shifted_solve(Shifted *s, double *b)
 {
+    if (s->n == 0)
+        return;
     if (s->form != NULL) {
         hessenberg_form_solve(s->form, s->form_real, b);
         return;
@@ -266,6 +268,8 @@ void shifted_solve_pair(Shifted *s, double *b, double *c)
     size_t bytes = (size_t)s->n * sizeof(double);
     int second = is_sparse(s) ? s->ode->dae.n : s->n;
 
+    if (s->n == 0)
+        return;
     if (s->form != NULL) {
         hessenberg_form_solve_complex(s->form, s->form_pair, b, c);
         return;
