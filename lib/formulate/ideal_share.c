@@ -92,7 +92,11 @@ Status system_scalar(System *system, int i, ScalarPair *out, Diag *diag)
     ScalarPair pair = {.name = system->instances[branch->instance].name,
                        .domain = graph_edge(system->graph, branch->edge)->domain,
                        .gives_across = branch->relation.kind == RELATION_ACROSS,
-                       .gives_through = branch->relation.kind == RELATION_THROUGH};
+                       .gives_through = branch->relation.kind == RELATION_THROUGH,
+                       .stores = branch->relation.kind == RELATION_CAPACITIVE ||
+                                 branch->relation.kind == RELATION_INDUCTIVE,
+                       .switches = branch->ideal >= 0,
+                       .energy_known = branch->relation.stored != NULL};
     Status status = OK;
 
     CHECK(network_across(system, branch, &pair.across, diag));

@@ -6,6 +6,9 @@
 
 #include <stdlib.h>
 
+#define BEFORE_OUTPUTS 12 /* capacitors that an amplifier leaves to themselves, */
+#define OUTPUTS        13
+
 static int normal_order(const System *system, const Branchlike *branch)
 {
     switch (branch->relation.kind) {
@@ -24,6 +27,7 @@ static int normal_order(const System *system, const Branchlike *branch)
     case RELATION_THROUGH: /* and open ones come in before sources */
         return branch->ideal < 0 ? 50 : 49;
     case RELATION_FREE:
+        return OUTPUTS;
     case RELATION_IDEAL:
         break;
     }
@@ -78,10 +82,66 @@ static void take_through_ports(Taking *taking)
     }
 }
 
-/* the user's branches before others of their kind */
-static int rank_of(const System *system, TreeKind kind, const Branchlike *branch)
+/* --- amplifiers --- */
+
+static void join(const System *system, Sets *nodes, const Branchlike *branch)
 {
-    return 2 * normal_order(system, branch) + !tree_has(system->trees[kind], branch->edge);
+    const Edge *edge = graph_edge(system->graph, branch->edge);
+
+    (void)sets_join(nodes, edge->tail, edge->head);
+}
+
+/* A nullor's input joins its nodes as voltages see them, its output as currents do. A capacitor
+ * that closes a circuit in the one or the other has no voltage of its own; the others come before
+ * outputs, which then follow from them. One a branch; NULL where there is no
+ * amplifier. */
+static bool *find_leading(const System *system, TreeKind kind)
+{
+    Sets *voltages = sets_new(graph_node_count(system->graph));
+    Sets *currents = sets_new(graph_node_count(system->graph));
+    bool *leads = NULL;
+
+    for (int i = 0; i < system->branches.count; i++) {
+        const Branchlike *branch = &system->branches.at[i];
+
+        if (branch_tree(system, branch) != kind)
+            continue;
+        if (branch->relation.kind == RELATION_ACROSS) {
+            join(system, voltages, branch);
+            join(system, currents, branch);
+        } else if (branch->relation.kind == RELATION_FREE) {
+            if (leads == NULL)
+                leads = NEW_ARRAY(bool, system->branches.count);
+            join(system, currents, branch);
+            join(system, voltages, branch - branch->which); /* its input is its first edge */
+        }
+    }
+    for (int i = 0; i < system->branches.count && leads != NULL; i++) {
+        const Branchlike *branch = &system->branches.at[i];
+        const Edge *edge = graph_edge(system->graph, branch->edge);
+
+        if (branch->relation.kind != RELATION_CAPACITIVE || branch_tree(system, branch) != kind ||
+            sets_find(voltages, edge->tail) == sets_find(voltages, edge->head) ||
+            sets_find(currents, edge->tail) == sets_find(currents, edge->head))
+            continue;
+        leads[i] = true;
+        join(system, voltages, branch);
+        join(system, currents, branch);
+    }
+    sets_free(voltages);
+    sets_free(currents);
+    return leads;
+}
+
+/* --- the order --- */
+
+/* the user's branches before others of their kind */
+static int rank_of(const System *system, TreeKind kind, const bool *leads, int branch)
+{
+    const Branchlike *one = &system->branches.at[branch];
+    const int order = leads != NULL && leads[branch] ? BEFORE_OUTPUTS : normal_order(system, one);
+
+    return 2 * order + !tree_has(system->trees[kind], one->edge);
 }
 
 typedef struct Rank {
@@ -98,7 +158,7 @@ static int compare_ranks(const void *a, const void *b)
                                 : x->branch - y->branch;
 }
 
-static void choose_order(Taking *taking)
+static void choose_order(Taking *taking, const bool *leads)
 {
     System *system = taking->system;
     LIST(Rank) ranks = {0};
@@ -108,7 +168,7 @@ static void choose_order(Taking *taking)
 
         if (branch_tree(system, branch) != taking->kind)
             continue;
-        LIST_PUSH(ranks, (Rank){rank_of(system, taking->kind, branch), i});
+        LIST_PUSH(ranks, (Rank){rank_of(system, taking->kind, leads, i), i});
     }
     if (ranks.count > 0)
         qsort(ranks.at, (size_t)ranks.count, sizeof(Rank), compare_ranks);
@@ -151,16 +211,16 @@ Status network_normal_tree(System *system, TreeKind kind, Diag *diag)
                      .nodes = sets_new(graph_node_count(system->graph)),
                      .preference = NEW_ARRAY(int, count)};
     TreeChoice choice = {.preference = taking.preference};
+    bool *leads = find_leading(system, kind);
     Tree *tree = NULL;
     Status status = OK;
 
     for (int e = 0; e < count; e++)
         taking.preference[e] = count;
     if (has_ports(system, kind))
-        choose_order(&taking);
+        choose_order(&taking, leads);
     for (int i = 0; i < system->branches.count && taking.taken == 0; i++)
-        taking.preference[system->branches.at[i].edge] =
-            rank_of(system, kind, &system->branches.at[i]);
+        taking.preference[system->branches.at[i].edge] = rank_of(system, kind, leads, i);
     CHECK(tree_complete(system->graph, kind, &choice, false, &tree, diag));
     for (int i = 0; i < tree_branch_count(tree); i++)
         if (!tree_has(system->trees[kind], tree_branches(tree)[i]))
@@ -174,6 +234,7 @@ Status network_normal_tree(System *system, TreeKind kind, Diag *diag)
     }
 done:
     sets_free(taking.nodes);
+    mem_free(leads);
     mem_free(taking.preference);
     return status;
 }

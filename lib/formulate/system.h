@@ -302,6 +302,8 @@ typedef struct ScalarPair {
     const char *name; /* of its part; borrowed */
     Domain domain;
     bool gives_across, gives_through; /* as a source, whatever meets it */
+    bool stores, switches;
+    bool energy_known; /* what it stores is in the energies */
     Expr across, through;
 } ScalarPair;
 int system_scalar_count(const System *system);

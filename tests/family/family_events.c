@@ -291,11 +291,11 @@ static Verdict laws(Member *m)
 
 /* --- sources --- */
 
-/* E and a row of capacitors, or J and coils: whatever the values, the source is named */
+/* E and one capacitor, or J and a row of coils: whatever the values, the source is named */
 static Verdict sources(Member *m)
 {
     const bool coils = pick(&m->random, 2);
-    const int count = 1 + pick(&m->random, 4);
+    const int count = coils ? 1 + pick(&m->random, 4) : 1;
     const double when = test_uniform(&m->random, 0.1, 0.9);
     Script *script = calloc(1, sizeof *script);
     Kit kit = kit_new();

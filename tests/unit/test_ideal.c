@@ -641,7 +641,18 @@ static void nothing_stored_may_jump(void)
                       "expect L.i ~ (1 - exp(-10))*exp(-40) within 1e-9\n");
     EXPECT_DONE(&kit, "clear\nvsource E a 0 10\nswitch S a b when=t >= 0\ncapacitor C b 0 1 uF\n"
                       "init C.v = 3\n");
-    EXPECT_FAILS(&kit, "simulate 5 ms\n", "C.v would jump from 3 to 10");
+    EXPECT_FAILS(&kit, "simulate 5 ms\n", "contradict with S closed from the start: C.v = 3");
+    EXPECT_HOLDS(kit.error.hint, "when=t > 0");
+    /* as where it is joined for good, what wasn't given follows */
+    EXPECT_DONE(&kit, "clear\nvsource E a 0 10\nswitch S a b when=t >= 0\ncapacitor C b 0 1 uF\n"
+                      "simulate 5 ms\nexpect C.v ~ 10 within 1e-9\nclear\n"
+                      "capacitor C1 a 0 1 uF\ncapacitor C2 b 0 3 uF\nswitch S a b when=t < 1\n"
+                      "init C2.v = 2\nsimulate 1 ms\nexpect C1.v ~ 2 within 1e-9\n");
+    EXPECT_DONE(&kit, "init C1.v = 6\n");
+    EXPECT_FAILS(&kit, "simulate 1 ms\n",
+                 "contradict with S closed from the start: C1.v = 6, C2.v = 2");
+    /* as the hint says: what was given stands just before */
+    EXPECT_DONE(&kit, "set S.when=t > 0\nsimulate 1 ms\nexpect C1.v ~ 3 within 1e-9\n");
     /* no state is left behind: an op-amp holds the capacitor's voltage */
     EXPECT_DONE(&kit, "clear\nvsource E a 0 1\nopamp U a m o\nswitch S1 o m when=t < 0.5\n"
                       "resistor R2 m o 1\nswitch S2 m b when=t > 0.5\ncapacitor C b 0 1\n"

@@ -3,6 +3,8 @@ libcore_la_SOURCES += \
   lib/simulate/assemble/reset.h \
   lib/simulate/assemble/sides.c \
   lib/simulate/assemble/sides.h \
+  lib/simulate/assemble/sides_impl.h \
+  lib/simulate/assemble/sides_jump.c \
   lib/simulate/assemble/skeleton.c \
   lib/simulate/assemble/skeleton.h \
   lib/simulate/assemble/skeleton_rows.c \

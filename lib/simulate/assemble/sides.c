@@ -1,77 +1,22 @@
 /* sides.c: sides of ideal switches behind an instant */
-#include "simulate/assemble/sides.h"
+#include "simulate/assemble/sides_impl.h"
 
 #include "algebra/linear.h"
-#include "base/memory.h"
 #include "base/text.h"
-#include "simulate/equations/netsolve.h"
 
 #include <math.h>
 #include <string.h>
 
-#define OPEN_LEAK   1e-13 /* S: shares voltages that nothing else tells; too small to be seen, */
-#define CLOSED_LEAK 1e-9  /* ohm: likewise currents; and large enough against rounding */
-#define NOISE       1e-12 /* of the largest current or voltage: too small to tell a side from, */
-#define MOST_NOISE  1e-8  /* or where that leads in circles, up to this */
-#define ROUNDING    1e-15 /* of the largest voltage, in that of a closed one with a resistance */
-#define FORGET      0.5  /* of the largest current or voltage from instant to instant: surges end */
-#define IMPULSE     1e-3 /* of the largest: more than leaks and what is no impulse */
-#define SHORTEST    1e-7 /* of the step, to see impulses by */
-#define HALVED      0.2  /* of the largest, that its change with the step has to be */
-#define ROUNDS      8    /* in which conditions and diodes may set each other off */
-
-typedef enum When { ALWAYS, OPEN, CLOSED } When;
-
-/* an entry of the matrix: root of the probe, in force on one side of an ideal switch */
-typedef struct Term {
-    int place; /* in the pattern */
-    int root;
-    int ideal;
-    When when;
-    bool by_state; /* times h: x = x0 + h x' */
-} Term;
-
-/* an equation, or one side of it */
-typedef struct Row {
-    int root;
-    int row;
-    int ideal;
-    When when;
-} Row;
-
-enum { THROUGH, ACROSS, WHEN, ON, LOOKS }; /* at each switch */
-
-struct Sides {
-    Layout *l;    /* of the system in which sides are open or numbers */
-    int n, count; /* unknowns [x'; z]; switches */
-    LIST(Row) rows;
-    LIST(Term) terms;
-    LIST(int) pattern_row;
-    LIST(int) pattern_column;
-    Equations eq; /* for the solver */
-    double *network, *residual, *rhs, *zeros;
-    bool is_linear;
-    NetSolve *solve;
-    Probe *equations; /* roots of rows and terms */
-    Probe *looks;     /* LOOKS at each; then through and across of all edges */
-    bool *has_when;
-    int edges;
-    Domain *domain;      /* of each, then of all edges */
-    const char **source; /* of each edge across and through: the part that gives it; NULL: none */
-    const SidesAt *at;
-    double step;
-    double noise; /* of the largest current or voltage */
-    bool *closed;
-    double *x;                       /* behind the step */
-    double *through, *across;        /* behind where its sides meet, */
-    double *on;                      /* and its resistance when it is closed */
-    double largest[DOMAIN_COUNT][2]; /* across and through variable of any edge, by domain, */
-    double known[DOMAIN_COUNT][2];   /* and what they have been lately */
-};
+#define NOISE      1e-12 /* of the largest current or voltage: too small to tell a side from, */
+#define MOST_NOISE 1e-8  /* or where that leads in circles, up to this */
+#define ROUNDING   1e-15 /* of the largest voltage, in that of a closed one with a resistance */
+#define FORGET     0.5   /* of the largest current or voltage from instant to instant: surges end */
+#define PIECES     8     /* of a jump, along which laws are integrated */
+#define ROUNDS     8     /* in which conditions and diodes may set each other off */
 
 /* --- equations --- */
 
-static RowValues row_values(const Sides *s, const double *w)
+RowValues sides_row(const Sides *s, const double *w)
 {
     return (RowValues){.t = s->at->t + s->step,
                        .near = s->at->near,
@@ -92,27 +37,72 @@ static bool is_in_force(const Sides *s, int ideal, When when)
 static void take_step(Sides *s, const double *w)
 {
     for (int i = 0; i < s->l->nx; i++)
-        s->x[i] = s->at->x[i] + s->step * w[i];
+        s->x[i] = s->from[i] + s->step * w[i];
+}
+
+/* rows and entries from what the probe has found; `averaged` or all, and these then by so much */
+static void bring_rows(Sides *s, const double *values, bool averaged, double weight, double along)
+{
+    for (int k = 0; k < s->rows.count; k++) {
+        const Row *row = &s->rows.at[k];
+
+        if (row->averaged >= averaged && is_in_force(s, row->ideal, row->when))
+            s->residual[row->row] += weight * values[row->root];
+    }
+    for (int k = 0; k < s->terms.count; k++) {
+        const Term *term = &s->terms.at[k];
+
+        if (term->averaged >= averaged && is_in_force(s, term->ideal, term->when))
+            s->network[term->place] +=
+                weight * (term->by_state ? along * s->step : 1) * values[term->root];
+    }
+}
+
+/* Rows that hold rates as their mean along the straight line from x0 to x: so what is stored
+ * changes by what flows, however far. By Gauss's rule. */
+static void bring_means(Sides *s, const double *w)
+{
+    static const double place[] = {0.5, 0.5 - 0.26923465505284155, 0.5 + 0.26923465505284155,
+                                   0.5 - 0.45308992296933193, 0.5 + 0.45308992296933193};
+    static const double weight[] = {0.28444444444444444, 0.23931433524968324, 0.23931433524968324,
+                                    0.11846344252809454, 0.11846344252809454};
+
+    for (int k = 0; k < COUNT(place) * PIECES; k++) {
+        const double along = (place[k % COUNT(place)] + (double)(k / COUNT(place))) / PIECES;
+        RowValues row;
+
+        for (int i = 0; i < s->l->nx; i++)
+            s->x[i] = s->from[i] + along * s->step * w[i];
+        row = sides_row(s, w);
+        bring_rows(s, probe_values(s->equations, &row), true, weight[k % COUNT(place)] / PIECES,
+                   along);
+    }
+    take_step(s, w);
+}
+
+static void clear_means(Sides *s)
+{
+    for (int k = 0; k < s->rows.count; k++)
+        if (s->rows.at[k].averaged)
+            s->residual[s->rows.at[k].row] = 0;
+    for (int k = 0; k < s->terms.count; k++)
+        if (s->terms.at[k].averaged)
+            s->network[s->terms.at[k].place] = 0;
 }
 
 static void network_at(void *context, const double *w)
 {
     Sides *s = context;
     RowValues row;
-    const double *values;
 
     take_step(s, w);
-    row = row_values(s, w);
-    values = probe_values(s->equations, &row);
+    row = sides_row(s, w);
     memset(s->network, 0, (size_t)s->pattern_row.count * sizeof(double));
-    for (int k = 0; k < s->rows.count; k++)
-        if (is_in_force(s, s->rows.at[k].ideal, s->rows.at[k].when))
-            s->residual[s->rows.at[k].row] = values[s->rows.at[k].root];
-    for (int k = 0; k < s->terms.count; k++) {
-        const Term *term = &s->terms.at[k];
-
-        if (is_in_force(s, term->ideal, term->when))
-            s->network[term->place] += (term->by_state ? s->step : 1) * values[term->root];
+    memset(s->residual, 0, (size_t)s->n * sizeof(double));
+    bring_rows(s, probe_values(s->equations, &row), false, 1, 1);
+    if (s->averages) {
+        clear_means(s);
+        bring_means(s, w);
     }
 }
 
@@ -162,8 +152,13 @@ static void add_row(Sides *s, Roots *roots, int row, Expr residual, int ideal, W
     const unsigned unknowns = 1U << SYMBOL_STATE | 1U << SYMBOL_STATE_RATE | 1U << SYMBOL_ALGEBRAIC;
     Expr *symbols;
     int count = expr_symbols(&residual, 1, &symbols);
+    const bool averaged = (expr_kinds(residual) & 1U << SYMBOL_STATE_RATE) != 0;
 
-    LIST_PUSH(s->rows, (Row){.root = roots->at.count, .row = row, .ideal = ideal, .when = when});
+    LIST_PUSH(s->rows, (Row){.root = roots->at.count,
+                             .row = row,
+                             .ideal = ideal,
+                             .when = when,
+                             .averaged = averaged});
     LIST_PUSH(roots->at, residual);
     for (int i = 0; i < count; i++) {
         int number = expr_symbol_number(symbols[i]);
@@ -180,6 +175,7 @@ static void add_row(Sides *s, Roots *roots, int row, Expr residual, int ideal, W
                                    .root = roots->at.count,
                                    .ideal = ideal,
                                    .when = when,
+                                   .averaged = averaged,
                                    .by_state = expr_symbol_kind(symbols[i]) == SYMBOL_STATE});
         LIST_PUSH(roots->at, slope);
     }
@@ -191,13 +187,12 @@ static void add_sides(Sides *s, Roots *roots, int k, const IdealSwitch *ideal)
 {
     Arena *arena = system_arena(s->l->system);
     Expr v = expr_add(arena, ideal->across, ideal->least);
-    Expr closed = expr_sub(
-        arena, ideal->across,
-        expr_mul(arena, expr_add(arena, ideal->on, expr_real(arena, CLOSED_LEAK)), ideal->through));
+    Expr closed =
+        expr_sub(arena, ideal->across,
+                 expr_mul(arena, expr_add(arena, ideal->on, s->closed_leak), ideal->through));
     Expr open = ideal->off != NULL
                     ? expr_sub(arena, v, expr_mul(arena, ideal->off, ideal->through))
-                    : expr_sub(arena, ideal->through,
-                               expr_mul(arena, expr_real(arena, OPEN_LEAK), ideal->across));
+                    : expr_sub(arena, ideal->through, expr_mul(arena, s->open_leak, ideal->across));
     int first = s->pattern_row.count;
 
     add_row(s, roots, ideal->row, closed, k, CLOSED, first);
@@ -252,6 +247,7 @@ static Status compile(Sides *s, Parameters *parameters, Diag *diag)
     for (int i = 0; i < s->edges; i++) {
         CHECK(system_scalar(s->l->system, i, &edge, diag));
         s->domain[s->count + i] = edge.domain;
+        s->gives[i] = !edge.stores && !edge.switches;
         s->source[2 * i] = edge.gives_across ? edge.name : NULL;
         s->source[2 * i + 1] = edge.gives_through ? edge.name : NULL;
         LIST_PUSH(looks, edge.across);
@@ -284,6 +280,11 @@ Status sides_new(System *system, Parameters *parameters, Sides **out, Diag *diag
     s->edges = system_scalar_count(system);
     s->domain = NEW_ARRAY(Domain, s->count + s->edges);
     s->source = NEW_ARRAY(const char *, 2 * s->edges);
+    s->gives = NEW_ARRAY(bool, s->edges);
+    s->closed_leak = expr_symbol(system_arena(system), "#closed leak", SYMBOL_PARAMETER);
+    s->open_leak = expr_symbol(system_arena(system), "#open leak", SYMBOL_PARAMETER);
+    parameters_set(parameters, s->closed_leak, CLOSED_LEAK);
+    parameters_set(parameters, s->open_leak, OPEN_LEAK);
     CHECK(compile(s, parameters, diag));
     s->network = NEW_ARRAY(double, s->pattern_row.count);
     s->residual = NEW_ARRAY(double, s->n);
@@ -329,6 +330,7 @@ void sides_free(Sides *s)
     mem_free(s->on);
     mem_free(s->domain);
     mem_free(s->source);
+    mem_free(s->gives);
     layout_free(s->l);
     mem_free(s);
 }
@@ -347,7 +349,7 @@ static const char *name_of(const Sides *s, int k)
     return system_ideal(s->l->system, k, &ideal, NULL) == OK ? ideal.name : "";
 }
 
-static bool solve(Sides *s)
+bool sides_solve(Sides *s)
 {
     double *w = netsolve_values(s->solve);
     RowValues row;
@@ -363,7 +365,7 @@ static bool solve(Sides *s)
         netsolve_refine(s->solve);
     }
     take_step(s, w);
-    row = row_values(s, w);
+    row = sides_row(s, w);
     values = probe_values(s->looks, &row);
     for (int k = 0; k < s->count; k++) {
         s->through[k] = values[LOOKS * k + THROUGH];
@@ -399,7 +401,7 @@ static bool settle_with(Sides *s, int together, int most)
     for (int turn = 0; turn < most; turn++) {
         bool right = true;
 
-        if (!solve(s))
+        if (!sides_solve(s))
             return false;
         for (int k = 0; k < s->count && (right || turn < together); k++)
             if (is_wrong(s, k)) {
@@ -429,11 +431,12 @@ static bool settle_diodes(Sides *s)
 static bool follow_conditions(Sides *s, int *which)
 {
     const double *w = netsolve_values(s->solve);
-    RowValues row = row_values(s, w);
+    RowValues row = sides_row(s, w);
     const double *values;
     bool changed = false;
 
     row.x = s->at->x_behind;
+    row.t = s->at->when;
     values = probe_values(s->looks, &row);
     for (int k = 0; k < s->count; k++) {
         bool wanted = values[LOOKS * k + WHEN] != 0;
@@ -470,6 +473,7 @@ Status sides_find(Sides *s, const SidesAt *at, bool *closed, Diag *diag)
     Status status = OK;
 
     s->at = at;
+    s->from = at->x;
     s->step = at->step;
     s->closed = closed;
     memcpy(before, closed, bytes);
@@ -498,78 +502,4 @@ done:
         memcpy(closed, before, bytes);
     mem_free(before);
     return status;
-}
-
-/* --- impulses --- */
-
-void sides_calm(Sides *s)
-{
-    memset(s->known, 0, sizeof s->known);
-}
-
-bool sides_land(Sides *s, double step, double *x)
-{
-    s->step = step;
-    memset(netsolve_values(s->solve), 0, (size_t)s->l->nx * sizeof(double));
-    if (!solve(s))
-        return false;
-    memcpy(x, s->x, (size_t)s->l->nx * sizeof(double));
-    return true;
-}
-
-/* across and through variables of all edges behind a step */
-static bool edges_behind(Sides *s, double step, double *out)
-{
-    RowValues row;
-
-    s->step = step;
-    memset(netsolve_values(s->solve), 0, (size_t)s->l->nx * sizeof(double));
-    if (!solve(s))
-        return false;
-    row = row_values(s, netsolve_values(s->solve));
-    memcpy(out, probe_values(s->looks, &row) + (ptrdiff_t)LOOKS * s->count,
-           (size_t)(2 * s->edges) * sizeof(double));
-    return true;
-}
-
-/* An impulse is what halves when its step is doubled. False: there is none. */
-static bool find_source(Sides *s, double step, const char **source)
-{
-    double *longer = NEW_ARRAY(double, 2 * s->edges);
-    double *impulse = NEW_ARRAY(double, 2 * s->edges);
-    double largest[DOMAIN_COUNT][2] = {{0}}; /* of changes, and of values */
-    double whole[DOMAIN_COUNT][2] = {{0}};
-    bool found = false;
-    const bool sound = edges_behind(s, step, impulse) && edges_behind(s, 2 * step, longer);
-
-    for (int i = 0; i < 2 * s->edges && sound; i++) {
-        const Domain domain = s->domain[s->count + i / 2];
-
-        whole[domain][i % 2] = fmax(whole[domain][i % 2], fabs(impulse[i]));
-        impulse[i] = fabs(impulse[i] - longer[i]);
-        largest[domain][i % 2] = fmax(largest[domain][i % 2], impulse[i]);
-    }
-    for (int i = 0; i < 2 * s->edges && sound; i++) {
-        const Domain domain = s->domain[s->count + i / 2];
-
-        if (!(largest[domain][i % 2] > HALVED * whole[domain][i % 2]))
-            continue;
-        found = true;
-        if (*source == NULL && impulse[i] > IMPULSE * largest[domain][i % 2])
-            *source = s->source[i % 2 == 0 ? i + 1 : i - 1];
-    }
-    mem_free(longer);
-    mem_free(impulse);
-    return found;
-}
-
-/* by shorter steps too, where what is no impulse may hide it */
-const char *sides_source(Sides *s, double step)
-{
-    const char *source = NULL;
-    double tried = step;
-
-    while (tried > SHORTEST * step && !find_source(s, tried, &source))
-        tried /= 10;
-    return source;
 }

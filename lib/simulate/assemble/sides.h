@@ -21,6 +21,7 @@ void sides_free(Sides *sides); /* NULL is fine */
 typedef struct SidesAt {
     double t;    /* s */
     double step; /* h, s: short against all that happens, long against rounding of t */
+    double when; /* s: the time that conditions of switches read, t + h or t */
     const double *q, *u, *near;               /* at t + h; references of angles */
     const double *x;                          /* at t */
     const double *x_behind;                   /* at t + h, where sides stay as they are */
@@ -33,9 +34,14 @@ MUST_USE Status sides_find(Sides *sides, const SidesAt *at, bool *closed, Diag *
 
 /* Behind a surge: what was largest lately no longer counts. */
 void sides_calm(Sides *sides);
-/* From the instant that sides were looked for last, while that stands, with these sides: the states
- * behind a step. False: no solution. */
-bool sides_land(Sides *sides, double step, double *x);
+/* What becomes of states at the instant that sides were looked for last, while that stands, with
+ * these sides: where a step from `from` of the whole leads, as its length vanishes, and what is
+ * stored changes by what flows. `size` tells for each state what counts as nothing. False: it leads
+ * nowhere. */
+bool sides_jump(Sides *sides, const double *from, const double *size, double *x);
+/* Behind sides_jump() that began at `from` with the sides `before`: the work of all that neither
+ * stores nor switches, J. */
+double sides_work(Sides *sides, const double *from, const bool *before);
 /* the name of a source that would have to give an impulse there; NULL: none */
 const char *sides_source(Sides *sides, double step);
 

@@ -14,6 +14,8 @@
 #define JUMP       1e-6 /* of the largest state, more than location may change it, */
 #define ERRORS     100  /* and of the tolerance: what errors may */
 #define ROUNDS     8    /* in which what is shared may set off more */
+#define FITS       4    /* of states at a start to those that were given */
+#define FOLLOWS    1e-8 /* the weight of one that wasn't */
 #define START_STEP 1e-9 /* s: for the sides at a start, where no run says what is short */
 #define LOOK       1e-4 /* of the last step: how far to look ahead for the sides, */
 #define NEAREST    1e-9 /* but not less than this of the run, */
@@ -125,7 +127,8 @@ static Status check_impulse(Result *r, Phase *phase, Entering *entry, double *y,
     Text sides = {0};
     RowValues row;
     Status status = OK;
-    int jumping = 0;
+    int jumping = 0, broken = 0;
+    double from, to;
 
     if (!phase_row(phase, entry->t, y, &row))
         return OK; /* that has its own message */
@@ -133,29 +136,29 @@ static Status check_impulse(Result *r, Phase *phase, Entering *entry, double *y,
     largest = fmax(largest, vector_largest(now, whole->nx));
     while (jumping < whole->nx && !share_is_jump(r, jumping, x[jumping], now[jumping]))
         jumping++;
-    if (jumping < whole->nx) {
-        const double from = x[jumping], to = now[jumping];
+    while (system_invariant(phase->system, broken) != NULL &&
+           !(fabs(now[whole->nx + broken]) > JUMP * largest + ERRORS * r->tolerance))
+        broken++;
+    if (jumping == whole->nx && system_invariant(phase->system, broken) == NULL)
+        return OK;
+    from = jumping < whole->nx ? x[jumping] : 0;
+    to = jumping < whole->nx ? now[jumping] : 0;
+    name_sides(r, entry->before, phase->closed, &sides);
+    if (entry->may_share && share_stored(r, phase, entry->t, entry->before, sides.at, y, x)) {
+        Entering shared = {.t = entry->t, .step = entry->step, .before = entry->before};
 
-        name_sides(r, entry->before, phase->closed, &sides);
-        if (entry->may_share && share_stored(r, phase, entry->t, entry->step, sides.at, y, x)) {
-            Entering shared = {.t = entry->t, .step = entry->step, .before = entry->before};
-
-            entry->shared = true;
-            status = check_impulse(r, phase, &shared, y, x, diag);
-            goto done;
-        }
+        entry->shared = true;
+        status = check_impulse(r, phase, &shared, y, x, diag);
+        goto done;
+    }
+    if (jumping < whole->nx)
         status = refuse_jump(r, sides.at, entry->t, entry->step,
                              system_x(whole->system, jumping)->name, from, to, diag);
-    }
-    for (int i = 0; system_invariant(phase->system, i) != NULL && status == OK; i++)
-        if (fabs(now[whole->nx + i]) > JUMP * largest + ERRORS * r->tolerance) {
-            name_sides(r, entry->before, phase->closed, &sides);
-            status = diag_set(diag, E_SOLVER, "%s at t = %.9g s, and what is stored would jump",
-                              sides.at, entry->t);
-        }
-    if (status != OK)
-        diag_hint(diag, "a resistance in that circuit, a diode for the current, or Ron= and Roff= "
-                        "of the switch, make it a fast change");
+    else
+        status = diag_set(diag, E_SOLVER, "%s at t = %.9g s, and what is stored would jump",
+                          sides.at, entry->t);
+    diag_hint(diag, "a resistance in that circuit, a diode for the current, or Ron= and Roff= "
+                    "of the switch, make it a fast change");
 done:
     text_free(&sides);
     return status;
@@ -271,6 +274,208 @@ Leg commute_leg(const Result *r, const Phase *phase, Events *events)
 
 /* --- the start --- */
 
+/* whether an initial value was given for a state of the whole, or for what follows from it */
+static bool is_given(const Result *r, const Setting *setting, int state)
+{
+    System *system = result_whole(r)->system;
+    const Expr symbol = system_x(system, state)->symbol;
+    bool found = false;
+
+    for (int i = 0; setting->start != NULL && i < setting->start->count && !found; i++) {
+        const StartValue *value = &setting->start->at[i];
+        Expr e;
+
+        found = !value->is_guess &&
+                system_variable(system, value->name, value->primes, &e, NULL) == OK &&
+                expr_depends(e, symbol);
+    }
+    return found;
+}
+
+/* How a phase's own states move those of the whole: nx x own, by a difference of this size. */
+static bool find_moves(Phase *phase, double t, double *y, double size, int count, double *out)
+{
+    const Layout *l = phase->layout;
+    double *moved = NEW_ARRAY(double, count);
+    double *base = NEW_ARRAY(double, count);
+    RowValues row;
+    bool sound = phase_states(phase, t, y, count, &row, base);
+
+    for (int j = 0; j < l->nx && sound; j++) {
+        double *own = &y[l->n + l->nu + j];
+        const double was = *own;
+
+        *own += size;
+        sound = phase_states(phase, t, y, count, &row, moved);
+        *own = was;
+        for (int i = 0; i < count; i++)
+            out[i * l->nx + j] = (moved[i] - base[i]) / size;
+    }
+    mem_free(moved);
+    mem_free(base);
+    return sound;
+}
+
+/* own += (P^T W P)^-1 P^T W (wanted - now) */
+static bool move_nearer(const double *moves, const double *weight, const double *off, int nx,
+                        int own, double *at)
+{
+    Lu *lu = lu_new(own);
+    double *move = NEW_ARRAY(double, own);
+    bool sound;
+
+    for (int j = 0; j < own; j++)
+        for (int k = 0; k < nx; k++) {
+            const double part = moves[k * own + j] * weight[k];
+
+            move[j] += part * off[k];
+            for (int i = 0; i < own; i++)
+                lu_matrix(lu)[j * own + i] += part * moves[k * own + i];
+        }
+    sound = lu_factor(lu);
+    if (sound)
+        lu_solve(lu, move);
+    for (int j = 0; j < own && sound; j++)
+        at[j] += move[j];
+    lu_free(lu);
+    mem_free(move);
+    return sound;
+}
+
+/* States of the whole as the phase can have them: those that were given as they are, others as near
+ * as they may be. `x` becomes that; false: it has no solution. */
+static bool fit_states(Result *r, Phase *phase, const bool *given, double *y, double *x)
+{
+    const int nx = result_whole(r)->layout->nx, own = phase->layout->nx;
+    double *moves = NEW_ARRAY(double, nx *own);
+    double *weight = NEW_ARRAY(double, nx), *wanted = NEW_ARRAY(double, nx);
+    double *off = NEW_ARRAY(double, nx), *now = NEW_ARRAY(double, nx);
+    double *at = y + phase->layout->n + phase->layout->nu;
+    RowValues row;
+    bool sound = find_moves(phase, 0, y, fmax(1, vector_largest(x, nx)), nx, moves) &&
+                 phase_states(phase, 0, y, nx, &row, now);
+
+    memcpy(wanted, x, (size_t)nx * sizeof(double));
+    for (int turn = 0; turn < FITS && sound; turn++) {
+        for (int i = 0; i < nx; i++) {
+            weight[i] = given[i] ? 1 : FOLLOWS;
+            off[i] = wanted[i] - now[i];
+        }
+        sound = move_nearer(moves, weight, off, nx, own, at) &&
+                phase_states(phase, 0, y, nx, &row, now);
+        for (int i = 0; i < nx; i++) /* what others still pull it off */
+            wanted[i] += given[i] ? x[i] - now[i] : 0;
+    }
+    if (sound)
+        memcpy(x, now, (size_t)nx * sizeof(double));
+    mem_free(moves);
+    mem_free(weight);
+    mem_free(wanted);
+    mem_free(off);
+    mem_free(now);
+    return sound;
+}
+
+static Status refuse_given(const Result *r, const bool *closed, const double *given_x,
+                           const bool *given, const double *x, Diag *diag)
+{
+    const Layout *whole = result_whole(r)->layout;
+    Text what = {0}, values = {0};
+
+    for (int k = 0; k < system_ideal_count(r->system); k++) {
+        IdealSwitch ideal;
+
+        if (closed[k] && system_is_ideal(r->system, k) &&
+            system_ideal(r->system, k, &ideal, NULL) == OK)
+            text_addf(&what, "%s%s", what.length > 0 ? ", " : "", ideal.name);
+    }
+    for (int i = 0; i < whole->nx; i++)
+        if (given[i] && share_is_jump(r, i, given_x[i], x[i]))
+            text_addf(&values, "%s%s = %.6g", values.length > 0 ? ", " : "",
+                      system_x(whole->system, i)->name, given_x[i]);
+    (void)diag_set(diag, E_ASSEMBLE,
+                   "the network's initial values contradict with %s closed from the start: %s",
+                   what.at, values.at != NULL ? values.at : "");
+    diag_hint(diag, "leave one of them out; or let the switch close after the start, as 'when=t > "
+                    "0' does: then they share what they store");
+    text_free(&what);
+    text_free(&values);
+    return E_ASSEMBLE;
+}
+
+/* Switches that are closed from the start are wires: initial values that weren't given follow from
+ * those that were, as they do where parts are joined for good. Diodes are none. */
+static Status follow_wires(Result *r, const Setting *setting, const bool *closed, double *x,
+                           Diag *diag)
+{
+    const Layout *whole = result_whole(r)->layout;
+    const int count = system_ideal_count(r->system);
+    bool *wires = NEW_ARRAY(bool, count), *given = NEW_ARRAY(bool, whole->nx);
+    double *was = NEW_ARRAY(double, whole->nx), *y = NULL;
+    bool any = false;
+    Phase *phase;
+    Status status = OK;
+
+    for (int k = 0; k < count; k++) {
+        IdealSwitch ideal;
+
+        CHECK(system_ideal(r->system, k, &ideal, diag));
+        wires[k] = closed[k] && (ideal.when != NULL || !system_is_ideal(r->system, k));
+        any = any || (wires[k] && system_is_ideal(r->system, k));
+    }
+    if (!any || commute_phase(r, setting, wires, &phase, NULL) != OK)
+        goto done; /* the sides as they are have messages of their own */
+    y = NEW_ARRAY(double, phase->length);
+    enter(phase, r->start.y, x, r->start.y + layout_turned(whole), 0, y);
+    memcpy(was, x, (size_t)whole->nx * sizeof(double));
+    for (int i = 0; i < whole->nx; i++)
+        given[i] = is_given(r, setting, i);
+    if (!fit_states(r, phase, given, y, x)) {
+        memcpy(x, was, (size_t)whole->nx * sizeof(double));
+        goto done;
+    }
+    for (int i = 0; i < whole->nx && status == OK; i++)
+        if (given[i] && share_is_jump(r, i, was[i], x[i]))
+            status = refuse_given(r, wires, was, given, x, diag);
+done:
+    mem_free(wires);
+    mem_free(given);
+    mem_free(was);
+    mem_free(y);
+    return status;
+}
+
+/* whether the phase can't have these states of the whole */
+static bool would_jump(const Result *r, Phase *phase, double *y, const double *x)
+{
+    const int nx = result_whole(r)->layout->nx;
+    double *now = NEW_ARRAY(double, nx);
+    RowValues row;
+    bool found = false;
+
+    if (phase_states(phase, 0, y, nx, &row, now))
+        for (int i = 0; i < nx; i++)
+            found = found || share_is_jump(r, i, x[i], now[i]);
+    mem_free(now);
+    return found;
+}
+
+static Status begin_phase(Result *r, const Setting *setting, const SidesAt *at, bool *closed,
+                          Diag *diag)
+{
+    Phase *phase;
+    Status status = OK;
+
+    CHECK(sides_find(r->sides, at, closed, diag));
+    CHECK(commute_phase(r, setting, closed, &phase, diag));
+    r->phase = phase;
+    mem_free(r->begin);
+    r->begin = NEW_ARRAY(double, phase->length);
+    enter(phase, r->start.y, at->x, at->near, 0, r->begin);
+done:
+    return status;
+}
+
 Status commute_begin(Result *r, const Setting *setting, Diag *diag)
 {
     const Layout *whole = result_whole(r)->layout;
@@ -284,17 +489,16 @@ Status commute_begin(Result *r, const Setting *setting, Diag *diag)
                   .x_behind = x};
     bool *closed = NEW_ARRAY(bool, system_ideal_count(r->system));
     bool *none = NEW_ARRAY(bool, system_ideal_count(r->system));
-    Phase *phase;
     Status status = OK;
 
-    CHECK(sides_find(r->sides, &at, closed, diag));
-    CHECK(commute_phase(r, setting, closed, &phase, diag));
-    r->phase = phase;
-    mem_free(r->begin);
-    r->begin = NEW_ARRAY(double, phase->length);
-    enter(phase, r->start.y, x, at.near, 0, r->begin);
-    CHECK(check_impulse(r, phase, &(Entering){.step = at.step, .before = none}, r->begin, x, diag));
-    CHECK(start_solve(phase->layout, phase->numbers, r->begin, NULL, NULL, diag));
+    CHECK(begin_phase(r, setting, &at, closed, diag));
+    if (would_jump(r, r->phase, r->begin, x)) {
+        CHECK(follow_wires(r, setting, closed, x, diag));
+        CHECK(begin_phase(r, setting, &at, closed, diag));
+    }
+    CHECK(check_impulse(r, r->phase, &(Entering){.step = at.step, .before = none}, r->begin, x,
+                        diag));
+    CHECK(start_solve(r->phase->layout, r->phase->numbers, r->begin, NULL, NULL, diag));
 done:
     mem_free(closed);
     mem_free(none);
@@ -426,6 +630,7 @@ Status commute(void *context, double t, double behind, double last, const double
                   .x_behind = x_behind};
     Status status = OK;
 
+    at.when = at.t + at.step;
     go_ahead(now, t, at.step, y, ahead);
     if (!phase_states(now, t, y, whole->nx, &row, x))
         CHECK(solver_failure(diag, t, "the network has no solution"));

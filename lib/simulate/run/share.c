@@ -1,31 +1,33 @@
 /* share.c: charges and fluxes over a jump
  *
- * The states that a phase may have are x = P w + p, w its own. By Tellegen's theorem, impulses that
- * no source takes part in do no work on any change of w: P^T H (x - x0) = 0, H = d^2(energy)/dx^2.
- * Reciprocity is taken for granted in this; a step of vanishing length through the equations
- * themselves, from which sides are found, has to lead to the same states. */
+ * What becomes of states the network's own equations tell, by a step of vanishing length
+ * (sides_jump()): impulses of current leave the charge of each cutset of capacitors as it was, and
+ * impulses of voltage the flux of each circuit of coils, also through transformers and amplifiers.
+ * A source may lie on their way, which its value bounds as before. It may not be all that tells
+ * where a state jumps. */
 #include "simulate/run/share.h"
 
 #include "algebra/linear.h"
 #include "base/memory.h"
+#include "base/random.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
-#define JUMP     1e-6  /* of the largest of its kind, more than location may change it, */
-#define ERRORS   100   /* and of the tolerance: what errors may */
-#define AGREE    1e-3  /* of the largest of its kind: the step has a length, and switches leak */
-#define LONGEST  10000 /* and tries, up to this many times the step */
-#define FREE     1e-9  /* of the largest: a state that its own ones move */
-#define GAIN     1e-9  /* of the energy: rounding */
-#define TOLD     3     /* times that are told one by one */
-#define TOGETHER 6     /* names told of one time */
+#define JUMP     1e-6 /* of the largest of its kind, more than location may change it, */
+#define ERRORS   100  /* and of the tolerance: what errors may */
+#define AGREE    1e-5 /* of the largest of its kind: the step has a length, and switches leak */
+#define FREE     1e-6 /* of the largest: a state that others move */
+#define GAIN     1e-9 /* of the energy: rounding */
+#define TOLD     3    /* times that are told one by one */
+#define TOGETHER 6    /* names told of one time */
 
 struct Shares {
-    Probe *energy; /* and its second derivatives by states of the whole */
-    bool is_known; /* it follows from states */
+    Probe *energy;
+    bool is_known; /* of all that stores, and it follows from states */
     int times;
-    double lost; /* J */
+    double lost; /* J; NAN: not known of some */
 };
 
 void shares_free(Shares *shares)
@@ -69,149 +71,125 @@ bool share_is_jump(const Result *r, int state, double from, double to)
 
 /* --- energy --- */
 
+/* whether what every part stores is in the energies */
+static bool are_energies_known(System *system)
+{
+    for (int i = 0; i < system_scalar_count(system); i++) {
+        ScalarPair edge;
+
+        if (system_scalar(system, i, &edge, NULL) == OK && edge.stores && !edge.energy_known)
+            return false;
+    }
+    return true;
+}
+
 static bool open_shares(Result *r)
 {
     const Layout *l = result_whole(r)->layout;
-    Arena *arena = system_arena(l->system);
-    const Expr energy = expr_add(arena, system_kinetic(l->system), system_potential(l->system));
-    LIST(Expr) roots = {0};
+    Expr energy =
+        expr_add(system_arena(l->system), system_kinetic(l->system), system_potential(l->system));
 
     if (r->shares != NULL)
-        return r->shares->is_known;
+        return r->shares->energy != NULL;
     r->shares = NEW(Shares);
-    r->shares->is_known = true;
-    LIST_PUSH(roots, energy);
-    for (int i = 0; i < l->nx; i++) {
-        const Expr slope = expr_diff(arena, energy, l->symbols[l->x + i]);
-
-        for (int j = 0; j < l->nx; j++)
-            LIST_PUSH(roots, expr_diff(arena, slope, l->symbols[l->x + j]));
-    }
-    for (int i = 0; i < roots.count; i++)
-        if ((expr_kinds(roots.at[i]) & 1U << SYMBOL_ALGEBRAIC) != 0)
-            r->shares->is_known = false;
-    if (r->shares->is_known)
-        r->shares->is_known =
-            probe_new(l, &r->parameters, roots.at, roots.count, &r->shares->energy, NULL) == OK;
-    LIST_FREE(roots);
-    return r->shares->is_known;
+    r->shares->is_known =
+        are_energies_known(l->system) && (expr_kinds(energy) & 1U << SYMBOL_ALGEBRAIC) == 0;
+    return probe_new(l, &r->parameters, &energy, 1, &r->shares->energy, NULL) == OK;
 }
 
-/* then its second derivatives, row by row; borrowed until the next call */
-static const double *energy_at(const Result *r, const Phase *phase, double t, const double *y,
-                               const double *x)
+static double energy_at(const Result *r, const Phase *phase, double t, const double *y,
+                        const double *x)
 {
     const Layout *l = result_whole(r)->layout;
     const RowValues row = {
         .t = t, .near = y + layout_turned(phase->layout), .q = y, .u = y + l->n, .x = x};
 
-    return probe_values(r->shares->energy, &row);
+    return probe_values(r->shares->energy, &row)[0];
 }
 
 /* --- sharing --- */
 
-/* P, a row for each state of the whole, by the phase's own; false: no solution */
-static bool find_moves(Phase *phase, double t, double *y, const double *x, int nx, double *moves)
+/* for each state, the largest of its kind */
+static void find_sizes(const Result *r, const double *x, double *sizes)
 {
-    const Layout *l = phase->layout;
-    double *moved = NEW_ARRAY(double, nx);
-    double *base = NEW_ARRAY(double, nx);
-    const double size = fmax(1, vector_largest(x, nx));
-    RowValues row;
-    bool sound = phase_states(phase, t, y, nx, &row, base);
+    const Layout *whole = result_whole(r)->layout;
 
-    for (int j = 0; j < l->nx && sound; j++) {
-        double *own = &y[l->n + l->nu + j];
-        const double was = *own;
-
-        *own += size;
-        sound = phase_states(phase, t, y, nx, &row, moved);
-        *own = was;
-        for (int i = 0; i < nx; i++)
-            moves[i * l->nx + j] = (moved[i] - base[i]) / size;
+    for (int i = 0; i < whole->nx; i++) {
+        sizes[i] = ERRORS * r->tolerance;
+        for (int k = 0; k < whole->nx; k++)
+            if (strcmp(kind_of(whole, k), kind_of(whole, i)) == 0)
+                sizes[i] = fmax(sizes[i], fabs(x[k]));
     }
-    mem_free(moved);
-    mem_free(base);
+}
+
+/* where a jump leads that begins elsewhere: by `moves` of the sizes of states */
+static bool jump_from(const Result *r, const double *x, const double *moves, const double *sizes,
+                      double *landed)
+{
+    const int nx = result_whole(r)->layout->nx;
+    double *other = NEW_ARRAY(double, nx);
+    bool sound;
+
+    for (int i = 0; i < nx; i++)
+        other[i] = x[i] + moves[i] * sizes[i];
+    sound = sides_jump(r->sides, other, sizes, landed);
+    mem_free(other);
     return sound;
 }
 
-/* M dw = P^T H (x0 - x), M = P^T H P; states without energy stay */
-static bool find_shares(const double *moves, const double *energy, const double *missed, int nx,
-                        int own, double *change)
+/* whether something that is stored changes by what this state was */
+static bool goes_somewhere(const Result *r, int state, const double *x, const double *now,
+                           const double *sizes)
 {
-    Lu *lu = lu_new(own);
-    double *mass = NEW_ARRAY(double, own *own);
-    double *scale = NEW_ARRAY(double, own);
-    double *held = NEW_ARRAY(double, nx); /* a row of P^T H */
-    bool sound;
+    const int nx = result_whole(r)->layout->nx;
+    double *moves = NEW_ARRAY(double, nx);
+    double *landed = NEW_ARRAY(double, nx);
+    bool found = false;
 
-    for (int j = 0; j < own; j++) {
-        memset(held, 0, (size_t)nx * sizeof(double));
-        change[j] = 0;
+    moves[state] = 1;
+    if (jump_from(r, x, moves, sizes, landed))
         for (int i = 0; i < nx; i++)
-            for (int k = 0; k < nx && moves[i * own + j] != 0; k++)
-                held[k] += moves[i * own + j] * energy[i * nx + k];
-        for (int k = 0; k < nx; k++) {
-            change[j] += held[k] * missed[k];
-            for (int i = 0; i < own; i++)
-                mass[j * own + i] += held[k] * moves[k * own + i];
-        }
-    }
-    for (int j = 0; j < own; j++)
-        scale[j] = mass[j * own + j] > 0 ? 1 / sqrt(mass[j * own + j]) : 0;
-    for (int j = 0; j < own; j++)
-        for (int i = 0; i < own; i++)
-            lu_matrix(lu)[j * own + i] =
-                scale[j] > 0 && scale[i] > 0 ? scale[j] * scale[i] * mass[j * own + i] : i == j;
-    for (int j = 0; j < own; j++)
-        change[j] *= scale[j];
-    sound = lu_factor(lu);
-    if (sound)
-        lu_solve(lu, change);
-    for (int j = 0; j < own; j++)
-        change[j] *= scale[j];
-    lu_free(lu);
-    mem_free(mass);
-    mem_free(scale);
-    mem_free(held);
-    return sound && vector_is_finite(change, own);
-}
-
-/* whether each state that jumps is moved by others that are stored, not by sources alone */
-static bool are_shared(const Result *r, const double *moves, const double *x, const double *now,
-                       int own)
-{
-    const Layout *whole = result_whole(r)->layout;
-
-    for (int i = 0; i < whole->nx; i++)
-        if (share_is_jump(r, i, x[i], now[i]) &&
-            !(own > 0 && vector_largest(moves + (ptrdiff_t)i * own, own) > FREE))
-            return false;
-    return true;
-}
-
-/* whether the equations lead there within a short time, and no source has a part in it */
-static bool is_led_to(const Result *r, double step, const double *x, const double *now)
-{
-    const Layout *whole = result_whole(r)->layout;
-    double *landed = NEW_ARRAY(double, whole->nx);
-    double longer = 0.1;
-    bool met = false;
-
-    while (longer < LONGEST && !met) {
-        longer *= 10;
-        met = sides_land(r->sides, longer * step, landed);
-        for (int i = 0; i < whole->nx && met; i++) {
-            double size = 0;
-
-            for (int k = 0; k < whole->nx; k++)
-                if (strcmp(kind_of(whole, k), kind_of(whole, i)) == 0)
-                    size = fmax(size, fmax(fabs(x[k]), fabs(now[k])));
-            met = fabs(landed[i] - now[i]) <= AGREE * size + ERRORS * r->tolerance;
-        }
-    }
+            found = found || fabs(landed[i] - now[i]) > FREE * sizes[i];
+    mem_free(moves);
     mem_free(landed);
-    return met && sides_source(r->sides, longer * step) == NULL;
+    return found;
+}
+
+/* Whether each state that jumps follows from what was stored, or is handed on: it isn't given by
+ * sources alone, nor goes into nothing. What follows is seen by a move of all that was stored. */
+static bool are_shared(const Result *r, const double *x, const double *now, const double *sizes)
+{
+    const int nx = result_whole(r)->layout->nx;
+    double *moves = NEW_ARRAY(double, nx);
+    double *landed = NEW_ARRAY(double, nx);
+    uint64_t seed = 1;
+    bool shared;
+
+    for (int i = 0; i < nx; i++)
+        moves[i] = random_unit(&seed);
+    shared = jump_from(r, x, moves, sizes, landed);
+    for (int i = 0; i < nx && shared; i++)
+        shared = !share_is_jump(r, i, x[i], now[i]) || fabs(landed[i] - now[i]) > FREE * sizes[i] ||
+                 goes_somewhere(r, i, x, now, sizes);
+    mem_free(moves);
+    mem_free(landed);
+    return shared;
+}
+
+/* whether the phase can be where the jump leads; its own states go there, the whole into `now` */
+static bool put_states(Phase *phase, double t, const double *landed, const double *sizes, int nx,
+                       double *y, double *now)
+{
+    const Layout *l = phase->layout;
+    RowValues row;
+    bool met;
+
+    for (int i = 0; i < l->nx; i++)
+        y[l->n + l->nu + i] = landed[phase->among_whole[i]];
+    met = phase_states(phase, t, y, nx, &row, now);
+    for (int i = 0; i < nx && met; i++)
+        met = fabs(now[i] - landed[i]) <= AGREE * fmax(sizes[i], fabs(now[i]));
+    return met;
 }
 
 /* --- what is said --- */
@@ -252,55 +230,66 @@ static void tell(Result *r, const char *sides, double t, double lost, const doub
     r->shares->lost += lost;
     if (r->shares->times++ >= TOLD)
         return;
-    text_addf(&r->remarks, "%s at t = %.9g s: ", sides, t);
+    text_addf(&r->remarks, "%s at t = %.9g s: ", sides, fabs(t) < DBL_MIN ? 0 : t);
     tell_sharers(r, x, now, &r->remarks);
-    text_addf(&r->remarks, ", %.6g J are lost\n", lost);
+    if (isfinite(lost))
+        text_addf(&r->remarks, ", %.6g J are lost", lost);
+    text_add(&r->remarks, "\n");
 }
 
 void share_tell(Result *r)
 {
-    if (r->shares != NULL && r->shares->times > TOLD)
-        text_addf(&r->remarks, "ideal switches do so %d more times: %.6g J are lost in all\n",
-                  r->shares->times - TOLD, r->shares->lost);
+    const Shares *shares = r->shares;
+
+    if (shares == NULL || shares->times <= TOLD)
+        return;
+    text_addf(&r->remarks, "ideal switches do so %d more times", shares->times - TOLD);
+    if (isfinite(shares->lost))
+        text_addf(&r->remarks, ": %.6g J are lost in all", shares->lost);
+    text_add(&r->remarks, "\n");
 }
 
-bool share_stored(Result *r, Phase *phase, double t, double step, const char *sides, double *y,
-                  double *x)
+/* J; NAN where the energy of something is not known */
+static double energy_lost(Result *r, Phase *phase, double t, const bool *before, const double *y,
+                          const double *x, const double *now, double *gained)
 {
-    const int nx = result_whole(r)->layout->nx, own = phase->layout->nx;
-    double *at = y + phase->layout->n + phase->layout->nu;
-    double *moves = NEW_ARRAY(double, nx *own);
-    double *change = NEW_ARRAY(double, own);
-    double *missed = NEW_ARRAY(double, nx);
-    double *now = NEW_ARRAY(double, nx);
-    double before = 0, behind = 0;
-    RowValues row;
-    bool met = open_shares(r) && find_moves(phase, t, y, x, nx, moves) &&
-               phase_states(phase, t, y, nx, &row, now);
+    const double was = energy_at(r, phase, t, y, x), is = energy_at(r, phase, t, y, now);
+    const double work = sides_work(r->sides, x, before);
+    const double lost = was - is + work;
 
-    for (int i = 0; i < nx && met; i++)
-        missed[i] = x[i] - now[i];
-    met = met && find_shares(moves, energy_at(r, phase, t, y, x) + 1, missed, nx, own, change);
-    for (int i = 0; i < own && met; i++)
-        at[i] += change[i];
+    *gained = is - was;
+    return r->shares->is_known && lost >= -GAIN * (fabs(was) + fabs(work)) ? fmax(0, lost) : NAN;
+}
+
+bool share_stored(Result *r, Phase *phase, double t, const bool *before, const char *sides,
+                  double *y, double *x)
+{
+    const int nx = result_whole(r)->layout->nx;
+    const size_t bytes = (size_t)phase->length * sizeof(double);
+    double *sizes = NEW_ARRAY(double, nx);
+    double *landed = NEW_ARRAY(double, nx);
+    double *now = NEW_ARRAY(double, nx);
+    double *kept = NEW_ARRAY(double, phase->length);
+    bool met;
+
+    memcpy(kept, y, bytes);
+    find_sizes(r, x, sizes);
+    met = open_shares(r) && sides_jump(r->sides, x, sizes, landed) &&
+          put_states(phase, t, landed, sizes, nx, y, now) && are_shared(r, x, now, sizes);
     if (met) {
-        before = energy_at(r, phase, t, y, x)[0];
-        met = phase_states(phase, t, y, nx, &row, now) && are_shared(r, moves, x, now, own) &&
-              is_led_to(r, step, x, now);
-        behind = energy_at(r, phase, t, y, now)[0];
-        met = met && behind - before <= GAIN * fabs(before);
-        if (!met)
-            for (int i = 0; i < own; i++)
-                at[i] -= change[i];
-    }
-    if (met) {
-        tell(r, sides, t, before - behind, x, now);
-        y[phase->length - 1] += behind - before;
+        double gained, lost;
+
+        (void)sides_jump(r->sides, x, sizes, landed);
+        lost = energy_lost(r, phase, t, before, y, x, now, &gained);
+        tell(r, sides, t, lost, x, now);
+        y[phase->length - 1] += gained;
         memcpy(x, now, (size_t)nx * sizeof(double));
+    } else {
+        memcpy(y, kept, bytes);
     }
-    mem_free(moves);
-    mem_free(change);
-    mem_free(missed);
+    mem_free(sizes);
+    mem_free(landed);
     mem_free(now);
+    mem_free(kept);
     return met;
 }

@@ -11,12 +11,12 @@
 /* more than errors can explain, of a state of the whole */
 bool share_is_jump(const Result *result, int state, double from, double to);
 
-/* Share what is stored in a phase that begins at (t, y): y, and x, the states of the whole; `step`
- * is that from which its sides were found, at this instant. The energy that is lost counts as work,
- * and is told with `sides`, what switches. False, and nothing is changed, where a source would have
- * to give a part of it, or where nothing that is stored tells what becomes of a state. */
-bool share_stored(Result *result, Phase *phase, double t, double step, const char *sides, double *y,
-                  double *x);
+/* Share what is stored in a phase that begins at (t, y): y, and x, the states of the whole, from
+ * the sides `before`; the present ones were just found at this instant. The energy that is lost
+ * counts as work, and is told with `sides`, what switches. False, and nothing is changed, where a
+ * source alone would have to move a state, or where what one stored would go nowhere. */
+bool share_stored(Result *result, Phase *phase, double t, const bool *before, const char *sides,
+                  double *y, double *x);
 /* what is said of all that were shared, after a run */
 void share_tell(Result *result);
 void shares_free(Shares *shares); /* NULL is fine */
