@@ -4,6 +4,9 @@
  * elsewhere at once, or one of them with loops to follow; poses after it come from jointed.h. */
 #include "standing.h"
 
+#define MOMENT 1e-4 /* s: of a difference, whose error is about its square */
+#define SLOW   1e-6 /* m/s, rad/s */
+
 static void tell_poses(const Scene *s, Scene *out)
 {
     for (int i = 0; i < s->bodies; i++) {
@@ -80,7 +83,172 @@ static Verdict all_set_member(Member *m)
     return off < NEAR ? AGREES : isnan(off) ? REFUSED : DISAGREES;
 }
 
+/* --- speeds --- */
+
+typedef struct Speeds {            /* of a joint */
+    double rate[MOST_COORDINATES]; /* of coordinates that aren't told as an angular speed; */
+    double W[3];                   /* that, in the tip's axes */
+    bool told;
+} Speeds;
+
+/* an attitude by parameters or by three angles, which a chord has no names for */
+static bool is_loose(const Joint *j, int k)
+{
+    return is_parameter(j, k) || j->kind == SPHERICAL_ANGLES;
+}
+
+static void draw_speeds(Member *m, const Joint *j, Speeds *speeds)
+{
+    memset(speeds, 0, sizeof *speeds);
+    speeds->told = true;
+    for (int k = 0; k < j->count; k++)
+        speeds->rate[k] = is_loose(j, k) ? 0 : between(m, -2, 2);
+    for (int k = 0; k < 3 && j->count > 0 && is_loose(j, j->count - 1); k++)
+        speeds->W[k] = between(m, -2, 2);
+}
+
+static void tell_speeds(const Joint *j, int number, const Speeds *speeds, Scene *out)
+{
+    for (int k = 0; k < j->count; k++)
+        if (!is_loose(j, k))
+            write(out, "init j%d%s' = %.17g\n", number, coordinate_name(j, k), speeds->rate[k]);
+    for (int k = 0; k < 3 && j->count > 0 && is_loose(j, j->count - 1); k++)
+        write(out, "init j%d.W%c = %.17g\n", number, 'x' + k, speeds->W[k]);
+}
+
+/* the bodies of a scene without loops after a moment of such speeds */
+static void go_on(const Scene *s, const Speeds *speeds, double moment, Pose *bodies)
+{
+    for (int i = 0; i < s->bodies; i++) {
+        const Joint *j = &s->joint[i];
+        const double *W = speeds[i].W, size = sqrt(W[0] * W[0] + W[1] * W[1] + W[2] * W[2]);
+        const double axis[3] = {size > 0 ? W[0] / size : 1, size > 0 ? W[1] / size : 0,
+                                size > 0 ? W[2] / size : 0};
+        const int other = j->head_body == i ? j->tail_body : j->head_body;
+        const Pose base = other < 0 ? here : bodies[other];
+        double c[MOST_COORDINATES];
+        Pose way;
+
+        for (int k = 0; k < j->count; k++)
+            c[k] = j->c[k] + moment * speeds[i].rate[k];
+        way = compose(joint_pose(j, c), turned(axis, moment * size));
+        bodies[i] = j->head_body == i
+                        ? compose(compose(compose(base, j->tail), way), inverse(j->head))
+                        : compose(compose(compose(base, j->head), inverse(way)), inverse(j->tail));
+    }
+}
+
+/* velocity and angular velocity in ground axes, from poses on either side */
+static void differentiate(const Pose *low, const Pose *high, double moment, double out[6])
+{
+    const double back[4] = {low->q[0], -low->q[1], -low->q[2], -low->q[3]};
+    double turn[4];
+
+    multiply(high->q, back, turn);
+    for (int k = 0; k < 3; k++) {
+        out[k] = (high->r[k] - low->r[k]) / (2 * moment);
+        out[3 + k] = turn[k + 1] * (turn[0] < 0 ? -1 : 1) / moment;
+    }
+}
+
+static void read_speeds(Kit *kit, const Scene *s, int body, double out[6])
+{
+    static const char *const names[] = {".vx", ".vy", ".vz", ".wx", ".wy", ".wz"};
+
+    for (int k = 0; k < 6; k++)
+        out[k] = s->planar && k > 1 && k < 5 ? 0 : value(kit, "b", body, names[k]);
+}
+
+static double speeds_off(Member *m, const Scene *s, double (*are)[6], double (*belong)[6])
+{
+    double off = 0;
+
+    for (int i = 0; i < s->bodies; i++)
+        for (int k = 0; k < 6; k++) {
+            const double wrong = fabs(are[i][k] - belong[i][k]);
+
+            if (!(wrong < SLOW))
+                tell(m, "b%d: %c%c is %.9g, not %.9g\n", i, k < 3 ? 'v' : 'w', 'x' + k % 3,
+                     are[i][k], belong[i][k]);
+            off = worst(off, wrong);
+        }
+    return off;
+}
+
+/* assemble in one choice of trees; false: refused */
+static bool start(Member *m, const Scene *s, int choice, const Speeds *speeds, double (*out)[6])
+{
+    static Scene text;
+    Kit kit = kit_new();
+    bool sound;
+
+    text.length = 0;
+    write(&text, "%s", s->text);
+    write_trees(m, s, choice, &text);
+    tell_poses(s, &text);
+    for (int i = 0; i < s->joints; i++)
+        if (speeds[i].told)
+            tell_speeds(&s->joint[i], i, &speeds[i], &text);
+    write(&text, "assemble\n");
+    sound = kit_do(&kit, text.text) == CT_OK;
+    if (!sound)
+        tell(m, "%s\n", kit.error.message);
+    for (int i = 0; i < s->bodies && sound; i++)
+        read_speeds(&kit, s, i, out[i]);
+    tell(m, "%s", strstr(text.text, "tree "));
+    kit_free(&kit);
+    return sound;
+}
+
+/* Some joints are told, the others rest against each other. */
+static Verdict resting_member(Member *m)
+{
+    static Scene s;
+    Speeds speeds[JOINTS] = {0};
+    double are[BODIES][6], belong[BODIES][6];
+    Pose low[BODIES], high[BODIES];
+
+    make_scene(m, &s, false, false);
+    for (int i = 0; i < s.bodies; i++)
+        if (pick(m, 2) == 0)
+            draw_speeds(m, &s.joint[i], &speeds[i]);
+    go_on(&s, speeds, -MOMENT, low);
+    go_on(&s, speeds, MOMENT, high);
+    for (int i = 0; i < s.bodies; i++)
+        differentiate(&low[i], &high[i], MOMENT, belong[i]);
+    tell(m, "%s", m->told ? s.text : "");
+    for (int choice = 0; choice < 3; choice++)
+        if (!start(m, &s, choice, speeds, are) || !(speeds_off(m, &s, are, belong) < SLOW))
+            return DISAGREES;
+    return AGREES;
+}
+
+/* One joint is told, loops and all else follow, in every tree alike. */
+static Verdict following_member(Member *m)
+{
+    static Scene s;
+    Speeds speeds[JOINTS] = {0};
+    double first[BODIES][6], are[BODIES][6];
+    bool sound;
+    int told;
+
+    make_scene(m, &s, true, false);
+    told = pick(m, s.joints);
+    draw_speeds(m, &s.joint[told], &speeds[told]);
+    tell(m, "%s", m->told ? s.text : "");
+    sound = start(m, &s, 0, speeds, first);
+    for (int choice = 1; choice < 3; choice++) {
+        if (start(m, &s, choice, speeds, are) != sound)
+            return DISAGREES;
+        if (sound && !(speeds_off(m, &s, are, first) < SLOW))
+            return DISAGREES;
+    }
+    return sound ? AGREES : REFUSED;
+}
+
 static const Family families[] = {
+    {"joints_of_which_no_speed_was_told_rest", 30, 0, 0, resting_member},
+    {"bodies_move_alike_in_all_trees", 30, 0.6, 0, following_member},
     {"an_event_puts_all_joints_where_it_says", 20, 0.15, 0, all_set_member},
 };
 

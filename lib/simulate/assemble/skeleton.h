@@ -53,6 +53,8 @@ void skeleton_free(Skeleton *skeleton); /* NULL is fine */
 /* Poses of all nodes against the datum along two trees, from coordinates (links x MAX_COORDS). */
 void skeleton_poses(const Skeleton *skeleton, const Tree *rotation, const Tree *translation,
                     const double *c, Pose *poses);
+/* The same at coordinates q of the system, along its trees; new. */
+Pose *skeleton_poses_at(const Skeleton *skeleton, const double *q);
 void pose_between(const Pose *tail, const Pose *head, Pose *out);
 
 void link_pose(const Link *link, const double *c, Pose *out);

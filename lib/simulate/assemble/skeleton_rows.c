@@ -239,8 +239,7 @@ static Reversal find_reversal(const Skeleton *s, const Pose *poses)
     return (Reversal){.link = NULL};
 }
 
-/* poses of the nodes at coordinates of the system, along its trees; new */
-static Pose *poses_at(const Skeleton *s, const double *q)
+Pose *skeleton_poses_at(const Skeleton *s, const double *q)
 {
     Pose *poses = NEW_ARRAY(Pose, s->node_count);
     double *c = NEW_ARRAY(double, s->link_count *MAX_COORDS);
@@ -262,7 +261,7 @@ Reversal skeleton_reversal(const Skeleton *s, const double *q)
     Reversal found = {.link = NULL};
 
     if (s != NULL) {
-        Pose *poses = poses_at(s, q);
+        Pose *poses = skeleton_poses_at(s, q);
 
         found = find_reversal(s, poses);
         mem_free(poses);
@@ -327,7 +326,7 @@ double skeleton_value(const Skeleton *s, const double *q, const Instance *instan
                       const double near[MAX_COORDS])
 {
     const Link *link = &s->links[s->link_at[instance->edge]];
-    Pose *poses = poses_at(s, q);
+    Pose *poses = skeleton_poses_at(s, q);
     double c[MAX_COORDS];
     Pose relative;
 

@@ -449,16 +449,15 @@ static Status find_velocity(Assembly *a, Diag *diag)
     Status status = OK;
 
     a->eq->position(a->eq->context, 0, a->y);
-    for (int guesses = 1; guesses >= 0; guesses--)
-        for (int i = 0; i < a->given_count; i++) {
-            const Given *given = &a->given[i];
+    CHECK(start_speeds(a, diag));
+    for (int i = 0; i < a->given_count; i++) {
+        const Given *given = &a->given[i];
 
-            if (given->level == LEVEL_VELOCITY && given->column >= 0 &&
-                given->value->is_guess == (guesses == 1)) {
-                a->y[l->n + given->column] = given->value->value;
-                held[given->column] = guesses == 0;
-            }
+        if (given->level == LEVEL_VELOCITY && given->column >= 0 && !given->value->is_guess) {
+            a->y[l->n + given->column] = given->value->value;
+            held[given->column] = true;
         }
+    }
     CHECK(start_open_problem(&p, a, LEVEL_VELOCITY, false, diag));
     rows = start_rows(&p);
     residual = NEW_ARRAY(double, rows.rows);

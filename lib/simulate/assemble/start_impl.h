@@ -85,6 +85,10 @@ MUST_USE Status start_whole_turns(Assembly *assembly, const double *angles, Diag
 MUST_USE Status start_place(Assembly *assembly, WarmValue warm, void *context, bool *closed,
                             Diag *diag);
 
+/* Speeds into y that constraints and given values leave open, before those are met: the least rates
+ * of the joints along which frames are placed (start_speed.c). */
+MUST_USE Status start_speeds(Assembly *assembly, Diag *diag);
+
 /* States of the network, into y, and x' and z to begin a search with (start_network.c). `from`
  * tells the value of a variable in an earlier result; NULL: there is none. */
 MUST_USE Status start_find_network(Assembly *assembly, WarmValue from, void *context, Diag *diag);

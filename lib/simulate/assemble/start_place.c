@@ -91,6 +91,16 @@ static Status choose_tree(Placing *p, TreeKind kind, Diag *diag)
     return status;
 }
 
+Status place_choose_trees(Placing *p, Diag *diag)
+{
+    Status status;
+
+    CHECK(choose_tree(p, TREE_ROTATION, diag));
+    CHECK(choose_tree(p, TREE_TRANSLATION, diag));
+done:
+    return status;
+}
+
 bool place_turns(const Placing *p, int link)
 {
     return tree_has(p->trees[TREE_ROTATION], p->s->links[link].edge);
@@ -338,7 +348,7 @@ static void remark_moved(Placing *p, const double *from)
                   p->s->links[link].instance->coord[which], from[place_at(link, which)], to);
 }
 
-static void placing_free(Placing *p)
+void placing_free(Placing *p)
 {
     tree_free(p->trees[TREE_TRANSLATION]);
     tree_free(p->trees[TREE_ROTATION]);
@@ -376,8 +386,7 @@ Status start_place(Assembly *a, WarmValue warm, void *context, bool *closed, Dia
         p.begun[i] = NAN;
     CHECK(place_take_wishes(&p, diag));
     place_mark_known(&p);
-    CHECK(choose_tree(&p, TREE_ROTATION, diag));
-    CHECK(choose_tree(&p, TREE_TRANSLATION, diag));
+    CHECK(place_choose_trees(&p, diag));
     begin(&p);
     place_columns(&p);
     if (is_guessed_elsewhere(&p))

@@ -62,6 +62,10 @@ void place_mark_known(Placing *p);
 enum { OPEN = 16 }; /* above the number of coordinates of a link */
 int place_ignorance(const Placing *p, int link, TreeKind kind);
 
+/* The trees that place frames, by what is known; fails as tree_complete() does. */
+MUST_USE Status place_choose_trees(Placing *p, Diag *diag);
+void placing_free(Placing *p); /* what it holds */
+
 /* Whether a link is a branch of the trees that place frames, and a coordinate is one of such. */
 bool place_turns(const Placing *p, int link);
 bool place_shifts(const Placing *p, int link);
