@@ -252,15 +252,30 @@ int64_t op_count_total(OpCount count);
 /* --- printing --- */
 
 typedef enum Notation {
-    NOTATION_TEXT,
-    NOTATION_UNICODE,
-    NOTATION_LATEX,
-    NOTATION_C,
-    NOTATION_MATLAB,
-    NOTATION_PYTHON,
-    NOTATION_FORTRAN,
-    NOTATION_TREE
+#define NOTATION(id, ...) NOTATION_##id,
+#include "expr/notations.def"
+#undef NOTATION
+    NOTATIONS
 } Notation;
+
+typedef enum NotationKind {                   /* what lines of it are for */
+                            NOTATION_READ,    /* a screen */
+                            NOTATION_TYPESET, /* a paper */
+                            NOTATION_SOURCE,  /* a compiler */
+                            NOTATION_OUTLINE  /* to be seen as parts */
+} NotationKind;
+
+typedef struct NotationRow { /* as in notations.def */
+    const char *word;
+    NotationKind kind;
+    int first;
+    const char *open, *close;
+    const char *times, *fresh;
+    const char *brief;
+} NotationRow;
+
+const NotationRow *notation_row(Notation notation);
+bool notation_find(const char *word, Notation *out); /* false: unknown, *out unchanged */
 
 /* Append `e`. Text parses back to the same pointer (with the parser of the command language).
  * Numbers: rationals as decimals where these are exact and have up to 6 digits or are no longer

@@ -359,16 +359,35 @@ static void print_with(Text *out, Expr e, const Dialect *dialect)
     LIST_FREE(printer.pieces);
 }
 
+const NotationRow *notation_row(Notation notation)
+{
+    static const NotationRow rows[] = {
+#define NOTATION(id, word, dialect, kind, ...) {word, NOTATION_##kind, __VA_ARGS__},
+#include "expr/notations.def"
+#undef NOTATION
+    };
+    return &rows[notation];
+}
+
+bool notation_find(const char *word, Notation *out)
+{
+    for (Notation i = NOTATION_TEXT; i < NOTATIONS; i++)
+        if (notation_row(i)->word != NULL && strcmp(notation_row(i)->word, word) == 0) {
+            *out = i;
+            return true;
+        }
+    return false;
+}
+
 void expr_print(Text *text, Expr e, Notation notation)
 {
     static const Dialect *const dialects[] = {
-        [NOTATION_TEXT] = &dialect_text,       [NOTATION_UNICODE] = &dialect_unicode,
-        [NOTATION_LATEX] = &dialect_latex,     [NOTATION_C] = &dialect_c,
-        [NOTATION_MATLAB] = &dialect_matlab,   [NOTATION_PYTHON] = &dialect_python,
-        [NOTATION_FORTRAN] = &dialect_fortran,
+#define NOTATION(id, word, dialect, ...) [NOTATION_##id] = dialect,
+#include "expr/notations.def"
+#undef NOTATION
     };
 
-    if (notation == NOTATION_TREE)
+    if (dialects[notation] == NULL)
         print_tree(text, e);
     else
         print_with(text, e, dialects[notation]);

@@ -311,8 +311,9 @@ static void offer_methods(Line *line)
 
 static void offer_notations(Line *line)
 {
-    for (int i = 0; notation_name(i) != NULL; i++)
-        offer(line, notation_name(i));
+    for (Notation i = NOTATION_TEXT; i < NOTATIONS; i++)
+        if (notation_row(i)->word != NULL)
+            offer(line, notation_row(i)->word);
 }
 
 static void offer_axes(Line *line)

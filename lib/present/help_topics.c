@@ -85,6 +85,20 @@ static void write_methods(Text *out)
     table_free(&table);
 }
 
+static void write_notations(Text *out)
+{
+    Table table = table_for("ll");
+
+    layout_words(out, TOPIC_WIDTH, "", "show mass as WORD takes one of these:");
+    for (Notation i = NOTATION_TEXT; i < NOTATIONS; i++)
+        if (notation_row(i)->word != NULL) {
+            table_cell(&table, notation_row(i)->word);
+            table_cell(&table, notation_row(i)->brief);
+        }
+    table_wrap(out, &table, 2, TOPIC_WIDTH);
+    table_free(&table);
+}
+
 static void write_formats(Text *out)
 {
     Table table = table_for("ll");
@@ -199,6 +213,7 @@ static const HelpTopic topics[] = {
     {"variables", "what can be printed, plotted and expected",  write_variables, NULL},
     {"topics",    "what show can show",                         write_topics,    NULL},
     {"methods",   "integration methods of simulate",            write_methods,   "simulate"},
+    {"notations", "notations of show",                          write_notations, "show"},
     {"formats",   "what export writes",                         write_formats,   "export"},
     {"counting",  "the rule by which operations are counted",   write_counting,  "count"},
     {"keys",      "keys at the prompt",                         write_keys,      NULL},

@@ -34,11 +34,6 @@ static const Topic topics[] = {
     {"derivation",   "how an equation came about, step by step",           NEED_MODEL,  BEHIND_NOTHING, NULL},
     {"events",       "events, and when they happened in the last run",     NEED_MODEL,  BEHIND_NOTHING, show_events},
 };
-
-static const struct { const char *word; Notation notation; } notations[] = {
-    {"text", NOTATION_TEXT}, {"latex", NOTATION_LATEX}, {"c", NOTATION_C},
-    {"matlab", NOTATION_MATLAB}, {"tree", NOTATION_TREE},
-};
 /* clang-format on */
 
 const Topic *topic_find(const char *name)
@@ -52,21 +47,6 @@ const Topic *topic_find(const char *name)
 const Topic *topic_at(int i)
 {
     return i >= 0 && i < COUNT(topics) ? &topics[i] : NULL;
-}
-
-bool notation_find(const char *word, Notation *notation)
-{
-    for (int i = 0; i < COUNT(notations); i++)
-        if (strcmp(notations[i].word, word) == 0) {
-            *notation = notations[i].notation;
-            return true;
-        }
-    return false;
-}
-
-const char *notation_name(int i)
-{
-    return i >= 0 && i < COUNT(notations) ? notations[i].word : NULL;
 }
 
 /* the topic's row, NULL where the first operand is a variable or an expression */
@@ -291,8 +271,14 @@ Status show(const View *view, const Statement *statement, Text *out, Diag *diag)
     Status status = OK;
 
     if (statement->as != NULL && !notation_find(statement->as, &in_notation.page.notation)) {
+        Text words = {0};
+
+        for (Notation i = NOTATION_TEXT; i < NOTATIONS; i++)
+            if (notation_row(i)->word != NULL)
+                text_addf(&words, "%s%s", i > 0 ? ", " : "", notation_row(i)->word);
         diag_at(diag, E_NAME, statement->as_place, "no notation is called '%s'", statement->as);
-        diag_hint(diag, "one of text, latex, c, matlab, tree");
+        diag_hint(diag, "one of %s", words.at);
+        text_free(&words);
         return E_NAME;
     }
     if (topic != NULL)

@@ -51,10 +51,6 @@ MUST_USE Status show_need(const Model *model, const Statement *statement, Need *
  * Fails with E_NAME for an unknown topic or edge, E_VALUE for an entry beyond the last, E_MISSING
  * for topics of later versions, the errors of equations. */
 MUST_USE Status show(const View *view, const Statement *statement, Text *out, Diag *diag);
-/* the notation of `as WORD`; false: unknown */
-bool notation_find(const char *word, Notation *notation);
-const char *notation_name(int i); /* 0, 1, ... until NULL */
-
 /* --- the functions of topics --- */
 typedef Status ShowFunction(const View *view, const Selection *selection, Text *out, Diag *diag);
 

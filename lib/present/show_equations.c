@@ -46,7 +46,7 @@ static void add_dropped(Text *out, const View *view)
     for (int i = 0; (line = system_dropped(view->system, i)) != NULL; i++) {
         if (i == 0)
             view_comment(out, view, "vanished identically:");
-        if (view->page.notation == NOTATION_TEXT || view->page.notation == NOTATION_UNICODE)
+        if (view_kind(view) == NOTATION_READ)
             layout_words(out, view->page.columns, "  ", line);
         else
             view_comment(out, view, line);
@@ -513,12 +513,11 @@ static char *free_name(const View *view, int number)
 /* the left side of what is shown: as the user wrote it, or as the notation can have it */
 static char *left_side(const View *view, const Syntax *syntax, Expr user, int number)
 {
-    const Notation notation = view->page.notation;
     char *written, *name;
 
-    if (notation == NOTATION_LATEX)
+    if (view_kind(view) == NOTATION_TYPESET)
         return view_expression(view, user);
-    if (notation != NOTATION_C && notation != NOTATION_MATLAB)
+    if (view_kind(view) != NOTATION_SOURCE)
         return view_name(syntax);
     while (syntax->kind == SYNTAX_GROUP && syntax->primes == 0)
         syntax = syntax->args[0];

@@ -106,10 +106,10 @@ static void add_names(Table *table, const char *title, char *const *names, int c
 
 void linear_print(const View *view, const Linear *linear, Text *out)
 {
-    const Notation notation = view->page.notation;
+    const NotationKind kind = view_kind(view);
     Table table = table_for("ll");
 
-    if (notation != NOTATION_LATEX && notation != NOTATION_C && notation != NOTATION_MATLAB) {
+    if (kind != NOTATION_TYPESET && kind != NOTATION_SOURCE) {
         table_cell(&table, "about");
         table_cellf(&table, "t = %.6g s", linear->at);
         add_names(&table, "states", linear->state_names, linear->states);
@@ -127,11 +127,11 @@ void linear_print(const View *view, const Linear *linear, Text *out)
 
         if (m.rows == 0 || m.columns == 0)
             continue;
-        if (notation == NOTATION_LATEX)
+        if (kind == NOTATION_TYPESET)
             print_latex(out, &m);
-        else if (notation == NOTATION_C)
+        else if (view->page.notation == NOTATION_C)
             print_c(out, &m);
-        else if (notation == NOTATION_MATLAB)
+        else if (kind == NOTATION_SOURCE)
             print_matlab(out, &m);
         else
             print_rounded(out, &m);

@@ -222,9 +222,9 @@ Status show_state(const View *view, const Selection *selection, Text *out, Diag 
 
     (void)selection;
     CHECK(state_space_new(view->model, view->watch, &space, diag));
-    if (view->page.notation == NOTATION_LATEX)
+    if (view_kind(view) == NOTATION_TYPESET)
         print_latex(out, view, space);
-    else if (view->page.notation == NOTATION_C || view->page.notation == NOTATION_MATLAB)
+    else if (view_kind(view) == NOTATION_SOURCE)
         print_code(out, view, space);
     else
         print_text(out, view, space);

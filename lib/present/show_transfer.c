@@ -245,7 +245,7 @@ static void print_code(Text *out, const Transfer *t, int output, int input, bool
 
 static Status print_one(const View *view, int output, int input, Text *out, Diag *diag)
 {
-    const Notation notation = view->page.notation;
+    const NotationKind kind = view_kind(view);
     Transfer *t = NULL;
     Text name = {0};
     Status status;
@@ -253,18 +253,17 @@ static Status print_one(const View *view, int output, int input, Text *out, Diag
     CHECK(poll(view->watch));
     CHECK(transfer_new(view->linear, output, input, &t, diag));
     text_addf(&name, "%s/%s", view->linear->output_names[output], view->linear->input_names[input]);
-    if (!has_coefficients(t) &&
-        (notation == NOTATION_LATEX || notation == NOTATION_C || notation == NOTATION_MATLAB)) {
+    if (!has_coefficients(t) && (kind == NOTATION_TYPESET || kind == NOTATION_SOURCE)) {
         (void)diag_set(diag, E_VALUE, "the coefficients of %s are beyond what numbers hold",
                        name.at);
         diag_hint(diag, "'show transfer' tells its gain, zeros and poles");
         CHECK(E_VALUE);
     }
-    if (notation == NOTATION_LATEX) {
+    if (kind == NOTATION_TYPESET) {
         print_latex(out, t, output, input);
-    } else if (notation == NOTATION_C || notation == NOTATION_MATLAB) {
+    } else if (kind == NOTATION_SOURCE) {
         view_comment(out, view, name.at);
-        print_code(out, t, output, input, notation == NOTATION_C);
+        print_code(out, t, output, input, view->page.notation == NOTATION_C);
     } else {
         print_text(out, view, t, output, input);
     }

@@ -74,20 +74,19 @@ void view_line(Text *out, const View *view, const char *lead, const char *left,
     Text body = {0};
     Page page = view->page;
 
-    switch (view->page.notation) {
-    case NOTATION_LATEX:
+    switch (view_kind(view)) {
+    case NOTATION_TYPESET:
         add_latex(out, left, relation, right);
         return;
-    case NOTATION_C:
-    case NOTATION_MATLAB:
+    case NOTATION_SOURCE:
         text_addf(out, "%s%s%s;\n", left, relation != NULL ? relation : "",
                   relation != NULL ? right : "");
         return;
-    case NOTATION_TREE:
+    case NOTATION_OUTLINE:
         text_addf(out, "%s%s%s\n%s%s", lead, left, relation != NULL ? relation : "",
                   relation != NULL ? right : "", relation != NULL ? "\n" : "");
         return;
-    default:
+    case NOTATION_READ:
         /* lines that go on stand below the right side, where the left one is short */
         if (relation != NULL && text_width(lead) + text_width(left) <= SHORT_LEFT) {
             text_addf(&body, "%s%s%s", lead, left, relation);
@@ -103,13 +102,13 @@ void view_line(Text *out, const View *view, const char *lead, const char *left,
 
 void view_open(Text *out, const View *view)
 {
-    if (view->page.notation == NOTATION_LATEX)
+    if (view_kind(view) == NOTATION_TYPESET)
         text_add(out, "\\begin{align*}\n");
 }
 
 void view_close(Text *out, const View *view)
 {
-    if (view->page.notation != NOTATION_LATEX)
+    if (view_kind(view) != NOTATION_TYPESET)
         return;
     /* the last line ends without \\ */
     if (out->length > 4 && strcmp(out->at + out->length - 4, " \\\\\n") == 0) {
@@ -122,42 +121,26 @@ void view_close(Text *out, const View *view)
 
 void view_comment(Text *out, const View *view, const char *words)
 {
-    switch (view->page.notation) {
-    case NOTATION_LATEX:
-    case NOTATION_MATLAB:
-        text_addf(out, "%% %s\n", words);
-        break;
-    case NOTATION_C:
-        text_addf(out, "/* %s */\n", words);
-        break;
-    default:
+    const NotationRow *row = notation_row(view->page.notation);
+
+    if (row->open != NULL)
+        text_addf(out, "%s%s%s\n", row->open, words, row->close);
+    else
         layout_words(out, view->page.columns, "", words);
-    }
 }
 
 char *view_entry_name(const View *view, const char *text, const char *letter, int row, int column)
 {
+    const int first = notation_row(view->page.notation)->first;
+    const bool is_typeset = view_kind(view) == NOTATION_TYPESET;
+    const char *open = is_typeset ? "_{" : first == 0 ? "[" : "(";
+    const char *close = is_typeset ? "}" : first == 0 ? "]" : ")";
     Text name = {0};
 
-    switch (view->page.notation) {
-    case NOTATION_LATEX:
-        if (column < 0)
-            text_addf(&name, "%s_{%d}", letter, row + 1);
-        else
-            text_addf(&name, "%s_{%d,%d}", letter, row + 1, column + 1);
-        break;
-    case NOTATION_C:
-        if (column < 0)
-            text_addf(&name, "%s[%d]", text, row);
-        else
-            text_addf(&name, "%s[%d][%d]", text, row, column);
-        break;
-    default:
-        if (column < 0)
-            text_addf(&name, "%s(%d)", text, row + 1);
-        else
-            text_addf(&name, "%s(%d,%d)", text, row + 1, column + 1);
-    }
+    text_addf(&name, "%s%s%d", is_typeset ? letter : text, open, row + first);
+    if (column >= 0)
+        text_addf(&name, "%s%d", !is_typeset && first == 0 ? "][" : ",", column + first);
+    text_add(&name, close);
     return text_done(&name);
 }
 
@@ -182,9 +165,7 @@ static const char *free_prefix(const Model *model)
 /* "(a + b)*x", or the coefficient or symbol alone */
 static char *write_term(const View *view, const Term *term)
 {
-    const char *times = view->page.notation == NOTATION_LATEX     ? " "
-                        : view->page.notation == NOTATION_UNICODE ? "·"
-                                                                  : "*";
+    const char *times = notation_row(view->page.notation)->times;
     const Expr c = term->coefficient;
     Text text = {0};
     char *coefficient, *symbol;
@@ -196,8 +177,7 @@ static char *write_term(const View *view, const Term *term)
     if (expr_is(c, 1) || expr_is(c, -1))
         text_addf(&text, "%s%s", expr_is(c, -1) ? "-" : "", symbol);
     else if (expr_kind(c) == EXPR_SUM)
-        text_addf(&text,
-                  view->page.notation == NOTATION_LATEX ? "\\left(%s\\right)%s%s" : "(%s)%s%s",
+        text_addf(&text, view_kind(view) == NOTATION_TYPESET ? "\\left(%s\\right)%s%s" : "(%s)%s%s",
                   coefficient, times, symbol);
     else
         text_addf(&text, "%s%s%s", coefficient, times, symbol);
@@ -228,12 +208,6 @@ static char *write_sum(const View *view, const Term *terms, int count)
     if (text.length == 0)
         text_add(&text, "0");
     return text_done(&text);
-}
-
-static bool is_language(const View *view)
-{
-    return view->page.notation == NOTATION_C || view->page.notation == NOTATION_MATLAB ||
-           view->page.notation == NOTATION_PYTHON || view->page.notation == NOTATION_FORTRAN;
 }
 
 static void print_equation(Text *out, const View *view, const Equation *equation)
@@ -275,8 +249,7 @@ static void print_definitions(Text *out, const View *view, const Abbreviation *n
         char *right = view_expression(view, definition->value);
         Text typed = {0};
 
-        if (view->page.notation == NOTATION_C)
-            text_add(&typed, "const double ");
+        text_add(&typed, notation_row(view->page.notation)->fresh);
         text_add(&typed, left);
         view_line(out, view, i == 0 ? "where " : "      ", typed.at, " = ", right);
         text_free(&typed);
@@ -303,13 +276,13 @@ static void print_turns(Text *out, const View *view, const Expr *terms, int coun
     }
     if (names.length == 0)
         return;
-    if (view->page.notation == NOTATION_LATEX)
+    if (view_kind(view) == NOTATION_TYPESET)
         text_addf(
             &words,
             "\\text{unwrap}(y, x, a)\\colon\\text{ the angle of }(x, y)\\text{ that is nearest "
             "to }a;\\ %s\\text{: kept less than half a turn from it}",
             names.at);
-    else if (is_language(view))
+    else if (view_kind(view) == NOTATION_SOURCE)
         text_addf(&words, "%s: any value less than half a turn from the angle picks its turn",
                   names.at);
     else
@@ -317,7 +290,7 @@ static void print_turns(Text *out, const View *view, const Expr *terms, int coun
                   "unwrap(y, x, a) is the angle of (x, y) that is nearest to a; runs keep %s less "
                   "than half a turn from the angle",
                   names.at);
-    if (view->page.notation == NOTATION_LATEX)
+    if (view_kind(view) == NOTATION_TYPESET)
         view_line(out, view, "", words.at, NULL, "");
     else
         view_comment(out, view, words.at);
@@ -379,22 +352,22 @@ void view_equations(Text *out, const View *view, Equations *equations)
     bool is_long;
     int count;
 
-    for (int i = 0; is_language(view) && i < equations->count; i++)
+    for (int i = 0; view_kind(view) == NOTATION_SOURCE && i < equations->count; i++)
         make_residual(view, equations->at + i, i);
     count = gather(equations, &terms, &is_long);
     if (view->system != NULL)
-        print_turns(is_language(view) ? out : &notes, view, terms, count);
+        print_turns(view_kind(view) == NOTATION_SOURCE ? out : &notes, view, terms, count);
     if (is_long) {
         names = abbreviate(model_arena(view->model), terms, count, &naming);
         scatter(equations, names.roots);
     }
     /* programs want data and names before they are used, readers names afterwards */
     tables_print(out, view->page.notation, "", terms, count);
-    if (is_language(view))
+    if (view_kind(view) == NOTATION_SOURCE)
         print_definitions(out, view, &names);
     for (int i = 0; i < equations->count; i++)
         print_equation(out, view, equations->at + i);
-    if (!is_language(view))
+    if (view_kind(view) != NOTATION_SOURCE)
         print_definitions(out, view, &names);
     text_add(out, notes.at != NULL ? notes.at : "");
     text_free(&notes);

@@ -19,6 +19,11 @@ typedef struct View {
     const Watch *watch;
 } View;
 
+static inline NotationKind view_kind(const View *view)
+{
+    return notation_row(view->page.notation)->kind;
+}
+
 /* `left relation right` as a line of the notation, behind `lead` in text. Latex gets an alignment
  * mark before the relation. */
 void view_line(Text *out, const View *view, const char *lead, const char *left,
