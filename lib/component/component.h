@@ -241,6 +241,9 @@ struct Component {
     /* PLACES_PARTS: adds what it brings to the relation of the edge of parts[which] */
     void (*couple)(const Instance *instance, Arena *arena, const Instance *const parts[2],
                    int which, Relation *out);
+    /* entry of the symmetric matrix of what its parts store together */
+    Expr (*stores)(const Instance *instance, Arena *arena, const Instance *const parts[2], int row,
+                   int column);
     const char *couples;                              /* the row that its parts have to be of */
     int (*own_state_count)(const Instance *instance); /* NULL: none */
     void (*own_state)(const Instance *instance, Arena *arena, int k, OwnState *out);

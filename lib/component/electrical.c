@@ -169,6 +169,12 @@ static Expr mutual(const Instance *instance, Arena *arena, const Instance *const
     return expr_mul(arena, instance_scalar(instance, "k"), expr_sqrt(arena, product));
 }
 
+static Expr coupling_stores(const Instance *instance, Arena *arena, const Instance *const parts[2],
+                            int row, int column)
+{
+    return row == column ? instance_scalar(parts[row], "L") : mutual(instance, arena, parts);
+}
+
 static void coupling_couple(const Instance *instance, Arena *arena, const Instance *const parts[2],
                             int which, Relation *out)
 {
@@ -211,11 +217,14 @@ const Component component_coupling = {
     .params = coupling_params,
     .param_count = COUNT(coupling_params),
     .couple = coupling_couple,
+    .stores = coupling_stores,
     .couples = "inductor",
     .check = coupling_check,
     .help = "Two inductors on one core: each one's flux holds M times the current of the other, "
             "where M = k*sqrt(L1*L2), or is given. Both currents count from plus to minus inside; "
-            "a negative k turns one winding round. Any number of pairs may be coupled.",
+            "a negative k turns one winding round. Any number of pairs may be coupled, as "
+            "long as coils can be: M stays below sqrt(L1*L2), and the matrix of all L and M is "
+            "positive definite.",
     .example = "vsource V1 a 0 10*sin(314*t)\nresistor R1 a b 1 ohm\ninductor L1 b 0 0.4 H\n"
                "inductor L2 c 0 0.1 H\ncoupling K1 L1 L2 k=0.98\nresistor R2 c 0 50 ohm\n"
                "init L1.i = 0, L2.i = 0\nsimulate 0.1\nprint max(L1.v), max(L2.v)",

@@ -1,6 +1,8 @@
 /* efforts.c: what pushes: forces, springs, dampers, actuators, motors */
 #include "formulate/system_impl.h"
 
+#include <string.h>
+
 /* where an effort along the line between two frames acts */
 static Status line_motion(System *system, const Instance *instance, Effort *effort, Diag *diag)
 {
@@ -101,6 +103,33 @@ Status wrench_of(System *system, const Instance *instance, Vec *force, Vec *torq
     }
 done:
     return status;
+}
+
+static bool find_push(System *system, const Instance *instance, Pusher *out)
+{
+    Vec force, torque;
+    Effort effort;
+    int chain;
+
+    *out = (Pusher){.name = instance->name};
+    if (instance->row->wrench != NULL &&
+        wrench_of(system, instance, &force, &torque, &chain, NULL) == OK) {
+        out->count = 6;
+        memcpy(out->value, force.at, sizeof force.at);
+        memcpy(out->value + 3, torque.at, sizeof torque.at);
+    } else if (instance->row->effort != NULL && effort_of(system, instance, &effort, NULL) == OK) {
+        out->count = 1;
+        out->value[0] = effort.value;
+    }
+    return out->count > 0;
+}
+
+bool system_pusher(System *system, int *next, Pusher *out)
+{
+    while (*next < system->instance_count)
+        if (find_push(system, &system->instances[(*next)++], out))
+            return true;
+    return false;
 }
 
 void loads_add_effort(System *system, Loads *loads, const Instance *owner, int coordinate,

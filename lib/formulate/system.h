@@ -124,6 +124,16 @@ typedef struct FrameLine {
 /* The next one from instance *next (0) on; false at the end. */
 bool system_line(System *system, int *next, FrameLine *out);
 
+/* a part that pushes, and what it exerts: an effort, or components of force and torque */
+typedef struct Pusher {
+    const char *name;
+    int count;
+    Expr value[6];
+} Pusher;
+
+/* Likewise; parts whose law can't be told are passed over. */
+bool system_pusher(System *system, int *next, Pusher *out);
+
 /* --- constraints --- */
 
 typedef struct ConstraintRow {

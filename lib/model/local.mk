@@ -6,6 +6,7 @@ libcore_la_SOURCES += \
   lib/model/model.h \
   lib/model/model_build.c \
   lib/model/model_check.c \
+  lib/model/model_coupled.c \
   lib/model/model_data.c \
   lib/model/model_define.c \
   lib/model/model_draft.h \

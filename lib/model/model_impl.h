@@ -325,6 +325,10 @@ Status part_check(State *state, const Instance *part, Text *remarks, Diag *diag)
 /* the same for all parts that a new value of the definition reaches */
 Status parts_check_after(State *state, int definition, Text *remarks, Diag *diag);
 
+/* Refuse couplings that no parts could have, of the part or with it (model_coupled.c). O(n^3) for n
+ * parts coupled with each other. */
+Status coupled_check(State *state, const Instance *part, Diag *diag);
+
 Status key_unknown(const Component *row, const char *key, Place place, Diag *diag);
 /* In a planar scene no step of a part leaves the plane. */
 Status part_check_plane(const State *state, const Instance *part, Place place, Diag *diag);

@@ -53,6 +53,35 @@ static void coupled_windings_share_their_flux(void)
 }
 
 /* turned round, a winding takes the other sign */
+/* M beyond sqrt(L1*L2), three windings of which each pair could be but not all, and values that
+ * come to that later, are refused and change nothing */
+static void couplings_that_no_coils_have_are_refused(void)
+{
+    static const struct {
+        const char *before, *line, *message;
+    } wrong[] = {
+        {"", "coupling K1 L1 L2 M=0.21", "L1 and L2 can't be coupled by M = 0.21 H"},
+        {"", "coupling K1 L1 L2 M=-0.5", "L1 and L2 can't be coupled by M = -0.5 H"},
+        {"m = 0.3\n", "coupling K1 L1 L2 M=m", "sqrt(L1*L2) is 0.2 H"},
+        {"m = 0.1\ncoupling K1 L1 L2 M=m\n", "m = 0.3", "m = 0.3 is refused: L1 and L2"},
+        {"coupling K1 L1 L2 M=0.1\n", "set L1.L = 0.05", "can't be coupled by M = 0.1 H"},
+        {"coupling K1 L1 L2 k=0.6\ncoupling K2 L2 L3 k=0.6\n", "coupling K3 L1 L3 k=-0.9",
+         "L1, L2 and L3 can't be coupled like this"},
+        {"coupling K1 L1 L2 k=0.7\n", "coupling K2 L2 L1 k=0.7", "L1 and L2 can't be coupled"},
+    };
+
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
+        Kit kit = kit_new();
+
+        EXPECT_DONE(&kit, "inductor L1 a 0 0.4 H\ninductor L2 c 0 0.1 H\ninductor L3 d 0 1 H\n");
+        EXPECT_DONE(&kit, wrong[i].before);
+        EXPECT_FAILS(&kit, wrong[i].line, wrong[i].message);
+        EXPECT_HOLDS(kit.error.hint, "M");
+        EXPECT_DONE(&kit, "coupling K9 L1 L3 M=0.01"); /* and nothing has changed */
+        kit_free(&kit);
+    }
+}
+
 static void negative_coupling_turns_a_winding_round(void)
 {
     expect_value(TWO_WINDINGS "coupling K1 L1 L2 k=-0.9\n" RUN_FOR(0.02), "L2.i",
@@ -354,6 +383,7 @@ int main(void)
 {
     RUN(coupled_windings_share_their_flux);
     RUN(negative_coupling_turns_a_winding_round);
+    RUN(couplings_that_no_coils_have_are_refused);
     RUN(coupled_inductors_in_series_add_both_ways);
     RUN(controlled_sources_follow_at_any_load);
     RUN(source_controlled_by_its_own_voltage_is_a_conductance);

@@ -589,12 +589,7 @@ static void parts_that_no_longer_fit_are_told(void)
 /* s'' = 6 s^2 by s = 1/(1 - t)^2: no method gets past t = 1, and none tries without end */
 static void a_solution_that_ends_ends_the_run(void)
 {
-    static const struct {
-        const char *method, *told;
-    } methods[] = {
-        {"dop853", "the step became too small"},           {"adams", "the step became too small"},
-        {"bdf", "no solution just behind this instant"},   {"ida", "the step became too small"},
-        {"radau", "no solution just behind this instant"}, {"rk4", "no solution one step on"}};
+    static const char *const methods[] = {"dop853", "adams", "bdf", "ida", "radau", "rk4"};
     Kit kit = kit_new();
 
     EXPECT_DONE(&kit, "scene planar\ngravity [0, 0]\nbody m1 mass=1\n"
@@ -603,8 +598,8 @@ static void a_solution_that_ends_ends_the_run(void)
     for (size_t i = 0; i < sizeof methods / sizeof methods[0]; i++) {
         char line[60];
 
-        (void)snprintf(line, sizeof line, "simulate 3 method=%s", methods[i].method);
-        EXPECT_FAILS(&kit, line, methods[i].told);
+        (void)snprintf(line, sizeof line, "simulate 3 method=%s", methods[i]);
+        EXPECT_FAILS(&kit, line, "grows without bound there");
     }
     kit_free(&kit);
 }

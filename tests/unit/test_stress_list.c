@@ -303,16 +303,58 @@ static void a_force_without_a_value_stops_the_run(void)
 
             (void)snprintf(text, sizeof text,
                            "scene planar\nbody a mass=1\nprismatic s ground a axis=x\n"
-                           "force F a [%s, 0]\ninit s' = 1\n",
+                           "force G a [3*t, 0]\nforce F a [%s, 0]\ninit s' = 1\n",
                            forces[k]);
             EXPECT_DONE(&kit, text);
             (void)snprintf(text, sizeof text, "simulate 1 every=0.01 method=%s", methods[i]);
             EXPECT_FAILS(&kit, text, "at t = ");
+            EXPECT_HOLDS(kit.error.message, "F has no value from there on");
+            EXPECT_HOLDS(kit.error.hint, "max(..., 0)");
             EXPECT(sscanf(kit.error.message, "at t = %lf", &t) == 1);
             EXPECT_NEAR(t, 0.5, 0.011);           /* rk4's steps are fixed */
             EXPECT(!isnan(kit_value(&kit, "s"))); /* what was reached is kept, and is a number */
             kit_free(&kit);
         }
+}
+
+/* x'' = 6 x^2 by x = 1/(1 - t)^2, with another force beside that */
+static void what_grows_without_bound_is_named(void)
+{
+    static const char *const methods[] = {"auto", "radau", "bdf", "ida", "rk4"};
+
+    for (int i = 0; i < 5; i++) {
+        Kit kit = kit_new();
+        char run[60];
+
+        EXPECT_DONE(&kit, "scene planar\ngravity [0, 0]\nbody a mass=1\n"
+                          "prismatic s ground a axis=x\nforce G a [1e-9, 0]\n"
+                          "force F a [6*s^2, 0]\ninit s = 1, s' = 2\n");
+        (void)snprintf(run, sizeof run, "simulate 3 method=%s", methods[i]);
+        EXPECT_FAILS(&kit, run, "grows without bound there, F pushes hardest");
+        EXPECT_HOLDS(kit.error.hint, "do=stop");
+        kit_free(&kit);
+    }
+}
+
+/* a body falls into what attracts it: r'' = -1/r^2 from rest at 1 ends at pi/sqrt(8) */
+static void frames_that_come_together_are_named(void)
+{
+    static const char *const methods[] = {"auto", "radau", "bdf"};
+
+    for (int i = 0; i < 3; i++) {
+        Kit kit = kit_new();
+        char run[60];
+        double t = NAN;
+
+        EXPECT_DONE(&kit, "scene planar\ngravity [0, 0]\nbody a mass=1 inertia=1\n"
+                          "free f ground a\ninit f.x = 1, f.y = 0\n"
+                          "actuator pull ground a force=-1/(f.x^2 + f.y^2)\n");
+        (void)snprintf(run, sizeof run, "simulate 10 method=%s", methods[i]);
+        EXPECT_FAILS(&kit, run, "the frames of pull, ground and a, come to the same point");
+        EXPECT(sscanf(kit.error.message, "at t = %lf", &t) == 1);
+        EXPECT_NEAR(t, acos(-1) / sqrt(8), 1e-5);
+        kit_free(&kit);
+    }
 }
 
 /* --- impacts --- */
@@ -408,6 +450,8 @@ int main(void)
     RUN(a_loop_too_long_does_not_run);
     RUN(bad_guesses_keep_their_mode);
     RUN(a_force_without_a_value_stops_the_run);
+    RUN(what_grows_without_bound_is_named);
+    RUN(frames_that_come_together_are_named);
     RUN(impacts_without_end_end_a_run);
     RUN(an_impact_at_the_very_start_is_one);
     RUN(two_impacts_at_once_both_count);

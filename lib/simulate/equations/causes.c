@@ -1,11 +1,13 @@
 /* causes.c: frames at the same point, and what has no mass */
 #include "simulate/equations/causes.h"
 
+#include "base/memory.h"
 #include "simulate/equations/rows.h"
 
 #include <math.h>
 
 #define CLOSE 1e-12 /* m: positions are solved to less */
+#define BRIEF 1e-6  /* of a time that is short: rates are as good as constant */
 
 static bool value_at(const Layout *l, Parameters *parameters, Expr e, double t, const double *y,
                      double *out)
@@ -36,6 +38,45 @@ bool cause_meeting(const Layout *l, Parameters *parameters, double t, const doub
                            what, line.name, line.tail, line.head);
             diag_hint(diag, "start where they are apart, with 'init' or 'guess'; what acts on a "
                             "joint has no line");
+            return true;
+        }
+    return false;
+}
+
+/* how fast a length changes, at a state that changes at `rate` */
+static double speed_of(const Layout *l, Parameters *parameters, Expr length, double t,
+                       const double *y, const double *rate, double time)
+{
+    const int count = layout_turned(l) + l->turned;
+    double *later = NEW_ARRAY(double, count);
+    double before = 0, after = 0;
+
+    for (int i = 0; i < count; i++)
+        later[i] = y[i] + time * rate[i];
+    if (!value_at(l, parameters, length, t, y, &before) ||
+        !value_at(l, parameters, length, t, later, &after))
+        after = before;
+    mem_free(later);
+    return fabs(after - before) / time;
+}
+
+bool cause_closing(const Layout *l, Parameters *parameters, double t, const double *y,
+                   const double *rate, double time, const char *what, Diag *diag)
+{
+    FrameLine line;
+    double length;
+
+    for (int next = 0; system_line(l->system, &next, &line);)
+        if (value_at(l, parameters, line.length, t, y, &length) &&
+            fabs(length) <=
+                CLOSE + time * speed_of(l, parameters, line.length, t, y, rate, BRIEF * time)) {
+            (void)diag_set(
+                diag, E_SOLVER,
+                "%s: the frames of %s, %s and %s, come to the same point, where its line "
+                "has no direction",
+                what, line.name, line.tail, line.head);
+            diag_hint(diag, "keep them apart, by a stop or an arm, or end the run before with an "
+                            "event and do=stop; what acts on a joint has no line");
             return true;
         }
     return false;

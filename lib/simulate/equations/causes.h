@@ -12,4 +12,8 @@ bool cause_tell(const Layout *layout, Parameters *parameters, double t, const do
 bool cause_meeting(const Layout *layout, Parameters *parameters, double t, const double *y,
                    const char *what, Diag *diag);
 
+/* Likewise a part whose two frames come together within `time` at the rates of y. */
+bool cause_closing(const Layout *layout, Parameters *parameters, double t, const double *y,
+                   const double *rate, double time, const char *what, Diag *diag);
+
 #endif

@@ -14,6 +14,12 @@
 #define ENOUGH_STEPS 1e4  /* of a run whose tolerance is attainable */
 #define COARSEST     1e-7 /* a tolerance that is worth trying */
 
+/* numbers without a pattern (Knuth's multiplicative hashing) */
+static int scattered(int i, int pass)
+{
+    return (int)((uint32_t)(NEIGHBOURS * i + pass + 1) * 2654435769U >> 16);
+}
+
 /* Largest part of its tolerance that an entry's rate, times h, changes by where y changes in its
  * last bit. */
 static double rounding(Stepper *s, double h)
@@ -28,7 +34,7 @@ static double rounding(Stepper *s, double h)
 
     for (int pass = 0; sound && pass < NEIGHBOURS; pass++) {
         for (int i = 0; i < all; i++) {
-            const int bits = (i * (pass + 2) + pass) % 3 - 1; /* -1, 0, 1 in changing patterns */
+            const int bits = scattered(i, pass) % 3 - 1;
 
             beside[i] = s->y[i] * (1 + bits * DBL_EPSILON);
         }
@@ -80,4 +86,12 @@ Status headway_check(Headway *headway, Stepper *s, int64_t steps, Diag *diag)
     if (way < HOPELESS * s->control.span)
         return solver_failure(diag, s->t, "the step became too small");
     return rounding(s, h) > NOTICED ? give_up(s, h, diag) : OK;
+}
+
+bool headway_is_rounding(Stepper *s, double h, Diag *diag)
+{
+    if (!(h < HOPELESS * s->control.span) || !(rounding(s, h) > NOTICED))
+        return false;
+    (void)give_up(s, h, diag);
+    return true;
 }

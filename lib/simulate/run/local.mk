@@ -2,6 +2,8 @@ libcore_la_SOURCES += \
   lib/simulate/run/between.c \
   lib/simulate/run/commute.c \
   lib/simulate/run/commute.h \
+  lib/simulate/run/ends.c \
+  lib/simulate/run/ends.h \
   lib/simulate/run/events.c \
   lib/simulate/run/events.h \
   lib/simulate/run/events_impl.h \

@@ -123,6 +123,14 @@ static Status renew(March *m, Diag *diag)
     return s->method->start(s, s->t, m->y, diag);
 }
 
+/* with the cause, where the stepper gets no further */
+static Status explained(March *m, Status status, Diag *diag)
+{
+    if (status == E_SOLVER && m->plan->explain != NULL)
+        m->plan->explain(m->plan->context, &m->leg, m->stepper, diag);
+    return status;
+}
+
 /* a step that passes over nothing that acts for a short time */
 static Status seeing_step(March *m, double end, Diag *diag)
 {
@@ -136,7 +144,8 @@ static Status seeing_step(March *m, double end, Diag *diag)
         memcpy(m->y, m->stepper->y, (size_t)m->length * sizeof(double));
         CHECK(method->start(m->stepper, last, m->y, diag));
     }
-    CHECK(method->step(m->stepper, onset_before_step(m->leg.onset, m->stepper, end), diag));
+    CHECK(explained(
+        m, method->step(m->stepper, onset_before_step(m->leg.onset, m->stepper, end), diag), diag));
     if (!(m->stepper->t > last) || !onset_after_step(m->leg.onset, m->stepper, &when))
         return OK;
     /* where it can't be taken back it stays: what it passed over it has seen the end of */
@@ -167,8 +176,9 @@ static Status one_step(March *m, double end, Diag *diag)
         m->band[i] = m->noise[i];
     }
     CHECK(march_add_rows(m, diag));
-    CHECK(
-        headway_check(&m->headway, m->stepper, m->earlier.steps + m->stepper->counts.steps, diag));
+    status =
+        headway_check(&m->headway, m->stepper, m->earlier.steps + m->stepper->counts.steps, diag);
+    CHECK(explained(m, status, diag));
     CHECK(renew(m, diag));
     if (m->plan->method == NULL && m->stepper->is_stiff &&
         (m->leg.stiff->is_a_stable || !m->stepper->swings))

@@ -56,11 +56,15 @@ typedef struct Jump {
 } Jump;
 typedef LIST(Jump) Jumps;
 
+/* Add to the diag why the stepper, which is of that leg, could take no step. */
+typedef void (*Explain)(void *context, const Leg *leg, Stepper *stepper, Diag *diag);
+
 typedef struct MarchPlan {
     Leg leg;         /* to begin with */
     Commute commute; /* NULL: it goes on to the end */
     Choose choose;   /* where equations jump on surfaces */
-    void *context;   /* of both */
+    Explain explain; /* NULL: nothing is known */
+    void *context;   /* of all of them */
     /* what a condition is about, for messages */
     void (*tell)(void *context, const Leg *leg, int condition, Text *out);
     const Equations *in_time; /* whose conditions of t alone are those of all legs; NULL: leg's */

@@ -4,6 +4,7 @@
 #include "base/memory.h"
 #include "simulate/equations/causes.h"
 #include "simulate/run/commute.h"
+#include "simulate/run/ends.h"
 #include "simulate/run/inverse.h"
 #include "simulate/run/share.h"
 #include "simulate/run/slide.h"
@@ -131,6 +132,7 @@ static Status march_phases(Result *r, const Setting *setting, const MarchPlan *p
 
     through.choose = slide_choose;
     through.tell = slide_tell;
+    through.explain = ends_explain;
     through.context = &commuting;
     through.corners = corners;
     if (r->sides != NULL) {

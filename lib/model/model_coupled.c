@@ -1,0 +1,180 @@
+/* model_coupled.c: whether parts can store what their couplings say
+ *
+ * Coupled coils store i^T L i / 2. L, with their inductances on its diagonal and the mutual ones
+ * beside it, is positive definite: others would give back more energy than they took, and a run
+ * would grow without a word. Two of them may share less than sqrt(L1*L2). */
+#include "model/model_impl.h"
+
+#include <math.h>
+#include <string.h>
+
+#define LEAST 1e-12 /* of a diagonal entry: less is rounding, of a coupling without leakage */
+
+/* of parts coupled with each other, directly or through others */
+typedef struct Coupled {
+    State *state;
+    const Instance *part; /* whose values are looked at; perhaps not among the state's parts yet */
+    LIST(const Instance *)
+    members;
+    int couplings;
+    double *matrix; /* of so many members */
+    bool is_known;
+} Coupled;
+
+static int place_in(const Coupled *c, const Instance *part)
+{
+    for (int i = 0; i < c->members.count; i++)
+        if (c->members.at[i] == part)
+            return i;
+    return -1;
+}
+
+/* couplings of the state, and the part itself where it is a new one; NULL at the end */
+static const Instance *coupling_at(const Coupled *c, int i)
+{
+    const State *state = c->state;
+    const bool is_new =
+        c->part->number >= state->parts.count || state->parts.at[c->part->number] != c->part;
+
+    if (i < state->parts.count)
+        return state->parts.at[i];
+    return i == state->parts.count && is_new ? c->part : NULL;
+}
+
+/* in order of making */
+static void add_member(Coupled *c, const Instance *part)
+{
+    int at = c->members.count;
+
+    if (place_in(c, part) >= 0)
+        return;
+    LIST_PUSH(c->members, part);
+    for (; at > 0 && c->members.at[at - 1]->number > part->number; at--)
+        c->members.at[at] = c->members.at[at - 1];
+    c->members.at[at] = part;
+}
+
+static void gather(Coupled *c)
+{
+    const Instance *const *parts = (const Instance *const *)c->state->parts.at;
+    const Instance *coupling;
+    int before;
+
+    if (c->part->row->couple == NULL)
+        add_member(c, c->part);
+    else
+        add_member(c, parts[c->part->parts[0]]);
+    do {
+        before = c->members.count;
+        c->couplings = 0;
+        for (int i = 0; (coupling = coupling_at(c, i)) != NULL; i++) {
+            if (coupling->row->couple == NULL || (place_in(c, parts[coupling->parts[0]]) < 0 &&
+                                                  place_in(c, parts[coupling->parts[1]]) < 0))
+                continue;
+            c->couplings++;
+            for (int k = 0; k < 2; k++)
+                add_member(c, parts[coupling->parts[k]]);
+        }
+    } while (c->members.count > before);
+}
+
+static double entry(Coupled *c, const Instance *coupling, const Instance *const parts[2], int row,
+                    int column)
+{
+    const Expr e = coupling->row->stores(coupling, c->state->arena, parts, row, column);
+
+    if ((expr_kinds(e) & ~(1U << SYMBOL_PARAMETER)) != 0) {
+        c->is_known = false;
+        return 0;
+    }
+    return state_number(c->state, e);
+}
+
+static void fill(Coupled *c)
+{
+    const int n = c->members.count;
+    const Instance *coupling;
+
+    c->matrix = NEW_ARRAY(double, n *n);
+    c->is_known = true;
+    for (int i = 0; (coupling = coupling_at(c, i)) != NULL; i++) {
+        const Instance *parts[2];
+        int at[2];
+
+        if (coupling->row->couple == NULL)
+            continue;
+        for (int k = 0; k < 2; k++) {
+            parts[k] = c->state->parts.at[coupling->parts[k]];
+            at[k] = place_in(c, parts[k]);
+        }
+        if (at[0] < 0)
+            continue;
+        for (int k = 0; k < 2; k++) {
+            c->matrix[at[k] * n + at[k]] = entry(c, coupling, parts, k, k);
+            c->matrix[at[k] * n + at[1 - k]] += entry(c, coupling, parts, k, 1 - k);
+        }
+    }
+}
+
+static bool is_positive(const Coupled *c)
+{
+    const int n = c->members.count;
+    double *a = NEW_ARRAY(double, n *n);
+    bool positive = true;
+
+    memcpy(a, c->matrix, (size_t)(n * n) * sizeof(double));
+    for (int k = 0; k < n; k++) {
+        const double own = a[k * n + k];
+
+        for (int i = k; i < n; i++)
+            for (int j = 0; j < k; j++)
+                a[i * n + k] -= a[i * n + j] * a[k * n + j] / a[j * n + j];
+        positive = positive && a[k * n + k] > LEAST * own;
+    }
+    mem_free(a);
+    return positive;
+}
+
+static Status refuse(const Coupled *c, Diag *diag)
+{
+    const int n = c->members.count;
+    Text names = {0};
+
+    for (int i = 0; i < n; i++)
+        text_addf(&names, "%s%s",
+                  i == 0       ? ""
+                  : i == n - 1 ? " and "
+                               : ", ",
+                  c->members.at[i]->name);
+    if (n == 2 && c->couplings == 1) {
+        (void)diag_set(diag, E_VALUE, "%s can't be coupled by M = %g H: sqrt(L1*L2) is %g H",
+                       names.at, c->matrix[1], sqrt(c->matrix[0] * c->matrix[3]));
+        diag_hint(diag, "M is less than that; perfect coupling, without leakage, is a transformer "
+                        "with an inductor across");
+    } else {
+        (void)diag_set(diag, E_VALUE,
+                       "%s can't be coupled like this: they would give back more energy than they "
+                       "took",
+                       names.at);
+        diag_hint(diag, "the matrix of L and M has to be positive definite: take smaller k= or M= "
+                        "in their couplings");
+    }
+    text_free(&names);
+    return E_VALUE;
+}
+
+Status coupled_check(State *state, const Instance *part, Diag *diag)
+{
+    Coupled c = {.state = state, .part = part};
+    Status status = OK;
+
+    gather(&c);
+    if (c.couplings > 0) {
+        fill(&c);
+        if (c.is_known && !is_positive(&c))
+            status = refuse(&c, diag);
+    }
+    mem_free(c.matrix);
+    LIST_FREE(c.members);
+    return status;
+}

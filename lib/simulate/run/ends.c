@@ -1,0 +1,184 @@
+/* ends.c: frames that come together, forces without a value, rounding, growth without bound */
+#include "simulate/run/ends.h"
+
+#include "base/memory.h"
+
+#include "simulate/equations/causes.h"
+#include "simulate/integrate/headway.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#define SOON      1e-3 /* of the time that things take: no further ahead, along a straight line */
+#define FIRST     1e-16
+#define STEP      0.1  /* of that: what accuracy alone would take at once */
+#define IMMINENT  1e-6 /* of the run: what happens that soon is what ends it */
+#define BOUNDLESS 1e3  /* times the size at the start; growing that fast, too */
+
+/* where a run stands, and how it goes on from there */
+typedef struct End {
+    Result *result;
+    Phase *phase;
+    double t, span;
+    double *y, *rate, *ahead; /* ahead: y some time on */
+    double *at_start;         /* speeds and coordinates */
+    double soon;              /* s: up to here that is along a straight line */
+} End;
+
+static void look_ahead(const End *e, double time)
+{
+    for (int i = 0; i < e->phase->length; i++)
+        e->ahead[i] = e->y[i] + time * e->rate[i];
+}
+
+/* the shortest time in which anything large doubles */
+static double quickest(const End *e, int *which)
+{
+    const Layout *l = e->phase->layout;
+    double least = INFINITY;
+
+    *which = -1;
+    for (int i = 0; i < l->n + l->nu + l->nx; i++) {
+        const double begin = i < l->n + l->nu ? fabs(e->at_start[i]) : 0;
+        const double time = fabs(e->y[i]) / fabs(e->rate[i]);
+
+        if (fabs(e->y[i]) > BOUNDLESS * fmax(1, begin) && time < least) {
+            least = time;
+            *which = i;
+        }
+    }
+    return least;
+}
+
+static const char *name_of(const End *e, int i)
+{
+    const Layout *l = e->phase->layout;
+
+    if (i < l->n)
+        return system_q(e->phase->system, i)->name;
+    if (i < l->n + l->nu)
+        return system_u(e->phase->system, i - l->n)->name;
+    return system_x(e->phase->system, i - l->n - l->nu)->name;
+}
+
+/* what a part exerts some time on */
+static double largest_push(const End *e, Probe *probe, int count, double time, bool *is_number)
+{
+    RowValues row;
+    const double *values;
+    double largest = 0;
+
+    look_ahead(e, time);
+    row = row_of_state(e->phase->layout, e->t + time, e->ahead);
+    values = probe_values(probe, &row);
+    *is_number = true;
+    for (int k = 0; k < count; k++) {
+        *is_number = *is_number && isfinite(values[k]);
+        largest = fmax(largest, fabs(values[k]));
+    }
+    return largest;
+}
+
+/* The part that has no value soonest, or the one that pushes hardest; both NULL where there is
+ * none. */
+typedef struct Pushing {
+    const char *without, *hardest;
+    double when, most;
+} Pushing;
+
+static void look_at_pusher(End *e, const Pusher *pusher, Pushing *out)
+{
+    Probe *probe = NULL;
+    Diag ignored = {0};
+    bool is_number;
+    double push;
+
+    if (probe_new(e->phase->layout, &e->result->parameters, pusher->value, pusher->count, &probe,
+                  &ignored) != OK)
+        return;
+    push = largest_push(e, probe, pusher->count, 0, &is_number);
+    if (is_number && push > out->most) {
+        out->most = push;
+        out->hardest = pusher->name;
+    }
+    for (double time = FIRST * e->span; is_number && time <= e->soon && time < out->when;
+         time *= 2) {
+        (void)largest_push(e, probe, pusher->count, time, &is_number);
+        if (!is_number) {
+            out->when = time;
+            out->without = pusher->name;
+        }
+    }
+    probe_free(probe);
+}
+
+static Pushing look_at_pushers(End *e)
+{
+    Pushing out = {.when = INFINITY};
+    Pusher pusher;
+
+    for (int next = 0; system_pusher(e->phase->system, &next, &pusher);)
+        look_at_pusher(e, &pusher, &out);
+    return out;
+}
+
+/* "at t = 1 s: the step became too small" and the cause */
+static void add_cause(Diag *diag, const char *join, const char *name, const char *does)
+{
+    char before[sizeof diag->message];
+
+    memcpy(before, diag->message, sizeof before);
+    (void)diag_set(diag, E_SOLVER, "%s%s%s %s", before, join, name, does);
+}
+
+static bool tell_meeting(End *e, Diag *diag)
+{
+    char before[sizeof diag->message];
+
+    memcpy(before, diag->message, sizeof before);
+    return cause_closing(e->phase->layout, &e->result->parameters, e->t, e->y, e->rate,
+                         IMMINENT * e->span, before, diag);
+}
+
+static void tell(End *e, Stepper *stepper, Diag *diag)
+{
+    int growing;
+    const double time = quickest(e, &growing), step = stepper->control.step;
+    const double last = fmax(e->t - stepper->before, 4 * DBL_EPSILON * fabs(e->t));
+    Pushing pushing;
+
+    e->soon = fmax(SOON * fmin(e->span, time), fmin(2 * step, time));
+    if (tell_meeting(e, diag))
+        return;
+    pushing = look_at_pushers(e);
+    if (pushing.without != NULL) {
+        add_cause(diag, ": ", pushing.without, "has no value from there on");
+        diag_hint(diag, "limit what its law takes a root, a logarithm or a quotient of, as by "
+                        "max(..., 0), or end the run before with an event and do=stop");
+    } else if (!headway_is_rounding(stepper, growing >= 0 ? STEP * time : last, diag) &&
+               time < IMMINENT * e->span) {
+        add_cause(diag, ": ", name_of(e, growing), "grows without bound there");
+        if (pushing.hardest != NULL)
+            add_cause(diag, ", ", pushing.hardest, "pushes hardest");
+        diag_hint(diag, "a law may push the wrong way, or grow too fast with what it reads; an "
+                        "event with do=stop ends a run before");
+    }
+}
+
+void ends_explain(void *context, const Leg *leg, Stepper *stepper, Diag *diag)
+{
+    const Commuting *c = context;
+    Phase *phase = c->result->phases.at[leg->phase];
+    const Ode *ode = stepper->ode;
+    End end = {.result = c->result, .phase = phase, .t = stepper->t, .span = c->span};
+
+    end.rate = NEW_ARRAY(double, phase->length);
+    end.ahead = NEW_ARRAY(double, phase->length);
+    end.y = stepper->y;
+    end.at_start = c->result->begin;
+    if (ode->rate(ode->context, end.t, end.y, end.rate))
+        tell(&end, stepper, diag);
+    mem_free(end.rate);
+    mem_free(end.ahead);
+}

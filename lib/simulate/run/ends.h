@@ -1,0 +1,14 @@
+/* ends.h: why a run can't go on, in words of the user's parts
+ *
+ * Steps that get ever shorter tell no more than where. What is behind it is seen in what pushes
+ * and in what grows: two frames that come together, a force without a value, what rounding leaves,
+ * a solution that ends. */
+#ifndef COTREE_SIMULATE_RUN_ENDS_H
+#define COTREE_SIMULATE_RUN_ENDS_H
+
+#include "simulate/run/commute.h"
+
+/* the Explain of a plan; `context` is a Commuting */
+void ends_explain(void *context, const Leg *leg, Stepper *stepper, Diag *diag);
+
+#endif
