@@ -62,6 +62,11 @@ void ct_session_free(ct_session *session);
 void ct_session_hooks(ct_session *session, const ct_hooks *hooks);
 void ct_free(void *piece);
 
+/* Where memory ends no statement can be half done: `ended`, which doesn't return, is called for
+ * all sessions of the process. Without it, or with NULL, the process aborts with a line on standard
+ * error. */
+void ct_memory_hook(void (*ended)(void));
+
 /* --- statements --- */
 
 /* A text of statements and how far it was read; {.text = text, .line = 1} begins. */

@@ -1,6 +1,8 @@
 /* copy.c: strings of the shell's own */
 #include "copy.h"
 
+#include "memory_end.h"
+
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,8 +10,7 @@
 void *copy_check(void *piece)
 {
     if (piece == NULL) {
-        fputs("cotree: out of memory\n", stderr);
-        exit(1);
+        memory_end();
     }
     return piece;
 }

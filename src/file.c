@@ -5,6 +5,7 @@
 #include "copy.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -120,6 +121,20 @@ ct_status file_place(const char *path, char **place, ct_error *error)
     return CT_OK;
 }
 
+/* What takes the place of a file is on the disk before it does: or a crash of the machine leaves
+ * neither. */
+static bool reach_disk(const char *place)
+{
+    const int file = open(place, O_RDONLY | O_CLOEXEC);
+    const bool reached = file >= 0 && (fsync(file) == 0 || errno == EINVAL || errno == EROFS);
+    const int why = errno;
+
+    if (file >= 0)
+        close(file);
+    errno = why;
+    return reached;
+}
+
 ct_status file_settle(const char *place, const char *path, bool keep, ct_error *error)
 {
     if (strcmp(place, path) == 0)
@@ -130,7 +145,7 @@ ct_status file_settle(const char *place, const char *path, bool keep, ct_error *
     }
 
     char *real = realpath(path, NULL);
-    int failed = rename(place, real != NULL ? real : path);
+    int failed = reach_disk(place) ? rename(place, real != NULL ? real : path) : -1;
 
     free(real);
     if (failed != 0) {

@@ -12,6 +12,7 @@ cotree_SOURCES = \
     src/interrupt.c src/interrupt.h \
     src/line_edit.c src/line_edit.h \
     src/main.c \
+    src/memory_end.c src/memory_end.h \
     src/pager.c src/pager.h \
     src/plot.c \
     src/process.c src/process.h \

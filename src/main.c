@@ -4,6 +4,7 @@
 #include "file.h"
 #include "interrupt.h"
 #include "line_edit.h"
+#include "memory_end.h"
 #include "replay.h"
 #include "shell.h"
 
@@ -230,6 +231,7 @@ static void run_prompt(Shell *shell, bool no_init)
     if (!no_init)
         run_init_file(shell);
     shell->unsaved = unsaved_open(shell->session);
+    memory_end_note(shell->unsaved);
     if (!shell->quiet)
         tell_leftovers();
     line_edit_open(shell->session);
@@ -299,6 +301,8 @@ int main(int argc, char **argv)
     /* characters as the user's, numbers as everybody's */
     setlocale(LC_ALL, "");
     setlocale(LC_NUMERIC, "C");
+
+    memory_end_setup();
 
     int status = read_options(&request, argc, argv);
 

@@ -9,6 +9,7 @@
 #include "copy.h"
 #include "file.h"
 #include "interrupt.h"
+#include "memory_end.h"
 #include "pager.h"
 #include "terminal.h"
 
@@ -80,6 +81,7 @@ void shell_close(Shell *shell)
         free(shell->history[i]);
     free(shell->history);
     free(shell->last_plot);
+    memory_end_note(NULL);
     unsaved_close(shell->unsaved);
     gnuplot_close(shell->gnuplot);
     ct_session_free(shell->session);

@@ -31,10 +31,13 @@ struct Unsaved {
     char *in; /* folder that the file said last; NULL */
     Written *written;
     int count, room;
-    int first;   /* the step that stands first */
-    int settled; /* number of the last step that is saved; 0: none */
-    bool failed; /* it was told that nothing can be kept */
+    int first;     /* the step that stands first */
+    int settled;   /* number of the last step that is saved; 0: none */
+    time_t synced; /* when it was last seen to that the file is on the disk */
+    bool failed;   /* it was told that nothing can be kept */
 };
+
+enum { SYNC_EVERY = 1 }; /* s: a pasted block doesn't wait for the disk at each of its lines */
 
 /* --- writing --- */
 
@@ -146,6 +149,17 @@ static bool put_step(Unsaved *unsaved, const char *text, int number)
     return good;
 }
 
+/* What is written survives the session; that it survives the machine too, the disk is asked for. */
+static void sync_file(Unsaved *unsaved, bool now)
+{
+    const time_t second = time(NULL);
+
+    if (unsaved->path == NULL || (!now && second - unsaved->synced < SYNC_EVERY))
+        return;
+    (void)fdatasync(unsaved->file); /* what is written is there in any case */
+    unsaved->synced = second;
+}
+
 /* --- following --- */
 
 static int number_of(const ct_session *session, int step)
@@ -226,6 +240,7 @@ void unsaved_follow(Unsaved *unsaved, const ct_session *session, const char *scr
     }
     if (!good)
         fail(unsaved);
+    sync_file(unsaved, false);
 }
 
 void unsaved_settle(Unsaved *unsaved, const ct_session *session)
@@ -272,6 +287,7 @@ void unsaved_close(Unsaved *unsaved)
 {
     if (unsaved == NULL)
         return;
+    sync_file(unsaved, true);
     if (unsaved->path != NULL)
         close(unsaved->file);
     free(unsaved->path);

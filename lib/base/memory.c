@@ -6,9 +6,18 @@
 #include <stdlib.h>
 #include <string.h>
 
+static void (*on_end)(void);
+
+void mem_on_end(void (*ended)(void))
+{
+    on_end = ended;
+}
+
 static void *must(void *piece)
 {
     if (piece == NULL) {
+        if (on_end != NULL)
+            on_end();
         (void)fputs("cotree: out of memory\n", stderr);
         abort();
     }

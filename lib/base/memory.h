@@ -2,7 +2,7 @@
  *
  * Running out of memory is not an error a caller can mend in the middle of a
  * formula: the four functions below end the process with a message, as GLib's
- * do. Everything else in lib/ reports by Status.
+ * do, or by the function that mem_on_end() names. Everything else in lib/ reports by Status.
  *
  * A Pool hands out pieces that never move and are freed together, or back to a
  * mark. Its pieces are borrowed from it. */
@@ -10,6 +10,9 @@
 #define COTREE_BASE_MEMORY_H
 
 #include <stddef.h>
+
+/* `ended` doesn't return; NULL: a line on standard error and abort(), as at first */
+void mem_on_end(void (*ended)(void));
 
 void *mem_new(size_t size);                 /* new, zeroed; size 0 gives a valid pointer */
 void *mem_array(size_t count, size_t size); /* new, zeroed; ends the program on overflow too */

@@ -12,6 +12,11 @@ const char *ct_version(void)
     return PACKAGE_VERSION;
 }
 
+void ct_memory_hook(void (*ended)(void))
+{
+    mem_on_end(ended);
+}
+
 void ct_free(void *piece)
 {
     mem_free(piece);

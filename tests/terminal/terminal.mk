@@ -11,6 +11,7 @@ terminal_tests = \
     tests/terminal/paste.exp \
     tests/terminal/paste_returns.exp \
     tests/terminal/recover.exp \
+    tests/terminal/memory_end.exp \
     tests/terminal/pager.exp \
     tests/terminal/plot_text.exp \
     tests/terminal/plot_file.exp \
