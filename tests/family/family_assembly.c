@@ -192,7 +192,7 @@ static Verdict told_member(Member *m)
     static Scene s;
     bool right = true;
 
-    make_scene(m, &s, true, true);
+    make_scene(m, &s, WITH_LOOPS | WITH_VIRTUALS);
     for (int choice = 0; choice < 3 && right; choice++)
         right = start_agrees(m, &s, choice);
     return right ? AGREES : DISAGREES;

@@ -56,7 +56,7 @@ static Verdict all_set_member(Member *m)
     Pose now[BODIES], bodies[BODIES];
     Kit kit = kit_new();
 
-    make_scene(m, &s, false, false);
+    make_scene(m, &s, TREES);
     for (int i = 0; i < s.bodies; i++)
         draw_coordinates(m, &s.joint[i], c[i]);
     stand(&s, c, now);
@@ -208,7 +208,7 @@ static Verdict resting_member(Member *m)
     double are[BODIES][6], belong[BODIES][6];
     Pose low[BODIES], high[BODIES];
 
-    make_scene(m, &s, false, false);
+    make_scene(m, &s, TREES);
     for (int i = 0; i < s.bodies; i++)
         if (pick(m, 2) == 0)
             draw_speeds(m, &s.joint[i], &speeds[i]);
@@ -232,7 +232,7 @@ static Verdict following_member(Member *m)
     bool sound;
     int told;
 
-    make_scene(m, &s, true, false);
+    make_scene(m, &s, WITH_LOOPS);
     told = pick(m, s.joints);
     draw_speeds(m, &s.joint[told], &speeds[told]);
     tell(m, "%s", m->told ? s.text : "");
@@ -246,9 +246,75 @@ static Verdict following_member(Member *m)
     return sound ? AGREES : REFUSED;
 }
 
+/* --- drivers --- */
+
+/* a driver for every coordinate, each at a rate of its own */
+static int write_drivers(Member *m, const Scene *s, Speeds *speeds, Scene *out)
+{
+    int count = 0;
+
+    for (int i = 0; i < s->bodies; i++) {
+        const Joint *j = &s->joint[i];
+
+        draw_speeds(m, j, &speeds[i]);
+        for (int k = 0; k < j->count; k++)
+            write(out, "driver D%d j%d%s = %.17g + %.17g*t\n", count++, i, coordinate_name(j, k),
+                  j->c[k], speeds[i].rate[k]);
+    }
+    return count;
+}
+
+/* Driven bodies are where their joints' coordinates put them, from the start to the end. */
+static bool is_driven_right(Member *m, const Scene *s, int choice, const char *drivers,
+                            const Speeds *speeds)
+{
+    static const char *const runs[] = {"kinematics", "inverse"};
+    static Scene out;
+    Pose belong[BODIES], bodies[BODIES];
+    Kit kit = kit_new();
+    double off = 0;
+
+    out.length = 0;
+    write(&out, "%s", s->text);
+    write_trees(m, s, choice, &out);
+    write(&out, "%s%s 0.5 every=0.1\n", drivers, runs[pick(m, 2)]);
+    go_on(s, speeds, 0.5, belong);
+    if (kit_do(&kit, out.text) != CT_OK) {
+        tell(m, "%s\n", kit.error.message);
+        off = NAN;
+    }
+    for (int i = 0; i < s->bodies && !isnan(off); i++)
+        bodies[i] = read_body(&kit, s, i);
+    if (!isnan(off)) {
+        off = off_bodies(m, s, bodies, belong);
+        off = worst(off, off_consistent(m, &kit, s, bodies));
+    }
+    if (!(off < NEAR) || m->told)
+        tell(m, "%s", out.text);
+    kit_free(&kit);
+    return off < NEAR;
+}
+
+static Verdict driven_member(Member *m)
+{
+    static Scene s, drivers;
+    Speeds speeds[BODIES] = {0};
+
+    make_scene(m, &s, DRIVEN);
+    drivers.length = 0;
+    drivers.text[0] = '\0';
+    if (write_drivers(m, &s, speeds, &drivers) == 0)
+        return AGREES;
+    for (int choice = 0; choice < 3; choice++)
+        if (!is_driven_right(m, &s, choice, drivers.text, speeds))
+            return DISAGREES;
+    return AGREES;
+}
+
 static const Family families[] = {
     {"joints_of_which_no_speed_was_told_rest", 30, 0, 0, resting_member},
     {"bodies_move_alike_in_all_trees", 30, 0.6, 0, following_member},
+    {"driven_bodies_are_where_their_joints_put_them", 20, 0, 0, driven_member},
     {"an_event_puts_all_joints_where_it_says", 20, 0.15, 0, all_set_member},
 };
 

@@ -18,6 +18,7 @@ enum { UNCOUNTED = 40 };
 typedef struct Scene {
     bool planar, parallel; /* all axes one way */
     Kind only;             /* joints of one kind; KINDS: of any */
+    bool is_driven;        /* none whose attitude has four parameters, or angles of no chord */
     bool is_chain;
     int bodies, joints; /* these make trees and loops; */
     int all;            /* virtual ones behind them */
@@ -119,12 +120,16 @@ static inline Pose random_frame(Member *m, const Scene *s)
 
 static inline Kind random_kind(Member *m, const Scene *s)
 {
+    static const Kind driven[] = {REVOLUTE, PRISMATIC, WELD,       CYLINDRICAL,
+                                  SCREW,    UNIVERSAL, PLANARJOINT};
     static const Kind parallel[] = {REVOLUTE, REVOLUTE, PRISMATIC, CYLINDRICAL, WELD, SCREW};
 
-    return s->only != KINDS ? s->only
-           : s->planar      ? (Kind)pick(m, PLANE_KINDS)
-           : s->parallel    ? parallel[pick(m, (int)(sizeof parallel / sizeof parallel[0]))]
-                            : (Kind)pick(m, KINDS);
+    if (s->only != KINDS)
+        return s->only;
+    return s->planar      ? (Kind)pick(m, PLANE_KINDS)
+           : s->parallel  ? parallel[pick(m, (int)(sizeof parallel / sizeof parallel[0]))]
+           : s->is_driven ? driven[pick(m, (int)(sizeof driven / sizeof driven[0]))]
+                          : (Kind)pick(m, KINDS);
 }
 
 static inline void write_bodies(Member *m, Scene *s)
@@ -207,15 +212,19 @@ static inline void look(Member *m, Scene *s, int number)
             j->c[k] = is_parameter(j, k) ? way.q[k - first_parameter(j)] : way.r[k];
 }
 
-static inline void make_scene(Member *m, Scene *s, bool with_loops, bool with_virtuals)
+typedef enum Extent { TREES = 0, WITH_LOOPS = 1, WITH_VIRTUALS = 2, DRIVEN = 4 } Extent;
+
+static inline void make_scene(Member *m, Scene *s, int extent)
 {
     memset(s, 0, sizeof *s);
     s->only = KINDS;
+    s->is_driven = (extent & DRIVEN) != 0;
     s->planar = pick(m, 4) == 0;
     s->bodies = 1 + pick(m, BODIES);
     s->parallel = !s->planar && pick(m, 4) == 0;
-    s->joints = s->bodies + (with_loops && s->bodies > 1 ? pick(m, LOOPS + 1) : 0);
-    s->all = s->joints + (with_virtuals && pick(m, 3) == 0 ? pick(m, VIRTUALS + 1) : 0);
+    s->joints = s->bodies + ((extent & WITH_LOOPS) != 0 && s->bodies > 1 ? pick(m, LOOPS + 1) : 0);
+    s->all =
+        s->joints + ((extent & WITH_VIRTUALS) != 0 && pick(m, 3) == 0 ? pick(m, VIRTUALS + 1) : 0);
     for (int i = 0; i < s->all; i++)
         if (i < s->joints)
             hang(m, s, i);
