@@ -562,13 +562,17 @@ static Status next_phase(const Commuting *c, double t, const bool *closed, Phase
 }
 
 /* How far to look ahead, as numbers tell times apart. Where nothing changed at t when it was looked
- * at last, all the same it is asked again: so what changes is too slow to be seen. */
+ * at last, all the same it is asked again: so what changes is too slow to be seen. What was seen
+ * from further is not to be undone by a look so near that it sees nothing. */
 static double step_from(Commuting *c, double t, double last)
 {
     double step = fmin(fmax(LOOK * last, NEAREST * c->span), FURTHEST * c->span);
     volatile double ahead;
 
-    c->again = fabs(t - c->stuck) <= step ? 10 * c->again : 1;
+    if (!(fabs(t - c->stuck) <= c->again * step))
+        c->again = 1;
+    else if (!c->changed)
+        c->again *= 10;
     ahead = t + fmin(c->again * step, STUCK * c->span);
     return ahead - t;
 }
@@ -640,10 +644,10 @@ Status commute(void *context, double t, double behind, double last, const double
     at.multipliers = row.multipliers;
     memcpy(closed, now->closed, (size_t)count * sizeof(bool));
     CHECK(sides_find(r->sides, &at, closed, diag));
+    c->changed = memcmp(closed, now->closed, (size_t)count * sizeof(bool)) != 0;
     c->stuck = behind;
-    if (memcmp(closed, now->closed, (size_t)count * sizeof(bool)) == 0)
+    if (!c->changed)
         goto done;
-    c->stuck = NAN;
     CHECK(go_over(c, behind, &at, x, x_behind, closed, now, y, &next, diag));
     CHECK(commute_events(r, now, next, c->setting, &events, diag));
     *leg = commute_leg(r, next, events);

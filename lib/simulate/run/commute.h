@@ -23,8 +23,9 @@ typedef struct Commuting {
     Result *result;
     const Setting *setting;
     double span;  /* of the run, s */
-    double stuck; /* where nothing changed when it was looked at last; NAN */
-    double again; /* how much further to look then */
+    double stuck; /* where it was looked at last; NAN */
+    bool changed; /* whether something changed there, */
+    double again; /* and how much further it was looked */
     double *y;    /* of the last phase that was entered; free it with commuting_free() */
 } Commuting;
 void commuting_free(Commuting *commuting);

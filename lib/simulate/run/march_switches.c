@@ -15,6 +15,8 @@
 #define MOST_NOISE  1e-6  /* likewise: more than that is none */
 #define DEEPER      2     /* times what a margin begins with */
 #define MOVES       3     /* that tell how far errors reach */
+#define SHORT       1e-3  /* of a step: a move of its end that needn't take it again, */
+#define NEXT_TO     1e-12 /* or of the run */
 #define BY_HALVES   4     /* so often a search goes by halves */
 #define ZENO_EVENTS 100
 #define ZENO_EACH   10   /* of every condition, which all may go over at one instant */
@@ -340,10 +342,14 @@ double march_condition_rate(March *m, int i, double *value)
     return (m->conditions[i] - *value) / h;
 }
 
-/* whether no state goes further along the slope in h than errors may; where a problem is stiff the
- * slope is steep beside any motion */
+/* Whether h is short beside the last step or the run, and no state goes further along the slope in
+ * it than errors may: where a problem is stiff the slope is steep beside any motion. */
 static bool is_short(const March *m, double h)
 {
+    double step = m->stepper->t - m->stepper->before, span = m->plan->to - m->plan->from;
+
+    if (!(fabs(h) <= fmax(SHORT * step, NEXT_TO * span)))
+        return false;
     for (int k = 0; k < m->length - 1; k++)
         if (!(fabs(h * m->slope[k]) <=
               10 * (m->control.rtol * fabs(m->stepper->y[k]) + m->control.atol)))
