@@ -309,17 +309,6 @@ Expr arena_find_table(Arena *arena, const char *file, const char *column)
     return NULL;
 }
 
-void arena_share_tables(Arena *to, const Arena *from)
-{
-    for (int i = 0; i < from->table_names.count; i++) {
-        const TableName *name = &from->table_names.at[i];
-        const Curve *table = from->tables.at[name->table];
-
-        (void)arena_add_table(to, name->file, name->column, table->data, table->data + table->count,
-                              table->count);
-    }
-}
-
 const Curve *expr_data(Expr symbol)
 {
     return symbol->kind == EXPR_SYMBOL && node_symbol(symbol)->kind == SYMBOL_TABLE

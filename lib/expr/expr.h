@@ -144,7 +144,6 @@ Expr expr_open(Arena *arena, Expr e);
 Expr arena_add_table(Arena *arena, const char *file, const char *column, const double *x,
                      const double *y, int count);
 Expr arena_find_table(Arena *arena, const char *file, const char *column); /* NULL: none */
-void arena_share_tables(Arena *to, const Arena *from);
 /* the curve through the data at x, or a derivative of it by x */
 Expr expr_table(Arena *arena, Expr data, Expr x, int order);
 const Curve *expr_data(Expr symbol); /* of a SYMBOL_TABLE; NULL for others */

@@ -289,7 +289,7 @@ static bool row_is_constant(const System *system, const Row *row, Sample *const 
     unsigned kinds = expr_kinds(row->phi);
 
     if ((kinds & (1U << SYMBOL_COORDINATE | 1U << SYMBOL_TIME)) == 0) {
-        *value = model_number(system->model, row->phi);
+        *value = system->scene->number(system->scene->context, row->phi);
         return true;
     }
     if ((kinds & 1U << SYMBOL_TIME) != 0)
@@ -331,15 +331,16 @@ static Status row_vanishes(System *system, const Row *row, Sample *const *sample
     return OK;
 }
 
-bool system_holds(const System *system, const Model *model)
+bool system_holds(const System *system, uint64_t revision,
+                  double (*number)(const void *context, Expr e), const void *context)
 {
-    bool holds = system->revision == model_revision(model);
+    bool holds = system->revision == revision;
 
     for (int k = 0; holds && k < system->vanished.count; k++) {
         Expr phi = system->vanished.at[k].phi;
 
         if (expr_kinds(phi) == 1U << SYMBOL_PARAMETER)
-            holds = fabs(model_number(model, phi)) <= MISFIT;
+            holds = fabs(number(context, phi)) <= MISFIT;
     }
     return holds;
 }

@@ -33,4 +33,5 @@ libcore_la_SOURCES += \
 	lib/formulate/system.c lib/formulate/system_build.c lib/formulate/system.h lib/formulate/system_impl.h \
 	lib/formulate/vanished.c \
 	lib/formulate/variables.c \
-	lib/formulate/vector.c
+	lib/formulate/vector.c \
+	lib/formulate/tree_search.c lib/formulate/tree_search.h

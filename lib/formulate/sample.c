@@ -7,16 +7,6 @@
 
 #include <math.h>
 
-void parameters_take(System *system, const Model *model)
-{
-    for (int i = 0; i < model_parameter_count(model); i++) {
-        Expr definition;
-        Expr symbol = model_parameter(model, i, &definition);
-
-        LIST_PUSH(system->parameters, (Given){symbol, model_parameter_value(model, symbol)});
-    }
-}
-
 Sample *sample_new(System *system, uint64_t seed, bool vary)
 {
     Sample *sample = pool_alloc(system->pool, sizeof *sample);

@@ -20,7 +20,7 @@ enum {
 static const unsigned constant_kinds = 1U << SYMBOL_PARAMETER | 1U << SYMBOL_TIME;
 
 typedef struct Space {
-    const Model *model;
+    const Scene *scene;
     const Watch *watch;
     Arena *arena;
     System *system;
@@ -48,8 +48,8 @@ static bool is_source(const Instance *instance, int param)
 
 static void find_sources(Space *s)
 {
-    for (int i = 0; i < model_count(s->model); i++) {
-        const Instance *instance = model_instance(s->model, i);
+    for (int i = 0; i < s->scene->instance_count; i++) {
+        const Instance *instance = s->scene->instances[i];
 
         for (int p = 0; p < instance->row->param_count; p++) {
             Text name = {0};
@@ -673,15 +673,16 @@ static Status check_states(const Space *s, Diag *diag)
     return OK;
 }
 
-Status state_space_new(const Model *model, const Watch *watch, StateSpace **out, Diag *diag)
+Status state_space_new(const Scene *scene, const Watch *watch, StateSpace **out, Diag *diag)
 {
-    Space s = {.model = model, .watch = watch, .arena = model_arena(model)};
+    Space s = {.scene = scene, .watch = watch, .arena = scene->arena};
+    const SystemOptions options = {.vary = vary, .context = &s, .watch = watch};
     Status status;
 
     s.t = expr_symbol(s.arena, "t", SYMBOL_TIME);
     s.start = expr_symbol(s.arena, "#start", SYMBOL_PARAMETER);
     find_sources(&s);
-    CHECK(system_new_varied(model, vary, &s, watch, &s.system, diag));
+    CHECK(system_new(scene, &options, &s.system, diag));
     CHECK(check_states(&s, diag));
     CHECK(read_rows(&s, diag));
     CHECK(solve_chains(&s, diag));

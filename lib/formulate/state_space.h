@@ -24,7 +24,7 @@ typedef struct StateSpace {
 /* New; free with state_space_free(). Fails with E_MODEL, naming the part, where the network is not
  * linear, hangs on the mechanism or has no states, and where so many equations of it are coupled
  * that writing their solution out would lead nowhere; the errors of system_new(). */
-MUST_USE Status state_space_new(const Model *model, const Watch *watch, StateSpace **out,
+MUST_USE Status state_space_new(const Scene *scene, const Watch *watch, StateSpace **out,
                                 Diag *diag);
 void state_space_free(StateSpace *space); /* NULL is fine */
 

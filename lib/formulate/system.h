@@ -11,37 +11,37 @@
 #ifndef COTREE_FORMULATE_SYSTEM_H
 #define COTREE_FORMULATE_SYSTEM_H
 
-#include "model/model.h"
+#include "model/scene.h"
 
 typedef struct System System;
 
-/* New; free with system_free(). Borrows what it needs of the model by copying; the arena must
- * outlive it. Fails with E_MODEL, E_ASSEMBLE (a constraint that is a non-zero constant), the errors
- * of trees, E_STOPPED. */
-MUST_USE Status system_new(const Model *model, const Watch *watch, System **out, Diag *diag);
-/* The same for a model whose components have other values: `vary` is asked for each entry of them,
- * and with the instance NULL for each of gravity, and hands back what shall stand there. The trees
- * are the model's; so are variables and their order. */
+/* Asked for each entry of the components' values, and with the instance NULL for each of gravity:
+ * what shall stand there instead. */
 typedef Expr (*VaryValue)(void *context, const Instance *instance, int param, Expr value);
-MUST_USE Status system_new_varied(const Model *model, VaryValue vary, void *context,
-                                  const Watch *watch, System **out, Diag *diag);
-/* And in the mode of another system, made of that model as it is now. */
-MUST_USE Status system_new_like(const System *other, const Model *model, VaryValue vary,
-                                void *context, const Watch *watch, System **out, Diag *diag);
-/* And with a conductance `leak` beside every scalar edge whose through variable is an expression of
- * its across variable: where a search for its state may begin. */
-MUST_USE Status system_new_leaking(const Model *model, VaryValue vary, void *context, Expr leak,
-                                   const Watch *watch, System **out, Diag *diag);
-/* The same with the network's equations in a form that isn't the model's own choice. */
-MUST_USE Status system_new_form(const Model *model, NetworkForm form, const Watch *watch,
-                                System **out, Diag *diag);
+
+typedef struct SystemOptions {
+    NetworkForm form; /* of the network's equations */
+    VaryValue vary;   /* NULL: the values are those of the scene */
+    void *context;
+    Expr leak; /* S, beside every scalar edge whose through variable is an expression of its across
+                  variable: where a search for its state may begin; NULL: none */
+    const System *like; /* in the mode of this one; NULL: in none */
+    const Watch *watch;
+} SystemOptions;
+
+/* New; free with system_free(). Borrows what it needs of the scene by copying; the arena must
+ * outlive it. Trees, variables and their order are the scene's, whatever varies. Fails with
+ * E_MODEL, E_ASSEMBLE (a constraint that is a non-zero constant), E_STOPPED. */
+MUST_USE Status system_new(const Scene *scene, const SystemOptions *options, System **out,
+                           Diag *diag);
 /* Whether the scalar trees are normal trees: then the form of the user's trees is state form. */
 bool system_tree_is_normal(const System *system);
 void system_free(System *system); /* NULL is fine */
 uint64_t system_revision(const System *system);
-/* Of the model as it is: of its revision, and what vanished when the equations were made vanishes
- * with the parameters of now. */
-bool system_holds(const System *system, const Model *model);
+/* Of the scene as it is: of its revision, and what vanished when the equations were made vanishes
+ * with the parameters of now, of which `number` evaluates expressions. */
+bool system_holds(const System *system, uint64_t revision,
+                  double (*number)(const void *context, Expr e), const void *context);
 Arena *system_arena(const System *system);
 const char *system_instance_name(const System *system, int instance); /* borrowed */
 
@@ -250,9 +250,6 @@ CommonTurn *system_common_turns(const System *system, int *count);
 
 /* --- variables a user can ask for --- */
 
-/* Read the model's outputs anew: they may be added after a run without touching its equations. */
-void system_take_outputs(System *system, const Model *model);
-
 /* The expression of a user's expression (SYMBOL_VARIABLEs in it) in q, u, x, z, u', x', lambda, t
  * and parameters; kept. Fails with E_NAME, or E_MISSING for what this model can't tell (an
  * undetermined reaction). */
@@ -330,12 +327,12 @@ Expr system_side(const System *system, int i);
 MUST_USE Status system_ideal(System *system, int i, IdealSwitch *out, Diag *diag);
 /* The system from which sides are found: `whole` with both sides of ideal switches in one equation,
  * and numbers for those of others. Owned by it. Fails as system_mode(). */
-MUST_USE Status system_sided(System *whole, const Model *model, const Watch *watch, System **out,
+MUST_USE Status system_sided(System *whole, SceneSource source, const Watch *watch, System **out,
                              Diag *diag);
 /* The system in which they are on these sides, one a switch; those between resistances don't count.
  * Made when asked for first, and owned by `whole`. Fails as system_new() does where there is no
- * such network, and with E_MODEL where the model is no longer what `whole` was made of. */
-MUST_USE Status system_mode(System *whole, const Model *model, const bool *closed,
+ * such network, and with E_MODEL where the scene is no longer what `whole` was made of. */
+MUST_USE Status system_mode(System *whole, SceneSource source, const bool *closed,
                             const Watch *watch, System **out, Diag *diag);
 
 /* --- three-angle sequences, which lose a freedom where their first and last axis fall together ---

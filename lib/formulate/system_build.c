@@ -1,21 +1,21 @@
-/* system_build.c: a System from a model: copied parts, variables, and the order in which it is
+/* system_build.c: a System from a scene: copied parts, variables, and the order in which it is
  * built */
 #include "formulate/system_impl.h"
 
 #include <string.h>
 
-/* --- copies of what the model may change later --- */
+/* --- copies of what may change later --- */
 
-static void copy_instances(System *system, const Model *model)
+static void copy_instances(System *system, const Scene *scene)
 {
-    int count = model_count(model);
+    int count = scene->instance_count;
 
     system->instance_count = count;
     system->instances = pool_alloc(system->pool, (size_t)count * sizeof *system->instances);
     system->coordinate = pool_alloc(system->pool, (size_t)count * sizeof *system->coordinate);
     system->speed = pool_alloc(system->pool, (size_t)count * sizeof *system->speed);
     for (int i = 0; i < count; i++) {
-        const Instance *from = model_instance(model, i);
+        const Instance *from = scene->instances[i];
         Instance *to = &system->instances[i];
         size_t size = (size_t)from->row->param_count * sizeof(Value);
 
@@ -70,13 +70,12 @@ static void vary_values(System *system, VaryValue vary, void *context)
         system->gravity.at[i] = vary(context, NULL, -1, system->gravity.at[i]);
 }
 
-static Status copy_graph(System *system, const Model *model, Diag *diag)
+static Status copy_graph(System *system, const Scene *scene, Diag *diag)
 {
-    const Graph *graph = model_graph(model);
-    const Tree *trees[TREE_KINDS];
+    const Graph *graph = scene->graph;
+    const Tree *const *trees = scene->trees;
     Status status = OK;
 
-    CHECK(model_trees(model, trees, diag));
     system->graph = graph_new();
     for (int i = 0; i < graph_node_count(graph); i++) {
         const Node *node = graph_node(graph, i);
@@ -98,32 +97,27 @@ done:
     return status;
 }
 
-void system_take_outputs(System *system, const Model *model)
+static void copy_outputs(System *system, const Scene *scene)
 {
-    int count = model_output_count(model);
+    int count = scene->outputs.count;
 
-    for (int i = 0; i < system->modes.count; i++)
-        system_take_outputs(system->modes.at[i], model);
     system->output_count = count;
     system->output_names = pool_alloc(system->pool, (size_t)count * sizeof(char *));
     system->outputs = pool_alloc(system->pool, (size_t)count * sizeof(Expr));
     for (int i = 0; i < count; i++) {
-        const char *name;
-
-        system->outputs[i] = model_output(model, i, &name);
-        system->output_names[i] = system_keep(system, "%s", name);
+        system->outputs[i] = scene->outputs.at[i].body;
+        system->output_names[i] = system_keep(system, "%s", scene->outputs.at[i].name);
     }
 }
 
-static void copy_form(System *system, const Model *model)
+static void copy_form(System *system, const Scene *scene)
 {
-    const char *const *names = NULL;
-
-    system->form = model_form(model, &names, &system->independent_count);
+    system->form = scene->form;
+    system->independent_count = scene->independent_count;
     system->independent =
-        pool_alloc(system->pool, (size_t)system->independent_count * sizeof(char *));
-    for (int i = 0; i < system->independent_count; i++)
-        system->independent[i] = system_keep(system, "%s", names[i]);
+        pool_alloc(system->pool, (size_t)scene->independent_count * sizeof(char *));
+    for (int i = 0; i < scene->independent_count; i++)
+        system->independent[i] = system_keep(system, "%s", scene->independent[i]);
 }
 
 /* --- variables --- */
@@ -335,64 +329,69 @@ done:
     return status;
 }
 
-/* what is asked of a new System */
-typedef struct Order {
-    const Model *model;
-    NetworkForm form;  /* asked for */
-    NetworkForm taken; /* this one or, where a state form doesn't exist, the other */
-    VaryValue vary;
-    void *context;
-    Expr leak;
+/* what a new System is made from */
+typedef struct Making {
+    const Scene *scene;
+    const SystemOptions *options;
+    NetworkForm taken;  /* that asked for or, where a state form doesn't exist, the other */
     const bool *closed; /* sides of ideal switches; NULL: in no mode */
     int closed_count;
     bool takes_sides; /* of other switches as numbers */
-    const Watch *watch;
-} Order;
+} Making;
 
-static const bool *keep_sides(System *system, const Order *order)
+static const bool *keep_sides(System *system, const Making *making)
 {
-    size_t bytes = (size_t)order->closed_count * sizeof(bool);
+    size_t bytes = (size_t)making->closed_count * sizeof(bool);
     bool *kept = pool_alloc(system->pool, bytes);
 
-    if (order->closed == NULL)
+    if (making->closed == NULL)
         return NULL;
-    memcpy(kept, order->closed, bytes);
+    memcpy(kept, making->closed, bytes);
     return kept;
 }
 
-static Status make_as(const Order *order, bool *has_no_states, System **out, Diag *diag)
+static void take_scene(System *system, const Making *making)
 {
-    const Model *model = order->model;
-    const Watch *watch = order->watch;
+    const Scene *scene = making->scene;
+    const SystemOptions *options = making->options;
+
+    system->arena = scene->arena;
+    system->revision = scene->revision;
+    system->planar = scene->planar;
+    for (int i = 0; i < 3; i++)
+        system->gravity.at[i] = scene->gravity[i];
+    for (int i = 0; i < scene->parameters.count; i++)
+        LIST_PUSH(system->parameters,
+                  (Given){scene->parameters.at[i].symbol, scene->parameters.at[i].value});
+    copy_instances(system, scene);
+    enter_names(system);
+    if (options->vary != NULL)
+        vary_values(system, options->vary, options->context);
+    copy_outputs(system, scene);
+    copy_form(system, scene);
+}
+
+static Status make_as(const Making *making, bool *has_no_states, System **out, Diag *diag)
+{
+    const Watch *watch = making->options->watch;
     System *system = NEW(System);
     Status status = OK;
 
     system->pool = pool_new(0);
-    system->model = model;
-    system->arena = model_arena(model);
-    system->revision = model_revision(model);
-    system->asked_form = order->form;
-    system->network_form = order->taken;
-    system->leak = order->leak;
-    system->closed = keep_sides(system, order);
-    system->takes_sides = order->takes_sides;
+    system->scene = making->scene;
+    system->asked_form = making->options->form;
+    system->network_form = making->taken;
+    system->leak = making->options->leak;
+    system->closed = keep_sides(system, making);
+    system->takes_sides = making->takes_sides;
     system->watch = watch;
     system->variable = system_variable;
-    system->planar = model_is_planar(model);
-    for (int i = 0; i < 3; i++)
-        system->gravity.at[i] = model_gravity(model)[i];
     report(watch, "formulating", -1.0);
-    parameters_take(system, model);
-    copy_instances(system, model);
-    enter_names(system);
-    if (order->vary != NULL)
-        vary_values(system, order->vary, order->context);
-    CHECK(copy_graph(system, model, diag));
-    system_take_outputs(system, model);
-    copy_form(system, model);
+    take_scene(system, making);
+    CHECK(copy_graph(system, making->scene, diag));
     CHECK(build(system, diag));
     *out = system;
-    system->model = NULL;
+    system->scene = NULL;
     system->watch = NULL;
     system = NULL;
 done:
@@ -405,80 +404,58 @@ done:
 
 /* Controlled sources among inductors or capacitors alone leave no state form; the equations of the
  * trees as they are can still be brought to order. */
-static Status make(Order order, System **out, Diag *diag)
+static Status make(Making making, System **out, Diag *diag)
 {
     bool has_no_states = false;
     Diag why = {0};
     Status status;
 
-    order.taken = order.form;
-    status = make_as(&order, &has_no_states, out, diag);
+    making.taken = making.options->form;
+    status = make_as(&making, &has_no_states, out, diag);
     if (status != E_MODEL || !has_no_states)
         return status;
-    order.taken = NETWORK_TREE;
-    return make_as(&order, &has_no_states, out, &why) == OK ? OK : status;
+    making.taken = NETWORK_TREE;
+    return make_as(&making, &has_no_states, out, &why) == OK ? OK : status;
 }
 
-Status system_new_varied(const Model *model, VaryValue vary, void *context, const Watch *watch,
-                         System **out, Diag *diag)
+Status system_new(const Scene *scene, const SystemOptions *options, System **out, Diag *diag)
 {
-    return make((Order){.model = model, .vary = vary, .context = context, .watch = watch}, out,
-                diag);
-}
+    Making making = {.scene = scene, .options = options};
 
-Status system_new_like(const System *other, const Model *model, VaryValue vary, void *context,
-                       const Watch *watch, System **out, Diag *diag)
-{
-    return make((Order){.model = model,
-                        .vary = vary,
-                        .context = context,
-                        .closed = other->closed,
-                        .closed_count = other->ideals.count,
-                        .takes_sides = other->takes_sides,
-                        .watch = watch},
-                out, diag);
-}
-
-Status system_new_leaking(const Model *model, VaryValue vary, void *context, Expr leak,
-                          const Watch *watch, System **out, Diag *diag)
-{
-    return make(
-        (Order){.model = model, .vary = vary, .context = context, .leak = leak, .watch = watch},
-        out, diag);
-}
-
-Status system_new_form(const Model *model, NetworkForm form, const Watch *watch, System **out,
-                       Diag *diag)
-{
-    return make((Order){.model = model, .form = form, .watch = watch}, out, diag);
-}
-
-Status system_new(const Model *model, const Watch *watch, System **out, Diag *diag)
-{
-    return system_new_form(model, model_network_form(model), watch, out, diag);
+    if (options->like != NULL) {
+        making.closed = options->like->closed;
+        making.closed_count = options->like->ideals.count;
+        making.takes_sides = options->like->takes_sides;
+    }
+    return make(making, out, diag);
 }
 
 /* the equations of sides that `whole` has none of yet */
-static Status make_sided(System *whole, const Model *model, const bool *closed, const Watch *watch,
+static Status make_sided(System *whole, SceneSource source, const bool *closed, const Watch *watch,
                          System **out, Diag *diag)
 {
+    const SystemOptions options = {.watch = watch};
+    Scene scene = {0};
     Status status = OK;
 
-    if (whole->revision != model_revision(model)) {
-        (void)diag_set(diag, E_MODEL,
-                       "the switches ask for equations that aren't made yet, of a model that has "
-                       "changed since");
+    CHECK(source.make(source.context, &scene, diag));
+    if (whole->revision != scene.revision) {
+        status =
+            diag_set(diag, E_MODEL,
+                     "the switches ask for equations that aren't made yet, of a model that has "
+                     "changed since");
         diag_hint(diag, "start a new run");
-        return E_MODEL;
+        goto done;
     }
-    CHECK(make((Order){.model = model,
-                       .closed = closed,
-                       .closed_count = whole->ideals.count,
-                       .takes_sides = true,
-                       .watch = watch},
+    CHECK(make((Making){.scene = &scene,
+                        .options = &options,
+                        .closed = closed,
+                        .closed_count = whole->ideals.count,
+                        .takes_sides = true},
                out, diag));
     (*out)->whole = whole;
 done:
+    scene_free(&scene);
     return status;
 }
 
@@ -491,7 +468,7 @@ static bool is_mode(const System *mode, const bool *closed)
     return true;
 }
 
-Status system_mode(System *whole, const Model *model, const bool *closed, const Watch *watch,
+Status system_mode(System *whole, SceneSource source, const bool *closed, const Watch *watch,
                    System **out, Diag *diag)
 {
     System *mode = NULL;
@@ -502,14 +479,14 @@ Status system_mode(System *whole, const Model *model, const bool *closed, const 
             *out = whole->modes.at[i];
             return OK;
         }
-    CHECK(make_sided(whole, model, closed, watch, &mode, diag));
+    CHECK(make_sided(whole, source, closed, watch, &mode, diag));
     LIST_PUSH(whole->modes, mode);
     *out = mode;
 done:
     return status;
 }
 
-Status system_sided(System *whole, const Model *model, const Watch *watch, System **out, Diag *diag)
+Status system_sided(System *whole, SceneSource source, const Watch *watch, System **out, Diag *diag)
 {
     int ideal = system_truly_ideal_count(whole);
     bool *closed = NULL;
@@ -518,10 +495,10 @@ Status system_sided(System *whole, const Model *model, const Watch *watch, Syste
     if (ideal == whole->ideals.count)
         whole->sided = whole;
     else if (whole->sided == NULL && ideal > 0)
-        CHECK(make_sided(whole, model, NULL, watch, &whole->sided, diag));
+        CHECK(make_sided(whole, source, NULL, watch, &whole->sided, diag));
     else if (whole->sided == NULL) {
         closed = NEW_ARRAY(bool, whole->ideals.count);
-        CHECK(system_mode(whole, model, closed, watch, &whole->sided, diag));
+        CHECK(system_mode(whole, source, closed, watch, &whole->sided, diag));
     }
     *out = whole->sided;
 done:

@@ -213,7 +213,7 @@ typedef struct CoordinateOwner {
 
 struct System {
     uint64_t revision;
-    const Model *model; /* while it is made; NULL afterwards */
+    const Scene *scene; /* while it is made; NULL afterwards */
     Arena *arena;
     Pool *pool; /* names and small arrays */
     const Watch *watch;
@@ -465,7 +465,6 @@ MUST_USE Status efforts_add(System *system, Loads *loads, bool joints, Diag *dia
 
 /* --- numbers at a random position (sample.c) --- */
 
-void parameters_take(System *system, const Model *model);
 /* in the system's pool; `vary`: with other parameters too, for what holds whatever they are */
 Sample *sample_new(System *system, uint64_t seed, bool vary);
 /* of an expression in q and parameters; NAN where there is more in it */

@@ -2,6 +2,7 @@ libcore_la_SOURCES += \
   lib/model/measure.c \
   lib/model/measure.h \
   lib/model/measure_check.c \
+  lib/model/event.h \
   lib/model/model.c \
   lib/model/model.h \
   lib/model/model_build.c \
@@ -21,6 +22,7 @@ libcore_la_SOURCES += \
   lib/model/model_param.c \
   lib/model/model_places.c \
   lib/model/model_scene.c \
+  lib/model/scene.h \
   lib/model/model_start.c \
   lib/model/model_state.c \
   lib/model/model_tree.c \

@@ -8,6 +8,7 @@
 
 struct Model {
     Arena *arena;
+    bool is_fork; /* the arena is another model's */
     State *state;
     DataFinder finder;
     EntryFinder entries;
@@ -18,16 +19,38 @@ struct Model {
     uint64_t values;
 };
 
-Model *model_new(void)
+static Model *model_around(Arena *arena, State *state)
 {
     Model *model = NEW(Model);
 
-    model->arena = arena_new();
-    model->state = state_new(model->arena);
+    model->arena = arena;
+    model->state = state;
     history_open(&model->history);
     model->undone = "";
     model->remarks = mem_text("", 0);
     return model;
+}
+
+Model *model_new(void)
+{
+    Arena *arena = arena_new();
+
+    return model_around(arena, state_new(arena));
+}
+
+Status model_fork(const Model *model, Model **out, Diag *diag)
+{
+    State *state = NULL;
+    Status status = OK;
+
+    CHECK(state_rebuild(model->state, -1, &state, NULL, NULL, diag));
+    *out = model_around(model->arena, state);
+    (*out)->is_fork = true;
+    (*out)->finder = model->finder;
+    (*out)->finder.given = true;
+    (*out)->revision = model->revision;
+done:
+    return status;
 }
 
 void model_free(Model *model)
@@ -35,7 +58,8 @@ void model_free(Model *model)
     if (model == NULL)
         return;
     state_free(model->state);
-    arena_free(model->arena);
+    if (!model->is_fork)
+        arena_free(model->arena);
     history_close(&model->history);
     mem_free(model->remarks);
     mem_free(model);
@@ -112,13 +136,6 @@ done:
 void model_find_data(Model *model, const DataFinder *finder)
 {
     model->finder = *finder;
-}
-
-void model_share_data(Model *to, const Model *from)
-{
-    to->finder = from->finder;
-    to->finder.given = true;
-    arena_share_tables(to->arena, from->arena);
 }
 
 void model_find_entries(Model *model, const EntryFinder *finder)
@@ -268,6 +285,11 @@ Status model_trees(const Model *model, const Tree *trees[TREE_KINDS], Diag *diag
     return state_trees(model->state, trees, diag);
 }
 
+Status model_preset_trees(const Model *model, bool absolute, Tree *out[2], Diag *diag)
+{
+    return state_preset_trees(model->state, absolute, out, diag);
+}
+
 int model_parameter_count(const Model *model)
 {
     return model->state->parameters.count;
@@ -301,6 +323,62 @@ double model_parameter_value(const Model *model, Expr symbol)
 double model_number(const Model *model, Expr e)
 {
     return expr_evaluate(e, symbol_value, model->state);
+}
+
+static double scene_number(const void *context, Expr e)
+{
+    return model_number(context, e);
+}
+
+static Status make_scene(const void *context, Scene *out, Diag *diag)
+{
+    const Model *model = context;
+    const State *state = model->state;
+    Scene scene = {.arena = model->arena,
+                   .revision = model->revision,
+                   .planar = state->planar,
+                   .gravity = state->gravity,
+                   .graph = state->graph,
+                   .instances = (const Instance *const *)state->parts.at,
+                   .instance_count = state->parts.count,
+                   .form = state->form,
+                   .independent = state->independent.at,
+                   .independent_count = state->independent.count,
+                   .network_form = state->network_form,
+                   .number = scene_number,
+                   .context = model};
+    Status status = OK;
+
+    CHECK(model_trees(model, scene.trees, diag));
+    for (int i = 0; i < state->parameters.count; i++) {
+        Expr symbol = model_parameter(model, i, NULL);
+
+        LIST_PUSH(scene.parameters, (SceneParameter){symbol, model_parameter_value(model, symbol)});
+    }
+    for (int i = 0; i < state->outputs.count; i++) {
+        const Definition *d = &state->definitions.at[state->outputs.at[i]];
+
+        LIST_PUSH(scene.outputs, (SceneOutput){d->name, d->body});
+    }
+    *out = scene;
+done:
+    return status;
+}
+
+Status model_scene(const Model *model, Scene *out, Diag *diag)
+{
+    return make_scene(model, out, diag);
+}
+
+SceneSource model_scene_source(const Model *model)
+{
+    return (SceneSource){make_scene, model};
+}
+
+void scene_free(Scene *scene)
+{
+    LIST_FREE(scene->parameters);
+    LIST_FREE(scene->outputs);
 }
 
 int model_output_count(const Model *model)

@@ -9,6 +9,8 @@
 #include "component/component.h"
 #include "graph/tree.h"
 #include "language/syntax.h"
+#include "model/event.h"
+#include "model/scene.h"
 
 typedef struct Model Model;
 
@@ -63,6 +65,18 @@ bool model_coordinate(const Model *model, const char *name, const Instance **own
  * the graph or a choice changes. Fails as tree_complete() does. */
 MUST_USE Status model_trees(const Model *model, const Tree *trees[TREE_KINDS], Diag *diag);
 
+/* The mechanical trees of `tree joint` or `tree absolute`, whatever is chosen; new, tree_free();
+ * NULL where the graph has none. Fails as tree_complete() does. */
+MUST_USE Status model_preset_trees(const Model *model, bool absolute, Tree *out[2], Diag *diag);
+/* New: a model of the same statements over the same arena, to try others on; it may not outlive the
+ * first. */
+MUST_USE Status model_fork(const Model *model, Model **out, Diag *diag);
+
+/* What formulation takes of the model as it is now; scene_free(). Borrowed until the next change.
+ * Fails as model_trees() does. */
+MUST_USE Status model_scene(const Model *model, Scene *out, Diag *diag);
+SceneSource model_scene_source(const Model *model);
+
 /* Parameters: symbols of kind SYMBOL_PARAMETER with a defining expression each. A new one changes
  * neither revision nor values, so remember them by symbol, not by number. */
 int model_parameter_count(const Model *model);
@@ -93,30 +107,9 @@ const Start *model_start(const Model *model, int i);
 int model_start_statements(const Model *model);
 int model_start_statement(const Model *model, int i);
 
-/* what happens when a condition becomes true */
-typedef enum EventAction { EVENT_MARK, EVENT_STOP, EVENT_SET } EventAction;
-
-typedef struct NewValue {
-    const char *name; /* variable, as in a Start */
-    int primes;
-    Expr value; /* over variables, t and parameters, just before the event */
-} NewValue;
-
-typedef struct Event {
-    const char *name;
-    Expr when;             /* a condition over variables, t and parameters */
-    const char *condition; /* the same as written */
-    EventAction action;
-    int value_count;
-    const NewValue *values; /* of EVENT_SET */
-    const char *text;       /* its statement */
-} Event;
 int model_event_count(const Model *model);
 const Event *model_event(const Model *model, int i);
 
-typedef enum Form { FORM_AUGMENTED, FORM_EMBEDDED } Form;
-/* Which equations of scalar networks are integrated: state form, by a normal tree whatever the
- * user's; or those that follow from the user's trees. */
 /* Where the files are that statements name. */
 typedef struct DataFinder {
     char *(*find)(void *context,
@@ -125,10 +118,6 @@ typedef struct DataFinder {
     bool given; /* what is shared is not read anew */
 } DataFinder;
 void model_find_data(Model *model, const DataFinder *finder);
-/* a model that statements of another one make finds the data that they were made with */
-void model_share_data(Model *to, const Model *from);
-
-typedef enum NetworkForm { NETWORK_STATE, NETWORK_TREE } NetworkForm;
 NetworkForm model_network_form(const Model *model);
 /* the words of the i-th setting of any model: its name, its values, NULL; NULL: no more */
 const char *const *model_setting(int i);

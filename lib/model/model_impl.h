@@ -172,6 +172,7 @@ void state_replace(State **state, State *next);
 /* The graph or a choice changed. */
 void state_forget_trees(State *state);
 Status state_trees(State *state, const Tree *trees[TREE_KINDS], Diag *diag);
+Status state_preset_trees(const State *state, bool absolute, Tree *out[2], Diag *diag);
 
 /* --- the way back (model_mark.c) --- */
 

@@ -122,6 +122,23 @@ done:
     return status;
 }
 
+Status state_preset_trees(const State *state, bool absolute, Tree *out[2], Diag *diag)
+{
+    const Choice choice = {.absolute = absolute};
+    Status status = OK;
+
+    out[0] = out[1] = NULL;
+    for (TreeKind kind = 0; kind < mechanical_kinds; kind++)
+        if (has_kind(state, kind))
+            CHECK(complete(state, kind, &choice, &out[kind], diag));
+done:
+    if (status != OK) {
+        tree_free(out[0]);
+        out[0] = NULL;
+    }
+    return status;
+}
+
 /* --- reading a statement --- */
 
 typedef struct Request {

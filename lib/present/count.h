@@ -2,6 +2,7 @@
 #ifndef COTREE_PRESENT_COUNT_H
 #define COTREE_PRESENT_COUNT_H
 
+#include "model/model.h"
 #include "present/view.h"
 
 /* the names of blocks that can be counted: 0, 1, ... until NULL */

@@ -218,10 +218,12 @@ static void print_code(Text *out, const View *view, const StateSpace *space)
 Status show_state(const View *view, const Selection *selection, Text *out, Diag *diag)
 {
     StateSpace *space = NULL;
+    Scene scene = {0};
     Status status;
 
     (void)selection;
-    CHECK(state_space_new(view->model, view->watch, &space, diag));
+    CHECK(model_scene(view->model, &scene, diag));
+    CHECK(state_space_new(&scene, view->watch, &space, diag));
     if (view_kind(view) == NOTATION_TYPESET)
         print_latex(out, view, space);
     else if (view_kind(view) == NOTATION_SOURCE)
@@ -229,6 +231,7 @@ Status show_state(const View *view, const Selection *selection, Text *out, Diag 
     else
         print_text(out, view, space);
 done:
+    scene_free(&scene);
     state_space_free(space);
     return status;
 }

@@ -6,6 +6,7 @@
 #define COTREE_PRESENT_VIEW_H
 
 #include "formulate/system.h"
+#include "model/model.h"
 #include "present/layout.h"
 #include "simulate/analyse/linearize.h"
 

@@ -129,6 +129,16 @@ static bool is_named(const ct_session *session, const System *system)
            (session->warm.result != NULL && result_system(session->warm.result) == system);
 }
 
+static double number(const void *model, Expr e)
+{
+    return model_number(model, e);
+}
+
+static bool is_current(const ct_session *session, const System *system)
+{
+    return system_holds(system, model_revision(session->model), number, session->model);
+}
+
 void session_sweep(ct_session *session)
 {
     int kept = 0;
@@ -136,7 +146,7 @@ void session_sweep(ct_session *session)
     for (int i = 0; i < session->systems.count; i++) {
         System *system = session->systems.at[i];
 
-        if (system_holds(system, session->model) || is_named(session, system))
+        if (is_current(session, system) || is_named(session, system))
             session->systems.at[kept++] = system;
         else
             system_free(system);
@@ -146,21 +156,25 @@ void session_sweep(ct_session *session)
 
 static Status system_of_form(ct_session *session, NetworkForm form, System **out, Diag *diag)
 {
+    const SystemOptions options = {.form = form, .watch = &session->watch};
     System *system = NULL;
+    Scene scene = {0};
     Status status = OK;
 
     for (int i = 0; i < session->systems.count; i++)
-        if (system_holds(session->systems.at[i], session->model) &&
+        if (is_current(session, session->systems.at[i]) &&
             system_network_form(session->systems.at[i]) == form) {
             *out = session->systems.at[i];
             return OK;
         }
     report(&session->watch, "equations", -1);
-    CHECK(system_new_form(session->model, form, &session->watch, &system, diag));
+    CHECK(model_scene(session->model, &scene, diag));
+    CHECK(system_new(&scene, &options, &system, diag));
     LIST_PUSH(session->systems, system);
     session_sweep(session);
     *out = system;
 done:
+    scene_free(&scene);
     return status;
 }
 

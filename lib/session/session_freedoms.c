@@ -38,23 +38,44 @@ done:
     return status;
 }
 
-/* the same start in trees of real edges; *out NULL where there is none to compare with */
-static Status assemble_real(ct_session *session, const Setting *setting, Model **model,
-                            System **system, Result **out, Diag *diag)
-{
-    Setting plain = *setting;
-    char *base = model_save(session->model);
-    Status status = session_model_copy(session, base, "tree joint\n", model, diag);
+/* the scene in the trees of `tree joint` */
+typedef struct RealTrees {
+    const Model *model;
+    Tree *halves[2];
+} RealTrees;
 
-    mem_free(base);
+static Status make_real(const void *context, Scene *out, Diag *diag)
+{
+    const RealTrees *real = context;
+    Status status = model_scene(real->model, out, diag);
+
+    out->trees[TREE_TRANSLATION] = real->halves[0];
+    out->trees[TREE_ROTATION] = real->halves[1];
+    return status;
+}
+
+/* the same start in trees of real edges; *out NULL where there is none to compare with */
+static Status assemble_real(ct_session *session, const Setting *setting, System **system,
+                            Result **out, Diag *diag)
+{
+    RealTrees trees = {.model = session->model};
+    SystemOptions options = {.form = model_network_form(session->model), .watch = &session->watch};
+    Setting plain = *setting;
+    Scene scene = {0};
+    Status status;
+
     plain.form = FORM_AUGMENTED;
     plain.independent_count = 0;
     plain.warm = NULL;
-    if (status == OK)
-        status = system_new(*model, &session->watch, system, diag);
-    plain.model = *model;
-    if (status == OK)
-        status = run_assemble(*system, &plain, out, diag);
+    plain.scene = (SceneSource){make_real, &trees};
+    CHECK(model_preset_trees(session->model, false, trees.halves, diag));
+    CHECK(make_real(&trees, &scene, diag));
+    CHECK(system_new(&scene, &options, system, diag));
+    CHECK(run_assemble(*system, &plain, out, diag));
+done:
+    scene_free(&scene);
+    tree_free(trees.halves[0]);
+    tree_free(trees.halves[1]);
     return status == E_STOPPED ? status : OK;
 }
 
@@ -62,7 +83,6 @@ Status session_check_freedoms(ct_session *session, System *system, const Setting
                               Diag *diag)
 {
     Branches branches = {0};
-    Model *model = NULL;
     System *real_system = NULL;
     Result *real = NULL, *with = NULL;
     Setting plain = *setting;
@@ -74,7 +94,7 @@ Status session_check_freedoms(ct_session *session, System *system, const Setting
     CHECK(find_branches(session->model, &branches, diag));
     if (branches.joints.count == 0)
         goto done;
-    CHECK(assemble_real(session, setting, &model, &real_system, &real, diag));
+    CHECK(assemble_real(session, setting, &real_system, &real, diag));
     plain.form = FORM_AUGMENTED;
     plain.independent_count = 0;
     /* a start that can't be found has its own message, from the run */
@@ -88,7 +108,6 @@ done:
     result_free(real);
     result_free(with);
     system_free(real_system);
-    model_free(model);
     branches_free(&branches);
     return status;
 }

@@ -99,9 +99,6 @@ View session_view(const ct_session *session);
 /* `tree best`: search, put the cheapest trees in place, and remark what was compared. Bounded by a
  * number of formulations and a time. E_STOPPED leaves the best so far in place. */
 MUST_USE Status session_best_trees(ct_session *session, Diag *diag);
-/* new: a model that two texts of statements make, one after the other, with the session's data */
-MUST_USE Status session_model_copy(const ct_session *session, const char *base, const char *more,
-                                   Model **out, Diag *diag);
 
 /* --- virtual branches (session_freedoms.c) --- */
 

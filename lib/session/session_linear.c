@@ -17,7 +17,7 @@ Status session_equilibrium(ct_session *session, const Statement *s, Diag *diag)
     (void)s;
     CHECK(session_system(session, &system, diag));
     order_make(session, &order);
-    CHECK(run_equilibrium(system, session->model, &order.setting, &result, diag));
+    CHECK(run_equilibrium(system, &order.setting, &result, diag));
     session_forget_start(session);
     session->start = order_done(&order, result);
     session->at_rest = true;
@@ -96,7 +96,7 @@ static Status read_point(ct_session *session, const Statement *s, Asked *asked, 
         asked->order.at = model_number(session->model, e);
     }
     asked->order.about = run->result;
-    asked->order.model = session->model;
+    asked->order.scene = model_scene_source(session->model);
     asked->order.watch = &session->watch;
     (void)model_form(session->model, &asked->order.independent, &asked->order.independent_count);
 done:

@@ -115,7 +115,7 @@ void order_make(ct_session *session, Order *order)
         order->events[i] = model_event(model, i);
     order->setting = (Setting){.parameter = parameter_value,
                                .context = order->parameters,
-                               .model = model,
+                               .scene = model_scene_source(model),
                                .events = order->events,
                                .event_count = model_event_count(model),
                                .start = &order->start,

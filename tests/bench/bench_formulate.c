@@ -5,6 +5,7 @@
 #include "formulate/system.h"
 
 #include "../random.h"
+#include "../unit/form.h"
 #include "bench.h"
 #include "bench_model.h"
 
@@ -75,7 +76,7 @@ static void bench_chain(int joints)
             break;
         nodes = arena_nodes(model_arena(model));
         began = bench_now();
-        if (system_new(model, NULL, &system, &diag) == OK) {
+        if (form_system(model, &system, &diag) == OK) {
             const Reading *reading = system_definitions(system);
 
             least = fmin(least, bench_now() - began);

@@ -8,6 +8,7 @@
 #include "formulate/system.h"
 #include "simulate/run/run.h"
 
+#include "../unit/form.h"
 #include "bench.h"
 #include "bench_model.h"
 
@@ -79,7 +80,7 @@ static void bench_ladder(const char *scripts, int sections)
         Diag diag = {0};
         double began = bench_now();
 
-        if (model != NULL && system_new(model, NULL, &system, &diag) == OK &&
+        if (model != NULL && form_system(model, &system, &diag) == OK &&
             system_run(system) != NULL) {
             formulation = fmin(formulation, bench_now() - began);
             if (run_simulate(system, &setting, &options, &result, &diag) == OK) {
@@ -117,11 +118,11 @@ static void bench_diodes(const char *scripts, int count)
         Diag diag = {0};
         double began = bench_now();
 
-        if (model != NULL && system_new(model, NULL, &system, &diag) == OK &&
+        if (model != NULL && form_system(model, &system, &diag) == OK &&
             system_run(system) != NULL) {
             formulation = fmin(formulation, bench_now() - began);
             began = bench_now();
-            if (run_equilibrium(system, model, &setting, &result, &diag) == OK)
+            if (run_equilibrium(system, &setting, &result, &diag) == OK)
                 point = fmin(point, bench_now() - began);
         }
         if (result == NULL)
@@ -176,8 +177,7 @@ static void bench_stiff(int sections)
     System *system = NULL;
     Diag diag = {0};
 
-    if (model != NULL && system_new(model, NULL, &system, &diag) == OK &&
-        system_run(system) != NULL) {
+    if (model != NULL && form_system(model, &system, &diag) == OK && system_run(system) != NULL) {
         double sparse = time_of(system, &setting, "ida");
         double dense = time_of(system, &setting, "bdf");
         char name[64];
@@ -225,11 +225,12 @@ static Switched switched(const char *keys)
     model = bench_model(text.at);
     text_free(&text);
 
-    const Setting setting = {
-        .parameter = parameter_value, .context = model, .model = model, .start = &none};
+    const Setting setting = {.parameter = parameter_value,
+                             .context = model,
+                             .scene = model_scene_source(model),
+                             .start = &none};
 
-    if (model != NULL && system_new(model, NULL, &system, &diag) == OK &&
-        system_run(system) != NULL &&
+    if (model != NULL && form_system(model, &system, &diag) == OK && system_run(system) != NULL &&
         run_simulate(system, &setting, &options, &result, &diag) == OK) {
         const int rows = result_rows(result), from = rows - 1 - rows / 10;
         double *values = NEW_ARRAY(double, rows);
@@ -298,11 +299,12 @@ static Switched multiplied(int stages, const char *keys)
     model = bench_model(text.at);
     text_free(&text);
 
-    const Setting setting = {
-        .parameter = parameter_value, .context = model, .model = model, .start = &none};
+    const Setting setting = {.parameter = parameter_value,
+                             .context = model,
+                             .scene = model_scene_source(model),
+                             .start = &none};
 
-    if (model != NULL && system_new(model, NULL, &system, &diag) == OK &&
-        system_run(system) != NULL &&
+    if (model != NULL && form_system(model, &system, &diag) == OK && system_run(system) != NULL &&
         run_simulate(system, &setting, &options, &result, &diag) == OK)
         out.report = *result_report(result);
     else

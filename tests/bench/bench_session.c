@@ -4,6 +4,7 @@
  * version can read is formulated and replayed. */
 #include "formulate/system.h"
 
+#include "../unit/form.h"
 #include "bench.h"
 #include "bench_model.h"
 
@@ -48,8 +49,8 @@ static double formulate(const char *path)
         System *system = NULL;
         Diag diag;
         double began = bench_now();
-        bool made = model != NULL && system_new(model, NULL, &system, &diag) == OK &&
-                    system_run(system) != NULL;
+        bool made =
+            model != NULL && form_system(model, &system, &diag) == OK && system_run(system) != NULL;
         double took = bench_now() - began;
 
         system_free(system);

@@ -1,18 +1,18 @@
 UNIT_TESTS += test_formulate
-test_formulate_SOURCES = tests/unit/test_formulate.c tests/unit/test.h tests/unit/scene.h
+test_formulate_SOURCES = tests/unit/test_formulate.c tests/unit/test.h tests/unit/form.h tests/unit/scene.h
 test_formulate_LDADD = $(unit_ldadd)
 
 UNIT_TESTS += test_counts
-test_counts_SOURCES = tests/unit/test_counts.c tests/unit/test.h tests/unit/scene.h
+test_counts_SOURCES = tests/unit/test_counts.c tests/unit/test.h tests/unit/form.h tests/unit/scene.h
 test_counts_LDADD = $(unit_ldadd)
 
 UNIT_TESTS += test_trees
-test_trees_SOURCES = tests/unit/test_trees.c tests/unit/test.h tests/unit/scene.h
+test_trees_SOURCES = tests/unit/test_trees.c tests/unit/test.h tests/unit/form.h tests/unit/scene.h
 test_trees_LDADD = $(unit_ldadd)
 
 UNIT_TESTS += test_spatial
 test_spatial_SOURCES = tests/unit/test_spatial.c tests/unit/spatial.h tests/unit/test.h \
-  tests/unit/scene.h
+  tests/unit/form.h tests/unit/scene.h
 test_spatial_LDADD = $(unit_ldadd)
 
 UNIT_TESTS += test_displaced

@@ -2,6 +2,7 @@
 #ifndef COTREE_TESTS_SCENE_H
 #define COTREE_TESTS_SCENE_H
 
+#include "form.h"
 #include "formulate/system.h"
 #include "test.h"
 
@@ -47,7 +48,7 @@ __attribute__((unused)) static System *scene_system(const Model *model)
     System *system = NULL;
     Diag diag = {0};
 
-    if (system_new(model, NULL, &system, &diag) != OK) {
+    if (form_system(model, &system, &diag) != OK) {
         test_faults++;
         printf("no equations: %s (%s)\n", diag.message, diag.hint);
     }

@@ -5,7 +5,9 @@
 #ifndef COTREE_TESTS_SIMULATE_SCRIPT_H
 #define COTREE_TESTS_SIMULATE_SCRIPT_H
 
+#include "form.h"
 #include "formulate/system.h"
+#include "session/session_impl.h"
 #include "simulate/run/run.h"
 #include "test.h"
 
@@ -74,7 +76,10 @@ static void script_start(Script *script, StartValues *start)
 static void script_run(Script *script, const Statement *statement, const Changes *changes)
 {
     StartValues start;
-    Setting setting = {.parameter = script_parameter, .context = script->model, .start = &start};
+    Setting setting = {.parameter = script_parameter,
+                       .context = script->model,
+                       .scene = model_scene_source(script->model),
+                       .start = &start};
     RunOptions options = {.every = script_key(script, statement, "every"),
                           .rtol = script_key(script, statement, "rtol"),
                           .atol = script_key(script, statement, "atol")};
@@ -92,7 +97,7 @@ static void script_run(Script *script, const Statement *statement, const Changes
     script->system = NULL;
     setting.form = model_form(script->model, &setting.independent, &setting.independent_count);
     script_start(script, &start);
-    status = system_new(script->model, NULL, &script->system, &script->diag);
+    status = form_system(script->model, &script->system, &script->diag);
     if (status == OK && strcmp(statement->verb, "simulate") == 0)
         status = run_simulate(script->system, &setting, &options, &script->result, &script->diag);
     else if (status == OK && strcmp(statement->verb, "inverse") == 0)
@@ -112,7 +117,7 @@ static Expr script_expression(Script *script, const Syntax *syntax)
 
     if (model_expression(script->model, syntax, &e, &diag) != OK)
         script_fail("an expression", &diag);
-    return e;
+    return e != NULL ? session_put_outputs(script->model, e) : NULL;
 }
 
 static void script_expect(Script *script, const Statement *statement)
@@ -186,9 +191,6 @@ static void script_statement(Script *script, const Statement *statement, const C
         return;
     if (model_apply(script->model, statement, &diag) != OK)
         script_fail(statement->text, &diag);
-    if (statement->kind == STATEMENT_VERB && strcmp(statement->verb, "output") == 0 &&
-        script->system != NULL)
-        system_take_outputs(script->system, script->model);
 }
 
 /* Run statements; a run's own failure is in script->status, other failures are the test's. */

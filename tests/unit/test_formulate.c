@@ -4,6 +4,7 @@
 
 #include "base/text.h"
 #include "compile/program.h"
+#include "form.h"
 #include "formulate/system_impl.h"
 
 #include <string.h>
@@ -304,7 +305,7 @@ static void a_loop_that_never_closes_is_refused(void)
     System *system = NULL;
     Diag diag = {0};
 
-    EXPECT(system_new(model, NULL, &system, &diag) == E_ASSEMBLE);
+    EXPECT(form_system(model, &system, &diag) == E_ASSEMBLE);
     EXPECT(strstr(diag.message, "w2 can't be assembled") != NULL);
     model_free(model);
 }
@@ -330,7 +331,7 @@ static void voltage_sources_in_a_circuit_are_named(void)
     System *system = NULL;
     Diag diag = {0};
 
-    EXPECT(system_new(model, NULL, &system, &diag) == E_MODEL);
+    EXPECT(form_system(model, &system, &diag) == E_MODEL);
     EXPECT(strstr(diag.message, "V1 V2") != NULL || strstr(diag.message, "V2 V1") != NULL);
     model_free(model);
 }
@@ -509,7 +510,7 @@ static void a_source_that_wants_more_than_itself_is_refused(void)
     System *system = NULL;
     Diag diag = {0};
 
-    EXPECT(system_new(model, NULL, &system, &diag) == E_MODEL);
+    EXPECT(form_system(model, &system, &diag) == E_MODEL);
     EXPECT(strstr(diag.message, "nothing in the network can satisfy the equation of V1") != NULL);
     system_free(system);
     model_free(model);

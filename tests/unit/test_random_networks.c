@@ -8,6 +8,7 @@
  * to the balance of energy. */
 #include "scene.h"
 
+#include "form.h"
 #include "simulate/run/run.h"
 
 #include <stdarg.h>
@@ -423,8 +424,8 @@ static bool refused(const Model *model, int *count)
 {
     System *system = NULL;
     Diag diag = {0};
-    bool is_refused = system_new(model, NULL, &system, &diag) != OK &&
-                      strstr(diag.message, "grow too long") != NULL;
+    bool is_refused =
+        form_system(model, &system, &diag) != OK && strstr(diag.message, "grow too long") != NULL;
 
     system_free(system);
     *count += is_refused;

@@ -5,14 +5,14 @@
 #include "base/text.h"
 
 /* a table of numbers: a line of names, then rows */
-typedef struct Table {
+typedef struct Reference {
     int rows, columns;
     double *at; /* rows x columns */
-} Table;
+} Reference;
 
-static Table read_table(const char *path)
+static Reference read_table(const char *path)
 {
-    Table table = {0};
+    Reference table = {0};
     char *text = script_file(path);
     char *line = text != NULL ? strchr(text, '\n') : NULL;
     LIST(double) numbers = {0};
@@ -42,7 +42,7 @@ typedef struct Case {
 } Case;
 
 /* largest difference of item k to its column, over the column's largest value */
-static double difference(const Script *script, const Table *table, const double *values, int k,
+static double difference(const Script *script, const Reference *table, const double *values, int k,
                          int column)
 {
     int rows = result_rows(script->result);
@@ -70,7 +70,7 @@ static double difference(const Script *script, const Table *table, const double 
 static double compare(const Case *c)
 {
     char *text = script_file(c->script);
-    Table table = read_table(c->data);
+    Reference table = read_table(c->data);
     Script script = {0};
     double *values = NULL;
     Diag diag = {0};

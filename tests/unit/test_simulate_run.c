@@ -2,6 +2,7 @@
 #include "simulate_script.h"
 
 #include "base/text.h"
+#include "form.h"
 
 #define CRANK                                                                                      \
     "scene planar\ngravity [0, -9.81]\n"                                                           \
@@ -156,10 +157,13 @@ static void forces_are_no_initial_values(void)
     Script script = run(CRANK, (Changes){0});
     StartValue value = {"h9.fx", 0, 3, false};
     StartValues start = {1, &value};
-    Setting setting = {.parameter = script_parameter, .context = script.model, .start = &start};
+    Setting setting = {.parameter = script_parameter,
+                       .context = script.model,
+                       .scene = model_scene_source(script.model),
+                       .start = &start};
     Diag diag = {0};
 
-    EXPECT(system_new(script.model, NULL, &script.system, &diag) == OK);
+    EXPECT(form_system(script.model, &script.system, &diag) == OK);
     EXPECT(run_assemble(script.system, &setting, &script.result, &diag) == E_ASSEMBLE);
     EXPECT_TEXT(diag.message, "h9.fx follows from forces and can't be an initial value");
     script_close(&script);
@@ -334,7 +338,9 @@ static void a_resumed_run_is_one_run(void)
         run(PENDULUM "init h = 1, h' = 0\nsimulate 1 every=0.1 rtol=1e-11", (Changes){0});
     Script whole =
         run(PENDULUM "init h = 1, h' = 0\nsimulate 3 every=0.1 rtol=1e-11", (Changes){0});
-    Setting setting = {.parameter = script_parameter, .context = script.model};
+    Setting setting = {.parameter = script_parameter,
+                       .context = script.model,
+                       .scene = model_scene_source(script.model)};
     RunOptions options = {.duration = 2, .every = 0.1, .rtol = 1e-11};
     Result *resumed = NULL;
     Diag diag = {0};
@@ -352,7 +358,9 @@ static void a_resumed_run_is_one_run(void)
 static void only_forward_runs_are_resumed(void)
 {
     Script script = run(PENDULUM "init h = 1, h' = 0\nassemble", (Changes){0});
-    Setting setting = {.parameter = script_parameter, .context = script.model};
+    Setting setting = {.parameter = script_parameter,
+                       .context = script.model,
+                       .scene = model_scene_source(script.model)};
     RunOptions options = {.duration = 2};
     Result *resumed = NULL;
     Diag diag = {0};
@@ -395,7 +403,10 @@ static void a_second_run_estimates_the_error(void)
     Script script = run(PENDULUM "init h = 2, h' = 0", (Changes){0});
     StartValue values[2] = {{"h", 0, 2, false}, {"h", 1, 0, false}};
     StartValues start = {2, values};
-    Setting setting = {.parameter = script_parameter, .context = script.model, .start = &start};
+    Setting setting = {.parameter = script_parameter,
+                       .context = script.model,
+                       .scene = model_scene_source(script.model),
+                       .start = &start};
     RunOptions options = {.duration = 20, .rtol = 1e-6, .check = true};
     RunOptions exact = {.duration = 20, .rtol = 1e-12};
     Result *fine = NULL;
@@ -403,7 +414,7 @@ static void a_second_run_estimates_the_error(void)
     double got[2], wanted[2], off;
     Diag diag = {0};
 
-    EXPECT(system_new(script.model, NULL, &script.system, &diag) == OK);
+    EXPECT(form_system(script.model, &script.system, &diag) == OK);
     EXPECT(run_simulate(script.system, &setting, &options, &script.result, &diag) == OK);
     EXPECT(run_simulate(script.system, &setting, &exact, &fine, &diag) == OK);
     e[0] = expr_symbol(system_arena(script.system), "h", SYMBOL_VARIABLE);
@@ -426,11 +437,14 @@ static void an_unresolved_run_is_told(void)
             (Changes){0});
     StartValue value = {"h", 0, 3, false};
     StartValues start = {1, &value};
-    Setting setting = {.parameter = script_parameter, .context = script.model, .start = &start};
+    Setting setting = {.parameter = script_parameter,
+                       .context = script.model,
+                       .scene = model_scene_source(script.model),
+                       .start = &start};
     RunOptions options = {.duration = 100, .rtol = 1e-5, .check = true};
     Diag diag = {0};
 
-    EXPECT(system_new(script.model, NULL, &script.system, &diag) == OK);
+    EXPECT(form_system(script.model, &script.system, &diag) == OK);
     EXPECT(run_simulate(script.system, &setting, &options, &script.result, &diag) == OK);
     EXPECT(script.result != NULL &&
            strstr(result_remarks(script.result), "not resolved: ") != NULL);
@@ -511,7 +525,9 @@ static void wrong_options_are_refused(void)
          "that makes 1e+09 rows",
          "take a larger step of output, every="},
     };
-    Setting setting = {.parameter = script_parameter, .context = script.model};
+    Setting setting = {.parameter = script_parameter,
+                       .context = script.model,
+                       .scene = model_scene_source(script.model)};
 
     for (int i = 0; i < COUNT(wrong); i++) {
         Result *result = NULL;
@@ -551,8 +567,11 @@ static void ctrl_c_keeps_the_rows(void)
     Watch watch = {.context = &left, .stop = stop_later};
     StartValue value = {"h", 0, 1, false};
     StartValues start = {1, &value};
-    Setting setting = {
-        .parameter = script_parameter, .context = script.model, .start = &start, .watch = &watch};
+    Setting setting = {.parameter = script_parameter,
+                       .context = script.model,
+                       .scene = model_scene_source(script.model),
+                       .start = &start,
+                       .watch = &watch};
     RunOptions options = {.duration = 1000, .every = 0.1};
     Result *result = NULL;
     Diag diag = {0};
@@ -700,11 +719,12 @@ static void a_warm_start_carries_the_configuration_over(void)
     StartValues start = {1, &value};
     Setting setting = {.parameter = script_parameter,
                        .context = absolute.model,
+                       .scene = model_scene_source(absolute.model),
                        .start = &start,
                        .warm = joint.result};
     Diag diag = {0};
 
-    EXPECT(system_new(absolute.model, NULL, &absolute.system, &diag) == OK);
+    EXPECT(form_system(absolute.model, &absolute.system, &diag) == OK);
     EXPECT(run_assemble(absolute.system, &setting, &absolute.result, &diag) == OK);
     EXPECT_NEAR(value_at(&absolute, "h10", 0), asin(0.2 * sin(1.1) / 0.6), 1e-12);
     script_close(&joint);

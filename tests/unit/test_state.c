@@ -103,11 +103,15 @@ static bool is_as_linearized(Kit *kit)
 {
     StateSpace *space = NULL;
     const Linear *linear;
+    Scene scene = {0};
     Diag diag = {0};
     bool same = true;
+    Status status = model_scene(kit->session->model, &scene, &diag);
 
-    if (state_space_new(kit->session->model, NULL, &space, &diag) != OK ||
-        kit_do(kit, "linearize inputs=[E1, I1]\n") != CT_OK) {
+    if (status == OK)
+        status = state_space_new(&scene, NULL, &space, &diag);
+    scene_free(&scene);
+    if (status != OK || kit_do(kit, "linearize inputs=[E1, I1]\n") != CT_OK) {
         state_space_free(space);
         return false;
     }

@@ -402,14 +402,16 @@ done:
     return status;
 }
 
-static Status quest_open(Quest *e, const Model *model, Result *start, const Watch *watch,
-                         Diag *diag)
+static Status quest_open(Quest *e, const Setting *setting, Result *start, Diag *diag)
 {
+    const Watch *watch = setting->watch;
+    Scene scene = {0};
     size_t bytes;
     Status status = OK;
 
     *e = (Quest){.watch = watch, .beyond = -1};
-    CHECK(statics_new(model, start, watch, &e->statics, diag));
+    CHECK(setting->scene.make(setting->scene.context, &scene, diag));
+    CHECK(statics_new(&scene, start, watch, &e->statics, diag));
     e->l = statics_layout(e->statics);
     e->n = statics_count(e->statics);
     bytes = (size_t)statics_length(e->statics) * sizeof(double);
@@ -421,6 +423,7 @@ static Status quest_open(Quest *e, const Model *model, Result *start, const Watc
     if (e->search == NULL)
         CHECK(diag_set(diag, E_SOLVER, "SUNDIALS could not be started"));
 done:
+    scene_free(&scene);
     return status;
 }
 
@@ -447,8 +450,7 @@ static void guess_network(const Quest *e, Result *r)
            (size_t)l->nz * sizeof(double));
 }
 
-Status run_equilibrium(System *system, const Model *model, const Setting *setting, Result **out,
-                       Diag *diag)
+Status run_equilibrium(System *system, const Setting *setting, Result **out, Diag *diag)
 {
     Result *r = NULL;
     Quest e = {0};
@@ -459,7 +461,7 @@ Status run_equilibrium(System *system, const Model *model, const Setting *settin
 
     CHECK(result_open(RUN_START, system, setting, &r, diag));
     CHECK(result_refuse_by(r, diag));
-    CHECK(quest_open(&e, model, r, setting->watch, diag));
+    CHECK(quest_open(&e, setting, r, diag));
     l = result_whole(r)->layout;
     status = solve(&e, diag);
     if (status == E_SOLVER && cause_meeting(l, &r->parameters, 0, r->start.y,

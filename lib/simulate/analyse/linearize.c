@@ -47,15 +47,16 @@ static double parameter(void *context, Expr symbol)
     return parameters_value(&w->order->about->parameters, symbol);
 }
 
-static Status check_input(const LinearOrder *order, int i, Diag *diag)
+static Status check_input(const Scene *scene, const LinearOrder *order, int i, Diag *diag)
 {
     const char *name = order->inputs[i].source;
-    const Instance *instance = name != NULL ? model_find(order->model, name) : NULL;
 
     if (name == NULL)
         return OK;
-    if (instance != NULL && instance_input(instance) >= 0)
-        return OK;
+    for (int k = 0; k < scene->instance_count; k++)
+        if (strcmp(scene->instances[k]->name, name) == 0 &&
+            instance_input(scene->instances[k]) >= 0)
+            return OK;
     (void)diag_set(diag, E_NAME, "%s has no value that an input could be", name);
     diag_hint(diag, "inputs are sources, actuators, and parameters: F = 0 N; force "
                     "F1 m1 [F, 0]; linearize inputs=[F]");
@@ -80,15 +81,18 @@ static Status open_system(Work *w, Diag *diag)
     Arena *arena = system_arena(order->about->system);
     Vary of = {order, NULL, arena,
                expr_sub(arena, expr_symbol(arena, "t", SYMBOL_TIME), expr_real(arena, order->at))};
+    SystemOptions options = {.vary = vary, .context = &of, .watch = order->watch};
+    Scene scene = {0};
     bool needed = false;
     Status status = OK;
 
+    CHECK(order->scene.make(order->scene.context, &scene, diag));
     w->inputs = NEW_ARRAY(Expr, 2 * order->input_count);
     of.symbols = w->inputs;
     for (int i = 0; i < order->input_count; i++) {
         Text name = {0};
 
-        CHECK(check_input(order, i, diag));
+        CHECK(check_input(&scene, order, i, diag));
         text_addf(&name, order->inputs[i].source != NULL ? "#%s" : "%s", order->inputs[i].name);
         w->inputs[i] = expr_symbol(arena, name.at, SYMBOL_PARAMETER);
         text_addf(&name, "#rate");
@@ -98,7 +102,7 @@ static Status open_system(Work *w, Diag *diag)
     }
     CHECK(find_point(w, diag));
     w->system = w->phase->system;
-    if (needed && system_revision(w->system) != model_revision(order->model)) {
+    if (needed && system_revision(w->system) != scene.revision) {
         (void)diag_set(diag, E_MODEL,
                        "the model has changed since the run, so its sources are no "
                        "inputs there");
@@ -106,7 +110,8 @@ static Status open_system(Work *w, Diag *diag)
         CHECK(E_MODEL);
     }
     if (needed) {
-        CHECK(system_new_like(w->system, order->model, vary, &of, order->watch, &w->varied, diag));
+        options.like = w->system;
+        CHECK(system_new(&scene, &options, &w->varied, diag));
         w->system = w->varied;
     }
     w->l = layout_new(w->system);
@@ -114,6 +119,7 @@ static Status open_system(Work *w, Diag *diag)
         layout_take_sides(w->l, w->phase->closed);
     w->parameters = (Parameters){.value = parameter, .context = w};
 done:
+    scene_free(&scene);
     return status;
 }
 

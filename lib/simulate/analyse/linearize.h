@@ -17,8 +17,8 @@ typedef struct LinearInput {
 
 typedef struct LinearOrder {
     Result *about;
-    double at;          /* instant of it, s */
-    const Model *model; /* of the result; asked where an input is a component's value */
+    double at;         /* instant of it, s */
+    SceneSource scene; /* of the result; asked where an input is a component's value */
     const LinearInput *inputs;
     int input_count;
     const Expr *outputs; /* over the user's variables */

@@ -75,20 +75,21 @@ static double parameter(void *context, Expr symbol)
                                : parameters_value(&s->start->parameters, symbol);
 }
 
-static Status make_system(Statics *s, const Model *model, const Watch *watch, Diag *diag)
+static Status make_system(Statics *s, const Scene *scene, const Watch *watch, Diag *diag)
 {
     const Layout *theirs = result_whole(s->start)->layout;
-    Arena *arena = model_arena(model);
+    Arena *arena = scene->arena;
     Vary of = {.arena = arena,
                .time = expr_symbol(arena, "t", SYMBOL_TIME),
                .zero = expr_int(arena, 0),
                .load = expr_symbol(arena, "#load", SYMBOL_PARAMETER)};
+    SystemOptions options = {.vary = vary, .context = &of, .watch = watch};
     Status status = OK;
 
     s->load = of.load;
-    s->leak = expr_symbol(arena, "#leak", SYMBOL_PARAMETER);
+    s->leak = options.leak = expr_symbol(arena, "#leak", SYMBOL_PARAMETER);
     s->parameters = (Parameters){.value = parameter, .context = s};
-    CHECK(system_new_leaking(model, vary, &of, s->leak, watch, &s->system, diag));
+    CHECK(system_new(scene, &options, &s->system, diag));
     s->l = layout_new(s->system);
     s->n = s->l->nu + s->l->nx + s->l->m + s->l->nz;
     s->near = s->l->n + s->l->nx + s->l->m + s->l->nz;
@@ -390,14 +391,14 @@ static void guess_network(Statics *s, const Layout *theirs)
                 z[i] = s->start->start.guess[k];
 }
 
-Status statics_new(const Model *model, Result *start, const Watch *watch, Statics **out, Diag *diag)
+Status statics_new(const Scene *scene, Result *start, const Watch *watch, Statics **out, Diag *diag)
 {
     Statics *s = NEW(Statics);
     const Layout *theirs = result_whole(start)->layout;
     Status status = OK;
 
     s->start = start;
-    CHECK(make_system(s, model, watch, diag));
+    CHECK(make_system(s, scene, watch, diag));
     CHECK(make_map(s, diag));
     CHECK(make_rows(s, diag));
     s->v = NEW_ARRAY(double, s->length);

@@ -20,7 +20,7 @@ typedef struct Statics Statics;
 /* New; free with statics_free(). The base is the assembled start of `start`, a result on the system
  * of the user, which is borrowed: its parameters are asked for. Fails as system_new() and
  * probe_new() do. O(symbols in the equations) derivatives. */
-MUST_USE Status statics_new(const Model *model, Result *start, const Watch *watch, Statics **out,
+MUST_USE Status statics_new(const Scene *scene, Result *start, const Watch *watch, Statics **out,
                             Diag *diag);
 void statics_free(Statics *statics); /* NULL is fine */
 

@@ -5,6 +5,7 @@
 #define COTREE_SIMULATE_EQUATIONS_SETTING_H
 
 #include "formulate/system.h"
+#include "model/event.h"
 
 /* Initial values in force: lists of the model, as numbers. */
 typedef struct StartValue {
@@ -26,7 +27,7 @@ typedef double (*ParameterValue)(void *context, Expr symbol);
 typedef struct Setting {
     ParameterValue parameter;
     void *context;
-    const Model *model; /* the system's: its ideal switches make others of it */
+    SceneSource scene; /* of the system: its ideal switches make others from it */
     Form form;
     const char *const *independent; /* names; borrowed during the call */
     int independent_count;

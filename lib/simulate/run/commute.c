@@ -179,7 +179,7 @@ Status commute_phase(Result *r, const Setting *setting, const bool *closed, Phas
             *out = r->phases.at[i];
             return OK;
         }
-    CHECK(system_mode(r->system, setting->model, closed, setting->watch, &system, diag));
+    CHECK(system_mode(r->system, setting->scene, closed, setting->watch, &system, diag));
     for (int i = 1; i < r->phases.count; i++)
         if (r->phases.at[i]->system == system && r->phases.at[i]->on_count == 0) {
             *out = phase_new_like(r->phases.at[i], closed, count);

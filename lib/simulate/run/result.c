@@ -155,7 +155,7 @@ static Status prepare(RunKind kind, System *system, const Setting *setting, Resu
     CHECK(phase_new(system, &r->parameters, NULL, 0, &whole, diag));
     LIST_PUSH(r->phases, whole);
     if (goes_through_modes(whole->layout)) {
-        CHECK(system_sided(system, setting->model, setting->watch, &sided, diag));
+        CHECK(system_sided(system, setting->scene, setting->watch, &sided, diag));
         CHECK(sides_new(sided, &r->parameters, &r->sides, diag));
     }
     *out = r;

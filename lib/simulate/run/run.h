@@ -65,10 +65,9 @@ typedef struct EventRecord {
 MUST_USE Status run_assemble(System *system, const Setting *setting, Result **out, Diag *diag);
 
 /* Where everything rests, with sources and drivers as at t = 0: a result of one row like that of
- * run_assemble(), from whose start the search goes out. `model` is the system's. Fails with
- * E_SOLVER, telling what stays out of balance by part, and as run_assemble() does. */
-MUST_USE Status run_equilibrium(System *system, const Model *model, const Setting *setting,
-                                Result **out, Diag *diag);
+ * run_assemble(), from whose start the search goes out. Fails with E_SOLVER, telling what stays out
+ * of balance by part, and as run_assemble() does. */
+MUST_USE Status run_equilibrium(System *system, const Setting *setting, Result **out, Diag *diag);
 
 /* Forward dynamics from the assembled start. E_STOPPED and E_SOLVER still hand out what was
  * computed (*out is NULL only when nothing was). */

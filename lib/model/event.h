@@ -1,0 +1,26 @@
+/* event.h: events of a model: a condition, and what happens when it becomes true */
+#ifndef COTREE_MODEL_EVENT_H
+#define COTREE_MODEL_EVENT_H
+
+#include "expr/expr.h"
+
+/* what happens when a condition becomes true */
+typedef enum EventAction { EVENT_MARK, EVENT_STOP, EVENT_SET } EventAction;
+
+typedef struct NewValue {
+    const char *name; /* variable, as in a Start */
+    int primes;
+    Expr value; /* over variables, t and parameters, just before the event */
+} NewValue;
+
+typedef struct Event {
+    const char *name;
+    Expr when;             /* a condition over variables, t and parameters */
+    const char *condition; /* the same as written */
+    EventAction action;
+    int value_count;
+    const NewValue *values; /* of EVENT_SET */
+    const char *text;       /* its statement */
+} Event;
+
+#endif

@@ -1,0 +1,53 @@
+/* scene.h: what equations are formed from: a graph, its trees, and instances of components
+ *
+ * All of it is borrowed from whoever made the scene, until that changes, but for the two lists. */
+#ifndef COTREE_MODEL_SCENE_H
+#define COTREE_MODEL_SCENE_H
+
+#include "component/component.h"
+#include "graph/tree.h"
+
+typedef enum Form { FORM_AUGMENTED, FORM_EMBEDDED } Form;
+
+/* Which equations of scalar networks are integrated: state form, by a normal tree whatever the
+ * user's; or those that follow from the user's trees. */
+typedef enum NetworkForm { NETWORK_STATE, NETWORK_TREE } NetworkForm;
+
+typedef struct SceneParameter {
+    Expr symbol;  /* SYMBOL_PARAMETER */
+    double value; /* now, SI */
+} SceneParameter;
+
+typedef struct SceneOutput {
+    const char *name;
+    Expr body; /* over variables, t and parameters */
+} SceneOutput;
+
+typedef struct Scene {
+    Arena *arena;
+    uint64_t revision; /* changes whenever equations may have changed; never reused */
+    bool planar;
+    const Expr *gravity; /* three, ground axes, m/s^2 */
+    const Graph *graph;
+    const Tree *trees[TREE_KINDS]; /* NULL: no edge is of that kind */
+    const Instance *const *instances;
+    int instance_count;
+    Form form;
+    const char *const *independent; /* coordinates; count 0: chosen by pivoting */
+    int independent_count;
+    NetworkForm network_form;
+    LIST(SceneParameter) parameters;
+    LIST(SceneOutput) outputs;
+    double (*number)(const void *context, Expr e); /* of an expression of parameters */
+    const void *context;
+} Scene;
+
+void scene_free(Scene *scene); /* its lists */
+
+/* Makes the scene as it is now, for whoever may need equations later. */
+typedef struct SceneSource {
+    Status (*make)(const void *context, Scene *out, Diag *diag);
+    const void *context;
+} SceneSource;
+
+#endif
