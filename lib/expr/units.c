@@ -379,28 +379,43 @@ static int dimension_size(Dimension d)
     return size;
 }
 
-/* The named unit that shortens the writing most, and what is left beside it. A unit that
- * would leave mass or current to divide by says less than base units: m/s^2 is no N/kg. */
-static const char *dimension_named(Dimension whole, Dimension *rest)
+/* The power of a named unit that shortens the writing most, and what is left beside it; NULL: none
+ * does. One that would leave mass or current to divide by says less than base units: m/s^2 is no
+ * N/kg. */
+static const char *dimension_named(Dimension whole, int *power, Dimension *rest)
 {
+    static const int powers[] = {1, 2, 3, 4, -1, -2, -3, -4};
     const char *name = NULL;
     int size = dimension_size(whole);
 
     *rest = whole;
-    for (int i = 0; i < COUNT(rows); i++) {
+    *power = 0;
+    for (int i = 0; i < COUNT(rows) * COUNT(powers); i++) {
+        const UnitRow *row = &rows[i / COUNT(powers)];
+        const int p = powers[i % COUNT(powers)];
         Dimension left = whole;
+        int written;
 
-        if (!rows[i].named)
+        if (!row->named)
             continue;
         for (int j = 0; j < 6; j++)
-            left.power[j] = (signed char)(left.power[j] - rows[i].power[j]);
-        if (left.power[1] != 0 || left.power[3] != 0 || 1 + dimension_size(left) >= size)
+            left.power[j] = (signed char)(left.power[j] - p * row->power[j]);
+        written = 1 + (p != 1) + (p < -1) + dimension_size(left);
+        if (left.power[1] != 0 || left.power[3] != 0 || written >= size)
             continue;
-        size = 1 + dimension_size(left);
-        name = rows[i].name;
+        size = written;
+        name = row->name;
+        *power = p;
         *rest = left;
     }
     return name;
+}
+
+/* "^3", "" for 1 */
+static void print_power(Text *text, int power)
+{
+    if (power > 1)
+        text_addf(text, "^%d", power);
 }
 
 void dimension_print(Text *text, Dimension dimension)
@@ -408,11 +423,13 @@ void dimension_print(Text *text, Dimension dimension)
     static const char *const bases[] = {"kg", "m", "s", "A", "K", "rad"};
     static const int places[] = {1, 0, 2, 3, 4, 5};
     Dimension rest;
-    const char *name = dimension_named(dimension, &rest);
+    int named;
+    const char *name = dimension_named(dimension, &named, &rest);
     bool first = true;
 
-    if (name != NULL) {
+    if (named > 0) {
         text_add(text, name);
+        print_power(text, named);
         first = false;
     }
     for (int i = 0; i < 6; i++) {
@@ -421,19 +438,21 @@ void dimension_print(Text *text, Dimension dimension)
         if (power <= 0)
             continue;
         text_addf(text, first ? "%s" : "*%s", bases[i]);
-        if (power > 1)
-            text_addf(text, "^%d", power);
+        print_power(text, power);
         first = false;
     }
     if (first)
         text_char(text, '1');
+    if (named < 0) {
+        text_addf(text, "/%s", name);
+        print_power(text, -named);
+    }
     for (int i = 0; i < 6; i++) {
         int power = -rest.power[places[i]];
 
         if (power <= 0)
             continue;
         text_addf(text, "/%s", bases[i]);
-        if (power > 1)
-            text_addf(text, "^%d", power);
+        print_power(text, power);
     }
 }

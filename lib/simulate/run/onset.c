@@ -538,7 +538,6 @@ static double next_unseen(Onset *o, const Stepper *stepper, double end)
         is_onset = is_onset || o->onset[j] == o->t;
     if (!is_onset && is_clear(o, to - o->t, end))
         return end;
-    o->has_pulses = o->has_pulses || stepper->next > 0;
     take_sources(o, o->t);
     way = NEW_ARRAY(double, o->sources);
     over = steep_sources_over(o->steep, (Range){o->t, to});
@@ -556,6 +555,8 @@ static double next_unseen(Onset *o, const Stepper *stepper, double end)
         }
         if (!(way[j] > 0) || o->seen[j] >= SEEN * way[j])
             continue;
+        /* where a smooth one turns, steps are seldom clear and all is seen */
+        o->has_pulses = o->has_pulses || stepper->next > 0;
         at = unseen(o, j, stepper, to);
         if (!(at > o->t && at < to))
             continue;
