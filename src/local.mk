@@ -20,7 +20,7 @@ cotree_SOURCES = \
     src/reader.c src/reader.h \
     src/replay.c src/replay.h \
     src/saved.c src/saved.h \
-    src/settings.c src/settings.h \
+    src/settings.c src/settings.h src/settings.def \
     src/shell.c src/shell.h \
     src/terminal.c src/terminal.h \
     src/unsaved.c src/unsaved.h

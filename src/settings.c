@@ -3,97 +3,84 @@
 
 #include "complain.h"
 
+#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
 typedef struct Setting {
     const char *const *words; /* the name, the values that are words, NULL */
     const char *brief;
-    ct_status (*set)(Settings *settings, const char *text, ct_error *error);
-    void (*show)(const Settings *settings, FILE *out);
+    int low, high; /* of a number */
+    ct_status (*set)(const struct Setting *row, void *value, const char *text, ct_error *error);
+    void (*show)(const void *value, FILE *out);
+    size_t at; /* of its value in Settings */
 } Setting;
 
-static bool read_whole(const char *text, long low, long high, long *value)
+static ct_status set_number(const Setting *row, void *value, const char *text, ct_error *error)
 {
     char *end;
-    long got = strtol(text, &end, 10);
+    const long got = strtol(text, &end, 10);
 
-    if (end == text || *end != '\0' || got < low || got > high)
-        return false;
-    *value = got;
-    return true;
-}
-
-static ct_status set_digits(Settings *settings, const char *text, ct_error *error)
-{
-    long value;
-
-    if (!read_whole(text, 1, 17, &value))
-        return error_say(error, "digits are a whole number from 1 to 17, not '%s'", text);
-    settings->digits = (int)value;
+    if (end == text || *end != '\0' || got < row->low || got > row->high)
+        return error_say(error, "'%s' is no whole number from %d to %d", text, row->low, row->high);
+    *(int *)value = (int)got;
     return CT_OK;
 }
 
-static void show_digits(const Settings *settings, FILE *out)
+static void show_number(const void *value, FILE *out)
 {
-    fprintf(out, "%d", settings->digits);
+    fprintf(out, "%d", *(const int *)value);
 }
 
-static ct_status set_terminal(Settings *settings, const char *text, ct_error *error)
+static ct_status set_word(const Setting *row, void *value, const char *text, ct_error *error)
 {
-    if (strlen(text) >= sizeof settings->terminal ||
+    if (strlen(text) >= SETTING_WORD ||
         text[strspn(text, "abcdefghijklmnopqrstuvwxyz0123456789")] != '\0')
-        return error_say(error, "a terminal is auto, text, window or one of gnuplot's, not '%s'",
-                         text);
-    (void)snprintf(settings->terminal, sizeof settings->terminal, "%s", text);
+        return error_say(error, "%s takes a word, not '%s'", row->words[0], text);
+    strcpy(value, text);
     return CT_OK;
 }
 
-static void show_terminal(const Settings *settings, FILE *out)
+static void show_word(const void *value, FILE *out)
 {
-    fputs(settings->terminal, out);
+    fputs(value, out);
 }
 
-static ct_status set_pager(Settings *settings, const char *text, ct_error *error)
+static ct_status set_switch(const Setting *row, void *value, const char *text, ct_error *error)
 {
     if (strcmp(text, "on") != 0 && strcmp(text, "off") != 0)
-        return error_say(error, "the pager is on or off, not '%s'", text);
-    settings->pager = strcmp(text, "on") == 0;
+        return error_say(error, "%s is on or off, not '%s'", row->words[0], text);
+    *(bool *)value = strcmp(text, "on") == 0;
     return CT_OK;
 }
 
-static void show_pager(const Settings *settings, FILE *out)
+static void show_switch(const void *value, FILE *out)
 {
-    fputs(settings->pager ? "on" : "off", out);
+    fputs(*(const bool *)value ? "on" : "off", out);
 }
 
-static ct_status set_seed(Settings *settings, const char *text, ct_error *error)
-{
-    if (!read_whole(text, 0, 2147483647, &settings->seed))
-        return error_say(error, "a seed is a whole number from 0 to 2147483647, not '%s'", text);
-    return CT_OK;
-}
+#define WORDS(...)  ((const char *const[]){__VA_ARGS__, NULL})
+#define PLACE(name) offsetof(Settings, name)
 
-static void show_seed(const Settings *settings, FILE *out)
-{
-    fprintf(out, "%ld", settings->seed);
-}
-
-#define WORDS(...) ((const char *const[]){__VA_ARGS__, NULL})
-
-/* clang-format off */
 static const Setting table[] = {
-    {WORDS("digits"), "significant digits of printed numbers",              set_digits,   show_digits},
-    {WORDS("terminal", "auto", "text", "window"), "of plots: auto, text, window or a name of gnuplot's", set_terminal, show_terminal},
-    {WORDS("pager", "on", "off"), "whether text longer than the screen is paged", set_pager,    show_pager},
-    {WORDS("seed"), "of random numbers", set_seed,     show_seed},
+#define NUMBER(name, start, low, high, brief)                                                      \
+    {WORDS(#name), brief, low, high, set_number, show_number, PLACE(name)},
+#define WORD(name, start, brief, ...)                                                              \
+    {WORDS(#name, __VA_ARGS__), brief, 0, 0, set_word, show_word, PLACE(name)},
+#define SWITCH(name, start, brief)                                                                 \
+    {WORDS(#name, "on", "off"), brief, 0, 0, set_switch, show_switch, PLACE(name)},
+#include "settings.def"
 };
-/* clang-format on */
 enum { SETTINGS = sizeof table / sizeof table[0] };
 
 void settings_start(Settings *settings)
 {
-    *settings = (Settings){.digits = 6, .terminal = "auto", .pager = 1, .seed = 1};
+    *settings = (Settings){
+#define NUMBER(name, start, ...) .name = start,
+#define WORD(name, start, ...)   .name = start,
+#define SWITCH(name, start, ...) .name = start,
+#include "settings.def"
+    };
 }
 
 /* the name that a `set` statement sets: `set digits 10` or `set digits = 10` */
@@ -117,7 +104,9 @@ static const Setting *find(const char *name)
 
 ct_status settings_set(Settings *settings, const char *name, const char *value, ct_error *error)
 {
-    return find(name)->set(settings, value, error);
+    const Setting *row = find(name);
+
+    return row->set(row, (char *)settings + row->at, value, error);
 }
 
 bool settings_own(const ct_statement *statement)
@@ -138,7 +127,7 @@ ct_status settings_apply(Settings *settings, const ct_statement *statement, ct_e
 
     char *text = ct_expression_text(value);
     ct_error why;
-    ct_status status = row->set(settings, text, &why);
+    ct_status status = row->set(row, (char *)settings + row->at, text, &why);
 
     if (status != CT_OK)
         status = ct_error_at(statement, value, error, "%s", why.message);
@@ -155,7 +144,7 @@ void settings_show(const Settings *settings, FILE *out)
 {
     for (int i = 0; i < SETTINGS; i++) {
         fprintf(out, "%-9s  ", table[i].words[0]);
-        table[i].show(settings, out);
+        table[i].show((const char *)settings + table[i].at, out);
         fprintf(out, "  (%s)\n", table[i].brief);
     }
 }

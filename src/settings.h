@@ -6,11 +6,13 @@
 
 #include <stdio.h>
 
-typedef struct Settings {
-    int digits;        /* of printed numbers */
-    char terminal[24]; /* of plots: "auto", "text", "window" or gnuplot's name */
-    int pager;         /* whether there is one */
-    long seed;         /* of what is random */
+enum { SETTING_WORD = 24 }; /* room for a word */
+
+typedef struct Settings { /* a field a row of settings.def */
+#define NUMBER(name, ...) int name;
+#define WORD(name, ...)   char name[SETTING_WORD];
+#define SWITCH(name, ...) bool name;
+#include "settings.def"
 } Settings;
 
 void settings_start(Settings *settings);

@@ -23,6 +23,7 @@ libcore_la_SOURCES += \
   lib/model/model_places.c \
   lib/model/model_scene.c \
   lib/model/scene.h \
+  lib/model/model_settings.def \
   lib/model/model_start.c \
   lib/model/model_state.c \
   lib/model/model_tree.c \

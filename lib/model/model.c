@@ -344,7 +344,7 @@ static Status make_scene(const void *context, Scene *out, Diag *diag)
                    .form = state->form,
                    .independent = state->independent.at,
                    .independent_count = state->independent.count,
-                   .network_form = state->network_form,
+                   .network_form = (NetworkForm)state->settings.at[SETTING_NETWORK],
                    .number = scene_number,
                    .context = model};
     Status status = OK;
@@ -447,9 +447,9 @@ Form model_form(const Model *model, const char *const **independent, int *count)
     return model->state->form;
 }
 
-NetworkForm model_network_form(const Model *model)
+int model_setting_value(const Model *model, ModelSetting setting)
 {
-    return model->state->network_form;
+    return model->state->settings.at[setting];
 }
 
 static Scope ask(const Model *model)

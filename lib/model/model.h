@@ -118,9 +118,15 @@ typedef struct DataFinder {
     bool given; /* what is shared is not read anew */
 } DataFinder;
 void model_find_data(Model *model, const DataFinder *finder);
-NetworkForm model_network_form(const Model *model);
-/* the words of the i-th setting of any model: its name, its values, NULL; NULL: no more */
+/* settings that the model keeps, and the words of each: its name, its values, NULL; NULL: no more
+ */
+typedef enum ModelSetting {
+#define SETTING(id, ...) SETTING_##id,
+#include "model/model_settings.def"
+    MODEL_SETTINGS
+} ModelSetting;
 const char *const *model_setting(int i);
+int model_setting_value(const Model *model, ModelSetting setting); /* which of the values, from 0 */
 Form model_form(const Model *model, const char *const **independent,
                 int *count); /* names of coordinates; count 0: chosen by pivoting */
 

@@ -73,6 +73,11 @@ typedef struct Choice { /* of one tree */
     NameList excluded;
 } Choice;
 
+/* by setting: which of its values, from 0 */
+typedef struct SettingValues {
+    int at[MODEL_SETTINGS];
+} SettingValues;
+
 /* What a State is besides its lists. */
 typedef struct Setup {
     bool planar;
@@ -81,7 +86,7 @@ typedef struct Setup {
     int datum[DOMAIN_COUNT];
     int group_count;
     Form form;
-    NetworkForm network_form;
+    SettingValues settings;
 } Setup;
 
 /* --- what was changed in place, as it was before (model_mark.c) --- */
@@ -136,7 +141,7 @@ typedef struct State {
     NumberList start_of; /* by number in start_names: its place in `starts`, or -1 */
     int group_count;
     Form form;
-    NetworkForm network_form;
+    SettingValues settings;
     NameList independent;
     Tree *trees[TREE_KINDS];
     bool has_trees;

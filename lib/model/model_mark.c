@@ -83,7 +83,7 @@ Setup state_setup(const State *state)
     memcpy(setup.datum, state->datum, sizeof setup.datum);
     setup.group_count = state->group_count;
     setup.form = state->form;
-    setup.network_form = state->network_form;
+    setup.settings = state->settings;
     return setup;
 }
 
@@ -95,8 +95,11 @@ static bool setup_same(const Setup *a, const Setup *b)
     for (int i = 0; i < COUNT(a->datum); i++)
         if (a->datum[i] != b->datum[i])
             return false;
+    for (int i = 0; i < MODEL_SETTINGS; i++)
+        if (a->settings.at[i] != b->settings.at[i])
+            return false;
     return a->planar == b->planar && a->title == b->title && a->group_count == b->group_count &&
-           a->form == b->form && a->network_form == b->network_form;
+           a->form == b->form;
 }
 
 void state_note_setup(State *state, const Setup *before)
@@ -122,7 +125,7 @@ static void restore_setup(State *state, const Setup *setup)
     memcpy(state->datum, setup->datum, sizeof state->datum);
     state->group_count = setup->group_count;
     state->form = setup->form;
-    state->network_form = setup->network_form;
+    state->settings = setup->settings;
 }
 
 /* values of parameters follow from one another */

@@ -211,20 +211,12 @@ done:
 
 /* --- settings --- */
 
-typedef struct Setting {
+static const struct {
+    const char *hint;
     const char *const *words; /* the name, then the values */
-    const char *wrong, *hint;
-    void (*apply)(State *state, const char *value);
-} Setting;
-
-static void set_network(State *state, const char *value)
-{
-    state->network_form = strcmp(value, "tree") == 0 ? NETWORK_TREE : NETWORK_STATE;
-}
-
-static const Setting settings[] = {
-    {WORDS("network", "state", "tree"), "the network's form is state or tree",
-     "set network tree integrates the equations of the trees as they are", set_network},
+} settings[] = {
+#define SETTING(id, hint, ...) {hint, WORDS(__VA_ARGS__)},
+#include "model/model_settings.def"
 };
 
 const char *const *model_setting(int i)
@@ -232,43 +224,47 @@ const char *const *model_setting(int i)
     return i >= 0 && i < COUNT(settings) ? settings[i].words : NULL;
 }
 
-static const Setting *find_setting(const Statement *statement)
+/* the place of a word in a list ended by NULL; -1: it isn't there */
+static int find_word(const char *const *words, const char *word)
 {
-    const char *name =
-        statement->operands.count > 0 ? syntax_name(statement->operands.at[0].value) : NULL;
-
-    for (int i = 0; name != NULL && i < COUNT(settings); i++)
-        if (strcmp(settings[i].words[0], name) == 0)
-            return &settings[i];
-    return NULL;
+    for (int i = 0; word != NULL && words[i] != NULL; i++)
+        if (strcmp(words[i], word) == 0)
+            return i;
+    return -1;
 }
 
-/* set network tree|state: which equations of networks are integrated */
-static Status apply_setting(State *state, const Setting *setting, const Statement *statement,
-                            Outcome *outcome, Diag *diag)
+/* set NAME VALUE, of one of the model's */
+static Status apply_setting(State *state, int setting, const Statement *statement, Outcome *outcome,
+                            Diag *diag)
 {
+    const char *const *words = settings[setting].words;
     const Operand *last = &statement->operands.at[statement->operands.count - 1];
-    const char *value = statement->operands.count == 2 ? syntax_name(last->value) : NULL;
-    bool is_known = false;
+    const int value =
+        find_word(words + 1, statement->operands.count == 2 ? syntax_name(last->value) : NULL);
 
-    for (int i = 1; value != NULL && setting->words[i] != NULL; i++)
-        is_known = is_known || strcmp(setting->words[i], value) == 0;
-    if (!is_known) {
-        (void)diag_at(diag, E_VALUE, last->place, "%s", setting->wrong);
-        diag_hint(diag, "%s", setting->hint);
+    if (value < 0) {
+        Text list = {0};
+
+        for (int i = 1; words[i] != NULL; i++)
+            text_addf(&list, "%s%s", i > 1 ? " or " : "", words[i]);
+        (void)diag_at(diag, E_VALUE, last->place, "%s is %s", words[0], list.at);
+        diag_hint(diag, "%s", settings[setting].hint);
+        text_free(&list);
         return E_VALUE;
     }
-    setting->apply(state, value);
+    state->settings.at[setting] = value;
     outcome->effect = EFFECT_EQUATIONS;
     return OK;
 }
 
 Status apply_set(State **state, const Statement *statement, Outcome *outcome, Diag *diag)
 {
-    const Setting *setting = find_setting(statement);
+    const char *name =
+        statement->operands.count > 0 ? syntax_name(statement->operands.at[0].value) : NULL;
 
-    if (setting != NULL)
-        return apply_setting(*state, setting, statement, outcome, diag);
+    for (int i = 0; name != NULL && i < MODEL_SETTINGS; i++)
+        if (strcmp(settings[i].words[0], name) == 0)
+            return apply_setting(*state, i, statement, outcome, diag);
     return apply_pairs(state, statement, set_pair, outcome, diag);
 }
 

@@ -228,7 +228,7 @@ Status starts_copy(State *to, const State *from, NameList *broken, Text *remarks
         CHECK(copy_start(to, &from->starts.at[i], broken, remarks, diag));
     to->group_count = from->group_count;
     to->form = from->form;
-    to->network_form = from->network_form;
+    to->settings = from->settings;
     for (int i = 0; i < from->independent.count; i++) {
         int owner;
         int coordinate;
@@ -252,8 +252,10 @@ void starts_save(const State *state, Text *text)
             text_addf(text, "%s%s", i == 0 ? " independent=[" : ", ", state->independent.at[i]);
         text_add(text, state->independent.count > 0 ? "]\n" : "\n");
     }
-    if (state->network_form == NETWORK_TREE)
-        text_add(text, "set network tree\n");
+    for (int i = 0; i < MODEL_SETTINGS; i++)
+        if (state->settings.at[i] != 0)
+            text_addf(text, "set %s %s\n", model_setting(i)[0],
+                      model_setting(i)[1 + state->settings.at[i]]);
     for (int i = 0; i < state->starts.count; i++) {
         const StartEntry *entry = &state->starts.at[i];
         const StartEntry *before = i > 0 ? entry - 1 : NULL;

@@ -83,8 +83,10 @@ Status show_settings(const View *view, const Selection *selection, Text *out, Di
                 : count > 0           ? text.at
                                       : "chosen by pivoting");
     text_free(&text);
-    table_cell(&table, "network");
-    table_cell(&table, model_network_form(view->model) == NETWORK_TREE ? "tree" : "state");
+    for (ModelSetting i = 0; i < MODEL_SETTINGS; i++) {
+        table_cell(&table, model_setting((int)i)[0]);
+        table_cell(&table, model_setting((int)i)[1 + model_setting_value(view->model, i)]);
+    }
     table_cell(&table, "evaluator");
     table_cell(&table, "interpreter");
     table_print(out, &table, 0);

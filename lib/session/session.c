@@ -180,7 +180,8 @@ done:
 
 Status session_system(ct_session *session, System **out, Diag *diag)
 {
-    return system_of_form(session, model_network_form(session->model), out, diag);
+    return system_of_form(
+        session, (NetworkForm)model_setting_value(session->model, SETTING_NETWORK), out, diag);
 }
 
 Status session_shown(ct_session *session, System **out, Diag *diag)

@@ -59,7 +59,9 @@ static Status assemble_real(ct_session *session, const Setting *setting, System 
                             Result **out, Diag *diag)
 {
     RealTrees trees = {.model = session->model};
-    SystemOptions options = {.form = model_network_form(session->model), .watch = &session->watch};
+    SystemOptions options = {.form =
+                                 (NetworkForm)model_setting_value(session->model, SETTING_NETWORK),
+                             .watch = &session->watch};
     Setting plain = *setting;
     Scene scene = {0};
     Status status;

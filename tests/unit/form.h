@@ -7,7 +7,8 @@
 
 __attribute__((unused)) static Status form_system(const Model *model, System **out, Diag *diag)
 {
-    const SystemOptions options = {.form = model_network_form(model)};
+    const SystemOptions options = {.form =
+                                       (NetworkForm)model_setting_value(model, SETTING_NETWORK)};
     Scene scene = {0};
     Status status = OK;
 
