@@ -529,6 +529,7 @@ int main(int argc, char **argv)
     bench_converter();
     bench_multiplier(3, 3);
     bench_multiplier(10, 1);
+    bench_multiplier(30, 1);
     side_by_side(argv[1], argv[2]);
     return 0;
 }

@@ -1,9 +1,11 @@
-/* family_diodes.c: random networks of diodes and switches, with resistances and ideal, against an
- * integration of its own in fine fixed steps; rectifiers and multipliers against closed forms
+/* family_diodes.c: random networks of diodes and switches, with resistances, ideal and exponential,
+ * against an integration of its own in fine fixed steps; rectifiers and multipliers against closed
+ * forms
  *
  * The oracle writes each network's node equations by the implicit Euler method: capacitors and
  * coils are conductances beside sources, sources of voltage stand behind resistances, diodes are of
- * two straight lines. In each step diodes go over until none is wrong (Murty 1974). Runs of n and
+ * two straight lines. In each step diodes go over until none is wrong (Murty 1974); exponential
+ * ones are solved for by Newton's method, with the steps of their voltages limited. Runs of n and
  * of 2n steps are extrapolated, and differ by what they may be off. An ideal part is one of 10
  * uohm and 100 Gohm to the oracle. */
 #include "../unit/session_kit.h"
@@ -11,7 +13,8 @@
 
 #include <math.h>
 
-#define PI 3.14159265358979323846
+#define PI      3.14159265358979323846
+#define THERMAL (1.380649e-23 * 300.15 / 1.602176634e-19) /* V, at 27 degrees */
 
 enum { NODES = 8, PARTS = 40, POINTS = 6 };
 
@@ -25,13 +28,17 @@ typedef struct Part {
     double value;    /* ohm, F, H; of a source its amplitude */
     double series;   /* of a source, behind which it stands, or of a switch, ohm; 0: none */
     double on, off, least;
+    double Is, scale;    /* of an exponential diode: A, V */
     double phase, level; /* of a source; of a switch, closed while sin(w t + phase) > level */
     double start;        /* V of a capacitor */
 } Part;
 
+typedef enum Diodes { WITH_RESISTANCES, IDEAL, EXPONENTIAL } Diodes;
+
 typedef struct Network {
     int nodes, count; /* without ground */
-    bool ideal;
+    bool ideal;       /* its switches, too */
+    bool exponential;
     double omega, end; /* rad/s, s */
     Part part[PARTS];
 } Network;
@@ -87,16 +94,23 @@ static void add_diodes(Network *net, uint64_t *random, int count)
         diode->on = net->ideal ? 1e-5 : decades(random, 0.01, 10);
         diode->off = net->ideal ? 1e11 : decades(random, 1e5, 1e8);
         diode->least = net->ideal && pick(random, 2) ? 0 : least;
+        if (net->exponential) {
+            diode->Is = decades(random, 1e-14, 1e-8);
+            diode->scale = test_uniform(random, 1, 2);
+        }
     }
 }
 
-static void make(Network *net, uint64_t *random, bool ideal)
+static void make(Network *net, uint64_t *random, Diodes law)
 {
     const int diodes = 3 + pick(random, 10);
     int joined[NODES + 1]; /* by capacitors: another node, or itself */
-    bool given = !ideal && pick(random, 2);
+    const bool ideal = law == IDEAL;
+    /* charged capacitors across exponential diodes would drive more current than there is */
+    bool given = law == WITH_RESISTANCES && pick(random, 2);
 
-    *net = (Network){.nodes = 3 + pick(random, NODES - 2), .ideal = ideal};
+    *net = (Network){
+        .nodes = 3 + pick(random, NODES - 2), .ideal = ideal, .exponential = law == EXPONENTIAL};
     net->omega = 2 * PI * decades(random, 50, 1000);
     net->end = 2.3 * 2 * PI / net->omega;
     for (int i = 0; i < 1 + pick(random, 2); i++) {
@@ -185,7 +199,10 @@ static void put_part(Script *script, const Network *net, int i)
             p->value, p->phase, i, i, p->plus, p->series);
         break;
     case DIODE:
-        put(script, "diode D%d %s Vf=%.17g%s\n", i, ends, p->least, sides);
+        if (net->exponential)
+            put(script, "diode D%d %s Is=%.17g n=%.17g\n", i, ends, p->Is, p->scale);
+        else
+            put(script, "diode D%d %s Vf=%.17g%s\n", i, ends, p->least, sides);
         break;
     case SWITCH:
         put(script, "switch S%d %s%d m%d when=sin(w*t + %.17g) > %.17g%s\n", i,
@@ -223,6 +240,7 @@ typedef struct Oracle {
     double v[NODES + 1];
     double state[PARTS]; /* V of capacitors, A of coils */
     bool closed[PARTS];
+    double guess[PARTS]; /* V of exponential diodes */
 } Oracle;
 
 static double across(const Oracle *o, const Part *p)
@@ -258,6 +276,16 @@ static double next_switch(const Network *net, double from, double to)
     return to;
 }
 
+/* the tangent of Is (exp(v/(n VT)) - 1) + 1e-12 v, as the manual has it */
+static void tangent_of(const Oracle *o, int i, double *conductance, double *rest)
+{
+    const Part *p = &o->net->part[i];
+    const double scale = p->scale * THERMAL, grown = p->Is * exp(o->guess[i] / scale);
+
+    *conductance = grown / scale + 1e-12;
+    *rest = grown - p->Is + 1e-12 * o->guess[i] - *conductance * o->guess[i];
+}
+
 /* i = conductance v + rest of a part in a step that ends at t */
 static void line_of(const Oracle *o, int i, double t, double *conductance, double *rest)
 {
@@ -283,6 +311,10 @@ static void line_of(const Oracle *o, int i, double t, double *conductance, doubl
         *rest = -value / p->series;
         break;
     case DIODE:
+        if (o->net->exponential) {
+            tangent_of(o, i, conductance, rest);
+            break;
+        }
         *conductance = 1 / (o->closed[i] ? p->on : p->off);
         *rest = o->closed[i] ? p->least / p->off - p->least / p->on : 0;
         break;
@@ -338,7 +370,36 @@ static double told_by_rounding(const Oracle *o, const Part *p, int turn)
     return fmax(turn < 200 ? 0 : 1e-9 * p->on, 1e-15 * largest);
 }
 
-static void take_step(Oracle *o, double t)
+/* Exponential diodes by Newton's method. Up the exponential a voltage goes by the logarithm of what
+ * its tangent asks for (Nagel 1975). */
+static void settle_exponentials(Oracle *o, double t)
+{
+    for (int turn = 0; turn < 1000; turn++) {
+        bool right = true;
+
+        solve_nodes(o, t);
+        for (int i = 0; i < o->net->count; i++) {
+            const Part *p = &o->net->part[i];
+            const double scale = p->scale * THERMAL, v = across(o, p), from = o->guess[i];
+            const double critical = scale * log(scale / (sqrt(2) * p->Is));
+            double next = v;
+
+            if (p->kind != DIODE)
+                continue;
+            if (v > critical && fabs(v - from) > 2 * scale)
+                next = from > 0 && 1 + (v - from) / scale > 0
+                           ? from + scale * log(1 + (v - from) / scale)
+                       : from > 0 ? critical
+                                  : scale * log(v / scale);
+            right = right && fabs(next - from) <= 1e-10 + 1e-12 * fabs(v) && next == v;
+            o->guess[i] = next;
+        }
+        if (right)
+            return;
+    }
+}
+
+static void settle_lines(Oracle *o, double t)
 {
     for (int turn = 0; turn < 2000; turn++) {
         bool right = true;
@@ -355,8 +416,16 @@ static void take_step(Oracle *o, double t)
             }
         }
         if (right)
-            break;
+            return;
     }
+}
+
+static void take_step(Oracle *o, double t)
+{
+    if (o->net->exponential)
+        settle_exponentials(o, t);
+    else
+        settle_lines(o, t);
     for (int i = 0; i < o->net->count; i++) {
         const Part *p = &o->net->part[i];
 
@@ -471,14 +540,14 @@ static Verdict compare(Member *m, const Network *net, Kit *kit)
     return verdict;
 }
 
-static Verdict run_network(Member *m, bool ideal)
+static Verdict run_network(Member *m, Diodes law)
 {
     Script *script = malloc(sizeof *script);
     Kit kit = kit_new();
     Network net;
     Verdict verdict;
 
-    make(&net, &m->random, ideal);
+    make(&net, &m->random, law);
     write_script(script, &net);
     tell(m, "%s", script->text);
     if (kit_do(&kit, script->text) != CT_OK) {
@@ -494,12 +563,17 @@ static Verdict run_network(Member *m, bool ideal)
 
 static Verdict networks_with_resistances(Member *m)
 {
-    return run_network(m, false);
+    return run_network(m, WITH_RESISTANCES);
 }
 
 static Verdict networks_of_ideal_parts(Member *m)
 {
-    return run_network(m, true);
+    return run_network(m, IDEAL);
+}
+
+static Verdict networks_of_exponential_diodes(Member *m)
+{
+    return run_network(m, EXPONENTIAL);
 }
 
 /* Members that went wrong once, by seed and number: ideal diodes side by side that share a current,
@@ -511,7 +585,7 @@ static Verdict networks_that_failed(Member *m)
 
     m->random = which[0] * 0x9E3779B97F4A7C15U + which[1];
     (void)test_random(&m->random);
-    return run_network(m, true);
+    return run_network(m, IDEAL);
 }
 
 /* --- closed forms --- */
@@ -659,6 +733,7 @@ int main(int argc, char **argv)
     static const Family families[] = {
         {"networks with resistances follow fine steps", 15, 0, 0, networks_with_resistances},
         {"networks of ideal parts follow fine steps", 15, 0, 0, networks_of_ideal_parts},
+        {"networks of exponential diodes follow them", 4, 0, 0, networks_of_exponential_diodes},
         {"ideal networks that failed once follow them", 3, 0, 0, networks_that_failed},
         {"rectifiers follow their closed form", 40, 0, 0, rectifiers},
         {"multipliers end where no diode conducts", 3, 0, 0, multipliers},

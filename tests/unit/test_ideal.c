@@ -249,8 +249,7 @@ static void a_sampled_duty_holds_in_every_period(void)
 }
 
 /* Diodes with resistances that all begin at once: fifty behind each other, where what follows from
- * each leads through all others; and a multiplier, whose voltage is that of ideal ones less what
- * 0.1 ohm takes, in a few hundred steps a period. */
+ * each leads through all others. */
 static void many_diodes_with_resistances_run(void)
 {
     char line[200];
@@ -265,17 +264,45 @@ static void many_diodes_with_resistances_run(void)
         EXPECT_DONE(&kit, line);
     }
     EXPECT_DONE(&kit, "simulate 0.5 ms every=1e-5\nexpect (m1.v > m2.v) ~ 1 within 0\n"
-                      "expect (m49.v > m50.v) ~ 1 within 0\nclear\n");
-    EXPECT_DONE(&kit, "vsource V s0 0 100*sin(2*pi*1e3*t)\nresistor Rs s0 s 10\n"
-                      "capacitor Ca1 s a1 1 uF\ndiode Da1 0 a1 Ron=0.1 Roff=1e7\n"
-                      "diode Db1 a1 b1 Ron=0.1 Roff=1e7\ncapacitor Cb1 0 b1 1 uF\n"
-                      "capacitor Ca2 a1 a2 1 uF\ndiode Da2 b1 a2 Ron=0.1 Roff=1e7\n"
-                      "diode Db2 a2 b2 Ron=0.1 Roff=1e7\ncapacitor Cb2 b1 b2 1 uF\n"
-                      "capacitor Ca3 a2 a3 1 uF\ndiode Da3 b2 a3 Ron=0.1 Roff=1e7\n"
-                      "diode Db3 a3 b3 Ron=0.1 Roff=1e7\ncapacitor Cb3 b2 b3 1 uF\n"
-                      "resistor RL b3 0 1e6\nsimulate 0.02 every=1e-4\n"
-                      "expect b3.v ~ 440.459 within 0.3\n");
-    EXPECT(steps_of_run(&kit) < 12000);
+                      "expect (m49.v > m50.v) ~ 1 within 0\n");
+    kit_free(&kit);
+}
+
+/* a multiplier with such parameters of its diodes, and what it is loaded with */
+static void build_multiplier(Kit *kit, int stages, const char *sides)
+{
+    char line[300];
+
+    EXPECT_DONE(kit, "clear\nvsource V s0 0 100*sin(2*pi*1e3*t)\nresistor Rs s0 a0 10\n");
+    for (int k = 1; k <= stages; k++) {
+        (void)snprintf(line, sizeof line,
+                       "capacitor Ca%d a%d a%d 1 uF\ndiode Da%d %s%d a%d %s\n"
+                       "diode Db%d a%d b%d %s\ncapacitor Cb%d %s%d b%d 1 uF\n",
+                       k, k - 1, k, k, k > 1 ? "b" : "", k - 1, k, sides, k, k, k, sides, k,
+                       k > 1 ? "b" : "", k - 1, k);
+        EXPECT_DONE(kit, line);
+    }
+    (void)snprintf(line, sizeof line, "resistor RL b%d 0 1e6\n", stages);
+    EXPECT_DONE(kit, line);
+}
+
+/* Voltages of node equations in steps of 50 and 12.5 ns by an implicit method of second order
+ * (SDIRK), which agree in all digits; they are some mV above those of ideal ones, where there are
+ * many stages. Of ideal ones, with 10 uohm in steps of 3.1 and 1.6 ns, extrapolated. */
+static void multipliers_end_where_fine_steps_do(void)
+{
+    Kit kit = kit_new();
+
+    build_multiplier(&kit, 3, "Ron=0.1 Roff=1e7");
+    EXPECT_DONE(&kit, "simulate 0.02 every=1e-4\nexpect b3.v ~ 440.352411 within 1e-5\n");
+    EXPECT(steps_of_run(&kit) < 9000);
+    EXPECT_DONE(&kit, "simulate 0.02 every=1e-4 rtol=1e-6 atol=1e-6\n"
+                      "expect b3.v ~ 440.352411 within 1e-3\n");
+    build_multiplier(&kit, 10, "Ron=0.1 Roff=1e7");
+    EXPECT_DONE(&kit, "simulate 0.02 every=1e-4\nexpect b10.v ~ 439.864785 within 1e-5\n");
+    EXPECT(steps_of_run(&kit) < 18000);
+    build_multiplier(&kit, 3, "");
+    EXPECT_DONE(&kit, "simulate 0.02 every=1e-4\nexpect b3.v ~ 440.45945 within 1e-4\n");
     kit_free(&kit);
 }
 
@@ -707,6 +734,7 @@ int main(void)
     RUN(a_buck_converter_rests_where_its_current_ends);
     RUN(a_sampled_duty_holds_in_every_period);
     RUN(many_diodes_with_resistances_run);
+    RUN(multipliers_end_where_fine_steps_do);
     RUN(diodes_tell_sides_where_next_to_nothing_is_across_them);
     RUN(a_flyback_converter_hands_over_energy);
     RUN(diodes_take_over_from_switches);
