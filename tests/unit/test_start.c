@@ -122,6 +122,19 @@ static void governors_stand_as_told(void)
     }
 }
 
+/* three angles at which two axes fall together have no rates, and print no nan */
+static void critical_angles_start_nothing(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, "body b mass=1 inertia=[1, 2, 3]\nspherical s ground b euler=zxz\n");
+    EXPECT_FAILS(&kit, "assemble\n", "s starts at a critical angle");
+    EXPECT_HOLDS(kit.error.message, "s.a2 is 0 or 180 deg");
+    EXPECT_DONE(&kit, "init s.a2 = 0.2\nassemble\n");
+    expect_value(&kit, "s.a3", 0);
+    kit_free(&kit);
+}
+
 /* the frames of a weld are turned by half a turn against each other */
 static void reversed_welds_are_refused(void)
 {
@@ -296,6 +309,7 @@ int main(void)
     RUN(welded_frames_are_turned_alike);
     RUN(angles_of_chords_place_bodies);
     RUN(governors_stand_as_told);
+    RUN(critical_angles_start_nothing);
     RUN(reversed_axes_are_refused);
     RUN(reversed_welds_are_refused);
     RUN(events_close_no_axis_reversed);

@@ -15,6 +15,7 @@
 #define TRIES      24    /* other starts, when the first leads nowhere */
 #define FAR        2.0   /* rad or m: a dependent coordinate that moved further is spoken of */
 #define RANK_RATIO 1e-9
+#define CRITICAL   1e-12 /* of the sine that rates of three angles are divided by */
 
 /* --- one problem --- */
 
@@ -411,6 +412,33 @@ done:
     return status;
 }
 
+/* Three angles have no rates where the first and the last axis lie on one line. */
+static Status check_angles(const Assembly *a, Diag *diag)
+{
+    const RowValues row = row_of_state(a->l, 0, a->y);
+    Critical critical;
+    Status status = OK;
+
+    for (int i = 0; status == OK && system_critical(a->l->system, i, &critical); i++) {
+        Probe *probe = NULL;
+
+        status = probe_new(a->l, a->parameters, &critical.measure, 1, &probe, diag);
+        if (status == OK && fabs(probe_values(probe, &row)[0]) < CRITICAL) {
+            status =
+                diag_set(diag, E_ASSEMBLE,
+                         "%s starts at a critical angle: three angles have no rates where %s is "
+                         "%s",
+                         critical.instance, critical.coordinate, critical.angles);
+            diag_hint(diag,
+                      "give %s another value by init or guess, choose other angles, or leave "
+                      "euler= out",
+                      critical.coordinate);
+        }
+        probe_free(probe);
+    }
+    return status;
+}
+
 static Status find_position(Assembly *a, bool closed, Diag *diag)
 {
     const Layout *l = a->l;
@@ -430,6 +458,7 @@ static Status find_position(Assembly *a, bool closed, Diag *diag)
             a->y[p.picked[i]->place] = p.picked[i]->target;
     start_align(&p);
     CHECK(correct(&p, held, begun, closed, diag));
+    CHECK(check_angles(a, diag));
 done:
     start_close_problem(&p);
     mem_free(begun);

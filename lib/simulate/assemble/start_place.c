@@ -15,6 +15,8 @@
 
 #define FAR 2.0 /* rad or m: a coordinate that moved further is spoken of */
 
+enum { MOST_COLUMNS = 300 }; /* of bodies' coordinates: a try costs their number cubed */
+
 /* --- the trees --- */
 
 /* A virtual joint's claim is no constraint. It places frames where the user's trees take it at its
@@ -317,6 +319,71 @@ static Status hand_out(Placing *p, Diag *diag)
     return status;
 }
 
+/* --- another way --- */
+
+static Status choose_bodies(Placing *p, TreeKind kind, Diag *diag)
+{
+    const Graph *graph = system_graph(p->s->system);
+    int *branches = NEW_ARRAY(int, p->s->link_count);
+    TreeChoice choice = {.branches = branches};
+    Status status;
+
+    for (int i = 0; i < p->s->link_count; i++)
+        if (p->s->links[i].instance->row->family == FAMILY_BODY &&
+            graph_branching(graph, p->s->links[i].edge, kind) != BRANCH_NEVER)
+            branches[choice.branch_count++] = p->s->links[i].edge;
+    status = tree_complete(graph, kind, &choice, true, &p->trees[kind], diag);
+    mem_free(branches);
+    return status;
+}
+
+/* Loops that don't close in coordinates of joints may do so in those of bodies, where frames go
+ * straight to each other. It begins where the frames stood, which becomes `from`. */
+static Status close_by_bodies(Placing *p, double *from, bool *closed, Diag *diag)
+{
+    const size_t bytes = (size_t)(p->s->link_count * MAX_COORDS) * sizeof(double);
+    Tree *trees[2] = {p->trees[0], p->trees[1]};
+    double *kept = NEW_ARRAY(double, p->s->link_count *MAX_COORDS);
+    double *begun = NEW_ARRAY(double, p->s->link_count *MAX_COORDS);
+    Status status = OK;
+
+    memcpy(kept, p->c, bytes);
+    place_poses(p, from);
+    p->trees[0] = p->trees[1] = NULL;
+    CHECK(choose_bodies(p, TREE_ROTATION, diag));
+    CHECK(choose_bodies(p, TREE_TRANSLATION, diag));
+    for (int i = 0; i < p->s->link_count; i++) {
+        const Link *l = &p->s->links[i];
+        double *c = p->c + place_at(i, 0);
+        Pose relative;
+
+        pose_between(&p->poses[l->tail], &p->poses[l->head], &relative);
+        link_read(l, &relative, c);
+        for (int k = 0; k < l->instance->coord_count; k++)
+            if (p->known[place_at(i, k)] == KNOWN_GIVEN)
+                c[k] = p->begun[place_at(i, k)];
+    }
+    p->columns.count = 0;
+    place_columns(p);
+    memcpy(begun, p->c, bytes);
+    *closed = p->columns.count <= MOST_COLUMNS && place_search(p, false);
+    if (*closed)
+        memcpy(from, begun, bytes);
+    for (int kind = 0; kind < 2 && !*closed; kind++) {
+        tree_free(p->trees[kind]);
+        p->trees[kind] = trees[kind];
+        trees[kind] = NULL;
+    }
+    if (!*closed)
+        memcpy(p->c, kept, bytes);
+done:
+    tree_free(trees[0]);
+    tree_free(trees[1]);
+    mem_free(begun);
+    mem_free(kept);
+    return status;
+}
+
 /* what nobody gave and that moved far */
 static void remark_moved(Placing *p, const double *from)
 {
@@ -394,6 +461,8 @@ Status start_place(Assembly *a, WarmValue warm, void *context, bool *closed, Dia
     from = NEW_ARRAY(double, size);
     memcpy(from, p.c, (size_t)size * sizeof(double));
     *closed = place_search(&p, false);
+    if (!*closed)
+        CHECK(close_by_bodies(&p, from, closed, diag));
     place_poses(&p, p.c);
     remark_moved(&p, from);
     CHECK(hand_out(&p, diag));
