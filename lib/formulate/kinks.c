@@ -27,8 +27,9 @@ Expr switch_condition(Arena *arena, Expr e)
 
 bool switch_jumps(Expr e)
 {
-    return expr_kind(e) == EXPR_CALL && (expr_op(e) == OP_LT || expr_op(e) == OP_LE ||
-                                         expr_op(e) == OP_STEP || expr_op(e) == OP_SIGN);
+    return expr_kind(e) == EXPR_CALL &&
+           (expr_op(e) == OP_LT || expr_op(e) == OP_LE || expr_op(e) == OP_STEP ||
+            expr_op(e) == OP_SIGN || expr_op(e) == OP_FLOOR);
 }
 
 typedef struct Over {
@@ -41,9 +42,7 @@ static Expr note_jump(Arena *arena, Expr e, void *context)
     Over *over = context;
 
     (void)arena;
-    over->jumps = over->jumps ||
-                  ((switch_jumps(e) || (expr_kind(e) == EXPR_CALL && (expr_op(e) == OP_FLOOR))) &&
-                   (expr_kinds(e) & over->kinds) != 0);
+    over->jumps = over->jumps || (switch_jumps(e) && (expr_kinds(e) & over->kinds) != 0);
     return e;
 }
 

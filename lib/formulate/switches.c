@@ -74,6 +74,18 @@ static Expr share(Arena *arena, Expr sign, int way)
     return expr_add(arena, half, expr_mul(arena, expr_rational(arena, way, 2), sign));
 }
 
+/* floor(x) next to the whole number n = floor(x + 1/2): n - 1/2 and half the sign of x - n, which
+ * is that of sin(pi x) where n is even */
+static Expr put_floor(Arena *arena, Expr x, Expr sign)
+{
+    Expr half = expr_rational(arena, 1, 2);
+    Expr n = expr_call1(arena, OP_FLOOR, expr_add(arena, x, half));
+    Expr even = expr_cos(arena, expr_mul(arena, expr_real(arena, 3.14159265358979323846), n));
+
+    return expr_add(arena, expr_sub(arena, n, half),
+                    expr_product(arena, (Expr[]){half, even, sign}, 3));
+}
+
 static Expr put_jump(Arena *arena, const Putting *put, Expr e)
 {
     Expr sign = sign_on(arena, put, switch_condition(arena, e));
@@ -82,6 +94,8 @@ static Expr put_jump(Arena *arena, const Putting *put, Expr e)
         return e;
     if (expr_op(e) == OP_SIGN)
         return sign;
+    if (expr_op(e) == OP_FLOOR)
+        return put_floor(arena, expr_arg(e, 0), sign);
     return share(arena, sign, expr_op(e) == OP_STEP ? 1 : -1);
 }
 

@@ -9,7 +9,7 @@
 
 #include <math.h>
 
-enum { MOST_MASSES = 4, STATES = 2 * MOST_MASSES };
+enum { FEW_MASSES = 4, MOST_MASSES = 12, STATES = 2 * MOST_MASSES };
 
 typedef struct Masses {
     int count;
@@ -139,7 +139,7 @@ static void solve(const Masses *m, double h, double *y)
 /* --- the same in statements --- */
 
 typedef struct Lines {
-    char at[64][200];
+    char at[6 * MOST_MASSES][200];
     int count;
 } Lines;
 
@@ -260,7 +260,11 @@ static double pick(Member *member, double low, double high)
 
 static void choose_masses(Member *member, Masses *m)
 {
-    *m = (Masses){.count = 1 + chance(member, MOST_MASSES), .end = pick(member, 1, 6)};
+    *m = (Masses){.count = 1 + chance(member, FEW_MASSES), .end = pick(member, 1, 6)};
+    if (chance(member, 12) == 0) { /* more surfaces than have all their sides kept */
+        m->count = MOST_MASSES - chance(member, 4);
+        m->end = pick(member, 0.5, 2);
+    }
     for (int i = 0; i < m->count; i++) {
         m->mass[i] = pick(member, 0.5, 3);
         m->spring[i] = chance(member, 5) == 0 ? 0 : pick(member, 2, 40);
@@ -326,10 +330,52 @@ static Verdict masses_stick_and_slip(Member *member)
     return verdict;
 }
 
+/* --- relays on a position --- */
+
+/* m s'' = -k sign(s - r) - d s': swings about r fade, ever faster, without an end of their own.
+ * After many times m/d only r is left, and the force that r asks for. */
+static Verdict swings_come_to_rest(Member *member)
+{
+    static const char *const methods[] = {"auto", "dop853", "radau", "bdf", "adams", "ida"};
+    const double mass = pick(member, 0.3, 3), force = pick(member, 2, 8);
+    const double damping = mass * pick(member, 0.5, 2), swing = pick(member, -0.2, 0.2);
+    const double pace = pick(member, 0.05, 0.5), end = 30 * mass / damping;
+    const double follows = swing * pace * cos(pace * end);
+    const double needed = -mass * swing * pace * pace * sin(pace * end) + damping * follows;
+    const char *method = methods[chance(member, (int)(sizeof methods / sizeof methods[0]))];
+    char text[1000];
+    Kit kit = kit_new();
+    Verdict verdict = AGREES;
+
+    (void)snprintf(text, sizeof text,
+                   "scene planar\nbody m mass=%.17g inertia=0\nprismatic s ground m axis=x\n"
+                   "actuator f s force=-%.17g*sign(s - %.17g*sin(%.17g*t))\ndamper d s d=%.17g\n"
+                   "init s = %.17g, s' = %.17g\nsimulate %.17g method=%s\n",
+                   mass, force, swing, pace, damping, pick(member, -1, 1), pick(member, -1, 1), end,
+                   method);
+    tell(member, "%s", text);
+    if (kit_do(&kit, text) != CT_OK) {
+        tell(member, "refused: %s\n", kit.error.message);
+        verdict = REFUSED;
+    } else {
+        const double got[] = {kit_value(&kit, "s"), kit_value(&kit, "s'"),
+                              kit_value(&kit, "f.effort")};
+
+        tell(member, "%.9g %.9g %.9g, not %.9g %.9g %.9g\n", got[0], got[1], got[2],
+             swing * sin(pace * end), follows, needed);
+        if (!(fabs(got[0] - swing * sin(pace * end)) < 2e-5) || !(fabs(got[1] - follows) < 1e-6) ||
+            !(fabs(got[2] - needed) < 1e-5))
+            verdict = DISAGREES;
+    }
+    kit_free(&kit);
+    return verdict;
+}
+
 int main(int argc, char **argv)
 {
     const Family families[] = {
-        {"masses_stick_and_slip", 120, 0.01, 0, masses_stick_and_slip},
+        {"masses_stick_and_slip", 50, 0.01, 0, masses_stick_and_slip},
+        {"swings_come_to_rest", 2, 0, 0, swings_come_to_rest},
     };
 
     return family_main(families, (int)(sizeof families / sizeof families[0]), argc, argv);

@@ -183,6 +183,46 @@ static void embedded_equations_stick_and_slip(void)
     kit_free(&embedded);
 }
 
+/* 2.5 N on either side of rest; then steps of 4 N at whole speeds, against a load of 3 N a second:
+ * down to 1 m/s, held there until 4/3 s, up to 2 m/s, and held there until 8/3 s */
+static void steps_of_floor_are_slid_along(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, SLIDE "actuator f s force=-5*(floor(s') + 0.5)\ninit s = 0, s' = 0.5\n"
+                            "simulate 2\n");
+    EXPECT(is_near(kit_value(&kit, "s"), 0.05, 1e-9));
+    EXPECT(is_near(kit_value(&kit, "s'"), 0, 1e-12));
+    kit_free(&kit);
+    kit = kit_new();
+    EXPECT_DONE(&kit, SLIDE "actuator f s force=-4*floor(s') + 3*t\ninit s = 0, s' = 2.5\n"
+                            "simulate 2.5\n");
+    EXPECT(is_near(kit_value(&kit, "s'"), 2, 1e-9));
+    EXPECT(is_near(kit_value(&kit, "f.effort"), 0, 1e-9));
+    EXPECT(kit_do(&kit, "resume 0.5\n") == CT_OK);
+    EXPECT(is_near(kit_value(&kit, "s'"), 2 + 1.5 / 9, 1e-7));
+    kit_free(&kit);
+}
+
+/* Its swings fade, ever faster and without an end: what a run may spend on them is bounded. */
+static void fading_swings_end_in_rest_and_say_so(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, SLIDE "actuator f s force=-5*sign(s)\ndamper d s d=1\n"
+                            "init s = 1, s' = 0\nsimulate 1000\n");
+    EXPECT_HOLDS(ct_remarks(kit.session), "the sign of s (f) switches ever faster");
+    EXPECT(is_near(kit_value(&kit, "s"), 0, 1e-8));
+    EXPECT(is_near(kit_value(&kit, "s'"), 0, 1e-12));
+    kit_free(&kit);
+    kit = kit_new(); /* these don't fade: each takes 4 sqrt(2 s0/5) */
+    EXPECT_DONE(&kit, SLIDE "actuator f s force=-5*sign(s)\ninit s = 0.0001, s' = 0\n"
+                            "simulate 60 every=1\n");
+    EXPECT_LACKS(ct_remarks(kit.session), "ever faster");
+    EXPECT(is_near(kit_value(&kit, "s'*s'/2 + 5*abs(s)"), 5e-4, 1e-8));
+    kit_free(&kit);
+}
+
 int main(void)
 {
     RUN(a_mass_that_rubs_comes_to_rest);
@@ -195,5 +235,7 @@ int main(void)
     RUN(what_can_t_be_resolved_is_named);
     RUN(what_sticks_stays_by_every_method);
     RUN(embedded_equations_stick_and_slip);
+    RUN(steps_of_floor_are_slid_along);
+    RUN(fading_swings_end_in_rest_and_say_so);
     return test_end();
 }

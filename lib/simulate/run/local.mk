@@ -14,6 +14,7 @@ libcore_la_SOURCES += \
   lib/simulate/run/inverse.h \
   lib/simulate/run/march.c \
   lib/simulate/run/march.h \
+  lib/simulate/run/march_chatter.c \
   lib/simulate/run/march_events.c \
   lib/simulate/run/march_impl.h \
   lib/simulate/run/march_jumps.c \

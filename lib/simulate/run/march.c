@@ -196,8 +196,10 @@ static void open_surfaces(March *m)
     for (int i = 0; i < m->eq->switch_count; i++)
         if (equations_guard(m->eq, i).surface >= m->surfaces)
             m->surfaces = equations_guard(m->eq, i).surface + 1;
-    if (m->reach == NULL)
-        m->reach = NEW_ARRAY(double, m->surfaces);
+    if (m->reach != NULL)
+        return;
+    m->reach = NEW_ARRAY(double, m->surfaces);
+    m->chatters = NEW_ARRAY(Chatter, m->surfaces);
 }
 
 /* what goes with the equations of the leg */
@@ -319,6 +321,7 @@ Status march_go_on(March *m, double t, const double *y, bool *entered, Diag *dia
         add_corner(m, t, m->y);
         *entered = true;
         mem_free(m->reach);
+        mem_free(m->chatters);
         m->reach = NULL;
         CHECK(march_enter(m, &next, t, behind, &changed, diag));
         memcpy(m->y, m->stepper->y, (size_t)m->length * sizeof(double));
@@ -459,5 +462,6 @@ Status march(const MarchPlan *plan, const double *start, Grid *grid, MarchReport
     out->events = m.ev;
     out->jumps = m.jumps;
     mem_free(m.reach);
+    mem_free(m.chatters);
     return status;
 }

@@ -40,8 +40,9 @@ typedef Status (*Commute)(void *context, double t, double behind, double last, c
 /* A surface that the run stands on, or whose side it keeps. */
 typedef struct Meeting {
     int surface;
-    int side; /* of it, that its sign has come to: the motion leaves it there; 0: not known */
-    bool far; /* it isn't on the surface but on that side */
+    int side;     /* of it, that its sign has come to: the motion leaves it there; 0: not known */
+    bool far;     /* it isn't on the surface but on that side */
+    bool settles; /* it goes to and fro through it so fast that it rests there */
 } Meeting;
 
 /* Which leg goes on from (t, y), on surfaces that its equations jump on: across them, off them or

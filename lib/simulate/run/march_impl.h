@@ -9,6 +9,15 @@
 /* what is known of surfaces where a run goes on */
 enum Root { ROOT_ANY = -1, ROOT_NONE = -2 };
 
+/* how a motion goes to and fro through a surface */
+typedef struct Chatter {
+    int count;     /* times on end */
+    double last;   /* s: the last one; */
+    double first;  /* how long it was from one to the next at first, */
+    double recent; /* and the longest of the last ones */
+    bool settles;  /* it has become so fast that it rests there, for all that matters */
+} Chatter;
+
 typedef struct March {
     const MarchPlan *plan;
     Leg leg;
@@ -34,6 +43,7 @@ typedef struct March {
     int next_row, rows;
     double scanned;        /* of the last step, up to here conditions are followed */
     double *reach;         /* largest size of what is 0 on each surface of the leg, */
+    Chatter *chatters;     /* through each of them; */
     int surfaces;          /* so many */
     int root;              /* condition whose surface is met; or one of Root */
     int switches;          /* close together */
@@ -71,6 +81,13 @@ double march_on_surface(const March *m, int condition);
 /* conditions' modes on surfaces, and how large they get */
 void march_begin_surfaces(March *m);
 void march_reach(March *m);
+
+/* --- surfaces that a motion goes through ever faster (march_chatter.c) --- */
+
+/* Condition i is met at t, and the surface that it tells of: whether that settles it is noted. */
+void march_note_chatter(March *m, int i, double t);
+/* what is said where it does: call where the motion is still as it was */
+void march_tell_settling(March *m, int i);
 
 /* --- conditions of t alone (march_jumps.c) --- */
 

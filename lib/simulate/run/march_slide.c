@@ -9,7 +9,7 @@
 #define NEAR     1e-10 /* of a condition's largest size: as location leaves it */
 #define ROUNDING 1e-14 /* of y */
 #define END      1e-9  /* of a sign: so far beyond its end it may begin */
-#define KEPT     8     /* surfaces, whose sides are all kept: each set of sides is a phase */
+#define KEPT     64    /* surfaces, whose sides are all kept: each set of sides is a phase */
 
 double march_on_surface(const March *m, int i)
 {
@@ -57,7 +57,11 @@ static bool meets(March *m, int i, Meeting *out)
 
     m->largest[i] = fmax(m->largest[i], fabs(m->conditions[i]));
     near = i == m->root || guard.solved || fabs(m->conditions[i]) <= march_on_surface(m, i);
-    *out = (Meeting){guard.surface, near ? 0 : m->conditions[i] > 0 ? 1 : -1, !near};
+    *out = (Meeting){guard.surface,
+                     near                   ? 0
+                     : m->conditions[i] > 0 ? 1
+                                            : -1,
+                     !near, i == m->root && m->chatters[guard.surface].settles};
     return near || m->surfaces <= KEPT;
 }
 
@@ -79,7 +83,7 @@ static int find_meetings(March *m, Meeting *at, bool *on)
             if (i == m->root)
                 at[count - 1].side = -1;
         } else if (guard.end > 0) {
-            at[count++] = (Meeting){guard.surface, i == m->root ? 1 : 0, false};
+            at[count++] = (Meeting){guard.surface, i == m->root ? 1 : 0, false, false};
         } else if (meets(m, i, &at[count])) {
             count++;
         }

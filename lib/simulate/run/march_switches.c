@@ -494,8 +494,12 @@ Status march_meet_switch(March *m, int i, double when, Diag *diag)
     m->band[i] = fmax(10 * fabs(m->conditions[i]), fmax(1e-10 * m->largest[i], m->noise[i]));
     m->mode[i] = is_told ? 1 : -m->mode[i];
     CHECK(march_check_pace(m, i, diag));
+    march_note_chatter(m, i, m->stepper->t);
+    march_tell_settling(m, i);
     m->root = on_surface || (guard.surface >= 0 && is_led_back(m, i, crossed)) ? i : ROOT_NONE;
     CHECK(march_go_on(m, m->stepper->t, m->stepper->y, &entered, diag));
+    if (on_surface && !entered) /* errors alone led over: the leg is on its side as before */
+        m->mode[i] = guard.end != 0 ? 1 : guard.side;
     if (is_told && !entered) {
         m->noise[i] = m->band[i] =
             fmin(10 * fmax(m->noise[i], m->band[i]), MOST_NOISE * largest_margin(m));

@@ -179,7 +179,7 @@ static void begin_sides(Slides *s)
         s->loose[i] = false;
         if (s->fixed[i])
             continue;
-        if (fabs(s->off[i]) > STILL * size) { /* it is on its way through */
+        if (fabs(s->off[i]) > STILL * size && !s->at[i].settles) { /* it is on its way through */
             s->side[i] = s->off[i] > 0 ? 1 : -1;
             s->fixed[i] = true;
         } else if (fabs(own) <= FLAT * s->largest) {
