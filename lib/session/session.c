@@ -51,6 +51,7 @@ static void drop_runs(ct_session *session)
     LIST_FREE(session->runs);
     run_free(&session->start);
     run_free(&session->warm);
+    run_free(&session->rest);
     session->at_rest = false;
     linear_free(session->linear);
     session->linear = NULL;
@@ -120,13 +121,18 @@ const char *ct_remarks(const ct_session *session)
 
 /* --- equations --- */
 
+static bool is_of(const Run *run, const System *system)
+{
+    return run->result != NULL && result_system(run->result) == system;
+}
+
 static bool is_named(const ct_session *session, const System *system)
 {
     for (int i = 0; i < session->runs.count; i++)
-        if (result_system(session->runs.at[i].result) == system)
+        if (is_of(&session->runs.at[i], system))
             return true;
-    return (session->start.result != NULL && result_system(session->start.result) == system) ||
-           (session->warm.result != NULL && result_system(session->warm.result) == system);
+    return is_of(&session->start, system) || is_of(&session->warm, system) ||
+           is_of(&session->rest, system);
 }
 
 static double number(const void *model, Expr e)
@@ -410,7 +416,11 @@ static ct_status move_over(ct_session *session, Status (*move)(Model *, Diag *),
 
     session_begin(session);
     CHECK(move(session->model, &diag));
-    session->at_rest = false;
+    if (strncmp(model_undone(session->model), "init none", strlen("init none")) == 0)
+        session->at_rest = false;
+    /* what was given before the equilibrium may be among what is undone */
+    if (model_start_statements(session->model) < session->rests_since)
+        session->rests_since = model_start_statements(session->model);
     text_addf(&session->remarks, "%s: %s\n", what, model_undone(session->model));
     note_change(session, revision, chooses(changes_of(model_undone(session->model))));
 done:

@@ -38,7 +38,8 @@ struct ct_session {
     LIST(Run) runs;         /* run1 is the first */
     Run start;              /* assembled from the model as it is; result NULL: not yet */
     Run warm;               /* the start before that: where guesses come from */
-    bool at_rest;           /* start, or else warm, is an equilibrium, from which runs start */
+    bool at_rest;           /* runs start from an equilibrium: the start, where that is it, */
+    Run rest;               /* or else this one */
     int rests_since;        /* statements of starts: earlier ones it has taken the place of */
     Linear *linear;         /* the last linearisation; NULL */
     bool linear_is_old;     /* the model has changed since */

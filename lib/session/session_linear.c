@@ -19,6 +19,7 @@ Status session_equilibrium(ct_session *session, const Statement *s, Diag *diag)
     order_make(session, &order);
     CHECK(run_equilibrium(system, &order.setting, &result, diag));
     session_forget_start(session);
+    run_free(&session->rest);
     session->start = order_done(&order, result);
     session->at_rest = true;
     session->rests_since = model_start_statements(session->model);

@@ -51,8 +51,12 @@ void session_forget_start(ct_session *session)
 {
     if (session->start.result == NULL)
         return;
-    run_free(&session->warm);
-    session->warm = session->start;
+    if (session->at_rest && session->rest.result == NULL) {
+        session->rest = session->start;
+    } else {
+        run_free(&session->warm);
+        session->warm = session->start;
+    }
     session->start = (Run){NULL, NULL};
 }
 
@@ -75,7 +79,7 @@ static const Result *resting_start(const ct_session *session)
 {
     if (!session->at_rest)
         return NULL;
-    return session->start.result != NULL ? session->start.result : session->warm.result;
+    return session->rest.result != NULL ? session->rest.result : session->start.result;
 }
 
 /* an equilibrium takes the place of what was given before it */
@@ -119,7 +123,8 @@ void order_make(ct_session *session, Order *order)
                                .events = order->events,
                                .event_count = model_event_count(model),
                                .start = &order->start,
-                               .warm = session->warm.result,
+                               .warm = session->warm.result != NULL ? session->warm.result
+                                                                    : session->rest.result,
                                .from = resting_start(session),
                                .watch = &session->watch};
     order->setting.form =

@@ -127,6 +127,23 @@ static void large_networks_rest_too(void)
     kit_free(&kit);
 }
 
+/* what came behind the operating point comes and goes; itself it stays */
+static void undo_of_an_init_leaves_the_operating_point(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, "vsource V a 0 10\nresistor R1 a b 100\ncapacitor C1 b 0 1 uF\n"
+                      "resistor R2 b c 100\ncapacitor C2 c 0 1 uF\nresistor R3 c 0 200\nop\n"
+                      "expect C1.v ~ 7.5 within 1e-9\ninit C1.v = 1\n"
+                      "expect C1.v ~ 1 within 1e-9\nexpect C2.v ~ 5 within 1e-9\n"
+                      "init C2.v = 2\nexpect C2.v ~ 2 within 1e-9\nundo\n"
+                      "expect C2.v ~ 5 within 1e-9\nexpect C1.v ~ 1 within 1e-9\nundo\n"
+                      "expect C1.v ~ 7.5 within 1e-9\nredo\nexpect C1.v ~ 1 within 1e-9\n"
+                      "undo\nsimulate 1 us\nexpect C1.v ~ 7.5 within 1e-9\n"
+                      "init none\nexpect C1.v ~ 0 within 1e-9\n");
+    kit_free(&kit);
+}
+
 int main(void)
 {
     RUN(a_diode_behind_a_resistor_obeys_lambert);
@@ -135,5 +152,6 @@ int main(void)
     RUN(the_start_chooses_the_state_of_a_flip_flop);
     RUN(a_node_that_floats_is_named);
     RUN(large_networks_rest_too);
+    RUN(undo_of_an_init_leaves_the_operating_point);
     return test_end();
 }
