@@ -12,6 +12,7 @@
 #include <stdlib.h>
 
 #define THRESHOLD 1e-9
+#define SMALL     1e-3   /* of the largest row: one that vanishes is not to be chosen */
 #define STALE     1.5e-8 /* of its square: a length that fell this far has lost half its digits */
 
 typedef struct Pivoted {
@@ -168,8 +169,9 @@ static double row_norm(const double *row, int n)
     return norm;
 }
 
-/* rows of the matrix (NULL: all of them) as columns of unit size */
-static Pivoted unit_rows(const double *matrix, int nu, const int *rows, int count)
+/* rows of the matrix (NULL: all of them) as columns of unit size, or less where they are smaller
+ * than `small` of the largest */
+static Pivoted unit_rows(const double *matrix, int nu, const int *rows, int count, double small)
 {
     Pivoted out = pivoted_new(nu, count);
     double *norm = NEW_ARRAY(double, count);
@@ -184,7 +186,7 @@ static Pivoted unit_rows(const double *matrix, int nu, const int *rows, int coun
         bool is_zero = !(norm[k] > 1e-10 * largest); /* rounding alone */
 
         for (int j = 0; j < nu && !is_zero; j++)
-            out.column[k][j] = row[j] / norm[k];
+            out.column[k][j] = row[j] / fmax(norm[k], small * largest);
     }
     mem_free(norm);
     return out;
@@ -210,7 +212,7 @@ Status rank_rows(const double *matrix, int m, int nu, double threshold, const Wa
         order[k] = k;
     if (m == 0 || nu == 0)
         return OK;
-    p = unit_rows(matrix, nu, NULL, m);
+    p = unit_rows(matrix, nu, NULL, m, 0);
     CHECK(factor(&p, threshold, watch));
     *rank = p.rank;
     put_order(&p, m, p.rank, order);
@@ -236,7 +238,7 @@ double rank_choose(const double *matrix, int m, int nu, int count, int *rows)
     if (count == 0)
         return 1;
     order = NEW_ARRAY(int, m);
-    p = unit_rows(matrix, nu, NULL, m);
+    p = unit_rows(matrix, nu, NULL, m, SMALL);
     (void)factor(&p, 0, NULL);
     put_order(&p, m, count, order);
     for (int k = 0; k < count; k++)
@@ -254,7 +256,7 @@ double rank_ratio(const double *matrix, int nu, const int *rows, int count)
 
     if (count == 0)
         return 1;
-    p = unit_rows(matrix, nu, rows, count);
+    p = unit_rows(matrix, nu, rows, count, SMALL);
     (void)factor(&p, 0, NULL);
     ratio = pivot_ratio(&p, count);
     release(&p);

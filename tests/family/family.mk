@@ -40,3 +40,8 @@ family_moved_LDADD = libcotree.la $(unit_ldadd)
 FAMILIES += family_sharing
 family_sharing_SOURCES = tests/family/family_sharing.c tests/family/family.h tests/family/script.h
 family_sharing_LDADD = libcotree.la $(unit_ldadd)
+
+FAMILIES += family_redundant
+family_redundant_SOURCES = tests/family/family_redundant.c tests/family/mechanisms.h \
+	tests/family/one_freedom.h tests/family/script.h
+family_redundant_LDADD = libcotree.la $(unit_ldadd)

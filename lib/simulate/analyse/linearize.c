@@ -236,6 +236,7 @@ static void work_free(Work *w)
     mem_free(w->follow_error);
     mem_free(w->values);
     mem_free(w->phi_u);
+    mem_free(w->in_use);
     mem_free(w->map);
     mem_free(w->matrix);
     mem_free(w->matrix_error);

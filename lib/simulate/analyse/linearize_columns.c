@@ -64,7 +64,7 @@ static void solve(const Work *w, Deviation *d)
 /* everything that a deviation of independent ones, a state or an input brings with it */
 static void spread(const Work *w, Deviation *d)
 {
-    const int *rows = w->order->about->start.rows;
+    const int *rows = w->in_use;
     const int nu = w->l->nu;
     Number *moving = NEW_ARRAY(Number, nu);
 

@@ -63,6 +63,7 @@ typedef struct Work {
     Square *held; /* factors of Phi_u's dependent columns, over the rows in use */
     Embed *embed;
     int used, freedoms, unknowns; /* unknowns: nu + used + nx + nz */
+    int *in_use;                  /* constraint rows, so many as are used: independent there */
 } Work;
 
 static inline Number gradient(const Work *w, int row, int column)

@@ -4,6 +4,7 @@
  * what follows from all, may be off by what their equations still miss there. */
 #include "simulate/analyse/linearize_impl.h"
 
+#include "algebra/rank.h"
 #include "base/memory.h"
 #include "simulate/equations/causes.h"
 
@@ -20,7 +21,7 @@ int linear_equation(const Work *w, int r)
     if (r < l->nu)
         return w->rows.balance + r;
     if (r < l->nu + w->used)
-        return w->rows.acceleration + w->order->about->start.rows[r - l->nu];
+        return w->rows.acceleration + w->in_use[r - l->nu];
     return w->rows.network + r - l->nu - w->used;
 }
 
@@ -31,7 +32,7 @@ int linear_unknown(const Work *w, int k)
     if (k < l->nu)
         return w->at.acceleration + k;
     if (k < l->nu + w->used)
-        return w->at.multipliers + w->order->about->start.rows[k - l->nu];
+        return w->at.multipliers + w->in_use[k - l->nu];
     k -= l->nu + w->used;
     return k < l->nx ? w->at.rates + k : w->at.z + k - l->nx;
 }
@@ -186,11 +187,37 @@ bool linear_is_independent(const Work *w, int speed)
     return false;
 }
 
+/* new: Phi_u without its errors */
+static double *plain_phi_u(const Work *w)
+{
+    double *phi_u = NEW_ARRAY(double, w->l->m * w->l->nu);
+
+    for (int i = 0; i < w->l->m * w->l->nu; i++)
+        phi_u[i] = w->phi_u[i].value;
+    return phi_u;
+}
+
+/* those of the start may be dependent here, where others are not */
+static void choose_rows(Work *w)
+{
+    const Assembled *start = &w->order->about->start;
+    double *phi_u;
+
+    w->in_use = NEW_ARRAY(int, w->used);
+    memcpy(w->in_use, start->rows, (size_t)w->used * sizeof(int));
+    if (w->used == w->l->m)
+        return;
+    evaluate_geometry(w);
+    phi_u = plain_phi_u(w);
+    (void)rank_choose(phi_u, w->l->m, w->l->nu, w->used, w->in_use);
+    mem_free(phi_u);
+}
+
 static Status choose_independent(Work *w, Diag *diag)
 {
     const LinearOrder *order = w->order;
     int *wanted = NEW_ARRAY(int, order->independent_count);
-    double *phi_u = NEW_ARRAY(double, w->l->m * w->l->nu);
+    double *phi_u = plain_phi_u(w);
     int count = 0;
     Status status = OK;
 
@@ -201,10 +228,8 @@ static Status choose_independent(Work *w, Diag *diag)
             if (i >= 0 && strcmp(system_q(w->system, i)->name, order->independent[k]) == 0)
                 wanted[count++] = j;
         }
-    for (int i = 0; i < w->l->m * w->l->nu; i++)
-        phi_u[i] = w->phi_u[i].value;
     w->embed = embed_new(w->l->nu, w->used);
-    if (!embed_choose(w->embed, phi_u, order->about->start.rows, wanted, count))
+    if (!embed_choose(w->embed, phi_u, w->in_use, wanted, count))
         status =
             diag_set(diag, E_SINGULAR,
                      "a singular position: no choice of coordinates describes the motion there");
@@ -220,7 +245,7 @@ static bool factor_dependent(Work *w)
 
     for (int r = 0; r < m; r++)
         for (int j = 0, column = 0; j < nu; j++) {
-            const Number entry = w->phi_u[w->order->about->start.rows[r] * nu + j];
+            const Number entry = w->phi_u[w->in_use[r] * nu + j];
 
             if (linear_is_independent(w, j))
                 continue;
@@ -235,7 +260,7 @@ static bool factor_dependent(Work *w)
 void linear_complete(const Work *w, const Number *right, Number *v)
 {
     const int nu = w->l->nu, m = w->used;
-    const int *rows = w->order->about->start.rows;
+    const int *rows = w->in_use;
     double *b = NEW_ARRAY(double, m), *error = NEW_ARRAY(double, m);
     double *found = NEW_ARRAY(double, m), *off = NEW_ARRAY(double, m);
 
@@ -268,7 +293,7 @@ static void miss(const Work *w, int first, Number *moves)
     Number *right = NEW_ARRAY(Number, w->used);
 
     for (int r = 0; r < w->used; r++) {
-        const Number value = w->values[first + w->order->about->start.rows[r]];
+        const Number value = w->values[first + w->in_use[r]];
 
         right[r] = (Number){value.value, value.error};
     }
@@ -340,6 +365,7 @@ Status linear_point(Work *w, Diag *diag)
     if (l->n != theirs->n || l->nu != theirs->nu || l->m != theirs->m || l->nx != theirs->nx)
         return diag_set(diag, E_MODEL, "with these inputs the model has other unknowns");
     open_room(w);
+    choose_rows(w);
     if (!find_rates(w))
         CHECK(refuse_dependent(w, diag));
     evaluate_geometry(w);

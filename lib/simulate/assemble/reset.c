@@ -4,6 +4,7 @@
 #include "algebra/kkt.h"
 #include "algebra/least.h"
 #include "algebra/linear.h"
+#include "algebra/rank.h"
 #include "base/memory.h"
 #include "simulate/assemble/skeleton.h"
 
@@ -438,13 +439,16 @@ static bool solve_speeds(Reset *reset)
     Kkt *kkt;
 
     (void)put_direct(reset, LEVEL_VELOCITY, held);
-    for (int k = 0; k < count; k++)
-        rows[k] = reset->plan.rows[k];
+    eq->position(eq->context, reset->t, reset->y);
+    /* those of the start may be dependent here, where others are not */
+    if (count < eq->m)
+        (void)rank_choose(eq->phi_u, eq->m, eq->nu, count, rows);
+    else
+        memcpy(rows, reset->plan.rows, (size_t)count * sizeof(int));
     for (int k = 0; k < reset->targets.count; k++)
         if (is_chosen(reset, k, LEVEL_VELOCITY))
             rows[count++] = all++;
     kkt = kkt_new(eq->nu, count, room);
-    eq->position(eq->context, reset->t, reset->y);
     for (int sweep = 0; sweep <= SWEEPS && sound; sweep++) {
         velocity_rows(reset, matrix, missing);
         if (is_met(reset, missing, all) || sweep == SWEEPS)

@@ -451,11 +451,25 @@ static void spread_multipliers(Motion *mo)
     rank_least_multipliers(eq->phi_u, eq->m, eq->nu, mo->lambda_all);
 }
 
+/* from rows that are independent at y */
+static bool solve_row(Motion *mo, double t, const double *y)
+{
+    int *kept;
+    bool sound;
+
+    motion_at_position(mo, motion_clock(mo, t), y);
+    kept = motion_take_rows(mo);
+    sound = evaluate(mo, t, y) && solve_plain(mo);
+    if (sound)
+        spread_multipliers(mo);
+    motion_return_rows(mo, kept);
+    return sound;
+}
+
 bool motion_solve(Motion *mo, double t, const double *y, Solved *out)
 {
-    if (!evaluate(mo, t, y) || !solve_plain(mo))
+    if (!solve_row(mo, t, y))
         return false;
-    spread_multipliers(mo);
     *out = (Solved){.acceleration = mo->du,
                     .signs = mo->signs != NULL ? signs_values(mo->signs) : NULL,
                     .multipliers = mo->lambda_all,
@@ -583,6 +597,23 @@ static bool project_velocity(Motion *mo, double t, const double *y, double *u, c
     return vector_is_finite(u, eq->nu);
 }
 
+/* Rows in use may be dependent where a step has led: there others hold y too. */
+static bool project_both(Motion *mo, double t, double *y)
+{
+    const Equations *eq = mo->eq;
+    int *kept;
+    bool sound;
+
+    if (!project_position(mo, t, y))
+        return false;
+    motion_at_position(mo, t, y);
+    kept = motion_take_rows(mo);
+    sound = (mo->used == eq->m || project_position(mo, t, y)) &&
+            project_velocity(mo, t, y, y + eq->n, y + eq->n + eq->nu);
+    motion_return_rows(mo, kept);
+    return sound;
+}
+
 bool motion_project(Motion *mo, double t, double *y)
 {
     const Equations *eq = mo->eq;
@@ -592,8 +623,7 @@ bool motion_project(Motion *mo, double t, double *y)
     t = fmin(fmax(t, mo->low), mo->high);
     if (mo->used == 0 && eq->quaternion_count == 0)
         motion_at_position(mo, t, y);
-    else if (!project_position(mo, t, y) ||
-             !project_velocity(mo, t, y, y + eq->n, y + eq->n + eq->nu))
+    else if (!project_both(mo, t, y))
         return false;
     if (mo->signs != NULL && !motion_project_surfaces(mo, t, y))
         return false;
@@ -740,6 +770,7 @@ static bool dae_start(void *context, double t, const double *y, double *w, doubl
     Motion *mo = context;
     int tail = motion_length(mo);
 
+    mo->is_implicit = true;
     memset(w, 0, (size_t)mo->ode.dae.n * sizeof(double));
     memset(w_rate, 0, (size_t)mo->ode.dae.n * sizeof(double));
     memcpy(w, y, (size_t)tail * sizeof(double));

@@ -15,6 +15,7 @@ struct Motion {
     int used;              /* constraint rows in use */
     double row_ratio;      /* their pivots when they were chosen; 0: not known yet */
     bool is_repartitioned; /* since the last renewal */
+    bool is_implicit;      /* multipliers of the rows in use are unknowns of a method */
     double blur;           /* largest since it was asked for */
     Ode ode;
     double low, high; /* time window of evaluations */
@@ -46,6 +47,11 @@ bool motion_factor_embedded(Motion *motion);
 /* Choose independent speeds where the equations stand; true when they are others (motion_renew.c).
  */
 bool motion_choose_independent(Motion *motion);
+/* Constraint rows that are independent where the equations stand are in use from now on, in place
+ * of worn ones. An implicit method keeps to its own, which are handed back (NULL: they are in use
+ * still) for motion_return_rows(). (motion_renew.c) */
+int *motion_take_rows(Motion *motion);
+void motion_return_rows(Motion *motion, int *rows);
 /* Everything but the solution for u', with signs on surfaces as they are: false where the network
  * can't be solved. */
 bool motion_evaluate(Motion *motion, double t, const double *y);

@@ -10,6 +10,8 @@
 #include <math.h>
 #include <string.h>
 
+#define ROWS_WORN                                                                                  \
+    0.5           /* of the pivot ratio when they were chosen: it falls to 0 within a few steps */
 #define POOR 1e-2 /* pivot ratio of rows that others may better */
 
 bool motion_choose_independent(Motion *mo)
@@ -40,7 +42,7 @@ void motion_partition(Motion *mo, double t, const double *y)
 }
 
 /* Other rows in place of worn ones, where all of them offer better. */
-static bool renew_rows(Motion *mo)
+static bool choose_rows(Motion *mo)
 {
     const Equations *eq = mo->eq;
     int *rows;
@@ -52,18 +54,47 @@ static bool renew_rows(Motion *mo)
     ratio = rank_ratio(eq->phi_u, eq->nu, mo->rows, mo->used);
     if (mo->row_ratio == 0)
         mo->row_ratio = ratio;
-    if (ratio > fmax(MOTION_WORN * mo->row_ratio, POOR))
+    if (ratio > fmax(ROWS_WORN * mo->row_ratio, POOR))
         return false;
     rows = NEW_ARRAY(int, mo->used);
     mo->row_ratio = rank_choose(eq->phi_u, eq->m, eq->nu, mo->used, rows);
-    changed = mo->row_ratio > ratio / MOTION_WORN &&
+    changed = mo->row_ratio > ratio / ROWS_WORN &&
               memcmp(rows, mo->rows, (size_t)mo->used * sizeof(int)) != 0;
     if (changed)
         memcpy(mo->rows, rows, (size_t)mo->used * sizeof(int));
     else
         mo->row_ratio = ratio;
+    mo->is_factored = mo->is_factored && !changed;
     mem_free(rows);
     return changed;
+}
+
+int *motion_take_rows(Motion *mo)
+{
+    int *kept;
+
+    if (mo->used == mo->eq->m || mo->used == 0)
+        return NULL;
+    kept = NEW_ARRAY(int, mo->used);
+    memcpy(kept, mo->rows, (size_t)mo->used * sizeof(int));
+    if (choose_rows(mo)) {
+        if (mo->is_implicit)
+            return kept;
+        if (mo->embed != NULL)
+            mo->is_repartitioned = motion_choose_independent(mo) || mo->is_repartitioned;
+    }
+    mem_free(kept);
+    return NULL;
+}
+
+void motion_return_rows(Motion *mo, int *rows)
+{
+    if (rows == NULL)
+        return;
+    memcpy(mo->rows, rows, (size_t)mo->used * sizeof(int));
+    mo->row_ratio = 0;
+    mo->is_factored = false;
+    mem_free(rows);
 }
 
 Renewed motion_renew(Motion *mo, double t, const double *y)
@@ -74,11 +105,8 @@ Renewed motion_renew(Motion *mo, double t, const double *y)
     if (mo->used == mo->eq->m || mo->used == 0)
         return renewed;
     motion_at_position(mo, t, y);
-    renewed.rows = renew_rows(mo);
-    if (renewed.rows) {
-        mo->is_factored = false;
-        if (mo->embed != NULL)
-            renewed.independent = motion_choose_independent(mo) || renewed.independent;
-    }
+    renewed.rows = choose_rows(mo);
+    if (renewed.rows && mo->embed != NULL)
+        renewed.independent = motion_choose_independent(mo) || renewed.independent;
     return renewed;
 }

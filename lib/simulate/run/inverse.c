@@ -10,6 +10,7 @@
 #include "simulate/run/inverse.h"
 
 #include "algebra/linear.h"
+#include "algebra/rank.h"
 #include "base/memory.h"
 
 #include <gsl/gsl_linalg.h>
@@ -33,6 +34,7 @@ typedef struct Inverse {
     Probe *moving;  /* R' at constant `forces` */
     Probe *network; /* its rows, then their Jacobian by `sources` */
     double *values; /* a row, laid out */
+    bool *in_use;   /* m: constraints whose multipliers are solved for at this row */
 } Inverse;
 
 static bool is_symbol(Expr e, SymbolKind kind)
@@ -75,9 +77,9 @@ static Status sort_unknowns(Inverse *in, Diag *diag)
 {
     const Layout *l = in->l;
 
-    for (int k = 0; k < in->result->start.row_count; k++)
-        if (!is_supplied_elsewhere(in->result, in->result->start.rows[k]))
-            LIST_PUSH(in->forces, l->multipliers + in->result->start.rows[k]);
+    for (int k = 0; k < l->m; k++)
+        if (!is_supplied_elsewhere(in->result, k))
+            LIST_PUSH(in->forces, l->multipliers + k);
     in->multipliers = in->forces.count;
     for (int i = 0; i < l->nx && in->by_source; i++) {
         if (!is_in_forces(l, l->symbols[l->x + i])) {
@@ -296,6 +298,80 @@ static bool solve_least(const double *matrix, int rows, int columns, const doubl
     return full;
 }
 
+/* Of redundant constraints those are in use that are the least dependent where the row stands; the
+ * multipliers of others are 0. */
+static void choose_rows(Inverse *in)
+{
+    const Equations *eq = numbers_equations(in->result->phase->numbers);
+    const int count = in->result->start.row_count;
+    int *rows = NEW_ARRAY(int, count);
+
+    if (count < eq->m)
+        (void)rank_choose(eq->phi_u, eq->m, eq->nu, count, rows);
+    else
+        memcpy(rows, in->result->start.rows, (size_t)count * sizeof(int));
+    memset(in->in_use, 0, (size_t)eq->m * sizeof(bool));
+    for (int k = 0; k < count; k++)
+        in->in_use[rows[k]] = true;
+    mem_free(rows);
+}
+
+static bool is_solved_for(const Inverse *in, int place)
+{
+    const int row = place - in->l->multipliers;
+
+    return row < 0 || row >= in->l->m || in->in_use[row];
+}
+
+/* solve_least() over the unknowns that are solved for; 0 for the others */
+static bool solve_in_use(const Inverse *in, const double *matrix, int rows,
+                         const Unknowns *unknowns, const double *right, double *out)
+{
+    const int all = unknowns->count;
+    double *part = NEW_ARRAY(double, rows *all);
+    double *found = NEW_ARRAY(double, all);
+    int count = 0;
+    bool full;
+
+    for (int k = 0; k < all; k++)
+        count += is_solved_for(in, unknowns->at[k]);
+    for (int i = 0; i < rows; i++)
+        for (int k = 0, column = 0; k < all; k++)
+            if (is_solved_for(in, unknowns->at[k]))
+                part[i * count + column++] = matrix[i * all + k];
+    full = solve_least(part, rows, count, right, found);
+    for (int k = 0, column = 0; k < all && full; k++)
+        out[k] = is_solved_for(in, unknowns->at[k]) ? found[column++] : 0;
+    mem_free(part);
+    mem_free(found);
+    return full;
+}
+
+/* The least multipliers that give the same forces, as runs tell them; those that are supplied
+ * elsewhere have none. */
+static void spread_multipliers(Inverse *in)
+{
+    const Equations *eq = numbers_equations(in->result->phase->numbers);
+    double *phi_u, *lambda;
+    int count = 0;
+
+    if (in->result->start.row_count == eq->m)
+        return;
+    phi_u = NEW_ARRAY(double, eq->m * eq->nu);
+    lambda = NEW_ARRAY(double, eq->m);
+    for (int k = 0; k < in->multipliers; k++) {
+        const int row = in->forces.at[k] - in->l->multipliers;
+
+        memcpy(phi_u + count * eq->nu, eq->phi_u + row * eq->nu, (size_t)eq->nu * sizeof(double));
+        lambda[count++] = in->values[in->forces.at[k]];
+    }
+    rank_least_multipliers(phi_u, count, eq->nu, lambda);
+    for (int k = 0; k < count; k++)
+        in->values[in->forces.at[k]] = lambda[k];
+    mem_free(phi_u);
+    mem_free(lambda);
+}
+
 static Status cant_produce(const Inverse *in, const Unknowns *unknowns, Diag *diag)
 {
     Text names = {0};
@@ -323,7 +399,7 @@ static Status solve_rows(Inverse *in, Probe *probe, int rows, const Unknowns *un
         const double *values = values_of(in, probe);
 
         if (!vector_is_finite(values, rows) ||
-            !solve_least(values + rows, rows, unknowns->count, values, step))
+            !solve_in_use(in, values + rows, rows, unknowns, values, step))
             CHECK(cant_produce(in, unknowns, diag));
         scale = 1;
         for (int k = 0; k < unknowns->count; k++) {
@@ -332,7 +408,7 @@ static Status solve_rows(Inverse *in, Probe *probe, int rows, const Unknowns *un
         }
         size = vector_largest(step, unknowns->count);
     }
-    if (rows > unknowns->count || size > 1e-8 * scale) {
+    if (rows > unknowns->count || size > 1e-8 * scale || in->result->start.row_count < in->l->m) {
         const double *values = values_of(in, probe);
 
         if (!(vector_largest(values, rows) <= 1e-7 * scale))
@@ -354,7 +430,7 @@ static Status find_rates(Inverse *in, Diag *diag)
     if (!solve_least(values + l->m, l->m, l->nu, values, in->values + l->jerk))
         CHECK(cant_produce(in, &in->forces, diag));
     values = values_of(in, in->moving);
-    if (!solve_least(values_of(in, in->balance) + l->nu, l->nu, in->forces.count, values, rates))
+    if (!solve_in_use(in, values_of(in, in->balance) + l->nu, l->nu, &in->forces, values, rates))
         CHECK(cant_produce(in, &in->forces, diag));
     for (int k = in->multipliers; k < in->forces.count; k++) {
         int place = in->forces.at[k];
@@ -377,6 +453,7 @@ static Status solve_row(Inverse *in, double t, double *y, double *out, Diag *dia
 
     if (!motion_solve(r->phase->motion, t, y, &solved))
         return solver_failure(diag, t, "the accelerations are undefined");
+    choose_rows(in);
     memset(in->values, 0, (size_t)l->count * sizeof(double));
     in->values[l->t] = t;
     for (int k = 0; k < l->turned; k++)
@@ -389,6 +466,7 @@ static Status solve_row(Inverse *in, double t, double *y, double *out, Diag *dia
         CHECK(find_rates(in, diag));
         CHECK(solve_rows(in, in->network, l->nx + l->nz, &in->sources, diag));
     }
+    spread_multipliers(in);
     memcpy(y + l->n + l->nu, in->values + l->x, (size_t)l->nx * sizeof(double));
     /* x', z, u', lambda, efforts stand in the layout as they do here */
     memcpy(out, in->values + l->rates, (size_t)(l->jerk - l->rates) * sizeof(double));
@@ -404,6 +482,7 @@ Status inverse_solve(Result *r, Grid *rows, Driven *out, Diag *diag)
     if (r->phase->layout->ne == 0)
         return OK; /* every effort is a multiplier */
     in.values = NEW_ARRAY(double, r->phase->layout->count);
+    in.in_use = NEW_ARRAY(bool, r->phase->layout->m);
     CHECK(sort_unknowns(&in, diag));
     CHECK(compile_motion(&in, diag));
     if (in.by_source)
@@ -422,5 +501,6 @@ done:
     LIST_FREE(in.forces);
     LIST_FREE(in.sources);
     mem_free(in.values);
+    mem_free(in.in_use);
     return status;
 }

@@ -438,8 +438,10 @@ static bool reach(Result *r, double from, double to, double *y, int depth)
         turned = fmax(turned, TURNED / MISSED * fabs(trial[i] - rate[i]));
     /* far from the prediction is perhaps another branch */
     sound = sound && moved < 0.1 && turned < TURNED;
-    if (sound)
+    if (sound) {
         memcpy(y, trial, (size_t)r->phase->length * sizeof(double));
+        (void)motion_renew(r->phase->motion, to, y);
+    }
     mem_free(trial);
     mem_free(rate);
     if (sound || depth == 0)
