@@ -3,7 +3,7 @@ info_TEXINFOS = doc/cotree.texi
 doc_cotree_TEXINFOS = doc/cases.texi doc/machines.texi doc/reference.texi doc/example.c
 AM_MAKEINFOFLAGS = --no-split -I doc
 dist_man_MANS += doc/cotree.1
-EXTRA_DIST += scripts/dev/docs
+EXTRA_DIST += scripts/dev/docs doc/HACKING
 
 # pictures: those of characters, for Info and plain text, are kept; the others are drawn by gnuplot
 # when the manual is made as html or pdf

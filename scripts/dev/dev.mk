@@ -3,7 +3,7 @@
 # None of these installs anything: what is missing is named (or scripts/dev/packages lint).
 dev = $(SHELL) $(srcdir)/scripts/dev
 EXTRA_DIST += autogen.sh run-demo run-tests .clang-format .clang-tidy .shellcheckrc \
-	scripts/dev/bench-table scripts/dev/build scripts/dev/check-layers scripts/dev/check-size \
+	scripts/dev/bench-table scripts/dev/build scripts/dev/check-hacking scripts/dev/check-layers scripts/dev/check-size \
 	scripts/dev/check-tables scripts/dev/check-unused scripts/dev/coverage scripts/dev/lint \
 	scripts/dev/packages scripts/dev/pictures scripts/dev/total scripts/dev/transcripts
 
@@ -25,6 +25,10 @@ san/Makefile:
 lint:
 	@BUILD='$(abs_top_builddir)' CC='$(CC)' CPPFLAGS='-D_GNU_SOURCE -I$(abs_top_builddir) $(GSL_CFLAGS) $(KLU_CFLAGS)' \
 		$(dev)/lint $(PARTS)
+
+# the diffs of doc/HACKING, applied to a copy, build and run
+check-hacking: all
+	@$(dev)/check-hacking $(abs_builddir)
 
 format:
 	cd $(srcdir) && find lib src tests -name '*.[ch]' -exec clang-format -i {} +
@@ -75,4 +79,4 @@ mostlyclean-local:
 distclean-local:
 	rm -rf san coverage bench.work
 
-.PHONY: check-total check-san lint format bench bench-record fuzz fuzzers stress coverage
+.PHONY: check-total check-hacking check-san lint format bench bench-record fuzz fuzzers stress coverage
