@@ -294,6 +294,33 @@ static void a_step_bound_below_nothing_is_refused(void)
     kit_free(&kit);
 }
 
+/* A cart that nothing pushes tells the time as well as t does, and no source is seen in it: one
+ * that is smooth takes the steps that its mechanism takes. */
+static void a_smooth_source_costs_no_steps(void)
+{
+    static const char *const times[] = {"t", "c"};
+
+    for (int i = 0; i < COUNT(adaptive); i++) {
+        int steps[2];
+
+        for (int k = 0; k < 2; k++) {
+            Kit kit = kit_new();
+            char line[200];
+
+            EXPECT_DONE(&kit, CART "spring k s k=50 rest=0\n"
+                                   "body m2 mass=1\nprismatic c ground m2 axis=x\ninit c' = 1\n");
+            (void)snprintf(
+                line, sizeof line,
+                "actuator f s force=10*(sin(5*%s) + 3)\nsimulate 4 rtol=1e-10 method=%s\n",
+                times[k], adaptive[i]);
+            EXPECT_DONE(&kit, line);
+            steps[k] = steps_of(&kit);
+            kit_free(&kit);
+        }
+        EXPECT(steps[0] <= 1.15 * steps[1] + 10);
+    }
+}
+
 int main(void)
 {
     RUN(a_rectifier_conducts_at_every_tolerance);
@@ -313,5 +340,6 @@ int main(void)
     RUN(no_drift_is_told_of_energies_beyond_numbers);
     RUN(maxstep_bounds_every_method);
     RUN(a_step_bound_below_nothing_is_refused);
+    RUN(a_smooth_source_costs_no_steps);
     return test_end();
 }
