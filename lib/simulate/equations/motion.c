@@ -372,6 +372,20 @@ static void write_rates(const Motion *mo, double *out)
     out[turned_place(eq) + eq->turned_count] = eq->power != NULL ? *eq->power : 0;
 }
 
+/* Multipliers of all rows from those in use: the least of all that give the same forces. */
+static void spread_multipliers(Motion *mo)
+{
+    const Equations *eq = mo->eq;
+
+    if (mo->used == eq->m) {
+        for (int k = 0; k < mo->used; k++)
+            mo->lambda_all[mo->rows[k]] = mo->lambda[k];
+        return;
+    }
+    place_multipliers(mo);
+    rank_least_multipliers(eq->phi_u, eq->m, eq->nu, mo->lambda_all);
+}
+
 /* A network that reads u' or lambda, while forces read the network: each in turn, until nothing
  * changes. Where forces don't read what follows from it, the second turn is the last. */
 static bool solve_together(Motion *mo)
@@ -384,7 +398,7 @@ static bool solve_together(Motion *mo)
 
         if (!solve_augmented(mo))
             return false;
-        place_multipliers(mo);
+        spread_multipliers(mo);
         memcpy(mo->solved_before, mo->solved, (size_t)n * sizeof(double));
         eq->network_reads(eq->context, mo->du, mo->lambda_all);
         if (!netsolve_find(mo->network))
@@ -435,20 +449,6 @@ static bool rate(void *context, double t, const double *y, double *out)
     bring_power(mo, mo->du);
     write_rates(mo, out);
     return vector_is_finite(out, mo->ode.n);
-}
-
-/* Multipliers of all rows from those in use: the least of all that give the same forces. */
-static void spread_multipliers(Motion *mo)
-{
-    const Equations *eq = mo->eq;
-
-    if (mo->used == eq->m) {
-        for (int k = 0; k < mo->used; k++)
-            mo->lambda_all[mo->rows[k]] = mo->lambda[k];
-        return;
-    }
-    place_multipliers(mo);
-    rank_least_multipliers(eq->phi_u, eq->m, eq->nu, mo->lambda_all);
 }
 
 /* from rows that are independent at y */
