@@ -156,7 +156,26 @@ static double *find_rates(const Placing *p)
 typedef struct Weighed { /* rows in w = L^T u */
     Rows rows;
     gsl_matrix *factor; /* L, in its lower half */
+    double *jacobian;   /* of the rows, which are linear; NULL: not asked for yet */
 } Weighed;
+
+/* L^-1 row, from the first entry that is not 0 */
+static void weigh_row(const gsl_matrix *factor, double *row)
+{
+    const int n = (int)factor->size1;
+    int first = 0;
+
+    while (first < n && row[first] == 0)
+        first++;
+    for (int i = first; i < n; i++) {
+        const double *l = gsl_matrix_const_ptr(factor, (size_t)i, 0);
+        double sum = row[i];
+
+        for (int k = first; k < i; k++)
+            sum -= l[k] * row[k];
+        row[i] = sum / l[i];
+    }
+}
 
 static void add_square(gsl_matrix *sum, const double *row, double scale)
 {
@@ -193,14 +212,18 @@ static gsl_matrix *weigh(const Assembly *a, const double *rates, int count)
 
 static void evaluate(void *context, const double *v, double *residual, double *jacobian)
 {
-    const Weighed *w = context;
-    const int nu = w->rows.columns;
+    Weighed *w = context;
+    const size_t nu = (size_t)w->rows.columns, size = (size_t)w->rows.rows * nu;
+    const bool first = jacobian != NULL && w->jacobian == NULL;
 
-    w->rows.evaluate(w->rows.context, v, residual, jacobian);
-    for (int i = 0; jacobian != NULL && i < w->rows.rows; i++) {
-        gsl_vector_view row = gsl_vector_view_array(jacobian + (ptrdiff_t)i * nu, (size_t)nu);
-
-        (void)gsl_blas_dtrsv(CblasLower, CblasNoTrans, CblasNonUnit, w->factor, &row.vector);
+    w->rows.evaluate(w->rows.context, v, residual, first ? jacobian : NULL);
+    if (first) {
+        w->jacobian = NEW_ARRAY(double, size);
+        for (size_t i = 0; i < (size_t)w->rows.rows; i++)
+            weigh_row(w->factor, jacobian + i * nu);
+        memcpy(w->jacobian, jacobian, size * sizeof(double));
+    } else if (jacobian != NULL) {
+        memcpy(jacobian, w->jacobian, size * sizeof(double));
     }
 }
 
@@ -234,6 +257,7 @@ static Status solve(Assembly *a, gsl_matrix *factor, bool guesses, Diag *diag)
     (void)least_solve(&rows, NULL, NULL, TOLERANCE, a->y + a->l->n, NULL);
 done:
     start_close_problem(&p);
+    mem_free(w.jacobian);
     return status;
 }
 
