@@ -78,12 +78,7 @@ static ct_status kit_other(Kit *kit, const ct_statement *statement)
 {
     ct_session *session = kit->session;
     const char *verb = ct_verb(statement);
-    static const char *const shell[] = {"source",   "recover", "save", "record",  "history", "time",
-                                        "complete", "quit",    "help", "apropos", "animate"};
 
-    for (size_t i = 0; i < sizeof shell / sizeof shell[0]; i++)
-        if (strcmp(verb, shell[i]) == 0)
-            return CT_OK;
     if (strcmp(verb, "show") == 0)
         return ct_show(session, statement, &kit->text, &kit->error);
     if (strcmp(verb, "count") == 0)
@@ -114,6 +109,8 @@ static ct_status kit_other(Kit *kit, const ct_statement *statement)
         ct_clear(session);
         return CT_OK;
     }
+    if (ct_carrier(statement) == CT_CALLER) /* files, help, history: nothing of the session's */
+        return CT_OK;
     return kit_run(kit, statement);
 }
 
