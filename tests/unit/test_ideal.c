@@ -698,6 +698,12 @@ static void a_switch_that_contradicts_itself_is_named(void)
     EXPECT_DONE(&kit, "clear\nvsource E a 0 12\ndiode D 0 x\ninductor L x o 1 mH\n"
                       "resistor R o 0 5\nswitch S a x when=L.i < 1\n");
     EXPECT_FAILS(&kit, "simulate 0.01\n", "switches to and fro without end");
+    EXPECT_HOLDS(kit.error.hint, "a gain with period=");
+    /* as the hint says: 5 V of 12 on the average, or within what flows in 1 us */
+    EXPECT_DONE(&kit, "gain g n 0 k=1 of=L.i period=1 us\nset S.when=g.v < 1\nsimulate 2 ms\n"
+                      "expect L.i ~ 1 within 0.015\nclear\ninductor L x o 1 mH\n"
+                      "resistor R o 0 5\nvsource E x 0 if(L.i < 1, 12, 0)\nsimulate 2 ms\n"
+                      "expect L.i ~ 1 within 1e-9\nexpect E.v ~ 5 within 1e-6\n");
     kit_free(&kit);
 }
 

@@ -437,6 +437,10 @@ static Status switches_endlessly(const March *m, int i, Diag *diag)
                    m->stepper->t, what.at);
     if (is_margin(m, i))
         diag_hint(diag, "smaller rtol= and atol= locate its switching more closely");
+    else if (m->plan->commute != NULL && equations_guard(m->eq, i).surface < 0)
+        diag_hint(diag, "let the switch read what a gain with period= has sampled; or put a source "
+                        "of two values in its place, as vsource E a 0 if(L1.i < 2, 12, 0), whose "
+                        "mean then holds the condition");
     else
         diag_hint(diag, "a hysteresis, or a steep but continuous law such as tanh(x/0.001) in the "
                         "place of sign(x), has a motion there");
