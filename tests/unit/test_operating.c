@@ -144,6 +144,22 @@ static void undo_of_an_init_leaves_the_operating_point(void)
     kit_free(&kit);
 }
 
+/* nor is a number told where there is none: a root of what becomes negative, no inertia at all */
+static void what_is_undefined_is_called_so(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, "scene planar\nbody b mass=1e9 inertia=1\nrevolute h ground b\n"
+                      "actuator a h torque=sqrt(h) + 1\ninit h = -1\n");
+    EXPECT(kit_do(&kit, "equilibrium\n") != CT_OK);
+    EXPECT_LACKS(kit.error.message, "nan");
+    EXPECT_HOLDS(kit.error.message, "the forces on h, undefined");
+    EXPECT_DONE(&kit, "clear\nscene planar\nbody b mass=1 inertia=0\nrevolute h ground b\n"
+                      "actuator a h torque=tan(h)\ninit h = 1\nexpect h ~ 1 within 1e-12\n");
+    EXPECT(isnan(kit_value(&kit, "h''")));
+    kit_free(&kit);
+}
+
 int main(void)
 {
     RUN(a_diode_behind_a_resistor_obeys_lambert);
@@ -153,5 +169,6 @@ int main(void)
     RUN(a_node_that_floats_is_named);
     RUN(large_networks_rest_too);
     RUN(undo_of_an_init_leaves_the_operating_point);
+    RUN(what_is_undefined_is_called_so);
     return test_end();
 }

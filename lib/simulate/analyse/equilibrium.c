@@ -268,6 +268,15 @@ static const char *network_place(const Quest *e, int i)
     return network_unknown(e, i < l->nu + l->nx ? i - l->nu : i - l->nu - l->m);
 }
 
+/* " by 3.2", of what is missed */
+static void tell_missed(double missed, Text *text)
+{
+    if (isfinite(missed))
+        text_addf(text, " by %.3g", fabs(missed));
+    else
+        text_add(text, ", undefined where the search ended");
+}
+
 static void name_row(const Quest *e, int i, double missed, Text *text)
 {
     const Layout *l = e->l;
@@ -275,18 +284,16 @@ static void name_row(const Quest *e, int i, double missed, Text *text)
     if (i < l->nu) {
         int q = speed_coordinate(l->system, i);
 
-        text_addf(text, "the forces on %s by %.3g",
-                  q >= 0 ? system_q(l->system, q)->name : system_u(l->system, i)->name,
-                  fabs(missed));
+        text_addf(text, "the forces on %s",
+                  q >= 0 ? system_q(l->system, q)->name : system_u(l->system, i)->name);
     } else if (i < l->nu + l->m) {
         const ConstraintRow *row = system_constraint(l->system, i - l->nu);
 
-        text_addf(text, "%s (%s) by %.3g", system_instance_name(l->system, row->instance),
-                  row->direction, fabs(missed));
+        text_addf(text, "%s (%s)", system_instance_name(l->system, row->instance), row->direction);
     } else {
-        text_addf(text, "the equation of %s by %.3g", network_unknown(e, i - l->nu - l->m),
-                  fabs(missed));
+        text_addf(text, "the equation of %s", network_unknown(e, i - l->nu - l->m));
     }
+    tell_missed(missed, text);
 }
 
 static Status tell_beyond(const Quest *e, Diag *diag)

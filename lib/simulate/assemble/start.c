@@ -241,7 +241,7 @@ Status start_conflict(const Problem *p, const double *residual, const char *what
     int shown = 0;
 
     for (int k = 0; k < p->system_rows + p->count; k++) {
-        if (!(fabs(residual[k]) > 1e-9))
+        if (fabs(residual[k]) <= 1e-9)
             continue;
         if (shown++ == 6) {
             text_add(&text, ", ...");
@@ -257,7 +257,10 @@ Status start_conflict(const Problem *p, const double *residual, const char *what
             text_addf(&text, "the network's equation %d", k + 1);
         else
             name_row(&text, p->a->l, k);
-        text_addf(&text, " by %.3g", fabs(residual[k]));
+        if (isfinite(residual[k]))
+            text_addf(&text, " by %.3g", fabs(residual[k]));
+        else
+            text_add(&text, ", undefined there");
     }
     for (int i = 0; i < p->a->given_count; i++)
         if (!p->a->given[i].value->is_guess && p->a->given[i].level <= p->level &&

@@ -2,12 +2,16 @@
 #include "simulate/run/result.h"
 
 #include "base/memory.h"
+#include "base/random.h"
 #include "simulate/equations/causes.h"
 #include "simulate/run/commute.h"
 #include "simulate/run/share.h"
 
 #include <math.h>
 #include <string.h>
+
+#define UNSOLVED 3   /* times that a value has to be the same */
+#define FAR      1e3 /* what isn't known is taken up to this, of either sign */
 
 #define START_TOLERANCE 1e-8
 
@@ -392,6 +396,30 @@ done:
     return status;
 }
 
+/* Where the equations have no solution what they would solve for may be anything: values that
+ * don't change with it, as those of coordinates, are known all the same. */
+static void probe_unsolved(const Phase *phase, Probe *probe, double t, const double *y, int count,
+                           double *out)
+{
+    const Layout *l = phase->layout;
+    double *any = NEW_ARRAY(double, l->count);
+    RowValues row = row_of_state(l, t, y);
+    uint64_t seed = 1;
+
+    row.signs = row.rates = row.z = row.acceleration = row.multipliers = row.efforts = row.jerk =
+        any;
+    for (int turn = 0; turn < UNSOLVED; turn++) {
+        const double *values;
+
+        for (int i = 0; i < l->count; i++)
+            any[i] = FAR * random_unit(&seed);
+        values = probe_values(probe, &row);
+        for (int k = 0; k < count; k++)
+            out[k] = turn == 0 || out[k] == values[k] ? values[k] : NAN;
+    }
+    mem_free(any);
+}
+
 void result_probe_at(Phase *phase, Probe *probe, double t, const double *y, const double *driven,
                      int count, double *out)
 {
@@ -400,8 +428,7 @@ void result_probe_at(Phase *phase, Probe *probe, double t, const double *y, cons
     if (find_row(phase, t, y, driven, &row))
         memcpy(out, probe_values(probe, &row), (size_t)count * sizeof(double));
     else
-        for (int k = 0; k < count; k++)
-            out[k] = NAN;
+        probe_unsolved(phase, probe, t, y, count, out);
 }
 
 /* what is asked at every row, in the equations of its phase */
