@@ -6,7 +6,7 @@
  * circuit, a branch's i from its cutset. In state form the tree is a normal tree, capacitors in it
  * and inductors out of it bring the states, and a rate that an equation needs of something
  * algebraic is an unknown more, with that one's equation differentiated. In the form of the user's
- * tree any rate of an unknown may be met, and the highest ones are solved for. theory.md 8. */
+ * tree any rate of an unknown may be met, and the highest ones are solved for. theory 8. */
 #include "formulate/system_impl.h"
 
 #define DEEP 30 /* followed edges, from which on variables stay unknown: resolve() goes to 40 */

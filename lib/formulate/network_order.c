@@ -3,7 +3,7 @@
  * Each unknown has a highest rate in the equations; they hold these linearly, and are solved for
  * them. Where their matrix L is singular throughout, elimination leaves a row without them. That
  * row tells a lower rate of one of its unknowns, and, differentiated, those above it, which are put
- * into the other rows: the unknown is then of that order. theory.md 8. */
+ * into the other rows: the unknown is then of that order. theory 8. */
 #include "formulate/system_impl.h"
 
 #include <math.h>

@@ -403,7 +403,7 @@ static void find_samples(System *system)
 }
 
 /* An equation that states and sources alone have to meet, as where an op-amp holds a capacitor's
- * voltage: differentiated once it tells a rate. theory.md 8. */
+ * voltage: differentiated once it tells a rate. theory 8. */
 static Status differentiate_fixed(System *system, int unknown, Diag *diag)
 {
     const unsigned moves = 1U << SYMBOL_STATE;

@@ -7,7 +7,7 @@
  * A System is finished when made and remembers the revision of its model. It has two
  * readings of the same definitions: one to show (each entry written as by hand, formed
  * when asked for) and one to run (shared definitions, each emitted once). Both give the
- * same numbers. Expressions live in the model's arena. theory.md 3-8. */
+ * same numbers. Expressions live in the model's arena. theory 3-8. */
 #ifndef COTREE_FORMULATE_SYSTEM_H
 #define COTREE_FORMULATE_SYSTEM_H
 
@@ -288,7 +288,7 @@ MUST_USE Status system_rate(System *system, Expr e, Expr *out, Diag *diag);
  *
  * A system holds both sides of each in one equation. Its modes are systems in which every ideal one
  * is on a side, with the tree, the states and the equations of that; the side of one between two
- * resistances is a number there, which a run sets, since all else is the same. theory.md 8. */
+ * resistances is a number there, which a run sets, since all else is the same. theory 8. */
 
 typedef struct IdealSwitch {
     const char *name;

@@ -28,7 +28,7 @@ typedef struct TreeChoice {
  * out      a new tree; the caller frees it with tree_free()
  *
  * Fails with E_CIRCUIT, naming the edges of the circuit in its order (two messages of
- * theory.md 7: chosen branches, or arms alone), with E_UNREACHED, naming the nodes that no
+ * theory 7: chosen branches, or arms alone), with E_UNREACHED, naming the nodes that no
  * branch reaches and edges that would, with E_BRANCH for an edge that may not be one or an arm
  * that is excluded, with a hint each. Long lists of names are cut short. Nodes that no edge of the
  * domain connects to the datum at all: E_UNREACHED too. O(E log E). Kruskal (1956), with the chosen

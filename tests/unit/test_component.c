@@ -67,7 +67,7 @@ static void every_example_builds(void)
     }
 }
 
-/* theory.md 2: coordinates of each half, spatial and planar */
+/* theory 2: coordinates of each half, spatial and planar */
 static void joints_have_the_freedoms_of_the_table(void)
 {
     static const struct {

@@ -92,7 +92,7 @@ static void expect_pose(Pose got, const double r[3], const double R[9])
 
 /* --- halves --- */
 
-/* theory.md 2: coordinates of each half, and freedoms */
+/* theory 2: coordinates of each half, and freedoms */
 static const struct {
     const char *text;
     int shifts, turns;
@@ -263,7 +263,7 @@ static void universal_joints_turn_about_the_tails_axis_first(void)
     model_free(model);
 }
 
-/* theory.md 2: shift u h theta/(2 pi), turn u theta */
+/* theory 2: shift u h theta/(2 pi), turn u theta */
 static void screws_shift_by_their_pitch_in_a_turn(void)
 {
     Model *model = model_of("h = 0.02\nbody b mass=1\nscrew j ground b pitch=h axis=x\n"

@@ -2,7 +2,7 @@
  *
  * The signs on all surfaces that a run stands on are such that each is at an end of -1 .. 1 and the
  * motion leaves to that side, or between them and the motion stays: a linear complementarity
- * problem with bounds (theory.md 8). */
+ * problem with bounds (theory 8). */
 #ifndef COTREE_SIMULATE_RUN_SLIDE_H
 #define COTREE_SIMULATE_RUN_SLIDE_H
 
