@@ -20,6 +20,11 @@ family_pulses_SOURCES = tests/family/family_pulses.c tests/family/family.h tests
 	tests/unit/session_kit.h tests/unit/test.h
 family_pulses_LDADD = libcotree.la $(unit_ldadd)
 
+FAMILIES += family_short
+family_short_SOURCES = tests/family/family_short.c tests/family/family.h tests/family/script.h \
+	tests/random.h tests/unit/session_kit.h tests/unit/test.h
+family_short_LDADD = libcotree.la $(unit_ldadd)
+
 FAMILIES += family_mechanisms
 family_mechanisms_SOURCES = tests/family/family_mechanisms.c tests/family/mechanisms.h \
 	tests/family/one_freedom.h tests/family/script.h

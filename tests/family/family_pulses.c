@@ -220,7 +220,7 @@ static bool refer(const Supply *s, double error, double *out)
 
         fixed_steps(s, steps, out);
         for (int p = 0; p < PLACES; p++)
-            off = fmax(off, fabs(out[p] - coarse[p]));
+            off = isnan(out[p] - coarse[p]) ? INFINITY : fmax(off, fabs(out[p] - coarse[p]));
         if (off / 15 < error) {
             for (int p = 0; p < PLACES; p++)
                 out[p] += (out[p] - coarse[p]) / 15;

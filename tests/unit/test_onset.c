@@ -103,6 +103,33 @@ static void a_pulse_in_a_long_run_is_seen(void)
                   "simulate 10", "s", 3 * area / 2 * 5, 1e-5);
 }
 
+/* A source that rates answer to only where it is large: through a cube, a square of either sign, or
+ * diodes that it turns. Ten widths behind its top, by RK4 in another program, 200 steps a width. A
+ * pulse that is a hundred times shorter into as much less capacity leads to the same voltage. */
+static void a_pulse_behind_what_blocks_is_seen(void)
+{
+    static const struct {
+        const char *part;
+        double value;
+    } parts[] = {{"diode N s b", 6.9475328},
+                 {"diode N s b Ron=0.1 Roff=1e12", 6.6815232},
+                 {"isource N s b 0.1*N.v^3", 0.98708485},
+                 {"isource N s b 0.1*N.v*abs(N.v)", 1.08309949}};
+    static const double widths[] = {1e-2, 1e-4};
+
+    for (int i = 0; i < COUNT(parts); i++)
+        for (int w = 0; w < COUNT(widths); w++) {
+            char model[400], when[40];
+
+            (void)snprintf(model, sizeof model,
+                           "vsource V p 0 10*exp(-((t - 5.0123)/%g)^2)\nresistor Rs p s 1\n%s\n"
+                           "capacitor C b 0 %g\ninit C.v = 0\n",
+                           widths[w], parts[i].part, widths[w]);
+            (void)snprintf(when, sizeof when, "C.v at %.17g", 5.0123 + 10 * widths[w]);
+            expect_of_all(model, "simulate 10 every=5", when, parts[i].value, 2e-6);
+        }
+}
+
 /* 1000 A for 2 ms with edges of 1 ms: corners that no second derivative tells of */
 static void corners_are_not_stepped_over(void)
 {
@@ -330,6 +357,7 @@ int main(void)
     RUN(a_doubler_stays_below_twice_the_peak);
     RUN(a_multiplier_of_exponential_diodes_runs);
     RUN(a_pulse_in_a_long_run_is_seen);
+    RUN(a_pulse_behind_what_blocks_is_seen);
     RUN(corners_are_not_stepped_over);
     RUN(a_pulse_leaves_nothing_behind);
     RUN(errors_in_a_pulse_do_not_add_up);

@@ -198,6 +198,46 @@ static Roots equations_of(const Layout *l)
     return roots;
 }
 
+static bool holds_time(Expr e, void *context)
+{
+    return (expr_kinds(e) & 1U << SYMBOL_TIME) != 0 && !is_of_time(context, e);
+}
+
+/* What stands of time in an expression that other things than rates depend on. */
+static void find_sources(Steep *s, Expr e)
+{
+    Expr *nodes;
+    int found = expr_find(&e, 1, holds_time, (void *)s->l, &nodes);
+
+    if (is_of_time(s->l, e))
+        add_source(s, e);
+    for (int i = 0; i < found; i++)
+        add_sources_of(s, nodes[i]);
+    mem_free(nodes);
+}
+
+/* in what switches by more than time: a source may turn it without any effect on rates */
+static Status find_sources_of_switches(Steep *s, Diag *diag)
+{
+    System *system = s->l->system;
+    const Switch *switches;
+    int time_only = 0;
+    int count = system_switches(system, &switches, &time_only);
+    Status status = OK;
+
+    for (int i = time_only; i < count; i++)
+        find_sources(s, switches[i].condition);
+    for (int i = 0; i < system_ideal_count(system); i++) {
+        IdealSwitch ideal;
+
+        CHECK(system_ideal(system, i, &ideal, diag));
+        if (ideal.margin != NULL)
+            find_sources(s, ideal.margin);
+    }
+done:
+    return status;
+}
+
 static void find_ranges(Steep *s)
 {
     Arena *arena = system_arena(s->l->system);
@@ -226,21 +266,24 @@ Status steep_new(const Layout *l, Parameters *parameters, Motion *motion, const 
 {
     Steep *s = NEW(Steep);
     Roots roots = equations_of(l);
+    Status status = OK;
 
     *out = NULL;
     *s = (Steep){.l = l, .parameters = parameters, .motion = motion, .eq = eq};
     find_all(s, roots.at, roots.count);
-    LIST_FREE(roots);
-    if (s->elements.count == 0 && s->sources.count == 0) {
-        steep_free(s);
-        return OK;
-    }
+    CHECK(find_sources_of_switches(s, diag));
+    if (s->elements.count == 0 && s->sources.count == 0)
+        goto done;
     find_ranges(s);
+    if (arena_status(system_arena(l->system)) != OK)
+        CHECK(diag_set(diag, arena_status(system_arena(l->system)), "%s",
+                       arena_failure(system_arena(l->system))));
     *out = s;
-    return arena_status(system_arena(l->system)) == OK
-               ? OK
-               : diag_set(diag, arena_status(system_arena(l->system)), "%s",
-                          arena_failure(system_arena(l->system)));
+    s = NULL;
+done:
+    LIST_FREE(roots);
+    steep_free(s);
+    return status;
 }
 
 void steep_free(Steep *s)

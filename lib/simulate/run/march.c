@@ -232,12 +232,15 @@ static void open_leg(March *m, const Leg *leg)
     m->depth_high = NEW_ARRAY(double, conditions);
     m->mode = NEW_ARRAY(int, conditions);
     open_surfaces(m);
+    if (m->count > 0)
+        onset_watch(m->leg.onset, march_turns, m);
     m->stepper = new_stepper(m, m->out->method);
 }
 
 static void close_leg(March *m)
 {
     give_up_stepper(m);
+    onset_watch(m->leg.onset, NULL, NULL);
     motion_window(m->leg.motion, -INFINITY, INFINITY);
     mem_free(m->y);
     mem_free(m->slope);

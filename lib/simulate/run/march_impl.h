@@ -100,6 +100,9 @@ bool march_is_of_event(const March *m, int condition);
 int march_state_conditions(const March *m); /* how many */
 /* all conditions at (t, y), into m->conditions */
 void march_evaluate(March *m, double t, const double *y);
+/* whether one that isn't of t alone has another sign at (t, y) than the run; the Turns of an Onset
+ */
+bool march_turns(void *march, double t, const double *y);
 /* signs of those of the equations where the stepper stands; those of events go on as they are */
 void march_begin_modes(March *m);
 /* The first switch in the last step that isn't followed yet: its condition, and a time just behind

@@ -53,7 +53,38 @@ int march_state_conditions(const March *m)
     return m->count - m->eq->time_only - events_time_only(m->ev);
 }
 
+/* what says that the leg is the right one, as long as it is positive */
+static bool is_margin(const March *m, int i)
+{
+    return i < m->eq->switch_count && i >= m->eq->switch_count - m->eq->margin_count;
+}
+
+/* Not for a step to look at: of t alone, or, where a part of a run is taken again, what would end
+ * the leg that is known to go on. */
+static bool is_left_out(const March *m, int i)
+{
+    Guard guard;
+
+    if (is_of_time(m, i))
+        return true;
+    if (!(m->plan->span > 0) || march_is_of_event(m, i))
+        return false;
+    guard = equations_guard(m->eq, i);
+    return is_margin(m, i) || guard.side != 0 || guard.end != 0;
+}
+
 /* --- conditions in the state --- */
+
+bool march_turns(void *march, double t, const double *y)
+{
+    March *m = march;
+
+    march_evaluate(m, t, y);
+    for (int i = 0; i < m->count; i++)
+        if (!is_left_out(m, i) && sign_of(m->conditions[i]) == -m->mode[i])
+            return true;
+    return false;
+}
 
 /* all of them where the stepper's interpolant is at t, which goes into m->y */
 static void conditions_at(March *m, double t)
@@ -72,12 +103,6 @@ static double conditions_ahead(March *m)
         m->y[k] = s->y[k] + h * m->slope[k];
     march_evaluate(m, s->t + h, m->y);
     return h;
-}
-
-/* what says that the leg is the right one, as long as it is positive */
-static bool is_margin(const March *m, int i)
-{
-    return i < m->eq->switch_count && i >= m->eq->switch_count - m->eq->margin_count;
 }
 
 static bool is_steep(const March *m, int i)
@@ -185,7 +210,7 @@ static bool has_switched(March *m, int i, bool inside)
 static void forget_bands(March *m)
 {
     for (int i = 0; i < m->count; i++)
-        if (!is_of_time(m, i) && fabs(m->conditions[i]) > m->band[i])
+        if (!is_left_out(m, i) && fabs(m->conditions[i]) > m->band[i])
             m->band[i] = m->noise[i];
 }
 
@@ -206,7 +231,7 @@ static int points_in(const March *m, double length)
 static void find_depths(const March *m, double *out)
 {
     for (int k = 0; k < m->count; k++)
-        out[k] = is_of_time(m, k) || m->conditions[k] == 0 || m->mode[k] == 0
+        out[k] = is_left_out(m, k) || m->conditions[k] == 0 || m->mode[k] == 0
                      ? INFINITY
                      : m->mode[k] * m->conditions[k] + m->band[k];
 }
@@ -293,7 +318,7 @@ static int find_switched(March *m, double *low, double *at)
             continue;
         conditions_at(m, *at);
         for (int i = 0; i < m->count; i++)
-            if (!is_of_time(m, i) && has_switched(m, i, k < points) && found < 0)
+            if (!is_left_out(m, i) && has_switched(m, i, k < points) && found < 0)
                 found = i;
         if (found >= 0)
             return found;
@@ -406,13 +431,16 @@ done:
     return status;
 }
 
-/* From just before a switch to just behind it: so short a way that Euler's rule is exact. */
+/* From just before a switch to just behind it: so short a way that Euler's rule is exact. A slope
+ * tells little of a source that has just begun to rise. */
 static bool cross(March *m, int i, double value, double slope)
 {
     Stepper *s = m->stepper;
     double h = fmax(4e-16 * fabs(s->t), 2 * fabs(value / slope));
 
     for (int k = 0; k < 20 && is_short(m, h); k++, h *= 2) {
+        if (!onset_is_calm(m->leg.onset, s->t, s->t + h))
+            break;
         for (int j = 0; j < m->length; j++)
             m->y[j] = s->y[j] + h * m->slope[j];
         march_evaluate(m, s->t + h, m->y);

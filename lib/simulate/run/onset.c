@@ -31,6 +31,8 @@
 #define EFFECTS   8     /* steps for which effects are good */
 #define LATE      0.9   /* of a step: what begins behind is left to the next one */
 #define OPEN      0.5   /* of u below its threshold: an element that has done with it */
+#define FAINT     1e-3  /* of what an interval promises of a source: it promises too much */
+#define CALM      1e-8  /* of its range in a run: a source that goes no further stays as it is */
 #define NOISE     1e-14 /* of a source's range in a run: what the rounding of its terms may leave */
 
 typedef struct Pulse {
@@ -55,13 +57,18 @@ struct Onset {
     bool *conducts; /* elements over their thresholds, or nearly */
     double *leaks;  /* slopes of those that block; NAN: it has its own */
     double *slope, *scale;
-    double *seen;    /* what the step's places see of each source */
+    double *seen;    /* what the step's places see of each source, */
+    double *seen_at; /* and where, s */
     double t_before; /* start of the step before; NAN: there is none */
     double clear;    /* up to here sources are straight enough for steps up to */
     double clear_step;
     double planned; /* no step that goes so far was cut short */
     double *onset;  /* where each source begins to act, foreseen; s */
-    int age;        /* of the effects, in steps */
+    double *acting; /* by how much it does so there; INFINITY: nobody knows */
+    double *rates;  /* two y' */
+    Turns turns;
+    void *context;
+    int age; /* of the effects, in steps */
     Pulse *element_pulses, *source_pulses;
 };
 
@@ -89,7 +96,10 @@ Onset *onset_new(Steep *steep, const Ode *ode)
     o->slope = NEW_ARRAY(double, o->length);
     o->scale = NEW_ARRAY(double, o->length);
     o->seen = NEW_ARRAY(double, j);
+    o->seen_at = NEW_ARRAY(double, j);
     o->onset = NEW_ARRAY(double, j);
+    o->acting = NEW_ARRAY(double, j);
+    o->rates = NEW_ARRAY(double, 2 * o->length);
     o->element_pulses = NEW_ARRAY(Pulse, k);
     o->source_pulses = NEW_ARRAY(Pulse, j);
     onset_forget(o);
@@ -112,10 +122,21 @@ void onset_free(Onset *o)
     mem_free(o->scale);
     mem_free(o->leaks);
     mem_free(o->seen);
+    mem_free(o->seen_at);
     mem_free(o->onset);
+    mem_free(o->acting);
+    mem_free(o->rates);
     mem_free(o->element_pulses);
     mem_free(o->source_pulses);
     mem_free(o);
+}
+
+void onset_watch(Onset *o, Turns turns, void *context)
+{
+    if (o == NULL)
+        return;
+    o->turns = turns;
+    o->context = context;
 }
 
 void onset_forget(Onset *o)
@@ -449,8 +470,14 @@ static void look_at(Onset *o, double t, const double *from)
 {
     const Range *at = steep_sources_over(o->steep, (Range){t, t});
 
-    for (int j = 0; j < o->sources; j++)
-        o->seen[j] = fmax(o->seen[j], fabs((at[j].low + at[j].high) / 2 - from[j]));
+    for (int j = 0; j < o->sources; j++) {
+        const double way = fabs((at[j].low + at[j].high) / 2 - from[j]);
+
+        if (way > o->seen[j]) {
+            o->seen[j] = way;
+            o->seen_at[j] = t;
+        }
+    }
 }
 
 /* What the places where the method looks, and what it remembers, see of the sources: as many as are
@@ -512,21 +539,82 @@ static double way_at(Onset *o, int j, double t)
     return fabs((at[j].low + at[j].high) / 2 - o->source_at[j]);
 }
 
-/* Where source j begins to do what no place of the step sees; INFINITY: it doesn't. */
-static double unseen(Onset *o, int j, const Stepper *stepper, double to)
+/* A place at which source j has gone as far as `level`, or INFINITY: an interval may promise more
+ * than there is. */
+static double place_beyond(Onset *o, int j, double level, double to)
 {
-    double delta = delta_of(o, j, stepper, to);
-    Search peak = {o, way_beyond, 0, j, fmax(delta, o->seen[j] / SEEN), 1, INTERVALS};
-    Search leaves = {o, way_beyond, 0, j, delta, 1, INTERVALS};
+    Search peak = {o, way_beyond, 0, j, level, 1, INTERVALS};
     double at = first_place(&peak, o->t, to);
 
-    /* an interval may promise more than there is */
-    if (!(at <= to) || (peak.left > 0 && way_at(o, j, at) < 0.5 * peak.level))
+    return at <= to && !(peak.left > 0 && way_at(o, j, at) < 0.5 * level) ? at : INFINITY;
+}
+
+/* The largest change of a rate from the step's start to `at`, with the state as it is, in what a
+ * step may change. */
+static double change_of_rates(Onset *o, Stepper *stepper, double at, double h)
+{
+    const Ode *ode = o->ode;
+    double *here = o->rates, *there = o->rates + o->length;
+    double largest = 0;
+
+    stepper->counts.evaluations += 2;
+    if (!ode->rate(ode->context, o->t, stepper->y, here) ||
+        !ode->rate(ode->context, at, stepper->y, there))
         return INFINITY;
+    for (int i = 0; i < ode->n; i++)
+        largest = fmax(largest, h * fabs(there[i] - here[i]) / (AIM * o->scale[i]));
+    return largest;
+}
+
+/* The same for a source that rates answer to only where it is large, as through a square, or by a
+ * condition that has another sign there: where it is furthest from what the step's places see,
+ * `way` at most, the equations themselves are asked. */
+static double acting_at_large(Onset *o, int j, Stepper *stepper, double to, double way)
+{
+    const double least = fmax(o->seen[j] / SEEN, NOISE * steep_source_size(o->steep, j));
+    double at = INFINITY, reached, change;
+
+    for (double level = 0.9 * way; !(at <= to) && level > fmax(least, FAINT * way); level /= 2)
+        at = place_beyond(o, j, level, to);
+    if (!(at <= to))
+        return INFINITY;
+    reached = way_at(o, j, at);
+    change = change_of_rates(o, stepper, at, to - o->t);
+    if (change > 1 || (o->turns != NULL && o->turns(o->context, at, stepper->y)))
+        return reached / fmax(GROWN, change);
+    return INFINITY;
+}
+
+/* Where source j begins to turn a condition that is back at the step's end: rates that don't answer
+ * to it let no estimate see that. INFINITY: it doesn't. */
+static double turning(Onset *o, int j, const Stepper *stepper, double to)
+{
+    Search leaves = {o, way_beyond, 0, j, o->seen[j] / GROWN, 1, INTERVALS};
+
+    if (o->turns == NULL || !(o->seen[j] > 0) || !(o->seen_at[j] > o->t && o->seen_at[j] < to) ||
+        !o->turns(o->context, o->seen_at[j], stepper->y) || o->turns(o->context, to, stepper->y))
+        return INFINITY;
+    o->acting[j] = leaves.level;
     return first_place(&leaves, o->t, to);
 }
 
-static double next_unseen(Onset *o, const Stepper *stepper, double end)
+/* Where source j begins to do what no place of the step sees; INFINITY: it doesn't. */
+static double unseen(Onset *o, int j, Stepper *stepper, double to, double way)
+{
+    double delta = delta_of(o, j, stepper, to);
+    Search leaves = {o, way_beyond, 0, j, delta, 1, INTERVALS};
+
+    if (!(place_beyond(o, j, fmax(delta, o->seen[j] / SEEN), to) <= to)) {
+        delta = acting_at_large(o, j, stepper, to, way);
+        leaves.level = delta;
+        if (!(delta < INFINITY))
+            return INFINITY;
+    }
+    o->acting[j] = delta;
+    return first_place(&leaves, o->t, to);
+}
+
+static double next_unseen(Onset *o, Stepper *stepper, double end)
 {
     const Method *method = stepper->method;
     double to = fmin(end, o->t + o->h), first = end;
@@ -548,16 +636,19 @@ static double next_unseen(Onset *o, const Stepper *stepper, double end)
         double at;
 
         if (o->onset[j] == o->t) {
-            double delta = delta_of(o, j, stepper, to);
+            double delta = fmin(o->acting[j], delta_of(o, j, stepper, to));
 
             o->source_pulses[j] = source_pulse(o, j, delta, end, method->pulse_steps);
             o->onset[j] = NAN;
         }
-        if (!(way[j] > 0) || o->seen[j] >= SEEN * way[j])
+        if (!(way[j] > 0))
             continue;
-        /* where a smooth one turns, steps are seldom clear and all is seen */
-        o->has_pulses = o->has_pulses || stepper->next > 0;
-        at = unseen(o, j, stepper, to);
+        if (o->seen[j] >= SEEN * way[j]) {
+            at = turning(o, j, stepper, to);
+        } else { /* where a smooth one turns, steps are seldom clear and all is seen */
+            o->has_pulses = o->has_pulses || stepper->next > 0;
+            at = unseen(o, j, stepper, to, way[j]);
+        }
         if (!(at > o->t && at < to))
             continue;
         o->onset[j] = at;
@@ -633,7 +724,21 @@ static bool has_conducted(Onset *o, const Stepper *stepper, double *when)
     return passed;
 }
 
-bool onset_after_step(Onset *o, const Stepper *stepper, double *when)
+bool onset_is_calm(Onset *o, double from, double to)
+{
+    const Range *over;
+
+    if (o == NULL || o->sources == 0)
+        return true;
+    over = steep_sources_over(o->steep, (Range){from, to});
+    for (int j = 0; j < o->sources; j++)
+        if (steep_source_size(o->steep, j) > 0 &&
+            !(over[j].high - over[j].low <= CALM * steep_source_size(o->steep, j)))
+            return false;
+    return true;
+}
+
+bool onset_after_step(Onset *o, Stepper *stepper, double *when)
 {
     double first;
 

@@ -20,12 +20,18 @@ typedef struct Onset Onset;
  */
 Onset *onset_new(Steep *steep, const Ode *ode);
 void onset_free(Onset *onset); /* NULL is fine, here and below */
+/* Whether a condition of the equations has another sign at (t, y) than where the run stands: a
+ * source that makes it so acts, whatever it does to rates. `turns` NULL: nobody knows. */
+typedef bool (*Turns)(void *context, double t, const double *y);
+void onset_watch(Onset *onset, Turns turns, void *context);
 /* A step from the stepper's time, at most to `end`: where it has to end instead. Bounds the
  * stepper's steps. */
 double onset_before_step(Onset *onset, Stepper *stepper, double end);
 /* Whether the last step has passed over something: then the place in it where it should have
  * ended. */
-bool onset_after_step(Onset *onset, const Stepper *stepper, double *when);
+bool onset_after_step(Onset *onset, Stepper *stepper, double *when);
+/* Whether no source goes far between two times. */
+bool onset_is_calm(Onset *onset, double from, double to);
 /* Forget pulses that last: equations or states have changed. */
 void onset_forget(Onset *onset);
 
