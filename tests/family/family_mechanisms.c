@@ -210,12 +210,34 @@ static void write_hinge_guesses(Script *s, double crank, const Masses *start)
     write_line(s, "guess h2=%.17g, h3=%.17g, h4=%.17g", coupler - crank, rocker, rocker - coupler);
 }
 
+/* three rods in a loop with ground, whose far hinge is at x = ground, from where they start */
+static void write_loop(Member *member, Trial *trial, Real ground, const Real *lengths,
+                       const Real *masses)
+{
+    static const char *const names[] = {"c", "k", "b"};
+    Script *s = &trial->script;
+    static Masses start;
+
+    start.count = 0;
+    trial->one.place(trial->one.mechanism, jet(trial->phi), &start);
+    write_line(s, "scene planar\ngravity [0, -9.81]\narm g ground [%.17g, 0]", (double)ground);
+    for (int i = 0; i < 3; i++)
+        write_rod(s, names[i], (double)masses[i], (double)lengths[i]);
+    write_line(s, "revolute h1 ground ca; revolute h2 cb ka; revolute h3 g ba; revolute h4 kb bb");
+    write_change_tree(member, s);
+    write_guess(s, "c", start.spot[1], (double)trial->phi);
+    write_guess(s, "k", start.spot[4], angle_of(&start, 1));
+    write_guess(s, "b", start.spot[7], angle_of(&start, 2));
+    write_hinge_guesses(s, (double)trial->phi, &start);
+    write_line(s, "init h1 = %.17g, h1' = %.17g", (double)trial->phi, (double)trial->rate);
+    for (int i = 0; i < 3; i++)
+        compare_with(trial, names[i], 3 * i + 1);
+}
+
 static Verdict a_kite_folds_and_opens_again(Member *member)
 {
     Lengths l = {.crank = draw(member, 0.3, 1)};
     Trial trial = {.time = draw(member, 1, 3), .planar = true, .size = (double)l.crank};
-    Script *s = &trial.script;
-    static Masses start;
 
     l.other = l.crank * draw(member, 1.3, 3);
     for (int i = 0; i < 3; i++)
@@ -223,22 +245,7 @@ static Verdict a_kite_folds_and_opens_again(Member *member)
     trial.one = (OneFreedom){place_kite, &l, {0, -9.81L, 0}};
     trial.phi = draw(member, 0.5, 5.5);
     trial.rate = draw(member, 6, 15) * (draw_one_of(member, 2) ? 1 : -1);
-    start.count = 0;
-    place_kite(&l, jet(trial.phi), &start);
-    write_line(s, "scene planar\ngravity [0, -9.81]\narm g ground [%.17g, 0]", (double)l.crank);
-    write_rod(s, "c", (double)l.masses[0], (double)l.crank);
-    write_rod(s, "k", (double)l.masses[1], (double)l.other);
-    write_rod(s, "b", (double)l.masses[2], (double)l.other);
-    write_line(s, "revolute h1 ground ca; revolute h2 cb ka; revolute h3 g ba; revolute h4 kb bb");
-    write_change_tree(member, s);
-    write_guess(s, "c", start.spot[1], (double)trial.phi);
-    write_guess(s, "k", start.spot[4], angle_of(&start, 1));
-    write_guess(s, "b", start.spot[7], angle_of(&start, 2));
-    write_hinge_guesses(s, (double)trial.phi, &start);
-    write_line(s, "init h1 = %.17g, h1' = %.17g", (double)trial.phi, (double)trial.rate);
-    compare_with(&trial, "c", 1);
-    compare_with(&trial, "k", 4);
-    compare_with(&trial, "b", 7);
+    write_loop(member, &trial, l.crank, (Real[]){l.crank, l.other, l.other}, l.masses);
     return run_any_way(member, &trial);
 }
 
@@ -274,8 +281,6 @@ static Verdict masses_and_lengths_may_be_decades_apart(Member *member)
 {
     FourBar f = {.ground = 1};
     Trial trial = {.planar = true, .size = 1};
-    Script *s = &trial.script;
-    static Masses start;
 
     f.crank = draw_decades(member, -3, -0.7);
     f.coupler = draw_one_of(member, 2) ? draw(member, 1, 2) : draw_decades(member, 0, 3) * f.crank;
@@ -289,22 +294,27 @@ static Verdict masses_and_lengths_may_be_decades_apart(Member *member)
     trial.rate = draw(member, 3, 9);
     trial.time = draw(member, 0.3, 1);
     trial.size = fmax(1, (double)f.coupler);
-    start.count = 0;
-    place_four_bar(&f, jet(trial.phi), &start);
-    write_line(s, "scene planar\ngravity [0, -9.81]\narm g ground [1, 0]");
-    write_rod(s, "c", (double)f.masses[0], (double)f.crank);
-    write_rod(s, "k", (double)f.masses[1], (double)f.coupler);
-    write_rod(s, "b", (double)f.masses[2], (double)f.rocker);
-    write_line(s, "revolute h1 ground ca; revolute h2 cb ka; revolute h3 g ba; revolute h4 kb bb");
-    write_change_tree(member, s);
-    write_guess(s, "c", start.spot[1], (double)trial.phi);
-    write_guess(s, "k", start.spot[4], angle_of(&start, 1));
-    write_guess(s, "b", start.spot[7], angle_of(&start, 2));
-    write_hinge_guesses(s, (double)trial.phi, &start);
-    write_line(s, "init h1 = %.17g, h1' = %.17g", (double)trial.phi, (double)trial.rate);
-    compare_with(&trial, "c", 1);
-    compare_with(&trial, "k", 4);
-    compare_with(&trial, "b", 7);
+    write_loop(member, &trial, f.ground, (Real[]){f.crank, f.coupler, f.rocker}, f.masses);
+    return run_any_way(member, &trial);
+}
+
+/* the same mechanism in other lengths, from a tenth of a millimetre to a hundred kilometres, and in
+ * the times that go with them */
+static Verdict mechanisms_may_be_small_and_large(Member *member)
+{
+    const Real scale = draw_decades(member, -4, 5);
+    FourBar f = {.ground = scale, .crank = scale * draw(member, 0.1, 0.3)};
+    Trial trial = {.planar = true, .size = (double)scale, .least_length = (double)scale};
+
+    f.coupler = scale * draw(member, 1, 1.6);
+    f.rocker = scale * draw(member, 0.9, 1.6);
+    for (int i = 0; i < 3; i++)
+        f.masses[i] = draw(member, 0.5, 2) * scale * scale * scale;
+    trial.one = (OneFreedom){place_four_bar, &f, {0, -9.81L, 0}};
+    trial.phi = draw(member, 0, 6);
+    trial.rate = draw(member, 3, 9) / sqrtl(scale);
+    trial.time = draw(member, 0.5, 2) * (double)sqrtl(scale);
+    write_loop(member, &trial, f.ground, (Real[]){f.crank, f.coupler, f.rocker}, f.masses);
     return run_any_way(member, &trial);
 }
 
@@ -488,6 +498,7 @@ int main(int argc, char **argv)
          */
         {"masses_and_lengths_may_be_decades_apart", 30, 0.1, 0,
          masses_and_lengths_may_be_decades_apart},
+        {"mechanisms_may_be_small_and_large", 30, 0, 0, mechanisms_may_be_small_and_large},
         {"bricards_loop_keeps_its_accuracy", 4, 0, 0, bricards_loop_keeps_its_accuracy},
     };
 

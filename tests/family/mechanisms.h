@@ -15,9 +15,10 @@ enum { MOST_COMPARED = 24 };
 typedef struct Trial {
     Script script;
     OneFreedom one;
-    Real phi, rate; /* at the start; once it has run, at the end */
-    double time;    /* s */
-    double size;    /* of the mechanism, m */
+    Real phi, rate;      /* at the start; once it has run, at the end */
+    double time;         /* s */
+    double size;         /* of the mechanism, m */
+    double least_length; /* m, to which tolerances are absolute; 0: 1 */
     bool planar;
     int compared;
     struct {
@@ -118,7 +119,11 @@ static inline Verdict run_any_way(Member *member, Trial *trial)
     trial->time = (double)one_freedom_run(&trial->one, trial->time, FAR, &trial->phi, &trial->rate);
     if (draw_one_of(member, 3) == 0)
         write_line(&trial->script, "form embedded");
-    write_line(&trial->script, "simulate %.17g rtol=%.3g%s", trial->time, tolerance, method);
+    if (trial->least_length == 0)
+        write_line(&trial->script, "simulate %.17g rtol=%.3g%s", trial->time, tolerance, method);
+    else
+        write_line(&trial->script, "simulate %.17g rtol=%.3g atol=%.3g%s", trial->time, tolerance,
+                   tolerance * fmin(1, trial->least_length), method);
     return run_trial(member, trial, tolerance);
 }
 

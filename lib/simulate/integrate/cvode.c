@@ -238,16 +238,9 @@ static void at(Stepper *stepper, double t, double *y)
 
 static Status shorten(Stepper *stepper, double t, Diag *diag)
 {
-    Cvode *c = (Cvode *)stepper;
-    const Ode *ode = c->base.ode;
+    const Cvode *c = (const Cvode *)stepper;
 
-    at(stepper, t, c->base.y);
-    if (ode->project != NULL && !ode->project(ode->context, t, c->base.y)) {
-        memcpy(c->base.y, N_VGetArrayPointer(c->y), (size_t)c->all * sizeof(double));
-        return solver_failure(diag, t, "the equations have no solution at a switch");
-    }
-    c->base.t = t;
-    return OK;
+    return stepper_take_back(stepper, t, N_VGetArrayPointer(c->y), diag);
 }
 
 /* the slope of the history's polynomial, once there is one */

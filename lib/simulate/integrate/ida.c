@@ -281,16 +281,9 @@ static void at(Stepper *stepper, double t, double *y)
 
 static Status shorten(Stepper *stepper, double t, Diag *diag)
 {
-    Ida *d = (Ida *)stepper;
-    const Ode *ode = d->base.ode;
+    const Ida *d = (const Ida *)stepper;
 
-    at(stepper, t, d->base.y);
-    if (ode->project != NULL && !ode->project(ode->context, t, d->base.y)) {
-        memcpy(d->base.y, N_VGetArrayPointer(d->w), (size_t)d->all * sizeof(double));
-        return solver_failure(diag, t, "the equations have no solution at a switch");
-    }
-    d->base.t = t;
-    return OK;
+    return stepper_take_back(stepper, t, N_VGetArrayPointer(d->w), diag);
 }
 
 /* the slope of the history's polynomial, once there is one */

@@ -37,3 +37,16 @@ Status solver_failure(Diag *diag, double t, const char *reason)
 {
     return diag_set(diag, E_SOLVER, "at t = %.9g s: %s", t, reason);
 }
+
+Status stepper_take_back(Stepper *s, double t, const double *last, Diag *diag)
+{
+    const Ode *ode = s->ode;
+
+    s->method->at(s, t, s->y);
+    if (ode->project != NULL && !ode->project(ode->context, t, s->y)) {
+        memcpy(s->y, last, (size_t)(ode->n + ode->quadratures) * sizeof(double));
+        return solver_failure(diag, t, "the equations have no solution at a switch");
+    }
+    s->t = t;
+    return OK;
+}

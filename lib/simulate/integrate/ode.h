@@ -212,6 +212,10 @@ const Method *method_for(MethodNeed need);
 /* An error of the solver at time t, in words: "at t = 0.3 s: ...". */
 Status solver_failure(Diag *diag, double t, const char *reason);
 
+/* What methods with a history do where their last step has to end at t, inside it: y there,
+ * projected. `last` is y at the end of the step, to which it comes back where that fails. */
+MUST_USE Status stepper_take_back(Stepper *stepper, double t, const double *last, Diag *diag);
+
 #define MAX_REJECTIONS 10 /* in a row, by NaN or a projection that fails, end a run */
 
 #define METHOD(row) extern const Method row;
