@@ -375,7 +375,7 @@ int main(int argc, char **argv)
 {
     const Family families[] = {
         {"masses_stick_and_slip", 50, 0.01, 0, masses_stick_and_slip},
-        {"swings_come_to_rest", 2, 0, 0, swings_come_to_rest},
+        {"swings_come_to_rest", 2, 0.1, 0, swings_come_to_rest},
     };
 
     return family_main(families, (int)(sizeof families / sizeof families[0]), argc, argv);
