@@ -16,6 +16,8 @@ libcore_la_SOURCES += \
   lib/simulate/assemble/start_network.c \
   lib/simulate/assemble/start_place.c \
   lib/simulate/assemble/start_place_impl.h \
+  lib/simulate/assemble/start_problem.c \
   lib/simulate/assemble/start_search.c \
   lib/simulate/assemble/start_speed.c \
+  lib/simulate/assemble/start_trees.c \
   lib/simulate/assemble/start_turns.c

@@ -26,6 +26,7 @@ libcore_la_SOURCES += \
   lib/simulate/run/phase.h \
   lib/simulate/run/result.c \
   lib/simulate/run/result.h \
+  lib/simulate/run/result_open.c \
   lib/simulate/run/run.h \
   lib/simulate/run/samples.c \
   lib/simulate/run/samples.h \

@@ -69,6 +69,10 @@ int result_phase_number(const Result *result, const Phase *phase); /* as rows be
 Phase *result_phase(const Result *result, int row);
 /* a row's block of a driven run; NULL: the equations are to be solved */
 const double *result_driven(const Result *result, int row);
+/* Everything at (t, y) of a phase; `driven` is the row's block, or NULL to solve. False: no
+ * solution. */
+bool result_solve_row(Phase *phase, double t, const double *y, const double *driven,
+                      RowValues *out);
 /* A probe of a phase for expressions over user's variables, and its values at (t, y), `count` of
  * them: NAN where the equations have no solution. */
 MUST_USE Status result_probe(Result *result, const Phase *phase, const Expr *items, int count,
