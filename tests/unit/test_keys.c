@@ -161,6 +161,37 @@ static bool comes_later(const char *text)
     return later;
 }
 
+/* words of the language that this version doesn't act on say so, however they are used */
+static void later_words_say_that_they_are(void)
+{
+    static const char *const lines[] = {"keep A = max(h)",
+                                        "keep x1 = h at 0.5",
+                                        "import urdf \"a.urdf\"",
+                                        "import spice \"a.cir\" > \"a.ct\"",
+                                        "unknown th1, th2",
+                                        "internal th1'' + th2",
+                                        "give B.x = 2*th1",
+                                        "animate",
+                                        "sweep L from=1 to=2 steps=3 : simulate 1",
+                                        "montecarlo 10 L=normal(1, 0.1) : simulate 1",
+                                        "beam b1 length=1",
+                                        "subsystem leg frames=[A]",
+                                        "use leg leg1 A=ground",
+                                        "store leg \"leg.cts\"",
+                                        "load \"leg.cts\"",
+                                        "friction f1 h",
+                                        "fit k to=\"a.csv\" : simulate 1"};
+
+    for (size_t i = 0; i < sizeof lines / sizeof lines[0]; i++) {
+        Kit kit = kit_new();
+
+        EXPECT_DONE(&kit, PENDULUM);
+        EXPECT_FAILS(&kit, lines[i], "comes with a later version");
+        EXPECT(kit.error.column == 1);
+        kit_free(&kit);
+    }
+}
+
 static void help_and_hints_offer_what_is_there(void)
 {
     static const char *const habits[] = {"for", "while", "run", "joint", "exit", "list", "echo"};
@@ -227,6 +258,7 @@ int main(void)
     RUN(every_key_is_read);
     RUN(no_other_key_passes);
     RUN(keys_without_anything_to_act_on_are_refused);
+    RUN(later_words_say_that_they_are);
     RUN(help_and_hints_offer_what_is_there);
     RUN(completion_offers_what_is_there);
     return test_end();
