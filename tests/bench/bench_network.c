@@ -204,54 +204,66 @@ typedef struct Switched {
     double average; /* of the output, V */
 } Switched;
 
-/* A buck converter over PERIODS of its switch, from rest. Its output is averaged over the last
- * tenth, on a grid that the edges of the switch fall on. */
-static Switched switched(const char *keys)
+/* The last tenth of the rows of C1.v, the first and the last of them by half: edges of the switch
+ * fall on them. */
+static double average_of(Result *result, Diag *diag)
+{
+    const int rows = result_rows(result), from = rows - 1 - rows / 10;
+    double *values = NEW_ARRAY(double, rows);
+    double average = NAN;
+    Expr output;
+
+    if (system_variable(result_system(result), "C1.v", 0, &output, diag) == OK &&
+        result_values(result, &output, 1, values, diag) == OK) {
+        average = (values[from] + values[rows - 1]) / 2;
+        for (int i = from + 1; i < rows - 1; i++)
+            average += values[i];
+        average /= rows - 1 - from;
+    }
+    mem_free(values);
+    return average;
+}
+
+/* a circuit from rest; `text` is used up */
+static Switched run_circuit(const char *name, Text *text, const RunOptions *options, bool averaged)
 {
     StartValues none = {0};
-    const RunOptions options = {.duration = 20e-6 * PERIODS, .every = 1e-6};
     Switched out = {.report = {.wall = NAN}, .average = NAN};
     System *system = NULL;
     Result *result = NULL;
-    Text text = {0};
     Diag diag = {0};
-    Model *model;
+    Model *model = bench_model(text->at);
+    const Setting setting = {.parameter = parameter_value,
+                             .context = model,
+                             .scene = model_scene_source(model),
+                             .start = &none};
+
+    text_free(text);
+    if (model != NULL && form_system(model, &system, &diag) == OK && system_run(system) != NULL &&
+        run_simulate(system, &setting, options, &result, &diag) == OK) {
+        out.report = *result_report(result);
+        if (averaged)
+            out.average = average_of(result, &diag);
+    } else
+        printf("# %s: %s\n", name, diag.message);
+    result_free(result);
+    system_free(system);
+    model_free(model);
+    return out;
+}
+
+/* A buck converter over PERIODS of its switch. */
+static Switched switched(const char *keys)
+{
+    const RunOptions options = {.duration = 20e-6 * PERIODS, .every = 1e-6};
+    Text text = {0};
 
     text_addf(&text,
               "vsource V1 a 0 12\nswitch S1 a b when=t*50e3 - floor(t*50e3) < 0.4%s\n"
               "diode D1 0 b%s\ninductor L1 b c 100 uH\ncapacitor C1 c 0 22 uF\n"
               "resistor R1 c 0 50\n",
               keys, keys);
-    model = bench_model(text.at);
-    text_free(&text);
-
-    const Setting setting = {.parameter = parameter_value,
-                             .context = model,
-                             .scene = model_scene_source(model),
-                             .start = &none};
-
-    if (model != NULL && form_system(model, &system, &diag) == OK && system_run(system) != NULL &&
-        run_simulate(system, &setting, &options, &result, &diag) == OK) {
-        const int rows = result_rows(result), from = rows - 1 - rows / 10;
-        double *values = NEW_ARRAY(double, rows);
-        Expr output;
-
-        out.report = *result_report(result);
-        if (system_variable(system, "C1.v", 0, &output, &diag) == OK &&
-            result_values(result, &output, 1, values, &diag) == OK) {
-            out.average = (values[from] + values[rows - 1]) / 2;
-            for (int i = from + 1; i < rows - 1; i++)
-                out.average += values[i];
-            out.average /= rows - 1 - from;
-        }
-        mem_free(values);
-    } else {
-        printf("# converter: %s\n", diag.message);
-    }
-    result_free(result);
-    system_free(system);
-    model_free(model);
-    return out;
+    return run_circuit("converter", &text, &options, true);
 }
 
 static void bench_converter(void)
@@ -280,14 +292,8 @@ static void bench_converter(void)
 /* Of so many stages, over 20 periods from rest. */
 static Switched multiplied(int stages, const char *keys)
 {
-    StartValues none = {0};
     const RunOptions options = {.duration = 0.02, .every = 1e-4};
-    Switched out = {.report = {.wall = NAN}, .average = NAN};
-    System *system = NULL;
-    Result *result = NULL;
     Text text = {0};
-    Diag diag = {0};
-    Model *model;
 
     text_add(&text, "vsource V s0 0 100*sin(2*pi*1e3*t)\nresistor RS s0 a0 10\n");
     for (int k = 1; k <= stages; k++)
@@ -296,23 +302,7 @@ static Switched multiplied(int stages, const char *keys)
                   "capacitor Cb%d b%d b%d 1 uF\n",
                   k, k - 1, k, k, k - 1, k, keys, k, k, k, keys, k, k - 1, k);
     text_addf(&text, "resistor R0 b0 0 1e-3\nresistor RL b%d 0 1e6\n", stages);
-    model = bench_model(text.at);
-    text_free(&text);
-
-    const Setting setting = {.parameter = parameter_value,
-                             .context = model,
-                             .scene = model_scene_source(model),
-                             .start = &none};
-
-    if (model != NULL && form_system(model, &system, &diag) == OK && system_run(system) != NULL &&
-        run_simulate(system, &setting, &options, &result, &diag) == OK)
-        out.report = *result_report(result);
-    else
-        printf("# multiplier of %d: %s\n", stages, diag.message);
-    result_free(result);
-    system_free(system);
-    model_free(model);
-    return out;
+    return run_circuit("multiplier", &text, &options, false);
 }
 
 static void bench_multiplier(int stages, int runs)

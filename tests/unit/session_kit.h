@@ -190,6 +190,28 @@ UNUSED static double kit_value(Kit *kit, const char *expression)
         }                                                                                          \
     } while (0)
 
+/* what is refused, where, and how that is said */
+typedef struct Refusal {
+    const char *before, *line;
+    int column;
+    const char *message, *hint; /* parts of them */
+} Refusal;
+
+UNUSED static void kit_expect_refused(const Refusal *wrong)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, wrong->before);
+    EXPECT(kit_do(&kit, wrong->line) == CT_FAILED);
+    EXPECT_HOLDS(kit.error.message, wrong->message);
+    EXPECT_HOLDS(kit.error.hint, wrong->hint);
+    if (kit.error.column != wrong->column) {
+        test_faults++;
+        printf("%s: column %d, wanted %d\n", wrong->line, kit.error.column, wrong->column);
+    }
+    kit_free(&kit);
+}
+
 /* --- models --- */
 
 /* the paper's planar slider-crank, its sizes as parameters */

@@ -8,7 +8,7 @@
 static void the_cause_is_named_at_its_place(void)
 {
     /* clang-format off */
-    static const struct { const char *before, *line; int column; const char *message, *hint; } wrong[] = {
+    static const Refusal wrong[] = {
         {SWINGS "simulate 1\ndriver D1 h = t\n", "print max(D1.effort)", 7, "'D1.effort' came after the run", "in the next run"},
         {SWINGS "simulate 1\nbody b mass=1 inertia=1\n", "print b.x at 0.5", 7, "'b.x' came after the run", "next run"},
         {SWINGS "simulate 1\nbody b mass=1 inertia=1\n", "table h b.x", 9, "'b.x' came after the run", "next run"},
@@ -26,19 +26,8 @@ static void the_cause_is_named_at_its_place(void)
     };
     /* clang-format on */
 
-    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
-        Kit kit = kit_new();
-
-        EXPECT_DONE(&kit, wrong[i].before);
-        EXPECT(kit_do(&kit, wrong[i].line) == CT_FAILED);
-        EXPECT_HOLDS(kit.error.message, wrong[i].message);
-        EXPECT_HOLDS(kit.error.hint, wrong[i].hint);
-        if (kit.error.column != wrong[i].column) {
-            test_faults++;
-            printf("%s: column %d, wanted %d\n", wrong[i].line, kit.error.column, wrong[i].column);
-        }
-        kit_free(&kit);
-    }
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++)
+        kit_expect_refused(&wrong[i]);
 }
 
 static void values_at_different_ends_are_said_to_be(void)

@@ -476,7 +476,7 @@ static void a_moving_driver_stands_still_in_the_search_and_moves_after_it(void)
 static void wrong_uses_are_refused_with_a_way_out(void)
 {
     /* clang-format off */
-    static const struct { const char *before, *line; int column; const char *message, *hint; } wrong[] = {
+    static const Refusal wrong[] = {
         {PENDULUM, "modes at=1", 10, "there is none", "without at= it is about the start"},
         {PENDULUM "simulate 1\n", "modes at=2", 1, "outside the run", ""},
         {PENDULUM "simulate 1\n", "modes at=h", 10, "made of parameters", ""},
@@ -496,19 +496,8 @@ static void wrong_uses_are_refused_with_a_way_out(void)
     };
     /* clang-format on */
 
-    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
-        Kit kit = kit_new();
-
-        EXPECT_DONE(&kit, wrong[i].before);
-        EXPECT(kit_do(&kit, wrong[i].line) == CT_FAILED);
-        EXPECT_HOLDS(kit.error.message, wrong[i].message);
-        EXPECT_HOLDS(kit.error.hint, wrong[i].hint);
-        if (kit.error.column != wrong[i].column) {
-            test_faults++;
-            printf("%s: column %d, wanted %d\n", wrong[i].line, kit.error.column, wrong[i].column);
-        }
-        kit_free(&kit);
-    }
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++)
+        kit_expect_refused(&wrong[i]);
 }
 
 static void a_model_that_changed_has_no_inputs_at_an_old_instant(void)
