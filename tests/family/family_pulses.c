@@ -15,7 +15,7 @@
 #define MOST    4e5 /* steps of a reference */
 #define PLACES  12  /* at which states are compared */
 #define MISSES  100 /* tolerances by which a run may be off, */
-#define ADDED   30  /* and by what adds up over the steps of one pulse */
+#define ADDED   60  /* and by what adds up over the steps of one pulse */
 
 static const char *const methods[] = {"auto", "dop853", "radau", "bdf", "adams", "ida"};
 

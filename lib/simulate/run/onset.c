@@ -614,6 +614,16 @@ static double unseen(Onset *o, int j, Stepper *stepper, double to, double way)
     return first_place(&leaves, o->t, to);
 }
 
+/* whether source j may leave a straight line in the step by a good part of its range in the run */
+static bool bends_far(Onset *o, int j, double to)
+{
+    const Range bend = steep_bends_over(o->steep, (Range){o->t, to})[j];
+    const double most = fmax(fabs(bend.low), fabs(bend.high)), h = to - o->t;
+
+    return isfinite(most) && steep_source_size(o->steep, j) > 0 &&
+           most * h * h / 8 > STRAIGHT * steep_source_size(o->steep, j);
+}
+
 static double next_unseen(Onset *o, Stepper *stepper, double end)
 {
     const Method *method = stepper->method;
@@ -643,12 +653,11 @@ static double next_unseen(Onset *o, Stepper *stepper, double end)
         }
         if (!(way[j] > 0))
             continue;
-        if (o->seen[j] >= SEEN * way[j]) {
-            at = turning(o, j, stepper, to);
-        } else { /* where a smooth one turns, steps are seldom clear and all is seen */
-            o->has_pulses = o->has_pulses || stepper->next > 0;
-            at = unseen(o, j, stepper, to, way[j]);
-        }
+        /* where a smooth one turns, steps are seldom clear, yet it doesn't bend as far */
+        if (stepper->next > 0 && (o->seen[j] < SEEN * way[j] || bends_far(o, j, to)))
+            o->has_pulses = true;
+        at = o->seen[j] >= SEEN * way[j] ? turning(o, j, stepper, to)
+                                         : unseen(o, j, stepper, to, way[j]);
         if (!(at > o->t && at < to))
             continue;
         o->onset[j] = at;
