@@ -45,8 +45,8 @@ typedef struct Lowered {
 
 int code_operands(Opcode code);
 double value_constant(const Value *constant);
-Status lower(const Expr *roots, int root_count, const Expr *inputs, int input_count, Lowered *out,
-             Diag *diag);
+MUST_USE Status lower(const Expr *roots, int root_count, const Expr *inputs, int input_count,
+                      Lowered *out, Diag *diag);
 void lowered_free(Lowered *lowered);
 
 /* --- schedule.c --- */

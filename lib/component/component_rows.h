@@ -11,8 +11,8 @@
 
 /* --- component.c: refuse numbers that a value can't be --- */
 
-Status check_positive(const Instance *instance, const char *param, Diag *diag);
-Status check_not_negative(const Instance *instance, const char *param, Diag *diag);
+MUST_USE Status check_positive(const Instance *instance, const char *param, Diag *diag);
+MUST_USE Status check_not_negative(const Instance *instance, const char *param, Diag *diag);
 
 /* --- attitude.c: three shifts along the tail's axes, then any rotation --- */
 
@@ -35,7 +35,7 @@ const CoordinateRow *spherical_coords_of(const Instance *instance, int *count);
 void attitude_steps(const Instance *instance, Arena *arena, int first, Steps *out);
 void free_steps(const Instance *instance, Arena *arena, bool planar, Steps *out);
 /* refuses euler= in a planar scene */
-Status attitude_check(const Instance *instance, Arena *arena, bool planar, Diag *diag);
+MUST_USE Status attitude_check(const Instance *instance, Arena *arena, bool planar, Diag *diag);
 
 /* --- scalar.c: what scalar domains share; relations are those of Component.relation --- */
 
@@ -60,8 +60,10 @@ void scalar_spring(const Instance *instance, const char *deflection, Arena *aren
 int scalar_spring_states(const Instance *instance);
 void scalar_spring_state(const Instance *instance, const char *deflection, Arena *arena,
                          OwnState *out);
-Status scalar_check_spring(const Instance *instance, Arena *arena, bool planar, Diag *diag);
+MUST_USE Status scalar_check_spring(const Instance *instance, Arena *arena, bool planar,
+                                    Diag *diag);
 /* refuses a joint's coordinate of the other kind; `instead` is the way out */
-Status scalar_check_hinge(const Instance *instance, bool hinge, const char *instead, Diag *diag);
+MUST_USE Status scalar_check_hinge(const Instance *instance, bool hinge, const char *instead,
+                                   Diag *diag);
 
 #endif

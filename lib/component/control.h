@@ -27,6 +27,6 @@ int block_state_count(const Instance *instance, int inner);
 void block_choose(const Instance *instance, Arena *arena, OwnState *out);
 /* the state behind the block's own: the command, held */
 void block_held(const Instance *instance, Arena *arena, Expr command, OwnState *out);
-Status block_check(const Instance *instance, Diag *diag);
+MUST_USE Status block_check(const Instance *instance, Diag *diag);
 
 #endif

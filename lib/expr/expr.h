@@ -69,11 +69,11 @@ typedef enum SymbolKind {
 
 /* --- the arena --- */
 
-Arena *arena_new(void);                        /* new; arena_free() */
-void arena_free(Arena *arena);                 /* and all its expressions; NULL is fine */
-Status arena_status(const Arena *arena);       /* the first failure since arena_reset() */
-const char *arena_failure(const Arena *arena); /* what failed, in words; borrowed */
-void arena_reset(Arena *arena);                /* forget the failure */
+Arena *arena_new(void);                           /* new; arena_free() */
+void arena_free(Arena *arena);                    /* and all its expressions; NULL is fine */
+MUST_USE Status arena_status(const Arena *arena); /* the first failure since arena_reset() */
+const char *arena_failure(const Arena *arena);    /* what failed, in words; borrowed */
+void arena_reset(Arena *arena);                   /* forget the failure */
 void arena_watch(Arena *arena,
                  const Watch *watch); /* borrowed; looked at every few thousand nodes */
 /* At most that many nodes; beyond, the arena fails with E_MEMORY. Some 67 million at first. Returns

@@ -31,18 +31,18 @@ int draft_preference(const Draft *draft, int edge);
 int draft_candidates(const Draft *draft, bool open, int **edges);
 
 /* Draw the tree up, as tree_complete() says. The caller calls draft_free(), always. */
-Status draft_make(Draft *draft, bool exact, Diag *diag);
+MUST_USE Status draft_make(Draft *draft, bool exact, Diag *diag);
 void draft_free(Draft *draft);
 
 /* --- messages; each returns its status --- */
 
 /* `edge` was named as a branch and may not be one */
-Status draft_fault_branch(const Draft *draft, int edge, Diag *diag);
+MUST_USE Status draft_fault_branch(const Draft *draft, int edge, Diag *diag);
 /* an arm is kept out */
-Status draft_fault_arm(const Draft *draft, int edge, Diag *diag);
+MUST_USE Status draft_fault_arm(const Draft *draft, int edge, Diag *diag);
 /* `closing` is no branch yet and closes a circuit of branches */
-Status draft_fault_circuit(const Draft *draft, int closing, Diag *diag);
+MUST_USE Status draft_fault_circuit(const Draft *draft, int closing, Diag *diag);
 /* branches leave nodes of the domain without a way to the datum */
-Status draft_fault_unreached(const Draft *draft, Diag *diag);
+MUST_USE Status draft_fault_unreached(const Draft *draft, Diag *diag);
 
 #endif

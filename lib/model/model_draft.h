@@ -16,8 +16,8 @@ typedef struct Draft {
 } Draft;
 
 /* the name of the part, then what it connects (model_places.c) */
-Status draft_read_name(Draft *draft);
-Status draft_read_places(Draft *draft);
+MUST_USE Status draft_read_name(Draft *draft);
+MUST_USE Status draft_read_places(Draft *draft);
 /* how the statement of such a part begins: "NAME TAIL TIP" */
 void places_form(const Component *row, Text *out);
 Place statement_end(const Statement *statement);

@@ -159,7 +159,8 @@ typedef struct Outcome {
 } Outcome;
 
 /* Apply a statement to *state, or put another State in its place. */
-typedef Status Apply(State **state, const Statement *statement, Outcome *outcome, Diag *diag);
+typedef MUST_USE Status Apply(State **state, const Statement *statement, Outcome *outcome,
+                              Diag *diag);
 
 State *state_new(Arena *arena);
 void state_free(State *state); /* with those before it; NULL is fine */
@@ -176,8 +177,8 @@ void state_name(State *state, const char *name, ThingKind kind, int index, int c
 void state_replace(State **state, State *next);
 /* The graph or a choice changed. */
 void state_forget_trees(State *state);
-Status state_trees(State *state, const Tree *trees[TREE_KINDS], Diag *diag);
-Status state_preset_trees(const State *state, bool absolute, Tree *out[2], Diag *diag);
+MUST_USE Status state_trees(State *state, const Tree *trees[TREE_KINDS], Diag *diag);
+MUST_USE Status state_preset_trees(const State *state, bool absolute, Tree *out[2], Diag *diag);
 
 /* --- the way back (model_mark.c) --- */
 
@@ -214,15 +215,15 @@ void starts_index(State *state, int first);
  * is something else. */
 const char *syntax_name(const Syntax *syntax);
 /* whether `name` can become a new name; `taken_as` is what it would be ("a parameter") */
-Status name_is_free(const State *state, const char *name, Place place, Diag *diag);
+MUST_USE Status name_is_free(const State *state, const char *name, Place place, Diag *diag);
 Domain terminal_domain(const State *state, const char *name); /* of one that there is */
 /* length of "run12." or "last." at the start; 0: none */
 size_t run_prefix(const char *path);
 /* units of variables of the model as a whole, of entries of what is shown; NULL: none or unknown */
 const char *whole_unit(const char *path);
 const char *entry_unit(const char *name);
-Status name_unknown(const State *state, const char *what, const char *name, Place place,
-                    Diag *diag);
+MUST_USE Status name_unknown(const State *state, const char *what, const char *name, Place place,
+                             Diag *diag);
 /* "a revolute", "a parameter": what a name is */
 void name_describe(const State *state, const Thing *thing, Text *text);
 /* the next name that matters for suggestions: 0, 1, ...; NULL at the end */
@@ -232,11 +233,11 @@ const char *state_name_at(const State *state, int i);
 enum { ALLOW_MODEL = 1, ALLOW_RUNS = 2 };
 /* The variable's own name ("J1" may stand for "theta1"), without primes. `own` is a part in the
  * making, or NULL. */
-Status variable_resolve(const State *state, const Instance *own, const char *path, int primes,
-                        unsigned allow, Place place, Text *name, Diag *diag);
+MUST_USE Status variable_resolve(const State *state, const Instance *own, const char *path,
+                                 int primes, unsigned allow, Place place, Text *name, Diag *diag);
 /* a coordinate by its name or, where it has only one, its owner's */
-Status coordinate_resolve(const State *state, const char *path, Place place, int *owner,
-                          int *coordinate, Diag *diag);
+MUST_USE Status coordinate_resolve(const State *state, const char *path, Place place, int *owner,
+                                   int *coordinate, Diag *diag);
 
 /* --- expressions (model_value.c) --- */
 
@@ -256,10 +257,10 @@ typedef enum ScopeKind {
 
 /* Read the files that the calls below a syntax tree name, each column a table of the arena; `anew`:
  * also those that are there. Fails at the file's name, or at the column's. */
-Status data_read(const DataFinder *finder, Arena *arena, const Syntax *syntax, bool anew,
-                 Diag *diag);
-Status data_read_statement(const DataFinder *finder, Arena *arena, const Statement *statement,
-                           bool anew, Diag *diag);
+MUST_USE Status data_read(const DataFinder *finder, Arena *arena, const Syntax *syntax, bool anew,
+                          Diag *diag);
+MUST_USE Status data_read_statement(const DataFinder *finder, Arena *arena,
+                                    const Statement *statement, bool anew, Diag *diag);
 /* the column that a call of table() asks for; borrowed */
 const char *data_column(const Syntax *call);
 
@@ -273,20 +274,22 @@ typedef struct Scope {
     NumberList uses;            /* definitions met */
 } Scope;
 
-Status scope_expression(Scope *scope, const Syntax *syntax, Expr *out, Diag *diag);
+MUST_USE Status scope_expression(Scope *scope, const Syntax *syntax, Expr *out, Diag *diag);
 /* up to MAX_VALUE entries; a scalar is refused */
-Status scope_vector(Scope *scope, const Syntax *syntax, Expr *out, int *count, Diag *diag);
+MUST_USE Status scope_vector(Scope *scope, const Syntax *syntax, Expr *out, int *count, Diag *diag);
 bool scope_has_variables(const Scope *scope);
 void scope_use(Scope *scope, int definition);
-Status function_call(Scope *scope, const Syntax *syntax, const Expr *args, Expr *out, Diag *diag);
+MUST_USE Status function_call(Scope *scope, const Syntax *syntax, const Expr *args, Expr *out,
+                              Diag *diag);
 /* d/dt along the primed names of variables */
-Status time_derivative(Arena *arena, Expr e, int primes, Place place, Expr *out, Diag *diag);
+MUST_USE Status time_derivative(Arena *arena, Expr e, int primes, Place place, Expr *out,
+                                Diag *diag);
 
 /* --- dimensions (measure.c, measure_check.c) --- */
 
 /* Of an expression whose names are known. Fails with E_UNIT at the operand or argument that can't
  * stand where it does. */
-Status measure_of(const Scope *scope, const Syntax *syntax, Measure *out, Diag *diag);
+MUST_USE Status measure_of(const Scope *scope, const Syntax *syntax, Measure *out, Diag *diag);
 /* of a text's unit, which is known to be well written; NULL: any */
 Measure measure_of_unit(const char *unit);
 /* of a variable by its own name, without primes */
@@ -294,8 +297,8 @@ Measure variable_measure(const State *state, const Instance *own, const char *na
 bool measure_same(Measure a, Measure b);
 bool measures_fit(Measure a, Measure b);
 /* Two that are `what` ("added"): their measure, or E_UNIT at one of them. */
-Status measures_join(Measure a, Measure b, const Syntax *left, const Syntax *right,
-                     const char *what, Measure *out, Diag *diag);
+MUST_USE Status measures_join(Measure a, Measure b, const Syntax *left, const Syntax *right,
+                              const char *what, Measure *out, Diag *diag);
 bool measure_is_plain(Measure measure); /* no dimension, not even an angle */
 void measure_print(Text *text, Measure measure);
 /* the way out where these two don't fit */
@@ -304,14 +307,16 @@ void measure_hint(Measure a, Measure b, const char *otherwise, Diag *diag);
 
 /* A value, or each entry of a vector, against the unit that `name` wants; NULL: any. What was
  * written without units is in SI. */
-Status unit_check(const Scope *scope, const Syntax *syntax, const char *unit, const char *name,
-                  Diag *diag);
+MUST_USE Status unit_check(const Scope *scope, const Syntax *syntax, const char *unit,
+                           const char *name, Diag *diag);
 /* entries of a direction, which have one dimension, whichever */
-Status unit_check_alike(const Scope *scope, const Syntax *syntax, const char *name, Diag *diag);
+MUST_USE Status unit_check_alike(const Scope *scope, const Syntax *syntax, const char *name,
+                                 Diag *diag);
 /* two values that are compared */
-Status unit_check_compared(const Scope *scope, const Syntax *left, const Syntax *right, Diag *diag);
+MUST_USE Status unit_check_compared(const Scope *scope, const Syntax *left, const Syntax *right,
+                                    Diag *diag);
 /* an item, and the unit behind it that it is to be shown in */
-Status unit_check_shown(const Scope *scope, const Syntax *item, Diag *diag);
+MUST_USE Status unit_check_shown(const Scope *scope, const Syntax *item, Diag *diag);
 
 /* --- values of parts (model_param.c) --- */
 
@@ -320,24 +325,25 @@ typedef struct Wanted {
     bool on_angle;
 } Wanted;
 
-Status param_read(Scope *scope, Wanted wanted, const Syntax *syntax, Value *out, Diag *diag);
+MUST_USE Status param_read(Scope *scope, Wanted wanted, const Syntax *syntax, Value *out,
+                           Diag *diag);
 void param_fallback(State *state, const Param *param, Value *out);
 
 /* --- whether they make sense (model_check.c) --- */
 
 /* Refuse numbers that values of the part can't be, those of parameters as they are now; what is
  * legal and unlikely is remarked. */
-Status part_check(State *state, const Instance *part, Text *remarks, Diag *diag);
+MUST_USE Status part_check(State *state, const Instance *part, Text *remarks, Diag *diag);
 /* the same for all parts that a new value of the definition reaches */
-Status parts_check_after(State *state, int definition, Text *remarks, Diag *diag);
+MUST_USE Status parts_check_after(State *state, int definition, Text *remarks, Diag *diag);
 
 /* Refuse couplings that no parts could have, of the part or with it (model_coupled.c). O(n^3) for n
  * parts coupled with each other. */
-Status coupled_check(State *state, const Instance *part, Diag *diag);
+MUST_USE Status coupled_check(State *state, const Instance *part, Diag *diag);
 
-Status key_unknown(const Component *row, const char *key, Place place, Diag *diag);
+MUST_USE Status key_unknown(const Component *row, const char *key, Place place, Diag *diag);
 /* In a planar scene no step of a part leaves the plane. */
-Status part_check_plane(const State *state, const Instance *part, Place place, Diag *diag);
+MUST_USE Status part_check_plane(const State *state, const Instance *part, Place place, Diag *diag);
 
 /* --- definitions and lines --- */
 
@@ -345,8 +351,8 @@ double definition_value(State *state, int definition);
 /* an expression of parameters alone, as they are now */
 double state_number(State *state, Expr body);
 /* Refuses when `uses` lead back to the definition. */
-Status definition_check_circle(const State *state, int definition, const int *uses, int count,
-                               Place place, Diag *diag);
+MUST_USE Status definition_check_circle(const State *state, int definition, const int *uses,
+                                        int count, Place place, Diag *diag);
 /* a new last line; takes over the uses of the scope (NULL: none) */
 int line_add(State *state, const char *text, int definition, int part, const Scope *scope);
 void line_uses(State *state, Line *line, const Scope *scope);
@@ -358,14 +364,14 @@ int *lines_in_order(const State *state, int *count);
 /* A State from the old one's lines, without line `without` (-1: none); trees, starts and form are
  * taken over where their names live on, and what fell away is remarked. With `broken`, lines that
  * fail are left out and what they make is named there; without, the first failure is returned. */
-Status state_rebuild(const State *old, int without, State **out, NameList *broken, Text *remarks,
-                     Diag *diag);
+MUST_USE Status state_rebuild(const State *old, int without, State **out, NameList *broken,
+                              Text *remarks, Diag *diag);
 /* Apply the text of one statement. */
-Status state_apply_text(State **state, const char *text, Text *remarks, Diag *diag);
+MUST_USE Status state_apply_text(State **state, const char *text, Text *remarks, Diag *diag);
 /* Apply each pair of a statement, all or none. */
-typedef Status ApplyPair(State **state, const Pair *pair, Outcome *outcome, Diag *diag);
-Status apply_pairs(State **state, const Statement *statement, ApplyPair *apply, Outcome *outcome,
-                   Diag *diag);
+typedef MUST_USE Status ApplyPair(State **state, const Pair *pair, Outcome *outcome, Diag *diag);
+MUST_USE Status apply_pairs(State **state, const Statement *statement, ApplyPair *apply,
+                            Outcome *outcome, Diag *diag);
 void name_list_add(NameList *list, const char *name); /* once */
 /* the statement's text with its verb in full; new */
 char *statement_full_text(const Statement *statement);
@@ -375,11 +381,12 @@ void choices_copy(State *to, const State *from, Text *remarks);
 void starts_save(const State *state, Text *text);
 /* Initial values and form are applied anew, since laws may have changed: those of variables that
  * are gone fall away with a remark; those that fail are in `broken`, or NULL: fail. */
-Status starts_copy(State *to, const State *from, NameList *broken, Text *remarks, Diag *diag);
+MUST_USE Status starts_copy(State *to, const State *from, NameList *broken, Text *remarks,
+                            Diag *diag);
 
 /* Refuses a variable that follows from the rest, and so can't be given a value; its own name. A
  * value's unit is checked. */
-Status start_check(const Scope *scope, const Pair *pair, Text *name, Diag *diag);
+MUST_USE Status start_check(const Scope *scope, const Pair *pair, Text *name, Diag *diag);
 
 /* --- one function a verb --- */
 

@@ -52,7 +52,8 @@ MUST_USE Status show_need(const Model *model, const Statement *statement, Need *
  * for topics of later versions, the errors of equations. */
 MUST_USE Status show(const View *view, const Statement *statement, Text *out, Diag *diag);
 /* --- the functions of topics --- */
-typedef Status ShowFunction(const View *view, const Selection *selection, Text *out, Diag *diag);
+typedef MUST_USE Status ShowFunction(const View *view, const Selection *selection, Text *out,
+                                     Diag *diag);
 
 ShowFunction show_graph, show_nodes, show_edges, show_tree, show_incidence, show_circuits,
     show_cutsets, show_structure;

@@ -112,6 +112,7 @@ Status show_edges(const View *view, const Selection *selection, Text *out, Diag 
 Status show_graph(const View *view, const Selection *selection, Text *out, Diag *diag)
 {
     const Graph *graph = model_graph(view->model);
+    Status status = OK;
 
     layout_count(out, graph_node_count(graph), "node", "nodes");
     text_add(out, ", ");
@@ -119,9 +120,11 @@ Status show_graph(const View *view, const Selection *selection, Text *out, Diag 
     text_add(out, "\n\n");
     if (graph_edge_count(graph) == 0)
         return OK;
-    (void)show_nodes(view, selection, out, diag);
+    CHECK(show_nodes(view, selection, out, diag));
     text_char(out, '\n');
-    return show_edges(view, selection, out, diag);
+    status = show_edges(view, selection, out, diag);
+done:
+    return status;
 }
 
 static void list_edges(Text *out, const View *view, const Tree *tree, const char *title,

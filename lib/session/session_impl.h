@@ -87,7 +87,7 @@ void session_remark(ct_session *session, const char *lines);
 MUST_USE Status session_system(ct_session *session, System **out, Diag *diag);
 /* The equations that are shown: those of the trees as they are, also where a run takes a network
  * in state form. */
-Status session_shown(ct_session *session, System **out, Diag *diag);
+MUST_USE Status session_shown(ct_session *session, System **out, Diag *diag);
 /* the equations that something needs which is to be shown */
 MUST_USE Status session_prepare(ct_session *session, Need need, View *view, Diag *diag);
 /* free systems that neither the model nor a run needs any more */
@@ -153,7 +153,7 @@ void session_forget_start(ct_session *session);
 
 /* --- one function a verb --- */
 
-typedef Status Analysis(ct_session *session, const Statement *statement, Diag *diag);
+typedef MUST_USE Status Analysis(ct_session *session, const Statement *statement, Diag *diag);
 #define SESSION_VERB(word, ...) Analysis session_##word;
 #include "language/verbs.def"
 

@@ -75,7 +75,7 @@ static inline Number gradient(const Work *w, int row, int column)
 
 /* Solve for what follows from the state, and evaluate everything there; choose independent
  * coordinates. E_SINGULAR where equations are dependent, E_MODEL, E_VALUE. */
-Status linear_point(Work *w, Diag *diag);
+MUST_USE Status linear_point(Work *w, Diag *diag);
 int linear_equation(const Work *w, int r); /* row of the r-th of the equations in use */
 int linear_unknown(const Work *w, int k);  /* column of the k-th of what follows */
 bool linear_is_independent(const Work *w, int speed);
@@ -84,6 +84,6 @@ void linear_complete(const Work *w, const Number *right, Number *v);
 
 /* --- linearize_columns.c --- */
 
-Status linear_columns(const Work *w, Linear **out, Diag *diag);
+MUST_USE Status linear_columns(const Work *w, Linear **out, Diag *diag);
 
 #endif

@@ -52,7 +52,7 @@ typedef struct Problem {
     double *row; /* y-like, and x', z behind */
 } Problem;
 
-Status start_read_given(Assembly *assembly, Diag *diag);
+MUST_USE Status start_read_given(Assembly *assembly, Diag *diag);
 /* what a given value is, and on which level */
 MUST_USE Status start_classify(Assembly *assembly, Given *given, Diag *diag);
 /* whether states alone tell it, of all that the network solves for */
@@ -64,7 +64,8 @@ MUST_USE Status start_open_problem(Problem *problem, Assembly *assembly, Level l
 void start_close_problem(Problem *problem); /* what it holds */
 Rows start_rows(Problem *problem);
 /* E_ASSEMBLE: "h9 (x) is missed by 0.03; ..." with the values that were given */
-Status start_conflict(const Problem *problem, const double *residual, const char *what, Diag *diag);
+MUST_USE Status start_conflict(const Problem *problem, const double *residual, const char *what,
+                               Diag *diag);
 
 /* Four Euler parameters of unit length; nothing where they are all 0. */
 void start_unit(double p[4]);

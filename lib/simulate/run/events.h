@@ -76,7 +76,7 @@ MUST_USE Status events_happen(Events *events, double t, double span, double *y, 
                               bool *changed, bool *stop, Diag *diag);
 
 /* E_SOLVER: the event of that condition comes true again and again. */
-Status events_are_stuck(const Events *events, int condition, double t, Diag *diag);
+MUST_USE Status events_are_stuck(const Events *events, int condition, double t, Diag *diag);
 
 /* In driven runs, where y is known at any t: whether a condition that did not hold does at (t, y);
  * and the same with its consequences. */
