@@ -226,7 +226,6 @@ static void open_leg(March *m, const Leg *leg)
     m->largest = NEW_ARRAY(double, conditions);
     m->band = NEW_ARRAY(double, conditions);
     m->noise = NEW_ARRAY(double, conditions);
-    m->blur = NEW_ARRAY(double, conditions);
     m->depth = NEW_ARRAY(double, conditions);
     m->depth_low = NEW_ARRAY(double, conditions);
     m->depth_high = NEW_ARRAY(double, conditions);
@@ -248,7 +247,6 @@ static void close_leg(March *m)
     mem_free(m->largest);
     mem_free(m->band);
     mem_free(m->noise);
-    mem_free(m->blur);
     mem_free(m->depth);
     mem_free(m->depth_low);
     mem_free(m->depth_high);

@@ -37,8 +37,7 @@ typedef struct March {
     double *conditions, *largest; /* values and largest sizes of conditions */
     int *mode;                    /* sign of each condition on this side of its next switch */
     double *band;                 /* sizes too small to tell a sign from, behind a switch, */
-    double *noise;                /* and anywhere: of margins, */
-    double *blur;                 /* or inside a step: what errors do that the tolerance allows */
+    double *noise;                /* and anywhere: of margins */
     double *depth, *depth_low, *depth_high; /* of conditions in their modes, where one is located */
     int next_row, rows;
     double scanned;        /* of the last step, up to here conditions are followed */

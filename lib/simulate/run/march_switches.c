@@ -132,7 +132,6 @@ static void find_noise(March *m)
     for (int i = 0; i < m->eq->switch_count; i++)
         m->noise[i] =
             is_margin(m, i) ? fmax(ROUNDING * largest_margin(m), NOTHING * m->control.atol) : 0;
-    memset(m->blur, 0, (size_t)m->count * sizeof(double));
     for (int turn = 0; turn < MOVES; turn++) {
         for (int k = 0; k < m->length; k++) {
             double tolerance = m->control.rtol * fabs(m->stepper->y[k]) + m->control.atol;
@@ -141,12 +140,10 @@ static void find_noise(March *m)
         }
         motion_switches(m->leg.motion, m->stepper->t, m->y, m->conditions);
         for (int i = 0; i < m->eq->switch_count; i++)
-            if (is_margin(m, i))
-                m->blur[i] = fmax(m->blur[i], fabs(m->conditions[i] - here[i]));
+            if (is_margin(m, i) && !is_steep(m, i) &&
+                fabs(m->conditions[i] - here[i]) > m->noise[i])
+                m->noise[i] = fabs(m->conditions[i] - here[i]);
     }
-    for (int i = 0; i < m->eq->switch_count; i++)
-        if (is_margin(m, i) && !is_steep(m, i))
-            m->noise[i] = m->blur[i] = fmax(m->noise[i], m->blur[i]);
     memcpy(m->conditions, here, (size_t)m->eq->switch_count * sizeof(double));
     memcpy(m->band, m->noise, (size_t)m->eq->switch_count * sizeof(double));
     mem_free(here);
@@ -191,14 +188,13 @@ void march_begin_modes(March *m)
     march_begin_surfaces(m);
 }
 
-/* Whether condition i, as evaluated last, has left its mode; learns a mode not known yet. Inside a
- * step the interpolant errs as much as the tolerance lets it. */
-static bool has_switched(March *m, int i, bool inside)
+/* whether condition i, as evaluated last, has left its mode; learns a mode not known yet */
+static bool has_switched(March *m, int i)
 {
     double value = m->conditions[i];
 
     m->largest[i] = fmax(m->largest[i], fabs(value));
-    if (!(fabs(value) > (inside ? fmax(m->band[i], m->blur[i]) : m->band[i])))
+    if (!(fabs(value) > m->band[i]))
         return false;
     if (m->mode[i] == 0) /* what had no value till now becomes what it is */
         m->mode[i] = march_is_of_event(m, i) ? -sign_of(value) : sign_of(value);
@@ -318,7 +314,7 @@ static int find_switched(March *m, double *low, double *at)
             continue;
         conditions_at(m, *at);
         for (int i = 0; i < m->count; i++)
-            if (!is_left_out(m, i) && has_switched(m, i, k < points) && found < 0)
+            if (!is_left_out(m, i) && has_switched(m, i) && found < 0)
                 found = i;
         if (found >= 0)
             return found;
