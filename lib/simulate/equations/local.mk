@@ -9,7 +9,9 @@ libcore_la_SOURCES += \
   lib/simulate/equations/motion.c \
   lib/simulate/equations/motion.h \
   lib/simulate/equations/motion_impl.h \
+  lib/simulate/equations/motion_place.c \
   lib/simulate/equations/motion_renew.c \
+  lib/simulate/equations/motion_solve.c \
   lib/simulate/equations/motion_surfaces.c \
   lib/simulate/equations/netdae.c \
   lib/simulate/equations/netdae.h \

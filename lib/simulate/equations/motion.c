@@ -12,9 +12,7 @@
 #include <string.h>
 
 #define PROJECTION_SWEEPS 8
-#define TURNS             50
 #define SLACK             0.03 /* rad: what a step may leave between an angle and its reference */
-#define SUSPECT           1e-2 /* pivot ratio of Phi_d above which no position is singular */
 
 static bool rate(void *context, double t, const double *y, double *out);
 static bool project(void *context, double t, double *y);
@@ -22,12 +20,6 @@ static double blur(void *context);
 static bool dae_residual(void *context, double t, const double *w, const double *w_rate,
                          double *out);
 static bool dae_start(void *context, double t, const double *y, double *w, double *w_rate);
-
-/* of the references in y */
-static int turned_place(const Equations *eq)
-{
-    return eq->n + eq->nu + eq->nx;
-}
 
 static void open_projection(Motion *mo)
 {
@@ -147,11 +139,6 @@ const Ode *motion_ode(const Motion *mo)
     return &mo->ode;
 }
 
-int motion_length(const Motion *mo)
-{
-    return turned_place(mo->eq) + mo->eq->turned_count + 1;
-}
-
 void motion_window(Motion *mo, double low, double high)
 {
     mo->low = low;
@@ -163,11 +150,6 @@ void motion_guess(Motion *mo, const double *network)
     if (mo->eq->nx + mo->eq->nz > 0)
         memcpy(netsolve_values(mo->network), network,
                (size_t)(mo->eq->nx + mo->eq->nz) * sizeof(double));
-}
-
-double motion_clock(const Motion *mo, double t)
-{
-    return fmin(fmax(t, mo->low), mo->high);
 }
 
 void motion_offer(Motion *mo, const Dae *dae)
@@ -183,92 +165,6 @@ void motion_tolerance(Motion *mo, double tolerance)
 MotionCounts motion_counts(const Motion *mo)
 {
     return mo->counts;
-}
-
-/* --- evaluation --- */
-
-/* whether references are those of the last evaluation, or so near that they choose the same turns
- */
-static bool turns_alike(const Motion *mo, const double *near)
-{
-    for (int k = 0; k < mo->eq->turned_count; k++)
-        if (!(fabs(near[k] - mo->near[k]) < 1))
-            return false;
-    return true;
-}
-
-/* before eq->position() */
-static void set_near(Motion *mo, const double *y)
-{
-    if (mo->eq->turned_count == 0)
-        return;
-    memcpy(mo->near, y + turned_place(mo->eq), (size_t)mo->eq->turned_count * sizeof(double));
-    mo->eq->near(mo->eq->context, mo->near);
-}
-
-static uint64_t sides_of(const Motion *mo)
-{
-    return mo->eq->sides != NULL ? *mo->eq->sides : 0;
-}
-
-void motion_at_position(Motion *mo, double t, const double *y)
-{
-    size_t bytes = (size_t)mo->eq->n * sizeof(double);
-
-    if (mo->is_evaluated && mo->t == t && mo->sides == sides_of(mo) &&
-        memcmp(mo->q, y, bytes) == 0 && turns_alike(mo, y + turned_place(mo->eq)))
-        return;
-    set_near(mo, y);
-    mo->eq->position(mo->eq->context, t, y);
-    mo->t = t;
-    mo->sides = sides_of(mo);
-    memcpy(mo->q, y, bytes);
-    mo->is_evaluated = true;
-    mo->is_factored = false;
-    mo->is_embedded_factored = false;
-}
-
-static bool factor_with(Motion *mo, Kkt *kkt, const double *mass)
-{
-    mo->counts.factorisations++;
-    if (!kkt_factor(kkt, mass, mo->eq->phi_u, mo->rows))
-        return false;
-    if (kkt_is_regularised(kkt)) {
-        mo->counts.regularised++;
-        if (isnan(mo->counts.singular_time))
-            mo->counts.singular_time = mo->t;
-    }
-    mo->blur = fmax(mo->blur, kkt_blur(kkt));
-    return true;
-}
-
-static bool factor(Motion *mo)
-{
-    if (!mo->is_factored)
-        mo->is_factored = factor_with(mo, mo->kkt, mo->eq->mass);
-    return mo->is_factored;
-}
-
-bool motion_factor_embedded(Motion *mo)
-{
-    if (mo->is_embedded_factored)
-        return true;
-    mo->counts.factorisations++;
-    mo->is_embedded_factored = embed_factor(mo->embed, mo->eq->mass, mo->eq->phi_u, mo->rows);
-    return mo->is_embedded_factored;
-}
-
-/* what evaluate() does, with signs on surfaces as they are */
-bool motion_evaluate(Motion *mo, double t, const double *y)
-{
-    const Equations *eq = mo->eq;
-
-    motion_at_position(mo, motion_clock(mo, t), y);
-    eq->velocity(eq->context, y + eq->n, y + eq->n + eq->nu);
-    if (!netsolve_find(mo->network))
-        return false;
-    eq->network_solved(eq->context, mo->solved);
-    return true;
 }
 
 /* everything but the solution for u': false where the network can't be solved, or no signs keep the
@@ -300,132 +196,6 @@ void motion_switches(Motion *mo, double t, const double *y, double *out)
     eq->switches(eq->context, t, y, y + eq->n, y + eq->n + eq->nu, out);
 }
 
-static void pick_rows(const Motion *mo, const double *all, double *out)
-{
-    for (int k = 0; k < mo->used; k++)
-        out[k] = all[mo->rows[k]];
-}
-
-static bool solve_augmented(Motion *mo)
-{
-    if (!factor(mo))
-        return false;
-    pick_rows(mo, mo->eq->gamma, mo->bottom);
-    kkt_solve(mo->kkt, mo->eq->force, mo->bottom, mo->du, mo->lambda);
-    return true;
-}
-
-/* Accelerations don't depend on which speeds are independent, as long as Phi_d is sound: where it
- * is worn others are taken, in the middle of a step too. Near a singular position no choice is
- * sound, and the augmented form tells the same accelerations. */
-static bool solve_embedded(Motion *mo)
-{
-    bool sound = motion_factor_embedded(mo);
-
-    if (!sound || embed_condition(mo->embed) < MOTION_WORN) {
-        mo->is_repartitioned = motion_choose_independent(mo) || mo->is_repartitioned;
-        sound = motion_factor_embedded(mo);
-    }
-    if (!sound || embed_pivots(mo->embed) < SUSPECT) {
-        if (!solve_augmented(mo))
-            return false;
-        if (!sound || kkt_is_regularised(mo->kkt))
-            return true;
-    }
-    pick_rows(mo, mo->eq->gamma, mo->bottom);
-    embed_solve(mo->embed, mo->eq->force, mo->bottom, mo->du);
-    return true;
-}
-
-/* The multipliers of rows in use among all; 0 for the others. */
-static void place_multipliers(Motion *mo)
-{
-    memset(mo->lambda_all, 0, (size_t)mo->eq->m * sizeof(double));
-    for (int k = 0; k < mo->used; k++)
-        mo->lambda_all[mo->rows[k]] = mo->lambda[k];
-}
-
-/* after u' is known: power may read it and the multipliers, also in the embedded form */
-static void bring_power(Motion *mo, const double *acceleration)
-{
-    if (mo->eq->accelerated == NULL)
-        return;
-    if (mo->embed != NULL) {
-        memcpy(mo->kept, acceleration, (size_t)mo->eq->nu * sizeof(double));
-        if (!solve_augmented(mo))
-            return;
-        memcpy(mo->du, mo->kept, (size_t)mo->eq->nu * sizeof(double));
-    }
-    place_multipliers(mo);
-    mo->eq->accelerated(mo->eq->context, mo->du, mo->lambda_all);
-}
-
-static void write_rates(const Motion *mo, double *out)
-{
-    const Equations *eq = mo->eq;
-
-    memcpy(out, eq->q_rate, (size_t)eq->n * sizeof(double));
-    memcpy(out + eq->n, mo->du, (size_t)eq->nu * sizeof(double));
-    memcpy(out + eq->n + eq->nu, mo->solved, (size_t)eq->nx * sizeof(double));
-    if (eq->turned_count > 0)
-        memcpy(out + turned_place(eq), eq->turned_rate, (size_t)eq->turned_count * sizeof(double));
-    out[turned_place(eq) + eq->turned_count] = eq->power != NULL ? *eq->power : 0;
-}
-
-/* Multipliers of all rows from those in use: the least of all that give the same forces. */
-static void spread_multipliers(Motion *mo)
-{
-    const Equations *eq = mo->eq;
-
-    if (mo->used == eq->m) {
-        for (int k = 0; k < mo->used; k++)
-            mo->lambda_all[mo->rows[k]] = mo->lambda[k];
-        return;
-    }
-    place_multipliers(mo);
-    rank_least_multipliers(eq->phi_u, eq->m, eq->nu, mo->lambda_all);
-}
-
-/* A network that reads u' or lambda, while forces read the network: each in turn, until nothing
- * changes. Where forces don't read what follows from it, the second turn is the last. */
-static bool solve_together(Motion *mo)
-{
-    const Equations *eq = mo->eq;
-    int n = eq->nx + eq->nz;
-
-    for (int k = 0; k < TURNS; k++) {
-        bool changed = false;
-
-        if (!solve_augmented(mo))
-            return false;
-        spread_multipliers(mo);
-        memcpy(mo->solved_before, mo->solved, (size_t)n * sizeof(double));
-        eq->network_reads(eq->context, mo->du, mo->lambda_all);
-        if (!netsolve_find(mo->network))
-            return false;
-        for (int i = 0; i < n; i++)
-            changed = changed || !(fabs(mo->solved[i] - mo->solved_before[i]) <=
-                                   1e-13 * fabs(mo->solved[i]) + 1e-15);
-        if (!changed)
-            return true;
-        eq->network_solved(eq->context, mo->solved);
-    }
-    return false;
-}
-
-/* u' and lambda in the augmented form, with what the network reads of them */
-static bool solve_plain(Motion *mo)
-{
-    return mo->eq->network_reads != NULL ? solve_together(mo) : solve_augmented(mo);
-}
-
-bool motion_solve_rates(Motion *mo)
-{
-    if (mo->embed == NULL)
-        return solve_plain(mo);
-    return (mo->eq->network_reads == NULL || solve_together(mo)) && solve_embedded(mo);
-}
-
 /* Off the manifold the constraints contradict each other a little, and near a singular position the
  * accelerations that obey them grow without bound: there they are those of the nearest state on it.
  */
@@ -446,8 +216,8 @@ static bool rate(void *context, double t, const double *y, double *out)
 
     if (!solve_on_manifold(mo, t, y))
         return false;
-    bring_power(mo, mo->du);
-    write_rates(mo, out);
+    motion_bring_power(mo, mo->du);
+    motion_write_rates(mo, out);
     return vector_is_finite(out, mo->ode.n);
 }
 
@@ -459,9 +229,9 @@ static bool solve_row(Motion *mo, double t, const double *y)
 
     motion_at_position(mo, motion_clock(mo, t), y);
     kept = motion_take_rows(mo);
-    sound = evaluate(mo, t, y) && solve_plain(mo);
+    sound = evaluate(mo, t, y) && motion_solve_plain(mo);
     if (sound)
-        spread_multipliers(mo);
+        motion_spread_multipliers(mo);
     motion_return_rows(mo, kept);
     return sound;
 }
@@ -556,7 +326,7 @@ static bool project_position(Motion *mo, double t, double *y)
     left = distance(mo);
     if (left <= 1e-16 * size)
         return true;
-    if (!factor_with(mo, mo->nearest_kkt, mo->unit))
+    if (!motion_factor_with(mo, mo->nearest_kkt, mo->unit))
         return false;
     for (int sweep = 0; sweep < PROJECTION_SWEEPS && left > 1e-16 * size; sweep++) {
         if (left <= 1e-13 * size && left > 0.5 * before)
@@ -581,7 +351,7 @@ static bool project_velocity(Motion *mo, double t, const double *y, double *u, c
     const Equations *eq = mo->eq;
 
     motion_at_position(mo, t, y);
-    if (!factor(mo))
+    if (!motion_factor(mo))
         return false;
     eq->velocity(eq->context, u, x);
     for (int k = 0; k < mo->used; k++) {
@@ -738,13 +508,13 @@ static bool dae_residual(void *context, double t, const double *w, const double 
 
     if (!evaluate(mo, t, w))
         return false;
-    if (eq->network_reads != NULL && !solve_together(mo))
+    if (eq->network_reads != NULL && !motion_solve_together(mo))
         return false;
     if (eq->accelerated != NULL) {
         memset(mo->lambda_all, 0, (size_t)eq->m * sizeof(double));
         for (int k = 0; k < mo->used && mo->embed == NULL; k++)
             mo->lambda_all[mo->rows[k]] = w_rate[motion_length(mo) + k];
-        if (mo->embed != NULL && solve_augmented(mo))
+        if (mo->embed != NULL && motion_solve_augmented(mo))
             for (int k = 0; k < mo->used; k++)
                 mo->lambda_all[mo->rows[k]] = mo->lambda[k];
         eq->accelerated(eq->context, w_rate + eq->n, mo->lambda_all);
@@ -774,10 +544,10 @@ static bool dae_start(void *context, double t, const double *y, double *w, doubl
     memset(w, 0, (size_t)mo->ode.dae.n * sizeof(double));
     memset(w_rate, 0, (size_t)mo->ode.dae.n * sizeof(double));
     memcpy(w, y, (size_t)tail * sizeof(double));
-    if (!evaluate(mo, t, y) || !solve_plain(mo))
+    if (!evaluate(mo, t, y) || !motion_solve_plain(mo))
         return false;
-    bring_power(mo, mo->du);
-    write_rates(mo, w_rate);
+    motion_bring_power(mo, mo->du);
+    motion_write_rates(mo, w_rate);
     if (mo->embed == NULL)
         for (int k = 0; k < mo->used; k++) {
             w_rate[tail + k] = mo->lambda[k];

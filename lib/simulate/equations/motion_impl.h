@@ -37,13 +37,22 @@ struct Motion {
     MotionCounts counts;
 };
 
-/* --- motion.c --- */
+/* --- motion_place.c --- */
+
+/* of the references in y */
+static inline int turned_place(const Equations *eq)
+{
+    return eq->n + eq->nu + eq->nx;
+}
 
 #define MOTION_WORN 0.1 /* of the pivot ratio when they were chosen: rows, independent speeds */
 
 /* the equations' positions at (t, y), which the factors below belong to */
 void motion_at_position(Motion *motion, double t, const double *y);
 bool motion_factor_embedded(Motion *motion);
+/* the matrix of accelerations and multipliers there; with another M */
+bool motion_factor(Motion *motion);
+bool motion_factor_with(Motion *motion, Kkt *kkt, const double *mass);
 /* Choose independent speeds where the equations stand; true when they are others (motion_renew.c).
  */
 bool motion_choose_independent(Motion *motion);
@@ -57,6 +66,16 @@ void motion_return_rows(Motion *motion, int *rows);
 bool motion_evaluate(Motion *motion, double t, const double *y);
 /* then u', in the form of the run */
 bool motion_solve_rates(Motion *motion);
+
+/* --- motion_solve.c --- */
+
+/* the solution by form, with the network where they hang together, and what is made of it */
+bool motion_solve_augmented(Motion *motion);
+bool motion_solve_together(Motion *motion);
+bool motion_solve_plain(Motion *motion);
+void motion_bring_power(Motion *motion, const double *acceleration);
+void motion_write_rates(const Motion *motion, double *out);
+void motion_spread_multipliers(Motion *motion);
 
 /* --- motion_surfaces.c --- */
 

@@ -1,0 +1,103 @@
+/* motion_place.c: a motion brought to a place: its programs run there, its matrices factored */
+#include "simulate/equations/motion_impl.h"
+
+#include "algebra/linear.h"
+
+#include <math.h>
+#include <string.h>
+
+int motion_length(const Motion *mo)
+{
+    return turned_place(mo->eq) + mo->eq->turned_count + 1;
+}
+
+double motion_clock(const Motion *mo, double t)
+{
+    return fmin(fmax(t, mo->low), mo->high);
+}
+
+/* --- evaluation --- */
+
+/* whether references are those of the last evaluation, or so near that they choose the same turns
+ */
+static bool turns_alike(const Motion *mo, const double *near)
+{
+    for (int k = 0; k < mo->eq->turned_count; k++)
+        if (!(fabs(near[k] - mo->near[k]) < 1))
+            return false;
+    return true;
+}
+
+/* before eq->position() */
+static void set_near(Motion *mo, const double *y)
+{
+    if (mo->eq->turned_count == 0)
+        return;
+    memcpy(mo->near, y + turned_place(mo->eq), (size_t)mo->eq->turned_count * sizeof(double));
+    mo->eq->near(mo->eq->context, mo->near);
+}
+
+static uint64_t sides_of(const Motion *mo)
+{
+    return mo->eq->sides != NULL ? *mo->eq->sides : 0;
+}
+
+void motion_at_position(Motion *mo, double t, const double *y)
+{
+    size_t bytes = (size_t)mo->eq->n * sizeof(double);
+
+    if (mo->is_evaluated && mo->t == t && mo->sides == sides_of(mo) &&
+        memcmp(mo->q, y, bytes) == 0 && turns_alike(mo, y + turned_place(mo->eq)))
+        return;
+    set_near(mo, y);
+    mo->eq->position(mo->eq->context, t, y);
+    mo->t = t;
+    mo->sides = sides_of(mo);
+    memcpy(mo->q, y, bytes);
+    mo->is_evaluated = true;
+    mo->is_factored = false;
+    mo->is_embedded_factored = false;
+}
+
+bool motion_factor_with(Motion *mo, Kkt *kkt, const double *mass)
+{
+    mo->counts.factorisations++;
+    if (!kkt_factor(kkt, mass, mo->eq->phi_u, mo->rows))
+        return false;
+    if (kkt_is_regularised(kkt)) {
+        mo->counts.regularised++;
+        if (isnan(mo->counts.singular_time))
+            mo->counts.singular_time = mo->t;
+    }
+    mo->blur = fmax(mo->blur, kkt_blur(kkt));
+    return true;
+}
+
+bool motion_factor(Motion *mo)
+{
+    if (!mo->is_factored)
+        mo->is_factored = motion_factor_with(mo, mo->kkt, mo->eq->mass);
+    return mo->is_factored;
+}
+
+bool motion_factor_embedded(Motion *mo)
+{
+    if (mo->is_embedded_factored)
+        return true;
+    mo->counts.factorisations++;
+    mo->is_embedded_factored = embed_factor(mo->embed, mo->eq->mass, mo->eq->phi_u, mo->rows);
+    return mo->is_embedded_factored;
+}
+
+/* what evaluate() does, with signs on surfaces as they are */
+bool motion_evaluate(Motion *mo, double t, const double *y)
+{
+    const Equations *eq = mo->eq;
+
+    motion_at_position(mo, motion_clock(mo, t), y);
+    eq->velocity(eq->context, y + eq->n, y + eq->n + eq->nu);
+    if (!netsolve_find(mo->network))
+        return false;
+    eq->network_solved(eq->context, mo->solved);
+    return true;
+}

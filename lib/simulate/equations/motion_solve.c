@@ -1,0 +1,137 @@
+/* motion_solve.c: accelerations, multipliers and network rates where a motion stands */
+#include "simulate/equations/motion_impl.h"
+
+#include "algebra/linear.h"
+#include "algebra/rank.h"
+
+#include <math.h>
+#include <string.h>
+
+#define TURNS   50
+#define SUSPECT 1e-2 /* pivot ratio of Phi_d above which no position is singular */
+
+static void pick_rows(const Motion *mo, const double *all, double *out)
+{
+    for (int k = 0; k < mo->used; k++)
+        out[k] = all[mo->rows[k]];
+}
+
+bool motion_solve_augmented(Motion *mo)
+{
+    if (!motion_factor(mo))
+        return false;
+    pick_rows(mo, mo->eq->gamma, mo->bottom);
+    kkt_solve(mo->kkt, mo->eq->force, mo->bottom, mo->du, mo->lambda);
+    return true;
+}
+
+/* Accelerations don't depend on which speeds are independent, as long as Phi_d is sound: where it
+ * is worn others are taken, in the middle of a step too. Near a singular position no choice is
+ * sound, and the augmented form tells the same accelerations. */
+static bool solve_embedded(Motion *mo)
+{
+    bool sound = motion_factor_embedded(mo);
+
+    if (!sound || embed_condition(mo->embed) < MOTION_WORN) {
+        mo->is_repartitioned = motion_choose_independent(mo) || mo->is_repartitioned;
+        sound = motion_factor_embedded(mo);
+    }
+    if (!sound || embed_pivots(mo->embed) < SUSPECT) {
+        if (!motion_solve_augmented(mo))
+            return false;
+        if (!sound || kkt_is_regularised(mo->kkt))
+            return true;
+    }
+    pick_rows(mo, mo->eq->gamma, mo->bottom);
+    embed_solve(mo->embed, mo->eq->force, mo->bottom, mo->du);
+    return true;
+}
+
+/* The multipliers of rows in use among all; 0 for the others. */
+static void place_multipliers(Motion *mo)
+{
+    memset(mo->lambda_all, 0, (size_t)mo->eq->m * sizeof(double));
+    for (int k = 0; k < mo->used; k++)
+        mo->lambda_all[mo->rows[k]] = mo->lambda[k];
+}
+
+/* after u' is known: power may read it and the multipliers, also in the embedded form */
+void motion_bring_power(Motion *mo, const double *acceleration)
+{
+    if (mo->eq->accelerated == NULL)
+        return;
+    if (mo->embed != NULL) {
+        memcpy(mo->kept, acceleration, (size_t)mo->eq->nu * sizeof(double));
+        if (!motion_solve_augmented(mo))
+            return;
+        memcpy(mo->du, mo->kept, (size_t)mo->eq->nu * sizeof(double));
+    }
+    place_multipliers(mo);
+    mo->eq->accelerated(mo->eq->context, mo->du, mo->lambda_all);
+}
+
+void motion_write_rates(const Motion *mo, double *out)
+{
+    const Equations *eq = mo->eq;
+
+    memcpy(out, eq->q_rate, (size_t)eq->n * sizeof(double));
+    memcpy(out + eq->n, mo->du, (size_t)eq->nu * sizeof(double));
+    memcpy(out + eq->n + eq->nu, mo->solved, (size_t)eq->nx * sizeof(double));
+    if (eq->turned_count > 0)
+        memcpy(out + turned_place(eq), eq->turned_rate, (size_t)eq->turned_count * sizeof(double));
+    out[turned_place(eq) + eq->turned_count] = eq->power != NULL ? *eq->power : 0;
+}
+
+/* Multipliers of all rows from those in use: the least of all that give the same forces. */
+void motion_spread_multipliers(Motion *mo)
+{
+    const Equations *eq = mo->eq;
+
+    if (mo->used == eq->m) {
+        for (int k = 0; k < mo->used; k++)
+            mo->lambda_all[mo->rows[k]] = mo->lambda[k];
+        return;
+    }
+    place_multipliers(mo);
+    rank_least_multipliers(eq->phi_u, eq->m, eq->nu, mo->lambda_all);
+}
+
+/* A network that reads u' or lambda, while forces read the network: each in turn, until nothing
+ * changes. Where forces don't read what follows from it, the second turn is the last. */
+bool motion_solve_together(Motion *mo)
+{
+    const Equations *eq = mo->eq;
+    int n = eq->nx + eq->nz;
+
+    for (int k = 0; k < TURNS; k++) {
+        bool changed = false;
+
+        if (!motion_solve_augmented(mo))
+            return false;
+        motion_spread_multipliers(mo);
+        memcpy(mo->solved_before, mo->solved, (size_t)n * sizeof(double));
+        eq->network_reads(eq->context, mo->du, mo->lambda_all);
+        if (!netsolve_find(mo->network))
+            return false;
+        for (int i = 0; i < n; i++)
+            changed = changed || !(fabs(mo->solved[i] - mo->solved_before[i]) <=
+                                   1e-13 * fabs(mo->solved[i]) + 1e-15);
+        if (!changed)
+            return true;
+        eq->network_solved(eq->context, mo->solved);
+    }
+    return false;
+}
+
+/* u' and lambda in the augmented form, with what the network reads of them */
+bool motion_solve_plain(Motion *mo)
+{
+    return mo->eq->network_reads != NULL ? motion_solve_together(mo) : motion_solve_augmented(mo);
+}
+
+bool motion_solve_rates(Motion *mo)
+{
+    if (mo->embed == NULL)
+        return motion_solve_plain(mo);
+    return (mo->eq->network_reads == NULL || motion_solve_together(mo)) && solve_embedded(mo);
+}
