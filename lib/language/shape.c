@@ -11,22 +11,28 @@
 
 /* --- names --- */
 
-static bool is_reserved(const char *name)
+bool word_is_reserved(const char *word, size_t length)
 {
     static const char *const words[] = {"t",      "pi",         "ground", "gnd",
                                         "energy", "constraint", "model",  "count",
                                         "modes",  "linear",     "last"};
 
     for (int i = 0; i < COUNT(words); i++)
-        if (strcmp(name, words[i]) == 0)
+        if (strlen(words[i]) == length && strncmp(words[i], word, length) == 0)
             return true;
-    return strncmp(name, "run", 3) == 0 && name[3] != '\0' &&
-           name[3 + strspn(name + 3, "0123456789")] == '\0';
+    return false;
+}
+
+bool name_is_reserved(const char *name)
+{
+    return word_is_reserved(name, strlen(name)) ||
+           (strncmp(name, "run", 3) == 0 && name[3] != '\0' &&
+            name[3 + strspn(name + 3, "0123456789")] == '\0');
 }
 
 Status parser_check_reserved(const Parser *parser, const Token *name)
 {
-    if (!is_reserved(name->text))
+    if (!name_is_reserved(name->text))
         return OK;
     (void)diag_at(parser->diag, E_NAME, name->place, "'%s' can't be redefined", name->text);
     diag_hint(parser->diag, "choose another name");

@@ -215,9 +215,11 @@ void syntax_print(Text *text, const Syntax *syntax);
 /* Rows by value; what they point to is const. False: unknown, *verb unchanged. */
 bool verb_find(const char *name, Verb *verb); /* exact */
 bool verb_at(int i, Verb *verb); /* 0, 1, ... in the order of the manual; false at the end */
-const char *verb_key(const Verb *verb, int i); /* 0, 1, ...; NULL at the end */
-void verb_usage(Text *text, const Verb *verb); /* one line */
-const char *group_title(VerbGroup group);      /* "Mechanical components" ... */
+const char *verb_key(const Verb *verb, int i);          /* 0, 1, ...; NULL at the end */
+void verb_usage(Text *text, const Verb *verb);          /* one line */
+bool word_is_reserved(const char *word, size_t length); /* energy of energy.total ... */
+bool name_is_reserved(const char *name);  /* or run1 ...: can't be given another meaning */
+const char *group_title(VerbGroup group); /* "Mechanical components" ... */
 
 /* OK, or E_MISSING at the verb or key of a statement that comes with a later version. */
 MUST_USE Status statement_check_version(const Statement *statement, Diag *diag);

@@ -9,9 +9,6 @@
 #include <ctype.h>
 #include <string.h>
 
-static const char *const reserved[] = {"t",     "pi",    "ground", "gnd",    "energy", "constraint",
-                                       "model", "count", "modes",  "linear", "last"};
-
 /* variables of the model as a whole; the error is of lengths and angles alike */
 static const struct {
     const char *name;
@@ -44,14 +41,6 @@ size_t run_prefix(const char *path)
     while (isdigit((unsigned char)path[length]))
         length++;
     return path[length] == '.' ? length + 1 : 0;
-}
-
-static bool is_run(const char *name)
-{
-    size_t length = strlen(name);
-
-    return strncmp(name, "run", 3) == 0 && length > 3 &&
-           strspn(name + 3, "0123456789") == length - 3;
 }
 
 const char *syntax_name(const Syntax *syntax)
@@ -123,7 +112,7 @@ Status name_is_free(const State *state, const char *name, Place place, Diag *dia
     const Thing *thing = state_thing(state, name);
     Text what = {0};
 
-    if (is_one_of(name, strlen(name), reserved, COUNT(reserved)) || is_run(name)) {
+    if (name_is_reserved(name)) {
         (void)diag_at(diag, E_NAME, place, "'%s' has a meaning of its own", name);
         diag_hint(diag, "take another name");
         return E_NAME;
@@ -267,7 +256,7 @@ static Status whole_resolve(const char *path, int primes, unsigned allow, Place 
     bool is_known = is_count(path) || model_variable(path) >= 0;
     size_t first = strcspn(path, ".");
 
-    *found = is_known || (path[first] == '.' && is_one_of(path, first, reserved, COUNT(reserved)));
+    *found = is_known || (path[first] == '.' && word_is_reserved(path, first));
     if (!*found)
         return OK;
     if (!is_known) {
