@@ -18,6 +18,9 @@ libcore_la_SOURCES += \
   lib/simulate/run/march_events.c \
   lib/simulate/run/march_impl.h \
   lib/simulate/run/march_jumps.c \
+  lib/simulate/run/march_leg.c \
+  lib/simulate/run/march_meet.c \
+  lib/simulate/run/march_rows.c \
   lib/simulate/run/march_slide.c \
   lib/simulate/run/march_switches.c \
   lib/simulate/run/onset.c \

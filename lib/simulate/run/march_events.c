@@ -16,9 +16,7 @@ static Status add_instant(March *m, double t, bool again, Diag *diag)
     return OK;
 }
 
-/* What comes of the sides that events' conditions have now, at t and y; *changed: new values. The
- * stepper is brought there, to be started anew. */
-static Status take_events(March *m, double t, int *sides, bool *changed, Diag *diag)
+Status march_take_events(March *m, double t, int *sides, bool *changed, Diag *diag)
 {
     double span = m->plan->to - m->plan->from;
     int first = m->eq->switch_count;
@@ -54,73 +52,6 @@ bool march_matters(March *m, int i)
     return true;
 }
 
-/* The last step again, until it ends where condition i is zero as near as numbers tell, by Newton's
- * method; m->y and the time there, *zero. Where a step can't be as short as that, the interpolant
- * has y. */
-static Status reach_zero(March *m, int i, double when, double *zero, Diag *diag)
-{
-    const Stepper *s = m->stepper;
-    size_t bytes = (size_t)m->length * sizeof(double);
-    double before = s->before, end = s->t, t = when;
-    double value = 0, slope = 0, left = 0;
-    Diag ignored = {0};
-    Status status = OK;
-
-    for (int k = 0; k < 12 && t > before; k++) {
-        if (s->method->shorten(m->stepper, t, &ignored) != OK) {
-            CHECK(march_cut(m, t, diag));
-            left = 0;
-            break;
-        }
-        slope = march_condition_rate(m, i, &value);
-        left = slope * m->mode[i] < 0 ? -value / slope : 0; /* else a grazing contact */
-        if (fabs(left) <= 4e-16 * fabs(t) || (left > 0 && t + left > end))
-            break;
-        t = fmax(before + 1e-3 * (t - before), t + left);
-    }
-    if (t <= before) {
-        s->method->at(m->stepper, before, m->y);
-        *zero = before;
-        return OK;
-    }
-    t = s->t;
-    memcpy(m->y, s->y, bytes);
-    for (int k = 0; k < m->length && fabs(left) <= 1e-3 * (t - before); k++)
-        m->y[k] += left * m->slope[k];
-    *zero = fabs(left) <= 1e-3 * (t - before) ? t + left : t;
-done:
-    return status;
-}
-
-Status march_meet_event(March *m, int i, double when, Diag *diag)
-{
-    double span = m->plan->to - m->plan->from;
-    int first = m->eq->switch_count;
-    size_t bytes = (size_t)m->length * sizeof(double);
-    int *sides = NEW_ARRAY(int, m->count - first);
-    double *y = NEW_ARRAY(double, m->length);
-    double t = when;
-    bool changed, entered;
-    Status status = OK;
-
-    CHECK(reach_zero(m, i, when, &t, diag));
-    memcpy(y, m->y, bytes);
-    m->stepper->t = fmin(m->stepper->t, t);
-    CHECK(march_add_rows(m, diag));
-    memcpy(m->y, y, bytes);
-    if (!motion_project(m->leg.motion, t, m->y))
-        CHECK(solver_failure(diag, t, "the constraints can't be met"));
-    memcpy(sides, m->mode + first, (size_t)(m->count - first) * sizeof(int));
-    events_settle(m->ev, t, span, m->y, i - first, sides);
-    CHECK(take_events(m, t, sides, &changed, diag));
-    CHECK(march_check_pace(m, i, diag));
-    CHECK(march_go_on(m, t, m->y, &entered, diag));
-done:
-    mem_free(sides);
-    mem_free(y);
-    return status;
-}
-
 Status march_meet_time(March *m, Jump jump, Diag *diag)
 {
     int first = m->eq->switch_count;
@@ -141,8 +72,9 @@ Status march_meet_time(March *m, Jump jump, Diag *diag)
         }
     if (moved) {
         memcpy(m->y, m->stepper->y, (size_t)m->length * sizeof(double));
-        CHECK(take_events(m, fmax(m->stepper->t, jump.before + (jump.behind - jump.before) / 2),
-                          sides, &changed, diag));
+        CHECK(march_take_events(m,
+                                fmax(m->stepper->t, jump.before + (jump.behind - jump.before) / 2),
+                                sides, &changed, diag));
     }
 done:
     mem_free(values);
@@ -180,7 +112,7 @@ Status march_begin_events(March *m, Diag *diag)
     if (m->is_over)
         goto done;
     find_sides(m, m->plan->from, sides);
-    CHECK(take_events(m, m->plan->from, sides, &changed, diag));
+    CHECK(march_take_events(m, m->plan->from, sides, &changed, diag));
 done:
     mem_free(sides);
     return status;
@@ -192,7 +124,7 @@ Status march_resume_events(March *m, bool *changed, Diag *diag)
     Status status = OK;
 
     find_sides(m, m->stepper->t, sides);
-    CHECK(take_events(m, m->stepper->t, sides, changed, diag));
+    CHECK(march_take_events(m, m->stepper->t, sides, changed, diag));
 done:
     mem_free(sides);
     return status;

@@ -53,7 +53,7 @@ typedef struct March {
     bool is_taken_back;    /* the last step, and its method has to start anew */
 } March;
 
-/* --- rows (march.c) --- */
+/* --- rows (march_rows.c) --- */
 
 bool march_add_row(March *m, double t);
 /* whether the last row is at t, as far as rounding lets one tell */
@@ -63,6 +63,15 @@ MUST_USE Status march_add_rows(March *m, Diag *diag);
 /* End the last step at t, inside it, as its interpolant has it there: with the rows before, and to
  * be started anew. */
 MUST_USE Status march_cut(March *m, double t, Diag *diag);
+/* --- legs (march_leg.c) --- */
+
+Stepper *march_new_stepper(March *m, const Method *method);
+void march_give_up_stepper(March *m);          /* its counts are kept */
+void march_open_leg(March *m, const Leg *leg); /* what goes with its equations */
+void march_close_leg(March *m);
+/* The leg that goes on where the stepper stands: not the last one where that is on surfaces
+ * (*entered). */
+MUST_USE Status march_settle_surfaces(March *m, bool *entered, Diag *diag);
 /* Start the stepper anew at (t, y): in another leg, where ideal switches go over to other sides
  * (*entered). */
 MUST_USE Status march_go_on(March *m, double t, const double *y, bool *entered, Diag *diag);
@@ -73,8 +82,6 @@ MUST_USE Status march_enter(March *m, const Leg *leg, double t, const double *y,
 
 /* --- surfaces (march_slide.c) --- */
 
-/* The leg that goes on where the stepper stands, where that is on surfaces. */
-MUST_USE Status march_slide(March *m, bool *entered, bool *changed, Diag *diag);
 /* what is 0 on a surface is so, as far as rounding lets one tell */
 double march_on_surface(const March *m, int condition);
 /* conditions' modes on surfaces, and how large they get */
@@ -109,12 +116,20 @@ void march_begin_modes(March *m);
 int march_find_switch(March *m, double *when);
 /* g of a condition at the stepper's end, and how fast it changes along the motion */
 double march_condition_rate(March *m, int condition, double *value);
-/* End the last step at the switch, cross it, and start anew behind it. */
-MUST_USE Status march_meet_switch(March *m, int condition, double when, Diag *diag);
-/* E_SOLVER where switches come without a pause; `condition` is the last of them */
-MUST_USE Status march_check_pace(March *m, int condition, Diag *diag);
+/* what says that the leg is the right one, as long as it is positive, */
+bool march_is_margin(const March *m, int condition);
+double march_largest_margin(const March *m); /* its largest size so far, of all of them */
+/* all conditions where the stepper's interpolant is at t, which goes into m->y */
+void march_conditions_at(March *m, double t);
+/* Margins that are still negative where a leg begins, on their way up, tell nothing as long as they
+ * fall no deeper. */
+void march_let_margins_rise(March *m);
 
 /* --- events (march_events.c) --- */
+
+/* What comes of the sides that events' conditions have now, at t and y; *changed: new values. The
+ * stepper is brought there, to be started anew. */
+MUST_USE Status march_take_events(March *m, double t, int *sides, bool *changed, Diag *diag);
 
 /* conditions at the start, some of which may become true there */
 MUST_USE Status march_begin_events(March *m, Diag *diag);
@@ -122,9 +137,16 @@ MUST_USE Status march_begin_events(March *m, Diag *diag);
 MUST_USE Status march_resume_events(March *m, bool *changed, Diag *diag);
 /* whether an event becomes true as the condition changes; if not, that is noted and no more */
 bool march_matters(March *m, int condition);
-/* End the last step where a condition of an event is zero, and go on from there. */
-MUST_USE Status march_meet_event(March *m, int condition, double when, Diag *diag);
 /* the same where conditions in time alone change, between two stretches */
 MUST_USE Status march_meet_time(March *m, Jump jump, Diag *diag);
+
+/* --- met and crossed (march_meet.c) --- */
+
+/* End the last step at the switch, cross it, and start anew behind it. */
+MUST_USE Status march_meet_switch(March *m, int condition, double when, Diag *diag);
+/* E_SOLVER where switches come without a pause; `condition` is the last of them */
+MUST_USE Status march_check_pace(March *m, int condition, Diag *diag);
+/* End the last step where a condition of an event is zero, and go on from there. */
+MUST_USE Status march_meet_event(March *m, int condition, double when, Diag *diag);
 
 #endif

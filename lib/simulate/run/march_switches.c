@@ -7,20 +7,14 @@
 #include <math.h>
 #include <string.h>
 
-#define LOOKS       20000 /* at conditions that follow sources, in a run */
-#define POINTS      5     /* of a step, where they are looked at */
-#define SLIDING     40    /* likewise, where a force may leave its interval for a moment */
-#define ROUNDING    1e-13 /* of the largest margin: what rounding does to any */
-#define NOTHING     1e-4  /* of the absolute tolerance: where all is next to nothing, as at rest */
-#define MOST_NOISE  1e-6  /* likewise: more than that is none */
-#define DEEPER      2     /* times what a margin begins with */
-#define MOVES       3     /* that tell how far errors reach */
-#define SHORT       1e-3  /* of a step: a move of its end that needn't take it again, */
-#define NEXT_TO     1e-12 /* or of the run */
-#define BY_HALVES   4     /* so often a search goes by halves */
-#define ZENO_EVENTS 100
-#define ZENO_EACH   10   /* of every condition, which all may go over at one instant */
-#define ZENO_SPAN   1e-9 /* of the run */
+#define LOOKS     20000 /* at conditions that follow sources, in a run */
+#define POINTS    5     /* of a step, where they are looked at */
+#define SLIDING   40    /* likewise, where a force may leave its interval for a moment */
+#define ROUNDING  1e-13 /* of the largest margin: what rounding does to any */
+#define NOTHING   1e-4  /* of the absolute tolerance: where all is next to nothing, as at rest */
+#define DEEPER    2     /* times what a margin begins with */
+#define MOVES     3     /* that tell how far errors reach */
+#define BY_HALVES 4     /* so often a search goes by halves */
 
 /* --- conditions --- */
 
@@ -54,7 +48,7 @@ int march_state_conditions(const March *m)
 }
 
 /* what says that the leg is the right one, as long as it is positive */
-static bool is_margin(const March *m, int i)
+bool march_is_margin(const March *m, int i)
 {
     return i < m->eq->switch_count && i >= m->eq->switch_count - m->eq->margin_count;
 }
@@ -70,7 +64,7 @@ static bool is_left_out(const March *m, int i)
     if (!(m->plan->span > 0) || march_is_of_event(m, i))
         return false;
     guard = equations_guard(m->eq, i);
-    return is_margin(m, i) || guard.side != 0 || guard.end != 0;
+    return march_is_margin(m, i) || guard.side != 0 || guard.end != 0;
 }
 
 /* --- conditions in the state --- */
@@ -87,7 +81,7 @@ bool march_turns(void *march, double t, const double *y)
 }
 
 /* all of them where the stepper's interpolant is at t, which goes into m->y */
-static void conditions_at(March *m, double t)
+void march_conditions_at(March *m, double t)
 {
     m->stepper->method->at(m->stepper, t, m->y);
     march_evaluate(m, t, m->y);
@@ -112,7 +106,7 @@ static bool is_steep(const March *m, int i)
     return m->eq->margin_is_steep != NULL && m->eq->margin_is_steep(m->eq->context, k);
 }
 
-static double largest_margin(const March *m)
+double march_largest_margin(const March *m)
 {
     return vector_largest(m->largest + m->eq->switch_count - m->eq->margin_count,
                           m->eq->margin_count);
@@ -130,8 +124,9 @@ static void find_noise(March *m)
     here = NEW_ARRAY(double, m->eq->switch_count);
     memcpy(here, m->conditions, (size_t)m->eq->switch_count * sizeof(double));
     for (int i = 0; i < m->eq->switch_count; i++)
-        m->noise[i] =
-            is_margin(m, i) ? fmax(ROUNDING * largest_margin(m), NOTHING * m->control.atol) : 0;
+        m->noise[i] = march_is_margin(m, i)
+                          ? fmax(ROUNDING * march_largest_margin(m), NOTHING * m->control.atol)
+                          : 0;
     for (int turn = 0; turn < MOVES; turn++) {
         for (int k = 0; k < m->length; k++) {
             double tolerance = m->control.rtol * fabs(m->stepper->y[k]) + m->control.atol;
@@ -140,7 +135,7 @@ static void find_noise(March *m)
         }
         motion_switches(m->leg.motion, m->stepper->t, m->y, m->conditions);
         for (int i = 0; i < m->eq->switch_count; i++)
-            if (is_margin(m, i) && !is_steep(m, i) &&
+            if (march_is_margin(m, i) && !is_steep(m, i) &&
                 fabs(m->conditions[i] - here[i]) > m->noise[i])
                 m->noise[i] = fabs(m->conditions[i] - here[i]);
     }
@@ -152,23 +147,23 @@ static void find_noise(March *m)
 /* The leg is the one that goes on a little behind where it begins. Margins that are still negative
  * there, and on their way up, are so because an instant is located only so well: they tell nothing
  * as long as they fall no deeper. */
-static void let_margins_rise(March *m)
+void march_let_margins_rise(March *m)
 {
     const Ode *ode = motion_ode(m->leg.motion);
     const Stepper *s = m->stepper;
     bool negative = false;
     double *here;
 
-    conditions_at(m, s->t);
+    march_conditions_at(m, s->t);
     for (int i = m->eq->time_only; i < m->eq->switch_count; i++)
-        negative = negative || (is_margin(m, i) && m->conditions[i] < -m->noise[i]);
+        negative = negative || (march_is_margin(m, i) && m->conditions[i] < -m->noise[i]);
     if (!negative || !ode->rate(ode->context, s->t, s->y, m->slope))
         return;
     here = NEW_ARRAY(double, m->eq->switch_count);
     memcpy(here, m->conditions, (size_t)m->eq->switch_count * sizeof(double));
     conditions_ahead(m);
     for (int i = m->eq->time_only; i < m->eq->switch_count; i++)
-        if (is_margin(m, i) && here[i] < -m->noise[i] && m->conditions[i] > here[i])
+        if (march_is_margin(m, i) && here[i] < -m->noise[i] && m->conditions[i] > here[i])
             m->band[i] = fmax(m->band[i], -DEEPER * here[i]);
     mem_free(here);
 }
@@ -177,14 +172,14 @@ void march_begin_modes(March *m)
 {
     if (m->eq->switch_count == m->eq->time_only)
         return;
-    conditions_at(m, m->stepper->t);
+    march_conditions_at(m, m->stepper->t);
     for (int i = m->eq->time_only; i < m->eq->switch_count; i++) {
-        m->mode[i] = is_margin(m, i) ? 1 : sign_of(m->conditions[i]);
+        m->mode[i] = march_is_margin(m, i) ? 1 : sign_of(m->conditions[i]);
         m->largest[i] = fabs(m->conditions[i]);
         m->band[i] = 0;
     }
     find_noise(m);
-    let_margins_rise(m);
+    march_let_margins_rise(m);
     march_begin_surfaces(m);
 }
 
@@ -265,7 +260,7 @@ static int locate_first(March *m, double low, double *high, int found)
     int last = 0; /* end that moved last: -1 low, 1 high */
 
     find_depths(m, m->depth_high);
-    conditions_at(m, low);
+    march_conditions_at(m, low);
     find_depths(m, m->depth_low);
     for (int k = 1; k <= 100; k++) {
         const double least = 2e-16 * fmax(fabs(*high), 1e-300), width = *high - low;
@@ -276,7 +271,7 @@ static int locate_first(March *m, double low, double *high, int found)
 
         if (!(width > 2 * least))
             break;
-        conditions_at(m, t);
+        march_conditions_at(m, t);
         find_depths(m, depth);
         which = one_switched(m, depth);
         if (which >= 0) {
@@ -312,7 +307,7 @@ static int find_switched(March *m, double *low, double *at)
         *at = k == points ? m->stepper->t : m->stepper->before + length * k / points;
         if (*at < m->scanned)
             continue;
-        conditions_at(m, *at);
+        march_conditions_at(m, *at);
         for (int i = 0; i < m->count; i++)
             if (!is_left_out(m, i) && has_switched(m, i) && found < 0)
                 found = i;
@@ -331,8 +326,8 @@ static bool retake(March *m, int found, double t)
     const Method *method = m->stepper->method;
     Diag ignored = {0};
 
-    return is_margin(m, found) && is_steep(m, found) && !method->has_history && t < m->stepper->t &&
-           method->shorten(m->stepper, t, &ignored) == OK;
+    return march_is_margin(m, found) && is_steep(m, found) && !method->has_history &&
+           t < m->stepper->t && method->shorten(m->stepper, t, &ignored) == OK;
 }
 
 int march_find_switch(March *m, double *when)
@@ -355,184 +350,10 @@ double march_condition_rate(March *m, int i, double *value)
     const Stepper *s = m->stepper;
     double h;
 
-    conditions_at(m, s->t);
+    march_conditions_at(m, s->t);
     *value = m->conditions[i];
     if (!ode->rate(ode->context, s->t, s->y, m->slope))
         return 0;
     h = conditions_ahead(m);
     return (m->conditions[i] - *value) / h;
-}
-
-/* Whether h is short beside the last step or the run, and no state goes further along the slope in
- * it than errors may: where a problem is stiff the slope is steep beside any motion. */
-static bool is_short(const March *m, double h)
-{
-    double step = m->stepper->t - m->stepper->before, span = m->plan->to - m->plan->from;
-
-    if (!(fabs(h) <= fmax(SHORT * step, NEXT_TO * span)))
-        return false;
-    for (int k = 0; k < m->length - 1; k++)
-        if (!(fabs(h * m->slope[k]) <=
-              10 * (m->control.rtol * fabs(m->stepper->y[k]) + m->control.atol)))
-            return false;
-    return true;
-}
-
-/* Move the stepper's end to t along m->slope; false: that is no short way. */
-static bool move_end(March *m, double t)
-{
-    Stepper *s = m->stepper;
-    double h = t - s->t;
-
-    if (!is_short(m, h))
-        return false;
-    for (int k = 0; k < m->length; k++)
-        s->y[k] += h * m->slope[k];
-    s->t = t;
-    return true;
-}
-
-/* Take the last step again until it ends just before the switch, so that none of its stages has
- * seen what is behind: Newton's method on the length of the step. Behind a margin the equations are
- * the same, and last moves so short that Euler's rule is exact will do. Where the step can't be
- * taken again, what it tells of the switch has to do. */
-static Status approach(March *m, int i, double when, double *value, double *slope, Diag *diag)
-{
-    double enough = fmax(1e-11 * m->largest[i], is_margin(m, i) ? m->noise[i] : 0);
-    /* what began beyond 0 is met where it leaves its band */
-    double band = is_margin(m, i) && m->band[i] > m->noise[i] ? m->band[i] : 0;
-    double before = m->stepper->before, end = m->stepper->t;
-    Diag ignored = {0};
-    Status status = OK;
-
-    for (int k = 0; k < 12; k++) {
-        double inside;
-
-        if ((k == 0 || !is_margin(m, i) || !move_end(m, when)) &&
-            m->stepper->method->shorten(m->stepper, when, &ignored) != OK) {
-            *slope = 0;
-            CHECK(march_cut(m, when, diag));
-            break;
-        }
-        *slope = march_condition_rate(m, i, value);
-        inside = *value * m->mode[i] + band;
-        if (inside > 0 && inside <= enough)
-            break;
-        if (*slope * m->mode[i] >= 0)
-            break; /* a grazing contact: no clean root */
-        when -= (inside - 1e-2 * enough) / (*slope * m->mode[i]);
-        when = fmin(end, fmax(before + 1e-3 * (m->stepper->t - before), when));
-    }
-done:
-    return status;
-}
-
-/* From just before a switch to just behind it: so short a way that Euler's rule is exact. A slope
- * tells little of a source that has just begun to rise. */
-static bool cross(March *m, int i, double value, double slope)
-{
-    Stepper *s = m->stepper;
-    double h = fmax(4e-16 * fabs(s->t), 2 * fabs(value / slope));
-
-    for (int k = 0; k < 20 && is_short(m, h); k++, h *= 2) {
-        if (!onset_is_calm(m->leg.onset, s->t, s->t + h))
-            break;
-        for (int j = 0; j < m->length; j++)
-            m->y[j] = s->y[j] + h * m->slope[j];
-        march_evaluate(m, s->t + h, m->y);
-        if (sign_of(m->conditions[i]) == -m->mode[i]) {
-            memcpy(s->y, m->y, (size_t)m->length * sizeof(double));
-            s->t += h;
-            return true;
-        }
-    }
-    return false;
-}
-
-static Status switches_endlessly(const March *m, int i, Diag *diag)
-{
-    Text what = {0};
-
-    if (m->plan->tell == NULL)
-        text_add(&what, "a condition in the equations");
-    else
-        m->plan->tell(m->plan->context, &m->leg, i, &what);
-    (void)diag_set(diag, E_SOLVER, "at t = %.9g s: %s switches to and fro without end",
-                   m->stepper->t, what.at);
-    if (is_margin(m, i))
-        diag_hint(diag, "smaller rtol= and atol= locate its switching more closely");
-    else if (m->plan->commute != NULL && equations_guard(m->eq, i).surface < 0)
-        diag_hint(diag, "let the switch read what a gain with period= has sampled; or put a source "
-                        "of two values in its place, as vsource E a 0 if(L1.i < 2, 12, 0), whose "
-                        "mean then holds the condition");
-    else
-        diag_hint(diag, "a hysteresis, or a steep but continuous law such as tanh(x/0.001) in the "
-                        "place of sign(x), has a motion there");
-    text_free(&what);
-    return E_SOLVER;
-}
-
-Status march_check_pace(March *m, int i, Diag *diag)
-{
-    double span = m->plan->to - m->plan->from;
-
-    if (m->stepper->t - m->switched_since > ZENO_SPAN * span) {
-        m->switched_since = m->stepper->t;
-        m->switches = 0;
-    }
-    if (++m->switches <= ZENO_EVENTS + ZENO_EACH * m->count)
-        return OK;
-    if (march_is_of_event(m, i))
-        return events_are_stuck(m->ev, i - m->eq->switch_count, m->stepper->t, diag);
-    return switches_endlessly(m, i, diag);
-}
-
-/* Behind a surface that was crossed: whether the motion is led back to it. Where it couldn't be
- * crossed that is for others to tell, too. */
-static bool is_led_back(March *m, int i, bool crossed)
-{
-    double value = 0, rate;
-
-    if (!crossed)
-        return true;
-    rate = march_condition_rate(m, i, &value);
-    return rate * value < 0;
-}
-
-Status march_meet_switch(March *m, int i, double when, Diag *diag)
-{
-    const Guard guard = equations_guard(m->eq, i);
-    bool on_surface = guard.side != 0 || guard.end != 0, crossed = false;
-    double value = 0, slope = 0;
-    bool is_told = is_margin(m, i), entered;
-    Status status = OK;
-
-    /* a switch on the very start of the step can't be told from the one just met */
-    if (when > m->stepper->before) {
-        CHECK(approach(m, i, when, &value, &slope, diag));
-        CHECK(march_add_rows(m, diag));
-        if (is_told && value > m->noise[i] && slope > 0) { /* the interpolant erred */
-            m->is_taken_back = m->stepper->method->has_history;
-            return OK;
-        }
-        if (!on_surface && slope * m->mode[i] < 0 && value * m->mode[i] > 0)
-            crossed = cross(m, i, value, slope);
-    }
-    conditions_at(m, m->stepper->t);
-    m->band[i] = fmax(10 * fabs(m->conditions[i]), fmax(1e-10 * m->largest[i], m->noise[i]));
-    m->mode[i] = is_told ? 1 : -m->mode[i];
-    CHECK(march_check_pace(m, i, diag));
-    march_note_chatter(m, i, m->stepper->t);
-    march_tell_settling(m, i);
-    m->root = on_surface || (guard.surface >= 0 && is_led_back(m, i, crossed)) ? i : ROOT_NONE;
-    CHECK(march_go_on(m, m->stepper->t, m->stepper->y, &entered, diag));
-    if (on_surface && !entered) /* errors alone led over: the leg is on its side as before */
-        m->mode[i] = guard.end != 0 ? 1 : guard.side;
-    if (is_told && !entered) {
-        m->noise[i] = m->band[i] =
-            fmin(10 * fmax(m->noise[i], m->band[i]), MOST_NOISE * largest_margin(m));
-        let_margins_rise(m);
-    }
-done:
-    return status;
 }
