@@ -11,13 +11,13 @@
 
 /* --- formats --- */
 
-typedef struct Format {
+typedef struct PictureFormat {
     const char *extension; /* "" for a window */
     const char *terminal;  /* gnuplot's; the first that it has is taken */
     const char *options;
-} Format;
+} PictureFormat;
 
-static const Format formats[] = {
+static const PictureFormat formats[] = {
     {"png", "pngcairo", "size 960,600 font 'Sans,12' linewidth 1.5"},
     {"png", "png", "size 960,600 linewidth 1.5"},
     {"svg", "svg", "size 960,600 font 'Sans,14' background 'white' linewidth 1.5"},
@@ -31,7 +31,7 @@ static const Format formats[] = {
 };
 enum { FORMATS = sizeof formats / sizeof formats[0] };
 
-static const Format *find_format(const Gnuplot *gnuplot, const char *extension)
+static const PictureFormat *find_format(const Gnuplot *gnuplot, const char *extension)
 {
     for (int i = 0; i < FORMATS; i++)
         if (strcmp(formats[i].extension, extension) == 0 &&
@@ -151,7 +151,7 @@ static ct_status draw_file(Call *call, const Drawing *drawing, const char *path,
     if (strcmp(extension, "gp") == 0)
         return draw_script(drawing, path, error);
 
-    const Format *format = find_format(call->shell->gnuplot, extension);
+    const PictureFormat *format = find_format(call->shell->gnuplot, extension);
 
     if (format == NULL) {
         error_say(error, "this gnuplot can't write '.%s'", extension);
@@ -220,7 +220,7 @@ static ct_status draw_screen(Call *call, const Drawing *drawing, ct_error *error
 {
     const char *wanted = call->shell->settings.terminal;
     bool is_auto = strcmp(wanted, "auto") == 0;
-    const Format *window = NULL;
+    const PictureFormat *window = NULL;
     char *terminal, *printed = NULL;
 
     if (strcmp(wanted, "window") == 0 || (is_auto && has_display()))

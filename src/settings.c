@@ -7,16 +7,16 @@
 #include <stdlib.h>
 #include <string.h>
 
-typedef struct Setting {
+typedef struct SettingRow {
     const char *const *words; /* the name, the values that are words, NULL */
     const char *brief;
     int low, high; /* of a number */
-    ct_status (*set)(const struct Setting *row, void *value, const char *text, ct_error *error);
+    ct_status (*set)(const struct SettingRow *row, void *value, const char *text, ct_error *error);
     void (*show)(const void *value, FILE *out);
     size_t at; /* of its value in Settings */
-} Setting;
+} SettingRow;
 
-static ct_status set_number(const Setting *row, void *value, const char *text, ct_error *error)
+static ct_status set_number(const SettingRow *row, void *value, const char *text, ct_error *error)
 {
     char *end;
     const long got = strtol(text, &end, 10);
@@ -32,7 +32,7 @@ static void show_number(const void *value, FILE *out)
     fprintf(out, "%d", *(const int *)value);
 }
 
-static ct_status set_word(const Setting *row, void *value, const char *text, ct_error *error)
+static ct_status set_word(const SettingRow *row, void *value, const char *text, ct_error *error)
 {
     if (strlen(text) >= SETTING_WORD ||
         text[strspn(text, "abcdefghijklmnopqrstuvwxyz0123456789")] != '\0')
@@ -46,7 +46,7 @@ static void show_word(const void *value, FILE *out)
     fputs(value, out);
 }
 
-static ct_status set_switch(const Setting *row, void *value, const char *text, ct_error *error)
+static ct_status set_switch(const SettingRow *row, void *value, const char *text, ct_error *error)
 {
     if (strcmp(text, "on") != 0 && strcmp(text, "off") != 0)
         return error_say(error, "%s is on or off, not '%s'", row->words[0], text);
@@ -62,7 +62,7 @@ static void show_switch(const void *value, FILE *out)
 #define WORDS(...)  ((const char *const[]){__VA_ARGS__, NULL})
 #define PLACE(name) offsetof(Settings, name)
 
-static const Setting table[] = {
+static const SettingRow table[] = {
 #define NUMBER(name, start, low, high, brief)                                                      \
     {WORDS(#name), brief, low, high, set_number, show_number, PLACE(name)},
 #define WORD(name, start, brief, ...)                                                              \
@@ -94,7 +94,7 @@ static const char *name_set(const ct_statement *statement, const ct_expression *
     return ct_expression_word(ct_operand(statement, 0));
 }
 
-static const Setting *find(const char *name)
+static const SettingRow *find(const char *name)
 {
     for (int i = 0; name != NULL && i < SETTINGS; i++)
         if (strcmp(table[i].words[0], name) == 0)
@@ -104,7 +104,7 @@ static const Setting *find(const char *name)
 
 ct_status settings_set(Settings *settings, const char *name, const char *value, ct_error *error)
 {
-    const Setting *row = find(name);
+    const SettingRow *row = find(name);
 
     return row->set(row, (char *)settings + row->at, value, error);
 }
@@ -119,7 +119,7 @@ bool settings_own(const ct_statement *statement)
 ct_status settings_apply(Settings *settings, const ct_statement *statement, ct_error *error)
 {
     const ct_expression *value = NULL;
-    const Setting *row = find(name_set(statement, &value));
+    const SettingRow *row = find(name_set(statement, &value));
 
     if (value == NULL)
         return ct_error_at(statement, NULL, error, "'%s' is set to one value: set %s VALUE",

@@ -58,16 +58,16 @@ void line_supersede(State *state, int part, const char *key)
 
 /* --- order --- */
 
-typedef struct Order {
+typedef struct LineOrder {
     const State *state;
     bool *placed;
     int *lines;
     int count;
     NumberList stack; /* lines waiting for what they use */
     NumberList next;  /* which of their uses to look at */
-} Order;
+} LineOrder;
 
-static void place_line(Order *order, int line)
+static void place_line(LineOrder *order, int line)
 {
     LIST_PUSH(order->stack, line);
     LIST_PUSH(order->next, 0);
@@ -104,7 +104,7 @@ static int rank_of(const State *state, const Line *line)
 
 int *lines_in_order(const State *state, int *count)
 {
-    Order order = {.state = state};
+    LineOrder order = {.state = state};
 
     order.placed = NEW_ARRAY(bool, state->lines.count);
     order.lines = NEW_ARRAY(int, state->lines.count);

@@ -11,16 +11,16 @@
 #include <stdio.h>
 #include <string.h>
 
-typedef struct Line {
+typedef struct TypedLine {
     const Known *known;
     const char *text;    /* of the statement, to the cursor */
     size_t word;         /* where the word to be completed starts */
     char prefix[128];    /* that word */
     LIST(char *) before; /* words before it */
     Words *out;
-} Line;
+} TypedLine;
 
-static void offer(Line *line, const char *word)
+static void offer(TypedLine *line, const char *word)
 {
     if (strncmp(word, line->prefix, strlen(line->prefix)) != 0)
         return;
@@ -30,7 +30,7 @@ static void offer(Line *line, const char *word)
     LIST_PUSH(*line->out, mem_text(word, strlen(word)));
 }
 
-static void offer_key(Line *line, const char *key)
+static void offer_key(TypedLine *line, const char *key)
 {
     char word[128];
 
@@ -43,7 +43,7 @@ static void offer_key(Line *line, const char *key)
 
 /* --- sources of words --- */
 
-static void offer_verbs(Line *line)
+static void offer_verbs(TypedLine *line)
 {
     Verb verb;
 
@@ -52,14 +52,14 @@ static void offer_verbs(Line *line)
             offer(line, verb.name);
 }
 
-static void offer_joints_types(Line *line)
+static void offer_joints_types(TypedLine *line)
 {
     for (int i = 0; component_at(i) != NULL; i++)
         if (component_at(i)->family == FAMILY_JOINT)
             offer(line, component_at(i)->name);
 }
 
-static void offer_nodes(Line *line, bool mechanical)
+static void offer_nodes(TypedLine *line, bool mechanical)
 {
     const Graph *graph = model_graph(line->known->model);
 
@@ -69,17 +69,17 @@ static void offer_nodes(Line *line, bool mechanical)
     offer(line, mechanical ? "ground" : "0");
 }
 
-static void offer_frames(Line *line)
+static void offer_frames(TypedLine *line)
 {
     offer_nodes(line, true);
 }
 
-static void offer_terminals(Line *line)
+static void offer_terminals(TypedLine *line)
 {
     offer_nodes(line, false);
 }
 
-static void offer_edges(Line *line)
+static void offer_edges(TypedLine *line)
 {
     const Graph *graph = model_graph(line->known->model);
 
@@ -87,14 +87,14 @@ static void offer_edges(Line *line)
         offer(line, graph_edge(graph, e)->name);
 }
 
-static void offer_joints(Line *line)
+static void offer_joints(TypedLine *line)
 {
     for (int i = 0; i < model_count(line->known->model); i++)
         if (model_instance(line->known->model, i)->row->family == FAMILY_JOINT)
             offer(line, model_instance(line->known->model, i)->name);
 }
 
-static void offer_coordinates(Line *line)
+static void offer_coordinates(TypedLine *line)
 {
     for (int i = 0; i < model_count(line->known->model); i++) {
         const Instance *instance = model_instance(line->known->model, i);
@@ -104,20 +104,20 @@ static void offer_coordinates(Line *line)
     }
 }
 
-static void offer_instances(Line *line)
+static void offer_instances(TypedLine *line)
 {
     for (int i = 0; i < model_count(line->known->model); i++)
         offer(line, model_instance(line->known->model, i)->name);
 }
 
-static void offer_events(Line *line)
+static void offer_events(TypedLine *line)
 {
     for (int i = 0; i < model_event_count(line->known->model); i++)
         offer(line, model_event(line->known->model, i)->name);
 }
 
 /* what has a name of its own, and can go */
-static void offer_removable(Line *line)
+static void offer_removable(TypedLine *line)
 {
     const char *name;
     Expr definition;
@@ -140,7 +140,7 @@ static bool is_event(const Model *model, const char *name)
 }
 
 /* what may stand in an expression */
-static void offer_names(Line *line)
+static void offer_names(TypedLine *line)
 {
     const Model *model = line->known->model;
     const char *name;
@@ -152,14 +152,14 @@ static void offer_names(Line *line)
 }
 
 /* what there is something to tell about */
-static void offer_told(Line *line)
+static void offer_told(TypedLine *line)
 {
     offer_names(line);
     offer_events(line);
 }
 
 /* behind `event`: one that is there can be given another condition; then what may get new values */
-static void offer_event(Line *line)
+static void offer_event(TypedLine *line)
 {
     if (line->before.count == 1)
         offer_events(line);
@@ -167,7 +167,7 @@ static void offer_event(Line *line)
         offer_names(line);
 }
 
-static void offer_functions(Line *line)
+static void offer_functions(TypedLine *line)
 {
     char call[40];
     Function row;
@@ -178,7 +178,7 @@ static void offer_functions(Line *line)
     }
 }
 
-static void offer_values(Line *line)
+static void offer_values(TypedLine *line)
 {
     static const char *const words[] = {"t", "pi", "energy", "model", "count", "constraint"};
 
@@ -191,7 +191,7 @@ static void offer_values(Line *line)
     offer_functions(line);
 }
 
-static void offer_topics(Line *line)
+static void offer_topics(TypedLine *line)
 {
     for (int i = 0; topic_at(i) != NULL; i++)
         if (topic_at(i)->show != NULL)
@@ -199,7 +199,7 @@ static void offer_topics(Line *line)
 }
 
 /* outputs of the last linearisation, before there is one what it may have as outputs */
-static void offer_linear_outputs(Line *line)
+static void offer_linear_outputs(TypedLine *line)
 {
     const Linear *linear = line->known->linear;
 
@@ -209,7 +209,7 @@ static void offer_linear_outputs(Line *line)
         offer_names(line);
 }
 
-static void offer_linear_inputs(Line *line)
+static void offer_linear_inputs(TypedLine *line)
 {
     const Linear *linear = line->known->linear;
 
@@ -217,7 +217,7 @@ static void offer_linear_inputs(Line *line)
         offer(line, linear->input_names[i]);
 }
 
-static void offer_show(Line *line)
+static void offer_show(TypedLine *line)
 {
     const Topic *topic = line->before.count > 1 ? topic_find(line->before.at[1]) : NULL;
 
@@ -249,7 +249,7 @@ static void offer_show(Line *line)
 }
 
 /* the words of the i-th setting, the model's before the program's; NULL: no more */
-static const char *const *setting_words(const Line *line, int i)
+static const char *const *setting_words(const TypedLine *line, int i)
 {
     int own = 0;
 
@@ -262,7 +262,7 @@ static const char *const *setting_words(const Line *line, int i)
 }
 
 /* what a setting of that name may be set to; false: there is none */
-static bool offer_setting(Line *line, const char *name)
+static bool offer_setting(TypedLine *line, const char *name)
 {
     const char *const *words;
 
@@ -275,7 +275,7 @@ static bool offer_setting(Line *line, const char *name)
     return false;
 }
 
-static void offer_set(Line *line)
+static void offer_set(TypedLine *line)
 {
     const char *const *words;
 
@@ -286,7 +286,7 @@ static void offer_set(Line *line)
     offer_instances(line);
 }
 
-static void offer_help_words(Line *line)
+static void offer_help_words(TypedLine *line)
 {
     const char *word;
 
@@ -294,14 +294,14 @@ static void offer_help_words(Line *line)
         offer(line, word);
 }
 
-static void offer_blocks(Line *line)
+static void offer_blocks(TypedLine *line)
 {
     for (int i = 0; count_block_name(i) != NULL; i++)
         offer(line, count_block_name(i));
     offer(line, "trees");
 }
 
-static void offer_methods(Line *line)
+static void offer_methods(TypedLine *line)
 {
     const char *name, *brief;
 
@@ -309,14 +309,14 @@ static void offer_methods(Line *line)
         offer(line, name);
 }
 
-static void offer_notations(Line *line)
+static void offer_notations(TypedLine *line)
 {
     for (Notation i = NOTATION_TEXT; i < NOTATIONS; i++)
         if (notation_row(i)->word != NULL)
             offer(line, notation_row(i)->word);
 }
 
-static void offer_axes(Line *line)
+static void offer_axes(TypedLine *line)
 {
     static const char *const axes[] = {"x", "y", "z", "-x", "-y", "-z"};
 
@@ -328,7 +328,7 @@ static void offer_axes(Line *line)
 
 /* words that stand in other tables than the row, or are names of one kind */
 static const struct {
-    void (*offer)(Line *line);
+    void (*offer)(TypedLine *line);
     bool alone; /* instead of the row's words, not besides them */
 } sources[] = {
     [OFFERS_TOPICS] = {offer_show, true},
@@ -345,7 +345,7 @@ static const struct {
 };
 
 /* the place-th place of a component */
-static void offer_place(Line *line, const Component *row, int place)
+static void offer_place(TypedLine *line, const Component *row, int place)
 {
     switch (row->places) {
     case PLACES_NONE:
@@ -385,7 +385,7 @@ static void offer_place(Line *line, const Component *row, int place)
 }
 
 /* the row's words stand at its first operand only */
-static void offer_row_words(Line *line, const Verb *verb)
+static void offer_row_words(TypedLine *line, const Verb *verb)
 {
     const bool words =
         line->before.count == 1 && verb->words != NULL && !sources[verb->offers].alone;
@@ -406,7 +406,7 @@ static bool takes_value(const Verb *verb)
     return takes;
 }
 
-static void offer_letter(Line *line, const Verb *verb, char letter, int place)
+static void offer_letter(TypedLine *line, const Verb *verb, char letter, int place)
 {
     const bool has_source = verb->words != NULL || sources[verb->offers].offer != NULL;
     const bool is_alone = sources[verb->offers].alone; /* no other values than the source's */
@@ -444,13 +444,13 @@ static void offer_letter(Line *line, const Verb *verb, char letter, int place)
         offer_row_words(line, verb);
 }
 
-static void offer_keys(Line *line, const Verb *verb)
+static void offer_keys(TypedLine *line, const Verb *verb)
 {
     for (int i = 0; verb_key(verb, i) != NULL; i++)
         offer_key(line, verb_key(verb, i));
 }
 
-static void offer_operand(Line *line, const Verb *verb, int first)
+static void offer_operand(TypedLine *line, const Verb *verb, int first)
 {
     const char *shape = verb->shape;
     int operand = first, place = 0, at = 0;
@@ -482,7 +482,7 @@ static void offer_operand(Line *line, const Verb *verb, int first)
 
 /* --- values of keys, members --- */
 
-static void offer_alternatives(Line *line, const char *words)
+static void offer_alternatives(TypedLine *line, const char *words)
 {
     while (*words != '\0') {
         const size_t length = strcspn(words, "|");
@@ -495,7 +495,7 @@ static void offer_alternatives(Line *line, const char *words)
 }
 
 /* the row's param that a key stands for: behind `set` that of a part, "m1.euler"; NULL: none */
-static const Param *find_param(const Line *line, const Verb *verb, const char *key)
+static const Param *find_param(const TypedLine *line, const Verb *verb, const char *key)
 {
     const Component *row = verb->component;
     const char *member = key;
@@ -510,7 +510,7 @@ static const Param *find_param(const Line *line, const Verb *verb, const char *k
     return i >= 0 ? &row->params[i] : NULL;
 }
 
-static void offer_key_value(Line *line, const Verb *verb, const char *key)
+static void offer_key_value(TypedLine *line, const Verb *verb, const char *key)
 {
     const Param *param = find_param(line, verb, key);
     const VerbKey *row = verb->keys;
@@ -531,7 +531,7 @@ static void offer_key_value(Line *line, const Verb *verb, const char *key)
         offer_values(line);
 }
 
-static void offer_member(Line *line, const char *base, const char *member)
+static void offer_member(TypedLine *line, const char *base, const char *member)
 {
     char word[256];
 
@@ -549,7 +549,7 @@ static const struct {
     {"constraint", {"error", NULL}},
 };
 
-static void offer_members(Line *line, const Verb *verb)
+static void offer_members(TypedLine *line, const Verb *verb)
 {
     char base[128];
     const char *dot = strrchr(line->prefix, '.');
@@ -592,7 +592,7 @@ static bool is_number(const char *word)
 }
 
 /* the number that the word stands behind, also that of key=5 */
-static bool follows_number(const Line *line)
+static bool follows_number(const TypedLine *line)
 {
     const char *last = line->before.count > 0 ? line->before.at[line->before.count - 1] : "";
     const char *equals = strrchr(last, '=');
@@ -600,7 +600,7 @@ static bool follows_number(const Line *line)
     return is_number(equals != NULL ? equals + 1 : last);
 }
 
-static void offer_units(Line *line)
+static void offer_units(TypedLine *line)
 {
     static const char *const prefixes[] = {"", "k", "m", "u", "n", "p", "c", "M", "G"};
     const char *name;
@@ -642,7 +642,7 @@ static bool find_statement(const char *text, size_t cursor, size_t *start)
     return !quoted;
 }
 
-static void split(Line *line)
+static void split(TypedLine *line)
 {
     size_t i = 0;
 
@@ -658,7 +658,7 @@ static void split(Line *line)
 }
 
 /* the key of `key=` where the cursor stands in its value; false: it doesn't */
-static bool find_key(const Line *line, char *key, size_t size)
+static bool find_key(const TypedLine *line, char *key, size_t size)
 {
     size_t from = line->word, equals;
 
@@ -684,7 +684,7 @@ static bool find_key(const Line *line, char *key, size_t size)
     return true;
 }
 
-static bool has_pair(const Line *line)
+static bool has_pair(const TypedLine *line)
 {
     for (int i = 0; i < line->before.count; i++)
         if (strchr(line->before.at[i], '=') != NULL)
@@ -692,7 +692,7 @@ static bool has_pair(const Line *line)
     return false;
 }
 
-static void offer_behind_verb(Line *line)
+static void offer_behind_verb(TypedLine *line)
 {
     const char *last = line->before.at[line->before.count - 1];
     Verb verb;
@@ -729,7 +729,7 @@ static void offer_behind_verb(Line *line)
 
 void complete_line(const Known *known, const char *text, size_t cursor, size_t *start, Words *out)
 {
-    Line line = {.known = known, .before = {0}, .out = out};
+    TypedLine line = {.known = known, .before = {0}, .out = out};
     char *copy;
     size_t statement;
 

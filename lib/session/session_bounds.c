@@ -47,7 +47,7 @@ static Event event_of(BoundWatch *watch, Arena *arena, const Bound *bound, doubl
 }
 
 /* what the measures are where the run begins; a start that can't be had is the run's to report */
-static Status measure_start(System *system, const Order *order, const Result *old,
+static Status measure_start(System *system, const RunInput *input, const Result *old,
                             const Bound *bounds, int count, double *out, Diag *diag)
 {
     Expr *measures = NEW_ARRAY(Expr, count);
@@ -57,7 +57,7 @@ static Status measure_start(System *system, const Order *order, const Result *ol
     for (int i = 0; i < count; i++)
         measures[i] = bounds[i].measure;
     if (old == NULL)
-        CHECK(run_assemble(system, &order->setting, &start, diag));
+        CHECK(run_assemble(system, &input->setting, &start, diag));
     status = result_values_at(start != NULL ? start : (Result *)old, measures, count,
                               old != NULL ? result_report(old)->reached : 0, out, diag);
 done:
@@ -66,18 +66,18 @@ done:
     return status;
 }
 
-void watch_bounds(System *system, const Result *old, Order *order)
+void watch_bounds(System *system, const Result *old, RunInput *input)
 {
-    BoundWatch *watch = &order->watch;
+    BoundWatch *watch = &input->watch;
     Arena *arena = system_arena(system);
     Bound *bounds;
     const int count = system_bounds(system, &bounds);
-    const int own = order->setting.event_count;
+    const int own = input->setting.event_count;
     double *from = NEW_ARRAY(double, count);
     const Event **events;
     Diag ignored = {0};
 
-    if (count == 0 || measure_start(system, order, old, bounds, count, from, &ignored) != OK)
+    if (count == 0 || measure_start(system, input, old, bounds, count, from, &ignored) != OK)
         goto done;
     watch->pool = pool_new(0);
     for (int i = 0; i < count; i++) {
@@ -89,13 +89,13 @@ void watch_bounds(System *system, const Result *old, Order *order)
     }
     events = NEW_ARRAY(const Event *, own + watch->events.count);
     for (int i = 0; i < own; i++)
-        events[i] = order->events[i];
+        events[i] = input->events[i];
     for (int i = 0; i < watch->events.count; i++)
         events[own + i] = &watch->events.at[i];
-    mem_free(order->events);
-    order->events = events;
-    order->setting.events = order->events;
-    order->setting.event_count = own + watch->events.count;
+    mem_free(input->events);
+    input->events = events;
+    input->setting.events = input->events;
+    input->setting.event_count = own + watch->events.count;
 done:
     mem_free(from);
     mem_free(bounds);
@@ -142,9 +142,9 @@ static int nearest(const BoundWatch *watch, Result *result)
     return best;
 }
 
-Status check_bounds(const Order *order, Result *result, Status status, Diag *diag)
+Status check_bounds(const RunInput *input, Result *result, Status status, Diag *diag)
 {
-    const BoundWatch *watch = &order->watch;
+    const BoundWatch *watch = &input->watch;
     int close;
 
     for (int e = 0; e < result_event_count(result); e++) {

@@ -129,7 +129,7 @@ int session_freedoms(const ct_session *session)
 
 Status session_try_trees(ct_session *session, Diag *diag)
 {
-    Order order = {0};
+    RunInput input = {0};
     Result *result = NULL;
     System *system;
     Diag why;
@@ -137,14 +137,14 @@ Status session_try_trees(ct_session *session, Diag *diag)
 
     if (status != OK)
         return OK;
-    order_make(session, &order);
-    status = session_check_freedoms(session, system, &order.setting, &why);
+    run_input_make(session, &input);
+    status = session_check_freedoms(session, system, &input.setting, &why);
     if (status == E_BRANCH && diag != NULL)
         *diag = why;
-    if (status == OK && run_assemble(system, &order.setting, &result, &why) == OK)
+    if (status == OK && run_assemble(system, &input.setting, &result, &why) == OK)
         session_note_freedoms(session, result);
     result_free(result);
-    order_free(&order);
+    run_input_free(&input);
     return status == E_BRANCH ? status : OK;
 }
 

@@ -118,7 +118,6 @@ void session_remark_free(ct_session *session);
 /* --- runs --- */
 
 void run_free(Run *run);
-/* What a run is told, made from the model as it is. */
 /* what must not come to 0 in a run, each with its event and with its value at the start */
 typedef struct BoundWatch {
     LIST(Bound) bounds;
@@ -127,23 +126,24 @@ typedef struct BoundWatch {
     Pool *pool;
 } BoundWatch;
 
-typedef struct Order {
+/* What a run is told, made from the model as it is. */
+typedef struct RunInput {
     ParameterValues *parameters;
     StartValues start;
     const Event **events;
     BoundWatch watch;
     Setting setting;
-} Order;
-void order_make(ct_session *session, Order *order);
-void order_free(Order *order); /* what it holds */
-/* Watch where the laws of the system's parts end, in a run that the order is for; `old`: the one
+} RunInput;
+void run_input_make(ct_session *session, RunInput *input);
+void run_input_free(RunInput *input); /* what it holds */
+/* Watch where the laws of the system's parts end, in the run of this input; `old`: the one
  * that it goes on with, or NULL. Afterwards: E_SOLVER, with the part and what came to 0, where one
  * did; else the status that the run had. */
-void watch_bounds(System *system, const Result *old, Order *order);
-MUST_USE Status check_bounds(const Order *order, Result *result, Status status, Diag *diag);
+void watch_bounds(System *system, const Result *old, RunInput *input);
+MUST_USE Status check_bounds(const RunInput *input, Result *result, Status status, Diag *diag);
 void watch_free(BoundWatch *watch);
 /* the result and the parameters that it was made with */
-Run order_done(Order *order, Result *result);
+Run run_input_done(RunInput *input, Result *result);
 /* the assembled start of the model as it is, made when it isn't there yet; borrowed */
 MUST_USE Status session_start(ct_session *session, Run **out, Diag *diag);
 /* what a bare name means: the last run, or the start; NULL diag place */

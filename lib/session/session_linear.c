@@ -9,25 +9,25 @@
 
 Status session_equilibrium(ct_session *session, const Statement *s, Diag *diag)
 {
-    Order order = {0};
+    RunInput input = {0};
     Result *result = NULL;
     System *system;
     Status status;
 
     (void)s;
     CHECK(session_system(session, &system, diag));
-    order_make(session, &order);
-    CHECK(run_equilibrium(system, &order.setting, &result, diag));
+    run_input_make(session, &input);
+    CHECK(run_equilibrium(system, &input.setting, &result, diag));
     session_forget_start(session);
     run_free(&session->rest);
-    session->start = order_done(&order, result);
+    session->start = run_input_done(&input, result);
     session->at_rest = true;
     session->rests_since = model_start_statements(session->model);
     session->start_is_later = true;
     session->told = NULL;
     session_remark(session, result_remarks(result));
 done:
-    order_free(&order);
+    run_input_free(&input);
     return status;
 }
 

@@ -62,13 +62,13 @@ void session_forget_start(ct_session *session)
 
 /* --- what a run is told --- */
 
-void order_free(Order *order)
+void run_input_free(RunInput *input)
 {
-    mem_free(order->start.at);
-    mem_free(order->events);
-    watch_free(&order->watch);
-    if (order->parameters != NULL) {
-        Run run = {NULL, order->parameters};
+    mem_free(input->start.at);
+    mem_free(input->events);
+    watch_free(&input->watch);
+    if (input->parameters != NULL) {
+        Run run = {NULL, input->parameters};
 
         run_free(&run);
     }
@@ -97,67 +97,67 @@ static bool any_in_force(const ct_session *session)
     return false;
 }
 
-void order_make(ct_session *session, Order *order)
+void run_input_make(ct_session *session, RunInput *input)
 {
     const Model *model = session->model;
     const int count = model_start_count(model);
 
-    order->parameters = parameters_now(model);
-    order->start.at = mem_array((size_t)count, sizeof *order->start.at);
+    input->parameters = parameters_now(model);
+    input->start.at = mem_array((size_t)count, sizeof *input->start.at);
     for (int i = 0; i < count; i++) {
         const Start *start = model_start(model, i);
 
         if (is_in_force(session, i))
-            order->start.at[order->start.count++] =
+            input->start.at[input->start.count++] =
                 (StartValue){.name = start->name,
                              .primes = start->primes,
                              .value = model_number(model, start->value),
                              .is_guess = start->is_guess};
     }
-    order->events = mem_array((size_t)model_event_count(model), sizeof *order->events);
+    input->events = mem_array((size_t)model_event_count(model), sizeof *input->events);
     for (int i = 0; i < model_event_count(model); i++)
-        order->events[i] = model_event(model, i);
-    order->setting = (Setting){.parameter = parameter_value,
-                               .context = order->parameters,
+        input->events[i] = model_event(model, i);
+    input->setting = (Setting){.parameter = parameter_value,
+                               .context = input->parameters,
                                .scene = model_scene_source(model),
-                               .events = order->events,
+                               .events = input->events,
                                .event_count = model_event_count(model),
-                               .start = &order->start,
+                               .start = &input->start,
                                .warm = session->warm.result != NULL ? session->warm.result
                                                                     : session->rest.result,
                                .from = resting_start(session),
                                .watch = &session->watch};
-    order->setting.form =
-        model_form(model, &order->setting.independent, &order->setting.independent_count);
+    input->setting.form =
+        model_form(model, &input->setting.independent, &input->setting.independent_count);
 }
 
-Run order_done(Order *order, Result *result)
+Run run_input_done(RunInput *input, Result *result)
 {
-    Run run = {result, order->parameters};
+    Run run = {result, input->parameters};
 
-    order->parameters = NULL;
+    input->parameters = NULL;
     return run;
 }
 
 Status session_start(ct_session *session, Run **out, Diag *diag)
 {
-    Order order = {0};
+    RunInput input = {0};
     Result *result = NULL;
     System *system;
     Status status = OK;
 
     if (session->start.result == NULL) {
         CHECK(session_system(session, &system, diag));
-        order_make(session, &order);
-        CHECK(session_check_freedoms(session, system, &order.setting, diag));
-        CHECK(run_assemble(system, &order.setting, &result, diag));
-        session->start = order_done(&order, result);
+        run_input_make(session, &input);
+        CHECK(session_check_freedoms(session, system, &input.setting, diag));
+        CHECK(run_assemble(system, &input.setting, &result, diag));
+        session->start = run_input_done(&input, result);
         session_note_freedoms(session, result);
         session_remark(session, result_remarks(result));
     }
     *out = &session->start;
 done:
-    order_free(&order);
+    run_input_free(&input);
     return status;
 }
 
@@ -309,12 +309,12 @@ static void remark_run(ct_session *session, const char *lines)
     }
 }
 
-static void keep_run(ct_session *session, Order *order, Result *result)
+static void keep_run(ct_session *session, RunInput *input, Result *result)
 {
     Text line = {0};
     char name[32];
 
-    LIST_PUSH(session->runs, order_done(order, result));
+    LIST_PUSH(session->runs, run_input_done(input, result));
     session_note_freedoms(session, result);
     session->start_is_later = false;
     session->changed = false;
@@ -329,7 +329,7 @@ static void keep_run(ct_session *session, Order *order, Result *result)
 static Status run_new(ct_session *session, const Statement *s, RunFunction *function, Diag *diag)
 {
     RunOptions options;
-    Order order = {0};
+    RunInput input = {0};
     Result *result = NULL;
     System *system;
     Status status;
@@ -337,18 +337,18 @@ static Status run_new(ct_session *session, const Statement *s, RunFunction *func
     CHECK(read_options(session, s, &options, diag));
     session->told = NULL;
     CHECK(session_system(session, &system, diag));
-    order_make(session, &order);
-    CHECK(session_check_freedoms(session, system, &order.setting, diag));
+    run_input_make(session, &input);
+    CHECK(session_check_freedoms(session, system, &input.setting, diag));
     if (function == run_simulate)
-        watch_bounds(system, NULL, &order);
-    status = function(system, &order.setting, &options, &result, diag);
+        watch_bounds(system, NULL, &input);
+    status = function(system, &input.setting, &options, &result, diag);
     if (result == NULL)
         goto done;
-    status = check_bounds(&order, result, status, diag);
+    status = check_bounds(&input, result, status, diag);
     /* also what was computed before a stop or a failure */
-    keep_run(session, &order, result);
+    keep_run(session, &input, result);
 done:
-    order_free(&order);
+    run_input_free(&input);
     return status;
 }
 
@@ -377,7 +377,7 @@ Status session_resume(ct_session *session, const Statement *s, Diag *diag)
 {
     RunOptions said, options;
     const Result *old;
-    Order order = {0};
+    RunInput input = {0};
     Result *result = NULL;
     Status status = OK;
 
@@ -390,15 +390,15 @@ Status session_resume(ct_session *session, const Statement *s, Diag *diag)
     }
     old = session->runs.at[session->runs.count - 1].result;
     options = options_from(old, &said);
-    order_make(session, &order);
-    watch_bounds(result_system((Result *)old), old, &order);
-    status = run_resume(old, &order.setting, &options, &result, diag);
+    run_input_make(session, &input);
+    watch_bounds(result_system((Result *)old), old, &input);
+    status = run_resume(old, &input.setting, &options, &result, diag);
     if (result != NULL) {
-        status = check_bounds(&order, result, status, diag);
-        keep_run(session, &order, result);
+        status = check_bounds(&input, result, status, diag);
+        keep_run(session, &input, result);
     }
 done:
-    order_free(&order);
+    run_input_free(&input);
     return status;
 }
 
