@@ -50,3 +50,7 @@ FAMILIES += family_redundant
 family_redundant_SOURCES = tests/family/family_redundant.c tests/family/mechanisms.h \
 	tests/family/one_freedom.h tests/family/script.h
 family_redundant_LDADD = libcotree.la $(unit_ldadd)
+
+FAMILIES += family_falls
+family_falls_SOURCES = tests/family/family_falls.c tests/family/family.h tests/family/script.h
+family_falls_LDADD = libcotree.la $(unit_ldadd)

@@ -14,7 +14,6 @@
 #include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
 
 #define MAX_TRIES 100000 /* inner steps that CVODE may take for one of ours: one mode makes one */
-#define STUCK     10     /* steps on end that end where they began */
 #define NO_ERROR  1e10   /* a tolerance that nothing comes near */
 
 typedef struct Cvode {
@@ -27,7 +26,6 @@ typedef struct Cvode {
     SUNLinearSolver linear;
     SUNNonlinearSolver nonlinear;
     Counts earlier; /* of integrations before the last restart */
-    int stuck;      /* steps on end that were too short for numbers to tell their ends apart */
     char reason[200];
 } Cvode;
 
@@ -188,7 +186,7 @@ static Status start(Stepper *stepper, double t, const double *y, Diag *diag)
         return solver_failure(diag, t, "SUNDIALS could not be started");
     memmove(c->base.y, y, (size_t)c->all * sizeof(double));
     c->base.t = c->base.before = t;
-    c->stuck = 0;
+    c->base.stuck = 0;
     memcpy(N_VGetArrayPointer(c->y), y, (size_t)c->all * sizeof(double));
     c->earlier = c->base.counts;
     code = c->linear == NULL && c->nonlinear == NULL ? first_start(c, t)
@@ -201,7 +199,7 @@ static Status start(Stepper *stepper, double t, const double *y, Diag *diag)
 static Status step(Stepper *stepper, double end, Diag *diag)
 {
     Cvode *c = (Cvode *)stepper;
-    double reached = c->base.t;
+    double reached = c->base.t, h = 0, next = 0;
     int code = CVodeSetStopTime(c->memory, stepper_stop(&c->base, end));
 
     c->base.before = c->base.t;
@@ -216,13 +214,11 @@ static Status step(Stepper *stepper, double end, Diag *diag)
                               "the equations have no solution just behind this instant");
     if (code < 0)
         return solver_failure(diag, c->base.before, c->reason);
-    /* CVODE itself only warns: where a solution has no end, its steps would shrink without one */
-    c->stuck = reached > c->base.before ? 0 : c->stuck + 1;
-    if (c->stuck >= STUCK)
-        return solver_failure(diag, c->base.before, "the step became too small");
-    c->base.t = reached;
+    (void)CVodeGetLastStep(c->memory, &h);
+    (void)CVodeGetCurrentStep(c->memory, &next);
+    if (stepper_arrive(stepper, reached, h, next, diag) != OK)
+        return E_SOLVER;
     memcpy(c->base.y, N_VGetArrayPointer(c->y), (size_t)c->all * sizeof(double));
-    (void)CVodeGetCurrentStep(c->memory, &c->base.next);
     return OK;
 }
 

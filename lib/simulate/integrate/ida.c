@@ -216,6 +216,7 @@ static Status start(Stepper *stepper, double t, const double *y, Diag *diag)
         return solver_failure(diag, t, "SUNDIALS could not be started");
     memmove(d->base.y, y, (size_t)d->all * sizeof(double));
     d->base.t = d->base.before = t;
+    d->base.stuck = 0;
     if (!ode->dae.start(ode->dae.context, t, d->base.y, N_VGetArrayPointer(d->w),
                         N_VGetArrayPointer(d->rate)))
         return solver_failure(diag, t, "the accelerations are undefined");
@@ -250,22 +251,27 @@ static void keep_counts(Ida *d)
 static Status step(Stepper *stepper, double end, Diag *diag)
 {
     Ida *d = (Ida *)stepper;
-    double before = d->base.t, reached = before;
+    const double before = d->base.t;
+    const int stuck = d->base.stuck;
+    double reached = before, h = 0, next = 0;
     int code = advance(d, end, &reached);
 
     keep_counts(d);
     /* Newton's method finds no way from the history of a steep element: from consistent values it
      * does */
     if (code == IDA_CONV_FAIL && start(stepper, before, d->base.y, diag) == OK) {
+        d->base.stuck = stuck;
         code = advance(d, end, &reached);
         keep_counts(d);
     }
     d->base.before = before;
     if (code < 0)
         return solver_failure(diag, before, d->reason);
-    d->base.t = reached;
+    (void)IDAGetLastStep(d->memory, &h);
+    (void)IDAGetCurrentStep(d->memory, &next);
+    if (stepper_arrive(stepper, reached, h, next, diag) != OK)
+        return E_SOLVER;
     memcpy(d->base.y, N_VGetArrayPointer(d->w), (size_t)d->all * sizeof(double));
-    (void)IDAGetCurrentStep(d->memory, &d->base.next);
     return OK;
 }
 

@@ -5,6 +5,8 @@
 
 #include <string.h>
 
+#define STUCK 10 /* steps on end that end where they began */
+
 static const Method *const rows[] = {
 #define METHOD(row) &row,
 #include "simulate/integrate/methods.def"
@@ -36,6 +38,22 @@ const Method *method_for(MethodNeed need)
 Status solver_failure(Diag *diag, double t, const char *reason)
 {
     return diag_set(diag, E_SOLVER, "at t = %.9g s: %s", t, reason);
+}
+
+Status stepper_arrive(Stepper *s, double reached, double h, double next, Diag *diag)
+{
+    const double before = s->t;
+
+    s->before = before;
+    if (reached > before)
+        s->stuck = 0;
+    else if (next <= h) /* the short first steps of a start grow out of it */
+        s->stuck++;
+    if (s->stuck >= STUCK)
+        return solver_failure(diag, before, "the step became too small");
+    s->t = reached;
+    s->next = next;
+    return OK;
 }
 
 Status stepper_take_back(Stepper *s, double t, const double *last, Diag *diag)

@@ -135,6 +135,7 @@ struct Stepper {
     double t;         /* its end */
     double *y;        /* y at t, projected where the method projects */
     double next;      /* step it would take next, s */
+    int stuck;        /* steps on end that end where they began: numbers hold no shorter ones */
     double bound;     /* by whoever drives it: no longer step now, s; 0: free */
     bool may_bend;    /* likewise: something steep acts that may end within the step */
     bool has_pulses;  /* likewise: what acts for a short time takes many short steps */
@@ -211,6 +212,11 @@ const Method *method_for(MethodNeed need);
 
 /* An error of the solver at time t, in words: "at t = 0.3 s: ...". */
 Status solver_failure(Diag *diag, double t, const char *reason);
+
+/* The last step took `h`, to time `reached`, and `next` follows it. Where steps go on to end where
+ * they began, and don't grow, E_SOLVER: such an integration would walk through any singularity
+ * while its clock stands still. */
+MUST_USE Status stepper_arrive(Stepper *stepper, double reached, double h, double next, Diag *diag);
 
 /* What methods with a history do where their last step has to end at t, inside it: y there,
  * projected. `last` is y at the end of the step, to which it comes back where that fails. */
