@@ -1,10 +1,11 @@
 libcore_la_SOURCES += \
+  lib/model/event.h \
   lib/model/measure.c \
   lib/model/measure.h \
   lib/model/measure_check.c \
-  lib/model/event.h \
   lib/model/model.c \
   lib/model/model.h \
+  lib/model/model_apply.c \
   lib/model/model_build.c \
   lib/model/model_check.c \
   lib/model/model_coupled.c \
@@ -19,12 +20,14 @@ libcore_la_SOURCES += \
   lib/model/model_lines.c \
   lib/model/model_mark.c \
   lib/model/model_names.c \
+  lib/model/model_number.c \
   lib/model/model_param.c \
   lib/model/model_places.c \
+  lib/model/model_rebuild.c \
   lib/model/model_scene.c \
-  lib/model/scene.h \
   lib/model/model_settings.def \
   lib/model/model_start.c \
   lib/model/model_state.c \
   lib/model/model_tree.c \
-  lib/model/model_value.c
+  lib/model/model_value.c \
+  lib/model/scene.h

@@ -1,4 +1,4 @@
-/* measure.c: dimensions of expressions, from their text
+/* measure.c: dimensions of expressions and variables, from their text
  *
  * A walk over the syntax tree with a Measure for each node. Laws are looked into with the
  * measures of their arguments; what was found of one is kept while the walk lasts. */
@@ -609,4 +609,72 @@ Status measure_of(const Scope *scope, const Syntax *syntax, Measure *out, Diag *
     LIST_FREE(known.laws);
     pool_free(known.pool);
     return status;
+}
+
+/* --- variables --- */
+
+/* --- variables --- */
+
+/* of a terminal's potential; NULL: the name is none */
+static const char *potential_unit(const State *state, const char *name)
+{
+    const char *dot = strrchr(name, '.');
+    char *terminal = mem_text(name, dot != NULL ? (size_t)(dot - name) : 0);
+    const char *unit = NULL;
+
+    if (names_find(state->terminals, terminal) >= 0)
+        unit = domain_across_unit(terminal_domain(state, terminal));
+    mem_free(terminal);
+    return unit;
+}
+
+/* of a joint: along its only coordinate; of what acts on one, or along a line */
+static const char *effort_unit(const Instance *part)
+{
+    static const char *const units[] = {"N", "N*m", NULL};
+
+    if (part->row->family != FAMILY_JOINT)
+        return part->on_angle ? "N*m" : "N";
+    return part->coord_count == 1 ? units[part->coord_kind[0]] : NULL;
+}
+
+static const char *member_unit(const State *state, const Instance *part, const char *name)
+{
+    const Member *member;
+
+    for (int i = 0; (member = component_member(part->row, state->planar, i)) != NULL; i++)
+        if (strcmp(member->name, name) == 0)
+            return strcmp(name, "effort") == 0 ? effort_unit(part) : member->unit;
+    return NULL;
+}
+
+Measure variable_measure(const State *state, const Instance *own, const char *name)
+{
+    static const char *const units[] = {"m", "rad", "1"};
+    const char *member = "";
+    const Thing *thing = state_thing(state, name);
+    const Instance *part = state_owner(state, name, &member);
+    size_t length = own != NULL ? strlen(own->name) : 0;
+    Text resolved = {0};
+    Measure out = {.kind = MEASURE_ANY};
+
+    if (whole_unit(name) != NULL)
+        return measure_of_unit(whole_unit(name));
+    if (own != NULL && strncmp(name, own->name, length) == 0 && name[length] == '.')
+        return measure_of_unit(member_unit(state, own, name + length + 1));
+    /* a member may stand for a coordinate that the user has given a name */
+    if (thing == NULL && part != NULL &&
+        variable_resolve(state, NULL, name, 0, 0, (Place){0}, &resolved, NULL) == OK)
+        thing = state_thing(state, resolved.at);
+    text_free(&resolved);
+    if (thing != NULL && thing->kind != THING_DEFINITION) {
+        part = state->parts.at[thing->index];
+        if (thing->kind == THING_COORDINATE || part->coord_count == 1)
+            out = measure_of_unit(
+                units[part->coord_kind[thing->kind == THING_COORDINATE ? thing->coordinate : 0]]);
+    } else if (part != NULL)
+        out = measure_of_unit(member_unit(state, part, member));
+    else if (thing == NULL)
+        out = measure_of_unit(potential_unit(state, name));
+    return out;
 }

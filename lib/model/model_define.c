@@ -7,78 +7,6 @@
 #include <math.h>
 #include <string.h>
 
-static Definition *find_definition(const State *state, const char *name, DefinitionKind kind)
-{
-    const Thing *thing = state_thing(state, name);
-    Definition *d = thing != NULL && thing->kind == THING_DEFINITION
-                        ? &state->definitions.at[thing->index]
-                        : NULL;
-
-    return d != NULL && d->kind == kind ? d : NULL;
-}
-
-static int index_of(const State *state, const Definition *d)
-{
-    return (int)(d - state->definitions.at);
-}
-
-/* --- values of parameters --- */
-
-static double known_value(void *context, Expr symbol)
-{
-    const State *state = context;
-    const Definition *d = find_definition(state, expr_name(symbol), DEFINES_PARAMETER);
-
-    return d != NULL ? d->value : (double)NAN;
-}
-
-/* push the parameters that must be known first; whether there were any */
-static bool push_unknown(const State *state, Expr body, NumberList *stack)
-{
-    Expr *symbols = NULL;
-    int count = expr_symbols(&body, 1, &symbols);
-    int before = stack->count;
-
-    for (int i = 0; i < count; i++) {
-        const Definition *d = find_definition(state, expr_name(symbols[i]), DEFINES_PARAMETER);
-
-        if (d != NULL && !d->is_known)
-            LIST_PUSH(*stack, index_of(state, d));
-    }
-    mem_free(symbols);
-    return stack->count > before;
-}
-
-double definition_value(State *state, int definition)
-{
-    NumberList stack = {0};
-
-    LIST_PUSH(stack, definition);
-    while (stack.count > 0) {
-        Definition *d = &state->definitions.at[stack.at[stack.count - 1]];
-
-        if (d->is_known || !push_unknown(state, d->body, &stack)) {
-            if (!d->is_known)
-                d->value = expr_evaluate(d->body, known_value, state);
-            d->is_known = true;
-            stack.count--;
-        }
-    }
-    LIST_FREE(stack);
-    return state->definitions.at[definition].value;
-}
-
-double state_number(State *state, Expr body)
-{
-    NumberList stack = {0};
-
-    (void)push_unknown(state, body, &stack);
-    for (int i = 0; i < stack.count; i++)
-        (void)definition_value(state, stack.at[i]);
-    LIST_FREE(stack);
-    return expr_evaluate(body, known_value, state);
-}
-
 /* --- circles --- */
 
 static Status report_circle(const State *state, const int *from, int definition, int last,
@@ -201,13 +129,13 @@ static Status try_body(State *state, Definition *d, Expr body, const Statement *
     Diag fault = {0};
     Status status;
 
-    state_keep_definition(state, index_of(state, d));
+    state_keep_definition(state, definition_index(state, d));
     set_body(state, d, body);
-    status = parts_check_after(state, index_of(state, d), &outcome->remarks, &fault);
+    status = parts_check_after(state, definition_index(state, d), &outcome->remarks, &fault);
     if (status == OK)
         return OK;
     status = diag_at(diag, status, statement->value->place, "%s = %g is refused: %s", d->name,
-                     definition_value(state, index_of(state, d)), fault.message);
+                     definition_value(state, definition_index(state, d)), fault.message);
     diag_hint(diag, "%s", fault.hint);
     set_body(state, d, before);
     return status;
@@ -224,12 +152,12 @@ static Status change_parameter(State **in, Definition *d, Expr body, Measure mea
     const Effect effect = body != before ? EFFECT_VALUES : EFFECT_NONE;
     Status status = OK;
 
-    CHECK(definition_check_circle(state, index_of(state, d), scope->uses.at, scope->uses.count,
-                                  statement->name_place, diag));
+    CHECK(definition_check_circle(state, definition_index(state, d), scope->uses.at,
+                                  scope->uses.count, statement->name_place, diag));
     CHECK(try_body(state, d, body, statement, outcome, diag));
     if (!measure_same(d->measure, measure)) {
-        status = replace_line(in, index_of(state, d), text, scope, statement->value->place, effect,
-                              outcome, diag);
+        status = replace_line(in, definition_index(state, d), text, scope, statement->value->place,
+                              effect, outcome, diag);
         if (status != OK)
             set_body(state, d, before);
         return status;
@@ -245,7 +173,7 @@ done:
 Status apply_parameter(State **state, const Statement *statement, Outcome *outcome, Diag *diag)
 {
     State *s = *state;
-    Definition *d = find_definition(s, statement->name, DEFINES_PARAMETER);
+    Definition *d = definition_find(s, statement->name, DEFINES_PARAMETER);
     Scope scope = {.state = s, .kind = SCOPE_PARAMETER};
     char *text = statement_full_text(statement);
     Expr body = NULL;
@@ -305,7 +233,7 @@ static bool is_same_law(const Definition *law, const Statement *statement, Expr 
 Status apply_law(State **state, const Statement *statement, Outcome *outcome, Diag *diag)
 {
     State *s = *state;
-    Definition *law = find_definition(s, statement->name, DEFINES_LAW);
+    Definition *law = definition_find(s, statement->name, DEFINES_LAW);
     Scope scope = {.state = s,
                    .kind = SCOPE_LAW,
                    .arguments = statement->arguments,
@@ -318,12 +246,12 @@ Status apply_law(State **state, const Statement *statement, Outcome *outcome, Di
         CHECK(check_new_name(s, statement->name, DEFINES_LAW, statement->name_place, diag));
     CHECK(scope_expression(&scope, statement->value, &body, diag));
     if (law != NULL) {
-        CHECK(definition_check_circle(s, index_of(s, law), scope.uses.at, scope.uses.count,
+        CHECK(definition_check_circle(s, definition_index(s, law), scope.uses.at, scope.uses.count,
                                       statement->name_place, diag));
         /* in other words also where it comes to the same: their units may differ */
         if (strcmp(s->lines.at[law->line].text, text) != 0)
             status = replace_line(
-                state, index_of(s, law), text, &scope, statement->name_place,
+                state, definition_index(s, law), text, &scope, statement->name_place,
                 is_same_law(law, statement, body) ? EFFECT_NONE : EFFECT_EQUATIONS, outcome, diag);
         goto done;
     }
@@ -361,15 +289,16 @@ static Status change_output(State **state, Definition *output, Expr body, Measur
     bool is_same = output->body == body;
     Status status = OK;
 
-    CHECK(definition_check_circle(s, index_of(s, output), scope->uses.at, scope->uses.count,
+    CHECK(definition_check_circle(s, definition_index(s, output), scope->uses.at, scope->uses.count,
                                   pair->name_place, diag));
-    if (is_used(s, index_of(s, output)) && !(is_same && measure_same(output->measure, measure))) {
-        status = replace_line(state, index_of(s, output), text, scope, pair->name_place,
+    if (is_used(s, definition_index(s, output)) &&
+        !(is_same && measure_same(output->measure, measure))) {
+        status = replace_line(state, definition_index(s, output), text, scope, pair->name_place,
                               is_same ? EFFECT_NONE : EFFECT_EQUATIONS, outcome, diag);
         goto done;
     }
     state_keep_line(s, output->line);
-    state_keep_definition(s, index_of(s, output));
+    state_keep_definition(s, definition_index(s, output));
     line->text = state_text(s, text);
     line_uses(s, line, scope);
     output->body = body;
@@ -381,7 +310,7 @@ done:
 static Status output_pair(State **state, const Pair *pair, Outcome *outcome, Diag *diag)
 {
     State *s = *state;
-    Definition *output = find_definition(s, pair->name, DEFINES_OUTPUT);
+    Definition *output = definition_find(s, pair->name, DEFINES_OUTPUT);
     Scope scope = {.state = s, .kind = SCOPE_OUTPUT};
     Text text = {0};
     Expr body = NULL;

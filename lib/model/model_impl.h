@@ -345,6 +345,8 @@ MUST_USE Status key_unknown(const Component *row, const char *key, Place place, 
 /* In a planar scene no step of a part leaves the plane. */
 MUST_USE Status part_check_plane(const State *state, const Instance *part, Place place, Diag *diag);
 
+Definition *definition_find(const State *state, const char *name, DefinitionKind kind); /* NULL */
+int definition_index(const State *state, const Definition *d);
 /* --- definitions and lines --- */
 
 double definition_value(State *state, int definition);

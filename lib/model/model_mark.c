@@ -289,3 +289,43 @@ void state_forget_before(State *state, size_t bytes)
         }
     }
 }
+
+/* --- its end --- */
+
+static void free_one(State *state)
+{
+    state_forget_trees(state);
+    graph_free(state->graph);
+    names_free(state->names);
+    names_free(state->terminals);
+    names_free(state->start_names);
+    LIST_FREE(state->things);
+    LIST_FREE(state->terminal_nodes);
+    LIST_FREE(state->parts);
+    LIST_FREE(state->edge_owner);
+    LIST_FREE(state->definitions);
+    LIST_FREE(state->parameters);
+    LIST_FREE(state->outputs);
+    LIST_FREE(state->events);
+    LIST_FREE(state->lines);
+    LIST_FREE(state->starts);
+    LIST_FREE(state->start_of);
+    LIST_FREE(state->independent);
+    for (int kind = 0; kind < TREE_KINDS; kind++) {
+        LIST_FREE(state->choices[kind].chosen);
+        LIST_FREE(state->choices[kind].excluded);
+    }
+    state_free_changes(state);
+    pool_free(state->pool);
+    mem_free(state);
+}
+
+void state_free(State *state)
+{
+    while (state != NULL) {
+        State *before = state->before;
+
+        free_one(state);
+        state = before;
+    }
+}

@@ -71,14 +71,6 @@ done:
     return status;
 }
 
-void starts_index(State *state, int first)
-{
-    while (state->start_of.count < names_count(state->start_names))
-        LIST_PUSH(state->start_of, -1);
-    for (int i = first; i < state->starts.count; i++)
-        state->start_of.at[state->starts.at[i].name] = i;
-}
-
 static void remove_start(State *state, int at)
 {
     LIST_PUSH(state->changes,

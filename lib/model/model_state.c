@@ -1,5 +1,4 @@
-/* model_state.c: making, freeing and looking at a state; which verb is applied by whom */
-#include "language/verbs.h"
+/* model_state.c: a state, and what is found in it */
 #include "model/model_impl.h"
 
 #include <string.h>
@@ -31,44 +30,6 @@ void state_forget_trees(State *state)
         state->trees[kind] = NULL;
     }
     state->has_trees = false;
-}
-
-static void free_one(State *state)
-{
-    state_forget_trees(state);
-    graph_free(state->graph);
-    names_free(state->names);
-    names_free(state->terminals);
-    names_free(state->start_names);
-    LIST_FREE(state->things);
-    LIST_FREE(state->terminal_nodes);
-    LIST_FREE(state->parts);
-    LIST_FREE(state->edge_owner);
-    LIST_FREE(state->definitions);
-    LIST_FREE(state->parameters);
-    LIST_FREE(state->outputs);
-    LIST_FREE(state->events);
-    LIST_FREE(state->lines);
-    LIST_FREE(state->starts);
-    LIST_FREE(state->start_of);
-    LIST_FREE(state->independent);
-    for (int kind = 0; kind < TREE_KINDS; kind++) {
-        LIST_FREE(state->choices[kind].chosen);
-        LIST_FREE(state->choices[kind].excluded);
-    }
-    state_free_changes(state);
-    pool_free(state->pool);
-    mem_free(state);
-}
-
-void state_free(State *state)
-{
-    while (state != NULL) {
-        State *before = state->before;
-
-        free_one(state);
-        state = before;
-    }
 }
 
 const char *state_text(State *state, const char *text)
@@ -115,36 +76,26 @@ void state_name(State *state, const char *name, ThingKind kind, int index, int c
     LIST_PUSH(state->things, (Thing){kind, index, coordinate});
 }
 
-/* --- verbs --- */
-
-static Apply *const verbs[VERB_COUNT] = {
-#define MODEL_VERB(word, ...) [VERB_##word] = apply_##word,
-#include "language/verbs.def"
-};
-
-Status state_apply(State **state, const Statement *statement, Outcome *outcome, Diag *diag)
+void name_list_add(NameList *list, const char *name)
 {
-    Status status = OK;
-    Apply *apply = NULL;
+    for (int i = 0; i < list->count; i++)
+        if (strcmp(list->at[i], name) == 0)
+            return;
+    LIST_PUSH(*list, name);
+}
 
-    switch (statement->kind) {
-    case STATEMENT_EMPTY:
-        return OK;
-    case STATEMENT_PARAMETER:
-        apply = apply_parameter;
-        break;
-    case STATEMENT_LAW:
-        apply = apply_law;
-        break;
-    case STATEMENT_VERB:
-        apply = statement->row.component != NULL ? apply_component : verbs[statement->row.number];
-        break;
-    }
-    if (apply == NULL)
-        return diag_at(diag, E_MISSING, statement->verb_place, "'%s' builds nothing",
-                       statement->verb);
-    status = apply(state, statement, outcome, diag);
-    if (status != OK && diag != NULL && diag->place.line == 0)
-        diag->place = statement->place;
-    return status;
+void starts_index(State *state, int first)
+{
+    while (state->start_of.count < names_count(state->start_names))
+        LIST_PUSH(state->start_of, -1);
+    for (int i = first; i < state->starts.count; i++)
+        state->start_of.at[state->starts.at[i].name] = i;
+}
+
+void scope_use(Scope *scope, int definition)
+{
+    for (int i = 0; i < scope->uses.count; i++)
+        if (scope->uses.at[i] == definition)
+            return;
+    LIST_PUSH(scope->uses, definition);
 }

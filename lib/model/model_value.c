@@ -46,14 +46,6 @@ static Status not_here(const Scope *scope, const char *name, Place place, Diag *
     return E_NAME;
 }
 
-void scope_use(Scope *scope, int definition)
-{
-    for (int i = 0; i < scope->uses.count; i++)
-        if (scope->uses.at[i] == definition)
-            return;
-    LIST_PUSH(scope->uses, definition);
-}
-
 /* --- numbers and units --- */
 
 static Expr unit_factor(Arena *arena, const Unit *unit)

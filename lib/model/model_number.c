@@ -1,0 +1,77 @@
+/* model_number.c: what parameters and expressions of them are worth now */
+#include "model/model_impl.h"
+
+#include <math.h>
+#include <string.h>
+
+Definition *definition_find(const State *state, const char *name, DefinitionKind kind)
+{
+    const Thing *thing = state_thing(state, name);
+    Definition *d = thing != NULL && thing->kind == THING_DEFINITION
+                        ? &state->definitions.at[thing->index]
+                        : NULL;
+
+    return d != NULL && d->kind == kind ? d : NULL;
+}
+
+int definition_index(const State *state, const Definition *d)
+{
+    return (int)(d - state->definitions.at);
+}
+
+/* --- values of parameters --- */
+
+static double known_value(void *context, Expr symbol)
+{
+    const State *state = context;
+    const Definition *d = definition_find(state, expr_name(symbol), DEFINES_PARAMETER);
+
+    return d != NULL ? d->value : (double)NAN;
+}
+
+/* push the parameters that must be known first; whether there were any */
+static bool push_unknown(const State *state, Expr body, NumberList *stack)
+{
+    Expr *symbols = NULL;
+    int count = expr_symbols(&body, 1, &symbols);
+    int before = stack->count;
+
+    for (int i = 0; i < count; i++) {
+        const Definition *d = definition_find(state, expr_name(symbols[i]), DEFINES_PARAMETER);
+
+        if (d != NULL && !d->is_known)
+            LIST_PUSH(*stack, definition_index(state, d));
+    }
+    mem_free(symbols);
+    return stack->count > before;
+}
+
+double definition_value(State *state, int definition)
+{
+    NumberList stack = {0};
+
+    LIST_PUSH(stack, definition);
+    while (stack.count > 0) {
+        Definition *d = &state->definitions.at[stack.at[stack.count - 1]];
+
+        if (d->is_known || !push_unknown(state, d->body, &stack)) {
+            if (!d->is_known)
+                d->value = expr_evaluate(d->body, known_value, state);
+            d->is_known = true;
+            stack.count--;
+        }
+    }
+    LIST_FREE(stack);
+    return state->definitions.at[definition].value;
+}
+
+double state_number(State *state, Expr body)
+{
+    NumberList stack = {0};
+
+    (void)push_unknown(state, body, &stack);
+    for (int i = 0; i < stack.count; i++)
+        (void)definition_value(state, stack.at[i]);
+    LIST_FREE(stack);
+    return expr_evaluate(body, known_value, state);
+}

@@ -1,0 +1,98 @@
+/* model_rebuild.c: a state made anew from its lines, and its lines as a script */
+#include "model/model_impl.h"
+
+#include <string.h>
+
+Status state_apply_text(State **state, const char *text, Text *remarks, Diag *diag)
+{
+    Statement *statement = NULL;
+    Outcome outcome = {EFFECT_NONE, {0}};
+    size_t next = 0;
+    Status status = OK;
+
+    CHECK(statement_parse(text, 1, (SyntaxOptions){false}, &next, &statement, diag));
+    CHECK(state_apply(state, statement, &outcome, diag));
+    if (remarks != NULL && outcome.remarks.at != NULL)
+        text_add(remarks, outcome.remarks.at);
+done:
+    text_free(&outcome.remarks);
+    statement_free(statement);
+    return status;
+}
+
+/* the name that a line makes or changes, or the line itself */
+static const char *line_name(const State *state, const Line *line)
+{
+    if (line->part >= 0)
+        return state->parts.at[line->part]->name;
+    return line->definition >= 0 ? state->definitions.at[line->definition].name : line->text;
+}
+
+Status state_rebuild(const State *old, int without, State **out, NameList *broken, Text *remarks,
+                     Diag *diag)
+{
+    State *state = state_new(old->arena);
+    int gone = without >= 0 ? old->lines.at[without].part : -1;
+    int count = 0;
+    int *order = lines_in_order(old, &count);
+    Status status = OK;
+
+    for (int i = 0; i < count; i++) {
+        const Line *line = &old->lines.at[order[i]];
+
+        if (order[i] == without || (gone >= 0 && line->part == gone))
+            continue;
+        status = state_apply_text(&state, line->text, NULL, diag);
+        if (status != OK && broken != NULL) {
+            name_list_add(broken, line_name(old, line));
+            status = OK;
+        }
+        CHECK(status);
+    }
+    choices_copy(state, old, remarks);
+    CHECK(starts_copy(state, old, broken, remarks, diag));
+    state_forget_before(state, 0);
+    *out = state;
+    state = NULL;
+done:
+    mem_free(order);
+    state_free(state);
+    return status;
+}
+
+Status apply_pairs(State **state, const Statement *statement, ApplyPair *apply, Outcome *outcome,
+                   Diag *diag)
+{
+    State *work = *state;
+    Status status = OK;
+
+    if (statement->pairs.count == 0)
+        return diag_at(diag, E_SYNTAX, statement->place, "'%s' is followed by NAME = value",
+                       statement->verb);
+    /* several: on a copy, so that a later one that fails leaves nothing of the earlier ones */
+    if (statement->pairs.count > 1)
+        CHECK(state_rebuild(*state, -1, &work, NULL, NULL, diag));
+    for (int i = 0; i < statement->pairs.count; i++)
+        CHECK(apply(&work, &statement->pairs.at[i], outcome, diag));
+    if (statement->pairs.count > 1)
+        state_replace(state, work);
+    else
+        *state = work;
+    work = NULL;
+done:
+    if (statement->pairs.count > 1)
+        state_free(work);
+    return status;
+}
+
+void state_save(const State *state, Text *text)
+{
+    int count = 0;
+    int *order = lines_in_order(state, &count);
+
+    for (int i = 0; i < count; i++)
+        text_addf(text, "%s\n", state->lines.at[order[i]].text);
+    mem_free(order);
+    choices_save(state, text);
+    starts_save(state, text);
+}
