@@ -4,6 +4,11 @@
  * of the command language, one logical line at a time, and asks for equations, values
  * and tables. The library never prints, never exits, and starts no process.
  *
+ * Where memory ends in a call, the call fails: CT_FAILED with "out of memory", or NULL
+ * where it returns something new, or nothing where it returns void. What it had begun is
+ * taken back and its memory given back; the session, its model, runs and what can be
+ * undone are as they were, what was to be written is unwritten, and all calls work on.
+ *
  * Strings said to be new are the caller's, to be freed with ct_free(). Everything
  * else handed out is borrowed and valid until the next call with the same session.
  * A session belongs to one thread at a time. */
@@ -61,11 +66,6 @@ ct_session_new(const ct_hooks *hooks); /* hooks are copied, NULL: none; new; ct_
 void ct_session_free(ct_session *session);
 void ct_session_hooks(ct_session *session, const ct_hooks *hooks);
 void ct_free(void *piece);
-
-/* Where memory ends no statement can be half done: `ended`, which doesn't return, is called for
- * all sessions of the process. Without it, or with NULL, the process aborts with a line on standard
- * error. */
-void ct_memory_hook(void (*ended)(void));
 
 /* --- statements --- */
 

@@ -15,6 +15,8 @@ ct_status command_run(Call *call, ct_error *error)
     if (status == CT_OK && ct_prints(call->statement)) {
         char *text = ct_report(call->session);
 
+        if (text == NULL)
+            return ct_error_at(call->statement, NULL, error, "out of memory");
         put_text(call->out, text);
         ct_free(text);
     }
@@ -50,7 +52,7 @@ static bool is_literal(const char *text, const char *end)
 /* `h8 [deg]` is `h8 = 45 deg` */
 static void name_printed(Printed *line, const ct_expression *expression)
 {
-    char *text = ct_expression_text(expression);
+    char *text = copy_check(ct_expression_text(expression));
     char *open = strrchr(text, '[');
     size_t length = strlen(text);
 

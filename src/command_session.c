@@ -87,6 +87,8 @@ static ct_status command_save(Call *call, ct_error *error)
 
     char *script = ct_save(call->session);
 
+    if (script == NULL)
+        return ct_error_at(call->statement, NULL, error, "out of memory");
     if (saved_write(path, script, overwrite, &why) != CT_OK) {
         status =
             ct_error_at(call->statement, ct_operand(call->statement, 0), error, "%s", why.message);

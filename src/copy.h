@@ -1,6 +1,6 @@
 /* copy.h: strings of the shell's own
  *
- * Running out of memory ends the program with a message, as it does in the library. */
+ * Where there is no memory for these the program ends, with a message (memory_end.h). */
 #ifndef COTREE_SRC_COPY_H
 #define COTREE_SRC_COPY_H
 

@@ -302,8 +302,6 @@ int main(int argc, char **argv)
     setlocale(LC_ALL, "");
     setlocale(LC_NUMERIC, "C");
 
-    memory_end_setup();
-
     int status = read_options(&request, argc, argv);
 
     if (status < 0)

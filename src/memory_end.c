@@ -24,11 +24,6 @@ _Noreturn void memory_end(void)
     _exit(EXIT_FAILURE);
 }
 
-void memory_end_setup(void)
-{
-    ct_memory_hook(memory_end);
-}
-
 void memory_end_note(const Unsaved *unsaved)
 {
     kept = unsaved;

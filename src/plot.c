@@ -46,7 +46,7 @@ static bool is_name_letter(char c)
 /* the run that an expression names: new; "" when none */
 static char *find_run(const ct_expression *expression)
 {
-    char *text = ct_expression_text(expression);
+    char *text = copy_check(ct_expression_text(expression));
     char *run = NULL;
 
     for (const char *at = strstr(text, "run"); at != NULL && run == NULL;

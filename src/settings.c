@@ -125,7 +125,7 @@ ct_status settings_apply(Settings *settings, const ct_statement *statement, ct_e
         return ct_error_at(statement, NULL, error, "'%s' is set to one value: set %s VALUE",
                            row->words[0], row->words[0]);
 
-    char *text = ct_expression_text(value);
+    char *text = copy_check(ct_expression_text(value));
     ct_error why;
     ct_status status = row->set(row, (char *)settings + row->at, text, &why);
 

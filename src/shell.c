@@ -69,7 +69,7 @@ void shell_open(Shell *shell)
 {
     *shell = (Shell){.unicode = terminal_is_utf8()};
     settings_start(&shell->settings);
-    shell->session = ct_session_new(NULL);
+    shell->session = copy_check(ct_session_new(NULL));
     shell_set_width(shell, 0);
 }
 

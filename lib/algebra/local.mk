@@ -1,6 +1,8 @@
 libcore_la_SOURCES += \
   lib/algebra/blocks.c \
   lib/algebra/blocks.h \
+  lib/algebra/dense.c \
+  lib/algebra/dense.h \
   lib/algebra/hessenberg_form.c \
   lib/algebra/hessenberg_form.h \
   lib/algebra/kkt.c \

@@ -20,6 +20,7 @@ struct Sparse {
     klu_symbolic *symbolic;
     klu_numeric *numeric;
     klu_common common;
+    Cleanup cleanup; /* of KLU's */
     int singular;
 };
 
@@ -37,6 +38,15 @@ static void by_columns(Sparse *s, const int *row, const int *column)
     for (int c = s->n; c > 0; c--)
         s->start[c] = s->start[c - 1];
     s->start[0] = 0;
+}
+
+static void close_factors(void *object)
+{
+    Sparse *s = object;
+
+    (void)klu_free_numeric(&s->numeric, &s->common);
+    (void)klu_free_symbolic(&s->symbolic, &s->common);
+    cleanup_close(&s->cleanup);
 }
 
 Sparse *sparse_new(int n, int entries, const int *row, const int *column)
@@ -58,6 +68,7 @@ Sparse *sparse_new(int n, int entries, const int *row, const int *column)
     s->values = NEW_ARRAY(double, entries);
     by_columns(s, row, column);
     (void)klu_defaults(&s->common);
+    cleanup_open(&s->cleanup, close_factors, s);
     return s;
 }
 
@@ -65,9 +76,9 @@ void sparse_free(Sparse *s)
 {
     if (s == NULL)
         return;
+    if (s->lu == NULL)
+        close_factors(s);
     lu_free(s->lu);
-    (void)klu_free_numeric(&s->numeric, &s->common);
-    (void)klu_free_symbolic(&s->symbolic, &s->common);
     mem_free(s->place);
     mem_free(s->start);
     mem_free(s->row);
@@ -119,11 +130,14 @@ bool sparse_factor(Sparse *s, const double *values)
     }
     if (refactor(s))
         return true;
+    mem_ask();
     if (s->symbolic == NULL)
         s->symbolic = klu_analyze(s->n, s->start, s->row, &s->common);
     (void)klu_free_numeric(&s->numeric, &s->common);
     if (s->symbolic != NULL)
         s->numeric = klu_factor(s->start, s->row, s->values, s->symbolic, &s->common);
+    if (s->common.status == KLU_OUT_OF_MEMORY)
+        transaction_fail();
     if (s->numeric != NULL && s->common.status == KLU_OK)
         return true;
     s->singular = s->common.status == KLU_SINGULAR ? s->common.singular_col : -1;

@@ -1,6 +1,8 @@
 libcore_la_SOURCES += \
 	lib/base/diag.c lib/base/diag.h lib/base/status.def \
-	lib/base/memory.c lib/base/memory.h \
+	lib/base/faults.c \
+	lib/base/memory.c lib/base/memory.h lib/base/memory_impl.h \
 	lib/base/names.c lib/base/names.h lib/base/random.h \
 	lib/base/text.c lib/base/text.h \
+	lib/base/transaction.c lib/base/transaction.h \
 	lib/base/watch.h

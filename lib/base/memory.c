@@ -1,42 +1,84 @@
 /* memory.c: memory, pools, growing arrays */
 #include "base/memory.h"
 
+#include "base/memory_impl.h"
+
 #include <stdint.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-static void (*on_end)(void);
+/* a table, list, arena or pool that begins with one element grows at once, which tests it */
+#ifdef COTREE_SMALL
+enum { FIRST_ROOM = 1, FIRST_TEXT = 1, FIRST_CHUNK = 16 };
+#else
+enum { FIRST_ROOM = 8, FIRST_TEXT = 32, FIRST_CHUNK = 65536 };
+#endif
 
-void mem_on_end(void (*ended)(void))
+/* With failing allocations what a transaction finds moves whenever something is added, so that no
+ * byte of it has a reason to change (faults.c). */
+#define MOVES_ALWAYS(memory)                                                                       \
+    (FAULTS && transaction_is_trial() && (memory) != NULL && mem_is_old(memory))
+
+/* who asked for a piece, for those who look for a fault */
+#define CALLER __builtin_return_address(0)
+
+/* --- pieces --- */
+
+void *system_allocate(size_t size, bool zeroed)
 {
-    on_end = ended;
+    if (faults_strike())
+        return NULL;
+    return zeroed || FAULTS ? calloc(1, size) : malloc(size);
 }
 
-static void *must(void *piece)
+static inline MemPiece *take(size_t size, bool zeroed, const void *maker)
 {
-    if (piece == NULL) {
-        if (on_end != NULL)
-            on_end();
-        (void)fputs("cotree: out of memory\n", stderr);
-        abort();
-    }
+    MemPiece *piece =
+        size <= SIZE_MAX - sizeof(MemPiece) ? system_allocate(sizeof(MemPiece) + size, zeroed) : NULL;
+
+    if (piece == NULL)
+        transaction_fail();
+    piece->size = size;
+    piece->maker = maker;
+    piece_join(piece);
     return piece;
+}
+
+/* what so many of that size take; SIZE_MAX, which nobody has, where that can't be told */
+static size_t product(size_t count, size_t size)
+{
+    return size == 0 || count <= SIZE_MAX / size ? count * size : SIZE_MAX;
 }
 
 void *mem_new(size_t size)
 {
-    return must(calloc(1, size > 0 ? size : 1));
+    return take(size, true, CALLER) + 1;
 }
 
 void *mem_array(size_t count, size_t size)
 {
-    return must(calloc(count > 0 ? count : 1, size > 0 ? size : 1));
+    return take(product(count, size), true, CALLER) + 1;
+}
+
+/* What a transaction may have to go back to stays where it is. */
+static MemPiece *resize(MemPiece *old, size_t size, const void *maker)
+{
+    MemPiece *piece = take(size, false, maker);
+
+    if (old->maker == NULL)
+        piece->maker = NULL;
+    memcpy(piece + 1, old + 1, old->size < size ? old->size : size);
+    piece_drop(old);
+    return piece;
 }
 
 void *mem_grow(void *old, size_t count, size_t size)
 {
-    return must(reallocarray(old, count > 0 ? count : 1, size));
+    const size_t bytes = product(count, size);
+
+    if (old == NULL)
+        return take(bytes, false, CALLER) + 1;
+    return (FAULTS || mem_is_old(old) ? resize(piece_of(old), bytes, CALLER) : piece_resize(piece_of(old), bytes)) + 1;
 }
 
 char *mem_text(const char *text, size_t length)
@@ -49,26 +91,32 @@ char *mem_text(const char *text, size_t length)
 
 void mem_free(void *piece)
 {
-    free(piece);
+    if (piece != NULL)
+        piece_drop(piece_of(piece));
 }
 
 void *list_room(void *at, int count, int *room, size_t size)
 {
-    if (count <= *room)
+    int more = count < FIRST_ROOM ? FIRST_ROOM : count + count / 2;
+
+    if (count <= *room && !MOVES_ALWAYS(at))
         return at;
-    *room = count < 8 ? 8 : count + count / 2;
-    return mem_grow(at, (size_t)*room, size);
+    at = mem_grow(at, (size_t)more, size);
+    if (piece_of(at)->maker != NULL)
+        piece_of(at)->maker = CALLER;
+    *room = more;
+    return at;
 }
 
 typedef struct Chunk {
     struct Chunk *older;
     size_t size;
-    size_t used;
     _Alignas(16) unsigned char bytes[];
 } Chunk;
 
 struct Pool {
     Chunk *newest;
+    size_t used; /* of the newest */
     size_t chunk_size;
     size_t held;
 };
@@ -77,7 +125,7 @@ Pool *pool_new(size_t chunk_size)
 {
     Pool *pool = NEW(Pool);
 
-    pool->chunk_size = chunk_size > 0 ? chunk_size : 65536;
+    pool->chunk_size = chunk_size > 0 && chunk_size < FIRST_CHUNK ? chunk_size : FIRST_CHUNK;
     return pool;
 }
 
@@ -91,20 +139,23 @@ void pool_free(Pool *pool)
 
 void *pool_alloc(Pool *pool, size_t size)
 {
-    Chunk *chunk = pool->newest;
     void *piece;
 
+    mem_keep(pool);
     size = (size + 15) & ~(size_t)15;
-    if (chunk == NULL || chunk->size - chunk->used < size) {
-        size_t room = size > pool->chunk_size ? size : pool->chunk_size;
+    if (pool->newest == NULL || pool->newest->size - pool->used < size ||
+        MOVES_ALWAYS(pool->newest)) {
+        const size_t room = size > pool->chunk_size ? size : pool->chunk_size;
+        Chunk *chunk = (Chunk *)(void *)(take(sizeof(Chunk) + room, false, CALLER) + 1);
 
-        chunk = must(malloc(sizeof(Chunk) + room));
-        *chunk = (Chunk){.older = pool->newest, .size = room};
+        chunk->older = pool->newest;
+        chunk->size = room;
         pool->newest = chunk;
+        pool->used = 0;
         pool->held += sizeof(Chunk) + room;
     }
-    piece = chunk->bytes + chunk->used;
-    chunk->used += size;
+    piece = pool->newest->bytes + pool->used;
+    pool->used += size;
     return memset(piece, 0, size);
 }
 
@@ -118,20 +169,32 @@ char *pool_text(Pool *pool, const char *text, size_t length)
 
 PoolMark pool_mark(const Pool *pool)
 {
-    return (PoolMark){pool->newest, pool->newest != NULL ? pool->newest->used : 0};
+    return (PoolMark){pool->newest, pool->used};
 }
 
 void pool_release(Pool *pool, PoolMark mark)
 {
+    mem_keep(pool);
     while (pool->newest != mark.chunk) {
         Chunk *chunk = pool->newest;
 
         pool->newest = chunk->older;
         pool->held -= sizeof(Chunk) + chunk->size;
-        free(chunk);
+        mem_free(chunk);
     }
-    if (pool->newest != NULL)
-        pool->newest->used = mark.used;
+    pool->used = mark.used;
+}
+
+void pool_keep(Pool *pool, void *at, size_t size)
+{
+    const Chunk *chunk = pool->newest;
+    const uintptr_t where = (uintptr_t)at;
+
+    if (transaction_now == NULL)
+        return;
+    while (where < (uintptr_t)chunk->bytes || where >= (uintptr_t)chunk->bytes + chunk->size)
+        chunk = chunk->older;
+    mem_keep_part(chunk, at, size);
 }
 
 size_t pool_bytes(const Pool *pool)

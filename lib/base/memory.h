@@ -1,21 +1,21 @@
-/* memory.h: memory that is there or ends the program, chunked pools, growing arrays
+/* memory.h: memory that is there, chunked pools, growing arrays
  *
  * Running out of memory is not an error a caller can mend in the middle of a
- * formula: the four functions below end the process with a message, as GLib's
- * do, or by the function that mem_on_end() names. Everything else in lib/ reports by Status.
+ * formula: these functions hand out what was asked for, or leave the call of the
+ * library that asked for it, and nothing is left of that (transaction.h). Everything
+ * else in lib/ reports by Status.
  *
  * A Pool hands out pieces that never move and are freed together, or back to a
  * mark. Its pieces are borrowed from it. */
 #ifndef COTREE_BASE_MEMORY_H
 #define COTREE_BASE_MEMORY_H
 
+#include "base/transaction.h"
+
 #include <stddef.h>
 
-/* `ended` doesn't return; NULL: a line on standard error and abort(), as at first */
-void mem_on_end(void (*ended)(void));
-
 void *mem_new(size_t size);                 /* new, zeroed; size 0 gives a valid pointer */
-void *mem_array(size_t count, size_t size); /* new, zeroed; ends the program on overflow too */
+void *mem_array(size_t count, size_t size); /* new, zeroed */
 void *mem_grow(void *old, size_t count, size_t size); /* realloc; what is new isn't zeroed */
 char *mem_text(const char *text, size_t length);      /* new, ended by a NUL */
 void mem_free(void *piece);                           /* NULL is fine */
@@ -50,6 +50,8 @@ void *pool_alloc(Pool *pool, size_t size); /* zeroed, aligned to 16 bytes */
 char *pool_text(Pool *pool, const char *text, size_t length);
 PoolMark pool_mark(const Pool *pool);
 void pool_release(Pool *pool, PoolMark mark); /* frees what came after the mark */
+/* Before `size` bytes at `at`, a piece of the pool's, are changed in place: mem_keep_part(). */
+void pool_keep(Pool *pool, void *at, size_t size);
 size_t pool_bytes(const Pool *pool);          /* held from the system */
 
 #endif

@@ -31,10 +31,18 @@ static int slot_of(const Names *names, const char *name)
     return slot;
 }
 
+#ifdef COTREE_SMALL
+enum { FIRST_SIZE = 2 };
+#else
+enum { FIRST_SIZE = 16 };
+#endif
+
 static void resize(Names *names, int size)
 {
+    int *slots = NEW_ARRAY(int, size);
+
     mem_free(names->slots);
-    names->slots = NEW_ARRAY(int, size);
+    names->slots = slots;
     names->size = size;
     for (int i = 0; i < names->list.count; i++)
         names->slots[slot_of(names, names->list.at[i])] = i + 1;
@@ -44,7 +52,7 @@ Names *names_new(void)
 {
     Names *names = NEW(Names);
 
-    resize(names, 16);
+    resize(names, FIRST_SIZE);
     return names;
 }
 
@@ -64,27 +72,35 @@ int names_find(const Names *names, const char *name)
     return names->slots[slot_of(names, name)] - 1;
 }
 
+static void set_slot(Names *names, int slot, int number)
+{
+    mem_keep_part(names->slots, &names->slots[slot], sizeof *names->slots);
+    names->slots[slot] = number;
+}
+
 int names_add(Names *names, const char *name)
 {
     int number = names_find(names, name);
 
     if (number >= 0)
         return number;
+    mem_keep(names);
     if ((names->list.count + 1) * 4 > names->size * 3)
         resize(names, names->size * 2);
     LIST_PUSH(names->list, mem_text(name, strlen(name)));
     number = names->list.count - 1;
-    names->slots[slot_of(names, name)] = number + 1;
+    set_slot(names, slot_of(names, name), number + 1);
     return number;
 }
 
 /* Nobody who came before stepped over the slot of the last one. */
 void names_trim(Names *names, int count)
 {
+    mem_keep(names);
     while (names->list.count > count) {
         char *last = names->list.at[names->list.count - 1];
 
-        names->slots[slot_of(names, last)] = 0;
+        set_slot(names, slot_of(names, last), 0);
         names->list.count--;
         mem_free(last);
     }

@@ -10,12 +10,21 @@
 #include <stdlib.h>
 #include <string.h>
 
+#ifdef COTREE_SMALL
+enum { SPARE = 0 };
+#else
+enum { SPARE = 32 };
+#endif
+
 static void reserve(Text *text, size_t more)
 {
-    if (text->length + more + 1 <= text->room)
+    const size_t room = text->length + more + 1 + text->length / 2 + SPARE;
+
+    /* what is there already, its end included, is changed in a copy */
+    if (text->length + more + 1 <= text->room && !mem_is_old(text->at))
         return;
-    text->room = text->length + more + 1 + text->length / 2 + 32;
-    text->at = mem_grow(text->at, text->room, 1);
+    text->at = mem_grow(text->at, room, 1);
+    text->room = room;
 }
 
 void text_add_n(Text *text, const char *more, size_t length)

@@ -8,7 +8,11 @@
 
 #include <string.h>
 
+#ifdef COTREE_SMALL
+enum { WATCH_EVERY = 4096, FIRST_SIZE = 2 };
+#else
 enum { WATCH_EVERY = 4096, FIRST_SIZE = 1024 };
+#endif
 
 /* some four gigabytes */
 #define NODE_LIMIT ((int64_t)1 << 26)
@@ -102,11 +106,36 @@ static void slots_drop(Slot *slots, uint32_t size, uint32_t hash, uint32_t id)
     slots[i] = (Slot){0, 0};
 }
 
+/* entries of nodes and derivatives that aren't there any more */
+static void drop_newer(void *object)
+{
+    Arena *arena = object;
+
+    for (uint32_t i = 0; i < arena->size; i++)
+        if (arena->slots[i].id > (uint32_t)arena->nodes.count)
+            arena->slots[i] = (Slot){0, 0};
+    for (uint32_t i = 0; i < arena->memory_size; i++)
+        if (arena->memory_slots[i].id > (uint32_t)arena->memories.count)
+            arena->memory_slots[i] = (Slot){0, 0};
+}
+
+/* Before anything of the arena's is changed. What a call adds and doesn't come to an end with is
+ * as if it had never been there. */
+static inline void arena_keep_whole(Arena *arena)
+{
+    if (transaction_now == NULL || piece_of(arena)->kept == transaction_now->number)
+        return;
+    mem_on_failure(drop_newer, arena);
+    mem_keep_now(arena);
+}
+
 static void table_grow(Arena *arena)
 {
+    Slot *slots = NEW_ARRAY(Slot, 2 * (size_t)arena->size);
+
     mem_free(arena->slots);
+    arena->slots = slots;
     arena->size *= 2;
-    arena->slots = NEW_ARRAY(Slot, arena->size);
     for (int i = 0; i < arena->nodes.count; i++)
         slots_put(arena->slots, arena->size, arena->nodes.at[i]->hash, (uint32_t)i + 1);
 }
@@ -116,8 +145,10 @@ static void table_grow(Arena *arena)
 /* A new node with room for `size` bytes behind its head. */
 static struct ExprNode *node_new(Arena *arena, uint32_t hash, size_t size)
 {
-    struct ExprNode *node = pool_alloc(arena->pool, sizeof(struct ExprNode) + size);
+    struct ExprNode *node;
 
+    arena_keep_whole(arena);
+    node = pool_alloc(arena->pool, sizeof(struct ExprNode) + size);
     node->number = (uint32_t)arena->nodes.count;
     node->hash = hash;
     LIST_PUSH(arena->nodes, node);
@@ -243,6 +274,7 @@ Expr expr_symbol(Arena *arena, const char *name, SymbolKind kind)
 
     if (found != NULL)
         return found;
+    arena_keep_whole(arena);
     data.number = arena->symbols++;
     node = node_new(arena, symbol_hash(name, kind), sizeof data);
     node->kind = EXPR_SYMBOL;
@@ -256,6 +288,7 @@ void expr_symbol_latex(Arena *arena, Expr symbol, const char *latex)
 {
     SymbolData *data = (SymbolData *)(void *)(arena->nodes.at[symbol->number] + 1);
 
+    pool_keep(arena->pool, data, sizeof *data);
     data->latex = pool_text(arena->texts, latex, strlen(latex));
 }
 
@@ -264,11 +297,14 @@ void expr_symbol_latex(Arena *arena, Expr symbol, const char *latex)
 static Expr table_symbol(Arena *arena, int number)
 {
     Text name = {0};
+    SymbolData *data;
     Expr symbol;
 
     text_addf(&name, "_table%d", number + 1);
     symbol = expr_symbol(arena, name.at, SYMBOL_TABLE);
-    ((SymbolData *)(void *)(arena->nodes.at[symbol->number] + 1))->table = arena->tables.at[number];
+    data = (SymbolData *)(void *)(arena->nodes.at[symbol->number] + 1);
+    pool_keep(arena->pool, data, sizeof *data);
+    data->table = arena->tables.at[number];
     text_free(&name);
     return symbol;
 }
@@ -287,6 +323,7 @@ Expr arena_add_table(Arena *arena, const char *file, const char *column, const d
     const size_t bytes = (size_t)count * sizeof(double);
     int number = 0;
 
+    arena_keep_whole(arena);
     for (; number < arena->tables.count; number++) {
         const Curve *table = arena->tables.at[number];
 
@@ -341,18 +378,22 @@ Expr arena_recall(const Arena *arena, Expr e, Expr symbol)
 
 void arena_remember(Arena *arena, Expr e, Expr symbol, Expr derivative)
 {
+    Slot *slots;
+
     /* what was made after a failure may be anything */
     if (arena->status != OK)
         return;
+    arena_keep_whole(arena);
     LIST_PUSH(arena->memories, (Memory){e, symbol, derivative});
     if ((uint32_t)arena->memories.count <= arena->memory_size / 2) {
         slots_put(arena->memory_slots, arena->memory_size, memory_hash(e, symbol),
                   (uint32_t)arena->memories.count);
         return;
     }
+    slots = NEW_ARRAY(Slot, 2 * (size_t)arena->memory_size);
     mem_free(arena->memory_slots);
+    arena->memory_slots = slots;
     arena->memory_size *= 2;
-    arena->memory_slots = NEW_ARRAY(Slot, arena->memory_size);
     for (int i = 0; i < arena->memories.count; i++)
         slots_put(arena->memory_slots, arena->memory_size,
                   memory_hash(arena->memories.at[i].e, arena->memories.at[i].symbol),
@@ -416,6 +457,7 @@ const char *arena_failure(const Arena *arena)
 
 void arena_fail(Arena *arena, Status status, const char *message)
 {
+    arena_keep_whole(arena);
     if (status == E_STOPPED || status == E_MEMORY)
         arena->halted = true;
     if (arena->status != OK)
@@ -426,6 +468,7 @@ void arena_fail(Arena *arena, Status status, const char *message)
 
 void arena_reset(Arena *arena)
 {
+    arena_keep_whole(arena);
     arena->status = OK;
     arena->failure = NULL;
     arena->halted = false;
@@ -433,6 +476,7 @@ void arena_reset(Arena *arena)
 
 void arena_watch(Arena *arena, const Watch *watch)
 {
+    arena_keep_whole(arena);
     arena->watch = watch;
 }
 
@@ -440,6 +484,7 @@ int64_t arena_limit(Arena *arena, int64_t nodes)
 {
     const int64_t before = arena->limit;
 
+    arena_keep_whole(arena);
     arena->limit = nodes < NODE_LIMIT ? nodes : NODE_LIMIT;
     return before;
 }
@@ -457,6 +502,7 @@ ArenaMark *arena_mark(Arena *arena)
 
 void arena_release(Arena *arena, ArenaMark *mark)
 {
+    arena_keep_whole(arena);
     while (arena->memories.count > mark->memories) {
         const Memory *memory = &arena->memories.at[arena->memories.count - 1];
 

@@ -44,6 +44,7 @@ static Expr coefficient(const System *system, const Branchlike *branch)
 
 int system_bounds(System *system, Bound **out)
 {
+    mem_keep(system);
     LIST(Bound) bounds = {0};
 
     for (int b = 0; b < system->branches.count; b++) {
@@ -73,6 +74,7 @@ int system_bounds(System *system, Bound **out)
 
 int system_storages(System *system, Storage **out)
 {
+    mem_keep(system);
     LIST(Storage) storages = {0};
 
     for (int b = 0; b < system->branches.count; b++) {

@@ -7,6 +7,7 @@
 
 bool system_critical(System *system, int i, Critical *out)
 {
+    mem_keep(system);
     Arena *arena = system->arena;
 
     for (int k = 0; k < system->instance_count; k++) {

@@ -68,6 +68,7 @@ done:
 
 bool system_line(System *system, int *next, FrameLine *out)
 {
+    mem_keep(system);
     for (; *next < system->instance_count; ++*next) {
         const Instance *instance = &system->instances[*next];
         Effort effort;
@@ -126,6 +127,7 @@ static bool find_push(System *system, const Instance *instance, Pusher *out)
 
 bool system_pusher(System *system, int *next, Pusher *out)
 {
+    mem_keep(system);
     while (*next < system->instance_count)
         if (find_push(system, &system->instances[(*next)++], out))
             return true;

@@ -44,6 +44,7 @@ static void push_stored(System *system, Terms *terms, bool of_motion)
 
 Expr system_kinetic(System *system)
 {
+    mem_keep(system);
     Arena *arena = system->arena;
     Terms terms = {0};
     Expr sum;
@@ -87,6 +88,7 @@ static bool stored_in(System *system, const Effort *effort, Expr displacement, E
 
 Expr system_potential(System *system)
 {
+    mem_keep(system);
     Arena *arena = system->arena;
     Terms terms = {0};
     Expr sum;
@@ -180,6 +182,7 @@ static void push_drives(System *system, Terms *terms)
 
 Expr system_power(System *system)
 {
+    mem_keep(system);
     Arena *arena = system->arena;
     Terms terms = {0};
     Expr sum;

@@ -88,6 +88,7 @@ Status ideal_share(System *system, const Branchlike *branch, bool *shared, Expr 
 
 Status system_scalar(System *system, int i, ScalarPair *out, Diag *diag)
 {
+    mem_keep(system);
     Branchlike *branch = &system->branches.at[i];
     ScalarPair pair = {.name = system->instances[branch->instance].name,
                        .domain = graph_edge(system->graph, branch->edge)->domain,
@@ -131,6 +132,7 @@ static Expr margin_of(const System *system, int i, const IdealSwitch *diode)
 
 Status system_ideal(System *system, int i, IdealSwitch *out, Diag *diag)
 {
+    mem_keep(system);
     Branchlike *branch = &system->branches.at[system->ideals.at[i]];
     const Ideal *ideal = &branch->relation.ideal;
     IdealSwitch found = {.name = system->instances[branch->instance].name,

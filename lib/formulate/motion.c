@@ -144,6 +144,7 @@ Vec node_position(const System *system, int node)
 
         p = vec_hold(arena,
                      vec_add(arena, p, expressed(system, frame->shift, frame->step_chain, 0)));
+        pool_keep(system->pool, frame, sizeof *frame);
         frame->p = p;
     }
     LIST_FREE(way);

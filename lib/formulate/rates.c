@@ -157,5 +157,6 @@ done:
 
 Status system_rate(System *system, Expr e, Expr *out, Diag *diag)
 {
+    mem_keep(system);
     return rate_of(system, e, out, diag);
 }

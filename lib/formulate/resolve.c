@@ -60,5 +60,6 @@ done:
 
 Status system_resolve(System *system, Expr user, Expr *out, Diag *diag)
 {
+    mem_keep(system);
     return resolve(system, user, out, diag);
 }

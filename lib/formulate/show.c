@@ -535,6 +535,7 @@ done:
 
 Status system_show(System *system, Block block, int row, int column, Expr *out, Diag *diag)
 {
+    mem_keep(system);
     Status status = show_entry(system, block, row, column, out, diag);
 
     if (status == OK)

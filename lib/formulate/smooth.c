@@ -118,6 +118,7 @@ Status need_smooth(System *system, const char *who, Expr e, Diag *diag)
 
 const char *system_rough_driver(System *system, int order)
 {
+    mem_keep(system);
     Expr time = expr_symbol(system->arena, "t", SYMBOL_TIME);
 
     for (int k = 0; k < system->rows.count; k++) {

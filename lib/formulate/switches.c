@@ -308,6 +308,7 @@ static void gather_all(System *system)
 
 int system_switches(System *system, const Switch **switches, int *time_only)
 {
+    mem_keep(system);
     if (!system->switches_known) {
         gather_all(system);
         /* those of time alone first, each once */
@@ -327,6 +328,7 @@ int system_switches(System *system, const Switch **switches, int *time_only)
 
 Expr system_surface(System *system, int i)
 {
+    mem_keep(system);
     return i < system->surfaces.count ? system->surfaces.at[i] : NULL;
 }
 
@@ -368,6 +370,7 @@ static bool part_switches_on(System *system, const Instance *instance, Expr surf
 
 const char *system_jumping_part(System *system, Expr condition)
 {
+    mem_keep(system);
     int way;
     Expr surface = surface_of(system->arena, condition, &way);
 

@@ -16,9 +16,14 @@ const char *system_keep(System *system, const char *format, ...)
     return pool_text(system->pool, text, strlen(text));
 }
 
+static void system_free_later(void *object)
+{
+    system_free(object);
+}
+
 void system_free(System *system)
 {
-    if (system == NULL)
+    if (system == NULL || mem_frees_later(system, system_free_later))
         return;
     if (system->sided != NULL && system->sided != system && system->sided->closed == NULL)
         system_free(system->sided); /* else it is one of the modes */
@@ -240,6 +245,7 @@ int system_network_count(const System *system)
 
 void system_network_equation(System *system, int i, Expr *left, Expr *right)
 {
+    mem_keep(system);
     *left = system->network_shown.at[i].left;
     *right = system->network_shown.at[i].right;
 }

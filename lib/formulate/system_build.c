@@ -471,6 +471,7 @@ static bool is_mode(const System *mode, const bool *closed)
 Status system_mode(System *whole, SceneSource source, const bool *closed, const Watch *watch,
                    System **out, Diag *diag)
 {
+    mem_keep(whole);
     System *mode = NULL;
     Status status = OK;
 
@@ -488,6 +489,7 @@ done:
 
 Status system_sided(System *whole, SceneSource source, const Watch *watch, System **out, Diag *diag)
 {
+    mem_keep(whole);
     int ideal = system_truly_ideal_count(whole);
     bool *closed = NULL;
     Status status = OK;

@@ -86,6 +86,7 @@ void turned_build(System *system)
 /* (c s' - s c') r/(r^2 + 1e-8), r = s^2 + c^2: c s' - s c' where the joint holds, r being 1 */
 Status system_turned_rate(System *system, int i, Expr *out, Diag *diag)
 {
+    mem_keep(system);
     Arena *arena = system->arena;
     const TurnedChord *chord = &system->turned.at[i];
     Expr sine_rate;

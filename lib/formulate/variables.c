@@ -575,6 +575,7 @@ static bool find_coordinate(const System *system, const char *path, const Instan
 
 Status system_variable(System *system, const char *path, int primes, Expr *out, Diag *diag)
 {
+    mem_keep(system);
     const Instance *owner;
     int which;
     bool found = false;

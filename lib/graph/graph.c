@@ -83,8 +83,16 @@ void graph_free(Graph *graph)
     mem_free(graph);
 }
 
+/* before the edges at a node change */
+static void keep_incident(Graph *graph, int node)
+{
+    mem_keep_part(graph->at.at, &graph->at.at[node], sizeof *graph->at.at);
+}
+
 int graph_add_node(Graph *graph, const char *name, Domain domain, bool datum)
 {
+    mem_keep(graph);
+
     int node = graph->nodes.count;
     Node new_node = {pool_text(graph->texts, name, strlen(name)), domain, datum};
 
@@ -105,11 +113,14 @@ int graph_add_edge(Graph *graph, const Edge *edge)
     assert(graph->nodes.at[edge->tail].domain == edge->domain);
     assert(graph->nodes.at[edge->head].domain == edge->domain);
 
+    mem_keep(graph);
     copy.name = pool_text(graph->texts, edge->name, strlen(edge->name));
     if (names_add(graph->edge_names, edge->name) == graph->first_edge.count)
         LIST_PUSH(graph->first_edge, number);
     LIST_PUSH(graph->edges, copy);
+    keep_incident(graph, edge->tail);
     LIST_PUSH(graph->at.at[edge->tail].edges, number);
+    keep_incident(graph, edge->head);
     if (edge->head != edge->tail)
         LIST_PUSH(graph->at.at[edge->head].edges, number);
     return number;
@@ -130,15 +141,19 @@ static int names_left(const int *first, int count, int bearers)
 
 void graph_trim(Graph *graph, const GraphMark *mark)
 {
+    mem_keep(graph);
     while (graph->edges.count > mark->edges) {
         const Edge *edge = &graph->edges.at[--graph->edges.count];
 
+        keep_incident(graph, edge->tail);
+        keep_incident(graph, edge->head);
         graph->at.at[edge->tail].edges.count--;
         if (edge->head != edge->tail)
             graph->at.at[edge->head].edges.count--;
     }
     while (graph->nodes.count > mark->nodes) {
         graph->nodes.count--;
+        keep_incident(graph, graph->nodes.count);
         LIST_FREE(graph->at.at[graph->nodes.count].edges);
     }
     graph->at.count = graph->nodes.count;

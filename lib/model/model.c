@@ -81,6 +81,7 @@ static void set_remarks(Model *model, Text *remarks)
 
 void model_join(Model *model, int count, const char *called)
 {
+    mem_keep(model);
     history_join(&model->history, count, called);
 }
 
@@ -88,6 +89,7 @@ int model_begin_group(Model *model)
 {
     const int outer = model->history.low;
 
+    mem_keep(model);
     model->history.low = model->history.done;
     return outer;
 }
@@ -97,11 +99,18 @@ int model_end_group(Model *model, int outer, const char *called)
     History *history = &model->history;
     const int count = history->done - history->low;
 
+    mem_keep(model);
     if (count > 0)
         history_join(history, count, called);
-    if (outer < history->low)
-        history->low = outer;
+    (void)model_leave_group(model, outer);
     return count;
+}
+
+int model_leave_group(Model *model, int outer)
+{
+    if (outer < model->history.low)
+        model->history.low = outer;
+    return 0;
 }
 
 int model_step_count(const Model *model)
@@ -120,6 +129,7 @@ Status model_apply(Model *model, const Statement *statement, Diag *diag)
     Status status = OK;
     Outcome outcome = {EFFECT_NONE, {0}};
 
+    mem_keep(model);
     CHECK(data_read_statement(&model->finder, model->arena, statement, !model->finder.given, diag));
     CHECK(history_take(&model->history, &model->state, statement, &outcome, diag));
     set_remarks(model, &outcome.remarks);
@@ -135,11 +145,13 @@ done:
 
 void model_find_data(Model *model, const DataFinder *finder)
 {
+    mem_keep(model);
     model->finder = *finder;
 }
 
 void model_find_entries(Model *model, const EntryFinder *finder)
 {
+    mem_keep(model);
     model->entries = *finder;
 }
 
@@ -157,6 +169,7 @@ static Status move(Model *model, Status (*go)(History *, State **, const char **
     Text none = {0};
     Status status = OK;
 
+    mem_keep(model);
     CHECK(go(&model->history, &model->state, &model->undone, &effect, diag));
     set_remarks(model, &none);
     count_effect(model, effect);
@@ -176,6 +189,7 @@ Status model_redo(Model *model, Diag *diag)
 
 void model_forget_undone(Model *model)
 {
+    mem_keep(model);
     model->history.list.count = model->history.done;
 }
 
@@ -188,6 +202,7 @@ void model_clear(Model *model)
 {
     Text none = {0};
 
+    mem_keep(model);
     history_clear(&model->history, &model->state);
     set_remarks(model, &none);
     count_effect(model, EFFECT_EQUATIONS);

@@ -31,6 +31,7 @@ void model_join(Model *model, int count, const char *called);
  * together; how many there are. Groups may lie within groups. */
 int model_begin_group(Model *model);
 int model_end_group(Model *model, int outer, const char *called);
+int model_leave_group(Model *model, int outer); /* they stay single steps; 0 */
 /* the steps that count: the statement of each, in full, and a number that no other step has */
 int model_step_count(const Model *model);
 const char *model_step(const Model *model, int i, int *serial);

@@ -25,6 +25,9 @@ typedef struct Reader {
     int x_cell, y_cell; /* from 0 */
     LIST(double) x;
     LIST(double) y;
+    FILE *in;
+    char *path; /* of the hook's making; NULL */
+    Cleanup cleanup;
     Diag *diag;
 } Reader;
 
@@ -227,6 +230,16 @@ done:
 
 /* --- the calls of a statement --- */
 
+static void close_file(void *object)
+{
+    Reader *r = object;
+
+    if (r->in != NULL)
+        (void)fclose(r->in);
+    free(r->path);
+    cleanup_close(&r->cleanup);
+}
+
 static Status read_call(const DataFinder *finder, Arena *arena, const Syntax *call, Diag *diag)
 {
     Reader r = {.file = call->args[0]->text,
@@ -234,27 +247,28 @@ static Status read_call(const DataFinder *finder, Arena *arena, const Syntax *ca
                 .column = data_column(call),
                 .column_place = call->count > 2 ? call->args[2]->place : call->args[0]->place,
                 .diag = diag};
-    char *path = finder->find != NULL ? finder->find(finder->context, r.file) : NULL;
-    const bool is_refused = finder->find != NULL && path == NULL;
-    FILE *in = is_refused ? NULL : fopen(path != NULL ? path : r.file, "r");
     Status status = OK;
 
-    if (is_refused) {
+    cleanup_open(&r.cleanup, close_file, &r);
+    if (finder->find != NULL)
+        r.path = finder->find(finder->context, r.file);
+    if (finder->find != NULL && r.path == NULL) {
         (void)diag_at(diag, E_VALUE, r.place, "'%s' may not be read here", r.file);
         diag_hint(diag, "a --safe session reads only what lies in the script's folder");
         CHECK(E_VALUE);
     }
-    if (in == NULL) {
+    r.in = fopen(r.path != NULL ? r.path : r.file, "r");
+    if (r.in == NULL && errno == ENOMEM)
+        transaction_fail();
+    if (r.in == NULL) {
         (void)diag_at(diag, E_MISSING, r.place, "can't read '%s': %s", r.file, strerror(errno));
         diag_hint(diag, "a name is meant from the folder of the script, or from the current one");
         CHECK(E_MISSING);
     }
-    CHECK(read_stream(&r, in));
+    CHECK(read_stream(&r, r.in));
     arena_add_table(arena, r.file, r.column, r.x.at, r.y.at, r.x.count);
 done:
-    if (in != NULL)
-        (void)fclose(in);
-    free(path);
+    close_file(&r);
     LIST_FREE(r.x);
     LIST_FREE(r.y);
     return status;

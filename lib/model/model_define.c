@@ -100,6 +100,7 @@ static Status replace_line(State **state, int index, const char *text, const Sco
     Diag fault = {0};
     Status status;
 
+    mem_keep_part((*state)->lines.at, line, sizeof *line);
     line->text = state_text(*state, text);
     line_uses(*state, line, scope);
     status = state_rebuild(*state, -1, &next, NULL, &outcome->remarks, &fault);
@@ -116,9 +117,9 @@ static Status replace_line(State **state, int index, const char *text, const Sco
 
 static void set_body(State *state, Definition *d, Expr body)
 {
+    mem_keep_part(state->definitions.at, d, sizeof *d);
     d->body = body;
-    for (int i = 0; i < state->parameters.count; i++)
-        state->definitions.at[state->parameters.at[i]].is_known = false;
+    definitions_forget_values(state);
 }
 
 /* Give the parameter another body, unless parts refuse the values that follow. */

@@ -20,11 +20,12 @@ void history_close(History *history)
 
 static Accepted *add(History *history, const char *text, Effect effect, const StateMark *mark)
 {
-    history->list.count = history->done++;
+    history->list.count = history->done;
     LIST_PUSH(history->list, (Accepted){.text = pool_text(history->texts, text, strlen(text)),
                                         .effect = effect,
                                         .mark = *mark,
                                         .serial = ++history->serial});
+    history->done++;
     return &history->list.at[history->list.count - 1];
 }
 
@@ -35,6 +36,7 @@ static Status apply_marked(State **state, const Statement *statement, StateMark 
     const Setup setup = state_setup(*state);
     Status status = OK;
 
+    mem_keep(*state);
     *mark = state_mark(*state);
     CHECK(state_apply(state, statement, outcome, diag));
     if ((*state)->number == mark->state)
@@ -75,6 +77,7 @@ void history_join(History *history, int count, const char *called)
 {
     Accepted *last = &history->list.at[history->done - 1];
 
+    mem_keep_part(history->list.at, &last[1 - count], (size_t)count * sizeof *last);
     last->before = count - 1;
     last->called = pool_text(history->texts, called, strlen(called));
     last[1 - count].after = count - 1;
@@ -82,13 +85,15 @@ void history_join(History *history, int count, const char *called)
 
 /* --- back and forth --- */
 
-static Status take_again(State **state, Accepted *step, Diag *diag)
+static Status take_again(History *history, int i, State **state, Diag *diag)
 {
+    Accepted *step = &history->list.at[i];
     Statement *statement = NULL;
     Outcome outcome = {EFFECT_NONE, {0}};
     size_t next = 0;
     Status status = OK;
 
+    mem_keep_part(history->list.at, &step->mark, sizeof step->mark);
     if (step->clears) {
         step->mark = state_mark(*state);
         state_replace(state, state_new((*state)->arena));
@@ -113,7 +118,7 @@ static Status make_anew(History *history, int count, State **state, Diag *diag)
         first--;
     made->number = history->list.at[first].mark.state;
     for (int i = first; i < count; i++)
-        CHECK(take_again(&made, &history->list.at[i], diag));
+        CHECK(take_again(history, i, &made, diag));
     state_free(*state);
     *state = made;
     made = NULL;
@@ -168,7 +173,7 @@ Status history_redo(History *history, State **state, const char **over, Effect *
         return diag_set(diag, E_MISSING, "there is nothing to redo");
     to = from + 1 + history->list.at[from].after;
     for (int i = from; i < to; i++) {
-        status = take_again(state, &history->list.at[i], diag);
+        status = take_again(history, i, state, diag);
         if (status != OK) {
             if (i > from && !state_go_back(state, &history->list.at[from].mark))
                 status = make_anew(history, from, state, diag);

@@ -208,6 +208,8 @@ void state_keep_independent(State *state);
 void state_keep_values(State *state, int part, Value *values); /* as they were */
 /* where the starts stand, from the one at `first` on (model_start.c) */
 void starts_index(State *state, int first);
+/* and where one of that name does; -1: nowhere */
+void state_place_start(State *state, int name, int place);
 
 /* --- names in a statement (model_names.c) --- */
 
@@ -350,6 +352,7 @@ int definition_index(const State *state, const Definition *d);
 /* --- definitions and lines --- */
 
 double definition_value(State *state, int definition);
+void definitions_forget_values(State *state); /* of parameters: they follow from one another */
 /* an expression of parameters alone, as they are now */
 double state_number(State *state, Expr body);
 /* Refuses when `uses` lead back to the definition. */

@@ -30,17 +30,21 @@ StateMark state_mark(const State *state)
 
 static Change *keep(State *state, ChangeKind kind, int at)
 {
+    mem_keep(state);
     LIST_PUSH(state->changes, (Change){.kind = kind, .at = at});
     return &state->changes.at[state->changes.count - 1];
 }
 
 void state_keep_line(State *state, int line)
 {
+    mem_keep_part(state->lines.at, &state->lines.at[line], sizeof *state->lines.at);
     keep(state, CHANGED_LINE, line)->was.line = state->lines.at[line];
 }
 
 void state_keep_definition(State *state, int definition)
 {
+    mem_keep_part(state->definitions.at, &state->definitions.at[definition],
+                  sizeof *state->definitions.at);
     keep(state, CHANGED_DEFINITION, definition)->was.definition = state->definitions.at[definition];
 }
 
@@ -131,15 +135,16 @@ static void restore_setup(State *state, const Setup *setup)
 /* values of parameters follow from one another */
 static void restore_definition(State *state, int at, const Definition *was)
 {
+    mem_keep_part(state->definitions.at, &state->definitions.at[at], sizeof *was);
     state->definitions.at[at] = *was;
-    for (int i = 0; i < state->parameters.count; i++)
-        state->definitions.at[state->parameters.at[i]].is_known = false;
+    definitions_forget_values(state);
 }
 
 static void restore_choice(State *state, int kind, Choice *was)
 {
     Choice *choice = &state->choices[kind];
 
+    mem_keep(was);
     LIST_FREE(choice->chosen);
     LIST_FREE(choice->excluded);
     *choice = *was;
@@ -149,6 +154,8 @@ static void restore_choice(State *state, int kind, Choice *was)
 static void restore_start(State *state, int at, const StartEntry *was)
 {
     LIST_PUSH(state->starts, *was);
+    mem_keep_part(state->starts.at, &state->starts.at[at],
+                  sizeof *state->starts.at * (size_t)(state->starts.count - at));
     memmove(&state->starts.at[at + 1], &state->starts.at[at],
             sizeof *state->starts.at * (size_t)(state->starts.count - 1 - at));
     state->starts.at[at] = *was;
@@ -158,12 +165,14 @@ static void restore(State *state, Change *change)
 {
     switch (change->kind) {
     case CHANGED_LINE:
+        mem_keep_part(state->lines.at, &state->lines.at[change->at], sizeof *state->lines.at);
         state->lines.at[change->at] = change->was.line;
         break;
     case CHANGED_DEFINITION:
         restore_definition(state, change->at, &change->was.definition);
         break;
     case CHANGED_VALUES:
+        pool_keep(state->pool, state->parts.at[change->at], sizeof(Instance));
         state->parts.at[change->at]->values = change->was.values;
         break;
     case CHANGED_CHOICE:
@@ -188,10 +197,12 @@ static void restore(State *state, Change *change)
 static void change_free(Change *change)
 {
     if (change->kind == CHANGED_CHOICE) {
+        mem_keep(change->was.choice);
         LIST_FREE(change->was.choice->chosen);
         LIST_FREE(change->was.choice->excluded);
         mem_free(change->was.choice);
     } else if (change->kind == CHANGED_INDEPENDENT) {
+        mem_keep(change->was.independent);
         LIST_FREE(*change->was.independent);
         mem_free(change->was.independent);
     } else if (change->kind == CHANGED_SETUP)
@@ -209,6 +220,7 @@ static void restore_changes(State *state, int count)
 {
     bool starts = false;
 
+    mem_keep(state);
     while (state->changes.count > count) {
         Change *change = &state->changes.at[--state->changes.count];
 
@@ -254,6 +266,7 @@ bool state_go_back(State **state, const StateMark *mark)
     while (*state != found) {
         State *gone = *state;
 
+        mem_keep(gone);
         *state = gone->before;
         gone->before = NULL;
         state_free(gone);
@@ -270,6 +283,7 @@ void state_replace(State **state, State *next)
 
     for (; first->before != NULL; more++)
         first = first->before;
+    mem_keep(*state);
     first->before = *state;
     for (State *s = next; more > 0; s = s->before)
         s->number = (*state)->number + more--;
@@ -283,6 +297,7 @@ void state_forget_before(State *state, size_t bytes)
     for (; state->before != NULL; state = state->before) {
         held += pool_bytes(state->before->pool);
         if (held > bytes) {
+            mem_keep(state);
             state_free(state->before);
             state->before = NULL;
             return;
@@ -320,8 +335,15 @@ static void free_one(State *state)
     mem_free(state);
 }
 
+static void state_free_later(void *object)
+{
+    state_free(object);
+}
+
 void state_free(State *state)
 {
+    if (state != NULL && mem_frees_later(state, state_free_later))
+        return;
     while (state != NULL) {
         State *before = state->before;
 

@@ -55,6 +55,7 @@ double definition_value(State *state, int definition)
         Definition *d = &state->definitions.at[stack.at[stack.count - 1]];
 
         if (d->is_known || !push_unknown(state, d->body, &stack)) {
+            mem_keep_part(state->definitions.at, d, sizeof *d);
             if (!d->is_known)
                 d->value = expr_evaluate(d->body, known_value, state);
             d->is_known = true;
@@ -63,6 +64,18 @@ double definition_value(State *state, int definition)
     }
     LIST_FREE(stack);
     return state->definitions.at[definition].value;
+}
+
+void definitions_forget_values(State *state)
+{
+    for (int i = 0; i < state->parameters.count; i++) {
+        Definition *d = &state->definitions.at[state->parameters.at[i]];
+
+        if (!d->is_known)
+            continue;
+        mem_keep_part(state->definitions.at, d, sizeof *d);
+        d->is_known = false;
+    }
 }
 
 double state_number(State *state, Expr body)

@@ -75,7 +75,9 @@ static void remove_start(State *state, int at)
 {
     LIST_PUSH(state->changes,
               (Change){.kind = REMOVED_START, .at = at, .was.start = state->starts.at[at]});
-    state->start_of.at[state->starts.at[at].name] = -1;
+    state_place_start(state, state->starts.at[at].name, -1);
+    mem_keep_part(state->starts.at, &state->starts.at[at],
+                  sizeof *state->starts.at * (size_t)(state->starts.count - at));
     state->starts.count--;
     memmove(&state->starts.at[at], &state->starts.at[at + 1],
             sizeof *state->starts.at * (size_t)(state->starts.count - at));

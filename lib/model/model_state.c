@@ -25,6 +25,7 @@ State *state_new(Arena *arena)
 
 void state_forget_trees(State *state)
 {
+    mem_keep(state);
     for (int kind = 0; kind < TREE_KINDS; kind++) {
         tree_free(state->trees[kind]);
         state->trees[kind] = NULL;
@@ -84,12 +85,20 @@ void name_list_add(NameList *list, const char *name)
     LIST_PUSH(*list, name);
 }
 
+void state_place_start(State *state, int name, int place)
+{
+    int *at = &state->start_of.at[name];
+
+    mem_keep_part(state->start_of.at, at, sizeof *at);
+    *at = place;
+}
+
 void starts_index(State *state, int first)
 {
     while (state->start_of.count < names_count(state->start_names))
         LIST_PUSH(state->start_of, -1);
     for (int i = first; i < state->starts.count; i++)
-        state->start_of.at[state->starts.at[i].name] = i;
+        state_place_start(state, state->starts.at[i].name, i);
 }
 
 void scope_use(Scope *scope, int definition)

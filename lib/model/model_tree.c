@@ -109,6 +109,7 @@ Status state_trees(State *state, const Tree *trees[TREE_KINDS], Diag *diag)
     Status status = OK;
 
     if (!state->has_trees) {
+        mem_keep(state);
         for (TreeKind kind = 0; kind < TREE_KINDS; kind++)
             if (has_kind(state, kind))
                 CHECK(complete(state, kind, &state->choices[kind], &state->trees[kind], diag));

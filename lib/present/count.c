@@ -232,6 +232,7 @@ int tree_costs_add(TreeCosts *costs, TreeCost *cost)
 {
     for (int i = 0; i < costs->count; i++)
         if (strcmp(costs->at[i].trees, cost->trees) == 0) {
+            mem_keep(costs->at);
             mem_free(costs->at[i].trees);
             costs->at[i] = *cost;
             return i;

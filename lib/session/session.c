@@ -12,17 +12,12 @@ const char *ct_version(void)
     return PACKAGE_VERSION;
 }
 
-void ct_memory_hook(void (*ended)(void))
-{
-    mem_on_end(ended);
-}
-
 void ct_free(void *piece)
 {
     mem_free(piece);
 }
 
-ct_session *ct_session_new(const ct_hooks *hooks)
+static ct_session *session_new(const ct_hooks *hooks)
 {
     ct_session *session = NEW(ct_session);
 
@@ -31,6 +26,13 @@ ct_session *ct_session_new(const ct_hooks *hooks)
     session->changed = true;
     ct_session_hooks(session, hooks);
     return session;
+}
+
+ct_session *ct_session_new(const ct_hooks *hooks)
+{
+    TRANSACTION(NULL);
+
+    return session_new(hooks);
 }
 
 void ct_session_hooks(ct_session *session, const ct_hooks *hooks)
@@ -46,6 +48,7 @@ void ct_session_hooks(ct_session *session, const ct_hooks *hooks)
 
 static void drop_runs(ct_session *session)
 {
+    mem_keep(session->runs.at);
     for (int i = 0; i < session->runs.count; i++)
         run_free(session->runs.at + i);
     LIST_FREE(session->runs);
@@ -100,6 +103,34 @@ ct_status session_report(Status status, const Diag *diag, ct_error *error)
     return public;
 }
 
+ct_status session_ran_out(ct_session *session, ct_error *error)
+{
+    const Diag diag = {.status = E_MEMORY,
+                       .message = "out of memory",
+                       .hint = "nothing has changed: what was there before is still there"};
+
+    session_begin(session);
+    return session_report(E_MEMORY, &diag, error);
+}
+
+/* a try with failing allocations is nobody's to watch, and takes no longer than that */
+static bool stop_trial(void *context)
+{
+    static const int most = 2000;
+    ct_session *session = context;
+
+    return ++session->polls > most;
+}
+
+void session_enter(const ct_session *handle)
+{
+    ct_session *session = (ct_session *)(uintptr_t)handle; /* a borrowed one may be touched, too */
+
+    mem_keep(session);
+    if (transaction_is_trial())
+        session->watch = (Watch){.context = session, .stop = stop_trial};
+}
+
 void session_begin(ct_session *session)
 {
     text_free(&session->remarks);
@@ -149,6 +180,7 @@ void session_sweep(ct_session *session)
 {
     int kept = 0;
 
+    mem_keep(session->systems.at);
     for (int i = 0; i < session->systems.count; i++) {
         System *system = session->systems.at[i];
 
@@ -368,6 +400,8 @@ static Status try_trees(ct_session *session, const Statement *s, Diag *diag)
 
 ct_status ct_apply(ct_session *session, const ct_statement *statement, ct_error *error)
 {
+    SESSION_CALL(session, session_ran_out(session, error));
+
     const Statement *s = statement_of(statement);
     const VerbChanges changes = s->kind == STATEMENT_VERB ? s->row.changes : CHANGES_MODEL;
     const uint64_t revision = model_revision(session->model);
@@ -429,11 +463,15 @@ done:
 
 ct_status ct_undo(ct_session *session, ct_error *error)
 {
+    SESSION_CALL(session, session_ran_out(session, error));
+
     return move_over(session, model_undo, "undone", error);
 }
 
 ct_status ct_redo(ct_session *session, ct_error *error)
 {
+    SESSION_CALL(session, session_ran_out(session, error));
+
     return move_over(session, model_redo, "done again", error);
 }
 
@@ -444,6 +482,8 @@ int ct_begin_group(ct_session *session)
 
 int ct_end_group(ct_session *session, int outer, const char *called)
 {
+    SESSION_CALL(session, model_leave_group(session->model, outer));
+
     return model_end_group(session->model, outer, called);
 }
 
@@ -459,6 +499,8 @@ const char *ct_step(const ct_session *session, int i, int *number)
 
 void ct_clear(ct_session *session)
 {
+    SESSION_CALL(session, );
+
     session_begin(session);
     model_clear(session->model);
     drop_runs(session);
@@ -469,6 +511,8 @@ void ct_clear(ct_session *session)
 
 char *ct_save(const ct_session *session)
 {
+    SESSION_CALL(session, NULL);
+
     return model_save(session->model);
 }
 

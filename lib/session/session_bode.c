@@ -280,6 +280,8 @@ done:
 ct_status ct_bode(ct_session *session, const ct_statement *statement, double **values, int *rows,
                   int *columns, char ***names, ct_error *error)
 {
+    SESSION_CALL(session, session_ran_out(session, error));
+
     Sheet sheet = {0};
     Diag diag = {0};
     const Status status = make_sheet(session, statement_of(statement), &sheet, &diag);
@@ -296,6 +298,8 @@ ct_status ct_bode(ct_session *session, const ct_statement *statement, double **v
 ct_status ct_bode_csv(ct_session *session, const ct_statement *statement, bool with_header,
                       char **text, ct_error *error)
 {
+    SESSION_CALL(session, session_ran_out(session, error));
+
     Sheet sheet = {0};
     Text out = {0};
     Diag diag = {0};

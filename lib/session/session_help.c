@@ -7,6 +7,8 @@
 
 char *ct_help(const char *word)
 {
+    TRANSACTION(NULL);
+
     Text text = {0};
 
     return help_print(&text, word) ? text_done(&text) : NULL;
@@ -14,6 +16,8 @@ char *ct_help(const char *word)
 
 char *ct_apropos(const char *word)
 {
+    TRANSACTION(NULL);
+
     Text text = {0};
 
     help_apropos(&text, word);
@@ -27,6 +31,8 @@ const char *ct_help_suggest(const char *word)
 
 char *ct_reference(const char *format)
 {
+    TRANSACTION(NULL);
+
     static const struct {
         const char *name;
         void (*write)(Text *out);
@@ -49,6 +55,8 @@ bool ct_example(int i, const char **name, const char **text)
 
 char **ct_complete(ct_session *session, const char *line, size_t cursor, size_t *start)
 {
+    SESSION_CALL(session, NULL);
+
     const Known known = {.model = session->model,
                          .linear = session->linear,
                          .setting = session->hooks.setting,

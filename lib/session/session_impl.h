@@ -33,6 +33,7 @@ typedef void Report(const ct_session *session, Text *out);
 struct ct_session {
     ct_hooks hooks;
     Watch watch; /* the hooks, as lib/ knows them */
+    int polls;   /* of a try with failing allocations */
     Model *model;
     LIST(System *) systems; /* of the runs and, last, of the model as it was when asked last */
     LIST(Run) runs;         /* run1 is the first */
@@ -79,6 +80,14 @@ static inline Room session_room(const Statement *s)
 
 /* the public error of a status: returns what the public function returns */
 ct_status session_report(Status status, const Diag *diag, ct_error *error);
+/* At the beginning of each call of cotree.h that may allocate: where memory ends the session is as
+ * it was, and the call returns `failure`. */
+#define SESSION_CALL(session, failure)                                                             \
+    TRANSACTION(failure);                                                                          \
+    session_enter(session)
+void session_enter(const ct_session *handle);
+/* that memory has ended */
+ct_status session_ran_out(ct_session *session, ct_error *error);
 /* before anything that may remark */
 void session_begin(ct_session *session);
 void session_remark(ct_session *session, const char *lines);

@@ -33,6 +33,8 @@ static Status check_no_units(const Statement *s, Diag *diag)
 
 ct_status ct_show(ct_session *session, const ct_statement *statement, char **text, ct_error *error)
 {
+    SESSION_CALL(session, session_ran_out(session, error));
+
     const Statement *s = statement_of(statement);
     View view = session_view(session);
     Text out = {0};
@@ -53,6 +55,8 @@ done:
 
 ct_status ct_count(ct_session *session, const ct_statement *statement, char **text, ct_error *error)
 {
+    SESSION_CALL(session, session_ran_out(session, error));
+
     View view = session_view(session);
     TreeCost cost;
     Text out = {0};
@@ -70,6 +74,8 @@ done:
 
 ct_status ct_check(ct_session *session, char **text, ct_error *error)
 {
+    SESSION_CALL(session, session_ran_out(session, error));
+
     View view = session_view(session);
     Run *start = NULL;
     Text out = {0};
@@ -91,6 +97,8 @@ done:
 
 ct_status ct_info(ct_session *session, const ct_statement *statement, char **text, ct_error *error)
 {
+    SESSION_CALL(session, session_ran_out(session, error));
+
     const Statement *s = statement_of(statement);
     const View view = session_view(session);
     Text out = {0};
@@ -110,6 +118,8 @@ ct_status ct_info(ct_session *session, const ct_statement *statement, char **tex
 
 ct_status ct_tree_text(ct_session *session, char **text, ct_error *error)
 {
+    SESSION_CALL(session, session_ran_out(session, error));
+
     const View view = session_view(session);
     const Selection all = {.number_count = 0};
     Text out = {0};
@@ -121,6 +131,8 @@ ct_status ct_tree_text(ct_session *session, char **text, ct_error *error)
 
 ct_status ct_draw(ct_session *session, bool dot, char **text, ct_error *error)
 {
+    SESSION_CALL(session, session_ran_out(session, error));
+
     const View view = session_view(session);
     Text out = {0};
     Diag diag = {0};

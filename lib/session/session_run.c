@@ -40,6 +40,7 @@ void run_free(Run *run)
 {
     result_free(run->result);
     if (run->parameters != NULL) {
+        mem_keep(run->parameters);
         LIST_FREE(run->parameters->symbols);
         LIST_FREE(run->parameters->values);
     }
@@ -460,6 +461,8 @@ static Place place_of_message(const Statement *s, const char *message)
 
 ct_status ct_run(ct_session *session, const ct_statement *statement, ct_error *error)
 {
+    SESSION_CALL(session, session_ran_out(session, error));
+
     const Statement *s = statement_of(statement);
     Status status;
     Diag diag = {0};
@@ -518,6 +521,8 @@ static void print_configuration(Text *out, Result *start)
 
 char *ct_report(ct_session *session)
 {
+    SESSION_CALL(session, NULL);
+
     Text text = {0};
     const int count = session->runs.count;
     char name[32];

@@ -7,6 +7,8 @@
 
 ct_status ct_parse(ct_cursor *cursor, bool shortened, ct_statement **out, ct_error *error)
 {
+    TRANSACTION(session_report(E_MEMORY, &(Diag){0}, error));
+
     Cursor inner = {cursor->text, cursor->next, cursor->line, cursor->line_start};
     Statement *statement = NULL;
     Diag diag = {0};
@@ -16,6 +18,7 @@ ct_status ct_parse(ct_cursor *cursor, bool shortened, ct_statement **out, ct_err
     if (status == OK)
         status = statement_check_version(statement, &diag);
     if (status == OK) {
+        mem_keep_foreign(cursor, sizeof *cursor);
         cursor->next = inner.next;
         cursor->line = inner.line;
         cursor->line_start = inner.line_start;
@@ -167,6 +170,8 @@ ct_status ct_error_at(const ct_statement *statement, const ct_expression *expres
 
 char *ct_expression_text(const ct_expression *expression)
 {
+    TRANSACTION(NULL);
+
     Text text = {0};
 
     syntax_print(&text, syntax_of(expression));

@@ -59,6 +59,8 @@ done:
 
 char *ct_unit(const ct_session *session, const ct_expression *expression)
 {
+    SESSION_CALL(session, NULL);
+
     static const Dimension none;
     Dimension dimension = none;
     Text unit = {0};
@@ -73,6 +75,8 @@ char *ct_unit(const ct_session *session, const ct_expression *expression)
 ct_status ct_duration(ct_session *session, const ct_expression *expression, const char *name,
                       double *value, ct_error *error)
 {
+    SESSION_CALL(session, session_ran_out(session, error));
+
     Status status;
     Diag diag = {0};
 
@@ -86,6 +90,8 @@ done:
 ct_status ct_value(ct_session *session, const ct_expression *expression, const ct_expression *at,
                    double *value, ct_error *error)
 {
+    SESSION_CALL(session, session_ran_out(session, error));
+
     double instant;
     Status status;
     Diag diag = {0};
@@ -297,6 +303,8 @@ static Status last_run(ct_session *session, Run **out, Diag *diag)
 ct_status ct_table(ct_session *session, const ct_expression *const *items, int count, double every,
                    double **values, int *rows, int *columns, char ***names, ct_error *error)
 {
+    SESSION_CALL(session, session_ran_out(session, error));
+
     const Syntax **list = NEW_ARRAY(const Syntax *, count);
     Sheet sheet = {0};
     Run *source = NULL;
@@ -390,6 +398,8 @@ done:
 
 ct_status ct_expect(ct_session *session, const ct_statement *statement, ct_error *error)
 {
+    SESSION_CALL(session, session_ran_out(session, error));
+
     const Statement *s = statement_of(statement);
     double instant = 0;
     const double *at = NULL;
@@ -468,6 +478,8 @@ static Status prepare(ct_session *session, const Statement *s, Need need, Sheet 
 ct_status ct_export(ct_session *session, const ct_statement *statement, bool with_header,
                     char **text, ct_error *error)
 {
+    SESSION_CALL(session, session_ran_out(session, error));
+
     const Statement *s = statement_of(statement);
     const char *name = s->operands.count > 0 ? s->operands.at[0].value->text : "";
     const Format *format = format_find(name);

@@ -5,6 +5,7 @@
  * that are outside the span of the others are lost. */
 #include "simulate/analyse/freedoms.h"
 
+#include "algebra/dense.h"
 #include "base/memory.h"
 #include "base/text.h"
 #include "simulate/run/result.h"
@@ -35,8 +36,8 @@ static double *find_motions(Result *r)
     if (rank == 0)
         return motions;
     eq->position(eq->context, 0, r->start.y);
-    rows = gsl_matrix_alloc((size_t)nu, (size_t)rank);
-    tau = gsl_vector_alloc((size_t)rank);
+    rows = dense_matrix((size_t)nu, (size_t)rank);
+    tau = dense_vector((size_t)rank);
     for (int k = 0; k < rank && k < m; k++)
         for (int j = 0; j < nu; j++)
             gsl_matrix_set(rows, (size_t)j, (size_t)k, eq->phi_u[r->start.rows[k] * nu + j]);
@@ -46,8 +47,8 @@ static double *find_motions(Result *r)
 
         (void)gsl_linalg_QR_Qvec(rows, tau, &motion.vector);
     }
-    gsl_matrix_free(rows);
-    gsl_vector_free(tau);
+    mem_free(rows);
+    mem_free(tau);
     return motions;
 }
 

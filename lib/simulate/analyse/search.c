@@ -1,6 +1,7 @@
 /* search.c: KINSOL with a solver of linear equations that bears singular ones */
 #include "simulate/analyse/search.h"
 
+#include "algebra/dense.h"
 #include "algebra/linear.h"
 #include "base/memory.h"
 #include "simulate/analyse/factors.h"
@@ -36,6 +37,7 @@
 #define FEW_SVD   100 /* unknowns to find what moves most */
 
 struct Search {
+    Cleanup cleanup;
     Statics *statics;
     const Watch *watch;
     int n;
@@ -155,39 +157,56 @@ static void keep_quiet(int code, const char *module, const char *function, char 
 
 /* --- life --- */
 
-static bool open_linear(Search *s)
+static void close_solver(void *object)
 {
-    s->linear = SUNLinSolNewEmpty(s->context);
-    if (s->linear == NULL)
-        return false;
+    Search *s = object;
+
+    KINFree(&s->memory);
+    if (s->linear != NULL)
+        SUNLinSolFreeEmpty(s->linear);
+    if (s->matrix != NULL)
+        SUNMatDestroy(s->matrix);
+    N_VDestroy(s->w);
+    N_VDestroy(s->unit);
+    N_VDestroy(s->weight);
+    SUNContext_Free(&s->context);
+    cleanup_close(&s->cleanup);
+}
+
+static void open_linear(Search *s)
+{
+    s->linear = MEM_GIVEN(SUNLinSolNewEmpty(s->context));
     s->linear->content = s;
     s->linear->ops->gettype = solver_type;
     s->linear->ops->getid = solver_id;
     s->linear->ops->setup = solver_setup;
     s->linear->ops->solve = solver_solve;
-    return true;
 }
 
 static bool open_solver(Search *s)
 {
     int code;
 
+    cleanup_open(&s->cleanup, close_solver, s);
+    mem_ask();
     if (SUNContext_Create(NULL, &s->context) != 0)
-        return false;
-    s->w = N_VNew_Serial(s->n, s->context);
-    s->unit = N_VNew_Serial(s->n, s->context);
-    s->weight = N_VNew_Serial(s->n, s->context);
+        transaction_fail();
+    s->w = MEM_GIVEN(N_VNew_Serial(s->n, s->context));
+    s->unit = MEM_GIVEN(N_VNew_Serial(s->n, s->context));
+    s->weight = MEM_GIVEN(N_VNew_Serial(s->n, s->context));
     for (int i = 0; i < s->n; i++)
         NV_Ith_S(s->unit, i) = i < s->speeds ? 1 : 1 / LITTLE;
-    s->matrix = SUNSparseMatrix(s->n, s->n, s->start[s->n] + 1, CSC_MAT, s->context);
-    s->memory = KINCreate(s->context);
-    if (!open_linear(s) || s->matrix == NULL || s->memory == NULL)
-        return false;
-    code = KINInit(s->memory, residual, s->w);
+    s->matrix =
+        MEM_GIVEN(SUNSparseMatrix(s->n, s->n, s->start[s->n] + 1, CSC_MAT, s->context));
+    s->memory = MEM_GIVEN(KINCreate(s->context));
+    open_linear(s);
+    code = KINSetErrHandlerFn(s->memory, keep_quiet, NULL);
+    if (code == 0)
+        code = KINInit(s->memory, residual, s->w);
+    if (code == KIN_MEM_FAIL)
+        transaction_fail();
     if (code == 0)
         code = KINSetUserData(s->memory, s);
-    if (code == 0)
-        code = KINSetErrHandlerFn(s->memory, keep_quiet, NULL);
     if (code == 0)
         code = KINSetLinearSolver(s->memory, s->linear, s->matrix);
     if (code == 0)
@@ -228,17 +247,8 @@ void search_free(Search *s)
 {
     if (s == NULL)
         return;
-    KINFree(&s->memory);
-    if (s->linear != NULL)
-        SUNLinSolFreeEmpty(s->linear);
-    if (s->matrix != NULL)
-        SUNMatDestroy(s->matrix);
-    if (s->context != NULL) {
-        N_VDestroy(s->w);
-        N_VDestroy(s->unit);
-        N_VDestroy(s->weight);
-    }
-    SUNContext_Free(&s->context);
+    if (s->n > 0)
+        close_solver(s);
     factors_free(s->factors);
     mem_free(s->kept);
     mem_free(s->missed);
@@ -413,8 +423,8 @@ int search_rank(Search *s)
 static int loosest(const Search *s, const double *values)
 {
     const size_t n = (size_t)s->n;
-    gsl_matrix *u = gsl_matrix_calloc(n, n), *moves = gsl_matrix_alloc(n, n);
-    gsl_vector *sizes = gsl_vector_alloc(n), *work = gsl_vector_alloc(n);
+    gsl_matrix *u = dense_matrix(n, n), *moves = dense_matrix(n, n);
+    gsl_vector *sizes = dense_vector(n), *work = dense_vector(n);
     size_t most = 0;
     bool is_loose;
 
@@ -428,10 +438,10 @@ static int loosest(const Search *s, const double *values)
             fabs(gsl_matrix_get(moves, most, n - 1)) * (1 + 1e-9))
             most = i;
     is_loose = gsl_vector_get(sizes, n - 1) <= 1e-13 * gsl_vector_get(sizes, 0);
-    gsl_matrix_free(u);
-    gsl_matrix_free(moves);
-    gsl_vector_free(sizes);
-    gsl_vector_free(work);
+    mem_free(u);
+    mem_free(moves);
+    mem_free(sizes);
+    mem_free(work);
     return is_loose ? (int)most : -1;
 }
 

@@ -9,6 +9,7 @@
  * the same for all of them, and it is the least |L^T u|. */
 #include "simulate/assemble/start_place_impl.h"
 
+#include "algebra/dense.h"
 #include "algebra/matrix3.h"
 #include "algebra/rank.h"
 
@@ -188,7 +189,7 @@ static void add_square(gsl_matrix *sum, const double *row, double scale)
 static gsl_matrix *weigh(const Assembly *a, const double *rates, int count)
 {
     const int nu = a->eq->nu;
-    gsl_matrix *square = gsl_matrix_calloc((size_t)nu, (size_t)nu);
+    gsl_matrix *square = dense_matrix((size_t)nu, (size_t)nu);
     bool sound;
 
     for (int i = 0; i < count; i++)
@@ -204,7 +205,7 @@ static gsl_matrix *weigh(const Assembly *a, const double *rates, int count)
     }
     sound = gsl_linalg_cholesky_decomp1(square) == GSL_SUCCESS;
     if (!sound) {
-        gsl_matrix_free(square);
+        mem_free(square);
         square = NULL;
     }
     return square;
@@ -328,7 +329,7 @@ Status start_speeds(Assembly *a, Diag *diag)
     }
 done:
     if (factor != NULL)
-        gsl_matrix_free(factor);
+        mem_free(factor);
     mem_free(rates);
     placing_free(&p);
     return status;

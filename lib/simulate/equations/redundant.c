@@ -4,6 +4,7 @@
  * part are what it repeats. Rows are brought to unit size first. */
 #include "simulate/equations/redundant.h"
 
+#include "algebra/dense.h"
 #include "base/memory.h"
 
 #include <gsl/gsl_linalg.h>
@@ -25,10 +26,10 @@ static double size_of(const double *row, int nu)
 static void find_shares(const double *phi_u, int m, int nu, const int *order, int rank,
                         double *shares)
 {
-    gsl_matrix *rows = gsl_matrix_alloc((size_t)nu, (size_t)rank);
-    gsl_vector *tau = gsl_vector_alloc((size_t)rank);
-    gsl_vector *row = gsl_vector_alloc((size_t)nu);
-    gsl_vector *residual = gsl_vector_alloc((size_t)nu);
+    gsl_matrix *rows = dense_matrix((size_t)nu, (size_t)rank);
+    gsl_vector *tau = dense_vector((size_t)rank);
+    gsl_vector *row = dense_vector((size_t)nu);
+    gsl_vector *residual = dense_vector((size_t)nu);
 
     for (int i = 0; i < rank; i++) {
         const double *from = phi_u + (ptrdiff_t)order[i] * nu;
@@ -48,10 +49,10 @@ static void find_shares(const double *phi_u, int m, int nu, const int *order, in
             gsl_vector_set(row, (size_t)j, size > 0 ? from[j] / size : 0);
         (void)gsl_linalg_QR_lssolve(rows, tau, row, &share.vector, residual);
     }
-    gsl_matrix_free(rows);
-    gsl_vector_free(tau);
-    gsl_vector_free(row);
-    gsl_vector_free(residual);
+    mem_free(rows);
+    mem_free(tau);
+    mem_free(row);
+    mem_free(residual);
 }
 
 /* the joints that the rows of one joint repeat, each once */

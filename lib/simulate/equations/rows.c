@@ -1,6 +1,7 @@
 /* rows.c: residuals in symbols, their derivatives, and steps from them */
 #include "simulate/equations/rows.h"
 
+#include "algebra/dense.h"
 #include "algebra/linear.h"
 #include "base/memory.h"
 
@@ -128,9 +129,9 @@ static void load(const double *matrix, int rows, int columns, const double *righ
 
 static int solve_loaded(gsl_matrix *a, const gsl_vector *b, gsl_vector *x)
 {
-    gsl_vector *tau = gsl_vector_alloc(a->size2), *norms = gsl_vector_alloc(a->size2);
-    gsl_vector *residual = gsl_vector_alloc(a->size1);
-    gsl_permutation *order = gsl_permutation_alloc(a->size2);
+    gsl_vector *tau = dense_vector(a->size2), *norms = dense_vector(a->size2);
+    gsl_vector *residual = dense_vector(a->size1);
+    gsl_permutation *order = dense_permutation(a->size2);
     size_t rank = 0;
     int sign = 0;
 
@@ -141,10 +142,10 @@ static int solve_loaded(gsl_matrix *a, const gsl_vector *b, gsl_vector *x)
     gsl_vector_set_zero(x);
     if (rank > 0)
         (void)gsl_linalg_QRPT_lssolve2(a, tau, order, b, rank, x, residual);
-    gsl_vector_free(tau);
-    gsl_vector_free(norms);
-    gsl_vector_free(residual);
-    gsl_permutation_free(order);
+    mem_free(tau);
+    mem_free(norms);
+    mem_free(residual);
+    mem_free(order);
     return (int)rank;
 }
 
@@ -161,17 +162,17 @@ int rows_solve(const double *matrix, int rows, int columns, const double *right,
         return -1;
     if (columns == 0)
         return 0;
-    a = gsl_matrix_calloc(tall, (size_t)columns);
-    b = gsl_vector_calloc(tall);
-    x = gsl_vector_alloc((size_t)columns);
+    a = dense_matrix(tall, (size_t)columns);
+    b = dense_vector(tall);
+    x = dense_vector((size_t)columns);
     scale = NEW_ARRAY(double, columns);
     load(matrix, rows, columns, right, a, b, scale);
     rank = solve_loaded(a, b, x);
     for (int j = 0; j < columns; j++)
         out[j] = gsl_vector_get(x, (size_t)j) / scale[j];
-    gsl_matrix_free(a);
-    gsl_vector_free(b);
-    gsl_vector_free(x);
+    mem_free(a);
+    mem_free(b);
+    mem_free(x);
     mem_free(scale);
     return vector_is_finite(out, columns) ? rank : -1;
 }

@@ -18,6 +18,7 @@
 
 typedef struct Cvode {
     Stepper base;
+    Cleanup cleanup;
     int all;
     SUNContext context;
     void *memory;
@@ -75,6 +76,23 @@ static int jacobian(realtype t, N_Vector y, N_Vector rate_there, SUNMatrix matri
     return 0;
 }
 
+static void close(void *object)
+{
+    Cvode *c = object;
+
+    CVodeFree(&c->memory);
+    if (c->linear != NULL)
+        SUNLinSolFree(c->linear);
+    if (c->nonlinear != NULL)
+        SUNNonlinSolFree(c->nonlinear);
+    if (c->matrix != NULL)
+        SUNMatDestroy(c->matrix);
+    N_VDestroy(c->y);
+    N_VDestroy(c->out);
+    SUNContext_Free(&c->context);
+    cleanup_close(&c->cleanup);
+}
+
 static Stepper *create(const Method *method, const Ode *ode, const Control *control)
 {
     Cvode *c = NEW(Cvode);
@@ -83,11 +101,13 @@ static Stepper *create(const Method *method, const Ode *ode, const Control *cont
     c->base = (Stepper){.method = method, .ode = ode, .control = *control};
     c->all = all;
     c->base.y = NEW_ARRAY(double, all);
+    cleanup_open(&c->cleanup, close, c);
+    mem_ask();
     if (SUNContext_Create(NULL, &c->context) != 0)
-        return &c->base; /* start() reports it */
-    c->y = N_VNew_Serial(all, c->context);
-    c->out = N_VNew_Serial(all, c->context);
-    c->memory = CVodeCreate(method->is_stiff ? CV_BDF : CV_ADAMS, c->context);
+        transaction_fail();
+    c->y = MEM_GIVEN(N_VNew_Serial(all, c->context));
+    c->out = MEM_GIVEN(N_VNew_Serial(all, c->context));
+    c->memory = MEM_GIVEN(CVodeCreate(method->is_stiff ? CV_BDF : CV_ADAMS, c->context));
     return &c->base;
 }
 
@@ -107,18 +127,7 @@ static void destroy(Stepper *stepper)
 
     if (c == NULL)
         return;
-    CVodeFree(&c->memory);
-    if (c->linear != NULL)
-        SUNLinSolFree(c->linear);
-    if (c->nonlinear != NULL)
-        SUNNonlinSolFree(c->nonlinear);
-    if (c->matrix != NULL)
-        SUNMatDestroy(c->matrix);
-    if (c->context != NULL) {
-        N_VDestroy(c->y);
-        N_VDestroy(c->out);
-    }
-    SUNContext_Free(&c->context);
+    close(c);
     mem_free(c->base.y);
     mem_free(c);
 }
@@ -140,12 +149,12 @@ static int find_weights(N_Vector y, N_Vector weights, void *data)
 
 static int first_start(Cvode *c, double t)
 {
-    int code = CVodeInit(c->memory, rate, t, c->y);
+    int code = CVodeSetErrHandlerFn(c->memory, keep_reason, c);
 
     if (code == 0)
-        code = CVodeSetUserData(c->memory, c);
+        code = CVodeInit(c->memory, rate, t, c->y);
     if (code == 0)
-        code = CVodeSetErrHandlerFn(c->memory, keep_reason, c);
+        code = CVodeSetUserData(c->memory, c);
     if (code == 0)
         code = CVodeWFtolerances(c->memory, find_weights);
     if (code == 0)
@@ -155,12 +164,12 @@ static int first_start(Cvode *c, double t)
     if (code != 0)
         return code;
     if (c->base.method->is_stiff) {
-        c->matrix = SUNDenseMatrix(c->all, c->all, c->context);
-        c->linear = SUNLinSol_Dense(c->y, c->matrix, c->context);
+        c->matrix = MEM_GIVEN(SUNDenseMatrix(c->all, c->all, c->context));
+        c->linear = MEM_GIVEN(SUNLinSol_Dense(c->y, c->matrix, c->context));
         code = CVodeSetLinearSolver(c->memory, c->linear, c->matrix);
         return code == 0 ? CVodeSetJacFn(c->memory, jacobian) : code;
     }
-    c->nonlinear = SUNNonlinSol_FixedPoint(c->y, 0, c->context);
+    c->nonlinear = MEM_GIVEN(SUNNonlinSol_FixedPoint(c->y, 0, c->context));
     return CVodeSetNonlinearSolver(c->memory, c->nonlinear);
 }
 
@@ -182,8 +191,6 @@ static Status start(Stepper *stepper, double t, const double *y, Diag *diag)
     Cvode *c = (Cvode *)stepper;
     int code;
 
-    if (c->memory == NULL)
-        return solver_failure(diag, t, "SUNDIALS could not be started");
     memmove(c->base.y, y, (size_t)c->all * sizeof(double));
     c->base.t = c->base.before = t;
     c->base.stuck = 0;
@@ -193,6 +200,8 @@ static Status start(Stepper *stepper, double t, const double *y, Diag *diag)
                                                      : CVodeReInit(c->memory, t, c->y);
     if (code == 0 && c->base.control.first > 0)
         code = CVodeSetInitStep(c->memory, c->base.control.first);
+    if (code == CV_MEM_FAIL)
+        transaction_fail();
     return code == 0 ? OK : solver_failure(diag, t, c->reason);
 }
 
@@ -209,6 +218,8 @@ static Status step(Stepper *stepper, double end, Diag *diag)
     if (code == 0)
         code = CVode(c->memory, end, c->y, &reached, CV_ONE_STEP);
     keep_counts(c);
+    if (code == CV_MEM_FAIL)
+        transaction_fail();
     if (code == CV_REPTD_RHSFUNC_ERR)
         return solver_failure(diag, c->base.before,
                               "the equations have no solution just behind this instant");

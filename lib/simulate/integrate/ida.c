@@ -23,6 +23,7 @@
 
 typedef struct Ida {
     Stepper base;
+    Cleanup cleanup;
     int all, n; /* of y; of w */
     SUNContext context;
     void *memory;
@@ -59,6 +60,22 @@ static int residual(realtype t, N_Vector w, N_Vector rate, N_Vector out, void *d
                : 1;
 }
 
+static void close(void *object)
+{
+    Ida *d = object;
+
+    IDAFree(&d->memory);
+    if (d->linear != NULL)
+        SUNLinSolFree(d->linear);
+    if (d->matrix != NULL)
+        SUNMatDestroy(d->matrix);
+    N_VDestroy(d->w);
+    N_VDestroy(d->rate);
+    N_VDestroy(d->out);
+    SUNContext_Free(&d->context);
+    cleanup_close(&d->cleanup);
+}
+
 static Stepper *create(const Ode *ode, const Control *control)
 {
     Ida *d = NEW(Ida);
@@ -67,12 +84,14 @@ static Stepper *create(const Ode *ode, const Control *control)
     d->all = ode->n + ode->quadratures;
     d->n = ode->dae.n;
     d->base.y = NEW_ARRAY(double, d->all);
+    cleanup_open(&d->cleanup, close, d);
+    mem_ask();
     if (SUNContext_Create(NULL, &d->context) != 0)
-        return &d->base; /* start() reports it */
-    d->w = N_VNew_Serial(d->n, d->context);
-    d->rate = N_VNew_Serial(d->n, d->context);
-    d->out = N_VNew_Serial(d->n, d->context);
-    d->memory = IDACreate(d->context);
+        transaction_fail();
+    d->w = MEM_GIVEN(N_VNew_Serial(d->n, d->context));
+    d->rate = MEM_GIVEN(N_VNew_Serial(d->n, d->context));
+    d->out = MEM_GIVEN(N_VNew_Serial(d->n, d->context));
+    d->memory = MEM_GIVEN(IDACreate(d->context));
     return &d->base;
 }
 
@@ -82,17 +101,7 @@ static void destroy(Stepper *stepper)
 
     if (d == NULL)
         return;
-    IDAFree(&d->memory);
-    if (d->linear != NULL)
-        SUNLinSolFree(d->linear);
-    if (d->matrix != NULL)
-        SUNMatDestroy(d->matrix);
-    if (d->context != NULL) {
-        N_VDestroy(d->w);
-        N_VDestroy(d->rate);
-        N_VDestroy(d->out);
-    }
-    SUNContext_Free(&d->context);
+    close(d);
     mem_free(d->base.y);
     mem_free(d->place);
     mem_free(d->start);
@@ -140,8 +149,8 @@ static int choose_sparse(Ida *d)
         d->start[i + 2] += d->start[i + 1];
     for (int k = 0; k < d->entry_count; k++)
         d->place[k] = d->start[column[k] + 1]++;
-    d->matrix = SUNSparseMatrix(d->n, d->n, d->entry_count, CSC_MAT, d->context);
-    d->linear = SUNLinSol_KLU(d->w, d->matrix, d->context);
+    d->matrix = MEM_GIVEN(SUNSparseMatrix(d->n, d->n, d->entry_count, CSC_MAT, d->context));
+    d->linear = MEM_GIVEN(SUNLinSol_KLU(d->w, d->matrix, d->context));
     code = IDASetLinearSolver(d->memory, d->linear, d->matrix);
     return code == 0 ? IDASetJacFn(d->memory, jacobian) : code;
 }
@@ -183,12 +192,12 @@ static int find_weights(N_Vector w, N_Vector weights, void *data)
 static int first_start(Ida *d, double t)
 {
     const Control *control = &d->base.control;
-    int code = IDAInit(d->memory, residual, t, d->w, d->rate);
+    int code = IDASetErrHandlerFn(d->memory, keep_reason, d);
 
     if (code == 0)
-        code = IDASetUserData(d->memory, d);
+        code = IDAInit(d->memory, residual, t, d->w, d->rate);
     if (code == 0)
-        code = IDASetErrHandlerFn(d->memory, keep_reason, d);
+        code = IDASetUserData(d->memory, d);
     if (code == 0)
         code = IDAWFtolerances(d->memory, find_weights);
     if (code == 0)
@@ -201,8 +210,8 @@ static int first_start(Ida *d, double t)
         return code;
     if (d->base.ode->dae.pattern != NULL)
         return choose_sparse(d);
-    d->matrix = SUNDenseMatrix(d->n, d->n, d->context);
-    d->linear = SUNLinSol_Dense(d->w, d->matrix, d->context);
+    d->matrix = MEM_GIVEN(SUNDenseMatrix(d->n, d->n, d->context));
+    d->linear = MEM_GIVEN(SUNLinSol_Dense(d->w, d->matrix, d->context));
     return IDASetLinearSolver(d->memory, d->linear, d->matrix);
 }
 
@@ -212,8 +221,6 @@ static Status start(Stepper *stepper, double t, const double *y, Diag *diag)
     const Ode *ode = d->base.ode;
     int code;
 
-    if (d->memory == NULL)
-        return solver_failure(diag, t, "SUNDIALS could not be started");
     memmove(d->base.y, y, (size_t)d->all * sizeof(double));
     d->base.t = d->base.before = t;
     d->base.stuck = 0;
@@ -222,6 +229,8 @@ static Status start(Stepper *stepper, double t, const double *y, Diag *diag)
         return solver_failure(diag, t, "the accelerations are undefined");
     d->earlier = d->base.counts;
     code = d->linear == NULL ? first_start(d, t) : IDAReInit(d->memory, t, d->w, d->rate);
+    if (code == IDA_MEM_FAIL)
+        transaction_fail();
     return code == 0 ? OK : solver_failure(diag, t, d->reason);
 }
 
@@ -265,6 +274,8 @@ static Status step(Stepper *stepper, double end, Diag *diag)
         keep_counts(d);
     }
     d->base.before = before;
+    if (code == IDA_MEM_FAIL)
+        transaction_fail();
     if (code < 0)
         return solver_failure(diag, before, d->reason);
     (void)IDAGetLastStep(d->memory, &h);

@@ -281,6 +281,7 @@ done:
 
 Status result_prepare(Result *r, const double *times, int count, const Watch *watch, Diag *diag)
 {
+    mem_keep(r);
     Diag ignored = {0};
     const Status status = fill(r, times, count, watch, &ignored);
 
@@ -298,6 +299,7 @@ static int asked_row(const Result *r, double t)
 Status result_at(Result *r, double t, Phase **phase, const double **y, const double **driven,
                  Diag *diag)
 {
+    mem_keep(r);
     const Grid *grid = &r->grid;
     End ends[2];
     int row;
@@ -329,6 +331,7 @@ done:
 
 Status result_values_at(Result *r, const Expr *items, int count, double at, double *out, Diag *diag)
 {
+    mem_keep(r);
     Phase *phase;
     const double *y, *driven;
     Probe *probe = NULL;

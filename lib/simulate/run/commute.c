@@ -168,6 +168,7 @@ done:
 
 Status commute_phase(Result *r, const Setting *setting, const bool *closed, Phase **out, Diag *diag)
 {
+    mem_keep(r);
     int count = system_ideal_count(r->system);
     Phase *phase = NULL;
     System *system;
@@ -233,6 +234,7 @@ static Phase *find_on(const Result *r, const Phase *like, const OnSurface *on, i
 Status commute_phase_on(Result *r, const Setting *setting, const Phase *like, const OnSurface *on,
                         int count, Phase **out, Diag *diag)
 {
+    mem_keep(r);
     int ideals = system_ideal_count(r->system);
     Phase *shared, *phase = NULL;
     Status status = OK;
@@ -478,6 +480,7 @@ done:
 
 Status commute_begin(Result *r, const Setting *setting, Diag *diag)
 {
+    mem_keep(r);
     const Layout *whole = result_whole(r)->layout;
     double *x = r->start.y + whole->n + whole->nu;
     SidesAt at = {.t = 0,
@@ -528,6 +531,7 @@ static void go_ahead(const Phase *phase, double t, double step, const double *y,
 Status commute_events(Result *r, const Phase *now, const Phase *next, const Setting *setting,
                       Events **events, Diag *diag)
 {
+    mem_keep(r);
     Events **theirs = &next->like->events;
     Status status = OK;
 

@@ -9,6 +9,7 @@
  */
 #include "simulate/run/inverse.h"
 
+#include "algebra/dense.h"
 #include "algebra/linear.h"
 #include "algebra/rank.h"
 #include "base/memory.h"
@@ -267,18 +268,18 @@ static bool solve_least(const double *matrix, int rows, int columns, const doubl
 
     if (columns == 0)
         return true;
-    a = gsl_matrix_calloc(tall, (size_t)columns);
-    b = gsl_vector_calloc(tall);
+    a = dense_matrix(tall, (size_t)columns);
+    b = dense_vector(tall);
     for (int i = 0; i < rows; i++) {
         for (int j = 0; j < columns; j++)
             gsl_matrix_set(a, (size_t)i, (size_t)j, matrix[i * columns + j]);
         gsl_vector_set(b, (size_t)i, right[i]);
     }
-    tau = gsl_vector_alloc((size_t)columns);
-    norm = gsl_vector_alloc((size_t)columns);
-    x = gsl_vector_alloc((size_t)columns);
-    residual = gsl_vector_alloc(tall);
-    order = gsl_permutation_alloc((size_t)columns);
+    tau = dense_vector((size_t)columns);
+    norm = dense_vector((size_t)columns);
+    x = dense_vector((size_t)columns);
+    residual = dense_vector(tall);
+    order = dense_permutation((size_t)columns);
     (void)gsl_linalg_QRPT_decomp(a, tau, order, &sign, norm);
     for (int j = 0; j < columns; j++)
         full = full && fabs(gsl_matrix_get(a, (size_t)j, (size_t)j)) >
@@ -288,13 +289,13 @@ static bool solve_least(const double *matrix, int rows, int columns, const doubl
         for (int j = 0; j < columns; j++)
             out[j] = gsl_vector_get(x, (size_t)j);
     }
-    gsl_matrix_free(a);
-    gsl_vector_free(b);
-    gsl_vector_free(tau);
-    gsl_vector_free(norm);
-    gsl_vector_free(x);
-    gsl_vector_free(residual);
-    gsl_permutation_free(order);
+    mem_free(a);
+    mem_free(b);
+    mem_free(tau);
+    mem_free(norm);
+    mem_free(x);
+    mem_free(residual);
+    mem_free(order);
     return full;
 }
 
@@ -476,6 +477,7 @@ done:
 
 Status inverse_solve(Result *r, Grid *rows, Driven *out, Diag *diag)
 {
+    mem_keep(r);
     Inverse in = {.result = r, .l = r->phase->layout, .by_source = inverse_finds_states(r)};
     Status status = OK;
 

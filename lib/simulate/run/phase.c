@@ -25,6 +25,7 @@ Status phase_new_on(System *system, Parameters *parameters, const bool *closed, 
                     const OnSurface *on, int on_count, Phase **out, Diag *diag)
 {
     Phase *phase = NEW(Phase);
+    const bool before = mem_scratch(true);
     Status status = OK;
 
     phase->system = system;
@@ -41,6 +42,7 @@ Status phase_new_on(System *system, Parameters *parameters, const bool *closed, 
     *out = phase;
     phase = NULL;
 done:
+    (void)mem_scratch(before);
     phase_free(phase);
     return status;
 }
@@ -62,6 +64,7 @@ void phase_enter(const Phase *phase)
 
 Status phase_open(Phase *phase, Parameters *parameters, const MotionOptions *options, Diag *diag)
 {
+    const bool before = mem_scratch(true);
     Status status = OK;
 
     phase->motion = motion_new(numbers_equations(phase->numbers), options);
@@ -75,6 +78,7 @@ Status phase_open(Phase *phase, Parameters *parameters, const MotionOptions *opt
                     &phase->steep, diag));
     phase->onset = onset_new(phase->steep, motion_ode(phase->motion));
 done:
+    (void)mem_scratch(before);
     return status;
 }
 

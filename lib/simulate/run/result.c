@@ -78,6 +78,7 @@ static Status find_independent(const Layout *l, const Setting *setting, int *out
 
 Status result_open_phase(Result *r, Phase *phase, const Setting *setting, Diag *diag)
 {
+    mem_keep(r);
     int *independent = NEW_ARRAY(int, setting->independent_count);
     MotionOptions options = {.watch = setting->watch,
                              .embedded = setting->form == FORM_EMBEDDED && r->kind == RUN_SIMULATE,
@@ -98,6 +99,7 @@ done:
 Status result_make_events(Result *r, const Phase *phase, const Events *earlier,
                           const Setting *setting, Events **out, Diag *diag)
 {
+    mem_keep(r);
     const EventsPlan plan = {.layout = phase->layout,
                              .parameters = &r->parameters,
                              .equations = numbers_equations(phase->numbers),
@@ -171,6 +173,7 @@ const double *result_times(const Result *r)
 Status result_probe(Result *r, const Phase *phase, const Expr *items, int count, Probe **out,
                     Diag *diag)
 {
+    mem_keep(r);
     Expr *roots = NEW_ARRAY(Expr, count);
     Status status = OK;
 
@@ -257,6 +260,7 @@ static Status ask_items(Result *r, const Phase *phase, const void *context, Prob
 
 Status result_values(Result *r, const Expr *items, int count, double *out, Diag *diag)
 {
+    mem_keep(r);
     const Items asked = {items, count};
 
     return ask_rows(r, ask_items, &asked, count, out, diag);
@@ -264,11 +268,13 @@ Status result_values(Result *r, const Expr *items, int count, double *out, Diag 
 
 void result_add_row(Result *r, double t, const double *y)
 {
+    mem_keep(r);
     grid_add(&r->grid, t, result_phase_number(r, r->phase), y, r->phase->length);
 }
 
 void result_tolerance(Result *r, double tolerance)
 {
+    mem_keep(r);
     r->tolerance = tolerance;
     for (int i = 0; i < r->phases.count; i++)
         if (r->phases.at[i]->motion != NULL)
@@ -288,6 +294,7 @@ static Status ask_energies(Result *r, const Phase *phase, const void *context, P
 
 Status result_balance(Result *r, Diag *diag)
 {
+    mem_keep(r);
     double *energies = NEW_ARRAY(double, 2 * r->grid.count);
     double first = 0, least = INFINITY, largest = -INFINITY, drift = 0;
     bool is_known = true;

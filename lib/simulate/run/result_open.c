@@ -14,6 +14,8 @@
 static double warm_value(void *context, const char *name)
 {
     Result *warm = context;
+
+    mem_keep(warm);
     const Phase *phase;
     const Layout *l;
     Probe *probe = NULL;
@@ -94,6 +96,7 @@ static Status check_start(Result *r, Diag *diag)
 
 Status result_begin(Result *r, const Setting *setting, Diag *diag)
 {
+    mem_keep(r);
     Phase *whole = result_whole(r);
     Status status = OK;
 
@@ -193,9 +196,14 @@ done:
     return status;
 }
 
+static void result_free_later(void *object)
+{
+    result_free(object);
+}
+
 void result_free(Result *r)
 {
-    if (r == NULL)
+    if (r == NULL || mem_frees_later(r, result_free_later))
         return;
     events_free(r->events);
     for (int i = 0; i < r->phases.count; i++)

@@ -239,6 +239,7 @@ static void tell(Result *r, const char *sides, double t, double lost, const doub
 
 void share_tell(Result *r)
 {
+    mem_keep(r);
     const Shares *shares = r->shares;
 
     if (shares == NULL || shares->times <= TOLD)
@@ -264,6 +265,7 @@ static double energy_lost(Result *r, Phase *phase, double t, const bool *before,
 bool share_stored(Result *r, Phase *phase, double t, const bool *before, const char *sides,
                   double *y, double *x)
 {
+    mem_keep(r);
     const int nx = result_whole(r)->layout->nx;
     const size_t bytes = (size_t)phase->length * sizeof(double);
     double *sizes = NEW_ARRAY(double, nx);

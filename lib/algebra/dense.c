@@ -1,0 +1,45 @@
+/* dense.c: numbers of GSL's behind their head, in one piece */
+#include "algebra/dense.h"
+
+#include "base/memory.h"
+
+#define HEAD(type) ((sizeof(type) + 15) & ~(size_t)15)
+
+/* `count` numbers of that size behind the head of the object; where that is too much for a size_t
+ * it is too much for memory, too */
+static void *behind(void **numbers, size_t head, size_t count, size_t size)
+{
+    char *piece = mem_array(count + (head + size - 1) / size, size);
+
+    *numbers = piece + head;
+    return piece;
+}
+
+gsl_matrix *dense_matrix(size_t rows, size_t columns)
+{
+    const size_t count =
+        columns == 0 || rows <= (SIZE_MAX >> 1) / columns ? rows * columns : SIZE_MAX >> 1;
+    void *numbers;
+    gsl_matrix *matrix = behind(&numbers, HEAD(gsl_matrix), count, sizeof(double));
+
+    *matrix = (gsl_matrix){.size1 = rows, .size2 = columns, .tda = columns, .data = numbers};
+    return matrix;
+}
+
+gsl_vector *dense_vector(size_t count)
+{
+    void *numbers;
+    gsl_vector *vector = behind(&numbers, HEAD(gsl_vector), count, sizeof(double));
+
+    *vector = (gsl_vector){.size = count, .stride = 1, .data = numbers};
+    return vector;
+}
+
+gsl_permutation *dense_permutation(size_t count)
+{
+    void *numbers;
+    gsl_permutation *order = behind(&numbers, HEAD(gsl_permutation), count, sizeof(size_t));
+
+    *order = (gsl_permutation){.size = count, .data = numbers};
+    return order;
+}

@@ -1,0 +1,61 @@
+/* memory_impl.h: what pieces, transactions and faults share */
+#ifndef COTREE_BASE_MEMORY_IMPL_H
+#define COTREE_BASE_MEMORY_IMPL_H
+
+#include "base/transaction.h"
+
+/* A piece of the system's, which belongs to no transaction; NULL: memory has ended. */
+void *system_allocate(size_t size, bool zeroed);
+void piece_join(MemPiece *piece); /* the transaction that goes on, if one does */
+/* One of the transaction that goes on, or outside of any, with another size; may move. */
+MemPiece *piece_resize(MemPiece *piece, size_t size);
+/* Give a piece back: at once, or when the transaction has come to its end. */
+void piece_drop(MemPiece *piece);
+
+/* --- faults.c --- */
+
+#ifdef COTREE_FAULTS
+enum { FAULTS = true };
+void faults_begin(Transaction *transaction);
+/* After a try was taken back: the next one is to be made. */
+void faults_next(Transaction *transaction);
+bool faults_strike(void); /* whether this allocation fails */
+/* All pieces that the call found are as they were, or the program ends. */
+void faults_check(void);
+/* No scratch points to a piece that a failure is about to free, or the program ends. */
+void faults_look_for(const MemPiece *made);
+/* pieces that belong to no transaction */
+void faults_know(MemPiece *piece);
+void faults_forget(MemPiece *piece);
+#else
+enum { FAULTS = false };
+static inline void faults_begin(Transaction *transaction)
+{
+    transaction->trial = -1;
+}
+static inline void faults_next(Transaction *transaction)
+{
+    (void)transaction;
+}
+static inline bool faults_strike(void)
+{
+    return false;
+}
+static inline void faults_check(void)
+{
+}
+static inline void faults_look_for(const MemPiece *made)
+{
+    (void)made;
+}
+static inline void faults_know(MemPiece *piece)
+{
+    (void)piece;
+}
+static inline void faults_forget(MemPiece *piece)
+{
+    (void)piece;
+}
+#endif
+
+#endif

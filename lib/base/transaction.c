@@ -1,0 +1,344 @@
+/* transaction.c: pieces made, freed and kept by the call that goes on */
+#include "base/memory_impl.h"
+
+#include <stdatomic.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* under the address sanitizer, what is as good as freed is not to be touched */
+#if defined __has_include && __has_include(<sanitizer/asan_interface.h>)
+#include <sanitizer/asan_interface.h>
+#else
+#define ASAN_POISON_MEMORY_REGION(at, size)   ((void)(at), (void)(size))
+#define ASAN_UNPOISON_MEMORY_REGION(at, size) ((void)(at), (void)(size))
+#endif
+
+_Thread_local Transaction *transaction_now;
+
+/* bytes as they were, or what is to be called when all are; in the order of the keeping */
+struct Note {
+    Note *next;
+    void (*derive)(void *object);
+    void *at;
+    size_t size;
+    _Alignas(16) unsigned char bytes[];
+};
+
+static void open(Transaction *t)
+{
+    static atomic_uint_least64_t numbers;
+
+    t->number = atomic_fetch_add_explicit(&numbers, 1, memory_order_relaxed) + 1;
+    t->made.before = t->made.after = &t->made;
+    t->freed.before = t->freed.after = &t->freed;
+    t->cleanups.before = t->cleanups.after = &t->cleanups;
+    t->notes = t->later = NULL;
+    t->is_scratch = false;
+    t->is_over = false;
+}
+
+void transaction_begin(Transaction *transaction)
+{
+    open(transaction);
+    transaction->outer = transaction_now;
+    transaction_now = transaction;
+    faults_begin(transaction);
+}
+
+/* --- pieces --- */
+
+static void join(MemPiece *piece, MemPiece *ring)
+{
+    piece->before = ring;
+    piece->after = ring->after;
+    ring->after->before = piece;
+    ring->after = piece;
+}
+
+static void leave(MemPiece *piece)
+{
+    piece->before->after = piece->after;
+    piece->after->before = piece->before;
+}
+
+void piece_join(MemPiece *piece)
+{
+    Transaction *t = transaction_now;
+
+    piece->born = piece->kept = t != NULL ? t->number : 0;
+    if (t != NULL && t->is_scratch)
+        piece->maker = NULL;
+    if (t != NULL)
+        join(piece, &t->made);
+    else
+        faults_know(piece);
+}
+
+void piece_drop(MemPiece *piece)
+{
+    Transaction *t = transaction_now;
+
+    if (t != NULL && piece->born == t->number)
+        leave(piece);
+    else
+        faults_forget(piece);
+    if (t == NULL || piece->born == t->number) {
+        free(piece);
+        return;
+    }
+    join(piece, &t->freed);
+    ASAN_POISON_MEMORY_REGION(piece + 1, piece->size);
+}
+
+MemPiece *piece_resize(MemPiece *piece, size_t size)
+{
+    MemPiece *moved;
+
+    if (size > SIZE_MAX - sizeof(MemPiece))
+        transaction_fail();
+    if (transaction_now != NULL)
+        leave(piece);
+    else
+        faults_forget(piece);
+    moved = realloc(piece, sizeof(MemPiece) + size);
+    if (moved == NULL) {
+        piece_join(piece);
+        transaction_fail();
+    }
+    moved->size = size;
+    piece_join(moved);
+    return moved;
+}
+
+/* --- what is kept --- */
+
+static Note *note(void *at, size_t size)
+{
+    Note *new = system_allocate(sizeof(Note) + size, false);
+
+    if (new == NULL)
+        transaction_fail();
+    *new = (Note){.next = transaction_now->notes, .at = at, .size = size};
+    memcpy(new->bytes, at, size);
+    transaction_now->notes = new;
+    return new;
+}
+
+void mem_keep_now(void *memory)
+{
+    MemPiece *piece = piece_of(memory);
+
+    (void)note(memory, piece->size);
+    piece->kept = transaction_now->number;
+}
+
+void mem_keep_part(const void *memory, void *at, size_t size)
+{
+    if (transaction_now != NULL && piece_of(memory)->kept != transaction_now->number)
+        (void)note(at, size);
+}
+
+void mem_keep_foreign(void *at, size_t size)
+{
+    if (transaction_now != NULL)
+        (void)note(at, size);
+}
+
+void mem_on_failure(void (*derive)(void *object), void *object)
+{
+    if (transaction_now != NULL) {
+        Note *new = note(object, 0);
+
+        new->derive = derive;
+    }
+}
+
+bool mem_frees_later(void *object, void (*release)(void *object))
+{
+    Note *new;
+
+    if (!mem_is_old(object))
+        return false;
+    new = system_allocate(sizeof(Note), false);
+    if (new == NULL)
+        transaction_fail();
+    *new = (Note){.next = transaction_now->later, .derive = release, .at = object};
+    transaction_now->later = new;
+    return true;
+}
+
+bool mem_scratch(bool is_scratch)
+{
+    Transaction *t = transaction_now;
+    const bool before = t != NULL && t->is_scratch;
+
+    if (t != NULL)
+        t->is_scratch = is_scratch;
+    return before;
+}
+
+/* --- cleanups --- */
+
+void cleanup_open(Cleanup *cleanup, void (*close)(void *object), void *object)
+{
+    Transaction *t = transaction_now;
+
+    *cleanup = (Cleanup){.close = close, .object = object};
+    if (t == NULL)
+        return;
+    cleanup->born = t->number;
+    cleanup->before = &t->cleanups;
+    cleanup->after = t->cleanups.after;
+    cleanup->after->before = cleanup;
+    t->cleanups.after = cleanup;
+}
+
+void cleanup_close(Cleanup *cleanup)
+{
+    if (transaction_now != NULL && cleanup->born == transaction_now->number) {
+        cleanup->before->after = cleanup->after;
+        cleanup->after->before = cleanup->before;
+    }
+    cleanup->born = 0;
+}
+
+/* --- the end --- */
+
+static void free_notes(Note *notes)
+{
+    while (notes != NULL) {
+        Note *next = notes->next;
+
+        free(notes);
+        notes = next;
+    }
+}
+
+/* in the order in which it would have been freed at once */
+static void free_later(Note *notes)
+{
+    Note *first = NULL;
+
+    while (notes != NULL) {
+        Note *next = notes->next;
+
+        notes->next = first;
+        first = notes;
+        notes = next;
+    }
+    for (const Note *n = first; n != NULL; n = n->next)
+        n->derive(n->at);
+    free_notes(first);
+}
+
+static MemPiece *take_out(MemPiece *ring)
+{
+    MemPiece *piece = ring->after;
+
+    leave(piece);
+    return piece;
+}
+
+static MemPiece *take_back(Transaction *t)
+{
+    MemPiece *piece = take_out(&t->freed);
+
+    ASAN_UNPOISON_MEMORY_REGION(piece + 1, piece->size);
+    return piece;
+}
+
+static void commit(Transaction *t)
+{
+    while (t->freed.after != &t->freed)
+        free(take_back(t));
+    if (FAULTS)
+        while (t->made.after != &t->made)
+            faults_know(take_out(&t->made));
+    transaction_now = t->outer;
+    free_later(t->later);
+    free_notes(t->notes);
+}
+
+static void clean_up(Transaction *t)
+{
+    while (t->cleanups.after != &t->cleanups) {
+        Cleanup *cleanup = t->cleanups.after;
+
+        cleanup->close(cleanup->object);
+        if (t->cleanups.after == cleanup)
+            cleanup_close(cleanup);
+    }
+}
+
+static void roll_back(Transaction *t)
+{
+    clean_up(t);
+    while (t->freed.after != &t->freed)
+        faults_know(take_back(t));
+    for (const Note *n = t->notes; n != NULL; n = n->next)
+        if (n->derive == NULL)
+            memcpy(n->at, n->bytes, n->size);
+    for (const Note *n = t->notes; n != NULL; n = n->next)
+        if (n->derive != NULL)
+            n->derive(n->at);
+    faults_look_for(&t->made);
+    while (t->made.after != &t->made)
+        free(take_out(&t->made));
+    free_notes(t->notes);
+    free_notes(t->later);
+}
+
+_Noreturn static void try_again(Transaction *t)
+{
+    roll_back(t);
+    faults_check();
+    open(t);
+    faults_next(t);
+    longjmp(t->place, TRANSACTION_AGAIN);
+}
+
+void transaction_end(Transaction *transaction)
+{
+    if (transaction->is_over)
+        return;
+    if (transaction->trial >= 0)
+        try_again(transaction);
+    commit(transaction);
+}
+
+void transaction_fail(void)
+{
+    Transaction *t = transaction_now;
+
+    if (t == NULL) {
+        (void)fputs("cotree: out of memory\n", stderr);
+        abort();
+    }
+    if (t->trial >= 0)
+        try_again(t);
+    roll_back(t);
+    t->is_over = true;
+    transaction_now = t->outer;
+    longjmp(t->place, TRANSACTION_FAILED);
+}
+
+bool transaction_is_trial(void)
+{
+    return transaction_now != NULL && transaction_now->trial >= 0;
+}
+
+/* --- of other libraries --- */
+
+void mem_ask(void)
+{
+    if (faults_strike())
+        transaction_fail();
+}
+
+void *mem_given(void *made)
+{
+    if (made == NULL)
+        transaction_fail();
+    return made;
+}

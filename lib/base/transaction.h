@@ -1,0 +1,118 @@
+/* transaction.h: what one call does to memory, all of it or nothing
+ *
+ * Where memory ends, a formula half built has nobody to report to. So each call of cotree.h is a
+ * transaction: an allocation that fails inside takes back what the call did and leaves it at once,
+ * by longjmp(). What the call allocated is freed, what it freed is there again, what it changed is
+ * as it was. Three rules make that so:
+ *
+ * - a piece that was there before the call is announced with mem_keep() before it is changed in
+ *   place (what the containers of base/ change of their own, they announce),
+ * - what owns memory of another library, or an open file, has a Cleanup,
+ * - nothing else outlives a call: no global variables, no caches outside of pieces.
+ *
+ * Pieces made in the call need none of this. A build with --enable-faults tries every call with
+ * allocations that fail and compares all pieces afterwards (faults.c): a change that nobody
+ * announced ends the program there. */
+#ifndef COTREE_BASE_TRANSACTION_H
+#define COTREE_BASE_TRANSACTION_H
+
+#include <setjmp.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+/* the head of every piece; what is handed out lies behind it, aligned as malloc() does it */
+typedef struct MemPiece {
+    struct MemPiece *before, *after; /* of those made, or those freed, in a transaction */
+    size_t size;
+    uint64_t born; /* the transaction that made it; 0: none */
+    uint64_t kept; /* the last one that made it, or keeps it as it was */
+    const void *maker; /* NULL: it is scratch */
+} MemPiece;
+
+/* Frees what a transaction must not leave behind; stands in what owns it. */
+typedef struct Cleanup {
+    struct Cleanup *before, *after;
+    void (*close)(void *object); /* ends with cleanup_close(); copes with an object half made */
+    void *object;
+    uint64_t born;
+} Cleanup;
+
+typedef struct Note Note;
+
+typedef struct Transaction {
+    jmp_buf place; /* where a failure leads */
+    struct Transaction *outer; /* a hook may call the library for another session */
+    uint64_t number;           /* no other has it */
+    MemPiece made, freed;         /* rings */
+    Cleanup cleanups;              /* ring */
+    Note *notes;               /* what was kept, last first */
+    Note *later;               /* what is to be freed, last first */
+    bool is_scratch;
+    bool is_over;
+    long trial; /* 0, 1 ...: which try with failing allocations; -1: it counts */
+} Transaction;
+
+/* In a function that is a transaction, at its beginning: returns `failure` where memory ends. It
+ * ends with the function. */
+#define TRANSACTION(failure)                                                                       \
+    __attribute__((cleanup(transaction_end))) Transaction transaction;                             \
+    transaction_begin(&transaction);                                                               \
+    if (setjmp(transaction.place) == TRANSACTION_FAILED)                                           \
+    return failure
+
+enum { TRANSACTION_FAILED = 1, TRANSACTION_AGAIN };
+
+void transaction_begin(Transaction *transaction);
+void transaction_end(Transaction *transaction);
+/* Memory has ended: leave the transaction. Outside of any it ends the program with a message. */
+_Noreturn void transaction_fail(void);
+/* whether this is but a try, of a build with --enable-faults, which nobody else need notice */
+bool transaction_is_trial(void);
+
+/* of this thread; NULL: none */
+extern _Thread_local Transaction *transaction_now __attribute__((tls_model("initial-exec")));
+
+static inline MemPiece *piece_of(const void *memory)
+{
+    return (MemPiece *)(void *)((char *)(uintptr_t)memory - sizeof(MemPiece));
+}
+
+/* whether a piece was there before the transaction that goes on */
+static inline bool mem_is_old(const void *memory)
+{
+    return transaction_now != NULL && piece_of(memory)->born != transaction_now->number;
+}
+
+/* Before a piece is changed in place; NULL is fine. */
+void mem_keep_now(void *memory);
+static inline void mem_keep(void *memory)
+{
+    if (transaction_now != NULL && memory != NULL &&
+        piece_of(memory)->kept != transaction_now->number)
+        mem_keep_now(memory);
+}
+/* Before `size` bytes in a piece are. */
+void mem_keep_part(const void *memory, void *at, size_t size);
+/* Before something of the caller's is, which is not a piece. */
+void mem_keep_foreign(void *at, size_t size);
+/* Called with `object` where the transaction fails, when what was kept is as it was: what has been
+ * derived from it can be derived anew. Allocates nothing. */
+void mem_on_failure(void (*derive)(void *object), void *object);
+
+/* What is freed by `release`, and was there before the transaction, is freed when that has come to
+ * its end, and true is returned; false: free it now. */
+bool mem_frees_later(void *object, void (*release)(void *object));
+/* Whether pieces made from now on hold but numbers that each use computes anew: they are left as a
+ * failure finds them. What it was before. */
+bool mem_scratch(bool is_scratch);
+
+/* Before what another library may refuse for lack of memory, and what it handed out. */
+void mem_ask(void);
+void *mem_given(void *made); /* fails where that is NULL */
+#define MEM_GIVEN(call) (mem_ask(), mem_given(call))
+
+void cleanup_open(Cleanup *cleanup, void (*close)(void *object), void *object);
+void cleanup_close(Cleanup *cleanup);
+
+#endif
