@@ -2,6 +2,7 @@
 #include "settings.h"
 
 #include "complain.h"
+#include "copy.h"
 
 #include <stddef.h>
 #include <stdlib.h>

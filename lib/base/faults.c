@@ -9,11 +9,12 @@
  * sample of those beyond, "none"; else two, at random. */
 #include "base/memory_impl.h"
 
+#include <stdlib.h>
+
 #ifdef COTREE_FAULTS
 
 #include <execinfo.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -27,12 +28,13 @@ typedef struct Copy {
     void *bytes;
 } Copy;
 
-static MemPiece known = {.before = &known, .after = &known}; /* ring: pieces that no call may harm */
+static MemPiece known = {.before = &known,
+                         .after = &known}; /* ring: pieces that no call may harm */
 static size_t known_count, known_bytes;
 static Copy *copies;
 static size_t copy_count;
-static long left;     /* allocations up to the one that fails */
-static long at;       /* which one that is */
+static long left; /* allocations up to the one that fails */
+static long at;   /* which one that is */
 static bool has_struck;
 static unsigned long long calls;
 
@@ -110,7 +112,8 @@ void faults_check(void)
             byte++;
         if (byte == piece->size)
             continue;
-        (void)fprintf(stderr, "cotree: try %ld of call %llu changed byte %zu of %zu, at %p, made here:\n",
+        (void)fprintf(stderr,
+                      "cotree: try %ld of call %llu changed byte %zu of %zu, at %p, made here:\n",
                       at, calls, byte, piece->size, (const void *)(is + byte));
         backtrace_symbols_fd((void *const *)&piece->maker, 1, STDERR_FILENO);
         abort();
@@ -142,8 +145,9 @@ void faults_look_for(const MemPiece *made)
 
         for (size_t i = 0; p->maker == NULL && i < p->size / sizeof *words; i++)
             if (bsearch(&words[i], gone, count, sizeof *gone, by_address) != NULL) {
-                (void)fprintf(stderr, "cotree: try %ld of call %llu left word %zu of scratch of %zu, at %p\n",
-                              at, calls, i, p->size, (const void *)&words[i]);
+                (void)fprintf(
+                    stderr, "cotree: try %ld of call %llu left word %zu of scratch of %zu, at %p\n",
+                    at, calls, i, p->size, (const void *)&words[i]);
                 abort();
             }
     }
@@ -209,9 +213,11 @@ void faults_next(Transaction *t)
     t->trial = -1;
 }
 
-#else
-
-/* an ordinary build has none */
-typedef int NoFaults;
-
 #endif
+
+void *system_allocate(size_t size, bool zeroed)
+{
+    if (faults_strike())
+        return NULL;
+    return zeroed || FAULTS ? calloc(1, size) : malloc(size);
+}

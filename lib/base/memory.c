@@ -24,17 +24,11 @@ enum { FIRST_ROOM = 8, FIRST_TEXT = 32, FIRST_CHUNK = 65536 };
 
 /* --- pieces --- */
 
-void *system_allocate(size_t size, bool zeroed)
-{
-    if (faults_strike())
-        return NULL;
-    return zeroed || FAULTS ? calloc(1, size) : malloc(size);
-}
-
 static inline MemPiece *take(size_t size, bool zeroed, const void *maker)
 {
-    MemPiece *piece =
-        size <= SIZE_MAX - sizeof(MemPiece) ? system_allocate(sizeof(MemPiece) + size, zeroed) : NULL;
+    MemPiece *piece = size <= SIZE_MAX - sizeof(MemPiece)
+                          ? system_allocate(sizeof(MemPiece) + size, zeroed)
+                          : NULL;
 
     if (piece == NULL)
         transaction_fail();
@@ -78,7 +72,9 @@ void *mem_grow(void *old, size_t count, size_t size)
 
     if (old == NULL)
         return take(bytes, false, CALLER) + 1;
-    return (FAULTS || mem_is_old(old) ? resize(piece_of(old), bytes, CALLER) : piece_resize(piece_of(old), bytes)) + 1;
+    return (FAULTS || mem_is_old(old) ? resize(piece_of(old), bytes, CALLER)
+                                      : piece_resize(piece_of(old), bytes)) +
+           1;
 }
 
 char *mem_text(const char *text, size_t length)

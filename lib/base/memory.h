@@ -52,6 +52,6 @@ PoolMark pool_mark(const Pool *pool);
 void pool_release(Pool *pool, PoolMark mark); /* frees what came after the mark */
 /* Before `size` bytes at `at`, a piece of the pool's, are changed in place: mem_keep_part(). */
 void pool_keep(Pool *pool, void *at, size_t size);
-size_t pool_bytes(const Pool *pool);          /* held from the system */
+size_t pool_bytes(const Pool *pool); /* held from the system */
 
 #endif

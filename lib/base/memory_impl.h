@@ -41,9 +41,7 @@ static inline bool faults_strike(void)
 {
     return false;
 }
-static inline void faults_check(void)
-{
-}
+static inline void faults_check(void) {}
 static inline void faults_look_for(const MemPiece *made)
 {
     (void)made;

@@ -25,8 +25,8 @@
 typedef struct MemPiece {
     struct MemPiece *before, *after; /* of those made, or those freed, in a transaction */
     size_t size;
-    uint64_t born; /* the transaction that made it; 0: none */
-    uint64_t kept; /* the last one that made it, or keeps it as it was */
+    uint64_t born;     /* the transaction that made it; 0: none */
+    uint64_t kept;     /* the last one that made it, or keeps it as it was */
     const void *maker; /* NULL: it is scratch */
 } MemPiece;
 
@@ -41,11 +41,11 @@ typedef struct Cleanup {
 typedef struct Note Note;
 
 typedef struct Transaction {
-    jmp_buf place; /* where a failure leads */
+    jmp_buf place;             /* where a failure leads */
     struct Transaction *outer; /* a hook may call the library for another session */
     uint64_t number;           /* no other has it */
-    MemPiece made, freed;         /* rings */
-    Cleanup cleanups;              /* ring */
+    MemPiece made, freed;      /* rings */
+    Cleanup cleanups;          /* ring */
     Note *notes;               /* what was kept, last first */
     Note *later;               /* what is to be freed, last first */
     bool is_scratch;

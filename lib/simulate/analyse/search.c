@@ -196,8 +196,7 @@ static bool open_solver(Search *s)
     s->weight = MEM_GIVEN(N_VNew_Serial(s->n, s->context));
     for (int i = 0; i < s->n; i++)
         NV_Ith_S(s->unit, i) = i < s->speeds ? 1 : 1 / LITTLE;
-    s->matrix =
-        MEM_GIVEN(SUNSparseMatrix(s->n, s->n, s->start[s->n] + 1, CSC_MAT, s->context));
+    s->matrix = MEM_GIVEN(SUNSparseMatrix(s->n, s->n, s->start[s->n] + 1, CSC_MAT, s->context));
     s->memory = MEM_GIVEN(KINCreate(s->context));
     open_linear(s);
     code = KINSetErrHandlerFn(s->memory, keep_quiet, NULL);
