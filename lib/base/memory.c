@@ -9,9 +9,9 @@
 
 /* a table, list, arena or pool that begins with one element grows at once, which tests it */
 #ifdef COTREE_SMALL
-enum { FIRST_ROOM = 1, FIRST_TEXT = 1, FIRST_CHUNK = 16 };
+enum { FIRST_ROOM = 1, FIRST_CHUNK = 16 };
 #else
-enum { FIRST_ROOM = 8, FIRST_TEXT = 32, FIRST_CHUNK = 65536 };
+enum { FIRST_ROOM = 8, FIRST_CHUNK = 65536 };
 #endif
 
 /* With failing allocations what a transaction finds moves whenever something is added, so that no
@@ -91,17 +91,32 @@ void mem_free(void *piece)
         piece_drop(piece_of(piece));
 }
 
-void *list_room(void *at, int count, int *room, size_t size)
+static void *room_for(void *at, int count, int *room, size_t size, const void *maker)
 {
-    int more = count < FIRST_ROOM ? FIRST_ROOM : count + count / 2;
+    const int more = count < FIRST_ROOM ? FIRST_ROOM : count + count / 2;
 
-    if (count <= *room && !MOVES_ALWAYS(at))
-        return at;
     at = mem_grow(at, (size_t)more, size);
     if (piece_of(at)->maker != NULL)
-        piece_of(at)->maker = CALLER;
+        piece_of(at)->maker = maker;
     *room = more;
     return at;
+}
+
+void *list_room(void *at, int count, int more, int *room, size_t size)
+{
+    if (count + more > *room)
+        return room_for(at, count + more, room, size, CALLER);
+    /* what has been taken off the list in this call may have to be there again */
+    if (mem_is_old(at))
+        mem_keep_part(at, (char *)at + (size_t)count * size, (size_t)more * size);
+    return at;
+}
+
+void *list_more_room(void *at, int count, int *room, size_t size)
+{
+    if (FAULTS)
+        return list_room(at, count - 1, 1, room, size);
+    return count > *room ? room_for(at, count, room, size, CALLER) : at;
 }
 
 typedef struct Chunk {
@@ -112,7 +127,9 @@ typedef struct Chunk {
 
 struct Pool {
     Chunk *newest;
-    size_t used; /* of the newest */
+    size_t used;     /* of the newest */
+    Chunk *floor;    /* the newest when the call came to the pool, */
+    size_t floor_at; /* and what was used of it: below nothing is written anew */
     size_t chunk_size;
     size_t held;
 };
@@ -133,11 +150,20 @@ void pool_free(Pool *pool)
     mem_free(pool);
 }
 
+static inline void keep_whole(Pool *pool)
+{
+    if (transaction_now == NULL || piece_of(pool)->kept == transaction_now->number)
+        return;
+    mem_keep_now(pool);
+    pool->floor = pool->newest;
+    pool->floor_at = pool->used;
+}
+
 void *pool_alloc(Pool *pool, size_t size)
 {
     void *piece;
 
-    mem_keep(pool);
+    keep_whole(pool);
     size = (size + 15) & ~(size_t)15;
     if (pool->newest == NULL || pool->newest->size - pool->used < size ||
         MOVES_ALWAYS(pool->newest)) {
@@ -170,7 +196,7 @@ PoolMark pool_mark(const Pool *pool)
 
 void pool_release(Pool *pool, PoolMark mark)
 {
-    mem_keep(pool);
+    keep_whole(pool);
     while (pool->newest != mark.chunk) {
         Chunk *chunk = pool->newest;
 
@@ -179,6 +205,12 @@ void pool_release(Pool *pool, PoolMark mark)
         mem_free(chunk);
     }
     pool->used = mark.used;
+    if (pool->newest == NULL || !mem_is_old(pool->newest) || !mem_is_old(pool))
+        return;
+    if (pool->newest != pool->floor)
+        pool->used = pool->newest->size;
+    else if (pool->used < pool->floor_at)
+        pool->used = pool->floor_at;
 }
 
 void pool_keep(Pool *pool, void *at, size_t size)

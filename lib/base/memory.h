@@ -33,10 +33,15 @@ void mem_free(void *piece);                           /* NULL is fine */
         int room;                                                                                  \
     }
 #define LIST_ROOM(list, more)                                                                      \
-    ((list).at = list_room((list).at, (list).count + (more), &(list).room, sizeof *(list).at))
+    ((list).at = list_room((list).at, (list).count, (more), &(list).room, sizeof *(list).at))
 #define LIST_PUSH(list, ...) (LIST_ROOM(list, 1), (list).at[(list).count++] = __VA_ARGS__)
-#define LIST_FREE(list)      (mem_free((list).at), (list).at = NULL, (list).count = (list).room = 0)
-void *list_room(void *at, int count, int *room, size_t size);
+/* the same for a list that nothing is taken off in a call that stood there before */
+#define LIST_APPEND(list, ...)                                                                     \
+    ((list).at = list_more_room((list).at, (list).count + 1, &(list).room, sizeof *(list).at),     \
+     (list).at[(list).count++] = __VA_ARGS__)
+#define LIST_FREE(list) (mem_free((list).at), (list).at = NULL, (list).count = (list).room = 0)
+void *list_room(void *at, int count, int more, int *room, size_t size);
+void *list_more_room(void *at, int count, int *room, size_t size);
 
 typedef struct Pool Pool;
 typedef struct PoolMark {

@@ -151,7 +151,7 @@ static struct ExprNode *node_new(Arena *arena, uint32_t hash, size_t size)
     node = pool_alloc(arena->pool, sizeof(struct ExprNode) + size);
     node->number = (uint32_t)arena->nodes.count;
     node->hash = hash;
-    LIST_PUSH(arena->nodes, node);
+    LIST_APPEND(arena->nodes, node);
     if ((uint32_t)arena->nodes.count > arena->size / 2)
         table_grow(arena);
     else
@@ -384,7 +384,7 @@ void arena_remember(Arena *arena, Expr e, Expr symbol, Expr derivative)
     if (arena->status != OK)
         return;
     arena_keep_whole(arena);
-    LIST_PUSH(arena->memories, (Memory){e, symbol, derivative});
+    LIST_APPEND(arena->memories, (Memory){e, symbol, derivative});
     if ((uint32_t)arena->memories.count <= arena->memory_size / 2) {
         slots_put(arena->memory_slots, arena->memory_size, memory_hash(e, symbol),
                   (uint32_t)arena->memories.count);

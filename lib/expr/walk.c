@@ -55,7 +55,7 @@ int walk_add(Walk *walk, Expr e)
         return walk->places[i];
     walk->keys[i] = e->number + 1;
     walk->places[i] = walk->count;
-    walk->nodes = list_room(walk->nodes, walk->count + 1, &walk->room, sizeof(Expr));
+    walk->nodes = list_room(walk->nodes, walk->count, 1, &walk->room, sizeof(Expr));
     walk->nodes[walk->count] = e;
     return walk->count++;
 }

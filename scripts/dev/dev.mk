@@ -21,6 +21,23 @@ san/Makefile:
 	@mkdir -p san
 	@cd san && $(abs_srcdir)/configure -q --enable-sanitizers --enable-werror CFLAGS='-O1 -g'
 
+# tables, lists and chunks of memory that begin with one element; and each call tried with
+# allocations that fail (lib/base/faults.c). Without the programs of random members: make stress
+# has those.
+check-small: small/Makefile
+	@$(MAKE) -s -C small check-total FAMILIES=
+
+check-faults: faults/Makefile
+	@$(MAKE) -s -C faults check-total FAMILIES=
+
+small/Makefile:
+	@mkdir -p small
+	@cd small && $(abs_srcdir)/configure -q --enable-small --enable-werror CFLAGS='-O1 -g'
+
+faults/Makefile:
+	@mkdir -p faults
+	@cd faults && $(abs_srcdir)/configure -q --enable-faults --enable-werror CFLAGS='-O1 -g'
+
 # make lint PARTS="format size": only these
 lint:
 	@BUILD='$(abs_top_builddir)' CC='$(CC)' CPPFLAGS='-D_GNU_SOURCE -I$(abs_top_builddir) $(GSL_CFLAGS) $(KLU_CFLAGS)' \
@@ -77,6 +94,6 @@ mostlyclean-local:
 	rm -f $(BENCHES) $(FUZZERS) bench.out check.log
 
 distclean-local:
-	rm -rf san coverage bench.work
+	rm -rf san small faults coverage bench.work
 
-.PHONY: check-total check-hacking check-san lint format bench bench-record fuzz fuzzers stress coverage
+.PHONY: check-total check-hacking check-san check-small check-faults lint format bench bench-record fuzz fuzzers stress coverage

@@ -5,3 +5,7 @@ test_base_LDADD = $(unit_ldadd)
 UNIT_TESTS += test_hessenberg_form
 test_hessenberg_form_SOURCES = tests/unit/test_hessenberg_form.c tests/unit/test.h tests/random.h
 test_hessenberg_form_LDADD = $(unit_ldadd)
+
+UNIT_TESTS += test_transaction
+test_transaction_SOURCES = tests/unit/test_transaction.c tests/unit/test.h
+test_transaction_LDADD = $(unit_ldadd)

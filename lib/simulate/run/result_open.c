@@ -1,6 +1,7 @@
 /* result_open.c: how a result begins: its phases, its start, and what an earlier one hands on */
 #include "simulate/run/result.h"
 
+#include "base/memory.h"
 #include "simulate/equations/causes.h"
 #include "simulate/run/commute.h"
 #include "simulate/run/share.h"
