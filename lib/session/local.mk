@@ -6,10 +6,13 @@ libcore_la_SOURCES += \
   lib/session/session_freedoms.c \
   lib/session/session_help.c \
   lib/session/session_impl.h \
+  lib/session/session_input.c \
   lib/session/session_linear.c \
   lib/session/session_look.c \
   lib/session/session_run.c \
+  lib/session/session_start.c \
   lib/session/session_statement.c \
+  lib/session/session_systems.c \
   lib/session/session_table.c \
   lib/session/session_trees.c \
   lib/session/session_value.c \

@@ -255,30 +255,6 @@ static Expr push_leaf(Cut *cut, Leaf leaf)
     return leaf.symbol;
 }
 
-Expr session_put_outputs(const Model *model, Expr e)
-{
-    const int count = model_output_count(model);
-    Arena *arena = model_arena(model);
-    Expr *symbols = NEW_ARRAY(Expr, count), *values = NEW_ARRAY(Expr, count);
-
-    for (int i = 0; i < count; i++) {
-        const char *name;
-
-        values[i] = model_output(model, i, &name);
-        symbols[i] = expr_symbol(arena, name, SYMBOL_VARIABLE);
-    }
-    for (int depth = 0; depth < count; depth++) {
-        const Expr next = expr_substitute(arena, e, symbols, values, count);
-
-        if (next == e)
-            break;
-        e = next;
-    }
-    mem_free(symbols);
-    mem_free(values);
-    return e;
-}
-
 /* sizes that outputs ask for, as numbers */
 static Status put_sizes(ct_session *session, Expr *e, Diag *diag)
 {

@@ -114,19 +114,6 @@ done:
     return status;
 }
 
-void session_note_freedoms(ct_session *session, const Result *result)
-{
-    if (system_revision(result_system((Result *)result)) != model_revision(session->model))
-        return;
-    session->freed = model_revision(session->model) + 1;
-    session->freedoms = result_freedoms(result);
-}
-
-int session_freedoms(const ct_session *session)
-{
-    return session->freed == model_revision(session->model) + 1 ? session->freedoms : -1;
-}
-
 Status session_try_trees(ct_session *session, Diag *diag)
 {
     RunInput input = {0};

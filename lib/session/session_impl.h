@@ -143,6 +143,7 @@ typedef struct RunInput {
     BoundWatch watch;
     Setting setting;
 } RunInput;
+bool input_is_in_force(const ct_session *session, int start); /* an initial value of the model */
 void run_input_make(ct_session *session, RunInput *input);
 void run_input_free(RunInput *input); /* what it holds */
 /* Watch where the laws of the system's parts end, in the run of this input; `old`: the one

@@ -186,3 +186,40 @@ const char *ct_expression_word(const ct_expression *expression)
                ? syntax->text
                : NULL;
 }
+
+/* --- places in messages --- */
+
+/* a variable in it of which the message speaks: in quotes, or of its run at the beginning */
+static const Syntax *spoken_of(const Syntax *syntax, const char *message)
+{
+    const char *name = syntax->text;
+    const Syntax *found = NULL;
+    Text quoted = {0};
+    size_t run; /* characters of "run1." */
+
+    if (strncmp(name, "run", 3) == 0 || strncmp(name, "last.", 5) == 0)
+        name += strcspn(name, ".") + (strchr(name, '.') != NULL);
+    text_addf(&quoted, "'%s'", name);
+    run = (size_t)(name - syntax->text);
+    if (syntax->kind == SYNTAX_VARIABLE &&
+        (strstr(message, quoted.at) != NULL ||
+         (run > 1 && strncmp(syntax->text, message, run - 1) == 0 && message[run - 1] == ' ')))
+        found = syntax;
+    text_free(&quoted);
+    for (int i = 0; i < syntax->count && found == NULL; i++)
+        found = spoken_of(syntax->args[i], message);
+    return found;
+}
+
+/* which of the items a message without a place is about */
+void session_place_item(const Syntax *const *items, int count, Diag *diag)
+{
+    for (int i = 0; i < count && diag->place.line == 0; i++) {
+        const Syntax *found = spoken_of(items[i], diag->message);
+
+        if (found != NULL)
+            diag->place = found->place;
+    }
+    if (diag->place.line == 0 && count == 1)
+        diag->place = items[0]->place;
+}

@@ -1,0 +1,126 @@
+/* session_input.c: what a run is told, made from the model as it is */
+#include "session/session_impl.h"
+
+/* --- parameters --- */
+
+static ParameterValues *parameters_now(const Model *model)
+{
+    ParameterValues *values = NEW(ParameterValues);
+
+    values->model = model;
+    for (int i = 0; i < model_parameter_count(model); i++) {
+        Expr definition;
+        const Expr symbol = model_parameter(model, i, &definition);
+
+        LIST_PUSH(values->symbols, symbol);
+        LIST_PUSH(values->values, model_parameter_value(model, symbol));
+    }
+    return values;
+}
+
+/* as the run had it; a parameter made since, as it is now */
+static double parameter_value(void *context, Expr symbol)
+{
+    const ParameterValues *values = context;
+
+    for (int i = 0; i < values->symbols.count; i++)
+        if (values->symbols.at[i] == symbol)
+            return values->values.at[i];
+    return model_parameter_value(values->model, symbol);
+}
+
+void run_free(Run *run)
+{
+    result_free(run->result);
+    if (run->parameters != NULL) {
+        mem_keep(run->parameters);
+        LIST_FREE(run->parameters->symbols);
+        LIST_FREE(run->parameters->values);
+    }
+    mem_free(run->parameters);
+    *run = (Run){NULL, NULL};
+}
+
+void session_forget_start(ct_session *session)
+{
+    if (session->start.result == NULL)
+        return;
+    if (session->at_rest && session->rest.result == NULL) {
+        session->rest = session->start;
+    } else {
+        run_free(&session->warm);
+        session->warm = session->start;
+    }
+    session->start = (Run){NULL, NULL};
+}
+
+/* --- what a run is told --- */
+
+void run_input_free(RunInput *input)
+{
+    mem_free(input->start.at);
+    mem_free(input->events);
+    watch_free(&input->watch);
+    if (input->parameters != NULL) {
+        Run run = {NULL, input->parameters};
+
+        run_free(&run);
+    }
+}
+
+/* the equilibrium from which runs start; NULL: there is none */
+static const Result *resting_start(const ct_session *session)
+{
+    if (!session->at_rest)
+        return NULL;
+    return session->rest.result != NULL ? session->rest.result : session->start.result;
+}
+
+/* an equilibrium takes the place of what was given before it */
+bool input_is_in_force(const ct_session *session, int i)
+{
+    return resting_start(session) == NULL ||
+           model_start_statement(session->model, i) >= session->rests_since;
+}
+
+void run_input_make(ct_session *session, RunInput *input)
+{
+    const Model *model = session->model;
+    const int count = model_start_count(model);
+
+    input->parameters = parameters_now(model);
+    input->start.at = mem_array((size_t)count, sizeof *input->start.at);
+    for (int i = 0; i < count; i++) {
+        const Start *start = model_start(model, i);
+
+        if (input_is_in_force(session, i))
+            input->start.at[input->start.count++] =
+                (StartValue){.name = start->name,
+                             .primes = start->primes,
+                             .value = model_number(model, start->value),
+                             .is_guess = start->is_guess};
+    }
+    input->events = mem_array((size_t)model_event_count(model), sizeof *input->events);
+    for (int i = 0; i < model_event_count(model); i++)
+        input->events[i] = model_event(model, i);
+    input->setting = (Setting){.parameter = parameter_value,
+                               .context = input->parameters,
+                               .scene = model_scene_source(model),
+                               .events = input->events,
+                               .event_count = model_event_count(model),
+                               .start = &input->start,
+                               .warm = session->warm.result != NULL ? session->warm.result
+                                                                    : session->rest.result,
+                               .from = resting_start(session),
+                               .watch = &session->watch};
+    input->setting.form =
+        model_form(model, &input->setting.independent, &input->setting.independent_count);
+}
+
+Run run_input_done(RunInput *input, Result *result)
+{
+    Run run = {result, input->parameters};
+
+    input->parameters = NULL;
+    return run;
+}

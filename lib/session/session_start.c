@@ -1,0 +1,33 @@
+/* session_start.c: the start that is asked for, and the run that values are taken from */
+#include "session/session_impl.h"
+
+Status session_start(ct_session *session, Run **out, Diag *diag)
+{
+    RunInput input = {0};
+    Result *result = NULL;
+    System *system;
+    Status status = OK;
+
+    if (session->start.result == NULL) {
+        CHECK(session_system(session, &system, diag));
+        run_input_make(session, &input);
+        CHECK(session_check_freedoms(session, system, &input.setting, diag));
+        CHECK(run_assemble(system, &input.setting, &result, diag));
+        session->start = run_input_done(&input, result);
+        session_note_freedoms(session, result);
+        session_remark(session, result_remarks(result));
+    }
+    *out = &session->start;
+done:
+    run_input_free(&input);
+    return status;
+}
+
+Status session_source(ct_session *session, Run **out, Diag *diag)
+{
+    if (session->runs.count > 0 && !session->start_is_later) {
+        *out = session->runs.at + session->runs.count - 1;
+        return OK;
+    }
+    return session_start(session, out, diag);
+}

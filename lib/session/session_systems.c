@@ -1,0 +1,201 @@
+/* session_systems.c: the equations of a session, and how its calls report */
+#include "session/session_impl.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/* --- errors and remarks --- */
+
+ct_status session_report(Status status, const Diag *diag, ct_error *error)
+{
+    const ct_status public = status == OK          ? CT_OK
+                             : status == E_STOPPED ? CT_STOPPED
+                             : status == E_EXPECT  ? CT_UNMET
+                                                   : CT_FAILED;
+
+    if (error == NULL)
+        return public;
+    memset(error, 0, sizeof *error);
+    error->status = public;
+    if (status == OK)
+        return public;
+    error->line = diag->place.line;
+    error->column = diag->place.column;
+    error->width = diag->place.width;
+    /* a function that stopped needn't have said so */
+    (void)snprintf(error->message, sizeof error->message, "%s",
+                   diag->status == status && diag->message[0] != '\0' ? diag->message
+                                                                      : status_text(status));
+    (void)snprintf(error->hint, sizeof error->hint, "%s", diag->status == status ? diag->hint : "");
+    return public;
+}
+
+void session_begin(ct_session *session)
+{
+    text_free(&session->remarks);
+}
+
+void session_remark(ct_session *session, const char *lines)
+{
+    if (lines == NULL || lines[0] == '\0')
+        return;
+    text_add(&session->remarks, lines);
+    if (lines[strlen(lines) - 1] != '\n')
+        text_char(&session->remarks, '\n');
+}
+
+/* --- equations --- */
+
+static bool is_of(const Run *run, const System *system)
+{
+    return run->result != NULL && result_system(run->result) == system;
+}
+
+static bool is_named(const ct_session *session, const System *system)
+{
+    for (int i = 0; i < session->runs.count; i++)
+        if (is_of(&session->runs.at[i], system))
+            return true;
+    return is_of(&session->start, system) || is_of(&session->warm, system) ||
+           is_of(&session->rest, system);
+}
+
+static double number(const void *model, Expr e)
+{
+    return model_number(model, e);
+}
+
+static bool is_current(const ct_session *session, const System *system)
+{
+    return system_holds(system, model_revision(session->model), number, session->model);
+}
+
+void session_sweep(ct_session *session)
+{
+    int kept = 0;
+
+    mem_keep(session->systems.at);
+    for (int i = 0; i < session->systems.count; i++) {
+        System *system = session->systems.at[i];
+
+        if (is_current(session, system) || is_named(session, system))
+            session->systems.at[kept++] = system;
+        else
+            system_free(system);
+    }
+    session->systems.count = kept;
+}
+
+static Status system_of_form(ct_session *session, NetworkForm form, System **out, Diag *diag)
+{
+    const SystemOptions options = {.form = form, .watch = &session->watch};
+    System *system = NULL;
+    Scene scene = {0};
+    Status status = OK;
+
+    for (int i = 0; i < session->systems.count; i++)
+        if (is_current(session, session->systems.at[i]) &&
+            system_network_form(session->systems.at[i]) == form) {
+            *out = session->systems.at[i];
+            return OK;
+        }
+    report(&session->watch, "equations", -1);
+    CHECK(model_scene(session->model, &scene, diag));
+    CHECK(system_new(&scene, &options, &system, diag));
+    LIST_PUSH(session->systems, system);
+    session_sweep(session);
+    *out = system;
+done:
+    scene_free(&scene);
+    return status;
+}
+
+Status session_system(ct_session *session, System **out, Diag *diag)
+{
+    return system_of_form(
+        session, (NetworkForm)model_setting_value(session->model, SETTING_NETWORK), out, diag);
+}
+
+Status session_shown(ct_session *session, System **out, Diag *diag)
+{
+    Diag why = {0};
+    Status status = OK;
+
+    CHECK(session_system(session, out, diag));
+    if (system_tree_is_normal(*out))
+        return OK;
+    status = system_of_form(session, NETWORK_TREE, out, &why);
+    if (status != OK && status != E_STOPPED) {
+        Text line = {0};
+
+        text_addf(&line, "network in state form: %s\n",
+                  status == E_MODEL ? why.message
+                                    : "the equations of these trees can't be solved for their "
+                                      "highest derivatives");
+        session_remark(session, line.at);
+        text_free(&line);
+        status = session_system(session, out, diag);
+    } else if (status != OK) {
+        *diag = why;
+    }
+done:
+    return status;
+}
+
+Status session_prepare(ct_session *session, Need need, View *view, Diag *diag)
+{
+    return need == NEED_SYSTEM    ? session_shown(session, &view->system, diag)
+           : need == NEED_RUNNING ? session_system(session, &view->system, diag)
+                                  : OK;
+}
+
+void session_note_freedoms(ct_session *session, const Result *result)
+{
+    if (system_revision(result_system((Result *)result)) != model_revision(session->model))
+        return;
+    session->freed = model_revision(session->model) + 1;
+    session->freedoms = result_freedoms(result);
+}
+
+int session_freedoms(const ct_session *session)
+{
+    return session->freed == model_revision(session->model) + 1 ? session->freedoms : -1;
+}
+
+View session_view(const ct_session *session)
+{
+    const int runs = session->runs.count;
+
+    return (View){.model = session->model,
+                  .result = runs > 0 ? session->runs.at[runs - 1].result : NULL,
+                  .linear = session->linear,
+                  .freedoms = session_freedoms(session),
+                  .page = {.columns = session->hooks.columns,
+                           .unicode = session->hooks.unicode,
+                           .notation = session->hooks.unicode ? NOTATION_UNICODE : NOTATION_TEXT},
+                  .watch = &session->watch};
+}
+
+Expr session_put_outputs(const Model *model, Expr e)
+{
+    const int count = model_output_count(model);
+    Arena *arena = model_arena(model);
+    Expr *symbols = NEW_ARRAY(Expr, count), *values = NEW_ARRAY(Expr, count);
+
+    for (int i = 0; i < count; i++) {
+        const char *name;
+
+        values[i] = model_output(model, i, &name);
+        symbols[i] = expr_symbol(arena, name, SYMBOL_VARIABLE);
+    }
+    for (int depth = 0; depth < count; depth++) {
+        const Expr next = expr_substitute(arena, e, symbols, values, count);
+
+        if (next == e)
+            break;
+        e = next;
+    }
+    mem_free(symbols);
+    mem_free(values);
+    return e;
+}
