@@ -7,6 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#define MOST_TOLD 6 /* names in a remark */
+
 Status session_equilibrium(ct_session *session, const Statement *s, Diag *diag)
 {
     RunInput input = {0};
@@ -229,6 +231,25 @@ static void tell_modes(const ct_session *session, Text *out)
     modes_print(session->modes, session->hooks.columns, out);
 }
 
+/* Eigenvalues of a linear system are its own, whatever describes it; those at an instant of a
+ * motion aren't. */
+static void remark_passing(ct_session *session, const Linear *linear)
+{
+    Text line = {0};
+
+    if (!linear->is_passing)
+        return;
+    text_addf(&line,
+              "no rest and no steady motion at t = %.6g s: the modes are those of the coordinates",
+              linear->at);
+    for (int i = 0; i < linear->freedoms && i < MOST_TOLD; i++)
+        text_addf(&line, "%s %s", i == 0 ? "" : ",", linear->state_names[i]);
+    text_addf(&line, "%s; other independent coordinates have others",
+              linear->freedoms > MOST_TOLD ? ", ..." : "");
+    session_remark(session, line.at);
+    text_free(&line);
+}
+
 Status session_modes(ct_session *session, const Statement *s, Diag *diag)
 {
     Linear *linear = NULL;
@@ -237,6 +258,7 @@ Status session_modes(ct_session *session, const Statement *s, Diag *diag)
 
     CHECK(find_linear(session, s, &linear, diag));
     CHECK(modes_find(linear, &modes, diag));
+    remark_passing(session, linear);
     modes_free(session->modes);
     session->modes = modes;
     session->told = tell_modes;

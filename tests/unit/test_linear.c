@@ -242,6 +242,40 @@ static void an_instant_of_a_run_is_where_it_is_then(void)
     kit_free(&kit);
 }
 
+/* At rest at an angle a pendulum has h'' = -g sin(h), or, of x = sin(h),
+ * x'' = -g x sqrt(1 - x^2) - x x'^2/(1 - x^2): the slopes there aren't each other's. Hanging down
+ * they are, and so they are where a wheel turns, whose equations stay as they are. */
+static void modes_of_no_rest_say_whose_they_are(void)
+{
+    static const struct {
+        const char *statements;
+        double omega;
+        const char *remark; /* part of it, NULL: none */
+    } cases[] = {
+        {PENDULUM "init h = 30 deg\nmodes", 9.81 * 0.86602540378443865, "of the coordinates h;"},
+        {PENDULUM "tree absolute\nform embedded independent=m.x\ninit h = 30 deg\nmodes",
+         9.81 * 0.5 / 0.86602540378443865, "of the coordinates m.x;"},
+        {PENDULUM "simulate 1\nmodes at=0.3", NAN, "no rest and no steady motion at t = 0.3 s"},
+        {PENDULUM "equilibrium\nmodes", 9.81, NULL},
+        {PENDULUM "tree absolute\nform embedded independent=m.x\nequilibrium\nmodes", 9.81, NULL},
+        {"scene planar\nbody m mass=1 inertia=2\nrevolute h ground m\ninit h' = 30\n"
+         "simulate 1\nmodes at=0.5",
+         0, NULL}};
+
+    for (int i = 0; i < (int)(sizeof cases / sizeof cases[0]); i++) {
+        Kit kit = kit_new();
+
+        EXPECT_DONE(&kit, cases[i].statements);
+        if (cases[i].remark != NULL)
+            EXPECT_HOLDS(ct_remarks(kit.session), cases[i].remark);
+        else
+            EXPECT_LACKS(ct_remarks(kit.session), "coordinates");
+        if (cases[i].omega == cases[i].omega)
+            expect_value(&kit, "modes.omega(1)^2", cases[i].omega, 1e-9);
+        kit_free(&kit);
+    }
+}
+
 /* rotating body without moments, in its own axes: I w' = (I w) x w, s' = dw - w x s */
 static void small_turns_of_a_spinning_body_follow_its_axes(void)
 {
@@ -553,6 +587,7 @@ int main(void)
     RUN(what_cannot_move_has_no_modes);
     RUN(the_motor_arm_is_linear_as_by_hand);
     RUN(an_instant_of_a_run_is_where_it_is_then);
+    RUN(modes_of_no_rest_say_whose_they_are);
     RUN(small_turns_of_a_spinning_body_follow_its_axes);
     RUN(the_slider_crank_with_a_spring_swings_as_one_coordinate_does);
     RUN(a_moving_mechanism_has_the_slopes_of_neighbouring_motions);

@@ -19,6 +19,8 @@ typedef struct Linear {
     double *motion;                                /* parts x states: how each moves with y */
     bool is_shifted; /* states are less what jumps with the inputs, as voltages of capacitors in a
                         circuit with a source do: b and d count from there */
+    bool is_passing; /* mechanical coefficients change as it moves on: other coordinates have other
+                        eigenvalues there */
     char **state_names, **input_names, **output_names, **part_names;
 } Linear;
 

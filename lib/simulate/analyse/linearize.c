@@ -255,6 +255,7 @@ Status linearize(const LinearOrder *order, Linear **out, Diag *diag)
     CHECK(compile(&w, diag));
     CHECK(linear_point(&w, diag));
     CHECK(linear_columns(&w, out, diag));
+    (*out)->is_passing = linear_is_passing(&w, *out);
 done:
     work_free(&w);
     return status;

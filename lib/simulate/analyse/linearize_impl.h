@@ -82,6 +82,11 @@ bool linear_is_independent(const Work *w, int speed);
 /* Complete v, whose independent entries are set: Phi_u v + right = 0 in the dependent ones. */
 void linear_complete(const Work *w, const Number *right, Number *v);
 
+/* Whether coefficients of the mechanical equations change as it moves on from the point, whose
+ * deviations `linear` tells of: what leaves them alone keeps the eigenvalues of A the same in all
+ * coordinates. */
+bool linear_is_passing(Work *w, const Linear *linear);
+
 /* --- linearize_columns.c --- */
 
 MUST_USE Status linear_columns(const Work *w, Linear **out, Diag *diag);

@@ -10,6 +10,9 @@
 
 #include <string.h>
 
+#define AHEAD 0.1  /* of the time that the fastest swing takes for a radian */
+#define SAME  1e-5 /* over that time, of the largest coefficient of its row */
+
 enum { MOST_STEPS = 8 }; /* of Newton's method; equations that are linear in it take two */
 
 /* --- equations in use --- */
@@ -384,4 +387,73 @@ Status linear_point(Work *w, Diag *diag)
         CHECK(refuse_dependent(w, diag));
 done:
     return status;
+}
+
+/* --- how it goes on --- */
+
+/* about the largest of the eigenvalues that deviations of coordinates have, 1/s */
+static double quickness(const Linear *linear)
+{
+    const int n = linear->freedoms;
+    double stiffness = 0, damping = 0;
+
+    for (int i = n; i < 2 * n; i++)
+        for (int k = 0; k < n; k++) {
+            stiffness = fmax(stiffness, fabs(linear->a[i * linear->states + k]));
+            damping = fmax(damping, fabs(linear->a[i * linear->states + n + k]));
+        }
+    return sqrt(stiffness) + damping;
+}
+
+/* where coordinates and speeds are after a time, with the rates of now */
+static void move_on(const Work *w, double time, double *y)
+{
+    const Layout *l = w->l;
+
+    memcpy(y, w->y, (size_t)w->phase->length * sizeof(double));
+    for (int i = 0; i < l->n; i++) {
+        double bend = 0;
+
+        for (int j = 0; j < l->nu; j++)
+            bend += w->map[i * l->nu + j].value * w->follow[j] +
+                    w->map_rate[i * l->nu + j].value * w->y[l->n + j];
+        y[i] += time * (w->values[w->rows.q_rate + i].value + time * bend / 2);
+    }
+    for (int j = 0; j < l->nu; j++)
+        y[l->n + j] += time * w->follow[j];
+}
+
+/* whether coefficients of coordinates, speeds, accelerations and multipliers in a row are others */
+static bool row_changes(const Work *w, int row, const double *values)
+{
+    const int first = w->rows.count + row * w->at.count;
+    double largest = 0, change = 0;
+
+    for (int k = 0; k < w->at.rates; k++) {
+        if (k >= w->at.x && k < w->at.acceleration)
+            continue;
+        largest = fmax(largest, fabs(w->values[first + k].value));
+        change = fmax(change, fabs(values[first + k] - w->values[first + k].value));
+    }
+    return !(change <= SAME * largest);
+}
+
+bool linear_is_passing(Work *w, const Linear *linear)
+{
+    const Layout *l = w->l;
+    const double quick = quickness(linear), time = quick > 0 ? AHEAD / quick : AHEAD;
+    double *y = NEW_ARRAY(double, w->phase->length);
+    bool passes = false;
+    const double *values;
+    RowValues row;
+
+    move_on(w, time, y);
+    row = row_with(w, w->order->at + time, y, w->follow);
+    values = gradients_at(&w->gradients, &row);
+    for (int j = 0; j < l->nu && !passes; j++)
+        passes = row_changes(w, w->rows.balance + j, values);
+    for (int k = 0; k < w->used && !passes; k++)
+        passes = row_changes(w, w->rows.velocity + w->in_use[k], values);
+    mem_free(y);
+    return passes;
 }
