@@ -7,8 +7,8 @@ libcore_la_SOURCES += \
   lib/algebra/hessenberg_form.h \
   lib/algebra/kkt.c \
   lib/algebra/kkt.h \
-  lib/algebra/least.c \
-  lib/algebra/least.h \
+  lib/algebra/levenberg_marquardt.c \
+  lib/algebra/levenberg_marquardt.h \
   lib/algebra/linear.c \
   lib/algebra/linear.h \
   lib/algebra/matrix3.c \

@@ -1,5 +1,5 @@
 libcore_la_SOURCES += \
-  lib/compile/bounds.c \
+  lib/compile/rounding.c \
 	lib/compile/interpret.c \
 	lib/compile/lower.c \
 	lib/compile/opcodes.def \

@@ -82,7 +82,7 @@ struct Program {
 /* Fill everything but names and counts of inputs and roots. Changes `lowered`. */
 void schedule(Program *program, Lowered *lowered);
 
-/* --- bounds.c --- */
+/* --- rounding.c --- */
 
 void program_bound(const Program *program, const double *slots, const double *input_errors,
                    double *root_errors);

@@ -1,9 +1,9 @@
 libcore_la_SOURCES += \
-	lib/formulate/attitude.c \
+	lib/formulate/euler_parameters.c \
 	lib/formulate/common_turns.c \
 	lib/formulate/composite.c \
 	lib/formulate/constraints.c \
-	lib/formulate/bounds.c \
+	lib/formulate/law_ends.c \
 	lib/formulate/counting.c \
 	lib/formulate/critical.c \
 	lib/formulate/coordinate.c \
@@ -16,7 +16,7 @@ libcore_la_SOURCES += \
 	lib/formulate/frames.c \
 	lib/formulate/framesum.c \
 	lib/formulate/ideal.c lib/formulate/ideal_share.c \
-	lib/formulate/kinks.c lib/formulate/motion.c \
+	lib/formulate/kinks.c lib/formulate/recursive.c \
 	lib/formulate/network.c lib/formulate/network_build.c \
 	lib/formulate/network_order.c \
 	lib/formulate/network_rows.c \
@@ -24,7 +24,7 @@ libcore_la_SOURCES += \
 	lib/formulate/reactions.c \
 	lib/formulate/rates.c lib/formulate/reading.c \
 	lib/formulate/resolve.c lib/formulate/sample.c lib/formulate/scalar_edges.c \
-	lib/formulate/show.c \
+	lib/formulate/expanded.c \
 	lib/formulate/smooth.c \
 	lib/formulate/state_space.c lib/formulate/state_space.h \
 	lib/formulate/surfaces.h \

@@ -361,7 +361,7 @@ Vec frame_vector(const System *system, int node, Vec in_frame);
 /* the row's steps of an instance */
 void instance_steps(const System *system, const Instance *instance, Steps *steps);
 
-/* --- motion of the reading to run (motion.c) --- */
+/* --- motion of the reading to run (recursive.c) --- */
 
 void motion_build(System *system);
 /* angular accelerations of chains and accelerations of nodes, with u' or (NULL) without */
@@ -421,8 +421,8 @@ void turned_add_rows(System *system);
 void turned_drive(System *system, int instance, int coordinate, Expr prescribed);
 /* the way from tail to head along a slide's axis */
 Expr slide_value(System *system, const Instance *owner, const Step *slide);
-/* (attitude.c) Euler parameters of a frame against ground, and of a head against a tail, scalar
- * part first */
+/* (euler_parameters.c) Euler parameters of a frame against ground, and of a head against a tail,
+ * scalar part first */
 void frame_parameters(System *system, int node, Expr p[4]);
 void relative_parameters(System *system, int tail, int head, Expr p[4]);
 /* axis of a joint's turn, where it is now: zero-position components of *chain */
@@ -470,7 +470,7 @@ Sample *sample_new(System *system, uint64_t seed, bool vary);
 /* of an expression in q and parameters; NAN where there is more in it */
 double sample_number(Sample *sample, Expr e);
 
-/* --- constraints (constraints.c), dynamics (dynamics.c), network (network.c), show.c --- */
+/* --- constraints (constraints.c), dynamics (dynamics.c), network (network.c), expanded.c --- */
 
 MUST_USE Status constraints_build(System *system, Diag *diag);
 MUST_USE Status dynamics_build(System *system, Diag *diag);
@@ -551,7 +551,7 @@ bool system_writes_out(System *system);
 /* --- the cheaper reading (reading.c) --- */
 
 MUST_USE Status reading_choose(System *system, Diag *diag);
-/* an entry of what is shown, whole turns with it (show.c) */
+/* an entry of what is shown, whole turns with it (expanded.c) */
 MUST_USE Status show_entry(System *system, Block block, int row, int column, Expr *out, Diag *diag);
 
 /* --- the embedded form (embedded.c) --- */

@@ -1,9 +1,9 @@
 /* test_simulate_linear.c: LU, KKT, embedded form, rank, least squares on matrices made up here */
 #include "algebra/kkt.h"
-#include "algebra/least.h"
+#include "algebra/levenberg_marquardt.h"
 #include "algebra/linear.h"
 #include "algebra/rank.h"
-#include "simulate/equations/embed.h"
+#include "simulate/equations/partitioning.h"
 
 #include "test.h"
 

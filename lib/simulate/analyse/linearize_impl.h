@@ -8,7 +8,7 @@
 #include "algebra/square.h"
 #include "algebra/wide.h"
 #include "simulate/analyse/linearize.h"
-#include "simulate/equations/embed.h"
+#include "simulate/equations/partitioning.h"
 #include "simulate/equations/rows.h"
 #include "simulate/run/result.h"
 

@@ -2,7 +2,7 @@
 #include "simulate/assemble/reset.h"
 
 #include "algebra/kkt.h"
-#include "algebra/least.h"
+#include "algebra/levenberg_marquardt.h"
 #include "algebra/linear.h"
 #include "algebra/rank.h"
 #include "base/memory.h"

@@ -2,7 +2,7 @@
 #ifndef COTREE_SIMULATE_ASSEMBLE_START_IMPL_H
 #define COTREE_SIMULATE_ASSEMBLE_START_IMPL_H
 
-#include "algebra/least.h"
+#include "algebra/levenberg_marquardt.h"
 #include "base/memory.h"
 #include "formulate/edges.h"
 #include "simulate/assemble/skeleton.h"

@@ -1,9 +1,9 @@
 libcore_la_SOURCES += \
   lib/simulate/equations/causes.c \
   lib/simulate/equations/causes.h \
-  lib/simulate/equations/embed.c \
-  lib/simulate/equations/embed.h \
-  lib/simulate/equations/layout.c \
+  lib/simulate/equations/partitioning.c \
+  lib/simulate/equations/partitioning.h \
+  lib/simulate/equations/input_layout.c \
   lib/simulate/equations/mode_forms.c \
   lib/simulate/equations/mode_forms.h \
   lib/simulate/equations/motion.c \

@@ -3,9 +3,9 @@
 #define COTREE_SIMULATE_EQUATIONS_MOTION_IMPL_H
 
 #include "algebra/kkt.h"
-#include "simulate/equations/embed.h"
 #include "simulate/equations/motion.h"
 #include "simulate/equations/netsolve.h"
+#include "simulate/equations/partitioning.h"
 #include "simulate/equations/signs.h"
 
 struct Motion {

@@ -6,7 +6,7 @@
 
 #include "algebra/linear.h"
 #include "base/memory.h"
-#include "simulate/run/share.h"
+#include "simulate/run/charge_sharing.h"
 
 #include <math.h>
 #include <string.h>

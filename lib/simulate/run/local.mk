@@ -1,5 +1,5 @@
 libcore_la_SOURCES += \
-  lib/simulate/run/between.c \
+  lib/simulate/run/dense_output.c \
   lib/simulate/run/commute.c \
   lib/simulate/run/commute.h \
   lib/simulate/run/ends.c \
@@ -33,8 +33,8 @@ libcore_la_SOURCES += \
   lib/simulate/run/run.h \
   lib/simulate/run/samples.c \
   lib/simulate/run/samples.h \
-  lib/simulate/run/share.c \
-  lib/simulate/run/share.h \
+  lib/simulate/run/charge_sharing.c \
+  lib/simulate/run/charge_sharing.h \
   lib/simulate/run/simulate.c \
-  lib/simulate/run/slide.c \
-  lib/simulate/run/slide.h
+  lib/simulate/run/sliding.c \
+  lib/simulate/run/sliding.h

@@ -3,8 +3,8 @@
 
 #include "base/memory.h"
 #include "simulate/equations/causes.h"
+#include "simulate/run/charge_sharing.h"
 #include "simulate/run/commute.h"
-#include "simulate/run/share.h"
 
 #include <math.h>
 #include <string.h>

@@ -3,11 +3,11 @@
 
 #include "base/memory.h"
 #include "simulate/equations/causes.h"
+#include "simulate/run/charge_sharing.h"
 #include "simulate/run/commute.h"
 #include "simulate/run/ends.h"
 #include "simulate/run/inverse.h"
-#include "simulate/run/share.h"
-#include "simulate/run/slide.h"
+#include "simulate/run/sliding.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,4 +1,4 @@
-/* attitude.c: Euler parameters of frames: the product of those of their turns */
+/* euler_parameters.c: Euler parameters of frames: the product of those of their turns */
 #include "formulate/system_impl.h"
 
 /* a b, scalar part first */

@@ -1,4 +1,4 @@
-/* show.c: the reading to show, entry by entry
+/* expanded.c: the reading to show, entry by entry
  *
  * The same equations written as by hand: per body, partial velocities as sums over frames,
  * dot products of those (theory 4), then trigonometric folding and collecting of common

@@ -1,9 +1,9 @@
-/* embed.h: the embedded form: independent accelerations without multipliers
+/* partitioning.h: the embedded form: independent accelerations without multipliers
  *
  * With u = (u_d, u_i), G = [J; 1], J = -Phi_d^-1 Phi_i: Phi_u G = 0, and
  * [G^T M; Phi_u] u' = [G^T F; gamma] is solved as a system in u_i' alone. */
-#ifndef COTREE_SIMULATE_EQUATIONS_EMBED_H
-#define COTREE_SIMULATE_EQUATIONS_EMBED_H
+#ifndef COTREE_SIMULATE_EQUATIONS_PARTITIONING_H
+#define COTREE_SIMULATE_EQUATIONS_PARTITIONING_H
 
 #include <stdbool.h>
 

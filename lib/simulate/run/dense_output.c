@@ -1,4 +1,4 @@
-/* between.c: results between their rows
+/* dense_output.c: results between their rows
  *
  * Rows may lie far apart, and no interpolation knows what happened between them. So that part of
  * the run is taken again, from the row or corner before to the one behind, whose steps are read

@@ -1,10 +1,10 @@
-/* slide.h: across a surface that the equations jump on, off it, or along it
+/* sliding.h: across a surface that the equations jump on, off it, or along it
  *
  * The signs on all surfaces that a run stands on are such that each is at an end of -1 .. 1 and the
  * motion leaves to that side, or between them and the motion stays: a linear complementarity
  * problem with bounds (theory 8). */
-#ifndef COTREE_SIMULATE_RUN_SLIDE_H
-#define COTREE_SIMULATE_RUN_SLIDE_H
+#ifndef COTREE_SIMULATE_RUN_SLIDING_H
+#define COTREE_SIMULATE_RUN_SLIDING_H
 
 #include "simulate/run/commute.h"
 

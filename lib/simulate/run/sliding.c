@@ -1,10 +1,10 @@
-/* slide.c: signs on the surfaces that a run stands on
+/* sliding.c: signs on the surfaces that a run stands on
  *
  * slip = a + B s: how each surface is left, h' or what of it signs reach. B is minus a positive
  * definite matrix where what jumps pushes back, as dry friction does: then there is one solution,
  * and Murty's exchanges (1974) end at it. Where B_ii > 0 what jumps pushes away, and nothing slides
  * there. */
-#include "simulate/run/slide.h"
+#include "simulate/run/sliding.h"
 
 #include "algebra/linear.h"
 #include "base/memory.h"

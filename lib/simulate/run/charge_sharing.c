@@ -1,11 +1,11 @@
-/* share.c: charges and fluxes over a jump
+/* charge_sharing.c: charges and fluxes over a jump
  *
  * What becomes of states the network's own equations tell, by a step of vanishing length
  * (sides_jump()): impulses of current leave the charge of each cutset of capacitors as it was, and
  * impulses of voltage the flux of each circuit of coils, also through transformers and amplifiers.
  * A source may lie on their way, which its value bounds as before. It may not be all that tells
  * where a state jumps. */
-#include "simulate/run/share.h"
+#include "simulate/run/charge_sharing.h"
 
 #include "algebra/linear.h"
 #include "base/memory.h"

@@ -1,5 +1,5 @@
-/* least.c: Levenberg-Marquardt in the form for few equations and many unknowns */
-#include "algebra/least.h"
+/* levenberg_marquardt.c: Levenberg-Marquardt in the form for few equations and many unknowns */
+#include "algebra/levenberg_marquardt.h"
 
 #include "algebra/linear.h"
 #include "base/memory.h"

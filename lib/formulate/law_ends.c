@@ -1,4 +1,4 @@
-/* bounds.c: where the law of a part that stores ends
+/* law_ends.c: where the law of a part that stores ends
  *
  * A charge eA/(s0 - s) v has no bound where the gap s0 - s comes to 0, and no meaning behind it; a
  * flux (L0 - k s) i none where its coil stores nothing any more. What comes to 0 there, of each

@@ -1,4 +1,4 @@
-/* bounds.c: how far the roots of a program may be off
+/* rounding.c: how far the roots of a program may be off
  *
  * Beside each number stands a bound of its error: what its operation rounds away, and what the
  * result moves when the operands move by theirs. The rounding of a sum or a product is computed

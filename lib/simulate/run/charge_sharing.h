@@ -1,10 +1,10 @@
-/* share.h: what is stored, where ideal switches join capacitors or put coils in series
+/* charge_sharing.h: what is stored, where ideal switches join capacitors or put coils in series
  *
  * Impulses of current leave the charge of each cutset of capacitors as it was, and impulses of
  * voltage the flux of each circuit of coils: of all that the network behind the instant may store,
  * it is the nearest to what was stored, as energy measures it. */
-#ifndef COTREE_SIMULATE_RUN_SHARE_H
-#define COTREE_SIMULATE_RUN_SHARE_H
+#ifndef COTREE_SIMULATE_RUN_CHARGE_SHARING_H
+#define COTREE_SIMULATE_RUN_CHARGE_SHARING_H
 
 #include "simulate/run/result.h"
 

@@ -1,4 +1,4 @@
-/* layout.c: the order of inputs of all programs over one system */
+/* input_layout.c: the order of inputs of all programs over one system */
 #include "simulate/equations/numbers.h"
 
 #include "base/memory.h"

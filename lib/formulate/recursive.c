@@ -1,4 +1,4 @@
-/* motion.c: motion outward and loads inward, for the reading to run
+/* recursive.c: motion outward and loads inward, for the reading to run
  *
  * Each quantity is resolved in the axes of its chain's `resolve` chain and held, so that
  * a program computes it once. */

@@ -1,10 +1,10 @@
-/* least.h: nonlinear least squares near a start: Levenberg-Marquardt with few moves
+/* levenberg_marquardt.h: nonlinear least squares near a start: Levenberg-Marquardt with few moves
  *
  * Residuals r(v) are scaled by the size of their gradients at the start. A step is
  * d = -J^T (J J^T + mu |r| 1)^-1 r: near the start, short where rows are redundant, and without
  * damping once r is small (Fan and Yuan 2005). */
-#ifndef COTREE_ALGEBRA_LEAST_H
-#define COTREE_ALGEBRA_LEAST_H
+#ifndef COTREE_ALGEBRA_LEVENBERG_MARQUARDT_H
+#define COTREE_ALGEBRA_LEVENBERG_MARQUARDT_H
 
 #include "base/watch.h"
 

@@ -1,5 +1,5 @@
-/* embed.c: partitioned elimination of constrained speeds */
-#include "simulate/equations/embed.h"
+/* partitioning.c: partitioned elimination of constrained speeds */
+#include "simulate/equations/partitioning.h"
 
 #include "algebra/linear.h"
 #include "base/memory.h"

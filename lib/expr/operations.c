@@ -1,4 +1,4 @@
-/* count.c: operations, as written and after sharing
+/* operations.c: operations, as written and after sharing
  *
  * The rule: a sum of n terms is n - 1 additions, a product of n factors n - 1
  * multiplications, x^k is k - 1 of them; a function is one function; a coefficient other
