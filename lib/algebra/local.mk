@@ -3,6 +3,8 @@ libcore_la_SOURCES += \
   lib/algebra/blocks.h \
   lib/algebra/dense.c \
   lib/algebra/dense.h \
+  lib/algebra/enclosure.c \
+  lib/algebra/enclosure.h \
   lib/algebra/hessenberg_form.c \
   lib/algebra/hessenberg_form.h \
   lib/algebra/kkt.c \

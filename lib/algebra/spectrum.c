@@ -1,8 +1,9 @@
 /* spectrum.c: eigenvalues block by block, and how far each may be off
  *
- * A matrix is put into blocks that don't act back (blocks.h); a block is balanced, and its
- * eigenvalues and vectors are found in numbers of twice the digits. The matrix is disturbed by what
- * its entries may be off before, so that multiple eigenvalues split as far as they would under
+ * A matrix is put into blocks that don't act back (blocks.h); a block is balanced. Eigenvalues that
+ * doubles tell apart, and far better than its entries do, are taken from these (enclosure.h). Else
+ * they and their vectors are found in numbers of twice the digits. The matrix is then disturbed by
+ * what its entries may be off before, so that multiple eigenvalues split as far as they would under
  * errors, and no farther; its first order is taken back from the eigenvalues at the end.
  *
  * With A = sum lambda_k x_k y_k^T an eigenvalue is off by |y|^T |dA| |x| (Stewart and Sun 1990).
@@ -12,6 +13,7 @@
 #include "algebra/spectrum.h"
 
 #include "algebra/blocks.h"
+#include "algebra/enclosure.h"
 #include "algebra/schur.h"
 #include "base/memory.h"
 
@@ -22,6 +24,7 @@
 #define UNIT       0x1p-53 /* an entry is a double at best */
 #define SECOND     2       /* of the first order, for what it leaves out */
 #define WITHIN     4       /* errors: m equal ones split to pi of them, and no farther */
+#define BETTER     0.1     /* of what entries tell: rounding that hardly adds to it */
 #define STRUCTURAL 1e3     /* of the method's rounding: what is below, and stays there, is 0 */
 
 /* of one block: right vectors as columns, left ones as rows */
@@ -304,28 +307,37 @@ static double group_error(void *context, const int *members, int count, double c
     return radius;
 }
 
-/* |y|^T |dA| |x|, and y^T d x of the disturbance d */
-static double single_error(const Part *part, int k, const double *disturbed, double complex *moved)
+/* |y|^T |dA| |x| */
+static double single_error(const Part *part, int k)
 {
     const int n = part->size;
     double sum = 0;
 
-    *moved = 0;
     for (int i = 0; i < n; i++) {
-        const double complex y = wide_to(part->left[k * n + i]);
-        double complex row = 0;
         double size = 0;
 
-        for (int j = 0; j < n; j++) {
-            const double complex x = wide_to(part->right[j * n + k]);
-
-            size += part->error[i * n + j] * cabs(x);
-            row += disturbed[i * n + j] * x;
-        }
-        sum += cabs(y) * size;
-        *moved += y * row;
+        for (int j = 0; j < n; j++)
+            if (part->error[i * n + j] > 0)
+                size += part->error[i * n + j] * cabs(wide_to(part->right[j * n + k]));
+        sum += cabs(wide_to(part->left[k * n + i])) * size;
     }
     return sum;
+}
+
+/* y^T d x: how far the disturbance d moves a value */
+static double complex moved_by(const Part *part, int k, const double *disturbed)
+{
+    const int n = part->size;
+    double complex moved = 0;
+
+    for (int i = 0; i < n; i++) {
+        double complex row = 0;
+
+        for (int j = 0; j < n; j++)
+            row += disturbed[i * n + j] * wide_to(part->right[j * n + k]);
+        moved += wide_to(part->left[k * n + i]) * row;
+    }
+    return moved;
 }
 
 /* what the method rounds, which has the scaled matrix as a whole before it */
@@ -418,43 +430,119 @@ static void place_on_axis(const Part *part, const double *block, Root *root)
     mem_free(pattern);
 }
 
-static bool solve_part(const Part *part, const double *block, double complex *value, Root *root)
+/* what doubles leave open about the error that entries make of root k, in balanced states */
+static double open_error(const Enclosure *e, int k, double all_errors)
+{
+    double left = 0;
+
+    for (int i = 0; i < e->n; i++)
+        left = fmax(left, cabs(e->left[k * e->n + i]));
+    return e->error[k] + 2 * e->slant[k] * left * all_errors;
+}
+
+static void take_vectors(const Part *part, const Enclosure *e, const double *scale)
 {
     const int n = part->size;
-    double *scale = NEW_ARRAY(double, n), *size = NEW_ARRAY(double, n *n);
+
+    for (int i = 0; i < n; i++)
+        for (int k = 0; k < n; k++) {
+            part->right[i * n + k] = wide_from(e->right[i * n + k] / scale[i]);
+            part->left[k * n + i] = wide_from(e->left[k * n + i] * scale[i]);
+        }
+}
+
+static bool are_apart(const double complex *value, const double *error, int n)
+{
+    for (int i = 0; i < n; i++)
+        for (int j = i + 1; j < n; j++)
+            if (!(cabs(value[i] - value[j]) > WITHIN * (error[i] + error[j])))
+                return false;
+    return true;
+}
+
+/* Roots by doubles; false where these don't tell them apart, or worse than entries do. */
+static bool solve_in_doubles(const Part *part, const double *block, const double *scale,
+                             double complex *value, Root *root)
+{
+    const int n = part->size;
+    Wide *a = NEW_ARRAY(Wide, n * n);
+    double *error = NEW_ARRAY(double, n);
+    double all_errors = 0;
+    Enclosure e;
+    bool sound;
+
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < n; j++) {
+            a[i * n + j] = wide_of(block[i * n + j] * (scale[i] / scale[j]));
+            all_errors += part->error[i * n + j] * scale[i] / scale[j];
+        }
+    sound = enclosure_find(a, n, &e);
+    if (sound) {
+        take_vectors(part, &e, scale);
+        normalise(part);
+    }
+    for (int k = 0; k < n && sound; k++) {
+        const double left_open = open_error(&e, k, all_errors);
+
+        error[k] = single_error(part, k);
+        sound = left_open <= BETTER * error[k];
+        error[k] += left_open;
+        value[k] = e.value[k];
+    }
+    sound = sound && are_apart(value, error, n);
+    for (int k = 0; k < n && sound; k++)
+        root[k] = root_make(value[k], SECOND * error[k]);
+    enclosure_free(&e);
+    mem_free(a);
+    mem_free(error);
+    return sound;
+}
+
+static bool solve_in_more_digits(const Part *part, const double *block, const double *scale,
+                                 double complex *value, Root *root)
+{
+    const int n = part->size;
     double *disturbed = NEW_ARRAY(double, n *n), *error = NEW_ARRAY(double, n);
     double complex *taken_back = mem_array((size_t)n, sizeof *taken_back);
     Grouping grouping = {part, value};
     bool sound;
 
     for (int i = 0; i < n; i++)
-        for (int j = 0; j < n; j++) {
-            const int k = i * n + j;
-
-            part->error[k] = fmax(part->error[k], UNIT * fabs(block[k]));
-            size[k] = fabs(block[k]) + part->error[k];
-            disturbed[k] = disturbance(i, j) * part->error[k];
-        }
-    balance(size, n, scale);
+        for (int j = 0; j < n; j++)
+            disturbed[i * n + j] = disturbance(i, j) * part->error[i * n + j];
     sound = decompose(part, block, disturbed, scale, value);
     if (sound)
         normalise(part);
     for (int k = 0; k < n && sound; k++) {
-        double complex moved;
-
-        error[k] = single_error(part, k, disturbed, &moved);
-        taken_back[k] =
-            root_with_noise(value[k] - moved, method_error(part, block, scale, k), &error[k]);
+        error[k] = single_error(part, k);
+        taken_back[k] = root_with_noise(value[k] - moved_by(part, k, disturbed),
+                                        method_error(part, block, scale, k), &error[k]);
     }
-    if (sound) {
+    if (sound)
         roots_join(taken_back, error, n, group_error, &grouping, root);
-        place_on_axis(part, block, root);
-    }
-    mem_free(scale);
-    mem_free(size);
     mem_free(disturbed);
     mem_free(error);
     mem_free(taken_back);
+    return sound;
+}
+
+static bool solve_part(const Part *part, const double *block, double complex *value, Root *root)
+{
+    const int n = part->size;
+    double *scale = NEW_ARRAY(double, n), *size = NEW_ARRAY(double, n *n);
+    bool sound;
+
+    for (int k = 0; k < n * n; k++) {
+        part->error[k] = fmax(part->error[k], UNIT * fabs(block[k]));
+        size[k] = fabs(block[k]) + part->error[k];
+    }
+    balance(size, n, scale);
+    sound = solve_in_doubles(part, block, scale, value, root) ||
+            solve_in_more_digits(part, block, scale, value, root);
+    if (sound)
+        place_on_axis(part, block, root);
+    mem_free(scale);
+    mem_free(size);
     return sound;
 }
 

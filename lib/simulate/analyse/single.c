@@ -128,28 +128,44 @@ void single_free(Single *single)
 struct Resolvent {
     int n;
     Wide *h, *q; /* A = Q H Q^T */
+    Wide *b, *c; /* Q^T b, Q^T c */
     double norm;
     WideComplex *factors; /* n x n: U on and above the diagonal */
     WideComplex *factor;  /* of step k: what was taken of row k from the row below */
     bool *exchanged;      /* step k exchanged its two rows before */
+    WideComplex *x, *y;   /* (s - H)^-1 Q^T b, (s - H)^-T Q^T c */
 };
 
-Resolvent *resolvent_new(const Wide *a, int n)
+/* out = Q^T v */
+static void turn_in(const Resolvent *r, const Wide *v, Wide *out)
+{
+    for (int j = 0; j < r->n; j++)
+        for (int i = 0; i < r->n && v[j].high != 0; i++)
+            out[i] = wide_add(out[i], wide_mul(r->q[j * r->n + i], v[j]));
+}
+
+Resolvent *resolvent_new(const Wide *a, const Wide *b, const Wide *c, int n)
 {
     Resolvent *r = NEW(Resolvent);
 
     *r = (Resolvent){n,
                      NEW_ARRAY(Wide, n * n),
                      NEW_ARRAY(Wide, n * n),
+                     NEW_ARRAY(Wide, n),
+                     NEW_ARRAY(Wide, n),
                      0,
                      NEW_ARRAY(WideComplex, n * n),
                      NEW_ARRAY(WideComplex, n),
-                     NEW_ARRAY(bool, n)};
+                     NEW_ARRAY(bool, n),
+                     NEW_ARRAY(WideComplex, n),
+                     NEW_ARRAY(WideComplex, n)};
     for (int i = 0; i < n * n; i++) {
         r->h[i] = a[i];
         r->norm = fmax(r->norm, fabs(a[i].high));
     }
     hessenberg(r->h, n, r->q);
+    turn_in(r, b, r->b);
+    turn_in(r, c, r->c);
     return r;
 }
 
@@ -159,9 +175,13 @@ void resolvent_free(Resolvent *resolvent)
         return;
     mem_free(resolvent->h);
     mem_free(resolvent->q);
+    mem_free(resolvent->b);
+    mem_free(resolvent->c);
     mem_free(resolvent->factors);
     mem_free(resolvent->factor);
     mem_free(resolvent->exchanged);
+    mem_free(resolvent->x);
+    mem_free(resolvent->y);
     mem_free(resolvent);
 }
 
@@ -215,18 +235,22 @@ static void exchange(WideComplex *x, int k)
     x[k + 1] = kept;
 }
 
-void resolvent_right(const Resolvent *r, const Wide *b, WideComplex *x)
+static WideComplex along(const Wide *v, const WideComplex *x, int n)
+{
+    WideComplex sum = wide_real(wide_of(0));
+
+    for (int i = 0; i < n; i++)
+        sum = wide_cadd(sum, wide_ctimes(x[i], v[i]));
+    return sum;
+}
+
+WideComplex resolvent_value(Resolvent *r)
 {
     const int n = r->n;
-    WideComplex *z = NEW_ARRAY(WideComplex, n);
+    WideComplex *z = r->x;
 
-    for (int i = 0; i < n; i++) {
-        Wide sum = wide_of(0);
-
-        for (int j = 0; j < n; j++)
-            sum = wide_add(sum, wide_mul(r->q[j * n + i], b[j]));
-        z[i] = wide_real(sum);
-    }
+    for (int i = 0; i < n; i++)
+        z[i] = wide_real(r->b[i]);
     for (int k = 0; k + 1 < n; k++) {
         if (r->exchanged[k])
             exchange(z, k);
@@ -237,26 +261,16 @@ void resolvent_right(const Resolvent *r, const Wide *b, WideComplex *x)
             z[k] = wide_csub(z[k], wide_cmul(r->factors[k * n + j], z[j]));
         z[k] = wide_cdiv(z[k], r->factors[k * n + k]);
     }
-    for (int i = 0; i < n; i++) {
-        x[i] = wide_real(wide_of(0));
-        for (int j = 0; j < n; j++)
-            x[i] = wide_cadd(x[i], wide_ctimes(z[j], r->q[i * n + j]));
-    }
-    mem_free(z);
+    return along(r->c, z, n);
 }
 
-void resolvent_left(const Resolvent *r, const Wide *c, WideComplex *y)
+WideComplex resolvent_slope(Resolvent *r)
 {
     const int n = r->n;
-    WideComplex *z = NEW_ARRAY(WideComplex, n);
+    WideComplex *z = r->y, slope = wide_real(wide_of(0));
 
-    for (int i = 0; i < n; i++) {
-        Wide sum = wide_of(0);
-
-        for (int j = 0; j < n; j++)
-            sum = wide_add(sum, wide_mul(r->q[j * n + i], c[j]));
-        z[i] = wide_real(sum);
-    }
+    for (int i = 0; i < n; i++)
+        z[i] = wide_real(r->c[i]);
     for (int k = 0; k < n; k++) {
         for (int j = 0; j < k; j++)
             z[k] = wide_csub(z[k], wide_cmul(r->factors[j * n + k], z[j]));
@@ -267,10 +281,20 @@ void resolvent_left(const Resolvent *r, const Wide *c, WideComplex *y)
         if (r->exchanged[k])
             exchange(z, k);
     }
+    for (int i = 0; i < n; i++)
+        slope = wide_csub(slope, wide_cmul(z[i], r->x[i]));
+    return slope;
+}
+
+void resolvent_vectors(const Resolvent *r, double complex *x, double complex *y)
+{
+    const int n = r->n;
+
     for (int i = 0; i < n; i++) {
-        y[i] = wide_real(wide_of(0));
-        for (int j = 0; j < n; j++)
-            y[i] = wide_cadd(y[i], wide_ctimes(z[j], r->q[i * n + j]));
+        x[i] = y[i] = 0;
+        for (int j = 0; j < n; j++) {
+            x[i] += r->q[i * n + j].high * wide_to(r->x[j]);
+            y[i] += r->q[i * n + j].high * wide_to(r->y[j]);
+        }
     }
-    mem_free(z);
 }

@@ -22,15 +22,17 @@ typedef struct Single {
 Single single_new(const Linear *linear, int output, int input);
 void single_free(Single *single);
 
-/* (s - A)^-1 at one s after another, with A as a Hessenberg matrix (Laub 1981). */
+/* c (s - A)^-1 b at one s after another, with A as a Hessenberg matrix (Laub 1981). */
 typedef struct Resolvent Resolvent;
-Resolvent *resolvent_new(const Wide *a, int n); /* new; resolvent_free(). O(n^3) */
-void resolvent_free(Resolvent *resolvent);      /* NULL is fine */
+Resolvent *resolvent_new(const Wide *a, const Wide *b, const Wide *c, int n); /* new; O(n^3) */
+void resolvent_free(Resolvent *resolvent);                                    /* NULL is fine */
 /* From now on at s; false: s is an eigenvalue, and the least that tells it from s stands in for 0.
  * O(n^2) */
 bool resolvent_at(Resolvent *resolvent, WideComplex s);
-/* x = (s - A)^-1 b, and y = (s - A)^-T c; O(n^2) */
-void resolvent_right(const Resolvent *resolvent, const Wide *b, WideComplex *x);
-void resolvent_left(const Resolvent *resolvent, const Wide *c, WideComplex *y);
+/* c (s - A)^-1 b; then, if it is wanted, its derivative by s. O(n^2) */
+WideComplex resolvent_value(Resolvent *resolvent);
+WideComplex resolvent_slope(Resolvent *resolvent);
+/* behind both: x = (s - A)^-1 b and y = (s - A)^-T c, to a double's rounding; O(n^2) */
+void resolvent_vectors(const Resolvent *resolvent, double complex *x, double complex *y);
 
 #endif

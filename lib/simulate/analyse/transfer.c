@@ -214,29 +214,22 @@ static Wide *widen(const double *from, int count)
 }
 
 /* d + c (s - A)^-1 b; INFINITY at a pole */
-static double complex respond(const Single *s, Resolvent *resolvent, const Wide *b, double omega,
-                              WideComplex *x)
+static double complex respond(const Single *s, Resolvent *resolvent, double omega)
 {
-    WideComplex sum = wide_real(wide_of(s->d));
-
     if (!resolvent_at(resolvent, wide_complex(wide_of(0), wide_of(omega))))
         return INFINITY;
-    resolvent_right(resolvent, b, x);
-    for (int i = 0; i < s->n; i++)
-        sum = wide_cadd(sum, wide_ctimes(x[i], wide_of(s->c[i])));
-    return wide_to(sum);
+    return wide_to(wide_cadd(resolvent_value(resolvent), wide_real(wide_of(s->d))));
 }
 
 void transfer_response(const Linear *linear, int output, int input, const Transfer *transfer,
                        const double *omega, int count, double *gain, double *phase)
 {
     Single s = single_new(linear, output, input);
-    Wide *a = widen(s.a, s.n * s.n), *b = widen(s.b, s.n);
-    Resolvent *resolvent = resolvent_new(a, s.n);
-    WideComplex *x = NEW_ARRAY(WideComplex, s.n);
+    Wide *a = widen(s.a, s.n * s.n), *b = widen(s.b, s.n), *c = widen(s.c, s.n);
+    Resolvent *resolvent = resolvent_new(a, b, c, s.n);
 
     for (int i = 0; i < count; i++) {
-        double complex h = respond(&s, resolvent, b, omega[i], x);
+        double complex h = respond(&s, resolvent, omega[i]);
         double turns = phase_by_roots(transfer, omega[i]);
 
         gain[i] = 20 * log10(cabs(h));
@@ -251,7 +244,7 @@ void transfer_response(const Linear *linear, int output, int input, const Transf
     }
     mem_free(a);
     mem_free(b);
-    mem_free(x);
+    mem_free(c);
     resolvent_free(resolvent);
     single_free(&s);
 }

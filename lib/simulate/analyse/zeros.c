@@ -3,12 +3,13 @@
  * The gain is the first of d, c b, c A b ... that can be told from 0. As often as one is passed by,
  * the output is turned into one state (Householder), which is 0 then, and whose rate takes the
  * place of the output; that takes a state away. Zeros are the eigenvalues of A - b d^-1 c that is
- * left (Emami-Naeini and Van Dooren 1982), disturbed a little so that multiple ones split; single
- * ones are brought to H(z) = 0 by Newton's method. A zero z is off by (|dH(z)| + |H(z)|)/|H'(z)|;
- * one that comes m times, of which s is the distance of a split one from the mean, by the m-th root
- * of m s^(m-1) times that. */
+ * left (Emami-Naeini and Van Dooren 1982): as doubles enclose them (enclosure.h), or else disturbed
+ * a little so that multiple ones split; single ones are brought to H(z) = 0 by Newton's method. A
+ * zero z is off by (|dH(z)| + |H(z)|)/|H'(z)|; one that comes m times, of which s is the distance
+ * of a split one from the mean, by the m-th root of m s^(m-1) times that. */
 #include "simulate/analyse/zeros.h"
 
+#include "algebra/enclosure.h"
 #include "algebra/schur.h"
 #include "base/memory.h"
 
@@ -20,6 +21,7 @@ enum { MOST_STEPS = 6 };
 #define UNIT  0x1p-53
 #define ALONE 0.1  /* a step less than this of the way to the next zero */
 #define NEAR  1e-3 /* of its error is as good as 0 */
+#define CLOSE 4    /* roundings: doubles hold no better */
 #define SPLIT 1e-7 /* relative; closer than its square is as good as the same */
 
 /* in more digits */
@@ -133,12 +135,42 @@ static void drop_last(Wider *s)
         s->c[j] = s->a[n * s->stride + j];
 }
 
+/* Eigenvalues that doubles tell apart, to their rounding; false: there are others. */
+static bool enclosed_values(const Wide *a, int n, double complex *value)
+{
+    Enclosure e;
+    bool sound = enclosure_find(a, n, &e);
+
+    for (int k = 0; k < n && sound; k++) {
+        value[k] = e.value[k];
+        sound = e.error[k] <= CLOSE * UNIT * cabs(e.value[k]);
+    }
+    enclosure_free(&e);
+    return sound;
+}
+
+/* with a disturbed by rounding */
+static bool disturbed_values(Wide *a, int n, double complex *value)
+{
+    WideComplex *t = NEW_ARRAY(WideComplex, n * n);
+    bool sound;
+
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < n; j++)
+            a[i * n + j] =
+                wide_add(a[i * n + j], wide_product(a[i * n + j].high, UNIT * disturbance(i, j)));
+    sound = schur(a, n, t, NULL);
+    for (int i = 0; i < n; i++)
+        value[i] = wide_to(t[i * n + i]);
+    mem_free(t);
+    return sound;
+}
+
 static double complex *reduced_roots(const Wider *s)
 {
     const int n = s->n;
     double complex *value = mem_array((size_t)n, sizeof *value);
     Wide *a = NEW_ARRAY(Wide, n * n);
-    WideComplex *t = NEW_ARRAY(WideComplex, n * n);
     double *size = NEW_ARRAY(double, n *n), *scale = NEW_ARRAY(double, n);
 
     for (int i = 0; i < n; i++) {
@@ -149,22 +181,17 @@ static double complex *reduced_roots(const Wider *s)
 
             *entry = wide_sub(s->a[i * s->stride + j], wide_mul(factor, s->c[j]));
             size[i * n + j] = fabs(entry->high);
-            *entry = wide_add(*entry, wide_product(entry->high, UNIT * disturbance(i, j)));
         }
     }
     balance(size, n, scale);
     for (int i = 0; i < n; i++)
         for (int j = 0; j < n; j++)
             a[i * n + j] = wide_times(a[i * n + j], scale[i] / scale[j]);
-    if (schur(a, n, t, NULL)) {
-        for (int i = 0; i < n; i++)
-            value[i] = wide_to(t[i * n + i]);
-    } else {
+    if (!enclosed_values(a, n, value) && !disturbed_values(a, n, value)) {
         mem_free(value);
         value = NULL;
     }
     mem_free(a);
-    mem_free(t);
     mem_free(size);
     mem_free(scale);
     return value;
@@ -177,7 +204,8 @@ typedef struct Trial {
     const Single *s;
     const Wider *wide;
     Resolvent *resolvent;
-    WideComplex *x, *y; /* (z - A)^-1 b, (z - A)^-T c */
+    double complex *x, *y; /* (z - A)^-1 b, (z - A)^-T c */
+    double *x_size;        /* of x's entries */
     double complex value, slope;
     double error; /* of the value */
     double least; /* what counts as a size beside 0: the least pole's that isn't 0 */
@@ -189,25 +217,28 @@ static double least_error(double value, double error)
 }
 
 /* |dH|: |y|^T |dA| |x| + |y|^T |db| + |dc| |x| + |dd| */
-static double value_error(const Single *s, const WideComplex *x, const WideComplex *y)
+static double value_error(const Trial *at)
 {
+    const Single *s = at->s;
     const int n = s->n;
     double sum = least_error(s->d, s->d_error);
 
+    for (int i = 0; i < n; i++)
+        at->x_size[i] = cabs(at->x[i]);
     for (int i = 0; i < n; i++) {
         double size = least_error(s->b[i], s->b_error[i]);
 
         for (int j = 0; j < n; j++)
-            size += least_error(s->a[i * n + j], s->a_error[i * n + j]) * cabs(wide_to(x[j]));
-        sum +=
-            cabs(wide_to(y[i])) * size + least_error(s->c[i], s->c_error[i]) * cabs(wide_to(x[i]));
+            size += least_error(s->a[i * n + j], s->a_error[i * n + j]) * at->x_size[j];
+        sum += cabs(at->y[i]) * size + least_error(s->c[i], s->c_error[i]) * at->x_size[i];
     }
     return sum;
 }
 
 /* what the method rounds, which has the scaled matrices as a whole before it */
-static double method_error(const Single *s, const WideComplex *x, const WideComplex *y)
+static double method_error(const Trial *at)
 {
+    const Single *s = at->s;
     const int n = s->n;
     double norm = fabs(s->d), right = 1, left = 1;
 
@@ -215,26 +246,19 @@ static double method_error(const Single *s, const WideComplex *x, const WideComp
         norm = fmax(norm, fmax(fabs(s->b[i]), fabs(s->c[i])));
         for (int j = 0; j < n; j++)
             norm = fmax(norm, fabs(s->a[i * n + j]));
-        right += cabs(wide_to(x[i]));
-        left += cabs(wide_to(y[i]));
+        right += cabs(at->x[i]);
+        left += cabs(at->y[i]);
     }
     return n * WIDE_UNIT * norm * right * left;
 }
 
 static void go_to(Trial *at, double complex z)
 {
-    WideComplex value = wide_real(at->wide->d), slope = wide_real(wide_of(0));
-
     (void)resolvent_at(at->resolvent, wide_from(z));
-    resolvent_right(at->resolvent, at->wide->b, at->x);
-    resolvent_left(at->resolvent, at->wide->c, at->y);
-    for (int i = 0; i < at->s->n; i++) {
-        value = wide_cadd(value, wide_ctimes(at->x[i], at->wide->c[i]));
-        slope = wide_csub(slope, wide_cmul(at->y[i], at->x[i]));
-    }
-    at->value = wide_to(value);
-    at->slope = wide_to(slope);
-    at->error = value_error(at->s, at->x, at->y);
+    at->value = wide_to(wide_cadd(resolvent_value(at->resolvent), wide_real(at->wide->d)));
+    at->slope = wide_to(resolvent_slope(at->resolvent));
+    resolvent_vectors(at->resolvent, at->x, at->y);
+    at->error = value_error(at);
 }
 
 /* Where doubles don't hold how equal ones split: in a circle, of their size or the least pole's. */
@@ -267,14 +291,15 @@ static double improve(Trial *at, const double complex *first, double complex *va
     for (int step = 0; step < MOST_STEPS; step++) {
         const double complex by = at->value / at->slope;
 
-        if (!(cabs(by) <= ALONE * nearest) || cabs(at->value) <= NEAR * at->error)
+        if (!(cabs(by) <= ALONE * nearest) || cabs(at->value) <= NEAR * at->error ||
+            cabs(by) <= UNIT * cabs(value[k]))
             break;
         value[k] -= cimag(value[k]) == 0 ? creal(by) : by;
         go_to(at, value[k]);
     }
     if (at->slope == 0)
         return INFINITY;
-    noise = method_error(at->s, at->x, at->y) / cabs(at->slope);
+    noise = method_error(at) / cabs(at->slope);
     error = at->error / cabs(at->slope);
     value[k] = root_with_noise(value[k], noise, &error);
     return error > 0 ? error + cabs(at->value / at->slope) : 0;
@@ -305,20 +330,29 @@ static void bound_zeros(const Single *s, const Wider *wide, double least, double
     Trial at = {.s = s,
                 .wide = wide,
                 .least = least,
-                .resolvent = resolvent_new(wide->a, s->n),
-                .x = NEW_ARRAY(WideComplex, s->n),
-                .y = NEW_ARRAY(WideComplex, s->n)};
+                .resolvent = resolvent_new(wide->a, wide->b, wide->c, s->n),
+                .x = mem_array((size_t)s->n, sizeof(double complex)),
+                .y = mem_array((size_t)s->n, sizeof(double complex)),
+                .x_size = NEW_ARRAY(double, s->n)};
     double complex *first = mem_array((size_t)count, sizeof *first);
     double *error = NEW_ARRAY(double, count);
     Split split = {value, error};
 
     memcpy(first, value, (size_t)count * sizeof *first);
-    for (int k = 0; k < count; k++)
-        error[k] = improve(&at, first, value, count, k);
+    for (int k = 0; k < count; k++) {
+        /* one of a pair tells the other, unless they are about equal and have to split */
+        if (k > 0 && -cimag(first[k]) > SPLIT * cabs(first[k]) && first[k] == conj(first[k - 1])) {
+            value[k] = conj(value[k - 1]);
+            error[k] = error[k - 1];
+        } else {
+            error[k] = improve(&at, first, value, count, k);
+        }
+    }
     roots_join(value, error, count, group_error, &split, zero);
     resolvent_free(at.resolvent);
     mem_free(at.x);
     mem_free(at.y);
+    mem_free(at.x_size);
     mem_free(first);
     mem_free(error);
 }

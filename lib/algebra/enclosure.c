@@ -1,0 +1,309 @@
+/* enclosure.c: eigenvalues by the Francis method, corrected by their residual
+ *
+ * With vectors X and values L found in doubles, Y nearly the inverse of X and R = A X - X L, formed
+ * in numbers of twice the digits, X^-1 A X = L + (Y X)^-1 Y R. What stands beside L there is small,
+ * as rounding is: its diagonal corrects L, the rest moves values by its square over their distance.
+ * Discs about the diagonal, row and column k scaled against the others, bound that (Gershgorin
+ * 1931; Wilkinson 1965, 2.15). */
+#include "algebra/enclosure.h"
+
+#include "algebra/dense.h"
+#include "base/memory.h"
+
+#include <gsl/gsl_eigen.h>
+#include <gsl/gsl_errno.h>
+#include <string.h>
+
+#define UNIT 0x1p-53
+
+/* products without a look for infinity: these are finite, or the bounds fail */
+static double complex times(double complex a, double complex b)
+{
+    return CMPLX(creal(a) * creal(b) - cimag(a) * cimag(b),
+                 creal(a) * cimag(b) + cimag(a) * creal(b));
+}
+
+/* --- in doubles --- */
+
+/* Values and vectors; false where the iteration doesn't come to an end, or GSL has no room. */
+static bool francis(const Wide *a, Enclosure *e)
+{
+    const size_t count = (size_t)e->n;
+    gsl_matrix *matrix = dense_matrix(count, count);
+    gsl_vector_complex_view value = gsl_vector_complex_view_array((double *)e->value, count);
+    gsl_matrix_complex_view right = gsl_matrix_complex_view_array((double *)e->right, count, count);
+    /* GSL's own room is held while nothing is asked of memory.h */
+    gsl_error_handler_t *handler = gsl_set_error_handler_off();
+    gsl_eigen_nonsymmv_workspace *work = gsl_eigen_nonsymmv_alloc(count);
+    bool sound = work != NULL;
+
+    for (int i = 0; i < e->n * e->n; i++)
+        matrix->data[i] = a[i].high;
+    sound = sound && gsl_eigen_nonsymmv(matrix, &value.vector, &right.matrix, work) == 0;
+    gsl_eigen_nonsymmv_free(work);
+    (void)gsl_set_error_handler(handler);
+    mem_free(matrix);
+    return sound;
+}
+
+static void exchange(double complex *a, double complex *b, int n)
+{
+    for (int j = 0; j < n; j++) {
+        const double complex kept = a[j];
+
+        a[j] = b[j];
+        b[j] = kept;
+    }
+}
+
+/* to += factor from */
+static void add(double complex *to, const double complex *from, double complex factor, int first,
+                int n)
+{
+    for (int j = first; j < n; j++)
+        to[j] += times(factor, from[j]);
+}
+
+/* `left` becomes the inverse of `right` (Gauss and Jordan); false: vectors are alike */
+static bool invert(Enclosure *e)
+{
+    const int n = e->n;
+    double complex *rest = mem_array((size_t)(n * n), sizeof *rest);
+    bool sound = true;
+
+    memcpy(rest, e->right, (size_t)(n * n) * sizeof *rest);
+    for (int i = 0; i < n; i++)
+        e->left[i * n + i] = 1;
+    for (int k = 0; k < n && sound; k++) {
+        double complex *top = rest + (ptrdiff_t)k * n, *own = e->left + (ptrdiff_t)k * n, by;
+        int best = k;
+
+        for (int i = k + 1; i < n; i++)
+            if (cabs(rest[i * n + k]) > cabs(rest[best * n + k]))
+                best = i;
+        exchange(top, rest + (ptrdiff_t)best * n, n);
+        exchange(own, e->left + (ptrdiff_t)best * n, n);
+        sound = cabs(top[k]) > UNIT;
+        by = 1 / top[k];
+        for (int j = 0; j < n; j++) {
+            top[j] = times(top[j], by);
+            own[j] = times(own[j], by);
+        }
+        for (int i = 0; i < n; i++) {
+            const double complex factor = -rest[i * n + k];
+
+            if (i == k || factor == 0)
+                continue;
+            add(rest + (ptrdiff_t)i * n, top, factor, k, n);
+            add(e->left + (ptrdiff_t)i * n, own, factor, 0, n);
+        }
+    }
+    mem_free(rest);
+    return sound;
+}
+
+/* --- what is left --- */
+
+/* value k is the conjugate of the one before */
+static bool is_mirror(const Enclosure *e, int k)
+{
+    return k > 0 && cimag(e->value[k]) < 0 && e->value[k] == conj(e->value[k - 1]);
+}
+
+static void copy_mirror(double complex *matrix, int n, int k)
+{
+    for (int i = 0; i < n; i++)
+        matrix[i * n + k] = conj(matrix[i * n + k - 1]);
+}
+
+/* A X - X L */
+static void find_residual(const Wide *a, const Enclosure *e, double complex *out)
+{
+    const int n = e->n;
+    WideComplex *sum = NEW_ARRAY(WideComplex, n);
+
+    for (int k = 0; k < n; k++) {
+        if (is_mirror(e, k)) {
+            copy_mirror(out, n, k);
+            continue;
+        }
+        for (int i = 0; i < n; i++) {
+            const WideComplex x = wide_from(e->right[i * n + k]);
+
+            sum[i] = wide_cneg(wide_cmul(wide_from(e->value[k]), x));
+            for (int j = 0; j < n; j++) {
+                const Wide entry = a[i * n + j];
+                const double complex other = e->right[j * n + k];
+
+                if (entry.high == 0)
+                    continue;
+                sum[i].re = wide_add(sum[i].re, wide_times(entry, creal(other)));
+                if (cimag(e->value[k]) != 0)
+                    sum[i].im = wide_add(sum[i].im, wide_times(entry, cimag(other)));
+            }
+            out[i * n + k] = wide_to(sum[i]);
+        }
+    }
+    mem_free(sum);
+}
+
+/* out = a b */
+static void multiply(int n, const double complex *a, const double complex *b, double complex *out)
+{
+    for (int i = 0; i < n; i++) {
+        double complex *row = out + (ptrdiff_t)i * n;
+
+        for (int k = 0; k < n; k++)
+            row[k] = 0;
+        for (int j = 0; j < n; j++) {
+            const double complex factor = a[i * n + j];
+
+            for (int k = 0; k < n; k++)
+                row[k] += times(factor, b[j * n + k]);
+        }
+    }
+}
+
+/* --- bounds --- */
+
+static double largest_row(const double complex *a, int n)
+{
+    double largest = 0;
+
+    for (int i = 0; i < n; i++) {
+        double sum = 0;
+
+        for (int j = 0; j < n; j++)
+            sum += cabs(a[i * n + j]);
+        largest = sum <= largest ? largest : sum; /* a NaN stays */
+    }
+    return largest;
+}
+
+static double largest_of_column(const double complex *a, int n, int k)
+{
+    double largest = 0;
+
+    for (int i = 0; i < n; i++)
+        largest = fmax(largest, cabs(a[i * n + k]));
+    return largest;
+}
+
+/* Sizes of what stands beside L, from Y R: (Y X)^-1 is within 2 `inexact` of 1. */
+static bool find_sizes(const Enclosure *e, const double complex *residual,
+                       const double complex *beside, double norm, double *size)
+{
+    const int n = e->n;
+    double complex *unity = mem_array((size_t)(n * n), sizeof *unity);
+    const double left = largest_row(e->left, n);
+    double inexact;
+
+    multiply(n, e->left, e->right, unity);
+    for (int i = 0; i < n; i++)
+        unity[i * n + i] -= 1;
+    inexact = largest_row(unity, n) + 4 * n * UNIT * left * largest_row(e->right, n);
+    for (int k = 0; k < n; k++) {
+        const double rounded =
+            left * (4 * n * UNIT * largest_of_column(residual, n, k) + 4 * n * WIDE_UNIT * norm);
+        const double off = rounded + 2 * inexact * (largest_of_column(beside, n, k) + rounded);
+
+        for (int i = 0; i < n; i++)
+            size[i * n + k] = cabs(beside[i * n + k]) + off;
+        e->error[k] = off;
+    }
+    mem_free(unity);
+    return inexact < 0.1;
+}
+
+static double apart(const Enclosure *e, int i, int k)
+{
+    return cabs(e->value[i] - e->value[k]);
+}
+
+/* No row reaches farther than a quarter of the way to the next value; row k times `scale` and
+ * column k over it keep the others within half, and k's disc as small as that scale. */
+static bool bound(const Enclosure *e, const double *size)
+{
+    const int n = e->n;
+    double *reach = NEW_ARRAY(double, n);
+    bool sound = true;
+
+    for (int k = 0; k < n; k++)
+        for (int j = 0; j < n; j++)
+            reach[k] += size[k * n + j];
+    for (int k = 0; k < n && sound; k++) {
+        double scale = 0;
+
+        e->slant[k] = 0;
+        for (int j = 0; j < n && sound; j++) {
+            if (j == k)
+                continue;
+            sound = reach[k] <= apart(e, j, k) / 4 && apart(e, j, k) > 0;
+            scale = fmax(scale, 4 * size[j * n + k] / apart(e, j, k));
+            e->slant[k] += 2 * (size[j * n + k] + size[k * n + j]) / apart(e, j, k);
+        }
+        e->error[k] += scale * reach[k];
+    }
+    mem_free(reach);
+    return sound;
+}
+
+/* --- an enclosure --- */
+
+static bool correct(const Wide *a, Enclosure *e)
+{
+    const int n = e->n;
+    double complex *residual = mem_array((size_t)(n * n), sizeof *residual);
+    double complex *beside = mem_array((size_t)(n * n), sizeof *beside);
+    double *size = NEW_ARRAY(double, n *n);
+    double norm = 0;
+    bool sound;
+
+    for (int i = 0; i < n; i++) {
+        double row = 0;
+
+        for (int j = 0; j < n; j++)
+            row += fabs(a[i * n + j].high);
+        norm = fmax(norm, row);
+    }
+    find_residual(a, e, residual);
+    multiply(n, e->left, residual, beside);
+    sound = find_sizes(e, residual, beside, norm, size);
+    /* what is real stays so; a mirrored one is seen by the uncorrected one before it */
+    for (int k = n - 1; k >= 0; k--) {
+        const double complex by = beside[k * n + k];
+
+        if (is_mirror(e, k))
+            e->value[k] += conj(beside[(k - 1) * n + k - 1]);
+        else
+            e->value[k] += cimag(e->value[k]) == 0 ? creal(by) : by;
+    }
+    sound = sound && bound(e, size);
+    for (int k = 1; k < n && sound; k++)
+        if (is_mirror(e, k))
+            e->error[k] = e->error[k - 1];
+    mem_free(residual);
+    mem_free(beside);
+    mem_free(size);
+    return sound;
+}
+
+bool enclosure_find(const Wide *a, int n, Enclosure *out)
+{
+    *out = (Enclosure){n,
+                       mem_array((size_t)n, sizeof *out->value),
+                       mem_array((size_t)(n * n), sizeof *out->right),
+                       mem_array((size_t)(n * n), sizeof *out->left),
+                       NEW_ARRAY(double, n),
+                       NEW_ARRAY(double, n)};
+    return francis(a, out) && invert(out) && correct(a, out);
+}
+
+void enclosure_free(Enclosure *enclosure)
+{
+    mem_free(enclosure->value);
+    mem_free(enclosure->right);
+    mem_free(enclosure->left);
+    mem_free(enclosure->error);
+    mem_free(enclosure->slant);
+}

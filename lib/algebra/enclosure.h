@@ -1,0 +1,27 @@
+/* enclosure.h: simple eigenvalues of real matrices in doubles, with bounds that are proved after
+ *
+ * Serves where eigenvalues stand well apart; says where they don't, and numbers of twice the digits
+ * are needed (schur.h). */
+#ifndef COTREE_ALGEBRA_ENCLOSURE_H
+#define COTREE_ALGEBRA_ENCLOSURE_H
+
+#include "algebra/wide.h"
+
+#include <stdbool.h>
+
+/* of an n x n matrix, n eigenvalues */
+typedef struct Enclosure {
+    int n;
+    double complex *value; /* conjugate ones exactly, the one above the real axis first */
+    double complex *right; /* vectors as columns, of length 1 */
+    double complex *left;  /* as rows: the inverse of `right`, nearly */
+    double *error;         /* each disc of this radius about a value holds one eigenvalue */
+    double *slant; /* right vector k is off by that at most, left ones by it times their size */
+} Enclosure;
+
+/* The matrix stands row by row, balanced. False where the discs can't be proved to lie apart. Free
+ * with enclosure_free() in either case. O(n^3). */
+bool enclosure_find(const Wide *a, int n, Enclosure *out);
+void enclosure_free(Enclosure *enclosure);
+
+#endif
