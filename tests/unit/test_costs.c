@@ -12,7 +12,9 @@
 #include <string.h>
 #include <time.h>
 
-#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__)
+/* builds that look for trouble ask for more */
+#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(COTREE_SMALL) &&              \
+    !defined(COTREE_FAULTS)
 #define COUNTS 1
 void *__libc_malloc(size_t size);
 void *__libc_calloc(size_t count, size_t size);
