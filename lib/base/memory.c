@@ -91,7 +91,9 @@ void mem_free(void *piece)
         piece_drop(piece_of(piece));
 }
 
-static void *room_for(void *at, int count, int *room, size_t size, const void *maker)
+/* out of the way of those that only look whether there is room */
+__attribute__((noinline)) static void *room_for(void *at, int count, int *room, size_t size,
+                                                const void *maker)
 {
     const int more = count < FIRST_ROOM ? FIRST_ROOM : count + count / 2;
 
@@ -102,13 +104,19 @@ static void *room_for(void *at, int count, int *room, size_t size, const void *m
     return at;
 }
 
+__attribute__((noinline)) static void *keep_room(void *list, void *at, size_t size)
+{
+    mem_keep_part(list, at, size);
+    return list;
+}
+
 void *list_room(void *at, int count, int more, int *room, size_t size)
 {
     if (count + more > *room)
         return room_for(at, count + more, room, size, CALLER);
     /* what has been taken off the list in this call may have to be there again */
     if (mem_is_old(at))
-        mem_keep_part(at, (char *)at + (size_t)count * size, (size_t)more * size);
+        return keep_room(at, (char *)at + (size_t)count * size, (size_t)more * size);
     return at;
 }
 
