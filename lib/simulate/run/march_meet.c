@@ -10,6 +10,7 @@
 #define MOST_NOISE  1e-6  /* of the largest margin: more than that is no noise */
 #define SHORT       1e-3  /* of a step: a move of its end that needn't take it again, */
 #define NEXT_TO     1e-12 /* or of the run */
+#define WIDER       5     /* times a step that ended where a longer one had erred */
 #define ZENO_EVENTS 100
 #define ZENO_EACH   10   /* of every condition, which all may go over at one instant */
 #define ZENO_SPAN   1e-9 /* of the run */
@@ -45,8 +46,9 @@ static bool move_end(March *m, double t)
 
 /* Take the last step again until it ends just before the switch, so that none of its stages has
  * seen what is behind: Newton's method on the length of the step. Behind a margin the equations are
- * the same, and last moves so short that Euler's rule is exact will do. Where the step can't be
- * taken again, what it tells of the switch has to do. */
+ * the same, and last moves so short that Euler's rule is exact will do; by more than those the step
+ * gets no longer, for other margins may end there, which nobody has looked for. Where the step
+ * can't be taken again, what it tells of the switch has to do. */
 static Status approach(March *m, int i, double when, double *value, double *slope, Diag *diag)
 {
     double enough = fmax(1e-11 * m->largest[i], march_is_margin(m, i) ? m->noise[i] : 0);
@@ -57,10 +59,12 @@ static Status approach(March *m, int i, double when, double *value, double *slop
     Status status = OK;
 
     for (int k = 0; k < 12; k++) {
+        bool moved = k > 0 && march_is_margin(m, i) && move_end(m, when);
         double inside;
 
-        if ((k == 0 || !march_is_margin(m, i) || !move_end(m, when)) &&
-            m->stepper->method->shorten(m->stepper, when, &ignored) != OK) {
+        if (k > 0 && march_is_margin(m, i) && !moved && when > m->stepper->t)
+            break;
+        if (!moved && m->stepper->method->shorten(m->stepper, when, &ignored) != OK) {
             *slope = 0;
             CHECK(march_cut(m, when, diag));
             break;
@@ -162,8 +166,10 @@ Status march_meet_switch(March *m, int i, double when, Diag *diag)
     if (when > m->stepper->before) {
         CHECK(approach(m, i, when, &value, &slope, diag));
         CHECK(march_add_rows(m, diag));
-        if (is_told && value > m->noise[i] && slope > 0) { /* the interpolant erred */
+        /* the interpolant erred: it is told again where steps from here go */
+        if (is_told && value > m->noise[i] && (slope >= 0 || !is_short(m, -value / slope))) {
             m->is_taken_back = m->stepper->method->has_history;
+            m->stepper->next = fmin(m->stepper->next, WIDER * (m->stepper->t - m->stepper->before));
             return OK;
         }
         if (!on_surface && slope * m->mode[i] < 0 && value * m->mode[i] > 0)
