@@ -39,7 +39,8 @@ typedef enum ParamUse {
     POSITIONAL = 1,   /* may stand without its key behind the places: arm r m [..] */
     GIVES_SOURCE = 2, /* across or through, whatever the rest of the network does */
     GIVES_LOAD = 4,   /* an effort that acts on bodies from outside */
-    GIVES = GIVES_SOURCE | GIVES_LOAD
+    GIVES = GIVES_SOURCE | GIVES_LOAD,
+    ALIKE = 8 /* those of a row that have it are subtracted: of one dimension, whichever */
 } ParamUse;
 
 typedef struct Param {
@@ -57,7 +58,8 @@ typedef struct Value {
     bool given; /* by the user, not the fallback */
     int count;  /* entries of `at` */
     Expr at[MAX_VALUE];
-    const char *word; /* of PARAM_WORD */
+    const char *word;              /* of PARAM_WORD */
+    const struct Measure *measure; /* of a param that is ALIKE (model/measure.h); NULL: any */
 } Value;
 
 /* --- what the statement connects --- */

@@ -11,16 +11,16 @@
 
 /* clang-format off */
 static const Param pd_params[] = {
-    {"ref",    PARAM_LAW,    NULL, NULL, "what is wanted, any expression", 0},
-    {"of",     PARAM_LAW,    NULL, NULL, "what is measured, any expression", 0},
+    {"ref",    PARAM_LAW,    NULL, NULL, "what is wanted, any expression", ALIKE},
+    {"of",     PARAM_LAW,    NULL, NULL, "what is measured, any expression", ALIKE},
     {"Kp",     PARAM_LAW,    NULL, NULL, "output per error, ref - of", 0},
     {"Kd",     PARAM_LAW,    NULL, NULL, "output per rate of the error", 0},
     {"filter", PARAM_SCALAR, "s",  "0",  "time constant of the rate", 0},
     BLOCK_PARAMS,
 };
 static const Param pid_params[] = {
-    {"ref",     PARAM_LAW,    NULL, NULL, "what is wanted, any expression", 0},
-    {"of",      PARAM_LAW,    NULL, NULL, "what is measured, any expression", 0},
+    {"ref",     PARAM_LAW,    NULL, NULL, "what is wanted, any expression", ALIKE},
+    {"of",      PARAM_LAW,    NULL, NULL, "what is measured, any expression", ALIKE},
     {"Kp",      PARAM_LAW,    NULL, NULL, "output per error, ref - of", 0},
     {"Ki",      PARAM_LAW,    NULL, NULL, "output per integral of the error", 0},
     {"Kd",      PARAM_LAW,    NULL, "0",  "output per rate of the error", 0},

@@ -73,22 +73,19 @@ done:
     return status;
 }
 
-Status unit_check_alike(const Scope *scope, const Syntax *syntax, const char *name, Diag *diag)
+Status unit_check_alike(const Scope *scope, const Syntax *syntax, const char *what, Diag *diag)
 {
     const Syntax *core = bare(syntax);
     Measure whole = {.kind = MEASURE_NUMBER};
     Measure entry;
-    Text what = {0};
     Status status = OK;
 
-    text_addf(&what, "components of %s", name);
     for (int i = 0; core->kind == SYNTAX_VECTOR && i < core->count; i++) {
         CHECK(measure_of(scope, core->args[i], &entry, diag));
-        CHECK(measures_join(whole, entry, core->args[i > 0 ? i - 1 : 0], core->args[i], what.at,
+        CHECK(measures_join(whole, entry, core->args[i > 0 ? i - 1 : 0], core->args[i], what,
                             &whole, diag));
     }
 done:
-    text_free(&what);
     return status;
 }
 

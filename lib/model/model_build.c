@@ -12,11 +12,15 @@ static Status give(Draft *draft, int index, const Syntax *value, Place place)
 {
     Instance *part = draft->part;
     const Param *param = &part->row->params[index];
+    Status status = OK;
 
     if (part->values[index].given)
         return diag_at(draft->diag, E_SYNTAX, place, "%s is given twice", param->name);
-    return param_read(&draft->scope, (Wanted){param, part->on_angle}, value, &part->values[index],
-                      draft->diag);
+    CHECK(param_read(&draft->scope, (Wanted){param, part->on_angle}, value, &part->values[index],
+                     draft->diag));
+    CHECK(param_check_alike(part->row, part->values, index, value, draft->diag));
+done:
+    return status;
 }
 
 static Status read_positional(Draft *draft)

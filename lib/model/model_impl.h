@@ -311,8 +311,8 @@ void measure_hint(Measure a, Measure b, const char *otherwise, Diag *diag);
  * written without units is in SI. */
 MUST_USE Status unit_check(const Scope *scope, const Syntax *syntax, const char *unit,
                            const char *name, Diag *diag);
-/* entries of a direction, which have one dimension, whichever */
-MUST_USE Status unit_check_alike(const Scope *scope, const Syntax *syntax, const char *name,
+/* entries that are `what` ("added"), which have one dimension, whichever */
+MUST_USE Status unit_check_alike(const Scope *scope, const Syntax *syntax, const char *what,
                                  Diag *diag);
 /* two values that are compared */
 MUST_USE Status unit_check_compared(const Scope *scope, const Syntax *left, const Syntax *right,
@@ -329,6 +329,9 @@ typedef struct Wanted {
 
 MUST_USE Status param_read(Scope *scope, Wanted wanted, const Syntax *syntax, Value *out,
                            Diag *diag);
+/* The value that was just read from there against the others of its row that are ALIKE. */
+MUST_USE Status param_check_alike(const Component *row, const Value *values, int index,
+                                  const Syntax *syntax, Diag *diag);
 void param_fallback(State *state, const Param *param, Value *out);
 
 /* --- whether they make sense (model_check.c) --- */

@@ -13,13 +13,16 @@ typedef Status Read(Scope *scope, const Wanted *wanted, const Syntax *syntax, Va
 /* a direction has no length: [3 mm, 4 mm, 0] is one */
 static Status check_axes(const Scope *scope, const Wanted *wanted, const Syntax *syntax, Diag *diag)
 {
+    Text what = {0};
     Status status = OK;
 
+    text_addf(&what, "components of %s", wanted->param->name);
     if (wanted->param->kind == PARAM_AXIS)
-        return unit_check_alike(scope, syntax, wanted->param->name, diag);
-    for (int i = 0; i < syntax->count; i++)
-        CHECK(unit_check_alike(scope, syntax->args[i], wanted->param->name, diag));
+        CHECK(unit_check_alike(scope, syntax, what.at, diag));
+    for (int i = 0; wanted->param->kind == PARAM_AXES && i < syntax->count; i++)
+        CHECK(unit_check_alike(scope, syntax->args[i], what.at, diag));
 done:
+    text_free(&what);
     return status;
 }
 
@@ -32,6 +35,8 @@ static Status check_unit(const Scope *scope, const Wanted *wanted, const Syntax 
     char *first;
     Status status;
 
+    if (kind == PARAM_LIST_LAWS)
+        return unit_check_alike(scope, syntax, "added", diag);
     if (unit == NULL || kind == PARAM_ROTATION)
         return OK;
     if (kind == PARAM_AXIS || kind == PARAM_AXES)
@@ -368,7 +373,33 @@ Status param_read(Scope *scope, Wanted wanted, const Syntax *syntax, Value *out,
         scope->kind = is_law(wanted.param->kind) ? SCOPE_EFFORT : SCOPE_NUMBER;
     CHECK(readers[wanted.param->kind](scope, &wanted, syntax, out, diag));
     CHECK(check_unit(scope, &wanted, syntax, diag));
+    if ((wanted.param->use & ALIKE) != 0) {
+        Measure *measure = pool_alloc(scope->state->pool, sizeof *measure);
+
+        CHECK(measure_of(scope, syntax, measure, diag));
+        out->measure = measure;
+    }
     out->given = true;
+done:
+    return status;
+}
+
+Status param_check_alike(const Component *row, const Value *values, int index, const Syntax *syntax,
+                         Diag *diag)
+{
+    const Measure *own = values[index].measure;
+    Measure joined;
+    Status status = OK;
+
+    for (int i = 0; i < row->param_count; i++) {
+        const Measure *other = values[i].measure;
+
+        /* a ratio is a number, and that is taken as SI */
+        if (i == index || own == NULL || other == NULL || measure_is_plain(*own) ||
+            measure_is_plain(*other))
+            continue;
+        CHECK(measures_join(*other, *own, syntax, syntax, "subtracted", &joined, diag));
+    }
 done:
     return status;
 }

@@ -186,6 +186,7 @@ static Status set_pair(State **state, const Pair *pair, Outcome *outcome, Diag *
     values[index] = (Value){0};
     CHECK(param_read(&scope, (Wanted){&part->row->params[index], part->on_angle}, pair->value,
                      &values[index], diag));
+    CHECK(param_check_alike(part->row, values, index, pair->value, diag));
     pool_keep(s->pool, part, sizeof *part);
     part->values = values;
     status = part_check_plane(s, part, pair->value->place, diag);

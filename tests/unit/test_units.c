@@ -16,7 +16,8 @@
     "heatcap H warm 0 C=10\n"                                                                      \
     "g = 9.81; k = 3; r = 0.1 m; E0 = 12 V; w0 = 5 [rad/s]; f0 = 50 Hz; A0 = r^2\n"                \
     "E(x) = E0*sin(x); pull(x) = k*x; gap(x) = x - 1 mm; twice(x) = gap(x) + gap(x)\n"             \
-    "output P = R.v*R.i, way = s1\n"
+    "output P = R.v*R.i, way = s1\n"                                                               \
+    "pd C1 c1 0 ref=1 of=h1 Kp=1 Kd=1; resistor Rc c1 0 1\n"
 
 #define RUN_SCENE SCENE "simulate 0.1 every=0.01\nlinearize inputs=[V] outputs=[L.i]\nmodes\n"
 
@@ -136,6 +137,13 @@ static const struct {
     {"set R.R = 3 V", "ohm expected for R, got V", 13},
     {"set R.R = E0", "ohm expected for R, got V", 11},
     {"set m1.mass = r", "kg expected for mass, got m", 15},
+
+    /* what is subtracted or added inside a block */
+    {"pd q c 0 ref=1 V of=h1 Kp=1 Kd=1", "V and rad can't be subtracted", 21},
+    {"pd q c 0 of=s1 ref=E0 Kp=1 Kd=1", "m and V can't be subtracted", 20},
+    {"pid q c 0 ref=s1 of=h1 Kp=1 Ki=1", "m and rad can't be subtracted", 21},
+    {"sum q c 0 of=[R.v, -s1]", "V and m can't be added", 20},
+    {"set C1.ref = 3 kg", "rad and kg can't be subtracted", 14},
     {"output q = s1 + h1", "m and rad can't be added", 17},
     {"q = r + E0", "m and V can't be added", 9},
     {"q(x) = x + r + E0", "m and V can't be added", 16},
@@ -238,6 +246,9 @@ static const char *const right[] = {
     "arm q m1 [r, 0] + [0, 3 cm]",
     "gravity [0, -g]",
     "set R.R = E0/2 A",
+    "pd q c 0 ref=30 deg of=h1 Kp=1 Kd=1; sum q2 d 0 of=[R.v, 2, 1 mV]",
+    "pid q c 0 ref=sin(t) of=s1 Kp=1 Ki=1",
+    "set C1.ref = r/(1 m)",
     "output q = R.v*R.i + 3 W, p = q/E0 + 2 A",
     "q(x, y) = x*y + 3 W",
     "d2 = 2*r; q = d2 + E0",
