@@ -69,8 +69,11 @@ static int find_gain(const Single *s, double *gain)
             next_off[i] = 0;
             for (int j = 0; j < n; j++) {
                 const double size = fabs(v[j].high) + off[j];
-                const double entry = ldexp(s->a[i * n + j], -unit);
+                double entry;
 
+                if (s->a[i * n + j] == 0 && s->a_error[i * n + j] == 0)
+                    continue;
+                entry = ldexp(s->a[i * n + j], -unit);
                 next[i] = wide_add(next[i], wide_times(v[j], entry));
                 next_off[i] += fabs(entry) * (off[j] + n * WIDE_UNIT * size) +
                                ldexp(s->a_error[i * n + j], -unit) * size;
