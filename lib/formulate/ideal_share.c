@@ -97,6 +97,7 @@ Status system_scalar(System *system, int i, ScalarPair *out, Diag *diag)
                        .stores = branch->relation.kind == RELATION_CAPACITIVE ||
                                  branch->relation.kind == RELATION_INDUCTIVE,
                        .switches = branch->ideal >= 0,
+                       .gives_any = branch->relation.kind == RELATION_FREE,
                        .energy_known = branch->relation.stored != NULL};
     Status status = OK;
 

@@ -310,6 +310,7 @@ typedef struct ScalarPair {
     Domain domain;
     bool gives_across, gives_through; /* as a source, whatever meets it */
     bool stores, switches;
+    bool gives_any;    /* a nullor's output: whatever keeps its input at nothing */
     bool energy_known; /* what it stores is in the energies */
     Expr across, through;
 } ScalarPair;

@@ -155,6 +155,18 @@ static bool goes_somewhere(const Result *r, int state, const double *x, const do
     return found;
 }
 
+/* An op-amp's output hands charge on from stage to stage, as much as its input asks for. */
+static bool hands_on(System *system)
+{
+    for (int i = 0; i < system_scalar_count(system); i++) {
+        ScalarPair edge;
+
+        if (system_scalar(system, i, &edge, NULL) == OK && edge.gives_any)
+            return true;
+    }
+    return false;
+}
+
 /* Whether each state that jumps follows from what was stored, or is handed on: it isn't given by
  * sources alone, nor goes into nothing. What follows is seen by a move of all that was stored. */
 static bool are_shared(const Result *r, const double *x, const double *now, const double *sizes)
@@ -250,6 +262,16 @@ void share_tell(Result *r)
     text_add(&r->remarks, "\n");
 }
 
+/* What is stored may not grow: sources alone would have to give that. */
+static bool is_given(const Result *r, Phase *phase, double t, const double *y, const double *x,
+                     const double *now)
+{
+    const double was = energy_at(r, phase, t, y, x), is = energy_at(r, phase, t, y, now);
+
+    return r->shares->is_known && is - was > GAIN * (fabs(is) + fabs(was)) &&
+           !hands_on(result_whole(r)->layout->system);
+}
+
 /* J; NAN where the energy of something is not known */
 static double energy_lost(Result *r, Phase *phase, double t, const bool *before, const double *y,
                           const double *x, const double *now, double *gained)
@@ -277,7 +299,8 @@ bool share_stored(Result *r, Phase *phase, double t, const bool *before, const c
     memcpy(kept, y, bytes);
     find_sizes(r, x, sizes);
     met = open_shares(r) && sides_jump(r->sides, x, sizes, landed) &&
-          put_states(phase, t, landed, sizes, nx, y, now) && are_shared(r, x, now, sizes);
+          put_states(phase, t, landed, sizes, nx, y, now) && are_shared(r, x, now, sizes) &&
+          !is_given(r, phase, t, y, x, now);
     if (met) {
         double gained, lost;
 
