@@ -379,6 +379,15 @@ static int dimension_size(Dimension d)
     return size;
 }
 
+/* only to divide by, and no time: W/m^2 is meant where N/m/s is as short */
+static bool divides_by_no_time(Dimension d)
+{
+    for (int i = 0; i < 6; i++)
+        if (d.power[i] > 0)
+            return false;
+    return d.power[2] == 0;
+}
+
 /* The power of a named unit that shortens the writing most, and what is left beside it; NULL: none
  * does. One that would leave mass or current to divide by says less than base units: m/s^2 is no
  * N/kg. */
@@ -401,7 +410,9 @@ static const char *dimension_named(Dimension whole, int *power, Dimension *rest)
         for (int j = 0; j < 6; j++)
             left.power[j] = (signed char)(left.power[j] - p * row->power[j]);
         written = 1 + (p != 1) + (p < -1) + dimension_size(left);
-        if (left.power[1] != 0 || left.power[3] != 0 || written >= size)
+        if (left.power[1] != 0 || left.power[3] != 0 || written > size ||
+            (written == size &&
+             (name == NULL || divides_by_no_time(*rest) || !divides_by_no_time(left))))
             continue;
         size = written;
         name = row->name;

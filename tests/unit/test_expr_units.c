@@ -54,6 +54,9 @@ static void units_have_their_factors(void)
 static void compound_units_multiply(void)
 {
     expect_unit("kN/m", 1e3, "N/m");
+    expect_unit("W/m^2", 1, "W/m^2");
+    expect_unit("W/m/K", 1, "W/m/K");
+    expect_unit("N*s/m", 1, "kg/s");
     expect_unit("m/s^2", 1, "m/s^2");
     expect_unit("1/s", 1, "1/s");
     expect_unit("kg*m^2", 1, "kg*m^2");
