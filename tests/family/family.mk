@@ -10,7 +10,7 @@ family_linear_SOURCES = tests/family/family_linear.c tests/unit/session_kit.h te
 family_linear_LDADD = $(unit_ldadd)
 
 FAMILIES += family_diodes
-family_diodes_SOURCES = tests/family/family_diodes.c
+family_diodes_SOURCES = tests/family/family_diodes.c tests/family/networks.h
 family_diodes_LDADD = libcotree.la $(unit_ldadd)
 FAMILIES += family_sliding
 family_sliding_SOURCES = tests/family/family_sliding.c
