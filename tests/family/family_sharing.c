@@ -115,7 +115,7 @@ static Verdict circuit(Member *m)
         double lost;
 
         for (int k = 0; k < count; k++) {
-            char name[16];
+            char name[32];
 
             (void)snprintf(name, sizeof name, "C%d.v", k);
             hold(m, &kit, name, turned[k] ? -v[k] : v[k], 1e-6 * 10, &verdict);
@@ -204,7 +204,7 @@ static Verdict laws(Member *m)
     if (!runs(m, &kit, script))
         verdict = DISAGREES;
     for (int k = 0; k < count && verdict == AGREES; k++) {
-        char name[16];
+        char name[32];
 
         (void)snprintf(name, sizeof name, "P%d.%c", k, coils ? 'i' : 'v');
         hold(m, &kit, name, x, 1e-6, &verdict);
@@ -341,7 +341,7 @@ static Verdict integrators(Member *m)
     if (!runs(m, &kit, script))
         verdict = DISAGREES;
     for (int k = 1; k <= stages && verdict == AGREES; k++) {
-        char name[16];
+        char name[32];
 
         (void)snprintf(name, sizeof name, "U%d.out.v", k);
         hold(m, &kit, name, out[k], 1e-5, &verdict);
