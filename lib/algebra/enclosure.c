@@ -68,10 +68,10 @@ static void add(double complex *to, const double complex *from, double complex f
 static bool invert(Enclosure *e)
 {
     const int n = e->n;
-    double complex *rest = mem_array((size_t)(n * n), sizeof *rest);
+    double complex *rest = mem_array((size_t)n * (size_t)n, sizeof *rest);
     bool sound = true;
 
-    memcpy(rest, e->right, (size_t)(n * n) * sizeof *rest);
+    memcpy(rest, e->right, (size_t)n * (size_t)n * sizeof *rest);
     for (int i = 0; i < n; i++)
         e->left[i * n + i] = 1;
     for (int k = 0; k < n && sound; k++) {
@@ -194,7 +194,7 @@ static bool find_sizes(const Enclosure *e, const double complex *residual,
                        const double complex *beside, double norm, double *size)
 {
     const int n = e->n;
-    double complex *unity = mem_array((size_t)(n * n), sizeof *unity);
+    double complex *unity = mem_array((size_t)n * (size_t)n, sizeof *unity);
     const double left = largest_row(e->left, n);
     double inexact;
 
@@ -253,8 +253,8 @@ static bool bound(const Enclosure *e, const double *size)
 static bool correct(const Wide *a, Enclosure *e)
 {
     const int n = e->n;
-    double complex *residual = mem_array((size_t)(n * n), sizeof *residual);
-    double complex *beside = mem_array((size_t)(n * n), sizeof *beside);
+    double complex *residual = mem_array((size_t)n * (size_t)n, sizeof *residual);
+    double complex *beside = mem_array((size_t)n * (size_t)n, sizeof *beside);
     double *size = NEW_ARRAY(double, n *n);
     double norm = 0;
     bool sound;
@@ -292,8 +292,8 @@ bool enclosure_find(const Wide *a, int n, Enclosure *out)
 {
     *out = (Enclosure){n,
                        mem_array((size_t)n, sizeof *out->value),
-                       mem_array((size_t)(n * n), sizeof *out->right),
-                       mem_array((size_t)(n * n), sizeof *out->left),
+                       mem_array((size_t)n * (size_t)n, sizeof *out->right),
+                       mem_array((size_t)n * (size_t)n, sizeof *out->left),
                        NEW_ARRAY(double, n),
                        NEW_ARRAY(double, n)};
     return francis(a, out) && invert(out) && correct(a, out);

@@ -66,10 +66,14 @@ static bool balance_one(HessenbergForm *r, int i)
     if (!(row > 0) || !(column > 0))
         return false;
     size = row + column;
-    for (; column < row / RADIX; f *= RADIX, column *= RADIX * RADIX)
-        ;
-    for (; column > row * RADIX; f /= RADIX, column /= RADIX * RADIX)
-        ;
+    while (column < row / RADIX) {
+        f *= RADIX;
+        column *= RADIX * RADIX;
+    }
+    while (column > row * RADIX) {
+        f /= RADIX;
+        column /= RADIX * RADIX;
+    }
     if (f == 1 || !((row + column) / f < BETTER * size))
         return false;
     r->d[i] *= f;

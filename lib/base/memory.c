@@ -30,12 +30,13 @@ static inline MemPiece *take(size_t size, bool zeroed, const void *maker)
                           ? system_allocate(sizeof(MemPiece) + size, zeroed)
                           : NULL;
 
-    if (piece == NULL)
-        transaction_fail();
-    piece->size = size;
-    piece->maker = maker;
-    piece_join(piece);
-    return piece;
+    if (piece != NULL) {
+        piece->size = size;
+        piece->maker = maker;
+        piece_join(piece);
+        return piece;
+    }
+    transaction_fail();
 }
 
 /* what so many of that size take; SIZE_MAX, which nobody has, where that can't be told */

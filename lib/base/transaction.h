@@ -75,7 +75,7 @@ extern _Thread_local Transaction *transaction_now __attribute__((tls_model("init
 
 static inline MemPiece *piece_of(const void *memory)
 {
-    return (MemPiece *)(void *)((char *)(uintptr_t)memory - sizeof(MemPiece));
+    return (MemPiece *)memory - 1;
 }
 
 /* whether a piece was there before the transaction that goes on */

@@ -93,7 +93,7 @@ static bool next_choice(int *place, int m)
 static Status choose(System *system, Partition *part, Diag *diag)
 {
     LIST(int) free = {0};
-    int place[MOST_ROWS];
+    int place[MOST_ROWS] = {0};
     Status status = OK;
 
     for (int j = 0; j < system->u.count; j++)
@@ -107,7 +107,7 @@ static Status choose(System *system, Partition *part, Diag *diag)
     for (int i = 0; i < part->m; i++)
         place[i] = free.count - part->m + i;
     do {
-        for (int i = 0; i < part->m; i++)
+        for (int i = 0; i < part->m && free.at != NULL; i++)
             part->dependent[i] = free.at[place[i]];
         part->determinant =
             expr_fold(system->arena, determinant(system, part, part->dependent, diag, &status));

@@ -98,7 +98,7 @@ static bool stop_trial(void *context)
 
 void session_enter(const ct_session *handle)
 {
-    ct_session *session = (ct_session *)(uintptr_t)handle; /* a borrowed one may be touched, too */
+    ct_session *session = (ct_session *)handle; /* a borrowed one may be touched, too */
 
     mem_keep(session);
     if (transaction_is_trial())

@@ -32,7 +32,7 @@ static double size_of(const double *a, int n, int i, double s, const double *x, 
 static void solutions_meet_their_equations(void)
 {
     uint64_t seed = 7;
-    double a[LARGEST * LARGEST], b[LARGEST], c[LARGEST], x[LARGEST], y[LARGEST];
+    double a[LARGEST * LARGEST], b[LARGEST] = {0}, c[LARGEST], x[LARGEST], y[LARGEST];
 
     for (int turn = 0; turn < 200; turn++) {
         int n = 1 + turn % LARGEST;

@@ -76,7 +76,7 @@ static int jacobian(realtype t, N_Vector y, N_Vector rate_there, SUNMatrix matri
     return 0;
 }
 
-static void close(void *object)
+static void give_back(void *object)
 {
     Cvode *c = object;
 
@@ -101,7 +101,7 @@ static Stepper *create(const Method *method, const Ode *ode, const Control *cont
     c->base = (Stepper){.method = method, .ode = ode, .control = *control};
     c->all = all;
     c->base.y = NEW_ARRAY(double, all);
-    cleanup_open(&c->cleanup, close, c);
+    cleanup_open(&c->cleanup, give_back, c);
     mem_ask();
     if (SUNContext_Create(NULL, &c->context) != 0)
         transaction_fail();
@@ -127,7 +127,7 @@ static void destroy(Stepper *stepper)
 
     if (c == NULL)
         return;
-    close(c);
+    give_back(c);
     mem_free(c->base.y);
     mem_free(c);
 }

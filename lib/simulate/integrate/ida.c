@@ -60,7 +60,7 @@ static int residual(realtype t, N_Vector w, N_Vector rate, N_Vector out, void *d
                : 1;
 }
 
-static void close(void *object)
+static void give_back(void *object)
 {
     Ida *d = object;
 
@@ -84,7 +84,7 @@ static Stepper *create(const Ode *ode, const Control *control)
     d->all = ode->n + ode->quadratures;
     d->n = ode->dae.n;
     d->base.y = NEW_ARRAY(double, d->all);
-    cleanup_open(&d->cleanup, close, d);
+    cleanup_open(&d->cleanup, give_back, d);
     mem_ask();
     if (SUNContext_Create(NULL, &d->context) != 0)
         transaction_fail();
@@ -101,7 +101,7 @@ static void destroy(Stepper *stepper)
 
     if (d == NULL)
         return;
-    close(d);
+    give_back(d);
     mem_free(d->base.y);
     mem_free(d->place);
     mem_free(d->start);
