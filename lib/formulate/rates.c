@@ -137,7 +137,7 @@ Status rate_of(System *system, Expr e, Expr *out, Diag *diag)
     }
     count = expr_symbols(&e, 1, &symbols);
     for (int i = 0; i < count; i++) {
-        Expr rate;
+        Expr rate = NULL;
 
         if (!network_knows(system, symbols[i]))
             continue;

@@ -5,6 +5,8 @@
  * component of a reaction that changes with them, and no other. */
 #include "formulate/system_impl.h"
 
+#include <assert.h>
+
 #include <math.h>
 
 static Status add_rotors(System *system, Loads *loads, Diag *diag)
@@ -95,6 +97,7 @@ static Vec chord_reaction(System *system, const Instance *joint, bool rotation)
         const Row *row = v < 0 ? &system->rows.at[k] : &system->vanished.at[v];
         Expr lambda = v < 0 ? system->multipliers[k] : system->recovery->multipliers[v];
 
+        assert(row != NULL);
         if (row->told.instance == joint->number)
             sum = vec_add(
                 arena, sum,

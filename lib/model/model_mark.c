@@ -285,7 +285,7 @@ void state_replace(State **state, State *next)
         first = first->before;
     mem_keep(*state);
     first->before = *state;
-    for (State *s = next; more > 0; s = s->before)
+    for (State *s = next; more > 0 && s != NULL; s = s->before)
         s->number = (*state)->number + more--;
     *state = next;
 }

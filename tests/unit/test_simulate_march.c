@@ -20,6 +20,7 @@ static Status run(Problem *p, const char *method, bool embedded, double rtol, co
     Status status = march(&plan, start, grid, out, diag);
 
     text_free(&out->remarks);
+    LIST_FREE(out->jumps);
     motion_free(motion);
     return status;
 }
@@ -293,6 +294,7 @@ static void a_stopped_run_keeps_its_rows(void)
     EXPECT(grid.count > 10 && grid.count < 100000);
     EXPECT(strncmp(diag.message, "stopped at t = ", 15) == 0);
     text_free(&out.remarks);
+    LIST_FREE(out.jumps);
     grid_free(&grid);
     motion_free(motion);
 }

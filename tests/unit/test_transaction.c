@@ -8,6 +8,15 @@
 #include <stdint.h>
 #include <string.h>
 
+#ifdef __SANITIZE_ADDRESS__
+/* too much memory is asked for on purpose */
+const char *__asan_default_options(void);
+const char *__asan_default_options(void)
+{
+    return "allocator_may_return_null=1";
+}
+#endif
+
 typedef void Work(void *object);
 
 /* what is being done, until it asks for more than there is; false: it came to its end */

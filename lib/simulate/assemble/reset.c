@@ -348,8 +348,9 @@ static bool go_by_stages(Reset *reset)
 static bool solve_positions(Reset *reset, Text *why)
 {
     const Layout *l = reset->plan.layout;
-    const size_t bytes = (size_t)(layout_turned(l) + l->turned) * sizeof(double);
-    double *begun = mem_array((size_t)(layout_turned(l) + l->turned), sizeof(double));
+    const int length = layout_turned(l) + l->turned;
+    const size_t bytes = (size_t)length * sizeof(double);
+    double *begun = mem_array((size_t)length, sizeof(double));
     Reversal reversal = {.link = NULL}, later;
     bool met;
 

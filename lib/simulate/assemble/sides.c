@@ -68,7 +68,8 @@ static void bring_means(Sides *s, const double *w)
                                     0.11846344252809454, 0.11846344252809454};
 
     for (int k = 0; k < COUNT(place) * PIECES; k++) {
-        const double along = (place[k % COUNT(place)] + (double)(k / COUNT(place))) / PIECES;
+        const int piece = k / COUNT(place);
+        const double along = (place[k % COUNT(place)] + piece) / PIECES;
         RowValues row;
 
         for (int i = 0; i < s->l->nx; i++)

@@ -163,7 +163,7 @@ done:
 static Status run(March *m, const double *start, Diag *diag)
 {
     const MarchPlan *plan = m->plan;
-    bool due;
+    bool due = false;
     Status status = OK;
 
     memcpy(m->y, start, (size_t)m->length * sizeof(double));
