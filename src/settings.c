@@ -38,7 +38,7 @@ static ct_status set_word(const SettingRow *row, void *value, const char *text, 
     if (strlen(text) >= SETTING_WORD ||
         text[strspn(text, "abcdefghijklmnopqrstuvwxyz0123456789")] != '\0')
         return error_say(error, "%s takes a word, not '%s'", row->words[0], text);
-    strcpy(value, text);
+    memcpy(value, text, strlen(text) + 1);
     return CT_OK;
 }
 

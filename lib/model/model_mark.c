@@ -6,6 +6,7 @@
  * in which nothing is changed any more. */
 #include "model/model_impl.h"
 
+#include <assert.h>
 #include <string.h>
 
 StateMark state_mark(const State *state)
@@ -281,11 +282,12 @@ void state_replace(State **state, State *next)
     State *first = next;
     int more = 1;
 
+    assert(*state != NULL);
     for (; first->before != NULL; more++)
         first = first->before;
     mem_keep(*state);
     first->before = *state;
-    for (State *s = next; more > 0 && s != NULL; s = s->before)
+    for (State *s = next; more > 0; s = s->before)
         s->number = (*state)->number + more--;
     *state = next;
 }

@@ -52,8 +52,8 @@ static void set_joint(const Scene *s, int number, const double *c, const Pose *b
 static Verdict all_set_member(Member *m)
 {
     static Scene s, out;
-    double c[BODIES][MOST_COORDINATES], off;
-    Pose now[BODIES], bodies[BODIES];
+    double c[BODIES][MOST_COORDINATES] = {0}, off;
+    Pose now[BODIES] = {0}, bodies[BODIES] = {0};
     Kit kit = kit_new();
 
     make_scene(m, &s, TREES);
@@ -126,7 +126,7 @@ static void go_on(const Scene *s, const Speeds *speeds, double moment, Pose *bod
                                 size > 0 ? W[2] / size : 0};
         const int other = j->head_body == i ? j->tail_body : j->head_body;
         const Pose base = other < 0 ? here : bodies[other];
-        double c[MOST_COORDINATES];
+        double c[MOST_COORDINATES] = {0};
         Pose way;
 
         for (int k = 0; k < j->count; k++)
@@ -142,7 +142,7 @@ static void go_on(const Scene *s, const Speeds *speeds, double moment, Pose *bod
 static void differentiate(const Pose *low, const Pose *high, double moment, double out[6])
 {
     const double back[4] = {low->q[0], -low->q[1], -low->q[2], -low->q[3]};
-    double turn[4];
+    double turn[4] = {0};
 
     multiply(high->q, back, turn);
     for (int k = 0; k < 3; k++) {
@@ -205,8 +205,8 @@ static Verdict resting_member(Member *m)
 {
     static Scene s;
     Speeds speeds[JOINTS] = {0};
-    double are[BODIES][6], belong[BODIES][6];
-    Pose low[BODIES], high[BODIES];
+    double are[BODIES][6] = {0}, belong[BODIES][6] = {0};
+    Pose low[BODIES] = {0}, high[BODIES] = {0};
 
     make_scene(m, &s, TREES);
     for (int i = 0; i < s.bodies; i++)
@@ -228,7 +228,7 @@ static Verdict following_member(Member *m)
 {
     static Scene s;
     Speeds speeds[JOINTS] = {0};
-    double first[BODIES][6], are[BODIES][6];
+    double first[BODIES][6] = {0}, are[BODIES][6] = {0};
     bool sound;
     int told;
 
@@ -270,7 +270,7 @@ static bool is_driven_right(Member *m, const Scene *s, int choice, const char *d
 {
     static const char *const runs[] = {"kinematics", "inverse"};
     static Scene out;
-    Pose belong[BODIES], bodies[BODIES];
+    Pose belong[BODIES] = {0}, bodies[BODIES] = {0};
     Kit kit = kit_new();
     double off = 0;
 

@@ -81,7 +81,7 @@ static void fixed_steps(const Problem *p, double steps, double out[PLACES][STATE
  * extrapolated */
 static bool refer(const Problem *p, const double *error, double out[PLACES][STATES])
 {
-    double coarse[PLACES][STATES];
+    double coarse[PLACES][STATES] = {0};
     double steps = ceil(p->duration / PLACES / p->fastest);
 
     if (2 * steps * PLACES > MOST)
@@ -123,13 +123,14 @@ static double run_off(Member *m, Kit *kit, const Problem *p, double rtol,
 
     for (int place = 0; place < PLACES; place++) {
         const double t = place + 1 < PLACES ? p->duration / PLACES * (place + 1) : p->duration;
-        double room[STATES];
+        double room[STATES] = {0};
 
         find_room(p, unit, place, right[place], room);
         for (int i = 0; i < p->n; i++) {
             char expression[100];
             double got, missed;
 
+            /* as many as p->n: NOLINTNEXTLINE(clang-analyzer-core.CallAndMessage) */
             (void)snprintf(expression, sizeof expression, "%s at %.17g", variables[i], t);
             got = kit_value(kit, expression);
             missed = fabs(got - right[place][i]) / (rtol * room[i]);
@@ -148,7 +149,7 @@ static Verdict compare(Member *m, const Problem *p, Script *text, double rtol,
 {
     const char *const method = methods[one_of(m, (int)(sizeof methods / sizeof methods[0]))];
     const bool is_fixed = strcmp(method, "rk4") == 0;
-    double right[PLACES][STATES], error[STATES], off;
+    double right[PLACES][STATES] = {0}, error[STATES] = {0}, off;
     Kit kit;
 
     for (int i = 0; i < p->n; i++)
@@ -320,7 +321,7 @@ static double columns(const Multiplier *s, const double *x, double v, double *in
 static double multiplier_node(const void *of, double t, const double *x, double v, double *slope)
 {
     const Multiplier *s = of;
-    double into[STATES], out[STATES];
+    double into[STATES] = {0}, out[STATES] = {0};
     const double i = columns(s, x, v, into, out, slope);
 
     *slope += 1 / s->Rs;
@@ -337,6 +338,7 @@ static void multiplier_rates(const void *of, double t, const double *x, double *
     for (int k = 0; k < s->stages; k++)
         load += x[s->stages + k] / s->RL;
     for (int k = s->stages - 1; k >= 0; k--) { /* from the top: all above goes through */
+        /* stages are fewer: NOLINTNEXTLINE(clang-analyzer-core.UndefinedBinaryOperatorResult) */
         a += out[k] - into[k];
         b += out[k];
         rate[k] = a / s->C;
@@ -353,7 +355,7 @@ static Verdict multipliers(Member *m)
     const double f = decades(m, 10, 1e5), rtol = pow(10, -between(m, 3, 9));
     Multiplier s = {.source = {.shape = (Shape)one_of(m, 2), .peak = decades(m, 3, 200), .f = f}};
     Problem p = {.rates = multiplier_rates, .of = &s};
-    double unit[STATES];
+    double unit[STATES] = {0};
     Script text = {0};
 
     s.stages = 2 + one_of(m, 2);
@@ -465,7 +467,7 @@ static Verdict elements(Member *m)
     const double rtol = pow(10, -between(m, 3, 10));
     Charger s = {.law = (Law)one_of(m, LAWS), .exponent = 3 + 2 * one_of(m, 8)};
     Problem p = {.n = 1, .rates = charger_rates, .of = &s};
-    double fast, unit[1];
+    double fast, unit[1] = {0};
     Script text = {0};
 
     p.duration = decades(m, 1e-4, 100);
@@ -512,6 +514,7 @@ static double push(const Cart *c, double s)
     }
 }
 
+/* the type is that of all rates: NOLINTNEXTLINE(readability-non-const-parameter) */
 static void cart_rates(const void *of, double t, const double *x, double *guess, double *rate)
 {
     const Cart *c = of;
@@ -539,7 +542,7 @@ static Verdict carts(Member *m)
     const double rtol = pow(10, -between(m, 3, 8)), speed = decades(m, 0.1, 10);
     Cart c = {.wall = (Wall)one_of(m, WALLS), .mass = decades(m, 0.1, 10)};
     Problem p = {.n = 2, .rates = cart_rates, .of = &c, .start = {between(m, 0.2, 0.8), speed}};
-    double contact, unit[2];
+    double contact, unit[2] = {0};
     Script text = {0};
 
     p.duration = between(m, 0.5, 4) / speed;
@@ -584,6 +587,7 @@ typedef struct Tow {
 } Tow;
 
 /* the second cart, by where it is from the first */
+/* the type is that of all rates: NOLINTNEXTLINE(readability-non-const-parameter) */
 static void tow_rates(const void *of, double t, const double *x, double *guess, double *rate)
 {
     const Tow *c = of;
@@ -601,7 +605,7 @@ static Verdict tows(Member *m)
     const double rtol = pow(10, -between(m, 3, 9));
     Tow c = {.mass = decades(m, 0.1, 10)};
     Problem p = {.n = 2, .rates = tow_rates, .of = &c};
-    double unit[2], w;
+    double unit[2] = {0}, w;
     Script text = {0};
 
     p.duration = decades(m, 0.1, 1e3);

@@ -61,6 +61,17 @@ static inline void write_arm(Scene *s, const char *name, const char *from, const
           atan2(2 * (q[0] * q[1] + q[2] * q[3]), 1 - 2 * (q[1] * q[1] + q[2] * q[2])));
 }
 
+static inline bool is_here(const Pose *pose)
+{
+    bool same = true;
+
+    for (int i = 0; i < 3; i++)
+        same = same && pose->r[i] == here.r[i];
+    for (int i = 0; i < 4; i++)
+        same = same && pose->q[i] == here.q[i];
+    return same;
+}
+
 /* the name of a joint's frame, an arm's or that of the body itself */
 static inline void write_frame(Scene *s, int number, bool tail, char out[16])
 {
@@ -70,7 +81,7 @@ static inline void write_frame(Scene *s, int number, bool tail, char out[16])
     char name[16];
 
     snprintf(name, sizeof name, body < 0 ? "ground" : "b%d", body);
-    if (memcmp(frame, &here, sizeof here) == 0) {
+    if (is_here(frame)) {
         strcpy(out, name);
         return;
     }

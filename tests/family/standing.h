@@ -52,7 +52,7 @@ static inline double off_consistent(Member *m, Kit *kit, const Scene *s, const P
 
     for (int i = 0; i < s->all; i++) {
         const Joint *j = &s->joint[i];
-        double c[MOST_COORDINATES], wrong;
+        double c[MOST_COORDINATES] = {0}, wrong;
         Pose stands, says;
         bool silent;
 

@@ -107,6 +107,7 @@ static Stepper *create(const Method *method, const Ode *ode, const Control *cont
         transaction_fail();
     c->y = MEM_GIVEN(N_VNew_Serial(all, c->context));
     c->out = MEM_GIVEN(N_VNew_Serial(all, c->context));
+    /* kept and freed by give_back(): NOLINTNEXTLINE(clang-analyzer-osx.cocoa.RetainCount) */
     c->memory = MEM_GIVEN(CVodeCreate(method->is_stiff ? CV_BDF : CV_ADAMS, c->context));
     return &c->base;
 }

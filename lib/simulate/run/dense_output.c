@@ -332,8 +332,8 @@ done:
 Status result_values_at(Result *r, const Expr *items, int count, double at, double *out, Diag *diag)
 {
     mem_keep(r);
-    Phase *phase;
-    const double *y, *driven;
+    Phase *phase = NULL;
+    const double *y = NULL, *driven = NULL;
     Probe *probe = NULL;
     Status status = OK;
 
