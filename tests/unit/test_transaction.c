@@ -3,7 +3,7 @@
 #include "base/names.h"
 #include "base/text.h"
 #include "expr/expr.h"
-#include "tests/unit/test.h"
+#include "test.h"
 
 #include <stdint.h>
 #include <string.h>
