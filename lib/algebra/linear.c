@@ -16,12 +16,14 @@ struct Lu {
 
 Lu *lu_new(int n)
 {
+    const bool was_scratch = mem_scratch(true); /* numbers that each factorisation finds anew */
     Lu *lu = NEW(Lu);
 
     lu->n = n;
     lu->a = NEW_ARRAY(double, n *n);
     lu->exchanged = NEW_ARRAY(int, n);
     lu->filled = NEW_ARRAY(int, n);
+    (void)mem_scratch(was_scratch);
     return lu;
 }
 

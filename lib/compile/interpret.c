@@ -14,6 +14,7 @@ struct Workspace {
 
 Workspace *workspace_new(const Program *program)
 {
+    const bool was_scratch = mem_scratch(true); /* numbers that each evaluation finds anew */
     Workspace *workspace = NEW(Workspace);
 
     workspace->program = program;
@@ -21,6 +22,7 @@ Workspace *workspace_new(const Program *program)
     workspace->roots = NEW_ARRAY(double, program->root_count);
     for (int i = 0; i < program->constants.count; i++)
         workspace->slots[program->input_count + i] = program->constants.at[i];
+    (void)mem_scratch(was_scratch);
     return workspace;
 }
 

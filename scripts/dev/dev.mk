@@ -24,7 +24,7 @@ san/Makefile:
 # tables, lists and chunks of memory that begin with one element; and each call tried with
 # allocations that fail (lib/base/faults.c). Without the programs of random members: make stress
 # has those.
-unit_and_session = $(UNIT_TESTS) run-session $(SCRIPT_TESTS) $(terminal_tests)
+unit_and_session = $(filter-out test_costs,$(UNIT_TESTS)) run-session $(SCRIPT_TESTS) $(terminal_tests)
 
 check-small: small/Makefile
 	@$(MAKE) -s -C small check-total TESTS="$(unit_and_session)"

@@ -482,7 +482,7 @@ static void put_inputs(const Steep *s, Roots *roots)
     LIST_FREE(arguments);
 }
 
-static bool compile(Steep *s)
+static void compile(Steep *s)
 {
     const Layout *l = s->l;
     const Reading *r = system_run(l->system);
@@ -516,12 +516,17 @@ static bool compile(Steep *s)
     mem_free(row);
     mem_free(column);
     LIST_FREE(roots);
-    return !s->has_failed;
 }
 
 static bool is_ready(Steep *s)
 {
-    return s->probe != NULL || (!s->has_failed && compile(s));
+    if (s->probe == NULL && !s->has_failed) {
+        const bool before = mem_scratch(true); /* numbers that each look finds anew */
+
+        compile(s);
+        (void)mem_scratch(before);
+    }
+    return !s->has_failed;
 }
 
 /* --- about a point --- */
