@@ -15,6 +15,8 @@ libcore_la_SOURCES += \
   lib/algebra/linear.h \
   lib/algebra/matrix3.c \
   lib/algebra/matrix3.h \
+  lib/algebra/pattern.c \
+  lib/algebra/pattern.h \
   lib/algebra/rank.c \
   lib/algebra/rank.h \
   lib/algebra/schur.c \

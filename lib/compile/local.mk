@@ -5,5 +5,6 @@ libcore_la_SOURCES += \
 	lib/compile/opcodes.def \
 	lib/compile/program.c lib/compile/program.h \
 	lib/compile/program_impl.h \
+	lib/compile/residual.c lib/compile/residual.h \
 	lib/compile/schedule.c \
 	lib/compile/stage.c

@@ -2,3 +2,6 @@
 UNIT_TESTS += test_program
 test_program_SOURCES = tests/unit/test_program.c tests/unit/test.h
 test_program_LDADD = $(unit_ldadd)
+UNIT_TESTS += test_residual
+test_residual_SOURCES = tests/unit/test_residual.c tests/unit/test.h
+test_residual_LDADD = $(unit_ldadd)

@@ -1,5 +1,5 @@
 /* input_layout.c: the order of inputs of all programs over one system */
-#include "simulate/equations/numbers.h"
+#include "simulate/equations/input_layout.h"
 
 #include "base/memory.h"
 

@@ -4,6 +4,7 @@ libcore_la_SOURCES += \
   lib/simulate/equations/partitioning.c \
   lib/simulate/equations/partitioning.h \
   lib/simulate/equations/input_layout.c \
+  lib/simulate/equations/input_layout.h \
   lib/simulate/equations/mode_forms.c \
   lib/simulate/equations/mode_forms.h \
   lib/simulate/equations/motion.c \
@@ -20,6 +21,9 @@ libcore_la_SOURCES += \
   lib/simulate/equations/numbers.c \
   lib/simulate/equations/numbers.h \
   lib/simulate/equations/parameters.c \
+  lib/simulate/equations/parameters.h \
+  lib/simulate/equations/probe.c \
+  lib/simulate/equations/probe.h \
   lib/simulate/equations/redundant.c \
   lib/simulate/equations/redundant.h \
   lib/simulate/equations/rows.c \

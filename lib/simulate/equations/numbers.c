@@ -1,4 +1,4 @@
-/* numbers.c: programs over a system's variables */
+/* numbers.c: the reading to run, compiled in stages */
 #include "simulate/equations/numbers.h"
 
 #include "base/memory.h"
@@ -6,233 +6,18 @@
 #include <math.h>
 #include <string.h>
 
-/* --- machines --- */
-
-/* an input of a program that is a side of a switch */
-typedef struct SideInput {
-    int input, side;
-} SideInput;
-
-/* the parameters that roots hold, from now on as they are */
-static void keep_parameters(const Layout *l, Parameters *p, const Expr *roots, int count)
-{
-    Expr *symbols;
-    int found = expr_symbols(roots, count, &symbols);
-
-    for (int i = 0; i < found; i++)
-        if (expr_symbol_kind(symbols[i]) == SYMBOL_PARAMETER && layout_side_of(l, symbols[i]) < 0)
-            (void)parameters_value(p, symbols[i]);
-    mem_free(symbols);
-}
-
-/* A program over the layout and whatever parameters its roots hold, and its workspace. */
-typedef struct Machine {
-    const Layout *layout;
-    Program *program;
-    Workspace *workspace;
-    Expr *own; /* these parameters, in the order of inputs behind the layout's, ended by NULL */
-    LIST(SideInput) sides; /* those of them that are sides of switches, */
-    uint64_t seen;         /* as they were then */
-} Machine;
-
-static void machine_close(Machine *machine)
-{
-    workspace_free(machine->workspace);
-    program_free(machine->program);
-    mem_free(machine->own);
-    LIST_FREE(machine->sides);
-}
-
-/* Its inputs. Where switches have gone over since the last call, with what follows from that. */
-static double *machine_inputs(Machine *machine)
-{
-    double *inputs = workspace_inputs(machine->workspace);
-
-    if (machine->seen == machine->layout->sides)
-        return inputs;
-    machine->seen = machine->layout->sides;
-    for (int i = 0; i < machine->sides.count; i++)
-        inputs[machine->sides.at[i].input] = machine->layout->closed[machine->sides.at[i].side];
-    if (machine->sides.count > 0)
-        workspace_run(machine->workspace, STAGE_PARAMETER, STAGE_PARAMETER);
-    return inputs;
-}
-
-/* Its workspace has the parameters set, and what depends on them alone computed. */
-static Status compile(const Layout *layout, Parameters *parameters, const Expr *roots, int count,
-                      Machine *out, Diag *diag)
-{
-    Expr *symbols;
-    int found = expr_symbols(roots, count, &symbols);
-    Expr *inputs = NEW_ARRAY(Expr, layout->count + found + 1);
-    int input_count = layout->count;
-    Status status;
-
-    out->layout = layout;
-    memcpy(inputs, layout->symbols, (size_t)layout->count * sizeof(Expr));
-    for (int i = 0; i < found; i++)
-        if (expr_symbol_kind(symbols[i]) == SYMBOL_PARAMETER)
-            inputs[input_count++] = symbols[i];
-    status = program_new(roots, count, inputs, input_count, &out->program, diag);
-    if (status == OK) {
-        out->workspace = workspace_new(out->program);
-        for (int i = layout->count; i < input_count; i++) {
-            int side = layout_side_of(layout, inputs[i]);
-
-            if (side >= 0)
-                LIST_PUSH(out->sides, (SideInput){i, side});
-            else
-                workspace_inputs(out->workspace)[i] = parameters_value(parameters, inputs[i]);
-        }
-        out->own = NEW_ARRAY(Expr, input_count - layout->count + 1);
-        memcpy(out->own, inputs + layout->count,
-               (size_t)(input_count - layout->count) * sizeof(Expr));
-        out->seen = layout->sides + 1; /* none: */
-        (void)machine_inputs(out);
-        if (out->sides.count == 0)
-            workspace_run(out->workspace, STAGE_PARAMETER, STAGE_PARAMETER);
-    }
-    mem_free(symbols);
-    mem_free(inputs);
-    return status;
-}
-
-/* --- probes --- */
-
-struct Probe {
-    const Layout *layout;
-    Machine machine;
-};
-
-Status probe_new(const Layout *layout, Parameters *parameters, const Expr *roots, int count,
-                 Probe **out, Diag *diag)
-{
-    Probe *probe = NEW(Probe);
-    Expr *put = NEW_ARRAY(Expr, count);
-    Status status;
-
-    for (int i = 0; i < count; i++)
-        put[i] = layout_on_surfaces(layout, roots[i]);
-    probe->layout = layout;
-    status = compile(layout, parameters, put, count, &probe->machine, diag);
-    mem_free(put);
-    if (status == OK)
-        *out = probe;
-    else
-        probe_free(probe);
-    return status;
-}
-
-void probe_free(Probe *probe)
-{
-    if (probe == NULL)
-        return;
-    machine_close(&probe->machine);
-    mem_free(probe);
-}
-
-/* another value of one of a machine's parameters; false: it holds none such */
-static bool machine_set(const Machine *machine, Expr parameter, double value)
-{
-    int i = 0;
-
-    while (machine->own != NULL && machine->own[i] != NULL && machine->own[i] != parameter)
-        i++;
-    if (machine->own == NULL || machine->own[i] == NULL)
-        return false;
-    workspace_inputs(machine->workspace)[machine->layout->count + i] = value;
-    workspace_run(machine->workspace, STAGE_PARAMETER, STAGE_PARAMETER);
-    return true;
-}
-
-bool probe_turn(Probe *probe, Expr parameter, double value)
-{
-    return machine_set(&probe->machine, parameter, value);
-}
-
-double *probe_input(Probe *probe, int place)
-{
-    return workspace_inputs(probe->machine.workspace) + place;
-}
-
-static void put(double *inputs, int first, const double *values, int count)
-{
-    if (values != NULL)
-        memcpy(inputs + first, values, (size_t)count * sizeof(double));
-    else
-        memset(inputs + first, 0, (size_t)count * sizeof(double));
-}
-
-RowValues row_of_state(const Layout *l, double t, const double *y)
-{
-    return (RowValues){
-        .t = t, .q = y, .u = y + l->n, .x = y + l->n + l->nu, .near = y + layout_turned(l)};
-}
-
-bool row_solve(const Layout *l, Motion *motion, double t, const double *y, RowValues *out)
-{
-    Solved solved;
-
-    *out = row_of_state(l, t, y);
-    if (!motion_solve(motion, t, y, &solved))
-        return false;
-    out->rates = solved.rates;
-    out->z = solved.algebraic;
-    out->acceleration = solved.acceleration;
-    out->multipliers = solved.multipliers;
-    out->signs = solved.signs;
-    return true;
-}
-
-static void put_row(const Layout *l, const RowValues *row, double *inputs)
-{
-    inputs[l->t] = row->t;
-    put(inputs, l->near, row->near, l->turned);
-    put(inputs, l->q, row->q, l->n);
-    put(inputs, l->u, row->u, l->nu);
-    put(inputs, l->x, row->x, l->nx);
-    put(inputs, l->signs, row->signs, l->slides);
-    put(inputs, l->rates, row->rates, l->nx);
-    put(inputs, l->z, row->z, l->nz);
-    put(inputs, l->acceleration, row->acceleration, l->nu);
-    put(inputs, l->multipliers, row->multipliers, l->m);
-    put(inputs, l->efforts, row->efforts, l->ne);
-    put(inputs, l->jerk, row->jerk, l->nu);
-}
-
-const double *probe_values(Probe *probe, const RowValues *row)
-{
-    put_row(probe->layout, row, machine_inputs(&probe->machine));
-    workspace_run(probe->machine.workspace, STAGE_TIME, STAGE_ACCELERATION);
-    return workspace_roots(probe->machine.workspace);
-}
-
-void probe_errors(const Probe *probe, const RowValues *errors, double *out)
-{
-    const Layout *l = probe->machine.layout;
-    const Workspace *workspace = probe->machine.workspace;
-    const int count = program_input_count(probe->machine.program);
-    double *inputs = NEW_ARRAY(double, count);
-
-    put_row(l, errors, inputs);
-    for (int i = l->count; i < count; i++)
-        inputs[i] = number_error(workspace_inputs(probe->machine.workspace)[i]);
-    workspace_errors(workspace, inputs, out);
-    mem_free(inputs);
-}
-
 /* --- equations --- */
 
 struct Numbers {
     Equations eq;
     const Layout *layout;
-    Machine main, switching, network;
+    Probe *main, *switching, *network;
     Probe *slip;   /* of surfaces that are slid along: h', or what of it they reach, and h */
     Guard *guards; /* of the conditions, */
     Expr *told;    /* which are these for a user; NULL: margins */
     int *quaternions, *network_places;
     LIST(int) margins;   /* whose they are, of the switches */
-    bool is_network_new; /* network_workspace has seen t, q, u, x as they are */
+    bool is_network_new; /* its program has seen t, q, u, x as they are */
     double *cap;
 };
 
@@ -240,27 +25,27 @@ static void turned(void *context, const double *references)
 {
     Numbers *nb = context;
 
-    put(machine_inputs(&nb->main), nb->layout->near, references, nb->layout->turned);
+    inputs_put(probe_inputs(nb->main), nb->layout->near, references, nb->layout->turned);
 }
 
 static void position(void *context, double t, const double *q)
 {
     Numbers *nb = context;
-    double *inputs = machine_inputs(&nb->main);
+    double *inputs = probe_inputs(nb->main);
 
     inputs[nb->layout->t] = t;
-    put(inputs, nb->layout->q, q, nb->layout->n);
-    workspace_run(nb->main.workspace, STAGE_TIME, STAGE_POSITION);
+    inputs_put(inputs, nb->layout->q, q, nb->layout->n);
+    probe_run(nb->main, STAGE_TIME, STAGE_POSITION);
 }
 
 static void velocity(void *context, const double *u, const double *x)
 {
     Numbers *nb = context;
-    double *inputs = machine_inputs(&nb->main);
+    double *inputs = probe_inputs(nb->main);
 
-    put(inputs, nb->layout->u, u, nb->layout->nu);
-    put(inputs, nb->layout->x, x, nb->layout->nx);
-    workspace_run(nb->main.workspace, STAGE_VELOCITY, STAGE_VELOCITY);
+    inputs_put(inputs, nb->layout->u, u, nb->layout->nu);
+    inputs_put(inputs, nb->layout->x, x, nb->layout->nx);
+    probe_run(nb->main, STAGE_VELOCITY, STAGE_VELOCITY);
     nb->is_network_new = true;
 }
 
@@ -268,7 +53,7 @@ static void slide(void *context, const double *signs)
 {
     Numbers *nb = context;
 
-    put(machine_inputs(&nb->main), nb->layout->signs, signs, nb->layout->slides);
+    inputs_put(probe_inputs(nb->main), nb->layout->signs, signs, nb->layout->slides);
 }
 
 static void slip(void *context, double t, const double *y, const Solved *solved, double *slip,
@@ -291,7 +76,7 @@ static void slip(void *context, double t, const double *y, const Solved *solved,
 
 static void copy_inputs(Numbers *nb, int first, int count)
 {
-    memcpy(machine_inputs(&nb->network) + first, machine_inputs(&nb->main) + first,
+    memcpy(probe_inputs(nb->network) + first, probe_inputs(nb->main) + first,
            (size_t)count * sizeof(double));
 }
 
@@ -299,65 +84,64 @@ static void network_at(void *context, const double *w)
 {
     Numbers *nb = context;
     const Layout *l = nb->layout;
-    double *inputs = machine_inputs(&nb->network);
+    double *inputs = probe_inputs(nb->network);
 
-    put(inputs, l->rates, w, l->nx);
-    put(inputs, l->z, w + l->nx, l->nz);
+    inputs_put(inputs, l->rates, w, l->nx);
+    inputs_put(inputs, l->z, w + l->nx, l->nz);
     if (nb->is_network_new)
         copy_inputs(nb, l->t, l->rates - l->t);
-    workspace_run(nb->network.workspace, nb->is_network_new ? STAGE_TIME : STAGE_NETWORK,
-                  STAGE_ACCELERATION);
+    probe_run(nb->network, nb->is_network_new ? STAGE_TIME : STAGE_NETWORK, STAGE_ACCELERATION);
     nb->is_network_new = false;
 }
 
 static void network_reads(void *context, const double *acceleration, const double *multipliers)
 {
     Numbers *nb = context;
-    double *inputs = machine_inputs(&nb->network);
+    double *inputs = probe_inputs(nb->network);
 
-    put(inputs, nb->layout->acceleration, acceleration, nb->layout->nu);
-    put(inputs, nb->layout->multipliers, multipliers, nb->layout->m);
+    inputs_put(inputs, nb->layout->acceleration, acceleration, nb->layout->nu);
+    inputs_put(inputs, nb->layout->multipliers, multipliers, nb->layout->m);
 }
 
 static void network_solved(void *context, const double *solved)
 {
     Numbers *nb = context;
-    double *inputs = machine_inputs(&nb->main);
+    double *inputs = probe_inputs(nb->main);
 
-    put(inputs, nb->layout->rates, solved, nb->layout->nx);
-    put(inputs, nb->layout->z, solved + nb->layout->nx, nb->layout->nz);
-    workspace_run(nb->main.workspace, STAGE_NETWORK, STAGE_NETWORK);
+    inputs_put(inputs, nb->layout->rates, solved, nb->layout->nx);
+    inputs_put(inputs, nb->layout->z, solved + nb->layout->nx, nb->layout->nz);
+    probe_run(nb->main, STAGE_NETWORK, STAGE_NETWORK);
 }
 
 static void accelerated(void *context, const double *acceleration, const double *multipliers)
 {
     Numbers *nb = context;
-    double *inputs = machine_inputs(&nb->main);
+    double *inputs = probe_inputs(nb->main);
 
-    put(inputs, nb->layout->acceleration, acceleration, nb->layout->nu);
-    put(inputs, nb->layout->multipliers, multipliers, nb->layout->m);
-    workspace_run(nb->main.workspace, STAGE_ACCELERATION, STAGE_ACCELERATION);
+    inputs_put(inputs, nb->layout->acceleration, acceleration, nb->layout->nu);
+    inputs_put(inputs, nb->layout->multipliers, multipliers, nb->layout->m);
+    probe_run(nb->main, STAGE_ACCELERATION, STAGE_ACCELERATION);
 }
 
 static void switches(void *context, double t, const double *q, const double *u, const double *x,
                      double *out)
 {
     Numbers *nb = context;
-    double *inputs = machine_inputs(&nb->switching);
+    double *inputs = probe_inputs(nb->switching);
 
     inputs[nb->layout->t] = t;
-    put(inputs, nb->layout->near, machine_inputs(&nb->main) + nb->layout->near, nb->layout->turned);
-    put(inputs, nb->layout->q, q, nb->layout->n);
-    put(inputs, nb->layout->u, u, nb->layout->nu);
-    put(inputs, nb->layout->x, x, nb->layout->nx);
-    put(inputs, nb->layout->signs, machine_inputs(&nb->main) + nb->layout->signs,
-        nb->layout->slides);
+    inputs_put(inputs, nb->layout->near, probe_inputs(nb->main) + nb->layout->near,
+               nb->layout->turned);
+    inputs_put(inputs, nb->layout->q, q, nb->layout->n);
+    inputs_put(inputs, nb->layout->u, u, nb->layout->nu);
+    inputs_put(inputs, nb->layout->x, x, nb->layout->nx);
+    inputs_put(inputs, nb->layout->signs, probe_inputs(nb->main) + nb->layout->signs,
+               nb->layout->slides);
     if (nb->eq.switches_read_network)
-        memcpy(inputs + nb->layout->rates, machine_inputs(&nb->main) + nb->layout->rates,
+        memcpy(inputs + nb->layout->rates, probe_inputs(nb->main) + nb->layout->rates,
                (size_t)(nb->layout->nx + nb->layout->nz) * sizeof(double));
-    workspace_run(nb->switching.workspace, STAGE_TIME, STAGE_NETWORK);
-    memcpy(out, workspace_roots(nb->switching.workspace),
-           (size_t)nb->eq.switch_count * sizeof(double));
+    probe_run(nb->switching, STAGE_TIME, STAGE_NETWORK);
+    memcpy(out, probe_roots(nb->switching), (size_t)nb->eq.switch_count * sizeof(double));
 }
 
 static bool margin_is_steep(void *context, int k)
@@ -369,6 +153,15 @@ static bool margin_is_steep(void *context, int k)
 }
 
 typedef LIST(Expr) Roots;
+
+/* of roots that are on their surfaces as far as they have to be */
+static Status compile(const Layout *layout, Parameters *parameters, const Roots *roots, Probe **out,
+                      Diag *diag)
+{
+    const ProbeOrder order = {.roots = roots->at, .root_count = roots->count, .is_put = true};
+
+    return probe_make(layout, parameters, &order, out, diag);
+}
 
 /* angles that count turns, then their rates */
 static Status push_turned(Roots *roots, System *system, Diag *diag)
@@ -463,10 +256,9 @@ static Status compile_network(Numbers *nb, Parameters *parameters, Diag *diag)
     int residual = block_on(l, &roots, r->network_residual, l->nx + l->nz);
     Status status = OK;
 
-    keep_parameters(l, parameters, roots.at, roots.count);
-    CHECK(compile(l, parameters, roots.at, roots.count, &nb->network, diag));
-    nb->eq.network = workspace_roots(nb->network.workspace) + network;
-    nb->eq.network_residual = workspace_roots(nb->network.workspace) + residual;
+    CHECK(compile(l, parameters, &roots, &nb->network, diag));
+    nb->eq.network = probe_roots(nb->network) + network;
+    nb->eq.network_residual = probe_roots(nb->network) + residual;
     nb->eq.network_at = network_at;
 done:
     LIST_FREE(roots);
@@ -501,9 +293,8 @@ static Status compile_equations(Numbers *nb, Parameters *parameters, Diag *diag)
     for (int i = 0; i < l->n && mapped; i++)
         for (int j = 0; j < l->nu; j++)
             LIST_PUSH(roots, system_n_entry(l->system, i, j));
-    keep_parameters(l, parameters, roots.at, roots.count);
-    CHECK(compile(l, parameters, roots.at, roots.count, &nb->main, diag));
-    at = workspace_roots(nb->main.workspace);
+    CHECK(compile(l, parameters, &roots, &nb->main, diag));
+    at = probe_roots(nb->main);
     nb->eq.phi = at + phi;
     nb->eq.phi_u = at + phi_u;
     nb->eq.mass = at + mass;
@@ -650,7 +441,7 @@ static Status compile_switches(Numbers *nb, Parameters *parameters, Diag *diag)
         c.roots.at != NULL && layout_follows_time(nb->layout, c.roots.at + nb->eq.time_only,
                                                   c.roots.count - nb->eq.time_only);
     if (c.roots.count > 0)
-        CHECK(compile(nb->layout, parameters, c.roots.at, c.roots.count, &nb->switching, diag));
+        CHECK(compile(nb->layout, parameters, &c.roots, &nb->switching, diag));
     nb->eq.guards = nb->guards = c.guards.at;
     c.guards.at = NULL;
     nb->told = c.told.at;
@@ -761,9 +552,9 @@ void numbers_free(Numbers *nb)
 {
     if (nb == NULL)
         return;
-    machine_close(&nb->main);
-    machine_close(&nb->network);
-    machine_close(&nb->switching);
+    probe_free(nb->main);
+    probe_free(nb->network);
+    probe_free(nb->switching);
     LIST_FREE(nb->margins);
     mem_free(nb->quaternions);
     mem_free(nb->network_places);
@@ -776,11 +567,11 @@ void numbers_free(Numbers *nb)
 
 void numbers_set(Numbers *nb, Expr parameter, double value)
 {
-    const Machine *const machines[] = {&nb->main, &nb->switching, &nb->network,
-                                       nb->slip != NULL ? &nb->slip->machine : &nb->main};
+    Probe *const probes[] = {nb->main, nb->switching, nb->network, nb->slip};
 
-    for (int i = 0; i < COUNT(machines); i++)
-        (void)machine_set(machines[i], parameter, value);
+    for (int i = 0; i < COUNT(probes); i++)
+        if (probes[i] != NULL)
+            (void)probe_turn(probes[i], parameter, value);
 }
 
 const Equations *numbers_equations(const Numbers *nb)

@@ -1,5 +1,5 @@
 /* parameters.c: values of parameters, as they were when a run asked for them */
-#include "simulate/equations/numbers.h"
+#include "simulate/equations/parameters.h"
 
 #include "base/memory.h"
 

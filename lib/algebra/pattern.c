@@ -1,0 +1,56 @@
+/* pattern.c: terms by columns, and in a column by rows: sorted by counting, twice */
+#include "algebra/pattern.h"
+
+#include "base/memory.h"
+
+/* terms as in `from` (NULL: as they come) by rising keys, those of one key as they were */
+static void sort(const int *key, int keys, const int *from, int count, int *to)
+{
+    int *next = NEW_ARRAY(int, keys + 1);
+
+    for (int k = 0; k < count; k++)
+        next[key[k] + 1]++;
+    for (int i = 0; i < keys; i++)
+        next[i + 1] += next[i];
+    for (int i = 0; i < count; i++) {
+        const int term = from != NULL ? from[i] : i;
+
+        to[next[key[term]]++] = term;
+    }
+    mem_free(next);
+}
+
+Pattern pattern_of(int rows, int columns, int count, const int *row, const int *column, int *place)
+{
+    Pattern out = {.rows = rows, .columns = columns};
+    int *by_row = NEW_ARRAY(int, count), *order = NEW_ARRAY(int, count);
+
+    out.start = NEW_ARRAY(int, columns + 1);
+    out.row = NEW_ARRAY(int, count);
+    out.column = NEW_ARRAY(int, count);
+    sort(row, rows, NULL, count, by_row);
+    sort(column, columns, by_row, count, order);
+    for (int i = 0; i < count; i++) {
+        const int term = order[i], last = out.count - 1;
+
+        if (last < 0 || out.row[last] != row[term] || out.column[last] != column[term]) {
+            out.row[out.count] = row[term];
+            out.column[out.count++] = column[term];
+            out.start[column[term] + 1]++;
+        }
+        place[term] = out.count - 1;
+    }
+    for (int c = 0; c < columns; c++)
+        out.start[c + 1] += out.start[c];
+    mem_free(by_row);
+    mem_free(order);
+    return out;
+}
+
+void pattern_free(Pattern *pattern)
+{
+    mem_free(pattern->start);
+    mem_free(pattern->row);
+    mem_free(pattern->column);
+    *pattern = (Pattern){0};
+}

@@ -1,0 +1,174 @@
+/* residual.c: derivatives of rows by the unknowns in them, and the program of all */
+#include "compile/residual.h"
+
+#include "base/memory.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+struct Residual {
+    Program *program;
+    int row_count, unknown_count;
+    int first_slope;
+    LIST(Slope) slopes;
+    Expr *parameters;
+    int parameter_count;
+};
+
+typedef LIST(Expr) Roots;
+
+/* by numbers of symbols: which unknown it is; -1: none */
+typedef struct Numbering {
+    int *unknown;
+    int count;
+} Numbering;
+
+static Numbering number_unknowns(const ResidualOrder *order)
+{
+    Numbering out = {.count = 0};
+
+    for (int i = 0; i < order->unknown_count; i++)
+        if (expr_symbol_number(order->unknowns[i]) >= out.count)
+            out.count = expr_symbol_number(order->unknowns[i]) + 1;
+    out.unknown = NEW_ARRAY(int, out.count);
+    for (int i = 0; i < out.count; i++)
+        out.unknown[i] = -1;
+    for (int i = 0; i < order->unknown_count; i++)
+        out.unknown[expr_symbol_number(order->unknowns[i])] = i;
+    return out;
+}
+
+static int compare(const void *a, const void *b)
+{
+    const int *one = a, *other = b;
+
+    return (*one > *other) - (*one < *other);
+}
+
+/* the unknowns in a row, rising; new */
+static int *unknowns_in(Expr row, const Numbering *numbering, int *count)
+{
+    Expr *symbols;
+    const int found = expr_symbols(&row, 1, &symbols);
+    int *out = NEW_ARRAY(int, found);
+
+    *count = 0;
+    for (int i = 0; i < found; i++) {
+        const int number = expr_symbol_number(symbols[i]);
+
+        if (number < numbering->count && numbering->unknown[number] >= 0)
+            out[(*count)++] = numbering->unknown[number];
+    }
+    if (*count > 1)
+        qsort(out, (size_t)*count, sizeof(int), compare);
+    mem_free(symbols);
+    return out;
+}
+
+static void differentiate(const ResidualOrder *order, Residual *r, Roots *roots)
+{
+    const Numbering numbering = number_unknowns(order);
+
+    for (int i = 0; i < order->row_count && order->unknown_count > 0; i++) {
+        int count;
+        int *in_row = unknowns_in(order->roots[i], &numbering, &count);
+
+        for (int k = 0; k < count; k++) {
+            Expr slope = expr_diff(order->arena, order->roots[i], order->unknowns[in_row[k]]);
+
+            if (expr_is_zero(slope))
+                continue;
+            LIST_PUSH(r->slopes, (Slope){i, in_row[k], expr_kinds(slope)});
+            LIST_PUSH(*roots, slope);
+        }
+        mem_free(in_row);
+    }
+    mem_free(numbering.unknown);
+}
+
+/* the order's inputs, then the parameters of the roots; new */
+static Expr *list_inputs(const ResidualOrder *order, Residual *r, const Roots *roots)
+{
+    Expr *symbols;
+    const int found = expr_symbols(roots->at, roots->count, &symbols);
+    Expr *inputs = NEW_ARRAY(Expr, order->input_count + found);
+
+    if (order->input_count > 0)
+        memcpy(inputs, order->inputs, (size_t)order->input_count * sizeof(Expr));
+    r->parameters = NEW_ARRAY(Expr, found);
+    for (int i = 0; i < found; i++)
+        if (expr_symbol_kind(symbols[i]) == SYMBOL_PARAMETER)
+            r->parameters[r->parameter_count++] = symbols[i];
+    if (r->parameter_count > 0)
+        memcpy(inputs + order->input_count, r->parameters,
+               (size_t)r->parameter_count * sizeof(Expr));
+    mem_free(symbols);
+    return inputs;
+}
+
+Status residual_new(const ResidualOrder *order, Residual **out, Diag *diag)
+{
+    Residual *r = NEW(Residual);
+    Roots roots = {0};
+    Expr *inputs = NULL;
+    Status status = OK;
+
+    r->row_count = order->row_count;
+    r->unknown_count = order->unknown_count;
+    r->first_slope = order->root_count;
+    for (int i = 0; i < order->root_count; i++)
+        LIST_PUSH(roots, order->roots[i]);
+    differentiate(order, r, &roots);
+    for (int i = 0; i < roots.count && order->put != NULL; i++)
+        roots.at[i] = order->put(order->context, roots.at[i]);
+    inputs = list_inputs(order, r, &roots);
+    CHECK(program_new(roots.at, roots.count, inputs, order->input_count + r->parameter_count,
+                      &r->program, diag));
+    *out = r;
+    r = NULL;
+done:
+    LIST_FREE(roots);
+    mem_free(inputs);
+    residual_free(r);
+    return status;
+}
+
+void residual_free(Residual *r)
+{
+    if (r == NULL)
+        return;
+    program_free(r->program);
+    LIST_FREE(r->slopes);
+    mem_free(r->parameters);
+    mem_free(r);
+}
+
+const Program *residual_program(const Residual *r)
+{
+    return r->program;
+}
+
+const Expr *residual_parameters(const Residual *r, int *count)
+{
+    *count = r->parameter_count;
+    return r->parameters;
+}
+
+const Slope *residual_slopes(const Residual *r, int *count)
+{
+    *count = r->slopes.count;
+    return r->slopes.at;
+}
+
+int residual_first_slope(const Residual *r)
+{
+    return r->first_slope;
+}
+
+void residual_jacobian(const Residual *r, const double *roots, double *out)
+{
+    memset(out, 0, (size_t)r->row_count * (size_t)r->unknown_count * sizeof(double));
+    for (int k = 0; k < r->slopes.count; k++)
+        out[r->slopes.at[k].row * r->unknown_count + r->slopes.at[k].unknown] =
+            roots[r->first_slope + k];
+}

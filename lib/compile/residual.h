@@ -1,0 +1,49 @@
+/* residual.h: rows of expressions over unknowns, with their derivatives, compiled
+ *
+ * Derivatives are formed in symbols, only those that aren't 0, and computed by one Program with the
+ * rows. A Residual is made once and const ever after; the numbers of one evaluation stand in a
+ * Workspace of its program, of which each thread has its own. */
+#ifndef COTREE_COMPILE_RESIDUAL_H
+#define COTREE_COMPILE_RESIDUAL_H
+
+#include "compile/program.h"
+
+typedef struct Residual Residual;
+
+/* a derivative that isn't 0: of a row by an unknown */
+typedef struct Slope {
+    int row, unknown;
+    unsigned kinds; /* of symbols in it, as of expr_kinds() */
+} Slope;
+
+/* All is borrowed during the call. */
+typedef struct ResidualOrder {
+    Arena *arena;      /* of all; derivatives are formed there */
+    const Expr *roots; /* what is to be computed */
+    int root_count;
+    int row_count;        /* so many of them, the first, are rows: they are differentiated */
+    const Expr *unknowns; /* by these symbols, each once */
+    int unknown_count;
+    const Expr *inputs; /* symbols that will be given numbers, but for parameters */
+    int input_count;
+    Expr (*put)(const void *context, Expr e); /* what is compiled for a root or slope; NULL: it */
+    const void *context;
+} ResidualOrder;
+
+/* New; residual_free(). Fails as program_new() does. O(nodes), and a derivative for each row and
+ * unknown in it. */
+MUST_USE Status residual_new(const ResidualOrder *order, Residual **out, Diag *diag);
+void residual_free(Residual *residual); /* NULL is fine */
+
+/* Its inputs are those of the order, then the parameters; its roots likewise, then the slopes. */
+const Program *residual_program(const Residual *residual);
+/* the parameters that its roots hold, in the order of their inputs; borrowed from the arena */
+const Expr *residual_parameters(const Residual *residual, int *count);
+/* Row by row, in a row by rising unknowns. Borrowed. */
+const Slope *residual_slopes(const Residual *residual, int *count);
+/* Where the slopes begin among the roots. */
+int residual_first_slope(const Residual *residual);
+/* The derivatives as a full matrix (rows x unknowns), from the values of all roots. */
+void residual_jacobian(const Residual *residual, const double *roots, double *out);
+
+#endif

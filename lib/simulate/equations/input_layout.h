@@ -1,0 +1,48 @@
+/* input_layout.h: the order of inputs of all programs over one system
+ *
+ * t, references of angles that count turns, q, u, x, signs on surfaces, x', z, u', lambda, efforts,
+ * u''; a program's parameters come behind these. Programs are on the layout's sides of its surfaces
+ * (formulate/surfaces.h). */
+#ifndef COTREE_SIMULATE_EQUATIONS_INPUT_LAYOUT_H
+#define COTREE_SIMULATE_EQUATIONS_INPUT_LAYOUT_H
+
+#include "formulate/surfaces.h"
+#include "formulate/system.h"
+
+typedef struct Layout {
+    System *system;
+    Expr *side;   /* one a switch: symbol of the side that it is on; NULL: that is no number here */
+    bool *closed; /* one a switch: that side */
+    int switches;
+    uint64_t sides; /* counts changes of them: what was computed with others is outdated */
+    int n, nu, m, nx, nz, ne, turned, slides;
+    int t, near, q, u, x, signs, rates, z, acceleration, multipliers, efforts, jerk; /* first */
+    int count;
+    Expr *symbols; /* count */
+    Surface *surfaces;
+    int surface_count; /* those that it slides along come first: `slides` of them */
+} Layout;
+
+/* y of a run is q, u, x, references, work */
+static inline int layout_turned(const Layout *l) /* place of the first reference in it */
+{
+    return l->n + l->nu + l->nx;
+}
+
+Layout *layout_new(System *system); /* new; free with layout_free(). Symbols of u'' are made. */
+/* The same on sides of some of the system's surfaces, by number: -1 or 1; 0: it slides along. */
+typedef struct OnSurface {
+    int surface, side;
+} OnSurface;
+Layout *layout_new_on(System *system, const OnSurface *on, int count);
+/* e on the sides of the layout's surfaces */
+Expr layout_on_surfaces(const Layout *layout, Expr e);
+/* A symbol that is a side of a switch in this layout: its number; -1: it is none */
+int layout_side_of(const Layout *layout, Expr symbol);
+void layout_free(Layout *layout);
+/* Sides of switches that are numbers, from now on in all programs over the layout; one a switch. */
+void layout_take_sides(Layout *layout, const bool *closed);
+/* whether any of the roots changes with t alone, while no state does */
+bool layout_follows_time(const Layout *layout, const Expr *roots, int count);
+
+#endif

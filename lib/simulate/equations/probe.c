@@ -1,0 +1,208 @@
+/* probe.c: a residual over a layout, its workspace, and how a row becomes its inputs */
+#include "simulate/equations/probe.h"
+
+#include "base/memory.h"
+
+#include <string.h>
+
+/* an input that is a side of a switch */
+typedef struct SideInput {
+    int input, side;
+} SideInput;
+
+struct Probe {
+    const Layout *layout;
+    Residual *residual;
+    Workspace *workspace;
+    LIST(SideInput) sides;
+    uint64_t seen; /* sides, as they were then */
+};
+
+static Expr put_on_surfaces(const void *layout, Expr e)
+{
+    return layout_on_surfaces(layout, e);
+}
+
+/* values of parameters, once for all; sides are told by the layout */
+static void put_parameters(Probe *probe, Parameters *parameters)
+{
+    int count;
+    const Expr *own = residual_parameters(probe->residual, &count);
+    double *inputs = workspace_inputs(probe->workspace) + probe->layout->count;
+
+    for (int i = 0; i < count; i++) {
+        const int side = layout_side_of(probe->layout, own[i]);
+
+        if (side >= 0)
+            LIST_PUSH(probe->sides, (SideInput){probe->layout->count + i, side});
+        else
+            inputs[i] = parameters_value(parameters, own[i]);
+    }
+    probe->seen = probe->layout->sides + 1; /* none: */
+    (void)probe_inputs(probe);
+    if (probe->sides.count == 0)
+        workspace_run(probe->workspace, STAGE_PARAMETER, STAGE_PARAMETER);
+}
+
+Status probe_make(const Layout *layout, Parameters *parameters, const ProbeOrder *order,
+                  Probe **out, Diag *diag)
+{
+    const ResidualOrder rows = {.arena = system_arena(layout->system),
+                                .roots = order->roots,
+                                .root_count = order->root_count,
+                                .row_count = order->row_count,
+                                .unknowns = order->unknowns,
+                                .unknown_count = order->unknown_count,
+                                .inputs = layout->symbols,
+                                .input_count = layout->count,
+                                .put = order->is_put ? NULL : put_on_surfaces,
+                                .context = layout};
+    Probe *probe = NEW(Probe);
+    Status status = OK;
+
+    probe->layout = layout;
+    CHECK(residual_new(&rows, &probe->residual, diag));
+    probe->workspace = workspace_new(residual_program(probe->residual));
+    put_parameters(probe, parameters);
+    *out = probe;
+    probe = NULL;
+done:
+    probe_free(probe);
+    return status;
+}
+
+Status probe_new(const Layout *layout, Parameters *parameters, const Expr *roots, int count,
+                 Probe **out, Diag *diag)
+{
+    const ProbeOrder order = {.roots = roots, .root_count = count};
+
+    return probe_make(layout, parameters, &order, out, diag);
+}
+
+void probe_free(Probe *probe)
+{
+    if (probe == NULL)
+        return;
+    workspace_free(probe->workspace);
+    residual_free(probe->residual);
+    LIST_FREE(probe->sides);
+    mem_free(probe);
+}
+
+const Residual *probe_residual(const Probe *probe)
+{
+    return probe->residual;
+}
+
+bool probe_turn(Probe *probe, Expr parameter, double value)
+{
+    int count;
+    const Expr *own = residual_parameters(probe->residual, &count);
+
+    for (int i = 0; i < count; i++)
+        if (own[i] == parameter) {
+            workspace_inputs(probe->workspace)[probe->layout->count + i] = value;
+            workspace_run(probe->workspace, STAGE_PARAMETER, STAGE_PARAMETER);
+            return true;
+        }
+    return false;
+}
+
+double *probe_input(Probe *probe, int place)
+{
+    return workspace_inputs(probe->workspace) + place;
+}
+
+/* --- stage by stage --- */
+
+double *probe_inputs(Probe *probe)
+{
+    double *inputs = workspace_inputs(probe->workspace);
+
+    if (probe->seen == probe->layout->sides)
+        return inputs;
+    /* switches have gone over since the last call: with what follows from that */
+    probe->seen = probe->layout->sides;
+    for (int i = 0; i < probe->sides.count; i++)
+        inputs[probe->sides.at[i].input] = probe->layout->closed[probe->sides.at[i].side];
+    if (probe->sides.count > 0)
+        workspace_run(probe->workspace, STAGE_PARAMETER, STAGE_PARAMETER);
+    return inputs;
+}
+
+void inputs_put(double *inputs, int first, const double *values, int count)
+{
+    if (values != NULL)
+        memcpy(inputs + first, values, (size_t)count * sizeof(double));
+    else
+        memset(inputs + first, 0, (size_t)count * sizeof(double));
+}
+
+void probe_run(Probe *probe, Stage from, Stage to)
+{
+    workspace_run(probe->workspace, from, to);
+}
+
+const double *probe_roots(const Probe *probe)
+{
+    return workspace_roots(probe->workspace);
+}
+
+/* --- rows --- */
+
+RowValues row_of_state(const Layout *l, double t, const double *y)
+{
+    return (RowValues){
+        .t = t, .q = y, .u = y + l->n, .x = y + l->n + l->nu, .near = y + layout_turned(l)};
+}
+
+bool row_solve(const Layout *l, Motion *motion, double t, const double *y, RowValues *out)
+{
+    Solved solved;
+
+    *out = row_of_state(l, t, y);
+    if (!motion_solve(motion, t, y, &solved))
+        return false;
+    out->rates = solved.rates;
+    out->z = solved.algebraic;
+    out->acceleration = solved.acceleration;
+    out->multipliers = solved.multipliers;
+    out->signs = solved.signs;
+    return true;
+}
+
+static void put_row(const Layout *l, const RowValues *row, double *inputs)
+{
+    inputs[l->t] = row->t;
+    inputs_put(inputs, l->near, row->near, l->turned);
+    inputs_put(inputs, l->q, row->q, l->n);
+    inputs_put(inputs, l->u, row->u, l->nu);
+    inputs_put(inputs, l->x, row->x, l->nx);
+    inputs_put(inputs, l->signs, row->signs, l->slides);
+    inputs_put(inputs, l->rates, row->rates, l->nx);
+    inputs_put(inputs, l->z, row->z, l->nz);
+    inputs_put(inputs, l->acceleration, row->acceleration, l->nu);
+    inputs_put(inputs, l->multipliers, row->multipliers, l->m);
+    inputs_put(inputs, l->efforts, row->efforts, l->ne);
+    inputs_put(inputs, l->jerk, row->jerk, l->nu);
+}
+
+const double *probe_values(Probe *probe, const RowValues *row)
+{
+    put_row(probe->layout, row, probe_inputs(probe));
+    workspace_run(probe->workspace, STAGE_TIME, STAGE_ACCELERATION);
+    return workspace_roots(probe->workspace);
+}
+
+void probe_errors(const Probe *probe, const RowValues *errors, double *out)
+{
+    const Layout *l = probe->layout;
+    const int count = program_input_count(residual_program(probe->residual));
+    double *inputs = NEW_ARRAY(double, count);
+
+    put_row(l, errors, inputs);
+    for (int i = l->count; i < count; i++)
+        inputs[i] = number_error(workspace_inputs(probe->workspace)[i]);
+    workspace_errors(probe->workspace, inputs, out);
+    mem_free(inputs);
+}

@@ -1,0 +1,66 @@
+/* probe.h: expressions over a layout in numbers: a Residual and a workspace of it
+ *
+ * What is computed is put on the layout's sides of its surfaces. A probe is used by one thread. */
+#ifndef COTREE_SIMULATE_EQUATIONS_PROBE_H
+#define COTREE_SIMULATE_EQUATIONS_PROBE_H
+
+#include "compile/residual.h"
+#include "simulate/equations/input_layout.h"
+#include "simulate/equations/motion.h"
+#include "simulate/equations/parameters.h"
+
+/* what a row knows; arrays may be NULL for 0 */
+typedef struct RowValues {
+    double t;
+    const double *near, *q, *u, *x, *signs, *rates, *z, *acceleration, *multipliers, *efforts,
+        *jerk;
+} RowValues;
+
+/* t, and what y holds */
+RowValues row_of_state(const Layout *layout, double t, const double *y);
+/* and what the motion solves for there, borrowed until the next call on it; false: it has no
+ * solution, and the row is without */
+bool row_solve(const Layout *layout, Motion *motion, double t, const double *y, RowValues *out);
+
+typedef struct Probe Probe;
+
+/* What is computed: roots, and the derivatives of the first of them (compile/residual.h). */
+typedef struct ProbeOrder {
+    const Expr *roots;
+    int root_count, row_count;
+    const Expr *unknowns; /* by these symbols */
+    int unknown_count;
+    bool is_put; /* the roots are on their surfaces already, or shall stay as they are */
+} ProbeOrder;
+
+/* Compile; the layout outlives the probe. Parameters have the values of `parameters`, and what
+ * depends on them alone is computed. Fails as residual_new() does. */
+MUST_USE Status probe_make(const Layout *layout, Parameters *parameters, const ProbeOrder *order,
+                           Probe **out, Diag *diag);
+/* the same of roots alone */
+MUST_USE Status probe_new(const Layout *layout, Parameters *parameters, const Expr *roots,
+                          int count, Probe **out, Diag *diag);
+void probe_free(Probe *probe); /* NULL is fine */
+const Residual *probe_residual(const Probe *probe);
+
+/* Another value of a parameter, for this probe alone. False: no root holds it. */
+bool probe_turn(Probe *probe, Expr parameter, double value);
+/* The number of a symbol that somebody has put behind those of the layout, `place` among its
+ * symbols: write here. */
+double *probe_input(Probe *probe, int place);
+
+/* the values of the roots, then of the slopes; borrowed, until the next call */
+const double *probe_values(Probe *probe, const RowValues *row);
+/* How far these values may be off where the row is off by `errors`; t and parameters are as
+ * number_error() has them. */
+void probe_errors(const Probe *probe, const RowValues *errors, double *out);
+
+/* --- stage by stage --- */
+
+/* Its inputs by the layout, write here; sides of switches are as the layout has them now. */
+double *probe_inputs(Probe *probe);
+void inputs_put(double *inputs, int first, const double *values, int count); /* NULL: 0 */
+void probe_run(Probe *probe, Stage from, Stage to);
+const double *probe_roots(const Probe *probe); /* at one place as long as the probe lives */
+
+#endif
