@@ -8,7 +8,7 @@
 /* the chains between merge to one turn, and there are at least two of them */
 static bool merges(const System *system, int from, int to, Vec *axis)
 {
-    const Chain *chains = system->chains.at;
+    const Chain *chains = system->kinematics->chains.at;
     Turns turns = {0};
     bool one;
 
@@ -26,7 +26,7 @@ static int furthest(const System *system, int to, Vec *axis)
 {
     int found = -1;
 
-    for (int from = to; from >= 0; from = system->chains.at[from].parent)
+    for (int from = to; from >= 0; from = system->kinematics->chains.at[from].parent)
         if (merges(system, from, to, axis))
             found = from;
     return found;
@@ -34,8 +34,8 @@ static int furthest(const System *system, int to, Vec *axis)
 
 static bool turns_alike(const System *system, int a, int b)
 {
-    Rotation back = rotation_transpose(&system->frames[a].zero);
-    Rotation between = rotation_product(system->arena, &back, &system->frames[b].zero);
+    Rotation back = rotation_transpose(&system->kinematics->frames[a].zero);
+    Rotation between = rotation_product(system->arena, &back, &system->kinematics->frames[b].zero);
 
     return rotation_is_one(&between);
 }
@@ -43,18 +43,19 @@ static bool turns_alike(const System *system, int a, int b)
 /* an edge joins frames of the two chains that can be a branch and so tell their orientation */
 static bool are_joined(const System *system, int from, int to)
 {
-    for (int e = 0; e < graph_edge_count(system->graph); e++) {
-        const Edge *edge = graph_edge(system->graph, e);
+    for (int e = 0; e < graph_edge_count(system->origin->graph); e++) {
+        const Edge *edge = graph_edge(system->origin->graph, e);
         int tail, head;
 
-        if (!graph_edge_in(system->graph, e, TREE_ROTATION) ||
-            graph_branching(system->graph, e, TREE_ROTATION) == BRANCH_NEVER)
+        if (!graph_edge_in(system->origin->graph, e, TREE_ROTATION) ||
+            graph_branching(system->origin->graph, e, TREE_ROTATION) == BRANCH_NEVER)
             continue;
-        tail = system->frames[edge->tail].chain;
-        head = system->frames[edge->head].chain;
+        tail = system->kinematics->frames[edge->tail].chain;
+        head = system->kinematics->frames[edge->head].chain;
         /* a body's own edge in space brings three angles, where one will do */
         if ((tail == from && head == to) || (tail == to && head == from))
-            if (system->planar || system->instances[edge->component].row->family != FAMILY_BODY)
+            if (system->origin->planar ||
+                system->origin->instances[edge->component].row->family != FAMILY_BODY)
                 return true;
     }
     return false;
@@ -64,27 +65,29 @@ static bool are_joined(const System *system, int from, int to)
 static bool find_frames(const System *system, int from, int to, CommonTurn *out)
 {
     int count;
-    const int *nodes = tree_nodes(system->trees[TREE_ROTATION], &count);
+    const int *nodes = tree_nodes(system->origin->trees[TREE_ROTATION], &count);
 
-    out->tail = out->head = graph_node_count(system->graph);
+    out->tail = out->head = graph_node_count(system->origin->graph);
     for (int h = 0; h < count; h++)
-        for (int t = 0; t < count && system->frames[nodes[h]].chain == to; t++) {
+        for (int t = 0; t < count && system->kinematics->frames[nodes[h]].chain == to; t++) {
             bool earlier = nodes[h] < out->head || (nodes[h] == out->head && nodes[t] < out->tail);
 
-            if (system->frames[nodes[t]].chain != from || !earlier ||
+            if (system->kinematics->frames[nodes[t]].chain != from || !earlier ||
                 !turns_alike(system, nodes[t], nodes[h]))
                 continue;
             out->head = nodes[h];
             out->tail = nodes[t];
         }
-    return out->tail < graph_node_count(system->graph);
+    return out->tail < graph_node_count(system->origin->graph);
 }
 
 CommonTurn *system_common_turns(const System *system, int *count)
 {
     LIST(CommonTurn) found = {0};
 
-    for (int to = 1; to < system->chains.count && system->trees[TREE_ROTATION] != NULL; to++) {
+    for (int to = 1;
+         to < system->kinematics->chains.count && system->origin->trees[TREE_ROTATION] != NULL;
+         to++) {
         CommonTurn turn;
         Vec axis;
         int from = furthest(system, to, &axis);
@@ -93,7 +96,7 @@ CommonTurn *system_common_turns(const System *system, int *count)
         if (from < 0 || are_joined(system, from, to) || !find_frames(system, from, to, &turn))
             continue;
         (void)merges(system, from, to, &axis);
-        back = rotation_transpose(&system->frames[turn.tail].zero);
+        back = rotation_transpose(&system->kinematics->frames[turn.tail].zero);
         axis = rotation_apply(system->arena, &back, axis);
         for (int i = 0; i < 3; i++)
             turn.axis[i] = axis.at[i];

@@ -7,22 +7,23 @@
 
 static int axes_of(const System *system, int node)
 {
-    return system->chains.at[system->frames[node].chain].resolve;
+    return system->kinematics->chains.at[system->kinematics->frames[node].chain].resolve;
 }
 
 bool speed_moves_as_one(const System *system, int speed)
 {
-    const Tree *translation = system->trees[TREE_TRANSLATION];
-    const Tree *rotation = system->trees[TREE_ROTATION];
+    const Tree *translation = system->origin->trees[TREE_TRANSLATION];
+    const Tree *rotation = system->origin->trees[TREE_ROTATION];
     int node = speed_node(system, speed);
-    int slide_node = system->speeds[speed].slide_node;
+    int slide_node = system->kinematics->speeds[speed].slide_node;
     int branch = tree_parent_edge(translation, node);
     int nodes;
     const int *order = tree_nodes(translation, &nodes);
 
     /* the branch's own shift must not turn with what it carries */
     if (branch != tree_parent_edge(rotation, node) || (slide_node >= 0 && slide_node != node) ||
-        (system->frames[node].base == node && !vec_is_zero(system->frames[node].step)))
+        (system->kinematics->frames[node].base == node &&
+         !vec_is_zero(system->kinematics->frames[node].step)))
         return false;
     for (int i = 0; i < nodes; i++)
         if (tree_is_beyond(translation, branch, order[i]) !=
@@ -76,26 +77,27 @@ Composite *composites_new(System *system)
 {
     Arena *arena = system->arena;
     int nodes;
-    const int *order = tree_nodes(system->trees[TREE_TRANSLATION], &nodes);
+    const int *order = tree_nodes(system->origin->trees[TREE_TRANSLATION], &nodes);
     Composite *all =
-        pool_alloc(system->pool, (size_t)graph_node_count(system->graph) * sizeof *all);
+        pool_alloc(system->pool, (size_t)graph_node_count(system->origin->graph) * sizeof *all);
     Rotation none;
 
     for (int i = 0; i < 9; i++)
         none.at[i] = expr_int(arena, 0);
     for (int i = 0; i < nodes; i++)
         all[order[i]] = (Composite){expr_int(arena, 0), vec_zero(arena), none};
-    for (int i = 0; i < system->masses.count; i++) {
-        const Mass *mass = &system->masses.at[i];
+    for (int i = 0; i < system->dynamics->masses.count; i++) {
+        const Mass *mass = &system->dynamics->masses.at[i];
         Composite *own = &all[mass->node];
 
         own->mass = expr_add(arena, own->mass, mass->mass);
-        own->inertia = tensor_express(system, mass->inertia, system->frames[mass->node].chain,
-                                      axes_of(system, mass->node));
+        own->inertia =
+            tensor_express(system, mass->inertia, system->kinematics->frames[mass->node].chain,
+                           axes_of(system, mass->node));
     }
     for (int i = nodes - 1; i > 0; i--) {
         Composite part = all[order[i]];
-        const Frame *frame = &system->frames[order[i]];
+        const Frame *frame = &system->kinematics->frames[order[i]];
         Composite *whole = &all[frame->parent];
         int axes = axes_of(system, order[i]);
         int onto = axes_of(system, frame->parent);
@@ -122,7 +124,7 @@ void composite_loads(System *system, const Composite *composite, int speed, Load
     Vec force = vec_scale(arena, composite->mass, slide);
     Vec torque = vec_cross(arena, composite->moment, slide);
 
-    if (system->speeds[speed].chain >= 0) {
+    if (system->kinematics->speeds[speed].chain >= 0) {
         Vec axis = speed_axis(system, speed, axes);
 
         force = vec_add(arena, force, vec_cross(arena, axis, composite->moment));

@@ -24,7 +24,7 @@ static void push_row(System *system, const Instance *joint, RowKind kind, Vec n,
                                .instance = joint->number,
                                .rotation = kind == ROW_DOT || kind == ROW_ANGLE};
     (void)strncpy(row.told.direction, direction, sizeof row.told.direction - 1);
-    LIST_PUSH(system->rows, row);
+    LIST_PUSH(system->constraints->rows, row);
 }
 
 static Vec unit(Arena *arena, int i)
@@ -50,19 +50,19 @@ static void force_rows(System *system, const Instance *joint, const Steps *steps
     Vec n2 = none;
 
     if (steps->shift_count == 0) {
-        for (int i = 0; i < (system->planar ? 2 : 3); i++)
+        for (int i = 0; i < (system->origin->planar ? 2 : 3); i++)
             push_row(system, joint, ROW_DATUM, unit(arena, i), none, names[i]);
     } else if (steps->shift_count == 1) {
         Vec axis = step_axis(system, joint, &steps->shift[0]);
 
-        if (system->planar) {
+        if (system->origin->planar) {
             push_row(system, joint, ROW_TAIL, vec_cross(arena, unit(arena, 2), axis), none, "n");
             return;
         }
         axis_complement(arena, axis.at, n1.at, n2.at);
         push_row(system, joint, ROW_TAIL, n1, none, "n1");
         push_row(system, joint, ROW_TAIL, n2, none, "n2");
-    } else if (steps->shift_count == 2 && !system->planar) {
+    } else if (steps->shift_count == 2 && !system->origin->planar) {
         n1 = vec_cross(arena, step_axis(system, joint, &steps->shift[0]),
                        step_axis(system, joint, &steps->shift[1]));
         push_row(system, joint, ROW_TAIL, n1, none, "n");
@@ -80,7 +80,8 @@ static void moment_rows(System *system, const Instance *joint, const Steps *step
     Vec far[3];
     Turns turns = {0};
 
-    if (steps->quaternion || steps->turn_count > 2 || (system->planar && steps->turn_count > 0))
+    if (steps->quaternion || steps->turn_count > 2 ||
+        (system->origin->planar && steps->turn_count > 0))
         return;
     /* axes of the tail, and those of the head after the constant turn is undone, zero position */
     axes[0] = steps->turn_count > 0 ? step_axis(system, joint, &steps->turn[0])
@@ -97,9 +98,9 @@ static void moment_rows(System *system, const Instance *joint, const Steps *step
         push_row(system, joint, ROW_DOT, axes[1], far[0], "n1");
         push_row(system, joint, ROW_DOT, axes[2], far[0], "n2");
     } else {
-        turns_between(system, system->frames[joint->tail].chain, system->frames[joint->head].chain,
-                      &turns);
-        if (system->planar) {
+        turns_between(system, system->kinematics->frames[joint->tail].chain,
+                      system->kinematics->frames[joint->head].chain, &turns);
+        if (system->origin->planar) {
             push_row(system, joint, ROW_ANGLE, unit(arena, 2), vec_zero(arena), "turn");
         } else if (turns.count == 1 && turns.at[0].matrix == NULL && rotation_is_one(&constant)) {
             Vec axis = turns.at[0].axis;
@@ -124,17 +125,17 @@ static void tie_row(System *system, const Instance *joint, const Steps *steps)
     Vec axis = step_axis(system, joint, &steps->shift[0]);
 
     push_row(system, joint, ROW_TIE, axis, vec_zero(system->arena), "u");
-    system->rows.at[system->rows.count - 1].lead = steps->shift[0].scale;
+    system->constraints->rows.at[system->constraints->rows.count - 1].lead = steps->shift[0].scale;
 }
 
 static void driver_row(System *system, const Instance *driver)
 {
-    const Instance *owner = &system->instances[driver->joint];
+    const Instance *owner = &system->origin->instances[driver->joint];
     Vec none = vec_zero(system->arena);
 
     push_row(system, owner, ROW_DRIVER, none, none, "driver");
 
-    Row *row = &system->rows.at[system->rows.count - 1];
+    Row *row = &system->constraints->rows.at[system->constraints->rows.count - 1];
 
     row->owner = driver->joint;
     row->coordinate = driver->joint_coordinate;
@@ -164,13 +165,13 @@ static void compare_angle(System *system, const char *name, const ChordTurn *tur
     AngleOff compared = {
         name, expr_call2(arena, OP_ATAN2, expr_neg(arena, angle_missed(system, turn, f)), along)};
 
-    LIST_PUSH(system->angles_off, compared);
+    LIST_PUSH(system->constraints->angles_off, compared);
 }
 
 static Expr tie_shown(System *system, const Row *row)
 {
     Arena *arena = system->arena;
-    const Instance *joint = &system->instances[row->told.instance];
+    const Instance *joint = &system->origin->instances[row->told.instance];
     Steps steps;
     ChordTurn turn;
     Expr s;
@@ -193,9 +194,9 @@ static Expr tie_shown(System *system, const Row *row)
 static Status driver_shown(System *system, Row *row, Diag *diag)
 {
     Arena *arena = system->arena;
-    const Instance *driver = &system->instances[row->told.instance];
-    const Instance *owner = &system->instances[row->owner];
-    bool chord = system->coordinate[row->owner][row->coordinate] < 0;
+    const Instance *driver = &system->origin->instances[row->told.instance];
+    const Instance *owner = &system->origin->instances[row->owner];
+    bool chord = system->kinematics->coordinate[row->owner][row->coordinate] < 0;
     Expr value;
     Steps steps;
     Status status = OK;
@@ -224,8 +225,8 @@ done:
 static Status row_shown(System *system, Row *row, Diag *diag)
 {
     Arena *arena = system->arena;
-    int tail = system->frames[row->tail].chain;
-    int head = system->frames[row->head].chain;
+    int tail = system->kinematics->frames[row->tail].chain;
+    int head = system->kinematics->frames[row->head].chain;
     FrameSum n = framesum_of(system, row->kind == ROW_DATUM ? 0 : tail, row->n);
     Turns turns = {0};
     Status status = OK;
@@ -239,7 +240,7 @@ static Status row_shown(System *system, Row *row, Diag *diag)
         row->phi = framesum_dot(system, n, framesum_of(system, head, row->b));
         break;
     case ROW_ANGLE: {
-        const Instance *joint = &system->instances[row->told.instance];
+        const Instance *joint = &system->origin->instances[row->told.instance];
         Rotation constant;
         Steps steps;
 
@@ -308,7 +309,7 @@ static bool row_is_constant(const System *system, const Row *row, Sample *const 
 static Status row_vanishes(System *system, const Row *row, Sample *const *samples, bool *vanishes,
                            Diag *diag)
 {
-    const char *joint = system->instances[row->told.instance].name;
+    const char *joint = system->origin->instances[row->told.instance].name;
     double value;
 
     *vanishes = false;
@@ -324,20 +325,21 @@ static Status row_vanishes(System *system, const Row *row, Sample *const *sample
         return E_ASSEMBLE;
     }
     *vanishes = true;
-    LIST_PUSH(system->vanished, *row);
-    LIST_PUSH(system->dropped, system_keep(system, "%s: %s %s holds in every position", joint,
-                                           row->told.rotation ? "turning about" : "position along",
-                                           row->told.direction));
+    LIST_PUSH(system->constraints->vanished, *row);
+    LIST_PUSH(system->constraints->dropped,
+              system_keep(system, "%s: %s %s holds in every position", joint,
+                          row->told.rotation ? "turning about" : "position along",
+                          row->told.direction));
     return OK;
 }
 
 bool system_holds(const System *system, uint64_t revision,
                   double (*number)(const void *context, Expr e), const void *context)
 {
-    bool holds = system->revision == revision;
+    bool holds = system->origin->revision == revision;
 
-    for (int k = 0; holds && k < system->vanished.count; k++) {
-        Expr phi = system->vanished.at[k].phi;
+    for (int k = 0; holds && k < system->constraints->vanished.count; k++) {
+        Expr phi = system->constraints->vanished.at[k].phi;
 
         if (expr_kinds(phi) == 1U << SYMBOL_PARAMETER)
             holds = fabs(number(context, phi)) <= MISFIT;
@@ -353,9 +355,9 @@ static Vec way_turned(System *system, int node, int ancestor, int chain, int axe
 {
     Vec sum = vec_zero(system->arena);
 
-    for (; node != ancestor; node = system->frames[node].parent) {
-        const Frame *frame = &system->frames[node];
-        int resolved = system->chains.at[frame->chain].resolve;
+    for (; node != ancestor; node = system->kinematics->frames[node].parent) {
+        const Frame *frame = &system->kinematics->frames[node];
+        int resolved = system->kinematics->chains.at[frame->chain].resolve;
 
         if (chain >= 0 && !chain_is_beyond(system, frame->step_chain, chain))
             continue;
@@ -367,13 +369,13 @@ static Vec way_turned(System *system, int node, int ancestor, int chain, int axe
 
 static int common_node(const System *system, int a, int b)
 {
-    const Tree *tree = system->trees[TREE_TRANSLATION];
+    const Tree *tree = system->origin->trees[TREE_TRANSLATION];
 
     while (a != b) {
         if (tree_depth(tree, a) > tree_depth(tree, b))
-            a = system->frames[a].parent;
+            a = system->kinematics->frames[a].parent;
         else
-            b = system->frames[b].parent;
+            b = system->kinematics->frames[b].parent;
     }
     return a;
 }
@@ -390,8 +392,8 @@ static Vec circuit_turned(System *system, const Row *row, int chain, int axes)
 /* n . slide of speed j on the circuit, signs included */
 static Expr circuit_slide(System *system, const Row *row, Vec n, int speed, int axes)
 {
-    int node = system->speeds[speed].slide_node;
-    const Tree *tree = system->trees[TREE_TRANSLATION];
+    int node = system->kinematics->speeds[speed].slide_node;
+    const Tree *tree = system->origin->trees[TREE_TRANSLATION];
     int sense = 0;
 
     if (node >= 0) {
@@ -409,9 +411,9 @@ static Expr circuit_slide(System *system, const Row *row, Vec n, int speed, int 
 /* rows n.d: the axes that they are computed in, n in those axes */
 static int row_axes(const System *system, const Row *row, Vec *n)
 {
-    int tail = system->frames[row->tail].chain;
+    int tail = system->kinematics->frames[row->tail].chain;
     int from = row->kind == ROW_DATUM ? 0 : tail;
-    int axes = row->kind == ROW_DATUM ? 0 : system->chains.at[tail].resolve;
+    int axes = row->kind == ROW_DATUM ? 0 : system->kinematics->chains.at[tail].resolve;
 
     *n = vec_express(system, row->n, from, axes);
     return axes;
@@ -422,18 +424,20 @@ static void run_way(System *system, const Row *row, int k)
     Arena *arena = system->arena;
     Vec n;
     int axes = row_axes(system, row, &n);
-    int tail = system->frames[row->tail].chain;
-    int resolve_tail = system->chains.at[tail].resolve;
-    int resolve_head = system->chains.at[system->frames[row->head].chain].resolve;
+    int tail = system->kinematics->frames[row->tail].chain;
+    int resolve_tail = system->kinematics->chains.at[tail].resolve;
+    int resolve_head =
+        system->kinematics->chains.at[system->kinematics->frames[row->head].chain].resolve;
     bool turns_with_tail = row->kind == ROW_TAIL;
     Vec d = circuit_turned(system, row, -1, axes);
-    Vec rest = vec_sub(arena, vec_express(system, system->a0[row->head], resolve_head, axes),
-                       vec_express(system, system->a0[row->tail], resolve_tail, axes));
+    Vec rest =
+        vec_sub(arena, vec_express(system, system->kinematics->a0[row->head], resolve_head, axes),
+                vec_express(system, system->kinematics->a0[row->tail], resolve_tail, axes));
 
     system->run.phi[k] = vec_dot(arena, n, d);
-    for (int j = 0; j < system->u.count; j++) {
-        int turned = system->speeds[j].chain;
-        Expr *entry = &system->run.phi_u[k * system->u.count + j];
+    for (int j = 0; j < system->kinematics->u.count; j++) {
+        int turned = system->kinematics->speeds[j].chain;
+        Expr *entry = &system->run.phi_u[k * system->kinematics->u.count + j];
         Vec D;
 
         *entry = circuit_slide(system, row, n, j, axes);
@@ -446,10 +450,11 @@ static void run_way(System *system, const Row *row, int k)
                           vec_dot(arena, n, vec_cross(arena, speed_axis(system, j, axes), D)));
     }
     if (turns_with_tail) {
-        Vec w = vec_express(system, system->motions[tail].w, resolve_tail, axes);
-        Vec alpha0 = vec_express(system, system->alpha0[tail], resolve_tail, axes);
-        Vec v = vec_sub(arena, vec_express(system, system->frames[row->head].v, resolve_head, axes),
-                        vec_express(system, system->frames[row->tail].v, resolve_tail, axes));
+        Vec w = vec_express(system, system->kinematics->motions[tail].w, resolve_tail, axes);
+        Vec alpha0 = vec_express(system, system->kinematics->alpha0[tail], resolve_tail, axes);
+        Vec v = vec_sub(
+            arena, vec_express(system, system->kinematics->frames[row->head].v, resolve_head, axes),
+            vec_express(system, system->kinematics->frames[row->tail].v, resolve_tail, axes));
         Vec carried = vec_cross(arena, w, d);
 
         rest = vec_sub(arena, rest, vec_cross(arena, alpha0, d));
@@ -464,24 +469,24 @@ static void run_way(System *system, const Row *row, int k)
 static void run_dot(System *system, const Row *row, int k)
 {
     Arena *arena = system->arena;
-    int tail = system->frames[row->tail].chain;
-    int head = system->frames[row->head].chain;
-    int axes = system->chains.at[tail].resolve;
-    int other = system->chains.at[head].resolve;
+    int tail = system->kinematics->frames[row->tail].chain;
+    int head = system->kinematics->frames[row->head].chain;
+    int axes = system->kinematics->chains.at[tail].resolve;
+    int other = system->kinematics->chains.at[head].resolve;
     Vec a = vec_hold(arena, vec_express(system, row->n, tail, axes));
     Vec b = vec_hold(arena, vec_express(system, row->b, head, axes));
     Vec c = vec_hold(arena, vec_cross(arena, b, a));
-    Vec w_t = system->motions[tail].w;
-    Vec w_h = vec_express(system, system->motions[head].w, other, axes);
-    Vec alpha = vec_sub(arena, vec_express(system, system->alpha0[head], other, axes),
-                        system->alpha0[tail]);
+    Vec w_t = system->kinematics->motions[tail].w;
+    Vec w_h = vec_express(system, system->kinematics->motions[head].w, other, axes);
+    Vec alpha = vec_sub(arena, vec_express(system, system->kinematics->alpha0[head], other, axes),
+                        system->kinematics->alpha0[tail]);
     Vec c_rate = vec_add(arena, vec_cross(arena, vec_cross(arena, w_h, b), a),
                          vec_cross(arena, b, vec_cross(arena, w_t, a)));
 
     system->run.phi[k] = vec_dot(arena, a, b);
-    for (int j = 0; j < system->u.count; j++) {
-        int turned = system->speeds[j].chain;
-        Expr *entry = &system->run.phi_u[k * system->u.count + j];
+    for (int j = 0; j < system->kinematics->u.count; j++) {
+        int turned = system->kinematics->speeds[j].chain;
+        Expr *entry = &system->run.phi_u[k * system->kinematics->u.count + j];
 
         *entry = expr_int(arena, 0);
         if (turned >= 0) {
@@ -501,7 +506,7 @@ static void run_dot(System *system, const Row *row, int k)
 static Status run_plain(System *system, const Row *row, int k, Diag *diag)
 {
     Arena *arena = system->arena;
-    int count = system->u.count;
+    int count = system->kinematics->u.count;
     Expr *zeros = NEW_ARRAY(Expr, count);
     Expr *speeds = NEW_ARRAY(Expr, count);
     Expr rate;
@@ -510,15 +515,15 @@ static Status run_plain(System *system, const Row *row, int k, Diag *diag)
 
     for (int j = 0; j < count; j++) {
         zeros[j] = expr_int(arena, 0);
-        speeds[j] = system->u.at[j].symbol;
+        speeds[j] = system->kinematics->u.at[j].symbol;
         system->run.phi_u[k * count + j] = partial(system, row->phi, j);
     }
     CHECK(rate_of(system, row->phi, &rate, diag));
     CHECK(rate_of(system, rate, &second, diag));
     system->run.phi[k] = row->phi;
     system->run.nu[k] = expr_neg(arena, expr_substitute(arena, rate, speeds, zeros, count));
-    system->run.gamma[k] =
-        expr_neg(arena, expr_substitute(arena, second, system->accelerations, zeros, count));
+    system->run.gamma[k] = expr_neg(
+        arena, expr_substitute(arena, second, system->kinematics->accelerations, zeros, count));
 done:
     mem_free(zeros);
     mem_free(speeds);
@@ -527,16 +532,16 @@ done:
 
 static Status run_rows(System *system, Diag *diag)
 {
-    int m = system->rows.count;
+    int m = system->constraints->rows.count;
     size_t size = (size_t)m * sizeof(Expr);
     Status status = OK;
 
     system->run.phi = pool_alloc(system->pool, size);
     system->run.nu = pool_alloc(system->pool, size);
     system->run.gamma = pool_alloc(system->pool, size);
-    system->run.phi_u = pool_alloc(system->pool, size * (size_t)system->u.count);
+    system->run.phi_u = pool_alloc(system->pool, size * (size_t)system->kinematics->u.count);
     for (int k = 0; k < m; k++) {
-        const Row *row = &system->rows.at[k];
+        const Row *row = &system->constraints->rows.at[k];
 
         system->run.nu[k] = expr_int(system->arena, 0);
         if (row->kind == ROW_DATUM || row->kind == ROW_TAIL)
@@ -553,8 +558,8 @@ done:
 
 static Status all_rows(System *system, Diag *diag)
 {
-    for (int i = 0; i < system->instance_count; i++) {
-        const Instance *instance = &system->instances[i];
+    for (int i = 0; i < system->origin->instance_count; i++) {
+        const Instance *instance = &system->origin->instances[i];
         Steps steps;
         bool slides;
         bool turns;
@@ -564,8 +569,8 @@ static Status all_rows(System *system, Diag *diag)
         if (instance->row->family != FAMILY_JOINT || instance->is_virtual)
             continue;
         instance_steps(system, instance, &steps);
-        slides = !tree_has(system->trees[TREE_TRANSLATION], instance->edge);
-        turns = !tree_has(system->trees[TREE_ROTATION], instance->edge);
+        slides = !tree_has(system->origin->trees[TREE_TRANSLATION], instance->edge);
+        turns = !tree_has(system->origin->trees[TREE_ROTATION], instance->edge);
         if (steps_are_tied(&steps) && slides != turns) {
             (void)diag_set(diag, E_BRANCH,
                            "%s ties a shift to a turn: it is a branch of both trees or of none",
@@ -592,16 +597,16 @@ Status constraints_build(System *system, Diag *diag)
     for (int i = 0; i < SAMPLES; i++)
         samples[i] = sample_new(system, (uint64_t)i, true);
     CHECK(all_rows(system, diag));
-    for (int k = 0; k < system->rows.count; k++) {
-        Row *row = &system->rows.at[k];
+    for (int k = 0; k < system->constraints->rows.count; k++) {
+        Row *row = &system->constraints->rows.at[k];
         bool vanishes;
 
         CHECK(row_shown(system, row, diag));
         CHECK(row_vanishes(system, row, samples, &vanishes, diag));
         if (!vanishes)
-            system->rows.at[kept++] = *row;
+            system->constraints->rows.at[kept++] = *row;
     }
-    system->rows.count = kept;
+    system->constraints->rows.count = kept;
     CHECK(run_rows(system, diag));
 done:
     return status;

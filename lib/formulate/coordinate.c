@@ -6,12 +6,12 @@ Expr partial(System *system, Expr e, int speed)
     Arena *arena = system->arena;
     Expr sum = expr_int(arena, 0);
 
-    for (int i = 0; i < system->q.count; i++) {
-        const CoordinateRate *rate = &system->coordinate_rates[i];
+    for (int i = 0; i < system->kinematics->q.count; i++) {
+        const CoordinateRate *rate = &system->kinematics->coordinate_rates[i];
 
         for (int k = 0; k < rate->count; k++)
             if (rate->speed[k] == speed) {
-                Expr slope = expr_diff(arena, e, system->q.at[i].symbol);
+                Expr slope = expr_diff(arena, e, system->kinematics->q.at[i].symbol);
 
                 sum = expr_add(arena, sum, expr_mul(arena, slope, rate->entry[k]));
             }
@@ -30,7 +30,7 @@ Expr slide_value(System *system, const Instance *owner, const Step *slide)
 {
     Vec axis =
         frame_vector(system, owner->tail, (Vec){{slide->axis[0], slide->axis[1], slide->axis[2]}});
-    FrameSum along = framesum_of(system, system->frames[owner->tail].chain, axis);
+    FrameSum along = framesum_of(system, system->kinematics->frames[owner->tail].chain, axis);
 
     return framesum_dot(system, along, framesum_way(system, owner->tail, owner->head));
 }
@@ -38,12 +38,13 @@ Expr slide_value(System *system, const Instance *owner, const Step *slide)
 Rotation chord_constant(const System *system, const Instance *joint, const Steps *steps)
 {
     Rotation constant;
-    Rotation back = rotation_transpose(&system->frames[joint->tail].zero);
+    Rotation back = rotation_transpose(&system->kinematics->frames[joint->tail].zero);
 
     for (int i = 0; i < 9; i++)
         constant.at[i] = steps->rotation[i];
     constant = rotation_transpose(&constant);
-    constant = rotation_product(system->arena, &system->frames[joint->head].zero, &constant);
+    constant =
+        rotation_product(system->arena, &system->kinematics->frames[joint->head].zero, &constant);
     return rotation_product(system->arena, &constant, &back);
 }
 
@@ -56,8 +57,8 @@ static Vec turn_axis(const Step *turn)
 static Vec far_axis(System *system, const Instance *owner, const Rotation *constant, Vec axis)
 {
     axis = rotation_apply(system->arena, constant, frame_vector(system, owner->tail, axis));
-    return vec_express(system, axis, system->frames[owner->head].chain,
-                       system->frames[owner->tail].chain);
+    return vec_express(system, axis, system->kinematics->frames[owner->head].chain,
+                       system->kinematics->frames[owner->tail].chain);
 }
 
 /* of two turns u1, u2 (theory 2, coordinate of a chord) */
@@ -88,8 +89,8 @@ void chord_turn(System *system, const Instance *owner, const Steps *steps, int w
     Vec n2 = n1;
 
     *out = (ChordTurn){0};
-    turns_between(system, system->frames[owner->tail].chain, system->frames[owner->head].chain,
-                  &turns);
+    turns_between(system, system->kinematics->frames[owner->tail].chain,
+                  system->kinematics->frames[owner->head].chain, &turns);
     if (steps->turn_count > 1)
         universal_turn(system, owner, steps, which, out);
     else if (turns.count == 0)
@@ -114,22 +115,22 @@ void chord_turn(System *system, const Instance *owner, const Steps *steps, int w
 
 Vec joint_axis(System *system, const Instance *owner, const Steps *steps, int which, int *chain)
 {
-    int speed = system->speed[owner->number][steps->turn[which].coordinate];
+    int speed = system->kinematics->speed[owner->number][steps->turn[which].coordinate];
 
     if (which == 0) {
-        *chain = system->frames[owner->tail].chain;
+        *chain = system->kinematics->frames[owner->tail].chain;
         return frame_vector(system, owner->tail, turn_axis(&steps->turn[0]));
     }
     if (which == steps->turn_count - 1) {
         Rotation constant = chord_constant(system, owner, steps);
 
-        *chain = system->frames[owner->head].chain;
+        *chain = system->kinematics->frames[owner->head].chain;
         return rotation_apply(system->arena, &constant,
                               frame_vector(system, owner->tail, turn_axis(&steps->turn[which])));
     }
     /* one between others has no coordinate unless it is a branch */
-    *chain = system->speeds[speed].axis_chain;
-    return system->speeds[speed].axis;
+    *chain = system->kinematics->speeds[speed].axis_chain;
+    return system->kinematics->speeds[speed].axis;
 }
 
 static Status chord_value(System *system, const Instance *owner, int coordinate, Expr *out,
@@ -178,18 +179,18 @@ static Status chord_value(System *system, const Instance *owner, int coordinate,
 Status coordinate_value(System *system, const Instance *owner, int coordinate, int primes,
                         Expr *out, Diag *diag)
 {
-    int place = system->coordinate[owner->number][coordinate];
+    int place = system->kinematics->coordinate[owner->number][coordinate];
     Status status = OK;
 
     if (primes > 2)
         return diag_set(diag, E_MISSING, "%s: no more than two derivatives",
                         owner->coord[coordinate]);
     if (place >= 0) {
-        int speed = system->speed[owner->number][coordinate];
+        int speed = system->kinematics->speed[owner->number][coordinate];
 
-        *out = primes == 0 ? system->q.at[place].symbol : system_q_rate(system, place);
-        if (primes == 2 && speed >= 0 && system->coordinate_rates[place].count == 1)
-            *out = system->accelerations[speed];
+        *out = primes == 0 ? system->kinematics->q.at[place].symbol : system_q_rate(system, place);
+        if (primes == 2 && speed >= 0 && system->kinematics->coordinate_rates[place].count == 1)
+            *out = system->kinematics->accelerations[speed];
         else if (primes == 2)
             return rate_of(system, *out, out, diag);
         return OK;

@@ -46,7 +46,7 @@ static OpCount count_network(const System *system, bool shared)
 
 Status system_count(System *system, Block block, bool shared, OpCount *out, Diag *diag)
 {
-    mem_keep(system);
+    system_touch(system);
     int rows;
     int columns;
     const Expr *run = run_block(system, block);

@@ -7,11 +7,11 @@
 
 bool system_critical(System *system, int i, Critical *out)
 {
-    mem_keep(system);
+    system_touch(system);
     Arena *arena = system->arena;
 
-    for (int k = 0; k < system->instance_count; k++) {
-        const Instance *instance = &system->instances[k];
+    for (int k = 0; k < system->origin->instance_count; k++) {
+        const Instance *instance = &system->origin->instances[k];
         Steps steps;
         const Expr *first;
         const Expr *last;
@@ -21,13 +21,16 @@ bool system_critical(System *system, int i, Critical *out)
         if (instance->row->steps == NULL || instance->edge < 0)
             continue;
         instance_steps(system, instance, &steps);
-        if (steps.turn_count != 3 || system->coordinate[k][steps.turn[1].coordinate] < 0 || i-- > 0)
+        if (steps.turn_count != 3 ||
+            system->kinematics->coordinate[k][steps.turn[1].coordinate] < 0 || i-- > 0)
             continue;
         first = steps.turn[0].axis;
         last = steps.turn[2].axis;
         for (int c = 0; c < 3; c++)
             alike = alike && first[c] == last[c];
-        middle = system->q.at[system->coordinate[k][steps.turn[1].coordinate]].symbol;
+        middle =
+            system->kinematics->q.at[system->kinematics->coordinate[k][steps.turn[1].coordinate]]
+                .symbol;
         *out = (Critical){.instance = instance->name,
                           .coordinate = instance->coord[steps.turn[1].coordinate],
                           .angles = alike ? "0 or 180 deg" : "90 or -90 deg",

@@ -12,13 +12,13 @@ enum { MOST_SPEEDS_RUN = 4000 };
 
 static int axes_of(const System *system, int node)
 {
-    return system->chains.at[system->frames[node].chain].resolve;
+    return system->kinematics->chains.at[system->kinematics->frames[node].chain].resolve;
 }
 
 /* the row of a speed: its cutset projected on its motion */
 static Expr sums_project(System *system, const Sums *sums, int speed)
 {
-    const Speed *own = &system->speeds[speed];
+    const Speed *own = &system->kinematics->speeds[speed];
     Expr row = expr_int(system->arena, 0);
 
     if (own->chain >= 0 && !vec_is_zero(sums->torque[own->turn_node]))
@@ -32,8 +32,8 @@ static Expr sums_project(System *system, const Sums *sums, int speed)
 /* the directions of each speed, in the axes of its nodes */
 static void speed_directions(System *system)
 {
-    for (int j = 0; j < system->u.count; j++) {
-        Speed *own = &system->speeds[j];
+    for (int j = 0; j < system->kinematics->u.count; j++) {
+        Speed *own = &system->kinematics->speeds[j];
 
         if (own->chain >= 0)
             own->turn = speed_axis(system, j, axes_of(system, own->turn_node));
@@ -46,21 +46,21 @@ static void speed_directions(System *system)
 static void unit_motion(System *system, int speed, Vec *v)
 {
     Arena *arena = system->arena;
-    int turned = system->speeds[speed].chain;
+    int turned = system->kinematics->speeds[speed].chain;
     int nodes;
-    const int *order = tree_nodes(system->trees[TREE_TRANSLATION], &nodes);
+    const int *order = tree_nodes(system->origin->trees[TREE_TRANSLATION], &nodes);
 
     v[order[0]] = vec_zero(arena);
     for (int i = 1; i < nodes; i++) {
         int n = order[i];
-        const Frame *frame = &system->frames[n];
+        const Frame *frame = &system->kinematics->frames[n];
         int axes = axes_of(system, n);
 
         v[n] = vec_express(system, v[frame->parent], axes_of(system, frame->parent), axes);
         if (turned >= 0 && chain_is_beyond(system, frame->step_chain, turned))
             v[n] = vec_add(arena, v[n],
                            vec_cross(arena, speed_axis(system, speed, axes), frame->step));
-        if (n == system->speeds[speed].slide_node)
+        if (n == system->kinematics->speeds[speed].slide_node)
             v[n] = vec_add(arena, v[n], speed_slide(system, speed, axes));
         v[n] = vec_hold(arena, v[n]);
     }
@@ -70,11 +70,11 @@ static void unit_motion(System *system, int speed, Vec *v)
 static void unit_loads(System *system, int speed, const Vec *v, Loads *loads)
 {
     Arena *arena = system->arena;
-    int turned = system->speeds[speed].chain;
+    int turned = system->kinematics->speeds[speed].chain;
 
-    for (int i = 0; i < system->masses.count; i++) {
-        const Mass *mass = &system->masses.at[i];
-        int chain = system->frames[mass->node].chain;
+    for (int i = 0; i < system->dynamics->masses.count; i++) {
+        const Mass *mass = &system->dynamics->masses.at[i];
+        int chain = system->kinematics->frames[mass->node].chain;
         bool turns = turned >= 0 && mass->has_inertia && chain_is_beyond(system, chain, turned);
 
         if (turns) {
@@ -92,23 +92,25 @@ static void unit_loads(System *system, int speed, const Vec *v, Loads *loads)
  * has room for every node */
 static int bodies_moved(const System *system, int speed, bool *moves)
 {
-    int turned = system->speeds[speed].chain;
+    int turned = system->kinematics->speeds[speed].chain;
     int nodes;
-    const int *order = tree_nodes(system->trees[TREE_TRANSLATION], &nodes);
+    const int *order = tree_nodes(system->origin->trees[TREE_TRANSLATION], &nodes);
     int moved = 0;
 
     moves[order[0]] = false;
     for (int i = 1; i < nodes; i++) {
-        const Frame *frame = &system->frames[order[i]];
+        const Frame *frame = &system->kinematics->frames[order[i]];
 
-        moves[order[i]] = moves[frame->parent] || order[i] == system->speeds[speed].slide_node ||
+        moves[order[i]] = moves[frame->parent] ||
+                          order[i] == system->kinematics->speeds[speed].slide_node ||
                           (turned >= 0 && chain_is_beyond(system, frame->step_chain, turned));
     }
-    for (int i = 0; i < system->masses.count; i++) {
-        int node = system->masses.at[i].node;
+    for (int i = 0; i < system->dynamics->masses.count; i++) {
+        int node = system->dynamics->masses.at[i].node;
 
         moved += moves[node] ||
-                 (turned >= 0 && chain_is_beyond(system, system->frames[node].chain, turned));
+                 (turned >= 0 &&
+                  chain_is_beyond(system, system->kinematics->frames[node].chain, turned));
     }
     return moved;
 }
@@ -116,7 +118,7 @@ static int bodies_moved(const System *system, int speed, bool *moves)
 /* whether the pair (j, k) is read from column k */
 static bool column_serves(const System *system, const int *moved, int j, int k)
 {
-    const Tree *tree = system->trees[TREE_TRANSLATION];
+    const Tree *tree = system->origin->trees[TREE_TRANSLATION];
     int depth_j = tree_depth(tree, speed_node(system, j));
     int depth_k = tree_depth(tree, speed_node(system, k));
 
@@ -127,11 +129,11 @@ static bool column_serves(const System *system, const int *moved, int j, int k)
 
 static Status mass_matrix(System *system)
 {
-    int n = system->u.count;
+    int n = system->kinematics->u.count;
     int *moved = NEW_ARRAY(int, n);
-    bool *moves = NEW_ARRAY(bool, graph_node_count(system->graph));
+    bool *moves = NEW_ARRAY(bool, graph_node_count(system->origin->graph));
     Expr *columns = NEW_ARRAY(Expr, (size_t)n * (size_t)n);
-    Vec *v = NEW_ARRAY(Vec, graph_node_count(system->graph));
+    Vec *v = NEW_ARRAY(Vec, graph_node_count(system->origin->graph));
     const Composite *composites = composites_new(system);
     Status status = OK;
 
@@ -172,15 +174,15 @@ void loads_add_inertia(System *system, Loads *loads, const Vec *alpha, const Vec
 {
     Arena *arena = system->arena;
 
-    for (int i = 0; i < system->masses.count; i++) {
-        const Mass *mass = &system->masses.at[i];
-        int chain = system->frames[mass->node].chain;
-        Vec g = vec_express(system, system->gravity, 0, axes_of(system, mass->node));
+    for (int i = 0; i < system->dynamics->masses.count; i++) {
+        const Mass *mass = &system->dynamics->masses.at[i];
+        int chain = system->kinematics->frames[mass->node].chain;
+        Vec g = vec_express(system, system->origin->gravity, 0, axes_of(system, mass->node));
         Vec force = vec_scale(arena, mass->mass, vec_sub(arena, g, a[mass->node]));
 
         loads->force[mass->node] = vec_add(arena, loads->force[mass->node], force);
         if (mass->has_inertia) {
-            Vec w = system->motions[chain].w;
+            Vec w = system->kinematics->motions[chain].w;
             Vec spin = vec_hold(arena, rotation_apply(arena, &mass->inertia, w));
             Vec torque = vec_add(arena, rotation_apply(arena, &mass->inertia, alpha[chain]),
                                  vec_cross(arena, w, spin));
@@ -196,7 +198,7 @@ static void add_on_coordinate(System *system, Expr coordinate, Expr effort)
     Arena *arena = system->arena;
 
     effort = expr_hold(arena, effort);
-    for (int j = 0; j < system->u.count; j++) {
+    for (int j = 0; j < system->kinematics->u.count; j++) {
         Expr share = expr_mul(arena, partial(system, coordinate, j), effort);
 
         system->run.force[j] = expr_add(arena, system->run.force[j], share);
@@ -207,8 +209,8 @@ static void add_on_coordinate(System *system, Expr coordinate, Expr effort)
 static Status add_rotor(System *system, const Instance *instance, Diag *diag)
 {
     Arena *arena = system->arena;
-    int n = system->u.count;
-    const Instance *joint = &system->instances[instance->joint];
+    int n = system->kinematics->u.count;
+    const Instance *joint = &system->origin->instances[instance->joint];
     Expr inertia = instance->row->rotor(instance, arena);
     Expr s;
     Expr second;
@@ -221,7 +223,7 @@ static Status add_rotor(System *system, const Instance *instance, Diag *diag)
     CHECK(coordinate_value(system, joint, instance->joint_coordinate, 2, &second, diag));
     for (int j = 0; j < n; j++)
         zeros[j] = expr_int(arena, 0);
-    second = expr_substitute(arena, second, system->accelerations, zeros, n);
+    second = expr_substitute(arena, second, system->kinematics->accelerations, zeros, n);
     add_on_coordinate(system, s, expr_neg(arena, expr_mul(arena, inertia, second)));
     for (int j = 0; j < n; j++)
         for (int k = 0; k < n; k++) {
@@ -240,7 +242,7 @@ done:
  * a cylinder. Its slope belongs into M, and what it is at u' = 0 into F. */
 Status effort_inertia(System *system, const Effort *effort, int speed, Expr *out, Diag *diag)
 {
-    Expr slope = expr_diff(system->arena, effort->value, system->accelerations[speed]);
+    Expr slope = expr_diff(system->arena, effort->value, system->kinematics->accelerations[speed]);
 
     if ((expr_kinds(slope) & 1U << SYMBOL_ACCELERATION) != 0)
         return diag_set(diag, E_MODEL, "%s pushes with more than a multiple of an acceleration",
@@ -251,7 +253,7 @@ Status effort_inertia(System *system, const Effort *effort, int speed, Expr *out
 
 Expr effort_at_rest(System *system, const Effort *effort)
 {
-    int n = system->u.count;
+    int n = system->kinematics->u.count;
     Expr *zeros;
     Expr value = effort->value;
 
@@ -260,7 +262,7 @@ Expr effort_at_rest(System *system, const Effort *effort)
     zeros = NEW_ARRAY(Expr, n);
     for (int j = 0; j < n; j++)
         zeros[j] = expr_int(system->arena, 0);
-    value = expr_substitute(system->arena, value, system->accelerations, zeros, n);
+    value = expr_substitute(system->arena, value, system->kinematics->accelerations, zeros, n);
     mem_free(zeros);
     return value;
 }
@@ -268,7 +270,7 @@ Expr effort_at_rest(System *system, const Effort *effort)
 static Status add_inertia(System *system, const Effort *effort, Diag *diag)
 {
     Arena *arena = system->arena;
-    int n = system->u.count;
+    int n = system->kinematics->u.count;
     Status status = OK;
 
     for (int k = 0; (expr_kinds(effort->value) & 1U << SYMBOL_ACCELERATION) != 0 && k < n; k++) {
@@ -303,7 +305,7 @@ static bool is_same_number(Expr a, Expr b)
 /* a network that hands on accelerations one way only would make M unsymmetric */
 static Status check_symmetry(System *system, Diag *diag)
 {
-    int n = system->u.count;
+    int n = system->kinematics->u.count;
 
     for (int j = 0; j < n; j++)
         for (int k = 0; k < j; k++)
@@ -311,7 +313,7 @@ static Status check_symmetry(System *system, Diag *diag)
                 (void)diag_set(diag, E_MODEL,
                                "the network passes the acceleration of one of %s and %s on to "
                                "the other one way only",
-                               system->u.at[k].name, system->u.at[j].name);
+                               system->kinematics->u.at[k].name, system->kinematics->u.at[j].name);
                 diag_hint(diag, "put a compliance between: a shaft or a rod with k=");
                 return E_MODEL;
             }
@@ -323,8 +325,8 @@ static Status joint_efforts(System *system, Diag *diag)
     bool inertia = false;
     Status status = OK;
 
-    for (int i = 0; i < system->instance_count; i++) {
-        const Instance *instance = &system->instances[i];
+    for (int i = 0; i < system->origin->instance_count; i++) {
+        const Instance *instance = &system->origin->instances[i];
         Effort effort;
 
         if (instance->joint < 0 || instance->row->family == FAMILY_DRIVER)
@@ -339,15 +341,16 @@ static Status joint_efforts(System *system, Diag *diag)
             CHECK(add_rotor(system, instance, diag));
     }
     /* an effort that an inverse run finds at another coordinate */
-    for (int i = 0; i < system->drives.count; i++) {
-        const Instance *driver = &system->instances[system->drives.at[i].instance];
+    for (int i = 0; i < system->constraints->drives.count; i++) {
+        const Instance *driver =
+            &system->origin->instances[system->constraints->drives.at[i].instance];
         Expr s;
 
         if (driver->by < 0 || driver->by_coordinate < 0)
             continue;
-        CHECK(coordinate_value(system, &system->instances[driver->by], driver->by_coordinate, 0, &s,
-                               diag));
-        add_on_coordinate(system, s, system->drives.at[i].effort);
+        CHECK(coordinate_value(system, &system->origin->instances[driver->by],
+                               driver->by_coordinate, 0, &s, diag));
+        add_on_coordinate(system, s, system->constraints->drives.at[i].effort);
     }
     if (inertia)
         CHECK(check_symmetry(system, diag));
@@ -357,10 +360,10 @@ done:
 
 static Status check_size(const System *system, Diag *diag)
 {
-    if (system->u.count <= MOST_SPEEDS_RUN)
+    if (system->kinematics->u.count <= MOST_SPEEDS_RUN)
         return OK;
     (void)diag_set(diag, E_MODEL, "the mechanism has %d speeds; %d are the most here",
-                   system->u.count, MOST_SPEEDS_RUN);
+                   system->kinematics->u.count, MOST_SPEEDS_RUN);
     diag_hint(diag,
               "a joint in place of a free body takes speeds away, and so does a planar scene");
     return E_MODEL;
@@ -368,7 +371,7 @@ static Status check_size(const System *system, Diag *diag)
 
 Status dynamics_build(System *system, Diag *diag)
 {
-    int n = system->u.count;
+    int n = system->kinematics->u.count;
     Loads loads;
     Sums *sums;
     Status status = OK;
@@ -381,7 +384,7 @@ Status dynamics_build(System *system, Diag *diag)
     speed_directions(system);
     CHECK(mass_matrix(system));
     loads = loads_new(system);
-    loads_add_inertia(system, &loads, system->alpha0, system->a0);
+    loads_add_inertia(system, &loads, system->kinematics->alpha0, system->kinematics->a0);
     CHECK(efforts_add(system, &loads, false, diag));
     sums = loads_sum(system, &loads);
     for (int j = 0; j < n; j++)

@@ -17,16 +17,17 @@ static Status line_motion(System *system, const Instance *instance, Effort *effo
         (void)diag_set(diag, E_MODEL,
                        "the frames of %s, %s and %s, are always at the same point, where its line "
                        "has no direction",
-                       instance->name, graph_node(system->graph, instance->tail)->name,
-                       graph_node(system->graph, instance->head)->name);
+                       instance->name, graph_node(system->origin->graph, instance->tail)->name,
+                       graph_node(system->origin->graph, instance->head)->name);
         diag_hint(diag, "let one of them be an arm away from there, or let it act on a joint, "
                         "which has no line");
         return E_MODEL;
     }
     for (int i = 0; i < 2; i++) {
-        const Frame *frame = &system->frames[ends[i]];
+        const Frame *frame = &system->kinematics->frames[ends[i]];
 
-        v[i] = vec_express(system, frame->v, system->chains.at[frame->chain].resolve, 0);
+        v[i] =
+            vec_express(system, frame->v, system->kinematics->chains.at[frame->chain].resolve, 0);
     }
     effort->is_line = true;
     effort->direction =
@@ -45,7 +46,7 @@ Status effort_of(System *system, const Instance *instance, Effort *out, Diag *di
     if (instance->joint < 0) {
         CHECK(line_motion(system, instance, &effort, diag));
     } else {
-        const Instance *joint = &system->instances[instance->joint];
+        const Instance *joint = &system->origin->instances[instance->joint];
         int coordinate = instance->joint_coordinate;
 
         CHECK(coordinate_value(system, joint, coordinate, 0, &effort.displacement, diag));
@@ -68,17 +69,18 @@ done:
 
 bool system_line(System *system, int *next, FrameLine *out)
 {
-    mem_keep(system);
-    for (; *next < system->instance_count; ++*next) {
-        const Instance *instance = &system->instances[*next];
+    system_touch(system);
+    for (; *next < system->origin->instance_count; ++*next) {
+        const Instance *instance = &system->origin->instances[*next];
         Effort effort;
 
         if (instance->row->effort == NULL || instance->joint >= 0 || instance->tail < 0 ||
             instance->head < 0 || effort_of(system, instance, &effort, NULL) != OK ||
             !effort.is_line)
             continue;
-        *out = (FrameLine){instance->name, graph_node(system->graph, instance->tail)->name,
-                           graph_node(system->graph, instance->head)->name, effort.displacement};
+        *out = (FrameLine){instance->name, graph_node(system->origin->graph, instance->tail)->name,
+                           graph_node(system->origin->graph, instance->head)->name,
+                           effort.displacement};
         ++*next;
         return true;
     }
@@ -91,7 +93,8 @@ Status wrench_of(System *system, const Instance *instance, Vec *force, Vec *torq
     bool in_body = false;
     Status status = OK;
 
-    instance->row->wrench(instance, system->arena, system->planar, force->at, torque->at, &in_body);
+    instance->row->wrench(instance, system->arena, system->origin->planar, force->at, torque->at,
+                          &in_body);
     for (int i = 0; i < 3; i++) {
         CHECK(resolve(system, force->at[i], &force->at[i], diag));
         CHECK(resolve(system, torque->at[i], &torque->at[i], diag));
@@ -100,7 +103,7 @@ Status wrench_of(System *system, const Instance *instance, Vec *force, Vec *torq
     if (in_body) {
         *force = frame_vector(system, instance->head, *force);
         *torque = frame_vector(system, instance->head, *torque);
-        *chain = system->frames[instance->head].chain;
+        *chain = system->kinematics->frames[instance->head].chain;
     }
 done:
     return status;
@@ -127,9 +130,9 @@ static bool find_push(System *system, const Instance *instance, Pusher *out)
 
 bool system_pusher(System *system, int *next, Pusher *out)
 {
-    mem_keep(system);
-    while (*next < system->instance_count)
-        if (find_push(system, &system->instances[(*next)++], out))
+    system_touch(system);
+    while (*next < system->origin->instance_count)
+        if (find_push(system, &system->origin->instances[(*next)++], out))
             return true;
     return false;
 }
@@ -138,7 +141,7 @@ void loads_add_effort(System *system, Loads *loads, const Instance *owner, int c
                       Expr effort)
 {
     Arena *arena = system->arena;
-    int chain = system->frames[owner->tail].chain;
+    int chain = system->kinematics->frames[owner->tail].chain;
     Steps steps;
 
     instance_steps(system, owner, &steps);
@@ -176,8 +179,8 @@ Status efforts_add(System *system, Loads *loads, bool joints, Diag *diag)
     Arena *arena = system->arena;
     Status status = OK;
 
-    for (int i = 0; i < system->instance_count; i++) {
-        const Instance *instance = &system->instances[i];
+    for (int i = 0; i < system->origin->instance_count; i++) {
+        const Instance *instance = &system->origin->instances[i];
         Effort effort;
         Vec force;
         Vec torque;
@@ -192,7 +195,7 @@ Status efforts_add(System *system, Loads *loads, bool joints, Diag *diag)
             continue;
         CHECK(effort_of(system, instance, &effort, diag));
         if (!effort.is_line) {
-            loads_add_effort(system, loads, &system->instances[instance->joint],
+            loads_add_effort(system, loads, &system->origin->instances[instance->joint],
                              instance->joint_coordinate, effort.value);
             continue;
         }
@@ -207,17 +210,18 @@ done:
 void loads_add_row(System *system, Loads *loads, const Row *row, Expr lambda)
 {
     Arena *arena = system->arena;
-    int tail = system->frames[row->tail].chain;
+    int tail = system->kinematics->frames[row->tail].chain;
     int chain = row->kind == ROW_DATUM ? 0 : tail;
     Expr push = expr_neg(arena, lambda);
     Vec along = row->n;
 
     if (row->kind == ROW_DRIVER) {
-        loads_add_effort(system, loads, &system->instances[row->owner], row->coordinate, push);
+        loads_add_effort(system, loads, &system->origin->instances[row->owner], row->coordinate,
+                         push);
         return;
     }
     if (row->kind == ROW_DOT) {
-        Vec b = vec_express(system, row->b, system->frames[row->head].chain, tail);
+        Vec b = vec_express(system, row->b, system->kinematics->frames[row->head].chain, tail);
 
         along = vec_hold(arena, vec_cross(arena, b, along));
     }

@@ -59,16 +59,18 @@ static Expr determinant(System *system, const Partition *part, const int *column
 /* the user's independent coordinates, or the driven ones */
 static bool is_independent(const System *system, int j)
 {
-    for (int i = 0; i < system->independent_count; i++)
-        if (strcmp(system->independent[i], system->u.at[j].name) == 0 ||
-            (strncmp(system->independent[i], system->u.at[j].name,
-                     strlen(system->independent[i])) == 0 &&
-             strcmp(system->u.at[j].name + strlen(system->independent[i]), "'") == 0))
+    for (int i = 0; i < system->origin->independent_count; i++)
+        if (strcmp(system->origin->independent[i], system->kinematics->u.at[j].name) == 0 ||
+            (strncmp(system->origin->independent[i], system->kinematics->u.at[j].name,
+                     strlen(system->origin->independent[i])) == 0 &&
+             strcmp(system->kinematics->u.at[j].name + strlen(system->origin->independent[i]),
+                    "'") == 0))
             return true;
-    for (int k = 0; k < system->rows.count && system->independent_count == 0; k++) {
-        const Row *row = &system->rows.at[k];
+    for (int k = 0; k < system->constraints->rows.count && system->origin->independent_count == 0;
+         k++) {
+        const Row *row = &system->constraints->rows.at[k];
 
-        if (row->kind == ROW_DRIVER && system->speed[row->owner][row->coordinate] == j)
+        if (row->kind == ROW_DRIVER && system->kinematics->speed[row->owner][row->coordinate] == j)
             return true;
     }
     return false;
@@ -96,12 +98,13 @@ static Status choose(System *system, Partition *part, Diag *diag)
     int place[MOST_ROWS] = {0};
     Status status = OK;
 
-    for (int j = 0; j < system->u.count; j++)
+    for (int j = 0; j < system->kinematics->u.count; j++)
         if (!is_independent(system, j))
             LIST_PUSH(free, j);
-    if (free.count < part->m || (system->independent_count > 0 && free.count > part->m)) {
+    if (free.count < part->m || (system->origin->independent_count > 0 && free.count > part->m)) {
         status = diag_set(diag, E_MODEL, "%d independent coordinates are named, but %d are needed",
-                          system->u.count - free.count, system->u.count - part->m);
+                          system->kinematics->u.count - free.count,
+                          system->kinematics->u.count - part->m);
         goto done;
     }
     for (int i = 0; i < part->m; i++)
@@ -124,13 +127,13 @@ done:
 static Status partition(System *system, Partition *part, Diag *diag)
 {
     *part = (Partition){0};
-    for (int k = 0; k < system->rows.count; k++) {
-        if (system->rows.at[k].kind == ROW_DRIVER)
+    for (int k = 0; k < system->constraints->rows.count; k++) {
+        if (system->constraints->rows.at[k].kind == ROW_DRIVER)
             continue;
         if (part->m == MOST_ROWS) {
             (void)diag_set(diag, E_MISSING,
                            "the embedded form is written out for up to %d constraints; here are %d",
-                           MOST_ROWS, system->rows.count);
+                           MOST_ROWS, system->constraints->rows.count);
             diag_hint(diag, "runs use it at any size; `show mass` and `show jacobian` in the "
                             "augmented form");
             return E_MISSING;
@@ -142,17 +145,17 @@ static Status partition(System *system, Partition *part, Diag *diag)
 
 int embedded_rows(const System *system)
 {
-    int rows = system->u.count;
+    int rows = system->kinematics->u.count;
 
-    for (int k = 0; k < system->rows.count; k++)
-        rows -= system->rows.at[k].kind != ROW_DRIVER;
+    for (int k = 0; k < system->constraints->rows.count; k++)
+        rows -= system->constraints->rows.at[k].kind != ROW_DRIVER;
     return rows > 0 ? rows : 0;
 }
 
 /* the speed that a row of the embedded equations belongs to */
 static int independent_speed(const System *system, const Partition *part, int row)
 {
-    for (int j = 0; j < system->u.count; j++) {
+    for (int j = 0; j < system->kinematics->u.count; j++) {
         bool follows = false;
 
         for (int i = 0; i < part->m; i++)
@@ -218,7 +221,7 @@ Status embedded_force(System *system, int row, int column, Expr *out, Diag *diag
 Status embedded_effort(System *system, const Row *driver, Expr *out, Diag *diag)
 {
     Arena *arena = system->arena;
-    const Instance *owner = &system->instances[driver->owner];
+    const Instance *owner = &system->origin->instances[driver->owner];
     Partition part;
     int independent;
     Expr direction;
@@ -239,11 +242,11 @@ Status embedded_effort(System *system, const Row *driver, Expr *out, Diag *diag)
     }
     CHECK(embedded_force(system, 0, 0, &sum, diag));
     sum = expr_neg(arena, sum);
-    for (int k = 0; k < system->u.count; k++) {
+    for (int k = 0; k < system->kinematics->u.count; k++) {
         Expr entry;
 
         CHECK(embedded_mass(system, 0, k, &entry, diag));
-        sum = expr_add(arena, sum, expr_mul(arena, entry, system->accelerations[k]));
+        sum = expr_add(arena, sum, expr_mul(arena, entry, system->kinematics->accelerations[k]));
     }
     *out = expr_div(arena, sum, direction);
 done:

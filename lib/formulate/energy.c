@@ -27,7 +27,7 @@ static Expr stored_field(System *system, const Branchlike *branch)
 /* flywheels and slugs hold energy of motion, as does the liquid of an inertance */
 static bool is_of_motion(const System *system, const Branchlike *branch)
 {
-    Domain domain = graph_edge(system->graph, branch->edge)->domain;
+    Domain domain = graph_edge(system->origin->graph, branch->edge)->domain;
 
     if (domain == DOMAIN_HYDRAULIC)
         return branch->relation.kind == RELATION_INDUCTIVE;
@@ -37,34 +37,34 @@ static bool is_of_motion(const System *system, const Branchlike *branch)
 
 static void push_stored(System *system, Terms *terms, bool of_motion)
 {
-    for (int i = 0; i < system->branches.count; i++)
-        if (is_of_motion(system, &system->branches.at[i]) == of_motion)
-            LIST_PUSH(*terms, stored_field(system, &system->branches.at[i]));
+    for (int i = 0; i < system->network->branches.count; i++)
+        if (is_of_motion(system, &system->network->branches.at[i]) == of_motion)
+            LIST_PUSH(*terms, stored_field(system, &system->network->branches.at[i]));
 }
 
 Expr system_kinetic(System *system)
 {
-    mem_keep(system);
+    system_touch(system);
     Arena *arena = system->arena;
     Terms terms = {0};
     Expr sum;
 
-    for (int i = 0; i < system->masses.count; i++) {
-        const Mass *mass = &system->masses.at[i];
-        Vec v = system->frames[mass->node].v;
-        Vec w = system->motions[system->frames[mass->node].chain].w;
+    for (int i = 0; i < system->dynamics->masses.count; i++) {
+        const Mass *mass = &system->dynamics->masses.at[i];
+        Vec v = system->kinematics->frames[mass->node].v;
+        Vec w = system->kinematics->motions[system->kinematics->frames[mass->node].chain].w;
 
         push(system, &terms, half(arena), mass->mass, vec_dot(arena, v, v));
         if (mass->has_inertia)
             push(system, &terms, half(arena), expr_int(arena, 1),
                  vec_dot(arena, w, rotation_apply(arena, &mass->inertia, w)));
     }
-    for (int i = 0; i < system->instance_count; i++) {
-        const Instance *instance = &system->instances[i];
+    for (int i = 0; i < system->origin->instance_count; i++) {
+        const Instance *instance = &system->origin->instances[i];
         Expr rate;
 
         if (instance->row->rotor == NULL || instance->joint < 0 ||
-            coordinate_value(system, &system->instances[instance->joint],
+            coordinate_value(system, &system->origin->instances[instance->joint],
                              instance->joint_coordinate, 1, &rate, NULL) != OK)
             continue;
         push(system, &terms, half(arena), instance->row->rotor(instance, arena),
@@ -88,19 +88,19 @@ static bool stored_in(System *system, const Effort *effort, Expr displacement, E
 
 Expr system_potential(System *system)
 {
-    mem_keep(system);
+    system_touch(system);
     Arena *arena = system->arena;
     Terms terms = {0};
     Expr sum;
 
-    for (int i = 0; i < system->masses.count; i++) {
-        const Mass *mass = &system->masses.at[i];
+    for (int i = 0; i < system->dynamics->masses.count; i++) {
+        const Mass *mass = &system->dynamics->masses.at[i];
 
         push(system, &terms, expr_int(arena, -1), mass->mass,
-             vec_dot(arena, system->gravity, node_position(system, mass->node)));
+             vec_dot(arena, system->origin->gravity, node_position(system, mass->node)));
     }
-    for (int i = 0; i < system->instance_count; i++) {
-        const Instance *instance = &system->instances[i];
+    for (int i = 0; i < system->origin->instance_count; i++) {
+        const Instance *instance = &system->origin->instances[i];
         Effort effort;
         Expr stored;
 
@@ -131,8 +131,8 @@ static Expr lost_effort(System *system, const Effort *effort)
 static void push_wrench(System *system, Terms *terms, const Instance *instance)
 {
     Arena *arena = system->arena;
-    const Frame *frame = &system->frames[instance->head];
-    int resolve_chain = system->chains.at[frame->chain].resolve;
+    const Frame *frame = &system->kinematics->frames[instance->head];
+    int resolve_chain = system->kinematics->chains.at[frame->chain].resolve;
     Expr one = expr_int(arena, 1);
     Vec force;
     Vec torque;
@@ -143,7 +143,8 @@ static void push_wrench(System *system, Terms *terms, const Instance *instance)
     force = vec_express(system, force, chain, resolve_chain);
     torque = vec_express(system, torque, chain, resolve_chain);
     push(system, terms, one, one, vec_dot(arena, force, frame->v));
-    push(system, terms, one, one, vec_dot(arena, torque, system->motions[frame->chain].w));
+    push(system, terms, one, one,
+         vec_dot(arena, torque, system->kinematics->motions[frame->chain].w));
 }
 
 /* minus the power that scalar edges take and don't store; heat is power by itself, and no balance
@@ -152,11 +153,11 @@ static void push_network(System *system, Terms *terms)
 {
     Arena *arena = system->arena;
 
-    for (int i = 0; i < system->branches.count; i++) {
-        const Branchlike *branch = &system->branches.at[i];
+    for (int i = 0; i < system->network->branches.count; i++) {
+        const Branchlike *branch = &system->network->branches.at[i];
         Expr rate;
 
-        if (graph_edge(system->graph, branch->edge)->domain == DOMAIN_THERMAL)
+        if (graph_edge(system->origin->graph, branch->edge)->domain == DOMAIN_THERMAL)
             continue;
         if (rate_of(system, stored_field(system, branch), &rate, NULL) == OK)
             LIST_PUSH(*terms, rate);
@@ -171,24 +172,25 @@ static void push_drives(System *system, Terms *terms)
     Arena *arena = system->arena;
     Expr rate;
 
-    for (int k = 0; k < system->rows.count; k++) {
-        const Row *row = &system->rows.at[k];
+    for (int k = 0; k < system->constraints->rows.count; k++) {
+        const Row *row = &system->constraints->rows.at[k];
 
-        if (row->kind == ROW_DRIVER && coordinate_value(system, &system->instances[row->owner],
-                                                        row->coordinate, 1, &rate, NULL) == OK)
-            push(system, terms, expr_int(arena, -1), system->multipliers[k], rate);
+        if (row->kind == ROW_DRIVER &&
+            coordinate_value(system, &system->origin->instances[row->owner], row->coordinate, 1,
+                             &rate, NULL) == OK)
+            push(system, terms, expr_int(arena, -1), system->constraints->multipliers[k], rate);
     }
 }
 
 Expr system_power(System *system)
 {
-    mem_keep(system);
+    system_touch(system);
     Arena *arena = system->arena;
     Terms terms = {0};
     Expr sum;
 
-    for (int i = 0; i < system->instance_count; i++) {
-        const Instance *instance = &system->instances[i];
+    for (int i = 0; i < system->origin->instance_count; i++) {
+        const Instance *instance = &system->origin->instances[i];
         Effort effort;
 
         if (instance->row->wrench != NULL)

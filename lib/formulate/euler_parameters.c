@@ -59,12 +59,12 @@ static void parameters_of(System *system, const Rotation *rotation, Expr p[4])
 void frame_parameters(System *system, int node, Expr p[4])
 {
     Arena *arena = system->arena;
-    const Frame *frame = &system->frames[node];
+    const Frame *frame = &system->kinematics->frames[node];
     Expr constant[4];
 
     parameters_of(system, &frame->zero, p);
-    for (int c = frame->chain; c > 0; c = system->chains.at[c].parent) {
-        const Chain *chain = &system->chains.at[c];
+    for (int c = frame->chain; c > 0; c = system->kinematics->chains.at[c].parent) {
+        const Chain *chain = &system->kinematics->chains.at[c];
         Expr half = expr_mul(arena, expr_rational(arena, 1, 2),
                              chain->is_free ? expr_int(arena, 0) : chain->angle);
         Expr turn[4];

@@ -11,12 +11,13 @@
 static FrameSum partial_velocity(System *system, int node, int speed)
 {
     Expr one = expr_int(system->arena, 1);
-    const Speed *own = &system->speeds[speed];
+    const Speed *own = &system->kinematics->speeds[speed];
     FrameSum sum = {NULL, 0};
     FrameSum slid = {NULL, 0};
 
-    for (; system->frames[node].parent >= 0; node = system->frames[node].parent) {
-        const Frame *frame = &system->frames[node];
+    for (; system->kinematics->frames[node].parent >= 0;
+         node = system->kinematics->frames[node].parent) {
+        const Frame *frame = &system->kinematics->frames[node];
 
         if (own->chain >= 0 && chain_is_beyond(system, frame->step_chain, own->chain))
             sum = framesum_add(system, sum, one,
@@ -34,7 +35,7 @@ static FrameSum partial_velocity(System *system, int node, int speed)
  */
 static Vec partial_turn(System *system, int chain, int speed)
 {
-    int turned = system->speeds[speed].chain;
+    int turned = system->kinematics->speeds[speed].chain;
 
     if (turned < 0 || !chain_is_beyond(system, chain, turned))
         return vec_zero(system->arena);
@@ -47,7 +48,7 @@ static Vec partial_turn(System *system, int chain, int speed)
 static void chain_motion(System *system, int chain, Vec *w, Vec *alpha)
 {
     Arena *arena = system->arena;
-    const Chain *turn = &system->chains.at[chain];
+    const Chain *turn = &system->kinematics->chains.at[chain];
     Vec spin;
 
     *w = *alpha = vec_zero(arena);
@@ -58,8 +59,9 @@ static void chain_motion(System *system, int chain, Vec *w, Vec *alpha)
     *alpha = vec_express(system, *alpha, turn->parent, chain);
     spin = vec_zero(arena);
     for (int j = turn->speed; j < turn->speed + turn->speed_count; j++)
-        spin = vec_add(arena, spin,
-                       vec_scale(arena, system->u.at[j].symbol, speed_axis(system, j, chain)));
+        spin = vec_add(
+            arena, spin,
+            vec_scale(arena, system->kinematics->u.at[j].symbol, speed_axis(system, j, chain)));
     *alpha = vec_add(arena, *alpha, vec_cross(arena, *w, spin));
     *w = vec_add(arena, *w, spin);
 }
@@ -70,8 +72,9 @@ static FrameSum rest_acceleration(System *system, int node)
     Arena *arena = system->arena;
     FrameSum sum = {NULL, 0};
 
-    for (; system->frames[node].parent >= 0; node = system->frames[node].parent) {
-        const Frame *frame = &system->frames[node];
+    for (; system->kinematics->frames[node].parent >= 0;
+         node = system->kinematics->frames[node].parent) {
+        const Frame *frame = &system->kinematics->frames[node];
         Vec slid = vec_zero(arena);
         Vec w;
         Vec alpha;
@@ -81,9 +84,9 @@ static FrameSum rest_acceleration(System *system, int node)
             continue;
         chain_motion(system, frame->step_chain, &w, &alpha);
         for (int k = 0; k < frame->slide_count; k++)
-            slid = vec_add(
-                arena, slid,
-                vec_scale(arena, system->u.at[frame->slide[k].speed].symbol, frame->slide[k].axis));
+            slid = vec_add(arena, slid,
+                           vec_scale(arena, system->kinematics->u.at[frame->slide[k].speed].symbol,
+                                     frame->slide[k].axis));
         a = vec_add(arena, vec_cross(arena, alpha, frame->shift),
                     vec_cross(arena, w, vec_cross(arena, w, frame->shift)));
         a = vec_add(arena, a, vec_scale(arena, expr_int(arena, 2), vec_cross(arena, w, slid)));
@@ -140,8 +143,8 @@ static Status rotor_of(System *system, const Instance *instance, Expr *inertia, 
     *inertia = instance->row->rotor(instance, system->arena);
     if (expr_is_zero(*inertia))
         return OK;
-    return coordinate_value(system, &system->instances[instance->joint], instance->joint_coordinate,
-                            0, s, diag);
+    return coordinate_value(system, &system->origin->instances[instance->joint],
+                            instance->joint_coordinate, 0, s, diag);
 }
 
 /* what an effort on a joint adds to M */
@@ -169,9 +172,9 @@ static Status show_mass(System *system, int j, int k, Expr *out, Diag *diag)
     Terms terms = {0};
     Status status = OK;
 
-    for (int i = 0; i < system->masses.count; i++) {
-        const Mass *mass = &system->masses.at[i];
-        int chain = system->frames[mass->node].chain;
+    for (int i = 0; i < system->dynamics->masses.count; i++) {
+        const Mass *mass = &system->dynamics->masses.at[i];
+        int chain = system->kinematics->frames[mass->node].chain;
         FrameSum v_j = partial_velocity(system, mass->node, j);
         FrameSum v_k = j == k ? v_j : partial_velocity(system, mass->node, k);
 
@@ -181,17 +184,17 @@ static Status show_mass(System *system, int j, int k, Expr *out, Diag *diag)
                                      rotation_apply(arena, &mass->inertia,
                                                     partial_turn(system, chain, k))));
     }
-    for (int i = 0; i < system->instance_count; i++) {
+    for (int i = 0; i < system->origin->instance_count; i++) {
         Expr inertia;
         Expr s;
 
-        CHECK(rotor_of(system, &system->instances[i], &inertia, &s, diag));
+        CHECK(rotor_of(system, &system->origin->instances[i], &inertia, &s, diag));
         if (s != NULL)
             LIST_PUSH(terms,
                       expr_product(arena,
                                    (Expr[]){inertia, partial(system, s, j), partial(system, s, k)},
                                    3));
-        CHECK(push_inertia_of(system, &system->instances[i], j, k, &terms, diag));
+        CHECK(push_inertia_of(system, &system->origin->instances[i], j, k, &terms, diag));
     }
 done:
     *out = tidy(system, added(system, &terms));
@@ -202,11 +205,11 @@ static void push_inertia(System *system, int j, Terms *terms)
 {
     Arena *arena = system->arena;
 
-    for (int i = 0; i < system->masses.count; i++) {
-        const Mass *mass = &system->masses.at[i];
-        int chain = system->frames[mass->node].chain;
+    for (int i = 0; i < system->dynamics->masses.count; i++) {
+        const Mass *mass = &system->dynamics->masses.at[i];
+        int chain = system->kinematics->frames[mass->node].chain;
         FrameSum v_j = partial_velocity(system, mass->node, j);
-        FrameSum rest = framesum_add(system, framesum_of(system, 0, system->gravity),
+        FrameSum rest = framesum_add(system, framesum_of(system, 0, system->origin->gravity),
                                      expr_int(arena, -1), rest_acceleration(system, mass->node));
 
         LIST_PUSH(*terms, expr_mul(arena, mass->mass, framesum_dot(system, v_j, rest)));
@@ -256,7 +259,7 @@ done:
 
 static Status push_wrench(System *system, const Instance *instance, int j, Terms *terms, Diag *diag)
 {
-    int own = system->frames[instance->head].chain;
+    int own = system->kinematics->frames[instance->head].chain;
     Vec force;
     Vec torque;
     int chain;
@@ -274,7 +277,7 @@ done:
 static Status push_rotor(System *system, const Instance *instance, int j, Terms *terms, Diag *diag)
 {
     Arena *arena = system->arena;
-    int n = system->u.count;
+    int n = system->kinematics->u.count;
     Expr *zeros = NEW_ARRAY(Expr, n);
     Expr inertia;
     Expr s;
@@ -288,7 +291,7 @@ static Status push_rotor(System *system, const Instance *instance, int j, Terms 
         goto done;
     CHECK(rate_of(system, s, &second, diag));
     CHECK(rate_of(system, second, &second, diag));
-    second = expr_substitute(arena, second, system->accelerations, zeros, n);
+    second = expr_substitute(arena, second, system->kinematics->accelerations, zeros, n);
     second = expr_product(arena, (Expr[]){inertia, second, partial(system, s, j)}, 3);
     LIST_PUSH(*terms, expr_neg(arena, second));
 done:
@@ -303,8 +306,8 @@ static Status show_force(System *system, int j, int column, Expr *out, Diag *dia
 
     (void)column;
     push_inertia(system, j, &terms);
-    for (int i = 0; i < system->instance_count; i++) {
-        const Instance *instance = &system->instances[i];
+    for (int i = 0; i < system->origin->instance_count; i++) {
+        const Instance *instance = &system->origin->instances[i];
 
         if (instance->row->wrench != NULL)
             CHECK(push_wrench(system, instance, j, &terms, diag));
@@ -312,16 +315,17 @@ static Status show_force(System *system, int j, int column, Expr *out, Diag *dia
             CHECK(push_effort(system, instance, j, &terms, diag));
         CHECK(push_rotor(system, instance, j, &terms, diag));
     }
-    for (int i = 0; i < system->drives.count; i++) {
-        const Instance *driver = &system->instances[system->drives.at[i].instance];
+    for (int i = 0; i < system->constraints->drives.count; i++) {
+        const Instance *driver =
+            &system->origin->instances[system->constraints->drives.at[i].instance];
         Expr s;
 
         if (driver->by < 0 || driver->by_coordinate < 0)
             continue;
-        CHECK(coordinate_value(system, &system->instances[driver->by], driver->by_coordinate, 0, &s,
-                               diag));
-        LIST_PUSH(terms,
-                  expr_mul(system->arena, system->drives.at[i].effort, partial(system, s, j)));
+        CHECK(coordinate_value(system, &system->origin->instances[driver->by],
+                               driver->by_coordinate, 0, &s, diag));
+        LIST_PUSH(terms, expr_mul(system->arena, system->constraints->drives.at[i].effort,
+                                  partial(system, s, j)));
     }
 done:
     *out = tidy(system, added(system, &terms));
@@ -332,14 +336,14 @@ static Status show_constraint(System *system, int k, int column, Expr *out, Diag
 {
     (void)column;
     (void)diag;
-    *out = system->rows.at[k].phi;
+    *out = system->constraints->rows.at[k].phi;
     return OK;
 }
 
 static Status show_jacobian(System *system, int k, int j, Expr *out, Diag *diag)
 {
     (void)diag;
-    *out = tidy(system, partial(system, system->rows.at[k].phi, j));
+    *out = tidy(system, partial(system, system->constraints->rows.at[k].phi, j));
     return OK;
 }
 
@@ -347,16 +351,16 @@ static Status show_velocity(System *system, int k, int column, Expr *out, Diag *
 {
     (void)column;
     (void)diag;
-    *out = tidy(system,
-                expr_neg(system->arena, expr_diff(system->arena, system->rows.at[k].phi,
-                                                  expr_symbol(system->arena, "t", SYMBOL_TIME))));
+    *out = tidy(system, expr_neg(system->arena,
+                                 expr_diff(system->arena, system->constraints->rows.at[k].phi,
+                                           expr_symbol(system->arena, "t", SYMBOL_TIME))));
     return OK;
 }
 
 static Status show_acceleration(System *system, int k, int column, Expr *out, Diag *diag)
 {
     Arena *arena = system->arena;
-    int n = system->u.count;
+    int n = system->kinematics->u.count;
     Expr *zeros = NEW_ARRAY(Expr, n);
     Expr second;
     Status status = OK;
@@ -364,9 +368,9 @@ static Status show_acceleration(System *system, int k, int column, Expr *out, Di
     (void)column;
     for (int i = 0; i < n; i++)
         zeros[i] = expr_int(arena, 0);
-    CHECK(rate_of(system, system->rows.at[k].phi, &second, diag));
+    CHECK(rate_of(system, system->constraints->rows.at[k].phi, &second, diag));
     CHECK(rate_of(system, second, &second, diag));
-    second = expr_substitute(arena, second, system->accelerations, zeros, n);
+    second = expr_substitute(arena, second, system->kinematics->accelerations, zeros, n);
     *out = tidy(system, expr_neg(arena, second));
 done:
     mem_free(zeros);
@@ -415,9 +419,9 @@ const char *block_name(Block block)
 
 void system_block_size(const System *system, Block block, int *rows, int *columns)
 {
-    int n = system->u.count;
-    int m = system->rows.count;
-    int w = system->x.count + system->z.count;
+    int n = system->kinematics->u.count;
+    int m = system->constraints->rows.count;
+    int w = system->network->x.count + system->network->z.count;
     int f = embedded_rows(system);
     const int sizes[BLOCK_COUNT][2] = {
         [BLOCK_MASS] = {n, n},          [BLOCK_FORCES] = {n, 1},
@@ -441,11 +445,12 @@ static void way_size(const System *system, int node, int *parts, int *turns)
     int last = -1;
 
     *parts = 1;
-    turns_between(system, 0, system->frames[node].chain, &between);
+    turns_between(system, 0, system->kinematics->frames[node].chain, &between);
     *turns = between.count;
     LIST_FREE(between);
-    for (; system->frames[node].parent >= 0; node = system->frames[node].parent) {
-        const Frame *frame = &system->frames[node];
+    for (; system->kinematics->frames[node].parent >= 0;
+         node = system->kinematics->frames[node].parent) {
+        const Frame *frame = &system->kinematics->frames[node];
 
         if (!vec_is_zero(frame->shift) && frame->step_chain != last) {
             last = frame->step_chain;
@@ -461,22 +466,22 @@ static bool is_large(System *system)
 {
     enum { MOST_TERMS = 6000, MOST_TURNS = 8 };
 
-    if (system->terms_guessed == 0) {
+    if (system->shown->terms_guessed == 0) {
         int64_t terms = 1;
 
-        for (int i = 0; i < system->masses.count; i++) {
+        for (int i = 0; i < system->dynamics->masses.count; i++) {
             int parts;
             int turns;
             int64_t turned = 1;
 
-            way_size(system, system->masses.at[i].node, &parts, &turns);
+            way_size(system, system->dynamics->masses.at[i].node, &parts, &turns);
             for (int k = 0; k < turns && k < MOST_TURNS; k++)
                 turned *= 3;
             terms += turned * parts * parts;
         }
-        system->terms_guessed = terms;
+        system->shown->terms_guessed = terms;
     }
-    return system->terms_guessed > MOST_TERMS;
+    return system->shown->terms_guessed > MOST_TERMS;
 }
 
 /* the definitions of a block, of those that can be long; NULL: it is always written out */
@@ -517,10 +522,10 @@ Status show_entry(System *system, Block block, int row, int column, Expr *out, D
         row = column;
         column = swap;
     }
-    if (system->shown[block] == NULL)
-        system->shown[block] =
+    if (system->shown->entries[block] == NULL)
+        system->shown->entries[block] =
             pool_alloc(system->pool, (size_t)rows * (size_t)columns * sizeof(Expr));
-    entry = &system->shown[block][row * columns + column];
+    entry = &system->shown->entries[block][row * columns + column];
     if (*entry == NULL && defined_block(system, block) != NULL && is_large(system))
         *entry = defined_block(system, block)[row * columns + column];
     if (*entry == NULL) {
@@ -535,7 +540,7 @@ done:
 
 Status system_show(System *system, Block block, int row, int column, Expr *out, Diag *diag)
 {
-    mem_keep(system);
+    system_touch(system);
     Status status = show_entry(system, block, row, column, out, diag);
 
     if (status == OK)

@@ -3,12 +3,12 @@
 
 void instance_steps(const System *system, const Instance *instance, Steps *steps)
 {
-    instance->row->steps(instance, system->arena, system->planar, steps);
+    instance->row->steps(instance, system->arena, system->origin->planar, steps);
 }
 
 Vec frame_vector(const System *system, int node, Vec in_frame)
 {
-    return rotation_apply(system->arena, &system->frames[node].zero, in_frame);
+    return rotation_apply(system->arena, &system->kinematics->frames[node].zero, in_frame);
 }
 
 /* --- chains --- */
@@ -17,28 +17,28 @@ Vec frame_vector(const System *system, int node, Vec in_frame)
 static int add_chain(System *system, int parent, int speed)
 {
     Chain chain = {.parent = parent,
-                   .depth = system->chains.at[parent].depth + 1,
+                   .depth = system->kinematics->chains.at[parent].depth + 1,
                    .speed = speed,
                    .speed_count = 1};
 
     /* in a plane every turn is about one axis, and ground's axes serve all */
-    chain.resolve = system->planar ? 0 : system->chains.count;
-    LIST_PUSH(system->chains, chain);
-    return system->chains.count - 1;
+    chain.resolve = system->origin->planar ? 0 : system->kinematics->chains.count;
+    LIST_PUSH(system->kinematics->chains, chain);
+    return system->kinematics->chains.count - 1;
 }
 
 static int add_turn(System *system, int parent, Vec axis, int coordinate, int speed, bool forward)
 {
     Arena *arena = system->arena;
     int number = add_chain(system, parent, speed);
-    Chain *chain = &system->chains.at[number];
-    Expr angle = system->q.at[coordinate].symbol;
+    Chain *chain = &system->kinematics->chains.at[number];
+    Expr angle = system->kinematics->q.at[coordinate].symbol;
 
     chain->axis = axis;
     chain->angle = forward ? angle : expr_neg(arena, angle);
-    system->speeds[speed].chain = number;
-    system->speeds[speed].axis = forward ? axis : vec_neg(arena, axis);
-    system->speeds[speed].axis_chain = number;
+    system->kinematics->speeds[speed].chain = number;
+    system->kinematics->speeds[speed].axis = forward ? axis : vec_neg(arena, axis);
+    system->kinematics->speeds[speed].axis_chain = number;
     return number;
 }
 
@@ -78,13 +78,13 @@ static int add_free(System *system, int parent, const Rotation *zero, int coordi
 {
     Arena *arena = system->arena;
     int number = add_chain(system, parent, speed);
-    Chain *chain = &system->chains.at[number];
+    Chain *chain = &system->kinematics->chains.at[number];
     Rotation back = rotation_transpose(zero);
     Expr p[4];
     Vec e;
 
     for (int i = 0; i < 4; i++)
-        p[i] = system->q.at[coordinate + i].symbol;
+        p[i] = system->kinematics->q.at[coordinate + i].symbol;
     e = rotation_apply(arena, zero, (Vec){{p[1], p[2], p[3]}});
     chain->parameter[0] = p[0];
     for (int i = 0; i < 3; i++)
@@ -97,7 +97,7 @@ static int add_free(System *system, int parent, const Rotation *zero, int coordi
     chain->matrix = rotation_product(arena, zero, &chain->matrix);
     chain->matrix = rotation_product(arena, &chain->matrix, &back);
     for (int i = 0; i < 3; i++) {
-        Speed *own = &system->speeds[speed + i];
+        Speed *own = &system->kinematics->speeds[speed + i];
         Vec axis = vec_zero(arena);
 
         axis.at[i] = expr_int(arena, forward ? 1 : -1);
@@ -112,10 +112,10 @@ static int add_free(System *system, int parent, const Rotation *zero, int coordi
 static void turn_branch(System *system, int node)
 {
     Arena *arena = system->arena;
-    const Tree *tree = system->trees[TREE_ROTATION];
-    const Edge *edge = graph_edge(system->graph, tree_parent_edge(tree, node));
-    const Instance *instance = &system->instances[edge->component];
-    const Frame *parent = &system->frames[tree_parent(tree, node)];
+    const Tree *tree = system->origin->trees[TREE_ROTATION];
+    const Edge *edge = graph_edge(system->origin->graph, tree_parent_edge(tree, node));
+    const Instance *instance = &system->origin->instances[edge->component];
+    const Frame *parent = &system->kinematics->frames[tree_parent(tree, node)];
     bool forward = tree_is_forward(tree, node);
     int chain = parent->chain;
     Rotation zero = parent->zero;
@@ -131,27 +131,27 @@ static void turn_branch(System *system, int node)
         zero = rotation_product(arena, &zero, &back);
     }
     if (steps.quaternion) {
-        int place = system->coordinate[instance->number][steps.first_parameter];
-        int speed = system->speed[instance->number][steps.first_parameter];
+        int place = system->kinematics->coordinate[instance->number][steps.first_parameter];
+        int speed = system->kinematics->speed[instance->number][steps.first_parameter];
 
         chain = add_free(system, chain, &zero, place, speed, forward);
         for (int i = 0; i < 3; i++)
-            system->speeds[speed + i].turn_node = node;
+            system->kinematics->speeds[speed + i].turn_node = node;
     }
     for (int k = 0; k < steps.turn_count; k++) {
         const Step *turn = &steps.turn[forward ? k : steps.turn_count - 1 - k];
-        int place = system->coordinate[instance->number][turn->coordinate];
-        int speed = system->speed[instance->number][turn->coordinate];
+        int place = system->kinematics->coordinate[instance->number][turn->coordinate];
+        int speed = system->kinematics->speed[instance->number][turn->coordinate];
         Vec axis = {{turn->axis[0], turn->axis[1], turn->axis[2]}};
 
         axis = rotation_apply(arena, &zero, axis);
         chain = add_turn(system, chain, axis, place, speed, forward);
-        system->speeds[speed].turn_node = node;
+        system->kinematics->speeds[speed].turn_node = node;
     }
     if (forward)
         zero = rotation_product(arena, &zero, &constant);
-    system->frames[node].chain = chain;
-    system->frames[node].zero = zero;
+    system->kinematics->frames[node].chain = chain;
+    system->kinematics->frames[node].zero = zero;
 }
 
 /* --- steps --- */
@@ -159,10 +159,10 @@ static void turn_branch(System *system, int node)
 static void step_branch(System *system, int node)
 {
     Arena *arena = system->arena;
-    const Tree *tree = system->trees[TREE_TRANSLATION];
-    const Edge *edge = graph_edge(system->graph, tree_parent_edge(tree, node));
-    const Instance *instance = &system->instances[edge->component];
-    Frame *frame = &system->frames[node];
+    const Tree *tree = system->origin->trees[TREE_TRANSLATION];
+    const Edge *edge = graph_edge(system->origin->graph, tree_parent_edge(tree, node));
+    const Instance *instance = &system->origin->instances[edge->component];
+    Frame *frame = &system->kinematics->frames[node];
     bool forward = tree_is_forward(tree, node);
     Steps steps;
     Vec shift;
@@ -170,19 +170,20 @@ static void step_branch(System *system, int node)
     instance_steps(system, instance, &steps);
     frame->parent = tree_parent(tree, node);
     frame->base = edge->tail;
-    frame->step_chain = system->frames[edge->tail].chain;
+    frame->step_chain = system->kinematics->frames[edge->tail].chain;
     shift = frame_vector(system, edge->tail,
                          (Vec){{steps.constant[0], steps.constant[1], steps.constant[2]}});
     for (int k = 0; k < steps.shift_count; k++) {
         const Step *slide = &steps.shift[k];
-        int place = system->coordinate[instance->number][slide->coordinate];
-        int speed = system->speed[instance->number][slide->coordinate];
+        int place = system->kinematics->coordinate[instance->number][slide->coordinate];
+        int speed = system->kinematics->speed[instance->number][slide->coordinate];
         Vec axis = frame_vector(system, edge->tail,
                                 (Vec){{slide->axis[0], slide->axis[1], slide->axis[2]}});
 
         axis = vec_scale(arena, slide->scale, axis);
-        system->speeds[speed].slide_node = node;
-        shift = vec_add(arena, shift, vec_scale(arena, system->q.at[place].symbol, axis));
+        system->kinematics->speeds[speed].slide_node = node;
+        shift =
+            vec_add(arena, shift, vec_scale(arena, system->kinematics->q.at[place].symbol, axis));
         frame->slide[frame->slide_count++] = (Slide){speed, forward ? axis : vec_neg(arena, axis)};
     }
     frame->shift = forward ? shift : vec_neg(arena, shift);
@@ -191,8 +192,8 @@ static void step_branch(System *system, int node)
 /* number the chains so that what hangs beyond one has the numbers first..last */
 static void number_chains(System *system)
 {
-    Chain *chains = system->chains.at;
-    int count = system->chains.count;
+    Chain *chains = system->kinematics->chains.at;
+    int count = system->kinematics->chains.count;
     int *beyond = NEW_ARRAY(int, count);
     int *next = NEW_ARRAY(int, count);
 
@@ -219,45 +220,46 @@ static void add_masses(System *system)
 {
     Arena *arena = system->arena;
 
-    for (int i = 0; i < system->instance_count; i++) {
-        const Instance *instance = &system->instances[i];
+    for (int i = 0; i < system->origin->instance_count; i++) {
+        const Instance *instance = &system->origin->instances[i];
         Mass mass = {.instance = i, .node = instance->head};
         Expr tensor[6];
 
         if (instance->row->inertia == NULL)
             continue;
-        instance->row->inertia(instance, arena, system->planar, &mass.mass, tensor);
+        instance->row->inertia(instance, arena, system->origin->planar, &mass.mass, tensor);
         for (int k = 0; k < 6; k++)
             mass.has_inertia = mass.has_inertia || !expr_is_zero(tensor[k]);
-        mass.inertia = inertia_turned(arena, &system->frames[mass.node].zero, tensor);
-        LIST_PUSH(system->masses, mass);
+        mass.inertia = inertia_turned(arena, &system->kinematics->frames[mass.node].zero, tensor);
+        LIST_PUSH(system->dynamics->masses, mass);
     }
 }
 
 void frames_build(System *system)
 {
     Arena *arena = system->arena;
-    int count = graph_node_count(system->graph);
+    int count = graph_node_count(system->origin->graph);
     int nodes;
     const int *order;
 
-    system->frames = pool_alloc(system->pool, (size_t)count * sizeof *system->frames);
-    LIST_PUSH(system->chains,
+    system->kinematics->frames =
+        pool_alloc(system->pool, (size_t)count * sizeof *system->kinematics->frames);
+    LIST_PUSH(system->kinematics->chains,
               (Chain){.parent = -1, .axis = vec_zero(arena), .angle = expr_int(arena, 0)});
-    if (system->trees[TREE_ROTATION] == NULL)
+    if (system->origin->trees[TREE_ROTATION] == NULL)
         return;
-    order = tree_nodes(system->trees[TREE_ROTATION], &nodes);
+    order = tree_nodes(system->origin->trees[TREE_ROTATION], &nodes);
     for (int i = 0; i < nodes; i++) {
-        Frame *frame = &system->frames[order[i]];
+        Frame *frame = &system->kinematics->frames[order[i]];
 
         *frame = (Frame){.zero = rotation_one(arena), .parent = -1, .shift = vec_zero(arena)};
-        if (tree_parent(system->trees[TREE_ROTATION], order[i]) >= 0)
+        if (tree_parent(system->origin->trees[TREE_ROTATION], order[i]) >= 0)
             turn_branch(system, order[i]);
     }
     number_chains(system);
-    order = tree_nodes(system->trees[TREE_TRANSLATION], &nodes);
+    order = tree_nodes(system->origin->trees[TREE_TRANSLATION], &nodes);
     for (int i = 0; i < nodes; i++)
-        if (tree_parent(system->trees[TREE_TRANSLATION], order[i]) >= 0)
+        if (tree_parent(system->origin->trees[TREE_TRANSLATION], order[i]) >= 0)
             step_branch(system, order[i]);
     add_masses(system);
 }
@@ -295,7 +297,7 @@ static void append_turn(const System *system, Turns *turns, const Chain *chain, 
 
 void turns_between(const System *system, int from, int to, Turns *turns)
 {
-    const Chain *chains = system->chains.at;
+    const Chain *chains = system->kinematics->chains.at;
     LIST(int) down = {0};
 
     turns->count = 0;
@@ -316,7 +318,7 @@ void turns_between(const System *system, int from, int to, Turns *turns)
 
 bool chain_is_beyond(const System *system, int chain, int turn)
 {
-    const Chain *chains = system->chains.at;
+    const Chain *chains = system->kinematics->chains.at;
 
     return chains[chain].first >= chains[turn].first && chains[chain].first <= chains[turn].last;
 }
@@ -357,15 +359,16 @@ Vec vec_express(const System *system, Vec v, int from, int to)
 
 Vec speed_axis(const System *system, int speed, int axes)
 {
-    return vec_express(system, system->speeds[speed].axis, system->speeds[speed].axis_chain, axes);
+    return vec_express(system, system->kinematics->speeds[speed].axis,
+                       system->kinematics->speeds[speed].axis_chain, axes);
 }
 
 Vec speed_slide(const System *system, int speed, int axes)
 {
-    int node = system->speeds[speed].slide_node;
+    int node = system->kinematics->speeds[speed].slide_node;
 
-    for (int k = 0; node >= 0 && k < system->frames[node].slide_count; k++) {
-        const Frame *frame = &system->frames[node];
+    for (int k = 0; node >= 0 && k < system->kinematics->frames[node].slide_count; k++) {
+        const Frame *frame = &system->kinematics->frames[node];
 
         if (frame->slide[k].speed == speed)
             return vec_express(system, frame->slide[k].axis, frame->step_chain, axes);
@@ -375,7 +378,7 @@ Vec speed_slide(const System *system, int speed, int axes)
 
 int speed_node(const System *system, int speed)
 {
-    const Speed *own = &system->speeds[speed];
+    const Speed *own = &system->kinematics->speeds[speed];
 
     return own->chain >= 0 ? own->turn_node : own->slide_node;
 }

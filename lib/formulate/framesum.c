@@ -77,7 +77,7 @@ Expr framesum_dot(System *system, FrameSum a, FrameSum b)
 
 FrameSum framesum_way(System *system, int from, int to)
 {
-    const Tree *tree = system->trees[TREE_TRANSLATION];
+    const Tree *tree = system->origin->trees[TREE_TRANSLATION];
     Expr one = expr_int(system->arena, 1);
     Expr minus = expr_int(system->arena, -1);
     FrameSum way = {NULL, 0};
@@ -85,7 +85,7 @@ FrameSum framesum_way(System *system, int from, int to)
     while (from != to) {
         bool deeper = tree_depth(tree, from) > tree_depth(tree, to);
         int node = deeper ? from : to;
-        const Frame *frame = &system->frames[node];
+        const Frame *frame = &system->kinematics->frames[node];
         FrameSum step = framesum_of(system, frame->step_chain, frame->shift);
 
         way = framesum_add(system, way, deeper ? minus : one, step);

@@ -73,21 +73,21 @@ static void one_side(System *system, bool closed, Relation *relation)
 
 void ideal_take_side(System *system, Branchlike *branch)
 {
-    const Instance *instance = &system->instances[branch->instance];
-    const char *name = graph_edge(system->graph, branch->edge)->name;
+    const Instance *instance = &system->origin->instances[branch->instance];
+    const char *name = graph_edge(system->origin->graph, branch->edge)->name;
     Relation *relation = &branch->relation;
     Expr v = instance_across(instance, system->arena, branch->which);
     Expr i = instance_through(instance, system->arena, branch->which);
 
-    branch->ideal = system->ideals.count;
-    LIST_PUSH(system->ideals, (int)(branch - system->branches.at));
-    if (relation->switches && system->takes_sides) {
+    branch->ideal = system->network->ideals.count;
+    LIST_PUSH(system->network->ideals, (int)(branch - system->network->branches.at));
+    if (relation->switches && system->network->takes_sides) {
         branch->closed =
             expr_symbol(system->arena, system_keep(system, "#%s.closed", name), SYMBOL_PARAMETER);
         relation->kind = RELATION_IDEAL;
         relation->value = either_side(system, branch->closed, &relation->ideal, v, i);
-    } else if (relation->kind == RELATION_IDEAL && system->closed != NULL) {
-        one_side(system, system->closed[branch->ideal], relation);
+    } else if (relation->kind == RELATION_IDEAL && system->network->closed != NULL) {
+        one_side(system, system->network->closed[branch->ideal], relation);
     } else if (relation->kind == RELATION_IDEAL) {
         relation->value = both_sides(system, &relation->ideal, v, i);
     }
@@ -97,17 +97,17 @@ void ideal_take_side(System *system, Branchlike *branch)
 
 int system_scalar_count(const System *system)
 {
-    return system->branches.count;
+    return system->network->branches.count;
 }
 
 int system_ideal_count(const System *system)
 {
-    return system->ideals.count;
+    return system->network->ideals.count;
 }
 
 static const Branchlike *switching(const System *system, int i)
 {
-    return &system->branches.at[system->ideals.at[i]];
+    return &system->network->branches.at[system->network->ideals.at[i]];
 }
 
 bool system_is_ideal(const System *system, int i)
@@ -119,7 +119,7 @@ int system_truly_ideal_count(const System *system)
 {
     int count = 0;
 
-    for (int i = 0; i < system->ideals.count; i++)
+    for (int i = 0; i < system->network->ideals.count; i++)
         count += system_is_ideal(system, i);
     return count;
 }
@@ -131,9 +131,9 @@ Expr system_side(const System *system, int i)
 
 bool system_has_modes(const System *system)
 {
-    if (system->ideals.count == 0)
+    if (system->network->ideals.count == 0)
         return false;
     return system_truly_ideal_count(system) > 0 ||
-           (system->network_form == system->asked_form &&
-            (system->network_form == NETWORK_STATE || !system->leaves_trees));
+           (system->network->form == system->network->asked_form &&
+            (system->network->form == NETWORK_STATE || !system->network->leaves_trees));
 }

@@ -17,8 +17,8 @@ static bool is_on_side(const Branchlike *branch, RelationKind kind)
 static Status share_circuit(System *system, const Branchlike *branch, bool *shared, Expr *out,
                             Diag *diag)
 {
-    const Edge *edge = graph_edge(system->graph, branch->edge);
-    const Tree *tree = system->trees[branch_tree(system, branch)];
+    const Edge *edge = graph_edge(system->origin->graph, branch->edge);
+    const Tree *tree = system->origin->trees[branch_tree(system, branch)];
     int room = tree_depth(tree, edge->tail) + tree_depth(tree, edge->head);
     int *edges = NEW_ARRAY(int, room);
     int *signs = NEW_ARRAY(int, room);
@@ -29,7 +29,8 @@ static Status share_circuit(System *system, const Branchlike *branch, bool *shar
     *shared = true;
     *out = branch->i;
     for (int k = 0; k < count && *shared; k++) {
-        Branchlike *other = &system->branches.at[system->scalar_of_edge[edges[k]]];
+        Branchlike *other =
+            &system->network->branches.at[system->network->scalar_of_edge[edges[k]]];
         Expr sign = expr_int(system->arena, signs[k]);
         Expr i;
 
@@ -51,14 +52,15 @@ done:
 static Status share_cutset(System *system, const Branchlike *branch, bool *shared, Expr *out,
                            Diag *diag)
 {
-    const SignMatrix *cutsets = system->cutsets[branch_tree(system, branch)];
+    const SignMatrix *cutsets = system->network->cutsets[branch_tree(system, branch)];
     Status status = OK;
 
     *shared = true;
     *out = branch->v;
     for (int k = cutsets->start[branch->cutset]; k < cutsets->start[branch->cutset + 1] && *shared;
          k++) {
-        Branchlike *chord = &system->branches.at[system->scalar_of_edge[cutsets->column[k]]];
+        Branchlike *chord =
+            &system->network->branches.at[system->network->scalar_of_edge[cutsets->column[k]]];
         Expr v;
 
         if (chord == branch)
@@ -75,7 +77,7 @@ done:
 Status ideal_share(System *system, const Branchlike *branch, bool *shared, Expr *out, Diag *diag)
 {
     *shared = false;
-    if (system->network_form != NETWORK_STATE)
+    if (system->network->form != NETWORK_STATE)
         return OK;
     if (!branch->branch && branch->relation.kind == RELATION_ACROSS)
         return share_circuit(system, branch, shared, out, diag);
@@ -88,10 +90,10 @@ Status ideal_share(System *system, const Branchlike *branch, bool *shared, Expr 
 
 Status system_scalar(System *system, int i, ScalarPair *out, Diag *diag)
 {
-    mem_keep(system);
-    Branchlike *branch = &system->branches.at[i];
-    ScalarPair pair = {.name = system->instances[branch->instance].name,
-                       .domain = graph_edge(system->graph, branch->edge)->domain,
+    system_touch(system);
+    Branchlike *branch = &system->network->branches.at[i];
+    ScalarPair pair = {.name = system->origin->instances[branch->instance].name,
+                       .domain = graph_edge(system->origin->graph, branch->edge)->domain,
                        .gives_across = branch->relation.kind == RELATION_ACROSS,
                        .gives_through = branch->relation.kind == RELATION_THROUGH,
                        .stores = branch->relation.kind == RELATION_CAPACITIVE ||
@@ -111,11 +113,11 @@ done:
 /* where the unknown of the branch, and so its equation, stands in [x'; z] */
 static int row_of(const System *system, const Branchlike *branch)
 {
-    if (system->closed != NULL || branch->unknown < 0 || branch->relation.switches)
+    if (system->network->closed != NULL || branch->unknown < 0 || branch->relation.switches)
         return -1;
-    for (int k = 0; k < system->z.count; k++)
-        if (system->z.at[k].symbol == system->unknowns.at[branch->unknown].symbol)
-            return system->x.count + k;
+    for (int k = 0; k < system->network->z.count; k++)
+        if (system->network->z.at[k].symbol == system->network->unknowns.at[branch->unknown].symbol)
+            return system->network->x.count + k;
     return -1;
 }
 
@@ -126,18 +128,18 @@ static Expr margin_of(const System *system, int i, const IdealSwitch *diode)
     Expr backwards = expr_neg(arena, diode->across);
 
     if (diode->closed == NULL)
-        return system->closed[i] ? diode->through : backwards;
+        return system->network->closed[i] ? diode->through : backwards;
     return expr_add(arena, expr_mul(arena, diode->closed, diode->through),
                     expr_mul(arena, expr_sub(arena, expr_int(arena, 1), diode->closed), backwards));
 }
 
 Status system_ideal(System *system, int i, IdealSwitch *out, Diag *diag)
 {
-    mem_keep(system);
-    Branchlike *branch = &system->branches.at[system->ideals.at[i]];
+    system_touch(system);
+    Branchlike *branch = &system->network->branches.at[system->network->ideals.at[i]];
     const Ideal *ideal = &branch->relation.ideal;
-    IdealSwitch found = {.name = system->instances[branch->instance].name,
-                         .domain = graph_edge(system->graph, branch->edge)->domain,
+    IdealSwitch found = {.name = system->origin->instances[branch->instance].name,
+                         .domain = graph_edge(system->origin->graph, branch->edge)->domain,
                          .row = row_of(system, branch)};
     Status status = OK;
 
@@ -154,7 +156,7 @@ Status system_ideal(System *system, int i, IdealSwitch *out, Diag *diag)
     else if (ideal->off != NULL)
         found.through =
             expr_sub(system->arena, found.through, expr_div(system->arena, found.least, found.off));
-    if (ideal->when == NULL && system->closed != NULL)
+    if (ideal->when == NULL && system->network->closed != NULL)
         found.margin = margin_of(system, i, &found);
     *out = found;
 done:

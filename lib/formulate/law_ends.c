@@ -34,7 +34,7 @@ static void add_denominators(Measures *measures, Expr e)
 /* of the charge or flux of an edge, by the edge's own voltage or current */
 static Expr coefficient(const System *system, const Branchlike *branch)
 {
-    const Instance *instance = &system->instances[branch->instance];
+    const Instance *instance = &system->origin->instances[branch->instance];
     Expr own = branch->relation.kind == RELATION_CAPACITIVE
                    ? instance_across(instance, system->arena, branch->which)
                    : instance_through(instance, system->arena, branch->which);
@@ -44,11 +44,11 @@ static Expr coefficient(const System *system, const Branchlike *branch)
 
 int system_bounds(System *system, Bound **out)
 {
-    mem_keep(system);
+    system_touch(system);
     LIST(Bound) bounds = {0};
 
-    for (int b = 0; b < system->branches.count; b++) {
-        const Branchlike *branch = &system->branches.at[b];
+    for (int b = 0; b < system->network->branches.count; b++) {
+        const Branchlike *branch = &system->network->branches.at[b];
         RelationKind kind = branch->relation.kind;
         Measures measures = {0};
         bool has_gap;
@@ -63,7 +63,7 @@ int system_bounds(System *system, Bound **out)
         if (!has_gap && moves(value))
             add_measure(&measures, value);
         for (int i = 0; i < measures.count; i++)
-            LIST_PUSH(bounds, (Bound){.instance = system->instances[branch->instance].name,
+            LIST_PUSH(bounds, (Bound){.instance = system->origin->instances[branch->instance].name,
                                       .measure = measures.at[i],
                                       .is_gap = has_gap});
         LIST_FREE(measures);
@@ -74,12 +74,12 @@ int system_bounds(System *system, Bound **out)
 
 int system_storages(System *system, Storage **out)
 {
-    mem_keep(system);
+    system_touch(system);
     LIST(Storage) storages = {0};
 
-    for (int b = 0; b < system->branches.count; b++) {
-        const Branchlike *branch = &system->branches.at[b];
-        const Instance *instance = &system->instances[branch->instance];
+    for (int b = 0; b < system->network->branches.count; b++) {
+        const Branchlike *branch = &system->network->branches.at[b];
+        const Instance *instance = &system->origin->instances[branch->instance];
         bool holds_charge = branch->relation.kind == RELATION_CAPACITIVE;
         Expr own, content;
 
@@ -91,8 +91,8 @@ int system_storages(System *system, Storage **out)
         if (system_resolve(system, own, &own, NULL) != OK ||
             system_resolve(system, branch->relation.content, &content, NULL) != OK)
             continue;
-        for (int i = 0; i < system->x.count; i++)
-            if (system->x.at[i].symbol == own)
+        for (int i = 0; i < system->network->x.count; i++)
+            if (system->network->x.at[i].symbol == own)
                 LIST_PUSH(storages, ((Storage){i, content}));
     }
     *out = storages.at;

@@ -15,7 +15,7 @@
 
 Unknown unknown_of_branch(const System *system, const Branchlike *branch)
 {
-    return (Unknown){.branchlike = (int)(branch - system->branches.at),
+    return (Unknown){.branchlike = (int)(branch - system->network->branches.at),
                      .own = -1,
                      .instance = branch->instance,
                      .derives = -1};
@@ -39,7 +39,7 @@ static Status keep_unknown(System *system, Branchlike *branch, Diag *diag)
 {
     bool steep = is_steep(system, branch);
     const char *name = branch_member(system, branch, !branch->branch && !steep);
-    bool state_form = system->network_form == NETWORK_STATE;
+    bool state_form = system->network->form == NETWORK_STATE;
     Status status = OK;
 
     if (branch->unknown >= 0)
@@ -49,7 +49,7 @@ static Status keep_unknown(System *system, Branchlike *branch, Diag *diag)
     if (!steep)
         return OK;
     branch->is_steep = true;
-    branch->v = system->unknowns.at[branch->unknown].symbol;
+    branch->v = system->network->unknowns.at[branch->unknown].symbol;
     CHECK(resolve(system, branch->relation.value, &branch->i, diag));
     branch->i = expr_hold(system->arena, branch->i);
 done:
@@ -61,8 +61,8 @@ done:
 /* sum of across variables along the tree path from tail to head */
 Status circuit_across(System *system, Branchlike *branch, Expr *out, Diag *diag)
 {
-    const Edge *edge = graph_edge(system->graph, branch->edge);
-    const Tree *tree = system->trees[branch_tree(system, branch)];
+    const Edge *edge = graph_edge(system->origin->graph, branch->edge);
+    const Tree *tree = system->origin->trees[branch_tree(system, branch)];
     int room = tree_depth(tree, edge->tail) + tree_depth(tree, edge->head);
     int *edges = NEW_ARRAY(int, room);
     int *signs = NEW_ARRAY(int, room);
@@ -71,12 +71,13 @@ Status circuit_across(System *system, Branchlike *branch, Expr *out, Diag *diag)
     Status status = OK;
 
     for (int i = 0; i < count; i++) {
-        Branchlike *other = &system->branches.at[system->scalar_of_edge[edges[i]]];
+        Branchlike *other =
+            &system->network->branches.at[system->network->scalar_of_edge[edges[i]]];
         Expr v;
 
         if (branch->busy && other->busy && other->unknown < 0) {
             /* a loop: rather the chord stays unknown, as a mesh current */
-            system->met_loop = true;
+            system->network->met_loop = true;
             CHECK(diag_set(diag, E_MISSING, "%s leads back to itself", edge->name));
         }
         CHECK(network_across(system, other, &v, diag));
@@ -93,12 +94,13 @@ done:
 /* minus the sum of the chords' through variables in the cutset */
 static Status cutset_through(System *system, Branchlike *branch, Expr *out, Diag *diag)
 {
-    const SignMatrix *cutsets = system->cutsets[branch_tree(system, branch)];
+    const SignMatrix *cutsets = system->network->cutsets[branch_tree(system, branch)];
     LIST(Expr) terms = {0};
     Status status = OK;
 
     for (int k = cutsets->start[branch->cutset]; k < cutsets->start[branch->cutset + 1]; k++) {
-        Branchlike *chord = &system->branches.at[system->scalar_of_edge[cutsets->column[k]]];
+        Branchlike *chord =
+            &system->network->branches.at[system->network->scalar_of_edge[cutsets->column[k]]];
         Expr i;
 
         if (chord == branch)
@@ -120,7 +122,7 @@ static Status stored_rate(System *system, const Branchlike *branch, Expr *out, D
     Status status = OK;
 
     CHECK(resolve(system, relation->content, out, diag));
-    CHECK(need_smooth(system, graph_edge(system->graph, branch->edge)->name, *out, diag));
+    CHECK(need_smooth(system, graph_edge(system->origin->graph, branch->edge)->name, *out, diag));
     CHECK(rate_of(system, *out, out, diag));
     CHECK(resolve(system, relation->rest, &rest, diag));
     *out = expr_add(system->arena, *out, rest);
@@ -204,16 +206,17 @@ static Status own_variable(System *system, Branchlike *branch, Expr *out, Diag *
     Status status = OK;
 
     *out = NULL;
-    if (branch->unknown < 0 && !branch->busy && system->follow_depth < DEEP) {
+    if (branch->unknown < 0 && !branch->busy && system->network->follow_depth < DEEP) {
         branch->busy = true;
-        system->follow_depth++;
+        system->network->follow_depth++;
         system->asked_early = false;
         status = by_relation(system, branch, &given, out, diag);
-        system->follow_depth--;
+        system->network->follow_depth--;
         branch->busy = false;
-        if (status != OK && (system->asked_early || (!branch->branch && system->met_loop))) {
+        if (status != OK &&
+            (system->asked_early || (!branch->branch && system->network->met_loop))) {
             /* what it reads follows from forces, and waits for those; or a loop */
-            system->met_loop = false;
+            system->network->met_loop = false;
             given = false;
             status = OK;
             if (diag != NULL)
@@ -227,7 +230,7 @@ static Status own_variable(System *system, Branchlike *branch, Expr *out, Diag *
     if (branch->is_steep)
         *out = branch->i;
     else if (branch->unknown >= 0)
-        *out = system->unknowns.at[branch->unknown].symbol;
+        *out = system->network->unknowns.at[branch->unknown].symbol;
 done:
     return status;
 }

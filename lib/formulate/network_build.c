@@ -11,11 +11,11 @@ static void found_value(System *system, Instance *source)
     int param = component_source(source->row);
     size_t size = (size_t)source->row->param_count * sizeof(Value);
 
-    for (int i = 0; i < system->drives.count; i++) {
-        const Drive *drive = &system->drives.at[i];
+    for (int i = 0; i < system->constraints->drives.count; i++) {
+        const Drive *drive = &system->constraints->drives.at[i];
         Value *values;
 
-        if (!drive->by_source || system->instances[drive->instance].by != source->number)
+        if (!drive->by_source || system->origin->instances[drive->instance].by != source->number)
             continue;
         values = pool_alloc(system->pool, size);
         memcpy(values, source->values, size);
@@ -29,8 +29,8 @@ static void add_leak(System *system, Expr across, Relation *relation)
     if (relation->kind != RELATION_CONDUCTIVE && relation->kind != RELATION_THROUGH)
         return;
     if (!expr_is_zero(expr_diff(system->arena, relation->value, across)))
-        relation->value =
-            expr_add(system->arena, relation->value, expr_mul(system->arena, system->leak, across));
+        relation->value = expr_add(system->arena, relation->value,
+                                   expr_mul(system->arena, system->network->leak, across));
 }
 
 static void read_relation(System *system, Branchlike *branch)
@@ -43,7 +43,7 @@ static void read_relation(System *system, Branchlike *branch)
                       instance_through(instance, arena, branch->which)};
 
     if (instance->joint >= 0) {
-        const Instance *joint = &system->instances[instance->joint];
+        const Instance *joint = &system->origin->instances[instance->joint];
 
         motion.displacement = instance_coordinate(instance, joint, arena, 0);
         motion.rate = instance_coordinate(instance, joint, arena, 1);
@@ -55,7 +55,7 @@ static void read_relation(System *system, Branchlike *branch)
     if (branch->relation.kind == RELATION_THROUGH &&
         !expr_is_zero(expr_diff(arena, branch->relation.value, motion.across)))
         branch->relation.kind = RELATION_CONDUCTIVE;
-    if (system->leak != NULL)
+    if (system->network->leak != NULL)
         add_leak(system, motion.across, &branch->relation);
     if (branch->relation.kind == RELATION_IDEAL || branch->relation.switches)
         ideal_take_side(system, branch);
@@ -64,14 +64,14 @@ static void read_relation(System *system, Branchlike *branch)
 /* what couplings bring to the relations of two parts */
 static void couple(System *system)
 {
-    for (int i = 0; i < system->instance_count; i++) {
-        const Instance *instance = &system->instances[i];
+    for (int i = 0; i < system->origin->instance_count; i++) {
+        const Instance *instance = &system->origin->instances[i];
         const Instance *parts[2];
 
         if (instance->row->couple == NULL)
             continue;
         for (int k = 0; k < 2; k++)
-            parts[k] = &system->instances[instance->parts[k]];
+            parts[k] = &system->origin->instances[instance->parts[k]];
         for (int k = 0; k < 2; k++)
             instance->row->couple(instance, system->arena, parts, k,
                                   &scalar_branch(system, parts[k], 0)->relation);
@@ -84,8 +84,8 @@ static Status check_smooth(System *system, Diag *diag)
     Expr e;
     Status status = OK;
 
-    for (int i = 0; i < system->branches.count; i++) {
-        const Branchlike *branch = &system->branches.at[i];
+    for (int i = 0; i < system->network->branches.count; i++) {
+        const Branchlike *branch = &system->network->branches.at[i];
 
         if (branch->relation.smooth == NULL)
             continue;
@@ -103,11 +103,12 @@ done:
 
 static void find_cutsets(System *system, TreeKind kind)
 {
-    const Tree *tree = system->trees[kind];
+    const Tree *tree = system->origin->trees[kind];
 
-    system->cutsets[kind] = tree_cutsets(tree);
+    system->network->cutsets[kind] = tree_cutsets(tree);
     for (int r = 0; r < tree_branch_count(tree); r++) {
-        Branchlike *branch = &system->branches.at[system->scalar_of_edge[tree_branches(tree)[r]]];
+        Branchlike *branch =
+            &system->network->branches.at[system->network->scalar_of_edge[tree_branches(tree)[r]]];
 
         branch->branch = true;
         branch->cutset = r;
@@ -120,15 +121,15 @@ static int add_state(System *system, Unknown unknown, const char *name)
 {
     int k = network_new_unknown(system, unknown, name, SYMBOL_STATE);
 
-    if (system->network_form == NETWORK_STATE)
+    if (system->network->form == NETWORK_STATE)
         (void)network_add_rate(system, k, SYMBOL_STATE_RATE);
     return k;
 }
 
 static void add_states(System *system)
 {
-    for (int b = 0; b < system->branches.count; b++) {
-        Branchlike *branch = &system->branches.at[b];
+    for (int b = 0; b < system->network->branches.count; b++) {
+        Branchlike *branch = &system->network->branches.at[b];
         RelationKind kind = branch->relation.kind;
 
         if ((kind == RELATION_CAPACITIVE && branch->branch) ||
@@ -154,18 +155,18 @@ static void add_states(System *system)
 
 static void add_branches(System *system)
 {
-    int count = graph_edge_count(system->graph);
+    int count = graph_edge_count(system->origin->graph);
 
-    system->scalar_of_edge = pool_alloc(system->pool, (size_t)count * sizeof(int));
+    system->network->scalar_of_edge = pool_alloc(system->pool, (size_t)count * sizeof(int));
     for (int e = 0; e < count; e++)
-        system->scalar_of_edge[e] = -1;
-    for (int i = 0; i < system->instance_count; i++)
-        for (int k = 0; k < system->instances[i].scalar_count; k++) {
-            int edge = system->instances[i].scalar_edges[k];
+        system->network->scalar_of_edge[e] = -1;
+    for (int i = 0; i < system->origin->instance_count; i++)
+        for (int k = 0; k < system->origin->instances[i].scalar_count; k++) {
+            int edge = system->origin->instances[i].scalar_edges[k];
 
-            system->scalar_of_edge[edge] = system->branches.count;
+            system->network->scalar_of_edge[edge] = system->network->branches.count;
             LIST_PUSH(
-                system->branches,
+                system->network->branches,
                 (Branchlike){.edge = edge, .instance = i, .which = k, .unknown = -1, .ideal = -1});
         }
 }
@@ -175,29 +176,29 @@ Status network_build(System *system, Diag *diag)
     Expr value;
     Status status = OK;
 
-    system->is_network_open = true;
+    system->network->is_open = true;
     add_branches(system);
-    for (int i = 0; i < system->branches.count; i++)
-        read_relation(system, &system->branches.at[i]);
+    for (int i = 0; i < system->network->branches.count; i++)
+        read_relation(system, &system->network->branches.at[i]);
     couple(system);
     for (TreeKind kind = TREE_ELECTRICAL; kind < TREE_KINDS; kind++) {
-        if (system->trees[kind] == NULL)
+        if (system->origin->trees[kind] == NULL)
             continue;
         CHECK(network_normal_tree(system, kind, diag));
         find_cutsets(system, kind);
     }
     add_states(system);
     /* chords first: their currents are the ones to stay unknown */
-    for (int i = 0; i < system->branches.count; i++)
-        if (!system->branches.at[i].branch)
-            CHECK(network_through(system, &system->branches.at[i], &value, diag));
-    for (int i = 0; i < system->branches.count; i++) {
-        CHECK(network_across(system, &system->branches.at[i], &value, diag));
-        CHECK(network_through(system, &system->branches.at[i], &value, diag));
+    for (int i = 0; i < system->network->branches.count; i++)
+        if (!system->network->branches.at[i].branch)
+            CHECK(network_through(system, &system->network->branches.at[i], &value, diag));
+    for (int i = 0; i < system->network->branches.count; i++) {
+        CHECK(network_across(system, &system->network->branches.at[i], &value, diag));
+        CHECK(network_through(system, &system->network->branches.at[i], &value, diag));
         CHECK(poll(system->watch));
     }
     CHECK(check_smooth(system, diag));
-    if (system->network_form == NETWORK_TREE)
+    if (system->network->form == NETWORK_TREE)
         CHECK(network_bring_order(system, diag));
     network_list(system);
 done:

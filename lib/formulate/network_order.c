@@ -76,7 +76,7 @@ static Expr rate_symbol(const Unknown *y, int order)
 
 static Expr highest(const Order *o, int j)
 {
-    const Unknown *y = &o->system->unknowns.at[j];
+    const Unknown *y = &o->system->network->unknowns.at[j];
 
     return rate_symbol(y, y->order);
 }
@@ -118,11 +118,11 @@ static void drop_cancelled(const Order *o, Expr *row)
     Expr zero = expr_int(arena, 0);
 
     for (int j = 0; j < o->count; j++)
-        for (int k = 0; k <= o->system->unknowns.at[j].order; k++) {
-            Expr symbol = rate_symbol(&o->system->unknowns.at[j], k);
+        for (int k = 0; k <= o->system->network->unknowns.at[j].order; k++) {
+            Expr symbol = rate_symbol(&o->system->network->unknowns.at[j], k);
 
-            if (expr_depends(*row, symbol) &&
-                (k == o->system->unknowns.at[j].order || vanishes(expr_diff(arena, *row, symbol))))
+            if (expr_depends(*row, symbol) && (k == o->system->network->unknowns.at[j].order ||
+                                               vanishes(expr_diff(arena, *row, symbol))))
                 *row = expr_substitute(arena, *row, &symbol, &zero, 1);
         }
 }
@@ -184,7 +184,7 @@ static int lowered_by(const Order *o, Expr row, int *rate)
     int gap = 0;
 
     for (int j = 0; j < o->count; j++) {
-        const Unknown *y = &o->system->unknowns.at[j];
+        const Unknown *y = &o->system->network->unknowns.at[j];
         int k = y->order - 1;
 
         while (k >= 0 && vanishes(expr_diff(o->system->arena, row, rate_symbol(y, k))))
@@ -200,7 +200,7 @@ static int lowered_by(const Order *o, Expr row, int *rate)
 
 static Status cant_order(const Order *o, int row, Diag *diag)
 {
-    const Unknown *y = &o->system->unknowns.at[row];
+    const Unknown *y = &o->system->network->unknowns.at[row];
 
     (void)diag_set(diag, E_MODEL, "the equations of this electrical tree can't be solved for %s",
                    expr_name(y->symbol));
@@ -213,14 +213,14 @@ static void substitute_all(System *system, const Expr *from, const Expr *to, int
 {
     Arena *arena = system->arena;
 
-    for (int b = 0; b < system->branches.count; b++) {
-        Branchlike *branch = &system->branches.at[b];
+    for (int b = 0; b < system->network->branches.count; b++) {
+        Branchlike *branch = &system->network->branches.at[b];
 
         branch->v = expr_substitute(arena, branch->v, from, to, count);
         branch->i = expr_substitute(arena, branch->i, from, to, count);
     }
-    for (int k = 0; k < system->unknowns.count; k++) {
-        const Unknown *y = &system->unknowns.at[k];
+    for (int k = 0; k < system->network->unknowns.count; k++) {
+        const Unknown *y = &system->network->unknowns.at[k];
 
         for (int i = y->order; i < y->known; i++)
             y->rates[i] = expr_substitute(arena, y->rates[i], from, to, count);
@@ -235,13 +235,13 @@ static Status rates_by(const Order *o, Expr row, int j, int k, Expr *symbol, Exp
     System *system = o->system;
     Arena *arena = system->arena;
     Expr zero = expr_int(arena, 0);
-    int count = system->unknowns.at[j].order - k;
+    int count = system->network->unknowns.at[j].order - k;
     Status status = OK;
 
     for (int i = 0; i < count; i++) {
         Expr rate;
 
-        symbol[i] = rate_symbol(&system->unknowns.at[j], k + 1 + i);
+        symbol[i] = rate_symbol(&system->network->unknowns.at[j], k + 1 + i);
         CHECK(rate_of(system, i == 0 ? row : value[i - 1], &rate, diag));
         if (i == 0 && expr_is_zero(expr_diff(arena, rate, symbol[0])))
             CHECK(cant_order(o, j, diag));
@@ -273,7 +273,7 @@ static Status lower(Order *o, Diag *diag)
         j = lowered_by(o, rest, &k);
     if (j < 0)
         return cant_order(o, r >= 0 ? r : 0, diag);
-    count = system->unknowns.at[j].order - k;
+    count = system->network->unknowns.at[j].order - k;
     CHECK(rates_by(o, rest, j, k, symbol, value, diag));
     for (int i = 0; i < o->count; i++)
         if (i != r) {
@@ -284,8 +284,8 @@ static Status lower(Order *o, Diag *diag)
     o->row[r] = rest;
     /* they can still be told */
     for (int i = 0; i < count; i++)
-        system->unknowns.at[j].rates[k + i] = value[i];
-    system->unknowns.at[j].order = k;
+        system->network->unknowns.at[j].rates[k + i] = value[i];
+    system->network->unknowns.at[j].order = k;
 done:
     return status;
 }
@@ -301,7 +301,7 @@ static void rename(Order *o)
     Expr *to = NEW_ARRAY(Expr, o->count);
 
     for (int j = 0; j < o->count; j++) {
-        Unknown *y = &system->unknowns.at[j];
+        Unknown *y = &system->network->unknowns.at[j];
 
         from[j] = highest(o, j);
         to[j] = expr_symbol(arena, expr_name(from[j]),
@@ -313,7 +313,7 @@ static void rename(Order *o)
         network_know(system, to[j], j, y->order);
     }
     for (int j = 0; j < o->count; j++) {
-        Unknown *y = &system->unknowns.at[j];
+        Unknown *y = &system->network->unknowns.at[j];
 
         y->left = expr_substitute(arena, y->left, from, to, o->count);
         y->right = expr_substitute(arena, y->right, from, to, o->count);
@@ -329,17 +329,18 @@ Status network_bring_order(System *system, Diag *diag)
     Order o = {.system = system, .nodes = arena_nodes(system->arena)};
     Status status = OK;
 
-    for (int k = 0; k < system->unknowns.count; k++) {
+    for (int k = 0; k < system->network->unknowns.count; k++) {
         CHECK(network_row(system, k, diag));
         CHECK(check_room(&o, diag));
     }
-    o.count = system->unknowns.count;
+    o.count = system->network->unknowns.count;
     o.row = NEW_ARRAY(Expr, o.count);
     o.L = NEW_ARRAY(Expr, o.count * o.count);
     o.number = NEW_ARRAY(double, o.count *o.count);
     for (int k = 0; k < o.count; k++)
-        o.row[k] = expr_sub(system->arena, expr_open(system->arena, system->unknowns.at[k].left),
-                            expr_open(system->arena, system->unknowns.at[k].right));
+        o.row[k] =
+            expr_sub(system->arena, expr_open(system->arena, system->network->unknowns.at[k].left),
+                     expr_open(system->arena, system->network->unknowns.at[k].right));
     for (int round = 0;; round++) {
         CHECK(form_leading(&o, diag));
         if (rank_at(&o, 1) == o.count || rank_at(&o, 2) == o.count)

@@ -71,7 +71,7 @@ static Status port_row(System *system, Branchlike *branch, Unknown *y, Diag *dia
 static Status relation_row(System *system, Unknown *y, Diag *diag)
 {
     Arena *arena = system->arena;
-    Branchlike *branch = &system->branches.at[y->branchlike];
+    Branchlike *branch = &system->network->branches.at[y->branchlike];
     const Relation *relation = &branch->relation;
     Expr v;
     Expr i;
@@ -89,7 +89,8 @@ static Status relation_row(System *system, Unknown *y, Diag *diag)
         CHECK(resolve(system, relation->rest, &rest, diag));
     if (relation->content != NULL) {
         CHECK(resolve(system, relation->content, &content, diag));
-        CHECK(need_smooth(system, graph_edge(system->graph, branch->edge)->name, content, diag));
+        CHECK(need_smooth(system, graph_edge(system->origin->graph, branch->edge)->name, content,
+                          diag));
         CHECK(rate_of(system, content, &content, diag));
     }
     switch (relation->kind) {
@@ -138,7 +139,7 @@ done:
 
 static Status own_row(System *system, Unknown *y, Diag *diag)
 {
-    const Instance *instance = &system->instances[y->instance];
+    const Instance *instance = &system->origin->instances[y->instance];
     OwnState own;
     Status status = OK;
 
@@ -152,16 +153,16 @@ done:
 Status network_row(System *system, int unknown, Diag *diag)
 {
     Arena *arena = system->arena;
-    Unknown y = system->unknowns.at[unknown]; /* the list may move on the way */
+    Unknown y = system->network->unknowns.at[unknown]; /* the list may move on the way */
     Status status = OK;
 
     if (y.has_row)
         return OK;
     if (y.derives >= 0) {
         CHECK(network_row(system, y.derives, diag));
-        y.left = expr_open(arena, system->unknowns.at[y.derives].left);
-        y.right = expr_open(arena, system->unknowns.at[y.derives].right);
-        CHECK(need_smooth(system, system->instances[y.instance].name,
+        y.left = expr_open(arena, system->network->unknowns.at[y.derives].left);
+        y.right = expr_open(arena, system->network->unknowns.at[y.derives].right);
+        CHECK(need_smooth(system, system->origin->instances[y.instance].name,
                           expr_sub(arena, y.left, y.right), diag));
         CHECK(rate_of(system, y.left, &y.left, diag));
         CHECK(rate_of(system, y.right, &y.right, diag));
@@ -170,14 +171,14 @@ Status network_row(System *system, int unknown, Diag *diag)
     } else {
         CHECK(own_row(system, &y, diag));
     }
-    y.order = system->unknowns.at[unknown].order;
-    y.known = system->unknowns.at[unknown].known;
-    y.rates = system->unknowns.at[unknown].rates;
+    y.order = system->network->unknowns.at[unknown].order;
+    y.known = system->network->unknowns.at[unknown].known;
+    y.rates = system->network->unknowns.at[unknown].rates;
     sort_sides(system, &y);
     choose_sign(system, &y);
     y.right = expr_fold(arena, expr_open(arena, y.right));
     y.has_row = true;
-    system->unknowns.at[unknown] = y;
+    system->network->unknowns.at[unknown] = y;
 done:
     return status;
 }
@@ -187,25 +188,25 @@ done:
 /* the edge that an unknown belongs to; of a state of a part's own its first */
 static int unknown_edge(const System *system, const Unknown *y)
 {
-    return y->branchlike >= 0 ? system->branches.at[y->branchlike].edge
-                              : system->instances[y->instance].scalar_edges[0];
+    return y->branchlike >= 0 ? system->network->branches.at[y->branchlike].edge
+                              : system->origin->instances[y->instance].scalar_edges[0];
 }
 
 /* in the order of the edges' making */
 static void show_equation(System *system, NetworkEquation equation)
 {
-    int at = system->network_shown.count;
+    int at = system->network->equations.count;
 
-    LIST_PUSH(system->network_shown, equation);
-    for (; at > 0 && system->network_shown.at[at - 1].edge > equation.edge; at--)
-        system->network_shown.at[at] = system->network_shown.at[at - 1];
-    system->network_shown.at[at] = equation;
+    LIST_PUSH(system->network->equations, equation);
+    for (; at > 0 && system->network->equations.at[at - 1].edge > equation.edge; at--)
+        system->network->equations.at[at] = system->network->equations.at[at - 1];
+    system->network->equations.at[at] = equation;
 }
 
 void network_list(System *system)
 {
-    for (; system->listed < system->unknowns.count; system->listed++) {
-        const Unknown *y = &system->unknowns.at[system->listed];
+    for (; system->network->listed < system->network->unknowns.count; system->network->listed++) {
+        const Unknown *y = &system->network->unknowns.at[system->network->listed];
         Expr symbol = y->symbol;
 
         for (int k = 0; k <= y->order; k++) {
@@ -218,11 +219,11 @@ void network_list(System *system)
                 break; /* solved for */
             if (expr_symbol_kind(symbol) == SYMBOL_ALGEBRAIC) {
                 if (k == 0)
-                    LIST_PUSH(system->z, variable);
+                    LIST_PUSH(system->network->z, variable);
                 break;
             }
-            LIST_PUSH(system->x, variable);
-            LIST_PUSH(system->rates,
+            LIST_PUSH(system->network->x, variable);
+            LIST_PUSH(system->network->rates,
                       expr_symbol(system->arena, system_keep(system, "%s'", variable.name),
                                   SYMBOL_STATE_RATE));
             symbol = k < y->order ? y->rates[k] : NULL;
@@ -252,7 +253,8 @@ static void place(Rows *rows, Expr symbol, int column)
 /* what to say of an equation that none of the unknowns can meet */
 static Status cant_be_met(System *system, const Unknown *y, Diag *diag)
 {
-    const Branchlike *branch = y->branchlike >= 0 ? &system->branches.at[y->branchlike] : NULL;
+    const Branchlike *branch =
+        y->branchlike >= 0 ? &system->network->branches.at[y->branchlike] : NULL;
     RelationKind kind = branch != NULL ? branch->relation.kind : RELATION_FREE;
     bool ideal = branch != NULL && branch->ideal >= 0;
 
@@ -270,7 +272,7 @@ static Status cant_be_met(System *system, const Unknown *y, Diag *diag)
         diag_hint(diag, "put a resistance across one of them");
     } else {
         (void)diag_set(diag, E_MODEL, "nothing in the network can satisfy the equation of %s",
-                       system->instances[y->instance].name);
+                       system->origin->instances[y->instance].name);
         diag_hint(diag, "what it asks for is fixed by states and sources already: put a resistor "
                         "or a capacitor between");
     }
@@ -328,12 +330,12 @@ static void gather_rates(Rows *rows, int first, Expr *left, Expr *right)
     for (int i = first; i < rows->entries.count; i++) {
         const Entry *entry = &rows->entries.at[i];
 
-        if (entry->column >= system->x.count)
+        if (entry->column >= system->network->x.count)
             continue;
-        LIST_PUSH(symbols, system->rates.at[entry->column]);
+        LIST_PUSH(symbols, system->network->rates.at[entry->column]);
         LIST_PUSH(zeros, expr_int(arena, 0));
-        LIST_PUSH(terms,
-                  expr_mul(arena, expr_fold(arena, entry->value), system->rates.at[entry->column]));
+        LIST_PUSH(terms, expr_mul(arena, expr_fold(arena, entry->value),
+                                  system->network->rates.at[entry->column]));
     }
     *right = expr_sub(arena, expr_substitute(arena, *right, symbols.at, zeros.at, symbols.count),
                       expr_substitute(arena, *left, symbols.at, zeros.at, symbols.count));
@@ -350,11 +352,11 @@ static Status add_rows(Rows *rows, Diag *diag)
     System *system = rows->system;
     Arena *arena = system->arena;
     int state = 0;
-    int algebraic = system->x.count;
+    int algebraic = system->network->x.count;
     Status status = OK;
 
-    for (int k = 0; k < system->unknowns.count; k++) {
-        const Unknown *y = &system->unknowns.at[k];
+    for (int k = 0; k < system->network->unknowns.count; k++) {
+        const Unknown *y = &system->network->unknowns.at[k];
         Expr residual = y->residual != NULL ? y->residual
                                             : expr_sub(arena, expr_open(arena, y->left),
                                                        expr_open(arena, y->right));
@@ -368,10 +370,11 @@ static Status add_rows(Rows *rows, Diag *diag)
              is_state && l < y->order - 1 && expr_symbol_kind(y->rates[l]) == SYMBOL_STATE;
              l++, state++)
             CHECK(add_row(rows, state,
-                          expr_sub(arena, system->rates.at[state], system->x.at[state + 1].symbol),
+                          expr_sub(arena, system->network->rates.at[state],
+                                   system->network->x.at[state + 1].symbol),
                           y, diag));
         CHECK(add_row(rows, is_state ? state++ : algebraic++, residual, y, diag));
-        if (system->network_form == NETWORK_STATE && is_state &&
+        if (system->network->form == NETWORK_STATE && is_state &&
             (expr_kinds(right) & 1U << SYMBOL_STATE_RATE) != 0 && !system->run.network_nonlinear)
             gather_rates(rows, first, &left, &right);
         show_equation(system, (NetworkEquation){left, right, unknown_edge(system, y)});
@@ -383,22 +386,22 @@ done:
 
 static void find_samples(System *system)
 {
-    for (int k = 0; k < system->unknowns.count; k++) {
-        const Unknown *y = &system->unknowns.at[k];
+    for (int k = 0; k < system->network->unknowns.count; k++) {
+        const Unknown *y = &system->network->unknowns.at[k];
         OwnSample sample = {.next = NULL};
         OwnState own;
 
         if (y->own < 0)
             continue;
-        system->instances[y->instance].row->own_state(&system->instances[y->instance],
-                                                      system->arena, y->own, &own);
-        for (int i = 0; i < system->x.count; i++)
-            if (system->x.at[i].symbol == y->symbol)
+        system->origin->instances[y->instance].row->own_state(
+            &system->origin->instances[y->instance], system->arena, y->own, &own);
+        for (int i = 0; i < system->network->x.count; i++)
+            if (system->network->x.at[i].symbol == y->symbol)
                 sample.state = i;
         sample.initial = own.initial;
         sample.period = own.period;
         sample.next = own.next;
-        LIST_PUSH(system->samples, sample);
+        LIST_PUSH(system->network->samples, sample);
     }
 }
 
@@ -408,7 +411,7 @@ static Status differentiate_fixed(System *system, int unknown, Diag *diag)
 {
     const unsigned moves = 1U << SYMBOL_STATE;
     Arena *arena = system->arena;
-    const Unknown *y = &system->unknowns.at[unknown];
+    const Unknown *y = &system->network->unknowns.at[unknown];
     Expr residual = expr_sub(arena, expr_open(arena, y->left), expr_open(arena, y->right));
     Expr rate;
     Status status = OK;
@@ -416,10 +419,10 @@ static Status differentiate_fixed(System *system, int unknown, Diag *diag)
     if (y->residual != NULL || (expr_kinds(residual) & solved_kinds) != 0 ||
         (expr_kinds(residual) & moves) == 0)
         return OK;
-    CHECK(need_smooth(system, system->instances[y->instance].name, residual, diag));
+    CHECK(need_smooth(system, system->origin->instances[y->instance].name, residual, diag));
     CHECK(rate_of(system, residual, &rate, diag));
-    LIST_PUSH(system->invariants, residual);
-    system->unknowns.at[unknown].residual = rate;
+    LIST_PUSH(system->network->invariants, residual);
+    system->network->unknowns.at[unknown].residual = rate;
 done:
     return status;
 }
@@ -431,20 +434,21 @@ Status network_rows(System *system, Diag *diag)
     size_t bytes;
     Status status = OK;
 
-    for (int k = 0; k < system->unknowns.count; k++)
+    for (int k = 0; k < system->network->unknowns.count; k++)
         CHECK(network_row(system, k, diag)); /* may add unknowns */
-    for (int k = 0; k < system->unknowns.count && system->network_form == NETWORK_STATE; k++)
+    for (int k = 0; k < system->network->unknowns.count && system->network->form == NETWORK_STATE;
+         k++)
         CHECK(differentiate_fixed(system, k, diag));
     network_list(system);
-    system->is_network_open = false;
-    rows.count = system->x.count + system->z.count;
+    system->network->is_open = false;
+    rows.count = system->network->x.count + system->network->z.count;
     bytes = (size_t)rows.count * sizeof(Expr);
     run->network_residual = pool_alloc(system->pool, bytes);
     run->network_rhs = pool_alloc(system->pool, bytes);
-    for (int k = 0; k < system->x.count; k++)
-        place(&rows, system->rates.at[k], k);
-    for (int k = 0; k < system->z.count; k++)
-        place(&rows, system->z.at[k].symbol, system->x.count + k);
+    for (int k = 0; k < system->network->x.count; k++)
+        place(&rows, system->network->rates.at[k], k);
+    for (int k = 0; k < system->network->z.count; k++)
+        place(&rows, system->network->z.at[k].symbol, system->network->x.count + k);
     CHECK(add_rows(&rows, diag));
     run->network_entries = rows.entries.count;
     run->network = pool_alloc(system->pool, (size_t)rows.entries.count * sizeof(Entry));

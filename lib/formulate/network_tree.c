@@ -31,7 +31,7 @@ static int normal_order(const System *system, const Branchlike *branch)
     case RELATION_IDEAL:
         break;
     }
-    return graph_edge(system->graph, branch->edge)->preference[0];
+    return graph_edge(system->origin->graph, branch->edge)->preference[0];
 }
 
 /* The order in which edges are taken into the normal tree where there are ports. */
@@ -45,7 +45,7 @@ typedef struct Taking {
 
 static void take(Taking *taking, const Branchlike *branch)
 {
-    const Edge *edge = graph_edge(taking->system->graph, branch->edge);
+    const Edge *edge = graph_edge(taking->system->origin->graph, branch->edge);
 
     if (sets_join(taking->nodes, edge->tail, edge->head))
         taking->preference[branch->edge] = taking->taken++;
@@ -53,12 +53,12 @@ static void take(Taking *taking, const Branchlike *branch)
 
 static bool is_taken(const Taking *taking, const Branchlike *branch)
 {
-    return taking->preference[branch->edge] < graph_edge_count(taking->system->graph);
+    return taking->preference[branch->edge] < graph_edge_count(taking->system->origin->graph);
 }
 
 static bool is_closed(const Taking *taking, const Branchlike *branch)
 {
-    const Edge *edge = graph_edge(taking->system->graph, branch->edge);
+    const Edge *edge = graph_edge(taking->system->origin->graph, branch->edge);
 
     return sets_find(taking->nodes, edge->tail) == sets_find(taking->nodes, edge->head);
 }
@@ -69,8 +69,8 @@ static void take_through_ports(Taking *taking)
 {
     System *system = taking->system;
 
-    for (int i = 0; i < system->branches.count; i++) {
-        const Branchlike *p = &system->branches.at[i];
+    for (int i = 0; i < system->network->branches.count; i++) {
+        const Branchlike *p = &system->network->branches.at[i];
         const Branchlike *s = p + 1;
 
         if (p->relation.kind != RELATION_PORT || p->which > 0 ||
@@ -86,7 +86,7 @@ static void take_through_ports(Taking *taking)
 
 static void join(const System *system, Sets *nodes, const Branchlike *branch)
 {
-    const Edge *edge = graph_edge(system->graph, branch->edge);
+    const Edge *edge = graph_edge(system->origin->graph, branch->edge);
 
     (void)sets_join(nodes, edge->tail, edge->head);
 }
@@ -97,12 +97,12 @@ static void join(const System *system, Sets *nodes, const Branchlike *branch)
  * amplifier. */
 static bool *find_leading(const System *system, TreeKind kind)
 {
-    Sets *voltages = sets_new(graph_node_count(system->graph));
-    Sets *currents = sets_new(graph_node_count(system->graph));
+    Sets *voltages = sets_new(graph_node_count(system->origin->graph));
+    Sets *currents = sets_new(graph_node_count(system->origin->graph));
     bool *leads = NULL;
 
-    for (int i = 0; i < system->branches.count; i++) {
-        const Branchlike *branch = &system->branches.at[i];
+    for (int i = 0; i < system->network->branches.count; i++) {
+        const Branchlike *branch = &system->network->branches.at[i];
 
         if (branch_tree(system, branch) != kind)
             continue;
@@ -111,14 +111,14 @@ static bool *find_leading(const System *system, TreeKind kind)
             join(system, currents, branch);
         } else if (branch->relation.kind == RELATION_FREE) {
             if (leads == NULL)
-                leads = NEW_ARRAY(bool, system->branches.count);
+                leads = NEW_ARRAY(bool, system->network->branches.count);
             join(system, currents, branch);
             join(system, voltages, branch - branch->which); /* its input is its first edge */
         }
     }
-    for (int i = 0; i < system->branches.count && leads != NULL; i++) {
-        const Branchlike *branch = &system->branches.at[i];
-        const Edge *edge = graph_edge(system->graph, branch->edge);
+    for (int i = 0; i < system->network->branches.count && leads != NULL; i++) {
+        const Branchlike *branch = &system->network->branches.at[i];
+        const Edge *edge = graph_edge(system->origin->graph, branch->edge);
 
         if (branch->relation.kind != RELATION_CAPACITIVE || branch_tree(system, branch) != kind ||
             sets_find(voltages, edge->tail) == sets_find(voltages, edge->head) ||
@@ -138,10 +138,10 @@ static bool *find_leading(const System *system, TreeKind kind)
 /* the user's branches before others of their kind */
 static int rank_of(const System *system, TreeKind kind, const bool *leads, int branch)
 {
-    const Branchlike *one = &system->branches.at[branch];
+    const Branchlike *one = &system->network->branches.at[branch];
     const int order = leads != NULL && leads[branch] ? BEFORE_OUTPUTS : normal_order(system, one);
 
-    return 2 * order + !tree_has(system->trees[kind], one->edge);
+    return 2 * order + !tree_has(system->origin->trees[kind], one->edge);
 }
 
 typedef struct Rank {
@@ -163,8 +163,8 @@ static void choose_order(Taking *taking, const bool *leads)
     System *system = taking->system;
     LIST(Rank) ranks = {0};
 
-    for (int i = 0; i < system->branches.count; i++) {
-        const Branchlike *branch = &system->branches.at[i];
+    for (int i = 0; i < system->network->branches.count; i++) {
+        const Branchlike *branch = &system->network->branches.at[i];
 
         if (branch_tree(system, branch) != taking->kind)
             continue;
@@ -173,7 +173,7 @@ static void choose_order(Taking *taking, const bool *leads)
     if (ranks.count > 0)
         qsort(ranks.at, (size_t)ranks.count, sizeof(Rank), compare_ranks);
     for (int k = 0; k < ranks.count; k++) {
-        take(taking, &system->branches.at[ranks.at[k].branch]);
+        take(taking, &system->network->branches.at[ranks.at[k].branch]);
         take_through_ports(taking);
     }
     LIST_FREE(ranks);
@@ -181,9 +181,9 @@ static void choose_order(Taking *taking, const bool *leads)
 
 static bool has_ports(const System *system, TreeKind kind)
 {
-    for (int i = 0; i < system->branches.count; i++)
-        if (system->branches.at[i].relation.kind == RELATION_PORT &&
-            branch_tree(system, &system->branches.at[i]) == kind)
+    for (int i = 0; i < system->network->branches.count; i++)
+        if (system->network->branches.at[i].relation.kind == RELATION_PORT &&
+            branch_tree(system, &system->network->branches.at[i]) == kind)
             return true;
     return false;
 }
@@ -191,13 +191,13 @@ static bool has_ports(const System *system, TreeKind kind)
 /* storage elements that are states by the tree */
 static void list_states(System *system, const Tree *tree, TreeKind kind)
 {
-    for (int i = 0; i < system->branches.count; i++) {
-        const Branchlike *branch = &system->branches.at[i];
+    for (int i = 0; i < system->network->branches.count; i++) {
+        const Branchlike *branch = &system->network->branches.at[i];
         bool in_tree = tree_has(tree, branch->edge);
 
         if (branch_tree(system, branch) == kind &&
             branch->relation.kind == (in_tree ? RELATION_CAPACITIVE : RELATION_INDUCTIVE))
-            LIST_PUSH(system->at_rest, branch_member(system, branch, !in_tree));
+            LIST_PUSH(system->network->at_rest, branch_member(system, branch, !in_tree));
     }
 }
 
@@ -205,10 +205,10 @@ static void list_states(System *system, const Tree *tree, TreeKind kind)
  * form of the user's tree that stays, and this one tells which variables rest at the start. */
 Status network_normal_tree(System *system, TreeKind kind, Diag *diag)
 {
-    int count = graph_edge_count(system->graph);
+    int count = graph_edge_count(system->origin->graph);
     Taking taking = {.system = system,
                      .kind = kind,
-                     .nodes = sets_new(graph_node_count(system->graph)),
+                     .nodes = sets_new(graph_node_count(system->origin->graph)),
                      .preference = NEW_ARRAY(int, count)};
     TreeChoice choice = {.preference = taking.preference};
     bool *leads = find_leading(system, kind);
@@ -219,18 +219,18 @@ Status network_normal_tree(System *system, TreeKind kind, Diag *diag)
         taking.preference[e] = count;
     if (has_ports(system, kind))
         choose_order(&taking, leads);
-    for (int i = 0; i < system->branches.count && taking.taken == 0; i++)
-        taking.preference[system->branches.at[i].edge] = rank_of(system, kind, leads, i);
-    CHECK(tree_complete(system->graph, kind, &choice, false, &tree, diag));
+    for (int i = 0; i < system->network->branches.count && taking.taken == 0; i++)
+        taking.preference[system->network->branches.at[i].edge] = rank_of(system, kind, leads, i);
+    CHECK(tree_complete(system->origin->graph, kind, &choice, false, &tree, diag));
     for (int i = 0; i < tree_branch_count(tree); i++)
-        if (!tree_has(system->trees[kind], tree_branches(tree)[i]))
-            system->leaves_trees = true;
-    if (system->network_form == NETWORK_TREE) {
+        if (!tree_has(system->origin->trees[kind], tree_branches(tree)[i]))
+            system->network->leaves_trees = true;
+    if (system->network->form == NETWORK_TREE) {
         list_states(system, tree, kind);
         tree_free(tree);
     } else {
-        tree_free(system->trees[kind]);
-        system->trees[kind] = tree;
+        tree_free(system->origin->trees[kind]);
+        system->origin->trees[kind] = tree;
     }
 done:
     sets_free(taking.nodes);

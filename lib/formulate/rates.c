@@ -12,27 +12,27 @@ void network_know(System *system, Expr symbol, int unknown, int order)
 {
     int number = expr_symbol_number(symbol);
 
-    while (system->unknown_of.count <= number) {
-        LIST_PUSH(system->unknown_of, 0);
-        LIST_PUSH(system->rate_of, 0);
+    while (system->network->unknown_of.count <= number) {
+        LIST_PUSH(system->network->unknown_of, 0);
+        LIST_PUSH(system->network->rate_of, 0);
     }
-    system->unknown_of.at[number] = 1 + unknown;
-    system->rate_of.at[number] = order;
+    system->network->unknown_of.at[number] = 1 + unknown;
+    system->network->rate_of.at[number] = order;
 }
 
 bool network_knows(const System *system, Expr symbol)
 {
     int number = expr_symbol_number(symbol);
 
-    return number < system->unknown_of.count && system->unknown_of.at[number] > 0;
+    return number < system->network->unknown_of.count && system->network->unknown_of.at[number] > 0;
 }
 
 int network_new_unknown(System *system, Unknown unknown, const char *name, SymbolKind kind)
 {
     unknown.symbol = expr_symbol(system->arena, name, kind);
-    LIST_PUSH(system->unknowns, unknown);
-    network_know(system, unknown.symbol, system->unknowns.count - 1, 0);
-    return system->unknowns.count - 1;
+    LIST_PUSH(system->network->unknowns, unknown);
+    network_know(system, unknown.symbol, system->network->unknowns.count - 1, 0);
+    return system->network->unknowns.count - 1;
 }
 
 /* one that is an expression leaves the order as it is */
@@ -51,7 +51,7 @@ static void push_rate(System *system, Unknown *y, Expr rate, bool is_expression)
 /* one rate more of an unknown, as a symbol */
 Expr network_add_rate(System *system, int unknown, SymbolKind kind)
 {
-    Unknown *y = &system->unknowns.at[unknown];
+    Unknown *y = &system->network->unknowns.at[unknown];
     const char *last = expr_name(y->order > 0 ? y->rates[y->order - 1] : y->symbol);
     Expr rate = expr_symbol(system->arena, system_keep(system, "%s'", last), kind);
 
@@ -65,30 +65,30 @@ static int derivations(const System *system, int unknown)
 {
     int count = 0;
 
-    for (; system->unknowns.at[unknown].derives >= 0; count++)
-        unknown = system->unknowns.at[unknown].derives;
+    for (; system->network->unknowns.at[unknown].derives >= 0; count++)
+        unknown = system->network->unknowns.at[unknown].derives;
     return count;
 }
 
 Status network_rate(System *system, Expr symbol, Expr *out, Diag *diag)
 {
     int number = expr_symbol_number(symbol);
-    int k = system->unknown_of.at[number] - 1;
-    int order = system->rate_of.at[number];
-    Unknown *y = &system->unknowns.at[k];
+    int k = system->network->unknown_of.at[number] - 1;
+    int order = system->network->rate_of.at[number];
+    Unknown *y = &system->network->unknowns.at[k];
     Status status = OK;
 
     if (order < y->known) {
         *out = y->rates[order];
         return OK;
     }
-    if (!system->is_network_open)
+    if (!system->network->is_open)
         return diag_set(diag, E_MISSING,
                         "the derivative of %s is not among the network's equations",
                         expr_name(symbol));
     if (order + derivations(system, k) >=
-        (system->network_form == NETWORK_TREE ? NETWORK_ORDER : 3)) {
-        system->has_no_states = system->network_form == NETWORK_STATE;
+        (system->network->form == NETWORK_TREE ? NETWORK_ORDER : 3)) {
+        system->network->has_no_states = system->network->form == NETWORK_STATE;
         (void)diag_set(diag, E_MODEL, "the network's equations need ever more derivatives of %s",
                        expr_name(y->symbol));
         diag_hint(diag, "a source controlled by it stands among inductors or capacitors alone: "
@@ -97,8 +97,8 @@ Status network_rate(System *system, Expr symbol, Expr *out, Diag *diag)
     }
     if (y->order < y->known) {
         CHECK(rate_of(system, y->rates[y->known - 1], out, diag));
-        push_rate(system, &system->unknowns.at[k], *out, true);
-    } else if (system->network_form == NETWORK_TREE) {
+        push_rate(system, &system->network->unknowns.at[k], *out, true);
+    } else if (system->network->form == NETWORK_TREE) {
         *out = network_add_rate(system, k, SYMBOL_STATE);
     } else {
         /* algebraic, or the rate of a state: its equation differentiated tells it */
@@ -106,8 +106,8 @@ Status network_rate(System *system, Expr symbol, Expr *out, Diag *diag)
         const char *name = system_keep(system, "%s'", expr_name(symbol));
         int added = network_new_unknown(system, more, name, SYMBOL_ALGEBRAIC);
 
-        *out = system->unknowns.at[added].symbol;
-        push_rate(system, &system->unknowns.at[k], *out, false);
+        *out = system->network->unknowns.at[added].symbol;
+        push_rate(system, &system->network->unknowns.at[k], *out, false);
     }
 done:
     return status;
@@ -127,13 +127,13 @@ Status rate_of(System *system, Expr e, Expr *out, Diag *diag)
     if ((expr_kinds(e) & late) != 0)
         CHECK(diag_set(diag, E_MISSING,
                        "this derivative needs one of an acceleration or of a multiplier"));
-    for (int i = 0; i < system->q.count; i++) {
-        LIST_PUSH(moved, system->q.at[i].symbol);
+    for (int i = 0; i < system->kinematics->q.count; i++) {
+        LIST_PUSH(moved, system->kinematics->q.at[i].symbol);
         LIST_PUSH(rates, system_q_rate(system, i));
     }
-    for (int i = 0; i < system->u.count; i++) {
-        LIST_PUSH(moved, system->u.at[i].symbol);
-        LIST_PUSH(rates, system->accelerations[i]);
+    for (int i = 0; i < system->kinematics->u.count; i++) {
+        LIST_PUSH(moved, system->kinematics->u.at[i].symbol);
+        LIST_PUSH(rates, system->kinematics->accelerations[i]);
     }
     count = expr_symbols(&e, 1, &symbols);
     for (int i = 0; i < count; i++) {
@@ -157,6 +157,6 @@ done:
 
 Status system_rate(System *system, Expr e, Expr *out, Diag *diag)
 {
-    mem_keep(system);
+    system_touch(system);
     return rate_of(system, e, out, diag);
 }

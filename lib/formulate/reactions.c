@@ -13,8 +13,8 @@ static Status add_rotors(System *system, Loads *loads, Diag *diag)
 {
     Status status = OK;
 
-    for (int i = 0; i < system->instance_count; i++) {
-        const Instance *instance = &system->instances[i];
+    for (int i = 0; i < system->origin->instance_count; i++) {
+        const Instance *instance = &system->origin->instances[i];
         const Instance *joint;
         Expr inertia;
         Expr second;
@@ -22,7 +22,7 @@ static Status add_rotors(System *system, Loads *loads, Diag *diag)
         if (instance->row->rotor == NULL || instance->joint < 0)
             continue;
         inertia = instance->row->rotor(instance, system->arena);
-        joint = &system->instances[instance->joint];
+        joint = &system->origin->instances[instance->joint];
         CHECK(coordinate_value(system, joint, instance->joint_coordinate, 2, &second, diag));
         loads_add_effort(system, loads, joint, instance->joint_coordinate,
                          expr_neg(system->arena, expr_mul(system->arena, inertia, second)));
@@ -37,34 +37,38 @@ Status actual_build(System *system, Diag *diag)
     Status status = OK;
 
     CHECK(wait_for_motion(system, diag));
-    if (system->actual_a == NULL) {
-        size_t chains = (size_t)system->chains.count;
+    if (system->shown->actual_a == NULL) {
+        size_t chains = (size_t)system->kinematics->chains.count;
 
-        system->actual_alpha = pool_alloc(system->pool, chains * sizeof(Vec));
-        system->actual_a =
-            pool_alloc(system->pool, (size_t)graph_node_count(system->graph) * sizeof(Vec));
-        accelerations_build(system, system->accelerations, system->actual_alpha, system->actual_a);
+        system->shown->actual_alpha = pool_alloc(system->pool, chains * sizeof(Vec));
+        system->shown->actual_a =
+            pool_alloc(system->pool, (size_t)graph_node_count(system->origin->graph) * sizeof(Vec));
+        accelerations_build(system, system->kinematics->accelerations, system->shown->actual_alpha,
+                            system->shown->actual_a);
     }
-    if (system->actual != NULL)
+    if (system->shown->actual != NULL)
         return OK;
     loads = loads_new(system);
-    loads_add_inertia(system, &loads, system->actual_alpha, system->actual_a);
+    loads_add_inertia(system, &loads, system->shown->actual_alpha, system->shown->actual_a);
     CHECK(efforts_add(system, &loads, true, diag));
     CHECK(add_rotors(system, &loads, diag));
-    for (int k = 0; k < system->rows.count; k++)
-        loads_add_row(system, &loads, &system->rows.at[k], system->multipliers[k]);
-    for (int i = 0; i < system->drives.count; i++) {
-        const Instance *driver = &system->instances[system->drives.at[i].instance];
+    for (int k = 0; k < system->constraints->rows.count; k++)
+        loads_add_row(system, &loads, &system->constraints->rows.at[k],
+                      system->constraints->multipliers[k]);
+    for (int i = 0; i < system->constraints->drives.count; i++) {
+        const Instance *driver =
+            &system->origin->instances[system->constraints->drives.at[i].instance];
 
         if (driver->by >= 0 && driver->by_coordinate >= 0)
-            loads_add_effort(system, &loads, &system->instances[driver->by], driver->by_coordinate,
-                             system->drives.at[i].effort);
+            loads_add_effort(system, &loads, &system->origin->instances[driver->by],
+                             driver->by_coordinate, system->constraints->drives.at[i].effort);
     }
-    if (system->vanished.count > 0)
+    if (system->constraints->vanished.count > 0)
         recovery_build(system, &loads);
-    for (int k = 0; k < system->vanished.count; k++)
-        loads_add_row(system, &loads, &system->vanished.at[k], system->recovery->multipliers[k]);
-    system->actual = loads_sum(system, &loads);
+    for (int k = 0; k < system->constraints->vanished.count; k++)
+        loads_add_row(system, &loads, &system->constraints->vanished.at[k],
+                      system->shown->recovery->multipliers[k]);
+    system->shown->actual = loads_sum(system, &loads);
 done:
     return status;
 }
@@ -73,7 +77,7 @@ done:
 static Vec row_reaction(System *system, const Row *row, bool rotation)
 {
     Arena *arena = system->arena;
-    int tail = system->frames[row->tail].chain;
+    int tail = system->kinematics->frames[row->tail].chain;
     Vec along = row->n;
 
     if (row->told.rotation != rotation && row->kind != ROW_TIE)
@@ -81,8 +85,9 @@ static Vec row_reaction(System *system, const Row *row, bool rotation)
     if (row->kind == ROW_TIE && rotation)
         along = vec_scale(arena, expr_neg(arena, row->lead), along);
     if (row->kind == ROW_DOT)
-        along = vec_cross(arena, vec_express(system, row->b, system->frames[row->head].chain, tail),
-                          along);
+        along = vec_cross(
+            arena, vec_express(system, row->b, system->kinematics->frames[row->head].chain, tail),
+            along);
     return vec_express(system, along, row->kind == ROW_DATUM ? 0 : tail, 0);
 }
 
@@ -92,10 +97,13 @@ static Vec chord_reaction(System *system, const Instance *joint, bool rotation)
     Arena *arena = system->arena;
     Vec sum = vec_zero(arena);
 
-    for (int k = 0; k < system->rows.count + system->vanished.count; k++) {
-        int v = k - system->rows.count;
-        const Row *row = v < 0 ? &system->rows.at[k] : &system->vanished.at[v];
-        Expr lambda = v < 0 ? system->multipliers[k] : system->recovery->multipliers[v];
+    for (int k = 0; k < system->constraints->rows.count + system->constraints->vanished.count;
+         k++) {
+        int v = k - system->constraints->rows.count;
+        const Row *row =
+            v < 0 ? &system->constraints->rows.at[k] : &system->constraints->vanished.at[v];
+        Expr lambda =
+            v < 0 ? system->constraints->multipliers[k] : system->shown->recovery->multipliers[v];
 
         assert(row != NULL);
         if (row->told.instance == joint->number)
@@ -113,7 +121,7 @@ static Vec branch_reaction(System *system, const Tree *tree, int branch, const S
     int node = tree_far_node(tree, branch);
     Vec reaction = (rotation ? sums->torque : sums->force)[node];
 
-    *chain = system->chains.at[system->frames[node].chain].resolve;
+    *chain = system->kinematics->chains.at[system->kinematics->frames[node].chain].resolve;
     return tree_is_forward(tree, node) ? vec_neg(system->arena, reaction) : reaction;
 }
 
@@ -121,7 +129,7 @@ static Vec branch_reaction(System *system, const Tree *tree, int branch, const S
 static Expr component(const System *system, const Instance *joint, ReactionPart part, Vec vector,
                       int chain)
 {
-    const Frame *tail = &system->frames[joint->tail];
+    const Frame *tail = &system->kinematics->frames[joint->tail];
     Rotation back = rotation_transpose(&tail->zero);
 
     vector = vec_express(system, vector, chain, part.own ? tail->chain : 0);
@@ -133,13 +141,13 @@ static Expr component(const System *system, const Instance *joint, ReactionPart 
 /* the component per unit of the multiplier of a row that vanished */
 static Expr share_of(System *system, const Instance *joint, ReactionPart part, int vanished)
 {
-    const Tree *tree = system->trees[part.moment ? TREE_ROTATION : TREE_TRANSLATION];
-    const Row *row = &system->vanished.at[vanished];
+    const Tree *tree = system->origin->trees[part.moment ? TREE_ROTATION : TREE_TRANSLATION];
+    const Row *row = &system->constraints->vanished.at[vanished];
     Vec vector = vec_zero(system->arena);
     int chain = 0;
 
     if (tree_has(tree, joint->edge))
-        vector = branch_reaction(system, tree, joint->edge, system->recovery->sums[vanished],
+        vector = branch_reaction(system, tree, joint->edge, system->shown->recovery->sums[vanished],
                                  part.moment, &chain);
     else if (row->told.instance == joint->number)
         vector = vec_neg(system->arena, row_reaction(system, row, part.moment));
@@ -151,8 +159,8 @@ static Expr share_of(System *system, const Instance *joint, ReactionPart part, i
 static const Row *open_row(System *system, const Instance *joint, ReactionPart part)
 {
     enum { DIGITS = 7 };
-    const Recovery *recovery = system->recovery;
-    int rows = system->vanished.count;
+    const Recovery *recovery = system->shown->recovery;
+    int rows = system->constraints->vanished.count;
     double *share = NULL;
     const Row *found = NULL;
 
@@ -173,7 +181,7 @@ static const Row *open_row(System *system, const Instance *joint, ReactionPart p
                 size = fabs(term);
             /* another joint's row says more */
             if (term != 0 && (found == NULL || found->told.instance == joint->number))
-                found = &system->vanished.at[k];
+                found = &system->constraints->vanished.at[k];
         }
         if (fabs(sum) < size * pow(10, -DIGITS))
             found = NULL;
@@ -185,7 +193,7 @@ static const Row *open_row(System *system, const Instance *joint, ReactionPart p
 Status joint_reaction(System *system, const Instance *joint, ReactionPart part, Expr *out,
                       Diag *diag)
 {
-    const Tree *tree = system->trees[part.moment ? TREE_ROTATION : TREE_TRANSLATION];
+    const Tree *tree = system->origin->trees[part.moment ? TREE_ROTATION : TREE_TRANSLATION];
     const Row *open;
     Vec vector;
     int chain = 0;
@@ -198,7 +206,7 @@ Status joint_reaction(System *system, const Instance *joint, ReactionPart part, 
     }
     open = open_row(system, joint, part);
     if (open != NULL) {
-        const char *chord = system->instances[open->told.instance].name;
+        const char *chord = system->origin->instances[open->told.instance].name;
 
         (void)diag_set(diag, E_MISSING, "the %s of %s %s %c isn't determined",
                        part.moment ? "moment" : "force", joint->name,
@@ -209,9 +217,10 @@ Status joint_reaction(System *system, const Instance *joint, ReactionPart part, 
                   chord);
         return E_MISSING;
     }
-    vector = tree_has(tree, joint->edge)
-                 ? branch_reaction(system, tree, joint->edge, system->actual, part.moment, &chain)
-                 : chord_reaction(system, joint, part.moment);
+    vector =
+        tree_has(tree, joint->edge)
+            ? branch_reaction(system, tree, joint->edge, system->shown->actual, part.moment, &chain)
+            : chord_reaction(system, joint, part.moment);
     *out = component(system, joint, part, vector, chain);
 done:
     return status;

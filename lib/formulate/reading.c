@@ -70,7 +70,7 @@ done:
 static void open_mass(System *system, Expr *mass)
 {
     enum { MOST_TERMS = 200 };
-    int n = system->u.count;
+    int n = system->kinematics->u.count;
     bool ignored;
 
     for (int i = 0; i < n; i++)
@@ -110,7 +110,8 @@ Status reading_choose(System *system, Diag *diag)
     Status status = OK;
 
     system->definitions = system->run;
-    if (system->u.count > MOST_SPEEDS || system->u.count == 0 || !system_writes_out(system))
+    if (system->kinematics->u.count > MOST_SPEEDS || system->kinematics->u.count == 0 ||
+        !system_writes_out(system))
         return OK;
     for (int b = 0; b < COUNT(blocks); b++)
         count += block_entries(system, blocks[b]);
@@ -149,9 +150,9 @@ static void gather(Expr *out, int *count, const Expr *entries, int more)
 OpCount system_program_count(const System *system)
 {
     const Reading *run = &system->run;
-    int nu = system->u.count;
-    int m = system->rows.count;
-    int w = system->x.count + system->z.count;
+    int nu = system->kinematics->u.count;
+    int m = system->constraints->rows.count;
+    int w = system->network->x.count + system->network->z.count;
     Expr *roots = NEW_ARRAY(Expr, nu * (nu + 1 + m) + 3 * m + run->network_entries + w);
     int count = 0;
     OpCount ops;
@@ -160,8 +161,9 @@ OpCount system_program_count(const System *system)
     gather(roots, &count, run->force, nu);
     gather(roots, &count, run->phi_u, m * nu);
     for (int k = 0; k < m; k++) /* whole turns are added once */
-        roots[count++] =
-            system->rows.at[k].kind == ROW_ANGLE ? system_plain(system, run->phi[k]) : run->phi[k];
+        roots[count++] = system->constraints->rows.at[k].kind == ROW_ANGLE
+                             ? system_plain(system, run->phi[k])
+                             : run->phi[k];
     gather(roots, &count, run->nu, m);
     gather(roots, &count, run->gamma, m);
     for (int i = 0; i < run->network_entries; i++)
@@ -175,7 +177,7 @@ OpCount system_program_count(const System *system)
 double system_price(const System *system)
 {
     OpCount ops = system_program_count(system);
-    double unknowns = (double)(system->u.count + system->rows.count);
+    double unknowns = (double)(system->kinematics->u.count + system->constraints->rows.count);
 
     /* Gauss: as many additions as multiplications, both while factoring and while substituting */
     return (double)(ops.add + ops.mul + FUNCTION_PRICE * ops.fun) +

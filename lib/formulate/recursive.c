@@ -6,7 +6,7 @@
 
 static int axes_of(const System *system, int node)
 {
-    return system->chains.at[system->frames[node].chain].resolve;
+    return system->kinematics->chains.at[system->kinematics->frames[node].chain].resolve;
 }
 
 static Vec expressed(const System *system, Vec v, int from, int to)
@@ -18,29 +18,29 @@ static Vec expressed(const System *system, Vec v, int from, int to)
 static void turn_motion(System *system, int c)
 {
     Arena *arena = system->arena;
-    const Chain *chain = &system->chains.at[c];
-    int before = system->chains.at[chain->parent].resolve;
+    const Chain *chain = &system->kinematics->chains.at[c];
+    int before = system->kinematics->chains.at[chain->parent].resolve;
     Vec turn = vec_zero(arena);
-    Vec w = expressed(system, system->motions[chain->parent].w, before, chain->resolve);
+    Vec w = expressed(system, system->kinematics->motions[chain->parent].w, before, chain->resolve);
 
     for (int j = chain->speed; j < chain->speed + chain->speed_count; j++)
-        turn = vec_add(
-            arena, turn,
-            vec_scale(arena, system->u.at[j].symbol, speed_axis(system, j, chain->resolve)));
-    system->motions[c].w = vec_hold(arena, vec_add(arena, w, turn));
-    system->motions[c].product = vec_hold(arena, vec_cross(arena, w, turn));
+        turn = vec_add(arena, turn,
+                       vec_scale(arena, system->kinematics->u.at[j].symbol,
+                                 speed_axis(system, j, chain->resolve)));
+    system->kinematics->motions[c].w = vec_hold(arena, vec_add(arena, w, turn));
+    system->kinematics->motions[c].product = vec_hold(arena, vec_cross(arena, w, turn));
 }
 
 /* v = v_parent + w x r + s' u; the velocity products of its rate are w x (w x r) + 2 w x s' u */
 static void step_motion(System *system, int node)
 {
     Arena *arena = system->arena;
-    Frame *frame = &system->frames[node];
+    Frame *frame = &system->kinematics->frames[node];
     int axes = axes_of(system, node);
-    int resolve = system->chains.at[frame->step_chain].resolve;
-    Vec v =
-        expressed(system, system->frames[frame->parent].v, axes_of(system, frame->parent), axes);
-    Vec w = expressed(system, system->motions[frame->step_chain].w, resolve, axes);
+    int resolve = system->kinematics->chains.at[frame->step_chain].resolve;
+    Vec v = expressed(system, system->kinematics->frames[frame->parent].v,
+                      axes_of(system, frame->parent), axes);
+    Vec w = expressed(system, system->kinematics->motions[frame->step_chain].w, resolve, axes);
     Vec slid = vec_zero(arena);
     Vec turned;
 
@@ -48,7 +48,7 @@ static void step_motion(System *system, int node)
     turned = vec_cross(arena, w, frame->step);
     for (int k = 0; k < frame->slide_count; k++) {
         Vec axis = vec_express(system, frame->slide[k].axis, frame->step_chain, axes);
-        Expr rate = system->u.at[frame->slide[k].speed].symbol;
+        Expr rate = system->kinematics->u.at[frame->slide[k].speed].symbol;
 
         slid = vec_add(arena, slid, vec_scale(arena, rate, axis));
     }
@@ -64,12 +64,12 @@ void accelerations_build(System *system, const Expr *accelerations, Vec *alpha, 
     const int *order;
 
     alpha[0] = vec_zero(arena);
-    for (int c = 1; c < system->chains.count; c++) {
-        const Chain *chain = &system->chains.at[c];
-        int before = system->chains.at[chain->parent].resolve;
+    for (int c = 1; c < system->kinematics->chains.count; c++) {
+        const Chain *chain = &system->kinematics->chains.at[c];
+        int before = system->kinematics->chains.at[chain->parent].resolve;
 
         alpha[c] = vec_add(arena, expressed(system, alpha[chain->parent], before, chain->resolve),
-                           system->motions[c].product);
+                           system->kinematics->motions[c].product);
         for (int j = chain->speed; accelerations != NULL && j < chain->speed + chain->speed_count;
              j++)
             alpha[c] =
@@ -77,15 +77,15 @@ void accelerations_build(System *system, const Expr *accelerations, Vec *alpha, 
                         vec_scale(arena, accelerations[j], speed_axis(system, j, chain->resolve)));
         alpha[c] = vec_hold(arena, alpha[c]);
     }
-    if (system->trees[TREE_TRANSLATION] == NULL)
+    if (system->origin->trees[TREE_TRANSLATION] == NULL)
         return;
-    order = tree_nodes(system->trees[TREE_TRANSLATION], &nodes);
+    order = tree_nodes(system->origin->trees[TREE_TRANSLATION], &nodes);
     a[order[0]] = vec_zero(arena);
     for (int i = 1; i < nodes; i++) {
         int n = order[i];
-        const Frame *frame = &system->frames[n];
+        const Frame *frame = &system->kinematics->frames[n];
         int axes = axes_of(system, n);
-        int resolve = system->chains.at[frame->step_chain].resolve;
+        int resolve = system->kinematics->chains.at[frame->step_chain].resolve;
         Vec turn = expressed(system, alpha[frame->step_chain], resolve, axes);
 
         a[n] = expressed(system, a[frame->parent], axes_of(system, frame->parent), axes);
@@ -104,27 +104,29 @@ void accelerations_build(System *system, const Expr *accelerations, Vec *alpha, 
 void motion_build(System *system)
 {
     Arena *arena = system->arena;
-    size_t chains = (size_t)system->chains.count;
+    size_t chains = (size_t)system->kinematics->chains.count;
     int nodes;
     const int *order;
 
-    system->motions = pool_alloc(system->pool, chains * sizeof *system->motions);
-    system->alpha0 = pool_alloc(system->pool, chains * sizeof(Vec));
-    system->a0 = pool_alloc(system->pool, (size_t)graph_node_count(system->graph) * sizeof(Vec));
-    system->motions[0] = (ChainMotion){vec_zero(arena), vec_zero(arena)};
-    for (int c = 1; c < system->chains.count; c++)
+    system->kinematics->motions =
+        pool_alloc(system->pool, chains * sizeof *system->kinematics->motions);
+    system->kinematics->alpha0 = pool_alloc(system->pool, chains * sizeof(Vec));
+    system->kinematics->a0 =
+        pool_alloc(system->pool, (size_t)graph_node_count(system->origin->graph) * sizeof(Vec));
+    system->kinematics->motions[0] = (ChainMotion){vec_zero(arena), vec_zero(arena)};
+    for (int c = 1; c < system->kinematics->chains.count; c++)
         turn_motion(system, c);
-    if (system->trees[TREE_TRANSLATION] == NULL)
+    if (system->origin->trees[TREE_TRANSLATION] == NULL)
         return;
-    order = tree_nodes(system->trees[TREE_TRANSLATION], &nodes);
+    order = tree_nodes(system->origin->trees[TREE_TRANSLATION], &nodes);
     for (int i = 0; i < nodes; i++) {
-        Frame *frame = &system->frames[order[i]];
+        Frame *frame = &system->kinematics->frames[order[i]];
 
         frame->step = frame->v = frame->product = vec_zero(arena);
         if (frame->parent >= 0)
             step_motion(system, order[i]);
     }
-    accelerations_build(system, NULL, system->alpha0, system->a0);
+    accelerations_build(system, NULL, system->kinematics->alpha0, system->kinematics->a0);
 }
 
 Vec node_position(const System *system, int node)
@@ -134,13 +136,15 @@ Vec node_position(const System *system, int node)
     Vec p;
 
     /* from the first node whose position is known, outward again */
-    while (system->frames[node].parent >= 0 && system->frames[node].p.at[0] == NULL) {
+    while (system->kinematics->frames[node].parent >= 0 &&
+           system->kinematics->frames[node].p.at[0] == NULL) {
         LIST_PUSH(way, node);
-        node = system->frames[node].parent;
+        node = system->kinematics->frames[node].parent;
     }
-    p = system->frames[node].parent >= 0 ? system->frames[node].p : vec_zero(arena);
+    p = system->kinematics->frames[node].parent >= 0 ? system->kinematics->frames[node].p
+                                                     : vec_zero(arena);
     for (int k = way.count - 1; k >= 0; k--) {
-        Frame *frame = &system->frames[way.at[k]];
+        Frame *frame = &system->kinematics->frames[way.at[k]];
 
         p = vec_hold(arena,
                      vec_add(arena, p, expressed(system, frame->shift, frame->step_chain, 0)));
@@ -155,7 +159,7 @@ Vec node_position(const System *system, int node)
 
 Loads loads_new(System *system)
 {
-    int count = graph_node_count(system->graph);
+    int count = graph_node_count(system->origin->graph);
     Loads loads = {pool_alloc(system->pool, (size_t)count * sizeof(Vec)),
                    pool_alloc(system->pool, (size_t)count * sizeof(Vec))};
 
@@ -179,11 +183,11 @@ void loads_add_torque(System *system, Loads *loads, int node, Vec torque, int ch
 Sums *loads_sum(System *system, const Loads *loads)
 {
     Arena *arena = system->arena;
-    const Tree *rotation = system->trees[TREE_ROTATION];
-    size_t size = (size_t)graph_node_count(system->graph) * sizeof(Vec);
+    const Tree *rotation = system->origin->trees[TREE_ROTATION];
+    size_t size = (size_t)graph_node_count(system->origin->graph) * sizeof(Vec);
     Sums *sums = pool_alloc(system->pool, sizeof *sums);
     int nodes;
-    const int *order = tree_nodes(system->trees[TREE_TRANSLATION], &nodes);
+    const int *order = tree_nodes(system->origin->trees[TREE_TRANSLATION], &nodes);
 
     sums->force = pool_alloc(system->pool, size);
     sums->torque = pool_alloc(system->pool, size);
@@ -193,7 +197,7 @@ Sums *loads_sum(System *system, const Loads *loads)
     }
     for (int i = nodes - 1; i > 0; i--) {
         int n = order[i];
-        const Frame *frame = &system->frames[n];
+        const Frame *frame = &system->kinematics->frames[n];
         int axes = axes_of(system, n);
 
         /* most loads of a motion of few bodies are none */

@@ -26,8 +26,8 @@ Status resolve(System *system, Expr user, Expr *out, Diag *diag)
     *out = user;
     if ((expr_kinds(user) & 1U << SYMBOL_VARIABLE) == 0)
         return OK;
-    if (++system->depth > DEEPEST) {
-        system->depth--;
+    if (++system->shown->depth > DEEPEST) {
+        system->shown->depth--;
         return diag_set(diag, E_MODEL, "the definitions of outputs or sources lead in a circle");
     }
     count = expr_symbols(&user, 1, &symbols);
@@ -52,7 +52,7 @@ Status resolve(System *system, Expr user, Expr *out, Diag *diag)
     }
     *out = expr_substitute(system->arena, user, symbols, values, used);
 done:
-    system->depth--;
+    system->shown->depth--;
     mem_free(symbols);
     mem_free(values);
     return status;
@@ -60,6 +60,6 @@ done:
 
 Status system_resolve(System *system, Expr user, Expr *out, Diag *diag)
 {
-    mem_keep(system);
+    system_touch(system);
     return resolve(system, user, out, diag);
 }

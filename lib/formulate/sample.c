@@ -10,22 +10,23 @@
 Sample *sample_new(System *system, uint64_t seed, bool vary)
 {
     Sample *sample = pool_alloc(system->pool, sizeof *sample);
-    int n = system->q.count;
+    int n = system->kinematics->q.count;
 
     sample->system = system;
     sample->q = pool_alloc(system->pool, (size_t)n * sizeof(double));
     for (int i = 0; i < n; i++)
         sample->q[i] = random_unit(&seed);
-    for (int i = 0; i < system->quaternions.count; i++) {
-        double *p = sample->q + system->quaternions.at[i];
+    for (int i = 0; i < system->kinematics->quaternions.count; i++) {
+        double *p = sample->q + system->kinematics->quaternions.at[i];
         double size = sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2] + p[3] * p[3]);
 
         for (int k = 0; k < 4; k++)
             p[k] /= size;
     }
-    sample->parameter = pool_alloc(system->pool, (size_t)system->parameters.count * sizeof(double));
-    for (int i = 0; i < system->parameters.count; i++) {
-        double value = system->parameters.at[i].value;
+    sample->parameter =
+        pool_alloc(system->pool, (size_t)system->origin->parameters.count * sizeof(double));
+    for (int i = 0; i < system->origin->parameters.count; i++) {
+        double value = system->origin->parameters.at[i].value;
 
         sample->parameter[i] =
             vary ? value * (1 + 0.1 * random_unit(&seed)) + 0.1 * random_unit(&seed) : value;
@@ -38,14 +39,14 @@ static double symbol_value(void *context, Expr symbol)
     const Sample *sample = context;
     const System *system = sample->system;
 
-    for (int i = 0; i < system->q.count; i++)
-        if (system->q.at[i].symbol == symbol)
+    for (int i = 0; i < system->kinematics->q.count; i++)
+        if (system->kinematics->q.at[i].symbol == symbol)
             return sample->q[i];
-    for (int i = 0; i < system->parameters.count; i++)
-        if (system->parameters.at[i].symbol == symbol)
+    for (int i = 0; i < system->origin->parameters.count; i++)
+        if (system->origin->parameters.at[i].symbol == symbol)
             return sample->parameter[i];
-    for (int i = 0; i < system->counted.count; i++)
-        if (system->counted.at[i].told.symbol == symbol)
+    for (int i = 0; i < system->constraints->counted.count; i++)
+        if (system->constraints->counted.at[i].told.symbol == symbol)
             return 0;
     return NAN;
 }

@@ -3,17 +3,18 @@
 
 const Instance *branch_owner(const System *system, const Branchlike *branch)
 {
-    return &system->instances[branch->instance];
+    return &system->origin->instances[branch->instance];
 }
 
 Branchlike *scalar_branch(System *system, const Instance *instance, int which)
 {
-    return &system->branches.at[system->scalar_of_edge[instance->scalar_edges[which]]];
+    return &system->network->branches
+                .at[system->network->scalar_of_edge[instance->scalar_edges[which]]];
 }
 
 const char *branch_member(System *system, const Branchlike *branch, bool through)
 {
-    const Edge *edge = graph_edge(system->graph, branch->edge);
+    const Edge *edge = graph_edge(system->origin->graph, branch->edge);
 
     return system_keep(system, "%s.%s", edge->name,
                        through ? domain_through(edge->domain) : domain_across(edge->domain));
@@ -21,7 +22,7 @@ const char *branch_member(System *system, const Branchlike *branch, bool through
 
 TreeKind branch_tree(const System *system, const Branchlike *branch)
 {
-    Domain domain = graph_edge(system->graph, branch->edge)->domain;
+    Domain domain = graph_edge(system->origin->graph, branch->edge)->domain;
     TreeKind kind = TREE_ELECTRICAL;
 
     while (tree_kind_domain(kind) != domain)
@@ -31,7 +32,7 @@ TreeKind branch_tree(const System *system, const Branchlike *branch)
 
 const char *network_company(System *system, const Branchlike *branch)
 {
-    const Tree *tree = system->trees[branch_tree(system, branch)];
+    const Tree *tree = system->origin->trees[branch_tree(system, branch)];
     SignMatrix *matrix = branch->branch ? tree_cutsets(tree) : tree_circuits(tree);
     const int *edges = branch->branch ? tree_branches(tree) : tree_chords(tree);
     Text names = {0};
@@ -40,7 +41,7 @@ const char *network_company(System *system, const Branchlike *branch)
     for (int r = 0; r < matrix->rows; r++)
         for (int i = matrix->start[r]; edges[r] == branch->edge && i < matrix->start[r + 1]; i++)
             text_addf(&names, "%s%s", i > matrix->start[r] ? " " : "",
-                      graph_edge(system->graph, matrix->column[i])->name);
+                      graph_edge(system->origin->graph, matrix->column[i])->name);
     kept = system_keep(system, "%s", names.at != NULL ? names.at : "");
     text_free(&names);
     sign_matrix_free(matrix);

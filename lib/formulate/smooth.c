@@ -104,7 +104,7 @@ Status need_smooth(System *system, const char *who, Expr e, Diag *diag)
 
     if ((expr_kinds(e) & ~plain) == 0 || !jumps(system->arena, e))
         return OK;
-    if (system->network_form == NETWORK_TREE) {
+    if (system->network->form == NETWORK_TREE) {
         (void)diag_set(diag, E_MODEL, "in this tree %s needs the derivative of a source that jumps",
                        who);
         diag_hint(diag, "take capacitors into the tree and inductors out of it, or set network "
@@ -118,17 +118,18 @@ Status need_smooth(System *system, const char *who, Expr e, Diag *diag)
 
 const char *system_rough_driver(System *system, int order)
 {
-    mem_keep(system);
+    system_touch(system);
     Expr time = expr_symbol(system->arena, "t", SYMBOL_TIME);
 
-    for (int k = 0; k < system->rows.count; k++) {
-        Expr f = system->rows.at[k].prescribed;
+    for (int k = 0; k < system->constraints->rows.count; k++) {
+        Expr f = system->constraints->rows.at[k].prescribed;
 
-        if (system->rows.at[k].kind != ROW_DRIVER)
+        if (system->constraints->rows.at[k].kind != ROW_DRIVER)
             continue;
         for (int i = 0; i <= order; i++) {
             if (jumps(system->arena, f))
-                return system->instances[system->rows.at[k].told.instance].name;
+                return system->origin->instances[system->constraints->rows.at[k].told.instance]
+                    .name;
             f = expr_diff(system->arena, f, time);
         }
     }

@@ -223,7 +223,7 @@ static void visit(Gathering *g, Expr e)
         expr_kind(e) == EXPR_CALL && expr_op(e) == OP_IF && is_continuous(g->system->arena, e);
 
     if (condition != NULL && !expr_is_number(condition))
-        LIST_PUSH(g->system->switches, ((Switch){condition, .call = e, .surface = -1}));
+        LIST_PUSH(g->system->shown->switches, ((Switch){condition, .call = e, .surface = -1}));
     for (int i = 0; i < expr_arg_count(e); i++) {
         LIST_PUSH(g->stack, expr_arg(e, i));
         if (switch_jumps(expr_arg(e, i)) && !(bends && i == 0))
@@ -276,12 +276,12 @@ static void find_surface(System *system, Switch *entry)
     if (is_of_time(system, entry->condition))
         return;
     surface = surface_of(system->arena, entry->condition, &way);
-    for (int i = 0; i < system->surfaces.count && entry->surface < 0; i++)
-        if (system->surfaces.at[i] == surface)
+    for (int i = 0; i < system->shown->surfaces.count && entry->surface < 0; i++)
+        if (system->shown->surfaces.at[i] == surface)
             entry->surface = i;
     if (entry->surface < 0) {
-        entry->surface = system->surfaces.count;
-        LIST_PUSH(system->surfaces, surface);
+        entry->surface = system->shown->surfaces.count;
+        LIST_PUSH(system->shown->surfaces, surface);
     }
 }
 
@@ -289,14 +289,14 @@ static void gather_all(System *system)
 {
     Gathering g = {.system = system};
 
-    gather(&g, system->run.force, system->u.count);
-    gather(&g, system->run.phi, system->rows.count);
-    gather(&g, system->run.gamma, system->rows.count);
-    gather(&g, system->run.network_residual, system->x.count + system->z.count);
-    for (int i = 0; i < system->switches.count; i++)
-        if ((*mark_of(&g, system->switches.at[i].call) & 2) != 0)
-            find_surface(system, &system->switches.at[i]);
-    for (int i = 0; i < system->ideals.count; i++) {
+    gather(&g, system->run.force, system->kinematics->u.count);
+    gather(&g, system->run.phi, system->constraints->rows.count);
+    gather(&g, system->run.gamma, system->constraints->rows.count);
+    gather(&g, system->run.network_residual, system->network->x.count + system->network->z.count);
+    for (int i = 0; i < system->shown->switches.count; i++)
+        if ((*mark_of(&g, system->shown->switches.at[i].call) & 2) != 0)
+            find_surface(system, &system->shown->switches.at[i]);
+    for (int i = 0; i < system->network->ideals.count; i++) {
         IdealSwitch ideal;
 
         if (system_ideal(system, i, &ideal, NULL) == OK && ideal.when != NULL)
@@ -308,28 +308,29 @@ static void gather_all(System *system)
 
 int system_switches(System *system, const Switch **switches, int *time_only)
 {
-    mem_keep(system);
-    if (!system->switches_known) {
+    system_touch(system);
+    if (!system->shown->switches_known) {
         gather_all(system);
         /* those of time alone first, each once */
-        for (int i = 0; i < system->switches.count; i++)
-            if (is_of_time(system, system->switches.at[i].condition)) {
-                Switch entry = system->switches.at[i];
+        for (int i = 0; i < system->shown->switches.count; i++)
+            if (is_of_time(system, system->shown->switches.at[i].condition)) {
+                Switch entry = system->shown->switches.at[i];
 
-                system->switches.at[i] = system->switches.at[system->switches_of_time];
-                system->switches.at[system->switches_of_time++] = entry;
+                system->shown->switches.at[i] =
+                    system->shown->switches.at[system->shown->switches_of_time];
+                system->shown->switches.at[system->shown->switches_of_time++] = entry;
             }
-        system->switches_known = true;
+        system->shown->switches_known = true;
     }
-    *switches = system->switches.at;
-    *time_only = system->switches_of_time;
-    return system->switches.count;
+    *switches = system->shown->switches.at;
+    *time_only = system->shown->switches_of_time;
+    return system->shown->switches.count;
 }
 
 Expr system_surface(System *system, int i)
 {
-    mem_keep(system);
-    return i < system->surfaces.count ? system->surfaces.at[i] : NULL;
+    system_touch(system);
+    return i < system->shown->surfaces.count ? system->shown->surfaces.at[i] : NULL;
 }
 
 /* --- for messages --- */
@@ -370,12 +371,12 @@ static bool part_switches_on(System *system, const Instance *instance, Expr surf
 
 const char *system_jumping_part(System *system, Expr condition)
 {
-    mem_keep(system);
+    system_touch(system);
     int way;
     Expr surface = surface_of(system->arena, condition, &way);
 
-    for (int i = 0; i < system->instance_count; i++)
-        if (part_switches_on(system, &system->instances[i], surface))
-            return system->instances[i].name;
+    for (int i = 0; i < system->origin->instance_count; i++)
+        if (part_switches_on(system, &system->origin->instances[i], surface))
+            return system->origin->instances[i].name;
     return NULL;
 }

@@ -16,6 +16,85 @@ const char *system_keep(System *system, const char *format, ...)
     return pool_text(system->pool, text, strlen(text));
 }
 
+/* --- the end of its parts --- */
+
+void origin_free(Origin *origin)
+{
+    if (origin == NULL)
+        return;
+    for (TreeKind kind = 0; kind < TREE_KINDS; kind++)
+        tree_free(origin->trees[kind]);
+    graph_free(origin->graph);
+    names_free(origin->instance_names);
+    names_free(origin->coordinate_names);
+    LIST_FREE(origin->coordinate_owners);
+    LIST_FREE(origin->parameters);
+    mem_free(origin);
+}
+
+void kinematics_free(Kinematics *kinematics)
+{
+    if (kinematics == NULL)
+        return;
+    LIST_FREE(kinematics->q);
+    LIST_FREE(kinematics->u);
+    LIST_FREE(kinematics->quaternions);
+    LIST_FREE(kinematics->chains);
+    mem_free(kinematics);
+}
+
+void constraints_free(Constraints *constraints)
+{
+    if (constraints == NULL)
+        return;
+    LIST_FREE(constraints->rows);
+    LIST_FREE(constraints->vanished);
+    LIST_FREE(constraints->dropped);
+    LIST_FREE(constraints->turned);
+    LIST_FREE(constraints->counted);
+    LIST_FREE(constraints->angles_off);
+    LIST_FREE(constraints->drives);
+    mem_free(constraints);
+}
+
+void dynamics_free(Dynamics *dynamics)
+{
+    if (dynamics == NULL)
+        return;
+    LIST_FREE(dynamics->masses);
+    mem_free(dynamics);
+}
+
+void network_free(Network *network)
+{
+    if (network == NULL)
+        return;
+    for (TreeKind kind = 0; kind < TREE_KINDS; kind++)
+        sign_matrix_free(network->cutsets[kind]);
+    LIST_FREE(network->x);
+    LIST_FREE(network->z);
+    LIST_FREE(network->rates);
+    LIST_FREE(network->ideals);
+    LIST_FREE(network->branches);
+    LIST_FREE(network->unknowns);
+    LIST_FREE(network->unknown_of);
+    LIST_FREE(network->rate_of);
+    LIST_FREE(network->equations);
+    LIST_FREE(network->samples);
+    LIST_FREE(network->at_rest);
+    LIST_FREE(network->invariants);
+    mem_free(network);
+}
+
+void shown_free(Shown *shown)
+{
+    if (shown == NULL)
+        return;
+    LIST_FREE(shown->switches);
+    LIST_FREE(shown->surfaces);
+    mem_free(shown);
+}
+
 static void system_free_later(void *object)
 {
     system_free(object);
@@ -25,47 +104,18 @@ void system_free(System *system)
 {
     if (system == NULL || mem_frees_later(system, system_free_later))
         return;
-    if (system->sided != NULL && system->sided != system && system->sided->closed == NULL)
+    if (system->sided != NULL && system->sided != system && system->sided->network->closed == NULL)
         system_free(system->sided); /* else it is one of the modes */
     for (int i = 0; i < system->modes.count; i++)
         system_free(system->modes.at[i]);
     LIST_FREE(system->modes);
-    LIST_FREE(system->ideals);
-    for (TreeKind kind = 0; kind < TREE_KINDS; kind++) {
-        tree_free(system->trees[kind]);
-        sign_matrix_free(system->cutsets[kind]);
-    }
-    graph_free(system->graph);
-    names_free(system->instance_names);
-    names_free(system->coordinate_names);
-    LIST_FREE(system->coordinate_owners);
-    LIST_FREE(system->q);
-    LIST_FREE(system->u);
-    LIST_FREE(system->x);
-    LIST_FREE(system->z);
-    LIST_FREE(system->rates);
-    LIST_FREE(system->quaternions);
-    LIST_FREE(system->chains);
-    LIST_FREE(system->masses);
-    LIST_FREE(system->turned);
-    LIST_FREE(system->counted);
-    LIST_FREE(system->angles_off);
-    LIST_FREE(system->rows);
-    LIST_FREE(system->vanished);
-    LIST_FREE(system->parameters);
-    LIST_FREE(system->dropped);
     LIST_FREE(system->remarks);
-    LIST_FREE(system->branches);
-    LIST_FREE(system->unknowns);
-    LIST_FREE(system->unknown_of);
-    LIST_FREE(system->rate_of);
-    LIST_FREE(system->samples);
-    LIST_FREE(system->at_rest);
-    LIST_FREE(system->invariants);
-    LIST_FREE(system->network_shown);
-    LIST_FREE(system->drives);
-    LIST_FREE(system->switches);
-    LIST_FREE(system->surfaces);
+    shown_free(system->shown);
+    network_free(system->network);
+    dynamics_free(system->dynamics);
+    constraints_free(system->constraints);
+    kinematics_free(system->kinematics);
+    origin_free(system->origin);
     pool_free(system->pool);
     mem_free(system);
 }
@@ -74,12 +124,12 @@ void system_free(System *system)
 
 uint64_t system_revision(const System *system)
 {
-    return system->revision;
+    return system->origin->revision;
 }
 
 const char *system_instance_name(const System *system, int instance)
 {
-    return system->instances[instance].name;
+    return system->origin->instances[instance].name;
 }
 
 Arena *system_arena(const System *system)
@@ -89,62 +139,62 @@ Arena *system_arena(const System *system)
 
 int system_n(const System *system)
 {
-    return system->q.count;
+    return system->kinematics->q.count;
 }
 
 int system_nu(const System *system)
 {
-    return system->u.count;
+    return system->kinematics->u.count;
 }
 
 int system_m(const System *system)
 {
-    return system->rows.count;
+    return system->constraints->rows.count;
 }
 
 int system_nx(const System *system)
 {
-    return system->x.count;
+    return system->network->x.count;
 }
 
 int system_nz(const System *system)
 {
-    return system->z.count;
+    return system->network->z.count;
 }
 
 const Variable *system_q(const System *system, int i)
 {
-    return &system->q.at[i];
+    return &system->kinematics->q.at[i];
 }
 
 const Variable *system_u(const System *system, int i)
 {
-    return &system->u.at[i];
+    return &system->kinematics->u.at[i];
 }
 
 const Variable *system_x(const System *system, int i)
 {
-    return &system->x.at[i];
+    return &system->network->x.at[i];
 }
 
 const Variable *system_z(const System *system, int i)
 {
-    return &system->z.at[i];
+    return &system->network->z.at[i];
 }
 
 Expr system_acceleration(const System *system, int i)
 {
-    return system->accelerations[i];
+    return system->kinematics->accelerations[i];
 }
 
 Expr system_multiplier(const System *system, int k)
 {
-    return system->multipliers[k];
+    return system->constraints->multipliers[k];
 }
 
 Expr system_state_rate(const System *system, int i)
 {
-    return system->rates.at[i];
+    return system->network->rates.at[i];
 }
 
 Expr system_q_rate(const System *system, int i)
@@ -154,7 +204,7 @@ Expr system_q_rate(const System *system, int i)
 
 Expr system_n_entry(const System *system, int i, int j)
 {
-    const CoordinateRate *rate = &system->coordinate_rates[i];
+    const CoordinateRate *rate = &system->kinematics->coordinate_rates[i];
 
     for (int k = 0; k < rate->count; k++)
         if (rate->speed[k] == j)
@@ -164,17 +214,17 @@ Expr system_n_entry(const System *system, int i, int j)
 
 int system_quaternion(const System *system, int i)
 {
-    return i < system->quaternions.count ? system->quaternions.at[i] : -1;
+    return i < system->kinematics->quaternions.count ? system->kinematics->quaternions.at[i] : -1;
 }
 
 const ConstraintRow *system_constraint(const System *system, int k)
 {
-    return &system->rows.at[k].told;
+    return &system->constraints->rows.at[k].told;
 }
 
 const char *system_dropped(const System *system, int i)
 {
-    return i < system->dropped.count ? system->dropped.at[i] : NULL;
+    return i < system->constraints->dropped.count ? system->constraints->dropped.at[i] : NULL;
 }
 
 const char *system_remark(const System *system, int i)
@@ -202,7 +252,7 @@ Expr system_network_entry(const System *system, int row, int column)
 
 Expr *system_network_matrix(const System *system)
 {
-    int count = system->x.count + system->z.count;
+    int count = system->network->x.count + system->network->z.count;
     Expr *dense = NEW_ARRAY(Expr, count * count);
 
     for (int i = 0; i < count * count; i++)
@@ -215,52 +265,52 @@ Expr *system_network_matrix(const System *system)
 
 bool system_tree_is_normal(const System *system)
 {
-    return !system->leaves_trees;
+    return !system->network->leaves_trees;
 }
 
 NetworkForm system_network_form(const System *system)
 {
-    return system->asked_form;
+    return system->network->asked_form;
 }
 
 const char *system_at_rest(const System *system, int i)
 {
-    return i < system->at_rest.count ? system->at_rest.at[i] : NULL;
+    return i < system->network->at_rest.count ? system->network->at_rest.at[i] : NULL;
 }
 
 Expr system_invariant(const System *system, int i)
 {
-    return i < system->invariants.count ? system->invariants.at[i] : NULL;
+    return i < system->network->invariants.count ? system->network->invariants.at[i] : NULL;
 }
 
 const OwnSample *system_sample(const System *system, int i)
 {
-    return i < system->samples.count ? &system->samples.at[i] : NULL;
+    return i < system->network->samples.count ? &system->network->samples.at[i] : NULL;
 }
 
 int system_network_count(const System *system)
 {
-    return system->network_shown.count;
+    return system->network->equations.count;
 }
 
 void system_network_equation(System *system, int i, Expr *left, Expr *right)
 {
-    mem_keep(system);
-    *left = system->network_shown.at[i].left;
-    *right = system->network_shown.at[i].right;
+    system_touch(system);
+    *left = system->network->equations.at[i].left;
+    *right = system->network->equations.at[i].right;
 }
 
 int system_network_edge(const System *system, int i)
 {
-    return system->network_shown.at[i].edge;
+    return system->network->equations.at[i].edge;
 }
 
 int system_drive_count(const System *system)
 {
-    return system->drives.count;
+    return system->constraints->drives.count;
 }
 
 const Drive *system_drive(const System *system, int i)
 {
-    return &system->drives.at[i];
+    return &system->constraints->drives.at[i];
 }

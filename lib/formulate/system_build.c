@@ -10,13 +10,16 @@ static void copy_instances(System *system, const Scene *scene)
 {
     int count = scene->instance_count;
 
-    system->instance_count = count;
-    system->instances = pool_alloc(system->pool, (size_t)count * sizeof *system->instances);
-    system->coordinate = pool_alloc(system->pool, (size_t)count * sizeof *system->coordinate);
-    system->speed = pool_alloc(system->pool, (size_t)count * sizeof *system->speed);
+    system->origin->instance_count = count;
+    system->origin->instances =
+        pool_alloc(system->pool, (size_t)count * sizeof *system->origin->instances);
+    system->kinematics->coordinate =
+        pool_alloc(system->pool, (size_t)count * sizeof *system->kinematics->coordinate);
+    system->kinematics->speed =
+        pool_alloc(system->pool, (size_t)count * sizeof *system->kinematics->speed);
     for (int i = 0; i < count; i++) {
         const Instance *from = scene->instances[i];
-        Instance *to = &system->instances[i];
+        Instance *to = &system->origin->instances[i];
         size_t size = (size_t)from->row->param_count * sizeof(Value);
 
         *to = *from;
@@ -34,7 +37,7 @@ static void copy_instances(System *system, const Scene *scene)
             if (from->values[p].word != NULL)
                 to->values[p].word = system_keep(system, "%s", from->values[p].word);
         for (int c = 0; c < MAX_COORDS; c++) {
-            system->coordinate[i][c] = system->speed[i][c] = -1;
+            system->kinematics->coordinate[i][c] = system->kinematics->speed[i][c] = -1;
             if (c < from->coord_count)
                 to->coord[c] = system_keep(system, "%s", from->coord[c]);
         }
@@ -44,30 +47,30 @@ static void copy_instances(System *system, const Scene *scene)
 /* the first that bears a name is found by it */
 static void enter_names(System *system)
 {
-    system->instance_names = names_new();
-    system->coordinate_names = names_new();
-    for (int i = 0; i < system->instance_count; i++) {
-        const Instance *instance = &system->instances[i];
+    system->origin->instance_names = names_new();
+    system->origin->coordinate_names = names_new();
+    for (int i = 0; i < system->origin->instance_count; i++) {
+        const Instance *instance = &system->origin->instances[i];
 
-        (void)names_add(system->instance_names, instance->name);
+        (void)names_add(system->origin->instance_names, instance->name);
         for (int c = 0; c < instance->coord_count; c++)
-            if (names_add(system->coordinate_names, instance->coord[c]) ==
-                system->coordinate_owners.count)
-                LIST_PUSH(system->coordinate_owners, (CoordinateOwner){i, c});
+            if (names_add(system->origin->coordinate_names, instance->coord[c]) ==
+                system->origin->coordinate_owners.count)
+                LIST_PUSH(system->origin->coordinate_owners, (CoordinateOwner){i, c});
     }
 }
 
 static void vary_values(System *system, VaryValue vary, void *context)
 {
-    for (int i = 0; i < system->instance_count; i++) {
-        Instance *instance = &system->instances[i];
+    for (int i = 0; i < system->origin->instance_count; i++) {
+        Instance *instance = &system->origin->instances[i];
 
         for (int k = 0; k < instance->row->param_count; k++)
             for (int c = 0; c < instance->values[k].count; c++)
                 instance->values[k].at[c] = vary(context, instance, k, instance->values[k].at[c]);
     }
     for (int i = 0; i < 3; i++)
-        system->gravity.at[i] = vary(context, NULL, -1, system->gravity.at[i]);
+        system->origin->gravity.at[i] = vary(context, NULL, -1, system->origin->gravity.at[i]);
 }
 
 static Status copy_graph(System *system, const Scene *scene, Diag *diag)
@@ -76,14 +79,14 @@ static Status copy_graph(System *system, const Scene *scene, Diag *diag)
     const Tree *const *trees = scene->trees;
     Status status = OK;
 
-    system->graph = graph_new();
+    system->origin->graph = graph_new();
     for (int i = 0; i < graph_node_count(graph); i++) {
         const Node *node = graph_node(graph, i);
 
-        (void)graph_add_node(system->graph, node->name, node->domain, node->datum);
+        (void)graph_add_node(system->origin->graph, node->name, node->domain, node->datum);
     }
     for (int i = 0; i < graph_edge_count(graph); i++)
-        (void)graph_add_edge(system->graph, graph_edge(graph, i));
+        (void)graph_add_edge(system->origin->graph, graph_edge(graph, i));
     for (TreeKind kind = 0; kind < TREE_KINDS; kind++) {
         TreeChoice choice = {0};
 
@@ -91,7 +94,8 @@ static Status copy_graph(System *system, const Scene *scene, Diag *diag)
             continue;
         choice.branches = tree_branches(trees[kind]);
         choice.branch_count = tree_branch_count(trees[kind]);
-        CHECK(tree_complete(system->graph, kind, &choice, true, &system->trees[kind], diag));
+        CHECK(tree_complete(system->origin->graph, kind, &choice, true,
+                            &system->origin->trees[kind], diag));
     }
 done:
     return status;
@@ -101,34 +105,35 @@ static void copy_outputs(System *system, const Scene *scene)
 {
     int count = scene->outputs.count;
 
-    system->output_count = count;
-    system->output_names = pool_alloc(system->pool, (size_t)count * sizeof(char *));
-    system->outputs = pool_alloc(system->pool, (size_t)count * sizeof(Expr));
+    system->origin->output_count = count;
+    system->origin->output_names = pool_alloc(system->pool, (size_t)count * sizeof(char *));
+    system->origin->outputs = pool_alloc(system->pool, (size_t)count * sizeof(Expr));
     for (int i = 0; i < count; i++) {
-        system->outputs[i] = scene->outputs.at[i].body;
-        system->output_names[i] = system_keep(system, "%s", scene->outputs.at[i].name);
+        system->origin->outputs[i] = scene->outputs.at[i].body;
+        system->origin->output_names[i] = system_keep(system, "%s", scene->outputs.at[i].name);
     }
 }
 
 static void copy_form(System *system, const Scene *scene)
 {
-    system->form = scene->form;
-    system->independent_count = scene->independent_count;
-    system->independent =
+    system->origin->form = scene->form;
+    system->origin->independent_count = scene->independent_count;
+    system->origin->independent =
         pool_alloc(system->pool, (size_t)scene->independent_count * sizeof(char *));
     for (int i = 0; i < scene->independent_count; i++)
-        system->independent[i] = system_keep(system, "%s", scene->independent[i]);
+        system->origin->independent[i] = system_keep(system, "%s", scene->independent[i]);
 }
 
 /* --- variables --- */
 
 static void add_speed(System *system, const Instance *instance, const char *name, bool is_angle)
 {
-    LIST_PUSH(system->u, (Variable){.name = name,
-                                    .symbol = expr_symbol(system->arena, name, SYMBOL_SPEED),
-                                    .edge = instance->edge,
-                                    .instance = instance->number,
-                                    .is_angle = is_angle});
+    LIST_PUSH(system->kinematics->u,
+              (Variable){.name = name,
+                         .symbol = expr_symbol(system->arena, name, SYMBOL_SPEED),
+                         .edge = instance->edge,
+                         .instance = instance->number,
+                         .is_angle = is_angle});
 }
 
 static void add_coordinate(System *system, const Instance *instance, int c)
@@ -136,15 +141,16 @@ static void add_coordinate(System *system, const Instance *instance, int c)
     const char *name = instance->coord[c];
     bool is_angle = instance->coord_kind[c] == COORDINATE_ANGLE;
 
-    system->coordinate[instance->number][c] = system->q.count;
-    LIST_PUSH(system->q, (Variable){.name = name,
-                                    .symbol = expr_symbol(system->arena, name, SYMBOL_COORDINATE),
-                                    .edge = instance->edge,
-                                    .instance = instance->number,
-                                    .is_angle = is_angle});
+    system->kinematics->coordinate[instance->number][c] = system->kinematics->q.count;
+    LIST_PUSH(system->kinematics->q,
+              (Variable){.name = name,
+                         .symbol = expr_symbol(system->arena, name, SYMBOL_COORDINATE),
+                         .edge = instance->edge,
+                         .instance = instance->number,
+                         .is_angle = is_angle});
     if (instance->coord_kind[c] == COORDINATE_PARAMETER)
         return;
-    system->speed[instance->number][c] = system->u.count;
+    system->kinematics->speed[instance->number][c] = system->kinematics->u.count;
     add_speed(system, instance, system_keep(system, "%s'", name), is_angle);
 }
 
@@ -153,8 +159,8 @@ static void add_parameters(System *system, const Instance *instance, int first)
 {
     static const char *const speeds[] = {"Wx", "Wy", "Wz"};
 
-    LIST_PUSH(system->quaternions, system->q.count);
-    system->speed[instance->number][first] = system->u.count;
+    LIST_PUSH(system->kinematics->quaternions, system->kinematics->q.count);
+    system->kinematics->speed[instance->number][first] = system->kinematics->u.count;
     for (int c = first; c < first + 4; c++)
         add_coordinate(system, instance, c);
     for (int i = 0; i < 3; i++)
@@ -164,10 +170,11 @@ static void add_parameters(System *system, const Instance *instance, int first)
 /* coordinates of branches, each half in the tree of its half, in order of the edges' making */
 static void add_coordinates(System *system)
 {
-    const Tree *const halves[2] = {system->trees[TREE_TRANSLATION], system->trees[TREE_ROTATION]};
+    const Tree *const halves[2] = {system->origin->trees[TREE_TRANSLATION],
+                                   system->origin->trees[TREE_ROTATION]};
 
-    for (int i = 0; i < system->instance_count; i++) {
-        const Instance *instance = &system->instances[i];
+    for (int i = 0; i < system->origin->instance_count; i++) {
+        const Instance *instance = &system->origin->instances[i];
 
         if (instance->row->steps == NULL || instance->edge < 0)
             continue;
@@ -182,12 +189,15 @@ static void add_coordinates(System *system)
             }
         }
     }
-    system->accelerations = pool_alloc(system->pool, (size_t)system->u.count * sizeof(Expr));
-    system->speeds = pool_alloc(system->pool, (size_t)system->u.count * sizeof *system->speeds);
-    for (int j = 0; j < system->u.count; j++) {
-        system->accelerations[j] = expr_symbol(
-            system->arena, system_keep(system, "%s'", system->u.at[j].name), SYMBOL_ACCELERATION);
-        system->speeds[j].chain = system->speeds[j].slide_node = -1;
+    system->kinematics->accelerations =
+        pool_alloc(system->pool, (size_t)system->kinematics->u.count * sizeof(Expr));
+    system->kinematics->speeds = pool_alloc(system->pool, (size_t)system->kinematics->u.count *
+                                                              sizeof *system->kinematics->speeds);
+    for (int j = 0; j < system->kinematics->u.count; j++) {
+        system->kinematics->accelerations[j] =
+            expr_symbol(system->arena, system_keep(system, "%s'", system->kinematics->u.at[j].name),
+                        SYMBOL_ACCELERATION);
+        system->kinematics->speeds[j].chain = system->kinematics->speeds[j].slide_node = -1;
     }
 }
 
@@ -199,9 +209,9 @@ static void parameter_rates(System *system, int first, int speed)
     Expr p[4];
 
     for (int i = 0; i < 4; i++)
-        p[i] = expr_mul(arena, half, system->q.at[first + i].symbol);
+        p[i] = expr_mul(arena, half, system->kinematics->q.at[first + i].symbol);
     for (int i = 0; i < 4; i++) {
-        CoordinateRate *rate = &system->coordinate_rates[first + i];
+        CoordinateRate *rate = &system->kinematics->coordinate_rates[first + i];
 
         rate->count = 3;
         for (int k = 0; k < 3; k++) {
@@ -223,73 +233,75 @@ static void parameter_rates(System *system, int first, int speed)
 static void add_rates(System *system)
 {
     Arena *arena = system->arena;
-    size_t count = (size_t)system->q.count;
+    size_t count = (size_t)system->kinematics->q.count;
 
-    system->coordinate_rates = pool_alloc(system->pool, count * sizeof *system->coordinate_rates);
+    system->kinematics->coordinate_rates =
+        pool_alloc(system->pool, count * sizeof *system->kinematics->coordinate_rates);
     system->run.q_rate = pool_alloc(system->pool, count * sizeof(Expr));
-    for (int i = 0; i < system->instance_count; i++)
-        for (int c = 0; c < system->instances[i].coord_count; c++) {
-            int place = system->coordinate[i][c];
-            int speed = system->speed[i][c];
+    for (int i = 0; i < system->origin->instance_count; i++)
+        for (int c = 0; c < system->origin->instances[i].coord_count; c++) {
+            int place = system->kinematics->coordinate[i][c];
+            int speed = system->kinematics->speed[i][c];
 
             if (place < 0 || speed < 0)
                 continue;
-            if (system->instances[i].coord_kind[c] == COORDINATE_PARAMETER)
+            if (system->origin->instances[i].coord_kind[c] == COORDINATE_PARAMETER)
                 parameter_rates(system, place, speed);
             else
-                system->coordinate_rates[place] =
+                system->kinematics->coordinate_rates[place] =
                     (CoordinateRate){1, {speed}, {expr_int(arena, 1)}};
         }
-    for (int i = 0; i < system->q.count; i++) {
-        const CoordinateRate *rate = &system->coordinate_rates[i];
+    for (int i = 0; i < system->kinematics->q.count; i++) {
+        const CoordinateRate *rate = &system->kinematics->coordinate_rates[i];
 
         system->run.q_rate[i] = expr_int(arena, 0);
         for (int k = 0; k < rate->count; k++)
-            system->run.q_rate[i] =
-                expr_add(arena, system->run.q_rate[i],
-                         expr_mul(arena, rate->entry[k], system->u.at[rate->speed[k]].symbol));
+            system->run.q_rate[i] = expr_add(
+                arena, system->run.q_rate[i],
+                expr_mul(arena, rate->entry[k], system->kinematics->u.at[rate->speed[k]].symbol));
     }
 }
 
 /* what supplies the motion of each driver */
 static void add_drives(System *system)
 {
-    for (int i = 0; i < system->instance_count; i++) {
-        const Instance *driver = &system->instances[i];
+    for (int i = 0; i < system->origin->instance_count; i++) {
+        const Instance *driver = &system->origin->instances[i];
         Drive drive = {.instance = i, .constraint = -1};
 
         if (driver->row->family != FAMILY_DRIVER)
             continue;
         drive.by_source = driver->by >= 0 && driver->by_coordinate < 0;
         if (driver->by >= 0) {
-            const Instance *by = &system->instances[driver->by];
+            const Instance *by = &system->origin->instances[driver->by];
             const char *name = drive.by_source ? system_keep(system, "%s.value", by->name)
                                                : system_keep(system, "%s.effort",
                                                              by->coord[driver->by_coordinate]);
 
             drive.effort = expr_symbol(system->arena, name, SYMBOL_EFFORT);
         }
-        LIST_PUSH(system->drives, drive);
+        LIST_PUSH(system->constraints->drives, drive);
     }
 }
 
 /* multipliers, and the rows of drivers */
 static void number_rows(System *system)
 {
-    system->multipliers = pool_alloc(system->pool, (size_t)system->rows.count * sizeof(Expr));
-    for (int k = 0; k < system->rows.count; k++) {
+    system->constraints->multipliers =
+        pool_alloc(system->pool, (size_t)system->constraints->rows.count * sizeof(Expr));
+    for (int k = 0; k < system->constraints->rows.count; k++) {
         const char *name = system_keep(system, "lambda(%d)", k + 1);
 
-        system->multipliers[k] = expr_symbol(system->arena, name, SYMBOL_MULTIPLIER);
-        for (int i = 0; i < system->drives.count; i++) {
-            Drive *drive = &system->drives.at[i];
+        system->constraints->multipliers[k] = expr_symbol(system->arena, name, SYMBOL_MULTIPLIER);
+        for (int i = 0; i < system->constraints->drives.count; i++) {
+            Drive *drive = &system->constraints->drives.at[i];
 
-            if (!system->rows.at[k].told.is_driver ||
-                system->rows.at[k].told.instance != drive->instance)
+            if (!system->constraints->rows.at[k].told.is_driver ||
+                system->constraints->rows.at[k].told.instance != drive->instance)
                 continue;
             drive->constraint = k;
             if (drive->effort == NULL)
-                drive->effort = expr_neg(system->arena, system->multipliers[k]);
+                drive->effort = expr_neg(system->arena, system->constraints->multipliers[k]);
         }
     }
 }
@@ -300,7 +312,7 @@ static Status build(System *system, Diag *diag)
 {
     Status status = OK;
 
-    if (system->trees[TREE_TRANSLATION] != NULL) {
+    if (system->origin->trees[TREE_TRANSLATION] != NULL) {
         add_coordinates(system);
         add_rates(system);
     }
@@ -310,10 +322,10 @@ static Status build(System *system, Diag *diag)
     motion_build(system);
     system->is_early = true;
     CHECK(network_build(system, diag));
-    if (system->trees[TREE_TRANSLATION] != NULL)
+    if (system->origin->trees[TREE_TRANSLATION] != NULL)
         CHECK(constraints_build(system, diag));
     number_rows(system);
-    if (system->trees[TREE_TRANSLATION] != NULL)
+    if (system->origin->trees[TREE_TRANSLATION] != NULL)
         CHECK(dynamics_build(system, diag));
     system->is_early = false;
     CHECK(network_rows(system, diag));
@@ -356,12 +368,12 @@ static void take_scene(System *system, const Making *making)
     const SystemOptions *options = making->options;
 
     system->arena = scene->arena;
-    system->revision = scene->revision;
-    system->planar = scene->planar;
+    system->origin->revision = scene->revision;
+    system->origin->planar = scene->planar;
     for (int i = 0; i < 3; i++)
-        system->gravity.at[i] = scene->gravity[i];
+        system->origin->gravity.at[i] = scene->gravity[i];
     for (int i = 0; i < scene->parameters.count; i++)
-        LIST_PUSH(system->parameters,
+        LIST_PUSH(system->origin->parameters,
                   (Given){scene->parameters.at[i].symbol, scene->parameters.at[i].value});
     copy_instances(system, scene);
     enter_names(system);
@@ -378,12 +390,18 @@ static Status make_as(const Making *making, bool *has_no_states, System **out, D
     Status status = OK;
 
     system->pool = pool_new(0);
+    system->origin = NEW(Origin);
+    system->kinematics = NEW(Kinematics);
+    system->constraints = NEW(Constraints);
+    system->dynamics = NEW(Dynamics);
+    system->network = NEW(Network);
+    system->shown = NEW(Shown);
     system->scene = making->scene;
-    system->asked_form = making->options->form;
-    system->network_form = making->taken;
-    system->leak = making->options->leak;
-    system->closed = keep_sides(system, making);
-    system->takes_sides = making->takes_sides;
+    system->network->asked_form = making->options->form;
+    system->network->form = making->taken;
+    system->network->leak = making->options->leak;
+    system->network->closed = keep_sides(system, making);
+    system->network->takes_sides = making->takes_sides;
     system->watch = watch;
     system->variable = system_variable;
     report(watch, "formulating", -1.0);
@@ -397,7 +415,7 @@ static Status make_as(const Making *making, bool *has_no_states, System **out, D
 done:
     if (status == E_STOPPED)
         (void)diag_set(diag, E_STOPPED, "stopped while the equations were formed");
-    *has_no_states = system != NULL && system->has_no_states;
+    *has_no_states = system != NULL && system->network->has_no_states;
     system_free(system);
     return status;
 }
@@ -423,9 +441,9 @@ Status system_new(const Scene *scene, const SystemOptions *options, System **out
     Making making = {.scene = scene, .options = options};
 
     if (options->like != NULL) {
-        making.closed = options->like->closed;
-        making.closed_count = options->like->ideals.count;
-        making.takes_sides = options->like->takes_sides;
+        making.closed = options->like->network->closed;
+        making.closed_count = options->like->network->ideals.count;
+        making.takes_sides = options->like->network->takes_sides;
     }
     return make(making, out, diag);
 }
@@ -439,7 +457,7 @@ static Status make_sided(System *whole, SceneSource source, const bool *closed, 
     Status status = OK;
 
     CHECK(source.make(source.context, &scene, diag));
-    if (whole->revision != scene.revision) {
+    if (whole->origin->revision != scene.revision) {
         status =
             diag_set(diag, E_MODEL,
                      "the switches ask for equations that aren't made yet, of a model that has "
@@ -450,7 +468,7 @@ static Status make_sided(System *whole, SceneSource source, const bool *closed, 
     CHECK(make((Making){.scene = &scene,
                         .options = &options,
                         .closed = closed,
-                        .closed_count = whole->ideals.count,
+                        .closed_count = whole->network->ideals.count,
                         .takes_sides = true},
                out, diag));
     (*out)->whole = whole;
@@ -462,8 +480,8 @@ done:
 /* whether the ideal switches are on the sides of that mode */
 static bool is_mode(const System *mode, const bool *closed)
 {
-    for (int i = 0; i < mode->ideals.count; i++)
-        if (system_is_ideal(mode, i) && mode->closed[i] != closed[i])
+    for (int i = 0; i < mode->network->ideals.count; i++)
+        if (system_is_ideal(mode, i) && mode->network->closed[i] != closed[i])
             return false;
     return true;
 }
@@ -471,7 +489,7 @@ static bool is_mode(const System *mode, const bool *closed)
 Status system_mode(System *whole, SceneSource source, const bool *closed, const Watch *watch,
                    System **out, Diag *diag)
 {
-    mem_keep(whole);
+    system_touch(whole);
     System *mode = NULL;
     Status status = OK;
 
@@ -489,17 +507,17 @@ done:
 
 Status system_sided(System *whole, SceneSource source, const Watch *watch, System **out, Diag *diag)
 {
-    mem_keep(whole);
+    system_touch(whole);
     int ideal = system_truly_ideal_count(whole);
     bool *closed = NULL;
     Status status = OK;
 
-    if (ideal == whole->ideals.count)
+    if (ideal == whole->network->ideals.count)
         whole->sided = whole;
     else if (whole->sided == NULL && ideal > 0)
         CHECK(make_sided(whole, source, NULL, watch, &whole->sided, diag));
     else if (whole->sided == NULL) {
-        closed = NEW_ARRAY(bool, whole->ideals.count);
+        closed = NEW_ARRAY(bool, whole->network->ideals.count);
         CHECK(system_mode(whole, source, closed, watch, &whole->sided, diag));
     }
     *out = whole->sided;

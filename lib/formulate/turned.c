@@ -3,26 +3,26 @@
 
 Expr turned_whole(const System *system, int instance, int coordinate)
 {
-    for (int i = 0; i < system->counted.count; i++)
-        if (system->counted.at[i].instance == instance &&
-            system->counted.at[i].coordinate == coordinate)
-            return system->counted.at[i].told.symbol;
+    for (int i = 0; i < system->constraints->counted.count; i++)
+        if (system->constraints->counted.at[i].instance == instance &&
+            system->constraints->counted.at[i].coordinate == coordinate)
+            return system->constraints->counted.at[i].told.symbol;
     return expr_int(system->arena, 0);
 }
 
 int system_whole_turns_count(const System *system)
 {
-    return system->counted.count;
+    return system->constraints->counted.count;
 }
 
 const WholeTurns *system_whole_turns(const System *system, int i)
 {
-    return &system->counted.at[i].told;
+    return &system->constraints->counted.at[i].told;
 }
 
 Expr system_plain(const System *system, Expr e)
 {
-    int count = system->counted.count;
+    int count = system->constraints->counted.count;
     Expr *symbols, *zeros;
 
     if (count == 0 || (expr_kinds(e) & 1U << SYMBOL_PARAMETER) == 0)
@@ -30,7 +30,7 @@ Expr system_plain(const System *system, Expr e)
     symbols = NEW_ARRAY(Expr, count);
     zeros = NEW_ARRAY(Expr, count);
     for (int i = 0; i < count; i++) {
-        symbols[i] = system->counted.at[i].told.symbol;
+        symbols[i] = system->constraints->counted.at[i].told.symbol;
         zeros[i] = expr_int(system->arena, 0);
     }
     e = expr_substitute(system->arena, e, symbols, zeros, count);
@@ -41,10 +41,10 @@ Expr system_plain(const System *system, Expr e)
 
 static TurnedChord *find(const System *system, int instance, int coordinate)
 {
-    for (int i = 0; i < system->turned.count; i++)
-        if (system->turned.at[i].instance == instance &&
-            system->turned.at[i].coordinate == coordinate)
-            return &system->turned.at[i];
+    for (int i = 0; i < system->constraints->turned.count; i++)
+        if (system->constraints->turned.at[i].instance == instance &&
+            system->constraints->turned.at[i].coordinate == coordinate)
+            return &system->constraints->turned.at[i];
     return NULL;
 }
 
@@ -65,15 +65,16 @@ void turned_drive(System *system, int instance, int coordinate, Expr prescribed)
 
 int system_turned_count(const System *system)
 {
-    return system->turned.count;
+    return system->constraints->turned.count;
 }
 
 const Turned *system_turned(const System *system, int i)
 {
-    return &system->turned.at[i].told;
+    return &system->constraints->turned.at[i].told;
 }
 
 const AngleOff *system_angle_off(const System *system, int i)
 {
-    return i < system->angles_off.count ? &system->angles_off.at[i] : NULL;
+    return i < system->constraints->angles_off.count ? &system->constraints->angles_off.at[i]
+                                                     : NULL;
 }

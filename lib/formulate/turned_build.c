@@ -19,14 +19,14 @@ static void add_counted(System *system, const Instance *joint, int coordinate, E
                                 .instance = joint->number,
                                 .coordinate = coordinate};
 
-    LIST_PUSH(system->counted, chord);
+    LIST_PUSH(system->constraints->counted, chord);
 }
 
 void turned_add_rows(System *system)
 {
-    for (int k = 0; k < system->rows.count; k++) {
-        const Row *row = &system->rows.at[k];
-        const char *name = system->instances[row->told.instance].name;
+    for (int k = 0; k < system->constraints->rows.count; k++) {
+        const Row *row = &system->constraints->rows.at[k];
+        const char *name = system->origin->instances[row->told.instance].name;
         const CountedChord chord = {
             .told = {NULL, k, row->phi,
                      whole_symbol(system, system_keep(system, "row %d, %s", k, name))},
@@ -35,7 +35,7 @@ void turned_add_rows(System *system)
 
         if (row->kind != ROW_ANGLE)
             continue;
-        LIST_PUSH(system->counted, chord);
+        LIST_PUSH(system->constraints->counted, chord);
         system->run.phi[k] = expr_add(system->arena, system->run.phi[k], chord.told.symbol);
         if (system->definitions.phi != system->run.phi)
             system->definitions.phi[k] =
@@ -64,13 +64,14 @@ static void add_turned(System *system, const Instance *joint, const Steps *steps
         expr_symbol(arena, system_keep(system, "%s.near", chord.told.name), SYMBOL_TURN);
     chord.told.angle =
         expr_call(arena, OP_UNWRAP, (Expr[]){turn.sine, turn.cosine, chord.told.near});
-    LIST_PUSH(system->turned, chord);
+    LIST_PUSH(system->constraints->turned, chord);
 }
 
 void turned_build(System *system)
 {
-    for (int i = 0; i < system->instance_count && system->trees[TREE_ROTATION] != NULL; i++) {
-        const Instance *joint = &system->instances[i];
+    for (int i = 0;
+         i < system->origin->instance_count && system->origin->trees[TREE_ROTATION] != NULL; i++) {
+        const Instance *joint = &system->origin->instances[i];
         Steps steps;
 
         if (joint->row->steps == NULL || joint->edge < 0)
@@ -78,7 +79,7 @@ void turned_build(System *system)
         instance_steps(system, joint, &steps);
         /* three turns in a chord have no angles that could be told */
         for (int k = 0; k < steps.turn_count && steps.turn_count < 3; k++)
-            if (system->coordinate[i][steps.turn[k].coordinate] < 0)
+            if (system->kinematics->coordinate[i][steps.turn[k].coordinate] < 0)
                 add_turned(system, joint, &steps, k);
     }
 }
@@ -86,9 +87,9 @@ void turned_build(System *system)
 /* (c s' - s c') r/(r^2 + 1e-8), r = s^2 + c^2: c s' - s c' where the joint holds, r being 1 */
 Status system_turned_rate(System *system, int i, Expr *out, Diag *diag)
 {
-    mem_keep(system);
+    system_touch(system);
     Arena *arena = system->arena;
-    const TurnedChord *chord = &system->turned.at[i];
+    const TurnedChord *chord = &system->constraints->turned.at[i];
     Expr sine_rate;
     Expr cosine_rate;
     Expr size;

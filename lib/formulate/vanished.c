@@ -51,27 +51,28 @@ static void add_rows(const Recovery *recovery, const Sums *sums, int node, bool 
 /* each virtual branch carries nothing */
 static void gather(System *system, const Recovery *recovery, const Sums *sums, Matrix *out)
 {
-    for (int i = 0; i < system->instance_count; i++) {
-        const Instance *joint = &system->instances[i];
+    for (int i = 0; i < system->origin->instance_count; i++) {
+        const Instance *joint = &system->origin->instances[i];
 
         if (!joint->is_virtual)
             continue;
         for (TreeKind kind = TREE_TRANSLATION; kind <= TREE_ROTATION; kind++)
-            if (tree_has(system->trees[kind], joint->edge))
-                add_rows(recovery, sums, tree_far_node(system->trees[kind], joint->edge),
+            if (tree_has(system->origin->trees[kind], joint->edge))
+                add_rows(recovery, sums, tree_far_node(system->origin->trees[kind], joint->edge),
                          kind == TREE_ROTATION, out);
     }
 }
 
 static void unit_sums(System *system, Recovery *recovery)
 {
-    int count = system->vanished.count;
+    int count = system->constraints->vanished.count;
 
     recovery->sums = pool_alloc(system->pool, (size_t)count * sizeof *recovery->sums);
     for (int k = 0; k < count; k++) {
         Loads unit = loads_new(system);
 
-        loads_add_row(system, &unit, &system->vanished.at[k], expr_int(system->arena, 1));
+        loads_add_row(system, &unit, &system->constraints->vanished.at[k],
+                      expr_int(system->arena, 1));
         recovery->sums[k] = loads_sum(system, &unit);
     }
 }
@@ -242,12 +243,12 @@ static void find_columns(System *system, const Matrix *m, Recovery *recovery, El
 void recovery_build(System *system, const Loads *loads)
 {
     Recovery *recovery = pool_alloc(system->pool, sizeof *recovery);
-    int count = system->vanished.count;
+    int count = system->constraints->vanished.count;
     const Sums *sums = loads_sum(system, loads);
     Matrix m = {.columns = count};
     Elimination e;
 
-    system->recovery = recovery;
+    system->shown->recovery = recovery;
     recovery->sample = sample_new(system, 5, false);
     recovery->multipliers = pool_alloc(system->pool, (size_t)count * sizeof(Expr));
     for (int k = 0; k < count; k++)

@@ -42,7 +42,7 @@ static const FrameMember frame_members[] = {
 static Status frame_angle(System *system, int node, Expr *out, Diag *diag)
 {
     Arena *arena = system->arena;
-    const Frame *frame = &system->frames[node];
+    const Frame *frame = &system->kinematics->frames[node];
     Vec z = vec_zero(arena);
     Turns turns = {0};
     Status status = OK;
@@ -50,7 +50,7 @@ static Status frame_angle(System *system, int node, Expr *out, Diag *diag)
     z.at[2] = expr_int(arena, 1);
     turns_between(system, 0, frame->chain, &turns);
     *out = rotation_angle(arena, &frame->zero, z);
-    if (turns.count > 1 || !system->planar)
+    if (turns.count > 1 || !system->origin->planar)
         status = diag_set(diag, E_MISSING, "theta is for planar scenes");
     else if (turns.count == 1)
         *out = expr_add(arena, *out,
@@ -62,8 +62,8 @@ static Status frame_angle(System *system, int node, Expr *out, Diag *diag)
 
 static Status frame_vector_of(System *system, int node, Quantity quantity, Vec *out, Diag *diag)
 {
-    const Frame *frame = &system->frames[node];
-    int axes = system->chains.at[frame->chain].resolve;
+    const Frame *frame = &system->kinematics->frames[node];
+    int axes = system->kinematics->chains.at[frame->chain].resolve;
     Status status = OK;
 
     switch (quantity) {
@@ -76,19 +76,20 @@ static Status frame_vector_of(System *system, int node, Quantity quantity, Vec *
         *out = vec_express(system, frame->v, axes, 0);
         break;
     case RATE:
-        *out = vec_express(system, system->motions[frame->chain].w, axes, 0);
+        *out = vec_express(system, system->kinematics->motions[frame->chain].w, axes, 0);
         break;
     case OWN_RATE: {
         Rotation back = rotation_transpose(&frame->zero);
 
-        *out = vec_express(system, system->motions[frame->chain].w, axes, frame->chain);
+        *out = vec_express(system, system->kinematics->motions[frame->chain].w, axes, frame->chain);
         *out = rotation_apply(system->arena, &back, *out);
         break;
     }
     case ACCELERATION:
     case TURNING:
         CHECK(actual_build(system, diag));
-        *out = quantity == TURNING ? system->actual_alpha[frame->chain] : system->actual_a[node];
+        *out = quantity == TURNING ? system->shown->actual_alpha[frame->chain]
+                                   : system->shown->actual_a[node];
         *out = vec_express(system, *out, axes, 0);
         break;
     }
@@ -119,8 +120,8 @@ static Status frame_variable(System *system, int node, const char *member, Expr 
             *out = vector.at[row->axis];
         return status;
     }
-    return diag_set(diag, E_MISSING, "%s.%s can't be told", graph_node(system->graph, node)->name,
-                    member);
+    return diag_set(diag, E_MISSING, "%s.%s can't be told",
+                    graph_node(system->origin->graph, node)->name, member);
 }
 
 /* --- joints --- */
@@ -132,8 +133,8 @@ static Status joint_effort(System *system, const Instance *joint, Expr *out, Dia
     Expr sum = expr_int(arena, 0);
     Status status = OK;
 
-    for (int i = 0; i < system->instance_count; i++) {
-        const Instance *instance = &system->instances[i];
+    for (int i = 0; i < system->origin->instance_count; i++) {
+        const Instance *instance = &system->origin->instances[i];
         Effort effort;
 
         if (instance->joint != joint->number || instance->row->effort == NULL)
@@ -141,9 +142,10 @@ static Status joint_effort(System *system, const Instance *joint, Expr *out, Dia
         CHECK(effort_of(system, instance, &effort, diag));
         sum = expr_add(arena, sum, effort.value);
     }
-    for (int k = 0; k < system->rows.count; k++)
-        if (system->rows.at[k].kind == ROW_DRIVER && system->rows.at[k].owner == joint->number)
-            sum = expr_sub(arena, sum, system->multipliers[k]);
+    for (int k = 0; k < system->constraints->rows.count; k++)
+        if (system->constraints->rows.at[k].kind == ROW_DRIVER &&
+            system->constraints->rows.at[k].owner == joint->number)
+            sum = expr_sub(arena, sum, system->constraints->multipliers[k]);
     *out = sum;
 done:
     return status;
@@ -170,23 +172,25 @@ done:
 static Expr relative_rate(System *system, const Instance *joint, int axis)
 {
     Arena *arena = system->arena;
-    const Frame *head = &system->frames[joint->head];
-    int tail = system->frames[joint->tail].chain;
+    const Frame *head = &system->kinematics->frames[joint->head];
+    int tail = system->kinematics->frames[joint->tail].chain;
     Rotation back = rotation_transpose(&head->zero);
     Rotation constant;
     Steps steps;
     Vec w;
 
     instance_steps(system, joint, &steps);
-    if (steps.quaternion && system->speed[joint->number][steps.first_parameter] >= 0)
-        return system->u.at[system->speed[joint->number][steps.first_parameter] + axis].symbol;
+    if (steps.quaternion && system->kinematics->speed[joint->number][steps.first_parameter] >= 0)
+        return system->kinematics->u
+            .at[system->kinematics->speed[joint->number][steps.first_parameter] + axis]
+            .symbol;
     for (int i = 0; i < 9; i++)
         constant.at[i] = steps.rotation[i];
-    w = vec_sub(
-        arena,
-        vec_express(system, system->motions[head->chain].w, system->chains.at[head->chain].resolve,
-                    head->chain),
-        vec_express(system, system->motions[tail].w, system->chains.at[tail].resolve, head->chain));
+    w = vec_sub(arena,
+                vec_express(system, system->kinematics->motions[head->chain].w,
+                            system->kinematics->chains.at[head->chain].resolve, head->chain),
+                vec_express(system, system->kinematics->motions[tail].w,
+                            system->kinematics->chains.at[tail].resolve, head->chain));
     return rotation_apply(arena, &constant, rotation_apply(arena, &back, w)).at[axis];
 }
 
@@ -233,18 +237,19 @@ static Status driver_variable(System *system, const Instance *driver, const char
 {
     const Drive *drive = NULL;
 
-    for (int i = 0; i < system->drives.count; i++)
-        if (system->drives.at[i].instance == driver->number)
-            drive = &system->drives.at[i];
+    for (int i = 0; i < system->constraints->drives.count; i++)
+        if (system->constraints->drives.at[i].instance == driver->number)
+            drive = &system->constraints->drives.at[i];
     if (drive == NULL || strcmp(member, "effort") != 0)
         return diag_set(diag, E_MISSING, "%s.%s can't be told", driver->name, member);
     if (wait_for_motion(system, diag) != OK)
         return E_MISSING;
     /* in the embedded form one driver of one freedom has an explicit effort, where it can be
      * written */
-    if (system->form == FORM_EMBEDDED && driver->by < 0 && system->drives.count == 1 &&
-        drive->constraint >= 0 && embedded_rows(system) == 1 &&
-        embedded_effort(system, &system->rows.at[drive->constraint], out, NULL) == OK)
+    if (system->origin->form == FORM_EMBEDDED && driver->by < 0 &&
+        system->constraints->drives.count == 1 && drive->constraint >= 0 &&
+        embedded_rows(system) == 1 &&
+        embedded_effort(system, &system->constraints->rows.at[drive->constraint], out, NULL) == OK)
         return OK;
     *out = driver->by >= 0 ? expr_int(system->arena, 0) : drive->effort;
     return OK;
@@ -255,8 +260,8 @@ static bool own_state(const System *system, const Instance *instance, const char
 {
     if (instance->row->own_state_count == NULL || instance->row->own_state_count(instance) == 0)
         return false;
-    for (int k = 0; k < system->unknowns.count; k++) {
-        const Unknown *y = &system->unknowns.at[k];
+    for (int k = 0; k < system->network->unknowns.count; k++) {
+        const Unknown *y = &system->network->unknowns.at[k];
         const char *dot = strrchr(expr_name(y->symbol), '.');
 
         if (y->own >= 0 && y->instance == instance->number && strcmp(dot + 1, member) == 0) {
@@ -332,9 +337,9 @@ static const char *path_owner(const System *system, const char *path, const Inst
         if (path[length] != '.' && path[length] != '\0')
             continue;
         head = mem_text(path, length);
-        number = names_find(system->instance_names, head);
-        *instance = number >= 0 ? &system->instances[number] : NULL;
-        *node = graph_find_node(system->graph, head);
+        number = names_find(system->origin->instance_names, head);
+        *instance = number >= 0 ? &system->origin->instances[number] : NULL;
+        *node = graph_find_node(system->origin->graph, head);
         mem_free(head);
         if (*instance != NULL || *node >= 0)
             break;
@@ -353,7 +358,7 @@ static const Branchlike *storage_named(System *system, const char *path)
     for (int k = 0; instance != NULL && dot != NULL && k < instance->scalar_count; k++) {
         const Branchlike *branch = scalar_branch(system, instance, k);
         RelationKind kind = branch->relation.kind;
-        const char *edge = graph_edge(system->graph, branch->edge)->name;
+        const char *edge = graph_edge(system->origin->graph, branch->edge)->name;
         Domain domain = instance->row->domain;
 
         if (strlen(edge) == (size_t)(dot - path) &&
@@ -379,7 +384,7 @@ static Status storage_rate(System *system, const char *path, Expr *out, Diag *di
 
     if (branch == NULL)
         return E_MISSING; /* what rate_of() said stands */
-    instance = &system->instances[branch->instance];
+    instance = &system->origin->instances[branch->instance];
     own = instance_across(instance, arena, branch->which);
     other = instance_through(instance, arena, branch->which);
     if (branch->relation.kind == RELATION_INDUCTIVE) {
@@ -405,16 +410,18 @@ static Status terminal_variable(System *system, int node, Expr *out, Diag *diag)
     const Tree *tree;
     Status status = OK;
 
-    while (tree_kind_domain(kind) != graph_node(system->graph, node)->domain)
+    while (tree_kind_domain(kind) != graph_node(system->origin->graph, node)->domain)
         kind++;
-    tree = system->trees[kind];
+    tree = system->origin->trees[kind];
     *out = expr_int(arena, 0);
     for (; tree_parent(tree, node) >= 0; node = tree_parent(tree, node)) {
         Expr v;
 
-        CHECK(network_across(
-            system, &system->branches.at[system->scalar_of_edge[tree_parent_edge(tree, node)]], &v,
-            diag));
+        CHECK(
+            network_across(system,
+                           &system->network->branches
+                                .at[system->network->scalar_of_edge[tree_parent_edge(tree, node)]],
+                           &v, diag));
         /* an across variable is that of the tail against the head */
         *out = tree_is_forward(tree, node) ? expr_sub(arena, *out, v) : expr_add(arena, *out, v);
     }
@@ -429,7 +436,7 @@ static Expr largest_residual(System *system)
     Arena *arena = system->arena;
     Expr largest = expr_int(arena, 0);
 
-    for (int k = 0; k < system->rows.count; k++)
+    for (int k = 0; k < system->constraints->rows.count; k++)
         largest = expr_call2(arena, OP_MAX, largest, expr_call1(arena, OP_ABS, system->run.phi[k]));
     return largest;
 }
@@ -447,9 +454,9 @@ static bool model_variable(System *system, const char *path, Expr *out)
     else if (strcmp(path, "constraint.error") == 0)
         *out = largest_residual(system);
     else if (strcmp(path, "model.n") == 0)
-        *out = expr_int(arena, system->q.count);
+        *out = expr_int(arena, system->kinematics->q.count);
     else if (strcmp(path, "model.m") == 0)
-        *out = expr_int(arena, system->rows.count);
+        *out = expr_int(arena, system->constraints->rows.count);
     else
         return false;
     return true;
@@ -458,14 +465,14 @@ static bool model_variable(System *system, const char *path, Expr *out)
 /* Where there are constraints some may repeat others, which shows at a start only. */
 static Status free_speeds(const System *system, Expr *out, Diag *diag)
 {
-    if (system->rows.count > 0) {
+    if (system->constraints->rows.count > 0) {
         (void)diag_set(diag, E_MISSING,
                        "model.dof counts what the constraints leave free at the start, and is no "
                        "formula");
         diag_hint(diag, "'print model.dof' and 'check' tell it");
         return E_MISSING;
     }
-    *out = expr_int(system->arena, system->u.count);
+    *out = expr_int(system->arena, system->kinematics->u.count);
     return OK;
 }
 
@@ -498,10 +505,10 @@ static Status entry_variable(System *system, const char *path, bool *found, Expr
         *found = true;
         if (wait_for_motion(system, diag) != OK)
             return E_MISSING;
-        if (row < 1 || row > system->rows.count)
+        if (row < 1 || row > system->constraints->rows.count)
             return diag_set(diag, E_VALUE, "%s: there are %d multipliers", path,
-                            system->rows.count);
-        *out = system->multipliers[row - 1];
+                            system->constraints->rows.count);
+        *out = system->constraints->multipliers[row - 1];
         return OK;
     }
     for (Block block = 0; block < BLOCK_COUNT; block++) {
@@ -537,7 +544,7 @@ static Status member_variable(System *system, const char *path, Expr *out, Diag 
         diag_hint(diag, "what comes later is in the next run: simulate 1");
         return E_NAME;
     }
-    if (node >= 0 && graph_node(system->graph, node)->domain != DOMAIN_MECHANICAL &&
+    if (node >= 0 && graph_node(system->origin->graph, node)->domain != DOMAIN_MECHANICAL &&
         (instance == NULL || instance->scalar_count == 0))
         return terminal_variable(system, node, out, diag);
     if (instance == NULL)
@@ -564,18 +571,18 @@ static Status member_variable(System *system, const char *path, Expr *out, Diag 
 static bool find_coordinate(const System *system, const char *path, const Instance **owner,
                             int *which)
 {
-    int number = names_find(system->coordinate_names, path);
+    int number = names_find(system->origin->coordinate_names, path);
 
     if (number < 0)
         return false;
-    *owner = &system->instances[system->coordinate_owners.at[number].instance];
-    *which = system->coordinate_owners.at[number].coordinate;
+    *owner = &system->origin->instances[system->origin->coordinate_owners.at[number].instance];
+    *which = system->origin->coordinate_owners.at[number].coordinate;
     return true;
 }
 
 Status system_variable(System *system, const char *path, int primes, Expr *out, Diag *diag)
 {
-    mem_keep(system);
+    system_touch(system);
     const Instance *owner;
     int which;
     bool found = false;
@@ -589,16 +596,16 @@ Status system_variable(System *system, const char *path, int primes, Expr *out, 
         found = true;
     }
     found = found || model_variable(system, path, out);
-    for (int i = 0; i < system->output_count && !found; i++)
-        if (strcmp(system->output_names[i], path) == 0) {
-            CHECK(resolve(system, system->outputs[i], out, diag));
+    for (int i = 0; i < system->origin->output_count && !found; i++)
+        if (strcmp(system->origin->output_names[i], path) == 0) {
+            CHECK(resolve(system, system->origin->outputs[i], out, diag));
             found = true;
         }
     if (!found)
         CHECK(member_variable(system, path, out, diag));
     for (int k = 0; k < primes; k++) {
         status = rate_of(system, *out, out, diag);
-        if (k == 0 && status == E_MISSING && !system->is_network_open)
+        if (k == 0 && status == E_MISSING && !system->network->is_open)
             status = storage_rate(system, path, out, diag);
         CHECK(status);
     }

@@ -1,0 +1,166 @@
+/* kinematics.h: how the frames move: turns and shifts along the trees, coordinates and speeds
+ *
+ * Turns. The orientation of a frame is a product of turns along the rotation tree,
+ * each about an axis that is constant in the position where every coordinate is 0,
+ * and a constant rotation: R_0n = exp(k1 a1) exp(k2 a2) ... Z_n. Frames that differ by
+ * constant rotations only share a *chain*: the last turn on their way. A vector fixed
+ * in a frame is kept as (chain, Z_n r): neighbours about one axis merge because
+ * their k are the same three expressions.
+ *
+ * Steps. Along the translation tree every node stands one constant or sliding shift
+ * from its parent, a vector of one chain.
+ *
+ * Symbols: k axis of a turn, c a chain, n a node, r a shift, w angular velocity,
+ * a0 acceleration that is left at u' = 0 (alpha0 likewise). */
+#ifndef COTREE_FORMULATE_KINEMATICS_H
+#define COTREE_FORMULATE_KINEMATICS_H
+
+#include "base/memory.h"
+#include "formulate/system.h"
+#include "formulate/vector.h"
+
+/* one turn of the rotation tree, or one free rotation by Euler parameters */
+typedef struct Chain {
+    int parent; /* -1: ground's own */
+    int depth;
+    int first; /* what hangs beyond it has the numbers first..last */
+    int last;
+    int resolve; /* chain in whose axes vectors of this one are computed by the reading to run */
+    int speed;   /* the first of its speeds */
+    int speed_count; /* 1, or 3 where it is free */
+    bool is_free;
+    Vec axis;   /* turn: zero-position axes, the same components before and after */
+    Expr angle; /* turn: the coordinate, or its negative where the branch is passed backwards */
+    Rotation matrix;   /* free: zero-position components after it to those before it */
+    Expr parameter[4]; /* free: Euler parameters of that matrix */
+} Chain;
+
+/* a speed: what it moves, and along what */
+typedef struct Speed {
+    int chain;     /* that it turns; -1: none */
+    int turn_node; /* that its branch of the rotation tree leads to */
+    Vec axis;      /* of the turn, zero-position axes of `axis_chain` */
+    int axis_chain;
+    int slide_node; /* that its branch of the translation tree leads to; -1: it doesn't slide */
+    Vec turn;       /* the axis in the axes of turn_node */
+    Vec slide;      /* motion per unit in the axes of slide_node; both may be: a screw */
+} Speed;
+
+/* how a coordinate's rate follows from speeds */
+typedef struct CoordinateRate {
+    int count;
+    int speed[3];
+    Expr entry[3]; /* of N */
+} CoordinateRate;
+
+/* a shift coordinate in a step */
+typedef struct Slide {
+    int speed;
+    Vec axis; /* of the step's chain, sign included */
+} Slide;
+
+typedef struct Frame { /* a mechanical node */
+    int chain;
+    Rotation zero; /* Z_n */
+    /* step from the translation tree's parent; shift and slides point from it to this node */
+    int parent; /* node; -1: ground */
+    int base;   /* node in whose frame the shift is fixed: the edge's tail */
+    int step_chain;
+    Vec shift;
+    int slide_count;
+    Slide slide[3];
+    /* quantities of the reading to run, in the axes of resolve(chain) */
+    Vec step; /* the shift */
+    Vec v;
+    Vec product; /* velocity products of the step's acceleration */
+    Vec p;       /* position, ground axes */
+} Frame;
+
+typedef struct ChainMotion { /* in the axes of its resolve chain */
+    Vec w;
+    Vec product; /* velocity products of the turn's angular acceleration */
+} ChainMotion;
+
+typedef struct Kinematics {
+    LIST(Variable) q;
+    LIST(Variable) u;
+    Expr *accelerations;           /* symbols of u' */
+    int (*coordinate)[MAX_COORDS]; /* of an instance: its place in q, or -1 */
+    int (*speed)[MAX_COORDS];      /* of an instance's coordinate: its place in u, or -1 */
+    Speed *speeds;
+    CoordinateRate *coordinate_rates;
+    LIST(int) quaternions; /* the first of each four parameters */
+    LIST(Chain) chains;
+    Frame *frames; /* one a node of the graph; scalar nodes unused */
+    ChainMotion *motions;
+    Vec *alpha0; /* of chains, in the axes of their resolve chain */
+    Vec *a0;     /* of nodes */
+} Kinematics;
+
+void kinematics_free(Kinematics *kinematics); /* NULL is fine */
+
+/* --- frames and turns (frames.c) --- */
+
+/* chains, frames and steps from the trees; masses. */
+void frames_build(System *system);
+
+typedef struct Turn {
+    Vec axis;
+    Expr angle;
+    const Rotation *matrix; /* of a free rotation; NULL: a turn about the axis */
+    bool back;              /* the matrix is passed backwards */
+} Turn;
+typedef LIST(Turn) Turns;
+
+/* the turns that lead from one chain to another, neighbours about one axis merged: R_from_to */
+void turns_between(const System *system, int from, int to, Turns *turns);
+/* components of v in the axes of chain `to`, from those in chain `from` */
+Vec vec_express(const System *system, Vec v, int from, int to);
+/* what a speed turns about, in the axes of a chain */
+Vec speed_axis(const System *system, int speed, int axes);
+/* where it slides its node, per unit, in the axes of a chain; zero where it doesn't */
+Vec speed_slide(const System *system, int speed, int axes);
+/* the node nearest to the datum that it moves */
+int speed_node(const System *system, int speed);
+bool chain_is_beyond(const System *system, int chain, int turn); /* or the same */
+/* angle of a constant rotation about an axis */
+Expr rotation_angle(Arena *arena, const Rotation *rotation, Vec axis);
+/* axes of the frame of a joint's tail to zero-position components */
+Vec frame_vector(const System *system, int node, Vec in_frame);
+/* the row's steps of an instance */
+void instance_steps(const System *system, const Instance *instance, Steps *steps);
+
+/* --- motion of the reading to run (recursive.c) --- */
+
+void motion_build(System *system);
+/* angular accelerations of chains and accelerations of nodes, with u' or (NULL) without */
+void accelerations_build(System *system, const Expr *accelerations, Vec *alpha, Vec *a);
+/* position of a node in ground axes, held */
+Vec node_position(const System *system, int node);
+
+/* --- coordinates, also of chords (coordinate.c) --- */
+
+/* the constant rotation that is left between the ends of a chord once its turns are undone: Z_h
+ * R_0^T Z_t^T */
+Rotation chord_constant(const System *system, const Instance *joint, const Steps *steps);
+/* a turn of a chord: the sum of turns about its axis where they merge, else its sine and cosine */
+typedef struct ChordTurn {
+    Expr angle; /* NULL: sine and cosine instead */
+    Expr sine;
+    Expr cosine;
+} ChordTurn;
+/* `which` of one or two turns */
+void chord_turn(System *system, const Instance *owner, const Steps *steps, int which,
+                ChordTurn *out);
+/* the way from tail to head along a slide's axis */
+Expr slide_value(System *system, const Instance *owner, const Step *slide);
+/* (euler_parameters.c) Euler parameters of a frame against ground, and of a head against a tail,
+ * scalar part first */
+void frame_parameters(System *system, int node, Expr p[4]);
+void relative_parameters(System *system, int tail, int head, Expr p[4]);
+/* axis of a joint's turn, where it is now: zero-position components of *chain */
+Vec joint_axis(System *system, const Instance *owner, const Steps *steps, int which, int *chain);
+/* a screw: shift and turn by one coordinate */
+bool steps_are_tied(const Steps *steps);
+
+#endif

@@ -1,0 +1,43 @@
+/* origin.h: what the equations are formed from: the scene, copied, since it may change later */
+#ifndef COTREE_FORMULATE_ORIGIN_H
+#define COTREE_FORMULATE_ORIGIN_H
+
+#include "base/memory.h"
+#include "base/names.h"
+#include "formulate/vector.h"
+#include "model/scene.h"
+
+typedef struct Given {
+    Expr symbol; /* a parameter */
+    double value;
+} Given;
+
+typedef struct CoordinateOwner {
+    int instance;
+    int coordinate;
+} CoordinateOwner;
+
+typedef struct Origin {
+    uint64_t revision;
+    bool planar;
+    Vec gravity;
+    Form form;
+    const char **independent;
+    int independent_count;
+
+    Instance *instances;
+    int instance_count;
+    Names *instance_names;   /* numbered as the instances */
+    Names *coordinate_names; /* of all instances, */
+    LIST(CoordinateOwner) coordinate_owners;
+    Graph *graph;
+    Tree *trees[TREE_KINDS];
+    const char **output_names;
+    Expr *outputs;
+    int output_count;
+    LIST(Given) parameters; /* as they were */
+} Origin;
+
+void origin_free(Origin *origin); /* NULL is fine */
+
+#endif

@@ -1,0 +1,18 @@
+/* sample.h: numbers at a random position */
+#ifndef COTREE_FORMULATE_SAMPLE_H
+#define COTREE_FORMULATE_SAMPLE_H
+
+#include "formulate/system.h"
+
+typedef struct Sample { /* a random position */
+    const System *system;
+    double *q;
+    double *parameter; /* in order of system->parameters */
+} Sample;
+
+/* in the system's pool; `vary`: with other parameters too, for what holds whatever they are */
+Sample *sample_new(System *system, uint64_t seed, bool vary);
+/* of an expression in q and parameters; NAN where there is more in it */
+double sample_number(Sample *sample, Expr e);
+
+#endif
