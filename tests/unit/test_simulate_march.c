@@ -34,13 +34,14 @@ static Stepper *spring_stepper(Problem *p, Motion **motion, const Method *method
 {
     static const double start[3] = {1, 0, 0};
     MotionOptions options = {.tolerance = 1e-8};
-    Control control = {.rtol = 1e3, .atol = 1e3, .step = h, .first = h};
+    Control control = {.rtol = 1e3, .atol = 1e3, .step = h};
     Stepper *s;
 
     problem_spring(p);
     *motion = motion_new(&p->eq, &options);
     s = method->create(motion_ode(*motion), &control);
     EXPECT(method->start(s, 0, start, NULL) == OK);
+    s->next = h;
     return s;
 }
 
@@ -104,6 +105,54 @@ static void every_method_meets_its_tolerance_on_a_spring(void)
         EXPECT_NEAR(out.reached, 10, 0);
         EXPECT(out.counts.steps > 0 && out.counts.evaluations > 0);
         grid_free(&grid);
+    }
+}
+
+/* the length of the first step from (1, cos 1, -sin 1), and its error, of a stepper that may have
+ * gone another way before; next: a driver's guess, or 0 */
+static double first_step(const Method *method, int steps_before, double next, double *error)
+{
+    static const double zero[3] = {1, 0, 0};
+    const double start[3] = {cos(1), -sin(1), 0};
+    MotionOptions options = {.tolerance = 1e-8};
+    Control control = {.rtol = 1e-6, .atol = 1e-6};
+    Problem p;
+    Motion *motion;
+    Stepper *s;
+    double length;
+
+    problem_spring(&p);
+    motion = motion_new(&p.eq, &options);
+    s = method->create(motion_ode(motion), &control);
+    if (steps_before > 0) {
+        EXPECT(method->start(s, 0, zero, NULL) == OK);
+        s->next = 1e-4; /* for that start, and no other */
+    }
+    for (int i = 0; i < steps_before; i++)
+        EXPECT(method->step(s, 1000, NULL) == OK);
+    EXPECT(method->start(s, 1, start, NULL) == OK);
+    s->next = next;
+    EXPECT(method->step(s, 1000, NULL) == OK);
+    length = s->t - s->before;
+    *error = fabs(s->y[0] - cos(s->t));
+    method->destroy(s);
+    motion_free(motion);
+    return length;
+}
+
+static void a_start_forgets_the_steps_before_it(void)
+{
+    for (int i = 0; method_row(i) != NULL; i++) {
+        const Method *method = method_row(i);
+        double error;
+        const double fresh = first_step(method, 0, 0, &error);
+
+        if (method->has_fixed_step)
+            continue;
+        EXPECT(error < 1e-5 && fresh > 0);
+        EXPECT_NEAR(first_step(method, 1, 0, &error), fresh, 1e-12 * fresh);
+        EXPECT_NEAR(first_step(method, 20, 0, &error), fresh, 1e-12 * fresh);
+        EXPECT_NEAR(first_step(method, 20, fresh / 8, &error), fresh / 8, 1e-9 * fresh);
     }
 }
 
@@ -334,6 +383,7 @@ int main(void)
     RUN(dop853_has_order_8_and_its_interpolant_7);
     RUN(rk4_has_order_4);
     RUN(every_method_meets_its_tolerance_on_a_spring);
+    RUN(a_start_forgets_the_steps_before_it);
     RUN(pendulum_agrees_with_elliptic_functions);
     RUN(multipliers_are_the_rod_force);
     RUN(a_repeated_row_shares_the_least_multipliers);

@@ -67,18 +67,12 @@ static double weighted(const Dop853 *d, const Terms *terms, int i)
     return sum;
 }
 
-static bool evaluate(Dop853 *d, double t, const double *y, double *rate)
-{
-    d->base.counts.evaluations++;
-    return d->base.ode->rate(d->base.ode->context, t, y, rate);
-}
-
 /* k[stage] from the stages before it; false where f is undefined */
 static bool take_stage(Dop853 *d, int stage, double h, double *point)
 {
     for (int i = 0; i < d->all; i++)
         point[i] = d->old[i] + h * weighted(d, &stages[stage], i);
-    return evaluate(d, d->base.before + nodes[stage] * h, point, d->k[stage]);
+    return stepper_rate(&d->base, d->base.before + nodes[stage] * h, point, d->k[stage]);
 }
 
 static double scaled_norm(const Dop853 *d, const double *v)
@@ -92,14 +86,10 @@ static double scaled_norm(const Dop853 *d, const double *v)
 
 static void choose_scale(Dop853 *d, const double *a, const double *b)
 {
-    const Control *control = &d->base.control;
-    const double *cap = d->base.ode->cap, *slack = d->base.ode->slack;
+    const double *slack = d->base.ode->slack;
 
     for (int i = 0; i < d->n; i++) {
-        double size = fmax(fabs(a[i]), fabs(b[i]));
-
-        size = cap != NULL ? fmin(size, cap[i]) : size;
-        d->scale[i] = AIM * (control->atol + control->rtol * size);
+        d->scale[i] = AIM * stepper_tolerance(&d->base, i, fmax(fabs(a[i]), fabs(b[i])));
         if (slack != NULL)
             d->scale[i] = fmax(d->scale[i], slack[i]);
     }
@@ -119,7 +109,7 @@ static double first_step(Dop853 *d, double t, double span)
     h = fmin(h, span);
     for (int i = 0; i < d->all; i++)
         d->stage_point[i] = d->base.y[i] + h * d->k[0][i];
-    if (!evaluate(d, t + h, d->stage_point, d->k[1]))
+    if (!stepper_rate(&d->base, t + h, d->stage_point, d->k[1]))
         return 1e-3 * h;
     for (int i = 0; i < d->n; i++)
         d->k[2][i] = d->k[1][i] - d->k[0][i];
@@ -163,7 +153,7 @@ static bool apply_jacobian(Dop853 *d, const double *w, double *out)
         return false;
     for (int i = 0; i < d->all; i++)
         d->stage_point[i] = d->base.y[i] + (i < d->n ? step * w[i] : 0);
-    if (!evaluate(d, d->base.t, d->stage_point, out))
+    if (!stepper_rate(&d->base, d->base.t, d->stage_point, out))
         return false;
     for (int i = 0; i < d->n; i++)
         out[i] = (out[i] - d->k[12][i]) / step;
@@ -254,7 +244,7 @@ static bool settle(Dop853 *d, double t, double h)
 
     if (ode->project != NULL && !ode->project(ode->context, t, d->new))
         return false;
-    if (!evaluate(d, t, d->new, d->k[12]))
+    if (!stepper_rate(&d->base, t, d->new, d->k[12]))
         return false;
     d->base.t = t;
     d->step = h;
@@ -267,52 +257,28 @@ static Stepper *create(const Ode *ode, const Control *control)
 {
     Dop853 *d = NEW(Dop853);
 
-    d->base = (Stepper){.method = &method_dop853, .ode = ode, .control = *control};
+    stepper_init(&d->base, &method_dop853, ode, control);
     d->n = ode->n;
-    d->all = ode->n + ode->quadratures;
-    d->base.y = NEW_ARRAY(double, d->all);
+    d->all = stepper_length(&d->base);
     for (int i = 0; i < STAGES; i++)
-        d->k[i] = NEW_ARRAY(double, d->all);
+        d->k[i] = stepper_numbers(&d->base, d->all);
     for (int i = 0; i < COUNT(d->dense); i++)
-        d->dense[i] = NEW_ARRAY(double, d->all);
-    d->old = NEW_ARRAY(double, d->all);
-    d->new = NEW_ARRAY(double, d->all);
-    d->stage_point = NEW_ARRAY(double, d->all);
-    d->scale = NEW_ARRAY(double, d->all);
+        d->dense[i] = stepper_numbers(&d->base, d->all);
+    d->old = stepper_numbers(&d->base, d->all);
+    d->new = stepper_numbers(&d->base, d->all);
+    d->stage_point = stepper_numbers(&d->base, d->all);
+    d->scale = stepper_numbers(&d->base, d->all);
     return &d->base;
-}
-
-static void destroy(Stepper *stepper)
-{
-    Dop853 *d = (Dop853 *)stepper;
-
-    if (d == NULL)
-        return;
-    mem_free(d->base.y);
-    for (int i = 0; i < STAGES; i++)
-        mem_free(d->k[i]);
-    for (int i = 0; i < COUNT(d->dense); i++)
-        mem_free(d->dense[i]);
-    mem_free(d->old);
-    mem_free(d->new);
-    mem_free(d->stage_point);
-    mem_free(d->scale);
-    mem_free(d);
 }
 
 static Status start(Stepper *stepper, double t, const double *y, Diag *diag)
 {
     Dop853 *d = (Dop853 *)stepper;
 
-    memmove(d->base.y, y, (size_t)d->all * sizeof(double));
-    d->base.t = d->base.before = t;
-    d->base.next = d->base.control.first;
     d->was_rejected = false;
     d->has_dense = false;
     d->step = 0;
-    if (!evaluate(d, t, d->base.y, d->k[12]))
-        return solver_failure(diag, t, "the accelerations are undefined");
-    return OK;
+    return stepper_start(stepper, t, y, d->k[12], diag);
 }
 
 /* the step to try next, trimmed so that `end` is met and no sliver is left before it */
@@ -445,7 +411,7 @@ const Method method_dop853 = {
     .name = "dop853",
     .brief = "explicit Runge-Kutta 8(5,3), Dormand and Prince; projects after each step",
     .create = create,
-    .destroy = destroy,
+    .destroy = stepper_free,
     .start = start,
     .step = step,
     .at = at,

@@ -25,12 +25,12 @@ static int scattered(int i, int pass)
 static double rounding(Stepper *s, double h)
 {
     const Ode *ode = s->ode;
-    const int all = ode->n + ode->quadratures;
+    const int all = stepper_length(s);
     double *beside = NEW_ARRAY(double, all);
     double *rate = NEW_ARRAY(double, all);
     double *other = NEW_ARRAY(double, all);
     double largest = 0;
-    bool sound = ode->rate(ode->context, s->t, s->y, rate);
+    bool sound = stepper_rate(s, s->t, s->y, rate);
 
     for (int pass = 0; sound && pass < NEIGHBOURS; pass++) {
         for (int i = 0; i < all; i++) {
@@ -38,13 +38,11 @@ static double rounding(Stepper *s, double h)
 
             beside[i] = s->y[i] * (1 + bits * DBL_EPSILON);
         }
-        sound = ode->rate(ode->context, s->t, beside, other);
-        s->counts.evaluations++;
+        sound = stepper_rate(s, s->t, beside, other);
         for (int i = 0; sound && i < ode->n; i++) {
-            const double size = ode->cap != NULL ? fmin(fabs(s->y[i]), ode->cap[i]) : fabs(s->y[i]);
+            const double moved = h * fabs(other[i] - rate[i]);
 
-            largest = fmax(largest, h * fabs(other[i] - rate[i]) /
-                                        (s->control.atol + s->control.rtol * size));
+            largest = fmax(largest, moved / stepper_tolerance(s, i, fabs(s->y[i])));
         }
     }
     mem_free(beside);

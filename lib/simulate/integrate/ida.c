@@ -5,94 +5,59 @@
  * is the index-1 system itself. A network alone is solved for its states and algebraic unknowns
  * together, with a sparse Jacobian. IDA gets consistent values from the problem; IDACalcIC isn't
  * used. */
-#include "simulate/integrate/ode.h"
-
-#include "base/memory.h"
+#include "simulate/integrate/sundials.h"
 
 #include <ida/ida.h>
-#include <nvector/nvector_serial.h>
-#include <string.h>
 #include <sunlinsol/sunlinsol_dense.h>
 #include <sunlinsol/sunlinsol_klu.h>
 #include <sunmatrix/sunmatrix_dense.h>
 #include <sunmatrix/sunmatrix_sparse.h>
 
-#define MAX_TRIES 100000
-#define FINER     1e-2 /* of the tolerance: for what has no rate, */
-#define FINE      1e-4 /* but not finer than this where the tolerance itself isn't */
+#define FINER 1e-2 /* of the tolerance: for what has no rate, */
+#define FINE  1e-4 /* but not finer than this where the tolerance itself isn't */
 
 typedef struct Ida {
-    Stepper base;
-    Cleanup cleanup;
-    int all, n; /* of y; of w */
-    SUNContext context;
-    void *memory;
-    N_Vector w, rate, out;
-    SUNMatrix matrix;
-    SUNLinearSolver linear;
-    Counts earlier;
+    Sundials s;
     /* of a sparse Jacobian: entries as the problem has them, and where each stands by columns */
     int entry_count;
     const int *row;
     int *place, *start;
     double *entries;
-    char reason[200];
 } Ida;
 
-static void keep_reason(int code, const char *module, const char *function, char *message,
-                        void *data)
-{
-    Ida *d = data;
-
-    (void)code, (void)module, (void)function;
-    (void)snprintf(d->reason, sizeof d->reason, "%s", message);
-}
+static const SundialsCalls calls = {
+    .free = IDAFree,
+    .set_stop_time = IDASetStopTime,
+    .set_max_step = IDASetMaxStep,
+    .set_first_step = IDASetInitStep,
+    .get_steps = IDAGetNumSteps,
+    .get_failures = IDAGetNumErrTestFails,
+    .get_jacobians = IDAGetNumJacEvals,
+    .get_last_step = IDAGetLastStep,
+    .get_next_step = IDAGetCurrentStep,
+    .get_derivative = IDAGetDky,
+};
 
 static int residual(realtype t, N_Vector w, N_Vector rate, N_Vector out, void *data)
 {
     Ida *d = data;
-    const Ode *ode = d->base.ode;
+    const Ode *ode = d->s.base.ode;
 
-    d->base.counts.evaluations++;
+    d->s.base.counts.evaluations++;
     return ode->dae.residual(ode->dae.context, t, N_VGetArrayPointer(w), N_VGetArrayPointer(rate),
                              N_VGetArrayPointer(out))
                ? 0
                : 1;
 }
 
-static void give_back(void *object)
-{
-    Ida *d = object;
-
-    IDAFree(&d->memory);
-    if (d->linear != NULL)
-        SUNLinSolFree(d->linear);
-    if (d->matrix != NULL)
-        SUNMatDestroy(d->matrix);
-    N_VDestroy(d->w);
-    N_VDestroy(d->rate);
-    N_VDestroy(d->out);
-    SUNContext_Free(&d->context);
-    cleanup_close(&d->cleanup);
-}
-
 static Stepper *create(const Ode *ode, const Control *control)
 {
     Ida *d = NEW(Ida);
 
-    d->base = (Stepper){.method = &method_ida, .ode = ode, .control = *control};
-    d->all = ode->n + ode->quadratures;
-    d->n = ode->dae.n;
-    d->base.y = NEW_ARRAY(double, d->all);
-    cleanup_open(&d->cleanup, give_back, d);
-    mem_ask();
-    if (SUNContext_Create(NULL, &d->context) != 0)
-        transaction_fail();
-    d->w = MEM_GIVEN(N_VNew_Serial(d->n, d->context));
-    d->rate = MEM_GIVEN(N_VNew_Serial(d->n, d->context));
-    d->out = MEM_GIVEN(N_VNew_Serial(d->n, d->context));
-    d->memory = MEM_GIVEN(IDACreate(d->context));
-    return &d->base;
+    sundials_init(&d->s, &calls, &method_ida, ode, control, ode->dae.n);
+    d->s.rate = MEM_GIVEN(N_VNew_Serial(d->s.n, d->s.context));
+    d->s.memory = MEM_GIVEN(IDACreate(d->s.context));
+    return &d->s.base;
 }
 
 static void destroy(Stepper *stepper)
@@ -101,12 +66,10 @@ static void destroy(Stepper *stepper)
 
     if (d == NULL)
         return;
-    give_back(d);
-    mem_free(d->base.y);
     mem_free(d->place);
     mem_free(d->start);
     mem_free(d->entries);
-    mem_free(d);
+    sundials_destroy(stepper);
 }
 
 /* --- sparse Jacobians, by columns --- */
@@ -115,7 +78,7 @@ static int jacobian(realtype t, realtype c, N_Vector w, N_Vector rate, N_Vector 
                     SUNMatrix matrix, void *data, N_Vector a, N_Vector b, N_Vector more)
 {
     Ida *d = data;
-    const Dae *dae = &d->base.ode->dae;
+    const Dae *dae = &d->s.base.ode->dae;
     sunindextype *start = SUNSparseMatrix_IndexPointers(matrix);
     sunindextype *row = SUNSparseMatrix_IndexValues(matrix);
     double *values = SUNSparseMatrix_Data(matrix);
@@ -124,7 +87,7 @@ static int jacobian(realtype t, realtype c, N_Vector w, N_Vector rate, N_Vector 
     if (!dae->jacobian(dae->context, t, c, N_VGetArrayPointer(w), N_VGetArrayPointer(rate),
                        d->entries))
         return 1;
-    for (int i = 0; i <= d->n; i++)
+    for (int i = 0; i <= d->s.n; i++)
         start[i] = d->start[i];
     for (int k = 0; k < d->entry_count; k++) {
         row[d->place[k]] = d->row[k];
@@ -135,37 +98,37 @@ static int jacobian(realtype t, realtype c, N_Vector w, N_Vector rate, N_Vector 
 
 static int choose_sparse(Ida *d)
 {
-    const Dae *dae = &d->base.ode->dae;
+    const Dae *dae = &d->s.base.ode->dae;
     const int *column;
     int code;
 
     d->entry_count = dae->pattern(dae->context, &d->row, &column);
     d->entries = NEW_ARRAY(double, d->entry_count);
     d->place = NEW_ARRAY(int, d->entry_count);
-    d->start = NEW_ARRAY(int, d->n + 2);
+    d->start = NEW_ARRAY(int, d->s.n + 2);
     for (int k = 0; k < d->entry_count; k++)
         d->start[column[k] + 2]++;
-    for (int i = 0; i < d->n; i++)
+    for (int i = 0; i < d->s.n; i++)
         d->start[i + 2] += d->start[i + 1];
     for (int k = 0; k < d->entry_count; k++)
         d->place[k] = d->start[column[k] + 1]++;
-    d->matrix = MEM_GIVEN(SUNSparseMatrix(d->n, d->n, d->entry_count, CSC_MAT, d->context));
-    d->linear = MEM_GIVEN(SUNLinSol_KLU(d->w, d->matrix, d->context));
-    code = IDASetLinearSolver(d->memory, d->linear, d->matrix);
-    return code == 0 ? IDASetJacFn(d->memory, jacobian) : code;
+    d->s.matrix = MEM_GIVEN(SUNSparseMatrix(d->s.n, d->s.n, d->entry_count, CSC_MAT, d->s.context));
+    d->s.linear = MEM_GIVEN(SUNLinSol_KLU(d->s.w, d->s.matrix, d->s.context));
+    code = IDASetLinearSolver(d->s.memory, d->s.linear, d->s.matrix);
+    return code == 0 ? IDASetJacFn(d->s.memory, jacobian) : code;
 }
 
 static int suppress(Ida *d)
 {
-    const bool *has_rate = d->base.ode->dae.has_rate;
+    const bool *has_rate = d->s.base.ode->dae.has_rate;
     int code;
 
     if (has_rate == NULL)
         return 0;
-    for (int i = 0; i < d->n; i++)
-        NV_Ith_S(d->out, i) = has_rate[i];
-    code = IDASetId(d->memory, d->out);
-    return code == 0 ? IDASetSuppressAlg(d->memory, SUNTRUE) : code;
+    for (int i = 0; i < d->s.n; i++)
+        NV_Ith_S(d->s.out, i) = has_rate[i];
+    code = IDASetId(d->s.memory, d->s.out);
+    return code == 0 ? IDASetSuppressAlg(d->s.memory, SUNTRUE) : code;
 }
 
 /* One over what an error of each unknown counts from. What has no rate follows from what has, and
@@ -174,11 +137,11 @@ static int suppress(Ida *d)
 static int find_weights(N_Vector w, N_Vector weights, void *data)
 {
     const Ida *d = data;
-    const Dae *dae = &d->base.ode->dae;
-    const Control *control = &d->base.control;
-    const double part = stepper_part(&d->base);
+    const Dae *dae = &d->s.base.ode->dae;
+    const Control *control = &d->s.base.control;
+    const double part = stepper_part(&d->s.base);
 
-    for (int i = 0; i < d->n; i++) {
+    for (int i = 0; i < d->s.n; i++) {
         double error =
             part * (control->rtol * fabs(NV_Ith_S(w, i)) + control->atol * dae->weight[i]);
 
@@ -191,132 +154,81 @@ static int find_weights(N_Vector w, N_Vector weights, void *data)
 
 static int first_start(Ida *d, double t)
 {
-    const Control *control = &d->base.control;
-    int code = IDASetErrHandlerFn(d->memory, keep_reason, d);
+    const Control *control = &d->s.base.control;
+    int code = IDASetErrHandlerFn(d->s.memory, sundials_keep_reason, d);
 
     if (code == 0)
-        code = IDAInit(d->memory, residual, t, d->w, d->rate);
+        code = IDAInit(d->s.memory, residual, t, d->s.w, d->s.rate);
     if (code == 0)
-        code = IDASetUserData(d->memory, d);
+        code = IDASetUserData(d->s.memory, d);
     if (code == 0)
-        code = IDAWFtolerances(d->memory, find_weights);
+        code = IDAWFtolerances(d->s.memory, find_weights);
     if (code == 0)
-        code = IDASetMaxNumSteps(d->memory, MAX_TRIES);
+        code = IDASetMaxNumSteps(d->s.memory, SUNDIALS_TRIES);
     if (code == 0)
-        code = IDASetMaxStep(d->memory, control_largest(control));
+        code = IDASetMaxStep(d->s.memory, control_largest(control));
     if (code == 0)
         code = suppress(d);
     if (code != 0)
         return code;
-    if (d->base.ode->dae.pattern != NULL)
+    if (d->s.base.ode->dae.pattern != NULL)
         return choose_sparse(d);
-    d->matrix = MEM_GIVEN(SUNDenseMatrix(d->n, d->n, d->context));
-    d->linear = MEM_GIVEN(SUNLinSol_Dense(d->w, d->matrix, d->context));
-    return IDASetLinearSolver(d->memory, d->linear, d->matrix);
+    d->s.matrix = MEM_GIVEN(SUNDenseMatrix(d->s.n, d->s.n, d->s.context));
+    d->s.linear = MEM_GIVEN(SUNLinSol_Dense(d->s.w, d->s.matrix, d->s.context));
+    return IDASetLinearSolver(d->s.memory, d->s.linear, d->s.matrix);
 }
 
 static Status start(Stepper *stepper, double t, const double *y, Diag *diag)
 {
     Ida *d = (Ida *)stepper;
-    const Ode *ode = d->base.ode;
+    const Dae *dae = &stepper->ode->dae;
     int code;
 
-    memmove(d->base.y, y, (size_t)d->all * sizeof(double));
-    d->base.t = d->base.before = t;
-    d->base.stuck = 0;
-    if (!ode->dae.start(ode->dae.context, t, d->base.y, N_VGetArrayPointer(d->w),
-                        N_VGetArrayPointer(d->rate)))
+    sundials_place(&d->s, t, y);
+    if (!dae->start(dae->context, t, stepper->y, N_VGetArrayPointer(d->s.w),
+                    N_VGetArrayPointer(d->s.rate)))
         return solver_failure(diag, t, "the accelerations are undefined");
-    d->earlier = d->base.counts;
-    code = d->linear == NULL ? first_start(d, t) : IDAReInit(d->memory, t, d->w, d->rate);
+    code = d->s.linear == NULL ? first_start(d, t) : IDAReInit(d->s.memory, t, d->s.w, d->s.rate);
     if (code == IDA_MEM_FAIL)
         transaction_fail();
-    return code == 0 ? OK : solver_failure(diag, t, d->reason);
+    return code == 0 ? OK : solver_failure(diag, t, d->s.reason);
 }
 
 /* one step of IDA's own, to `end` at most */
-static int advance(Ida *d, double end, double *reached)
+static int advance(Sundials *s, double end, double *reached)
 {
-    int code = IDASetStopTime(d->memory, stepper_stop(&d->base, end));
+    int code = sundials_bound(s, end);
 
-    if (code == 0) /* growth is bounded there; a stop time cuts a step that is grown already */
-        code =
-            IDASetMaxStep(d->memory, stepper_allowed(&d->base, control_largest(&d->base.control)));
-    return code == 0 ? IDASolve(d->memory, end, reached, d->w, d->rate, IDA_ONE_STEP) : code;
-}
-
-static void keep_counts(Ida *d)
-{
-    long steps = 0, failures = 0, jacobians = 0;
-
-    (void)IDAGetNumSteps(d->memory, &steps);
-    (void)IDAGetNumErrTestFails(d->memory, &failures);
-    (void)IDAGetNumJacEvals(d->memory, &jacobians);
-    d->base.counts.steps = d->earlier.steps + steps;
-    d->base.counts.rejected = d->earlier.rejected + failures;
-    d->base.counts.jacobians = d->earlier.jacobians + jacobians;
+    if (code == 0)
+        code = IDASolve(s->memory, end, reached, s->w, s->rate, IDA_ONE_STEP);
+    sundials_count(s);
+    return code;
 }
 
 static Status step(Stepper *stepper, double end, Diag *diag)
 {
-    Ida *d = (Ida *)stepper;
-    const double before = d->base.t;
-    const int stuck = d->base.stuck;
-    double reached = before, h = 0, next = 0;
-    int code = advance(d, end, &reached);
+    Sundials *s = (Sundials *)stepper;
+    const double before = stepper->t;
+    const int stuck = stepper->stuck;
+    double reached = before;
+    int code = advance(s, end, &reached);
 
-    keep_counts(d);
     /* Newton's method finds no way from the history of a steep element: from consistent values it
      * does */
-    if (code == IDA_CONV_FAIL && start(stepper, before, d->base.y, diag) == OK) {
-        d->base.stuck = stuck;
-        code = advance(d, end, &reached);
-        keep_counts(d);
+    if (code == IDA_CONV_FAIL && start(stepper, before, stepper->y, diag) == OK) {
+        stepper->stuck = stuck;
+        code = advance(s, end, &reached);
     }
-    d->base.before = before;
+    stepper->before = before;
     if (code == IDA_MEM_FAIL)
         transaction_fail();
     if (code < 0)
-        return solver_failure(diag, before, d->reason);
-    (void)IDAGetLastStep(d->memory, &h);
-    (void)IDAGetCurrentStep(d->memory, &next);
-    if (stepper_arrive(stepper, reached, h, next, diag) != OK)
-        return E_SOLVER;
-    memcpy(d->base.y, N_VGetArrayPointer(d->w), (size_t)d->all * sizeof(double));
-    return OK;
+        return solver_failure(diag, before, s->reason);
+    return sundials_arrive(s, reached, diag);
 }
-
-static void at(Stepper *stepper, double t, double *y)
-{
-    Ida *d = (Ida *)stepper;
-
-    if (t != d->base.t && IDAGetDky(d->memory, t, 0, d->out) == 0)
-        memcpy(y, N_VGetArrayPointer(d->out), (size_t)d->all * sizeof(double));
-    else
-        memcpy(y, d->base.y, (size_t)d->all * sizeof(double));
-}
-
-static Status shorten(Stepper *stepper, double t, Diag *diag)
-{
-    const Ida *d = (const Ida *)stepper;
-
-    return stepper_take_back(stepper, t, N_VGetArrayPointer(d->w), diag);
-}
-
-/* the slope of the history's polynomial, once there is one */
-static bool slope(Stepper *stepper, double *rate)
-{
-    Ida *d = (Ida *)stepper;
-
-    if (!(d->base.t > d->base.before) || IDAGetDky(d->memory, d->base.t, 1, d->out) != 0)
-        return false;
-    memcpy(rate, N_VGetArrayPointer(d->out), (size_t)d->all * sizeof(double));
-    return true;
-}
-
-static const double nodes[] = {1};
 
 const Method method_ida = {
+    SUNDIALS_METHOD,
     .name = "ida",
     .brief =
         "IDA on the stabilised index-2 form (embedded: index 1), on networks alone sparse; rows "
@@ -325,14 +237,6 @@ const Method method_ida = {
     .destroy = destroy,
     .start = start,
     .step = step,
-    .at = at,
-    .shorten = shorten,
-    .slope = slope,
-    .nodes = nodes,
-    .node_count = COUNT(nodes),
-    .has_history = true,
-    .sees_little = true,
-    .pulse_steps = 24,
     .is_stiff = true,
     .solves_dae = true,
 };

@@ -11,4 +11,7 @@ libcore_la_SOURCES += \
   lib/simulate/integrate/radau.c \
   lib/simulate/integrate/rk4.c \
   lib/simulate/integrate/shifted.c \
-  lib/simulate/integrate/shifted.h
+  lib/simulate/integrate/shifted.h \
+  lib/simulate/integrate/stepper.c \
+  lib/simulate/integrate/sundials.c \
+  lib/simulate/integrate/sundials.h

@@ -10,6 +10,7 @@
 
 #include "algebra/hessenberg_form.h"
 #include "base/diag.h"
+#include "base/memory.h"
 
 #include <float.h>
 #include <math.h>
@@ -68,10 +69,9 @@ static inline double ode_increment(double y)
 
 typedef struct Control {
     double rtol, atol;
-    double step;  /* fixed or largest step, s; 0: free */
-    double most;  /* largest step, s, also of methods whose steps are fixed; 0: free */
-    double first; /* step to begin with; 0: chosen */
-    double span;  /* of the whole run, s; 0: not known */
+    double step; /* fixed or largest step, s; 0: free */
+    double most; /* largest step, s, also of methods whose steps are fixed; 0: free */
+    double span; /* of the whole run, s; 0: not known */
 } Control;
 
 /* largest step that was asked for */
@@ -131,19 +131,42 @@ struct Stepper {
     const Ode *ode;
     Control control;
     Counts counts;
-    double before;    /* start of the last step */
-    double t;         /* its end */
-    double *y;        /* y at t, projected where the method projects */
-    double next;      /* step it would take next, s */
-    int stuck;        /* steps on end that end where they began: numbers hold no shorter ones */
-    double bound;     /* by whoever drives it: no longer step now, s; 0: free */
-    bool may_bend;    /* likewise: something steep acts that may end within the step */
+    double before;       /* start of the last step */
+    double t;            /* its end */
+    double *y;           /* y at t, projected where the method projects */
+    LIST(double *) room; /* where it and its method keep numbers */
+    double next;   /* step it would take next, s; 0: to be chosen, as after a start, when its driver
+                    * may say it */
+    int stuck;     /* steps on end that end where they began: numbers hold no shorter ones */
+    double bound;  /* by whoever drives it: no longer step now, s; 0: free */
+    bool may_bend; /* likewise: something steep acts that may end within the step */
     bool has_pulses;  /* likewise: what acts for a short time takes many short steps */
     double missed;    /* fixed steps: largest estimated error of one, in tolerances, */
     double missed_at; /* and when that was, s */
     bool is_stiff;    /* explicit methods: steps are cut by stability, not by accuracy */
     bool swings;      /* ... and what cuts them swings rather than decays */
 };
+
+static inline int stepper_length(const Stepper *stepper) /* of y */
+{
+    return stepper->ode->n + stepper->ode->quadratures;
+}
+
+/* y' at (t, y), counted; false: undefined there */
+static inline bool stepper_rate(Stepper *stepper, double t, const double *y, double *rate)
+{
+    stepper->counts.evaluations++;
+    return stepper->ode->rate(stepper->ode->context, t, y, rate);
+}
+
+/* the error of y_i that counts as one, of an entry of that size */
+static inline double stepper_tolerance(const Stepper *stepper, int i, double size)
+{
+    const double *cap = stepper->ode->cap;
+
+    return stepper->control.atol +
+           stepper->control.rtol * (cap != NULL ? fmin(size, cap[i]) : size);
+}
 
 /* h, or what is allowed of it */
 static inline double stepper_allowed(const Stepper *stepper, double h)
@@ -177,12 +200,9 @@ static inline double stepper_part(const Stepper *stepper)
 /* y' at the stepper's time */
 static inline bool stepper_slope(Stepper *stepper, double *rate)
 {
-    const Ode *ode = stepper->ode;
-
     if (stepper->method->slope != NULL && stepper->method->slope(stepper, rate))
         return true;
-    stepper->counts.evaluations++;
-    return ode->rate(ode->context, stepper->t, stepper->y, rate);
+    return stepper_rate(stepper, stepper->t, stepper->y, rate);
 }
 
 #define BENT 0.03 /* of the tolerance, where estimates are not to be believed */
@@ -212,6 +232,18 @@ const Method *method_for(MethodNeed need);
 
 /* An error of the solver at time t, in words: "at t = 0.3 s: ...". */
 Status solver_failure(Diag *diag, double t, const char *reason);
+
+/* what a method's create() begins with; `stepper` is the first member of the method's own struct */
+void stepper_init(Stepper *stepper, const Method *method, const Ode *ode, const Control *control);
+/* room for so many numbers, 0, freed with it */
+double *stepper_numbers(Stepper *stepper, int count);
+/* what destroy() ends with, or all of it; NULL is fine */
+void stepper_free(Stepper *stepper);
+/* It goes on from (t, y) as a new one does: what a start() begins with. */
+void stepper_place(Stepper *stepper, double t, const double *y);
+/* the same, with the rate there, of methods that begin with one. E_SOLVER. */
+MUST_USE Status stepper_start(Stepper *stepper, double t, const double *y, double *rate,
+                              Diag *diag);
 
 /* The last step took `h`, to time `reached`, and `next` follows it. Where steps go on to end where
  * they began, and don't grow, E_SOLVER: such an integration would walk through any singularity

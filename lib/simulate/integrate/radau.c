@@ -69,87 +69,56 @@ typedef struct Radau {
 
 typedef enum Outcome { CONVERGED, DIVERGED, UNDEFINED } Outcome;
 
-static bool evaluate(Radau *r, double t, const double *y, double *rate)
-{
-    r->base.counts.evaluations++;
-    return r->base.ode->rate(r->base.ode->context, t, y, rate);
-}
-
 static Stepper *create(const Ode *ode, const Control *control)
 {
     Radau *r = NEW(Radau);
     int n = ode->n, all = ode->n + ode->quadratures;
 
-    r->base = (Stepper){.method = &method_radau, .ode = ode, .control = *control};
+    stepper_init(&r->base, &method_radau, ode, control);
     r->n = n;
     r->all = all;
-    r->base.y = NEW_ARRAY(double, all);
-    r->old = NEW_ARRAY(double, all);
-    r->old_rate = NEW_ARRAY(double, all);
-    r->rate = NEW_ARRAY(double, all);
-    r->scale = NEW_ARRAY(double, n);
-    r->z = NEW_ARRAY(double, 3 * all);
-    r->f = NEW_ARRAY(double, 3 * all);
-    r->delta = NEW_ARRAY(double, 3 * n);
-    r->point = NEW_ARRAY(double, all);
-    r->error = NEW_ARRAY(double, all);
-    r->column = NEW_ARRAY(double, all);
-    r->part = NEW_ARRAY(double, 3 * n);
+    r->old = stepper_numbers(&r->base, all);
+    r->old_rate = stepper_numbers(&r->base, all);
+    r->rate = stepper_numbers(&r->base, all);
+    r->scale = stepper_numbers(&r->base, n);
+    r->z = stepper_numbers(&r->base, 3 * all);
+    r->f = stepper_numbers(&r->base, 3 * all);
+    r->delta = stepper_numbers(&r->base, 3 * n);
+    r->point = stepper_numbers(&r->base, all);
+    r->error = stepper_numbers(&r->base, all);
+    r->column = stepper_numbers(&r->base, all);
+    r->part = stepper_numbers(&r->base, 3 * n);
     r->shifted = shifted_new(ode, &r->base.counts);
     return &r->base;
 }
 
 static void destroy(Stepper *stepper)
 {
-    Radau *r = (Radau *)stepper;
-
-    if (r == NULL)
-        return;
-    mem_free(r->base.y);
-    mem_free(r->old);
-    mem_free(r->old_rate);
-    mem_free(r->rate);
-    mem_free(r->scale);
-    mem_free(r->z);
-    mem_free(r->f);
-    mem_free(r->delta);
-    mem_free(r->point);
-    mem_free(r->error);
-    mem_free(r->column);
-    mem_free(r->part);
-    shifted_free(r->shifted);
-    mem_free(r);
+    if (stepper != NULL)
+        shifted_free(((Radau *)stepper)->shifted);
+    stepper_free(stepper);
 }
 
 static Status start(Stepper *stepper, double t, const double *y, Diag *diag)
 {
     Radau *r = (Radau *)stepper;
 
-    memmove(r->base.y, y, (size_t)r->all * sizeof(double));
-    r->base.t = r->base.before = t;
-    r->base.next = r->base.control.first;
     r->factored = 0;
     r->fresh = r->is_linear = false;
     r->contraction = 1;
     r->was_rejected = false;
     r->step = 0;
-    if (!evaluate(r, t, r->base.y, r->rate))
-        return solver_failure(diag, t, "the accelerations are undefined");
-    return OK;
+    return stepper_start(stepper, t, y, r->rate, diag);
 }
 
 /* --- pieces of a step --- */
 
 static void choose_scale(Radau *r)
 {
-    const Control *control = &r->base.control;
-    const double *cap = r->base.ode->cap, *slack = r->base.ode->slack;
+    const double *slack = r->base.ode->slack;
 
     for (int i = 0; i < r->n; i++) {
-        double size = fabs(r->old[i]);
-
-        size = cap != NULL ? fmin(size, cap[i]) : size;
-        r->scale[i] = control->atol + control->rtol * size;
+        r->scale[i] = stepper_tolerance(&r->base, i, fabs(r->old[i]));
         if (slack != NULL)
             r->scale[i] = fmax(r->scale[i], slack[i]);
     }
@@ -231,7 +200,7 @@ static bool evaluate_stages(Radau *r, double h)
     for (int k = 0; k < 3; k++) {
         for (int i = 0; i < r->all; i++)
             r->point[i] = r->old[i] + r->z[k * r->all + i];
-        if (!evaluate(r, r->base.before + nodes[k] * h, r->point, r->f + k * r->all))
+        if (!stepper_rate(&r->base, r->base.before + nodes[k] * h, r->point, r->f + k * r->all))
             return false;
     }
     return true;
@@ -298,7 +267,7 @@ static double step_error(Radau *r, double h)
         memcpy(r->point, r->old, (size_t)r->all * sizeof(double));
         for (int i = 0; i < r->n; i++)
             r->point[i] += r->error[i];
-        if (!evaluate(r, r->base.before, r->point, r->column))
+        if (!stepper_rate(&r->base, r->base.before, r->point, r->column))
             break;
     }
     return fmax(size / stepper_blur(&r->base), 1e-10);
@@ -323,7 +292,7 @@ static bool settle(Radau *r, double t, double h)
     }
     if (ode->project != NULL && !ode->project(ode->context, t, r->point))
         return false;
-    if (!evaluate(r, t, r->point, r->rate))
+    if (!stepper_rate(&r->base, t, r->point, r->rate))
         return false;
     memcpy(r->base.y, r->point, (size_t)r->all * sizeof(double));
     r->base.t = t;
@@ -483,8 +452,9 @@ static Status shorten(Stepper *stepper, double t, Diag *diag)
     memcpy(stages, r->z, 3 * bytes);
     memcpy(rate, r->rate, bytes);
     guess_shorter(r, h);
-    if (!(evaluate(r, r->base.before, r->old, r->rate) && (r->is_linear || find_jacobian(r)) &&
-          factor(r, h) && solve_stages(r, h, &used) == CONVERGED && settle(r, t, h))) {
+    if (!(stepper_rate(&r->base, r->base.before, r->old, r->rate) &&
+          (r->is_linear || find_jacobian(r)) && factor(r, h) &&
+          solve_stages(r, h, &used) == CONVERGED && settle(r, t, h))) {
         status = solver_failure(diag, t, "the equations have no solution at a switch");
         memcpy(r->z, stages, 3 * bytes);
         memcpy(r->rate, rate, bytes);

@@ -19,58 +19,29 @@ typedef struct Rk4 {
     double *earlier, *half; /* rates at its start, and half way */
 } Rk4;
 
-static bool evaluate(Rk4 *r, double t, const double *y, double *rate)
-{
-    r->base.counts.evaluations++;
-    return r->base.ode->rate(r->base.ode->context, t, y, rate);
-}
-
 static Stepper *create(const Ode *ode, const Control *control)
 {
     Rk4 *r = NEW(Rk4);
 
-    r->base = (Stepper){.method = &method_rk4, .ode = ode, .control = *control};
-    r->all = ode->n + ode->quadratures;
-    r->base.y = NEW_ARRAY(double, r->all);
-    r->old = NEW_ARRAY(double, r->all);
-    r->old_rate = NEW_ARRAY(double, r->all);
-    r->rate = NEW_ARRAY(double, r->all);
-    r->point = NEW_ARRAY(double, r->all);
-    r->earlier = NEW_ARRAY(double, r->all);
-    r->half = NEW_ARRAY(double, r->all);
+    stepper_init(&r->base, &method_rk4, ode, control);
+    r->all = stepper_length(&r->base);
+    r->old = stepper_numbers(&r->base, r->all);
+    r->old_rate = stepper_numbers(&r->base, r->all);
+    r->rate = stepper_numbers(&r->base, r->all);
+    r->point = stepper_numbers(&r->base, r->all);
+    r->earlier = stepper_numbers(&r->base, r->all);
+    r->half = stepper_numbers(&r->base, r->all);
     for (int i = 0; i < 4; i++)
-        r->k[i] = NEW_ARRAY(double, r->all);
+        r->k[i] = stepper_numbers(&r->base, r->all);
     return &r->base;
-}
-
-static void destroy(Stepper *stepper)
-{
-    Rk4 *r = (Rk4 *)stepper;
-
-    if (r == NULL)
-        return;
-    mem_free(r->base.y);
-    mem_free(r->old);
-    mem_free(r->old_rate);
-    mem_free(r->rate);
-    mem_free(r->point);
-    mem_free(r->earlier);
-    mem_free(r->half);
-    for (int i = 0; i < 4; i++)
-        mem_free(r->k[i]);
-    mem_free(r);
 }
 
 static Status start(Stepper *stepper, double t, const double *y, Diag *diag)
 {
     Rk4 *r = (Rk4 *)stepper;
 
-    memmove(r->base.y, y, (size_t)r->all * sizeof(double));
-    r->base.t = r->base.before = t;
     r->last = 0;
-    if (!evaluate(r, t, r->base.y, r->rate))
-        return solver_failure(diag, t, "the accelerations are undefined");
-    return OK;
+    return stepper_start(stepper, t, y, r->rate, diag);
 }
 
 /* from old at base.before over h; leaves the new point projected and its rate */
@@ -83,7 +54,7 @@ static bool advance(Rk4 *r, double h, double end)
     for (int s = 1; s < 4; s++) {
         for (int i = 0; i < r->all; i++)
             r->point[i] = r->old[i] + h * node[s] * r->k[s - 1][i];
-        if (!evaluate(r, r->base.before + node[s] * h, r->point, r->k[s]))
+        if (!stepper_rate(&r->base, r->base.before + node[s] * h, r->point, r->k[s]))
             return false;
     }
     for (int i = 0; i < r->all; i++)
@@ -92,7 +63,7 @@ static bool advance(Rk4 *r, double h, double end)
     if (ode->project != NULL && !ode->project(ode->context, end, r->base.y))
         return false;
     r->base.t = end;
-    return evaluate(r, end, r->base.y, r->rate);
+    return stepper_rate(&r->base, end, r->base.y, r->rate);
 }
 
 /* The error of the last step: by how much the slope of what is read between its ends misses the
@@ -114,16 +85,14 @@ static double error_of(const Rk4 *r, double h, int i)
 static void estimate(Rk4 *r, double h)
 {
     const Ode *ode = r->base.ode;
-    const Control *control = &r->base.control;
 
     for (int i = 0; i < ode->n; i++) {
         double size = fmax(fabs(r->base.y[i]), fabs(r->old[i]));
         double error = error_of(r, h, i);
 
-        size = ode->cap != NULL ? fmin(size, ode->cap[i]) : size;
         if (ode->slack != NULL && error <= ode->slack[i])
             continue;
-        error /= control->atol + control->rtol * size;
+        error /= stepper_tolerance(&r->base, i, size);
         if (error > r->base.missed) {
             r->base.missed = error;
             r->base.missed_at = r->base.before;
@@ -205,7 +174,7 @@ const Method method_rk4 = {
         "classical Runge-Kutta, fixed steps (step=, else one a row), shorter where something steep "
         "begins to act; controls no error, and tells of it; projects after each step",
     .create = create,
-    .destroy = destroy,
+    .destroy = stepper_free,
     .start = start,
     .step = step,
     .at = at,

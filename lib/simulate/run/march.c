@@ -12,15 +12,18 @@
 static Status hand_over(March *m, Diag *diag)
 {
     const Method *stiff = m->leg.stiff;
-    double t = m->stepper->t;
+    const double t = m->stepper->t, next = m->stepper->next;
+    Status status = OK;
 
     memcpy(m->y, m->stepper->y, (size_t)m->length * sizeof(double));
-    m->control.first = m->stepper->next;
     text_addf(&m->out->remarks, "stiff from t = %.6g s: went on with %s\n", t, stiff->name);
     march_give_up_stepper(m);
     m->stepper = march_new_stepper(m, stiff);
     m->out->method = stiff;
-    return stiff->start(m->stepper, t, m->y, diag);
+    CHECK(stiff->start(m->stepper, t, m->y, diag));
+    m->stepper->next = next; /* until something jumps, no other is as good a guess */
+done:
+    return status;
 }
 
 /* The accelerations stay the same, so that a stepper needn't know, except where multipliers of rows

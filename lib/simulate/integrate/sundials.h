@@ -1,0 +1,78 @@
+/* sundials.h: what the multistep methods of SUNDIALS share
+ *
+ * They run without projection: their history isn't on the manifold, and what is read from a step is
+ * projected by whoever reads it. They restart at order 1 after a jump. */
+#ifndef COTREE_SIMULATE_INTEGRATE_SUNDIALS_H
+#define COTREE_SIMULATE_INTEGRATE_SUNDIALS_H
+
+#include "base/memory.h"
+#include "simulate/integrate/ode.h"
+
+#include <nvector/nvector_serial.h>
+#include <sundials/sundials_linearsolver.h>
+#include <sundials/sundials_matrix.h>
+#include <sundials/sundials_nonlinearsolver.h>
+#include <sundials/sundials_types.h>
+
+#define SUNDIALS_TRIES 100000 /* inner steps it may take for one of ours: one mode makes one */
+
+/* the functions of one of its solvers that are alike in all; they return 0 where all went well */
+typedef struct SundialsCalls {
+    void (*free)(void **memory);
+    int (*set_stop_time)(void *memory, realtype t);
+    int (*set_max_step)(void *memory, realtype h);
+    int (*set_first_step)(void *memory, realtype h);
+    int (*get_steps)(void *memory, long *count);
+    int (*get_failures)(void *memory, long *count);
+    int (*get_jacobians)(void *memory, long *count);
+    int (*get_last_step)(void *memory, realtype *h);
+    int (*get_next_step)(void *memory, realtype *h);
+    int (*get_derivative)(void *memory, realtype t, int order, N_Vector out);
+} SundialsCalls;
+
+typedef struct Sundials {
+    Stepper base;
+    const SundialsCalls *calls;
+    Cleanup cleanup;
+    int all, n; /* entries of y; of what is integrated, of which y are the first */
+    SUNContext context;
+    void *memory; /* the solver */
+    N_Vector w, out;
+    N_Vector rate; /* w', of implicit equations; else NULL */
+    SUNMatrix matrix;
+    SUNLinearSolver linear;
+    SUNNonlinearSolver nonlinear;
+    Counts earlier; /* of integrations before the last restart */
+    bool is_new;    /* no step since then */
+    char reason[200];
+} Sundials;
+
+/* `s` is new and zeroed, the first member of what `method` calls a stepper; the caller creates its
+ * memory next. */
+void sundials_init(Sundials *s, const SundialsCalls *calls, const Method *method, const Ode *ode,
+                   const Control *control, int n);
+/* its own words belong into our message, not on the terminal */
+void sundials_keep_reason(int code, const char *module, const char *function, char *message,
+                          void *stepper);
+/* y becomes that of a restart, w too; counts begin from those before. */
+void sundials_place(Sundials *s, double t, const double *y);
+/* How far the solver may go from here: no step beyond `end`, and none longer than allowed. */
+int sundials_bound(Sundials *s, double end);
+/* after a step: counts so far */
+void sundials_count(Sundials *s);
+/* after a step that went well, to `reached` */
+MUST_USE Status sundials_arrive(Sundials *s, double reached, Diag *diag);
+
+/* of a Method's row; the matrix and solvers that it was given are freed with it */
+void sundials_destroy(Stepper *stepper);
+void sundials_at(Stepper *stepper, double t, double *y);
+MUST_USE Status sundials_shorten(Stepper *stepper, double t, Diag *diag);
+bool sundials_slope(Stepper *stepper, double *rate);
+extern const double sundials_nodes[1];
+
+#define SUNDIALS_METHOD                                                                            \
+    .at = sundials_at, .shorten = sundials_shorten, .slope = sundials_slope,                       \
+    .nodes = sundials_nodes, .node_count = COUNT(sundials_nodes), .has_history = true,             \
+    .sees_little = true, .pulse_steps = 24
+
+#endif
