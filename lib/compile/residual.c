@@ -160,6 +160,11 @@ const Slope *residual_slopes(const Residual *r, int *count)
     return r->slopes.at;
 }
 
+int residual_row_count(const Residual *r)
+{
+    return r->row_count;
+}
+
 int residual_first_slope(const Residual *r)
 {
     return r->first_slope;

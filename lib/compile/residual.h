@@ -41,8 +41,8 @@ const Program *residual_program(const Residual *residual);
 const Expr *residual_parameters(const Residual *residual, int *count);
 /* Row by row, in a row by rising unknowns. Borrowed. */
 const Slope *residual_slopes(const Residual *residual, int *count);
-/* Where the slopes begin among the roots. */
-int residual_first_slope(const Residual *residual);
+int residual_row_count(const Residual *residual);
+int residual_first_slope(const Residual *residual); /* where they begin among the roots */
 /* The derivatives as a full matrix (rows x unknowns), from the values of all roots. */
 void residual_jacobian(const Residual *residual, const double *roots, double *out);
 

@@ -193,12 +193,17 @@ static Status compile(Work *w, Diag *diag)
     const Layout *l = w->l;
     const Reading *run = system_run(l->system);
     Roots rows = {0}, geometry = {0};
+    ProbeOrder order;
     Status status = OK;
 
     place_columns(w);
     CHECK(push_rows(w, &rows, diag));
-    CHECK(gradients_open(l, &w->parameters, rows.at, rows.count, w->at.symbols, w->at.count,
-                         &w->gradients, diag));
+    order = (ProbeOrder){.roots = rows.at,
+                         .root_count = rows.count,
+                         .row_count = rows.count,
+                         .unknowns = w->at.symbols,
+                         .unknown_count = w->at.count};
+    CHECK(probe_make(l, &w->parameters, &order, &w->derived, diag));
     for (int i = 0; i < l->m * l->nu; i++)
         LIST_PUSH(geometry, run->phi_u[i]);
     for (int i = 0; i < l->n; i++)
@@ -220,7 +225,7 @@ done:
 
 static void work_free(Work *w)
 {
-    gradients_free(&w->gradients);
+    probe_free(w->derived);
     probe_free(w->geometry);
     parameters_free(&w->parameters);
     layout_free(w->l);

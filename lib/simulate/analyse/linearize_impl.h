@@ -49,13 +49,13 @@ typedef struct Work {
     Expr *inputs; /* symbols, then of their rates */
     Columns at;
     RowPlaces rows;
-    Gradients gradients;
+    Probe *derived;  /* rows, and their derivatives by the columns */
     Probe *geometry; /* Phi_u, N, N' */
     double *y;
     double *follow;       /* u', lambda, x', z */
     double *y_error;      /* of q, u, x */
     double *follow_error; /* likewise */
-    Number *values;       /* of rows, then gradients, at the point */
+    Number *values;       /* of rows, then of all derivatives row by row, at the point */
     Number *phi_u, *map, *map_rate;
     double *matrix, *matrix_error; /* E_e over the rows in use */
     Square *equations;             /* its factors */

@@ -63,29 +63,42 @@ static void fill_matrix(const Work *w)
         }
 }
 
+/* numbers of all roots as they stand in `values`: of rows, then of all derivatives; new */
+static double *lay_out(const Work *w, const double *roots)
+{
+    double *out = NEW_ARRAY(double, w->rows.count *(1 + w->at.count));
+
+    memcpy(out, roots, (size_t)w->rows.count * sizeof(double));
+    residual_jacobian(probe_residual(w->derived), roots, out + w->rows.count);
+    return out;
+}
+
 static void evaluate(Work *w)
 {
     const RowValues row = row_with(w, w->order->at, w->y, w->follow);
-    const double *values = gradients_at(&w->gradients, &row);
+    double *values = lay_out(w, probe_values(w->derived, &row));
 
     for (int i = 0; i < w->rows.count * (1 + w->at.count); i++)
         w->values[i] = (Number){values[i], 0};
     fill_matrix(w);
+    mem_free(values);
 }
 
 /* after evaluate() */
 static void evaluate_errors(Work *w)
 {
-    const int count = w->rows.count * (1 + w->at.count);
+    const int count = program_root_count(residual_program(probe_residual(w->derived)));
     RowValues row = row_with(w, number_error(w->order->at), w->y_error, w->follow_error);
-    double *errors = NEW_ARRAY(double, count);
+    double *errors = NEW_ARRAY(double, count), *all;
 
     row.near = NULL; /* which turn it is, is certain */
-    probe_errors(w->gradients.probe, &row, errors);
-    for (int i = 0; i < count; i++)
-        w->values[i].error = errors[i];
+    probe_errors(w->derived, &row, errors);
+    all = lay_out(w, errors);
+    for (int i = 0; i < w->rows.count * (1 + w->at.count); i++)
+        w->values[i].error = all[i];
     fill_matrix(w);
     mem_free(errors);
+    mem_free(all);
 }
 
 /* --- what follows from the state --- */
@@ -444,16 +457,17 @@ bool linear_is_passing(Work *w, const Linear *linear)
     const double quick = quickness(linear), time = quick > 0 ? AHEAD / quick : AHEAD;
     double *y = NEW_ARRAY(double, w->phase->length);
     bool passes = false;
-    const double *values;
+    double *values;
     RowValues row;
 
     move_on(w, time, y);
     row = row_with(w, w->order->at + time, y, w->follow);
-    values = gradients_at(&w->gradients, &row);
+    values = lay_out(w, probe_values(w->derived, &row));
     for (int j = 0; j < l->nu && !passes; j++)
         passes = row_changes(w, w->rows.balance + j, values);
     for (int k = 0; k < w->used && !passes; k++)
         passes = row_changes(w, w->rows.velocity + w->in_use[k], values);
     mem_free(y);
+    mem_free(values);
     return passes;
 }

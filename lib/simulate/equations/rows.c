@@ -1,4 +1,4 @@
-/* rows.c: residuals in symbols, their derivatives, and steps from them */
+/* rows.c: residuals in symbols, and steps from them */
 #include "simulate/equations/rows.h"
 
 #include "algebra/dense.h"
@@ -64,37 +64,6 @@ int speed_coordinate(const System *system, int speed)
         if (expr_is(system_n_entry(system, i, speed), 1))
             return i;
     return -1;
-}
-
-/* --- derivatives --- */
-
-Status gradients_open(const Layout *layout, Parameters *parameters, const Expr *rows, int row_count,
-                      const Expr *symbols, int symbol_count, Gradients *out, Diag *diag)
-{
-    Expr *roots = NEW_ARRAY(Expr, row_count * (1 + symbol_count));
-    int at = row_count;
-    Status status;
-
-    *out = (Gradients){.rows = row_count, .columns = symbol_count};
-    if (row_count > 0)
-        memcpy(roots, rows, (size_t)row_count * sizeof(Expr));
-    for (int i = 0; i < row_count; i++)
-        for (int j = 0; j < symbol_count; j++)
-            roots[at++] = expr_diff(system_arena(layout->system), rows[i], symbols[j]);
-    status = probe_new(layout, parameters, roots, at, &out->probe, diag);
-    mem_free(roots);
-    return status;
-}
-
-void gradients_free(Gradients *gradients)
-{
-    probe_free(gradients->probe);
-    *gradients = (Gradients){0};
-}
-
-const double *gradients_at(Gradients *gradients, const RowValues *row)
-{
-    return probe_values(gradients->probe, row);
 }
 
 /* --- steps --- */

@@ -1,15 +1,13 @@
-/* rows.h: the equations as residuals, and their exact derivatives
+/* rows.h: the equations as residuals in symbols, and steps from them
  *
  *     balance        M u' + Phi_u^T lambda - F = 0
  *     acceleration   Phi_u u' - gamma = 0
  *     velocity       Phi_u u - nu = 0
- *     network        A [x'; z] - r = 0
- *
- * Derivatives are formed in symbols and evaluated by one program. */
+ *     network        A [x'; z] - r = 0 */
 #ifndef COTREE_SIMULATE_EQUATIONS_ROWS_H
 #define COTREE_SIMULATE_EQUATIONS_ROWS_H
 
-#include "simulate/equations/numbers.h"
+#include "simulate/equations/input_layout.h"
 
 Expr row_balance(const Layout *layout, int speed);
 Expr row_acceleration(const Layout *layout, int constraint);
@@ -18,20 +16,6 @@ Expr row_network(const Layout *layout, int equation);
 
 /* the coordinate of which a speed is the rate; -1: a component of angular velocity */
 int speed_coordinate(const System *system, int speed);
-
-/* Expressions, and their derivatives by symbols. */
-typedef struct Gradients {
-    int rows, columns;
-    Probe *probe;
-} Gradients;
-/* Compile; gradients_free() what it holds. Fails as probe_new() does. */
-MUST_USE Status gradients_open(const Layout *layout, Parameters *parameters, const Expr *rows,
-                               int row_count, const Expr *symbols, int symbol_count, Gradients *out,
-                               Diag *diag);
-void gradients_free(Gradients *gradients);
-/* Values (rows), and behind them the derivatives (rows x columns); borrowed, until the next call.
- */
-const double *gradients_at(Gradients *gradients, const RowValues *row);
 
 /* The step d that brings matrix * d nearest to right (rows x columns), by QR with pivoting of rows
  * and columns brought to like size. The rank, where less than `columns` a step of few entries; -1
