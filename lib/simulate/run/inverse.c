@@ -9,12 +9,11 @@
  */
 #include "simulate/run/inverse.h"
 
-#include "algebra/dense.h"
 #include "algebra/linear.h"
 #include "algebra/rank.h"
 #include "base/memory.h"
+#include "simulate/equations/rows.h"
 
-#include <gsl/gsl_linalg.h>
 #include <math.h>
 #include <string.h>
 
@@ -29,11 +28,12 @@ typedef struct Inverse {
     Unknowns forces;  /* unknowns of R: multipliers first, then w */
     int multipliers;  /* how many of them */
     Unknowns sources; /* unknowns of the network's equations */
+    Unknowns jerks;   /* u'' */
     bool by_source;
-    Probe *balance; /* R, then its Jacobian by `forces` */
-    Probe *jerk;    /* rows of (gamma - Phi_u u')', then Phi_u */
+    Probe *balance; /* R, by `forces` */
+    Probe *jerk;    /* (Phi_u u' - gamma)', by `jerks` */
     Probe *moving;  /* R' at constant `forces` */
-    Probe *network; /* its rows, then their Jacobian by `sources` */
+    Probe *network; /* its rows, by `sources` */
     double *values; /* a row, laid out */
     bool *in_use;   /* m: constraints whose multipliers are solved for at this row */
 } Inverse;
@@ -111,6 +111,8 @@ static Status sort_unknowns(Inverse *in, Diag *diag)
             LIST_PUSH(in->forces, l->efforts + i);
         else
             LIST_PUSH(in->sources, l->efforts + i);
+    for (int j = 0; j < l->nu; j++)
+        LIST_PUSH(in->jerks, l->jerk + j);
     return OK;
 }
 
@@ -118,41 +120,13 @@ static Status sort_unknowns(Inverse *in, Diag *diag)
 
 typedef LIST(Expr) Roots;
 
-/* M u' + Phi_u^T lambda - F, row j */
-static Expr balance_row(const Inverse *in, int j)
-{
-    const Layout *l = in->l;
-    const Reading *run = system_run(l->system);
-    Arena *arena = system_arena(l->system);
-    Expr sum = expr_neg(arena, run->force[j]);
-
-    for (int k = 0; k < l->nu; k++)
-        sum = expr_add(arena, sum,
-                       expr_mul(arena, run->mass[j * l->nu + k], l->symbols[l->acceleration + k]));
-    for (int k = 0; k < in->multipliers; k++) {
-        int row = in->forces.at[k] - l->multipliers;
-
-        sum = expr_add(arena, sum,
-                       expr_mul(arena, run->phi_u[row * l->nu + j], l->symbols[in->forces.at[k]]));
-    }
-    return sum;
-}
-
-static void push_gradients(const Inverse *in, Roots *roots, int rows, const Unknowns *unknowns)
-{
-    for (int i = 0; i < rows; i++)
-        for (int k = 0; k < unknowns->count; k++)
-            LIST_PUSH(*roots, expr_diff(system_arena(in->l->system), roots->at[i],
-                                        in->l->symbols[unknowns->at[k]]));
-}
-
-/* d/dt along the motion; u' moves too, or stands still */
-static Expr along(const Inverse *in, Expr e, bool with_acceleration)
+/* d/dt along the motion */
+static Expr along(const Inverse *in, Expr e)
 {
     const Layout *l = in->l;
     Arena *arena = system_arena(l->system);
     const Reading *run = system_run(l->system);
-    int count = 1 + l->n + l->nu + (with_acceleration ? l->nu : 0);
+    int count = 1 + l->n + 2 * l->nu;
     Expr *symbols = NEW_ARRAY(Expr, count);
     Expr *rates = NEW_ARRAY(Expr, count);
     int k = 0;
@@ -168,7 +142,7 @@ static Expr along(const Inverse *in, Expr e, bool with_acceleration)
         symbols[k] = l->symbols[l->u + i];
         rates[k++] = l->symbols[l->acceleration + i];
     }
-    for (int i = 0; i < l->nu && with_acceleration; i++) {
+    for (int i = 0; i < l->nu; i++) {
         symbols[k] = l->symbols[l->acceleration + i];
         rates[k++] = l->symbols[l->jerk + i];
     }
@@ -178,59 +152,50 @@ static Expr along(const Inverse *in, Expr e, bool with_acceleration)
     return out;
 }
 
-static Status open_probe(Inverse *in, Roots *roots, Probe **out, Diag *diag)
+/* of rows by unknowns; the list of rows goes */
+static Status open_probe(Inverse *in, Roots *rows, const Unknowns *unknowns, Probe **out,
+                         Diag *diag)
 {
-    Status status = probe_new(in->l, &in->result->parameters, roots->at, roots->count, out, diag);
+    Expr *symbols = NEW_ARRAY(Expr, unknowns->count);
+    const ProbeOrder order = {.roots = rows->at,
+                              .root_count = rows->count,
+                              .row_count = rows->count,
+                              .unknowns = symbols,
+                              .unknown_count = unknowns->count};
+    Status status;
 
-    LIST_FREE(*roots);
+    for (int k = 0; k < unknowns->count; k++)
+        symbols[k] = in->l->symbols[unknowns->at[k]];
+    status = probe_make(in->l, &in->result->parameters, &order, out, diag);
+    LIST_FREE(*rows);
+    mem_free(symbols);
     return status;
 }
 
-static Status compile_motion(Inverse *in, Diag *diag)
+static Status compile(Inverse *in, Diag *diag)
 {
     const Layout *l = in->l;
-    const Reading *run = system_run(l->system);
-    Arena *arena = system_arena(l->system);
-    Roots roots = {0};
+    const Unknowns none = {0};
+    Roots rows = {0};
     Status status = OK;
 
     for (int j = 0; j < l->nu; j++)
-        LIST_PUSH(roots, balance_row(in, j));
-    push_gradients(in, &roots, l->nu, &in->forces);
-    CHECK(open_probe(in, &roots, &in->balance, diag));
+        LIST_PUSH(rows, row_balance(l, j));
+    CHECK(open_probe(in, &rows, &in->forces, &in->balance, diag));
     if (!in->by_source)
         goto done;
 
-    for (int k = 0; k < l->m; k++) {
-        Expr sum = run->gamma[k];
-
-        for (int j = 0; j < l->nu; j++)
-            sum = expr_sub(
-                arena, sum,
-                expr_mul(arena, run->phi_u[k * l->nu + j], l->symbols[l->acceleration + j]));
-        LIST_PUSH(roots, along(in, sum, false));
-    }
-    for (int k = 0; k < l->m * l->nu; k++)
-        LIST_PUSH(roots, run->phi_u[k]);
-    CHECK(open_probe(in, &roots, &in->jerk, diag));
+    for (int k = 0; k < l->m; k++)
+        LIST_PUSH(rows, along(in, row_acceleration(l, k)));
+    CHECK(open_probe(in, &rows, &in->jerks, &in->jerk, diag));
     for (int j = 0; j < l->nu; j++)
-        LIST_PUSH(roots, along(in, balance_row(in, j), true));
-    CHECK(open_probe(in, &roots, &in->moving, diag));
+        LIST_PUSH(rows, along(in, row_balance(l, j)));
+    CHECK(open_probe(in, &rows, &none, &in->moving, diag));
+    for (int i = 0; i < l->nx + l->nz; i++)
+        LIST_PUSH(rows, row_network(l, i));
+    CHECK(open_probe(in, &rows, &in->sources, &in->network, diag));
 done:
     return status;
-}
-
-static Status compile_network(Inverse *in, Diag *diag)
-{
-    const Layout *l = in->l;
-    const Reading *run = system_run(l->system);
-    int w = l->nx + l->nz;
-    Roots roots = {0};
-
-    for (int i = 0; i < w; i++)
-        LIST_PUSH(roots, run->network_residual[i]);
-    push_gradients(in, &roots, w, &in->sources);
-    return open_probe(in, &roots, &in->network, diag);
 }
 
 /* --- numbers --- */
@@ -252,51 +217,6 @@ static const double *values_of(const Inverse *in, Probe *probe)
                      .jerk = v + l->jerk};
 
     return probe_values(probe, &row);
-}
-
-/* The least-squares solution of matrix * out = right by pivoted QR; false when the columns are
- * dependent. */
-static bool solve_least(const double *matrix, int rows, int columns, const double *right,
-                        double *out)
-{
-    size_t tall = (size_t)(rows > columns ? rows : columns);
-    gsl_matrix *a;
-    gsl_vector *tau, *norm, *b, *x, *residual;
-    gsl_permutation *order;
-    int sign;
-    bool full = true;
-
-    if (columns == 0)
-        return true;
-    a = dense_matrix(tall, (size_t)columns);
-    b = dense_vector(tall);
-    for (int i = 0; i < rows; i++) {
-        for (int j = 0; j < columns; j++)
-            gsl_matrix_set(a, (size_t)i, (size_t)j, matrix[i * columns + j]);
-        gsl_vector_set(b, (size_t)i, right[i]);
-    }
-    tau = dense_vector((size_t)columns);
-    norm = dense_vector((size_t)columns);
-    x = dense_vector((size_t)columns);
-    residual = dense_vector(tall);
-    order = dense_permutation((size_t)columns);
-    (void)gsl_linalg_QRPT_decomp(a, tau, order, &sign, norm);
-    for (int j = 0; j < columns; j++)
-        full = full && fabs(gsl_matrix_get(a, (size_t)j, (size_t)j)) >
-                           1e-12 * fabs(gsl_matrix_get(a, 0, 0));
-    if (full) {
-        (void)gsl_linalg_QRPT_lssolve(a, tau, order, b, x, residual);
-        for (int j = 0; j < columns; j++)
-            out[j] = gsl_vector_get(x, (size_t)j);
-    }
-    mem_free(a);
-    mem_free(b);
-    mem_free(tau);
-    mem_free(norm);
-    mem_free(x);
-    mem_free(residual);
-    mem_free(order);
-    return full;
 }
 
 /* Of redundant constraints those are in use that are the least dependent where the row stands; the
@@ -324,28 +244,31 @@ static bool is_solved_for(const Inverse *in, int place)
     return row < 0 || row >= in->l->m || in->in_use[row];
 }
 
-/* solve_least() over the unknowns that are solved for; 0 for the others */
-static bool solve_in_use(const Inverse *in, const double *matrix, int rows,
+/* The move d of the unknowns that are solved for, 0 of the others, by which J d comes nearest to
+ * `right`: J by them of a probe whose values these are. False: they are dependent. */
+static bool solve_in_use(const Inverse *in, const Probe *probe, const double *values,
                          const Unknowns *unknowns, const double *right, double *out)
 {
-    const int all = unknowns->count;
-    double *part = NEW_ARRAY(double, rows *all);
+    const int all = unknowns->count, rows = residual_row_count(probe_residual(probe));
+    double *full = NEW_ARRAY(double, rows *all), *part = NEW_ARRAY(double, rows *all);
     double *found = NEW_ARRAY(double, all);
     int count = 0;
-    bool full;
+    bool is_regular;
 
+    residual_jacobian(probe_residual(probe), values, full);
     for (int k = 0; k < all; k++)
         count += is_solved_for(in, unknowns->at[k]);
     for (int i = 0; i < rows; i++)
         for (int k = 0, column = 0; k < all; k++)
             if (is_solved_for(in, unknowns->at[k]))
-                part[i * count + column++] = matrix[i * all + k];
-    full = solve_least(part, rows, count, right, found);
-    for (int k = 0, column = 0; k < all && full; k++)
+                part[i * count + column++] = full[i * all + k];
+    is_regular = rows_solve(part, rows, count, right, found) == count;
+    for (int k = 0, column = 0; k < all && is_regular; k++)
         out[k] = is_solved_for(in, unknowns->at[k]) ? found[column++] : 0;
+    mem_free(full);
     mem_free(part);
     mem_free(found);
-    return full;
+    return is_regular;
 }
 
 /* The least multipliers that give the same forces, as runs tell them; those that are supplied
@@ -388,10 +311,10 @@ static Status cant_produce(const Inverse *in, const Unknowns *unknowns, Diag *di
     return E_SINGULAR;
 }
 
-/* Newton's method on rows of a probe that holds residuals and gradients: linear ones end after one
- * step and a look. */
-static Status solve_rows(Inverse *in, Probe *probe, int rows, const Unknowns *unknowns, Diag *diag)
+/* Newton's method: linear rows end after one step and a look. */
+static Status solve_rows(Inverse *in, Probe *probe, const Unknowns *unknowns, Diag *diag)
 {
+    const int rows = residual_row_count(probe_residual(probe));
     double *step = NEW_ARRAY(double, unknowns->count);
     double size = INFINITY, scale = 1;
     Status status = OK;
@@ -400,7 +323,7 @@ static Status solve_rows(Inverse *in, Probe *probe, int rows, const Unknowns *un
         const double *values = values_of(in, probe);
 
         if (!vector_is_finite(values, rows) ||
-            !solve_in_use(in, values + rows, rows, unknowns, values, step))
+            !solve_in_use(in, probe, values, unknowns, values, step))
             CHECK(cant_produce(in, unknowns, diag));
         scale = 1;
         for (int k = 0; k < unknowns->count; k++) {
@@ -425,13 +348,16 @@ static Status find_rates(Inverse *in, Diag *diag)
 {
     const Layout *l = in->l;
     double *rates = NEW_ARRAY(double, in->forces.count);
+    double *jerk = in->values + l->jerk; /* 0 still */
     const double *values = values_of(in, in->jerk);
     Status status = OK;
 
-    if (!solve_least(values + l->m, l->m, l->nu, values, in->values + l->jerk))
+    if (!solve_in_use(in, in->jerk, values, &in->jerks, values, jerk))
         CHECK(cant_produce(in, &in->forces, diag));
-    values = values_of(in, in->moving);
-    if (!solve_in_use(in, values_of(in, in->balance) + l->nu, l->nu, &in->forces, values, rates))
+    for (int i = 0; i < l->nu; i++)
+        jerk[i] = -jerk[i];
+    values = values_of(in, in->balance);
+    if (!solve_in_use(in, in->balance, values, &in->forces, values_of(in, in->moving), rates))
         CHECK(cant_produce(in, &in->forces, diag));
     for (int k = in->multipliers; k < in->forces.count; k++) {
         int place = in->forces.at[k];
@@ -462,10 +388,10 @@ static Status solve_row(Inverse *in, double t, double *y, double *out, Diag *dia
     memcpy(in->values + l->q, y, (size_t)(l->n + l->nu + l->nx) * sizeof(double));
     memcpy(in->values + l->rates, solved.rates, (size_t)(l->nx + l->nz) * sizeof(double));
     memcpy(in->values + l->acceleration, solved.acceleration, (size_t)l->nu * sizeof(double));
-    CHECK(solve_rows(in, in->balance, l->nu, &in->forces, diag));
+    CHECK(solve_rows(in, in->balance, &in->forces, diag));
     if (in->by_source) {
         CHECK(find_rates(in, diag));
-        CHECK(solve_rows(in, in->network, l->nx + l->nz, &in->sources, diag));
+        CHECK(solve_rows(in, in->network, &in->sources, diag));
     }
     spread_multipliers(in);
     memcpy(y + l->n + l->nu, in->values + l->x, (size_t)l->nx * sizeof(double));
@@ -486,9 +412,7 @@ Status inverse_solve(Result *r, Grid *rows, Driven *out, Diag *diag)
     in.values = NEW_ARRAY(double, r->phase->layout->count);
     in.in_use = NEW_ARRAY(bool, r->phase->layout->m);
     CHECK(sort_unknowns(&in, diag));
-    CHECK(compile_motion(&in, diag));
-    if (in.by_source)
-        CHECK(compile_network(&in, diag));
+    CHECK(compile(&in, diag));
     out->length = r->phase->layout->jerk - r->phase->layout->rates;
     mem_free(out->values);
     out->values = NEW_ARRAY(double, rows->count * out->length);
@@ -502,6 +426,7 @@ done:
     probe_free(in.network);
     LIST_FREE(in.forces);
     LIST_FREE(in.sources);
+    LIST_FREE(in.jerks);
     mem_free(in.values);
     mem_free(in.in_use);
     return status;
