@@ -121,14 +121,14 @@ static ct_status command_print(Call *call, ct_error *error)
 
 /* --- table --- */
 
-typedef struct Table {
+typedef struct TableColumns {
     double *values; /* rows x columns */
     int rows;
     int columns;
     char **names;
-} Table;
+} TableColumns;
 
-static void put_table(const Call *call, const Table *table)
+static void put_table(const Call *call, const TableColumns *table)
 {
     int digits = call->shell->settings.digits;
     int *widths = copy_check(calloc((size_t)table->columns + 1, sizeof *widths));
@@ -162,7 +162,7 @@ static ct_status command_table(Call *call, ct_error *error)
     int count = ct_operand_count(statement);
     const ct_expression *step = ct_key_value(statement, "every");
     double every = 0;
-    Table table = {0};
+    TableColumns table = {0};
     ct_status status = CT_OK;
 
     if (step != NULL)

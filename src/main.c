@@ -63,7 +63,7 @@ static const char usage[] =
     "(cotree/history, cotree/unsaved), NO_COLOR.\n";
 
 /* What the command line asks for; sources in their order. */
-typedef struct Request {
+typedef struct Invocation {
     struct {
         const char *text; /* a file's name, or lines: those of neighbouring -e together */
         bool is_file;
@@ -75,15 +75,15 @@ typedef struct Request {
     bool no_init;
     bool safe;
     const char *seed;
-} Request;
+} Invocation;
 
-static void add_file(Request *request, const char *name)
+static void add_file(Invocation *request, const char *name)
 {
     request->sources[request->count].is_file = true;
     request->sources[request->count++].text = copy_text(name);
 }
 
-static void add_statement(Request *request, const char *text)
+static void add_statement(Invocation *request, const char *text)
 {
     int last = request->count - 1;
 
@@ -97,7 +97,7 @@ static void add_statement(Request *request, const char *text)
     request->sources[request->count++].text = copy_text(text);
 }
 
-static void request_free(Request *request)
+static void request_free(Invocation *request)
 {
     for (int i = 0; i < request->count; i++)
         free((char *)request->sources[i].text);
@@ -132,7 +132,7 @@ static int print_reference(const char *format)
 }
 
 /* -1: go on; else leave with that status */
-static int read_options(Request *request, int argc, char **argv)
+static int read_options(Invocation *request, int argc, char **argv)
 {
     int option;
 
@@ -243,7 +243,7 @@ static void run_prompt(Shell *shell, bool no_init)
 
 /* --- all of it --- */
 
-static void run_sources(Shell *shell, const Request *request)
+static void run_sources(Shell *shell, const Invocation *request)
 {
     for (int i = 0; i < request->count && !shell->quitting; i++) {
         const char *text = request->sources[i].text;
@@ -260,7 +260,7 @@ static void run_sources(Shell *shell, const Request *request)
     }
 }
 
-static int run(const Request *request)
+static int run(const Invocation *request)
 {
     Shell shell;
     bool typed = isatty(STDIN_FILENO) && (request->count == 0 || request->interactive);
@@ -296,7 +296,7 @@ static int run(const Request *request)
 
 int main(int argc, char **argv)
 {
-    Request request = {0};
+    Invocation request = {0};
 
     /* characters as the user's, numbers as everybody's */
     setlocale(LC_ALL, "");

@@ -12,28 +12,28 @@
 /* --- data --- */
 
 /* Items of one run share a table: column 0 is t. */
-typedef struct Block {
+typedef struct PlotBlock {
     char *run; /* "run2", or "" for the last */
     double *values;
     int rows;
     int columns;
     char **names;
     char **labels; /* the names, each with its unit in brackets */
-} Block;
+} PlotBlock;
 
-typedef struct Curve {
+typedef struct PlotCurve {
     int item;
     int block;
     int column;
-} Curve;
+} PlotCurve;
 
 typedef struct Picture {
     const ct_expression *versus; /* NULL: t, each run's own */
     char *time_label;            /* of t */
     double time_scale;           /* to the unit of the label */
-    Block *blocks;
+    PlotBlock *blocks;
     int blocks_count;
-    Curve *curves;
+    PlotCurve *curves;
     int count;
 } Picture;
 
@@ -76,7 +76,7 @@ static void lay_out_curves(Picture *picture, const ct_statement *statement)
             picture->blocks[picture->blocks_count++].run = run;
         else
             free(run);
-        picture->curves[i] = (Curve){.item = i, .block = block};
+        picture->curves[i] = (PlotCurve){.item = i, .block = block};
     }
 }
 
@@ -89,7 +89,7 @@ static const char *unit_of(const char *name)
 }
 
 /* What has no unit behind it is in that of its dimension, where this is known. */
-static void label_columns(const Call *call, Block *block, const ct_expression *const *items)
+static void label_columns(const Call *call, PlotBlock *block, const ct_expression *const *items)
 {
     block->labels = copy_check(calloc((size_t)block->columns + 1, sizeof *block->labels));
     for (int j = 0; j < block->columns; j++) {
@@ -106,7 +106,7 @@ static void label_columns(const Call *call, Block *block, const ct_expression *c
 
 static ct_status fill_block(const Call *call, Picture *picture, int number, ct_error *error)
 {
-    Block *block = &picture->blocks[number];
+    PlotBlock *block = &picture->blocks[number];
     const ct_expression **items = copy_check(calloc((size_t)picture->count + 2, sizeof *items));
     int count = 0;
 
@@ -191,19 +191,19 @@ static void picture_free(Picture *picture)
 
 static const char *curve_name(const Picture *picture, int i)
 {
-    const Curve *curve = &picture->curves[i];
+    const PlotCurve *curve = &picture->curves[i];
 
     return picture->blocks[curve->block].labels[curve->column];
 }
 
-static int x_column(const Picture *picture, const Block *block)
+static int x_column(const Picture *picture, const PlotBlock *block)
 {
     return picture->versus != NULL ? block->columns - 1 : 0;
 }
 
 static void put_labels(FILE *out, const Picture *picture, bool as_text)
 {
-    const Block *first = &picture->blocks[0];
+    const PlotBlock *first = &picture->blocks[0];
     const char *unit = unit_of(curve_name(picture, 0));
 
     fputs("set xlabel ", out);
@@ -231,7 +231,7 @@ static void put_labels(FILE *out, const Picture *picture, bool as_text)
 static void put_blocks(FILE *out, const Picture *picture)
 {
     for (int b = 0; b < picture->blocks_count; b++) {
-        const Block *block = &picture->blocks[b];
+        const PlotBlock *block = &picture->blocks[b];
 
         fprintf(out, "$block%d << end\n", b);
         for (int i = 0; i < block->rows; i++)
@@ -257,7 +257,7 @@ static void put_commands(FILE *out, const Drawing *drawing, bool as_text)
               "0.7\n",
               out);
     for (int i = 0; i < picture->count; i++) {
-        const Curve *curve = &picture->curves[i];
+        const PlotCurve *curve = &picture->curves[i];
 
         fprintf(out, "%s$block%d using %d:%d with lines title ", i == 0 ? "plot " : ", ",
                 curve->block, x_column(picture, &picture->blocks[curve->block]) + 1,

@@ -8,7 +8,7 @@
 
 /* --- components --- */
 
-typedef struct Search {
+typedef struct BlockSearch {
     const bool *pattern;
     int n, found, open_count, path_count;
     int *number; /* when a state was met, from 1; 0: not yet */
@@ -17,9 +17,9 @@ typedef struct Search {
     int *next; /* of a state: the entry of its column that is looked at next */
     int *component;
     int components;
-} Search;
+} BlockSearch;
 
-static void meet(Search *s, int state)
+static void meet(BlockSearch *s, int state)
 {
     s->number[state] = s->low[state] = ++s->found;
     s->open[s->open_count++] = state;
@@ -28,7 +28,7 @@ static void meet(Search *s, int state)
 }
 
 /* all behind the last of the path are done: its component is closed where it reaches no earlier */
-static void leave(Search *s)
+static void leave(BlockSearch *s)
 {
     const int state = s->path[--s->path_count];
     int member;
@@ -48,7 +48,7 @@ static void leave(Search *s)
     s->components++;
 }
 
-static void search_from(Search *s, int first)
+static void search_from(BlockSearch *s, int first)
 {
     meet(s, first);
     while (s->path_count > 0) {
@@ -71,14 +71,14 @@ static void search_from(Search *s, int first)
 
 Blocks blocks_find(const bool *pattern, int n)
 {
-    Search s = {.pattern = pattern,
-                .n = n,
-                .number = NEW_ARRAY(int, n),
-                .low = NEW_ARRAY(int, n),
-                .open = NEW_ARRAY(int, n),
-                .path = NEW_ARRAY(int, n),
-                .next = NEW_ARRAY(int, n),
-                .component = NEW_ARRAY(int, n)};
+    BlockSearch s = {.pattern = pattern,
+                     .n = n,
+                     .number = NEW_ARRAY(int, n),
+                     .low = NEW_ARRAY(int, n),
+                     .open = NEW_ARRAY(int, n),
+                     .path = NEW_ARRAY(int, n),
+                     .next = NEW_ARRAY(int, n),
+                     .component = NEW_ARRAY(int, n)};
     Blocks out = {0};
 
     for (int i = 0; i < n; i++)

@@ -85,7 +85,7 @@ static bool balance_one(HessenbergForm *r, int i)
 }
 
 /* Parlett, Reinsch (1969) */
-static void balance(HessenbergForm *r)
+static void matrix_balance(HessenbergForm *r)
 {
     bool again = true;
 
@@ -171,7 +171,7 @@ HessenbergForm *hessenberg_form_new(const double *a, int n)
     memcpy(r->h, a, (size_t)(n * n) * sizeof(double));
     for (int i = 0; i < n; i++)
         r->q[i * n + i] = 1;
-    balance(r);
+    matrix_balance(r);
     reduce(r);
     for (int i = 0; i < n; i++)
         for (int k = 0; k < n; k++)

@@ -151,8 +151,8 @@ static void descend(Least *l, double tolerance)
     }
 }
 
-bool least_solve(const Rows *rows, const bool *held, const double *weight, double tolerance,
-                 double *v, double *residual)
+bool levenberg_marquardt_solve(const Rows *rows, const bool *held, const double *weight,
+                               double tolerance, double *v, double *residual)
 {
     int m = rows->rows, n = rows->columns;
     Least l = {.rows = rows,

@@ -25,7 +25,7 @@ typedef struct Rows {
  * held (columns, may be NULL): directions that don't move. weight (rows, may be NULL): of each row.
  * True when the tolerance was met; v is the best point found either way, `residual` (rows, may be
  * NULL) its residuals, unscaled. The watch ends it early. */
-bool least_solve(const Rows *rows, const bool *held, const double *weight, double tolerance,
-                 double *v, double *residual);
+bool levenberg_marquardt_solve(const Rows *rows, const bool *held, const double *weight,
+                               double tolerance, double *v, double *residual);
 
 #endif

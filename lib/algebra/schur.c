@@ -9,7 +9,7 @@ enum { MOST_SWEEPS = 60 }; /* for one eigenvalue */
 
 /* --- balancing --- */
 
-void balance(const double *size, int n, double *scale)
+void matrix_balance(const double *size, int n, double *scale)
 {
     bool again = true;
 
@@ -77,7 +77,7 @@ static bool reflection(const Wide *a, int n, int k, Wide *v, Wide *beta)
     return true;
 }
 
-void hessenberg(Wide *a, int n, Wide *q)
+void matrix_hessenberg(Wide *a, int n, Wide *q)
 {
     Wide *v = NEW_ARRAY(Wide, n), beta;
 
@@ -101,20 +101,20 @@ void hessenberg(Wide *a, int n, Wide *q)
 /* --- the QR method --- */
 
 /* [c s; -conj(s) c] (a, b) = (r, 0) */
-typedef struct Turn {
+typedef struct Givens {
     Wide c;
     WideComplex s;
-} Turn;
+} Givens;
 
 static Wide square_of(WideComplex a)
 {
     return wide_add(wide_mul(a.re, a.re), wide_mul(a.im, a.im));
 }
 
-static Turn turn_for(WideComplex a, WideComplex b)
+static Givens turn_for(WideComplex a, WideComplex b)
 {
     const double largest = fmax(wide_size(a), wide_size(b));
-    Turn turn = {wide_of(1), wide_real(wide_of(0))};
+    Givens turn = {wide_of(1), wide_real(wide_of(0))};
     Wide size, root;
 
     if (wide_size(b) == 0)
@@ -134,7 +134,7 @@ static Turn turn_for(WideComplex a, WideComplex b)
     return turn;
 }
 
-static void turn_rows(const Turn *turn, WideComplex *upper, WideComplex *lower, int from, int to)
+static void turn_rows(const Givens *turn, WideComplex *upper, WideComplex *lower, int from, int to)
 {
     for (int j = from; j < to; j++) {
         const WideComplex x = upper[j], y = lower[j];
@@ -145,7 +145,7 @@ static void turn_rows(const Turn *turn, WideComplex *upper, WideComplex *lower, 
 }
 
 /* columns k and k + 1 by the conjugate transpose */
-static void turn_columns(const Turn *turn, WideComplex *at, int n, int k, int rows)
+static void turn_columns(const Givens *turn, WideComplex *at, int n, int k, int rows)
 {
     for (int i = 0; i < rows; i++) {
         WideComplex *left = at + (ptrdiff_t)i * n + k, *right = left + 1;
@@ -171,7 +171,7 @@ static WideComplex shift_of(const WideComplex *t, int n, int last)
 }
 
 static void sweep(WideComplex *t, int n, int first, int last, WideComplex shift, WideComplex *z,
-                  Turn *turns)
+                  Givens *turns)
 {
     for (int i = first; i <= last; i++)
         t[i * n + i] = wide_csub(t[i * n + i], shift);
@@ -212,12 +212,12 @@ static int part_begin(WideComplex *t, int n, int last, double norm)
 bool schur(const Wide *a, int n, WideComplex *t, WideComplex *z)
 {
     Wide *h = NEW_ARRAY(Wide, n * n), *q = NEW_ARRAY(Wide, n * n);
-    Turn *turns = NEW_ARRAY(Turn, n);
+    Givens *turns = NEW_ARRAY(Givens, n);
     double norm = 0;
     int sweeps = 0;
 
     memcpy(h, a, (size_t)(n * n) * sizeof *h);
-    hessenberg(h, n, q);
+    matrix_hessenberg(h, n, q);
     for (int i = 0; i < n * n; i++) {
         t[i] = wide_real(h[i]);
         norm = fmax(norm, fabs(h[i].high));

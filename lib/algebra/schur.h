@@ -9,7 +9,7 @@
 
 /* Scale states by powers of 2 so that columns are as large as rows, in the sum of sizes off the
  * diagonal: scale[i] a[i][j]/scale[j] is balanced (Parlett and Reinsch 1969). `size`: n x n. */
-void balance(const double *size, int n, double *scale);
+void matrix_balance(const double *size, int n, double *scale);
 
 /* (I - v v^T beta) at, entries from..n-1 of it, `stride` apart: a reflection where beta is 2/v^T v
  */
@@ -17,7 +17,7 @@ void wide_reflect(Wide *at, int n, int stride, int from, const Wide *v, Wide bet
 
 /* Turn a into Q^T a Q, 0 below the first subdiagonal, by reflections; q (NULL: not wanted) becomes
  * Q. Of 10/3 n^3 products. */
-void hessenberg(Wide *a, int n, Wide *q);
+void matrix_hessenberg(Wide *a, int n, Wide *q);
 
 /* t = Z^H a Z, upper triangular, and z = Z (NULL: not wanted). False where the iteration doesn't
  * come to an end. By the QR method with single shifts (Francis 1961, Kublanovskaya 1961). */

@@ -28,19 +28,19 @@
 #define STRUCTURAL 1e3     /* of the method's rounding: what is below, and stays there, is 0 */
 
 /* of one block: right vectors as columns, left ones as rows */
-typedef struct Part {
+typedef struct SpectrumPart {
     int size;
     const int *state;
     WideComplex *right, *left;
     double *error; /* size x size */
     int first;     /* its first root */
-} Part;
+} SpectrumPart;
 
 struct Spectrum {
     int n;
     double *a;
     Blocks blocks;
-    Part *part;
+    SpectrumPart *part;
     Root *root;
     double complex *value; /* of each root before groups were joined */
     int *column;           /* of its part's vectors */
@@ -257,8 +257,8 @@ void roots_join(const double complex *value, const double *error, int count, Gro
 /* --- one block --- */
 
 /* sum over members of (lambda - mean)^power x y^T, in size, times dA: its spectral radius */
-static double theta(const Part *part, const double complex *value, const int *members, int count,
-                    double complex mean, int power)
+static double theta(const SpectrumPart *part, const double complex *value, const int *members,
+                    int count, double complex mean, int power)
 {
     const int n = part->size;
     double *product = NEW_ARRAY(double, n *n);
@@ -287,7 +287,7 @@ static double theta(const Part *part, const double complex *value, const int *me
 }
 
 typedef struct Grouping {
-    const Part *part;
+    const SpectrumPart *part;
     const double complex *value; /* as disturbed */
 } Grouping;
 
@@ -308,7 +308,7 @@ static double group_error(void *context, const int *members, int count, double c
 }
 
 /* |y|^T |dA| |x| */
-static double single_error(const Part *part, int k)
+static double single_error(const SpectrumPart *part, int k)
 {
     const int n = part->size;
     double sum = 0;
@@ -325,7 +325,7 @@ static double single_error(const Part *part, int k)
 }
 
 /* y^T d x: how far the disturbance d moves a value */
-static double complex moved_by(const Part *part, int k, const double *disturbed)
+static double complex moved_by(const SpectrumPart *part, int k, const double *disturbed)
 {
     const int n = part->size;
     double complex moved = 0;
@@ -341,7 +341,8 @@ static double complex moved_by(const Part *part, int k, const double *disturbed)
 }
 
 /* what the method rounds, which has the scaled matrix as a whole before it */
-static double method_error(const Part *part, const double *block, const double *scale, int k)
+static double method_error(const SpectrumPart *part, const double *block, const double *scale,
+                           int k)
 {
     const int n = part->size;
     double norm = 0, x = 0, y = 0;
@@ -359,7 +360,7 @@ static double method_error(const Part *part, const double *block, const double *
 }
 
 /* eigenvalues and vectors of the block as it is scaled and disturbed */
-static bool decompose(const Part *part, const double *block, const double *disturbed,
+static bool decompose(const SpectrumPart *part, const double *block, const double *disturbed,
                       const double *scale, double complex *value)
 {
     const int n = part->size;
@@ -389,7 +390,7 @@ static bool decompose(const Part *part, const double *block, const double *distu
 }
 
 /* the largest entry of each right vector about 1 */
-static void normalise(const Part *part)
+static void normalise(const SpectrumPart *part)
 {
     const int n = part->size;
 
@@ -408,7 +409,7 @@ static void normalise(const Part *part)
     }
 }
 
-static void place_on_axis(const Part *part, const double *block, Root *root)
+static void place_on_axis(const SpectrumPart *part, const double *block, Root *root)
 {
     const int n = part->size;
     bool *pattern = NEW_ARRAY(bool, n *n);
@@ -440,7 +441,7 @@ static double open_error(const Enclosure *e, int k, double all_errors)
     return e->error[k] + 2 * e->slant[k] * left * all_errors;
 }
 
-static void take_vectors(const Part *part, const Enclosure *e, const double *scale)
+static void take_vectors(const SpectrumPart *part, const Enclosure *e, const double *scale)
 {
     const int n = part->size;
 
@@ -461,7 +462,7 @@ static bool are_apart(const double complex *value, const double *error, int n)
 }
 
 /* Roots by doubles; false where these don't tell them apart, or worse than entries do. */
-static bool solve_in_doubles(const Part *part, const double *block, const double *scale,
+static bool solve_in_doubles(const SpectrumPart *part, const double *block, const double *scale,
                              double complex *value, Root *root)
 {
     const int n = part->size;
@@ -498,7 +499,7 @@ static bool solve_in_doubles(const Part *part, const double *block, const double
     return sound;
 }
 
-static bool solve_in_more_digits(const Part *part, const double *block, const double *scale,
+static bool solve_in_more_digits(const SpectrumPart *part, const double *block, const double *scale,
                                  double complex *value, Root *root)
 {
     const int n = part->size;
@@ -526,7 +527,8 @@ static bool solve_in_more_digits(const Part *part, const double *block, const do
     return sound;
 }
 
-static bool solve_part(const Part *part, const double *block, double complex *value, Root *root)
+static bool solve_part(const SpectrumPart *part, const double *block, double complex *value,
+                       Root *root)
 {
     const int n = part->size;
     double *scale = NEW_ARRAY(double, n), *size = NEW_ARRAY(double, n *n);
@@ -536,7 +538,7 @@ static bool solve_part(const Part *part, const double *block, double complex *va
         part->error[k] = fmax(part->error[k], UNIT * fabs(block[k]));
         size[k] = fabs(block[k]) + part->error[k];
     }
-    balance(size, n, scale);
+    matrix_balance(size, n, scale);
     sound = solve_in_doubles(part, block, scale, value, root) ||
             solve_in_more_digits(part, block, scale, value, root);
     if (sound)
@@ -551,16 +553,16 @@ static bool solve_part(const Part *part, const double *block, double complex *va
 static bool fill_part(Spectrum *s, const double *error, int b, int first)
 {
     const int size = s->blocks.start[b + 1] - s->blocks.start[b];
-    Part *part = &s->part[b];
+    SpectrumPart *part = &s->part[b];
     double *block = NEW_ARRAY(double, size *size);
     bool sound = true;
 
-    *part = (Part){size,
-                   s->blocks.order + s->blocks.start[b],
-                   NEW_ARRAY(WideComplex, size * size),
-                   NEW_ARRAY(WideComplex, size * size),
-                   NEW_ARRAY(double, size *size),
-                   first};
+    *part = (SpectrumPart){size,
+                           s->blocks.order + s->blocks.start[b],
+                           NEW_ARRAY(WideComplex, size * size),
+                           NEW_ARRAY(WideComplex, size * size),
+                           NEW_ARRAY(double, size *size),
+                           first};
     for (int i = 0; i < size; i++)
         for (int j = 0; j < size; j++) {
             block[i * size + j] = s->a[part->state[i] * s->n + part->state[j]];
@@ -593,7 +595,7 @@ static int by_place(const void *a, const void *b)
     return (x->imaginary < y->imaginary) - (x->imaginary > y->imaginary);
 }
 
-static void sort_part(Spectrum *s, const Part *part)
+static void sort_part(Spectrum *s, const SpectrumPart *part)
 {
     for (int i = part->first + 1; i < part->first + part->size; i++)
         for (int k = i; k > part->first && by_place(&s->root[k - 1], &s->root[k]) > 0; k--) {
@@ -628,7 +630,7 @@ Spectrum *spectrum_new(const double *a, const double *error, int n)
         sound = sound && isfinite(a[i]) && isfinite(error[i]);
     }
     s->blocks = blocks_find(pattern, n);
-    s->part = NEW_ARRAY(Part, s->blocks.count);
+    s->part = NEW_ARRAY(SpectrumPart, s->blocks.count);
     for (int b = 0; b < s->blocks.count && sound; b++) {
         sound = fill_part(s, error, b, s->blocks.start[b]);
         if (sound)
@@ -679,7 +681,7 @@ static void shrink(WideComplex *x, int n)
 }
 
 /* Carry x on into a part that root k's acts on: (lambda - A) x = what acts on it. */
-static void carry_on(const Spectrum *s, const Part *part, int k, WideComplex *x)
+static void carry_on(const Spectrum *s, const SpectrumPart *part, int k, WideComplex *x)
 {
     const int m = part->size;
     WideComplex *force = NEW_ARRAY(WideComplex, m);
@@ -713,7 +715,7 @@ static void carry_on(const Spectrum *s, const Part *part, int k, WideComplex *x)
 
 void spectrum_vector(const Spectrum *s, int k, double complex *out)
 {
-    const Part *own = &s->part[s->part_of[k]];
+    const SpectrumPart *own = &s->part[s->part_of[k]];
     WideComplex *x = NEW_ARRAY(WideComplex, s->n);
 
     for (int i = 0; i < own->size; i++)

@@ -45,7 +45,7 @@ const double *workspace_roots(const Workspace *workspace)
     return workspace->roots;
 }
 
-static void run_calls(const Run *run, const uint32_t *operand, double *slots)
+static void run_calls(const OpcodeRun *run, const uint32_t *operand, double *slots)
 {
     Op op = (Op)(run->code - CODE_CALL);
     int operands = code_operands(run->code);
@@ -61,7 +61,8 @@ static void run_calls(const Run *run, const uint32_t *operand, double *slots)
 }
 
 /* operands: which table, x, the order of the derivative */
-static void run_tables(const Run *run, const uint32_t *operand, Curve *const *tables, double *slots)
+static void run_tables(const OpcodeRun *run, const uint32_t *operand, Curve *const *tables,
+                       double *slots)
 {
     double *result = slots + run->result;
 
@@ -71,7 +72,7 @@ static void run_tables(const Run *run, const uint32_t *operand, Curve *const *ta
 }
 
 /* the compiler makes one library call of the two */
-static void run_sines(const Run *run, const uint32_t *operand, double *slots)
+static void run_sines(const OpcodeRun *run, const uint32_t *operand, double *slots)
 {
     double *result = slots + run->result;
 
@@ -84,7 +85,7 @@ static void run_sines(const Run *run, const uint32_t *operand, double *slots)
 }
 
 /* Operands of later instructions of a run may be results of earlier ones. */
-static void run_one(const Run *run, const uint32_t *operand, double *slots)
+static void run_one(const OpcodeRun *run, const uint32_t *operand, double *slots)
 {
     double *result = slots + run->result;
 
@@ -118,7 +119,7 @@ void workspace_run(Workspace *workspace, Stage from, Stage to)
     const uint32_t *tape = program->tape.at;
 
     for (int r = program->first_run[from]; r < program->first_run[to + 1]; r++) {
-        const Run *run = &program->runs.at[r];
+        const OpcodeRun *run = &program->runs.at[r];
 
         if (run->code == CODE_CALL + OP_TABLE)
             run_tables(run, tape + run->operands, program->tables.at, workspace->slots);

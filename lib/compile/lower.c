@@ -13,10 +13,10 @@
 typedef uint32_t Signed;
 
 /* An expression on its way: arguments before `next` are lowered. */
-typedef struct Level {
+typedef struct LowerLevel {
     Expr e;
     int next;
-} Level;
+} LowerLevel;
 
 typedef struct Lowering {
     Lowered *out;
@@ -54,7 +54,7 @@ int code_operands(Opcode code)
     return operands[code];
 }
 
-double value_constant(const Value *constant)
+double value_constant(const LoweredValue *constant)
 {
     double value;
 
@@ -64,7 +64,7 @@ double value_constant(const Value *constant)
 
 /* --- values --- */
 
-static uint32_t slot_of(const Lowering *low, const Value *wanted)
+static uint32_t slot_of(const Lowering *low, const LoweredValue *wanted)
 {
     uint32_t hash = wanted->code * 0x9E3779B1U;
     uint32_t slot;
@@ -75,7 +75,7 @@ static uint32_t slot_of(const Lowering *low, const Value *wanted)
     }
     slot = hash & (low->table_size - 1);
     while (low->table[slot] != 0) {
-        const Value *value = &low->out->values.at[low->table[slot] - 1];
+        const LoweredValue *value = &low->out->values.at[low->table[slot] - 1];
 
         if (value->code == wanted->code &&
             memcmp(value->args, wanted->args, sizeof value->args) == 0)
@@ -95,7 +95,7 @@ static void resize_table(Lowering *low, uint32_t size)
 }
 
 /* the value, found or made */
-static uint32_t add_value(Lowering *low, Value value)
+static uint32_t add_value(Lowering *low, LoweredValue value)
 {
     uint32_t slot;
 
@@ -111,7 +111,7 @@ static uint32_t add_value(Lowering *low, Value value)
 
 static uint32_t add_operation(Lowering *low, Opcode code, const uint32_t args[MOST_OPERANDS])
 {
-    Value value = {.code = (uint8_t)code, .stage = STAGE_PARAMETER};
+    LoweredValue value = {.code = (uint8_t)code, .stage = STAGE_PARAMETER};
 
     for (int i = 0; i < code_operands(code); i++) {
         uint8_t stage = low->out->values.at[args[i]].stage;
@@ -139,7 +139,7 @@ static uint32_t add_binary(Lowering *low, Opcode code, uint32_t a, uint32_t b)
 
 static uint32_t add_constant(Lowering *low, double number)
 {
-    Value value = {.code = CODE_CONSTANT, .stage = STAGE_PARAMETER};
+    LoweredValue value = {.code = CODE_CONSTANT, .stage = STAGE_PARAMETER};
 
     memcpy(value.args, &number, sizeof number);
     return add_value(low, value);
@@ -314,11 +314,11 @@ static Status lower_node(Lowering *low, Expr e, Diag *diag)
 static Status lower_below(Lowering *low, Expr root, Diag *diag)
 {
     Status status = OK;
-    LIST(Level) stack = {0};
+    LIST(LowerLevel) stack = {0};
 
-    LIST_PUSH(stack, (Level){root, 0});
+    LIST_PUSH(stack, (LowerLevel){root, 0});
     while (stack.count > 0) {
-        Level *level = &stack.at[stack.count - 1];
+        LowerLevel *level = &stack.at[stack.count - 1];
 
         if (low->known[expr_number(level->e)] != 0) {
             stack.count--;
@@ -326,7 +326,7 @@ static Status lower_below(Lowering *low, Expr root, Diag *diag)
             Expr child = expr_arg(level->e, level->next++);
 
             if (low->known[expr_number(child)] == 0)
-                LIST_PUSH(stack, (Level){child, 0});
+                LIST_PUSH(stack, (LowerLevel){child, 0});
         } else {
             CHECK(lower_node(low, level->e, diag));
         }
@@ -340,8 +340,8 @@ done:
 static void pair_sines(Lowering *low)
 {
     for (int i = 0; i < low->out->values.count; i++) {
-        Value *value = &low->out->values.at[i];
-        Value wanted = *value;
+        LoweredValue *value = &low->out->values.at[i];
+        LoweredValue wanted = *value;
         uint32_t slot;
 
         if (value->code != CODE_COS)
@@ -351,8 +351,8 @@ static void pair_sines(Lowering *low)
         if (low->table[slot] == 0)
             continue;
         low->out->values.at[low->table[slot] - 1].code = CODE_SINCOS;
-        *value =
-            (Value){.code = CODE_COSINE, .stage = value->stage, .args = {low->table[slot] - 1}};
+        *value = (LoweredValue){
+            .code = CODE_COSINE, .stage = value->stage, .args = {low->table[slot] - 1}};
     }
 }
 
@@ -365,8 +365,8 @@ static uint32_t highest_number(const Expr *roots, int count, uint32_t highest)
     return highest;
 }
 
-Status lower(const Expr *roots, int root_count, const Expr *inputs, int input_count, Lowered *out,
-             Diag *diag)
+Status lowered_make(const Expr *roots, int root_count, const Expr *inputs, int input_count,
+                    Lowered *out, Diag *diag)
 {
     Status status = OK;
     uint32_t highest = highest_number(inputs, input_count, highest_number(roots, root_count, 0));
@@ -379,7 +379,7 @@ Status lower(const Expr *roots, int root_count, const Expr *inputs, int input_co
 
     for (int i = 0; i < input_count; i++) {
         uint8_t stage = (uint8_t)stage_of_symbol(expr_symbol_kind(inputs[i]));
-        Value input = {.code = CODE_INPUT, .stage = stage, .args = {(uint32_t)i}};
+        LoweredValue input = {.code = CODE_INPUT, .stage = stage, .args = {(uint32_t)i}};
 
         low.known[expr_number(inputs[i])] = positive(add_value(&low, input)) + 1;
     }

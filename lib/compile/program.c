@@ -14,7 +14,7 @@ Status program_new(const Expr *roots, int root_count, const Expr *inputs, int in
     Program *program = NULL;
     Lowered lowered;
 
-    CHECK(lower(roots, root_count, inputs, input_count, &lowered, diag));
+    CHECK(lowered_make(roots, root_count, inputs, input_count, &lowered, diag));
 
     program = NEW(Program);
     program->input_count = input_count;
@@ -28,7 +28,7 @@ Status program_new(const Expr *roots, int root_count, const Expr *inputs, int in
     }
     for (int i = 0; i < lowered.tables.count; i++)
         LIST_PUSH(program->tables, curve_copy(lowered.tables.at[i]));
-    schedule(program, &lowered);
+    program_schedule(program, &lowered);
     lowered_free(&lowered);
     *out = program;
 done:
@@ -93,7 +93,7 @@ OpCount program_count(const Program *program)
     OpCount total = {0};
 
     for (int r = 0; r < program->runs.count; r++) {
-        const Run *run = &program->runs.at[r];
+        const OpcodeRun *run = &program->runs.at[r];
         OpCount one = run->code < CODE_CALL ? counts[run->code] : (OpCount){0, 0, 1};
 
         total.add += one.add * run->count;
@@ -159,7 +159,7 @@ static const char *function_of(Opcode code)
 void program_print(Text *text, const Program *program)
 {
     for (int r = 0; r < program->runs.count; r++) {
-        const Run *run = &program->runs.at[r];
+        const OpcodeRun *run = &program->runs.at[r];
         int results = run->code == CODE_SINCOS ? 2 : 1;
 
         for (int i = 0; i < run->count; i++) {

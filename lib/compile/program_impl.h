@@ -29,14 +29,14 @@ typedef enum Opcode {
 
 /* --- lower.c: values, each once, operands before users --- */
 
-typedef struct Value {
+typedef struct LoweredValue {
     uint8_t code;
     uint8_t stage;
     uint32_t args[MOST_OPERANDS]; /* numbers of values; unused ones 0 */
-} Value;
+} LoweredValue;
 
 typedef struct Lowered {
-    LIST(Value) values;         /* inputs first */
+    LIST(LoweredValue) values;  /* inputs first */
     LIST(const Curve *) tables; /* borrowed; what data is as a value is its place here */
     int input_count;
     uint32_t *roots; /* values */
@@ -44,20 +44,20 @@ typedef struct Lowered {
 } Lowered;
 
 int code_operands(Opcode code);
-double value_constant(const Value *constant);
-MUST_USE Status lower(const Expr *roots, int root_count, const Expr *inputs, int input_count,
-                      Lowered *out, Diag *diag);
+double value_constant(const LoweredValue *constant);
+MUST_USE Status lowered_make(const Expr *roots, int root_count, const Expr *inputs, int input_count,
+                             Lowered *out, Diag *diag);
 void lowered_free(Lowered *lowered);
 
 /* --- schedule.c --- */
 
 /* instructions of one opcode */
-typedef struct Run {
+typedef struct OpcodeRun {
     Opcode code;
     int count;
     int operands; /* where they begin in the tape, those of one instruction together */
     int result;   /* slot of the first */
-} Run;
+} OpcodeRun;
 
 typedef struct Handover {
     int root;
@@ -71,7 +71,7 @@ struct Program {
     const char **input_names;
     LIST(double) constants;
     LIST(Curve *) tables;
-    LIST(Run) runs;
+    LIST(OpcodeRun) runs;
     LIST(uint32_t) tape;
     Handover *roots;                /* by stage */
     int first_run[STAGE_COUNT + 1]; /* of each stage */
@@ -80,7 +80,7 @@ struct Program {
 };
 
 /* Fill everything but names and counts of inputs and roots. Changes `lowered`. */
-void schedule(Program *program, Lowered *lowered);
+void program_schedule(Program *program, Lowered *lowered);
 
 /* --- rounding.c --- */
 

@@ -131,7 +131,7 @@ static double sine(int code, const double *args)
     return code == CODE_SINCOS ? sin(args[0]) : cos(args[0]);
 }
 
-static void bound_sines(const Run *run, const uint32_t *operand, const double *slots,
+static void bound_sines(const OpcodeRun *run, const uint32_t *operand, const double *slots,
                         double *errors)
 {
     for (int i = 0; i < 2 * run->count; i++) {
@@ -142,7 +142,7 @@ static void bound_sines(const Run *run, const uint32_t *operand, const double *s
     }
 }
 
-static void bound_tables(const Run *run, const uint32_t *operand, Curve *const *tables,
+static void bound_tables(const OpcodeRun *run, const uint32_t *operand, Curve *const *tables,
                          const double *slots, double *errors)
 {
     for (int i = 0; i < run->count; i++, operand += 3) {
@@ -156,7 +156,8 @@ static void bound_tables(const Run *run, const uint32_t *operand, Curve *const *
     }
 }
 
-static void bound_run(const Program *program, const Run *run, const double *slots, double *errors)
+static void bound_run(const Program *program, const OpcodeRun *run, const double *slots,
+                      double *errors)
 {
     const uint32_t *operand = program->tape.at + run->operands;
     const int operands = code_operands(run->code);

@@ -19,7 +19,7 @@ typedef struct Queue {
 
 typedef struct Plan {
     Program *program;
-    Value *values;
+    LoweredValue *values;
     uint32_t count;
     uint32_t *slot;       /* of each value */
     uint32_t *pending;    /* operands of the same stage that aren't there yet */
@@ -29,25 +29,25 @@ typedef struct Plan {
     Queue queues[CODES];
 } Plan;
 
-static bool is_instruction(const Value *value)
+static bool is_instruction(const LoweredValue *value)
 {
     return value->code < CODES;
 }
 
 /* the value whose instruction computes this one */
-static uint32_t maker_of(const Value *values, uint32_t value)
+static uint32_t maker_of(const LoweredValue *values, uint32_t value)
 {
     return values[value].code == CODE_COSINE ? values[value].args[0] : value;
 }
 
 /* --- fusing --- */
 
-static void fuse_one(Value *values, const uint32_t *uses, Value *sum)
+static void fuse_one(LoweredValue *values, const uint32_t *uses, LoweredValue *sum)
 {
     bool add = sum->code == CODE_ADD;
 
     for (int i = 1; i >= 0; i--) {
-        Value *product = &values[sum->args[i]];
+        LoweredValue *product = &values[sum->args[i]];
 
         if (product->code != CODE_MUL || uses[sum->args[i]] != 1 || product->stage != sum->stage)
             continue;
@@ -62,7 +62,7 @@ static void fuse_one(Value *values, const uint32_t *uses, Value *sum)
 
 static void fuse(const Lowered *lowered)
 {
-    Value *values = lowered->values.at;
+    LoweredValue *values = lowered->values.at;
     int count = lowered->values.count;
     uint32_t *uses = NEW_ARRAY(uint32_t, count);
 
@@ -85,7 +85,7 @@ static void fuse(const Lowered *lowered)
 static void for_dependences(Plan *plan, void (*note)(Plan *, uint32_t maker, uint32_t user))
 {
     for (uint32_t v = 0; v < plan->count; v++) {
-        const Value *value = &plan->values[v];
+        const LoweredValue *value = &plan->values[v];
 
         for (int i = 0; is_instruction(value) && i < code_operands(value->code); i++) {
             uint32_t maker = maker_of(plan->values, value->args[i]);
@@ -152,7 +152,7 @@ static uint32_t slot_of(const Plan *plan, uint32_t value)
 static void emit(Plan *plan, uint32_t value)
 {
     Program *program = plan->program;
-    const Value *v = &plan->values[value];
+    const LoweredValue *v = &plan->values[value];
 
     for (int i = 0; i < code_operands(v->code); i++)
         LIST_PUSH(program->tape, slot_of(plan, v->args[i]));
@@ -167,7 +167,7 @@ static void emit(Plan *plan, uint32_t value)
 static void emit_run(Plan *plan, Opcode code)
 {
     Program *program = plan->program;
-    Run run = {.code = code, .operands = program->tape.count, .result = program->slot_count};
+    OpcodeRun run = {.code = code, .operands = program->tape.count, .result = program->slot_count};
 
     for (; plan->queues[code].count > 0; run.count++)
         emit(plan, dequeue(plan, code));
@@ -203,7 +203,7 @@ static void place_leaves(Plan *plan, const Lowered *lowered)
     bool *needed = NEW_ARRAY(bool, plan->count);
 
     for (uint32_t v = 0; v < plan->count; v++) {
-        const Value *value = &plan->values[v];
+        const LoweredValue *value = &plan->values[v];
 
         for (int i = 0; is_instruction(value) && i < code_operands(value->code); i++)
             needed[value->args[i]] = true;
@@ -241,7 +241,7 @@ static void place_roots(Plan *plan, const Lowered *lowered)
     program->first_root[STAGE_COUNT] = count;
 }
 
-void schedule(Program *program, Lowered *lowered)
+void program_schedule(Program *program, Lowered *lowered)
 {
     Plan plan = {
         .program = program,

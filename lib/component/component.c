@@ -224,7 +224,7 @@ static Expr symbol_rate(Arena *arena, Expr symbol)
     return variable(arena, expr_name(symbol), "", 1);
 }
 
-Expr user_rate(Arena *arena, Expr e)
+Expr system_user_rate(Arena *arena, Expr e)
 {
     Expr *symbols;
     int count = expr_symbols(&e, 1, &symbols);

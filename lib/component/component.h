@@ -329,7 +329,7 @@ const char *domain_through(Domain domain);
 const char *domain_across_unit(Domain domain);
 /* derivative in time of an expression over t, parameters and the user's variables: over those and
  * their primed names */
-Expr user_rate(Arena *arena, Expr e);
+Expr system_user_rate(Arena *arena, Expr e);
 
 /* step helpers for rows */
 void steps_none(Arena *arena, Steps *out); /* no shift, no turn, R_0 = 1 */

@@ -98,7 +98,7 @@ static Expr error_rate(const Instance *instance, Arena *arena)
     Expr span = instance_scalar(instance, "filter");
 
     if (rate_state(instance) == NULL)
-        return user_rate(arena, e);
+        return system_user_rate(arena, e);
     if (block_is_sampled(instance))
         span = expr_add(arena, span, instance_scalar(instance, "period"));
     return expr_div(arena, expr_sub(arena, e, block_state(instance, arena, rate_state(instance))),

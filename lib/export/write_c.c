@@ -104,8 +104,8 @@ static Rename rename_all(const View *view)
         add_symbol(&rename, system_x(system, i)->symbol, "x", i);
     for (int i = 0; i < system_nz(system); i++)
         add_symbol(&rename, system_z(system, i)->symbol, "z", i);
-    for (int i = 0; i < system_turned_count(system); i++)
-        add_symbol(&rename, system_turned(system, i)->near, "near", i);
+    for (int i = 0; i < system_multi_turn_count(system); i++)
+        add_symbol(&rename, system_multi_turn(system, i)->near, "near", i);
     if (system_run(system)->network_nonlinear)
         for (int i = 0; i < system_nx(system); i++)
             add_symbol(&rename, system_state_rate(system, i), "xd", i);
@@ -266,8 +266,8 @@ static void add_head(Text *out, const View *view, bool near)
     add_list(out, "u", "  (speeds)", system_u, system, system_nu(system));
     add_list(out, "x", "  (network states)", system_x, system, system_nx(system));
     add_list(out, "z", "  (algebraic unknowns)", system_z, system, system_nz(system));
-    for (int i = 0; near && i < system_turned_count(system); i++) {
-        const Turned *turned = system_turned(system, i);
+    for (int i = 0; near && i < system_multi_turn_count(system); i++) {
+        const MultiTurn *turned = system_multi_turn(system, i);
 
         text_addf(out,
                   " *   near[%d] %s  (picks the turn: any value less than half a turn from %s)\n",

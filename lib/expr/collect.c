@@ -50,7 +50,7 @@ static int64_t saving_of(const Shared *shared)
 static void list_factors(Collect *collect, int count)
 {
     for (int i = 0; i < count; i++) {
-        Factors factors = term_factors(&collect->terms[i]);
+        ProductFactors factors = term_factors(&collect->terms[i]);
 
         for (int j = 0; j < factors.count && !is_number(collect->terms[i]); j++) {
             int64_t k;
@@ -74,7 +74,7 @@ static void list_factors(Collect *collect, int count)
 /* The whole power of `base` in a term, 0 where it isn't a factor. */
 static int64_t power_in(Expr term, Expr base)
 {
-    Factors factors = term_factors(&term);
+    ProductFactors factors = term_factors(&term);
     int64_t k;
 
     for (int i = 0; i < factors.count; i++) {
@@ -88,7 +88,7 @@ static int64_t power_in(Expr term, Expr base)
  * coefficient where it is the same but for signs. */
 static Expr common_factor(Arena *arena, const Expr *terms, int count)
 {
-    Factors factors = term_factors(&terms[0]);
+    ProductFactors factors = term_factors(&terms[0]);
     Number number = term_coefficient(terms[0]);
     Expr common;
 
@@ -152,7 +152,7 @@ static void take_group(Collect *collect, int factor, int level, Expr *out)
     }
     for (int i = 0; i < shared->terms.count; i++) {
         int term = shared->terms.at[i];
-        Factors factors = term_factors(&collect->terms[term]);
+        ProductFactors factors = term_factors(&collect->terms[term]);
 
         if (collect->gone[term])
             continue;

@@ -216,11 +216,11 @@ Expr expr_expand(Arena *arena, Expr e, int limit);
  * are factors as they stand, and *kept tells whether there are any. */
 Expr expr_expand_over(Arena *arena, Expr e, unsigned kinds, int limit, bool *kept);
 
-/* For the reading to run: sines and cosines of sums of angles from those of the parts, where each
+/* For the recursive form: sines and cosines of sums of angles from those of the parts, where each
  * group of roots that needs them computes these anyway: no group takes more functions. Groups (at
  * most 32) stand one after the other, counts[g] roots each. In place; O(nodes) a root. */
 void expr_part_angles(Arena *arena, Expr *roots, const int *counts, int groups);
-/* For the reading to run: what several sums, or products, have in common becomes one node (held)
+/* For the recursive form: what several sums, or products, have in common becomes one node (held)
  * of all of them. In place; counted by expr_count_shared() the roots together never cost more.
  * O(n log n) for n operands. */
 void expr_share(Arena *arena, Expr *roots, int count);

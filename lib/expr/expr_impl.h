@@ -109,12 +109,12 @@ bool decimal_exact(const char *text, int64_t *num, int64_t *den);
 /* --- order.c --- */
 
 /* A view of a term without its numeric coefficient: its factors. */
-typedef struct Factors {
+typedef struct ProductFactors {
     const Expr *at;
     int count;
-} Factors;
+} ProductFactors;
 
-Factors term_factors(const Expr *term);
+ProductFactors term_factors(const Expr *term);
 Number term_coefficient(Expr term);
 int order_terms(Expr a, Expr b); /* without their coefficients; 0: like terms */
 int order_bases(Expr a, Expr b);

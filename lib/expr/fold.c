@@ -53,7 +53,7 @@ static bool is_trig(Expr e)
 
 static uint64_t term_print(Expr term)
 {
-    Factors factors = term_factors(&term);
+    ProductFactors factors = term_factors(&term);
     uint64_t print = 0;
 
     for (int i = 0; i < factors.count; i++) {
@@ -275,7 +275,7 @@ static Expr trig_factor(Expr factor, int64_t *k)
 static bool fold_term(Fold *fold, int self)
 {
     Expr e = fold->terms.at[self].e;
-    Factors factors = term_factors(&e);
+    ProductFactors factors = term_factors(&e);
 
     for (int i = 0; i < factors.count; i++) {
         int64_t k;

@@ -37,7 +37,7 @@ static bool is_below(Expr factor)
 
 static OpCount product_own(Expr e)
 {
-    Factors factors = term_factors(&e);
+    ProductFactors factors = term_factors(&e);
     Number number = term_coefficient(e);
     bool counts = !number_is(number, 1) && !number_is(number, -1);
     bool above = counts;
@@ -113,7 +113,7 @@ typedef struct Met {
 
 static uint32_t factors_hash(Expr e)
 {
-    Factors factors = term_factors(&e);
+    ProductFactors factors = term_factors(&e);
     uint32_t hash = 0;
 
     for (int i = 0; i < factors.count; i++)

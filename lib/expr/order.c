@@ -11,16 +11,16 @@
 
 enum { DEPTH = 24 };
 
-Factors term_factors(const Expr *term)
+ProductFactors term_factors(const Expr *term)
 {
     Expr e = *term;
     const Expr *args = node_args(e);
 
     if (e->kind != EXPR_PRODUCT)
-        return (Factors){term, 1};
+        return (ProductFactors){term, 1};
     if (is_number(args[0]))
-        return (Factors){args + 1, e->count - 1};
-    return (Factors){args, e->count};
+        return (ProductFactors){args + 1, e->count - 1};
+    return (ProductFactors){args, e->count};
 }
 
 Number term_coefficient(Expr term)
@@ -75,8 +75,8 @@ static int factors_below(Expr a, Expr b, int depth)
 
 static int terms_below(Expr a, Expr b, int depth)
 {
-    Factors left = term_factors(&a);
-    Factors right = term_factors(&b);
+    ProductFactors left = term_factors(&a);
+    ProductFactors right = term_factors(&b);
 
     for (int i = 0; i < left.count && i < right.count; i++) {
         int first = factors_below(left.at[i], right.at[i], depth);

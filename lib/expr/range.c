@@ -11,7 +11,7 @@
 
 #define POINTS 8 /* where functions without a rule are looked at in an interval */
 
-typedef struct Node {
+typedef struct RangeNode {
     ExprKind kind;
     Op op;
     int first, count;   /* of its operands in `operands` */
@@ -19,10 +19,10 @@ typedef struct Node {
     bool is_fixed;      /* no symbol in it: `value` */
     const Curve *curve; /* of a table */
     int order;          /* of its derivative */
-} Node;
+} RangeNode;
 
 struct Ranges {
-    Node *nodes;
+    RangeNode *nodes;
     int node_count;
     int *operands;
     Range *at; /* of the nodes */
@@ -144,7 +144,7 @@ static bool can_be_true(Range a)
 }
 
 /* by some points, and half of what these differ by beyond them */
-static Range by_points(const Node *node, const Range *args, const int *operands)
+static Range by_points(const RangeNode *node, const Range *args, const int *operands)
 {
     Range out = {INFINITY, -INFINITY};
     double spread;
@@ -168,7 +168,7 @@ static Range by_points(const Node *node, const Range *args, const int *operands)
     return (Range){out.low - spread, out.high + spread};
 }
 
-static Range call(const Node *node, const Range *all, const int *operands)
+static Range call(const RangeNode *node, const Range *all, const int *operands)
 {
     Range a = all[operands[0]];
     Range b = node->count > 1 ? all[operands[1]] : a;
@@ -227,7 +227,7 @@ static Range call(const Node *node, const Range *all, const int *operands)
     }
 }
 
-static Range range_of(const Ranges *r, const Node *node)
+static Range range_of(const Ranges *r, const RangeNode *node)
 {
     const int *operands = r->operands + node->first;
     Range out;
@@ -269,7 +269,7 @@ Ranges *ranges_new(const Expr *roots, int count, Expr symbol, SymbolValue value,
         walk_below(&walk, roots[i], 0, NULL, NULL);
     for (int i = 0; i < walk.count; i++)
         operands += walk.nodes[i]->count;
-    r->nodes = NEW_ARRAY(Node, walk.count);
+    r->nodes = NEW_ARRAY(RangeNode, walk.count);
     r->node_count = walk.count;
     r->operands = NEW_ARRAY(int, operands);
     r->at = NEW_ARRAY(Range, walk.count);
@@ -280,9 +280,9 @@ Ranges *ranges_new(const Expr *roots, int count, Expr symbol, SymbolValue value,
     operands = 0;
     for (int i = 0; i < walk.count; i++) {
         Expr e = walk.nodes[i];
-        Node *node = &r->nodes[i];
+        RangeNode *node = &r->nodes[i];
 
-        *node = (Node){.kind = expr_kind(e), .first = operands, .count = e->count};
+        *node = (RangeNode){.kind = expr_kind(e), .first = operands, .count = e->count};
         for (int k = 0; k < e->count; k++)
             r->operands[operands++] = walk_find(&walk, expr_arg(e, k));
         if (node->kind == EXPR_CALL) {

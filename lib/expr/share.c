@@ -17,20 +17,20 @@ enum {
 };
 
 /* A thing, its negative, or its power. */
-typedef struct Operand {
+typedef struct SharedOperand {
     int thing;
     int power;
     bool negative;
-} Operand;
+} SharedOperand;
 
-typedef struct Piece {
-    Operand at[PIECE];
+typedef struct SharedPiece {
+    SharedOperand at[PIECE];
     int count;
     ExprKind kind; /* sum or product */
-} Piece;
+} SharedPiece;
 
 /* A node without its sign and holds, or a pair. */
-typedef struct Thing {
+typedef struct SharedThing {
     Expr e;        /* NULL: a pair */
     Expr image;    /* NULL until made */
     Expr from;     /* +-e, whose arguments were walked */
@@ -40,9 +40,9 @@ typedef struct Thing {
     int piece_count; /* 0: it isn't looked into */
     int depth;       /* of pairs */
     int pair;
-} Thing;
+} SharedThing;
 
-typedef struct Pair {
+typedef struct SharedPair {
     int a; /* things, a <= b */
     int b;
     ExprKind kind;
@@ -50,16 +50,16 @@ typedef struct Pair {
     unsigned kinds;   /* of symbols below */
     int uses;         /* operations that it stands for */
     LIST(int) pieces; /* that have or had it */
-} Pair;
+} SharedPair;
 
 typedef struct Share {
     Arena *arena;
     Walk nodes;
-    LIST(Operand) operands; /* what each of the nodes is */
-    Walk bases;             /* of things: their places */
-    LIST(Thing) things;
-    LIST(Piece) pieces;
-    LIST(Pair) pairs;
+    LIST(SharedOperand) operands; /* what each of the nodes is */
+    Walk bases;                   /* of things: their places */
+    LIST(SharedThing) things;
+    LIST(SharedPiece) pieces;
+    LIST(SharedPair) pairs;
     Heap heap;
     int *table; /* hash table of pairs: index + 1, 0 where empty */
     uint32_t table_size;
@@ -68,25 +68,25 @@ typedef struct Share {
 /* --- nodes and operands --- */
 
 /* what a node is */
-static Operand operand_of(const Share *share, Expr e)
+static SharedOperand operand_of(const Share *share, Expr e)
 {
     return share->operands.at[walk_find(&share->nodes, e)];
 }
 
-static Operand negative_of(Operand operand)
+static SharedOperand negative_of(SharedOperand operand)
 {
     operand.negative = !operand.negative;
     return operand;
 }
 
 /* The thing that the next node of the walk is, found or new. */
-static Operand find_thing(Share *share, Expr e)
+static SharedOperand find_thing(Share *share, Expr e)
 {
     bool negative =
         (e->kind == EXPR_SUM || e->kind == EXPR_PRODUCT || is_number(e)) && is_negative(e);
     Expr base = negative ? expr_neg(share->arena, e) : e;
     int place = negative ? walk_find(&share->nodes, base) : -1;
-    Operand operand = {.power = 1, .negative = negative};
+    SharedOperand operand = {.power = 1, .negative = negative};
 
     if (is_call(e, OP_HOLD))
         return operand_of(share, held(e));
@@ -94,12 +94,12 @@ static Operand find_thing(Share *share, Expr e)
         return negative_of(share->operands.at[place]);
     operand.thing = walk_add(&share->bases, base);
     if (operand.thing == share->things.count)
-        LIST_PUSH(share->things, (Thing){.e = base, .from = e, .negative = negative});
+        LIST_PUSH(share->things, (SharedThing){.e = base, .from = e, .negative = negative});
     return operand;
 }
 
 /* Whether a power is a product that is looked into; `operand` is then its base. */
-static bool is_repeated(const Share *share, Expr e, Operand *operand)
+static bool is_repeated(const Share *share, Expr e, SharedOperand *operand)
 {
     int64_t k;
 
@@ -113,7 +113,7 @@ static bool is_repeated(const Share *share, Expr e, Operand *operand)
     return true;
 }
 
-static int find_operand(const Piece *piece, int thing)
+static int find_operand(const SharedPiece *piece, int thing)
 {
     int i = 0;
 
@@ -123,9 +123,9 @@ static int find_operand(const Piece *piece, int thing)
 }
 
 /* Add an operand to the last piece of a thing, or to a new one. A piece has a thing once. */
-static void push_operand(Share *share, Thing *thing, ExprKind kind, Operand operand)
+static void push_operand(Share *share, SharedThing *thing, ExprKind kind, SharedOperand operand)
 {
-    Piece *last = thing->piece_count > 0 ? &share->pieces.at[share->pieces.count - 1] : NULL;
+    SharedPiece *last = thing->piece_count > 0 ? &share->pieces.at[share->pieces.count - 1] : NULL;
     int like = last != NULL ? find_operand(last, operand.thing) : 0;
 
     if (last != NULL && like < last->count && kind == EXPR_PRODUCT) {
@@ -135,16 +135,16 @@ static void push_operand(Share *share, Thing *thing, ExprKind kind, Operand oper
     if (last == NULL || like < last->count || last->count == PIECE) {
         if (thing->piece_count++ == 0)
             thing->first_piece = share->pieces.count;
-        LIST_PUSH(share->pieces, (Piece){.kind = kind});
+        LIST_PUSH(share->pieces, (SharedPiece){.kind = kind});
         last = &share->pieces.at[share->pieces.count - 1];
     }
     last->at[last->count++] = operand;
 }
 
-static void list_operands(Share *share, Thing *thing)
+static void list_operands(Share *share, SharedThing *thing)
 {
     Expr e = thing->from;
-    Operand operand;
+    SharedOperand operand;
 
     if (e->kind != EXPR_SUM && e->kind != EXPR_PRODUCT) {
         if (is_repeated(share, e, &operand))
@@ -166,10 +166,10 @@ static void list_operands(Share *share, Thing *thing)
 }
 
 /* Mark what a thing is made of. */
-static void use_parts(Share *share, const Thing *thing)
+static void use_parts(Share *share, const SharedThing *thing)
 {
     for (int p = 0; p < thing->piece_count; p++) {
-        const Piece *piece = &share->pieces.at[thing->first_piece + p];
+        const SharedPiece *piece = &share->pieces.at[thing->first_piece + p];
 
         for (int i = 0; i < piece->count; i++)
             share->things.at[piece->at[i].thing].used = true;
@@ -188,7 +188,7 @@ static void list_things(Share *share, const Expr *roots, int count)
         share->things.at[operand_of(share, roots[i]).thing].used = true;
     /* parts are older than what they are part of */
     for (int i = share->things.count - 1; i >= 0; i--) {
-        Thing *thing = &share->things.at[i];
+        SharedThing *thing = &share->things.at[i];
 
         if (!thing->used)
             continue;
@@ -199,13 +199,13 @@ static void list_things(Share *share, const Expr *roots, int count)
 
 /* --- pairs --- */
 
-static uint32_t pair_slot(const Share *share, const Pair *wanted)
+static uint32_t pair_slot(const Share *share, const SharedPair *wanted)
 {
     uint32_t hash = (uint32_t)wanted->a * 0x9E3779B1U ^ (uint32_t)wanted->b * 0x85EBCA6BU;
     uint32_t i = (hash ^ hash >> 15) + 2 * (uint32_t)wanted->opposite + wanted->kind;
 
     for (i &= share->table_size - 1; share->table[i] != 0; i = (i + 1) & (share->table_size - 1)) {
-        const Pair *pair = &share->pairs.at[share->table[i] - 1];
+        const SharedPair *pair = &share->pairs.at[share->table[i] - 1];
 
         if (pair->a == wanted->a && pair->b == wanted->b && pair->kind == wanted->kind &&
             pair->opposite == wanted->opposite)
@@ -216,15 +216,15 @@ static uint32_t pair_slot(const Share *share, const Pair *wanted)
 
 static unsigned kinds_of(const Share *share, int thing)
 {
-    const Thing *t = &share->things.at[thing];
+    const SharedThing *t = &share->things.at[thing];
 
     return t->e != NULL ? t->e->kinds : share->pairs.at[t->pair].kinds;
 }
 
 /* the pair of two operands, found or new */
-static int pair_of(Share *share, ExprKind kind, const Operand *x, const Operand *y)
+static int pair_of(Share *share, ExprKind kind, const SharedOperand *x, const SharedOperand *y)
 {
-    Pair pair = {x->thing, y->thing, .kind = kind, .opposite = x->negative != y->negative};
+    SharedPair pair = {x->thing, y->thing, .kind = kind, .opposite = x->negative != y->negative};
     uint32_t slot;
 
     if (pair.a > pair.b) {
@@ -247,7 +247,7 @@ static int pair_of(Share *share, ExprKind kind, const Operand *x, const Operand 
     return share->table[slot] - 1;
 }
 
-static bool is_below(const Share *share, const Operand *operand)
+static bool is_below(const Share *share, const SharedOperand *operand)
 {
     Expr e = share->things.at[operand->thing].e;
 
@@ -256,10 +256,10 @@ static bool is_below(const Share *share, const Operand *operand)
 }
 
 /* How many operations the pair of operands i and j of a piece takes there. */
-static int uses_in(const Share *share, const Piece *piece, int i, int j)
+static int uses_in(const Share *share, const SharedPiece *piece, int i, int j)
 {
-    const Operand *x = &piece->at[i];
-    const Operand *y = &piece->at[j];
+    const SharedOperand *x = &piece->at[i];
+    const SharedOperand *y = &piece->at[j];
 
     if (share->things.at[x->thing].depth + share->things.at[y->thing].depth > DEEPEST)
         return 0;
@@ -274,7 +274,7 @@ static int uses_in(const Share *share, const Piece *piece, int i, int j)
 /* most uses first, of equals what depends on less */
 static void rank_pair(Share *share, int pair)
 {
-    const Pair *p = &share->pairs.at[pair];
+    const SharedPair *p = &share->pairs.at[pair];
 
     if (p->uses > 1)
         heap_push(&share->heap, (Rank){p->uses, p->kinds, pair});
@@ -284,7 +284,7 @@ static void rank_pair(Share *share, int pair)
  * them (sign -1). */
 static void count_pairs(Share *share, int number, int changed, int sign)
 {
-    const Piece piece = share->pieces.at[number];
+    const SharedPiece piece = share->pieces.at[number];
 
     for (int i = 0; i < changed; i++) {
         for (int j = i; j < piece.count; j++) {
@@ -303,9 +303,9 @@ static void count_pairs(Share *share, int number, int changed, int sign)
     }
 }
 
-static void swap_operands(Piece *piece, int i, int j)
+static void swap_operands(SharedPiece *piece, int i, int j)
 {
-    Operand swap = piece->at[i];
+    SharedOperand swap = piece->at[i];
 
     piece->at[i] = piece->at[j];
     piece->at[j] = swap;
@@ -313,14 +313,14 @@ static void swap_operands(Piece *piece, int i, int j)
 
 /* The operands of a piece with a pair, as the thing `whole`, in place of the first two, or of the
  * first twice; how many of them changed. */
-static int rewrite(Piece *piece, bool twice, Operand whole)
+static int rewrite(SharedPiece *piece, bool twice, SharedOperand whole)
 {
-    Piece next = {.kind = piece->kind};
+    SharedPiece next = {.kind = piece->kind};
     int changed = 1;
 
     next.at[next.count++] = whole;
     for (int k = 0; k < piece->count; k++) {
-        Operand left = piece->at[k];
+        SharedOperand left = piece->at[k];
 
         if (k == 0 || (k == 1 && !twice)) {
             left.power -= twice ? 2 * whole.power : whole.power;
@@ -334,13 +334,13 @@ static int rewrite(Piece *piece, bool twice, Operand whole)
 }
 
 /* Put a pair, as the thing `whole`, in place of its operands where the piece still has them. */
-static void replace_in(Share *share, int number, Pair pair, int whole)
+static void replace_in(Share *share, int number, SharedPair pair, int whole)
 {
-    Piece *piece = &share->pieces.at[number];
+    SharedPiece *piece = &share->pieces.at[number];
     bool twice = pair.a == pair.b;
     int i = find_operand(piece, pair.a);
     int j = find_operand(piece, pair.b);
-    Operand operand = {.thing = whole};
+    SharedOperand operand = {.thing = whole};
 
     if (i == piece->count || j == piece->count)
         return;
@@ -361,8 +361,8 @@ static void take_pairs(Share *share)
         count_pairs(share, i, share->pieces.at[i].count, 1);
     while (share->heap.count > 0) {
         Rank rank = heap_pop(&share->heap);
-        Pair pair = share->pairs.at[rank.which];
-        Thing whole = {.pair = rank.which};
+        SharedPair pair = share->pairs.at[rank.which];
+        SharedThing whole = {.pair = rank.which};
 
         if (pair.uses < rank.saving) {
             rank_pair(share, rank.which);
@@ -381,7 +381,7 @@ static Expr image_of(Share *share, int thing);
 
 /* An operand as it stands among others. What was a list of its own is held: it doesn't run into
  * theirs, and a sum isn't computed with either sign. */
-static Expr operand_image(Share *share, Operand operand)
+static Expr operand_image(Share *share, SharedOperand operand)
 {
     Expr e = image_of(share, operand.thing);
 
@@ -392,7 +392,7 @@ static Expr operand_image(Share *share, Operand operand)
     return operand.negative ? expr_neg(share->arena, e) : e;
 }
 
-static Expr list_image(Share *share, const Operand *operands, int count, ExprKind kind)
+static Expr list_image(Share *share, const SharedOperand *operands, int count, ExprKind kind)
 {
     LIST(Expr) images = {0};
     Expr image;
@@ -410,9 +410,10 @@ static Expr list_image(Share *share, const Operand *operands, int count, ExprKin
 static Expr image_of(Share *share, int thing)
 {
     if (share->things.at[thing].image == NULL) {
-        const Pair *pair = &share->pairs.at[share->things.at[thing].pair];
+        const SharedPair *pair = &share->pairs.at[share->things.at[thing].pair];
         const bool twice = pair->a == pair->b;
-        const Operand operands[2] = {{pair->a, twice ? 2 : 1, false}, {pair->b, 1, pair->opposite}};
+        const SharedOperand operands[2] = {{pair->a, twice ? 2 : 1, false},
+                                           {pair->b, 1, pair->opposite}};
         Expr image = list_image(share, operands, twice ? 1 : 2, pair->kind);
 
         share->things.at[thing].image = expr_hold(share->arena, image);
@@ -421,15 +422,15 @@ static Expr image_of(Share *share, int thing)
 }
 
 /* Make the image of a thing whose parts have theirs. */
-static void make_image(Share *share, Thing *thing)
+static void make_image(Share *share, SharedThing *thing)
 {
-    LIST(Operand) operands = {0};
+    LIST(SharedOperand) operands = {0};
     LIST(Expr) args = {0};
     bool changed = false;
 
     thing->image = thing->e;
     for (int p = 0; p < thing->piece_count; p++) {
-        const Piece *piece = &share->pieces.at[thing->first_piece + p];
+        const SharedPiece *piece = &share->pieces.at[thing->first_piece + p];
 
         for (int i = 0; i < piece->count; i++) {
             int part = piece->at[i].thing;
@@ -439,7 +440,7 @@ static void make_image(Share *share, Thing *thing)
         }
     }
     for (int i = 0; i < thing->from->count && thing->piece_count == 0; i++) {
-        Operand part = operand_of(share, node_args(thing->from)[i]);
+        SharedOperand part = operand_of(share, node_args(thing->from)[i]);
 
         LIST_PUSH(args, operand_image(share, part));
         changed = changed || image_of(share, part.thing) != share->things.at[part.thing].e;

@@ -37,7 +37,7 @@ Expr sum_negate(Arena *arena, Expr sum)
 Expr term_scale(Arena *arena, Expr term, Number coefficient)
 {
     Expr at_hand[AT_HAND];
-    Factors factors = term_factors(&term);
+    ProductFactors factors = term_factors(&term);
     Expr *args = at_hand;
     Expr scaled;
 

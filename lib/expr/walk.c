@@ -4,10 +4,10 @@
  * deep. The table of places is as large as what was met, however large the arena. */
 #include "expr/expr_impl.h"
 
-typedef struct Level {
+typedef struct WalkLevel {
     Expr e;
     int next; /* argument to look at */
-} Level;
+} WalkLevel;
 
 static uint32_t slot_of(const Walk *walk, uint32_t key)
 {
@@ -62,13 +62,13 @@ int walk_add(Walk *walk, Expr e)
 
 void walk_below(Walk *walk, Expr root, unsigned mask, WalkInto into, void *context)
 {
-    LIST(Level) stack = {0};
+    LIST(WalkLevel) stack = {0};
 
     if ((mask != 0 && (root->kinds & mask) == 0) || walk_find(walk, root) >= 0)
         return;
-    LIST_PUSH(stack, (Level){root, into == NULL || into(context, root) ? 0 : root->count});
+    LIST_PUSH(stack, (WalkLevel){root, into == NULL || into(context, root) ? 0 : root->count});
     while (stack.count > 0) {
-        Level *level = &stack.at[stack.count - 1];
+        WalkLevel *level = &stack.at[stack.count - 1];
         Expr child;
 
         if (level->next == level->e->count) {
@@ -79,7 +79,8 @@ void walk_below(Walk *walk, Expr root, unsigned mask, WalkInto into, void *conte
         child = node_args(level->e)[level->next++];
         if ((mask != 0 && (child->kinds & mask) == 0) || walk_find(walk, child) >= 0)
             continue;
-        LIST_PUSH(stack, (Level){child, into == NULL || into(context, child) ? 0 : child->count});
+        LIST_PUSH(stack,
+                  (WalkLevel){child, into == NULL || into(context, child) ? 0 : child->count});
     }
     LIST_FREE(stack);
 }

@@ -184,7 +184,7 @@ static Expr tie_shown(System *system, const Row *row)
             arena, s,
             expr_mul(arena, row->lead,
                      expr_add(arena, turn.angle,
-                              turned_whole(system, joint->number, steps.turn[0].coordinate))));
+                              multi_turn_whole(system, joint->number, steps.turn[0].coordinate))));
     s = expr_div(arena, s, row->lead);
     compare_angle(system, joint->coord[steps.turn[0].coordinate], &turn, s);
     return expr_mul(arena, row->lead, angle_missed(system, &turn, s));
@@ -201,17 +201,18 @@ static Status driver_shown(System *system, Row *row, Diag *diag)
     Steps steps;
     Status status = OK;
 
-    CHECK(resolve(system, driver->row->prescribed(driver, arena), &row->prescribed, diag));
+    CHECK(
+        variables_resolve(system, driver->row->prescribed(driver, arena), &row->prescribed, diag));
     instance_steps(system, owner, &steps);
     for (int k = 0; chord && k < steps.turn_count && steps.turn_count < 3; k++) {
         ChordTurn turn;
 
         if (steps.turn[k].coordinate != row->coordinate)
             continue;
-        if (turned_angle(system, row->owner, row->coordinate) == NULL)
+        if (multi_turn_angle(system, row->owner, row->coordinate) == NULL)
             continue; /* the coordinate is a sum, or told by a shift */
         chord_turn(system, owner, &steps, k, &turn);
-        turned_drive(system, row->owner, row->coordinate, row->prescribed);
+        multi_turn_drive(system, row->owner, row->coordinate, row->prescribed);
         compare_angle(system, owner->coord[row->coordinate], &turn, row->prescribed);
         row->phi = expr_neg(arena, angle_missed(system, &turn, row->prescribed));
         return OK;
@@ -325,7 +326,7 @@ static Status row_vanishes(System *system, const Row *row, Sample *const *sample
         return E_ASSEMBLE;
     }
     *vanishes = true;
-    LIST_PUSH(system->constraints->vanished, *row);
+    LIST_PUSH(system->constraints->redundant_rows, *row);
     LIST_PUSH(system->constraints->dropped,
               system_keep(system, "%s: %s %s holds in every position", joint,
                           row->told.rotation ? "turning about" : "position along",
@@ -338,8 +339,8 @@ bool system_holds(const System *system, uint64_t revision,
 {
     bool holds = system->origin->revision == revision;
 
-    for (int k = 0; holds && k < system->constraints->vanished.count; k++) {
-        Expr phi = system->constraints->vanished.at[k].phi;
+    for (int k = 0; holds && k < system->constraints->redundant_rows.count; k++) {
+        Expr phi = system->constraints->redundant_rows.at[k].phi;
 
         if (expr_kinds(phi) == 1U << SYMBOL_PARAMETER)
             holds = fabs(number(context, phi)) <= MISFIT;
@@ -516,10 +517,10 @@ static Status run_plain(System *system, const Row *row, int k, Diag *diag)
     for (int j = 0; j < count; j++) {
         zeros[j] = expr_int(arena, 0);
         speeds[j] = system->kinematics->u.at[j].symbol;
-        system->run.phi_u[k * count + j] = partial(system, row->phi, j);
+        system->run.phi_u[k * count + j] = speed_partial(system, row->phi, j);
     }
-    CHECK(rate_of(system, row->phi, &rate, diag));
-    CHECK(rate_of(system, rate, &second, diag));
+    CHECK(system_rate_of(system, row->phi, &rate, diag));
+    CHECK(system_rate_of(system, rate, &second, diag));
     system->run.phi[k] = row->phi;
     system->run.nu[k] = expr_neg(arena, expr_substitute(arena, rate, speeds, zeros, count));
     system->run.gamma[k] = expr_neg(

@@ -29,13 +29,13 @@ typedef struct Row {
     ConstraintRow told;
 } Row;
 
-typedef struct TurnedChord {
-    Turned told;
+typedef struct MultiTurnChord {
+    MultiTurn told;
     int instance;
     int coordinate;
     Expr sine; /* both times one factor, 1 where the joint holds */
     Expr cosine;
-} TurnedChord;
+} MultiTurnChord;
 
 typedef struct CountedChord { /* whose angle is a sum */
     WholeTurns told;
@@ -44,10 +44,11 @@ typedef struct CountedChord { /* whose angle is a sum */
 
 typedef struct Constraints {
     LIST(Row) rows;
-    Expr *multipliers;  /* symbols, one a row */
-    LIST(Row) vanished; /* rows that hold in every position: no lambda tells what they carry */
+    Expr *multipliers; /* symbols, one a row */
+    LIST(Row)
+    redundant_rows; /* rows that hold in every position: no lambda tells what they carry */
     LIST(const char *) dropped;
-    LIST(TurnedChord) turned;
+    LIST(MultiTurnChord) turned;
     LIST(CountedChord) counted;
     LIST(AngleOff) angles_off;
     LIST(Drive) drives;
@@ -56,17 +57,17 @@ typedef struct Constraints {
 void constraints_free(Constraints *constraints); /* NULL is fine */
 MUST_USE Status constraints_build(System *system, Diag *diag);
 
-/* --- turns of chords (turned.c, turned_build.c) --- */
+/* --- turns of chords (multi_turn.c, multi_turn_build.c) --- */
 
-/* (turned.c) which turns of chords are told by sine and cosine alone */
-void turned_build(System *system);
+/* (multi_turn.c) which turns of chords are told by sine and cosine alone */
+void multi_turn_build(System *system);
 /* the angle of such a turn; NULL: it is none of them */
-Expr turned_angle(const System *system, int instance, int coordinate);
+Expr multi_turn_angle(const System *system, int instance, int coordinate);
 /* the whole turns that the angle of a chord has beside the sum that tells it; 0: it has none */
-Expr turned_whole(const System *system, int instance, int coordinate);
-/* to rows of angles that sum up to 0, in the reading to run */
-void turned_add_rows(System *system);
+Expr multi_turn_whole(const System *system, int instance, int coordinate);
+/* to rows of angles that sum up to 0, in the recursive form */
+void multi_turn_add_rows(System *system);
 /* a driver makes it so */
-void turned_drive(System *system, int instance, int coordinate, Expr prescribed);
+void multi_turn_drive(System *system, int instance, int coordinate, Expr prescribed);
 
 #endif

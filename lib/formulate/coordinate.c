@@ -1,7 +1,7 @@
 /* coordinate.c: values of coordinates, also of chords; derivatives along the motion */
 #include "formulate/system_impl.h"
 
-Expr partial(System *system, Expr e, int speed)
+Expr speed_partial(System *system, Expr e, int speed)
 {
     Arena *arena = system->arena;
     Expr sum = expr_int(arena, 0);
@@ -154,12 +154,12 @@ static Status chord_value(System *system, const Instance *owner, int coordinate,
                             steps.shift[0].scale);
             return OK;
         }
-        *out = turned_angle(system, owner->number, coordinate);
+        *out = multi_turn_angle(system, owner->number, coordinate);
         if (*out != NULL)
             return OK;
         chord_turn(system, owner, &steps, k, &turn);
         *out = turn.angle != NULL ? expr_add(system->arena, turn.angle,
-                                             turned_whole(system, owner->number, coordinate))
+                                             multi_turn_whole(system, owner->number, coordinate))
                                   : expr_call2(system->arena, OP_ATAN2, turn.sine, turn.cosine);
         return OK;
     }
@@ -192,12 +192,12 @@ Status coordinate_value(System *system, const Instance *owner, int coordinate, i
         if (primes == 2 && speed >= 0 && system->kinematics->coordinate_rates[place].count == 1)
             *out = system->kinematics->accelerations[speed];
         else if (primes == 2)
-            return rate_of(system, *out, out, diag);
+            return system_rate_of(system, *out, out, diag);
         return OK;
     }
     CHECK(chord_value(system, owner, coordinate, out, diag));
     for (; primes > 0; primes--)
-        CHECK(rate_of(system, *out, out, diag));
+        CHECK(system_rate_of(system, *out, out, diag));
 done:
     return status;
 }

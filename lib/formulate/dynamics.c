@@ -1,4 +1,4 @@
-/* dynamics.c: M and F of the reading to run: cutsets projected on motion spaces
+/* dynamics.c: M and F of the recursive form: cutsets projected on motion spaces
  *
  * F: inertia forces at u' = 0 and everything that pushes, summed inward over both trees.
  * M: column k is the same sum for u'_k = 1 with everything else at rest; of a pair (j, k)
@@ -199,7 +199,7 @@ static void add_on_coordinate(System *system, Expr coordinate, Expr effort)
 
     effort = expr_hold(arena, effort);
     for (int j = 0; j < system->kinematics->u.count; j++) {
-        Expr share = expr_mul(arena, partial(system, coordinate, j), effort);
+        Expr share = expr_mul(arena, speed_partial(system, coordinate, j), effort);
 
         system->run.force[j] = expr_add(arena, system->run.force[j], share);
     }
@@ -229,7 +229,8 @@ static Status add_rotor(System *system, const Instance *instance, Diag *diag)
         for (int k = 0; k < n; k++) {
             Expr *entry = &system->run.mass[j * n + k];
             Expr share = expr_product(
-                arena, (Expr[]){inertia, partial(system, s, j), partial(system, s, k)}, 3);
+                arena, (Expr[]){inertia, speed_partial(system, s, j), speed_partial(system, s, k)},
+                3);
 
             *entry = expr_hold(arena, expr_add(arena, *entry, share));
         }
@@ -279,7 +280,7 @@ static Status add_inertia(System *system, const Effort *effort, Diag *diag)
         CHECK(effort_inertia(system, effort, k, &inertia, diag));
         for (int j = 0; j < n && !expr_is_zero(inertia); j++) {
             Expr *entry = &system->run.mass[j * n + k];
-            Expr share = expr_mul(arena, partial(system, effort->displacement, j), inertia);
+            Expr share = expr_mul(arena, speed_partial(system, effort->displacement, j), inertia);
 
             *entry = expr_hold(arena, expr_add(arena, *entry, share));
         }
@@ -293,8 +294,8 @@ static bool is_same_number(Expr a, Expr b)
     bool same = a == b;
 
     for (uint32_t seed = 1; !same && seed <= 2; seed++) {
-        double x = value_somewhere(a, seed);
-        double y = value_somewhere(b, seed);
+        double x = expr_value_somewhere(a, seed);
+        double y = expr_value_somewhere(b, seed);
 
         if (!(fabs(x - y) <= 1e-9 * (fabs(x) + fabs(y))))
             return false;

@@ -19,17 +19,17 @@ void system_steps(const System *system, const Instance *instance, Steps *out);
 int system_coordinate(const System *system, const Instance *instance, int coordinate);
 
 /* What a name says about where frames stand. */
-typedef enum Standing {
+typedef enum EdgeStanding {
     STANDS_NOT,        /* something else */
     STANDS_COORDINATE, /* a coordinate of an instance */
     STANDS_SHIFT,      /* the shift of a screw: its scale times its coordinate */
     STANDS_POSITION,   /* x, y or z of a frame */
     STANDS_ANGLE,      /* theta of a frame in a plane */
     STANDS_PARAMETER   /* q0 to q3 of a frame */
-} Standing;
+} EdgeStanding;
 
 typedef struct Stand {
-    Standing kind;
+    EdgeStanding kind;
     const Instance *instance; /* COORDINATE, SHIFT */
     int which;                /* coordinate; 0, 1, 2 of a position; 0 to 3 of the parameters */
     int node;                 /* POSITION, ANGLE, PARAMETER */

@@ -61,7 +61,7 @@ Status effort_of(System *system, const Instance *instance, Effort *out, Diag *di
         CHECK(network_across(system, branch, &motion.across, diag));
     }
     effort.value = instance->row->effort(instance, system->arena, &motion);
-    CHECK(resolve(system, effort.value, &effort.value, diag));
+    CHECK(variables_resolve(system, effort.value, &effort.value, diag));
     *out = effort;
 done:
     return status;
@@ -96,8 +96,8 @@ Status wrench_of(System *system, const Instance *instance, Vec *force, Vec *torq
     instance->row->wrench(instance, system->arena, system->origin->planar, force->at, torque->at,
                           &in_body);
     for (int i = 0; i < 3; i++) {
-        CHECK(resolve(system, force->at[i], &force->at[i], diag));
-        CHECK(resolve(system, torque->at[i], &torque->at[i], diag));
+        CHECK(variables_resolve(system, force->at[i], &force->at[i], diag));
+        CHECK(variables_resolve(system, torque->at[i], &torque->at[i], diag));
     }
     *chain = 0;
     if (in_body) {

@@ -232,13 +232,13 @@ Status embedded_effort(System *system, const Row *driver, Expr *out, Diag *diag)
     CHECK(partition(system, &part, diag));
     independent = independent_speed(system, &part, 0);
     CHECK(coordinate_value(system, owner, driver->coordinate, 0, &s, diag));
-    direction = partial(system, s, independent);
+    direction = speed_partial(system, s, independent);
     for (int i = 0; i < part.m; i++) {
         Expr ratio = follow(system, &part, i, independent, diag, &status);
 
         CHECK(status);
         direction = expr_add(arena, direction,
-                             expr_mul(arena, ratio, partial(system, s, part.dependent[i])));
+                             expr_mul(arena, ratio, speed_partial(system, s, part.dependent[i])));
     }
     CHECK(embedded_force(system, 0, 0, &sum, diag));
     sum = expr_neg(arena, sum);

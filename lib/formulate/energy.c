@@ -19,7 +19,7 @@ static Expr stored_field(System *system, const Branchlike *branch)
     Expr stored = expr_int(system->arena, 0);
 
     if (branch->relation.stored != NULL &&
-        resolve(system, branch->relation.stored, &stored, NULL) != OK)
+        variables_resolve(system, branch->relation.stored, &stored, NULL) != OK)
         stored = expr_int(system->arena, 0);
     return stored;
 }
@@ -83,7 +83,7 @@ static bool stored_in(System *system, const Effort *effort, Expr displacement, E
     Motion1 motion = {displacement, effort->rate, zero, zero};
     Expr stored = effort->instance->row->potential(effort->instance, system->arena, &motion);
 
-    return resolve(system, stored, out, NULL) == OK;
+    return variables_resolve(system, stored, out, NULL) == OK;
 }
 
 Expr system_potential(System *system)
@@ -159,7 +159,7 @@ static void push_network(System *system, Terms *terms)
 
         if (graph_edge(system->origin->graph, branch->edge)->domain == DOMAIN_THERMAL)
             continue;
-        if (rate_of(system, stored_field(system, branch), &rate, NULL) == OK)
+        if (system_rate_of(system, stored_field(system, branch), &rate, NULL) == OK)
             LIST_PUSH(*terms, rate);
         else if (expr_is_zero(branch->relation.rest))
             continue; /* all that it takes is stored */

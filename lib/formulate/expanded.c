@@ -1,4 +1,4 @@
-/* expanded.c: the reading to show, entry by entry
+/* expanded.c: the expanded form, entry by entry
  *
  * The same equations written as by hand: per body, partial velocities as sums over frames,
  * dot products of those (theory 4), then trigonometric folding and collecting of common
@@ -161,7 +161,7 @@ static Status push_inertia_of(System *system, const Instance *instance, int j, i
     CHECK(effort_inertia(system, &effort, k, &inertia, diag));
     if (!expr_is_zero(inertia))
         LIST_PUSH(*terms,
-                  expr_mul(system->arena, partial(system, effort.displacement, j), inertia));
+                  expr_mul(system->arena, speed_partial(system, effort.displacement, j), inertia));
 done:
     return status;
 }
@@ -190,10 +190,10 @@ static Status show_mass(System *system, int j, int k, Expr *out, Diag *diag)
 
         CHECK(rotor_of(system, &system->origin->instances[i], &inertia, &s, diag));
         if (s != NULL)
-            LIST_PUSH(terms,
-                      expr_product(arena,
-                                   (Expr[]){inertia, partial(system, s, j), partial(system, s, k)},
-                                   3));
+            LIST_PUSH(terms, expr_product(arena,
+                                          (Expr[]){inertia, speed_partial(system, s, j),
+                                                   speed_partial(system, s, k)},
+                                          3));
         CHECK(push_inertia_of(system, &system->origin->instances[i], j, k, &terms, diag));
     }
 done:
@@ -246,13 +246,13 @@ static Status push_effort(System *system, const Instance *instance, int j, Terms
         Expr length = length_shown(system, instance);
         Motion1 motion = {length, NULL, expr_int(arena, 0), expr_int(arena, 0)};
 
-        CHECK(rate_of(system, length, &motion.rate, diag));
+        CHECK(system_rate_of(system, length, &motion.rate, diag));
         effort.value = instance->row->effort(instance, arena, &motion);
-        CHECK(resolve(system, effort.value, &effort.value, diag));
+        CHECK(variables_resolve(system, effort.value, &effort.value, diag));
         effort.displacement = length;
     }
     LIST_PUSH(*terms, expr_mul(arena, effort_at_rest(system, &effort),
-                               partial(system, effort.displacement, j)));
+                               speed_partial(system, effort.displacement, j)));
 done:
     return status;
 }
@@ -289,10 +289,10 @@ static Status push_rotor(System *system, const Instance *instance, int j, Terms 
     CHECK(rotor_of(system, instance, &inertia, &s, diag));
     if (s == NULL)
         goto done;
-    CHECK(rate_of(system, s, &second, diag));
-    CHECK(rate_of(system, second, &second, diag));
+    CHECK(system_rate_of(system, s, &second, diag));
+    CHECK(system_rate_of(system, second, &second, diag));
     second = expr_substitute(arena, second, system->kinematics->accelerations, zeros, n);
-    second = expr_product(arena, (Expr[]){inertia, second, partial(system, s, j)}, 3);
+    second = expr_product(arena, (Expr[]){inertia, second, speed_partial(system, s, j)}, 3);
     LIST_PUSH(*terms, expr_neg(arena, second));
 done:
     mem_free(zeros);
@@ -325,7 +325,7 @@ static Status show_force(System *system, int j, int column, Expr *out, Diag *dia
         CHECK(coordinate_value(system, &system->origin->instances[driver->by],
                                driver->by_coordinate, 0, &s, diag));
         LIST_PUSH(terms, expr_mul(system->arena, system->constraints->drives.at[i].effort,
-                                  partial(system, s, j)));
+                                  speed_partial(system, s, j)));
     }
 done:
     *out = tidy(system, added(system, &terms));
@@ -343,7 +343,7 @@ static Status show_constraint(System *system, int k, int column, Expr *out, Diag
 static Status show_jacobian(System *system, int k, int j, Expr *out, Diag *diag)
 {
     (void)diag;
-    *out = tidy(system, partial(system, system->constraints->rows.at[k].phi, j));
+    *out = tidy(system, speed_partial(system, system->constraints->rows.at[k].phi, j));
     return OK;
 }
 
@@ -368,8 +368,8 @@ static Status show_acceleration(System *system, int k, int column, Expr *out, Di
     (void)column;
     for (int i = 0; i < n; i++)
         zeros[i] = expr_int(arena, 0);
-    CHECK(rate_of(system, system->constraints->rows.at[k].phi, &second, diag));
-    CHECK(rate_of(system, second, &second, diag));
+    CHECK(system_rate_of(system, system->constraints->rows.at[k].phi, &second, diag));
+    CHECK(system_rate_of(system, second, &second, diag));
     second = expr_substitute(arena, second, system->kinematics->accelerations, zeros, n);
     *out = tidy(system, expr_neg(arena, second));
 done:

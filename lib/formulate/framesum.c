@@ -1,4 +1,4 @@
-/* framesum.c: vectors as sums over chains, for the reading to show
+/* framesum.c: vectors as sums over chains, for the expanded form
  *
  * A dot product of two parts turns only what lies between their chains, so that
  * what is printed stays as short as what is written by hand. */

@@ -145,14 +145,14 @@ Status system_ideal(System *system, int i, IdealSwitch *out, Diag *diag)
 
     CHECK(network_across(system, branch, &found.across, diag));
     CHECK(network_through(system, branch, &found.through, diag));
-    CHECK(resolve(system, ideal->least, &found.least, diag));
-    CHECK(resolve(system, ideal->on, &found.on, diag));
+    CHECK(variables_resolve(system, ideal->least, &found.least, diag));
+    CHECK(variables_resolve(system, ideal->on, &found.on, diag));
     found.across = expr_sub(system->arena, found.across, found.least);
     found.closed = branch->closed;
     if (ideal->off != NULL)
-        CHECK(resolve(system, ideal->off, &found.off, diag));
+        CHECK(variables_resolve(system, ideal->off, &found.off, diag));
     if (ideal->when != NULL)
-        CHECK(resolve(system, ideal->when, &found.when, diag));
+        CHECK(variables_resolve(system, ideal->when, &found.when, diag));
     else if (ideal->off != NULL)
         found.through =
             expr_sub(system->arena, found.through, expr_div(system->arena, found.least, found.off));

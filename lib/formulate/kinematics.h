@@ -25,7 +25,7 @@ typedef struct Chain {
     int depth;
     int first; /* what hangs beyond it has the numbers first..last */
     int last;
-    int resolve; /* chain in whose axes vectors of this one are computed by the reading to run */
+    int resolve; /* chain in whose axes vectors of this one are computed by the recursive form */
     int speed;   /* the first of its speeds */
     int speed_count; /* 1, or 3 where it is free */
     bool is_free;
@@ -69,7 +69,7 @@ typedef struct Frame { /* a mechanical node */
     Vec shift;
     int slide_count;
     Slide slide[3];
-    /* quantities of the reading to run, in the axes of resolve(chain) */
+    /* quantities of the recursive form, in the axes of resolve(chain) */
     Vec step; /* the shift */
     Vec v;
     Vec product; /* velocity products of the step's acceleration */
@@ -130,7 +130,7 @@ Vec frame_vector(const System *system, int node, Vec in_frame);
 /* the row's steps of an instance */
 void instance_steps(const System *system, const Instance *instance, Steps *steps);
 
-/* --- motion of the reading to run (recursive.c) --- */
+/* --- motion of the recursive form (recursive.c) --- */
 
 void motion_build(System *system);
 /* angular accelerations of chains and accelerations of nodes, with u' or (NULL) without */

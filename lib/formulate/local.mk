@@ -29,12 +29,12 @@ libcore_la_SOURCES += \
 	lib/formulate/state_space.c lib/formulate/state_space.h \
 	lib/formulate/surfaces.h \
 	lib/formulate/switches.c \
-	lib/formulate/turned.c lib/formulate/turned_build.c \
+	lib/formulate/multi_turn.c lib/formulate/multi_turn_build.c \
 	lib/formulate/system.c lib/formulate/system_build.c lib/formulate/system.h lib/formulate/system_impl.h \
 	lib/formulate/constraints.h lib/formulate/dynamics.h lib/formulate/kinematics.h \
 	lib/formulate/network.h lib/formulate/origin.h lib/formulate/sample.h lib/formulate/shown.h \
 	lib/formulate/vector.h \
-	lib/formulate/vanished.c \
+	lib/formulate/redundancy.c \
 	lib/formulate/variables.c \
 	lib/formulate/vector.c \
 	lib/formulate/tree_search.c lib/formulate/tree_search.h

@@ -9,11 +9,12 @@
  * tree any rate of an unknown may be met, and the highest ones are solved for. theory 8. */
 #include "formulate/system_impl.h"
 
-#define DEEP 30 /* followed edges, from which on variables stay unknown: resolve() goes to 40 */
+#define DEEP                                                                                       \
+    30 /* followed edges, from which on variables stay unknown: variables_resolve() goes to 40 */
 
 /* --- unknowns --- */
 
-Unknown unknown_of_branch(const System *system, const Branchlike *branch)
+Unknown network_unknown_of_branch(const System *system, const Branchlike *branch)
 {
     return (Unknown){.branchlike = (int)(branch - system->network->branches.at),
                      .own = -1,
@@ -44,13 +45,13 @@ static Status keep_unknown(System *system, Branchlike *branch, Diag *diag)
 
     if (branch->unknown >= 0)
         return OK;
-    branch->unknown = network_new_unknown(system, unknown_of_branch(system, branch), name,
+    branch->unknown = network_new_unknown(system, network_unknown_of_branch(system, branch), name,
                                           state_form ? SYMBOL_ALGEBRAIC : SYMBOL_STATE);
     if (!steep)
         return OK;
     branch->is_steep = true;
     branch->v = system->network->unknowns.at[branch->unknown].symbol;
-    CHECK(resolve(system, branch->relation.value, &branch->i, diag));
+    CHECK(variables_resolve(system, branch->relation.value, &branch->i, diag));
     branch->i = expr_hold(system->arena, branch->i);
 done:
     return status;
@@ -121,10 +122,11 @@ static Status stored_rate(System *system, const Branchlike *branch, Expr *out, D
     Expr rest;
     Status status = OK;
 
-    CHECK(resolve(system, relation->content, out, diag));
-    CHECK(need_smooth(system, graph_edge(system->origin->graph, branch->edge)->name, *out, diag));
-    CHECK(rate_of(system, *out, out, diag));
-    CHECK(resolve(system, relation->rest, &rest, diag));
+    CHECK(variables_resolve(system, relation->content, out, diag));
+    CHECK(system_need_smooth(system, graph_edge(system->origin->graph, branch->edge)->name, *out,
+                             diag));
+    CHECK(system_rate_of(system, *out, out, diag));
+    CHECK(variables_resolve(system, relation->rest, &rest, diag));
     *out = expr_add(system->arena, *out, rest);
 done:
     return status;
@@ -140,11 +142,11 @@ static Status resistive(System *system, Branchlike *branch, bool *given, Expr *o
     Status status = OK;
 
     if (!branch->branch && branch->relation.inverse != NULL)
-        return resolve(system, branch->relation.inverse, out, diag);
+        return variables_resolve(system, branch->relation.inverse, out, diag);
     CHECK(branch->branch ? network_through(system, branch, &other, diag)
                          : network_across(system, branch, &other, diag));
-    CHECK(resolve(system, branch->relation.value, &value, diag));
-    CHECK(resolve(system, branch->relation.rest, &rest, diag));
+    CHECK(variables_resolve(system, branch->relation.value, &value, diag));
+    CHECK(variables_resolve(system, branch->relation.rest, &rest, diag));
     *given = branch->branch || !expr_is_zero(value);
     if (branch->branch)
         *out = expr_add(arena, expr_mul(arena, value, other), rest);
@@ -171,7 +173,7 @@ static Status by_relation(System *system, Branchlike *branch, bool *given, Expr 
         return resistive(system, branch, given, out, diag);
     case RELATION_ACROSS:
         if (branch->branch)
-            return resolve(system, relation->value, out, diag);
+            return variables_resolve(system, relation->value, out, diag);
         break;
     case RELATION_INDUCTIVE:
         if (branch->branch)
@@ -180,7 +182,7 @@ static Status by_relation(System *system, Branchlike *branch, bool *given, Expr 
     case RELATION_THROUGH:
     case RELATION_CONDUCTIVE:
         if (!branch->branch)
-            return resolve(system, relation->value, out, diag);
+            return variables_resolve(system, relation->value, out, diag);
         break;
     case RELATION_CAPACITIVE:
         if (!branch->branch)
@@ -188,7 +190,8 @@ static Status by_relation(System *system, Branchlike *branch, bool *given, Expr 
         break;
     case RELATION_PORT:
         if (port_gives_own(system, branch))
-            return resolve(system, branch->branch ? relation->value : relation->inverse, out, diag);
+            return variables_resolve(system, branch->branch ? relation->value : relation->inverse,
+                                     out, diag);
         break;
     case RELATION_FREE:
     case RELATION_IDEAL:

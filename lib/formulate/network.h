@@ -52,7 +52,7 @@ typedef struct Network {
     NetworkForm form;
     NetworkForm asked_form; /* the same, where that exists */
     bool has_no_states;     /* a state form needs ever more derivatives */
-    Expr leak; /* S, beside parts whose current is an expression of their voltage; NULL: none */
+    Expr gmin; /* S, beside parts whose current is an expression of their voltage; NULL: none */
     LIST(int) ideals;   /* branches that switch, */
     const bool *closed; /* and the side that each ideal one is on; NULL: both are in one equation */
     bool takes_sides;   /* those between two resistances: their sides are numbers of the run */
@@ -94,7 +94,7 @@ int network_new_unknown(System *system, Unknown unknown, const char *name, Symbo
 /* one rate more of an unknown, as a symbol */
 Expr network_add_rate(System *system, int unknown, SymbolKind kind);
 /* one whose equation is the relation of that edge, without symbol yet */
-Unknown unknown_of_branch(const System *system, const Branchlike *branch);
+Unknown network_unknown_of_branch(const System *system, const Branchlike *branch);
 /* `symbol` is the rate of that order of an unknown */
 void network_know(System *system, Expr symbol, int unknown, int order);
 /* the unknowns as states x and algebraic z of the System: new ones behind the old */
@@ -102,7 +102,7 @@ void network_list(System *system);
 /* in the form of the user's tree: which rates are states, which is solved for (network_order.c) */
 MUST_USE Status network_bring_order(System *system, Diag *diag);
 /* what an expression is where all its symbols have values that the seed chooses, 0.7 to 1.3 */
-double value_somewhere(Expr e, uint32_t seed);
+double expr_value_somewhere(Expr e, uint32_t seed);
 /* v of a chord along its circuit */
 MUST_USE Status circuit_across(System *system, Branchlike *branch, Expr *out, Diag *diag);
 /* names of the edges in the circuit of a chord or the cutset of a branch; in the pool */
@@ -127,6 +127,6 @@ MUST_USE Status ideal_share(System *system, const Branchlike *branch, bool *shar
 /* what changes sign where a function jumps or kinks; NULL: it does neither (switches.c) */
 Expr switch_condition(Arena *arena, Expr e);
 /* e is differentiated in time for `who`: E_MODEL where it jumps */
-MUST_USE Status need_smooth(System *system, const char *who, Expr e, Diag *diag);
+MUST_USE Status system_need_smooth(System *system, const char *who, Expr e, Diag *diag);
 
 #endif

@@ -30,7 +30,7 @@ static void add_leak(System *system, Expr across, Relation *relation)
         return;
     if (!expr_is_zero(expr_diff(system->arena, relation->value, across)))
         relation->value = expr_add(system->arena, relation->value,
-                                   expr_mul(system->arena, system->network->leak, across));
+                                   expr_mul(system->arena, system->network->gmin, across));
 }
 
 static void read_relation(System *system, Branchlike *branch)
@@ -55,7 +55,7 @@ static void read_relation(System *system, Branchlike *branch)
     if (branch->relation.kind == RELATION_THROUGH &&
         !expr_is_zero(expr_diff(arena, branch->relation.value, motion.across)))
         branch->relation.kind = RELATION_CONDUCTIVE;
-    if (system->network->leak != NULL)
+    if (system->network->gmin != NULL)
         add_leak(system, motion.across, &branch->relation);
     if (branch->relation.kind == RELATION_IDEAL || branch->relation.switches)
         ideal_take_side(system, branch);
@@ -89,8 +89,8 @@ static Status check_smooth(System *system, Diag *diag)
 
         if (branch->relation.smooth == NULL)
             continue;
-        CHECK(resolve(system, branch->relation.smooth, &e, diag));
-        if (need_smooth(system, branch_owner(system, branch)->name, e, NULL) == OK)
+        CHECK(variables_resolve(system, branch->relation.smooth, &e, diag));
+        if (system_need_smooth(system, branch_owner(system, branch)->name, e, NULL) == OK)
             continue;
         status = diag_set(diag, E_MODEL, "%s takes the derivative of something that jumps",
                           branch_owner(system, branch)->name);
@@ -134,7 +134,7 @@ static void add_states(System *system)
 
         if ((kind == RELATION_CAPACITIVE && branch->branch) ||
             (kind == RELATION_INDUCTIVE && !branch->branch))
-            branch->unknown = add_state(system, unknown_of_branch(system, branch),
+            branch->unknown = add_state(system, network_unknown_of_branch(system, branch),
                                         branch_member(system, branch, !branch->branch));
         if (branch->which > 0 || branch_owner(system, branch)->row->own_state_count == NULL)
             continue;

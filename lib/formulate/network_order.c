@@ -27,7 +27,7 @@ typedef struct Order {
 static bool vanishes(Expr e)
 {
     for (uint32_t seed = 1; seed <= 3; seed++)
-        if (fabs(value_somewhere(e, seed)) > 1e-11)
+        if (fabs(expr_value_somewhere(e, seed)) > 1e-11)
             return false;
     return true;
 }
@@ -40,7 +40,7 @@ static int rank_at(Order *o, uint32_t seed)
     int rank = 0;
 
     for (int i = 0; i < n * n; i++)
-        a[i] = expr_is_zero(o->L[i]) ? 0 : value_somewhere(o->L[i], seed);
+        a[i] = expr_is_zero(o->L[i]) ? 0 : expr_value_somewhere(o->L[i], seed);
     for (int c = 0; c < n && rank < n; c++) {
         int p = rank;
 
@@ -242,7 +242,7 @@ static Status rates_by(const Order *o, Expr row, int j, int k, Expr *symbol, Exp
         Expr rate;
 
         symbol[i] = rate_symbol(&system->network->unknowns.at[j], k + 1 + i);
-        CHECK(rate_of(system, i == 0 ? row : value[i - 1], &rate, diag));
+        CHECK(system_rate_of(system, i == 0 ? row : value[i - 1], &rate, diag));
         if (i == 0 && expr_is_zero(expr_diff(arena, rate, symbol[0])))
             CHECK(cant_order(o, j, diag));
         if (i == 0)
@@ -256,7 +256,7 @@ done:
     return status;
 }
 
-static Status lower(Order *o, Diag *diag)
+static Status lowered_make(Order *o, Diag *diag)
 {
     System *system = o->system;
     Expr symbol[NETWORK_ORDER];
@@ -347,7 +347,7 @@ Status network_bring_order(System *system, Diag *diag)
             break;
         if (round == ROUNDS)
             CHECK(cant_order(&o, 0, diag));
-        CHECK(lower(&o, diag));
+        CHECK(lowered_make(&o, diag));
     }
     rename(&o);
 done:

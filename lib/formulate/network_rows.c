@@ -63,8 +63,8 @@ static Status port_row(System *system, Branchlike *branch, Unknown *y, Diag *dia
     bool by_across = branch->branch == port_gives_own(system, branch);
 
     y->left = by_across ? branch->v : branch->i;
-    return resolve(system, by_across ? branch->relation.value : branch->relation.inverse, &y->right,
-                   diag);
+    return variables_resolve(system, by_across ? branch->relation.value : branch->relation.inverse,
+                             &y->right, diag);
 }
 
 /* left = right by the relation of an edge */
@@ -84,14 +84,14 @@ static Status relation_row(System *system, Unknown *y, Diag *diag)
     CHECK(network_across(system, branch, &v, diag));
     CHECK(network_through(system, branch, &i, diag));
     if (relation->value != NULL)
-        CHECK(resolve(system, relation->value, &value, diag));
+        CHECK(variables_resolve(system, relation->value, &value, diag));
     if (relation->rest != NULL)
-        CHECK(resolve(system, relation->rest, &rest, diag));
+        CHECK(variables_resolve(system, relation->rest, &rest, diag));
     if (relation->content != NULL) {
-        CHECK(resolve(system, relation->content, &content, diag));
-        CHECK(need_smooth(system, graph_edge(system->origin->graph, branch->edge)->name, content,
-                          diag));
-        CHECK(rate_of(system, content, &content, diag));
+        CHECK(variables_resolve(system, relation->content, &content, diag));
+        CHECK(system_need_smooth(system, graph_edge(system->origin->graph, branch->edge)->name,
+                                 content, diag));
+        CHECK(system_rate_of(system, content, &content, diag));
     }
     switch (relation->kind) {
     case RELATION_ACROSS:
@@ -144,8 +144,8 @@ static Status own_row(System *system, Unknown *y, Diag *diag)
     Status status = OK;
 
     instance->row->own_state(instance, system->arena, y->own, &own);
-    CHECK(rate_of(system, y->symbol, &y->left, diag));
-    CHECK(resolve(system, own.rate, &y->right, diag));
+    CHECK(system_rate_of(system, y->symbol, &y->left, diag));
+    CHECK(variables_resolve(system, own.rate, &y->right, diag));
 done:
     return status;
 }
@@ -162,10 +162,10 @@ Status network_row(System *system, int unknown, Diag *diag)
         CHECK(network_row(system, y.derives, diag));
         y.left = expr_open(arena, system->network->unknowns.at[y.derives].left);
         y.right = expr_open(arena, system->network->unknowns.at[y.derives].right);
-        CHECK(need_smooth(system, system->origin->instances[y.instance].name,
-                          expr_sub(arena, y.left, y.right), diag));
-        CHECK(rate_of(system, y.left, &y.left, diag));
-        CHECK(rate_of(system, y.right, &y.right, diag));
+        CHECK(system_need_smooth(system, system->origin->instances[y.instance].name,
+                                 expr_sub(arena, y.left, y.right), diag));
+        CHECK(system_rate_of(system, y.left, &y.left, diag));
+        CHECK(system_rate_of(system, y.right, &y.right, diag));
     } else if (y.branchlike >= 0) {
         CHECK(relation_row(system, &y, diag));
     } else {
@@ -235,14 +235,14 @@ void network_list(System *system)
 
 /* --- Jacobian --- */
 
-typedef struct Rows {
+typedef struct NetworkRows {
     System *system;
     int count;        /* of equations and unknowns */
     LIST(int) column; /* by expr_symbol_number(): 1 + place in [x'; z]; 0: none */
     LIST(Entry) entries;
-} Rows;
+} NetworkRows;
 
-static void place(Rows *rows, Expr symbol, int column)
+static void place(NetworkRows *rows, Expr symbol, int column)
 {
     while (rows->column.count <= expr_symbol_number(symbol))
         LIST_PUSH(rows->column, 0);
@@ -279,7 +279,7 @@ static Status cant_be_met(System *system, const Unknown *y, Diag *diag)
     return E_MODEL;
 }
 
-static Status add_row(Rows *rows, int row, Expr residual, const Unknown *y, Diag *diag)
+static Status add_row(NetworkRows *rows, int row, Expr residual, const Unknown *y, Diag *diag)
 {
     System *system = rows->system;
     Arena *arena = system->arena;
@@ -319,7 +319,7 @@ done:
 }
 
 /* rates of other states on the right go to the left: capacitors in a circuit, coupled inductors */
-static void gather_rates(Rows *rows, int first, Expr *left, Expr *right)
+static void gather_rates(NetworkRows *rows, int first, Expr *left, Expr *right)
 {
     System *system = rows->system;
     Arena *arena = system->arena;
@@ -347,7 +347,7 @@ static void gather_rates(Rows *rows, int first, Expr *left, Expr *right)
 }
 
 /* rows in the order of [x'; z] */
-static Status add_rows(Rows *rows, Diag *diag)
+static Status add_rows(NetworkRows *rows, Diag *diag)
 {
     System *system = rows->system;
     Arena *arena = system->arena;
@@ -419,8 +419,8 @@ static Status differentiate_fixed(System *system, int unknown, Diag *diag)
     if (y->residual != NULL || (expr_kinds(residual) & solved_kinds) != 0 ||
         (expr_kinds(residual) & moves) == 0)
         return OK;
-    CHECK(need_smooth(system, system->origin->instances[y->instance].name, residual, diag));
-    CHECK(rate_of(system, residual, &rate, diag));
+    CHECK(system_need_smooth(system, system->origin->instances[y->instance].name, residual, diag));
+    CHECK(system_rate_of(system, residual, &rate, diag));
     LIST_PUSH(system->network->invariants, residual);
     system->network->unknowns.at[unknown].residual = rate;
 done:
@@ -430,7 +430,7 @@ done:
 Status network_rows(System *system, Diag *diag)
 {
     Reading *run = &system->run;
-    Rows rows = {.system = system};
+    NetworkRows rows = {.system = system};
     size_t bytes;
     Status status = OK;
 

@@ -144,15 +144,15 @@ static int rank_of(const System *system, TreeKind kind, const bool *leads, int b
     return 2 * order + !tree_has(system->origin->trees[kind], one->edge);
 }
 
-typedef struct Rank {
+typedef struct BranchRank {
     int order;
     int branch;
-} Rank;
+} BranchRank;
 
 static int compare_ranks(const void *a, const void *b)
 {
-    const Rank *x = a;
-    const Rank *y = b;
+    const BranchRank *x = a;
+    const BranchRank *y = b;
 
     return x->order != y->order ? (x->order > y->order) - (x->order < y->order)
                                 : x->branch - y->branch;
@@ -161,17 +161,17 @@ static int compare_ranks(const void *a, const void *b)
 static void choose_order(Taking *taking, const bool *leads)
 {
     System *system = taking->system;
-    LIST(Rank) ranks = {0};
+    LIST(BranchRank) ranks = {0};
 
     for (int i = 0; i < system->network->branches.count; i++) {
         const Branchlike *branch = &system->network->branches.at[i];
 
         if (branch_tree(system, branch) != taking->kind)
             continue;
-        LIST_PUSH(ranks, (Rank){rank_of(system, taking->kind, leads, i), i});
+        LIST_PUSH(ranks, (BranchRank){rank_of(system, taking->kind, leads, i), i});
     }
     if (ranks.count > 0)
-        qsort(ranks.at, (size_t)ranks.count, sizeof(Rank), compare_ranks);
+        qsort(ranks.at, (size_t)ranks.count, sizeof(BranchRank), compare_ranks);
     for (int k = 0; k < ranks.count; k++) {
         take(taking, &system->network->branches.at[ranks.at[k].branch]);
         take_through_ports(taking);

@@ -7,10 +7,10 @@
 #include "formulate/vector.h"
 #include "model/scene.h"
 
-typedef struct Given {
+typedef struct GivenParameter {
     Expr symbol; /* a parameter */
     double value;
-} Given;
+} GivenParameter;
 
 typedef struct CoordinateOwner {
     int instance;
@@ -35,7 +35,7 @@ typedef struct Origin {
     const char **output_names;
     Expr *outputs;
     int output_count;
-    LIST(Given) parameters; /* as they were */
+    LIST(GivenParameter) parameters; /* as they were */
 } Origin;
 
 void origin_free(Origin *origin); /* NULL is fine */

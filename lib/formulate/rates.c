@@ -96,7 +96,7 @@ Status network_rate(System *system, Expr symbol, Expr *out, Diag *diag)
         return E_MODEL;
     }
     if (y->order < y->known) {
-        CHECK(rate_of(system, y->rates[y->known - 1], out, diag));
+        CHECK(system_rate_of(system, y->rates[y->known - 1], out, diag));
         push_rate(system, &system->network->unknowns.at[k], *out, true);
     } else if (system->network->form == NETWORK_TREE) {
         *out = network_add_rate(system, k, SYMBOL_STATE);
@@ -115,7 +115,7 @@ done:
 
 /* --- along the motion --- */
 
-Status rate_of(System *system, Expr e, Expr *out, Diag *diag)
+Status system_rate_of(System *system, Expr e, Expr *out, Diag *diag)
 {
     const unsigned late = 1U << SYMBOL_ACCELERATION | 1U << SYMBOL_MULTIPLIER | 1U << SYMBOL_EFFORT;
     Expr *symbols = NULL;
@@ -158,5 +158,5 @@ done:
 Status system_rate(System *system, Expr e, Expr *out, Diag *diag)
 {
     system_touch(system);
-    return rate_of(system, e, out, diag);
+    return system_rate_of(system, e, out, diag);
 }

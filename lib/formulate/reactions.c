@@ -1,7 +1,7 @@
 /* reactions.c: forces and moments of joints, from lambda where the joint is a chord, from what
  * hangs beyond it where it is a branch (theory 5)
  *
- * Rows that vanished have multipliers too (vanished.c). Where some of them are open, so is every
+ * Rows that vanished have multipliers too (redundancy.c). Where some of them are open, so is every
  * component of a reaction that changes with them, and no other. */
 #include "formulate/system_impl.h"
 
@@ -36,7 +36,7 @@ Status actual_build(System *system, Diag *diag)
     Loads loads;
     Status status = OK;
 
-    CHECK(wait_for_motion(system, diag));
+    CHECK(system_wait_for_motion(system, diag));
     if (system->shown->actual_a == NULL) {
         size_t chains = (size_t)system->kinematics->chains.count;
 
@@ -63,10 +63,10 @@ Status actual_build(System *system, Diag *diag)
             loads_add_effort(system, &loads, &system->origin->instances[driver->by],
                              driver->by_coordinate, system->constraints->drives.at[i].effort);
     }
-    if (system->constraints->vanished.count > 0)
+    if (system->constraints->redundant_rows.count > 0)
         recovery_build(system, &loads);
-    for (int k = 0; k < system->constraints->vanished.count; k++)
-        loads_add_row(system, &loads, &system->constraints->vanished.at[k],
+    for (int k = 0; k < system->constraints->redundant_rows.count; k++)
+        loads_add_row(system, &loads, &system->constraints->redundant_rows.at[k],
                       system->shown->recovery->multipliers[k]);
     system->shown->actual = loads_sum(system, &loads);
 done:
@@ -97,11 +97,11 @@ static Vec chord_reaction(System *system, const Instance *joint, bool rotation)
     Arena *arena = system->arena;
     Vec sum = vec_zero(arena);
 
-    for (int k = 0; k < system->constraints->rows.count + system->constraints->vanished.count;
+    for (int k = 0; k < system->constraints->rows.count + system->constraints->redundant_rows.count;
          k++) {
         int v = k - system->constraints->rows.count;
         const Row *row =
-            v < 0 ? &system->constraints->rows.at[k] : &system->constraints->vanished.at[v];
+            v < 0 ? &system->constraints->rows.at[k] : &system->constraints->redundant_rows.at[v];
         Expr lambda =
             v < 0 ? system->constraints->multipliers[k] : system->shown->recovery->multipliers[v];
 
@@ -139,16 +139,17 @@ static Expr component(const System *system, const Instance *joint, ReactionPart 
 }
 
 /* the component per unit of the multiplier of a row that vanished */
-static Expr share_of(System *system, const Instance *joint, ReactionPart part, int vanished)
+static Expr share_of(System *system, const Instance *joint, ReactionPart part, int redundant_rows)
 {
     const Tree *tree = system->origin->trees[part.moment ? TREE_ROTATION : TREE_TRANSLATION];
-    const Row *row = &system->constraints->vanished.at[vanished];
+    const Row *row = &system->constraints->redundant_rows.at[redundant_rows];
     Vec vector = vec_zero(system->arena);
     int chain = 0;
 
     if (tree_has(tree, joint->edge))
-        vector = branch_reaction(system, tree, joint->edge, system->shown->recovery->sums[vanished],
-                                 part.moment, &chain);
+        vector =
+            branch_reaction(system, tree, joint->edge,
+                            system->shown->recovery->sums[redundant_rows], part.moment, &chain);
     else if (row->told.instance == joint->number)
         vector = vec_neg(system->arena, row_reaction(system, row, part.moment));
     return component(system, joint, part, vector, chain);
@@ -160,7 +161,7 @@ static const Row *open_row(System *system, const Instance *joint, ReactionPart p
 {
     enum { DIGITS = 7 };
     const Recovery *recovery = system->shown->recovery;
-    int rows = system->constraints->vanished.count;
+    int rows = system->constraints->redundant_rows.count;
     double *share = NULL;
     const Row *found = NULL;
 
@@ -181,7 +182,7 @@ static const Row *open_row(System *system, const Instance *joint, ReactionPart p
                 size = fabs(term);
             /* another joint's row says more */
             if (term != 0 && (found == NULL || found->told.instance == joint->number))
-                found = &system->constraints->vanished.at[k];
+                found = &system->constraints->redundant_rows.at[k];
         }
         if (fabs(sum) < size * pow(10, -DIGITS))
             found = NULL;

@@ -1,4 +1,4 @@
-/* recursive.c: motion outward and loads inward, for the reading to run
+/* recursive.c: motion outward and loads inward, for the recursive form
  *
  * Each quantity is resolved in the axes of its chain's `resolve` chain and held, so that
  * a program computes it once. */

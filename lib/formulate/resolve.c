@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-Status wait_for_motion(System *system, Diag *diag)
+Status system_wait_for_motion(System *system, Diag *diag)
 {
     if (!system->is_early)
         return OK;
@@ -14,7 +14,7 @@ Status wait_for_motion(System *system, Diag *diag)
     return diag_set(diag, E_MISSING, "what the network reads here follows from forces");
 }
 
-Status resolve(System *system, Expr user, Expr *out, Diag *diag)
+Status variables_resolve(System *system, Expr user, Expr *out, Diag *diag)
 {
     enum { DEEPEST = 40 };
     Expr *symbols;
@@ -61,5 +61,5 @@ done:
 Status system_resolve(System *system, Expr user, Expr *out, Diag *diag)
 {
     system_touch(system);
-    return resolve(system, user, out, diag);
+    return variables_resolve(system, user, out, diag);
 }

@@ -66,7 +66,7 @@ static double some_value(void *context, Expr symbol)
     return 0.7 + 0.6 * (double)x / 4294967296.0;
 }
 
-double value_somewhere(Expr e, uint32_t seed)
+double expr_value_somewhere(Expr e, uint32_t seed)
 {
     return expr_evaluate(e, some_value, &seed);
 }

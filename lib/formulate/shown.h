@@ -8,7 +8,7 @@
 #include "formulate/dynamics.h"
 #include "formulate/sample.h"
 
-/* multipliers of rows that vanished, from virtual branches that carry nothing (vanished.c) */
+/* multipliers of rows that vanished, from virtual branches that carry nothing (redundancy.c) */
 typedef struct Recovery {
     Expr *multipliers; /* mu, one a vanished row; 0 where it is open */
     Sums **sums;       /* what a unit of each puts beyond every node */
@@ -33,7 +33,7 @@ typedef struct Shown {
 
 void shown_free(Shown *shown); /* NULL is fine */
 
-/* vectors as sums over chains, for the reading to show (framesum.c) */
+/* vectors as sums over chains, for the expanded form (framesum.c) */
 typedef struct Part {
     int chain;
     Vec v; /* zero-position axes of the chain */
@@ -65,7 +65,7 @@ int embedded_rows(const System *system); /* drivers don't count as constraints i
 /* the effort of the only driver of a system with one freedom, in q, u and u' */
 MUST_USE Status embedded_effort(System *system, const Row *driver, Expr *out, Diag *diag);
 
-/* --- reactions (reactions.c, vanished.c) --- */
+/* --- reactions (reactions.c, redundancy.c) --- */
 
 /* accelerations with u', sums inward with lambda */
 MUST_USE Status actual_build(System *system, Diag *diag);

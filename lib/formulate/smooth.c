@@ -98,7 +98,7 @@ static bool jumps(Arena *arena, Expr e)
     return found;
 }
 
-Status need_smooth(System *system, const char *who, Expr e, Diag *diag)
+Status system_need_smooth(System *system, const char *who, Expr e, Diag *diag)
 {
     const unsigned plain = 1U << SYMBOL_PARAMETER | 1U << SYMBOL_STATE | 1U << SYMBOL_ALGEBRAIC;
 

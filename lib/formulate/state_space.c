@@ -329,10 +329,10 @@ done:
 /* --- blocks --- */
 
 /* a square block of coupled equations */
-typedef struct Coupled {
+typedef struct CoupledStates {
     int size;
     int rows[MOST_COUPLED], unknowns[MOST_COUPLED];
-} Coupled;
+} CoupledStates;
 
 static Expr entry_at(const Space *s, int row, int unknown)
 {
@@ -344,7 +344,8 @@ static Expr entry_at(const Space *s, int row, int unknown)
 
 /* Determinant of a block but one row and one unknown (-1: with all), by its rows from the last,
  * each set of unknowns once (Laplace). `made` holds SIZE. */
-static Expr minor_of(const Space *s, const Coupled *block, int but_row, int but_unknown, Expr *made)
+static Expr minor_of(const Space *s, const CoupledStates *block, int but_row, int but_unknown,
+                     Expr *made)
 {
     Arena *arena = s->arena;
     const int size = block->size;
@@ -397,7 +398,7 @@ static void move_solved(Space *s, int row)
     }
 }
 
-static Status solve_block(Space *s, const Coupled *block, Diag *diag)
+static Status solve_block(Space *s, const CoupledStates *block, Diag *diag)
 {
     Arena *arena = s->arena;
     Expr *made = NEW_ARRAY(Expr, SIZE);
@@ -449,7 +450,7 @@ static Status solve_chains(Space *s, Diag *diag)
     while (goes_on) {
         goes_on = false;
         for (int r = 0; r < s->n; r++) {
-            Coupled one = {.size = 0, .rows = {r}};
+            CoupledStates one = {.size = 0, .rows = {r}};
 
             for (int k = s->row_start[r]; !s->used[r] && k < s->row_start[r + 1]; k++)
                 if (!s->solved[s->entry[k].column]) {
@@ -551,7 +552,7 @@ static Status solve_blocks(Space *s, Rest *rest, Diag *diag)
 
     for (int needed = 1; needed <= rest->count; needed++)
         for (int p = 0; p < rest->count; p++) {
-            Coupled block = {.size = 0};
+            CoupledStates block = {.size = 0};
 
             if (s->used[rest->rows[p]] || need_count(rest, p) != needed)
                 continue;

@@ -48,7 +48,7 @@ void constraints_free(Constraints *constraints)
     if (constraints == NULL)
         return;
     LIST_FREE(constraints->rows);
-    LIST_FREE(constraints->vanished);
+    LIST_FREE(constraints->redundant_rows);
     LIST_FREE(constraints->dropped);
     LIST_FREE(constraints->turned);
     LIST_FREE(constraints->counted);

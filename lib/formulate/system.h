@@ -23,7 +23,7 @@ typedef struct SystemOptions {
     NetworkForm form; /* of the network's equations */
     VaryValue vary;   /* NULL: the values are those of the scene */
     void *context;
-    Expr leak; /* S, beside every scalar edge whose through variable is an expression of its across
+    Expr gmin; /* S, beside every scalar edge whose through variable is an expression of its across
                   variable: where a search for its state may begin; NULL: none */
     const System *like; /* in the mode of this one; NULL: in none */
     const Watch *watch;
@@ -79,17 +79,17 @@ int system_quaternion(const System *system, int i);
 
 /* A turn of a chord that no sum of other turns tells, only its sine and cosine: the angle is the
  * one nearest to `near`, which whoever runs the system keeps next to it (theory 2). */
-typedef struct Turned {
+typedef struct MultiTurn {
     const char *name; /* of the joint's coordinate */
     Expr near;        /* symbol: an angle less than half a turn away */
     Expr angle;       /* in q and near */
     Expr prescribed;  /* what a driver makes it, in t and parameters; NULL: there is none */
-} Turned;
+} MultiTurn;
 
-int system_turned_count(const System *system);
-const Turned *system_turned(const System *system, int i);
+int system_multi_turn_count(const System *system);
+const MultiTurn *system_multi_turn(const System *system, int i);
 /* Its rate, for keeping `near` next to it: bounded also where sine and cosine vanish together. */
-MUST_USE Status system_turned_rate(System *system, int i, Expr *out, Diag *diag);
+MUST_USE Status system_multi_turn_rate(System *system, int i, Expr *out, Diag *diag);
 
 /* Where turns about one axis add up around a circuit their sum is known but for whole turns: what
  * is added to the sum, and stays as it is in a run. A start chooses it, so that angles begin where
@@ -151,7 +151,7 @@ const char *system_dropped(const System *system, int i);
 /* lines about what was decided on the way, for the user; NULL at the end */
 const char *system_remark(const System *system, int i);
 
-/* --- the reading to run: interned, held definitions --- */
+/* --- the recursive form: interned, held definitions --- */
 
 /* entry of a sparse matrix */
 typedef struct Entry {
@@ -178,9 +178,9 @@ typedef struct Reading {
 /* definitions by recursion; a run uses them, or where it is shorter what is shown */
 const Reading *system_definitions(const System *system);
 const Reading *system_run(const System *system);
-/* --- the reading to show, entry by entry; folded; formed at the first call, then kept. Where M
+/* --- the expanded form, entry by entry; folded; formed at the first call, then kept. Where M
  * would be far too long to be written out its entries, and those of F, stand over the definitions
- * of the reading to run: held expressions, to be printed with names for what they share --- */
+ * of the recursive form: held expressions, to be printed with names for what they share --- */
 typedef enum Block {
     BLOCK_MASS,
     BLOCK_FORCES,
@@ -223,7 +223,7 @@ int system_network_count(const System *system);
 void system_network_equation(System *system, int i, Expr *left, Expr *right);
 int system_network_edge(const System *system, int i); /* whose relation it is */
 
-/* as written (reading to show) and after sharing (reading to run) */
+/* as written (expanded form) and after sharing (recursive form) */
 MUST_USE Status system_count(System *system, Block block, bool shared, OpCount *out, Diag *diag);
 
 /* operations of the program of a run, what its blocks have in common counted once */

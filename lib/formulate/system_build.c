@@ -318,7 +318,7 @@ static Status build(System *system, Diag *diag)
     }
     add_drives(system);
     frames_build(system);
-    turned_build(system);
+    multi_turn_build(system);
     motion_build(system);
     system->is_early = true;
     CHECK(network_build(system, diag));
@@ -330,7 +330,7 @@ static Status build(System *system, Diag *diag)
     system->is_early = false;
     CHECK(network_rows(system, diag));
     CHECK(reading_choose(system, diag));
-    turned_add_rows(system);
+    multi_turn_add_rows(system);
     CHECK(poll(system->watch));
     if (arena_status(system->arena) != OK) {
         status = diag_set(diag, arena_status(system->arena), "the equations can't be formed: %s",
@@ -374,7 +374,7 @@ static void take_scene(System *system, const Making *making)
         system->origin->gravity.at[i] = scene->gravity[i];
     for (int i = 0; i < scene->parameters.count; i++)
         LIST_PUSH(system->origin->parameters,
-                  (Given){scene->parameters.at[i].symbol, scene->parameters.at[i].value});
+                  (GivenParameter){scene->parameters.at[i].symbol, scene->parameters.at[i].value});
     copy_instances(system, scene);
     enter_names(system);
     if (options->vary != NULL)
@@ -399,7 +399,7 @@ static Status make_as(const Making *making, bool *has_no_states, System **out, D
     system->scene = making->scene;
     system->network->asked_form = making->options->form;
     system->network->form = making->taken;
-    system->network->leak = making->options->leak;
+    system->network->gmin = making->options->gmin;
     system->network->closed = keep_sides(system, making);
     system->network->takes_sides = making->takes_sides;
     system->watch = watch;

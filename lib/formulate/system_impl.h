@@ -52,13 +52,13 @@ const char *system_keep(System *system, const char *format, ...) PRINTF(2, 3);
 MUST_USE Status coordinate_value(System *system, const Instance *owner, int coordinate, int primes,
                                  Expr *out, Diag *diag);
 /* derivative along the motion: q -> q', u -> u', x -> x', t -> 1 */
-MUST_USE Status rate_of(System *system, Expr e, Expr *out, Diag *diag);
+MUST_USE Status system_rate_of(System *system, Expr e, Expr *out, Diag *diag);
 /* derivative of e(q) per unit of a speed */
-Expr partial(System *system, Expr e, int speed);
+Expr speed_partial(System *system, Expr e, int speed);
 /* E_MISSING while reactions, multipliers and entries of M can't be told yet */
-MUST_USE Status wait_for_motion(System *system, Diag *diag);
+MUST_USE Status system_wait_for_motion(System *system, Diag *diag);
 /* e over user's variables to e over the system's */
-MUST_USE Status resolve(System *system, Expr user, Expr *out, Diag *diag);
+MUST_USE Status variables_resolve(System *system, Expr user, Expr *out, Diag *diag);
 
 /* --- the cheaper reading (reading.c) --- */
 

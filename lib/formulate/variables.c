@@ -203,8 +203,8 @@ static Status joint_variable(System *system, const Instance *joint, const char *
     bool own = member[0] == 'F' || member[0] == 'T';
 
     if (strcmp(member, "effort") == 0)
-        return wait_for_motion(system, diag) == OK ? joint_effort(system, joint, out, diag)
-                                                   : E_MISSING;
+        return system_wait_for_motion(system, diag) == OK ? joint_effort(system, joint, out, diag)
+                                                          : E_MISSING;
     if (strcmp(member, "s") == 0)
         return tied_shift(system, joint, out, diag);
     if (axis == NULL)
@@ -242,7 +242,7 @@ static Status driver_variable(System *system, const Instance *driver, const char
             drive = &system->constraints->drives.at[i];
     if (drive == NULL || strcmp(member, "effort") != 0)
         return diag_set(diag, E_MISSING, "%s.%s can't be told", driver->name, member);
-    if (wait_for_motion(system, diag) != OK)
+    if (system_wait_for_motion(system, diag) != OK)
         return E_MISSING;
     /* in the embedded form one driver of one freedom has an explicit effort, where it can be
      * written */
@@ -313,7 +313,7 @@ static Status scalar_variable(System *system, const Instance *instance, const ch
         CHECK(network_through(system, branch, &i, diag));
         *out = expr_mul(arena, v, i);
     } else if (branch->relation.content != NULL) {
-        status = resolve(system, branch->relation.content, out, diag);
+        status = variables_resolve(system, branch->relation.content, out, diag);
     } else {
         status = diag_set(diag, E_MISSING, "%s.%s can't be told", instance->name, member);
     }
@@ -383,7 +383,7 @@ static Status storage_rate(System *system, const char *path, Expr *out, Diag *di
     Expr zero = expr_int(arena, 0);
 
     if (branch == NULL)
-        return E_MISSING; /* what rate_of() said stands */
+        return E_MISSING; /* what system_rate_of() said stands */
     instance = &system->origin->instances[branch->instance];
     own = instance_across(instance, arena, branch->which);
     other = instance_through(instance, arena, branch->which);
@@ -393,13 +393,14 @@ static Status storage_rate(System *system, const char *path, Expr *out, Diag *di
         own = other;
         other = kept;
     }
-    own_rate = user_rate(arena, own);
-    rest = expr_add(arena, branch->relation.rest, user_rate(arena, branch->relation.content));
+    own_rate = system_user_rate(arena, own);
+    rest =
+        expr_add(arena, branch->relation.rest, system_user_rate(arena, branch->relation.content));
     rest = expr_substitute(arena, rest, &own_rate, &zero, 1);
-    return resolve(system,
-                   expr_div(arena, expr_sub(arena, other, rest),
-                            expr_diff(arena, branch->relation.content, own)),
-                   out, diag);
+    return variables_resolve(system,
+                             expr_div(arena, expr_sub(arena, other, rest),
+                                      expr_diff(arena, branch->relation.content, own)),
+                             out, diag);
 }
 
 /* potential of a terminal against its datum: along the tree path */
@@ -503,7 +504,7 @@ static Status entry_variable(System *system, const char *path, bool *found, Expr
         return OK;
     if (length == 6 && strncmp(path, "lambda", 6) == 0) {
         *found = true;
-        if (wait_for_motion(system, diag) != OK)
+        if (system_wait_for_motion(system, diag) != OK)
             return E_MISSING;
         if (row < 1 || row > system->constraints->rows.count)
             return diag_set(diag, E_VALUE, "%s: there are %d multipliers", path,
@@ -518,7 +519,7 @@ static Status entry_variable(System *system, const char *path, bool *found, Expr
         if (strncmp(block_name(block), path, length) != 0 || block_name(block)[length] != '\0')
             continue;
         *found = true;
-        if (wait_for_motion(system, diag) != OK)
+        if (system_wait_for_motion(system, diag) != OK)
             return E_MISSING;
         system_block_size(system, block, &rows, &columns);
         if (row < 1 || column < 1 || row > rows || column > columns)
@@ -598,13 +599,13 @@ Status system_variable(System *system, const char *path, int primes, Expr *out, 
     found = found || model_variable(system, path, out);
     for (int i = 0; i < system->origin->output_count && !found; i++)
         if (strcmp(system->origin->output_names[i], path) == 0) {
-            CHECK(resolve(system, system->origin->outputs[i], out, diag));
+            CHECK(variables_resolve(system, system->origin->outputs[i], out, diag));
             found = true;
         }
     if (!found)
         CHECK(member_variable(system, path, out, diag));
     for (int k = 0; k < primes; k++) {
-        status = rate_of(system, *out, out, diag);
+        status = system_rate_of(system, *out, out, diag);
         if (k == 0 && status == E_MISSING && !system->network->is_open)
             status = storage_rate(system, path, out, diag);
         CHECK(status);

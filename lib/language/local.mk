@@ -11,7 +11,7 @@ libcore_la_SOURCES += \
   lib/language/parser.c \
   lib/language/parser.h \
   lib/language/quantity.c \
-  lib/language/shape.c \
+  lib/language/syntax_pattern.c \
   lib/language/statement.c \
   lib/language/syntax.h \
   lib/language/syntax_print.c \

@@ -79,12 +79,12 @@ done:
 }
 
 /* place = path | "0" ; */
-Status parse_place(Parser *parser, Syntax **out)
+Status parse_terminal(Parser *parser, Syntax **out)
 {
     const Token *token = parser_token(parser);
     const Token *behind = parser_peek(parser, 1);
 
-    if (!parser_sees_place(parser))
+    if (!parser_sees_terminal(parser))
         return parser_expected(parser, "a place (a name or 0)");
     if (behind->kind == TOKEN_PRIMES || (token_is(behind, "(") && behind->touches)) {
         (void)diag_at(parser->diag, E_SYNTAX, behind->place,
@@ -108,9 +108,9 @@ Status parse_edge(Parser *parser, Syntax **out)
     Syntax *place = NULL;
 
     if (!parser_take(parser, "("))
-        return parse_place(parser, out);
+        return parse_terminal(parser, out);
     node = syntax_new(parser, SYNTAX_GROUP, "", open.place);
-    CHECK(parse_place(parser, &place));
+    CHECK(parse_terminal(parser, &place));
     if (!parser_take(parser, ")"))
         CHECK(parser_unclosed(parser, &open));
     node->place = place_between(open.place, parser_before(parser)->place);

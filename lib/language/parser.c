@@ -96,7 +96,7 @@ bool parser_sees_stop(const Parser *parser)
            (token_is(token, ">") || token_is(token, ">>"));
 }
 
-bool parser_sees_place(const Parser *parser)
+bool parser_sees_terminal(const Parser *parser)
 {
     const Token *token = parser_token(parser);
 

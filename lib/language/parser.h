@@ -38,7 +38,7 @@ bool parser_take(Parser *parser, const char *symbol); /* read it if it is there 
 bool parser_ends(const Parser *parser);
 bool parser_took_comma(const Parser *parser);      /* as the token before */
 bool parser_sees_pair(const Parser *parser);       /* path { "'" } "=" */
-bool parser_sees_place(const Parser *parser);      /* a path or 0 */
+bool parser_sees_terminal(const Parser *parser);   /* a path or 0 */
 bool parser_sees_comparison(const Parser *parser); /* its sign */
 bool parser_sees_stop(const Parser *parser); /* a stop word, or ">" where it writes to a file */
 
@@ -67,12 +67,12 @@ MUST_USE Status parse_unit(Parser *parser, Syntax *node);         /* in brackets
 MUST_USE Status parse_literal_unit(Parser *parser, Syntax *node); /* if there is one */
 MUST_USE Status parse_shown(Parser *parser, Syntax **out);        /* sum [ unit ] */
 MUST_USE Status parse_item(Parser *parser, Syntax **out);
-MUST_USE Status parse_place(Parser *parser, Syntax **out);
+MUST_USE Status parse_terminal(Parser *parser, Syntax **out);
 MUST_USE Status parse_edge(Parser *parser, Syntax **out); /* a place, or a path in brackets */
 MUST_USE Status parse_word(Parser *parser, Syntax **out); /* NAME, NUMBER without unit or STRING */
 MUST_USE Status parse_name(Parser *parser, const Token **out); /* NAME without a dot */
 MUST_USE Status parse_path(Parser *parser, const char **path, int *primes, Place *place);
-MUST_USE Status parse_shape(Parser *parser, Statement *statement); /* what follows its verb */
+MUST_USE Status parse_pattern(Parser *parser, Statement *statement); /* what follows its verb */
 
 /* E_NAME where a name can't be given another meaning */
 MUST_USE Status parser_check_reserved(const Parser *parser, const Token *name);

@@ -124,7 +124,7 @@ static Status parse_verb(Parser *parser, Statement *statement)
     statement->kind = STATEMENT_VERB;
     statement->verb = statement->row.name;
     statement->verb_place = token->place;
-    CHECK(parse_shape(parser, statement));
+    CHECK(parse_pattern(parser, statement));
 done:
     return status;
 }
@@ -137,7 +137,7 @@ static Status parse_question(Parser *parser, Statement *statement)
     statement->verb_place = parser_token(parser)->place;
     (void)verb_find("help", &statement->row);
     parser->at++;
-    return parse_shape(parser, statement);
+    return parse_pattern(parser, statement);
 }
 
 /* --- definitions --- */

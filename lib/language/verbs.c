@@ -67,11 +67,11 @@ static const struct {
 };
 
 /* by number of terminals, where the parts's places are those alone */
-static const char *const terminal_shapes[] = {[2] = "nppVk", [3] = "npppVk", [4] = "nppppVk"};
+static const char *const terminal_patterns[] = {[2] = "nppVk", [3] = "npppVk", [4] = "nppppVk"};
 
-static const char *component_shape(const Component *row)
+static const char *component_pattern(const Component *row)
 {
-    return row->places == PLACES_TERMINALS ? terminal_shapes[component_terminals(row)]
+    return row->places == PLACES_TERMINALS ? terminal_patterns[component_terminals(row)]
                                            : places[row->places].shape;
 }
 
@@ -87,7 +87,7 @@ static Verb component_verb(const Component *row)
                   .room = ROOM_MODEL,
                   .changes = CHANGES_MODEL,
                   .group = component_group(row),
-                  .shape = component_shape(row),
+                  .shape = component_pattern(row),
                   .later_keys = row->later_keys,
                   .brief = row->brief,
                   .help = row->help,

@@ -22,7 +22,7 @@ libcore_la_SOURCES += \
   lib/model/model_names.c \
   lib/model/model_number.c \
   lib/model/model_param.c \
-  lib/model/model_places.c \
+  lib/model/model_terminals.c \
   lib/model/model_rebuild.c \
   lib/model/model_scene.c \
   lib/model/model_settings.def \

@@ -136,7 +136,7 @@ Measure measure_of_unit(const char *unit)
     return out;
 }
 
-static Measure rate_of(Measure a, int primes)
+static Measure system_rate_of(Measure a, int primes)
 {
     static const Dimension second = {{0, 0, 1, 0, 0, 0}};
 
@@ -206,26 +206,26 @@ typedef struct LawMeasure { /* of a law, for arguments of these measures */
     Measure measure;
 } LawMeasure;
 
-typedef struct Known {
+typedef struct KnownMeasure {
     Pool *pool; /* of `given`; NULL until a law was met */
     LIST(LawMeasure) laws;
     const char *guilty; /* the law that a fault stands in; NULL */
-} Known;
+} KnownMeasure;
 
-typedef struct Walk {
+typedef struct MeasureWalk {
     const Scope *scope;
     const Definition *law; /* that is looked into; NULL: the scope's own text */
     const Measure *given;  /* of its arguments */
     int depth;             /* levels of syntax trees above */
-    Known *known;
+    KnownMeasure *known;
     Diag *diag;
-} Walk;
+} MeasureWalk;
 
-static Status walk(const Walk *w, const Syntax *syntax, Measure *out);
+static Status walk(const MeasureWalk *w, const Syntax *syntax, Measure *out);
 
 /* --- names --- */
 
-static bool find_argument(const Walk *w, const char *name, Measure *out)
+static bool find_argument(const MeasureWalk *w, const char *name, Measure *out)
 {
     int count = w->law != NULL ? w->law->argument_count : w->scope->argument_count;
 
@@ -249,7 +249,7 @@ static const Definition *find_definition(const State *state, const char *name)
                                                             : NULL;
 }
 
-static Measure of_name(const Walk *w, const Syntax *syntax)
+static Measure of_name(const MeasureWalk *w, const Syntax *syntax)
 {
     const State *state = w->scope->state;
     const char *name = syntax->text + run_prefix(syntax->text);
@@ -266,8 +266,8 @@ static Measure of_name(const Walk *w, const Syntax *syntax)
     if (strcmp(name, "pi") == 0)
         return ratio;
     if (d != NULL)
-        return rate_of(d->measure, syntax->primes);
-    return rate_of(variable_measure(state, w->scope->own, name), syntax->primes);
+        return system_rate_of(d->measure, syntax->primes);
+    return system_rate_of(variable_measure(state, w->scope->own, name), syntax->primes);
 }
 
 /* --- operators --- */
@@ -278,7 +278,7 @@ static Measure term(Measure a)
     return a.kind == MEASURE_KNOWN && a.has_time && !a.has_units ? number : a;
 }
 
-static Status sum(const Walk *w, const Syntax *syntax, Measure a, Measure b, Measure *out)
+static Status sum(const MeasureWalk *w, const Syntax *syntax, Measure a, Measure b, Measure *out)
 {
     const char *what = syntax->text[0] == '+' ? "added" : "subtracted";
 
@@ -316,7 +316,7 @@ static bool half_powers(const Syntax *syntax, int *out)
     return value < 1000 && floor(value) == value;
 }
 
-static Status power(const Walk *w, const Syntax *syntax, Measure base, Measure exponent,
+static Status power(const MeasureWalk *w, const Syntax *syntax, Measure base, Measure exponent,
                     Measure *out)
 {
     const Measure plain = {.kind = MEASURE_KNOWN};
@@ -341,7 +341,7 @@ static Status power(const Walk *w, const Syntax *syntax, Measure base, Measure e
     return OK;
 }
 
-static Status binary(const Walk *w, const Syntax *syntax, Measure *out)
+static Status binary(const MeasureWalk *w, const Syntax *syntax, Measure *out)
 {
     const Syntax *left = syntax->args[0];
     const Syntax *right = syntax->args[1];
@@ -400,7 +400,7 @@ static char rule_letter(const char *rule, int i)
     return count >= 2 ? rule[count - 2 + (i - count) % 2] : '.';
 }
 
-static Status number_argument(const Walk *w, const Syntax *call, int i, Measure given)
+static Status number_argument(const MeasureWalk *w, const Syntax *call, int i, Measure given)
 {
     Measure wanted = {.kind = MEASURE_KNOWN};
     Text text = {0};
@@ -431,8 +431,8 @@ static Measure rule_value(char letter, Measure x)
     }
 }
 
-static Status by_rule(const Walk *w, const Syntax *call, const char *rule, const Measure *args,
-                      Measure *out)
+static Status by_rule(const MeasureWalk *w, const Syntax *call, const char *rule,
+                      const Measure *args, Measure *out)
 {
     /* joined so far of each letter, and who began */
     Measure joined[2] = {number, number};
@@ -459,7 +459,8 @@ done:
     return status;
 }
 
-static const LawMeasure *find_law(const Known *known, int law, const Measure *given, int count)
+static const LawMeasure *find_law(const KnownMeasure *known, int law, const Measure *given,
+                                  int count)
 {
     for (int i = 0; i < known->laws.count; i++) {
         const LawMeasure *kept = &known->laws.at[i];
@@ -474,12 +475,12 @@ static const LawMeasure *find_law(const Known *known, int law, const Measure *gi
 }
 
 /* What is wrong inside is said at the call, of the law that it stands in. */
-static Status by_law(const Walk *w, const Syntax *call, int index, const Measure *args,
+static Status by_law(const MeasureWalk *w, const Syntax *call, int index, const Measure *args,
                      Measure *out)
 {
     const Definition *law = &w->scope->state->definitions.at[index];
     Diag fault = {0};
-    Walk inside = {w->scope, law, NULL, 0, w->known, w->law == NULL ? &fault : w->diag};
+    MeasureWalk inside = {w->scope, law, NULL, 0, w->known, w->law == NULL ? &fault : w->diag};
     const LawMeasure *kept;
     Measure *given;
     Status status;
@@ -514,7 +515,7 @@ static Status by_law(const Walk *w, const Syntax *call, int index, const Measure
 }
 
 /* an entry of what is shown, or of what was found */
-static Measure of_entry(const Walk *w, const Syntax *call)
+static Measure of_entry(const MeasureWalk *w, const Syntax *call)
 {
     const EntryFinder *entries = w->scope->entries;
     Measure out = measure_of_unit(entry_unit(call->text));
@@ -525,7 +526,7 @@ static Measure of_entry(const Walk *w, const Syntax *call)
     return out;
 }
 
-static Status call(const Walk *w, const Syntax *syntax, Measure *out)
+static Status call(const MeasureWalk *w, const Syntax *syntax, Measure *out)
 {
     const Thing *thing = state_thing(w->scope->state, syntax->text);
     const char *rule = find_rule(syntax->text);
@@ -539,7 +540,7 @@ static Status call(const Walk *w, const Syntax *syntax, Measure *out)
         CHECK(by_rule(w, syntax, rule, args, out));
     else if (thing != NULL && thing->kind == THING_DEFINITION)
         CHECK(by_law(w, syntax, thing->index, args, out));
-    *out = rate_of(*out, syntax->primes);
+    *out = system_rate_of(*out, syntax->primes);
 done:
     mem_free(args);
     return status;
@@ -548,7 +549,7 @@ done:
 /* --- nodes --- */
 
 /* of a vector: what its entries have in common; they may differ */
-static Status vector(const Walk *w, const Syntax *syntax, Measure *out)
+static Status vector(const MeasureWalk *w, const Syntax *syntax, Measure *out)
 {
     Measure entry = any;
     Measure whole = number;
@@ -566,7 +567,7 @@ done:
     return status;
 }
 
-static Status walk(const Walk *w, const Syntax *syntax, Measure *out)
+static Status walk(const MeasureWalk *w, const Syntax *syntax, Measure *out)
 {
     Status status = OK;
 
@@ -586,7 +587,7 @@ static Status walk(const Walk *w, const Syntax *syntax, Measure *out)
         return vector(w, syntax, out);
     case SYNTAX_GROUP:
         CHECK(walk(w, syntax->args[0], out));
-        *out = rate_of(*out, syntax->primes);
+        *out = system_rate_of(*out, syntax->primes);
         break;
     case SYNTAX_UNARY:
         CHECK(walk(w, syntax->args[0], out));
@@ -602,8 +603,8 @@ done:
 
 Status measure_of(const Scope *scope, const Syntax *syntax, Measure *out, Diag *diag)
 {
-    Known known = {0};
-    const Walk w = {scope, NULL, NULL, 0, &known, diag};
+    KnownMeasure known = {0};
+    const MeasureWalk w = {scope, NULL, NULL, 0, &known, diag};
     Status status = walk(&w, syntax, out);
 
     LIST_FREE(known.laws);

@@ -8,7 +8,7 @@
 
 /* --- values --- */
 
-static Status give(Draft *draft, int index, const Syntax *value, Place place)
+static Status give(PartDraft *draft, int index, const Syntax *value, Place place)
 {
     Instance *part = draft->part;
     const Param *param = &part->row->params[index];
@@ -23,7 +23,7 @@ done:
     return status;
 }
 
-static Status read_positional(Draft *draft)
+static Status read_positional(PartDraft *draft)
 {
     const Component *row = draft->part->row;
     Status status = OK;
@@ -68,7 +68,7 @@ Status key_unknown(const Component *row, const char *key, Place place, Diag *dia
 }
 
 /* by=V1, by=leg1.th1: what supplies the motion of a driver instead of itself */
-static Status read_by(Draft *draft, const Pair *pair)
+static Status read_by(PartDraft *draft, const Pair *pair)
 {
     Instance *part = draft->part;
     const char *name = syntax_name(pair->value);
@@ -90,7 +90,7 @@ static Status read_by(Draft *draft, const Pair *pair)
     return OK;
 }
 
-static Status read_key(Draft *draft, const Pair *pair)
+static Status read_key(PartDraft *draft, const Pair *pair)
 {
     Instance *part = draft->part;
     const Component *row = part->row;
@@ -115,7 +115,7 @@ static Status read_key(Draft *draft, const Pair *pair)
     return OK;
 }
 
-static Status read_values(Draft *draft)
+static Status read_values(PartDraft *draft)
 {
     const Statement *statement = draft->statement;
     Instance *part = draft->part;
@@ -150,7 +150,7 @@ done:
 
 /* --- coordinates of the part itself --- */
 
-static Status coordinate_name(Draft *draft, const Syntax *syntax, int index)
+static Status coordinate_name(PartDraft *draft, const Syntax *syntax, int index)
 {
     const char *name = syntax_name(syntax);
     Instance *part = draft->part;
@@ -172,7 +172,7 @@ done:
     return status;
 }
 
-static Status rename_coordinates(Draft *draft)
+static Status rename_coordinates(PartDraft *draft)
 {
     const Syntax *syntax = draft->coordinate_names;
     int count = draft->part->coord_count;
@@ -194,7 +194,7 @@ done:
 }
 
 /* "h8", or "m1.x", "m1.y" ... */
-static void own_coordinates(Draft *draft)
+static void own_coordinates(PartDraft *draft)
 {
     Instance *part = draft->part;
     const CoordinateRow *rows = instance_coords(part, draft->state->planar, &part->coord_count);
@@ -236,7 +236,7 @@ Status part_check_plane(const State *state, const Instance *part, Place place, D
 }
 
 /* where the statement gives the direction that left the plane */
-static Place direction_place(const Draft *draft)
+static Place direction_place(const PartDraft *draft)
 {
     const Statement *statement = draft->statement;
 
@@ -330,7 +330,7 @@ static void add_scalar_edges(State *state, Instance *part)
     }
 }
 
-static void add_terminals(Draft *draft)
+static void add_terminals(PartDraft *draft)
 {
     Instance *part = draft->part;
 
@@ -347,7 +347,7 @@ static void add_terminals(Draft *draft)
     }
 }
 
-static void commit(Draft *draft, const char *text)
+static void commit(PartDraft *draft, const char *text)
 {
     State *state = draft->state;
     Instance *part = draft->part;
@@ -401,7 +401,7 @@ Status apply_component(State **state, const Statement *statement, Outcome *outco
 {
     const Component *row = component_find(statement->verb);
     PoolMark mark = pool_mark((*state)->pool);
-    Draft draft = {.state = *state, .statement = statement, .diag = diag};
+    PartDraft draft = {.state = *state, .statement = statement, .diag = diag};
     char *text = NULL;
     Status status = OK;
 
@@ -411,8 +411,8 @@ Status apply_component(State **state, const Statement *statement, Outcome *outco
                           .own = draft.part};
     assert(!statement->is_virtual || row->family == FAMILY_JOINT);
     CHECK(check_scene(*state, row, statement->verb_place, diag));
-    CHECK(draft_read_name(&draft));
-    CHECK(draft_read_places(&draft));
+    CHECK(part_draft_read_name(&draft));
+    CHECK(part_draft_read_terminals(&draft));
     CHECK(read_values(&draft));
     own_coordinates(&draft);
     if (draft.coordinate_names != NULL)

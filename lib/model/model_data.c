@@ -16,7 +16,7 @@ typedef struct Cells {
     LIST(char *) at; /* borrowed from the line that was taken apart */
 } Cells;
 
-typedef struct Reader {
+typedef struct DataReader {
     const char *file; /* as the user calls it */
     Place place;      /* of the name in the statement */
     const char *column;
@@ -29,7 +29,7 @@ typedef struct Reader {
     char *path; /* of the hook's making; NULL */
     Cleanup cleanup;
     Diag *diag;
-} Reader;
+} DataReader;
 
 /* the column a call asks for: a text, a number as written, the second if it says none */
 const char *data_column(const Syntax *call)
@@ -102,7 +102,7 @@ static bool is_number_text(const char *text)
 }
 
 /* by its number from 1, or by its name in the first row */
-static Status find_column(Reader *r, const Cells *cells, bool named)
+static Status find_column(DataReader *r, const Cells *cells, bool named)
 {
     Suggest suggest = suggest_for(r->column);
 
@@ -132,7 +132,7 @@ static Status find_column(Reader *r, const Cells *cells, bool named)
     return E_NAME;
 }
 
-static Status take_cell(const Reader *r, const Cells *cells, int cell, double *out)
+static Status take_cell(const DataReader *r, const Cells *cells, int cell, double *out)
 {
     if (cell >= cells->at.count)
         return diag_at(r->diag, E_VALUE, r->place, "line %d of %s has no column %d", r->line,
@@ -143,7 +143,7 @@ static Status take_cell(const Reader *r, const Cells *cells, int cell, double *o
     return OK;
 }
 
-static Status take_row(Reader *r, const Cells *cells)
+static Status take_row(DataReader *r, const Cells *cells)
 {
     double x, y;
     Status status;
@@ -165,7 +165,7 @@ enum { LONGEST_LINE = 1 << 20, MOST_ROWS = 10000000 };
 
 /* The next line without its end, which may be a newline, a carriage return or both; E_MISSING with
  * nothing said at the end of the file. */
-static Status next_line(Reader *r, FILE *in, Text *line)
+static Status next_line(DataReader *r, FILE *in, Text *line)
 {
     int c;
 
@@ -190,7 +190,7 @@ static Status next_line(Reader *r, FILE *in, Text *line)
     return c == EOF && line->length == 0 ? E_MISSING : OK;
 }
 
-static Status read_stream(Reader *r, FILE *in)
+static Status read_stream(DataReader *r, FILE *in)
 {
     Cells cells = {0};
     Text line = {0};
@@ -232,7 +232,7 @@ done:
 
 static void close_file(void *object)
 {
-    Reader *r = object;
+    DataReader *r = object;
 
     if (r->in != NULL)
         (void)fclose(r->in);
@@ -242,11 +242,11 @@ static void close_file(void *object)
 
 static Status read_call(const DataFinder *finder, Arena *arena, const Syntax *call, Diag *diag)
 {
-    Reader r = {.file = call->args[0]->text,
-                .place = call->args[0]->place,
-                .column = data_column(call),
-                .column_place = call->count > 2 ? call->args[2]->place : call->args[0]->place,
-                .diag = diag};
+    DataReader r = {.file = call->args[0]->text,
+                    .place = call->args[0]->place,
+                    .column = data_column(call),
+                    .column_place = call->count > 2 ? call->args[2]->place : call->args[0]->place,
+                    .diag = diag};
     Status status = OK;
 
     cleanup_open(&r.cleanup, close_file, &r);

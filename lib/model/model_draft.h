@@ -4,7 +4,7 @@
 
 #include "model/model_impl.h"
 
-typedef struct Draft {
+typedef struct PartDraft {
     State *state;
     const Statement *statement;
     Instance *part; /* in the state's pool */
@@ -13,11 +13,11 @@ typedef struct Draft {
     const char *terminals[MAX_TERMINALS]; /* names, where the part has scalar edges */
     const Syntax *coordinate_names;
     Diag *diag;
-} Draft;
+} PartDraft;
 
-/* the name of the part, then what it connects (model_places.c) */
-MUST_USE Status draft_read_name(Draft *draft);
-MUST_USE Status draft_read_places(Draft *draft);
+/* the name of the part, then what it connects (model_terminals.c) */
+MUST_USE Status part_draft_read_name(PartDraft *draft);
+MUST_USE Status part_draft_read_terminals(PartDraft *draft);
 /* how the statement of such a part begins: "NAME TAIL TIP" */
 void places_form(const Component *row, Text *out);
 Place statement_end(const Statement *statement);

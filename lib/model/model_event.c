@@ -134,7 +134,7 @@ static Status read_value(EventDraft *r, const Pair *pair, Diag *diag)
     Text name = {0};
     Status status = OK;
 
-    CHECK(start_check(&r->scope, pair, &name, diag));
+    CHECK(initial_check(&r->scope, pair, &name, diag));
     CHECK(scope_expression(&r->scope, pair->value, &value.value, diag));
     for (int i = 0; i < r->values.count; i++)
         if (r->values.at[i].primes == pair->primes && strcmp(r->values.at[i].name, name.at) == 0) {

@@ -394,7 +394,7 @@ MUST_USE Status starts_copy(State *to, const State *from, NameList *broken, Text
 
 /* Refuses a variable that follows from the rest, and so can't be given a value; its own name. A
  * value's unit is checked. */
-MUST_USE Status start_check(const Scope *scope, const Pair *pair, Text *name, Diag *diag);
+MUST_USE Status initial_check(const Scope *scope, const Pair *pair, Text *name, Diag *diag);
 
 /* --- one function a verb --- */
 

@@ -17,7 +17,7 @@ static void unit_of(const State *state, const char *name, int primes, Text *unit
 
 /* A value can be given to what the start is made of: positions and rates, voltages, currents and
  * what they store. */
-Status start_check(const Scope *scope, const Pair *pair, Text *name, Diag *diag)
+Status initial_check(const Scope *scope, const Pair *pair, Text *name, Diag *diag)
 {
     const State *state = scope->state;
     Text again = {0};
@@ -51,7 +51,7 @@ static Status read_start(State *state, const Pair *pair, bool is_guess, StartEnt
     int entry_name = 0;
     Status status = OK;
 
-    CHECK(start_check(&scope, pair, &name, diag));
+    CHECK(initial_check(&scope, pair, &name, diag));
     CHECK(scope_expression(&scope, pair->value, &value, diag));
     text_add(&text, name.at);
     text_fill(&text, '\'', pair->primes);

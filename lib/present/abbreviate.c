@@ -10,19 +10,19 @@ typedef struct Seen {
     int uses;
 } Seen;
 
-typedef struct Walk {
+typedef struct AbbreviateWalk {
     Arena *arena;
     LIST(Seen) seen; /* children first */
     int *slot;       /* hash of addresses to 1 + place in `seen`; open addressing */
     int slots;       /* a power of two */
-} Walk;
+} AbbreviateWalk;
 
 static unsigned hash(Expr e)
 {
     return (unsigned)(((uintptr_t)e >> 4) * 2654435761U);
 }
 
-static int *place(const Walk *walk, Expr e)
+static int *place(const AbbreviateWalk *walk, Expr e)
 {
     int i = (int)(hash(e) & (unsigned)(walk->slots - 1));
 
@@ -31,14 +31,14 @@ static int *place(const Walk *walk, Expr e)
     return walk->slot + i;
 }
 
-static Seen *find(const Walk *walk, Expr e)
+static Seen *find(const AbbreviateWalk *walk, Expr e)
 {
     const int at = *place(walk, e);
 
     return at == 0 ? NULL : walk->seen.at + at - 1;
 }
 
-static void insert(Walk *walk, Expr e)
+static void insert(AbbreviateWalk *walk, Expr e)
 {
     if (2 * (walk->seen.count + 1) > walk->slots) {
         mem_free(walk->slot);
@@ -57,7 +57,7 @@ static bool is_leaf(Expr e)
 }
 
 /* every node below `root` that isn't seen yet, children first, without recursion */
-static void visit(Walk *walk, Expr root)
+static void visit(AbbreviateWalk *walk, Expr root)
 {
     typedef struct Frame {
         Expr node;
@@ -90,7 +90,7 @@ static void visit(Walk *walk, Expr root)
     find(walk, root)->uses++;
 }
 
-static Expr rebuild(const Walk *walk, Expr e)
+static Expr rebuild(const AbbreviateWalk *walk, Expr e)
 {
     const int count = expr_arg_count(e);
     Expr *args = NEW_ARRAY(Expr, count);
@@ -150,7 +150,7 @@ Abbreviation abbreviate(Arena *arena, const Expr *roots, int count, const Naming
 {
     Abbreviation out = {.roots = NEW_ARRAY(Expr, count), .definitions = {0}};
     enum { SLOTS = 256 }; /* at first */
-    Walk walk = {.arena = arena, .slot = NEW_ARRAY(int, SLOTS), .slots = SLOTS};
+    AbbreviateWalk walk = {.arena = arena, .slot = NEW_ARRAY(int, SLOTS), .slots = SLOTS};
 
     for (int i = 0; i < count; i++)
         visit(&walk, roots[i]);
@@ -163,7 +163,7 @@ Abbreviation abbreviate(Arena *arena, const Expr *roots, int count, const Naming
 
             (void)snprintf(name, sizeof name, "%s%d", naming->prefix, out.definitions.count + 1);
             LIST_PUSH(out.definitions,
-                      (Definition){expr_symbol(arena, name, SYMBOL_ARGUMENT), seen->written});
+                      (Abbreviated){expr_symbol(arena, name, SYMBOL_ARGUMENT), seen->written});
             seen->written = out.definitions.at[out.definitions.count - 1].symbol;
         }
     }

@@ -15,14 +15,14 @@ typedef struct Naming {
     int64_t most;       /* operations that stay unnamed; 0: any number */
 } Naming;
 
-typedef struct Definition {
+typedef struct Abbreviated {
     Expr symbol; /* of kind SYMBOL_ARGUMENT */
     Expr value;
-} Definition;
+} Abbreviated;
 
 typedef struct Abbreviation {
     Expr *roots; /* one each of those given */
-    LIST(Definition) definitions;
+    LIST(Abbreviated) definitions;
 } Abbreviation;
 
 /* O(nodes). Holds are looked through. Free with abbreviation_free(). */

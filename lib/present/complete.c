@@ -12,7 +12,7 @@
 #include <string.h>
 
 typedef struct TypedLine {
-    const Known *known;
+    const KnownName *known;
     const char *text;    /* of the statement, to the cursor */
     size_t word;         /* where the word to be completed starts */
     char prefix[128];    /* that word */
@@ -727,7 +727,8 @@ static void offer_behind_verb(TypedLine *line)
         offer_operand(line, &verb, is_virtual ? 2 : 1);
 }
 
-void complete_line(const Known *known, const char *text, size_t cursor, size_t *start, Words *out)
+void complete_line(const KnownName *known, const char *text, size_t cursor, size_t *start,
+                   Words *out)
 {
     TypedLine line = {.known = known, .before = {0}, .out = out};
     char *copy;

@@ -4,13 +4,13 @@
 #include <stdio.h>
 #include <string.h>
 
-typedef struct Drawing {
+typedef struct GraphDrawing {
     const View *view;
     const Graph *graph;
     const Tree *tree;
     Text *out;
     Text stem; /* what stands left of the branches of the node at hand */
-} Drawing;
+} GraphDrawing;
 
 static const char *type_name(const Model *model, int edge)
 {
@@ -27,7 +27,7 @@ static bool hangs_from(const Tree *tree, int child, int node)
 enum { DEEPEST = 400 }; /* branches in a row that are drawn */
 
 /* the branches that leave a node outward, and below each what hangs from it */
-static void draw_below(Drawing *drawing, int node)
+static void draw_below(GraphDrawing *drawing, int node)
 {
     const bool unicode = drawing->view->page.unicode;
     int count, last = -1;
@@ -70,7 +70,7 @@ static bool same_branches(const Tree *a, const Tree *b, const Graph *graph)
     return true;
 }
 
-static void draw_chords(Drawing *drawing)
+static void draw_chords(GraphDrawing *drawing)
 {
     const int *chords = tree_chords(drawing->tree);
 
@@ -97,7 +97,8 @@ Status draw_text(const View *view, Text *out, Diag *diag)
     both = trees[TREE_TRANSLATION] != NULL && trees[TREE_ROTATION] != NULL &&
            same_branches(trees[TREE_TRANSLATION], trees[TREE_ROTATION], graph);
     for (int k = 0; k < TREE_KINDS; k++) {
-        Drawing drawing = {.view = view, .graph = graph, .tree = trees[k], .out = out, .stem = {0}};
+        GraphDrawing drawing = {
+            .view = view, .graph = graph, .tree = trees[k], .out = out, .stem = {0}};
         int count;
 
         if (trees[k] == NULL || (both && k == TREE_ROTATION))

@@ -46,17 +46,18 @@ typedef struct KeyText {
 bool component_key(const Component *row, int i, KeyText *out);
 
 /* where completion finds names and words, beside the tables */
-typedef struct Known {
+typedef struct KnownName {
     const Model *model;
     const Linear *linear; /* the last linearisation; NULL */
     /* settings of the program: as ct_hooks has it; may be NULL */
     const char *const *(*setting)(void *context, int i);
     void *context;
-} Known;
+} KnownName;
 
 /* Words that may stand at `cursor` of the line: sorted as they should be offered. *start is the
  * offset of the word that they complete. */
 typedef LIST(char *) Words;
-void complete_line(const Known *known, const char *line, size_t cursor, size_t *start, Words *out);
+void complete_line(const KnownName *known, const char *line, size_t cursor, size_t *start,
+                   Words *out);
 
 #endif

@@ -157,14 +157,14 @@ static void open_fractions(Text *out, const char *formula, double room)
 
 /* --- lines --- */
 
-typedef struct Piece {
+typedef struct LatexPiece {
     size_t from;
     double width;
     int depth; /* of \left( before it */
     int price; /* of a cut before it, in digits */
-} Piece;
+} LatexPiece;
 
-typedef LIST(Piece) Pieces;
+typedef LIST(LatexPiece) Pieces;
 
 /* a formula cut before the signs of its sums that stand in no group */
 static Pieces cut(const char *formula)
@@ -173,7 +173,7 @@ static Pieces cut(const char *formula)
     LIST(int) prices = {0}; /* of the brackets that are open */
     int price = 0, groups = 0;
 
-    LIST_PUSH(pieces, (Piece){0});
+    LIST_PUSH(pieces, (LatexPiece){0});
     for (size_t i = 0; formula[i] != '\0'; i++) {
         groups += (formula[i] == '{') - (formula[i] == '}');
         if (groups > 0)
@@ -190,7 +190,7 @@ static Pieces cut(const char *formula)
         }
         if (i > 0 && formula[i] == ' ' && strchr("+-", formula[i + 1]) != NULL &&
             formula[i + 1] != '\0' && formula[i + 2] == ' ')
-            LIST_PUSH(pieces, (Piece){.from = i + 1, .depth = prices.count, .price = price});
+            LIST_PUSH(pieces, (LatexPiece){.from = i + 1, .depth = prices.count, .price = price});
     }
     LIST_FREE(prices);
     for (int k = 0; k < pieces.count; k++) {

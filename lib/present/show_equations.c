@@ -282,7 +282,7 @@ static Status push_jacobian_row(const View *view, Equation *equation, int k, boo
 
         CHECK(system_show(view->system, BLOCK_JACOBIAN, k, j, &entry, diag));
         if (!expr_is_zero(entry))
-            LIST_PUSH(equation->left, (Term){entry, rate});
+            LIST_PUSH(equation->left, (ViewTerm){entry, rate});
     }
 done:
     return status;
@@ -299,14 +299,14 @@ static Status push_constraint(const View *view, Equations *equations, int k, con
 
     if (level == NULL) {
         CHECK(system_show(view->system, BLOCK_CONSTRAINTS, k, 0, &e, diag));
-        LIST_PUSH(equation.left, (Term){e, NULL});
+        LIST_PUSH(equation.left, (ViewTerm){e, NULL});
     } else {
         const bool acceleration = strcmp(level, "acceleration") == 0;
 
         CHECK(push_jacobian_row(view, &equation, k, acceleration, diag));
         CHECK(system_show(view->system, acceleration ? BLOCK_ACCELERATION : BLOCK_VELOCITY, k, 0,
                           &e, diag));
-        LIST_PUSH(equation.right, (Term){e, NULL});
+        LIST_PUSH(equation.right, (ViewTerm){e, NULL});
     }
     lead_widths(view, &name_width, &direction_width);
     equation.lead = constraint_lead(view, k, name_width, direction_width);
@@ -353,10 +353,10 @@ static Status push_embedded(const View *view, Equations *equations, int i, Diag 
         CHECK(poll(view->watch));
         CHECK(system_show(view->system, BLOCK_EMBEDDED_MASS, i, j, &e, diag));
         if (!expr_is_zero(e))
-            LIST_PUSH(equation.left, (Term){e, system_acceleration(view->system, j)});
+            LIST_PUSH(equation.left, (ViewTerm){e, system_acceleration(view->system, j)});
     }
     CHECK(system_show(view->system, BLOCK_EMBEDDED_FORCES, i, 0, &e, diag));
-    LIST_PUSH(equation.right, (Term){e, NULL});
+    LIST_PUSH(equation.right, (ViewTerm){e, NULL});
     text_addf(&lead, "%d:  ", i + 1);
     equation.lead = text_done(&lead);
     LIST_PUSH(*equations, equation);
@@ -380,15 +380,15 @@ static Status push_motion(const View *view, Equations *equations, int i, int lea
     for (int j = 0; j < system_nu(view->system); j++) {
         CHECK(system_show(view->system, BLOCK_MASS, i, j, &e, diag));
         if (!expr_is_zero(e))
-            LIST_PUSH(equation.left, (Term){e, system_acceleration(view->system, j)});
+            LIST_PUSH(equation.left, (ViewTerm){e, system_acceleration(view->system, j)});
     }
     for (int k = 0; k < system_m(view->system); k++) {
         CHECK(system_show(view->system, BLOCK_JACOBIAN, k, i, &e, diag));
         if (!expr_is_zero(e))
-            LIST_PUSH(equation.left, (Term){e, system_multiplier(view->system, k)});
+            LIST_PUSH(equation.left, (ViewTerm){e, system_multiplier(view->system, k)});
     }
     CHECK(system_show(view->system, BLOCK_FORCES, i, 0, &e, diag));
-    LIST_PUSH(equation.right, (Term){e, NULL});
+    LIST_PUSH(equation.right, (ViewTerm){e, NULL});
     (void)snprintf(name, sizeof name, "%s:", edge_name(view, system_u(view->system, i)));
     text_addf(&lead, "%-*s  ", lead_width, name);
     equation.lead = text_done(&lead);
@@ -427,8 +427,8 @@ static void push_network(const View *view, Equations *equations, int lead_width)
         Expr left, right;
 
         system_network_equation(view->system, i, &left, &right);
-        LIST_PUSH(equation.left, (Term){left, NULL});
-        LIST_PUSH(equation.right, (Term){right, NULL});
+        LIST_PUSH(equation.left, (ViewTerm){left, NULL});
+        LIST_PUSH(equation.right, (ViewTerm){right, NULL});
         (void)snprintf(name, sizeof name, "%s:", edge_name(view, &of));
         text_addf(&lead, "%-*s  ", lead_width, name);
         equation.lead = text_done(&lead);

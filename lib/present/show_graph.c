@@ -176,12 +176,12 @@ done:
 
 /* --- matrices --- */
 
-typedef struct Signs { /* a sign matrix and how its rows and columns are called */
+typedef struct SignTable { /* a sign matrix and how its rows and columns are called */
     const SignMatrix *matrix;
     const Graph *graph;
     const int *columns; /* edges in the order to print */
     int column_count;
-} Signs;
+} SignTable;
 
 static int entry(const SignMatrix *matrix, int row, int column)
 {
@@ -191,7 +191,7 @@ static int entry(const SignMatrix *matrix, int row, int column)
     return 0;
 }
 
-static void add_sign_table(Text *out, const Signs *signs, const char *const *rows,
+static void add_sign_table(Text *out, const SignTable *signs, const char *const *rows,
                            const bool *chosen, int columns)
 {
     Table table;
@@ -220,8 +220,8 @@ static void add_sign_table(Text *out, const Signs *signs, const char *const *row
 }
 
 /* the row as signed names: "h9 + r5 - r6 = 0" says more than a wide matrix */
-static void add_sign_lists(Text *out, const View *view, const Signs *signs, const char *const *rows,
-                           const bool *chosen)
+static void add_sign_lists(Text *out, const View *view, const SignTable *signs,
+                           const char *const *rows, const bool *chosen)
 {
     int width = 0;
 
@@ -248,7 +248,7 @@ static void add_sign_lists(Text *out, const View *view, const Signs *signs, cons
     }
 }
 
-static void add_signs(Text *out, const View *view, const Signs *signs, const char *const *rows,
+static void add_signs(Text *out, const View *view, const SignTable *signs, const char *const *rows,
                       const Selection *selection)
 {
     bool *chosen = NEW_ARRAY(bool, signs->matrix->rows);
@@ -270,7 +270,7 @@ Status show_incidence(const View *view, const Selection *selection, Text *out, D
     (void)diag;
     for (int d = 0; d < DOMAIN_COUNT; d++) {
         SignMatrix *matrix = graph_incidence(graph, (Domain)d, false);
-        Signs signs = {matrix, graph, NULL, 0};
+        SignTable signs = {matrix, graph, NULL, 0};
         int *columns = NEW_ARRAY(int, graph_edge_count(graph));
         const char **rows = NEW_ARRAY(const char *, matrix->rows);
         const Selection all = {.name_count = 0};
@@ -309,7 +309,7 @@ static Status show_signs(const View *view, const Selection *selection, bool circ
     for (int k = 0; k < TREE_KINDS; k++) {
         const Tree *tree = trees[k];
         SignMatrix *matrix;
-        Signs signs = {NULL, graph, NULL, 0};
+        SignTable signs = {NULL, graph, NULL, 0};
         int *columns;
         const char **rows;
         bool any = false;

@@ -163,7 +163,7 @@ static const char *free_prefix(const Model *model)
 }
 
 /* "(a + b)*x", or the coefficient or symbol alone */
-static char *write_term(const View *view, const Term *term)
+static char *write_term(const View *view, const ViewTerm *term)
 {
     const char *times = notation_row(view->page.notation)->times;
     const Expr c = term->coefficient;
@@ -187,7 +187,7 @@ static char *write_term(const View *view, const Term *term)
 }
 
 /* terms one behind the other; a term's own sign becomes the sum's */
-static char *write_sum(const View *view, const Term *terms, int count)
+static char *write_sum(const View *view, const ViewTerm *terms, int count)
 {
     Text text = {0};
 
@@ -225,7 +225,7 @@ static void print_equation(Text *out, const View *view, const Equation *equation
 static void make_residual(const View *view, Equation *equation, int number)
 {
     Arena *arena = model_arena(view->model);
-    LIST(Term) terms = {0};
+    LIST(ViewTerm) terms = {0};
 
     if (equation->name != NULL)
         return;
@@ -233,8 +233,8 @@ static void make_residual(const View *view, Equation *equation, int number)
     for (int i = 0; i < equation->left.count; i++)
         LIST_PUSH(terms, equation->left.at[i]);
     for (int i = 0; i < equation->right.count; i++)
-        LIST_PUSH(terms, (Term){expr_neg(arena, equation->right.at[i].coefficient),
-                                equation->right.at[i].symbol});
+        LIST_PUSH(terms, (ViewTerm){expr_neg(arena, equation->right.at[i].coefficient),
+                                    equation->right.at[i].symbol});
     equation->left.count = equation->right.count = 0;
     for (int i = 0; i < terms.count; i++)
         LIST_PUSH(equation->right, terms.at[i]);
@@ -244,7 +244,7 @@ static void make_residual(const View *view, Equation *equation, int number)
 static void print_definitions(Text *out, const View *view, const Abbreviation *names)
 {
     for (int i = 0; i < names->definitions.count; i++) {
-        const Definition *definition = names->definitions.at + i;
+        const Abbreviated *definition = names->definitions.at + i;
         char *left = view_expression(view, definition->symbol);
         char *right = view_expression(view, definition->value);
         Text typed = {0};
@@ -263,8 +263,8 @@ static void print_turns(Text *out, const View *view, const Expr *terms, int coun
 {
     Text names = {0}, words = {0};
 
-    for (int i = 0; i < system_turned_count(view->system); i++) {
-        const Expr near = system_turned(view->system, i)->near;
+    for (int i = 0; i < system_multi_turn_count(view->system); i++) {
+        const Expr near = system_multi_turn(view->system, i)->near;
         bool used = false;
 
         for (int k = 0; !used && k < count; k++)
@@ -381,6 +381,6 @@ void view_value(Equations *equations, char *name, Expr e)
     Equation equation = {.lead = NULL, .left = {0}, .right = {0}};
 
     equation.name = name;
-    LIST_PUSH(equation.right, (Term){e, NULL});
+    LIST_PUSH(equation.right, (ViewTerm){e, NULL});
     LIST_PUSH(*equations, equation);
 }

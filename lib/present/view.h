@@ -42,16 +42,16 @@ char *view_expression(const View *view, Expr e);
 
 /* An equation between sums, or a name and its value: terms are written in their order, each a
  * coefficient and behind it a symbol (or NULL). */
-typedef struct Term {
+typedef struct ViewTerm {
     Expr coefficient;
     Expr symbol;
-} Term;
+} ViewTerm;
 
 typedef struct Equation {
     char *lead; /* what stands before it in text: "h9  x:  "; given; NULL: nothing */
     char *name; /* the left side, where it isn't a sum; given; NULL */
-    LIST(Term) left;
-    LIST(Term) right; /* no terms: 0 */
+    LIST(ViewTerm) left;
+    LIST(ViewTerm) right; /* no terms: 0 */
 } Equation;
 typedef LIST(Equation) Equations;
 

@@ -20,11 +20,11 @@ typedef struct Bode {
 } Bode;
 
 /* columns f, then gain and phase of each pair */
-typedef struct Sheet {
+typedef struct BodeSheet {
     double *values;
     int rows, columns;
     LIST(char *) names; /* ended by NULL */
-} Sheet;
+} BodeSheet;
 
 static void bode_free(Bode *bode)
 {
@@ -34,7 +34,7 @@ static void bode_free(Bode *bode)
     LIST_FREE(bode->outputs);
 }
 
-static void sheet_free(Sheet *sheet)
+static void sheet_free(BodeSheet *sheet)
 {
     for (int i = 0; i < sheet->names.count; i++)
         mem_free(sheet->names.at[i]);
@@ -209,7 +209,7 @@ static char *name_of(const Linear *linear, const char *what, int output, int inp
     return text_done(&text);
 }
 
-static Status fill_sheet(const Bode *bode, const Watch *watch, Sheet *sheet, Diag *diag)
+static Status fill_sheet(const Bode *bode, const Watch *watch, BodeSheet *sheet, Diag *diag)
 {
     const int rows = bode->points, pairs = bode->transfers.count;
     double *omega = NEW_ARRAY(double, rows), *gain = NEW_ARRAY(double, rows),
@@ -251,10 +251,10 @@ done:
     return status;
 }
 
-static Status make_sheet(ct_session *session, const Statement *s, Sheet *out, Diag *diag)
+static Status make_sheet(ct_session *session, const Statement *s, BodeSheet *out, Diag *diag)
 {
     Bode bode = {.linear = session->linear};
-    Sheet sheet = {0};
+    BodeSheet sheet = {0};
     Status status;
 
     session_begin(session);
@@ -266,7 +266,7 @@ static Status make_sheet(ct_session *session, const Statement *s, Sheet *out, Di
     suggest_range(&bode);
     CHECK(fill_sheet(&bode, &session->watch, &sheet, diag));
     *out = sheet;
-    sheet = (Sheet){0};
+    sheet = (BodeSheet){0};
 done:
     if (status != OK && diag->place.line == 0)
         diag->place = s->verb_place;
@@ -282,7 +282,7 @@ ct_status ct_bode(ct_session *session, const ct_statement *statement, double **v
 {
     SESSION_CALL(session, session_ran_out(session, error));
 
-    Sheet sheet = {0};
+    BodeSheet sheet = {0};
     Diag diag = {0};
     const Status status = make_sheet(session, statement_of(statement), &sheet, &diag);
 
@@ -300,7 +300,7 @@ ct_status ct_bode_csv(ct_session *session, const ct_statement *statement, bool w
 {
     SESSION_CALL(session, session_ran_out(session, error));
 
-    Sheet sheet = {0};
+    BodeSheet sheet = {0};
     Text out = {0};
     Diag diag = {0};
     const Status status = make_sheet(session, statement_of(statement), &sheet, &diag);

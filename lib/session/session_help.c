@@ -57,10 +57,10 @@ char **ct_complete(ct_session *session, const char *line, size_t cursor, size_t 
 {
     SESSION_CALL(session, NULL);
 
-    const Known known = {.model = session->model,
-                         .linear = session->linear,
-                         .setting = session->hooks.setting,
-                         .context = session->hooks.context};
+    const KnownName known = {.model = session->model,
+                             .linear = session->linear,
+                             .setting = session->hooks.setting,
+                             .context = session->hooks.context};
     Words words = {0};
     char **out;
 

@@ -17,7 +17,7 @@ enum { MOST_ROWS = 8 };
 
 static const char as_it_was[] = "as it was";
 
-typedef struct Search {
+typedef struct TreesSought {
     ct_session *session;
     ArenaMark *mark; /* what is formed on the way is forgotten */
     Model *fork;     /* the model with the joints proposed; NULL: there are none */
@@ -29,7 +29,7 @@ typedef struct Search {
     bool is_late;
     double began;
     Watch watch; /* that stops at either */
-} Search;
+} TreesSought;
 
 static double seconds(void)
 {
@@ -41,7 +41,7 @@ static double seconds(void)
 
 static bool stop(void *context)
 {
-    Search *search = context;
+    TreesSought *search = context;
 
     search->is_stopped = search->is_stopped || poll(&search->session->watch) != OK;
     search->is_late = search->is_late || seconds() - search->began > PATIENCE;
@@ -50,14 +50,14 @@ static bool stop(void *context)
 
 static void progress(void *context, const char *phase, double fraction)
 {
-    const Search *search = context;
+    const TreesSought *search = context;
 
     /* how far the search is, and not each of its systems */
     if (fraction >= 0)
         report(&search->session->watch, phase, fraction);
 }
 
-static const Model *model_of(const Search *search)
+static const Model *model_of(const TreesSought *search)
 {
     return search->fork != NULL ? search->fork : search->session->model;
 }
@@ -99,7 +99,7 @@ static void add_edge(Text *text, const char *name)
 }
 
 /* the statements that choose a pair, joints proposed first */
-static char *statements_of(const Search *search, const TreePair *pair)
+static char *statements_of(const TreesSought *search, const TreePair *pair)
 {
     const Graph *graph = search->scene.graph;
     const int edges = graph_edge_count(graph);
@@ -119,7 +119,7 @@ static char *statements_of(const Search *search, const TreePair *pair)
 }
 
 /* as the table shows it; new */
-static char *brief_of(const Search *search, const TreePair *pair)
+static char *brief_of(const TreesSought *search, const TreePair *pair)
 {
     const Tree *trees[TREE_KINDS];
     Tree *halves[2];
@@ -138,7 +138,7 @@ static char *brief_of(const Search *search, const TreePair *pair)
 
 /* --- joints to propose --- */
 
-static const char *fresh_name(const Search *search, const char *of, Text *name)
+static const char *fresh_name(const TreesSought *search, const char *of, Text *name)
 {
     for (int i = 0; i == 0 || model_find(search->session->model, name->at) != NULL; i++) {
         text_free(name);
@@ -149,7 +149,7 @@ static const char *fresh_name(const Search *search, const char *of, Text *name)
 
 /* "virtual revolute vm3 r6 m3 axis=[0, 0, 1]" for frames of the joints' trees that turn about one
  * axis */
-static Status find_proposals(Search *search, Diag *diag)
+static Status find_proposals(TreesSought *search, Diag *diag)
 {
     const SystemOptions options = {.form = search->scene.network_form, .watch = &search->watch};
     const Graph *graph = search->scene.graph;
@@ -192,7 +192,7 @@ done:
 }
 
 /* a model with the joints proposed among its edges; those that it doesn't take are left out */
-static Status add_proposals(Search *search, Diag *diag)
+static Status add_proposals(TreesSought *search, Diag *diag)
 {
     int kept = 0;
     Diag ignored;
@@ -220,7 +220,7 @@ done:
 
 /* --- the search --- */
 
-static Status open_search(Search *search, Diag *diag)
+static Status open_search(TreesSought *search, Diag *diag)
 {
     Model *model = search->session->model;
     Status status;
@@ -241,7 +241,7 @@ done:
     return status;
 }
 
-static void close_search(Search *search)
+static void close_search(TreesSought *search)
 {
     if (search->mark == NULL)
         return;
@@ -255,7 +255,7 @@ static void close_search(Search *search)
     search->mark = NULL;
 }
 
-static void run_search(Search *search)
+static void run_search(TreesSought *search)
 {
     static const char *const called[] = {"tree joint", "tree absolute"};
 
@@ -286,7 +286,7 @@ static void add_row(Table *table, int number, const TreePair *c)
 }
 
 /* the cheapest ones and the starts, cheapest first */
-static void print_table(const Search *search, Text *out)
+static void print_table(const TreesSought *search, Text *out)
 {
     static const char *const heads[] = {"", "n", "m", "add", "mul", "fun", "price"};
     Table table = table_for("rrrrrrr");
@@ -325,7 +325,7 @@ static void print_table(const Search *search, Text *out)
 
 /* The best trees to the session's model, with the joints that they need, as one step to undo; the
  * search is closed. */
-static Status choose(Search *search, const TreePair *best, Diag *diag)
+static Status choose(TreesSought *search, const TreePair *best, Diag *diag)
 {
     ct_session *session = search->session;
     char *text = statements_of(search, best);
@@ -354,7 +354,7 @@ done:
 
 Status session_best_trees(ct_session *session, Diag *diag)
 {
-    Search search = {.session = session};
+    TreesSought search = {.session = session};
     const TreePair *best;
     System *system;
     Text table = {0};

@@ -38,7 +38,7 @@ static Model *model_of(const char *path)
     return model;
 }
 
-/* Seconds to formulate a script's model: trees, constraints, dynamics, the reading to run. The
+/* Seconds to formulate a script's model: trees, constraints, dynamics, the recursive form. The
  * arena is new each time. Negative: it can't be. */
 static double formulate(const char *path)
 {

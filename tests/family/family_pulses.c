@@ -102,7 +102,7 @@ static double diode(const Supply *s, double v, double *slope)
 
 /* what flows out of a node at v: into one diode up to `top`, less what comes up from 0 by another
  */
-static double leg(const Supply *s, double v, double top, double *slope)
+static double segment(const Supply *s, double v, double top, double *slope)
 {
     double up, down;
     const double i = diode(s, v - top, &up) - diode(s, -v, &down);
@@ -122,12 +122,12 @@ static double node(const Supply *s, double E, const double *x, double v, double 
         *slope += 1 / s->Rs;
         return i - (E - v) / s->Rs;
     case DOUBLER: /* v between the diodes; x = upper, series */
-        i = leg(s, v, x[0], slope);
+        i = segment(s, v, x[0], slope);
         *slope += 1 / s->Rs;
         return i - (E - v - x[1]) / s->Rs;
     default: /* v behind the resistor, the other end of the source is at v + Rs i - E */
-        i = leg(s, v, x[0], slope);
-        i += leg(s, v + s->Rs * i - E, x[0], &below);
+        i = segment(s, v, x[0], slope);
+        i += segment(s, v + s->Rs * i - E, x[0], &below);
         *slope += below * (1 + s->Rs * *slope);
         return i;
     }
@@ -173,7 +173,7 @@ static void rates(const Supply *s, double t, const double *x, double *v, double 
         out[1] = (E - *v - x[1]) / s->Rs / s->Ca;
         break;
     default:
-        i = leg(s, *v, x[0], &slope);
+        i = segment(s, *v, x[0], &slope);
         out[0] = (diode(s, *v - x[0], &slope) + diode(s, *v + s->Rs * i - E - x[0], &slope) -
                   x[0] / s->RL) /
                  s->C;

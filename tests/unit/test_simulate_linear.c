@@ -91,7 +91,7 @@ static void kkt_and_embedded_form_agree(void)
 {
     uint64_t seed = 2;
     Kkt *kkt = kkt_new(NU, M, M);
-    Embed *embed = embed_new(NU, M);
+    Partitioning *embed = partitioning_new(NU, M);
 
     for (int trial = 0; trial < 100; trial++) {
         double mass[NU * NU], phi_u[M * NU], top[NU], bottom[M], du[NU], other[NU], lambda[M];
@@ -102,27 +102,27 @@ static void kkt_and_embedded_form_agree(void)
         EXPECT(kkt_factor(kkt, mass, phi_u, all_rows));
         kkt_solve(kkt, top, bottom, du, lambda);
         EXPECT(kkt_residual(mass, phi_u, top, bottom, du, lambda) < 1e-10);
-        EXPECT(embed_choose(embed, phi_u, all_rows, NULL, 0));
-        EXPECT(embed_factor(embed, mass, phi_u, all_rows));
-        embed_solve(embed, top, bottom, other);
+        EXPECT(partitioning_choose(embed, phi_u, all_rows, NULL, 0));
+        EXPECT(partitioning_factor(embed, mass, phi_u, all_rows));
+        partitioning_solve(embed, top, bottom, other);
         for (int i = 0; i < NU; i++)
             EXPECT_NEAR(other[i], du[i], 1e-9);
     }
     kkt_free(kkt);
-    embed_free(embed);
+    partitioning_free(embed);
 }
 
 static void wanted_speeds_become_independent(void)
 {
     static const int wanted[2] = {1, 4};
     uint64_t seed = 3;
-    Embed *embed = embed_new(NU, M);
+    Partitioning *embed = partitioning_new(NU, M);
     double phi_u[M * NU];
 
     random_matrix(&seed, phi_u, M * NU);
-    EXPECT(embed_choose(embed, phi_u, all_rows, wanted, 2));
-    EXPECT(embed_independent(embed)[0] == 1 && embed_independent(embed)[1] == 4);
-    embed_free(embed);
+    EXPECT(partitioning_choose(embed, phi_u, all_rows, wanted, 2));
+    EXPECT(partitioning_independent(embed)[0] == 1 && partitioning_independent(embed)[1] == 4);
+    partitioning_free(embed);
 }
 
 static void massless_speeds_are_held_by_their_constraints(void)
@@ -329,10 +329,10 @@ static void least_squares_goes_to_the_near_solution(void)
     Rows rows = {.rows = 4, .columns = 2, .length = 2, .evaluate = circles};
     double v[2] = {0.5, 0.7}, below[2] = {1.3, -4};
 
-    EXPECT(least_solve(&rows, NULL, NULL, 1e-12, v, NULL));
+    EXPECT(levenberg_marquardt_solve(&rows, NULL, NULL, 1e-12, v, NULL));
     EXPECT_NEAR(v[0], 1, 1e-13);
     EXPECT_NEAR(v[1], sqrt(3), 1e-13);
-    EXPECT(least_solve(&rows, NULL, NULL, 1e-12, below, NULL));
+    EXPECT(levenberg_marquardt_solve(&rows, NULL, NULL, 1e-12, below, NULL));
     EXPECT_NEAR(below[1], -sqrt(3), 1e-13);
 }
 
@@ -342,7 +342,7 @@ static void least_squares_keeps_what_is_held(void)
     const bool held[2] = {true, false};
     double v[2] = {1.5, 1}, residual[4];
 
-    EXPECT(!least_solve(&rows, held, NULL, 1e-12, v, residual));
+    EXPECT(!levenberg_marquardt_solve(&rows, held, NULL, 1e-12, v, residual));
     EXPECT_NEAR(v[0], 1.5, 0);
     /* the best y leaves both circles missed by the same */
     EXPECT(fabs(residual[0]) > 0.5 && fabs(residual[1]) > 0.5);

@@ -9,8 +9,8 @@ enum { MODELS = 20, MOST_BODIES = 12, CHOICES = 5 };
 typedef struct Compared {
     int systems;
     int reactions;
-    int vanished; /* equations */
-    int open;     /* reactions that one of the two can't tell */
+    int redundant_rows; /* equations */
+    int open;           /* reactions that one of the two can't tell */
 } Compared;
 
 static void compare(const char *scene, const char *trees, const Words *names, const double *first,
@@ -80,7 +80,7 @@ static void check_scene(const char *scene, const char *positions, int bodies, ui
                 compare(scene, trees, &names, first, values, of_bodies, compared);
                 compared->systems++;
                 for (int i = 0; system_dropped(system, i) != NULL; i++)
-                    compared->vanished++;
+                    compared->redundant_rows++;
             }
             mem_free(values);
         } else if (first == NULL) {
@@ -147,10 +147,10 @@ static void check_models(bool loop, bool twins)
     }
     printf("%s%s: %d systems, %d equations vanished, %d reactions compared, %d open\n",
            loop ? "loops" : "trees", twins ? " with virtual joints" : "", compared.systems,
-           compared.vanished, compared.reactions, compared.open);
+           compared.redundant_rows, compared.reactions, compared.open);
     EXPECT(compared.systems > MODELS);
     EXPECT(compared.open == 0);
-    EXPECT((compared.vanished > 5 * MODELS) == twins);
+    EXPECT((compared.redundant_rows > 5 * MODELS) == twins);
 }
 
 static void open_chains_accelerate_alike_in_all_trees(void)

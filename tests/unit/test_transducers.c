@@ -60,7 +60,7 @@ static Expr imbalance(const Instance *part, const Instance *joint, Arena *arena,
     part->row->relation(part, arena, 0, &motion, &relation);
     effort = part->row->effort(part, arena, &motion);
     if (relation.content != NULL)
-        given = expr_add(arena, user_rate(arena, relation.content), relation.rest);
+        given = expr_add(arena, system_user_rate(arena, relation.content), relation.rest);
     else if (relation.kind == RELATION_RESISTIVE)
         given = expr_add(arena, expr_mul(arena, relation.value, i), relation.rest);
     else
@@ -78,7 +78,7 @@ static Expr imbalance(const Instance *part, const Instance *joint, Arena *arena,
     }
     power[0] = expr_mul(arena, v, i);
     power[1] = expr_neg(arena, expr_mul(arena, effort, motion.rate));
-    power[2] = relation.stored != NULL ? expr_neg(arena, user_rate(arena, relation.stored))
+    power[2] = relation.stored != NULL ? expr_neg(arena, system_user_rate(arena, relation.stored))
                                        : expr_int(arena, 0);
     *size = expr_int(arena, 1);
     for (int k = 0; k < 3; k++)
@@ -102,8 +102,8 @@ static void expect_balance(const Instance *part, const Instance *joint, Arena *a
         }
         /* what is lost depends on no rate of the states */
         for (int k = 0; k < 2; k++) {
-            Expr rate = user_rate(arena, k == 0 ? instance_across(part, arena, 0)
-                                                : instance_through(part, arena, 0));
+            Expr rate = system_user_rate(arena, k == 0 ? instance_across(part, arena, 0)
+                                                       : instance_through(part, arena, 0));
             Expr slope = expr_diff(arena, lost, rate);
             Sample sample = {7};
 

@@ -26,7 +26,7 @@
 #define NO_LEAK     1e-14 /* S, from which on there is none */
 
 typedef struct Quest {
-    Statics *statics;
+    EquilibriumResidual *statics;
     Search *search;
     const Watch *watch;
     const Layout *l;
@@ -42,15 +42,16 @@ typedef struct Quest {
 
 static void begin_again(Quest *e)
 {
-    memcpy(statics_base(e->statics), e->begun, (size_t)statics_length(e->statics) * sizeof(double));
-    statics_rebase(e->statics);
+    memcpy(equilibrium_base(e->statics), e->begun,
+           (size_t)equilibrium_length(e->statics) * sizeof(double));
+    equilibrium_rebase(e->statics);
 }
 
 static const double *measures_here(const Quest *e)
 {
-    const double *v = statics_base(e->statics);
+    const double *v = equilibrium_base(e->statics);
     const RowValues row = {
-        .q = v, .x = v + e->l->n, .near = v + statics_length(e->statics) - e->l->turned};
+        .q = v, .x = v + e->l->n, .near = v + equilibrium_length(e->statics) - e->l->turned};
 
     return probe_values(e->measures, &row);
 }
@@ -70,9 +71,9 @@ static bool is_within(Quest *e)
 
 static bool run_within(Quest *e)
 {
-    const size_t bytes = (size_t)statics_length(e->statics) * sizeof(double);
-    double *base = statics_base(e->statics);
-    double *before = NEW_ARRAY(double, statics_length(e->statics));
+    const size_t bytes = (size_t)equilibrium_length(e->statics) * sizeof(double);
+    double *base = equilibrium_base(e->statics);
+    double *before = NEW_ARRAY(double, equilibrium_length(e->statics));
     bool found;
 
     memcpy(before, base, bytes);
@@ -80,7 +81,7 @@ static bool run_within(Quest *e)
     if (found && !is_within(e)) {
         found = false;
         memcpy(base, before, bytes);
-        statics_rebase(e->statics);
+        equilibrium_rebase(e->statics);
     }
     mem_free(before);
     return found;
@@ -89,8 +90,8 @@ static bool run_within(Quest *e)
 /* Newton's method at once, or once the network has settled beside mechanics that stands still */
 static bool seek(Quest *e)
 {
-    const size_t bytes = (size_t)statics_length(e->statics) * sizeof(double);
-    double *base = statics_base(e->statics);
+    const size_t bytes = (size_t)equilibrium_length(e->statics) * sizeof(double);
+    double *base = equilibrium_base(e->statics);
 
     if (run_within(e))
         return true;
@@ -100,7 +101,7 @@ static bool seek(Quest *e)
     if (search_settle(e->search) && run_within(e))
         return true;
     memcpy(base, e->kept, bytes);
-    statics_rebase(e->statics);
+    equilibrium_rebase(e->statics);
     return false;
 }
 
@@ -111,17 +112,17 @@ static bool seek(Quest *e)
 typedef struct Path {
     const char *phase;
     double first; /* step */
-    bool (*turn)(Statics *statics, double reached);
+    bool (*turn)(EquilibriumResidual *statics, double reached);
 } Path;
 
-static bool turn_load(Statics *statics, double reached)
+static bool turn_load(EquilibriumResidual *statics, double reached)
 {
-    return statics_turn_load(statics, reached);
+    return equilibrium_step_sources(statics, reached);
 }
 
-static bool turn_leak(Statics *statics, double reached)
+static bool turn_leak(EquilibriumResidual *statics, double reached)
 {
-    return statics_turn_leak(statics, reached < 1 ? LEAK * pow(NO_LEAK / LEAK, reached) : 0);
+    return equilibrium_step_gmin(statics, reached < 1 ? LEAK * pow(NO_LEAK / LEAK, reached) : 0);
 }
 
 static const Path paths[] = {
@@ -180,14 +181,14 @@ static Status creep_step(Quest *e, Creep *c, double resistance, bool *moves, Dia
     const int *start, *row;
     Status status = OK;
 
-    statics_pattern(e->statics, &start, &row);
-    statics_begin(e->statics, c->w);
-    values = statics_jacobian(e->statics, c->w);
-    missed = statics_residual(e->statics, c->w);
+    equilibrium_pattern(e->statics, &start, &row);
+    equilibrium_begin(e->statics, c->w);
+    values = equilibrium_jacobian(e->statics, c->w);
+    missed = equilibrium_residual(e->statics, c->w);
     memcpy(c->jacobian, values, (size_t)start[e->n] * sizeof(double));
     for (int i = 0; i < e->n; i++)
         c->right[i] = -missed[i];
-    CHECK(statics_add_inertia(e->statics, c->w, resistance, c->jacobian, diag));
+    CHECK(equilibrium_add_inertia(e->statics, c->w, resistance, c->jacobian, diag));
     *moves = factors_make(c->factors, c->jacobian) &&
              factors_solve(c->factors, c->right, c->step) >= 0 &&
              vector_largest(c->step, e->l->nu) <= CREEP;
@@ -207,8 +208,8 @@ static double creep_on(Quest *e, Creep *c)
         growth = search_growth(e->search, c->right) / before;
     }
     if (isfinite(growth) && before > 0) {
-        statics_place(e->statics, c->right, statics_base(e->statics));
-        statics_rebase(e->statics);
+        equilibrium_place(e->statics, c->right, equilibrium_base(e->statics));
+        equilibrium_rebase(e->statics);
     }
     return growth;
 }
@@ -220,7 +221,7 @@ static Status creep(Quest *e, bool *found, Diag *diag)
     double resistance = 1e4;
     Status status = OK;
 
-    statics_pattern(e->statics, &start, &row);
+    equilibrium_pattern(e->statics, &start, &row);
     c = (Creep){.factors = factors_new(e->n, start, row, search_may_be_full(e->search)),
                 .w = NEW_ARRAY(double, e->n),
                 .step = NEW_ARRAY(double, e->n),
@@ -418,13 +419,13 @@ static Status quest_open(Quest *e, const Setting *setting, Result *start, Diag *
 
     *e = (Quest){.watch = watch, .beyond = -1};
     CHECK(setting->scene.make(setting->scene.context, &scene, diag));
-    CHECK(statics_new(&scene, start, watch, &e->statics, diag));
-    e->l = statics_layout(e->statics);
-    e->n = statics_count(e->statics);
-    bytes = (size_t)statics_length(e->statics) * sizeof(double);
-    e->begun = NEW_ARRAY(double, statics_length(e->statics));
-    e->kept = NEW_ARRAY(double, statics_length(e->statics));
-    memcpy(e->begun, statics_base(e->statics), bytes);
+    CHECK(equilibrium_new(&scene, start, watch, &e->statics, diag));
+    e->l = equilibrium_layout(e->statics);
+    e->n = equilibrium_count(e->statics);
+    bytes = (size_t)equilibrium_length(e->statics) * sizeof(double);
+    e->begun = NEW_ARRAY(double, equilibrium_length(e->statics));
+    e->kept = NEW_ARRAY(double, equilibrium_length(e->statics));
+    memcpy(e->begun, equilibrium_base(e->statics), bytes);
     CHECK(open_bounds(e, start, diag));
     e->search = search_new(e->statics, watch);
     if (e->search == NULL)
@@ -440,7 +441,7 @@ static void quest_close(Quest *e)
     probe_free(e->measures);
     mem_free(e->bounds);
     mem_free(e->sides);
-    statics_free(e->statics);
+    equilibrium_free(e->statics);
     mem_free(e->begun);
     mem_free(e->kept);
 }
@@ -453,7 +454,7 @@ static void guess_network(const Quest *e, Result *r)
     if (e->l->nz != l->nz)
         return;
     memset(r->start.network, 0, (size_t)l->nx * sizeof(double));
-    memcpy(r->start.network + l->nx, statics_base(e->statics) + l->n + l->nx + l->m,
+    memcpy(r->start.network + l->nx, equilibrium_base(e->statics) + l->n + l->nx + l->m,
            (size_t)l->nz * sizeof(double));
 }
 
@@ -475,12 +476,12 @@ Status run_equilibrium(System *system, const Setting *setting, Result **out, Dia
                                             "no equilibrium can be found from there", diag))
         status = E_SINGULAR;
     CHECK(status);
-    v = statics_base(e.statics);
+    v = equilibrium_base(e.statics);
     memset(r->start.y, 0, (size_t)(l->n + l->nu + l->nx) * sizeof(double));
     for (int i = 0; i < l->n; i++) /* less than rounding of 1 rad or 1 m is nothing */
         r->start.y[i] = fabs(v[i]) < 1e-15 ? 0 : v[i];
     memcpy(r->start.y + l->n + l->nu, v + l->n, (size_t)l->nx * sizeof(double));
-    memcpy(r->start.y + layout_turned(l), v + statics_length(e.statics) - l->turned,
+    memcpy(r->start.y + layout_turned(l), v + equilibrium_length(e.statics) - l->turned,
            (size_t)l->turned * sizeof(double));
     guess_network(&e, r);
     CHECK(result_begin(r, setting, diag));

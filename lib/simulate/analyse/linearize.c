@@ -12,16 +12,16 @@
 
 /* --- the equations, with symbols for inputs --- */
 
-typedef struct Vary {
+typedef struct LinearizeVary {
     const LinearOrder *order;
     const Expr *symbols;
     Arena *arena;
     Expr since; /* time from the point on */
-} Vary;
+} LinearizeVary;
 
 static Expr vary(void *context, const Instance *instance, int param, Expr value)
 {
-    const Vary *v = context;
+    const LinearizeVary *v = context;
 
     for (int i = 0; instance != NULL && i < v->order->input_count; i++) {
         const char *source = v->order->inputs[i].source;
@@ -79,8 +79,9 @@ static Status open_system(Work *w, Diag *diag)
 {
     const LinearOrder *order = w->order;
     Arena *arena = system_arena(order->about->system);
-    Vary of = {order, NULL, arena,
-               expr_sub(arena, expr_symbol(arena, "t", SYMBOL_TIME), expr_real(arena, order->at))};
+    LinearizeVary of = {
+        order, NULL, arena,
+        expr_sub(arena, expr_symbol(arena, "t", SYMBOL_TIME), expr_real(arena, order->at))};
     SystemOptions options = {.vary = vary, .context = &of, .watch = order->watch};
     Scene scene = {0};
     bool needed = false;
@@ -230,7 +231,7 @@ static void work_free(Work *w)
     parameters_free(&w->parameters);
     layout_free(w->l);
     system_free(w->varied);
-    embed_free(w->embed);
+    partitioning_free(w->embed);
     mem_free(w->inputs);
     mem_free(w->at.symbols);
     square_free(w->equations);

@@ -9,16 +9,16 @@
 /* --- deviations --- */
 
 typedef struct Deviation {
-    Number *s, *u, *q; /* nu, nu, n */
-    Number *follow;    /* unknowns */
-    Number *right;     /* the same, or used */
-    int input;         /* that deviates by 1, or -1 */
-    int state;         /* network state that does, or -1 */
+    LinearNumber *s, *u, *q; /* nu, nu, n */
+    LinearNumber *follow;    /* unknowns */
+    LinearNumber *right;     /* the same, or used */
+    int input;               /* that deviates by 1, or -1 */
+    int state;               /* network state that does, or -1 */
 } Deviation;
 
-static const Number one = {1, 0}, none = {0, 0};
+static const LinearNumber one = {1, 0}, none = {0, 0};
 
-static void by_map(const Work *w, const Number *s, Number *q)
+static void by_map(const Work *w, const LinearNumber *s, LinearNumber *q)
 {
     for (int i = 0; i < w->l->n; i++) {
         q[i] = none;
@@ -28,9 +28,9 @@ static void by_map(const Work *w, const Number *s, Number *q)
 }
 
 /* derivative of a row along all that deviates but what follows */
-static Number along(const Work *w, const Deviation *d, int row)
+static LinearNumber along(const Work *w, const Deviation *d, int row)
 {
-    Number sum = d->input >= 0 ? gradient(w, row, w->at.inputs + d->input) : none;
+    LinearNumber sum = d->input >= 0 ? gradient(w, row, w->at.inputs + d->input) : none;
 
     if (d->state >= 0)
         number_add(&sum, gradient(w, row, w->at.x + d->state), one);
@@ -54,7 +54,7 @@ static void solve(const Work *w, Deviation *d)
     }
     square_solve(w->equations, b, error, found, off);
     for (int k = 0; k < n; k++)
-        d->follow[k] = (Number){found[k], off[k]};
+        d->follow[k] = (LinearNumber){found[k], off[k]};
     mem_free(b);
     mem_free(error);
     mem_free(found);
@@ -66,7 +66,7 @@ static void spread(const Work *w, Deviation *d)
 {
     const int *rows = w->in_use;
     const int nu = w->l->nu;
-    Number *moving = NEW_ARRAY(Number, nu);
+    LinearNumber *moving = NEW_ARRAY(LinearNumber, nu);
 
     /* speeds apart: the velocity rows deviate with position first */
     for (int r = 0; r < w->used; r++)
@@ -90,21 +90,21 @@ static void spread(const Work *w, Deviation *d)
 }
 
 /* rate of the deviation s_j: N s' = (N u)_q dq + N du - N' s; columns of N are orthogonal */
-static Number turn_rate(const Work *w, const Deviation *d, int j)
+static LinearNumber turn_rate(const Work *w, const Deviation *d, int j)
 {
     const int n = w->l->n, nu = w->l->nu;
-    Number sum = none, norm = none, out;
+    LinearNumber sum = none, norm = none, out;
 
     for (int i = 0; i < n; i++) {
-        const Number entry = w->map[i * nu + j];
-        Number rate = none;
+        const LinearNumber entry = w->map[i * nu + j];
+        LinearNumber rate = none;
 
         if (entry.value == 0 && entry.error == 0)
             continue;
         for (int k = 0; k < n; k++)
             number_add(&rate, gradient(w, w->rows.q_rate + i, w->at.q + k), d->q[k]);
         for (int k = 0; k < nu; k++) {
-            const Number s = {-d->s[k].value, d->s[k].error};
+            const LinearNumber s = {-d->s[k].value, d->s[k].error};
 
             number_add(&rate, w->map[i * nu + k], d->u[k]);
             number_add(&rate, w->map_rate[i * nu + k], s);
@@ -121,18 +121,18 @@ static Number turn_rate(const Work *w, const Deviation *d, int j)
 /* --- columns of A and C, of B and D --- */
 
 /* one column of rates, or of outputs */
-typedef struct Column {
+typedef struct LinearColumn {
     double *at, *error;
     int stride;
-} Column;
+} LinearColumn;
 
-static Column column_of(double *at, double *error, int column, int stride)
+static LinearColumn column_of(double *at, double *error, int column, int stride)
 {
-    return (Column){at + column, error + column, stride};
+    return (LinearColumn){at + column, error + column, stride};
 }
 
 /* what can't be told from 0 is 0 */
-static void put(const Column *column, int row, Number number)
+static void put(const LinearColumn *column, int row, LinearNumber number)
 {
     const bool is_zero = fabs(number.value) <= number.error;
 
@@ -140,17 +140,17 @@ static void put(const Column *column, int row, Number number)
     column->error[(ptrdiff_t)row * column->stride] = number.error;
 }
 
-static Number get(const Column *column, int row)
+static LinearNumber get(const LinearColumn *column, int row)
 {
-    return (Number){column->at[(ptrdiff_t)row * column->stride],
-                    column->error[(ptrdiff_t)row * column->stride]};
+    return (LinearNumber){column->at[(ptrdiff_t)row * column->stride],
+                          column->error[(ptrdiff_t)row * column->stride]};
 }
 
-static void write_column(const Work *w, const Deviation *d, const Column *rates,
-                         const Column *outputs)
+static void write_column(const Work *w, const Deviation *d, const LinearColumn *rates,
+                         const LinearColumn *outputs)
 {
     const Layout *l = w->l;
-    const int *independent = embed_independent(w->embed);
+    const int *independent = partitioning_independent(w->embed);
     int f = w->freedoms;
 
     for (int i = 0; i < f; i++) {
@@ -160,7 +160,7 @@ static void write_column(const Work *w, const Deviation *d, const Column *rates,
     for (int i = 0; i < l->nx; i++)
         put(rates, 2 * f + i, d->follow[l->nu + w->used + i]);
     for (int o = 0; o < w->order->output_count; o++) {
-        Number sum = along(w, d, w->rows.outputs + o);
+        LinearNumber sum = along(w, d, w->rows.outputs + o);
 
         for (int k = 0; k < w->unknowns; k++)
             number_add(&sum, gradient(w, w->rows.outputs + o, linear_unknown(w, k)), d->follow[k]);
@@ -173,9 +173,9 @@ static void write_column(const Work *w, const Deviation *d, const Column *rates,
 static Status take_rate(const Work *w, Deviation *d, int input, Linear *out, Diag *diag)
 {
     double *b1 = NEW_ARRAY(double, 2 * out->states), *d1 = NEW_ARRAY(double, 2 * out->outputs);
-    const Column rates = {b1, b1 + out->states, 1}, direct = {d1, d1 + out->outputs, 1};
-    const Column b = column_of(out->b, out->b_error, input, out->inputs);
-    const Column through = column_of(out->d, out->d_error, input, out->inputs);
+    const LinearColumn rates = {b1, b1 + out->states, 1}, direct = {d1, d1 + out->outputs, 1};
+    const LinearColumn b = column_of(out->b, out->b_error, input, out->inputs);
+    const LinearColumn through = column_of(out->d, out->d_error, input, out->inputs);
     Status status = OK;
 
     for (int j = 0; j < w->l->nu; j++)
@@ -194,20 +194,20 @@ static Status take_rate(const Work *w, Deviation *d, int input, Linear *out, Dia
     for (int i = 0; i < out->states; i++)
         out->is_shifted = out->is_shifted || b1[i] != 0;
     for (int k = 0; k < out->states; k++) {
-        Number sum = get(&b, k);
+        LinearNumber sum = get(&b, k);
 
         for (int i = 0; i < out->states; i++) {
-            const Column a = column_of(out->a, out->a_error, i, out->states);
+            const LinearColumn a = column_of(out->a, out->a_error, i, out->states);
 
             number_add(&sum, get(&a, k), get(&rates, i));
         }
         put(&b, k, sum);
     }
     for (int o = 0; o < out->outputs; o++) {
-        Number sum = get(&through, o);
+        LinearNumber sum = get(&through, o);
 
         for (int i = 0; i < out->states; i++) {
-            const Column c = column_of(out->c, out->c_error, i, out->states);
+            const LinearColumn c = column_of(out->c, out->c_error, i, out->states);
 
             number_add(&sum, get(&c, o), get(&rates, i));
         }
@@ -223,25 +223,26 @@ static Status write_columns(const Work *w, Linear *out, Diag *diag)
 {
     const Layout *l = w->l;
     int f = w->freedoms;
-    Deviation d = {.s = NEW_ARRAY(Number, l->nu),
-                   .u = NEW_ARRAY(Number, l->nu),
-                   .q = NEW_ARRAY(Number, l->n),
-                   .follow = NEW_ARRAY(Number, w->unknowns),
-                   .right = NEW_ARRAY(Number, w->unknowns)};
+    Deviation d = {.s = NEW_ARRAY(LinearNumber, l->nu),
+                   .u = NEW_ARRAY(LinearNumber, l->nu),
+                   .q = NEW_ARRAY(LinearNumber, l->n),
+                   .follow = NEW_ARRAY(LinearNumber, w->unknowns),
+                   .right = NEW_ARRAY(LinearNumber, w->unknowns)};
     Status status = OK;
 
     for (int c = 0; c < out->states + out->inputs; c++) {
         const bool is_input = c >= out->states;
         const int column = is_input ? c - out->states : c;
         const int stride = is_input ? out->inputs : out->states;
-        const Column rates = is_input ? column_of(out->b, out->b_error, column, stride)
-                                      : column_of(out->a, out->a_error, column, stride);
-        const Column outputs = is_input ? column_of(out->d, out->d_error, column, stride)
-                                        : column_of(out->c, out->c_error, column, stride);
+        const LinearColumn rates = is_input ? column_of(out->b, out->b_error, column, stride)
+                                            : column_of(out->a, out->a_error, column, stride);
+        const LinearColumn outputs = is_input ? column_of(out->d, out->d_error, column, stride)
+                                              : column_of(out->c, out->c_error, column, stride);
 
         for (int j = 0; j < l->nu; j++) {
-            d.s[j] = c < f && embed_independent(w->embed)[c] == j ? one : none;
-            d.u[j] = c >= f && c < 2 * f && embed_independent(w->embed)[c - f] == j ? one : none;
+            d.s[j] = c < f && partitioning_independent(w->embed)[c] == j ? one : none;
+            d.u[j] =
+                c >= f && c < 2 * f && partitioning_independent(w->embed)[c - f] == j ? one : none;
         }
         d.state = c >= 2 * f && !is_input ? c - 2 * f : -1;
         d.input = is_input ? column : -1;
@@ -318,7 +319,7 @@ static Linear *linear_new(const Work *w)
     for (int j = 0; j < l->nu; j++)
         out->part_names[j] = part_name(w, j);
     for (int i = 0; i < f; i++) {
-        int j = embed_independent(w->embed)[i];
+        int j = partitioning_independent(w->embed)[i];
 
         out->state_names[i] = copy(out->part_names[j]);
         out->state_names[f + i] = copy(system_u(w->system, j)->name);

@@ -24,12 +24,12 @@ typedef struct RowPlaces {
 } RowPlaces;
 
 /* a number and how far it may be off */
-typedef struct Number {
+typedef struct LinearNumber {
     double value, error;
-} Number;
+} LinearNumber;
 
 /* add a product; what that rounds away is known */
-static inline void number_add(Number *sum, Number a, Number b)
+static inline void number_add(LinearNumber *sum, LinearNumber a, LinearNumber b)
 {
     const Wide product = wide_product(a.value, b.value);
     const Wide total = wide_sum(sum->value, product.high);
@@ -55,18 +55,18 @@ typedef struct Work {
     double *follow;       /* u', lambda, x', z */
     double *y_error;      /* of q, u, x */
     double *follow_error; /* likewise */
-    Number *values;       /* of rows, then of all derivatives row by row, at the point */
-    Number *phi_u, *map, *map_rate;
+    LinearNumber *values; /* of rows, then of all derivatives row by row, at the point */
+    LinearNumber *phi_u, *map, *map_rate;
     double *matrix, *matrix_error; /* E_e over the rows in use */
     Square *equations;             /* its factors */
     double *dependent, *dependent_error;
     Square *held; /* factors of Phi_u's dependent columns, over the rows in use */
-    Embed *embed;
+    Partitioning *embed;
     int used, freedoms, unknowns; /* unknowns: nu + used + nx + nz */
     int *in_use;                  /* constraint rows, so many as are used: independent there */
 } Work;
 
-static inline Number gradient(const Work *w, int row, int column)
+static inline LinearNumber gradient(const Work *w, int row, int column)
 {
     return w->values[w->rows.count + row * w->at.count + column];
 }
@@ -80,7 +80,7 @@ int linear_equation(const Work *w, int r); /* row of the r-th of the equations i
 int linear_unknown(const Work *w, int k);  /* column of the k-th of what follows */
 bool linear_is_independent(const Work *w, int speed);
 /* Complete v, whose independent entries are set: Phi_u v + right = 0 in the dependent ones. */
-void linear_complete(const Work *w, const Number *right, Number *v);
+void linear_complete(const Work *w, const LinearNumber *right, LinearNumber *v);
 
 /* Whether coefficients of the mechanical equations change as it moves on from the point, whose
  * deviations `linear` tells of: what leaves them alone keeps the eigenvalues of A the same in all

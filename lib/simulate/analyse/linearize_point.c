@@ -56,7 +56,7 @@ static void fill_matrix(const Work *w)
 {
     for (int r = 0; r < w->unknowns; r++)
         for (int k = 0; k < w->unknowns; k++) {
-            const Number entry = gradient(w, linear_equation(w, r), linear_unknown(w, k));
+            const LinearNumber entry = gradient(w, linear_equation(w, r), linear_unknown(w, k));
 
             w->matrix[r * w->unknowns + k] = entry.value;
             w->matrix_error[r * w->unknowns + k] = entry.error;
@@ -79,7 +79,7 @@ static void evaluate(Work *w)
     double *values = lay_out(w, probe_values(w->derived, &row));
 
     for (int i = 0; i < w->rows.count * (1 + w->at.count); i++)
-        w->values[i] = (Number){values[i], 0};
+        w->values[i] = (LinearNumber){values[i], 0};
     fill_matrix(w);
     mem_free(values);
 }
@@ -112,7 +112,7 @@ static void factor(Work *w)
 static void residuals(const Work *w, double *right, double *error)
 {
     for (int r = 0; r < w->unknowns; r++) {
-        const Number value = w->values[linear_equation(w, r)];
+        const LinearNumber value = w->values[linear_equation(w, r)];
 
         right[r] = -value.value;
         error[r] = value.error;
@@ -185,7 +185,7 @@ static void evaluate_geometry(Work *w)
     off.near = NULL;
     probe_errors(w->geometry, &off, errors);
     for (int i = 0; i < count; i++) {
-        const Number number = {geometry[i], errors[i]};
+        const LinearNumber number = {geometry[i], errors[i]};
 
         if (i < constraints)
             w->phi_u[i] = number;
@@ -198,7 +198,7 @@ static void evaluate_geometry(Work *w)
 bool linear_is_independent(const Work *w, int speed)
 {
     for (int i = 0; i < w->freedoms; i++)
-        if (embed_independent(w->embed)[i] == speed)
+        if (partitioning_independent(w->embed)[i] == speed)
             return true;
     return false;
 }
@@ -244,8 +244,8 @@ static Status choose_independent(Work *w, Diag *diag)
             if (i >= 0 && strcmp(system_q(w->system, i)->name, order->independent[k]) == 0)
                 wanted[count++] = j;
         }
-    w->embed = embed_new(w->l->nu, w->used);
-    if (!embed_choose(w->embed, phi_u, w->in_use, wanted, count))
+    w->embed = partitioning_new(w->l->nu, w->used);
+    if (!partitioning_choose(w->embed, phi_u, w->in_use, wanted, count))
         status =
             diag_set(diag, E_SINGULAR,
                      "a singular position: no choice of coordinates describes the motion there");
@@ -261,7 +261,7 @@ static bool factor_dependent(Work *w)
 
     for (int r = 0; r < m; r++)
         for (int j = 0, column = 0; j < nu; j++) {
-            const Number entry = w->phi_u[w->in_use[r] * nu + j];
+            const LinearNumber entry = w->phi_u[w->in_use[r] * nu + j];
 
             if (linear_is_independent(w, j))
                 continue;
@@ -273,7 +273,7 @@ static bool factor_dependent(Work *w)
     return square_is_regular(w->held);
 }
 
-void linear_complete(const Work *w, const Number *right, Number *v)
+void linear_complete(const Work *w, const LinearNumber *right, LinearNumber *v)
 {
     const int nu = w->l->nu, m = w->used;
     const int *rows = w->in_use;
@@ -281,7 +281,7 @@ void linear_complete(const Work *w, const Number *right, Number *v)
     double *found = NEW_ARRAY(double, m), *off = NEW_ARRAY(double, m);
 
     for (int r = 0; r < m; r++) {
-        Number sum = right[r];
+        LinearNumber sum = right[r];
 
         for (int j = 0; j < nu; j++)
             if (linear_is_independent(w, j))
@@ -292,7 +292,7 @@ void linear_complete(const Work *w, const Number *right, Number *v)
     square_solve(w->held, b, error, found, off);
     for (int j = 0, column = 0; j < nu; j++)
         if (!linear_is_independent(w, j)) {
-            v[j] = (Number){found[column], off[column]};
+            v[j] = (LinearNumber){found[column], off[column]};
             column++;
         }
     mem_free(b);
@@ -304,17 +304,17 @@ void linear_complete(const Work *w, const Number *right, Number *v)
 /* --- errors of the state --- */
 
 /* what rows miss, at the place of the row of constraint 0, moved onto dependent speeds */
-static void miss(const Work *w, int first, Number *moves)
+static void miss(const Work *w, int first, LinearNumber *moves)
 {
-    Number *right = NEW_ARRAY(Number, w->used);
+    LinearNumber *right = NEW_ARRAY(LinearNumber, w->used);
 
     for (int r = 0; r < w->used; r++) {
-        const Number value = w->values[first + w->in_use[r]];
+        const LinearNumber value = w->values[first + w->in_use[r]];
 
-        right[r] = (Number){value.value, value.error};
+        right[r] = (LinearNumber){value.value, value.error};
     }
     for (int j = 0; j < w->l->nu; j++)
-        moves[j] = (Number){0, 0};
+        moves[j] = (LinearNumber){0, 0};
     linear_complete(w, right, moves);
     mem_free(right);
 }
@@ -322,7 +322,7 @@ static void miss(const Work *w, int first, Number *moves)
 static void bound_state(Work *w)
 {
     const Layout *l = w->l;
-    Number *moves = NEW_ARRAY(Number, l->nu);
+    LinearNumber *moves = NEW_ARRAY(LinearNumber, l->nu);
 
     miss(w, w->rows.phi, moves);
     for (int i = 0; i < l->n; i++)
@@ -349,11 +349,11 @@ static void open_room(Work *w)
     w->follow = NEW_ARRAY(double, follow);
     w->follow_error = NEW_ARRAY(double, follow);
     w->y_error = NEW_ARRAY(double, layout_turned(l) + l->turned);
-    w->values = NEW_ARRAY(Number, w->rows.count * (1 + w->at.count));
+    w->values = NEW_ARRAY(LinearNumber, w->rows.count * (1 + w->at.count));
     w->matrix = NEW_ARRAY(double, w->unknowns * w->unknowns);
     w->matrix_error = NEW_ARRAY(double, w->unknowns * w->unknowns);
-    w->phi_u = NEW_ARRAY(Number, l->m * l->nu);
-    w->map = NEW_ARRAY(Number, 2 * l->n * l->nu);
+    w->phi_u = NEW_ARRAY(LinearNumber, l->m * l->nu);
+    w->map = NEW_ARRAY(LinearNumber, 2 * l->n * l->nu);
     w->map_rate = w->map + l->n * l->nu;
     w->dependent = NEW_ARRAY(double, w->used * w->used);
     w->dependent_error = NEW_ARRAY(double, w->used * w->used);

@@ -15,8 +15,8 @@ libcore_la_SOURCES += \
   lib/simulate/analyse/search.h \
   lib/simulate/analyse/single.c \
   lib/simulate/analyse/single.h \
-  lib/simulate/analyse/statics.c \
-  lib/simulate/analyse/statics.h \
+  lib/simulate/analyse/equilibrium_residual.c \
+  lib/simulate/analyse/equilibrium_residual.h \
   lib/simulate/analyse/transfer.c \
   lib/simulate/analyse/transfer.h \
   lib/simulate/analyse/zeros.c \

@@ -8,19 +8,20 @@
 #ifndef COTREE_SIMULATE_ANALYSE_SEARCH_H
 #define COTREE_SIMULATE_ANALYSE_SEARCH_H
 
-#include "simulate/analyse/statics.h"
+#include "simulate/analyse/equilibrium_residual.h"
 
 typedef struct Search Search;
 
 /* New, or NULL where SUNDIALS can't be started; free with search_free(). Borrows. */
-Search *search_new(Statics *statics, const Watch *watch);
+Search *search_new(EquilibriumResidual *statics, const Watch *watch);
 void search_free(Search *search); /* NULL is fine */
 
 /* From the base to a place where every equation holds, which is the base then. False: none was
  * found, or the watch said stop; the base stays. */
 bool search_run(Search *search);
 
-/* The same with the mechanics held where it is (statics_hold()): the network settles beside it. */
+/* The same with the mechanics held where it is (equilibrium_hold()): the network settles beside it.
+ */
 bool search_settle(Search *search);
 
 /* --- about the base --- */

@@ -58,7 +58,7 @@ static void find_scale(const Single *s, double *scale)
         size[i * m + n] = fabs(s->b[i]);
         size[n * m + i] = fabs(s->c[i]);
     }
-    balance(size, m, scale);
+    matrix_balance(size, m, scale);
     mem_free(size);
 }
 
@@ -163,7 +163,7 @@ Resolvent *resolvent_new(const Wide *a, const Wide *b, const Wide *c, int n)
         r->h[i] = a[i];
         r->norm = fmax(r->norm, fabs(a[i].high));
     }
-    hessenberg(r->h, n, r->q);
+    matrix_hessenberg(r->h, n, r->q);
     turn_in(r, b, r->b);
     turn_in(r, c, r->c);
     return r;

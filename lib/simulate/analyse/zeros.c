@@ -186,7 +186,7 @@ static double complex *reduced_roots(const Wider *s)
             size[i * n + j] = fabs(entry->high);
         }
     }
-    balance(size, n, scale);
+    matrix_balance(size, n, scale);
     for (int i = 0; i < n; i++)
         for (int j = 0; j < n; j++)
             a[i * n + j] = wide_times(a[i * n + j], scale[i] / scale[j]);

@@ -1,23 +1,23 @@
 libcore_la_SOURCES += \
-  lib/simulate/assemble/reset.c \
-  lib/simulate/assemble/reset.h \
-  lib/simulate/assemble/sides.c \
-  lib/simulate/assemble/sides.h \
-  lib/simulate/assemble/sides_impl.h \
-  lib/simulate/assemble/sides_jump.c \
+  lib/simulate/assemble/reinitialise.c \
+  lib/simulate/assemble/reinitialise.h \
+  lib/simulate/assemble/mode_search.c \
+  lib/simulate/assemble/mode_search.h \
+  lib/simulate/assemble/mode_search_impl.h \
+  lib/simulate/assemble/mode_search_jump.c \
   lib/simulate/assemble/skeleton.c \
   lib/simulate/assemble/skeleton.h \
   lib/simulate/assemble/skeleton_rows.c \
-  lib/simulate/assemble/start.c \
-  lib/simulate/assemble/start.h \
-  lib/simulate/assemble/start_given.c \
-  lib/simulate/assemble/start_impl.h \
-  lib/simulate/assemble/start_known.c \
-  lib/simulate/assemble/start_network.c \
-  lib/simulate/assemble/start_place.c \
-  lib/simulate/assemble/start_place_impl.h \
-  lib/simulate/assemble/start_problem.c \
-  lib/simulate/assemble/start_search.c \
-  lib/simulate/assemble/start_speed.c \
-  lib/simulate/assemble/start_trees.c \
-  lib/simulate/assemble/start_turns.c
+  lib/simulate/assemble/initial.c \
+  lib/simulate/assemble/initial.h \
+  lib/simulate/assemble/initial_given.c \
+  lib/simulate/assemble/initial_impl.h \
+  lib/simulate/assemble/initial_known.c \
+  lib/simulate/assemble/initial_network.c \
+  lib/simulate/assemble/initial_place.c \
+  lib/simulate/assemble/initial_place_impl.h \
+  lib/simulate/assemble/initial_problem.c \
+  lib/simulate/assemble/initial_search.c \
+  lib/simulate/assemble/initial_speed.c \
+  lib/simulate/assemble/initial_trees.c \
+  lib/simulate/assemble/initial_turns.c

@@ -40,7 +40,8 @@ Expr layout_on_surfaces(const Layout *layout, Expr e);
 /* A symbol that is a side of a switch in this layout: its number; -1: it is none */
 int layout_side_of(const Layout *layout, Expr symbol);
 void layout_free(Layout *layout);
-/* Sides of switches that are numbers, from now on in all programs over the layout; one a switch. */
+/* ModeSearch of switches that are numbers, from now on in all programs over the layout; one a
+ * switch. */
 void layout_take_sides(Layout *layout, const bool *closed);
 /* whether any of the roots changes with t alone, while no state does */
 bool layout_follows_time(const Layout *layout, const Expr *roots, int count);

@@ -36,18 +36,18 @@ static void describe_ode(Motion *mo)
     const Equations *eq = mo->eq;
     int y = motion_length(mo);
 
-    mo->ode = (Ode){.n = turned_place(eq) + eq->turned_count,
+    mo->ode = (Ode){.n = multi_turn_place(eq) + eq->multi_turn_count,
                     .quadratures = 1,
                     .context = mo,
                     .rate = rate,
                     .blur = mo->used > 0 ? blur : NULL,
                     .cap = eq->cap};
-    if (mo->used > 0 || eq->quaternion_count > 0 || eq->turned_count > 0 || eq->slide_count > 0)
+    if (mo->used > 0 || eq->quaternion_count > 0 || eq->multi_turn_count > 0 || eq->slide_count > 0)
         mo->ode.project = project;
     mo->slack = NEW_ARRAY(double, mo->ode.n);
-    for (int k = 0; k < eq->turned_count; k++)
-        mo->slack[turned_place(eq) + k] = SLACK;
-    if (eq->turned_count > 0)
+    for (int k = 0; k < eq->multi_turn_count; k++)
+        mo->slack[multi_turn_place(eq) + k] = SLACK;
+    if (eq->multi_turn_count > 0)
         mo->ode.slack = mo->slack;
     mo->ode.dae.n = y + (mo->options.embedded ? 0 : 2 * mo->used);
     mo->ode.dae.context = mo;
@@ -80,12 +80,12 @@ Motion *motion_new(const Equations *eq, const MotionOptions *options)
     mo->kkt = kkt_new(eq->nu, mo->used, eq->m);
     kkt_set_watch(mo->kkt, options->watch);
     if (options->embedded)
-        mo->embed = embed_new(eq->nu, mo->used);
+        mo->embed = partitioning_new(eq->nu, mo->used);
     mo->network = netsolve_new(eq);
     mo->solved = netsolve_values(mo->network);
     mo->solved_before = NEW_ARRAY(double, eq->nx + eq->nz);
     mo->q = NEW_ARRAY(double, eq->n);
-    mo->near = NEW_ARRAY(double, eq->turned_count);
+    mo->near = NEW_ARRAY(double, eq->multi_turn_count);
     mo->top = NEW_ARRAY(double, eq->nu);
     mo->bottom = NEW_ARRAY(double, mo->used);
     mo->du = NEW_ARRAY(double, eq->nu);
@@ -112,7 +112,7 @@ void motion_free(Motion *mo)
     kkt_free(mo->kkt);
     kkt_free(mo->nearest_kkt);
     mem_free(mo->unit);
-    embed_free(mo->embed);
+    partitioning_free(mo->embed);
     netsolve_free(mo->network);
     signs_free(mo->signs);
     mem_free(mo->slip);
@@ -191,8 +191,8 @@ void motion_switches(Motion *mo, double t, const double *y, double *out)
             out[i] = NAN;
         return;
     }
-    if (eq->turned_count > 0)
-        eq->near(eq->context, y + turned_place(eq));
+    if (eq->multi_turn_count > 0)
+        eq->near(eq->context, y + multi_turn_place(eq));
     eq->switches(eq->context, t, y, y + eq->n, y + eq->n + eq->nu, out);
 }
 
@@ -276,11 +276,11 @@ static double distance(const Motion *mo)
 
 void equations_turn(const Equations *eq, double t, const double *q, double *a)
 {
-    if (eq->turned_count == 0)
+    if (eq->multi_turn_count == 0)
         return;
     eq->near(eq->context, a);
     eq->position(eq->context, t, q);
-    memcpy(a, eq->turned, (size_t)eq->turned_count * sizeof(double));
+    memcpy(a, eq->turned, (size_t)eq->multi_turn_count * sizeof(double));
 }
 
 void equations_normalise(const Equations *eq, double *q)
@@ -397,8 +397,8 @@ bool motion_project(Motion *mo, double t, double *y)
         return false;
     if (mo->signs != NULL && !motion_project_surfaces(mo, t, y))
         return false;
-    if (eq->turned_count > 0)
-        memcpy(y + turned_place(eq), eq->turned, (size_t)eq->turned_count * sizeof(double));
+    if (eq->multi_turn_count > 0)
+        memcpy(y + multi_turn_place(eq), eq->turned, (size_t)eq->multi_turn_count * sizeof(double));
     return true;
 }
 
@@ -454,7 +454,7 @@ static bool embedded_residual(Motion *mo, const double *u_rate, double *out)
     matrix_times(eq->mass, eq->nu, eq->nu, u_rate, mo->top);
     for (int j = 0; j < eq->nu; j++)
         mo->top[j] -= eq->force[j];
-    embed_reduce(mo->embed, mo->top, out);
+    partitioning_reduce(mo->embed, mo->top, out);
     for (int k = 0; k < mo->used; k++) {
         double sum = -eq->gamma[mo->rows[k]];
 
@@ -504,7 +504,7 @@ static bool dae_residual(void *context, double t, const double *w, const double 
 {
     Motion *mo = context;
     const Equations *eq = mo->eq;
-    int x = eq->n + eq->nu, turned = turned_place(eq), work = turned + eq->turned_count;
+    int x = eq->n + eq->nu, turned = multi_turn_place(eq), work = turned + eq->multi_turn_count;
 
     if (!evaluate(mo, t, w))
         return false;
@@ -529,8 +529,8 @@ static bool dae_residual(void *context, double t, const double *w, const double 
     }
     for (int i = 0; i < eq->nx; i++)
         out[x + i] = w_rate[x + i] - mo->solved[i];
-    for (int k = 0; k < eq->turned_count; k++)
-        out[turned + k] = w_rate[turned + k] - eq->turned_rate[k];
+    for (int k = 0; k < eq->multi_turn_count; k++)
+        out[turned + k] = w_rate[turned + k] - eq->multi_turn_rate[k];
     out[work] = w_rate[work] - (eq->power != NULL ? *eq->power : 0);
     return vector_is_finite(out, mo->ode.dae.n);
 }

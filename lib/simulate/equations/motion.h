@@ -31,14 +31,14 @@ typedef struct Guard {
 
 typedef struct Equations {
     int n, nu, m, nx, nz;
-    int turned_count;      /* of a */
+    int multi_turn_count;  /* of a */
     const uint64_t *sides; /* counts changes of switches between resistances, which make equations
                               of other numbers of them; NULL: there are none */
     void *context;
     void (*near)(void *context, const double *a); /* a for the calls below; NULL: there are none */
     /* bring phi, phi_u, mass, map, turned up to date */
     void (*position)(void *context, double t, const double *q);
-    /* then q_rate, turned_rate, nu, gamma; network, network_rhs where network_at is NULL */
+    /* then q_rate, multi_turn_rate, nu, gamma; network, network_rhs where network_at is NULL */
     void (*velocity)(void *context, const double *u, const double *x);
     /* then network and network_residual at w = [x'; z]; NULL: the network is linear, A w = r */
     void (*network_at)(void *context, const double *w);
@@ -53,8 +53,8 @@ typedef struct Equations {
     const double *mass;   /* nu x nu */
     const double *map;    /* n x nu: N; NULL: identity, n == nu */
     const double *q_rate; /* n */
-    const double *turned; /* turned_count: the angles near a, and their rates */
-    const double *turned_rate;
+    const double *turned; /* multi_turn_count: the angles near a, and their rates */
+    const double *multi_turn_rate;
     const double *nu_rate; /* m: right-hand side of the velocity constraints */
     const double *gamma;   /* m */
     int network_entries;   /* of A = dG/dw */
@@ -65,7 +65,7 @@ typedef struct Equations {
     bool network_is_constant;       /* A never changes in a run */
     const double *force;            /* nu */
     const double *power;            /* 1: work done on the system per time, W; NULL: not known */
-    const double *cap;              /* n+nu+nx+turned_count, for Ode; may be NULL */
+    const double *cap;              /* n+nu+nx+multi_turn_count, for Ode; may be NULL */
     const int *quaternions;         /* first of each four Euler parameters */
     int quaternion_count;
     /* conditions whose change of sign may bend or break the equations; time_only ones first */

@@ -22,7 +22,7 @@ struct Motion {
     Kkt *kkt;
     Kkt *nearest_kkt; /* with 1 for all masses; NULL: there are no constraints */
     double *unit;     /* nu x nu */
-    Embed *embed;
+    Partitioning *embed;
     NetSolve *network;
     Signs *signs; /* NULL: no surface is slid along */
     double *slip, *off, *way;
@@ -40,7 +40,7 @@ struct Motion {
 /* --- motion_place.c --- */
 
 /* of the references in y */
-static inline int turned_place(const Equations *eq)
+static inline int multi_turn_place(const Equations *eq)
 {
     return eq->n + eq->nu + eq->nx;
 }

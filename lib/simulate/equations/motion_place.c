@@ -8,7 +8,7 @@
 
 int motion_length(const Motion *mo)
 {
-    return turned_place(mo->eq) + mo->eq->turned_count + 1;
+    return multi_turn_place(mo->eq) + mo->eq->multi_turn_count + 1;
 }
 
 double motion_clock(const Motion *mo, double t)
@@ -22,7 +22,7 @@ double motion_clock(const Motion *mo, double t)
  */
 static bool turns_alike(const Motion *mo, const double *near)
 {
-    for (int k = 0; k < mo->eq->turned_count; k++)
+    for (int k = 0; k < mo->eq->multi_turn_count; k++)
         if (!(fabs(near[k] - mo->near[k]) < 1))
             return false;
     return true;
@@ -31,9 +31,10 @@ static bool turns_alike(const Motion *mo, const double *near)
 /* before eq->position() */
 static void set_near(Motion *mo, const double *y)
 {
-    if (mo->eq->turned_count == 0)
+    if (mo->eq->multi_turn_count == 0)
         return;
-    memcpy(mo->near, y + turned_place(mo->eq), (size_t)mo->eq->turned_count * sizeof(double));
+    memcpy(mo->near, y + multi_turn_place(mo->eq),
+           (size_t)mo->eq->multi_turn_count * sizeof(double));
     mo->eq->near(mo->eq->context, mo->near);
 }
 
@@ -47,7 +48,7 @@ void motion_at_position(Motion *mo, double t, const double *y)
     size_t bytes = (size_t)mo->eq->n * sizeof(double);
 
     if (mo->is_evaluated && mo->t == t && mo->sides == sides_of(mo) &&
-        memcmp(mo->q, y, bytes) == 0 && turns_alike(mo, y + turned_place(mo->eq)))
+        memcmp(mo->q, y, bytes) == 0 && turns_alike(mo, y + multi_turn_place(mo->eq)))
         return;
     set_near(mo, y);
     mo->eq->position(mo->eq->context, t, y);
@@ -85,7 +86,8 @@ bool motion_factor_embedded(Motion *mo)
     if (mo->is_embedded_factored)
         return true;
     mo->counts.factorisations++;
-    mo->is_embedded_factored = embed_factor(mo->embed, mo->eq->mass, mo->eq->phi_u, mo->rows);
+    mo->is_embedded_factored =
+        partitioning_factor(mo->embed, mo->eq->mass, mo->eq->phi_u, mo->rows);
     return mo->is_embedded_factored;
 }
 

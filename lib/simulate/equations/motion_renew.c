@@ -21,11 +21,12 @@ bool motion_choose_independent(Motion *mo)
     int *before;
 
     before = NEW_ARRAY(int, freedoms);
-    memcpy(before, embed_independent(mo->embed), (size_t)freedoms * sizeof(int));
+    memcpy(before, partitioning_independent(mo->embed), (size_t)freedoms * sizeof(int));
     mo->is_embedded_factored = false;
-    changed = embed_choose(mo->embed, mo->eq->phi_u, mo->rows, mo->wanted,
-                           mo->options.independent_count) &&
-              memcmp(before, embed_independent(mo->embed), (size_t)freedoms * sizeof(int)) != 0;
+    changed =
+        partitioning_choose(mo->embed, mo->eq->phi_u, mo->rows, mo->wanted,
+                            mo->options.independent_count) &&
+        memcmp(before, partitioning_independent(mo->embed), (size_t)freedoms * sizeof(int)) != 0;
     mo->options.independent_count = 0; /* a later choice is by pivots alone */
     mem_free(before);
     return changed;

@@ -32,18 +32,18 @@ static bool solve_embedded(Motion *mo)
 {
     bool sound = motion_factor_embedded(mo);
 
-    if (!sound || embed_condition(mo->embed) < MOTION_WORN) {
+    if (!sound || partitioning_condition(mo->embed) < MOTION_WORN) {
         mo->is_repartitioned = motion_choose_independent(mo) || mo->is_repartitioned;
         sound = motion_factor_embedded(mo);
     }
-    if (!sound || embed_pivots(mo->embed) < SUSPECT) {
+    if (!sound || partitioning_pivots(mo->embed) < SUSPECT) {
         if (!motion_solve_augmented(mo))
             return false;
         if (!sound || kkt_is_regularised(mo->kkt))
             return true;
     }
     pick_rows(mo, mo->eq->gamma, mo->bottom);
-    embed_solve(mo->embed, mo->eq->force, mo->bottom, mo->du);
+    partitioning_solve(mo->embed, mo->eq->force, mo->bottom, mo->du);
     return true;
 }
 
@@ -77,9 +77,10 @@ void motion_write_rates(const Motion *mo, double *out)
     memcpy(out, eq->q_rate, (size_t)eq->n * sizeof(double));
     memcpy(out + eq->n, mo->du, (size_t)eq->nu * sizeof(double));
     memcpy(out + eq->n + eq->nu, mo->solved, (size_t)eq->nx * sizeof(double));
-    if (eq->turned_count > 0)
-        memcpy(out + turned_place(eq), eq->turned_rate, (size_t)eq->turned_count * sizeof(double));
-    out[turned_place(eq) + eq->turned_count] = eq->power != NULL ? *eq->power : 0;
+    if (eq->multi_turn_count > 0)
+        memcpy(out + multi_turn_place(eq), eq->multi_turn_rate,
+               (size_t)eq->multi_turn_count * sizeof(double));
+    out[multi_turn_place(eq) + eq->multi_turn_count] = eq->power != NULL ? *eq->power : 0;
 }
 
 /* Multipliers of all rows from those in use: the least of all that give the same forces. */

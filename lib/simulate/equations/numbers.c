@@ -1,4 +1,4 @@
-/* numbers.c: the reading to run, compiled in stages */
+/* numbers.c: the recursive form, compiled in stages */
 #include "simulate/equations/numbers.h"
 
 #include "base/memory.h"
@@ -168,12 +168,12 @@ static Status push_turned(Roots *roots, System *system, Diag *diag)
 {
     Status status = OK;
 
-    for (int i = 0; i < system_turned_count(system); i++)
-        LIST_PUSH(*roots, system_turned(system, i)->angle);
-    for (int i = 0; i < system_turned_count(system); i++) {
+    for (int i = 0; i < system_multi_turn_count(system); i++)
+        LIST_PUSH(*roots, system_multi_turn(system, i)->angle);
+    for (int i = 0; i < system_multi_turn_count(system); i++) {
         Expr rate;
 
-        CHECK(system_turned_rate(system, i, &rate, diag));
+        CHECK(system_multi_turn_rate(system, i, &rate, diag));
         LIST_PUSH(*roots, rate);
     }
 done:
@@ -306,7 +306,7 @@ static Status compile_equations(Numbers *nb, Parameters *parameters, Diag *diag)
     nb->eq.force = at + force;
     nb->eq.power = at + work;
     nb->eq.turned = at + angles;
-    nb->eq.turned_rate = at + angles + l->turned;
+    nb->eq.multi_turn_rate = at + angles + l->turned;
     nb->eq.map = map < roots.count ? at + map : NULL;
     nb->eq.accelerated = stage_of(power) == STAGE_ACCELERATION ? accelerated : NULL;
     nb->eq.network_reads = stage == STAGE_ACCELERATION ? network_reads : NULL;
@@ -514,7 +514,7 @@ Status numbers_new(const Layout *layout, Parameters *parameters, Numbers **out, 
                          .m = layout->m,
                          .nx = layout->nx,
                          .nz = layout->nz,
-                         .turned_count = layout->turned,
+                         .multi_turn_count = layout->turned,
                          .sides = &layout->sides,
                          .context = nb,
                          .near = turned,

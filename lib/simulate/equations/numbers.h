@@ -1,4 +1,4 @@
-/* numbers.h: the reading to run of a System as Equations in numbers
+/* numbers.h: the recursive form of a System as Equations in numbers
  *
  * On the layout's sides of its surfaces. */
 #ifndef COTREE_SIMULATE_EQUATIONS_NUMBERS_H
@@ -7,7 +7,7 @@
 #include "simulate/equations/probe.h"
 
 typedef struct Numbers Numbers;
-/* Compile the reading to run. `layout` and `parameters` outlive it. */
+/* Compile the recursive form. `layout` and `parameters` outlive it. */
 MUST_USE Status numbers_new(const Layout *layout, Parameters *parameters, Numbers **out,
                             Diag *diag);
 void numbers_free(Numbers *numbers); /* NULL is fine */

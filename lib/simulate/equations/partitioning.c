@@ -7,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-struct Embed {
+struct Partitioning {
     int nu, m, f;
     int *dependent;   /* m */
     int *independent; /* f */
@@ -19,9 +19,9 @@ struct Embed {
     Lu *phi_d, *small;
 };
 
-Embed *embed_new(int nu, int m)
+Partitioning *partitioning_new(int nu, int m)
 {
-    Embed *e = NEW(Embed);
+    Partitioning *e = NEW(Partitioning);
 
     e->nu = nu;
     e->m = m;
@@ -39,7 +39,7 @@ Embed *embed_new(int nu, int m)
     return e;
 }
 
-void embed_free(Embed *e)
+void partitioning_free(Partitioning *e)
 {
     if (e == NULL)
         return;
@@ -67,7 +67,7 @@ static void exchange_rows(double *a, int n, int i, int j)
 }
 
 /* Eliminate with the largest entry among columns of `open`; 0 when none is left. */
-static double eliminate_one(Embed *e, int k, const bool *open, int *column)
+static double eliminate_one(Partitioning *e, int k, const bool *open, int *column)
 {
     double best = 0;
     int row = k;
@@ -99,8 +99,8 @@ static bool is_in(const int *list, int count, int item)
     return false;
 }
 
-bool embed_choose(Embed *e, const double *phi_u, const int *rows, const int *wanted,
-                  int wanted_count)
+bool partitioning_choose(Partitioning *e, const double *phi_u, const int *rows, const int *wanted,
+                         int wanted_count)
 {
     bool *open = NEW_ARRAY(bool, e->nu);
     double largest = 0;
@@ -134,31 +134,31 @@ bool embed_choose(Embed *e, const double *phi_u, const int *rows, const int *wan
     return k == e->m;
 }
 
-const int *embed_independent(const Embed *e)
+const int *partitioning_independent(const Partitioning *e)
 {
     return e->independent;
 }
 
-double embed_condition(const Embed *e)
+double partitioning_condition(const Partitioning *e)
 {
     return e->chosen_ratio > 0 ? e->ratio / e->chosen_ratio : 1;
 }
 
-double embed_pivots(const Embed *e)
+double partitioning_pivots(const Partitioning *e)
 {
     return e->ratio;
 }
 
 /* u_d of a speed whose independent part is given: Phi_d u_d = right - Phi_i u_i, right in `column`
  */
-static void solve_dependent(const Embed *e, double *column, double *out, int stride)
+static void solve_dependent(const Partitioning *e, double *column, double *out, int stride)
 {
     lu_solve(e->phi_d, column);
     for (int k = 0; k < e->m; k++)
         out[e->dependent[k] * stride] = column[k];
 }
 
-bool embed_factor(Embed *e, const double *mass, const double *phi_u, const int *rows)
+bool partitioning_factor(Partitioning *e, const double *mass, const double *phi_u, const int *rows)
 {
     double *small = lu_matrix(e->small);
 
@@ -184,14 +184,14 @@ bool embed_factor(Embed *e, const double *mass, const double *phi_u, const int *
             for (int k = 0; k < e->nu; k++)
                 e->particular[j] += mass[j * e->nu + k] * e->g[k * e->f + i];
         }
-        embed_reduce(e, e->particular, e->reduced);
+        partitioning_reduce(e, e->particular, e->reduced);
         for (int j = 0; j < e->f; j++)
             small[j * e->f + i] = e->reduced[j];
     }
     return lu_factor(e->small);
 }
 
-void embed_reduce(const Embed *e, const double *v, double *out)
+void partitioning_reduce(const Partitioning *e, const double *v, double *out)
 {
     for (int i = 0; i < e->f; i++) {
         out[i] = 0;
@@ -200,7 +200,7 @@ void embed_reduce(const Embed *e, const double *v, double *out)
     }
 }
 
-void embed_solve(Embed *e, const double *force, const double *gamma, double *du)
+void partitioning_solve(Partitioning *e, const double *force, const double *gamma, double *du)
 {
     /* a particular solution of Phi_u p = gamma, then what is left along G */
     memset(e->particular, 0, (size_t)e->nu * sizeof(double));
@@ -209,7 +209,7 @@ void embed_solve(Embed *e, const double *force, const double *gamma, double *du)
     matrix_times(e->mass, e->nu, e->nu, e->particular, e->force);
     for (int j = 0; j < e->nu; j++)
         e->force[j] = force[j] - e->force[j];
-    embed_reduce(e, e->force, e->reduced);
+    partitioning_reduce(e, e->force, e->reduced);
     lu_solve(e->small, e->reduced);
     for (int j = 0; j < e->nu; j++) {
         double sum = e->particular[j];

@@ -7,21 +7,23 @@
 
 #include <stdbool.h>
 
-typedef struct Embed Embed;
+typedef struct Partitioning Partitioning;
 
-Embed *embed_new(int nu, int m); /* new; free with embed_free() */
-void embed_free(Embed *embed);   /* NULL is fine */
+Partitioning *partitioning_new(int nu, int m); /* new; free with partitioning_free() */
+void partitioning_free(Partitioning *embed);   /* NULL is fine */
 /* Choose dependent speeds by elimination with full pivoting of the rows of phi_u; the `wanted` ones
  * become independent as far as the rows allow. False when the rows are dependent. */
-bool embed_choose(Embed *embed, const double *phi_u, const int *rows, const int *wanted,
-                  int wanted_count);
-const int *embed_independent(const Embed *embed); /* nu - m, rising */
+bool partitioning_choose(Partitioning *embed, const double *phi_u, const int *rows,
+                         const int *wanted, int wanted_count);
+const int *partitioning_independent(const Partitioning *embed); /* nu - m, rising */
 /* Factor at these numbers; false when Phi_d or G^T M G is singular. */
-bool embed_factor(Embed *embed, const double *mass, const double *phi_u, const int *rows);
-double embed_condition(const Embed *embed); /* pivot ratio of Phi_d, of its choice at 1 */
-double embed_pivots(const Embed *embed);    /* the ratio itself */
-void embed_solve(Embed *embed, const double *force, const double *gamma, double *du);
+bool partitioning_factor(Partitioning *embed, const double *mass, const double *phi_u,
+                         const int *rows);
+double
+partitioning_condition(const Partitioning *embed); /* pivot ratio of Phi_d, of its choice at 1 */
+double partitioning_pivots(const Partitioning *embed); /* the ratio itself */
+void partitioning_solve(Partitioning *embed, const double *force, const double *gamma, double *du);
 /* out[j] = (G^T v)_j, nu - m of them */
-void embed_reduce(const Embed *embed, const double *v, double *out);
+void partitioning_reduce(const Partitioning *embed, const double *v, double *out);
 
 #endif

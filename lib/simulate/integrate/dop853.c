@@ -40,7 +40,7 @@ typedef struct Dop853 {
 } Dop853;
 
 typedef struct Terms {
-    const Term *at;
+    const TableauEntry *at;
     int count;
 } Terms;
 

@@ -6,10 +6,10 @@
 #ifndef COTREE_SIMULATE_INTEGRATE_DOP853_TABLE_H
 #define COTREE_SIMULATE_INTEGRATE_DOP853_TABLE_H
 
-typedef struct Term {
+typedef struct TableauEntry {
     int stage;
     double weight;
-} Term;
+} TableauEntry;
 
 /* clang-format off */
 static const double nodes[16] = {
@@ -31,40 +31,40 @@ static const double nodes[16] = {
     0.777777777777777777777777777778,
 };
 
-static const Term stage1[] = {
+static const TableauEntry stage1[] = {
     {0, 5.26001519587677318785587544488e-2},
 };
 
-static const Term stage2[] = {
+static const TableauEntry stage2[] = {
     {0, 1.97250569845378994544595329183e-2},
     {1, 5.91751709536136983633785987549e-2},
 };
 
-static const Term stage3[] = {
+static const TableauEntry stage3[] = {
     {0, 2.95875854768068491816892993775e-2},
     {2, 8.87627564304205475450678981324e-2},
 };
 
-static const Term stage4[] = {
+static const TableauEntry stage4[] = {
     {0, 2.41365134159266685502369798665e-1},
     {2, -8.84549479328286085344864962717e-1},
     {3, 9.24834003261792003115737966543e-1},
 };
 
-static const Term stage5[] = {
+static const TableauEntry stage5[] = {
     {0, 3.7037037037037037037037037037e-2},
     {3, 1.70828608729473871279604482173e-1},
     {4, 1.25467687566822425016691814123e-1},
 };
 
-static const Term stage6[] = {
+static const TableauEntry stage6[] = {
     {0, 3.7109375e-2},
     {3, 1.70252211019544039314978060272e-1},
     {4, 6.02165389804559606850219397283e-2},
     {5, -1.7578125e-2},
 };
 
-static const Term stage7[] = {
+static const TableauEntry stage7[] = {
     {0, 3.70920001185047927108779319836e-2},
     {3, 1.70383925712239993810214054705e-1},
     {4, 1.07262030446373284651809199168e-1},
@@ -72,7 +72,7 @@ static const Term stage7[] = {
     {6, 8.27378916381402288758473766002e-3},
 };
 
-static const Term stage8[] = {
+static const TableauEntry stage8[] = {
     {0, 6.24110958716075717114429577812e-1},
     {3, -3.36089262944694129406857109825},
     {4, -8.68219346841726006818189891453e-1},
@@ -81,7 +81,7 @@ static const Term stage8[] = {
     {7, -4.34898841810699588477366255144e1},
 };
 
-static const Term stage9[] = {
+static const TableauEntry stage9[] = {
     {0, 4.77662536438264365890433908527e-1},
     {3, -2.48811461997166764192642586468},
     {4, -5.90290826836842996371446475743e-1},
@@ -91,7 +91,7 @@ static const Term stage9[] = {
     {8, -2.03312017085086261358222928593e-2},
 };
 
-static const Term stage10[] = {
+static const TableauEntry stage10[] = {
     {0, -9.3714243008598732571704021658e-1},
     {3, 5.18637242884406370830023853209},
     {4, 1.09143734899672957818500254654},
@@ -102,7 +102,7 @@ static const Term stage10[] = {
     {9, -3.0467644718982195003823669022},
 };
 
-static const Term stage11[] = {
+static const TableauEntry stage11[] = {
     {0, 2.27331014751653820792359768449},
     {3, -1.05344954667372501984066689879e1},
     {4, -2.00087205822486249909675718444},
@@ -114,7 +114,7 @@ static const Term stage11[] = {
     {10, 6.43392746015763530355970484046e-1},
 };
 
-static const Term stage12[] = {
+static const TableauEntry stage12[] = {
     {0, 5.42937341165687622380535766363e-2},
     {5, 4.45031289275240888144113950566},
     {6, 1.89151789931450038304281599044},
@@ -125,7 +125,7 @@ static const Term stage12[] = {
     {11, 4.47106157277725905176885569043e-2},
 };
 
-static const Term stage13[] = {
+static const TableauEntry stage13[] = {
     {0, 5.61675022830479523392909219681e-2},
     {6, 2.53500210216624811088794765333e-1},
     {7, -2.46239037470802489917441475441e-1},
@@ -136,7 +136,7 @@ static const Term stage13[] = {
     {12, -8.298e-3},
 };
 
-static const Term stage14[] = {
+static const TableauEntry stage14[] = {
     {0, 3.18346481635021405060768473261e-2},
     {5, 2.83009096723667755288322961402e-2},
     {6, 5.35419883074385676223797384372e-2},
@@ -147,7 +147,7 @@ static const Term stage14[] = {
     {13, 1.41312443674632500278074618366e-1},
 };
 
-static const Term stage15[] = {
+static const TableauEntry stage15[] = {
     {0, -4.28896301583791923408573538692e-1},
     {5, -4.69762141536116384314449447206},
     {6, 7.68342119606259904184240953878},
@@ -159,7 +159,7 @@ static const Term stage15[] = {
 };
 
 /* 8th order less embedded 5th order */
-static const Term error5[] = {
+static const TableauEntry error5[] = {
     {0, 0.1312004499419488073250102996e-1},
     {5, -0.1225156446376204440720569753e1},
     {6, -0.4957589496572501915214079952},
@@ -171,14 +171,14 @@ static const Term error5[] = {
 };
 
 /* the embedded third-order formula */
-static const Term third[] = {
+static const TableauEntry third[] = {
     {0, 0.244094488188976377952755905512},
     {8, 0.733846688281611857341361741547},
     {11, 0.220588235294117647058823529412e-1},
 };
 
 /* the four last coefficients of the interpolant */
-static const Term dense3[] = {
+static const TableauEntry dense3[] = {
     {0, -0.84289382761090128651353491142e1},
     {5, 0.56671495351937776962531783590},
     {6, -0.30689499459498916912797304727e1},
@@ -193,7 +193,7 @@ static const Term dense3[] = {
     {15, -0.44360363875948939664310572000e1},
 };
 
-static const Term dense4[] = {
+static const TableauEntry dense4[] = {
     {0, 0.10427508642579134603413151009e2},
     {5, 0.24228349177525818288430175319e3},
     {6, 0.16520045171727028198505394887e3},
@@ -208,7 +208,7 @@ static const Term dense4[] = {
     {15, 0.35816841486394083752465898540e2},
 };
 
-static const Term dense5[] = {
+static const TableauEntry dense5[] = {
     {0, 0.19985053242002433820987653617e2},
     {5, -0.38703730874935176555105901742e3},
     {6, -0.18917813819516756882830838328e3},
@@ -223,7 +223,7 @@ static const Term dense5[] = {
     {15, 0.11992291136182789328035130030e2},
 };
 
-static const Term dense6[] = {
+static const TableauEntry dense6[] = {
     {0, -0.25693933462703749003312586129e2},
     {5, -0.15418974869023643384053993627e3},
     {6, -0.23152937917604549567536039109e3},

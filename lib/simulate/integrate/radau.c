@@ -67,7 +67,7 @@ typedef struct Radau {
     bool was_rejected;
 } Radau;
 
-typedef enum Outcome { CONVERGED, DIVERGED, UNDEFINED } Outcome;
+typedef enum StepOutcome { CONVERGED, DIVERGED, UNDEFINED } StepOutcome;
 
 static Stepper *create(const Ode *ode, const Control *control)
 {
@@ -207,7 +207,7 @@ static bool evaluate_stages(Radau *r, double h)
 }
 
 /* Simplified Newton for the stages; *used tells its iterations. */
-static Outcome solve_stages(Radau *r, double h, int *used)
+static StepOutcome solve_stages(Radau *r, double h, int *used)
 {
     int n = r->n, all = r->all;
     double enough =
@@ -327,7 +327,7 @@ static bool try_step(Radau *r, double *h, double end, int *failures)
     double t = tried == end - r->base.before ? end : r->base.before + tried;
     double error, factor_of;
     int used = 0;
-    Outcome outcome = UNDEFINED;
+    StepOutcome outcome = UNDEFINED;
 
     if ((r->fresh || find_jacobian(r)) && (r->factored == tried || factor(r, tried)))
         outcome = solve_stages(r, tried, &used);

@@ -1,10 +1,10 @@
 /* charge_sharing.c: charges and fluxes over a jump
  *
  * What becomes of states the network's own equations tell, by a step of vanishing length
- * (sides_jump()): impulses of current leave the charge of each cutset of capacitors as it was, and
- * impulses of voltage the flux of each circuit of coils, also through transformers and amplifiers.
- * A source may lie on their way, which its value bounds as before. It may not be all that tells
- * where a state jumps. */
+ * (mode_search_jump()): impulses of current leave the charge of each cutset of capacitors as it
+ * was, and impulses of voltage the flux of each circuit of coils, also through transformers and
+ * amplifiers. A source may lie on their way, which its value bounds as before. It may not be all
+ * that tells where a state jumps. */
 #include "simulate/run/charge_sharing.h"
 
 #include "algebra/linear.h"
@@ -55,9 +55,9 @@ static double largest_like(const Result *r, const char *kind)
 
     for (Domain domain = 0; domain < DOMAIN_COUNT; domain++) {
         if (strcmp(kind, domain_across(domain)) == 0)
-            largest = fmax(largest, sides_largest(r->sides, domain, false));
+            largest = fmax(largest, mode_search_largest(r->sides, domain, false));
         if (strcmp(kind, domain_through(domain)) == 0)
-            largest = fmax(largest, sides_largest(r->sides, domain, true));
+            largest = fmax(largest, mode_search_largest(r->sides, domain, true));
     }
     return largest;
 }
@@ -132,7 +132,7 @@ static bool jump_from(const Result *r, const double *x, const double *moves, con
 
     for (int i = 0; i < nx; i++)
         other[i] = x[i] + moves[i] * sizes[i];
-    sound = sides_jump(r->sides, other, sizes, landed);
+    sound = mode_search_jump(r->sides, other, sizes, landed);
     mem_free(other);
     return sound;
 }
@@ -277,7 +277,7 @@ static double energy_lost(Result *r, Phase *phase, double t, const bool *before,
                           const double *x, const double *now, double *gained)
 {
     const double was = energy_at(r, phase, t, y, x), is = energy_at(r, phase, t, y, now);
-    const double work = sides_work(r->sides, x, before);
+    const double work = mode_search_work(r->sides, x, before);
     const double lost = was - is + work;
 
     *gained = is - was;
@@ -298,13 +298,13 @@ bool share_stored(Result *r, Phase *phase, double t, const bool *before, const c
 
     memcpy(kept, y, bytes);
     find_sizes(r, x, sizes);
-    met = open_shares(r) && sides_jump(r->sides, x, sizes, landed) &&
+    met = open_shares(r) && mode_search_jump(r->sides, x, sizes, landed) &&
           put_states(phase, t, landed, sizes, nx, y, now) && are_shared(r, x, now, sizes) &&
           !is_given(r, phase, t, y, x, now);
     if (met) {
         double gained, lost;
 
-        (void)sides_jump(r->sides, x, sizes, landed);
+        (void)mode_search_jump(r->sides, x, sizes, landed);
         lost = energy_lost(r, phase, t, before, y, x, now, &gained);
         tell(r, sides, t, lost, x, now);
         y[phase->length - 1] += gained;

@@ -7,8 +7,8 @@
 #include "simulate/run/result.h"
 
 #include "base/memory.h"
-#include "simulate/run/commute.h"
 #include "simulate/run/inverse.h"
+#include "simulate/run/mode_switch.h"
 
 #include <math.h>
 #include <string.h>
@@ -37,13 +37,13 @@ static double cubic(double a, double a_rate, double b, double b_rate, double h, 
 }
 
 /* what is known at one end of an interval in which one phase goes on */
-typedef struct End {
+typedef struct StepEnd {
     double t;
     Phase *phase;
     const double *y, *driven;
     bool is_sampled; /* what is due has been sampled, as in a row it is only at the start */
     double *rate;    /* of y */
-} End;
+} StepEnd;
 
 /* the last row up to t; -1: there is none */
 static int last_row(const Grid *grid, double t)
@@ -61,26 +61,26 @@ static int last_row(const Grid *grid, double t)
     return low;
 }
 
-static End row_end(const Result *r, int row)
+static StepEnd row_end(const Result *r, int row)
 {
-    return (End){.t = r->grid.times[row],
-                 .phase = result_phase(r, row),
-                 .y = grid_row(&r->grid, row),
-                 .is_sampled = row == 0,
-                 .driven = result_driven(r, row)};
+    return (StepEnd){.t = r->grid.times[row],
+                     .phase = result_phase(r, row),
+                     .y = grid_row(&r->grid, row),
+                     .is_sampled = row == 0,
+                     .driven = result_driven(r, row)};
 }
 
-static End corner_end(const Result *r, int corner)
+static StepEnd corner_end(const Result *r, int corner)
 {
-    return (End){.t = r->corners.times[corner],
-                 .phase = r->phases.at[r->corners.phase[corner]],
-                 .y = grid_row(&r->corners, corner),
-                 .is_sampled = true};
+    return (StepEnd){.t = r->corners.times[corner],
+                     .phase = r->phases.at[r->corners.phase[corner]],
+                     .y = grid_row(&r->corners, corner),
+                     .is_sampled = true};
 }
 
 /* The nearest ends around t, the same one twice where it is at t or behind the last row; false
  * outside the run. */
-static bool find_ends(const Result *r, double t, End ends[2])
+static bool find_ends(const Result *r, double t, StepEnd ends[2])
 {
     const Grid *grid = &r->grid;
     int row = last_row(grid, t), corner = last_row(&r->corners, t);
@@ -102,7 +102,7 @@ static bool find_ends(const Result *r, double t, End ends[2])
     return true;
 }
 
-static bool find_rate(End *end)
+static bool find_rate(StepEnd *end)
 {
     const Layout *l = end->phase->layout;
     const Ode *ode = motion_ode(end->phase->motion);
@@ -117,7 +117,7 @@ static bool find_rate(End *end)
     return true;
 }
 
-static void interpolate(const End *a, const End *b, double t, double *y)
+static void interpolate(const StepEnd *a, const StepEnd *b, double t, double *y)
 {
     const Layout *l = a->phase->layout;
     double h = b->t - a->t;
@@ -137,7 +137,7 @@ static void interpolate(const End *a, const End *b, double t, double *y)
 
 /* References of angles at t, from those of the end before it: in parts that no angle turns far in.
  * y, from its interpolation, keeps what else it has. */
-static void follow_turns(const End *a, const End *b, double t, double *y)
+static void follow_turns(const StepEnd *a, const StepEnd *b, double t, double *y)
 {
     enum { MOST_PARTS = 1000000 };
     const Layout *l = a->phase->layout;
@@ -162,7 +162,7 @@ static void follow_turns(const End *a, const End *b, double t, double *y)
 }
 
 /* y at t, of the phase of the ends */
-static bool find_between(End ends[2], double t, double *y)
+static bool find_between(StepEnd ends[2], double t, double *y)
 {
     int length = ends[0].phase->length;
     double *rates;
@@ -195,28 +195,28 @@ static bool is_integrated(const Result *r)
 }
 
 /* from one end to the other by the run's method, in steps as it would have taken them */
-static Status go_again(Result *r, const End ends[2], const double *times, int count,
+static Status go_again(Result *r, const StepEnd ends[2], const double *times, int count,
                        const Watch *watch, Diag *diag)
 {
     const Grid *grid = &r->grid;
-    MarchPlan plan = {.leg = commute_leg(r, ends[0].phase, NULL),
-                      .method = method_find(r->report.method),
-                      .control = {.rtol = r->report.rtol,
-                                  .atol = r->report.atol,
-                                  .step = r->report.step,
-                                  .most = r->report.most},
-                      .from = ends[0].t,
-                      .to = ends[1].t,
-                      .every = r->report.every,
-                      .times = times,
-                      .time_count = count,
-                      .jumps = &r->jumps,
-                      .span = grid->times[grid->count - 1] - grid->times[0],
-                      .skip_first = true,
-                      .is_sampled = ends[0].is_sampled,
-                      .watch = watch};
-    MarchReport report;
-    const Status status = march(&plan, ends[0].y, &r->asked, &report, diag);
+    IntegrationPlan plan = {.segment = mode_switch_segment(r, ends[0].phase, NULL),
+                            .method = method_find(r->report.method),
+                            .control = {.rtol = r->report.rtol,
+                                        .atol = r->report.atol,
+                                        .step = r->report.step,
+                                        .most = r->report.most},
+                            .from = ends[0].t,
+                            .to = ends[1].t,
+                            .every = r->report.every,
+                            .times = times,
+                            .time_count = count,
+                            .jumps = &r->jumps,
+                            .span = grid->times[grid->count - 1] - grid->times[0],
+                            .skip_first = true,
+                            .is_sampled = ends[0].is_sampled,
+                            .watch = watch};
+    IntegrationReport report;
+    const Status status = integrate(&plan, ends[0].y, &r->asked, &report, diag);
 
     text_free(&report.remarks);
     LIST_FREE(report.jumps);
@@ -224,7 +224,7 @@ static Status go_again(Result *r, const End ends[2], const double *times, int co
 }
 
 /* Rows at times between two ends. */
-static Status fill_between(Result *r, End ends[2], const double *times, int count,
+static Status fill_between(Result *r, StepEnd ends[2], const double *times, int count,
                            const Watch *watch, Diag *diag)
 {
     double *y;
@@ -262,7 +262,7 @@ static Status fill(Result *r, const double *times, int count, const Watch *watch
     grid_free(&r->asked);
     for (int i = 0, group; i < count; i += group) {
         const double last = r->asked.count > 0 ? r->asked.times[r->asked.count - 1] : -INFINITY;
-        End ends[2];
+        StepEnd ends[2];
 
         group = 1;
         CHECK(poll(watch));
@@ -301,7 +301,7 @@ Status result_at(Result *r, double t, Phase **phase, const double **y, const dou
 {
     mem_keep(r);
     const Grid *grid = &r->grid;
-    End ends[2];
+    StepEnd ends[2];
     int row;
     Status status = OK;
 

@@ -17,23 +17,23 @@
 #define BOUNDLESS 1e3  /* times the size at the start; growing that fast, too */
 
 /* where a run stands, and how it goes on from there */
-typedef struct End {
+typedef struct RunEnd {
     Result *result;
     Phase *phase;
     double t, span;
     double *y, *rate, *ahead; /* ahead: y some time on */
     double *at_start;         /* speeds and coordinates */
     double soon;              /* s: up to here that is along a straight line */
-} End;
+} RunEnd;
 
-static void look_ahead(const End *e, double time)
+static void look_ahead(const RunEnd *e, double time)
 {
     for (int i = 0; i < e->phase->length; i++)
         e->ahead[i] = e->y[i] + time * e->rate[i];
 }
 
 /* the shortest time in which anything large doubles */
-static double quickest(const End *e, int *which)
+static double quickest(const RunEnd *e, int *which)
 {
     const Layout *l = e->phase->layout;
     double least = INFINITY;
@@ -51,7 +51,7 @@ static double quickest(const End *e, int *which)
     return least;
 }
 
-static const char *name_of(const End *e, int i)
+static const char *name_of(const RunEnd *e, int i)
 {
     const Layout *l = e->phase->layout;
 
@@ -63,7 +63,7 @@ static const char *name_of(const End *e, int i)
 }
 
 /* what a part exerts some time on */
-static double largest_push(const End *e, Probe *probe, int count, double time, bool *is_number)
+static double largest_push(const RunEnd *e, Probe *probe, int count, double time, bool *is_number)
 {
     RowValues row;
     const double *values;
@@ -87,7 +87,7 @@ typedef struct Pushing {
     double when, most;
 } Pushing;
 
-static void look_at_pusher(End *e, const Pusher *pusher, Pushing *out)
+static void look_at_pusher(RunEnd *e, const Pusher *pusher, Pushing *out)
 {
     Probe *probe = NULL;
     Diag ignored = {0};
@@ -113,7 +113,7 @@ static void look_at_pusher(End *e, const Pusher *pusher, Pushing *out)
     probe_free(probe);
 }
 
-static Pushing look_at_pushers(End *e)
+static Pushing look_at_pushers(RunEnd *e)
 {
     Pushing out = {.when = INFINITY};
     Pusher pusher;
@@ -132,7 +132,7 @@ static void add_cause(Diag *diag, const char *join, const char *name, const char
     (void)diag_set(diag, E_SOLVER, "%s%s%s %s", before, join, name, does);
 }
 
-static bool tell_meeting(End *e, Diag *diag)
+static bool tell_meeting(RunEnd *e, Diag *diag)
 {
     char before[sizeof diag->message];
 
@@ -141,7 +141,7 @@ static bool tell_meeting(End *e, Diag *diag)
                          IMMINENT * e->span, before, diag);
 }
 
-static void tell(End *e, Stepper *stepper, Diag *diag)
+static void tell(RunEnd *e, Stepper *stepper, Diag *diag)
 {
     int growing;
     const double time = quickest(e, &growing), step = stepper->control.step;
@@ -166,12 +166,12 @@ static void tell(End *e, Stepper *stepper, Diag *diag)
     }
 }
 
-void ends_explain(void *context, const Leg *leg, Stepper *stepper, Diag *diag)
+void ends_explain(void *context, const Segment *segment, Stepper *stepper, Diag *diag)
 {
-    const Commuting *c = context;
-    Phase *phase = c->result->phases.at[leg->phase];
+    const ModeSwitching *c = context;
+    Phase *phase = c->result->phases.at[segment->phase];
     const Ode *ode = stepper->ode;
-    End end = {.result = c->result, .phase = phase, .t = stepper->t, .span = c->span};
+    RunEnd end = {.result = c->result, .phase = phase, .t = stepper->t, .span = c->span};
 
     end.rate = NEW_ARRAY(double, phase->length);
     end.ahead = NEW_ARRAY(double, phase->length);

@@ -6,9 +6,9 @@
 #ifndef COTREE_SIMULATE_RUN_ENDS_H
 #define COTREE_SIMULATE_RUN_ENDS_H
 
-#include "simulate/run/commute.h"
+#include "simulate/run/mode_switch.h"
 
-/* the Explain of a plan; `context` is a Commuting */
-void ends_explain(void *context, const Leg *leg, Stepper *stepper, Diag *diag);
+/* the Explain of a plan; `context` is a ModeSwitching */
+void ends_explain(void *context, const Segment *segment, Stepper *stepper, Diag *diag);
 
 #endif

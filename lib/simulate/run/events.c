@@ -100,7 +100,7 @@ static Status check_known(const Events *events, Expr e, Diag *diag)
     return E_MODEL;
 }
 
-static Status read_condition(Events *events, Item *item, const Event *event, Diag *diag)
+static Status read_condition(Events *events, EventItem *item, const Event *event, Diag *diag)
 {
     Comparisons found = {0};
     Status status = OK;
@@ -115,7 +115,7 @@ done:
     return status;
 }
 
-static Status read_values(Events *events, Item *item, const Event *event, Diag *diag)
+static Status read_values(Events *events, EventItem *item, const Event *event, Diag *diag)
 {
     Status status = OK;
 
@@ -129,7 +129,7 @@ static Status read_values(Events *events, Item *item, const Event *event, Diag *
         const NewValue *value = &event->values[i];
         Expr resolved = NULL;
 
-        CHECK(reset_add(events->reset, value->name, value->primes, diag));
+        CHECK(reinit_add(events->reset, value->name, value->primes, diag));
         CHECK(system_resolve(events->plan.layout->system, value->value, &resolved, diag));
         CHECK(check_known(events, resolved, diag));
         LIST_PUSH(events->values, resolved);
@@ -141,11 +141,11 @@ done:
 
 static Status read_event(Events *events, const Event *event, Diag *diag)
 {
-    Item item = {.name = events_keep(events, event->name),
-                 .condition = events_keep(events, event->condition),
-                 .action = event->action,
-                 .is_live = true,
-                 .course = {.last = -INFINITY, .gap = INFINITY}};
+    EventItem item = {.name = events_keep(events, event->name),
+                      .condition = events_keep(events, event->condition),
+                      .action = event->action,
+                      .is_live = true,
+                      .course = {.last = -INFINITY, .gap = INFINITY}};
     Diag why = {0};
     Status status = read_condition(events, &item, event, &why);
 
@@ -204,7 +204,7 @@ static Status compile_all(Events *events, Diag *diag)
     CHECK(compile(events, roots.at + events->conditions.count, events->items.count,
                   &events->holding, diag));
     CHECK(compile(events, events->values.at, events->values.count, &events->right, diag));
-    CHECK(reset_compile(events->reset, diag));
+    CHECK(reinit_compile(events->reset, diag));
 done:
     LIST_FREE(roots);
     return status;
@@ -212,14 +212,14 @@ done:
 
 Status events_new(const EventsPlan *plan, Events **out, Diag *diag)
 {
-    const ResetPlan reset = {plan->layout, plan->parameters, plan->equations, plan->rows,
-                             plan->row_count};
+    const ReinitPlan reset = {plan->layout, plan->parameters, plan->equations, plan->rows,
+                              plan->row_count};
     Events *events = NEW(Events);
     Status status = OK;
 
     events->plan = *plan;
     events->pool = pool_new(0);
-    events->reset = reset_new(&reset);
+    events->reset = reinit_new(&reset);
     for (int i = 0; i < plan->event_count; i++)
         CHECK(read_event(events, plan->events[i], diag));
     time_first(events);
@@ -248,7 +248,7 @@ void events_free(Events *events)
     LIST_FREE(events->conditions);
     LIST_FREE(events->values);
     mem_free(events->targets);
-    reset_free(events->reset);
+    reinit_free(events->reset);
     probe_free(events->time);
     probe_free(events->state);
     probe_free(events->holding);
@@ -320,7 +320,7 @@ static double symbol_value(void *context, Expr symbol)
     return parameters_value(events->plan.parameters, symbol);
 }
 
-static bool is_true(const Events *events, const Item *item, const int *sides)
+static bool is_true(const Events *events, const EventItem *item, const int *sides)
 {
     const void *context[] = {events, sides};
 
@@ -398,7 +398,7 @@ static void settle_again(Events *events, double t, double span, const double *y,
 
 /* --- what happens --- */
 
-static void note(Item *item, double t)
+static void note(EventItem *item, double t)
 {
     LIST_PUSH(item->course.times, t);
     item->course.holds = true;
@@ -412,7 +412,7 @@ bool events_begin(Events *events, double t, const double *y)
     bool stop = false;
 
     for (int i = 0; i < events->items.count && holding != NULL; i++) {
-        Item *item = &events->items.at[i];
+        EventItem *item = &events->items.at[i];
 
         if (!item->is_live || item->course.is_known)
             continue;
@@ -431,7 +431,7 @@ bool events_follow(Events *events, const int *sides)
     bool due = false;
 
     for (int i = 0; i < events->items.count; i++) {
-        Item *item = &events->items.at[i];
+        EventItem *item = &events->items.at[i];
         bool now = is_true(events, item, sides);
 
         due = due || (now && !item->course.holds);
@@ -440,7 +440,7 @@ bool events_follow(Events *events, const int *sides)
     return due;
 }
 
-static Status happens_endlessly(const Item *item, double t, Diag *diag)
+static Status happens_endlessly(const EventItem *item, double t, Diag *diag)
 {
     (void)diag_set(diag, E_SOLVER,
                    "at t = %.9g s: event %s happens without end: %s became true %d times, at last "
@@ -462,7 +462,7 @@ Status events_are_stuck(const Events *events, int condition, double t, Diag *dia
 }
 
 /* ever sooner after one another, so that they add up to an instant, or without a pause at all */
-static Status check_pace(Item *item, double t, double span, Diag *diag)
+static Status check_pace(EventItem *item, double t, double span, Diag *diag)
 {
     double gap = t - item->course.last;
     double ratio = gap / item->course.gap;
@@ -486,7 +486,7 @@ static Status check_away(const Events *events, double t, const bool *due, const 
                          Diag *diag)
 {
     for (int i = 0; i < events->items.count; i++) {
-        const Item *item = &events->items.at[i];
+        const EventItem *item = &events->items.at[i];
 
         if (due[i] && item->value_count > 0 && item->course.times.count >= BOUNCES &&
             item->course.gap <= SHRUNK * item->course.longest && is_true(events, item, sides))
@@ -512,7 +512,7 @@ static Status apply_values(Events *events, double t, const bool *due, double *y,
         return OK;
     values = roots_at(events, events->right, t, y);
     for (int i = 0; i < events->items.count; i++) {
-        const Item *item = &events->items.at[i];
+        const EventItem *item = &events->items.at[i];
 
         if (!due[i] || item->value_count == 0)
             continue;
@@ -522,7 +522,7 @@ static Status apply_values(Events *events, double t, const bool *due, double *y,
     }
     if (names.length == 0)
         return OK;
-    if (values != NULL && reset_apply(events->reset, t, events->targets, y, &why)) {
+    if (values != NULL && reinit_apply(events->reset, t, events->targets, y, &why)) {
         *changed = true;
         text_free(&names);
         return OK;
@@ -628,7 +628,7 @@ Status events_take(Events *events, double t, double span, const double *y, bool 
 
     *happened = *stop = false;
     for (int i = 0; i < events->items.count && holding != NULL; i++) {
-        Item *item = &events->items.at[i];
+        EventItem *item = &events->items.at[i];
         bool now = item->is_live && holding[i] != 0 && !isnan(holding[i]);
 
         if (now && !item->course.holds) {

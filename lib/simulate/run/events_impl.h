@@ -4,7 +4,7 @@
 
 #include "base/memory.h"
 #include "base/text.h"
-#include "simulate/assemble/reset.h"
+#include "simulate/assemble/reinitialise.h"
 #include "simulate/run/events.h"
 
 /* one comparison a < b: its difference, and what stands for it in a formula */
@@ -26,7 +26,7 @@ typedef struct Course {
     int faster, packed;
 } Course;
 
-typedef struct Item {
+typedef struct EventItem {
     const char *name, *condition;
     EventAction action;
     bool is_live; /* the model has it still */
@@ -36,18 +36,18 @@ typedef struct Item {
     const char
         *refused; /* why ideal switches, as they are, let no values be given; NULL: they do */
     Course course;
-} Item;
+} EventItem;
 
 struct Events {
     EventsPlan plan;
     Pool *pool;
-    LIST(Item) items;
+    LIST(EventItem) items;
     LIST(Condition) conditions; /* time-only ones first, once all are read */
     int time_only;
     bool follows_time; /* whether any other changes with t alone */
     LIST(Expr) values; /* right-hand sides, in order of the items */
     double *targets;   /* one a value; NAN: leave */
-    Reset *reset;
+    Reinit *reset;
     Probe *time, *state; /* differences */
     Probe *holding;      /* conditions of items as they stand */
     Probe *right;        /* values */

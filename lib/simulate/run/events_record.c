@@ -17,7 +17,7 @@ int events_count(const Events *events)
 
 EventRecord events_record(const Events *events, int i)
 {
-    const Item *item = &events->items.at[i];
+    const EventItem *item = &events->items.at[i];
 
     return (EventRecord){.name = item->name,
                          .condition = item->condition,
@@ -29,9 +29,9 @@ EventRecord events_record(const Events *events, int i)
                          .times = item->course.times.at};
 }
 
-static void take_over(Events *events, const Item *old)
+static void take_over(Events *events, const EventItem *old)
 {
-    Item *item = NULL;
+    EventItem *item = NULL;
 
     for (int i = 0; i < events->items.count && item == NULL; i++)
         if (strcmp(events->items.at[i].name, old->name) == 0 &&
@@ -40,9 +40,9 @@ static void take_over(Events *events, const Item *old)
     if (item == NULL && old->course.times.count == 0)
         return;
     if (item == NULL) {
-        LIST_PUSH(events->items, (Item){.name = events_keep(events, old->name),
-                                        .condition = events_keep(events, old->condition),
-                                        .action = old->action});
+        LIST_PUSH(events->items, (EventItem){.name = events_keep(events, old->name),
+                                             .condition = events_keep(events, old->condition),
+                                             .action = old->action});
         item = &events->items.at[events->items.count - 1];
     }
     item->course.is_known = item->is_live && old->course.is_known;
@@ -63,20 +63,20 @@ void events_go_on(Events *events, const Events *earlier)
 void events_hand_over(Events *events, Events *from)
 {
     for (int i = 0; i < from->items.count; i++) {
-        Item *old = &from->items.at[i];
+        EventItem *old = &from->items.at[i];
         Course kept;
 
         if (i == events->items.count) /* of an earlier run */
-            LIST_PUSH(events->items, (Item){.name = events_keep(events, old->name),
-                                            .condition = events_keep(events, old->condition),
-                                            .action = old->action});
+            LIST_PUSH(events->items, (EventItem){.name = events_keep(events, old->name),
+                                                 .condition = events_keep(events, old->condition),
+                                                 .action = old->action});
         kept = events->items.at[i].course;
         events->items.at[i].course = old->course;
         old->course = kept;
     }
 }
 
-static void tell_times(const Item *item, Text *out)
+static void tell_times(const EventItem *item, Text *out)
 {
     int count = item->course.times.count - item->course.earlier;
 
@@ -91,7 +91,7 @@ static void tell_times(const Item *item, Text *out)
 void events_tell(const Events *events, Text *out)
 {
     for (int i = 0; i < events_count(events); i++) {
-        const Item *item = &events->items.at[i];
+        const EventItem *item = &events->items.at[i];
         int count = item->course.times.count - item->course.earlier;
 
         if (item->course.from_start && !item->course.ended && !item->course.is_resumed)
@@ -108,7 +108,7 @@ void events_tell(const Events *events, Text *out)
         tell_times(item, out);
     }
     for (int i = 0; i < events_count(events); i++) {
-        const Item *item = &events->items.at[i];
+        const EventItem *item = &events->items.at[i];
 
         if (item->course.ended)
             text_addf(out, "event %s ended the run at t = %.9g s: %s%s\n", item->name,

@@ -1,7 +1,7 @@
 libcore_la_SOURCES += \
   lib/simulate/run/dense_output.c \
-  lib/simulate/run/commute.c \
-  lib/simulate/run/commute.h \
+  lib/simulate/run/mode_switch.c \
+  lib/simulate/run/mode_switch.h \
   lib/simulate/run/ends.c \
   lib/simulate/run/ends.h \
   lib/simulate/run/events.c \
@@ -12,17 +12,17 @@ libcore_la_SOURCES += \
   lib/simulate/run/grid.h \
   lib/simulate/run/inverse.c \
   lib/simulate/run/inverse.h \
-  lib/simulate/run/march.c \
-  lib/simulate/run/march.h \
-  lib/simulate/run/march_chatter.c \
-  lib/simulate/run/march_events.c \
-  lib/simulate/run/march_impl.h \
-  lib/simulate/run/march_jumps.c \
-  lib/simulate/run/march_leg.c \
-  lib/simulate/run/march_meet.c \
-  lib/simulate/run/march_rows.c \
-  lib/simulate/run/march_slide.c \
-  lib/simulate/run/march_switches.c \
+  lib/simulate/run/integration.c \
+  lib/simulate/run/integration.h \
+  lib/simulate/run/integration_chatter.c \
+  lib/simulate/run/integration_events.c \
+  lib/simulate/run/integration_impl.h \
+  lib/simulate/run/integration_jumps.c \
+  lib/simulate/run/integration_segment.c \
+  lib/simulate/run/integration_meet.c \
+  lib/simulate/run/integration_rows.c \
+  lib/simulate/run/integration_slide.c \
+  lib/simulate/run/integration_switches.c \
   lib/simulate/run/onset.c \
   lib/simulate/run/onset.h \
   lib/simulate/run/phase.c \

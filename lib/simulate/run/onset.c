@@ -156,18 +156,18 @@ void onset_forget(Onset *o)
 /* --- what is looked for --- */
 
 /* first time in (from, to] at which a quantity passes a level, upwards or downwards */
-typedef struct Search {
+typedef struct OnsetSearch {
     Onset *o;
     /* above 0: it may have passed somewhere in the interval `over` */
-    double (*excess)(struct Search *search, Range over, const Range *sources);
+    double (*excess)(struct OnsetSearch *search, Range over, const Range *sources);
     double slack; /* this much below 0 is passed, at a point */
     int which;    /* element or source */
     double level, sign;
     int left; /* intervals to go */
-} Search;
+} OnsetSearch;
 
 /* whether it may have passed somewhere between: at first as terms are, then closer */
-static bool may_pass(Search *s, Range over)
+static bool may_pass(OnsetSearch *s, Range over)
 {
     Steep *steep = s->o->steep;
 
@@ -176,7 +176,7 @@ static bool may_pass(Search *s, Range over)
 }
 
 /* first place, or INFINITY; halves from left to right */
-static double first_place(Search *s, double from, double to)
+static double first_place(OnsetSearch *s, double from, double to)
 {
     Steep *steep = s->o->steep;
     double finest = FINEST * (to - from) + 4e-16 * fabs(to);
@@ -238,7 +238,7 @@ static Range argument_over(const Onset *o, int k, Range over, const Range *sourc
 }
 
 /* some element that doesn't conduct, over its threshold */
-static double conduction(Search *s, Range over, const Range *sources)
+static double conduction(OnsetSearch *s, Range over, const Range *sources)
 {
     const Onset *o = s->o;
     double most = -INFINITY;
@@ -251,7 +251,7 @@ static double conduction(Search *s, Range over, const Range *sources)
 }
 
 /* one element's size beyond the level */
-static double size_beyond(Search *s, Range over, const Range *sources)
+static double size_beyond(OnsetSearch *s, Range over, const Range *sources)
 {
     Range u = steep_size(s->o->steep, s->which, argument_over(s->o, s->which, over, sources));
 
@@ -259,7 +259,7 @@ static double size_beyond(Search *s, Range over, const Range *sources)
 }
 
 /* a source's way from where it was, beyond the level */
-static double way_beyond(Search *s, Range over, const Range *sources)
+static double way_beyond(OnsetSearch *s, Range over, const Range *sources)
 {
     double here = s->o->source_at[s->which];
     double low = sources[s->which].low - here, high = sources[s->which].high - here;
@@ -332,7 +332,7 @@ static bool find_effects(Onset *o, const Stepper *stepper)
 /* --- pulses --- */
 
 /* from what passes two levels: when it has risen, and when it is over */
-static Pulse pulse_of(Search *rise, Search *fall, double t, double end, double steps)
+static Pulse pulse_of(OnsetSearch *rise, OnsetSearch *fall, double t, double end, double steps)
 {
     double top = first_place(rise, t, end);
     double until = first_place(fall, top < end ? top : t, end);
@@ -346,8 +346,8 @@ static Pulse pulse_of(Search *rise, Search *fall, double t, double end, double s
 /* an element that has just reached its threshold */
 static Pulse element_pulse(Onset *o, int k, double end, double steps)
 {
-    Search rise = {o, size_beyond, 0, k, size_at(o, k) + RISE, 1, INTERVALS};
-    Search fall = {o, size_beyond, 0, k, o->threshold[k] - NEAR, -1, INTERVALS};
+    OnsetSearch rise = {o, size_beyond, 0, k, size_at(o, k) + RISE, 1, INTERVALS};
+    OnsetSearch fall = {o, size_beyond, 0, k, o->threshold[k] - NEAR, -1, INTERVALS};
 
     return pulse_of(&rise, &fall, o->t, end, steps);
 }
@@ -355,8 +355,8 @@ static Pulse element_pulse(Onset *o, int k, double end, double steps)
 /* a source that has just begun to act */
 static Pulse source_pulse(Onset *o, int j, double delta, double end, double steps)
 {
-    Search rise = {o, way_beyond, 0, j, GROWN * delta, 1, INTERVALS};
-    Search fall = {o, way_beyond, 0, j, 2 * delta, -1, INTERVALS};
+    OnsetSearch rise = {o, way_beyond, 0, j, GROWN * delta, 1, INTERVALS};
+    OnsetSearch fall = {o, way_beyond, 0, j, 2 * delta, -1, INTERVALS};
 
     return pulse_of(&rise, &fall, o->t, end, steps);
 }
@@ -430,7 +430,7 @@ static double growth_bound(Onset *o)
     double bound = INFINITY;
 
     for (int k = 0; k < o->elements; k++) {
-        Search grown = {o, size_beyond, 0, k, size_at(o, k) + SETTLING, 1, INTERVALS};
+        OnsetSearch grown = {o, size_beyond, 0, k, size_at(o, k) + SETTLING, 1, INTERVALS};
 
         if (o->conducts[k])
             bound = fmin(bound, first_place(&grown, o->t, o->t + fmin(o->h, bound)) - o->t);
@@ -442,7 +442,7 @@ static double growth_bound(Onset *o)
 static double next_conduction(Onset *o, Stepper *stepper, double end, double *bound)
 {
     const double steps = stepper->method->pulse_steps;
-    Search search = {o, conduction, REACHED, 0, 0, 1, INTERVALS};
+    OnsetSearch search = {o, conduction, REACHED, 0, 0, 1, INTERVALS};
 
     o->is_affine = false;
     if (!stepper_slope(stepper, o->slope) ||
@@ -543,7 +543,7 @@ static double way_at(Onset *o, int j, double t)
  * than there is. */
 static double place_beyond(Onset *o, int j, double level, double to)
 {
-    Search peak = {o, way_beyond, 0, j, level, 1, INTERVALS};
+    OnsetSearch peak = {o, way_beyond, 0, j, level, 1, INTERVALS};
     double at = first_place(&peak, o->t, to);
 
     return at <= to && !(peak.left > 0 && way_at(o, j, at) < 0.5 * level) ? at : INFINITY;
@@ -589,7 +589,7 @@ static double acting_at_large(Onset *o, int j, Stepper *stepper, double to, doub
  * to it let no estimate see that. INFINITY: it doesn't. */
 static double turning(Onset *o, int j, const Stepper *stepper, double to)
 {
-    Search leaves = {o, way_beyond, 0, j, o->seen[j] / GROWN, 1, INTERVALS};
+    OnsetSearch leaves = {o, way_beyond, 0, j, o->seen[j] / GROWN, 1, INTERVALS};
 
     if (o->turns == NULL || !(o->seen[j] > 0) || !(o->seen_at[j] > o->t && o->seen_at[j] < to) ||
         !o->turns(o->context, o->seen_at[j], stepper->y) || o->turns(o->context, to, stepper->y))
@@ -602,7 +602,7 @@ static double turning(Onset *o, int j, const Stepper *stepper, double to)
 static double unseen(Onset *o, int j, Stepper *stepper, double to, double way)
 {
     double delta = delta_of(o, j, stepper, to);
-    Search leaves = {o, way_beyond, 0, j, delta, 1, INTERVALS};
+    OnsetSearch leaves = {o, way_beyond, 0, j, delta, 1, INTERVALS};
 
     if (!(place_beyond(o, j, fmax(delta, o->seen[j] / SEEN), to) <= to)) {
         delta = acting_at_large(o, j, stepper, to, way);
@@ -706,7 +706,7 @@ double onset_before_step(Onset *o, Stepper *stepper, double end)
 /* whether elements have acted in the last step, on the way that led to where it is */
 static bool has_conducted(Onset *o, const Stepper *stepper, double *when)
 {
-    Search search = {o, conduction, REACHED, 0, 0, 1, INTERVALS};
+    OnsetSearch search = {o, conduction, REACHED, 0, 0, 1, INTERVALS};
     double h = stepper->t - o->t, x;
     double *a = NEW_ARRAY(double, o->elements);
     bool is_open = true, passed = false;

@@ -7,7 +7,7 @@
 #ifndef COTREE_SIMULATE_RUN_PHASE_H
 #define COTREE_SIMULATE_RUN_PHASE_H
 
-#include "simulate/assemble/start.h"
+#include "simulate/assemble/initial.h"
 #include "simulate/equations/netdae.h"
 #include "simulate/equations/numbers.h"
 #include "simulate/run/events.h"

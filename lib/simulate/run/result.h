@@ -2,8 +2,8 @@
 #ifndef COTREE_SIMULATE_RUN_RESULT_H
 #define COTREE_SIMULATE_RUN_RESULT_H
 
-#include "simulate/assemble/sides.h"
-#include "simulate/run/march.h"
+#include "simulate/assemble/mode_search.h"
+#include "simulate/run/integration.h"
 #include "simulate/run/phase.h"
 #include "simulate/run/run.h"
 
@@ -21,16 +21,16 @@ struct Result {
     System *system; /* the whole */
     Parameters parameters;
     LIST(Phase *)
-    phases;           /* the first is of the whole, and where there are ideal switches no row's */
-    Phase *phase;     /* in which it starts */
-    Sides *sides;     /* NULL: there are no ideal switches */
-    Shares *shares;   /* of what is stored, where switches join parts; NULL: none yet */
-    Assembled start;  /* of the whole */
-    double *begin;    /* y of the phase in which it starts */
-    double tolerance; /* of the run: bounds what a projection may leave */
-    Grid grid;        /* rows of y */
-    Grid corners;     /* where phases end and begin, two rows each */
-    Jumps jumps;      /* where its equations change at times of their own */
+    phases;            /* the first is of the whole, and where there are ideal switches no row's */
+    Phase *phase;      /* in which it starts */
+    ModeSearch *sides; /* NULL: there are no ideal switches */
+    Shares *shares;    /* of what is stored, where switches join parts; NULL: none yet */
+    Assembled start;   /* of the whole */
+    double *begin;     /* y of the phase in which it starts */
+    double tolerance;  /* of the run: bounds what a projection may leave */
+    Grid grid;         /* rows of y */
+    Grid corners;      /* where phases end and begin, two rows each */
+    Jumps jumps;       /* where its equations change at times of their own */
     Driven driven;
     Grid asked; /* rows between those, where they were asked for last, */
     Driven asked_driven;

@@ -4,7 +4,7 @@
 #include "base/memory.h"
 #include "simulate/equations/causes.h"
 #include "simulate/run/charge_sharing.h"
-#include "simulate/run/commute.h"
+#include "simulate/run/mode_switch.h"
 
 #include <math.h>
 #include <string.h>
@@ -70,7 +70,7 @@ static Status prepare(RunKind kind, System *system, const Setting *setting, Resu
     LIST_PUSH(r->phases, whole);
     if (goes_through_modes(whole->layout)) {
         CHECK(system_sided(system, setting->scene, setting->watch, &sided, diag));
-        CHECK(sides_new(sided, &r->parameters, &r->sides, diag));
+        CHECK(mode_search_new(sided, &r->parameters, &r->sides, diag));
     }
     *out = r;
     r = NULL;
@@ -102,7 +102,7 @@ Status result_begin(Result *r, const Setting *setting, Diag *diag)
     Status status = OK;
 
     if (r->sides != NULL)
-        return commute_begin(r, setting, diag);
+        return mode_switch_begin(r, setting, diag);
     if (whole->motion == NULL)
         CHECK(result_open_phase(r, whole, setting, diag));
     r->phase = whole;
@@ -123,8 +123,8 @@ Status result_open(RunKind kind, System *system, const Setting *setting, Result 
 
     CHECK(prepare(kind, system, setting, &r, diag));
     whole = result_whole(r);
-    CHECK(start_find(whole->layout, &r->parameters, whole->numbers, setting, r->sides != NULL,
-                     warm != NULL ? warm_value : NULL, (void *)warm, &r->start, diag));
+    CHECK(initial_find(whole->layout, &r->parameters, whole->numbers, setting, r->sides != NULL,
+                       warm != NULL ? warm_value : NULL, (void *)warm, &r->start, diag));
     CHECK(result_begin(r, setting, diag));
     text_add(&r->remarks, r->start.remarks.at != NULL ? r->start.remarks.at : "");
     if (kind == RUN_SIMULATE)
@@ -149,9 +149,9 @@ static Status copy_phases(Result *r, const Result *old, const Setting *setting, 
         const Phase *like = old->phases.at[i];
 
         if (like->on_count > 0)
-            CHECK(commute_phase_on(r, setting, like, like->on, like->on_count, &phase, diag));
+            CHECK(mode_switch_phase_on(r, setting, like, like->on, like->on_count, &phase, diag));
         else
-            CHECK(commute_phase(r, setting, like->closed, &phase, diag));
+            CHECK(mode_switch_phase(r, setting, like->closed, &phase, diag));
     }
 done:
     return status;
@@ -210,10 +210,10 @@ void result_free(Result *r)
     for (int i = 0; i < r->phases.count; i++)
         phase_free(r->phases.at[i]);
     LIST_FREE(r->phases);
-    sides_free(r->sides);
+    mode_search_free(r->sides);
     shares_free(r->shares);
     parameters_free(&r->parameters);
-    start_free(&r->start);
+    initial_free(&r->start);
     mem_free(r->begin);
     grid_free(&r->grid);
     grid_free(&r->corners);

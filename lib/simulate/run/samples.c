@@ -7,22 +7,22 @@
 
 #define SAME 1e-9 /* of a period: instants nearer than that are one */
 
-typedef struct Sample {
+typedef struct SampledState {
     int state; /* in x */
     double period;
-} Sample;
+} SampledState;
 
 struct Samples {
     const Layout *layout;
     Motion *motion;
     Probe *next;
-    Sample *at;
+    SampledState *at;
     int count;
 };
 
 static Status add_sample(Samples *s, const OwnSample *own, Parameters *parameters, Diag *diag)
 {
-    Sample *sample = &s->at[s->count];
+    SampledState *sample = &s->at[s->count];
 
     sample->state = own->state;
     sample->period = parameters_evaluate(parameters, own->period);
@@ -47,7 +47,7 @@ Status samples_new(const Layout *layout, Parameters *parameters, Motion *motion,
     *out = NULL;
     s->layout = layout;
     s->motion = motion;
-    s->at = NEW_ARRAY(Sample, layout->nx);
+    s->at = NEW_ARRAY(SampledState, layout->nx);
     for (int i = 0; (own = system_sample(layout->system, i)) != NULL; i++) {
         if (own->period == NULL)
             continue;
@@ -83,7 +83,7 @@ double samples_next(const Samples *s, double t)
     return first;
 }
 
-static bool is_due(const Sample *sample, double t)
+static bool is_due(const SampledState *sample, double t)
 {
     double count = t / sample->period;
 

@@ -4,9 +4,9 @@
 #include "base/memory.h"
 #include "simulate/equations/causes.h"
 #include "simulate/run/charge_sharing.h"
-#include "simulate/run/commute.h"
 #include "simulate/run/ends.h"
 #include "simulate/run/inverse.h"
+#include "simulate/run/mode_switch.h"
 #include "simulate/run/sliding.h"
 
 #include <math.h>
@@ -107,27 +107,27 @@ static Status complete_options(const Result *r, const RunOptions *given, RunOpti
 
 /* --- forward --- */
 
-static MarchPlan plan_of(const Result *r, const Setting *setting, const RunOptions *options,
-                         const Method *method, Events *events)
+static IntegrationPlan plan_of(const Result *r, const Setting *setting, const RunOptions *options,
+                               const Method *method, Events *events)
 {
-    return (MarchPlan){.leg = commute_leg(r, r->phase, events),
-                       .method = method,
-                       .control = {.rtol = options->rtol,
-                                   .atol = options->atol,
-                                   .step = options->step,
-                                   .most = options->most},
-                       .every = options->every,
-                       .watch = setting->watch};
+    return (IntegrationPlan){.segment = mode_switch_segment(r, r->phase, events),
+                             .method = method,
+                             .control = {.rtol = options->rtol,
+                                         .atol = options->atol,
+                                         .step = options->step,
+                                         .most = options->most},
+                             .every = options->every,
+                             .watch = setting->watch};
 }
 
 /* A march from the result's begin. Where ideal switches change the equations, `corners` gets rows
  * between them. */
-static Status march_phases(Result *r, const Setting *setting, const MarchPlan *plan, Grid *grid,
-                           Grid *corners, MarchReport *out, Diag *diag)
+static Status integration_phases(Result *r, const Setting *setting, const IntegrationPlan *plan,
+                                 Grid *grid, Grid *corners, IntegrationReport *out, Diag *diag)
 {
-    Commuting commuting = {
+    ModeSwitching commuting = {
         .result = r, .setting = setting, .span = plan->to - plan->from, .stuck = NAN};
-    MarchPlan through = *plan;
+    IntegrationPlan through = *plan;
     Status status;
 
     through.choose = slide_choose;
@@ -136,11 +136,11 @@ static Status march_phases(Result *r, const Setting *setting, const MarchPlan *p
     through.context = &commuting;
     through.corners = corners;
     if (r->sides != NULL) {
-        through.commute = commute;
+        through.mode_switch = mode_switch;
         through.in_time = numbers_equations(result_whole(r)->numbers);
     }
-    status = march(&through, r->begin, grid, out, diag);
-    commuting_free(&commuting);
+    status = integrate(&through, r->begin, grid, out, diag);
+    mode_switching_free(&commuting);
     return status;
 }
 
@@ -161,7 +161,7 @@ static MotionCounts counts_of(const Result *r)
     return sum;
 }
 
-static void fill_report(Result *r, const MarchReport *march, const RunOptions *options,
+static void fill_report(Result *r, const IntegrationReport *march, const RunOptions *options,
                         bool stopped, double began)
 {
     MotionCounts counts = counts_of(r);
@@ -198,7 +198,7 @@ static void remark_singular(Result *r)
                   counts.singular_time);
 }
 
-static void remark_march(Result *r, const MarchReport *march)
+static void remark_march(Result *r, const IntegrationReport *march)
 {
     if (march->remarks.at != NULL)
         text_add(&r->remarks, march->remarks.at);
@@ -249,8 +249,8 @@ static Status estimate_error(Result *r, const Setting *setting, const RunOptions
                              double to, Diag *diag)
 {
     RunOptions finer = *options;
-    MarchPlan plan;
-    MarchReport march_report;
+    IntegrationPlan plan;
+    IntegrationReport integration_report;
     Grid grid = {0};
     Status status;
 
@@ -261,23 +261,23 @@ static Status estimate_error(Result *r, const Setting *setting, const RunOptions
     plan = plan_of(r, setting, &finer, method, events);
     plan.from = r->grid.times[first];
     plan.to = to;
-    status = march_phases(r, setting, &plan, &grid, NULL, &march_report, diag);
+    status = integration_phases(r, setting, &plan, &grid, NULL, &integration_report, diag);
     if (status == OK)
-        report_difference(r, largest_difference(r, first, &grid), used, march_report.method);
-    text_free(&march_report.remarks);
-    LIST_FREE(march_report.jumps);
+        report_difference(r, largest_difference(r, first, &grid), used, integration_report.method);
+    text_free(&integration_report.remarks);
+    LIST_FREE(integration_report.jumps);
     grid_free(&grid);
     return status;
 }
 
-/* March a result whose start is set; it is kept also when that ends early. */
+/* Integration a result whose start is set; it is kept also when that ends early. */
 static Status go(Result *r, const Setting *setting, const RunOptions *given, double from,
                  bool skip_first, Diag *diag)
 {
     const Method *method;
     RunOptions options;
-    MarchPlan plan;
-    MarchReport report_of = {.method = method_for((MethodNeed){0})};
+    IntegrationPlan plan;
+    IntegrationReport report_of = {.method = method_for((MethodNeed){0})};
     Events *again = NULL; /* for a second run */
     int first = skip_first ? r->grid.count - 1 : 0;
     Status status = OK;
@@ -293,7 +293,7 @@ static Status go(Result *r, const Setting *setting, const RunOptions *given, dou
     plan.skip_first = skip_first;
     if (options.check)
         CHECK(result_make_events(r, r->phase, r->events, setting, &again, diag));
-    status = march_phases(r, setting, &plan, &r->grid, &r->corners, &report_of, diag);
+    status = integration_phases(r, setting, &plan, &r->grid, &r->corners, &report_of, diag);
     if (report_of.events != r->events)
         events_hand_over(r->events, report_of.events);
     if (status == E_SOLVER)

@@ -194,7 +194,7 @@ static void begin_sides(Slides *s)
     }
 }
 
-/* Sides by the linear reading, which is then taken anew around the signs, until they stay. */
+/* ModeSearch by the linear reading, which is then taken anew around the signs, until they stay. */
 static bool find_sides(Slides *s)
 {
     int n = s->count;
@@ -256,7 +256,7 @@ static void sort_meetings(Meeting *at, int count)
 
 /* The phase on these sides of the surfaces that are met (`side`, one each; 0: it slides along) and
  * on the far sides of the others. */
-static Status phase_on(const Commuting *c, const Phase *now, const Meeting *all, int count,
+static Status phase_on(const ModeSwitching *c, const Phase *now, const Meeting *all, int count,
                        const int *side, const bool *loose, Phase **out, Diag *diag)
 {
     OnSurface *on = NEW_ARRAY(OnSurface, count);
@@ -271,13 +271,13 @@ static Status phase_on(const Commuting *c, const Phase *now, const Meeting *all,
         else if (loose == NULL || !loose[k])
             on[length++] = (OnSurface){all[i].surface, side != NULL ? side[k] : 0};
     }
-    status = commute_phase_on(c->result, c->setting, now, on, length, out, diag);
+    status = mode_switch_phase_on(c->result, c->setting, now, on, length, out, diag);
     mem_free(on);
     return status;
 }
 
 /* the phase that slides along all surfaces that are met; NULL: there is none */
-static Status slide_all(const Commuting *c, const Phase *now, const Meeting *all, int count,
+static Status slide_all(const ModeSwitching *c, const Phase *now, const Meeting *all, int count,
                         Phase **out, Diag *diag)
 {
     Diag why = {0};
@@ -313,13 +313,13 @@ static Status find_side(const Phase *now, Slides *s, double low, double high, Di
 }
 
 Status slide_choose(void *context, double t, double low, double high, const double *y,
-                    const Meeting *at, int count, Leg *leg, bool *entered, Diag *diag)
+                    const Meeting *at, int count, Segment *segment, bool *entered, Diag *diag)
 {
-    const Commuting *c = context;
-    Phase *now = c->result->phases.at[leg->phase], *next = NULL;
+    const ModeSwitching *c = context;
+    Phase *now = c->result->phases.at[segment->phase], *next = NULL;
     Meeting *all = NEW_ARRAY(Meeting, count), *near = NEW_ARRAY(Meeting, count);
     Slides s = {.at = near, .t = t, .y = y};
-    Events *events = leg->events;
+    Events *events = segment->events;
     Status status = OK;
 
     *entered = false;
@@ -338,8 +338,8 @@ Status slide_choose(void *context, double t, double low, double high, const doub
     CHECK(phase_on(c, now, all, count, s.side, s.loose, &next, diag));
     if (next == now)
         goto done;
-    CHECK(commute_events(c->result, now, next, c->setting, &events, diag));
-    *leg = commute_leg(c->result, next, events);
+    CHECK(mode_switch_events(c->result, now, next, c->setting, &events, diag));
+    *segment = mode_switch_segment(c->result, next, events);
     *entered = true;
 done:
     slides_free(&s);
@@ -348,11 +348,11 @@ done:
     return status;
 }
 
-void slide_tell(void *context, const Leg *leg, int condition, Text *out)
+void slide_tell(void *context, const Segment *segment, int condition, Text *out)
 {
-    const Commuting *c = context;
-    System *system = c->result->phases.at[leg->phase]->system;
-    const Numbers *numbers = c->result->phases.at[leg->phase]->numbers;
+    const ModeSwitching *c = context;
+    System *system = c->result->phases.at[segment->phase]->system;
+    const Numbers *numbers = c->result->phases.at[segment->phase]->numbers;
     Expr h = numbers_condition(numbers, condition);
     const char *part = h != NULL ? system_jumping_part(system, h) : NULL;
     char *text = h != NULL ? expr_text(h) : NULL;

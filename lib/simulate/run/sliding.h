@@ -6,12 +6,13 @@
 #ifndef COTREE_SIMULATE_RUN_SLIDING_H
 #define COTREE_SIMULATE_RUN_SLIDING_H
 
-#include "simulate/run/commute.h"
+#include "simulate/run/mode_switch.h"
 
-/* the Choose of a plan; `context` is a Commuting */
+/* the Choose of a plan; `context` is a ModeSwitching */
 MUST_USE Status slide_choose(void *context, double t, double low, double high, const double *y,
-                             const Meeting *at, int count, Leg *leg, bool *entered, Diag *diag);
-/* what a condition of a leg is about: "s' (actuator f)"; `context` is a Commuting */
-void slide_tell(void *context, const Leg *leg, int condition, Text *out);
+                             const Meeting *at, int count, Segment *segment, bool *entered,
+                             Diag *diag);
+/* what a condition of a segment is about: "s' (actuator f)"; `context` is a ModeSwitching */
+void slide_tell(void *context, const Segment *segment, int condition, Text *out);
 
 #endif

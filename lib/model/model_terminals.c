@@ -1,0 +1,422 @@
+/* model_terminals.c: what a component's statement connects: frames, coordinates, terminals */
+#include "model/model_draft.h"
+
+#include <string.h>
+
+/* --- operands --- */
+
+Place statement_end(const Statement *statement)
+{
+    return (Place){statement->place.line, statement->place.column + statement->place.width, 1};
+}
+
+static const char *const forms[] = {
+    [PLACES_NONE] = "NAME",
+    [PLACES_FROM] = "NAME FRAME",
+    [PLACES_FRAMES] = "NAME TAIL TIP",
+    [PLACES_ON] = "NAME FRAME",
+    [PLACES_LINK] = "NAME TAIL TIP, or NAME JOINT",
+    [PLACES_COORDINATE] = "NAME COORDINATE = value",
+    [PLACES_TERMINALS] = "NAME PLUS MINUS",
+    [PLACES_TRANSDUCER] = "NAME JOINT PLUS MINUS",
+    [PLACES_SENSED] = "NAME VARIABLE PLUS MINUS",
+    [PLACES_PARTS] = "NAME PART PART",
+};
+
+void places_form(const Component *row, Text *out)
+{
+    if (row->places == PLACES_TERMINALS && row->terminal_usage != NULL)
+        text_addf(out, "NAME%s", row->terminal_usage);
+    else
+        text_add(out, forms[row->places]);
+}
+
+static Status next_operand(PartDraft *draft, const Operand **out)
+{
+    const Statement *statement = draft->statement;
+    Text form = {0};
+
+    if (draft->at >= statement->operands.count) {
+        (void)diag_at(draft->diag, E_SYNTAX, statement_end(statement), "%s misses a place",
+                      statement->verb);
+        places_form(draft->part->row, &form);
+        diag_hint(draft->diag, "it is written %s %s", statement->verb, form.at);
+        text_free(&form);
+        return E_SYNTAX;
+    }
+    *out = &statement->operands.at[draft->at++];
+    return OK;
+}
+
+static Status next_name(PartDraft *draft, const char **name, Place *place)
+{
+    const Operand *operand = NULL;
+    Status status = OK;
+
+    CHECK(next_operand(draft, &operand));
+    *name = syntax_name(operand->value);
+    *place = operand->place;
+    if (*name == NULL)
+        status = diag_at(draft->diag, E_NAME, operand->place, "a name is expected here");
+done:
+    return status;
+}
+
+Status part_draft_read_name(PartDraft *draft)
+{
+    const char *name = NULL;
+    Place place;
+    Status status = OK;
+
+    CHECK(next_name(draft, &name, &place));
+    if (strchr(name, '.') != NULL) {
+        status = diag_at(draft->diag, E_NAME, place, "a new name has no dot");
+        goto done;
+    }
+    if (names_find(draft->state->terminals, name) >= 0) {
+        status = diag_at(draft->diag, E_NAME, place, "'%s' is already a terminal", name);
+        goto done;
+    }
+    CHECK(name_is_free(draft->state, name, place, draft->diag));
+    draft->part->name = state_text(draft->state, name);
+done:
+    return status;
+}
+
+/* --- frames --- */
+
+bool part_is_frame(const Instance *part)
+{
+    return part->row->family == FAMILY_BODY || part->row->family == FAMILY_ARM;
+}
+
+static Status not_a_frame(const PartDraft *draft, const char *name, Place place)
+{
+    const State *state = draft->state;
+    const Thing *thing = state_thing(state, name);
+    Suggest suggest = suggest_for(name);
+    Text what = {0};
+
+    if (thing != NULL) {
+        name_describe(state, thing, &what);
+        (void)diag_at(draft->diag, E_NAME, place, "%s is %s, not a frame", name, what.at);
+    } else
+        (void)diag_at(draft->diag, E_NAME, place, "unknown frame '%s'", name);
+    for (int i = 0; i < state->parts.count; i++)
+        if (part_is_frame(state->parts.at[i]))
+            suggest_offer(&suggest, state->parts.at[i]->name);
+    suggest_offer(&suggest, "ground");
+    if (suggest.best != NULL)
+        diag_hint(draft->diag, "did you mean '%s'?", suggest.best);
+    else
+        diag_hint(draft->diag, "frames are ground, bodies and arms; arm %s BODY [x, y] makes one",
+                  thing == NULL ? name : "NAME");
+    text_free(&what);
+    return E_NAME;
+}
+
+static Status next_frame(PartDraft *draft, int *node, Place *place)
+{
+    const char *name = NULL;
+    const Instance *part;
+    Status status = OK;
+
+    CHECK(next_name(draft, &name, place));
+    *node = draft->state->datum[DOMAIN_MECHANICAL];
+    if (strcmp(name, "ground") == 0)
+        goto done;
+    part = state_part(draft->state, name);
+    if (part == NULL || !part_is_frame(part))
+        status = not_a_frame(draft, name, *place);
+    else
+        *node = part->head;
+done:
+    return status;
+}
+
+static Status two_frames(PartDraft *draft)
+{
+    Instance *part = draft->part;
+    Place place;
+    Status status = OK;
+
+    CHECK(next_frame(draft, &part->tail, &place));
+    CHECK(next_frame(draft, &part->head, &place));
+    if (part->tail == part->head)
+        status = diag_at(draft->diag, E_VALUE, place, "both ends of %s are %s", part->name,
+                         graph_node(draft->state->graph, part->head)->name);
+done:
+    return status;
+}
+
+static Status on_frame(PartDraft *draft)
+{
+    Instance *part = draft->part;
+    Place place;
+    Status status = OK;
+
+    part->tail = draft->state->datum[DOMAIN_MECHANICAL];
+    CHECK(next_frame(draft, &part->head, &place));
+    if (part->head == part->tail)
+        status = diag_at(draft->diag, E_VALUE, place,
+                         "ground doesn't move: a %s on it has no effect", part->row->name);
+done:
+    return status;
+}
+
+/* --- coordinates that a part acts on --- */
+
+static Status act_on(PartDraft *draft, const char *name, Place place)
+{
+    Instance *part = draft->part;
+    const Instance *owner;
+    int joint = -1;
+    Status status = OK;
+
+    CHECK(coordinate_resolve(draft->state, name, place, &joint, &part->joint_coordinate,
+                             draft->diag));
+    owner = draft->state->parts.at[joint];
+    if (part->row->family != FAMILY_DRIVER && owner->row->family != FAMILY_JOINT) {
+        status = diag_at(draft->diag, E_NAME, place, "%s acts on a joint, and %s is none",
+                         part->row->name, owner->name);
+        goto done;
+    }
+    if (owner->coord_kind[part->joint_coordinate] == COORDINATE_PARAMETER) {
+        status = diag_at(draft->diag, E_VALUE, place,
+                         "%s is an Euler parameter: nothing can act on it alone", name);
+        goto done;
+    }
+    part->joint = joint;
+    part->coordinate = owner->coord[part->joint_coordinate];
+    part->on_angle = owner->coord_kind[part->joint_coordinate] == COORDINATE_ANGLE;
+    part->tail = owner->tail;
+    part->head = owner->head;
+done:
+    return status;
+}
+
+static Status on_joint(PartDraft *draft)
+{
+    const char *name = NULL;
+    Place place;
+    Status status = OK;
+
+    CHECK(next_name(draft, &name, &place));
+    CHECK(act_on(draft, name, place));
+done:
+    return status;
+}
+
+/* spring k1 r1 r2, or spring k1 h8: one place that is no frame is a coordinate */
+static Status link_places(PartDraft *draft)
+{
+    if (draft->statement->operands.count > 2)
+        return two_frames(draft);
+    if (draft->statement->operands.count == 2) {
+        const char *name = syntax_name(draft->statement->operands.at[1].value);
+        const Instance *part = name != NULL ? state_part(draft->state, name) : NULL;
+
+        if (name != NULL && (strcmp(name, "ground") == 0 || (part != NULL && part_is_frame(part))))
+            return two_frames(draft);
+    }
+    return on_joint(draft);
+}
+
+/* driver D1 h8 = 2*t: the first pair */
+static Status driven_coordinate(PartDraft *draft)
+{
+    const Statement *statement = draft->statement;
+    const State *state = draft->state;
+    const Instance *part = draft->part;
+    Status status = OK;
+    const Pair *pair;
+
+    if (statement->pairs.count == 0) {
+        status = diag_at(draft->diag, E_SYNTAX, statement_end(statement),
+                         "a driver says what its coordinate follows");
+        diag_hint(draft->diag, "it is written driver NAME COORDINATE = value");
+        goto done;
+    }
+    pair = &statement->pairs.at[0];
+    if (pair->primes > 0) {
+        status = diag_at(draft->diag, E_NAME, pair->name_place,
+                         "a driver prescribes the coordinate itself, not its rate");
+        diag_hint(draft->diag, "integrate: %s = ... of t", pair->name);
+        goto done;
+    }
+    CHECK(act_on(draft, pair->name, pair->name_place));
+    for (int i = 0; i < state->parts.count; i++) {
+        const Instance *other = state->parts.at[i];
+
+        if (other->row->family == FAMILY_DRIVER && other->joint == part->joint &&
+            other->joint_coordinate == part->joint_coordinate) {
+            status = diag_at(draft->diag, E_VALUE, pair->name_place, "%s is already driven by %s",
+                             pair->name, other->name);
+            goto done;
+        }
+    }
+done:
+    return status;
+}
+
+/* --- terminals --- */
+
+static Status next_terminal(PartDraft *draft, int which)
+{
+    const Operand *operand = NULL;
+    const char *name;
+    const Thing *thing;
+    Text what = {0};
+    Status status = OK;
+
+    CHECK(next_operand(draft, &operand));
+    name = syntax_name(operand->value);
+    if (operand->value->kind == SYNTAX_NUMBER && strcmp(operand->value->text, "0") == 0 &&
+        !operand->value->has_unit)
+        name = "0";
+    if (name == NULL || strchr(name, '.') != NULL) {
+        status = diag_at(draft->diag, E_NAME, operand->place, "a terminal is expected here");
+        diag_hint(draft->diag, "a terminal is any new name, or 0 for the reference");
+        goto done;
+    }
+    if (strcmp(name, "gnd") == 0)
+        name = "0";
+    if (strcmp(name, "ground") == 0) {
+        status = diag_at(draft->diag, E_NAME, operand->place,
+                         "ground is the mechanical reference frame");
+        diag_hint(draft->diag, "the electrical one is 0 or gnd");
+        goto done;
+    }
+    thing = state_thing(draft->state, name);
+    if (strcmp(name, draft->part->name) == 0) {
+        status = diag_at(draft->diag, E_NAME, operand->place, "'%s' is the name of this %s", name,
+                         draft->part->row->name);
+        goto done;
+    }
+    if (thing != NULL && (thing->kind != THING_DEFINITION ||
+                          draft->state->definitions.at[thing->index].kind != DEFINES_PARAMETER)) {
+        name_describe(draft->state, thing, &what);
+        status = diag_at(draft->diag, E_NAME, operand->place, "'%s' is %s, not a terminal", name,
+                         what.at);
+        goto done;
+    }
+    if (thing == NULL && strcmp(name, "0") != 0)
+        CHECK(name_is_free(draft->state, name, operand->place, draft->diag));
+    if (names_find(draft->state->terminals, name) >= 0 &&
+        terminal_domain(draft->state, name) != draft->part->row->domain) {
+        status = diag_at(draft->diag, E_NAME, operand->place, "%s is %s, and a %s is %s", name,
+                         domain_name(terminal_domain(draft->state, name)), draft->part->row->name,
+                         domain_name(draft->part->row->domain));
+        diag_hint(draft->diag, "a terminal belongs to the domain of its first component");
+        goto done;
+    }
+    draft->terminals[which] = name;
+done:
+    text_free(&what);
+    return status;
+}
+
+/* as many as the row says; the ends of an edge have to differ */
+static Status read_terminals(PartDraft *draft)
+{
+    const Component *row = draft->part->row;
+    int count;
+    const ScalarEdge *edges = component_scalar_edges(row, &count);
+    int first = draft->at;
+    Status status = OK;
+
+    for (int k = 0; k < component_terminals(row); k++)
+        CHECK(next_terminal(draft, k));
+    for (int k = 0; k < count; k++) {
+        const char *plus = edges[k].plus < 0 ? "0" : draft->terminals[edges[k].plus];
+        const char *minus = edges[k].minus < 0 ? "0" : draft->terminals[edges[k].minus];
+        int last = first + (edges[k].minus < 0 ? edges[k].plus : edges[k].minus);
+
+        if (strcmp(plus, minus) == 0)
+            CHECK(diag_at(draft->diag, E_VALUE, draft->statement->operands.at[last].place,
+                          "both ends of %s are %s", draft->part->name, plus));
+    }
+done:
+    return status;
+}
+
+/* sensor v1 h8' a 0: what is sensed may be any expression of variables */
+static Status sensed_value(PartDraft *draft)
+{
+    Scope scope = draft->scope;
+    const Operand *operand = NULL;
+    Status status = OK;
+
+    CHECK(next_operand(draft, &operand));
+    scope.kind = SCOPE_EFFORT;
+    status = scope_expression(&scope, operand->value, &draft->part->sensed, draft->diag);
+    draft->scope.uses = scope.uses;
+done:
+    return status;
+}
+
+/* coupling K1 L1 L2 */
+static Status two_parts(PartDraft *draft)
+{
+    Instance *part = draft->part;
+    Status status = OK;
+
+    for (int k = 0; k < 2; k++) {
+        const char *name = NULL;
+        const Instance *other;
+        Place place;
+
+        CHECK(next_name(draft, &name, &place));
+        other = state_part(draft->state, name);
+        if (other == NULL) {
+            status = name_unknown(draft->state, "component", name, place, draft->diag);
+            goto done;
+        }
+        if (strcmp(other->row->name, part->row->couples) != 0)
+            CHECK(diag_at(draft->diag, E_VALUE, place,
+                          "%s is a %s: a %s takes two parts of kind %s", name, other->row->name,
+                          part->row->name, part->row->couples));
+        part->parts[k] = other->number;
+        if (k > 0 && part->parts[0] == part->parts[1])
+            CHECK(
+                diag_at(draft->diag, E_VALUE, place, "both parts of %s are %s", part->name, name));
+    }
+done:
+    return status;
+}
+
+Status part_draft_read_terminals(PartDraft *draft)
+{
+    Instance *part = draft->part;
+    Status status = OK;
+
+    switch (part->row->places) {
+    case PLACES_NONE:
+        part->tail = draft->state->datum[DOMAIN_MECHANICAL];
+        break;
+    case PLACES_FROM: {
+        Place place;
+        return next_frame(draft, &part->tail, &place);
+    }
+    case PLACES_FRAMES:
+        return two_frames(draft);
+    case PLACES_ON:
+        return on_frame(draft);
+    case PLACES_LINK:
+        return link_places(draft);
+    case PLACES_COORDINATE:
+        return driven_coordinate(draft);
+    case PLACES_TRANSDUCER:
+        CHECK(on_joint(draft));
+        return read_terminals(draft);
+    case PLACES_TERMINALS:
+        return read_terminals(draft);
+    case PLACES_SENSED:
+        CHECK(sensed_value(draft));
+        return read_terminals(draft);
+    case PLACES_PARTS:
+        return two_parts(draft);
+    }
+done:
+    return status;
+}

@@ -1,0 +1,628 @@
+/* equilibrium_residual.c: a system at rest: its rows, their slopes, and the map from steps to
+ * coordinates */
+#include "simulate/analyse/equilibrium_residual.h"
+
+#include "base/memory.h"
+#include "simulate/equations/rows.h"
+
+#include <math.h>
+#include <string.h>
+
+/* dq/ds by coordinates: entries of coordinate i from start[i] up to start[i + 1]. Those of four
+ * Euler parameters have the same speeds in the same order. */
+typedef struct Map {
+    int *start, *speed;
+    Probe *probe; /* N, angles that count turns */
+    double *base; /* N(q0) */
+    double *at;   /* dq/ds where the last slopes were asked for */
+} Map;
+
+/* a slope of a row by an entry of v, and what it gives to the Jacobian by way of dq/ds */
+typedef struct EquilibriumResidualPart {
+    int slope, place;
+    int map; /* -1: by an unknown itself */
+} EquilibriumResidualPart;
+
+/* an entry of the mass matrix, or of A by a storage element's rate */
+typedef struct Inertia {
+    int row, column, place;
+    Expr value;
+} Inertia;
+
+struct EquilibriumResidual {
+    System *system;
+    Layout *l;
+    Result *start; /* on the system of the user */
+    Parameters parameters;
+    Expr load, gmin;
+    int n, length;
+    int near;     /* in v, references of angles: behind the unknowns */
+    double *v;    /* base */
+    Probe *probe; /* residuals, slopes, angles that count turns: from place to place */
+    int angles;   /* the first of these */
+    Map map;
+    LIST(EquilibriumResidualPart) parts;
+    int entries;
+    int *column_start, *row;
+    double *jacobian;
+    double *w, *place; /* of the last values; v there */
+    const double *values;
+    LIST(Inertia) inertia;
+    Probe *inertia_probe; /* NULL: not asked for yet */
+};
+
+/* --- the system at rest --- */
+
+typedef struct EquilibriumResidualVary {
+    Arena *arena;
+    Expr time, zero, load;
+} EquilibriumResidualVary;
+
+static Expr vary(void *context, const Instance *instance, int param, Expr value)
+{
+    const EquilibriumResidualVary *v = context;
+    Expr still = expr_substitute(v->arena, value, &v->time, &v->zero, 1);
+    const bool acts = instance == NULL || (instance->row->params[param].use & GIVES) != 0;
+
+    return acts ? expr_mul(v->arena, v->load, still) : still;
+}
+
+static double parameter(void *context, Expr symbol)
+{
+    EquilibriumResidual *s = context;
+
+    return symbol == s->load   ? 1
+           : symbol == s->gmin ? 0
+                               : parameters_value(&s->start->parameters, symbol);
+}
+
+static Status make_system(EquilibriumResidual *s, const Scene *scene, const Watch *watch,
+                          Diag *diag)
+{
+    const Layout *theirs = result_whole(s->start)->layout;
+    Arena *arena = scene->arena;
+    EquilibriumResidualVary of = {.arena = arena,
+                                  .time = expr_symbol(arena, "t", SYMBOL_TIME),
+                                  .zero = expr_int(arena, 0),
+                                  .load = expr_symbol(arena, "#load", SYMBOL_PARAMETER)};
+    SystemOptions options = {.vary = vary, .context = &of, .watch = watch};
+    Status status = OK;
+
+    s->load = of.load;
+    s->gmin = options.gmin = expr_symbol(arena, "#leak", SYMBOL_PARAMETER);
+    s->parameters = (Parameters){.value = parameter, .context = s};
+    CHECK(system_new(scene, &options, &s->system, diag));
+    s->l = layout_new(s->system);
+    s->n = s->l->nu + s->l->nx + s->l->m + s->l->nz;
+    s->near = s->l->n + s->l->nx + s->l->m + s->l->nz;
+    s->length = s->near + s->l->turned;
+    if (s->l->n != theirs->n || s->l->nx != theirs->nx || s->l->m != theirs->m ||
+        s->l->turned != theirs->turned)
+        CHECK(diag_set(diag, E_MODEL, "at rest this model has other unknowns than in motion"));
+done:
+    return status;
+}
+
+/* --- dq/ds --- */
+
+typedef LIST(Expr) Roots;
+
+static bool is_euler(const System *system, int coordinate)
+{
+    for (int i = 0; system_quaternion(system, i) >= 0; i++)
+        if (coordinate >= system_quaternion(system, i) &&
+            coordinate < system_quaternion(system, i) + 4)
+            return true;
+    return false;
+}
+
+/* the entries of `count` coordinates for whichever speed one of them holds */
+static void map_coordinates(EquilibriumResidual *s, int first, int count, Roots *roots)
+{
+    const Layout *l = s->l;
+    Map *map = &s->map;
+    LIST(int) speeds = {0};
+
+    for (int j = 0; j < l->nu; j++) {
+        bool is_held = false;
+
+        for (int i = first; i < first + count; i++)
+            is_held = is_held || !expr_is_zero(system_n_entry(l->system, i, j));
+        if (is_held)
+            LIST_PUSH(speeds, j);
+    }
+    map->speed =
+        mem_grow(map->speed, (size_t)(roots->count + count * speeds.count) + 1, sizeof(int));
+    for (int i = first; i < first + count; i++) {
+        for (int k = 0; k < speeds.count; k++) {
+            map->speed[roots->count] = speeds.at[k];
+            LIST_PUSH(*roots, system_n_entry(l->system, i, speeds.at[k]));
+        }
+        map->start[i + 1] = roots->count;
+    }
+    LIST_FREE(speeds);
+}
+
+static Status make_map(EquilibriumResidual *s, Diag *diag)
+{
+    Map *map = &s->map;
+    Roots roots = {0};
+    Status status;
+
+    map->start = NEW_ARRAY(int, s->l->n + 1);
+    for (int i = 0; i < s->l->n;) {
+        int count = is_euler(s->system, i) ? 4 : 1;
+
+        map_coordinates(s, i, count, &roots);
+        i += count;
+    }
+    map->base = NEW_ARRAY(double, roots.count);
+    map->at = NEW_ARRAY(double, roots.count);
+    for (int k = 0; k < s->l->turned; k++)
+        LIST_PUSH(roots, system_multi_turn(s->system, k)->angle);
+    status = probe_new(s->l, &s->parameters, roots.at, roots.count, &map->probe, diag);
+    LIST_FREE(roots);
+    return status;
+}
+
+/* q0 + N(q0) s; each four Euler parameters brought to unit length, and dq/ds there */
+static void place_coordinates(const EquilibriumResidual *s, const double *w, double *q,
+                              double *slopes)
+{
+    const Map *map = &s->map;
+    const int *start = map->start;
+
+    for (int i = 0; i < s->l->n; i++) {
+        q[i] = s->v[i];
+        for (int k = start[i]; k < start[i + 1]; k++)
+            q[i] += map->base[k] * w[map->speed[k]];
+    }
+    if (slopes != NULL)
+        memcpy(slopes, map->base, (size_t)start[s->l->n] * sizeof(double));
+    for (int b = 0; system_quaternion(s->system, b) >= 0; b++) {
+        const int first = system_quaternion(s->system, b);
+        double *p = q + first;
+        const double norm = sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2] + p[3] * p[3]);
+
+        if (norm == 0)
+            continue;
+        for (int i = 0; i < 4; i++)
+            p[i] /= norm;
+        for (int k = 0; slopes != NULL && k < start[first + 1] - start[first]; k++) {
+            double along = 0;
+
+            for (int i = 0; i < 4; i++)
+                along += p[i] * map->base[start[first + i] + k];
+            for (int i = 0; i < 4; i++)
+                slopes[start[first + i] + k] =
+                    (map->base[start[first + i] + k] - p[i] * along) / norm;
+        }
+    }
+}
+
+/* --- rows and slopes --- */
+
+typedef struct EquilibriumResidualDraft {
+    Roots roots; /* residuals, then slopes */
+    LIST(int) row;
+    LIST(int) by; /* an entry of v */
+} EquilibriumResidualDraft;
+
+/* by numbers of symbols: the entry of v, -1 for others */
+static int *number_unknowns(const EquilibriumResidual *s, int *most)
+{
+    const Layout *l = s->l;
+    const int parts[][2] = {{l->q, l->n}, {l->x, l->nx}, {l->multipliers, l->m}, {l->z, l->nz}};
+    int *place_of, place = 0;
+
+    *most = 0;
+    for (int p = 0; p < COUNT(parts); p++)
+        for (int i = 0; i < parts[p][1]; i++) {
+            const int number = expr_symbol_number(l->symbols[parts[p][0] + i]);
+
+            *most = number > *most ? number : *most;
+        }
+    place_of = NEW_ARRAY(int, *most + 1);
+    for (int i = 0; i <= *most; i++)
+        place_of[i] = -1;
+    for (int p = 0; p < COUNT(parts); p++)
+        for (int i = 0; i < parts[p][1]; i++)
+            place_of[expr_symbol_number(l->symbols[parts[p][0] + i])] = place++;
+    return place_of;
+}
+
+/* the slopes of a row that aren't 0 */
+static void draft_slopes(const EquilibriumResidual *s, const int *place_of, int most, int row,
+                         Expr residual, EquilibriumResidualDraft *draft)
+{
+    Expr *symbols;
+    const int count = expr_symbols(&residual, 1, &symbols);
+
+    for (int k = 0; k < count; k++) {
+        const int number = expr_symbol_number(symbols[k]);
+        Expr slope;
+
+        if (number > most || place_of[number] < 0)
+            continue;
+        slope = expr_diff(system_arena(s->system), residual, symbols[k]);
+        if (expr_is_zero(slope))
+            continue;
+        LIST_PUSH(draft->roots, slope);
+        LIST_PUSH(draft->row, row);
+        LIST_PUSH(draft->by, place_of[number]);
+    }
+    mem_free(symbols);
+}
+
+static void draft_rows(const EquilibriumResidual *s, EquilibriumResidualDraft *draft)
+{
+    const Layout *l = s->l;
+    const Reading *run = system_run(l->system);
+    int most;
+    int *place_of = number_unknowns(s, &most);
+    int rows;
+
+    for (int j = 0; j < l->nu; j++)
+        LIST_PUSH(draft->roots, row_balance(l, j));
+    for (int k = 0; k < l->m; k++)
+        LIST_PUSH(draft->roots, run->phi[k]);
+    for (int i = 0; i < l->nx + l->nz; i++)
+        LIST_PUSH(draft->roots, row_network(l, i));
+    rows = draft->roots.count;
+    for (int i = 0; i < rows; i++)
+        draft_slopes(s, place_of, most, i, draft->roots.at[i], draft);
+    mem_free(place_of);
+}
+
+static void list_inertia(EquilibriumResidual *s)
+{
+    const Layout *l = s->l;
+    const Reading *run = system_run(l->system);
+
+    for (int i = 0; i < l->nu; i++)
+        for (int j = 0; j < l->nu; j++)
+            if (!expr_is_zero(run->mass[i * l->nu + j]))
+                LIST_PUSH(s->inertia,
+                          (Inertia){.row = i, .column = j, .value = run->mass[i * l->nu + j]});
+    for (int k = 0; k < run->network_entries; k++)
+        if (run->network[k].column < l->nx)
+            LIST_PUSH(s->inertia, (Inertia){.row = l->nu + l->m + run->network[k].row,
+                                            .column = l->nu + run->network[k].column,
+                                            .value = run->network[k].value});
+}
+
+/* what stands somewhere in the Jacobian: a part of a slope, or inertia */
+typedef struct EquilibriumResidualItem {
+    int row, column;
+    int slope, map;        /* -1: none */
+    int inertia;           /* -1: none */
+} EquilibriumResidualItem; /* neither: an unknown's own place */
+typedef LIST(EquilibriumResidualItem) Items;
+
+/* the place in w of the unknown that goes with a mechanical row: a step, or a multiplier */
+static int own_column(const EquilibriumResidual *s, int row)
+{
+    return row < s->l->nu ? row : row + s->l->nx;
+}
+
+static void list_items(const EquilibriumResidual *s, const EquilibriumResidualDraft *draft,
+                       Items *items)
+{
+    const Layout *l = s->l;
+
+    for (int k = 0; k < draft->row.count; k++) {
+        const int row = draft->row.at[k], by = draft->by.at[k];
+
+        if (by >= l->n)
+            LIST_PUSH(*items, (EquilibriumResidualItem){row, by - l->n + l->nu, k, -1, -1});
+        for (int m = by < l->n ? s->map.start[by] : 0; by < l->n && m < s->map.start[by + 1]; m++)
+            LIST_PUSH(*items, (EquilibriumResidualItem){row, s->map.speed[m], k, m, -1});
+    }
+    for (int k = 0; k < s->inertia.count; k++)
+        LIST_PUSH(*items, (EquilibriumResidualItem){s->inertia.at[k].row, s->inertia.at[k].column,
+                                                    -1, -1, k});
+    for (int i = 0; i < l->nu + l->m; i++)
+        LIST_PUSH(*items, (EquilibriumResidualItem){i, own_column(s, i), -1, -1, -1});
+}
+
+/* the pattern of the Jacobian with inertia, by columns, and where in it everything stands */
+static void make_pattern(EquilibriumResidual *s, const EquilibriumResidualDraft *draft)
+{
+    Items items = {0};
+    int *next = NEW_ARRAY(int, s->n + 1), *order;
+    int *seen = NEW_ARRAY(int, s->n); /* place of a row's entry in the column at hand, plus 1 */
+
+    list_items(s, draft, &items);
+    order = NEW_ARRAY(int, items.count);
+    for (int i = 0; i < items.count; i++)
+        next[items.at[i].column + 1]++;
+    for (int c = 0; c < s->n; c++)
+        next[c + 1] += next[c];
+    for (int i = 0; i < items.count; i++)
+        order[next[items.at[i].column]++] = i;
+    /* next[c] is now where column c + 1 begins */
+    s->column_start = NEW_ARRAY(int, s->n + 1);
+    s->row = NEW_ARRAY(int, items.count);
+    for (int c = 0, i = 0; c < s->n; c++) {
+        for (; i < next[c] && i < items.count; i++) {
+            const EquilibriumResidualItem *item = &items.at[order[i]];
+
+            if (seen[item->row] <= s->column_start[c]) {
+                s->row[s->entries] = item->row;
+                seen[item->row] = ++s->entries;
+            }
+            if (item->inertia >= 0)
+                s->inertia.at[item->inertia].place = seen[item->row] - 1;
+            else if (item->slope >= 0)
+                LIST_PUSH(s->parts,
+                          (EquilibriumResidualPart){item->slope, seen[item->row] - 1, item->map});
+        }
+        s->column_start[c + 1] = s->entries;
+    }
+    s->jacobian = NEW_ARRAY(double, s->entries);
+    LIST_FREE(items);
+    mem_free(next);
+    mem_free(order);
+    mem_free(seen);
+}
+
+static Status make_rows(EquilibriumResidual *s, Diag *diag)
+{
+    EquilibriumResidualDraft draft = {0};
+    Status status;
+
+    draft_rows(s, &draft);
+    list_inertia(s);
+    make_pattern(s, &draft);
+    s->angles = draft.roots.count;
+    for (int k = 0; k < s->l->turned; k++)
+        LIST_PUSH(draft.roots, system_multi_turn(s->system, k)->angle);
+    status = probe_new(s->l, &s->parameters, draft.roots.at, draft.roots.count, &s->probe, diag);
+    LIST_FREE(draft.roots);
+    LIST_FREE(draft.row);
+    LIST_FREE(draft.by);
+    return status;
+}
+
+/* --- life --- */
+
+/* what the user guessed, where a search for it begins */
+static void guess_network(EquilibriumResidual *s, const Layout *theirs)
+{
+    double *z = s->v + s->l->n + s->l->nx + s->l->m;
+
+    for (int k = 0; k < theirs->nz; k++)
+        for (int i = 0; i < s->l->nz && s->start->start.guess[k] != 0; i++)
+            if (strcmp(system_z(s->system, i)->name, system_z(theirs->system, k)->name) == 0)
+                z[i] = s->start->start.guess[k];
+}
+
+Status equilibrium_new(const Scene *scene, Result *start, const Watch *watch,
+                       EquilibriumResidual **out, Diag *diag)
+{
+    EquilibriumResidual *s = NEW(EquilibriumResidual);
+    const Layout *theirs = result_whole(start)->layout;
+    Status status = OK;
+
+    s->start = start;
+    CHECK(make_system(s, scene, watch, diag));
+    CHECK(make_map(s, diag));
+    CHECK(make_rows(s, diag));
+    s->v = NEW_ARRAY(double, s->length);
+    s->w = NEW_ARRAY(double, s->n);
+    s->place = NEW_ARRAY(double, s->length);
+    memcpy(s->v, start->start.y, (size_t)theirs->n * sizeof(double));
+    memcpy(s->v + theirs->n, start->start.y + theirs->n + theirs->nu,
+           (size_t)theirs->nx * sizeof(double));
+    memcpy(s->v + s->near, start->start.y + layout_turned(theirs),
+           (size_t)theirs->turned * sizeof(double));
+    guess_network(s, theirs);
+    equilibrium_rebase(s);
+    *out = s;
+    s = NULL;
+done:
+    equilibrium_free(s);
+    return status;
+}
+
+void equilibrium_free(EquilibriumResidual *s)
+{
+    if (s == NULL)
+        return;
+    probe_free(s->probe);
+    probe_free(s->inertia_probe);
+    probe_free(s->map.probe);
+    mem_free(s->map.start);
+    mem_free(s->map.speed);
+    mem_free(s->map.base);
+    mem_free(s->map.at);
+    parameters_free(&s->parameters);
+    LIST_FREE(s->parts);
+    LIST_FREE(s->inertia);
+    mem_free(s->column_start);
+    mem_free(s->row);
+    mem_free(s->jacobian);
+    mem_free(s->v);
+    mem_free(s->w);
+    mem_free(s->place);
+    layout_free(s->l);
+    system_free(s->system);
+    mem_free(s);
+}
+
+const Layout *equilibrium_layout(const EquilibriumResidual *s)
+{
+    return s->l;
+}
+
+int equilibrium_length(const EquilibriumResidual *s)
+{
+    return s->length;
+}
+
+int equilibrium_count(const EquilibriumResidual *s)
+{
+    return s->n;
+}
+
+bool equilibrium_is_network(const EquilibriumResidual *s)
+{
+    return s->l->n == 0 && s->l->nu == 0 && s->l->m == 0;
+}
+
+bool equilibrium_step_sources(EquilibriumResidual *s, double load)
+{
+    s->values = NULL;
+    return probe_turn(s->probe, s->load, load);
+}
+
+bool equilibrium_step_gmin(EquilibriumResidual *s, double gmin)
+{
+    s->values = NULL;
+    return probe_turn(s->probe, s->gmin, gmin);
+}
+
+/* --- places --- */
+
+static RowValues row_of(const EquilibriumResidual *s, const double *v)
+{
+    const Layout *l = s->l;
+
+    return (RowValues){.near = v + s->near,
+                       .q = v,
+                       .x = v + l->n,
+                       .multipliers = v + l->n + l->nx,
+                       .z = v + l->n + l->nx + l->m};
+}
+
+double *equilibrium_base(EquilibriumResidual *s)
+{
+    return s->v;
+}
+
+void equilibrium_rebase(EquilibriumResidual *s)
+{
+    RowValues row = row_of(s, s->v);
+    const double *map = probe_values(s->map.probe, &row);
+
+    memcpy(s->map.base, map, (size_t)s->map.start[s->l->n] * sizeof(double));
+    memcpy(s->v + s->near, map + s->map.start[s->l->n], (size_t)s->l->turned * sizeof(double));
+    memcpy(s->place + s->near, s->v + s->near, (size_t)s->l->turned * sizeof(double));
+    s->values = NULL;
+}
+
+void equilibrium_begin(const EquilibriumResidual *s, double *w)
+{
+    memset(w, 0, (size_t)s->l->nu * sizeof(double));
+    memcpy(w + s->l->nu, s->v + s->l->n, (size_t)(s->n - s->l->nu) * sizeof(double));
+}
+
+void equilibrium_place(const EquilibriumResidual *s, const double *w, double *v)
+{
+    place_coordinates(s, w, v, NULL);
+    memcpy(v + s->l->n, w + s->l->nu, (size_t)(s->n - s->l->nu) * sizeof(double));
+    memmove(v + s->near, s->place + s->near, (size_t)s->l->turned * sizeof(double));
+}
+
+/* --- numbers --- */
+
+static void look(EquilibriumResidual *s, const double *w)
+{
+    RowValues row = row_of(s, s->place);
+
+    if (s->values != NULL && memcmp(s->w, w, (size_t)s->n * sizeof(double)) == 0)
+        return;
+    memcpy(s->w, w, (size_t)s->n * sizeof(double));
+    equilibrium_place(s, w, s->place);
+    s->values = probe_values(s->probe, &row);
+    memcpy(s->place + s->near, s->values + s->angles, (size_t)s->l->turned * sizeof(double));
+}
+
+const double *equilibrium_residual(EquilibriumResidual *s, const double *w)
+{
+    look(s, w);
+    return s->values;
+}
+
+const double *equilibrium_jacobian(EquilibriumResidual *s, const double *w)
+{
+    const double *slopes;
+
+    look(s, w);
+    slopes = s->values + s->n;
+    place_coordinates(s, w, s->place, s->map.at);
+    memset(s->jacobian, 0, (size_t)s->entries * sizeof(double));
+    for (int i = 0; i < s->parts.count; i++) {
+        const EquilibriumResidualPart *part = &s->parts.at[i];
+
+        s->jacobian[part->place] +=
+            slopes[part->slope] * (part->map < 0 ? 1 : s->map.at[part->map]);
+    }
+    return s->jacobian;
+}
+
+void equilibrium_pattern(const EquilibriumResidual *s, const int **start, const int **row)
+{
+    *start = s->column_start;
+    *row = s->row;
+}
+
+void equilibrium_sizes(const EquilibriumResidual *s, const double *w, double *size)
+{
+    memset(size, 0, (size_t)s->n * sizeof(double));
+    for (int c = 0; c < s->n; c++) {
+        const bool steps = c < s->l->nu, is_state = c < s->l->nu + s->l->nx;
+        const double place = steps ? 1 : fmax(fabs(w[c]), is_state ? 1 : 0);
+
+        for (int k = s->column_start[c]; k < s->column_start[c + 1]; k++)
+            size[s->row[k]] += fabs(s->jacobian[k]) * place;
+    }
+}
+
+void equilibrium_hold(const EquilibriumResidual *s, double *residual, double *jacobian)
+{
+    const Layout *l = s->l;
+    const int rows = l->nu + l->m;
+
+    for (int i = 0; i < rows && residual != NULL; i++)
+        residual[i] = 0;
+    for (int c = 0; c < s->n && jacobian != NULL; c++) {
+        const bool is_state = c >= l->nu && c < l->nu + l->nx;
+        const bool is_own = !is_state && c < l->nu + l->nx + l->m;
+
+        for (int k = s->column_start[c]; k < s->column_start[c + 1]; k++)
+            if (is_own || s->row[k] < rows)
+                jacobian[k] = is_own && s->row[k] < rows && own_column(s, s->row[k]) == c;
+    }
+}
+
+/* --- inertia --- */
+
+static Status compile_inertia(EquilibriumResidual *s, Diag *diag)
+{
+    Roots roots = {0};
+    Status status;
+
+    for (int k = 0; k < s->inertia.count; k++)
+        LIST_PUSH(roots, s->inertia.at[k].value);
+    status = probe_new(s->l, &s->parameters, roots.at, roots.count, &s->inertia_probe, diag);
+    LIST_FREE(roots);
+    return status;
+}
+
+Status equilibrium_add_inertia(EquilibriumResidual *s, const double *w, double share,
+                               double *jacobian, Diag *diag)
+{
+    RowValues row = row_of(s, s->place);
+    const double *values;
+    Status status = OK;
+
+    if (s->inertia_probe == NULL)
+        CHECK(compile_inertia(s, diag));
+    equilibrium_place(s, w, s->place);
+    values = probe_values(s->inertia_probe, &row);
+    for (int k = 0; k < s->inertia.count; k++)
+        jacobian[s->inertia.at[k].place] += share * values[k];
+done:
+    return status;
+}

@@ -1,0 +1,353 @@
+/* initial.c: assembly: positions, speeds, independent constraints */
+#include "simulate/assemble/initial_impl.h"
+
+#include "algebra/linear.h"
+#include "algebra/rank.h"
+#include "base/random.h"
+#include "simulate/equations/redundant.h"
+#include "simulate/equations/rows.h"
+
+#include <math.h>
+#include <string.h>
+
+#define TOLERANCE  1e-12 /* of scaled residuals */
+#define CLOSED     1e-13 /* m, rad: what rounding leaves of residuals */
+#define TRIES      24    /* other starts, when the first leads nowhere */
+#define FAR        2.0   /* rad or m: a dependent coordinate that moved further is spoken of */
+#define RANK_RATIO 1e-9
+#define CRITICAL   1e-12 /* of the sine that rates of three angles are divided by */
+
+/* --- position --- */
+
+/* Guesses of what says nothing of frames alone weigh as much as equations first: a branch on which
+ * they are far off is no place to end. */
+static Status pull(Assembly *a, Diag *diag)
+{
+    Problem p = {0};
+    bool needed = false;
+    Rows rows;
+    Status status = OK;
+
+    for (int i = 0; i < a->given_count; i++)
+        needed = needed || (a->given[i].level == LEVEL_POSITION && a->given[i].value->is_guess &&
+                            a->given[i].stand.kind == STANDS_NOT);
+    if (!needed)
+        return OK;
+    CHECK(initial_open_problem(&p, a, LEVEL_POSITION, true, diag));
+    initial_align(&p);
+    rows = initial_rows(&p);
+    (void)levenberg_marquardt_solve(&rows, NULL, NULL, TOLERANCE, a->y, NULL);
+done:
+    initial_close_problem(&p);
+    return status;
+}
+
+static void remark_moved(Assembly *a, const double *begun)
+{
+    const Layout *l = a->l;
+    int furthest = 0;
+
+    for (int i = 1; i < l->n; i++)
+        if (fabs(a->y[i] - begun[i]) > fabs(a->y[furthest] - begun[furthest]))
+            furthest = i;
+    if (l->n > 0 && fabs(a->y[furthest] - begun[furthest]) > FAR)
+        text_addf(&a->out->remarks,
+                  "warning: assembled far from where it began: %s went from %.4g to %.4g; a guess "
+                  "chooses another assembly\n",
+                  system_q(l->system, furthest)->name, begun[furthest], a->y[furthest]);
+}
+
+/* other starts about the first one; the nearest solution wins at the smallest disturbance */
+static bool try_around(Problem *p, const Rows *rows, const bool *held, const double *begun)
+{
+    Assembly *a = p->a;
+    uint64_t seed = 1;
+
+    for (int k = 0; k < TRIES && poll(rows->watch) == OK; k++) {
+        double size = k < TRIES / 3 ? 0.1 : k < 2 * TRIES / 3 ? 0.5 : 1.5;
+
+        for (int i = 0; i < a->l->n; i++)
+            a->y[i] = begun[i] + (held[i] ? 0 : size * random_unit(&seed));
+        if (levenberg_marquardt_solve(rows, held, NULL, TOLERANCE, a->y, NULL) &&
+            skeleton_reversal(a->skeleton, a->y).link == NULL) {
+            text_addf(&a->out->remarks,
+                      "warning: assembled from a start moved by up to %g; guesses make sure that "
+                      "it is the assembly meant\n",
+                      size);
+            return true;
+        }
+    }
+    return false;
+}
+
+/* E_ASSEMBLE: all equations hold, but a joint stands the wrong way round */
+static Status refuse_reversed(const Assembly *a, const Reversal *reversal, Diag *diag)
+{
+    Text text = {0};
+
+    reversal_tell(a->skeleton, reversal, &text);
+    (void)diag_set(diag, E_ASSEMBLE, "%s closes only with %s wherever everything else holds",
+                   reversal->link->instance->name, text.at);
+    diag_hint(diag, "turn one of its frames by half a turn (rotation= of an arm), or guess a start "
+                    "from which it closes as it is meant");
+    text_free(&text);
+    return E_ASSEMBLE;
+}
+
+/* Coordinates that have no expression are where they were given, also once positions moved. */
+static Status check_told(Assembly *a, Diag *diag)
+{
+    Status status = OK;
+
+    for (int i = 0; i < a->given_count && status == OK; i++) {
+        const GivenValue *given = &a->given[i];
+        double near[MAX_COORDS] = {0}, value;
+
+        if (given->expr != NULL || given->value->is_guess)
+            continue;
+        for (int j = 0; j < a->given_count; j++)
+            if (a->given[j].expr == NULL && a->given[j].stand.instance == given->stand.instance)
+                near[a->given[j].stand.which] = a->given[j].target;
+        value = skeleton_value(a->skeleton, a->y, given->stand.instance, given->stand.which, near);
+        if (!(fabs(value - given->target) < 1e-9)) {
+            status = diag_set(diag, E_ASSEMBLE,
+                              "the parts can't be put together; missed: %s = %.6g by %.3g",
+                              given->value->name, given->target, fabs(value - given->target));
+            diag_hint(diag, "leave one of the given values out, or make it a guess");
+        }
+    }
+    return status;
+}
+
+/* Meet what the placing left: given values that aren't of frames, or loops that it couldn't close.
+ */
+static Status correct(Problem *p, const bool *held, const double *begun, bool closed, Diag *diag)
+{
+    Assembly *a = p->a;
+    Rows rows = initial_rows(p);
+    double *residual = NEW_ARRAY(double, rows.rows);
+    double *missed = NEW_ARRAY(double, rows.rows);
+    Reversal reversed = {.link = NULL};
+    bool met = true;
+    Status status = OK;
+
+    rows.evaluate(rows.context, a->y, residual, NULL);
+    for (int i = 0; i < rows.rows; i++)
+        met = met && fabs(residual[i]) <= CLOSED;
+    if (met && closed)
+        goto done;
+    met = levenberg_marquardt_solve(&rows, held, NULL, TOLERANCE, a->y, missed);
+    if (met)
+        reversed = skeleton_reversal(a->skeleton, a->y);
+    if ((!met || reversed.link != NULL) && !try_around(p, &rows, held, begun))
+        CHECK(reversed.link != NULL
+                  ? refuse_reversed(a, &reversed, diag)
+                  : initial_conflict(p, missed, "the parts can't be put together", diag));
+    CHECK(check_told(a, diag));
+    remark_moved(a, begun);
+done:
+    mem_free(residual);
+    mem_free(missed);
+    return status;
+}
+
+/* Three angles have no rates where the first and the last axis lie on one line. */
+static Status check_angles(const Assembly *a, Diag *diag)
+{
+    const RowValues row = row_of_state(a->l, 0, a->y);
+    Critical critical;
+    Status status = OK;
+
+    for (int i = 0; status == OK && system_critical(a->l->system, i, &critical); i++) {
+        Probe *probe = NULL;
+
+        status = probe_new(a->l, a->parameters, &critical.measure, 1, &probe, diag);
+        if (status == OK && fabs(probe_values(probe, &row)[0]) < CRITICAL) {
+            status =
+                diag_set(diag, E_ASSEMBLE,
+                         "%s starts at a critical angle: three angles have no rates where %s is "
+                         "%s",
+                         critical.instance, critical.coordinate, critical.angles);
+            diag_hint(diag,
+                      "give %s another value by init or guess, choose other angles, or leave "
+                      "euler= out",
+                      critical.coordinate);
+        }
+        probe_free(probe);
+    }
+    return status;
+}
+
+static Status find_position(Assembly *a, bool closed, Diag *diag)
+{
+    const Layout *l = a->l;
+    Problem p = {0};
+    double *begun = NEW_ARRAY(double, l->n);
+    bool *held = NEW_ARRAY(bool, l->nu + l->n);
+    Status status = OK;
+
+    CHECK(initial_open_problem(&p, a, LEVEL_POSITION, false, diag));
+    for (int i = 0; i < p.count; i++)
+        if (p.picked[i]->column >= 0)
+            held[p.picked[i]->column] = true;
+    memcpy(begun, a->y, (size_t)l->n * sizeof(double));
+    CHECK(pull(a, diag));
+    for (int i = 0; i < p.count; i++)
+        if (p.picked[i]->column >= 0)
+            a->y[p.picked[i]->place] = p.picked[i]->target;
+    initial_align(&p);
+    CHECK(correct(&p, held, begun, closed, diag));
+    CHECK(check_angles(a, diag));
+done:
+    initial_close_problem(&p);
+    mem_free(begun);
+    mem_free(held);
+    return status;
+}
+
+/* --- velocity --- */
+
+static Status find_velocity(Assembly *a, Diag *diag)
+{
+    const Layout *l = a->l;
+    Problem p = {0};
+    bool *held = NEW_ARRAY(bool, l->nu);
+    double *residual = NULL;
+    Rows rows;
+    Status status = OK;
+
+    a->eq->position(a->eq->context, 0, a->y);
+    CHECK(initial_speeds(a, diag));
+    for (int i = 0; i < a->given_count; i++) {
+        const GivenValue *given = &a->given[i];
+
+        if (given->level == LEVEL_VELOCITY && given->column >= 0 && !given->value->is_guess) {
+            a->y[l->n + given->column] = given->value->value;
+            held[given->column] = true;
+        }
+    }
+    CHECK(initial_open_problem(&p, a, LEVEL_VELOCITY, false, diag));
+    rows = initial_rows(&p);
+    residual = NEW_ARRAY(double, rows.rows);
+    if (!levenberg_marquardt_solve(&rows, held, NULL, 1e-11, a->y + l->n, residual))
+        CHECK(initial_conflict(&p, residual, "no speeds satisfy the constraints", diag));
+done:
+    initial_close_problem(&p);
+    mem_free(held);
+    mem_free(residual);
+    return status;
+}
+
+/* --- rank --- */
+
+/* Phi_u at a position nearby that meets the constraints; false when none was found */
+static bool nearby(Assembly *a, uint64_t *seed, double *q, double *residual)
+{
+    const Layout *l = a->l;
+    Problem p = {
+        .a = a, .level = LEVEL_POSITION, .system_rows = l->m, .columns = l->nu, .symbols = l->n};
+    Rows rows;
+    bool met;
+
+    p.row = NEW_ARRAY(double, l->n);
+    for (int i = 0; i < l->n; i++)
+        q[i] = a->y[i] + 1e-2 * random_unit(seed);
+    rows = initial_rows(&p);
+    met = levenberg_marquardt_solve(&rows, NULL, NULL, TOLERANCE, q, residual);
+    if (met)
+        a->eq->position(a->eq->context, 0, q);
+    mem_free(p.row);
+    return met;
+}
+
+/* Independent rows, from the assembled position and two near it: a rank that falls at one place
+ * only is a singularity, not a redundancy. */
+static Status find_rank(Assembly *a)
+{
+    const Layout *l = a->l;
+    const Watch *watch = a->setting->watch;
+    int *order = NEW_ARRAY(int, l->m);
+    double *q = NEW_ARRAY(double, l->n);
+    double *residual = NEW_ARRAY(double, l->m);
+    uint64_t seed = 7;
+    int here, best;
+    Status status = OK;
+
+    a->eq->position(a->eq->context, 0, a->y);
+    CHECK(rank_rows(a->eq->phi_u, l->m, l->nu, RANK_RATIO, watch, &here, a->out->rows));
+    best = here;
+    for (int k = 0; k < 2 && best < l->m; k++) {
+        int rank;
+
+        if (!nearby(a, &seed, q, residual))
+            continue;
+        CHECK(rank_rows(a->eq->phi_u, l->m, l->nu, 1e-7, watch, &rank, order));
+        if (rank > best) {
+            best = rank;
+            memcpy(a->out->rows, order, (size_t)l->m * sizeof(int));
+        }
+    }
+    a->out->row_count = best;
+    if (here < best)
+        text_addf(&a->out->remarks,
+                  "the start is a singular position: %d of %d constraints hold there\n", here,
+                  best);
+    if (best < l->m) {
+        /* at a singular start, what was found nearby tells more */
+        if (here == best)
+            a->eq->position(a->eq->context, 0, a->y);
+        redundant_tell(l->system, a->eq->phi_u, a->out->rows, best, &a->out->remarks);
+    }
+done:
+    mem_free(order);
+    mem_free(q);
+    mem_free(residual);
+    return status;
+}
+
+Status initial_find(const Layout *layout, Parameters *parameters, Numbers *numbers,
+                    const Setting *setting, bool has_modes, WarmValue warm, void *warm_context,
+                    Assembled *out, Diag *diag)
+{
+    Assembly a = {.l = layout,
+                  .parameters = parameters,
+                  .numbers = numbers,
+                  .eq = numbers_equations(numbers),
+                  .setting = setting,
+                  .has_modes = has_modes,
+                  .out = out};
+    bool closed;
+    Status status = OK;
+
+    *out = (Assembled){.y = NEW_ARRAY(double, layout_turned(layout) + layout->turned + 1),
+                       .network = NEW_ARRAY(double, layout->nx + layout->nz),
+                       .guess = NEW_ARRAY(double, layout->nz),
+                       .rows = NEW_ARRAY(int, layout->m)};
+    a.y = out->y;
+    a.skeleton = skeleton_new(layout, parameters);
+    CHECK(initial_read_given(&a, diag));
+    CHECK(initial_place(&a, warm, warm_context, &closed, diag));
+    CHECK(find_position(&a, closed, diag));
+    equations_turn(a.eq, 0, a.y, a.y + layout_turned(layout));
+    CHECK(find_rank(&a));
+    CHECK(find_velocity(&a, diag));
+    CHECK(initial_find_network(&a, setting->from != NULL ? warm : NULL, warm_context, diag));
+done:
+    /* what was stopped has found nothing, and says so in many ways */
+    if (poll(setting->watch) != OK)
+        status = diag_set(diag, E_STOPPED, "stopped while the start was looked for");
+    skeleton_free(a.skeleton);
+    mem_free(a.given);
+    mem_free(a.own);
+    return status;
+}
+
+void initial_free(Assembled *start)
+{
+    mem_free(start->y);
+    mem_free(start->network);
+    mem_free(start->guess);
+    mem_free(start->rows);
+    text_free(&start->remarks);
+    *start = (Assembled){0};
+}

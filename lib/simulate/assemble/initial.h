@@ -1,0 +1,40 @@
+/* initial.h: consistent positions, speeds and network states from what the user gave
+ *
+ * Three problems of least squares, one after another: Phi = 0 with given positions, Phi_u u = nu
+ * with given speeds, the network's equations with given states. Given coordinates are held; any
+ * other given variable is one more equation. Guesses choose where to begin: they are equations at
+ * first, then what was given decides alone. */
+#ifndef COTREE_SIMULATE_ASSEMBLE_INITIAL_H
+#define COTREE_SIMULATE_ASSEMBLE_INITIAL_H
+
+#include "base/text.h"
+#include "simulate/equations/numbers.h"
+
+typedef struct Assembled {
+    double *y;       /* q, u, x, references of angles, 0 */
+    double *network; /* x', z: where the first search for them begins */
+    double *guess;   /* z as the user guesses it, else 0 */
+    int *rows;       /* independent constraint rows, rising */
+    int row_count;
+    Text remarks; /* lines */
+} Assembled;
+
+/* Fails with E_ASSEMBLE, naming what can't be met, and the errors of system_variable(). `warm`
+ * tells the value of a variable in an earlier result (NAN: not known); NULL: there is none. Where
+ * the setting has a `from`, that is the earlier result, and what was given is left aside. With
+ * `has_modes` the network's equations are solved later, once the sides of its switches are known.
+ */
+typedef double (*WarmValue)(void *context, const char *name);
+MUST_USE Status initial_find(const Layout *layout, Parameters *parameters, Numbers *numbers,
+                             const Setting *setting, bool has_modes, WarmValue warm,
+                             void *warm_context, Assembled *out, Diag *diag);
+/* x' and z at y = (q, u, x, references of angles), of t = 0, from a guess [x'; z] (NULL: 0): into
+ * `out`, unless NULL. Fails with E_SINGULAR where there are none, naming what nothing determines.
+ */
+MUST_USE Status initial_solve(const Layout *layout, const Numbers *numbers, const double *y,
+                              const double *guess, double *out, Diag *diag);
+/* The way out where a network has no solution, if an ideal diode or switch may be why. */
+void network_hint(System *system, Diag *diag);
+void initial_free(Assembled *start); /* what it holds */
+
+#endif

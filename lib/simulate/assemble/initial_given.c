@@ -1,0 +1,214 @@
+/* initial_given.c: what was given or guessed, and what it is of */
+#include "simulate/assemble/initial_impl.h"
+
+#include <math.h>
+#include <string.h>
+
+#define ROUNDED 1e-2 /* of the length of four Euler parameters: more is no rounding */
+#define FEWER   1e-5 /* of fewer: the others may be small, but not as small as that */
+
+static int place_of(const Assembly *a, Expr e, InitialLevel level)
+{
+    const Layout *l = a->l;
+    int first = level == LEVEL_POSITION ? l->q : level == LEVEL_VELOCITY ? l->u : l->x;
+    int count = level == LEVEL_POSITION ? l->n : level == LEVEL_VELOCITY ? l->nu : l->nx;
+
+    for (int i = 0; i < count; i++)
+        if (l->symbols[first + i] == e)
+            return i;
+    return -1;
+}
+
+/* positions are corrected in speeds: that of a coordinate which has one of its own */
+static int column_of(const Assembly *a, int place, InitialLevel level)
+{
+    Expr rate;
+
+    if (place < 0 || level != LEVEL_POSITION || a->eq->map == NULL)
+        return place;
+    rate = system_q_rate(a->l->system, place);
+    for (int j = 0; j < a->l->nu; j++)
+        if (system_u(a->l->system, j)->symbol == rate)
+            return j;
+    return -1;
+}
+
+Status initial_classify(Assembly *a, GivenValue *given, Diag *diag)
+{
+    const unsigned dynamic = 1U << SYMBOL_ACCELERATION | 1U << SYMBOL_MULTIPLIER |
+                             1U << SYMBOL_EFFORT | 1U << SYMBOL_JERK;
+    const unsigned network = 1U << SYMBOL_STATE | 1U << SYMBOL_ALGEBRAIC | 1U << SYMBOL_STATE_RATE;
+    unsigned kinds = expr_kinds(given->expr);
+    const char *name = given->value->name;
+
+    if ((kinds & dynamic) != 0) {
+        (void)diag_set(diag, E_ASSEMBLE, "%s%.*s follows from forces and can't be an initial value",
+                       name, given->value->primes, "''''");
+        diag_hint(diag, "give positions, speeds, currents and voltages of storage elements");
+        return E_ASSEMBLE;
+    }
+    given->level = (kinds & network) != 0              ? LEVEL_NETWORK
+                   : (kinds & 1U << SYMBOL_SPEED) != 0 ? LEVEL_VELOCITY
+                                                       : LEVEL_POSITION;
+    given->place = place_of(a, given->expr, given->level);
+    given->column = column_of(a, given->place, given->level);
+    given->target = given->value->value;
+    given->group = -1;
+    return OK;
+}
+
+/* Three angles of a chord have no expression, but frames can be placed by them. */
+static Status read_one(Assembly *a, GivenValue *given, Diag *diag)
+{
+    const StartValue *value = given->value;
+    const Stand stand =
+        value->primes == 0 ? system_stand(a->l->system, value->name) : (Stand){STANDS_NOT};
+    Status status = system_variable(a->l->system, value->name, value->primes, &given->expr, diag);
+
+    if (status == E_MISSING && stand.kind == STANDS_COORDINATE) {
+        given->level = LEVEL_POSITION;
+        given->place = given->column = given->group = -1;
+        given->target = value->value;
+        given->stand = stand;
+        given->expr = NULL;
+        return OK;
+    }
+    CHECK(status);
+    CHECK(initial_classify(a, given, diag));
+    if (given->level == LEVEL_POSITION)
+        given->stand = stand;
+done:
+    return status;
+}
+
+Status initial_read_given(Assembly *a, Diag *diag)
+{
+    const StartValues *start = a->setting->start;
+    int own = 0;
+    Status status = OK;
+
+    while (system_angle_off(a->l->system, own) != NULL)
+        own++;
+    a->given = NEW_ARRAY(GivenValue, (start != NULL ? start->count : 0) + own);
+    a->own = NEW_ARRAY(StartValue, own);
+    for (; a->given_count < own; a->given_count++) {
+        const AngleOff *angle = system_angle_off(a->l->system, a->given_count);
+
+        a->own[a->given_count].name = angle->name;
+        a->given[a->given_count] = (GivenValue){.value = &a->own[a->given_count],
+                                                .expr = angle->off,
+                                                .place = -1,
+                                                .column = -1,
+                                                .is_own = true,
+                                                .group = -1};
+    }
+    if (start == NULL)
+        return OK;
+    for (int i = 0; i < start->count; i++) {
+        GivenValue *given = &a->given[a->given_count];
+
+        given->value = &start->at[i];
+        CHECK(read_one(a, given, diag));
+        a->given_count++;
+    }
+    initial_group(a);
+done:
+    return status;
+}
+
+/* --- Euler parameters --- */
+
+void initial_unit(double p[4])
+{
+    double length = sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2] + p[3] * p[3]);
+
+    for (int i = 0; i < 4 && length > 0; i++)
+        p[i] /= length;
+}
+
+/* which of the four it is; -1: none */
+static int parameter_of(const GivenValue *given)
+{
+    const Instance *owner = given->stand.instance;
+    int first = 0;
+
+    if (given->stand.kind == STANDS_PARAMETER)
+        return given->stand.which;
+    if (given->stand.kind != STANDS_COORDINATE ||
+        owner->coord_kind[given->stand.which] != COORDINATE_PARAMETER)
+        return -1;
+    while (owner->coord_kind[first] != COORDINATE_PARAMETER)
+        first++;
+    return given->stand.which - first;
+}
+
+static bool are_together(const GivenValue *a, const GivenValue *b)
+{
+    return a->stand.kind == b->stand.kind && a->stand.instance == b->stand.instance &&
+           a->stand.node == b->stand.node && a->value->is_guess == b->value->is_guess;
+}
+
+/* All four of a group to unit length; likewise fewer that leave nothing to the others. */
+static void finish_group(Assembly *a, int group)
+{
+    GivenValue *members[4] = {NULL};
+    double p[4] = {0}, length = 0;
+    int count = 0;
+
+    for (int i = 0; i < a->given_count; i++)
+        if (a->given[i].group == group)
+            members[parameter_of(&a->given[i])] = &a->given[i];
+    for (int i = 0; i < 4; i++)
+        if (members[i] != NULL) {
+            p[i] = members[i]->target;
+            length = hypot(length, p[i]);
+            count++;
+        }
+    if (!(fabs(length - 1) < (count == 4 ? ROUNDED : FEWER)))
+        return; /* what is wrong is told as it was given */
+    initial_unit(p);
+    for (int i = 0; i < 4; i++)
+        if (members[i] != NULL)
+            members[i]->target = p[i];
+}
+
+void initial_group(Assembly *a)
+{
+    for (int i = 0; i < a->given_count; i++) {
+        GivenValue *given = &a->given[i];
+
+        if (given->is_own || parameter_of(given) < 0)
+            continue;
+        for (int j = 0; j < i && given->group < 0; j++)
+            if (a->given[j].group >= 0 && are_together(given, &a->given[j]))
+                given->group = a->given[j].group;
+        if (given->group < 0)
+            given->group = a->group_count++;
+    }
+    for (int group = 0; group < a->group_count; group++)
+        finish_group(a, group);
+}
+
+void initial_align(Problem *p)
+{
+    const Assembly *a = p->a;
+    double *along = NEW_ARRAY(double, a->group_count);
+    double *residual = NEW_ARRAY(double, p->system_rows + p->count);
+    Rows rows = initial_rows(p);
+
+    rows.evaluate(rows.context, a->y, residual, NULL);
+    for (int pass = 0; pass < 2 && a->group_count > 0; pass++)
+        for (int i = 0; i < p->count; i++) {
+            GivenValue *given = (GivenValue *)p->picked[i];
+
+            if (given->group < 0)
+                continue;
+            if (pass == 0)
+                along[given->group] +=
+                    (residual[p->system_rows + i] + given->target) * given->target;
+            else if (along[given->group] < 0)
+                given->target = -given->target;
+        }
+    mem_free(along);
+    mem_free(residual);
+}

@@ -1,0 +1,286 @@
+/* initial_known.c: what is known of where frames stand, before any is placed */
+#include "simulate/assemble/initial_place_impl.h"
+
+#include "algebra/matrix3.h"
+
+#include <math.h>
+#include <string.h>
+
+static void wish(Placing *p, const Stand *stand, double value, bool is_guess, int group)
+{
+    Wish wish = {
+        .link = -1, .head = stand->node, .value = value, .is_guess = is_guess, .group = group};
+
+    if (stand->kind == STANDS_COORDINATE || stand->kind == STANDS_SHIFT) {
+        wish.link = p->s->link_at[stand->instance->edge];
+        wish.k = stand->which;
+        if (stand->kind == STANDS_SHIFT)
+            wish.value /= p->s->links[wish.link].shift[0].scale;
+    } else if (stand->kind == STANDS_POSITION) {
+        wish.k = stand->which;
+    } else {
+        wish.k = p->s->frame.shift_count + stand->which;
+    }
+    LIST_PUSH(p->wishes, wish);
+}
+
+/* signs of Euler parameters are told by all that belong together */
+static void gather_groups(Placing *p)
+{
+    p->groups = NEW_ARRAY(double, p->a->group_count *MAX_COORDS);
+    for (int i = 0; i < p->wishes.count; i++)
+        if (p->wishes.at[i].group >= 0)
+            p->groups[place_at(p->wishes.at[i].group, p->wishes.at[i].k)] = p->wishes.at[i].value;
+}
+
+/* a plane has no parameters of its frames in these */
+static bool is_told(const Placing *p, const Stand *stand)
+{
+    return stand->kind != STANDS_NOT &&
+           !(stand->kind == STANDS_PARAMETER && !p->s->frame.has_parameters) &&
+           !(stand->kind == STANDS_POSITION && stand->which >= p->s->frame.shift_count);
+}
+
+Status place_take_wishes(Placing *p, Diag *diag)
+{
+    Assembly *a = p->a;
+    Status status = OK;
+
+    for (int guesses = 1; guesses >= 0; guesses--) {
+        for (int k = 0; k < a->l->m && guesses == 0; k++) {
+            Stand stand = {.kind = STANDS_COORDINATE};
+            Expr prescribed = system_driven(a->l->system, k, &stand.instance, &stand.which);
+            double value;
+
+            if (prescribed == NULL)
+                continue;
+            CHECK(initial_driven(a->l, a->parameters, prescribed, &value, diag));
+            wish(p, &stand, value, false, -1);
+        }
+        for (int i = 0; i < a->given_count; i++) {
+            const GivenValue *given = &a->given[i];
+
+            if (given->stand.kind != STANDS_NOT && is_told(p, &given->stand) &&
+                given->value->is_guess == (guesses == 1))
+                wish(p, &given->stand, given->target, guesses == 1, given->group);
+        }
+    }
+    gather_groups(p);
+done:
+    return status;
+}
+
+/* Four Euler parameters of which some are known (NAN: not): the others are 0 where nothing is left
+ * to them. A last one has one of two signs, `sign` or else that of attitudes nearest to none. What
+ * that makes of all four: they are not known, guessed, or as well known as those that are. */
+static Knowledge complete_four(double q[4], double sign)
+{
+    double left = 1;
+    int missing = 0, last = 0;
+
+    for (int k = 0; k < 4; k++)
+        if (isnan(q[k])) {
+            last = k;
+            missing++;
+        } else {
+            left -= q[k] * q[k];
+        }
+    if (fabs(left) < 1e-15) {
+        for (int k = 0; k < 4; k++)
+            q[k] = isnan(q[k]) ? 0 : q[k];
+        return KNOWN_GIVEN;
+    }
+    if (missing == 1 && left > 0)
+        q[last] = copysign(sqrt(left), sign);
+    return missing == 0 ? KNOWN_GIVEN : missing == 1 && left > 0 ? KNOWN_GUESSED : KNOWN_NOT;
+}
+
+static Knowledge lesser(Knowledge a, Knowledge b)
+{
+    return a < b ? a : b;
+}
+
+/* from those that are known at least so well */
+static void complete_attitude(Placing *p, int link, Knowledge least)
+{
+    const int first = place_at(link, p->s->links[link].first_parameter);
+    double q[4], sign = 1;
+    Knowledge known;
+
+    for (int k = 0; k < 4; k++) {
+        q[k] = p->known[first + k] >= least ? p->begun[first + k] : NAN;
+        if (isnan(q[k]) && !isnan(p->begun[first + k]))
+            sign = p->begun[first + k];
+    }
+    known = lesser(complete_four(q, sign), least);
+    for (int k = 0; k < 4; k++)
+        if (known > p->known[first + k]) {
+            p->known[first + k] = known;
+            p->begun[first + k] = q[k];
+        }
+}
+
+static void complete_parameters(Placing *p)
+{
+    for (int i = 0; i < p->s->link_count; i++)
+        if (p->s->links[i].has_parameters) {
+            complete_attitude(p, i, KNOWN_GIVEN);
+            complete_attitude(p, i, KNOWN_GUESSED);
+        }
+}
+
+/* the link by which a frame is made: a body's own edge, or an arm; -1 */
+static int maker_of(const Placing *p, int node)
+{
+    for (int i = 0; i < p->s->link_count; i++) {
+        const Family family = p->s->links[i].instance->row->family;
+
+        if (p->s->links[i].head == node && (family == FAMILY_BODY || family == FAMILY_ARM))
+            return i;
+    }
+    return -1;
+}
+
+/* the body of a frame, and where the frame stands in it; -1: it is one of ground */
+static int body_of(const Placing *p, int node, Pose *in_body)
+{
+    const double none[MAX_COORDS] = {0};
+    int link;
+
+    *in_body = (Pose){.R = {1, 0, 0, 0, 1, 0, 0, 0, 1}};
+    while ((link = maker_of(p, node)) >= 0) {
+        Pose step, sum;
+
+        if (p->s->links[link].instance->row->family == FAMILY_BODY)
+            return link;
+        link_pose(&p->s->links[link], none, &step);
+        matrix3_times(step.R, in_body->R, sum.R);
+        matrix3_apply(step.R, in_body->p, sum.p);
+        for (int k = 0; k < 3; k++)
+            sum.p[k] += step.p[k];
+        *in_body = sum;
+        node = p->s->links[link].tail;
+    }
+    return -1;
+}
+
+static bool is_half_told(const Placing *p, int link, bool rotation)
+{
+    const Instance *instance = p->s->links[link].instance;
+
+    for (int k = 0; k < instance->coord_count; k++)
+        if (instance->coord_rotation[k] == rotation && p->known[place_at(link, k)] != KNOWN_NOT)
+            return true;
+    return false;
+}
+
+static void know_half(Placing *p, int link, bool rotation, const double *c, Knowledge known)
+{
+    const Instance *instance = p->s->links[link].instance;
+
+    for (int k = 0; k < instance->coord_count; k++)
+        if (instance->coord_rotation[k] == rotation) {
+            p->begun[place_at(link, k)] = c[k];
+            p->known[place_at(link, k)] = known;
+        }
+}
+
+/* A frame of which all is told says where its body stands: its attitude, and with that its place.
+ */
+static void place_body(Placing *p, int node, const double *told, Knowledge known)
+{
+    const int shifts = p->s->frame.shift_count;
+    double c[MAX_COORDS] = {0}, back[9];
+    bool whole = true;
+    Pose in_body, stands;
+    int body = body_of(p, node, &in_body);
+
+    memcpy(c, told, sizeof c);
+    if (p->s->frame.has_parameters)
+        known = lesser(known, complete_four(c + shifts, 1));
+    else if (isnan(told[shifts]))
+        known = KNOWN_NOT;
+    if (body < 0 || known == KNOWN_NOT || is_half_told(p, body, true))
+        return;
+    link_pose(&p->s->frame, c, &stands);
+    matrix3_transpose(in_body.R, back);
+    matrix3_times(stands.R, back, stands.R);
+    matrix3_apply(stands.R, in_body.p, in_body.p);
+    for (int k = 0; k < 3; k++) {
+        whole = whole && (k >= shifts || !isnan(told[k]));
+        stands.p[k] = whole ? stands.p[k] - in_body.p[k] : 0;
+    }
+    memset(c, 0, sizeof c);
+    if (!p->s->frame.has_parameters)
+        c[shifts] = told[shifts]; /* of a plane: with its turns */
+    link_read(&p->s->links[body], &stands, c);
+    know_half(p, body, true, c, known);
+    if (whole && !is_half_told(p, body, false))
+        know_half(p, body, false, c, known);
+}
+
+/* frames that were told as a whole */
+static void place_bodies(Placing *p, bool guesses)
+{
+    double *told = NEW_ARRAY(double, p->s->node_count *MAX_COORDS);
+
+    for (int i = 0; i < p->s->node_count * MAX_COORDS; i++)
+        told[i] = NAN;
+    for (int i = 0; i < p->wishes.count; i++) {
+        const Wish *wish = &p->wishes.at[i];
+
+        if (wish->is_guess != guesses)
+            continue;
+        if (wish->link < 0)
+            told[place_at(wish->head, wish->k)] = wish->value;
+        /* places of bodies in Cartesian coordinates are named as their coordinates are */
+        else if (p->s->links[wish->link].instance->row->family == FAMILY_BODY &&
+                 wish->k < p->s->frame.shift_count)
+            told[place_at(p->s->links[wish->link].head, wish->k)] = wish->value;
+    }
+    for (int node = 0; node < p->s->node_count; node++)
+        place_body(p, node, told + place_at(node, 0), guesses ? KNOWN_GUESSED : KNOWN_GIVEN);
+    mem_free(told);
+}
+
+void place_mark_known(Placing *p)
+{
+    for (int i = 0; i < p->wishes.count; i++) {
+        const Wish *told = &p->wishes.at[i];
+        Knowledge known = told->is_guess ? KNOWN_GUESSED : KNOWN_GIVEN;
+
+        if (told->link < 0)
+            continue;
+        p->begun[place_at(told->link, told->k)] = told->value;
+        if (known > p->known[place_at(told->link, told->k)])
+            p->known[place_at(told->link, told->k)] = known;
+    }
+    complete_parameters(p);
+    place_bodies(p, false);
+    place_bodies(p, true);
+}
+
+int place_ignorance(const Placing *p, int link, TreeKind kind)
+{
+    const Link *l = &p->s->links[link];
+    int sum = 0, parameters = 0;
+
+    if (l->is_tied && kind == TREE_TRANSLATION && tree_has(p->trees[TREE_ROTATION], l->edge))
+        return 0; /* its turn tells */
+    for (int k = 0; kind == TREE_TRANSLATION && k < l->shift_count; k++) {
+        Knowledge known = p->known[place_at(link, l->shift[k].coordinate)];
+
+        sum += known == KNOWN_NOT ? OPEN : known == KNOWN_GUESSED;
+    }
+    for (int k = 0; kind == TREE_ROTATION && k < l->turn_count; k++) {
+        Knowledge known = p->known[place_at(link, l->turn[k].coordinate)];
+
+        sum += known == KNOWN_NOT ? OPEN : known == KNOWN_GUESSED;
+    }
+    for (int k = 0; kind == TREE_ROTATION && l->has_parameters && k < 4; k++) {
+        Knowledge known = p->known[place_at(link, l->first_parameter + k)];
+
+        parameters += known == KNOWN_NOT ? OPEN : known == KNOWN_GUESSED;
+    }
+    return sum + (parameters >= OPEN ? 3 * OPEN : parameters);
+}

@@ -1,0 +1,366 @@
+/* initial_place.c: assembly begins along the joints
+ *
+ * Frames are placed along trees of its own making, chosen by what is known: edges whose coordinates
+ * are given, then those that are guessed, then joints before bodies. What isn't given starts at its
+ * guess, at the value of an earlier start, or at 0. Loops and given values elsewhere are closed by
+ * Levenberg-Marquardt in the coordinates of these trees. So where the frames stand follows from the
+ * model and from what was said about it, and from no tree of the user's. */
+#include "simulate/assemble/initial_place_impl.h"
+
+#include "algebra/matrix3.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define FAR 2.0 /* rad or m: a coordinate that moved further is spoken of */
+
+enum { MOST_COLUMNS = 300 }; /* of bodies' coordinates: a try costs their number cubed */
+
+/* --- where it begins --- */
+
+static double recall(const Placing *p, const char *name)
+{
+    return p->warm != NULL ? p->warm(p->warm_context, name) : NAN;
+}
+
+/* attitude of a frame at the earlier start; false: not known */
+static bool recall_attitude(const Placing *p, int node, double R[9])
+{
+    double q[4];
+
+    matrix3_one(R);
+    for (int i = 0; i < 4 && node != p->s->datum; i++) {
+        Text name = {0};
+
+        text_addf(&name, "%s.q%d", graph_node(system_graph(p->a->l->system), node)->name, i);
+        q[i] = recall(p, name.at);
+        text_free(&name);
+        if (!isfinite(q[i]))
+            return false;
+    }
+    if (node != p->s->datum)
+        matrix3_of_parameters(q, R);
+    return true;
+}
+
+/* three turns of a chord are told by its frames alone */
+static void recall_turns(Placing *p, int link)
+{
+    const Link *l = &p->s->links[link];
+    double c[MAX_COORDS] = {0};
+    Pose tail = {0}, head = {0}, relative;
+
+    if (p->warm == NULL || !recall_attitude(p, l->tail, tail.R) ||
+        !recall_attitude(p, l->head, head.R))
+        return;
+    pose_between(&tail, &head, &relative);
+    link_read(l, &relative, c);
+    for (int k = 0; k < 3; k++)
+        p->begun[place_at(link, l->turn[k].coordinate)] = c[l->turn[k].coordinate];
+}
+
+/* where the coordinates of a half of a link start that nobody told */
+static void begin_half(Placing *p, int link, bool rotation)
+{
+    const Link *l = &p->s->links[link];
+    const Instance *instance = l->instance;
+    bool open = false;
+
+    for (int k = 0; k < instance->coord_count; k++) {
+        double *begun = &p->begun[place_at(link, k)];
+
+        if (instance->coord_rotation[k] == rotation && isnan(*begun)) {
+            *begun = recall(p, instance->coord[k]);
+            open = open || !isfinite(*begun);
+        }
+    }
+    if (open && rotation && l->turn_count == 3)
+        recall_turns(p, link);
+    for (int k = 0; k < instance->coord_count; k++)
+        if (instance->coord_rotation[k] == rotation && !isfinite(p->begun[place_at(link, k)]))
+            p->begun[place_at(link, k)] = l->has_parameters && k == l->first_parameter ? 1 : 0;
+    if (rotation && l->has_parameters)
+        initial_unit(p->begun + place_at(link, l->first_parameter));
+}
+
+static void begin(Placing *p)
+{
+    for (int i = 0; i < p->s->link_count; i++) {
+        if (place_turns(p, i))
+            begin_half(p, i, true);
+        if (place_shifts(p, i))
+            begin_half(p, i, false);
+        for (int k = 0; k < MAX_COORDS; k++)
+            p->c[place_at(i, k)] = isnan(p->begun[place_at(i, k)]) ? 0 : p->begun[place_at(i, k)];
+    }
+}
+
+static bool is_guessed_elsewhere(const Placing *p)
+{
+    for (int i = 0; i < p->wishes.count; i++)
+        if (p->wishes.at[i].is_guess &&
+            (p->wishes.at[i].link < 0 || !place_has(p, p->wishes.at[i].link, p->wishes.at[i].k)))
+            return true;
+    return false;
+}
+
+/* --- what came out --- */
+
+/* A body that joints place has no coordinates whose turns would be looked up. */
+static bool is_asked(const Placing *p, const Instance *instance)
+{
+    if (instance->row->family != FAMILY_BODY)
+        return true;
+    for (int k = 0; k < instance->coord_count; k++)
+        if (system_coordinate(p->s->system, instance, k) >= 0)
+            return true;
+    return false;
+}
+
+/* Whether coordinate k has its whole turns from no statement and no run that goes on: an earlier
+ * start tells where the search begins, and no more. Those of a screw are a way. */
+static bool is_within_half_a_turn(const Placing *p, int link, int k)
+{
+    const Link *l = &p->s->links[link];
+
+    return p->known[place_at(link, k)] == KNOWN_NOT && !l->is_tied &&
+           l->instance->coord_kind[k] == COORDINATE_ANGLE && p->a->setting->from == NULL;
+}
+
+/* Coordinates of a link where its frames stand now: angles within half a turn of what they were
+ * given or guessed as, or of 0. What places frames and was given stays as it is. */
+static void read_link(Placing *p, int link)
+{
+    const Link *l = &p->s->links[link];
+    double read[MAX_COORDS];
+    Pose relative;
+
+    if (is_asked(p, l->instance)) {
+        begin_half(p, link, true);
+        begin_half(p, link, false);
+    }
+    for (int k = 0; k < MAX_COORDS; k++)
+        if (isnan(p->begun[place_at(link, k)]) ||
+            (k < l->instance->coord_count && is_within_half_a_turn(p, link, k)))
+            p->begun[place_at(link, k)] = 0;
+    memcpy(read, p->begun + place_at(link, 0), sizeof read);
+    pose_between(&p->poses[l->tail], &p->poses[l->head], &relative);
+    link_read(l, &relative, read);
+    for (int k = 0; k < l->instance->coord_count; k++)
+        p->c[place_at(link, k)] = p->known[place_at(link, k)] == KNOWN_GIVEN &&
+                                          l->instance->coord_kind[k] != COORDINATE_PARAMETER
+                                      ? p->begun[place_at(link, k)]
+                                      : read[k];
+}
+
+/* a place for the value of a coordinate among what a start hands out */
+typedef struct Outlet {
+    int link, k;
+    double *to;
+} Outlet;
+
+typedef LIST(Outlet) Outlets;
+
+/* the angle of a chord that has that name goes to the outlet's place */
+static void push_named(const Placing *p, const char *name, Outlet outlet, Outlets *outlets)
+{
+    const Stand stand = system_stand(p->s->system, name);
+
+    if (stand.kind != STANDS_COORDINATE)
+        return;
+    outlet.link = p->s->link_at[stand.instance->edge];
+    outlet.k = stand.which;
+    LIST_PUSH(*outlets, outlet);
+}
+
+/* q, references of angles, and the angles that are sums */
+static Status hand_out(Placing *p, Diag *diag)
+{
+    const Layout *l = p->a->l;
+    const int sums = system_whole_turns_count(l->system);
+    double *angles = NEW_ARRAY(double, sums);
+    Outlets outlets = {0};
+    int read = -1;
+    Status status;
+
+    for (int i = 0; i < p->s->link_count; i++)
+        for (int k = 0; k < p->s->links[i].instance->coord_count; k++) {
+            const int place = system_coordinate(l->system, p->s->links[i].instance, k);
+
+            if (place >= 0)
+                LIST_PUSH(outlets, (Outlet){i, k, &p->a->y[place]});
+        }
+    for (int i = 0; i < l->turned; i++)
+        push_named(p, system_multi_turn(l->system, i)->name,
+                   (Outlet){.to = &p->a->y[layout_turned(l) + i]}, &outlets);
+    for (int i = 0; i < sums; i++)
+        if (system_whole_turns(l->system, i)->name != NULL)
+            push_named(p, system_whole_turns(l->system, i)->name, (Outlet){.to = &angles[i]},
+                       &outlets);
+    for (int i = 0; i < outlets.count; i++) {
+        const Outlet *outlet = &outlets.at[i];
+
+        if (outlet->link != read)
+            read_link(p, outlet->link);
+        read = outlet->link;
+        *outlet->to = p->c[place_at(outlet->link, outlet->k)];
+    }
+    status = initial_whole_turns(p->a, angles, diag);
+    LIST_FREE(outlets);
+    mem_free(angles);
+    return status;
+}
+
+/* --- another way --- */
+
+static Status choose_bodies(Placing *p, TreeKind kind, Diag *diag)
+{
+    const Graph *graph = system_graph(p->s->system);
+    int *branches = NEW_ARRAY(int, p->s->link_count);
+    TreeChoice choice = {.branches = branches};
+    Status status;
+
+    for (int i = 0; i < p->s->link_count; i++)
+        if (p->s->links[i].instance->row->family == FAMILY_BODY &&
+            graph_branching(graph, p->s->links[i].edge, kind) != BRANCH_NEVER)
+            branches[choice.branch_count++] = p->s->links[i].edge;
+    status = tree_complete(graph, kind, &choice, true, &p->trees[kind], diag);
+    mem_free(branches);
+    return status;
+}
+
+/* Loops that don't close in coordinates of joints may do so in those of bodies, where frames go
+ * straight to each other. It begins where the frames stood, which becomes `from`. */
+static Status close_by_bodies(Placing *p, double *from, bool *closed, Diag *diag)
+{
+    const size_t bytes = (size_t)(p->s->link_count * MAX_COORDS) * sizeof(double);
+    Tree *trees[2] = {p->trees[0], p->trees[1]};
+    double *kept = NEW_ARRAY(double, p->s->link_count *MAX_COORDS);
+    double *begun = NEW_ARRAY(double, p->s->link_count *MAX_COORDS);
+    Status status = OK;
+
+    memcpy(kept, p->c, bytes);
+    place_poses(p, from);
+    p->trees[0] = p->trees[1] = NULL;
+    CHECK(choose_bodies(p, TREE_ROTATION, diag));
+    CHECK(choose_bodies(p, TREE_TRANSLATION, diag));
+    for (int i = 0; i < p->s->link_count; i++) {
+        const Link *l = &p->s->links[i];
+        double *c = p->c + place_at(i, 0);
+        Pose relative;
+
+        pose_between(&p->poses[l->tail], &p->poses[l->head], &relative);
+        link_read(l, &relative, c);
+        for (int k = 0; k < l->instance->coord_count; k++)
+            if (p->known[place_at(i, k)] == KNOWN_GIVEN)
+                c[k] = p->begun[place_at(i, k)];
+    }
+    p->columns.count = 0;
+    place_columns(p);
+    memcpy(begun, p->c, bytes);
+    *closed = p->columns.count <= MOST_COLUMNS && place_search(p, false);
+    if (*closed)
+        memcpy(from, begun, bytes);
+    for (int kind = 0; kind < 2 && !*closed; kind++) {
+        tree_free(p->trees[kind]);
+        p->trees[kind] = trees[kind];
+        trees[kind] = NULL;
+    }
+    if (!*closed)
+        memcpy(p->c, kept, bytes);
+done:
+    tree_free(trees[0]);
+    tree_free(trees[1]);
+    mem_free(begun);
+    mem_free(kept);
+    return status;
+}
+
+/* what nobody gave and that moved far */
+static void remark_moved(Placing *p, const double *from)
+{
+    int link = -1, which = 0;
+    double furthest = FAR, to = 0;
+
+    for (int i = 0; i < p->s->link_count; i++)
+        for (int k = 0; k < p->s->links[i].instance->coord_count; k++) {
+            const Instance *instance = p->s->links[i].instance;
+            const double begun = from[place_at(i, k)], now = p->c[place_at(i, k)];
+            double moved = fabs(now - begun);
+
+            if (!place_has(p, i, k) || instance->coord_kind[k] == COORDINATE_PARAMETER)
+                continue;
+            if (instance->coord_kind[k] == COORDINATE_ANGLE)
+                moved = fabs(remainder(now - begun, 2 * M_PI));
+            if (moved > furthest) {
+                furthest = moved;
+                link = i;
+                which = k;
+                to = now;
+            }
+        }
+    if (link >= 0)
+        text_addf(&p->a->out->remarks,
+                  "warning: assembled far from where it began: %s went from %.4g to %.4g; a guess "
+                  "chooses "
+                  "another assembly\n",
+                  p->s->links[link].instance->coord[which], from[place_at(link, which)], to);
+}
+
+void placing_free(Placing *p)
+{
+    tree_free(p->trees[TREE_TRANSLATION]);
+    tree_free(p->trees[TREE_ROTATION]);
+    mem_free(p->c);
+    mem_free(p->begun);
+    mem_free(p->known);
+    mem_free(p->poses);
+    mem_free(p->turned);
+    mem_free(p->shifted);
+    mem_free(p->groups);
+    LIST_FREE(p->wishes);
+    LIST_FREE(p->columns);
+    LIST_FREE(p->asks);
+}
+
+Status initial_place(Assembly *a, WarmValue warm, void *context, bool *closed, Diag *diag)
+{
+    Placing p = {.a = a, .warm = warm, .warm_context = context};
+    double *from = NULL; /* where the search began that guesses have no part in */
+    int size;
+    Status status = OK;
+
+    *closed = true;
+    p.s = a->skeleton;
+    if (p.s == NULL)
+        return OK;
+    size = p.s->link_count * MAX_COORDS;
+    p.c = NEW_ARRAY(double, size);
+    p.begun = NEW_ARRAY(double, size);
+    p.known = NEW_ARRAY(Knowledge, size);
+    p.poses = NEW_ARRAY(Pose, p.s->node_count);
+    p.turned = NEW_ARRAY(double, 3 * p.s->node_count);
+    p.shifted = NEW_ARRAY(double, 3 * p.s->node_count);
+    for (int i = 0; i < size; i++)
+        p.begun[i] = NAN;
+    CHECK(place_take_wishes(&p, diag));
+    place_mark_known(&p);
+    CHECK(place_choose_trees(&p, diag));
+    begin(&p);
+    place_columns(&p);
+    if (is_guessed_elsewhere(&p))
+        (void)place_search(&p, true);
+    from = NEW_ARRAY(double, size);
+    memcpy(from, p.c, (size_t)size * sizeof(double));
+    *closed = place_search(&p, false);
+    if (!*closed)
+        CHECK(close_by_bodies(&p, from, closed, diag));
+    place_poses(&p, p.c);
+    remark_moved(&p, from);
+    CHECK(hand_out(&p, diag));
+done:
+    mem_free(from);
+    placing_free(&p);
+    return status;
+}

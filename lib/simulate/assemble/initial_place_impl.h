@@ -1,0 +1,79 @@
+/* initial_place_impl.h: what the files that place frames share */
+#ifndef COTREE_SIMULATE_ASSEMBLE_INITIAL_PLACE_IMPL_H
+#define COTREE_SIMULATE_ASSEMBLE_INITIAL_PLACE_IMPL_H
+
+#include "simulate/assemble/initial_impl.h"
+
+typedef enum Knowledge { KNOWN_NOT, KNOWN_GUESSED, KNOWN_GIVEN } Knowledge;
+
+/* a value that was told, of a coordinate or of a frame against the datum */
+typedef struct Wish {
+    int link; /* number; -1: of a frame, */
+    int head; /* this node */
+    int k;    /* coordinate of the link */
+    double value;
+    bool is_guess;
+    int group; /* of Euler parameters told together; -1 */
+} Wish;
+
+typedef enum ColumnKind { COLUMN_SLIDE, COLUMN_TURN, COLUMN_FREE } ColumnKind;
+
+typedef struct PlaceColumn { /* an unknown of the search */
+    int link;
+    ColumnKind kind;
+    int k; /* shift or turn; axis of a free rotation */
+} PlaceColumn;
+
+typedef enum AskKind { ASK_SHIFT, ASK_TURN, ASK_TIE, ASK_WISH } AskKind;
+
+typedef struct Ask { /* rows of the search */
+    AskKind kind;
+    int link; /* or wish */
+} Ask;
+
+typedef struct Placing {
+    Assembly *a;
+    const Skeleton *s;
+    Tree *trees[2];   /* translation, rotation */
+    double *c;        /* links x MAX_COORDS */
+    double *begun;    /* likewise: where what isn't given starts, NAN: not asked yet */
+    Knowledge *known; /* likewise */
+    Pose *poses;
+    LIST(Wish) wishes;
+    double *groups; /* x MAX_COORDS: what was told of each, the rest 0 */
+    LIST(PlaceColumn) columns;
+    LIST(Ask) asks;
+    int row_count;
+    double *turned, *shifted; /* nodes x 3: what a unit of a column does to them */
+    WarmValue warm;
+    void *warm_context;
+} Placing;
+
+/* the place of coordinate k of a link in what is kept by link and coordinate */
+static inline int place_at(int link, int k)
+{
+    return link * MAX_COORDS + k;
+}
+
+/* Guesses, drivers, given values: what comes later has the last word (initial_known.c). */
+MUST_USE Status place_take_wishes(Placing *p, Diag *diag);
+void place_mark_known(Placing *p);
+/* How little is known of a half of a link: OPEN for each freedom that is, 1 for a guessed one. */
+enum { OPEN = 16 }; /* above the number of coordinates of a link */
+int place_ignorance(const Placing *p, int link, TreeKind kind);
+
+/* The trees that place frames, by what is known; fails as tree_complete() does. */
+MUST_USE Status place_choose_trees(Placing *p, Diag *diag);
+void placing_free(Placing *p); /* what it holds */
+
+/* Whether a link is a branch of the trees that place frames, and a coordinate is one of such. */
+bool place_turns(const Placing *p, int link);
+bool place_shifts(const Placing *p, int link);
+bool place_has(const Placing *p, int link, int k);
+void place_poses(Placing *p, const double *c);
+
+void place_columns(Placing *p); /* list the unknowns (initial_search.c) */
+/* Close what the trees leave open; false: nothing was found that does. */
+bool place_search(Placing *p, bool guesses);
+
+#endif

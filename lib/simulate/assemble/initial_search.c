@@ -1,0 +1,376 @@
+/* initial_search.c: Levenberg-Marquardt in the coordinates of the trees that place frames
+ *
+ * Rows are what joints ask that are no branches of these trees, and values that were given of
+ * others than their coordinates. A column moves everything beyond its branch. */
+#include "simulate/assemble/initial_place_impl.h"
+
+#include "algebra/matrix3.h"
+#include "base/random.h"
+
+#include <math.h>
+#include <string.h>
+
+#define TOLERANCE 1e-12 /* of scaled residuals */
+#define CLOSED    1e-13 /* m, rad: what rounding leaves of residuals */
+#define TRIES     24    /* other starts, when the first leads nowhere */
+
+/* --- unknowns --- */
+
+static void turn_columns(Placing *p, int link)
+{
+    const Link *l = &p->s->links[link];
+    int given = 0;
+
+    for (int k = 0; k < l->turn_count; k++)
+        given += p->known[place_at(link, l->turn[k].coordinate)] == KNOWN_GIVEN;
+    for (int k = 0; l->has_parameters && k < 4; k++)
+        given += p->known[place_at(link, l->first_parameter + k)] == KNOWN_GIVEN;
+    if ((l->has_parameters && given < 4) || (l->turn_count == 3 && given == 0)) {
+        for (int k = 0; k < 3; k++)
+            LIST_PUSH(p->columns, (PlaceColumn){link, COLUMN_FREE, k});
+        return;
+    }
+    for (int k = 0; k < l->turn_count; k++)
+        if (p->known[place_at(link, l->turn[k].coordinate)] != KNOWN_GIVEN)
+            LIST_PUSH(p->columns, (PlaceColumn){link, COLUMN_TURN, k});
+}
+
+void place_columns(Placing *p)
+{
+    for (int i = 0; i < p->s->link_count; i++) {
+        const Link *l = &p->s->links[i];
+
+        if (place_turns(p, i))
+            turn_columns(p, i);
+        if (!place_shifts(p, i) || (l->is_tied && place_turns(p, i)))
+            continue;
+        for (int k = 0; k < l->shift_count; k++)
+            if (p->known[place_at(i, l->shift[k].coordinate)] != KNOWN_GIVEN)
+                LIST_PUSH(p->columns, (PlaceColumn){i, COLUMN_SLIDE, k});
+    }
+}
+
+/* axis of its turn and direction of its shift per unit, ground axes: of the head against the tail
+ */
+static void column_motion(const Placing *p, const double *c, const PlaceColumn *column,
+                          double turn[3], double shift[3])
+{
+    const Link *l = &p->s->links[column->link];
+    const double *R = p->poses[l->tail].R, *own = c + place_at(column->link, 0);
+    double E[9], axis[3] = {0};
+
+    memset(turn, 0, 3 * sizeof(double));
+    memset(shift, 0, 3 * sizeof(double));
+    if (column->kind == COLUMN_TURN)
+        link_turn_axis(l, own, R, column->k, turn);
+    if (column->kind == COLUMN_FREE) {
+        link_attitude(l, own, E);
+        matrix3_times(R, E, E);
+        axis[column->k] = 1;
+        matrix3_apply(E, axis, turn);
+    }
+    if (column->kind == COLUMN_SLIDE ||
+        (l->is_tied && column->kind == COLUMN_TURN && place_shifts(p, column->link))) {
+        matrix3_apply(R, l->shift[column->k].axis, shift);
+        for (int i = 0; i < 3; i++)
+            shift[i] *= l->shift[column->k].scale;
+    }
+}
+
+/* What a unit of a column does to every node: turns along the rotation tree; along the other one
+ * each step turns with the tail of its edge. */
+static void move_nodes(Placing *p, const double *c, const PlaceColumn *column)
+{
+    const Tree *rotation = p->trees[TREE_ROTATION], *translation = p->trees[TREE_TRANSLATION];
+    const Link *l = &p->s->links[column->link];
+    double turn[3], shift[3];
+    int count;
+    const int *nodes = tree_nodes(translation, &count);
+    const bool turns = column->kind != COLUMN_SLIDE;
+    const bool slides = tree_has(translation, l->edge);
+    double sense = 0;
+
+    column_motion(p, c, column, turn, shift);
+    if (turns)
+        sense = tree_is_forward(rotation, tree_far_node(rotation, l->edge)) ? 1 : -1;
+    for (int i = 0; i < count; i++)
+        for (int k = 0; k < 3; k++)
+            p->turned[3 * nodes[i] + k] =
+                turns && tree_is_beyond(rotation, l->edge, nodes[i]) ? sense * turn[k] : 0;
+    memset(p->shifted + (ptrdiff_t)3 * p->s->datum, 0, 3 * sizeof(double));
+    for (int i = 1; i < count; i++) {
+        const int node = nodes[i], parent = tree_parent(translation, node);
+        const int edge = tree_parent_edge(translation, node);
+        const int base = p->s->links[p->s->link_at[edge]].tail;
+        const double way = tree_is_forward(translation, node) ? 1 : -1;
+        double step[3], carried[3];
+
+        for (int k = 0; k < 3; k++)
+            step[k] = p->poses[node].p[k] - p->poses[parent].p[k];
+        vector3_cross(p->turned + (ptrdiff_t)3 * base, step, carried);
+        for (int k = 0; k < 3; k++)
+            p->shifted[3 * node + k] = p->shifted[3 * parent + k] + carried[k] +
+                                       (slides && edge == l->edge ? way * shift[k] : 0);
+    }
+}
+
+static void move_columns(void *context, double *v, const double *step)
+{
+    const Placing *p = context;
+
+    for (int j = 0; j < p->columns.count; j++) {
+        const PlaceColumn *column = &p->columns.at[j];
+        const Link *l = &p->s->links[column->link];
+        double *own = v + place_at(column->link, 0);
+
+        if (column->kind == COLUMN_SLIDE)
+            own[l->shift[column->k].coordinate] += step[j];
+        if (column->kind == COLUMN_TURN)
+            own[l->turn[column->k].coordinate] += step[j];
+        if (column->kind == COLUMN_FREE && column->k == 0)
+            link_turn_by(l, own, step + j);
+    }
+}
+
+/* --- rows --- */
+
+static void ask(Placing *p, AskKind kind, int link)
+{
+    const Pose nothing = {.R = {1, 0, 0, 0, 1, 0, 0, 0, 1}};
+    LinkRow rows[LINK_ROWS];
+
+    LIST_PUSH(p->asks, (Ask){kind, link});
+    p->row_count += kind == ASK_SHIFT  ? link_shift_rows(&p->s->links[link], &nothing, rows)
+                    : kind == ASK_TURN ? link_turn_rows(&p->s->links[link], &nothing, rows)
+                                       : 1;
+}
+
+static void list_asks(Placing *p, bool guesses)
+{
+    p->asks.count = p->row_count = 0;
+    for (int i = 0; i < p->s->link_count; i++) {
+        const Link *l = &p->s->links[i];
+
+        if (!l->holds)
+            continue;
+        if (!place_shifts(p, i))
+            ask(p, ASK_SHIFT, i);
+        if (!place_turns(p, i))
+            ask(p, ASK_TURN, i);
+        if (l->is_tied && !(place_shifts(p, i) && place_turns(p, i)))
+            ask(p, ASK_TIE, i);
+    }
+    for (int i = 0; i < p->wishes.count; i++) {
+        const Wish *told = &p->wishes.at[i];
+        const bool is_held =
+            told->link >= 0 && place_has(p, told->link, told->k) &&
+            (told->group < 0 || p->known[place_at(told->link, told->k)] != KNOWN_GIVEN ||
+             place_ignorance(p, told->link, TREE_ROTATION) == 0);
+
+        if ((guesses || !told->is_guess) && !is_held)
+            ask(p, ASK_WISH, i);
+    }
+}
+
+static int ask_rows(const Placing *p, const Ask *asked, LinkRow *rows, int *tail, int *head)
+{
+    const Wish *told = asked->kind == ASK_WISH ? &p->wishes.at[asked->link] : NULL;
+    const int number = told != NULL ? told->link : asked->link;
+    const Link *link = number >= 0 ? &p->s->links[number] : &p->s->frame;
+    double near[MAX_COORDS] = {0};
+    Pose relative;
+
+    *tail = link->tail;
+    *head = number >= 0 || told == NULL ? link->head : told->head;
+    pose_between(&p->poses[*tail], &p->poses[*head], &relative);
+    switch (asked->kind) {
+    case ASK_SHIFT:
+        return link_shift_rows(link, &relative, rows);
+    case ASK_TURN:
+        return link_turn_rows(link, &relative, rows);
+    case ASK_TIE:
+        link_tie_row(link, &relative, rows);
+        return 1;
+    case ASK_WISH:
+        if (told == NULL)
+            return 0;
+        if (told->group >= 0)
+            memcpy(near, p->groups + place_at(told->group, 0), sizeof near);
+        near[told->k] = told->value;
+        link_value_row(link, &relative, near, told->k, told->value, rows);
+        return 1;
+    }
+    return 0;
+}
+
+typedef struct PlaceSearch {
+    Placing *p;
+    LinkRow *rows;
+    int *tails, *heads;
+} PlaceSearch;
+
+static double row_slope(const PlaceSearch *s, int row)
+{
+    const Placing *p = s->p;
+    const int t = s->tails[row], h = s->heads[row];
+    double turn[3], shift[3], d[3], carried[3], back[9];
+
+    for (int i = 0; i < 3; i++) {
+        turn[i] = p->turned[3 * h + i] - p->turned[3 * t + i];
+        d[i] = p->poses[h].p[i] - p->poses[t].p[i];
+    }
+    vector3_cross(p->turned + (ptrdiff_t)3 * t, d, carried);
+    for (int i = 0; i < 3; i++)
+        shift[i] = p->shifted[3 * h + i] - p->shifted[3 * t + i] - carried[i];
+    matrix3_transpose(p->poses[t].R, back);
+    matrix3_apply(back, turn, turn);
+    matrix3_apply(back, shift, shift);
+    return vector3_dot(s->rows[row].by_turn, turn) + vector3_dot(s->rows[row].by_shift, shift);
+}
+
+static void evaluate(void *context, const double *v, double *residual, double *jacobian)
+{
+    PlaceSearch *s = context;
+    Placing *p = s->p;
+    int count = 0;
+
+    place_poses(p, v);
+    for (int i = 0; i < p->asks.count; i++) {
+        int tail = 0, head = 0;
+        const int more = ask_rows(p, &p->asks.at[i], s->rows + count, &tail, &head);
+
+        for (int k = 0; k < more; k++) {
+            residual[count] = s->rows[count].value;
+            s->tails[count] = tail;
+            s->heads[count++] = head;
+        }
+    }
+    for (int j = 0; jacobian != NULL && j < p->columns.count; j++) {
+        move_nodes(p, v, &p->columns.at[j]);
+        for (int i = 0; i < count; i++)
+            jacobian[(ptrdiff_t)i * p->columns.count + j] = row_slope(s, i);
+    }
+}
+
+static void move(void *context, double *v, const double *step)
+{
+    move_columns(((PlaceSearch *)context)->p, v, step);
+}
+
+static void open_search(PlaceSearch *s, Placing *p)
+{
+    *s = (PlaceSearch){.p = p,
+                       .rows = NEW_ARRAY(LinkRow, p->row_count + LINK_ROWS),
+                       .tails = NEW_ARRAY(int, p->row_count + LINK_ROWS),
+                       .heads = NEW_ARRAY(int, p->row_count + LINK_ROWS)};
+}
+
+static void close_search(PlaceSearch *s)
+{
+    mem_free(s->rows);
+    mem_free(s->tails);
+    mem_free(s->heads);
+}
+
+/* Columns that no row which is missed feels stay where they are. */
+static void keep_unconcerned(const Placing *p, const Rows *rows, const bool *missed, double *step)
+{
+    double *residual = NEW_ARRAY(double, rows->rows);
+    double *jacobian = NEW_ARRAY(double, (size_t)rows->rows *(size_t)rows->columns);
+
+    rows->evaluate(rows->context, p->c, residual, jacobian);
+    for (int j = 0; j < rows->columns; j++) {
+        bool concerned = false;
+
+        for (int i = 0; i < rows->rows; i++)
+            concerned = concerned || (missed[i] && jacobian[(ptrdiff_t)i * rows->columns + j] != 0);
+        step[j] = concerned ? step[j] : 0;
+    }
+    mem_free(residual);
+    mem_free(jacobian);
+}
+
+/* Other starts about the first one; the nearest solution wins at the smallest disturbance. Rows
+ * that are missed say what takes part. */
+static bool try_around(Placing *p, const Rows *rows, const double *from, const bool *missed)
+{
+    const size_t bytes = (size_t)rows->length * sizeof(double);
+    double *step = NEW_ARRAY(double, rows->columns);
+    uint64_t seed = 1;
+    bool met = false;
+
+    for (int k = 0; k < TRIES && !met && poll(rows->watch) == OK; k++) {
+        double size = k < TRIES / 3 ? 0.1 : k < 2 * TRIES / 3 ? 0.5 : 1.5;
+
+        for (int j = 0; j < rows->columns; j++)
+            step[j] = size * random_unit(&seed);
+        memcpy(p->c, from, bytes);
+        move_columns(p, p->c, step);
+        keep_unconcerned(p, rows, missed, step);
+        memcpy(p->c, from, bytes);
+        move_columns(p, p->c, step);
+        met = levenberg_marquardt_solve(rows, NULL, NULL, TOLERANCE, p->c, NULL);
+        if (met)
+            text_addf(&p->a->out->remarks,
+                      "warning: assembled from a start moved by up to %g; guesses make sure "
+                      "that it is the assembly meant\n",
+                      size);
+    }
+    mem_free(step);
+    return met;
+}
+
+/* From the start, then from others around it. */
+static bool solve(Placing *p, const Rows *rows, double *residual, bool once)
+{
+    const size_t bytes = (size_t)rows->length * sizeof(double);
+    double *from = NEW_ARRAY(double, rows->length);
+    bool *missed = NEW_ARRAY(bool, rows->rows);
+    bool met;
+
+    memcpy(from, p->c, bytes);
+    met = levenberg_marquardt_solve(rows, NULL, NULL, TOLERANCE, p->c, residual);
+    for (int i = 0; i < rows->rows; i++)
+        missed[i] = fabs(residual[i]) > CLOSED;
+    if (!met && !once) {
+        double *best = NEW_ARRAY(double, rows->length);
+
+        memcpy(best, p->c, bytes);
+        met = try_around(p, rows, from, missed);
+        if (!met)
+            memcpy(p->c, best, bytes);
+        mem_free(best);
+    }
+    mem_free(from);
+    mem_free(missed);
+    return met;
+}
+
+bool place_search(Placing *p, bool guesses)
+{
+    PlaceSearch s;
+    Rows rows;
+    double *residual;
+    bool met = true;
+
+    list_asks(p, guesses);
+    if (p->row_count == 0)
+        return true;
+    open_search(&s, p);
+    rows = (Rows){.rows = p->row_count,
+                  .columns = p->columns.count,
+                  .length = p->s->link_count * MAX_COORDS,
+                  .context = &s,
+                  .watch = p->a->setting->watch,
+                  .evaluate = evaluate,
+                  .move = move};
+    residual = NEW_ARRAY(double, rows.rows);
+    evaluate(&s, p->c, residual, NULL);
+    for (int i = 0; i < rows.rows; i++)
+        met = met && fabs(residual[i]) <= CLOSED;
+    if (!met && rows.columns > 0)
+        met = solve(p, &rows, residual, guesses);
+    mem_free(residual);
+    close_search(&s);
+    return met;
+}

@@ -1,0 +1,60 @@
+/* initial_turns.c: where drivers have coordinates at the start, and whole turns of sums of angles
+ */
+#include "simulate/assemble/initial_impl.h"
+
+#include <math.h>
+#include <string.h>
+
+Status initial_driven(const Layout *layout, Parameters *parameters, Expr prescribed, double *out,
+                      Diag *diag)
+{
+    const RowValues row = {.t = 0};
+    Probe *probe = NULL;
+    Status status = OK;
+
+    CHECK(probe_new(layout, parameters, &prescribed, 1, &probe, diag));
+    *out = probe_values(probe, &row)[0];
+done:
+    probe_free(probe);
+    return status;
+}
+
+static double whole(double angle)
+{
+    return 2 * M_PI * round(angle / (2 * M_PI));
+}
+
+Status initial_whole_turns(Assembly *a, const double *angles, Diag *diag)
+{
+    const Layout *l = a->l;
+    const int count = system_whole_turns_count(l->system);
+    Expr *sums = NEW_ARRAY(Expr, count);
+    double *turns = NEW_ARRAY(double, count);
+    const RowValues row = row_of_state(l, 0, a->y);
+    const double *values;
+    Probe *probe = NULL;
+    Status status = OK;
+
+    for (int i = 0; i < count; i++) {
+        const WholeTurns *of = system_whole_turns(l->system, i);
+
+        sums[i] = of->sum;
+        parameters_set(a->parameters, of->symbol, 0);
+    }
+    if (count == 0)
+        goto done;
+    CHECK(probe_new(l, a->parameters, sums, count, &probe, diag));
+    values = probe_values(probe, &row);
+    for (int i = 0; i < count; i++) {
+        const WholeTurns *of = system_whole_turns(l->system, i);
+
+        turns[i] = whole(of->name != NULL ? angles[i] - values[i] : -values[i]);
+        parameters_set(a->parameters, of->symbol, turns[i]);
+        numbers_set(a->numbers, of->symbol, turns[i]);
+    }
+done:
+    probe_free(probe);
+    mem_free(sums);
+    mem_free(turns);
+    return status;
+}

@@ -1,0 +1,509 @@
+/* mode_search.c: sides of ideal switches behind an instant */
+#include "simulate/assemble/mode_search_impl.h"
+
+#include "algebra/linear.h"
+#include "base/text.h"
+
+#include <math.h>
+#include <string.h>
+
+#define NOISE      1e-12 /* of the largest current or voltage: too small to tell a side from, */
+#define MOST_NOISE 1e-8  /* or where that leads in circles, up to this */
+#define ROUNDING   1e-15 /* of the largest voltage, in that of a closed one with a resistance */
+#define FORGET     0.5   /* of the largest current or voltage from instant to instant: surges end */
+#define PIECES     8     /* of a jump, along which laws are integrated */
+#define ROUNDS     8     /* in which conditions and diodes may set each other off */
+
+/* --- equations --- */
+
+RowValues mode_search_row(const ModeSearch *s, const double *w)
+{
+    return (RowValues){.t = s->at->t + s->step,
+                       .near = s->at->near,
+                       .q = s->at->q,
+                       .u = s->at->u,
+                       .x = s->x,
+                       .rates = w,
+                       .z = w + s->l->nx,
+                       .acceleration = s->at->acceleration,
+                       .multipliers = s->at->multipliers};
+}
+
+static bool is_in_force(const ModeSearch *s, int ideal, When when)
+{
+    return when == ALWAYS || s->closed[ideal] == (when == CLOSED);
+}
+
+static void take_step(ModeSearch *s, const double *w)
+{
+    for (int i = 0; i < s->l->nx; i++)
+        s->x[i] = s->from[i] + s->step * w[i];
+}
+
+/* rows and entries from what the probe has found; `averaged` or all, and these then by so much */
+static void bring_rows(ModeSearch *s, const double *values, bool averaged, double weight,
+                       double along)
+{
+    for (int k = 0; k < s->rows.count; k++) {
+        const ResidualRow *row = &s->rows.at[k];
+
+        if (row->averaged >= averaged && is_in_force(s, row->ideal, row->when))
+            s->residual[row->row] += weight * values[row->root];
+    }
+    for (int k = 0; k < s->terms.count; k++) {
+        const ResidualTerm *term = &s->terms.at[k];
+
+        if (term->averaged >= averaged && is_in_force(s, term->ideal, term->when))
+            s->network[term->place] +=
+                weight * (term->by_state ? along * s->step : 1) * values[term->root];
+    }
+}
+
+/* Rows that hold rates as their mean along the straight line from x0 to x: so what is stored
+ * changes by what flows, however far. By Gauss's rule. */
+static void bring_means(ModeSearch *s, const double *w)
+{
+    static const double place[] = {0.5, 0.5 - 0.26923465505284155, 0.5 + 0.26923465505284155,
+                                   0.5 - 0.45308992296933193, 0.5 + 0.45308992296933193};
+    static const double weight[] = {0.28444444444444444, 0.23931433524968324, 0.23931433524968324,
+                                    0.11846344252809454, 0.11846344252809454};
+
+    for (int k = 0; k < COUNT(place) * PIECES; k++) {
+        const int piece = k / COUNT(place);
+        const double along = (place[k % COUNT(place)] + piece) / PIECES;
+        RowValues row;
+
+        for (int i = 0; i < s->l->nx; i++)
+            s->x[i] = s->from[i] + along * s->step * w[i];
+        row = mode_search_row(s, w);
+        bring_rows(s, probe_values(s->equations, &row), true, weight[k % COUNT(place)] / PIECES,
+                   along);
+    }
+    take_step(s, w);
+}
+
+static void clear_means(ModeSearch *s)
+{
+    for (int k = 0; k < s->rows.count; k++)
+        if (s->rows.at[k].averaged)
+            s->residual[s->rows.at[k].row] = 0;
+    for (int k = 0; k < s->terms.count; k++)
+        if (s->terms.at[k].averaged)
+            s->network[s->terms.at[k].place] = 0;
+}
+
+static void network_at(void *context, const double *w)
+{
+    ModeSearch *s = context;
+    RowValues row;
+
+    take_step(s, w);
+    row = mode_search_row(s, w);
+    memset(s->network, 0, (size_t)s->pattern_row.count * sizeof(double));
+    memset(s->residual, 0, (size_t)s->n * sizeof(double));
+    bring_rows(s, probe_values(s->equations, &row), false, 1, 1);
+    if (s->averages) {
+        clear_means(s);
+        bring_means(s, w);
+    }
+}
+
+/* a linear network is solved at once: A w = r, r = -G at w = 0 */
+static void bring_linear(ModeSearch *s)
+{
+    network_at(s, s->zeros);
+    for (int i = 0; i < s->n; i++)
+        s->rhs[i] = -s->residual[i];
+}
+
+/* --- making --- */
+
+typedef struct Roots {
+    LIST(Expr) at;
+    int *column; /* by expr_symbol_number(): 1 + place in [x'; z], of x, x' and z; 0: none */
+    int symbols;
+} Roots;
+
+static void number_columns(const ModeSearch *s, Roots *roots)
+{
+    const Layout *l = s->l;
+    const int parts[][3] = {{l->x, l->nx, 0}, {l->rates, l->nx, 0}, {l->z, l->nz, l->nx}};
+
+    for (int i = 0; i < l->count; i++)
+        if (expr_symbol_number(l->symbols[i]) >= roots->symbols)
+            roots->symbols = expr_symbol_number(l->symbols[i]) + 1;
+    roots->column = NEW_ARRAY(int, roots->symbols);
+    for (int p = 0; p < COUNT(parts); p++)
+        for (int i = 0; i < parts[p][1]; i++)
+            roots->column[expr_symbol_number(l->symbols[parts[p][0] + i])] = 1 + parts[p][2] + i;
+}
+
+static int find_place(ModeSearch *s, int row, int column, int first)
+{
+    for (int k = first; k < s->pattern_row.count; k++)
+        if (s->pattern_row.at[k] == row && s->pattern_column.at[k] == column)
+            return k;
+    LIST_PUSH(s->pattern_row, row);
+    LIST_PUSH(s->pattern_column, column);
+    return s->pattern_row.count - 1;
+}
+
+/* One row, or one side of it. Entries of a row stand together from `first` on. */
+static void add_row(ModeSearch *s, Roots *roots, int row, Expr residual, int ideal, When when,
+                    int first)
+{
+    const unsigned unknowns = 1U << SYMBOL_STATE | 1U << SYMBOL_STATE_RATE | 1U << SYMBOL_ALGEBRAIC;
+    Expr *symbols;
+    int count = expr_symbols(&residual, 1, &symbols);
+    const bool averaged = (expr_kinds(residual) & 1U << SYMBOL_STATE_RATE) != 0;
+
+    LIST_PUSH(s->rows, (ResidualRow){.root = roots->at.count,
+                                     .row = row,
+                                     .ideal = ideal,
+                                     .when = when,
+                                     .averaged = averaged});
+    LIST_PUSH(roots->at, residual);
+    for (int i = 0; i < count; i++) {
+        int number = expr_symbol_number(symbols[i]);
+        int column = number < roots->symbols ? roots->column[number] - 1 : -1;
+        Expr slope;
+
+        if (column < 0)
+            continue;
+        slope = expr_diff(system_arena(s->l->system), residual, symbols[i]);
+        if (expr_is_zero(slope))
+            continue;
+        s->is_linear = s->is_linear && (expr_kinds(slope) & unknowns) == 0;
+        LIST_PUSH(s->terms,
+                  (ResidualTerm){.place = find_place(s, row, column, first),
+                                 .root = roots->at.count,
+                                 .ideal = ideal,
+                                 .when = when,
+                                 .averaged = averaged,
+                                 .by_state = expr_symbol_kind(symbols[i]) == SYMBOL_STATE});
+        LIST_PUSH(roots->at, slope);
+    }
+    mem_free(symbols);
+}
+
+/* closed: v - least = on i; open: i = v/off, or 0; and a leak beside each */
+static void add_sides(ModeSearch *s, Roots *roots, int k, const IdealSwitch *ideal)
+{
+    Arena *arena = system_arena(s->l->system);
+    Expr v = expr_add(arena, ideal->across, ideal->least);
+    Expr closed =
+        expr_sub(arena, ideal->across,
+                 expr_mul(arena, expr_add(arena, ideal->on, s->closed_leak), ideal->through));
+    Expr open = ideal->off != NULL
+                    ? expr_sub(arena, v, expr_mul(arena, ideal->off, ideal->through))
+                    : expr_sub(arena, ideal->through, expr_mul(arena, s->open_leak, ideal->across));
+    int first = s->pattern_row.count;
+
+    add_row(s, roots, ideal->row, closed, k, CLOSED, first);
+    add_row(s, roots, ideal->row, open, k, OPEN, first);
+}
+
+static Status refuse_form(const ModeSearch *s, const char *name, Diag *diag)
+{
+    (void)diag_set(diag, E_MODEL, "%s is ideal, and each side of it makes another tree", name);
+    diag_hint(diag, system_network_form(s->l->system) == NETWORK_TREE
+                        ? "'set network state' runs it; the form of the user's tree wants Ron= and "
+                          "Roff="
+                        : "this network has no state form: give it Ron= and Roff=");
+    return E_MODEL;
+}
+
+static Status compile(ModeSearch *s, Parameters *parameters, Diag *diag)
+{
+    const Reading *run = system_run(s->l->system);
+    Arena *arena = system_arena(s->l->system);
+    bool *taken = NEW_ARRAY(bool, s->n);
+    Roots roots = {0};
+    LIST(Expr) looks = {0};
+    ScalarPair edge;
+    const bool of_tree =
+        system_network_form(s->l->system) == NETWORK_TREE && !system_tree_is_normal(s->l->system);
+    Status status = OK;
+
+    number_columns(s, &roots);
+    for (int k = 0; k < s->count; k++) {
+        IdealSwitch ideal;
+
+        CHECK(system_ideal(s->l->system, k, &ideal, diag));
+        if (ideal.closed == NULL && (ideal.row < 0 || of_tree)) {
+            status = refuse_form(s, ideal.name, diag);
+            goto done;
+        }
+        if (ideal.closed == NULL) {
+            taken[ideal.row] = true;
+            add_sides(s, &roots, k, &ideal);
+        }
+        s->has_when[k] = ideal.when != NULL;
+        s->domain[k] = ideal.domain;
+        LIST_PUSH(looks, ideal.through);
+        LIST_PUSH(looks, ideal.across);
+        LIST_PUSH(looks, ideal.when != NULL ? ideal.when : expr_int(arena, 0));
+        LIST_PUSH(looks, ideal.on);
+    }
+    for (int i = 0; i < s->n; i++)
+        if (!taken[i])
+            add_row(s, &roots, i, run->network_residual[i], 0, ALWAYS, s->pattern_row.count);
+    for (int i = 0; i < s->edges; i++) {
+        CHECK(system_scalar(s->l->system, i, &edge, diag));
+        s->domain[s->count + i] = edge.domain;
+        s->gives[i] = !edge.stores && !edge.switches;
+        s->source[2 * i] = edge.gives_across ? edge.name : NULL;
+        s->source[2 * i + 1] = edge.gives_through ? edge.name : NULL;
+        LIST_PUSH(looks, edge.across);
+        LIST_PUSH(looks, edge.through);
+    }
+    CHECK(probe_new(s->l, parameters, roots.at.at, roots.at.count, &s->equations, diag));
+    CHECK(probe_new(s->l, parameters, looks.at, looks.count, &s->looks, diag));
+done:
+    LIST_FREE(roots.at);
+    LIST_FREE(looks);
+    mem_free(roots.column);
+    mem_free(taken);
+    return status;
+}
+
+Status mode_search_new(System *system, Parameters *parameters, ModeSearch **out, Diag *diag)
+{
+    ModeSearch *s = NEW(ModeSearch);
+    Status status = OK;
+
+    s->l = layout_new(system);
+    s->n = s->l->nx + s->l->nz;
+    s->is_linear = true;
+    s->count = system_ideal_count(system);
+    s->has_when = NEW_ARRAY(bool, s->count);
+    s->x = NEW_ARRAY(double, s->l->nx);
+    s->through = NEW_ARRAY(double, s->count);
+    s->across = NEW_ARRAY(double, s->count);
+    s->on = NEW_ARRAY(double, s->count);
+    s->edges = system_scalar_count(system);
+    s->domain = NEW_ARRAY(Domain, s->count + s->edges);
+    s->source = NEW_ARRAY(const char *, 2 * s->edges);
+    s->gives = NEW_ARRAY(bool, s->edges);
+    s->closed_leak = expr_symbol(system_arena(system), "#closed leak", SYMBOL_PARAMETER);
+    s->open_leak = expr_symbol(system_arena(system), "#open leak", SYMBOL_PARAMETER);
+    parameters_set(parameters, s->closed_leak, CLOSED_LEAK);
+    parameters_set(parameters, s->open_leak, OPEN_LEAK);
+    CHECK(compile(s, parameters, diag));
+    s->network = NEW_ARRAY(double, s->pattern_row.count);
+    s->residual = NEW_ARRAY(double, s->n);
+    s->rhs = NEW_ARRAY(double, s->n);
+    s->zeros = NEW_ARRAY(double, s->n);
+    s->eq = (Equations){.nx = s->l->nx,
+                        .nz = s->l->nz,
+                        .context = s,
+                        .network_at = s->is_linear ? NULL : network_at,
+                        .network_entries = s->pattern_row.count,
+                        .network_row = s->pattern_row.at,
+                        .network_column = s->pattern_column.at,
+                        .network = s->network,
+                        .network_rhs = s->rhs,
+                        .network_residual = s->residual};
+    s->solve = netsolve_new(&s->eq);
+    *out = s;
+    s = NULL;
+done:
+    mode_search_free(s);
+    return status;
+}
+
+void mode_search_free(ModeSearch *s)
+{
+    if (s == NULL)
+        return;
+    netsolve_free(s->solve);
+    probe_free(s->equations);
+    probe_free(s->looks);
+    LIST_FREE(s->rows);
+    LIST_FREE(s->terms);
+    LIST_FREE(s->pattern_row);
+    LIST_FREE(s->pattern_column);
+    mem_free(s->network);
+    mem_free(s->residual);
+    mem_free(s->rhs);
+    mem_free(s->zeros);
+    mem_free(s->has_when);
+    mem_free(s->x);
+    mem_free(s->through);
+    mem_free(s->across);
+    mem_free(s->on);
+    mem_free(s->domain);
+    mem_free(s->source);
+    mem_free(s->gives);
+    layout_free(s->l);
+    mem_free(s);
+}
+
+double mode_search_largest(const ModeSearch *s, Domain domain, bool through)
+{
+    return s->known[domain][through];
+}
+
+/* --- sides --- */
+
+static const char *name_of(const ModeSearch *s, int k)
+{
+    IdealSwitch ideal;
+
+    return system_ideal(s->l->system, k, &ideal, NULL) == OK ? ideal.name : "";
+}
+
+bool mode_search_solve(ModeSearch *s)
+{
+    double *w = netsolve_values(s->solve);
+    RowValues row;
+    const double *values;
+
+    layout_take_sides(s->l, s->closed);
+    if (s->is_linear)
+        bring_linear(s);
+    if (!netsolve_find(s->solve))
+        return false;
+    if (s->is_linear && s->n > 0) {
+        network_at(s, w);
+        netsolve_refine(s->solve);
+    }
+    take_step(s, w);
+    row = mode_search_row(s, w);
+    values = probe_values(s->looks, &row);
+    for (int k = 0; k < s->count; k++) {
+        s->through[k] = values[LOOKS * k + THROUGH];
+        s->across[k] = values[LOOKS * k + ACROSS];
+        s->on[k] = values[LOOKS * k + ON];
+    }
+    memset(s->largest, 0, sizeof s->largest);
+    for (int i = 0; i < s->edges; i++)
+        for (int side = 0; side < 2; side++) {
+            double *largest = &s->largest[s->domain[s->count + i]][side];
+
+            *largest = fmax(*largest, fabs(values[LOOKS * s->count + 2 * i + side]));
+        }
+    return true;
+}
+
+static bool is_wrong(const ModeSearch *s, int k)
+{
+    Domain domain = s->domain[k];
+    int side = s->closed[k];
+    double least = s->noise * fmax(s->largest[domain][side], s->known[domain][side]);
+
+    if (s->closed[k] &&
+        s->on[k] > 0) /* the current is a small difference over a small resistance */
+        least = fmax(least, s->noise / NOISE * ROUNDING * s->largest[domain][0] / s->on[k]);
+    return !s->has_when[k] && (s->closed[k] ? s->through[k] < -least : s->across[k] > least);
+}
+
+/* Diodes go over until none is wrong: all that are at a time, and where that goes in circles the
+ * first of them alone, which ends wherever the network is passive. */
+static bool settle_with(ModeSearch *s, int together, int most)
+{
+    for (int turn = 0; turn < most; turn++) {
+        bool right = true;
+
+        if (!mode_search_solve(s))
+            return false;
+        for (int k = 0; k < s->count && (right || turn < together); k++)
+            if (is_wrong(s, k)) {
+                s->closed[k] = !s->closed[k];
+                right = false;
+            }
+        if (right)
+            return true;
+    }
+    return false;
+}
+
+/* Where circles are so small that rounding may be what makes them, that is taken for nothing. */
+static bool settle_diodes(ModeSearch *s)
+{
+    int together = 2 * s->count + 8;
+    int most = 1 << (s->count < 12 ? s->count : 12);
+
+    for (s->noise = NOISE; s->noise < MOST_NOISE; s->noise *= 10)
+        if (settle_with(s, together, 2 * together))
+            return true;
+    return settle_with(s, together, together + most);
+}
+
+/* ModeSearch of switches with a condition, from states as they go on and what else is known. True:
+ * one of them goes over, *which. */
+static bool follow_conditions(ModeSearch *s, int *which)
+{
+    const double *w = netsolve_values(s->solve);
+    RowValues row = mode_search_row(s, w);
+    const double *values;
+    bool changed = false;
+
+    row.x = s->at->x_behind;
+    row.t = s->at->when;
+    values = probe_values(s->looks, &row);
+    for (int k = 0; k < s->count; k++) {
+        bool wanted = values[LOOKS * k + WHEN] != 0;
+
+        if (!s->has_when[k] || s->closed[k] == wanted)
+            continue;
+        s->closed[k] = wanted;
+        *which = k;
+        changed = true;
+    }
+    return changed;
+}
+
+static Status tell_none(const ModeSearch *s, Diag *diag)
+{
+    Text names = {0};
+
+    for (int k = 0; k < s->count && k < 8; k++)
+        text_addf(&names, "%s%s", k > 0 ? ", " : "", name_of(s, k));
+    (void)diag_set(diag, E_SOLVER,
+                   "at t = %.9g s the network has no solution, whichever of %s%s are closed",
+                   s->at->t, names.at, s->count > 8 ? " ..." : "");
+    diag_hint(diag, "give a switch or diode where sources or currents meet it Ron= and Roff=, "
+                    "such as Ron=1 mohm Roff=1 Mohm");
+    text_free(&names);
+    return E_SOLVER;
+}
+
+Status mode_search_find(ModeSearch *s, const ModeSearchAt *at, bool *closed, Diag *diag)
+{
+    size_t bytes = (size_t)s->count * sizeof(bool);
+    bool *before = NEW_ARRAY(bool, s->count);
+    int which = 0;
+    Status status = OK;
+
+    s->at = at;
+    s->from = at->x;
+    s->step = at->step;
+    s->closed = closed;
+    memcpy(before, closed, bytes);
+    memset(netsolve_values(s->solve), 0, (size_t)s->l->nx * sizeof(double));
+    for (int round = 0;; round++) {
+        if (!settle_diodes(s)) {
+            status = tell_none(s, diag);
+            goto done;
+        }
+        if (!follow_conditions(s, &which))
+            break;
+        if (round == ROUNDS) {
+            status = diag_set(diag, E_SOLVER,
+                              "at t = %.9g s %s is neither closed nor open: what it does makes its "
+                              "condition say the contrary",
+                              at->t, name_of(s, which));
+            diag_hint(diag, "let the condition read states, or leave a gap between two conditions");
+            goto done;
+        }
+    }
+    for (int i = 0; i < DOMAIN_COUNT; i++)
+        for (int side = 0; side < 2; side++)
+            s->known[i][side] = fmax(FORGET * s->known[i][side], s->largest[i][side]);
+done:
+    if (status != OK)
+        memcpy(closed, before, bytes);
+    mem_free(before);
+    return status;
+}

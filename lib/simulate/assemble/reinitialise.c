@@ -1,0 +1,549 @@
+/* reinitialise.c: new values for some variables, then the constraints again */
+#include "simulate/assemble/reinitialise.h"
+
+#include "algebra/kkt.h"
+#include "algebra/levenberg_marquardt.h"
+#include "algebra/linear.h"
+#include "algebra/rank.h"
+#include "base/memory.h"
+#include "simulate/assemble/skeleton.h"
+
+#include <math.h>
+#include <string.h>
+
+#define TOLERANCE 1e-11 /* of what is set and of the constraints, as assembly has it */
+#define SWEEPS    3     /* of a problem that is linear but for rounding */
+#define KEEPING   10    /* of charges and fluxes */
+#define STAGES    16    /* of a way from the present values to those that are set */
+
+typedef enum ReinitLevel { LEVEL_POSITION, LEVEL_VELOCITY, LEVEL_STATE, LEVEL_COUNT } ReinitLevel;
+
+typedef struct Target {
+    Expr expr;
+    ReinitLevel level;
+    int place;    /* unknown that it is, alone; -1 */
+    int column;   /* unknown that is held with it; -1: it is an equation */
+    int turned;   /* angle of turns that it is; -1 */
+    int gradient; /* root of its first derivative */
+} Target;
+
+struct Reinit {
+    ReinitPlan plan;
+    LIST(Target) targets;
+    Storage *storages; /* whose charge or flux stays */
+    int storage_count;
+    int stored;         /* root of the first charge or flux; their derivatives follow all of them */
+    Skeleton *skeleton; /* NULL: nothing is mechanical, or no positions were set yet */
+    Probe *probe;       /* the targets, kinetic and potential energy, derivatives of the targets */
+    /* of the call under way */
+    double t;
+    const double *values;
+    double *y;
+    ReinitLevel level;
+};
+
+Reinit *reinit_new(const ReinitPlan *plan)
+{
+    Reinit *reset = NEW(Reinit);
+
+    reset->plan = *plan;
+    return reset;
+}
+
+void reinit_free(Reinit *reset)
+{
+    if (reset == NULL)
+        return;
+    LIST_FREE(reset->targets);
+    mem_free(reset->storages);
+    skeleton_free(reset->skeleton);
+    probe_free(reset->probe);
+    mem_free(reset);
+}
+
+/* --- what can be set --- */
+
+static int level_first(const Layout *l, ReinitLevel level)
+{
+    return level == LEVEL_POSITION ? l->q : level == LEVEL_VELOCITY ? l->u : l->x;
+}
+
+static int level_count(const Layout *l, ReinitLevel level)
+{
+    return level == LEVEL_POSITION ? l->n : level == LEVEL_VELOCITY ? l->nu : l->nx;
+}
+
+/* Positions are corrected in speeds: by that of a coordinate which has one of its own. */
+static int column_of(const Reinit *reset, const Target *target)
+{
+    const Layout *l = reset->plan.layout;
+    Expr rate;
+
+    if (target->place < 0 || target->level != LEVEL_POSITION || reset->plan.equations->map == NULL)
+        return target->place;
+    rate = system_q_rate(l->system, target->place);
+    for (int j = 0; j < l->nu; j++)
+        if (l->symbols[l->u + j] == rate)
+            return j;
+    return -1;
+}
+
+static Status classify(const Reinit *reset, Target *target, const char *name, int primes,
+                       Diag *diag)
+{
+    const unsigned known = 1U << SYMBOL_TIME | 1U << SYMBOL_PARAMETER | 1U << SYMBOL_COORDINATE |
+                           1U << SYMBOL_SPEED | 1U << SYMBOL_STATE | 1U << SYMBOL_TURN;
+    const unsigned kinds = expr_kinds(target->expr);
+    const Layout *l = reset->plan.layout;
+
+    if ((kinds & ~known) != 0 ||
+        (kinds & (1U << SYMBOL_COORDINATE | 1U << SYMBOL_SPEED | 1U << SYMBOL_STATE)) == 0) {
+        (void)diag_set(diag, E_VALUE, "%s%.*s follows from the rest and can't be set", name, primes,
+                       "''''");
+        diag_hint(diag, "coordinates and their rates can, and voltages and currents of storage "
+                        "elements that are states");
+        return E_VALUE;
+    }
+    target->level = (kinds & 1U << SYMBOL_STATE) != 0   ? LEVEL_STATE
+                    : (kinds & 1U << SYMBOL_SPEED) != 0 ? LEVEL_VELOCITY
+                                                        : LEVEL_POSITION;
+    target->place = -1;
+    for (int i = 0; i < level_count(l, target->level); i++)
+        if (l->symbols[level_first(l, target->level) + i] == target->expr)
+            target->place = i;
+    target->column = column_of(reset, target);
+    target->turned = -1;
+    for (int k = 0; k < l->turned; k++)
+        if (system_multi_turn(l->system, k)->angle == target->expr)
+            target->turned = k;
+    return OK;
+}
+
+Status reinit_add(Reinit *reset, const char *name, int primes, Diag *diag)
+{
+    Target target = {0};
+    Status status = OK;
+
+    CHECK(system_variable(reset->plan.layout->system, name, primes, &target.expr, diag));
+    CHECK(classify(reset, &target, name, primes, diag));
+    LIST_PUSH(reset->targets, target);
+done:
+    return status;
+}
+
+Status reinit_compile(Reinit *reset, Diag *diag)
+{
+    const Layout *l = reset->plan.layout;
+    Arena *arena = system_arena(l->system);
+    LIST(Expr) roots = {0};
+    Status status;
+
+    for (int k = 0; k < reset->targets.count; k++)
+        LIST_PUSH(roots, reset->targets.at[k].expr);
+    LIST_PUSH(roots, system_kinetic(l->system));
+    LIST_PUSH(roots, system_potential(l->system));
+    for (int k = 0; k < reset->targets.count; k++) {
+        Target *target = &reset->targets.at[k];
+
+        target->gradient = roots.count;
+        for (int i = 0; i < level_count(l, target->level); i++)
+            LIST_PUSH(roots, expr_diff(arena, target->expr,
+                                       l->symbols[level_first(l, target->level) + i]));
+    }
+    reset->storage_count = system_storages(l->system, &reset->storages);
+    reset->stored = roots.count;
+    for (int k = 0; k < reset->storage_count; k++)
+        LIST_PUSH(roots, reset->storages[k].content);
+    for (int k = 0; k < reset->storage_count; k++)
+        for (int i = 0; i < reset->storage_count; i++)
+            LIST_PUSH(roots, expr_diff(arena, reset->storages[k].content,
+                                       l->symbols[l->x + reset->storages[i].state]));
+    status = probe_new(l, reset->plan.parameters, roots.at, roots.count, &reset->probe, diag);
+    LIST_FREE(roots);
+    return status;
+}
+
+/* --- evaluation --- */
+
+static const double *probe_here(const Reinit *reset)
+{
+    const RowValues row = row_of_state(reset->plan.layout, reset->t, reset->y);
+
+    return probe_values(reset->probe, &row);
+}
+
+static double energy(const Reinit *reset)
+{
+    const double *values = probe_here(reset) + reset->targets.count;
+
+    return values[0] + values[1];
+}
+
+static bool is_chosen(const Reinit *reset, int k, ReinitLevel level)
+{
+    return reset->targets.at[k].level == level && !isnan(reset->values[k]);
+}
+
+/* put the unknowns in place that are set by themselves; how many equations are left */
+static int put_direct(Reinit *reset, ReinitLevel level, bool *held)
+{
+    const Layout *l = reset->plan.layout;
+    double *first = reset->y + (level_first(l, level) - l->q);
+    int equations = 0;
+
+    for (int k = 0; k < reset->targets.count; k++) {
+        const Target *target = &reset->targets.at[k];
+
+        if (!is_chosen(reset, k, level))
+            continue;
+        if (target->place >= 0)
+            first[target->place] = reset->values[k];
+        if (target->column >= 0)
+            held[target->column] = true;
+        else
+            equations++;
+    }
+    return equations;
+}
+
+/* residuals and derivatives of the chosen equations of the level, by its own unknowns */
+static void equations_at(const Reinit *reset, ReinitLevel level, bool with_direct, double *residual,
+                         double *jacobian, int columns)
+{
+    const Equations *eq = reset->plan.equations;
+    const double *values = probe_here(reset);
+    int at = 0;
+
+    for (int k = 0; k < reset->targets.count; k++) {
+        const Target *target = &reset->targets.at[k];
+        const double *gradient = values + target->gradient;
+
+        if (!is_chosen(reset, k, level) || (!with_direct && target->column >= 0))
+            continue;
+        residual[at] = values[k] - reset->values[k];
+        for (int j = 0; jacobian != NULL && j < columns; j++) {
+            double sum = level != LEVEL_POSITION || eq->map == NULL ? gradient[j] : 0;
+
+            for (int i = 0; level == LEVEL_POSITION && eq->map != NULL && i < eq->n; i++)
+                sum += gradient[i] * eq->map[i * eq->nu + j];
+            jacobian[at * columns + j] = sum;
+        }
+        at++;
+    }
+}
+
+/* --- positions and states: least squares --- */
+
+static void evaluate_position(void *context, const double *v, double *residual, double *jacobian)
+{
+    const Reinit *reset = context;
+    const Equations *eq = reset->plan.equations;
+
+    memcpy(reset->y, v, (size_t)eq->n * sizeof(double));
+    eq->position(eq->context, reset->t, v);
+    memcpy(residual, eq->phi, (size_t)eq->m * sizeof(double));
+    if (jacobian != NULL)
+        memcpy(jacobian, eq->phi_u, (size_t)(eq->m * eq->nu) * sizeof(double));
+    equations_at(reset, LEVEL_POSITION, false, residual + eq->m,
+                 jacobian != NULL ? jacobian + eq->m * eq->nu : NULL, eq->nu);
+}
+
+static void move_position(void *context, double *v, const double *step)
+{
+    const Reinit *reset = context;
+    const Equations *eq = reset->plan.equations;
+
+    for (int i = 0; i < eq->n; i++) {
+        v[i] += eq->map == NULL ? step[i] : 0;
+        for (int j = 0; eq->map != NULL && j < eq->nu; j++)
+            v[i] += eq->map[i * eq->nu + j] * step[j];
+    }
+    equations_normalise(eq, v);
+}
+
+static void evaluate_state(void *context, const double *v, double *residual, double *jacobian)
+{
+    const Reinit *reset = context;
+    const Equations *eq = reset->plan.equations;
+
+    memcpy(reset->y + eq->n + eq->nu, v, (size_t)eq->nx * sizeof(double));
+    equations_at(reset, LEVEL_STATE, false, residual, jacobian, eq->nx);
+}
+
+static bool any_chosen(const Reinit *reset, ReinitLevel level)
+{
+    for (int k = 0; k < reset->targets.count; k++)
+        if (is_chosen(reset, k, level))
+            return true;
+    return false;
+}
+
+static bool solve_least_squares(Reinit *reset, ReinitLevel level)
+{
+    const Equations *eq = reset->plan.equations;
+    bool is_position = level == LEVEL_POSITION;
+    int columns = is_position ? eq->nu : eq->nx;
+    bool *held = NEW_ARRAY(bool, columns);
+    Rows rows = {.columns = columns,
+                 .length = is_position ? eq->n : eq->nx,
+                 .context = reset,
+                 .evaluate = is_position ? evaluate_position : evaluate_state,
+                 .move = is_position ? move_position : NULL};
+    double *first = reset->y + (is_position ? 0 : eq->n + eq->nu);
+    double *v = NEW_ARRAY(double, rows.length);
+    bool met = true;
+
+    rows.rows = put_direct(reset, level, held) + (is_position ? eq->m : 0);
+    if (is_position)
+        equations_normalise(eq, first);
+    memcpy(v, first, (size_t)rows.length * sizeof(double));
+    if (rows.rows > 0)
+        met = levenberg_marquardt_solve(&rows, held, NULL, TOLERANCE, v, NULL);
+    memcpy(first, v, (size_t)rows.length * sizeof(double));
+    mem_free(held);
+    mem_free(v);
+    return met;
+}
+
+static Reversal reversal_here(Reinit *reset)
+{
+    if (reset->skeleton == NULL)
+        reset->skeleton = skeleton_new(reset->plan.layout, reset->plan.parameters);
+    return skeleton_reversal(reset->skeleton, reset->y);
+}
+
+/* angles are looked for in the turn that is asked for */
+static void begin_turns(const Reinit *reset)
+{
+    double *near = reset->y + layout_turned(reset->plan.layout);
+
+    for (int k = 0; k < reset->targets.count; k++)
+        if (reset->targets.at[k].turned >= 0 && is_chosen(reset, k, LEVEL_POSITION))
+            near[reset->targets.at[k].turned] = reset->values[k];
+}
+
+/* Positions in stages, from the present values of what is set to the new ones. */
+static bool go_by_stages(Reinit *reset)
+{
+    const double *last = reset->values;
+    double *values = NEW_ARRAY(double, reset->targets.count);
+    double *from = NEW_ARRAY(double, reset->targets.count);
+    bool met = true;
+
+    memcpy(from, probe_here(reset), (size_t)reset->targets.count * sizeof(double));
+    reset->values = values;
+    for (int stage = 1; stage <= STAGES && met; stage++) {
+        for (int k = 0; k < reset->targets.count; k++)
+            values[k] = from[k] + (last[k] - from[k]) * stage / STAGES;
+        begin_turns(reset);
+        met = solve_least_squares(reset, LEVEL_POSITION);
+    }
+    reset->values = last;
+    mem_free(values);
+    mem_free(from);
+    return met;
+}
+
+/* Positions at once, and in stages where that leads nowhere or to an axis that lies the wrong way
+ * round, which equations alone don't tell. */
+static bool solve_positions(Reinit *reset, Text *why)
+{
+    const Layout *l = reset->plan.layout;
+    const int length = layout_turned(l) + l->turned;
+    const size_t bytes = (size_t)length * sizeof(double);
+    double *begun = mem_array((size_t)length, sizeof(double));
+    Reversal reversal = {.link = NULL}, later;
+    bool met;
+
+    memcpy(begun, reset->y, bytes);
+    begin_turns(reset);
+    met = solve_least_squares(reset, LEVEL_POSITION);
+    if (met)
+        reversal = reversal_here(reset);
+    if (!met || reversal.link != NULL) {
+        memcpy(reset->y, begun, bytes);
+        met = go_by_stages(reset);
+        later = met ? reversal_here(reset) : reversal;
+        met = later.link == NULL && met;
+        if (later.link != NULL) {
+            text_addf(why, "%s would close with ", later.link->instance->name);
+            reversal_tell(reset->skeleton, &later, why);
+        }
+    }
+    mem_free(begun);
+    return met;
+}
+
+/* --- speeds: the least change in the mass metric --- */
+
+/* A du = r with A the constraint rows and what is set; r is what is missed. */
+static void velocity_rows(const Reinit *reset, double *matrix, double *missing)
+{
+    const Equations *eq = reset->plan.equations;
+    const double *u = reset->y + eq->n;
+
+    eq->velocity(eq->context, u, u + eq->nu);
+    memcpy(matrix, eq->phi_u, (size_t)(eq->m * eq->nu) * sizeof(double));
+    for (int k = 0; k < eq->m; k++) {
+        missing[k] = -eq->nu_rate[k];
+        for (int j = 0; j < eq->nu; j++)
+            missing[k] += eq->phi_u[k * eq->nu + j] * u[j];
+    }
+    equations_at(reset, LEVEL_VELOCITY, true, missing + eq->m, matrix + eq->m * eq->nu, eq->nu);
+}
+
+static bool velocity_sweep(const Reinit *reset, Kkt *kkt, const double *matrix, const int *rows,
+                           int count, const double *missing)
+{
+    const Equations *eq = reset->plan.equations;
+    double *bottom = NEW_ARRAY(double, count);
+    double *lambda = NEW_ARRAY(double, count);
+    double *du = NEW_ARRAY(double, eq->nu);
+    bool sound = kkt_factor(kkt, eq->mass, matrix, rows);
+
+    for (int k = 0; k < count; k++)
+        bottom[k] = -missing[rows[k]];
+    if (sound) {
+        kkt_solve(kkt, NULL, bottom, du, lambda);
+        for (int j = 0; j < eq->nu; j++)
+            reset->y[eq->n + j] += du[j];
+    }
+    mem_free(bottom);
+    mem_free(lambda);
+    mem_free(du);
+    return sound;
+}
+
+static bool is_met(const Reinit *reset, const double *missing, int count)
+{
+    const Equations *eq = reset->plan.equations;
+    double size = 1;
+
+    for (int j = 0; j < eq->nu; j++)
+        size = fmax(size, fabs(reset->y[eq->n + j]));
+    for (int k = 0; k < count; k++)
+        if (!(fabs(missing[k]) <= 100 * TOLERANCE * size))
+            return false;
+    return true;
+}
+
+static bool solve_speeds(Reinit *reset)
+{
+    const Equations *eq = reset->plan.equations;
+    int room = eq->m + reset->targets.count;
+    double *matrix = NEW_ARRAY(double, room * eq->nu);
+    double *missing = NEW_ARRAY(double, room);
+    int *rows = NEW_ARRAY(int, room);
+    bool *held = NEW_ARRAY(bool, eq->nu);
+    int count = reset->plan.row_count;
+    int all = eq->m;
+    bool sound = true;
+    Kkt *kkt;
+
+    (void)put_direct(reset, LEVEL_VELOCITY, held);
+    eq->position(eq->context, reset->t, reset->y);
+    /* those of the start may be dependent here, where others are not */
+    if (count < eq->m)
+        (void)rank_choose(eq->phi_u, eq->m, eq->nu, count, rows);
+    else
+        memcpy(rows, reset->plan.rows, (size_t)count * sizeof(int));
+    for (int k = 0; k < reset->targets.count; k++)
+        if (is_chosen(reset, k, LEVEL_VELOCITY))
+            rows[count++] = all++;
+    kkt = kkt_new(eq->nu, count, room);
+    for (int sweep = 0; sweep <= SWEEPS && sound; sweep++) {
+        velocity_rows(reset, matrix, missing);
+        if (is_met(reset, missing, all) || sweep == SWEEPS)
+            break;
+        sound = velocity_sweep(reset, kkt, matrix, rows, count, missing);
+    }
+    sound = sound && is_met(reset, missing, all);
+    kkt_free(kkt);
+    mem_free(matrix);
+    mem_free(missing);
+    mem_free(rows);
+    mem_free(held);
+    return sound;
+}
+
+/* --- charges and fluxes --- */
+
+static bool is_set(const Reinit *reset, int state)
+{
+    for (int k = 0; k < reset->targets.count; k++)
+        if (is_chosen(reset, k, LEVEL_STATE) && reset->targets.at[k].place == state)
+            return true;
+    return false;
+}
+
+/* What moves changes voltages and currents, and leaves charges and fluxes as they were, but for
+ * those that were given: Newton's method. */
+static bool keep_stored(const Reinit *reset, const double *before)
+{
+    int n = reset->storage_count;
+    double *x = reset->y + reset->plan.equations->n + reset->plan.equations->nu;
+    double *missed = NEW_ARRAY(double, n);
+    Lu *lu = lu_new(n);
+    bool met = n == 0;
+
+    for (int sweep = 0; sweep < KEEPING && !met; sweep++) {
+        const double *values = probe_here(reset) + reset->stored;
+
+        met = true;
+        for (int k = 0; k < n; k++) {
+            bool set = is_set(reset, reset->storages[k].state);
+
+            missed[k] = set ? 0 : before[k] - values[k];
+            met = met && fabs(missed[k]) <= 1e-15 * fabs(before[k]);
+            for (int i = 0; i < n; i++)
+                lu_matrix(lu)[k * n + i] = set ? k == i : values[n + k * n + i];
+        }
+        if (met || !lu_factor(lu))
+            break;
+        lu_solve(lu, missed);
+        for (int k = 0; k < n; k++)
+            x[reset->storages[k].state] += missed[k];
+        met = sweep == KEEPING - 1;
+    }
+    lu_free(lu);
+    mem_free(missed);
+    return met && vector_is_finite(x, reset->plan.equations->nx);
+}
+
+bool reinit_apply(Reinit *reset, double t, const double *values, double *y, Text *why)
+{
+    const Equations *eq = reset->plan.equations;
+    int turned = layout_turned(reset->plan.layout);
+    int length = turned + eq->multi_turn_count + 1;
+    double *stored = NEW_ARRAY(double, reset->storage_count);
+    double before;
+    double after;
+    bool met = true;
+
+    reset->t = t;
+    reset->values = values;
+    reset->y = NEW_ARRAY(double, length);
+    memcpy(reset->y, y, (size_t)length * sizeof(double));
+    before = energy(reset);
+    if (reset->storage_count > 0)
+        memcpy(stored, probe_here(reset) + reset->stored,
+               (size_t)reset->storage_count * sizeof(double));
+    if (any_chosen(reset, LEVEL_POSITION))
+        met = solve_positions(reset, why);
+    if (met && any_chosen(reset, LEVEL_STATE))
+        met = solve_least_squares(reset, LEVEL_STATE);
+    met = met && keep_stored(reset, stored);
+    if (met && (any_chosen(reset, LEVEL_POSITION) || any_chosen(reset, LEVEL_VELOCITY)))
+        met = solve_speeds(reset);
+    if (met) {
+        equations_turn(eq, t, reset->y, reset->y + turned);
+        after = energy(reset);
+        if (isfinite(after - before))
+            reset->y[length - 1] += after - before;
+        memcpy(y, reset->y, (size_t)length * sizeof(double));
+    }
+    mem_free(stored);
+    mem_free(reset->y);
+    reset->y = NULL;
+    return met;
+}

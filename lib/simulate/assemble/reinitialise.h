@@ -1,0 +1,35 @@
+/* reinitialise.h: new values for some variables in the middle of a run
+ *
+ * Coordinates, speeds and network states are put in place as they are; any other variable that is
+ * a function of them is one more equation. Then the constraints are met again while what was set is
+ * held: positions by the least move, speeds by the least change in the mass metric, as impulsive
+ * reactions would. The energy that this brings counts as work done on the system. */
+#ifndef COTREE_SIMULATE_ASSEMBLE_REINITIALISE_H
+#define COTREE_SIMULATE_ASSEMBLE_REINITIALISE_H
+
+#include "base/text.h"
+#include "simulate/equations/numbers.h"
+
+typedef struct Reinit Reinit;
+
+typedef struct ReinitPlan {
+    const Layout *layout;
+    Parameters *parameters;
+    const Equations *equations;
+    const int *rows; /* constraint rows in use; borrowed, as all here, while the Reinit lives */
+    int row_count;
+} ReinitPlan;
+
+Reinit *reinit_new(const ReinitPlan *plan); /* new; reinit_free() */
+void reinit_free(Reinit *reset);            /* NULL is fine */
+/* One more variable; they count from 0. Fails with E_VALUE where it follows from forces or from
+ * what a circuit solves for, the errors of system_variable(). */
+MUST_USE Status reinit_add(Reinit *reset, const char *name, int primes, Diag *diag);
+/* after the last of them; O(variables * unknowns) expressions */
+MUST_USE Status reinit_compile(Reinit *reset, Diag *diag);
+/* Give values (NAN: leave) to the variables at (t, y); y is (q, u, x, work). False: there are no
+ * such positions, speeds or states, and y is as it was; where a joint would close with its axis
+ * reversed alone, `why` tells. */
+bool reinit_apply(Reinit *reset, double t, const double *values, double *y, Text *why);
+
+#endif

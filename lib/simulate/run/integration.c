@@ -1,0 +1,233 @@
+/* integration.c: the loop of a forward run: rows, steps, segments */
+#include "simulate/run/integration_impl.h"
+
+#include "algebra/linear.h"
+
+#include <math.h>
+#include <string.h>
+
+#define MANY 100 /* tolerances that an estimated error has to miss to be told */
+
+/* The explicit method has found that stability limits its steps. */
+static Status hand_over(Integration *m, Diag *diag)
+{
+    const Method *stiff = m->segment.stiff;
+    const double t = m->stepper->t, next = m->stepper->next;
+    Status status = OK;
+
+    memcpy(m->y, m->stepper->y, (size_t)m->length * sizeof(double));
+    text_addf(&m->out->remarks, "stiff from t = %.6g s: went on with %s\n", t, stiff->name);
+    integration_give_up_stepper(m);
+    m->stepper = integration_new_stepper(m, stiff);
+    m->out->method = stiff;
+    CHECK(stiff->start(m->stepper, t, m->y, diag));
+    m->stepper->next = next; /* until something jumps, no other is as good a guess */
+done:
+    return status;
+}
+
+/* The accelerations stay the same, so that a stepper needn't know, except where multipliers of rows
+ * are among its unknowns. */
+static Status renew(Integration *m, Diag *diag)
+{
+    Stepper *s = m->stepper;
+    const Renewed renewed = motion_renew(m->segment.motion, s->t, s->y);
+
+    if (renewed.independent)
+        text_addf(&m->out->remarks, "independent coordinates chosen anew at t = %.6g s\n", s->t);
+    if (!renewed.rows || !s->method->solves_dae)
+        return OK;
+    memcpy(m->y, s->y, (size_t)m->length * sizeof(double));
+    return s->method->start(s, s->t, m->y, diag);
+}
+
+/* with the cause, where the stepper gets no further */
+static Status explained(Integration *m, Status status, Diag *diag)
+{
+    if (status == E_SOLVER && m->plan->explain != NULL)
+        m->plan->explain(m->plan->context, &m->segment, m->stepper, diag);
+    return status;
+}
+
+/* a step that passes over nothing that acts for a short time */
+static Status seeing_step(Integration *m, double end, Diag *diag)
+{
+    const Method *method = m->stepper->method;
+    double when = 0, last = m->stepper->t;
+    Diag ignored = {0};
+    Status status = OK;
+
+    if (m->is_taken_back) { /* once rows and conditions have been read from its history */
+        m->is_taken_back = false;
+        memcpy(m->y, m->stepper->y, (size_t)m->length * sizeof(double));
+        CHECK(method->start(m->stepper, last, m->y, diag));
+    }
+    CHECK(explained(
+        m, method->step(m->stepper, onset_before_step(m->segment.onset, m->stepper, end), diag),
+        diag));
+    if (!(m->stepper->t > last) || !onset_after_step(m->segment.onset, m->stepper, &when))
+        return OK;
+    /* where it can't be taken back it stays: what it passed over it has seen the end of */
+    if (method->shorten(m->stepper, when, &ignored) != OK)
+        return OK;
+    m->is_taken_back = method->has_history;
+done:
+    return status;
+}
+
+static Status one_step(Integration *m, double end, Diag *diag)
+{
+    Status status = OK;
+    double when = 0;
+
+    CHECK(seeing_step(m, end, diag));
+    m->scanned = m->stepper->before;
+    while (integration_state_conditions(m) > 0) {
+        int i = integration_find_switch(m, &when);
+
+        if (i < 0)
+            break;
+        if (!integration_is_of_event(m, i))
+            return integration_meet_switch(m, i, when, diag);
+        if (integration_matters(m, i))
+            return integration_meet_event(m, i, when, diag);
+        m->scanned = when;
+        m->band[i] = m->noise[i];
+    }
+    CHECK(integration_add_rows(m, diag));
+    status =
+        headway_check(&m->headway, m->stepper, m->earlier.steps + m->stepper->counts.steps, diag);
+    CHECK(explained(m, status, diag));
+    CHECK(renew(m, diag));
+    if (m->plan->method == NULL && m->stepper->is_stiff &&
+        (m->segment.stiff->is_a_stable || !m->stepper->swings))
+        CHECK(hand_over(m, diag));
+done:
+    return status;
+}
+
+/* --- stretches, between jumps --- */
+
+/* from the stepper's time to `end`, conditions in time as they are now */
+static Status stretch(Integration *m, double end, Diag *diag)
+{
+    const IntegrationPlan *plan = m->plan;
+    double least = 4e-16 * fabs(end); /* what an event may leave of the way, too short for a step */
+    Status status = OK;
+
+    integration_begin_modes(m);
+    while (end - m->stepper->t > least && !m->is_over) {
+        report(plan->watch, "simulate", (m->stepper->t - plan->from) / (plan->to - plan->from));
+        status = poll(plan->watch) == OK ? one_step(m, end, diag) : E_STOPPED;
+        /* a step that is stopped within fails in its own words */
+        if (status != OK && poll(plan->watch) != OK)
+            return diag_set(diag, E_STOPPED, "stopped at t = %.6g s", m->stepper->t);
+        CHECK(status);
+    }
+    if (!m->is_over)
+        m->stepper->t = end;
+done:
+    return status;
+}
+
+/* held states at a sampling instant, where the stepper stands */
+static Status take_samples(Integration *m, double t, Diag *diag)
+{
+    bool due;
+
+    return samples_take(m->segment.samples, t, m->stepper->y, &due, diag);
+}
+
+static Status all_stretches(Integration *m, Diag *diag)
+{
+    const IntegrationPlan *plan = m->plan;
+    bool entered;
+    Status status = OK;
+
+    for (int i = 0; i <= m->jumps.count && !m->is_over; i++) {
+        bool last = i == m->jumps.count;
+        double end = last ? plan->to : m->jumps.at[i].before;
+
+        m->high = last ? INFINITY : end;
+        /* jumps that rounding alone tells apart are one */
+        if (end - m->stepper->t > 1e-13 * (plan->to - plan->from)) {
+            CHECK(integration_go_on(m, m->stepper->t, m->stepper->y, &entered, diag));
+            CHECK(stretch(m, fmin(end, plan->to), diag));
+        }
+        if (!last && !m->is_over) {
+            m->low = fmax(m->low, m->jumps.at[i].behind);
+            CHECK(integration_meet_time(m, m->jumps.at[i], diag));
+            CHECK(take_samples(m, m->jumps.at[i].before, diag));
+        }
+    }
+done:
+    return status;
+}
+
+static Status run(Integration *m, const double *start, Diag *diag)
+{
+    const IntegrationPlan *plan = m->plan;
+    bool due = false;
+    Status status = OK;
+
+    memcpy(m->y, start, (size_t)m->length * sizeof(double));
+    if (!plan->is_sampled)
+        CHECK(samples_take(m->segment.samples, plan->from, m->y, &due, diag));
+    motion_partition(m->segment.motion, plan->from, m->y);
+    memcpy(m->stepper->y, m->y, (size_t)m->length * sizeof(double));
+    m->stepper->t = plan->from;
+    CHECK(integration_settle_surfaces(m, &due, diag));
+    memcpy(m->y, m->stepper->y, (size_t)m->length * sizeof(double));
+    if (!plan->skip_first && !integration_add_row(m, plan->from))
+        return solver_failure(diag, plan->from, "the start does not meet the constraints");
+    if (events_count(m->ev) > 0)
+        CHECK(integration_begin_events(m, diag));
+    CHECK(integration_find_jumps(m, diag));
+    CHECK(all_stretches(m, diag));
+    /* a row on the very end that rounding, or a switch on it, left out */
+    if (!m->is_over) {
+        if (plan->to - m->stepper->t <= 1e-12 * (plan->to - plan->from))
+            m->stepper->t = plan->to;
+        CHECK(integration_add_rows(m, diag));
+    }
+done:
+    return status;
+}
+
+Status integrate(const IntegrationPlan *plan, const double *start, Grid *grid,
+                 IntegrationReport *out, Diag *diag)
+{
+    const Method *method = plan->method != NULL ? plan->method : method_for((MethodNeed){0});
+    Integration m = {.plan = plan,
+                     .grid = grid,
+                     .out = out,
+                     .control = plan->control,
+                     .headway = {.t = plan->from},
+                     .low = -INFINITY,
+                     .high = INFINITY,
+                     .next_row = 1,
+                     .rows = plan->times != NULL ? plan->time_count
+                                                 : grid_rows(plan->from, plan->to, plan->every),
+                     .root = ROOT_ANY,
+                     .switched_since = -INFINITY};
+    Status status;
+
+    if (method->has_fixed_step && !(m.control.step > 0))
+        m.control.step = plan->every;
+    m.control.span = plan->span > 0 ? plan->span : plan->to - plan->from;
+    *out = (IntegrationReport){.method = method, .reached = plan->from};
+    integration_open_segment(&m, &plan->segment);
+    status = run(&m, start, diag);
+    integration_close_segment(&m);
+    if (m.missed > (plan->asks ? 1 : MANY))
+        text_addf(&out->remarks,
+                  "%s controls no error: a step at t = %.6g s may be off by %.2g times the "
+                  "tolerance; take a smaller step=, or another method\n",
+                  method->name, m.missed_at, m.missed);
+    out->counts = m.earlier;
+    out->events = m.ev;
+    out->jumps = m.jumps;
+    mem_free(m.reach);
+    mem_free(m.chatters);
+    return status;
+}

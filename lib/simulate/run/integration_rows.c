@@ -1,0 +1,68 @@
+/* integration_rows.c: rows of a forward run, from the interpolant of its last step */
+#include "simulate/run/integration_impl.h"
+
+#include "algebra/linear.h"
+
+#include <math.h>
+#include <string.h>
+
+/* --- rows --- */
+
+bool integration_add_row(Integration *m, double t)
+{
+    double position = 0, velocity = 0;
+
+    if (!motion_project(m->segment.motion, t, m->y))
+        return false;
+    motion_residuals(m->segment.motion, t, m->y, &position, &velocity);
+    m->out->position_residual = fmax(m->out->position_residual, position);
+    m->out->velocity_residual = fmax(m->out->velocity_residual, velocity);
+    grid_add(m->grid, t, m->segment.phase, m->y, m->length);
+    m->out->reached = t;
+    return true;
+}
+
+bool integration_has_row(const Integration *m, double t)
+{
+    const Grid *grid = m->grid;
+
+    return grid->count > 0 && t - grid->times[grid->count - 1] <= 1e-12 * m->plan->every;
+}
+
+static Status add_rows_to(Integration *m, double end, Diag *diag)
+{
+    const IntegrationPlan *plan = m->plan;
+
+    for (; m->next_row <= m->rows; m->next_row++) {
+        double t = plan->times != NULL ? plan->times[m->next_row - 1]
+                                       : grid_time(plan->from, plan->to, plan->every, m->next_row);
+
+        if (t > end)
+            break;
+        if (integration_has_row(m, t))
+            continue; /* an event's instant */
+        m->stepper->method->at(m->stepper, t, m->y);
+        if (!integration_add_row(m, t))
+            return solver_failure(diag, t, "the constraints can't be met");
+    }
+    return OK;
+}
+
+Status integration_add_rows(Integration *m, Diag *diag)
+{
+    return add_rows_to(m, m->stepper->t, diag);
+}
+
+Status integration_cut(Integration *m, double t, Diag *diag)
+{
+    Status status = OK;
+
+    CHECK(add_rows_to(m, t, diag)); /* while the interpolant has its end */
+    m->stepper->method->at(m->stepper, t, m->y);
+    if (!motion_project(m->segment.motion, t, m->y))
+        CHECK(solver_failure(diag, t, "the constraints can't be met"));
+    memcpy(m->stepper->y, m->y, (size_t)m->length * sizeof(double));
+    m->stepper->t = t;
+done:
+    return status;
+}

@@ -1,0 +1,262 @@
+/* integration_segment.c: from one segment of a forward run to the next: what goes with its
+ * equations, and who takes over where ideal switches or surfaces ask for others */
+#include "simulate/run/integration_impl.h"
+
+#include "algebra/linear.h"
+
+#include <math.h>
+#include <string.h>
+
+#define ROUNDS 20 /* events and ideal switches that set each other off at one instant */
+#define KEPT   64 /* surfaces, whose sides are all kept: each set of sides is a phase */
+
+/* --- steps --- */
+
+void integration_give_up_stepper(Integration *m)
+{
+    if (m->stepper == NULL)
+        return;
+    m->earlier.steps += m->stepper->counts.steps;
+    m->earlier.rejected += m->stepper->counts.rejected;
+    m->earlier.evaluations += m->stepper->counts.evaluations;
+    m->earlier.jacobians += m->stepper->counts.jacobians;
+    if (m->stepper->missed > m->missed) {
+        m->missed = m->stepper->missed;
+        m->missed_at = m->stepper->missed_at;
+    }
+    m->stepper->method->destroy(m->stepper);
+    m->stepper = NULL;
+}
+
+Stepper *integration_new_stepper(Integration *m, const Method *method)
+{
+    return method->create(motion_ode(m->segment.motion), &m->control);
+}
+
+/* --- segments --- */
+
+/* the surfaces of the segment, with what is known of them from segments of the same system */
+static void open_surfaces(Integration *m)
+{
+    m->surfaces = 0;
+    for (int i = 0; i < m->eq->switch_count; i++)
+        if (equations_guard(m->eq, i).surface >= m->surfaces)
+            m->surfaces = equations_guard(m->eq, i).surface + 1;
+    if (m->reach != NULL)
+        return;
+    m->reach = NEW_ARRAY(double, m->surfaces);
+    m->chatters = NEW_ARRAY(Chatter, m->surfaces);
+}
+
+/* what goes with the equations of the segment */
+void integration_open_segment(Integration *m, const Segment *segment)
+{
+    const Equations *in_time = m->plan->in_time;
+    int conditions, length;
+
+    m->segment = *segment;
+    m->eq = segment->equations;
+    m->ev = segment->events;
+    m->count = m->eq->switch_count + events_condition_count(m->ev);
+    m->length = motion_length(segment->motion);
+    conditions = m->count;
+    length = m->length;
+    /* integration_find_jumps() asks the equations of the whole, which may have more of both */
+    if (in_time != NULL && in_time->switch_count + events_condition_count(m->ev) > conditions)
+        conditions = in_time->switch_count + events_condition_count(m->ev);
+    if (in_time != NULL && in_time->n + in_time->nu + in_time->nx > length)
+        length = in_time->n + in_time->nu + in_time->nx;
+    m->y = NEW_ARRAY(double, length);
+    m->slope = NEW_ARRAY(double, length);
+    m->conditions = NEW_ARRAY(double, conditions);
+    m->largest = NEW_ARRAY(double, conditions);
+    m->band = NEW_ARRAY(double, conditions);
+    m->noise = NEW_ARRAY(double, conditions);
+    m->depth = NEW_ARRAY(double, conditions);
+    m->depth_low = NEW_ARRAY(double, conditions);
+    m->depth_high = NEW_ARRAY(double, conditions);
+    m->mode = NEW_ARRAY(int, conditions);
+    open_surfaces(m);
+    if (m->count > 0)
+        onset_watch(m->segment.onset, integration_turns, m);
+    m->stepper = integration_new_stepper(m, m->out->method);
+}
+
+void integration_close_segment(Integration *m)
+{
+    integration_give_up_stepper(m);
+    onset_watch(m->segment.onset, NULL, NULL);
+    motion_window(m->segment.motion, -INFINITY, INFINITY);
+    mem_free(m->y);
+    mem_free(m->slope);
+    mem_free(m->conditions);
+    mem_free(m->largest);
+    mem_free(m->band);
+    mem_free(m->noise);
+    mem_free(m->depth);
+    mem_free(m->depth_low);
+    mem_free(m->depth_high);
+    mem_free(m->mode);
+}
+
+static void add_corner(Integration *m, double t, const double *y)
+{
+    if (m->plan->corners != NULL)
+        grid_add(m->plan->corners, t, m->segment.phase, y, m->length);
+}
+
+Status integration_enter(Integration *m, const Segment *segment, double t, const double *y,
+                         bool *changed, Diag *diag)
+{
+    bool is_stiff = m->plan->method == NULL && m->out->method->is_stiff;
+    Status status = OK;
+
+    integration_close_segment(m);
+    if (is_stiff)
+        m->out->method = segment->stiff;
+    integration_open_segment(m, segment);
+    motion_window(m->segment.motion, m->low, m->high);
+    add_corner(m, t, y);
+    motion_partition(segment->motion, t, y);
+    memcpy(m->y, y, (size_t)m->length * sizeof(double));
+    memcpy(m->stepper->y, y, (size_t)m->length * sizeof(double));
+    m->stepper->t = t;
+    *changed = false;
+    if (events_count(m->ev) > 0)
+        CHECK(integration_resume_events(m, changed, diag));
+done:
+    return status;
+}
+
+/* what is known of the surface that condition i tells the side of */
+static bool meets(Integration *m, int i, Meeting *out)
+{
+    const Guard guard = equations_guard(m->eq, i);
+    bool near;
+
+    m->largest[i] = fmax(m->largest[i], fabs(m->conditions[i]));
+    near = i == m->root || guard.solved || fabs(m->conditions[i]) <= integration_on_surface(m, i);
+    *out = (Meeting){guard.surface,
+                     near                   ? 0
+                     : m->conditions[i] > 0 ? 1
+                                            : -1,
+                     !near, i == m->root && m->chatters[guard.surface].settles};
+    return near || m->surfaces <= KEPT;
+}
+
+/* The surfaces that the run stands on, and where there are few of them all others: so that no step
+ * sees what is behind one. `on`: whether the segment stays on sides of any. */
+static int find_meetings(Integration *m, Meeting *at, bool *on)
+{
+    int count = 0;
+
+    *on = false;
+    integration_evaluate(m, m->stepper->t, m->stepper->y);
+    for (int i = 0; i < m->eq->switch_count; i++) {
+        const Guard guard = equations_guard(m->eq, i);
+
+        if (guard.surface < 0)
+            continue;
+        *on = *on || guard.side != 0 || guard.end != 0;
+        if (guard.end < 0) { /* with the other end, just before it */
+            if (i == m->root)
+                at[count - 1].side = -1;
+        } else if (guard.end > 0) {
+            at[count++] = (Meeting){guard.surface, i == m->root ? 1 : 0, false, false};
+        } else if (meets(m, i, &at[count])) {
+            count++;
+        }
+    }
+    return count;
+}
+
+static Status slide(Integration *m, bool *entered, bool *changed, Diag *diag)
+{
+    Meeting *at = NEW_ARRAY(Meeting, m->eq->switch_count);
+    double *y = NEW_ARRAY(double, m->length);
+    double t = m->stepper->t;
+    Segment next = m->segment;
+    bool on = false;
+    int count = m->root != ROOT_NONE ? find_meetings(m, at, &on) : 0;
+    Status status = OK;
+
+    *entered = *changed = false;
+    if (m->plan->choose == NULL || m->root == ROOT_NONE || (count == 0 && !on))
+        goto done;
+    memcpy(y, m->stepper->y, (size_t)m->length * sizeof(double));
+    CHECK(
+        m->plan->choose(m->plan->context, t, m->low, m->high, y, at, count, &next, entered, diag));
+    if (*entered) {
+        integration_reach(m);
+        CHECK(integration_enter(m, &next, t, y, changed, diag));
+    }
+    motion_window(m->segment.motion, m->low, m->high);
+    if (*entered)
+        (void)motion_project(m->segment.motion, t, m->stepper->y);
+done:
+    mem_free(at);
+    mem_free(y);
+    return status;
+}
+
+/* the segment that goes on where the stepper stands: not the last one where that is on surfaces */
+Status integration_settle_surfaces(Integration *m, bool *entered, Diag *diag)
+{
+    bool changed = m->surfaces > 0;
+    Status status = OK;
+
+    for (int round = 0; changed && !m->is_over; round++) {
+        bool slides;
+
+        if (round == ROUNDS)
+            CHECK(solver_failure(diag, m->stepper->t,
+                                 "events and discontinuities set each other off"));
+        CHECK(slide(m, &slides, &changed, diag));
+        *entered = *entered || slides;
+        m->root = ROOT_ANY;
+    }
+done:
+    return status;
+}
+
+Status integration_go_on(Integration *m, double t, const double *y, bool *entered, Diag *diag)
+{
+    const IntegrationPlan *plan = m->plan;
+    bool changed = plan->mode_switch != NULL;
+    double last = m->stepper->t > m->stepper->before ? m->stepper->t - m->stepper->before : 0;
+    Status status = OK;
+
+    *entered = false;
+    memmove(m->y, y, (size_t)m->length * sizeof(double));
+    for (int round = 0; changed && !m->is_over; round++) {
+        const double *behind = NULL;
+        Segment next = m->segment;
+
+        if (round == ROUNDS)
+            CHECK(solver_failure(diag, t, "events and ideal switches set each other off"));
+        CHECK(
+            plan->mode_switch(plan->context, t, fmax(t, m->low), last, m->y, &next, &behind, diag));
+        if (behind == NULL)
+            break;
+        add_corner(m, t, m->y);
+        *entered = true;
+        mem_free(m->reach);
+        mem_free(m->chatters);
+        m->reach = NULL;
+        CHECK(integration_enter(m, &next, t, behind, &changed, diag));
+        memcpy(m->y, m->stepper->y, (size_t)m->length * sizeof(double));
+    }
+    motion_window(m->segment.motion, m->low, m->high);
+    m->stepper->t = t;
+    memcpy(m->stepper->y, m->y, (size_t)m->length * sizeof(double));
+    CHECK(integration_settle_surfaces(m, entered, diag));
+    memcpy(m->y, m->stepper->y, (size_t)m->length * sizeof(double));
+    CHECK(m->stepper->method->start(m->stepper, t, m->y, diag));
+    m->is_taken_back = false;
+    onset_forget(m->segment.onset);
+    if (*entered)
+        integration_begin_modes(m);
+done:
+    m->root = ROOT_ANY;
+    return status;
+}

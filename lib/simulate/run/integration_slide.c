@@ -1,0 +1,49 @@
+/* integration_slide.c: what is known of surfaces that the equations of a segment jump on */
+#include "simulate/run/integration_impl.h"
+
+#include "algebra/linear.h"
+
+#include <math.h>
+#include <string.h>
+
+#define NEAR     1e-10 /* of a condition's largest size: as location leaves it */
+#define ROUNDING 1e-14 /* of y */
+#define END      1e-9  /* of a sign: so far beyond its end it may begin */
+
+double integration_on_surface(const Integration *m, int i)
+{
+    double size = vector_largest(m->stepper->y, m->length - 1);
+
+    return fmax(NEAR * m->largest[i], ROUNDING * size);
+}
+
+void integration_reach(Integration *m)
+{
+    for (int i = 0; i < m->eq->switch_count; i++) {
+        const Guard guard = equations_guard(m->eq, i);
+
+        if (guard.surface >= 0 && guard.end == 0)
+            m->reach[guard.surface] = fmax(m->reach[guard.surface], m->largest[i]);
+    }
+}
+
+void integration_begin_surfaces(Integration *m)
+{
+    for (int i = 0; i < m->eq->switch_count; i++) {
+        const Guard guard = equations_guard(m->eq, i);
+
+        if (guard.surface < 0)
+            continue;
+        if (guard.end != 0) {
+            m->mode[i] = 1;
+            m->band[i] = END;
+            continue;
+        }
+        m->largest[i] = fmax(m->largest[i], m->reach[guard.surface]);
+        if (guard.side != 0) {
+            m->mode[i] = guard.side;
+            if (fabs(m->conditions[i]) <= integration_on_surface(m, i))
+                m->band[i] = integration_on_surface(m, i);
+        }
+    }
+}

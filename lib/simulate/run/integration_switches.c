@@ -1,0 +1,359 @@
+/* integration_switches.c: where conditions in the state change sign: located, met, crossed */
+#include "simulate/run/integration_impl.h"
+
+#include "algebra/linear.h"
+#include "base/random.h"
+
+#include <math.h>
+#include <string.h>
+
+#define LOOKS     20000 /* at conditions that follow sources, in a run */
+#define POINTS    5     /* of a step, where they are looked at */
+#define SLIDING   40    /* likewise, where a force may leave its interval for a moment */
+#define ROUNDING  1e-13 /* of the largest margin: what rounding does to any */
+#define NOTHING   1e-4  /* of the absolute tolerance: where all is next to nothing, as at rest */
+#define DEEPER    2     /* times what a margin begins with */
+#define MOVES     3     /* that tell how far errors reach */
+#define BY_HALVES 4     /* so often a search goes by halves */
+
+/* --- conditions --- */
+
+void integration_evaluate(Integration *m, double t, const double *y)
+{
+    const Equations *eq = m->eq;
+
+    /* the time that rates see: on a jump what is behind it */
+    t = motion_clock(m->segment.motion, t);
+
+    if (eq->switch_count > 0)
+        motion_switches(m->segment.motion, t, y, m->conditions);
+    if (m->count > eq->switch_count)
+        events_conditions(m->ev, t, y, m->conditions + eq->switch_count);
+}
+
+bool integration_is_of_event(const Integration *m, int i)
+{
+    return i >= m->eq->switch_count;
+}
+
+static bool is_of_time(const Integration *m, int i)
+{
+    return integration_is_of_event(m, i) ? i - m->eq->switch_count < events_time_only(m->ev)
+                                         : i < m->eq->time_only;
+}
+
+int integration_state_conditions(const Integration *m)
+{
+    return m->count - m->eq->time_only - events_time_only(m->ev);
+}
+
+/* what says that the segment is the right one, as long as it is positive */
+bool integration_is_margin(const Integration *m, int i)
+{
+    return i < m->eq->switch_count && i >= m->eq->switch_count - m->eq->margin_count;
+}
+
+/* Not for a step to look at: of t alone, or, where a part of a run is taken again, what would end
+ * the segment that is known to go on. */
+static bool is_left_out(const Integration *m, int i)
+{
+    Guard guard;
+
+    if (is_of_time(m, i))
+        return true;
+    if (!(m->plan->span > 0) || integration_is_of_event(m, i))
+        return false;
+    guard = equations_guard(m->eq, i);
+    return integration_is_margin(m, i) || guard.side != 0 || guard.end != 0;
+}
+
+/* --- conditions in the state --- */
+
+bool integration_turns(void *march, double t, const double *y)
+{
+    Integration *m = march;
+
+    integration_evaluate(m, t, y);
+    for (int i = 0; i < m->count; i++)
+        if (!is_left_out(m, i) && sign_of(m->conditions[i]) == -m->mode[i])
+            return true;
+    return false;
+}
+
+/* all of them where the stepper's interpolant is at t, which goes into m->y */
+void integration_conditions_at(Integration *m, double t)
+{
+    m->stepper->method->at(m->stepper, t, m->y);
+    integration_evaluate(m, t, m->y);
+}
+
+/* all of them a little way h, which is the result, further than the stepper's end along m->slope */
+static double conditions_ahead(Integration *m)
+{
+    const Stepper *s = m->stepper;
+    double h = 1e-7 * fmax(1e-3, s->t - s->before);
+
+    for (int k = 0; k < m->length; k++)
+        m->y[k] = s->y[k] + h * m->slope[k];
+    integration_evaluate(m, s->t + h, m->y);
+    return h;
+}
+
+static bool is_steep(const Integration *m, int i)
+{
+    int k = i - (m->eq->switch_count - m->eq->margin_count);
+
+    return m->eq->margin_is_steep != NULL && m->eq->margin_is_steep(m->eq->context, k);
+}
+
+double integration_largest_margin(const Integration *m)
+{
+    return vector_largest(m->largest + m->eq->switch_count - m->eq->margin_count,
+                          m->eq->margin_count);
+}
+
+/* What errors of the state within the tolerance can do to margins: less than that tells no sign. By
+ * a few moves of all states at once, as far as the tolerance lets them. */
+static void find_noise(Integration *m)
+{
+    uint64_t seed = 1;
+    double *here;
+
+    if (m->eq->margin_count == 0)
+        return;
+    here = NEW_ARRAY(double, m->eq->switch_count);
+    memcpy(here, m->conditions, (size_t)m->eq->switch_count * sizeof(double));
+    for (int i = 0; i < m->eq->switch_count; i++)
+        m->noise[i] = integration_is_margin(m, i) ? fmax(ROUNDING * integration_largest_margin(m),
+                                                         NOTHING * m->control.atol)
+                                                  : 0;
+    for (int turn = 0; turn < MOVES; turn++) {
+        for (int k = 0; k < m->length; k++) {
+            double tolerance = m->control.rtol * fabs(m->stepper->y[k]) + m->control.atol;
+
+            m->y[k] = m->stepper->y[k] + tolerance * random_unit(&seed);
+        }
+        motion_switches(m->segment.motion, m->stepper->t, m->y, m->conditions);
+        for (int i = 0; i < m->eq->switch_count; i++)
+            if (integration_is_margin(m, i) && !is_steep(m, i) &&
+                fabs(m->conditions[i] - here[i]) > m->noise[i])
+                m->noise[i] = fabs(m->conditions[i] - here[i]);
+    }
+    memcpy(m->conditions, here, (size_t)m->eq->switch_count * sizeof(double));
+    memcpy(m->band, m->noise, (size_t)m->eq->switch_count * sizeof(double));
+    mem_free(here);
+}
+
+/* The segment is the one that goes on a little behind where it begins. Margins that are still
+ * negative there, and on their way up, are so because an instant is located only so well: they tell
+ * nothing as long as they fall no deeper. */
+void integration_let_margins_rise(Integration *m)
+{
+    const Ode *ode = motion_ode(m->segment.motion);
+    const Stepper *s = m->stepper;
+    bool negative = false;
+    double *here;
+
+    integration_conditions_at(m, s->t);
+    for (int i = m->eq->time_only; i < m->eq->switch_count; i++)
+        negative = negative || (integration_is_margin(m, i) && m->conditions[i] < -m->noise[i]);
+    if (!negative || !ode->rate(ode->context, s->t, s->y, m->slope))
+        return;
+    here = NEW_ARRAY(double, m->eq->switch_count);
+    memcpy(here, m->conditions, (size_t)m->eq->switch_count * sizeof(double));
+    conditions_ahead(m);
+    for (int i = m->eq->time_only; i < m->eq->switch_count; i++)
+        if (integration_is_margin(m, i) && here[i] < -m->noise[i] && m->conditions[i] > here[i])
+            m->band[i] = fmax(m->band[i], -DEEPER * here[i]);
+    mem_free(here);
+}
+
+void integration_begin_modes(Integration *m)
+{
+    if (m->eq->switch_count == m->eq->time_only)
+        return;
+    integration_conditions_at(m, m->stepper->t);
+    for (int i = m->eq->time_only; i < m->eq->switch_count; i++) {
+        m->mode[i] = integration_is_margin(m, i) ? 1 : sign_of(m->conditions[i]);
+        m->largest[i] = fabs(m->conditions[i]);
+        m->band[i] = 0;
+    }
+    find_noise(m);
+    integration_let_margins_rise(m);
+    integration_begin_surfaces(m);
+}
+
+/* whether condition i, as evaluated last, has left its mode; learns a mode not known yet */
+static bool has_switched(Integration *m, int i)
+{
+    double value = m->conditions[i];
+
+    m->largest[i] = fmax(m->largest[i], fabs(value));
+    if (!(fabs(value) > m->band[i]))
+        return false;
+    if (m->mode[i] == 0) /* what had no value till now becomes what it is */
+        m->mode[i] = integration_is_of_event(m, i) ? -sign_of(value) : sign_of(value);
+    return sign_of(value) != m->mode[i] && value != 0;
+}
+
+/* Where nothing has switched up to here, what has come clear of its band needs it no more. Not
+ * earlier: between here and the last point it may be what holds. */
+static void forget_bands(Integration *m)
+{
+    for (int i = 0; i < m->count; i++)
+        if (!is_left_out(m, i) && fabs(m->conditions[i]) > m->band[i])
+            m->band[i] = m->noise[i];
+}
+
+/* Steps are as short as states want them. What a source does to a condition while no state moves
+ * asks for points of its own. */
+static int points_in(const Integration *m, double length)
+{
+    double span = m->plan->to - m->plan->from;
+    int points = m->eq->slide_count > 0 ? SLIDING : POINTS;
+
+    if (!m->eq->switches_follow_time && !events_follow_time(m->ev))
+        return points;
+    return (int)fmax(points, ceil(length / span * LOOKS));
+}
+
+/* How far inside its mode each condition of the state is, as evaluated last; negative: beyond its
+ * band, and so switched. */
+static void find_depths(const Integration *m, double *out)
+{
+    for (int k = 0; k < m->count; k++)
+        out[k] = is_left_out(m, k) || m->conditions[k] == 0 || m->mode[k] == 0
+                     ? INFINITY
+                     : m->mode[k] * m->conditions[k] + m->band[k];
+}
+
+/* Where the first of the conditions that are switched at `high` would cross if all were straight
+ * from `low` on, by depths there and here; as a part of the way. */
+static double first_crossing(const Integration *m, double share_low, double share_high)
+{
+    double first = 1;
+
+    for (int k = 0; k < m->count; k++) {
+        double inside = share_low * m->depth_low[k], beyond = -share_high * m->depth_high[k];
+
+        if (m->depth_high[k] < 0 && isfinite(inside))
+            first = fmin(first, inside > 0 ? inside / (inside + beyond) : 0);
+    }
+    return first;
+}
+
+/* any that is switched, by depths; -1: none */
+static int one_switched(const Integration *m, const double *depth)
+{
+    for (int k = m->count - 1; k >= 0; k--)
+        if (depth[k] < 0)
+            return k;
+    return -1;
+}
+
+/* The first condition that switches between low, where none has, and *high, which becomes a time
+ * just behind that: by false position, with the weight of an end that stays halved (Illinois), and
+ * by halves where that is slow. `found` has switched at *high. */
+static int locate_first(Integration *m, double low, double *high, int found)
+{
+    double share_low = 1, share_high = 1;
+    int last = 0; /* end that moved last: -1 low, 1 high */
+
+    find_depths(m, m->depth_high);
+    integration_conditions_at(m, low);
+    find_depths(m, m->depth_low);
+    for (int k = 1; k <= 100; k++) {
+        const double least = 2e-16 * fmax(fabs(*high), 1e-300), width = *high - low;
+        double part = k % BY_HALVES == 0 ? 0.5 : first_crossing(m, share_low, share_high);
+        double t = fmin(fmax(low + part * width, low + least), *high - least);
+        double *depth = m->depth;
+        int which;
+
+        if (!(width > 2 * least))
+            break;
+        integration_conditions_at(m, t);
+        find_depths(m, depth);
+        which = one_switched(m, depth);
+        if (which >= 0) {
+            *high = t;
+            found = which;
+            m->depth = m->depth_high;
+            m->depth_high = depth;
+            share_low = last == 1 ? share_low / 2 : 1;
+            share_high = 1;
+            last = 1;
+        } else {
+            low = t;
+            m->depth = m->depth_low;
+            m->depth_low = depth;
+            share_high = last == -1 ? share_high / 2 : 1;
+            share_low = 1;
+            last = -1;
+        }
+    }
+    return found;
+}
+
+/* The first point of the last step at which a condition has switched, *at, and a point *low before
+ * it where none has. -1: there is none. */
+static int find_switched(Integration *m, double *low, double *at)
+{
+    double length = m->stepper->t - m->stepper->before;
+    int points = points_in(m, length);
+    int found = -1;
+
+    *low = m->scanned;
+    for (int k = 1; k <= points; k++) {
+        *at = k == points ? m->stepper->t : m->stepper->before + length * k / points;
+        if (*at < m->scanned)
+            continue;
+        integration_conditions_at(m, *at);
+        for (int i = 0; i < m->count; i++)
+            if (!is_left_out(m, i) && has_switched(m, i) && found < 0)
+                found = i;
+        if (found >= 0)
+            return found;
+        *low = *at;
+        forget_bands(m);
+    }
+    return -1;
+}
+
+/* Currents through small resistances show what is stiff in a step, which is right at its end and
+ * anything before: a switch is believed once a step that ends there tells it. */
+static bool retake(Integration *m, int found, double t)
+{
+    const Method *method = m->stepper->method;
+    Diag ignored = {0};
+
+    return integration_is_margin(m, found) && is_steep(m, found) && !method->has_history &&
+           t < m->stepper->t && method->shorten(m->stepper, t, &ignored) == OK;
+}
+
+int integration_find_switch(Integration *m, double *when)
+{
+    double low, high;
+    int found = find_switched(m, &low, &high);
+
+    while (found >= 0 && retake(m, found, high))
+        found = find_switched(m, &low, &high);
+    if (found < 0)
+        return -1;
+    found = locate_first(m, low, &high, found);
+    *when = high;
+    return found;
+}
+
+double integration_condition_rate(Integration *m, int i, double *value)
+{
+    const Ode *ode = motion_ode(m->segment.motion);
+    const Stepper *s = m->stepper;
+    double h;
+
+    integration_conditions_at(m, s->t);
+    *value = m->conditions[i];
+    if (!ode->rate(ode->context, s->t, s->y, m->slope))
+        return 0;
+    h = conditions_ahead(m);
+    return (m->conditions[i] - *value) / h;
+}

@@ -1,0 +1,38 @@
+/* mode_switch.h: results of models with ideal switches: from one phase to the next */
+#ifndef COTREE_SIMULATE_RUN_MODE_SWITCH_H
+#define COTREE_SIMULATE_RUN_MODE_SWITCH_H
+
+#include "simulate/run/result.h"
+
+/* The phase that a result starts in, and `begin`, from `start`, which is of the whole. Fails where
+ * the ideal switches have no sides at the start, and where the network has no solution. */
+MUST_USE Status mode_switch_begin(Result *result, const Setting *setting, Diag *diag);
+
+/* The phase of these sides, one an ideal switch; made where it is met first. */
+MUST_USE Status mode_switch_phase(Result *result, const Setting *setting, const bool *closed,
+                                  Phase **out, Diag *diag);
+
+/* The phase that differs from another one by the sides of surfaces that it stays on. */
+MUST_USE Status mode_switch_phase_on(Result *result, const Setting *setting, const Phase *like,
+                                     const OnSurface *on, int count, Phase **out, Diag *diag);
+/* `events`, which go on in another phase; NULL: there are none */
+MUST_USE Status mode_switch_events(Result *result, const Phase *now, const Phase *next,
+                                   const Setting *setting, Events **events, Diag *diag);
+
+typedef struct ModeSwitching {
+    Result *result;
+    const Setting *setting;
+    double span;  /* of the run, s */
+    double stuck; /* where it was looked at last; NAN */
+    bool changed; /* whether something changed there, */
+    double again; /* and how much further it was looked */
+    double *y;    /* of the last phase that was entered; free it with mode_switching_free() */
+} ModeSwitching;
+void mode_switching_free(ModeSwitching *commuting);
+/* the NextSegment of a plan; `context` is a ModeSwitching */
+MUST_USE Status mode_switch(void *context, double t, double behind, double last, const double *y,
+                            Segment *segment, const double **out, Diag *diag);
+/* the segment of a phase */
+Segment mode_switch_segment(const Result *result, const Phase *phase, Events *events);
+
+#endif
