@@ -3,7 +3,10 @@
  * Turns about parallel axes add. Where those between two chains merge into one and the
  * frames at their ends agree when every angle is 0, the sum is a coordinate that a virtual
  * joint between the frames can have. */
+#include "formulate/kinematics.h"
+#include "formulate/origin.h"
 #include "formulate/system_impl.h"
+#include "formulate/vector.h"
 
 /* the chains between merge to one turn, and there are at least two of them */
 static bool merges(const System *system, int from, int to, Vec *axis)

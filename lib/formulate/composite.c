@@ -3,7 +3,13 @@
  * Where the same nodes hang beyond a branch in both trees, one unit of its speed moves them as one
  * rigid body: its mass m, first moment S and inertia J about the node's origin say all that
  * the branches nearer to the datum feel (Walker and Orin 1982, here on a linear graph). */
+#include "formulate/composite.h"
+#include "formulate/dynamics.h"
+#include "formulate/kinematics.h"
+#include "formulate/loads.h"
+#include "formulate/origin.h"
 #include "formulate/system_impl.h"
+#include "formulate/vector.h"
 
 static int axes_of(const System *system, int node)
 {

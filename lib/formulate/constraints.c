@@ -4,7 +4,15 @@
  * n; a row a_t.b_h that two axes stay square; a row of angles that turns about one
  * axis cancel. Symbols as in system_impl.h; D_j is the part of the way that speed j
  * turns, so that the rate of d is the sum of k_j x D_j u_j and the slides. */
+#include "formulate/constraints.h"
+#include "formulate/coordinate.h"
+#include "formulate/framesum.h"
+#include "formulate/kinematics.h"
+#include "formulate/origin.h"
+#include "formulate/resolve.h"
+#include "formulate/sample.h"
 #include "formulate/system_impl.h"
+#include "formulate/vector.h"
 
 #include <math.h>
 #include <string.h>

@@ -45,8 +45,8 @@ typedef struct CountedChord { /* whose angle is a sum */
 typedef struct Constraints {
     LIST(Row) rows;
     Expr *multipliers; /* symbols, one a row */
-    LIST(Row)
-    redundant_rows; /* rows that hold in every position: no lambda tells what they carry */
+    /* rows that hold in every position: no lambda tells what they carry */
+    LIST(Row) redundant_rows;
     LIST(const char *) dropped;
     LIST(MultiTurnChord) turned;
     LIST(CountedChord) counted;

@@ -1,5 +1,11 @@
 /* coordinate.c: values of coordinates, also of chords; derivatives along the motion */
+#include "formulate/coordinate.h"
+#include "formulate/constraints.h"
+#include "formulate/framesum.h"
+#include "formulate/kinematics.h"
+#include "formulate/resolve.h"
 #include "formulate/system_impl.h"
+#include "formulate/vector.h"
 
 Expr speed_partial(System *system, Expr e, int speed)
 {

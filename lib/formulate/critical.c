@@ -3,6 +3,8 @@
  * Turns about u1, u2, u3 with u2 square to both span all rotations but where the first and the
  * last axis fall on one line: after a sequence such as zxz at u2's angle 0 or half a turn, after
  * one such as zyx at a quarter turn. */
+#include "formulate/kinematics.h"
+#include "formulate/origin.h"
 #include "formulate/system_impl.h"
 
 bool system_critical(System *system, int i, Critical *out)

@@ -3,7 +3,17 @@
  * F: inertia forces at u' = 0 and everything that pushes, summed inward over both trees.
  * M: column k is the same sum for u'_k = 1 with everything else at rest; of a pair (j, k)
  * the column of the speed that moves fewer bodies is taken, of equals the one further out. */
+#include "formulate/dynamics.h"
+#include "formulate/composite.h"
+#include "formulate/constraints.h"
+#include "formulate/coordinate.h"
+#include "formulate/efforts.h"
+#include "formulate/kinematics.h"
+#include "formulate/loads.h"
+#include "formulate/network.h"
+#include "formulate/origin.h"
 #include "formulate/system_impl.h"
+#include "formulate/vector.h"
 
 #include <math.h>
 

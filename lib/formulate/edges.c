@@ -1,6 +1,9 @@
 /* edges.c: what a system tells about its mechanical edges */
 #include "formulate/edges.h"
-
+#include "formulate/constraints.h"
+#include "formulate/coordinate.h"
+#include "formulate/kinematics.h"
+#include "formulate/origin.h"
 #include "formulate/system_impl.h"
 
 #include <string.h>

@@ -1,5 +1,14 @@
 /* efforts.c: what pushes: forces, springs, dampers, actuators, motors */
+#include "formulate/efforts.h"
+#include "formulate/constraints.h"
+#include "formulate/coordinate.h"
+#include "formulate/kinematics.h"
+#include "formulate/loads.h"
+#include "formulate/network.h"
+#include "formulate/origin.h"
+#include "formulate/resolve.h"
 #include "formulate/system_impl.h"
+#include "formulate/vector.h"
 
 #include <string.h>
 

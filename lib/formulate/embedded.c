@@ -4,6 +4,12 @@
  * determinant of Phi_d below it once. Drivers are left out of Phi, and what they drive is
  * independent: their efforts stand in the equations instead (theory 6). Beyond three rows
  * a run solves with Phi_d in numbers. */
+#include "formulate/embedded.h"
+#include "formulate/constraints.h"
+#include "formulate/coordinate.h"
+#include "formulate/kinematics.h"
+#include "formulate/origin.h"
+#include "formulate/shown.h"
 #include "formulate/system_impl.h"
 
 #include <string.h>

@@ -1,5 +1,14 @@
 /* energy.c: energies, and the power of sources and losses */
+#include "formulate/constraints.h"
+#include "formulate/coordinate.h"
+#include "formulate/dynamics.h"
+#include "formulate/efforts.h"
+#include "formulate/kinematics.h"
+#include "formulate/network.h"
+#include "formulate/origin.h"
+#include "formulate/resolve.h"
 #include "formulate/system_impl.h"
+#include "formulate/vector.h"
 
 typedef LIST(Expr) Terms;
 

@@ -1,5 +1,9 @@
 /* euler_parameters.c: Euler parameters of frames: the product of those of their turns */
+#include "formulate/coordinate.h"
+#include "formulate/kinematics.h"
+#include "formulate/sample.h"
 #include "formulate/system_impl.h"
+#include "formulate/vector.h"
 
 /* a b, scalar part first */
 static void parameters_product(Arena *arena, Expr a[4], const Expr b[4])

@@ -3,7 +3,19 @@
  * The same equations written as by hand: per body, partial velocities as sums over frames,
  * dot products of those (theory 4), then trigonometric folding and collecting of common
  * factors. v_j and w_j are the velocity and angular velocity of a body per unit of u_j. */
+#include "formulate/constraints.h"
+#include "formulate/coordinate.h"
+#include "formulate/dynamics.h"
+#include "formulate/efforts.h"
+#include "formulate/embedded.h"
+#include "formulate/framesum.h"
+#include "formulate/kinematics.h"
+#include "formulate/network.h"
+#include "formulate/origin.h"
+#include "formulate/resolve.h"
+#include "formulate/shown.h"
 #include "formulate/system_impl.h"
+#include "formulate/vector.h"
 
 /* --- partial velocities --- */
 

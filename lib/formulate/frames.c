@@ -1,5 +1,9 @@
 /* frames.c: chains of turns along the rotation tree, steps along the translation tree */
+#include "formulate/dynamics.h"
+#include "formulate/kinematics.h"
+#include "formulate/origin.h"
 #include "formulate/system_impl.h"
+#include "formulate/vector.h"
 
 void instance_steps(const System *system, const Instance *instance, Steps *steps)
 {

@@ -2,7 +2,11 @@
  *
  * A dot product of two parts turns only what lies between their chains, so that
  * what is printed stays as short as what is written by hand. */
+#include "formulate/framesum.h"
+#include "formulate/kinematics.h"
+#include "formulate/origin.h"
 #include "formulate/system_impl.h"
+#include "formulate/vector.h"
 
 #include <string.h>
 

@@ -8,6 +8,9 @@
  * In a mode each is on one side. A closed one is a source of across, an open one a source of
  * through variables, of nothing: so the normal tree is another one, and with it what is a state.
  * theory 8. */
+#include "formulate/ideal.h"
+#include "formulate/network.h"
+#include "formulate/origin.h"
 #include "formulate/system_impl.h"
 
 #include <string.h>

@@ -3,6 +3,10 @@
  * Where closed ones alone make a circuit nothing tells what each of them carries, and where open
  * ones alone part the network, nothing what is across each: they share alike, as equal resistances
  * would, however small or large. theory 8. */
+#include "formulate/ideal.h"
+#include "formulate/network.h"
+#include "formulate/origin.h"
+#include "formulate/resolve.h"
 #include "formulate/system_impl.h"
 
 /* --- what sources of nothing share --- */

@@ -1,6 +1,5 @@
 /* kinks.c: functions that jump or bend, and where */
 #include "formulate/surfaces.h"
-#include "formulate/system_impl.h"
 
 Expr switch_condition(Arena *arena, Expr e)
 {

@@ -3,6 +3,9 @@
  * A charge eA/(s0 - s) v has no bound where the gap s0 - s comes to 0, and no meaning behind it; a
  * flux (L0 - k s) i none where its coil stores nothing any more. What comes to 0 there, of each
  * law: the bases of negative powers that move, or without any the coefficient itself. */
+#include "formulate/kinematics.h"
+#include "formulate/network.h"
+#include "formulate/origin.h"
 #include "formulate/system_impl.h"
 
 typedef LIST(Expr) Measures;

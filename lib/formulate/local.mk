@@ -31,9 +31,11 @@ libcore_la_SOURCES += \
 	lib/formulate/switches.c \
 	lib/formulate/multi_turn.c lib/formulate/multi_turn_build.c \
 	lib/formulate/system.c lib/formulate/system_build.c lib/formulate/system.h lib/formulate/system_impl.h \
-	lib/formulate/constraints.h lib/formulate/dynamics.h lib/formulate/kinematics.h \
-	lib/formulate/network.h lib/formulate/origin.h lib/formulate/sample.h lib/formulate/shown.h \
-	lib/formulate/vector.h \
+	lib/formulate/composite.h lib/formulate/constraints.h lib/formulate/coordinate.h \
+	lib/formulate/dynamics.h lib/formulate/efforts.h lib/formulate/embedded.h \
+	lib/formulate/framesum.h lib/formulate/ideal.h lib/formulate/kinematics.h lib/formulate/loads.h \
+	lib/formulate/network.h lib/formulate/origin.h lib/formulate/reactions.h lib/formulate/resolve.h \
+	lib/formulate/sample.h lib/formulate/shown.h lib/formulate/smooth.h lib/formulate/vector.h \
 	lib/formulate/redundancy.c \
 	lib/formulate/variables.c \
 	lib/formulate/vector.c \

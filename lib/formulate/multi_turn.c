@@ -1,4 +1,5 @@
 /* multi_turn.c: turns of chords over any number of turns, as they were told (multi_turn_build.c) */
+#include "formulate/constraints.h"
 #include "formulate/system_impl.h"
 
 Expr multi_turn_whole(const System *system, int instance, int coordinate)

@@ -5,6 +5,11 @@
  * known, and atan2(s, c) jumps by a full turn. The angle is the one of them all that is nearest to
  * a reference, a symbol of its own that runs keep beside q: integrated by the angle's rate, and put
  * back onto the angle wherever they put q back onto the constraints. */
+#include "formulate/constraints.h"
+#include "formulate/coordinate.h"
+#include "formulate/kinematics.h"
+#include "formulate/origin.h"
+#include "formulate/resolve.h"
 #include "formulate/system_impl.h"
 
 static Expr whole_symbol(System *system, const char *name)

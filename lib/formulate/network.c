@@ -7,6 +7,11 @@
  * and inductors out of it bring the states, and a rate that an equation needs of something
  * algebraic is an unknown more, with that one's equation differentiated. In the form of the user's
  * tree any rate of an unknown may be met, and the highest ones are solved for. theory 8. */
+#include "formulate/network.h"
+#include "formulate/kinematics.h"
+#include "formulate/origin.h"
+#include "formulate/resolve.h"
+#include "formulate/smooth.h"
 #include "formulate/system_impl.h"
 
 #define DEEP                                                                                       \

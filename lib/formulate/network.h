@@ -114,19 +114,4 @@ bool port_gives_own(System *system, const Branchlike *branch);
 MUST_USE Status network_across(System *system, Branchlike *branch, Expr *out, Diag *diag);
 MUST_USE Status network_through(System *system, Branchlike *branch, Expr *out, Diag *diag);
 
-/* --- switches (ideal.c, ideal_share.c, switches.c) --- */
-
-/* how many switches are without resistance on one side or on both (ideal.c) */
-int system_truly_ideal_count(const System *system);
-/* the relation of a switch, on its side or of both (ideal.c) */
-void ideal_take_side(System *system, Branchlike *branch);
-/* What closed switches alone in a circuit share, or open ones alone in a cutset: currents as if by
- * equal resistances, voltages likewise. *shared: it is so, and *out = 0 */
-MUST_USE Status ideal_share(System *system, const Branchlike *branch, bool *shared, Expr *out,
-                            Diag *diag);
-/* what changes sign where a function jumps or kinks; NULL: it does neither (switches.c) */
-Expr switch_condition(Arena *arena, Expr e);
-/* e is differentiated in time for `who`: E_MODEL where it jumps */
-MUST_USE Status system_need_smooth(System *system, const char *who, Expr e, Diag *diag);
-
 #endif

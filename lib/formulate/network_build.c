@@ -1,4 +1,10 @@
 /* network_build.c: a scalar domain's relations read, its trees chosen, its unknowns listed */
+#include "formulate/constraints.h"
+#include "formulate/ideal.h"
+#include "formulate/network.h"
+#include "formulate/origin.h"
+#include "formulate/resolve.h"
+#include "formulate/smooth.h"
 #include "formulate/system_impl.h"
 
 #include <string.h>

@@ -4,6 +4,8 @@
  * them. Where their matrix L is singular throughout, elimination leaves a row without them. That
  * row tells a lower rate of one of its unknowns, and, differentiated, those above it, which are put
  * into the other rows: the unknown is then of that order. theory 8. */
+#include "formulate/network.h"
+#include "formulate/resolve.h"
 #include "formulate/system_impl.h"
 
 #include <math.h>

@@ -1,4 +1,10 @@
 /* network_rows.c: equations of the network's unknowns, G([x'; z], ...) = 0, and their Jacobian */
+#include "formulate/ideal.h"
+#include "formulate/kinematics.h"
+#include "formulate/network.h"
+#include "formulate/origin.h"
+#include "formulate/resolve.h"
+#include "formulate/smooth.h"
 #include "formulate/surfaces.h"
 #include "formulate/system_impl.h"
 

@@ -1,5 +1,8 @@
 /* network_tree.c: the normal tree of a scalar domain, greedily: sources of across variables first,
  * then what stores them, resistive edges, what stores through variables, their sources last */
+#include "formulate/kinematics.h"
+#include "formulate/network.h"
+#include "formulate/origin.h"
 #include "formulate/system_impl.h"
 
 #include "graph/sets.h"

@@ -2,6 +2,9 @@
  *
  * The rate of a coordinate is told by speeds, that of a speed by an acceleration; the rate of a
  * network's unknown is a symbol, or what its equation differentiated gives. */
+#include "formulate/kinematics.h"
+#include "formulate/network.h"
+#include "formulate/resolve.h"
 #include "formulate/system_impl.h"
 
 #include <string.h>

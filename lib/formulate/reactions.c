@@ -3,7 +3,18 @@
  *
  * Rows that vanished have multipliers too (redundancy.c). Where some of them are open, so is every
  * component of a reaction that changes with them, and no other. */
+#include "formulate/reactions.h"
+#include "formulate/constraints.h"
+#include "formulate/coordinate.h"
+#include "formulate/efforts.h"
+#include "formulate/kinematics.h"
+#include "formulate/loads.h"
+#include "formulate/origin.h"
+#include "formulate/resolve.h"
+#include "formulate/sample.h"
+#include "formulate/shown.h"
 #include "formulate/system_impl.h"
+#include "formulate/vector.h"
 
 #include <assert.h>
 

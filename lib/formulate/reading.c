@@ -3,6 +3,11 @@
  * A small system written as by hand often takes fewer operations, once its common
  * subexpressions are shared, than the definitions that serve a system of any size. Where
  * writing it out is cheap, both are tried, and M multiplied out too; the run uses the cheapest. */
+#include "formulate/constraints.h"
+#include "formulate/dynamics.h"
+#include "formulate/kinematics.h"
+#include "formulate/network.h"
+#include "formulate/shown.h"
 #include "formulate/system_impl.h"
 
 #include <string.h>

@@ -2,7 +2,11 @@
  *
  * Each quantity is resolved in the axes of its chain's `resolve` chain and held, so that
  * a program computes it once. */
+#include "formulate/kinematics.h"
+#include "formulate/loads.h"
+#include "formulate/origin.h"
 #include "formulate/system_impl.h"
+#include "formulate/vector.h"
 
 static int axes_of(const System *system, int node)
 {

@@ -11,7 +11,16 @@
  * alone. Its rank is found in numbers, at a random position; on independent columns W^T W is
  * positive definite, so that L D L^T needs no pivots and can be written down in symbols. What
  * stays open (W y = 0) is redundant: no trees determine it. */
+#include "formulate/constraints.h"
+#include "formulate/efforts.h"
+#include "formulate/kinematics.h"
+#include "formulate/loads.h"
+#include "formulate/origin.h"
+#include "formulate/reactions.h"
+#include "formulate/sample.h"
+#include "formulate/shown.h"
 #include "formulate/system_impl.h"
+#include "formulate/vector.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -2,6 +2,8 @@
  *
  * The laws of parts read such variables, and variables are told by laws: which variable is told how
  * stands in variables.c, and is reached through the system. */
+#include "formulate/resolve.h"
+#include "formulate/shown.h"
 #include "formulate/system_impl.h"
 
 #include <string.h>

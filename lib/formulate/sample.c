@@ -2,7 +2,12 @@
  *
  * What is the same at a few positions that nobody chose is the same at all of them: zeros that
  * rounding hides from symbols are told so. */
+#include "formulate/sample.h"
 #include "base/random.h"
+#include "formulate/constraints.h"
+#include "formulate/kinematics.h"
+#include "formulate/network.h"
+#include "formulate/origin.h"
 #include "formulate/system_impl.h"
 
 #include <math.h>

@@ -1,4 +1,6 @@
 /* scalar_edges.c: the edges of scalar domains: of which part, in which tree, by which name */
+#include "formulate/network.h"
+#include "formulate/origin.h"
 #include "formulate/system_impl.h"
 
 const Instance *branch_owner(const System *system, const Branchlike *branch)

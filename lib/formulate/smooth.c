@@ -3,6 +3,12 @@
  * What switches at an instant is found, and the expression looked at just before and behind it:
  * ramp(t)^2 has step(t) in its derivative, and bends there all the same. Switches by other
  * variables are taken for bends, as in the derivative rules. */
+#include "formulate/smooth.h"
+#include "formulate/constraints.h"
+#include "formulate/kinematics.h"
+#include "formulate/network.h"
+#include "formulate/origin.h"
+#include "formulate/surfaces.h"
 #include "formulate/system_impl.h"
 
 #include <math.h>

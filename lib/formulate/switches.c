@@ -2,6 +2,11 @@
  *
  * Where they jump is a surface: the zeros of a condition, whatever its scale and sign. On either
  * side of one the functions that jump there are constants; on it they take any value between. */
+#include "formulate/constraints.h"
+#include "formulate/kinematics.h"
+#include "formulate/network.h"
+#include "formulate/origin.h"
+#include "formulate/shown.h"
 #include "formulate/surfaces.h"
 #include "formulate/system_impl.h"
 

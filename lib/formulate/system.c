@@ -1,4 +1,10 @@
 /* system.c: what a System is told of: sizes, variables, entries; and its end */
+#include "formulate/constraints.h"
+#include "formulate/dynamics.h"
+#include "formulate/kinematics.h"
+#include "formulate/network.h"
+#include "formulate/origin.h"
+#include "formulate/shown.h"
 #include "formulate/system_impl.h"
 
 #include <stdarg.h>

@@ -1,5 +1,12 @@
 /* system_build.c: a System from a scene: copied parts, variables, and the order in which it is
  * built */
+#include "formulate/constraints.h"
+#include "formulate/dynamics.h"
+#include "formulate/ideal.h"
+#include "formulate/kinematics.h"
+#include "formulate/network.h"
+#include "formulate/origin.h"
+#include "formulate/shown.h"
 #include "formulate/system_impl.h"
 
 #include <string.h>

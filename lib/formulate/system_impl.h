@@ -1,14 +1,16 @@
-/* system_impl.h: a System and its parts, which the files of formulation share */
+/* system_impl.h: a System and its parts, each with a header of its own */
 #ifndef COTREE_FORMULATE_SYSTEM_IMPL_H
 #define COTREE_FORMULATE_SYSTEM_IMPL_H
 
-#include "formulate/constraints.h"
-#include "formulate/dynamics.h"
-#include "formulate/kinematics.h"
-#include "formulate/network.h"
-#include "formulate/origin.h"
-#include "formulate/sample.h"
-#include "formulate/shown.h"
+#include "base/memory.h"
+#include "formulate/system.h"
+
+typedef struct Constraints Constraints;
+typedef struct Dynamics Dynamics;
+typedef struct Kinematics Kinematics;
+typedef struct Network Network;
+typedef struct Origin Origin;
+typedef struct Shown Shown;
 
 struct System {
     Arena *arena;
@@ -47,21 +49,5 @@ static inline void system_touch(System *system)
 
 /* text in the pool */
 const char *system_keep(System *system, const char *format, ...) PRINTF(2, 3);
-
-/* value of a coordinate and its first and second derivatives, branch or chord */
-MUST_USE Status coordinate_value(System *system, const Instance *owner, int coordinate, int primes,
-                                 Expr *out, Diag *diag);
-/* derivative along the motion: q -> q', u -> u', x -> x', t -> 1 */
-MUST_USE Status system_rate_of(System *system, Expr e, Expr *out, Diag *diag);
-/* derivative of e(q) per unit of a speed */
-Expr speed_partial(System *system, Expr e, int speed);
-/* E_MISSING while reactions, multipliers and entries of M can't be told yet */
-MUST_USE Status system_wait_for_motion(System *system, Diag *diag);
-/* e over user's variables to e over the system's */
-MUST_USE Status variables_resolve(System *system, Expr user, Expr *out, Diag *diag);
-
-/* --- the cheaper reading (reading.c) --- */
-
-MUST_USE Status reading_choose(System *system, Diag *diag);
 
 #endif

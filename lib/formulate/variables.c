@@ -2,7 +2,18 @@
  *
  * A name is a coordinate, an entry (lambda(1), mass(2,2)), an output, or member of a part:
  * the tables below say which members a family has and who tells them. */
+#include "formulate/constraints.h"
+#include "formulate/coordinate.h"
+#include "formulate/efforts.h"
+#include "formulate/embedded.h"
+#include "formulate/kinematics.h"
+#include "formulate/network.h"
+#include "formulate/origin.h"
+#include "formulate/reactions.h"
+#include "formulate/resolve.h"
+#include "formulate/shown.h"
 #include "formulate/system_impl.h"
+#include "formulate/vector.h"
 
 #include <limits.h>
 #include <stdlib.h>

@@ -1,5 +1,5 @@
 /* vector.c: three expressions as a vector, nine as a rotation */
-#include "formulate/system_impl.h"
+#include "formulate/vector.h"
 
 Vec vec_zero(Arena *arena)
 {

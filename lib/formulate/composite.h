@@ -1,0 +1,20 @@
+/* composite.h: what hangs beyond a node, taken together as one rigid body */
+#ifndef COTREE_FORMULATE_COMPOSITE_H
+#define COTREE_FORMULATE_COMPOSITE_H
+
+#include "formulate/loads.h"
+
+typedef struct Composite { /* about the node's origin, in its axes */
+    Expr mass;
+    Vec moment;
+    Rotation inertia;
+} Composite;
+
+/* of every node, in the system's pool */
+Composite *composites_new(System *system);
+/* one unit of the speed moves everything beyond its branch as one rigid body */
+bool speed_moves_as_one(const System *system, int speed);
+/* what its branch feels of the composite beyond, per unit of u'; all else at rest */
+void composite_loads(System *system, const Composite *composite, int speed, Loads *loads);
+
+#endif
