@@ -29,9 +29,9 @@ RowValues mode_search_row(const ModeSearch *s, const double *w)
                        .multipliers = s->at->multipliers};
 }
 
-static bool is_in_force(const ModeSearch *s, int ideal, When when)
+static bool is_in_force(const ModeSearch *s, const ResidualRow *row)
 {
-    return when == ALWAYS || s->closed[ideal] == (when == CLOSED);
+    return row->when == ALWAYS || s->closed[row->ideal] == (row->when == CLOSED);
 }
 
 static void take_step(ModeSearch *s, const double *w)
@@ -40,22 +40,27 @@ static void take_step(ModeSearch *s, const double *w)
         s->x[i] = s->from[i] + s->step * w[i];
 }
 
-/* rows and entries from what the probe has found; `averaged` or all, and these then by so much */
+/* Rows and entries from what the probe has found; `averaged` or all, and these then by so much. By
+ * state is times h: x = x0 + h x'. */
 static void bring_rows(ModeSearch *s, const double *values, bool averaged, double weight,
                        double along)
 {
+    int count;
+    const Slope *slopes = residual_slopes(probe_residual(s->equations), &count);
+
     for (int k = 0; k < s->rows.count; k++) {
         const ResidualRow *row = &s->rows.at[k];
 
-        if (row->averaged >= averaged && is_in_force(s, row->ideal, row->when))
-            s->residual[row->row] += weight * values[row->root];
+        if (row->averaged >= averaged && is_in_force(s, row))
+            s->residual[row->row] += weight * values[k];
     }
-    for (int k = 0; k < s->terms.count; k++) {
-        const ResidualTerm *term = &s->terms.at[k];
+    for (int k = 0; k < count; k++) {
+        const ResidualRow *row = &s->rows.at[slopes[k].row];
 
-        if (term->averaged >= averaged && is_in_force(s, term->ideal, term->when))
-            s->network[term->place] +=
-                weight * (term->by_state ? along * s->step : 1) * values[term->root];
+        if (row->averaged >= averaged && is_in_force(s, row))
+            s->network[s->place[k]] += weight *
+                                       (slopes[k].unknown < s->l->nx ? along * s->step : 1) *
+                                       values[s->rows.count + k];
     }
 }
 
@@ -84,12 +89,15 @@ static void bring_means(ModeSearch *s, const double *w)
 
 static void clear_means(ModeSearch *s)
 {
+    int count;
+    const Slope *slopes = residual_slopes(probe_residual(s->equations), &count);
+
     for (int k = 0; k < s->rows.count; k++)
         if (s->rows.at[k].averaged)
             s->residual[s->rows.at[k].row] = 0;
-    for (int k = 0; k < s->terms.count; k++)
-        if (s->terms.at[k].averaged)
-            s->network[s->terms.at[k].place] = 0;
+    for (int k = 0; k < count; k++)
+        if (s->rows.at[slopes[k].row].averaged)
+            s->network[s->place[k]] = 0;
 }
 
 static void network_at(void *context, const double *w)
@@ -99,7 +107,7 @@ static void network_at(void *context, const double *w)
 
     take_step(s, w);
     row = mode_search_row(s, w);
-    memset(s->network, 0, (size_t)s->pattern_row.count * sizeof(double));
+    memset(s->network, 0, (size_t)s->pattern.count * sizeof(double));
     memset(s->residual, 0, (size_t)s->n * sizeof(double));
     bring_rows(s, probe_values(s->equations, &row), false, 1, 1);
     if (s->averages) {
@@ -118,72 +126,16 @@ static void bring_linear(ModeSearch *s)
 
 /* --- making --- */
 
-typedef struct Roots {
-    LIST(Expr) at;
-    int *column; /* by expr_symbol_number(): 1 + place in [x'; z], of x, x' and z; 0: none */
-    int symbols;
-} Roots;
+typedef LIST(Expr) Roots;
 
-static void number_columns(const ModeSearch *s, Roots *roots)
+/* one row, or one side of it */
+static void add_row(ModeSearch *s, Roots *roots, int row, Expr residual, int ideal, When when)
 {
-    const Layout *l = s->l;
-    const int parts[][3] = {{l->x, l->nx, 0}, {l->rates, l->nx, 0}, {l->z, l->nz, l->nx}};
-
-    for (int i = 0; i < l->count; i++)
-        if (expr_symbol_number(l->symbols[i]) >= roots->symbols)
-            roots->symbols = expr_symbol_number(l->symbols[i]) + 1;
-    roots->column = NEW_ARRAY(int, roots->symbols);
-    for (int p = 0; p < COUNT(parts); p++)
-        for (int i = 0; i < parts[p][1]; i++)
-            roots->column[expr_symbol_number(l->symbols[parts[p][0] + i])] = 1 + parts[p][2] + i;
-}
-
-static int find_place(ModeSearch *s, int row, int column, int first)
-{
-    for (int k = first; k < s->pattern_row.count; k++)
-        if (s->pattern_row.at[k] == row && s->pattern_column.at[k] == column)
-            return k;
-    LIST_PUSH(s->pattern_row, row);
-    LIST_PUSH(s->pattern_column, column);
-    return s->pattern_row.count - 1;
-}
-
-/* One row, or one side of it. Entries of a row stand together from `first` on. */
-static void add_row(ModeSearch *s, Roots *roots, int row, Expr residual, int ideal, When when,
-                    int first)
-{
-    const unsigned unknowns = 1U << SYMBOL_STATE | 1U << SYMBOL_STATE_RATE | 1U << SYMBOL_ALGEBRAIC;
-    Expr *symbols;
-    int count = expr_symbols(&residual, 1, &symbols);
     const bool averaged = (expr_kinds(residual) & 1U << SYMBOL_STATE_RATE) != 0;
 
-    LIST_PUSH(s->rows, (ResidualRow){.root = roots->at.count,
-                                     .row = row,
-                                     .ideal = ideal,
-                                     .when = when,
-                                     .averaged = averaged});
-    LIST_PUSH(roots->at, residual);
-    for (int i = 0; i < count; i++) {
-        int number = expr_symbol_number(symbols[i]);
-        int column = number < roots->symbols ? roots->column[number] - 1 : -1;
-        Expr slope;
-
-        if (column < 0)
-            continue;
-        slope = expr_diff(system_arena(s->l->system), residual, symbols[i]);
-        if (expr_is_zero(slope))
-            continue;
-        s->is_linear = s->is_linear && (expr_kinds(slope) & unknowns) == 0;
-        LIST_PUSH(s->terms,
-                  (ResidualTerm){.place = find_place(s, row, column, first),
-                                 .root = roots->at.count,
-                                 .ideal = ideal,
-                                 .when = when,
-                                 .averaged = averaged,
-                                 .by_state = expr_symbol_kind(symbols[i]) == SYMBOL_STATE});
-        LIST_PUSH(roots->at, slope);
-    }
-    mem_free(symbols);
+    LIST_PUSH(s->rows,
+              (ResidualRow){.row = row, .ideal = ideal, .when = when, .averaged = averaged});
+    LIST_PUSH(*roots, residual);
 }
 
 /* closed: v - least = on i; open: i = v/off, or 0; and a leak beside each */
@@ -197,10 +149,9 @@ static void add_sides(ModeSearch *s, Roots *roots, int k, const IdealSwitch *ide
     Expr open = ideal->off != NULL
                     ? expr_sub(arena, v, expr_mul(arena, ideal->off, ideal->through))
                     : expr_sub(arena, ideal->through, expr_mul(arena, s->open_leak, ideal->across));
-    int first = s->pattern_row.count;
 
-    add_row(s, roots, ideal->row, closed, k, CLOSED, first);
-    add_row(s, roots, ideal->row, open, k, OPEN, first);
+    add_row(s, roots, ideal->row, closed, k, CLOSED);
+    add_row(s, roots, ideal->row, open, k, OPEN);
 }
 
 static Status refuse_form(const ModeSearch *s, const char *name, Diag *diag)
@@ -211,6 +162,40 @@ static Status refuse_form(const ModeSearch *s, const char *name, Diag *diag)
                           "Roff="
                         : "this network has no state form: give it Ron= and Roff=");
     return E_MODEL;
+}
+
+/* both sides of a switch share their places, and x and x' theirs */
+static Status compile_rows(ModeSearch *s, Parameters *parameters, const Roots *roots, Diag *diag)
+{
+    const unsigned solved = 1U << SYMBOL_STATE | 1U << SYMBOL_STATE_RATE | 1U << SYMBOL_ALGEBRAIC;
+    Expr *unknowns = layout_network(s->l);
+    const ProbeOrder order = {.roots = roots->at,
+                              .root_count = roots->count,
+                              .row_count = roots->count,
+                              .unknowns = unknowns,
+                              .unknown_count = 2 * s->l->nx + s->l->nz};
+    int *row = NULL, *column = NULL, count;
+    const Slope *slopes;
+    Status status = OK;
+
+    CHECK(probe_make(s->l, parameters, &order, &s->equations, diag));
+    slopes = residual_slopes(probe_residual(s->equations), &count);
+    row = NEW_ARRAY(int, count);
+    column = NEW_ARRAY(int, count);
+    for (int k = 0; k < count; k++) {
+        const int by = slopes[k].unknown;
+
+        row[k] = s->rows.at[slopes[k].row].row;
+        column[k] = by < s->l->nx ? by : by - s->l->nx;
+        s->is_linear = s->is_linear && (slopes[k].kinds & solved) == 0;
+    }
+    s->place = NEW_ARRAY(int, count);
+    s->pattern = pattern_of(s->n, s->n, count, row, column, s->place);
+done:
+    mem_free(unknowns);
+    mem_free(row);
+    mem_free(column);
+    return status;
 }
 
 static Status compile(ModeSearch *s, Parameters *parameters, Diag *diag)
@@ -225,7 +210,6 @@ static Status compile(ModeSearch *s, Parameters *parameters, Diag *diag)
         system_network_form(s->l->system) == NETWORK_TREE && !system_tree_is_normal(s->l->system);
     Status status = OK;
 
-    number_columns(s, &roots);
     for (int k = 0; k < s->count; k++) {
         IdealSwitch ideal;
 
@@ -247,7 +231,7 @@ static Status compile(ModeSearch *s, Parameters *parameters, Diag *diag)
     }
     for (int i = 0; i < s->n; i++)
         if (!taken[i])
-            add_row(s, &roots, i, run->network_residual[i], 0, ALWAYS, s->pattern_row.count);
+            add_row(s, &roots, i, run->network_residual[i], 0, ALWAYS);
     for (int i = 0; i < s->edges; i++) {
         CHECK(system_scalar(s->l->system, i, &edge, diag));
         s->domain[s->count + i] = edge.domain;
@@ -257,12 +241,11 @@ static Status compile(ModeSearch *s, Parameters *parameters, Diag *diag)
         LIST_PUSH(looks, edge.across);
         LIST_PUSH(looks, edge.through);
     }
-    CHECK(probe_new(s->l, parameters, roots.at.at, roots.at.count, &s->equations, diag));
+    CHECK(compile_rows(s, parameters, &roots, diag));
     CHECK(probe_new(s->l, parameters, looks.at, looks.count, &s->looks, diag));
 done:
-    LIST_FREE(roots.at);
+    LIST_FREE(roots);
     LIST_FREE(looks);
-    mem_free(roots.column);
     mem_free(taken);
     return status;
 }
@@ -290,7 +273,7 @@ Status mode_search_new(System *system, Parameters *parameters, ModeSearch **out,
     parameters_set(parameters, s->closed_leak, CLOSED_LEAK);
     parameters_set(parameters, s->open_leak, OPEN_LEAK);
     CHECK(compile(s, parameters, diag));
-    s->network = NEW_ARRAY(double, s->pattern_row.count);
+    s->network = NEW_ARRAY(double, s->pattern.count);
     s->residual = NEW_ARRAY(double, s->n);
     s->rhs = NEW_ARRAY(double, s->n);
     s->zeros = NEW_ARRAY(double, s->n);
@@ -298,9 +281,9 @@ Status mode_search_new(System *system, Parameters *parameters, ModeSearch **out,
                         .nz = s->l->nz,
                         .context = s,
                         .network_at = s->is_linear ? NULL : network_at,
-                        .network_entries = s->pattern_row.count,
-                        .network_row = s->pattern_row.at,
-                        .network_column = s->pattern_column.at,
+                        .network_entries = s->pattern.count,
+                        .network_row = s->pattern.row,
+                        .network_column = s->pattern.column,
                         .network = s->network,
                         .network_rhs = s->rhs,
                         .network_residual = s->residual};
@@ -320,9 +303,8 @@ void mode_search_free(ModeSearch *s)
     probe_free(s->equations);
     probe_free(s->looks);
     LIST_FREE(s->rows);
-    LIST_FREE(s->terms);
-    LIST_FREE(s->pattern_row);
-    LIST_FREE(s->pattern_column);
+    pattern_free(&s->pattern);
+    mem_free(s->place);
     mem_free(s->network);
     mem_free(s->residual);
     mem_free(s->rhs);

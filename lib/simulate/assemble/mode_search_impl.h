@@ -4,6 +4,7 @@
 
 #include "simulate/assemble/mode_search.h"
 
+#include "algebra/pattern.h"
 #include "base/memory.h"
 #include "simulate/equations/netsolve.h"
 
@@ -12,20 +13,9 @@
 
 typedef enum When { ALWAYS, OPEN, CLOSED } When;
 
-/* an entry of the matrix: root of the probe, in force on one side of an ideal switch */
-typedef struct ResidualTerm {
-    int place; /* in the pattern */
-    int root;
-    int ideal;
-    When when;
-    bool by_state; /* times h: x = x0 + h x' */
-    bool averaged; /* its row is */
-} ResidualTerm;
-
-/* an equation, or one side of it */
+/* an equation, or one side of it: row of the probe */
 typedef struct ResidualRow {
-    int root;
-    int row;
+    int row; /* of the network */
     int ideal;
     When when;
     bool averaged; /* it holds rates: what is stored changes by them along the whole step */
@@ -37,14 +27,13 @@ struct ModeSearch {
     Layout *l;    /* of the system in which sides are open or numbers */
     int n, count; /* unknowns [x'; z]; switches */
     LIST(ResidualRow) rows;
-    LIST(ResidualTerm) terms;
-    LIST(int) pattern_row;
-    LIST(int) pattern_column;
+    Pattern pattern;
+    int *place;   /* in it, of a slope */
     Equations eq; /* for the solver */
     double *network, *residual, *rhs, *zeros;
     bool is_linear;
     NetSolve *solve;
-    Probe *equations; /* roots of rows and terms */
+    Probe *equations; /* rows by x, x', z */
     Probe *looks;     /* LOOKS at each; then through and across of all edges */
     bool *has_when;
     int edges;
