@@ -3,6 +3,8 @@
 
 #include "base/memory.h"
 
+#include <string.h>
+
 static int append(Layout *layout, int *room, Expr symbol)
 {
     if (layout->count == *room) {
@@ -141,6 +143,15 @@ Layout *layout_new_on(System *system, const OnSurface *on, int count)
     for (int i = 0; i < l->nu; i++)
         (void)append(l, &room, jerk_symbol(system, i));
     return l;
+}
+
+Expr *layout_network(const Layout *l)
+{
+    Expr *out = NEW_ARRAY(Expr, 2 * l->nx + l->nz);
+
+    memcpy(out, l->symbols + l->x, (size_t)l->nx * sizeof(Expr));
+    memcpy(out + l->nx, l->symbols + l->rates, (size_t)(l->nx + l->nz) * sizeof(Expr));
+    return out;
 }
 
 int layout_side_of(const Layout *layout, Expr symbol)

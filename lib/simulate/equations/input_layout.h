@@ -35,6 +35,8 @@ typedef struct OnSurface {
     int surface, side;
 } OnSurface;
 Layout *layout_new_on(System *system, const OnSurface *on, int count);
+/* x, x', z: 2 nx + nz symbols; new */
+Expr *layout_network(const Layout *layout);
 /* e on the sides of the layout's surfaces */
 Expr layout_on_surfaces(const Layout *layout, Expr e);
 /* A symbol that is a side of a switch in this layout: its number; -1: it is none */

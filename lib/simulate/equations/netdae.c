@@ -2,6 +2,7 @@
 #include "simulate/equations/netdae.h"
 
 #include "algebra/linear.h"
+#include "algebra/pattern.h"
 #include "base/memory.h"
 #include "simulate/equations/mode_forms.h"
 
@@ -12,145 +13,67 @@ struct NetDae {
     Parameters *parameters;
     Motion *motion;
     Dae dae;
-    Slopes slopes;
-    Probe *probe; /* G, power, slopes */
+    Probe *probe; /* G by x, x', z; power */
     bool is_compiled, is_linear;
-    /* pattern of the Jacobian, and which place of it a slope is added to */
-    int entries;
-    int *row, *column, *place;
+    Pattern pattern; /* of the Jacobian by w */
+    int *place;      /* in it, of a slope, and behind them of work' */
     double *weight;
     bool *has_rate;
     ModeForms *forms; /* where the equations are linear; NULL: not asked for yet */
 };
 
-/* --- derivatives --- */
+/* --- compiling --- */
 
 typedef LIST(Expr) Values;
 
-static void add_slopes_by_states(const Layout *l, int row, const int *state_of, Slopes *out)
-{
-    Expr residual = system_run(l->system)->network_residual[row];
-    Expr *symbols;
-    int count = expr_symbols(&residual, 1, &symbols);
-
-    out->row = mem_grow(out->row, (size_t)out->count + (size_t)count, sizeof(int));
-    out->column = mem_grow(out->column, (size_t)out->count + (size_t)count, sizeof(int));
-    out->value = mem_grow(out->value, (size_t)out->count + (size_t)count, sizeof(Expr));
-    for (int i = 0; i < count; i++) {
-        Expr slope;
-
-        if (expr_symbol_kind(symbols[i]) != SYMBOL_STATE)
-            continue;
-        slope = expr_diff(system_arena(l->system), residual, symbols[i]);
-        if (expr_is_zero(slope))
-            continue;
-        out->row[out->count] = row;
-        out->column[out->count] = state_of[expr_symbol_number(symbols[i])];
-        out->value[out->count++] = slope;
-    }
-    mem_free(symbols);
-}
-
-Slopes slopes_of(const Layout *l)
-{
-    const Reading *run = system_run(l->system);
-    Slopes out = {.count = run->network_entries, .rates = run->network_entries};
-    int *state_of;
-    int most = 0;
-
-    out.row = NEW_ARRAY(int, out.count + 1);
-    out.column = NEW_ARRAY(int, out.count + 1);
-    out.value = NEW_ARRAY(Expr, out.count + 1);
-    for (int k = 0; k < out.count; k++) {
-        out.row[k] = run->network[k].row;
-        out.column[k] = run->network[k].column;
-        out.value[k] = run->network[k].value;
-    }
-    for (int i = 0; i < l->nx; i++)
-        if (expr_symbol_number(l->symbols[l->x + i]) > most)
-            most = expr_symbol_number(l->symbols[l->x + i]);
-    state_of = NEW_ARRAY(int, most + 1);
-    for (int i = 0; i < l->nx; i++)
-        state_of[expr_symbol_number(l->symbols[l->x + i])] = i;
-    for (int i = 0; i < l->nx + l->nz; i++)
-        add_slopes_by_states(l, i, state_of, &out);
-    mem_free(state_of);
-    return out;
-}
-
-void slopes_free(Slopes *slopes)
-{
-    mem_free(slopes->row);
-    mem_free(slopes->column);
-    mem_free(slopes->value);
-    *slopes = (Slopes){0};
-}
-
-/* --- pattern --- */
-
-/* work stands between x and z */
+/* of [x; z] in w: work stands between them */
 static int shifted(const Layout *l, int place)
 {
     return place < l->nx ? place : place + 1;
 }
 
-/* slopes by x' and by x may share a place: the first one in a row makes it */
+/* slopes by x' and by x share a place */
 static void find_pattern(NetDae *d)
 {
-    const Slopes *s = &d->slopes;
-    int n = d->dae.n;
-    int *start = NEW_ARRAY(int, n + 1);
-    int *order = NEW_ARRAY(int, s->count);
-    int *entry = NEW_ARRAY(int, n); /* of a column in the row at hand, plus 1 */
+    const Layout *l = d->l;
+    int count;
+    const Slope *slopes = residual_slopes(probe_residual(d->probe), &count);
+    int *row = NEW_ARRAY(int, count + 1), *column = NEW_ARRAY(int, count + 1);
 
-    d->row = NEW_ARRAY(int, s->count + 1);
-    d->column = NEW_ARRAY(int, s->count + 1);
-    d->place = NEW_ARRAY(int, s->count);
-    for (int k = 0; k < s->count; k++)
-        start[shifted(d->l, s->row[k]) + 1]++;
-    for (int i = 0; i < n; i++)
-        start[i + 1] += start[i];
-    for (int k = 0; k < s->count; k++)
-        order[start[shifted(d->l, s->row[k])]++] = k;
-    for (int i = 0; i < s->count; i++) {
-        int k = order[i];
-        int row = shifted(d->l, s->row[k]), column = shifted(d->l, s->column[k]);
+    d->is_linear = true;
+    for (int k = 0; k < count; k++) {
+        const int by = slopes[k].unknown;
 
-        if (entry[column] == 0 || d->row[entry[column] - 1] != row) {
-            d->row[d->entries] = row;
-            d->column[d->entries] = column;
-            entry[column] = ++d->entries;
-        }
-        d->place[k] = entry[column] - 1;
+        row[k] = shifted(l, slopes[k].row);
+        column[k] = shifted(l, by < l->nx ? by : by - l->nx);
+        d->is_linear = d->is_linear && (slopes[k].kinds & ~(1U << SYMBOL_PARAMETER)) == 0;
     }
     /* work' alone: what it follows from needn't be told to a solver */
-    d->row[d->entries] = d->column[d->entries] = d->l->nx;
-    d->entries++;
-    mem_free(start);
-    mem_free(order);
-    mem_free(entry);
+    row[count] = column[count] = l->nx;
+    d->place = NEW_ARRAY(int, count + 1);
+    d->pattern = pattern_of(d->dae.n, d->dae.n, count + 1, row, column, d->place);
+    mem_free(row);
+    mem_free(column);
 }
 
 static bool compile(NetDae *d)
 {
     const Layout *l = d->l;
-    const Reading *run = system_run(l->system);
     Values roots = {0};
-    Status status;
+    Expr *unknowns = layout_network(l);
+    ProbeOrder order = {
+        .row_count = l->nx + l->nz, .unknowns = unknowns, .unknown_count = 2 * l->nx + l->nz};
 
-    d->slopes = slopes_of(l);
     for (int i = 0; i < l->nx + l->nz; i++)
-        LIST_PUSH(roots, run->network_residual[i]);
+        LIST_PUSH(roots, system_run(l->system)->network_residual[i]);
     LIST_PUSH(roots, system_power(l->system));
-    for (int k = 0; k < d->slopes.count; k++)
-        LIST_PUSH(roots, d->slopes.value[k]);
-    d->is_linear = true;
-    for (int k = 0; k < d->slopes.count; k++)
-        d->is_linear = d->is_linear && stage_of(d->slopes.value[k]) == STAGE_PARAMETER;
-    status = probe_new(l, d->parameters, roots.at, roots.count, &d->probe, NULL);
+    order.roots = roots.at;
+    order.root_count = roots.count;
+    d->is_compiled = probe_make(l, d->parameters, &order, &d->probe, NULL) == OK;
+    if (d->is_compiled)
+        find_pattern(d);
     LIST_FREE(roots);
-    find_pattern(d);
-    d->is_compiled = status == OK;
+    mem_free(unknowns);
     return d->is_compiled;
 }
 
@@ -180,17 +103,19 @@ static bool jacobian(void *context, double t, double c, const double *w, const d
                      double *out)
 {
     NetDae *d = context;
-    const Slopes *s = &d->slopes;
-    const double *values = values_at(d, t, w, w_rate) + d->l->nx + d->l->nz + 1;
+    const Layout *l = d->l;
+    int count;
+    const Slope *slopes = residual_slopes(probe_residual(d->probe), &count);
+    const double *values = values_at(d, t, w, w_rate) + l->nx + l->nz + 1;
 
-    memset(out, 0, (size_t)d->entries * sizeof(double));
-    for (int k = 0; k < s->count; k++) {
-        bool by_rate = k < s->rates && s->column[k] < d->l->nx;
+    memset(out, 0, (size_t)d->pattern.count * sizeof(double));
+    for (int k = 0; k < count; k++) {
+        const bool by_rate = slopes[k].unknown >= l->nx && slopes[k].unknown < 2 * l->nx;
 
         out[d->place[k]] += by_rate ? c * values[k] : values[k];
     }
-    out[d->entries - 1] = c;
-    return vector_is_finite(out, d->entries);
+    out[d->place[count]] = c;
+    return vector_is_finite(out, d->pattern.count);
 }
 
 static bool start(void *context, double t, const double *y, double *w, double *w_rate)
@@ -221,9 +146,9 @@ static int pattern(void *context, const int **row, const int **column)
 {
     const NetDae *d = context;
 
-    *row = d->row;
-    *column = d->column;
-    return d->entries;
+    *row = d->pattern.row;
+    *column = d->pattern.column;
+    return d->pattern.count;
 }
 
 static const HessenbergForm *known(void *context)
@@ -277,10 +202,8 @@ void netdae_free(NetDae *d)
     if (d == NULL)
         return;
     mode_forms_free(d->forms);
-    slopes_free(&d->slopes);
     probe_free(d->probe);
-    mem_free(d->row);
-    mem_free(d->column);
+    pattern_free(&d->pattern);
     mem_free(d->place);
     mem_free(d->weight);
     mem_free(d->has_rate);

@@ -15,15 +15,4 @@ NetDae *netdae_new(const Layout *layout, Parameters *parameters, Motion *motion)
 void netdae_free(NetDae *dae); /* NULL is fine */
 const Dae *netdae_equations(const NetDae *dae);
 
-/* G by x, x' and z: the entries of a row that aren't 0 */
-typedef struct Slopes {
-    int count; /* the first `rates` are by x' and z, as in the system's A; the others by x */
-    int rates;
-    int *row, *column; /* column in [x'; z], or in x */
-    Expr *value;
-} Slopes;
-/* new arrays, for slopes_free(). O(symbols in G) */
-Slopes slopes_of(const Layout *layout);
-void slopes_free(Slopes *slopes);
-
 #endif

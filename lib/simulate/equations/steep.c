@@ -53,7 +53,7 @@ struct Steep {
     Layout inputs; /* the layout, and the inputs of elements and sources */
     Probe *probe;  /* G, F, gamma, arguments, A; NULL: not made yet */
     bool has_failed;
-    int force, gamma, argument, matrix; /* places of the roots */
+    int force, gamma, argument, matrix, root_count; /* places of the roots, and how many */
     Sparse *network;
     double *here;                   /* roots at the point */
     double *w, *moved, *answer, *y; /* w there; w moved, change of w, y moved */
@@ -482,39 +482,48 @@ static void put_inputs(const Steep *s, Roots *roots)
     LIST_FREE(arguments);
 }
 
+/* the network's rows by x' and z */
+static Sparse *open_network(const Probe *probe, int n)
+{
+    int count;
+    const Slope *slopes = residual_slopes(probe_residual(probe), &count);
+    int *row = NEW_ARRAY(int, count), *column = NEW_ARRAY(int, count);
+    Sparse *network;
+
+    for (int k = 0; k < count; k++) {
+        row[k] = slopes[k].row;
+        column[k] = slopes[k].unknown;
+    }
+    network = sparse_new(n, count, row, column);
+    mem_free(row);
+    mem_free(column);
+    return network;
+}
+
 static void compile(Steep *s)
 {
     const Layout *l = s->l;
-    const Reading *r = system_run(l->system);
-    int n = l->nx + l->nz, entries = r->network_entries;
+    const int n = l->nx + l->nz;
     Roots roots = equations_of(l);
-    int *row = NEW_ARRAY(int, entries), *column = NEW_ARRAY(int, entries);
+    ProbeOrder order = {.row_count = n, .unknowns = l->symbols + l->rates, .unknown_count = n};
 
     make_inputs(s);
     s->force = n;
     s->gamma = n + l->nu;
     s->argument = roots.count;
     put_inputs(s, &roots);
-    s->matrix = roots.count;
-    for (int i = 0; i < entries; i++) {
-        row[i] = r->network[i].row;
-        column[i] = r->network[i].column;
-        LIST_PUSH(
-            roots,
-            expr_diff(
-                system_arena(l->system), roots.at[row[i]],
-                l->symbols[column[i] < l->nx ? l->rates + column[i] : l->z + column[i] - l->nx]));
+    s->matrix = order.root_count = roots.count;
+    order.roots = roots.at;
+    s->has_failed = probe_make(&s->inputs, s->parameters, &order, &s->probe, NULL) != OK;
+    if (!s->has_failed) {
+        s->root_count = program_root_count(residual_program(probe_residual(s->probe)));
+        s->network = open_network(s->probe, n);
     }
-    s->network = sparse_new(n, entries, row, column);
-    s->here = NEW_ARRAY(double, roots.count);
+    s->here = NEW_ARRAY(double, s->root_count);
     s->w = NEW_ARRAY(double, n);
     s->moved = NEW_ARRAY(double, n);
     s->answer = NEW_ARRAY(double, n + l->nu);
     s->y = NEW_ARRAY(double, motion_length(s->motion));
-    s->has_failed =
-        probe_new(&s->inputs, s->parameters, roots.at, roots.count, &s->probe, NULL) != OK;
-    mem_free(row);
-    mem_free(column);
     LIST_FREE(roots);
 }
 
@@ -609,8 +618,6 @@ static void value_of(const Element *element, double a, double *n, double *slope)
 /* From now on about (t, y): roots in `here`, the network factored. */
 static bool settle(Steep *s, const double *y, const double *leaks, const double *a)
 {
-    const double *roots;
-
     for (int k = 0; k < s->elements.count; k++) {
         double n, slope;
 
@@ -618,9 +625,7 @@ static bool settle(Steep *s, const double *y, const double *leaks, const double 
         set_element(s, k, n, isnan(leaks[k]) ? slope : leaks[k], a[k]);
     }
     memcpy(s->y, y, (size_t)motion_length(s->motion) * sizeof(double));
-    roots = roots_at(s, y, s->w);
-    memcpy(s->here, roots,
-           (size_t)(s->matrix + system_run(s->l->system)->network_entries) * sizeof(double));
+    memcpy(s->here, roots_at(s, y, s->w), (size_t)s->root_count * sizeof(double));
     return s->l->nx + s->l->nz == 0 || sparse_factor(s->network, s->here + s->matrix);
 }
 
