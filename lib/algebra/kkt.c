@@ -304,9 +304,10 @@ bool kkt_factor(Kkt *kkt, const double *mass, const double *phi_u, const int *ro
     return lu_factor_watched(kkt->lu, kkt->watch);
 }
 
-bool kkt_is_near_singular(const Kkt *kkt)
+double kkt_independence(Kkt *kkt, const double *phi_u, const int *rows)
 {
-    return kkt->pivot < NEAR;
+    measure_columns(kkt, phi_u, rows);
+    return sqrt(least_pivot(kkt, phi_u, rows));
 }
 
 double kkt_blur(const Kkt *kkt)

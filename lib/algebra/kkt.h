@@ -26,12 +26,13 @@ void kkt_free(Kkt *kkt); /* NULL is fine */
  * False when no solution can be had at all: M singular where nothing holds it, or NaN; or it was
  * stopped. O((nu+m)^3). */
 bool kkt_factor(Kkt *kkt, const double *mass, const double *phi_u, const int *rows);
-/* of the last kkt_factor(): whether a singular configuration isn't far, and whether it is so near
- * that epsilon is there */
-bool kkt_is_near_singular(const Kkt *kkt);
+/* of the last kkt_factor(): whether a singular configuration is so near that epsilon is there */
 bool kkt_is_regularised(const Kkt *kkt);
 /* relative size of what rounding may leave of speeds and accelerations there; 0: as elsewhere */
 double kkt_blur(const Kkt *kkt);
+/* How independent the rows are, without a factorisation: the root of the least of those pivots, 1
+ * at most. It falls to 0 as the distance to a singular configuration does. O(m^2 nu). */
+double kkt_independence(Kkt *kkt, const double *phi_u, const int *rows);
 /* M du + G^T lambda = top, G du = bottom. `top` may be NULL for 0; du may be `top`. O((nu+m)^2). */
 void kkt_solve(Kkt *kkt, const double *top, const double *bottom, double *du, double *lambda);
 

@@ -5,6 +5,7 @@
  * failed, N skipped", one claim a family. `make stress` calls it as
  *
  *     NAME --seed N --seconds S      members until time is over, each family its share
+ *     NAME --seed N --members M      M members of each family
  *     NAME --seed N --member M       that one again, with its story
  *
  * and with --only WORD only the families whose names hold that word.
@@ -79,14 +80,14 @@ static double family_clock(void)
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-/* whether the family keeps its claim */
-static bool family_run(const Family *family, uint64_t seed, double seconds)
+/* whether the family keeps its claim: over so many members, or for so many seconds */
+static bool family_run(const Family *family, uint64_t seed, int members, double seconds)
 {
     static Member member;
     const double end = family_clock() + seconds;
     int count[3] = {0}, number = 0;
 
-    for (; seconds > 0 ? family_clock() < end : number < family->members; number++) {
+    for (; seconds > 0 ? family_clock() < end : number < members; number++) {
         const Verdict verdict = family_member(family, seed, number, &member);
 
         count[verdict]++;
@@ -114,7 +115,7 @@ __attribute__((unused)) static int family_main(const Family *families, int count
     unsigned long long seed = 1;
     const char *only = NULL;
     double seconds = 0;
-    int member = -1, failed = 0, meant = 0;
+    int member = -1, members = 0, failed = 0, meant = 0;
 
     setvbuf(stdout, NULL, _IOLBF, 0);
     for (int i = 1; i + 1 < argc; i += 2) {
@@ -122,6 +123,8 @@ __attribute__((unused)) static int family_main(const Family *families, int count
             seed = strtoull(argv[i + 1], NULL, 10);
         else if (strcmp(argv[i], "--seconds") == 0)
             seconds = strtod(argv[i + 1], NULL);
+        else if (strcmp(argv[i], "--members") == 0)
+            members = atoi(argv[i + 1]);
         else if (strcmp(argv[i], "--member") == 0)
             member = atoi(argv[i + 1]);
         else if (strcmp(argv[i], "--only") == 0)
@@ -141,7 +144,8 @@ __attribute__((unused)) static int family_main(const Family *families, int count
             verdict = family_member(&families[i], seed, member, &one);
             printf("%s: member %d %s\n%s\n", families[i].name, member, verdicts[verdict],
                    one.story);
-        } else if (!family_run(&families[i], seed, seconds / meant)) {
+        } else if (!family_run(&families[i], seed, members > 0 ? members : families[i].members,
+                               seconds / meant)) {
             printf("FAILED %s\n", families[i].name);
             failed++;
         }

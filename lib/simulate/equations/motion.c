@@ -12,10 +12,12 @@
 #include <string.h>
 
 #define PROJECTION_SWEEPS 8
+#define NEAR              0.1  /* independence of rows: a singular position isn't far */
 #define SLACK             0.03 /* rad: what a step may leave between an angle and its reference */
 
 static bool rate(void *context, double t, const double *y, double *out);
 static bool project(void *context, double t, double *y);
+static void begin(void *context, double t, const double *y, double h);
 static double blur(void *context);
 static bool dae_residual(void *context, double t, const double *w, const double *w_rate,
                          double *out);
@@ -40,6 +42,7 @@ static void describe_ode(Motion *mo)
                     .quadratures = 1,
                     .context = mo,
                     .rate = rate,
+                    .begin = mo->used > 0 ? begin : NULL,
                     .blur = mo->used > 0 ? blur : NULL,
                     .cap = eq->cap};
     if (mo->used > 0 || eq->quaternion_count > 0 || eq->multi_turn_count > 0 || eq->slide_count > 0)
@@ -95,6 +98,7 @@ Motion *motion_new(const Equations *eq, const MotionOptions *options)
     mo->lambda_all = NEW_ARRAY(double, eq->m);
     mo->row_size = NEW_ARRAY(double, eq->m);
     mo->counts.singular_time = NAN;
+    mo->began = mo->began_before = NAN;
     if (mo->used > 0)
         open_projection(mo);
     if (eq->slide_count > 0)
@@ -198,16 +202,35 @@ void motion_switches(Motion *mo, double t, const double *y, double *out)
 
 /* Off the manifold the constraints contradict each other a little, and near a singular position the
  * accelerations that obey them grow without bound: there they are those of the nearest state on it.
- */
+ * These are two fields that agree on the manifold alone; a step that took some stages from one and
+ * some from the other would be of no order. Hence it is decided where a step begins, by how
+ * independent the rows are there and, as they went on from the step before, will be at its end. */
+static void begin(void *context, double t, const double *y, double h)
+{
+    Motion *mo = context;
+    double ahead;
+
+    if (t != mo->began) {
+        mo->independence_before = mo->independence;
+        mo->began_before = mo->began;
+    }
+    motion_at_position(mo, motion_clock(mo, t), y);
+    mo->independence = ahead = kkt_independence(mo->kkt, mo->eq->phi_u, mo->rows);
+    mo->began = t;
+    if (mo->began_before < t)
+        ahead += h * (mo->independence - mo->independence_before) / (t - mo->began_before);
+    mo->is_projecting = fmin(mo->independence, ahead) < NEAR;
+}
+
 static bool solve_on_manifold(Motion *mo, double t, const double *y)
 {
-    if (!evaluate(mo, t, y) || !motion_solve_rates(mo))
-        return false;
-    if (mo->used == 0 || !mo->is_factored || !kkt_is_near_singular(mo->kkt))
-        return true;
-    memcpy(mo->nearest, y, (size_t)motion_length(mo) * sizeof(double));
-    return motion_project(mo, t, mo->nearest) && evaluate(mo, t, mo->nearest) &&
-           motion_solve_rates(mo);
+    if (mo->is_projecting) {
+        memcpy(mo->nearest, y, (size_t)motion_length(mo) * sizeof(double));
+        if (!motion_project(mo, t, mo->nearest))
+            return false;
+        y = mo->nearest;
+    }
+    return evaluate(mo, t, y) && motion_solve_rates(mo);
 }
 
 static bool rate(void *context, double t, const double *y, double *out)

@@ -17,6 +17,10 @@ struct Motion {
     bool is_repartitioned; /* since the last renewal */
     bool is_implicit;      /* multipliers of the rows in use are unknowns of a method */
     double blur;           /* largest since it was asked for */
+    /* A step's rates are those of the nearest state on the manifold. Independence of the rows in
+     * use where the step began, and where the one before it did; times NAN: there was none. */
+    bool is_projecting;
+    double independence, began, independence_before, began_before;
     Ode ode;
     double low, high; /* time window of evaluations */
     Kkt *kkt;

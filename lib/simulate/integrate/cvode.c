@@ -134,6 +134,7 @@ static Status step(Stepper *stepper, double end, Diag *diag)
     int code = sundials_bound(c, end);
 
     c->base.before = c->base.t;
+    stepper_begin(stepper, c->base.t, c->base.y, c->base.next);
     if (code == 0)
         code = CVode(c->memory, end, c->w, &reached, CV_ONE_STEP);
     sundials_count(c);

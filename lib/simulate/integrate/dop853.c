@@ -229,6 +229,7 @@ static void watch_stiffness(Dop853 *d, double h)
  * 11. */
 static bool try_step(Dop853 *d, double h)
 {
+    stepper_begin(&d->base, d->base.before, d->old, h);
     for (int stage = 1; stage < 12; stage++)
         if (!take_stage(d, stage, h, d->stage_point))
             return false;

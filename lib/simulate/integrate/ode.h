@@ -47,6 +47,9 @@ typedef struct Ode {
     void *context;
     /* y' at (t, y); false: undefined there, try a shorter step */
     bool (*rate)(void *context, double t, const double *y, double *rate);
+    /* A step of h from y at t is tried next (0: nobody knows how long a one): what rates mean off
+     * the manifold is decided for all of it. NULL: nothing is. */
+    void (*begin)(void *context, double t, const double *y, double h);
     /* move y back onto its manifold; false: can't. NULL: there is none */
     bool (*project)(void *context, double t, double *y);
     /* n: |y_i| counts up to here in a relative tolerance (an angle of many turns isn't known less
@@ -205,16 +208,19 @@ static inline bool stepper_slope(Stepper *stepper, double *rate)
     return stepper_rate(stepper, stepper->t, stepper->y, rate);
 }
 
-#define BENT 0.03 /* of the tolerance, where estimates are not to be believed */
+static inline void stepper_begin(const Stepper *s, double t, const double *y, double h)
+{
+    if (s->ode->begin != NULL)
+        s->ode->begin(s->ode->context, t, y, h);
+}
 
-/* What part of the tolerance an error may be, or how many times it, since rounding leaves no less.
- * Where the rates are blurred they bend sharply too, and estimates of errors see too little. Asked
- * once a step. */
+/* How many times the tolerance an error may be, since rounding leaves no less. Asked once a step.
+ */
 static inline double stepper_blur(const Stepper *s)
 {
     const double blur = s->ode->blur != NULL ? s->ode->blur(s->ode->context) : 0;
 
-    return blur > 0 ? fmax(BENT, blur / s->control.rtol) : 1;
+    return fmax(1, blur / s->control.rtol);
 }
 
 /* The row of that name, or NULL; row i, or NULL at the end. */

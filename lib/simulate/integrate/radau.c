@@ -329,6 +329,7 @@ static bool try_step(Radau *r, double *h, double end, int *failures)
     int used = 0;
     StepOutcome outcome = UNDEFINED;
 
+    stepper_begin(&r->base, r->base.before, r->old, tried);
     if ((r->fresh || find_jacobian(r)) && (r->factored == tried || factor(r, tried)))
         outcome = solve_stages(r, tried, &used);
     if (outcome != CONVERGED) {
@@ -452,6 +453,7 @@ static Status shorten(Stepper *stepper, double t, Diag *diag)
     memcpy(stages, r->z, 3 * bytes);
     memcpy(rate, r->rate, bytes);
     guess_shorter(r, h);
+    stepper_begin(&r->base, r->base.before, r->old, h);
     if (!(stepper_rate(&r->base, r->base.before, r->old, r->rate) &&
           (r->is_linear || find_jacobian(r)) && factor(r, h) &&
           solve_stages(r, h, &used) == CONVERGED && settle(r, t, h))) {

@@ -51,6 +51,7 @@ static bool advance(Rk4 *r, double h, double end)
     const Ode *ode = r->base.ode;
 
     memcpy(r->k[0], r->old_rate, (size_t)r->all * sizeof(double));
+    stepper_begin(&r->base, r->base.before, r->old, h);
     for (int s = 1; s < 4; s++) {
         for (int i = 0; i < r->all; i++)
             r->point[i] = r->old[i] + h * node[s] * r->k[s - 1][i];
