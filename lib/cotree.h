@@ -11,7 +11,8 @@
  *
  * Strings said to be new are the caller's, to be freed with ct_free(). Everything
  * else handed out is borrowed and valid until the next call with the same session.
- * A session belongs to one thread at a time. */
+ * A session belongs to one thread at a time. The first one switches off GSL's error handler, which
+ * is that of the whole process and would end it; a program that wants another sets it after. */
 #ifndef COTREE_H
 #define COTREE_H
 

@@ -25,6 +25,7 @@ include tests/session/session.mk
 include tests/terminal/terminal.mk
 include tests/oracle/spice.mk
 include tests/bench/bench.mk
+include tests/bench/algebra.mk
 include tests/bench/expr.mk
 include tests/bench/formulate.mk
 include tests/bench/graph.mk

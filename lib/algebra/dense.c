@@ -3,13 +3,31 @@
 
 #include "base/memory.h"
 
+#include <gsl/gsl_errno.h>
+#include <threads.h>
+
 #define HEAD(type) ((sizeof(type) + 15) & ~(size_t)15)
+
+static void switch_off(void)
+{
+    (void)gsl_set_error_handler_off();
+}
+
+void dense_quiet(void)
+{
+    static once_flag once = ONCE_FLAG_INIT;
+
+    call_once(&once, switch_off);
+}
 
 /* `count` numbers of that size behind the head of the object; where that is too much for a size_t
  * it is too much for memory, too */
 static void *behind(void **numbers, size_t head, size_t count, size_t size)
 {
-    char *piece = mem_array(count + (head + size - 1) / size, size);
+    char *piece;
+
+    dense_quiet();
+    piece = mem_array(count + (head + size - 1) / size, size);
 
     *numbers = piece + head;
     return piece;

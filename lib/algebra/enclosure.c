@@ -10,18 +10,12 @@
 #include "algebra/dense.h"
 #include "base/memory.h"
 
+#include <gsl/gsl_blas.h>
 #include <gsl/gsl_eigen.h>
-#include <gsl/gsl_errno.h>
+#include <gsl/gsl_linalg.h>
 #include <string.h>
 
 #define UNIT 0x1p-53
-
-/* products without a look for infinity: these are finite, or the bounds fail */
-static double complex times(double complex a, double complex b)
-{
-    return CMPLX(creal(a) * creal(b) - cimag(a) * cimag(b),
-                 creal(a) * cimag(b) + cimag(a) * creal(b));
-}
 
 /* --- in doubles --- */
 
@@ -33,7 +27,6 @@ static bool francis(const Wide *a, Enclosure *e)
     gsl_vector_complex_view value = gsl_vector_complex_view_array((double *)e->value, count);
     gsl_matrix_complex_view right = gsl_matrix_complex_view_array((double *)e->right, count, count);
     /* GSL's own room is held while nothing is asked of memory.h */
-    gsl_error_handler_t *handler = gsl_set_error_handler_off();
     gsl_eigen_nonsymmv_workspace *work = gsl_eigen_nonsymmv_alloc(count);
     bool sound = work != NULL;
 
@@ -41,64 +34,28 @@ static bool francis(const Wide *a, Enclosure *e)
         matrix->data[i] = a[i].high;
     sound = sound && gsl_eigen_nonsymmv(matrix, &value.vector, &right.matrix, work) == 0;
     gsl_eigen_nonsymmv_free(work);
-    (void)gsl_set_error_handler(handler);
     mem_free(matrix);
     return sound;
 }
 
-static void exchange(double complex *a, double complex *b, int n)
-{
-    for (int j = 0; j < n; j++) {
-        const double complex kept = a[j];
-
-        a[j] = b[j];
-        b[j] = kept;
-    }
-}
-
-/* to += factor from */
-static void add(double complex *to, const double complex *from, double complex factor, int first,
-                int n)
-{
-    for (int j = first; j < n; j++)
-        to[j] += times(factor, from[j]);
-}
-
-/* `left` becomes the inverse of `right` (Gauss and Jordan); false: vectors are alike */
+/* `left` becomes the inverse of `right`; false: vectors are alike */
 static bool invert(Enclosure *e)
 {
-    const int n = e->n;
-    double complex *rest = mem_array((size_t)n * (size_t)n, sizeof *rest);
-    bool sound = true;
+    const size_t count = (size_t)e->n;
+    double complex *factors = mem_array(count * count, sizeof *factors);
+    gsl_matrix_complex_view lu = gsl_matrix_complex_view_array((double *)factors, count, count);
+    gsl_matrix_complex_view left = gsl_matrix_complex_view_array((double *)e->left, count, count);
+    gsl_permutation *order = dense_permutation(count);
+    int sign;
+    bool sound;
 
-    memcpy(rest, e->right, (size_t)n * (size_t)n * sizeof *rest);
-    for (int i = 0; i < n; i++)
-        e->left[i * n + i] = 1;
-    for (int k = 0; k < n && sound; k++) {
-        double complex *top = rest + (ptrdiff_t)k * n, *own = e->left + (ptrdiff_t)k * n, by;
-        int best = k;
-
-        for (int i = k + 1; i < n; i++)
-            if (cabs(rest[i * n + k]) > cabs(rest[best * n + k]))
-                best = i;
-        exchange(top, rest + (ptrdiff_t)best * n, n);
-        exchange(own, e->left + (ptrdiff_t)best * n, n);
-        sound = cabs(top[k]) > UNIT;
-        by = 1 / top[k];
-        for (int j = 0; j < n; j++) {
-            top[j] = times(top[j], by);
-            own[j] = times(own[j], by);
-        }
-        for (int i = 0; i < n; i++) {
-            const double complex factor = -rest[i * n + k];
-
-            if (i == k || factor == 0)
-                continue;
-            add(rest + (ptrdiff_t)i * n, top, factor, k, n);
-            add(e->left + (ptrdiff_t)i * n, own, factor, 0, n);
-        }
-    }
-    mem_free(rest);
+    memcpy(factors, e->right, count * count * sizeof *factors);
+    sound = gsl_linalg_complex_LU_decomp(&lu.matrix, order, &sign) == 0;
+    for (size_t k = 0; k < count; k++)
+        sound = sound && cabs(factors[k * count + k]) > UNIT;
+    sound = sound && gsl_linalg_complex_LU_invert(&lu.matrix, order, &left.matrix) == 0;
+    mem_free(factors);
+    mem_free(order);
     return sound;
 }
 
@@ -150,18 +107,10 @@ static void find_residual(const Wide *a, const Enclosure *e, double complex *out
 /* out = a b */
 static void multiply(int n, const double complex *a, const double complex *b, double complex *out)
 {
-    for (int i = 0; i < n; i++) {
-        double complex *row = out + (ptrdiff_t)i * n;
+    const double complex one = 1, none = 0;
 
-        for (int k = 0; k < n; k++)
-            row[k] = 0;
-        for (int j = 0; j < n; j++) {
-            const double complex factor = a[i * n + j];
-
-            for (int k = 0; k < n; k++)
-                row[k] += times(factor, b[j * n + k]);
-        }
-    }
+    cblas_zgemm(CblasRowMajor, CblasNoTrans, CblasNoTrans, n, n, n, &one, a, n, b, n, &none, out,
+                n);
 }
 
 /* --- bounds --- */

@@ -1,20 +1,21 @@
-/* hessenberg_form.c: (s - A)^-1 b by a Hessenberg form */
+/* hessenberg_form.c: (s - A)^-1 b by a Hessenberg form
+ *
+ * GSL makes the form. It has no elimination of s - H, whose O(n^2) for each s is what the form is
+ * for. */
 #include "algebra/hessenberg_form.h"
 
+#include "algebra/dense.h"
 #include "base/memory.h"
 
+#include <gsl/gsl_linalg.h>
 #include <math.h>
 #include <string.h>
 
-#define SWEEPS 8    /* of balancing */
-#define BETTER 0.95 /* of the size of a row and column: what is worth a sweep */
-#define RADIX  2.0
-
 struct HessenbergForm {
     int n;
-    double *h;       /* n x n; 0 below the diagonal under the main one */
-    double *q, *q_t; /* Q, and Q^T */
-    double *d;       /* D */
+    gsl_matrix *h;       /* 0 below the diagonal under the main one */
+    gsl_matrix *q, *q_t; /* Q, and Q^T */
+    gsl_vector *d;       /* D */
 };
 
 struct ShiftedFactors {
@@ -52,130 +53,24 @@ static void add_row(double *restrict a, double f, const double *restrict b, int 
 
 /* --- the form --- */
 
-/* Scale state i: row i over f, column i times f, so that their sizes come near each other. */
-static bool balance_one(HessenbergForm *r, int i)
-{
-    double row = 0, column = 0, f = 1, size;
-    int n = r->n;
-
-    for (int k = 0; k < n; k++)
-        if (k != i) {
-            row += fabs(r->h[i * n + k]);
-            column += fabs(r->h[k * n + i]);
-        }
-    if (!(row > 0) || !(column > 0))
-        return false;
-    size = row + column;
-    while (column < row / RADIX) {
-        f *= RADIX;
-        column *= RADIX * RADIX;
-    }
-    while (column > row * RADIX) {
-        f /= RADIX;
-        column /= RADIX * RADIX;
-    }
-    if (f == 1 || !((row + column) / f < BETTER * size))
-        return false;
-    r->d[i] *= f;
-    for (int k = 0; k < n; k++)
-        r->h[i * n + k] /= f;
-    for (int k = 0; k < n; k++)
-        r->h[k * n + i] *= f;
-    return true;
-}
-
-/* Parlett, Reinsch (1969) */
-static void matrix_balance(HessenbergForm *r)
-{
-    bool again = true;
-
-    for (int i = 0; i < r->n; i++)
-        r->d[i] = 1;
-    for (int sweep = 0; sweep < SWEEPS && again; sweep++) {
-        again = false;
-        for (int i = 0; i < r->n; i++)
-            again = balance_one(r, i) || again;
-    }
-}
-
-/* The reflection 1 - tau v v^T that brings column k below the next row to 0; v is 0 up to row k.
- * 0: nothing is to be done. */
-static double reflection(const HessenbergForm *r, int k, double *v)
-{
-    const double *h = r->h;
-    int n = r->n;
-    double largest = 0, sum = 0, head;
-
-    for (int i = k + 2; i < n; i++)
-        largest = fmax(largest, fabs(h[i * n + k]));
-    if (!(largest > 0))
-        return 0;
-    largest = fmax(largest, fabs(h[(k + 1) * n + k]));
-    for (int i = k + 1; i < n; i++) {
-        v[i] = h[i * n + k] / largest;
-        sum += v[i] * v[i];
-    }
-    head = v[k + 1];
-    v[k + 1] += head < 0 ? -sqrt(sum) : sqrt(sum);
-    return 1 / (sum + fabs(head) * sqrt(sum));
-}
-
-/* rows of m from `first` on by the reflection, from the left */
-static void reflect_left(double *m, int n, int first, const double *v, double tau, double *w)
-{
-    memset(w, 0, (size_t)n * sizeof(double));
-    for (int i = first; i < n; i++)
-        add_row(w, tau * v[i], m + i * n, n);
-    for (int i = first; i < n; i++)
-        add_row(m + i * n, -v[i], w, n);
-}
-
-static void reflect_right(double *m, int n, int first, const double *v, double tau)
-{
-    for (int i = 0; i < n; i++) {
-        double *row = m + i * n + first;
-
-        add_row(row, -tau * dot(row, v + first, n - first), v + first, n - first);
-    }
-}
-
-static void reduce(HessenbergForm *r)
-{
-    int n = r->n;
-    double *v = NEW_ARRAY(double, n), *w = NEW_ARRAY(double, n);
-
-    for (int k = 0; k + 2 < n; k++) {
-        double tau = reflection(r, k, v);
-
-        if (tau == 0)
-            continue;
-        reflect_left(r->h, n, k + 1, v, tau, w);
-        reflect_right(r->h, n, k + 1, v, tau);
-        reflect_right(r->q, n, k + 1, v, tau);
-        for (int i = k + 2; i < n; i++)
-            r->h[i * n + k] = 0;
-    }
-    mem_free(v);
-    mem_free(w);
-}
-
 HessenbergForm *hessenberg_form_new(const double *a, int n)
 {
     HessenbergForm *r = NEW(HessenbergForm);
+    const size_t size = (size_t)n;
+    gsl_vector *tau = dense_vector(size);
 
     r->n = n;
-    r->h = NEW_ARRAY(double, n *n);
-    r->q = NEW_ARRAY(double, n *n);
-    r->q_t = NEW_ARRAY(double, n *n);
-    r->d = NEW_ARRAY(double, n);
-    memcpy(r->h, a, (size_t)(n * n) * sizeof(double));
-    for (int i = 0; i < n; i++)
-        r->q[i * n + i] = 1;
-    matrix_balance(r);
-    reduce(r);
-    for (int i = 0; i < n; i++)
-        for (int k = 0; k < n; k++)
-            r->q_t[k * n + i] = r->q[i * n + k];
+    r->h = dense_matrix(size, size);
+    r->q = dense_matrix(size, size);
+    r->q_t = dense_matrix(size, size);
+    r->d = dense_vector(size);
+    memcpy(r->h->data, a, size * size * sizeof(double));
+    (void)gsl_linalg_balance_matrix(r->h, r->d);
+    (void)gsl_linalg_hessenberg_decomp(r->h, tau);
+    (void)gsl_linalg_hessenberg_unpack(r->h, tau, r->q);
+    (void)gsl_linalg_hessenberg_set_zero(r->h);
+    (void)gsl_matrix_transpose_memcpy(r->q_t, r->q);
+    mem_free(tau);
     return r;
 }
 
@@ -242,7 +137,7 @@ static void bring_row(const HessenbergForm *r, double re, double *row, int i)
     int first = i > 0 ? i - 1 : 0;
 
     for (int k = first; k < r->n; k++)
-        row[k] = -r->h[i * r->n + k];
+        row[k] = -r->h->data[i * r->n + k];
     row[i] += re;
 }
 
@@ -319,7 +214,7 @@ static void enter(const HessenbergForm *r, const double *b, double *out)
     memset(out, 0, (size_t)r->n * sizeof(double));
     for (int i = 0; i < r->n; i++)
         if (b[i] != 0)
-            add_row(out, b[i] / r->d[i], r->q + i * r->n, r->n);
+            add_row(out, b[i] / r->d->data[i], r->q->data + i * r->n, r->n);
 }
 
 /* out = D Q b */
@@ -327,9 +222,9 @@ static void leave(const HessenbergForm *r, const double *b, double *out)
 {
     memset(out, 0, (size_t)r->n * sizeof(double));
     for (int k = 0; k < r->n; k++)
-        add_row(out, b[k], r->q_t + k * r->n, r->n);
+        add_row(out, b[k], r->q_t->data + k * r->n, r->n);
     for (int i = 0; i < r->n; i++)
-        out[i] *= r->d[i];
+        out[i] *= r->d->data[i];
 }
 
 static void swap(double *a, double *b)

@@ -157,35 +157,6 @@ static void fill_matrix(Kkt *kkt, const double *mass, const double *phi_u, const
         }
 }
 
-/* Cholesky factor, in place, of the lower half of an n x n matrix: the least pivot; where that
- * isn't positive the factor ends there. Entries in front of the first one of a row stay 0 and are
- * passed over. */
-static double cholesky(double *l, int n)
-{
-    double least = INFINITY;
-
-    for (int i = 0; i < n; i++) {
-        double *row = l + i * n;
-        int first = 0;
-
-        while (first < i && row[first] == 0)
-            first++;
-        for (int j = first; j <= i; j++) {
-            const double *other = l + j * n;
-            double sum = row[j];
-
-            for (int k = first; k < j; k++)
-                sum -= row[k] * other[k];
-            if (i == j)
-                least = fmin(least, sum);
-            if (i == j && !(sum > 0))
-                return sum;
-            row[j] = i == j ? sqrt(sum) : sum / other[j];
-        }
-    }
-    return least;
-}
-
 /* kkt->factor = Cholesky factor of M, scaled; false when it isn't positive definite */
 static bool factor_mass(Kkt *kkt)
 {
@@ -193,7 +164,7 @@ static bool factor_mass(Kkt *kkt)
 
     for (int i = 0; i < nu; i++)
         memcpy(kkt->factor + i * nu, kkt->matrix + i * kkt->size, (size_t)nu * sizeof(double));
-    return cholesky(kkt->factor, nu) > 1e-14;
+    return cholesky_factor(kkt->factor, nu) > 1e-14;
 }
 
 /* kkt->bound (m x nu) = G L^-T, L the factor: its rows' products are G (L L^T)^-1 G^T */
@@ -202,20 +173,10 @@ static void find_bound(Kkt *kkt)
     int nu = kkt->nu;
 
     for (int k = 0; k < kkt->m; k++) {
-        const double *g = kkt->matrix + (nu + k) * kkt->size;
         double *row = kkt->bound + k * nu;
-        int first = 0;
 
-        while (first < nu && g[first] == 0)
-            row[first++] = 0;
-        for (int i = first; i < nu; i++) {
-            const double *l = kkt->factor + i * nu;
-            double sum = g[i];
-
-            for (int j = first; j < i; j++)
-                sum -= l[j] * row[j];
-            row[i] = sum / l[i];
-        }
+        memcpy(row, kkt->matrix + (nu + k) * kkt->size, (size_t)nu * sizeof(double));
+        cholesky_forward(kkt->factor, nu, row);
     }
 }
 
@@ -258,7 +219,7 @@ static double least_pivot(Kkt *kkt, const double *phi_u, const int *rows)
             g[k * nu + i] /= norm;
     }
     matrix_gram(g, m, nu, s);
-    return fmax(0, cholesky(s, m));
+    return fmax(0, cholesky_factor(s, m));
 }
 
 /* largest diagonal entry of G M^-1 G^T, scaled; 1 where M can't be inverted */

@@ -1,4 +1,8 @@
-/* levenberg_marquardt.c: Levenberg-Marquardt in the form for few equations and many unknowns */
+/* levenberg_marquardt.c: Levenberg-Marquardt in the form for few equations and many unknowns
+ *
+ * GSL's and MINPACK's want as many residuals as unknowns at least, and add a step to unknowns; here
+ * a mechanism has more freedoms than conditions, a step turns Euler parameters, and some directions
+ * are held. */
 #include "algebra/levenberg_marquardt.h"
 
 #include "algebra/linear.h"

@@ -1,4 +1,4 @@
-/* linear.c: LU with partial pivoting, in place */
+/* linear.c: LU with partial pivoting, and Cholesky factors, in place */
 #include "algebra/linear.h"
 
 #include "base/memory.h"
@@ -150,6 +150,56 @@ void lu_solve(const Lu *lu, double *b)
         for (int j = i + 1; j < n; j++)
             sum -= row[j] * b[j];
         b[i] = sum / row[i];
+    }
+}
+
+double cholesky_factor(double *l, int n)
+{
+    double least = INFINITY;
+
+    for (int i = 0; i < n; i++) {
+        double *row = l + i * n;
+        int first = 0;
+
+        while (first < i && row[first] == 0)
+            first++;
+        for (int j = first; j <= i; j++) {
+            const double *other = l + j * n;
+            double sum = row[j];
+
+            for (int k = first; k < j; k++)
+                sum -= row[k] * other[k];
+            if (i == j)
+                least = fmin(least, sum);
+            if (i == j && !(sum > 0))
+                return sum;
+            row[j] = i == j ? sqrt(sum) : sum / other[j];
+        }
+    }
+    return least;
+}
+
+void cholesky_forward(const double *l, int n, double *b)
+{
+    int first = 0;
+
+    while (first < n && b[first] == 0)
+        first++;
+    for (int i = first; i < n; i++) {
+        double sum = b[i];
+
+        for (int j = first; j < i; j++)
+            sum -= l[i * n + j] * b[j];
+        b[i] = sum / l[i * n + i];
+    }
+}
+
+void cholesky_backward(const double *l, int n, double *b)
+{
+    for (int i = n - 1; i >= 0; i--) {
+        b[i] /= l[i * n + i];
+        for (int j = 0; j < i; j++)
+            b[j] -= l[i * n + j] * b[i];
     }
 }
 

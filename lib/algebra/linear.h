@@ -1,7 +1,10 @@
 /* linear.h: small dense linear algebra without allocation in its use
  *
- * Matrices stand row by row. An Lu holds one square matrix and its factors; fill
- * lu_matrix(), factor, then solve as often as wanted. */
+ * By hand, since matrices of bodies and their constraints are small or mostly 0: GSL's LU takes
+ * two to three times as long there, its Cholesky two to ten times (make bench: algebra.lu_*,
+ * algebra.cholesky_*), and neither can be stopped or tells its pivots. Matrices stand row by row.
+ * An Lu holds one square matrix and its factors; fill lu_matrix(), factor, then solve as often as
+ * wanted. */
 #ifndef COTREE_ALGEBRA_LINEAR_H
 #define COTREE_ALGEBRA_LINEAR_H
 
@@ -21,6 +24,13 @@ bool lu_factor_watched(Lu *lu, const Watch *watch);
 /* least over largest pivot in size, of the last lu_factor(); 0 when singular */
 double lu_pivot_ratio(const Lu *lu);
 void lu_solve(const Lu *lu, double *b); /* b becomes the solution; O(n^2) */
+
+/* The Cholesky factor L, in place, of the lower half of an n x n matrix: the least pivot; where
+ * that isn't positive the factor ends there. Entries in front of the first one of a row stay 0 and
+ * are passed over. O(n^3). */
+double cholesky_factor(double *matrix, int n);
+void cholesky_forward(const double *l, int n, double *b);  /* b becomes L^-1 b; zeros passed over */
+void cholesky_backward(const double *l, int n, double *b); /* b becomes L^-T b */
 
 /* out = matrix * v, rows x columns */
 void matrix_times(const double *matrix, int rows, int columns, const double *v, double *out);

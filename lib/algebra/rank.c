@@ -2,7 +2,8 @@
  *
  * Householder's reflections I - tau v v^T, columns exchanged such that the longest remainder comes
  * next. A row of constraints moves few bodies, so a reflection touches few entries, and most
- * columns not at all: only what isn't 0 is worked on. */
+ * columns not at all: only what isn't 0 is worked on. GSL's pivoted QR works on all, which takes
+ * twice as long for some dozen bodies (make bench: algebra.rank_*), and can't be stopped. */
 #include "algebra/rank.h"
 
 #include "base/memory.h"

@@ -1,8 +1,13 @@
-/* schur.c: balancing, Hessenberg form, and the QR method with single complex shifts */
+/* schur.c: balancing, Hessenberg form, and the QR method with single complex shifts
+ *
+ * GSL and LAPACK have the same in doubles, which is where it is not enough (enclosure.h); only the
+ * scales, powers of 2, need no more. */
 #include "algebra/schur.h"
 
+#include "algebra/dense.h"
 #include "base/memory.h"
 
+#include <gsl/gsl_linalg.h>
 #include <string.h>
 
 enum { MOST_SWEEPS = 60 }; /* for one eigenvalue */
@@ -11,32 +16,19 @@ enum { MOST_SWEEPS = 60 }; /* for one eigenvalue */
 
 void matrix_balance(const double *size, int n, double *scale)
 {
-    bool again = true;
+    gsl_matrix *matrix;
+    gsl_vector *by;
 
+    if (n == 0)
+        return;
+    matrix = dense_matrix((size_t)n, (size_t)n);
+    by = dense_vector((size_t)n);
+    memcpy(matrix->data, size, (size_t)n * (size_t)n * sizeof(double));
+    (void)gsl_linalg_balance_matrix(matrix, by);
     for (int i = 0; i < n; i++)
-        scale[i] = 1;
-    /* each round takes a factor of 2 at least from some sum: twenty decades are a few dozen */
-    for (int round = 0; round < 400 && again; round++) {
-        again = false;
-        for (int i = 0; i < n; i++) {
-            double row = 0, column = 0;
-            int by;
-
-            for (int j = 0; j < n; j++) {
-                row += i != j ? size[i * n + j] / scale[j] : 0;
-                column += i != j ? size[j * n + i] * scale[j] : 0;
-            }
-            row *= scale[i];
-            column /= scale[i];
-            if (!(row > 0 && column > 0))
-                continue;
-            by = (int)rint((log2(column) - log2(row)) / 2);
-            if (ldexp(row, by) + ldexp(column, -by) < 0.95 * (row + column)) {
-                scale[i] = ldexp(scale[i], by);
-                again = true;
-            }
-        }
-    }
+        scale[i] = 1 / by->data[i];
+    mem_free(matrix);
+    mem_free(by);
 }
 
 /* --- Hessenberg form --- */

@@ -8,7 +8,7 @@
 #include <math.h>
 #include <string.h>
 
-#define SMALL  12   /* up to here dense factors are faster */
+#define SMALL  12   /* up to here dense factors are faster (make bench: algebra.sparse_*) */
 #define GROWTH 1e-8 /* pivots kept from an earlier matrix are given up below this */
 
 struct Sparse {

@@ -3,7 +3,8 @@
  * Rows are matched to columns, the rest is permuted to block triangular form (Duff and Reid 1978).
  * With |B^-1| known the error of x is at most |B^-1| (|db| + |dB| |x|) (Higham 2002, 7.2), which
  * doesn't depend on how rows and columns are scaled. B within dB is regular where the spectral
- * radius of |B^-1| |dB| is below 1. */
+ * radius of |B^-1| |dB| is below 1. Libraries eliminate in doubles, and tell no error of a single
+ * entry. */
 #include "algebra/square.h"
 
 #include "algebra/blocks.h"

@@ -89,7 +89,10 @@ static void unit_sums(System *system, Recovery *recovery)
     }
 }
 
-/* --- rank --- */
+/* --- rank ---
+ *
+ * By hand, since what it leaves goes into formulas: ones and zeros of directions along axes stay
+ * what they are in Gauss's elimination, while orthogonal factors turn them into rounding. */
 
 typedef struct Elimination {
     int rows, columns;

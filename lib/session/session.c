@@ -1,6 +1,8 @@
 /* session.c: life of a session, statements that build, and what was said */
 #include "session/session_impl.h"
 
+#include "algebra/dense.h"
+
 #include "config.h"
 
 #include <limits.h>
@@ -21,6 +23,7 @@ static ct_session *session_new(const ct_hooks *hooks)
 {
     ct_session *session = NEW(ct_session);
 
+    dense_quiet();
     session->model = model_new();
     session->start_is_later = true;
     session->changed = true;

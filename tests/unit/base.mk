@@ -9,3 +9,7 @@ test_hessenberg_form_LDADD = $(unit_ldadd)
 UNIT_TESTS += test_transaction
 test_transaction_SOURCES = tests/unit/test_transaction.c tests/unit/test.h
 test_transaction_LDADD = $(unit_ldadd)
+
+UNIT_TESTS += test_algebra
+test_algebra_SOURCES = tests/unit/test_algebra.c tests/random.h tests/unit/test.h
+test_algebra_LDADD = $(unit_ldadd)

@@ -9,12 +9,10 @@
  * the same for all of them, and it is the least |L^T u|. */
 #include "simulate/assemble/initial_place_impl.h"
 
-#include "algebra/dense.h"
+#include "algebra/linear.h"
 #include "algebra/matrix3.h"
 #include "algebra/rank.h"
 
-#include <gsl/gsl_blas.h>
-#include <gsl/gsl_linalg.h>
 #include <math.h>
 #include <string.h>
 
@@ -157,44 +155,26 @@ static double *find_rates(const Placing *p)
 
 typedef struct Weighed { /* rows in w = L^T u */
     Rows rows;
-    gsl_matrix *factor; /* L, in its lower half */
-    double *jacobian;   /* of the rows, which are linear; NULL: not asked for yet */
+    const double *factor; /* L, in its lower half */
+    double *jacobian;     /* of the rows, which are linear; NULL: not asked for yet */
 } Weighed;
 
-/* L^-1 row, from the first entry that is not 0 */
-static void weigh_row(const gsl_matrix *factor, double *row)
+/* sum += scale row^T row, its lower half */
+static void add_square(double *sum, int n, const double *row, double scale)
 {
-    const int n = (int)factor->size1;
-    int first = 0;
-
-    while (first < n && row[first] == 0)
-        first++;
-    for (int i = first; i < n; i++) {
-        const double *l = gsl_matrix_const_ptr(factor, (size_t)i, 0);
-        double sum = row[i];
-
-        for (int k = first; k < i; k++)
-            sum -= l[k] * row[k];
-        row[i] = sum / l[i];
-    }
-}
-
-static void add_square(gsl_matrix *sum, const double *row, double scale)
-{
-    for (size_t i = 0; i < sum->size1; i++)
-        for (size_t j = 0; j < sum->size2 && row[i] != 0; j++)
-            *gsl_matrix_ptr(sum, i, j) += scale * row[i] * row[j];
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j <= i && row[i] != 0; j++)
+            sum[i * n + j] += scale * row[i] * row[j];
 }
 
 /* L; NULL: these speeds leave some motion without a rate, which trees don't */
-static gsl_matrix *weigh(const Assembly *a, const double *rates, int count)
+static double *weigh(const Assembly *a, const double *rates, int count)
 {
     const int nu = a->eq->nu;
-    gsl_matrix *square = dense_matrix((size_t)nu, (size_t)nu);
-    bool sound;
+    double *square = NEW_ARRAY(double, nu *nu);
 
     for (int i = 0; i < count; i++)
-        add_square(square, rates + (ptrdiff_t)i * nu, 1);
+        add_square(square, nu, rates + (ptrdiff_t)i * nu, 1);
     for (int i = 0; i < a->eq->m; i++) {
         const double *row = a->eq->phi_u + (ptrdiff_t)i * nu;
         double size = 0;
@@ -202,10 +182,9 @@ static gsl_matrix *weigh(const Assembly *a, const double *rates, int count)
         for (int j = 0; j < nu; j++)
             size += row[j] * row[j];
         if (size > 0)
-            add_square(square, row, 1 / size);
+            add_square(square, nu, row, 1 / size);
     }
-    sound = gsl_linalg_cholesky_decomp1(square) == GSL_SUCCESS;
-    if (!sound) {
+    if (!(cholesky_factor(square, nu) > 0)) {
         mem_free(square);
         square = NULL;
     }
@@ -222,7 +201,7 @@ static void evaluate(void *context, const double *v, double *residual, double *j
     if (first) {
         w->jacobian = NEW_ARRAY(double, size);
         for (size_t i = 0; i < (size_t)w->rows.rows; i++)
-            weigh_row(w->factor, jacobian + i * nu);
+            cholesky_forward(w->factor, (int)nu, jacobian + i * nu);
         memcpy(w->jacobian, jacobian, size * sizeof(double));
     } else if (jacobian != NULL) {
         memcpy(jacobian, w->jacobian, size * sizeof(double));
@@ -234,16 +213,15 @@ static void move(void *context, double *v, const double *step)
     const Weighed *w = context;
     const int nu = w->rows.columns;
     double *du = NEW_ARRAY(double, nu);
-    gsl_vector_view view = gsl_vector_view_array(du, (size_t)nu);
 
     memcpy(du, step, (size_t)nu * sizeof(double));
-    (void)gsl_blas_dtrsv(CblasLower, CblasTrans, CblasNonUnit, w->factor, &view.vector);
+    cholesky_backward(w->factor, nu, du);
     for (int j = 0; j < nu; j++)
         v[j] += du[j];
     mem_free(du);
 }
 
-static Status solve(Assembly *a, gsl_matrix *factor, bool guesses, Diag *diag)
+static Status solve(Assembly *a, const double *factor, bool guesses, Diag *diag)
 {
     Problem p = {0};
     Weighed w = {.factor = factor};
@@ -308,7 +286,7 @@ Status initial_speeds(Assembly *a, Diag *diag)
 {
     Placing p = {.a = a, .s = a->skeleton};
     double *rates = NULL;
-    gsl_matrix *factor = NULL;
+    double *factor = NULL;
     bool open = false;
     Status status = OK;
 
@@ -329,8 +307,7 @@ Status initial_speeds(Assembly *a, Diag *diag)
         CHECK(solve(a, factor, false, diag));
     }
 done:
-    if (factor != NULL)
-        mem_free(factor);
+    mem_free(factor);
     mem_free(rates);
     placing_free(&p);
     return status;

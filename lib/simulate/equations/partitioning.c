@@ -1,4 +1,8 @@
-/* partitioning.c: partitioned elimination of constrained speeds */
+/* partitioning.c: partitioned elimination of constrained speeds
+ *
+ * Which speeds depend on others is found by Gauss's elimination with the largest pivot among those
+ * that nobody wants independent; where these are used up, among all. Library factorisations take
+ * no such wish. */
 #include "simulate/equations/partitioning.h"
 
 #include "algebra/linear.h"

@@ -1,0 +1,177 @@
+/* test_algebra.c: parts of lib/algebra by what they promise, on random matrices */
+#include "algebra/blocks.h"
+#include "algebra/dense.h"
+#include "algebra/enclosure.h"
+#include "algebra/linear.h"
+#include "base/memory.h"
+
+#include "../random.h"
+#include "test.h"
+
+#include <gsl/gsl_errno.h>
+#include <string.h>
+#include <threads.h>
+
+enum { MOST = 9 };
+
+static void fill_pattern(bool *pattern, int n, double part, uint64_t *seed)
+{
+    for (int i = 0; i < n * n; i++)
+        pattern[i] = test_uniform(seed, 0, 1) < part;
+}
+
+/* whether i is reached from j, as Warshall (1962) has it */
+static void close_pattern(const bool *pattern, int n, bool *reach)
+{
+    memcpy(reach, pattern, (size_t)(n * n) * sizeof(bool));
+    for (int k = 0; k < n; k++)
+        for (int i = 0; i < n; i++)
+            for (int j = 0; j < n; j++)
+                reach[i * n + j] = reach[i * n + j] || (reach[i * n + k] && reach[k * n + j]);
+}
+
+static void blocks_are_what_acts_both_ways(void)
+{
+    uint64_t seed = 3;
+
+    for (int turn = 0; turn < 400; turn++) {
+        const int n = turn % (MOST + 1);
+        bool pattern[MOST * MOST], reach[MOST * MOST];
+        int block[MOST] = {0};
+        Blocks blocks;
+
+        fill_pattern(pattern, n, test_uniform(&seed, 0, 0.4), &seed);
+        close_pattern(pattern, n, reach);
+        blocks = blocks_find(pattern, n);
+        EXPECT(blocks.start[0] == 0 && blocks.start[blocks.count] == n);
+        for (int b = 0; b < blocks.count; b++)
+            for (int k = blocks.start[b]; k < blocks.start[b + 1]; k++) {
+                block[blocks.order[k]] = b;
+                EXPECT(k == blocks.start[b] || blocks.order[k] > blocks.order[k - 1]);
+            }
+        for (int i = 0; i < n; i++)
+            for (int j = 0; j < n; j++) {
+                const bool both = i == j || (reach[i * n + j] && reach[j * n + i]);
+
+                EXPECT((block[i] == block[j]) == both);
+                EXPECT(!pattern[i * n + j] || block[j] <= block[i]); /* what acts comes before */
+            }
+        blocks_free(&blocks);
+    }
+}
+
+/* whether rows from r on can have columns that aren't taken, by trying all */
+static bool can_match(const bool *pattern, int n, int r, unsigned taken)
+{
+    if (r == n)
+        return true;
+    for (int c = 0; c < n; c++)
+        if (pattern[r * n + c] && !(taken >> c & 1) &&
+            can_match(pattern, n, r + 1, taken | 1U << c))
+            return true;
+    return false;
+}
+
+static void a_match_is_found_where_there_is_one(void)
+{
+    uint64_t seed = 5;
+    int found = 0;
+
+    for (int turn = 0; turn < 400; turn++) {
+        const int n = turn % 8;
+        bool pattern[MOST * MOST];
+        int column[MOST];
+        unsigned taken = 0;
+
+        fill_pattern(pattern, n, test_uniform(&seed, 0.1, 0.7), &seed);
+        EXPECT(blocks_match(pattern, n, column) == can_match(pattern, n, 0, 0));
+        if (!can_match(pattern, n, 0, 0))
+            continue;
+        for (int r = 0; r < n; r++) {
+            EXPECT(pattern[r * n + column[r]]);
+            taken |= 1U << column[r];
+        }
+        EXPECT(taken == (1U << n) - 1);
+        found++;
+    }
+    EXPECT(found > 50 && found < 350);
+}
+
+static void cholesky_factors_solve(void)
+{
+    uint64_t seed = 7;
+
+    for (int turn = 0; turn < 100; turn++) {
+        const int n = 1 + turn % MOST;
+        double rows[MOST * MOST], a[MOST * MOST], l[MOST * MOST], x[MOST], b[MOST];
+
+        for (int i = 0; i < n * n; i++)
+            rows[i] = i % (n + 1) == 0 ? 2 : i % 3 == 0 ? test_uniform(&seed, -1, 1) : 0;
+        matrix_gram(rows, n, n, a);
+        memcpy(l, a, sizeof a);
+        for (int i = 0; i < n; i++)
+            b[i] = x[i] = i % 4 == 1 ? test_uniform(&seed, -1, 1) : 0;
+        EXPECT(cholesky_factor(l, n) > 0);
+        cholesky_forward(l, n, x);
+        cholesky_backward(l, n, x);
+        for (int i = 0; i < n; i++) {
+            for (int j = 0; j < n; j++)
+                b[i] -= (j <= i ? a[i * n + j] : a[j * n + i]) * x[j];
+            EXPECT_NEAR(b[i], 0, 1e-12);
+        }
+        l[0] = -1; /* not positive definite */
+        EXPECT(!(cholesky_factor(l, n) > 0));
+    }
+}
+
+/* --- GSL's error handler --- */
+
+static _Atomic int calls, running;
+
+static void count_call(const char *reason, const char *file, int line, int code)
+{
+    (void)reason, (void)file, (void)line, (void)code;
+    calls++;
+}
+
+static int find_many(void *unused)
+{
+    (void)unused;
+    for (int k = 0; k < 3000; k++) {
+        const Wide a[4] = {wide_of(0), wide_of(1), wide_of(-1), wide_of(k)};
+        Enclosure e;
+
+        (void)enclosure_find(a, 2, &e);
+        enclosure_free(&e);
+    }
+    running--;
+    return 0;
+}
+
+static void threads_leave_the_error_handler_to_who_set_it(void)
+{
+    gsl_error_handler_t *silent;
+    thrd_t thread[2];
+
+    mem_free(dense_vector(1));
+    silent = gsl_set_error_handler(count_call);
+    EXPECT(silent != NULL); /* NULL stands for the one that ends the program */
+    running = 2;
+    for (int i = 0; i < 2; i++)
+        EXPECT(thrd_create(&thread[i], find_many, NULL) == thrd_success);
+    while (running > 0)
+        EXPECT(gsl_set_error_handler(count_call) == count_call);
+    for (int i = 0; i < 2; i++)
+        EXPECT(thrd_join(thread[i], NULL) == thrd_success);
+    EXPECT(gsl_set_error_handler(silent) == count_call);
+    EXPECT(calls == 0);
+}
+
+int main(void)
+{
+    RUN(blocks_are_what_acts_both_ways);
+    RUN(a_match_is_found_where_there_is_one);
+    RUN(cholesky_factors_solve);
+    RUN(threads_leave_the_error_handler_to_who_set_it);
+    return test_end();
+}
