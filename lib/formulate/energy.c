@@ -156,6 +156,22 @@ static void push_wrench(System *system, Terms *terms, const Instance *instance)
          vec_dot(arena, torque, system->kinematics->motions[frame->chain].w));
 }
 
+/* v and i of a scalar edge, whose product is the power that it takes. What is a state's rate times
+ * a number follows from that: along the tree it would be a sum over many edges. */
+static void power_of(System *system, const Branchlike *branch, Expr *v, Expr *i)
+{
+    const RelationKind kind = branch->relation.kind;
+    const bool is_state = (kind == RELATION_CAPACITIVE && branch->branch) ||
+                          (kind == RELATION_INDUCTIVE && !branch->branch);
+    Expr rate;
+
+    *v = branch->v;
+    *i = branch->i;
+    if (is_state && system->network->form == NETWORK_STATE &&
+        network_stored_rate(system, branch, &rate, NULL) == OK)
+        *(kind == RELATION_CAPACITIVE ? i : v) = rate;
+}
+
 /* minus the power that scalar edges take and don't store; heat is power by itself, and no balance
  * holds it */
 static void push_network(System *system, Terms *terms)
@@ -164,7 +180,7 @@ static void push_network(System *system, Terms *terms)
 
     for (int i = 0; i < system->network->branches.count; i++) {
         const Branchlike *branch = &system->network->branches.at[i];
-        Expr rate;
+        Expr v, through, rate;
 
         if (graph_edge(system->origin->graph, branch->edge)->domain == DOMAIN_THERMAL)
             continue;
@@ -172,7 +188,8 @@ static void push_network(System *system, Terms *terms)
             LIST_PUSH(*terms, rate);
         else if (expr_is_zero(branch->relation.rest))
             continue; /* all that it takes is stored */
-        push(system, terms, expr_int(arena, -1), branch->v, branch->i);
+        power_of(system, branch, &v, &through);
+        push(system, terms, expr_int(arena, -1), v, through);
     }
 }
 

@@ -76,6 +76,8 @@ Status circuit_across(System *system, Branchlike *branch, Expr *out, Diag *diag)
     int count = tree_path(tree, edge->tail, edge->head, edges, signs);
     Status status = OK;
 
+    if (network_nodes_across(system, branch, count, out))
+        goto done;
     for (int i = 0; i < count; i++) {
         Branchlike *other =
             &system->network->branches.at[system->network->scalar_of_edge[edges[i]]];
@@ -104,6 +106,8 @@ static Status cutset_through(System *system, Branchlike *branch, Expr *out, Diag
     LIST(Expr) terms = {0};
     Status status = OK;
 
+    if (network_nodes_through(system, branch, out))
+        return OK;
     for (int k = cutsets->start[branch->cutset]; k < cutsets->start[branch->cutset + 1]; k++) {
         Branchlike *chord =
             &system->network->branches.at[system->network->scalar_of_edge[cutsets->column[k]]];
@@ -120,8 +124,7 @@ done:
     return status;
 }
 
-/* content' + rest */
-static Status stored_rate(System *system, const Branchlike *branch, Expr *out, Diag *diag)
+Status network_stored_rate(System *system, const Branchlike *branch, Expr *out, Diag *diag)
 {
     const Relation *relation = &branch->relation;
     Expr rest;
@@ -182,7 +185,7 @@ static Status by_relation(System *system, Branchlike *branch, bool *given, Expr 
         break;
     case RELATION_INDUCTIVE:
         if (branch->branch)
-            return stored_rate(system, branch, out, diag);
+            return network_stored_rate(system, branch, out, diag);
         break;
     case RELATION_THROUGH:
     case RELATION_CONDUCTIVE:
@@ -191,7 +194,7 @@ static Status by_relation(System *system, Branchlike *branch, bool *given, Expr 
         break;
     case RELATION_CAPACITIVE:
         if (!branch->branch)
-            return stored_rate(system, branch, out, diag);
+            return network_stored_rate(system, branch, out, diag);
         break;
     case RELATION_PORT:
         if (port_gives_own(system, branch))

@@ -24,9 +24,14 @@ typedef struct Branchlike { /* a scalar edge */
     Expr v, i;     /* once known */
 } Branchlike;
 
+/* laws of a node, as equations of unknowns of their own (network_nodes.c) */
+typedef enum NodeLaw { NODE_NONE, NODE_POTENTIAL, NODE_BALANCE } NodeLaw;
+
 /* A network unknown and the equation that belongs to it: a state (with a rate), or algebraic. */
 typedef struct Unknown {
     int branchlike; /* whose v (branch) or i (chord) it is, with its relation; -1 */
+    NodeLaw law;    /* its equation, of the far node of the branch `towards` */
+    int towards;    /* among the branches */
     int own;        /* a state of that instance's own; -1 */
     int instance;
     int derives; /* its equation is that of this unknown, differentiated; -1 */
@@ -58,6 +63,7 @@ typedef struct Network {
     bool takes_sides;   /* those between two resistances: their sides are numbers of the run */
     LIST(Branchlike) branches;
     int *scalar_of_edge; /* edge of the graph -> branches, or -1 */
+    Expr *potentials;    /* of nodes that have an unknown, else NULL; NULL: none has */
     LIST(Unknown) unknowns;
     int listed;           /* unknowns that stand in x or z already */
     LIST(int) unknown_of; /* by expr_symbol_number(): unknown, and which rate of it, */
@@ -103,6 +109,15 @@ void network_list(System *system);
 MUST_USE Status network_bring_order(System *system, Diag *diag);
 /* what an expression is where all its symbols have values that the seed chooses, 0.7 to 1.3 */
 double expr_value_somewhere(Expr e, uint32_t seed);
+/* Where sums are long and nobody reads them: v of a chord whose path has so many branches, i of a
+ * branch, by unknowns at nodes (network_nodes.c). False: they stay sums. */
+bool network_nodes_across(System *system, const Branchlike *chord, int path, Expr *out);
+bool network_nodes_through(System *system, const Branchlike *branch, Expr *out);
+/* the equation of such an unknown, left = right */
+MUST_USE Status network_nodes_row(System *system, Unknown *y, Diag *diag);
+/* content' + rest: i of what stores v, v of what stores i */
+MUST_USE Status network_stored_rate(System *system, const Branchlike *branch, Expr *out,
+                                    Diag *diag);
 /* v of a chord along its circuit */
 MUST_USE Status circuit_across(System *system, Branchlike *branch, Expr *out, Diag *diag);
 /* names of the edges in the circuit of a chord or the cutset of a branch; in the pool */

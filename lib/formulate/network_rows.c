@@ -174,6 +174,8 @@ Status network_row(System *system, int unknown, Diag *diag)
         CHECK(system_rate_of(system, y.right, &y.right, diag));
     } else if (y.branchlike >= 0) {
         CHECK(relation_row(system, &y, diag));
+    } else if (y.law != NODE_NONE) {
+        CHECK(network_nodes_row(system, &y, diag));
     } else {
         CHECK(own_row(system, &y, diag));
     }
