@@ -6,6 +6,7 @@
 #include "present/count.h"
 #include "present/help.h"
 #include "present/show.h"
+#include "simulate/run/run.h"
 
 #include <ctype.h>
 #include <stdio.h>

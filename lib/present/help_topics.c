@@ -3,6 +3,7 @@
 
 #include "language/functions.h"
 #include "present/show.h"
+#include "simulate/run/run.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -13,7 +13,7 @@
 typedef struct View {
     const Model *model;
     System *system;       /* of the model as it is; NULL unless equations are needed */
-    Result *result;       /* the last run; NULL */
+    const Result *result; /* the last run; NULL */
     const Linear *linear; /* the last linearisation; NULL */
     int freedoms;         /* degrees of freedom where an assembly told them; -1 */
     Page page;

@@ -47,26 +47,29 @@ static Event event_of(BoundWatch *watch, Arena *arena, const Bound *bound, doubl
 }
 
 /* what the measures are where the run begins; a start that can't be had is the run's to report */
-static Status measure_start(System *system, const RunInput *input, const Result *old,
+static Status measure_start(System *system, const RunInput *input, const Run *old,
                             const Bound *bounds, int count, double *out, Diag *diag)
 {
     Expr *measures = NEW_ARRAY(Expr, count);
     Result *start = NULL;
+    ResultReader *reader = NULL;
     Status status = OK;
 
     for (int i = 0; i < count; i++)
         measures[i] = bounds[i].measure;
     if (old == NULL)
-        CHECK(run_assemble(system, &input->setting, &start, diag));
-    status = result_values_at(start != NULL ? start : (Result *)old, measures, count,
-                              old != NULL ? result_report(old)->reached : 0, out, diag);
+        CHECK(run_assemble(system, &input->setting, &start, &reader, diag));
+    status =
+        result_reader_values_at(old != NULL ? old->reader : reader, measures, count,
+                                old != NULL ? result_report(old->result)->reached : 0, out, diag);
 done:
+    result_reader_free(reader);
     result_free(start);
     mem_free(measures);
     return status;
 }
 
-void watch_bounds(System *system, const Result *old, RunInput *input)
+void watch_bounds(System *system, const Run *old, RunInput *input)
 {
     BoundWatch *watch = &input->watch;
     Arena *arena = system_arena(system);
@@ -122,7 +125,7 @@ static Status is_at_bound(const BoundWatch *watch, int i, double t, Diag *diag)
 }
 
 /* the measure nearest to 0 at the end, where it is by far nearer than at the start; -1 */
-static int nearest(const BoundWatch *watch, Result *result)
+static int nearest(const BoundWatch *watch, ResultReader *reader)
 {
     enum { FAR_NEARER = 1000 };
     int best = -1;
@@ -132,8 +135,9 @@ static int nearest(const BoundWatch *watch, Result *result)
         double value;
         Diag ignored = {0};
 
-        if (result_values_at(result, &watch->bounds.at[i].measure, 1,
-                             result_report(result)->reached, &value, &ignored) == OK &&
+        if (result_reader_values_at(reader, &watch->bounds.at[i].measure, 1,
+                                    result_report(result_reader_result(reader))->reached, &value,
+                                    &ignored) == OK &&
             fabs(value / watch->from.at[i]) < least) {
             least = fabs(value / watch->from.at[i]);
             best = i;
@@ -142,9 +146,10 @@ static int nearest(const BoundWatch *watch, Result *result)
     return best;
 }
 
-Status check_bounds(const RunInput *input, Result *result, Status status, Diag *diag)
+Status check_bounds(const RunInput *input, ResultReader *reader, Status status, Diag *diag)
 {
     const BoundWatch *watch = &input->watch;
+    const Result *result = result_reader_result(reader);
     int close;
 
     for (int e = 0; e < result_event_count(result); e++) {
@@ -157,6 +162,6 @@ Status check_bounds(const RunInput *input, Result *result, Status status, Diag *
     }
     if (status != E_SOLVER)
         return status;
-    close = nearest(watch, result);
+    close = nearest(watch, reader);
     return close >= 0 ? is_at_bound(watch, close, result_report(result)->reached, diag) : status;
 }

@@ -56,7 +56,7 @@ static Status make_real(const void *context, Scene *out, Diag *diag)
 
 /* the same start in trees of real edges; *out NULL where there is none to compare with */
 static Status assemble_real(ct_session *session, const Setting *setting, System **system,
-                            Result **out, Diag *diag)
+                            Result **out, ResultReader **reader, Diag *diag)
 {
     RealTrees trees = {.model = session->model};
     SystemOptions options = {.form =
@@ -73,7 +73,7 @@ static Status assemble_real(ct_session *session, const Setting *setting, System 
     CHECK(model_preset_trees(session->model, false, trees.halves, diag));
     CHECK(make_real(&trees, &scene, diag));
     CHECK(system_new(&scene, &options, system, diag));
-    CHECK(run_assemble(*system, &plain, out, diag));
+    CHECK(run_assemble(*system, &plain, out, reader, diag));
 done:
     scene_free(&scene);
     tree_free(trees.halves[0]);
@@ -87,6 +87,7 @@ Status session_check_freedoms(ct_session *session, System *system, const Setting
     Branches branches = {0};
     System *real_system = NULL;
     Result *real = NULL, *with = NULL;
+    ResultReader *real_reader = NULL, *with_reader = NULL;
     Setting plain = *setting;
     Status status = OK;
     Diag ignored;
@@ -96,17 +97,19 @@ Status session_check_freedoms(ct_session *session, System *system, const Setting
     CHECK(find_branches(session->model, &branches, diag));
     if (branches.joints.count == 0)
         goto done;
-    CHECK(assemble_real(session, setting, &real_system, &real, diag));
+    CHECK(assemble_real(session, setting, &real_system, &real, &real_reader, diag));
     plain.form = FORM_AUGMENTED;
     plain.independent_count = 0;
     /* a start that can't be found has its own message, from the run */
-    if (real == NULL || run_assemble(system, &plain, &with, &ignored) != OK)
+    if (real == NULL || run_assemble(system, &plain, &with, &with_reader, &ignored) != OK)
         goto done;
-    CHECK(freedoms_compare(real, with, branches.joints.at,
+    CHECK(freedoms_compare(real_reader, with_reader, branches.joints.at,
                            (const char *const(*)[2])(const void *)branches.ends.at,
                            branches.joints.count, diag));
     session->covered = model_revision(session->model) + 1;
 done:
+    result_reader_free(real_reader);
+    result_reader_free(with_reader);
     result_free(real);
     result_free(with);
     system_free(real_system);
@@ -128,7 +131,7 @@ Status session_try_trees(ct_session *session, Diag *diag)
     status = session_check_freedoms(session, system, &input.setting, &why);
     if (status == E_BRANCH && diag != NULL)
         *diag = why;
-    if (status == OK && run_assemble(system, &input.setting, &result, &why) == OK)
+    if (status == OK && run_assemble(system, &input.setting, &result, NULL, &why) == OK)
         session_note_freedoms(session, result);
     result_free(result);
     run_input_free(&input);

@@ -23,7 +23,8 @@ typedef struct ParameterValues {
 } ParameterValues;
 
 typedef struct Run {
-    Result *result;
+    Result *result;       /* NULL: there is none */
+    ResultReader *reader; /* of it */
     ParameterValues *parameters;
 } Run;
 
@@ -149,11 +150,12 @@ void run_input_free(RunInput *input); /* what it holds */
 /* Watch where the laws of the system's parts end, in the run of this input; `old`: the one
  * that it goes on with, or NULL. Afterwards: E_SOLVER, with the part and what came to 0, where one
  * did; else the status that the run had. */
-void watch_bounds(System *system, const Result *old, RunInput *input);
-MUST_USE Status check_bounds(const RunInput *input, Result *result, Status status, Diag *diag);
+void watch_bounds(System *system, const Run *old, RunInput *input);
+MUST_USE Status check_bounds(const RunInput *input, ResultReader *reader, Status status,
+                             Diag *diag);
 void watch_free(BoundWatch *watch);
-/* the result and the parameters that it was made with */
-Run run_input_done(RunInput *input, Result *result);
+/* the result, its reader, and the parameters that it was made with */
+Run run_input_done(RunInput *input, Result *result, ResultReader *reader);
 /* the assembled start of the model as it is, made when it isn't there yet; borrowed */
 MUST_USE Status session_start(ct_session *session, Run **out, Diag *diag);
 /* what a bare name means: the last run, or the start; NULL diag place */

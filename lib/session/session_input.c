@@ -31,6 +31,7 @@ static double parameter_value(void *context, Expr symbol)
 
 void run_free(Run *run)
 {
+    result_reader_free(run->reader);
     result_free(run->result);
     if (run->parameters != NULL) {
         mem_keep(run->parameters);
@@ -38,7 +39,7 @@ void run_free(Run *run)
         LIST_FREE(run->parameters->values);
     }
     mem_free(run->parameters);
-    *run = (Run){NULL, NULL};
+    *run = (Run){0};
 }
 
 void session_forget_start(ct_session *session)
@@ -51,7 +52,7 @@ void session_forget_start(ct_session *session)
         run_free(&session->warm);
         session->warm = session->start;
     }
-    session->start = (Run){NULL, NULL};
+    session->start = (Run){0};
 }
 
 /* --- what a run is told --- */
@@ -62,18 +63,18 @@ void run_input_free(RunInput *input)
     mem_free(input->events);
     watch_free(&input->watch);
     if (input->parameters != NULL) {
-        Run run = {NULL, input->parameters};
+        Run run = {.parameters = input->parameters};
 
         run_free(&run);
     }
 }
 
 /* the equilibrium from which runs start; NULL: there is none */
-static const Result *resting_start(const ct_session *session)
+static ResultReader *resting_start(const ct_session *session)
 {
     if (!session->at_rest)
         return NULL;
-    return session->rest.result != NULL ? session->rest.result : session->start.result;
+    return session->rest.result != NULL ? session->rest.reader : session->start.reader;
 }
 
 /* an equilibrium takes the place of what was given before it */
@@ -109,17 +110,17 @@ void run_input_make(ct_session *session, RunInput *input)
                                .events = input->events,
                                .event_count = model_event_count(model),
                                .start = &input->start,
-                               .warm = session->warm.result != NULL ? session->warm.result
-                                                                    : session->rest.result,
+                               .warm = session->warm.result != NULL ? session->warm.reader
+                                                                    : session->rest.reader,
                                .from = resting_start(session),
                                .watch = &session->watch};
     input->setting.form =
         model_form(model, &input->setting.independent, &input->setting.independent_count);
 }
 
-Run run_input_done(RunInput *input, Result *result)
+Run run_input_done(RunInput *input, Result *result, ResultReader *reader)
 {
-    Run run = {result, input->parameters};
+    Run run = {result, reader, input->parameters};
 
     input->parameters = NULL;
     return run;

@@ -13,16 +13,17 @@ Status session_equilibrium(ct_session *session, const Statement *s, Diag *diag)
 {
     RunInput input = {0};
     Result *result = NULL;
+    ResultReader *reader = NULL;
     System *system;
     Status status;
 
     (void)s;
     CHECK(session_system(session, &system, diag));
     run_input_make(session, &input);
-    CHECK(run_equilibrium(system, &input.setting, &result, diag));
+    CHECK(run_equilibrium(system, &input.setting, &result, &reader, diag));
     session_forget_start(session);
     run_free(&session->rest);
-    session->start = run_input_done(&input, result);
+    session->start = run_input_done(&input, result, reader);
     session->at_rest = true;
     session->rests_since = model_start_statements(session->model);
     session->start_is_later = true;
@@ -98,7 +99,7 @@ static Status read_point(ct_session *session, const Statement *s, Asked *asked, 
                            "an instant is a number, or made of parameters");
         asked->order.at = model_number(session->model, e);
     }
-    asked->order.about = run->result;
+    asked->order.about = run->reader;
     asked->order.scene = model_scene_source(session->model);
     asked->order.watch = &session->watch;
     (void)model_form(session->model, &asked->order.independent, &asked->order.independent_count);

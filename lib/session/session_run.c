@@ -100,12 +100,13 @@ done:
 /* --- the verbs --- */
 
 typedef Status RunFunction(System *system, const Setting *setting, const RunOptions *options,
-                           Result **out, Diag *diag);
+                           Result **out, ResultReader **reader, Diag *diag);
 
 /* The run is the last one now, and what it was like is said. */
 /* three-angle sequences that came near their critical angle, by joint and angle */
-static void remark_critical(ct_session *session, Result *result)
+static void remark_critical(ct_session *session, ResultReader *reader)
 {
+    const Result *result = result_reader_result(reader);
     const double near = 0.02; /* the sine of about a degree */
     int rows = result_rows(result);
     double *values = NEW_ARRAY(double, rows);
@@ -116,7 +117,7 @@ static void remark_critical(ct_session *session, Result *result)
         Text line = {0};
         Diag diag = {0};
 
-        if (rows == 0 || result_values(result, &critical.measure, 1, values, &diag) != OK)
+        if (rows == 0 || result_reader_values(reader, &critical.measure, 1, values, &diag) != OK)
             continue;
         for (int r = 1; r < rows; r++)
             if (fabs(values[r]) < fabs(values[worst]))
@@ -147,17 +148,17 @@ static void remark_run(ct_session *session, const char *lines)
     }
 }
 
-static void keep_run(ct_session *session, RunInput *input, Result *result)
+static void keep_run(ct_session *session, RunInput *input, Result *result, ResultReader *reader)
 {
     Text line = {0};
     char name[32];
 
-    LIST_PUSH(session->runs, run_input_done(input, result));
+    LIST_PUSH(session->runs, run_input_done(input, result, reader));
     session_note_freedoms(session, result);
     session->start_is_later = false;
     session->changed = false;
     remark_run(session, result_remarks(result));
-    remark_critical(session, result);
+    remark_critical(session, reader);
     (void)snprintf(name, sizeof name, "run%d", session->runs.count);
     report_line(&line, result, name);
     session_remark(session, line.at);
@@ -169,6 +170,7 @@ static Status run_new(ct_session *session, const Statement *s, RunFunction *func
     RunOptions options;
     RunInput input = {0};
     Result *result = NULL;
+    ResultReader *reader = NULL;
     System *system;
     Status status;
 
@@ -179,12 +181,12 @@ static Status run_new(ct_session *session, const Statement *s, RunFunction *func
     CHECK(session_check_freedoms(session, system, &input.setting, diag));
     if (function == run_simulate)
         watch_bounds(system, NULL, &input);
-    status = function(system, &input.setting, &options, &result, diag);
+    status = function(system, &input.setting, &options, &result, &reader, diag);
     if (result == NULL)
         goto done;
-    status = check_bounds(&input, result, status, diag);
+    status = check_bounds(&input, reader, status, diag);
     /* also what was computed before a stop or a failure */
-    keep_run(session, &input, result);
+    keep_run(session, &input, result, reader);
 done:
     run_input_free(&input);
     return status;
@@ -222,9 +224,10 @@ static RunOptions options_from(const Result *old, const RunOptions *said)
 Status session_resume(ct_session *session, const Statement *s, Diag *diag)
 {
     RunOptions said, options;
-    const Result *old;
+    const Run *old;
     RunInput input = {0};
     Result *result = NULL;
+    ResultReader *reader = NULL;
     Status status = OK;
 
     CHECK(read_options(session, s, &said, diag));
@@ -234,14 +237,14 @@ Status session_resume(ct_session *session, const Statement *s, Diag *diag)
         diag_hint(diag, "'simulate 10' makes one");
         return E_MISSING;
     }
-    old = session->runs.at[session->runs.count - 1].result;
-    options = options_from(old, &said);
+    old = &session->runs.at[session->runs.count - 1];
+    options = options_from(old->result, &said);
     run_input_make(session, &input);
-    watch_bounds(result_system((Result *)old), old, &input);
-    status = run_resume(old, &input.setting, &options, &result, diag);
+    watch_bounds(result_system(old->result), old, &input);
+    status = run_resume(old->result, &input.setting, &options, &result, &reader, diag);
     if (result != NULL) {
-        status = check_bounds(&input, result, status, diag);
-        keep_run(session, &input, result);
+        status = check_bounds(&input, reader, status, diag);
+        keep_run(session, &input, result, reader);
     }
 done:
     run_input_free(&input);
@@ -338,9 +341,9 @@ static const Variable *unknown_at(const System *system, int i)
 }
 
 /* every coordinate, speed and network unknown at the start */
-static void print_configuration(Text *out, Result *start)
+static void print_configuration(Text *out, const Run *start)
 {
-    const System *system = result_system(start);
+    const System *system = result_system(start->result);
     const int count = system_n(system) + system_nu(system) + system_nx(system) + system_nz(system);
     Expr *items = NEW_ARRAY(Expr, count);
     double *values = NEW_ARRAY(double, count);
@@ -349,7 +352,7 @@ static void print_configuration(Text *out, Result *start)
 
     for (int i = 0; i < count; i++)
         items[i] = unknown_at(system, i)->symbol;
-    if (result_values(start, items, count, values, &ignored) == OK) {
+    if (result_reader_values(start->reader, items, count, values, &ignored) == OK) {
         for (int i = 0; i < count; i++) {
             table_cell(&table, unknown_at(system, i)->name);
             if (i < system_n(system) && unknown_at(system, i)->is_angle)
@@ -375,7 +378,7 @@ char *ct_report(ct_session *session)
     if (session->told != NULL) {
         session->told(session, &text);
     } else if (session->start_is_later && session->start.result != NULL) {
-        print_configuration(&text, session->start.result);
+        print_configuration(&text, &session->start);
     } else if (count > 0) {
         (void)snprintf(name, sizeof name, "run%d", count);
         report_print(&text, session->runs.at[count - 1].result, name);

@@ -5,6 +5,7 @@ Status session_start(ct_session *session, Run **out, Diag *diag)
 {
     RunInput input = {0};
     Result *result = NULL;
+    ResultReader *reader = NULL;
     System *system;
     Status status = OK;
 
@@ -12,8 +13,8 @@ Status session_start(ct_session *session, Run **out, Diag *diag)
         CHECK(session_system(session, &system, diag));
         run_input_make(session, &input);
         CHECK(session_check_freedoms(session, system, &input.setting, diag));
-        CHECK(run_assemble(system, &input.setting, &result, diag));
-        session->start = run_input_done(&input, result);
+        CHECK(run_assemble(system, &input.setting, &result, &reader, diag));
+        session->start = run_input_done(&input, result, reader);
         session_note_freedoms(session, result);
         session_remark(session, result_remarks(result));
     }

@@ -151,7 +151,7 @@ Status session_prepare(ct_session *session, Need need, View *view, Diag *diag)
 
 void session_note_freedoms(ct_session *session, const Result *result)
 {
-    if (system_revision(result_system((Result *)result)) != model_revision(session->model))
+    if (system_revision(result_system(result)) != model_revision(session->model))
         return;
     session->freed = model_revision(session->model) + 1;
     session->freedoms = result_freedoms(result);

@@ -126,8 +126,8 @@ static Status evaluate_leaf(ct_session *session, const Leaf *leaf, Run *run, con
         return OK;
     }
     times = result_times(run->result);
-    status = result_values_at(
-        run->result, &leaf->expr, 1,
+    status = result_reader_values_at(
+        run->reader, &leaf->expr, 1,
         at != NULL ? snap(run->result, *at) : times[result_rows(run->result) - 1], out, diag);
     return status == E_VALUE && leaf->run >= 0 && at != NULL
                ? refuse_instant(leaf, run->result, *at, diag)
@@ -192,7 +192,7 @@ static Status own_rows(const Formula *formulas, int count, Run *run, ct_session 
         }
     if (items.count > 0) {
         values = mem_array((size_t)rows * (size_t)items.count, sizeof *values);
-        CHECK(result_values(run->result, items.at, items.count, values, diag));
+        CHECK(result_reader_values(run->reader, items.at, items.count, values, diag));
         for (int r = 0; r < rows; r++)
             for (int i = 0; i < items.count; i++)
                 columns[places.at[i]][r] = values[(size_t)r * (size_t)items.count + (size_t)i];
@@ -220,7 +220,7 @@ static Status other_rows(ct_session *session, const Formula *formulas, int count
             if (leaf->kind == LEAF_VARIABLE && run == own)
                 continue;
             if (leaf->kind == LEAF_VARIABLE && needs_run(leaf) && run != prepared) {
-                CHECK(result_prepare(run->result, times, rows, &session->watch, diag));
+                CHECK(result_reader_prepare(run->reader, times, rows, &session->watch, diag));
                 prepared = run;
             }
             for (int r = 0; r < rows; r++) {

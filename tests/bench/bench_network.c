@@ -83,7 +83,7 @@ static void bench_ladder(const char *scripts, int sections)
         if (model != NULL && form_system(model, &system, &diag) == OK &&
             system_run(system) != NULL) {
             formulation = fmin(formulation, bench_now() - began);
-            if (run_simulate(system, &setting, &options, &result, &diag) == OK) {
+            if (run_simulate(system, &setting, &options, &result, NULL, &diag) == OK) {
                 const RunReport *report = result_report(result);
 
                 evaluation = fmin(evaluation, report->wall / (double)report->evaluations);
@@ -122,7 +122,7 @@ static void bench_diodes(const char *scripts, int count)
             system_run(system) != NULL) {
             formulation = fmin(formulation, bench_now() - began);
             began = bench_now();
-            if (run_equilibrium(system, &setting, &result, &diag) == OK)
+            if (run_equilibrium(system, &setting, &result, NULL, &diag) == OK)
                 point = fmin(point, bench_now() - began);
         }
         if (result == NULL)
@@ -162,7 +162,7 @@ static double time_of(System *system, const Setting *setting, const char *method
     Diag diag = {0};
     double began = bench_now();
 
-    if (run_simulate(system, setting, &options, &result, &diag) != OK)
+    if (run_simulate(system, setting, &options, &result, NULL, &diag) != OK)
         printf("# %s: %s\n", method, diag.message);
     result_free(result);
     return bench_now() - began;
@@ -240,7 +240,7 @@ static Switched run_circuit(const char *name, Text *text, const RunOptions *opti
 
     text_free(text);
     if (model != NULL && form_system(model, &system, &diag) == OK && system_run(system) != NULL &&
-        run_simulate(system, &setting, options, &result, &diag) == OK) {
+        run_simulate(system, &setting, options, &result, NULL, &diag) == OK) {
         out.report = *result_report(result);
         if (averaged)
             out.average = average_of(result, &diag);

@@ -1,5 +1,6 @@
 # unit tests of lib/simulate
-UNIT_TESTS += test_simulate_linear test_integration test_simulate_run test_simulate_cases
+UNIT_TESTS += test_simulate_linear test_integration test_simulate_run test_simulate_cases \
+  test_result
 test_simulate_linear_SOURCES = tests/unit/test_simulate_linear.c tests/unit/test.h
 test_simulate_linear_LDADD = $(unit_ldadd)
 test_integration_SOURCES = tests/unit/test_integration.c tests/unit/simulate_problems.h \
@@ -11,6 +12,8 @@ test_simulate_cases_LDADD = $(unit_ldadd)
 test_simulate_run_SOURCES = tests/unit/test_simulate_run.c tests/unit/simulate_script.h \
   tests/unit/test.h
 test_simulate_run_LDADD = $(unit_ldadd)
+test_result_SOURCES = tests/unit/test_result.c tests/unit/simulate_script.h tests/unit/test.h
+test_result_LDADD = $(unit_ldadd)
 EXTRA_DIST += tests/data/README tests/data/andrews.csv tests/data/four_bar.csv \
   tests/data/motor_arm_forward.csv tests/data/motor_arm_inverse.csv tests/data/pendulum_10s.csv \
   tests/data/pendulum_2000s.csv tests/data/slider_crank.csv

@@ -99,13 +99,16 @@ static void script_run(Script *script, const Statement *statement, const Changes
     script_start(script, &start);
     status = form_system(script->model, &script->system, &script->diag);
     if (status == OK && strcmp(statement->verb, "simulate") == 0)
-        status = run_simulate(script->system, &setting, &options, &script->result, &script->diag);
+        status =
+            run_simulate(script->system, &setting, &options, &script->result, NULL, &script->diag);
     else if (status == OK && strcmp(statement->verb, "inverse") == 0)
-        status = run_inverse(script->system, &setting, &options, &script->result, &script->diag);
+        status =
+            run_inverse(script->system, &setting, &options, &script->result, NULL, &script->diag);
     else if (status == OK && strcmp(statement->verb, "kinematics") == 0)
-        status = run_kinematics(script->system, &setting, &options, &script->result, &script->diag);
+        status = run_kinematics(script->system, &setting, &options, &script->result, NULL,
+                                &script->diag);
     else if (status == OK)
-        status = run_assemble(script->system, &setting, &script->result, &script->diag);
+        status = run_assemble(script->system, &setting, &script->result, NULL, &script->diag);
     script->status = status;
     mem_free(start.at);
 }
@@ -207,6 +210,23 @@ __attribute__((unused)) static void script_close(Script *script)
     result_free(script->result);
     system_free(script->system);
     model_free(script->model);
+}
+
+/* a variable at the end of the run, or at an instant */
+__attribute__((unused)) static double value_at(Script *script, const char *text, double at)
+{
+    Pool *pool = pool_new(0);
+    Syntax *syntax = NULL;
+    Diag diag = {0};
+    Expr e = NULL;
+    double value = NAN;
+
+    if (script->result == NULL || syntax_parse_expression(text, pool, &syntax, &diag) != OK ||
+        model_expression(script->model, syntax, &e, &diag) != OK ||
+        result_values_at(script->result, &e, 1, at, &value, &diag) != OK)
+        script_fail(text, &diag);
+    pool_free(pool);
+    return value;
 }
 
 /* the text of a file of the sources; NULL and a fault when it isn't there */

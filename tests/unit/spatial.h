@@ -142,7 +142,7 @@ static Result *assembled(Model *model, System *system, Diag *diag)
         start.at[i] = (struct StartValue){from->name, from->primes,
                                           model_number(model, from->value), from->is_guess};
     }
-    if (run_assemble(system, &setting, &result, diag) != OK)
+    if (run_assemble(system, &setting, &result, NULL, diag) != OK)
         result = NULL;
     mem_free(start.at);
     return result;

@@ -233,7 +233,7 @@ static bool run(Model *model, const Network *net, bool rates, System **system, T
 
         start.at[i] = (StartValue){from->name, from->primes, 0.0, from->is_guess};
     }
-    status = run_simulate(*system, &setting, &options, &told->result, &diag);
+    status = run_simulate(*system, &setting, &options, &told->result, NULL, &diag);
     if (status == OK) {
         told->rows = result_rows(told->result);
         told->columns = items.count;

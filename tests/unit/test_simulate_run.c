@@ -24,23 +24,6 @@ static Script run(const char *text, Changes changes)
     return script;
 }
 
-/* a variable at the end of the run, or at an instant */
-static double value_at(Script *script, const char *text, double at)
-{
-    Pool *pool = pool_new(0);
-    Syntax *syntax = NULL;
-    Diag diag = {0};
-    Expr e = NULL;
-    double value = NAN;
-
-    if (script->result == NULL || syntax_parse_expression(text, pool, &syntax, &diag) != OK ||
-        model_expression(script->model, syntax, &e, &diag) != OK ||
-        result_values_at(script->result, &e, 1, at, &value, &diag) != OK)
-        script_fail(text, &diag);
-    pool_free(pool);
-    return value;
-}
-
 static void expect_message(const char *text, Status status, const char *message)
 {
     Script script = run(text, (Changes){0});
@@ -164,7 +147,7 @@ static void forces_are_no_initial_values(void)
     Diag diag = {0};
 
     EXPECT(form_system(script.model, &script.system, &diag) == OK);
-    EXPECT(run_assemble(script.system, &setting, &script.result, &diag) == E_ASSEMBLE);
+    EXPECT(run_assemble(script.system, &setting, &script.result, NULL, &diag) == E_ASSEMBLE);
     EXPECT_TEXT(diag.message, "h9.fx follows from forces and can't be an initial value");
     script_close(&script);
 }
@@ -345,7 +328,7 @@ static void a_resumed_run_is_one_run(void)
     Result *resumed = NULL;
     Diag diag = {0};
 
-    EXPECT(run_resume(script.result, &setting, &options, &resumed, &diag) == OK);
+    EXPECT(run_resume(script.result, &setting, &options, &resumed, NULL, &diag) == OK);
     EXPECT(result_rows(resumed) == result_rows(whole.result));
     result_free(script.result);
     script.result = resumed;
@@ -365,7 +348,7 @@ static void only_forward_runs_are_resumed(void)
     Result *resumed = NULL;
     Diag diag = {0};
 
-    EXPECT(run_resume(script.result, &setting, &options, &resumed, &diag) == E_MISSING);
+    EXPECT(run_resume(script.result, &setting, &options, &resumed, NULL, &diag) == E_MISSING);
     EXPECT_TEXT(diag.message, "only a forward run can be resumed");
     script_close(&script);
 }
@@ -415,8 +398,8 @@ static void a_second_run_estimates_the_error(void)
     Diag diag = {0};
 
     EXPECT(form_system(script.model, &script.system, &diag) == OK);
-    EXPECT(run_simulate(script.system, &setting, &options, &script.result, &diag) == OK);
-    EXPECT(run_simulate(script.system, &setting, &exact, &fine, &diag) == OK);
+    EXPECT(run_simulate(script.system, &setting, &options, &script.result, NULL, &diag) == OK);
+    EXPECT(run_simulate(script.system, &setting, &exact, &fine, NULL, &diag) == OK);
     e[0] = expr_symbol(system_arena(script.system), "h", SYMBOL_VARIABLE);
     e[1] = expr_symbol(system_arena(script.system), "h'", SYMBOL_VARIABLE);
     EXPECT(result_values_at(script.result, e, 2, 20, got, &diag) == OK);
@@ -445,7 +428,7 @@ static void an_unresolved_run_is_told(void)
     Diag diag = {0};
 
     EXPECT(form_system(script.model, &script.system, &diag) == OK);
-    EXPECT(run_simulate(script.system, &setting, &options, &script.result, &diag) == OK);
+    EXPECT(run_simulate(script.system, &setting, &options, &script.result, NULL, &diag) == OK);
     EXPECT(script.result != NULL &&
            strstr(result_remarks(script.result), "not resolved: ") != NULL);
     EXPECT(result_report(script.result)->is_unresolved);
@@ -533,7 +516,7 @@ static void wrong_options_are_refused(void)
         Result *result = NULL;
         Diag diag = {0};
 
-        EXPECT(run_simulate(script.system, &setting, &wrong[i].options, &result, &diag) ==
+        EXPECT(run_simulate(script.system, &setting, &wrong[i].options, &result, NULL, &diag) ==
                wrong[i].status);
         EXPECT_TEXT(diag.message, wrong[i].message);
         EXPECT_TEXT(diag.hint, wrong[i].hint);
@@ -576,7 +559,7 @@ static void ctrl_c_keeps_the_rows(void)
     Result *result = NULL;
     Diag diag = {0};
 
-    EXPECT(run_simulate(script.system, &setting, &options, &result, &diag) == E_STOPPED);
+    EXPECT(run_simulate(script.system, &setting, &options, &result, NULL, &diag) == E_STOPPED);
     EXPECT(result != NULL && result_rows(result) > 1);
     EXPECT(result != NULL && result_report(result)->stopped);
     result_free(result);
@@ -717,16 +700,19 @@ static void a_warm_start_carries_the_configuration_over(void)
     Script absolute = run(CRANK "tree absolute\n", (Changes){0});
     StartValue value = {"h8", 0, 1.1, false};
     StartValues start = {1, &value};
+    ResultReader *reader = NULL;
     Setting setting = {.parameter = script_parameter,
                        .context = absolute.model,
                        .scene = model_scene_source(absolute.model),
-                       .start = &start,
-                       .warm = joint.result};
+                       .start = &start};
     Diag diag = {0};
 
+    EXPECT(result_reader_new(joint.result, &reader, &diag) == OK);
+    setting.warm = reader;
     EXPECT(form_system(absolute.model, &absolute.system, &diag) == OK);
-    EXPECT(run_assemble(absolute.system, &setting, &absolute.result, &diag) == OK);
+    EXPECT(run_assemble(absolute.system, &setting, &absolute.result, NULL, &diag) == OK);
     EXPECT_NEAR(value_at(&absolute, "h10", 0), asin(0.2 * sin(1.1) / 0.6), 1e-12);
+    result_reader_free(reader);
     script_close(&joint);
     script_close(&absolute);
 }

@@ -264,7 +264,7 @@ static double *run_pair(Model *model, const Case *one, int *rows, int *count, in
     *balances = items.count;
     push_balances(model, one, &items);
     *count = items.count;
-    if (run_simulate(system, &setting, &options, &result, &diag) == OK) {
+    if (run_simulate(system, &setting, &options, &result, NULL, &diag) == OK) {
         *rows = result_rows(result);
         values = NEW_ARRAY(double, (size_t)*rows *(size_t)*count);
         if (result_values(result, items.at, items.count, values, &diag) != OK) {

@@ -6,7 +6,7 @@
  * then a conductance beside every part whose current is an expression of its voltage shrinks to
  * nothing. At last everything creeps, masses and storage elements its resistance, until it rests:
  * pseudo-transient continuation (Kelley and Keyes 1998). */
-#include "simulate/run/result.h"
+#include "simulate/run/run.h"
 
 #include "algebra/linear.h"
 #include "base/memory.h"
@@ -14,6 +14,7 @@
 #include "simulate/analyse/search.h"
 #include "simulate/equations/causes.h"
 #include "simulate/equations/rows.h"
+#include "simulate/run/begin.h"
 
 #include <math.h>
 #include <string.h>
@@ -350,20 +351,20 @@ static Status refuse_singular(Quest *e, Diag *diag)
     return E_SINGULAR;
 }
 
-static void remark_freedom(const Quest *e, Result *r)
+static void remark_freedom(const Quest *e, ActiveRun *r)
 {
     const int rank = search_rank(e->search);
-    const int left = rank < 0 ? 0 : e->n - rank - (e->l->m - r->start.row_count);
+    const int left = rank < 0 ? 0 : e->n - rank - (e->l->m - r->result->start.row_count);
     const int loose = left == 1 && e->n - rank == 1 ? search_undetermined(e->search) : -1;
     const char *name = loose >= 0 ? network_place(e, loose) : NULL;
 
     if (left <= 0)
         return;
     if (name != NULL)
-        text_addf(&r->remarks,
+        text_addf(&r->result->remarks,
                   "at rest nothing determines %s: it stays as near to its start as may be\n", name);
     else
-        text_addf(&r->remarks,
+        text_addf(&r->result->remarks,
                   "the equilibrium is one of many: %d direction%s in which nothing pushes back\n",
                   left, left == 1 ? "" : "s");
 }
@@ -391,7 +392,7 @@ done:
     return status;
 }
 
-static Status open_bounds(Quest *e, Result *start, Diag *diag)
+static Status open_bounds(Quest *e, ActiveRun *start, Diag *diag)
 {
     Expr *measures = NULL;
     Status status = OK;
@@ -402,7 +403,8 @@ static Status open_bounds(Quest *e, Result *start, Diag *diag)
     measures = NEW_ARRAY(Expr, e->bound_count);
     for (int i = 0; i < e->bound_count; i++)
         CHECK(system_resolve(e->l->system, e->bounds[i].measure, &measures[i], diag));
-    CHECK(probe_new(e->l, &start->parameters, measures, e->bound_count, &e->measures, diag));
+    CHECK(
+        probe_new(e->l, &start->phases->parameters, measures, e->bound_count, &e->measures, diag));
     e->sides = NEW_ARRAY(double, e->bound_count);
     memcpy(e->sides, measures_here(e), (size_t)e->bound_count * sizeof(double));
 done:
@@ -410,7 +412,7 @@ done:
     return status;
 }
 
-static Status quest_open(Quest *e, const Setting *setting, Result *start, Diag *diag)
+static Status quest_open(Quest *e, const Setting *setting, ActiveRun *start, Diag *diag)
 {
     const Watch *watch = setting->watch;
     Scene scene = {0};
@@ -447,57 +449,59 @@ static void quest_close(Quest *e)
 }
 
 /* what was found is where a search for z begins */
-static void guess_network(const Quest *e, Result *r)
+static void guess_network(const Quest *e, ActiveRun *r)
 {
-    const Layout *l = result_whole(r)->layout;
+    const Layout *l = phases_whole(r->phases)->layout;
 
     if (e->l->nz != l->nz)
         return;
-    memset(r->start.network, 0, (size_t)l->nx * sizeof(double));
-    memcpy(r->start.network + l->nx, equilibrium_base(e->statics) + l->n + l->nx + l->m,
+    memset(r->result->start.network, 0, (size_t)l->nx * sizeof(double));
+    memcpy(r->result->start.network + l->nx, equilibrium_base(e->statics) + l->n + l->nx + l->m,
            (size_t)l->nz * sizeof(double));
 }
 
-Status run_equilibrium(System *system, const Setting *setting, Result **out, Diag *diag)
+Status run_equilibrium(System *system, const Setting *setting, Result **out, ResultReader **reader,
+                       Diag *diag)
 {
-    Result *r = NULL;
+    ActiveRun *r = NULL;
     Quest e = {0};
     const Layout *l;
     const double *v;
     double position = 0, velocity = 0;
     Status status = OK;
 
-    CHECK(result_open(RUN_START, system, setting, &r, diag));
-    CHECK(result_refuse_by(r, diag));
+    CHECK(run_open(RUN_START, system, setting, &r, diag));
+    CHECK(phase_refuse_by(r->phase, diag));
     CHECK(quest_open(&e, setting, r, diag));
-    l = result_whole(r)->layout;
+    l = phases_whole(r->phases)->layout;
     status = solve(&e, diag);
-    if (status == E_SOLVER && cause_meeting(l, &r->parameters, 0, r->start.y,
+    if (status == E_SOLVER && cause_meeting(l, &r->phases->parameters, 0, r->result->start.y,
                                             "no equilibrium can be found from there", diag))
         status = E_SINGULAR;
     CHECK(status);
     v = equilibrium_base(e.statics);
-    memset(r->start.y, 0, (size_t)(l->n + l->nu + l->nx) * sizeof(double));
+    memset(r->result->start.y, 0, (size_t)(l->n + l->nu + l->nx) * sizeof(double));
     for (int i = 0; i < l->n; i++) /* less than rounding of 1 rad or 1 m is nothing */
-        r->start.y[i] = fabs(v[i]) < 1e-15 ? 0 : v[i];
-    memcpy(r->start.y + l->n + l->nu, v + l->n, (size_t)l->nx * sizeof(double));
-    memcpy(r->start.y + layout_turned(l), v + equilibrium_length(e.statics) - l->turned,
+        r->result->start.y[i] = fabs(v[i]) < 1e-15 ? 0 : v[i];
+    memcpy(r->result->start.y + l->n + l->nu, v + l->n, (size_t)l->nx * sizeof(double));
+    memcpy(r->result->start.y + layout_turned(l), v + equilibrium_length(e.statics) - l->turned,
            (size_t)l->turned * sizeof(double));
     guess_network(&e, r);
-    CHECK(result_begin(r, setting, diag));
+    CHECK(run_begin(r, setting, diag));
     if (!motion_project(r->phase->motion, 0, r->begin))
         CHECK(diag_set(diag, E_SINGULAR, "the equilibrium is a singular position"));
     remark_freedom(&e, r);
     if (vector_largest(r->begin + l->n, l->nu) > 0)
-        text_add(&r->remarks, "drivers move at t = 0: runs start from here with their speeds\n");
-    result_add_row(r, 0, r->begin);
+        text_add(&r->result->remarks,
+                 "drivers move at t = 0: runs start from here with their speeds\n");
+    active_run_add_row(r, 0, r->begin);
     motion_residuals(r->phase->motion, 0, r->begin, &position, &velocity);
-    r->report.position_residual = position;
-    r->report.velocity_residual = velocity;
-    *out = r;
+    r->result->report.position_residual = position;
+    r->result->report.velocity_residual = velocity;
+    active_run_finish(r, setting, out, reader);
     r = NULL;
 done:
     quest_close(&e);
-    result_free(r);
+    active_run_free(r);
     return status;
 }

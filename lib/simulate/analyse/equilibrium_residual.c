@@ -32,7 +32,7 @@ typedef struct Inertia {
 struct EquilibriumResidual {
     System *system;
     Layout *l;
-    Result *start; /* on the system of the user */
+    ActiveRun *start; /* on the system of the user */
     Parameters parameters;
     Expr load, gmin;
     int n, length;
@@ -73,13 +73,13 @@ static double parameter(void *context, Expr symbol)
 
     return symbol == s->load   ? 1
            : symbol == s->gmin ? 0
-                               : parameters_value(&s->start->parameters, symbol);
+                               : parameters_value(&s->start->phases->parameters, symbol);
 }
 
 static Status make_system(EquilibriumResidual *s, const Scene *scene, const Watch *watch,
                           Diag *diag)
 {
-    const Layout *theirs = result_whole(s->start)->layout;
+    const Layout *theirs = phases_whole(s->start->phases)->layout;
     Arena *arena = scene->arena;
     EquilibriumResidualVary of = {.arena = arena,
                                   .time = expr_symbol(arena, "t", SYMBOL_TIME),
@@ -392,16 +392,16 @@ static void guess_network(EquilibriumResidual *s, const Layout *theirs)
     double *z = s->v + s->l->n + s->l->nx + s->l->m;
 
     for (int k = 0; k < theirs->nz; k++)
-        for (int i = 0; i < s->l->nz && s->start->start.guess[k] != 0; i++)
+        for (int i = 0; i < s->l->nz && s->start->result->start.guess[k] != 0; i++)
             if (strcmp(system_z(s->system, i)->name, system_z(theirs->system, k)->name) == 0)
-                z[i] = s->start->start.guess[k];
+                z[i] = s->start->result->start.guess[k];
 }
 
-Status equilibrium_new(const Scene *scene, Result *start, const Watch *watch,
+Status equilibrium_new(const Scene *scene, ActiveRun *start, const Watch *watch,
                        EquilibriumResidual **out, Diag *diag)
 {
     EquilibriumResidual *s = NEW(EquilibriumResidual);
-    const Layout *theirs = result_whole(start)->layout;
+    const Layout *theirs = phases_whole(start->phases)->layout;
     Status status = OK;
 
     s->start = start;
@@ -411,10 +411,10 @@ Status equilibrium_new(const Scene *scene, Result *start, const Watch *watch,
     s->v = NEW_ARRAY(double, s->length);
     s->w = NEW_ARRAY(double, s->n);
     s->place = NEW_ARRAY(double, s->length);
-    memcpy(s->v, start->start.y, (size_t)theirs->n * sizeof(double));
-    memcpy(s->v + theirs->n, start->start.y + theirs->n + theirs->nu,
+    memcpy(s->v, start->result->start.y, (size_t)theirs->n * sizeof(double));
+    memcpy(s->v + theirs->n, start->result->start.y + theirs->n + theirs->nu,
            (size_t)theirs->nx * sizeof(double));
-    memcpy(s->v + s->near, start->start.y + layout_turned(theirs),
+    memcpy(s->v + s->near, start->result->start.y + layout_turned(theirs),
            (size_t)theirs->turned * sizeof(double));
     guess_network(s, theirs);
     equilibrium_rebase(s);

@@ -13,14 +13,14 @@
 #ifndef COTREE_SIMULATE_ANALYSE_EQUILIBRIUM_RESIDUAL_H
 #define COTREE_SIMULATE_ANALYSE_EQUILIBRIUM_RESIDUAL_H
 
-#include "simulate/run/result.h"
+#include "simulate/run/active_run.h"
 
 typedef struct EquilibriumResidual EquilibriumResidual;
 
-/* New; free with equilibrium_free(). The base is the assembled start of `start`, a result on the
+/* New; free with equilibrium_free(). The base is the assembled start of `start`, a run of the
  * system of the user, which is borrowed: its parameters are asked for. Fails as system_new() and
  * probe_new() do. O(symbols in the equations) derivatives. */
-MUST_USE Status equilibrium_new(const Scene *scene, Result *start, const Watch *watch,
+MUST_USE Status equilibrium_new(const Scene *scene, ActiveRun *start, const Watch *watch,
                                 EquilibriumResidual **out, Diag *diag);
 void equilibrium_free(EquilibriumResidual *statics); /* NULL is fine */
 

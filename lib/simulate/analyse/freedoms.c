@@ -8,7 +8,7 @@
 #include "algebra/dense.h"
 #include "base/memory.h"
 #include "base/text.h"
-#include "simulate/run/result.h"
+#include "simulate/run/result_reader_impl.h"
 
 #include <gsl/gsl_linalg.h>
 #include <math.h>
@@ -23,10 +23,11 @@ typedef struct Turning {
 typedef LIST(Turning) Turnings;
 
 /* admissible speeds at the start: freedoms x nu, row by row; new */
-static double *find_motions(Result *r)
+static double *find_motions(ResultReader *reader)
 {
-    const Equations *eq = numbers_equations(r->phase->numbers);
-    const int nu = eq->nu, m = eq->m, rank = r->start.row_count;
+    const Equations *eq = numbers_equations(result_reader_first(reader)->numbers);
+    const Assembled *start = &reader->result->start;
+    const int nu = eq->nu, m = eq->m, rank = start->row_count;
     double *motions = NEW_ARRAY(double, (nu - rank) * nu);
     gsl_matrix *rows;
     gsl_vector *tau;
@@ -35,12 +36,12 @@ static double *find_motions(Result *r)
         motions[i * nu + rank + i] = 1;
     if (rank == 0)
         return motions;
-    eq->position(eq->context, 0, r->start.y);
+    eq->position(eq->context, 0, start->y);
     rows = dense_matrix((size_t)nu, (size_t)rank);
     tau = dense_vector((size_t)rank);
     for (int k = 0; k < rank && k < m; k++)
         for (int j = 0; j < nu; j++)
-            gsl_matrix_set(rows, (size_t)j, (size_t)k, eq->phi_u[r->start.rows[k] * nu + j]);
+            gsl_matrix_set(rows, (size_t)j, (size_t)k, eq->phi_u[start->rows[k] * nu + j]);
     (void)gsl_linalg_QR_decomp(rows, tau);
     for (int i = 0; i < nu - rank; i++) {
         gsl_vector_view motion = gsl_vector_view_array(motions + (ptrdiff_t)i * nu, (size_t)nu);
@@ -53,7 +54,7 @@ static double *find_motions(Result *r)
 }
 
 /* the components of angular velocity of a frame, ground axes; zero for what it doesn't have */
-static void angular_velocity(Result *r, const char *frame, Expr out[3])
+static void angular_velocity(ResultReader *reader, const char *frame, Expr out[3])
 {
     static const char *const members[] = {"wx", "wy", "wz"};
     Diag ignored;
@@ -64,28 +65,28 @@ static void angular_velocity(Result *r, const char *frame, Expr out[3])
         (void)snprintf(name, sizeof name, "%s.%s", frame, members[i]);
         /* ground has none, and a plane only the last */
         if (strcmp(frame, "ground") == 0 ||
-            system_variable(r->system, name, 0, &out[i], &ignored) != OK)
-            out[i] = expr_int(system_arena(r->system), 0);
+            system_variable(reader->result->system, name, 0, &out[i], &ignored) != OK)
+            out[i] = expr_int(system_arena(reader->result->system), 0);
     }
 }
 
 /* what the head turns against the tail along each admissible motion */
-static Status find_turnings(Result *r, const char *tail, const char *head, Turnings *out,
+static Status find_turnings(ResultReader *reader, const char *tail, const char *head, Turnings *out,
                             Diag *diag)
 {
-    const int nu = r->phase->layout->nu;
-    double *motions = find_motions(r);
+    const Layout *l = result_reader_first(reader)->layout;
+    double *motions = find_motions(reader);
     Probe *probe = NULL;
     Expr roots[3], of_tail[3];
     Status status;
 
-    angular_velocity(r, head, roots);
-    angular_velocity(r, tail, of_tail);
+    angular_velocity(reader, head, roots);
+    angular_velocity(reader, tail, of_tail);
     for (int i = 0; i < 3; i++)
-        roots[i] = expr_sub(system_arena(r->system), roots[i], of_tail[i]);
-    CHECK(probe_new(r->phase->layout, &r->parameters, roots, 3, &probe, diag));
-    for (int i = 0; i < result_freedoms(r); i++) {
-        const RowValues row = {.q = r->start.y, .u = motions + (ptrdiff_t)i * nu};
+        roots[i] = expr_sub(system_arena(reader->result->system), roots[i], of_tail[i]);
+    CHECK(probe_new(l, &reader->phases->parameters, roots, 3, &probe, diag));
+    for (int i = 0; i < result_freedoms(reader->result); i++) {
+        const RowValues row = {.q = reader->result->start.y, .u = motions + (ptrdiff_t)i * l->nu};
         const double *values = probe_values(probe, &row);
 
         LIST_PUSH(*out, (Turning){{values[0], values[1], values[2]}});
@@ -149,10 +150,10 @@ static void name_axis(const double axis[3], Text *out)
     text_addf(out, "[%.3g, %.3g, %.3g]", axis[0] + 0.0, axis[1] + 0.0, axis[2] + 0.0);
 }
 
-Status freedoms_compare(Result *real, Result *with, const Instance *const *joints,
+Status freedoms_compare(ResultReader *real, ResultReader *with, const Instance *const *joints,
                         const char *const (*frames)[2], int count, Diag *diag)
 {
-    const int lost = result_freedoms(real) - result_freedoms(with);
+    const int lost = result_freedoms(real->result) - result_freedoms(with->result);
     Text axis = {0};
     Status status = OK;
 
@@ -180,7 +181,7 @@ Status freedoms_compare(Result *real, Result *with, const Instance *const *joint
         return status;
     }
     status = diag_set(diag, E_BRANCH, "%s takes away %d of %d freedoms", joints[0]->name, lost,
-                      result_freedoms(real));
+                      result_freedoms(real->result));
     diag_hint(diag, "tree - %s makes it a chord", joints[0]->name);
     return status;
 }

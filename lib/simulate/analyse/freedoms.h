@@ -5,12 +5,13 @@
 #ifndef COTREE_SIMULATE_ANALYSE_FREEDOMS_H
 #define COTREE_SIMULATE_ANALYSE_FREEDOMS_H
 
-#include "simulate/run/run.h"
+#include "simulate/run/result_reader.h"
 
 /* Compare the freedoms nu - rank(Phi_u) of two assembled starts of one model: `real` in trees of
  * real edges, `with` in trees with the virtual joints whose instances are listed. Fails with
  * E_BRANCH where freedoms are lost, naming the joint and the turn that it leaves out. O(nu^2 m). */
-MUST_USE Status freedoms_compare(Result *real, Result *with, const Instance *const *joints,
-                                 const char *const (*frames)[2], int count, Diag *diag);
+MUST_USE Status freedoms_compare(ResultReader *real, ResultReader *with,
+                                 const Instance *const *joints, const char *const (*frames)[2],
+                                 int count, Diag *diag);
 
 #endif

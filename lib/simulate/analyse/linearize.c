@@ -44,7 +44,7 @@ static double parameter(void *context, Expr symbol)
     for (int i = 0; i < 2 * w->order->input_count; i++)
         if (w->inputs[i] == symbol && w->order->inputs[i % w->order->input_count].source != NULL)
             return 0;
-    return parameters_value(&w->order->about->parameters, symbol);
+    return parameters_value(&w->order->about->phases->parameters, symbol);
 }
 
 static Status check_input(const Scene *scene, const LinearOrder *order, int i, Diag *diag)
@@ -68,7 +68,7 @@ static Status find_point(Work *w, Diag *diag)
     const double *y, *driven;
     Status status = OK;
 
-    CHECK(result_at(w->order->about, w->order->at, &w->phase, &y, &driven, diag));
+    CHECK(result_reader_at(w->order->about, w->order->at, &w->phase, &y, &driven, diag));
     w->y = NEW_ARRAY(double, w->phase->length);
     memcpy(w->y, y, (size_t)w->phase->length * sizeof(double));
 done:
@@ -78,7 +78,7 @@ done:
 static Status open_system(Work *w, Diag *diag)
 {
     const LinearOrder *order = w->order;
-    Arena *arena = system_arena(order->about->system);
+    Arena *arena = system_arena(order->about->result->system);
     LinearizeVary of = {
         order, NULL, arena,
         expr_sub(arena, expr_symbol(arena, "t", SYMBOL_TIME), expr_real(arena, order->at))};
@@ -256,7 +256,7 @@ Status linearize(const LinearOrder *order, Linear **out, Diag *diag)
     Status status = OK;
 
     report(order->watch, "linearizing", -1);
-    CHECK(result_refuse_by(order->about, diag));
+    CHECK(phase_refuse_by(result_reader_first(order->about), diag));
     CHECK(open_system(&w, diag));
     CHECK(compile(&w, diag));
     CHECK(linear_point(&w, diag));

@@ -8,7 +8,7 @@
 #define COTREE_SIMULATE_ANALYSE_LINEARIZE_H
 
 #include "simulate/analyse/linear_equations.h"
-#include "simulate/run/run.h"
+#include "simulate/run/result_reader.h"
 
 typedef struct LinearInput {
     const char *name;
@@ -16,9 +16,9 @@ typedef struct LinearInput {
 } LinearInput;
 
 typedef struct LinearOrder {
-    Result *about;
-    double at;         /* instant of it, s */
-    SceneSource scene; /* of the result; asked where an input is a component's value */
+    ResultReader *about; /* of the result */
+    double at;           /* instant of it, s */
+    SceneSource scene;   /* of the result; asked where an input is a component's value */
     const LinearInput *inputs;
     int input_count;
     const Expr *outputs; /* over the user's variables */

@@ -10,7 +10,7 @@
 #include "simulate/analyse/linearize.h"
 #include "simulate/equations/partitioning.h"
 #include "simulate/equations/rows.h"
-#include "simulate/run/result.h"
+#include "simulate/run/result_reader_impl.h"
 
 /* places of the symbols by which everything is differentiated */
 typedef struct Columns {

@@ -216,7 +216,7 @@ static double *plain_phi_u(const Work *w)
 /* those of the start may be dependent here, where others are not */
 static void choose_rows(Work *w)
 {
-    const Assembled *start = &w->order->about->start;
+    const Assembled *start = &w->order->about->result->start;
     double *phi_u;
 
     w->in_use = NEW_ARRAY(int, w->used);
@@ -343,7 +343,7 @@ static void open_room(Work *w)
     const Layout *l = w->l;
     const int follow = l->nu + l->m + l->nx + l->nz;
 
-    w->used = w->order->about->start.row_count;
+    w->used = w->order->about->result->start.row_count;
     w->freedoms = l->nu - w->used;
     w->unknowns = l->nu + w->used + l->nx + l->nz;
     w->follow = NEW_ARRAY(double, follow);

@@ -21,11 +21,22 @@ void parameters_set(Parameters *p, Expr symbol, double value)
     p->values[at] = value;
 }
 
-double parameters_value(Parameters *p, Expr symbol)
+bool parameters_kept(const Parameters *p, Expr symbol, double *out)
 {
     for (int i = 0; i < p->count; i++)
-        if (p->symbols[i] == symbol)
-            return p->values[i];
+        if (p->symbols[i] == symbol) {
+            *out = p->values[i];
+            return true;
+        }
+    return false;
+}
+
+double parameters_value(Parameters *p, Expr symbol)
+{
+    double value;
+
+    if (parameters_kept(p, symbol, &value))
+        return value;
     parameters_set(p, symbol, p->value != NULL ? p->value(p->context, symbol) : NAN);
     return p->values[p->count - 1];
 }
@@ -34,11 +45,9 @@ void parameters_begin_turns(Parameters *p, const System *system)
 {
     for (int i = 0; i < system_whole_turns_count(system); i++) {
         Expr whole = system_whole_turns(system, i)->symbol;
-        bool is_kept = false;
+        double value;
 
-        for (int k = 0; k < p->count; k++)
-            is_kept = is_kept || p->symbols[k] == whole;
-        if (!is_kept)
+        if (!parameters_kept(p, whole, &value))
             parameters_set(p, whole, 0);
     }
 }

@@ -15,6 +15,8 @@ typedef struct Parameters {
 } Parameters;
 
 double parameters_value(Parameters *parameters, Expr symbol); /* kept, else asked and kept */
+/* whether one is kept, and which */
+bool parameters_kept(const Parameters *parameters, Expr symbol, double *out);
 void parameters_set(Parameters *parameters, Expr symbol, double value); /* kept from now on */
 /* Whole turns of sums of angles are 0 where no others are kept. */
 void parameters_begin_turns(Parameters *parameters, const System *system);

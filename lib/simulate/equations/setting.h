@@ -19,7 +19,8 @@ typedef struct StartValues {
     StartValue *at;
 } StartValues;
 
-typedef struct Result Result; /* simulate/run/run.h */
+typedef struct Result Result;             /* simulate/run/result.h */
+typedef struct ResultReader ResultReader; /* simulate/run/result_reader.h */
 
 /* Numbers of a parameter, asked once a run. Results keep the answers; they ask again for parameters
  * that only a later question about them brings in, so `context` outlives them. */
@@ -34,8 +35,8 @@ typedef struct Setting {
     const Event *const *events; /* borrowed during the call; what a result needs it copies */
     int event_count;
     const StartValues *start;
-    const Result *warm; /* configuration by coordinate name to start guesses from; NULL: none */
-    const Result *from; /* start where this one does, but for what `start` tells; NULL: there */
+    ResultReader *warm; /* configuration by coordinate name to start guesses from; NULL: none */
+    ResultReader *from; /* start where this one does, but for what `start` tells; NULL: there */
     const Watch *watch; /* borrowed as long as what is made with it */
 } Setting;
 

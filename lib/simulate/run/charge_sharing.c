@@ -49,7 +49,7 @@ static const char *kind_of(const Layout *whole, int state)
 }
 
 /* the largest voltage or current so far of any edge, as the state is the one or the other */
-static double largest_like(const Result *r, const char *kind)
+static double largest_like(const ActiveRun *r, const char *kind)
 {
     double largest = 0;
 
@@ -62,11 +62,11 @@ static double largest_like(const Result *r, const char *kind)
     return largest;
 }
 
-bool share_is_jump(const Result *r, int state, double from, double to)
+bool share_is_jump(const ActiveRun *r, int state, double from, double to)
 {
     return fabs(to - from) >
-           JUMP * fmax(largest_like(r, kind_of(result_whole(r)->layout, state)), fabs(to)) +
-               ERRORS * r->tolerance;
+           JUMP * fmax(largest_like(r, kind_of(phases_whole(r->phases)->layout, state)), fabs(to)) +
+               ERRORS * r->phases->tolerance;
 }
 
 /* --- energy --- */
@@ -83,9 +83,9 @@ static bool are_energies_known(System *system)
     return true;
 }
 
-static bool open_shares(Result *r)
+static bool open_shares(ActiveRun *r)
 {
-    const Layout *l = result_whole(r)->layout;
+    const Layout *l = phases_whole(r->phases)->layout;
     Expr energy =
         expr_add(system_arena(l->system), system_kinetic(l->system), system_potential(l->system));
 
@@ -94,13 +94,13 @@ static bool open_shares(Result *r)
     r->shares = NEW(Shares);
     r->shares->is_known =
         are_energies_known(l->system) && (expr_kinds(energy) & 1U << SYMBOL_ALGEBRAIC) == 0;
-    return probe_new(l, &r->parameters, &energy, 1, &r->shares->energy, NULL) == OK;
+    return probe_new(l, &r->phases->parameters, &energy, 1, &r->shares->energy, NULL) == OK;
 }
 
-static double energy_at(const Result *r, const Phase *phase, double t, const double *y,
+static double energy_at(const ActiveRun *r, const Phase *phase, double t, const double *y,
                         const double *x)
 {
-    const Layout *l = result_whole(r)->layout;
+    const Layout *l = phases_whole(r->phases)->layout;
     const RowValues row = {
         .t = t, .near = y + layout_turned(phase->layout), .q = y, .u = y + l->n, .x = x};
 
@@ -110,12 +110,12 @@ static double energy_at(const Result *r, const Phase *phase, double t, const dou
 /* --- sharing --- */
 
 /* for each state, the largest of its kind */
-static void find_sizes(const Result *r, const double *x, double *sizes)
+static void find_sizes(const ActiveRun *r, const double *x, double *sizes)
 {
-    const Layout *whole = result_whole(r)->layout;
+    const Layout *whole = phases_whole(r->phases)->layout;
 
     for (int i = 0; i < whole->nx; i++) {
-        sizes[i] = ERRORS * r->tolerance;
+        sizes[i] = ERRORS * r->phases->tolerance;
         for (int k = 0; k < whole->nx; k++)
             if (strcmp(kind_of(whole, k), kind_of(whole, i)) == 0)
                 sizes[i] = fmax(sizes[i], fabs(x[k]));
@@ -123,10 +123,10 @@ static void find_sizes(const Result *r, const double *x, double *sizes)
 }
 
 /* where a jump leads that begins elsewhere: by `moves` of the sizes of states */
-static bool jump_from(const Result *r, const double *x, const double *moves, const double *sizes,
+static bool jump_from(const ActiveRun *r, const double *x, const double *moves, const double *sizes,
                       double *landed)
 {
-    const int nx = result_whole(r)->layout->nx;
+    const int nx = phases_whole(r->phases)->layout->nx;
     double *other = NEW_ARRAY(double, nx);
     bool sound;
 
@@ -138,10 +138,10 @@ static bool jump_from(const Result *r, const double *x, const double *moves, con
 }
 
 /* whether something that is stored changes by what this state was */
-static bool goes_somewhere(const Result *r, int state, const double *x, const double *now,
+static bool goes_somewhere(const ActiveRun *r, int state, const double *x, const double *now,
                            const double *sizes)
 {
-    const int nx = result_whole(r)->layout->nx;
+    const int nx = phases_whole(r->phases)->layout->nx;
     double *moves = NEW_ARRAY(double, nx);
     double *landed = NEW_ARRAY(double, nx);
     bool found = false;
@@ -169,9 +169,9 @@ static bool hands_on(System *system)
 
 /* Whether each state that jumps follows from what was stored, or is handed on: it isn't given by
  * sources alone, nor goes into nothing. What follows is seen by a move of all that was stored. */
-static bool are_shared(const Result *r, const double *x, const double *now, const double *sizes)
+static bool are_shared(const ActiveRun *r, const double *x, const double *now, const double *sizes)
 {
-    const int nx = result_whole(r)->layout->nx;
+    const int nx = phases_whole(r->phases)->layout->nx;
     double *moves = NEW_ARRAY(double, nx);
     double *landed = NEW_ARRAY(double, nx);
     uint64_t seed = 1;
@@ -207,9 +207,9 @@ static bool put_states(Phase *phase, double t, const double *landed, const doubl
 /* --- what is said --- */
 
 /* "C1 and C2 share their charge" */
-static void tell_sharers(const Result *r, const double *x, const double *now, Text *out)
+static void tell_sharers(const ActiveRun *r, const double *x, const double *now, Text *out)
 {
-    const Layout *whole = result_whole(r)->layout;
+    const Layout *whole = phases_whole(r->phases)->layout;
     bool charge = false, flux = false;
     int count = 0, said = 0;
 
@@ -236,44 +236,44 @@ static void tell_sharers(const Result *r, const double *x, const double *now, Te
                                 : "what they store");
 }
 
-static void tell(Result *r, const char *sides, double t, double lost, const double *x,
+static void tell(ActiveRun *r, const char *sides, double t, double lost, const double *x,
                  const double *now)
 {
     r->shares->lost += lost;
     if (r->shares->times++ >= TOLD)
         return;
-    text_addf(&r->remarks, "%s at t = %.9g s: ", sides, fabs(t) < DBL_MIN ? 0 : t);
-    tell_sharers(r, x, now, &r->remarks);
+    text_addf(&r->result->remarks, "%s at t = %.9g s: ", sides, fabs(t) < DBL_MIN ? 0 : t);
+    tell_sharers(r, x, now, &r->result->remarks);
     if (isfinite(lost))
-        text_addf(&r->remarks, ", %.6g J are lost", lost);
-    text_add(&r->remarks, "\n");
+        text_addf(&r->result->remarks, ", %.6g J are lost", lost);
+    text_add(&r->result->remarks, "\n");
 }
 
-void share_tell(Result *r)
+void share_tell(ActiveRun *r)
 {
     mem_keep(r);
     const Shares *shares = r->shares;
 
     if (shares == NULL || shares->times <= TOLD)
         return;
-    text_addf(&r->remarks, "ideal switches do so %d more times", shares->times - TOLD);
+    text_addf(&r->result->remarks, "ideal switches do so %d more times", shares->times - TOLD);
     if (isfinite(shares->lost))
-        text_addf(&r->remarks, ": %.6g J are lost in all", shares->lost);
-    text_add(&r->remarks, "\n");
+        text_addf(&r->result->remarks, ": %.6g J are lost in all", shares->lost);
+    text_add(&r->result->remarks, "\n");
 }
 
 /* What is stored may not grow: sources alone would have to give that. */
-static bool is_given(const Result *r, Phase *phase, double t, const double *y, const double *x,
+static bool is_given(const ActiveRun *r, Phase *phase, double t, const double *y, const double *x,
                      const double *now)
 {
     const double was = energy_at(r, phase, t, y, x), is = energy_at(r, phase, t, y, now);
 
     return r->shares->is_known && is - was > GAIN * (fabs(is) + fabs(was)) &&
-           !hands_on(result_whole(r)->layout->system);
+           !hands_on(phases_whole(r->phases)->layout->system);
 }
 
 /* J; NAN where the energy of something is not known */
-static double energy_lost(Result *r, Phase *phase, double t, const bool *before, const double *y,
+static double energy_lost(ActiveRun *r, Phase *phase, double t, const bool *before, const double *y,
                           const double *x, const double *now, double *gained)
 {
     const double was = energy_at(r, phase, t, y, x), is = energy_at(r, phase, t, y, now);
@@ -284,11 +284,11 @@ static double energy_lost(Result *r, Phase *phase, double t, const bool *before,
     return r->shares->is_known && lost >= -GAIN * (fabs(was) + fabs(work)) ? fmax(0, lost) : NAN;
 }
 
-bool share_stored(Result *r, Phase *phase, double t, const bool *before, const char *sides,
+bool share_stored(ActiveRun *r, Phase *phase, double t, const bool *before, const char *sides,
                   double *y, double *x)
 {
     mem_keep(r);
-    const int nx = result_whole(r)->layout->nx;
+    const int nx = phases_whole(r->phases)->layout->nx;
     const size_t bytes = (size_t)phase->length * sizeof(double);
     double *sizes = NEW_ARRAY(double, nx);
     double *landed = NEW_ARRAY(double, nx);

@@ -4,11 +4,10 @@
  * the run is taken again, from the row or corner before to the one behind, whose steps are read
  * where they were asked for. Where nothing was integrated, positions are interpolated and put back
  * on constraints and drivers, which tell all. */
-#include "simulate/run/result.h"
+#include "simulate/run/result_reader_impl.h"
 
 #include "base/memory.h"
 #include "simulate/run/inverse.h"
-#include "simulate/run/mode_switch.h"
 
 #include <math.h>
 #include <string.h>
@@ -61,42 +60,46 @@ static int last_row(const Grid *grid, double t)
     return low;
 }
 
-static StepEnd row_end(const Result *r, int row)
+static StepEnd row_end(const ResultReader *reader, int row)
 {
+    const Result *r = reader->result;
+
     return (StepEnd){.t = r->grid.times[row],
-                     .phase = result_phase(r, row),
+                     .phase = reader->phases->at[r->grid.phase[row]],
                      .y = grid_row(&r->grid, row),
                      .is_sampled = row == 0,
-                     .driven = result_driven(r, row)};
+                     .driven = driven_row(&r->driven, row)};
 }
 
-static StepEnd corner_end(const Result *r, int corner)
+static StepEnd corner_end(const ResultReader *reader, int corner)
 {
-    return (StepEnd){.t = r->corners.times[corner],
-                     .phase = r->phases.at[r->corners.phase[corner]],
-                     .y = grid_row(&r->corners, corner),
+    const Grid *corners = &reader->result->corners;
+
+    return (StepEnd){.t = corners->times[corner],
+                     .phase = reader->phases->at[corners->phase[corner]],
+                     .y = grid_row(corners, corner),
                      .is_sampled = true};
 }
 
 /* The nearest ends around t, the same one twice where it is at t or behind the last row; false
  * outside the run. */
-static bool find_ends(const Result *r, double t, StepEnd ends[2])
+static bool find_ends(const ResultReader *reader, double t, StepEnd ends[2])
 {
-    const Grid *grid = &r->grid;
-    int row = last_row(grid, t), corner = last_row(&r->corners, t);
+    const Grid *grid = &reader->result->grid, *corners = &reader->result->corners;
+    int row = last_row(grid, t), corner = last_row(corners, t);
 
     if (grid->count == 0 || !(t >= grid->times[0] - 1e-9 * fabs(grid->times[0])) ||
         !(t <= grid->times[grid->count - 1] + 1e-9 * fabs(grid->times[grid->count - 1])))
         return false;
     row = row < 0 ? 0 : row;
-    ends[0] = ends[1] = row_end(r, row);
+    ends[0] = ends[1] = row_end(reader, row);
     if (row == grid->count - 1 || ends[0].t == t)
         return true;
-    ends[1] = row_end(r, row + 1);
-    if (corner >= 0 && r->corners.times[corner] >= ends[0].t)
-        ends[0] = corner_end(r, corner);
-    if (corner + 1 < r->corners.count && r->corners.times[corner + 1] <= ends[1].t)
-        ends[1] = corner_end(r, corner + 1);
+    ends[1] = row_end(reader, row + 1);
+    if (corner >= 0 && corners->times[corner] >= ends[0].t)
+        ends[0] = corner_end(reader, corner);
+    if (corner + 1 < corners->count && corners->times[corner + 1] <= ends[1].t)
+        ends[1] = corner_end(reader, corner + 1);
     if (ends[0].t == t)
         ends[1] = ends[0];
     return true;
@@ -195,11 +198,12 @@ static bool is_integrated(const Result *r)
 }
 
 /* from one end to the other by the run's method, in steps as it would have taken them */
-static Status go_again(Result *r, const StepEnd ends[2], const double *times, int count,
+static Status go_again(ResultReader *reader, const StepEnd ends[2], const double *times, int count,
                        const Watch *watch, Diag *diag)
 {
+    const Result *r = reader->result;
     const Grid *grid = &r->grid;
-    IntegrationPlan plan = {.segment = mode_switch_segment(r, ends[0].phase, NULL),
+    IntegrationPlan plan = {.segment = phases_segment(reader->phases, ends[0].phase, NULL),
                             .method = method_find(r->report.method),
                             .control = {.rtol = r->report.rtol,
                                         .atol = r->report.atol,
@@ -216,7 +220,7 @@ static Status go_again(Result *r, const StepEnd ends[2], const double *times, in
                             .is_sampled = ends[0].is_sampled,
                             .watch = watch};
     IntegrationReport report;
-    const Status status = integrate(&plan, ends[0].y, &r->asked, &report, diag);
+    const Status status = integrate(&plan, ends[0].y, &reader->asked, &report, diag);
 
     text_free(&report.remarks);
     LIST_FREE(report.jumps);
@@ -224,19 +228,19 @@ static Status go_again(Result *r, const StepEnd ends[2], const double *times, in
 }
 
 /* Rows at times between two ends. */
-static Status fill_between(Result *r, StepEnd ends[2], const double *times, int count,
+static Status fill_between(ResultReader *reader, StepEnd ends[2], const double *times, int count,
                            const Watch *watch, Diag *diag)
 {
     double *y;
     Status status = OK;
 
-    if (is_integrated(r))
-        return go_again(r, ends, times, count, watch, diag);
+    if (is_integrated(reader->result))
+        return go_again(reader, ends, times, count, watch, diag);
     y = NEW_ARRAY(double, ends[0].phase->length);
     for (int i = 0; i < count; i++) {
         if (!find_between(ends, times[i], y))
             CHECK(solver_failure(diag, times[i], "the constraints can't be met"));
-        grid_add(&r->asked, times[i], result_phase_number(r, ends[0].phase), y,
+        grid_add(&reader->asked, times[i], phases_number(reader->phases, ends[0].phase), y,
                  ends[0].phase->length);
     }
 done:
@@ -254,58 +258,64 @@ static int count_until(const double *times, int count, double end)
     return i;
 }
 
-static Status fill(Result *r, const double *times, int count, const Watch *watch, Diag *diag)
+static Status fill(ResultReader *reader, const double *times, int count, const Watch *watch,
+                   Diag *diag)
 {
     const double end = count > 0 ? times[count - 1] : 0;
     Status status = OK;
 
-    grid_free(&r->asked);
+    grid_free(&reader->asked);
     for (int i = 0, group; i < count; i += group) {
-        const double last = r->asked.count > 0 ? r->asked.times[r->asked.count - 1] : -INFINITY;
+        const Grid *asked = &reader->asked;
+        const double last = asked->count > 0 ? asked->times[asked->count - 1] : -INFINITY;
         StepEnd ends[2];
 
         group = 1;
         CHECK(poll(watch));
         report(watch, "between rows", end > 0 ? times[i] / end : 0);
-        if (!(times[i] > last) || !find_ends(r, times[i], ends) || ends[0].y == ends[1].y ||
+        if (!(times[i] > last) || !find_ends(reader, times[i], ends) || ends[0].y == ends[1].y ||
             ends[0].phase != ends[1].phase)
             continue;
         group = count_until(times + i, count - i, ends[1].t);
-        CHECK(fill_between(r, ends, times + i, group, watch, diag));
+        CHECK(fill_between(reader, ends, times + i, group, watch, diag));
     }
-    if (r->driven.values != NULL && r->asked.count > 0)
-        CHECK(inverse_solve(r, &r->asked, &r->asked_driven, diag));
+    if (reader->result->driven.values != NULL && reader->asked.count > 0)
+        CHECK(inverse_solve(reader->phases, &reader->result->start, &reader->asked,
+                            &reader->asked_driven, diag));
 done:
     return status;
 }
 
-Status result_prepare(Result *r, const double *times, int count, const Watch *watch, Diag *diag)
+Status result_reader_prepare(ResultReader *reader, const double *times, int count,
+                             const Watch *watch, Diag *diag)
 {
-    mem_keep(r);
+    mem_keep(reader);
     Diag ignored = {0};
-    const Status status = fill(r, times, count, watch, &ignored);
+    const Status status = fill(reader, times, count, watch, &ignored);
 
     return status == E_STOPPED ? diag_set(diag, status, "%s", ignored.message) : OK;
 }
 
 /* the row that was asked for at t; -1: none was */
-static int asked_row(const Result *r, double t)
+static int asked_row(const ResultReader *reader, double t)
 {
-    const int row = last_row(&r->asked, t);
+    const int row = last_row(&reader->asked, t);
 
-    return row >= 0 && t - r->asked.times[row] <= SAME * r->report.every ? row : -1;
+    return row >= 0 && t - reader->asked.times[row] <= SAME * reader->result->report.every ? row
+                                                                                           : -1;
 }
 
-Status result_at(Result *r, double t, Phase **phase, const double **y, const double **driven,
-                 Diag *diag)
+Status result_reader_at(ResultReader *reader, double t, Phase **phase, const double **y,
+                        const double **driven, Diag *diag)
 {
-    mem_keep(r);
-    const Grid *grid = &r->grid;
+    mem_keep(reader);
+    mem_keep(reader->phases);
+    const Grid *grid = &reader->result->grid;
     StepEnd ends[2];
     int row;
     Status status = OK;
 
-    if (!find_ends(r, t, ends))
+    if (!find_ends(reader, t, ends))
         return diag_set(diag, E_VALUE,
                         "t = %.6g s is outside the run, which goes from %.6g to %.6g s", t,
                         grid->count > 0 ? grid->times[0] : 0,
@@ -315,32 +325,14 @@ Status result_at(Result *r, double t, Phase **phase, const double **y, const dou
     *driven = ends[0].driven;
     if (ends[0].y == ends[1].y)
         goto done;
-    if (asked_row(r, t) < 0)
-        CHECK(fill(r, &t, 1, NULL, diag));
-    row = asked_row(r, t);
+    if (asked_row(reader, t) < 0)
+        CHECK(fill(reader, &t, 1, NULL, diag));
+    row = asked_row(reader, t);
     if (row < 0)
         CHECK(solver_failure(diag, t, "the run has no value between two of its rows"));
-    *phase = r->phases.at[r->asked.phase[row]];
-    *y = grid_row(&r->asked, row);
-    *driven = r->driven.values != NULL
-                  ? r->asked_driven.values + (ptrdiff_t)row * r->asked_driven.length
-                  : NULL;
+    *phase = reader->phases->at[reader->asked.phase[row]];
+    *y = grid_row(&reader->asked, row);
+    *driven = driven_row(&reader->asked_driven, row);
 done:
-    return status;
-}
-
-Status result_values_at(Result *r, const Expr *items, int count, double at, double *out, Diag *diag)
-{
-    mem_keep(r);
-    Phase *phase = NULL;
-    const double *y = NULL, *driven = NULL;
-    Probe *probe = NULL;
-    Status status = OK;
-
-    CHECK(result_at(r, at, &phase, &y, &driven, diag));
-    CHECK(result_probe(r, phase, items, count, &probe, diag));
-    result_probe_at(phase, probe, at, y, driven, count, out);
-done:
-    probe_free(probe);
     return status;
 }

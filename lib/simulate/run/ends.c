@@ -18,7 +18,7 @@
 
 /* where a run stands, and how it goes on from there */
 typedef struct RunEnd {
-    Result *result;
+    ActiveRun *run;
     Phase *phase;
     double t, span;
     double *y, *rate, *ahead; /* ahead: y some time on */
@@ -94,8 +94,8 @@ static void look_at_pusher(RunEnd *e, const Pusher *pusher, Pushing *out)
     bool is_number;
     double push;
 
-    if (probe_new(e->phase->layout, &e->result->parameters, pusher->value, pusher->count, &probe,
-                  &ignored) != OK)
+    if (probe_new(e->phase->layout, &e->run->phases->parameters, pusher->value, pusher->count,
+                  &probe, &ignored) != OK)
         return;
     push = largest_push(e, probe, pusher->count, 0, &is_number);
     if (is_number && push > out->most) {
@@ -137,7 +137,7 @@ static bool tell_meeting(RunEnd *e, Diag *diag)
     char before[sizeof diag->message];
 
     memcpy(before, diag->message, sizeof before);
-    return cause_closing(e->phase->layout, &e->result->parameters, e->t, e->y, e->rate,
+    return cause_closing(e->phase->layout, &e->run->phases->parameters, e->t, e->y, e->rate,
                          IMMINENT * e->span, before, diag);
 }
 
@@ -169,14 +169,14 @@ static void tell(RunEnd *e, Stepper *stepper, Diag *diag)
 void ends_explain(void *context, const Segment *segment, Stepper *stepper, Diag *diag)
 {
     const ModeSwitching *c = context;
-    Phase *phase = c->result->phases.at[segment->phase];
+    Phase *phase = c->run->phases->at[segment->phase];
     const Ode *ode = stepper->ode;
-    RunEnd end = {.result = c->result, .phase = phase, .t = stepper->t, .span = c->span};
+    RunEnd end = {.run = c->run, .phase = phase, .t = stepper->t, .span = c->span};
 
     end.rate = NEW_ARRAY(double, phase->length);
     end.ahead = NEW_ARRAY(double, phase->length);
     end.y = stepper->y;
-    end.at_start = c->result->begin;
+    end.at_start = c->run->begin;
     if (ode->rate(ode->context, end.t, end.y, end.rate))
         tell(&end, stepper, diag);
     mem_free(end.rate);

@@ -7,7 +7,7 @@
 #define COTREE_SIMULATE_RUN_EVENTS_H
 
 #include "simulate/equations/numbers.h"
-#include "simulate/run/run.h"
+#include "simulate/run/result.h"
 
 typedef struct Events Events;
 
@@ -30,10 +30,10 @@ typedef struct EventsPlan {
 MUST_USE Status events_new(const EventsPlan *plan, Events **out, Diag *diag);
 void events_free(Events *events); /* NULL is fine */
 
-int events_count(const Events *events); /* 0 for NULL, here and below */
-EventRecord events_record(const Events *events, int i);
+int events_count(const Events *events);                 /* 0 for NULL, here and below */
+EventRecord events_record(const Events *events, int i); /* borrowed, until something happens */
 /* The records of an earlier run that this one goes on with. */
-void events_go_on(Events *events, const Events *earlier);
+void events_go_on(Events *events, const EventRecord *earlier, int count);
 /* What happened, from the same events in another phase of a run; `from` is as it began then. */
 void events_hand_over(Events *events, Events *from);
 /* text about what happened, in lines */

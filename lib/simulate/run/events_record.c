@@ -22,6 +22,7 @@ EventRecord events_record(const Events *events, int i)
     return (EventRecord){.name = item->name,
                          .condition = item->condition,
                          .action = item->action,
+                         .is_known = item->course.is_known,
                          .from_start = item->course.from_start,
                          .holds = item->course.holds,
                          .ended = item->course.ended,
@@ -29,7 +30,7 @@ EventRecord events_record(const Events *events, int i)
                          .times = item->course.times.at};
 }
 
-static void take_over(Events *events, const EventItem *old)
+static void take_over(Events *events, const EventRecord *old)
 {
     EventItem *item = NULL;
 
@@ -37,7 +38,7 @@ static void take_over(Events *events, const EventItem *old)
         if (strcmp(events->items.at[i].name, old->name) == 0 &&
             strcmp(events->items.at[i].condition, old->condition) == 0)
             item = &events->items.at[i];
-    if (item == NULL && old->course.times.count == 0)
+    if (item == NULL && old->count == 0)
         return;
     if (item == NULL) {
         LIST_PUSH(events->items, (EventItem){.name = events_keep(events, old->name),
@@ -45,19 +46,19 @@ static void take_over(Events *events, const EventItem *old)
                                              .action = old->action});
         item = &events->items.at[events->items.count - 1];
     }
-    item->course.is_known = item->is_live && old->course.is_known;
-    item->course.is_resumed = old->course.is_known;
-    item->course.holds = old->course.holds;
-    item->course.from_start = old->course.from_start;
-    for (int i = 0; i < old->course.times.count; i++)
-        LIST_PUSH(item->course.times, old->course.times.at[i]);
+    item->course.is_known = item->is_live && old->is_known;
+    item->course.is_resumed = old->is_known;
+    item->course.holds = old->holds;
+    item->course.from_start = old->from_start;
+    for (int i = 0; i < old->count; i++)
+        LIST_PUSH(item->course.times, old->times[i]);
     item->course.earlier = item->course.times.count;
 }
 
-void events_go_on(Events *events, const Events *earlier)
+void events_go_on(Events *events, const EventRecord *earlier, int count)
 {
-    for (int i = 0; i < events_count(earlier); i++)
-        take_over(events, &earlier->items.at[i]);
+    for (int i = 0; i < count; i++)
+        take_over(events, &earlier[i]);
 }
 
 void events_hand_over(Events *events, Events *from)

@@ -23,7 +23,9 @@
 typedef LIST(int) Unknowns;
 
 typedef struct Inverse {
-    Result *result;
+    Phases *phases;
+    Phase *phase; /* the only one */
+    const Assembled *start;
     const Layout *l;
     Unknowns forces;  /* unknowns of R: multipliers first, then w */
     int multipliers;  /* how many of them */
@@ -43,20 +45,20 @@ static bool is_symbol(Expr e, SymbolKind kind)
     return expr_kind(e) == EXPR_SYMBOL && expr_symbol_kind(e) == kind;
 }
 
-bool inverse_finds_states(const Result *r)
+bool inverse_finds_states(const System *system)
 {
-    for (int i = 0; i < system_drive_count(r->system); i++)
-        if (system_drive(r->system, i)->by_source)
+    for (int i = 0; i < system_drive_count(system); i++)
+        if (system_drive(system, i)->by_source)
             return true;
     return false;
 }
 
 /* --- what is unknown --- */
 
-static bool is_supplied_elsewhere(const Result *r, int constraint)
+static bool is_supplied_elsewhere(const System *system, int constraint)
 {
-    for (int i = 0; i < system_drive_count(r->system); i++) {
-        const Drive *drive = system_drive(r->system, i);
+    for (int i = 0; i < system_drive_count(system); i++) {
+        const Drive *drive = system_drive(system, i);
 
         if (drive->constraint == constraint && is_symbol(drive->effort, SYMBOL_EFFORT))
             return true;
@@ -79,7 +81,7 @@ static Status sort_unknowns(Inverse *in, Diag *diag)
     const Layout *l = in->l;
 
     for (int k = 0; k < l->m; k++)
-        if (!is_supplied_elsewhere(in->result, k))
+        if (!is_supplied_elsewhere(in->phases->system, k))
             LIST_PUSH(in->forces, l->multipliers + k);
     in->multipliers = in->forces.count;
     for (int i = 0; i < l->nx && in->by_source; i++) {
@@ -166,7 +168,7 @@ static Status open_probe(Inverse *in, Roots *rows, const Unknowns *unknowns, Pro
 
     for (int k = 0; k < unknowns->count; k++)
         symbols[k] = in->l->symbols[unknowns->at[k]];
-    status = probe_make(in->l, &in->result->parameters, &order, out, diag);
+    status = probe_make(in->l, &in->phases->parameters, &order, out, diag);
     LIST_FREE(*rows);
     mem_free(symbols);
     return status;
@@ -223,14 +225,14 @@ static const double *values_of(const Inverse *in, Probe *probe)
  * multipliers of others are 0. */
 static void choose_rows(Inverse *in)
 {
-    const Equations *eq = numbers_equations(in->result->phase->numbers);
-    const int count = in->result->start.row_count;
+    const Equations *eq = numbers_equations(in->phase->numbers);
+    const int count = in->start->row_count;
     int *rows = NEW_ARRAY(int, count);
 
     if (count < eq->m)
         (void)rank_choose(eq->phi_u, eq->m, eq->nu, count, rows);
     else
-        memcpy(rows, in->result->start.rows, (size_t)count * sizeof(int));
+        memcpy(rows, in->start->rows, (size_t)count * sizeof(int));
     memset(in->in_use, 0, (size_t)eq->m * sizeof(bool));
     for (int k = 0; k < count; k++)
         in->in_use[rows[k]] = true;
@@ -275,11 +277,11 @@ static bool solve_in_use(const Inverse *in, const Probe *probe, const double *va
  * elsewhere have none. */
 static void spread_multipliers(Inverse *in)
 {
-    const Equations *eq = numbers_equations(in->result->phase->numbers);
+    const Equations *eq = numbers_equations(in->phase->numbers);
     double *phi_u, *lambda;
     int count = 0;
 
-    if (in->result->start.row_count == eq->m)
+    if (in->start->row_count == eq->m)
         return;
     phi_u = NEW_ARRAY(double, eq->m * eq->nu);
     lambda = NEW_ARRAY(double, eq->m);
@@ -332,7 +334,7 @@ static Status solve_rows(Inverse *in, Probe *probe, const Unknowns *unknowns, Di
         }
         size = vector_largest(step, unknowns->count);
     }
-    if (rows > unknowns->count || size > 1e-8 * scale || in->result->start.row_count < in->l->m) {
+    if (rows > unknowns->count || size > 1e-8 * scale || in->start->row_count < in->l->m) {
         const double *values = values_of(in, probe);
 
         if (!(vector_largest(values, rows) <= 1e-7 * scale))
@@ -373,12 +375,11 @@ done:
 /* a row at (t, y), of which the states are found; its block into `out` */
 static Status solve_row(Inverse *in, double t, double *y, double *out, Diag *diag)
 {
-    Result *r = in->result;
     const Layout *l = in->l;
     Solved solved;
     Status status = OK;
 
-    if (!motion_solve(r->phase->motion, t, y, &solved))
+    if (!motion_solve(in->phase->motion, t, y, &solved))
         return solver_failure(diag, t, "the accelerations are undefined");
     choose_rows(in);
     memset(in->values, 0, (size_t)l->count * sizeof(double));
@@ -401,19 +402,24 @@ done:
     return status;
 }
 
-Status inverse_solve(Result *r, Grid *rows, Driven *out, Diag *diag)
+Status inverse_solve(Phases *phases, const Assembled *start, Grid *rows, Driven *out, Diag *diag)
 {
-    mem_keep(r);
-    Inverse in = {.result = r, .l = r->phase->layout, .by_source = inverse_finds_states(r)};
+    mem_keep(phases);
+    Phase *phase = phases_whole(phases);
+    Inverse in = {.phases = phases,
+                  .phase = phase,
+                  .start = start,
+                  .l = phase->layout,
+                  .by_source = inverse_finds_states(phases->system)};
     Status status = OK;
 
-    if (r->phase->layout->ne == 0)
+    if (in.l->ne == 0)
         return OK; /* every effort is a multiplier */
-    in.values = NEW_ARRAY(double, r->phase->layout->count);
-    in.in_use = NEW_ARRAY(bool, r->phase->layout->m);
+    in.values = NEW_ARRAY(double, in.l->count);
+    in.in_use = NEW_ARRAY(bool, in.l->m);
     CHECK(sort_unknowns(&in, diag));
     CHECK(compile(&in, diag));
-    out->length = r->phase->layout->jerk - r->phase->layout->rates;
+    out->length = in.l->jerk - in.l->rates;
     mem_free(out->values);
     out->values = NEW_ARRAY(double, rows->count * out->length);
     for (int row = 0; row < rows->count; row++)

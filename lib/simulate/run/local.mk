@@ -1,4 +1,6 @@
 libcore_la_SOURCES += \
+  lib/simulate/run/begin.c \
+  lib/simulate/run/begin.h \
   lib/simulate/run/dense_output.c \
   lib/simulate/run/mode_switch.c \
   lib/simulate/run/mode_switch.h \
@@ -11,6 +13,8 @@ libcore_la_SOURCES += \
   lib/simulate/run/grid.c \
   lib/simulate/run/grid.h \
   lib/simulate/run/inverse.c \
+  lib/simulate/run/active_run.c \
+  lib/simulate/run/active_run.h \
   lib/simulate/run/inverse.h \
   lib/simulate/run/integration.c \
   lib/simulate/run/integration.h \
@@ -27,9 +31,12 @@ libcore_la_SOURCES += \
   lib/simulate/run/onset.h \
   lib/simulate/run/phase.c \
   lib/simulate/run/phase.h \
+  lib/simulate/run/result_reader.c \
+  lib/simulate/run/result_reader.h \
+  lib/simulate/run/result_reader_impl.h \
   lib/simulate/run/result.c \
   lib/simulate/run/result.h \
-  lib/simulate/run/result_open.c \
+  lib/simulate/run/result_impl.h \
   lib/simulate/run/run.h \
   lib/simulate/run/samples.c \
   lib/simulate/run/samples.h \
@@ -37,4 +44,6 @@ libcore_la_SOURCES += \
   lib/simulate/run/charge_sharing.h \
   lib/simulate/run/simulate.c \
   lib/simulate/run/sliding.c \
-  lib/simulate/run/sliding.h
+  lib/simulate/run/sliding.h \
+  lib/simulate/run/phases.c \
+  lib/simulate/run/phases.h

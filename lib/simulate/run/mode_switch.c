@@ -25,9 +25,9 @@
 /* --- states of the whole --- */
 
 /* which states of the whole the phase's own are, by name */
-static Status find_states(const Result *r, Phase *phase, Diag *diag)
+static Status find_states(const ActiveRun *r, Phase *phase, Diag *diag)
 {
-    const Layout *l = phase->layout, *whole = result_whole(r)->layout;
+    const Layout *l = phase->layout, *whole = phases_whole(r->phases)->layout;
 
     phase->among_whole = NEW_ARRAY(int, l->nx);
     for (int i = 0; i < l->nx; i++) {
@@ -44,9 +44,9 @@ static Status find_states(const Result *r, Phase *phase, Diag *diag)
     return OK;
 }
 
-static Status compile_states(Result *r, Phase *phase, Diag *diag)
+static Status compile_states(ActiveRun *r, Phase *phase, Diag *diag)
 {
-    const Layout *whole = result_whole(r)->layout;
+    const Layout *whole = phases_whole(r->phases)->layout;
     LIST(Expr) roots = {0};
     Status status = OK;
 
@@ -58,7 +58,8 @@ static Status compile_states(Result *r, Phase *phase, Diag *diag)
     }
     for (int i = 0; system_invariant(phase->system, i) != NULL; i++)
         LIST_PUSH(roots, system_invariant(phase->system, i));
-    CHECK(probe_new(phase->layout, &r->parameters, roots.at, roots.count, &phase->states, diag));
+    CHECK(probe_new(phase->layout, &r->phases->parameters, roots.at, roots.count, &phase->states,
+                    diag));
 done:
     LIST_FREE(roots);
     return status;
@@ -79,7 +80,7 @@ static void enter(const Phase *phase, const double *y, const double *x, const do
 
 /* --- impulses --- */
 
-static void name_sides(const Result *r, const bool *before, const bool *closed, Text *out)
+static void name_sides(const ActiveRun *r, const bool *before, const bool *closed, Text *out)
 {
     for (int k = 0; k < system_ideal_count(r->system); k++) {
         IdealSwitch ideal;
@@ -94,7 +95,7 @@ static void name_sides(const Result *r, const bool *before, const bool *closed, 
 }
 
 /* An impulse of one kind would be given by a source of the other alone, where there is one. */
-static Status refuse_jump(const Result *r, const char *sides, double t, double step,
+static Status refuse_jump(const ActiveRun *r, const char *sides, double t, double step,
                           const char *state, double from, double to, Diag *diag)
 {
     const char *source = mode_search_source(r->sides, step);
@@ -118,10 +119,10 @@ typedef struct Entering {
 
 /* What the states of the whole have to be in the phase that begins at (t, y), against x, what they
  * were: none may jump but those that share what they store, which y and x are set to. */
-static Status check_impulse(Result *r, Phase *phase, Entering *entry, double *y, double *x,
+static Status check_impulse(ActiveRun *r, Phase *phase, Entering *entry, double *y, double *x,
                             Diag *diag)
 {
-    const Layout *whole = result_whole(r)->layout;
+    const Layout *whole = phases_whole(r->phases)->layout;
     double largest = vector_largest(x, whole->nx);
     const double *now;
     Text sides = {0};
@@ -137,7 +138,7 @@ static Status check_impulse(Result *r, Phase *phase, Entering *entry, double *y,
     while (jumping < whole->nx && !share_is_jump(r, jumping, x[jumping], now[jumping]))
         jumping++;
     while (system_invariant(phase->system, broken) != NULL &&
-           !(fabs(now[whole->nx + broken]) > JUMP * largest + ERRORS * r->tolerance))
+           !(fabs(now[whole->nx + broken]) > JUMP * largest + ERRORS * r->phases->tolerance))
         broken++;
     if (jumping == whole->nx && system_invariant(phase->system, broken) == NULL)
         return OK;
@@ -166,7 +167,7 @@ done:
 
 /* --- phases --- */
 
-Status mode_switch_phase(Result *r, const Setting *setting, const bool *closed, Phase **out,
+Status mode_switch_phase(ActiveRun *r, const Setting *setting, const bool *closed, Phase **out,
                          Diag *diag)
 {
     mem_keep(r);
@@ -175,24 +176,24 @@ Status mode_switch_phase(Result *r, const Setting *setting, const bool *closed, 
     System *system;
     Status status = OK;
 
-    for (int i = 1; i < r->phases.count; i++)
-        if (r->phases.at[i]->on_count == 0 &&
-            memcmp(r->phases.at[i]->closed, closed, (size_t)count * sizeof(bool)) == 0) {
-            *out = r->phases.at[i];
+    for (int i = 1; i < r->phases->count; i++)
+        if (r->phases->at[i]->on_count == 0 &&
+            memcmp(r->phases->at[i]->closed, closed, (size_t)count * sizeof(bool)) == 0) {
+            *out = r->phases->at[i];
             return OK;
         }
     CHECK(system_mode(r->system, setting->scene, closed, setting->watch, &system, diag));
-    for (int i = 1; i < r->phases.count; i++)
-        if (r->phases.at[i]->system == system && r->phases.at[i]->on_count == 0) {
-            *out = phase_new_like(r->phases.at[i], closed, count);
-            LIST_PUSH(r->phases, *out);
+    for (int i = 1; i < r->phases->count; i++)
+        if (r->phases->at[i]->system == system && r->phases->at[i]->on_count == 0) {
+            *out = phase_new_like(r->phases->at[i], closed, count);
+            LIST_PUSH(*r->phases, *out);
             return OK;
         }
-    CHECK(phase_new(system, &r->parameters, closed, count, &phase, diag));
-    CHECK(result_open_phase(r, phase, setting, diag));
+    CHECK(phase_new(system, &r->phases->parameters, closed, count, &phase, diag));
+    CHECK(active_run_open_phase(r, phase, setting, diag));
     CHECK(find_states(r, phase, diag));
     CHECK(compile_states(r, phase, diag));
-    LIST_PUSH(r->phases, phase);
+    LIST_PUSH(*r->phases, phase);
     *out = phase;
     phase = NULL;
 done:
@@ -213,49 +214,49 @@ static bool is_on(const Phase *phase, const OnSurface *on, int count)
 
 /* The phase of the same system on these sides of surfaces: with switches on the same sides, or
  * NULL; *shared: any, or NULL. */
-static Phase *find_on(const Result *r, const Phase *like, const OnSurface *on, int count,
-                      Phase **shared)
+static Phase *find_on(const ActiveRun *r, const System *system, const bool *closed,
+                      const OnSurface *on, int count, Phase **shared)
 {
     size_t bytes = (size_t)system_ideal_count(r->system) * sizeof(bool);
 
     *shared = NULL;
-    for (int i = 0; i < r->phases.count; i++) {
-        Phase *phase = r->phases.at[i];
+    for (int i = 0; i < r->phases->count; i++) {
+        Phase *phase = r->phases->at[i];
 
-        if (phase->motion == NULL || phase->system != like->system || !is_on(phase, on, count) ||
-            (phase->closed == NULL) != (like->closed == NULL))
+        if (phase->motion == NULL || phase->system != system || !is_on(phase, on, count) ||
+            (phase->closed == NULL) != (closed == NULL))
             continue;
         *shared = phase;
-        if (like->closed == NULL || memcmp(phase->closed, like->closed, bytes) == 0)
+        if (closed == NULL || memcmp(phase->closed, closed, bytes) == 0)
             return phase;
     }
     return NULL;
 }
 
-Status mode_switch_phase_on(Result *r, const Setting *setting, const Phase *like,
-                            const OnSurface *on, int count, Phase **out, Diag *diag)
+Status mode_switch_phase_on(ActiveRun *r, const Setting *setting, System *system,
+                            const bool *closed, const OnSurface *on, int count, Phase **out,
+                            Diag *diag)
 {
     mem_keep(r);
     int ideals = system_ideal_count(r->system);
     Phase *shared, *phase = NULL;
     Status status = OK;
 
-    *out = find_on(r, like, on, count, &shared);
+    *out = find_on(r, system, closed, on, count, &shared);
     if (*out != NULL)
         return OK;
     if (shared != NULL) {
-        *out = phase_new_like(shared, like->closed, ideals);
-        LIST_PUSH(r->phases, *out);
+        *out = phase_new_like(shared, closed, ideals);
+        LIST_PUSH(*r->phases, *out);
         return OK;
     }
-    CHECK(
-        phase_new_on(like->system, &r->parameters, like->closed, ideals, on, count, &phase, diag));
-    CHECK(result_open_phase(r, phase, setting, diag));
-    if (like->closed != NULL) {
+    CHECK(phase_new_on(system, &r->phases->parameters, closed, ideals, on, count, &phase, diag));
+    CHECK(active_run_open_phase(r, phase, setting, diag));
+    if (closed != NULL) {
         CHECK(find_states(r, phase, diag));
         CHECK(compile_states(r, phase, diag));
     }
-    LIST_PUSH(r->phases, phase);
+    LIST_PUSH(*r->phases, phase);
     *out = phase;
     phase = NULL;
 done:
@@ -263,24 +264,12 @@ done:
     return status;
 }
 
-Segment mode_switch_segment(const Result *r, const Phase *phase, Events *events)
-{
-    phase_enter(phase);
-    return (Segment){.phase = result_phase_number(r, phase),
-                     .equations = numbers_equations(phase->numbers),
-                     .motion = phase->motion,
-                     .events = events,
-                     .samples = phase->samples,
-                     .onset = phase->onset,
-                     .stiff = phase_stiff_method(phase)};
-}
-
 /* --- the start --- */
 
 /* whether an initial value was given for a state of the whole, or for what follows from it */
-static bool is_given(const Result *r, const Setting *setting, int state)
+static bool is_given(const ActiveRun *r, const Setting *setting, int state)
 {
-    System *system = result_whole(r)->system;
+    System *system = phases_whole(r->phases)->system;
     const Expr symbol = system_x(system, state)->symbol;
     bool found = false;
 
@@ -347,9 +336,9 @@ static bool move_nearer(const double *moves, const double *weight, const double 
 
 /* States of the whole as the phase can have them: those that were given as they are, others as near
  * as they may be. `x` becomes that; false: it has no solution. */
-static bool fit_states(Result *r, Phase *phase, const bool *given, double *y, double *x)
+static bool fit_states(ActiveRun *r, Phase *phase, const bool *given, double *y, double *x)
 {
-    const int nx = result_whole(r)->layout->nx, own = phase->layout->nx;
+    const int nx = phases_whole(r->phases)->layout->nx, own = phase->layout->nx;
     double *moves = NEW_ARRAY(double, nx *own);
     double *weight = NEW_ARRAY(double, nx), *wanted = NEW_ARRAY(double, nx);
     double *off = NEW_ARRAY(double, nx), *now = NEW_ARRAY(double, nx);
@@ -379,10 +368,10 @@ static bool fit_states(Result *r, Phase *phase, const bool *given, double *y, do
     return sound;
 }
 
-static Status refuse_given(const Result *r, const bool *closed, const double *given_x,
+static Status refuse_given(const ActiveRun *r, const bool *closed, const double *given_x,
                            const bool *given, const double *x, Diag *diag)
 {
-    const Layout *whole = result_whole(r)->layout;
+    const Layout *whole = phases_whole(r->phases)->layout;
     Text what = {0}, values = {0};
 
     for (int k = 0; k < system_ideal_count(r->system); k++) {
@@ -408,10 +397,10 @@ static Status refuse_given(const Result *r, const bool *closed, const double *gi
 
 /* Switches that are closed from the start are wires: initial values that weren't given follow from
  * those that were, as they do where parts are joined for good. Diodes are none. */
-static Status follow_wires(Result *r, const Setting *setting, const bool *closed, double *x,
+static Status follow_wires(ActiveRun *r, const Setting *setting, const bool *closed, double *x,
                            Diag *diag)
 {
-    const Layout *whole = result_whole(r)->layout;
+    const Layout *whole = phases_whole(r->phases)->layout;
     const int count = system_ideal_count(r->system);
     bool *wires = NEW_ARRAY(bool, count), *given = NEW_ARRAY(bool, whole->nx);
     double *was = NEW_ARRAY(double, whole->nx), *y = NULL;
@@ -429,7 +418,7 @@ static Status follow_wires(Result *r, const Setting *setting, const bool *closed
     if (!any || mode_switch_phase(r, setting, wires, &phase, NULL) != OK)
         goto done; /* the sides as they are have messages of their own */
     y = NEW_ARRAY(double, phase->length);
-    enter(phase, r->start.y, x, r->start.y + layout_turned(whole), 0, y);
+    enter(phase, r->result->start.y, x, r->result->start.y + layout_turned(whole), 0, y);
     memcpy(was, x, (size_t)whole->nx * sizeof(double));
     for (int i = 0; i < whole->nx; i++)
         given[i] = is_given(r, setting, i);
@@ -449,9 +438,9 @@ done:
 }
 
 /* whether the phase can't have these states of the whole */
-static bool would_jump(const Result *r, Phase *phase, double *y, const double *x)
+static bool would_jump(const ActiveRun *r, Phase *phase, double *y, const double *x)
 {
-    const int nx = result_whole(r)->layout->nx;
+    const int nx = phases_whole(r->phases)->layout->nx;
     double *now = NEW_ARRAY(double, nx);
     RowValues row;
     bool found = false;
@@ -463,8 +452,8 @@ static bool would_jump(const Result *r, Phase *phase, double *y, const double *x
     return found;
 }
 
-static Status begin_phase(Result *r, const Setting *setting, const ModeSearchAt *at, bool *closed,
-                          Diag *diag)
+static Status begin_phase(ActiveRun *r, const Setting *setting, const ModeSearchAt *at,
+                          bool *closed, Diag *diag)
 {
     Phase *phase;
     Status status = OK;
@@ -474,21 +463,21 @@ static Status begin_phase(Result *r, const Setting *setting, const ModeSearchAt 
     r->phase = phase;
     mem_free(r->begin);
     r->begin = NEW_ARRAY(double, phase->length);
-    enter(phase, r->start.y, at->x, at->near, 0, r->begin);
+    enter(phase, r->result->start.y, at->x, at->near, 0, r->begin);
 done:
     return status;
 }
 
-Status mode_switch_begin(Result *r, const Setting *setting, Diag *diag)
+Status mode_switch_begin(ActiveRun *r, const Setting *setting, Diag *diag)
 {
     mem_keep(r);
-    const Layout *whole = result_whole(r)->layout;
-    double *x = r->start.y + whole->n + whole->nu;
+    const Layout *whole = phases_whole(r->phases)->layout;
+    double *x = r->result->start.y + whole->n + whole->nu;
     ModeSearchAt at = {.t = 0,
                        .step = START_STEP,
-                       .q = r->start.y,
-                       .u = r->start.y + whole->n,
-                       .near = r->start.y + layout_turned(whole),
+                       .q = r->result->start.y,
+                       .u = r->result->start.y + whole->n,
+                       .near = r->result->start.y + layout_turned(whole),
                        .x = x,
                        .x_behind = x};
     bool *closed = NEW_ARRAY(bool, system_ideal_count(r->system));
@@ -529,7 +518,7 @@ static void go_ahead(const Phase *phase, double t, double step, const double *y,
     mem_free(rate);
 }
 
-Status mode_switch_events(Result *r, const Phase *now, const Phase *next, const Setting *setting,
+Status mode_switch_events(ActiveRun *r, const Phase *now, const Phase *next, const Setting *setting,
                           Events **events, Diag *diag)
 {
     mem_keep(r);
@@ -539,7 +528,7 @@ Status mode_switch_events(Result *r, const Phase *now, const Phase *next, const 
     if (*events == NULL || next->like == now->like)
         return OK;
     if (*theirs == NULL)
-        CHECK(result_make_events(r, next, NULL, setting, theirs, diag));
+        CHECK(active_run_events(r, next, NULL, 0, setting, theirs, diag));
     if (*theirs != *events)
         events_hand_over(*theirs, *events);
     *events = *theirs;
@@ -553,7 +542,7 @@ static Status next_phase(const ModeSwitching *c, double t, const bool *closed, P
                          Diag *diag)
 {
     Diag why = {0};
-    Status status = mode_switch_phase(c->result, c->setting, closed, out, &why);
+    Status status = mode_switch_phase(c->run, c->setting, closed, out, &why);
 
     if (status == OK)
         return OK;
@@ -589,7 +578,7 @@ static Status go_over(ModeSwitching *c, double t, const ModeSearchAt *at, double
                       double *x_behind, bool *closed, const Phase *from, const double *y,
                       Phase **out, Diag *diag)
 {
-    Result *r = c->result;
+    ActiveRun *r = c->run;
     const size_t bytes = (size_t)system_ideal_count(r->system) * sizeof(bool);
     Status status = OK;
 
@@ -606,7 +595,7 @@ static Status go_over(ModeSwitching *c, double t, const ModeSearchAt *at, double
         if (!entry.shared)
             goto done;
         mode_search_calm(r->sides);
-        memcpy(x_behind, x, (size_t)result_whole(r)->layout->nx * sizeof(double));
+        memcpy(x_behind, x, (size_t)phases_whole(r->phases)->layout->nx * sizeof(double));
         CHECK(mode_search_find(r->sides, at, closed, diag));
         if (memcmp(closed, (*out)->closed, bytes) == 0)
             goto done;
@@ -622,9 +611,9 @@ Status mode_switch(void *context, double t, double behind, double last, const do
                    Segment *segment, const double **out, Diag *diag)
 {
     ModeSwitching *c = context;
-    Result *r = c->result;
-    Phase *now = r->phases.at[segment->phase], *next = NULL;
-    const Layout *whole = result_whole(r)->layout;
+    ActiveRun *r = c->run;
+    Phase *now = r->phases->at[segment->phase], *next = NULL;
+    const Layout *whole = phases_whole(r->phases)->layout;
     int count = system_ideal_count(r->system);
     bool *closed = NEW_ARRAY(bool, count);
     double *x = NEW_ARRAY(double, whole->nx);
@@ -657,7 +646,7 @@ Status mode_switch(void *context, double t, double behind, double last, const do
         goto done;
     CHECK(go_over(c, behind, &at, x, x_behind, closed, now, y, &next, diag));
     CHECK(mode_switch_events(r, now, next, c->setting, &events, diag));
-    *segment = mode_switch_segment(r, next, events);
+    *segment = phases_segment(r->phases, next, events);
     *out = c->y;
 done:
     mem_free(closed);

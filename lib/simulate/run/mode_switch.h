@@ -1,26 +1,28 @@
-/* mode_switch.h: results of models with ideal switches: from one phase to the next */
+/* mode_switch.h: runs of models with ideal switches: from one phase to the next */
 #ifndef COTREE_SIMULATE_RUN_MODE_SWITCH_H
 #define COTREE_SIMULATE_RUN_MODE_SWITCH_H
 
-#include "simulate/run/result.h"
+#include "simulate/run/active_run.h"
 
-/* The phase that a result starts in, and `begin`, from `start`, which is of the whole. Fails where
+/* The phase that a run starts in, and `begin`, from `start`, which is of the whole. Fails where
  * the ideal switches have no sides at the start, and where the network has no solution. */
-MUST_USE Status mode_switch_begin(Result *result, const Setting *setting, Diag *diag);
+MUST_USE Status mode_switch_begin(ActiveRun *run, const Setting *setting, Diag *diag);
 
 /* The phase of these sides, one an ideal switch; made where it is met first. */
-MUST_USE Status mode_switch_phase(Result *result, const Setting *setting, const bool *closed,
+MUST_USE Status mode_switch_phase(ActiveRun *run, const Setting *setting, const bool *closed,
                                   Phase **out, Diag *diag);
 
-/* The phase that differs from another one by the sides of surfaces that it stays on. */
-MUST_USE Status mode_switch_phase_on(Result *result, const Setting *setting, const Phase *like,
-                                     const OnSurface *on, int count, Phase **out, Diag *diag);
+/* The phase of a system, with its switches on these sides (NULL: it is in no mode), that stays on
+ * sides of surfaces. */
+MUST_USE Status mode_switch_phase_on(ActiveRun *run, const Setting *setting, System *system,
+                                     const bool *closed, const OnSurface *on, int count,
+                                     Phase **out, Diag *diag);
 /* `events`, which go on in another phase; NULL: there are none */
-MUST_USE Status mode_switch_events(Result *result, const Phase *now, const Phase *next,
+MUST_USE Status mode_switch_events(ActiveRun *run, const Phase *now, const Phase *next,
                                    const Setting *setting, Events **events, Diag *diag);
 
 typedef struct ModeSwitching {
-    Result *result;
+    ActiveRun *run;
     const Setting *setting;
     double span;  /* of the run, s */
     double stuck; /* where it was looked at last; NAN */
@@ -32,7 +34,5 @@ void mode_switching_free(ModeSwitching *commuting);
 /* the NextSegment of a plan; `context` is a ModeSwitching */
 MUST_USE Status mode_switch(void *context, double t, double behind, double last, const double *y,
                             Segment *segment, const double **out, Diag *diag);
-/* the segment of a phase */
-Segment mode_switch_segment(const Result *result, const Phase *phase, Events *events);
 
 #endif

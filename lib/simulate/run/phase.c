@@ -2,10 +2,13 @@
 #include "simulate/run/phase.h"
 
 #include "base/memory.h"
+#include "base/random.h"
 
 #include <string.h>
 
-#define FEW 100 /* unknowns up to which radau's dense factors beat bdf's */
+#define UNSOLVED 3   /* times that a value has to be the same */
+#define FAR      1e3 /* what isn't known is taken up to this, of either sign */
+#define FEW      100 /* unknowns up to which radau's dense factors beat bdf's */
 
 static bool *copy_sides(const bool *closed, int count)
 {
@@ -128,4 +131,67 @@ bool phase_states(Phase *phase, double t, const double *y, int count, RowValues 
         return false;
     memcpy(out, probe_values(phase->states, row), (size_t)count * sizeof(double));
     return true;
+}
+
+bool phase_driven_row(Phase *phase, double t, const double *y, const double *driven, RowValues *out)
+{
+    const Layout *l = phase->layout;
+
+    if (driven == NULL)
+        return phase_row(phase, t, y, out);
+    phase_enter(phase);
+    *out = row_of_state(l, t, y);
+    out->rates = driven;
+    out->z = driven + l->nx;
+    out->acceleration = driven + l->nx + l->nz;
+    out->multipliers = out->acceleration + l->nu;
+    out->efforts = out->multipliers + l->m;
+    return true;
+}
+
+/* Where the equations have no solution what they would solve for may be anything: values that
+ * don't change with it, as those of coordinates, are known all the same. */
+static void probe_unsolved(const Phase *phase, Probe *probe, double t, const double *y, int count,
+                           double *out)
+{
+    const Layout *l = phase->layout;
+    double *any = NEW_ARRAY(double, l->count);
+    RowValues row = row_of_state(l, t, y);
+    uint64_t seed = 1;
+
+    row.signs = row.rates = row.z = row.acceleration = row.multipliers = row.efforts = row.jerk =
+        any;
+    for (int turn = 0; turn < UNSOLVED; turn++) {
+        const double *values;
+
+        for (int i = 0; i < l->count; i++)
+            any[i] = FAR * random_unit(&seed);
+        values = probe_values(probe, &row);
+        for (int k = 0; k < count; k++)
+            out[k] = turn == 0 || out[k] == values[k] ? values[k] : NAN;
+    }
+    mem_free(any);
+}
+
+void phase_probe_at(Phase *phase, Probe *probe, double t, const double *y, const double *driven,
+                    int count, double *out)
+{
+    RowValues row;
+
+    if (phase_driven_row(phase, t, y, driven, &row))
+        memcpy(out, probe_values(probe, &row), (size_t)count * sizeof(double));
+    else
+        probe_unsolved(phase, probe, t, y, count, out);
+}
+
+Status phase_refuse_by(const Phase *phase, Diag *diag)
+{
+    const Layout *l = phase->layout;
+
+    if (l->ne == 0)
+        return OK;
+    (void)diag_set(diag, E_MODEL, "a driver with by= is for inverse runs: %s is not known here",
+                   expr_name(l->symbols[l->efforts]));
+    diag_hint(diag, "use `inverse`, or leave by= out");
+    return E_MODEL;
 }

@@ -54,7 +54,16 @@ void phase_free(Phase *phase); /* NULL is fine */
 const Method *phase_stiff_method(const Phase *phase);
 /* Everything at (t, y). False: no solution. */
 bool phase_row(Phase *phase, double t, const double *y, RowValues *out);
+/* The same at a row of a driven run, where x', z, u', lambda and efforts are known: its block, or
+ * NULL to solve. */
+bool phase_driven_row(Phase *phase, double t, const double *y, const double *driven,
+                      RowValues *out);
+/* The values of a probe there, `count` of them: NAN where the equations have no solution. */
+void phase_probe_at(Phase *phase, Probe *probe, double t, const double *y, const double *driven,
+                    int count, double *out);
 /* And the first `count` states of the whole, of a mode. False: no solution. */
 bool phase_states(Phase *phase, double t, const double *y, int count, RowValues *row, double *out);
+/* E_MODEL where a driver's motion is supplied by another effort (by=): for inverse runs alone */
+MUST_USE Status phase_refuse_by(const Phase *phase, Diag *diag);
 
 #endif

@@ -1,88 +1,64 @@
-/* result.h: what a run leaves, and the parts that runs share */
+/* result.h: what a run leaves: rows, its report, how its events fared
+ *
+ * A Result is const once it is handed over, and outlives what integrated it. It holds coordinates,
+ * speeds and network states on an output grid, and borrows its System, which the session keeps as
+ * long as a result names it. Every other variable is computed from them when somebody asks, by a
+ * ResultReader (result_reader.h). Several threads may have one each. */
 #ifndef COTREE_SIMULATE_RUN_RESULT_H
 #define COTREE_SIMULATE_RUN_RESULT_H
 
-#include "simulate/assemble/mode_search.h"
-#include "simulate/run/integration.h"
-#include "simulate/run/phase.h"
-#include "simulate/run/run.h"
+#include "simulate/equations/setting.h"
 
-/* What is known at the rows of a driven run beside (q, u, x), one block a row: x', z, u', lambda,
- * efforts. */
-typedef struct Driven {
-    int length;
-    double *values; /* rows x length; NULL: rows are solved when asked for */
-} Driven;
+typedef enum RunKind { RUN_START, RUN_SIMULATE, RUN_KINEMATICS, RUN_INVERSE } RunKind;
 
-typedef struct Shares Shares;
+typedef struct RunReport {
+    const char *method; /* that ran */
+    double rtol, atol;
+    int64_t steps, rejected;
+    int64_t evaluations; /* of the right-hand side */
+    int64_t factorisations;
+    int64_t jacobians;
+    int64_t regularised;      /* factorisations near a singular configuration */
+    double singular_time;     /* first of these; NAN: none */
+    double position_residual; /* largest |Phi| on the output grid */
+    double velocity_residual; /* largest |Phi_u u - nu| */
+    double energy_drift;      /* largest |E - E0 - work|; NAN: no number holds it */
+    double energy_swing;      /* largest kinetic energy less the smallest: scale of the above */
+    double global_error;      /* of check=on, estimated, largest over grid and coordinates; NAN: not
+                                 asked, or not known */
+    bool is_unresolved;       /* check=on found another motion */
+    double wall;              /* s */
+    double reached;           /* last time */
+    double every;             /* output step, s; 0: there is none */
+    double step;              /* fixed or largest step that was asked for, s; 0: none */
+    double most;              /* largest step that was asked for, s; 0: none */
+    bool stopped;             /* by Ctrl-C */
+} RunReport;
 
-struct Result {
-    RunKind kind;
-    System *system; /* the whole */
-    Parameters parameters;
-    LIST(Phase *)
-    phases;            /* the first is of the whole, and where there are ideal switches no row's */
-    Phase *phase;      /* in which it starts */
-    ModeSearch *sides; /* NULL: there are no ideal switches */
-    Shares *shares;    /* of what is stored, where switches join parts; NULL: none yet */
-    Assembled start;   /* of the whole */
-    double *begin;     /* y of the phase in which it starts */
-    double tolerance;  /* of the run: bounds what a projection may leave */
-    Grid grid;         /* rows of y */
-    Grid corners;      /* where phases end and begin, two rows each */
-    Jumps jumps;       /* where its equations change at times of their own */
-    Driven driven;
-    Grid asked; /* rows between those, where they were asked for last, */
-    Driven asked_driven;
-    Events *events; /* NULL: none */
-    RunReport report;
-    Text remarks;
-};
+/* How an event of the model fared in a run. */
+typedef struct EventRecord {
+    const char *name;
+    const char *condition; /* as written */
+    EventAction action;
+    bool is_known;       /* whether it holds at the end: a run that goes on needn't look */
+    bool from_start;     /* held at the start already */
+    bool holds;          /* at the end */
+    bool ended;          /* the run */
+    int count;           /* how often it happened */
+    const double *times; /* count, rising */
+} EventRecord;
 
-/* A new result of no rows: programs compiled, start found, motion ready. */
-MUST_USE Status result_open(RunKind kind, System *system, const Setting *setting, Result **out,
-                            Diag *diag);
-/* The same with the rows of another one, to go on where that ended. `old` and its system are
- * unchanged but for modes that it comes to. */
-MUST_USE Status result_reopen(const Result *old, const Setting *setting, Result **out, Diag *diag);
-/* E_MODEL where a driver's motion is supplied by another effort (by=): for inverse runs alone */
-MUST_USE Status result_refuse_by(const Result *result, Diag *diag);
-/* What solves the equations of a phase, as the result's start and the setting ask for. Fails with
- * E_NAME for an independent coordinate that the trees don't have, and as phase_open() does. */
-MUST_USE Status result_open_phase(Result *result, Phase *phase, const Setting *setting, Diag *diag);
-/* New, or NULL where there are none: the setting's events in the equations of a phase, going on
- * with what happened in `earlier` (NULL: nothing). */
-MUST_USE Status result_make_events(Result *result, const Phase *phase, const Events *earlier,
-                                   const Setting *setting, Events **out, Diag *diag);
-/* The phase that it starts in and `begin`, from `start`. */
-MUST_USE Status result_begin(Result *result, const Setting *setting, Diag *diag);
-/* Energy balance over the rows, into the report. */
-MUST_USE Status result_balance(Result *result, Diag *diag);
-/* a row of the phase that it starts in */
-void result_add_row(Result *result, double t, const double *y);
-/* for all phases, also those that a run comes to later */
-void result_tolerance(Result *result, double tolerance);
-/* the phase of the whole: the only one where there are no ideal switches */
-Phase *result_whole(const Result *result);
-int result_phase_number(const Result *result, const Phase *phase); /* as rows bear it */
-/* the phase of a row */
-Phase *result_phase(const Result *result, int row);
-/* a row's block of a driven run; NULL: the equations are to be solved */
-const double *result_driven(const Result *result, int row);
-/* Everything at (t, y) of a phase; `driven` is the row's block, or NULL to solve. False: no
- * solution. */
-bool result_solve_row(Phase *phase, double t, const double *y, const double *driven,
-                      RowValues *out);
-/* A probe of a phase for expressions over user's variables, and its values at (t, y), `count` of
- * them: NAN where the equations have no solution. */
-MUST_USE Status result_probe(Result *result, const Phase *phase, const Expr *items, int count,
-                             Probe **out, Diag *diag);
-void result_probe_at(Phase *phase, Probe *probe, double t, const double *y, const double *driven,
-                     int count, double *out);
-/* What the run was at t: y, its phase, and the block of a driven run (NULL: the equations are to be
- * solved), all borrowed until the next call. Between rows, that part of the run is taken again.
- * Fails with E_VALUE outside the run, and with E_SOLVER where the equations have no solution. */
-MUST_USE Status result_at(Result *result, double t, Phase **phase, const double **y,
-                          const double **driven, Diag *diag);
+void result_free(Result *result); /* NULL is fine */
+RunKind result_kind(const Result *result);
+System *result_system(const Result *result);
+const RunReport *result_report(const Result *result);
+/* speeds less independent constraints, at the start of it */
+int result_freedoms(const Result *result);
+const char *result_remarks(const Result *result); /* lines for the user; may be "" */
+/* events of the model when the run was made, and earlier ones that happened before it went on */
+int result_event_count(const Result *result);
+EventRecord result_event(const Result *result, int i);
+int result_rows(const Result *result);
+const double *result_times(const Result *result);
 
 #endif

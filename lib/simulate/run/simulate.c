@@ -1,8 +1,9 @@
 /* simulate.c: runs: forward, resumed, driven */
-#include "simulate/run/result.h"
+#include "simulate/run/run.h"
 
 #include "base/memory.h"
 #include "simulate/equations/causes.h"
+#include "simulate/run/begin.h"
 #include "simulate/run/charge_sharing.h"
 #include "simulate/run/ends.h"
 #include "simulate/run/inverse.h"
@@ -74,7 +75,7 @@ static Status find_method(const char *name, const Method **out, Diag *diag)
 }
 
 /* the options with their defaults in place */
-static Status complete_options(const Result *r, const RunOptions *given, RunOptions *out,
+static Status complete_options(const ActiveRun *r, const RunOptions *given, RunOptions *out,
                                Diag *diag)
 {
     const Layout *layout = r->phase->layout;
@@ -107,10 +108,10 @@ static Status complete_options(const Result *r, const RunOptions *given, RunOpti
 
 /* --- forward --- */
 
-static IntegrationPlan plan_of(const Result *r, const Setting *setting, const RunOptions *options,
-                               const Method *method, Events *events)
+static IntegrationPlan plan_of(const ActiveRun *r, const Setting *setting,
+                               const RunOptions *options, const Method *method, Events *events)
 {
-    return (IntegrationPlan){.segment = mode_switch_segment(r, r->phase, events),
+    return (IntegrationPlan){.segment = phases_segment(r->phases, r->phase, events),
                              .method = method,
                              .control = {.rtol = options->rtol,
                                          .atol = options->atol,
@@ -122,11 +123,11 @@ static IntegrationPlan plan_of(const Result *r, const Setting *setting, const Ru
 
 /* A march from the result's begin. Where ideal switches change the equations, `corners` gets rows
  * between them. */
-static Status integration_phases(Result *r, const Setting *setting, const IntegrationPlan *plan,
+static Status integration_phases(ActiveRun *r, const Setting *setting, const IntegrationPlan *plan,
                                  Grid *grid, Grid *corners, IntegrationReport *out, Diag *diag)
 {
     ModeSwitching commuting = {
-        .result = r, .setting = setting, .span = plan->to - plan->from, .stuck = NAN};
+        .run = r, .setting = setting, .span = plan->to - plan->from, .stuck = NAN};
     IntegrationPlan through = *plan;
     Status status;
 
@@ -137,22 +138,22 @@ static Status integration_phases(Result *r, const Setting *setting, const Integr
     through.corners = corners;
     if (r->sides != NULL) {
         through.mode_switch = mode_switch;
-        through.in_time = numbers_equations(result_whole(r)->numbers);
+        through.in_time = numbers_equations(phases_whole(r->phases)->numbers);
     }
     status = integrate(&through, r->begin, grid, out, diag);
     mode_switching_free(&commuting);
     return status;
 }
 
-static MotionCounts counts_of(const Result *r)
+static MotionCounts counts_of(const ActiveRun *r)
 {
     MotionCounts sum = {.singular_time = NAN};
 
-    for (int i = 0; i < r->phases.count; i++) {
+    for (int i = 0; i < r->phases->count; i++) {
         MotionCounts counts = {.singular_time = NAN};
 
-        if (r->phases.at[i]->motion != NULL && r->phases.at[i]->like == r->phases.at[i])
-            counts = motion_counts(r->phases.at[i]->motion);
+        if (r->phases->at[i]->motion != NULL && r->phases->at[i]->like == r->phases->at[i])
+            counts = motion_counts(r->phases->at[i]->motion);
         sum.factorisations += counts.factorisations;
         sum.regularised += counts.regularised;
         if (!(sum.singular_time <= counts.singular_time) && !isnan(counts.singular_time))
@@ -161,63 +162,63 @@ static MotionCounts counts_of(const Result *r)
     return sum;
 }
 
-static void fill_report(Result *r, const IntegrationReport *march, const RunOptions *options,
+static void fill_report(ActiveRun *r, const IntegrationReport *march, const RunOptions *options,
                         bool stopped, double began)
 {
     MotionCounts counts = counts_of(r);
 
-    r->report.method = march->method->name;
-    r->report.rtol = options->rtol;
-    r->report.atol = options->atol;
-    r->report.steps = march->counts.steps;
-    r->report.rejected = march->counts.rejected;
-    r->report.evaluations = march->counts.evaluations;
-    r->report.jacobians = march->counts.jacobians;
-    r->report.factorisations = counts.factorisations;
-    r->report.regularised = counts.regularised;
-    r->report.singular_time = counts.singular_time;
-    r->report.position_residual = march->position_residual;
-    r->report.velocity_residual = march->velocity_residual;
-    r->report.reached = march->reached;
-    r->report.every = options->every;
-    r->report.step = options->step;
-    r->report.most = options->most;
-    r->report.stopped = stopped;
-    r->report.wall = seconds() - began;
+    r->result->report.method = march->method->name;
+    r->result->report.rtol = options->rtol;
+    r->result->report.atol = options->atol;
+    r->result->report.steps = march->counts.steps;
+    r->result->report.rejected = march->counts.rejected;
+    r->result->report.evaluations = march->counts.evaluations;
+    r->result->report.jacobians = march->counts.jacobians;
+    r->result->report.factorisations = counts.factorisations;
+    r->result->report.regularised = counts.regularised;
+    r->result->report.singular_time = counts.singular_time;
+    r->result->report.position_residual = march->position_residual;
+    r->result->report.velocity_residual = march->velocity_residual;
+    r->result->report.reached = march->reached;
+    r->result->report.every = options->every;
+    r->result->report.step = options->step;
+    r->result->report.most = options->most;
+    r->result->report.stopped = stopped;
+    r->result->report.wall = seconds() - began;
 }
 
 /* how much accuracy is lost there is not known: a run of check=on measures it */
-static void remark_singular(Result *r)
+static void remark_singular(ActiveRun *r)
 {
     const MotionCounts counts = counts_of(r);
 
     if (counts.regularised > 0)
-        text_addf(&r->remarks,
+        text_addf(&r->result->remarks,
                   "passed near a singular position, first at t = %.6g s: rounding leaves its mark "
                   "there at any tolerance; check=on measures what\n",
                   counts.singular_time);
 }
 
-static void remark_march(Result *r, const IntegrationReport *march)
+static void remark_march(ActiveRun *r, const IntegrationReport *march)
 {
     if (march->remarks.at != NULL)
-        text_add(&r->remarks, march->remarks.at);
+        text_add(&r->result->remarks, march->remarks.at);
     share_tell(r);
-    events_tell(r->events, &r->remarks);
+    events_tell(r->events, &r->result->remarks);
     remark_singular(r);
 }
 
 /* The largest difference of (q, u, x) at times that both grids have; events lie at times of their
  * own, and one that a switch falls on may be of either phase. */
-static double largest_difference(const Result *r, int first, const Grid *b)
+static double largest_difference(const ActiveRun *r, int first, const Grid *b)
 {
-    const Grid *a = &r->grid;
+    const Grid *a = &r->result->grid;
     double largest = 0;
 
     for (int i = first, j = 0; i < a->count && j < b->count;) {
         double behind = a->times[i] - b->times[j];
         int length = behind == 0 && a->phase[i] == b->phase[j]
-                         ? layout_turned(result_phase(r, i)->layout)
+                         ? layout_turned(r->phases->at[a->phase[i]]->layout)
                          : 0;
 
         for (int k = 0; k < length; k++)
@@ -229,22 +230,22 @@ static double largest_difference(const Result *r, int first, const Grid *b)
 }
 
 /* what a difference tells of the error, for methods that the two runs came to */
-static void report_difference(Result *r, double largest, const Method *a, const Method *b)
+static void report_difference(ActiveRun *r, double largest, const Method *a, const Method *b)
 {
-    r->report.is_unresolved = !(largest <= UNRESOLVED);
-    if (r->report.is_unresolved)
-        text_addf(&r->remarks,
+    r->result->report.is_unresolved = !(largest <= UNRESOLVED);
+    if (r->result->report.is_unresolved)
+        text_addf(&r->result->remarks,
                   "not resolved: a run %s ends elsewhere; take a smaller %s, or a shorter run\n",
                   b->has_fixed_step ? "in half the step" : "at a tenth of the tolerance",
                   b->has_fixed_step ? "step" : "rtol");
     else
-        r->report.global_error =
+        r->result->report.global_error =
             largest * (a->has_history || b->has_history ? MULTISTEP : ONE_STEP);
 }
 
 /* a second run at a tenth of the tolerance, or in half the fixed step; `used` is the method that
  * the first came to, `events` are its events as they were at its start */
-static Status estimate_error(Result *r, const Setting *setting, const RunOptions *options,
+static Status estimate_error(ActiveRun *r, const Setting *setting, const RunOptions *options,
                              const Method *method, const Method *used, Events *events, int first,
                              double to, Diag *diag)
 {
@@ -259,7 +260,7 @@ static Status estimate_error(Result *r, const Setting *setting, const RunOptions
     if (method != NULL && method->has_fixed_step)
         finer.step = (options->step > 0 ? options->step : options->every) / 2;
     plan = plan_of(r, setting, &finer, method, events);
-    plan.from = r->grid.times[first];
+    plan.from = r->result->grid.times[first];
     plan.to = to;
     status = integration_phases(r, setting, &plan, &grid, NULL, &integration_report, diag);
     if (status == OK)
@@ -270,8 +271,21 @@ static Status estimate_error(Result *r, const Setting *setting, const RunOptions
     return status;
 }
 
-/* Integration a result whose start is set; it is kept also when that ends early. */
-static Status go(Result *r, const Setting *setting, const RunOptions *given, double from,
+/* the events of another run from here, as they are now */
+static Status copy_events(ActiveRun *r, const Setting *setting, Events **out, Diag *diag)
+{
+    LIST(EventRecord) records = {0};
+    Status status;
+
+    for (int i = 0; i < events_count(r->events); i++)
+        LIST_PUSH(records, events_record(r->events, i));
+    status = active_run_events(r, r->phase, records.at, records.count, setting, out, diag);
+    LIST_FREE(records);
+    return status;
+}
+
+/* Integration a run whose start is set; what it found is kept also when that ends early. */
+static Status go(ActiveRun *r, const Setting *setting, const RunOptions *given, double from,
                  bool skip_first, Diag *diag)
 {
     const Method *method;
@@ -279,21 +293,22 @@ static Status go(Result *r, const Setting *setting, const RunOptions *given, dou
     IntegrationPlan plan;
     IntegrationReport report_of = {.method = method_for((MethodNeed){0})};
     Events *again = NULL; /* for a second run */
-    int first = skip_first ? r->grid.count - 1 : 0;
+    int first = skip_first ? r->result->grid.count - 1 : 0;
     Status status = OK;
     double began = seconds();
 
     CHECK(complete_options(r, given, &options, diag));
     CHECK(find_method(options.method, &method, diag));
-    result_tolerance(r, options.atol);
+    phases_tolerance(r->phases, options.atol);
     plan = plan_of(r, setting, &options, method, r->events);
     plan.asks = given->rtol > 0 || given->atol > 0;
     plan.from = from;
     plan.to = from + options.duration;
     plan.skip_first = skip_first;
     if (options.check)
-        CHECK(result_make_events(r, r->phase, r->events, setting, &again, diag));
-    status = integration_phases(r, setting, &plan, &r->grid, &r->corners, &report_of, diag);
+        CHECK(copy_events(r, setting, &again, diag));
+    status = integration_phases(r, setting, &plan, &r->result->grid, &r->result->corners,
+                                &report_of, diag);
     if (report_of.events != r->events)
         events_hand_over(r->events, report_of.events);
     if (status == E_SOLVER)
@@ -301,101 +316,93 @@ static Status go(Result *r, const Setting *setting, const RunOptions *given, dou
     remark_march(r, &report_of);
     text_free(&report_of.remarks);
     for (int i = 0; i < report_of.jumps.count; i++)
-        LIST_PUSH(r->jumps, report_of.jumps.at[i]);
+        LIST_PUSH(r->result->jumps, report_of.jumps.at[i]);
     LIST_FREE(report_of.jumps);
     fill_report(r, &report_of, &options, status == E_STOPPED, began);
     if (status == OK && options.check)
         status = estimate_error(r, setting, &options, method, report_of.method, again, first,
                                 plan.to, diag);
-    if (result_balance(r, NULL) != OK)
-        r->report.energy_drift = NAN;
-    r->report.wall = seconds() - began;
+    if (active_run_balance(r, NULL) != OK)
+        r->result->report.energy_drift = NAN;
+    r->result->report.wall = seconds() - began;
 done:
     events_free(again);
     return status;
 }
 
-/* drivers whose motion another effort supplies belong to inverse runs */
-Status result_refuse_by(const Result *r, Diag *diag)
+Status run_assemble(System *system, const Setting *setting, Result **out, ResultReader **reader,
+                    Diag *diag)
 {
-    const Layout *l = r->phase->layout;
-
-    for (int i = 0; i < l->ne; i++) {
-        (void)diag_set(diag, E_MODEL, "a driver with by= is for inverse runs: %s is not known here",
-                       expr_name(l->symbols[l->efforts + i]));
-        diag_hint(diag, "use `inverse`, or leave by= out");
-        return E_MODEL;
-    }
-    return OK;
-}
-
-Status run_assemble(System *system, const Setting *setting, Result **out, Diag *diag)
-{
-    Result *r = NULL;
+    ActiveRun *r = NULL;
+    RunReport *report;
     Status status = OK;
-    double position = 0, velocity = 0;
 
-    CHECK(result_open(RUN_START, system, setting, &r, diag));
-    result_add_row(r, 0, r->begin);
-    motion_residuals(r->phase->motion, 0, r->begin, &position, &velocity);
-    r->report.position_residual = position;
-    r->report.velocity_residual = velocity;
+    CHECK(run_open(RUN_START, system, setting, &r, diag));
+    report = &r->result->report;
+    active_run_add_row(r, 0, r->begin);
+    motion_residuals(r->phase->motion, 0, r->begin, &report->position_residual,
+                     &report->velocity_residual);
     if (poll(setting->watch) != OK)
         CHECK(diag_set(diag, E_STOPPED, "stopped at the start"));
-    *out = r;
+    active_run_finish(r, setting, out, reader);
     r = NULL;
 done:
-    result_free(r);
+    active_run_free(r);
     return status;
 }
 
 /* hand out what there is, unless there is nothing */
-static void give(Result *r, Status status, Result **out)
+static void give(ActiveRun *r, const Setting *setting, Status status, Result **out,
+                 ResultReader **reader)
 {
-    bool kept = r != NULL && r->grid.count > 0 &&
-                (status == OK || status == E_STOPPED || status == E_SOLVER);
+    const bool kept = r != NULL && r->result->grid.count > 0 &&
+                      (status == OK || status == E_STOPPED || status == E_SOLVER);
 
-    *out = kept ? r : NULL;
-    if (!kept)
-        result_free(r);
+    *out = NULL;
+    if (reader != NULL)
+        *reader = NULL;
+    if (kept)
+        active_run_finish(r, setting, out, reader);
+    else
+        active_run_free(r);
 }
 
 Status run_simulate(System *system, const Setting *setting, const RunOptions *options, Result **out,
-                    Diag *diag)
+                    ResultReader **reader, Diag *diag)
 {
-    Result *r = NULL;
+    ActiveRun *r = NULL;
     Status status = OK;
 
-    CHECK(result_open(RUN_SIMULATE, system, setting, &r, diag));
-    CHECK(result_refuse_by(r, diag));
+    CHECK(run_open(RUN_SIMULATE, system, setting, &r, diag));
+    CHECK(phase_refuse_by(r->phase, diag));
     CHECK(go(r, setting, options, 0, false, diag));
 done:
-    give(r, status, out);
+    give(r, setting, status, out, reader);
     return status;
 }
 
 Status run_resume(const Result *old, const Setting *setting, const RunOptions *options,
-                  Result **out, Diag *diag)
+                  Result **out, ResultReader **reader, Diag *diag)
 {
-    Result *r = NULL;
+    ActiveRun *r = NULL;
     Status status = OK;
 
     if (old->kind != RUN_SIMULATE || old->grid.count == 0) {
-        *out = NULL;
+        give(NULL, setting, E_MISSING, out, reader);
         return diag_set(diag, E_MISSING, "only a forward run can be resumed");
     }
-    CHECK(result_reopen(old, setting, &r, diag));
+    CHECK(run_reopen(old, setting, &r, diag));
     CHECK(go(r, setting, options, old->grid.times[old->grid.count - 1], true, diag));
 done:
-    give(r, status, out);
+    give(r, setting, status, out, reader);
     return status;
 }
 
 /* --- driven --- */
 
-static Status check_driven(const Result *r, Diag *diag)
+static Status check_driven(const ActiveRun *r, Diag *diag)
 {
-    int left = r->phase->layout->nu - r->start.row_count;
+    int left = r->phase->layout->nu - r->result->start.row_count;
     int drivers = 0;
 
     for (int k = 0; k < r->phase->layout->m; k++)
@@ -409,7 +416,7 @@ static Status check_driven(const Result *r, Diag *diag)
 }
 
 /* The next row from the last one: predicted, then projected; in halves where that fails. */
-static bool reach(Result *r, double from, double to, double *y, int depth)
+static bool reach(ActiveRun *r, double from, double to, double *y, int depth)
 {
     const Layout *l = r->phase->layout;
     const Ode *ode = motion_ode(r->phase->motion);
@@ -449,28 +456,28 @@ static bool reach(Result *r, double from, double to, double *y, int depth)
     return reach(r, from, from + h / 2, y, depth - 1) && reach(r, from + h / 2, to, y, depth - 1);
 }
 
-static void add_position(Result *r, double t, const double *y)
+static void add_position(ActiveRun *r, double t, const double *y)
 {
     double position = 0, velocity = 0;
 
     motion_residuals(r->phase->motion, t, y, &position, &velocity);
-    r->report.position_residual = fmax(r->report.position_residual, position);
-    r->report.velocity_residual = fmax(r->report.velocity_residual, velocity);
-    result_add_row(r, t, y);
-    r->report.reached = t;
+    r->result->report.position_residual = fmax(r->result->report.position_residual, position);
+    r->result->report.velocity_residual = fmax(r->result->report.velocity_residual, velocity);
+    active_run_add_row(r, t, y);
+    r->result->report.reached = t;
 }
 
-static Status lost(Result *r, double last, double t, const double *y, Diag *diag)
+static Status lost(ActiveRun *r, double last, double t, const double *y, Diag *diag)
 {
-    if (cause_meeting(r->phase->layout, &r->parameters, last, y, "nothing tells how it moves on",
-                      diag))
+    if (cause_meeting(r->phase->layout, &r->phases->parameters, last, y,
+                      "nothing tells how it moves on", diag))
         return E_SINGULAR;
     return solver_failure(diag, t, "the drivers lead where the parts can't follow");
 }
 
 /* Between two instants, the later of which events are due at: the first such instant, by halves;
  * y from the earlier one to it. */
-static double locate_event(Result *r, double low, double high, double *y)
+static double locate_event(ActiveRun *r, double low, double high, double *y)
 {
     double *trial = NEW_ARRAY(double, r->phase->length);
     double *found = NEW_ARRAY(double, r->phase->length);
@@ -501,8 +508,8 @@ static double locate_event(Result *r, double low, double high, double *y)
 
 /* Events between two rows, looked for at points between; y from the earlier one to the later one,
  * or to where an event ends the run. */
-static Status follow_events(Result *r, double from, double to, double span, double *y, bool *stop,
-                            Diag *diag)
+static Status follow_events(ActiveRun *r, double from, double to, double span, double *y,
+                            bool *stop, Diag *diag)
 {
     double *trial = NEW_ARRAY(double, r->phase->length);
     size_t bytes = (size_t)r->phase->length * sizeof(double);
@@ -532,7 +539,7 @@ done:
     return status;
 }
 
-static Status positions(Result *r, const Setting *setting, const RunOptions *options, Diag *diag)
+static Status positions(ActiveRun *r, const Setting *setting, const RunOptions *options, Diag *diag)
 {
     int rows = grid_rows(0, options->duration, options->every);
     double *y = NEW_ARRAY(double, r->phase->length);
@@ -553,7 +560,7 @@ static Status positions(Result *r, const Setting *setting, const RunOptions *opt
             CHECK(follow_events(r, last, t, options->duration, y, &stop, diag));
         else if (k > 0 && !reach(r, last, t, y, 12))
             CHECK(lost(r, last, t, y, diag));
-        if (!stop && (k == 0 || r->report.reached < t)) /* else an event's instant */
+        if (!stop && (k == 0 || r->result->report.reached < t)) /* else an event's instant */
             add_position(r, t, y);
         if (k == 0 && events_count(r->events) > 0)
             stop = events_begin(r->events, 0, y);
@@ -561,13 +568,13 @@ static Status positions(Result *r, const Setting *setting, const RunOptions *opt
     }
 done:
     mem_free(y);
-    events_tell(r->events, &r->remarks);
+    events_tell(r->events, &r->result->remarks);
     remark_singular(r);
-    r->report.regularised = counts_of(r).regularised;
-    r->report.singular_time = counts_of(r).singular_time;
-    r->report.every = options->every;
-    r->report.method = "newton";
-    r->report.steps = r->grid.count;
+    r->result->report.regularised = counts_of(r).regularised;
+    r->result->report.singular_time = counts_of(r).singular_time;
+    r->result->report.every = options->every;
+    r->result->report.method = "newton";
+    r->result->report.steps = r->result->grid.count;
     return status;
 }
 
@@ -594,7 +601,7 @@ static Status refuse_idle(const RunOptions *given, Diag *diag)
 
 /* Positions follow from the drivers; states of a network that nobody asks back from are
  * integrated along. */
-static Status drive(Result *r, const Setting *setting, const RunOptions *given, Diag *diag)
+static Status drive(ActiveRun *r, const Setting *setting, const RunOptions *given, Diag *diag)
 {
     RunOptions options;
     double began = seconds();
@@ -602,7 +609,7 @@ static Status drive(Result *r, const Setting *setting, const RunOptions *given, 
 
     CHECK(complete_options(r, given, &options, diag));
     CHECK(check_driven(r, diag));
-    result_tolerance(r, 1e-12);
+    phases_tolerance(r->phases, 1e-12);
     if (r->phase->layout->ne > 0 && r->sides != NULL) {
         status = diag_set(diag, E_MODEL,
                           "what supplies a driver's motion can't be found through "
@@ -610,7 +617,7 @@ static Status drive(Result *r, const Setting *setting, const RunOptions *given, 
         diag_hint(diag, "give diodes and switches Ron= and Roff=");
         goto done;
     }
-    if (r->sides != NULL || (r->phase->layout->nx > 0 && !inverse_finds_states(r))) {
+    if (r->sides != NULL || (r->phase->layout->nx > 0 && !inverse_finds_states(r->system))) {
         options.rtol = fmin(options.rtol, 1e-10);
         options.atol = fmin(options.atol, 1e-10);
         CHECK(go(r, setting, &options, 0, false, diag));
@@ -619,37 +626,37 @@ static Status drive(Result *r, const Setting *setting, const RunOptions *given, 
         CHECK(positions(r, setting, &options, diag));
     }
 done:
-    r->report.wall = seconds() - began;
+    r->result->report.wall = seconds() - began;
     return status;
 }
 
 Status run_kinematics(System *system, const Setting *setting, const RunOptions *options,
-                      Result **out, Diag *diag)
+                      Result **out, ResultReader **reader, Diag *diag)
 {
-    Result *r = NULL;
+    ActiveRun *r = NULL;
     Status status = OK;
 
-    CHECK(result_open(RUN_KINEMATICS, system, setting, &r, diag));
+    CHECK(run_open(RUN_KINEMATICS, system, setting, &r, diag));
     CHECK(drive(r, setting, options, diag));
 done:
-    give(r, status, out);
+    give(r, setting, status, out, reader);
     return status;
 }
 
 Status run_inverse(System *system, const Setting *setting, const RunOptions *options, Result **out,
-                   Diag *diag)
+                   ResultReader **reader, Diag *diag)
 {
-    Result *r = NULL;
+    ActiveRun *r = NULL;
     Status status = OK;
     Status driven;
 
-    CHECK(result_open(RUN_INVERSE, system, setting, &r, diag));
+    CHECK(run_open(RUN_INVERSE, system, setting, &r, diag));
     driven = drive(r, setting, options, diag);
     if (driven != OK && driven != E_STOPPED && driven != E_SOLVER)
         CHECK(driven);
-    CHECK(inverse_solve(r, &r->grid, &r->driven, diag));
+    CHECK(inverse_solve(r->phases, &r->result->start, &r->result->grid, &r->result->driven, diag));
     status = driven;
 done:
-    give(r, status, out);
+    give(r, setting, status, out, reader);
     return status;
 }

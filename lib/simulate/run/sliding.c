@@ -271,7 +271,8 @@ static Status phase_on(const ModeSwitching *c, const Phase *now, const Meeting *
         else if (loose == NULL || !loose[k])
             on[length++] = (OnSurface){all[i].surface, side != NULL ? side[k] : 0};
     }
-    status = mode_switch_phase_on(c->result, c->setting, now, on, length, out, diag);
+    status =
+        mode_switch_phase_on(c->run, c->setting, now->system, now->closed, on, length, out, diag);
     mem_free(on);
     return status;
 }
@@ -316,7 +317,7 @@ Status slide_choose(void *context, double t, double low, double high, const doub
                     const Meeting *at, int count, Segment *segment, bool *entered, Diag *diag)
 {
     const ModeSwitching *c = context;
-    Phase *now = c->result->phases.at[segment->phase], *next = NULL;
+    Phase *now = c->run->phases->at[segment->phase], *next = NULL;
     Meeting *all = NEW_ARRAY(Meeting, count), *near = NEW_ARRAY(Meeting, count);
     Slides s = {.at = near, .t = t, .y = y};
     Events *events = segment->events;
@@ -338,8 +339,8 @@ Status slide_choose(void *context, double t, double low, double high, const doub
     CHECK(phase_on(c, now, all, count, s.side, s.loose, &next, diag));
     if (next == now)
         goto done;
-    CHECK(mode_switch_events(c->result, now, next, c->setting, &events, diag));
-    *segment = mode_switch_segment(c->result, next, events);
+    CHECK(mode_switch_events(c->run, now, next, c->setting, &events, diag));
+    *segment = phases_segment(c->run->phases, next, events);
     *entered = true;
 done:
     slides_free(&s);
@@ -351,8 +352,8 @@ done:
 void slide_tell(void *context, const Segment *segment, int condition, Text *out)
 {
     const ModeSwitching *c = context;
-    System *system = c->result->phases.at[segment->phase]->system;
-    const Numbers *numbers = c->result->phases.at[segment->phase]->numbers;
+    System *system = c->run->phases->at[segment->phase]->system;
+    const Numbers *numbers = c->run->phases->at[segment->phase]->numbers;
     Expr h = numbers_condition(numbers, condition);
     const char *part = h != NULL ? system_jumping_part(system, h) : NULL;
     char *text = h != NULL ? expr_text(h) : NULL;

@@ -1,0 +1,199 @@
+/* begin.c: how a run begins: its phases, its start, and what an earlier result hands on */
+#include "simulate/run/begin.h"
+
+#include "base/memory.h"
+#include "simulate/equations/causes.h"
+#include "simulate/run/mode_switch.h"
+#include "simulate/run/result_reader_impl.h"
+
+#include <math.h>
+#include <string.h>
+
+#define START_TOLERANCE 1e-8
+
+/* a variable of an earlier result at its first row */
+static double warm_value(void *context, const char *name)
+{
+    ResultReader *warm = context;
+
+    mem_keep(warm->phases);
+    const Grid *grid = &warm->result->grid;
+    Phase *phase;
+    const Layout *l;
+    Probe *probe = NULL;
+    RowValues row;
+    Expr e;
+    double value = NAN;
+
+    if (grid->count == 0)
+        return NAN;
+    phase = warm->phases->at[grid->phase[0]];
+    l = phase->layout;
+    for (int i = 0; i < l->nx; i++)
+        if (strcmp(system_x(l->system, i)->name, name) == 0)
+            return grid_row(grid, 0)[l->n + l->nu + i];
+
+    if (system_variable(phase->system, name, 0, &e, NULL) == OK &&
+        probe_new(l, &warm->phases->parameters, &e, 1, &probe, NULL) == OK &&
+        phase_driven_row(phase, grid->times[0], grid_row(grid, 0),
+                         driven_row(&warm->result->driven, 0), &row))
+        value = probe_values(probe, &row)[0];
+    probe_free(probe);
+    return value;
+}
+
+/* What supplies a driver's motion is found in the equations of the whole, as long as no ideal
+ * switch is in them. */
+static bool goes_through_modes(const Layout *whole)
+{
+    bool any_ideal = false;
+
+    for (int i = 0; i < system_ideal_count(whole->system); i++)
+        any_ideal = any_ideal || system_is_ideal(whole->system, i);
+    return system_has_modes(whole->system) && (any_ideal || whole->ne == 0);
+}
+
+static Status prepare(RunKind kind, System *system, const Setting *setting, ActiveRun **out,
+                      Diag *diag)
+{
+    ActiveRun *r = active_run_new(kind, system, setting);
+    Phase *whole = NULL;
+    System *sided;
+    Status status = OK;
+
+    r->phases->tolerance = START_TOLERANCE;
+    CHECK(phase_new(system, &r->phases->parameters, NULL, 0, &whole, diag));
+    LIST_PUSH(*r->phases, whole);
+    if (goes_through_modes(whole->layout)) {
+        CHECK(system_sided(system, setting->scene, setting->watch, &sided, diag));
+        CHECK(mode_search_new(sided, &r->phases->parameters, &r->sides, diag));
+    }
+    *out = r;
+    r = NULL;
+done:
+    active_run_free(r);
+    return status;
+}
+
+/* the start has accelerations at all */
+static Status check_start(ActiveRun *r, Diag *diag)
+{
+    Solved solved;
+
+    if (motion_solve(r->phase->motion, 0, r->begin, &solved))
+        return OK;
+    if (cause_tell(r->phase->layout, &r->phases->parameters, 0, r->begin,
+                   "no accelerations can be found at the start", diag))
+        return E_SINGULAR;
+    (void)diag_set(diag, E_SINGULAR, "no accelerations can be found at the start");
+    diag_hint(diag, "a part that moves freely needs a mass or an inertia; a circuit needs every "
+                    "current and voltage determined");
+    return E_SINGULAR;
+}
+
+Status run_begin(ActiveRun *r, const Setting *setting, Diag *diag)
+{
+    mem_keep(r);
+    Phase *whole = phases_whole(r->phases);
+    Status status = OK;
+
+    if (r->sides != NULL)
+        return mode_switch_begin(r, setting, diag);
+    if (whole->motion == NULL)
+        CHECK(active_run_open_phase(r, whole, setting, diag));
+    r->phase = whole;
+    mem_free(r->begin);
+    r->begin = NEW_ARRAY(double, whole->length);
+    memcpy(r->begin, r->result->start.y, (size_t)whole->length * sizeof(double));
+    motion_guess(whole->motion, r->result->start.network);
+done:
+    return status;
+}
+
+Status run_open(RunKind kind, System *system, const Setting *setting, ActiveRun **out, Diag *diag)
+{
+    ResultReader *warm = setting->from != NULL ? setting->from : setting->warm;
+    const Phase *whole;
+    ActiveRun *r = NULL;
+    Status status = OK;
+
+    CHECK(prepare(kind, system, setting, &r, diag));
+    whole = phases_whole(r->phases);
+    CHECK(initial_find(whole->layout, &r->phases->parameters, whole->numbers, setting,
+                       r->sides != NULL, warm != NULL ? warm_value : NULL, warm, &r->result->start,
+                       diag));
+    CHECK(run_begin(r, setting, diag));
+    text_add(&r->result->remarks,
+             r->result->start.remarks.at != NULL ? r->result->start.remarks.at : "");
+    if (kind == RUN_SIMULATE)
+        CHECK(check_start(r, diag));
+    CHECK(active_run_events(r, r->phase, NULL, 0, setting, &r->events, diag));
+    *out = r;
+    r = NULL;
+done:
+    active_run_free(r);
+    return status;
+}
+
+/* the phases of an earlier result, in the same order */
+static Status copy_phases(ActiveRun *r, const Result *old, const Setting *setting, Diag *diag)
+{
+    Phase *phase;
+    Status status = OK;
+
+    if (r->sides == NULL)
+        CHECK(active_run_open_phase(r, phases_whole(r->phases), setting, diag));
+    for (int i = 1; i < old->phases.count; i++) {
+        const PhaseKey *like = &old->phases.at[i];
+
+        if (like->on_count > 0)
+            CHECK(mode_switch_phase_on(r, setting, like->system, like->closed, like->on,
+                                       like->on_count, &phase, diag));
+        else
+            CHECK(mode_switch_phase(r, setting, like->closed, &phase, diag));
+    }
+done:
+    return status;
+}
+
+/* sums of angles go on in the turns that the start chose */
+static void keep_whole_turns(ActiveRun *r, const Result *old)
+{
+    for (int i = 0; i < system_whole_turns_count(r->system); i++) {
+        Expr whole = system_whole_turns(r->system, i)->symbol;
+        double value;
+
+        if (!parameters_kept(&old->parameters, whole, &value))
+            continue;
+        parameters_set(&r->phases->parameters, whole, value);
+        numbers_set(phases_whole(r->phases)->numbers, whole, value);
+    }
+}
+
+Status run_reopen(const Result *old, const Setting *setting, ActiveRun **out, Diag *diag)
+{
+    int last = old->grid.count - 1;
+    ActiveRun *r = NULL;
+    Status status = OK;
+
+    CHECK(prepare(old->kind, old->system, setting, &r, diag));
+    keep_whole_turns(r, old);
+    r->result->start.rows = NEW_ARRAY(int, old->start.row_count);
+    memcpy(r->result->start.rows, old->start.rows, (size_t)old->start.row_count * sizeof(int));
+    r->result->start.row_count = old->start.row_count;
+    CHECK(copy_phases(r, old, setting, diag));
+    grid_append(&r->result->grid, &old->grid);
+    grid_append(&r->result->corners, &old->corners);
+    for (int i = 0; i < old->jumps.count; i++)
+        LIST_PUSH(r->result->jumps, old->jumps.at[i]);
+    r->phase = r->phases->at[old->grid.phase[last]];
+    r->begin = NEW_ARRAY(double, r->phase->length);
+    memcpy(r->begin, grid_row(&r->result->grid, last), (size_t)r->phase->length * sizeof(double));
+    CHECK(active_run_events(r, r->phase, old->events.at, old->events.count, setting, &r->events,
+                            diag));
+    *out = r;
+    r = NULL;
+done:
+    active_run_free(r);
+    return status;
+}

@@ -1,0 +1,145 @@
+/* phases.c: phases of a run, and any variable at its rows */
+#include "simulate/run/phases.h"
+
+#include "base/memory.h"
+
+#include <string.h>
+
+/* --- phases --- */
+
+void phases_free(Phases *p)
+{
+    if (p == NULL)
+        return;
+    for (int i = 0; i < p->count; i++)
+        phase_free(p->at[i]);
+    LIST_FREE(*p);
+    parameters_free(&p->parameters);
+    mem_free(p);
+}
+
+Phase *phases_whole(const Phases *p)
+{
+    return p->at[0];
+}
+
+int phases_number(const Phases *p, const Phase *phase)
+{
+    int number = 0;
+
+    while (p->at[number] != phase)
+        number++;
+    return number;
+}
+
+/* speeds asked for as independent, by the names of their coordinates */
+static Status find_independent(const Layout *l, const Manner *manner, int *out, Diag *diag)
+{
+    for (int i = 0; i < manner->independent_count; i++) {
+        out[i] = -1;
+        for (int j = 0; j < l->nu; j++) {
+            const Variable *u = system_u(l->system, j);
+            const char *name = u->derivative_of != NULL ? expr_name(*u->derivative_of) : u->name;
+
+            if (l->n == l->nu) /* u = q' */
+                name = system_q(l->system, j)->name;
+            if (strcmp(name, manner->independent[i]) == 0)
+                out[i] = j;
+        }
+        if (out[i] < 0) {
+            (void)diag_set(diag, E_NAME, "'%s' is no coordinate of these trees",
+                           manner->independent[i]);
+            diag_hint(diag, "show coordinates lists them");
+            return E_NAME;
+        }
+    }
+    return OK;
+}
+
+Status phases_open(Phases *p, Phase *phase, const Manner *manner, Diag *diag)
+{
+    mem_keep(p);
+    int *independent = NEW_ARRAY(int, manner->independent_count);
+    MotionOptions options = {.watch = manner->watch,
+                             .embedded = manner->embedded,
+                             .rows = manner->rows,
+                             .row_count = manner->row_count,
+                             .independent = independent,
+                             .independent_count = manner->independent_count,
+                             .tolerance = p->tolerance};
+    Status status = OK;
+
+    CHECK(find_independent(phase->layout, manner, independent, diag));
+    CHECK(phase_open(phase, &p->parameters, &options, diag));
+done:
+    mem_free(independent);
+    return status;
+}
+
+void phases_tolerance(Phases *p, double tolerance)
+{
+    mem_keep(p);
+    p->tolerance = tolerance;
+    for (int i = 0; i < p->count; i++)
+        if (p->at[i]->motion != NULL)
+            motion_tolerance(p->at[i]->motion, tolerance);
+}
+
+Segment phases_segment(const Phases *p, const Phase *phase, Events *events)
+{
+    phase_enter(phase);
+    return (Segment){.phase = phases_number(p, phase),
+                     .equations = numbers_equations(phase->numbers),
+                     .motion = phase->motion,
+                     .events = events,
+                     .samples = phase->samples,
+                     .onset = phase->onset,
+                     .stiff = phase_stiff_method(phase)};
+}
+
+/* --- values --- */
+
+const double *driven_row(const Driven *driven, int row)
+{
+    return driven->values != NULL ? driven->values + (ptrdiff_t)row * driven->length : NULL;
+}
+
+Status phases_probe(Phases *p, const Phase *phase, const Expr *items, int count, Probe **out,
+                    Diag *diag)
+{
+    mem_keep(p);
+    Expr *roots = NEW_ARRAY(Expr, count);
+    Status status = OK;
+
+    for (int i = 0; i < count; i++)
+        CHECK(system_resolve(phase->system, items[i], &roots[i], diag));
+    CHECK(probe_new(phase->layout, &p->parameters, roots, count, out, diag));
+done:
+    mem_free(roots);
+    return status;
+}
+
+Status phases_ask(Phases *p, const Grid *grid, const Driven *driven, int first, Ask ask,
+                  const void *context, int count, double *out, Diag *diag)
+{
+    mem_keep(p);
+    Probe **probes = NEW_ARRAY(Probe *, p->count);
+    Status status = OK;
+
+    if (grid->count == 0)
+        CHECK(ask(p, p->at[first], context, &probes[first], diag));
+    for (int i = 0; i < grid->count; i++) {
+        Phase *phase = p->at[grid->phase[i]];
+        Probe **probe = &probes[grid->phase[i]];
+
+        if (*probe == NULL)
+            CHECK(ask(p, phase, context, probe, diag));
+        phase_probe_at(phase, *probe, grid->times[i], grid_row(grid, i), driven_row(driven, i),
+                       count, out + (ptrdiff_t)i * count);
+    }
+done:
+    for (int i = 0; i < p->count; i++)
+        probe_free(probes[i]);
+    mem_free(probes);
+    return status;
+}

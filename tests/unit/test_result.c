@@ -1,0 +1,116 @@
+/* test_result.c: a result is const, read by readers of its own, and outlives its run */
+#include "simulate_script.h"
+
+#include "form.h"
+
+/* a rectifier of an ideal diode, which has two modes, that an event is counted in */
+#define RECTIFIER                                                                                  \
+    "vsource V a 0 10*sin(300*t)\ndiode D a b\ncapacitor C b 0 1 mF\nresistor R b 0 40\n"          \
+    "event high when=C.v > 8 do=mark\ninit C.v = 2\n"
+
+static Script open_rectifier(void)
+{
+    Script script;
+
+    script_open(&script, RECTIFIER, &(Changes){0});
+    return script;
+}
+
+/* what readers tell of a result, at rows and between them: C.v, D.i, R.i */
+enum { ASKED = 3, INSTANTS = 5 };
+
+static void read_values(ResultReader *reader, const Script *script, double out[INSTANTS * ASKED])
+{
+    static const char *const names[ASKED] = {"C.v", "D.i", "R.i"};
+    static const double instants[INSTANTS] = {0, 0.0031, 0.0111, 0.0137, 0.02};
+    Expr items[ASKED];
+    Diag diag = {0};
+
+    for (int i = 0; i < ASKED; i++)
+        items[i] = expr_symbol(system_arena(script->system), names[i], SYMBOL_VARIABLE);
+    for (int k = 0; k < INSTANTS; k++)
+        EXPECT(result_reader_values_at(reader, items, ASKED, instants[k], out + k * ASKED, &diag) ==
+               OK);
+}
+
+static void a_result_outlives_what_integrated_it(void)
+{
+    Script script = open_rectifier();
+    StartValue value = {"C.v", 0, 2, false};
+    StartValues start = {1, &value};
+    Setting setting = {.parameter = script_parameter,
+                       .context = script.model,
+                       .scene = model_scene_source(script.model),
+                       .start = &start};
+    RunOptions options = {.duration = 0.02, .every = 0.001, .rtol = 1e-9};
+    ResultReader *of_run = NULL, *later = NULL, *another = NULL;
+    double values[3][INSTANTS * ASKED];
+    Diag diag = {0};
+
+    EXPECT(form_system(script.model, &script.system, &diag) == OK);
+    EXPECT(run_simulate(script.system, &setting, &options, &script.result, &of_run, &diag) == OK);
+    EXPECT(result_reader_new(script.result, &another, &diag) == OK);
+    read_values(of_run, &script, values[0]);
+    result_reader_free(of_run);
+    EXPECT(result_reader_new(script.result, &later, &diag) == OK);
+    read_values(later, &script, values[1]);
+    read_values(another, &script, values[2]);
+    for (int i = 0; i < INSTANTS * ASKED; i++) {
+        EXPECT_NEAR(values[1][i], values[0][i], 1e-12);
+        EXPECT_NEAR(values[2][i], values[0][i], 1e-12);
+    }
+    for (int k = 0; k < INSTANTS; k++) /* of the resistor alone */
+        EXPECT_NEAR(values[0][k * ASKED], 40 * values[0][k * ASKED + 2], 1e-12);
+    result_reader_free(later);
+    result_reader_free(another);
+    script_close(&script);
+}
+
+static void resuming_leaves_the_old_result_as_it_was(void)
+{
+    Script script = open_rectifier();
+    StartValue value = {"C.v", 0, 2, false};
+    StartValues start = {1, &value};
+    const Event *high = model_event(script.model, 0);
+    Setting setting = {.parameter = script_parameter,
+                       .context = script.model,
+                       .scene = model_scene_source(script.model),
+                       .events = &high,
+                       .event_count = 1,
+                       .start = &start};
+    RunOptions options = {.duration = 0.02, .every = 0.001, .rtol = 1e-9};
+    ResultReader *reader = NULL;
+    Result *resumed = NULL;
+    double before[INSTANTS * ASKED], after[INSTANTS * ASKED];
+    Diag diag = {0};
+    EventRecord once;
+
+    EXPECT(form_system(script.model, &script.system, &diag) == OK);
+    EXPECT(run_simulate(script.system, &setting, &options, &script.result, &reader, &diag) == OK);
+    read_values(reader, &script, before);
+    once = result_event(script.result, 0);
+    options.duration = 0.2;
+    EXPECT(run_resume(script.result, &setting, &options, &resumed, NULL, &diag) == OK);
+    EXPECT(result_rows(script.result) < result_rows(resumed));
+    EXPECT(result_report(script.result)->reached == 0.02);
+    EXPECT(result_event(script.result, 0).count == once.count);
+    EXPECT(result_event(script.result, 0).times == once.times);
+    EXPECT(result_event(resumed, 0).count > once.count);
+    result_reader_free(reader);
+    EXPECT(result_reader_new(script.result, &reader, &diag) == OK);
+    read_values(reader, &script, after);
+    for (int i = 0; i < INSTANTS * ASKED; i++)
+        EXPECT_NEAR(after[i], before[i], 1e-12);
+    result_reader_free(reader);
+    result_free(script.result);
+    script.result = resumed;
+    EXPECT_NEAR(value_at(&script, "C.v", 0.0137), before[3 * ASKED], 1e-9);
+    script_close(&script);
+}
+
+int main(void)
+{
+    RUN(a_result_outlives_what_integrated_it);
+    RUN(resuming_leaves_the_old_result_as_it_was);
+    return test_end();
+}
