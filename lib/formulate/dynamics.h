@@ -17,6 +17,7 @@ typedef struct Mass {
 
 typedef struct Dynamics {
     LIST(Mass) masses;
+    bool writes_out; /* false: entries of M and F are too long, and are shown as definitions */
 } Dynamics;
 
 void dynamics_free(Dynamics *dynamics); /* NULL is fine */

@@ -17,6 +17,8 @@
 #include "formulate/system_impl.h"
 #include "formulate/vector.h"
 
+#include <string.h>
+
 /* --- partial velocities --- */
 
 /* the part of the way from ground to a node that speed j moves */
@@ -471,29 +473,25 @@ static void way_size(const System *system, int node, int *parts, int *turns)
     }
 }
 
-/* Whether an entry of M or F would be too long to be written out: a guess of its terms, before any
- * of them is built. Every pair of parts of two velocities is turned into the other's axes, and a
+/* Whether entries of M and F can be written out: a guess of their terms, before any of them is
+ * built. Every pair of parts of two velocities is turned into the other's axes, and a
  * turn about another axis makes three terms of one. */
-static bool is_large(System *system)
+bool expanded_fits(const System *system)
 {
     enum { MOST_TERMS = 6000, MOST_TURNS = 8 };
+    int64_t terms = 1;
 
-    if (system->shown->terms_guessed == 0) {
-        int64_t terms = 1;
+    for (int i = 0; i < system->dynamics->masses.count && terms <= MOST_TERMS; i++) {
+        int parts;
+        int turns;
+        int64_t turned = 1;
 
-        for (int i = 0; i < system->dynamics->masses.count; i++) {
-            int parts;
-            int turns;
-            int64_t turned = 1;
-
-            way_size(system, system->dynamics->masses.at[i].node, &parts, &turns);
-            for (int k = 0; k < turns && k < MOST_TURNS; k++)
-                turned *= 3;
-            terms += turned * parts * parts;
-        }
-        system->shown->terms_guessed = terms;
+        way_size(system, system->dynamics->masses.at[i].node, &parts, &turns);
+        for (int k = 0; k < turns && k < MOST_TURNS; k++)
+            turned *= 3;
+        terms += turned * parts * parts;
     }
-    return system->shown->terms_guessed > MOST_TERMS;
+    return terms <= MOST_TERMS;
 }
 
 /* the definitions of a block, of those that can be long; NULL: it is always written out */
@@ -513,9 +511,19 @@ static const Expr *defined_block(const System *system, Block block)
     }
 }
 
-bool system_writes_out(System *system)
+/* those of a block formed so far; a view begins with what making the System needed */
+static Expr *entries_of(System *system, Block block, int count)
 {
-    return !is_large(system);
+    Expr **entries = &system->shown->entries[block];
+    const System *formed = system->formed;
+
+    mem_keep(*entries);
+    if (*entries != NULL)
+        return *entries;
+    *entries = NEW_ARRAY(Expr, count);
+    if (formed != NULL && formed->shown->entries[block] != NULL)
+        memcpy(*entries, formed->shown->entries[block], (size_t)count * sizeof(Expr));
+    return *entries;
 }
 
 Status show_entry(System *system, Block block, int row, int column, Expr *out, Diag *diag)
@@ -534,11 +542,8 @@ Status show_entry(System *system, Block block, int row, int column, Expr *out, D
         row = column;
         column = swap;
     }
-    if (system->shown->entries[block] == NULL)
-        system->shown->entries[block] =
-            pool_alloc(system->pool, (size_t)rows * (size_t)columns * sizeof(Expr));
-    entry = &system->shown->entries[block][row * columns + column];
-    if (*entry == NULL && defined_block(system, block) != NULL && is_large(system))
+    entry = &entries_of(system, block, rows * columns)[row * columns + column];
+    if (*entry == NULL && defined_block(system, block) != NULL && !system->dynamics->writes_out)
         *entry = defined_block(system, block)[row * columns + column];
     if (*entry == NULL) {
         CHECK(blocks[block].show(system, row, column, &shown, diag));

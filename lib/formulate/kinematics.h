@@ -73,7 +73,6 @@ typedef struct Frame { /* a mechanical node */
     Vec step; /* the shift */
     Vec v;
     Vec product; /* velocity products of the step's acceleration */
-    Vec p;       /* position, ground axes */
 } Frame;
 
 typedef struct ChainMotion { /* in the axes of its resolve chain */
@@ -135,7 +134,7 @@ void instance_steps(const System *system, const Instance *instance, Steps *steps
 void motion_build(System *system);
 /* angular accelerations of chains and accelerations of nodes, with u' or (NULL) without */
 void accelerations_build(System *system, const Expr *accelerations, Vec *alpha, Vec *a);
-/* position of a node in ground axes, held */
-Vec node_position(const System *system, int node);
+/* position of a node in ground axes, held; formed at the first call */
+Vec node_position(System *system, int node);
 
 #endif

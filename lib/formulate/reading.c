@@ -115,8 +115,9 @@ Status reading_choose(System *system, Diag *diag)
     Status status = OK;
 
     system->definitions = system->run;
+    system->dynamics->writes_out = expanded_fits(system);
     if (system->kinematics->u.count > MOST_SPEEDS || system->kinematics->u.count == 0 ||
-        !system_writes_out(system))
+        !system->dynamics->writes_out)
         return OK;
     for (int b = 0; b < COUNT(blocks); b++)
         count += block_entries(system, blocks[b]);

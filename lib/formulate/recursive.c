@@ -5,8 +5,11 @@
 #include "formulate/kinematics.h"
 #include "formulate/loads.h"
 #include "formulate/origin.h"
+#include "formulate/shown.h"
 #include "formulate/system_impl.h"
 #include "formulate/vector.h"
+
+#include <string.h>
 
 static int axes_of(const System *system, int node)
 {
@@ -133,27 +136,42 @@ void motion_build(System *system)
     accelerations_build(system, NULL, system->kinematics->alpha0, system->kinematics->a0);
 }
 
-Vec node_position(const System *system, int node)
+/* those formed so far; a view begins with what making the System needed */
+static Vec *positions_of(System *system)
+{
+    Vec **positions = &system->shown->positions;
+    const System *formed = system->formed;
+    size_t count = (size_t)graph_node_count(system->origin->graph);
+
+    mem_keep(*positions);
+    if (*positions != NULL)
+        return *positions;
+    *positions = NEW_ARRAY(Vec, count);
+    if (formed != NULL && formed->shown->positions != NULL)
+        memcpy(*positions, formed->shown->positions, count * sizeof(Vec));
+    return *positions;
+}
+
+Vec node_position(System *system, int node)
 {
     Arena *arena = system->arena;
+    const Frame *frames = system->kinematics->frames;
+    Vec *positions = positions_of(system);
     LIST(int) way = {0};
     Vec p;
 
     /* from the first node whose position is known, outward again */
-    while (system->kinematics->frames[node].parent >= 0 &&
-           system->kinematics->frames[node].p.at[0] == NULL) {
+    while (frames[node].parent >= 0 && positions[node].at[0] == NULL) {
         LIST_PUSH(way, node);
-        node = system->kinematics->frames[node].parent;
+        node = frames[node].parent;
     }
-    p = system->kinematics->frames[node].parent >= 0 ? system->kinematics->frames[node].p
-                                                     : vec_zero(arena);
+    p = frames[node].parent >= 0 ? positions[node] : vec_zero(arena);
     for (int k = way.count - 1; k >= 0; k--) {
-        Frame *frame = &system->kinematics->frames[way.at[k]];
+        const Frame *frame = &frames[way.at[k]];
 
         p = vec_hold(arena,
                      vec_add(arena, p, expressed(system, frame->shift, frame->step_chain, 0)));
-        pool_keep(system->pool, frame, sizeof *frame);
-        frame->p = p;
+        positions[way.at[k]] = p;
     }
     LIST_FREE(way);
     return p;

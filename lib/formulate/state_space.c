@@ -23,7 +23,7 @@ typedef struct Space {
     const Scene *scene;
     const Watch *watch;
     Arena *arena;
-    System *system;
+    const System *system;
     LIST(const Instance *) sources;
     LIST(Expr) symbols; /* of sources: INPUT_ORDERS each */
     Expr t, start;      /* the instant about which a source's value is developed */

@@ -96,9 +96,33 @@ void shown_free(Shown *shown)
 {
     if (shown == NULL)
         return;
+    for (int b = 0; b < BLOCK_COUNT; b++)
+        mem_free(shown->entries[b]);
+    mem_free(shown->positions);
     LIST_FREE(shown->switches);
     LIST_FREE(shown->surfaces);
     mem_free(shown);
+}
+
+static void free_view(System *view)
+{
+    if (view->sided != NULL && view->sided != view && view->sided->network->closed == NULL)
+        system_free(view->sided); /* else it is one of the modes */
+    for (int i = 0; i < view->modes.count; i++)
+        system_free(view->modes.at[i]);
+    LIST_FREE(view->modes);
+    if (view->owns_formed)
+        system_free(view->formed);
+}
+
+static void free_parts(System *system)
+{
+    LIST_FREE(system->remarks);
+    network_free(system->network);
+    dynamics_free(system->dynamics);
+    constraints_free(system->constraints);
+    kinematics_free(system->kinematics);
+    origin_free(system->origin);
 }
 
 static void system_free_later(void *object)
@@ -106,24 +130,30 @@ static void system_free_later(void *object)
     system_free(object);
 }
 
-void system_free(System *system)
+void system_free(const System *system)
 {
-    if (system == NULL || mem_frees_later(system, system_free_later))
+    System *own = (System *)system;
+
+    if (system == NULL || mem_frees_later(own, system_free_later))
         return;
-    if (system->sided != NULL && system->sided != system && system->sided->network->closed == NULL)
-        system_free(system->sided); /* else it is one of the modes */
-    for (int i = 0; i < system->modes.count; i++)
-        system_free(system->modes.at[i]);
-    LIST_FREE(system->modes);
-    LIST_FREE(system->remarks);
-    shown_free(system->shown);
-    network_free(system->network);
-    dynamics_free(system->dynamics);
-    constraints_free(system->constraints);
-    kinematics_free(system->kinematics);
-    origin_free(system->origin);
-    pool_free(system->pool);
-    mem_free(system);
+    if (system->formed != NULL)
+        free_view(own);
+    else
+        free_parts(own);
+    shown_free(own->shown);
+    pool_free(own->pool);
+    mem_free(own);
+}
+
+System *system_view(const System *formed)
+{
+    System *view = NEW(System);
+
+    *view = *formed;
+    view->formed = formed;
+    view->pool = pool_new(0);
+    view->shown = NEW(Shown);
+    return view;
 }
 
 /* --- looking --- */
@@ -299,9 +329,8 @@ int system_network_count(const System *system)
     return system->network->equations.count;
 }
 
-void system_network_equation(System *system, int i, Expr *left, Expr *right)
+void system_network_equation(const System *system, int i, Expr *left, Expr *right)
 {
-    system_touch(system);
     *left = system->network->equations.at[i].left;
     *right = system->network->equations.at[i].right;
 }

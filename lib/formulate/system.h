@@ -4,9 +4,9 @@
  *     M u' + Phi_u^T lambda = F(q, u, x, z, t)
  *     G([x'; z], q, u, x, t) = 0                     (network states and algebraic unknowns)
  *
- * A System is finished when made and remembers the revision of its model. It has two
- * readings of the same definitions: one to show (each entry written as by hand, formed
- * when asked for) and one to run (shared definitions, each emitted once). Both give the
+ * A System is finished when made, const ever after, and remembers the revision of its model. It
+ * has two readings of the same definitions: one to show (each entry written as by hand, formed
+ * by a view when asked for) and one to run (shared definitions, each emitted once). Both give the
  * same numbers. Expressions live in the model's arena. theory 3-8. */
 #ifndef COTREE_FORMULATE_SYSTEM_H
 #define COTREE_FORMULATE_SYSTEM_H
@@ -29,14 +29,21 @@ typedef struct SystemOptions {
     const Watch *watch;
 } SystemOptions;
 
-/* New; free with system_free(). Borrows what it needs of the scene by copying; the arena must
- * outlive it. Trees, variables and their order are the scene's, whatever varies. Fails with
+/* New, and const ever after; free with system_free(). Copies what it needs of the scene; the arena
+ * must outlive it. Trees, variables and their order are the scene's, whatever varies. Fails with
  * E_MODEL, E_ASSEMBLE (a constraint that is a non-zero constant), E_STOPPED. */
-MUST_USE Status system_new(const Scene *scene, const SystemOptions *options, System **out,
+MUST_USE Status system_new(const Scene *scene, const SystemOptions *options, const System **out,
                            Diag *diag);
+/* A view: what functions of a System that isn't const form when they are asked, and keep: entries
+ * written out, reactions, switches, modes. New; free with system_free(). `formed` is borrowed, by
+ * any number of views, and stays as it is. */
+System *system_view(const System *formed);
+/* Both: a view that owns what it is a view on. Fails as system_new(). */
+MUST_USE Status system_new_view(const Scene *scene, const SystemOptions *options, System **out,
+                                Diag *diag);
 /* Whether the scalar trees are normal trees: then the form of the user's trees is state form. */
 bool system_tree_is_normal(const System *system);
-void system_free(System *system); /* NULL is fine */
+void system_free(const System *system); /* NULL is fine */
 uint64_t system_revision(const System *system);
 /* Of the scene as it is: of its revision, and what vanished when the equations were made vanishes
  * with the parameters of now, of which `number` evaluates expressions. */
@@ -220,7 +227,7 @@ const char *system_at_rest(const System *system, int i);
 Expr system_invariant(const System *system, int i);
 /* electrical equations as printed: `left = right`, one a network unknown */
 int system_network_count(const System *system);
-void system_network_equation(System *system, int i, Expr *left, Expr *right);
+void system_network_equation(const System *system, int i, Expr *left, Expr *right);
 int system_network_edge(const System *system, int i); /* whose relation it is */
 
 /* as written (expanded form) and after sharing (recursive form) */

@@ -443,7 +443,7 @@ static Status make(Making making, System **out, Diag *diag)
     return make_as(&making, &has_no_states, out, &why) == OK ? OK : status;
 }
 
-Status system_new(const Scene *scene, const SystemOptions *options, System **out, Diag *diag)
+static Status make_new(const Scene *scene, const SystemOptions *options, System **out, Diag *diag)
 {
     Making making = {.scene = scene, .options = options};
 
@@ -455,12 +455,42 @@ Status system_new(const Scene *scene, const SystemOptions *options, System **out
     return make(making, out, diag);
 }
 
+Status system_new(const Scene *scene, const SystemOptions *options, const System **out, Diag *diag)
+{
+    System *system;
+    Status status = make_new(scene, options, &system, diag);
+
+    if (status == OK)
+        *out = system;
+    return status;
+}
+
+/* a view that owns it */
+static System *viewed(const System *formed)
+{
+    System *view = system_view(formed);
+
+    view->owns_formed = true;
+    return view;
+}
+
+Status system_new_view(const Scene *scene, const SystemOptions *options, System **out, Diag *diag)
+{
+    System *system;
+    Status status = make_new(scene, options, &system, diag);
+
+    if (status == OK)
+        *out = viewed(system);
+    return status;
+}
+
 /* the equations of sides that `whole` has none of yet */
 static Status make_sided(System *whole, SceneSource source, const bool *closed, const Watch *watch,
                          System **out, Diag *diag)
 {
     const SystemOptions options = {.watch = watch};
     Scene scene = {0};
+    System *made;
     Status status = OK;
 
     CHECK(source.make(source.context, &scene, diag));
@@ -477,7 +507,8 @@ static Status make_sided(System *whole, SceneSource source, const bool *closed, 
                         .closed = closed,
                         .closed_count = whole->network->ideals.count,
                         .takes_sides = true},
-               out, diag));
+               &made, diag));
+    *out = viewed(made);
     (*out)->whole = whole;
 done:
     scene_free(&scene);

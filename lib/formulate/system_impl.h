@@ -14,10 +14,11 @@ typedef struct Shown Shown;
 
 struct System {
     Arena *arena;
-    Pool *pool;         /* names and small arrays */
+    Pool *pool;         /* names and small arrays; of a view: of what is formed for it */
     const Scene *scene; /* while it is made; NULL afterwards */
     const Watch *watch; /* likewise */
 
+    /* parts: a view borrows them */
     Origin *origin;
     Kinematics *kinematics;
     Constraints *constraints;
@@ -27,24 +28,25 @@ struct System {
     Reading run;         /* these, or the shorter equations as shown */
     LIST(const char *) remarks;
 
-    LIST(System *) modes; /* of those whose sides are open, made so far */
+    bool is_early;    /* while it is made: reactions aren't there yet */
+    bool asked_early; /* and were asked for */
+
+    const System *formed; /* of a view: what it is a view on; NULL: it is no view */
+    bool owns_formed;
+    Shown *shown;         /* of a view, or while it is made */
+    LIST(System *) modes; /* views: of those whose sides are open, made so far */
     System *sided;        /* the same whose sides are looked for; it or one of the modes */
     System *whole;        /* that it was made for, and which owns it; NULL: none */
-
-    bool is_early;    /* reactions aren't there yet */
-    bool asked_early; /* and were asked for */
-    Shown *shown;
     /* how a name becomes an expression: system_variable(), which all that tells one stands before
      */
     Status (*variable)(System *system, const char *path, int primes, Expr *out, Diag *diag);
 };
 
-/* before something of a finished System changes */
-static inline void system_touch(System *system)
+/* before a view forms something: all else is as it was made */
+static inline void system_touch(System *view)
 {
-    mem_keep(system);
-    mem_keep(system->network);
-    mem_keep(system->shown);
+    mem_keep(view);
+    mem_keep(view->shown);
 }
 
 /* text in the pool */

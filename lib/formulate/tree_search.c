@@ -103,7 +103,7 @@ static void price(TreeSearch *search, TreePair *pair)
     const SystemOptions options = {.form = search->scene.network_form, .watch = search->watch};
     Scene scene = search->scene;
     ArenaMark *mark;
-    System *system = NULL;
+    const System *system = NULL;
     Tree *trees[2];
     Diag ignored;
 

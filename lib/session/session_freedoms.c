@@ -72,7 +72,7 @@ static Status assemble_real(ct_session *session, const Setting *setting, System 
     plain.scene = (SceneSource){make_real, &trees};
     CHECK(model_preset_trees(session->model, false, trees.halves, diag));
     CHECK(make_real(&trees, &scene, diag));
-    CHECK(system_new(&scene, &options, system, diag));
+    CHECK(system_new_view(&scene, &options, system, diag));
     CHECK(run_assemble(*system, &plain, out, reader, diag));
 done:
     scene_free(&scene);

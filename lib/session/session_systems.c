@@ -101,7 +101,7 @@ static Status system_of_form(ct_session *session, NetworkForm form, System **out
         }
     report(&session->watch, "equations", -1);
     CHECK(model_scene(session->model, &scene, diag));
-    CHECK(system_new(&scene, &options, &system, diag));
+    CHECK(system_new_view(&scene, &options, &system, diag));
     LIST_PUSH(session->systems, system);
     session_sweep(session);
     *out = system;

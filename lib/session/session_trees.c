@@ -154,7 +154,7 @@ static Status find_proposals(TreesSought *search, Diag *diag)
     const SystemOptions options = {.form = search->scene.network_form, .watch = &search->watch};
     const Graph *graph = search->scene.graph;
     Scene scene = search->scene;
-    System *system = NULL;
+    const System *system = NULL;
     CommonTurn *turns = NULL;
     Tree *halves[2];
     Text name = {0};

@@ -13,7 +13,7 @@ __attribute__((unused)) static Status form_system(const Model *model, System **o
     Status status = OK;
 
     CHECK(model_scene(model, &scene, diag));
-    CHECK(system_new(&scene, &options, out, diag));
+    CHECK(system_new_view(&scene, &options, out, diag));
 done:
     scene_free(&scene);
     return status;

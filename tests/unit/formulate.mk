@@ -18,3 +18,7 @@ test_spatial_LDADD = $(unit_ldadd)
 UNIT_TESTS += test_displaced
 test_displaced_SOURCES = tests/unit/test_displaced.c tests/unit/session_kit.h tests/unit/test.h
 test_displaced_LDADD = $(unit_ldadd)
+
+UNIT_TESTS += test_system_view
+test_system_view_SOURCES = tests/unit/test_system_view.c tests/unit/test.h tests/unit/form.h tests/unit/scene.h
+test_system_view_LDADD = $(unit_ldadd)

@@ -112,7 +112,7 @@ static Status open_system(Work *w, Diag *diag)
     }
     if (needed) {
         options.like = w->system;
-        CHECK(system_new(&scene, &options, &w->varied, diag));
+        CHECK(system_new_view(&scene, &options, &w->varied, diag));
         w->system = w->varied;
     }
     w->l = layout_new(w->system);
