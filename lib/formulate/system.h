@@ -373,8 +373,6 @@ typedef struct Storage {
 } Storage;
 /* Those of states: a new array, mem_free(). O(parts). */
 int system_storages(System *system, Storage **out);
-/* The event that watches one in a run is called "C2 at its bound": no event of a model is. */
-#define BOUND_MARK " at its bound"
 
 /* --- inverse runs: drivers, and what supplies their motion --- */
 

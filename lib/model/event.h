@@ -21,6 +21,7 @@ typedef struct Event {
     int value_count;
     const NewValue *values; /* of EVENT_SET */
     const char *text;       /* its statement */
+    bool is_bound;          /* nobody's of the model: it watches where the law of a part ends */
 } Event;
 
 #endif

@@ -367,6 +367,18 @@ static void add_unused(const View *view, Text *out)
     text_free(&parameters);
 }
 
+/* what the start has to say */
+static void add_remarks(const View *view, const Result *start, Text *out)
+{
+    Text lines = {0};
+
+    if (start != NULL)
+        remarks_write(result_remarks(start), &lines);
+    if (lines.at != NULL)
+        layout_words(out, view->page.columns, "", lines.at);
+    text_free(&lines);
+}
+
 void check_print(const View *view, const Result *start, const char *why, Text *out)
 {
     const System *system = view->system;
@@ -390,8 +402,7 @@ void check_print(const View *view, const Result *start, const char *why, Text *o
     for (int i = 0; (line = system_remark(system, i)) != NULL; i++)
         layout_words(out, view->page.columns, "", line);
     add_unused(view, out);
-    if (start != NULL && result_remarks(start)[0] != '\0')
-        layout_words(out, view->page.columns, "", result_remarks(start));
+    add_remarks(view, start, out);
     text_add(out, start != NULL ? "the start can be assembled\n" : "the start can't be assembled");
     if (start == NULL)
         text_addf(out, ": %s\n", why);

@@ -216,8 +216,6 @@ void report_line(Text *out, const Result *result, const char *name)
 
 Status show_run(const View *view, const Selection *selection, Text *out, Diag *diag)
 {
-    const char *remarks;
-
     (void)selection;
     if (view->result == NULL) {
         diag_set(diag, E_MISSING, "there is no run yet");
@@ -225,12 +223,7 @@ Status show_run(const View *view, const Selection *selection, Text *out, Diag *d
         return E_MISSING;
     }
     report_print(out, view->result, "run");
-    remarks = result_remarks(view->result);
-    if (remarks[0] != '\0') {
-        text_add(out, remarks);
-        if (remarks[strlen(remarks) - 1] != '\n')
-            text_char(out, '\n');
-    }
+    remarks_write(result_remarks(view->result), out);
     return OK;
 }
 
@@ -268,7 +261,7 @@ static void print_times(Text *out, const EventRecord *record)
 /* events of the model, and what ended the run as one */
 static bool is_told(const EventRecord *record)
 {
-    return record->count > 0 || strstr(record->name, BOUND_MARK) == NULL;
+    return record->count > 0 || !record->is_bound;
 }
 
 Status show_events(const View *view, const Selection *selection, Text *out, Diag *diag)

@@ -35,10 +35,11 @@ static Event event_of(BoundWatch *watch, Arena *arena, const Bound *bound, doubl
     Text name = {0}, condition = {0};
     char *measure = expr_text(bound->measure);
     Event event = {.action = EVENT_STOP,
+                   .is_bound = true,
                    .when = from > 0 ? expr_call2(arena, OP_LT, bound->measure, limit)
                                     : expr_call2(arena, OP_LT, limit, bound->measure)};
 
-    text_addf(&name, "%s%s", bound->instance, BOUND_MARK);
+    text_addf(&name, "%s at its bound", bound->instance);
     text_addf(&condition, "%s %c %.3g", measure, from > 0 ? '<' : '>', AT_BOUND * from);
     event.name = keep(watch, &name);
     event.condition = event.text = keep(watch, &condition);
@@ -155,7 +156,7 @@ Status check_bounds(const RunInput *input, ResultReader *reader, Status status, 
     for (int e = 0; e < result_event_count(result); e++) {
         const EventRecord record = result_event(result, e);
 
-        for (int i = 0; record.ended && i < watch->events.count; i++)
+        for (int i = 0; record.ended && record.is_bound && i < watch->events.count; i++)
             if (strcmp(watch->events.at[i].name, record.name) == 0 &&
                 strcmp(watch->events.at[i].condition, record.condition) == 0)
                 return is_at_bound(watch, i, record.times[record.count - 1], diag);

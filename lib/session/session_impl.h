@@ -92,6 +92,8 @@ ct_status session_ran_out(ct_session *session, ct_error *error);
 /* before anything that may remark */
 void session_begin(ct_session *session);
 void session_remark(ct_session *session, const char *lines);
+/* what a result has to say, less the end at a bound, which is an error and said as one */
+void session_remark_result(ct_session *session, const Result *result);
 
 /* the equations of the model as it is; borrowed */
 MUST_USE Status session_system(ct_session *session, System **out, Diag *diag);

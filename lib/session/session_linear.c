@@ -28,7 +28,7 @@ Status session_equilibrium(ct_session *session, const Statement *s, Diag *diag)
     session->rests_since = model_start_statements(session->model);
     session->start_is_later = true;
     session->told = NULL;
-    session_remark(session, result_remarks(result));
+    session_remark_result(session, result);
 done:
     run_input_free(&input);
     return status;

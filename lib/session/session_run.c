@@ -134,20 +134,6 @@ static void remark_critical(ct_session *session, ResultReader *reader)
     mem_free(values);
 }
 
-/* what the run had to say, less the end at a bound, which is an error and said as one */
-static void remark_run(ct_session *session, const char *lines)
-{
-    while (*lines != '\0') {
-        const size_t length = strcspn(lines, "\n");
-        char *line = mem_text(lines, length);
-
-        if (strstr(line, BOUND_MARK) == NULL)
-            session_remark(session, line);
-        mem_free(line);
-        lines += length + (lines[length] == '\n');
-    }
-}
-
 static void keep_run(ct_session *session, RunInput *input, Result *result, ResultReader *reader)
 {
     Text line = {0};
@@ -157,7 +143,7 @@ static void keep_run(ct_session *session, RunInput *input, Result *result, Resul
     session_note_freedoms(session, result);
     session->start_is_later = false;
     session->changed = false;
-    remark_run(session, result_remarks(result));
+    session_remark_result(session, result);
     remark_critical(session, reader);
     (void)snprintf(name, sizeof name, "run%d", session->runs.count);
     report_line(&line, result, name);

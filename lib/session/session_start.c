@@ -16,7 +16,7 @@ Status session_start(ct_session *session, Run **out, Diag *diag)
         CHECK(run_assemble(system, &input.setting, &result, &reader, diag));
         session->start = run_input_done(&input, result, reader);
         session_note_freedoms(session, result);
-        session_remark(session, result_remarks(result));
+        session_remark_result(session, result);
     }
     *out = &session->start;
 done:

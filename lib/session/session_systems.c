@@ -44,6 +44,21 @@ void session_remark(ct_session *session, const char *lines)
         text_char(&session->remarks, '\n');
 }
 
+void session_remark_result(ct_session *session, const Result *result)
+{
+    const Remarks *remarks = result_remarks(result);
+
+    for (int i = 0; i < remarks->list.count; i++) {
+        Text line = {0};
+
+        if (remarks->list.at[i].kind == REMARK_BOUND_MET)
+            continue;
+        remark_write(&remarks->list.at[i], &line);
+        session_remark(session, line.at);
+        text_free(&line);
+    }
+}
+
 /* --- equations --- */
 
 static bool is_of(const Run *run, const System *system)

@@ -28,6 +28,7 @@ typedef struct Script {
     int expects;
     Diag diag; /* of the run */
     Status status;
+    Text remarks; /* of the result, once script_remarks() has been asked */
 } Script;
 
 static double script_parameter(void *context, Expr symbol)
@@ -207,6 +208,7 @@ __attribute__((unused)) static void script_open(Script *script, const char *text
 __attribute__((unused)) static void script_close(Script *script)
 {
     LIST_FREE(script->items);
+    text_free(&script->remarks);
     result_free(script->result);
     system_free(script->system);
     model_free(script->model);
@@ -227,6 +229,15 @@ __attribute__((unused)) static double value_at(Script *script, const char *text,
         script_fail(text, &diag);
     pool_free(pool);
     return value;
+}
+
+/* what its result has to say, in lines */
+__attribute__((unused)) static const char *script_remarks(Script *script)
+{
+    text_free(&script->remarks);
+    if (script->result != NULL)
+        remarks_write(result_remarks(script->result), &script->remarks);
+    return script->remarks.at != NULL ? script->remarks.at : "";
 }
 
 /* the text of a file of the sources; NULL and a fault when it isn't there */

@@ -20,7 +20,7 @@ static Status run(Problem *p, const char *method, bool embedded, double rtol, co
         .every = every};
     Status status = integrate(&plan, start, grid, out, diag);
 
-    text_free(&out->remarks);
+    remarks_free(&out->remarks);
     LIST_FREE(out->jumps);
     motion_free(motion);
     return status;
@@ -343,7 +343,7 @@ static void a_stopped_run_keeps_its_rows(void)
     EXPECT(integrate(&plan, pendulum_start, &grid, &out, &diag) == E_STOPPED);
     EXPECT(grid.count > 10 && grid.count < 100000);
     EXPECT(strncmp(diag.message, "stopped at t = ", 15) == 0);
-    text_free(&out.remarks);
+    remarks_free(&out.remarks);
     LIST_FREE(out.jumps);
     grid_free(&grid);
     motion_free(motion);

@@ -108,9 +108,48 @@ static void resuming_leaves_the_old_result_as_it_was(void)
     script_close(&script);
 }
 
+/* the first of its kind; NULL: nothing of the kind is said */
+static const Remark *remark_of(const Result *result, RemarkKind kind)
+{
+    const Remarks *remarks = result_remarks(result);
+
+    for (int i = 0; i < remarks->list.count; i++)
+        if (remarks->list.at[i].kind == kind)
+            return &remarks->list.at[i];
+    return NULL;
+}
+
+static void remarks_tell_of_which_part_and_when(void)
+{
+    Script script;
+    const Remark *twice, *left, *started;
+
+    script_open(&script,
+                "scene planar\nbody a mass=1 inertia=1\nrevolute h ground a\nrevolute k ground a\n"
+                "tree absolute\ninit h = 0.3, h' = 1\nsimulate 1\n",
+                &(Changes){0});
+    twice = remark_of(script.result, REMARK_REDUNDANT);
+    left = remark_of(script.result, REMARK_UNDETERMINED);
+    started = remark_of(script.result, REMARK_START_SINGULAR);
+    EXPECT(twice != NULL && left != NULL && started == NULL);
+    if (twice != NULL && left != NULL) {
+        EXPECT_TEXT(twice->what, "k");
+        EXPECT_TEXT(twice->more, "x, y");
+        EXPECT_TEXT(twice->others, "h");
+        EXPECT(left->count == 1);
+    }
+    EXPECT_TEXT(script_remarks(&script),
+                "redundant: k (x, y) repeats h\n"
+                "1 degree of freedom without what is redundant; reactions there are not "
+                "determined: those told are the least (minimum norm) of the joints outside the "
+                "tree, and depend on it\n");
+    script_close(&script);
+}
+
 int main(void)
 {
     RUN(a_result_outlives_what_integrated_it);
     RUN(resuming_leaves_the_old_result_as_it_was);
+    RUN(remarks_tell_of_which_part_and_when);
     return test_end();
 }

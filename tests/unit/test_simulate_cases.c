@@ -106,7 +106,7 @@ static double compare(const Case *c)
                "ms\n%s",
                c->script, report->method, report->rtol, worst, (long long)report->steps,
                (long long)report->evaluations, report->position_residual, report->energy_drift,
-               1e3 * report->wall, result_remarks(script.result));
+               1e3 * report->wall, script_remarks(&script));
     }
 done:
     mem_free(values);

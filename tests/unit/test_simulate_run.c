@@ -169,7 +169,7 @@ static void a_repeated_joint_is_redundant(void)
                        (Changes){0});
 
     EXPECT(script.status == OK && twice.status == OK);
-    EXPECT(strstr(result_remarks(twice.result), "redundant: h") != NULL);
+    EXPECT(strstr(script_remarks(&twice), "redundant: h") != NULL);
     EXPECT_NEAR(value_at(&script, "h", 1), value_at(&twice, "h", 1), 1e-9);
     /* both pins carry the same: nothing tells them apart */
     EXPECT_NEAR(value_at(&twice, "h.fy", 1), value_at(&twice, "h2.fy", 1), 1e-9);
@@ -188,7 +188,7 @@ static void a_singular_start_is_told(void)
                         (Changes){0});
 
     EXPECT(script.status == OK);
-    EXPECT_TEXT(result_remarks(script.result),
+    EXPECT_TEXT(script_remarks(&script),
                 "the start is a singular position: 1 of 2 constraints hold there\n");
     script_close(&script);
 }
@@ -299,8 +299,8 @@ static void the_embedded_form_takes_the_users_coordinates(void)
     EXPECT(script.status == OK);
     EXPECT_TEXT(script.diag.message, "");
     /* the slide can't tell the crank's way at a dead centre */
-    EXPECT(script.result != NULL && strstr(result_remarks(script.result),
-                                           "independent coordinates chosen anew at t = ") != NULL);
+    EXPECT(script.result != NULL &&
+           strstr(script_remarks(&script), "independent coordinates chosen anew at t = ") != NULL);
     EXPECT_NEAR(value_at(&script, "h8", 2), value_at(&plain, "h8", 2), 1e-6);
     script_close(&script);
     script_close(&plain);
@@ -429,8 +429,7 @@ static void an_unresolved_run_is_told(void)
 
     EXPECT(form_system(script.model, &script.system, &diag) == OK);
     EXPECT(run_simulate(script.system, &setting, &options, &script.result, NULL, &diag) == OK);
-    EXPECT(script.result != NULL &&
-           strstr(result_remarks(script.result), "not resolved: ") != NULL);
+    EXPECT(script.result != NULL && strstr(script_remarks(&script), "not resolved: ") != NULL);
     EXPECT(result_report(script.result)->is_unresolved);
     EXPECT(isnan(result_report(script.result)->global_error));
     script_close(&script);
@@ -623,7 +622,7 @@ static void a_stiff_model_is_handed_over(void)
 
     EXPECT(script.status == OK && bdf.status == OK);
     EXPECT_TEXT(result_report(script.result)->method, "radau");
-    EXPECT(strstr(result_remarks(script.result), "stiff from t = ") != NULL);
+    EXPECT(strstr(script_remarks(&script), "stiff from t = ") != NULL);
     EXPECT(result_report(script.result)->steps < 5000);
     EXPECT_NEAR(value_at(&script, "h", 2), value_at(&bdf, "h", 2), 1e-5);
     EXPECT_NEAR(value_at(&script, "M.i", 2), value_at(&bdf, "M.i", 2), 1e-4);
@@ -675,7 +674,7 @@ static void a_long_line_of_coils_stays_explicit(void)
 
     EXPECT(script.status == OK && radau.status == OK);
     EXPECT_TEXT(result_report(script.result)->method, "dop853");
-    EXPECT_TEXT(result_remarks(script.result), "");
+    EXPECT_TEXT(script_remarks(&script), "");
     EXPECT_NEAR(value_at(&script, "b100.v", 4.4e-6), value_at(&radau, "b100.v", 4.4e-6), 1e-2);
     EXPECT_NEAR(value_at(&script, "b50.v", 6e-6), value_at(&radau, "b50.v", 6e-6), 1e-2);
     script_close(&script);
@@ -688,7 +687,7 @@ static void a_long_line_of_resistors_is_handed_over(void)
     Script script = run_line(RESISTORS, 100, end, (Changes){0});
 
     EXPECT(script.status == OK);
-    EXPECT(strstr(result_remarks(script.result), "stiff from t = ") != NULL);
+    EXPECT(strstr(script_remarks(&script), "stiff from t = ") != NULL);
     EXPECT_TEXT(result_report(script.result)->method, "ida");
     script_close(&script);
 }

@@ -361,12 +361,9 @@ static void remark_freedom(const Quest *e, ActiveRun *r)
     if (left <= 0)
         return;
     if (name != NULL)
-        text_addf(&r->result->remarks,
-                  "at rest nothing determines %s: it stays as near to its start as may be\n", name);
+        remarks_add(&r->result->remarks, (Remark){.kind = REMARK_REST_OPEN, .what = name});
     else
-        text_addf(&r->result->remarks,
-                  "the equilibrium is one of many: %d direction%s in which nothing pushes back\n",
-                  left, left == 1 ? "" : "s");
+        remarks_add(&r->result->remarks, (Remark){.kind = REMARK_REST_MANY, .count = left});
 }
 
 /* --- the result --- */
@@ -492,8 +489,7 @@ Status run_equilibrium(System *system, const Setting *setting, Result **out, Res
         CHECK(diag_set(diag, E_SINGULAR, "the equilibrium is a singular position"));
     remark_freedom(&e, r);
     if (vector_largest(r->begin + l->n, l->nu) > 0)
-        text_add(&r->result->remarks,
-                 "drivers move at t = 0: runs start from here with their speeds\n");
+        remarks_add(&r->result->remarks, (Remark){.kind = REMARK_REST_DRIVEN});
     active_run_add_row(r, 0, r->begin);
     motion_residuals(r->phase->motion, 0, r->begin, &position, &velocity);
     r->result->report.position_residual = position;

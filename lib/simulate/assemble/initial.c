@@ -51,10 +51,10 @@ static void remark_moved(Assembly *a, const double *begun)
         if (fabs(a->y[i] - begun[i]) > fabs(a->y[furthest] - begun[furthest]))
             furthest = i;
     if (l->n > 0 && fabs(a->y[furthest] - begun[furthest]) > FAR)
-        text_addf(&a->out->remarks,
-                  "warning: assembled far from where it began: %s went from %.4g to %.4g; a guess "
-                  "chooses another assembly\n",
-                  system_q(l->system, furthest)->name, begun[furthest], a->y[furthest]);
+        remarks_add(&a->out->remarks, (Remark){.kind = REMARK_ASSEMBLED_FAR,
+                                               .what = system_q(l->system, furthest)->name,
+                                               .size = begun[furthest],
+                                               .to = a->y[furthest]});
 }
 
 /* other starts about the first one; the nearest solution wins at the smallest disturbance */
@@ -70,10 +70,7 @@ static bool try_around(Problem *p, const Rows *rows, const bool *held, const dou
             a->y[i] = begun[i] + (held[i] ? 0 : size * random_unit(&seed));
         if (levenberg_marquardt_solve(rows, held, NULL, TOLERANCE, a->y, NULL) &&
             skeleton_reversal(a->skeleton, a->y).link == NULL) {
-            text_addf(&a->out->remarks,
-                      "warning: assembled from a start moved by up to %g; guesses make sure that "
-                      "it is the assembly meant\n",
-                      size);
+            remarks_add(&a->out->remarks, (Remark){.kind = REMARK_ASSEMBLED_AROUND, .size = size});
             return true;
         }
     }
@@ -289,14 +286,13 @@ static Status find_rank(Assembly *a)
     }
     a->out->row_count = best;
     if (here < best)
-        text_addf(&a->out->remarks,
-                  "the start is a singular position: %d of %d constraints hold there\n", here,
-                  best);
+        remarks_add(&a->out->remarks,
+                    (Remark){.kind = REMARK_START_SINGULAR, .count = here, .of = best});
     if (best < l->m) {
         /* at a singular start, what was found nearby tells more */
         if (here == best)
             a->eq->position(a->eq->context, 0, a->y);
-        redundant_tell(l->system, a->eq->phi_u, a->out->rows, best, &a->out->remarks);
+        redundant_remark(l->system, a->eq->phi_u, a->out->rows, best, &a->out->remarks);
     }
 done:
     mem_free(order);
@@ -348,6 +344,6 @@ void initial_free(Assembled *start)
     mem_free(start->network);
     mem_free(start->guess);
     mem_free(start->rows);
-    text_free(&start->remarks);
+    remarks_free(&start->remarks);
     *start = (Assembled){0};
 }

@@ -7,8 +7,8 @@
 #ifndef COTREE_SIMULATE_ASSEMBLE_INITIAL_H
 #define COTREE_SIMULATE_ASSEMBLE_INITIAL_H
 
-#include "base/text.h"
 #include "simulate/equations/numbers.h"
+#include "simulate/equations/remark.h"
 
 typedef struct Assembled {
     double *y;       /* q, u, x, references of angles, 0 */
@@ -16,7 +16,7 @@ typedef struct Assembled {
     double *guess;   /* z as the user guesses it, else 0 */
     int *rows;       /* independent constraint rows, rising */
     int row_count;
-    Text remarks; /* lines */
+    Remarks remarks;
 } Assembled;
 
 /* Fails with E_ASSEMBLE, naming what can't be met, and the errors of system_variable(). `warm`

@@ -301,11 +301,10 @@ static void remark_moved(Placing *p, const double *from)
             }
         }
     if (link >= 0)
-        text_addf(&p->a->out->remarks,
-                  "warning: assembled far from where it began: %s went from %.4g to %.4g; a guess "
-                  "chooses "
-                  "another assembly\n",
-                  p->s->links[link].instance->coord[which], from[place_at(link, which)], to);
+        remarks_add(&p->a->out->remarks, (Remark){.kind = REMARK_ASSEMBLED_FAR,
+                                                  .what = p->s->links[link].instance->coord[which],
+                                                  .size = from[place_at(link, which)],
+                                                  .to = to});
 }
 
 void placing_free(Placing *p)

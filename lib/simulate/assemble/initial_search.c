@@ -311,10 +311,8 @@ static bool try_around(Placing *p, const Rows *rows, const double *from, const b
         move_columns(p, p->c, step);
         met = levenberg_marquardt_solve(rows, NULL, NULL, TOLERANCE, p->c, NULL);
         if (met)
-            text_addf(&p->a->out->remarks,
-                      "warning: assembled from a start moved by up to %g; guesses make sure "
-                      "that it is the assembly meant\n",
-                      size);
+            remarks_add(&p->a->out->remarks,
+                        (Remark){.kind = REMARK_ASSEMBLED_AROUND, .size = size});
     }
     mem_free(step);
     return met;

@@ -26,6 +26,9 @@ libcore_la_SOURCES += \
   lib/simulate/equations/probe.h \
   lib/simulate/equations/redundant.c \
   lib/simulate/equations/redundant.h \
+  lib/simulate/equations/remark.c \
+  lib/simulate/equations/remark.def \
+  lib/simulate/equations/remark.h \
   lib/simulate/equations/rows.c \
   lib/simulate/equations/rows.h \
   lib/simulate/equations/setting.h \

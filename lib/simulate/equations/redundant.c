@@ -77,15 +77,13 @@ static void name_repeated(const System *system, const int *order, int rank, cons
         if (!takes_part || other == joint)
             continue;
         named[i] = true;
-        text_addf(out, count++ > 0 ? ", %s" : " repeats %s", system_instance_name(system, other));
+        text_addf(out, count++ > 0 ? ", %s" : "%s", system_instance_name(system, other));
     }
-    if (count == 0)
-        text_add(out, " follows from the rest");
     mem_free(named);
 }
 
-void redundant_tell(const System *system, const double *phi_u, const int *order, int rank,
-                    Text *out)
+void redundant_remark(const System *system, const double *phi_u, const int *order, int rank,
+                      Remarks *out)
 {
     const int m = system_m(system), nu = system_nu(system);
     double *shares = NEW_ARRAY(double, (m - rank) * rank);
@@ -95,28 +93,27 @@ void redundant_tell(const System *system, const double *phi_u, const int *order,
         find_shares(phi_u, m, nu, order, rank, shares);
     for (int k = rank; k < m; k++) {
         const int joint = system_constraint(system, order[k])->instance;
+        Text directions = {0}, repeated = {0};
 
         if (told[k])
             continue;
-        text_addf(out, "redundant: %s (", system_instance_name(system, joint));
         for (int same = k; same < m; same++) {
             const ConstraintRow *row = system_constraint(system, order[same]);
 
             if (row->instance != joint)
                 continue;
             told[same] = true;
-            text_addf(out, same > k ? ", %s" : "%s", row->direction);
+            text_addf(&directions, same > k ? ", %s" : "%s", row->direction);
         }
-        text_char(out, ')');
-        name_repeated(system, order, rank, shares, joint, out);
-        text_char(out, '\n');
+        name_repeated(system, order, rank, shares, joint, &repeated);
+        remarks_add(out, (Remark){.kind = REMARK_REDUNDANT,
+                                  .what = system_instance_name(system, joint),
+                                  .more = directions.at,
+                                  .others = repeated.at});
+        text_free(&directions);
+        text_free(&repeated);
     }
-    text_addf(
-        out,
-        "%d degree%s of freedom without what is redundant; reactions there are not determined: "
-        "those told are the least (minimum norm) of the joints outside the tree, and depend "
-        "on it\n",
-        nu - rank, nu - rank == 1 ? "" : "s");
+    remarks_add(out, (Remark){.kind = REMARK_UNDETERMINED, .count = nu - rank});
     mem_free(told);
     mem_free(shares);
 }

@@ -123,8 +123,7 @@ Status run_open(RunKind kind, System *system, const Setting *setting, ActiveRun 
                        r->sides != NULL, warm != NULL ? warm_value : NULL, warm, &r->result->start,
                        diag));
     CHECK(run_begin(r, setting, diag));
-    text_add(&r->result->remarks,
-             r->result->start.remarks.at != NULL ? r->result->start.remarks.at : "");
+    remarks_append(&r->result->remarks, &r->result->start.remarks);
     if (kind == RUN_SIMULATE)
         CHECK(check_start(r, diag));
     CHECK(active_run_events(r, r->phase, NULL, 0, setting, &r->events, diag));

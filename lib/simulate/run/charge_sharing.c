@@ -239,14 +239,16 @@ static void tell_sharers(const ActiveRun *r, const double *x, const double *now,
 static void tell(ActiveRun *r, const char *sides, double t, double lost, const double *x,
                  const double *now)
 {
+    Text sharers = {0};
+
     r->shares->lost += lost;
     if (r->shares->times++ >= TOLD)
         return;
-    text_addf(&r->result->remarks, "%s at t = %.9g s: ", sides, fabs(t) < DBL_MIN ? 0 : t);
-    tell_sharers(r, x, now, &r->result->remarks);
-    if (isfinite(lost))
-        text_addf(&r->result->remarks, ", %.6g J are lost", lost);
-    text_add(&r->result->remarks, "\n");
+    tell_sharers(r, x, now, &sharers);
+    remarks_add(
+        &r->result->remarks,
+        (Remark){.kind = REMARK_SHARED, .what = sides, .t = t, .others = sharers.at, .size = lost});
+    text_free(&sharers);
 }
 
 void share_tell(ActiveRun *r)
@@ -256,10 +258,9 @@ void share_tell(ActiveRun *r)
 
     if (shares == NULL || shares->times <= TOLD)
         return;
-    text_addf(&r->result->remarks, "ideal switches do so %d more times", shares->times - TOLD);
-    if (isfinite(shares->lost))
-        text_addf(&r->result->remarks, ": %.6g J are lost in all", shares->lost);
-    text_add(&r->result->remarks, "\n");
+    remarks_add(
+        &r->result->remarks,
+        (Remark){.kind = REMARK_SHARED_ON, .count = shares->times - TOLD, .size = shares->lost});
 }
 
 /* What is stored may not grow: sources alone would have to give that. */

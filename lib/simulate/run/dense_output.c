@@ -222,7 +222,7 @@ static Status go_again(ResultReader *reader, const StepEnd ends[2], const double
     IntegrationReport report;
     const Status status = integrate(&plan, ends[0].y, &reader->asked, &report, diag);
 
-    text_free(&report.remarks);
+    remarks_free(&report.remarks);
     LIST_FREE(report.jumps);
     return status;
 }

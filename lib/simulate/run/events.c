@@ -144,6 +144,7 @@ static Status read_event(Events *events, const Event *event, Diag *diag)
     EventItem item = {.name = events_keep(events, event->name),
                       .condition = events_keep(events, event->condition),
                       .action = event->action,
+                      .is_bound = event->is_bound,
                       .is_live = true,
                       .course = {.last = -INFINITY, .gap = INFINITY}};
     Diag why = {0};

@@ -36,8 +36,8 @@ EventRecord events_record(const Events *events, int i); /* borrowed, until somet
 void events_go_on(Events *events, const EventRecord *earlier, int count);
 /* What happened, from the same events in another phase of a run; `from` is as it began then. */
 void events_hand_over(Events *events, Events *from);
-/* text about what happened, in lines */
-void events_tell(const Events *events, Text *out);
+/* what is said of what happened */
+void events_remark(const Events *events, Remarks *out);
 
 /* --- conditions and sides --- */
 

@@ -29,9 +29,10 @@ typedef struct Course {
 typedef struct EventItem {
     const char *name, *condition;
     EventAction action;
-    bool is_live; /* the model has it still */
-    Expr when;    /* over the layout's symbols */
-    Expr formula; /* over the symbols of conditions */
+    bool is_bound; /* it watches where the law of a part ends */
+    bool is_live;  /* the model has it still */
+    Expr when;     /* over the layout's symbols */
+    Expr formula;  /* over the symbols of conditions */
     int first_value, value_count;
     const char
         *refused; /* why ideal switches, as they are, let no values be given; NULL: they do */

@@ -3,8 +3,6 @@
 
 #include <string.h>
 
-#define SHOWN 6 /* times in a remark */
-
 const char *events_keep(Events *events, const char *text)
 {
     return pool_text(events->pool, text, strlen(text));
@@ -22,6 +20,7 @@ EventRecord events_record(const Events *events, int i)
     return (EventRecord){.name = item->name,
                          .condition = item->condition,
                          .action = item->action,
+                         .is_bound = item->is_bound,
                          .is_known = item->course.is_known,
                          .from_start = item->course.from_start,
                          .holds = item->course.holds,
@@ -43,7 +42,8 @@ static void take_over(Events *events, const EventRecord *old)
     if (item == NULL) {
         LIST_PUSH(events->items, (EventItem){.name = events_keep(events, old->name),
                                              .condition = events_keep(events, old->condition),
-                                             .action = old->action});
+                                             .action = old->action,
+                                             .is_bound = old->is_bound});
         item = &events->items.at[events->items.count - 1];
     }
     item->course.is_known = item->is_live && old->is_known;
@@ -70,52 +70,47 @@ void events_hand_over(Events *events, Events *from)
         if (i == events->items.count) /* of an earlier run */
             LIST_PUSH(events->items, (EventItem){.name = events_keep(events, old->name),
                                                  .condition = events_keep(events, old->condition),
-                                                 .action = old->action});
+                                                 .action = old->action,
+                                                 .is_bound = old->is_bound});
         kept = events->items.at[i].course;
         events->items.at[i].course = old->course;
         old->course = kept;
     }
 }
 
-static void tell_times(const EventItem *item, Text *out)
+/* how it ended the run */
+static RemarkKind kind_of_end(const EventItem *item)
 {
-    int count = item->course.times.count - item->course.earlier;
-
-    for (int i = 0; i < count && i < SHOWN; i++)
-        text_addf(out, "%s%.9g", i > 0 ? ", " : "",
-                  item->course.times.at[item->course.earlier + i]);
-    if (count > SHOWN)
-        text_addf(out, " ... %.9g", item->course.times.at[item->course.times.count - 1]);
-    text_add(out, " s\n");
+    if (item->is_bound)
+        return REMARK_BOUND_MET;
+    return item->course.from_start && item->course.times.count == 1 ? REMARK_EVENT_ENDED_FIRST
+                                                                    : REMARK_EVENT_ENDED;
 }
 
-void events_tell(const Events *events, Text *out)
+void events_remark(const Events *events, Remarks *out)
 {
     for (int i = 0; i < events_count(events); i++) {
         const EventItem *item = &events->items.at[i];
-        int count = item->course.times.count - item->course.earlier;
+        const int count = item->course.times.count - item->course.earlier;
+        Remark remark = {.what = item->name, .more = item->condition};
 
+        remark.kind = REMARK_EVENT_FROM_START;
         if (item->course.from_start && !item->course.ended && !item->course.is_resumed)
-            text_addf(out,
-                      "event %s: %s holds at the start; it must be false before it can become "
-                      "true\n",
-                      item->name, item->condition);
+            remarks_add(out, remark);
         if (count == 0 || item->course.ended)
             continue;
-        text_addf(out, "event %s: %s became true ", item->name, item->condition);
-        if (count > 1)
-            text_addf(out, "%d times, ", count);
-        text_add(out, "at t = ");
-        tell_times(item, out);
+        remark.kind = REMARK_EVENT;
+        remark.times = item->course.times.at + item->course.earlier;
+        remark.time_count = count;
+        remarks_add(out, remark);
     }
     for (int i = 0; i < events_count(events); i++) {
         const EventItem *item = &events->items.at[i];
 
         if (item->course.ended)
-            text_addf(out, "event %s ended the run at t = %.9g s: %s%s\n", item->name,
-                      item->course.times.at[item->course.times.count - 1], item->condition,
-                      item->course.from_start && item->course.times.count == 1
-                          ? " holds at the start"
-                          : " became true");
+            remarks_add(out, (Remark){.kind = kind_of_end(item),
+                                      .what = item->name,
+                                      .more = item->condition,
+                                      .t = item->course.times.at[item->course.times.count - 1]});
     }
 }

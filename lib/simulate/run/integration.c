@@ -16,7 +16,7 @@ static Status hand_over(Integration *m, Diag *diag)
     Status status = OK;
 
     memcpy(m->y, m->stepper->y, (size_t)m->length * sizeof(double));
-    text_addf(&m->out->remarks, "stiff from t = %.6g s: went on with %s\n", t, stiff->name);
+    remarks_add(&m->out->remarks, (Remark){.kind = REMARK_STIFF, .t = t, .what = stiff->name});
     integration_give_up_stepper(m);
     m->stepper = integration_new_stepper(m, stiff);
     m->out->method = stiff;
@@ -34,7 +34,7 @@ static Status renew(Integration *m, Diag *diag)
     const Renewed renewed = motion_renew(m->segment.motion, s->t, s->y);
 
     if (renewed.independent)
-        text_addf(&m->out->remarks, "independent coordinates chosen anew at t = %.6g s\n", s->t);
+        remarks_add(&m->out->remarks, (Remark){.kind = REMARK_INDEPENDENT_ANEW, .t = s->t});
     if (!renewed.rows || !s->method->solves_dae)
         return OK;
     memcpy(m->y, s->y, (size_t)m->length * sizeof(double));
@@ -220,10 +220,10 @@ Status integrate(const IntegrationPlan *plan, const double *start, Grid *grid,
     status = run(&m, start, diag);
     integration_close_segment(&m);
     if (m.missed > (plan->asks ? 1 : MANY))
-        text_addf(&out->remarks,
-                  "%s controls no error: a step at t = %.6g s may be off by %.2g times the "
-                  "tolerance; take a smaller step=, or another method\n",
-                  method->name, m.missed_at, m.missed);
+        remarks_add(&out->remarks, (Remark){.kind = REMARK_STEP_TOO_LONG,
+                                            .what = method->name,
+                                            .t = m.missed_at,
+                                            .size = m.missed});
     out->counts = m.earlier;
     out->events = m.ev;
     out->jumps = m.jumps;

@@ -13,8 +13,8 @@
 #ifndef COTREE_SIMULATE_RUN_INTEGRATION_H
 #define COTREE_SIMULATE_RUN_INTEGRATION_H
 
-#include "base/text.h"
 #include "base/watch.h"
+#include "simulate/equations/remark.h"
 #include "simulate/run/events.h"
 #include "simulate/run/grid.h"
 #include "simulate/run/onset.h"
@@ -93,7 +93,7 @@ typedef struct IntegrationReport {
     double reached;
     double position_residual, velocity_residual; /* largest over the rows */
     Jumps jumps;                                 /* that it met or would have met */
-    Text remarks;                                /* lines */
+    Remarks remarks;
 } IntegrationReport;
 
 /* Rows are appended to `grid` and the report filled also when it fails: E_SOLVER, E_STOPPED. The

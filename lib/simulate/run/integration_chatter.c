@@ -41,11 +41,11 @@ void integration_tell_settling(Integration *m, int i)
     rate = integration_condition_rate(m, i, &value);
     if (m->plan->tell != NULL)
         m->plan->tell(m->plan->context, &m->segment, i, &what);
-    text_addf(&m->out->remarks,
-              "%s switches ever faster: from t = %.9g s on, where it still leaves 0 at %.2g a "
-              "second, the motion is taken to stay there\n",
-              what.at != NULL ? what.at : "a condition in the equations", m->stepper->t,
-              fabs(rate));
+    remarks_add(&m->out->remarks,
+                (Remark){.kind = REMARK_SETTLES,
+                         .what = what.at != NULL ? what.at : "a condition in the equations",
+                         .t = m->stepper->t,
+                         .size = fabs(rate)});
     m->chatters[guard.surface].count = 0;
     text_free(&what);
 }

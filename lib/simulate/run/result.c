@@ -23,7 +23,7 @@ void result_free(Result *r)
     mem_free(r->driven.values);
     LIST_FREE(r->events);
     pool_free(r->pool);
-    text_free(&r->remarks);
+    remarks_free(&r->remarks);
     mem_free(r);
 }
 
@@ -47,9 +47,9 @@ int result_freedoms(const Result *r)
     return r->freedoms;
 }
 
-const char *result_remarks(const Result *r)
+const Remarks *result_remarks(const Result *r)
 {
-    return r->remarks.at != NULL ? r->remarks.at : "";
+    return &r->remarks;
 }
 
 int result_event_count(const Result *r)

@@ -7,6 +7,7 @@
 #ifndef COTREE_SIMULATE_RUN_RESULT_H
 #define COTREE_SIMULATE_RUN_RESULT_H
 
+#include "simulate/equations/remark.h"
 #include "simulate/equations/setting.h"
 
 typedef enum RunKind { RUN_START, RUN_SIMULATE, RUN_KINEMATICS, RUN_INVERSE } RunKind;
@@ -40,6 +41,7 @@ typedef struct EventRecord {
     const char *name;
     const char *condition; /* as written */
     EventAction action;
+    bool is_bound;       /* it watches where the law of a part ends */
     bool is_known;       /* whether it holds at the end: a run that goes on needn't look */
     bool from_start;     /* held at the start already */
     bool holds;          /* at the end */
@@ -54,7 +56,7 @@ System *result_system(const Result *result);
 const RunReport *result_report(const Result *result);
 /* speeds less independent constraints, at the start of it */
 int result_freedoms(const Result *result);
-const char *result_remarks(const Result *result); /* lines for the user; may be "" */
+const Remarks *result_remarks(const Result *result);
 /* events of the model when the run was made, and earlier ones that happened before it went on */
 int result_event_count(const Result *result);
 EventRecord result_event(const Result *result, int i);

@@ -34,7 +34,7 @@ struct Result {
     LIST(EventRecord) events;
     Pool *pool; /* of names and times in these; NULL: there are none */
     RunReport report;
-    Text remarks;
+    Remarks remarks;
 };
 
 #endif

@@ -193,18 +193,15 @@ static void remark_singular(ActiveRun *r)
     const MotionCounts counts = counts_of(r);
 
     if (counts.regularised > 0)
-        text_addf(&r->result->remarks,
-                  "passed near a singular position, first at t = %.6g s: rounding leaves its mark "
-                  "there at any tolerance; check=on measures what\n",
-                  counts.singular_time);
+        remarks_add(&r->result->remarks,
+                    (Remark){.kind = REMARK_NEAR_SINGULAR, .t = counts.singular_time});
 }
 
 static void remark_march(ActiveRun *r, const IntegrationReport *march)
 {
-    if (march->remarks.at != NULL)
-        text_add(&r->result->remarks, march->remarks.at);
+    remarks_append(&r->result->remarks, &march->remarks);
     share_tell(r);
-    events_tell(r->events, &r->result->remarks);
+    events_remark(r->events, &r->result->remarks);
     remark_singular(r);
 }
 
@@ -234,10 +231,8 @@ static void report_difference(ActiveRun *r, double largest, const Method *a, con
 {
     r->result->report.is_unresolved = !(largest <= UNRESOLVED);
     if (r->result->report.is_unresolved)
-        text_addf(&r->result->remarks,
-                  "not resolved: a run %s ends elsewhere; take a smaller %s, or a shorter run\n",
-                  b->has_fixed_step ? "in half the step" : "at a tenth of the tolerance",
-                  b->has_fixed_step ? "step" : "rtol");
+        remarks_add(&r->result->remarks, (Remark){.kind = b->has_fixed_step ? REMARK_UNRESOLVED_STEP
+                                                                            : REMARK_UNRESOLVED});
     else
         r->result->report.global_error =
             largest * (a->has_history || b->has_history ? MULTISTEP : ONE_STEP);
@@ -265,7 +260,7 @@ static Status estimate_error(ActiveRun *r, const Setting *setting, const RunOpti
     status = integration_phases(r, setting, &plan, &grid, NULL, &integration_report, diag);
     if (status == OK)
         report_difference(r, largest_difference(r, first, &grid), used, integration_report.method);
-    text_free(&integration_report.remarks);
+    remarks_free(&integration_report.remarks);
     LIST_FREE(integration_report.jumps);
     grid_free(&grid);
     return status;
@@ -314,7 +309,7 @@ static Status go(ActiveRun *r, const Setting *setting, const RunOptions *given, 
     if (status == E_SOLVER)
         network_hint(r->system, diag);
     remark_march(r, &report_of);
-    text_free(&report_of.remarks);
+    remarks_free(&report_of.remarks);
     for (int i = 0; i < report_of.jumps.count; i++)
         LIST_PUSH(r->result->jumps, report_of.jumps.at[i]);
     LIST_FREE(report_of.jumps);
@@ -568,7 +563,7 @@ static Status positions(ActiveRun *r, const Setting *setting, const RunOptions *
     }
 done:
     mem_free(y);
-    events_tell(r->events, &r->result->remarks);
+    events_remark(r->events, &r->result->remarks);
     remark_singular(r);
     r->result->report.regularised = counts_of(r).regularised;
     r->result->report.singular_time = counts_of(r).singular_time;
