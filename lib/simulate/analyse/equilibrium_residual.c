@@ -2,6 +2,7 @@
  * coordinates */
 #include "simulate/analyse/equilibrium_residual.h"
 
+#include "algebra/pattern.h"
 #include "base/memory.h"
 #include "simulate/equations/rows.h"
 
@@ -38,12 +39,10 @@ struct EquilibriumResidual {
     int n, length;
     int near;     /* in v, references of angles: behind the unknowns */
     double *v;    /* base */
-    Probe *probe; /* residuals, slopes, angles that count turns: from place to place */
-    int angles;   /* the first of these */
+    Probe *probe; /* residuals, angles that count turns from place to place, slopes */
     Map map;
     LIST(EquilibriumResidualPart) parts;
-    int entries;
-    int *column_start, *row;
+    Pattern pattern;
     double *jacobian;
     double *w, *place; /* of the last values; v there */
     const double *values;
@@ -202,76 +201,32 @@ static void place_coordinates(const EquilibriumResidual *s, const double *w, dou
 
 /* --- rows and slopes --- */
 
-typedef struct EquilibriumResidualDraft {
-    Roots roots; /* residuals, then slopes */
-    LIST(int) row;
-    LIST(int) by; /* an entry of v */
-} EquilibriumResidualDraft;
-
-/* by numbers of symbols: the entry of v, -1 for others */
-static int *number_unknowns(const EquilibriumResidual *s, int *most)
+/* the rows; then angles that count turns */
+static void push_roots(const EquilibriumResidual *s, Roots *roots)
 {
     const Layout *l = s->l;
-    const int parts[][2] = {{l->q, l->n}, {l->x, l->nx}, {l->multipliers, l->m}, {l->z, l->nz}};
-    int *place_of, place = 0;
-
-    *most = 0;
-    for (int p = 0; p < COUNT(parts); p++)
-        for (int i = 0; i < parts[p][1]; i++) {
-            const int number = expr_symbol_number(l->symbols[parts[p][0] + i]);
-
-            *most = number > *most ? number : *most;
-        }
-    place_of = NEW_ARRAY(int, *most + 1);
-    for (int i = 0; i <= *most; i++)
-        place_of[i] = -1;
-    for (int p = 0; p < COUNT(parts); p++)
-        for (int i = 0; i < parts[p][1]; i++)
-            place_of[expr_symbol_number(l->symbols[parts[p][0] + i])] = place++;
-    return place_of;
-}
-
-/* the slopes of a row that aren't 0 */
-static void draft_slopes(const EquilibriumResidual *s, const int *place_of, int most, int row,
-                         Expr residual, EquilibriumResidualDraft *draft)
-{
-    Expr *symbols;
-    const int count = expr_symbols(&residual, 1, &symbols);
-
-    for (int k = 0; k < count; k++) {
-        const int number = expr_symbol_number(symbols[k]);
-        Expr slope;
-
-        if (number > most || place_of[number] < 0)
-            continue;
-        slope = expr_diff(system_arena(s->system), residual, symbols[k]);
-        if (expr_is_zero(slope))
-            continue;
-        LIST_PUSH(draft->roots, slope);
-        LIST_PUSH(draft->row, row);
-        LIST_PUSH(draft->by, place_of[number]);
-    }
-    mem_free(symbols);
-}
-
-static void draft_rows(const EquilibriumResidual *s, EquilibriumResidualDraft *draft)
-{
-    const Layout *l = s->l;
-    const Reading *run = system_run(l->system);
-    int most;
-    int *place_of = number_unknowns(s, &most);
-    int rows;
 
     for (int j = 0; j < l->nu; j++)
-        LIST_PUSH(draft->roots, row_balance(l, j));
+        LIST_PUSH(*roots, row_balance(l, j));
     for (int k = 0; k < l->m; k++)
-        LIST_PUSH(draft->roots, run->phi[k]);
+        LIST_PUSH(*roots, system_run(l->system)->phi[k]);
     for (int i = 0; i < l->nx + l->nz; i++)
-        LIST_PUSH(draft->roots, row_network(l, i));
-    rows = draft->roots.count;
-    for (int i = 0; i < rows; i++)
-        draft_slopes(s, place_of, most, i, draft->roots.at[i], draft);
-    mem_free(place_of);
+        LIST_PUSH(*roots, row_network(l, i));
+    for (int k = 0; k < l->turned; k++)
+        LIST_PUSH(*roots, system_multi_turn(s->system, k)->angle);
+}
+
+/* in the order of v; new */
+static Expr *list_unknowns(const Layout *l, int *count)
+{
+    const int parts[][2] = {{l->q, l->n}, {l->x, l->nx}, {l->multipliers, l->m}, {l->z, l->nz}};
+    Expr *out = NEW_ARRAY(Expr, l->n + l->nx + l->m + l->nz);
+
+    *count = 0;
+    for (int p = 0; p < COUNT(parts); p++)
+        for (int i = 0; i < parts[p][1]; i++)
+            out[(*count)++] = l->symbols[parts[p][0] + i];
+    return out;
 }
 
 static void list_inertia(EquilibriumResidual *s)
@@ -291,96 +246,86 @@ static void list_inertia(EquilibriumResidual *s)
                                             .value = run->network[k].value});
 }
 
-/* what stands somewhere in the Jacobian: a part of a slope, or inertia */
-typedef struct EquilibriumResidualItem {
-    int row, column;
-    int slope, map;        /* -1: none */
-    int inertia;           /* -1: none */
-} EquilibriumResidualItem; /* neither: an unknown's own place */
-typedef LIST(EquilibriumResidualItem) Items;
-
 /* the place in w of the unknown that goes with a mechanical row: a step, or a multiplier */
 static int own_column(const EquilibriumResidual *s, int row)
 {
     return row < s->l->nu ? row : row + s->l->nx;
 }
 
-static void list_items(const EquilibriumResidual *s, const EquilibriumResidualDraft *draft,
-                       Items *items)
+/* what stands somewhere in the Jacobian */
+typedef struct Terms {
+    LIST(int) row;
+    LIST(int) column;
+} Terms;
+
+static void add_term(Terms *terms, int row, int column)
 {
-    const Layout *l = s->l;
-
-    for (int k = 0; k < draft->row.count; k++) {
-        const int row = draft->row.at[k], by = draft->by.at[k];
-
-        if (by >= l->n)
-            LIST_PUSH(*items, (EquilibriumResidualItem){row, by - l->n + l->nu, k, -1, -1});
-        for (int m = by < l->n ? s->map.start[by] : 0; by < l->n && m < s->map.start[by + 1]; m++)
-            LIST_PUSH(*items, (EquilibriumResidualItem){row, s->map.speed[m], k, m, -1});
-    }
-    for (int k = 0; k < s->inertia.count; k++)
-        LIST_PUSH(*items, (EquilibriumResidualItem){s->inertia.at[k].row, s->inertia.at[k].column,
-                                                    -1, -1, k});
-    for (int i = 0; i < l->nu + l->m; i++)
-        LIST_PUSH(*items, (EquilibriumResidualItem){i, own_column(s, i), -1, -1, -1});
+    LIST_PUSH(terms->row, row);
+    LIST_PUSH(terms->column, column);
 }
 
-/* the pattern of the Jacobian with inertia, by columns, and where in it everything stands */
-static void make_pattern(EquilibriumResidual *s, const EquilibriumResidualDraft *draft)
+/* parts of slopes */
+static void list_parts(EquilibriumResidual *s, Terms *terms)
 {
-    Items items = {0};
-    int *next = NEW_ARRAY(int, s->n + 1), *order;
-    int *seen = NEW_ARRAY(int, s->n); /* place of a row's entry in the column at hand, plus 1 */
+    const Layout *l = s->l;
+    const int *start = s->map.start;
+    int count;
+    const Slope *slopes = residual_slopes(probe_residual(s->probe), &count);
 
-    list_items(s, draft, &items);
-    order = NEW_ARRAY(int, items.count);
-    for (int i = 0; i < items.count; i++)
-        next[items.at[i].column + 1]++;
-    for (int c = 0; c < s->n; c++)
-        next[c + 1] += next[c];
-    for (int i = 0; i < items.count; i++)
-        order[next[items.at[i].column]++] = i;
-    /* next[c] is now where column c + 1 begins */
-    s->column_start = NEW_ARRAY(int, s->n + 1);
-    s->row = NEW_ARRAY(int, items.count);
-    for (int c = 0, i = 0; c < s->n; c++) {
-        for (; i < next[c] && i < items.count; i++) {
-            const EquilibriumResidualItem *item = &items.at[order[i]];
+    for (int k = 0; k < count; k++) {
+        const int row = slopes[k].row, by = slopes[k].unknown;
 
-            if (seen[item->row] <= s->column_start[c]) {
-                s->row[s->entries] = item->row;
-                seen[item->row] = ++s->entries;
-            }
-            if (item->inertia >= 0)
-                s->inertia.at[item->inertia].place = seen[item->row] - 1;
-            else if (item->slope >= 0)
-                LIST_PUSH(s->parts,
-                          (EquilibriumResidualPart){item->slope, seen[item->row] - 1, item->map});
+        if (by >= l->n) {
+            LIST_PUSH(s->parts, (EquilibriumResidualPart){.slope = k, .map = -1});
+            add_term(terms, row, by - l->n + l->nu);
         }
-        s->column_start[c + 1] = s->entries;
+        for (int m = by < l->n ? start[by] : 0; by < l->n && m < start[by + 1]; m++) {
+            LIST_PUSH(s->parts, (EquilibriumResidualPart){.slope = k, .map = m});
+            add_term(terms, row, s->map.speed[m]);
+        }
     }
-    s->jacobian = NEW_ARRAY(double, s->entries);
-    LIST_FREE(items);
-    mem_free(next);
-    mem_free(order);
-    mem_free(seen);
+}
+
+/* the pattern of the Jacobian with inertia and each mechanical unknown's own place */
+static void make_pattern(EquilibriumResidual *s)
+{
+    Terms terms = {0};
+    int *place;
+
+    list_parts(s, &terms);
+    list_inertia(s);
+    for (int k = 0; k < s->inertia.count; k++)
+        add_term(&terms, s->inertia.at[k].row, s->inertia.at[k].column);
+    for (int i = 0; i < s->l->nu + s->l->m; i++)
+        add_term(&terms, i, own_column(s, i));
+    place = NEW_ARRAY(int, terms.row.count);
+    s->pattern = pattern_of(s->n, s->n, terms.row.count, terms.row.at, terms.column.at, place);
+    for (int k = 0; k < s->parts.count; k++)
+        s->parts.at[k].place = place[k];
+    for (int k = 0; k < s->inertia.count; k++)
+        s->inertia.at[k].place = place[s->parts.count + k];
+    s->jacobian = NEW_ARRAY(double, s->pattern.count);
+    LIST_FREE(terms.row);
+    LIST_FREE(terms.column);
+    mem_free(place);
 }
 
 static Status make_rows(EquilibriumResidual *s, Diag *diag)
 {
-    EquilibriumResidualDraft draft = {0};
-    Status status;
+    Roots roots = {0};
+    ProbeOrder order = {.row_count = s->n};
+    Expr *unknowns = list_unknowns(s->l, &order.unknown_count);
+    Status status = OK;
 
-    draft_rows(s, &draft);
-    list_inertia(s);
-    make_pattern(s, &draft);
-    s->angles = draft.roots.count;
-    for (int k = 0; k < s->l->turned; k++)
-        LIST_PUSH(draft.roots, system_multi_turn(s->system, k)->angle);
-    status = probe_new(s->l, &s->parameters, draft.roots.at, draft.roots.count, &s->probe, diag);
-    LIST_FREE(draft.roots);
-    LIST_FREE(draft.row);
-    LIST_FREE(draft.by);
+    push_roots(s, &roots);
+    order.roots = roots.at;
+    order.root_count = roots.count;
+    order.unknowns = unknowns;
+    CHECK(probe_make(s->l, &s->parameters, &order, &s->probe, diag));
+    make_pattern(s);
+done:
+    LIST_FREE(roots);
+    mem_free(unknowns);
     return status;
 }
 
@@ -439,8 +384,7 @@ void equilibrium_free(EquilibriumResidual *s)
     parameters_free(&s->parameters);
     LIST_FREE(s->parts);
     LIST_FREE(s->inertia);
-    mem_free(s->column_start);
-    mem_free(s->row);
+    pattern_free(&s->pattern);
     mem_free(s->jacobian);
     mem_free(s->v);
     mem_free(s->w);
@@ -535,7 +479,7 @@ static void look(EquilibriumResidual *s, const double *w)
     memcpy(s->w, w, (size_t)s->n * sizeof(double));
     equilibrium_place(s, w, s->place);
     s->values = probe_values(s->probe, &row);
-    memcpy(s->place + s->near, s->values + s->angles, (size_t)s->l->turned * sizeof(double));
+    memcpy(s->place + s->near, s->values + s->n, (size_t)s->l->turned * sizeof(double));
 }
 
 const double *equilibrium_residual(EquilibriumResidual *s, const double *w)
@@ -549,9 +493,9 @@ const double *equilibrium_jacobian(EquilibriumResidual *s, const double *w)
     const double *slopes;
 
     look(s, w);
-    slopes = s->values + s->n;
+    slopes = s->values + residual_first_slope(probe_residual(s->probe));
     place_coordinates(s, w, s->place, s->map.at);
-    memset(s->jacobian, 0, (size_t)s->entries * sizeof(double));
+    memset(s->jacobian, 0, (size_t)s->pattern.count * sizeof(double));
     for (int i = 0; i < s->parts.count; i++) {
         const EquilibriumResidualPart *part = &s->parts.at[i];
 
@@ -563,8 +507,8 @@ const double *equilibrium_jacobian(EquilibriumResidual *s, const double *w)
 
 void equilibrium_pattern(const EquilibriumResidual *s, const int **start, const int **row)
 {
-    *start = s->column_start;
-    *row = s->row;
+    *start = s->pattern.start;
+    *row = s->pattern.row;
 }
 
 void equilibrium_sizes(const EquilibriumResidual *s, const double *w, double *size)
@@ -574,8 +518,8 @@ void equilibrium_sizes(const EquilibriumResidual *s, const double *w, double *si
         const bool steps = c < s->l->nu, is_state = c < s->l->nu + s->l->nx;
         const double place = steps ? 1 : fmax(fabs(w[c]), is_state ? 1 : 0);
 
-        for (int k = s->column_start[c]; k < s->column_start[c + 1]; k++)
-            size[s->row[k]] += fabs(s->jacobian[k]) * place;
+        for (int k = s->pattern.start[c]; k < s->pattern.start[c + 1]; k++)
+            size[s->pattern.row[k]] += fabs(s->jacobian[k]) * place;
     }
 }
 
@@ -590,9 +534,10 @@ void equilibrium_hold(const EquilibriumResidual *s, double *residual, double *ja
         const bool is_state = c >= l->nu && c < l->nu + l->nx;
         const bool is_own = !is_state && c < l->nu + l->nx + l->m;
 
-        for (int k = s->column_start[c]; k < s->column_start[c + 1]; k++)
-            if (is_own || s->row[k] < rows)
-                jacobian[k] = is_own && s->row[k] < rows && own_column(s, s->row[k]) == c;
+        for (int k = s->pattern.start[c]; k < s->pattern.start[c + 1]; k++)
+            if (is_own || s->pattern.row[k] < rows)
+                jacobian[k] =
+                    is_own && s->pattern.row[k] < rows && own_column(s, s->pattern.row[k]) == c;
     }
 }
 
