@@ -238,34 +238,29 @@ done:
 /* --- rank --- */
 
 /* Phi_u at a position nearby that meets the constraints; false when none was found */
-static bool nearby(Assembly *a, uint64_t *seed, double *q, double *residual)
+static bool nearby(Assembly *a, LevelRows *level, uint64_t *seed, double *q, double *residual)
 {
-    const Layout *l = a->l;
-    Problem p = {
-        .a = a, .level = LEVEL_POSITION, .system_rows = l->m, .columns = l->nu, .symbols = l->n};
-    Rows rows;
+    const Rows rows = level_rows(level, a->setting->watch);
     bool met;
 
-    p.row = NEW_ARRAY(double, l->n);
-    for (int i = 0; i < l->n; i++)
+    for (int i = 0; i < a->l->n; i++)
         q[i] = a->y[i] + 1e-2 * random_unit(seed);
-    rows = initial_rows(&p);
     met = levenberg_marquardt_solve(&rows, NULL, NULL, TOLERANCE, q, residual);
     if (met)
         a->eq->position(a->eq->context, 0, q);
-    mem_free(p.row);
     return met;
 }
 
 /* Independent rows, from the assembled position and two near it: a rank that falls at one place
  * only is a singularity, not a redundancy. */
-static Status find_rank(Assembly *a)
+static Status find_rank(Assembly *a, Diag *diag)
 {
     const Layout *l = a->l;
     const Watch *watch = a->setting->watch;
     int *order = NEW_ARRAY(int, l->m);
     double *q = NEW_ARRAY(double, l->n);
     double *residual = NEW_ARRAY(double, l->m);
+    LevelRows *level = NULL;
     uint64_t seed = 7;
     int here, best;
     Status status = OK;
@@ -273,10 +268,13 @@ static Status find_rank(Assembly *a)
     a->eq->position(a->eq->context, 0, a->y);
     CHECK(rank_rows(a->eq->phi_u, l->m, l->nu, RANK_RATIO, watch, &here, a->out->rows));
     best = here;
+    if (best < l->m)
+        CHECK(level_rows_new(LEVEL_POSITION, l, a->eq, a->parameters, NULL, 0, &level, diag));
     for (int k = 0; k < 2 && best < l->m; k++) {
         int rank;
 
-        if (!nearby(a, &seed, q, residual))
+        level->y = a->y;
+        if (!nearby(a, level, &seed, q, residual))
             continue;
         CHECK(rank_rows(a->eq->phi_u, l->m, l->nu, 1e-7, watch, &rank, order));
         if (rank > best) {
@@ -295,6 +293,7 @@ static Status find_rank(Assembly *a)
         redundant_remark(l->system, a->eq->phi_u, a->out->rows, best, &a->out->remarks);
     }
 done:
+    level_rows_free(level);
     mem_free(order);
     mem_free(q);
     mem_free(residual);
@@ -325,7 +324,7 @@ Status initial_find(const Layout *layout, Parameters *parameters, Numbers *numbe
     CHECK(initial_place(&a, warm, warm_context, &closed, diag));
     CHECK(find_position(&a, closed, diag));
     equations_turn(a.eq, 0, a.y, a.y + layout_turned(layout));
-    CHECK(find_rank(&a));
+    CHECK(find_rank(&a, diag));
     CHECK(find_velocity(&a, diag));
     CHECK(initial_find_network(&a, setting->from != NULL ? warm : NULL, warm_context, diag));
 done:

@@ -7,7 +7,7 @@
 #define ROUNDED 1e-2 /* of the length of four Euler parameters: more is no rounding */
 #define FEWER   1e-5 /* of fewer: the others may be small, but not as small as that */
 
-static int place_of(const Assembly *a, Expr e, InitialLevel level)
+static int place_of(const Assembly *a, Expr e, StateLevel level)
 {
     const Layout *l = a->l;
     int first = level == LEVEL_POSITION ? l->q : level == LEVEL_VELOCITY ? l->u : l->x;
@@ -20,7 +20,7 @@ static int place_of(const Assembly *a, Expr e, InitialLevel level)
 }
 
 /* positions are corrected in speeds: that of a coordinate which has one of its own */
-static int column_of(const Assembly *a, int place, InitialLevel level)
+static int column_of(const Assembly *a, int place, StateLevel level)
 {
     Expr rate;
 

@@ -2,25 +2,17 @@
 #ifndef COTREE_SIMULATE_ASSEMBLE_INITIAL_IMPL_H
 #define COTREE_SIMULATE_ASSEMBLE_INITIAL_IMPL_H
 
-#include "algebra/levenberg_marquardt.h"
 #include "base/memory.h"
 #include "formulate/edges.h"
 #include "simulate/assemble/initial.h"
+#include "simulate/assemble/level_rows.h"
 #include "simulate/assemble/skeleton.h"
-
-/* LEVEL_STATES: of a problem only, states by themselves of what LEVEL_NETWORK holds */
-typedef enum InitialLevel {
-    LEVEL_POSITION,
-    LEVEL_VELOCITY,
-    LEVEL_NETWORK,
-    LEVEL_STATES
-} InitialLevel;
 
 /* one initial value or guess */
 typedef struct GivenValue {
     const StartValue *value;
     Expr expr; /* NULL: it has none, and is met by placing frames alone */
-    InitialLevel level;
+    StateLevel level;
     int place;     /* coordinate, speed or state that it is, alone; -1 */
     int column;    /* unknown that holding it holds: the place, or a coordinate's speed; -1 */
     bool is_own;   /* the system's: the user said nothing of it */
@@ -46,15 +38,13 @@ typedef struct Assembly {
     StartValue *own; /* of angles that are not to be half a turn off */
 } Assembly;
 
-/* equations of one problem: rows of the system, then picked values as expressions */
+/* equations of one problem: rows of the system, then picked values as expressions; of LEVEL_STATES
+ * values are picked that states tell by themselves of what LEVEL_NETWORK holds */
 typedef struct Problem {
     Assembly *a;
-    InitialLevel level;
     const GivenValue **picked;
-    int count, system_rows, columns;
-    Probe *probe; /* values, then gradients, value by value, over the level's own symbols */
-    int symbols;
-    double *row; /* y-like, and x', z behind */
+    int count, system_rows;
+    LevelRows *rows;
 } Problem;
 
 MUST_USE Status initial_read_given(Assembly *assembly, Diag *diag);
@@ -64,7 +54,7 @@ MUST_USE Status initial_classify(Assembly *assembly, GivenValue *given, Diag *di
 bool initial_is_of_states(const GivenValue *given);
 /* The equations of a level: those of the system, then what was given, guesses too where asked for.
  * Fails as probe_new() does. */
-MUST_USE Status initial_open_problem(Problem *problem, Assembly *assembly, InitialLevel level,
+MUST_USE Status initial_open_problem(Problem *problem, Assembly *assembly, StateLevel level,
                                      bool guesses, Diag *diag);
 void initial_close_problem(Problem *problem); /* what it holds */
 Rows initial_rows(Problem *problem);

@@ -8,35 +8,6 @@
 #include <math.h>
 #include <string.h>
 
-static RowValues row_values(const Problem *p, const double *y)
-{
-    const Layout *l = p->a->l;
-    const double *tail = p->row + l->n + l->nu + l->nx;
-
-    return (RowValues){.q = y,
-                       .u = y + l->n,
-                       .x = y + l->n + l->nu,
-                       .rates = tail,
-                       .z = tail + l->nx,
-                       .near = p->a->y + layout_turned(l)};
-}
-
-/* symbols of the unknowns of a level, one run of the layout's but for the network's */
-static void level_symbols(const Problem *p, Expr *out)
-{
-    const Layout *l = p->a->l;
-    int k = 0;
-
-    if (p->level == LEVEL_POSITION)
-        for (int i = 0; i < l->n; i++)
-            out[k++] = l->symbols[l->q + i];
-    if (p->level == LEVEL_VELOCITY)
-        for (int i = 0; i < l->nu; i++)
-            out[k++] = l->symbols[l->u + i];
-    for (int i = 0; p->level >= LEVEL_NETWORK && i < p->symbols; i++)
-        out[k++] = l->symbols[l->x + i]; /* x, x', z stand together */
-}
-
 bool initial_is_of_states(const GivenValue *given)
 {
     const unsigned solved = 1U << SYMBOL_ALGEBRAIC | 1U << SYMBOL_STATE_RATE;
@@ -44,7 +15,7 @@ bool initial_is_of_states(const GivenValue *given)
     return given->level == LEVEL_NETWORK && (expr_kinds(given->expr) & solved) == 0;
 }
 
-static bool is_of_level(const GivenValue *given, InitialLevel level)
+static bool is_of_level(const GivenValue *given, StateLevel level)
 {
     return level == LEVEL_STATES ? initial_is_of_states(given) : given->level == level;
 }
@@ -59,154 +30,46 @@ static int invariants_of(const Layout *l)
     return count;
 }
 
-Status initial_open_problem(Problem *p, Assembly *a, InitialLevel level, bool guesses, Diag *diag)
+Status initial_open_problem(Problem *p, Assembly *a, StateLevel level, bool guesses, Diag *diag)
 {
     const Layout *l = a->l;
-    Arena *arena = system_arena(l->system);
     int equations = level == LEVEL_NETWORK ? l->nx + l->nz : 0;
     int extra = level >= LEVEL_NETWORK ? equations + invariants_of(l) : 0;
-    LIST(Expr) roots = {0};
-    Expr *symbols;
-    Status status;
+    LIST(Expr) wanted = {0};
+    Status status = OK;
 
-    *p = (Problem){.a = a, .level = level, .system_rows = level >= LEVEL_NETWORK ? extra : l->m};
-    p->symbols = level == LEVEL_POSITION   ? l->n
-                 : level == LEVEL_VELOCITY ? l->nu
-                 : level == LEVEL_STATES   ? l->nx
-                                           : 2 * l->nx + l->nz;
-    p->columns = level == LEVEL_POSITION ? l->nu : p->symbols;
+    *p = (Problem){.a = a};
     p->picked = NEW_ARRAY(const GivenValue *, a->given_count);
-    p->row = NEW_ARRAY(double, l->n + l->nu + 2 * l->nx + l->nz);
     for (int i = 0; i < a->given_count; i++)
         if (is_of_level(&a->given[i], level) && a->given[i].expr != NULL &&
             (guesses || !a->given[i].value->is_guess))
             p->picked[p->count++] = &a->given[i];
-    symbols = NEW_ARRAY(Expr, p->symbols);
-    level_symbols(p, symbols);
     for (int i = 0; i < extra; i++)
-        LIST_PUSH(roots,
+        LIST_PUSH(wanted,
                   i < equations ? row_network(l, i) : system_invariant(l->system, i - equations));
     for (int i = 0; i < p->count; i++)
-        LIST_PUSH(roots, p->picked[i]->expr);
-    for (int i = 0; i < extra + p->count; i++)
-        for (int j = 0; j < p->symbols; j++)
-            LIST_PUSH(roots, expr_diff(arena, roots.at[i], symbols[j]));
-    status = probe_new(l, a->parameters, roots.at, roots.count, &p->probe, diag);
-    LIST_FREE(roots);
-    mem_free(symbols);
+        LIST_PUSH(wanted, p->picked[i]->expr);
+    CHECK(level_rows_new(level, l, a->eq, a->parameters, wanted.at, wanted.count, &p->rows, diag));
+    p->rows->y = a->y;
+    p->system_rows = p->rows->system_rows + extra;
+done:
+    LIST_FREE(wanted);
     return status;
 }
 
 void initial_close_problem(Problem *p)
 {
-    probe_free(p->probe);
+    level_rows_free(p->rows);
     mem_free(p->picked);
-    mem_free(p->row);
-}
-
-/* gradient by coordinates to gradient by speeds */
-static void along_speeds(const Problem *p, const double *gradient, double *out)
-{
-    const Equations *eq = p->a->eq;
-
-    for (int j = 0; j < eq->nu; j++) {
-        out[j] = eq->map == NULL ? gradient[j] : 0;
-        for (int i = 0; eq->map != NULL && i < eq->n; i++)
-            out[j] += gradient[i] * eq->map[i * eq->nu + j];
-    }
-}
-
-/* the probed rows, which follow `first` rows of the system */
-static void evaluate_probe(const Problem *p, const double *y, int first, double *residual,
-                           double *jacobian)
-{
-    RowValues row = row_values(p, y);
-    int extra = p->level >= LEVEL_NETWORK ? p->system_rows : 0;
-    const double *values, *gradients;
-
-    if (extra + p->count == 0)
-        return;
-    values = probe_values(p->probe, &row);
-    gradients = values + extra + p->count;
-    for (int i = 0; i < extra + p->count; i++) {
-        const double *gradient = gradients + (ptrdiff_t)i * p->symbols;
-
-        residual[first + i] = values[i];
-        if (i >= extra)
-            residual[first + i] -= p->picked[i - extra]->target;
-        if (jacobian != NULL && p->level == LEVEL_POSITION)
-            along_speeds(p, gradient, jacobian + (ptrdiff_t)(first + i) * p->columns);
-        else if (jacobian != NULL)
-            memcpy(jacobian + (ptrdiff_t)(first + i) * p->columns, gradient,
-                   (size_t)p->columns * sizeof(double));
-    }
-}
-
-static void evaluate_position(void *context, const double *v, double *residual, double *jacobian)
-{
-    const Problem *p = context;
-    const Equations *eq = p->a->eq;
-
-    eq->position(eq->context, 0, v);
-    memcpy(residual, eq->phi, (size_t)eq->m * sizeof(double));
-    if (jacobian != NULL)
-        memcpy(jacobian, eq->phi_u, (size_t)(eq->m * eq->nu) * sizeof(double));
-    memcpy(p->row, v, (size_t)eq->n * sizeof(double));
-    evaluate_probe(p, p->row, eq->m, residual, jacobian);
-}
-
-static void move_position(void *context, double *v, const double *step)
-{
-    const Problem *p = context;
-    const Equations *eq = p->a->eq;
-
-    for (int i = 0; i < eq->n; i++) {
-        v[i] += eq->map == NULL ? step[i] : 0;
-        for (int j = 0; eq->map != NULL && j < eq->nu; j++)
-            v[i] += eq->map[i * eq->nu + j] * step[j];
-    }
-    equations_normalise(eq, v);
-}
-
-static void evaluate_velocity(void *context, const double *v, double *residual, double *jacobian)
-{
-    const Problem *p = context;
-    const Equations *eq = p->a->eq;
-
-    eq->velocity(eq->context, v, p->a->y + eq->n + eq->nu);
-    for (int k = 0; k < eq->m; k++) {
-        residual[k] = -eq->nu_rate[k];
-        for (int j = 0; j < eq->nu; j++)
-            residual[k] += eq->phi_u[k * eq->nu + j] * v[j];
-    }
-    if (jacobian != NULL)
-        memcpy(jacobian, eq->phi_u, (size_t)(eq->m * eq->nu) * sizeof(double));
-    memcpy(p->row, p->a->y, (size_t)(eq->n + eq->nu + eq->nx) * sizeof(double));
-    memcpy(p->row + eq->n, v, (size_t)eq->nu * sizeof(double));
-    evaluate_probe(p, p->row, eq->m, residual, jacobian);
-}
-
-static void evaluate_network(void *context, const double *v, double *residual, double *jacobian)
-{
-    const Problem *p = context;
-    const Equations *eq = p->a->eq;
-
-    memcpy(p->row, p->a->y, (size_t)(eq->n + eq->nu) * sizeof(double));
-    memcpy(p->row + eq->n + eq->nu, v, (size_t)p->columns * sizeof(double));
-    evaluate_probe(p, p->row, 0, residual, jacobian);
 }
 
 Rows initial_rows(Problem *p)
 {
-    Rows rows = {
-        .columns = p->columns, .length = p->symbols, .context = p, .watch = p->a->setting->watch};
+    double *target = p->rows->target + p->rows->count - p->count;
 
-    rows.rows = p->system_rows + p->count;
-    rows.evaluate = p->level == LEVEL_POSITION   ? evaluate_position
-                    : p->level == LEVEL_VELOCITY ? evaluate_velocity
-                                                 : evaluate_network;
-    rows.move = p->level == LEVEL_POSITION ? move_position : NULL;
-    return rows;
+    for (int i = 0; i < p->count; i++)
+        target[i] = p->picked[i]->target;
+    return level_rows(p->rows, p->a->setting->watch);
 }
 
 /* --- messages --- */
@@ -242,7 +105,7 @@ Status initial_conflict(const Problem *p, const double *residual, const char *wh
             text_add(&text, p->picked[k - p->system_rows]->value->name);
         else if (k >= p->system_rows)
             name_given(&text, p->picked[k - p->system_rows]->value);
-        else if (p->level >= LEVEL_NETWORK)
+        else if (p->rows->level >= LEVEL_NETWORK)
             text_addf(&text, "the network's equation %d", k + 1);
         else
             name_row(&text, p->a->l, k);
@@ -252,7 +115,7 @@ Status initial_conflict(const Problem *p, const double *residual, const char *wh
             text_add(&text, ", undefined there");
     }
     for (int i = 0; i < p->a->given_count; i++)
-        if (!p->a->given[i].value->is_guess && p->a->given[i].level <= p->level &&
+        if (!p->a->given[i].value->is_guess && p->a->given[i].level <= p->rows->level &&
             !p->a->given[i].is_own) {
             if (values.length > 0)
                 text_add(&values, ", ");

@@ -1,6 +1,8 @@
 libcore_la_SOURCES += \
   lib/simulate/assemble/reinitialise.c \
   lib/simulate/assemble/reinitialise.h \
+  lib/simulate/assemble/level_rows.c \
+  lib/simulate/assemble/level_rows.h \
   lib/simulate/assemble/mode_search.c \
   lib/simulate/assemble/mode_search.h \
   lib/simulate/assemble/mode_search_impl.h \

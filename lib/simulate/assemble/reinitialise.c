@@ -2,10 +2,10 @@
 #include "simulate/assemble/reinitialise.h"
 
 #include "algebra/kkt.h"
-#include "algebra/levenberg_marquardt.h"
 #include "algebra/linear.h"
 #include "algebra/rank.h"
 #include "base/memory.h"
+#include "simulate/assemble/level_rows.h"
 #include "simulate/assemble/skeleton.h"
 
 #include <math.h>
@@ -16,15 +16,13 @@
 #define KEEPING   10    /* of charges and fluxes */
 #define STAGES    16    /* of a way from the present values to those that are set */
 
-typedef enum ReinitLevel { LEVEL_POSITION, LEVEL_VELOCITY, LEVEL_STATE, LEVEL_COUNT } ReinitLevel;
-
 typedef struct Target {
     Expr expr;
-    ReinitLevel level;
-    int place;    /* unknown that it is, alone; -1 */
-    int column;   /* unknown that is held with it; -1: it is an equation */
-    int turned;   /* angle of turns that it is; -1 */
-    int gradient; /* root of its first derivative */
+    StateLevel level;
+    int place;  /* unknown that it is, alone; -1 */
+    int column; /* unknown that is held with it; -1: it is an equation */
+    int turned; /* angle of turns that it is; -1 */
+    int row;    /* among the expressions of its level */
 } Target;
 
 struct Reinit {
@@ -32,14 +30,13 @@ struct Reinit {
     LIST(Target) targets;
     Storage *storages; /* whose charge or flux stays */
     int storage_count;
-    int stored;         /* root of the first charge or flux; their derivatives follow all of them */
     Skeleton *skeleton; /* NULL: nothing is mechanical, or no positions were set yet */
-    Probe *probe;       /* the targets, kinetic and potential energy, derivatives of the targets */
+    LevelRows *levels[LEVEL_COUNT];
+    Probe *probe; /* charges and fluxes by their states, kinetic and potential energy, targets */
     /* of the call under way */
     double t;
     const double *values;
     double *y;
-    ReinitLevel level;
 };
 
 Reinit *reinit_new(const ReinitPlan *plan)
@@ -57,21 +54,13 @@ void reinit_free(Reinit *reset)
     LIST_FREE(reset->targets);
     mem_free(reset->storages);
     skeleton_free(reset->skeleton);
+    for (int level = 0; level < LEVEL_COUNT; level++)
+        level_rows_free(reset->levels[level]);
     probe_free(reset->probe);
     mem_free(reset);
 }
 
 /* --- what can be set --- */
-
-static int level_first(const Layout *l, ReinitLevel level)
-{
-    return level == LEVEL_POSITION ? l->q : level == LEVEL_VELOCITY ? l->u : l->x;
-}
-
-static int level_count(const Layout *l, ReinitLevel level)
-{
-    return level == LEVEL_POSITION ? l->n : level == LEVEL_VELOCITY ? l->nu : l->nx;
-}
 
 /* Positions are corrected in speeds: by that of a coordinate which has one of its own. */
 static int column_of(const Reinit *reset, const Target *target)
@@ -104,12 +93,12 @@ static Status classify(const Reinit *reset, Target *target, const char *name, in
                         "elements that are states");
         return E_VALUE;
     }
-    target->level = (kinds & 1U << SYMBOL_STATE) != 0   ? LEVEL_STATE
+    target->level = (kinds & 1U << SYMBOL_STATE) != 0   ? LEVEL_STATES
                     : (kinds & 1U << SYMBOL_SPEED) != 0 ? LEVEL_VELOCITY
                                                         : LEVEL_POSITION;
     target->place = -1;
     for (int i = 0; i < level_count(l, target->level); i++)
-        if (l->symbols[level_first(l, target->level) + i] == target->expr)
+        if (l->symbols[l->q + level_first(l, target->level) + i] == target->expr)
             target->place = i;
     target->column = column_of(reset, target);
     target->turned = -1;
@@ -131,35 +120,50 @@ done:
     return status;
 }
 
-Status reinit_compile(Reinit *reset, Diag *diag)
+/* what is set of one level */
+static Status compile_level(Reinit *reset, StateLevel level, Diag *diag)
 {
-    const Layout *l = reset->plan.layout;
-    Arena *arena = system_arena(l->system);
-    LIST(Expr) roots = {0};
+    LIST(Expr) wanted = {0};
     Status status;
 
     for (int k = 0; k < reset->targets.count; k++)
-        LIST_PUSH(roots, reset->targets.at[k].expr);
+        if (reset->targets.at[k].level == level) {
+            reset->targets.at[k].row = wanted.count;
+            LIST_PUSH(wanted, reset->targets.at[k].expr);
+        }
+    status =
+        level_rows_new(level, reset->plan.layout, reset->plan.equations, reset->plan.parameters,
+                       wanted.at, wanted.count, &reset->levels[level], diag);
+    LIST_FREE(wanted);
+    return status;
+}
+
+Status reinit_compile(Reinit *reset, Diag *diag)
+{
+    const Layout *l = reset->plan.layout;
+    const int count = reset->storage_count = system_storages(l->system, &reset->storages);
+    Expr *states = NEW_ARRAY(Expr, count);
+    ProbeOrder order = {.row_count = count, .unknowns = states, .unknown_count = count};
+    LIST(Expr) roots = {0};
+    Status status = OK;
+
+    for (int k = 0; k < count; k++) {
+        states[k] = l->symbols[l->x + reset->storages[k].state];
+        LIST_PUSH(roots, reset->storages[k].content);
+    }
     LIST_PUSH(roots, system_kinetic(l->system));
     LIST_PUSH(roots, system_potential(l->system));
-    for (int k = 0; k < reset->targets.count; k++) {
-        Target *target = &reset->targets.at[k];
-
-        target->gradient = roots.count;
-        for (int i = 0; i < level_count(l, target->level); i++)
-            LIST_PUSH(roots, expr_diff(arena, target->expr,
-                                       l->symbols[level_first(l, target->level) + i]));
-    }
-    reset->storage_count = system_storages(l->system, &reset->storages);
-    reset->stored = roots.count;
-    for (int k = 0; k < reset->storage_count; k++)
-        LIST_PUSH(roots, reset->storages[k].content);
-    for (int k = 0; k < reset->storage_count; k++)
-        for (int i = 0; i < reset->storage_count; i++)
-            LIST_PUSH(roots, expr_diff(arena, reset->storages[k].content,
-                                       l->symbols[l->x + reset->storages[i].state]));
-    status = probe_new(l, reset->plan.parameters, roots.at, roots.count, &reset->probe, diag);
+    for (int k = 0; k < reset->targets.count; k++)
+        LIST_PUSH(roots, reset->targets.at[k].expr);
+    order.roots = roots.at;
+    order.root_count = roots.count;
+    CHECK(probe_make(l, reset->plan.parameters, &order, &reset->probe, diag));
+    CHECK(compile_level(reset, LEVEL_POSITION, diag));
+    CHECK(compile_level(reset, LEVEL_VELOCITY, diag));
+    CHECK(compile_level(reset, LEVEL_STATES, diag));
+done:
     LIST_FREE(roots);
+    mem_free(states);
     return status;
 }
 
@@ -174,22 +178,20 @@ static const double *probe_here(const Reinit *reset)
 
 static double energy(const Reinit *reset)
 {
-    const double *values = probe_here(reset) + reset->targets.count;
+    const double *values = probe_here(reset) + reset->storage_count;
 
     return values[0] + values[1];
 }
 
-static bool is_chosen(const Reinit *reset, int k, ReinitLevel level)
+static bool is_chosen(const Reinit *reset, int k, StateLevel level)
 {
     return reset->targets.at[k].level == level && !isnan(reset->values[k]);
 }
 
-/* put the unknowns in place that are set by themselves; how many equations are left */
-static int put_direct(Reinit *reset, ReinitLevel level, bool *held)
+/* Put the unknowns in place that are set by themselves, and hold them. */
+static void put_direct(Reinit *reset, StateLevel level, bool *held)
 {
-    const Layout *l = reset->plan.layout;
-    double *first = reset->y + (level_first(l, level) - l->q);
-    int equations = 0;
+    double *first = reset->y + level_first(reset->plan.layout, level);
 
     for (int k = 0; k < reset->targets.count; k++) {
         const Target *target = &reset->targets.at[k];
@@ -200,77 +202,29 @@ static int put_direct(Reinit *reset, ReinitLevel level, bool *held)
             first[target->place] = reset->values[k];
         if (target->column >= 0)
             held[target->column] = true;
-        else
-            equations++;
     }
-    return equations;
 }
 
-/* residuals and derivatives of the chosen equations of the level, by its own unknowns */
-static void equations_at(const Reinit *reset, ReinitLevel level, bool with_direct, double *residual,
-                         double *jacobian, int columns)
+/* What is chosen of a level, here; `direct`: with what is set by itself. */
+static Rows rows_here(const Reinit *reset, StateLevel level, bool direct)
 {
-    const Equations *eq = reset->plan.equations;
-    const double *values = probe_here(reset);
-    int at = 0;
+    LevelRows *rows = reset->levels[level];
 
+    rows->t = reset->t;
+    rows->y = reset->y;
     for (int k = 0; k < reset->targets.count; k++) {
         const Target *target = &reset->targets.at[k];
-        const double *gradient = values + target->gradient;
+        const bool is_row = is_chosen(reset, k, level) && (direct || target->column < 0);
 
-        if (!is_chosen(reset, k, level) || (!with_direct && target->column >= 0))
-            continue;
-        residual[at] = values[k] - reset->values[k];
-        for (int j = 0; jacobian != NULL && j < columns; j++) {
-            double sum = level != LEVEL_POSITION || eq->map == NULL ? gradient[j] : 0;
-
-            for (int i = 0; level == LEVEL_POSITION && eq->map != NULL && i < eq->n; i++)
-                sum += gradient[i] * eq->map[i * eq->nu + j];
-            jacobian[at * columns + j] = sum;
-        }
-        at++;
+        if (target->level == level)
+            rows->target[target->row] = is_row ? reset->values[k] : NAN;
     }
+    return level_rows(rows, NULL);
 }
 
 /* --- positions and states: least squares --- */
 
-static void evaluate_position(void *context, const double *v, double *residual, double *jacobian)
-{
-    const Reinit *reset = context;
-    const Equations *eq = reset->plan.equations;
-
-    memcpy(reset->y, v, (size_t)eq->n * sizeof(double));
-    eq->position(eq->context, reset->t, v);
-    memcpy(residual, eq->phi, (size_t)eq->m * sizeof(double));
-    if (jacobian != NULL)
-        memcpy(jacobian, eq->phi_u, (size_t)(eq->m * eq->nu) * sizeof(double));
-    equations_at(reset, LEVEL_POSITION, false, residual + eq->m,
-                 jacobian != NULL ? jacobian + eq->m * eq->nu : NULL, eq->nu);
-}
-
-static void move_position(void *context, double *v, const double *step)
-{
-    const Reinit *reset = context;
-    const Equations *eq = reset->plan.equations;
-
-    for (int i = 0; i < eq->n; i++) {
-        v[i] += eq->map == NULL ? step[i] : 0;
-        for (int j = 0; eq->map != NULL && j < eq->nu; j++)
-            v[i] += eq->map[i * eq->nu + j] * step[j];
-    }
-    equations_normalise(eq, v);
-}
-
-static void evaluate_state(void *context, const double *v, double *residual, double *jacobian)
-{
-    const Reinit *reset = context;
-    const Equations *eq = reset->plan.equations;
-
-    memcpy(reset->y + eq->n + eq->nu, v, (size_t)eq->nx * sizeof(double));
-    equations_at(reset, LEVEL_STATE, false, residual, jacobian, eq->nx);
-}
-
-static bool any_chosen(const Reinit *reset, ReinitLevel level)
+static bool any_chosen(const Reinit *reset, StateLevel level)
 {
     for (int k = 0; k < reset->targets.count; k++)
         if (is_chosen(reset, k, level))
@@ -278,28 +232,22 @@ static bool any_chosen(const Reinit *reset, ReinitLevel level)
     return false;
 }
 
-static bool solve_least_squares(Reinit *reset, ReinitLevel level)
+static bool solve_least_squares(Reinit *reset, StateLevel level)
 {
-    const Equations *eq = reset->plan.equations;
-    bool is_position = level == LEVEL_POSITION;
-    int columns = is_position ? eq->nu : eq->nx;
-    bool *held = NEW_ARRAY(bool, columns);
-    Rows rows = {.columns = columns,
-                 .length = is_position ? eq->n : eq->nx,
-                 .context = reset,
-                 .evaluate = is_position ? evaluate_position : evaluate_state,
-                 .move = is_position ? move_position : NULL};
-    double *first = reset->y + (is_position ? 0 : eq->n + eq->nu);
+    const Rows rows = rows_here(reset, level, false);
+    const size_t bytes = (size_t)rows.length * sizeof(double);
+    double *first = reset->y + level_first(reset->plan.layout, level);
+    bool *held = NEW_ARRAY(bool, rows.columns);
     double *v = NEW_ARRAY(double, rows.length);
     bool met = true;
 
-    rows.rows = put_direct(reset, level, held) + (is_position ? eq->m : 0);
-    if (is_position)
-        equations_normalise(eq, first);
-    memcpy(v, first, (size_t)rows.length * sizeof(double));
+    put_direct(reset, level, held);
+    if (level == LEVEL_POSITION)
+        equations_normalise(reset->plan.equations, first);
+    memcpy(v, first, bytes);
     if (rows.rows > 0)
         met = levenberg_marquardt_solve(&rows, held, NULL, TOLERANCE, v, NULL);
-    memcpy(first, v, (size_t)rows.length * sizeof(double));
+    memcpy(first, v, bytes);
     mem_free(held);
     mem_free(v);
     return met;
@@ -330,7 +278,8 @@ static bool go_by_stages(Reinit *reset)
     double *from = NEW_ARRAY(double, reset->targets.count);
     bool met = true;
 
-    memcpy(from, probe_here(reset), (size_t)reset->targets.count * sizeof(double));
+    memcpy(from, probe_here(reset) + reset->storage_count + 2,
+           (size_t)reset->targets.count * sizeof(double));
     reset->values = values;
     for (int stage = 1; stage <= STAGES && met; stage++) {
         for (int k = 0; k < reset->targets.count; k++)
@@ -375,22 +324,6 @@ static bool solve_positions(Reinit *reset, Text *why)
 }
 
 /* --- speeds: the least change in the mass metric --- */
-
-/* A du = r with A the constraint rows and what is set; r is what is missed. */
-static void velocity_rows(const Reinit *reset, double *matrix, double *missing)
-{
-    const Equations *eq = reset->plan.equations;
-    const double *u = reset->y + eq->n;
-
-    eq->velocity(eq->context, u, u + eq->nu);
-    memcpy(matrix, eq->phi_u, (size_t)(eq->m * eq->nu) * sizeof(double));
-    for (int k = 0; k < eq->m; k++) {
-        missing[k] = -eq->nu_rate[k];
-        for (int j = 0; j < eq->nu; j++)
-            missing[k] += eq->phi_u[k * eq->nu + j] * u[j];
-    }
-    equations_at(reset, LEVEL_VELOCITY, true, missing + eq->m, matrix + eq->m * eq->nu, eq->nu);
-}
 
 static bool velocity_sweep(const Reinit *reset, Kkt *kkt, const double *matrix, const int *rows,
                            int count, const double *missing)
@@ -438,9 +371,11 @@ static bool solve_speeds(Reinit *reset)
     int count = reset->plan.row_count;
     int all = eq->m;
     bool sound = true;
+    Rows velocity;
     Kkt *kkt;
 
-    (void)put_direct(reset, LEVEL_VELOCITY, held);
+    put_direct(reset, LEVEL_VELOCITY, held);
+    velocity = rows_here(reset, LEVEL_VELOCITY, true);
     eq->position(eq->context, reset->t, reset->y);
     /* those of the start may be dependent here, where others are not */
     if (count < eq->m)
@@ -452,7 +387,7 @@ static bool solve_speeds(Reinit *reset)
             rows[count++] = all++;
     kkt = kkt_new(eq->nu, count, room);
     for (int sweep = 0; sweep <= SWEEPS && sound; sweep++) {
-        velocity_rows(reset, matrix, missing);
+        velocity.evaluate(velocity.context, reset->y + eq->n, missing, matrix);
         if (is_met(reset, missing, all) || sweep == SWEEPS)
             break;
         sound = velocity_sweep(reset, kkt, matrix, rows, count, missing);
@@ -471,7 +406,7 @@ static bool solve_speeds(Reinit *reset)
 static bool is_set(const Reinit *reset, int state)
 {
     for (int k = 0; k < reset->targets.count; k++)
-        if (is_chosen(reset, k, LEVEL_STATE) && reset->targets.at[k].place == state)
+        if (is_chosen(reset, k, LEVEL_STATES) && reset->targets.at[k].place == state)
             return true;
     return false;
 }
@@ -483,12 +418,14 @@ static bool keep_stored(const Reinit *reset, const double *before)
     int n = reset->storage_count;
     double *x = reset->y + reset->plan.equations->n + reset->plan.equations->nu;
     double *missed = NEW_ARRAY(double, n);
+    double *slopes = NEW_ARRAY(double, n *n);
     Lu *lu = lu_new(n);
     bool met = n == 0;
 
     for (int sweep = 0; sweep < KEEPING && !met; sweep++) {
-        const double *values = probe_here(reset) + reset->stored;
+        const double *values = probe_here(reset);
 
+        residual_jacobian(probe_residual(reset->probe), values, slopes);
         met = true;
         for (int k = 0; k < n; k++) {
             bool set = is_set(reset, reset->storages[k].state);
@@ -496,7 +433,7 @@ static bool keep_stored(const Reinit *reset, const double *before)
             missed[k] = set ? 0 : before[k] - values[k];
             met = met && fabs(missed[k]) <= 1e-15 * fabs(before[k]);
             for (int i = 0; i < n; i++)
-                lu_matrix(lu)[k * n + i] = set ? k == i : values[n + k * n + i];
+                lu_matrix(lu)[k * n + i] = set ? k == i : slopes[k * n + i];
         }
         if (met || !lu_factor(lu))
             break;
@@ -506,6 +443,7 @@ static bool keep_stored(const Reinit *reset, const double *before)
         met = sweep == KEEPING - 1;
     }
     lu_free(lu);
+    mem_free(slopes);
     mem_free(missed);
     return met && vector_is_finite(x, reset->plan.equations->nx);
 }
@@ -526,12 +464,11 @@ bool reinit_apply(Reinit *reset, double t, const double *values, double *y, Text
     memcpy(reset->y, y, (size_t)length * sizeof(double));
     before = energy(reset);
     if (reset->storage_count > 0)
-        memcpy(stored, probe_here(reset) + reset->stored,
-               (size_t)reset->storage_count * sizeof(double));
+        memcpy(stored, probe_here(reset), (size_t)reset->storage_count * sizeof(double));
     if (any_chosen(reset, LEVEL_POSITION))
         met = solve_positions(reset, why);
-    if (met && any_chosen(reset, LEVEL_STATE))
-        met = solve_least_squares(reset, LEVEL_STATE);
+    if (met && any_chosen(reset, LEVEL_STATES))
+        met = solve_least_squares(reset, LEVEL_STATES);
     met = met && keep_stored(reset, stored);
     if (met && (any_chosen(reset, LEVEL_POSITION) || any_chosen(reset, LEVEL_VELOCITY)))
         met = solve_speeds(reset);
