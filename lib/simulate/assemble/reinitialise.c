@@ -2,7 +2,6 @@
 #include "simulate/assemble/reinitialise.h"
 
 #include "algebra/kkt.h"
-#include "algebra/linear.h"
 #include "algebra/rank.h"
 #include "base/memory.h"
 #include "simulate/assemble/level_rows.h"
@@ -13,7 +12,6 @@
 
 #define TOLERANCE 1e-11 /* of what is set and of the constraints, as assembly has it */
 #define SWEEPS    3     /* of a problem that is linear but for rounding */
-#define KEEPING   10    /* of charges and fluxes */
 #define STAGES    16    /* of a way from the present values to those that are set */
 
 typedef struct Target {
@@ -32,7 +30,8 @@ struct Reinit {
     int storage_count;
     Skeleton *skeleton; /* NULL: nothing is mechanical, or no positions were set yet */
     LevelRows *levels[LEVEL_COUNT];
-    Probe *probe; /* charges and fluxes by their states, kinetic and potential energy, targets */
+    LevelRows *kept; /* charges and fluxes */
+    Probe *probe;    /* these, kinetic and potential energy, targets */
     /* of the call under way */
     double t;
     const double *values;
@@ -56,6 +55,7 @@ void reinit_free(Reinit *reset)
     skeleton_free(reset->skeleton);
     for (int level = 0; level < LEVEL_COUNT; level++)
         level_rows_free(reset->levels[level]);
+    level_rows_free(reset->kept);
     probe_free(reset->probe);
     mem_free(reset);
 }
@@ -142,28 +142,23 @@ Status reinit_compile(Reinit *reset, Diag *diag)
 {
     const Layout *l = reset->plan.layout;
     const int count = reset->storage_count = system_storages(l->system, &reset->storages);
-    Expr *states = NEW_ARRAY(Expr, count);
-    ProbeOrder order = {.row_count = count, .unknowns = states, .unknown_count = count};
     LIST(Expr) roots = {0};
     Status status = OK;
 
-    for (int k = 0; k < count; k++) {
-        states[k] = l->symbols[l->x + reset->storages[k].state];
+    for (int k = 0; k < count; k++)
         LIST_PUSH(roots, reset->storages[k].content);
-    }
     LIST_PUSH(roots, system_kinetic(l->system));
     LIST_PUSH(roots, system_potential(l->system));
     for (int k = 0; k < reset->targets.count; k++)
         LIST_PUSH(roots, reset->targets.at[k].expr);
-    order.roots = roots.at;
-    order.root_count = roots.count;
-    CHECK(probe_make(l, reset->plan.parameters, &order, &reset->probe, diag));
+    CHECK(probe_new(l, reset->plan.parameters, roots.at, roots.count, &reset->probe, diag));
+    CHECK(level_rows_new(LEVEL_STATES, l, reset->plan.equations, reset->plan.parameters, roots.at,
+                         count, &reset->kept, diag));
     CHECK(compile_level(reset, LEVEL_POSITION, diag));
     CHECK(compile_level(reset, LEVEL_VELOCITY, diag));
     CHECK(compile_level(reset, LEVEL_STATES, diag));
 done:
     LIST_FREE(roots);
-    mem_free(states);
     return status;
 }
 
@@ -232,24 +227,33 @@ static bool any_chosen(const Reinit *reset, StateLevel level)
     return false;
 }
 
+/* Unknowns of a level from where they are to where its rows are met, but for those held. */
+static bool meet(const Reinit *reset, StateLevel level, const Rows *rows, const bool *held)
+{
+    const size_t bytes = (size_t)rows->length * sizeof(double);
+    double *first = reset->y + level_first(reset->plan.layout, level);
+    double *v = NEW_ARRAY(double, rows->length);
+    bool met = true;
+
+    memcpy(v, first, bytes);
+    if (rows->rows > 0)
+        met = levenberg_marquardt_solve(rows, held, NULL, TOLERANCE, v, NULL);
+    memcpy(first, v, bytes);
+    mem_free(v);
+    return met;
+}
+
 static bool solve_least_squares(Reinit *reset, StateLevel level)
 {
     const Rows rows = rows_here(reset, level, false);
-    const size_t bytes = (size_t)rows.length * sizeof(double);
-    double *first = reset->y + level_first(reset->plan.layout, level);
     bool *held = NEW_ARRAY(bool, rows.columns);
-    double *v = NEW_ARRAY(double, rows.length);
-    bool met = true;
+    bool met;
 
     put_direct(reset, level, held);
     if (level == LEVEL_POSITION)
-        equations_normalise(reset->plan.equations, first);
-    memcpy(v, first, bytes);
-    if (rows.rows > 0)
-        met = levenberg_marquardt_solve(&rows, held, NULL, TOLERANCE, v, NULL);
-    memcpy(first, v, bytes);
+        equations_normalise(reset->plan.equations, reset->y);
+    met = meet(reset, level, &rows, held);
     mem_free(held);
-    mem_free(v);
     return met;
 }
 
@@ -412,40 +416,29 @@ static bool is_set(const Reinit *reset, int state)
 }
 
 /* What moves changes voltages and currents, and leaves charges and fluxes as they were, but for
- * those that were given: Newton's method. */
+ * those that were given. */
 static bool keep_stored(const Reinit *reset, const double *before)
 {
-    int n = reset->storage_count;
-    double *x = reset->y + reset->plan.equations->n + reset->plan.equations->nu;
-    double *missed = NEW_ARRAY(double, n);
-    double *slopes = NEW_ARRAY(double, n *n);
-    Lu *lu = lu_new(n);
-    bool met = n == 0;
+    const int nx = reset->plan.equations->nx;
+    LevelRows *kept = reset->kept;
+    bool *held = NEW_ARRAY(bool, nx);
+    Rows rows;
+    bool met;
 
-    for (int sweep = 0; sweep < KEEPING && !met; sweep++) {
-        const double *values = probe_here(reset);
+    for (int i = 0; i < nx; i++)
+        held[i] = true;
+    for (int k = 0; k < reset->storage_count; k++) {
+        const int state = reset->storages[k].state;
 
-        residual_jacobian(probe_residual(reset->probe), values, slopes);
-        met = true;
-        for (int k = 0; k < n; k++) {
-            bool set = is_set(reset, reset->storages[k].state);
-
-            missed[k] = set ? 0 : before[k] - values[k];
-            met = met && fabs(missed[k]) <= 1e-15 * fabs(before[k]);
-            for (int i = 0; i < n; i++)
-                lu_matrix(lu)[k * n + i] = set ? k == i : slopes[k * n + i];
-        }
-        if (met || !lu_factor(lu))
-            break;
-        lu_solve(lu, missed);
-        for (int k = 0; k < n; k++)
-            x[reset->storages[k].state] += missed[k];
-        met = sweep == KEEPING - 1;
+        held[state] = is_set(reset, state);
+        kept->target[k] = held[state] ? NAN : before[k];
     }
-    lu_free(lu);
-    mem_free(slopes);
-    mem_free(missed);
-    return met && vector_is_finite(x, reset->plan.equations->nx);
+    kept->t = reset->t;
+    kept->y = reset->y;
+    rows = level_rows(kept, NULL);
+    met = meet(reset, LEVEL_STATES, &rows, held);
+    mem_free(held);
+    return met;
 }
 
 bool reinit_apply(Reinit *reset, double t, const double *values, double *y, Text *why)
