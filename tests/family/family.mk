@@ -10,8 +10,13 @@ family_linear_SOURCES = tests/family/family_linear.c tests/unit/session_kit.h te
 family_linear_LDADD = $(unit_ldadd)
 
 FAMILIES += family_diodes
-family_diodes_SOURCES = tests/family/family_diodes.c tests/family/networks.h
+family_diodes_SOURCES = tests/family/family_diodes.c tests/family/networks.h \
+	tests/family/networks_script.h
 family_diodes_LDADD = libcotree.la $(unit_ldadd)
+FAMILIES += family_pieces
+family_pieces_SOURCES = tests/family/family_pieces.c tests/family/networks.h \
+	tests/family/networks_script.h tests/family/pieces.h
+family_pieces_LDADD = libcotree.la $(unit_ldadd)
 FAMILIES += family_sliding
 family_sliding_SOURCES = tests/family/family_sliding.c
 family_sliding_LDADD = libcotree.la $(unit_ldadd)

@@ -1,6 +1,5 @@
-/* family_diodes.c: random networks of diodes and switches, with resistances, ideal and exponential,
- * against an integration of its own in fine fixed steps; rectifiers and multipliers against closed
- * forms
+/* family_diodes.c: random networks of diodes and switches, ideal and exponential, against an
+ * integration of its own in fine fixed steps; rectifiers and multipliers against closed forms
  *
  * The oracle writes each network's node equations by the implicit Euler method: capacitors and
  * coils are conductances beside sources, sources of voltage stand behind resistances, diodes are of
@@ -11,84 +10,11 @@
 #include "../unit/session_kit.h"
 #include "family.h"
 #include "networks.h"
+#include "networks_script.h"
 
 #include <math.h>
 
 #define THERMAL (1.380649e-23 * 300.15 / 1.602176634e-19) /* V, at 27 degrees */
-#define MANY    100 /* tolerances: more than errors may add up to */
-
-/* --- the same as a script --- */
-
-typedef struct Script {
-    char text[8192];
-    size_t length;
-} Script;
-
-__attribute__((format(printf, 2, 3))) static void put(Script *script, const char *format, ...)
-{
-    va_list arguments;
-
-    va_start(arguments, format);
-    script->length += (size_t)vsnprintf(script->text + script->length,
-                                        sizeof script->text - script->length, format, arguments);
-    va_end(arguments);
-}
-
-static void put_part(Script *script, const Network *net, int i)
-{
-    const Part *p = &net->part[i];
-    char ends[64], sides[64] = "";
-
-    (void)snprintf(ends, sizeof ends, "%s%d %s%d", p->plus > 0 ? "n" : "", p->plus,
-                   p->minus > 0 ? "n" : "", p->minus);
-    if (!net->ideal)
-        (void)snprintf(sides, sizeof sides, " Ron=%.17g Roff=%.17g", p->on, p->off);
-    switch (p->kind) {
-    case RESISTOR:
-        put(script, "resistor R%d %s %.17g\n", i, ends, p->value);
-        break;
-    case CAPACITOR:
-        put(script, "capacitor C%d %s %.17g\n", i, ends, p->value);
-        break;
-    case COIL:
-        put(script, "inductor L%d %s %.17g\n", i, ends, p->value);
-        break;
-    case SOURCE:
-        put(script, "vsource V%d s%d 0 %.17g*sin(w*t + %.17g)\nresistor RS%d s%d n%d %.17g\n", i, i,
-            p->value, p->phase, i, i, p->plus, p->series);
-        break;
-    case DIODE:
-        if (net->exponential)
-            put(script, "diode D%d %s Is=%.17g n=%.17g\n", i, ends, p->Is, p->scale);
-        else
-            put(script, "diode D%d %s Vf=%.17g%s\n", i, ends, p->least, sides);
-        break;
-    case SWITCH:
-        put(script, "switch S%d %s%d m%d when=sin(w*t + %.17g) > %.17g%s\n", i,
-            p->plus > 0 ? "n" : "", p->plus, i, p->phase, p->level, sides);
-        put(script, "resistor RS%d m%d %s%d %.17g\n", i, i, p->minus > 0 ? "n" : "", p->minus,
-            p->series);
-        break;
-    }
-}
-
-static void write_script(Script *script, const Network *net)
-{
-    bool any = false;
-
-    script->length = 0;
-    put(script, "w = %.17g\n", net->omega);
-    for (int i = 0; i < net->count; i++)
-        put_part(script, net, i);
-    for (int i = 0; i < net->count; i++)
-        if (net->part[i].kind == CAPACITOR && net->part[i].start != 0) {
-            put(script, "%s C%d.v = %.17g", any ? "," : "init", i, net->part[i].start);
-            any = true;
-        }
-    put(script, "%ssimulate %.17g every=%.17g rtol=%.3g atol=%.3g\n", any ? "\n" : "", net->end,
-        net->end / POINTS, /* rows at the points: between them a transient may lie */
-        net->tolerance > 0 ? net->tolerance : 1e-9, net->tolerance > 0 ? net->tolerance : 1e-10);
-}
 
 /* --- the oracle --- */
 
@@ -365,21 +291,6 @@ static void integrate_twice(const Network *net, double size, Values coarse, Valu
     }
 }
 
-/* What errors of states within the tolerance do to a node's voltage: those of a coil's current, by
- * the largest resistance that it may go through. A diode tells its side no better. */
-static double promised(const Network *net, double largest)
-{
-    double resistance = 0;
-    bool coils = false;
-
-    for (int i = 0; i < net->count; i++) {
-        coils = coils || net->part[i].kind == COIL;
-        if (net->part[i].kind == RESISTOR)
-            resistance = fmax(resistance, net->part[i].value);
-    }
-    return net->tolerance * (MANY * (1 + largest) + (coils ? resistance : 0));
-}
-
 static Verdict compare(Member *m, const Network *net, Kit *kit)
 {
     static Values coarse, fine;
@@ -398,7 +309,7 @@ static Verdict compare(Member *m, const Network *net, Kit *kit)
         if (!is_told(net, k, name))
             continue;
         largest = name[0] != 'L' ? size : size * (net->ideal ? 0.5 : 1e-3);
-        if (apart > (net->tolerance > 0 ? within : 1e-3) * largest)
+        if (apart > 1e-3 * largest)
             continue; /* too fast for any of these steps */
         for (int i = 0; i < POINTS; i++) {
             const double wanted = 2 * fine[i][k] - coarse[i][k];
@@ -406,9 +317,7 @@ static Verdict compare(Member *m, const Network *net, Kit *kit)
 
             (void)snprintf(look, sizeof look, "%s at %.17g", name, net->end * (i + 1) / POINTS);
             got = kit_value(kit, look);
-            if (fabs(got - wanted) <= 3 * apart + within * largest +
-                                          (name[0] == 'n' ? promised(net, largest)
-                                                          : MANY * net->tolerance * (1 + largest)))
+            if (fabs(got - wanted) <= 3 * apart + within * largest)
                 continue;
             tell(m, "%s is %.9g, not %.9g within %.2g\n", look, got, wanted, apart);
             verdict = DISAGREES;
@@ -427,7 +336,7 @@ static Verdict run_network(Member *m, const Network *net)
     tell(m, "%s", script->text);
     if (kit_do(&kit, script->text) != CT_OK) {
         tell(m, "%s\n", kit.error.message);
-        verdict = net->tolerance > 0 ? REFUSED : DISAGREES;
+        verdict = DISAGREES;
     } else {
         verdict = compare(m, net, &kit);
     }
@@ -442,29 +351,6 @@ static Verdict run_random(Member *m, Diodes law)
 
     make(&net, &m->random, law);
     return run_network(m, &net);
-}
-
-static Verdict networks_at_any_tolerance(Member *m)
-{
-    Network net;
-
-    make(&net, &m->random, WITH_RESISTANCES);
-    net.tolerance = decades(&m->random, 1e-9, 1e-4);
-    return run_network(m, &net);
-}
-
-static Verdict multipliers_at_any_tolerance(Member *m)
-{
-    Network net;
-
-    make_multiplier(&net, &m->random);
-    net.tolerance = decades(&m->random, 1e-9, 1e-4);
-    return run_network(m, &net);
-}
-
-static Verdict networks_with_resistances(Member *m)
-{
-    return run_random(m, WITH_RESISTANCES);
 }
 
 static Verdict networks_of_ideal_parts(Member *m)
@@ -632,10 +518,6 @@ static Verdict multipliers(Member *m)
 int main(int argc, char **argv)
 {
     static const Family families[] = {
-        {"networks with resistances follow fine steps", 15, 0, 0, networks_with_resistances},
-        {"networks follow fine steps at any tolerance", 8, 0.05, 0, networks_at_any_tolerance},
-        {"multipliers follow fine steps at any tolerance", 3, 0.05, 0,
-         multipliers_at_any_tolerance},
         {"networks of ideal parts follow fine steps", 15, 0, 0, networks_of_ideal_parts},
         {"networks of exponential diodes follow them", 4, 0, 0, networks_of_exponential_diodes},
         {"ideal networks that failed once follow them", 3, 0, 0, networks_that_failed},

@@ -30,8 +30,9 @@ typedef struct Network {
     int nodes, count; /* without ground */
     bool ideal;       /* its switches, too */
     bool exponential;
-    double omega, end; /* rad/s, s */
-    double tolerance;  /* of the run, relative and absolute; 0: next to none */
+    double omega, end;  /* rad/s, s */
+    double tolerance;   /* of the run, relative and absolute; 0: next to none */
+    const char *method; /* NULL: by itself */
     Part part[PARTS];
 } Network;
 
@@ -151,7 +152,7 @@ static void make(Network *net, uint64_t *random, Diodes law)
 }
 
 /* A Greinacher cascade: node 1 behind the source's resistance, then two nodes a stage. */
-static void make_multiplier(Network *net, uint64_t *random)
+__attribute__((unused)) static void make_multiplier(Network *net, uint64_t *random)
 {
     const int stages = 1 + pick(random, STAGES);
     const double C = decades(random, 1e-7, 3e-6), least = pick(random, 2) * 0.7;

@@ -32,11 +32,15 @@ typedef struct Segment {
 } Segment;
 
 /* Which segment goes on from (t, y), where y is of `segment`; `behind` is the instant just behind
- * t, where sources have jumped, and `last` how long the last step was (0: there was none). Another
- * one goes into *segment, its y into *out, borrowed until the next call; where it is the same, both
- * stay. Fails where there is none. */
-typedef Status (*NextSegment)(void *context, double t, double behind, double last, const double *y,
-                              Segment *segment, const double **out, Diag *diag);
+ * t, where sources have jumped, and `near` tells how far from it to look. Another one goes into
+ * *segment, its y into *out, borrowed until the next call; where it is the same, both stay. Fails
+ * where there is none. */
+typedef struct Nearness {
+    double last;  /* s: how long the last step was; 0: there was none */
+    double ahead; /* s: where a margin ends at t, that long behind it this is beyond doubt; 0 */
+} Nearness;
+typedef Status (*NextSegment)(void *context, double t, double behind, Nearness near,
+                              const double *y, Segment *segment, const double **out, Diag *diag);
 
 /* A surface that the run stands on, or whose side it keeps. */
 typedef struct Meeting {

@@ -45,6 +45,7 @@ typedef struct Integration {
     Chatter *chatters;     /* through each of them; */
     int surfaces;          /* so many */
     int root;              /* condition whose surface is met; or one of Root */
+    double ahead;          /* s: so long behind the margin that is met, that shows; 0 */
     int switches;          /* close together */
     double switched_since; /* the first of them */
     double missed;         /* largest estimated error of a fixed step, in tolerances */
@@ -121,7 +122,8 @@ double integration_condition_rate(Integration *m, int condition, double *value);
 /* what says that the segment is the right one, as long as it is positive, */
 bool integration_is_margin(const Integration *m, int condition);
 double
-integration_largest_margin(const Integration *m); /* its largest size so far, of all of them */
+integration_largest_margin(const Integration *m);  /* its largest size so far, of all of them, */
+double integration_rounding(const Integration *m); /* and what rounding does to any */
 /* all conditions where the stepper's interpolant is at t, which goes into m->y */
 void integration_conditions_at(Integration *m, double t);
 /* Margins that are still negative where a segment begins, on their way up, tell nothing as long as

@@ -168,7 +168,8 @@ Status integration_meet_switch(Integration *m, int i, double when, Diag *diag)
         CHECK(approach(m, i, when, &value, &slope, diag));
         CHECK(integration_add_rows(m, diag));
         /* the interpolant erred: it is told again where steps from here go */
-        if (is_told && value > m->noise[i] && (slope >= 0 || !is_short(m, -value / slope))) {
+        if (is_told && value > integration_rounding(m) &&
+            (slope >= 0 || !is_short(m, -value / slope))) {
             m->is_taken_back = m->stepper->method->has_history;
             m->stepper->next = fmin(m->stepper->next, WIDER * (m->stepper->t - m->stepper->before));
             return OK;
@@ -183,6 +184,7 @@ Status integration_meet_switch(Integration *m, int i, double when, Diag *diag)
     integration_note_chatter(m, i, m->stepper->t);
     integration_tell_settling(m, i);
     m->root = on_surface || (guard.surface >= 0 && is_led_back(m, i, crossed)) ? i : ROOT_NONE;
+    m->ahead = is_told && slope < 0 ? (fabs(value) + m->noise[i]) / -slope : 0;
     CHECK(integration_go_on(m, m->stepper->t, m->stepper->y, &entered, diag));
     if (on_surface && !entered) /* errors alone led over: the segment is on its side as before */
         m->mode[i] = guard.end != 0 ? 1 : guard.side;

@@ -223,7 +223,9 @@ Status integration_go_on(Integration *m, double t, const double *y, bool *entere
 {
     const IntegrationPlan *plan = m->plan;
     bool changed = plan->mode_switch != NULL;
-    double last = m->stepper->t > m->stepper->before ? m->stepper->t - m->stepper->before : 0;
+    const Nearness near = {
+        .last = m->stepper->t > m->stepper->before ? m->stepper->t - m->stepper->before : 0,
+        .ahead = m->ahead};
     Status status = OK;
 
     *entered = false;
@@ -235,7 +237,7 @@ Status integration_go_on(Integration *m, double t, const double *y, bool *entere
         if (round == ROUNDS)
             CHECK(solver_failure(diag, t, "events and ideal switches set each other off"));
         CHECK(
-            plan->mode_switch(plan->context, t, fmax(t, m->low), last, m->y, &next, &behind, diag));
+            plan->mode_switch(plan->context, t, fmax(t, m->low), near, m->y, &next, &behind, diag));
         if (behind == NULL)
             break;
         add_corner(m, t, m->y);
@@ -258,5 +260,6 @@ Status integration_go_on(Integration *m, double t, const double *y, bool *entere
         integration_begin_modes(m);
 done:
     m->root = ROOT_ANY;
+    m->ahead = 0;
     return status;
 }

@@ -14,6 +14,7 @@
 #define NOTHING   1e-4  /* of the absolute tolerance: where all is next to nothing, as at rest */
 #define DEEPER    2     /* times what a margin begins with */
 #define MOVES     3     /* that tell how far errors reach */
+#define PAUSELESS 20    /* switches at one instant, more than sides of diodes take to be found */
 #define BY_HALVES 4     /* so often a search goes by halves */
 
 /* --- conditions --- */
@@ -112,21 +113,19 @@ double integration_largest_margin(const Integration *m)
                           m->eq->margin_count);
 }
 
-/* What errors of the state within the tolerance can do to margins: less than that tells no sign. By
- * a few moves of all states at once, as far as the tolerance lets them. */
-static void find_noise(Integration *m)
+double integration_rounding(const Integration *m)
 {
-    uint64_t seed = 1;
-    double *here;
+    return ROUNDING * integration_largest_margin(m);
+}
 
-    if (m->eq->margin_count == 0)
-        return;
-    here = NEW_ARRAY(double, m->eq->switch_count);
+/* What errors of the state within the tolerance do to margins where the stepper stands, into bands:
+ * by a few moves of all states at once, as far as the tolerance lets them. */
+static void widen_bands(Integration *m)
+{
+    double *here = NEW_ARRAY(double, m->eq->switch_count);
+    uint64_t seed = 1;
+
     memcpy(here, m->conditions, (size_t)m->eq->switch_count * sizeof(double));
-    for (int i = 0; i < m->eq->switch_count; i++)
-        m->noise[i] = integration_is_margin(m, i) ? fmax(ROUNDING * integration_largest_margin(m),
-                                                         NOTHING * m->control.atol)
-                                                  : 0;
     for (int turn = 0; turn < MOVES; turn++) {
         for (int k = 0; k < m->length; k++) {
             double tolerance = m->control.rtol * fabs(m->stepper->y[k]) + m->control.atol;
@@ -135,13 +134,28 @@ static void find_noise(Integration *m)
         }
         motion_switches(m->segment.motion, m->stepper->t, m->y, m->conditions);
         for (int i = 0; i < m->eq->switch_count; i++)
-            if (integration_is_margin(m, i) && !is_steep(m, i) &&
-                fabs(m->conditions[i] - here[i]) > m->noise[i])
-                m->noise[i] = fabs(m->conditions[i] - here[i]);
+            if (integration_is_margin(m, i) && !is_steep(m, i))
+                m->band[i] = fmax(m->band[i], fabs(m->conditions[i] - here[i]));
     }
     memcpy(m->conditions, here, (size_t)m->eq->switch_count * sizeof(double));
-    memcpy(m->band, m->noise, (size_t)m->eq->switch_count * sizeof(double));
     mem_free(here);
+}
+
+/* Sizes of margins that tell no sign: what rounding does. Not what errors of the state do to them,
+ * for a margin crosses 0 as well as the state tells when, and a diode that blocks what some noise
+ * makes of a large resistor holds back what a coil beside it carries. But where switches follow one
+ * another without a pause those errors are what drives them, and tell no sign until margins have
+ * come clear of them. */
+static void find_noise(Integration *m)
+{
+    const double least = fmax(integration_rounding(m), NOTHING * m->control.atol);
+
+    if (m->eq->margin_count == 0)
+        return;
+    for (int i = 0; i < m->eq->switch_count; i++)
+        m->band[i] = m->noise[i] = integration_is_margin(m, i) ? least : 0;
+    if (m->switches > PAUSELESS)
+        widen_bands(m);
 }
 
 /* The segment is the one that goes on a little behind where it begins. Margins that are still

@@ -20,6 +20,7 @@
 #define LOOK       1e-4 /* of the last step: how far to look ahead for the sides, */
 #define NEAREST    1e-9 /* but not less than this of the run, */
 #define FURTHEST   1e-6 /* and no more than this, */
+#define FURTHER    10   /* times as far, where a margin has ended and no side is seen to change, */
 #define STUCK      1e-4 /* or this, where the sides stay and all the same their margins end */
 
 /* --- states of the whole --- */
@@ -556,20 +557,31 @@ static Status next_phase(const ModeSwitching *c, double t, const bool *closed, P
     return status;
 }
 
-/* How far to look ahead, as numbers tell times apart. Where nothing changed at t when it was looked
- * at last, all the same it is asked again: so what changes is too slow to be seen. What was seen
- * from further is not to be undone by a look so near that it sees nothing. */
-static double step_from(ModeSwitching *c, double t, double last)
+/* How far to look ahead, as numbers tell times apart. */
+static double step_near(const ModeSwitching *c, double t, double last)
 {
-    double step = fmin(fmax(LOOK * last, NEAREST * c->span), FURTHEST * c->span);
-    volatile double ahead;
+    const double step = fmin(fmax(LOOK * last, NEAREST * c->span), FURTHEST * c->span);
+    const volatile double ahead = t + step;
 
-    if (!(fabs(t - c->stuck) <= c->again * step))
-        c->again = 1;
-    else if (!c->changed)
-        c->again *= 10;
-    ahead = t + fmin(c->again * step, STUCK * c->span);
     return ahead - t;
+}
+
+/* Where nothing changed at t when it was looked at last, all the same it is asked again: so what
+ * changes is too slow to be seen. What was seen from further is not to be undone by a look so near
+ * that it sees nothing. Where it is known how far to look, a place is the same only as near as
+ * that: elsewhere what is to be seen near may be over further on. */
+static double step_from(ModeSwitching *c, double t, Nearness near)
+{
+    const double step = step_near(c, t, near.last);
+    const bool is_told = near.ahead > 0;
+
+    if (!(fabs(t - c->stuck) <= (is_told ? 1 : c->again) * step))
+        c->again = c->told = 1;
+    else if (!c->changed && is_told)
+        c->told *= FURTHER;
+    else if (!c->changed)
+        c->again *= FURTHER;
+    return fmin(c->again * step, STUCK * c->span);
 }
 
 /* Enter the phase of `closed` from y of another one. Behind what is shared at once diodes may be
@@ -607,7 +619,25 @@ done:
     return status;
 }
 
-Status mode_switch(void *context, double t, double behind, double last, const double *y,
+/* Sides as they are a step on, where all goes on from (t, y) as it did: into `closed`, states then
+ * and there into x and x_behind. `ahead`: room. */
+static Status look_ahead(const ModeSwitching *c, Phase *now, double t, const double *y,
+                         ModeSearchAt *at, double *ahead, double *x_behind, bool *closed,
+                         Diag *diag)
+{
+    const int nx = phases_whole(c->run->phases)->layout->nx;
+    RowValues row = {.t = t};
+
+    at->when = at->t + at->step;
+    go_ahead(now, t, at->step, y, ahead);
+    if (!phase_states(now, t + at->step, ahead, nx, &row, x_behind))
+        memcpy(x_behind, at->x, (size_t)nx * sizeof(double));
+    at->acceleration = row.acceleration;
+    at->multipliers = row.multipliers;
+    return mode_search_find(c->run->sides, at, closed, diag);
+}
+
+Status mode_switch(void *context, double t, double behind, Nearness near, const double *y,
                    Segment *segment, const double **out, Diag *diag)
 {
     ModeSwitching *c = context;
@@ -622,28 +652,28 @@ Status mode_switch(void *context, double t, double behind, double last, const do
     Events *events = segment->events;
     RowValues row = {.t = t};
     ModeSearchAt at = {.t = behind,
-                       .step = step_from(c, behind, last),
+                       .step = step_from(c, behind, near),
                        .q = ahead,
                        .u = ahead + whole->n,
                        .near = ahead + layout_turned(now->layout),
                        .x = x,
                        .x_behind = x_behind};
+    const double furthest = fmin(c->told * near.ahead, STUCK * c->span);
     Status status = OK;
 
-    at.when = at.t + at.step;
-    go_ahead(now, t, at.step, y, ahead);
     if (!phase_states(now, t, y, whole->nx, &row, x))
         CHECK(solver_failure(diag, t, "the network has no solution"));
-    if (!phase_states(now, t + at.step, ahead, whole->nx, &row, x_behind))
-        memcpy(x_behind, x, (size_t)whole->nx * sizeof(double));
-    at.acceleration = row.acceleration;
-    at.multipliers = row.multipliers;
     memcpy(closed, now->closed, (size_t)count * sizeof(bool));
-    CHECK(mode_search_find(r->sides, &at, closed, diag));
-    c->changed = memcmp(closed, now->closed, (size_t)count * sizeof(bool)) != 0;
+    for (;; at.step = fmin(FURTHER * at.step, furthest)) {
+        CHECK(look_ahead(c, now, t, y, &at, ahead, x_behind, closed, diag));
+        c->changed = memcmp(closed, now->closed, (size_t)count * sizeof(bool)) != 0;
+        if (c->changed || at.step >= furthest)
+            break;
+    }
     c->stuck = behind;
     if (!c->changed)
         goto done;
+    c->again = fmax(1, at.step / step_near(c, behind, near.last));
     CHECK(go_over(c, behind, &at, x, x_behind, closed, now, y, &next, diag));
     CHECK(mode_switch_events(r, now, next, c->setting, &events, diag));
     *segment = phases_segment(r->phases, next, events);

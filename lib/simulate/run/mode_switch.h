@@ -27,12 +27,13 @@ typedef struct ModeSwitching {
     double span;  /* of the run, s */
     double stuck; /* where it was looked at last; NAN */
     bool changed; /* whether something changed there, */
-    double again; /* and how much further it was looked */
+    double again; /* how much further it was looked there, */
+    double told;  /* and past what was told */
     double *y;    /* of the last phase that was entered; free it with mode_switching_free() */
 } ModeSwitching;
 void mode_switching_free(ModeSwitching *commuting);
 /* the NextSegment of a plan; `context` is a ModeSwitching */
-MUST_USE Status mode_switch(void *context, double t, double behind, double last, const double *y,
+MUST_USE Status mode_switch(void *context, double t, double behind, Nearness near, const double *y,
                             Segment *segment, const double **out, Diag *diag);
 
 #endif
