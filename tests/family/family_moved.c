@@ -315,7 +315,7 @@ static const Family families[] = {
     {"joints_of_which_no_speed_was_told_rest", 30, 0, 0, resting_member},
     {"bodies_move_alike_in_all_trees", 30, 0.6, 0, following_member},
     {"driven_bodies_are_where_their_joints_put_them", 20, 0, 0, driven_member},
-    {"an_event_puts_all_joints_where_it_says", 20, 0.15, 0, all_set_member},
+    {"an_event_puts_all_joints_where_it_says", 20, 0, 0, all_set_member},
 };
 
 int main(int argc, char **argv)

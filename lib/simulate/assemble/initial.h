@@ -7,6 +7,7 @@
 #ifndef COTREE_SIMULATE_ASSEMBLE_INITIAL_H
 #define COTREE_SIMULATE_ASSEMBLE_INITIAL_H
 
+#include "simulate/assemble/skeleton.h"
 #include "simulate/equations/numbers.h"
 #include "simulate/equations/remark.h"
 
@@ -28,6 +29,22 @@ typedef double (*WarmValue)(void *context, const char *name);
 MUST_USE Status initial_find(const Layout *layout, Parameters *parameters, Numbers *numbers,
                              const Setting *setting, bool has_modes, WarmValue warm,
                              void *warm_context, Assembled *out, Diag *diag);
+/* What is put in place in the middle of a run: borrowed. */
+typedef struct NewPlaces {
+    const Layout *layout;
+    Parameters *parameters;
+    const Equations *equations;
+    Skeleton *skeleton;
+    double t;
+    int count;
+    const Stand *stands;
+    const double *values;
+} NewPlaces;
+/* Coordinates and references of angles in y = (q, u, x, references): frames stand as y has them,
+ * but for what is put in place along the joints. Loops may be open. Fails as tree_complete() does.
+ */
+MUST_USE Status initial_place_again(const NewPlaces *places, double *y, Diag *diag);
+
 /* x' and z at y = (q, u, x, references of angles), of t = 0, from a guess [x'; z] (NULL: 0): into
  * `out`, unless NULL. Fails with E_SINGULAR where there are none, naming what nothing determines.
  */

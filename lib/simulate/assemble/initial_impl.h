@@ -30,6 +30,7 @@ typedef struct Assembly {
     const Setting *setting;
     Skeleton *skeleton; /* NULL: nothing is mechanical */
     Assembled *out;
+    double t;       /* s: 0, but in the middle of a run */
     bool has_modes; /* sides of switches are found behind the states */
     double *y;
     GivenValue *given;
@@ -70,9 +71,8 @@ void initial_group(Assembly *assembly);
 /* Either sign is the same attitude: targets of the sign that their expressions have at y. */
 void initial_align(Problem *problem);
 
-/* Where a driver has a coordinate at t = 0. */
-MUST_USE Status initial_driven(const Layout *layout, Parameters *parameters, Expr prescribed,
-                               double *out, Diag *diag);
+/* Where a driver has a coordinate. */
+MUST_USE Status initial_driven(const Assembly *assembly, Expr prescribed, double *out, Diag *diag);
 /* Whole turns of what is a sum of angles: of chords' angles so that they are `angles`, one an entry
  * of system_whole_turns(); of constraints so that they hold. At y. */
 MUST_USE Status initial_whole_turns(Assembly *assembly, const double *angles, Diag *diag);

@@ -54,7 +54,7 @@ Status place_take_wishes(Placing *p, Diag *diag)
 
             if (prescribed == NULL)
                 continue;
-            CHECK(initial_driven(a->l, a->parameters, prescribed, &value, diag));
+            CHECK(initial_driven(a, prescribed, &value, diag));
             wish(p, &stand, value, false, -1);
         }
         for (int i = 0; i < a->given_count; i++) {

@@ -4,7 +4,8 @@
  * are given, then those that are guessed, then joints before bodies. What isn't given starts at its
  * guess, at the value of an earlier start, or at 0. Loops and given values elsewhere are closed by
  * Levenberg-Marquardt in the coordinates of these trees. So where the frames stand follows from the
- * model and from what was said about it, and from no tree of the user's. */
+ * model and from what was said about it, and from no tree of the user's. New values in the middle
+ * of a run go the same way. */
 #include "simulate/assemble/initial_place_impl.h"
 
 #include "algebra/matrix3.h"
@@ -87,7 +88,8 @@ static void begin_half(Placing *p, int link, bool rotation)
 static void begin(Placing *p)
 {
     for (int i = 0; i < p->s->link_count; i++) {
-        if (place_turns(p, i))
+        /* a screw's shift is told by its turn */
+        if (place_turns(p, i) || (p->s->links[i].is_tied && place_shifts(p, i)))
             begin_half(p, i, true);
         if (place_shifts(p, i))
             begin_half(p, i, false);
@@ -125,7 +127,7 @@ static bool is_within_half_a_turn(const Placing *p, int link, int k)
     const Link *l = &p->s->links[link];
 
     return p->known[place_at(link, k)] == KNOWN_NOT && !l->is_tied &&
-           l->instance->coord_kind[k] == COORDINATE_ANGLE && p->a->setting->from == NULL;
+           l->instance->coord_kind[k] == COORDINATE_ANGLE && !p->goes_on;
 }
 
 /* Coordinates of a link where its frames stand now: angles within half a turn of what they were
@@ -174,38 +176,52 @@ static void push_named(const Placing *p, const char *name, Outlet outlet, Outlet
     LIST_PUSH(*outlets, outlet);
 }
 
-/* q, references of angles, and the angles that are sums */
-static Status hand_out(Placing *p, Diag *diag)
+/* q and references of angles */
+static void list_outlets(const Placing *p, Outlets *outlets)
 {
     const Layout *l = p->a->l;
-    const int sums = system_whole_turns_count(l->system);
-    double *angles = NEW_ARRAY(double, sums);
-    Outlets outlets = {0};
-    int read = -1;
-    Status status;
 
     for (int i = 0; i < p->s->link_count; i++)
         for (int k = 0; k < p->s->links[i].instance->coord_count; k++) {
             const int place = system_coordinate(l->system, p->s->links[i].instance, k);
 
             if (place >= 0)
-                LIST_PUSH(outlets, (Outlet){i, k, &p->a->y[place]});
+                LIST_PUSH(*outlets, (Outlet){i, k, &p->a->y[place]});
         }
     for (int i = 0; i < l->turned; i++)
         push_named(p, system_multi_turn(l->system, i)->name,
-                   (Outlet){.to = &p->a->y[layout_turned(l) + i]}, &outlets);
-    for (int i = 0; i < sums; i++)
-        if (system_whole_turns(l->system, i)->name != NULL)
-            push_named(p, system_whole_turns(l->system, i)->name, (Outlet){.to = &angles[i]},
-                       &outlets);
-    for (int i = 0; i < outlets.count; i++) {
-        const Outlet *outlet = &outlets.at[i];
+                   (Outlet){.to = &p->a->y[layout_turned(l) + i]}, outlets);
+}
+
+static void fill_outlets(Placing *p, const Outlets *outlets)
+{
+    int read = -1;
+
+    for (int i = 0; i < outlets->count; i++) {
+        const Outlet *outlet = &outlets->at[i];
 
         if (outlet->link != read)
             read_link(p, outlet->link);
         read = outlet->link;
         *outlet->to = p->c[place_at(outlet->link, outlet->k)];
     }
+}
+
+/* those, and the angles that are sums */
+static Status hand_out(Placing *p, Diag *diag)
+{
+    const System *system = p->a->l->system;
+    const int sums = system_whole_turns_count(system);
+    double *angles = NEW_ARRAY(double, sums);
+    Outlets outlets = {0};
+    Status status;
+
+    list_outlets(p, &outlets);
+    for (int i = 0; i < sums; i++)
+        if (system_whole_turns(system, i)->name != NULL)
+            push_named(p, system_whole_turns(system, i)->name, (Outlet){.to = &angles[i]},
+                       &outlets);
+    fill_outlets(p, &outlets);
     status = initial_whole_turns(p->a, angles, diag);
     LIST_FREE(outlets);
     mem_free(angles);
@@ -323,26 +339,105 @@ void placing_free(Placing *p)
     LIST_FREE(p->asks);
 }
 
+static void open_placing(Placing *p)
+{
+    const int size = p->s->link_count * MAX_COORDS;
+
+    p->c = NEW_ARRAY(double, size);
+    p->begun = NEW_ARRAY(double, size);
+    p->known = NEW_ARRAY(Knowledge, size);
+    p->poses = NEW_ARRAY(Pose, p->s->node_count);
+    p->turned = NEW_ARRAY(double, 3 * p->s->node_count);
+    p->shifted = NEW_ARRAY(double, 3 * p->s->node_count);
+    for (int i = 0; i < size; i++)
+        p->begun[i] = NAN;
+}
+
+/* what isn't given begins where it is at y */
+static void begin_as_it_stands(Placing *p, const Outlets *outlets)
+{
+    Pose *poses = skeleton_poses_at(p->s, p->a->y);
+
+    for (int i = 0; i < outlets->count; i++) {
+        double *begun = &p->begun[place_at(outlets->at[i].link, outlets->at[i].k)];
+
+        *begun = isnan(*begun) ? *outlets->at[i].to : *begun;
+    }
+    for (int i = 0; i < p->s->link_count; i++) {
+        const Link *l = &p->s->links[i];
+        double c[MAX_COORDS];
+        Pose relative;
+
+        for (int k = 0; k < MAX_COORDS; k++)
+            c[k] = isnan(p->begun[place_at(i, k)]) ? 0 : p->begun[place_at(i, k)];
+        pose_between(&poses[l->tail], &poses[l->head], &relative);
+        link_read(l, &relative, c);
+        for (int k = 0; k < MAX_COORDS; k++)
+            if (isnan(p->begun[place_at(i, k)]))
+                p->begun[place_at(i, k)] = c[k];
+    }
+    mem_free(poses);
+}
+
+Status initial_place_again(const NewPlaces *places, double *y, Diag *diag)
+{
+    static const StartValue given; /* no guess */
+    const Setting setting = {0};
+    Assembled out = {0};
+    Assembly a = {.l = places->layout,
+                  .parameters = places->parameters,
+                  .eq = places->equations,
+                  .setting = &setting,
+                  .skeleton = places->skeleton,
+                  .out = &out,
+                  .t = places->t};
+    Placing p = {.a = &a, .s = a.skeleton, .goes_on = true};
+    Outlets outlets = {0};
+    Status status = OK;
+
+    a.y = y;
+    a.given = NEW_ARRAY(GivenValue, places->count);
+    for (; a.given_count < places->count; a.given_count++)
+        a.given[a.given_count] = (GivenValue){.value = &given,
+                                              .stand = places->stands[a.given_count],
+                                              .target = places->values[a.given_count],
+                                              .group = -1};
+    initial_group(&a);
+    open_placing(&p);
+    CHECK(place_take_wishes(&p, diag));
+    place_mark_known(&p);
+    list_outlets(&p, &outlets);
+    begin_as_it_stands(&p, &outlets);
+    CHECK(place_choose_trees(&p, diag));
+    begin(&p);
+    place_columns(&p);
+    (void)place_search(&p, true);
+    place_poses(&p, p.c);
+    fill_outlets(&p, &outlets);
+done:
+    LIST_FREE(outlets);
+    placing_free(&p);
+    mem_free(a.given);
+    remarks_free(&out.remarks);
+    return status;
+}
+
 Status initial_place(Assembly *a, WarmValue warm, void *context, bool *closed, Diag *diag)
 {
-    Placing p = {.a = a, .warm = warm, .warm_context = context};
+    Placing p = {.a = a,
+                 .s = a->skeleton,
+                 .warm = warm,
+                 .warm_context = context,
+                 .goes_on = a->setting->from != NULL};
     double *from = NULL; /* where the search began that guesses have no part in */
     int size;
     Status status = OK;
 
     *closed = true;
-    p.s = a->skeleton;
     if (p.s == NULL)
         return OK;
     size = p.s->link_count * MAX_COORDS;
-    p.c = NEW_ARRAY(double, size);
-    p.begun = NEW_ARRAY(double, size);
-    p.known = NEW_ARRAY(Knowledge, size);
-    p.poses = NEW_ARRAY(Pose, p.s->node_count);
-    p.turned = NEW_ARRAY(double, 3 * p.s->node_count);
-    p.shifted = NEW_ARRAY(double, 3 * p.s->node_count);
-    for (int i = 0; i < size; i++)
-        p.begun[i] = NAN;
+    open_placing(&p);
     CHECK(place_take_wishes(&p, diag));
     place_mark_known(&p);
     CHECK(place_choose_trees(&p, diag));

@@ -47,6 +47,7 @@ typedef struct Placing {
     double *turned, *shifted; /* nodes x 3: what a unit of a column does to them */
     WarmValue warm;
     void *warm_context;
+    bool goes_on; /* whole turns of angles are those of before */
 } Placing;
 
 /* the place of coordinate k of a link in what is kept by link and coordinate */

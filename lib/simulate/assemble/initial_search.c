@@ -318,6 +318,14 @@ static bool try_around(Placing *p, const Rows *rows, const double *from, const b
     return met;
 }
 
+static bool any_of(const bool *missed, int count)
+{
+    for (int i = 0; i < count; i++)
+        if (missed[i])
+            return true;
+    return false;
+}
+
 /* From the start, then from others around it. */
 static bool solve(Placing *p, const Rows *rows, double *residual, bool once)
 {
@@ -330,6 +338,8 @@ static bool solve(Placing *p, const Rows *rows, double *residual, bool once)
     met = levenberg_marquardt_solve(rows, NULL, NULL, TOLERANCE, p->c, residual);
     for (int i = 0; i < rows->rows; i++)
         missed[i] = fabs(residual[i]) > CLOSED;
+    /* rows that vanish with their derivatives are weighed above what rounding leaves */
+    met = met || !any_of(missed, rows->rows);
     if (!met && !once) {
         double *best = NEW_ARRAY(double, rows->length);
 

@@ -5,14 +5,13 @@
 #include <math.h>
 #include <string.h>
 
-Status initial_driven(const Layout *layout, Parameters *parameters, Expr prescribed, double *out,
-                      Diag *diag)
+Status initial_driven(const Assembly *a, Expr prescribed, double *out, Diag *diag)
 {
-    const RowValues row = {.t = 0};
+    const RowValues row = {.t = a->t};
     Probe *probe = NULL;
     Status status = OK;
 
-    CHECK(probe_new(layout, parameters, &prescribed, 1, &probe, diag));
+    CHECK(probe_new(a->l, a->parameters, &prescribed, 1, &probe, diag));
     *out = probe_values(probe, &row)[0];
 done:
     probe_free(probe);

@@ -4,6 +4,7 @@
 #include "algebra/kkt.h"
 #include "algebra/rank.h"
 #include "base/memory.h"
+#include "simulate/assemble/initial.h"
 #include "simulate/assemble/level_rows.h"
 #include "simulate/assemble/skeleton.h"
 
@@ -17,10 +18,11 @@
 typedef struct Target {
     Expr expr;
     StateLevel level;
-    int place;  /* unknown that it is, alone; -1 */
-    int column; /* unknown that is held with it; -1: it is an equation */
-    int turned; /* angle of turns that it is; -1 */
-    int row;    /* among the expressions of its level */
+    int place;   /* unknown that it is, alone; -1 */
+    int column;  /* unknown that is held with it; -1: it is an equation */
+    int turned;  /* angle of turns that it is; -1 */
+    int row;     /* among the expressions of its level */
+    Stand stand; /* what it says of frames, if it does */
 } Target;
 
 struct Reinit {
@@ -115,6 +117,8 @@ Status reinit_add(Reinit *reset, const char *name, int primes, Diag *diag)
 
     CHECK(system_variable(reset->plan.layout->system, name, primes, &target.expr, diag));
     CHECK(classify(reset, &target, name, primes, diag));
+    if (target.level == LEVEL_POSITION && primes == 0)
+        target.stand = system_stand(reset->plan.layout->system, name);
     LIST_PUSH(reset->targets, target);
 done:
     return status;
@@ -176,6 +180,12 @@ static double energy(const Reinit *reset)
     const double *values = probe_here(reset) + reset->storage_count;
 
     return values[0] + values[1];
+}
+
+/* what may be set, as it is */
+static const double *targets_here(const Reinit *reset)
+{
+    return probe_here(reset) + reset->storage_count + 2;
 }
 
 static bool is_chosen(const Reinit *reset, int k, StateLevel level)
@@ -257,11 +267,11 @@ static bool solve_least_squares(Reinit *reset, StateLevel level)
     return met;
 }
 
-static Reversal reversal_here(Reinit *reset)
+static Skeleton *skeleton_of(Reinit *reset)
 {
     if (reset->skeleton == NULL)
         reset->skeleton = skeleton_new(reset->plan.layout, reset->plan.parameters);
-    return skeleton_reversal(reset->skeleton, reset->y);
+    return reset->skeleton;
 }
 
 /* angles are looked for in the turn that is asked for */
@@ -274,6 +284,35 @@ static void begin_turns(const Reinit *reset)
             near[reset->targets.at[k].turned] = reset->values[k];
 }
 
+/* Frames stand with what is set put in place along the joints: in coordinates of bodies that may be
+ * far, where it is near in the joints'. */
+static bool place_along_joints(Reinit *reset)
+{
+    NewPlaces places = {.layout = reset->plan.layout,
+                        .parameters = reset->plan.parameters,
+                        .equations = reset->plan.equations,
+                        .skeleton = skeleton_of(reset),
+                        .t = reset->t};
+    Stand *stands;
+    double *values;
+    Diag diag = {0};
+    bool sound;
+
+    if (places.skeleton == NULL)
+        return false;
+    places.stands = stands = NEW_ARRAY(Stand, reset->targets.count);
+    places.values = values = NEW_ARRAY(double, reset->targets.count);
+    for (int k = 0; k < reset->targets.count; k++)
+        if (is_chosen(reset, k, LEVEL_POSITION)) {
+            stands[places.count] = reset->targets.at[k].stand;
+            values[places.count++] = reset->values[k];
+        }
+    sound = initial_place_again(&places, reset->y, &diag) == OK;
+    mem_free(stands);
+    mem_free(values);
+    return sound;
+}
+
 /* Positions in stages, from the present values of what is set to the new ones. */
 static bool go_by_stages(Reinit *reset)
 {
@@ -282,8 +321,7 @@ static bool go_by_stages(Reinit *reset)
     double *from = NEW_ARRAY(double, reset->targets.count);
     bool met = true;
 
-    memcpy(from, probe_here(reset) + reset->storage_count + 2,
-           (size_t)reset->targets.count * sizeof(double));
+    memcpy(from, targets_here(reset), (size_t)reset->targets.count * sizeof(double));
     reset->values = values;
     for (int stage = 1; stage <= STAGES && met; stage++) {
         for (int k = 0; k < reset->targets.count; k++)
@@ -297,31 +335,88 @@ static bool go_by_stages(Reinit *reset)
     return met;
 }
 
-/* Positions at once, and in stages where that leads nowhere or to an axis that lies the wrong way
- * round, which equations alone don't tell. */
+/* Whether all holds; where a joint lies the wrong way round, which equations alone don't tell,
+ * `reversal` says so. */
+static bool is_closed(Reinit *reset, bool met, Reversal *reversal)
+{
+    if (met)
+        *reversal = skeleton_reversal(skeleton_of(reset), reset->y);
+    return met && reversal->link == NULL;
+}
+
+static bool is_parameter(const Stand *stand)
+{
+    return stand->kind == STANDS_PARAMETER ||
+           (stand->kind == STANDS_COORDINATE &&
+            stand->instance->coord_kind[stand->which] == COORDINATE_PARAMETER);
+}
+
+/* Either sign of Euler parameters is the same attitude: the new values get that of the present
+ * ones.
+ */
+static void align(const Reinit *reset, double *values)
+{
+    const double *present = targets_here(reset);
+    const Target *targets = reset->targets.at;
+
+    for (int k = 0; k < reset->targets.count; k++) {
+        double along = 0;
+
+        if (!is_chosen(reset, k, LEVEL_POSITION) || !is_parameter(&targets[k].stand))
+            continue;
+        for (int i = 0; i < reset->targets.count; i++)
+            if (is_chosen(reset, i, LEVEL_POSITION) && is_parameter(&targets[i].stand) &&
+                targets[i].stand.kind == targets[k].stand.kind &&
+                targets[i].stand.instance == targets[k].stand.instance &&
+                targets[i].stand.node == targets[k].stand.node)
+                along += present[i] * reset->values[i];
+        values[k] = along < 0 ? -reset->values[k] : reset->values[k];
+    }
+}
+
+/* by least squares from where y is */
+static bool close_positions(Reinit *reset, bool by_stages, Reversal *reversal)
+{
+    const double *given = reset->values;
+    double *aligned = NEW_ARRAY(double, reset->targets.count);
+    bool met;
+
+    memcpy(aligned, given, (size_t)reset->targets.count * sizeof(double));
+    align(reset, aligned);
+    reset->values = aligned;
+    begin_turns(reset);
+    met = by_stages ? go_by_stages(reset) : solve_least_squares(reset, LEVEL_POSITION);
+    met = is_closed(reset, met, reversal);
+    reset->values = given;
+    mem_free(aligned);
+    return met;
+}
+
+/* Positions at once; where that leads nowhere, or to an axis that lies the wrong way round, from
+ * where the joints lead; then in stages. */
 static bool solve_positions(Reinit *reset, Text *why)
 {
     const Layout *l = reset->plan.layout;
     const int length = layout_turned(l) + l->turned;
     const size_t bytes = (size_t)length * sizeof(double);
     double *begun = mem_array((size_t)length, sizeof(double));
-    Reversal reversal = {.link = NULL}, later;
+    Reversal reversal = {.link = NULL};
     bool met;
 
     memcpy(begun, reset->y, bytes);
-    begin_turns(reset);
-    met = solve_least_squares(reset, LEVEL_POSITION);
-    if (met)
-        reversal = reversal_here(reset);
-    if (!met || reversal.link != NULL) {
+    met = close_positions(reset, false, &reversal);
+    if (!met) {
         memcpy(reset->y, begun, bytes);
-        met = go_by_stages(reset);
-        later = met ? reversal_here(reset) : reversal;
-        met = later.link == NULL && met;
-        if (later.link != NULL) {
-            text_addf(why, "%s would close with ", later.link->instance->name);
-            reversal_tell(reset->skeleton, &later, why);
-        }
+        begin_turns(reset);
+        met = place_along_joints(reset) && close_positions(reset, false, &reversal);
+    }
+    if (!met) {
+        memcpy(reset->y, begun, bytes);
+        met = close_positions(reset, true, &reversal);
+    }
+    if (!met && reversal.link != NULL) {
+        text_addf(why, "%s would close with ", reversal.link->instance->name);
+        reversal_tell(reset->skeleton, &reversal, why);
     }
     mem_free(begun);
     return met;
