@@ -71,6 +71,12 @@ static uint64_t mix(uint64_t h, uint64_t word)
     return h ^ (h >> 32);
 }
 
+static uint32_t hash_end(uint64_t h)
+{
+    h ^= h >> 29;
+    return (uint32_t)(h * 0x9E3779B97F4A7C15U >> 32);
+}
+
 static uint32_t hash_words(uint64_t start, const void *words, int count)
 {
     const unsigned char *at = words;
@@ -82,8 +88,16 @@ static uint32_t hash_words(uint64_t start, const void *words, int count)
         memcpy(&word, at + 8 * (size_t)i, 8);
         h = mix(h, word);
     }
-    h ^= h >> 29;
-    return (uint32_t)(h * 0x9E3779B97F4A7C15U >> 32);
+    return hash_end(h);
+}
+
+static uint32_t hash_args(uint64_t start, const Expr *args, int count)
+{
+    uint64_t h = mix(0x9E3779B97F4A7C15U, start);
+
+    for (int i = 0; i < count; i++)
+        h = mix(h, args[i]->hash);
+    return hash_end(h);
 }
 
 /* --- tables --- */
@@ -189,11 +203,11 @@ static Expr node_find(const Arena *arena, uint32_t hash, ExprKind kind, Op op, c
 
 Expr node_intern(Arena *arena, ExprKind kind, Op op, const Expr *args, int count)
 {
-    uint32_t hash = hash_words((uint64_t)kind << 8 | op, args, count);
+    uint32_t hash = hash_args((uint64_t)kind << 8 | op, args, count);
     Expr found = node_find(arena, hash, kind, op, args, count);
     struct ExprNode *node;
     Expr *own;
-    unsigned kinds = 0;
+    unsigned kinds = 0, height = 0;
 
     if (found != NULL)
         return found;
@@ -207,8 +221,10 @@ Expr node_intern(Arena *arena, ExprKind kind, Op op, const Expr *args, int count
     for (int i = 0; i < count; i++) {
         own[i] = args[i];
         kinds |= args[i]->kinds;
+        height = args[i]->height > height ? args[i]->height : height;
     }
     node->kinds = (uint16_t)kinds;
+    node->height = (uint8_t)(height < TALLEST ? height + 1 : TALLEST + 1) & 31;
     return node;
 }
 

@@ -11,12 +11,15 @@
 
 #include <stdint.h>
 
+enum { TALLEST = 24 }; /* levels of what is compared by its structure */
+
 struct ExprNode {
-    uint8_t kind;
+    uint8_t kind : 3;
+    uint8_t height : 5; /* levels below, TALLEST + 1 at most */
     uint8_t op;
     uint16_t kinds; /* of symbols below, bit 1 << SymbolKind */
     uint32_t number;
-    uint32_t hash;
+    uint32_t hash; /* of its structure down to names and numbers: the same in every arena */
     int32_t count; /* of arguments */
 };
 

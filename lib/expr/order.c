@@ -3,13 +3,11 @@
  * A term is looked at as its list of factors without the numeric coefficient, a
  * factor as base and exponent. Lists compare like words, bases by kind and then by
  * their own arguments; the first pair that differs decides, so that a comparison
- * follows one path down. Below DEPTH levels the creation number decides: still one
- * order of everything, and the same for the same sequence of statements. */
+ * follows one path down. Those of more than TALLEST levels, which nobody reads, come last, in
+ * the order of a hash of their structure: what was made before changes nothing of it. */
 #include "expr/expr_impl.h"
 
 #include <string.h>
-
-enum { DEPTH = 24 };
 
 ProductFactors term_factors(const Expr *term)
 {
@@ -46,10 +44,16 @@ static int order(int64_t a, int64_t b)
     return (a > b) - (a < b);
 }
 
-static int bases_below(Expr a, Expr b, int depth);
-static int whole_below(Expr a, Expr b, int depth);
+/* different structures of one hash are one in four thousand millions */
+static int order_hashes(Expr a, Expr b)
+{
+    return a->hash != b->hash ? order(a->hash, b->hash) : order(a->number, b->number);
+}
 
-static int factors_below(Expr a, Expr b, int depth)
+static int bases_below(Expr a, Expr b);
+static int whole_below(Expr a, Expr b);
+
+static int factors_below(Expr a, Expr b)
 {
     Expr base_a = a->kind == EXPR_POWER ? node_args(a)[0] : a;
     Expr base_b = b->kind == EXPR_POWER ? node_args(b)[0] : b;
@@ -57,29 +61,29 @@ static int factors_below(Expr a, Expr b, int depth)
 
     if (a == b)
         return 0;
-    first = bases_below(base_a, base_b, depth);
+    first = bases_below(base_a, base_b);
     if (first != 0)
         return first;
 
     /* higher powers first; a plain factor is the power 1 */
     if (a->kind == EXPR_POWER && b->kind == EXPR_POWER)
-        return -whole_below(node_args(a)[1], node_args(b)[1], depth);
+        return -whole_below(node_args(a)[1], node_args(b)[1]);
     if (a->kind == EXPR_POWER)
         return number_sign(number_add(is_number(node_args(a)[1]) ? number_of(node_args(a)[1])
                                                                  : number_int(2),
                                       number_int(-1))) > 0
                    ? -1
                    : 1;
-    return -factors_below(b, a, depth);
+    return -factors_below(b, a);
 }
 
-static int terms_below(Expr a, Expr b, int depth)
+static int terms_below(Expr a, Expr b)
 {
     ProductFactors left = term_factors(&a);
     ProductFactors right = term_factors(&b);
 
     for (int i = 0; i < left.count && i < right.count; i++) {
-        int first = factors_below(left.at[i], right.at[i], depth);
+        int first = factors_below(left.at[i], right.at[i]);
 
         if (first != 0)
             return first;
@@ -88,20 +92,20 @@ static int terms_below(Expr a, Expr b, int depth)
 }
 
 /* terms and, of like terms, coefficients */
-static int whole_below(Expr a, Expr b, int depth)
+static int whole_below(Expr a, Expr b)
 {
     int first;
 
     if (a == b)
         return 0;
-    first = terms_below(a, b, depth);
+    first = terms_below(a, b);
     return first != 0 ? first : number_compare(term_coefficient(a), term_coefficient(b));
 }
 
-static int args_below(Expr a, Expr b, int depth)
+static int args_below(Expr a, Expr b)
 {
     for (int i = 0; i < a->count && i < b->count; i++) {
-        int first = whole_below(node_args(a)[i], node_args(b)[i], depth);
+        int first = whole_below(node_args(a)[i], node_args(b)[i]);
 
         if (first != 0)
             return first;
@@ -109,7 +113,7 @@ static int args_below(Expr a, Expr b, int depth)
     return order(b->count, a->count);
 }
 
-static int bases_below(Expr a, Expr b, int depth)
+static int bases_below(Expr a, Expr b)
 {
     Expr inner_a = held(a);
     Expr inner_b = held(b);
@@ -117,13 +121,15 @@ static int bases_below(Expr a, Expr b, int depth)
 
     if (a == b)
         return 0;
-    if (depth == 0)
-        return order(a->number, b->number);
     if (inner_a == inner_b)
         return a == inner_a ? -1 : 1;
     first = order(rank(inner_a), rank(inner_b));
+    if (first == 0)
+        first = order(inner_a->height > TALLEST, inner_b->height > TALLEST);
     if (first != 0)
         return first;
+    if (inner_a->height > TALLEST)
+        return order_hashes(a, b);
     switch (inner_a->kind) {
     case EXPR_RATIONAL:
     case EXPR_REAL:
@@ -137,31 +143,31 @@ static int bases_below(Expr a, Expr b, int depth)
     case EXPR_CALL:
         first = order(inner_a->op, inner_b->op);
         if (first == 0)
-            first = args_below(inner_a, inner_b, depth - 1);
+            first = args_below(inner_a, inner_b);
         break;
     case EXPR_SUM:
-        first = args_below(inner_a, inner_b, depth - 1);
+        first = args_below(inner_a, inner_b);
         break;
     default:
-        first = whole_below(inner_a, inner_b, depth - 1);
+        first = whole_below(inner_a, inner_b);
     }
     /* two bases alike but for a hold */
-    return first != 0 ? first : order(a->number, b->number);
+    return first != 0 ? first : order_hashes(a, b);
 }
 
 int order_terms(Expr a, Expr b)
 {
-    return a == b ? 0 : terms_below(a, b, DEPTH);
+    return a == b ? 0 : terms_below(a, b);
 }
 
 int order_bases(Expr a, Expr b)
 {
-    return a == b ? 0 : bases_below(a, b, DEPTH);
+    return a == b ? 0 : bases_below(a, b);
 }
 
 int expr_compare(Expr a, Expr b)
 {
-    return whole_below(a, b, DEPTH);
+    return whole_below(a, b);
 }
 
 /* --- sorting --- */
