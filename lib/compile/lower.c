@@ -316,6 +316,8 @@ static Status lower_below(Lowering *low, Expr root, Diag *diag)
     Status status = OK;
     LIST(LowerLevel) stack = {0};
 
+    if (low->known[expr_number(root)] != 0)
+        return OK;
     LIST_PUSH(stack, (LowerLevel){root, 0});
     while (stack.count > 0) {
         LowerLevel *level = &stack.at[stack.count - 1];

@@ -428,7 +428,58 @@ static int row_axes(const System *system, const Row *row, Vec *n)
     return axes;
 }
 
-static void run_way(System *system, const Row *row, int k)
+/* --- which speeds a row can move --- */
+
+/* the turns of a chain and of those that it hangs from */
+static void mark_turns(const System *system, int chain, bool *moves)
+{
+    for (; chain > 0; chain = system->kinematics->chains.at[chain].parent) {
+        const Chain *own = &system->kinematics->chains.at[chain];
+
+        if (moves[own->speed])
+            return; /* and all nearer ones are marked */
+        for (int j = own->speed; j < own->speed + own->speed_count; j++)
+            moves[j] = true;
+    }
+}
+
+static void mark_way(const System *system, int node, int ancestor, bool *turns, bool *slides)
+{
+    for (; node != ancestor; node = system->kinematics->frames[node].parent) {
+        const Frame *frame = &system->kinematics->frames[node];
+
+        mark_turns(system, frame->step_chain, turns);
+        for (int i = 0; i < frame->slide_count; i++)
+            slides[frame->slide[i].speed] = true;
+    }
+}
+
+/* Speeds that the row's derivative can hold, in order: of a long mechanism few. Room for all. */
+static int speeds_of_row(const System *system, const Row *row, int *speeds)
+{
+    const int all = system->kinematics->u.count;
+    bool *turns = NEW_ARRAY(bool, all), *slides = NEW_ARRAY(bool, all);
+    int count = 0;
+
+    if (row->kind != ROW_DOT) {
+        int ancestor = common_node(system, row->tail, row->head);
+
+        mark_way(system, row->head, ancestor, turns, slides);
+        mark_way(system, row->tail, ancestor, turns, slides);
+    }
+    if (row->kind != ROW_DATUM)
+        mark_turns(system, system->kinematics->frames[row->tail].chain, turns);
+    if (row->kind == ROW_DOT)
+        mark_turns(system, system->kinematics->frames[row->head].chain, turns);
+    for (int j = 0; j < all; j++)
+        if (turns[j] || slides[j])
+            speeds[count++] = j;
+    mem_free(turns);
+    mem_free(slides);
+    return count;
+}
+
+static void run_way(System *system, const Row *row, int k, const int *speeds, int count)
 {
     Arena *arena = system->arena;
     Vec n;
@@ -438,23 +489,28 @@ static void run_way(System *system, const Row *row, int k)
     int resolve_head =
         system->kinematics->chains.at[system->kinematics->frames[row->head].chain].resolve;
     bool turns_with_tail = row->kind == ROW_TAIL;
+    int seen = -1; /* chain whose part of the way is D */
+    Vec D = vec_zero(arena);
     Vec d = circuit_turned(system, row, -1, axes);
     Vec rest =
         vec_sub(arena, vec_express(system, system->kinematics->a0[row->head], resolve_head, axes),
                 vec_express(system, system->kinematics->a0[row->tail], resolve_tail, axes));
 
     system->run.phi[k] = vec_dot(arena, n, d);
-    for (int j = 0; j < system->kinematics->u.count; j++) {
+    for (int i = 0; i < count; i++) {
+        int j = speeds[i];
         int turned = system->kinematics->speeds[j].chain;
         Expr *entry = &system->run.phi_u[k * system->kinematics->u.count + j];
-        Vec D;
 
         *entry = circuit_slide(system, row, n, j, axes);
         if (turned < 0)
             continue;
-        D = circuit_turned(system, row, turned, axes);
-        if (turns_with_tail && chain_is_beyond(system, tail, turned))
-            D = vec_sub(arena, D, d);
+        if (turned != seen) {
+            D = circuit_turned(system, row, turned, axes);
+            if (turns_with_tail && chain_is_beyond(system, tail, turned))
+                D = vec_sub(arena, D, d);
+            seen = turned;
+        }
         *entry = expr_add(arena, *entry,
                           vec_dot(arena, n, vec_cross(arena, speed_axis(system, j, axes), D)));
     }
@@ -475,7 +531,7 @@ static void run_way(System *system, const Row *row, int k)
     system->run.gamma[k] = expr_neg(arena, vec_dot(arena, n, rest));
 }
 
-static void run_dot(System *system, const Row *row, int k)
+static void run_dot(System *system, const Row *row, int k, const int *speeds, int count)
 {
     Arena *arena = system->arena;
     int tail = system->kinematics->frames[row->tail].chain;
@@ -493,18 +549,15 @@ static void run_dot(System *system, const Row *row, int k)
                          vec_cross(arena, b, vec_cross(arena, w_t, a)));
 
     system->run.phi[k] = vec_dot(arena, a, b);
-    for (int j = 0; j < system->kinematics->u.count; j++) {
-        int turned = system->kinematics->speeds[j].chain;
-        Expr *entry = &system->run.phi_u[k * system->kinematics->u.count + j];
+    for (int i = 0; i < count; i++) {
+        int j = speeds[i], turned = system->kinematics->speeds[j].chain;
+        int sense =
+            (int)chain_is_beyond(system, head, turned) - (int)chain_is_beyond(system, tail, turned);
 
-        *entry = expr_int(arena, 0);
-        if (turned >= 0) {
-            int sense = (int)chain_is_beyond(system, head, turned) -
-                        (int)chain_is_beyond(system, tail, turned);
-
-            *entry = vec_dot(
-                arena, vec_scale(arena, expr_int(arena, sense), speed_axis(system, j, axes)), c);
-        }
+        if (sense == 0)
+            continue;
+        system->run.phi_u[k * system->kinematics->u.count + j] = vec_dot(
+            arena, vec_scale(arena, expr_int(arena, sense), speed_axis(system, j, axes)), c);
     }
     system->run.gamma[k] =
         expr_neg(arena, expr_add(arena, vec_dot(arena, alpha, c),
@@ -541,27 +594,32 @@ done:
 
 static Status run_rows(System *system, Diag *diag)
 {
-    int m = system->constraints->rows.count;
+    int m = system->constraints->rows.count, count = system->kinematics->u.count;
     size_t size = (size_t)m * sizeof(Expr);
+    int *speeds = NEW_ARRAY(int, count);
     Status status = OK;
 
     system->run.phi = pool_alloc(system->pool, size);
     system->run.nu = pool_alloc(system->pool, size);
     system->run.gamma = pool_alloc(system->pool, size);
-    system->run.phi_u = pool_alloc(system->pool, size * (size_t)system->kinematics->u.count);
+    system->run.phi_u = pool_alloc(system->pool, size * (size_t)count);
+    for (int i = 0; i < m * count; i++)
+        system->run.phi_u[i] = expr_int(system->arena, 0);
     for (int k = 0; k < m; k++) {
         const Row *row = &system->constraints->rows.at[k];
+        int moving = speeds_of_row(system, row, speeds);
 
         system->run.nu[k] = expr_int(system->arena, 0);
         if (row->kind == ROW_DATUM || row->kind == ROW_TAIL)
-            run_way(system, row, k);
+            run_way(system, row, k, speeds, moving);
         else if (row->kind == ROW_DOT)
-            run_dot(system, row, k);
+            run_dot(system, row, k, speeds, moving);
         else
             CHECK(run_plain(system, row, k, diag));
         CHECK(poll(system->watch));
     }
 done:
+    mem_free(speeds);
     return status;
 }
 

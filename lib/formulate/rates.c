@@ -118,6 +118,22 @@ done:
 
 /* --- along the motion --- */
 
+/* whether it is one of these, which stand in the order of making */
+static bool occurs(const Expr *symbols, int count, Expr symbol)
+{
+    int low = 0;
+
+    for (int high = count; low < high;) {
+        const int middle = low + (high - low) / 2;
+
+        if (expr_symbol_number(symbols[middle]) < expr_symbol_number(symbol))
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low < count && symbols[low] == symbol;
+}
+
 Status system_rate_of(System *system, Expr e, Expr *out, Diag *diag)
 {
     const unsigned late = 1U << SYMBOL_ACCELERATION | 1U << SYMBOL_MULTIPLIER | 1U << SYMBOL_EFFORT;
@@ -130,15 +146,17 @@ Status system_rate_of(System *system, Expr e, Expr *out, Diag *diag)
     if ((expr_kinds(e) & late) != 0)
         CHECK(diag_set(diag, E_MISSING,
                        "this derivative needs one of an acceleration or of a multiplier"));
-    for (int i = 0; i < system->kinematics->q.count; i++) {
-        LIST_PUSH(moved, system->kinematics->q.at[i].symbol);
-        LIST_PUSH(rates, system_q_rate(system, i));
-    }
-    for (int i = 0; i < system->kinematics->u.count; i++) {
-        LIST_PUSH(moved, system->kinematics->u.at[i].symbol);
-        LIST_PUSH(rates, system->kinematics->accelerations[i]);
-    }
     count = expr_symbols(&e, 1, &symbols);
+    for (int i = 0; i < system->kinematics->q.count; i++)
+        if (occurs(symbols, count, system->kinematics->q.at[i].symbol)) {
+            LIST_PUSH(moved, system->kinematics->q.at[i].symbol);
+            LIST_PUSH(rates, system_q_rate(system, i));
+        }
+    for (int i = 0; i < system->kinematics->u.count; i++)
+        if (occurs(symbols, count, system->kinematics->u.at[i].symbol)) {
+            LIST_PUSH(moved, system->kinematics->u.at[i].symbol);
+            LIST_PUSH(rates, system->kinematics->accelerations[i]);
+        }
     for (int i = 0; i < count; i++) {
         Expr rate = NULL;
 
