@@ -108,6 +108,8 @@ Composite *composites_new(System *system)
         int axes = axes_of(system, order[i]);
         int onto = axes_of(system, frame->parent);
 
+        if (frame->parent == order[0])
+            continue; /* the datum moves nothing */
         part.inertia = shifted(arena, &part, frame->step);
         part.moment = vec_add(arena, part.moment, vec_scale(arena, part.mass, frame->step));
         part.moment = vec_express(system, part.moment, axes, onto);

@@ -348,17 +348,69 @@ static Vec turn_vector(Arena *arena, const Turn *turn, Vec b)
     return vec_add(arena, along, vec_add(arena, across, side));
 }
 
+/* v has the line of an axis of the frame */
+static bool is_along(Vec axis, Vec v)
+{
+    int others = 0;
+
+    for (int i = 0; i < 3; i++) {
+        if (expr_is_zero(axis.at[i]) && !expr_is_zero(v.at[i]))
+            return false;
+        others += expr_is_zero(axis.at[i]);
+    }
+    return others == 2;
+}
+
+/* all turns on the way are about the line of v */
+static bool stays(const System *system, Vec v, int from, int to)
+{
+    const Chain *chains = system->kinematics->chains.at;
+
+    while (from != to) {
+        int *deeper = chains[from].depth >= chains[to].depth ? &from : &to;
+
+        if (chains[*deeper].is_free || (!is_along(chains[*deeper].axis, v) &&
+                                        axis_sense(system->arena, v, chains[*deeper].axis) == 0))
+            return false;
+        *deeper = chains[*deeper].parent;
+    }
+    return true;
+}
+
 Vec vec_express(const System *system, Vec v, int from, int to)
 {
     Turns turns = {0};
 
-    if (from == to || vec_is_zero(v))
+    if (from == to || vec_is_zero(v) || stays(system, v, from, to))
         return v;
     turns_between(system, to, from, &turns);
     for (int k = turns.count - 1; k >= 0; k--)
         v = turn_vector(system->arena, &turns.at[k], v);
     LIST_FREE(turns);
     return v;
+}
+
+/* the turn of a chain adds to that of the one before, about the same axis */
+static bool turns_further(const System *system, const Chain *chain)
+{
+    const Chain *before = &system->kinematics->chains.at[chain->parent];
+
+    return before->parent >= 0 && !before->is_free && !chain->is_free &&
+           axis_sense(system->arena, chain->axis, before->axis) != 0;
+}
+
+void vec_express_outward(const System *system, Vec v, Vec *out)
+{
+    for (int c = 0; c < system->kinematics->chains.count; c++) {
+        const Chain *chain = &system->kinematics->chains.at[c];
+
+        if (c == 0)
+            out[c] = v;
+        else if (turns_further(system, chain))
+            out[c] = vec_express(system, v, 0, c);
+        else
+            out[c] = vec_express(system, out[chain->parent], chain->parent, c);
+    }
 }
 
 Vec speed_axis(const System *system, int speed, int axes)

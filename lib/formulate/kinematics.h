@@ -115,6 +115,8 @@ typedef LIST(Turn) Turns;
 void turns_between(const System *system, int from, int to, Turns *turns);
 /* components of v in the axes of chain `to`, from those in chain `from` */
 Vec vec_express(const System *system, Vec v, int from, int to);
+/* what is fixed in the datum, in the axes of every chain: as vec_express() has it */
+void vec_express_outward(const System *system, Vec v, Vec *out);
 /* what a speed turns about, in the axes of a chain */
 Vec speed_axis(const System *system, int speed, int axes);
 /* where it slides its node, per unit, in the axes of a chain; zero where it doesn't */

@@ -210,6 +210,7 @@ Sums *loads_sum(System *system, const Loads *loads)
     Sums *sums = pool_alloc(system->pool, sizeof *sums);
     int nodes;
     const int *order = tree_nodes(system->origin->trees[TREE_TRANSLATION], &nodes);
+    const int datum = order[0]; /* no branch leads there */
 
     sums->force = pool_alloc(system->pool, size);
     sums->torque = pool_alloc(system->pool, size);
@@ -229,9 +230,13 @@ Sums *loads_sum(System *system, const Loads *loads)
         Vec force = sums->force[n] = vec_hold(arena, sums->force[n]);
         Vec moment = vec_cross(arena, frame->step, force);
 
-        force = expressed(system, force, axes, axes_of(system, frame->parent));
-        sums->force[frame->parent] = vec_add(arena, sums->force[frame->parent], force);
+        if (frame->parent != datum) {
+            force = expressed(system, force, axes, axes_of(system, frame->parent));
+            sums->force[frame->parent] = vec_add(arena, sums->force[frame->parent], force);
+        }
         /* a shift passes on the moment of what it carries to the frame that it is fixed in */
+        if (frame->base == datum)
+            continue;
         moment = expressed(system, moment, axes, axes_of(system, frame->base));
         sums->torque[frame->base] = vec_add(arena, sums->torque[frame->base], moment);
     }
@@ -245,6 +250,8 @@ Sums *loads_sum(System *system, const Loads *loads)
 
         Vec torque = sums->torque[n] = vec_hold(arena, sums->torque[n]);
 
+        if (parent == datum)
+            continue;
         torque = expressed(system, torque, axes_of(system, n), axes_of(system, parent));
         sums->torque[parent] = vec_add(arena, sums->torque[parent], torque);
     }
