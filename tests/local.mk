@@ -27,6 +27,7 @@ include tests/oracle/spice.mk
 include tests/bench/bench.mk
 include tests/bench/algebra.mk
 include tests/bench/expr.mk
+include tests/bench/edit.mk
 include tests/bench/formulate.mk
 include tests/bench/graph.mk
 include tests/bench/compile.mk

@@ -284,7 +284,8 @@ static void add_head(Text *out, const View *view, bool near)
 static Status write(const Exported *what, Text *out, Diag *diag)
 {
     const View *view = &what->view;
-    const System *system = view->system;
+    System *system = view->system;
+    const Status formed = system_form_mass(system, diag);
     const Reading *r = system_run(system);
     const int nu = system_nu(system), m = system_m(system), n = system_n(system);
     const int k = system_nx(system) + system_nz(system);
@@ -311,6 +312,7 @@ static Status write(const Exported *what, Text *out, Diag *diag)
     LIST(Expr) all = {0};
     Status status = OK;
 
+    CHECK(formed);
     for (int i = 0; i < COUNT(blocks); i++)
         for (int j = 0; j < blocks[i].rows * blocks[i].columns; j++) {
             LIST_PUSH(all, blocks[i].entries[j]);

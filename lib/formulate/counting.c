@@ -49,8 +49,8 @@ Status system_count(System *system, Block block, bool shared, OpCount *out, Diag
     system_touch(system);
     int rows;
     int columns;
-    const Expr *run = run_block(system, block);
-    Expr *entries;
+    const Expr *run;
+    Expr *entries = NULL;
     Status status = OK;
 
     if (block == BLOCK_NETWORK) {
@@ -58,6 +58,9 @@ Status system_count(System *system, Block block, bool shared, OpCount *out, Diag
         return OK;
     }
     system_block_size(system, block, &rows, &columns);
+    if (shared && block == BLOCK_MASS)
+        CHECK(system_form_mass(system, diag));
+    run = run_block(system, block);
     if (shared && run != NULL) {
         *out = expr_count_shared(run, rows * columns);
         return OK;

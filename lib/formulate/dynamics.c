@@ -143,6 +143,7 @@ static Status mass_matrix(System *system)
     int *moved = NEW_ARRAY(int, n);
     bool *moves = NEW_ARRAY(bool, graph_node_count(system->origin->graph));
     Expr *columns = NEW_ARRAY(Expr, (size_t)n * (size_t)n);
+    Expr *mass = pool_alloc(system->pool, (size_t)n * (size_t)n * sizeof(Expr));
     Vec *v = NEW_ARRAY(Vec, graph_node_count(system->origin->graph));
     const Composite *composites = composites_new(system);
     Status status = OK;
@@ -169,9 +170,10 @@ static Status mass_matrix(System *system)
         for (int k = 0; k < n; k++) {
             bool by_k = column_serves(system, moved, j, k);
 
-            system->run.mass[j * n + k] =
+            mass[j * n + k] =
                 expr_hold(system->arena, by_k ? columns[k * n + j] : columns[j * n + k]);
         }
+    system->run.mass = mass;
 done:
     mem_free(moved);
     mem_free(moves);
@@ -183,11 +185,13 @@ done:
 void loads_add_inertia(System *system, Loads *loads, const Vec *alpha, const Vec *a)
 {
     Arena *arena = system->arena;
+    Vec *gravity = NEW_ARRAY(Vec, system->kinematics->chains.count);
 
+    vec_express_outward(system, system->origin->gravity, gravity);
     for (int i = 0; i < system->dynamics->masses.count; i++) {
         const Mass *mass = &system->dynamics->masses.at[i];
         int chain = system->kinematics->frames[mass->node].chain;
-        Vec g = vec_express(system, system->origin->gravity, 0, axes_of(system, mass->node));
+        Vec g = gravity[axes_of(system, mass->node)];
         Vec force = vec_scale(arena, mass->mass, vec_sub(arena, g, a[mass->node]));
 
         loads->force[mass->node] = vec_add(arena, loads->force[mass->node], force);
@@ -200,6 +204,7 @@ void loads_add_inertia(System *system, Loads *loads, const Vec *alpha, const Vec
             loads->torque[mass->node] = vec_sub(arena, loads->torque[mass->node], torque);
         }
     }
+    mem_free(gravity);
 }
 
 /* an effort on a coordinate works on the speeds that the coordinate depends on */
@@ -215,6 +220,13 @@ static void add_on_coordinate(System *system, Expr coordinate, Expr effort)
     }
 }
 
+/* what a part adds to an entry of M */
+static void add_share(System *system, int row, int column, Expr share)
+{
+    if (!expr_is_zero(share))
+        LIST_PUSH(system->dynamics->shares, (Entry){row, column, share});
+}
+
 /* an inertia J on a coordinate s: J s_j s_k in M, -J s_j (s'' at u' = 0) in F */
 static Status add_rotor(System *system, const Instance *instance, Diag *diag)
 {
@@ -225,6 +237,7 @@ static Status add_rotor(System *system, const Instance *instance, Diag *diag)
     Expr s;
     Expr second;
     Expr *zeros = NEW_ARRAY(Expr, n);
+    Expr *moved = NEW_ARRAY(Expr, n);
     Status status = OK;
 
     if (expr_is_zero(inertia))
@@ -236,15 +249,12 @@ static Status add_rotor(System *system, const Instance *instance, Diag *diag)
     second = expr_substitute(arena, second, system->kinematics->accelerations, zeros, n);
     add_on_coordinate(system, s, expr_neg(arena, expr_mul(arena, inertia, second)));
     for (int j = 0; j < n; j++)
-        for (int k = 0; k < n; k++) {
-            Expr *entry = &system->run.mass[j * n + k];
-            Expr share = expr_product(
-                arena, (Expr[]){inertia, speed_partial(system, s, j), speed_partial(system, s, k)},
-                3);
-
-            *entry = expr_hold(arena, expr_add(arena, *entry, share));
-        }
+        moved[j] = speed_partial(system, s, j);
+    for (int j = 0; j < n; j++)
+        for (int k = 0; k < n; k++)
+            add_share(system, j, k, expr_product(arena, (Expr[]){inertia, moved[j], moved[k]}, 3));
 done:
+    mem_free(moved);
     mem_free(zeros);
     return status;
 }
@@ -288,12 +298,9 @@ static Status add_inertia(System *system, const Effort *effort, Diag *diag)
         Expr inertia = NULL;
 
         CHECK(effort_inertia(system, effort, k, &inertia, diag));
-        for (int j = 0; j < n && !expr_is_zero(inertia); j++) {
-            Expr *entry = &system->run.mass[j * n + k];
-            Expr share = expr_mul(arena, speed_partial(system, effort->displacement, j), inertia);
-
-            *entry = expr_hold(arena, expr_add(arena, *entry, share));
-        }
+        for (int j = 0; j < n && !expr_is_zero(inertia); j++)
+            add_share(system, j, k,
+                      expr_mul(arena, speed_partial(system, effort->displacement, j), inertia));
     }
 done:
     return status;
@@ -331,6 +338,16 @@ static Status check_symmetry(System *system, Diag *diag)
     return OK;
 }
 
+static void take_shares(System *system)
+{
+    for (int i = 0; i < system->dynamics->shares.count; i++) {
+        const Entry *share = &system->dynamics->shares.at[i];
+        Expr *entry = &system->run.mass[share->row * system->kinematics->u.count + share->column];
+
+        *entry = expr_hold(system->arena, expr_add(system->arena, *entry, share->value));
+    }
+}
+
 static Status joint_efforts(System *system, Diag *diag)
 {
     bool inertia = false;
@@ -363,6 +380,10 @@ static Status joint_efforts(System *system, Diag *diag)
                                driver->by_coordinate, 0, &s, diag));
         add_on_coordinate(system, s, system->constraints->drives.at[i].effort);
     }
+    if (inertia && system->run.mass == NULL)
+        CHECK(mass_matrix(system));
+    if (system->run.mass != NULL)
+        take_shares(system);
     if (inertia)
         CHECK(check_symmetry(system, diag));
 done:
@@ -388,12 +409,12 @@ Status dynamics_build(System *system, Diag *diag)
     Status status = OK;
 
     CHECK(check_size(system, diag));
-    system->run.mass = pool_alloc(system->pool, (size_t)n * (size_t)n * sizeof(Expr));
     system->run.force = pool_alloc(system->pool, (size_t)n * sizeof(Expr));
     if (n == 0)
         return OK;
     speed_directions(system);
-    CHECK(mass_matrix(system));
+    if (!composite_mass_build(system))
+        CHECK(mass_matrix(system));
     loads = loads_new(system);
     loads_add_inertia(system, &loads, system->kinematics->alpha0, system->kinematics->a0);
     CHECK(efforts_add(system, &loads, false, diag));
@@ -401,6 +422,26 @@ Status dynamics_build(System *system, Diag *diag)
     for (int j = 0; j < n; j++)
         system->run.force[j] = expr_hold(system->arena, sums_project(system, sums, j));
     CHECK(joint_efforts(system, diag));
+done:
+    return status;
+}
+
+Status system_form_mass(System *system, Diag *diag)
+{
+    Status status = OK;
+
+    if (system->run.mass != NULL || system->kinematics->u.count == 0)
+        return OK;
+    system_touch(system);
+    CHECK(mass_matrix(system));
+    take_shares(system);
+    if (arena_status(system->arena) != OK) {
+        system->run.mass = NULL;
+        status = diag_set(diag, arena_status(system->arena), "the mass matrix is too large: %s",
+                          arena_failure(system->arena));
+        arena_reset(system->arena);
+    }
+    system->definitions.mass = system->run.mass;
 done:
     return status;
 }

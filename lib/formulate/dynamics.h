@@ -3,6 +3,7 @@
 #define COTREE_FORMULATE_DYNAMICS_H
 
 #include "base/memory.h"
+#include "formulate/composite_mass.h"
 #include "formulate/system.h"
 #include "formulate/vector.h"
 
@@ -17,12 +18,19 @@ typedef struct Mass {
 
 typedef struct Dynamics {
     LIST(Mass) masses;
-    bool writes_out; /* false: entries of M and F are too long, and are shown as definitions */
+    bool writes_out;    /* false: entries of M and F are too long, and are shown as definitions */
+    LIST(Entry) shares; /* of parts in M, beside what the masses make it */
+    CompositeMass *composite_mass; /* NULL: M is run as it is written */
 } Dynamics;
 
 void dynamics_free(Dynamics *dynamics); /* NULL is fine */
 MUST_USE Status dynamics_build(System *system, Diag *diag);
 /* which form a run takes: the recursive, or the expanded where that is shorter (reading.c) */
 MUST_USE Status reading_choose(System *system, Diag *diag);
+
+/* composite_mass.c; true: it has been made, and M needn't be */
+bool composite_mass_build(System *system);
+void composite_mass_free(CompositeMass *mass);             /* NULL is fine */
+OpCount composite_mass_passing(const CompositeMass *mass); /* of one evaluation, beside its needs */
 
 #endif

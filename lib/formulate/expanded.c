@@ -543,6 +543,8 @@ Status show_entry(System *system, Block block, int row, int column, Expr *out, D
         column = swap;
     }
     entry = &entries_of(system, block, rows * columns)[row * columns + column];
+    if (*entry == NULL && block == BLOCK_MASS && !system->dynamics->writes_out)
+        CHECK(system_form_mass(system, diag));
     if (*entry == NULL && defined_block(system, block) != NULL && !system->dynamics->writes_out)
         *entry = defined_block(system, block)[row * columns + column];
     if (*entry == NULL) {

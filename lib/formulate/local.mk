@@ -1,7 +1,7 @@
 libcore_la_SOURCES += \
 	lib/formulate/euler_parameters.c \
 	lib/formulate/common_turns.c \
-	lib/formulate/composite.c \
+	lib/formulate/composite.c lib/formulate/composite_mass.c lib/formulate/composite_mass.h \
 	lib/formulate/constraints.c \
 	lib/formulate/law_ends.c \
 	lib/formulate/counting.c \

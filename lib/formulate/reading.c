@@ -117,7 +117,7 @@ Status reading_choose(System *system, Diag *diag)
     system->definitions = system->run;
     system->dynamics->writes_out = expanded_fits(system);
     if (system->kinematics->u.count > MOST_SPEEDS || system->kinematics->u.count == 0 ||
-        !system->dynamics->writes_out)
+        system->run.mass == NULL || !system->dynamics->writes_out)
         return OK;
     for (int b = 0; b < COUNT(blocks); b++)
         count += block_entries(system, blocks[b]);
@@ -147,42 +147,58 @@ done:
 
 /* --- the price of a program --- */
 
-static void gather(Expr *out, int *count, const Expr *entries, int more)
+typedef LIST(Expr) Roots;
+
+static void gather(Roots *out, const Expr *entries, int more)
 {
     for (int i = 0; i < more; i++)
-        out[(*count)++] = entries[i];
+        LIST_PUSH(*out, entries[i]);
 }
 
-OpCount system_program_count(const System *system)
+static void gather_mass(const System *system, Roots *out)
+{
+    const CompositeMass *mass = system->dynamics->composite_mass;
+    const int nu = system->kinematics->u.count;
+
+    if (mass == NULL) {
+        gather(out, system->run.mass, nu * nu);
+        return;
+    }
+    gather(out, mass->needs.at, mass->needs.count);
+    for (int i = 0; i < system->dynamics->shares.count; i++)
+        gather(out, &system->dynamics->shares.at[i].value, 1);
+}
+
+static OpCount program_count(const System *system)
 {
     const Reading *run = &system->run;
+    const CompositeMass *mass = system->dynamics->composite_mass;
     int nu = system->kinematics->u.count;
     int m = system->constraints->rows.count;
     int w = system->network->x.count + system->network->z.count;
-    Expr *roots = NEW_ARRAY(Expr, nu * (nu + 1 + m) + 3 * m + run->network_entries + w);
-    int count = 0;
+    Roots roots = {0};
     OpCount ops;
 
-    gather(roots, &count, run->mass, nu * nu);
-    gather(roots, &count, run->force, nu);
-    gather(roots, &count, run->phi_u, m * nu);
+    gather_mass(system, &roots);
+    gather(&roots, run->force, nu);
+    gather(&roots, run->phi_u, m * nu);
     for (int k = 0; k < m; k++) /* whole turns are added once */
-        roots[count++] = system->constraints->rows.at[k].kind == ROW_ANGLE
+        LIST_PUSH(roots, system->constraints->rows.at[k].kind == ROW_ANGLE
                              ? system_plain(system, run->phi[k])
-                             : run->phi[k];
-    gather(roots, &count, run->nu, m);
-    gather(roots, &count, run->gamma, m);
+                             : run->phi[k]);
+    gather(&roots, run->nu, m);
+    gather(&roots, run->gamma, m);
     for (int i = 0; i < run->network_entries; i++)
-        roots[count++] = run->network[i].value;
-    gather(roots, &count, run->network_rhs, w);
-    ops = expr_count_shared(roots, count);
-    mem_free(roots);
-    return ops;
+        LIST_PUSH(roots, run->network[i].value);
+    gather(&roots, run->network_rhs, w);
+    ops = expr_count_shared(roots.at, roots.count);
+    LIST_FREE(roots);
+    return mass != NULL ? op_count_plus(ops, composite_mass_passing(mass)) : ops;
 }
 
-double system_price(const System *system)
+double system_price(const System *system, OpCount *count)
 {
-    OpCount ops = system_program_count(system);
+    const OpCount ops = *count = program_count(system);
     double unknowns = (double)(system->kinematics->u.count + system->constraints->rows.count);
 
     /* Gauss: as many additions as multiplications, both while factoring and while substituting */

@@ -68,6 +68,8 @@ void dynamics_free(Dynamics *dynamics)
     if (dynamics == NULL)
         return;
     LIST_FREE(dynamics->masses);
+    LIST_FREE(dynamics->shares);
+    composite_mass_free(dynamics->composite_mass);
     mem_free(dynamics);
 }
 

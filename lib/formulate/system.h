@@ -171,7 +171,7 @@ typedef struct Reading {
     Expr *phi_u; /* m x nu, row by row */
     Expr *nu;    /* m: Phi_u u = nu */
     Expr *gamma; /* m */
-    Expr *mass;  /* nu x nu, symmetric */
+    Expr *mass;  /* nu x nu, symmetric; NULL until system_form_mass() */
     Expr *force; /* nu */
     /* G(w; q, u, x, t) = 0 for w = [x'; z]; w stands in A too where `network_nonlinear` */
     Expr *network_residual; /* nx+nz: G */
@@ -185,6 +185,10 @@ typedef struct Reading {
 /* definitions by recursion; a run uses them, or where it is shorter what is shown */
 const Reading *system_definitions(const System *system);
 const Reading *system_run(const System *system);
+/* Write M out in both, for a view, where a run does without (composite_mass.h). Fails with
+ * E_MEMORY.
+ */
+MUST_USE Status system_form_mass(System *view, Diag *diag);
 /* --- the expanded form, entry by entry; folded; formed at the first call, then kept. Where M
  * would be far too long to be written out its entries, and those of F, stand over the definitions
  * of the recursive form: held expressions, to be printed with names for what they share --- */
@@ -233,11 +237,10 @@ int system_network_edge(const System *system, int i); /* whose relation it is */
 /* as written (expanded form) and after sharing (recursive form) */
 MUST_USE Status system_count(System *system, Block block, bool shared, OpCount *out, Diag *diag);
 
-/* operations of the program of a run, what its blocks have in common counted once */
-OpCount system_program_count(const System *system);
-/* What one evaluation of the accelerations costs, in additions: the program's operations, 20 for
- * each function, and 2/3 N^3 + 2 N^2 for solving N = nu + m equations. To compare trees by. */
-double system_price(const System *system);
+/* What one evaluation of the accelerations costs, in additions: operations of the program of a run,
+ * what its blocks have in common counted once (*count), 20 for each function, and 2/3 N^3 + 2 N^2
+ * for solving N = nu + m equations. To compare trees by. */
+double system_price(const System *system, OpCount *count);
 
 /* --- frames that turn about one axis --- */
 

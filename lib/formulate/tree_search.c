@@ -118,8 +118,7 @@ static void price(TreeSearch *search, TreePair *pair)
         pair->is_priced = true;
         pair->n = system_n(system);
         pair->m = system_m(system);
-        pair->count = system_program_count(system);
-        pair->price = system_price(system);
+        pair->price = system_price(system, &pair->count);
     }
     system_free(system);
     arena_release(scene.arena, mark);

@@ -334,12 +334,13 @@ static void push_reading(const System *system, Expr **roots, int *count)
 
 Status show_program(const View *view, const Selection *selection, Text *out, Diag *diag)
 {
-    Expr *roots, *symbols = NULL;
+    Expr *roots = NULL, *symbols = NULL;
     Program *program = NULL;
-    Status status;
+    Status status = OK;
     int count, inputs;
 
     (void)selection;
+    CHECK(system_form_mass(view->system, diag));
     push_reading(view->system, &roots, &count);
     inputs = expr_symbols(roots, count, &symbols);
     CHECK(program_new(roots, count, symbols, inputs, &program, diag));
@@ -368,13 +369,15 @@ static void add_pattern(Text *out, const char *title, const Expr *entries, int r
 
 Status show_structure(const View *view, const Selection *selection, Text *out, Diag *diag)
 {
-    const System *system = view->system;
+    System *system = view->system;
     const Reading *reading = system_run(system);
     const int nu = system_nu(system), m = system_m(system);
     const int k = system_nx(system) + system_nz(system);
     Table table = table_for("lr");
+    Status status = OK;
 
-    (void)selection, (void)diag;
+    (void)selection;
+    CHECK(system_form_mass(system, diag));
     table_cell(&table, "coordinates");
     table_cellf(&table, "%d", system_n(system));
     table_cell(&table, "speeds");
@@ -386,7 +389,6 @@ Status show_structure(const View *view, const Selection *selection, Text *out, D
     table_cell(&table, "algebraic unknowns");
     table_cellf(&table, "%d", system_nz(system));
     table_print(out, &table, 0);
-    table_free(&table);
     if (nu > 0)
         add_pattern(out, "mass matrix", reading->mass, nu, nu);
     if (m > 0)
@@ -397,5 +399,7 @@ Status show_structure(const View *view, const Selection *selection, Text *out, D
         add_pattern(out, "network", dense, k, k);
         mem_free(dense);
     }
-    return OK;
+done:
+    table_free(&table);
+    return status;
 }

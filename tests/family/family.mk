@@ -59,3 +59,8 @@ family_redundant_LDADD = libcotree.la $(unit_ldadd)
 FAMILIES += family_falls
 family_falls_SOURCES = tests/family/family_falls.c tests/family/family.h tests/family/script.h
 family_falls_LDADD = libcotree.la $(unit_ldadd)
+
+FAMILIES += family_edits
+family_edits_SOURCES = tests/family/family_edits.c tests/family/family.h tests/random.h \
+	tests/unit/session_kit.h tests/unit/test.h
+family_edits_LDADD = libcotree.la $(unit_ldadd)

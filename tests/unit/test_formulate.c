@@ -177,7 +177,9 @@ static void both_readings_give_the_same_numbers(void)
         for (uint64_t seed = 1; seed < 7 && system != NULL; seed++) {
             SceneState state = {model, seed * 1000003U};
             const Reading *run = seed % 2 ? system_definitions(system) : system_run(system);
+            Diag diag = {0};
 
+            EXPECT(system_form_mass(system, &diag) == OK);
             compare_block(system, BLOCK_MASS, run->mass, &state);
             compare_block(system, BLOCK_FORCES, run->force, &state);
             compare_block(system, BLOCK_CONSTRAINTS, run->phi, &state);
@@ -235,7 +237,9 @@ static void a_program_takes_no_more_than_is_counted(void)
         const Reading *run = system_run(system);
         const int n = system_nu(system);
         const int m = system_m(system);
+        Diag diag = {0};
 
+        EXPECT(system_form_mass(system, &diag) == OK);
         expect_counted(run->mass, n * n);
         expect_counted(run->force, n);
         expect_counted(run->phi, m);
@@ -266,7 +270,9 @@ static void energy_balances(void)
         Expr total = expr_add(arena, system_kinetic(system), system_potential(system));
         double change;
         double balance;
+        Diag diag = {0};
 
+        EXPECT(system_form_mass(system, &diag) == OK);
         for (int i = 0; i < system_n(system); i++) {
             LIST_PUSH(symbols, system_q(system, i)->symbol);
             LIST_PUSH(rates, system_q_rate(system, i));
@@ -542,6 +548,7 @@ static void a_chain_grows_as_it_should(void)
         model = scene_new(text.at);
         system = scene_system(model);
         run = system_run(system);
+        EXPECT(system_form_mass(system, NULL) == OK);
         force[k] = op_count_total(expr_count_shared(run->force, links));
         mass[k] = op_count_total(expr_count_shared(run->mass, links * links));
         system_free(system);

@@ -317,6 +317,7 @@ static Status make_rows(EquilibriumResidual *s, Diag *diag)
     Expr *unknowns = list_unknowns(s->l, &order.unknown_count);
     Status status = OK;
 
+    CHECK(system_form_mass(s->system, diag));
     push_roots(s, &roots);
     order.roots = roots.at;
     order.root_count = roots.count;

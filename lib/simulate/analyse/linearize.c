@@ -159,6 +159,7 @@ static Status push_rows(Work *w, Roots *roots, Diag *diag)
     const Reading *run = system_run(l->system);
     Status status = OK;
 
+    CHECK(system_form_mass(l->system, diag));
     w->rows.balance = roots->count;
     for (int j = 0; j < l->nu; j++)
         LIST_PUSH(*roots, row_balance(l, j));

@@ -87,6 +87,8 @@ static bool tell_massless(const Layout *l, const char *what, Diag *diag)
 {
     const Reading *run = system_run(l->system);
 
+    if (system_form_mass(l->system, NULL) != OK)
+        return false;
     for (int j = 0; j < l->nu; j++) {
         bool is_empty = true;
         int q;

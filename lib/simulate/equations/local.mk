@@ -5,6 +5,8 @@ libcore_la_SOURCES += \
   lib/simulate/equations/partitioning.h \
   lib/simulate/equations/input_layout.c \
   lib/simulate/equations/input_layout.h \
+  lib/simulate/equations/mass_matrix.c \
+  lib/simulate/equations/mass_matrix.h \
   lib/simulate/equations/mode_forms.c \
   lib/simulate/equations/mode_forms.h \
   lib/simulate/equations/motion.c \

@@ -2,6 +2,7 @@
 #include "simulate/equations/numbers.h"
 
 #include "base/memory.h"
+#include "simulate/equations/mass_matrix.h"
 
 #include <math.h>
 #include <string.h>
@@ -12,9 +13,11 @@ struct Numbers {
     Equations eq;
     const Layout *layout;
     Probe *main, *switching, *network;
-    Probe *slip;   /* of surfaces that are slid along: h', or what of it they reach, and h */
-    Guard *guards; /* of the conditions, */
-    Expr *told;    /* which are these for a user; NULL: margins */
+    MassMatrix *mass; /* NULL: the main program has it */
+    int mass_needs;   /* where what it follows from stands in that */
+    Probe *slip;      /* of surfaces that are slid along: h', or what of it they reach, and h */
+    Guard *guards;    /* of the conditions, */
+    Expr *told;       /* which are these for a user; NULL: margins */
     int *quaternions, *network_places;
     LIST(int) margins;   /* whose they are, of the switches */
     bool is_network_new; /* its program has seen t, q, u, x as they are */
@@ -36,6 +39,8 @@ static void position(void *context, double t, const double *q)
     inputs[nb->layout->t] = t;
     inputs_put(inputs, nb->layout->q, q, nb->layout->n);
     probe_run(nb->main, STAGE_TIME, STAGE_POSITION);
+    if (nb->mass != NULL)
+        mass_matrix_put(nb->mass, probe_roots(nb->main) + nb->mass_needs);
 }
 
 static void velocity(void *context, const double *u, const double *x)
@@ -265,6 +270,16 @@ done:
     return status;
 }
 
+/* M, or what it is made from */
+static int mass_block(const Numbers *nb, Roots *roots)
+{
+    int count = nb->layout->nu * nb->layout->nu;
+    const Expr *entries = nb->mass != NULL ? mass_matrix_needs(nb->mass, &count)
+                                           : system_run(nb->layout->system)->mass;
+
+    return block(roots, entries, count);
+}
+
 static Status compile_equations(Numbers *nb, Parameters *parameters, Diag *diag)
 {
     const Layout *l = nb->layout;
@@ -276,7 +291,7 @@ static Status compile_equations(Numbers *nb, Parameters *parameters, Diag *diag)
     Roots roots = {0};
     int phi = block(&roots, r->phi, l->m);
     int phi_u = block(&roots, r->phi_u, l->m * l->nu);
-    int mass = block(&roots, r->mass, l->nu * l->nu);
+    int mass = mass_block(nb, &roots);
     int nu_rate = block(&roots, r->nu, l->m);
     int gamma = block_on(l, &roots, r->gamma, l->m);
     int q_rate = block(&roots, r->q_rate, l->n);
@@ -297,7 +312,8 @@ static Status compile_equations(Numbers *nb, Parameters *parameters, Diag *diag)
     at = probe_roots(nb->main);
     nb->eq.phi = at + phi;
     nb->eq.phi_u = at + phi_u;
-    nb->eq.mass = at + mass;
+    nb->mass_needs = mass;
+    nb->eq.mass = nb->mass != NULL ? mass_matrix_at(nb->mass) : at + mass;
     nb->eq.nu_rate = at + nu_rate;
     nb->eq.gamma = at + gamma;
     nb->eq.q_rate = at + q_rate;
@@ -538,6 +554,7 @@ Status numbers_new(const Layout *layout, Parameters *parameters, Numbers **out, 
     nb->eq.quaternions = nb->quaternions;
     nb->eq.quaternion_count = count;
     parameters_begin_turns(parameters, layout->system);
+    nb->mass = mass_matrix_new(layout->system);
     CHECK(compile_equations(nb, parameters, diag));
     CHECK(compile_switches(nb, parameters, diag));
     CHECK(compile_slip(nb, parameters, diag));
@@ -555,6 +572,7 @@ void numbers_free(Numbers *nb)
     probe_free(nb->main);
     probe_free(nb->network);
     probe_free(nb->switching);
+    mass_matrix_free(nb->mass);
     LIST_FREE(nb->margins);
     mem_free(nb->quaternions);
     mem_free(nb->network_places);

@@ -181,6 +181,7 @@ static Status compile(Inverse *in, Diag *diag)
     Roots rows = {0};
     Status status = OK;
 
+    CHECK(system_form_mass(l->system, diag));
     for (int j = 0; j < l->nu; j++)
         LIST_PUSH(rows, row_balance(l, j));
     CHECK(open_probe(in, &rows, &in->forces, &in->balance, diag));

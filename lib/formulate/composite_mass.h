@@ -1,0 +1,44 @@
+/* composite_mass.h: M of a long mechanism by recursion, nothing of it written out
+ *
+ * Where every speed moves what hangs beyond it as one rigid body, column k of M is what its branch
+ * feels of that body, a force and a moment, passed on from place to place towards the datum and
+ * projected on the speeds met on the way (theory 4). Written out that is a formula for each pair of
+ * speeds, though a place does the same to all that it passes on: so here stand the formulas of each
+ * place and each speed, and whoever runs the system does the passing in numbers. */
+#ifndef COTREE_FORMULATE_COMPOSITE_MASS_H
+#define COTREE_FORMULATE_COMPOSITE_MASS_H
+
+#include "formulate/system.h"
+
+/* a node that something is passed through */
+typedef struct MassPlace {
+    int parent;         /* place, before this one; -1: no speed is met further on */
+    bool has_step;      /* a force has a moment about the parent */
+    bool is_inner;      /* the step is fixed in this node, whose speeds feel that moment too */
+    bool is_turned;     /* the parent's axes are others */
+    int first, count;   /* its speeds, in `speed_at` */
+    int step, rotation; /* where their entries stand among the needs */
+} MassPlace;
+
+/* where its vectors stand among the needs, in the axes of the place */
+typedef struct MassSpeed {
+    int place;
+    int turn, slide;   /* motion per unit */
+    int force, torque; /* that what hangs beyond takes per unit of u' */
+} MassSpeed;
+
+typedef struct CompositeMass {
+    bool planar; /* all axes are those of the datum, forces lie in its x and y */
+    int place_count, speed_count;
+    MassPlace *places;
+    MassSpeed *speeds;
+    int *speed_at;    /* speeds, place by place, in order at each */
+    LIST(Expr) needs; /* steps from the parent (m), rotations to its axes row by row, vectors */
+} CompositeMass;
+
+/* NULL where M is short or doesn't follow so: it is run as it is written. Borrowed. */
+const CompositeMass *system_composite_mass(const System *system);
+/* what parts add to an entry of M beside that: rotors. NULL at the end */
+const Entry *system_mass_share(const System *system, int i);
+
+#endif

@@ -1,0 +1,224 @@
+/* family_edits.c: a model that was edited between its equations is the model made so at once
+ *
+ * One session shows and runs equations after each edit, another takes the same statements and is
+ * asked at the end alone: what both print is the same, byte for byte, and so is what they run. A
+ * joint that is made anew comes last among the coordinates, and stands among the terms of sums
+ * where its name was first met: then the numbers are the same but for rounding. */
+#include "family.h"
+
+#include "../unit/session_kit.h"
+
+#include "base/memory.h"
+#include "base/text.h"
+
+#include <math.h>
+
+enum { MOST_BODIES = 20, EDITS = 6 };
+
+typedef struct Draft {
+    Member *member;
+    bool planar;
+    int bodies, springs;
+    bool is_reordered; /* a joint was made anew */
+} Draft;
+
+/* what a user sees of it */
+typedef struct Seen {
+    Text text;
+    double values[MOST_BODIES];
+} Seen;
+
+static int below(Draft *draft, int count)
+{
+    const int chosen = (int)test_uniform(&draft->member->random, 0, count);
+
+    return chosen < count ? chosen : count - 1;
+}
+
+static double any(Draft *draft, double low, double high)
+{
+    return test_uniform(&draft->member->random, low, high);
+}
+
+/* tenths, so that zeros and equal numbers occur */
+static void add_vector(Draft *draft, Text *text)
+{
+    text_addf(text, "[%.1f, %.1f", any(draft, -0.4, 0.4), any(draft, -0.4, 0.4));
+    text_addf(text, draft->planar ? "]" : ", %.1f]", any(draft, -0.4, 0.4));
+}
+
+static void add_axis(Draft *draft, Text *text)
+{
+    static const char *const axes[] = {"x", "y", "[1, 2, 2]", "[0.6, 0, 0.8]", "z"};
+
+    text_add(text, axes[below(draft, draft->planar ? 2 : COUNT(axes))]);
+}
+
+static void add_joint(Draft *draft, Text *text, int i, int before)
+{
+    static const char *const types[] = {"revolute", "prismatic", "cylindrical", "revolute"};
+    const char *type = types[below(draft, draft->planar ? 2 : COUNT(types))];
+    char tail[20];
+
+    (void)snprintf(tail, sizeof tail, before < 0 ? "ground" : "t%d", i);
+    /* now and then the branch is passed from its head */
+    if (below(draft, 4) == 0 && strcmp(type, "revolute") == 0)
+        text_addf(text, "%s j%d h%d %s", type, i, i, tail);
+    else
+        text_addf(text, "%s j%d %s h%d", type, i, tail, i);
+    if (!draft->planar || strcmp(type, "revolute") != 0) {
+        text_add(text, " axis=");
+        add_axis(draft, text);
+    }
+    text_char(text, '\n');
+}
+
+static void add_inertia(Draft *draft, Text *text)
+{
+    if (draft->planar)
+        text_addf(text, "%.1f", any(draft, 0.5, 1));
+    else
+        text_addf(text, "[%.1f, %.1f, %.1f]", any(draft, 0.5, 0.8), any(draft, 0.5, 0.8),
+                  any(draft, 0.5, 0.8));
+}
+
+static void add_body(Draft *draft, Text *text, int i)
+{
+    const int before = below(draft, 5) == 0 ? below(draft, i + 1) - 1 : i - 1;
+
+    text_addf(text, "body b%d mass=%.1f inertia=", i, any(draft, 0.5, 2));
+    add_inertia(draft, text);
+    text_addf(text, "\narm h%d b%d ", i, i);
+    add_vector(draft, text);
+    if (before >= 0) {
+        text_addf(text, "\narm t%d b%d ", i, before);
+        add_vector(draft, text);
+    }
+    text_char(text, '\n');
+    add_joint(draft, text, i, before);
+}
+
+static void add_model(Draft *draft, Text *text)
+{
+    draft->planar = below(draft, 2) == 0;
+    draft->bodies =
+        below(draft, 3) == 0 ? 17 + below(draft, MOST_BODIES - 16) : 1 + below(draft, 4);
+    text_add(text,
+             draft->planar ? "scene planar\ngravity [0, -9.81]\n" : "gravity [0, 1, -9.81]\n");
+    for (int i = 0; i < draft->bodies; i++)
+        add_body(draft, text, i);
+    text_add(text, "tree joint\n");
+}
+
+static void add_edit(Draft *draft, Text *text)
+{
+    const int i = below(draft, draft->bodies);
+
+    /* joints are made anew in every other member */
+    switch (below(draft, draft->member->number % 2 == 0 ? 4 : 5)) {
+    case 0:
+        text_addf(text, "set b%d.mass = %.1f\n", i, any(draft, 0.5, 2));
+        break;
+    case 1:
+        text_addf(text, "set b%d.inertia = ", i);
+        add_inertia(draft, text);
+        text_char(text, '\n');
+        break;
+    case 2:
+        text_addf(text, "set h%d.position = ", i);
+        add_vector(draft, text);
+        text_char(text, '\n');
+        break;
+    case 4:
+        text_addf(text, "delete j%d\n", i);
+        /* on the same frames: the first body's joint, and those whose tail is an arm */
+        add_joint(draft, text, i, i - 1);
+        text_add(text, "tree joint\n");
+        draft->is_reordered = true;
+        break;
+    default:
+        text_addf(text, "spring k%d j%d k=%.1f\n", draft->springs++, i, any(draft, 1, 3));
+        break;
+    }
+}
+
+static void look(const Draft *draft, Kit *kit, Seen *seen)
+{
+    /* of many bodies M and F are too long to be read */
+    static const char *const asked[] = {"show coordinates", "simulate 0.01", "show mass",
+                                        "show forces", "count"};
+
+    text_free(&seen->text);
+    for (int i = 0; i < (draft->bodies > 4 ? 2 : COUNT(asked)); i++) {
+        const ct_status status = kit_do(kit, asked[i]);
+
+        /* a report tells seconds */
+        if (status != CT_OK || (kit->text != NULL && strncmp(asked[i], "simulate", 8) != 0))
+            text_add(&seen->text, status != CT_OK ? kit->error.message : kit->text);
+    }
+    for (int i = 0; i < draft->bodies; i++) {
+        char what[40];
+
+        (void)snprintf(what, sizeof what, "b%d.x + b%d.vy", i, i);
+        seen->values[i] = kit_value(kit, what);
+        text_addf(&seen->text, "%s: %a\n", what, seen->values[i]);
+    }
+}
+
+static bool are_alike(const Draft *draft, const Seen *one, const Seen *other)
+{
+    if (!draft->is_reordered)
+        return strcmp(one->text.at, other->text.at) == 0;
+    for (int i = 0; i < draft->bodies; i++) {
+        const double a = one->values[i], b = other->values[i];
+
+        if (isnan(a) != isnan(b) || fabs(a - b) > 1e-8 * (1 + fabs(a)))
+            return false;
+    }
+    return true;
+}
+
+static Verdict edits_leave_no_trace(Member *member)
+{
+    Draft draft = {.member = member};
+    Text lines = {0};
+    Seen one = {0}, other = {0};
+    Kit edited = kit_new(), fresh = kit_new();
+    Verdict verdict = AGREES;
+
+    add_model(&draft, &lines);
+    for (int k = 0; k <= EDITS && verdict == AGREES; k++) {
+        tell(member, "%s", lines.at);
+        if (kit_do(&edited, lines.at) != CT_OK) {
+            /* a joint whose tail is elsewhere: both are left as they were */
+            (void)kit_do(&fresh, lines.at);
+            tell(member, "  (%s)\n", edited.error.message);
+        } else if (kit_do(&fresh, lines.at) != CT_OK) {
+            verdict = DISAGREES;
+        }
+        look(&draft, &edited, &one);
+        text_free(&lines);
+        add_edit(&draft, &lines);
+    }
+    look(&draft, &fresh, &other);
+    if (verdict == AGREES && !are_alike(&draft, &one, &other)) {
+        tell(member, "edited:\n%.5000s\nfresh:\n%.5000s\n", one.text.at, other.text.at);
+        verdict = DISAGREES;
+    }
+    text_free(&lines);
+    text_free(&one.text);
+    text_free(&other.text);
+    kit_free(&edited);
+    kit_free(&fresh);
+    return verdict;
+}
+
+static const Family families[] = {
+    {"a model edited between its equations is the one made so at once", 30, 0, 0,
+     edits_leave_no_trace},
+};
+
+int main(int argc, char **argv)
+{
+    return family_main(families, COUNT(families), argc, argv);
+}

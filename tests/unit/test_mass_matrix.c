@@ -1,0 +1,105 @@
+/* test_mass_matrix.c: M by forces and moments passed on in numbers is M written out */
+#include "scene.h"
+
+#include "base/text.h"
+#include "simulate/equations/mass_matrix.h"
+
+#include <string.h>
+
+typedef struct Kind {
+    const char *type, *keys;
+} Kind;
+
+static const Kind planar_kinds[] = {{"revolute", ""}, {"prismatic", "axis=[3, 4]"}};
+static const Kind spatial_kinds[] = {
+    {"revolute", "axis=[1, 2, 2]"}, {"prismatic", "axis=[2, 3, 6]"}, {"revolute", "axis=z"},
+    {"cylindrical", "axis=y"},      {"universal", "axes=[x, y]"},    {"screw", "axis=x pitch=0.1"},
+};
+
+static void add_body(Text *text, int i, int before, bool planar, uint64_t *random)
+{
+    const char *z = planar ? "]" : ", 0.3]";
+    const Kind *kind = planar ? &planar_kinds[(int)test_uniform(random, 0, COUNT(planar_kinds))]
+                              : &spatial_kinds[(int)test_uniform(random, 0, COUNT(spatial_kinds))];
+    const bool turns = strcmp(kind->type, "revolute") == 0;
+    const bool backward = turns && test_uniform(random, 0, 1) < 0.3;
+
+    text_addf(text, "body b%d mass=%g inertia=", i, test_uniform(random, 0, 2));
+    text_addf(text, planar ? "%g\n" : "[%g, 1, 2, 0.1, 0.2, 0.3]\n", test_uniform(random, 1, 2));
+    text_addf(text, "arm h%d b%d [%g, 0.1%s%s\n", i, i, test_uniform(random, -1, 1), z,
+              planar ? "" : " rotation=x(20 deg)");
+    if (before < 0)
+        text_addf(text, "arm t%d ground [0.1, 0.2%s\n", i, z);
+    else
+        text_addf(text, "arm t%d b%d [%g, 0.5%s\n", i, before, test_uniform(random, -1, 1), z);
+    text_addf(text, backward ? "%s j%d h%d t%d %s\n" : "%s j%d t%d h%d %s\n", kind->type, i, i, i,
+              kind->keys);
+    if (turns && test_uniform(random, 0, 1) < 0.3)
+        text_addf(text, "motor M%d j%d e 0 R=1 L=0.1 Kt=1 Kv=1 J=0.2 ratio=3\n", i, i);
+}
+
+/* a tree of bodies on joints of every kind, some passed from their heads, some with a rotor */
+static char *long_mechanism(uint64_t *random, bool planar, int bodies)
+{
+    Text text = {0};
+
+    text_add(&text, planar ? "scene planar\n" : "gravity [0, 0, -9.81]\n");
+    for (int i = 0; i < bodies; i++)
+        add_body(&text, i, i < 3 ? i - 1 : (int)test_uniform(random, i - 3, i), planar, random);
+    return text_done(&text);
+}
+
+static void compare_masses(Model *model, System *system, uint64_t seed)
+{
+    MassMatrix *matrix = mass_matrix_new(system);
+    const int n = system_nu(system);
+    SceneState state = {model, seed};
+    int count;
+    const Expr *needs;
+    double *numbers;
+    Diag diag = {0};
+
+    EXPECT(matrix != NULL && system_form_mass(system, &diag) == OK);
+    if (matrix == NULL)
+        return;
+    needs = mass_matrix_needs(matrix, &count);
+    numbers = NEW_ARRAY(double, count);
+    for (int i = 0; i < count; i++)
+        numbers[i] = expr_evaluate(needs[i], scene_value, &state);
+    mass_matrix_put(matrix, numbers);
+    mass_matrix_put(matrix, numbers); /* the last numbers leave nothing */
+    for (int i = 0; i < n * n; i++) {
+        const double written = expr_evaluate(system_run(system)->mass[i], scene_value, &state);
+
+        EXPECT_NEAR(mass_matrix_at(matrix)[i], written, 1e-9 * (1 + fabs(written)));
+    }
+    mem_free(numbers);
+    mass_matrix_free(matrix);
+}
+
+static void M_passed_on_is_M_written_out(void)
+{
+    uint64_t random = 1971;
+
+    for (int i = 0; i < 12 && test_faults == 0; i++) {
+        char *text = long_mechanism(&random, i % 2 == 0, 17 + i);
+        Model *model = scene_new(text);
+        System *system;
+
+        scene_add(model, i % 6 == 5 ? "tree absolute" : "tree joint");
+        system = scene_system(model);
+        if (system != NULL)
+            compare_masses(model, system, 17U + (unsigned)i);
+        if (test_faults > 0)
+            printf("    in\n%s", text);
+        system_free(system);
+        model_free(model);
+        mem_free(text);
+    }
+}
+
+int main(void)
+{
+    RUN(M_passed_on_is_M_written_out);
+    return test_end();
+}
