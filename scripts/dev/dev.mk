@@ -22,19 +22,22 @@ san/Makefile:
 	@cd san && $(abs_srcdir)/configure -q --enable-sanitizers --enable-werror CFLAGS='-O1 -g'
 
 # tables, lists and chunks of memory that begin with one element; and each call tried with
-# allocations that fail (lib/base/faults.c). Without the programs of random members: make stress
-# has those.
-unit_and_session = $(filter-out test_costs,$(UNIT_TESTS)) run-session $(SCRIPT_TESTS) $(terminal_tests)
+# allocations that fail (lib/base/faults.c). Units and sessions are what calls the library in all its
+# ways; terminals, manuals and long cases call it in the same ones. The small build counts the
+# lines that they reach, too.
+unit_and_session = $(filter-out test_costs,$(UNIT_TESTS)) run-session
 
 check-small: small/Makefile
+	@find small -name '*.gcda' -exec rm -f {} +
 	@$(MAKE) -s -C small check-total TESTS="$(unit_and_session)"
+	@$(dev)/coverage small
 
 check-faults: faults/Makefile
 	@$(MAKE) -s -C faults check-total TESTS="$(unit_and_session)"
 
 small/Makefile:
 	@mkdir -p small
-	@cd small && $(abs_srcdir)/configure -q --enable-small --enable-werror CFLAGS='-O1 -g'
+	@cd small && $(abs_srcdir)/configure -q --enable-small --enable-coverage --enable-werror CFLAGS='-O1 -g'
 
 faults/Makefile:
 	@mkdir -p faults
@@ -85,12 +88,15 @@ stress: $(FAMILIES)
 
 fuzzers: $(FUZZERS) all
 
-coverage:
-	@mkdir -p coverage
-	@test -f coverage/Makefile || { cd coverage && \
-		$(abs_srcdir)/configure -q --disable-shared CFLAGS='-O0 -g --coverage'; }
+# what all tests reach, line by line in coverage/NAME.c.gcov
+check-coverage: coverage/Makefile
+	@find coverage -name '*.gcda' -exec rm -f {} +
 	@$(MAKE) -s -C coverage check-total
-	@$(dev)/coverage coverage
+	@$(dev)/coverage coverage files
+
+coverage/Makefile:
+	@mkdir -p coverage
+	@cd coverage && $(abs_srcdir)/configure -q --enable-coverage CFLAGS='-O0 -g'
 
 mostlyclean-local:
 	rm -f $(BENCHES) $(FUZZERS) bench.out check.log
@@ -98,4 +104,4 @@ mostlyclean-local:
 distclean-local:
 	rm -rf san small faults coverage bench.work
 
-.PHONY: check-total check-hacking check-san check-small check-faults lint format bench bench-record fuzz fuzzers stress coverage
+.PHONY: check-total check-hacking check-san check-small check-faults lint format bench bench-record fuzz fuzzers stress check-coverage
