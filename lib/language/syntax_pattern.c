@@ -41,10 +41,32 @@ Status parser_check_reserved(const Parser *parser, const Token *name)
 
 /* --- operands --- */
 
-static void push_operand(Parser *parser, Statement *statement, Syntax *value, int sign)
+typedef Status ParseOperand(Parser *parser, Syntax **out);
+
+static Status add_signed(Parser *parser, Statement *statement, ParseOperand *parse, int sign)
 {
+    Syntax *value = NULL;
+    const Status status = parse(parser, &value);
+
+    if (status != OK)
+        return status;
     LIST_PUSH(statement->operands, (Operand){sign, value, value->place});
     (void)parser_take(parser, ",");
+    return OK;
+}
+
+static Status add_operand(Parser *parser, Statement *statement, ParseOperand *parse)
+{
+    return add_signed(parser, statement, parse, 0);
+}
+
+/* the same where one has to stand, not a key; `what` it is */
+static Status add_needed(Parser *parser, Statement *statement, ParseOperand *parse,
+                         const char *what)
+{
+    if (parser_sees_pair(parser))
+        return parser_expected(parser, what);
+    return add_operand(parser, statement, parse);
 }
 
 /* n */
@@ -52,15 +74,13 @@ static Status read_name(Parser *parser, Statement *statement)
 {
     const Token *name;
     Status status = OK;
-    Syntax *value = NULL;
 
     if (parser_sees_pair(parser))
         CHECK(parser_expected(parser, "a name"));
     CHECK(parse_name(parser, &name));
     CHECK(parser_check_reserved(parser, name));
     parser->at--;
-    CHECK(parse_terminal(parser, &value));
-    push_operand(parser, statement, value, 0);
+    CHECK(add_operand(parser, statement, parse_terminal));
 done:
     return status;
 }
@@ -68,15 +88,7 @@ done:
 /* p */
 static Status read_place(Parser *parser, Statement *statement)
 {
-    Status status = OK;
-    Syntax *value = NULL;
-
-    if (parser_sees_pair(parser))
-        CHECK(parser_expected(parser, "a place (a name or 0)"));
-    CHECK(parse_terminal(parser, &value));
-    push_operand(parser, statement, value, 0);
-done:
-    return status;
+    return add_needed(parser, statement, parse_terminal, "a place (a name or 0)");
 }
 
 /* P */
@@ -113,13 +125,9 @@ static Status read_word(Parser *parser, Statement *statement)
 {
     const Token *token = parser_token(parser);
     Status status = OK;
-    Syntax *value = NULL;
 
-    if (parser_sees_pair(parser))
-        CHECK(parser_expected(parser, "a word"));
-    CHECK(parse_word(parser, &value));
+    CHECK(add_needed(parser, statement, parse_word, "a word"));
     CHECK(check_word(parser, &statement->row, token));
-    push_operand(parser, statement, value, 0);
 done:
     return status;
 }
@@ -139,15 +147,7 @@ static Status read_word_maybe(Parser *parser, Statement *statement)
 /* v */
 static Status read_value(Parser *parser, Statement *statement)
 {
-    Status status = OK;
-    Syntax *value = NULL;
-
-    if (parser_sees_pair(parser))
-        CHECK(parser_expected(parser, "a value"));
-    CHECK(parse_expression(parser, &value));
-    push_operand(parser, statement, value, 0);
-done:
-    return status;
+    return add_needed(parser, statement, parse_expression, "a value");
 }
 
 /* V: as many as the component takes without their keys */
@@ -169,13 +169,11 @@ done:
 static Status read_expressions(Parser *parser, Statement *statement)
 {
     Status status = OK;
-    Syntax *value = NULL;
 
     do {
         if (parser_sees_stop(parser))
             CHECK(parser_expected(parser, "an expression"));
-        CHECK(parse_shown(parser, &value));
-        push_operand(parser, statement, value, 0);
+        CHECK(add_operand(parser, statement, parse_shown));
     } while (parser_took_comma(parser) && !parser_ends(parser) && !parser_sees_stop(parser));
     if (!parser_ends(parser) && !parser_sees_stop(parser))
         CHECK(parser_unexpected(parser));
@@ -195,12 +193,9 @@ static bool operands_end(const Parser *parser)
 static Status read_items_maybe(Parser *parser, Statement *statement)
 {
     Status status = OK;
-    Syntax *value = NULL;
 
-    while (!operands_end(parser)) {
-        CHECK(parse_item(parser, &value));
-        push_operand(parser, statement, value, 0);
-    }
+    while (!operands_end(parser))
+        CHECK(add_operand(parser, statement, parse_item));
 done:
     return status;
 }
@@ -217,16 +212,12 @@ static Status read_items(Parser *parser, Statement *statement)
 static Status read_mixed(Parser *parser, Statement *statement)
 {
     Status status = OK;
-    Syntax *value = NULL;
 
     while (!operands_end(parser)) {
-        TokenKind kind = parser_token(parser)->kind;
+        const TokenKind kind = parser_token(parser)->kind;
+        const bool is_word = kind == TOKEN_NUMBER || kind == TOKEN_STRING;
 
-        if (kind == TOKEN_NUMBER || kind == TOKEN_STRING)
-            CHECK(parse_word(parser, &value));
-        else
-            CHECK(parse_item(parser, &value));
-        push_operand(parser, statement, value, 0);
+        CHECK(add_operand(parser, statement, is_word ? parse_word : parse_item));
     }
 done:
     return status;
@@ -237,14 +228,11 @@ static Status read_edges(Parser *parser, Statement *statement)
 {
     const Token *first = parser_token(parser);
     Status status = OK;
-    Syntax *value = NULL;
     int edges = 0;
     bool signed_edges = false;
 
-    if (first->kind == TOKEN_PATH && words_hold(statement->row.words, first->text)) {
-        CHECK(parse_word(parser, &value));
-        push_operand(parser, statement, value, 0);
-    }
+    if (first->kind == TOKEN_PATH && words_hold(statement->row.words, first->text))
+        CHECK(add_operand(parser, statement, parse_word));
     while (!operands_end(parser)) {
         int sign = parser_sees(parser, "+") ? '+' : parser_sees(parser, "-") ? '-' : 0;
 
@@ -260,8 +248,7 @@ static Status read_edges(Parser *parser, Statement *statement)
             return E_SYNTAX;
         }
         parser->at += sign != 0 ? 1 : 0;
-        CHECK(parse_edge(parser, &value));
-        push_operand(parser, statement, value, sign);
+        CHECK(add_signed(parser, statement, parse_edge, sign));
     }
 done:
     return status;
@@ -286,15 +273,9 @@ static Status unquoted(Parser *parser)
 /* s */
 static Status read_string(Parser *parser, Statement *statement)
 {
-    Status status = OK;
-    Syntax *value = NULL;
-
     if (parser_token(parser)->kind != TOKEN_STRING)
-        CHECK(unquoted(parser));
-    CHECK(parse_word(parser, &value));
-    push_operand(parser, statement, value, 0);
-done:
-    return status;
+        return unquoted(parser);
+    return add_operand(parser, statement, parse_word);
 }
 
 /* o */

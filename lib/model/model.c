@@ -340,9 +340,9 @@ double model_number(const Model *model, Expr e)
     return expr_evaluate(e, symbol_value, model->state);
 }
 
-static double scene_number(const void *context, Expr e)
+double model_scene_number(const void *model, Expr e)
 {
-    return model_number(context, e);
+    return model_number(model, e);
 }
 
 static Status make_scene(const void *context, Scene *out, Diag *diag)
@@ -360,7 +360,7 @@ static Status make_scene(const void *context, Scene *out, Diag *diag)
                    .independent = state->independent.at,
                    .independent_count = state->independent.count,
                    .network_form = (NetworkForm)state->settings.at[SETTING_NETWORK],
-                   .number = scene_number,
+                   .number = model_scene_number,
                    .context = model};
     Status status = OK;
 

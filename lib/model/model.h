@@ -85,6 +85,8 @@ Expr model_parameter(const Model *model, int i, Expr *definition);
 double model_parameter_value(const Model *model, Expr symbol); /* now, SI */
 /* evaluate an expression of parameters only */
 double model_number(const Model *model, Expr e);
+/* the same, as Scene.number */
+double model_scene_number(const void *model, Expr e);
 
 /* Outputs: name = expression over variables (SYMBOL_VARIABLE), t and parameters. They change no
  * equation: a new one leaves revision and values as they are, and where an expression names one,

@@ -269,22 +269,51 @@ static void lead_widths(const View *view, int *name_width, int *direction_width)
     }
 }
 
-/* sum of Phi_u[k][j] * rate_j, the left side of a rate of constraint k */
-static Status push_jacobian_row(const View *view, Equation *equation, int k, bool acceleration,
-                                Diag *diag)
+typedef Expr Unknown(const System *system, int i);
+
+static Expr speed(const System *system, int i)
 {
+    return system_u(system, i)->symbol;
+}
+
+/* on the left: what isn't 0 of a block's row i, or of its column i, times unknowns */
+static Status push_terms(const View *view, Equation *equation, Block block, int i, bool column,
+                         Unknown *unknown, Diag *diag)
+{
+    const int count = column ? system_m(view->system) : system_nu(view->system);
     Status status = OK;
+    Expr e;
 
-    for (int j = 0; j < system_nu(view->system); j++) {
-        const Expr rate =
-            acceleration ? system_acceleration(view->system, j) : system_u(view->system, j)->symbol;
-        Expr entry;
-
-        CHECK(system_show(view->system, BLOCK_JACOBIAN, k, j, &entry, diag));
-        if (!expr_is_zero(entry))
-            LIST_PUSH(equation->left, (ViewTerm){entry, rate});
+    for (int j = 0; j < count; j++) {
+        CHECK(poll(view->watch));
+        CHECK(system_show(view->system, block, column ? j : i, column ? i : j, &e, diag));
+        if (!expr_is_zero(e))
+            LIST_PUSH(equation->left, (ViewTerm){e, unknown(view->system, j)});
     }
 done:
+    return status;
+}
+
+static Status push_right(const View *view, Equation *equation, Block block, int i, Diag *diag)
+{
+    Status status = OK;
+    Expr e;
+
+    CHECK(system_show(view->system, block, i, 0, &e, diag));
+    LIST_PUSH(equation->right, (ViewTerm){e, NULL});
+done:
+    return status;
+}
+
+/* The equation goes to the others where all went well, else away. */
+static Status push_equation(Equations *equations, Equation *equation, Status status)
+{
+    if (status == OK) {
+        LIST_PUSH(*equations, *equation);
+    } else {
+        LIST_FREE(equation->left);
+        LIST_FREE(equation->right);
+    }
     return status;
 }
 
@@ -293,6 +322,7 @@ static Status push_constraint(const View *view, Equations *equations, int k, con
                               Diag *diag)
 {
     Equation equation = {.lead = NULL, .name = NULL, .left = {0}, .right = {0}};
+    const bool acceleration = level != NULL && strcmp(level, "acceleration") == 0;
     Status status = OK;
     int name_width, direction_width;
     Expr e;
@@ -301,21 +331,15 @@ static Status push_constraint(const View *view, Equations *equations, int k, con
         CHECK(system_show(view->system, BLOCK_CONSTRAINTS, k, 0, &e, diag));
         LIST_PUSH(equation.left, (ViewTerm){e, NULL});
     } else {
-        const bool acceleration = strcmp(level, "acceleration") == 0;
-
-        CHECK(push_jacobian_row(view, &equation, k, acceleration, diag));
-        CHECK(system_show(view->system, acceleration ? BLOCK_ACCELERATION : BLOCK_VELOCITY, k, 0,
-                          &e, diag));
-        LIST_PUSH(equation.right, (ViewTerm){e, NULL});
+        CHECK(push_terms(view, &equation, BLOCK_JACOBIAN, k, false,
+                         acceleration ? system_acceleration : speed, diag));
+        CHECK(push_right(view, &equation, acceleration ? BLOCK_ACCELERATION : BLOCK_VELOCITY, k,
+                         diag));
     }
     lead_widths(view, &name_width, &direction_width);
     equation.lead = constraint_lead(view, k, name_width, direction_width);
-    LIST_PUSH(*equations, equation);
-    return OK;
 done:
-    LIST_FREE(equation.left);
-    LIST_FREE(equation.right);
-    return status;
+    return push_equation(equations, &equation, status);
 }
 
 Status show_constraints(const View *view, const Selection *selection, Text *out, Diag *diag)
@@ -341,30 +365,30 @@ done:
     return status;
 }
 
+/* "M7:  ", as wide as the widest; new */
+static char *edge_lead(const View *view, const Variable *of, int width)
+{
+    char name[80];
+    Text lead = {0};
+
+    (void)snprintf(name, sizeof name, "%s:", edge_name(view, of));
+    text_addf(&lead, "%-*s  ", width, name);
+    return text_done(&lead);
+}
+
 /* row i of the embedded form, Mt u' = Ft */
 static Status push_embedded(const View *view, Equations *equations, int i, Diag *diag)
 {
     Equation equation = {.lead = NULL, .name = NULL, .left = {0}, .right = {0}};
     Status status = OK;
     Text lead = {0};
-    Expr e;
 
-    for (int j = 0; j < system_nu(view->system); j++) {
-        CHECK(poll(view->watch));
-        CHECK(system_show(view->system, BLOCK_EMBEDDED_MASS, i, j, &e, diag));
-        if (!expr_is_zero(e))
-            LIST_PUSH(equation.left, (ViewTerm){e, system_acceleration(view->system, j)});
-    }
-    CHECK(system_show(view->system, BLOCK_EMBEDDED_FORCES, i, 0, &e, diag));
-    LIST_PUSH(equation.right, (ViewTerm){e, NULL});
+    CHECK(push_terms(view, &equation, BLOCK_EMBEDDED_MASS, i, false, system_acceleration, diag));
+    CHECK(push_right(view, &equation, BLOCK_EMBEDDED_FORCES, i, diag));
     text_addf(&lead, "%d:  ", i + 1);
     equation.lead = text_done(&lead);
-    LIST_PUSH(*equations, equation);
-    return OK;
 done:
-    LIST_FREE(equation.left);
-    LIST_FREE(equation.right);
-    return status;
+    return push_equation(equations, &equation, status);
 }
 
 /* row i of M u' + Phi_u^T lambda = F */
@@ -372,32 +396,13 @@ static Status push_motion(const View *view, Equations *equations, int i, int lea
 {
     Equation equation = {.lead = NULL, .name = NULL, .left = {0}, .right = {0}};
     Status status = OK;
-    Text lead = {0};
-    char name[80];
-    Expr e;
 
-    CHECK(poll(view->watch));
-    for (int j = 0; j < system_nu(view->system); j++) {
-        CHECK(system_show(view->system, BLOCK_MASS, i, j, &e, diag));
-        if (!expr_is_zero(e))
-            LIST_PUSH(equation.left, (ViewTerm){e, system_acceleration(view->system, j)});
-    }
-    for (int k = 0; k < system_m(view->system); k++) {
-        CHECK(system_show(view->system, BLOCK_JACOBIAN, k, i, &e, diag));
-        if (!expr_is_zero(e))
-            LIST_PUSH(equation.left, (ViewTerm){e, system_multiplier(view->system, k)});
-    }
-    CHECK(system_show(view->system, BLOCK_FORCES, i, 0, &e, diag));
-    LIST_PUSH(equation.right, (ViewTerm){e, NULL});
-    (void)snprintf(name, sizeof name, "%s:", edge_name(view, system_u(view->system, i)));
-    text_addf(&lead, "%-*s  ", lead_width, name);
-    equation.lead = text_done(&lead);
-    LIST_PUSH(*equations, equation);
-    return OK;
+    CHECK(push_terms(view, &equation, BLOCK_MASS, i, false, system_acceleration, diag));
+    CHECK(push_terms(view, &equation, BLOCK_JACOBIAN, i, true, system_multiplier, diag));
+    CHECK(push_right(view, &equation, BLOCK_FORCES, i, diag));
+    equation.lead = edge_lead(view, system_u(view->system, i), lead_width);
 done:
-    LIST_FREE(equation.left);
-    LIST_FREE(equation.right);
-    return status;
+    return push_equation(equations, &equation, status);
 }
 
 static Status push_motions(const View *view, Equations *equations, int lead_width, Diag *diag)
@@ -422,16 +427,12 @@ static void push_network(const View *view, Equations *equations, int lead_width)
     for (int i = 0; i < system_network_count(view->system); i++) {
         Equation equation = {.lead = NULL, .name = NULL, .left = {0}, .right = {0}};
         const Variable of = {.edge = system_network_edge(view->system, i)};
-        Text lead = {0};
-        char name[80];
         Expr left, right;
 
         system_network_equation(view->system, i, &left, &right);
         LIST_PUSH(equation.left, (ViewTerm){left, NULL});
         LIST_PUSH(equation.right, (ViewTerm){right, NULL});
-        (void)snprintf(name, sizeof name, "%s:", edge_name(view, &of));
-        text_addf(&lead, "%-*s  ", lead_width, name);
-        equation.lead = text_done(&lead);
+        equation.lead = edge_lead(view, &of, lead_width);
         LIST_PUSH(*equations, equation);
     }
 }

@@ -75,14 +75,9 @@ static bool is_named(const ct_session *session, const System *system)
            is_of(&session->rest, system);
 }
 
-static double number(const void *model, Expr e)
-{
-    return model_number(model, e);
-}
-
 static bool is_current(const ct_session *session, const System *system)
 {
-    return system_holds(system, model_revision(session->model), number, session->model);
+    return system_holds(system, model_revision(session->model), model_scene_number, session->model);
 }
 
 void session_sweep(ct_session *session)
