@@ -38,7 +38,8 @@ include tests/fuzz/fuzz.mk
 include tests/family/family.mk
 
 check_PROGRAMS += $(UNIT_TESTS) $(FAMILIES)
-TESTS += $(UNIT_TESTS) $(FAMILIES)
+# what takes longest comes first, so that at the end no processor waits for one test
+TESTS += $(FAMILIES) $(UNIT_TESTS)
 EXTRA_PROGRAMS += $(BENCHES) $(FUZZERS)
 EXTRA_DIST += tests/claims.sh tests/family/family.h
 

@@ -25,7 +25,7 @@ san/Makefile:
 # allocations that fail (lib/base/faults.c). Units and sessions are what calls the library in all its
 # ways; terminals, manuals and long cases call it in the same ones. The small build counts the
 # lines that they reach, too.
-unit_and_session = $(filter-out test_costs,$(UNIT_TESTS)) run-session
+unit_and_session = run-session $(filter-out test_costs,$(UNIT_TESTS))
 
 check-small: small/Makefile
 	@find small -name '*.gcda' -exec rm -f {} +
