@@ -23,13 +23,13 @@ san/Makefile:
 
 # tables, lists and chunks of memory that begin with one element; and each call tried with
 # allocations that fail (lib/base/faults.c). Units and sessions are what calls the library in all its
-# ways; terminals, manuals and long cases call it in the same ones. The small build counts the
-# lines that they reach, too.
+# ways; manuals and long cases call it in the same ones. The small build counts the lines that they
+# reach, with those of the shell that want a terminal.
 unit_and_session = run-session $(filter-out test_costs,$(UNIT_TESTS))
 
 check-small: small/Makefile
 	@find small -name '*.gcda' -exec rm -f {} +
-	@$(MAKE) -s -C small check-total TESTS="$(unit_and_session)"
+	@$(MAKE) -s -C small check-total TESTS="$(unit_and_session) $(terminal_tests)"
 	@$(dev)/coverage small
 
 check-faults: faults/Makefile
