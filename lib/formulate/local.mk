@@ -18,7 +18,7 @@ libcore_la_SOURCES += \
 	lib/formulate/ideal.c lib/formulate/ideal_share.c \
 	lib/formulate/kinks.c lib/formulate/recursive.c \
 	lib/formulate/network.c lib/formulate/network_build.c \
-	lib/formulate/network_nodes.c lib/formulate/network_order.c \
+	lib/formulate/network_node_rows.c lib/formulate/network_nodes.c lib/formulate/network_order.c \
 	lib/formulate/network_rows.c \
 	lib/formulate/network_tree.c \
 	lib/formulate/reactions.c \

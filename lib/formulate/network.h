@@ -113,6 +113,8 @@ double expr_value_somewhere(Expr e, uint32_t seed);
  * branch, by unknowns at nodes (network_nodes.c). False: they stay sums. */
 bool network_nodes_across(System *system, const Branchlike *chord, int path, Expr *out);
 bool network_nodes_through(System *system, const Branchlike *branch, Expr *out);
+/* the potential of a node of that tree, an unknown with its equation */
+Expr network_nodes_potential(System *system, const Tree *tree, int node);
 /* the equation of such an unknown, left = right */
 MUST_USE Status network_nodes_row(System *system, Unknown *y, Diag *diag);
 /* content' + rest: i of what stores v, v of what stores i */

@@ -43,7 +43,7 @@ static Branchlike *branch_to(System *system, const Tree *tree, int node)
 }
 
 /* p, an unknown with its equation; all those on the way from the datum are such, too */
-static Expr potential(System *system, const Tree *tree, int node)
+Expr network_nodes_potential(System *system, const Tree *tree, int node)
 {
     const int count = graph_node_count(system->origin->graph);
 
@@ -65,8 +65,8 @@ bool network_nodes_across(System *system, const Branchlike *chord, int path, Exp
 
     if (path <= LONG || system->network->form != NETWORK_STATE || !is_between_resistances(chord))
         return false;
-    *out = expr_sub(system->arena, potential(system, tree, edge->head),
-                    potential(system, tree, edge->tail));
+    *out = expr_sub(system->arena, network_nodes_potential(system, tree, edge->head),
+                    network_nodes_potential(system, tree, edge->tail));
     return true;
 }
 
@@ -86,68 +86,4 @@ bool network_nodes_through(System *system, const Branchlike *branch, Expr *out)
         return false;
     *out = new_unknown(system, branch, NODE_BALANCE, "through");
     return true;
-}
-
-/* what of a balance at a node the edge brings: what it takes away */
-static Status taken_by(System *system, int edge, int node, Expr *out, Diag *diag)
-{
-    const Edge *e = graph_edge(system->origin->graph, edge);
-    Status status = OK;
-
-    CHECK(network_through(
-        system, &system->network->branches.at[system->network->scalar_of_edge[edge]], out, diag));
-    if (e->tail == e->head)
-        *out = expr_int(system->arena, 0);
-    else if (e->head == node)
-        *out = expr_neg(system->arena, *out);
-done:
-    return status;
-}
-
-static Status balance_row(System *system, const Branchlike *branch, int node, Unknown *y,
-                          Diag *diag)
-{
-    const bool leads_here = graph_edge(system->origin->graph, branch->edge)->head == node;
-    const int *edges;
-    const int count = graph_edges_at(system->origin->graph, node, &edges);
-    LIST(Expr) terms = {0};
-    Status status = OK;
-
-    for (int i = 0; i < count; i++) {
-        Expr taken;
-
-        if (edges[i] == branch->edge || system->network->scalar_of_edge[edges[i]] < 0)
-            continue;
-        CHECK(taken_by(system, edges[i], node, &taken, diag));
-        LIST_PUSH(terms, leads_here ? taken : expr_neg(system->arena, taken));
-    }
-    y->right = expr_sum(system->arena, terms.at, terms.count);
-done:
-    LIST_FREE(terms);
-    return status;
-}
-
-static Status potential_row(System *system, Branchlike *branch, int node, Unknown *y, Diag *diag)
-{
-    const Tree *tree = system->origin->trees[branch_tree(system, branch)];
-    const Expr before = potential(system, tree, tree_parent(tree, node));
-    Expr v;
-    Status status = OK;
-
-    CHECK(network_across(system, branch, &v, diag));
-    y->right = tree_is_forward(tree, node) ? expr_add(system->arena, before, v)
-                                           : expr_sub(system->arena, before, v);
-done:
-    return status;
-}
-
-Status network_nodes_row(System *system, Unknown *y, Diag *diag)
-{
-    Branchlike *branch = &system->network->branches.at[y->towards];
-    const int node =
-        tree_far_node(system->origin->trees[branch_tree(system, branch)], branch->edge);
-
-    y->left = y->symbol;
-    return y->law == NODE_BALANCE ? balance_row(system, branch, node, y, diag)
-                                  : potential_row(system, branch, node, y, diag);
 }

@@ -1,0 +1,68 @@
+/* network_node_rows.c: the equations of what long sums brought (network_nodes.c) */
+#include "formulate/network.h"
+#include "formulate/origin.h"
+#include "formulate/system_impl.h"
+
+/* what of a balance at a node the edge brings: what it takes away */
+static Status taken_by(System *system, int edge, int node, Expr *out, Diag *diag)
+{
+    const Edge *e = graph_edge(system->origin->graph, edge);
+    Status status = OK;
+
+    CHECK(network_through(
+        system, &system->network->branches.at[system->network->scalar_of_edge[edge]], out, diag));
+    if (e->tail == e->head)
+        *out = expr_int(system->arena, 0);
+    else if (e->head == node)
+        *out = expr_neg(system->arena, *out);
+done:
+    return status;
+}
+
+static Status balance_row(System *system, const Branchlike *branch, int node, Unknown *y,
+                          Diag *diag)
+{
+    const bool leads_here = graph_edge(system->origin->graph, branch->edge)->head == node;
+    const int *edges;
+    const int count = graph_edges_at(system->origin->graph, node, &edges);
+    LIST(Expr) terms = {0};
+    Status status = OK;
+
+    for (int i = 0; i < count; i++) {
+        Expr taken;
+
+        if (edges[i] == branch->edge || system->network->scalar_of_edge[edges[i]] < 0)
+            continue;
+        CHECK(taken_by(system, edges[i], node, &taken, diag));
+        LIST_PUSH(terms, leads_here ? taken : expr_neg(system->arena, taken));
+    }
+    y->right = expr_sum(system->arena, terms.at, terms.count);
+done:
+    LIST_FREE(terms);
+    return status;
+}
+
+static Status potential_row(System *system, Branchlike *branch, int node, Unknown *y, Diag *diag)
+{
+    const Tree *tree = system->origin->trees[branch_tree(system, branch)];
+    const Expr before = network_nodes_potential(system, tree, tree_parent(tree, node));
+    Expr v;
+    Status status = OK;
+
+    CHECK(network_across(system, branch, &v, diag));
+    y->right = tree_is_forward(tree, node) ? expr_add(system->arena, before, v)
+                                           : expr_sub(system->arena, before, v);
+done:
+    return status;
+}
+
+Status network_nodes_row(System *system, Unknown *y, Diag *diag)
+{
+    Branchlike *branch = &system->network->branches.at[y->towards];
+    const int node =
+        tree_far_node(system->origin->trees[branch_tree(system, branch)], branch->edge);
+
+    y->left = y->symbol;
+    return y->law == NODE_BALANCE ? balance_row(system, branch, node, y, diag)
+                                  : potential_row(system, branch, node, y, diag);
+}
