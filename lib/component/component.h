@@ -13,7 +13,7 @@
 typedef struct Component Component;
 typedef struct Instance Instance;
 
-enum { MAX_COORDS = 7, MAX_VALUE = 9, MAX_TERMINALS = 4, MAX_SCALAR = 2 };
+enum { MAX_VALUE = 9 }; /* entries of a rotation; lists have no more */
 
 /* --- how a statement gives its values --- */
 
@@ -270,10 +270,11 @@ struct Instance {
     int tail; /* nodes; a scalar component's plus and minus; -1 where none */
     int head;
     int edge; /* mechanical edge, -1: none (springs on a joint have one along the joint's frames) */
-    int terminals[MAX_TERMINALS];              /* nodes of a scalar part; -1 */
-    const char *terminal_names[MAX_TERMINALS]; /* "0": the datum */
-    int scalar_edges[MAX_SCALAR];              /* -1 where none */
+    int terminal_count;          /* of a scalar part; 0: it has none */
+    int *terminals;              /* nodes */
+    const char **terminal_names; /* "0": the datum */
     int scalar_count;
+    int *scalar_edges;
     int parts[2]; /* PLACES_PARTS: instances; -1 */
     Expr sensed;  /* PLACES_SENSED: over the user's variables; NULL */
     int joint;    /* instance whose coordinate it acts on; -1 */
@@ -282,9 +283,9 @@ struct Instance {
     bool on_angle;          /* that coordinate is an angle */
     Value *values;          /* one a param of the row */
     int coord_count;
-    const char *coord[MAX_COORDS]; /* names: "h8", "m1.x", or the user's coord= */
-    CoordinateKind coord_kind[MAX_COORDS];
-    bool coord_rotation[MAX_COORDS];
+    const char **coord; /* names: "h8", "m1.x", or the user's coord= */
+    CoordinateKind *coord_kind;
+    bool *coord_rotation;
     int by; /* driver: instance (a source) or coordinate owner that supplies the motion; -1: its own
                effort */
     int by_coordinate; /* -1 when `by` is a source */

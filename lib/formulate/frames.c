@@ -177,6 +177,7 @@ static void step_branch(System *system, int node)
     frame->step_chain = system->kinematics->frames[edge->tail].chain;
     shift = frame_vector(system, edge->tail,
                          (Vec){{steps.constant[0], steps.constant[1], steps.constant[2]}});
+    frame->slide = pool_alloc(system->pool, (size_t)steps.shift_count * sizeof *frame->slide);
     for (int k = 0; k < steps.shift_count; k++) {
         const Step *slide = &steps.shift[k];
         int place = system->kinematics->coordinate[instance->number][slide->coordinate];

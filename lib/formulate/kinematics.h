@@ -49,8 +49,8 @@ typedef struct Speed {
 /* how a coordinate's rate follows from speeds */
 typedef struct CoordinateRate {
     int count;
-    int speed[3];
-    Expr entry[3]; /* of N */
+    int *speed;
+    Expr *entry; /* of N */
 } CoordinateRate;
 
 /* a shift coordinate in a step */
@@ -68,7 +68,7 @@ typedef struct Frame { /* a mechanical node */
     int step_chain;
     Vec shift;
     int slide_count;
-    Slide slide[3];
+    Slide *slide;
     /* quantities of the recursive form, in the axes of resolve(chain) */
     Vec step; /* the shift */
     Vec v;
@@ -83,9 +83,9 @@ typedef struct ChainMotion { /* in the axes of its resolve chain */
 typedef struct Kinematics {
     LIST(Variable) q;
     LIST(Variable) u;
-    Expr *accelerations;           /* symbols of u' */
-    int (*coordinate)[MAX_COORDS]; /* of an instance: its place in q, or -1 */
-    int (*speed)[MAX_COORDS];      /* of an instance's coordinate: its place in u, or -1 */
+    Expr *accelerations; /* symbols of u' */
+    int **coordinate;    /* of an instance's coordinates: their places in q, or -1 */
+    int **speed;         /* and in u, or -1 */
     Speed *speeds;
     CoordinateRate *coordinate_rates;
     LIST(int) quaternions; /* the first of each four parameters */

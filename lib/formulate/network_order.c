@@ -261,8 +261,7 @@ done:
 static Status lowered_make(Order *o, Diag *diag)
 {
     System *system = o->system;
-    Expr symbol[NETWORK_ORDER];
-    Expr value[NETWORK_ORDER];
+    Expr *symbol = NULL, *value = NULL;
     Expr rest = NULL;
     int k = 0;
     int r = -1;
@@ -274,8 +273,10 @@ static Status lowered_make(Order *o, Diag *diag)
     if (r >= 0)
         j = lowered_by(o, rest, &k);
     if (j < 0)
-        return cant_order(o, r >= 0 ? r : 0, diag);
+        CHECK(cant_order(o, r >= 0 ? r : 0, diag));
     count = system->network->unknowns.at[j].order - k;
+    symbol = NEW_ARRAY(Expr, count);
+    value = NEW_ARRAY(Expr, count);
     CHECK(rates_by(o, rest, j, k, symbol, value, diag));
     for (int i = 0; i < o->count; i++)
         if (i != r) {
@@ -289,6 +290,8 @@ static Status lowered_make(Order *o, Diag *diag)
         system->network->unknowns.at[j].rates[k + i] = value[i];
     system->network->unknowns.at[j].order = k;
 done:
+    mem_free(symbol);
+    mem_free(value);
     return status;
 }
 

@@ -13,41 +13,82 @@
 
 /* --- copies of what may change later --- */
 
+static const char **copy_names(System *system, const char *const *from, int count)
+{
+    const char **names = pool_alloc(system->pool, (size_t)count * sizeof *names);
+
+    for (int i = 0; i < count; i++)
+        names[i] = from[i] != NULL ? system_keep(system, "%s", from[i]) : NULL;
+    return names;
+}
+
+static void *copy_array(System *system, const void *from, int count, size_t size)
+{
+    void *copy = pool_alloc(system->pool, (size_t)count * size);
+
+    if (count > 0)
+        memcpy(copy, from, (size_t)count * size);
+    return copy;
+}
+
+static void copy_values(System *system, Instance *to)
+{
+    const int count = to->row->param_count;
+
+    to->values = copy_array(system, to->values, count, sizeof *to->values);
+    for (int p = 0; p < count; p++)
+        if (to->values[p].word != NULL)
+            to->values[p].word = system_keep(system, "%s", to->values[p].word);
+}
+
+static void copy_instance(System *system, const Instance *from, Instance *to)
+{
+    const int coordinates = from->coord_count;
+
+    *to = *from;
+    to->name = system_keep(system, "%s", from->name);
+    to->text = NULL;
+    if (from->coordinate != NULL)
+        to->coordinate = system_keep(system, "%s", from->coordinate);
+    to->terminals =
+        copy_array(system, from->terminals, from->terminal_count, sizeof *to->terminals);
+    to->terminal_names = copy_names(system, from->terminal_names, from->terminal_count);
+    to->scalar_edges =
+        copy_array(system, from->scalar_edges, from->scalar_count, sizeof *to->scalar_edges);
+    to->coord = copy_names(system, from->coord, coordinates);
+    to->coord_kind = copy_array(system, from->coord_kind, coordinates, sizeof *to->coord_kind);
+    to->coord_rotation =
+        copy_array(system, from->coord_rotation, coordinates, sizeof *to->coord_rotation);
+    copy_values(system, to);
+}
+
+/* places of an instance's coordinates, none yet */
+static int *no_places(System *system, int count)
+{
+    int *places = pool_alloc(system->pool, (size_t)count * sizeof *places);
+
+    for (int i = 0; i < count; i++)
+        places[i] = -1;
+    return places;
+}
+
 static void copy_instances(System *system, const Scene *scene)
 {
-    int count = scene->instance_count;
+    const int count = scene->instance_count;
+    Origin *origin = system->origin;
+    Kinematics *kinematics = system->kinematics;
 
-    system->origin->instance_count = count;
-    system->origin->instances =
-        pool_alloc(system->pool, (size_t)count * sizeof *system->origin->instances);
-    system->kinematics->coordinate =
-        pool_alloc(system->pool, (size_t)count * sizeof *system->kinematics->coordinate);
-    system->kinematics->speed =
-        pool_alloc(system->pool, (size_t)count * sizeof *system->kinematics->speed);
+    origin->instance_count = count;
+    origin->instances = pool_alloc(system->pool, (size_t)count * sizeof *origin->instances);
+    kinematics->coordinate =
+        pool_alloc(system->pool, (size_t)count * sizeof *kinematics->coordinate);
+    kinematics->speed = pool_alloc(system->pool, (size_t)count * sizeof *kinematics->speed);
     for (int i = 0; i < count; i++) {
         const Instance *from = scene->instances[i];
-        Instance *to = &system->origin->instances[i];
-        size_t size = (size_t)from->row->param_count * sizeof(Value);
 
-        *to = *from;
-        to->name = system_keep(system, "%s", from->name);
-        to->text = NULL;
-        if (from->coordinate != NULL)
-            to->coordinate = system_keep(system, "%s", from->coordinate);
-        for (int k = 0; k < MAX_TERMINALS; k++)
-            if (from->terminal_names[k] != NULL)
-                to->terminal_names[k] = system_keep(system, "%s", from->terminal_names[k]);
-        to->values = pool_alloc(system->pool, size);
-        if (size > 0)
-            memcpy(to->values, from->values, size);
-        for (int p = 0; p < from->row->param_count; p++)
-            if (from->values[p].word != NULL)
-                to->values[p].word = system_keep(system, "%s", from->values[p].word);
-        for (int c = 0; c < MAX_COORDS; c++) {
-            system->kinematics->coordinate[i][c] = system->kinematics->speed[i][c] = -1;
-            if (c < from->coord_count)
-                to->coord[c] = system_keep(system, "%s", from->coord[c]);
-        }
+        copy_instance(system, from, &origin->instances[i]);
+        kinematics->coordinate[i] = no_places(system, from->coord_count);
+        kinematics->speed[i] = no_places(system, from->coord_count);
     }
 }
 
@@ -208,6 +249,17 @@ static void add_coordinates(System *system)
     }
 }
 
+/* of a coordinate, `count` speeds, to be told */
+static CoordinateRate *new_rate(System *system, int place, int count)
+{
+    CoordinateRate *rate = &system->kinematics->coordinate_rates[place];
+
+    rate->count = count;
+    rate->speed = pool_alloc(system->pool, (size_t)count * sizeof *rate->speed);
+    rate->entry = pool_alloc(system->pool, (size_t)count * sizeof *rate->entry);
+    return rate;
+}
+
 /* p' = N w, N = 1/2 [-e^T; e0 1 + S(e)] */
 static void parameter_rates(System *system, int first, int speed)
 {
@@ -218,9 +270,8 @@ static void parameter_rates(System *system, int first, int speed)
     for (int i = 0; i < 4; i++)
         p[i] = expr_mul(arena, half, system->kinematics->q.at[first + i].symbol);
     for (int i = 0; i < 4; i++) {
-        CoordinateRate *rate = &system->kinematics->coordinate_rates[first + i];
+        CoordinateRate *rate = new_rate(system, first + i, 3);
 
-        rate->count = 3;
         for (int k = 0; k < 3; k++) {
             int row = i - 1;
 
@@ -249,14 +300,17 @@ static void add_rates(System *system)
         for (int c = 0; c < system->origin->instances[i].coord_count; c++) {
             int place = system->kinematics->coordinate[i][c];
             int speed = system->kinematics->speed[i][c];
+            CoordinateRate *rate;
 
             if (place < 0 || speed < 0)
                 continue;
-            if (system->origin->instances[i].coord_kind[c] == COORDINATE_PARAMETER)
+            if (system->origin->instances[i].coord_kind[c] == COORDINATE_PARAMETER) {
                 parameter_rates(system, place, speed);
-            else
-                system->kinematics->coordinate_rates[place] =
-                    (CoordinateRate){1, {speed}, {expr_int(arena, 1)}};
+                continue;
+            }
+            rate = new_rate(system, place, 1);
+            rate->speed[0] = speed;
+            rate->entry[0] = expr_int(arena, 1);
         }
     for (int i = 0; i < system->kinematics->q.count; i++) {
         const CoordinateRate *rate = &system->kinematics->coordinate_rates[i];

@@ -198,7 +198,12 @@ static void own_coordinates(PartDraft *draft)
 {
     Instance *part = draft->part;
     const CoordinateRow *rows = instance_coords(part, draft->state->planar, &part->coord_count);
+    const size_t count = (size_t)part->coord_count;
+    Pool *pool = draft->state->pool;
 
+    part->coord = pool_alloc(pool, count * sizeof *part->coord);
+    part->coord_kind = pool_alloc(pool, count * sizeof *part->coord_kind);
+    part->coord_rotation = pool_alloc(pool, count * sizeof *part->coord_rotation);
     for (int i = 0; i < part->coord_count; i++) {
         Text name = {0};
 
@@ -310,6 +315,8 @@ static void add_scalar_edges(State *state, Instance *part)
 {
     const ScalarEdge *rows = component_scalar_edges(part->row, &part->scalar_count);
 
+    part->scalar_edges =
+        pool_alloc(state->pool, (size_t)part->scalar_count * sizeof *part->scalar_edges);
     for (int k = 0; k < part->scalar_count; k++) {
         int datum = state->datum[part->row->domain];
         Text name = {0};
@@ -333,8 +340,12 @@ static void add_scalar_edges(State *state, Instance *part)
 static void add_terminals(PartDraft *draft)
 {
     Instance *part = draft->part;
+    const size_t count = (size_t)component_terminals(part->row);
 
-    for (int k = 0; k < MAX_TERMINALS && draft->terminals[k] != NULL; k++) {
+    part->terminal_count = component_terminals(part->row);
+    part->terminals = pool_alloc(draft->state->pool, count * sizeof *part->terminals);
+    part->terminal_names = pool_alloc(draft->state->pool, count * sizeof *part->terminal_names);
+    for (int k = 0; k < part->terminal_count; k++) {
         part->terminals[k] = terminal_node(draft->state, draft->terminals[k], part->row->domain);
         part->terminal_names[k] = state_text(draft->state, draft->terminals[k]);
     }
@@ -357,7 +368,7 @@ static void commit(PartDraft *draft, const char *text)
         part->head = graph_add_node(state->graph, part->name, DOMAIN_MECHANICAL, false);
     if (part->head >= 0)
         add_mechanical_edge(state, part);
-    if (draft->terminals[0] != NULL)
+    if (draft->terminals != NULL)
         add_terminals(draft);
     state_name(state, part->name, THING_PART, part->number, 0);
     for (int i = 0; i < part->coord_count; i++)
@@ -388,10 +399,6 @@ static Instance *new_part(State *state, const Component *row, bool is_virtual)
     part->is_virtual = is_virtual;
     part->tail = part->head = part->edge = part->joint = -1;
     part->parts[0] = part->parts[1] = -1;
-    for (int k = 0; k < MAX_TERMINALS; k++)
-        part->terminals[k] = -1;
-    for (int k = 0; k < MAX_SCALAR; k++)
-        part->scalar_edges[k] = -1;
     part->by = part->by_coordinate = -1;
     part->values = pool_alloc(state->pool, sizeof *part->values * ((size_t)row->param_count + 1));
     return part;

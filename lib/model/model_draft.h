@@ -9,8 +9,8 @@ typedef struct PartDraft {
     const Statement *statement;
     Instance *part; /* in the state's pool */
     Scope scope;
-    int at;                               /* next operand */
-    const char *terminals[MAX_TERMINALS]; /* names, where the part has scalar edges */
+    int at;                 /* next operand */
+    const char **terminals; /* names, where the part has scalar edges; else NULL */
     const Syntax *coordinate_names;
     Diag *diag;
 } PartDraft;

@@ -325,6 +325,8 @@ static Status read_terminals(PartDraft *draft)
     int first = draft->at;
     Status status = OK;
 
+    draft->terminals =
+        pool_alloc(draft->state->pool, (size_t)component_terminals(row) * sizeof *draft->terminals);
     for (int k = 0; k < component_terminals(row); k++)
         CHECK(next_terminal(draft, k));
     for (int k = 0; k < count; k++) {

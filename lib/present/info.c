@@ -44,10 +44,10 @@ static void add_standing(Table *table, const View *view, int edge, bool several)
 static void add_ends(Table *table, const View *view, const Instance *instance)
 {
     const Graph *graph = model_graph(view->model);
-    const int edges[] = {instance->edge, instance->scalar_edges[0], instance->scalar_edges[1]};
 
-    for (int i = 0; i < COUNT(edges); i++) {
-        const Edge *edge = edges[i] >= 0 ? graph_edge(graph, edges[i]) : NULL;
+    for (int i = -1; i < instance->scalar_count; i++) {
+        const int number = i < 0 ? instance->edge : instance->scalar_edges[i];
+        const Edge *edge = number >= 0 ? graph_edge(graph, number) : NULL;
 
         if (edge == NULL)
             continue;

@@ -98,7 +98,7 @@ static Status check_told(Assembly *a, Diag *diag)
 
     for (int i = 0; i < a->given_count && status == OK; i++) {
         const GivenValue *given = &a->given[i];
-        double near[MAX_COORDS] = {0}, value;
+        double near[POSE_COORDS] = {0}, value;
 
         if (given->expr != NULL || given->value->is_guess)
             continue;

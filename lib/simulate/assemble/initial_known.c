@@ -27,7 +27,7 @@ static void wish(Placing *p, const Stand *stand, double value, bool is_guess, in
 /* signs of Euler parameters are told by all that belong together */
 static void gather_groups(Placing *p)
 {
-    p->groups = NEW_ARRAY(double, p->a->group_count *MAX_COORDS);
+    p->groups = NEW_ARRAY(double, p->a->group_count *POSE_COORDS);
     for (int i = 0; i < p->wishes.count; i++)
         if (p->wishes.at[i].group >= 0)
             p->groups[place_at(p->wishes.at[i].group, p->wishes.at[i].k)] = p->wishes.at[i].value;
@@ -144,7 +144,7 @@ static int maker_of(const Placing *p, int node)
 /* the body of a frame, and where the frame stands in it; -1: it is one of ground */
 static int body_of(const Placing *p, int node, Pose *in_body)
 {
-    const double none[MAX_COORDS] = {0};
+    const double none[POSE_COORDS] = {0};
     int link;
 
     *in_body = (Pose){.R = {1, 0, 0, 0, 1, 0, 0, 0, 1}};
@@ -190,7 +190,7 @@ static void know_half(Placing *p, int link, bool rotation, const double *c, Know
 static void place_body(Placing *p, int node, const double *told, Knowledge known)
 {
     const int shifts = p->s->frame.shift_count;
-    double c[MAX_COORDS] = {0}, back[9];
+    double c[POSE_COORDS] = {0}, back[9];
     bool whole = true;
     Pose in_body, stands;
     int body = body_of(p, node, &in_body);
@@ -222,9 +222,9 @@ static void place_body(Placing *p, int node, const double *told, Knowledge known
 /* frames that were told as a whole */
 static void place_bodies(Placing *p, bool guesses)
 {
-    double *told = NEW_ARRAY(double, p->s->node_count *MAX_COORDS);
+    double *told = NEW_ARRAY(double, p->s->node_count *POSE_COORDS);
 
-    for (int i = 0; i < p->s->node_count * MAX_COORDS; i++)
+    for (int i = 0; i < p->s->node_count * POSE_COORDS; i++)
         told[i] = NAN;
     for (int i = 0; i < p->wishes.count; i++) {
         const Wish *wish = &p->wishes.at[i];

@@ -49,7 +49,7 @@ static bool recall_attitude(const Placing *p, int node, double R[9])
 static void recall_turns(Placing *p, int link)
 {
     const Link *l = &p->s->links[link];
-    double c[MAX_COORDS] = {0};
+    double c[POSE_COORDS] = {0};
     Pose tail = {0}, head = {0}, relative;
 
     if (p->warm == NULL || !recall_attitude(p, l->tail, tail.R) ||
@@ -93,7 +93,7 @@ static void begin(Placing *p)
             begin_half(p, i, true);
         if (place_shifts(p, i))
             begin_half(p, i, false);
-        for (int k = 0; k < MAX_COORDS; k++)
+        for (int k = 0; k < POSE_COORDS; k++)
             p->c[place_at(i, k)] = isnan(p->begun[place_at(i, k)]) ? 0 : p->begun[place_at(i, k)];
     }
 }
@@ -135,14 +135,14 @@ static bool is_within_half_a_turn(const Placing *p, int link, int k)
 static void read_link(Placing *p, int link)
 {
     const Link *l = &p->s->links[link];
-    double read[MAX_COORDS];
+    double read[POSE_COORDS];
     Pose relative;
 
     if (is_asked(p, l->instance)) {
         begin_half(p, link, true);
         begin_half(p, link, false);
     }
-    for (int k = 0; k < MAX_COORDS; k++)
+    for (int k = 0; k < POSE_COORDS; k++)
         if (isnan(p->begun[place_at(link, k)]) ||
             (k < l->instance->coord_count && is_within_half_a_turn(p, link, k)))
             p->begun[place_at(link, k)] = 0;
@@ -250,10 +250,10 @@ static Status choose_bodies(Placing *p, TreeKind kind, Diag *diag)
  * straight to each other. It begins where the frames stood, which becomes `from`. */
 static Status close_by_bodies(Placing *p, double *from, bool *closed, Diag *diag)
 {
-    const size_t bytes = (size_t)(p->s->link_count * MAX_COORDS) * sizeof(double);
+    const size_t bytes = (size_t)(p->s->link_count * POSE_COORDS) * sizeof(double);
     Tree *trees[2] = {p->trees[0], p->trees[1]};
-    double *kept = NEW_ARRAY(double, p->s->link_count *MAX_COORDS);
-    double *begun = NEW_ARRAY(double, p->s->link_count *MAX_COORDS);
+    double *kept = NEW_ARRAY(double, p->s->link_count *POSE_COORDS);
+    double *begun = NEW_ARRAY(double, p->s->link_count *POSE_COORDS);
     Status status = OK;
 
     memcpy(kept, p->c, bytes);
@@ -341,7 +341,7 @@ void placing_free(Placing *p)
 
 static void open_placing(Placing *p)
 {
-    const int size = p->s->link_count * MAX_COORDS;
+    const int size = p->s->link_count * POSE_COORDS;
 
     p->c = NEW_ARRAY(double, size);
     p->begun = NEW_ARRAY(double, size);
@@ -365,14 +365,14 @@ static void begin_as_it_stands(Placing *p, const Outlets *outlets)
     }
     for (int i = 0; i < p->s->link_count; i++) {
         const Link *l = &p->s->links[i];
-        double c[MAX_COORDS];
+        double c[POSE_COORDS];
         Pose relative;
 
-        for (int k = 0; k < MAX_COORDS; k++)
+        for (int k = 0; k < POSE_COORDS; k++)
             c[k] = isnan(p->begun[place_at(i, k)]) ? 0 : p->begun[place_at(i, k)];
         pose_between(&poses[l->tail], &poses[l->head], &relative);
         link_read(l, &relative, c);
-        for (int k = 0; k < MAX_COORDS; k++)
+        for (int k = 0; k < POSE_COORDS; k++)
             if (isnan(p->begun[place_at(i, k)]))
                 p->begun[place_at(i, k)] = c[k];
     }
@@ -436,7 +436,7 @@ Status initial_place(Assembly *a, WarmValue warm, void *context, bool *closed, D
     *closed = true;
     if (p.s == NULL)
         return OK;
-    size = p.s->link_count * MAX_COORDS;
+    size = p.s->link_count * POSE_COORDS;
     open_placing(&p);
     CHECK(place_take_wishes(&p, diag));
     place_mark_known(&p);

@@ -35,12 +35,12 @@ typedef struct Placing {
     Assembly *a;
     const Skeleton *s;
     Tree *trees[2];   /* translation, rotation */
-    double *c;        /* links x MAX_COORDS */
+    double *c;        /* links x POSE_COORDS */
     double *begun;    /* likewise: where what isn't given starts, NAN: not asked yet */
     Knowledge *known; /* likewise */
     Pose *poses;
     LIST(Wish) wishes;
-    double *groups; /* x MAX_COORDS: what was told of each, the rest 0 */
+    double *groups; /* x POSE_COORDS: what was told of each, the rest 0 */
     LIST(PlaceColumn) columns;
     LIST(Ask) asks;
     int row_count;
@@ -53,7 +53,7 @@ typedef struct Placing {
 /* the place of coordinate k of a link in what is kept by link and coordinate */
 static inline int place_at(int link, int k)
 {
-    return link * MAX_COORDS + k;
+    return link * POSE_COORDS + k;
 }
 
 /* Guesses, drivers, given values: what comes later has the last word (initial_known.c). */

@@ -177,7 +177,7 @@ static int ask_rows(const Placing *p, const Ask *asked, LinkRow *rows, int *tail
     const Wish *told = asked->kind == ASK_WISH ? &p->wishes.at[asked->link] : NULL;
     const int number = told != NULL ? told->link : asked->link;
     const Link *link = number >= 0 ? &p->s->links[number] : &p->s->frame;
-    double near[MAX_COORDS] = {0};
+    double near[POSE_COORDS] = {0};
     Pose relative;
 
     *tail = link->tail;
@@ -367,7 +367,7 @@ bool place_search(Placing *p, bool guesses)
     open_search(&s, p);
     rows = (Rows){.rows = p->row_count,
                   .columns = p->columns.count,
-                  .length = p->s->link_count * MAX_COORDS,
+                  .length = p->s->link_count * POSE_COORDS,
                   .context = &s,
                   .watch = p->a->setting->watch,
                   .evaluate = evaluate,

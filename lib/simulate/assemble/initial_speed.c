@@ -118,7 +118,7 @@ static double column_rate(const Placing *p, const PlaceColumn *column, const Pos
     const Link *link = &p->s->links[column->link];
     const int k = column->kind == COLUMN_SLIDE ? link->shift[column->k].coordinate
                                                : link->turn[column->k].coordinate;
-    double before[MAX_COORDS] = {0}, after[MAX_COORDS];
+    double before[POSE_COORDS] = {0}, after[POSE_COORDS];
     double R[9], turn[3];
     Pose first, last;
 
@@ -294,10 +294,10 @@ Status initial_speeds(Assembly *a, Diag *diag)
         CHECK(is_open(a, &open, diag));
     if (!open)
         return OK;
-    p.known = NEW_ARRAY(Knowledge, p.s->link_count * MAX_COORDS);
+    p.known = NEW_ARRAY(Knowledge, p.s->link_count * POSE_COORDS);
     mark_rates(&p);
     CHECK(place_choose_trees(&p, diag));
-    memset(p.known, 0, (size_t)(p.s->link_count * MAX_COORDS) * sizeof *p.known);
+    memset(p.known, 0, (size_t)(p.s->link_count * POSE_COORDS) * sizeof *p.known);
     place_columns(&p);
     rates = find_rates(&p);
     factor = weigh(a, rates, p.columns.count);

@@ -4,6 +4,7 @@
 #include "algebra/matrix3.h"
 #include "base/memory.h"
 
+#include <assert.h>
 #include <math.h>
 #include <string.h>
 
@@ -28,6 +29,7 @@ static void make_link(const System *system, Parameters *parameters, const Instan
     Steps steps;
 
     system_steps(system, instance, &steps);
+    assert(instance->coord_count <= POSE_COORDS);
     *out = (Link){.instance = instance,
                   .edge = instance->edge,
                   .tail = instance->tail,
@@ -159,7 +161,7 @@ void skeleton_poses(const Skeleton *s, const Tree *rotation, const Tree *transla
         const double *parent = poses[tree_parent(rotation, nodes[i])].R;
         Pose step;
 
-        link_pose(&s->links[at], c + (ptrdiff_t)at * MAX_COORDS, &step);
+        link_pose(&s->links[at], c + (ptrdiff_t)at * POSE_COORDS, &step);
         if (!tree_is_forward(rotation, nodes[i]))
             matrix3_transpose(step.R, step.R);
         matrix3_times(parent, step.R, poses[nodes[i]].R);
@@ -172,7 +174,7 @@ void skeleton_poses(const Skeleton *s, const Tree *rotation, const Tree *transla
         double d[3];
         Pose step;
 
-        link_pose(&s->links[at], c + (ptrdiff_t)at * MAX_COORDS, &step);
+        link_pose(&s->links[at], c + (ptrdiff_t)at * POSE_COORDS, &step);
         matrix3_apply(poses[s->links[at].tail].R, step.p, d);
         for (int k = 0; k < 3; k++)
             poses[nodes[i]].p[k] = parent[k] + sense * d[k];

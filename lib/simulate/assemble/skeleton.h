@@ -12,6 +12,10 @@
 #include "formulate/edges.h"
 #include "simulate/equations/numbers.h"
 
+/* Of a link, which places a frame against another: three shifts and four Euler parameters. What
+ * deforms has more, and is no link. */
+enum { POSE_COORDS = 7 };
+
 typedef struct Pose { /* of a frame against another */
     double R[9];      /* row by row */
     double p[3];      /* m, axes of the other */
@@ -50,7 +54,7 @@ typedef struct Skeleton {
 Skeleton *skeleton_new(const Layout *layout, Parameters *parameters);
 void skeleton_free(Skeleton *skeleton); /* NULL is fine */
 
-/* Poses of all nodes against the datum along two trees, from coordinates (links x MAX_COORDS). */
+/* Poses of all nodes against the datum along two trees, from coordinates (links x POSE_COORDS). */
 void skeleton_poses(const Skeleton *skeleton, const Tree *rotation, const Tree *translation,
                     const double *c, Pose *poses);
 /* The same at coordinates q of the system, along its trees; new. */
@@ -78,7 +82,7 @@ enum { LINK_ROWS = 4 }; /* at most, of one of the following */
 int link_shift_rows(const Link *link, const Pose *relative, LinkRow *rows);
 int link_turn_rows(const Link *link, const Pose *relative, LinkRow *rows);
 void link_tie_row(const Link *link, const Pose *relative, LinkRow *row); /* of a screw */
-/* of coordinate k being `value`; `near` (MAX_COORDS) chooses among turns and signs */
+/* of coordinate k being `value`; `near` (POSE_COORDS) chooses among turns and signs */
 void link_value_row(const Link *link, const Pose *relative, const double *near, int k, double value,
                     LinkRow *row);
 
@@ -95,6 +99,6 @@ Reversal skeleton_reversal(const Skeleton *skeleton, const double *q);
 void reversal_tell(const Skeleton *skeleton, const Reversal *reversal, Text *out);
 /* A coordinate of an instance there, of its turns those nearest to `near`. */
 double skeleton_value(const Skeleton *skeleton, const double *q, const Instance *instance, int k,
-                      const double near[MAX_COORDS]);
+                      const double near[POSE_COORDS]);
 
 #endif

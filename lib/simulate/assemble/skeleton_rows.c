@@ -139,7 +139,7 @@ int link_turn_rows(const Link *link, const Pose *relative, LinkRow *rows)
 static double value_off(const Link *link, const Pose *relative, const double *near, int k,
                         double value)
 {
-    double c[MAX_COORDS];
+    double c[POSE_COORDS];
 
     memcpy(c, near, sizeof c);
     link_read(link, relative, c);
@@ -181,7 +181,7 @@ static void difference_row(const Link *link, const Pose *relative, const double 
 void link_value_row(const Link *link, const Pose *relative, const double *near, int k, double value,
                     LinkRow *row)
 {
-    double here[MAX_COORDS];
+    double here[POSE_COORDS];
 
     /* differences stay on this side of a half turn, and of the sign of Euler parameters */
     memcpy(here, near, sizeof here);
@@ -193,7 +193,7 @@ void link_tie_row(const Link *link, const Pose *relative, LinkRow *row)
 {
     const double *u = link->turn[0].axis;
     Link loose = *link;
-    double c[MAX_COORDS] = {0};
+    double c[POSE_COORDS] = {0};
 
     /* as a sleeve: the turn nearest to that of the shift */
     loose.shift[0].scale = 1;
@@ -242,13 +242,13 @@ static Reversal find_reversal(const Skeleton *s, const Pose *poses)
 Pose *skeleton_poses_at(const Skeleton *s, const double *q)
 {
     Pose *poses = NEW_ARRAY(Pose, s->node_count);
-    double *c = NEW_ARRAY(double, s->link_count *MAX_COORDS);
+    double *c = NEW_ARRAY(double, s->link_count *POSE_COORDS);
 
     for (int i = 0; i < s->link_count; i++)
         for (int k = 0; k < s->links[i].instance->coord_count; k++) {
             const int place = system_coordinate(s->system, s->links[i].instance, k);
 
-            c[i * MAX_COORDS + k] = place >= 0 ? q[place] : 0;
+            c[i * POSE_COORDS + k] = place >= 0 ? q[place] : 0;
         }
     skeleton_poses(s, system_tree(s->system, TREE_ROTATION),
                    system_tree(s->system, TREE_TRANSLATION), c, poses);
@@ -323,11 +323,11 @@ void reversal_tell(const Skeleton *s, const Reversal *reversal, Text *out)
 }
 
 double skeleton_value(const Skeleton *s, const double *q, const Instance *instance, int k,
-                      const double near[MAX_COORDS])
+                      const double near[POSE_COORDS])
 {
     const Link *link = &s->links[s->link_at[instance->edge]];
     Pose *poses = skeleton_poses_at(s, q);
-    double c[MAX_COORDS];
+    double c[POSE_COORDS];
     Pose relative;
 
     memcpy(c, near, sizeof c);
