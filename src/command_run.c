@@ -4,6 +4,7 @@
 #include "file.h"
 
 #include <ctype.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -66,9 +67,20 @@ static void name_printed(Printed *line, const ct_expression *expression)
     ct_free(text);
 }
 
+/* A number in words: no reader should take the root of a negative number for one. The length. */
+static int write_number(char *buffer, size_t size, int digits, double value)
+{
+    if (!isfinite(value))
+        return snprintf(buffer, size, "undefined");
+    return snprintf(buffer, size, "%.*g", digits, value == 0 ? 0.0 : value);
+}
+
 static void put_number(FILE *out, int width, int digits, double value)
 {
-    fprintf(out, "%*.*g", width, digits, value == 0 ? 0.0 : value);
+    char number[64];
+
+    (void)write_number(number, sizeof number, digits, value);
+    fprintf(out, "%*s", width, number);
 }
 
 static void put_printed(const Call *call, const Printed *lines, int count)
@@ -137,7 +149,7 @@ static void put_table(const Call *call, const TableColumns *table)
     for (int j = 0; j < table->columns; j++) {
         widths[j] = (int)strlen(table->names[j]);
         for (int i = 0; i < table->rows; i++) {
-            int width = snprintf(NULL, 0, "%.*g", digits, table->values[i * table->columns + j]);
+            int width = write_number(NULL, 0, digits, table->values[i * table->columns + j]);
 
             if (width > widths[j])
                 widths[j] = width;

@@ -33,7 +33,7 @@ void write_csv(Text *out, const char *const *names, const double *values, int ro
         for (int c = 0; c < columns; c++) {
             const double value = values[(size_t)r * (size_t)columns + (size_t)c];
 
-            if (isnan(value))
+            if (!isfinite(value))
                 text_add(out, "nan");
             else
                 text_number(out, value, 17);

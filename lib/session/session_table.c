@@ -322,8 +322,13 @@ static Status expect_near(ct_session *session, const Statement *s, const Syntax 
         CHECK(model_check_alike(session->model, left, s->within, diag));
         CHECK(model_check_alike(session->model, s->near_value, s->within, diag));
     }
-    /* a value that isn't a number is never near */
-    if (!(fabs(value - expected) <= tolerance)) {
+    if (!isfinite(value) || !isfinite(expected)) { /* never near */
+        const Syntax *undefined = isfinite(value) ? s->near_value : left;
+
+        syntax_print(&text, undefined);
+        status = diag_at(diag, E_EXPECT, undefined->place, "%s is undefined%s", text.at,
+                         at_words(when, sizeof when, at));
+    } else if (!(fabs(value - expected) <= tolerance)) {
         syntax_print(&text, left);
         status = diag_at(diag, E_EXPECT, left->place,
                          "%s is %.15g%s, expected %.15g within %.3g: off by %.3g", text.at, value,
@@ -349,9 +354,13 @@ static Status expect_condition(ct_session *session, const Syntax *condition, con
     if (is_comparison(condition)) {
         CHECK(value_of(session, condition->args[0], at, &left, diag));
         CHECK(value_of(session, condition->args[1], at, &right, diag));
-        status = diag_at(diag, E_EXPECT, condition->place,
-                         "%s does not hold%s: left is %.15g, right is %.15g", text.at,
-                         at_words(when, sizeof when, at), left, right);
+        status = isfinite(left) && isfinite(right)
+                     ? diag_at(diag, E_EXPECT, condition->place,
+                               "%s does not hold%s: left is %.15g, right is %.15g", text.at,
+                               at_words(when, sizeof when, at), left, right)
+                     : diag_at(diag, E_EXPECT, condition->place,
+                               "%s does not hold%s: its %s side is undefined", text.at,
+                               at_words(when, sizeof when, at), isfinite(left) ? "right" : "left");
     } else {
         status = diag_at(diag, E_EXPECT, condition->place, "%s does not hold%s", text.at,
                          at_words(when, sizeof when, at));
