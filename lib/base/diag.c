@@ -10,7 +10,7 @@ static void fill(Diag *diag, Status status, Place place, const char *format, va_
         return;
     diag->status = status;
     diag->place = place;
-    diag->hint[0] = '\0';
+    diag->hint[0] = diag->about[0] = '\0';
     (void)vsnprintf(diag->message, sizeof diag->message, format, args);
 }
 
@@ -42,6 +42,17 @@ void diag_hint(Diag *diag, const char *format, ...)
         return;
     va_start(args, format);
     (void)vsnprintf(diag->hint, sizeof diag->hint, format, args);
+    va_end(args);
+}
+
+void diag_about(Diag *diag, const char *format, ...)
+{
+    va_list args;
+
+    if (diag == NULL)
+        return;
+    va_start(args, format);
+    (void)vsnprintf(diag->about, sizeof diag->about, format, args);
     va_end(args);
 }
 

@@ -36,11 +36,12 @@ typedef struct Diag {
     Status status;
     Place place;
     char message[600];
-    char hint[400]; /* empty where there is none */
+    char hint[400];  /* empty where there is none */
+    char about[100]; /* the variable, key or run ("run2.") that it is about; empty: none is told */
 } Diag;
 
 /* Fill `diag` (which may be NULL) and return `status`, so that a function can
- * end with `return diag_set(...)`. Clears place and hint. */
+ * end with `return diag_set(...)`. Clears all else. */
 Status diag_set(Diag *diag, Status status, const char *format, ...) PRINTF(3, 4);
 
 /* the same with a place in the text */
@@ -48,6 +49,9 @@ Status diag_at(Diag *diag, Status status, Place place, const char *format, ...) 
 
 /* Add the way out to what diag_set() said. */
 void diag_hint(Diag *diag, const char *format, ...) PRINTF(2, 3);
+
+/* Add what it is about, by name: whoever has the user's text finds the place of that. */
+void diag_about(Diag *diag, const char *format, ...) PRINTF(2, 3);
 
 /* the text beside a status in status.def; never NULL */
 const char *status_text(Status status);

@@ -49,6 +49,8 @@ Status variables_resolve(System *system, Expr user, Expr *out, Diag *diag)
         path = mem_text(name, length);
         symbols[used] = symbols[i];
         status = system->variable(system, path, primes, &values[used++], diag);
+        if (status != OK)
+            diag_about(diag, "%s", path);
         mem_free(path);
         CHECK(status);
     }

@@ -635,31 +635,36 @@ done:
 
 /* --- keeping and saving --- */
 
-static void copy_names(State *to, NameList *list, const NameList *from, Text *remarks)
+/* `gone`: the names of edges that aren't there any more, each once */
+static void copy_names(State *to, NameList *list, const NameList *from, NameList *gone)
 {
     for (int i = 0; i < from->count; i++) {
         int which;
+        bool is_told = false;
 
-        if (edge_part(to, from->at[i], &which) != NULL)
+        if (edge_part(to, from->at[i], &which) != NULL) {
             LIST_PUSH(*list, state_text(to, from->at[i]));
-        else if (remarks != NULL) {
-            Text line = {0};
-
-            text_addf(&line, "%s is no longer among the edges chosen for trees\n", from->at[i]);
-            if (remarks->at == NULL || strstr(remarks->at, line.at) == NULL)
-                text_add(remarks, line.at);
-            text_free(&line);
+            continue;
         }
+        for (int k = 0; k < gone->count; k++)
+            is_told = is_told || strcmp(gone->at[k], from->at[i]) == 0;
+        if (!is_told)
+            LIST_PUSH(*gone, from->at[i]);
     }
 }
 
 void choices_copy(State *to, const State *from, Text *remarks)
 {
+    NameList gone = {0};
+
     for (TreeKind kind = 0; kind < TREE_KINDS; kind++) {
         to->choices[kind].absolute = from->choices[kind].absolute;
-        copy_names(to, &to->choices[kind].chosen, &from->choices[kind].chosen, remarks);
-        copy_names(to, &to->choices[kind].excluded, &from->choices[kind].excluded, remarks);
+        copy_names(to, &to->choices[kind].chosen, &from->choices[kind].chosen, &gone);
+        copy_names(to, &to->choices[kind].excluded, &from->choices[kind].excluded, &gone);
     }
+    for (int i = 0; i < gone.count && remarks != NULL; i++)
+        text_addf(remarks, "%s is no longer among the edges chosen for trees\n", gone.at[i]);
+    LIST_FREE(gone);
 }
 
 static void save_names(Text *text, TreeKind kind, const char *sign, const NameList *names)

@@ -280,16 +280,12 @@ static Status run_any(ct_session *session, const Statement *s, Diag *diag)
                    s->verb != NULL ? s->verb : s->text);
 }
 
-/* where a message that begins with a key ("rtol= ...") belongs */
-static Place place_of_message(const Statement *s, const char *message)
+/* where a message belongs: at the key that it is about */
+static Place place_of_message(const Statement *s, const Diag *diag)
 {
-    for (int i = 0; i < s->pairs.count; i++) {
-        const Pair *pair = &s->pairs.at[i];
-        const size_t length = strlen(pair->name);
-
-        if (strncmp(message, pair->name, length) == 0 && message[length] == '=')
-            return pair->name_place;
-    }
+    for (int i = 0; i < s->pairs.count; i++)
+        if (strcmp(s->pairs.at[i].name, diag->about) == 0)
+            return s->pairs.at[i].name_place;
     return s->verb_place;
 }
 
@@ -304,7 +300,7 @@ ct_status ct_run(ct_session *session, const ct_statement *statement, ct_error *e
     session_begin(session);
     status = run_any(session, s, &diag);
     if (status != OK && diag.place.line == 0 && s->kind == STATEMENT_VERB)
-        diag.place = place_of_message(s, diag.message);
+        diag.place = place_of_message(s, &diag);
     session_sweep(session);
     return session_report(status, &diag, error);
 }

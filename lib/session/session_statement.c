@@ -189,25 +189,26 @@ const char *ct_expression_word(const ct_expression *expression)
 
 /* --- places in messages --- */
 
-/* a variable in it of which the message speaks: in quotes, or of its run at the beginning */
-static const Syntax *spoken_of(const Syntax *syntax, const char *message)
+/* "h8" of "run2.h8" */
+static const char *without_run(const char *name)
 {
-    const char *name = syntax->text;
-    const Syntax *found = NULL;
-    Text quoted = {0};
-    size_t run; /* characters of "run1." */
+    if (strncmp(name, "run", 3) != 0 && strncmp(name, "last.", 5) != 0)
+        return name;
+    return name + strcspn(name, ".") + (strchr(name, '.') != NULL);
+}
 
-    if (strncmp(name, "run", 3) == 0 || strncmp(name, "last.", 5) == 0)
-        name += strcspn(name, ".") + (strchr(name, '.') != NULL);
-    text_addf(&quoted, "'%s'", name);
-    run = (size_t)(name - syntax->text);
-    if (syntax->kind == SYNTAX_VARIABLE &&
-        (strstr(message, quoted.at) != NULL ||
-         (run > 1 && strncmp(syntax->text, message, run - 1) == 0 && message[run - 1] == ' ')))
+/* a variable in it that a message is about, by its name or the run that it is of */
+static const Syntax *spoken_of(const Syntax *syntax, const char *about)
+{
+    const size_t length = strlen(about);
+    const Syntax *found = NULL;
+
+    if (syntax->kind == SYNTAX_VARIABLE && length > 0 &&
+        (strcmp(without_run(syntax->text), about) == 0 ||
+         (about[length - 1] == '.' && strncmp(syntax->text, about, length) == 0)))
         found = syntax;
-    text_free(&quoted);
     for (int i = 0; i < syntax->count && found == NULL; i++)
-        found = spoken_of(syntax->args[i], message);
+        found = spoken_of(syntax->args[i], about);
     return found;
 }
 
@@ -215,7 +216,7 @@ static const Syntax *spoken_of(const Syntax *syntax, const char *message)
 void session_place_item(const Syntax *const *items, int count, Diag *diag)
 {
     for (int i = 0; i < count && diag->place.line == 0; i++) {
-        const Syntax *found = spoken_of(items[i], diag->message);
+        const Syntax *found = spoken_of(items[i], diag->about);
 
         if (found != NULL)
             diag->place = found->place;

@@ -79,6 +79,7 @@ static Status refuse_instant(const Leaf *leaf, const Result *result, double at, 
                    leaf->run + 1, at, rows > 0 ? times[0] : 0, rows > 0 ? times[rows - 1] : 0);
     diag_hint(diag, "runs are compared at the instants of the last of them: make that the shorter "
                     "one, or ask 'at' an instant of both");
+    diag_about(diag, "run%d.", leaf->run + 1);
     return E_VALUE;
 }
 

@@ -96,11 +96,13 @@ static Status complete_options(const ActiveRun *r, const RunOptions *given, RunO
     if (out->rtol < LEAST_RTOL) {
         (void)diag_set(diag, E_VALUE, "rtol=%g is finer than numbers are", out->rtol);
         diag_hint(diag, "1e-12 is about the finest that makes sense");
+        diag_about(diag, "rtol");
         return E_VALUE;
     }
     if (out->duration / out->every > fmin(MOST_ROWS, MOST_VALUES / width)) {
         (void)diag_set(diag, E_VALUE, "that makes %.3g rows", out->duration / out->every);
         diag_hint(diag, "take a larger step of output, every=");
+        diag_about(diag, "every");
         return E_VALUE;
     }
     return OK;
@@ -589,6 +591,7 @@ static Status refuse_idle(const RunOptions *given, Diag *diag)
                            idle[i].key);
             diag_hint(diag, "the drivers give the motion, and the constraints are solved at each "
                             "instant as exactly as numbers allow; every= sets the instants");
+            diag_about(diag, "%s", idle[i].key);
             return E_VALUE;
         }
     return OK;
