@@ -12,6 +12,8 @@
 
 #include <math.h>
 
+#define PI 3.14159265358979323846
+
 enum { MOST = 5, INSTANTS = 2 * MOST };
 
 static const char *const methods[] = {"dop853", "rk4", "radau", "ida", "bdf", "adams"};
@@ -289,6 +291,49 @@ static Verdict laws(Member *m)
     return verdict;
 }
 
+/* --- two conditions in one step --- */
+
+/* A mark near the top of a swing, where a step that is taken again to end there may come out much
+ * longer; and a ball that is thrown back by a wall about then. Its flight is a straight line. */
+static Verdict neighbours(Member *m)
+{
+    const double w = decades(&m->random, 0.3, 3), rtol = decades(&m->random, 1e-9, 1e-3);
+    const double near = decades(&m->random, 1e-2 * rtol, 10 * rtol), v = 1;
+    const double top = (asin(1 - near) + 2 * PI * pick(&m->random, 3)) / w;
+    const double hit = top + 3 * sqrt(near) / w * test_uniform(&m->random, -0.3, 1);
+    const double end = hit + test_uniform(&m->random, 0.1, 1) / w;
+    const double wanted = -v * (end - hit), within = 100 * rtol * (1 + v * hit);
+    static const char *const all[] = {"auto", "dop853", "radau", "bdf", "adams", "ida"};
+    Script *script = calloc(1, sizeof *script);
+    Kit kit = kit_new();
+    Verdict verdict = AGREES;
+    double got;
+
+    write_line(script, "scene planar\nbody a mass=1 inertia=0\nbody b mass=1 inertia=0");
+    write_line(script, "prismatic p ground a axis=x\nprismatic s ground b axis=x");
+    write_line(script, "spring k p k=%.17g\ninit p = 0, p' = %.17g, s = %.17g, s' = %.17g", w * w,
+               w, -v * hit, v);
+    write_line(script, "event high when=p > %.17g do=mark", 1 - near);
+    write_line(script, "event wall when=s > 0 s' = -s'");
+    write_line(script, "simulate %.17g every=%.17g rtol=%.3g atol=%.3g method=%s", end, end, rtol,
+               rtol, all[pick(&m->random, (int)(sizeof all / sizeof all[0]))]);
+    tell(m, "%s", script->text);
+    if (kit_do(&kit, script->text) != CT_OK) {
+        tell(m, "%s\n", kit.error.message);
+        verdict = DISAGREES;
+    } else {
+        got = kit_value(&kit, "s");
+        if (!(fabs(got - wanted) <= within)) {
+            tell(m, "s is %.12g, not %.12g: off by %.3g tolerances\n", got, wanted,
+                 fabs(got - wanted) / rtol);
+            verdict = DISAGREES;
+        }
+    }
+    kit_free(&kit);
+    free(script);
+    return verdict;
+}
+
 /* --- sources --- */
 
 /* E and one capacitor, or J and a row of coils: whatever the values, the source is named */
@@ -338,6 +383,7 @@ int main(int argc, char **argv)
         {"capacitors that switches join share their charge", 40, 0, 0, charges},
         {"coils that switches put in series share their flux", 40, 0, 0, fluxes},
         {"events that change a law keep charge and flux", 40, 0, 0, laws},
+        {"conditions that are met in one step don't hide each other", 60, 0, 0, neighbours},
         {"a source that would give an impulse is named", 40, 0, 0, sources},
     };
 

@@ -427,6 +427,14 @@ bool events_begin(Events *events, double t, const double *y)
     return stop;
 }
 
+bool events_would_happen(const Events *events, const int *sides)
+{
+    for (int i = 0; i < events->items.count; i++)
+        if (!events->items.at[i].course.holds && is_true(events, &events->items.at[i], sides))
+            return true;
+    return false;
+}
+
 bool events_follow(Events *events, const int *sides)
 {
     bool due = false;

@@ -68,6 +68,8 @@ void events_settle(Events *events, double t, double span, const double *y, int r
 bool events_begin(Events *events, double t, const double *y);
 /* The sides are these now: notes which events no longer hold. True where others become true. */
 bool events_follow(Events *events, const int *sides);
+/* whether they would, were the sides these */
+bool events_would_happen(const Events *events, const int *sides);
 /* Let those happen at (t, y), in order of their making, and put their new values into y, the
  * constraints met; `sides` are those behind it then, and further events may come of that. *changed:
  * y has new values. *stop: an event ends the run. Fails with E_SOLVER where new values contradict

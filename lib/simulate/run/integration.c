@@ -6,7 +6,8 @@
 #include <math.h>
 #include <string.h>
 
-#define MANY 100 /* tolerances that an estimated error has to miss to be told */
+#define MANY   100 /* tolerances that an estimated error has to miss to be told */
+#define AGAINS 10  /* times that a step is looked over anew for what is met first in it */
 
 /* The explicit method has found that stability limits its steps. */
 static Status hand_over(Integration *m, Diag *diag)
@@ -79,6 +80,7 @@ static Status one_step(Integration *m, double end, Diag *diag)
 {
     Status status = OK;
     double when = 0;
+    int agains = 0;
 
     CHECK(seeing_step(m, end, diag));
     m->scanned = m->stepper->before;
@@ -87,12 +89,17 @@ static Status one_step(Integration *m, double end, Diag *diag)
 
         if (i < 0)
             break;
-        if (!integration_is_of_event(m, i))
-            return integration_meet_switch(m, i, when, diag);
-        if (integration_matters(m, i))
-            return integration_meet_event(m, i, when, diag);
-        m->scanned = when;
-        m->band[i] = m->noise[i];
+        if (integration_is_of_event(m, i) && !integration_matters(m, i)) {
+            m->scanned = when;
+            m->band[i] = m->noise[i];
+            continue;
+        }
+        bool again = agains++ < AGAINS;
+
+        CHECK(integration_is_of_event(m, i) ? integration_meet_event(m, i, when, &again, diag)
+                                            : integration_meet_switch(m, i, when, &again, diag));
+        if (!again)
+            return OK;
     }
     CHECK(integration_add_rows(m, diag));
     status =

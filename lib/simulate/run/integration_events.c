@@ -46,8 +46,10 @@ bool integration_matters(Integration *m, int i)
     const int *sides = m->mode + m->eq->switch_count;
 
     m->mode[i] = -m->mode[i];
-    if (!events_follow(m->ev, sides))
+    if (!events_would_happen(m->ev, sides)) {
+        (void)events_follow(m->ev, sides);
         return false;
+    }
     m->mode[i] = -m->mode[i];
     return true;
 }

@@ -148,11 +148,15 @@ MUST_USE Status integration_meet_time(Integration *m, Jump jump, Diag *diag);
 
 /* --- met and crossed (integration_meet.c) --- */
 
-/* End the last step at the switch, cross it, and start anew behind it. */
-MUST_USE Status integration_meet_switch(Integration *m, int condition, double when, Diag *diag);
+/* End the last step at the switch, cross it, and start anew behind it. *again: taken again to get
+ * there, the step has gone over others, which are first: look for them. That is told where it is
+ * asked for. */
+MUST_USE Status integration_meet_switch(Integration *m, int condition, double when, bool *again,
+                                        Diag *diag);
 /* E_SOLVER where switches come without a pause; `condition` is the last of them */
 MUST_USE Status integration_check_pace(Integration *m, int condition, Diag *diag);
-/* End the last step where a condition of an event is zero, and go on from there. */
-MUST_USE Status integration_meet_event(Integration *m, int condition, double when, Diag *diag);
+/* End the last step where a condition of an event is zero, and go on from there; likewise. */
+MUST_USE Status integration_meet_event(Integration *m, int condition, double when, bool *again,
+                                       Diag *diag);
 
 #endif

@@ -155,7 +155,21 @@ static bool is_led_back(Integration *m, int i, bool crossed)
     return rate * value < 0;
 }
 
-Status integration_meet_switch(Integration *m, int i, double when, Diag *diag)
+/* Where the step, taken again to meet condition i, ends behind `when`, nobody has looked whether
+ * others are met before that. */
+static bool passes_others(Integration *m, int i, double when)
+{
+    double first;
+    int found;
+
+    if (!(m->stepper->t > when))
+        return false;
+    m->scanned = m->stepper->before;
+    found = integration_find_switch(m, &first);
+    return found >= 0 && found != i;
+}
+
+Status integration_meet_switch(Integration *m, int i, double when, bool *again, Diag *diag)
 {
     const Guard guard = equations_guard(m->eq, i);
     bool on_surface = guard.side != 0 || guard.end != 0, crossed = false;
@@ -166,6 +180,9 @@ Status integration_meet_switch(Integration *m, int i, double when, Diag *diag)
     /* a switch on the very start of the step can't be told from the one just met */
     if (when > m->stepper->before) {
         CHECK(approach(m, i, when, &value, &slope, diag));
+        *again = *again && !is_told && passes_others(m, i, when);
+        if (*again)
+            return OK;
         CHECK(integration_add_rows(m, diag));
         /* the interpolant erred: it is told again where steps from here go */
         if (is_told && value > integration_rounding(m) &&
@@ -235,7 +252,7 @@ done:
     return status;
 }
 
-Status integration_meet_event(Integration *m, int i, double when, Diag *diag)
+Status integration_meet_event(Integration *m, int i, double when, bool *again, Diag *diag)
 {
     double span = m->plan->to - m->plan->from;
     int first = m->eq->switch_count;
@@ -248,6 +265,9 @@ Status integration_meet_event(Integration *m, int i, double when, Diag *diag)
 
     CHECK(reach_zero(m, i, when, &t, diag));
     memcpy(y, m->y, bytes);
+    *again = *again && passes_others(m, i, when);
+    if (*again)
+        goto done;
     m->stepper->t = fmin(m->stepper->t, t);
     CHECK(integration_add_rows(m, diag));
     memcpy(m->y, y, bytes);
