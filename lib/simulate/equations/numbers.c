@@ -38,9 +38,9 @@ static void position(void *context, double t, const double *q)
 
     inputs[nb->layout->t] = t;
     inputs_put(inputs, nb->layout->q, q, nb->layout->n);
-    probe_run(nb->main, STAGE_TIME, STAGE_POSITION);
+    workspace_run(nb->main->workspace, STAGE_TIME, STAGE_POSITION);
     if (nb->mass != NULL)
-        mass_matrix_put(nb->mass, probe_roots(nb->main) + nb->mass_needs);
+        mass_matrix_put(nb->mass, workspace_roots(nb->main->workspace) + nb->mass_needs);
 }
 
 static void velocity(void *context, const double *u, const double *x)
@@ -50,7 +50,7 @@ static void velocity(void *context, const double *u, const double *x)
 
     inputs_put(inputs, nb->layout->u, u, nb->layout->nu);
     inputs_put(inputs, nb->layout->x, x, nb->layout->nx);
-    probe_run(nb->main, STAGE_VELOCITY, STAGE_VELOCITY);
+    workspace_run(nb->main->workspace, STAGE_VELOCITY, STAGE_VELOCITY);
     nb->is_network_new = true;
 }
 
@@ -95,7 +95,8 @@ static void network_at(void *context, const double *w)
     inputs_put(inputs, l->z, w + l->nx, l->nz);
     if (nb->is_network_new)
         copy_inputs(nb, l->t, l->rates - l->t);
-    probe_run(nb->network, nb->is_network_new ? STAGE_TIME : STAGE_NETWORK, STAGE_ACCELERATION);
+    workspace_run(nb->network->workspace, nb->is_network_new ? STAGE_TIME : STAGE_NETWORK,
+                  STAGE_ACCELERATION);
     nb->is_network_new = false;
 }
 
@@ -115,7 +116,7 @@ static void network_solved(void *context, const double *solved)
 
     inputs_put(inputs, nb->layout->rates, solved, nb->layout->nx);
     inputs_put(inputs, nb->layout->z, solved + nb->layout->nx, nb->layout->nz);
-    probe_run(nb->main, STAGE_NETWORK, STAGE_NETWORK);
+    workspace_run(nb->main->workspace, STAGE_NETWORK, STAGE_NETWORK);
 }
 
 static void accelerated(void *context, const double *acceleration, const double *multipliers)
@@ -125,7 +126,7 @@ static void accelerated(void *context, const double *acceleration, const double 
 
     inputs_put(inputs, nb->layout->acceleration, acceleration, nb->layout->nu);
     inputs_put(inputs, nb->layout->multipliers, multipliers, nb->layout->m);
-    probe_run(nb->main, STAGE_ACCELERATION, STAGE_ACCELERATION);
+    workspace_run(nb->main->workspace, STAGE_ACCELERATION, STAGE_ACCELERATION);
 }
 
 static void switches(void *context, double t, const double *q, const double *u, const double *x,
@@ -145,8 +146,9 @@ static void switches(void *context, double t, const double *q, const double *u, 
     if (nb->eq.switches_read_network)
         memcpy(inputs + nb->layout->rates, probe_inputs(nb->main) + nb->layout->rates,
                (size_t)(nb->layout->nx + nb->layout->nz) * sizeof(double));
-    probe_run(nb->switching, STAGE_TIME, STAGE_NETWORK);
-    memcpy(out, probe_roots(nb->switching), (size_t)nb->eq.switch_count * sizeof(double));
+    workspace_run(nb->switching->workspace, STAGE_TIME, STAGE_NETWORK);
+    memcpy(out, workspace_roots(nb->switching->workspace),
+           (size_t)nb->eq.switch_count * sizeof(double));
 }
 
 static bool margin_is_steep(void *context, int k)
@@ -262,8 +264,8 @@ static Status compile_network(Numbers *nb, Parameters *parameters, Diag *diag)
     Status status = OK;
 
     CHECK(compile(l, parameters, &roots, &nb->network, diag));
-    nb->eq.network = probe_roots(nb->network) + network;
-    nb->eq.network_residual = probe_roots(nb->network) + residual;
+    nb->eq.network = workspace_roots(nb->network->workspace) + network;
+    nb->eq.network_residual = workspace_roots(nb->network->workspace) + residual;
     nb->eq.network_at = network_at;
 done:
     LIST_FREE(roots);
@@ -309,7 +311,7 @@ static Status compile_equations(Numbers *nb, Parameters *parameters, Diag *diag)
         for (int j = 0; j < l->nu; j++)
             LIST_PUSH(roots, system_n_entry(l->system, i, j));
     CHECK(compile(l, parameters, &roots, &nb->main, diag));
-    at = probe_roots(nb->main);
+    at = workspace_roots(nb->main->workspace);
     nb->eq.phi = at + phi;
     nb->eq.phi_u = at + phi_u;
     nb->mass_needs = mass;

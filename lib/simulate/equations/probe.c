@@ -5,19 +5,6 @@
 
 #include <string.h>
 
-/* an input that is a side of a switch */
-typedef struct SideInput {
-    int input, side;
-} SideInput;
-
-struct Probe {
-    const Layout *layout;
-    Residual *residual;
-    Workspace *workspace;
-    LIST(SideInput) sides;
-    uint64_t seen; /* sides, as they were then */
-};
-
 static Expr put_on_surfaces(const void *layout, Expr e)
 {
     return layout_on_surfaces(layout, e);
@@ -28,7 +15,7 @@ static void put_parameters(Probe *probe, Parameters *parameters)
 {
     int count;
     const Expr *own = residual_parameters(probe->residual, &count);
-    double *inputs = workspace_inputs(probe->workspace) + probe->layout->count;
+    double *inputs = probe->inputs + probe->layout->count;
 
     for (int i = 0; i < count; i++) {
         const int side = layout_side_of(probe->layout, own[i]);
@@ -38,8 +25,7 @@ static void put_parameters(Probe *probe, Parameters *parameters)
         else
             inputs[i] = parameters_value(parameters, own[i]);
     }
-    probe->seen = probe->layout->sides + 1; /* none: */
-    (void)probe_inputs(probe);
+    probe_take_sides(probe);
     if (probe->sides.count == 0)
         workspace_run(probe->workspace, STAGE_PARAMETER, STAGE_PARAMETER);
 }
@@ -63,6 +49,7 @@ Status probe_make(const Layout *layout, Parameters *parameters, const ProbeOrder
     probe->layout = layout;
     CHECK(residual_new(&rows, &probe->residual, diag));
     probe->workspace = workspace_new(residual_program(probe->residual));
+    probe->inputs = workspace_inputs(probe->workspace);
     put_parameters(probe, parameters);
     *out = probe;
     probe = NULL;
@@ -101,7 +88,7 @@ bool probe_turn(Probe *probe, Expr parameter, double value)
 
     for (int i = 0; i < count; i++)
         if (own[i] == parameter) {
-            workspace_inputs(probe->workspace)[probe->layout->count + i] = value;
+            probe->inputs[probe->layout->count + i] = value;
             workspace_run(probe->workspace, STAGE_PARAMETER, STAGE_PARAMETER);
             return true;
         }
@@ -110,42 +97,16 @@ bool probe_turn(Probe *probe, Expr parameter, double value)
 
 double *probe_input(Probe *probe, int place)
 {
-    return workspace_inputs(probe->workspace) + place;
+    return probe->inputs + place;
 }
 
-/* --- stage by stage --- */
-
-double *probe_inputs(Probe *probe)
+void probe_take_sides(Probe *probe)
 {
-    double *inputs = workspace_inputs(probe->workspace);
-
-    if (probe->seen == probe->layout->sides)
-        return inputs;
-    /* switches have gone over since the last call: with what follows from that */
     probe->seen = probe->layout->sides;
     for (int i = 0; i < probe->sides.count; i++)
-        inputs[probe->sides.at[i].input] = probe->layout->closed[probe->sides.at[i].side];
+        probe->inputs[probe->sides.at[i].input] = probe->layout->closed[probe->sides.at[i].side];
     if (probe->sides.count > 0)
         workspace_run(probe->workspace, STAGE_PARAMETER, STAGE_PARAMETER);
-    return inputs;
-}
-
-void inputs_put(double *inputs, int first, const double *values, int count)
-{
-    if (values != NULL)
-        memcpy(inputs + first, values, (size_t)count * sizeof(double));
-    else
-        memset(inputs + first, 0, (size_t)count * sizeof(double));
-}
-
-void probe_run(Probe *probe, Stage from, Stage to)
-{
-    workspace_run(probe->workspace, from, to);
-}
-
-const double *probe_roots(const Probe *probe)
-{
-    return workspace_roots(probe->workspace);
 }
 
 /* --- rows --- */
@@ -202,7 +163,7 @@ void probe_errors(const Probe *probe, const RowValues *errors, double *out)
 
     put_row(l, errors, inputs);
     for (int i = l->count; i < count; i++)
-        inputs[i] = number_error(workspace_inputs(probe->workspace)[i]);
+        inputs[i] = number_error(probe->inputs[i]);
     workspace_errors(probe->workspace, inputs, out);
     mem_free(inputs);
 }

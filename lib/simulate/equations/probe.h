@@ -4,10 +4,13 @@
 #ifndef COTREE_SIMULATE_EQUATIONS_PROBE_H
 #define COTREE_SIMULATE_EQUATIONS_PROBE_H
 
+#include "base/memory.h"
 #include "compile/residual.h"
 #include "simulate/equations/input_layout.h"
 #include "simulate/equations/motion.h"
 #include "simulate/equations/parameters.h"
+
+#include <string.h>
 
 /* what a row knows; arrays may be NULL for 0 */
 typedef struct RowValues {
@@ -22,7 +25,20 @@ RowValues row_of_state(const Layout *layout, double t, const double *y);
  * solution, and the row is without */
 bool row_solve(const Layout *layout, Motion *motion, double t, const double *y, RowValues *out);
 
-typedef struct Probe Probe;
+/* an input that is a side of a switch */
+typedef struct SideInput {
+    int input, side;
+} SideInput;
+
+/* Told here for the equations of a run, which are evaluated so often that calls count. */
+typedef struct Probe {
+    const Layout *layout;
+    Residual *residual;
+    Workspace *workspace;
+    double *inputs; /* the workspace's */
+    LIST(SideInput) sides;
+    uint64_t seen; /* sides, as they were then */
+} Probe;
 
 /* What is computed: roots, and the derivatives of the first of them (compile/residual.h). */
 typedef struct ProbeOrder {
@@ -55,12 +71,23 @@ const double *probe_values(Probe *probe, const RowValues *row);
  * number_error() has them. */
 void probe_errors(const Probe *probe, const RowValues *errors, double *out);
 
-/* --- stage by stage --- */
+/* --- stage by stage, by workspace_run() --- */
 
-/* Its inputs by the layout, write here; sides of switches are as the layout has them now. */
-double *probe_inputs(Probe *probe);
-void inputs_put(double *inputs, int first, const double *values, int count); /* NULL: 0 */
-void probe_run(Probe *probe, Stage from, Stage to);
-const double *probe_roots(const Probe *probe); /* at one place as long as the probe lives */
-
+/* Take sides of switches as the layout has them now, with what follows from them. */
+void probe_take_sides(Probe *probe);
+/* Its inputs by the layout, write here; sides are as the layout has them. */
+static inline double *probe_inputs(Probe *probe)
+{
+    if (probe->seen != probe->layout->sides)
+        probe_take_sides(probe);
+    return probe->inputs;
+}
+/* NULL: 0 */
+static inline void inputs_put(double *inputs, int first, const double *values, int count)
+{
+    if (values != NULL)
+        memcpy(inputs + first, values, (size_t)count * sizeof(double));
+    else
+        memset(inputs + first, 0, (size_t)count * sizeof(double));
+}
 #endif
