@@ -2,6 +2,7 @@
  * both readings of a system give the same numbers */
 #include "scene.h"
 
+#include "algebra/linear.h"
 #include "base/text.h"
 #include "compile/program.h"
 #include "form.h"
@@ -252,6 +253,35 @@ static void a_program_takes_no_more_than_is_counted(void)
     }
 }
 
+/* e with the rates of network states and the algebraic unknowns that A w = r gives in this state */
+static Expr with_network_rates(System *system, SceneState *state, Expr e)
+{
+    Arena *arena = system_arena(system);
+    const int nx = system_nx(system), count = nx + system_nz(system);
+    Expr *matrix = system_network_matrix(system), *symbols = NEW_ARRAY(Expr, count);
+    double *w = NEW_ARRAY(double, count);
+    Lu *lu = lu_new(count);
+
+    EXPECT(!system_run(system)->network_nonlinear);
+    for (int k = 0; k < count * count; k++)
+        lu_matrix(lu)[k] = value_of(matrix[k], state);
+    for (int k = 0; k < count; k++)
+        w[k] = value_of(system_run(system)->network_rhs[k], state);
+    EXPECT(lu_factor(lu));
+    lu_solve(lu, w);
+    for (int k = 0; k < count; k++) {
+        const Expr value = expr_real(arena, w[k]);
+
+        symbols[k] = k < nx ? system_state_rate(system, k) : system_z(system, k - nx)->symbol;
+        e = expr_substitute(arena, e, &symbols[k], &value, 1);
+    }
+    lu_free(lu);
+    mem_free(matrix);
+    mem_free(symbols);
+    mem_free(w);
+    return e;
+}
+
 /* d/dt(kinetic + potential) = power, with u' from M u' + Phi_u^T lambda = F left open: the
  * difference is sum u_j (M u' + Phi_u^T lambda - F)_j plus network residuals; with u', lambda and
  * x' free it is tested at states in which that residual is added back */
@@ -285,9 +315,9 @@ static void energy_balances(void)
             LIST_PUSH(symbols, system_x(system, j)->symbol);
             LIST_PUSH(rates, system_state_rate(system, j));
         }
-        change =
-            value_of(expr_diff_along(arena, total, symbols.at, rates.at, symbols.count), &state);
-        balance = value_of(system_power(system), &state);
+        total = expr_diff_along(arena, total, symbols.at, rates.at, symbols.count);
+        change = value_of(with_network_rates(system, &state, total), &state);
+        balance = value_of(with_network_rates(system, &state, system_power(system)), &state);
         for (int j = 0; j < n; j++) {
             double row = -value_of(run->force[j], &state);
 
