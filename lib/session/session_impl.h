@@ -171,7 +171,7 @@ typedef MUST_USE Status Analysis(ct_session *session, const Statement *statement
 #define SESSION_VERB(word, ...) Analysis session_##word;
 #include "language/verbs.def"
 
-/* says so where the last linearisation is of another model */
+/* says so where the last linearisation is of another model, or of an instant of a motion */
 void session_remark_linear(ct_session *session);
 /* entries of what these found (linear.A, modes.omega): a number for the name; -1: none */
 int session_entry(const char *name);

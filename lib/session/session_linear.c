@@ -221,34 +221,37 @@ done:
     return status;
 }
 
-void session_remark_linear(ct_session *session)
-{
-    if (session->linear != NULL && session->linear_is_old)
-        session_remark(session, "linearized before the model changed");
-}
-
-static void tell_modes(const ct_session *session, Text *out)
-{
-    modes_print(session->modes, session->hooks.columns, out);
-}
-
 /* Eigenvalues of a linear system are its own, whatever describes it; those at an instant of a
  * motion aren't. */
-static void remark_passing(ct_session *session, const Linear *linear)
+static void remark_passing(ct_session *session, const Linear *linear, const char *what)
 {
     Text line = {0};
 
     if (!linear->is_passing)
         return;
     text_addf(&line,
-              "no rest and no steady motion at t = %.6g s: the modes are those of the coordinates",
-              linear->at);
+              "no rest and no steady motion at t = %.6g s: the %s are those of the coordinates",
+              linear->at, what);
     for (int i = 0; i < linear->freedoms && i < MOST_TOLD; i++)
         text_addf(&line, "%s %s", i == 0 ? "" : ",", linear->state_names[i]);
     text_addf(&line, "%s; other independent coordinates have others",
               linear->freedoms > MOST_TOLD ? ", ..." : "");
     session_remark(session, line.at);
     text_free(&line);
+}
+
+void session_remark_linear(ct_session *session)
+{
+    if (session->linear == NULL)
+        return;
+    if (session->linear_is_old)
+        session_remark(session, "linearized before the model changed");
+    remark_passing(session, session->linear, "poles");
+}
+
+static void tell_modes(const ct_session *session, Text *out)
+{
+    modes_print(session->modes, session->hooks.columns, out);
 }
 
 Status session_modes(ct_session *session, const Statement *s, Diag *diag)
@@ -259,7 +262,7 @@ Status session_modes(ct_session *session, const Statement *s, Diag *diag)
 
     CHECK(find_linear(session, s, &linear, diag));
     CHECK(modes_find(linear, &modes, diag));
-    remark_passing(session, linear);
+    remark_passing(session, linear, "modes");
     modes_free(session->modes);
     session->modes = modes;
     session->told = tell_modes;

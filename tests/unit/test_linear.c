@@ -276,6 +276,26 @@ static void modes_of_no_rest_say_whose_they_are(void)
     }
 }
 
+/* its poles are the same eigenvalues */
+static void poles_of_no_rest_say_whose_they_are(void)
+{
+    static const char *const looks[] = {"show transfer", "show linear"};
+
+    for (int i = 0; i < 4; i++) {
+        Kit kit = kit_new();
+
+        EXPECT_DONE(&kit, PENDULUM "k = 0\nactuator f h torque=k\ninit h = 30 deg");
+        EXPECT_DONE(&kit, i % 2 == 0 ? "linearize inputs=[k] outputs=[h]"
+                                     : "equilibrium\nlinearize inputs=[k] outputs=[h]");
+        EXPECT_DONE(&kit, looks[i / 2]);
+        if (i % 2 == 0)
+            EXPECT_HOLDS(ct_remarks(kit.session), "the poles are those of the coordinates h;");
+        else
+            EXPECT_LACKS(ct_remarks(kit.session), "coordinates");
+        kit_free(&kit);
+    }
+}
+
 /* rotating body without moments, in its own axes: I w' = (I w) x w, s' = dw - w x s */
 static void small_turns_of_a_spinning_body_follow_its_axes(void)
 {
@@ -588,6 +608,7 @@ int main(void)
     RUN(the_motor_arm_is_linear_as_by_hand);
     RUN(an_instant_of_a_run_is_where_it_is_then);
     RUN(modes_of_no_rest_say_whose_they_are);
+    RUN(poles_of_no_rest_say_whose_they_are);
     RUN(small_turns_of_a_spinning_body_follow_its_axes);
     RUN(the_slider_crank_with_a_spring_swings_as_one_coordinate_does);
     RUN(a_moving_mechanism_has_the_slopes_of_neighbouring_motions);
