@@ -61,43 +61,74 @@ static Rotation rotation_between(const System *system, int from, int to)
     return rotation;
 }
 
-static MassPlace place_of(const System *system, CompositeMass *mass, int node, int parent)
+/* cosine and sine of a turn about one of the axes; else row by row */
+static void add_rotation(const System *system, CompositeMass *mass, int from, int to,
+                         MassPlace *place)
 {
-    const Frame *frame = &system->kinematics->frames[node];
-    const int axes = axes_of(system, node), onto = axes_of(system, frame->parent);
-    MassPlace place = {.parent = parent,
-                       .has_step = !vec_is_zero(frame->step),
-                       .is_inner = frame->base == node,
-                       .is_turned = parent >= 0 && axes != onto};
+    const Rotation R = rotation_between(system, from, to);
 
+    for (int i = 0; i < 3; i++) {
+        const int j = (i + 1) % 3, k = (i + 2) % 3;
+
+        if (expr_is(R.at[4 * i], 1) && expr_is_zero(R.at[3 * i + j]) &&
+            expr_is_zero(R.at[3 * i + k]) && expr_is_zero(R.at[3 * j + i]) &&
+            expr_is_zero(R.at[3 * k + i]) && R.at[4 * j] == R.at[4 * k] &&
+            R.at[3 * j + k] == expr_neg(system->arena, R.at[3 * k + j])) {
+            place->axis = i;
+            place->rotation = need(mass, (Expr[]){R.at[4 * j], R.at[3 * k + j]}, 2);
+            return;
+        }
+    }
+    place->axis = AXIS_ANY;
+    place->rotation = need(mass, R.at, 9);
+}
+
+/* Nodes between that no speed moves have the axes of the place's parent: their steps are one way.
+ */
+static MassPlace place_of(const System *system, CompositeMass *mass, int node, const int *at)
+{
+    const Frame *frames = system->kinematics->frames;
+    const int inner = frames[node].parent, axes = axes_of(system, node),
+              onto = axes_of(system, inner);
+    MassPlace place = {.is_turned = axes != onto};
+    Vec way = place.is_turned ? vec_zero(system->arena) : frames[node].step;
+    int parent = inner;
+
+    for (; parent >= 0 && at[parent] < 0; parent = frames[parent].parent)
+        if (frames[parent].parent >= 0)
+            way = vec_add(system->arena, way, frames[parent].step);
+    place.parent = parent >= 0 ? at[parent] : -1;
+    if (place.parent < 0)
+        return (MassPlace){.parent = -1};
+    place.has_step = place.is_turned && !vec_is_zero(frames[node].step);
     if (place.has_step)
-        place.step = need(mass, frame->step.at, 3);
+        place.step = need(mass, frames[node].step.at, 3);
     if (place.is_turned)
-        place.rotation = need(mass, rotation_between(system, axes, onto).at, 9);
+        add_rotation(system, mass, axes, onto, &place);
+    way = vec_hold(system->arena, way);
+    place.has_way = !vec_is_zero(way);
+    if (place.has_way)
+        place.way = need(mass, way.at, 3);
     return place;
 }
 
 /* nodes that speeds move, outward; at[node] is the place of each, -1 where it has none */
 static void add_places(System *system, CompositeMass *mass, int *at)
 {
-    const Kinematics *kinematics = system->kinematics;
     int nodes;
     const int *order = tree_nodes(system->origin->trees[TREE_TRANSLATION], &nodes);
     bool *moves = NEW_ARRAY(bool, graph_node_count(system->origin->graph));
 
-    for (int j = 0; j < kinematics->u.count; j++)
+    for (int j = 0; j < system->kinematics->u.count; j++)
         moves[speed_node(system, j)] = true;
     mass->places = pool_alloc(system->pool, (size_t)nodes * sizeof *mass->places);
-    at[order[0]] = -1;
-    for (int i = 1; i < nodes; i++) {
-        const int parent = kinematics->frames[order[i]].parent;
-
+    for (int i = 0; i < nodes; i++)
         at[order[i]] = -1;
-        if (at[parent] < 0 && !moves[order[i]])
-            continue;
-        mass->places[mass->place_count] = place_of(system, mass, order[i], at[parent]);
-        at[order[i]] = mass->place_count++;
-    }
+    for (int i = 1; i < nodes; i++)
+        if (moves[order[i]]) {
+            mass->places[mass->place_count] = place_of(system, mass, order[i], at);
+            at[order[i]] = mass->place_count++;
+        }
     mem_free(moves);
 }
 
@@ -121,6 +152,8 @@ static void add_speeds(System *system, CompositeMass *mass, const int *at)
 
         composite_loads(system, &composites[node], j, &loads);
         mass->speeds[j] = (MassSpeed){.place = at[node],
+                                      .turns = !vec_is_zero(turn),
+                                      .slides = !vec_is_zero(slide),
                                       .turn = need(mass, turn.at, 3),
                                       .slide = need(mass, slide.at, 3),
                                       .force = need(mass, loads.force[node].at, 3),
@@ -166,24 +199,38 @@ void composite_mass_free(CompositeMass *mass)
 
 /* --- its price --- */
 
-/* Passing on takes a cross product for a step and two products with a matrix for a turn, meeting a
- * speed two dot products; in a plane less. */
+static OpCount times(OpCount a, int64_t n)
+{
+    return (OpCount){n * a.add, n * a.mul, n * a.fun};
+}
+
+/* Passing on takes a cross product for a step, a product with a matrix for a turn of each vector,
+ * and meeting a speed a dot product; in a plane less. */
+static OpCount passing(const CompositeMass *mass, const MassPlace *place)
+{
+    const OpCount cross = mass->planar ? (OpCount){2, 2, 0} : (OpCount){6, 6, 0};
+    const OpCount turned = place->axis == AXIS_ANY ? (OpCount){12, 18, 0} : (OpCount){4, 8, 0};
+    OpCount sum = {0};
+
+    for (int i = place->first; i < place->first + place->count; i++) {
+        const MassSpeed *speed = &mass->speeds[mass->speed_at[i]];
+
+        sum = op_count_plus(
+            sum, times(mass->planar ? (OpCount){0, 1, 0} : (OpCount){2, 3, 0}, speed->turns));
+        sum = op_count_plus(
+            sum, times(mass->planar ? (OpCount){1, 2, 0} : (OpCount){2, 3, 0}, speed->slides));
+    }
+    sum = op_count_plus(sum, times(cross, place->has_step + place->has_way));
+    return op_count_plus(sum, times(turned, place->is_turned));
+}
+
 OpCount composite_mass_passing(const CompositeMass *mass)
 {
-    const OpCount step = mass->planar ? (OpCount){2, 2, 0} : (OpCount){6, 6, 0};
-    const OpCount turned = {12, 18, 0};
-    const OpCount met = mass->planar ? (OpCount){2, 3, 0} : (OpCount){5, 6, 0};
     OpCount sum = {0};
 
     for (int k = 0; k < mass->speed_count; k++)
-        for (int p = mass->speeds[k].place; p >= 0; p = mass->places[p].parent) {
-            if (mass->places[p].has_step)
-                sum = op_count_plus(sum, step);
-            if (mass->places[p].is_turned)
-                sum = op_count_plus(sum, turned);
-            for (int i = 0; i < mass->places[p].count; i++)
-                sum = op_count_plus(sum, met);
-        }
+        for (int p = mass->speeds[k].place; p >= 0; p = mass->places[p].parent)
+            sum = op_count_plus(sum, passing(mass, &mass->places[p]));
     return sum;
 }
 

@@ -10,19 +10,25 @@
 
 #include "formulate/system.h"
 
-/* a node that something is passed through */
+enum { AXIS_ANY = 3 };
+
+/* a node that speeds move, through which something is passed */
 typedef struct MassPlace {
-    int parent;         /* place, before this one; -1: no speed is met further on */
-    bool has_step;      /* a force has a moment about the parent */
-    bool is_inner;      /* the step is fixed in this node, whose speeds feel that moment too */
-    bool is_turned;     /* the parent's axes are others */
-    int first, count;   /* its speeds, in `speed_at` */
-    int step, rotation; /* where their entries stand among the needs */
+    int parent;       /* place, before this one; -1: no speed is met further on */
+    bool is_turned;   /* the parent's axes are others */
+    int axis;         /* about which: one of the axes, of 0 to 2, or AXIS_ANY */
+    bool has_step;    /* before that turn a force has a moment about the place that it turns at, */
+    bool has_way;     /* and after it about the parent */
+    int first, count; /* its speeds, in `speed_at` */
+    /* where these stand among the needs */
+    int step, way; /* m, towards this node: in its axes, and in those of the parent */
+    int rotation;  /* to the axes of the parent: cosine and sine, or row by row */
 } MassPlace;
 
 /* where its vectors stand among the needs, in the axes of the place */
 typedef struct MassSpeed {
     int place;
+    bool turns, slides;
     int turn, slide;   /* motion per unit */
     int force, torque; /* that what hangs beyond takes per unit of u' */
 } MassSpeed;
@@ -33,7 +39,7 @@ typedef struct CompositeMass {
     MassPlace *places;
     MassSpeed *speeds;
     int *speed_at;    /* speeds, place by place, in order at each */
-    LIST(Expr) needs; /* steps from the parent (m), rotations to its axes row by row, vectors */
+    LIST(Expr) needs; /* numbers of these are passed on */
 } CompositeMass;
 
 /* NULL where M is short or doesn't follow so: it is run as it is written. Borrowed. */

@@ -1,7 +1,7 @@
 /* mass_matrix.c: forces and moments passed on towards the datum, column by column
  *
- * f, t: force and moment on a place, in its axes; r its step from its parent, R the rotation to the
- * axes of that. What a place passes on is R f and R (t + r x f). */
+ * f, t: force and moment on a place, in its axes; s its step, R the rotation to the axes of its
+ * parent, r the way from there. What a place passes on is R f and R (t + s x f) + r x R f. */
 #include "simulate/equations/mass_matrix.h"
 
 #include "base/memory.h"
@@ -71,7 +71,7 @@ static inline void add_cross(double *sum, const double *a, const double *b)
     sum[2] += a[0] * b[1] - a[1] * b[0];
 }
 
-static inline void turn(const double *R, double *v)
+static inline void turn_by(const double *R, double *v)
 {
     const double x = v[0], y = v[1], z = v[2];
 
@@ -79,11 +79,41 @@ static inline void turn(const double *R, double *v)
         v[i] = R[3 * i] * x + R[3 * i + 1] * y + R[3 * i + 2] * z;
 }
 
+/* by a cosine and a sine, in the plane of two axes */
+static inline void turn_in(int j, int k, const double *R, double *v)
+{
+    const double y = v[j], z = v[k];
+
+    v[j] = R[0] * y - R[1] * z;
+    v[k] = R[1] * y + R[0] * z;
+}
+
 static inline void put_pair(MassMatrix *matrix, int j, int k, double value)
 {
     const int n = matrix->mass->speed_count;
 
     matrix->at[j * n + k] = matrix->at[k * n + j] = value;
+}
+
+static inline void turn_both(const MassPlace *place, const double *R, double *f, double *t)
+{
+    switch (place->axis) {
+    case 0:
+        turn_in(1, 2, R, f);
+        turn_in(1, 2, R, t);
+        break;
+    case 1:
+        turn_in(2, 0, R, f);
+        turn_in(2, 0, R, t);
+        break;
+    case 2:
+        turn_in(0, 1, R, f);
+        turn_in(0, 1, R, t);
+        break;
+    default:
+        turn_by(R, f);
+        turn_by(R, t);
+    }
 }
 
 static void column(MassMatrix *matrix, const double *numbers, int k)
@@ -97,23 +127,22 @@ static void column(MassMatrix *matrix, const double *numbers, int k)
     for (int p = own->place; p >= 0; p = mass->places[p].parent) {
         const MassPlace *place = &mass->places[p];
 
-        if (place->has_step && place->is_inner)
-            add_cross(t, numbers + place->step, f);
         for (int i = place->first; i < place->first + place->count; i++) {
             const int j = mass->speed_at[i];
+            const MassSpeed *met = &mass->speeds[j];
 
             /* those of one place stand in the column of the later one */
             if (p != own->place || j <= k)
                 put_pair(matrix, j, k,
-                         dot(numbers + mass->speeds[j].turn, t) +
-                             dot(numbers + mass->speeds[j].slide, f));
+                         (met->turns ? dot(numbers + met->turn, t) : 0) +
+                             (met->slides ? dot(numbers + met->slide, f) : 0));
         }
-        if (place->has_step && !place->is_inner)
+        if (place->has_step)
             add_cross(t, numbers + place->step, f);
-        if (place->is_turned) {
-            turn(numbers + place->rotation, f);
-            turn(numbers + place->rotation, t);
-        }
+        if (place->is_turned)
+            turn_both(place, numbers + place->rotation, f, t);
+        if (place->has_way)
+            add_cross(t, numbers + place->way, f);
     }
 }
 
@@ -122,24 +151,24 @@ static void planar_column(MassMatrix *matrix, const double *numbers, int k)
 {
     const CompositeMass *mass = matrix->mass;
     const MassSpeed *own = &mass->speeds[k];
-    const double *f = numbers + own->force;
+    const double x = numbers[own->force], y = numbers[own->force + 1];
     double t = numbers[own->torque + 2];
 
     for (int p = own->place; p >= 0; p = mass->places[p].parent) {
         const MassPlace *place = &mass->places[p];
-        const double *r = numbers + place->step;
-        const double moment = place->has_step ? r[0] * f[1] - r[1] * f[0] : 0;
 
-        t += place->is_inner ? moment : 0;
         for (int i = place->first; i < place->first + place->count; i++) {
             const int j = mass->speed_at[i];
-            const double *slide = numbers + mass->speeds[j].slide;
+            const MassSpeed *met = &mass->speeds[j];
+            const double *slide = numbers + met->slide;
 
             if (p != own->place || j <= k)
                 put_pair(matrix, j, k,
-                         numbers[mass->speeds[j].turn + 2] * t + slide[0] * f[0] + slide[1] * f[1]);
+                         (met->turns ? numbers[met->turn + 2] * t : 0) +
+                             (met->slides ? slide[0] * x + slide[1] * y : 0));
         }
-        t += place->is_inner ? 0 : moment;
+        if (place->has_way)
+            t += numbers[place->way] * y - numbers[place->way + 1] * x;
     }
 }
 
