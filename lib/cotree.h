@@ -173,6 +173,24 @@ const char *ct_verb_name(int i);
 ct_status ct_run(ct_session *session, const ct_statement *statement, ct_error *error);
 char *ct_report(ct_session *session);        /* new: the last run's report, as `show run` */
 int ct_run_count(const ct_session *session); /* runs so far: run1 ... */
+/* What a run reports, as numbers: NAN where one is not known. */
+typedef struct ct_figures {
+    const char *method; /* that ran last; NULL: nothing was integrated */
+    int rows;
+    double from, to;          /* s: of the rows */
+    double rtol, atol;        /* 0: nothing was integrated */
+    int64_t steps, rejected;  /* rejected ones are among them */
+    int64_t evaluations;      /* of the right-hand side */
+    double position_residual; /* largest of the constraints' equations, in SI */
+    double velocity_residual; /* largest of their rates */
+    double energy_drift;      /* J: largest, of energy less work */
+    double energy_swing;      /* J: largest kinetic energy less the smallest, to compare */
+    double global_error;      /* of check=on, in SI */
+    double wall;              /* s: that it took */
+    bool stopped;             /* by the stop hook */
+} ct_figures;
+/* Of run1, run2 ...; 0: of the last one. False where there is no such run; *out is as it was. */
+bool ct_run_figures(const ct_session *session, int run, ct_figures *out);
 
 /* One value: over variables, parameters and functions of runs (max(h8), run2.h8); `at` NULL: the
  * end of the last run or the assembled start, as the language says. */

@@ -312,6 +312,38 @@ int ct_run_count(const ct_session *session)
 
 /* --- reports --- */
 
+bool ct_run_figures(const ct_session *session, int run, ct_figures *out)
+{
+    const int count = session->runs.count;
+    const int i = run == 0 ? count - 1 : run - 1;
+    const Result *result;
+    const RunReport *report;
+    int rows;
+
+    if (i < 0 || i >= count)
+        return false;
+    result = session->runs.at[i].result;
+    report = result_report(result);
+    rows = result_rows(result);
+    *out = (ct_figures){.method = report->method,
+                        .rows = rows,
+                        .from = rows > 0 ? result_times(result)[0] : NAN,
+                        .to = rows > 0 ? result_times(result)[rows - 1] : NAN,
+                        .rtol = report->rtol,
+                        .atol = report->atol,
+                        .steps = report->steps,
+                        .rejected = report->rejected,
+                        .evaluations = report->evaluations,
+                        .position_residual = report->position_residual,
+                        .velocity_residual = report->velocity_residual,
+                        .energy_drift = report->energy_drift,
+                        .energy_swing = report->energy_swing,
+                        .global_error = report->global_error,
+                        .wall = report->wall,
+                        .stopped = report->stopped};
+    return true;
+}
+
 static const Variable *unknown_at(const System *system, int i)
 {
     const int n = system_n(system), nu = system_nu(system), nx = system_nx(system);

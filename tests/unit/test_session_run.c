@@ -604,6 +604,25 @@ static void a_solution_that_ends_ends_the_run(void)
     kit_free(&kit);
 }
 
+static void figures_are_those_of_the_run_that_is_asked_for(void)
+{
+    Kit kit = kit_new();
+    ct_figures first = {0}, last = {0}, none = {.rows = 7};
+
+    EXPECT(!ct_run_figures(kit.session, 0, &none) && none.rows == 7);
+    EXPECT_DONE(&kit, "scene planar\ngravity [0, -9.81]\nbody p mass=2 inertia=0.5\n"
+                      "arm a p [0, 1.5]\nrevolute h ground a\ninit h = 1\n"
+                      "simulate 1 every=0.1 rtol=1e-9\nsimulate 2 every=0.1 check=on\n");
+    EXPECT(ct_run_figures(kit.session, 1, &first) && ct_run_figures(kit.session, 0, &last));
+    EXPECT(!ct_run_figures(kit.session, 3, &none) && none.rows == 7);
+    EXPECT(first.rows == 11 && first.from == 0 && first.to == 1 && first.rtol == 1e-9);
+    EXPECT(last.rows == 21 && last.to == 2 && last.steps > 0 && last.evaluations > last.steps);
+    EXPECT(isnan(first.global_error) && last.global_error >= 0 && last.global_error < 1e-6);
+    EXPECT(first.energy_drift < 1e-6 * first.energy_swing && !first.stopped);
+    EXPECT_TEXT(first.method, "dop853");
+    kit_free(&kit);
+}
+
 int main(void)
 {
     RUN(a_run_keeps_energy_and_meets_the_start);
@@ -631,5 +650,6 @@ int main(void)
     RUN(angular_speeds_of_joints_can_be_given);
     RUN(parts_that_no_longer_fit_are_told);
     RUN(a_solution_that_ends_ends_the_run);
+    RUN(figures_are_those_of_the_run_that_is_asked_for);
     return test_end();
 }
