@@ -44,10 +44,18 @@ static double dot(const double *a, const double *b, int n)
     return (s0 + s1) + (s2 + s3);
 }
 
-/* a += f b */
+/* a += f b; four at a time, which compilers make two instructions of */
 static void add_row(double *restrict a, double f, const double *restrict b, int n)
 {
-    for (int i = 0; i < n; i++)
+    int i = 0;
+
+    for (; i + 4 <= n; i += 4) {
+        a[i] += f * b[i];
+        a[i + 1] += f * b[i + 1];
+        a[i + 2] += f * b[i + 2];
+        a[i + 3] += f * b[i + 3];
+    }
+    for (; i < n; i++)
         a[i] += f * b[i];
 }
 

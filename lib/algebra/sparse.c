@@ -10,6 +10,20 @@
 
 #define SMALL  12   /* up to here dense factors are faster (make bench: algebra.sparse_*) */
 #define GROWTH 1e-8 /* pivots kept from an earlier matrix are given up below this */
+#define OFTEN  4    /* solutions with the same factors, from which on they are unpacked */
+
+/* KLU's factors for many solutions, LU + F = P (R \ A) Q: it keeps them so that they are found
+ * fast, with a division an unknown and all blocks apart. Columns of L, and of U and F together:
+ * where they begin, and after the last one. */
+typedef struct Unpacked {
+    int *lower, *lower_row, *upper, *upper_row;
+    double *lower_value, *upper_value;
+    double *pivot, *scale; /* over each, of rows as they are permuted */
+    int *p, *q;
+    int *block, block_count; /* where blocks begin, and the end */
+    double *x;
+    int lower_room, upper_room;
+} Unpacked;
 
 struct Sparse {
     int n, entries;
@@ -22,6 +36,8 @@ struct Sparse {
     klu_common common;
     Cleanup cleanup; /* of KLU's */
     int singular;
+    int solutions; /* with the factors there are; OFTEN: they are unpacked */
+    Unpacked unpacked;
 };
 
 /* entries by columns: start of each, and where each entry went */
@@ -72,6 +88,22 @@ Sparse *sparse_new(int n, int entries, const int *row, const int *column)
     return s;
 }
 
+static void unpacked_free(Unpacked *u)
+{
+    mem_free(u->lower);
+    mem_free(u->lower_row);
+    mem_free(u->upper);
+    mem_free(u->upper_row);
+    mem_free(u->lower_value);
+    mem_free(u->upper_value);
+    mem_free(u->pivot);
+    mem_free(u->scale);
+    mem_free(u->p);
+    mem_free(u->q);
+    mem_free(u->block);
+    mem_free(u->x);
+}
+
 void sparse_free(Sparse *s)
 {
     if (s == NULL)
@@ -79,6 +111,7 @@ void sparse_free(Sparse *s)
     if (s->lu == NULL)
         close_factors(s);
     lu_free(s->lu);
+    unpacked_free(&s->unpacked);
     mem_free(s->place);
     mem_free(s->start);
     mem_free(s->row);
@@ -121,6 +154,7 @@ static bool refactor(Sparse *s)
 
 bool sparse_factor(Sparse *s, const double *values)
 {
+    s->solutions = 0;
     if (s->lu != NULL)
         return factor_dense(s, values);
     for (int k = 0; k < s->entries; k++) {
@@ -151,10 +185,140 @@ double sparse_condition(Sparse *s)
     return klu_rcond(s->symbolic, s->numeric, &s->common) ? s->common.rcond : 0;
 }
 
+/* --- many solutions --- */
+
+static void make_room(Sparse *s, int lower, int upper)
+{
+    Unpacked *u = &s->unpacked;
+
+    if (u->x == NULL) {
+        u->x = NEW_ARRAY(double, s->n);
+        u->pivot = NEW_ARRAY(double, s->n);
+        u->scale = NEW_ARRAY(double, s->n);
+        u->p = NEW_ARRAY(int, s->n);
+        u->q = NEW_ARRAY(int, s->n);
+        u->block = NEW_ARRAY(int, s->n + 1);
+        u->lower = NEW_ARRAY(int, s->n + 1);
+        u->upper = NEW_ARRAY(int, s->n + 1);
+    }
+    if (lower > u->lower_room) {
+        mem_free(u->lower_row);
+        mem_free(u->lower_value);
+        u->lower_row = NEW_ARRAY(int, lower);
+        u->lower_value = NEW_ARRAY(double, lower);
+        u->lower_room = lower;
+    }
+    if (upper > u->upper_room) {
+        mem_free(u->upper_row);
+        mem_free(u->upper_value);
+        u->upper_row = NEW_ARRAY(int, upper);
+        u->upper_value = NEW_ARRAY(double, upper);
+        u->upper_room = upper;
+    }
+}
+
+/* U and F share columns: what a column of F takes off belongs to blocks that are solved later. */
+static void merge_upper(Sparse *s, const int *up, const int *ui, const double *ux, const int *fp,
+                        const int *fi, const double *fx)
+{
+    Unpacked *u = &s->unpacked;
+    int count = 0;
+
+    for (int c = 0; c < s->n; c++) {
+        u->upper[c] = count;
+        for (int k = up[c]; k < up[c + 1]; k++)
+            if (ui[k] == c) {
+                u->pivot[c] = 1 / ux[k];
+            } else {
+                u->upper_row[count] = ui[k];
+                u->upper_value[count++] = ux[k];
+            }
+        for (int k = fp[c]; k < fp[c + 1]; k++) {
+            u->upper_row[count] = fi[k];
+            u->upper_value[count++] = fx[k];
+        }
+    }
+    u->upper[s->n] = count;
+}
+
+static void merge_lower(Sparse *s, const int *lp, const int *li, const double *lx)
+{
+    Unpacked *u = &s->unpacked;
+    int count = 0;
+
+    for (int c = 0; c < s->n; c++) {
+        u->lower[c] = count;
+        for (int k = lp[c]; k < lp[c + 1]; k++)
+            if (li[k] != c) {
+                u->lower_row[count] = li[k];
+                u->lower_value[count++] = lx[k];
+            }
+    }
+    u->lower[s->n] = count;
+}
+
+static bool unpack(Sparse *s)
+{
+    const int lower = s->numeric->lnz, upper = s->numeric->unz, off = s->numeric->nzoff;
+    const int n = s->n;
+    int *places = NEW_ARRAY(int, 3 * (n + 1) + lower + upper + off + n + 1);
+    int *lp = places, *up = lp + n + 1, *fp = up + n + 1, *li = fp + n + 1, *ui = li + lower,
+        *fi = ui + upper, *blocks = fi + off;
+    double *numbers = NEW_ARRAY(double, lower + upper + off);
+    double *lx = numbers, *ux = lx + lower, *fx = ux + upper;
+    bool sound;
+
+    make_room(s, lower, upper + off);
+    sound = klu_extract(s->numeric, s->symbolic, lp, li, lx, up, ui, ux, fp, fi, fx, s->unpacked.p,
+                        s->unpacked.q, s->unpacked.scale, blocks, &s->common) != 0;
+    for (int i = 0; i < n && sound; i++)
+        s->unpacked.scale[i] = 1 / s->unpacked.scale[i];
+    if (sound) {
+        merge_upper(s, up, ui, ux, fp, fi, fx);
+        merge_lower(s, lp, li, lx);
+        s->unpacked.block_count = s->symbolic->nblocks;
+        memcpy(s->unpacked.block, blocks, (size_t)(s->symbolic->nblocks + 1) * sizeof(int));
+    }
+    mem_free(places);
+    mem_free(numbers);
+    return sound;
+}
+
+/* columns first..end-1, one block: its L, then its U and what it takes off those before */
+static void solve_block(const Unpacked *u, int first, int end, double *x)
+{
+    for (int c = first; c < end; c++)
+        for (int k = u->lower[c]; k < u->lower[c + 1]; k++)
+            x[u->lower_row[k]] -= u->lower_value[k] * x[c];
+    for (int c = end - 1; c >= first; c--) {
+        x[c] *= u->pivot[c];
+        for (int k = u->upper[c]; k < u->upper[c + 1]; k++)
+            x[u->upper_row[k]] -= u->upper_value[k] * x[c];
+    }
+}
+
+static void solve_unpacked(const Sparse *s, double *b)
+{
+    const Unpacked *u = &s->unpacked;
+
+    for (int i = 0; i < s->n; i++)
+        u->x[i] = b[u->p[i]] * u->scale[i];
+    for (int k = u->block_count - 1; k >= 0; k--)
+        solve_block(u, u->block[k], u->block[k + 1], u->x);
+    for (int i = 0; i < s->n; i++)
+        b[u->q[i]] = u->x[i];
+}
+
 void sparse_solve(Sparse *s, double *b)
 {
-    if (s->lu != NULL)
+    if (s->lu != NULL) {
         lu_solve(s->lu, b);
+        return;
+    }
+    if (s->solutions < OFTEN && ++s->solutions == OFTEN && !unpack(s))
+        s->solutions = 0;
+    if (s->solutions == OFTEN)
+        solve_unpacked(s, b);
     else
         (void)klu_solve(s->symbolic, s->numeric, s->n, 1, b, &s->common);
 }
