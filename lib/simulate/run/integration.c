@@ -6,8 +6,9 @@
 #include <math.h>
 #include <string.h>
 
-#define MANY   100 /* tolerances that an estimated error has to miss to be told */
-#define AGAINS 10  /* times that a step is looked over anew for what is met first in it */
+#define MANY    100 /* tolerances that an estimated error has to miss to be told */
+#define AGAINS  10  /* times that a step is looked over anew for what is met first in it */
+#define CAREFUL 0.5 /* of what would have been allowed behind the last switch: to begin with */
 
 /* The explicit method has found that stability limits its steps. */
 static Status hand_over(Integration *m, Diag *diag)
@@ -76,6 +77,15 @@ done:
     return status;
 }
 
+/* What begins when a switch goes over is much alike from one to the next: how long the first step
+ * behind one could have been tells how to begin behind another. */
+static void learn_beginning(Integration *m)
+{
+    if (m->begins && m->plan->mode_switch != NULL)
+        m->begin_by = CAREFUL * m->stepper->next;
+    m->begins = false;
+}
+
 static Status one_step(Integration *m, double end, Diag *diag)
 {
     Status status = OK;
@@ -83,6 +93,7 @@ static Status one_step(Integration *m, double end, Diag *diag)
     int agains = 0;
 
     CHECK(seeing_step(m, end, diag));
+    learn_beginning(m);
     m->scanned = m->stepper->before;
     while (integration_state_conditions(m) > 0) {
         int i = integration_find_switch(m, &when);

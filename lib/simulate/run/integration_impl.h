@@ -52,6 +52,8 @@ typedef struct Integration {
     double missed_at;      /* s */
     bool is_over;          /* an event has ended the run */
     bool is_taken_back;    /* the last step, and its method has to start anew */
+    bool begins;           /* no step has been taken since a switch, */
+    double begin_by;       /* which one of this length may follow, s; 0: not known */
 } Integration;
 
 /* --- rows (integration_rows.c) --- */

@@ -254,6 +254,9 @@ Status integration_go_on(Integration *m, double t, const double *y, bool *entere
     CHECK(integration_settle_surfaces(m, entered, diag));
     memcpy(m->y, m->stepper->y, (size_t)m->length * sizeof(double));
     CHECK(m->stepper->method->start(m->stepper, t, m->y, diag));
+    m->begins = *entered && !m->stepper->method->has_history;
+    if (m->begins)
+        m->stepper->next = m->begin_by;
     m->is_taken_back = false;
     onset_forget(m->segment.onset);
     if (*entered)
