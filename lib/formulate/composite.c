@@ -79,7 +79,7 @@ static Rotation tensor_express(const System *system, Rotation tensor, int from, 
     return tensor;
 }
 
-Composite *composites_new(System *system)
+Composite *composites_new(const System *system)
 {
     Arena *arena = system->arena;
     int nodes;
@@ -123,7 +123,7 @@ Composite *composites_new(System *system)
     return all;
 }
 
-void composite_loads(System *system, const Composite *composite, int speed, Loads *loads)
+void composite_loads(const System *system, const Composite *composite, int speed, Loads *loads)
 {
     Arena *arena = system->arena;
     int node = speed_node(system, speed);

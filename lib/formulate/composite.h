@@ -11,10 +11,10 @@ typedef struct Composite { /* about the node's origin, in its axes */
 } Composite;
 
 /* of every node, in the system's pool */
-Composite *composites_new(System *system);
+Composite *composites_new(const System *system);
 /* one unit of the speed moves everything beyond its branch as one rigid body */
 bool speed_moves_as_one(const System *system, int speed);
 /* what its branch feels of the composite beyond, per unit of u'; all else at rest */
-void composite_loads(System *system, const Composite *composite, int speed, Loads *loads);
+void composite_loads(const System *system, const Composite *composite, int speed, Loads *loads);
 
 #endif

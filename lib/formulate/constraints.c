@@ -360,7 +360,7 @@ bool system_holds(const System *system, uint64_t revision,
 
 /* the part of the way from the last common node to `node` that `chain` turns (-1: all of it), added
  * from the far end, so that what hangs together is one definition */
-static Vec way_turned(System *system, int node, int ancestor, int chain, int axes)
+static Vec way_turned(const System *system, int node, int ancestor, int chain, int axes)
 {
     Vec sum = vec_zero(system->arena);
 
@@ -389,7 +389,7 @@ static int common_node(const System *system, int a, int b)
     return a;
 }
 
-static Vec circuit_turned(System *system, const Row *row, int chain, int axes)
+static Vec circuit_turned(const System *system, const Row *row, int chain, int axes)
 {
     int ancestor = common_node(system, row->tail, row->head);
     Vec to_head = way_turned(system, row->head, ancestor, chain, axes);
@@ -399,7 +399,7 @@ static Vec circuit_turned(System *system, const Row *row, int chain, int axes)
 }
 
 /* n . slide of speed j on the circuit, signs included */
-static Expr circuit_slide(System *system, const Row *row, Vec n, int speed, int axes)
+static Expr circuit_slide(const System *system, const Row *row, Vec n, int speed, int axes)
 {
     int node = system->kinematics->speeds[speed].slide_node;
     const Tree *tree = system->origin->trees[TREE_TRANSLATION];
@@ -479,7 +479,7 @@ static int speeds_of_row(const System *system, const Row *row, int *speeds)
     return count;
 }
 
-static void run_way(System *system, const Row *row, int k, const int *speeds, int count)
+static void run_way(const System *system, const Row *row, int k, const int *speeds, int count)
 {
     Arena *arena = system->arena;
     Vec n;
@@ -531,7 +531,7 @@ static void run_way(System *system, const Row *row, int k, const int *speeds, in
     system->run.gamma[k] = expr_neg(arena, vec_dot(arena, n, rest));
 }
 
-static void run_dot(System *system, const Row *row, int k, const int *speeds, int count)
+static void run_dot(const System *system, const Row *row, int k, const int *speeds, int count)
 {
     Arena *arena = system->arena;
     int tail = system->kinematics->frames[row->tail].chain;

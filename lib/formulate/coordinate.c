@@ -7,7 +7,7 @@
 #include "formulate/system_impl.h"
 #include "formulate/vector.h"
 
-Expr speed_partial(System *system, Expr e, int speed)
+Expr speed_partial(const System *system, Expr e, int speed)
 {
     Arena *arena = system->arena;
     Expr sum = expr_int(arena, 0);
@@ -32,7 +32,7 @@ bool steps_are_tied(const Steps *steps)
 }
 
 /* a slide of a chord: the way from tail to head along the axis */
-Expr slide_value(System *system, const Instance *owner, const Step *slide)
+Expr slide_value(const System *system, const Instance *owner, const Step *slide)
 {
     Vec axis =
         frame_vector(system, owner->tail, (Vec){{slide->axis[0], slide->axis[1], slide->axis[2]}});
@@ -60,7 +60,7 @@ static Vec turn_axis(const Step *turn)
 }
 
 /* an axis of the tail, as it lies after the joint's turns: fixed in the head, seen from the tail */
-static Vec far_axis(System *system, const Instance *owner, const Rotation *constant, Vec axis)
+static Vec far_axis(const System *system, const Instance *owner, const Rotation *constant, Vec axis)
 {
     axis = rotation_apply(system->arena, constant, frame_vector(system, owner->tail, axis));
     return vec_express(system, axis, system->kinematics->frames[owner->head].chain,
@@ -68,8 +68,8 @@ static Vec far_axis(System *system, const Instance *owner, const Rotation *const
 }
 
 /* of two turns u1, u2 (theory 2, coordinate of a chord) */
-static void universal_turn(System *system, const Instance *owner, const Steps *steps, int which,
-                           ChordTurn *out)
+static void universal_turn(const System *system, const Instance *owner, const Steps *steps,
+                           int which, ChordTurn *out)
 {
     Arena *arena = system->arena;
     Rotation constant = chord_constant(system, owner, steps);
@@ -83,7 +83,7 @@ static void universal_turn(System *system, const Instance *owner, const Steps *s
     out->cosine = which == 0 ? vec_dot(arena, far2, u2) : vec_dot(arena, far1, u1);
 }
 
-void chord_turn(System *system, const Instance *owner, const Steps *steps, int which,
+void chord_turn(const System *system, const Instance *owner, const Steps *steps, int which,
                 ChordTurn *out)
 {
     Arena *arena = system->arena;
@@ -119,7 +119,8 @@ void chord_turn(System *system, const Instance *owner, const Steps *steps, int w
     LIST_FREE(turns);
 }
 
-Vec joint_axis(System *system, const Instance *owner, const Steps *steps, int which, int *chain)
+Vec joint_axis(const System *system, const Instance *owner, const Steps *steps, int which,
+               int *chain)
 {
     int speed = system->kinematics->speed[owner->number][steps->turn[which].coordinate];
 
@@ -139,7 +140,7 @@ Vec joint_axis(System *system, const Instance *owner, const Steps *steps, int wh
     return system->kinematics->speeds[speed].axis;
 }
 
-static Status chord_value(System *system, const Instance *owner, int coordinate, Expr *out,
+static Status chord_value(const System *system, const Instance *owner, int coordinate, Expr *out,
                           Diag *diag)
 {
     Steps steps;

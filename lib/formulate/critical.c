@@ -7,9 +7,8 @@
 #include "formulate/origin.h"
 #include "formulate/system_impl.h"
 
-bool system_critical(System *system, int i, Critical *out)
+bool system_critical(const System *system, int i, Critical *out)
 {
-    system_touch(system);
     Arena *arena = system->arena;
 
     for (int k = 0; k < system->origin->instance_count; k++) {

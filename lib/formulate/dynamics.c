@@ -26,7 +26,7 @@ static int axes_of(const System *system, int node)
 }
 
 /* the row of a speed: its cutset projected on its motion */
-static Expr sums_project(System *system, const Sums *sums, int speed)
+static Expr sums_project(const System *system, const Sums *sums, int speed)
 {
     const Speed *own = &system->kinematics->speeds[speed];
     Expr row = expr_int(system->arena, 0);
@@ -40,7 +40,7 @@ static Expr sums_project(System *system, const Sums *sums, int speed)
 }
 
 /* the directions of each speed, in the axes of its nodes */
-static void speed_directions(System *system)
+static void speed_directions(const System *system)
 {
     for (int j = 0; j < system->kinematics->u.count; j++) {
         Speed *own = &system->kinematics->speeds[j];
@@ -53,7 +53,7 @@ static void speed_directions(System *system)
 }
 
 /* velocities of all nodes per unit of one speed */
-static void unit_motion(System *system, int speed, Vec *v)
+static void unit_motion(const System *system, int speed, Vec *v)
 {
     Arena *arena = system->arena;
     int turned = system->kinematics->speeds[speed].chain;
@@ -77,7 +77,7 @@ static void unit_motion(System *system, int speed, Vec *v)
 }
 
 /* inertia forces, signs reversed, of that motion */
-static void unit_loads(System *system, int speed, const Vec *v, Loads *loads)
+static void unit_loads(const System *system, int speed, const Vec *v, Loads *loads)
 {
     Arena *arena = system->arena;
     int turned = system->kinematics->speeds[speed].chain;
@@ -182,7 +182,7 @@ done:
     return status;
 }
 
-void loads_add_inertia(System *system, Loads *loads, const Vec *alpha, const Vec *a)
+void loads_add_inertia(const System *system, Loads *loads, const Vec *alpha, const Vec *a)
 {
     Arena *arena = system->arena;
     Vec *gravity = NEW_ARRAY(Vec, system->kinematics->chains.count);
@@ -208,7 +208,7 @@ void loads_add_inertia(System *system, Loads *loads, const Vec *alpha, const Vec
 }
 
 /* an effort on a coordinate works on the speeds that the coordinate depends on */
-static void add_on_coordinate(System *system, Expr coordinate, Expr effort)
+static void add_on_coordinate(const System *system, Expr coordinate, Expr effort)
 {
     Arena *arena = system->arena;
 
@@ -261,7 +261,7 @@ done:
 
 /* An effort that holds u' pushes with inertia: of a flywheel on a shaft's end, of the liquid before
  * a cylinder. Its slope belongs into M, and what it is at u' = 0 into F. */
-Status effort_inertia(System *system, const Effort *effort, int speed, Expr *out, Diag *diag)
+Status effort_inertia(const System *system, const Effort *effort, int speed, Expr *out, Diag *diag)
 {
     Expr slope = expr_diff(system->arena, effort->value, system->kinematics->accelerations[speed]);
 
@@ -272,7 +272,7 @@ Status effort_inertia(System *system, const Effort *effort, int speed, Expr *out
     return OK;
 }
 
-Expr effort_at_rest(System *system, const Effort *effort)
+Expr effort_at_rest(const System *system, const Effort *effort)
 {
     int n = system->kinematics->u.count;
     Expr *zeros;

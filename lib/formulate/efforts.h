@@ -15,9 +15,9 @@ typedef struct Effort {
 MUST_USE Status effort_of(System *system, const Instance *instance, Effort *out, Diag *diag);
 /* what an effort adds to M in the column of a speed, per unit of its coordinate, and what is left
  * of it at u' = 0. E_MODEL where it isn't linear in u'. */
-MUST_USE Status effort_inertia(System *system, const Effort *effort, int speed, Expr *out,
+MUST_USE Status effort_inertia(const System *system, const Effort *effort, int speed, Expr *out,
                                Diag *diag);
-Expr effort_at_rest(System *system, const Effort *effort);
+Expr effort_at_rest(const System *system, const Effort *effort);
 /* wrench of force and torque components: in axes of *chain */
 MUST_USE Status wrench_of(System *system, const Instance *instance, Vec *force, Vec *torque,
                           int *chain, Diag *diag);

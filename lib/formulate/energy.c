@@ -17,7 +17,7 @@ static Expr half(Arena *arena)
     return expr_rational(arena, 1, 2);
 }
 
-static void push(System *system, Terms *terms, Expr scale, Expr a, Expr b)
+static void push(const System *system, Terms *terms, Expr scale, Expr a, Expr b)
 {
     LIST_PUSH(*terms, expr_product(system->arena, (Expr[]){scale, a, b}, 3));
 }

@@ -20,7 +20,7 @@ static void parameters_product(Arena *arena, Expr a[4], const Expr b[4])
 
 /* Euler parameters of a constant rotation, from its trace or, where the first of them is small,
  * from the diagonal entry that leaves the largest (Shepperd 1978) */
-static void parameters_of(System *system, const Rotation *rotation, Expr p[4])
+static void parameters_of(const System *system, const Rotation *rotation, Expr p[4])
 {
     Arena *arena = system->arena;
     const Expr *R = rotation->at;
@@ -60,7 +60,7 @@ static void parameters_of(System *system, const Rotation *rotation, Expr p[4])
     p[1 + k] = expr_mul(arena, half, expr_add(arena, R[3 * k + i], R[3 * i + k]));
 }
 
-void frame_parameters(System *system, int node, Expr p[4])
+void frame_parameters(const System *system, int node, Expr p[4])
 {
     Arena *arena = system->arena;
     const Frame *frame = &system->kinematics->frames[node];
@@ -87,7 +87,7 @@ void frame_parameters(System *system, int node, Expr p[4])
     }
 }
 
-void relative_parameters(System *system, int tail, int head, Expr p[4])
+void relative_parameters(const System *system, int tail, int head, Expr p[4])
 {
     Expr far[4];
 

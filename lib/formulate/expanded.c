@@ -22,7 +22,7 @@
 /* --- partial velocities --- */
 
 /* the part of the way from ground to a node that speed j moves */
-static FrameSum partial_velocity(System *system, int node, int speed)
+static FrameSum partial_velocity(const System *system, int node, int speed)
 {
     Expr one = expr_int(system->arena, 1);
     const Speed *own = &system->kinematics->speeds[speed];
@@ -47,7 +47,7 @@ static FrameSum partial_velocity(System *system, int node, int speed)
 
 /* angular velocity of a chain per unit of speed j, in its own axes; zero where it doesn't turn it
  */
-static Vec partial_turn(System *system, int chain, int speed)
+static Vec partial_turn(const System *system, int chain, int speed)
 {
     int turned = system->kinematics->speeds[speed].chain;
 
@@ -59,7 +59,7 @@ static Vec partial_turn(System *system, int chain, int speed)
 /* --- velocity products --- */
 
 /* angular velocity of a chain in its own axes, and what its rate is at u' = 0 */
-static void chain_motion(System *system, int chain, Vec *w, Vec *alpha)
+static void chain_motion(const System *system, int chain, Vec *w, Vec *alpha)
 {
     Arena *arena = system->arena;
     const Chain *turn = &system->kinematics->chains.at[chain];
@@ -81,7 +81,7 @@ static void chain_motion(System *system, int chain, Vec *w, Vec *alpha)
 }
 
 /* acceleration of a node at u' = 0 */
-static FrameSum rest_acceleration(System *system, int node)
+static FrameSum rest_acceleration(const System *system, int node)
 {
     Arena *arena = system->arena;
     FrameSum sum = {NULL, 0};
@@ -114,7 +114,7 @@ static FrameSum rest_acceleration(System *system, int node)
 
 typedef LIST(Expr) Terms;
 
-static Expr added(System *system, Terms *terms)
+static Expr added(const System *system, Terms *terms)
 {
     Expr sum = expr_sum(system->arena, terms->at, terms->count);
 
@@ -215,7 +215,7 @@ done:
     return status;
 }
 
-static void push_inertia(System *system, int j, Terms *terms)
+static void push_inertia(const System *system, int j, Terms *terms)
 {
     Arena *arena = system->arena;
 
@@ -242,7 +242,7 @@ static void push_inertia(System *system, int j, Terms *terms)
 }
 
 /* distance of two frames as a reader would write it */
-static Expr length_shown(System *system, const Instance *instance)
+static Expr length_shown(const System *system, const Instance *instance)
 {
     FrameSum way = framesum_way(system, instance->tail, instance->head);
 

@@ -10,7 +10,7 @@
 
 #include <string.h>
 
-FrameSum framesum_of(System *system, int chain, Vec v)
+FrameSum framesum_of(const System *system, int chain, Vec v)
 {
     FrameSum sum = {NULL, 0};
 
@@ -22,7 +22,7 @@ FrameSum framesum_of(System *system, int chain, Vec v)
     return sum;
 }
 
-FrameSum framesum_add(System *system, FrameSum a, Expr scale, FrameSum b)
+FrameSum framesum_add(const System *system, FrameSum a, Expr scale, FrameSum b)
 {
     FrameSum sum;
     int i = 0;
@@ -49,7 +49,7 @@ FrameSum framesum_add(System *system, FrameSum a, Expr scale, FrameSum b)
     return sum;
 }
 
-FrameSum framesum_cross(System *system, Vec axis, int chain, FrameSum b)
+FrameSum framesum_cross(const System *system, Vec axis, int chain, FrameSum b)
 {
     FrameSum sum = {NULL, 0};
 
@@ -63,7 +63,7 @@ FrameSum framesum_cross(System *system, Vec axis, int chain, FrameSum b)
     return sum;
 }
 
-Expr framesum_dot(System *system, FrameSum a, FrameSum b)
+Expr framesum_dot(const System *system, FrameSum a, FrameSum b)
 {
     LIST(Expr) terms = {0};
     Expr dot;
@@ -79,7 +79,7 @@ Expr framesum_dot(System *system, FrameSum a, FrameSum b)
     return dot;
 }
 
-FrameSum framesum_way(System *system, int from, int to)
+FrameSum framesum_way(const System *system, int from, int to)
 {
     const Tree *tree = system->origin->trees[TREE_TRANSLATION];
     Expr one = expr_int(system->arena, 1);

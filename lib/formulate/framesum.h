@@ -15,12 +15,12 @@ typedef struct FrameSum {
     int count;
 } FrameSum;
 
-FrameSum framesum_add(System *system, FrameSum a, Expr scale, FrameSum b);
-FrameSum framesum_of(System *system, int chain, Vec v);
+FrameSum framesum_add(const System *system, FrameSum a, Expr scale, FrameSum b);
+FrameSum framesum_of(const System *system, int chain, Vec v);
 /* k of chain `turn` crossed with each part */
-FrameSum framesum_cross(System *system, Vec axis, int chain, FrameSum b);
-Expr framesum_dot(System *system, FrameSum a, FrameSum b);
+FrameSum framesum_cross(const System *system, Vec axis, int chain, FrameSum b);
+Expr framesum_dot(const System *system, FrameSum a, FrameSum b);
 /* the way from one node to another along the translation tree */
-FrameSum framesum_way(System *system, int from, int to);
+FrameSum framesum_way(const System *system, int from, int to);
 
 #endif

@@ -135,7 +135,7 @@ void instance_steps(const System *system, const Instance *instance, Steps *steps
 
 void motion_build(System *system);
 /* angular accelerations of chains and accelerations of nodes, with u' or (NULL) without */
-void accelerations_build(System *system, const Expr *accelerations, Vec *alpha, Vec *a);
+void accelerations_build(const System *system, const Expr *accelerations, Vec *alpha, Vec *a);
 /* position of a node in ground axes, held; formed at the first call */
 Vec node_position(System *system, int node);
 

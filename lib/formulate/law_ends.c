@@ -45,9 +45,8 @@ static Expr coefficient(const System *system, const Branchlike *branch)
     return expr_diff(system->arena, branch->relation.content, own);
 }
 
-int system_bounds(System *system, Bound **out)
+int system_bounds(const System *system, Bound **out)
 {
-    system_touch(system);
     LIST(Bound) bounds = {0};
 
     for (int b = 0; b < system->network->branches.count; b++) {

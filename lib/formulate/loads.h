@@ -18,12 +18,12 @@ typedef struct Sums {
 } Sums;
 
 /* sums inward over both trees of what acts on nodes; new arrays in the system's pool */
-Sums *loads_sum(System *system, const Loads *loads);
-Loads loads_new(System *system);
+Sums *loads_sum(const System *system, const Loads *loads);
+Loads loads_new(const System *system);
 /* m (g - a) and -(I alpha + w x I w) of every mass */
-void loads_add_inertia(System *system, Loads *loads, const Vec *alpha, const Vec *a);
-void loads_add_force(System *system, Loads *loads, int node, Vec force, int chain);
-void loads_add_torque(System *system, Loads *loads, int node, Vec torque, int chain);
+void loads_add_inertia(const System *system, Loads *loads, const Vec *alpha, const Vec *a);
+void loads_add_force(const System *system, Loads *loads, int node, Vec force, int chain);
+void loads_add_torque(const System *system, Loads *loads, int node, Vec torque, int chain);
 /* a force or torque `effort` along a coordinate of an instance, on its head and reversed on its
  * tail */
 void loads_add_effort(System *system, Loads *loads, const Instance *owner, int coordinate,

@@ -90,7 +90,7 @@ MUST_USE Status network_row(System *system, int unknown, Diag *diag);
 const Instance *branch_owner(const System *system, const Branchlike *branch);
 Branchlike *scalar_branch(System *system, const Instance *instance, int which);
 /* its member names: "i", or of an edge with a suffix "s.i" */
-const char *branch_member(System *system, const Branchlike *branch, bool through);
+const char *branch_member(const System *system, const Branchlike *branch, bool through);
 TreeKind branch_tree(const System *system, const Branchlike *branch);
 /* the next rate of a network symbol; E_MISSING where it can't be told */
 MUST_USE Status network_rate(System *system, Expr symbol, Expr *out, Diag *diag);
@@ -123,7 +123,7 @@ MUST_USE Status network_stored_rate(System *system, const Branchlike *branch, Ex
 /* v of a chord along its circuit */
 MUST_USE Status circuit_across(System *system, Branchlike *branch, Expr *out, Diag *diag);
 /* names of the edges in the circuit of a chord or the cutset of a branch; in the pool */
-const char *network_company(System *system, const Branchlike *branch);
+const char *network_company(const System *system, const Branchlike *branch);
 /* Whether an edge of a port gives its own variable (v of a branch, i of a chord) by the other edge;
  * where it doesn't its equation is the other of the two. */
 bool port_gives_own(System *system, const Branchlike *branch);

@@ -85,7 +85,7 @@ done:
 }
 
 /* what a row puts on the head of its chord per unit of -lambda: force or moment, ground axes */
-static Vec row_reaction(System *system, const Row *row, bool rotation)
+static Vec row_reaction(const System *system, const Row *row, bool rotation)
 {
     Arena *arena = system->arena;
     int tail = system->kinematics->frames[row->tail].chain;
@@ -126,7 +126,7 @@ static Vec chord_reaction(System *system, const Instance *joint, bool rotation)
 }
 
 /* everything beyond the branch and the joint itself are in equilibrium */
-static Vec branch_reaction(System *system, const Tree *tree, int branch, const Sums *sums,
+static Vec branch_reaction(const System *system, const Tree *tree, int branch, const Sums *sums,
                            bool rotation, int *chain)
 {
     int node = tree_far_node(tree, branch);

@@ -64,7 +64,7 @@ static void step_motion(System *system, int node)
                              vec_scale(arena, expr_int(arena, 2), vec_cross(arena, w, slid)));
 }
 
-void accelerations_build(System *system, const Expr *accelerations, Vec *alpha, Vec *a)
+void accelerations_build(const System *system, const Expr *accelerations, Vec *alpha, Vec *a)
 {
     Arena *arena = system->arena;
     int nodes;
@@ -179,7 +179,7 @@ Vec node_position(System *system, int node)
 
 /* --- loads --- */
 
-Loads loads_new(System *system)
+Loads loads_new(const System *system)
 {
     int count = graph_node_count(system->origin->graph);
     Loads loads = {pool_alloc(system->pool, (size_t)count * sizeof(Vec)),
@@ -190,19 +190,19 @@ Loads loads_new(System *system)
     return loads;
 }
 
-void loads_add_force(System *system, Loads *loads, int node, Vec force, int chain)
+void loads_add_force(const System *system, Loads *loads, int node, Vec force, int chain)
 {
     force = vec_express(system, force, chain, axes_of(system, node));
     loads->force[node] = vec_add(system->arena, loads->force[node], force);
 }
 
-void loads_add_torque(System *system, Loads *loads, int node, Vec torque, int chain)
+void loads_add_torque(const System *system, Loads *loads, int node, Vec torque, int chain)
 {
     torque = vec_express(system, torque, chain, axes_of(system, node));
     loads->torque[node] = vec_add(system->arena, loads->torque[node], torque);
 }
 
-Sums *loads_sum(System *system, const Loads *loads)
+Sums *loads_sum(const System *system, const Loads *loads)
 {
     Arena *arena = system->arena;
     const Tree *rotation = system->origin->trees[TREE_ROTATION];

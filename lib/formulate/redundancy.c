@@ -175,7 +175,7 @@ static void find_open(System *system, const Elimination *e, Recovery *recovery)
 /* --- solving --- */
 
 /* sum over the rows of W_ra W_rb; of W_ra P_r where b is -1 */
-static Expr product(System *system, const RedundancyMatrix *m, int a, int b)
+static Expr product(const System *system, const RedundancyMatrix *m, int a, int b)
 {
     enum { SHORT = 400 }; /* operations of what may be written out */
     Arena *arena = system->arena;

@@ -12,7 +12,7 @@
 
 #include <math.h>
 
-Sample *sample_new(System *system, uint64_t seed, bool vary)
+Sample *sample_new(const System *system, uint64_t seed, bool vary)
 {
     Sample *sample = pool_alloc(system->pool, sizeof *sample);
     int n = system->kinematics->q.count;

@@ -11,7 +11,7 @@ typedef struct Sample { /* a random position */
 } Sample;
 
 /* in the system's pool; `vary`: with other parameters too, for what holds whatever they are */
-Sample *sample_new(System *system, uint64_t seed, bool vary);
+Sample *sample_new(const System *system, uint64_t seed, bool vary);
 /* of an expression in q and parameters; NAN where there is more in it */
 double sample_number(Sample *sample, Expr e);
 

@@ -14,7 +14,7 @@ Branchlike *scalar_branch(System *system, const Instance *instance, int which)
                 .at[system->network->scalar_of_edge[instance->scalar_edges[which]]];
 }
 
-const char *branch_member(System *system, const Branchlike *branch, bool through)
+const char *branch_member(const System *system, const Branchlike *branch, bool through)
 {
     const Edge *edge = graph_edge(system->origin->graph, branch->edge);
 
@@ -32,7 +32,7 @@ TreeKind branch_tree(const System *system, const Branchlike *branch)
     return kind;
 }
 
-const char *network_company(System *system, const Branchlike *branch)
+const char *network_company(const System *system, const Branchlike *branch)
 {
     const Tree *tree = system->origin->trees[branch_tree(system, branch)];
     SignMatrix *matrix = branch->branch ? tree_cutsets(tree) : tree_circuits(tree);

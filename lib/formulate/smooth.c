@@ -104,7 +104,7 @@ static bool jumps(Arena *arena, Expr e)
     return found;
 }
 
-Status system_need_smooth(System *system, const char *who, Expr e, Diag *diag)
+Status system_need_smooth(const System *system, const char *who, Expr e, Diag *diag)
 {
     const unsigned plain = 1U << SYMBOL_PARAMETER | 1U << SYMBOL_STATE | 1U << SYMBOL_ALGEBRAIC;
 
@@ -122,9 +122,8 @@ Status system_need_smooth(System *system, const char *who, Expr e, Diag *diag)
     return E_MODEL;
 }
 
-const char *system_rough_driver(System *system, int order)
+const char *system_rough_driver(const System *system, int order)
 {
-    system_touch(system);
     Expr time = expr_symbol(system->arena, "t", SYMBOL_TIME);
 
     for (int k = 0; k < system->constraints->rows.count; k++) {

@@ -5,6 +5,6 @@
 #include "formulate/system.h"
 
 /* e is differentiated in time for `who`: E_MODEL where it jumps */
-MUST_USE Status system_need_smooth(System *system, const char *who, Expr e, Diag *diag);
+MUST_USE Status system_need_smooth(const System *system, const char *who, Expr e, Diag *diag);
 
 #endif

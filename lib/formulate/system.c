@@ -11,7 +11,7 @@
 #include <stdio.h>
 #include <string.h>
 
-const char *system_keep(System *system, const char *format, ...)
+const char *system_keep(const System *system, const char *format, ...)
 {
     char text[600];
     va_list args;

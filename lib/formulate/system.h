@@ -356,7 +356,7 @@ typedef struct Critical {
     Expr measure;           /* 0 there, between -1 and 1 */
 } Critical;
 /* the i-th of the system, 0, 1 ...; false after the last */
-bool system_critical(System *system, int i, Critical *out);
+bool system_critical(const System *system, int i, Critical *out);
 
 /* --- where the law of a part that stores ends --- */
 
@@ -366,7 +366,7 @@ typedef struct Bound {
     bool is_gap;          /* charge or flux grow beyond bounds there; else they vanish */
 } Bound;
 /* All of a system: a new array, mem_free(). O(parts). */
-int system_bounds(System *system, Bound **out);
+int system_bounds(const System *system, Bound **out);
 
 /* --- charges and fluxes that what moves changes: C(s) v, L(s) i --- */
 
@@ -387,7 +387,7 @@ typedef struct Drive {
 } Drive;
 int system_drive_count(const System *system);
 /* A driver whose motion has no continuous derivative of that order, by name; NULL: there is none */
-const char *system_rough_driver(System *system, int order);
+const char *system_rough_driver(const System *system, int order);
 const Drive *system_drive(const System *system, int i);
 
 #endif

@@ -13,7 +13,7 @@
 
 /* --- copies of what may change later --- */
 
-static const char **copy_names(System *system, const char *const *from, int count)
+static const char **copy_names(const System *system, const char *const *from, int count)
 {
     const char **names = pool_alloc(system->pool, (size_t)count * sizeof *names);
 
@@ -22,7 +22,7 @@ static const char **copy_names(System *system, const char *const *from, int coun
     return names;
 }
 
-static void *copy_array(System *system, const void *from, int count, size_t size)
+static void *copy_array(const System *system, const void *from, int count, size_t size)
 {
     void *copy = pool_alloc(system->pool, (size_t)count * size);
 
@@ -63,7 +63,7 @@ static void copy_instance(System *system, const Instance *from, Instance *to)
 }
 
 /* places of an instance's coordinates, none yet */
-static int *no_places(System *system, int count)
+static int *no_places(const System *system, int count)
 {
     int *places = pool_alloc(system->pool, (size_t)count * sizeof *places);
 

@@ -50,6 +50,6 @@ static inline void system_touch(System *view)
 }
 
 /* text in the pool */
-const char *system_keep(System *system, const char *format, ...) PRINTF(2, 3);
+const char *system_keep(const System *system, const char *format, ...) PRINTF(2, 3);
 
 #endif

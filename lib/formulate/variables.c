@@ -50,7 +50,7 @@ static const FrameMember frame_members[] = {
 };
 
 /* the angle of a frame against ground, of turns about one axis */
-static Status frame_angle(System *system, int node, Expr *out, Diag *diag)
+static Status frame_angle(const System *system, int node, Expr *out, Diag *diag)
 {
     Arena *arena = system->arena;
     const Frame *frame = &system->kinematics->frames[node];
@@ -180,7 +180,7 @@ done:
 
 /* angular velocity of the head against the tail in the axes of the head, its constant turn undone:
  * the speeds of a joint with Euler parameters, where they are some */
-static Expr relative_rate(System *system, const Instance *joint, int axis)
+static Expr relative_rate(const System *system, const Instance *joint, int axis)
 {
     Arena *arena = system->arena;
     const Frame *head = &system->kinematics->frames[joint->head];
@@ -443,7 +443,7 @@ done:
 
 /* --- the model as a whole --- */
 
-static Expr largest_residual(System *system)
+static Expr largest_residual(const System *system)
 {
     Arena *arena = system->arena;
     Expr largest = expr_int(arena, 0);
