@@ -9,9 +9,9 @@
 #include <string.h>
 
 #ifdef COTREE_SMALL
-enum { WATCH_EVERY = 4096, FIRST_SIZE = 2 };
+enum { FIRST_SIZE = 2 };
 #else
-enum { WATCH_EVERY = 4096, FIRST_SIZE = 1024 };
+enum { FIRST_SIZE = 1024 };
 #endif
 
 /* some four gigabytes */
@@ -37,7 +37,7 @@ typedef struct TableName {
 
 struct Arena {
     Pool *pool;
-    Pool *texts;          /* of LaTeX names, which outlive marks */
+    Pool *texts;          /* of tables, which outlive marks */
     LIST(Curve *) tables; /* so do these */
     LIST(TableName) table_names;
     Slot *slots;
@@ -50,7 +50,6 @@ struct Arena {
     Expr zero;
     Expr one;
     int64_t limit;
-    const Watch *watch;
     Status status;
     const char *failure;
     bool halted; /* stopped or full: no more composite nodes */
@@ -176,8 +175,6 @@ static struct ExprNode *node_new(Arena *arena, uint32_t hash, size_t size)
 /* whether one more composite node may be made */
 static bool may_grow(Arena *arena)
 {
-    if (arena->nodes.count % WATCH_EVERY == 0 && poll(arena->watch) != OK)
-        arena_fail(arena, E_STOPPED, "stopped");
     if (arena->nodes.count >= arena->limit)
         arena_fail(arena, E_MEMORY, "the expressions grow beyond all bounds");
     return !arena->halted;
@@ -298,14 +295,6 @@ Expr expr_symbol(Arena *arena, const char *name, SymbolKind kind)
     data.name = pool_text(arena->pool, name, strlen(name));
     memcpy(node + 1, &data, sizeof data);
     return node;
-}
-
-void expr_symbol_latex(Arena *arena, Expr symbol, const char *latex)
-{
-    SymbolData *data = (SymbolData *)(void *)(arena->nodes.at[symbol->number] + 1);
-
-    pool_keep(arena->pool, data, sizeof *data);
-    data->latex = pool_text(arena->texts, latex, strlen(latex));
 }
 
 /* --- data --- */
@@ -474,7 +463,7 @@ const char *arena_failure(const Arena *arena)
 void arena_fail(Arena *arena, Status status, const char *message)
 {
     arena_keep_whole(arena);
-    if (status == E_STOPPED || status == E_MEMORY)
+    if (status == E_MEMORY)
         arena->halted = true;
     if (arena->status != OK)
         return;
@@ -488,12 +477,6 @@ void arena_reset(Arena *arena)
     arena->status = OK;
     arena->failure = NULL;
     arena->halted = false;
-}
-
-void arena_watch(Arena *arena, const Watch *watch)
-{
-    arena_keep_whole(arena);
-    arena->watch = watch;
 }
 
 int64_t arena_limit(Arena *arena, int64_t nodes)

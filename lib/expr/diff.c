@@ -133,7 +133,7 @@ static Expr run_pass(Pass *pass, Expr e)
     walk_below(&pass->walk, e, pass->mask, pass->symbol != NULL ? unknown : NULL, pass);
     while (pass->rates.count < pass->walk.count)
         LIST_PUSH(pass->rates, (Expr)NULL);
-    for (int i = 0; i < pass->walk.count && arena_status(pass->arena) != E_STOPPED; i++) {
+    for (int i = 0; i < pass->walk.count; i++) {
         Expr node = pass->walk.nodes[i];
 
         if (pass->rates.at[i] != NULL)
@@ -146,8 +146,7 @@ static Expr run_pass(Pass *pass, Expr e)
         if (pass->symbol != NULL && node->count > 0)
             arena_remember(pass->arena, node, pass->symbol, pass->rates.at[i]);
     }
-    return arena_status(pass->arena) == E_STOPPED ? arena_zero(pass->arena)
-                                                  : system_rate_of(pass, e);
+    return system_rate_of(pass, e);
 }
 
 static void end_pass(Pass *pass)

@@ -23,7 +23,6 @@
 
 #include "base/diag.h"
 #include "base/text.h"
-#include "base/watch.h"
 #include "expr/curve.h"
 
 #include <stdint.h>
@@ -74,8 +73,6 @@ void arena_free(Arena *arena);                    /* and all its expressions; NU
 MUST_USE Status arena_status(const Arena *arena); /* the first failure since arena_reset() */
 const char *arena_failure(const Arena *arena);    /* what failed, in words; borrowed */
 void arena_reset(Arena *arena);                   /* forget the failure */
-void arena_watch(Arena *arena,
-                 const Watch *watch); /* borrowed; looked at every few thousand nodes */
 /* At most that many nodes; beyond, the arena fails with E_MEMORY. Some 67 million at first. Returns
  * the limit until now. */
 int64_t arena_limit(Arena *arena, int64_t nodes);
@@ -104,8 +101,6 @@ Expr expr_decimal(Arena *arena, const char *text);
  * by formulation with the coordinate h8 (SYMBOL_COORDINATE) where h8 is a branch. */
 Expr expr_symbol(Arena *arena, const char *name, SymbolKind kind);
 Expr expr_find_symbol(const Arena *arena, const char *name, SymbolKind kind); /* or NULL */
-/* how LaTeX prints a symbol; without, it is made from the name */
-void expr_symbol_latex(Arena *arena, Expr symbol, const char *latex);
 
 /* --- builders --- */
 

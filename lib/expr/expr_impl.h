@@ -30,7 +30,6 @@ typedef struct Ratio {
 
 typedef struct SymbolData {
     const char *name;
-    const char *latex; /* or NULL */
     int number;
     SymbolKind kind;
     const Curve *table; /* of SYMBOL_TABLE */

@@ -125,10 +125,6 @@ static void latex_symbol(Text *out, Expr symbol)
         latex_table(out, expr_data(symbol));
         return;
     }
-    if (node_symbol(symbol)->latex != NULL) {
-        text_add(out, node_symbol(symbol)->latex);
-        return;
-    }
     for (; end > 0 && name[end - 1] == '\'' && primes < 3; end--)
         primes++;
     for (size_t at = 0; at < end;) {

@@ -11,6 +11,7 @@
 #ifndef COTREE_FORMULATE_SYSTEM_H
 #define COTREE_FORMULATE_SYSTEM_H
 
+#include "base/watch.h"
 #include "model/scene.h"
 
 typedef struct System System;

@@ -21,12 +21,12 @@ FAMILIES += family_sliding
 family_sliding_SOURCES = tests/family/family_sliding.c
 family_sliding_LDADD = libcotree.la $(unit_ldadd)
 FAMILIES += family_pulses
-family_pulses_SOURCES = tests/family/family_pulses.c tests/family/family.h tests/random.h \
+family_pulses_SOURCES = tests/family/family_pulses.c tests/family/family.h tests/family/one_node.h tests/random.h \
 	tests/unit/session_kit.h tests/unit/test.h
 family_pulses_LDADD = libcotree.la $(unit_ldadd)
 
 FAMILIES += family_short
-family_short_SOURCES = tests/family/family_short.c tests/family/family.h tests/family/script.h \
+family_short_SOURCES = tests/family/family_short.c tests/family/family.h tests/family/one_node.h tests/family/script.h \
 	tests/random.h tests/unit/session_kit.h tests/unit/test.h
 family_short_LDADD = libcotree.la $(unit_ldadd)
 

@@ -6,6 +6,7 @@
  * force on a cart, anywhere in a long run; the answer is an error function. */
 #include "../unit/session_kit.h"
 #include "family.h"
+#include "one_node.h"
 
 #include <math.h>
 
@@ -93,11 +94,7 @@ static void print_source(const Supply *s, char *out, size_t room)
 
 static double diode(const Supply *s, double v, double *slope)
 {
-    const double scale = s->n * THERMAL, x = v / scale;
-    const double e = x < 100 ? exp(x) : exp(100) * (1 + x - 100);
-
-    *slope = s->Is * (x < 100 ? e : exp(100)) / scale + LEAKAGE;
-    return s->Is * (e - 1) + LEAKAGE * v;
+    return diode_current(s->Is, s->n * THERMAL, LEAKAGE, v, slope);
 }
 
 /* what flows out of a node at v: into one diode up to `top`, less what comes up from 0 by another
@@ -112,8 +109,10 @@ static double segment(const Supply *s, double v, double top, double *slope)
 }
 
 /* residual of the one node that isn't a state, rising in v */
-static double node(const Supply *s, double E, const double *x, double v, double *slope)
+static double node(const void *of, double t, const double *x, double v, double *slope)
 {
+    const Supply *s = of;
+    const double E = source(s, t);
     double i, below;
 
     switch (s->circuit) {
@@ -133,36 +132,12 @@ static double node(const Supply *s, double E, const double *x, double v, double 
     }
 }
 
-/* Newton's method between bounds that close in */
-static double solve_node(const Supply *s, double E, const double *x, double v)
-{
-    const double reach = fabs(E) + fabs(x[0]) + fabs(x[1]) + 10;
-    double low = -reach, high = reach;
-
-    for (int k = 0; k < 100; k++) {
-        double slope, next;
-        const double r = node(s, E, x, v, &slope);
-
-        if (r > 0)
-            high = v;
-        else
-            low = v;
-        next = v - r / slope;
-        if (!(next > low && next < high) || k % 8 == 7)
-            next = low + (high - low) / 2;
-        if (fabs(next - v) <= 3e-13 * (1 + fabs(v)))
-            return next;
-        v = next;
-    }
-    return v;
-}
-
 static void rates(const Supply *s, double t, const double *x, double *v, double *out)
 {
     const double E = source(s, t);
     double slope, i;
 
-    *v = solve_node(s, E, x, *v);
+    *v = solve_node(node, s, t, x, fabs(E) + fabs(x[0]) + fabs(x[1]) + 10, *v);
     switch (s->circuit) {
     case RECTIFIER:
         out[0] = ((E - *v) / s->Rs - x[0] / s->RL) / s->C;

@@ -6,6 +6,7 @@
  * agree. And rows of currents against differences of rows of voltages. */
 #include "../unit/session_kit.h"
 #include "family.h"
+#include "one_node.h"
 #include "script.h"
 
 #include <math.h>
@@ -250,34 +251,6 @@ static double source_time(const Source *s)
     return s->shape == SINE ? 0.1 / s->f : s->shape == PULSES ? s->duty / s->f / 10 : s->width / 3;
 }
 
-/* --- one node that isn't a state --- */
-
-typedef double (*Node)(const void *of, double t, const double *x, double v, double *slope);
-
-/* Newton's method between bounds that close in; the residual rises in v */
-static double solve_node(Node node, const void *of, double t, const double *x, double reach,
-                         double v)
-{
-    double low = -reach, high = reach;
-
-    for (int k = 0; k < 400; k++) {
-        double slope, next;
-        const double r = node(of, t, x, v, &slope);
-
-        if (r > 0)
-            high = v;
-        else
-            low = v;
-        next = v - r / slope;
-        if (!(next > low && next < high) || k % 3 == 2)
-            next = low + (high - low) / 2;
-        if (fabs(next - v) <= 3e-14 * (1 + fabs(v)))
-            return next;
-        v = next;
-    }
-    return v;
-}
-
 /* --- multipliers --- */
 
 typedef struct Multiplier {
@@ -288,11 +261,7 @@ typedef struct Multiplier {
 
 static double diode(const Multiplier *s, double v, double *slope)
 {
-    const double scale = s->n * THERMAL, x = v / scale;
-    const double e = x < 100 ? exp(x) : exp(100) * (1 + x - 100);
-
-    *slope = s->Is * (x < 100 ? e : exp(100)) / scale + LEAKAGE;
-    return s->Is * (e - 1) + LEAKAGE * v;
+    return diode_current(s->Is, s->n * THERMAL, LEAKAGE, v, slope);
 }
 
 /* Currents up the columns: of the diodes into node a_k, then out of it; x holds voltages of the

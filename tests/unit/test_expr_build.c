@@ -330,34 +330,6 @@ static void division_by_zero_is_remembered_once(void)
     END;
 }
 
-static bool always(void *context)
-{
-    (void)context;
-    return true;
-}
-
-static void stopping_ends_growth(void)
-{
-    BEGIN;
-    Watch watch = {.stop = always};
-    Expr e = x;
-    int64_t nodes;
-
-    arena_watch(w.arena, &watch);
-    for (int i = 0; i < 5000; i++)
-        e = expr_sin(w.arena, ADD(e, a));
-    EXPECT(arena_status(w.arena) == E_STOPPED);
-    EXPECT_TEXT(arena_failure(w.arena), "stopped");
-    nodes = arena_nodes(w.arena);
-    for (int i = 0; i < 5000; i++)
-        e = expr_sin(w.arena, ADD(e, b));
-    EXPECT(arena_nodes(w.arena) < nodes + 10);
-    arena_watch(w.arena, NULL);
-    arena_reset(w.arena);
-    EXPECT_EXPR(MUL(a, ADD(b, INT(77))), "a*(b + 77)");
-    END;
-}
-
 static void growth_has_a_limit(void)
 {
     BEGIN;
@@ -409,7 +381,6 @@ int main(void)
     RUN(order_forgets_history);
     RUN(release_leaves_no_ghosts);
     RUN(division_by_zero_is_remembered_once);
-    RUN(stopping_ends_growth);
     RUN(growth_has_a_limit);
     RUN(long_sums_are_built_at_once);
     return test_end();
