@@ -6,8 +6,6 @@
 #include <sunmatrix/sunmatrix_dense.h>
 #include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
 
-#define NO_ERROR 1e10 /* a tolerance that nothing comes near */
-
 static const SundialsCalls calls = {
     .free = CVodeFree,
     .set_stop_time = CVodeSetStopTime,
@@ -25,7 +23,11 @@ static int rate(realtype t, N_Vector y, N_Vector out, void *data)
 {
     Sundials *c = data;
 
-    return stepper_rate(&c->base, t, N_VGetArrayPointer(y), N_VGetArrayPointer(out)) ? 0 : 1;
+    if (!stepper_rate(&c->base, t, N_VGetArrayPointer(y), N_VGetArrayPointer(out)))
+        return 1;
+    for (int i = c->base.ode->n; i < c->all; i++)
+        (void)sundials_quadrature_error(c, 0, NV_Ith_S(out, i));
+    return 0;
 }
 
 /* CVODE's own differences move an unknown that is 0 by next to nothing where a first step is short,
@@ -73,17 +75,19 @@ static Stepper *create_adams(const Ode *ode, const Control *control)
     return create(&method_adams, ode, control);
 }
 
-/* One over what an error of each unknown counts from; a quadrature's own doesn't steer the step. */
+/* one over what an error of each unknown counts from */
 static int find_weights(N_Vector y, N_Vector weights, void *data)
 {
-    const Sundials *c = data;
+    Sundials *c = data;
     const Control *control = &c->base.control;
     const double part = stepper_part(&c->base);
 
     for (int i = 0; i < c->all; i++) {
-        const double atol = i < c->base.ode->n ? part * control->atol : NO_ERROR;
+        const double value = NV_Ith_S(y, i);
 
-        NV_Ith_S(weights, i) = 1 / (part * control->rtol * fabs(NV_Ith_S(y, i)) + atol);
+        NV_Ith_S(weights, i) =
+            1 / (i < c->base.ode->n ? part * (control->rtol * fabs(value) + control->atol)
+                                    : sundials_quadrature_error(c, value, 0));
     }
     return 0;
 }

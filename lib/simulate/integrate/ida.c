@@ -136,8 +136,9 @@ static int suppress(Ida *d)
  * no place to begin Newton's method from. */
 static int find_weights(N_Vector w, N_Vector weights, void *data)
 {
-    const Ida *d = data;
+    Ida *d = data;
     const Dae *dae = &d->s.base.ode->dae;
+    const int work = d->s.base.ode->n;
     const Control *control = &d->s.base.control;
     const double part = stepper_part(&d->s.base);
 
@@ -145,6 +146,8 @@ static int find_weights(N_Vector w, N_Vector weights, void *data)
         double error =
             part * (control->rtol * fabs(NV_Ith_S(w, i)) + control->atol * dae->weight[i]);
 
+        if (i >= work && i < d->s.all)
+            error = sundials_quadrature_error(&d->s, NV_Ith_S(w, i), NV_Ith_S(d->s.rate, i));
         if (dae->has_rate != NULL && !dae->has_rate[i])
             error = fmin(error, fmax(FINER * error, FINE));
         NV_Ith_S(weights, i) = 1 / error;

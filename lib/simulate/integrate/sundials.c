@@ -3,6 +3,8 @@
 
 #include <string.h>
 
+#define NO_ERROR 1e20 /* a tolerance that nothing comes near */
+
 const double sundials_nodes[1] = {1};
 
 static void give_back(void *object)
@@ -53,6 +55,17 @@ void sundials_place(Sundials *s, double t, const double *y)
     memcpy(N_VGetArrayPointer(s->w), s->base.y, (size_t)s->all * sizeof(double));
     s->earlier = s->base.counts;
     s->is_new = true;
+}
+
+double sundials_quadrature_error(Sundials *s, double value, double rate)
+{
+    const double rtol = stepper_part(&s->base) * s->base.control.rtol;
+
+    if (isfinite(rate))
+        s->power = fmax(s->power, fabs(rate));
+    return s->power > 0 && s->base.control.span > 0
+               ? rtol * (fabs(value) + s->power * s->base.control.span)
+               : NO_ERROR;
 }
 
 int sundials_bound(Sundials *s, double end)

@@ -44,6 +44,7 @@ typedef struct Sundials {
     SUNNonlinearSolver nonlinear;
     Counts earlier; /* of integrations before the last restart */
     bool is_new;    /* no step since then */
+    double power;   /* largest rate of a quadrature so far: what its errors count beside */
     char reason[200];
 } Sundials;
 
@@ -56,6 +57,10 @@ void sundials_keep_reason(int code, const char *module, const char *function, ch
                           void *stepper);
 /* y becomes that of a restart, w too; counts begin from those before. */
 void sundials_place(Sundials *s, double t, const double *y);
+/* What a step may be off in a quadrature that is `value` and changes by `rate` now, in its unit.
+ * Where all that it follows from rests or goes straight, no error of that keeps steps short enough
+ * for it: the work of a brake that holds what a spring pulls. */
+double sundials_quadrature_error(Sundials *s, double value, double rate);
 /* How far the solver may go from here: no step beyond `end`, and none longer than allowed. */
 int sundials_bound(Sundials *s, double end);
 /* after a step: counts so far */
