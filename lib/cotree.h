@@ -133,6 +133,8 @@ int ct_end_group(ct_session *session, int outer, const char *called);
  * other statement of the session has; those behind one that was undone are new ones. */
 int ct_step_count(const ct_session *session);
 const char *ct_step(const ct_session *session, int i, int *number);
+/* whether it took away all that was there before it: ct_clear() */
+bool ct_step_clears(const ct_session *session, int i);
 void ct_clear(ct_session *session);
 char *ct_save(const ct_session *session);      /* new: a script that rebuilds the model */
 bool ct_is_changed(const ct_session *session); /* since the last run */

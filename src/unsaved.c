@@ -170,19 +170,12 @@ static int number_of(const ct_session *session, int step)
     return number;
 }
 
-static bool is_clear(const ct_session *session, int step)
-{
-    int number;
-
-    return strcmp(ct_step(session, step, &number), "clear") == 0;
-}
-
 /* nothing to lose: no model, or the one that was saved */
 static bool is_settled(const Unsaved *unsaved, const ct_session *session)
 {
     const int count = ct_step_count(session);
 
-    return count == 0 || is_clear(session, count - 1) ||
+    return count == 0 || ct_step_clears(session, count - 1) ||
            number_of(session, count - 1) == unsaved->settled;
 }
 
@@ -212,7 +205,7 @@ static bool cut(Unsaved *unsaved, const ct_session *session)
 static bool begin(Unsaved *unsaved, const ct_session *session)
 {
     unsaved->first = ct_step_count(session);
-    while (unsaved->first > 0 && !is_clear(session, unsaved->first - 1))
+    while (unsaved->first > 0 && !ct_step_clears(session, unsaved->first - 1))
         unsaved->first--;
     return make_file(unsaved);
 }

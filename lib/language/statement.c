@@ -133,9 +133,9 @@ done:
 static Status parse_question(Parser *parser, Statement *statement)
 {
     statement->kind = STATEMENT_VERB;
-    statement->verb = "help";
+    statement->row = verb_row(VERB_help);
+    statement->verb = statement->row.name;
     statement->verb_place = parser_token(parser)->place;
-    (void)verb_find("help", &statement->row);
     parser->at++;
     return parse_pattern(parser, statement);
 }

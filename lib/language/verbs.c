@@ -96,6 +96,11 @@ static Verb component_verb(const Component *row)
                   .component = row};
 }
 
+Verb verb_row(int number)
+{
+    return table[number];
+}
+
 bool verb_find(const char *name, Verb *verb)
 {
     const Component *row = component_find(name);

@@ -12,6 +12,7 @@ enum { /* the verbs that are no component's, by number */
        VERB_COUNT
 };
 
+Verb verb_row(int number); /* of these */
 /* every row once, in any order: quicker than verb_at() */
 bool verb_any(int i, Verb *verb);
 

@@ -124,6 +124,11 @@ const char *model_step(const Model *model, int i, int *serial)
     return model->history.list.at[i].text;
 }
 
+bool model_step_clears(const Model *model, int i)
+{
+    return model->history.list.at[i].clears;
+}
+
 Status model_apply(Model *model, const Statement *statement, Diag *diag)
 {
     Status status = OK;

@@ -35,6 +35,7 @@ int model_leave_group(Model *model, int outer); /* they stay single steps; 0 */
 /* the steps that count: the statement of each, in full, and a number that no other step has */
 int model_step_count(const Model *model);
 const char *model_step(const Model *model, int i, int *serial);
+bool model_step_clears(const Model *model, int i); /* whether it is one of model_clear() */
 const char *model_undone(const Model *model); /* text of the statement that undo/redo moved over */
 void model_clear(Model *model);               /* as model_new(); can be undone */
 char *model_save(const Model *model);         /* new: a script that rebuilds it */

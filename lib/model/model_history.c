@@ -1,6 +1,8 @@
 /* model_history.c: the statements that a model accepted, and the way back and forth over them */
 #include "model/model_history.h"
 
+#include "language/verbs.h"
+
 #include <string.h>
 
 /* Of states that others took the place of (a name deleted, a law replaced), which are quicker kept
@@ -70,7 +72,7 @@ void history_clear(History *history, State **state)
 
     state_replace(state, state_new((*state)->arena));
     state_forget_before(*state, most_kept);
-    add(history, "clear", EFFECT_EQUATIONS, &mark)->clears = true;
+    add(history, verb_row(VERB_clear).name, EFFECT_EQUATIONS, &mark)->clears = true;
 }
 
 void history_join(History *history, int count, const char *called)

@@ -341,6 +341,11 @@ const char *ct_step(const ct_session *session, int i, int *number)
     return model_step(session->model, i, number);
 }
 
+bool ct_step_clears(const ct_session *session, int i)
+{
+    return model_step_clears(session->model, i);
+}
+
 void ct_clear(ct_session *session)
 {
     SESSION_CALL(session, );

@@ -6,6 +6,7 @@
 #include "session/session_impl.h"
 
 #include "formulate/tree_search.h"
+#include "language/verbs.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -89,13 +90,7 @@ done:
 /* a name of an edge where words of the verb would win over it */
 static void add_edge(Text *text, const char *name)
 {
-    Verb verb = {.words = NULL};
-    bool is_word = false;
-
-    (void)verb_find("tree", &verb);
-    for (int i = 0; verb.words != NULL && verb.words[i] != NULL; i++)
-        is_word = is_word || strcmp(verb.words[i], name) == 0;
-    text_addf(text, is_word ? " (%s)" : " %s", name);
+    text_addf(text, words_hold(verb_row(VERB_tree).words, name) ? " (%s)" : " %s", name);
 }
 
 /* the statements that choose a pair, joints proposed first */
