@@ -31,15 +31,18 @@ static Status find_states(const ActiveRun *r, Phase *phase, Diag *diag)
     const Layout *l = phase->layout, *whole = phases_whole(r->phases)->layout;
 
     phase->among_whole = NEW_ARRAY(int, l->nx);
-    for (int i = 0; i < l->nx; i++) {
-        int k = 0;
+    /* both are in the order of the parts: where one is, the next is not far */
+    for (int i = 0, k = 0; i < l->nx; i++) {
+        const char *name = system_x(l->system, i)->name;
+        int looked = 0;
 
-        while (k < whole->nx &&
-               strcmp(system_x(whole->system, k)->name, system_x(l->system, i)->name) != 0)
-            k++;
-        if (k == whole->nx)
+        while (looked < whole->nx && strcmp(system_x(whole->system, k)->name, name) != 0) {
+            k = (k + 1) % whole->nx;
+            looked++;
+        }
+        if (looked == whole->nx)
             return diag_set(diag, E_MODEL, "%s is no state on the other side of an ideal switch",
-                            system_x(l->system, i)->name);
+                            name);
         phase->among_whole[i] = k;
     }
     return OK;
