@@ -73,7 +73,10 @@ static void bench_ladder(const char *scripts, int sections)
 
     for (int i = 0; i < 3; i++) {
         Model *model = model_by(scripts, "ladder", sections);
-        Setting setting = {.parameter = parameter_value, .context = model, .start = &none};
+        Setting setting = {.parameter = parameter_value,
+                           .context = model,
+                           .scene = model_scene_source(model),
+                           .start = &none};
         RunOptions options = {.duration = 2e-5, .rtol = 1e-6, .atol = 1e-6, .method = "dop853"};
         System *system = NULL;
         Result *result = NULL;
@@ -112,7 +115,10 @@ static void bench_diodes(const char *scripts, int count)
 
     for (int i = 0; i < 3; i++) {
         Model *model = model_by(scripts, "points/chain", count);
-        Setting setting = {.parameter = parameter_value, .context = model, .start = &none};
+        Setting setting = {.parameter = parameter_value,
+                           .context = model,
+                           .scene = model_scene_source(model),
+                           .start = &none};
         System *system = NULL;
         Result *result = NULL;
         Diag diag = {0};
@@ -173,7 +179,10 @@ static void bench_stiff(int sections)
 {
     Model *model = stiff_ladder(sections);
     StartValues none = {0};
-    const Setting setting = {.parameter = parameter_value, .context = model, .start = &none};
+    const Setting setting = {.parameter = parameter_value,
+                             .context = model,
+                             .scene = model_scene_source(model),
+                             .start = &none};
     System *system = NULL;
     Diag diag = {0};
 
@@ -330,6 +339,35 @@ static void bench_multiplier(int stages, int runs)
     bench_line(name, real_steps, "steps");
     (void)snprintf(name, sizeof name, "network.multiplier_%d_real_of_ideal", stages);
     bench_line(name, real_time / ideal_time, "ratio");
+}
+
+/* --- a sampled PWM --- */
+
+/* A current of 12 A or so out of 24 V, by a duty that is sampled every period. */
+static Switched sampled_pwm(const char *keys)
+{
+    const RunOptions options = {.duration = 0.05, .every = 1e-5};
+    Text text = {0};
+
+    text_addf(&text,
+              "Ts = 1e-4\nvsource V s 0 24\ninductor L s y 1 mH\nresistor R y x 0.8\n"
+              "gain c cc 0 of=0.4 k=1 period=Ts\n"
+              "switch S x 0 when=t/Ts - floor(t/Ts) < cc.v%s\ndiode D x s%s\ninit L.i = 0\n",
+              keys, keys);
+    return run_circuit("sampled PWM", &text, &options, false);
+}
+
+static void bench_sampled_pwm(void)
+{
+    double ideal_time = 1e300, real_time = 1e300;
+
+    for (int i = 0; i < 3; i++) {
+        ideal_time = fmin(ideal_time, sampled_pwm("").report.wall);
+        real_time = fmin(real_time, sampled_pwm(" Ron=0.01 Roff=1e5").report.wall);
+    }
+    bench_line("network.sampled_pwm_ideal", ideal_time, "s");
+    bench_line("network.sampled_pwm_real", real_time, "s");
+    bench_line("network.sampled_pwm_real_of_ideal", real_time / ideal_time, "ratio");
 }
 
 /* --- side by side --- */
@@ -517,8 +555,9 @@ int main(int argc, char **argv)
     bench_diodes(argv[1], LONG);
     bench_stiff(LONG);
     bench_converter();
+    bench_sampled_pwm();
     bench_multiplier(3, 3);
-    bench_multiplier(10, 1);
+    bench_multiplier(10, 3);
     bench_multiplier(30, 1);
     side_by_side(argv[1], argv[2]);
     return 0;
