@@ -311,10 +311,69 @@ static Verdict driven_member(Member *m)
     return AGREES;
 }
 
+/* One coordinate is driven, loops follow, and what is free is moved by that; false: refused. */
+static bool follow_driver(Member *m, const Scene *s, int choice, const char *driver, Pose *bodies)
+{
+    static Scene text;
+    Kit kit = kit_new();
+    bool sound;
+
+    text.length = 0;
+    write(&text, "%s", s->text);
+    write_trees(m, s, choice, &text);
+    tell_poses(s, &text);
+    write(&text, "%s\nsimulate 0.1 every=0.02 rtol=1e-10 atol=1e-10\n", driver);
+    sound = kit_do(&kit, text.text) == CT_OK;
+    if (!sound)
+        tell(m, "%s\n", kit.error.message);
+    for (int i = 0; i < s->bodies && sound; i++)
+        bodies[i] = read_body(&kit, s, i);
+    if (sound && !(off_consistent(m, &kit, s, bodies) < NEAR)) {
+        tell(m, "open\n");
+        bodies[0].r[0] = NAN;
+    }
+    tell(m, "%s%s\n", strstr(text.text, "tree "), kit.text != NULL ? kit.text : "");
+    kit_free(&kit);
+    return sound;
+}
+
+/* Loops follow a driver alike in every tree, with all joints where their bodies stand. What can't
+ * be driven, as loops hold it, or leaves bodies undetermined is refused in all trees. */
+static Verdict driven_loops_member(Member *m)
+{
+    static Scene s;
+    Pose first[BODIES] = {0}, bodies[BODIES] = {0};
+    char driver[80];
+    int number, k = 0;
+    bool sound;
+
+    make_scene(m, &s, WITH_LOOPS);
+    number = pick(m, s.joints);
+    while (k < s.joint[number].count && is_loose(&s.joint[number], k))
+        k++;
+    if (k == s.joint[number].count)
+        return REFUSED;
+    (void)snprintf(driver, sizeof driver, "driver D j%d%s = %.17g + %.17g*t", number,
+                   coordinate_name(&s.joint[number], k), s.joint[number].c[k],
+                   between(m, -0.05, 0.05)); /* short of dead centres */
+    tell(m, "%s%s\n", s.text, driver);
+    sound = follow_driver(m, &s, 0, driver, first);
+    if (sound && isnan(first[0].r[0]))
+        return DISAGREES;
+    for (int choice = 1; choice < 3; choice++) {
+        if (follow_driver(m, &s, choice, driver, bodies) != sound)
+            return DISAGREES;
+        if (sound && !(off_bodies(m, &s, bodies, first) < 1e-6))
+            return DISAGREES;
+    }
+    return sound ? AGREES : REFUSED;
+}
+
 static const Family families[] = {
     {"joints_of_which_no_speed_was_told_rest", 30, 0, 0, resting_member},
     {"bodies_move_alike_in_all_trees", 30, 0.6, 0, following_member},
     {"driven_bodies_are_where_their_joints_put_them", 20, 0, 0, driven_member},
+    {"loops_follow_a_driver_alike_in_all_trees", 30, 0.8, 0, driven_loops_member},
     {"an_event_puts_all_joints_where_it_says", 20, 0, 0, all_set_member},
 };
 
