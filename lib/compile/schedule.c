@@ -226,19 +226,22 @@ static void place_leaves(Plan *plan, const Lowered *lowered)
 static void place_roots(Plan *plan, const Lowered *lowered)
 {
     Program *program = plan->program;
-    int count = 0;
+    int next[STAGE_COUNT];
 
     program->roots = NEW_ARRAY(Handover, lowered->root_count);
+    memset(program->first_root, 0, sizeof program->first_root);
+    for (int i = 0; i < lowered->root_count; i++)
+        program->first_root[plan->values[lowered->roots[i]].stage + 1]++;
     for (int stage = 0; stage < STAGE_COUNT; stage++) {
-        program->first_root[stage] = count;
-        for (int i = 0; i < lowered->root_count; i++) {
-            uint32_t value = lowered->roots[i];
-
-            if (plan->values[value].stage == stage)
-                program->roots[count++] = (Handover){i, (int)slot_of(plan, value)};
-        }
+        next[stage] = program->first_root[stage];
+        program->first_root[stage + 1] += next[stage];
     }
-    program->first_root[STAGE_COUNT] = count;
+    for (int i = 0; i < lowered->root_count; i++) {
+        uint32_t value = lowered->roots[i];
+
+        program->roots[next[plan->values[value].stage]++] =
+            (Handover){i, (int)slot_of(plan, value)};
+    }
 }
 
 void program_schedule(Program *program, Lowered *lowered)

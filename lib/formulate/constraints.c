@@ -597,6 +597,7 @@ static Status run_rows(System *system, Diag *diag)
     int m = system->constraints->rows.count, count = system->kinematics->u.count;
     size_t size = (size_t)m * sizeof(Expr);
     int *speeds = NEW_ARRAY(int, count);
+    const Expr zero = expr_int(system->arena, 0);
     Status status = OK;
 
     system->run.phi = pool_alloc(system->pool, size);
@@ -604,7 +605,7 @@ static Status run_rows(System *system, Diag *diag)
     system->run.gamma = pool_alloc(system->pool, size);
     system->run.phi_u = pool_alloc(system->pool, size * (size_t)count);
     for (int i = 0; i < m * count; i++)
-        system->run.phi_u[i] = expr_int(system->arena, 0);
+        system->run.phi_u[i] = zero;
     for (int k = 0; k < m; k++) {
         const Row *row = &system->constraints->rows.at[k];
         int moving = speeds_of_row(system, row, speeds);
