@@ -156,10 +156,10 @@ static Status check_angles(const Assembly *a, Diag *diag)
     Status status = OK;
 
     for (int i = 0; status == OK && system_critical(a->l->system, i, &critical); i++) {
-        Probe *probe = NULL;
+        double measure;
 
-        status = probe_new(a->l, a->parameters, &critical.measure, 1, &probe, diag);
-        if (status == OK && fabs(probe_values(probe, &row)[0]) < CRITICAL) {
+        status = probe_at(a->l, a->parameters, critical.measure, &row, &measure, diag);
+        if (status == OK && fabs(measure) < CRITICAL) {
             status =
                 diag_set(diag, E_ASSEMBLE,
                          "%s starts at a critical angle: three angles have no rates where %s is "
@@ -170,7 +170,6 @@ static Status check_angles(const Assembly *a, Diag *diag)
                       "euler= out",
                       critical.coordinate);
         }
-        probe_free(probe);
     }
     return status;
 }

@@ -8,14 +8,8 @@
 Status initial_driven(const Assembly *a, Expr prescribed, double *out, Diag *diag)
 {
     const RowValues row = {.t = a->t};
-    Probe *probe = NULL;
-    Status status = OK;
 
-    CHECK(probe_new(a->l, a->parameters, &prescribed, 1, &probe, diag));
-    *out = probe_values(probe, &row)[0];
-done:
-    probe_free(probe);
-    return status;
+    return probe_at(a->l, a->parameters, prescribed, &row, out, diag);
 }
 
 static double whole(double angle)

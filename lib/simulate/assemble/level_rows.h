@@ -20,15 +20,15 @@ typedef enum StateLevel {
     LEVEL_COUNT
 } StateLevel;
 
-int level_first(const Layout *layout,
-                StateLevel level); /* place in (q, u, x) of its first unknown */
-int level_count(const Layout *layout, StateLevel level); /* of its unknowns */
+/* of its unknowns: the place of the first in (q, u, x), and how many */
+int level_first(const Layout *layout, StateLevel level);
+int level_count(const Layout *layout, StateLevel level);
 
 typedef struct LevelRows {
     const Layout *l;
     const Equations *eq;
     StateLevel level;
-    int system_rows; /* of these, first: m, or none */
+    int system_rows; /* of the system, first: m, or none */
     int count;       /* expressions */
     double *target;  /* of each; write here. NAN: it may have any value, and is no row */
     double t;

@@ -13,14 +13,9 @@ static bool value_at(const Layout *l, Parameters *parameters, Expr e, double t, 
                      double *out)
 {
     const RowValues row = row_of_state(l, t, y);
-    Probe *probe = NULL;
     Diag ignored = {0};
 
-    if (probe_new(l, parameters, &e, 1, &probe, &ignored) != OK)
-        return false;
-    *out = probe_values(probe, &row)[0];
-    probe_free(probe);
-    return true;
+    return probe_at(l, parameters, e, &row, out, &ignored) == OK;
 }
 
 /* a spring, damper or actuator between frames that meet: it has no direction there */

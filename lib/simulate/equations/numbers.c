@@ -66,15 +66,9 @@ static void slip(void *context, double t, const double *y, const Solved *solved,
 {
     const Numbers *nb = context;
     const Layout *l = nb->layout;
-    RowValues row = row_of_state(l, t, y);
-    const double *values;
+    const RowValues row = row_of_solved(l, t, y, solved);
+    const double *values = probe_values(nb->slip, &row);
 
-    row.signs = solved->signs;
-    row.rates = solved->rates;
-    row.z = solved->algebraic;
-    row.acceleration = solved->acceleration;
-    row.multipliers = solved->multipliers;
-    values = probe_values(nb->slip, &row);
     memcpy(slip, values, (size_t)l->slides * sizeof(double));
     memcpy(off, values + l->slides, (size_t)l->slides * sizeof(double));
 }

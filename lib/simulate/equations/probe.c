@@ -117,19 +117,25 @@ RowValues row_of_state(const Layout *l, double t, const double *y)
         .t = t, .q = y, .u = y + l->n, .x = y + l->n + l->nu, .near = y + layout_turned(l)};
 }
 
+RowValues row_of_solved(const Layout *l, double t, const double *y, const Solved *solved)
+{
+    RowValues row = row_of_state(l, t, y);
+
+    row.rates = solved->rates;
+    row.z = solved->algebraic;
+    row.acceleration = solved->acceleration;
+    row.multipliers = solved->multipliers;
+    row.signs = solved->signs;
+    return row;
+}
+
 bool row_solve(const Layout *l, Motion *motion, double t, const double *y, RowValues *out)
 {
     Solved solved;
+    const bool sound = motion_solve(motion, t, y, &solved);
 
-    *out = row_of_state(l, t, y);
-    if (!motion_solve(motion, t, y, &solved))
-        return false;
-    out->rates = solved.rates;
-    out->z = solved.algebraic;
-    out->acceleration = solved.acceleration;
-    out->multipliers = solved.multipliers;
-    out->signs = solved.signs;
-    return true;
+    *out = sound ? row_of_solved(l, t, y, &solved) : row_of_state(l, t, y);
+    return sound;
 }
 
 static void put_row(const Layout *l, const RowValues *row, double *inputs)
@@ -166,4 +172,17 @@ void probe_errors(const Probe *probe, const RowValues *errors, double *out)
         inputs[i] = number_error(probe->inputs[i]);
     workspace_errors(probe->workspace, inputs, out);
     mem_free(inputs);
+}
+
+Status probe_at(const Layout *layout, Parameters *parameters, Expr e, const RowValues *row,
+                double *out, Diag *diag)
+{
+    Probe *probe = NULL;
+    Status status = OK;
+
+    CHECK(probe_new(layout, parameters, &e, 1, &probe, diag));
+    *out = probe_values(probe, row)[0];
+done:
+    probe_free(probe);
+    return status;
 }

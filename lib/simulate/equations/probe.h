@@ -21,7 +21,9 @@ typedef struct RowValues {
 
 /* t, and what y holds */
 RowValues row_of_state(const Layout *layout, double t, const double *y);
-/* and what the motion solves for there, borrowed until the next call on it; false: it has no
+/* and what was solved for there */
+RowValues row_of_solved(const Layout *layout, double t, const double *y, const Solved *solved);
+/* the same, solved now, and borrowed until the next call on the motion; false: there is no
  * solution, and the row is without */
 bool row_solve(const Layout *layout, Motion *motion, double t, const double *y, RowValues *out);
 
@@ -57,6 +59,9 @@ MUST_USE Status probe_make(const Layout *layout, Parameters *parameters, const P
 MUST_USE Status probe_new(const Layout *layout, Parameters *parameters, const Expr *roots,
                           int count, Probe **out, Diag *diag);
 void probe_free(Probe *probe); /* NULL is fine */
+/* one value, once */
+MUST_USE Status probe_at(const Layout *layout, Parameters *parameters, Expr e, const RowValues *row,
+                         double *out, Diag *diag);
 const Residual *probe_residual(const Probe *probe);
 
 /* Another value of a parameter, for this probe alone. False: no root holds it. */

@@ -20,10 +20,9 @@ static double warm_value(void *context, const char *name)
     const Grid *grid = &warm->result->grid;
     Phase *phase;
     const Layout *l;
-    Probe *probe = NULL;
     RowValues row;
     Expr e;
-    double value = NAN;
+    double value;
 
     if (grid->count == 0)
         return NAN;
@@ -34,12 +33,11 @@ static double warm_value(void *context, const char *name)
             return grid_row(grid, 0)[l->n + l->nu + i];
 
     if (system_variable(phase->system, name, 0, &e, NULL) == OK &&
-        probe_new(l, &warm->phases->parameters, &e, 1, &probe, NULL) == OK &&
         phase_driven_row(phase, grid->times[0], grid_row(grid, 0),
-                         driven_row(&warm->result->driven, 0), &row))
-        value = probe_values(probe, &row)[0];
-    probe_free(probe);
-    return value;
+                         driven_row(&warm->result->driven, 0), &row) &&
+        probe_at(l, &warm->phases->parameters, e, &row, &value, NULL) == OK)
+        return value;
+    return NAN;
 }
 
 /* What supplies a driver's motion is found in the equations of the whole, as long as no ideal
