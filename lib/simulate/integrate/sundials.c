@@ -59,13 +59,15 @@ void sundials_place(Sundials *s, double t, const double *y)
 
 double sundials_quadrature_error(Sundials *s, double value, double rate)
 {
-    const double rtol = stepper_part(&s->base) * s->base.control.rtol;
+    const Control *control = &s->base.control;
+    const double part = stepper_part(&s->base);
 
     if (isfinite(rate))
         s->power = fmax(s->power, fabs(rate));
-    return s->power > 0 && s->base.control.span > 0
-               ? rtol * (fabs(value) + s->power * s->base.control.span)
-               : NO_ERROR;
+    /* what begins to act out of nothing is to be noticed by what it moves */
+    if (!(s->power > control->atol) || !(control->span > 0))
+        return NO_ERROR;
+    return part * (control->rtol * (fabs(value) + s->power * control->span) + control->atol);
 }
 
 int sundials_bound(Sundials *s, double end)
