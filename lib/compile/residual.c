@@ -172,7 +172,8 @@ int residual_first_slope(const Residual *r)
 
 void residual_jacobian(const Residual *r, const double *roots, double *out)
 {
-    memset(out, 0, (size_t)r->row_count * (size_t)r->unknown_count * sizeof(double));
+    for (int i = 0; i < r->row_count * r->unknown_count; i++)
+        out[i] = 0;
     for (int k = 0; k < r->slopes.count; k++)
         out[r->slopes.at[k].row * r->unknown_count + r->slopes.at[k].unknown] =
             roots[r->first_slope + k];
