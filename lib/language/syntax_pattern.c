@@ -346,7 +346,18 @@ static Status read_versus(Parser *parser, Statement *statement)
 /* @ */
 static Status read_at(Parser *parser, Statement *statement)
 {
-    return take_word(parser, "at") ? parse_expression(parser, &statement->at) : OK;
+    Status status = OK;
+
+    if (!take_word(parser, "at"))
+        return OK;
+    CHECK(parse_expression(parser, &statement->at));
+    if (parser_sees(parser, ",")) {
+        status = parser_unexpected(parser);
+        if (!parser_hint_comma(parser))
+            diag_hint(parser->diag, "'at' stands once, behind all that is asked for there");
+    }
+done:
+    return status;
 }
 
 /* a */
