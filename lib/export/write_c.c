@@ -105,7 +105,7 @@ static Rename rename_all(const View *view)
     for (int i = 0; i < system_nz(system); i++)
         add_symbol(&rename, system_z(system, i)->symbol, "z", i);
     for (int i = 0; i < system_multi_turn_count(system); i++)
-        add_symbol(&rename, system_multi_turn(system, i)->near, "near", i);
+        add_symbol(&rename, system_multi_turn(system, i)->reference, "near", i);
     if (system_run(system)->network_nonlinear)
         for (int i = 0; i < system_nx(system); i++)
             add_symbol(&rename, system_state_rate(system, i), "xd", i);
@@ -267,11 +267,11 @@ static void add_head(Text *out, const View *view, bool near)
     add_list(out, "x", "  (network states)", system_x, system, system_nx(system));
     add_list(out, "z", "  (algebraic unknowns)", system_z, system, system_nz(system));
     for (int i = 0; near && i < system_multi_turn_count(system); i++) {
-        const MultiTurn *turned = system_multi_turn(system, i);
+        const MultiTurn *turn = system_multi_turn(system, i);
 
         text_addf(out,
                   " *   near[%d] %s  (picks the turn: any value less than half a turn from %s)\n",
-                  i, expr_name(turned->near), turned->name);
+                  i, expr_name(turn->reference), turn->name);
     }
     text_add(out, " */\n#include <math.h>\n\n"
                   "static inline double sign(double v) { return (v > 0) - (v < 0); }\n"

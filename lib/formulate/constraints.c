@@ -133,7 +133,7 @@ static void tie_row(System *system, const Instance *joint, const Steps *steps)
     Vec axis = step_axis(system, joint, &steps->shift[0]);
 
     push_row(system, joint, ROW_TIE, axis, vec_zero(system->arena), "u");
-    system->constraints->rows.at[system->constraints->rows.count - 1].lead = steps->shift[0].scale;
+    system->constraints->rows.at[system->constraints->rows.count - 1].pitch = steps->shift[0].scale;
 }
 
 static void driver_row(System *system, const Instance *driver)
@@ -190,12 +190,12 @@ static Expr tie_shown(System *system, const Row *row)
     if (turn.angle != NULL)
         return expr_sub(
             arena, s,
-            expr_mul(arena, row->lead,
+            expr_mul(arena, row->pitch,
                      expr_add(arena, turn.angle,
                               multi_turn_whole(system, joint->number, steps.turn[0].coordinate))));
-    s = expr_div(arena, s, row->lead);
+    s = expr_div(arena, s, row->pitch);
     compare_angle(system, joint->coord[steps.turn[0].coordinate], &turn, s);
-    return expr_mul(arena, row->lead, angle_missed(system, &turn, s));
+    return expr_mul(arena, row->pitch, angle_missed(system, &turn, s));
 }
 
 /* a driven coordinate less what it is to be */

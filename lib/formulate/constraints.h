@@ -12,7 +12,7 @@ typedef enum RowKind {
     ROW_TAIL,  /* n.d, n fixed in the tail */
     ROW_DOT,   /* a_t . b_h */
     ROW_ANGLE, /* sum of turns about one axis */
-    ROW_TIE,   /* u.d - lead times angle: a screw */
+    ROW_TIE,   /* u.d - pitch times angle: a screw */
     ROW_DRIVER /* coordinate - f(t) */
 } RowKind;
 
@@ -24,7 +24,7 @@ typedef struct Row {
     Expr phi;  /* to show */
     int owner; /* DRIVER: instance of the coordinate, and which */
     int coordinate;
-    Expr lead; /* TIE: shift per turn's angle */
+    Expr pitch; /* TIE: shift per angle */
     Expr prescribed;
     ConstraintRow told;
 } Row;
@@ -48,7 +48,7 @@ typedef struct Constraints {
     /* rows that hold in every position: no lambda tells what they carry */
     LIST(Row) redundant_rows;
     LIST(const char *) dropped;
-    LIST(MultiTurnChord) turned;
+    LIST(MultiTurnChord) multi_turns;
     LIST(CountedChord) counted;
     LIST(AngleOff) angles_off;
     LIST(Drive) drives;

@@ -243,7 +243,7 @@ void loads_add_row(System *system, Loads *loads, const Row *row, Expr lambda)
     loads_add_force(system, loads, row->head, along, chain);
     loads_add_force(system, loads, row->tail, vec_neg(arena, along), chain);
     if (row->kind == ROW_TIE) {
-        Vec moment = vec_scale(arena, expr_neg(arena, row->lead), along);
+        Vec moment = vec_scale(arena, expr_neg(arena, row->pitch), along);
 
         loads_add_torque(system, loads, row->head, moment, chain);
         loads_add_torque(system, loads, row->tail, vec_neg(arena, moment), chain);

@@ -42,10 +42,10 @@ Expr system_plain(const System *system, Expr e)
 
 static MultiTurnChord *find(const System *system, int instance, int coordinate)
 {
-    for (int i = 0; i < system->constraints->turned.count; i++)
-        if (system->constraints->turned.at[i].instance == instance &&
-            system->constraints->turned.at[i].coordinate == coordinate)
-            return &system->constraints->turned.at[i];
+    for (int i = 0; i < system->constraints->multi_turns.count; i++)
+        if (system->constraints->multi_turns.at[i].instance == instance &&
+            system->constraints->multi_turns.at[i].coordinate == coordinate)
+            return &system->constraints->multi_turns.at[i];
     return NULL;
 }
 
@@ -66,12 +66,12 @@ void multi_turn_drive(System *system, int instance, int coordinate, Expr prescri
 
 int system_multi_turn_count(const System *system)
 {
-    return system->constraints->turned.count;
+    return system->constraints->multi_turns.count;
 }
 
 const MultiTurn *system_multi_turn(const System *system, int i)
 {
-    return &system->constraints->turned.at[i].told;
+    return &system->constraints->multi_turns.at[i].told;
 }
 
 const AngleOff *system_angle_off(const System *system, int i)

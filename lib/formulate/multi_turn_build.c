@@ -65,11 +65,11 @@ static void add_turned(System *system, const Instance *joint, const Steps *steps
     chord.sine = turn.sine;
     chord.cosine = turn.cosine;
     chord.told.name = joint->coord[coordinate];
-    chord.told.near =
+    chord.told.reference =
         expr_symbol(arena, system_keep(system, "%s.near", chord.told.name), SYMBOL_TURN);
     chord.told.angle =
-        expr_call(arena, OP_UNWRAP, (Expr[]){turn.sine, turn.cosine, chord.told.near});
-    LIST_PUSH(system->constraints->turned, chord);
+        expr_call(arena, OP_UNWRAP, (Expr[]){turn.sine, turn.cosine, chord.told.reference});
+    LIST_PUSH(system->constraints->multi_turns, chord);
 }
 
 void multi_turn_build(System *system)
@@ -94,7 +94,7 @@ Status system_multi_turn_rate(System *system, int i, Expr *out, Diag *diag)
 {
     system_touch(system);
     Arena *arena = system->arena;
-    const MultiTurnChord *chord = &system->constraints->turned.at[i];
+    const MultiTurnChord *chord = &system->constraints->multi_turns.at[i];
     Expr sine_rate;
     Expr cosine_rate;
     Expr size;

@@ -94,7 +94,7 @@ static Vec row_reaction(const System *system, const Row *row, bool rotation)
     if (row->told.rotation != rotation && row->kind != ROW_TIE)
         return vec_zero(arena);
     if (row->kind == ROW_TIE && rotation)
-        along = vec_scale(arena, expr_neg(arena, row->lead), along);
+        along = vec_scale(arena, expr_neg(arena, row->pitch), along);
     if (row->kind == ROW_DOT)
         along = vec_cross(
             arena, vec_express(system, row->b, system->kinematics->frames[row->head].chain, tail),

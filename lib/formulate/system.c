@@ -56,7 +56,7 @@ void constraints_free(Constraints *constraints)
     LIST_FREE(constraints->rows);
     LIST_FREE(constraints->redundant_rows);
     LIST_FREE(constraints->dropped);
-    LIST_FREE(constraints->turned);
+    LIST_FREE(constraints->multi_turns);
     LIST_FREE(constraints->counted);
     LIST_FREE(constraints->angles_off);
     LIST_FREE(constraints->drives);

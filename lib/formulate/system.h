@@ -86,17 +86,18 @@ int system_quaternion(const System *system, int i);
 /* --- angles of chords over full turns --- */
 
 /* A turn of a chord that no sum of other turns tells, only its sine and cosine: the angle is the
- * one nearest to `near`, which whoever runs the system keeps next to it (theory 2). */
+ * one nearest to `reference`, which whoever runs the system keeps next to it (theory 2). */
 typedef struct MultiTurn {
     const char *name; /* of the joint's coordinate */
-    Expr near;        /* symbol: an angle less than half a turn away */
-    Expr angle;       /* in q and near */
+    Expr reference;   /* symbol: an angle less than half a turn away */
+    Expr angle;       /* in q and reference */
     Expr prescribed;  /* what a driver makes it, in t and parameters; NULL: there is none */
 } MultiTurn;
 
 int system_multi_turn_count(const System *system);
 const MultiTurn *system_multi_turn(const System *system, int i);
-/* Its rate, for keeping `near` next to it: bounded also where sine and cosine vanish together. */
+/* Its rate, for keeping `reference` next to it: bounded also where sine and cosine vanish together.
+ */
 MUST_USE Status system_multi_turn_rate(System *system, int i, Expr *out, Diag *diag);
 
 /* Where turns about one axis add up around a circuit their sum is known but for whole turns: what

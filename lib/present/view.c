@@ -264,7 +264,7 @@ static void print_turns(Text *out, const View *view, const Expr *terms, int coun
     Text names = {0}, words = {0};
 
     for (int i = 0; i < system_multi_turn_count(view->system); i++) {
-        const Expr near = system_multi_turn(view->system, i)->near;
+        const Expr near = system_multi_turn(view->system, i)->reference;
         bool used = false;
 
         for (int k = 0; !used && k < count; k++)

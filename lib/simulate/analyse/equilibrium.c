@@ -23,11 +23,11 @@
 #define CREEP       0.3   /* rad or m in a step of creeping */
 #define GROWTH      100   /* of residuals, in one */
 #define LEAST_SHARE 1e-4  /* of a path, in a step */
-#define LEAK        1e-1  /* S, to begin with */
-#define NO_LEAK     1e-14 /* S, from which on there is none */
+#define GMIN        1e-1  /* S, to begin with */
+#define LEAST_GMIN  1e-14 /* S, from which on there is none */
 
 typedef struct Quest {
-    EquilibriumResidual *statics;
+    EquilibriumResidual *equations;
     Search *search;
     const Watch *watch;
     const Layout *l;
@@ -43,16 +43,17 @@ typedef struct Quest {
 
 static void begin_again(Quest *e)
 {
-    memcpy(equilibrium_base(e->statics), e->begun,
-           (size_t)equilibrium_length(e->statics) * sizeof(double));
-    equilibrium_rebase(e->statics);
+    memcpy(equilibrium_base(e->equations), e->begun,
+           (size_t)equilibrium_length(e->equations) * sizeof(double));
+    equilibrium_rebase(e->equations);
 }
 
 static const double *measures_here(const Quest *e)
 {
-    const double *v = equilibrium_base(e->statics);
-    const RowValues row = {
-        .q = v, .x = v + e->l->n, .near = v + equilibrium_length(e->statics) - e->l->turned};
+    const double *v = equilibrium_base(e->equations);
+    const RowValues row = {.q = v,
+                           .x = v + e->l->n,
+                           .references = v + equilibrium_length(e->equations) - e->l->multi_turns};
 
     return probe_values(e->measures, &row);
 }
@@ -72,9 +73,9 @@ static bool is_within(Quest *e)
 
 static bool run_within(Quest *e)
 {
-    const size_t bytes = (size_t)equilibrium_length(e->statics) * sizeof(double);
-    double *base = equilibrium_base(e->statics);
-    double *before = NEW_ARRAY(double, equilibrium_length(e->statics));
+    const size_t bytes = (size_t)equilibrium_length(e->equations) * sizeof(double);
+    double *base = equilibrium_base(e->equations);
+    double *before = NEW_ARRAY(double, equilibrium_length(e->equations));
     bool found;
 
     memcpy(before, base, bytes);
@@ -82,7 +83,7 @@ static bool run_within(Quest *e)
     if (found && !is_within(e)) {
         found = false;
         memcpy(base, before, bytes);
-        equilibrium_rebase(e->statics);
+        equilibrium_rebase(e->equations);
     }
     mem_free(before);
     return found;
@@ -91,8 +92,8 @@ static bool run_within(Quest *e)
 /* Newton's method at once, or once the network has settled beside mechanics that stands still */
 static bool seek(Quest *e)
 {
-    const size_t bytes = (size_t)equilibrium_length(e->statics) * sizeof(double);
-    double *base = equilibrium_base(e->statics);
+    const size_t bytes = (size_t)equilibrium_length(e->equations) * sizeof(double);
+    double *base = equilibrium_base(e->equations);
 
     if (run_within(e))
         return true;
@@ -102,7 +103,7 @@ static bool seek(Quest *e)
     if (search_settle(e->search) && run_within(e))
         return true;
     memcpy(base, e->kept, bytes);
-    equilibrium_rebase(e->statics);
+    equilibrium_rebase(e->equations);
     return false;
 }
 
@@ -113,22 +114,23 @@ static bool seek(Quest *e)
 typedef struct Path {
     const char *phase;
     double first; /* step */
-    bool (*turn)(EquilibriumResidual *statics, double reached);
+    bool (*turn)(EquilibriumResidual *equations, double reached);
 } Path;
 
-static bool turn_load(EquilibriumResidual *statics, double reached)
+static bool step_sources(EquilibriumResidual *equations, double reached)
 {
-    return equilibrium_step_sources(statics, reached);
+    return equilibrium_step_sources(equations, reached);
 }
 
-static bool turn_leak(EquilibriumResidual *statics, double reached)
+static bool step_gmin(EquilibriumResidual *equations, double reached)
 {
-    return equilibrium_step_gmin(statics, reached < 1 ? LEAK * pow(NO_LEAK / LEAK, reached) : 0);
+    return equilibrium_step_gmin(equations,
+                                 reached < 1 ? GMIN * pow(LEAST_GMIN / GMIN, reached) : 0);
 }
 
 static const Path paths[] = {
-    {"equilibrium: loads", 0.25, turn_load},
-    {"equilibrium: leaks", 1.0 / 13, turn_leak},
+    {"equilibrium: loads", 0.25, step_sources},
+    {"equilibrium: leaks", 1.0 / 13, step_gmin},
 };
 
 static Status follow(Quest *e, const Path *path, bool *found)
@@ -137,13 +139,13 @@ static Status follow(Quest *e, const Path *path, bool *found)
     Status status = OK;
 
     begin_again(e);
-    *found = path->turn(e->statics, 0) && seek(e);
+    *found = path->turn(e->equations, 0) && seek(e);
     while (*found && reached < 1 && share > LEAST_SHARE) {
         const double next = fmin(1, reached + share);
 
         CHECK(poll(e->watch));
         report(e->watch, path->phase, reached);
-        (void)path->turn(e->statics, next);
+        (void)path->turn(e->equations, next);
         if (seek(e)) {
             reached = next;
             share *= 2;
@@ -154,7 +156,7 @@ static Status follow(Quest *e, const Path *path, bool *found)
     CHECK(poll(e->watch));
     *found = reached >= 1;
 done:
-    (void)path->turn(e->statics, 1);
+    (void)path->turn(e->equations, 1);
     return status;
 }
 
@@ -182,14 +184,14 @@ static Status creep_step(Quest *e, Creep *c, double resistance, bool *moves, Dia
     const int *start, *row;
     Status status = OK;
 
-    equilibrium_pattern(e->statics, &start, &row);
-    equilibrium_begin(e->statics, c->w);
-    values = equilibrium_jacobian(e->statics, c->w);
-    missed = equilibrium_residual(e->statics, c->w);
+    equilibrium_pattern(e->equations, &start, &row);
+    equilibrium_begin(e->equations, c->w);
+    values = equilibrium_jacobian(e->equations, c->w);
+    missed = equilibrium_residual(e->equations, c->w);
     memcpy(c->jacobian, values, (size_t)start[e->n] * sizeof(double));
     for (int i = 0; i < e->n; i++)
         c->right[i] = -missed[i];
-    CHECK(equilibrium_add_inertia(e->statics, c->w, resistance, c->jacobian, diag));
+    CHECK(equilibrium_add_inertia(e->equations, c->w, resistance, c->jacobian, diag));
     *moves = factors_make(c->factors, c->jacobian) &&
              factors_solve(c->factors, c->right, c->step) >= 0 &&
              vector_largest(c->step, e->l->nu) <= CREEP;
@@ -209,8 +211,8 @@ static double creep_on(Quest *e, Creep *c)
         growth = search_growth(e->search, c->right) / before;
     }
     if (isfinite(growth) && before > 0) {
-        equilibrium_place(e->statics, c->right, equilibrium_base(e->statics));
-        equilibrium_rebase(e->statics);
+        equilibrium_place(e->equations, c->right, equilibrium_base(e->equations));
+        equilibrium_rebase(e->equations);
     }
     return growth;
 }
@@ -222,7 +224,7 @@ static Status creep(Quest *e, bool *found, Diag *diag)
     double resistance = 1e4;
     Status status = OK;
 
-    equilibrium_pattern(e->statics, &start, &row);
+    equilibrium_pattern(e->equations, &start, &row);
     c = (Creep){.factors = factors_new(e->n, start, row, search_may_be_full(e->search)),
                 .w = NEW_ARRAY(double, e->n),
                 .step = NEW_ARRAY(double, e->n),
@@ -418,15 +420,15 @@ static Status quest_open(Quest *e, const Setting *setting, ActiveRun *start, Dia
 
     *e = (Quest){.watch = watch, .beyond = -1};
     CHECK(setting->scene.make(setting->scene.context, &scene, diag));
-    CHECK(equilibrium_new(&scene, start, watch, &e->statics, diag));
-    e->l = equilibrium_layout(e->statics);
-    e->n = equilibrium_count(e->statics);
-    bytes = (size_t)equilibrium_length(e->statics) * sizeof(double);
-    e->begun = NEW_ARRAY(double, equilibrium_length(e->statics));
-    e->kept = NEW_ARRAY(double, equilibrium_length(e->statics));
-    memcpy(e->begun, equilibrium_base(e->statics), bytes);
+    CHECK(equilibrium_new(&scene, start, watch, &e->equations, diag));
+    e->l = equilibrium_layout(e->equations);
+    e->n = equilibrium_count(e->equations);
+    bytes = (size_t)equilibrium_length(e->equations) * sizeof(double);
+    e->begun = NEW_ARRAY(double, equilibrium_length(e->equations));
+    e->kept = NEW_ARRAY(double, equilibrium_length(e->equations));
+    memcpy(e->begun, equilibrium_base(e->equations), bytes);
     CHECK(open_bounds(e, start, diag));
-    e->search = search_new(e->statics, watch);
+    e->search = search_new(e->equations, watch);
     if (e->search == NULL)
         CHECK(diag_set(diag, E_SOLVER, "SUNDIALS could not be started"));
 done:
@@ -440,7 +442,7 @@ static void quest_close(Quest *e)
     probe_free(e->measures);
     mem_free(e->bounds);
     mem_free(e->sides);
-    equilibrium_free(e->statics);
+    equilibrium_free(e->equations);
     mem_free(e->begun);
     mem_free(e->kept);
 }
@@ -453,7 +455,7 @@ static void guess_network(const Quest *e, ActiveRun *r)
     if (e->l->nz != l->nz)
         return;
     memset(r->result->start.network, 0, (size_t)l->nx * sizeof(double));
-    memcpy(r->result->start.network + l->nx, equilibrium_base(e->statics) + l->n + l->nx + l->m,
+    memcpy(r->result->start.network + l->nx, equilibrium_base(e->equations) + l->n + l->nx + l->m,
            (size_t)l->nz * sizeof(double));
 }
 
@@ -476,13 +478,14 @@ Status run_equilibrium(System *system, const Setting *setting, Result **out, Res
                                             "no equilibrium can be found from there", diag))
         status = E_SINGULAR;
     CHECK(status);
-    v = equilibrium_base(e.statics);
+    v = equilibrium_base(e.equations);
     memset(r->result->start.y, 0, (size_t)(l->n + l->nu + l->nx) * sizeof(double));
     for (int i = 0; i < l->n; i++) /* less than rounding of 1 rad or 1 m is nothing */
         r->result->start.y[i] = fabs(v[i]) < 1e-15 ? 0 : v[i];
     memcpy(r->result->start.y + l->n + l->nu, v + l->n, (size_t)l->nx * sizeof(double));
-    memcpy(r->result->start.y + layout_turned(l), v + equilibrium_length(e.statics) - l->turned,
-           (size_t)l->turned * sizeof(double));
+    memcpy(r->result->start.y + layout_references(l),
+           v + equilibrium_length(e.equations) - l->multi_turns,
+           (size_t)l->multi_turns * sizeof(double));
     guess_network(&e, r);
     CHECK(run_begin(r, setting, diag));
     if (!motion_project(r->phase->motion, 0, r->begin))

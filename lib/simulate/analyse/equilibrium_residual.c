@@ -37,9 +37,9 @@ struct EquilibriumResidual {
     Parameters parameters;
     Expr load, gmin;
     int n, length;
-    int near;     /* in v, references of angles: behind the unknowns */
-    double *v;    /* base */
-    Probe *probe; /* residuals, angles that count turns from place to place, slopes */
+    int references; /* in v, references of angles: behind the unknowns */
+    double *v;      /* base */
+    Probe *probe;   /* residuals, angles that count turns from place to place, slopes */
     Map map;
     LIST(EquilibriumResidualPart) parts;
     Pattern pattern;
@@ -93,10 +93,10 @@ static Status make_system(EquilibriumResidual *s, const Scene *scene, const Watc
     CHECK(system_new_view(scene, &options, &s->system, diag));
     s->l = layout_new(s->system);
     s->n = s->l->nu + s->l->nx + s->l->m + s->l->nz;
-    s->near = s->l->n + s->l->nx + s->l->m + s->l->nz;
-    s->length = s->near + s->l->turned;
+    s->references = s->l->n + s->l->nx + s->l->m + s->l->nz;
+    s->length = s->references + s->l->multi_turns;
     if (s->l->n != theirs->n || s->l->nx != theirs->nx || s->l->m != theirs->m ||
-        s->l->turned != theirs->turned)
+        s->l->multi_turns != theirs->multi_turns)
         CHECK(diag_set(diag, E_MODEL, "at rest this model has other unknowns than in motion"));
 done:
     return status;
@@ -157,7 +157,7 @@ static Status make_map(EquilibriumResidual *s, Diag *diag)
     }
     map->base = NEW_ARRAY(double, roots.count);
     map->at = NEW_ARRAY(double, roots.count);
-    for (int k = 0; k < s->l->turned; k++)
+    for (int k = 0; k < s->l->multi_turns; k++)
         LIST_PUSH(roots, system_multi_turn(s->system, k)->angle);
     status = probe_new(s->l, &s->parameters, roots.at, roots.count, &map->probe, diag);
     LIST_FREE(roots);
@@ -212,7 +212,7 @@ static void push_roots(const EquilibriumResidual *s, Roots *roots)
         LIST_PUSH(*roots, system_run(l->system)->phi[k]);
     for (int i = 0; i < l->nx + l->nz; i++)
         LIST_PUSH(*roots, row_network(l, i));
-    for (int k = 0; k < l->turned; k++)
+    for (int k = 0; k < l->multi_turns; k++)
         LIST_PUSH(*roots, system_multi_turn(s->system, k)->angle);
 }
 
@@ -360,8 +360,8 @@ Status equilibrium_new(const Scene *scene, ActiveRun *start, const Watch *watch,
     memcpy(s->v, start->result->start.y, (size_t)theirs->n * sizeof(double));
     memcpy(s->v + theirs->n, start->result->start.y + theirs->n + theirs->nu,
            (size_t)theirs->nx * sizeof(double));
-    memcpy(s->v + s->near, start->result->start.y + layout_turned(theirs),
-           (size_t)theirs->turned * sizeof(double));
+    memcpy(s->v + s->references, start->result->start.y + layout_references(theirs),
+           (size_t)theirs->multi_turns * sizeof(double));
     guess_network(s, theirs);
     equilibrium_rebase(s);
     *out = s;
@@ -433,7 +433,7 @@ static RowValues row_of(const EquilibriumResidual *s, const double *v)
 {
     const Layout *l = s->l;
 
-    return (RowValues){.near = v + s->near,
+    return (RowValues){.references = v + s->references,
                        .q = v,
                        .x = v + l->n,
                        .multipliers = v + l->n + l->nx,
@@ -451,8 +451,10 @@ void equilibrium_rebase(EquilibriumResidual *s)
     const double *map = probe_values(s->map.probe, &row);
 
     memcpy(s->map.base, map, (size_t)s->map.start[s->l->n] * sizeof(double));
-    memcpy(s->v + s->near, map + s->map.start[s->l->n], (size_t)s->l->turned * sizeof(double));
-    memcpy(s->place + s->near, s->v + s->near, (size_t)s->l->turned * sizeof(double));
+    memcpy(s->v + s->references, map + s->map.start[s->l->n],
+           (size_t)s->l->multi_turns * sizeof(double));
+    memcpy(s->place + s->references, s->v + s->references,
+           (size_t)s->l->multi_turns * sizeof(double));
     s->values = NULL;
 }
 
@@ -466,7 +468,8 @@ void equilibrium_place(const EquilibriumResidual *s, const double *w, double *v)
 {
     place_coordinates(s, w, v, NULL);
     memcpy(v + s->l->n, w + s->l->nu, (size_t)(s->n - s->l->nu) * sizeof(double));
-    memmove(v + s->near, s->place + s->near, (size_t)s->l->turned * sizeof(double));
+    memmove(v + s->references, s->place + s->references,
+            (size_t)s->l->multi_turns * sizeof(double));
 }
 
 /* --- numbers --- */
@@ -480,7 +483,7 @@ static void look(EquilibriumResidual *s, const double *w)
     memcpy(s->w, w, (size_t)s->n * sizeof(double));
     equilibrium_place(s, w, s->place);
     s->values = probe_values(s->probe, &row);
-    memcpy(s->place + s->near, s->values + s->n, (size_t)s->l->turned * sizeof(double));
+    memcpy(s->place + s->references, s->values + s->n, (size_t)s->l->multi_turns * sizeof(double));
 }
 
 const double *equilibrium_residual(EquilibriumResidual *s, const double *w)

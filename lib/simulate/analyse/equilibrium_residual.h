@@ -22,48 +22,49 @@ typedef struct EquilibriumResidual EquilibriumResidual;
  * probe_new() do. O(symbols in the equations) derivatives. */
 MUST_USE Status equilibrium_new(const Scene *scene, ActiveRun *start, const Watch *watch,
                                 EquilibriumResidual **out, Diag *diag);
-void equilibrium_free(EquilibriumResidual *statics); /* NULL is fine */
+void equilibrium_free(EquilibriumResidual *equilibrium); /* NULL is fine */
 
-const Layout *equilibrium_layout(const EquilibriumResidual *statics);
-int equilibrium_length(const EquilibriumResidual *statics);      /* of v */
-int equilibrium_count(const EquilibriumResidual *statics);       /* of equations, and of w */
-bool equilibrium_is_network(const EquilibriumResidual *statics); /* there is no mechanics */
+const Layout *equilibrium_layout(const EquilibriumResidual *equilibrium);
+int equilibrium_length(const EquilibriumResidual *equilibrium);      /* of v */
+int equilibrium_count(const EquilibriumResidual *equilibrium);       /* of equations, and of w */
+bool equilibrium_is_network(const EquilibriumResidual *equilibrium); /* there is no mechanics */
 
 /* The share of gravity, forces and sources that is on (1 at first), and the conductance beside
  * every part whose current is an expression of its voltage (S; 0 at first). False: no equation
  * holds one. */
-bool equilibrium_step_sources(EquilibriumResidual *statics, double load);
-bool equilibrium_step_gmin(EquilibriumResidual *statics, double gmin);
+bool equilibrium_step_sources(EquilibriumResidual *equilibrium, double load);
+bool equilibrium_step_gmin(EquilibriumResidual *equilibrium, double gmin);
 
 /* --- places --- */
 
 double *
-equilibrium_base(EquilibriumResidual *statics);        /* v0; after writing: equilibrium_rebase() */
-void equilibrium_rebase(EquilibriumResidual *statics); /* the base is new, or the knobs are */
+equilibrium_base(EquilibriumResidual *equilibrium); /* v0; after writing: equilibrium_rebase() */
+void equilibrium_rebase(EquilibriumResidual *equilibrium); /* the base is new, or the knobs are */
 /* w of the base: s is 0 */
-void equilibrium_begin(const EquilibriumResidual *statics, double *w);
+void equilibrium_begin(const EquilibriumResidual *equilibrium, double *w);
 /* angles in the turn that they had at the last place whose numbers were asked for */
-void equilibrium_place(const EquilibriumResidual *statics, const double *w, double *v);
+void equilibrium_place(const EquilibriumResidual *equilibrium, const double *w, double *v);
 
 /* --- numbers at w; borrowed, until the next place --- */
 
-const double *equilibrium_residual(EquilibriumResidual *statics, const double *w);
+const double *equilibrium_residual(EquilibriumResidual *equilibrium, const double *w);
 /* Entries of the Jacobian by w, where equilibrium_pattern() tells. */
-const double *equilibrium_jacobian(EquilibriumResidual *statics, const double *w);
+const double *equilibrium_jacobian(EquilibriumResidual *equilibrium, const double *w);
 /* Of the entries of column c, start[c] up to start[c + 1], the rows: each place once. Those of
  * equilibrium_add_inertia() have a place too. */
-void equilibrium_pattern(const EquilibriumResidual *statics, const int **start, const int **row);
+void equilibrium_pattern(const EquilibriumResidual *equilibrium, const int **start,
+                         const int **row);
 /* For each equation the sum of its terms in size, an unknown step or state taken as 1 at least.
  * After equilibrium_jacobian(). */
-void equilibrium_sizes(const EquilibriumResidual *statics, const double *w, double *size);
+void equilibrium_sizes(const EquilibriumResidual *equilibrium, const double *w, double *size);
 
 /* Hold the mechanics: where s and lambda stand stay as they are, whatever the forces. Its residuals
  * become 0; its rows and columns of the Jacobian those of 1. Either may be NULL. */
-void equilibrium_hold(const EquilibriumResidual *statics, double *residual, double *jacobian);
+void equilibrium_hold(const EquilibriumResidual *equilibrium, double *residual, double *jacobian);
 
 /* Add `share` times the mass matrix (by s) and the storage elements' part of A (by x) at w to
  * entries of the Jacobian. Compiles at its first call. */
-MUST_USE Status equilibrium_add_inertia(EquilibriumResidual *statics, const double *w, double share,
-                                        double *jacobian, Diag *diag);
+MUST_USE Status equilibrium_add_inertia(EquilibriumResidual *equilibrium, const double *w,
+                                        double share, double *jacobian, Diag *diag);
 
 #endif

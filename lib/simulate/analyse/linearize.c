@@ -232,7 +232,7 @@ static void work_free(Work *w)
     parameters_free(&w->parameters);
     layout_free(w->l);
     system_free(w->varied);
-    partitioning_free(w->embed);
+    partitioning_free(w->partitioning);
     mem_free(w->inputs);
     mem_free(w->at.symbols);
     square_free(w->equations);

@@ -150,7 +150,7 @@ static void write_column(const Work *w, const Deviation *d, const LinearColumn *
                          const LinearColumn *outputs)
 {
     const Layout *l = w->l;
-    const int *independent = partitioning_independent(w->embed);
+    const int *independent = partitioning_independent(w->partitioning);
     int f = w->freedoms;
 
     for (int i = 0; i < f; i++) {
@@ -240,9 +240,10 @@ static Status write_columns(const Work *w, Linear *out, Diag *diag)
                                               : column_of(out->c, out->c_error, column, stride);
 
         for (int j = 0; j < l->nu; j++) {
-            d.s[j] = c < f && partitioning_independent(w->embed)[c] == j ? one : none;
-            d.u[j] =
-                c >= f && c < 2 * f && partitioning_independent(w->embed)[c - f] == j ? one : none;
+            d.s[j] = c < f && partitioning_independent(w->partitioning)[c] == j ? one : none;
+            d.u[j] = c >= f && c < 2 * f && partitioning_independent(w->partitioning)[c - f] == j
+                         ? one
+                         : none;
         }
         d.state = c >= 2 * f && !is_input ? c - 2 * f : -1;
         d.input = is_input ? column : -1;
@@ -319,7 +320,7 @@ static Linear *linear_new(const Work *w)
     for (int j = 0; j < l->nu; j++)
         out->part_names[j] = part_name(w, j);
     for (int i = 0; i < f; i++) {
-        int j = partitioning_independent(w->embed)[i];
+        int j = partitioning_independent(w->partitioning)[i];
 
         out->state_names[i] = copy(out->part_names[j]);
         out->state_names[f + i] = copy(system_u(w->system, j)->name);

@@ -61,7 +61,7 @@ typedef struct Work {
     Square *equations;             /* its factors */
     double *dependent, *dependent_error;
     Square *held; /* factors of Phi_u's dependent columns, over the rows in use */
-    Partitioning *embed;
+    Partitioning *partitioning;
     int used, freedoms, unknowns; /* unknowns: nu + used + nx + nz */
     int *in_use;                  /* constraint rows, so many as are used: independent there */
 } Work;

@@ -91,7 +91,7 @@ static void evaluate_errors(Work *w)
     RowValues row = row_with(w, number_error(w->order->at), w->y_error, w->follow_error);
     double *errors = NEW_ARRAY(double, count), *all;
 
-    row.near = NULL; /* which turn it is, is certain */
+    row.references = NULL; /* which turn it is, is certain */
     probe_errors(w->derived, &row, errors);
     all = lay_out(w, errors);
     for (int i = 0; i < w->rows.count * (1 + w->at.count); i++)
@@ -182,7 +182,7 @@ static void evaluate_geometry(Work *w)
     const double *geometry = probe_values(w->geometry, &row);
     double *errors = NEW_ARRAY(double, count);
 
-    off.near = NULL;
+    off.references = NULL;
     probe_errors(w->geometry, &off, errors);
     for (int i = 0; i < count; i++) {
         const LinearNumber number = {geometry[i], errors[i]};
@@ -198,7 +198,7 @@ static void evaluate_geometry(Work *w)
 bool linear_is_independent(const Work *w, int speed)
 {
     for (int i = 0; i < w->freedoms; i++)
-        if (partitioning_independent(w->embed)[i] == speed)
+        if (partitioning_independent(w->partitioning)[i] == speed)
             return true;
     return false;
 }
@@ -244,8 +244,8 @@ static Status choose_independent(Work *w, Diag *diag)
             if (i >= 0 && strcmp(system_q(w->system, i)->name, order->independent[k]) == 0)
                 wanted[count++] = j;
         }
-    w->embed = partitioning_new(w->l->nu, w->used);
-    if (!partitioning_choose(w->embed, phi_u, w->in_use, wanted, count))
+    w->partitioning = partitioning_new(w->l->nu, w->used);
+    if (!partitioning_choose(w->partitioning, phi_u, w->in_use, wanted, count))
         status =
             diag_set(diag, E_SINGULAR,
                      "a singular position: no choice of coordinates describes the motion there");
@@ -348,7 +348,7 @@ static void open_room(Work *w)
     w->unknowns = l->nu + w->used + l->nx + l->nz;
     w->follow = NEW_ARRAY(double, follow);
     w->follow_error = NEW_ARRAY(double, follow);
-    w->y_error = NEW_ARRAY(double, layout_turned(l) + l->turned);
+    w->y_error = NEW_ARRAY(double, layout_references(l) + l->multi_turns);
     w->values = NEW_ARRAY(LinearNumber, w->rows.count * (1 + w->at.count));
     w->matrix = NEW_ARRAY(double, w->unknowns * w->unknowns);
     w->matrix_error = NEW_ARRAY(double, w->unknowns * w->unknowns);
@@ -357,7 +357,7 @@ static void open_room(Work *w)
     w->map_rate = w->map + l->n * l->nu;
     w->dependent = NEW_ARRAY(double, w->used * w->used);
     w->dependent_error = NEW_ARRAY(double, w->used * w->used);
-    for (int i = 0; i < layout_turned(l); i++)
+    for (int i = 0; i < layout_references(l); i++)
         w->y_error[i] = number_error(w->y[i]);
 }
 

@@ -38,7 +38,7 @@
 
 struct Search {
     Cleanup cleanup;
-    EquilibriumResidual *statics;
+    EquilibriumResidual *equations;
     const Watch *watch;
     int n;
     int speeds;             /* of w: steps */
@@ -112,9 +112,9 @@ static int solver_solve(SUNLinearSolver solver, SUNMatrix matrix, N_Vector step,
 
 static void residual_at(const Search *s, const double *w, double *out)
 {
-    memcpy(out, equilibrium_residual(s->statics, w), (size_t)s->n * sizeof(double));
+    memcpy(out, equilibrium_residual(s->equations, w), (size_t)s->n * sizeof(double));
     if (s->is_held)
-        equilibrium_hold(s->statics, out, NULL);
+        equilibrium_hold(s->equations, out, NULL);
 }
 
 static int residual(N_Vector w, N_Vector out, void *data)
@@ -134,7 +134,7 @@ static int residual(N_Vector w, N_Vector out, void *data)
 static int jacobian(N_Vector w, N_Vector f, SUNMatrix matrix, void *data, N_Vector a, N_Vector b)
 {
     const Search *s = data;
-    const double *values = equilibrium_jacobian(s->statics, N_VGetArrayPointer(w));
+    const double *values = equilibrium_jacobian(s->equations, N_VGetArrayPointer(w));
 
     (void)f, (void)a, (void)b;
     for (int c = 0; c <= s->n; c++)
@@ -144,7 +144,7 @@ static int jacobian(N_Vector w, N_Vector f, SUNMatrix matrix, void *data, N_Vect
         SUNSparseMatrix_Data(matrix)[k] = values[k];
     }
     if (s->is_held)
-        equilibrium_hold(s->statics, NULL, SUNSparseMatrix_Data(matrix));
+        equilibrium_hold(s->equations, NULL, SUNSparseMatrix_Data(matrix));
     return 0;
 }
 
@@ -221,21 +221,21 @@ static bool open_solver(Search *s)
     return code == 0 && KINSetScaledStepTol(s->memory, STILL) == 0;
 }
 
-Search *search_new(EquilibriumResidual *statics, const Watch *watch)
+Search *search_new(EquilibriumResidual *equations, const Watch *watch)
 {
     Search *s = NEW(Search);
 
-    s->statics = statics;
+    s->equations = equations;
     s->watch = watch;
-    s->n = equilibrium_count(statics);
-    s->kept = NEW_ARRAY(double, equilibrium_length(statics));
+    s->n = equilibrium_count(equations);
+    s->kept = NEW_ARRAY(double, equilibrium_length(equations));
     s->missed = NEW_ARRAY(double, s->n);
     s->size = NEW_ARRAY(double, s->n);
     s->entry = NEW_ARRAY(double, s->n);
-    s->speeds = equilibrium_layout(statics)->nu;
-    equilibrium_pattern(statics, &s->start, &s->row);
-    s->factors =
-        factors_new(s->n, s->start, s->row, !equilibrium_is_network(statics) || s->n <= MOST_FULL);
+    s->speeds = equilibrium_layout(equations)->nu;
+    equilibrium_pattern(equations, &s->start, &s->row);
+    s->factors = factors_new(s->n, s->start, s->row,
+                             !equilibrium_is_network(equations) || s->n <= MOST_FULL);
     if (s->n == 0 || open_solver(s))
         return s;
     search_free(s);
@@ -264,12 +264,12 @@ static bool look(Search *s)
     double *w = N_VGetArrayPointer(s->w);
     const double *values;
 
-    equilibrium_begin(s->statics, w);
-    values = equilibrium_jacobian(s->statics, w);
+    equilibrium_begin(s->equations, w);
+    values = equilibrium_jacobian(s->equations, w);
     residual_at(s, w, s->missed);
     if (!vector_is_finite(values, s->start[s->n]) || !vector_is_finite(s->missed, s->n))
         return false;
-    equilibrium_sizes(s->statics, w, s->size);
+    equilibrium_sizes(s->equations, w, s->size);
     memset(s->entry, 0, (size_t)s->n * sizeof(double));
     for (int k = 0; k < s->start[s->n]; k++)
         s->entry[s->row[k]] = fmax(s->entry[s->row[k]], fabs(values[k]));
@@ -344,8 +344,8 @@ static bool go_on(Search *s)
         code = KINSol(s->memory, s->w, KIN_LINESEARCH, s->unit, s->weight);
         if (poll(s->watch) != OK || !vector_is_finite(N_VGetArrayPointer(s->w), s->n))
             return false;
-        equilibrium_place(s->statics, N_VGetArrayPointer(s->w), equilibrium_base(s->statics));
-        equilibrium_rebase(s->statics);
+        equilibrium_place(s->equations, N_VGetArrayPointer(s->w), equilibrium_base(s->equations));
+        equilibrium_rebase(s->equations);
         if (!look(s))
             return false;
         if (code == KIN_MAXITER_REACHED && measure(s) < SLOW * before)
@@ -367,8 +367,8 @@ static bool go_on(Search *s)
 
 bool search_run(Search *s)
 {
-    const size_t bytes = (size_t)equilibrium_length(s->statics) * sizeof(double);
-    double *base = equilibrium_base(s->statics);
+    const size_t bytes = (size_t)equilibrium_length(s->equations) * sizeof(double);
+    double *base = equilibrium_base(s->equations);
 
     if (s->n == 0)
         return true;
@@ -376,7 +376,7 @@ bool search_run(Search *s)
     if (go_on(s))
         return true;
     memcpy(base, s->kept, bytes);
-    equilibrium_rebase(s->statics);
+    equilibrium_rebase(s->equations);
     return false;
 }
 
@@ -397,7 +397,7 @@ double search_growth(Search *s, const double *w)
     if (!look(s))
         return INFINITY;
     weigh(s, 1);
-    return worst(s, equilibrium_residual(s->statics, w));
+    return worst(s, equilibrium_residual(s->equations, w));
 }
 
 bool search_holds(Search *s, int i, double *missed)
@@ -413,7 +413,7 @@ int search_rank(Search *s)
     if (s->n == 0)
         return 0;
     if (!look(s) ||
-        !factors_make(s->factors, equilibrium_jacobian(s->statics, N_VGetArrayPointer(s->w))))
+        !factors_make(s->factors, equilibrium_jacobian(s->equations, N_VGetArrayPointer(s->w))))
         return -1;
     return factors_solve(s->factors, s->size, N_VGetArrayPointer(s->w));
 }
@@ -451,7 +451,7 @@ int search_undetermined(Search *s)
 
     if (s->n == 0 || !look(s))
         return -1;
-    values = equilibrium_jacobian(s->statics, N_VGetArrayPointer(s->w));
+    values = equilibrium_jacobian(s->equations, N_VGetArrayPointer(s->w));
     column = factors_singular(s->factors, values);
     return column < 0 && s->n <= FEW_SVD ? loosest(s, values) : column;
 }

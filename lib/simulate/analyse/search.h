@@ -13,7 +13,7 @@
 typedef struct Search Search;
 
 /* New, or NULL where SUNDIALS can't be started; free with search_free(). Borrows. */
-Search *search_new(EquilibriumResidual *statics, const Watch *watch);
+Search *search_new(EquilibriumResidual *equations, const Watch *watch);
 void search_free(Search *search); /* NULL is fine */
 
 /* From the base to a place where every equation holds, which is the base then. False: none was

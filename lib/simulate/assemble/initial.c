@@ -313,7 +313,7 @@ Status initial_find(const Layout *layout, Parameters *parameters, Numbers *numbe
     bool closed;
     Status status = OK;
 
-    *out = (Assembled){.y = NEW_ARRAY(double, layout_turned(layout) + layout->turned + 1),
+    *out = (Assembled){.y = NEW_ARRAY(double, layout_references(layout) + layout->multi_turns + 1),
                        .network = NEW_ARRAY(double, layout->nx + layout->nz),
                        .guess = NEW_ARRAY(double, layout->nz),
                        .rows = NEW_ARRAY(int, layout->m)};
@@ -322,7 +322,7 @@ Status initial_find(const Layout *layout, Parameters *parameters, Numbers *numbe
     CHECK(initial_read_given(&a, diag));
     CHECK(initial_place(&a, warm, warm_context, &closed, diag));
     CHECK(find_position(&a, closed, diag));
-    equations_turn(a.eq, 0, a.y, a.y + layout_turned(layout));
+    equations_turn(a.eq, 0, a.y, a.y + layout_references(layout));
     CHECK(find_rank(&a, diag));
     CHECK(find_velocity(&a, diag));
     CHECK(initial_find_network(&a, setting->from != NULL ? warm : NULL, warm_context, diag));

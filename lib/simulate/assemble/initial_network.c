@@ -34,8 +34,8 @@ Status initial_solve(const Layout *l, const Numbers *numbers, const double *y, c
     solve = netsolve_new(eq);
     if (guess != NULL)
         memcpy(netsolve_values(solve), guess, (size_t)(l->nx + l->nz) * sizeof(double));
-    if (l->turned > 0)
-        eq->near(eq->context, y + layout_turned(l));
+    if (l->multi_turns > 0)
+        eq->take_references(eq->context, y + layout_references(l));
     eq->position(eq->context, 0, y);
     eq->velocity(eq->context, y + l->n, y + l->n + l->nu);
     if (netsolve_find(solve)) {

@@ -188,9 +188,9 @@ static void list_outlets(const Placing *p, Outlets *outlets)
             if (place >= 0)
                 LIST_PUSH(*outlets, (Outlet){i, k, &p->a->y[place]});
         }
-    for (int i = 0; i < l->turned; i++)
+    for (int i = 0; i < l->multi_turns; i++)
         push_named(p, system_multi_turn(l->system, i)->name,
-                   (Outlet){.to = &p->a->y[layout_turned(l) + i]}, outlets);
+                   (Outlet){.to = &p->a->y[layout_references(l) + i]}, outlets);
 }
 
 static void fill_outlets(Placing *p, const Outlets *outlets)

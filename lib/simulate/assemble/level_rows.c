@@ -118,7 +118,7 @@ static void evaluate_expressions(const LevelRows *rows, int columns, double *res
     int count, k = 0;
     const Slope *slopes = residual_slopes(probe_residual(rows->probe), &count);
 
-    at.near = rows->y + layout_turned(l);
+    at.references = rows->y + layout_references(l);
     at.rates = tail;
     at.z = tail + l->nx;
     values = probe_values(rows->probe, &at);

@@ -19,7 +19,7 @@
 RowValues mode_search_row(const ModeSearch *s, const double *w)
 {
     return (RowValues){.t = s->at->t + s->step,
-                       .near = s->at->near,
+                       .references = s->at->references,
                        .q = s->at->q,
                        .u = s->at->u,
                        .x = s->x,
@@ -412,7 +412,7 @@ static bool settle_diodes(ModeSearch *s)
     return settle_with(s, together, together + most);
 }
 
-/* ModeSearch of switches with a condition, from states as they go on and what else is known. True:
+/* Sides of switches with a condition, from states as they go on and what else is known. True:
  * one of them goes over, *which. */
 static bool follow_conditions(ModeSearch *s, int *which)
 {

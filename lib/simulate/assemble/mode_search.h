@@ -16,14 +16,14 @@ typedef struct ModeSearch ModeSearch;
  * probe_new() and system_ideal() do. */
 MUST_USE Status mode_search_new(System *system, Parameters *parameters, ModeSearch **out,
                                 Diag *diag);
-void mode_search_free(ModeSearch *sides); /* NULL is fine */
+void mode_search_free(ModeSearch *search); /* NULL is fine */
 
 /* the instant; arrays by the layout of the whole */
 typedef struct ModeSearchAt {
     double t;    /* s */
     double step; /* h, s: short against all that happens, long against rounding of t */
     double when; /* s: the time that conditions of switches read, t + h or t */
-    const double *q, *u, *near;               /* at t + h; references of angles */
+    const double *q, *u, *references;         /* at t + h; references of angles */
     const double *x;                          /* at t */
     const double *x_behind;                   /* at t + h, where sides stay as they are */
     const double *acceleration, *multipliers; /* at t + h; NULL: not known, taken for 0 */
@@ -31,23 +31,23 @@ typedef struct ModeSearchAt {
 
 /* The sides behind t from those before it, one an ideal switch. Fails with E_SOLVER where there are
  * none; `closed` is as it was then. */
-MUST_USE Status mode_search_find(ModeSearch *sides, const ModeSearchAt *at, bool *closed,
+MUST_USE Status mode_search_find(ModeSearch *search, const ModeSearchAt *at, bool *closed,
                                  Diag *diag);
 
 /* Behind a surge: what was largest lately no longer counts. */
-void mode_search_calm(ModeSearch *sides);
+void mode_search_calm(ModeSearch *search);
 /* What becomes of states at the instant that sides were looked for last, while that stands, with
  * these sides: where a step from `from` of the whole leads, as its length vanishes, and what is
  * stored changes by what flows. `size` tells for each state what counts as nothing. False: it leads
  * nowhere. */
-bool mode_search_jump(ModeSearch *sides, const double *from, const double *size, double *x);
+bool mode_search_jump(ModeSearch *search, const double *from, const double *size, double *x);
 /* Behind mode_search_jump() that began at `from` with the sides `before`: the work of all that
  * neither stores nor switches, J. */
-double mode_search_work(ModeSearch *sides, const double *from, const bool *before);
+double mode_search_work(ModeSearch *search, const double *from, const bool *before);
 /* the name of a source that would have to give an impulse there; NULL: none */
-const char *mode_search_source(ModeSearch *sides, double step);
+const char *mode_search_source(ModeSearch *search, double step);
 
 /* the largest across or through variable of a domain's edges lately */
-double mode_search_largest(const ModeSearch *sides, Domain domain, bool through);
+double mode_search_largest(const ModeSearch *search, Domain domain, bool through);
 
 #endif

@@ -21,15 +21,15 @@ typedef struct ReinitPlan {
 } ReinitPlan;
 
 Reinit *reinit_new(const ReinitPlan *plan); /* new; reinit_free() */
-void reinit_free(Reinit *reset);            /* NULL is fine */
+void reinit_free(Reinit *reinit);           /* NULL is fine */
 /* One more variable; they count from 0. Fails with E_VALUE where it follows from forces or from
  * what a circuit solves for, the errors of system_variable(). */
-MUST_USE Status reinit_add(Reinit *reset, const char *name, int primes, Diag *diag);
+MUST_USE Status reinit_add(Reinit *reinit, const char *name, int primes, Diag *diag);
 /* after the last of them; O(variables * unknowns) expressions */
-MUST_USE Status reinit_compile(Reinit *reset, Diag *diag);
+MUST_USE Status reinit_compile(Reinit *reinit, Diag *diag);
 /* Give values (NAN: leave) to the variables at (t, y); y is (q, u, x, work). False: there are no
  * such positions, speeds or states, and y is as it was; where a joint would close with its axis
  * reversed alone, `why` tells. */
-bool reinit_apply(Reinit *reset, double t, const double *values, double *y, Text *why);
+bool reinit_apply(Reinit *reinit, double t, const double *values, double *y, Text *why);
 
 #endif

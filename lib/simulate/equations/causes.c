@@ -42,7 +42,7 @@ bool cause_meeting(const Layout *l, Parameters *parameters, double t, const doub
 static double speed_of(const Layout *l, Parameters *parameters, Expr length, double t,
                        const double *y, const double *rate, double time)
 {
-    const int count = layout_turned(l) + l->turned;
+    const int count = layout_references(l) + l->multi_turns;
     double *later = NEW_ARRAY(double, count);
     double before = 0, after = 0;
 

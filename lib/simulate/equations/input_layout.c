@@ -101,10 +101,10 @@ Layout *layout_new_on(System *system, const OnSurface *on, int count)
     l->nx = system_nx(system);
     l->nz = system_nz(system);
     l->t = append(l, &room, expr_symbol(system_arena(system), "t", SYMBOL_TIME));
-    l->turned = system_multi_turn_count(system);
-    l->near = l->count;
-    for (int i = 0; i < l->turned; i++)
-        (void)append(l, &room, system_multi_turn(system, i)->near);
+    l->multi_turns = system_multi_turn_count(system);
+    l->references = l->count;
+    for (int i = 0; i < l->multi_turns; i++)
+        (void)append(l, &room, system_multi_turn(system, i)->reference);
     l->q = l->count;
     for (int i = 0; i < l->n; i++)
         (void)append(l, &room, system_q(system, i)->symbol);

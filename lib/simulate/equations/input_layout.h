@@ -15,8 +15,9 @@ typedef struct Layout {
     bool *closed; /* one a switch: that side */
     int switches;
     uint64_t sides; /* counts changes of them: what was computed with others is outdated */
-    int n, nu, m, nx, nz, ne, turned, slides;
-    int t, near, q, u, x, signs, rates, z, acceleration, multipliers, efforts, jerk; /* first */
+    int n, nu, m, nx, nz, ne, multi_turns, slides;
+    int t, references, q, u, x, signs, rates, z, acceleration, multipliers, efforts,
+        jerk; /* first */
     int count;
     Expr *symbols; /* count */
     Surface *surfaces;
@@ -24,7 +25,7 @@ typedef struct Layout {
 } Layout;
 
 /* y of a run is q, u, x, references, work */
-static inline int layout_turned(const Layout *l) /* place of the first reference in it */
+static inline int layout_references(const Layout *l) /* place of the first reference in it */
 {
     return l->n + l->nu + l->nx;
 }
@@ -42,7 +43,7 @@ Expr layout_on_surfaces(const Layout *layout, Expr e);
 /* A symbol that is a side of a switch in this layout: its number; -1: it is none */
 int layout_side_of(const Layout *layout, Expr symbol);
 void layout_free(Layout *layout);
-/* ModeSearch of switches that are numbers, from now on in all programs over the layout; one a
+/* Sides of switches that are numbers, from now on in all programs over the layout; one a
  * switch. */
 void layout_take_sides(Layout *layout, const bool *closed);
 /* whether any of the roots changes with t alone, while no state does */

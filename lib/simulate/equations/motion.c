@@ -83,12 +83,12 @@ Motion *motion_new(const Equations *eq, const MotionOptions *options)
     mo->kkt = kkt_new(eq->nu, mo->used, eq->m);
     kkt_set_watch(mo->kkt, options->watch);
     if (options->embedded)
-        mo->embed = partitioning_new(eq->nu, mo->used);
+        mo->partitioning = partitioning_new(eq->nu, mo->used);
     mo->network = netsolve_new(eq);
     mo->solved = netsolve_values(mo->network);
     mo->solved_before = NEW_ARRAY(double, eq->nx + eq->nz);
     mo->q = NEW_ARRAY(double, eq->n);
-    mo->near = NEW_ARRAY(double, eq->multi_turn_count);
+    mo->references = NEW_ARRAY(double, eq->multi_turn_count);
     mo->top = NEW_ARRAY(double, eq->nu);
     mo->bottom = NEW_ARRAY(double, mo->used);
     mo->du = NEW_ARRAY(double, eq->nu);
@@ -116,7 +116,7 @@ void motion_free(Motion *mo)
     kkt_free(mo->kkt);
     kkt_free(mo->nearest_kkt);
     mem_free(mo->unit);
-    partitioning_free(mo->embed);
+    partitioning_free(mo->partitioning);
     netsolve_free(mo->network);
     signs_free(mo->signs);
     mem_free(mo->slip);
@@ -124,7 +124,7 @@ void motion_free(Motion *mo)
     mem_free(mo->way);
     mem_free(mo->solved_before);
     mem_free(mo->q);
-    mem_free(mo->near);
+    mem_free(mo->references);
     mem_free(mo->slack);
     mem_free(mo->top);
     mem_free(mo->bottom);
@@ -196,7 +196,7 @@ void motion_switches(Motion *mo, double t, const double *y, double *out)
         return;
     }
     if (eq->multi_turn_count > 0)
-        eq->near(eq->context, y + multi_turn_place(eq));
+        eq->take_references(eq->context, y + multi_turn_place(eq));
     eq->switches(eq->context, t, y, y + eq->n, y + eq->n + eq->nu, out);
 }
 
@@ -301,9 +301,9 @@ void equations_turn(const Equations *eq, double t, const double *q, double *a)
 {
     if (eq->multi_turn_count == 0)
         return;
-    eq->near(eq->context, a);
+    eq->take_references(eq->context, a);
     eq->position(eq->context, t, q);
-    memcpy(a, eq->turned, (size_t)eq->multi_turn_count * sizeof(double));
+    memcpy(a, eq->multi_turn, (size_t)eq->multi_turn_count * sizeof(double));
 }
 
 void equations_normalise(const Equations *eq, double *q)
@@ -421,7 +421,8 @@ bool motion_project(Motion *mo, double t, double *y)
     if (mo->signs != NULL && !motion_project_surfaces(mo, t, y))
         return false;
     if (eq->multi_turn_count > 0)
-        memcpy(y + multi_turn_place(eq), eq->turned, (size_t)eq->multi_turn_count * sizeof(double));
+        memcpy(y + multi_turn_place(eq), eq->multi_turn,
+               (size_t)eq->multi_turn_count * sizeof(double));
     return true;
 }
 
@@ -477,7 +478,7 @@ static bool embedded_residual(Motion *mo, const double *u_rate, double *out)
     matrix_times(eq->mass, eq->nu, eq->nu, u_rate, mo->top);
     for (int j = 0; j < eq->nu; j++)
         mo->top[j] -= eq->force[j];
-    partitioning_reduce(mo->embed, mo->top, out);
+    partitioning_reduce(mo->partitioning, mo->top, out);
     for (int k = 0; k < mo->used; k++) {
         double sum = -eq->gamma[mo->rows[k]];
 
@@ -535,16 +536,16 @@ static bool dae_residual(void *context, double t, const double *w, const double 
         return false;
     if (eq->accelerated != NULL) {
         memset(mo->lambda_all, 0, (size_t)eq->m * sizeof(double));
-        for (int k = 0; k < mo->used && mo->embed == NULL; k++)
+        for (int k = 0; k < mo->used && mo->partitioning == NULL; k++)
             mo->lambda_all[mo->rows[k]] = w_rate[motion_length(mo) + k];
-        if (mo->embed != NULL && motion_solve_augmented(mo))
+        if (mo->partitioning != NULL && motion_solve_augmented(mo))
             for (int k = 0; k < mo->used; k++)
                 mo->lambda_all[mo->rows[k]] = mo->lambda[k];
         eq->accelerated(eq->context, w_rate + eq->n, mo->lambda_all);
     }
     for (int i = 0; i < eq->n; i++)
         out[i] = w_rate[i] - eq->q_rate[i];
-    if (mo->embed != NULL) {
+    if (mo->partitioning != NULL) {
         if (!embedded_residual(mo, w_rate + eq->n, out + eq->n))
             return false;
     } else {
@@ -571,7 +572,7 @@ static bool dae_start(void *context, double t, const double *y, double *w, doubl
         return false;
     motion_bring_power(mo, mo->du);
     motion_write_rates(mo, w_rate);
-    if (mo->embed == NULL)
+    if (mo->partitioning == NULL)
         for (int k = 0; k < mo->used; k++) {
             w_rate[tail + k] = mo->lambda[k];
             mo->dae_weight[tail + k] = fmax(1, fabs(mo->lambda[k]));

@@ -35,8 +35,9 @@ typedef struct Equations {
     const uint64_t *sides; /* counts changes of switches between resistances, which make equations
                               of other numbers of them; NULL: there are none */
     void *context;
-    void (*near)(void *context, const double *a); /* a for the calls below; NULL: there are none */
-    /* bring phi, phi_u, mass, map, turned up to date */
+    void (*take_references)(void *context,
+                            const double *a); /* a for the calls below; NULL: there are none */
+    /* bring phi, phi_u, mass, map, multi_turn up to date */
     void (*position)(void *context, double t, const double *q);
     /* then q_rate, multi_turn_rate, nu, gamma; network, network_rhs where network_at is NULL */
     void (*velocity)(void *context, const double *u, const double *x);
@@ -48,12 +49,12 @@ typedef struct Equations {
     void (*network_solved)(void *context, const double *solved);
     /* then power; NULL when it is known before. `multipliers` of all m rows. */
     void (*accelerated)(void *context, const double *acceleration, const double *multipliers);
-    const double *phi;    /* m */
-    const double *phi_u;  /* m x nu */
-    const double *mass;   /* nu x nu */
-    const double *map;    /* n x nu: N; NULL: identity, n == nu */
-    const double *q_rate; /* n */
-    const double *turned; /* multi_turn_count: the angles near a, and their rates */
+    const double *phi;        /* m */
+    const double *phi_u;      /* m x nu */
+    const double *mass;       /* nu x nu */
+    const double *map;        /* n x nu: N; NULL: identity, n == nu */
+    const double *q_rate;     /* n */
+    const double *multi_turn; /* multi_turn_count: the angles near a, and their rates */
     const double *multi_turn_rate;
     const double *nu_rate; /* m: right-hand side of the velocity constraints */
     const double *gamma;   /* m */

@@ -26,12 +26,12 @@ struct Motion {
     Kkt *kkt;
     Kkt *nearest_kkt; /* with 1 for all masses; NULL: there are no constraints */
     double *unit;     /* nu x nu */
-    Partitioning *embed;
+    Partitioning *partitioning;
     NetSolve *network;
     Signs *signs; /* NULL: no surface is slid along */
     double *slip, *off, *way;
     bool is_evaluated, is_factored, is_embedded_factored; /* at t, q */
-    double t, *q, *near;                                  /* references of angles */
+    double t, *q, *references;                            /* references of angles */
     uint64_t sides;                                       /* of switches, likewise */
     const double *solved;                                 /* [x'; z] */
     double *solved_before;

@@ -23,7 +23,7 @@ double motion_clock(const Motion *mo, double t)
 static bool turns_alike(const Motion *mo, const double *near)
 {
     for (int k = 0; k < mo->eq->multi_turn_count; k++)
-        if (!(fabs(near[k] - mo->near[k]) < 1))
+        if (!(fabs(near[k] - mo->references[k]) < 1))
             return false;
     return true;
 }
@@ -33,9 +33,9 @@ static void set_near(Motion *mo, const double *y)
 {
     if (mo->eq->multi_turn_count == 0)
         return;
-    memcpy(mo->near, y + multi_turn_place(mo->eq),
+    memcpy(mo->references, y + multi_turn_place(mo->eq),
            (size_t)mo->eq->multi_turn_count * sizeof(double));
-    mo->eq->near(mo->eq->context, mo->near);
+    mo->eq->take_references(mo->eq->context, mo->references);
 }
 
 static uint64_t sides_of(const Motion *mo)
@@ -87,7 +87,7 @@ bool motion_factor_embedded(Motion *mo)
         return true;
     mo->counts.factorisations++;
     mo->is_embedded_factored =
-        partitioning_factor(mo->embed, mo->eq->mass, mo->eq->phi_u, mo->rows);
+        partitioning_factor(mo->partitioning, mo->eq->mass, mo->eq->phi_u, mo->rows);
     return mo->is_embedded_factored;
 }
 

@@ -21,12 +21,12 @@ bool motion_choose_independent(Motion *mo)
     int *before;
 
     before = NEW_ARRAY(int, freedoms);
-    memcpy(before, partitioning_independent(mo->embed), (size_t)freedoms * sizeof(int));
+    memcpy(before, partitioning_independent(mo->partitioning), (size_t)freedoms * sizeof(int));
     mo->is_embedded_factored = false;
-    changed =
-        partitioning_choose(mo->embed, mo->eq->phi_u, mo->rows, mo->wanted,
-                            mo->options.independent_count) &&
-        memcmp(before, partitioning_independent(mo->embed), (size_t)freedoms * sizeof(int)) != 0;
+    changed = partitioning_choose(mo->partitioning, mo->eq->phi_u, mo->rows, mo->wanted,
+                                  mo->options.independent_count) &&
+              memcmp(before, partitioning_independent(mo->partitioning),
+                     (size_t)freedoms * sizeof(int)) != 0;
     mo->options.independent_count = 0; /* a later choice is by pivots alone */
     mem_free(before);
     return changed;
@@ -34,7 +34,7 @@ bool motion_choose_independent(Motion *mo)
 
 void motion_partition(Motion *mo, double t, const double *y)
 {
-    if (mo->embed == NULL)
+    if (mo->partitioning == NULL)
         return;
     motion_at_position(mo, t, y);
     (void)motion_choose_independent(mo);
@@ -81,7 +81,7 @@ int *motion_take_rows(Motion *mo)
     if (choose_rows(mo)) {
         if (mo->is_implicit)
             return kept;
-        if (mo->embed != NULL)
+        if (mo->partitioning != NULL)
             mo->is_repartitioned = motion_choose_independent(mo) || mo->is_repartitioned;
     }
     mem_free(kept);
@@ -107,7 +107,7 @@ Renewed motion_renew(Motion *mo, double t, const double *y)
         return renewed;
     motion_at_position(mo, t, y);
     renewed.rows = choose_rows(mo);
-    if (renewed.rows && mo->embed != NULL)
+    if (renewed.rows && mo->partitioning != NULL)
         renewed.independent = motion_choose_independent(mo) || renewed.independent;
     return renewed;
 }

@@ -32,18 +32,18 @@ static bool solve_embedded(Motion *mo)
 {
     bool sound = motion_factor_embedded(mo);
 
-    if (!sound || partitioning_condition(mo->embed) < MOTION_WORN) {
+    if (!sound || partitioning_condition(mo->partitioning) < MOTION_WORN) {
         mo->is_repartitioned = motion_choose_independent(mo) || mo->is_repartitioned;
         sound = motion_factor_embedded(mo);
     }
-    if (!sound || partitioning_pivots(mo->embed) < SUSPECT) {
+    if (!sound || partitioning_pivots(mo->partitioning) < SUSPECT) {
         if (!motion_solve_augmented(mo))
             return false;
         if (!sound || kkt_is_regularised(mo->kkt))
             return true;
     }
     pick_rows(mo, mo->eq->gamma, mo->bottom);
-    partitioning_solve(mo->embed, mo->eq->force, mo->bottom, mo->du);
+    partitioning_solve(mo->partitioning, mo->eq->force, mo->bottom, mo->du);
     return true;
 }
 
@@ -60,7 +60,7 @@ void motion_bring_power(Motion *mo, const double *acceleration)
 {
     if (mo->eq->accelerated == NULL)
         return;
-    if (mo->embed != NULL) {
+    if (mo->partitioning != NULL) {
         memcpy(mo->kept, acceleration, (size_t)mo->eq->nu * sizeof(double));
         if (!motion_solve_augmented(mo))
             return;
@@ -132,7 +132,7 @@ bool motion_solve_plain(Motion *mo)
 
 bool motion_solve_rates(Motion *mo)
 {
-    if (mo->embed == NULL)
+    if (mo->partitioning == NULL)
         return motion_solve_plain(mo);
     return (mo->eq->network_reads == NULL || motion_solve_together(mo)) && solve_embedded(mo);
 }

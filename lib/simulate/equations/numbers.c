@@ -24,11 +24,11 @@ struct Numbers {
     double *cap;
 };
 
-static void turned(void *context, const double *references)
+static void take_references(void *context, const double *references)
 {
     Numbers *nb = context;
 
-    inputs_put(probe_inputs(nb->main), nb->layout->near, references, nb->layout->turned);
+    inputs_put(probe_inputs(nb->main), nb->layout->references, references, nb->layout->multi_turns);
 }
 
 static void position(void *context, double t, const double *q)
@@ -130,8 +130,8 @@ static void switches(void *context, double t, const double *q, const double *u, 
     double *inputs = probe_inputs(nb->switching);
 
     inputs[nb->layout->t] = t;
-    inputs_put(inputs, nb->layout->near, probe_inputs(nb->main) + nb->layout->near,
-               nb->layout->turned);
+    inputs_put(inputs, nb->layout->references, probe_inputs(nb->main) + nb->layout->references,
+               nb->layout->multi_turns);
     inputs_put(inputs, nb->layout->q, q, nb->layout->n);
     inputs_put(inputs, nb->layout->u, u, nb->layout->nu);
     inputs_put(inputs, nb->layout->x, x, nb->layout->nx);
@@ -165,7 +165,7 @@ static Status compile(const Layout *layout, Parameters *parameters, const Roots 
 }
 
 /* angles that count turns, then their rates */
-static Status push_turned(Roots *roots, System *system, Diag *diag)
+static Status push_multi_turns(Roots *roots, System *system, Diag *diag)
 {
     Status status = OK;
 
@@ -296,11 +296,11 @@ static Status compile_equations(Numbers *nb, Parameters *parameters, Diag *diag)
     int force = block_on(l, &roots, r->force, l->nu);
     int work = block_on(l, &roots, &power, 1);
     int angles = roots.count;
-    int map = roots.count + 2 * l->turned;
+    int map = roots.count + 2 * l->multi_turns;
     const double *at;
     Status status = OK;
 
-    CHECK(push_turned(&roots, l->system, diag));
+    CHECK(push_multi_turns(&roots, l->system, diag));
     for (int i = 0; i < l->n && mapped; i++)
         for (int j = 0; j < l->nu; j++)
             LIST_PUSH(roots, system_n_entry(l->system, i, j));
@@ -317,8 +317,8 @@ static Status compile_equations(Numbers *nb, Parameters *parameters, Diag *diag)
     nb->eq.network_rhs = at + rhs;
     nb->eq.force = at + force;
     nb->eq.power = at + work;
-    nb->eq.turned = at + angles;
-    nb->eq.multi_turn_rate = at + angles + l->turned;
+    nb->eq.multi_turn = at + angles;
+    nb->eq.multi_turn_rate = at + angles + l->multi_turns;
     nb->eq.map = map < roots.count ? at + map : NULL;
     nb->eq.accelerated = stage_of(power) == STAGE_ACCELERATION ? accelerated : NULL;
     nb->eq.network_reads = stage == STAGE_ACCELERATION ? network_reads : NULL;
@@ -526,10 +526,10 @@ Status numbers_new(const Layout *layout, Parameters *parameters, Numbers **out, 
                          .m = layout->m,
                          .nx = layout->nx,
                          .nz = layout->nz,
-                         .multi_turn_count = layout->turned,
+                         .multi_turn_count = layout->multi_turns,
                          .sides = &layout->sides,
                          .context = nb,
-                         .near = turned,
+                         .take_references = take_references,
                          .position = position,
                          .velocity = velocity,
                          .network_solved = network_solved,
@@ -540,12 +540,12 @@ Status numbers_new(const Layout *layout, Parameters *parameters, Numbers **out, 
     nb->quaternions = NEW_ARRAY(int, count);
     for (int i = 0; i < count; i++)
         nb->quaternions[i] = system_quaternion(layout->system, i);
-    nb->cap = NEW_ARRAY(double, layout_turned(layout) + layout->turned);
-    for (int i = 0; i < layout_turned(layout) + layout->turned; i++)
-        nb->cap[i] =
-            i >= layout_turned(layout) || (i < layout->n && system_q(layout->system, i)->is_angle)
-                ? 1
-                : INFINITY;
+    nb->cap = NEW_ARRAY(double, layout_references(layout) + layout->multi_turns);
+    for (int i = 0; i < layout_references(layout) + layout->multi_turns; i++)
+        nb->cap[i] = i >= layout_references(layout) ||
+                             (i < layout->n && system_q(layout->system, i)->is_angle)
+                         ? 1
+                         : INFINITY;
     nb->eq.cap = nb->cap;
     nb->eq.quaternions = nb->quaternions;
     nb->eq.quaternion_count = count;

@@ -25,39 +25,39 @@ struct Partitioning {
 
 Partitioning *partitioning_new(int nu, int m)
 {
-    Partitioning *e = NEW(Partitioning);
+    Partitioning *p = NEW(Partitioning);
 
-    e->nu = nu;
-    e->m = m;
-    e->f = nu - m;
-    e->dependent = NEW_ARRAY(int, m);
-    e->independent = NEW_ARRAY(int, e->f);
-    e->mass = NEW_ARRAY(double, nu *nu);
-    e->g = NEW_ARRAY(double, nu * e->f);
-    e->work = NEW_ARRAY(double, (m + 1) * nu);
-    e->particular = NEW_ARRAY(double, nu);
-    e->force = NEW_ARRAY(double, nu);
-    e->reduced = NEW_ARRAY(double, nu);
-    e->phi_d = lu_new(m);
-    e->small = lu_new(e->f);
-    return e;
+    p->nu = nu;
+    p->m = m;
+    p->f = nu - m;
+    p->dependent = NEW_ARRAY(int, m);
+    p->independent = NEW_ARRAY(int, p->f);
+    p->mass = NEW_ARRAY(double, nu *nu);
+    p->g = NEW_ARRAY(double, nu * p->f);
+    p->work = NEW_ARRAY(double, (m + 1) * nu);
+    p->particular = NEW_ARRAY(double, nu);
+    p->force = NEW_ARRAY(double, nu);
+    p->reduced = NEW_ARRAY(double, nu);
+    p->phi_d = lu_new(m);
+    p->small = lu_new(p->f);
+    return p;
 }
 
-void partitioning_free(Partitioning *e)
+void partitioning_free(Partitioning *p)
 {
-    if (e == NULL)
+    if (p == NULL)
         return;
-    mem_free(e->dependent);
-    mem_free(e->independent);
-    mem_free(e->mass);
-    mem_free(e->g);
-    mem_free(e->work);
-    mem_free(e->particular);
-    mem_free(e->force);
-    mem_free(e->reduced);
-    lu_free(e->phi_d);
-    lu_free(e->small);
-    mem_free(e);
+    mem_free(p->dependent);
+    mem_free(p->independent);
+    mem_free(p->mass);
+    mem_free(p->g);
+    mem_free(p->work);
+    mem_free(p->particular);
+    mem_free(p->force);
+    mem_free(p->reduced);
+    lu_free(p->phi_d);
+    lu_free(p->small);
+    mem_free(p);
 }
 
 static void exchange_rows(double *a, int n, int i, int j)
@@ -71,26 +71,26 @@ static void exchange_rows(double *a, int n, int i, int j)
 }
 
 /* Eliminate with the largest entry among columns of `open`; 0 when none is left. */
-static double eliminate_one(Partitioning *e, int k, const bool *open, int *column)
+static double eliminate_one(Partitioning *p, int k, const bool *open, int *column)
 {
     double best = 0;
     int row = k;
 
-    for (int i = k; i < e->m; i++)
-        for (int j = 0; j < e->nu; j++)
-            if (open[j] && fabs(e->work[i * e->nu + j]) > best) {
-                best = fabs(e->work[i * e->nu + j]);
+    for (int i = k; i < p->m; i++)
+        for (int j = 0; j < p->nu; j++)
+            if (open[j] && fabs(p->work[i * p->nu + j]) > best) {
+                best = fabs(p->work[i * p->nu + j]);
                 row = i;
                 *column = j;
             }
     if (best == 0)
         return 0;
-    exchange_rows(e->work, e->nu, k, row);
-    for (int i = k + 1; i < e->m; i++) {
-        double factor = e->work[i * e->nu + *column] / e->work[k * e->nu + *column];
+    exchange_rows(p->work, p->nu, k, row);
+    for (int i = k + 1; i < p->m; i++) {
+        double factor = p->work[i * p->nu + *column] / p->work[k * p->nu + *column];
 
-        for (int j = 0; j < e->nu; j++)
-            e->work[i * e->nu + j] -= factor * e->work[k * e->nu + j];
+        for (int j = 0; j < p->nu; j++)
+            p->work[i * p->nu + j] -= factor * p->work[k * p->nu + j];
     }
     return best;
 }
@@ -103,123 +103,123 @@ static bool is_in(const int *list, int count, int item)
     return false;
 }
 
-bool partitioning_choose(Partitioning *e, const double *phi_u, const int *rows, const int *wanted,
+bool partitioning_choose(Partitioning *p, const double *phi_u, const int *rows, const int *wanted,
                          int wanted_count)
 {
-    bool *open = NEW_ARRAY(bool, e->nu);
+    bool *open = NEW_ARRAY(bool, p->nu);
     double largest = 0;
     int k = 0;
     int left = 0;
 
-    for (int i = 0; i < e->m; i++)
-        memcpy(e->work + i * e->nu, phi_u + rows[i] * e->nu, (size_t)e->nu * sizeof(double));
-    for (int j = 0; j < e->nu; j++)
+    for (int i = 0; i < p->m; i++)
+        memcpy(p->work + i * p->nu, phi_u + rows[i] * p->nu, (size_t)p->nu * sizeof(double));
+    for (int j = 0; j < p->nu; j++)
         open[j] = !is_in(wanted, wanted_count, j);
-    for (; k < e->m; k++) {
+    for (; k < p->m; k++) {
         int column = 0;
-        double pivot = eliminate_one(e, k, open, &column);
+        double pivot = eliminate_one(p, k, open, &column);
 
         largest = fmax(largest, pivot);
         if (!(pivot > 1e-8 * largest)) { /* the wanted speeds can't all be independent */
-            for (int j = 0; j < e->nu; j++)
-                open[j] = !is_in(e->dependent, k, j);
-            pivot = eliminate_one(e, k, open, &column);
+            for (int j = 0; j < p->nu; j++)
+                open[j] = !is_in(p->dependent, k, j);
+            pivot = eliminate_one(p, k, open, &column);
         }
         if (!(pivot > 1e-12 * largest))
             break;
-        e->dependent[k] = column;
+        p->dependent[k] = column;
         open[column] = false;
     }
-    for (int j = 0; k == e->m && j < e->nu; j++)
-        if (!is_in(e->dependent, e->m, j))
-            e->independent[left++] = j;
-    e->chosen_ratio = 0;
+    for (int j = 0; k == p->m && j < p->nu; j++)
+        if (!is_in(p->dependent, p->m, j))
+            p->independent[left++] = j;
+    p->chosen_ratio = 0;
     mem_free(open);
-    return k == e->m;
+    return k == p->m;
 }
 
-const int *partitioning_independent(const Partitioning *e)
+const int *partitioning_independent(const Partitioning *p)
 {
-    return e->independent;
+    return p->independent;
 }
 
-double partitioning_condition(const Partitioning *e)
+double partitioning_condition(const Partitioning *p)
 {
-    return e->chosen_ratio > 0 ? e->ratio / e->chosen_ratio : 1;
+    return p->chosen_ratio > 0 ? p->ratio / p->chosen_ratio : 1;
 }
 
-double partitioning_pivots(const Partitioning *e)
+double partitioning_pivots(const Partitioning *p)
 {
-    return e->ratio;
+    return p->ratio;
 }
 
 /* u_d of a speed whose independent part is given: Phi_d u_d = right - Phi_i u_i, right in `column`
  */
-static void solve_dependent(const Partitioning *e, double *column, double *out, int stride)
+static void solve_dependent(const Partitioning *p, double *column, double *out, int stride)
 {
-    lu_solve(e->phi_d, column);
-    for (int k = 0; k < e->m; k++)
-        out[e->dependent[k] * stride] = column[k];
+    lu_solve(p->phi_d, column);
+    for (int k = 0; k < p->m; k++)
+        out[p->dependent[k] * stride] = column[k];
 }
 
-bool partitioning_factor(Partitioning *e, const double *mass, const double *phi_u, const int *rows)
+bool partitioning_factor(Partitioning *p, const double *mass, const double *phi_u, const int *rows)
 {
-    double *small = lu_matrix(e->small);
+    double *small = lu_matrix(p->small);
 
-    memcpy(e->mass, mass, (size_t)(e->nu * e->nu) * sizeof(double));
-    for (int k = 0; k < e->m; k++)
-        for (int j = 0; j < e->m; j++)
-            lu_matrix(e->phi_d)[k * e->m + j] = phi_u[rows[k] * e->nu + e->dependent[j]];
-    if (!lu_factor(e->phi_d))
+    memcpy(p->mass, mass, (size_t)(p->nu * p->nu) * sizeof(double));
+    for (int k = 0; k < p->m; k++)
+        for (int j = 0; j < p->m; j++)
+            lu_matrix(p->phi_d)[k * p->m + j] = phi_u[rows[k] * p->nu + p->dependent[j]];
+    if (!lu_factor(p->phi_d))
         return false;
-    e->ratio = lu_pivot_ratio(e->phi_d);
-    if (e->chosen_ratio == 0)
-        e->chosen_ratio = e->ratio;
-    memset(e->g, 0, (size_t)(e->nu * e->f) * sizeof(double));
-    for (int i = 0; i < e->f; i++) {
-        for (int k = 0; k < e->m; k++)
-            e->work[k] = -phi_u[rows[k] * e->nu + e->independent[i]];
-        solve_dependent(e, e->work, e->g + i, e->f);
-        e->g[e->independent[i] * e->f + i] = 1;
+    p->ratio = lu_pivot_ratio(p->phi_d);
+    if (p->chosen_ratio == 0)
+        p->chosen_ratio = p->ratio;
+    memset(p->g, 0, (size_t)(p->nu * p->f) * sizeof(double));
+    for (int i = 0; i < p->f; i++) {
+        for (int k = 0; k < p->m; k++)
+            p->work[k] = -phi_u[rows[k] * p->nu + p->independent[i]];
+        solve_dependent(p, p->work, p->g + i, p->f);
+        p->g[p->independent[i] * p->f + i] = 1;
     }
-    for (int i = 0; i < e->f; i++) { /* G^T M G, a column at a time */
-        for (int j = 0; j < e->nu; j++) {
-            e->particular[j] = 0;
-            for (int k = 0; k < e->nu; k++)
-                e->particular[j] += mass[j * e->nu + k] * e->g[k * e->f + i];
+    for (int i = 0; i < p->f; i++) { /* G^T M G, a column at a time */
+        for (int j = 0; j < p->nu; j++) {
+            p->particular[j] = 0;
+            for (int k = 0; k < p->nu; k++)
+                p->particular[j] += mass[j * p->nu + k] * p->g[k * p->f + i];
         }
-        partitioning_reduce(e, e->particular, e->reduced);
-        for (int j = 0; j < e->f; j++)
-            small[j * e->f + i] = e->reduced[j];
+        partitioning_reduce(p, p->particular, p->reduced);
+        for (int j = 0; j < p->f; j++)
+            small[j * p->f + i] = p->reduced[j];
     }
-    return lu_factor(e->small);
+    return lu_factor(p->small);
 }
 
-void partitioning_reduce(const Partitioning *e, const double *v, double *out)
+void partitioning_reduce(const Partitioning *p, const double *v, double *out)
 {
-    for (int i = 0; i < e->f; i++) {
+    for (int i = 0; i < p->f; i++) {
         out[i] = 0;
-        for (int j = 0; j < e->nu; j++)
-            out[i] += e->g[j * e->f + i] * v[j];
+        for (int j = 0; j < p->nu; j++)
+            out[i] += p->g[j * p->f + i] * v[j];
     }
 }
 
-void partitioning_solve(Partitioning *e, const double *force, const double *gamma, double *du)
+void partitioning_solve(Partitioning *p, const double *force, const double *gamma, double *du)
 {
     /* a particular solution of Phi_u p = gamma, then what is left along G */
-    memset(e->particular, 0, (size_t)e->nu * sizeof(double));
-    memcpy(e->work, gamma, (size_t)e->m * sizeof(double));
-    solve_dependent(e, e->work, e->particular, 1);
-    matrix_times(e->mass, e->nu, e->nu, e->particular, e->force);
-    for (int j = 0; j < e->nu; j++)
-        e->force[j] = force[j] - e->force[j];
-    partitioning_reduce(e, e->force, e->reduced);
-    lu_solve(e->small, e->reduced);
-    for (int j = 0; j < e->nu; j++) {
-        double sum = e->particular[j];
+    memset(p->particular, 0, (size_t)p->nu * sizeof(double));
+    memcpy(p->work, gamma, (size_t)p->m * sizeof(double));
+    solve_dependent(p, p->work, p->particular, 1);
+    matrix_times(p->mass, p->nu, p->nu, p->particular, p->force);
+    for (int j = 0; j < p->nu; j++)
+        p->force[j] = force[j] - p->force[j];
+    partitioning_reduce(p, p->force, p->reduced);
+    lu_solve(p->small, p->reduced);
+    for (int j = 0; j < p->nu; j++) {
+        double sum = p->particular[j];
 
-        for (int i = 0; i < e->f; i++)
-            sum += e->g[j * e->f + i] * e->reduced[i];
+        for (int i = 0; i < p->f; i++)
+            sum += p->g[j * p->f + i] * p->reduced[i];
         du[j] = sum;
     }
 }

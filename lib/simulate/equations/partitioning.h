@@ -9,21 +9,22 @@
 
 typedef struct Partitioning Partitioning;
 
-Partitioning *partitioning_new(int nu, int m); /* new; free with partitioning_free() */
-void partitioning_free(Partitioning *embed);   /* NULL is fine */
+Partitioning *partitioning_new(int nu, int m);      /* new; free with partitioning_free() */
+void partitioning_free(Partitioning *partitioning); /* NULL is fine */
 /* Choose dependent speeds by elimination with full pivoting of the rows of phi_u; the `wanted` ones
  * become independent as far as the rows allow. False when the rows are dependent. */
-bool partitioning_choose(Partitioning *embed, const double *phi_u, const int *rows,
+bool partitioning_choose(Partitioning *partitioning, const double *phi_u, const int *rows,
                          const int *wanted, int wanted_count);
-const int *partitioning_independent(const Partitioning *embed); /* nu - m, rising */
+const int *partitioning_independent(const Partitioning *partitioning); /* nu - m, rising */
 /* Factor at these numbers; false when Phi_d or G^T M G is singular. */
-bool partitioning_factor(Partitioning *embed, const double *mass, const double *phi_u,
+bool partitioning_factor(Partitioning *partitioning, const double *mass, const double *phi_u,
                          const int *rows);
-double
-partitioning_condition(const Partitioning *embed); /* pivot ratio of Phi_d, of its choice at 1 */
-double partitioning_pivots(const Partitioning *embed); /* the ratio itself */
-void partitioning_solve(Partitioning *embed, const double *force, const double *gamma, double *du);
+double partitioning_condition(
+    const Partitioning *partitioning); /* pivot ratio of Phi_d, of its choice at 1 */
+double partitioning_pivots(const Partitioning *partitioning); /* the ratio itself */
+void partitioning_solve(Partitioning *partitioning, const double *force, const double *gamma,
+                        double *du);
 /* out[j] = (G^T v)_j, nu - m of them */
-void partitioning_reduce(const Partitioning *embed, const double *v, double *out);
+void partitioning_reduce(const Partitioning *partitioning, const double *v, double *out);
 
 #endif

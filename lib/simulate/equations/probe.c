@@ -113,8 +113,11 @@ void probe_take_sides(Probe *probe)
 
 RowValues row_of_state(const Layout *l, double t, const double *y)
 {
-    return (RowValues){
-        .t = t, .q = y, .u = y + l->n, .x = y + l->n + l->nu, .near = y + layout_turned(l)};
+    return (RowValues){.t = t,
+                       .q = y,
+                       .u = y + l->n,
+                       .x = y + l->n + l->nu,
+                       .references = y + layout_references(l)};
 }
 
 RowValues row_of_solved(const Layout *l, double t, const double *y, const Solved *solved)
@@ -141,7 +144,7 @@ bool row_solve(const Layout *l, Motion *motion, double t, const double *y, RowVa
 static void put_row(const Layout *l, const RowValues *row, double *inputs)
 {
     inputs[l->t] = row->t;
-    inputs_put(inputs, l->near, row->near, l->turned);
+    inputs_put(inputs, l->references, row->references, l->multi_turns);
     inputs_put(inputs, l->q, row->q, l->n);
     inputs_put(inputs, l->u, row->u, l->nu);
     inputs_put(inputs, l->x, row->x, l->nx);

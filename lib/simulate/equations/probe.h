@@ -15,7 +15,7 @@
 /* what a row knows; arrays may be NULL for 0 */
 typedef struct RowValues {
     double t;
-    const double *near, *q, *u, *x, *signs, *rates, *z, *acceleration, *multipliers, *efforts,
+    const double *references, *q, *u, *x, *signs, *rates, *z, *acceleration, *multipliers, *efforts,
         *jerk;
 } RowValues;
 

@@ -38,7 +38,7 @@ void active_run_free(ActiveRun *r)
     if (r == NULL || mem_frees_later(r, free_later))
         return;
     events_free(r->events);
-    mode_search_free(r->sides);
+    mode_search_free(r->mode_search);
     shares_free(r->shares);
     mem_free(r->begin);
     phases_free(r->phases);

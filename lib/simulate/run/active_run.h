@@ -13,11 +13,11 @@ typedef struct ActiveRun {
     System *system; /* the whole */
     Result *result; /* what it has found so far */
     Phases *phases;
-    Phase *phase;      /* in which it starts */
-    double *begin;     /* y there */
-    Events *events;    /* NULL: none */
-    ModeSearch *sides; /* NULL: there are no ideal switches */
-    Shares *shares;    /* of what is stored, where switches join parts; NULL: none yet */
+    Phase *phase;            /* in which it starts */
+    double *begin;           /* y there */
+    Events *events;          /* NULL: none */
+    ModeSearch *mode_search; /* NULL: there are no ideal switches */
+    Shares *shares;          /* of what is stored, where switches join parts; NULL: none yet */
 } ActiveRun;
 
 /* New: a result of nothing, no phases yet. */

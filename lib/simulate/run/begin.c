@@ -64,7 +64,7 @@ static Status prepare(RunKind kind, System *system, const Setting *setting, Acti
     LIST_PUSH(*r->phases, whole);
     if (goes_through_modes(whole->layout)) {
         CHECK(system_sided(system, setting->scene, setting->watch, &sided, diag));
-        CHECK(mode_search_new(sided, &r->phases->parameters, &r->sides, diag));
+        CHECK(mode_search_new(sided, &r->phases->parameters, &r->mode_search, diag));
     }
     *out = r;
     r = NULL;
@@ -95,7 +95,7 @@ Status run_begin(ActiveRun *r, const Setting *setting, Diag *diag)
     Phase *whole = phases_whole(r->phases);
     Status status = OK;
 
-    if (r->sides != NULL)
+    if (r->mode_search != NULL)
         return mode_switch_begin(r, setting, diag);
     if (whole->motion == NULL)
         CHECK(active_run_open_phase(r, whole, setting, diag));
@@ -118,8 +118,8 @@ Status run_open(RunKind kind, System *system, const Setting *setting, ActiveRun 
     CHECK(prepare(kind, system, setting, &r, diag));
     whole = phases_whole(r->phases);
     CHECK(initial_find(whole->layout, &r->phases->parameters, whole->numbers, setting,
-                       r->sides != NULL, warm != NULL ? warm_value : NULL, warm, &r->result->start,
-                       diag));
+                       r->mode_search != NULL, warm != NULL ? warm_value : NULL, warm,
+                       &r->result->start, diag));
     CHECK(run_begin(r, setting, diag));
     remarks_append(&r->result->remarks, &r->result->start.remarks);
     if (kind == RUN_SIMULATE)
@@ -138,7 +138,7 @@ static Status copy_phases(ActiveRun *r, const Result *old, const Setting *settin
     Phase *phase;
     Status status = OK;
 
-    if (r->sides == NULL)
+    if (r->mode_search == NULL)
         CHECK(active_run_open_phase(r, phases_whole(r->phases), setting, diag));
     for (int i = 1; i < old->phases.count; i++) {
         const PhaseKey *like = &old->phases.at[i];

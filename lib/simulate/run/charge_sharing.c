@@ -55,9 +55,9 @@ static double largest_like(const ActiveRun *r, const char *kind)
 
     for (Domain domain = 0; domain < DOMAIN_COUNT; domain++) {
         if (strcmp(kind, domain_across(domain)) == 0)
-            largest = fmax(largest, mode_search_largest(r->sides, domain, false));
+            largest = fmax(largest, mode_search_largest(r->mode_search, domain, false));
         if (strcmp(kind, domain_through(domain)) == 0)
-            largest = fmax(largest, mode_search_largest(r->sides, domain, true));
+            largest = fmax(largest, mode_search_largest(r->mode_search, domain, true));
     }
     return largest;
 }
@@ -102,7 +102,7 @@ static double energy_at(const ActiveRun *r, const Phase *phase, double t, const 
 {
     const Layout *l = phases_whole(r->phases)->layout;
     const RowValues row = {
-        .t = t, .near = y + layout_turned(phase->layout), .q = y, .u = y + l->n, .x = x};
+        .t = t, .references = y + layout_references(phase->layout), .q = y, .u = y + l->n, .x = x};
 
     return probe_values(r->shares->energy, &row)[0];
 }
@@ -132,7 +132,7 @@ static bool jump_from(const ActiveRun *r, const double *x, const double *moves, 
 
     for (int i = 0; i < nx; i++)
         other[i] = x[i] + moves[i] * sizes[i];
-    sound = mode_search_jump(r->sides, other, sizes, landed);
+    sound = mode_search_jump(r->mode_search, other, sizes, landed);
     mem_free(other);
     return sound;
 }
@@ -278,7 +278,7 @@ static double energy_lost(ActiveRun *r, Phase *phase, double t, const bool *befo
                           const double *x, const double *now, double *gained)
 {
     const double was = energy_at(r, phase, t, y, x), is = energy_at(r, phase, t, y, now);
-    const double work = mode_search_work(r->sides, x, before);
+    const double work = mode_search_work(r->mode_search, x, before);
     const double lost = was - is + work;
 
     *gained = is - was;
@@ -299,13 +299,13 @@ bool share_stored(ActiveRun *r, Phase *phase, double t, const bool *before, cons
 
     memcpy(kept, y, bytes);
     find_sizes(r, x, sizes);
-    met = open_shares(r) && mode_search_jump(r->sides, x, sizes, landed) &&
+    met = open_shares(r) && mode_search_jump(r->mode_search, x, sizes, landed) &&
           put_states(phase, t, landed, sizes, nx, y, now) && are_shared(r, x, now, sizes) &&
           !is_given(r, phase, t, y, x, now);
     if (met) {
         double gained, lost;
 
-        (void)mode_search_jump(r->sides, x, sizes, landed);
+        (void)mode_search_jump(r->mode_search, x, sizes, landed);
         lost = energy_lost(r, phase, t, before, y, x, now, &gained);
         tell(r, sides, t, lost, x, now);
         y[phase->length - 1] += gained;

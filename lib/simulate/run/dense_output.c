@@ -145,20 +145,20 @@ static void follow_turns(const StepEnd *a, const StepEnd *b, double t, double *y
     enum { MOST_PARTS = 1000000 };
     const Layout *l = a->phase->layout;
     double *there = NEW_ARRAY(double, a->phase->length);
-    int first = layout_turned(l), parts;
+    int first = layout_references(l), parts;
     const double *kept = a->y + first;
     double fastest = 0;
 
-    for (int k = first; k < first + l->turned; k++)
+    for (int k = first; k < first + l->multi_turns; k++)
         fastest = fmax(fastest, fmax(fabs(a->rate[k]), fabs(b->rate[k])));
     parts = (int)fmin(MOST_PARTS, ceil(fastest * (t - a->t) / TURNED));
     for (int i = 1; i <= parts; i++) {
         double at = a->t + (t - a->t) * i / parts;
 
         interpolate(a, b, at, there);
-        memcpy(there + first, kept, (size_t)l->turned * sizeof(double));
+        memcpy(there + first, kept, (size_t)l->multi_turns * sizeof(double));
         equations_turn(numbers_equations(a->phase->numbers), at, there, there + first);
-        memcpy(y + first, there + first, (size_t)l->turned * sizeof(double));
+        memcpy(y + first, there + first, (size_t)l->multi_turns * sizeof(double));
         kept = y + first;
     }
     mem_free(there);
@@ -181,7 +181,7 @@ static bool find_between(StepEnd ends[2], double t, double *y)
     sound = ends[0].phase == ends[1].phase && find_rate(&ends[0]) && find_rate(&ends[1]);
     if (sound) {
         interpolate(&ends[0], &ends[1], t, y);
-        if (ends[0].phase->layout->turned > 0)
+        if (ends[0].phase->layout->multi_turns > 0)
             follow_turns(&ends[0], &ends[1], t, y);
         sound = motion_project(ends[0].phase->motion, t, y);
     }

@@ -56,7 +56,7 @@ bool events_follow_time(const Events *events);
 void events_conditions(Events *events, double t, const double *y, double *out);
 /* of the time-only ones */
 void events_time_conditions(Events *events, double t, double *out);
-/* ModeSearch of those in the state, at (t, y) and just behind it: where a difference is zero as far
+/* Sides of those in the state, at (t, y) and just behind it: where a difference is zero as far
  * as instants of a run of `span` can be told apart, it is the way it changes that counts. `root`:
  * one that is known to be at its zero; -1: none. */
 void events_settle(Events *events, double t, double span, const double *y, int root, int *sides);

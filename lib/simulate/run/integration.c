@@ -124,10 +124,10 @@ done:
     return status;
 }
 
-/* --- stretches, between jumps --- */
+/* --- intervals between jumps --- */
 
 /* from the stepper's time to `end`, conditions in time as they are now */
-static Status stretch(Integration *m, double end, Diag *diag)
+static Status integrate_interval(Integration *m, double end, Diag *diag)
 {
     const IntegrationPlan *plan = m->plan;
     double least = 4e-16 * fabs(end); /* what an event may leave of the way, too short for a step */
@@ -156,7 +156,7 @@ static Status take_samples(Integration *m, double t, Diag *diag)
     return samples_take(m->segment.samples, t, m->stepper->y, &due, diag);
 }
 
-static Status all_stretches(Integration *m, Diag *diag)
+static Status all_intervals(Integration *m, Diag *diag)
 {
     const IntegrationPlan *plan = m->plan;
     bool entered;
@@ -170,7 +170,7 @@ static Status all_stretches(Integration *m, Diag *diag)
         /* jumps that rounding alone tells apart are one */
         if (end - m->stepper->t > 1e-13 * (plan->to - plan->from)) {
             CHECK(integration_go_on(m, m->stepper->t, m->stepper->y, &entered, diag));
-            CHECK(stretch(m, fmin(end, plan->to), diag));
+            CHECK(integrate_interval(m, fmin(end, plan->to), diag));
         }
         if (!last && !m->is_over) {
             m->low = fmax(m->low, m->jumps.at[i].behind);
@@ -201,7 +201,7 @@ static Status run(Integration *m, const double *start, Diag *diag)
     if (events_count(m->ev) > 0)
         CHECK(integration_begin_events(m, diag));
     CHECK(integration_find_jumps(m, diag));
-    CHECK(all_stretches(m, diag));
+    CHECK(all_intervals(m, diag));
     /* a row on the very end that rounding, or a switch on it, left out */
     if (!m->is_over) {
         if (plan->to - m->stepper->t <= 1e-12 * (plan->to - plan->from))

@@ -44,7 +44,7 @@ typedef struct Integration {
     double *reach;         /* largest size of what is 0 on each surface of the segment, */
     Chatter *chatters;     /* through each of them; */
     int surfaces;          /* so many */
-    int root;              /* condition whose surface is met; or one of Root */
+    int root;              /* condition whose surface is met; or a MetSurface */
     double ahead;          /* s: so long behind the margin that is met, that shows; 0 */
     int switches;          /* close together */
     double switched_since; /* the first of them */
@@ -113,7 +113,7 @@ int integration_state_conditions(const Integration *m); /* how many */
 void integration_evaluate(Integration *m, double t, const double *y);
 /* whether one that isn't of t alone has another sign at (t, y) than the run; the Turns of an Onset
  */
-bool integration_turns(void *march, double t, const double *y);
+bool integration_turns(void *integration, double t, const double *y);
 /* signs of those of the equations where the stepper stands; those of events go on as they are */
 void integration_begin_modes(Integration *m);
 /* The first switch in the last step that isn't followed yet: its condition, and a time just behind
@@ -145,7 +145,7 @@ MUST_USE Status integration_begin_events(Integration *m, Diag *diag);
 MUST_USE Status integration_resume_events(Integration *m, bool *changed, Diag *diag);
 /* whether an event becomes true as the condition changes; if not, that is noted and no more */
 bool integration_matters(Integration *m, int condition);
-/* the same where conditions in time alone change, between two stretches */
+/* the same where conditions in time alone change, between two intervals */
 MUST_USE Status integration_meet_time(Integration *m, Jump jump, Diag *diag);
 
 /* --- met and crossed (integration_meet.c) --- */

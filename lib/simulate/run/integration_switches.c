@@ -70,9 +70,9 @@ static bool is_left_out(const Integration *m, int i)
 
 /* --- conditions in the state --- */
 
-bool integration_turns(void *march, double t, const double *y)
+bool integration_turns(void *integration, double t, const double *y)
 {
-    Integration *m = march;
+    Integration *m = integration;
 
     integration_evaluate(m, t, y);
     for (int i = 0; i < m->count; i++)

@@ -208,7 +208,7 @@ static const double *values_of(const Inverse *in, Probe *probe)
     const Layout *l = in->l;
     const double *v = in->values;
     RowValues row = {.t = v[l->t],
-                     .near = v + l->near,
+                     .references = v + l->references,
                      .q = v + l->q,
                      .u = v + l->u,
                      .x = v + l->x,
@@ -385,8 +385,8 @@ static Status solve_row(Inverse *in, double t, double *y, double *out, Diag *dia
     choose_rows(in);
     memset(in->values, 0, (size_t)l->count * sizeof(double));
     in->values[l->t] = t;
-    for (int k = 0; k < l->turned; k++)
-        in->values[l->near + k] = y[layout_turned(l) + k];
+    for (int k = 0; k < l->multi_turns; k++)
+        in->values[l->references + k] = y[layout_references(l) + k];
     memcpy(in->values + l->q, y, (size_t)(l->n + l->nu + l->nx) * sizeof(double));
     memcpy(in->values + l->rates, solved.rates, (size_t)(l->nx + l->nz) * sizeof(double));
     memcpy(in->values + l->acceleration, solved.acceleration, (size_t)l->nu * sizeof(double));

@@ -78,7 +78,7 @@ static void enter(const Phase *phase, const double *y, const double *x, const do
     memcpy(out, y, (size_t)(l->n + l->nu) * sizeof(double));
     for (int i = 0; i < l->nx; i++)
         out[l->n + l->nu + i] = x[phase->among_whole[i]];
-    memcpy(out + layout_turned(l), near, (size_t)l->turned * sizeof(double));
+    memcpy(out + layout_references(l), near, (size_t)l->multi_turns * sizeof(double));
     out[phase->length - 1] = work;
 }
 
@@ -102,7 +102,7 @@ static void name_sides(const ActiveRun *r, const bool *before, const bool *close
 static Status refuse_jump(const ActiveRun *r, const char *sides, double t, double step,
                           const char *state, double from, double to, Diag *diag)
 {
-    const char *source = mode_search_source(r->sides, step);
+    const char *source = mode_search_source(r->mode_search, step);
     Text who = {0};
 
     if (source != NULL)
@@ -422,7 +422,7 @@ static Status follow_wires(ActiveRun *r, const Setting *setting, const bool *clo
     if (!any || mode_switch_phase(r, setting, wires, &phase, NULL) != OK)
         goto done; /* the sides as they are have messages of their own */
     y = NEW_ARRAY(double, phase->length);
-    enter(phase, r->result->start.y, x, r->result->start.y + layout_turned(whole), 0, y);
+    enter(phase, r->result->start.y, x, r->result->start.y + layout_references(whole), 0, y);
     memcpy(was, x, (size_t)whole->nx * sizeof(double));
     for (int i = 0; i < whole->nx; i++)
         given[i] = is_given(r, setting, i);
@@ -462,12 +462,12 @@ static Status begin_phase(ActiveRun *r, const Setting *setting, const ModeSearch
     Phase *phase;
     Status status = OK;
 
-    CHECK(mode_search_find(r->sides, at, closed, diag));
+    CHECK(mode_search_find(r->mode_search, at, closed, diag));
     CHECK(mode_switch_phase(r, setting, closed, &phase, diag));
     r->phase = phase;
     mem_free(r->begin);
     r->begin = NEW_ARRAY(double, phase->length);
-    enter(phase, r->result->start.y, at->x, at->near, 0, r->begin);
+    enter(phase, r->result->start.y, at->x, at->references, 0, r->begin);
 done:
     return status;
 }
@@ -481,7 +481,7 @@ Status mode_switch_begin(ActiveRun *r, const Setting *setting, Diag *diag)
                        .step = START_STEP,
                        .q = r->result->start.y,
                        .u = r->result->start.y + whole->n,
-                       .near = r->result->start.y + layout_turned(whole),
+                       .references = r->result->start.y + layout_references(whole),
                        .x = x,
                        .x_behind = x};
     bool *closed = NEW_ARRAY(bool, system_ideal_count(r->system));
@@ -603,15 +603,15 @@ static Status go_over(ModeSwitching *c, double t, const ModeSearchAt *at, double
 
         CHECK(next_phase(c, t, closed, out, diag));
         entered = NEW_ARRAY(double, (*out)->length);
-        enter(*out, y, x, y + layout_turned(from->layout), y[from->length - 1], entered);
+        enter(*out, y, x, y + layout_references(from->layout), y[from->length - 1], entered);
         mode_switching_free(c);
         c->y = entered;
         CHECK(check_impulse(r, *out, &entry, c->y, x, diag));
         if (!entry.shared)
             goto done;
-        mode_search_calm(r->sides);
+        mode_search_calm(r->mode_search);
         memcpy(x_behind, x, (size_t)phases_whole(r->phases)->layout->nx * sizeof(double));
-        CHECK(mode_search_find(r->sides, at, closed, diag));
+        CHECK(mode_search_find(r->mode_search, at, closed, diag));
         if (memcmp(closed, (*out)->closed, bytes) == 0)
             goto done;
         from = *out;
@@ -637,7 +637,7 @@ static Status look_ahead(const ModeSwitching *c, Phase *now, double t, const dou
         memcpy(x_behind, at->x, (size_t)nx * sizeof(double));
     at->acceleration = row.acceleration;
     at->multipliers = row.multipliers;
-    return mode_search_find(c->run->sides, at, closed, diag);
+    return mode_search_find(c->run->mode_search, at, closed, diag);
 }
 
 Status mode_switch(void *context, double t, double behind, Nearness near, const double *y,
@@ -658,7 +658,7 @@ Status mode_switch(void *context, double t, double behind, Nearness near, const 
                        .step = step_from(c, behind, near),
                        .q = ahead,
                        .u = ahead + whole->n,
-                       .near = ahead + layout_turned(now->layout),
+                       .references = ahead + layout_references(now->layout),
                        .x = x,
                        .x_behind = x_behind};
     const double furthest = fmin(c->told * near.ahead, STUCK * c->span);

@@ -31,7 +31,7 @@ typedef struct ModeSwitching {
     double told;  /* and past what was told */
     double *y;    /* of the last phase that was entered; free it with mode_switching_free() */
 } ModeSwitching;
-void mode_switching_free(ModeSwitching *commuting);
+void mode_switching_free(ModeSwitching *switching);
 /* the NextSegment of a plan; `context` is a ModeSwitching */
 MUST_USE Status mode_switch(void *context, double t, double behind, Nearness near, const double *y,
                             Segment *segment, const double **out, Diag *diag);

@@ -123,12 +123,12 @@ static IntegrationPlan plan_of(const ActiveRun *r, const Setting *setting,
                              .watch = setting->watch};
 }
 
-/* A march from the result's begin. Where ideal switches change the equations, `corners` gets rows
- * between them. */
-static Status integration_phases(ActiveRun *r, const Setting *setting, const IntegrationPlan *plan,
-                                 Grid *grid, Grid *corners, IntegrationReport *out, Diag *diag)
+/* From `begin` to the end of the plan. Where ideal switches change the equations, `corners` gets
+ * rows between them. */
+static Status integrate_phases(ActiveRun *r, const Setting *setting, const IntegrationPlan *plan,
+                               Grid *grid, Grid *corners, IntegrationReport *out, Diag *diag)
 {
-    ModeSwitching commuting = {
+    ModeSwitching switching = {
         .run = r, .setting = setting, .span = plan->to - plan->from, .stuck = NAN};
     IntegrationPlan through = *plan;
     Status status;
@@ -136,14 +136,14 @@ static Status integration_phases(ActiveRun *r, const Setting *setting, const Int
     through.choose = slide_choose;
     through.tell = slide_tell;
     through.explain = ends_explain;
-    through.context = &commuting;
+    through.context = &switching;
     through.corners = corners;
-    if (r->sides != NULL) {
+    if (r->mode_search != NULL) {
         through.mode_switch = mode_switch;
         through.in_time = numbers_equations(phases_whole(r->phases)->numbers);
     }
     status = integrate(&through, r->begin, grid, out, diag);
-    mode_switching_free(&commuting);
+    mode_switching_free(&switching);
     return status;
 }
 
@@ -164,24 +164,24 @@ static MotionCounts counts_of(const ActiveRun *r)
     return sum;
 }
 
-static void fill_report(ActiveRun *r, const IntegrationReport *march, const RunOptions *options,
-                        bool stopped, double began)
+static void fill_report(ActiveRun *r, const IntegrationReport *integration,
+                        const RunOptions *options, bool stopped, double began)
 {
     MotionCounts counts = counts_of(r);
 
-    r->result->report.method = march->method->name;
+    r->result->report.method = integration->method->name;
     r->result->report.rtol = options->rtol;
     r->result->report.atol = options->atol;
-    r->result->report.steps = march->counts.steps;
-    r->result->report.rejected = march->counts.rejected;
-    r->result->report.evaluations = march->counts.evaluations;
-    r->result->report.jacobians = march->counts.jacobians;
+    r->result->report.steps = integration->counts.steps;
+    r->result->report.rejected = integration->counts.rejected;
+    r->result->report.evaluations = integration->counts.evaluations;
+    r->result->report.jacobians = integration->counts.jacobians;
     r->result->report.factorisations = counts.factorisations;
     r->result->report.regularised = counts.regularised;
     r->result->report.singular_time = counts.singular_time;
-    r->result->report.position_residual = march->position_residual;
-    r->result->report.velocity_residual = march->velocity_residual;
-    r->result->report.reached = march->reached;
+    r->result->report.position_residual = integration->position_residual;
+    r->result->report.velocity_residual = integration->velocity_residual;
+    r->result->report.reached = integration->reached;
     r->result->report.every = options->every;
     r->result->report.step = options->step;
     r->result->report.most = options->most;
@@ -199,9 +199,9 @@ static void remark_singular(ActiveRun *r)
                     (Remark){.kind = REMARK_NEAR_SINGULAR, .t = counts.singular_time});
 }
 
-static void remark_march(ActiveRun *r, const IntegrationReport *march)
+static void remark_integration(ActiveRun *r, const IntegrationReport *integration)
 {
-    remarks_append(&r->result->remarks, &march->remarks);
+    remarks_append(&r->result->remarks, &integration->remarks);
     share_tell(r);
     events_remark(r->events, &r->result->remarks);
     remark_singular(r);
@@ -217,7 +217,7 @@ static double largest_difference(const ActiveRun *r, int first, const Grid *b)
     for (int i = first, j = 0; i < a->count && j < b->count;) {
         double behind = a->times[i] - b->times[j];
         int length = behind == 0 && a->phase[i] == b->phase[j]
-                         ? layout_turned(r->phases->at[a->phase[i]]->layout)
+                         ? layout_references(r->phases->at[a->phase[i]]->layout)
                          : 0;
 
         for (int k = 0; k < length; k++)
@@ -259,7 +259,7 @@ static Status estimate_error(ActiveRun *r, const Setting *setting, const RunOpti
     plan = plan_of(r, setting, &finer, method, events);
     plan.from = r->result->grid.times[first];
     plan.to = to;
-    status = integration_phases(r, setting, &plan, &grid, NULL, &integration_report, diag);
+    status = integrate_phases(r, setting, &plan, &grid, NULL, &integration_report, diag);
     if (status == OK)
         report_difference(r, largest_difference(r, first, &grid), used, integration_report.method);
     remarks_free(&integration_report.remarks);
@@ -281,7 +281,7 @@ static Status copy_events(ActiveRun *r, const Setting *setting, Events **out, Di
     return status;
 }
 
-/* Integration a run whose start is set; what it found is kept also when that ends early. */
+/* Integrate a run whose start is set; what it found is kept also when that ends early. */
 static Status go(ActiveRun *r, const Setting *setting, const RunOptions *given, double from,
                  bool skip_first, Diag *diag)
 {
@@ -304,13 +304,13 @@ static Status go(ActiveRun *r, const Setting *setting, const RunOptions *given, 
     plan.skip_first = skip_first;
     if (options.check)
         CHECK(copy_events(r, setting, &again, diag));
-    status = integration_phases(r, setting, &plan, &r->result->grid, &r->result->corners,
-                                &report_of, diag);
+    status = integrate_phases(r, setting, &plan, &r->result->grid, &r->result->corners, &report_of,
+                              diag);
     if (report_of.events != r->events)
         events_hand_over(r->events, report_of.events);
     if (status == E_SOLVER)
         network_hint(r->system, diag);
-    remark_march(r, &report_of);
+    remark_integration(r, &report_of);
     remarks_free(&report_of.remarks);
     for (int i = 0; i < report_of.jumps.count; i++)
         LIST_PUSH(r->result->jumps, report_of.jumps.at[i]);
@@ -430,7 +430,7 @@ static bool reach(ActiveRun *r, double from, double to, double *y, int depth)
     }
     for (int i = l->n; i < r->phase->length; i++)
         trial[i] = y[i];
-    for (int i = layout_turned(l); i < layout_turned(l) + l->turned; i++) {
+    for (int i = layout_references(l); i < layout_references(l) + l->multi_turns; i++) {
         trial[i] = y[i] + h * rate[i];
         turned = fmax(turned, fabs(h * rate[i]));
     }
@@ -438,7 +438,7 @@ static bool reach(ActiveRun *r, double from, double to, double *y, int depth)
     sound = sound && motion_project(r->phase->motion, to, trial);
     for (int i = 0; i < l->n; i++)
         moved = fmax(moved, fabs(trial[i] - rate[i]));
-    for (int i = layout_turned(l); i < layout_turned(l) + l->turned; i++)
+    for (int i = layout_references(l); i < layout_references(l) + l->multi_turns; i++)
         turned = fmax(turned, TURNED / MISSED * fabs(trial[i] - rate[i]));
     /* far from the prediction is perhaps another branch */
     sound = sound && moved < 0.1 && turned < TURNED;
@@ -608,14 +608,14 @@ static Status drive(ActiveRun *r, const Setting *setting, const RunOptions *give
     CHECK(complete_options(r, given, &options, diag));
     CHECK(check_driven(r, diag));
     phases_tolerance(r->phases, 1e-12);
-    if (r->phase->layout->ne > 0 && r->sides != NULL) {
+    if (r->phase->layout->ne > 0 && r->mode_search != NULL) {
         status = diag_set(diag, E_MODEL,
                           "what supplies a driver's motion can't be found through "
                           "ideal switches");
         diag_hint(diag, "give diodes and switches Ron= and Roff=");
         goto done;
     }
-    if (r->sides != NULL || (r->phase->layout->nx > 0 && !inverse_finds_states(r->system))) {
+    if (r->mode_search != NULL || (r->phase->layout->nx > 0 && !inverse_finds_states(r->system))) {
         options.rtol = fmin(options.rtol, 1e-10);
         options.atol = fmin(options.atol, 1e-10);
         CHECK(go(r, setting, &options, 0, false, diag));

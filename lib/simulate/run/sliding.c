@@ -194,7 +194,7 @@ static void begin_sides(Slides *s)
     }
 }
 
-/* ModeSearch by the linear reading, which is then taken anew around the signs, until they stay. */
+/* Sides by the linear reading, which is then taken anew around the signs, until they stay. */
 static bool find_sides(Slides *s)
 {
     int n = s->count;
