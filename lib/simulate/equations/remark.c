@@ -116,6 +116,9 @@ static void write_steps(const Remark *r, Text *out)
     case REMARK_STIFF:
         text_addf(out, "stiff from t = %.6g s: went on with %s", r->t, r->what);
         break;
+    case REMARK_ROUNDING:
+        text_addf(out, "steps limited by rounding at t = %.6g s: went on with %s", r->t, r->what);
+        break;
     case REMARK_INDEPENDENT_ANEW:
         text_addf(out, "independent coordinates chosen anew at t = %.6g s", r->t);
         break;

@@ -51,28 +51,41 @@ static double rounding(Stepper *s, double h)
     return largest;
 }
 
+/* one whose steps rounding may limit less: one for stiff equations damps what it leaves of rates */
+static const Method *other_method(const Stepper *s)
+{
+    const bool stiff = s->method->is_stiff;
+
+    return method_for((MethodNeed){.stiff = true, .history = stiff && !s->method->has_history});
+}
+
 static Status give_up(const Stepper *s, double h, Diag *diag)
 {
     const double rtol = s->control.rtol;
     const double coarser = pow(10, ceil(log10(rtol * s->control.span / (h * ENOUGH_STEPS))));
+    const char *other = other_method(s)->name;
 
     (void)solver_failure(diag, s->t,
                          "the tolerance is below what rounding leaves of the accelerations: steps "
                          "have become too short to get anywhere");
     if (coarser <= COARSEST)
-        diag_hint(diag, "another tree may leave less rounding; or try rtol=%.0e", coarser);
+        diag_hint(diag, "another tree may leave less rounding; or try rtol=%.0e, or method=%s",
+                  coarser, other);
     else
-        diag_hint(diag, "another tree may leave less rounding; lengths, masses or stiffnesses many "
-                        "decades apart leave much");
+        diag_hint(diag,
+                  "another tree may leave less rounding, and method=%s may need less; lengths, "
+                  "masses or stiffnesses many decades apart leave much",
+                  other);
     return E_SOLVER;
 }
 
-Status headway_check(Headway *headway, Stepper *s, int64_t steps, Diag *diag)
+Status headway_check(Headway *headway, Stepper *s, int64_t steps, bool *is_rounding, Diag *diag)
 {
     const int64_t count = steps - headway->steps;
     const double way = s->t - headway->t;
     double h;
 
+    *is_rounding = false;
     if (count < STEPS)
         return OK;
     h = way / (double)count;
@@ -83,7 +96,8 @@ Status headway_check(Headway *headway, Stepper *s, int64_t steps, Diag *diag)
         return OK;
     if (way < HOPELESS * s->control.span)
         return solver_failure(diag, s->t, "the step became too small");
-    return rounding(s, h) > NOTICED ? give_up(s, h, diag) : OK;
+    *is_rounding = rounding(s, h) > NOTICED;
+    return *is_rounding ? give_up(s, h, diag) : OK;
 }
 
 bool headway_is_rounding(Stepper *s, double h, Diag *diag)

@@ -15,8 +15,10 @@ typedef struct Headway {
 } Headway;
 
 /* To be called after each step, with the number of steps of the whole run; a look costs a few
- * evaluations in some thousand steps, and only where the run would take a million. E_SOLVER. */
-MUST_USE Status headway_check(Headway *headway, Stepper *stepper, int64_t steps, Diag *diag);
+ * evaluations in some thousand steps, and only where the run would take a million. E_SOLVER;
+ * *is_rounding: for rounding. */
+MUST_USE Status headway_check(Headway *headway, Stepper *stepper, int64_t steps, bool *is_rounding,
+                              Diag *diag);
 /* Whether rounding leaves more of the rates than the tolerance allows a step of h, where steps have
  * failed: then the diag says so, with a way out. A few evaluations. */
 bool headway_is_rounding(Stepper *stepper, double h, Diag *diag);

@@ -141,7 +141,7 @@ static bool tell_meeting(RunEnd *e, Diag *diag)
                          IMMINENT * e->span, before, diag);
 }
 
-static void tell(RunEnd *e, Stepper *stepper, Diag *diag)
+static void tell(RunEnd *e, Stepper *stepper, bool *is_rounding, Diag *diag)
 {
     int growing;
     const double time = quickest(e, &growing), step = stepper->control.step;
@@ -149,15 +149,20 @@ static void tell(RunEnd *e, Stepper *stepper, Diag *diag)
     Pushing pushing;
 
     e->soon = fmax(SOON * fmin(e->span, time), fmin(2 * step, time));
-    if (tell_meeting(e, diag))
+    if (tell_meeting(e, diag)) {
+        *is_rounding = false;
         return;
+    }
     pushing = look_at_pushers(e);
     if (pushing.without != NULL) {
+        *is_rounding = false;
         add_cause(diag, ": ", pushing.without, "has no value from there on");
         diag_hint(diag, "limit what its law takes a root, a logarithm or a quotient of, as by "
                         "max(..., 0), or end the run before with an event and do=stop");
-    } else if (!headway_is_rounding(stepper, growing >= 0 ? STEP * time : last, diag) &&
-               time < IMMINENT * e->span) {
+    } else if (headway_is_rounding(stepper, growing >= 0 ? STEP * time : last, diag)) {
+        *is_rounding = true;
+    } else if (time < IMMINENT * e->span) {
+        *is_rounding = false;
         add_cause(diag, ": ", name_of(e, growing), "grows without bound there");
         if (pushing.hardest != NULL)
             add_cause(diag, ", ", pushing.hardest, "pushes hardest");
@@ -166,7 +171,8 @@ static void tell(RunEnd *e, Stepper *stepper, Diag *diag)
     }
 }
 
-void ends_explain(void *context, const Segment *segment, Stepper *stepper, Diag *diag)
+void ends_explain(void *context, const Segment *segment, Stepper *stepper, bool *is_rounding,
+                  Diag *diag)
 {
     const ModeSwitching *c = context;
     Phase *phase = c->run->phases->at[segment->phase];
@@ -178,7 +184,7 @@ void ends_explain(void *context, const Segment *segment, Stepper *stepper, Diag 
     end.y = stepper->y;
     end.at_start = c->run->begin;
     if (ode->rate(ode->context, end.t, end.y, end.rate))
-        tell(&end, stepper, diag);
+        tell(&end, stepper, is_rounding, diag);
     mem_free(end.rate);
     mem_free(end.ahead);
 }

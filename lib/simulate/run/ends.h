@@ -9,6 +9,7 @@
 #include "simulate/run/mode_switch.h"
 
 /* the Explain of a plan; `context` is a ModeSwitching */
-void ends_explain(void *context, const Segment *segment, Stepper *stepper, Diag *diag);
+void ends_explain(void *context, const Segment *segment, Stepper *stepper, bool *is_rounding,
+                  Diag *diag);
 
 #endif

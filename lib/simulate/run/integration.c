@@ -10,15 +10,15 @@
 #define AGAINS  10  /* times that a step is looked over anew for what is met first in it */
 #define CAREFUL 0.5 /* of what would have been allowed behind the last switch: to begin with */
 
-/* The explicit method has found that stability limits its steps. */
-static Status hand_over(Integration *m, Diag *diag)
+/* The explicit method has found that stability limits its steps, or rounding does. */
+static Status hand_over(Integration *m, RemarkKind why, Diag *diag)
 {
     const Method *stiff = m->segment.stiff;
     const double t = m->stepper->t, next = m->stepper->next;
     Status status = OK;
 
     memcpy(m->y, m->stepper->y, (size_t)m->length * sizeof(double));
-    remarks_add(&m->out->remarks, (Remark){.kind = REMARK_STIFF, .t = t, .what = stiff->name});
+    remarks_add(&m->out->remarks, (Remark){.kind = why, .t = t, .what = stiff->name});
     integration_give_up_stepper(m);
     m->stepper = integration_new_stepper(m, stiff);
     m->out->method = stiff;
@@ -43,18 +43,28 @@ static Status renew(Integration *m, Diag *diag)
     return s->method->start(s, s->t, m->y, diag);
 }
 
-/* with the cause, where the stepper gets no further */
-static Status explained(Integration *m, Status status, Diag *diag)
+/* Where the stepper gets no further: it ends the run, with the cause, unless rounding stands in the
+ * way of an explicit method that nobody named. Where large parts of stiff equations cancel rounding
+ * leaves much of their rates, which such a method takes for errors; one for stiff equations damps
+ * it. */
+static Status end_or_hand_over(Integration *m, bool is_rounding, Diag *diag)
 {
-    if (status == E_SOLVER && m->plan->explain != NULL)
-        m->plan->explain(m->plan->context, &m->segment, m->stepper, diag);
-    return status;
+    if (m->plan->explain != NULL)
+        m->plan->explain(m->plan->context, &m->segment, m->stepper, &is_rounding, diag);
+    return is_rounding && m->plan->method == NULL && !m->out->method->is_stiff
+               ? hand_over(m, REMARK_ROUNDING, diag)
+               : E_SOLVER;
+}
+
+static Status take_step(Integration *m, double end, Diag *diag)
+{
+    end = onset_before_step(m->segment.onset, m->stepper, end);
+    return m->stepper->method->step(m->stepper, end, diag);
 }
 
 /* a step that passes over nothing that acts for a short time */
 static Status seeing_step(Integration *m, double end, Diag *diag)
 {
-    const Method *method = m->stepper->method;
     double when = 0, last = m->stepper->t;
     Diag ignored = {0};
     Status status = OK;
@@ -62,17 +72,17 @@ static Status seeing_step(Integration *m, double end, Diag *diag)
     if (m->is_taken_back) { /* once rows and conditions have been read from its history */
         m->is_taken_back = false;
         memcpy(m->y, m->stepper->y, (size_t)m->length * sizeof(double));
-        CHECK(method->start(m->stepper, last, m->y, diag));
+        CHECK(m->stepper->method->start(m->stepper, last, m->y, diag));
     }
-    CHECK(explained(
-        m, method->step(m->stepper, onset_before_step(m->segment.onset, m->stepper, end), diag),
-        diag));
+    while ((status = take_step(m, end, diag)) == E_SOLVER)
+        CHECK(end_or_hand_over(m, false, diag));
+    CHECK(status);
     if (!(m->stepper->t > last) || !onset_after_step(m->segment.onset, m->stepper, &when))
         return OK;
     /* where it can't be taken back it stays: what it passed over it has seen the end of */
-    if (method->shorten(m->stepper, when, &ignored) != OK)
+    if (m->stepper->method->shorten(m->stepper, when, &ignored) != OK)
         return OK;
-    m->is_taken_back = method->has_history;
+    m->is_taken_back = m->stepper->method->has_history;
 done:
     return status;
 }
@@ -84,6 +94,15 @@ static void learn_beginning(Integration *m)
     if (m->begins && m->plan->mode_switch != NULL)
         m->begin_by = CAREFUL * m->stepper->next;
     m->begins = false;
+}
+
+static Status make_headway(Integration *m, Diag *diag)
+{
+    const int64_t steps = m->earlier.steps + m->stepper->counts.steps;
+    bool is_rounding;
+    Status status = headway_check(&m->headway, m->stepper, steps, &is_rounding, diag);
+
+    return status == E_SOLVER ? end_or_hand_over(m, is_rounding, diag) : status;
 }
 
 static Status one_step(Integration *m, double end, Diag *diag)
@@ -113,13 +132,11 @@ static Status one_step(Integration *m, double end, Diag *diag)
             return OK;
     }
     CHECK(integration_add_rows(m, diag));
-    status =
-        headway_check(&m->headway, m->stepper, m->earlier.steps + m->stepper->counts.steps, diag);
-    CHECK(explained(m, status, diag));
+    CHECK(make_headway(m, diag));
     CHECK(renew(m, diag));
     if (m->plan->method == NULL && m->stepper->is_stiff &&
         (m->segment.stiff->is_a_stable || !m->stepper->swings))
-        CHECK(hand_over(m, diag));
+        CHECK(hand_over(m, REMARK_STIFF, diag));
 done:
     return status;
 }

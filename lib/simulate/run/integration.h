@@ -62,8 +62,10 @@ typedef struct Jump {
 } Jump;
 typedef LIST(Jump) Jumps;
 
-/* Add to the diag why the stepper, which is of that segment, could take no step. */
-typedef void (*Explain)(void *context, const Segment *segment, Stepper *stepper, Diag *diag);
+/* Add to the diag why the stepper, which is of that segment, could take no step; *is_rounding:
+ * whether rounding alone is behind it, as far as is known. */
+typedef void (*Explain)(void *context, const Segment *segment, Stepper *stepper, bool *is_rounding,
+                        Diag *diag);
 
 typedef struct IntegrationPlan {
     Segment segment;         /* to begin with */
