@@ -44,21 +44,34 @@ static inline Pose body_pose(const Scene *s, int body)
 
 /* --- writing --- */
 
-/* an arm of that pose: R = Rz Ry Rx */
+/* R = Rz Ry Rx. Near y = pi/2 rounding leaves much of the angle about z, but what follows from it
+ * makes up for that. */
+static inline void three_angles(Pose p, double angles[3])
+{
+    static const double z[3] = {0, 0, 1};
+    const double *q = p.q;
+    Pose rest;
+
+    angles[0] = atan2(2 * (q[0] * q[3] + q[1] * q[2]), 1 - 2 * (q[2] * q[2] + q[3] * q[3]));
+    rest = compose(turned(z, -angles[0]), p);
+    q = rest.q;
+    angles[1] = atan2(2 * (q[0] * q[2] - q[1] * q[3]), 1 - 2 * (q[2] * q[2] + q[3] * q[3]));
+    angles[2] = atan2(2 * (q[0] * q[1] - q[2] * q[3]), 1 - 2 * (q[1] * q[1] + q[3] * q[3]));
+}
+
+/* an arm of that pose */
 static inline void write_arm(Scene *s, const char *name, const char *from, const Pose *p)
 {
-    const double *q = p->q;
+    double angles[3];
 
     if (s->planar) {
         write(s, "arm %s %s [%.17g, %.17g] rotation=z(%.17g)\n", name, from, p->r[0], p->r[1],
-              2 * atan2(q[3], q[0]));
+              2 * atan2(p->q[3], p->q[0]));
         return;
     }
+    three_angles(*p, angles);
     write(s, "arm %s %s [%.17g, %.17g, %.17g] rotation=z(%.17g)*y(%.17g)*x(%.17g)\n", name, from,
-          p->r[0], p->r[1], p->r[2],
-          atan2(2 * (q[0] * q[3] + q[1] * q[2]), 1 - 2 * (q[2] * q[2] + q[3] * q[3])),
-          asin(fmax(-1, fmin(1, 2 * (q[0] * q[2] - q[3] * q[1])))),
-          atan2(2 * (q[0] * q[1] + q[2] * q[3]), 1 - 2 * (q[1] * q[1] + q[2] * q[2])));
+          p->r[0], p->r[1], p->r[2], angles[0], angles[1], angles[2]);
 }
 
 static inline bool is_here(const Pose *pose)

@@ -303,6 +303,76 @@ static void driven_runs_start_from_the_same(void)
     }
 }
 
+/* Turning j1 moves the weld's rows by metres a radian, but one of them by rounding alone. */
+static void rows_that_nothing_moves_are_met_by_rounding(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit,
+                "body b0 mass=1.18 inertia=[1, 2, 2.5]\n"
+                "body b1 mass=2.16 inertia=[1, 2, 2.5]\n"
+                "arm t0 ground [0.16323214601972191, -0.44504733008252506, -0.35259648455595649] "
+                "rotation=z(-1.0284009544026238)*y(0.16805885027640638)*x(-0.09143891037345421)\n"
+                "arm h0 b0 [-0.58250097613320362, -0.31497535150165595, 0.19825930409768011] "
+                "rotation=z(1.224364137237715)*y(-0.80192828687954665)*x(2.2319503149946738)\n"
+                "revolute j0 t0 h0 axis=[0.089168321754412139, 0.17743768002148075, "
+                "-0.5792204495613078]\n"
+                "arm h1 b0 [-0.51144873143804248, -0.41416547044727031, -0.37751184198827792] "
+                "rotation=z(-2.3808728050527979)*y(1.3209229961190803)*x(-0.44158442599895342)\n"
+                "screw j1 b1 h1 axis=-y pitch=0.14473575909175809\n"
+                "arm t2 b1 [-0.089179676065144653, 0.57374438624761204, 0.32317844810612573] "
+                "rotation=z(0)*y(-0.097687066917185983)*x(0)\n"
+                "arm h2 b0 [-0.091799856176064773, -0.93761392972293989, -0.38081813455524305] "
+                "rotation=z(2.7954495554168881)*y(1.4648551649550987)*x(-1.5365728892337482)\n"
+                "weld j2 t2 h2\n"
+                "arm t3 b1 [0.18653584043089233, 0.328527194886021, 0.19962102816312621] "
+                "rotation=z(0.81893525226265773)*y(0)*x(-0)\n"
+                "arm h3 b0 [-0.41468831795882, -0.78578209427316381, -0.5698296705371666] "
+                "rotation=z(1.0511363716199502)*y(-0.50520808513692228)*x(-0.74848569190511904)\n"
+                "screw j3 t3 h3 axis=[-0.7764411164239724, -0.19606980561518328, "
+                "0.97518627962007476] pitch=0.34287965013533073\n"
+                "tree joint\n"
+                "guess b0.x = 0.11451947234456877\n"
+                "guess b0.y = -0.22309248893558498\n"
+                "guess b0.z = 0.30023330553168803\n"
+                "guess b0.q0 = -0.21604586070450238\n"
+                "guess b0.q1 = 0.4305175790113665\n"
+                "guess b0.q2 = 0.77752202627048117\n"
+                "guess b0.q3 = 0.40427502878472232\n"
+                "guess b1.x = 0.028462175420856245\n"
+                "guess b1.y = -0.90704979355953708\n"
+                "guess b1.z = -0.010170922902287077\n"
+                "guess b1.q0 = 0.44005831438513621\n"
+                "guess b1.q1 = 0.60866195375539534\n"
+                "guess b1.q2 = -0.66019400674093454\n"
+                "guess b1.q3 = 0.0048145045984716722\n");
+    EXPECT_DONE(&kit, "assemble\n");
+    expect_value(&kit, "b0.x", 0.11451947234456877);
+    expect_value(&kit, "b0.y", -0.22309248893558498);
+    expect_value(&kit, "b0.z", 0.30023330553168803);
+    expect_value(&kit, "b1.x", 0.028462175420856245);
+    expect_value(&kit, "b1.y", -0.90704979355953708);
+    expect_value(&kit, "b1.z", -0.010170922902287077);
+    kit_free(&kit);
+}
+
+/* two welds whose distances differ by little are told as those that are missed */
+static void loops_open_by_little_are_named(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, "scene planar\n"
+                      "body b mass=1 inertia=1\n"
+                      "arm there b [1, 0]\n"
+                      "arm wall ground [1.00000000003, 0]\n"
+                      "weld w1 ground b\n"
+                      "weld w2 wall there\n"
+                      "tree absolute\n");
+    EXPECT(kit_do(&kit, "assemble\n") != CT_OK);
+    EXPECT(strstr(kit.error.message, "missed: w1 (x) by 1.5e-11, w2 (x) by 1.5e-11") != NULL);
+    kit_free(&kit);
+}
+
 int main(void)
 {
     RUN(turns_do_not_pile_up_over_starts);
@@ -319,5 +389,7 @@ int main(void)
     RUN(rounded_parameters_move_nothing);
     RUN(three_angles_of_a_chord_place_bodies);
     RUN(driven_runs_start_from_the_same);
+    RUN(rows_that_nothing_moves_are_met_by_rounding);
+    RUN(loops_open_by_little_are_named);
     return test_end();
 }

@@ -11,7 +11,6 @@
 #include <string.h>
 
 #define TOLERANCE  1e-12 /* of scaled residuals */
-#define CLOSED     1e-13 /* m, rad: what rounding leaves of residuals */
 #define TRIES      24    /* other starts, when the first leads nowhere */
 #define FAR        2.0   /* rad or m: a dependent coordinate that moved further is spoken of */
 #define RANK_RATIO 1e-9
@@ -68,7 +67,7 @@ static bool try_around(Problem *p, const Rows *rows, const bool *held, const dou
 
         for (int i = 0; i < a->l->n; i++)
             a->y[i] = begun[i] + (held[i] ? 0 : size * random_unit(&seed));
-        if (levenberg_marquardt_solve(rows, held, NULL, TOLERANCE, a->y, NULL) &&
+        if (initial_meet(rows, held, a->y, NULL) &&
             skeleton_reversal(a->skeleton, a->y).link == NULL) {
             remarks_add(&a->out->remarks, (Remark){.kind = REMARK_ASSEMBLED_AROUND, .size = size});
             return true;
@@ -130,10 +129,10 @@ static Status correct(Problem *p, const bool *held, const double *begun, bool cl
 
     rows.evaluate(rows.context, a->y, residual, NULL);
     for (int i = 0; i < rows.rows; i++)
-        met = met && fabs(residual[i]) <= CLOSED;
+        met = met && !initial_misses(residual[i]);
     if (met && closed)
         goto done;
-    met = levenberg_marquardt_solve(&rows, held, NULL, TOLERANCE, a->y, missed);
+    met = initial_meet(&rows, held, a->y, missed);
     if (met)
         reversed = skeleton_reversal(a->skeleton, a->y);
     if ((!met || reversed.link != NULL) && !try_around(p, &rows, held, begun))
@@ -244,7 +243,7 @@ static bool nearby(Assembly *a, LevelRows *level, uint64_t *seed, double *q, dou
 
     for (int i = 0; i < a->l->n; i++)
         q[i] = a->y[i] + 1e-2 * random_unit(seed);
-    met = levenberg_marquardt_solve(&rows, NULL, NULL, TOLERANCE, q, residual);
+    met = initial_meet(&rows, NULL, q, residual);
     if (met)
         a->eq->position(a->eq->context, 0, q);
     return met;

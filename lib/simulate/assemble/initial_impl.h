@@ -59,6 +59,12 @@ MUST_USE Status initial_open_problem(Problem *problem, Assembly *assembly, State
                                      bool guesses, Diag *diag);
 void initial_close_problem(Problem *problem); /* what it holds */
 Rows initial_rows(Problem *problem);
+/* whether a position misses an equation by more than rounding leaves */
+bool initial_misses(double residual);
+/* Solve the equations of a position by Levenberg-Marquardt, columns held likewise; false: missed. A
+ * row that its unknowns hardly move may be weighed above what rounding leaves of it: it is met
+ * there. `residual` gets what is left, if not NULL. */
+bool initial_meet(const Rows *rows, const bool *held, double *v, double *residual);
 /* E_ASSEMBLE: "h9 (x) is missed by 0.03; ..." with the values that were given */
 MUST_USE Status initial_conflict(const Problem *problem, const double *residual, const char *what,
                                  Diag *diag);

@@ -3,10 +3,15 @@
  */
 #include "simulate/assemble/initial_impl.h"
 
+#include "algebra/levenberg_marquardt.h"
 #include "simulate/equations/rows.h"
 
 #include <math.h>
 #include <string.h>
+
+#define TOLERANCE 1e-12 /* of scaled residuals */
+#define CLOSED    1e-13 /* m, rad: what rounding leaves of residuals */
+#define TOLD      1e-9  /* m, rad: less isn't worth a word beside what is missed by more */
 
 bool initial_is_of_states(const GivenValue *given)
 {
@@ -72,6 +77,24 @@ Rows initial_rows(Problem *p)
     return level_rows(p->rows, p->a->setting->watch);
 }
 
+bool initial_misses(double residual)
+{
+    return !(fabs(residual) <= CLOSED);
+}
+
+bool initial_meet(const Rows *rows, const bool *held, double *v, double *residual)
+{
+    double *left = NEW_ARRAY(double, rows->rows);
+    bool met = levenberg_marquardt_solve(rows, held, NULL, TOLERANCE, v, left), missed = false;
+
+    for (int i = 0; i < rows->rows && !met; i++)
+        missed = missed || initial_misses(left[i]);
+    if (residual != NULL)
+        memcpy(residual, left, (size_t)rows->rows * sizeof(double));
+    mem_free(left);
+    return !missed;
+}
+
 /* --- messages --- */
 
 static void name_given(Text *text, const StartValue *value)
@@ -86,14 +109,25 @@ static void name_row(Text *text, const Layout *l, int k)
     text_addf(text, "%s (%s)", system_instance_name(l->system, row->instance), row->direction);
 }
 
+/* Of what is missed by little all that comes near the most is told. */
+static double least_told(const double *residual, int count)
+{
+    double most = 0;
+
+    for (int k = 0; k < count; k++)
+        most = isfinite(residual[k]) ? fmax(most, fabs(residual[k])) : INFINITY;
+    return fmin(TOLD, 0.1 * most);
+}
+
 /* "h9 (x) is missed by 0.03; ..." with the values that were given */
 Status initial_conflict(const Problem *p, const double *residual, const char *what, Diag *diag)
 {
+    const double least = least_told(residual, p->system_rows + p->count);
     Text text = {0}, values = {0};
     int shown = 0;
 
     for (int k = 0; k < p->system_rows + p->count; k++) {
-        if (fabs(residual[k]) <= 1e-9)
+        if (fabs(residual[k]) <= least)
             continue;
         if (shown++ == 6) {
             text_add(&text, ", ...");

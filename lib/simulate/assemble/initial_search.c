@@ -10,9 +10,7 @@
 #include <math.h>
 #include <string.h>
 
-#define TOLERANCE 1e-12 /* of scaled residuals */
-#define CLOSED    1e-13 /* m, rad: what rounding leaves of residuals */
-#define TRIES     24    /* other starts, when the first leads nowhere */
+#define TRIES 24 /* other starts, when the first leads nowhere */
 
 /* --- unknowns --- */
 
@@ -309,21 +307,13 @@ static bool try_around(Placing *p, const Rows *rows, const double *from, const b
         keep_unconcerned(p, rows, missed, step);
         memcpy(p->c, from, bytes);
         move_columns(p, p->c, step);
-        met = levenberg_marquardt_solve(rows, NULL, NULL, TOLERANCE, p->c, NULL);
+        met = initial_meet(rows, NULL, p->c, NULL);
         if (met)
             remarks_add(&p->a->out->remarks,
                         (Remark){.kind = REMARK_ASSEMBLED_AROUND, .size = size});
     }
     mem_free(step);
     return met;
-}
-
-static bool any_of(const bool *missed, int count)
-{
-    for (int i = 0; i < count; i++)
-        if (missed[i])
-            return true;
-    return false;
 }
 
 /* From the start, then from others around it. */
@@ -335,11 +325,9 @@ static bool solve(Placing *p, const Rows *rows, double *residual, bool once)
     bool met;
 
     memcpy(from, p->c, bytes);
-    met = levenberg_marquardt_solve(rows, NULL, NULL, TOLERANCE, p->c, residual);
+    met = initial_meet(rows, NULL, p->c, residual);
     for (int i = 0; i < rows->rows; i++)
-        missed[i] = fabs(residual[i]) > CLOSED;
-    /* rows that vanish with their derivatives are weighed above what rounding leaves */
-    met = met || !any_of(missed, rows->rows);
+        missed[i] = initial_misses(residual[i]);
     if (!met && !once) {
         double *best = NEW_ARRAY(double, rows->length);
 
@@ -375,7 +363,7 @@ bool place_search(Placing *p, bool guesses)
     residual = NEW_ARRAY(double, rows.rows);
     evaluate(&s, p->c, residual, NULL);
     for (int i = 0; i < rows.rows; i++)
-        met = met && fabs(residual[i]) <= CLOSED;
+        met = met && !initial_misses(residual[i]);
     if (!met && rows.columns > 0)
         met = solve(p, &rows, residual, guesses);
     mem_free(residual);
