@@ -339,8 +339,7 @@ static void what_picks_the_turn_is_said(void)
         {"show b as latex", "\\text{: kept less than half a turn from it}"},
         {"show b as c", "/* b_near: any value less than half a turn from the angle"},
         {"show b as matlab", "% b_near: any value less than half a turn from the angle"},
-        {"export c",
-         "near[0] b.references  (picks the turn: any value less than half a turn from b)"},
+        {"export c", "near[0] b.near  (picks the turn: any value less than half a turn from b)"},
         {"export c", "const double b_near = near[0];"},
     };
     Kit kit = kit_new();
