@@ -226,8 +226,8 @@ const Component component_inertance = {
 static void valve_relation(const Instance *instance, Arena *arena, int which, const Motion1 *motion,
                            Relation *out)
 {
-    Expr gmin = instance_scalar(instance, "Roff");
-    Expr closed = expr_is_zero(gmin) ? expr_int(arena, 0) : expr_div(arena, motion->across, gmin);
+    Expr off = instance_scalar(instance, "Roff");
+    Expr closed = expr_is_zero(off) ? expr_int(arena, 0) : expr_div(arena, motion->across, off);
 
     (void)which;
     *out = (Relation){.kind = RELATION_CONDUCTIVE,

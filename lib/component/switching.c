@@ -65,11 +65,11 @@ static Expr exponential(const Instance *instance, Arena *arena, Expr v)
 static Expr piecewise(const Instance *instance, Arena *arena, Expr v, Expr excess)
 {
     Expr zero = expr_int(arena, 0);
-    Expr gmin = instance_scalar(instance, "Roff");
+    Expr off = instance_scalar(instance, "Roff");
     Expr above = expr_add(arena, expr_div(arena, excess, instance_scalar(instance, "Ron")),
-                          expr_div(arena, instance_scalar(instance, "Vf"), gmin));
+                          expr_div(arena, instance_scalar(instance, "Vf"), off));
 
-    return expr_if(arena, expr_call2(arena, OP_LT, zero, excess), above, expr_div(arena, v, gmin));
+    return expr_if(arena, expr_call2(arena, OP_LT, zero, excess), above, expr_div(arena, v, off));
 }
 
 /* what an instance has for its two sides */

@@ -13,7 +13,7 @@ typedef struct Pass {
     Expr symbol; /* of a partial derivative, else NULL */
 } Pass;
 
-static Expr system_rate_of(const Pass *pass, Expr e)
+static Expr rate_of(const Pass *pass, Expr e)
 {
     int place = (e->kinds & pass->mask) != 0 ? walk_find(&pass->walk, e) : -1;
 
@@ -38,7 +38,7 @@ static Expr product_rate(const Pass *pass, Expr e)
     Expr rate;
 
     for (int i = 0; i < e->count; i++) {
-        Expr inner = system_rate_of(pass, args[i]);
+        Expr inner = rate_of(pass, args[i]);
 
         if (expr_is_zero(inner))
             continue;
@@ -59,7 +59,7 @@ static Expr sum_rate(const Pass *pass, Expr e)
     Expr rate;
 
     for (int i = 0; i < e->count; i++) {
-        terms[count] = system_rate_of(pass, node_args(e)[i]);
+        terms[count] = rate_of(pass, node_args(e)[i]);
         count += !expr_is_zero(terms[count]);
     }
     rate = expr_sum(pass->arena, terms, count);
@@ -73,8 +73,8 @@ static Expr power_rate(const Pass *pass, Expr e)
     Arena *arena = pass->arena;
     Expr base = node_args(e)[0];
     Expr exponent = node_args(e)[1];
-    Expr base_rate = system_rate_of(pass, base);
-    Expr exponent_rate = system_rate_of(pass, exponent);
+    Expr base_rate = rate_of(pass, base);
+    Expr exponent_rate = rate_of(pass, exponent);
     Expr rate = arena_zero(arena);
 
     if (!expr_is_zero(base_rate)) {
@@ -97,7 +97,7 @@ static Expr call_rate(const Pass *pass, Expr e)
     bool moves = false;
 
     for (int i = 0; i < e->count; i++) {
-        rates[i] = system_rate_of(pass, node_args(e)[i]);
+        rates[i] = rate_of(pass, node_args(e)[i]);
         moves = moves || !expr_is_zero(rates[i]);
     }
     return moves ? op_derivative(pass->arena, e, rates) : arena_zero(pass->arena);
@@ -146,7 +146,7 @@ static Expr run_pass(Pass *pass, Expr e)
         if (pass->symbol != NULL && node->count > 0)
             arena_remember(pass->arena, node, pass->symbol, pass->rates.at[i]);
     }
-    return system_rate_of(pass, e);
+    return rate_of(pass, e);
 }
 
 static void end_pass(Pass *pass)

@@ -48,7 +48,7 @@ void multi_turn_add_rows(System *system)
     }
 }
 
-static void add_turned(System *system, const Instance *joint, const Steps *steps, int which)
+static void add_multi_turn(System *system, const Instance *joint, const Steps *steps, int which)
 {
     Arena *arena = system->arena;
     int coordinate = steps->turn[which].coordinate;
@@ -85,7 +85,7 @@ void multi_turn_build(System *system)
         /* three turns in a chord have no angles that could be told */
         for (int k = 0; k < steps.turn_count && steps.turn_count < 3; k++)
             if (system->kinematics->coordinate[i][steps.turn[k].coordinate] < 0)
-                add_turned(system, joint, &steps, k);
+                add_multi_turn(system, joint, &steps, k);
     }
 }
 

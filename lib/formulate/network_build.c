@@ -30,7 +30,7 @@ static void found_value(System *system, Instance *source)
     }
 }
 
-static void add_leak(System *system, Expr across, Relation *relation)
+static void add_gmin(System *system, Expr across, Relation *relation)
 {
     if (relation->kind != RELATION_CONDUCTIVE && relation->kind != RELATION_THROUGH)
         return;
@@ -62,7 +62,7 @@ static void read_relation(System *system, Branchlike *branch)
         !expr_is_zero(expr_diff(arena, branch->relation.value, motion.across)))
         branch->relation.kind = RELATION_CONDUCTIVE;
     if (system->network->gmin != NULL)
-        add_leak(system, motion.across, &branch->relation);
+        add_gmin(system, motion.across, &branch->relation);
     if (branch->relation.kind == RELATION_IDEAL || branch->relation.switches)
         ideal_take_side(system, branch);
 }

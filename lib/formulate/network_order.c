@@ -258,7 +258,7 @@ done:
     return status;
 }
 
-static Status lowered_make(Order *o, Diag *diag)
+static Status lower_order(Order *o, Diag *diag)
 {
     System *system = o->system;
     Expr *symbol = NULL, *value = NULL;
@@ -352,7 +352,7 @@ Status network_bring_order(System *system, Diag *diag)
             break;
         if (round == ROUNDS)
             CHECK(cant_order(&o, 0, diag));
-        CHECK(lowered_make(&o, diag));
+        CHECK(lower_order(&o, diag));
     }
     rename(&o);
 done:

@@ -150,17 +150,16 @@ static Expr component(const System *system, const Instance *joint, ReactionPart 
 }
 
 /* the component per unit of the multiplier of a row that vanished */
-static Expr share_of(System *system, const Instance *joint, ReactionPart part, int redundant_rows)
+static Expr share_of(System *system, const Instance *joint, ReactionPart part, int redundant)
 {
     const Tree *tree = system->origin->trees[part.moment ? TREE_ROTATION : TREE_TRANSLATION];
-    const Row *row = &system->constraints->redundant_rows.at[redundant_rows];
+    const Row *row = &system->constraints->redundant_rows.at[redundant];
     Vec vector = vec_zero(system->arena);
     int chain = 0;
 
     if (tree_has(tree, joint->edge))
-        vector =
-            branch_reaction(system, tree, joint->edge,
-                            system->shown->recovery->sums[redundant_rows], part.moment, &chain);
+        vector = branch_reaction(system, tree, joint->edge,
+                                 system->shown->recovery->sums[redundant], part.moment, &chain);
     else if (row->told.instance == joint->number)
         vector = vec_neg(system->arena, row_reaction(system, row, part.moment));
     return component(system, joint, part, vector, chain);

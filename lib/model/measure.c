@@ -136,7 +136,7 @@ Measure measure_of_unit(const char *unit)
     return out;
 }
 
-static Measure system_rate_of(Measure a, int primes)
+static Measure rate_of(Measure a, int primes)
 {
     static const Dimension second = {{0, 0, 1, 0, 0, 0}};
 
@@ -266,8 +266,8 @@ static Measure of_name(const MeasureWalk *w, const Syntax *syntax)
     if (strcmp(name, "pi") == 0)
         return ratio;
     if (d != NULL)
-        return system_rate_of(d->measure, syntax->primes);
-    return system_rate_of(variable_measure(state, w->scope->own, name), syntax->primes);
+        return rate_of(d->measure, syntax->primes);
+    return rate_of(variable_measure(state, w->scope->own, name), syntax->primes);
 }
 
 /* --- operators --- */
@@ -540,7 +540,7 @@ static Status call(const MeasureWalk *w, const Syntax *syntax, Measure *out)
         CHECK(by_rule(w, syntax, rule, args, out));
     else if (thing != NULL && thing->kind == THING_DEFINITION)
         CHECK(by_law(w, syntax, thing->index, args, out));
-    *out = system_rate_of(*out, syntax->primes);
+    *out = rate_of(*out, syntax->primes);
 done:
     mem_free(args);
     return status;
@@ -587,7 +587,7 @@ static Status walk(const MeasureWalk *w, const Syntax *syntax, Measure *out)
         return vector(w, syntax, out);
     case SYNTAX_GROUP:
         CHECK(walk(w, syntax->args[0], out));
-        *out = system_rate_of(*out, syntax->primes);
+        *out = rate_of(*out, syntax->primes);
         break;
     case SYNTAX_UNARY:
         CHECK(walk(w, syntax->args[0], out));

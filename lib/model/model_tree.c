@@ -69,7 +69,7 @@ static void chosen_free(Chosen *chosen)
     mem_free(chosen->preference);
 }
 
-static Chosen variables_resolve(const State *state, TreeKind kind, const Choice *choice)
+static Chosen resolve_choice(const State *state, TreeKind kind, const Choice *choice)
 {
     int count = graph_edge_count(state->graph);
     int half = kind == TREE_ROTATION ? 1 : 0;
@@ -95,7 +95,7 @@ static Chosen variables_resolve(const State *state, TreeKind kind, const Choice 
 static Status complete(const State *state, TreeKind kind, const Choice *choice, Tree **out,
                        Diag *diag)
 {
-    Chosen chosen = variables_resolve(state, kind, choice);
+    Chosen chosen = resolve_choice(state, kind, choice);
     TreeChoice edges = {chosen.branches.at, chosen.branches.count, chosen.excluded,
                         chosen.preference};
     Status status = tree_complete(state->graph, kind, &edges, false, out, diag);

@@ -539,8 +539,8 @@ static bool keep_stored(const Reinit *reinit, const double *before)
 bool reinit_apply(Reinit *reinit, double t, const double *values, double *y, Text *why)
 {
     const Equations *eq = reinit->plan.equations;
-    int turned = layout_references(reinit->plan.layout);
-    int length = turned + eq->multi_turn_count + 1;
+    int references = layout_references(reinit->plan.layout);
+    int length = references + eq->multi_turn_count + 1;
     double *stored = NEW_ARRAY(double, reinit->storage_count);
     double before;
     double after;
@@ -561,7 +561,7 @@ bool reinit_apply(Reinit *reinit, double t, const double *values, double *y, Tex
     if (met && (any_chosen(reinit, LEVEL_POSITION) || any_chosen(reinit, LEVEL_VELOCITY)))
         met = solve_speeds(reinit);
     if (met) {
-        equations_turn(eq, t, reinit->y, reinit->y + turned);
+        equations_turn(eq, t, reinit->y, reinit->y + references);
         after = energy(reinit);
         if (isfinite(after - before))
             reinit->y[length - 1] += after - before;

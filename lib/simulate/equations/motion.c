@@ -528,7 +528,8 @@ static bool dae_residual(void *context, double t, const double *w, const double 
 {
     Motion *mo = context;
     const Equations *eq = mo->eq;
-    int x = eq->n + eq->nu, turned = multi_turn_place(eq), work = turned + eq->multi_turn_count;
+    int x = eq->n + eq->nu, references = multi_turn_place(eq),
+        work = references + eq->multi_turn_count;
 
     if (!evaluate(mo, t, w))
         return false;
@@ -554,7 +555,7 @@ static bool dae_residual(void *context, double t, const double *w, const double 
     for (int i = 0; i < eq->nx; i++)
         out[x + i] = w_rate[x + i] - mo->solved[i];
     for (int k = 0; k < eq->multi_turn_count; k++)
-        out[turned + k] = w_rate[turned + k] - eq->multi_turn_rate[k];
+        out[references + k] = w_rate[references + k] - eq->multi_turn_rate[k];
     out[work] = w_rate[work] - (eq->power != NULL ? *eq->power : 0);
     return vector_is_finite(out, mo->ode.dae.n);
 }

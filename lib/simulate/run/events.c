@@ -129,7 +129,7 @@ static Status read_values(Events *events, EventItem *item, const Event *event, D
         const NewValue *value = &event->values[i];
         Expr resolved = NULL;
 
-        CHECK(reinit_add(events->reset, value->name, value->primes, diag));
+        CHECK(reinit_add(events->reinit, value->name, value->primes, diag));
         CHECK(system_resolve(events->plan.layout->system, value->value, &resolved, diag));
         CHECK(check_known(events, resolved, diag));
         LIST_PUSH(events->values, resolved);
@@ -205,7 +205,7 @@ static Status compile_all(Events *events, Diag *diag)
     CHECK(compile(events, roots.at + events->conditions.count, events->items.count,
                   &events->holding, diag));
     CHECK(compile(events, events->values.at, events->values.count, &events->right, diag));
-    CHECK(reinit_compile(events->reset, diag));
+    CHECK(reinit_compile(events->reinit, diag));
 done:
     LIST_FREE(roots);
     return status;
@@ -213,14 +213,14 @@ done:
 
 Status events_new(const EventsPlan *plan, Events **out, Diag *diag)
 {
-    const ReinitPlan reset = {plan->layout, plan->parameters, plan->equations, plan->rows,
-                              plan->row_count};
+    const ReinitPlan reinit = {plan->layout, plan->parameters, plan->equations, plan->rows,
+                               plan->row_count};
     Events *events = NEW(Events);
     Status status = OK;
 
     events->plan = *plan;
     events->pool = pool_new(0);
-    events->reset = reinit_new(&reset);
+    events->reinit = reinit_new(&reinit);
     for (int i = 0; i < plan->event_count; i++)
         CHECK(read_event(events, plan->events[i], diag));
     time_first(events);
@@ -249,7 +249,7 @@ void events_free(Events *events)
     LIST_FREE(events->conditions);
     LIST_FREE(events->values);
     mem_free(events->targets);
-    reinit_free(events->reset);
+    reinit_free(events->reinit);
     probe_free(events->time);
     probe_free(events->state);
     probe_free(events->holding);
@@ -531,7 +531,7 @@ static Status apply_values(Events *events, double t, const bool *due, double *y,
     }
     if (names.length == 0)
         return OK;
-    if (values != NULL && reinit_apply(events->reset, t, events->targets, y, &why)) {
+    if (values != NULL && reinit_apply(events->reinit, t, events->targets, y, &why)) {
         *changed = true;
         text_free(&names);
         return OK;

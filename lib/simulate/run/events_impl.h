@@ -48,7 +48,7 @@ struct Events {
     bool follows_time; /* whether any other changes with t alone */
     LIST(Expr) values; /* right-hand sides, in order of the items */
     double *targets;   /* one a value; NAN: leave */
-    Reinit *reset;
+    Reinit *reinit;
     Probe *time, *state; /* differences */
     Probe *holding;      /* conditions of items as they stand */
     Probe *right;        /* values */
