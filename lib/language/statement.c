@@ -337,7 +337,7 @@ done:
 static bool takes_line(Lexer lexer, Verb *verb, Token *token)
 {
     return lexer_next(&lexer, token, NULL) == OK && token->kind == TOKEN_PATH &&
-           verb_find(token->text, verb) && strcmp(verb->shape, "l") == 0;
+           verb_find(token->text, verb) && strcmp(verb->pattern, "l") == 0;
 }
 
 static void parse_line(Parser *parser, Lexer *lexer, const Verb *verb, const Token *token,

@@ -128,7 +128,7 @@ typedef struct Verb {
      *   k keys of the row         = pairs, at least one unless operands came before
      *   > prints, maybe to a file ! prints nothing, `>` is refused
      *   : a colon and a statement * the letter before, repeated */
-    const char *shape;
+    const char *pattern;
     /* both ended by NULL; NULL: none */
     const char *const *words; /* words with a meaning of their own in its operands: they win over
                                  names, which stand in brackets then: `tree (rotation)` */

@@ -1,4 +1,4 @@
-/* syntax_pattern.c: operands and keys, by the letters of the verb's shape (syntax.h)
+/* syntax_pattern.c: operands and keys, by the letters of the verb's pattern (syntax.h)
  *
  *   { operand [ "," ] } { pair [ "," ] } [ ":" statement ] [ redirect ]
  *
@@ -447,7 +447,7 @@ static Status read_pairs(Parser *parser, Statement *statement)
     Status status = OK;
 
     if (statement->operands.count > 0 && !parser_sees_pair(parser) &&
-        strchr(statement->row.shape, 'n') == NULL)
+        strchr(statement->row.pattern, 'n') == NULL)
         return OK;
     CHECK(parse_pair(parser, statement));
     while (!pairs_end(parser)) {
@@ -547,7 +547,7 @@ static Status check_end(const Parser *parser, const Statement *statement)
     if (parser_ends(parser))
         return OK;
     if ((parser_sees(parser, ">") || parser_sees(parser, ">>")) &&
-        strchr(statement->row.shape, '>') == NULL) {
+        strchr(statement->row.pattern, '>') == NULL) {
         (void)diag_at(parser->diag, E_SYNTAX, parser_token(parser)->place,
                       "'%s' prints nothing that could go to a file", statement->verb);
         diag_hint(parser->diag, "'help %s' tells what it does", statement->verb);
@@ -572,7 +572,7 @@ static const struct {
     {':', read_colon},        {'>', read_redirect},
 };
 
-/* words that end an operand, where the shape has the letter */
+/* words that end an operand, where the pattern has the letter */
 static const struct {
     char letter;
     const char *word;
@@ -589,19 +589,19 @@ static Status read_letter(Parser *parser, char letter, Statement *statement)
 /* { operand [ "," ] } { pair [ "," ] } [ ":" statement ] [ redirect ] */
 Status parse_pattern(Parser *parser, Statement *statement)
 {
-    const char *shape = statement->row.shape;
+    const char *pattern = statement->row.pattern;
     const char *stops[COUNT(stop_words) + 1] = {NULL};
     int count = 0;
     Status status = OK;
 
     for (int i = 0; i < COUNT(stop_words); i++)
-        if (strchr(shape, stop_words[i].letter) != NULL)
+        if (strchr(pattern, stop_words[i].letter) != NULL)
             stops[count++] = stop_words[i].word;
     parser->stops = stops;
     parser->row = &statement->row;
-    parser->prints = strpbrk(shape, ">!") != NULL;
+    parser->prints = strpbrk(pattern, ">!") != NULL;
 
-    for (const char *letter = shape; *letter != '\0'; letter++) {
+    for (const char *letter = pattern; *letter != '\0'; letter++) {
         CHECK(read_letter(parser, *letter, statement));
         while (letter[1] == '*' && !operands_end(parser))
             CHECK(read_letter(parser, *letter, statement));

@@ -1,6 +1,6 @@
 /* verbs.c: the rows of verbs: those of the tables, and those that components give
  *
- * A component's verb is read off its row: its places and values are the shape, its
+ * A component's verb is read off its row: its places and values are the pattern, its
  * params the keys, its help the help. */
 #include "language/verbs.h"
 
@@ -51,7 +51,7 @@ static const Verb table[] = {
 
 /* by Places: what follows the name */
 static const struct {
-    const char *shape;
+    const char *pattern;
     const char *usage;
 } places[] = {
     [PLACES_NONE] = {"nVk", ""},
@@ -72,7 +72,7 @@ static const char *const terminal_patterns[] = {[2] = "nppVk", [3] = "npppVk", [
 static const char *component_pattern(const Component *row)
 {
     return row->places == PLACES_TERMINALS ? terminal_patterns[component_terminals(row)]
-                                           : places[row->places].shape;
+                                           : places[row->places].pattern;
 }
 
 static VerbGroup component_group(const Component *row)
@@ -87,7 +87,7 @@ static Verb component_verb(const Component *row)
                   .room = ROOM_MODEL,
                   .changes = CHANGES_MODEL,
                   .group = component_group(row),
-                  .shape = component_pattern(row),
+                  .pattern = component_pattern(row),
                   .later_keys = row->later_keys,
                   .brief = row->brief,
                   .help = row->help,

@@ -453,30 +453,30 @@ static void offer_keys(TypedLine *line, const Verb *verb)
 
 static void offer_operand(TypedLine *line, const Verb *verb, int first)
 {
-    const char *shape = verb->shape;
+    const char *pattern = verb->pattern;
     int operand = first, place = 0, at = 0;
 
-    while (operand < line->before.count && shape[at] != '\0' &&
-           strchr("nwWpPvVso", shape[at]) != NULL && shape[at + 1] != '*') {
-        place += shape[at] == 'p' || shape[at] == 'P';
+    while (operand < line->before.count && pattern[at] != '\0' &&
+           strchr("nwWpPvVso", pattern[at]) != NULL && pattern[at + 1] != '*') {
+        place += pattern[at] == 'p' || pattern[at] == 'P';
         at++;
         operand++;
     }
-    if (shape[at] != '\0' && shape[at] != 'k')
-        offer_letter(line, verb, shape[at], place);
+    if (pattern[at] != '\0' && pattern[at] != 'k')
+        offer_letter(line, verb, pattern[at], place);
     /* what may follow once nothing is missing; V and P may be skipped */
-    while (shape[at] != '\0' && strchr("PVWIiext*", shape[at]) != NULL)
+    while (pattern[at] != '\0' && strchr("PVWIiext*", pattern[at]) != NULL)
         at++;
-    for (; shape[at] != '\0'; at++) {
-        if (shape[at] == 'k' || (shape[at] == '=' && verb->component == NULL))
+    for (; pattern[at] != '\0'; at++) {
+        if (pattern[at] == 'k' || (pattern[at] == '=' && verb->component == NULL))
             offer_keys(line, verb);
-        else if (shape[at] == '@' && operand > first)
+        else if (pattern[at] == '@' && operand > first)
             offer(line, "at");
-        else if (shape[at] == 'y' && operand > first)
+        else if (pattern[at] == 'y' && operand > first)
             offer(line, "vs");
-        else if (shape[at] == 'a' && operand > first)
+        else if (pattern[at] == 'a' && operand > first)
             offer(line, "as");
-        else if (strchr(">:*", shape[at]) == NULL)
+        else if (strchr(">:*", pattern[at]) == NULL)
             break;
     }
 }
@@ -720,9 +720,9 @@ static void offer_behind_verb(TypedLine *line)
         offer_notations(line);
     else if (strcmp(last, "at") == 0)
         offer(line, "t");
-    else if (strchr(verb.shape, 'T') != NULL)
+    else if (strchr(verb.pattern, 'T') != NULL)
         offer_verbs(line);
-    else if (has_pair(line) && strchr(verb.shape, 'k') != NULL)
+    else if (has_pair(line) && strchr(verb.pattern, 'k') != NULL)
         offer_keys(line, &verb);
     else
         offer_operand(line, &verb, is_virtual ? 2 : 1);

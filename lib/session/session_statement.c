@@ -64,7 +64,7 @@ bool ct_prints(const ct_statement *statement)
 {
     const Verb *row = &statement_of(statement)->row;
 
-    return row->name != NULL && strchr(row->shape, '>') != NULL;
+    return row->name != NULL && strchr(row->pattern, '>') != NULL;
 }
 
 const ct_statement *ct_rest(const ct_statement *statement)

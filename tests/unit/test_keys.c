@@ -117,7 +117,7 @@ static void no_other_key_passes(void)
         Kit kit = kit_new();
         Spoiled spoiled = {0};
 
-        if (verb.room != ROOM_LATER && strchr(verb.shape, 'k') != NULL &&
+        if (verb.room != ROOM_LATER && strchr(verb.pattern, 'k') != NULL &&
             find(&verb, "nokey", &spoiled)) {
             EXPECT(kit_do(&kit, spoiled.before.at != NULL ? spoiled.before.at : "") == CT_OK);
             EXPECT_FAILS(&kit, spoiled.line.at, "has no key 'nokey'");

@@ -120,7 +120,7 @@ static void every_letter_of_a_shape_is_known(void)
     Verb verb;
 
     for (int i = 0; verb_at(i, &verb); i++)
-        EXPECT(strspn(verb.shape, "npPwWvVeiItsoxlCTy@ak=>!:*") == strlen(verb.shape));
+        EXPECT(strspn(verb.pattern, "npPwWvVeiItsoxlCTy@ak=>!:*") == strlen(verb.pattern));
 }
 
 static void keys_of_a_component_are_its_params(void)
