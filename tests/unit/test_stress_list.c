@@ -71,6 +71,31 @@ static void rounding_hands_over_to_the_stiff_method(void)
     kit_free(&kit);
 }
 
+/* A mass meets a wall, a spring for half a period, and leaves as fast as it came: where it leaves,
+ * the spring's stiffness is that of the point and of nothing behind it. */
+static void a_wall_gives_back_what_it_took(void)
+{
+    for (int e = 4; e <= 8; e++) {
+        const double half = acos(-1) / sqrt(3.6e10 / 3.25), rtol = pow(10, -e);
+
+        for (int k = 0; k < 4; k++) {
+            Kit kit = kit_new();
+            char run[100];
+
+            EXPECT_DONE(&kit, "scene planar\ngravity [0, 0]\nbody b mass=3.25\n"
+                              "prismatic s ground b axis=x\n"
+                              "actuator w s force=-3.6e10*ramp(s - 1)\n");
+            (void)snprintf(run, sizeof run,
+                           "init s = %g, s' = 5\nsimulate 0.2 rtol=%g method=radau", 0.5 + 0.01 * k,
+                           rtol);
+            EXPECT_DONE(&kit, run);
+            EXPECT_NEAR(kit_value(&kit, "s'"), -5, 100 * rtol);
+            EXPECT_NEAR(kit_value(&kit, "s"), 0.5 - 0.01 * k + 5 * half, 100 * rtol);
+            kit_free(&kit);
+        }
+    }
+}
+
 static void the_way_out_leads_out(void)
 {
     Kit kit = kit_new();
@@ -537,6 +562,7 @@ int main(void)
     RUN(what_is_not_resolved_has_no_number);
     RUN(a_tolerance_below_rounding_is_told);
     RUN(rounding_hands_over_to_the_stiff_method);
+    RUN(a_wall_gives_back_what_it_took);
     RUN(the_way_out_leads_out);
     RUN(a_light_crank_passes_its_dead_centre);
     RUN(a_flat_position_costs_no_accuracy);

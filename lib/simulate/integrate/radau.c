@@ -244,6 +244,31 @@ static StepOutcome solve_stages(Radau *r, double h, int *used)
     return DIVERGED;
 }
 
+/* A first step may begin on the very edge of a steep part, as where a contact ends. Then a Jacobian
+ * from the far side makes Newton's corrections small wherever the stages are, and the error, too:
+ * so the stages have to be right by the Jacobian at the step's end. */
+static StepOutcome confirm_stages(Radau *r, double h, int *used)
+{
+    const double end = r->base.before + h;
+    StepOutcome outcome = CONVERGED;
+
+    for (int round = 0; round < 2 && outcome == CONVERGED; round++) {
+        const double *rate = r->f + 2 * r->all; /* of the last stage, which is the end */
+
+        if (!evaluate_stages(r, h))
+            return UNDEFINED;
+        memcpy(r->column, rate, (size_t)r->all * sizeof(double));
+        if (!shifted_differentiate(r->shifted, end, r->point, r->column) || !factor(r, h))
+            return UNDEFINED;
+        correct_stages(r, h);
+        if (scaled_norm(r, r->delta, 3) <= 1)
+            return CONVERGED;
+        guess_stages(r, h, false);
+        outcome = solve_stages(r, h, used);
+    }
+    return outcome == CONVERGED ? DIVERGED : outcome;
+}
+
 /* error of the embedded formula, in units of the tolerance */
 static double step_error(Radau *r, double h)
 {
@@ -332,7 +357,10 @@ static bool try_step(Radau *r, double *h, double end, int *failures)
     stepper_begin(&r->base, r->base.before, r->old, tried);
     if ((r->fresh || find_jacobian(r)) && (r->factored == tried || factor(r, tried)))
         outcome = solve_stages(r, tried, &used);
+    if (outcome == CONVERGED && r->step == 0 && !r->is_linear)
+        outcome = confirm_stages(r, tried, &used);
     if (outcome != CONVERGED) {
+        r->fresh = r->fresh && (r->step > 0 || r->is_linear);
         *failures += outcome == UNDEFINED;
         *h = 0.5 * tried;
         return false;
