@@ -223,6 +223,35 @@ static void fading_swings_end_in_rest_and_say_so(void)
     kit_free(&kit);
 }
 
+/* A relay about a place that swings itself: its swings fade, and the load goes with the place. A
+ * method that doesn't follow them names ways that do. */
+static void swings_that_one_method_loses_another_follows(void)
+{
+    static const char *const ways[] = {"method=bdf", "method=radau", "method=bdf rtol=1e-9"};
+
+    for (int i = 0; i < (int)(sizeof ways / sizeof ways[0]); i++) {
+        Kit kit = kit_new();
+        char run[80];
+
+        EXPECT_DONE(&kit, "scene planar\nbody m mass=1.3419392738166587 inertia=0\n"
+                          "prismatic s ground m axis=x\ndamper d s d=0.7311202963451392\n"
+                          "actuator f s force=-6.4037263785534186*sign(s - 0.17587301774142061*"
+                          "sin(0.44055690581567297*t))\n"
+                          "init s = -0.16210986972542796, s' = 0.77790355330482241\n");
+        (void)snprintf(run, sizeof run, "simulate 55.06368571047728 %s", ways[i]);
+        if (i > 0 || kit_do(&kit, run) == CT_OK) {
+            if (i > 0)
+                EXPECT_DONE(&kit, run);
+            EXPECT(is_near(kit_value(&kit, "s"),
+                           0.17587301774142061 * sin(0.44055690581567297 * 55.06368571047728),
+                           1e-4));
+        } else {
+            EXPECT_HOLDS(kit.error.hint, "a smaller rtol=, or method=radau");
+        }
+        kit_free(&kit);
+    }
+}
+
 /* Where it sticks nothing but the work isn't straight: it is integrated as well as the tolerance
  * asks all the same, for what the belt gives less what friction takes is what the spring has. */
 static void work_is_as_true_while_all_else_is_straight(void)
@@ -240,6 +269,8 @@ static void work_is_as_true_while_all_else_is_straight(void)
         EXPECT_DONE(&kit, run);
         drift = kit.text != NULL ? strstr(kit.text, "energy drift") : NULL;
         EXPECT(drift == NULL || strtod(drift + strlen("energy drift"), NULL) < 1e-3);
+        (void)snprintf(run, sizeof run, "simulate 20 rtol=1e-3 method=%s", methods[i]);
+        EXPECT_DONE(&kit, run);
         kit_free(&kit);
     }
 }
@@ -258,6 +289,7 @@ int main(void)
     RUN(embedded_equations_stick_and_slip);
     RUN(steps_of_floor_are_slid_along);
     RUN(fading_swings_end_in_rest_and_say_so);
+    RUN(swings_that_one_method_loses_another_follows);
     RUN(work_is_as_true_while_all_else_is_straight);
     return test_end();
 }

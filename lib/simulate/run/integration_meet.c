@@ -122,8 +122,11 @@ static Status switches_endlessly(const Integration *m, int i, Diag *diag)
                         "of two values in its place, as vsource E a 0 if(L1.i < 2, 12, 0), whose "
                         "mean then holds the condition");
     else
-        diag_hint(diag, "a hysteresis, or a steep but continuous law such as tanh(x/0.001) in the "
-                        "place of sign(x), has a motion there");
+        diag_hint(
+            diag,
+            "a hysteresis, or a steep but continuous law such as tanh(x/0.001) in the place of "
+            "sign(x), has a motion there; a smaller rtol=%s may follow swings that fade",
+            m->stepper->method->has_history ? ", or method=radau," : "");
     text_free(&what);
     return E_SOLVER;
 }
