@@ -161,7 +161,7 @@ Expr expr_rebuild(Arena *arena, Expr e, const Expr *args);
 /* derivative of the call e, given those of its arguments */
 Expr op_derivative(Arena *arena, Expr e, const Expr *rates);
 
-/* --- power.c --- */
+/* --- product.c --- */
 
 double power_value(double base, Expr exponent, double exponent_value);
 
