@@ -92,9 +92,6 @@ Branchlike *scalar_branch(System *system, const Instance *instance, int which);
 /* its member names: "i", or of an edge with a suffix "s.i" */
 const char *branch_member(const System *system, const Branchlike *branch, bool through);
 TreeKind branch_tree(const System *system, const Branchlike *branch);
-/* the next rate of a network symbol; E_MISSING where it can't be told */
-MUST_USE Status network_rate(System *system, Expr symbol, Expr *out, Diag *diag);
-bool network_knows(const System *system, Expr symbol);
 /* the number of a new unknown, whose symbol is of that name and kind */
 int network_new_unknown(System *system, Unknown unknown, const char *name, SymbolKind kind);
 /* one rate more of an unknown, as a symbol */

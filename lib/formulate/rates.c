@@ -23,7 +23,7 @@ void network_know(System *system, Expr symbol, int unknown, int order)
     system->network->rate_of.at[number] = order;
 }
 
-bool network_knows(const System *system, Expr symbol)
+static bool is_of_network(const System *system, Expr symbol)
 {
     int number = expr_symbol_number(symbol);
 
@@ -73,7 +73,8 @@ static int derivations(const System *system, int unknown)
     return count;
 }
 
-Status network_rate(System *system, Expr symbol, Expr *out, Diag *diag)
+/* the next rate of a network symbol; E_MISSING where it can't be told */
+static Status network_rate(System *system, Expr symbol, Expr *out, Diag *diag)
 {
     int number = expr_symbol_number(symbol);
     int k = system->network->unknown_of.at[number] - 1;
@@ -160,7 +161,7 @@ Status system_rate_of(System *system, Expr e, Expr *out, Diag *diag)
     for (int i = 0; i < count; i++) {
         Expr rate = NULL;
 
-        if (!network_knows(system, symbols[i]))
+        if (!is_of_network(system, symbols[i]))
             continue;
         CHECK(network_rate(system, symbols[i], &rate, diag));
         LIST_PUSH(moved, symbols[i]);

@@ -27,8 +27,9 @@ static Status report_circle(const State *state, const int *from, int definition,
     return E_VALUE;
 }
 
-Status definition_check_circle(const State *state, int definition, const int *uses, int count,
-                               Place place, Diag *diag)
+/* Refuses when `uses` lead back to the definition. */
+static Status check_circle(const State *state, int definition, const int *uses, int count,
+                           Place place, Diag *diag)
 {
     int n = state->definitions.count;
     int *from = NEW_ARRAY(int, n); /* which one led here; -1 the new text itself, -2 not seen */
@@ -153,8 +154,8 @@ static Status change_parameter(State **in, Definition *d, Expr body, Measure mea
     const Effect effect = body != before ? EFFECT_VALUES : EFFECT_NONE;
     Status status = OK;
 
-    CHECK(definition_check_circle(state, definition_index(state, d), scope->uses.at,
-                                  scope->uses.count, statement->name_place, diag));
+    CHECK(check_circle(state, definition_index(state, d), scope->uses.at, scope->uses.count,
+                       statement->name_place, diag));
     CHECK(try_body(state, d, body, statement, outcome, diag));
     if (!measure_same(d->measure, measure)) {
         status = replace_line(in, definition_index(state, d), text, scope, statement->value->place,
@@ -247,8 +248,8 @@ Status apply_law(State **state, const Statement *statement, Outcome *outcome, Di
         CHECK(check_new_name(s, statement->name, DEFINES_LAW, statement->name_place, diag));
     CHECK(scope_expression(&scope, statement->value, &body, diag));
     if (law != NULL) {
-        CHECK(definition_check_circle(s, definition_index(s, law), scope.uses.at, scope.uses.count,
-                                      statement->name_place, diag));
+        CHECK(check_circle(s, definition_index(s, law), scope.uses.at, scope.uses.count,
+                           statement->name_place, diag));
         /* in other words also where it comes to the same: their units may differ */
         if (strcmp(s->lines.at[law->line].text, text) != 0)
             status = replace_line(
@@ -290,8 +291,8 @@ static Status change_output(State **state, Definition *output, Expr body, Measur
     bool is_same = output->body == body;
     Status status = OK;
 
-    CHECK(definition_check_circle(s, definition_index(s, output), scope->uses.at, scope->uses.count,
-                                  pair->name_place, diag));
+    CHECK(check_circle(s, definition_index(s, output), scope->uses.at, scope->uses.count,
+                       pair->name_place, diag));
     if (is_used(s, definition_index(s, output)) &&
         !(is_same && measure_same(output->measure, measure))) {
         status = replace_line(state, definition_index(s, output), text, scope, pair->name_place,

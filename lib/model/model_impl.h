@@ -196,7 +196,6 @@ StateMark state_mark(const State *state);
 bool state_go_back(State **state, const StateMark *mark);
 /* Let go of the states before that are more than a session should hold; a bound in bytes. */
 void state_forget_before(State *state, size_t bytes);
-void state_free_changes(State *state);
 Setup state_setup(const State *state);
 /* Note what a statement changed of the setup. */
 void state_note_setup(State *state, const Setup *before);
@@ -279,13 +278,9 @@ typedef struct Scope {
 MUST_USE Status scope_expression(Scope *scope, const Syntax *syntax, Expr *out, Diag *diag);
 /* up to MAX_VALUE entries; a scalar is refused */
 MUST_USE Status scope_vector(Scope *scope, const Syntax *syntax, Expr *out, int *count, Diag *diag);
-bool scope_has_variables(const Scope *scope);
 void scope_use(Scope *scope, int definition);
 MUST_USE Status function_call(Scope *scope, const Syntax *syntax, const Expr *args, Expr *out,
                               Diag *diag);
-/* d/dt along the primed names of variables */
-MUST_USE Status time_derivative(Arena *arena, Expr e, int primes, Place place, Expr *out,
-                                Diag *diag);
 
 /* --- dimensions (measure.c, measure_check.c) --- */
 
@@ -358,9 +353,6 @@ double definition_value(State *state, int definition);
 void definitions_forget_values(State *state); /* of parameters: they follow from one another */
 /* an expression of parameters alone, as they are now */
 double state_number(State *state, Expr body);
-/* Refuses when `uses` lead back to the definition. */
-MUST_USE Status definition_check_circle(const State *state, int definition, const int *uses,
-                                        int count, Place place, Diag *diag);
 /* a new last line; takes over the uses of the scope (NULL: none) */
 int line_add(State *state, const char *text, int definition, int part, const Scope *scope);
 void line_uses(State *state, Line *line, const Scope *scope);

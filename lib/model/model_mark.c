@@ -210,7 +210,7 @@ static void change_free(Change *change)
         mem_free(change->was.setup);
 }
 
-void state_free_changes(State *state)
+static void state_free_changes(State *state)
 {
     for (int i = 0; i < state->changes.count; i++)
         change_free(&state->changes.at[i]);

@@ -34,7 +34,7 @@ static const struct {
     [SCOPE_ASK] = {true, true, true, "this", ""},
 };
 
-bool scope_has_variables(const Scope *scope)
+static bool scope_has_variables(const Scope *scope)
 {
     return scopes[scope->kind].variables;
 }
@@ -67,7 +67,8 @@ static Expr number(Arena *arena, const Syntax *syntax)
 
 /* --- derivatives in time --- */
 
-Status time_derivative(Arena *arena, Expr e, int primes, Place place, Expr *out, Diag *diag)
+/* d/dt along the primed names of variables */
+static Status time_derivative(Arena *arena, Expr e, int primes, Place place, Expr *out, Diag *diag)
 {
     enum { HIGHEST = 4 }; /* each one makes the expression larger */
 

@@ -52,7 +52,7 @@ static Form written_form(System *system, Form form)
                : FORM_AUGMENTED;
 }
 
-Status count_total(System *system, Form form, bool shared, OpCount *out, Diag *diag)
+static Status count_total(System *system, Form form, bool shared, OpCount *out, Diag *diag)
 {
     const Form written = written_form(system, form);
     OpCount sum = {0, 0, 0};

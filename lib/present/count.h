@@ -12,7 +12,6 @@ const char *count_block_name(int i);
  * such block. */
 MUST_USE Status count_block(System *system, Form form, const char *name, bool shared, OpCount *out,
                             Diag *diag);
-MUST_USE Status count_total(System *system, Form form, bool shared, OpCount *out, Diag *diag);
 
 /* A choice of trees and what its equations cost. */
 typedef struct TreeCost {

@@ -68,8 +68,10 @@ static void add_latex(Text *out, const char *left, const char *relation, const c
 
 enum { SHORT_LEFT = 24 }; /* columns */
 
-void view_line(Text *out, const View *view, const char *lead, const char *left,
-               const char *relation, const char *right)
+/* `left relation right` as a line of the notation, behind `lead` in text. Latex gets an alignment
+ * mark before the relation. */
+static void add_line(Text *out, const View *view, const char *lead, const char *left,
+                     const char *relation, const char *right)
 {
     Text body = {0};
     Page page = view->page;
@@ -216,7 +218,7 @@ static void print_equation(Text *out, const View *view, const Equation *equation
                                         : write_sum(view, equation->left.at, equation->left.count);
     char *right = write_sum(view, equation->right.at, equation->right.count);
 
-    view_line(out, view, equation->lead != NULL ? equation->lead : "", left, " = ", right);
+    add_line(out, view, equation->lead != NULL ? equation->lead : "", left, " = ", right);
     mem_free(left);
     mem_free(right);
 }
@@ -251,7 +253,7 @@ static void print_definitions(Text *out, const View *view, const Abbreviation *n
 
         text_add(&typed, notation_row(view->page.notation)->fresh);
         text_add(&typed, left);
-        view_line(out, view, i == 0 ? "where " : "      ", typed.at, " = ", right);
+        add_line(out, view, i == 0 ? "where " : "      ", typed.at, " = ", right);
         text_free(&typed);
         mem_free(left);
         mem_free(right);
@@ -291,7 +293,7 @@ static void print_turns(Text *out, const View *view, const Expr *terms, int coun
                   "than half a turn from the angle",
                   names.at);
     if (view_kind(view) == NOTATION_TYPESET)
-        view_line(out, view, "", words.at, NULL, "");
+        add_line(out, view, "", words.at, NULL, "");
     else
         view_comment(out, view, words.at);
     text_free(&names);

@@ -25,11 +25,6 @@ static inline NotationKind view_kind(const View *view)
     return notation_row(view->page.notation)->kind;
 }
 
-/* `left relation right` as a line of the notation, behind `lead` in text. Latex gets an alignment
- * mark before the relation. */
-void view_line(Text *out, const View *view, const char *lead, const char *left,
-               const char *relation, const char *right);
-
 /* "2 degrees of freedom" where they are known or nothing constrains them, else the difference "n -
  * m = 1": redundant constraints make it less than what is free */
 void view_freedoms(Text *out, const System *system, int freedoms);

@@ -78,7 +78,6 @@ static inline LinearNumber gradient(const Work *w, int row, int column)
 MUST_USE Status linear_point(Work *w, Diag *diag);
 int linear_equation(const Work *w, int r); /* row of the r-th of the equations in use */
 int linear_unknown(const Work *w, int k);  /* column of the k-th of what follows */
-bool linear_is_independent(const Work *w, int speed);
 /* Complete v, whose independent entries are set: Phi_u v + right = 0 in the dependent ones. */
 void linear_complete(const Work *w, const LinearNumber *right, LinearNumber *v);
 

@@ -195,7 +195,7 @@ static void evaluate_geometry(Work *w)
     mem_free(errors);
 }
 
-bool linear_is_independent(const Work *w, int speed)
+static bool is_independent(const Work *w, int speed)
 {
     for (int i = 0; i < w->freedoms; i++)
         if (partitioning_independent(w->partitioning)[i] == speed)
@@ -263,7 +263,7 @@ static bool factor_dependent(Work *w)
         for (int j = 0, column = 0; j < nu; j++) {
             const LinearNumber entry = w->phi_u[w->in_use[r] * nu + j];
 
-            if (linear_is_independent(w, j))
+            if (is_independent(w, j))
                 continue;
             w->dependent[r * m + column] = entry.value;
             w->dependent_error[r * m + column++] = entry.error;
@@ -284,14 +284,14 @@ void linear_complete(const Work *w, const LinearNumber *right, LinearNumber *v)
         LinearNumber sum = right[r];
 
         for (int j = 0; j < nu; j++)
-            if (linear_is_independent(w, j))
+            if (is_independent(w, j))
                 number_add(&sum, w->phi_u[rows[r] * nu + j], v[j]);
         b[r] = -sum.value;
         error[r] = sum.error;
     }
     square_solve(w->held, b, error, found, off);
     for (int j = 0, column = 0; j < nu; j++)
-        if (!linear_is_independent(w, j)) {
+        if (!is_independent(w, j)) {
             v[j] = (LinearNumber){found[column], off[column]};
             column++;
         }

@@ -81,10 +81,6 @@ MUST_USE Status integration_settle_surfaces(Integration *m, bool *entered, Diag 
 MUST_USE Status integration_go_on(Integration *m, double t, const double *y, bool *entered,
                                   Diag *diag);
 
-/* From here on other equations hold, with y for a state; *changed: events gave it new values. */
-MUST_USE Status integration_enter(Integration *m, const Segment *segment, double t, const double *y,
-                                  bool *changed, Diag *diag);
-
 /* --- surfaces (integration_slide.c) --- */
 
 /* what is 0 on a surface is so, as far as rounding lets one tell */
@@ -155,8 +151,6 @@ MUST_USE Status integration_meet_time(Integration *m, Jump jump, Diag *diag);
  * asked for. */
 MUST_USE Status integration_meet_switch(Integration *m, int condition, double when, bool *again,
                                         Diag *diag);
-/* E_SOLVER where switches come without a pause; `condition` is the last of them */
-MUST_USE Status integration_check_pace(Integration *m, int condition, Diag *diag);
 /* End the last step where a condition of an event is zero, and go on from there; likewise. */
 MUST_USE Status integration_meet_event(Integration *m, int condition, double when, bool *again,
                                        Diag *diag);

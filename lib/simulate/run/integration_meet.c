@@ -131,7 +131,8 @@ static Status switches_endlessly(const Integration *m, int i, Diag *diag)
     return E_SOLVER;
 }
 
-Status integration_check_pace(Integration *m, int i, Diag *diag)
+/* E_SOLVER where switches come without a pause; i is the last of them */
+static Status check_pace(Integration *m, int i, Diag *diag)
 {
     double span = m->plan->to - m->plan->from;
 
@@ -200,7 +201,7 @@ Status integration_meet_switch(Integration *m, int i, double when, bool *again, 
     integration_conditions_at(m, m->stepper->t);
     m->band[i] = fmax(10 * fabs(m->conditions[i]), fmax(1e-10 * m->largest[i], m->noise[i]));
     m->mode[i] = is_told ? 1 : -m->mode[i];
-    CHECK(integration_check_pace(m, i, diag));
+    CHECK(check_pace(m, i, diag));
     integration_note_chatter(m, i, m->stepper->t);
     integration_tell_settling(m, i);
     m->root = on_surface || (guard.surface >= 0 && is_led_back(m, i, crossed)) ? i : ROOT_NONE;
@@ -279,7 +280,7 @@ Status integration_meet_event(Integration *m, int i, double when, bool *again, D
     memcpy(sides, m->mode + first, (size_t)(m->count - first) * sizeof(int));
     events_settle(m->ev, t, span, m->y, i - first, sides);
     CHECK(integration_take_events(m, t, sides, &changed, diag));
-    CHECK(integration_check_pace(m, i, diag));
+    CHECK(check_pace(m, i, diag));
     CHECK(integration_go_on(m, t, m->y, &entered, diag));
 done:
     mem_free(sides);

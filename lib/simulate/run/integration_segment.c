@@ -105,8 +105,9 @@ static void add_corner(Integration *m, double t, const double *y)
         grid_add(m->plan->corners, t, m->segment.phase, y, m->length);
 }
 
-Status integration_enter(Integration *m, const Segment *segment, double t, const double *y,
-                         bool *changed, Diag *diag)
+/* From here on other equations hold, with y for a state; *changed: events gave it new values. */
+static Status enter(Integration *m, const Segment *segment, double t, const double *y,
+                    bool *changed, Diag *diag)
 {
     bool is_stiff = m->plan->method == NULL && m->out->method->is_stiff;
     Status status = OK;
@@ -188,7 +189,7 @@ static Status slide(Integration *m, bool *entered, bool *changed, Diag *diag)
         m->plan->choose(m->plan->context, t, m->low, m->high, y, at, count, &next, entered, diag));
     if (*entered) {
         integration_reach(m);
-        CHECK(integration_enter(m, &next, t, y, changed, diag));
+        CHECK(enter(m, &next, t, y, changed, diag));
     }
     motion_window(m->segment.motion, m->low, m->high);
     if (*entered)
@@ -245,7 +246,7 @@ Status integration_go_on(Integration *m, double t, const double *y, bool *entere
         mem_free(m->reach);
         mem_free(m->chatters);
         m->reach = NULL;
-        CHECK(integration_enter(m, &next, t, behind, &changed, diag));
+        CHECK(enter(m, &next, t, behind, &changed, diag));
         memcpy(m->y, m->stepper->y, (size_t)m->length * sizeof(double));
     }
     motion_window(m->segment.motion, m->low, m->high);
