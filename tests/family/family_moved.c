@@ -355,7 +355,7 @@ static Verdict driven_loops_member(Member *m)
         return REFUSED;
     (void)snprintf(driver, sizeof driver, "driver D j%d%s = %.17g + %.17g*t", number,
                    coordinate_name(&s.joint[number], k), s.joint[number].c[k],
-                   between(m, -0.05, 0.05)); /* short of dead centres */
+                   between(m, -5, 5)); /* now and then past a dead centre */
     tell(m, "%s%s\n", s.text, driver);
     sound = follow_driver(m, &s, 0, driver, first);
     if (sound && isnan(first[0].r[0]))

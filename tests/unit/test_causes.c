@@ -42,9 +42,71 @@ static void values_at_different_ends_are_said_to_be(void)
     kit_free(&kit);
 }
 
+/* a slider drawn beyond crank and rod, and a four-bar's crank driven beyond its change point: at
+ * 1.2 + 0.5 t = 0.5 + 1, and where the diagonal has the length of rod and rocker */
+static void drivers_that_lead_too_far_are_named(void)
+{
+    static const char *const trees[] = {"", "tree absolute\n", "form embedded\n"};
+    static const char *const methods[] = {"dop853", "radau", "bdf", "ida"};
+    static const char *const scenes[] = {
+        "scene planar\n"
+        "body crank mass=1 inertia=0.1\n"
+        "body rod mass=1 inertia=0.1\n"
+        "body slider mass=1 inertia=0.1\n"
+        "arm c0 crank [-0.25, 0]\n"
+        "arm c1 crank [0.25, 0]\n"
+        "arm r0 rod [-0.5, 0]\n"
+        "arm r1 rod [0.5, 0]\n"
+        "revolute a ground c0\n"
+        "revolute b c1 r0\n"
+        "revolute c r1 slider\n"
+        "prismatic d ground slider axis=[1, 0]\n"
+        "guess a = 1\n"
+        "guess b = -1.5\n"
+        "driver D d = 1.2 + 0.5*t\n",
+        "scene planar\n"
+        "body crank mass=1 inertia=0.1\n"
+        "body rod mass=1 inertia=0.1\n"
+        "body rocker mass=1 inertia=0.1\n"
+        "arm c0 crank [-0.25, 0]\n"
+        "arm c1 crank [0.25, 0]\n"
+        "arm r0 rod [-0.3, 0]\n"
+        "arm r1 rod [0.3, 0]\n"
+        "arm o0 rocker [-0.3, 0]\n"
+        "arm o1 rocker [0.3, 0]\n"
+        "arm post ground [1, 0]\n"
+        "revolute a ground c0\n"
+        "revolute b c1 r0\n"
+        "revolute c r1 o1\n"
+        "revolute d post o0\n"
+        "guess b = 0.5\n"
+        "guess d = 2\n"
+        "driver D a = 0.2 + t\n",
+    };
+    /* cos(0.2 + t) = (0.5^2 + 1 - 1.2^2) / (2 * 0.5) */
+    const double ends[] = {0.6, acos((0.25 + 1 - 1.44) / 1) - 0.2};
+
+    for (int i = 0; i < 2 * 3 * 4; i++) {
+        const int scene = i % 2;
+        Kit kit = kit_new();
+        const char *when;
+        char run[60];
+
+        EXPECT_DONE(&kit, scenes[scene]);
+        EXPECT_DONE(&kit, trees[i / 2 % 3]);
+        (void)snprintf(run, sizeof run, "simulate 2 every=0.1 method=%s", methods[i / 6]);
+        EXPECT(kit_do(&kit, run) != CT_OK);
+        EXPECT_HOLDS(kit.error.message, ": D leads where ");
+        when = strstr(kit.error.message, "at t = ");
+        EXPECT(when != NULL && fabs(strtod(when + 7, NULL) - ends[scene]) < 1e-5);
+        kit_free(&kit);
+    }
+}
+
 int main(void)
 {
     RUN(the_cause_is_named_at_its_place);
     RUN(values_at_different_ends_are_said_to_be);
+    RUN(drivers_that_lead_too_far_are_named);
     return test_end();
 }

@@ -1,12 +1,17 @@
-/* causes.c: frames at the same point, and what has no mass */
+/* causes.c: frames at the same point, what has no mass, a driver at the end of its loop */
 #include "simulate/equations/causes.h"
 
+#include "algebra/linear.h"
 #include "base/memory.h"
+#include "base/text.h"
+#include "formulate/edges.h"
 #include "simulate/equations/rows.h"
 
 #include <math.h>
+#include <string.h>
 
 #define CLOSE 1e-12 /* m: positions are solved to less */
+#define PART  1e-3  /* of the largest part in a driver's row: less is rounding */
 #define BRIEF 1e-6  /* of a time that is short: rates are as good as constant */
 
 static bool value_at(const Layout *l, Parameters *parameters, Expr e, double t, const double *y,
@@ -100,6 +105,93 @@ static bool tell_massless(const Layout *l, const char *what, Diag *diag)
         return true;
     }
     return false;
+}
+
+/* what rows take part with in a driver's row, and what is left of it */
+static double find_parts(const Layout *l, const double *phi_u, int driver, double *parts)
+{
+    const double *row = phi_u + (ptrdiff_t)driver * l->nu;
+    double *others = NEW_ARRAY(double, l->nu * l->m);
+    double *own = NEW_ARRAY(double, l->nu);
+    double left = 0;
+
+    for (int k = 0; k < l->m; k++)
+        for (int j = 0; j < l->nu; j++)
+            others[j * l->m + k] = k == driver ? 0 : phi_u[(ptrdiff_t)k * l->nu + j];
+    if (rows_solve(others, l->nu, l->m, row, parts) < 0)
+        left = NAN;
+    matrix_times(others, l->nu, l->m, parts, own);
+    for (int j = 0; j < l->nu; j++)
+        left = hypot(left, row[j] - own[j]);
+    mem_free(others);
+    mem_free(own);
+    return left;
+}
+
+double cause_own_part(const Layout *l, const Equations *equations, int driver)
+{
+    double *parts = NEW_ARRAY(double, l->m);
+    const double left = find_parts(l, equations->phi_u, driver, parts);
+
+    mem_free(parts);
+    return left;
+}
+
+static void add_joint(const char *name, const char **named, int *count)
+{
+    for (int i = 0; i < *count; i++)
+        if (strcmp(named[i], name) == 0)
+            return;
+    named[(*count)++] = name;
+}
+
+/* joints that a row is of or that move it, each once */
+static void add_joints(const Layout *l, const double *phi_u, int row, const char **named,
+                       int *count)
+{
+    const System *system = l->system;
+
+    if (!system_constraint(system, row)->is_driver)
+        add_joint(system_instance_name(system, system_constraint(system, row)->instance), named,
+                  count);
+    for (int j = 0; j < l->nu; j++) {
+        const int q = speed_coordinate(system, j);
+        Stand stand;
+
+        if (q < 0 || phi_u[(ptrdiff_t)row * l->nu + j] == 0)
+            continue;
+        stand = system_stand(system, system_q(system, q)->name);
+        if (stand.kind == STANDS_COORDINATE && stand.instance->row->family != FAMILY_BODY)
+            add_joint(stand.instance->name, named, count);
+    }
+}
+
+void cause_leading(const Layout *l, const Equations *equations, int driver, const char *what,
+                   Diag *diag)
+{
+    const ConstraintRow *row = system_constraint(l->system, driver);
+    const char **named = NEW_ARRAY(const char *, l->m + l->nu);
+    double *parts = NEW_ARRAY(double, l->m);
+    Text text = {0};
+    double most = 0;
+    int count = 0;
+
+    (void)find_parts(l, equations->phi_u, driver, parts);
+    for (int k = 0; k < l->m; k++)
+        most = fmax(most, fabs(parts[k]));
+    for (int k = 0; k < l->m; k++)
+        if (k == driver || fabs(parts[k]) > PART * most)
+            add_joints(l, equations->phi_u, k, named, &count);
+    for (int i = 0; i < count; i++)
+        text_addf(&text, "%s%s", i == 0 ? "" : i == count - 1 ? " and " : ", ", named[i]);
+    (void)diag_set(diag, E_SOLVER, "%s: %s leads where %s can't follow", what,
+                   system_instance_name(l->system, row->instance),
+                   count > 0 ? text.at : "the parts");
+    diag_hint(diag, "keep its law within the loop's reach, lengthen the loop's parts, or end the "
+                    "run before with an event and do=stop");
+    text_free(&text);
+    mem_free(named);
+    mem_free(parts);
 }
 
 bool cause_tell(const Layout *layout, Parameters *parameters, double t, const double *y,

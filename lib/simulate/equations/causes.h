@@ -16,4 +16,11 @@ bool cause_meeting(const Layout *layout, Parameters *parameters, double t, const
 bool cause_closing(const Layout *layout, Parameters *parameters, double t, const double *y,
                    const double *rate, double time, const char *what, Diag *diag);
 
+/* How much of a driver's row the other constraint rows don't say, in its own unit: it vanishes
+ * where the driver comes to the end of its loop. Equations as they are at the place. */
+double cause_own_part(const Layout *layout, const Equations *equations, int driver);
+/* Set message and hint: which joints that driver leads too far. */
+void cause_leading(const Layout *layout, const Equations *equations, int driver, const char *what,
+                   Diag *diag);
+
 #endif

@@ -14,6 +14,12 @@
 #define ENOUGH_STEPS 1e4  /* of a run whose tolerance is attainable */
 #define COARSEST     1e-7 /* a tolerance that is worth trying */
 
+#define DWINDLING                                                                                  \
+    200             /* steps: what they get over together is compared with that of those before    \
+                     */
+#define WANING 3    /* times on end that it has become less; a transient's steps grow */
+#define SHORT  1e-6 /* of the run, each time */
+
 /* numbers without a pattern (Knuth's multiplicative hashing) */
 static int scattered(int i, int pass)
 {
@@ -79,6 +85,23 @@ static Status give_up(const Stepper *s, double h, Diag *diag)
     return E_SOLVER;
 }
 
+/* Towards a place where the solution ends steps become ever shorter, by as much as rounding leaves
+ * of the rates there: thousands of them. A tolerance below that is another matter. */
+static bool wanes(Stepper *s)
+{
+    Waning *w = &s->waning;
+    const double way = s->t - w->t;
+
+    if (s->counts.steps - w->steps < DWINDLING)
+        return false;
+    w->times = way < w->way && way < SHORT * s->control.span ? w->times + 1 : 0;
+    w->way = way;
+    w->steps = s->counts.steps;
+    w->t = s->t;
+    return w->times >= WANING && 2 * way / DWINDLING < control_asked(&s->control) &&
+           !(rounding(s, way / DWINDLING) > NOTICED);
+}
+
 Status headway_check(Headway *headway, Stepper *s, int64_t steps, bool *is_rounding, Diag *diag)
 {
     const int64_t count = steps - headway->steps;
@@ -86,6 +109,8 @@ Status headway_check(Headway *headway, Stepper *s, int64_t steps, bool *is_round
     double h;
 
     *is_rounding = false;
+    if (wanes(s))
+        return solver_failure(diag, s->t, "the step became too small");
     if (count < STEPS)
         return OK;
     h = way / (double)count;

@@ -129,6 +129,13 @@ typedef struct Method {
     bool solves_dae;     /* takes ode->dae where it is offered: multipliers are unknowns, too */
 } Method;
 
+/* how steps since the last start become shorter */
+typedef struct Waning {
+    int64_t steps; /* and t: when it was looked at last */
+    double t, way; /* s; way: what the steps before that had got over together */
+    int times;     /* on end that it has become less */
+} Waning;
+
 struct Stepper {
     const Method *method;
     const Ode *ode;
@@ -141,6 +148,7 @@ struct Stepper {
     double next;   /* step it would take next, s; 0: to be chosen, as after a start, when its driver
                     * may say it */
     int stuck;     /* steps on end that end where they began: numbers hold no shorter ones */
+    Waning waning; /* headway.h */
     double bound;  /* by whoever drives it: no longer step now, s; 0: free */
     bool may_bend; /* likewise: something steep acts that may end within the step */
     bool has_pulses;  /* likewise: what acts for a short time takes many short steps */

@@ -35,6 +35,7 @@ void stepper_place(Stepper *s, double t, const double *y)
     s->t = s->before = t;
     s->next = 0;
     s->stuck = 0;
+    s->waning = (Waning){.steps = s->counts.steps, .t = t};
 }
 
 Status stepper_start(Stepper *s, double t, const double *y, double *rate, Diag *diag)

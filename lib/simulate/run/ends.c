@@ -1,4 +1,5 @@
-/* ends.c: frames that come together, forces without a value, rounding, growth without bound */
+/* ends.c: frames that come together, drivers that lead too far, forces without a value, rounding,
+ * growth without bound */
 #include "simulate/run/ends.h"
 
 #include "base/memory.h"
@@ -14,6 +15,7 @@
 #define FIRST     1e-16
 #define STEP      0.1  /* of that: what accuracy alone would take at once */
 #define IMMINENT  1e-6 /* of the run: what happens that soon is what ends it */
+#define ENDING    1e-2 /* of what a driver's row had of its own at the start */
 #define BOUNDLESS 1e3  /* times the size at the start; growing that fast, too */
 
 /* where a run stands, and how it goes on from there */
@@ -141,6 +143,52 @@ static bool tell_meeting(RunEnd *e, Diag *diag)
                          IMMINENT * e->span, before, diag);
 }
 
+/* The first driver whose row has lost what it had of its own at the start; -1: none. */
+static int driver_at_end(RunEnd *e, const Ode *ode)
+{
+    const Layout *l = e->phase->layout;
+    const Equations *eq = numbers_equations(e->phase->numbers);
+    double *begun = NEW_ARRAY(double, l->m);
+    double *rate = NEW_ARRAY(double, e->phase->length);
+    int found = -1;
+
+    look_ahead(e, 0);
+    memcpy(e->ahead, e->at_start, (size_t)(l->n + l->nu) * sizeof(double));
+    /* rows are known where rates aren't */
+    (void)ode->rate(ode->context, e->t, e->ahead, rate);
+    for (int k = 0; k < l->m; k++)
+        begun[k] = system_constraint(l->system, k)->is_driver ? cause_own_part(l, eq, k) : 0;
+    (void)ode->rate(ode->context, e->t, e->y, rate);
+    for (int k = 0; k < l->m && found < 0; k++)
+        if (begun[k] > 0 && cause_own_part(l, eq, k) < ENDING * begun[k])
+            found = k;
+    mem_free(begun);
+    mem_free(rate);
+    return found;
+}
+
+static bool has_driver(const RunEnd *e)
+{
+    const Layout *l = e->phase->layout;
+    bool found = false;
+
+    for (int k = 0; k < l->m; k++)
+        found = found || system_constraint(l->system, k)->is_driver;
+    return found;
+}
+
+static bool tell_leading(RunEnd *e, const Ode *ode, Diag *diag)
+{
+    const int driver = has_driver(e) ? driver_at_end(e, ode) : -1;
+    char before[sizeof diag->message];
+
+    if (driver < 0)
+        return false;
+    memcpy(before, diag->message, sizeof before);
+    cause_leading(e->phase->layout, numbers_equations(e->phase->numbers), driver, before, diag);
+    return true;
+}
+
 static void tell(RunEnd *e, Stepper *stepper, bool *is_rounding, Diag *diag)
 {
     int growing;
@@ -149,7 +197,7 @@ static void tell(RunEnd *e, Stepper *stepper, bool *is_rounding, Diag *diag)
     Pushing pushing;
 
     e->soon = fmax(SOON * fmin(e->span, time), fmin(2 * step, time));
-    if (tell_meeting(e, diag)) {
+    if (tell_leading(e, stepper->ode, diag) || tell_meeting(e, diag)) {
         *is_rounding = false;
         return;
     }
