@@ -27,9 +27,9 @@ void reinit_free(Reinit *reinit);           /* NULL is fine */
 MUST_USE Status reinit_add(Reinit *reinit, const char *name, int primes, Diag *diag);
 /* after the last of them; O(variables * unknowns) expressions */
 MUST_USE Status reinit_compile(Reinit *reinit, Diag *diag);
-/* Give values (NAN: leave) to the variables at (t, y); y is (q, u, x, work). False: there are no
- * such positions, speeds or states, and y is as it was; where a joint would close with its axis
- * reversed alone, `why` tells. */
+/* Give values (NAN: leave) to the variables at (t, y); y is (q, u, x, references, work). False:
+ * there are no such positions, speeds or states, and y is as it was; where a joint would close with
+ * its axis reversed alone, `why` tells. */
 bool reinit_apply(Reinit *reinit, double t, const double *values, double *y, Text *why);
 
 #endif

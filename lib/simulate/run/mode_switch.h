@@ -4,8 +4,9 @@
 
 #include "simulate/run/active_run.h"
 
-/* The phase that a run starts in, and `begin`, from `start`, which is of the whole. Fails where
- * the ideal switches have no sides at the start, and where the network has no solution. */
+/* The phase that a run starts in, and `begin`, from the start of its result, which is of the whole.
+ * Fails where the ideal switches have no sides at the start, and where the network has no solution.
+ */
 MUST_USE Status mode_switch_begin(ActiveRun *run, const Setting *setting, Diag *diag);
 
 /* The phase of these sides, one an ideal switch; made where it is met first. */
