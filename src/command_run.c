@@ -67,19 +67,21 @@ static void name_printed(Printed *line, const ct_expression *expression)
     ct_free(text);
 }
 
+enum { NUMBER_SIZE = 64 };
+
 /* A number in words: no reader should take the root of a negative number for one. The length. */
-static int write_number(char *buffer, size_t size, int digits, double value)
+static int write_number(char out[NUMBER_SIZE], int digits, double value)
 {
     if (!isfinite(value))
-        return snprintf(buffer, size, "undefined");
-    return snprintf(buffer, size, "%.*g", digits, value == 0 ? 0.0 : value);
+        return snprintf(out, NUMBER_SIZE, "undefined");
+    return snprintf(out, NUMBER_SIZE, "%.*g", digits, value == 0 ? 0.0 : value);
 }
 
 static void put_number(FILE *out, int width, int digits, double value)
 {
-    char number[64];
+    char number[NUMBER_SIZE];
 
-    (void)write_number(number, sizeof number, digits, value);
+    (void)write_number(number, digits, value);
     fprintf(out, "%*s", width, number);
 }
 
@@ -149,7 +151,8 @@ static void put_table(const Call *call, const TableColumns *table)
     for (int j = 0; j < table->columns; j++) {
         widths[j] = (int)strlen(table->names[j]);
         for (int i = 0; i < table->rows; i++) {
-            int width = write_number(NULL, 0, digits, table->values[i * table->columns + j]);
+            char number[NUMBER_SIZE];
+            int width = write_number(number, digits, table->values[i * table->columns + j]);
 
             if (width > widths[j])
                 widths[j] = width;

@@ -10,6 +10,7 @@
 
 #include "networks.h"
 
+#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
