@@ -57,18 +57,56 @@ static void a_tolerance_below_rounding_is_told(void)
     "diode D11 n1 n2 Is=7.133536076994402e-13 n=1.1973659015635998\n"                              \
     "diode D12 n2 n3 Is=5.5003388806413309e-13 n=1.0266937432092815\n"
 
+/* Six of them, behind whose switching a guess of the explicit method leads nowhere. */
+#define STEEPER_DIODES                                                                             \
+    "w = 4434.6540866309479\n"                                                                     \
+    "vsource V0 s0 0 52.893645513837022*sin(w*t + 2.7275316345688001)\n"                           \
+    "resistor RS0 s0 n3 132.7186258884777\n"                                                       \
+    "vsource V1 s1 0 38.202804789748733*sin(w*t + -0.9341427679605725)\n"                          \
+    "resistor RS1 s1 n1 44.330083006127232\n"                                                      \
+    "resistor R2 n1 0 6461.9292661019972\n"                                                        \
+    "resistor R3 n2 0 217.3207841340581\n"                                                         \
+    "resistor R4 n3 n1 5337.1451367939571\n"                                                       \
+    "resistor R5 n4 n1 3781.4540195863387\n"                                                       \
+    "capacitor C6 n1 n4 4.5803063137183734e-07\n"                                                  \
+    "capacitor C7 n3 n1 1.3709165232023096e-06\n"                                                  \
+    "switch S8 n4 m8 when=sin(w*t + -0.7282089381844794) > -0.12838318909161062 "                  \
+    "Ron=0.85839101023177455 Roff=32055982.885201205\n"                                            \
+    "resistor RS8 m8 n1 8.4033578859876528\n"                                                      \
+    "switch S9 n2 m9 when=sin(w*t + 1.2597688132263665) > -0.41751955652072192 "                   \
+    "Ron=1.008693670049664 Roff=3680501.0911197336\n"                                              \
+    "resistor RS9 m9 n1 73.708838237192126\n"                                                      \
+    "diode D10 n2 0 Is=2.2650603150649726e-11 n=1.5984650163791108\n"                              \
+    "diode D11 n1 n4 Is=3.6135228545561962e-09 n=1.9004845734969997\n"                             \
+    "diode D12 n1 n4 Is=2.5084037890591216e-14 n=1.7996752847235813\n"                             \
+    "diode D13 n3 0 Is=4.0721942632761457e-12 n=1.8235921402411024\n"                              \
+    "diode D14 n4 0 Is=4.5330464552576831e-12 n=1.3171832707241697\n"                              \
+    "diode D15 n1 n2 Is=5.0748235863819386e-09 n=1.9611279551685084\n"
+
 /* where rounding limits the explicit method, which nobody named, one for stiff equations goes on */
 static void rounding_hands_over_to_the_stiff_method(void)
 {
-    Kit kit = kit_new(), other = kit_new();
+    static const struct {
+        const char *network, *run, *value;
+    } cases[] = {
+        {STEEP_DIODES, "simulate 0.036654826054452749 every=0.0061091376757421252", "C5.v"},
+        {STEEPER_DIODES, "simulate 0.0032587268193203919 every=0.00054312113655339861", "C6.v"},
+    };
 
-    EXPECT_DONE(&kit, STEEP_DIODES
-                "simulate 0.036654826054452749 every=0.0061091376757421252 rtol=1e-9 atol=1e-10");
-    EXPECT_DONE(&other, STEEP_DIODES "simulate 0.036654826054452749 every=0.0061091376757421252 "
-                                     "rtol=1e-9 atol=1e-10 method=ida");
-    EXPECT_NEAR(kit_value(&kit, "C5.v"), kit_value(&other, "C5.v"), 1e-6);
-    kit_free(&other);
-    kit_free(&kit);
+    for (int i = 0; i < (int)(sizeof cases / sizeof cases[0]); i++) {
+        Kit kit = kit_new(), other = kit_new();
+        char run[120];
+
+        EXPECT_DONE(&kit, cases[i].network);
+        EXPECT_DONE(&other, cases[i].network);
+        (void)snprintf(run, sizeof run, "%s rtol=1e-9 atol=1e-10", cases[i].run);
+        EXPECT_DONE(&kit, run);
+        (void)snprintf(run, sizeof run, "%s rtol=1e-9 atol=1e-10 method=ida", cases[i].run);
+        EXPECT_DONE(&other, run);
+        EXPECT_NEAR(kit_value(&kit, cases[i].value), kit_value(&other, cases[i].value), 1e-6);
+        kit_free(&other);
+        kit_free(&kit);
+    }
 }
 
 /* A mass meets a wall, a spring for half a period, and leaves as fast as it came: where it leaves,

@@ -23,7 +23,8 @@ static Status hand_over(Integration *m, RemarkKind why, Diag *diag)
     m->stepper = integration_new_stepper(m, stiff);
     m->out->method = stiff;
     CHECK(stiff->start(m->stepper, t, m->y, diag));
-    m->stepper->next = next; /* until something jumps, no other is as good a guess */
+    if (why == REMARK_STIFF)
+        m->stepper->next = next; /* until something jumps, no other is as good a guess */
 done:
     return status;
 }
