@@ -52,7 +52,7 @@ static void check_statement(const Statement *statement)
 {
     const Syntax *const trailing[] = {statement->value, statement->at, statement->versus,
                                       statement->near_value, statement->within};
-    bool raw = statement->kind == STATEMENT_VERB && strcmp(statement->row.shape, "l") == 0;
+    bool raw = statement->kind == STATEMENT_VERB && strcmp(statement->row.pattern, "l") == 0;
 
     for (int i = 0; i < COUNT(trailing); i++)
         if (trailing[i] != NULL)
