@@ -2,6 +2,7 @@
 #ifndef COTREE_TESTS_RANDOM_H
 #define COTREE_TESTS_RANDOM_H
 
+#include <math.h>
 #include <stdint.h>
 
 __attribute__((unused)) static uint64_t test_random(uint64_t *state)
@@ -16,6 +17,12 @@ __attribute__((unused)) static uint64_t test_random(uint64_t *state)
 __attribute__((unused)) static double test_uniform(uint64_t *state, double low, double high)
 {
     return low + (high - low) * (double)(test_random(state) >> 11) * 0x1p-53;
+}
+
+/* between low and high, both positive, alike in every decade */
+__attribute__((unused)) static double test_decades(uint64_t *state, double low, double high)
+{
+    return low * pow(high / low, test_uniform(state, 0, 1));
 }
 
 #endif

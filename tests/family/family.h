@@ -16,6 +16,7 @@
 
 #include "../random.h"
 
+#include <math.h>
 #include <stdarg.h>
 #include <stdbool.h>
 #include <stddef.h>
@@ -56,6 +57,25 @@ __attribute__((format(printf, 2, 3), unused)) static void tell(Member *member, c
     va_end(arguments);
     if (more > 0)
         member->length += (size_t)more < room ? (size_t)more : room - 1;
+}
+
+/* --- what a member draws --- */
+
+__attribute__((unused)) static double member_between(Member *member, double low, double high)
+{
+    return test_uniform(&member->random, low, high);
+}
+
+/* alike in every decade */
+__attribute__((unused)) static double member_decades(Member *member, double low, double high)
+{
+    return exp(member_between(member, log(low), log(high)));
+}
+
+/* 0 to count - 1 */
+__attribute__((unused)) static int member_one_of(Member *member, int count)
+{
+    return (int)(test_random(&member->random) % (uint64_t)count);
 }
 
 static Verdict family_member(const Family *family, uint64_t seed, int number, Member *member)

@@ -439,9 +439,9 @@ static double rectified(const Rectifier *p, double end)
 
 static Verdict rectifiers(Member *m)
 {
-    const double Ron = decades(&m->random, 1e-3, 10), Rs = decades(&m->random, 0.1, 100);
-    const double f = decades(&m->random, 10, 1e4);
-    Rectifier p = {.E = decades(&m->random, 2, 1000),
+    const double Ron = test_decades(&m->random, 1e-3, 10), Rs = test_decades(&m->random, 0.1, 100);
+    const double f = test_decades(&m->random, 10, 1e4);
+    Rectifier p = {.E = test_decades(&m->random, 2, 1000),
                    .w = 2 * PI * f,
                    .r = Ron + Rs,
                    .Vf = pick(&m->random, 2) * test_uniform(&m->random, 0, 1)};
@@ -449,8 +449,8 @@ static Verdict rectifiers(Member *m)
     Kit kit = kit_new();
     char text[600];
 
-    p.C = decades(&m->random, 0.01, 10) / f / p.r;
-    p.R = p.r * decades(&m->random, 1, 1e3);
+    p.C = test_decades(&m->random, 0.01, 10) / f / p.r;
+    p.R = p.r * test_decades(&m->random, 1, 1e3);
     (void)snprintf(text, sizeof text,
                    "vsource E s 0 %.17g*sin(%.17g*t)\nresistor RS s a %.17g\n"
                    "diode D a b Ron=%.17g Roff=1e14 Vf=%.17g\ncapacitor C b 0 %.17g\n"
@@ -480,8 +480,8 @@ static Verdict rectifiers(Member *m)
 static Verdict multipliers(Member *m)
 {
     const int stages = 1 + pick(&m->random, 3);
-    const double E = decades(&m->random, 10, 500), C = decades(&m->random, 1e-8, 1e-6);
-    const double Vf = pick(&m->random, 2) * 0.7, Ron = decades(&m->random, 0.1, 10);
+    const double E = test_decades(&m->random, 10, 500), C = test_decades(&m->random, 1e-8, 1e-6);
+    const double Vf = pick(&m->random, 2) * 0.7, Ron = test_decades(&m->random, 0.1, 10);
     const double wanted = 2 * stages * (E - Vf);
     Script *script = malloc(sizeof *script);
     Verdict verdict = AGREES;

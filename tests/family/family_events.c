@@ -31,11 +31,6 @@ typedef struct Row {
     double from[MOST], until[MOST];
 } Row;
 
-static double decades(uint64_t *random, double low, double high)
-{
-    return low * pow(high / low, test_uniform(random, 0, 1));
-}
-
 static int pick(uint64_t *random, int count)
 {
     return (int)(test_random(random) % (uint64_t)count);
@@ -48,8 +43,8 @@ static void make(Row *row, uint64_t *random, double store, double loss, bool in_
     *row = (Row){.count = 2 + pick(random, MOST - 1)};
     row->drive = pick(random, 2) ? 0 : test_uniform(random, -10, 10);
     for (int k = 0; k < row->count; k++) {
-        row->store[k] = store * decades(random, 0.1, 10);
-        row->loss[k] = loss * decades(random, 0.3, 3);
+        row->store[k] = store * test_decades(random, 0.1, 10);
+        row->loss[k] = loss * test_decades(random, 0.3, 3);
         row->value[k] = test_uniform(random, -10, 10);
         row->turned[k] = pick(random, 2);
         row->to[k] = star ? 0 : k - 1;
@@ -178,7 +173,8 @@ static void write_run(Script *script, const Row *row, uint64_t *random, char let
 
 static Verdict charges(Member *m)
 {
-    const double end = decades(&m->random, 1e-4, 10), resistance = decades(&m->random, 10, 1e5);
+    const double end = test_decades(&m->random, 1e-4, 10),
+                 resistance = test_decades(&m->random, 10, 1e5);
     Script *script = calloc(1, sizeof *script);
     Kit kit = kit_new();
     Verdict verdict;
@@ -209,7 +205,8 @@ static Verdict charges(Member *m)
 /* n0 -L0-R0- n1 -L1-R1- n2 ...: the last end is grounded, and n1 ... by switches, which open */
 static Verdict fluxes(Member *m)
 {
-    const double end = decades(&m->random, 1e-4, 10), resistance = decades(&m->random, 0.1, 1e3);
+    const double end = test_decades(&m->random, 1e-4, 10),
+                 resistance = test_decades(&m->random, 0.1, 1e3);
     Script *script = calloc(1, sizeof *script);
     Kit kit = kit_new();
     Verdict verdict;
@@ -245,11 +242,13 @@ static Verdict fluxes(Member *m)
 /* L s i' = E - R i and C s v' = -G v between the events, which keep L s i and C s v */
 static Verdict laws(Member *m)
 {
-    const double E = test_uniform(&m->random, -10, 10), R = decades(&m->random, 0.1, 100);
-    const double L = R * decades(&m->random, 0.03, 3), G = decades(&m->random, 1e-6, 1e-2);
-    const double C = G * decades(&m->random, 0.03, 3), v0 = test_uniform(&m->random, -10, 10);
+    const double E = test_uniform(&m->random, -10, 10), R = test_decades(&m->random, 0.1, 100);
+    const double L = R * test_decades(&m->random, 0.03, 3),
+                 G = test_decades(&m->random, 1e-6, 1e-2);
+    const double C = G * test_decades(&m->random, 0.03, 3), v0 = test_uniform(&m->random, -10, 10);
     const int count = 1 + pick(&m->random, 4);
-    double s = decades(&m->random, 0.1, 10), i = E / R * test_uniform(&m->random, -1, 1), v = v0;
+    double s = test_decades(&m->random, 0.1, 10), i = E / R * test_uniform(&m->random, -1, 1),
+           v = v0;
     double t = 0;
     Script *script = calloc(1, sizeof *script);
     Kit kit = kit_new();
@@ -262,7 +261,7 @@ static Verdict laws(Member *m)
     write_line(script, "init s = %.17g, s' = 0, L.i = %.17g, C.v = %.17g", s, i, v);
     for (int k = 0; k < count; k++) {
         const double next = t + test_uniform(&m->random, 0.05, 0.9 / count);
-        const double other = decades(&m->random, 0.1, 10);
+        const double other = test_decades(&m->random, 0.1, 10);
 
         i = E / R + (i - E / R) * exp(-(next - t) * R / (L * s));
         v *= exp(-(next - t) * G / (C * s));
@@ -297,8 +296,8 @@ static Verdict laws(Member *m)
  * longer; and a ball that is thrown back by a wall about then. Its flight is a straight line. */
 static Verdict neighbours(Member *m)
 {
-    const double w = decades(&m->random, 0.3, 3), rtol = decades(&m->random, 1e-9, 1e-3);
-    const double near = decades(&m->random, 1e-2 * rtol, 10 * rtol), v = 1;
+    const double w = test_decades(&m->random, 0.3, 3), rtol = test_decades(&m->random, 1e-9, 1e-3);
+    const double near = test_decades(&m->random, 1e-2 * rtol, 10 * rtol), v = 1;
     const double top = (asin(1 - near) + 2 * PI * pick(&m->random, 3)) / w;
     const double hit = top + 3 * sqrt(near) / w * test_uniform(&m->random, -0.3, 1);
     const double end = hit + test_uniform(&m->random, 0.1, 1) / w;
@@ -347,14 +346,14 @@ static Verdict sources(Member *m)
     Verdict verdict = DISAGREES;
 
     write_line(script, coils ? "isource X 0 n0 %.17g" : "vsource X n 0 %.17g",
-               (pick(&m->random, 2) ? 1 : -1) * decades(&m->random, 1, 100));
+               (pick(&m->random, 2) ? 1 : -1) * test_decades(&m->random, 1, 100));
     write_line(script, coils ? "switch S n0 0 when=t < %.17g" : "switch S n n0 when=t > %.17g",
                when);
     for (int k = 0; k < count; k++) {
         write_line(script, coils ? "inductor P%d n%d m%d %.17g" : "capacitor P%d n%d n%d %.17g", k,
-                   k, coils ? k : k + 1, decades(&m->random, 1e-6, 1));
+                   k, coils ? k : k + 1, test_decades(&m->random, 1e-6, 1));
         write_line(script, coils ? "resistor R%d m%d n%d %.17g" : "resistor R%d n%d n%d %.17g", k,
-                   k, k + 1, decades(&m->random, 1, 1e5));
+                   k, k + 1, test_decades(&m->random, 1, 1e5));
     }
     if (coils)
         write_line(script, "resistor RE n%d 0 1", count);

@@ -140,7 +140,7 @@ static Verdict networks(Member *m)
     Network net;
 
     make(&net, &m->random, WITH_RESISTANCES);
-    net.tolerance = decades(&m->random, 1e-9, 1e-3);
+    net.tolerance = test_decades(&m->random, 1e-9, 1e-3);
     net.method = pick_method(&m->random, &net);
     return run_network(m, &net);
 }
@@ -150,7 +150,7 @@ static Verdict multipliers(Member *m)
     Network net;
 
     make_multiplier(&net, &m->random);
-    net.tolerance = decades(&m->random, 1e-9, 1e-3);
+    net.tolerance = test_decades(&m->random, 1e-9, 1e-3);
     net.method = pick_method(&m->random, &net);
     return run_network(m, &net);
 }

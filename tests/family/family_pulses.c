@@ -20,21 +20,6 @@
 
 static const char *const methods[] = {"auto", "dop853", "radau", "bdf", "adams", "ida"};
 
-static double between(Member *m, double low, double high)
-{
-    return test_uniform(&m->random, low, high);
-}
-
-static double decades(Member *m, double low, double high)
-{
-    return exp(between(m, log(low), log(high)));
-}
-
-static int one_of(Member *m, int count)
-{
-    return (int)(test_random(&m->random) % (uint64_t)count);
-}
-
 /* --- supplies --- */
 
 typedef enum Circuit { RECTIFIER, DOUBLER, BRIDGE, CIRCUITS } Circuit;
@@ -208,22 +193,23 @@ static bool refer(const Supply *s, double error, double *out)
 
 static Supply random_supply(Member *m)
 {
-    Supply s = {.circuit = (Circuit)one_of(m, CIRCUITS), .shape = (Shape)one_of(m, SHAPES)};
+    Supply s = {.circuit = (Circuit)member_one_of(m, CIRCUITS),
+                .shape = (Shape)member_one_of(m, SHAPES)};
     double period, fast;
 
-    s.peak = decades(m, 3, 300);
-    s.f = decades(m, 10, 1e5);
-    s.ratio = between(m, 2.2, 6);
-    s.duty = s.shape == PULSES ? between(m, 0.1, 0.5) : 0.5;
+    s.peak = member_decades(m, 3, 300);
+    s.f = member_decades(m, 10, 1e5);
+    s.ratio = member_between(m, 2.2, 6);
+    s.duty = s.shape == PULSES ? member_between(m, 0.1, 0.5) : 0.5;
     period = 1 / s.f;
-    fast = decades(m, 3e-3, 0.3) * period;
-    s.Rs = decades(m, 0.1, 1000);
+    fast = member_decades(m, 3e-3, 0.3) * period;
+    s.Rs = member_decades(m, 0.1, 1000);
     s.C = fast / s.Rs;
-    s.Ca = s.C * between(m, 0.5, 2);
-    s.RL = decades(m, 1, 1e4) * period / s.C;
-    s.Is = decades(m, 1e-16, 1e-9);
-    s.n = between(m, 1, 2);
-    s.duration = between(m, 3, 8) * period;
+    s.Ca = s.C * member_between(m, 0.5, 2);
+    s.RL = member_decades(m, 1, 1e4) * period / s.C;
+    s.Is = member_decades(m, 1e-16, 1e-9);
+    s.n = member_between(m, 1, 2);
+    s.duration = member_between(m, 3, 8) * period;
     return s;
 }
 
@@ -275,8 +261,8 @@ static double run_off(Member *m, Kit *kit, const Supply *s, double rtol, const d
 
 static Verdict supplies(Member *m)
 {
-    const char *const method = methods[one_of(m, (int)(sizeof methods / sizeof methods[0]))];
-    const double rtol = pow(10, -between(m, 3, 10));
+    const char *const method = methods[member_one_of(m, (int)(sizeof methods / sizeof methods[0]))];
+    const double rtol = pow(10, -member_between(m, 3, 10));
     const Supply s = random_supply(m);
     double right[PLACES], off;
     char text[2000], run[200];
@@ -307,12 +293,13 @@ static Verdict supplies(Member *m)
 /* A pulse of a function of t in a long run: what it adds, and how a cart goes on. */
 static Verdict bursts(Member *m)
 {
-    const char *const method = methods[one_of(m, (int)(sizeof methods / sizeof methods[0]))];
-    const double rtol = pow(10, -between(m, 3, 9));
-    const double span = decades(m, 0.1, 1e4), width = span * decades(m, 1e-6, 1e-2);
-    const double top = span * between(m, 0.1, 0.9), height = decades(m, 1, 1e3) / width;
-    const double mass = decades(m, 0.1, 10), area = height * width * sqrt(PI);
-    const bool is_cart = one_of(m, 2) == 0;
+    const char *const method = methods[member_one_of(m, (int)(sizeof methods / sizeof methods[0]))];
+    const double rtol = pow(10, -member_between(m, 3, 9));
+    const double span = member_decades(m, 0.1, 1e4), width = span * member_decades(m, 1e-6, 1e-2);
+    const double top = span * member_between(m, 0.1, 0.9),
+                 height = member_decades(m, 1, 1e3) / width;
+    const double mass = member_decades(m, 0.1, 10), area = height * width * sqrt(PI);
+    const bool is_cart = member_one_of(m, 2) == 0;
     char text[1000];
     Kit kit = kit_new();
     double speed, off;

@@ -14,11 +14,6 @@ enum { MOST = 5 };
 
 static const char *const methods[] = {"dop853", "radau", "ida", "bdf", "adams", "rk4"};
 
-static double decades(uint64_t *random, double low, double high)
-{
-    return low * pow(high / low, test_uniform(random, 0, 1));
-}
-
 static int pick(uint64_t *random, int count)
 {
     return (int)(test_random(random) % (uint64_t)count);
@@ -64,7 +59,8 @@ static double told_loss(const char *remarks)
 /* Sum of E = sum of (v + q/C) */
 static Verdict circuit(Member *m)
 {
-    const double end = decades(&m->random, 1e-6, 1), when = end * test_uniform(&m->random, 0, 0.9);
+    const double end = test_decades(&m->random, 1e-6, 1),
+                 when = end * test_uniform(&m->random, 0, 0.9);
     const int count = 2 + pick(&m->random, MOST - 1), sources = 1 + pick(&m->random, 2);
     double C[MOST], v[MOST], sum = 0, elastance = 0, energy = 0, after = 0, work = 0, q;
     bool turned[MOST], ran;
@@ -75,7 +71,7 @@ static Verdict circuit(Member *m)
 
     write_line(script, "switch S x n0 when=t > %.17g", when);
     for (int k = 0; k < count; k++) {
-        C[k] = decades(&m->random, 1e-9, 1e-3);
+        C[k] = test_decades(&m->random, 1e-9, 1e-3);
         v[k] = test_uniform(&m->random, -10, 10);
         turned[k] = pick(&m->random, 2);
         write_line(script, "capacitor C%d n%d n%d %.17g", k, turned[k] ? node + 1 : node,
@@ -167,7 +163,7 @@ static Verdict laws(Member *m)
 {
     const bool coils = pick(&m->random, 2);
     const int count = 2 + pick(&m->random, MOST - 1);
-    const double scale = decades(&m->random, 1e-9, 1e-1);
+    const double scale = test_decades(&m->random, 1e-9, 1e-1);
     Law all[MOST];
     double sum = 0, x;
     Script *script = calloc(1, sizeof *script);
@@ -178,8 +174,8 @@ static Verdict laws(Member *m)
         const char *const kind = coils ? "i" : "v";
         char law[120];
 
-        all[k] = (Law){.a = scale * decades(&m->random, 0.1, 10),
-                       .b = pick(&m->random, 4) == 0 ? 0 : decades(&m->random, 0.01, 1),
+        all[k] = (Law){.a = scale * test_decades(&m->random, 0.1, 10),
+                       .b = pick(&m->random, 4) == 0 ? 0 : test_decades(&m->random, 0.01, 1),
                        .x = test_uniform(&m->random, -5, 5),
                        .bends = pick(&m->random, 2)};
         sum += content(&all[k], all[k].x);
@@ -219,8 +215,9 @@ static Verdict laws(Member *m)
 /* a capacitor on each side of a transformer; v1 = n v2, and q goes through the first side */
 static Verdict transformers(Member *m)
 {
-    const double n = (pick(&m->random, 2) ? 1 : -1) * decades(&m->random, 0.1, 10);
-    const double C1 = decades(&m->random, 1e-9, 1e-3), C2 = decades(&m->random, 1e-9, 1e-3);
+    const double n = (pick(&m->random, 2) ? 1 : -1) * test_decades(&m->random, 0.1, 10);
+    const double C1 = test_decades(&m->random, 1e-9, 1e-3),
+                 C2 = test_decades(&m->random, 1e-9, 1e-3);
     const double v1 = test_uniform(&m->random, -10, 10), v2 = test_uniform(&m->random, -10, 10);
     const double q = (v1 - n * v2) / (1 / C1 + n * n / C2);
     Script *script = calloc(1, sizeof *script);
@@ -248,8 +245,8 @@ static Verdict transformers(Member *m)
 /* Two coils come in series, a third is coupled with the first: both circuits keep their flux. */
 static Verdict couplings(Member *m)
 {
-    const double L1 = decades(&m->random, 1e-3, 1), L2 = decades(&m->random, 1e-3, 1);
-    const double L3 = decades(&m->random, 1e-3, 1);
+    const double L1 = test_decades(&m->random, 1e-3, 1), L2 = test_decades(&m->random, 1e-3, 1);
+    const double L3 = test_decades(&m->random, 1e-3, 1);
     const double M = test_uniform(&m->random, -0.95, 0.95) * sqrt(L1 * L2);
     const double i1 = test_uniform(&m->random, -5, 5), i2 = test_uniform(&m->random, -5, 5);
     const double i3 = test_uniform(&m->random, -5, 5);
@@ -279,8 +276,8 @@ static Verdict couplings(Member *m)
 /* A gyrator shows a coil as a capacitor of L/r^2, at v = r i. */
 static Verdict gyrators(Member *m)
 {
-    const double r = decades(&m->random, 0.1, 100), L = decades(&m->random, 1e-3, 1);
-    const double C = L / (r * r) * decades(&m->random, 0.1, 10);
+    const double r = test_decades(&m->random, 0.1, 100), L = test_decades(&m->random, 1e-3, 1);
+    const double C = L / (r * r) * test_decades(&m->random, 0.1, 10);
     const double v = test_uniform(&m->random, -10, 10), v2 = test_uniform(&m->random, -10, 10);
     const double joined = (C * v + L / (r * r) * v2) / (C + L / (r * r));
     Script *script = calloc(1, sizeof *script);
@@ -309,7 +306,7 @@ static Verdict gyrators(Member *m)
 /* switched-capacitor integrators in a row: each clock hands C1 v of the input to C2 */
 static Verdict integrators(Member *m)
 {
-    const double period = decades(&m->random, 1e-6, 1e-1), E = test_uniform(&m->random, -2, 2);
+    const double period = test_decades(&m->random, 1e-6, 1e-1), E = test_uniform(&m->random, -2, 2);
     const int clocks = 2 + pick(&m->random, 6), stages = 1 + pick(&m->random, 3);
     double out[4] = {E}, gain[4];
     Script *script = calloc(1, sizeof *script);
@@ -318,7 +315,7 @@ static Verdict integrators(Member *m)
 
     write_line(script, "T = %.17g\nvsource V s 0 %.17g\nresistor RS s o0 1", period, E);
     for (int k = 1; k <= stages; k++) {
-        const double C = period / 2000 * decades(&m->random, 0.1, 1);
+        const double C = period / 2000 * test_decades(&m->random, 0.1, 1);
         const bool turns = pick(&m->random, 2); /* C1 upside down: + in the place of - */
         const double ratio = test_uniform(&m->random, 0.05, 0.5);
 

@@ -27,21 +27,6 @@ static double worse(double a, double b)
     return isnan(b) || b > a ? (isnan(b) ? INFINITY : b) : a;
 }
 
-static double between(Member *m, double low, double high)
-{
-    return test_uniform(&m->random, low, high);
-}
-
-static double decades(Member *m, double low, double high)
-{
-    return exp(between(m, log(low), log(high)));
-}
-
-static int one_of(Member *m, int count)
-{
-    return (int)(test_random(&m->random) % (uint64_t)count);
-}
-
 /* --- references --- */
 
 typedef struct Problem {
@@ -148,7 +133,7 @@ static double run_off(Member *m, Kit *kit, const Problem *p, double rtol,
 static Verdict compare(Member *m, const Problem *p, Script *text, double rtol,
                        const char *const *variables, const double *unit)
 {
-    const char *const method = methods[one_of(m, (int)(sizeof methods / sizeof methods[0]))];
+    const char *const method = methods[member_one_of(m, (int)(sizeof methods / sizeof methods[0]))];
     const bool is_fixed = strcmp(method, "rk4") == 0;
     double right[PLACES][STATES] = {0}, error[STATES] = {0}, off;
     Kit kit;
@@ -235,13 +220,13 @@ static void print_source(const Source *s, Script *out)
 
 static Source random_source(Member *m, double duration)
 {
-    Source s = {.shape = (Shape)one_of(m, SHAPES)};
+    Source s = {.shape = (Shape)member_one_of(m, SHAPES)};
 
-    s.peak = decades(m, 3, 100);
-    s.f = between(m, 2, 6) / duration;
-    s.duty = between(m, 0.1, 0.5);
-    s.width = duration * decades(m, 1e-4, 3e-2);
-    s.top = duration * between(m, 0.1, 0.8);
+    s.peak = member_decades(m, 3, 100);
+    s.f = member_between(m, 2, 6) / duration;
+    s.duty = member_between(m, 0.1, 0.5);
+    s.width = duration * member_decades(m, 1e-4, 3e-2);
+    s.top = duration * member_between(m, 0.1, 0.8);
     return s;
 }
 
@@ -321,21 +306,22 @@ static Verdict multipliers(Member *m)
     static const char *const names[2][STATES] = {
         {"Ca1.v", "Ca2.v", "Cb1.v", "Cb2.v"},
         {"Ca1.v", "Ca2.v", "Ca3.v", "Cb1.v", "Cb2.v", "Cb3.v"}};
-    const double f = decades(m, 10, 1e5), rtol = pow(10, -between(m, 3, 9));
-    Multiplier s = {.source = {.shape = (Shape)one_of(m, 2), .peak = decades(m, 3, 200), .f = f}};
+    const double f = member_decades(m, 10, 1e5), rtol = pow(10, -member_between(m, 3, 9));
+    Multiplier s = {
+        .source = {.shape = (Shape)member_one_of(m, 2), .peak = member_decades(m, 3, 200), .f = f}};
     Problem p = {.rates = multiplier_rates, .of = &s};
     double unit[STATES] = {0};
     Script text = {0};
 
-    s.stages = 2 + one_of(m, 2);
-    s.source.duty = between(m, 0.15, 0.5);
-    s.Rs = decades(m, 0.1, 1000);
-    s.C = decades(m, 1e-2, 0.3) / f / s.Rs;
-    s.RL = decades(m, 10, 1e4) / f / s.C;
-    s.Is = decades(m, 1e-15, 1e-9);
-    s.n = between(m, 1, 2);
+    s.stages = 2 + member_one_of(m, 2);
+    s.source.duty = member_between(m, 0.15, 0.5);
+    s.Rs = member_decades(m, 0.1, 1000);
+    s.C = member_decades(m, 1e-2, 0.3) / f / s.Rs;
+    s.RL = member_decades(m, 10, 1e4) / f / s.C;
+    s.Is = member_decades(m, 1e-15, 1e-9);
+    s.n = member_between(m, 1, 2);
     p.n = 2 * s.stages;
-    p.duration = between(m, 2, 5) / f;
+    p.duration = member_between(m, 2, 5) / f;
     p.fastest = fmin(s.Rs * s.C / 6, source_time(&s.source));
     for (int i = 0; i < STATES; i++)
         unit[i] = fmax(s.source.peak, 1);
@@ -433,20 +419,21 @@ static void charger_rates(const void *of, double t, const double *x, double *gue
 static Verdict elements(Member *m)
 {
     static const char *const names[] = {"C.v"};
-    const double rtol = pow(10, -between(m, 3, 10));
-    Charger s = {.law = (Law)one_of(m, LAWS), .exponent = 3 + 2 * one_of(m, 8)};
+    const double rtol = pow(10, -member_between(m, 3, 10));
+    Charger s = {.law = (Law)member_one_of(m, LAWS), .exponent = 3 + 2 * member_one_of(m, 8)};
     Problem p = {.n = 1, .rates = charger_rates, .of = &s};
     double fast, unit[1] = {0};
     Script text = {0};
 
-    p.duration = decades(m, 1e-4, 100);
+    p.duration = member_decades(m, 1e-4, 100);
     s.source = random_source(m, p.duration);
-    fast = p.duration * decades(m, 1e-3, 0.1);
-    s.Rs = decades(m, 0.1, 1000);
+    fast = p.duration * member_decades(m, 1e-3, 0.1);
+    s.Rs = member_decades(m, 0.1, 1000);
     s.C = fast / s.Rs;
-    s.RL = decades(m, 0.3, 1e3) * p.duration / s.C;
-    s.U = s.source.peak * (s.law == POWER ? between(m, 0.2, 0.8) : decades(m, 0.02, 0.3));
-    s.I = s.source.peak / s.Rs * decades(m, 1e-3, 1);
+    s.RL = member_decades(m, 0.3, 1e3) * p.duration / s.C;
+    s.U = s.source.peak *
+          (s.law == POWER ? member_between(m, 0.2, 0.8) : member_decades(m, 0.02, 0.3));
+    s.I = s.source.peak / s.Rs * member_decades(m, 1e-3, 1);
     p.fastest = fmin(fast / 3, source_time(&s.source) / 3);
     unit[0] = fmax(s.source.peak, 1);
     write_piece(&text, "vsource V p 0 ");
@@ -508,25 +495,26 @@ static void print_push(const Cart *c, const char *s, Script *text)
 static Verdict carts(Member *m)
 {
     static const char *const names[] = {"s", "s'"};
-    const double rtol = pow(10, -between(m, 3, 8)), speed = decades(m, 0.1, 10);
-    Cart c = {.wall = (Wall)one_of(m, WALLS), .mass = decades(m, 0.1, 10)};
-    Problem p = {.n = 2, .rates = cart_rates, .of = &c, .start = {between(m, 0.2, 0.8), speed}};
+    const double rtol = pow(10, -member_between(m, 3, 8)), speed = member_decades(m, 0.1, 10);
+    Cart c = {.wall = (Wall)member_one_of(m, WALLS), .mass = member_decades(m, 0.1, 10)};
+    Problem p = {
+        .n = 2, .rates = cart_rates, .of = &c, .start = {member_between(m, 0.2, 0.8), speed}};
     double contact, unit[2] = {0};
     Script text = {0};
 
-    p.duration = between(m, 0.5, 4) / speed;
-    contact = decades(m, 1e-4, 1e-2) / speed; /* how long it touches, s */
+    p.duration = member_between(m, 0.5, 4) / speed;
+    contact = member_decades(m, 1e-4, 1e-2) / speed; /* how long it touches, s */
     c.reach = contact * speed / 10;
     c.stiffness = c.mass / (contact * contact) * 10;
     if (c.wall == HERTZ)
         c.stiffness /= sqrt(contact * speed);
     if (c.wall == SCREEN)
-        c.stiffness = c.mass * speed * speed / c.reach * decades(m, 1e-3, 1);
-    c.slow = speed * decades(m, 1e-3, 0.1);
-    c.friction = one_of(m, 2) * c.mass * speed / p.duration * between(m, 0.1, 0.6);
+        c.stiffness = c.mass * speed * speed / c.reach * member_decades(m, 1e-3, 1);
+    c.slow = speed * member_decades(m, 1e-3, 0.1);
+    c.friction = member_one_of(m, 2) * c.mass * speed / p.duration * member_between(m, 0.1, 0.6);
     c.source = random_source(m, p.duration);
-    c.source.shape = one_of(m, 2) == 0 ? BURST : TRAPEZOID;
-    c.source.peak = c.mass * speed / c.source.width * between(m, -0.5, 0.5);
+    c.source.shape = member_one_of(m, 2) == 0 ? BURST : TRAPEZOID;
+    c.source.peak = c.mass * speed / c.source.width * member_between(m, -0.5, 0.5);
     p.fastest = fmin(contact / 20, c.source.width / 5);
     if (c.friction > 0)
         p.fastest = fmin(p.fastest, c.slow * c.mass / c.friction);
@@ -571,20 +559,20 @@ static void tow_rates(const void *of, double t, const double *x, double *guess, 
 static Verdict tows(Member *m)
 {
     static const char *const names[] = {"s", "s'"};
-    const double rtol = pow(10, -between(m, 3, 9));
-    Tow c = {.mass = decades(m, 0.1, 10)};
+    const double rtol = pow(10, -member_between(m, 3, 9));
+    Tow c = {.mass = member_decades(m, 0.1, 10)};
     Problem p = {.n = 2, .rates = tow_rates, .of = &c};
     double unit[2] = {0}, w;
     Script text = {0};
 
-    p.duration = decades(m, 0.1, 1e3);
+    p.duration = member_decades(m, 0.1, 1e3);
     c.source = random_source(m, p.duration);
     c.source.shape = BURST;
-    c.source.width = p.duration * decades(m, 3e-4, 3e-2);
-    c.source.peak = decades(m, 1e-2, 10);
-    w = between(m, 1, 20) / p.duration;
+    c.source.width = p.duration * member_decades(m, 3e-4, 3e-2);
+    c.source.peak = member_decades(m, 1e-2, 10);
+    w = member_between(m, 1, 20) / p.duration;
     c.k = c.mass * w * w;
-    c.d = c.mass * w * between(m, 0, 1);
+    c.d = c.mass * w * member_between(m, 0, 1);
     p.fastest = c.source.width / 5;
     unit[1] = fmax(1, c.source.peak / c.source.width);
     unit[0] = fmax(1, unit[1] / w); /* where an error of the speed leads */
@@ -605,10 +593,10 @@ static Verdict tows(Member *m)
  * to be believed */
 static Verdict rows(Member *m)
 {
-    const char *const method = methods[one_of(m, 6)];
-    const double rtol = pow(10, -between(m, 4, 9)), f = decades(m, 10, 1e5);
-    const double Rs = decades(m, 0.1, 1000), C = decades(m, 1e-2, 0.3) / f / Rs;
-    const double duration = 3 / f, every = duration / 3000, peak = decades(m, 3, 200);
+    const char *const method = methods[member_one_of(m, 6)];
+    const double rtol = pow(10, -member_between(m, 4, 9)), f = member_decades(m, 10, 1e5);
+    const double Rs = member_decades(m, 0.1, 1000), C = member_decades(m, 1e-2, 0.3) / f / Rs;
+    const double duration = 3 / f, every = duration / 3000, peak = member_decades(m, 3, 200);
     ct_cursor cursor = {.text = "table C.v, C.i", .line = 1};
     const ct_expression *items[2];
     ct_statement *statement = NULL;
@@ -622,8 +610,8 @@ static Verdict rows(Member *m)
                 "vsource V p 0 %.17g*sin(%.17g*t)\nresistor Rs p s %.17g\n"
                 "diode D s b Is=%.17g n=%.17g\ncapacitor C b 0 %.17g\nresistor RL b 0 %.17g\n"
                 "init C.v = 0\nsimulate %.17g every=%.17g rtol=%.3g method=%s\n",
-                peak, 2 * PI * f, Rs, decades(m, 1e-15, 1e-9), between(m, 1, 2), C,
-                decades(m, 1, 1e4) / f / C, duration, every, rtol, method);
+                peak, 2 * PI * f, Rs, member_decades(m, 1e-15, 1e-9), member_between(m, 1, 2), C,
+                member_decades(m, 1, 1e4) / f / C, duration, every, rtol, method);
     tell(m, "%s", text.text);
     if (kit_do(&kit, text.text) != CT_OK ||
         ct_parse(&cursor, false, &statement, &kit.error) != CT_OK) {

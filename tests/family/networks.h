@@ -36,11 +36,6 @@ typedef struct Network {
     Part part[PARTS];
 } Network;
 
-static double decades(uint64_t *random, double low, double high)
-{
-    return low * pow(high / low, test_uniform(random, 0, 1));
-}
-
 static Part *add(Network *net, Kind kind, int plus, int minus)
 {
     Part *part = &net->part[net->count++];
@@ -84,11 +79,11 @@ static void add_diodes(Network *net, uint64_t *random, int count)
 
         pick_ends(random, net, ends);
         diode = add(net, DIODE, ends[0], ends[1]);
-        diode->on = net->ideal ? 1e-5 : decades(random, 0.01, 10);
-        diode->off = net->ideal ? 1e11 : decades(random, 1e5, 1e8);
+        diode->on = net->ideal ? 1e-5 : test_decades(random, 0.01, 10);
+        diode->off = net->ideal ? 1e11 : test_decades(random, 1e5, 1e8);
         diode->least = net->ideal && pick(random, 2) ? 0 : least;
         if (net->exponential) {
-            diode->Is = decades(random, 1e-14, 1e-8);
+            diode->Is = test_decades(random, 1e-14, 1e-8);
             diode->scale = test_uniform(random, 1, 2);
         }
     }
@@ -104,17 +99,17 @@ static void make(Network *net, uint64_t *random, Diodes law)
 
     *net = (Network){
         .nodes = 3 + pick(random, NODES - 2), .ideal = ideal, .exponential = law == EXPONENTIAL};
-    net->omega = 2 * PI * decades(random, 50, 1000);
+    net->omega = 2 * PI * test_decades(random, 50, 1000);
     net->end = 2.3 * 2 * PI / net->omega;
     for (int i = 0; i < 1 + pick(random, 2); i++) {
         Part *source = add(net, SOURCE, 1 + pick(random, net->nodes), 0);
 
-        source->value = decades(random, 1, 100);
+        source->value = test_decades(random, 1, 100);
         source->phase = pick(random, 2) ? test_uniform(random, -PI, PI) : 0;
-        source->series = decades(random, 10, 1000);
+        source->series = test_decades(random, 10, 1000);
     }
     for (int node = 1; node <= net->nodes; node++) /* nothing hangs in the air */
-        add(net, RESISTOR, node, pick(random, node))->value = decades(random, 100, 1e5);
+        add(net, RESISTOR, node, pick(random, node))->value = test_decades(random, 100, 1e5);
     for (int i = 0; i <= NODES; i++)
         joined[i] = i;
     for (int i = pick(random, 4); i > 0; i--) {
@@ -123,7 +118,7 @@ static void make(Network *net, uint64_t *random, Diodes law)
 
         pick_ends(random, net, ends);
         part = add(net, CAPACITOR, ends[0], ends[1]);
-        part->value = decades(random, 1e-8, 1e-5);
+        part->value = test_decades(random, 1e-8, 1e-5);
         part->start = test_uniform(random, -20, 20);
         given = join(joined, ends) && given;
     }
@@ -133,8 +128,8 @@ static void make(Network *net, uint64_t *random, Diodes law)
         int ends[2];
 
         pick_ends(random, net, ends);
-        add(net, COIL, ends[0], ends[1])->value = decades(random, 1e-3, 1);
-        add(net, RESISTOR, ends[0], ends[1])->value = decades(random, 10, 1e4);
+        add(net, COIL, ends[0], ends[1])->value = test_decades(random, 1e-3, 1);
+        add(net, RESISTOR, ends[0], ends[1])->value = test_decades(random, 10, 1e4);
     }
     for (int i = pick(random, 3); i > 0; i--) {
         int ends[2];
@@ -142,11 +137,11 @@ static void make(Network *net, uint64_t *random, Diodes law)
 
         pick_ends(random, net, ends);
         part = add(net, SWITCH, ends[0], ends[1]);
-        part->on = ideal ? 1e-5 : decades(random, 0.01, 10);
-        part->off = ideal ? 1e11 : decades(random, 1e5, 1e8);
+        part->on = ideal ? 1e-5 : test_decades(random, 0.01, 10);
+        part->off = ideal ? 1e11 : test_decades(random, 1e5, 1e8);
         part->phase = test_uniform(random, -PI, PI);
         part->level = test_uniform(random, -0.5, 0.5);
-        part->series = decades(random, 1, 100);
+        part->series = test_decades(random, 1, 100);
     }
     add_diodes(net, random, diodes);
 }
@@ -155,16 +150,16 @@ static void make(Network *net, uint64_t *random, Diodes law)
 __attribute__((unused)) static void make_multiplier(Network *net, uint64_t *random)
 {
     const int stages = 1 + pick(random, STAGES);
-    const double C = decades(random, 1e-7, 3e-6), least = pick(random, 2) * 0.7;
-    const double on = decades(random, 0.03, 10), off = decades(random, 1e6, 1e9);
+    const double C = test_decades(random, 1e-7, 3e-6), least = pick(random, 2) * 0.7;
+    const double on = test_decades(random, 0.03, 10), off = test_decades(random, 1e6, 1e9);
     Part *source;
     int up = 1, down = 0; /* where the last stage ends */
 
-    *net = (Network){.nodes = 1 + 2 * stages, .omega = 2 * PI * decades(random, 50, 2000)};
+    *net = (Network){.nodes = 1 + 2 * stages, .omega = 2 * PI * test_decades(random, 50, 2000)};
     net->end = 2.3 * 2 * PI / net->omega;
     source = add(net, SOURCE, 1, 0);
-    source->value = decades(random, 10, 500);
-    source->series = decades(random, 3, 100);
+    source->value = test_decades(random, 10, 500);
+    source->series = test_decades(random, 3, 100);
     for (int k = 1; k <= stages; k++) {
         const int to[] = {2 * k, 2 * k + 1};
 
@@ -182,7 +177,7 @@ __attribute__((unused)) static void make_multiplier(Network *net, uint64_t *rand
             net->part[i].least = least;
         }
     if (pick(random, 2))
-        add(net, RESISTOR, down, 0)->value = decades(random, 1e4, 1e7);
+        add(net, RESISTOR, down, 0)->value = test_decades(random, 1e4, 1e7);
 }
 
 #endif
