@@ -171,6 +171,25 @@ done:
 
 /* --- phases --- */
 
+/* Takes a new phase, opened and with its states found among those of the whole; freed where that
+ * fails. */
+static Status add_phase(ActiveRun *r, const Setting *setting, Phase *phase, Phase **out, Diag *diag)
+{
+    Status status = OK;
+
+    CHECK(active_run_open_phase(r, phase, setting, diag));
+    if (phase->closed != NULL) {
+        CHECK(find_states(r, phase, diag));
+        CHECK(compile_states(r, phase, diag));
+    }
+    LIST_PUSH(*r->phases, phase);
+    *out = phase;
+    phase = NULL;
+done:
+    phase_free(phase);
+    return status;
+}
+
 Status mode_switch_phase(ActiveRun *r, const Setting *setting, const bool *closed, Phase **out,
                          Diag *diag)
 {
@@ -194,14 +213,8 @@ Status mode_switch_phase(ActiveRun *r, const Setting *setting, const bool *close
             return OK;
         }
     CHECK(phase_new(system, &r->phases->parameters, closed, count, &phase, diag));
-    CHECK(active_run_open_phase(r, phase, setting, diag));
-    CHECK(find_states(r, phase, diag));
-    CHECK(compile_states(r, phase, diag));
-    LIST_PUSH(*r->phases, phase);
-    *out = phase;
-    phase = NULL;
+    status = add_phase(r, setting, phase, out, diag);
 done:
-    phase_free(phase);
     return status;
 }
 
@@ -255,16 +268,8 @@ Status mode_switch_phase_on(ActiveRun *r, const Setting *setting, System *system
         return OK;
     }
     CHECK(phase_new_on(system, &r->phases->parameters, closed, ideals, on, count, &phase, diag));
-    CHECK(active_run_open_phase(r, phase, setting, diag));
-    if (closed != NULL) {
-        CHECK(find_states(r, phase, diag));
-        CHECK(compile_states(r, phase, diag));
-    }
-    LIST_PUSH(*r->phases, phase);
-    *out = phase;
-    phase = NULL;
+    status = add_phase(r, setting, phase, out, diag);
 done:
-    phase_free(phase);
     return status;
 }
 
