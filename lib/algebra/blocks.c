@@ -31,8 +31,7 @@ static Places places_of(const bool *pattern, int n)
 
 static void places_free(Places *p)
 {
-    mem_free(p->start);
-    mem_free(p->at);
+    MEM_FREE(p->start, p->at);
 }
 
 static int rising(const void *a, const void *b)
@@ -59,8 +58,7 @@ Blocks blocks_find(const bool *pattern, int n)
 
 void blocks_free(Blocks *blocks)
 {
-    mem_free(blocks->start);
-    mem_free(blocks->order);
+    MEM_FREE(blocks->start, blocks->order);
     *blocks = (Blocks){0};
 }
 
@@ -73,8 +71,7 @@ bool blocks_match(const bool *pattern, int n, int *column)
 
     for (int c = 0; c < n && all; c++)
         column[row[c]] = c;
-    mem_free(row);
-    mem_free(room);
+    MEM_FREE(row, room);
     places_free(&p);
     return all;
 }
@@ -104,7 +101,6 @@ bool blocks_alternate(const bool *pattern, int n)
                 }
             }
     }
-    mem_free(kind);
-    mem_free(queue);
+    MEM_FREE(kind, queue);
     return alternate;
 }

@@ -54,8 +54,7 @@ static bool invert(Enclosure *e)
     for (size_t k = 0; k < count; k++)
         sound = sound && cabs(factors[k * count + k]) > UNIT;
     sound = sound && gsl_linalg_complex_LU_invert(&lu.matrix, order, &left.matrix) == 0;
-    mem_free(factors);
-    mem_free(order);
+    MEM_FREE(factors, order);
     return sound;
 }
 
@@ -231,9 +230,7 @@ static bool correct(const Wide *a, Enclosure *e)
     for (int k = 1; k < n && sound; k++)
         if (is_mirror(e, k))
             e->error[k] = e->error[k - 1];
-    mem_free(residual);
-    mem_free(beside);
-    mem_free(size);
+    MEM_FREE(residual, beside, size);
     return sound;
 }
 
@@ -250,9 +247,6 @@ bool enclosure_find(const Wide *a, int n, Enclosure *out)
 
 void enclosure_free(Enclosure *enclosure)
 {
-    mem_free(enclosure->value);
-    mem_free(enclosure->right);
-    mem_free(enclosure->left);
-    mem_free(enclosure->error);
-    mem_free(enclosure->slant);
+    MEM_FREE(enclosure->value, enclosure->right, enclosure->left, enclosure->error,
+             enclosure->slant);
 }

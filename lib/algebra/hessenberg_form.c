@@ -86,11 +86,7 @@ void hessenberg_form_free(HessenbergForm *r)
 {
     if (r == NULL)
         return;
-    mem_free(r->h);
-    mem_free(r->q);
-    mem_free(r->q_t);
-    mem_free(r->d);
-    mem_free(r);
+    MEM_FREE(r->h, r->q, r->q_t, r->d, r);
 }
 
 size_t hessenberg_form_bytes(const HessenbergForm *r)
@@ -119,14 +115,7 @@ void shifted_factors_free(ShiftedFactors *f)
 {
     if (f == NULL)
         return;
-    mem_free(f->re);
-    mem_free(f->im);
-    mem_free(f->factor_re);
-    mem_free(f->factor_im);
-    mem_free(f->exchanged);
-    mem_free(f->b);
-    mem_free(f->c);
-    mem_free(f);
+    MEM_FREE(f->re, f->im, f->factor_re, f->factor_im, f->exchanged, f->b, f->c, f);
 }
 
 static void exchange_rows(double *a, double *b, int n)

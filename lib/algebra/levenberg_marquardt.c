@@ -178,13 +178,7 @@ bool levenberg_marquardt_solve(const Rows *rows, const bool *held, const double 
     solved = vector_largest(l.residual, m) < tolerance;
     if (residual != NULL)
         rows->evaluate(rows->context, v, residual, NULL);
-    mem_free(l.scale);
-    mem_free(l.residual);
-    mem_free(l.trial);
-    mem_free(l.jacobian);
-    mem_free(l.step);
-    mem_free(l.weights);
-    mem_free(l.next);
+    MEM_FREE(l.scale, l.residual, l.trial, l.jacobian, l.step, l.weights, l.next);
     lu_free(l.lu);
     return solved;
 }

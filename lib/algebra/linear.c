@@ -31,10 +31,7 @@ void lu_free(Lu *lu)
 {
     if (lu == NULL)
         return;
-    mem_free(lu->a);
-    mem_free(lu->exchanged);
-    mem_free(lu->filled);
-    mem_free(lu);
+    MEM_FREE(lu->a, lu->exchanged, lu->filled, lu);
 }
 
 double *lu_matrix(Lu *lu)

@@ -47,11 +47,7 @@ static Pivoted pivoted_new(int rows, int columns)
 
 static void release(Pivoted *p)
 {
-    mem_free(p->entries);
-    mem_free(p->column);
-    mem_free(p->tau);
-    mem_free(p->order);
-    mem_free(p->filled);
+    MEM_FREE(p->entries, p->column, p->tau, p->order, p->filled);
 }
 
 static double square_of(const double *v, int from, int to)
@@ -150,8 +146,7 @@ static Status factor(Pivoted *p, double threshold, const Watch *watch)
            fabs(p->column[p->rank][p->rank]) > threshold * fabs(p->column[0][0]))
         p->rank++;
 done:
-    mem_free(square);
-    mem_free(fresh);
+    MEM_FREE(square, fresh);
     return status;
 }
 

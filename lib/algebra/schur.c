@@ -27,8 +27,7 @@ void matrix_balance(const double *size, int n, double *scale)
     (void)gsl_linalg_balance_matrix(matrix, by);
     for (int i = 0; i < n; i++)
         scale[i] = 1 / by->data[i];
-    mem_free(matrix);
-    mem_free(by);
+    MEM_FREE(matrix, by);
 }
 
 /* --- Hessenberg form --- */
@@ -230,9 +229,7 @@ bool schur(const Wide *a, int n, WideComplex *t, WideComplex *z)
             shift = wide_cadd(shift, wide_ctimes(t[last * n + last - 1], wide_of(0.75)));
         sweep(t, n, first, last, shift, z, turns);
     }
-    mem_free(h);
-    mem_free(q);
-    mem_free(turns);
+    MEM_FREE(h, q, turns);
     return sweeps < MOST_SWEEPS;
 }
 
@@ -295,6 +292,5 @@ void schur_vectors(const WideComplex *t, const WideComplex *z, int n, WideComple
             right[i * n + k] = x;
             left[i * n + k] = y;
         }
-    mem_free(v);
-    mem_free(w);
+    MEM_FREE(v, w);
 }

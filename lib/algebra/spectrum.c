@@ -102,8 +102,7 @@ double perron_bound(const double *matrix, int n)
         for (int i = 0; i < n; i++)
             v[i] = w[i] / largest + 1e-3 * v[i];
     }
-    mem_free(v);
-    mem_free(w);
+    MEM_FREE(v, w);
     return bound;
 }
 
@@ -247,11 +246,7 @@ void roots_join(const double complex *value, const double *error, int count, Gro
     }
     for (int i = 0; i < count; i++)
         out[i] = root_make(g.mean[g.group[i]], SECOND * g.error[g.group[i]]);
-    mem_free(g.group);
-    mem_free(g.partner);
-    mem_free(g.mean);
-    mem_free(g.error);
-    mem_free(g.members);
+    MEM_FREE(g.group, g.partner, g.mean, g.error, g.members);
 }
 
 /* --- one block --- */
@@ -383,9 +378,7 @@ static bool decompose(const SpectrumPart *part, const double *block, const doubl
             part->left[k * n + i] = wide_ctimes(part->left[k * n + i], wide_of(scale[i]));
         }
     }
-    mem_free(a);
-    mem_free(t);
-    mem_free(z);
+    MEM_FREE(a, t, z);
     return sound;
 }
 
@@ -494,8 +487,7 @@ static bool solve_in_doubles(const SpectrumPart *part, const double *block, cons
     for (int k = 0; k < n && sound; k++)
         root[k] = root_make(value[k], SECOND * error[k]);
     enclosure_free(&e);
-    mem_free(a);
-    mem_free(error);
+    MEM_FREE(a, error);
     return sound;
 }
 
@@ -521,9 +513,7 @@ static bool solve_in_more_digits(const SpectrumPart *part, const double *block, 
     }
     if (sound)
         roots_join(taken_back, error, n, group_error, &grouping, root);
-    mem_free(disturbed);
-    mem_free(error);
-    mem_free(taken_back);
+    MEM_FREE(disturbed, error, taken_back);
     return sound;
 }
 
@@ -543,8 +533,7 @@ static bool solve_part(const SpectrumPart *part, const double *block, double com
             solve_in_more_digits(part, block, scale, value, root);
     if (sound)
         place_on_axis(part, block, root);
-    mem_free(scale);
-    mem_free(size);
+    MEM_FREE(scale, size);
     return sound;
 }
 
@@ -648,18 +637,11 @@ void spectrum_free(Spectrum *spectrum)
     if (spectrum == NULL)
         return;
     for (int b = 0; b < spectrum->blocks.count; b++) {
-        mem_free(spectrum->part[b].right);
-        mem_free(spectrum->part[b].left);
-        mem_free(spectrum->part[b].error);
+        MEM_FREE(spectrum->part[b].right, spectrum->part[b].left, spectrum->part[b].error);
     }
     blocks_free(&spectrum->blocks);
-    mem_free(spectrum->part);
-    mem_free(spectrum->a);
-    mem_free(spectrum->root);
-    mem_free(spectrum->value);
-    mem_free(spectrum->column);
-    mem_free(spectrum->part_of);
-    mem_free(spectrum);
+    MEM_FREE(spectrum->part, spectrum->a, spectrum->root, spectrum->value, spectrum->column,
+             spectrum->part_of, spectrum);
 }
 
 const Root *spectrum_roots(const Spectrum *spectrum)

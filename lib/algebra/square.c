@@ -208,8 +208,7 @@ Square *square_new(const double *matrix, const double *error, int n)
     if (sound)
         invert(s);
     s->is_regular = sound && stays_regular(s);
-    mem_free(column);
-    mem_free(pattern);
+    MEM_FREE(column, pattern);
     return s;
 }
 
@@ -218,12 +217,8 @@ void square_free(Square *square)
     if (square == NULL)
         return;
     blocks_free(&square->blocks);
-    mem_free(square->row);
-    mem_free(square->column);
-    mem_free(square->factors);
-    mem_free(square->exchanged);
-    mem_free(square->inverse);
-    mem_free(square);
+    MEM_FREE(square->row, square->column, square->factors, square->exchanged, square->inverse,
+             square);
 }
 
 bool square_is_regular(const Square *square)
@@ -256,6 +251,5 @@ void square_solve(const Square *s, const double *right, const double *right_erro
             if (left[j] != 0)
                 out_error[i] += s->inverse[i * n + j] * left[j];
     }
-    mem_free(x);
-    mem_free(left);
+    MEM_FREE(x, left);
 }

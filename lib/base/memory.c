@@ -92,6 +92,12 @@ void mem_free(void *piece)
         piece_drop(piece_of(piece));
 }
 
+void mem_free_each(void *const pieces[], int count)
+{
+    for (int i = 0; i < count; i++)
+        mem_free(pieces[i]);
+}
+
 /* out of the way of those that only look whether there is room */
 __attribute__((noinline)) static void *room_for(void *at, int count, int *room, size_t size,
                                                 const void *maker)

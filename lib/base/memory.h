@@ -19,10 +19,13 @@ void *mem_array(size_t count, size_t size); /* new, zeroed */
 void *mem_grow(void *old, size_t count, size_t size); /* realloc; what is new isn't zeroed */
 char *mem_text(const char *text, size_t length);      /* new, ended by a NUL */
 void mem_free(void *piece);                           /* NULL is fine */
+void mem_free_each(void *const pieces[], int count);
 
 #define NEW(type)              ((type *)mem_new(sizeof(type)))
 #define NEW_ARRAY(type, count) ((type *)mem_array((size_t)(count), sizeof(type)))
 #define COUNT(array)           ((int)(sizeof(array) / sizeof((array)[0])))
+/* frees several: MEM_FREE(names, values); */
+#define MEM_FREE(...) mem_free_each((void *[]){__VA_ARGS__}, COUNT(((void *[]){__VA_ARGS__})))
 
 /* A growing array: `LIST(int) ids = {0}; LIST_PUSH(ids, 3); ids.at[0]; LIST_FREE(ids);`
  * Its items move when it grows. */

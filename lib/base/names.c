@@ -63,8 +63,7 @@ void names_free(Names *names)
     for (int i = 0; i < names->list.count; i++)
         mem_free(names->list.at[i]);
     LIST_FREE(names->list);
-    mem_free(names->slots);
-    mem_free(names);
+    MEM_FREE(names->slots, names);
 }
 
 int names_find(const Names *names, const char *name)

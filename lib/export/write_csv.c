@@ -75,8 +75,7 @@ static void write_modes(const Modes *modes, bool with_header, Text *out)
     write_csv(out, (const char *const *)names, values, modes->count, columns, with_header);
     for (int c = 0; c < columns; c++)
         mem_free(names[c]);
-    mem_free(names);
-    mem_free(values);
+    MEM_FREE(names, values);
 }
 
 static Status write(const Exported *what, Text *out, Diag *diag)

@@ -193,8 +193,7 @@ void expr_part_angles(Arena *arena, Expr *roots, const int *counts, int groups)
     found = find_images(&angles, from, to);
     for (int i = 0; i < total && found > 0; i++)
         roots[i] = expr_substitute(arena, roots[i], from, to, found);
-    mem_free(from);
-    mem_free(to);
+    MEM_FREE(from, to);
     walk_free(&angles.calls);
     LIST_FREE(angles.groups);
     LIST_FREE(angles.images);

@@ -429,8 +429,7 @@ void arena_free(Arena *arena)
         return;
     pool_free(arena->pool);
     pool_free(arena->texts);
-    mem_free(arena->slots);
-    mem_free(arena->memory_slots);
+    MEM_FREE(arena->slots, arena->memory_slots);
     LIST_FREE(arena->nodes);
     LIST_FREE(arena->memories);
     for (int i = 0; i < arena->tables.count; i++)

@@ -56,10 +56,7 @@ void curve_free(Curve *table)
 {
     if (table == NULL)
         return;
-    mem_free(table->data);
-    mem_free(table->file);
-    mem_free(table->column);
-    mem_free(table);
+    MEM_FREE(table->data, table->file, table->column, table);
 }
 
 /* the interval in which x lies, by halves */

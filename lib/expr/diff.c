@@ -47,8 +47,7 @@ static Expr product_rate(const Pass *pass, Expr e)
         terms[count++] = expr_product(pass->arena, factors, e->count);
     }
     rate = expr_sum(pass->arena, terms, count);
-    mem_free(terms);
-    mem_free(factors);
+    MEM_FREE(terms, factors);
     return rate;
 }
 

@@ -167,8 +167,7 @@ OpCount expr_count_shared(const Expr *roots, int count)
         divides[walk_find(&walk, roots[i])] = true;
     for (int i = 0; i < walk.count; i++)
         total.mul = plus(total.mul, divides[i] && is_below(walk.nodes[i]));
-    mem_free(divides);
-    mem_free(met.slots);
+    MEM_FREE(divides, met.slots);
     walk_free(&walk);
     return total;
 }

@@ -307,12 +307,7 @@ void ranges_free(Ranges *r)
 {
     if (r == NULL)
         return;
-    mem_free(r->nodes);
-    mem_free(r->operands);
-    mem_free(r->at);
-    mem_free(r->roots);
-    mem_free(r->out);
-    mem_free(r);
+    MEM_FREE(r->nodes, r->operands, r->at, r->roots, r->out, r);
 }
 
 const Range *ranges_over(Ranges *r, Range over)

@@ -32,8 +32,7 @@ static void make_room(Walk *walk)
 {
     if ((uint32_t)walk->count < walk->size / 2)
         return;
-    mem_free(walk->keys);
-    mem_free(walk->places);
+    MEM_FREE(walk->keys, walk->places);
     walk->size = walk->size == 0 ? 64 : 4 * walk->size;
     walk->keys = NEW_ARRAY(uint32_t, walk->size);
     walk->places = NEW_ARRAY(int, walk->size);
@@ -87,8 +86,6 @@ void walk_below(Walk *walk, Expr root, unsigned mask, WalkInto into, void *conte
 
 void walk_free(Walk *walk)
 {
-    mem_free(walk->nodes);
-    mem_free(walk->keys);
-    mem_free(walk->places);
+    MEM_FREE(walk->nodes, walk->keys, walk->places);
     *walk = (Walk){0};
 }

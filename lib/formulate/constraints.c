@@ -474,8 +474,7 @@ static int speeds_of_row(const System *system, const Row *row, int *speeds)
     for (int j = 0; j < all; j++)
         if (turns[j] || slides[j])
             speeds[count++] = j;
-    mem_free(turns);
-    mem_free(slides);
+    MEM_FREE(turns, slides);
     return count;
 }
 
@@ -587,8 +586,7 @@ static Status run_plain(System *system, const Row *row, int k, Diag *diag)
     system->run.gamma[k] = expr_neg(
         arena, expr_substitute(arena, second, system->kinematics->accelerations, zeros, count));
 done:
-    mem_free(zeros);
-    mem_free(speeds);
+    MEM_FREE(zeros, speeds);
     return status;
 }
 

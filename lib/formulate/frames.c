@@ -215,8 +215,7 @@ static void number_chains(System *system)
         }
         next[c] = chains[c].first + 1;
     }
-    mem_free(beyond);
-    mem_free(next);
+    MEM_FREE(beyond, next);
 }
 
 /* --- masses --- */

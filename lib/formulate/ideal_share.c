@@ -47,8 +47,7 @@ static Status share_circuit(System *system, const Branchlike *branch, bool *shar
     }
     *shared = *shared && expr_is_zero(expr_fold(system->arena, left));
 done:
-    mem_free(edges);
-    mem_free(signs);
+    MEM_FREE(edges, signs);
     return status;
 }
 

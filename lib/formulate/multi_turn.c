@@ -35,8 +35,7 @@ Expr system_plain(const System *system, Expr e)
         zeros[i] = expr_int(system->arena, 0);
     }
     e = expr_substitute(system->arena, e, symbols, zeros, count);
-    mem_free(symbols);
-    mem_free(zeros);
+    MEM_FREE(symbols, zeros);
     return e;
 }
 

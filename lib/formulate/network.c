@@ -93,9 +93,7 @@ Status circuit_across(System *system, Branchlike *branch, Expr *out, Diag *diag)
     }
     *out = expr_sum(system->arena, terms, count);
 done:
-    mem_free(edges);
-    mem_free(signs);
-    mem_free(terms);
+    MEM_FREE(edges, signs, terms);
     return status;
 }
 

@@ -172,9 +172,7 @@ static Status leftover(Order *o, int *found, Expr *out, Diag *diag)
             *found = r;
         }
 done:
-    mem_free(row);
-    mem_free(L);
-    mem_free(used);
+    MEM_FREE(row, L, used);
     return status;
 }
 
@@ -290,8 +288,7 @@ static Status lower_order(Order *o, Diag *diag)
         system->network->unknowns.at[j].rates[k + i] = value[i];
     system->network->unknowns.at[j].order = k;
 done:
-    mem_free(symbol);
-    mem_free(value);
+    MEM_FREE(symbol, value);
     return status;
 }
 
@@ -325,8 +322,7 @@ static void rename(Order *o)
         y->residual = expr_substitute(arena, o->row[j], from, to, o->count);
     }
     substitute_all(system, from, to, o->count);
-    mem_free(from);
-    mem_free(to);
+    MEM_FREE(from, to);
 }
 
 Status network_bring_order(System *system, Diag *diag)
@@ -356,8 +352,6 @@ Status network_bring_order(System *system, Diag *diag)
     }
     rename(&o);
 done:
-    mem_free(o.row);
-    mem_free(o.L);
-    mem_free(o.number);
+    MEM_FREE(o.row, o.L, o.number);
     return status;
 }

@@ -321,8 +321,7 @@ static Status add_row(NetworkRows *rows, int row, Expr residual, const Unknown *
     run->network_residual[row] = residual;
     run->network_rhs[row] = expr_neg(arena, expr_substitute(arena, residual, symbols, zeros, used));
 done:
-    mem_free(symbols);
-    mem_free(zeros);
+    MEM_FREE(symbols, zeros);
     return status;
 }
 

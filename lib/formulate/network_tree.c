@@ -237,7 +237,6 @@ Status network_normal_tree(System *system, TreeKind kind, Diag *diag)
     }
 done:
     sets_free(taking.nodes);
-    mem_free(leads);
-    mem_free(taking.preference);
+    MEM_FREE(leads, taking.preference);
     return status;
 }

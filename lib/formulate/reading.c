@@ -140,8 +140,7 @@ Status reading_choose(System *system, Diag *diag)
         best += block_entries(system, blocks[b]);
     }
 done:
-    mem_free(entries);
-    mem_free(shown);
+    MEM_FREE(entries, shown);
     return status;
 }
 

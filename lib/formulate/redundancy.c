@@ -234,8 +234,7 @@ static void solve_columns(System *system, const RedundancyMatrix *m, const Elimi
     solve(system->arena, n, at, y);
     for (int i = 0; i < n; i++)
         recovery->multipliers[e->column[i]] = y[i];
-    mem_free(at);
-    mem_free(y);
+    MEM_FREE(at, y);
 }
 
 static int by_number(const void *a, const void *b)
@@ -277,8 +276,7 @@ void recovery_build(System *system, const Loads *loads)
     e.column = NEW_ARRAY(int, count);
     find_columns(system, &m, recovery, &e);
     solve_columns(system, &m, &e, recovery);
-    mem_free(e.at);
-    mem_free(e.column);
+    MEM_FREE(e.at, e.column);
     LIST_FREE(m.W);
     LIST_FREE(m.P);
 }

@@ -57,8 +57,7 @@ Status variables_resolve(System *system, Expr user, Expr *out, Diag *diag)
     *out = expr_substitute(system->arena, user, symbols, values, used);
 done:
     system->shown->depth--;
-    mem_free(symbols);
-    mem_free(values);
+    MEM_FREE(symbols, values);
     return status;
 }
 

@@ -589,11 +589,7 @@ static Status solve_rest(Space *s, Diag *diag)
     CHECK(find_needs(s, &rest, diag));
     CHECK(solve_blocks(s, &rest, diag));
 done:
-    mem_free(rest.rows);
-    mem_free(rest.row_of);
-    mem_free(rest.unknown_of);
-    mem_free(rest.tried);
-    mem_free(rest.needs);
+    MEM_FREE(rest.rows, rest.row_of, rest.unknown_of, rest.tried, rest.needs);
     return status;
 }
 
@@ -633,9 +629,7 @@ void state_space_free(StateSpace *space)
 {
     if (space == NULL)
         return;
-    mem_free(space->state);
-    mem_free(space->input);
-    mem_free(space->a);
+    MEM_FREE(space->state, space->input, space->a);
     for (int order = 0; order < INPUT_ORDERS; order++)
         mem_free(space->b[order]);
     mem_free(space);
@@ -646,12 +640,7 @@ static void space_free(Space *s)
     system_free(s->system);
     LIST_FREE(s->sources);
     LIST_FREE(s->symbols);
-    mem_free(s->right);
-    mem_free(s->solution);
-    mem_free(s->row_start);
-    mem_free(s->entry);
-    mem_free(s->solved);
-    mem_free(s->used);
+    MEM_FREE(s->right, s->solution, s->row_start, s->entry, s->solved, s->used);
 }
 
 /* a network, with states, that nothing samples */

@@ -22,10 +22,7 @@ static void pair_free(TreePair *pair)
 {
     if (pair == NULL)
         return;
-    mem_free(pair->branch[0]);
-    mem_free(pair->branch[1]);
-    mem_free(pair->key);
-    mem_free(pair);
+    MEM_FREE(pair->branch[0], pair->branch[1], pair->key, pair);
 }
 
 static TreePair *pair_new(const TreeSearch *search)
@@ -183,8 +180,7 @@ static void mark_circuit(const TreeSearch *search, Tree *const trees[2], int cho
             if (can_enter(search, path[i], half))
                 on[path[i]] |= (unsigned char)(1U << half);
     }
-    mem_free(path);
-    mem_free(signs);
+    MEM_FREE(path, signs);
 }
 
 static int fewer_coordinates(const void *a, const void *b)

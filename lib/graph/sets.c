@@ -21,8 +21,7 @@ void sets_free(Sets *sets)
 {
     if (sets == NULL)
         return;
-    mem_free(sets->link);
-    mem_free(sets);
+    MEM_FREE(sets->link, sets);
 }
 
 int sets_find(Sets *sets, int member)

@@ -29,10 +29,7 @@ void sign_matrix_free(SignMatrix *matrix)
 {
     if (matrix == NULL)
         return;
-    mem_free(matrix->start);
-    mem_free(matrix->column);
-    mem_free(matrix->entry);
-    mem_free(matrix);
+    MEM_FREE(matrix->start, matrix->column, matrix->entry, matrix);
 }
 
 SignMatrix *graph_incidence(const Graph *graph, Domain domain, bool reduced)
@@ -133,8 +130,7 @@ SignMatrix *tree_circuits(const Tree *tree)
         LIST_PUSH(entries, 1);
         matrix->start[r + 1] = columns.count;
     }
-    mem_free(edges);
-    mem_free(signs);
+    MEM_FREE(edges, signs);
     matrix->column = columns.at;
     matrix->entry = entries.at;
 
@@ -179,8 +175,7 @@ SignMatrix *tree_cutsets(const Tree *tree)
         }
     }
     wind_back(matrix);
-    mem_free(row);
-    mem_free(chord);
+    MEM_FREE(row, chord);
     sign_matrix_free(circuits);
     return matrix;
 }

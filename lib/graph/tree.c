@@ -54,17 +54,8 @@ void tree_free(Tree *tree)
 {
     if (tree == NULL)
         return;
-    mem_free(tree->standing);
-    mem_free(tree->nodes);
-    mem_free(tree->branches);
-    mem_free(tree->chords);
-    mem_free(tree->parent);
-    mem_free(tree->parent_edge);
-    mem_free(tree->depth);
-    mem_free(tree->place);
-    mem_free(tree->beyond);
-    mem_free(tree->far);
-    mem_free(tree);
+    MEM_FREE(tree->standing, tree->nodes, tree->branches, tree->chords, tree->parent,
+             tree->parent_edge, tree->depth, tree->place, tree->beyond, tree->far, tree);
 }
 
 /* number a node and stack what hangs at it, the first made on top */

@@ -176,8 +176,7 @@ Status draft_fault_circuit(const Draft *draft, int closing, Diag *diag)
         else
             diag_hint(diag, "drop %s: it begins and ends in one node", name);
     }
-    mem_free(names);
-    mem_free(rest);
+    MEM_FREE(names, rest);
     LIST_FREE(circuit);
     LIST_FREE(others);
     return E_CIRCUIT;
@@ -257,8 +256,7 @@ static void hint_bridges(const Draft *draft, Diag *diag)
         diag_hint(diag, "add one of %s to the tree", edges);
     else
         diag_hint(diag, "add %s to the tree", edges);
-    mem_free(edges);
-    mem_free(nodes);
+    MEM_FREE(edges, nodes);
     LIST_FREE(bridges);
     LIST_FREE(left);
     sets_free(sets);

@@ -61,8 +61,7 @@ void model_free(Model *model)
     if (!model->is_fork)
         arena_free(model->arena);
     history_close(&model->history);
-    mem_free(model->remarks);
-    mem_free(model);
+    MEM_FREE(model->remarks, model);
 }
 
 static void count_effect(Model *model, Effect effect)

@@ -100,7 +100,6 @@ Status parts_check_after(State *state, int definition, Text *remarks, Diag *diag
         CHECK(part_check(state, state->parts.at[line->part], remarks, diag));
     }
 done:
-    mem_free(changed);
-    mem_free(asked);
+    MEM_FREE(changed, asked);
     return status;
 }

@@ -65,8 +65,7 @@ typedef struct Chosen { /* a Choice as edges of the graph */
 static void chosen_free(Chosen *chosen)
 {
     LIST_FREE(chosen->branches);
-    mem_free(chosen->excluded);
-    mem_free(chosen->preference);
+    MEM_FREE(chosen->excluded, chosen->preference);
 }
 
 static Chosen resolve_choice(const State *state, TreeKind kind, const Choice *choice)

@@ -89,8 +89,7 @@ static Status time_derivative(Arena *arena, Expr e, int primes, Place place, Exp
                 continue;
             if (kind == SYMBOL_ARGUMENT || name[strlen(name) - 1] == ')') {
                 (void)diag_at(diag, E_NAME, place, "the rate of %s isn't known here", name);
-                mem_free(symbols);
-                mem_free(rates);
+                MEM_FREE(symbols, rates);
                 return E_NAME;
             }
             text_addf(&primed, "%s'", name);
@@ -98,8 +97,7 @@ static Status time_derivative(Arena *arena, Expr e, int primes, Place place, Exp
             text_free(&primed);
         }
         e = expr_diff_along(arena, e, symbols, rates, count);
-        mem_free(symbols);
-        mem_free(rates);
+        MEM_FREE(symbols, rates);
     }
     *out = e;
     return OK;
@@ -198,8 +196,7 @@ static Status output_of_run(Scope *scope, const Syntax *syntax, const Definition
     }
     *out = expr_substitute(arena, body, symbols, values, count);
 done:
-    mem_free(symbols);
-    mem_free(values);
+    MEM_FREE(symbols, values);
     return status;
 }
 

@@ -289,8 +289,7 @@ Status show_incidence(const View *view, const Selection *selection, Text *out, D
                       domain_name((Domain)d));
             add_signs(out, view, &signs, rows, &all);
         }
-        mem_free(rows);
-        mem_free(columns);
+        MEM_FREE(rows, columns);
         sign_matrix_free(matrix);
     }
     return OK;
@@ -335,8 +334,7 @@ static Status show_signs(const View *view, const Selection *selection, bool circ
                       tree_kind_name((TreeKind)k), circuits ? "chord" : "branch");
             add_signs(out, view, &signs, rows, selection);
         }
-        mem_free(rows);
-        mem_free(columns);
+        MEM_FREE(rows, columns);
         sign_matrix_free(matrix);
     }
     if (out->length == before && selection->name_count > 0) {

@@ -347,8 +347,7 @@ Status show_program(const View *view, const Selection *selection, Text *out, Dia
     program_print(out, program);
 done:
     program_free(program);
-    mem_free(symbols);
-    mem_free(roots);
+    MEM_FREE(symbols, roots);
     return status;
 }
 

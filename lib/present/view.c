@@ -183,8 +183,7 @@ static char *write_term(const View *view, const ViewTerm *term)
                   coefficient, times, symbol);
     else
         text_addf(&text, "%s%s%s", coefficient, times, symbol);
-    mem_free(coefficient);
-    mem_free(symbol);
+    MEM_FREE(coefficient, symbol);
     return text_done(&text);
 }
 
@@ -219,8 +218,7 @@ static void print_equation(Text *out, const View *view, const Equation *equation
     char *right = write_sum(view, equation->right.at, equation->right.count);
 
     add_line(out, view, equation->lead != NULL ? equation->lead : "", left, " = ", right);
-    mem_free(left);
-    mem_free(right);
+    MEM_FREE(left, right);
 }
 
 /* left - right = 0 under a name */
@@ -255,8 +253,7 @@ static void print_definitions(Text *out, const View *view, const Abbreviation *n
         text_add(&typed, left);
         add_line(out, view, i == 0 ? "where " : "      ", typed.at, " = ", right);
         text_free(&typed);
-        mem_free(left);
-        mem_free(right);
+        MEM_FREE(left, right);
     }
 }
 
@@ -337,8 +334,7 @@ static void scatter(Equations *equations, const Expr *terms)
 void equations_free(Equations *equations)
 {
     for (int i = 0; i < equations->count; i++) {
-        mem_free(equations->at[i].lead);
-        mem_free(equations->at[i].name);
+        MEM_FREE(equations->at[i].lead, equations->at[i].name);
         LIST_FREE(equations->at[i].left);
         LIST_FREE(equations->at[i].right);
     }

@@ -245,9 +245,7 @@ static Status fill_sheet(const Bode *bode, const Watch *watch, BodeSheet *sheet,
     }
     LIST_PUSH(sheet->names, NULL);
 done:
-    mem_free(omega);
-    mem_free(gain);
-    mem_free(phase);
+    MEM_FREE(omega, gain, phase);
     return status;
 }
 

@@ -101,8 +101,7 @@ void watch_bounds(System *system, const Run *old, RunInput *input)
     input->setting.events = input->events;
     input->setting.event_count = own + watch->events.count;
 done:
-    mem_free(from);
-    mem_free(bounds);
+    MEM_FREE(from, bounds);
 }
 
 static Status is_at_bound(const BoundWatch *watch, int i, double t, Diag *diag)

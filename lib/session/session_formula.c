@@ -278,8 +278,7 @@ static Status put_sizes(ct_session *session, Expr *e, Diag *diag)
     }
     *e = expr_substitute(arena, *e, symbols, numbers, used);
 done:
-    mem_free(symbols);
-    mem_free(numbers);
+    MEM_FREE(symbols, numbers);
     return status;
 }
 
@@ -439,8 +438,7 @@ static Status cut_call(Cut *cut, const Syntax *syntax, const Expr *args, Expr *o
     }
     *out = expr_substitute(arena, *out, symbols, leaves, used);
 done:
-    mem_free(symbols);
-    mem_free(leaves);
+    MEM_FREE(symbols, leaves);
     return status;
 }
 

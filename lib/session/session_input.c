@@ -59,8 +59,7 @@ void session_forget_start(ct_session *session)
 
 void run_input_free(RunInput *input)
 {
-    mem_free(input->start.at);
-    mem_free(input->events);
+    MEM_FREE(input->start.at, input->events);
     watch_free(&input->watch);
     if (input->parameters != NULL) {
         Run run = {.parameters = input->parameters};

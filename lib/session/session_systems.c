@@ -205,7 +205,6 @@ Expr session_put_outputs(const Model *model, Expr e)
             break;
         e = next;
     }
-    mem_free(symbols);
-    mem_free(values);
+    MEM_FREE(symbols, values);
     return e;
 }

@@ -342,8 +342,7 @@ static Status choose(TreesSought *search, const TreePair *best, Diag *diag)
         text_addf(&session->remarks, "%schosen: %s\n", added.at != NULL ? added.at : "", brief);
 done:
     text_free(&added);
-    mem_free(brief);
-    mem_free(text);
+    MEM_FREE(brief, text);
     return status;
 }
 

@@ -170,10 +170,7 @@ typedef struct Creep {
 static void creep_close(Creep *c)
 {
     factors_free(c->factors);
-    mem_free(c->w);
-    mem_free(c->step);
-    mem_free(c->right);
-    mem_free(c->jacobian);
+    MEM_FREE(c->w, c->step, c->right, c->jacobian);
 }
 
 /* (J + resistance * inertia) dw = -residual: a step backward Euler. *moves: there is one, and it is
@@ -440,11 +437,9 @@ static void quest_close(Quest *e)
 {
     search_free(e->search);
     probe_free(e->measures);
-    mem_free(e->bounds);
-    mem_free(e->sides);
+    MEM_FREE(e->bounds, e->sides);
     equilibrium_free(e->equations);
-    mem_free(e->begun);
-    mem_free(e->kept);
+    MEM_FREE(e->begun, e->kept);
 }
 
 /* what was found is where a search for z begins */

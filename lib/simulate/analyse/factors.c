@@ -49,11 +49,7 @@ void factors_free(Factors *f)
     if (f == NULL)
         return;
     sparse_free(f->sparse);
-    mem_free(f->scaled);
-    mem_free(f->row_size);
-    mem_free(f->column_size);
-    mem_free(f->full);
-    mem_free(f);
+    MEM_FREE(f->scaled, f->row_size, f->column_size, f->full, f);
 }
 
 static void scale(Factors *f, const double *values)

@@ -48,8 +48,7 @@ static double *find_motions(ResultReader *reader)
 
         (void)gsl_linalg_QR_Qvec(rows, tau, &motion.vector);
     }
-    mem_free(rows);
-    mem_free(tau);
+    MEM_FREE(rows, tau);
     return motions;
 }
 

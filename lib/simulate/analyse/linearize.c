@@ -233,22 +233,11 @@ static void work_free(Work *w)
     layout_free(w->l);
     system_free(w->varied);
     partitioning_free(w->partitioning);
-    mem_free(w->inputs);
-    mem_free(w->at.symbols);
+    MEM_FREE(w->inputs, w->at.symbols);
     square_free(w->equations);
     square_free(w->held);
-    mem_free(w->y);
-    mem_free(w->y_error);
-    mem_free(w->follow);
-    mem_free(w->follow_error);
-    mem_free(w->values);
-    mem_free(w->phi_u);
-    mem_free(w->in_use);
-    mem_free(w->map);
-    mem_free(w->matrix);
-    mem_free(w->matrix_error);
-    mem_free(w->dependent);
-    mem_free(w->dependent_error);
+    MEM_FREE(w->y, w->y_error, w->follow, w->follow_error, w->values, w->phi_u, w->in_use, w->map,
+             w->matrix, w->matrix_error, w->dependent, w->dependent_error);
 }
 
 Status linearize(const LinearOrder *order, Linear **out, Diag *diag)

@@ -55,10 +55,7 @@ static void solve(const Work *w, Deviation *d)
     square_solve(w->equations, b, error, found, off);
     for (int k = 0; k < n; k++)
         d->follow[k] = (LinearNumber){found[k], off[k]};
-    mem_free(b);
-    mem_free(error);
-    mem_free(found);
-    mem_free(off);
+    MEM_FREE(b, error, found, off);
 }
 
 /* everything that a deviation of independent ones, a state or an input brings with it */
@@ -214,8 +211,7 @@ static Status take_rate(const Work *w, Deviation *d, int input, Linear *out, Dia
         put(&through, o, sum);
     }
 done:
-    mem_free(b1);
-    mem_free(d1);
+    MEM_FREE(b1, d1);
     return status;
 }
 
@@ -258,11 +254,7 @@ static Status write_columns(const Work *w, Linear *out, Diag *diag)
     for (int i = 0; i < out->inputs; i++)
         CHECK(take_rate(w, &d, i, out, diag));
 done:
-    mem_free(d.s);
-    mem_free(d.u);
-    mem_free(d.q);
-    mem_free(d.follow);
-    mem_free(d.right);
+    MEM_FREE(d.s, d.u, d.q, d.follow, d.right);
     return status;
 }
 
@@ -347,15 +339,8 @@ void linear_free(Linear *linear)
 {
     if (linear == NULL)
         return;
-    mem_free(linear->a);
-    mem_free(linear->b);
-    mem_free(linear->c);
-    mem_free(linear->d);
-    mem_free(linear->a_error);
-    mem_free(linear->b_error);
-    mem_free(linear->c_error);
-    mem_free(linear->d_error);
-    mem_free(linear->motion);
+    MEM_FREE(linear->a, linear->b, linear->c, linear->d, linear->a_error, linear->b_error,
+             linear->c_error, linear->d_error, linear->motion);
     free_names(linear->state_names, linear->states);
     free_names(linear->input_names, linear->inputs);
     free_names(linear->output_names, linear->outputs);

@@ -97,8 +97,7 @@ static void evaluate_errors(Work *w)
     for (int i = 0; i < w->rows.count * (1 + w->at.count); i++)
         w->values[i].error = all[i];
     fill_matrix(w);
-    mem_free(errors);
-    mem_free(all);
+    MEM_FREE(errors, all);
 }
 
 /* --- what follows from the state --- */
@@ -144,9 +143,7 @@ static bool find_rates(Work *w)
         if (sound)
             evaluate(w);
     }
-    mem_free(right);
-    mem_free(error);
-    mem_free(step);
+    MEM_FREE(right, error, step);
     return sound;
 }
 
@@ -164,10 +161,7 @@ static bool bound_rates(Work *w)
         square_solve(w->equations, right, error, step, off);
     for (int k = 0; k < w->unknowns && sound; k++)
         w->follow_error[linear_unknown(w, k) - w->at.acceleration] = fabs(step[k]) + off[k];
-    mem_free(right);
-    mem_free(error);
-    mem_free(step);
-    mem_free(off);
+    MEM_FREE(right, error, step, off);
     return sound;
 }
 
@@ -249,8 +243,7 @@ static Status choose_independent(Work *w, Diag *diag)
         status =
             diag_set(diag, E_SINGULAR,
                      "a singular position: no choice of coordinates describes the motion there");
-    mem_free(wanted);
-    mem_free(phi_u);
+    MEM_FREE(wanted, phi_u);
     return status;
 }
 
@@ -295,10 +288,7 @@ void linear_complete(const Work *w, const LinearNumber *right, LinearNumber *v)
             v[j] = (LinearNumber){found[column], off[column]};
             column++;
         }
-    mem_free(b);
-    mem_free(error);
-    mem_free(found);
-    mem_free(off);
+    MEM_FREE(b, error, found, off);
 }
 
 /* --- errors of the state --- */
@@ -467,7 +457,6 @@ bool linear_is_passing(Work *w, const Linear *linear)
         passes = row_changes(w, w->rows.balance + j, values);
     for (int k = 0; k < w->used && !passes; k++)
         passes = row_changes(w, w->rows.velocity + w->in_use[k], values);
-    mem_free(y);
-    mem_free(values);
+    MEM_FREE(y, values);
     return passes;
 }

@@ -114,12 +114,9 @@ void modes_free(Modes *modes)
     if (modes == NULL)
         return;
     for (int i = 0; i < modes->count; i++) {
-        mem_free(modes->at[i].amplitude);
-        mem_free(modes->at[i].phase);
+        MEM_FREE(modes->at[i].amplitude, modes->at[i].phase);
     }
     for (int p = 0; p < modes->parts; p++)
         mem_free(modes->part_names[p]);
-    mem_free(modes->at);
-    mem_free(modes->part_names);
-    mem_free(modes);
+    MEM_FREE(modes->at, modes->part_names, modes);
 }

@@ -249,11 +249,7 @@ void search_free(Search *s)
     if (s->n > 0)
         close_solver(s);
     factors_free(s->factors);
-    mem_free(s->kept);
-    mem_free(s->missed);
-    mem_free(s->size);
-    mem_free(s->entry);
-    mem_free(s);
+    MEM_FREE(s->kept, s->missed, s->size, s->entry, s);
 }
 
 /* --- rounds --- */
@@ -437,10 +433,7 @@ static int loosest(const Search *s, const double *values)
             fabs(gsl_matrix_get(moves, most, n - 1)) * (1 + 1e-9))
             most = i;
     is_loose = gsl_vector_get(sizes, n - 1) <= 1e-13 * gsl_vector_get(sizes, 0);
-    mem_free(u);
-    mem_free(moves);
-    mem_free(sizes);
-    mem_free(work);
+    MEM_FREE(u, moves, sizes, work);
     return is_loose ? (int)most : -1;
 }
 

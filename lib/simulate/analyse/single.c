@@ -41,8 +41,7 @@ static int find_kept(const Linear *linear, int output, int input, int *kept)
     for (int i = 0; i < n; i++)
         if (moved[i] && seen[i])
             kept[count++] = i;
-    mem_free(moved);
-    mem_free(seen);
+    MEM_FREE(moved, seen);
     return count;
 }
 
@@ -108,19 +107,13 @@ Single single_new(const Linear *linear, int output, int input)
     }
     find_scale(&s, scale);
     apply_scale(&s, scale);
-    mem_free(kept);
-    mem_free(scale);
+    MEM_FREE(kept, scale);
     return s;
 }
 
 void single_free(Single *single)
 {
-    mem_free(single->a);
-    mem_free(single->b);
-    mem_free(single->c);
-    mem_free(single->a_error);
-    mem_free(single->b_error);
-    mem_free(single->c_error);
+    MEM_FREE(single->a, single->b, single->c, single->a_error, single->b_error, single->c_error);
 }
 
 /* --- the resolvent --- */
@@ -173,16 +166,8 @@ void resolvent_free(Resolvent *resolvent)
 {
     if (resolvent == NULL)
         return;
-    mem_free(resolvent->h);
-    mem_free(resolvent->q);
-    mem_free(resolvent->b);
-    mem_free(resolvent->c);
-    mem_free(resolvent->factors);
-    mem_free(resolvent->factor);
-    mem_free(resolvent->exchanged);
-    mem_free(resolvent->x);
-    mem_free(resolvent->y);
-    mem_free(resolvent);
+    MEM_FREE(resolvent->h, resolvent->q, resolvent->b, resolvent->c, resolvent->factors,
+             resolvent->factor, resolvent->exchanged, resolvent->x, resolvent->y, resolvent);
 }
 
 static void eliminate(Resolvent *r, int k)

@@ -141,11 +141,7 @@ void transfer_free(Transfer *transfer)
 {
     if (transfer == NULL)
         return;
-    mem_free(transfer->zero);
-    mem_free(transfer->pole);
-    mem_free(transfer->numerator);
-    mem_free(transfer->denominator);
-    mem_free(transfer);
+    MEM_FREE(transfer->zero, transfer->pole, transfer->numerator, transfer->denominator, transfer);
 }
 
 Status transfer_new(const Linear *linear, int output, int input, Transfer **out, Diag *diag)
@@ -242,9 +238,7 @@ void transfer_response(const Linear *linear, int output, int input, const Transf
             phase[i] =
                 (carg(h) + 2 * M_PI * nearbyint((turns - carg(h)) / (2 * M_PI))) * 180 / M_PI;
     }
-    mem_free(a);
-    mem_free(b);
-    mem_free(c);
+    MEM_FREE(a, b, c);
     resolvent_free(resolvent);
     single_free(&s);
 }

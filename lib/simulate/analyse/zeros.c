@@ -89,10 +89,7 @@ static int find_gain(const Single *s, double *gain)
         *gain = INFINITY;
     else if (degree > 1)
         *gain = ldexp(*gain, (degree - 1) * unit);
-    mem_free(v);
-    mem_free(next);
-    mem_free(off);
-    mem_free(next_off);
+    MEM_FREE(v, next, off, next_off);
     return degree;
 }
 
@@ -194,9 +191,7 @@ static double complex *reduced_roots(const Wider *s)
         mem_free(value);
         value = NULL;
     }
-    mem_free(a);
-    mem_free(size);
-    mem_free(scale);
+    MEM_FREE(a, size, scale);
     return value;
 }
 
@@ -353,11 +348,7 @@ static void bound_zeros(const Single *s, const Wider *wide, double least, double
     }
     roots_join(value, error, count, group_error, &split, zero);
     resolvent_free(at.resolvent);
-    mem_free(at.x);
-    mem_free(at.y);
-    mem_free(at.x_size);
-    mem_free(first);
-    mem_free(error);
+    MEM_FREE(at.x, at.y, at.x_size, first, error);
 }
 
 /* --- zeros --- */
@@ -369,9 +360,7 @@ static Wider wider_new(int n)
 
 static void wider_free(Wider *wider)
 {
-    mem_free(wider->a);
-    mem_free(wider->b);
-    mem_free(wider->c);
+    MEM_FREE(wider->a, wider->b, wider->c);
 }
 
 static void widen(const Single *s, Wider *out)

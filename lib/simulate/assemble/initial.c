@@ -142,8 +142,7 @@ static Status correct(Problem *p, const bool *held, const double *begun, bool cl
     CHECK(check_told(a, diag));
     remark_moved(a, begun);
 done:
-    mem_free(residual);
-    mem_free(missed);
+    MEM_FREE(residual, missed);
     return status;
 }
 
@@ -195,8 +194,7 @@ static Status find_position(Assembly *a, bool closed, Diag *diag)
     CHECK(check_angles(a, diag));
 done:
     initial_close_problem(&p);
-    mem_free(begun);
-    mem_free(held);
+    MEM_FREE(begun, held);
     return status;
 }
 
@@ -228,8 +226,7 @@ static Status find_velocity(Assembly *a, Diag *diag)
         CHECK(initial_conflict(&p, residual, "no speeds satisfy the constraints", diag));
 done:
     initial_close_problem(&p);
-    mem_free(held);
-    mem_free(residual);
+    MEM_FREE(held, residual);
     return status;
 }
 
@@ -292,9 +289,7 @@ static Status find_rank(Assembly *a, Diag *diag)
     }
 done:
     level_rows_free(level);
-    mem_free(order);
-    mem_free(q);
-    mem_free(residual);
+    MEM_FREE(order, q, residual);
     return status;
 }
 
@@ -330,17 +325,13 @@ done:
     if (poll(setting->watch) != OK)
         status = diag_set(diag, E_STOPPED, "stopped while the start was looked for");
     skeleton_free(a.skeleton);
-    mem_free(a.given);
-    mem_free(a.own);
+    MEM_FREE(a.given, a.own);
     return status;
 }
 
 void initial_free(Assembled *start)
 {
-    mem_free(start->y);
-    mem_free(start->network);
-    mem_free(start->guess);
-    mem_free(start->rows);
+    MEM_FREE(start->y, start->network, start->guess, start->rows);
     remarks_free(&start->remarks);
     *start = (Assembled){0};
 }

@@ -209,6 +209,5 @@ void initial_align(Problem *p)
             else if (along[given->group] < 0)
                 given->target = -given->target;
         }
-    mem_free(along);
-    mem_free(residual);
+    MEM_FREE(along, residual);
 }

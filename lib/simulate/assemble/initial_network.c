@@ -89,8 +89,7 @@ static Status rest_network(Assembly *a, double *v, Diag *diag)
     (void)levenberg_marquardt_solve(&rows, NULL, NULL, 1e-11, v, NULL);
 done:
     initial_close_problem(&p);
-    mem_free(rest.given);
-    mem_free(values);
+    MEM_FREE(rest.given, values);
     return status;
 }
 
@@ -167,8 +166,6 @@ Status initial_find_network(Assembly *a, WarmValue from, void *context, Diag *di
         CHECK(initial_solve(l, a->numbers, a->y, a->out->network, a->out->network, diag));
 done:
     initial_close_problem(&p);
-    mem_free(v);
-    mem_free(held);
-    mem_free(residual);
+    MEM_FREE(v, held, residual);
     return status;
 }

@@ -288,8 +288,7 @@ static Status close_by_bodies(Placing *p, double *from, bool *closed, Diag *diag
 done:
     tree_free(trees[0]);
     tree_free(trees[1]);
-    mem_free(begun);
-    mem_free(kept);
+    MEM_FREE(begun, kept);
     return status;
 }
 
@@ -327,13 +326,7 @@ void placing_free(Placing *p)
 {
     tree_free(p->trees[TREE_TRANSLATION]);
     tree_free(p->trees[TREE_ROTATION]);
-    mem_free(p->c);
-    mem_free(p->begun);
-    mem_free(p->known);
-    mem_free(p->poses);
-    mem_free(p->turned);
-    mem_free(p->shifted);
-    mem_free(p->groups);
+    MEM_FREE(p->c, p->begun, p->known, p->poses, p->turned, p->shifted, p->groups);
     LIST_FREE(p->wishes);
     LIST_FREE(p->columns);
     LIST_FREE(p->asks);

@@ -265,9 +265,7 @@ static void open_search(PlaceSearch *s, Placing *p)
 
 static void close_search(PlaceSearch *s)
 {
-    mem_free(s->rows);
-    mem_free(s->tails);
-    mem_free(s->heads);
+    MEM_FREE(s->rows, s->tails, s->heads);
 }
 
 /* Columns that no row which is missed feels stay where they are. */
@@ -284,8 +282,7 @@ static void keep_unconcerned(const Placing *p, const Rows *rows, const bool *mis
             concerned = concerned || (missed[i] && jacobian[(ptrdiff_t)i * rows->columns + j] != 0);
         step[j] = concerned ? step[j] : 0;
     }
-    mem_free(residual);
-    mem_free(jacobian);
+    MEM_FREE(residual, jacobian);
 }
 
 /* Other starts about the first one; the nearest solution wins at the smallest disturbance. Rows
@@ -337,8 +334,7 @@ static bool solve(Placing *p, const Rows *rows, double *residual, bool once)
             memcpy(p->c, best, bytes);
         mem_free(best);
     }
-    mem_free(from);
-    mem_free(missed);
+    MEM_FREE(from, missed);
     return met;
 }
 

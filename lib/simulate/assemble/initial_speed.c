@@ -145,8 +145,7 @@ static double *find_rates(const Placing *p)
         for (int i = 0; i < p->columns.count; i++)
             rates[(ptrdiff_t)i * nu + j] =
                 GRID * round(column_rate(p, &p->columns.at[i], low, high) / GRID);
-        mem_free(low);
-        mem_free(high);
+        MEM_FREE(low, high);
     }
     return rates;
 }
@@ -276,9 +275,7 @@ static Status is_open(Assembly *a, bool *open, Diag *diag)
     *open = moves && rank < rows.columns;
 done:
     initial_close_problem(&p);
-    mem_free(residual);
-    mem_free(jacobian);
-    mem_free(order);
+    MEM_FREE(residual, jacobian, order);
     return status;
 }
 
@@ -307,8 +304,7 @@ Status initial_speeds(Assembly *a, Diag *diag)
         CHECK(solve(a, factor, false, diag));
     }
 done:
-    mem_free(factor);
-    mem_free(rates);
+    MEM_FREE(factor, rates);
     placing_free(&p);
     return status;
 }

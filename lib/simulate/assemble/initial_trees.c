@@ -74,9 +74,7 @@ static Status choose_tree(Placing *p, TreeKind kind, Diag *diag)
         above[tail] = head;
     }
     status = tree_complete(graph, kind, &choice, true, &p->trees[kind], diag);
-    mem_free(candidates);
-    mem_free(above);
-    mem_free(branches);
+    MEM_FREE(candidates, above, branches);
     return status;
 }
 

@@ -47,7 +47,6 @@ Status initial_whole_turns(Assembly *a, const double *angles, Diag *diag)
     }
 done:
     probe_free(probe);
-    mem_free(sums);
-    mem_free(turns);
+    MEM_FREE(sums, turns);
     return status;
 }

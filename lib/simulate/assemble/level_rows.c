@@ -69,9 +69,7 @@ void level_rows_free(LevelRows *rows)
     if (rows == NULL)
         return;
     probe_free(rows->probe);
-    mem_free(rows->target);
-    mem_free(rows->place);
-    mem_free(rows);
+    MEM_FREE(rows->target, rows->place, rows);
 }
 
 /* --- evaluation --- */

@@ -192,9 +192,7 @@ static Status compile_rows(ModeSearch *s, Parameters *parameters, const Roots *r
     s->place = NEW_ARRAY(int, count);
     s->pattern = pattern_of(s->n, s->n, count, row, column, s->place);
 done:
-    mem_free(unknowns);
-    mem_free(row);
-    mem_free(column);
+    MEM_FREE(unknowns, row, column);
     return status;
 }
 
@@ -304,19 +302,8 @@ void mode_search_free(ModeSearch *s)
     probe_free(s->looks);
     LIST_FREE(s->rows);
     pattern_free(&s->pattern);
-    mem_free(s->place);
-    mem_free(s->network);
-    mem_free(s->residual);
-    mem_free(s->rhs);
-    mem_free(s->zeros);
-    mem_free(s->has_when);
-    mem_free(s->x);
-    mem_free(s->through);
-    mem_free(s->across);
-    mem_free(s->on);
-    mem_free(s->domain);
-    mem_free(s->source);
-    mem_free(s->gives);
+    MEM_FREE(s->place, s->network, s->residual, s->rhs, s->zeros, s->has_when, s->x, s->through,
+             s->across, s->on, s->domain, s->source, s->gives);
     layout_free(s->l);
     mem_free(s);
 }

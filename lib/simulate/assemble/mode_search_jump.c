@@ -143,9 +143,7 @@ double mode_search_work(ModeSearch *s, const double *from, const bool *before)
                     (was[2 * i] * is[2 * i + 1] + is[2 * i] * was[2 * i + 1] +
                      is[2 * i] * is[2 * i + 1]);
     s->from = s->at->x;
-    mem_free(was);
-    mem_free(is);
-    mem_free(behind);
+    MEM_FREE(was, is, behind);
     return work;
 }
 
@@ -187,8 +185,7 @@ static bool find_source(ModeSearch *s, double step, const char **source)
         if (*source == NULL && impulse[i] > IMPULSE * largest[domain][i % 2])
             *source = s->source[i % 2 == 0 ? i + 1 : i - 1];
     }
-    mem_free(longer);
-    mem_free(impulse);
+    MEM_FREE(longer, impulse);
     return found;
 }
 

@@ -308,8 +308,7 @@ static bool place_along_joints(Reinit *reinit)
             values[places.count++] = reinit->values[k];
         }
     sound = initial_place_again(&places, reinit->y, &diag) == OK;
-    mem_free(stands);
-    mem_free(values);
+    MEM_FREE(stands, values);
     return sound;
 }
 
@@ -330,8 +329,7 @@ static bool go_by_stages(Reinit *reinit)
         met = solve_least_squares(reinit, LEVEL_POSITION);
     }
     reinit->values = last;
-    mem_free(values);
-    mem_free(from);
+    MEM_FREE(values, from);
     return met;
 }
 
@@ -440,9 +438,7 @@ static bool velocity_sweep(const Reinit *reinit, Kkt *kkt, const double *matrix,
         for (int j = 0; j < eq->nu; j++)
             reinit->y[eq->n + j] += du[j];
     }
-    mem_free(bottom);
-    mem_free(lambda);
-    mem_free(du);
+    MEM_FREE(bottom, lambda, du);
     return sound;
 }
 
@@ -493,10 +489,7 @@ static bool solve_speeds(Reinit *reinit)
     }
     sound = sound && is_met(reinit, missing, all);
     kkt_free(kkt);
-    mem_free(matrix);
-    mem_free(missing);
-    mem_free(rows);
-    mem_free(held);
+    MEM_FREE(matrix, missing, rows, held);
     return sound;
 }
 
@@ -567,8 +560,7 @@ bool reinit_apply(Reinit *reinit, double t, const double *values, double *y, Tex
             reinit->y[length - 1] += after - before;
         memcpy(y, reinit->y, (size_t)length * sizeof(double));
     }
-    mem_free(stored);
-    mem_free(reinit->y);
+    MEM_FREE(stored, reinit->y);
     reinit->y = NULL;
     return met;
 }

@@ -106,9 +106,7 @@ void skeleton_free(Skeleton *s)
 {
     if (s == NULL)
         return;
-    mem_free(s->links);
-    mem_free(s->link_at);
-    mem_free(s);
+    MEM_FREE(s->links, s->link_at, s);
 }
 
 /* --- from coordinates to poses --- */

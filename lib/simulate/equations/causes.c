@@ -123,8 +123,7 @@ static double find_parts(const Layout *l, const double *phi_u, int driver, doubl
     matrix_times(others, l->nu, l->m, parts, own);
     for (int j = 0; j < l->nu; j++)
         left = hypot(left, row[j] - own[j]);
-    mem_free(others);
-    mem_free(own);
+    MEM_FREE(others, own);
     return left;
 }
 
@@ -190,8 +189,7 @@ void cause_leading(const Layout *l, const Equations *equations, int driver, cons
     diag_hint(diag, "keep its law within the loop's reach, lengthen the loop's parts, or end the "
                     "run before with an event and do=stop");
     text_free(&text);
-    mem_free(named);
-    mem_free(parts);
+    MEM_FREE(named, parts);
 }
 
 bool cause_tell(const Layout *layout, Parameters *parameters, double t, const double *y,

@@ -166,11 +166,7 @@ void layout_free(Layout *layout)
 {
     if (layout == NULL)
         return;
-    mem_free(layout->symbols);
-    mem_free(layout->side);
-    mem_free(layout->closed);
-    mem_free(layout->surfaces);
-    mem_free(layout);
+    MEM_FREE(layout->symbols, layout->side, layout->closed, layout->surfaces, layout);
 }
 
 bool layout_follows_time(const Layout *l, const Expr *roots, int count)

@@ -111,31 +111,16 @@ void motion_free(Motion *mo)
 {
     if (mo == NULL)
         return;
-    mem_free(mo->rows);
-    mem_free(mo->wanted);
+    MEM_FREE(mo->rows, mo->wanted);
     kkt_free(mo->kkt);
     kkt_free(mo->nearest_kkt);
     mem_free(mo->unit);
     partitioning_free(mo->partitioning);
     netsolve_free(mo->network);
     signs_free(mo->signs);
-    mem_free(mo->slip);
-    mem_free(mo->off);
-    mem_free(mo->way);
-    mem_free(mo->solved_before);
-    mem_free(mo->q);
-    mem_free(mo->references);
-    mem_free(mo->slack);
-    mem_free(mo->top);
-    mem_free(mo->bottom);
-    mem_free(mo->du);
-    mem_free(mo->kept);
-    mem_free(mo->lambda);
-    mem_free(mo->nearest);
-    mem_free(mo->lambda_all);
-    mem_free(mo->row_size);
-    mem_free(mo->dae_weight);
-    mem_free(mo);
+    MEM_FREE(mo->slip, mo->off, mo->way, mo->solved_before, mo->q, mo->references, mo->slack,
+             mo->top, mo->bottom, mo->du, mo->kept, mo->lambda, mo->nearest, mo->lambda_all,
+             mo->row_size, mo->dae_weight, mo);
 }
 
 const Ode *motion_ode(const Motion *mo)

@@ -52,8 +52,7 @@ static void find_pattern(NetDae *d)
     row[count] = column[count] = l->nx;
     d->place = NEW_ARRAY(int, count + 1);
     d->pattern = pattern_of(d->dae.n, d->dae.n, count + 1, row, column, d->place);
-    mem_free(row);
-    mem_free(column);
+    MEM_FREE(row, column);
 }
 
 static bool compile(NetDae *d)
@@ -204,10 +203,7 @@ void netdae_free(NetDae *d)
     mode_forms_free(d->forms);
     probe_free(d->probe);
     pattern_free(&d->pattern);
-    mem_free(d->place);
-    mem_free(d->weight);
-    mem_free(d->has_rate);
-    mem_free(d);
+    MEM_FREE(d->place, d->weight, d->has_rate, d);
 }
 
 const Dae *netdae_equations(const NetDae *d)

@@ -60,14 +60,7 @@ void netsolve_free(NetSolve *s)
     if (s == NULL)
         return;
     sparse_free(s->matrix);
-    mem_free(s->w);
-    mem_free(s->step);
-    mem_free(s->trial);
-    mem_free(s->next);
-    mem_free(s->size);
-    mem_free(s->noise);
-    mem_free(s->weight);
-    mem_free(s);
+    MEM_FREE(s->w, s->step, s->trial, s->next, s->size, s->noise, s->weight, s);
 }
 
 double *netsolve_values(NetSolve *s)
@@ -348,8 +341,7 @@ static bool solve_rising(NetSolve *s)
             factor = sqrt(factor);
         }
     }
-    mem_free(origin);
-    mem_free(last);
+    MEM_FREE(origin, last);
     return arrived && solve_newton(s, BY_CORRECTION);
 }
 

@@ -64,7 +64,6 @@ double parameters_evaluate(Parameters *p, Expr e)
 
 void parameters_free(Parameters *p)
 {
-    mem_free(p->symbols);
-    mem_free(p->values);
+    MEM_FREE(p->symbols, p->values);
     *p = (Parameters){0};
 }

@@ -47,14 +47,8 @@ void partitioning_free(Partitioning *p)
 {
     if (p == NULL)
         return;
-    mem_free(p->dependent);
-    mem_free(p->independent);
-    mem_free(p->mass);
-    mem_free(p->g);
-    mem_free(p->work);
-    mem_free(p->particular);
-    mem_free(p->force);
-    mem_free(p->reduced);
+    MEM_FREE(p->dependent, p->independent, p->mass, p->g, p->work, p->particular, p->force,
+             p->reduced);
     lu_free(p->phi_d);
     lu_free(p->small);
     mem_free(p);

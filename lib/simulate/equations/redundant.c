@@ -49,10 +49,7 @@ static void find_shares(const double *phi_u, int m, int nu, const int *order, in
             gsl_vector_set(row, (size_t)j, size > 0 ? from[j] / size : 0);
         (void)gsl_linalg_QR_lssolve(rows, tau, row, &share.vector, residual);
     }
-    mem_free(rows);
-    mem_free(tau);
-    mem_free(row);
-    mem_free(residual);
+    MEM_FREE(rows, tau, row, residual);
 }
 
 /* the joints that the rows of one joint repeat, each once */
@@ -114,6 +111,5 @@ void redundant_remark(const System *system, const double *phi_u, const int *orde
         text_free(&repeated);
     }
     remarks_add(out, (Remark){.kind = REMARK_UNDETERMINED, .count = nu - rank});
-    mem_free(told);
-    mem_free(shares);
+    MEM_FREE(told, shares);
 }

@@ -111,10 +111,7 @@ static int solve_loaded(gsl_matrix *a, const gsl_vector *b, gsl_vector *x)
     gsl_vector_set_zero(x);
     if (rank > 0)
         (void)gsl_linalg_QRPT_lssolve2(a, tau, order, b, rank, x, residual);
-    mem_free(tau);
-    mem_free(norms);
-    mem_free(residual);
-    mem_free(order);
+    MEM_FREE(tau, norms, residual, order);
     return (int)rank;
 }
 
@@ -139,9 +136,6 @@ int rows_solve(const double *matrix, int rows, int columns, const double *right,
     rank = solve_loaded(a, b, x);
     for (int j = 0; j < columns; j++)
         out[j] = gsl_vector_get(x, (size_t)j) / scale[j];
-    mem_free(a);
-    mem_free(b);
-    mem_free(x);
-    mem_free(scale);
+    MEM_FREE(a, b, x, scale);
     return vector_is_finite(out, columns) ? rank : -1;
 }

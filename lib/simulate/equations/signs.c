@@ -39,11 +39,7 @@ void signs_free(Signs *s)
 {
     if (s == NULL)
         return;
-    mem_free(s->values);
-    mem_free(s->slip);
-    mem_free(s->move);
-    mem_free(s->matrix);
-    mem_free(s);
+    MEM_FREE(s->values, s->slip, s->move, s->matrix, s);
 }
 
 double *signs_values(Signs *s)
@@ -103,8 +99,7 @@ static bool least(const double *a, int n, double *b)
         }
     }
     memcpy(b, x, (size_t)n * sizeof(double));
-    mem_free(x);
-    mem_free(move);
+    MEM_FREE(x, move);
     lu_free(lu);
     return sound;
 }

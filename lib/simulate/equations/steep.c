@@ -295,18 +295,10 @@ void steep_free(Steep *s)
     ranges_free(s->values);
     ranges_free(s->slopes);
     ranges_free(s->bends);
-    mem_free(s->closer);
-    mem_free(s->bent);
-    mem_free(s->reach);
+    MEM_FREE(s->closer, s->bent, s->reach);
     probe_free(s->probe);
     sparse_free(s->network);
-    mem_free(s->inputs.symbols);
-    mem_free(s->here);
-    mem_free(s->w);
-    mem_free(s->moved);
-    mem_free(s->answer);
-    mem_free(s->y);
-    mem_free(s);
+    MEM_FREE(s->inputs.symbols, s->here, s->w, s->moved, s->answer, s->y, s);
 }
 
 int steep_elements(const Steep *s)
@@ -495,8 +487,7 @@ static Sparse *open_network(const Probe *probe, int n)
         column[k] = slopes[k].unknown;
     }
     network = sparse_new(n, count, row, column);
-    mem_free(row);
-    mem_free(column);
+    MEM_FREE(row, column);
     return network;
 }
 
@@ -775,8 +766,7 @@ double steep_effect_of_source(Steep *s, int k, double t, const double *y, const 
     for (int i = 0; i < s->elements.count; i++)
         leaks[i] = NAN;
     sound = sound && settle(s, y, leaks, a);
-    mem_free(a);
-    mem_free(leaks);
+    MEM_FREE(a, leaks);
     if (!sound)
         return INFINITY;
     input = probe_input(s->probe, s->sources.at[k].input);

@@ -150,8 +150,7 @@ static bool goes_somewhere(const ActiveRun *r, int state, const double *x, const
     if (jump_from(r, x, moves, sizes, landed))
         for (int i = 0; i < nx; i++)
             found = found || fabs(landed[i] - now[i]) > FREE * sizes[i];
-    mem_free(moves);
-    mem_free(landed);
+    MEM_FREE(moves, landed);
     return found;
 }
 
@@ -183,8 +182,7 @@ static bool are_shared(const ActiveRun *r, const double *x, const double *now, c
     for (int i = 0; i < nx && shared; i++)
         shared = !share_is_jump(r, i, x[i], now[i]) || fabs(landed[i] - now[i]) > FREE * sizes[i] ||
                  goes_somewhere(r, i, x, now, sizes);
-    mem_free(moves);
-    mem_free(landed);
+    MEM_FREE(moves, landed);
     return shared;
 }
 
@@ -313,9 +311,6 @@ bool share_stored(ActiveRun *r, Phase *phase, double t, const bool *before, cons
     } else {
         memcpy(y, kept, bytes);
     }
-    mem_free(sizes);
-    mem_free(landed);
-    mem_free(now);
-    mem_free(kept);
+    MEM_FREE(sizes, landed, now, kept);
     return met;
 }

@@ -44,10 +44,7 @@ double *grid_row(const Grid *grid, int row)
 
 void grid_free(Grid *grid)
 {
-    mem_free(grid->times);
-    mem_free(grid->phase);
-    mem_free(grid->first);
-    mem_free(grid->states);
+    MEM_FREE(grid->times, grid->phase, grid->first, grid->states);
     *grid = (Grid){0};
 }
 

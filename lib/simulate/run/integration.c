@@ -263,7 +263,6 @@ Status integrate(const IntegrationPlan *plan, const double *start, Grid *grid,
     out->counts = m.earlier;
     out->events = m.ev;
     out->jumps = m.jumps;
-    mem_free(m.reach);
-    mem_free(m.chatters);
+    MEM_FREE(m.reach, m.chatters);
     return status;
 }

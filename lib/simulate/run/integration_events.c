@@ -79,8 +79,7 @@ Status integration_meet_time(Integration *m, Jump jump, Diag *diag)
             diag));
     }
 done:
-    mem_free(values);
-    mem_free(sides);
+    MEM_FREE(values, sides);
     return status;
 }
 

@@ -283,7 +283,6 @@ Status integration_meet_event(Integration *m, int i, double when, bool *again, D
     CHECK(check_pace(m, i, diag));
     CHECK(integration_go_on(m, t, m->y, &entered, diag));
 done:
-    mem_free(sides);
-    mem_free(y);
+    MEM_FREE(sides, y);
     return status;
 }

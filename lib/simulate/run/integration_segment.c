@@ -87,16 +87,8 @@ void integration_close_segment(Integration *m)
     integration_give_up_stepper(m);
     onset_watch(m->segment.onset, NULL, NULL);
     motion_window(m->segment.motion, -INFINITY, INFINITY);
-    mem_free(m->y);
-    mem_free(m->slope);
-    mem_free(m->conditions);
-    mem_free(m->largest);
-    mem_free(m->band);
-    mem_free(m->noise);
-    mem_free(m->depth);
-    mem_free(m->depth_low);
-    mem_free(m->depth_high);
-    mem_free(m->mode);
+    MEM_FREE(m->y, m->slope, m->conditions, m->largest, m->band, m->noise, m->depth, m->depth_low,
+             m->depth_high, m->mode);
 }
 
 static void add_corner(Integration *m, double t, const double *y)
@@ -195,8 +187,7 @@ static Status slide(Integration *m, bool *entered, bool *changed, Diag *diag)
     if (*entered)
         (void)motion_project(m->segment.motion, t, m->stepper->y);
 done:
-    mem_free(at);
-    mem_free(y);
+    MEM_FREE(at, y);
     return status;
 }
 
@@ -243,8 +234,7 @@ Status integration_go_on(Integration *m, double t, const double *y, bool *entere
             break;
         add_corner(m, t, m->y);
         *entered = true;
-        mem_free(m->reach);
-        mem_free(m->chatters);
+        MEM_FREE(m->reach, m->chatters);
         m->reach = NULL;
         CHECK(enter(m, &next, t, behind, &changed, diag));
         memcpy(m->y, m->stepper->y, (size_t)m->length * sizeof(double));

@@ -149,8 +149,7 @@ static Expr along(const Inverse *in, Expr e)
         rates[k++] = l->symbols[l->jerk + i];
     }
     out = expr_diff_along(arena, e, symbols, rates, count);
-    mem_free(symbols);
-    mem_free(rates);
+    MEM_FREE(symbols, rates);
     return out;
 }
 
@@ -268,9 +267,7 @@ static bool solve_in_use(const Inverse *in, const Probe *probe, const double *va
     is_regular = rows_solve(part, rows, count, right, found) == count;
     for (int k = 0, column = 0; k < all && is_regular; k++)
         out[k] = is_solved_for(in, unknowns->at[k]) ? found[column++] : 0;
-    mem_free(full);
-    mem_free(part);
-    mem_free(found);
+    MEM_FREE(full, part, found);
     return is_regular;
 }
 
@@ -295,8 +292,7 @@ static void spread_multipliers(Inverse *in)
     rank_least_multipliers(phi_u, count, eq->nu, lambda);
     for (int k = 0; k < count; k++)
         in->values[in->forces.at[k]] = lambda[k];
-    mem_free(phi_u);
-    mem_free(lambda);
+    MEM_FREE(phi_u, lambda);
 }
 
 static Status cant_produce(const Inverse *in, const Unknowns *unknowns, Diag *diag)
@@ -434,7 +430,6 @@ done:
     LIST_FREE(in.forces);
     LIST_FREE(in.sources);
     LIST_FREE(in.jerks);
-    mem_free(in.values);
-    mem_free(in.in_use);
+    MEM_FREE(in.values, in.in_use);
     return status;
 }

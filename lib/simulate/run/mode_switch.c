@@ -312,8 +312,7 @@ static bool find_moves(Phase *phase, double t, double *y, double size, int count
         for (int i = 0; i < count; i++)
             out[i * l->nx + j] = (moved[i] - base[i]) / size;
     }
-    mem_free(moved);
-    mem_free(base);
+    MEM_FREE(moved, base);
     return sound;
 }
 
@@ -369,11 +368,7 @@ static bool fit_states(ActiveRun *r, Phase *phase, const bool *given, double *y,
     }
     if (sound)
         memcpy(x, now, (size_t)nx * sizeof(double));
-    mem_free(moves);
-    mem_free(weight);
-    mem_free(wanted);
-    mem_free(off);
-    mem_free(now);
+    MEM_FREE(moves, weight, wanted, off, now);
     return sound;
 }
 
@@ -439,10 +434,7 @@ static Status follow_wires(ActiveRun *r, const Setting *setting, const bool *clo
         if (given[i] && share_is_jump(r, i, was[i], x[i]))
             status = refuse_given(r, wires, was, given, x, diag);
 done:
-    mem_free(wires);
-    mem_free(given);
-    mem_free(was);
-    mem_free(y);
+    MEM_FREE(wires, given, was, y);
     return status;
 }
 
@@ -502,8 +494,7 @@ Status mode_switch_begin(ActiveRun *r, const Setting *setting, Diag *diag)
                         diag));
     CHECK(initial_solve(r->phase->layout, r->phase->numbers, r->begin, NULL, NULL, diag));
 done:
-    mem_free(closed);
-    mem_free(none);
+    MEM_FREE(closed, none);
     return status;
 }
 
@@ -687,9 +678,6 @@ Status mode_switch(void *context, double t, double behind, Nearness near, const 
     *segment = phases_segment(r->phases, next, events);
     *out = c->y;
 done:
-    mem_free(closed);
-    mem_free(x);
-    mem_free(x_behind);
-    mem_free(ahead);
+    MEM_FREE(closed, x, x_behind, ahead);
     return status;
 }

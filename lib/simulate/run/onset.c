@@ -110,25 +110,9 @@ void onset_free(Onset *o)
 {
     if (o == NULL)
         return;
-    mem_free(o->at.a);
-    mem_free(o->at.rate);
-    mem_free(o->at.bend);
-    mem_free(o->at.by_source);
-    mem_free(o->source_at);
-    mem_free(o->threshold);
-    mem_free(o->effect);
-    mem_free(o->conducts);
-    mem_free(o->slope);
-    mem_free(o->scale);
-    mem_free(o->leaks);
-    mem_free(o->seen);
-    mem_free(o->seen_at);
-    mem_free(o->onset);
-    mem_free(o->acting);
-    mem_free(o->rates);
-    mem_free(o->element_pulses);
-    mem_free(o->source_pulses);
-    mem_free(o);
+    MEM_FREE(o->at.a, o->at.rate, o->at.bend, o->at.by_source, o->source_at, o->threshold,
+             o->effect, o->conducts, o->slope, o->scale, o->leaks, o->seen, o->seen_at, o->onset,
+             o->acting, o->rates, o->element_pulses, o->source_pulses, o);
 }
 
 void onset_watch(Onset *o, Turns turns, void *context)

@@ -104,8 +104,7 @@ void phase_free(Phase *phase)
     motion_free(phase->motion);
     numbers_free(phase->numbers);
     layout_free(phase->layout);
-    mem_free(phase->on);
-    mem_free(phase);
+    MEM_FREE(phase->on, phase);
 }
 
 const Method *phase_stiff_method(const Phase *phase)

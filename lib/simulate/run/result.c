@@ -11,8 +11,7 @@ void result_free(Result *r)
     if (r == NULL || mem_frees_later(r, free_later))
         return;
     for (int i = 0; i < r->phases.count; i++) {
-        mem_free(r->phases.at[i].closed);
-        mem_free(r->phases.at[i].on);
+        MEM_FREE(r->phases.at[i].closed, r->phases.at[i].on);
     }
     LIST_FREE(r->phases);
     parameters_free(&r->parameters);

@@ -80,8 +80,7 @@ void result_reader_free(ResultReader *reader)
         return;
     phases_free(reader->phases);
     grid_free(&reader->asked);
-    mem_free(reader->asked_driven.values);
-    mem_free(reader);
+    MEM_FREE(reader->asked_driven.values, reader);
 }
 
 const Result *result_reader_result(const ResultReader *reader)

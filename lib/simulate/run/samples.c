@@ -70,8 +70,7 @@ void samples_free(Samples *s)
     if (s == NULL)
         return;
     probe_free(s->next);
-    mem_free(s->at);
-    mem_free(s);
+    MEM_FREE(s->at, s);
 }
 
 double samples_next(const Samples *s, double t)

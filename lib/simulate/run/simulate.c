@@ -446,8 +446,7 @@ static bool reach(ActiveRun *r, double from, double to, double *y, int depth)
         memcpy(y, trial, (size_t)r->phase->length * sizeof(double));
         (void)motion_renew(r->phase->motion, to, y);
     }
-    mem_free(trial);
-    mem_free(rate);
+    MEM_FREE(trial, rate);
     if (sound || depth == 0)
         return sound;
     return reach(r, from, from + h / 2, y, depth - 1) && reach(r, from + h / 2, to, y, depth - 1);
@@ -498,8 +497,7 @@ static double locate_event(ActiveRun *r, double low, double high, double *y)
         }
     }
     memcpy(y, found, bytes);
-    mem_free(trial);
-    mem_free(found);
+    MEM_FREE(trial, found);
     return high;
 }
 
