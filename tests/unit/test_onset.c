@@ -348,6 +348,28 @@ static void a_smooth_source_costs_no_steps(void)
     }
 }
 
+/* An ideal diode conducts while the source dips below 0, for 1 to 600 of a million parts of a
+ * period, as little as a capacitor beside it moves. Each dip of depth e leaves the charge
+ * (2 a e - (1 + e)(a - sin(2 a)/2))/w, a = asin(sqrt(e/(1 + e))), which decays with 1 ms between
+ * dips 5 ms apart. */
+static void an_ideal_diode_conducts_in_each_dip(void)
+{
+    const double depths[] = {1e-4, 1e-5, 1e-6, 1e-7}, w = 200 * acos(-1.0);
+
+    for (int i = 0; i < COUNT(depths); i++) {
+        const double e = depths[i], a = asin(sqrt(e / (1 + e)));
+        const double charge = (2 * a * e - (1 + e) * (a - sin(2 * a) / 2)) / w;
+        const double left = charge / 1e-3 * exp(-2.5) / (1 - exp(-5));
+        char model[300];
+
+        (void)snprintf(model, sizeof model,
+                       "vsource V a x 1 - (1 + %g)*sin(200*pi*t)^2\ncapacitor C x 0 1 mF\n"
+                       "resistor Rx x 0 1\ndiode D 0 b\nresistor R a b 1\ninit C.v = 0\n",
+                       e);
+        EXPECT_NEAR(answer(model, "simulate 1 every=0.01", "dop853", "C.v") / left, 1, 0.05);
+    }
+}
+
 int main(void)
 {
     RUN(a_rectifier_conducts_at_every_tolerance);
@@ -369,5 +391,6 @@ int main(void)
     RUN(maxstep_bounds_every_method);
     RUN(a_step_bound_below_nothing_is_refused);
     RUN(a_smooth_source_costs_no_steps);
+    RUN(an_ideal_diode_conducts_in_each_dip);
     return test_end();
 }

@@ -223,12 +223,15 @@ static void forget_bands(Integration *m)
  * asks for points of its own. */
 static int points_in(const Integration *m, double length)
 {
-    double span = m->plan->to - m->plan->from;
+    double end = m->stepper->t, span = m->plan->to - m->plan->from;
     int points = m->eq->slide_count > 0 ? SLIDING : POINTS;
+    int looks = (int)fmax(points, ceil(length / span * LOOKS));
 
-    if (!m->eq->switches_follow_time && !events_follow_time(m->ev))
+    if (events_follow_time(m->ev) || (m->eq->switches_follow_time && m->segment.onset == NULL))
+        return looks;
+    if (!m->eq->switches_follow_time)
         return points;
-    return (int)fmax(points, ceil(length / span * LOOKS));
+    return (int)fmax(points, onset_pieces(m->segment.onset, end - length, end, looks));
 }
 
 /* How far inside its mode each condition of the state is, as evaluated last; negative: beyond its
@@ -308,29 +311,76 @@ static int locate_first(Integration *m, double low, double *high, int found)
     return found;
 }
 
+/* Of parabolas through the depths at three points in a row, the vertex that lies deepest where one
+ * may reach 0, in spacings behind the middle point; NAN: none may. */
+static double dip_between(const Integration *m)
+{
+    double deepest = 0, where = NAN;
+
+    for (int k = 0; k < m->count; k++) {
+        double a = m->depth_low[k], b = m->depth[k], c = m->depth_high[k], bend = a - 2 * b + c;
+
+        if (!(isfinite(bend) && b <= a && b <= c && bend > 0 && b - bend < deepest))
+            continue;
+        deepest = b - bend;
+        where = (a - c) / (2 * bend);
+    }
+    return where;
+}
+
+/* whether a condition has switched at t, the first of them; -1: none has */
+static int switched_at(Integration *m, double t)
+{
+    int found = -1;
+
+    integration_conditions_at(m, t);
+    for (int i = 0; i < m->count; i++)
+        if (!is_left_out(m, i) && has_switched(m, i) && found < 0)
+            found = i;
+    return found;
+}
+
+static void next_depths(Integration *m)
+{
+    double *oldest = m->depth_low;
+
+    m->depth_low = m->depth;
+    m->depth = m->depth_high;
+    m->depth_high = oldest;
+    find_depths(m, m->depth_high);
+}
+
 /* The first point of the last step at which a condition has switched, *at, and a point *low before
- * it where none has. -1: there is none. */
+ * it where none has. -1: there is none. Between three points a condition may dip and come back. */
 static int find_switched(Integration *m, double *low, double *at)
 {
     double length = m->stepper->t - m->stepper->before;
-    int points = points_in(m, length);
-    int found = -1;
+    int points = points_in(m, length), looked = 0, found = -1;
 
     *low = m->scanned;
-    for (int k = 1; k <= points; k++) {
-        *at = k == points ? m->stepper->t : m->stepper->before + length * k / points;
-        if (*at < m->scanned)
+    for (int k = 1; k <= points && found < 0; k++) {
+        const double t = k == points ? m->stepper->t : m->stepper->before + length * k / points;
+        double dip;
+
+        if (t < m->scanned)
             continue;
-        integration_conditions_at(m, *at);
-        for (int i = 0; i < m->count; i++)
-            if (!is_left_out(m, i) && has_switched(m, i) && found < 0)
-                found = i;
-        if (found >= 0)
-            return found;
-        *low = *at;
-        forget_bands(m);
+        *at = t;
+        found = switched_at(m, t);
+        next_depths(m);
+        dip = ++looked >= 3 && found < 0 ? dip_between(m) : NAN;
+        if (!isnan(dip)) {
+            *low = t - 2 * length / points;
+            *at = t + (dip - 1) * length / points;
+            found = switched_at(m, *at);
+            if (found < 0)
+                integration_conditions_at(m, t);
+        }
+        if (found < 0) {
+            *low = t;
+            forget_bands(m);
+        }
     }
-    return -1;
+    return found;
 }
 
 /* Currents through small resistances show what is stiff in a step, which is right at its end and

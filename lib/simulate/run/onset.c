@@ -29,11 +29,13 @@
 #define BEND      0.025 /* of its range in a run: a source bends no more in a step, see bend_bound() */
 #define GROWTH    10    /* that a step may have over the last one */
 #define EFFECTS   8     /* steps for which effects are good */
-#define LATE      0.9   /* of a step: what begins behind is left to the next one */
-#define OPEN      0.5   /* of u below its threshold: an element that has done with it */
-#define FAINT     1e-3  /* of what an interval promises of a source: it promises too much */
-#define CALM      1e-8  /* of its range in a run: a source that goes no further stays as it is */
-#define NOISE     1e-14 /* of a source's range in a run: what the rounding of its terms may leave */
+#define LATE      0.9  /* of a step: what begins behind is left to the next one */
+#define OPEN      0.5  /* of u below its threshold: an element that has done with it */
+#define FAINT     1e-3 /* of what an interval promises of a source: it promises too much */
+#define STRAIGHTER                                                                                 \
+    1e-4            /* of its range in a run: a source that bends no more is as good as straight */
+#define CALM  1e-8  /* of its range in a run: a source that goes no further stays as it is */
+#define NOISE 1e-14 /* of a source's range in a run: what the rounding of its terms may leave */
 
 typedef struct Pulse {
     bool is_on;
@@ -729,6 +731,24 @@ bool onset_is_calm(Onset *o, double from, double to)
             !(over[j].high - over[j].low <= CALM * steep_source_size(o->steep, j)))
             return false;
     return true;
+}
+
+int onset_pieces(Onset *o, double from, double to, int most)
+{
+    const Range *bends;
+    double pieces = 1;
+
+    if (o == NULL || o->sources == 0)
+        return 1;
+    bends = steep_bends_over(o->steep, (Range){from, to});
+    for (int j = 0; j < o->sources; j++) {
+        double size = steep_source_size(o->steep, j);
+        double bend = fmax(fabs(bends[j].low), fabs(bends[j].high)) * (to - from) * (to - from) / 8;
+
+        if (size > 0)
+            pieces = fmax(pieces, isfinite(bend) ? sqrt(bend / (STRAIGHTER * size)) : most);
+    }
+    return (int)fmin(ceil(pieces), most);
 }
 
 bool onset_after_step(Onset *o, Stepper *stepper, double *when)

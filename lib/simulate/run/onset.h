@@ -32,6 +32,9 @@ double onset_before_step(Onset *onset, Stepper *stepper, double end);
 bool onset_after_step(Onset *onset, Stepper *stepper, double *when);
 /* Whether no source goes far between two times. */
 bool onset_is_calm(Onset *onset, double from, double to);
+/* Into how many pieces from..to has to be cut that all sources are as good as straight in each, at
+ * most `most`. */
+int onset_pieces(Onset *onset, double from, double to, int most);
 /* Forget pulses that last: equations or states have changed. */
 void onset_forget(Onset *onset);
 
