@@ -227,7 +227,7 @@ static ct_status command_time(Call *call, ct_error *error)
     const double began = progress_clock();
     const ct_status status = carry_out(call->shell, ct_rest(call->statement), error);
 
-    remark("time: %.3f s", progress_clock() - began);
+    remark("time: %.3g s", progress_clock() - began);
     return status;
 }
 
