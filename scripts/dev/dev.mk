@@ -5,7 +5,7 @@ dev = $(SHELL) $(srcdir)/scripts/dev
 EXTRA_DIST += autogen.sh run-demo run-tests .clang-format .clang-tidy .shellcheckrc \
 	scripts/dev/bench-compare scripts/dev/bench-table scripts/dev/build scripts/dev/check-hacking scripts/dev/check-layers scripts/dev/check-size \
 	scripts/dev/check-tables scripts/dev/check-unused scripts/dev/coverage scripts/dev/lint \
-	scripts/dev/packages scripts/dev/pictures scripts/dev/total scripts/dev/transcripts
+	scripts/dev/packages scripts/dev/pictures scripts/dev/precision-pictures scripts/dev/total scripts/dev/transcripts
 
 # all tests, with their sum as the last line
 check-total: all
@@ -63,6 +63,16 @@ bench: $(BENCHES) all
 			$(abs_builddir)/.libs/cotree) || exit 1; \
 	done >bench.out
 	@$(dev)/bench-table $(srcdir)/tests/bench/record.txt <bench.out
+	@$(MAKE) -s bench-precision
+
+# work against precision of every reference and stress case, by method: a table, and pictures in
+# precision/
+bench-precision: all
+	@rm -rf precision; mkdir precision
+	@status=0; $(srcdir)/tests/bench/precision.py -o precision/data ./cotree $(srcdir) \
+		>precision/rows || status=1; cat precision/rows; \
+	$(dev)/precision-pictures precision/data svg precision && \
+		echo "pictures are in precision/" && exit $$status
 
 bench-record: bench
 	{ head -n 3 $(srcdir)/tests/bench/record.txt; cat bench.out; } >bench.new
@@ -102,6 +112,6 @@ mostlyclean-local:
 	rm -f $(BENCHES) $(FUZZERS) bench.out check.log
 
 distclean-local:
-	rm -rf san small faults coverage bench.work
+	rm -rf san small faults coverage bench.work precision
 
-.PHONY: check-total check-hacking check-san check-small check-faults lint format bench bench-record fuzz fuzzers stress check-coverage
+.PHONY: check-total check-hacking check-san check-small check-faults lint format bench bench-precision bench-record fuzz fuzzers stress check-coverage
