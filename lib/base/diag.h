@@ -17,8 +17,15 @@ typedef enum Status {
 #define MUST_USE          __attribute__((warn_unused_result))
 #define PRINTF(at, first) __attribute__((format(printf, at, first)))
 
-/* leaves the function by its one exit when a call fails; needs `Status status`
- * and a label `done` */
+/* leaves the function with what a call fails with */
+#define TRY(call)                                                                                  \
+    do {                                                                                           \
+        const Status tried = (call);                                                               \
+        if (tried != OK)                                                                           \
+            return tried;                                                                          \
+    } while (0)
+
+/* the same by its one exit, where it has to tidy up; needs `Status status` and a label `done` */
 #define CHECK(call)                                                                                \
     do {                                                                                           \
         if ((status = (call)) != OK)                                                               \

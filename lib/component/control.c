@@ -320,14 +320,10 @@ static void lag_state(const Instance *instance, Arena *arena, int k, OwnState *o
 
 static Status lag_check(const Instance *instance, Arena *arena, bool planar, Diag *diag)
 {
-    Status status = OK;
-
     (void)arena;
     (void)planar;
-    CHECK(check_positive(instance, "T", diag));
-    CHECK(block_check(instance, diag));
-done:
-    return status;
+    TRY(check_positive(instance, "T", diag));
+    return block_check(instance, diag);
 }
 
 const Component component_lag = {

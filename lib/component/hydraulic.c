@@ -237,15 +237,12 @@ static void valve_relation(const Instance *instance, Arena *arena, int which, co
 
 static Status valve_check(const Instance *instance, Arena *arena, bool planar, Diag *diag)
 {
-    Status status = OK;
-
     (void)arena;
     (void)planar;
-    CHECK(check_resistance(instance, diag));
+    TRY(check_resistance(instance, diag));
     if (instance_value(instance, "Roff")->given)
-        CHECK(check_positive(instance, "Roff", diag));
-done:
-    return status;
+        TRY(check_positive(instance, "Roff", diag));
+    return OK;
 }
 
 const Component component_valve = {
@@ -335,17 +332,13 @@ static Expr cylinder_effort(const Instance *instance, Arena *arena, const Motion
 
 static Status cylinder_check(const Instance *instance, Arena *arena, bool planar, Diag *diag)
 {
-    Status status = OK;
-
     (void)arena;
     (void)planar;
-    CHECK(scalar_check_hinge(instance, false,
-                             "a cylinder on a hinge: put it between two bodies as a prismatic "
-                             "joint of its own",
-                             diag));
-    CHECK(check_positive(instance, "area", diag));
-done:
-    return status;
+    TRY(scalar_check_hinge(instance, false,
+                           "a cylinder on a hinge: put it between two bodies as a prismatic "
+                           "joint of its own",
+                           diag));
+    return check_positive(instance, "area", diag);
 }
 
 const Component component_cylinder = {

@@ -177,16 +177,13 @@ static void switch_relation(const Instance *instance, Arena *arena, int which,
 
 static Status switch_check(const Instance *instance, Arena *arena, bool planar, Diag *diag)
 {
-    Status status = OK;
-
     (void)arena;
     (void)planar;
     if (given(instance, "Ron"))
-        CHECK(check_not_negative(instance, "Ron", diag));
+        TRY(check_not_negative(instance, "Ron", diag));
     if (given(instance, "Roff"))
-        CHECK(check_positive(instance, "Roff", diag));
-done:
-    return status;
+        TRY(check_positive(instance, "Roff", diag));
+    return OK;
 }
 
 const Component component_switch = {

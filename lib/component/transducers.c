@@ -209,14 +209,10 @@ static void platecap_relation(const Instance *instance, Arena *arena, int which,
 
 static Status platecap_check(const Instance *instance, Arena *arena, bool planar, Diag *diag)
 {
-    Status status = OK;
-
     (void)arena;
     (void)planar;
-    CHECK(check_positive(instance, "C", diag));
-    CHECK(check_law(instance, "C", diag));
-done:
-    return status;
+    TRY(check_positive(instance, "C", diag));
+    return check_law(instance, "C", diag);
 }
 
 const Component component_platecap = {
@@ -263,15 +259,11 @@ static void solenoid_relation(const Instance *instance, Arena *arena, int which,
 
 static Status solenoid_check(const Instance *instance, Arena *arena, bool planar, Diag *diag)
 {
-    Status status = OK;
-
     (void)arena;
     (void)planar;
-    CHECK(check_positive(instance, "L", diag));
-    CHECK(check_not_negative(instance, "R", diag));
-    CHECK(check_law(instance, "L", diag));
-done:
-    return status;
+    TRY(check_positive(instance, "L", diag));
+    TRY(check_not_negative(instance, "R", diag));
+    return check_law(instance, "L", diag);
 }
 
 const Component component_solenoid = {
@@ -317,14 +309,10 @@ static void voicecoil_relation(const Instance *instance, Arena *arena, int which
 
 static Status voicecoil_check(const Instance *instance, Arena *arena, bool planar, Diag *diag)
 {
-    Status status = OK;
-
     (void)arena;
     (void)planar;
-    CHECK(check_not_negative(instance, "R", diag));
-    CHECK(check_not_negative(instance, "L", diag));
-done:
-    return status;
+    TRY(check_not_negative(instance, "R", diag));
+    return check_not_negative(instance, "L", diag);
 }
 
 const Component component_voicecoil = {
@@ -389,14 +377,10 @@ static void piezo_relation(const Instance *instance, Arena *arena, int which, co
 
 static Status piezo_check(const Instance *instance, Arena *arena, bool planar, Diag *diag)
 {
-    Status status = OK;
-
     (void)arena;
     (void)planar;
-    CHECK(check_positive(instance, "C", diag));
-    CHECK(check_positive(instance, "k", diag));
-done:
-    return status;
+    TRY(check_positive(instance, "C", diag));
+    return check_positive(instance, "k", diag);
 }
 
 const Component component_piezo = {

@@ -37,7 +37,6 @@ static Status write(const Exported *what, Text *out, Diag *diag)
     };
     const Selection all = {.number_count = 0};
     View latex = *view;
-    Status status = OK;
     const char *title = model_title(view->model);
 
     latex.page.notation = NOTATION_LATEX;
@@ -51,11 +50,10 @@ static Status write(const Exported *what, Text *out, Diag *diag)
             (sections[i].network && system_network_count(view->system) == 0))
             continue;
         text_addf(out, "\n\\subsection*{%s}\n", sections[i].title);
-        CHECK(sections[i].show(&latex, &all, out, diag));
+        TRY(sections[i].show(&latex, &all, out, diag));
     }
     text_add(out, "\\end{document}\n");
-done:
-    return status;
+    return OK;
 }
 
 const Format format_latex = {NEED_SYSTEM, write};

@@ -207,10 +207,8 @@ static Status driver_shown(System *system, Row *row, Diag *diag)
     bool chord = system->kinematics->coordinate[row->owner][row->coordinate] < 0;
     Expr value;
     Steps steps;
-    Status status = OK;
 
-    CHECK(
-        variables_resolve(system, driver->row->prescribed(driver, arena), &row->prescribed, diag));
+    TRY(variables_resolve(system, driver->row->prescribed(driver, arena), &row->prescribed, diag));
     instance_steps(system, owner, &steps);
     for (int k = 0; chord && k < steps.turn_count && steps.turn_count < 3; k++) {
         ChordTurn turn;
@@ -225,10 +223,9 @@ static Status driver_shown(System *system, Row *row, Diag *diag)
         row->phi = expr_neg(arena, angle_missed(system, &turn, row->prescribed));
         return OK;
     }
-    CHECK(coordinate_value(system, owner, row->coordinate, 0, &value, diag));
+    TRY(coordinate_value(system, owner, row->coordinate, 0, &value, diag));
     row->phi = expr_sub(arena, value, row->prescribed);
-done:
-    return status;
+    return OK;
 }
 
 static Status row_shown(System *system, Row *row, Diag *diag)
@@ -238,7 +235,6 @@ static Status row_shown(System *system, Row *row, Diag *diag)
     int head = system->kinematics->frames[row->head].chain;
     FrameSum n = framesum_of(system, row->kind == ROW_DATUM ? 0 : tail, row->n);
     Turns turns = {0};
-    Status status = OK;
 
     switch (row->kind) {
     case ROW_DATUM:
@@ -272,12 +268,11 @@ static Status row_shown(System *system, Row *row, Diag *diag)
         row->phi = tie_shown(system, row);
         break;
     case ROW_DRIVER:
-        CHECK(driver_shown(system, row, diag));
+        TRY(driver_shown(system, row, diag));
         break;
     }
     row->phi = expr_fold(arena, expr_open(arena, row->phi));
-done:
-    return status;
+    return OK;
 }
 
 /* of the terms of a sum, without their cancelling; at least of a unit length */
@@ -658,22 +653,19 @@ Status constraints_build(System *system, Diag *diag)
 {
     Sample *samples[SAMPLES];
     int kept = 0;
-    Status status = OK;
 
     for (int i = 0; i < SAMPLES; i++)
         samples[i] = sample_new(system, (uint64_t)i, true);
-    CHECK(all_rows(system, diag));
+    TRY(all_rows(system, diag));
     for (int k = 0; k < system->constraints->rows.count; k++) {
         Row *row = &system->constraints->rows.at[k];
         bool vanishes;
 
-        CHECK(row_shown(system, row, diag));
-        CHECK(row_vanishes(system, row, samples, &vanishes, diag));
+        TRY(row_shown(system, row, diag));
+        TRY(row_vanishes(system, row, samples, &vanishes, diag));
         if (!vanishes)
             system->constraints->rows.at[kept++] = *row;
     }
     system->constraints->rows.count = kept;
-    CHECK(run_rows(system, diag));
-done:
-    return status;
+    return run_rows(system, diag);
 }

@@ -187,7 +187,6 @@ Status coordinate_value(System *system, const Instance *owner, int coordinate, i
                         Expr *out, Diag *diag)
 {
     int place = system->kinematics->coordinate[owner->number][coordinate];
-    Status status = OK;
 
     if (primes > 2)
         return diag_set(diag, E_MISSING, "%s: no more than two derivatives",
@@ -202,9 +201,8 @@ Status coordinate_value(System *system, const Instance *owner, int coordinate, i
             return system_rate_of(system, *out, out, diag);
         return OK;
     }
-    CHECK(chord_value(system, owner, coordinate, out, diag));
+    TRY(chord_value(system, owner, coordinate, out, diag));
     for (; primes > 0; primes--)
-        CHECK(system_rate_of(system, *out, out, diag));
-done:
-    return status;
+        TRY(system_rate_of(system, *out, out, diag));
+    return OK;
 }

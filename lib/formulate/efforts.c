@@ -50,30 +50,28 @@ Status effort_of(System *system, const Instance *instance, Effort *out, Diag *di
 {
     Effort effort = {.instance = instance};
     Motion1 motion = {.across = expr_int(system->arena, 0), .through = expr_int(system->arena, 0)};
-    Status status = OK;
 
     if (instance->joint < 0) {
-        CHECK(line_motion(system, instance, &effort, diag));
+        TRY(line_motion(system, instance, &effort, diag));
     } else {
         const Instance *joint = &system->origin->instances[instance->joint];
         int coordinate = instance->joint_coordinate;
 
-        CHECK(coordinate_value(system, joint, coordinate, 0, &effort.displacement, diag));
-        CHECK(coordinate_value(system, joint, coordinate, 1, &effort.rate, diag));
+        TRY(coordinate_value(system, joint, coordinate, 0, &effort.displacement, diag));
+        TRY(coordinate_value(system, joint, coordinate, 1, &effort.rate, diag));
     }
     motion.displacement = effort.displacement;
     motion.rate = effort.rate;
     if (instance->scalar_count > 0) {
         Branchlike *branch = scalar_branch(system, instance, 0);
 
-        CHECK(network_through(system, branch, &motion.through, diag));
-        CHECK(network_across(system, branch, &motion.across, diag));
+        TRY(network_through(system, branch, &motion.through, diag));
+        TRY(network_across(system, branch, &motion.across, diag));
     }
     effort.value = instance->row->effort(instance, system->arena, &motion);
-    CHECK(variables_resolve(system, effort.value, &effort.value, diag));
+    TRY(variables_resolve(system, effort.value, &effort.value, diag));
     *out = effort;
-done:
-    return status;
+    return OK;
 }
 
 bool system_line(System *system, int *next, FrameLine *out)
@@ -100,13 +98,12 @@ Status wrench_of(System *system, const Instance *instance, Vec *force, Vec *torq
                  Diag *diag)
 {
     bool in_body = false;
-    Status status = OK;
 
     instance->row->wrench(instance, system->arena, system->origin->planar, force->at, torque->at,
                           &in_body);
     for (int i = 0; i < 3; i++) {
-        CHECK(variables_resolve(system, force->at[i], &force->at[i], diag));
-        CHECK(variables_resolve(system, torque->at[i], &torque->at[i], diag));
+        TRY(variables_resolve(system, force->at[i], &force->at[i], diag));
+        TRY(variables_resolve(system, torque->at[i], &torque->at[i], diag));
     }
     *chain = 0;
     if (in_body) {
@@ -114,8 +111,7 @@ Status wrench_of(System *system, const Instance *instance, Vec *force, Vec *torq
         *torque = frame_vector(system, instance->head, *torque);
         *chain = system->kinematics->frames[instance->head].chain;
     }
-done:
-    return status;
+    return OK;
 }
 
 static bool find_push(System *system, const Instance *instance, Pusher *out)
@@ -186,7 +182,6 @@ void loads_add_effort(System *system, Loads *loads, const Instance *owner, int c
 Status efforts_add(System *system, Loads *loads, bool joints, Diag *diag)
 {
     Arena *arena = system->arena;
-    Status status = OK;
 
     for (int i = 0; i < system->origin->instance_count; i++) {
         const Instance *instance = &system->origin->instances[i];
@@ -196,13 +191,13 @@ Status efforts_add(System *system, Loads *loads, bool joints, Diag *diag)
         int chain;
 
         if (instance->row->wrench != NULL) {
-            CHECK(wrench_of(system, instance, &force, &torque, &chain, diag));
+            TRY(wrench_of(system, instance, &force, &torque, &chain, diag));
             loads_add_force(system, loads, instance->head, force, chain);
             loads_add_torque(system, loads, instance->head, torque, chain);
         }
         if (instance->row->effort == NULL || (instance->joint >= 0 && !joints))
             continue;
-        CHECK(effort_of(system, instance, &effort, diag));
+        TRY(effort_of(system, instance, &effort, diag));
         if (!effort.is_line) {
             loads_add_effort(system, loads, &system->origin->instances[instance->joint],
                              instance->joint_coordinate, effort.value);
@@ -212,8 +207,7 @@ Status efforts_add(System *system, Loads *loads, bool joints, Diag *diag)
         loads_add_force(system, loads, instance->head, force, 0);
         loads_add_force(system, loads, instance->tail, vec_neg(arena, force), 0);
     }
-done:
-    return status;
+    return OK;
 }
 
 void loads_add_row(System *system, Loads *loads, const Row *row, Expr lambda)

@@ -167,17 +167,15 @@ static Status push_inertia_of(System *system, const Instance *instance, int j, i
 {
     Effort effort;
     Expr inertia;
-    Status status = OK;
 
     if (instance->row->effort == NULL || instance->joint < 0)
         return OK;
-    CHECK(effort_of(system, instance, &effort, diag));
-    CHECK(effort_inertia(system, &effort, k, &inertia, diag));
+    TRY(effort_of(system, instance, &effort, diag));
+    TRY(effort_inertia(system, &effort, k, &inertia, diag));
     if (!expr_is_zero(inertia))
         LIST_PUSH(*terms,
                   expr_mul(system->arena, speed_partial(system, effort.displacement, j), inertia));
-done:
-    return status;
+    return OK;
 }
 
 static Status show_mass(System *system, int j, int k, Expr *out, Diag *diag)
@@ -253,22 +251,20 @@ static Status push_effort(System *system, const Instance *instance, int j, Terms
 {
     Arena *arena = system->arena;
     Effort effort;
-    Status status = OK;
 
-    CHECK(effort_of(system, instance, &effort, diag));
+    TRY(effort_of(system, instance, &effort, diag));
     if (effort.is_line) {
         Expr length = length_shown(system, instance);
         Motion1 motion = {length, NULL, expr_int(arena, 0), expr_int(arena, 0)};
 
-        CHECK(system_rate_of(system, length, &motion.rate, diag));
+        TRY(system_rate_of(system, length, &motion.rate, diag));
         effort.value = instance->row->effort(instance, arena, &motion);
-        CHECK(variables_resolve(system, effort.value, &effort.value, diag));
+        TRY(variables_resolve(system, effort.value, &effort.value, diag));
         effort.displacement = length;
     }
     LIST_PUSH(*terms, expr_mul(arena, effort_at_rest(system, &effort),
                                speed_partial(system, effort.displacement, j)));
-done:
-    return status;
+    return OK;
 }
 
 static Status push_wrench(System *system, const Instance *instance, int j, Terms *terms, Diag *diag)
@@ -277,15 +273,13 @@ static Status push_wrench(System *system, const Instance *instance, int j, Terms
     Vec force;
     Vec torque;
     int chain;
-    Status status = OK;
 
-    CHECK(wrench_of(system, instance, &force, &torque, &chain, diag));
+    TRY(wrench_of(system, instance, &force, &torque, &chain, diag));
     LIST_PUSH(*terms, framesum_dot(system, framesum_of(system, chain, force),
                                    partial_velocity(system, instance->head, j)));
     LIST_PUSH(*terms, framesum_dot(system, framesum_of(system, chain, torque),
                                    framesum_of(system, own, partial_turn(system, own, j))));
-done:
-    return status;
+    return OK;
 }
 
 static Status push_rotor(System *system, const Instance *instance, int j, Terms *terms, Diag *diag)
@@ -532,7 +526,6 @@ Status show_entry(System *system, Block block, int row, int column, Expr *out, D
     int columns;
     Expr *entry;
     Expr shown;
-    Status status = OK;
 
     system_block_size(system, block, &rows, &columns);
     /* the other half of a symmetric matrix is the same */
@@ -544,17 +537,16 @@ Status show_entry(System *system, Block block, int row, int column, Expr *out, D
     }
     entry = &entries_of(system, block, rows * columns)[row * columns + column];
     if (*entry == NULL && block == BLOCK_MASS && !system->dynamics->writes_out)
-        CHECK(system_form_mass(system, diag));
+        TRY(system_form_mass(system, diag));
     if (*entry == NULL && defined_block(system, block) != NULL && !system->dynamics->writes_out)
         *entry = defined_block(system, block)[row * columns + column];
     if (*entry == NULL) {
-        CHECK(blocks[block].show(system, row, column, &shown, diag));
-        CHECK(poll(system->watch));
+        TRY(blocks[block].show(system, row, column, &shown, diag));
+        TRY(poll(system->watch));
         *entry = shown;
     }
     *out = *entry;
-done:
-    return status;
+    return OK;
 }
 
 Status system_show(System *system, Block block, int row, int column, Expr *out, Diag *diag)

@@ -56,7 +56,6 @@ static Status share_cutset(System *system, const Branchlike *branch, bool *share
                            Diag *diag)
 {
     const SignMatrix *cutsets = system->network->cutsets[branch_tree(system, branch)];
-    Status status = OK;
 
     *shared = true;
     *out = branch->v;
@@ -69,12 +68,11 @@ static Status share_cutset(System *system, const Branchlike *branch, bool *share
         if (chord == branch)
             continue;
         *shared = is_on_side(chord, RELATION_THROUGH);
-        CHECK(network_across(system, chord, &v, diag));
+        TRY(network_across(system, chord, &v, diag));
         *out = cutsets->entry[k] < 0 ? expr_sub(system->arena, *out, v)
                                      : expr_add(system->arena, *out, v);
     }
-done:
-    return status;
+    return OK;
 }
 
 Status ideal_share(System *system, const Branchlike *branch, bool *shared, Expr *out, Diag *diag)
@@ -104,13 +102,11 @@ Status system_scalar(System *system, int i, ScalarPair *out, Diag *diag)
                        .switches = branch->ideal >= 0,
                        .gives_any = branch->relation.kind == RELATION_FREE,
                        .energy_known = branch->relation.stored != NULL};
-    Status status = OK;
 
-    CHECK(network_across(system, branch, &pair.across, diag));
-    CHECK(network_through(system, branch, &pair.through, diag));
+    TRY(network_across(system, branch, &pair.across, diag));
+    TRY(network_through(system, branch, &pair.through, diag));
     *out = pair;
-done:
-    return status;
+    return OK;
 }
 
 /* where the unknown of the branch, and so its equation, stands in [x'; z] */
@@ -144,24 +140,22 @@ Status system_ideal(System *system, int i, IdealSwitch *out, Diag *diag)
     IdealSwitch found = {.name = system->origin->instances[branch->instance].name,
                          .domain = graph_edge(system->origin->graph, branch->edge)->domain,
                          .row = row_of(system, branch)};
-    Status status = OK;
 
-    CHECK(network_across(system, branch, &found.across, diag));
-    CHECK(network_through(system, branch, &found.through, diag));
-    CHECK(variables_resolve(system, ideal->least, &found.least, diag));
-    CHECK(variables_resolve(system, ideal->on, &found.on, diag));
+    TRY(network_across(system, branch, &found.across, diag));
+    TRY(network_through(system, branch, &found.through, diag));
+    TRY(variables_resolve(system, ideal->least, &found.least, diag));
+    TRY(variables_resolve(system, ideal->on, &found.on, diag));
     found.across = expr_sub(system->arena, found.across, found.least);
     found.closed = branch->closed;
     if (ideal->off != NULL)
-        CHECK(variables_resolve(system, ideal->off, &found.off, diag));
+        TRY(variables_resolve(system, ideal->off, &found.off, diag));
     if (ideal->when != NULL)
-        CHECK(variables_resolve(system, ideal->when, &found.when, diag));
+        TRY(variables_resolve(system, ideal->when, &found.when, diag));
     else if (ideal->off != NULL)
         found.through =
             expr_sub(system->arena, found.through, expr_div(system->arena, found.least, found.off));
     if (ideal->when == NULL && system->network->closed != NULL)
         found.margin = margin_of(system, i, &found);
     *out = found;
-done:
-    return status;
+    return OK;
 }

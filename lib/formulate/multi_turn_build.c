@@ -98,16 +98,14 @@ Status system_multi_turn_rate(System *system, int i, Expr *out, Diag *diag)
     Expr sine_rate;
     Expr cosine_rate;
     Expr size;
-    Status status = OK;
 
-    CHECK(system_rate_of(system, chord->sine, &sine_rate, diag));
-    CHECK(system_rate_of(system, chord->cosine, &cosine_rate, diag));
+    TRY(system_rate_of(system, chord->sine, &sine_rate, diag));
+    TRY(system_rate_of(system, chord->cosine, &cosine_rate, diag));
     size = expr_hold(
         arena, expr_add(arena, expr_square(arena, chord->sine), expr_square(arena, chord->cosine)));
     *out = expr_sub(arena, expr_mul(arena, chord->cosine, sine_rate),
                     expr_mul(arena, chord->sine, cosine_rate));
     size = expr_div(arena, size, expr_add(arena, expr_square(arena, size), expr_real(arena, 1e-8)));
     *out = expr_mul(arena, *out, size);
-done:
-    return status;
+    return OK;
 }

@@ -46,7 +46,6 @@ static Status keep_unknown(System *system, Branchlike *branch, Diag *diag)
     bool steep = is_steep(system, branch);
     const char *name = branch_member(system, branch, !branch->branch && !steep);
     bool state_form = system->network->form == NETWORK_STATE;
-    Status status = OK;
 
     if (branch->unknown >= 0)
         return OK;
@@ -56,10 +55,9 @@ static Status keep_unknown(System *system, Branchlike *branch, Diag *diag)
         return OK;
     branch->is_steep = true;
     branch->v = system->network->unknowns.at[branch->unknown].symbol;
-    CHECK(variables_resolve(system, branch->relation.value, &branch->i, diag));
+    TRY(variables_resolve(system, branch->relation.value, &branch->i, diag));
     branch->i = expr_hold(system->arena, branch->i);
-done:
-    return status;
+    return OK;
 }
 
 /* --- across and through variables --- */
@@ -126,16 +124,14 @@ Status network_stored_rate(System *system, const Branchlike *branch, Expr *out, 
 {
     const Relation *relation = &branch->relation;
     Expr rest;
-    Status status = OK;
 
-    CHECK(variables_resolve(system, relation->content, out, diag));
-    CHECK(system_need_smooth(system, graph_edge(system->origin->graph, branch->edge)->name, *out,
-                             diag));
-    CHECK(system_rate_of(system, *out, out, diag));
-    CHECK(variables_resolve(system, relation->rest, &rest, diag));
+    TRY(variables_resolve(system, relation->content, out, diag));
+    TRY(system_need_smooth(system, graph_edge(system->origin->graph, branch->edge)->name, *out,
+                           diag));
+    TRY(system_rate_of(system, *out, out, diag));
+    TRY(variables_resolve(system, relation->rest, &rest, diag));
     *out = expr_add(system->arena, *out, rest);
-done:
-    return status;
+    return OK;
 }
 
 /* v = value * i + rest, or i = (v - rest) / value */
@@ -145,21 +141,19 @@ static Status resistive(System *system, Branchlike *branch, bool *given, Expr *o
     Expr other;
     Expr value;
     Expr rest;
-    Status status = OK;
 
     if (!branch->branch && branch->relation.inverse != NULL)
         return variables_resolve(system, branch->relation.inverse, out, diag);
-    CHECK(branch->branch ? network_through(system, branch, &other, diag)
-                         : network_across(system, branch, &other, diag));
-    CHECK(variables_resolve(system, branch->relation.value, &value, diag));
-    CHECK(variables_resolve(system, branch->relation.rest, &rest, diag));
+    TRY(branch->branch ? network_through(system, branch, &other, diag)
+                       : network_across(system, branch, &other, diag));
+    TRY(variables_resolve(system, branch->relation.value, &value, diag));
+    TRY(variables_resolve(system, branch->relation.rest, &rest, diag));
     *given = branch->branch || !expr_is_zero(value);
     if (branch->branch)
         *out = expr_add(arena, expr_mul(arena, value, other), rest);
     else if (*given)
         *out = expr_div(arena, expr_sub(arena, other, rest), value);
-done:
-    return status;
+    return OK;
 }
 
 bool port_gives_own(System *system, const Branchlike *branch)
@@ -246,34 +240,28 @@ done:
 
 Status network_across(System *system, Branchlike *branch, Expr *out, Diag *diag)
 {
-    Status status = OK;
-
     if (branch->v == NULL) {
         if (branch->branch)
-            CHECK(own_variable(system, branch, out, diag));
+            TRY(own_variable(system, branch, out, diag));
         else
-            CHECK(circuit_across(system, branch, out, diag));
+            TRY(circuit_across(system, branch, out, diag));
         if (!branch->is_steep)
             branch->v = expr_hold(system->arena, *out);
     }
     *out = branch->v;
-done:
-    return status;
+    return OK;
 }
 
 Status network_through(System *system, Branchlike *branch, Expr *out, Diag *diag)
 {
-    Status status = OK;
-
     if (branch->i == NULL) {
         if (branch->branch)
-            CHECK(cutset_through(system, branch, out, diag));
+            TRY(cutset_through(system, branch, out, diag));
         else
-            CHECK(own_variable(system, branch, out, diag));
+            TRY(own_variable(system, branch, out, diag));
         if (!branch->is_steep)
             branch->i = expr_hold(system->arena, *out);
     }
     *out = branch->i;
-done:
-    return status;
+    return OK;
 }

@@ -180,7 +180,6 @@ static void add_branches(System *system)
 Status network_build(System *system, Diag *diag)
 {
     Expr value;
-    Status status = OK;
 
     system->network->is_open = true;
     add_branches(system);
@@ -190,23 +189,22 @@ Status network_build(System *system, Diag *diag)
     for (TreeKind kind = TREE_ELECTRICAL; kind < TREE_KINDS; kind++) {
         if (system->origin->trees[kind] == NULL)
             continue;
-        CHECK(network_normal_tree(system, kind, diag));
+        TRY(network_normal_tree(system, kind, diag));
         find_cutsets(system, kind);
     }
     add_states(system);
     /* chords first: their currents are the ones to stay unknown */
     for (int i = 0; i < system->network->branches.count; i++)
         if (!system->network->branches.at[i].branch)
-            CHECK(network_through(system, &system->network->branches.at[i], &value, diag));
+            TRY(network_through(system, &system->network->branches.at[i], &value, diag));
     for (int i = 0; i < system->network->branches.count; i++) {
-        CHECK(network_across(system, &system->network->branches.at[i], &value, diag));
-        CHECK(network_through(system, &system->network->branches.at[i], &value, diag));
-        CHECK(poll(system->watch));
+        TRY(network_across(system, &system->network->branches.at[i], &value, diag));
+        TRY(network_through(system, &system->network->branches.at[i], &value, diag));
+        TRY(poll(system->watch));
     }
-    CHECK(check_smooth(system, diag));
+    TRY(check_smooth(system, diag));
     if (system->network->form == NETWORK_TREE)
-        CHECK(network_bring_order(system, diag));
+        TRY(network_bring_order(system, diag));
     network_list(system);
-done:
-    return status;
+    return OK;
 }

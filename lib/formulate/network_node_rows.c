@@ -7,16 +7,14 @@
 static Status taken_by(System *system, int edge, int node, Expr *out, Diag *diag)
 {
     const Edge *e = graph_edge(system->origin->graph, edge);
-    Status status = OK;
 
-    CHECK(network_through(
+    TRY(network_through(
         system, &system->network->branches.at[system->network->scalar_of_edge[edge]], out, diag));
     if (e->tail == e->head)
         *out = expr_int(system->arena, 0);
     else if (e->head == node)
         *out = expr_neg(system->arena, *out);
-done:
-    return status;
+    return OK;
 }
 
 static Status balance_row(System *system, const Branchlike *branch, int node, Unknown *y,
@@ -47,13 +45,11 @@ static Status potential_row(System *system, Branchlike *branch, int node, Unknow
     const Tree *tree = system->origin->trees[branch_tree(system, branch)];
     const Expr before = network_nodes_potential(system, tree, tree_parent(tree, node));
     Expr v;
-    Status status = OK;
 
-    CHECK(network_across(system, branch, &v, diag));
+    TRY(network_across(system, branch, &v, diag));
     y->right = tree_is_forward(tree, node) ? expr_add(system->arena, before, v)
                                            : expr_sub(system->arena, before, v);
-done:
-    return status;
+    return OK;
 }
 
 Status network_nodes_row(System *system, Unknown *y, Diag *diag)

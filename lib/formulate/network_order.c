@@ -98,17 +98,15 @@ static Status form_leading(Order *o, Diag *diag)
 {
     Arena *arena = o->system->arena;
     Expr zero = expr_int(arena, 0);
-    Status status = OK;
 
     for (int i = 0; i < o->count; i++) {
-        CHECK(check_room(o, diag));
+        TRY(check_room(o, diag));
         for (int j = 0; j < o->count; j++)
             o->L[i * o->count + j] = expr_depends(o->row[i], highest(o, j))
                                          ? expr_diff(arena, o->row[i], highest(o, j))
                                          : zero;
     }
-done:
-    return status;
+    return OK;
 }
 
 /* --- one row without highest rates --- */
@@ -236,15 +234,14 @@ static Status rates_by(const Order *o, Expr row, int j, int k, Expr *symbol, Exp
     Arena *arena = system->arena;
     Expr zero = expr_int(arena, 0);
     int count = system->network->unknowns.at[j].order - k;
-    Status status = OK;
 
     for (int i = 0; i < count; i++) {
         Expr rate;
 
         symbol[i] = rate_symbol(&system->network->unknowns.at[j], k + 1 + i);
-        CHECK(system_rate_of(system, i == 0 ? row : value[i - 1], &rate, diag));
+        TRY(system_rate_of(system, i == 0 ? row : value[i - 1], &rate, diag));
         if (i == 0 && expr_is_zero(expr_diff(arena, rate, symbol[0])))
-            CHECK(cant_order(o, j, diag));
+            TRY(cant_order(o, j, diag));
         if (i == 0)
             value[0] =
                 expr_neg(arena, expr_div(arena, expr_substitute(arena, rate, symbol, &zero, 1),
@@ -252,8 +249,7 @@ static Status rates_by(const Order *o, Expr row, int j, int k, Expr *symbol, Exp
         else
             value[i] = expr_substitute(arena, rate, symbol, value, i);
     }
-done:
-    return status;
+    return OK;
 }
 
 static Status lower_order(Order *o, Diag *diag)

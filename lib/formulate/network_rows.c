@@ -85,19 +85,18 @@ static Status relation_row(System *system, Unknown *y, Diag *diag)
     Expr rest = NULL;
     Expr content = NULL;
     bool shared = false;
-    Status status = OK;
 
-    CHECK(network_across(system, branch, &v, diag));
-    CHECK(network_through(system, branch, &i, diag));
+    TRY(network_across(system, branch, &v, diag));
+    TRY(network_through(system, branch, &i, diag));
     if (relation->value != NULL)
-        CHECK(variables_resolve(system, relation->value, &value, diag));
+        TRY(variables_resolve(system, relation->value, &value, diag));
     if (relation->rest != NULL)
-        CHECK(variables_resolve(system, relation->rest, &rest, diag));
+        TRY(variables_resolve(system, relation->rest, &rest, diag));
     if (relation->content != NULL) {
-        CHECK(variables_resolve(system, relation->content, &content, diag));
-        CHECK(system_need_smooth(system, graph_edge(system->origin->graph, branch->edge)->name,
-                                 content, diag));
-        CHECK(system_rate_of(system, content, &content, diag));
+        TRY(variables_resolve(system, relation->content, &content, diag));
+        TRY(system_need_smooth(system, graph_edge(system->origin->graph, branch->edge)->name,
+                               content, diag));
+        TRY(system_rate_of(system, content, &content, diag));
     }
     switch (relation->kind) {
     case RELATION_ACROSS:
@@ -109,7 +108,7 @@ static Status relation_row(System *system, Unknown *y, Diag *diag)
         y->left = branch->is_steep ? v : i;
         y->right = value;
         if (branch->is_steep)
-            CHECK(circuit_across(system, branch, &y->right, diag));
+            TRY(circuit_across(system, branch, &y->right, diag));
         break;
     case RELATION_RESISTIVE:
         y->left = branch->branch ? v : expr_mul(arena, value, i);
@@ -125,7 +124,7 @@ static Status relation_row(System *system, Unknown *y, Diag *diag)
         y->right = expr_sub(arena, v, rest);
         break;
     case RELATION_PORT:
-        CHECK(port_row(system, branch, y, diag));
+        TRY(port_row(system, branch, y, diag));
         break;
     case RELATION_FREE:
     case RELATION_IDEAL:
@@ -134,50 +133,45 @@ static Status relation_row(System *system, Unknown *y, Diag *diag)
         break;
     }
     if (branch->ideal >= 0)
-        CHECK(ideal_share(system, branch, &shared, &value, diag));
+        TRY(ideal_share(system, branch, &shared, &value, diag));
     if (shared) {
         y->left = value;
         y->right = expr_int(arena, 0);
     }
-done:
-    return status;
+    return OK;
 }
 
 static Status own_row(System *system, Unknown *y, Diag *diag)
 {
     const Instance *instance = &system->origin->instances[y->instance];
     OwnState own;
-    Status status = OK;
 
     instance->row->own_state(instance, system->arena, y->own, &own);
-    CHECK(system_rate_of(system, y->symbol, &y->left, diag));
-    CHECK(variables_resolve(system, own.rate, &y->right, diag));
-done:
-    return status;
+    TRY(system_rate_of(system, y->symbol, &y->left, diag));
+    return variables_resolve(system, own.rate, &y->right, diag);
 }
 
 Status network_row(System *system, int unknown, Diag *diag)
 {
     Arena *arena = system->arena;
     Unknown y = system->network->unknowns.at[unknown]; /* the list may move on the way */
-    Status status = OK;
 
     if (y.has_row)
         return OK;
     if (y.derives >= 0) {
-        CHECK(network_row(system, y.derives, diag));
+        TRY(network_row(system, y.derives, diag));
         y.left = expr_open(arena, system->network->unknowns.at[y.derives].left);
         y.right = expr_open(arena, system->network->unknowns.at[y.derives].right);
-        CHECK(system_need_smooth(system, system->origin->instances[y.instance].name,
-                                 expr_sub(arena, y.left, y.right), diag));
-        CHECK(system_rate_of(system, y.left, &y.left, diag));
-        CHECK(system_rate_of(system, y.right, &y.right, diag));
+        TRY(system_need_smooth(system, system->origin->instances[y.instance].name,
+                               expr_sub(arena, y.left, y.right), diag));
+        TRY(system_rate_of(system, y.left, &y.left, diag));
+        TRY(system_rate_of(system, y.right, &y.right, diag));
     } else if (y.branchlike >= 0) {
-        CHECK(relation_row(system, &y, diag));
+        TRY(relation_row(system, &y, diag));
     } else if (y.law != NODE_NONE) {
-        CHECK(network_nodes_row(system, &y, diag));
+        TRY(network_nodes_row(system, &y, diag));
     } else {
-        CHECK(own_row(system, &y, diag));
+        TRY(own_row(system, &y, diag));
     }
     y.order = system->network->unknowns.at[unknown].order;
     y.known = system->network->unknowns.at[unknown].known;
@@ -187,8 +181,7 @@ Status network_row(System *system, int unknown, Diag *diag)
     y.right = expr_fold(arena, expr_open(arena, y.right));
     y.has_row = true;
     system->network->unknowns.at[unknown] = y;
-done:
-    return status;
+    return OK;
 }
 
 /* --- lists --- */
@@ -360,7 +353,6 @@ static Status add_rows(NetworkRows *rows, Diag *diag)
     Arena *arena = system->arena;
     int state = 0;
     int algebraic = system->network->x.count;
-    Status status = OK;
 
     for (int k = 0; k < system->network->unknowns.count; k++) {
         const Unknown *y = &system->network->unknowns.at[k];
@@ -376,19 +368,18 @@ static Status add_rows(NetworkRows *rows, Diag *diag)
         for (int l = 0;
              is_state && l < y->order - 1 && expr_symbol_kind(y->rates[l]) == SYMBOL_STATE;
              l++, state++)
-            CHECK(add_row(rows, state,
-                          expr_sub(arena, system->network->rates.at[state],
-                                   system->network->x.at[state + 1].symbol),
-                          y, diag));
-        CHECK(add_row(rows, is_state ? state++ : algebraic++, residual, y, diag));
+            TRY(add_row(rows, state,
+                        expr_sub(arena, system->network->rates.at[state],
+                                 system->network->x.at[state + 1].symbol),
+                        y, diag));
+        TRY(add_row(rows, is_state ? state++ : algebraic++, residual, y, diag));
         if (system->network->form == NETWORK_STATE && is_state &&
             (expr_kinds(right) & 1U << SYMBOL_STATE_RATE) != 0 && !system->run.network_nonlinear)
             gather_rates(rows, first, &left, &right);
         show_equation(system, (NetworkEquation){left, right, unknown_edge(system, y)});
-        CHECK(poll(system->watch));
+        TRY(poll(system->watch));
     }
-done:
-    return status;
+    return OK;
 }
 
 static void find_samples(System *system)
@@ -421,17 +412,15 @@ static Status differentiate_fixed(System *system, int unknown, Diag *diag)
     const Unknown *y = &system->network->unknowns.at[unknown];
     Expr residual = expr_sub(arena, expr_open(arena, y->left), expr_open(arena, y->right));
     Expr rate;
-    Status status = OK;
 
     if (y->residual != NULL || (expr_kinds(residual) & solved_kinds) != 0 ||
         (expr_kinds(residual) & moves) == 0)
         return OK;
-    CHECK(system_need_smooth(system, system->origin->instances[y->instance].name, residual, diag));
-    CHECK(system_rate_of(system, residual, &rate, diag));
+    TRY(system_need_smooth(system, system->origin->instances[y->instance].name, residual, diag));
+    TRY(system_rate_of(system, residual, &rate, diag));
     LIST_PUSH(system->network->invariants, residual);
     system->network->unknowns.at[unknown].residual = rate;
-done:
-    return status;
+    return OK;
 }
 
 Status network_rows(System *system, Diag *diag)

@@ -80,7 +80,6 @@ static Status network_rate(System *system, Expr symbol, Expr *out, Diag *diag)
     int k = system->network->unknown_of.at[number] - 1;
     int order = system->network->rate_of.at[number];
     Unknown *y = &system->network->unknowns.at[k];
-    Status status = OK;
 
     if (order < y->known) {
         *out = y->rates[order];
@@ -100,7 +99,7 @@ static Status network_rate(System *system, Expr symbol, Expr *out, Diag *diag)
         return E_MODEL;
     }
     if (y->order < y->known) {
-        CHECK(system_rate_of(system, y->rates[y->known - 1], out, diag));
+        TRY(system_rate_of(system, y->rates[y->known - 1], out, diag));
         push_rate(system, &system->network->unknowns.at[k], *out, true);
     } else if (system->network->form == NETWORK_TREE) {
         *out = network_add_rate(system, k, SYMBOL_STATE);
@@ -113,8 +112,7 @@ static Status network_rate(System *system, Expr symbol, Expr *out, Diag *diag)
         *out = system->network->unknowns.at[added].symbol;
         push_rate(system, &system->network->unknowns.at[k], *out, false);
     }
-done:
-    return status;
+    return OK;
 }
 
 /* --- along the motion --- */

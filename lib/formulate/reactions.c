@@ -22,8 +22,6 @@
 
 static Status add_rotors(System *system, Loads *loads, Diag *diag)
 {
-    Status status = OK;
-
     for (int i = 0; i < system->origin->instance_count; i++) {
         const Instance *instance = &system->origin->instances[i];
         const Instance *joint;
@@ -34,20 +32,18 @@ static Status add_rotors(System *system, Loads *loads, Diag *diag)
             continue;
         inertia = instance->row->rotor(instance, system->arena);
         joint = &system->origin->instances[instance->joint];
-        CHECK(coordinate_value(system, joint, instance->joint_coordinate, 2, &second, diag));
+        TRY(coordinate_value(system, joint, instance->joint_coordinate, 2, &second, diag));
         loads_add_effort(system, loads, joint, instance->joint_coordinate,
                          expr_neg(system->arena, expr_mul(system->arena, inertia, second)));
     }
-done:
-    return status;
+    return OK;
 }
 
 Status actual_build(System *system, Diag *diag)
 {
     Loads loads;
-    Status status = OK;
 
-    CHECK(system_wait_for_motion(system, diag));
+    TRY(system_wait_for_motion(system, diag));
     if (system->shown->actual_a == NULL) {
         size_t chains = (size_t)system->kinematics->chains.count;
 
@@ -61,8 +57,8 @@ Status actual_build(System *system, Diag *diag)
         return OK;
     loads = loads_new(system);
     loads_add_inertia(system, &loads, system->shown->actual_alpha, system->shown->actual_a);
-    CHECK(efforts_add(system, &loads, true, diag));
-    CHECK(add_rotors(system, &loads, diag));
+    TRY(efforts_add(system, &loads, true, diag));
+    TRY(add_rotors(system, &loads, diag));
     for (int k = 0; k < system->constraints->rows.count; k++)
         loads_add_row(system, &loads, &system->constraints->rows.at[k],
                       system->constraints->multipliers[k]);
@@ -80,8 +76,7 @@ Status actual_build(System *system, Diag *diag)
         loads_add_row(system, &loads, &system->constraints->redundant_rows.at[k],
                       system->shown->recovery->multipliers[k]);
     system->shown->actual = loads_sum(system, &loads);
-done:
-    return status;
+    return OK;
 }
 
 /* what a row puts on the head of its chord per unit of -lambda: force or moment, ground axes */
@@ -208,9 +203,8 @@ Status joint_reaction(System *system, const Instance *joint, ReactionPart part, 
     const Row *open;
     Vec vector;
     int chain = 0;
-    Status status = OK;
 
-    CHECK(actual_build(system, diag));
+    TRY(actual_build(system, diag));
     if (joint->is_virtual) {
         *out = expr_int(system->arena, 0);
         return OK;
@@ -233,6 +227,5 @@ Status joint_reaction(System *system, const Instance *joint, ReactionPart part, 
             ? branch_reaction(system, tree, joint->edge, system->shown->actual, part.moment, &chain)
             : chord_reaction(system, joint, part.moment);
     *out = component(system, joint, part, vector, chain);
-done:
-    return status;
+    return OK;
 }

@@ -57,18 +57,15 @@ static int block_entries(const System *system, Block block)
 /* the entries of all blocks as shown, block after block */
 static Status write_out(System *system, Expr *out, Diag *diag)
 {
-    Status status = OK;
-
     for (int b = 0; b < COUNT(blocks); b++) {
         int rows;
         int columns;
 
         system_block_size(system, blocks[b], &rows, &columns);
         for (int i = 0; i < rows * columns; i++)
-            CHECK(show_entry(system, blocks[b], i / columns, i % columns, out++, diag));
+            TRY(show_entry(system, blocks[b], i / columns, i % columns, out++, diag));
     }
-done:
-    return status;
+    return OK;
 }
 
 /* M with its products multiplied out: entries share terms that common factors would hide */

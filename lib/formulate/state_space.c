@@ -296,7 +296,6 @@ static Status read_rows(Space *s, Diag *diag)
     const Reading *run = system_run(s->system);
     Entry *entries = NEW_ARRAY(Entry, run->network_entries);
     int at = 0;
-    Status status = OK;
 
     s->n = system_nx(s->system) + system_nz(s->system);
     s->columns = system_nx(s->system) + s->symbols.count;
@@ -315,15 +314,14 @@ static Status read_rows(Space *s, Diag *diag)
             entries[at].value = expr_substitute(
                 s->arena, expr_open(s->arena, run->network[at].value), &s->start, &s->t, 1);
             if (run->network_nonlinear || (expr_kinds(entries[at].value) & ~constant_kinds) != 0)
-                CHECK(not_linear(s, r, expr_kinds(entries[at].value), diag));
+                TRY(not_linear(s, r, expr_kinds(entries[at].value), diag));
         }
         s->row_start[r + 1] = at;
-        CHECK(read_row(s, r, diag));
+        TRY(read_row(s, r, diag));
         clear_row(s, r);
-        CHECK(poll(s->watch));
+        TRY(poll(s->watch));
     }
-done:
-    return status;
+    return OK;
 }
 
 /* --- blocks --- */
@@ -445,7 +443,6 @@ done:
 static Status solve_chains(Space *s, Diag *diag)
 {
     bool goes_on = true;
-    Status status = OK;
 
     while (goes_on) {
         goes_on = false;
@@ -459,12 +456,11 @@ static Status solve_chains(Space *s, Diag *diag)
                 }
             if (one.size != 1)
                 continue;
-            CHECK(solve_block(s, &one, diag));
+            TRY(solve_block(s, &one, diag));
             goes_on = true;
         }
     }
-done:
-    return status;
+    return OK;
 }
 
 /* --- what is coupled --- */
@@ -548,8 +544,6 @@ static Status too_many(const Space *s, int row, Diag *diag)
 /* blocks of what needs each other, those first that need least */
 static Status solve_blocks(Space *s, Rest *rest, Diag *diag)
 {
-    Status status = OK;
-
     for (int needed = 1; needed <= rest->count; needed++)
         for (int p = 0; p < rest->count; p++) {
             CoupledStates block = {.size = 0};
@@ -560,14 +554,13 @@ static Status solve_blocks(Space *s, Rest *rest, Diag *diag)
                 if (!rest->needs[p * rest->count + o] || !rest->needs[o * rest->count + p])
                     continue;
                 if (block.size == MOST_COUPLED)
-                    CHECK(too_many(s, rest->rows[p], diag));
+                    TRY(too_many(s, rest->rows[p], diag));
                 block.rows[block.size] = rest->rows[o];
                 block.unknowns[block.size++] = rest->unknown_of[o];
             }
-            CHECK(solve_block(s, &block, diag));
+            TRY(solve_block(s, &block, diag));
         }
-done:
-    return status;
+    return OK;
 }
 
 static Status solve_rest(Space *s, Diag *diag)

@@ -75,7 +75,6 @@ static Status frame_vector_of(System *system, int node, Quantity quantity, Vec *
 {
     const Frame *frame = &system->kinematics->frames[node];
     int axes = system->kinematics->chains.at[frame->chain].resolve;
-    Status status = OK;
 
     switch (quantity) {
     case POSITION:
@@ -98,14 +97,13 @@ static Status frame_vector_of(System *system, int node, Quantity quantity, Vec *
     }
     case ACCELERATION:
     case TURNING:
-        CHECK(actual_build(system, diag));
+        TRY(actual_build(system, diag));
         *out = quantity == TURNING ? system->shown->actual_alpha[frame->chain]
                                    : system->shown->actual_a[node];
         *out = vec_express(system, *out, axes, 0);
         break;
     }
-done:
-    return status;
+    return OK;
 }
 
 static Status frame_variable(System *system, int node, const char *member, Expr *out, Diag *diag)
@@ -142,7 +140,6 @@ static Status joint_effort(System *system, const Instance *joint, Expr *out, Dia
 {
     Arena *arena = system->arena;
     Expr sum = expr_int(arena, 0);
-    Status status = OK;
 
     for (int i = 0; i < system->origin->instance_count; i++) {
         const Instance *instance = &system->origin->instances[i];
@@ -150,7 +147,7 @@ static Status joint_effort(System *system, const Instance *joint, Expr *out, Dia
 
         if (instance->joint != joint->number || instance->row->effort == NULL)
             continue;
-        CHECK(effort_of(system, instance, &effort, diag));
+        TRY(effort_of(system, instance, &effort, diag));
         sum = expr_add(arena, sum, effort.value);
     }
     for (int k = 0; k < system->constraints->rows.count; k++)
@@ -158,8 +155,7 @@ static Status joint_effort(System *system, const Instance *joint, Expr *out, Dia
             system->constraints->rows.at[k].owner == joint->number)
             sum = expr_sub(arena, sum, system->constraints->multipliers[k]);
     *out = sum;
-done:
-    return status;
+    return OK;
 }
 
 /* the shift of a screw, from its turn */
@@ -167,15 +163,13 @@ static Status tied_shift(System *system, const Instance *joint, Expr *out, Diag 
 {
     Steps steps;
     Expr turn;
-    Status status = OK;
 
     instance_steps(system, joint, &steps);
     if (!steps_are_tied(&steps))
         return diag_set(diag, E_MISSING, "%s.s can't be told", joint->name);
-    CHECK(coordinate_value(system, joint, steps.turn[0].coordinate, 0, &turn, diag));
+    TRY(coordinate_value(system, joint, steps.turn[0].coordinate, 0, &turn, diag));
     *out = expr_mul(system->arena, steps.shift[0].scale, turn);
-done:
-    return status;
+    return OK;
 }
 
 /* angular velocity of the head against the tail in the axes of the head, its constant turn undone:
@@ -234,13 +228,11 @@ static Status effort_variable(System *system, const Instance *instance, const ch
                               Expr *out, Diag *diag)
 {
     Effort effort;
-    Status status = OK;
 
     (void)member;
-    CHECK(effort_of(system, instance, &effort, diag));
+    TRY(effort_of(system, instance, &effort, diag));
     *out = effort.value;
-done:
-    return status;
+    return OK;
 }
 
 static Status driver_variable(System *system, const Instance *driver, const char *member, Expr *out,
@@ -420,7 +412,6 @@ static Status terminal_variable(System *system, int node, Expr *out, Diag *diag)
     Arena *arena = system->arena;
     TreeKind kind = TREE_ELECTRICAL;
     const Tree *tree;
-    Status status = OK;
 
     while (tree_kind_domain(kind) != graph_node(system->origin->graph, node)->domain)
         kind++;
@@ -429,16 +420,14 @@ static Status terminal_variable(System *system, int node, Expr *out, Diag *diag)
     for (; tree_parent(tree, node) >= 0; node = tree_parent(tree, node)) {
         Expr v;
 
-        CHECK(
-            network_across(system,
+        TRY(network_across(system,
                            &system->network->branches
                                 .at[system->network->scalar_of_edge[tree_parent_edge(tree, node)]],
                            &v, diag));
         /* an across variable is that of the tail against the head */
         *out = tree_is_forward(tree, node) ? expr_sub(arena, *out, v) : expr_add(arena, *out, v);
     }
-done:
-    return status;
+    return OK;
 }
 
 /* --- the model as a whole --- */

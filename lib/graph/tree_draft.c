@@ -79,20 +79,16 @@ static int find_datum(const Graph *graph, Domain domain)
 
 Status draft_make(Draft *draft, bool exact, Diag *diag)
 {
-    Status status = OK;
-
     draft->datum = find_datum(draft->graph, tree_kind_domain(draft->kind));
     draft->standing = NEW_ARRAY(unsigned char, graph_edge_count(draft->graph));
     draft->sets = sets_new(graph_node_count(draft->graph));
 
     /* what the user chose comes first, whatever it weighs */
-    CHECK(join_arms(draft, diag));
-    CHECK(join_chosen(draft, diag));
+    TRY(join_arms(draft, diag));
+    TRY(join_chosen(draft, diag));
     if (!exact)
         join_preferred(draft);
-    CHECK(check_reach(draft, diag));
-done:
-    return status;
+    return check_reach(draft, diag);
 }
 
 void draft_free(Draft *draft)

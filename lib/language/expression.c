@@ -97,10 +97,9 @@ static Status parse_group(Parser *parser, Syntax **out)
 {
     const Token open = *parser_token(parser);
     Syntax *node = syntax_new(parser, SYNTAX_GROUP, "", open.place);
-    Status status = OK;
 
     parser->at++;
-    CHECK(parse_arguments(parser, &open, node));
+    TRY(parse_arguments(parser, &open, node));
     if (node->count != 1) {
         (void)diag_at(parser->diag, E_SYNTAX, node->place, "a vector stands in [ ], not in ( )");
         diag_hint(parser->diag, "a call's bracket touches its name: max(a, b)");
@@ -108,8 +107,7 @@ static Status parse_group(Parser *parser, Syntax **out)
     }
     parse_primes(parser, node);
     *out = node;
-done:
-    return status;
+    return OK;
 }
 
 /* call = path "(" expr { "," expr } ")" ;   (* "(" touches the path *)   var = path { "'" } ; */
@@ -117,7 +115,6 @@ static Status parse_named(Parser *parser, Syntax **out)
 {
     const Token *name = parser_token(parser);
     Syntax *node = syntax_new(parser, SYNTAX_VARIABLE, name->text, name->place);
-    Status status = OK;
 
     parser->at++;
     if (parser_sees(parser, "(") && parser_token(parser)->touches) {
@@ -126,15 +123,14 @@ static Status parse_named(Parser *parser, Syntax **out)
         node->kind = SYNTAX_CALL;
         parser->at++;
         if (parser_sees(parser, ")"))
-            CHECK(parser_expected(parser, "an argument"));
-        CHECK(parse_arguments(parser, &open, node));
+            TRY(parser_expected(parser, "an argument"));
+        TRY(parse_arguments(parser, &open, node));
     }
     parse_primes(parser, node);
     if (parser_sees(parser, "[") && !(parser->lists && parser->brackets == 0))
-        CHECK(parser_unexpected(parser));
+        TRY(parser_unexpected(parser));
     *out = node;
-done:
-    return status;
+    return OK;
 }
 
 /* primary = NUMBER [ UNIT | unit ] | "[" expr { "," expr } "]" [ UNIT | unit ]
@@ -142,7 +138,6 @@ done:
 Status parse_primary(Parser *parser, Syntax **out)
 {
     const Token token = *parser_token(parser);
-    Status status = OK;
     Syntax *node;
 
     if (token.kind == TOKEN_PATH)
@@ -154,43 +149,40 @@ Status parse_primary(Parser *parser, Syntax **out)
                           token.text, token.place);
         parser->at++;
         if (token.kind == TOKEN_NUMBER)
-            CHECK(parse_literal_unit(parser, node));
+            TRY(parse_literal_unit(parser, node));
     } else if (parser_sees(parser, "[")) {
         node = syntax_new(parser, SYNTAX_VECTOR, "", token.place);
         parser->at++;
-        CHECK(parse_arguments(parser, &token, node));
-        CHECK(parse_literal_unit(parser, node));
+        TRY(parse_arguments(parser, &token, node));
+        TRY(parse_literal_unit(parser, node));
     } else
         return parser_expected(parser, "a value");
     *out = node;
-done:
-    return status;
+    return OK;
 }
 
 /* unary = ( "-" | "+" | "!" ) unary | primary [ "^" unary ] ; */
 static Status parse_unary(Parser *parser, Syntax **out)
 {
     const Token *op = parser_token(parser);
-    Status status = OK;
     Syntax *value = NULL;
     Syntax *power = NULL;
 
-    CHECK(parser_enter(parser));
+    TRY(parser_enter(parser));
     if (parser_take(parser, "-") || parser_take(parser, "+") || parser_take(parser, "!")) {
-        CHECK(parse_unary(parser, &value));
-        CHECK(join(parser, op, NULL, value, out));
+        TRY(parse_unary(parser, &value));
+        TRY(join(parser, op, NULL, value, out));
     } else {
-        CHECK(parse_primary(parser, &value));
+        TRY(parse_primary(parser, &value));
         op = parser_token(parser);
         if (parser_take(parser, "^")) {
-            CHECK(parse_unary(parser, &power));
-            CHECK(join(parser, op, value, power, &value));
+            TRY(parse_unary(parser, &power));
+            TRY(join(parser, op, value, power, &value));
         }
         *out = value;
     }
     parser->depth--;
-done:
-    return status;
+    return OK;
 }
 
 /* --- operators --- */
@@ -200,11 +192,10 @@ typedef Status (*Level)(Parser *parser, Syntax **out);
 /* next { op next }, joined from the left; ops ended by NULL */
 static Status parse_chain(Parser *parser, const char *const *ops, Level next, Syntax **out)
 {
-    Status status = OK;
     Syntax *left = NULL;
     Syntax *right = NULL;
 
-    CHECK(next(parser, &left));
+    TRY(next(parser, &left));
     for (int i = 0; ops[i] != NULL;) {
         const Token *op = parser_token(parser);
 
@@ -212,13 +203,12 @@ static Status parse_chain(Parser *parser, const char *const *ops, Level next, Sy
             i++;
             continue;
         }
-        CHECK(next(parser, &right));
-        CHECK(join(parser, op, left, right, &left));
+        TRY(next(parser, &right));
+        TRY(join(parser, op, left, right, &left));
         i = 0;
     }
     *out = left;
-done:
-    return status;
+    return OK;
 }
 
 /* product = unary { ( "*" | "/" ) unary } ; */
@@ -252,17 +242,16 @@ bool parser_sees_comparison(const Parser *parser)
 /* comp = sum [ ( "<" | "<=" | ">" | ">=" | "==" | "!=" ) sum ] ; */
 static Status parse_comparison(Parser *parser, Syntax **out)
 {
-    Status status = OK;
     Syntax *left = NULL;
     Syntax *right = NULL;
 
-    CHECK(parse_sum(parser, &left));
+    TRY(parse_sum(parser, &left));
     if (parser_sees_comparison(parser)) {
         const Token *op = parser_token(parser);
 
         parser->at++;
-        CHECK(parse_sum(parser, &right));
-        CHECK(join(parser, op, left, right, &left));
+        TRY(parse_sum(parser, &right));
+        TRY(join(parser, op, left, right, &left));
         if (parser_sees_comparison(parser)) {
             (void)diag_at(parser->diag, E_SYNTAX, parser_token(parser)->place,
                           "comparisons do not chain");
@@ -271,8 +260,7 @@ static Status parse_comparison(Parser *parser, Syntax **out)
         }
     }
     *out = left;
-done:
-    return status;
+    return OK;
 }
 
 /* and = comp { "&&" comp } ; */

@@ -353,7 +353,6 @@ Status lexer_next(Lexer *lexer, Token *token, Diag *diag)
 {
     size_t before = lexer->at;
     Token read = {.kind = TOKEN_END, .text = ""};
-    Status status = OK;
     const char *c;
     bool touches;
 
@@ -367,30 +366,27 @@ Status lexer_next(Lexer *lexer, Token *token, Diag *diag)
         if (lexer->last.text != NULL && lexer->last.place.line == lexer->line)
             read.place.column = lexer->last.place.column + lexer->last.place.width;
     } else if (*c == '"')
-        CHECK(read_string(lexer, &read, diag));
+        TRY(read_string(lexer, &read, diag));
     else if (*c == '\'')
-        CHECK(read_primes(lexer, touches, &read, diag));
+        TRY(read_primes(lexer, touches, &read, diag));
     else if (*c == '\\')
-        CHECK(stray_backslash(lexer, diag));
+        TRY(stray_backslash(lexer, diag));
     else if (is_letter(*c))
-        CHECK(read_path(lexer, &read, diag));
+        TRY(read_path(lexer, &read, diag));
     else if (is_digit(*c) || (*c == '.' && is_digit(c[1])))
-        CHECK(read_number(lexer, &read, diag));
+        TRY(read_number(lexer, &read, diag));
     else
-        CHECK(read_symbol(lexer, &read, diag));
+        TRY(read_symbol(lexer, &read, diag));
 
     read.touches = touches;
     if (read.kind != TOKEN_END)
         lexer->last = read;
     *token = read;
-done:
-    return status;
+    return OK;
 }
 
 Status lexer_finish(Lexer *lexer, Diag *diag)
 {
-    Status status = OK;
-
     skip_blanks(lexer);
     if (lexer->text[lexer->at] == ';')
         lexer->at++;
@@ -401,13 +397,12 @@ Status lexer_finish(Lexer *lexer, Diag *diag)
             if (length > 0)
                 step_line(lexer, length);
             else
-                CHECK(step_character(lexer, diag));
+                TRY(step_character(lexer, diag));
         }
         if (lexer->text[lexer->at] != '\0')
             step_line(lexer, line_break(lexer->text + lexer->at));
     }
-done:
-    return status;
+    return OK;
 }
 
 void lexer_skip_line(Lexer *lexer)

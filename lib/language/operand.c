@@ -103,22 +103,20 @@ Status parse_terminal(Parser *parser, Syntax **out)
 Status parse_edge(Parser *parser, Syntax **out)
 {
     const Token open = *parser_token(parser);
-    Status status = OK;
     Syntax *node;
     Syntax *place = NULL;
 
     if (!parser_take(parser, "("))
         return parse_terminal(parser, out);
     node = syntax_new(parser, SYNTAX_GROUP, "", open.place);
-    CHECK(parse_terminal(parser, &place));
+    TRY(parse_terminal(parser, &place));
     if (!parser_take(parser, ")"))
-        CHECK(parser_unclosed(parser, &open));
+        TRY(parser_unclosed(parser, &open));
     node->place = place_between(open.place, parser_before(parser)->place);
     LIST_PUSH(parser->arguments, place);
-    CHECK(syntax_take(parser, node, parser->arguments.count - 1));
+    TRY(syntax_take(parser, node, parser->arguments.count - 1));
     *out = node;
-done:
-    return status;
+    return OK;
 }
 
 Status parse_word(Parser *parser, Syntax **out)

@@ -14,15 +14,13 @@ enum {
 
 Status parser_start(Parser *parser, Lexer *lexer)
 {
-    Status status = OK;
     Token token;
 
     do {
-        CHECK(lexer_next(lexer, &token, parser->diag));
+        TRY(lexer_next(lexer, &token, parser->diag));
         LIST_PUSH(parser->tokens, token);
     } while (token.kind != TOKEN_END);
-done:
-    return status;
+    return OK;
 }
 
 void parser_free(Parser *parser)

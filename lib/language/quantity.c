@@ -180,7 +180,6 @@ Status parse_unit(Parser *parser, Syntax *node)
 Status parse_literal_unit(Parser *parser, Syntax *node)
 {
     const Token *name = parser_token(parser);
-    Status status = OK;
 
     if (parser_sees(parser, "["))
         return parse_unit(parser, node);
@@ -193,7 +192,5 @@ Status parse_literal_unit(Parser *parser, Syntax *node)
     node->unit_place = name->place;
     node->place = place_between(node->place, name->place);
     parser->at++;
-    CHECK(check_compound(parser, node, name));
-done:
-    return status;
+    return check_compound(parser, node, name);
 }

@@ -98,9 +98,8 @@ static Status find_verb(Parser *parser, const Token *token, Verb *verb)
 static Status parse_verb(Parser *parser, Statement *statement)
 {
     const Token *token = parser_token(parser);
-    Status status = OK;
 
-    CHECK(find_verb(parser, token, &statement->row));
+    TRY(find_verb(parser, token, &statement->row));
     parser->at++;
     if (statement->row.room == ROOM_LANGUAGE) {
         token = parser_token(parser);
@@ -109,7 +108,7 @@ static Status parse_verb(Parser *parser, Statement *statement)
             diag_hint(parser->diag, "usage: %s", statement->row.usage);
             return E_SYNTAX;
         }
-        CHECK(find_verb(parser, token, &statement->row));
+        TRY(find_verb(parser, token, &statement->row));
         parser->at++;
         if (statement->row.room != ROOM_LATER &&
             (statement->row.component == NULL ||
@@ -124,9 +123,7 @@ static Status parse_verb(Parser *parser, Statement *statement)
     statement->kind = STATEMENT_VERB;
     statement->verb = statement->row.name;
     statement->verb_place = token->place;
-    CHECK(parse_pattern(parser, statement));
-done:
-    return status;
+    return parse_pattern(parser, statement);
 }
 
 /* "?" [ WORD ] */
@@ -225,29 +222,25 @@ done:
 /* NAME "=" expr */
 static Status parse_parameter(Parser *parser, Statement *statement)
 {
-    Status status = OK;
     const Token *name;
 
-    CHECK(parse_name(parser, &name));
-    CHECK(check_defined_name(parser, name, false));
+    TRY(parse_name(parser, &name));
+    TRY(check_defined_name(parser, name, false));
     statement->kind = STATEMENT_PARAMETER;
     statement->name = name->text;
     statement->name_place = name->place;
     parser->at++;
-    CHECK(parse_definition_value(parser, statement));
-done:
-    return status;
+    return parse_definition_value(parser, statement);
 }
 
 /* NAME "(" NAME { "," NAME } ")" "=" expr */
 static Status parse_law(Parser *parser, Statement *statement)
 {
     int room = law_length(parser);
-    Status status = OK;
     const Token *name;
 
-    CHECK(parse_name(parser, &name));
-    CHECK(check_defined_name(parser, name, true));
+    TRY(parse_name(parser, &name));
+    TRY(check_defined_name(parser, name, true));
     statement->kind = STATEMENT_LAW;
     statement->name = name->text;
     statement->name_place = name->place;
@@ -261,7 +254,7 @@ static Status parse_law(Parser *parser, Statement *statement)
     do {
         const Token *argument;
 
-        CHECK(parse_name(parser, &argument));
+        TRY(parse_name(parser, &argument));
         for (int i = 0; i < statement->argument_count; i++)
             if (strcmp(statement->arguments[i], argument->text) == 0)
                 return diag_at(parser->diag, E_NAME, argument->place, "'%s' is there twice",
@@ -269,11 +262,9 @@ static Status parse_law(Parser *parser, Statement *statement)
         statement->arguments[statement->argument_count++] = argument->text;
     } while (parser_take(parser, ","));
     if (!parser_take(parser, ")"))
-        CHECK(parser_expected(parser, "',' or ')'"));
+        TRY(parser_expected(parser, "',' or ')'"));
     parser->at++;
-    CHECK(parse_definition_value(parser, statement));
-done:
-    return status;
+    return parse_definition_value(parser, statement);
 }
 
 /* x.y = ..., x' = ...: which verb was meant */
@@ -309,26 +300,24 @@ static Status refuse_start(Parser *parser)
 static Status parse_statement(Parser *parser, Statement *statement)
 {
     const Token *first = parser_token(parser);
-    Status status = OK;
 
     if (parser_sees(parser, "?"))
-        CHECK(parse_question(parser, statement));
+        TRY(parse_question(parser, statement));
     else if (first->kind != TOKEN_PATH)
-        CHECK(refuse_start(parser));
+        TRY(refuse_start(parser));
     else if (parser_sees_pair(parser)) {
         if (strchr(first->text, '.') != NULL || parser_peek(parser, 1)->kind == TOKEN_PRIMES)
-            CHECK(refuse_pair(parser));
-        CHECK(parse_parameter(parser, statement));
+            TRY(refuse_pair(parser));
+        TRY(parse_parameter(parser, statement));
     } else if (law_length(parser) > 0)
-        CHECK(parse_law(parser, statement));
+        TRY(parse_law(parser, statement));
     else
-        CHECK(parse_verb(parser, statement));
+        TRY(parse_verb(parser, statement));
 
     statement->text =
         text_slice(parser->pool, parser->text, first->start, parser_before(parser)->end);
     statement->place = place_between(first->place, parser_before(parser)->place);
-done:
-    return status;
+    return OK;
 }
 
 /* --- the text --- */
@@ -458,8 +447,6 @@ static Status check_later_parts(const Statement *statement, Diag *diag)
 
 Status statement_check_version(const Statement *statement, Diag *diag)
 {
-    Status status = OK;
-
     for (const Statement *s = statement; s != NULL; s = s->rest) {
         if (s->kind != STATEMENT_VERB)
             continue;
@@ -469,8 +456,7 @@ Status statement_check_version(const Statement *statement, Diag *diag)
             diag_hint(diag, "%s", s->row.brief);
             return E_MISSING;
         }
-        CHECK(check_later_parts(s, diag));
+        TRY(check_later_parts(s, diag));
     }
-done:
-    return status;
+    return OK;
 }

@@ -73,16 +73,13 @@ static Status add_needed(Parser *parser, Statement *statement, ParseOperand *par
 static Status read_name(Parser *parser, Statement *statement)
 {
     const Token *name;
-    Status status = OK;
 
     if (parser_sees_pair(parser))
-        CHECK(parser_expected(parser, "a name"));
-    CHECK(parse_name(parser, &name));
-    CHECK(parser_check_reserved(parser, name));
+        TRY(parser_expected(parser, "a name"));
+    TRY(parse_name(parser, &name));
+    TRY(parser_check_reserved(parser, name));
     parser->at--;
-    CHECK(add_operand(parser, statement, parse_terminal));
-done:
-    return status;
+    return add_operand(parser, statement, parse_terminal);
 }
 
 /* p */
@@ -124,12 +121,9 @@ static Status check_word(const Parser *parser, const Verb *verb, const Token *to
 static Status read_word(Parser *parser, Statement *statement)
 {
     const Token *token = parser_token(parser);
-    Status status = OK;
 
-    CHECK(add_needed(parser, statement, parse_word, "a word"));
-    CHECK(check_word(parser, &statement->row, token));
-done:
-    return status;
+    TRY(add_needed(parser, statement, parse_word, "a word"));
+    return check_word(parser, &statement->row, token);
 }
 
 /* W */
@@ -155,14 +149,12 @@ static Status read_values_maybe(Parser *parser, Statement *statement)
 {
     const Component *row = statement->row.component;
     int most = row == NULL ? 1 : 0;
-    Status status = OK;
 
     for (int i = 0; row != NULL && i < row->param_count; i++)
         most += (row->params[i].use & POSITIONAL) != 0;
     while (most-- > 0 && !parser_ends(parser) && !parser_sees_pair(parser))
-        CHECK(read_value(parser, statement));
-done:
-    return status;
+        TRY(read_value(parser, statement));
+    return OK;
 }
 
 /* e */
@@ -192,12 +184,9 @@ static bool operands_end(const Parser *parser)
 /* I */
 static Status read_items_maybe(Parser *parser, Statement *statement)
 {
-    Status status = OK;
-
     while (!operands_end(parser))
-        CHECK(add_operand(parser, statement, parse_item));
-done:
-    return status;
+        TRY(add_operand(parser, statement, parse_item));
+    return OK;
 }
 
 /* i */
@@ -211,28 +200,24 @@ static Status read_items(Parser *parser, Statement *statement)
 /* x: here a word behind a number is no unit */
 static Status read_mixed(Parser *parser, Statement *statement)
 {
-    Status status = OK;
-
     while (!operands_end(parser)) {
         const TokenKind kind = parser_token(parser)->kind;
         const bool is_word = kind == TOKEN_NUMBER || kind == TOKEN_STRING;
 
-        CHECK(add_operand(parser, statement, is_word ? parse_word : parse_item));
+        TRY(add_operand(parser, statement, is_word ? parse_word : parse_item));
     }
-done:
-    return status;
+    return OK;
 }
 
 /* t: [ WORD ] ( { path } | { sign path } ) */
 static Status read_edges(Parser *parser, Statement *statement)
 {
     const Token *first = parser_token(parser);
-    Status status = OK;
     int edges = 0;
     bool signed_edges = false;
 
     if (first->kind == TOKEN_PATH && words_hold(statement->row.words, first->text))
-        CHECK(add_operand(parser, statement, parse_word));
+        TRY(add_operand(parser, statement, parse_word));
     while (!operands_end(parser)) {
         int sign = parser_sees(parser, "+") ? '+' : parser_sees(parser, "-") ? '-' : 0;
 
@@ -248,10 +233,9 @@ static Status read_edges(Parser *parser, Statement *statement)
             return E_SYNTAX;
         }
         parser->at += sign != 0 ? 1 : 0;
-        CHECK(add_signed(parser, statement, parse_edge, sign));
+        TRY(add_signed(parser, statement, parse_edge, sign));
     }
-done:
-    return status;
+    return OK;
 }
 
 /* A file's name that isn't in quotes, up to the next blank. */
@@ -291,38 +275,32 @@ static Status read_string_or_word(Parser *parser, Statement *statement)
 /* C: expr [ "~" expr "within" expr ] */
 static Status read_condition(Parser *parser, Statement *statement)
 {
-    Status status = OK;
     Syntax *value = NULL;
 
     if (parser_sees_stop(parser))
-        CHECK(parser_expected(parser, "a condition"));
-    CHECK(parse_expression(parser, &value));
+        TRY(parser_expected(parser, "a condition"));
+    TRY(parse_expression(parser, &value));
     LIST_PUSH(statement->operands, (Operand){0, value, value->place});
     if (!parser_take(parser, "~"))
         return OK;
-    CHECK(parse_expression(parser, &statement->near_value));
+    TRY(parse_expression(parser, &statement->near_value));
     if (parser_token(parser)->kind != TOKEN_PATH ||
         strcmp(parser_token(parser)->text, "within") != 0)
-        CHECK(parser_expected(parser, "'within'"));
+        TRY(parser_expected(parser, "'within'"));
     parser->at++;
-    CHECK(parse_expression(parser, &statement->within));
-done:
-    return status;
+    return parse_expression(parser, &statement->within);
 }
 
 /* T */
 static Status read_statement(Parser *parser, Statement *statement)
 {
-    Status status = OK;
-
     if (parser_ends(parser))
-        CHECK(parser_expected(parser, "a statement"));
-    CHECK(parser_enter(parser));
+        TRY(parser_expected(parser, "a statement"));
+    TRY(parser_enter(parser));
     statement->rest = pool_alloc(parser->pool, sizeof *statement->rest);
-    CHECK(parser->statement(parser, statement->rest));
+    TRY(parser->statement(parser, statement->rest));
     parser->depth--;
-done:
-    return status;
+    return OK;
 }
 
 /* --- trailing words --- */
@@ -363,16 +341,14 @@ done:
 /* a */
 static Status read_as(Parser *parser, Statement *statement)
 {
-    Status status = OK;
     const Token *word;
 
     if (!take_word(parser, "as"))
         return OK;
-    CHECK(parse_name(parser, &word));
+    TRY(parse_name(parser, &word));
     statement->as = word->text;
     statement->as_place = word->place;
-done:
-    return status;
+    return OK;
 }
 
 /* --- pairs --- */
@@ -401,21 +377,19 @@ static Status refuse_equals(const Parser *parser)
 static Status parse_pair(Parser *parser, Statement *statement)
 {
     Pair pair = {0};
-    Status status = OK;
 
-    CHECK(parse_path(parser, &pair.name, &pair.primes, &pair.name_place));
-    CHECK(check_twice(parser, statement, &pair));
+    TRY(parse_path(parser, &pair.name, &pair.primes, &pair.name_place));
+    TRY(check_twice(parser, statement, &pair));
     if (parser_sees(parser, "=="))
-        CHECK(refuse_equals(parser));
+        TRY(refuse_equals(parser));
     if (!parser_take(parser, "="))
-        CHECK(parser_expected(parser, "'='"));
+        TRY(parser_expected(parser, "'='"));
     if (parser_sees(parser, "="))
-        CHECK(refuse_equals(parser));
-    CHECK(parse_expression(parser, &pair.value));
+        TRY(refuse_equals(parser));
+    TRY(parse_expression(parser, &pair.value));
     LIST_PUSH(statement->pairs, pair);
     (void)parser_take(parser, ",");
-done:
-    return status;
+    return OK;
 }
 
 /* What stands behind a pair and starts no other. */
@@ -444,19 +418,16 @@ static bool pairs_end(const Parser *parser)
 /* = */
 static Status read_pairs(Parser *parser, Statement *statement)
 {
-    Status status = OK;
-
     if (statement->operands.count > 0 && !parser_sees_pair(parser) &&
         strchr(statement->row.pattern, 'n') == NULL)
         return OK;
-    CHECK(parse_pair(parser, statement));
+    TRY(parse_pair(parser, statement));
     while (!pairs_end(parser)) {
         if (!parser_sees_pair(parser))
-            CHECK(after_pair(parser, statement));
-        CHECK(parse_pair(parser, statement));
+            TRY(after_pair(parser, statement));
+        TRY(parse_pair(parser, statement));
     }
-done:
-    return status;
+    return OK;
 }
 
 static Status check_key(const Parser *parser, const Verb *verb)
@@ -489,19 +460,16 @@ static Status check_key(const Parser *parser, const Verb *verb)
 /* k */
 static Status read_keys(Parser *parser, Statement *statement)
 {
-    Status status = OK;
-
     while (!pairs_end(parser)) {
         bool nearly = strcmp(parser_peek(parser, 1)->text, "==") == 0;
 
         if (!parser_sees_pair(parser) && !nearly)
             return statement->pairs.count == 0 ? parser_unexpected(parser)
                                                : after_pair(parser, statement);
-        CHECK(check_key(parser, &statement->row));
-        CHECK(parse_pair(parser, statement));
+        TRY(check_key(parser, &statement->row));
+        TRY(parse_pair(parser, statement));
     }
-done:
-    return status;
+    return OK;
 }
 
 /* --- the end of a statement --- */

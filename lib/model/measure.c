@@ -348,23 +348,21 @@ static Status binary(const MeasureWalk *w, const Syntax *syntax, Measure *out)
     const char *op = syntax->text;
     Measure a = any;
     Measure b = any;
-    Status status = OK;
 
-    CHECK(walk(w, left, &a));
-    CHECK(walk(w, right, &b));
+    TRY(walk(w, left, &a));
+    TRY(walk(w, right, &b));
     if (strcmp(op, "*") == 0 || strcmp(op, "/") == 0)
         *out = product(a, b, op[0] == '*' ? 1 : -1);
     else if (strcmp(op, "^") == 0)
-        CHECK(power(w, syntax, a, b, out));
+        TRY(power(w, syntax, a, b, out));
     else if (strcmp(op, "+") == 0 || strcmp(op, "-") == 0)
-        CHECK(sum(w, syntax, a, b, out));
+        TRY(sum(w, syntax, a, b, out));
     else {
         if (strcmp(op, "&&") != 0 && strcmp(op, "||") != 0)
-            CHECK(measures_join(a, b, left, right, "compared", out, w->diag));
+            TRY(measures_join(a, b, left, right, "compared", out, w->diag));
         *out = ratio;
     }
-done:
-    return status;
+    return OK;
 }
 
 /* --- calls --- */
@@ -437,26 +435,24 @@ static Status by_rule(const MeasureWalk *w, const Syntax *call, const char *rule
     /* joined so far of each letter, and who began */
     Measure joined[2] = {number, number};
     const Syntax *first[2] = {NULL, NULL};
-    Status status = OK;
 
     for (int i = 0; i < call->count; i++) {
         char letter = rule_letter(rule, i);
         int which = letter == 't';
 
         if (letter == 'n')
-            CHECK(number_argument(w, call, i, args[i]));
+            TRY(number_argument(w, call, i, args[i]));
         if (letter != 'x' && letter != 't')
             continue;
         if (first[which] == NULL) {
             first[which] = call->args[i];
             joined[which] = args[i];
         }
-        CHECK(measures_join(joined[which], args[i], first[which], call->args[i],
-                            "arguments of one kind", &joined[which], w->diag));
+        TRY(measures_join(joined[which], args[i], first[which], call->args[i],
+                          "arguments of one kind", &joined[which], w->diag));
     }
     *out = rule_value(strchr(rule, '=')[1], joined[0]);
-done:
-    return status;
+    return OK;
 }
 
 static const LawMeasure *find_law(const KnownMeasure *known, int law, const Measure *given,
@@ -553,24 +549,20 @@ static Status vector(const MeasureWalk *w, const Syntax *syntax, Measure *out)
 {
     Measure entry = any;
     Measure whole = number;
-    Status status = OK;
 
     for (int i = 0; i < syntax->count; i++) {
-        CHECK(walk(w, syntax->args[i], &entry));
+        TRY(walk(w, syntax->args[i], &entry));
         whole = i == 0 ? entry : measures_fit(whole, entry) ? joined(whole, entry) : any;
     }
     *out = whole;
     if (syntax->has_unit)
         *out = whole.kind == MEASURE_KNOWN ? product(whole, of_unit(&syntax->unit), 1)
                                            : of_unit(&syntax->unit);
-done:
-    return status;
+    return OK;
 }
 
 static Status walk(const MeasureWalk *w, const Syntax *syntax, Measure *out)
 {
-    Status status = OK;
-
     *out = any;
     switch (syntax->kind) {
     case SYNTAX_NUMBER:
@@ -586,19 +578,18 @@ static Status walk(const MeasureWalk *w, const Syntax *syntax, Measure *out)
     case SYNTAX_VECTOR:
         return vector(w, syntax, out);
     case SYNTAX_GROUP:
-        CHECK(walk(w, syntax->args[0], out));
+        TRY(walk(w, syntax->args[0], out));
         *out = rate_of(*out, syntax->primes);
         break;
     case SYNTAX_UNARY:
-        CHECK(walk(w, syntax->args[0], out));
+        TRY(walk(w, syntax->args[0], out));
         if (syntax->text[0] == '!')
             *out = ratio;
         break;
     case SYNTAX_BINARY:
         return binary(w, syntax, out);
     }
-done:
-    return status;
+    return OK;
 }
 
 Status measure_of(const Scope *scope, const Syntax *syntax, Measure *out, Diag *diag)

@@ -78,28 +78,23 @@ Status unit_check_alike(const Scope *scope, const Syntax *syntax, const char *wh
     const Syntax *core = bare(syntax);
     Measure whole = {.kind = MEASURE_NUMBER};
     Measure entry;
-    Status status = OK;
 
     for (int i = 0; core->kind == SYNTAX_VECTOR && i < core->count; i++) {
-        CHECK(measure_of(scope, core->args[i], &entry, diag));
-        CHECK(measures_join(whole, entry, core->args[i > 0 ? i - 1 : 0], core->args[i], what,
-                            &whole, diag));
+        TRY(measure_of(scope, core->args[i], &entry, diag));
+        TRY(measures_join(whole, entry, core->args[i > 0 ? i - 1 : 0], core->args[i], what, &whole,
+                          diag));
     }
-done:
-    return status;
+    return OK;
 }
 
 Status unit_check_compared(const Scope *scope, const Syntax *left, const Syntax *right, Diag *diag)
 {
     Measure a = {0};
     Measure b = {0};
-    Status status = OK;
 
-    CHECK(measure_of(scope, left, &a, diag));
-    CHECK(measure_of(scope, right, &b, diag));
-    CHECK(measures_join(a, b, left, right, "compared", &a, diag));
-done:
-    return status;
+    TRY(measure_of(scope, left, &a, diag));
+    TRY(measure_of(scope, right, &b, diag));
+    return measures_join(a, b, left, right, "compared", &a, diag);
 }
 
 Status unit_check_shown(const Scope *scope, const Syntax *item, Diag *diag)

@@ -12,15 +12,12 @@ static Status give(PartDraft *draft, int index, const Syntax *value, Place place
 {
     Instance *part = draft->part;
     const Param *param = &part->row->params[index];
-    Status status = OK;
 
     if (part->values[index].given)
         return diag_at(draft->diag, E_SYNTAX, place, "%s is given twice", param->name);
-    CHECK(param_read(&draft->scope, (Wanted){param, part->on_angle}, value, &part->values[index],
-                     draft->diag));
-    CHECK(param_check_alike(part->row, part->values, index, value, draft->diag));
-done:
-    return status;
+    TRY(param_read(&draft->scope, (Wanted){param, part->on_angle}, value, &part->values[index],
+                   draft->diag));
+    return param_check_alike(part->row, part->values, index, value, draft->diag);
 }
 
 static Status read_positional(PartDraft *draft)
@@ -154,22 +151,20 @@ static Status coordinate_name(PartDraft *draft, const Syntax *syntax, int index)
 {
     const char *name = syntax_name(syntax);
     Instance *part = draft->part;
-    Status status = OK;
 
     if (name == NULL || strchr(name, '.') != NULL)
         return diag_at(draft->diag, E_NAME, syntax->place, "a new name is expected here");
     if (strcmp(name, part->name) != 0) {
         if (names_find(draft->state->terminals, name) >= 0)
             return diag_at(draft->diag, E_NAME, syntax->place, "'%s' is already a terminal", name);
-        CHECK(name_is_free(draft->state, name, syntax->place, draft->diag));
+        TRY(name_is_free(draft->state, name, syntax->place, draft->diag));
     } else if (part->coord_count > 1)
         return diag_at(draft->diag, E_NAME, syntax->place, "'%s' is the name of the joint", name);
     for (int i = 0; i < index; i++)
         if (strcmp(part->coord[i], name) == 0)
             return diag_at(draft->diag, E_NAME, syntax->place, "'%s' is named twice", name);
     part->coord[index] = state_text(draft->state, name);
-done:
-    return status;
+    return OK;
 }
 
 static Status rename_coordinates(PartDraft *draft)

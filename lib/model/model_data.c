@@ -286,29 +286,23 @@ static bool is_data_call(const Syntax *syntax)
 Status data_read(const DataFinder *finder, Arena *arena, const Syntax *syntax, bool anew,
                  Diag *diag)
 {
-    Status status = OK;
-
     if (syntax == NULL)
         return OK;
     if (is_data_call(syntax) &&
         (anew || arena_find_table(arena, syntax->args[0]->text, data_column(syntax)) == NULL))
-        CHECK(read_call(finder, arena, syntax, diag));
+        TRY(read_call(finder, arena, syntax, diag));
     for (int i = 0; i < syntax->count; i++)
-        CHECK(data_read(finder, arena, syntax->args[i], anew, diag));
-done:
-    return status;
+        TRY(data_read(finder, arena, syntax->args[i], anew, diag));
+    return OK;
 }
 
 Status data_read_statement(const DataFinder *finder, Arena *arena, const Statement *statement,
                            bool anew, Diag *diag)
 {
-    Status status = OK;
-
-    CHECK(data_read(finder, arena, statement->value, anew, diag));
+    TRY(data_read(finder, arena, statement->value, anew, diag));
     for (int i = 0; i < statement->operands.count; i++)
-        CHECK(data_read(finder, arena, statement->operands.at[i].value, anew, diag));
+        TRY(data_read(finder, arena, statement->operands.at[i].value, anew, diag));
     for (int i = 0; i < statement->pairs.count; i++)
-        CHECK(data_read(finder, arena, statement->pairs.at[i].value, anew, diag));
-done:
-    return status;
+        TRY(data_read(finder, arena, statement->pairs.at[i].value, anew, diag));
+    return OK;
 }

@@ -36,17 +36,15 @@ static Status apply_marked(State **state, const Statement *statement, StateMark 
                            Outcome *outcome, Diag *diag)
 {
     const Setup setup = state_setup(*state);
-    Status status = OK;
 
     mem_keep(*state);
     *mark = state_mark(*state);
-    CHECK(state_apply(state, statement, outcome, diag));
+    TRY(state_apply(state, statement, outcome, diag));
     if ((*state)->number == mark->state)
         state_note_setup(*state, &setup);
     else
         state_forget_before(*state, most_kept);
-done:
-    return status;
+    return OK;
 }
 
 Status history_take(History *history, State **state, const Statement *statement, Outcome *outcome,
@@ -148,21 +146,19 @@ Status history_undo(History *history, State **state, const char **over, Effect *
 {
     const Accepted *last;
     int to;
-    Status status = OK;
 
     if (history->done == 0)
         return diag_set(diag, E_MISSING, "there is nothing to undo");
     last = &history->list.at[history->done - 1];
     to = history->done - 1 - last->before;
     if (!state_go_back(state, &history->list.at[to].mark))
-        CHECK(make_anew(history, to, state, diag));
+        TRY(make_anew(history, to, state, diag));
     *over = name_of(last);
     *effect = effect_of(history, to, history->done);
     history->done = to;
     if (to < history->low)
         history->low = to;
-done:
-    return status;
+    return OK;
 }
 
 Status history_redo(History *history, State **state, const char **over, Effect *effect, Diag *diag)

@@ -367,21 +367,18 @@ static bool is_law(ParamKind kind)
 
 Status param_read(Scope *scope, Wanted wanted, const Syntax *syntax, Value *out, Diag *diag)
 {
-    Status status = OK;
-
     if (scope->kind != SCOPE_DRIVE)
         scope->kind = is_law(wanted.param->kind) ? SCOPE_EFFORT : SCOPE_NUMBER;
-    CHECK(readers[wanted.param->kind](scope, &wanted, syntax, out, diag));
-    CHECK(check_unit(scope, &wanted, syntax, diag));
+    TRY(readers[wanted.param->kind](scope, &wanted, syntax, out, diag));
+    TRY(check_unit(scope, &wanted, syntax, diag));
     if ((wanted.param->use & ALIKE) != 0) {
         Measure *measure = pool_alloc(scope->state->pool, sizeof *measure);
 
-        CHECK(measure_of(scope, syntax, measure, diag));
+        TRY(measure_of(scope, syntax, measure, diag));
         out->measure = measure;
     }
     out->given = true;
-done:
-    return status;
+    return OK;
 }
 
 Status param_check_alike(const Component *row, const Value *values, int index, const Syntax *syntax,
@@ -389,7 +386,6 @@ Status param_check_alike(const Component *row, const Value *values, int index, c
 {
     const Measure *own = values[index].measure;
     Measure joined;
-    Status status = OK;
 
     for (int i = 0; i < row->param_count; i++) {
         const Measure *other = values[i].measure;
@@ -398,10 +394,9 @@ Status param_check_alike(const Component *row, const Value *values, int index, c
         if (i == index || own == NULL || other == NULL || measure_is_plain(*own) ||
             measure_is_plain(*other))
             continue;
-        CHECK(measures_join(*other, *own, syntax, syntax, "subtracted", &joined, diag));
+        TRY(measures_join(*other, *own, syntax, syntax, "subtracted", &joined, diag));
     }
-done:
-    return status;
+    return OK;
 }
 
 void param_fallback(State *state, const Param *param, Value *out)

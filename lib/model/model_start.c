@@ -216,10 +216,8 @@ done:
 
 Status starts_copy(State *to, const State *from, NameList *broken, Text *remarks, Diag *diag)
 {
-    Status status = OK;
-
     for (int i = 0; i < from->starts.count; i++)
-        CHECK(copy_start(to, &from->starts.at[i], broken, remarks, diag));
+        TRY(copy_start(to, &from->starts.at[i], broken, remarks, diag));
     to->group_count = from->group_count;
     to->form = from->form;
     to->settings = from->settings;
@@ -234,8 +232,7 @@ Status starts_copy(State *to, const State *from, NameList *broken, Text *remarks
             text_addf(remarks, "%s is no longer an independent coordinate\n",
                       from->independent.at[i]);
     }
-done:
-    return status;
+    return OK;
 }
 
 void starts_save(const State *state, Text *text)

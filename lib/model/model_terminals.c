@@ -199,12 +199,9 @@ static Status on_joint(PartDraft *draft)
 {
     const char *name = NULL;
     Place place;
-    Status status = OK;
 
-    CHECK(next_name(draft, &name, &place));
-    CHECK(act_on(draft, name, place));
-done:
-    return status;
+    TRY(next_name(draft, &name, &place));
+    return act_on(draft, name, place);
 }
 
 /* spring k1 r1 r2, or spring k1 h8: one place that is no frame is a coordinate */
@@ -323,23 +320,21 @@ static Status read_terminals(PartDraft *draft)
     int count;
     const ScalarEdge *edges = component_scalar_edges(row, &count);
     int first = draft->at;
-    Status status = OK;
 
     draft->terminals =
         pool_alloc(draft->state->pool, (size_t)component_terminals(row) * sizeof *draft->terminals);
     for (int k = 0; k < component_terminals(row); k++)
-        CHECK(next_terminal(draft, k));
+        TRY(next_terminal(draft, k));
     for (int k = 0; k < count; k++) {
         const char *plus = edges[k].plus < 0 ? "0" : draft->terminals[edges[k].plus];
         const char *minus = edges[k].minus < 0 ? "0" : draft->terminals[edges[k].minus];
         int last = first + (edges[k].minus < 0 ? edges[k].plus : edges[k].minus);
 
         if (strcmp(plus, minus) == 0)
-            CHECK(diag_at(draft->diag, E_VALUE, draft->statement->operands.at[last].place,
-                          "both ends of %s are %s", draft->part->name, plus));
+            TRY(diag_at(draft->diag, E_VALUE, draft->statement->operands.at[last].place,
+                        "both ends of %s are %s", draft->part->name, plus));
     }
-done:
-    return status;
+    return OK;
 }
 
 /* sensor v1 h8' a 0: what is sensed may be any expression of variables */
@@ -390,7 +385,6 @@ done:
 Status part_draft_read_terminals(PartDraft *draft)
 {
     Instance *part = draft->part;
-    Status status = OK;
 
     switch (part->row->places) {
     case PLACES_NONE:
@@ -409,16 +403,15 @@ Status part_draft_read_terminals(PartDraft *draft)
     case PLACES_COORDINATE:
         return driven_coordinate(draft);
     case PLACES_TRANSDUCER:
-        CHECK(on_joint(draft));
+        TRY(on_joint(draft));
         return read_terminals(draft);
     case PLACES_TERMINALS:
         return read_terminals(draft);
     case PLACES_SENSED:
-        CHECK(sensed_value(draft));
+        TRY(sensed_value(draft));
         return read_terminals(draft);
     case PLACES_PARTS:
         return two_parts(draft);
     }
-done:
-    return status;
+    return OK;
 }

@@ -309,7 +309,6 @@ static Status convert_node(Scope *scope, const Syntax *syntax, Expr *out, Diag *
     Arena *arena = scope->state->arena;
     Expr a = NULL;
     Expr b = NULL;
-    Status status = OK;
 
     switch (syntax->kind) {
     case SYNTAX_NUMBER:
@@ -324,20 +323,19 @@ static Status convert_node(Scope *scope, const Syntax *syntax, Expr *out, Diag *
     case SYNTAX_CALL:
         return call(scope, syntax, out, diag);
     case SYNTAX_GROUP:
-        CHECK(convert(scope, syntax->args[0], &a, diag));
+        TRY(convert(scope, syntax->args[0], &a, diag));
         return time_derivative(arena, a, syntax->primes, syntax->place, out, diag);
     case SYNTAX_UNARY:
-        CHECK(convert(scope, syntax->args[0], &a, diag));
+        TRY(convert(scope, syntax->args[0], &a, diag));
         *out = unary(arena, syntax->text, a);
         break;
     case SYNTAX_BINARY:
-        CHECK(convert(scope, syntax->args[0], &a, diag));
-        CHECK(convert(scope, syntax->args[1], &b, diag));
+        TRY(convert(scope, syntax->args[0], &a, diag));
+        TRY(convert(scope, syntax->args[1], &b, diag));
         *out = binary(arena, syntax->text, a, b);
         break;
     }
-done:
-    return status;
+    return OK;
 }
 
 /* as convert_node(), and where the arena refuses what was built, that is said at this place */
@@ -412,19 +410,17 @@ static bool is_vector(const Syntax *syntax)
 static Status vector_literal(Scope *scope, const Syntax *syntax, Expr *out, int *count, Diag *diag)
 {
     Arena *arena = scope->state->arena;
-    Status status = OK;
 
     if (syntax->count > MAX_VALUE)
         return diag_at(diag, E_VALUE, syntax->place, "a vector of %d entries is too long",
                        syntax->count);
     *count = syntax->count;
     for (int i = 0; i < syntax->count; i++) {
-        CHECK(convert(scope, syntax->args[i], &out[i], diag));
+        TRY(convert(scope, syntax->args[i], &out[i], diag));
         if (syntax->has_unit)
             out[i] = expr_mul(arena, out[i], unit_factor(arena, &syntax->unit));
     }
-done:
-    return status;
+    return OK;
 }
 
 static Status convert_vector(Scope *scope, const Syntax *syntax, Expr *out, int *count, Diag *diag);
@@ -439,31 +435,28 @@ static Status vector_binary(Scope *scope, const Syntax *syntax, Expr *out, int *
     Expr other[MAX_VALUE];
     Expr factor = NULL;
     int n = 0;
-    Status status = OK;
 
     if (both ? op != '+' && op != '-' : op != '*' && (op != '/' || is_vector(right)))
         return diag_at(diag, E_VALUE, syntax->op_place, "'%s' is not between %s", syntax->text,
                        both ? "two vectors" : "a vector and a number in this order");
-    CHECK(convert_vector(scope, is_vector(left) ? left : right, out, count, diag));
+    TRY(convert_vector(scope, is_vector(left) ? left : right, out, count, diag));
     if (both) {
-        CHECK(convert_vector(scope, right, other, &n, diag));
+        TRY(convert_vector(scope, right, other, &n, diag));
         if (n != *count)
             return diag_at(diag, E_VALUE, syntax->op_place, "vectors of %d and %d entries", *count,
                            n);
     } else
-        CHECK(convert(scope, is_vector(left) ? right : left, &factor, diag));
+        TRY(convert(scope, is_vector(left) ? right : left, &factor, diag));
     for (int i = 0; i < *count; i++)
         out[i] = both        ? binary(arena, syntax->text, out[i], other[i])
                  : op == '*' ? expr_mul(arena, factor, out[i])
                              : expr_div(arena, out[i], factor);
-done:
-    return status;
+    return OK;
 }
 
 static Status convert_vector(Scope *scope, const Syntax *syntax, Expr *out, int *count, Diag *diag)
 {
     Arena *arena = scope->state->arena;
-    Status status = OK;
 
     if (!is_vector(syntax))
         return diag_at(diag, E_VALUE, syntax->place, "a vector is expected here, as in [1, 2, 3]");
@@ -475,13 +468,12 @@ static Status convert_vector(Scope *scope, const Syntax *syntax, Expr *out, int 
     default:
         if (syntax->primes > 0 || strcmp(syntax->text, "!") == 0)
             return diag_at(diag, E_VALUE, syntax->place, "this can't be done with a vector");
-        CHECK(convert_vector(scope, syntax->args[0], out, count, diag));
+        TRY(convert_vector(scope, syntax->args[0], out, count, diag));
         if (syntax->kind == SYNTAX_UNARY && syntax->text[0] == '-')
             for (int i = 0; i < *count; i++)
                 out[i] = expr_neg(arena, out[i]);
     }
-done:
-    return status;
+    return OK;
 }
 
 Status scope_vector(Scope *scope, const Syntax *syntax, Expr *out, int *count, Diag *diag)

@@ -56,19 +56,17 @@ static Status count_total(System *system, Form form, bool shared, OpCount *out, 
 {
     const Form written = written_form(system, form);
     OpCount sum = {0, 0, 0};
-    Status status = OK;
 
     for (int b = 0; b < BLOCK_COUNT; b++) {
         OpCount count;
 
         if (!is_of(written, (Block)b))
             continue;
-        CHECK(system_count(system, (Block)b, shared, &count, diag));
+        TRY(system_count(system, (Block)b, shared, &count, diag));
         add_counts(&sum, count);
     }
     *out = sum;
-done:
-    return status;
+    return OK;
 }
 
 Status count_block(System *system, Form form, const char *name, bool shared, OpCount *out,

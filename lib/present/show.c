@@ -112,17 +112,15 @@ static Status take_number(const Topic *topic, const Operand *operand, Selection 
     const Syntax *value = operand->value;
     char *end = NULL;
     const long number = strtol(value->text, &end, 10);
-    Status status = OK;
 
     if (topic->behind != BEHIND_NUMBERS && topic->behind != BEHIND_LEVEL &&
         topic->behind != BEHIND_PAIR)
         return diag_at(diag, E_SYNTAX, operand->place, "'show %s' takes no numbers", topic->name);
     if (*end != '\0' || number < 1 || number > 1000000 || value->has_unit)
         return diag_at(diag, E_VALUE, operand->place, "rows and columns are counted 1, 2, 3 ...");
-    CHECK(has_room(topic, operand, selection, diag));
+    TRY(has_room(topic, operand, selection, diag));
     selection->numbers[selection->number_count++] = (int)number;
-done:
-    return status;
+    return OK;
 }
 
 /* the output, then the input of that name */

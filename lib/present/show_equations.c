@@ -281,28 +281,24 @@ static Status push_terms(const View *view, Equation *equation, Block block, int 
                          Unknown *unknown, Diag *diag)
 {
     const int count = column ? system_m(view->system) : system_nu(view->system);
-    Status status = OK;
     Expr e;
 
     for (int j = 0; j < count; j++) {
-        CHECK(poll(view->watch));
-        CHECK(system_show(view->system, block, column ? j : i, column ? i : j, &e, diag));
+        TRY(poll(view->watch));
+        TRY(system_show(view->system, block, column ? j : i, column ? i : j, &e, diag));
         if (!expr_is_zero(e))
             LIST_PUSH(equation->left, (ViewTerm){e, unknown(view->system, j)});
     }
-done:
-    return status;
+    return OK;
 }
 
 static Status push_right(const View *view, Equation *equation, Block block, int i, Diag *diag)
 {
-    Status status = OK;
     Expr e;
 
-    CHECK(system_show(view->system, block, i, 0, &e, diag));
+    TRY(system_show(view->system, block, i, 0, &e, diag));
     LIST_PUSH(equation->right, (ViewTerm){e, NULL});
-done:
-    return status;
+    return OK;
 }
 
 /* The equation goes to the others where all went well, else away. */
@@ -410,15 +406,13 @@ static Status push_motions(const View *view, Equations *equations, int lead_widt
     const char *const *independent;
     const int m = system_m(view->system), nu = system_nu(view->system);
     int count;
-    Status status = OK;
     const bool embedded = model_form(view->model, &independent, &count) == FORM_EMBEDDED && m > 0;
 
     for (int i = 0; embedded && i < nu - m; i++)
-        CHECK(push_embedded(view, equations, i, diag));
+        TRY(push_embedded(view, equations, i, diag));
     for (int i = 0; !embedded && i < nu; i++)
-        CHECK(push_motion(view, equations, i, lead_width, diag));
-done:
-    return status;
+        TRY(push_motion(view, equations, i, lead_width, diag));
+    return OK;
 }
 
 /* "M7: L7*i' = ..." */
@@ -534,16 +528,14 @@ static char *left_side(const View *view, const Syntax *syntax, Expr user, int nu
 Status show_expression(const View *view, const Syntax *syntax, int number, Text *out, Diag *diag)
 {
     Equations equations = {0};
-    Status status = OK;
     Expr user, e;
 
-    CHECK(model_expression(view->model, syntax, &user, diag));
-    CHECK(system_resolve(view->system, user, &e, diag));
+    TRY(model_expression(view->model, syntax, &user, diag));
+    TRY(system_resolve(view->system, user, &e, diag));
     view_value(&equations, left_side(view, syntax, user, number),
                expr_fold(model_arena(view->model), e));
     view_open(out, view);
     view_equations(out, view, &equations);
     view_close(out, view);
-done:
-    return status;
+    return OK;
 }

@@ -70,18 +70,15 @@ done:
 
 static Status read_outputs(const Statement *s, Bode *bode, Diag *diag)
 {
-    Status status = OK;
-
     for (int i = 0; i < s->operands.count; i++) {
         int output = 0;
 
-        CHECK(find_output(bode, &s->operands.at[i], &output, diag));
+        TRY(find_output(bode, &s->operands.at[i], &output, diag));
         LIST_PUSH(bode->outputs, output);
     }
     for (int i = 0; s->operands.count == 0 && i < bode->linear->outputs; i++)
         LIST_PUSH(bode->outputs, i);
-done:
-    return status;
+    return OK;
 }
 
 /* a frequency in Hz; one whose dimension has an angle is an angular frequency */
@@ -132,26 +129,24 @@ done:
 static Status read_keys(const Model *model, const Statement *s, Bode *bode, Diag *diag)
 {
     const Pair *last = NULL;
-    Status status = OK;
 
     bode->points = USUAL_POINTS;
     for (int i = 0; i < s->pairs.count; i++) {
         const Pair *pair = s->pairs.at + i;
 
         if (strcmp(pair->name, "points") == 0) {
-            CHECK(read_points(model, pair, &bode->points, diag));
+            TRY(read_points(model, pair, &bode->points, diag));
             continue;
         }
         last = pair;
-        CHECK(read_frequency(model, pair, strcmp(pair->name, "from") == 0 ? &bode->from : &bode->to,
-                             diag));
+        TRY(read_frequency(model, pair, strcmp(pair->name, "from") == 0 ? &bode->from : &bode->to,
+                           diag));
     }
     if (last != NULL && bode->from > 0 && bode->to > 0 && bode->from >= bode->to) {
         diag_at(diag, E_VALUE, last->value->place, "the frequencies go up: from= is below to=");
-        CHECK(E_VALUE);
+        TRY(E_VALUE);
     }
-done:
-    return status;
+    return OK;
 }
 
 /* --- numbers --- */
@@ -185,18 +180,15 @@ static void suggest_range(Bode *bode)
 
 static Status find_transfers(Bode *bode, const Watch *watch, Diag *diag)
 {
-    Status status = OK;
-
     for (int k = 0; k < bode->outputs.count; k++)
         for (int i = 0; i < bode->linear->inputs; i++) {
             Transfer *t = NULL;
 
-            CHECK(poll(watch));
-            CHECK(transfer_new(bode->linear, bode->outputs.at[k], i, &t, diag));
+            TRY(poll(watch));
+            TRY(transfer_new(bode->linear, bode->outputs.at[k], i, &t, diag));
             LIST_PUSH(bode->transfers, t);
         }
-done:
-    return status;
+    return OK;
 }
 
 static char *name_of(const Linear *linear, const char *what, int output, int input,

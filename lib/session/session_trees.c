@@ -191,11 +191,10 @@ static Status add_proposals(TreesSought *search, Diag *diag)
 {
     int kept = 0;
     Diag ignored;
-    Status status = OK;
 
     if (search->proposals.count == 0)
         return OK;
-    CHECK(model_fork(search->session->model, &search->fork, diag));
+    TRY(model_fork(search->session->model, &search->fork, diag));
     for (int i = 0; i < search->proposals.count; i++) {
         int count = 0;
 
@@ -208,9 +207,7 @@ static Status add_proposals(TreesSought *search, Diag *diag)
     search->proposals.count = kept;
     scene_free(&search->scene);
     search->scene = (Scene){0};
-    CHECK(model_scene(search->fork, &search->scene, diag));
-done:
-    return status;
+    return model_scene(search->fork, &search->scene, diag);
 }
 
 /* --- the search --- */

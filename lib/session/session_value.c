@@ -210,7 +210,6 @@ static Status other_rows(ct_session *session, const Formula *formulas, int count
                          Run *source, const double *times, double **columns, int rows, Diag *diag)
 {
     const Run *prepared = NULL;
-    Status status = OK;
     int place = 0;
 
     for (int f = 0; f < count; f++)
@@ -221,16 +220,15 @@ static Status other_rows(ct_session *session, const Formula *formulas, int count
             if (leaf->kind == LEAF_VARIABLE && run == own)
                 continue;
             if (leaf->kind == LEAF_VARIABLE && needs_run(leaf) && run != prepared) {
-                CHECK(result_reader_prepare(run->reader, times, rows, &session->watch, diag));
+                TRY(result_reader_prepare(run->reader, times, rows, &session->watch, diag));
                 prepared = run;
             }
             for (int r = 0; r < rows; r++) {
-                CHECK(poll(&session->watch));
-                CHECK(evaluate_leaf(session, leaf, run, &times[r], &columns[place][r], diag));
+                TRY(poll(&session->watch));
+                TRY(evaluate_leaf(session, leaf, run, &times[r], &columns[place][r], diag));
             }
         }
-done:
-    return status;
+    return OK;
 }
 
 static void join_rows(const Formula *formulas, int count, double **columns, int rows, double *out,

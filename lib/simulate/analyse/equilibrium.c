@@ -179,7 +179,6 @@ static Status creep_step(Quest *e, Creep *c, double resistance, bool *moves, Dia
 {
     const double *values, *missed;
     const int *start, *row;
-    Status status = OK;
 
     equilibrium_pattern(e->equations, &start, &row);
     equilibrium_begin(e->equations, c->w);
@@ -188,12 +187,11 @@ static Status creep_step(Quest *e, Creep *c, double resistance, bool *moves, Dia
     memcpy(c->jacobian, values, (size_t)start[e->n] * sizeof(double));
     for (int i = 0; i < e->n; i++)
         c->right[i] = -missed[i];
-    CHECK(equilibrium_add_inertia(e->equations, c->w, resistance, c->jacobian, diag));
+    TRY(equilibrium_add_inertia(e->equations, c->w, resistance, c->jacobian, diag));
     *moves = factors_make(c->factors, c->jacobian) &&
              factors_solve(c->factors, c->right, c->step) >= 0 &&
              vector_largest(c->step, e->l->nu) <= CREEP;
-done:
-    return status;
+    return OK;
 }
 
 /* the step, or as little of it as leaves the equations in sight; how the residuals have grown */

@@ -85,21 +85,19 @@ static Status make_system(EquilibriumResidual *s, const Scene *scene, const Watc
                                   .zero = expr_int(arena, 0),
                                   .load = expr_symbol(arena, "#load", SYMBOL_PARAMETER)};
     SystemOptions options = {.vary = vary, .context = &of, .watch = watch};
-    Status status = OK;
 
     s->load = of.load;
     s->gmin = options.gmin = expr_symbol(arena, "#leak", SYMBOL_PARAMETER);
     s->parameters = (Parameters){.value = parameter, .context = s};
-    CHECK(system_new_view(scene, &options, &s->system, diag));
+    TRY(system_new_view(scene, &options, &s->system, diag));
     s->l = layout_new(s->system);
     s->n = s->l->nu + s->l->nx + s->l->m + s->l->nz;
     s->references = s->l->n + s->l->nx + s->l->m + s->l->nz;
     s->length = s->references + s->l->multi_turns;
     if (s->l->n != theirs->n || s->l->nx != theirs->nx || s->l->m != theirs->m ||
         s->l->multi_turns != theirs->multi_turns)
-        CHECK(diag_set(diag, E_MODEL, "at rest this model has other unknowns than in motion"));
-done:
-    return status;
+        TRY(diag_set(diag, E_MODEL, "at rest this model has other unknowns than in motion"));
+    return OK;
 }
 
 /* --- dq/ds --- */
@@ -558,14 +556,12 @@ Status equilibrium_add_inertia(EquilibriumResidual *s, const double *w, double s
 {
     RowValues row = row_of(s, s->place);
     const double *values;
-    Status status = OK;
 
     if (s->inertia_probe == NULL)
-        CHECK(compile_inertia(s, diag));
+        TRY(compile_inertia(s, diag));
     equilibrium_place(s, w, s->place);
     values = probe_values(s->inertia_probe, &row);
     for (int k = 0; k < s->inertia.count; k++)
         jacobian[s->inertia.at[k].place] += share * values[k];
-done:
-    return status;
+    return OK;
 }

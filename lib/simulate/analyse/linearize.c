@@ -66,13 +66,11 @@ static Status check_input(const Scene *scene, const LinearOrder *order, int i, D
 static Status find_point(Work *w, Diag *diag)
 {
     const double *y, *driven;
-    Status status = OK;
 
-    CHECK(result_reader_at(w->order->about, w->order->at, &w->phase, &y, &driven, diag));
+    TRY(result_reader_at(w->order->about, w->order->at, &w->phase, &y, &driven, diag));
     w->y = NEW_ARRAY(double, w->phase->length);
     memcpy(w->y, y, (size_t)w->phase->length * sizeof(double));
-done:
-    return status;
+    return OK;
 }
 
 static Status open_system(Work *w, Diag *diag)
@@ -157,9 +155,8 @@ static Status push_rows(Work *w, Roots *roots, Diag *diag)
 {
     const Layout *l = w->l;
     const Reading *run = system_run(l->system);
-    Status status = OK;
 
-    CHECK(system_form_mass(l->system, diag));
+    TRY(system_form_mass(l->system, diag));
     w->rows.balance = roots->count;
     for (int j = 0; j < l->nu; j++)
         LIST_PUSH(*roots, row_balance(l, j));
@@ -182,12 +179,11 @@ static Status push_rows(Work *w, Roots *roots, Diag *diag)
     for (int i = 0; i < w->order->output_count; i++) {
         Expr e;
 
-        CHECK(system_resolve(l->system, w->order->outputs[i], &e, diag));
+        TRY(system_resolve(l->system, w->order->outputs[i], &e, diag));
         LIST_PUSH(*roots, e);
     }
     w->rows.count = roots->count;
-done:
-    return status;
+    return OK;
 }
 
 static Status compile(Work *w, Diag *diag)

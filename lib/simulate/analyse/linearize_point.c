@@ -366,30 +366,28 @@ static Status refuse_dependent(Work *w, Diag *diag)
 Status linear_point(Work *w, Diag *diag)
 {
     const Layout *l = w->l, *theirs = w->phase->layout;
-    Status status = OK;
 
     if (l->n != theirs->n || l->nu != theirs->nu || l->m != theirs->m || l->nx != theirs->nx)
         return diag_set(diag, E_MODEL, "with these inputs the model has other unknowns");
     open_room(w);
     choose_rows(w);
     if (!find_rates(w))
-        CHECK(refuse_dependent(w, diag));
+        TRY(refuse_dependent(w, diag));
     evaluate_geometry(w);
-    CHECK(choose_independent(w, diag));
+    TRY(choose_independent(w, diag));
     if (!factor_dependent(w))
-        CHECK(refuse_dependent(w, diag));
+        TRY(refuse_dependent(w, diag));
     evaluate_errors(w);
     bound_state(w);
     evaluate_geometry(w);
     evaluate_errors(w);
     if (!factor_dependent(w) || !bound_rates(w))
-        CHECK(refuse_dependent(w, diag));
+        TRY(refuse_dependent(w, diag));
     evaluate_errors(w);
     factor(w);
     if (!square_is_regular(w->equations))
-        CHECK(refuse_dependent(w, diag));
-done:
-    return status;
+        TRY(refuse_dependent(w, diag));
+    return OK;
 }
 
 /* --- how it goes on --- */

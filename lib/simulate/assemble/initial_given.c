@@ -85,7 +85,6 @@ Status initial_read_given(Assembly *a, Diag *diag)
 {
     const StartValues *start = a->setting->start;
     int own = 0;
-    Status status = OK;
 
     while (system_angle_off(a->l->system, own) != NULL)
         own++;
@@ -108,12 +107,11 @@ Status initial_read_given(Assembly *a, Diag *diag)
         GivenValue *given = &a->given[a->given_count];
 
         given->value = &start->at[i];
-        CHECK(read_one(a, given, diag));
+        TRY(read_one(a, given, diag));
         a->given_count++;
     }
     initial_group(a);
-done:
-    return status;
+    return OK;
 }
 
 /* --- Euler parameters --- */

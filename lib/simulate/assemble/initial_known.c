@@ -44,7 +44,6 @@ static bool is_told(const Placing *p, const Stand *stand)
 Status place_take_wishes(Placing *p, Diag *diag)
 {
     Assembly *a = p->a;
-    Status status = OK;
 
     for (int guesses = 1; guesses >= 0; guesses--) {
         for (int k = 0; k < a->l->m && guesses == 0; k++) {
@@ -54,7 +53,7 @@ Status place_take_wishes(Placing *p, Diag *diag)
 
             if (prescribed == NULL)
                 continue;
-            CHECK(initial_driven(a, prescribed, &value, diag));
+            TRY(initial_driven(a, prescribed, &value, diag));
             wish(p, &stand, value, false, -1);
         }
         for (int i = 0; i < a->given_count; i++) {
@@ -66,8 +65,7 @@ Status place_take_wishes(Placing *p, Diag *diag)
         }
     }
     gather_groups(p);
-done:
-    return status;
+    return OK;
 }
 
 /* Four Euler parameters of which some are known (NAN: not): the others are 0 where nothing is left

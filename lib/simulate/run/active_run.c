@@ -170,15 +170,13 @@ Status active_run_events(ActiveRun *r, const Phase *phase, const EventRecord *ea
                              .whole = phase->closed != NULL ? r->system : NULL,
                              .events = setting->events,
                              .event_count = setting->event_count};
-    Status status = OK;
 
     *out = NULL;
     if (r->kind == RUN_START || (setting->event_count == 0 && earlier_count == 0))
         return OK;
-    CHECK(events_new(&plan, out, diag));
+    TRY(events_new(&plan, out, diag));
     events_go_on(*out, earlier, earlier_count);
-done:
-    return status;
+    return OK;
 }
 
 void active_run_add_row(ActiveRun *r, double t, const double *y)

@@ -93,19 +93,17 @@ Status run_begin(ActiveRun *r, const Setting *setting, Diag *diag)
 {
     mem_keep(r);
     Phase *whole = phases_whole(r->phases);
-    Status status = OK;
 
     if (r->mode_search != NULL)
         return mode_switch_begin(r, setting, diag);
     if (whole->motion == NULL)
-        CHECK(active_run_open_phase(r, whole, setting, diag));
+        TRY(active_run_open_phase(r, whole, setting, diag));
     r->phase = whole;
     mem_free(r->begin);
     r->begin = NEW_ARRAY(double, whole->length);
     memcpy(r->begin, r->result->start.y, (size_t)whole->length * sizeof(double));
     motion_guess(whole->motion, r->result->start.network);
-done:
-    return status;
+    return OK;
 }
 
 Status run_open(RunKind kind, System *system, const Setting *setting, ActiveRun **out, Diag *diag)
@@ -136,21 +134,19 @@ done:
 static Status copy_phases(ActiveRun *r, const Result *old, const Setting *setting, Diag *diag)
 {
     Phase *phase;
-    Status status = OK;
 
     if (r->mode_search == NULL)
-        CHECK(active_run_open_phase(r, phases_whole(r->phases), setting, diag));
+        TRY(active_run_open_phase(r, phases_whole(r->phases), setting, diag));
     for (int i = 1; i < old->phases.count; i++) {
         const PhaseKey *like = &old->phases.at[i];
 
         if (like->on_count > 0)
-            CHECK(mode_switch_phase_on(r, setting, like->system, like->closed, like->on,
-                                       like->on_count, &phase, diag));
+            TRY(mode_switch_phase_on(r, setting, like->system, like->closed, like->on,
+                                     like->on_count, &phase, diag));
         else
-            CHECK(mode_switch_phase(r, setting, like->closed, &phase, diag));
+            TRY(mode_switch_phase(r, setting, like->closed, &phase, diag));
     }
-done:
-    return status;
+    return OK;
 }
 
 /* sums of angles go on in the turns that the start chose */

@@ -262,7 +262,6 @@ static Status fill(ResultReader *reader, const double *times, int count, const W
                    Diag *diag)
 {
     const double end = count > 0 ? times[count - 1] : 0;
-    Status status = OK;
 
     grid_free(&reader->asked);
     for (int i = 0, group; i < count; i += group) {
@@ -271,19 +270,18 @@ static Status fill(ResultReader *reader, const double *times, int count, const W
         StepEnd ends[2];
 
         group = 1;
-        CHECK(poll(watch));
+        TRY(poll(watch));
         report(watch, "between rows", end > 0 ? times[i] / end : 0);
         if (!(times[i] > last) || !find_ends(reader, times[i], ends) || ends[0].y == ends[1].y ||
             ends[0].phase != ends[1].phase)
             continue;
         group = count_until(times + i, count - i, ends[1].t);
-        CHECK(fill_between(reader, ends, times + i, group, watch, diag));
+        TRY(fill_between(reader, ends, times + i, group, watch, diag));
     }
     if (reader->result->driven.values != NULL && reader->asked.count > 0)
-        CHECK(inverse_solve(reader->phases, &reader->result->start, &reader->asked,
-                            &reader->asked_driven, diag));
-done:
-    return status;
+        TRY(inverse_solve(reader->phases, &reader->result->start, &reader->asked,
+                          &reader->asked_driven, diag));
+    return OK;
 }
 
 Status result_reader_prepare(ResultReader *reader, const double *times, int count,
@@ -313,7 +311,6 @@ Status result_reader_at(ResultReader *reader, double t, Phase **phase, const dou
     const Grid *grid = &reader->result->grid;
     StepEnd ends[2];
     int row;
-    Status status = OK;
 
     if (!find_ends(reader, t, ends))
         return diag_set(diag, E_VALUE,
@@ -324,15 +321,14 @@ Status result_reader_at(ResultReader *reader, double t, Phase **phase, const dou
     *y = ends[0].y;
     *driven = ends[0].driven;
     if (ends[0].y == ends[1].y)
-        goto done;
+        return OK;
     if (asked_row(reader, t) < 0)
-        CHECK(fill(reader, &t, 1, NULL, diag));
+        TRY(fill(reader, &t, 1, NULL, diag));
     row = asked_row(reader, t);
     if (row < 0)
-        CHECK(solver_failure(diag, t, "the run has no value between two of its rows"));
+        TRY(solver_failure(diag, t, "the run has no value between two of its rows"));
     *phase = reader->phases->at[reader->asked.phase[row]];
     *y = grid_row(&reader->asked, row);
     *driven = driven_row(&reader->asked_driven, row);
-done:
-    return status;
+    return OK;
 }

@@ -178,26 +178,23 @@ static Status compile(Inverse *in, Diag *diag)
     const Layout *l = in->l;
     const Unknowns none = {0};
     Roots rows = {0};
-    Status status = OK;
 
-    CHECK(system_form_mass(l->system, diag));
+    TRY(system_form_mass(l->system, diag));
     for (int j = 0; j < l->nu; j++)
         LIST_PUSH(rows, row_balance(l, j));
-    CHECK(open_probe(in, &rows, &in->forces, &in->balance, diag));
+    TRY(open_probe(in, &rows, &in->forces, &in->balance, diag));
     if (!in->by_source)
-        goto done;
+        return OK;
 
     for (int k = 0; k < l->m; k++)
         LIST_PUSH(rows, along(in, row_acceleration(l, k)));
-    CHECK(open_probe(in, &rows, &in->jerks, &in->jerk, diag));
+    TRY(open_probe(in, &rows, &in->jerks, &in->jerk, diag));
     for (int j = 0; j < l->nu; j++)
         LIST_PUSH(rows, along(in, row_balance(l, j)));
-    CHECK(open_probe(in, &rows, &none, &in->moving, diag));
+    TRY(open_probe(in, &rows, &none, &in->moving, diag));
     for (int i = 0; i < l->nx + l->nz; i++)
         LIST_PUSH(rows, row_network(l, i));
-    CHECK(open_probe(in, &rows, &in->sources, &in->network, diag));
-done:
-    return status;
+    return open_probe(in, &rows, &in->sources, &in->network, diag);
 }
 
 /* --- numbers --- */
@@ -374,7 +371,6 @@ static Status solve_row(Inverse *in, double t, double *y, double *out, Diag *dia
 {
     const Layout *l = in->l;
     Solved solved;
-    Status status = OK;
 
     if (!motion_solve(in->phase->motion, t, y, &solved))
         return solver_failure(diag, t, "the accelerations are undefined");
@@ -386,17 +382,16 @@ static Status solve_row(Inverse *in, double t, double *y, double *out, Diag *dia
     memcpy(in->values + l->q, y, (size_t)(l->n + l->nu + l->nx) * sizeof(double));
     memcpy(in->values + l->rates, solved.rates, (size_t)(l->nx + l->nz) * sizeof(double));
     memcpy(in->values + l->acceleration, solved.acceleration, (size_t)l->nu * sizeof(double));
-    CHECK(solve_rows(in, in->balance, &in->forces, diag));
+    TRY(solve_rows(in, in->balance, &in->forces, diag));
     if (in->by_source) {
-        CHECK(find_rates(in, diag));
-        CHECK(solve_rows(in, in->network, &in->sources, diag));
+        TRY(find_rates(in, diag));
+        TRY(solve_rows(in, in->network, &in->sources, diag));
     }
     spread_multipliers(in);
     memcpy(y + l->n + l->nu, in->values + l->x, (size_t)l->nx * sizeof(double));
     /* x', z, u', lambda, efforts stand in the layout as they do here */
     memcpy(out, in->values + l->rates, (size_t)(l->jerk - l->rates) * sizeof(double));
-done:
-    return status;
+    return OK;
 }
 
 Status inverse_solve(Phases *phases, const Assembled *start, Grid *rows, Driven *out, Diag *diag)

@@ -32,19 +32,17 @@ static Status add_phase(Phases *phases, const PhaseKey *key, const Manner *manne
 {
     const int switches = system_ideal_count(phases->system);
     Phase *phase = find_like(phases, key);
-    Status status = OK;
 
     if (phase != NULL) {
         LIST_PUSH(*phases, phase_new_like(phase, key->closed, switches));
         return OK;
     }
-    CHECK(phase_new_on(key->system, &phases->parameters, key->closed, switches, key->on,
-                       key->on_count, &phase, diag));
+    TRY(phase_new_on(key->system, &phases->parameters, key->closed, switches, key->on,
+                     key->on_count, &phase, diag));
     LIST_PUSH(*phases, phase);
     if (key->is_open)
-        CHECK(phases_open(phases, phase, manner, diag));
-done:
-    return status;
+        TRY(phases_open(phases, phase, manner, diag));
+    return OK;
 }
 
 Status result_reader_new(const Result *result, ResultReader **out, Diag *diag)
