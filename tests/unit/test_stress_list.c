@@ -113,7 +113,7 @@ static void rounding_hands_over_to_the_stiff_method(void)
  * the spring's stiffness is that of the point and of nothing behind it. */
 static void a_wall_gives_back_what_it_took(void)
 {
-    for (int e = 4; e <= 8; e++) {
+    for (int e = 1; e <= 8; e++) {
         const double half = acos(-1) / sqrt(3.6e10 / 3.25), rtol = pow(10, -e);
 
         for (int k = 0; k < 4; k++) {
@@ -127,8 +127,8 @@ static void a_wall_gives_back_what_it_took(void)
                            "init s = %g, s' = 5\nsimulate 0.2 rtol=%g method=radau", 0.5 + 0.01 * k,
                            rtol);
             EXPECT_DONE(&kit, run);
-            EXPECT_NEAR(kit_value(&kit, "s'"), -5, 100 * rtol);
-            EXPECT_NEAR(kit_value(&kit, "s"), 0.5 - 0.01 * k + 5 * half, 100 * rtol);
+            EXPECT_NEAR(kit_value(&kit, "s'"), -5, fmin(1, 100 * rtol));
+            EXPECT_NEAR(kit_value(&kit, "s"), 0.5 - 0.01 * k + 5 * half, fmin(0.1, 100 * rtol));
             kit_free(&kit);
         }
     }
