@@ -1,16 +1,14 @@
 /* family_pieces.c: random networks and multipliers of diodes and switches with resistances, at any
  * tolerance and by any method, against matrix exponentials between changes of sides (pieces.h)
  *
- * A run may be off by MANY tolerances in each state, by more where a method's errors add up, and in
- * a node's voltage by what that makes of it there, on whatever sides it puts diodes. */
+ * A run may be off by MANY tolerances in each state, and in a node's voltage by what that makes of
+ * it there, on whatever sides it puts diodes. */
 #include "../unit/session_kit.h"
 #include "family.h"
 #include "networks_script.h"
 #include "pieces.h"
 
-#define MANY 100 /* tolerances: more than errors may add up to */
-
-#define ADDED 6   /* times as many, by a method with a history: where something swings */
+#define MANY  100 /* tolerances: more than errors may add up to */
 #define STEPS 1e4 /* what stability may cost */
 
 static const char *const methods[] = {"auto", "dop853", "radau", "bdf", "adams", "ida"};
@@ -69,15 +67,6 @@ static void compare_at(Told *told, const Pieces *o, double off)
     }
 }
 
-/* parts of a state's size that it may be off */
-static double allowed(const Network *net)
-{
-    const bool adds_up = strcmp(net->method, "bdf") == 0 || strcmp(net->method, "ida") == 0 ||
-                         strcmp(net->method, "adams") == 0;
-
-    return net->tolerance * MANY * (adds_up ? ADDED : 1);
-}
-
 static Verdict compare(Member *m, const Network *net, Kit *kit)
 {
     Pieces *o = calloc(1, sizeof *o);
@@ -88,7 +77,7 @@ static Verdict compare(Member *m, const Network *net, Kit *kit)
         told.t = net->end * (k + 1) / POINTS;
         sound = pieces_go_to(o, told.t);
         if (sound)
-            compare_at(&told, o, allowed(net));
+            compare_at(&told, o, MANY * net->tolerance);
     }
     if (!sound)
         tell(m, "the oracle ends at t = %.9g\n", o->t);

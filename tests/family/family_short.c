@@ -519,7 +519,7 @@ static Verdict carts(Member *m)
     if (c.friction > 0)
         p.fastest = fmin(p.fastest, c.slow * c.mass / c.friction);
     p.slack = 1 / speed;
-    unit[0] = 1;
+    unit[0] = fmax(1, p.duration); /* the speed's tolerance lasts so long */
     unit[1] = fmax(1, speed);
     write_piece(&text,
                 "scene planar\ngravity [0, 0]\nbody b mass=%.17g\nprismatic s ground b axis=x\n"

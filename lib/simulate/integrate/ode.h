@@ -151,7 +151,8 @@ struct Stepper {
     Waning waning; /* headway.h */
     double bound;  /* by whoever drives it: no longer step now, s; 0: free */
     bool may_bend; /* likewise: something steep acts that may end within the step */
-    bool has_pulses;  /* likewise: what acts for a short time takes many short steps */
+    bool has_pulses;  /* likewise: it takes many short steps, for what acts for a short time or
+                       * behind jumps */
     double missed;    /* fixed steps: largest estimated error of one, in tolerances, */
     double missed_at; /* and when that was, s */
     bool is_stiff;    /* explicit methods: steps are cut by stability, not by accuracy */
@@ -200,7 +201,7 @@ static inline double stepper_stop(const Stepper *stepper, double end)
 #define LEAST_TOLERANCE 1e-13 /* that numbers allow */
 
 /* The part of the tolerance that one step may take up. Errors of a method with a history are much
- * alike from step to step, and add up over the many short steps of pulses. */
+ * alike from step to step, and add up over the many short steps of pulses and behind restarts. */
 static inline double stepper_part(const Stepper *stepper)
 {
     return stepper->method->has_history && stepper->has_pulses

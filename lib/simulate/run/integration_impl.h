@@ -46,6 +46,7 @@ typedef struct Integration {
     int surfaces;          /* so many */
     int root;              /* condition whose surface is met; or a MetSurface */
     double ahead;          /* s: so long behind the margin that is met, that shows; 0 */
+    bool has_restarted;    /* the stepper, behind a jump */
     int switches;          /* close together */
     double switched_since; /* the first of them */
     double missed;         /* largest estimated error of a fixed step, in tolerances */

@@ -244,6 +244,8 @@ Status integration_go_on(Integration *m, double t, const double *y, bool *entere
     memcpy(m->stepper->y, m->y, (size_t)m->length * sizeof(double));
     CHECK(integration_settle_surfaces(m, entered, diag));
     memcpy(m->y, m->stepper->y, (size_t)m->length * sizeof(double));
+    m->stepper->has_pulses = m->stepper->has_pulses || m->has_restarted;
+    m->has_restarted = true;
     CHECK(m->stepper->method->start(m->stepper, t, m->y, diag));
     m->begins = *entered && !m->stepper->method->has_history;
     if (m->begins)

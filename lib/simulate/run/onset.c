@@ -679,7 +679,7 @@ double onset_before_step(Onset *o, Stepper *stepper, double end)
     if (o->sources > 0)
         first = fmin(first, next_unseen(o, stepper, first));
     bound = fmin(bound, bound_by(o->source_pulses, o->sources, o->t));
-    stepper->has_pulses = o->has_pulses;
+    stepper->has_pulses = stepper->has_pulses || o->has_pulses;
     stepper->bound = bound < end - o->t ? bound : 0;
     stepper->may_bend = false;
     for (int k = 0; k < o->elements; k++)
