@@ -1,65 +1,144 @@
-/* kkt.c: dense KKT solver with scaling and quasi-definite regularisation */
+/* kkt.c: KKT solver in L D L^T, speeds before multipliers, with quasi-definite regularisation
+ *
+ * In that order a multiplier's pivot d is what is left of p, its diagonal entry of G M^-1 G^T, and
+ * d / p the squared sine of the angle between its row and those before in the metric of M. Light
+ * parts between heavy ones make it small too; with unit masses only the geometry does (Schur
+ * complements of [R^2 G^T; G 0] are those of G R^-2 G^T). Where M has no pivots of its own, as of
+ * massless parts, or they leave nothing of the answer, rows are exchanged instead. */
 #include "algebra/kkt.h"
 
+#include "algebra/ldl.h"
 #include "algebra/linear.h"
+#include "algebra/sparse.h"
 #include "base/memory.h"
 
 #include <math.h>
 #include <string.h>
 
-#define NEAR     1e-2 /* pivot ratio of G G^T; below: a singular configuration isn't far, */
-#define SINGULAR 1e-5 /* and here epsilon is needed */
-#define SUSPECT  1e-1 /* pivot ratio of the LU above which nothing can be near singular */
+#define NEAR     1e-2      /* pivot ratio of G G^T; below: a singular configuration isn't far */
+#define SINGULAR LDL_SMALL /* and here epsilon is needed */
+#define SUSPECT                                                                                    \
+    2e-2 /* least d / p above which none is near: it was at most 1.7 times the other               \
+          */
 #define ROUNDED                                                                                    \
     1e-14 /* of speeds, once over a pivot: what rounding of positions leaves of them               \
            */
 #define MOST_BLUR   1e-8  /* what epsilon makes of that */
-#define INEXACT     3e-2  /* pivot ratio of the LU below which a sweep of refinement is due, */
+#define INEXACT     1e-2  /* d / p below which a sweep of refinement is due, */
 #define SETTLED     1e-11 /* and another where it corrects more than this */
-#define EPSILON     1e-8  /* of the largest diagonal entry of G M^-1 G^T */
+#define LOST        1e-11 /* d / p that may be rounding for a good part */
+#define NO_MASS     1e-12 /* a pivot of M over its diagonal that may be rounding, */
+#define UNSOLVABLE  1e-14 /* and least over largest of all that is */
+#define LEAST_MASS  1e-9  /* of the heaviest: what is less borrows from its neighbours */
 #define SWEEPS      2     /* of refinement at least, */
 #define MOST_SWEEPS 30    /* and as long as each leaves less than */
 #define CONTRACTION 0.3   /* of the correction before: what is slower, epsilon is to hold back */
 #define ROUNDING    1e-15
 #define LEAST_REACH 1e-9 /* of the largest: what is less is rounding */
+#define LEAST_NORM  1e-3 /* likewise */
 
 struct Kkt {
+    const Pattern *mass, *constraints;
     int nu, m, size;
-    double *matrix; /* scaled, as it is, for residuals */
-    double *scale;  /* size: unknown = scale * scaled unknown */
-    double *norm;   /* of all rows: largest mass-norm of each so far */
-    /* largest entry of each column, and norm of each of all rows, so far */
-    double *reach, *row_reach;
-    double *right, *answer, *residual;
-    double *factor;     /* nu x nu, a Cholesky factor */
-    double *bound;      /* m x nu */
-    double *compliance; /* m x m */
-    Lu *lu;
+    int *rows;
+    /* Stored entry from[k], of M for the first ones, stands at place[k] of the factors. Unknowns
+     * are numbered as they are eliminated: u_i is place_of[i], lambda_k place_of[nu + k]; */
+    int *from, *place, *place_of;
+    int *row, *column; /* here they are not */
+    int entries, mass_entries;
+    LdlOrder *order;
+    Ldl *factors, *geometry;
     const Watch *watch;
-    double pivot; /* of the last configuration: how independent its rows are */
+    /* of all rows, so far: largest p; of columns the largest entry, and of all rows the largest
+     * norm with columns over that */
+    double *most, *reach, *row_reach;
+    double *norm, *reference;          /* by place, of multipliers: those squared, and of `most` */
+    double *right, *answer, *residual; /* by place */
+    double *weight;                    /* by place: of squares of unknowns, to compare them */
+    double angle;                      /* least d / p */
+    double pivot;                      /* of the last configuration: how independent its rows are */
     bool regularised;
+    Sparse *exchanging; /* rows exchanged; NULL: not needed yet */
+    bool is_exchanging; /* the last factors are those */
+    double *scale;      /* unknown = scale * its unknown */
+    double *values;     /* its entries, those across behind */
 };
 
-Kkt *kkt_new(int nu, int m, int all)
+/* --- the order --- */
+
+static void push_entry(Kkt *kkt, int from, int i, int j)
+{
+    kkt->from[kkt->entries] = from;
+    kkt->row[kkt->entries] = i;
+    kkt->column[kkt->entries++] = j;
+}
+
+static void close_order(Kkt *kkt)
+{
+    ldl_free(kkt->factors);
+    ldl_free(kkt->geometry);
+    ldl_order_free(kkt->order);
+    sparse_free(kkt->exchanging);
+    kkt->factors = kkt->geometry = NULL;
+    kkt->order = NULL;
+    kkt->exchanging = NULL;
+    mem_free(kkt->values);
+    kkt->values = NULL;
+}
+
+/* Elimination for these rows. */
+static void take_rows(Kkt *kkt, const int *rows)
+{
+    const Pattern *mass = kkt->mass, *g = kkt->constraints;
+    int *class = NEW_ARRAY(int, kkt->size);
+
+    close_order(kkt);
+    kkt->entries = 0;
+    for (int e = 0; e < mass->count; e++)
+        if (mass->row[e] <= mass->column[e])
+            push_entry(kkt, e, mass->row[e], mass->column[e]);
+    kkt->mass_entries = kkt->entries;
+    for (int k = 0; k < kkt->m; k++) {
+        kkt->rows[k] = rows[k];
+        class[kkt->nu + k] = 1;
+        for (int e = g->start[rows[k]]; e < g->start[rows[k] + 1]; e++)
+            push_entry(kkt, e, g->row[e], kkt->nu + k);
+    }
+    kkt->order = ldl_order_new(kkt->size, class, kkt->entries, kkt->row, kkt->column, kkt->place,
+                               kkt->place_of);
+    kkt->factors = ldl_new(kkt->order);
+    if (kkt->m > 0)
+        kkt->geometry = ldl_new(kkt->order);
+    mem_free(class);
+}
+
+Kkt *kkt_new(const Pattern *mass, const Pattern *constraints, const int *rows, int m)
 {
     Kkt *kkt = NEW(Kkt);
-    int size = nu + m;
+    const int nu = mass->columns, size = nu + m, most = mass->count + constraints->count;
 
+    kkt->mass = mass;
+    kkt->constraints = constraints;
     kkt->nu = nu;
     kkt->m = m;
     kkt->size = size;
-    kkt->matrix = NEW_ARRAY(double, size *size);
-    kkt->scale = NEW_ARRAY(double, size);
-    kkt->norm = NEW_ARRAY(double, all);
+    kkt->rows = NEW_ARRAY(int, m);
+    kkt->from = NEW_ARRAY(int, most);
+    kkt->row = NEW_ARRAY(int, most);
+    kkt->column = NEW_ARRAY(int, most);
+    kkt->place = NEW_ARRAY(int, most);
+    kkt->place_of = NEW_ARRAY(int, size);
+    kkt->most = NEW_ARRAY(double, constraints->columns);
     kkt->reach = NEW_ARRAY(double, nu);
-    kkt->row_reach = NEW_ARRAY(double, all);
+    kkt->row_reach = NEW_ARRAY(double, constraints->columns);
+    kkt->norm = NEW_ARRAY(double, size);
+    kkt->reference = NEW_ARRAY(double, size);
     kkt->right = NEW_ARRAY(double, size);
     kkt->answer = NEW_ARRAY(double, size);
     kkt->residual = NEW_ARRAY(double, size);
-    kkt->factor = NEW_ARRAY(double, nu *nu);
-    kkt->bound = NEW_ARRAY(double, m *nu);
-    kkt->compliance = NEW_ARRAY(double, m *m);
-    kkt->lu = lu_new(size);
+    kkt->weight = NEW_ARRAY(double, size);
+    kkt->scale = NEW_ARRAY(double, size);
+    take_rows(kkt, rows);
     return kkt;
 }
 
@@ -72,203 +151,273 @@ void kkt_free(Kkt *kkt)
 {
     if (kkt == NULL)
         return;
-    mem_free(kkt->matrix);
-    mem_free(kkt->scale);
-    mem_free(kkt->norm);
-    mem_free(kkt->reach);
-    mem_free(kkt->row_reach);
-    mem_free(kkt->right);
-    mem_free(kkt->answer);
-    mem_free(kkt->residual);
-    mem_free(kkt->factor);
-    mem_free(kkt->bound);
-    mem_free(kkt->compliance);
-    lu_free(kkt->lu);
-    mem_free(kkt);
+    close_order(kkt);
+    MEM_FREE(kkt->rows, kkt->from, kkt->row, kkt->column, kkt->place, kkt->place_of, kkt->most,
+             kkt->reach, kkt->row_reach, kkt->norm, kkt->reference, kkt->right, kkt->answer,
+             kkt->residual, kkt->weight, kkt->scale, kkt);
 }
 
-/* A speed without mass of its own takes the mass that gives it the same weight in its
- * constraints as its heaviest-felt neighbour has. */
-static double borrowed_mass(const Kkt *kkt, const double *mass, const double *phi_u,
-                            const int *rows, int i)
+static void keep_rows(Kkt *kkt, const int *rows)
 {
-    int nu = kkt->nu;
-    double borrowed = 0;
-
-    for (int k = 0; k < kkt->m; k++) {
-        const double *row = phi_u + rows[k] * nu;
-        double strongest = 0; /* of g_j^2 / M_jj */
-
-        for (int j = 0; j < nu; j++)
-            if (mass[j * nu + j] > 0)
-                strongest = fmax(strongest, row[j] * row[j] / mass[j * nu + j]);
-        if (strongest > 0)
-            borrowed = fmax(borrowed, row[i] * row[i] / strongest);
-    }
-    return borrowed;
+    if (kkt->m > 0 && memcmp(kkt->rows, rows, (size_t)kkt->m * sizeof(int)) != 0)
+        take_rows(kkt, rows);
 }
 
-/* A row is measured against the largest it has been: one that vanishes at a singular position is to
- * be seen vanishing. */
-static void choose_scale(Kkt *kkt, const double *mass, const double *phi_u, const int *rows)
+static void put_entries(const Kkt *kkt, const double *mass, const double *phi_u)
 {
-    int nu = kkt->nu;
-    double largest = 0, most = 0;
+    double *entries = ldl_entries(kkt->factors);
 
-    for (int i = 0; i < nu; i++)
-        most = fmax(most, mass[i * nu + i]);
-    for (int i = 0; i < nu; i++) {
-        double own = mass[i * nu + i];
-
-        if (!(own > 1e-9 * most))
-            own = fmax(own, borrowed_mass(kkt, mass, phi_u, rows, i));
-        kkt->scale[i] = own > 0 ? 1 / sqrt(own) : 1;
-    }
-    for (int k = 0; k < kkt->m; k++) {
-        const double *row = phi_u + rows[k] * nu;
-        double norm = 0;
-
-        for (int i = 0; i < nu; i++)
-            norm += row[i] * kkt->scale[i] * row[i] * kkt->scale[i];
-        kkt->norm[rows[k]] = fmax(kkt->norm[rows[k]], sqrt(norm));
-        largest = fmax(largest, kkt->norm[rows[k]]);
-    }
-    for (int k = 0; k < kkt->m; k++) {
-        double norm = fmax(kkt->norm[rows[k]], 1e-3 * largest);
-
-        kkt->scale[nu + k] = norm > 0 ? 1 / norm : 1;
-    }
+    for (int e = 0; e < kkt->mass_entries; e++)
+        entries[kkt->place[e]] = mass[kkt->from[e]];
+    for (int e = kkt->mass_entries; e < kkt->entries; e++)
+        entries[kkt->place[e]] = phi_u[kkt->from[e]];
 }
 
-static void fill_matrix(Kkt *kkt, const double *mass, const double *phi_u, const int *rows)
-{
-    int nu = kkt->nu, size = kkt->size;
-    double *a = kkt->matrix;
+/* --- the geometry --- */
 
-    for (int i = 0; i < nu; i++)
-        for (int j = 0; j < nu; j++)
-            a[i * size + j] = mass[i * nu + j] * kkt->scale[i] * kkt->scale[j];
+/* Columns and rows are measured against the largest they have been: one that vanishes at a singular
+ * position is to be seen vanishing. Lengths are told from angles by what a unit of the speed moves.
+ */
+static void measure_columns(Kkt *kkt, const double *phi_u)
+{
+    const Pattern *g = kkt->constraints;
+
     for (int k = 0; k < kkt->m; k++)
-        for (int i = 0; i < nu; i++) {
-            double entry = phi_u[rows[k] * nu + i] * kkt->scale[i] * kkt->scale[nu + k];
-
-            a[(nu + k) * size + i] = entry;
-            a[i * size + nu + k] = entry;
-        }
+        for (int e = g->start[kkt->rows[k]]; e < g->start[kkt->rows[k] + 1]; e++)
+            kkt->reach[g->row[e]] = fmax(kkt->reach[g->row[e]], fabs(phi_u[e]));
 }
 
-/* kkt->factor = Cholesky factor of M, scaled; false when it isn't positive definite */
-static bool factor_mass(Kkt *kkt)
+/* the least pivot of G R^-2 G^T over the largest norm that its row has had */
+static double least_pivot(Kkt *kkt, const double *phi_u)
 {
-    int nu = kkt->nu;
+    const Pattern *g = kkt->constraints;
+    const double least = LEAST_REACH * vector_largest(kkt->reach, kkt->nu);
+    double *entries = ldl_entries(kkt->geometry), found = 1;
 
-    for (int i = 0; i < nu; i++)
-        memcpy(kkt->factor + i * nu, kkt->matrix + i * kkt->size, (size_t)nu * sizeof(double));
-    return cholesky_factor(kkt->factor, nu) > 1e-14;
-}
+    for (int i = 0; i < kkt->nu; i++) {
+        const double reach = fmax(kkt->reach[i], least);
 
-/* kkt->bound (m x nu) = G L^-T, L the factor: its rows' products are G (L L^T)^-1 G^T */
-static void find_bound(Kkt *kkt)
-{
-    int nu = kkt->nu;
-
+        entries[kkt->place_of[i]] = reach * reach;
+    }
+    for (int e = kkt->mass_entries; e < kkt->entries; e++)
+        entries[kkt->place[e]] = phi_u[kkt->from[e]];
     for (int k = 0; k < kkt->m; k++) {
-        double *row = kkt->bound + k * nu;
+        double *reach = &kkt->row_reach[kkt->rows[k]], norm = 0;
 
-        memcpy(row, kkt->matrix + (nu + k) * kkt->size, (size_t)nu * sizeof(double));
-        cholesky_forward(kkt->factor, nu, row);
+        for (int e = g->start[kkt->rows[k]]; e < g->start[kkt->rows[k] + 1]; e++)
+            if (phi_u[e] != 0)
+                norm += phi_u[e] * phi_u[e] / entries[kkt->place_of[g->row[e]]];
+        *reach = fmax(*reach, norm);
+        kkt->norm[kkt->place_of[kkt->nu + k]] = *reach;
     }
-}
-
-static double dot(const double *a, const double *b, int n)
-{
-    double sum = 0;
-
-    for (int i = 0; i < n; i++)
-        sum += a[i] * b[i];
-    return sum;
-}
-
-/* Lengths are told from angles by the largest entry that each column has had: what a unit of the
- * speed moves. */
-static void measure_columns(Kkt *kkt, const double *phi_u, const int *rows)
-{
-    for (int k = 0; k < kkt->m; k++)
-        for (int i = 0; i < kkt->nu; i++)
-            kkt->reach[i] = fmax(kkt->reach[i], fabs(phi_u[rows[k] * kkt->nu + i]));
-}
-
-/* How independent the rows of G are: the least pivot of G G^T, columns of G over their reach, rows
- * over the largest norm that they have had. Those of the LU only raise suspicion: an exchange of
- * rows splits one of size sigma^2 into two of size sigma, and light parts between heavy ones make
- * small pivots that are none of the geometry's. */
-static double least_pivot(Kkt *kkt, const double *phi_u, const int *rows)
-{
-    const int m = kkt->m, nu = kkt->nu;
-    const double least = LEAST_REACH * vector_largest(kkt->reach, nu);
-    double *s = kkt->compliance, *g = kkt->bound;
-
-    for (int k = 0; k < m; k++) {
-        double norm;
-
-        for (int i = 0; i < nu; i++)
-            g[k * nu + i] = phi_u[rows[k] * nu + i] / fmax(kkt->reach[i], least);
-        norm = fmax(kkt->row_reach[rows[k]], sqrt(dot(g + k * nu, g + k * nu, nu)));
-        kkt->row_reach[rows[k]] = norm;
-        for (int i = 0; i < nu && norm > 0; i++)
-            g[k * nu + i] /= norm;
-    }
-    matrix_gram(g, m, nu, s);
-    return fmax(0, cholesky_factor(s, m));
-}
-
-/* largest diagonal entry of G M^-1 G^T, scaled; 1 where M can't be inverted */
-static double largest_compliance(Kkt *kkt)
-{
-    double largest = 1;
-
-    if (!factor_mass(kkt))
-        return 1;
-    find_bound(kkt);
+    (void)ldl_factor(kkt->geometry, kkt->norm, NULL);
     for (int k = 0; k < kkt->m; k++) {
-        const double *row = kkt->bound + k * kkt->nu;
+        const int place = kkt->place_of[kkt->nu + k];
+        const double pivot = -ldl_pivots(kkt->geometry)[place] / kkt->norm[place];
 
-        largest = fmax(largest, dot(row, row, kkt->nu));
+        if (!(pivot >= found))
+            found = fmax(0, pivot); /* a row that always was 0: fmax() passes NaN over */
     }
-    return largest;
-}
-
-bool kkt_factor(Kkt *kkt, const double *mass, const double *phi_u, const int *rows)
-{
-    size_t bytes = (size_t)kkt->size * (size_t)kkt->size * sizeof(double);
-    double epsilon;
-    bool sound;
-
-    choose_scale(kkt, mass, phi_u, rows);
-    measure_columns(kkt, phi_u, rows);
-    fill_matrix(kkt, mass, phi_u, rows);
-    if (!vector_is_finite(kkt->matrix, kkt->size * kkt->size))
-        return false;
-    memcpy(lu_matrix(kkt->lu), kkt->matrix, bytes);
-    kkt->regularised = false;
-    sound = lu_factor_watched(kkt->lu, kkt->watch) && lu_pivot_ratio(kkt->lu) > 1e-14;
-    kkt->pivot =
-        kkt->m > 0 && lu_pivot_ratio(kkt->lu) < SUSPECT ? least_pivot(kkt, phi_u, rows) : 1;
-    if (kkt->pivot > SINGULAR)
-        return sound;
-
-    kkt->regularised = true;
-    epsilon = EPSILON * largest_compliance(kkt);
-    memcpy(lu_matrix(kkt->lu), kkt->matrix, bytes);
-    for (int k = kkt->nu; k < kkt->size; k++)
-        lu_matrix(kkt->lu)[k * kkt->size + k] = -epsilon;
-    return lu_factor_watched(kkt->lu, kkt->watch);
+    return found;
 }
 
 double kkt_independence(Kkt *kkt, const double *phi_u, const int *rows)
 {
-    measure_columns(kkt, phi_u, rows);
-    return sqrt(least_pivot(kkt, phi_u, rows));
+    keep_rows(kkt, rows);
+    measure_columns(kkt, phi_u);
+    return sqrt(least_pivot(kkt, phi_u));
+}
+
+/* --- rows exchanged --- */
+
+static void open_exchanging(Kkt *kkt)
+{
+    int *row = NEW_ARRAY(int, 2 * kkt->entries + kkt->m);
+    int *column = NEW_ARRAY(int, 2 * kkt->entries + kkt->m), count = 0;
+
+    for (int across = 0; across < 2; across++)
+        for (int e = 0; e < kkt->entries; e++)
+            if (!across || kkt->row[e] != kkt->column[e]) {
+                row[count] = kkt->place_of[across ? kkt->column[e] : kkt->row[e]];
+                column[count++] = kkt->place_of[across ? kkt->row[e] : kkt->column[e]];
+            }
+    for (int k = 0; k < kkt->m; k++)
+        row[count + k] = column[count + k] = kkt->place_of[kkt->nu + k];
+    kkt->exchanging = sparse_new(kkt->size, count + kkt->m, row, column);
+    kkt->values = NEW_ARRAY(double, count + kkt->m);
+    MEM_FREE(row, column);
+}
+
+/* A speed without mass of its own takes the mass that gives it the same weight in its constraints
+ * as its heaviest-felt neighbour has. mass[]: of speeds; those that are less than `least` change.
+ */
+static void borrow_masses(const Kkt *kkt, double least, double *mass)
+{
+    const double *entries = ldl_entries(kkt->factors);
+    double *strongest = kkt->answer, *borrowed = kkt->residual; /* of g_j^2 / M_jj */
+
+    memset(strongest, 0, (size_t)kkt->m * sizeof(double));
+    memset(borrowed, 0, (size_t)kkt->nu * sizeof(double));
+    for (int e = kkt->mass_entries; e < kkt->entries; e++) {
+        const double own = mass[kkt->row[e]], entry = entries[kkt->place[e]];
+        double *row = &strongest[kkt->column[e] - kkt->nu];
+
+        if (own > 0)
+            *row = fmax(*row, entry * entry / own);
+    }
+    for (int e = kkt->mass_entries; e < kkt->entries; e++) {
+        const double entry = entries[kkt->place[e]], row = strongest[kkt->column[e] - kkt->nu];
+
+        if (row > 0)
+            borrowed[kkt->row[e]] = fmax(borrowed[kkt->row[e]], entry * entry / row);
+    }
+    for (int i = 0; i < kkt->nu; i++)
+        if (!(mass[i] > least))
+            mass[i] = fmax(mass[i], borrowed[i]);
+}
+
+/* Unknowns are scaled to unit mass, rows of G to unit mass-norm at its largest so far. */
+static void choose_scale(Kkt *kkt)
+{
+    const double *entries = ldl_entries(kkt->factors);
+    double *size = kkt->weight; /* mass, and norm squared */
+    double heaviest = 0, largest = 0;
+
+    memset(size, 0, (size_t)kkt->size * sizeof(double));
+    for (int i = 0; i < kkt->nu; i++) {
+        size[i] = entries[kkt->place_of[i]];
+        heaviest = fmax(heaviest, size[i]);
+    }
+    borrow_masses(kkt, LEAST_MASS * heaviest, size);
+    for (int e = kkt->mass_entries; e < kkt->entries; e++) {
+        const double entry = entries[kkt->place[e]], mass = size[kkt->row[e]];
+
+        size[kkt->column[e]] += entry * entry / (mass > 0 ? mass : 1);
+    }
+    for (int k = 0; k < kkt->m; k++) {
+        double *most = &kkt->most[kkt->rows[k]];
+
+        *most = fmax(*most, size[kkt->nu + k]);
+        largest = fmax(largest, *most);
+    }
+    for (int k = 0; k < kkt->m; k++)
+        size[kkt->nu + k] = fmax(kkt->most[kkt->rows[k]], LEAST_NORM * LEAST_NORM * largest);
+    for (int i = 0; i < kkt->size; i++)
+        kkt->scale[kkt->place_of[i]] = size[i] > 0 ? 1 / sqrt(size[i]) : 1;
+}
+
+static bool factor_exchanging(Kkt *kkt)
+{
+    const double *entries = ldl_entries(kkt->factors);
+    const double *pivots = kkt->m > 0 ? ldl_pivots(kkt->geometry) : NULL;
+    int count = 0;
+
+    if (kkt->exchanging == NULL)
+        open_exchanging(kkt);
+    choose_scale(kkt);
+    for (int across = 0; across < 2; across++)
+        for (int e = 0; e < kkt->entries; e++)
+            if (!across || kkt->row[e] != kkt->column[e])
+                kkt->values[count++] = entries[kkt->place[e]] *
+                                       kkt->scale[kkt->place_of[kkt->row[e]]] *
+                                       kkt->scale[kkt->place_of[kkt->column[e]]];
+    for (int k = 0; k < kkt->m; k++) {
+        const int place = kkt->place_of[kkt->nu + k];
+        const bool held = kkt->regularised && fabs(pivots[place]) < LDL_SMALL * kkt->norm[place];
+
+        kkt->values[count + k] = held ? -LDL_HOLD : 0;
+    }
+    return sparse_factor(kkt->exchanging, kkt->values) &&
+           (kkt->regularised || sparse_condition(kkt->exchanging) > UNSOLVABLE);
+}
+
+static void solve_exchanging(const Kkt *kkt, double *x)
+{
+    for (int i = 0; i < kkt->size; i++)
+        x[i] *= kkt->scale[i];
+    sparse_solve(kkt->exchanging, x);
+    for (int i = 0; i < kkt->size; i++)
+        x[i] *= kkt->scale[i];
+}
+
+/* --- factors --- */
+
+/* of p to the largest that it has been for each row */
+static void measure_rows(Kkt *kkt)
+{
+    const double *taken = ldl_taken(kkt->factors);
+    double largest = 0;
+
+    for (int k = 0; k < kkt->m; k++) {
+        double *most = &kkt->most[kkt->rows[k]];
+
+        *most = fmax(*most, taken[kkt->place_of[kkt->nu + k]]);
+        largest = fmax(largest, *most);
+    }
+    for (int k = 0; k < kkt->m; k++)
+        kkt->reference[kkt->place_of[kkt->nu + k]] =
+            fmax(kkt->most[kkt->rows[k]], LEAST_NORM * LEAST_NORM * largest);
+}
+
+/* whether M has pivots of its own */
+static bool mass_is_regular(const Kkt *kkt)
+{
+    const double *pivots = ldl_pivots(kkt->factors), *diagonal = ldl_entries(kkt->factors);
+    bool regular = true;
+
+    for (int i = 0; i < kkt->nu && regular; i++)
+        regular = pivots[kkt->place_of[i]] > NO_MASS * diagonal[kkt->place_of[i]];
+    return regular;
+}
+
+/* The least d / p, 1 at most; NAN counts as 0. */
+static double least_angle(const Kkt *kkt)
+{
+    const double *pivots = ldl_pivots(kkt->factors);
+    double least = 1;
+
+    for (int k = 0; k < kkt->m; k++) {
+        const int place = kkt->place_of[kkt->nu + k];
+        const double angle = -pivots[place] / kkt->reference[place];
+
+        if (!(angle >= least))
+            least = fmax(0, angle);
+    }
+    return least;
+}
+
+/* rows that the geometry holds are held, others not */
+static bool factor_held(Kkt *kkt)
+{
+    const double *pivots = ldl_pivots(kkt->geometry);
+    double *reference = kkt->residual;
+
+    for (int i = 0; i < kkt->size; i++)
+        reference[i] = fabs(pivots[i]) < LDL_SMALL * kkt->norm[i] ? kkt->reference[i] : 0;
+    return ldl_factor(kkt->factors, reference, kkt->watch);
+}
+
+bool kkt_factor(Kkt *kkt, const double *mass, const double *phi_u, const int *rows)
+{
+    bool regular;
+
+    keep_rows(kkt, rows);
+    measure_columns(kkt, phi_u);
+    put_entries(kkt, mass, phi_u);
+    if (!ldl_factor(kkt->factors, NULL, kkt->watch))
+        return false;
+    regular = mass_is_regular(kkt);
+    kkt->angle = 0;
+    if (regular) {
+        measure_rows(kkt);
+        kkt->angle = least_angle(kkt);
+    }
+    kkt->pivot = kkt->m == 0 || kkt->angle > SUSPECT ? 1 : least_pivot(kkt, phi_u);
+    kkt->regularised = !(kkt->pivot > SINGULAR);
+    if (kkt->regularised && regular && !factor_held(kkt))
+        return false;
+    kkt->is_exchanging = !regular || (!kkt->regularised && kkt->angle < LOST);
+    return !kkt->is_exchanging || factor_exchanging(kkt);
 }
 
 double kkt_blur(const Kkt *kkt)
@@ -281,27 +430,56 @@ bool kkt_is_regularised(const Kkt *kkt)
     return kkt->regularised;
 }
 
+/* --- solution --- */
+
+static void solve(Kkt *kkt, double *x)
+{
+    if (kkt->is_exchanging)
+        solve_exchanging(kkt, x);
+    else
+        ldl_solve(kkt->factors, x);
+}
+
+/* by place: squares of unknowns times this are alike */
+static void weigh(Kkt *kkt)
+{
+    const double *diagonal = ldl_entries(kkt->factors);
+
+    for (int i = 0; i < kkt->size; i++)
+        kkt->weight[i] = kkt->is_exchanging ? 1 / (kkt->scale[i] * kkt->scale[i])
+                         : diagonal[i] > 0  ? diagonal[i]
+                                            : kkt->reference[i];
+}
+
+static double size_of(const Kkt *kkt, const double *x)
+{
+    double largest = 0;
+
+    for (int i = 0; i < kkt->size; i++)
+        largest = fmax(largest, x[i] * x[i] * kkt->weight[i]);
+    return sqrt(largest);
+}
+
 /* the size of the correction. One sweep makes the solution exact to what the rows themselves
  * determine, however they are scaled (Skeel 1980): masses many decades apart. */
 static double refine_once(Kkt *kkt)
 {
-    matrix_times(kkt->matrix, kkt->size, kkt->size, kkt->answer, kkt->residual);
-    for (int i = 0; i < kkt->size; i++)
-        kkt->residual[i] = kkt->right[i] - kkt->residual[i];
-    lu_solve(kkt->lu, kkt->residual);
+    ldl_residual(kkt->factors, kkt->right, kkt->answer, kkt->residual);
+    solve(kkt, kkt->residual);
     for (int i = 0; i < kkt->size; i++)
         kkt->answer[i] += kkt->residual[i];
-    return vector_largest(kkt->residual, kkt->size);
+    return size_of(kkt, kkt->residual);
 }
 
 static void refine(Kkt *kkt, int least, double enough)
 {
     double before = INFINITY;
 
+    weigh(kkt);
     for (int sweep = 0; sweep < MOST_SWEEPS; sweep++) {
         const double size = refine_once(kkt);
 
-        if (size <= enough * vector_largest(kkt->answer, kkt->size) ||
+        if (size <= enough * size_of(kkt, kkt->answer) ||
             (sweep + 1 >= least && !(size < CONTRACTION * before)))
             break;
         before = size;
@@ -310,20 +488,18 @@ static void refine(Kkt *kkt, int least, double enough)
 
 void kkt_solve(Kkt *kkt, const double *top, const double *bottom, double *du, double *lambda)
 {
-    int nu = kkt->nu;
-
-    for (int i = 0; i < nu; i++)
-        kkt->right[i] = top != NULL ? top[i] * kkt->scale[i] : 0;
+    for (int i = 0; i < kkt->nu; i++)
+        kkt->right[kkt->place_of[i]] = top != NULL ? top[i] : 0;
     for (int k = 0; k < kkt->m; k++)
-        kkt->right[nu + k] = bottom[k] * kkt->scale[nu + k];
+        kkt->right[kkt->place_of[kkt->nu + k]] = bottom[k];
     memcpy(kkt->answer, kkt->right, (size_t)kkt->size * sizeof(double));
-    lu_solve(kkt->lu, kkt->answer);
+    solve(kkt, kkt->answer);
     if (kkt->regularised)
         refine(kkt, SWEEPS, ROUNDING);
-    else if (lu_pivot_ratio(kkt->lu) < INEXACT)
+    else if (kkt->is_exchanging || kkt->angle < INEXACT)
         refine(kkt, 1, SETTLED);
-    for (int i = 0; i < nu; i++)
-        du[i] = kkt->answer[i] * kkt->scale[i];
+    for (int i = 0; i < kkt->nu; i++)
+        du[i] = kkt->answer[kkt->place_of[i]];
     for (int k = 0; k < kkt->m; k++)
-        lambda[k] = kkt->answer[nu + k] * kkt->scale[nu + k];
+        lambda[k] = kkt->answer[kkt->place_of[kkt->nu + k]];
 }

@@ -1,9 +1,9 @@
 /* kkt.h: the matrix [M G^T; G 0] of accelerations and multipliers
  *
- * M is nu x nu, symmetric, possibly singular; G holds the m constraint rows in use. Unknowns
- * are scaled to unit mass and rows of G to unit mass-norm at its largest so far. Near a singular
- * configuration a small -epsilon in the empty corner keeps the solution bounded, and sweeps of
- * refinement against the true matrix take its effect back where the equations determine the answer
+ * M is nu x nu, symmetric, possibly singular; G holds the m constraint rows in use. Of both the
+ * entries that may not be 0 are stored. Near a singular configuration a small -epsilon in the
+ * corner of the rows that become dependent keeps the solution bounded, and sweeps of refinement
+ * against the true matrix take its effect back where the equations determine the answer
  * (quasi-definite regularisation, Vanderbei 1995).
  *
  * A configuration is singular by its geometry, whatever the masses: what counts are the pivots of
@@ -11,29 +11,31 @@
 #ifndef COTREE_ALGEBRA_KKT_H
 #define COTREE_ALGEBRA_KKT_H
 
+#include "algebra/pattern.h"
 #include "base/watch.h"
 
 #include <stdbool.h>
 
 typedef struct Kkt Kkt;
 
-/* New, for m rows in use of `all`; free with kkt_free(). */
-Kkt *kkt_new(int nu, int m, int all);
+/* New; free with kkt_free(). Borrows the patterns: of M, both halves, and of all constraint rows, a
+ * column each. m of them will be in use, these at first. */
+Kkt *kkt_new(const Pattern *mass, const Pattern *constraints, const int *rows, int m);
 /* who may stop kkt_factor(), borrowed; NULL: nobody */
 void kkt_set_watch(Kkt *kkt, const Watch *watch);
 void kkt_free(Kkt *kkt); /* NULL is fine */
-/* Factor. `rows` picks the m rows of phi_u (row by row, nu columns); borrowed during the call.
- * False when no solution can be had at all: M singular where nothing holds it, or NaN; or it was
- * stopped. O((nu+m)^3). */
+/* Factor, from the values of the patterns' places; borrowed during the call. Where `rows` are
+ * others than before, their order of elimination is found first. False when no solution can be had
+ * at all: M singular where nothing holds it, or NaN; or it was stopped. */
 bool kkt_factor(Kkt *kkt, const double *mass, const double *phi_u, const int *rows);
 /* of the last kkt_factor(): whether a singular configuration is so near that epsilon is there */
 bool kkt_is_regularised(const Kkt *kkt);
 /* relative size of what rounding may leave of speeds and accelerations there; 0: as elsewhere */
 double kkt_blur(const Kkt *kkt);
-/* How independent the rows are, without a factorisation: the root of the least of those pivots, 1
- * at most. It falls to 0 as the distance to a singular configuration does. O(m^2 nu). */
+/* How independent the rows are, without M: the root of the least of those pivots, 1 at most. It
+ * falls to 0 as the distance to a singular configuration does. */
 double kkt_independence(Kkt *kkt, const double *phi_u, const int *rows);
-/* M du + G^T lambda = top, G du = bottom. `top` may be NULL for 0; du may be `top`. O((nu+m)^2). */
+/* M du + G^T lambda = top, G du = bottom. `top` may be NULL for 0; du may be `top`. */
 void kkt_solve(Kkt *kkt, const double *top, const double *bottom, double *du, double *lambda);
 
 #endif

@@ -9,6 +9,8 @@ libcore_la_SOURCES += \
   lib/algebra/hessenberg_form.h \
   lib/algebra/kkt.c \
   lib/algebra/kkt.h \
+  lib/algebra/ldl.c \
+  lib/algebra/ldl.h \
   lib/algebra/levenberg_marquardt.c \
   lib/algebra/levenberg_marquardt.h \
   lib/algebra/linear.c \

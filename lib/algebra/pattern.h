@@ -12,6 +12,18 @@ typedef struct Pattern {
 /* The places of `count` terms at row[k], column[k], of which several may share one, in any order;
  * place[k] becomes that of term k. New; pattern_free(). O(count + rows + columns). */
 Pattern pattern_of(int rows, int columns, int count, const int *row, const int *column, int *place);
-void pattern_free(Pattern *pattern); /* what it holds */
+Pattern pattern_full(int rows, int columns); /* of a matrix of which any entry may not be 0 */
+void pattern_free(Pattern *pattern);         /* what it holds */
+
+/* With the values of all places: column c times v; */
+double pattern_dot(const Pattern *pattern, const double *values, int c, const double *v);
+/* out += factor times column c; */
+void pattern_add(const Pattern *pattern, const double *values, int c, double factor, double *out);
+/* its entry of largest size, and one of them; */
+double pattern_largest(const Pattern *pattern, const double *values, int c);
+double pattern_at(const Pattern *pattern, const double *values, int row, int c);
+/* column after column in full, and a new array of that. */
+void pattern_fill(const Pattern *pattern, const double *values, double *out);
+double *pattern_spread(const Pattern *pattern, const double *values);
 
 #endif

@@ -15,6 +15,8 @@ typedef struct Problem {
     double network[4], network_rhs[2], force[8], power[1];
     double q[8], u[8], x[2], t;
     int rows[8], network_places[8];
+    Pattern row_places, mass_places; /* of full matrices */
+    int start[9], row[64], column[64];
 } Problem;
 
 static void problem_link(Problem *p, int n, int nu, int m, int nx)
@@ -27,6 +29,16 @@ static void problem_link(Problem *p, int n, int nu, int m, int nx)
     p->eq.phi = p->phi;
     p->eq.phi_u = p->phi_u;
     p->eq.mass = p->mass;
+    for (int k = 0; k <= nu; k++)
+        p->start[k] = k * nu;
+    for (int k = 0; k < nu * nu; k++) {
+        p->row[k] = k % nu;
+        p->column[k] = k / nu;
+    }
+    p->mass_places = (Pattern){nu, nu, nu * nu, p->start, p->row, p->column};
+    p->row_places = (Pattern){nu, m, nu * m, p->start, p->row, p->column};
+    p->eq.rows = &p->row_places;
+    p->eq.masses = &p->mass_places;
     p->eq.q_rate = p->q_rate;
     p->eq.nu_rate = p->nu_rate;
     p->eq.gamma = p->gamma;

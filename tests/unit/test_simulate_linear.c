@@ -7,8 +7,31 @@
 
 #include "test.h"
 
+#include <gsl/gsl_linalg.h>
+
 enum { NU = 6, M = 4 };
 static const int all_rows[M] = {0, 1, 2, 3};
+
+/* a Kkt of full matrices */
+typedef struct Full {
+    Pattern mass, rows;
+    Kkt *kkt;
+} Full;
+
+static Kkt *full_open(Full *full, int nu, int m)
+{
+    full->mass = pattern_full(nu, nu);
+    full->rows = pattern_full(nu, m);
+    full->kkt = kkt_new(&full->mass, &full->rows, all_rows, m);
+    return full->kkt;
+}
+
+static void full_close(Full *full)
+{
+    kkt_free(full->kkt);
+    pattern_free(&full->mass);
+    pattern_free(&full->rows);
+}
 
 static void random_matrix(uint64_t *seed, double *a, int n)
 {
@@ -90,7 +113,8 @@ static double kkt_residual(const double *mass, const double *phi_u, const double
 static void kkt_and_embedded_form_agree(void)
 {
     uint64_t seed = 2;
-    Kkt *kkt = kkt_new(NU, M, M);
+    Full full;
+    Kkt *kkt = full_open(&full, NU, M);
     Partitioning *embed = partitioning_new(NU, M);
 
     for (int trial = 0; trial < 100; trial++) {
@@ -108,7 +132,7 @@ static void kkt_and_embedded_form_agree(void)
         for (int i = 0; i < NU; i++)
             EXPECT_NEAR(other[i], du[i], 1e-9);
     }
-    kkt_free(kkt);
+    full_close(&full);
     partitioning_free(embed);
 }
 
@@ -125,13 +149,170 @@ static void wanted_speeds_become_independent(void)
     partitioning_free(embed);
 }
 
+/* --- bodies in a row and across, as absolute coordinates have them --- */
+
+enum { BODIES = 40, SPEEDS = 3 * BODIES, JOINTS = BODIES + 5, ROWS = 2 * JOINTS };
+
+/* Pinned each to the one before and some to one far before: 2 rows a joint, of up to 6 entries. */
+typedef struct Pinned {
+    Pattern mass, rows;
+    double masses[SPEEDS], entries[6 * ROWS];
+    int order[ROWS];
+} Pinned;
+
+static void open_pinned(uint64_t *seed, double decades, Pinned *p)
+{
+    int row[6 * ROWS], column[6 * ROWS], place[6 * ROWS], diagonal[SPEEDS], count = 0;
+
+    for (int i = 0; i < SPEEDS; i++) {
+        diagonal[i] = i;
+        p->masses[i] = pow(10, test_uniform(seed, -decades / 2, decades / 2));
+    }
+    for (int j = 0; j < JOINTS; j++) {
+        const int one = j < BODIES ? j : 7 * (j - BODIES) + 6, other = j < BODIES ? j - 1 : one - 5;
+
+        for (int k = 0; k < 12; k++)
+            if (k < 6 || other >= 0) {
+                row[count] = 3 * (k < 6 ? one : other) + k % 3;
+                column[count++] = 2 * j + k / 3 % 2;
+            }
+    }
+    p->mass = pattern_of(SPEEDS, SPEEDS, SPEEDS, diagonal, diagonal, diagonal);
+    p->rows = pattern_of(SPEEDS, ROWS, count, row, column, place);
+    for (int k = 0; k < ROWS; k++)
+        p->order[k] = k;
+}
+
+/* to some attitude: a row holds the x or y of two points, each a body's and its arm's turned */
+static void turn_pinned(uint64_t *seed, Pinned *p)
+{
+    for (int e = 0; e < p->rows.count; e++) {
+        const int body = p->rows.row[e] / 3,
+                  last = p->rows.row[p->rows.start[p->rows.column[e] + 1] - 1];
+        const double sign = body == last / 3 ? 1 : -1;
+
+        p->entries[e] = p->rows.row[e] % 3 == 2                       ? test_uniform(seed, -1, 1)
+                        : p->rows.row[e] % 3 == p->rows.column[e] % 2 ? sign
+                                                                      : 0;
+    }
+}
+
+/* the same by GSL, everything in full */
+static void solve_in_full(const Pinned *p, const double *top, const double *bottom, double *du)
+{
+    const size_t n = SPEEDS + ROWS;
+    gsl_matrix *a = gsl_matrix_calloc(n, n);
+    gsl_vector *b = gsl_vector_alloc(n);
+    gsl_permutation *order = gsl_permutation_alloc(n);
+    int sign;
+
+    for (size_t i = 0; i < SPEEDS; i++) {
+        gsl_matrix_set(a, i, i, p->masses[i]);
+        gsl_vector_set(b, i, top[i]);
+    }
+    for (int e = 0; e < p->rows.count; e++) {
+        const size_t i = (size_t)p->rows.row[e], k = SPEEDS + (size_t)p->rows.column[e];
+
+        gsl_matrix_set(a, i, k, p->entries[e]);
+        gsl_matrix_set(a, k, i, p->entries[e]);
+    }
+    for (size_t k = 0; k < ROWS; k++)
+        gsl_vector_set(b, SPEEDS + k, bottom[k]);
+    (void)gsl_linalg_LU_decomp(a, order, &sign);
+    (void)gsl_linalg_LU_svx(a, order, b);
+    for (size_t i = 0; i < SPEEDS; i++)
+        du[i] = gsl_vector_get(b, i);
+    gsl_matrix_free(a);
+    gsl_vector_free(b);
+    gsl_permutation_free(order);
+}
+
+/* largest left of a row or force, over what its terms are */
+static double left_of_pinned(const Pinned *p, const double *top, const double *bottom,
+                             const double *du, const double *lambda)
+{
+    double force[SPEEDS], size[SPEEDS], largest = 0;
+
+    for (int i = 0; i < SPEEDS; i++) {
+        force[i] = p->masses[i] * du[i] - top[i];
+        size[i] = fabs(p->masses[i] * du[i]) + fabs(top[i]);
+    }
+    for (int k = 0; k < ROWS; k++) {
+        double sum = -bottom[k], terms = fabs(bottom[k]);
+
+        for (int e = p->rows.start[k]; e < p->rows.start[k + 1]; e++) {
+            const int i = p->rows.row[e];
+
+            sum += p->entries[e] * du[i];
+            terms += fabs(p->entries[e] * du[i]);
+            force[i] += p->entries[e] * lambda[k];
+            size[i] += fabs(p->entries[e] * lambda[k]);
+        }
+        largest = fmax(largest, fabs(sum) / terms);
+    }
+    for (int i = 0; i < SPEEDS; i++)
+        largest = fmax(largest, fabs(force[i]) / size[i]);
+    return largest;
+}
+
+static void sparse_and_full_elimination_agree(void)
+{
+    uint64_t seed = 11;
+
+    for (int trial = 0; trial < 40; trial++) {
+        double top[SPEEDS], bottom[ROWS], du[SPEEDS], full[SPEEDS], lambda[ROWS], largest = 0;
+        Pinned p;
+        Kkt *kkt;
+
+        open_pinned(&seed, trial % 4 * 2, &p);
+        kkt = kkt_new(&p.mass, &p.rows, p.order, ROWS);
+        for (int again = 0; again < 2; again++) { /* factors are found anew in the same order */
+            turn_pinned(&seed, &p);
+            random_matrix(&seed, top, SPEEDS);
+            random_matrix(&seed, bottom, ROWS);
+            EXPECT(kkt_factor(kkt, p.masses, p.entries, p.order));
+            kkt_solve(kkt, top, bottom, du, lambda);
+            EXPECT(!kkt_is_regularised(kkt));
+            EXPECT(left_of_pinned(&p, top, bottom, du, lambda) < 1e-13);
+            solve_in_full(&p, top, bottom, full);
+            for (int i = 0; i < SPEEDS; i++)
+                largest = fmax(largest, fabs(full[i]));
+            for (int i = 0; i < SPEEDS; i++)
+                EXPECT_NEAR(du[i], full[i], 1e-9 * largest);
+        }
+        kkt_free(kkt);
+        pattern_free(&p.mass);
+        pattern_free(&p.rows);
+    }
+}
+
+/* a row that repeats two others is dropped, and then another one of the three */
+static void rows_in_use_may_be_others(void)
+{
+    const double mass[9] = {2, 1, 0, 1, 3, 0, 0, 0, 1}, phi_u[9] = {1, 1, 0, 0, 1, 1, 1, 2, 1};
+    const double top[3] = {1, 2, 3}, bottom[2] = {0, 0};
+    static const int first[2] = {0, 1}, then[2] = {1, 2};
+    double du[3], other[3], lambda[2];
+    Full full = {.mass = pattern_full(3, 3), .rows = pattern_full(3, 3)};
+    Kkt *kkt = full.kkt = kkt_new(&full.mass, &full.rows, first, 2);
+
+    EXPECT(kkt_factor(kkt, mass, phi_u, first));
+    kkt_solve(kkt, top, bottom, du, lambda);
+    EXPECT(kkt_factor(kkt, mass, phi_u, then));
+    kkt_solve(kkt, top, bottom, other, lambda);
+    for (int i = 0; i < 3; i++)
+        EXPECT_NEAR(other[i], du[i], 1e-14);
+    full_close(&full);
+}
+
 static void massless_speeds_are_held_by_their_constraints(void)
 {
     /* a point mass on a massless rod, lying flat: M has a zero */
     const double mass[9] = {1, 0, 0, 0, 1, 0, 0, 0, 0}, phi_u[6] = {1, 0, 0, 0, 1, 1};
     const double top[3] = {0, -9.81, 0}, bottom[2] = {0, 0};
     double du[3], lambda[2];
-    Kkt *kkt = kkt_new(3, 2, 2);
+    Full full;
+    Kkt *kkt = full_open(&full, 3, 2);
 
     EXPECT(kkt_factor(kkt, mass, phi_u, all_rows));
     EXPECT(!kkt_is_regularised(kkt));
@@ -139,18 +320,19 @@ static void massless_speeds_are_held_by_their_constraints(void)
     EXPECT_NEAR(du[1], -9.81, 1e-14);
     EXPECT_NEAR(du[2], 9.81, 1e-14);
     EXPECT_NEAR(lambda[1], 0, 1e-14);
-    kkt_free(kkt);
+    full_close(&full);
 }
 
 static void a_free_massless_speed_has_no_acceleration(void)
 {
     const double mass[4] = {1, 0, 0, 0}, phi_u[2] = {1, 0};
-    Kkt *kkt = kkt_new(2, 1, 1), *bare = kkt_new(2, 0, 0);
+    Full full, empty;
+    Kkt *kkt = full_open(&full, 2, 1), *bare = full_open(&empty, 2, 0);
 
     EXPECT(!kkt_factor(bare, mass, NULL, NULL));
     EXPECT(!kkt_factor(kkt, mass, phi_u, all_rows));
-    kkt_free(kkt);
-    kkt_free(bare);
+    full_close(&full);
+    full_close(&empty);
 }
 
 static void a_row_that_fades_is_regularised(void)
@@ -158,7 +340,8 @@ static void a_row_that_fades_is_regularised(void)
     double mass[4] = {1, 0, 0, 1}, phi_u[4] = {1, 0, 1, 1};
     const double top[2] = {1, 0}, bottom[2] = {0, 0};
     double du[2], lambda[2];
-    Kkt *kkt = kkt_new(2, 2, 2);
+    Full full;
+    Kkt *kkt = full_open(&full, 2, 2);
 
     EXPECT(kkt_factor(kkt, mass, phi_u, all_rows));
     EXPECT(!kkt_is_regularised(kkt));
@@ -172,7 +355,7 @@ static void a_row_that_fades_is_regularised(void)
     EXPECT(kkt_factor(kkt, mass, phi_u, all_rows));
     kkt_solve(kkt, top, bottom, du, lambda);
     EXPECT_NEAR(lambda[0] + lambda[1], 1, 1e-6);
-    kkt_free(kkt);
+    full_close(&full);
 }
 
 /* a light slide between two heavy ones, the second of which hangs on it: no position of it is
@@ -186,14 +369,15 @@ static void a_light_part_between_heavy_ones_is_no_singularity(void)
         const double ratio = pow(10, decade);
         const double mass[9] = {1, 0, 0, 0, ratio, 0, 0, 0, 1}, top[3] = {0, 0, 1};
         double du[3], lambda[2];
-        Kkt *kkt = kkt_new(3, 2, 2);
+        Full full;
+        Kkt *kkt = full_open(&full, 3, 2);
 
         EXPECT(kkt_factor(kkt, mass, phi_u, all_rows));
         EXPECT(!kkt_is_regularised(kkt));
         kkt_solve(kkt, top, bottom, du, lambda);
         EXPECT_NEAR(du[0] * (2 + ratio), 1, 1e-13);
         EXPECT_NEAR(lambda[1] * (2 + ratio), -(1 + ratio), 1e-13 * (2 + ratio));
-        kkt_free(kkt);
+        full_close(&full);
     }
 }
 
@@ -203,7 +387,8 @@ static void what_is_only_nearly_singular_is_exact(void)
     double mass[9] = {1, 0, 0, 0, 1e-4, 0, 0, 0, 1}, phi_u[6] = {1, 0, 0, 1, 1, 0};
     const double top[3] = {1, 2, 3}, bottom[2] = {0, 1e-3};
     double du[3], lambda[2];
-    Kkt *kkt = kkt_new(3, 2, 2);
+    Full full;
+    Kkt *kkt = full_open(&full, 3, 2);
 
     EXPECT(kkt_factor(kkt, mass, phi_u, all_rows));
     phi_u[4] = 1e-3; /* the rows become parallel */
@@ -213,7 +398,7 @@ static void what_is_only_nearly_singular_is_exact(void)
     EXPECT_NEAR(du[0], 0, 1e-12);
     EXPECT_NEAR(du[1], 1, 1e-9);
     EXPECT_NEAR(du[2], 3, 1e-12);
-    kkt_free(kkt);
+    full_close(&full);
 }
 
 static void rank_finds_the_row_that_follows(void)
@@ -354,6 +539,8 @@ int main(void)
     RUN(lu_refuses_singular_and_undefined_matrices);
     RUN(kkt_and_embedded_form_agree);
     RUN(wanted_speeds_become_independent);
+    RUN(sparse_and_full_elimination_agree);
+    RUN(rows_in_use_may_be_others);
     RUN(massless_speeds_are_held_by_their_constraints);
     RUN(a_free_massless_speed_has_no_acceleration);
     RUN(a_row_that_fades_is_regularised);

@@ -31,17 +31,20 @@ static double *find_motions(ResultReader *reader)
     double *motions = NEW_ARRAY(double, (nu - rank) * nu);
     gsl_matrix *rows;
     gsl_vector *tau;
+    double *phi_u;
 
     for (int i = 0; i < nu - rank; i++)
         motions[i * nu + rank + i] = 1;
     if (rank == 0)
         return motions;
     eq->position(eq->context, 0, start->y);
+    phi_u = pattern_spread(eq->rows, eq->phi_u);
     rows = dense_matrix((size_t)nu, (size_t)rank);
     tau = dense_vector((size_t)rank);
     for (int k = 0; k < rank && k < m; k++)
         for (int j = 0; j < nu; j++)
-            gsl_matrix_set(rows, (size_t)j, (size_t)k, eq->phi_u[start->rows[k] * nu + j]);
+            gsl_matrix_set(rows, (size_t)j, (size_t)k, phi_u[start->rows[k] * nu + j]);
+    mem_free(phi_u);
     (void)gsl_linalg_QR_decomp(rows, tau);
     for (int i = 0; i < nu - rank; i++) {
         gsl_vector_view motion = gsl_vector_view_array(motions + (ptrdiff_t)i * nu, (size_t)nu);

@@ -246,12 +246,22 @@ static bool nearby(Assembly *a, LevelRows *level, uint64_t *seed, double *q, dou
     return met;
 }
 
+/* of the rows where the equations stand */
+static Status rank_here(const Assembly *a, double threshold, int *rank, int *order)
+{
+    double *phi_u = pattern_spread(a->eq->rows, a->eq->phi_u);
+    const Status status =
+        rank_rows(phi_u, a->l->m, a->l->nu, threshold, a->setting->watch, rank, order);
+
+    mem_free(phi_u);
+    return status;
+}
+
 /* Independent rows, from the assembled position and two near it: a rank that falls at one place
  * only is a singularity, not a redundancy. */
 static Status find_rank(Assembly *a, Diag *diag)
 {
     const Layout *l = a->l;
-    const Watch *watch = a->setting->watch;
     int *order = NEW_ARRAY(int, l->m);
     double *q = NEW_ARRAY(double, l->n);
     double *residual = NEW_ARRAY(double, l->m);
@@ -261,7 +271,7 @@ static Status find_rank(Assembly *a, Diag *diag)
     Status status = OK;
 
     a->eq->position(a->eq->context, 0, a->y);
-    CHECK(rank_rows(a->eq->phi_u, l->m, l->nu, RANK_RATIO, watch, &here, a->out->rows));
+    CHECK(rank_here(a, RANK_RATIO, &here, a->out->rows));
     best = here;
     if (best < l->m)
         CHECK(level_rows_new(LEVEL_POSITION, l, a->eq, a->parameters, NULL, 0, &level, diag));
@@ -271,7 +281,7 @@ static Status find_rank(Assembly *a, Diag *diag)
         level->y = a->y;
         if (!nearby(a, level, &seed, q, residual))
             continue;
-        CHECK(rank_rows(a->eq->phi_u, l->m, l->nu, 1e-7, watch, &rank, order));
+        CHECK(rank_here(a, 1e-7, &rank, order));
         if (rank > best) {
             best = rank;
             memcpy(a->out->rows, order, (size_t)l->m * sizeof(int));
@@ -282,10 +292,14 @@ static Status find_rank(Assembly *a, Diag *diag)
         remarks_add(&a->out->remarks,
                     (Remark){.kind = REMARK_START_SINGULAR, .count = here, .of = best});
     if (best < l->m) {
+        double *phi_u;
+
         /* at a singular start, what was found nearby tells more */
         if (here == best)
             a->eq->position(a->eq->context, 0, a->y);
-        redundant_remark(l->system, a->eq->phi_u, a->out->rows, best, &a->out->remarks);
+        phi_u = pattern_spread(a->eq->rows, a->eq->phi_u);
+        redundant_remark(l->system, phi_u, a->out->rows, best, &a->out->remarks);
+        mem_free(phi_u);
     }
 done:
     level_rows_free(level);

@@ -171,11 +171,12 @@ static double *weigh(const Assembly *a, const double *rates, int count)
 {
     const int nu = a->eq->nu;
     double *square = NEW_ARRAY(double, nu *nu);
+    double *phi_u = pattern_spread(a->eq->rows, a->eq->phi_u);
 
     for (int i = 0; i < count; i++)
         add_square(square, nu, rates + (ptrdiff_t)i * nu, 1);
     for (int i = 0; i < a->eq->m; i++) {
-        const double *row = a->eq->phi_u + (ptrdiff_t)i * nu;
+        const double *row = phi_u + (ptrdiff_t)i * nu;
         double size = 0;
 
         for (int j = 0; j < nu; j++)
@@ -183,6 +184,7 @@ static double *weigh(const Assembly *a, const double *rates, int count)
         if (size > 0)
             add_square(square, nu, row, 1 / size);
     }
+    mem_free(phi_u);
     if (!(cholesky_factor(square, nu) > 0)) {
         mem_free(square);
         square = NULL;

@@ -84,14 +84,11 @@ static void evaluate_system(const LevelRows *rows, double *residual, double *jac
         memcpy(residual, eq->phi, (size_t)eq->m * sizeof(double));
     } else {
         eq->velocity(eq->context, u, u + eq->nu);
-        for (int k = 0; k < eq->m; k++) {
-            residual[k] = -eq->nu_rate[k];
-            for (int j = 0; j < eq->nu; j++)
-                residual[k] += eq->phi_u[k * eq->nu + j] * u[j];
-        }
+        for (int k = 0; k < eq->m; k++)
+            residual[k] = pattern_dot(eq->rows, eq->phi_u, k, u) - eq->nu_rate[k];
     }
     if (jacobian != NULL)
-        memcpy(jacobian, eq->phi_u, (size_t)(eq->m * eq->nu) * sizeof(double));
+        pattern_fill(eq->rows, eq->phi_u, jacobian);
 }
 
 /* a derivative by an unknown as those by the directions of motion, added to a row */

@@ -467,20 +467,24 @@ static bool solve_speeds(Reinit *reinit)
     int all = eq->m;
     bool sound = true;
     Rows velocity;
+    Pattern all_rows;
     Kkt *kkt;
 
     put_direct(reinit, LEVEL_VELOCITY, held);
     velocity = rows_here(reinit, LEVEL_VELOCITY, true);
     eq->position(eq->context, reinit->t, reinit->y);
     /* those of the start may be dependent here, where others are not */
-    if (count < eq->m)
-        (void)rank_choose(eq->phi_u, eq->m, eq->nu, count, rows);
-    else
+    if (count < eq->m) {
+        pattern_fill(eq->rows, eq->phi_u, matrix);
+        (void)rank_choose(matrix, eq->m, eq->nu, count, rows);
+    } else {
         memcpy(rows, reinit->plan.rows, (size_t)count * sizeof(int));
+    }
     for (int k = 0; k < reinit->targets.count; k++)
         if (is_chosen(reinit, k, LEVEL_VELOCITY))
             rows[count++] = all++;
-    kkt = kkt_new(eq->nu, count, room);
+    all_rows = pattern_full(eq->nu, room);
+    kkt = kkt_new(eq->masses, &all_rows, rows, count);
     for (int sweep = 0; sweep <= SWEEPS && sound; sweep++) {
         velocity.evaluate(velocity.context, reinit->y + eq->n, missing, matrix);
         if (is_met(reinit, missing, all) || sweep == SWEEPS)
@@ -489,6 +493,7 @@ static bool solve_speeds(Reinit *reinit)
     }
     sound = sound && is_met(reinit, missing, all);
     kkt_free(kkt);
+    pattern_free(&all_rows);
     MEM_FREE(matrix, missing, rows, held);
     return sound;
 }

@@ -108,8 +108,9 @@ static bool tell_massless(const Layout *l, const char *what, Diag *diag)
 }
 
 /* what rows take part with in a driver's row, and what is left of it */
-static double find_parts(const Layout *l, const double *phi_u, int driver, double *parts)
+static double find_parts(const Layout *l, const Equations *equations, int driver, double *parts)
 {
+    double *phi_u = pattern_spread(equations->rows, equations->phi_u);
     const double *row = phi_u + (ptrdiff_t)driver * l->nu;
     double *others = NEW_ARRAY(double, l->nu * l->m);
     double *own = NEW_ARRAY(double, l->nu);
@@ -123,14 +124,14 @@ static double find_parts(const Layout *l, const double *phi_u, int driver, doubl
     matrix_times(others, l->nu, l->m, parts, own);
     for (int j = 0; j < l->nu; j++)
         left = hypot(left, row[j] - own[j]);
-    MEM_FREE(others, own);
+    MEM_FREE(others, own, phi_u);
     return left;
 }
 
 double cause_own_part(const Layout *l, const Equations *equations, int driver)
 {
     double *parts = NEW_ARRAY(double, l->m);
-    const double left = find_parts(l, equations->phi_u, driver, parts);
+    const double left = find_parts(l, equations, driver, parts);
 
     mem_free(parts);
     return left;
@@ -145,7 +146,7 @@ static void add_joint(const char *name, const char **named, int *count)
 }
 
 /* joints that a row is of or that move it, each once */
-static void add_joints(const Layout *l, const double *phi_u, int row, const char **named,
+static void add_joints(const Layout *l, const Equations *equations, int row, const char **named,
                        int *count)
 {
     const System *system = l->system;
@@ -153,11 +154,11 @@ static void add_joints(const Layout *l, const double *phi_u, int row, const char
     if (!system_constraint(system, row)->is_driver)
         add_joint(system_instance_name(system, system_constraint(system, row)->instance), named,
                   count);
-    for (int j = 0; j < l->nu; j++) {
-        const int q = speed_coordinate(system, j);
+    for (int e = equations->rows->start[row]; e < equations->rows->start[row + 1]; e++) {
+        const int q = speed_coordinate(system, equations->rows->row[e]);
         Stand stand;
 
-        if (q < 0 || phi_u[(ptrdiff_t)row * l->nu + j] == 0)
+        if (q < 0 || equations->phi_u[e] == 0)
             continue;
         stand = system_stand(system, system_q(system, q)->name);
         if (stand.kind == STANDS_COORDINATE && stand.instance->row->family != FAMILY_BODY)
@@ -175,12 +176,12 @@ void cause_leading(const Layout *l, const Equations *equations, int driver, cons
     double most = 0;
     int count = 0;
 
-    (void)find_parts(l, equations->phi_u, driver, parts);
+    (void)find_parts(l, equations, driver, parts);
     for (int k = 0; k < l->m; k++)
         most = fmax(most, fabs(parts[k]));
     for (int k = 0; k < l->m; k++)
         if (k == driver || fabs(parts[k]) > PART * most)
-            add_joints(l, equations->phi_u, k, named, &count);
+            add_joints(l, equations, k, named, &count);
     for (int i = 0; i < count; i++)
         text_addf(&text, "%s%s", i == 0 ? "" : i == count - 1 ? " and " : ", ", named[i]);
     (void)diag_set(diag, E_SOLVER, "%s: %s leads where %s can't follow", what,

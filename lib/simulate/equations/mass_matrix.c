@@ -17,8 +17,45 @@ struct MassMatrix {
     const CompositeMass *mass;
     LIST(Share) shares;
     LIST(Expr) needs;
+    Pattern places;
+    int *pair;  /* where the entries of pairs of speeds stand, as they are met, each and across */
+    int next;   /* of those, in a pass */
     double *at; /* M */
 };
+
+/* Pairs that are met on the ways towards the datum, those of one place in the column of the later
+ * one; then shares. */
+static void find_pairs(MassMatrix *matrix)
+{
+    const CompositeMass *mass = matrix->mass;
+    LIST(int) row = {0};
+    LIST(int) column = {0};
+
+    for (int k = 0; k < mass->speed_count; k++)
+        for (int p = mass->speeds[k].place; p >= 0; p = mass->places[p].parent)
+            for (int i = mass->places[p].first, n = mass->places[p].count; n > 0; i++, n--) {
+                const int j = mass->speed_at[i];
+
+                if (p == mass->speeds[k].place && j > k)
+                    continue;
+                LIST_PUSH(row, j);
+                LIST_PUSH(row, k);
+                LIST_PUSH(column, k);
+                LIST_PUSH(column, j);
+            }
+    for (int i = 0; i < matrix->shares.count; i++) {
+        LIST_PUSH(row, matrix->shares.at[i].at % mass->speed_count);
+        LIST_PUSH(column, matrix->shares.at[i].at / mass->speed_count);
+    }
+    matrix->pair = NEW_ARRAY(int, row.count);
+    matrix->places = pattern_of(mass->speed_count, mass->speed_count, row.count, row.at, column.at,
+                                matrix->pair);
+    for (int i = 0; i < matrix->shares.count; i++)
+        matrix->shares.at[i].at = matrix->pair[row.count - matrix->shares.count + i];
+    matrix->at = NEW_ARRAY(double, matrix->places.count);
+    LIST_FREE(row);
+    LIST_FREE(column);
+}
 
 MassMatrix *mass_matrix_new(const System *system)
 {
@@ -37,7 +74,7 @@ MassMatrix *mass_matrix_new(const System *system)
                   (Share){share->row * mass->speed_count + share->column, matrix->needs.count});
         LIST_PUSH(matrix->needs, share->value);
     }
-    matrix->at = NEW_ARRAY(double, (size_t)mass->speed_count *(size_t)mass->speed_count);
+    find_pairs(matrix);
     return matrix;
 }
 
@@ -47,6 +84,8 @@ void mass_matrix_free(MassMatrix *matrix)
         return;
     LIST_FREE(matrix->shares);
     LIST_FREE(matrix->needs);
+    pattern_free(&matrix->places);
+    mem_free(matrix->pair);
     mem_free(matrix->at);
     mem_free(matrix);
 }
@@ -88,11 +127,10 @@ static inline void turn_in(int j, int k, const double *R, double *v)
     v[k] = R[1] * y + R[0] * z;
 }
 
-static inline void put_pair(MassMatrix *matrix, int j, int k, double value)
+static inline void put_pair(MassMatrix *matrix, double value)
 {
-    const int n = matrix->mass->speed_count;
-
-    matrix->at[j * n + k] = matrix->at[k * n + j] = value;
+    matrix->at[matrix->pair[matrix->next++]] = value;
+    matrix->at[matrix->pair[matrix->next++]] = value;
 }
 
 static inline void turn_both(const MassPlace *place, const double *R, double *f, double *t)
@@ -133,9 +171,8 @@ static void column(MassMatrix *matrix, const double *numbers, int k)
 
             /* those of one place stand in the column of the later one */
             if (p != own->place || j <= k)
-                put_pair(matrix, j, k,
-                         (met->turns ? dot(numbers + met->turn, t) : 0) +
-                             (met->slides ? dot(numbers + met->slide, f) : 0));
+                put_pair(matrix, (met->turns ? dot(numbers + met->turn, t) : 0) +
+                                     (met->slides ? dot(numbers + met->slide, f) : 0));
         }
         if (place->has_step)
             add_cross(t, numbers + place->step, f);
@@ -163,9 +200,8 @@ static void planar_column(MassMatrix *matrix, const double *numbers, int k)
             const double *slide = numbers + met->slide;
 
             if (p != own->place || j <= k)
-                put_pair(matrix, j, k,
-                         (met->turns ? numbers[met->turn + 2] * t : 0) +
-                             (met->slides ? slide[0] * x + slide[1] * y : 0));
+                put_pair(matrix, (met->turns ? numbers[met->turn + 2] * t : 0) +
+                                     (met->slides ? slide[0] * x + slide[1] * y : 0));
         }
         if (place->has_way)
             t += numbers[place->way] * y - numbers[place->way + 1] * x;
@@ -177,6 +213,7 @@ void mass_matrix_put(MassMatrix *matrix, const double *numbers)
     /* pairs that no place passes on are and stay 0, but for shares */
     for (int i = 0; i < matrix->shares.count; i++)
         matrix->at[matrix->shares.at[i].at] = 0;
+    matrix->next = 0;
     for (int k = 0; k < matrix->mass->speed_count; k++)
         if (matrix->mass->planar)
             planar_column(matrix, numbers, k);
@@ -184,6 +221,11 @@ void mass_matrix_put(MassMatrix *matrix, const double *numbers)
             column(matrix, numbers, k);
     for (int i = 0; i < matrix->shares.count; i++)
         matrix->at[matrix->shares.at[i].at] += numbers[matrix->shares.at[i].number];
+}
+
+const Pattern *mass_matrix_places(const MassMatrix *matrix)
+{
+    return &matrix->places;
 }
 
 const double *mass_matrix_at(const MassMatrix *matrix)

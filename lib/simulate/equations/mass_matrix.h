@@ -2,6 +2,7 @@
 #ifndef COTREE_SIMULATE_EQUATIONS_MASS_MATRIX_H
 #define COTREE_SIMULATE_EQUATIONS_MASS_MATRIX_H
 
+#include "algebra/pattern.h"
 #include "formulate/composite_mass.h"
 
 typedef struct MassMatrix MassMatrix;
@@ -13,6 +14,8 @@ void mass_matrix_free(MassMatrix *matrix); /* NULL is fine */
 const Expr *mass_matrix_needs(const MassMatrix *matrix, int *count);
 /* M for the numbers of these. O(speeds x places on their ways) */
 void mass_matrix_put(MassMatrix *matrix, const double *numbers);
-const double *mass_matrix_at(const MassMatrix *matrix); /* nu x nu, as it was put last; borrowed */
+/* as it was put last, the entries that may not be 0, and where they stand; borrowed */
+const double *mass_matrix_at(const MassMatrix *matrix);
+const Pattern *mass_matrix_places(const MassMatrix *matrix);
 
 #endif

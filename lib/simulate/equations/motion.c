@@ -26,11 +26,16 @@ static bool dae_start(void *context, double t, const double *y, double *w, doubl
 static void open_projection(Motion *mo)
 {
     const int nu = mo->eq->nu;
+    int *place = NEW_ARRAY(int, nu);
 
-    mo->nearest_kkt = kkt_new(nu, mo->used, mo->eq->m);
-    mo->unit = NEW_ARRAY(double, nu *nu);
-    for (int i = 0; i < nu; i++)
-        mo->unit[i * nu + i] = 1;
+    mo->unit = NEW_ARRAY(double, nu);
+    for (int i = 0; i < nu; i++) {
+        place[i] = i;
+        mo->unit[i] = 1;
+    }
+    mo->unit_places = pattern_of(nu, nu, nu, place, place, place);
+    mo->nearest_kkt = kkt_new(&mo->unit_places, mo->eq->rows, mo->rows, mo->used);
+    mem_free(place);
 }
 
 static void describe_ode(Motion *mo)
@@ -80,10 +85,13 @@ Motion *motion_new(const Equations *eq, const MotionOptions *options)
     mo->options.independent = mo->wanted;
     mo->low = -INFINITY;
     mo->high = INFINITY;
-    mo->kkt = kkt_new(eq->nu, mo->used, eq->m);
+    mo->kkt = kkt_new(eq->masses, eq->rows, mo->rows, mo->used);
     kkt_set_watch(mo->kkt, options->watch);
-    if (options->embedded)
+    if (options->embedded) {
         mo->partitioning = partitioning_new(eq->nu, mo->used);
+        mo->full_mass = NEW_ARRAY(double, eq->nu * eq->nu);
+        mo->full_phi_u = NEW_ARRAY(double, eq->m * eq->nu);
+    }
     mo->network = netsolve_new(eq);
     mo->solved = netsolve_values(mo->network);
     mo->solved_before = NEW_ARRAY(double, eq->nx + eq->nz);
@@ -114,8 +122,11 @@ void motion_free(Motion *mo)
     MEM_FREE(mo->rows, mo->wanted);
     kkt_free(mo->kkt);
     kkt_free(mo->nearest_kkt);
+    pattern_free(&mo->unit_places);
     mem_free(mo->unit);
     partitioning_free(mo->partitioning);
+    mem_free(mo->full_mass);
+    mem_free(mo->full_phi_u);
     netsolve_free(mo->network);
     signs_free(mo->signs);
     MEM_FREE(mo->slip, mo->off, mo->way, mo->solved_before, mo->q, mo->references, mo->slack,
@@ -263,7 +274,7 @@ bool motion_solve(Motion *mo, double t, const double *y, Solved *out)
 static void measure_rows(Motion *mo)
 {
     for (int k = 0; k < mo->used; k++) {
-        double largest = vector_largest(mo->eq->phi_u + mo->rows[k] * mo->eq->nu, mo->eq->nu);
+        double largest = pattern_largest(mo->eq->rows, mo->eq->phi_u, mo->rows[k]);
 
         mo->row_size[mo->rows[k]] = fmax(mo->row_size[mo->rows[k]], largest);
     }
@@ -362,13 +373,8 @@ static bool project_velocity(Motion *mo, double t, const double *y, double *u, c
     if (!motion_factor(mo))
         return false;
     eq->velocity(eq->context, u, x);
-    for (int k = 0; k < mo->used; k++) {
-        const double *row = eq->phi_u + mo->rows[k] * eq->nu;
-
-        mo->bottom[k] = eq->nu_rate[mo->rows[k]];
-        for (int j = 0; j < eq->nu; j++)
-            mo->bottom[k] -= row[j] * u[j];
-    }
+    for (int k = 0; k < mo->used; k++)
+        mo->bottom[k] = eq->nu_rate[mo->rows[k]] - pattern_dot(eq->rows, eq->phi_u, mo->rows[k], u);
     kkt_solve(mo->kkt, NULL, mo->bottom, mo->du, mo->lambda);
     for (int j = 0; j < eq->nu; j++)
         u[j] += mo->du[j];
@@ -434,12 +440,10 @@ void motion_residuals(Motion *mo, double t, const double *y, double *position, d
     *position = vector_largest(eq->phi, eq->m);
     *velocity = 0;
     for (int k = 0; k < eq->m; k++) {
-        double sum = -eq->nu_rate[k];
+        double left = fabs(pattern_dot(eq->rows, eq->phi_u, k, y + eq->n) - eq->nu_rate[k]);
 
-        for (int j = 0; j < eq->nu; j++)
-            sum += eq->phi_u[k * eq->nu + j] * y[eq->n + j];
-        if (!(fabs(sum) <= *velocity))
-            *velocity = fabs(sum);
+        if (!(left <= *velocity))
+            *velocity = left;
     }
 }
 
@@ -460,17 +464,11 @@ static bool embedded_residual(Motion *mo, const double *u_rate, double *out)
 
     if (!motion_factor_embedded(mo))
         return false;
-    matrix_times(eq->mass, eq->nu, eq->nu, u_rate, mo->top);
     for (int j = 0; j < eq->nu; j++)
-        mo->top[j] -= eq->force[j];
+        mo->top[j] = pattern_dot(eq->masses, eq->mass, j, u_rate) - eq->force[j];
     partitioning_reduce(mo->partitioning, mo->top, out);
-    for (int k = 0; k < mo->used; k++) {
-        double sum = -eq->gamma[mo->rows[k]];
-
-        for (int j = 0; j < eq->nu; j++)
-            sum += eq->phi_u[mo->rows[k] * eq->nu + j] * u_rate[j];
-        out[f + k] = sum;
-    }
+    for (int k = 0; k < mo->used; k++)
+        out[f + k] = pattern_dot(eq->rows, eq->phi_u, mo->rows[k], u_rate) - eq->gamma[mo->rows[k]];
     return true;
 }
 
@@ -484,20 +482,15 @@ static void augmented_residual(Motion *mo, const double *w, const double *w_rate
     double *force_rows = out + eq->n;
 
     memset(mo->du, 0, (size_t)eq->nu * sizeof(double));
-    matrix_times(eq->mass, eq->nu, eq->nu, w_rate + eq->n, force_rows);
     for (int j = 0; j < eq->nu; j++)
-        force_rows[j] -= eq->force[j];
+        force_rows[j] = pattern_dot(eq->masses, eq->mass, j, w_rate + eq->n) - eq->force[j];
     for (int k = 0; k < mo->used; k++) {
-        const double *row = eq->phi_u + mo->rows[k] * eq->nu;
-        double sum = -eq->nu_rate[mo->rows[k]];
+        const int row = mo->rows[k];
 
-        for (int j = 0; j < eq->nu; j++) {
-            sum += row[j] * u[j];
-            force_rows[j] += row[j] * lambda[k];
-            mo->du[j] += row[j] * mu[k];
-        }
-        out[tail + k] = eq->phi[mo->rows[k]];
-        out[tail + mo->used + k] = sum;
+        pattern_add(eq->rows, eq->phi_u, row, lambda[k], force_rows);
+        pattern_add(eq->rows, eq->phi_u, row, mu[k], mo->du);
+        out[tail + k] = eq->phi[row];
+        out[tail + mo->used + k] = pattern_dot(eq->rows, eq->phi_u, row, u) - eq->nu_rate[row];
     }
     for (int i = 0; i < eq->n; i++) { /* q' = N (u + Phi_u^T mu) */
         double sum = eq->map == NULL ? mo->du[i] : 0;

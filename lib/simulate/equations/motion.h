@@ -14,6 +14,7 @@
 #ifndef COTREE_SIMULATE_EQUATIONS_MOTION_H
 #define COTREE_SIMULATE_EQUATIONS_MOTION_H
 
+#include "algebra/pattern.h"
 #include "base/watch.h"
 #include "simulate/integrate/ode.h"
 
@@ -50,8 +51,10 @@ typedef struct Equations {
     /* then power; NULL when it is known before. `multipliers` of all m rows. */
     void (*accelerated)(void *context, const double *acceleration, const double *multipliers);
     const double *phi;        /* m */
-    const double *phi_u;      /* m x nu */
-    const double *mass;       /* nu x nu */
+    const double *phi_u;      /* m x nu: the entries that may not be 0, */
+    const double *mass;       /* nu x nu: likewise, both halves; */
+    const Pattern *rows;      /* where those of Phi_u stand, a column each row of it, */
+    const Pattern *masses;    /* and those of M */
     const double *map;        /* n x nu: N; NULL: identity, n == nu */
     const double *q_rate;     /* n */
     const double *multi_turn; /* multi_turn_count: the angles near a, and their rates */

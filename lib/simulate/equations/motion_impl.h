@@ -25,8 +25,10 @@ struct Motion {
     double low, high; /* time window of evaluations */
     Kkt *kkt;
     Kkt *nearest_kkt; /* with 1 for all masses; NULL: there are no constraints */
-    double *unit;     /* nu x nu */
+    Pattern unit_places;
+    double *unit;
     Partitioning *partitioning;
+    double *full_mass, *full_phi_u; /* for that */
     NetSolve *network;
     Signs *signs; /* NULL: no surface is slid along */
     double *slip, *off, *way;

@@ -86,8 +86,10 @@ bool motion_factor_embedded(Motion *mo)
     if (mo->is_embedded_factored)
         return true;
     mo->counts.factorisations++;
+    pattern_fill(mo->eq->masses, mo->eq->mass, mo->full_mass);
+    pattern_fill(mo->eq->rows, mo->eq->phi_u, mo->full_phi_u);
     mo->is_embedded_factored =
-        partitioning_factor(mo->partitioning, mo->eq->mass, mo->eq->phi_u, mo->rows);
+        partitioning_factor(mo->partitioning, mo->full_mass, mo->full_phi_u, mo->rows);
     return mo->is_embedded_factored;
 }
 

@@ -21,9 +21,10 @@ bool motion_choose_independent(Motion *mo)
     int *before;
 
     before = NEW_ARRAY(int, freedoms);
+    pattern_fill(mo->eq->rows, mo->eq->phi_u, mo->full_phi_u);
     memcpy(before, partitioning_independent(mo->partitioning), (size_t)freedoms * sizeof(int));
     mo->is_embedded_factored = false;
-    changed = partitioning_choose(mo->partitioning, mo->eq->phi_u, mo->rows, mo->wanted,
+    changed = partitioning_choose(mo->partitioning, mo->full_phi_u, mo->rows, mo->wanted,
                                   mo->options.independent_count) &&
               memcmp(before, partitioning_independent(mo->partitioning),
                      (size_t)freedoms * sizeof(int)) != 0;
@@ -42,23 +43,20 @@ void motion_partition(Motion *mo, double t, const double *y)
     mo->is_repartitioned = false;
 }
 
-/* Other rows in place of worn ones, where all of them offer better. */
-static bool choose_rows(Motion *mo)
+/* Other rows in place of worn ones, where all of them, given in full, offer better. */
+static bool choose_rows_of(Motion *mo, const double *phi_u)
 {
     const Equations *eq = mo->eq;
     int *rows;
-    double ratio;
+    double ratio = rank_ratio(phi_u, eq->nu, mo->rows, mo->used);
     bool changed;
 
-    if (mo->used == eq->m || mo->used == 0)
-        return false;
-    ratio = rank_ratio(eq->phi_u, eq->nu, mo->rows, mo->used);
     if (mo->row_ratio == 0)
         mo->row_ratio = ratio;
     if (ratio > fmax(ROWS_WORN * mo->row_ratio, POOR))
         return false;
     rows = NEW_ARRAY(int, mo->used);
-    mo->row_ratio = rank_choose(eq->phi_u, eq->m, eq->nu, mo->used, rows);
+    mo->row_ratio = rank_choose(phi_u, eq->m, eq->nu, mo->used, rows);
     changed = mo->row_ratio > ratio / ROWS_WORN &&
               memcmp(rows, mo->rows, (size_t)mo->used * sizeof(int)) != 0;
     if (changed)
@@ -67,6 +65,19 @@ static bool choose_rows(Motion *mo)
         mo->row_ratio = ratio;
     mo->is_factored = mo->is_factored && !changed;
     mem_free(rows);
+    return changed;
+}
+
+static bool choose_rows(Motion *mo)
+{
+    double *phi_u;
+    bool changed;
+
+    if (mo->used == mo->eq->m || mo->used == 0)
+        return false;
+    phi_u = pattern_spread(mo->eq->rows, mo->eq->phi_u);
+    changed = choose_rows_of(mo, phi_u);
+    mem_free(phi_u);
     return changed;
 }
 

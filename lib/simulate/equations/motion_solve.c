@@ -3,6 +3,7 @@
 
 #include "algebra/linear.h"
 #include "algebra/rank.h"
+#include "base/memory.h"
 
 #include <math.h>
 #include <string.h>
@@ -87,6 +88,7 @@ void motion_write_rates(const Motion *mo, double *out)
 void motion_spread_multipliers(Motion *mo)
 {
     const Equations *eq = mo->eq;
+    double *phi_u;
 
     if (mo->used == eq->m) {
         for (int k = 0; k < mo->used; k++)
@@ -94,7 +96,9 @@ void motion_spread_multipliers(Motion *mo)
         return;
     }
     place_multipliers(mo);
-    rank_least_multipliers(eq->phi_u, eq->m, eq->nu, mo->lambda_all);
+    phi_u = pattern_spread(eq->rows, eq->phi_u);
+    rank_least_multipliers(phi_u, eq->m, eq->nu, mo->lambda_all);
+    mem_free(phi_u);
 }
 
 /* A network that reads u' or lambda, while forces read the network: each in turn, until nothing

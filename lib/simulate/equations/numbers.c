@@ -13,11 +13,12 @@ struct Numbers {
     Equations eq;
     const Layout *layout;
     Probe *main, *switching, *network;
-    MassMatrix *mass; /* NULL: the main program has it */
-    int mass_needs;   /* where what it follows from stands in that */
-    Probe *slip;      /* of surfaces that are slid along: h', or what of it they reach, and h */
-    Guard *guards;    /* of the conditions, */
-    Expr *told;       /* which are these for a user; NULL: margins */
+    Pattern rows, masses; /* where entries of Phi_u and M stand */
+    MassMatrix *mass;     /* NULL: the main program has it */
+    int mass_needs;       /* where what it follows from stands in that */
+    Probe *slip;          /* of surfaces that are slid along: h', or what of it they reach, and h */
+    Guard *guards;        /* of the conditions, */
+    Expr *told;           /* which are these for a user; NULL: margins */
     int *quaternions, *network_places;
     LIST(int) margins;   /* whose they are, of the switches */
     bool is_network_new; /* its program has seen t, q, u, x as they are */
@@ -266,14 +267,40 @@ done:
     return status;
 }
 
-/* M, or what it is made from */
-static int mass_block(const Numbers *nb, Roots *roots)
+/* append the entries that aren't 0, row by row; where they stand in the transpose */
+static int stored_block(Roots *roots, const Expr *entries, int rows, int columns, Pattern *out)
 {
-    int count = nb->layout->nu * nb->layout->nu;
-    const Expr *entries = nb->mass != NULL ? mass_matrix_needs(nb->mass, &count)
-                                           : system_run(nb->layout->system)->mass;
+    int first = roots->count, count = 0, *place;
+    int *row, *column;
 
-    return block(roots, entries, count);
+    for (int i = 0; i < rows * columns; i++)
+        if (!expr_is_zero(entries[i]))
+            LIST_PUSH(*roots, entries[i]);
+    count = roots->count - first;
+    place = NEW_ARRAY(int, 3 * count);
+    row = place + count;
+    column = row + count;
+    for (int i = 0, k = 0; i < rows * columns; i++)
+        if (!expr_is_zero(entries[i])) {
+            row[k] = i / columns;
+            column[k++] = i % columns;
+        }
+    *out = pattern_of(columns, rows, count, column, row, place);
+    mem_free(place);
+    return first;
+}
+
+/* M, or what it is made from */
+static int mass_block(Numbers *nb, Roots *roots)
+{
+    int count;
+    const Expr *needs;
+
+    if (nb->mass == NULL)
+        return stored_block(roots, system_run(nb->layout->system)->mass, nb->layout->nu,
+                            nb->layout->nu, &nb->masses);
+    needs = mass_matrix_needs(nb->mass, &count);
+    return block(roots, needs, count);
 }
 
 static Status compile_equations(Numbers *nb, Parameters *parameters, Diag *diag)
@@ -286,7 +313,7 @@ static Status compile_equations(Numbers *nb, Parameters *parameters, Diag *diag)
     bool mapped = !is_identity(l->system);
     Roots roots = {0};
     int phi = block(&roots, r->phi, l->m);
-    int phi_u = block(&roots, r->phi_u, l->m * l->nu);
+    int phi_u = stored_block(&roots, r->phi_u, l->m, l->nu, &nb->rows);
     int mass = mass_block(nb, &roots);
     int nu_rate = block(&roots, r->nu, l->m);
     int gamma = block_on(l, &roots, r->gamma, l->m);
@@ -309,7 +336,9 @@ static Status compile_equations(Numbers *nb, Parameters *parameters, Diag *diag)
     nb->eq.phi = at + phi;
     nb->eq.phi_u = at + phi_u;
     nb->mass_needs = mass;
+    nb->eq.rows = &nb->rows;
     nb->eq.mass = nb->mass != NULL ? mass_matrix_at(nb->mass) : at + mass;
+    nb->eq.masses = nb->mass != NULL ? mass_matrix_places(nb->mass) : &nb->masses;
     nb->eq.nu_rate = at + nu_rate;
     nb->eq.gamma = at + gamma;
     nb->eq.q_rate = at + q_rate;
@@ -569,6 +598,8 @@ void numbers_free(Numbers *nb)
     probe_free(nb->network);
     probe_free(nb->switching);
     mass_matrix_free(nb->mass);
+    pattern_free(&nb->rows);
+    pattern_free(&nb->masses);
     LIST_FREE(nb->margins);
     mem_free(nb->quaternions);
     mem_free(nb->network_places);

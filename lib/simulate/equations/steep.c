@@ -729,18 +729,18 @@ static double effect(Steep *s, double by, const double *scale)
         largest = fmax(largest, fabs(s->answer[i]) / scale[l->n + l->nu + i]);
     for (int j = 0; j < l->nu; j++) {
         double force = (roots[s->force + j] - s->here[s->force + j]) / by;
-        double mass = s->eq->mass[j * l->nu + j];
+        double mass = pattern_at(s->eq->masses, s->eq->mass, j, j);
 
         if (mass > 0)
             largest = fmax(largest, fabs(force / mass) / scale[l->n + j]);
     }
     for (int k = 0; k < l->m; k++) {
         double gamma = fabs(roots[s->gamma + k] - s->here[s->gamma + k]) / by;
-        double size = vector_largest(s->eq->phi_u + k * l->nu, l->nu);
+        double size = pattern_largest(s->eq->rows, s->eq->phi_u, k);
 
-        for (int j = 0; j < l->nu && size > 0; j++)
-            if (s->eq->phi_u[k * l->nu + j] != 0)
-                largest = fmax(largest, gamma / size / scale[l->n + j]);
+        for (int e = s->eq->rows->start[k]; e < s->eq->rows->start[k + 1] && size > 0; e++)
+            if (s->eq->phi_u[e] != 0)
+                largest = fmax(largest, gamma / size / scale[l->n + s->eq->rows->row[e]]);
     }
     return largest;
 }

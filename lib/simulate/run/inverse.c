@@ -225,11 +225,15 @@ static void choose_rows(Inverse *in)
     const Equations *eq = numbers_equations(in->phase->numbers);
     const int count = in->start->row_count;
     int *rows = NEW_ARRAY(int, count);
+    double *phi_u = NULL;
 
-    if (count < eq->m)
-        (void)rank_choose(eq->phi_u, eq->m, eq->nu, count, rows);
-    else
+    if (count < eq->m) {
+        phi_u = pattern_spread(eq->rows, eq->phi_u);
+        (void)rank_choose(phi_u, eq->m, eq->nu, count, rows);
+    } else {
         memcpy(rows, in->start->rows, (size_t)count * sizeof(int));
+    }
+    mem_free(phi_u);
     memset(in->in_use, 0, (size_t)eq->m * sizeof(bool));
     for (int k = 0; k < count; k++)
         in->in_use[rows[k]] = true;
@@ -283,7 +287,7 @@ static void spread_multipliers(Inverse *in)
     for (int k = 0; k < in->multipliers; k++) {
         const int row = in->forces.at[k] - in->l->multipliers;
 
-        memcpy(phi_u + count * eq->nu, eq->phi_u + row * eq->nu, (size_t)eq->nu * sizeof(double));
+        pattern_add(eq->rows, eq->phi_u, row, 1, phi_u + count * eq->nu);
         lambda[count++] = in->values[in->forces.at[k]];
     }
     rank_least_multipliers(phi_u, count, eq->nu, lambda);
