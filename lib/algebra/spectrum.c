@@ -18,7 +18,6 @@
 #include "base/memory.h"
 
 #include <stdint.h>
-#include <stdlib.h>
 #include <string.h>
 
 #define UNIT       0x1p-53 /* an entry is a double at best */

@@ -91,18 +91,15 @@ static Status refuse_inertia(const Instance *instance, bool planar, Diag *diag)
 static Status body_check(const Instance *instance, Arena *arena, bool planar, Diag *diag)
 {
     Expr mass = instance_scalar(instance, "mass");
-    Status status = OK;
 
-    CHECK(attitude_check(instance, arena, planar, diag));
+    TRY(attitude_check(instance, arena, planar, diag));
     if (expr_is_number(mass) && expr_value(mass) < 0) {
-        status = diag_set(diag, E_VALUE, "the mass of %s is negative: %g", instance->name,
-                          expr_value(mass));
+        (void)diag_set(diag, E_VALUE, "the mass of %s is negative: %g", instance->name,
+                       expr_value(mass));
         diag_hint(diag, "it is zero or positive");
-        goto done;
+        return E_VALUE;
     }
-    CHECK(refuse_inertia(instance, planar, diag));
-done:
-    return status;
+    return refuse_inertia(instance, planar, diag);
 }
 
 /* Ixx = int y^2+z^2 dm and so on: int x^2 dm is half the trace less Ixx, and no sum of squares is

@@ -64,23 +64,21 @@ void block_held(const Instance *instance, Arena *arena, Expr command, OwnState *
 Status block_check(const Instance *instance, Diag *diag)
 {
     const Value *limits = instance_value(instance, "limits");
-    Status status = OK;
 
     if (limits->given && limits->count != 2) {
-        status = diag_set(diag, E_VALUE, "limits of %s are two numbers", instance->name);
+        (void)diag_set(diag, E_VALUE, "limits of %s are two numbers", instance->name);
         diag_hint(diag, "the least and the largest output: limits=[-10, 10]");
-        goto done;
+        return E_VALUE;
     }
     if (limits->given && expr_is_number(limits->at[0]) && expr_is_number(limits->at[1]) &&
         expr_value(limits->at[0]) >= expr_value(limits->at[1])) {
-        status = diag_set(diag, E_VALUE, "limits of %s leave nothing between them", instance->name);
+        (void)diag_set(diag, E_VALUE, "limits of %s leave nothing between them", instance->name);
         diag_hint(diag, "the least output comes first: limits=[-10, 10]");
-        goto done;
+        return E_VALUE;
     }
     if (block_is_sampled(instance))
-        CHECK(check_positive(instance, "period", diag));
-done:
-    return status;
+        TRY(check_positive(instance, "period", diag));
+    return OK;
 }
 
 /* clang-format off */

@@ -70,17 +70,14 @@ static Expr flow_of(const Instance *instance, Arena *arena, Expr p)
 
 static Status check_resistance(const Instance *instance, Diag *diag)
 {
-    Status status = OK;
-
-    CHECK(check_not_negative(instance, "R", diag));
-    CHECK(check_not_negative(instance, "k", diag));
+    TRY(check_not_negative(instance, "R", diag));
+    TRY(check_not_negative(instance, "k", diag));
     if (!expr_is_zero(instance_scalar(instance, "R")) ||
         !expr_is_zero(instance_scalar(instance, "k")))
         return OK;
-    status = diag_set(diag, E_VALUE, "%s %s needs R= or k=", instance->row->name, instance->name);
+    (void)diag_set(diag, E_VALUE, "%s %s needs R= or k=", instance->row->name, instance->name);
     diag_hint(diag, "R is pressure per flow, k pressure per flow squared");
-done:
-    return status;
+    return E_VALUE;
 }
 
 static void pipe_relation(const Instance *instance, Arena *arena, int which, const Motion1 *motion,

@@ -180,20 +180,18 @@ static void pid_state(const Instance *instance, Arena *arena, int k, OwnState *o
 
 static Status pid_check(const Instance *instance, Arena *arena, bool planar, Diag *diag)
 {
-    Status status = OK;
-
     (void)arena;
     (void)planar;
-    CHECK(check_not_negative(instance, "filter", diag));
-    CHECK(block_check(instance, diag));
+    TRY(check_not_negative(instance, "filter", diag));
+    TRY(block_check(instance, diag));
     if (is_pid(instance) && instance_value(instance, "limits")->given &&
         expr_is_zero(instance_scalar(instance, "Kp"))) {
-        status = diag_set(diag, E_VALUE, "with limits= %s needs Kp=", instance->name);
+        (void)diag_set(diag, E_VALUE, "with limits= %s needs Kp=", instance->name);
         diag_hint(diag, "its integral comes back from a limit with the time constant Kp/Ki; "
                         "an integrator of its own can have limits alone");
+        return E_VALUE;
     }
-done:
-    return status;
+    return OK;
 }
 
 const Component component_pd = {

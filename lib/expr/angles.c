@@ -30,8 +30,7 @@ static void list_calls(Angles *angles, const Expr *roots, int count, unsigned gr
 {
     Walk walk = {0};
 
-    for (int i = 0; i < count; i++)
-        walk_below(&walk, roots[i], 0, NULL, NULL);
+    walk_roots(&walk, roots, count);
     for (int i = 0; i < walk.count; i++) {
         int place;
 

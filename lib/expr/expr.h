@@ -177,7 +177,7 @@ int expr_compare(Expr a, Expr b); /* the stable order: <0, 0, >0; 0 only for the
 Expr expr_diff(Arena *arena, Expr e, Expr symbol);
 /* Total derivative along `rates`: sum of d e/d symbols[i] * rates[i], all i in one pass. */
 Expr expr_diff_along(Arena *arena, Expr e, const Expr *symbols, const Expr *rates, int count);
-/* Replace symbols (all at once, not in one another). */
+/* Replace symbols (all at once, not in one another). Values NULL: by zeros. */
 Expr expr_substitute(Arena *arena, Expr e, const Expr *symbols, const Expr *values, int count);
 /* Replace nodes wherever they stand, but not within one another, and symbols among them: from[i] by
  * to[i], in place in `roots`. Each node is visited once for all roots. */

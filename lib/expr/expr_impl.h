@@ -183,6 +183,7 @@ int walk_find(const Walk *walk, Expr e); /* its place, or -1 */
 int walk_add(Walk *walk, Expr e);        /* its place, found or new */
 /* Add what is below `root` and of the symbol kinds `mask` (0: everything). */
 void walk_below(Walk *walk, Expr root, unsigned mask, WalkInto into, void *context);
+void walk_roots(Walk *walk, const Expr *roots, int count); /* all below them */
 void walk_free(Walk *walk);
 
 #endif

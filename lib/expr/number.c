@@ -5,7 +5,6 @@
 #include "expr/expr_impl.h"
 
 #include <ctype.h>
-#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

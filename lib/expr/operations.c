@@ -80,8 +80,7 @@ OpCount expr_count(const Expr *roots, int count)
     OpCount *counts;
     Walk walk = {0};
 
-    for (int i = 0; i < count; i++)
-        walk_below(&walk, roots[i], 0, NULL, NULL);
+    walk_roots(&walk, roots, count);
     counts = NEW_ARRAY(OpCount, walk.count);
     for (int i = 0; i < walk.count; i++) {
         Expr e = walk.nodes[i];
@@ -149,8 +148,7 @@ OpCount expr_count_shared(const Expr *roots, int count)
     Walk walk = {0};
     bool *divides; /* whether 1/x is used on its own, not as a factor */
 
-    for (int i = 0; i < count; i++)
-        walk_below(&walk, roots[i], 0, NULL, NULL);
+    walk_roots(&walk, roots, count);
     while (met.size < 2 * (uint32_t)walk.count)
         met.size *= 2;
     met.slots = NEW_ARRAY(Expr, met.size);

@@ -149,14 +149,6 @@ static void matlab_power(Printer *printer, Expr base, Expr exponent, Number numb
     sign_power(printer, base, exponent, number, "^");
 }
 
-static Level sign_power_level(Expr base, Expr exponent, Number number)
-{
-    (void)base;
-    (void)exponent;
-    (void)number;
-    return LEVEL_POWER;
-}
-
 /* --- functions --- */
 
 static const char *const c_patterns[OP_COUNT] = {
@@ -318,12 +310,12 @@ static Level closed_level(Expr e)
 const Dialect dialect_c = {INLINE, .symbol = code_symbol, .number = c_number,
     .power = c_power, .power_level = c_power_level, .call = c_call, .call_level = operator_level};
 const Dialect dialect_matlab = {INLINE, .symbol = matlab_symbol, .number = plain_number,
-    .power = matlab_power, .power_level = sign_power_level, .call = matlab_call,
+    .power = matlab_power, .power_level = plain_power_level, .call = matlab_call,
     .call_level = matlab_level};
 const Dialect dialect_python = {INLINE, .symbol = code_symbol, .number = plain_number,
-    .power = star_power, .power_level = sign_power_level, .call = python_call,
+    .power = star_power, .power_level = plain_power_level, .call = python_call,
     .call_level = closed_level};
 const Dialect dialect_fortran = {INLINE, .symbol = code_symbol, .number = fortran_number,
-    .power = star_power, .power_level = sign_power_level, .call = fortran_call,
+    .power = star_power, .power_level = plain_power_level, .call = fortran_call,
     .call_level = closed_level};
 /* clang-format on */

@@ -89,6 +89,7 @@ void say_arguments(Printer *printer, Expr e); /* a, b, c */
 void fraction_inline(Printer *printer, const Fraction *fraction, const char *divide);
 /* Levels of a call in notations where operators are written between their arguments. */
 Level operator_level(Expr e);
+Level plain_power_level(Expr base, Expr exponent, Number number); /* of one with ^ or ** */
 /* a < b, a && b, !a with the operator's sign; false where e is no such call */
 bool say_operator(Printer *printer, Expr e, const char *sign);
 

@@ -213,14 +213,6 @@ static void latex_power(Printer *printer, Expr base, Expr exponent, Number numbe
     say(printer, "\\right)");
 }
 
-static Level latex_power_level(Expr base, Expr exponent, Number number)
-{
-    (void)base;
-    (void)exponent;
-    (void)number;
-    return LEVEL_POWER;
-}
-
 static void latex_call(Printer *printer, Expr e)
 {
     const Expr *args = node_args(e);
@@ -263,7 +255,7 @@ const Dialect dialect_latex = {
     .symbol = latex_symbol,
     .fraction = latex_fraction,
     .power = latex_power,
-    .power_level = latex_power_level,
+    .power_level = plain_power_level,
     .call = latex_call,
     .call_level = operator_level,
 };

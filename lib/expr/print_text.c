@@ -70,14 +70,6 @@ static void text_power(Printer *printer, Expr base, Expr exponent, Number number
         say_number(printer, number, LEVEL_ATOM);
 }
 
-static Level text_power_level(Expr base, Expr exponent, Number number)
-{
-    (void)base;
-    (void)exponent;
-    (void)number;
-    return LEVEL_POWER;
-}
-
 /* table("file.csv", x, column), and the order of a derivative behind it */
 static void text_table(Printer *printer, Expr e)
 {
@@ -123,7 +115,7 @@ const Dialect dialect_text = {
     .symbol = text_symbol,
     .fraction = text_fraction,
     .power = text_power,
-    .power_level = text_power_level,
+    .power_level = plain_power_level,
     .call = text_call,
     .call_level = operator_level,
 };
@@ -191,7 +183,7 @@ const Dialect dialect_unicode = {
     .symbol = unicode_symbol,
     .fraction = text_fraction,
     .power = unicode_power,
-    .power_level = text_power_level,
+    .power_level = plain_power_level,
     .call = unicode_call,
     .call_level = operator_level,
 };

@@ -265,8 +265,7 @@ Ranges *ranges_new(const Expr *roots, int count, Expr symbol, SymbolValue value,
     Walk walk = {0};
     int operands = 0;
 
-    for (int i = 0; i < count; i++)
-        walk_below(&walk, roots[i], 0, NULL, NULL);
+    walk_roots(&walk, roots, count);
     for (int i = 0; i < walk.count; i++)
         operands += walk.nodes[i]->count;
     r->nodes = NEW_ARRAY(RangeNode, walk.count);

@@ -180,8 +180,7 @@ static void use_parts(Share *share, const SharedThing *thing)
 
 static void list_things(Share *share, const Expr *roots, int count)
 {
-    for (int i = 0; i < count; i++)
-        walk_below(&share->nodes, roots[i], 0, NULL, NULL);
+    walk_roots(&share->nodes, roots, count);
     for (int i = 0; i < share->nodes.count; i++)
         LIST_PUSH(share->operands, find_thing(share, share->nodes.nodes[i]));
     for (int i = 0; i < count; i++)

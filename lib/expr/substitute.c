@@ -75,7 +75,7 @@ Expr expr_substitute(Arena *arena, Expr e, const Expr *symbols, const Expr *valu
         return e;
     for (int i = 0; i < count; i++) {
         if (walk_add(&images.walk, symbols[i]) == images.of.count)
-            LIST_PUSH(images.of, values[i]);
+            LIST_PUSH(images.of, values != NULL ? values[i] : arena_zero(arena));
     }
     walk_below(&images.walk, e, mask, NULL, NULL);
     rebuild_all(arena, &images, NULL, NULL);
@@ -91,8 +91,7 @@ void expr_replace(Arena *arena, Expr *roots, int root_count, const Expr *from, c
         if (walk_add(&images.walk, from[i]) == images.of.count)
             LIST_PUSH(images.of, to[i]);
     }
-    for (int i = 0; i < root_count; i++)
-        walk_below(&images.walk, roots[i], 0, NULL, NULL); /* what is replaced is found there */
+    walk_roots(&images.walk, roots, root_count); /* what is replaced is found there */
     rebuild_all(arena, &images, NULL, NULL);
     for (int i = 0; i < root_count; i++)
         roots[i] = image_of(&images, roots[i]);
@@ -128,8 +127,7 @@ int expr_find(const Expr *roots, int count, NodeWanted wanted, void *context, Ex
     Walk walk = {0};
     LIST(Expr) found = {0};
 
-    for (int i = 0; i < count; i++)
-        walk_below(&walk, roots[i], 0, NULL, NULL);
+    walk_roots(&walk, roots, count);
     for (int i = 0; i < walk.count; i++)
         if (wanted(walk.nodes[i], context))
             LIST_PUSH(found, walk.nodes[i]);
@@ -168,10 +166,9 @@ int expr_symbols(const Expr *roots, int count, Expr **symbols)
 
     for (int i = 0; i < count; i++)
         walk_below(&walk, roots[i], ~0U, NULL, NULL);
-    for (int i = 0; i < walk.count; i++) {
+    for (int i = 0; i < walk.count; i++)
         if (walk.nodes[i]->kind == EXPR_SYMBOL)
             LIST_PUSH(found, walk.nodes[i]);
-    }
     walk_free(&walk);
     if (found.count > 0)
         qsort(found.at, (size_t)found.count, sizeof(Expr), by_number);
@@ -179,19 +176,15 @@ int expr_symbols(const Expr *roots, int count, Expr **symbols)
     return found.count;
 }
 
+static bool has_data(Expr e, void *context)
+{
+    (void)context;
+    return expr_data(e) != NULL;
+}
+
 int expr_tables(const Expr *roots, int count, Expr **symbols)
 {
-    Walk walk = {0};
-    LIST(Expr) found = {0};
-
-    for (int i = 0; i < count; i++)
-        walk_below(&walk, roots[i], 0, NULL, NULL);
-    for (int i = 0; i < walk.count; i++)
-        if (expr_data(walk.nodes[i]) != NULL)
-            LIST_PUSH(found, walk.nodes[i]);
-    walk_free(&walk);
-    *symbols = found.at;
-    return found.count;
+    return expr_find(roots, count, has_data, NULL, symbols);
 }
 
 unsigned expr_table_orders(const Expr *roots, int count, Expr symbol)
@@ -199,8 +192,7 @@ unsigned expr_table_orders(const Expr *roots, int count, Expr symbol)
     Walk walk = {0};
     unsigned orders = 0;
 
-    for (int i = 0; i < count; i++)
-        walk_below(&walk, roots[i], 0, NULL, NULL);
+    walk_roots(&walk, roots, count);
     for (int i = 0; i < walk.count; i++) {
         Expr e = walk.nodes[i];
 

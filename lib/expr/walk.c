@@ -84,6 +84,12 @@ void walk_below(Walk *walk, Expr root, unsigned mask, WalkInto into, void *conte
     LIST_FREE(stack);
 }
 
+void walk_roots(Walk *walk, const Expr *roots, int count)
+{
+    for (int i = 0; i < count; i++)
+        walk_below(walk, roots[i], 0, NULL, NULL);
+}
+
 void walk_free(Walk *walk)
 {
     MEM_FREE(walk->nodes, walk->keys, walk->places);

@@ -563,25 +563,23 @@ static Status run_plain(System *system, const Row *row, int k, Diag *diag)
 {
     Arena *arena = system->arena;
     int count = system->kinematics->u.count;
-    Expr *zeros = NEW_ARRAY(Expr, count);
     Expr *speeds = NEW_ARRAY(Expr, count);
     Expr rate;
     Expr second;
     Status status = OK;
 
     for (int j = 0; j < count; j++) {
-        zeros[j] = expr_int(arena, 0);
         speeds[j] = system->kinematics->u.at[j].symbol;
         system->run.phi_u[k * count + j] = speed_partial(system, row->phi, j);
     }
     CHECK(system_rate_of(system, row->phi, &rate, diag));
     CHECK(system_rate_of(system, rate, &second, diag));
     system->run.phi[k] = row->phi;
-    system->run.nu[k] = expr_neg(arena, expr_substitute(arena, rate, speeds, zeros, count));
+    system->run.nu[k] = expr_neg(arena, expr_substitute(arena, rate, speeds, NULL, count));
     system->run.gamma[k] = expr_neg(
-        arena, expr_substitute(arena, second, system->kinematics->accelerations, zeros, count));
+        arena, expr_substitute(arena, second, system->kinematics->accelerations, NULL, count));
 done:
-    MEM_FREE(zeros, speeds);
+    mem_free(speeds);
     return status;
 }
 

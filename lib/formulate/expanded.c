@@ -114,14 +114,6 @@ static FrameSum rest_acceleration(const System *system, int node)
 
 typedef LIST(Expr) Terms;
 
-static Expr added(const System *system, Terms *terms)
-{
-    Expr sum = expr_sum(system->arena, terms->at, terms->count);
-
-    LIST_FREE(*terms);
-    return sum;
-}
-
 /* `e` folded and collected where that is shorter than `best` */
 static Expr shorter(Arena *arena, Expr best, Expr e)
 {
@@ -208,8 +200,9 @@ static Status show_mass(System *system, int j, int k, Expr *out, Diag *diag)
                                           3));
         CHECK(push_inertia_of(system, &system->origin->instances[i], j, k, &terms, diag));
     }
+    *out = tidy(system, expr_sum(system->arena, terms.at, terms.count));
 done:
-    *out = tidy(system, added(system, &terms));
+    LIST_FREE(terms);
     return status;
 }
 
@@ -282,29 +275,30 @@ static Status push_wrench(System *system, const Instance *instance, int j, Terms
     return OK;
 }
 
+/* what the second rate of `e` is at u' = 0 */
+static Status second_rate_at_rest(System *system, Expr e, Expr *out, Diag *diag)
+{
+    TRY(system_rate_of(system, e, out, diag));
+    TRY(system_rate_of(system, *out, out, diag));
+    *out = expr_substitute(system->arena, *out, system->kinematics->accelerations, NULL,
+                           system->kinematics->u.count);
+    return OK;
+}
+
 static Status push_rotor(System *system, const Instance *instance, int j, Terms *terms, Diag *diag)
 {
     Arena *arena = system->arena;
-    int n = system->kinematics->u.count;
-    Expr *zeros = NEW_ARRAY(Expr, n);
     Expr inertia;
     Expr s;
     Expr second;
-    Status status = OK;
 
-    for (int i = 0; i < n; i++)
-        zeros[i] = expr_int(arena, 0);
-    CHECK(rotor_of(system, instance, &inertia, &s, diag));
+    TRY(rotor_of(system, instance, &inertia, &s, diag));
     if (s == NULL)
-        goto done;
-    CHECK(system_rate_of(system, s, &second, diag));
-    CHECK(system_rate_of(system, second, &second, diag));
-    second = expr_substitute(arena, second, system->kinematics->accelerations, zeros, n);
+        return OK;
+    TRY(second_rate_at_rest(system, s, &second, diag));
     second = expr_product(arena, (Expr[]){inertia, second, speed_partial(system, s, j)}, 3);
     LIST_PUSH(*terms, expr_neg(arena, second));
-done:
-    mem_free(zeros);
-    return status;
+    return OK;
 }
 
 static Status show_force(System *system, int j, int column, Expr *out, Diag *diag)
@@ -335,8 +329,9 @@ static Status show_force(System *system, int j, int column, Expr *out, Diag *dia
         LIST_PUSH(terms, expr_mul(system->arena, system->constraints->drives.at[i].effort,
                                   speed_partial(system, s, j)));
     }
+    *out = tidy(system, expr_sum(system->arena, terms.at, terms.count));
 done:
-    *out = tidy(system, added(system, &terms));
+    LIST_FREE(terms);
     return status;
 }
 
@@ -367,22 +362,12 @@ static Status show_velocity(System *system, int k, int column, Expr *out, Diag *
 
 static Status show_acceleration(System *system, int k, int column, Expr *out, Diag *diag)
 {
-    Arena *arena = system->arena;
-    int n = system->kinematics->u.count;
-    Expr *zeros = NEW_ARRAY(Expr, n);
     Expr second;
-    Status status = OK;
 
     (void)column;
-    for (int i = 0; i < n; i++)
-        zeros[i] = expr_int(arena, 0);
-    CHECK(system_rate_of(system, system->constraints->rows.at[k].phi, &second, diag));
-    CHECK(system_rate_of(system, second, &second, diag));
-    second = expr_substitute(arena, second, system->kinematics->accelerations, zeros, n);
-    *out = tidy(system, expr_neg(arena, second));
-done:
-    mem_free(zeros);
-    return status;
+    TRY(second_rate_at_rest(system, system->constraints->rows.at[k].phi, &second, diag));
+    *out = tidy(system, expr_neg(system->arena, second));
+    return OK;
 }
 
 static Status show_network(System *system, int row, int column, Expr *out, Diag *diag)

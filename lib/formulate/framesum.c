@@ -8,8 +8,6 @@
 #include "formulate/system_impl.h"
 #include "formulate/vector.h"
 
-#include <string.h>
-
 FrameSum framesum_of(const System *system, int chain, Vec v)
 {
     FrameSum sum = {NULL, 0};

@@ -13,8 +13,6 @@
 #include "formulate/origin.h"
 #include "formulate/system_impl.h"
 
-#include <string.h>
-
 /* --- relations --- */
 
 static Expr both_sides(System *system, const Ideal *ideal, Expr v, Expr i)

@@ -24,18 +24,15 @@ const WholeTurns *system_whole_turns(const System *system, int i)
 Expr system_plain(const System *system, Expr e)
 {
     int count = system->constraints->counted.count;
-    Expr *symbols, *zeros;
+    Expr *symbols;
 
     if (count == 0 || (expr_kinds(e) & 1U << SYMBOL_PARAMETER) == 0)
         return e;
     symbols = NEW_ARRAY(Expr, count);
-    zeros = NEW_ARRAY(Expr, count);
-    for (int i = 0; i < count; i++) {
+    for (int i = 0; i < count; i++)
         symbols[i] = system->constraints->counted.at[i].told.symbol;
-        zeros[i] = expr_int(system->arena, 0);
-    }
-    e = expr_substitute(system->arena, e, symbols, zeros, count);
-    MEM_FREE(symbols, zeros);
+    e = expr_substitute(system->arena, e, symbols, NULL, count);
+    mem_free(symbols);
     return e;
 }
 

@@ -88,23 +88,21 @@ static void couple(System *system)
 static Status check_smooth(System *system, Diag *diag)
 {
     Expr e;
-    Status status = OK;
 
     for (int i = 0; i < system->network->branches.count; i++) {
         const Branchlike *branch = &system->network->branches.at[i];
 
         if (branch->relation.smooth == NULL)
             continue;
-        CHECK(variables_resolve(system, branch->relation.smooth, &e, diag));
+        TRY(variables_resolve(system, branch->relation.smooth, &e, diag));
         if (system_need_smooth(system, branch_owner(system, branch)->name, e, NULL) == OK)
             continue;
-        status = diag_set(diag, E_MODEL, "%s takes the derivative of something that jumps",
-                          branch_owner(system, branch)->name);
+        (void)diag_set(diag, E_MODEL, "%s takes the derivative of something that jumps",
+                       branch_owner(system, branch)->name);
         diag_hint(diag, "filter= smooths it, or give the source a rise time");
-        goto done;
+        return E_MODEL;
     }
-done:
-    return status;
+    return OK;
 }
 
 static void find_cutsets(System *system, TreeKind kind)

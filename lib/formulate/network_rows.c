@@ -289,7 +289,6 @@ static Status add_row(NetworkRows *rows, int row, Expr residual, const Unknown *
     int count = expr_symbols(&residual, 1, &symbols);
     int first = rows->entries.count;
     int used = 0;
-    Expr *zeros = NEW_ARRAY(Expr, count);
     Status status = OK;
 
     for (int i = 0; i < count; i++) {
@@ -297,8 +296,7 @@ static Status add_row(NetworkRows *rows, int row, Expr residual, const Unknown *
 
         if ((expr_kinds(symbols[i]) & solved_kinds) == 0)
             continue;
-        symbols[used] = symbols[i];
-        zeros[used++] = expr_int(arena, 0);
+        symbols[used++] = symbols[i];
         slope = expr_diff(arena, residual, symbols[i]);
         if (expr_is_zero(slope))
             continue;
@@ -312,9 +310,9 @@ static Status add_row(NetworkRows *rows, int row, Expr residual, const Unknown *
     if (rows->entries.count == first)
         CHECK(cant_be_met(system, y, diag));
     run->network_residual[row] = residual;
-    run->network_rhs[row] = expr_neg(arena, expr_substitute(arena, residual, symbols, zeros, used));
+    run->network_rhs[row] = expr_neg(arena, expr_substitute(arena, residual, symbols, NULL, used));
 done:
-    MEM_FREE(symbols, zeros);
+    mem_free(symbols);
     return status;
 }
 
@@ -325,7 +323,6 @@ static void gather_rates(NetworkRows *rows, int first, Expr *left, Expr *right)
     Arena *arena = system->arena;
     LIST(Expr) terms = {0};
     LIST(Expr) symbols = {0};
-    LIST(Expr) zeros = {0};
 
     for (int i = first; i < rows->entries.count; i++) {
         const Entry *entry = &rows->entries.at[i];
@@ -333,17 +330,15 @@ static void gather_rates(NetworkRows *rows, int first, Expr *left, Expr *right)
         if (entry->column >= system->network->x.count)
             continue;
         LIST_PUSH(symbols, system->network->rates.at[entry->column]);
-        LIST_PUSH(zeros, expr_int(arena, 0));
         LIST_PUSH(terms, expr_mul(arena, expr_fold(arena, entry->value),
                                   system->network->rates.at[entry->column]));
     }
-    *right = expr_sub(arena, expr_substitute(arena, *right, symbols.at, zeros.at, symbols.count),
-                      expr_substitute(arena, *left, symbols.at, zeros.at, symbols.count));
+    *right = expr_sub(arena, expr_substitute(arena, *right, symbols.at, NULL, symbols.count),
+                      expr_substitute(arena, *left, symbols.at, NULL, symbols.count));
     *right = expr_fold(arena, expr_open(arena, *right));
     *left = expr_sum(arena, terms.at, terms.count);
     LIST_FREE(terms);
     LIST_FREE(symbols);
-    LIST_FREE(zeros);
 }
 
 /* rows in the order of [x'; z] */

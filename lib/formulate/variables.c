@@ -288,7 +288,6 @@ static Status scalar_variable(System *system, const Instance *instance, const ch
     int which = 0;
     Expr v;
     Expr i;
-    Status status = OK;
 
     if (own_state(system, instance, member, out))
         return OK;
@@ -312,16 +311,15 @@ static Status scalar_variable(System *system, const Instance *instance, const ch
     if (strcmp(name, domain_through(domain)) == 0)
         return network_through(system, branch, out, diag);
     if (strcmp(name, "power") == 0) {
-        CHECK(network_across(system, branch, &v, diag));
-        CHECK(network_through(system, branch, &i, diag));
+        TRY(network_across(system, branch, &v, diag));
+        TRY(network_through(system, branch, &i, diag));
         *out = expr_mul(arena, v, i);
     } else if (branch->relation.content != NULL) {
-        status = variables_resolve(system, branch->relation.content, out, diag);
+        return variables_resolve(system, branch->relation.content, out, diag);
     } else {
-        status = diag_set(diag, E_MISSING, "%s.%s can't be told", instance->name, member);
+        return diag_set(diag, E_MISSING, "%s.%s can't be told", instance->name, member);
     }
-done:
-    return status;
+    return OK;
 }
 
 /* Who bears the longest head of a path, "leg1.T1" of "leg1.T1.s.i": a part (or NULL), a node (or

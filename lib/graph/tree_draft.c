@@ -1,8 +1,6 @@
 /* tree_draft.c: Kruskal's rule (1956) behind what arms and the user have settled */
 #include "graph/tree_draft.h"
 
-#include <stdlib.h>
-
 /* make an edge a branch, unless its ends hang together already */
 static bool join(Draft *draft, int edge, Standing standing)
 {

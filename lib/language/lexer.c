@@ -385,36 +385,41 @@ Status lexer_next(Lexer *lexer, Token *token, Diag *diag)
     return OK;
 }
 
+static bool is_in_line(const Lexer *lexer)
+{
+    return lexer->text[lexer->at] != '\0' && line_break(lexer->text + lexer->at) == 0;
+}
+
+/* past a backslash and the end of its line */
+static bool step_joint(Lexer *lexer)
+{
+    const size_t length = joint(lexer->text + lexer->at);
+
+    if (length > 0)
+        step_line(lexer, length);
+    return length > 0;
+}
+
 Status lexer_finish(Lexer *lexer, Diag *diag)
 {
     skip_blanks(lexer);
-    if (lexer->text[lexer->at] == ';')
+    if (lexer->text[lexer->at] == ';') {
         lexer->at++;
-    else {
-        while (lexer->text[lexer->at] != '\0' && line_break(lexer->text + lexer->at) == 0) {
-            size_t length = joint(lexer->text + lexer->at);
-
-            if (length > 0)
-                step_line(lexer, length);
-            else
-                TRY(step_character(lexer, diag));
-        }
-        if (lexer->text[lexer->at] != '\0')
-            step_line(lexer, line_break(lexer->text + lexer->at));
+        return OK;
     }
+    while (is_in_line(lexer))
+        if (!step_joint(lexer))
+            TRY(step_character(lexer, diag));
+    if (lexer->text[lexer->at] != '\0')
+        step_line(lexer, line_break(lexer->text + lexer->at));
     return OK;
 }
 
 void lexer_skip_line(Lexer *lexer)
 {
-    while (lexer->text[lexer->at] != '\0' && line_break(lexer->text + lexer->at) == 0) {
-        size_t length = joint(lexer->text + lexer->at);
-
-        if (length > 0)
-            step_line(lexer, length);
-        else
+    while (is_in_line(lexer))
+        if (!step_joint(lexer))
             lexer->at++;
-    }
 }
 
 void lexer_skip_breaks(Lexer *lexer)

@@ -1,7 +1,6 @@
 /* operand.c: what may stand between a verb and its keys: items, places, words */
 #include "language/parser.h"
 
-#include <stdio.h>
 #include <string.h>
 
 /* sum [ unit ]; a comparison stands in brackets, since ">" writes to a file */

@@ -198,9 +198,7 @@ static Status check_defined_name(const Parser *parser, const Token *name, bool l
 
 static Status parse_definition_value(Parser *parser, Statement *statement)
 {
-    Status status = OK;
-
-    CHECK(parse_expression(parser, &statement->value));
+    TRY(parse_expression(parser, &statement->value));
     if (parser_ends(parser))
         return OK;
     if (parser_sees(parser, ">") || parser_sees(parser, ">>")) {
@@ -214,9 +212,7 @@ static Status parse_definition_value(Parser *parser, Statement *statement)
         diag_hint(parser->diag, "statements on one line stand between ';'");
     else if (parser_token(parser)->kind == TOKEN_PATH)
         diag_hint(parser->diag, "a product needs its *");
-    status = E_SYNTAX;
-done:
-    return status;
+    return E_SYNTAX;
 }
 
 /* NAME "=" expr */

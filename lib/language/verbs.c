@@ -7,7 +7,6 @@
 #include "component/component.h"
 
 #include <assert.h>
-#include <ctype.h>
 #include <string.h>
 
 /* A small model that examples start from: a pendulum, 1 m long. */

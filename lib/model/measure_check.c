@@ -55,22 +55,20 @@ Status unit_check(const Scope *scope, const Syntax *syntax, const char *unit, co
     const Syntax *core = bare(syntax);
     Measure given = {0};
     Measure wanted;
-    Status status = OK;
 
     if (core->kind == SYNTAX_VECTOR && !core->has_unit) {
         for (int i = 0; i < core->count; i++)
-            CHECK(unit_check(scope, core->args[i], unit, name, diag));
+            TRY(unit_check(scope, core->args[i], unit, name, diag));
         return OK;
     }
-    CHECK(measure_of(scope, syntax, &given, diag));
+    TRY(measure_of(scope, syntax, &given, diag));
     /* a ratio is a number, and that is taken as SI */
     if (!given.has_units || measure_is_plain(given))
         return OK;
     wanted = measure_of_unit(unit);
     if (!measures_fit(wanted, given) || is_pitch(wanted, given))
-        status = refuse(syntax, wanted, unit, name, given, diag);
-done:
-    return status;
+        return refuse(syntax, wanted, unit, name, given, diag);
+    return OK;
 }
 
 Status unit_check_alike(const Scope *scope, const Syntax *syntax, const char *what, Diag *diag)

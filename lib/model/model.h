@@ -142,6 +142,8 @@ Form model_form(const Model *model, const char *const **independent,
  * the derivative along the primed variables. Names that aren't known fail with E_NAME and a
  * suggestion. */
 MUST_USE Status model_expression(const Model *model, const Syntax *syntax, Expr *out, Diag *diag);
+/* `a sign b` or, where b is NULL, `sign a`, by an operator of the language; NULL: it is none */
+Expr model_operation(Arena *arena, const char *sign, Expr a, Expr b);
 /* The same of a call, its arguments already expressions: those that are texts, of a call that takes
  * some, are NULL. */
 MUST_USE Status model_call(const Model *model, const Syntax *syntax, const Expr *args, Expr *out,

@@ -6,7 +6,6 @@
 #include "model/model_impl.h"
 
 #include <math.h>
-#include <string.h>
 
 /* of parameters alone, and no number yet */
 static bool is_of_parameters(Expr e)

@@ -146,18 +146,16 @@ static Status take_cell(const DataReader *r, const Cells *cells, int cell, doubl
 static Status take_row(DataReader *r, const Cells *cells)
 {
     double x, y;
-    Status status;
 
-    CHECK(take_cell(r, cells, r->x_cell, &x));
-    CHECK(take_cell(r, cells, r->y_cell, &y));
+    TRY(take_cell(r, cells, r->x_cell, &x));
+    TRY(take_cell(r, cells, r->y_cell, &y));
     if (r->x.count > 0 && !(x > r->x.at[r->x.count - 1]))
-        CHECK(diag_at(r->diag, E_VALUE, r->place,
-                      "line %d of %s: the first column has to grow, and %g follows %g", r->line,
-                      r->file, x, r->x.at[r->x.count - 1]));
+        return diag_at(r->diag, E_VALUE, r->place,
+                       "line %d of %s: the first column has to grow, and %g follows %g", r->line,
+                       r->file, x, r->x.at[r->x.count - 1]);
     LIST_PUSH(r->x, x);
     LIST_PUSH(r->y, y);
-done:
-    return status;
+    return OK;
 }
 
 /* far more than a table has, far less than fills the memory where a file has no end */

@@ -289,15 +289,13 @@ static Status change_output(State **state, Definition *output, Expr body, Measur
     State *s = *state;
     Line *line = &s->lines.at[output->line];
     bool is_same = output->body == body;
-    Status status = OK;
 
-    CHECK(check_circle(s, definition_index(s, output), scope->uses.at, scope->uses.count,
-                       pair->name_place, diag));
+    TRY(check_circle(s, definition_index(s, output), scope->uses.at, scope->uses.count,
+                     pair->name_place, diag));
     if (is_used(s, definition_index(s, output)) &&
         !(is_same && measure_same(output->measure, measure))) {
-        status = replace_line(state, definition_index(s, output), text, scope, pair->name_place,
-                              is_same ? EFFECT_NONE : EFFECT_EQUATIONS, outcome, diag);
-        goto done;
+        return replace_line(state, definition_index(s, output), text, scope, pair->name_place,
+                            is_same ? EFFECT_NONE : EFFECT_EQUATIONS, outcome, diag);
     }
     state_keep_line(s, output->line);
     state_keep_definition(s, definition_index(s, output));
@@ -305,8 +303,7 @@ static Status change_output(State **state, Definition *output, Expr body, Measur
     line_uses(s, line, scope);
     output->body = body;
     output->measure = measure;
-done:
-    return status;
+    return OK;
 }
 
 static Status output_pair(State **state, const Pair *pair, Outcome *outcome, Diag *diag)

@@ -151,29 +151,28 @@ done:
 
 static Status read_pairs(EventDraft *r, const Statement *statement, Diag *diag)
 {
-    Status status = OK;
-
     for (int i = 0; i < statement->pairs.count; i++) {
         const Pair *pair = &statement->pairs.at[i];
 
         if (pair->primes == 0 && strcmp(pair->name, "when") == 0)
-            CHECK(read_when(r, pair, diag));
+            TRY(read_when(r, pair, diag));
         else if (pair->primes == 0 && strcmp(pair->name, "do") == 0)
-            CHECK(read_action(r, pair, diag));
+            TRY(read_action(r, pair, diag));
         else
-            CHECK(read_value(r, pair, diag));
+            TRY(read_value(r, pair, diag));
     }
     if (r->event->when == NULL) {
-        status = diag_at(diag, E_SYNTAX, statement->operands.at[0].place,
-                         "event %s needs a condition", r->event->name);
+        (void)diag_at(diag, E_SYNTAX, statement->operands.at[0].place, "event %s needs a condition",
+                      r->event->name);
         diag_hint(diag, "event %s when=h8 > 1 do=stop", r->event->name);
+        return E_SYNTAX;
     } else if (r->values.count > 0 && r->has_action) {
-        status = diag_at(diag, E_VALUE, statement->operands.at[0].place,
-                         "event %s has both do= and new values", r->event->name);
+        (void)diag_at(diag, E_VALUE, statement->operands.at[0].place,
+                      "event %s has both do= and new values", r->event->name);
         diag_hint(diag, "take two events with the same condition");
+        return E_VALUE;
     }
-done:
-    return status;
+    return OK;
 }
 
 /* a new event, or another one under the same name */

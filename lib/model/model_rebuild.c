@@ -1,8 +1,6 @@
 /* model_rebuild.c: a state made anew from its lines, and its lines as a script */
 #include "model/model_impl.h"
 
-#include <string.h>
-
 Status state_apply_text(State **state, const char *text, Text *remarks, Diag *diag)
 {
     Statement *statement = NULL;

@@ -138,7 +138,6 @@ Status apply_guess(State **state, const Statement *statement, Outcome *outcome, 
 static Status read_independent(State *state, const Syntax *value, NameList *names, Diag *diag)
 {
     bool is_list = value->kind == SYNTAX_VECTOR;
-    Status status = OK;
 
     for (int i = 0; i < (is_list ? value->count : 1); i++) {
         const Syntax *entry = is_list ? value->args[i] : value;
@@ -147,15 +146,14 @@ static Status read_independent(State *state, const Syntax *value, NameList *name
         int coordinate = 0;
 
         if (name == NULL) {
-            status = diag_at(diag, E_NAME, entry->place, "independent= names coordinates");
+            (void)diag_at(diag, E_NAME, entry->place, "independent= names coordinates");
             diag_hint(diag, "as in independent=[h8, s11]");
-            goto done;
+            return E_NAME;
         }
-        CHECK(coordinate_resolve(state, name, entry->place, &owner, &coordinate, diag));
+        TRY(coordinate_resolve(state, name, entry->place, &owner, &coordinate, diag));
         name_list_add(names, state_text(state, state->parts.at[owner]->coord[coordinate]));
     }
-done:
-    return status;
+    return OK;
 }
 
 Status apply_form(State **state, const Statement *statement, Outcome *outcome, Diag *diag)

@@ -51,36 +51,28 @@ static Status next_operand(PartDraft *draft, const Operand **out)
 static Status next_name(PartDraft *draft, const char **name, Place *place)
 {
     const Operand *operand = NULL;
-    Status status = OK;
 
-    CHECK(next_operand(draft, &operand));
+    TRY(next_operand(draft, &operand));
     *name = syntax_name(operand->value);
     *place = operand->place;
     if (*name == NULL)
-        status = diag_at(draft->diag, E_NAME, operand->place, "a name is expected here");
-done:
-    return status;
+        return diag_at(draft->diag, E_NAME, operand->place, "a name is expected here");
+    return OK;
 }
 
 Status part_draft_read_name(PartDraft *draft)
 {
     const char *name = NULL;
     Place place;
-    Status status = OK;
 
-    CHECK(next_name(draft, &name, &place));
-    if (strchr(name, '.') != NULL) {
-        status = diag_at(draft->diag, E_NAME, place, "a new name has no dot");
-        goto done;
-    }
-    if (names_find(draft->state->terminals, name) >= 0) {
-        status = diag_at(draft->diag, E_NAME, place, "'%s' is already a terminal", name);
-        goto done;
-    }
-    CHECK(name_is_free(draft->state, name, place, draft->diag));
+    TRY(next_name(draft, &name, &place));
+    if (strchr(name, '.') != NULL)
+        return diag_at(draft->diag, E_NAME, place, "a new name has no dot");
+    if (names_find(draft->state->terminals, name) >= 0)
+        return diag_at(draft->diag, E_NAME, place, "'%s' is already a terminal", name);
+    TRY(name_is_free(draft->state, name, place, draft->diag));
     draft->part->name = state_text(draft->state, name);
-done:
-    return status;
+    return OK;
 }
 
 /* --- frames --- */
@@ -119,49 +111,43 @@ static Status next_frame(PartDraft *draft, int *node, Place *place)
 {
     const char *name = NULL;
     const Instance *part;
-    Status status = OK;
 
-    CHECK(next_name(draft, &name, place));
+    TRY(next_name(draft, &name, place));
     *node = draft->state->datum[DOMAIN_MECHANICAL];
     if (strcmp(name, "ground") == 0)
-        goto done;
+        return OK;
     part = state_part(draft->state, name);
     if (part == NULL || !part_is_frame(part))
-        status = not_a_frame(draft, name, *place);
+        return not_a_frame(draft, name, *place);
     else
         *node = part->head;
-done:
-    return status;
+    return OK;
 }
 
 static Status two_frames(PartDraft *draft)
 {
     Instance *part = draft->part;
     Place place;
-    Status status = OK;
 
-    CHECK(next_frame(draft, &part->tail, &place));
-    CHECK(next_frame(draft, &part->head, &place));
+    TRY(next_frame(draft, &part->tail, &place));
+    TRY(next_frame(draft, &part->head, &place));
     if (part->tail == part->head)
-        status = diag_at(draft->diag, E_VALUE, place, "both ends of %s are %s", part->name,
-                         graph_node(draft->state->graph, part->head)->name);
-done:
-    return status;
+        return diag_at(draft->diag, E_VALUE, place, "both ends of %s are %s", part->name,
+                       graph_node(draft->state->graph, part->head)->name);
+    return OK;
 }
 
 static Status on_frame(PartDraft *draft)
 {
     Instance *part = draft->part;
     Place place;
-    Status status = OK;
 
     part->tail = draft->state->datum[DOMAIN_MECHANICAL];
-    CHECK(next_frame(draft, &part->head, &place));
+    TRY(next_frame(draft, &part->head, &place));
     if (part->head == part->tail)
-        status = diag_at(draft->diag, E_VALUE, place,
-                         "ground doesn't move: a %s on it has no effect", part->row->name);
-done:
-    return status;
+        return diag_at(draft->diag, E_VALUE, place, "ground doesn't move: a %s on it has no effect",
+                       part->row->name);
+    return OK;
 }
 
 /* --- coordinates that a part acts on --- */
@@ -171,28 +157,22 @@ static Status act_on(PartDraft *draft, const char *name, Place place)
     Instance *part = draft->part;
     const Instance *owner;
     int joint = -1;
-    Status status = OK;
 
-    CHECK(coordinate_resolve(draft->state, name, place, &joint, &part->joint_coordinate,
-                             draft->diag));
+    TRY(coordinate_resolve(draft->state, name, place, &joint, &part->joint_coordinate,
+                           draft->diag));
     owner = draft->state->parts.at[joint];
-    if (part->row->family != FAMILY_DRIVER && owner->row->family != FAMILY_JOINT) {
-        status = diag_at(draft->diag, E_NAME, place, "%s acts on a joint, and %s is none",
-                         part->row->name, owner->name);
-        goto done;
-    }
-    if (owner->coord_kind[part->joint_coordinate] == COORDINATE_PARAMETER) {
-        status = diag_at(draft->diag, E_VALUE, place,
-                         "%s is an Euler parameter: nothing can act on it alone", name);
-        goto done;
-    }
+    if (part->row->family != FAMILY_DRIVER && owner->row->family != FAMILY_JOINT)
+        return diag_at(draft->diag, E_NAME, place, "%s acts on a joint, and %s is none",
+                       part->row->name, owner->name);
+    if (owner->coord_kind[part->joint_coordinate] == COORDINATE_PARAMETER)
+        return diag_at(draft->diag, E_VALUE, place,
+                       "%s is an Euler parameter: nothing can act on it alone", name);
     part->joint = joint;
     part->coordinate = owner->coord[part->joint_coordinate];
     part->on_angle = owner->coord_kind[part->joint_coordinate] == COORDINATE_ANGLE;
     part->tail = owner->tail;
     part->head = owner->head;
-done:
-    return status;
+    return OK;
 }
 
 static Status on_joint(PartDraft *draft)
@@ -331,8 +311,8 @@ static Status read_terminals(PartDraft *draft)
         int last = first + (edges[k].minus < 0 ? edges[k].plus : edges[k].minus);
 
         if (strcmp(plus, minus) == 0)
-            TRY(diag_at(draft->diag, E_VALUE, draft->statement->operands.at[last].place,
-                        "both ends of %s are %s", draft->part->name, plus));
+            return diag_at(draft->diag, E_VALUE, draft->statement->operands.at[last].place,
+                           "both ends of %s are %s", draft->part->name, plus);
     }
     return OK;
 }
@@ -356,30 +336,26 @@ done:
 static Status two_parts(PartDraft *draft)
 {
     Instance *part = draft->part;
-    Status status = OK;
 
     for (int k = 0; k < 2; k++) {
         const char *name = NULL;
         const Instance *other;
         Place place;
 
-        CHECK(next_name(draft, &name, &place));
+        TRY(next_name(draft, &name, &place));
         other = state_part(draft->state, name);
-        if (other == NULL) {
-            status = name_unknown(draft->state, "component", name, place, draft->diag);
-            goto done;
-        }
+        if (other == NULL)
+            return name_unknown(draft->state, "component", name, place, draft->diag);
         if (strcmp(other->row->name, part->row->couples) != 0)
-            CHECK(diag_at(draft->diag, E_VALUE, place,
-                          "%s is a %s: a %s takes two parts of kind %s", name, other->row->name,
-                          part->row->name, part->row->couples));
+            return diag_at(draft->diag, E_VALUE, place,
+                           "%s is a %s: a %s takes two parts of kind %s", name, other->row->name,
+                           part->row->name, part->row->couples);
         part->parts[k] = other->number;
         if (k > 0 && part->parts[0] == part->parts[1])
-            CHECK(
-                diag_at(draft->diag, E_VALUE, place, "both parts of %s are %s", part->name, name));
+            return diag_at(draft->diag, E_VALUE, place, "both parts of %s are %s", part->name,
+                           name);
     }
-done:
-    return status;
+    return OK;
 }
 
 Status part_draft_read_terminals(PartDraft *draft)

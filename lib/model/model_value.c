@@ -250,41 +250,33 @@ static Status name_value(Scope *scope, const Syntax *syntax, Expr *out, Diag *di
 
 /* --- operators --- */
 
-static const struct {
-    const char *text;
-    Op op;
-    bool swapped;
-} comparisons[] = {{"<", OP_LT, false},   {">", OP_LT, true},   {"<=", OP_LE, false},
-                   {">=", OP_LE, true},   {"==", OP_EQ, false}, {"!=", OP_NE, false},
-                   {"&&", OP_AND, false}, {"||", OP_OR, false}};
-
-static Expr binary(Arena *arena, const char *text, Expr a, Expr b)
+Expr model_operation(Arena *arena, const char *sign, Expr a, Expr b)
 {
-    if (text[1] == '\0')
-        switch (text[0]) {
-        case '+':
-            return expr_add(arena, a, b);
-        case '-':
-            return expr_sub(arena, a, b);
-        case '*':
-            return expr_mul(arena, a, b);
-        case '/':
-            return expr_div(arena, a, b);
-        case '^':
-            return expr_pow(arena, a, b);
-        default:
-            break;
-        }
+    static const struct {
+        const char *sign;
+        Expr (*build)(Arena *arena, Expr a, Expr b);
+    } arithmetic[] = {
+        {"+", expr_add}, {"-", expr_sub}, {"*", expr_mul}, {"/", expr_div}, {"^", expr_pow}};
+    static const struct {
+        const char *sign;
+        Op op;
+        bool swapped;
+    } comparisons[] = {{"<", OP_LT, false},   {">", OP_LT, true},   {"<=", OP_LE, false},
+                       {">=", OP_LE, true},   {"==", OP_EQ, false}, {"!=", OP_NE, false},
+                       {"&&", OP_AND, false}, {"||", OP_OR, false}};
+
+    if (b == NULL)
+        return sign[0] == '-'   ? expr_neg(arena, a)
+               : sign[0] == '!' ? expr_call1(arena, OP_NOT, a)
+                                : a;
+    for (int i = 0; i < COUNT(arithmetic); i++)
+        if (strcmp(arithmetic[i].sign, sign) == 0)
+            return arithmetic[i].build(arena, a, b);
     for (int i = 0; i < COUNT(comparisons); i++)
-        if (strcmp(comparisons[i].text, text) == 0)
-            return comparisons[i].swapped ? expr_call2(arena, comparisons[i].op, b, a)
-                                          : expr_call2(arena, comparisons[i].op, a, b);
-    return expr_int(arena, 0);
-}
-
-static Expr unary(Arena *arena, const char *text, Expr a)
-{
-    return text[0] == '-' ? expr_neg(arena, a) : text[0] == '!' ? expr_call1(arena, OP_NOT, a) : a;
+        if (strcmp(comparisons[i].sign, sign) == 0)
+            return expr_call2(arena, comparisons[i].op, comparisons[i].swapped ? b : a,
+                              comparisons[i].swapped ? a : b);
+    return NULL;
 }
 
 static Status convert(Scope *scope, const Syntax *syntax, Expr *out, Diag *diag);
@@ -327,12 +319,12 @@ static Status convert_node(Scope *scope, const Syntax *syntax, Expr *out, Diag *
         return time_derivative(arena, a, syntax->primes, syntax->place, out, diag);
     case SYNTAX_UNARY:
         TRY(convert(scope, syntax->args[0], &a, diag));
-        *out = unary(arena, syntax->text, a);
+        *out = model_operation(arena, syntax->text, a, NULL);
         break;
     case SYNTAX_BINARY:
         TRY(convert(scope, syntax->args[0], &a, diag));
         TRY(convert(scope, syntax->args[1], &b, diag));
-        *out = binary(arena, syntax->text, a, b);
+        *out = model_operation(arena, syntax->text, a, b);
         break;
     }
     return OK;
@@ -448,7 +440,7 @@ static Status vector_binary(Scope *scope, const Syntax *syntax, Expr *out, int *
     } else
         TRY(convert(scope, is_vector(left) ? right : left, &factor, diag));
     for (int i = 0; i < *count; i++)
-        out[i] = both        ? binary(arena, syntax->text, out[i], other[i])
+        out[i] = both        ? model_operation(arena, syntax->text, out[i], other[i])
                  : op == '*' ? expr_mul(arena, factor, out[i])
                              : expr_div(arena, out[i], factor);
     return OK;
@@ -479,10 +471,7 @@ static Status convert_vector(Scope *scope, const Syntax *syntax, Expr *out, int 
 Status scope_vector(Scope *scope, const Syntax *syntax, Expr *out, int *count, Diag *diag)
 {
     Measure measure;
-    Status status;
 
-    CHECK(convert_vector(scope, syntax, out, count, diag));
-    CHECK(measure_of(scope, syntax, &measure, diag));
-done:
-    return status;
+    TRY(convert_vector(scope, syntax, out, count, diag));
+    return measure_of(scope, syntax, &measure, diag);
 }

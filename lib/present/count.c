@@ -122,15 +122,13 @@ static void heading(Table *table)
 static Status block_row(Table *table, const View *view, const char *name, Diag *diag)
 {
     OpCount written, shared;
-    Status status;
 
-    CHECK(count_block(view->system, form_of(view), name, false, &written, diag));
-    CHECK(count_block(view->system, form_of(view), name, true, &shared, diag));
+    TRY(count_block(view->system, form_of(view), name, false, &written, diag));
+    TRY(count_block(view->system, form_of(view), name, true, &shared, diag));
     table_cell(table, name);
     count_cells(table, written);
     count_cells(table, shared);
-done:
-    return status;
+    return OK;
 }
 
 static bool is_empty(const View *view, Block block)
@@ -213,17 +211,15 @@ Status tree_cost(const View *view, TreeCost *out, Diag *diag)
 {
     const Tree *trees[TREE_KINDS] = {NULL};
     TreeCost cost = {.trees = NULL};
-    Status status;
 
-    CHECK(model_trees(view->model, trees, diag));
-    CHECK(count_total(view->system, form_of(view), false, &cost.written, diag));
-    CHECK(count_total(view->system, form_of(view), true, &cost.shared, diag));
+    TRY(model_trees(view->model, trees, diag));
+    TRY(count_total(view->system, form_of(view), false, &cost.written, diag));
+    TRY(count_total(view->system, form_of(view), true, &cost.shared, diag));
     cost.n = system_n(view->system);
     cost.m = system_m(view->system);
     cost.trees = tree_brief(view->model, trees);
     *out = cost;
-done:
-    return status;
+    return OK;
 }
 
 int tree_costs_add(TreeCosts *costs, TreeCost *cost)

@@ -1,7 +1,6 @@
 /* draw.c: the linear graph on a terminal and for graphviz */
 #include "present/info.h"
 
-#include <stdio.h>
 #include <string.h>
 
 typedef struct GraphDrawing {
@@ -90,10 +89,9 @@ Status draw_text(const View *view, Text *out, Diag *diag)
 {
     const Tree *trees[TREE_KINDS] = {NULL};
     const Graph *graph = model_graph(view->model);
-    Status status;
     bool both;
 
-    CHECK(model_trees(view->model, trees, diag));
+    TRY(model_trees(view->model, trees, diag));
     both = trees[TREE_TRANSLATION] != NULL && trees[TREE_ROTATION] != NULL &&
            same_branches(trees[TREE_TRANSLATION], trees[TREE_ROTATION], graph);
     for (int k = 0; k < TREE_KINDS; k++) {
@@ -112,8 +110,7 @@ Status draw_text(const View *view, Text *out, Diag *diag)
     }
     if (graph_edge_count(graph) == 0)
         text_add(out, "no edges yet\n");
-done:
-    return status;
+    return OK;
 }
 
 /* --- dot --- */

@@ -5,7 +5,6 @@
 #include "present/show.h"
 #include "simulate/run/run.h"
 
-#include <stdio.h>
 #include <string.h>
 
 enum { TOPIC_WIDTH = 78 };
@@ -72,6 +71,18 @@ static void write_functions(Text *out)
                  "!= && || !; a prime is a time derivative (h8', h8'').");
 }
 
+static void write_pairs(Text *out, const char *const (*rows)[2], int count)
+{
+    Table table = table_for("ll");
+
+    for (int i = 0; i < count; i++) {
+        table_cell(&table, rows[i][0]);
+        table_cell(&table, rows[i][1]);
+    }
+    table_wrap(out, &table, 2, TOPIC_WIDTH);
+    table_free(&table);
+}
+
 static void write_methods(Text *out)
 {
     Table table = table_for("ll");
@@ -102,15 +113,13 @@ static void write_notations(Text *out)
 
 static void write_formats(Text *out)
 {
-    Table table = table_for("ll");
-
-#define FORMAT(word, brief)                                                                        \
-    table_cell(&table, #word);                                                                     \
-    table_cell(&table, brief);
+    static const char *const rows[][2] = {
+#define FORMAT(word, brief) {#word, brief},
 #include "language/formats.def"
+    };
+
     layout_words(out, TOPIC_WIDTH, "", "export WORD takes one of these:");
-    table_wrap(out, &table, 2, TOPIC_WIDTH);
-    table_free(&table);
+    write_pairs(out, rows, COUNT(rows));
 }
 
 static void write_counting(Text *out)
@@ -130,9 +139,8 @@ static void write_counting(Text *out)
 
 static void write_variables(Text *out)
 {
-    Table table = table_for("ll");
     /* clang-format off */
-    static const struct { const char *name, *meaning; } rows[] = {
+    static const char *const rows[][2] = {
         {"h8  h8'  h8''", "a joint's coordinate, its speed and acceleration"},
         {"m1.x  r5.vy", "motion of a body or frame, ground axes"},
         {"h9.fx  h9.tz", "force and moment of a joint on its tip; capitals: axes of its tail"},
@@ -147,12 +155,7 @@ static void write_variables(Text *out)
     };
     /* clang-format on */
 
-    for (int i = 0; i < COUNT(rows); i++) {
-        table_cell(&table, rows[i].name);
-        table_cell(&table, rows[i].meaning);
-    }
-    table_wrap(out, &table, 2, TOPIC_WIDTH);
-    table_free(&table);
+    write_pairs(out, rows, COUNT(rows));
     text_char(out, '\n');
     layout_words(out, TOPIC_WIDTH, "",
                  "A bare name means the last run. 'at T' takes an instant of it; without, a value "
@@ -178,7 +181,7 @@ static void write_keys(Text *out)
 {
     Table table = table_for("ll");
     /* clang-format off */
-    static const struct { const char *key, *meaning; } rows[] = {
+    static const char *const rows[][2] = {
         {"Tab", "complete the word; twice: show what fits"},
         {"Ctrl-C", "leave the line, or stop what is going on and keep what was computed"},
         {"Ctrl-D", "leave, on an empty line"},
@@ -188,8 +191,8 @@ static void write_keys(Text *out)
     /* clang-format on */
 
     for (int i = 0; i < COUNT(rows); i++) {
-        table_cell(&table, rows[i].key);
-        table_cell(&table, rows[i].meaning);
+        table_cell(&table, rows[i][0]);
+        table_cell(&table, rows[i][1]);
     }
     table_print(out, &table, 2);
     table_free(&table);

@@ -140,6 +140,13 @@ static bool is_chosen(const Selection *selection, int row, int column)
            (selection->number_count < 2 || selection->numbers[1] == column + 1);
 }
 
+static void write_equations(Text *out, const View *view, Equations *equations)
+{
+    view_open(out, view);
+    view_equations(out, view, equations);
+    view_close(out, view);
+}
+
 /* Entries of a block under their names; of a symmetric one those on and above the diagonal,
  * unless a row was asked for. Zeros are left out where many entries are written. */
 static Status add_entries(Text *out, const View *view, Block block, const char *letter,
@@ -166,22 +173,23 @@ static Status add_entries(Text *out, const View *view, Block block, const char *
             view_value(&equations,
                        view_entry_name(view, block_name(block), letter, r, vector ? -1 : c), e);
         }
-    view_open(out, view);
-    view_equations(out, view, &equations);
-    view_close(out, view);
+    write_equations(out, view, &equations);
 done:
     equations_free(&equations);
     return status;
 }
 
+/* "what; rows h8, h10...", of which there is one a speed */
 static void add_block_title(Text *out, const View *view, const char *what, const char *rows,
                             const char *note)
 {
+    char *names = name_list(system_u, view->system, system_nu(view->system));
     Text line = {0};
 
-    text_addf(&line, "%s; %s%s", what, rows, note);
+    text_addf(&line, "%s; %s %s%s", what, rows, names, note);
     view_comment(out, view, line.at);
     text_free(&line);
+    mem_free(names);
 }
 
 Status show_mass(const View *view, const Selection *selection, Text *out, Diag *diag)
@@ -189,30 +197,18 @@ Status show_mass(const View *view, const Selection *selection, Text *out, Diag *
     const int nu = system_nu(view->system);
 
     if (selection->number_count == 0) {
-        char *names = name_list(system_u, view->system, nu);
         char what[64];
-        Text rows = {0};
 
         (void)snprintf(what, sizeof what, "mass matrix, %d x %d, symmetric", nu, nu);
-        text_addf(&rows, "rows and columns %s", names);
-        add_block_title(out, view, what, rows.at, "; entries not listed are 0");
-        text_free(&rows);
-        mem_free(names);
+        add_block_title(out, view, what, "rows and columns", "; entries not listed are 0");
     }
     return add_entries(out, view, BLOCK_MASS, "M", selection, diag);
 }
 
 Status show_forces(const View *view, const Selection *selection, Text *out, Diag *diag)
 {
-    if (selection->number_count == 0) {
-        char *names = name_list(system_u, view->system, system_nu(view->system));
-        Text rows = {0};
-
-        text_addf(&rows, "rows %s", names);
-        add_block_title(out, view, "right side F of the motion equations", rows.at, "");
-        text_free(&rows);
-        mem_free(names);
-    }
+    if (selection->number_count == 0)
+        add_block_title(out, view, "right side F of the motion equations", "rows", "");
     return add_entries(out, view, BLOCK_FORCES, "F", selection, diag);
 }
 
@@ -223,16 +219,11 @@ Status show_jacobian(const View *view, const Selection *selection, Text *out, Di
         return OK;
     }
     if (selection->number_count == 0) {
-        char *names = name_list(system_u, view->system, system_nu(view->system));
         char what[80];
-        Text rows = {0};
 
         (void)snprintf(what, sizeof what, "jacobian of the constraints, %d x %d",
                        system_m(view->system), system_nu(view->system));
-        text_addf(&rows, "columns %s", names);
-        add_block_title(out, view, what, rows.at, "; entries not listed are 0");
-        text_free(&rows);
-        mem_free(names);
+        add_block_title(out, view, what, "columns", "; entries not listed are 0");
     }
     return add_entries(out, view, BLOCK_JACOBIAN, "\\Phi", selection, diag);
 }
@@ -349,11 +340,8 @@ Status show_constraints(const View *view, const Selection *selection, Text *out,
             CHECK(push_constraint(view, &equations, k, selection->level, diag));
     if (selection->number_count == 0)
         add_freedom(out, view);
-    if (equations.count > 0) {
-        view_open(out, view);
-        view_equations(out, view, &equations);
-        view_close(out, view);
-    }
+    if (equations.count > 0)
+        write_equations(out, view, &equations);
     if (selection->number_count == 0)
         add_dropped(out, view);
 done:
@@ -460,9 +448,7 @@ Status show_network(const View *view, const Selection *selection, Text *out, Dia
         return OK;
     }
     push_network(view, &equations, edge_lead_width(view));
-    view_open(out, view);
-    view_equations(out, view, &equations);
-    view_close(out, view);
+    write_equations(out, view, &equations);
     return OK;
 }
 
@@ -478,11 +464,8 @@ Status show_equations(const View *view, const Selection *selection, Text *out, D
         CHECK(push_constraint(view, &equations, k, NULL, diag));
     push_network(view, &equations, width);
     add_freedom(out, view);
-    if (equations.count > 0) {
-        view_open(out, view);
-        view_equations(out, view, &equations);
-        view_close(out, view);
-    }
+    if (equations.count > 0)
+        write_equations(out, view, &equations);
 done:
     equations_free(&equations);
     return status;
@@ -534,8 +517,6 @@ Status show_expression(const View *view, const Syntax *syntax, int number, Text 
     TRY(system_resolve(view->system, user, &e, diag));
     view_value(&equations, left_side(view, syntax, user, number),
                expr_fold(model_arena(view->model), e));
-    view_open(out, view);
-    view_equations(out, view, &equations);
-    view_close(out, view);
+    write_equations(out, view, &equations);
     return OK;
 }

@@ -112,7 +112,6 @@ Status show_edges(const View *view, const Selection *selection, Text *out, Diag 
 Status show_graph(const View *view, const Selection *selection, Text *out, Diag *diag)
 {
     const Graph *graph = model_graph(view->model);
-    Status status = OK;
 
     layout_count(out, graph_node_count(graph), "node", "nodes");
     text_add(out, ", ");
@@ -120,11 +119,9 @@ Status show_graph(const View *view, const Selection *selection, Text *out, Diag 
     text_add(out, "\n\n");
     if (graph_edge_count(graph) == 0)
         return OK;
-    CHECK(show_nodes(view, selection, out, diag));
+    TRY(show_nodes(view, selection, out, diag));
     text_char(out, '\n');
-    status = show_edges(view, selection, out, diag);
-done:
-    return status;
+    return show_edges(view, selection, out, diag);
 }
 
 static void list_edges(Text *out, const View *view, const Tree *tree, const char *title,
@@ -151,11 +148,10 @@ Status show_tree(const View *view, const Selection *selection, Text *out, Diag *
 {
     const Tree *trees[TREE_KINDS] = {NULL};
     const Graph *graph = model_graph(view->model);
-    Status status;
     bool completed = false, any = false;
 
     (void)selection;
-    CHECK(model_trees(view->model, trees, diag));
+    TRY(model_trees(view->model, trees, diag));
     for (int k = 0; k < TREE_KINDS; k++) {
         if (trees[k] == NULL)
             continue;
@@ -170,8 +166,7 @@ Status show_tree(const View *view, const Selection *selection, Text *out, Diag *
         text_add(out, "no edges yet\n");
     if (completed)
         text_add(out, "* completed, not chosen\n");
-done:
-    return status;
+    return OK;
 }
 
 /* --- matrices --- */
@@ -301,10 +296,9 @@ static Status show_signs(const View *view, const Selection *selection, bool circ
 {
     const Graph *graph = model_graph(view->model);
     const Tree *trees[TREE_KINDS] = {NULL};
-    Status status;
     const size_t before = out->length;
 
-    CHECK(model_trees(view->model, trees, diag));
+    TRY(model_trees(view->model, trees, diag));
     for (int k = 0; k < TREE_KINDS; k++) {
         const Tree *tree = trees[k];
         SignMatrix *matrix;
@@ -346,12 +340,11 @@ static Status show_signs(const View *view, const Selection *selection, bool circ
                            : "fundamental cutsets belong to branches; 'show circuits %s' may "
                              "have what you look for",
                   selection->names[0]);
-        status = E_NAME;
+        return E_NAME;
     } else if (out->length == before) {
         text_addf(out, "no %s\n", circuits ? "chords, so no circuits" : "branches, so no cutsets");
     }
-done:
-    return status;
+    return OK;
 }
 
 Status show_circuits(const View *view, const Selection *selection, Text *out, Diag *diag)

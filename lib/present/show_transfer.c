@@ -3,7 +3,6 @@
 #include "simulate/analyse/transfer.h"
 
 #include <math.h>
-#include <string.h>
 
 enum { DIGITS = 6, ALL_DIGITS = 17 };
 
@@ -302,19 +301,17 @@ static Status check_entry(const Linear *linear, const Selection *selection, Diag
 Status show_transfer(const View *view, const Selection *selection, Text *out, Diag *diag)
 {
     const Linear *linear = view->linear;
-    Status status;
 
-    CHECK(linear_check_pairs(linear, diag));
-    CHECK(check_entry(linear, selection, diag));
+    TRY(linear_check_pairs(linear, diag));
+    TRY(check_entry(linear, selection, diag));
     view_open(out, view);
     for (int o = 0; o < linear->outputs; o++)
         for (int i = 0; i < linear->inputs; i++)
             if ((selection->number_count < 1 || selection->numbers[0] == o + 1) &&
                 (selection->number_count < 2 || selection->numbers[1] == i + 1))
-                CHECK(print_one(view, o, i, out, diag));
+                TRY(print_one(view, o, i, out, diag));
     if (view->page.notation == NOTATION_MATLAB && selection->number_count == 0)
         text_add(out, "H = tf(numerator, denominator);\n");
     view_close(out, view);
-done:
-    return status;
+    return OK;
 }

@@ -7,8 +7,6 @@
 #include "base/memory.h"
 #include "expr/curve.h"
 
-#include <string.h>
-
 enum { EXACT = 17, A_LINE = 4 };
 
 static void add_number(Text *out, double value, int i)

@@ -6,7 +6,6 @@
 #include "present/tables.h"
 
 #include <ctype.h>
-#include <stdio.h>
 #include <string.h>
 
 char *view_expression(const View *view, Expr e)

@@ -6,7 +6,6 @@
 #include "config.h"
 
 #include <limits.h>
-#include <stdio.h>
 #include <string.h>
 
 const char *ct_version(void)

@@ -87,10 +87,9 @@ static Status read_frequency(const Model *model, const Pair *pair, double *out, 
     static const Dimension rate = {{0, 0, -1, 0, 0, 0}};
     const Syntax *value = pair->value;
     Dimension dimension = rate;
-    Status status;
     Expr e;
 
-    CHECK(model_expression(model, value, &e, diag));
+    TRY(model_expression(model, value, &e, diag));
     if ((expr_kinds(e) & ~(1U << SYMBOL_PARAMETER)) != 0)
         return diag_at(diag, E_VALUE, value->place, "%s must be a number, or made of parameters",
                        pair->name);
@@ -105,25 +104,22 @@ static Status read_frequency(const Model *model, const Pair *pair, double *out, 
         *out /= 2 * M_PI;
     if (!isfinite(*out) || *out <= 0)
         return diag_at(diag, E_VALUE, value->place, "%s must be a frequency above 0", pair->name);
-done:
-    return status;
+    return OK;
 }
 
 static Status read_points(const Model *model, const Pair *pair, int *out, Diag *diag)
 {
-    Status status;
     double value;
     Expr e;
 
-    CHECK(model_expression(model, pair->value, &e, diag));
-    CHECK(model_check_unit(model, pair->value, "1", "points", diag));
+    TRY(model_expression(model, pair->value, &e, diag));
+    TRY(model_check_unit(model, pair->value, "1", "points", diag));
     value = (expr_kinds(e) & ~(1U << SYMBOL_PARAMETER)) == 0 ? model_number(model, e) : NAN;
     if (!(value >= 2 && value <= MOST_POINTS && value == floor(value)))
         return diag_at(diag, E_VALUE, pair->value->place, "points= is a whole number from 2 to %d",
                        MOST_POINTS);
     *out = (int)value;
-done:
-    return status;
+    return OK;
 }
 
 static Status read_keys(const Model *model, const Statement *s, Bode *bode, Diag *diag)

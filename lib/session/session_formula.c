@@ -115,22 +115,20 @@ static Status model_freedoms(ct_session *session, System *system, double *out, D
 static Status model_size(ct_session *session, const char *path, double *out, Diag *diag)
 {
     System *system;
-    Status status;
 
-    CHECK(session_system(session, &system, diag));
+    TRY(session_system(session, &system, diag));
     if (strcmp(path, "model.n") == 0)
         *out = system_n(system);
     else if (strcmp(path, "model.m") == 0)
         *out = system_m(system);
     else if (strcmp(path, "model.dof") == 0)
-        status = model_freedoms(session, system, out, diag);
+        return model_freedoms(session, system, out, diag);
     else {
         diag_set(diag, E_NAME, "there is no '%s'", path);
         diag_hint(diag, "model.n, model.m and model.dof: coordinates, constraints, freedoms");
-        status = E_NAME;
+        return E_NAME;
     }
-done:
-    return status;
+    return OK;
 }
 
 /* count.mass.add, count.shared.mass.add */
@@ -391,31 +389,6 @@ done:
     return status;
 }
 
-static Expr join_binary(Arena *arena, const char *operator, Expr a, Expr b)
-{
-    static const struct {
-        const char *name;
-        Expr (*build)(Arena *arena, Expr a, Expr b);
-    } arithmetic[] = {
-        {"+", expr_add}, {"-", expr_sub}, {"*", expr_mul}, {"/", expr_div}, {"^", expr_pow}};
-    static const struct {
-        const char *name;
-        Op op;
-        bool swapped;
-    } comparisons[] = {{"<", OP_LT, false},   {"<=", OP_LE, false}, {">", OP_LT, true},
-                       {">=", OP_LE, true},   {"==", OP_EQ, false}, {"!=", OP_NE, false},
-                       {"&&", OP_AND, false}, {"||", OP_OR, false}};
-
-    for (int i = 0; i < COUNT(arithmetic); i++)
-        if (strcmp(arithmetic[i].name, operator) == 0)
-            return arithmetic[i].build(arena, a, b);
-    for (int i = 0; i < COUNT(comparisons); i++)
-        if (strcmp(comparisons[i].name, operator) == 0)
-            return expr_call2(arena, comparisons[i].op, comparisons[i].swapped ? b : a,
-                              comparisons[i].swapped ? a : b);
-    return NULL;
-}
-
 /* a function or law of leaves; the parameters that a law brings are leaves more */
 static Status cut_call(Cut *cut, const Syntax *syntax, const Expr *args, Expr *out, Diag *diag)
 {
@@ -445,7 +418,6 @@ done:
 /* a subtree that holds more than the model understands: its parts, joined */
 static Status cut_joined(Cut *cut, const Syntax *syntax, Expr *out, Diag *diag)
 {
-    Arena *arena = model_arena(cut->session->model);
     Expr *args = NEW_ARRAY(Expr, syntax->count);
     Status status = OK;
 
@@ -456,12 +428,9 @@ static Status cut_joined(Cut *cut, const Syntax *syntax, Expr *out, Diag *diag)
     *out = NULL;
     if (syntax->primes == 0 && syntax->kind == SYNTAX_GROUP)
         *out = args[0];
-    else if (syntax->kind == SYNTAX_UNARY)
-        *out = syntax->text[0] == '-'   ? expr_neg(arena, args[0])
-               : syntax->text[0] == '!' ? expr_call1(arena, OP_NOT, args[0])
-                                        : args[0];
-    else if (syntax->kind == SYNTAX_BINARY)
-        *out = join_binary(arena, syntax->text, args[0], args[1]);
+    else if (syntax->kind == SYNTAX_UNARY || syntax->kind == SYNTAX_BINARY)
+        *out = model_operation(model_arena(cut->session->model), syntax->text, args[0],
+                               syntax->count > 1 ? args[1] : NULL);
     else if (syntax->primes == 0 && syntax->kind == SYNTAX_CALL)
         CHECK(cut_call(cut, syntax, args, out, diag));
     if (*out == NULL)

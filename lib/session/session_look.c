@@ -4,8 +4,6 @@
 #include "present/info.h"
 #include "present/show.h"
 
-#include <string.h>
-
 /* hands the text over, or frees it and reports what went wrong */
 static ct_status finish(Status status, Text *out, const Diag *diag, char **text, ct_error *error)
 {

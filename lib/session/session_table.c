@@ -2,7 +2,6 @@
 #include "session/session_impl.h"
 
 #include "export/write.h"
-#include "present/info.h"
 #include "present/show.h"
 
 #include <math.h>

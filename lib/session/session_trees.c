@@ -215,22 +215,18 @@ static Status add_proposals(TreesSought *search, Diag *diag)
 static Status open_search(TreesSought *search, Diag *diag)
 {
     Model *model = search->session->model;
-    Status status;
 
     search->began = seconds();
     search->watch = (Watch){.context = search, .stop = stop, .progress = progress};
     search->mark = arena_mark(model_arena(model));
-    CHECK(model_scene(model, &search->scene, diag));
-    if (search->scene.trees[TREE_TRANSLATION] == NULL) {
-        status = diag_set(diag, E_MODEL, "there are no bodies and joints whose trees to compare");
-        goto done;
-    }
+    TRY(model_scene(model, &search->scene, diag));
+    if (search->scene.trees[TREE_TRANSLATION] == NULL)
+        return diag_set(diag, E_MODEL, "there are no bodies and joints whose trees to compare");
     search->own = graph_edge_count(search->scene.graph);
-    CHECK(find_proposals(search, diag));
-    CHECK(add_proposals(search, diag));
+    TRY(find_proposals(search, diag));
+    TRY(add_proposals(search, diag));
     search->pairs = tree_search_open(&search->scene, search->own, &search->watch);
-done:
-    return status;
+    return OK;
 }
 
 static void close_search(TreesSought *search)

@@ -96,7 +96,7 @@ static Status make_system(EquilibriumResidual *s, const Scene *scene, const Watc
     s->length = s->references + s->l->multi_turns;
     if (s->l->n != theirs->n || s->l->nx != theirs->nx || s->l->m != theirs->m ||
         s->l->multi_turns != theirs->multi_turns)
-        TRY(diag_set(diag, E_MODEL, "at rest this model has other unknowns than in motion"));
+        return diag_set(diag, E_MODEL, "at rest this model has other unknowns than in motion");
     return OK;
 }
 

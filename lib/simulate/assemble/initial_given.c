@@ -2,7 +2,6 @@
 #include "simulate/assemble/initial_impl.h"
 
 #include <math.h>
-#include <string.h>
 
 #define ROUNDED 1e-2 /* of the length of four Euler parameters: more is no rounding */
 #define FEWER   1e-5 /* of fewer: the others may be small, but not as small as that */

@@ -80,12 +80,8 @@ static Status choose_tree(Placing *p, TreeKind kind, Diag *diag)
 
 Status place_choose_trees(Placing *p, Diag *diag)
 {
-    Status status;
-
-    CHECK(choose_tree(p, TREE_ROTATION, diag));
-    CHECK(choose_tree(p, TREE_TRANSLATION, diag));
-done:
-    return status;
+    TRY(choose_tree(p, TREE_ROTATION, diag));
+    return choose_tree(p, TREE_TRANSLATION, diag);
 }
 
 bool place_turns(const Placing *p, int link)

@@ -3,7 +3,6 @@
 #include "simulate/assemble/initial_impl.h"
 
 #include <math.h>
-#include <string.h>
 
 Status initial_driven(const Assembly *a, Expr prescribed, double *out, Diag *diag)
 {

@@ -1,7 +1,6 @@
 /* mode_search.c: sides of ideal switches behind an instant */
 #include "simulate/assemble/mode_search_impl.h"
 
-#include "algebra/linear.h"
 #include "base/text.h"
 
 #include <math.h>

@@ -5,7 +5,6 @@
 #include "algebra/sparse.h"
 #include "base/memory.h"
 
-#include <float.h>
 #include <string.h>
 
 #define FEW 100 /* states, up to which dense factors beat sparse ones of all unknowns */

@@ -7,11 +7,9 @@
  * that tells where a state jumps. */
 #include "simulate/run/charge_sharing.h"
 
-#include "algebra/linear.h"
 #include "base/memory.h"
 #include "base/random.h"
 
-#include <float.h>
 #include <math.h>
 #include <string.h>
 

@@ -117,8 +117,6 @@ done:
 
 static Status read_values(Events *events, EventItem *item, const Event *event, Diag *diag)
 {
-    Status status = OK;
-
     item->first_value = events->values.count;
     if (event->action == EVENT_SET && events->plan.kind != RUN_SIMULATE) {
         (void)diag_set(diag, E_MODEL, "new values are for `simulate`: here drivers say the motion");
@@ -129,14 +127,13 @@ static Status read_values(Events *events, EventItem *item, const Event *event, D
         const NewValue *value = &event->values[i];
         Expr resolved = NULL;
 
-        CHECK(reinit_add(events->reinit, value->name, value->primes, diag));
-        CHECK(system_resolve(events->plan.layout->system, value->value, &resolved, diag));
-        CHECK(check_known(events, resolved, diag));
+        TRY(reinit_add(events->reinit, value->name, value->primes, diag));
+        TRY(system_resolve(events->plan.layout->system, value->value, &resolved, diag));
+        TRY(check_known(events, resolved, diag));
         LIST_PUSH(events->values, resolved);
         item->value_count++;
     }
-done:
-    return status;
+    return OK;
 }
 
 static Status read_event(Events *events, const Event *event, Diag *diag)
@@ -548,17 +545,13 @@ static Status apply_values(Events *events, double t, const bool *due, double *y,
 static Status happen_once(Events *events, double t, double span, bool *due, double *y,
                           bool *changed, bool *stop, Diag *diag)
 {
-    Status status = OK;
-
     for (int i = 0; i < events->items.count; i++)
         if (due[i]) {
             note(&events->items.at[i], t);
             *stop = *stop || events->items.at[i].action == EVENT_STOP;
-            CHECK(check_pace(&events->items.at[i], t, span, diag));
+            TRY(check_pace(&events->items.at[i], t, span, diag));
         }
-    CHECK(apply_values(events, t, due, y, changed, diag));
-done:
-    return status;
+    return apply_values(events, t, due, y, changed, diag);
 }
 
 static Status without_end(const Events *events, double t, const bool *due, Diag *diag)
@@ -633,7 +626,6 @@ Status events_take(Events *events, double t, double span, const double *y, bool 
                    bool *stop, Diag *diag)
 {
     const double *holding = roots_at(events, events->holding, t, y);
-    Status status = OK;
 
     *happened = *stop = false;
     for (int i = 0; i < events->items.count && holding != NULL; i++) {
@@ -644,10 +636,9 @@ Status events_take(Events *events, double t, double span, const double *y, bool 
             note(item, t);
             *happened = true;
             *stop = *stop || item->action == EVENT_STOP;
-            CHECK(check_pace(item, t, span, diag));
+            TRY(check_pace(item, t, span, diag));
         }
         item->course.holds = now;
     }
-done:
-    return status;
+    return OK;
 }

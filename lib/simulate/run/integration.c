@@ -1,8 +1,6 @@
 /* integration.c: the loop of a forward run: rows, steps, segments */
 #include "simulate/run/integration_impl.h"
 
-#include "algebra/linear.h"
-
 #include <math.h>
 #include <string.h>
 
@@ -15,18 +13,16 @@ static Status hand_over(Integration *m, RemarkKind why, Diag *diag)
 {
     const Method *stiff = m->segment.stiff;
     const double t = m->stepper->t, next = m->stepper->next;
-    Status status = OK;
 
     memcpy(m->y, m->stepper->y, (size_t)m->length * sizeof(double));
     remarks_add(&m->out->remarks, (Remark){.kind = why, .t = t, .what = stiff->name});
     integration_give_up_stepper(m);
     m->stepper = integration_new_stepper(m, stiff);
     m->out->method = stiff;
-    CHECK(stiff->start(m->stepper, t, m->y, diag));
+    TRY(stiff->start(m->stepper, t, m->y, diag));
     if (why == REMARK_STIFF)
         m->stepper->next = next; /* until something jumps, no other is as good a guess */
-done:
-    return status;
+    return OK;
 }
 
 /* The accelerations stay the same, so that a stepper needn't know, except where multipliers of rows
@@ -108,11 +104,10 @@ static Status make_headway(Integration *m, Diag *diag)
 
 static Status one_step(Integration *m, double end, Diag *diag)
 {
-    Status status = OK;
     double when = 0;
     int agains = 0;
 
-    CHECK(seeing_step(m, end, diag));
+    TRY(seeing_step(m, end, diag));
     learn_beginning(m);
     m->scanned = m->stepper->before;
     while (integration_state_conditions(m) > 0) {
@@ -127,19 +122,18 @@ static Status one_step(Integration *m, double end, Diag *diag)
         }
         bool again = agains++ < AGAINS;
 
-        CHECK(integration_is_of_event(m, i) ? integration_meet_event(m, i, when, &again, diag)
-                                            : integration_meet_switch(m, i, when, &again, diag));
+        TRY(integration_is_of_event(m, i) ? integration_meet_event(m, i, when, &again, diag)
+                                          : integration_meet_switch(m, i, when, &again, diag));
         if (!again)
             return OK;
     }
-    CHECK(integration_add_rows(m, diag));
-    CHECK(make_headway(m, diag));
-    CHECK(renew(m, diag));
+    TRY(integration_add_rows(m, diag));
+    TRY(make_headway(m, diag));
+    TRY(renew(m, diag));
     if (m->plan->method == NULL && m->stepper->is_stiff &&
         (m->segment.stiff->is_a_stable || !m->stepper->swings))
-        CHECK(hand_over(m, REMARK_STIFF, diag));
-done:
-    return status;
+        TRY(hand_over(m, REMARK_STIFF, diag));
+    return OK;
 }
 
 /* --- intervals between jumps --- */
@@ -178,7 +172,6 @@ static Status all_intervals(Integration *m, Diag *diag)
 {
     const IntegrationPlan *plan = m->plan;
     bool entered;
-    Status status = OK;
 
     for (int i = 0; i <= m->jumps.count && !m->is_over; i++) {
         bool last = i == m->jumps.count;
@@ -187,47 +180,44 @@ static Status all_intervals(Integration *m, Diag *diag)
         m->high = last ? INFINITY : end;
         /* jumps that rounding alone tells apart are one */
         if (end - m->stepper->t > 1e-13 * (plan->to - plan->from)) {
-            CHECK(integration_go_on(m, m->stepper->t, m->stepper->y, &entered, diag));
-            CHECK(integrate_interval(m, fmin(end, plan->to), diag));
+            TRY(integration_go_on(m, m->stepper->t, m->stepper->y, &entered, diag));
+            TRY(integrate_interval(m, fmin(end, plan->to), diag));
         }
         if (!last && !m->is_over) {
             m->low = fmax(m->low, m->jumps.at[i].behind);
-            CHECK(integration_meet_time(m, m->jumps.at[i], diag));
-            CHECK(take_samples(m, m->jumps.at[i].before, diag));
+            TRY(integration_meet_time(m, m->jumps.at[i], diag));
+            TRY(take_samples(m, m->jumps.at[i].before, diag));
         }
     }
-done:
-    return status;
+    return OK;
 }
 
 static Status run(Integration *m, const double *start, Diag *diag)
 {
     const IntegrationPlan *plan = m->plan;
     bool due = false;
-    Status status = OK;
 
     memcpy(m->y, start, (size_t)m->length * sizeof(double));
     if (!plan->is_sampled)
-        CHECK(samples_take(m->segment.samples, plan->from, m->y, &due, diag));
+        TRY(samples_take(m->segment.samples, plan->from, m->y, &due, diag));
     motion_partition(m->segment.motion, plan->from, m->y);
     memcpy(m->stepper->y, m->y, (size_t)m->length * sizeof(double));
     m->stepper->t = plan->from;
-    CHECK(integration_settle_surfaces(m, &due, diag));
+    TRY(integration_settle_surfaces(m, &due, diag));
     memcpy(m->y, m->stepper->y, (size_t)m->length * sizeof(double));
     if (!plan->skip_first && !integration_add_row(m, plan->from))
         return solver_failure(diag, plan->from, "the start does not meet the constraints");
     if (events_count(m->ev) > 0)
-        CHECK(integration_begin_events(m, diag));
-    CHECK(integration_find_jumps(m, diag));
-    CHECK(all_intervals(m, diag));
+        TRY(integration_begin_events(m, diag));
+    TRY(integration_find_jumps(m, diag));
+    TRY(all_intervals(m, diag));
     /* a row on the very end that rounding, or a switch on it, left out */
     if (!m->is_over) {
         if (plan->to - m->stepper->t <= 1e-12 * (plan->to - plan->from))
             m->stepper->t = plan->to;
-        CHECK(integration_add_rows(m, diag));
+        TRY(integration_add_rows(m, diag));
     }
-done:
-    return status;
+    return OK;
 }
 
 Status integrate(const IntegrationPlan *plan, const double *start, Grid *grid,

@@ -20,14 +20,13 @@ Status integration_take_events(Integration *m, double t, int *sides, bool *chang
 {
     double span = m->plan->to - m->plan->from;
     int first = m->eq->switch_count;
-    Status status = OK;
 
     *changed = false;
     if (events_follow(m->ev, sides)) {
-        CHECK(add_instant(m, t, false, diag));
-        CHECK(events_happen(m->ev, t, span, m->y, sides, changed, &m->is_over, diag));
+        TRY(add_instant(m, t, false, diag));
+        TRY(events_happen(m->ev, t, span, m->y, sides, changed, &m->is_over, diag));
         if (*changed)
-            CHECK(add_instant(m, t, true, diag));
+            TRY(add_instant(m, t, true, diag));
     }
     for (int i = first; i < m->count; i++)
         m->mode[i] = sides[i - first];
@@ -37,8 +36,7 @@ Status integration_take_events(Integration *m, double t, int *sides, bool *chang
             m->band[i] = fmax(10 * fabs(m->conditions[i]), EVENT_NOISE * m->largest[i]);
     m->stepper->t = t;
     memcpy(m->stepper->y, m->y, (size_t)m->length * sizeof(double));
-done:
-    return status;
+    return OK;
 }
 
 bool integration_matters(Integration *m, int i)

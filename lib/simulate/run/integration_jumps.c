@@ -71,18 +71,16 @@ static Status count_changes(Integration *m, int i, int samples, int *out, Diag *
 {
     double from = m->plan->from, to = m->plan->to;
     int sign = 0;
-    Status status = OK;
 
     *out = 0;
     for (int k = 0; k <= samples; k++) {
         int now = sign_of(time_condition(m, i, from + (to - from) * k / samples));
 
-        CHECK(look_who_waits(m, k, diag));
+        TRY(look_who_waits(m, k, diag));
         *out += now * sign < 0;
         sign = now != 0 ? now : sign;
     }
-done:
-    return status;
+    return OK;
 }
 
 /* So many samples that more of them see no more changes. */
@@ -90,7 +88,6 @@ static Status find_samples(Integration *m, int i, int *out, Diag *diag)
 {
     double samples = fmax(SAMPLES, 16 * (m->plan->to - m->plan->from) / m->plan->every);
     int before = -2, changes = -1;
-    Status status = OK;
 
     for (samples = fmin(samples, MOST); before != changes;) {
         if (samples > MOST) {
@@ -100,12 +97,11 @@ static Status find_samples(Integration *m, int i, int *out, Diag *diag)
             return E_SOLVER;
         }
         before = changes;
-        CHECK(count_changes(m, i, (int)samples, &changes, diag));
+        TRY(count_changes(m, i, (int)samples, &changes, diag));
         *out = (int)samples;
         samples = ceil((changes > samples / 4 ? COARSE : FINER) * samples);
     }
-done:
-    return status;
+    return OK;
 }
 
 static Status find_jumps_of(Integration *m, int i, Diag *diag)
@@ -114,9 +110,8 @@ static Status find_jumps_of(Integration *m, int i, Diag *diag)
     int samples = 0;
     int sign = sign_of(time_condition(m, i, from));
     double last = from;
-    Status status = OK;
 
-    CHECK(find_samples(m, i, &samples, diag));
+    TRY(find_samples(m, i, &samples, diag));
     if (sign == 0) { /* a switch at the start lies behind us */
         double behind = nextafter(from, INFINITY);
 
@@ -128,7 +123,7 @@ static Status find_jumps_of(Integration *m, int i, Diag *diag)
         double t = k == samples ? to : from + (to - from) * k / samples;
         int now = sign_of(time_condition(m, i, t));
 
-        CHECK(look_who_waits(m, k, diag));
+        TRY(look_who_waits(m, k, diag));
         if (now != sign) {
             Jump jump = narrow(m, i, sign, last, t);
 
@@ -141,8 +136,7 @@ static Status find_jumps_of(Integration *m, int i, Diag *diag)
         }
         last = t;
     }
-done:
-    return status;
+    return OK;
 }
 
 Status integration_find_jumps(Integration *m, Diag *diag)
@@ -150,7 +144,6 @@ Status integration_find_jumps(Integration *m, Diag *diag)
     int count = equations_in_time(m)->time_only + events_time_only(m->ev);
     double t = samples_next(m->segment.samples, m->plan->from);
     const Jumps *known = m->plan->jumps;
-    Status status = OK;
 
     /* what is due at the start is sampled before it */
     for (int i = 0; known != NULL && i < known->count; i++)
@@ -165,9 +158,8 @@ Status integration_find_jumps(Integration *m, Diag *diag)
         t = samples_next(m->segment.samples, t);
     }
     for (int i = 0; i < count; i++)
-        CHECK(find_jumps_of(m, i, diag));
+        TRY(find_jumps_of(m, i, diag));
     if (m->jumps.count > 0)
         qsort(m->jumps.at, (size_t)m->jumps.count, sizeof(Jump), compare_jumps);
-done:
-    return status;
+    return OK;
 }

@@ -1,8 +1,6 @@
 /* integration_rows.c: rows of a forward run, from the interpolant of its last step */
 #include "simulate/run/integration_impl.h"
 
-#include "algebra/linear.h"
-
 #include <math.h>
 #include <string.h>
 
@@ -55,14 +53,11 @@ Status integration_add_rows(Integration *m, Diag *diag)
 
 Status integration_cut(Integration *m, double t, Diag *diag)
 {
-    Status status = OK;
-
-    CHECK(add_rows_to(m, t, diag)); /* while the interpolant has its end */
+    TRY(add_rows_to(m, t, diag)); /* while the interpolant has its end */
     m->stepper->method->at(m->stepper, t, m->y);
     if (!motion_project(m->segment.motion, t, m->y))
-        CHECK(solver_failure(diag, t, "the constraints can't be met"));
+        TRY(solver_failure(diag, t, "the constraints can't be met"));
     memcpy(m->stepper->y, m->y, (size_t)m->length * sizeof(double));
     m->stepper->t = t;
-done:
-    return status;
+    return OK;
 }

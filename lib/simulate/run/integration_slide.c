@@ -4,7 +4,6 @@
 #include "algebra/linear.h"
 
 #include <math.h>
-#include <string.h>
 
 #define NEAR     1e-10 /* of a condition's largest size: as location leaves it */
 #define ROUNDING 1e-14 /* of y */

@@ -197,7 +197,6 @@ Status mode_switch_phase(ActiveRun *r, const Setting *setting, const bool *close
     int count = system_ideal_count(r->system);
     Phase *phase = NULL;
     System *system;
-    Status status = OK;
 
     for (int i = 1; i < r->phases->count; i++)
         if (r->phases->at[i]->on_count == 0 &&
@@ -205,17 +204,15 @@ Status mode_switch_phase(ActiveRun *r, const Setting *setting, const bool *close
             *out = r->phases->at[i];
             return OK;
         }
-    CHECK(system_mode(r->system, setting->scene, closed, setting->watch, &system, diag));
+    TRY(system_mode(r->system, setting->scene, closed, setting->watch, &system, diag));
     for (int i = 1; i < r->phases->count; i++)
         if (r->phases->at[i]->system == system && r->phases->at[i]->on_count == 0) {
             *out = phase_new_like(r->phases->at[i], closed, count);
             LIST_PUSH(*r->phases, *out);
             return OK;
         }
-    CHECK(phase_new(system, &r->phases->parameters, closed, count, &phase, diag));
-    status = add_phase(r, setting, phase, out, diag);
-done:
-    return status;
+    TRY(phase_new(system, &r->phases->parameters, closed, count, &phase, diag));
+    return add_phase(r, setting, phase, out, diag);
 }
 
 /* whether a phase stays on these sides of surfaces */
@@ -257,7 +254,6 @@ Status mode_switch_phase_on(ActiveRun *r, const Setting *setting, System *system
     mem_keep(r);
     int ideals = system_ideal_count(r->system);
     Phase *shared, *phase = NULL;
-    Status status = OK;
 
     *out = find_on(r, system, closed, on, count, &shared);
     if (*out != NULL)
@@ -267,10 +263,8 @@ Status mode_switch_phase_on(ActiveRun *r, const Setting *setting, System *system
         LIST_PUSH(*r->phases, *out);
         return OK;
     }
-    CHECK(phase_new_on(system, &r->phases->parameters, closed, ideals, on, count, &phase, diag));
-    status = add_phase(r, setting, phase, out, diag);
-done:
-    return status;
+    TRY(phase_new_on(system, &r->phases->parameters, closed, ideals, on, count, &phase, diag));
+    return add_phase(r, setting, phase, out, diag);
 }
 
 /* --- the start --- */
@@ -457,16 +451,14 @@ static Status begin_phase(ActiveRun *r, const Setting *setting, const ModeSearch
                           bool *closed, Diag *diag)
 {
     Phase *phase;
-    Status status = OK;
 
-    CHECK(mode_search_find(r->mode_search, at, closed, diag));
-    CHECK(mode_switch_phase(r, setting, closed, &phase, diag));
+    TRY(mode_search_find(r->mode_search, at, closed, diag));
+    TRY(mode_switch_phase(r, setting, closed, &phase, diag));
     r->phase = phase;
     mem_free(r->begin);
     r->begin = NEW_ARRAY(double, phase->length);
     enter(phase, r->result->start.y, at->x, at->references, 0, r->begin);
-done:
-    return status;
+    return OK;
 }
 
 Status mode_switch_begin(ActiveRun *r, const Setting *setting, Diag *diag)
@@ -523,17 +515,15 @@ Status mode_switch_events(ActiveRun *r, const Phase *now, const Phase *next, con
 {
     mem_keep(r);
     Events **theirs = &next->like->events;
-    Status status = OK;
 
     if (*events == NULL || next->like == now->like)
         return OK;
     if (*theirs == NULL)
-        CHECK(active_run_events(r, next, NULL, 0, setting, theirs, diag));
+        TRY(active_run_events(r, next, NULL, 0, setting, theirs, diag));
     if (*theirs != *events)
         events_hand_over(*theirs, *events);
     *events = *theirs;
-done:
-    return status;
+    return OK;
 }
 
 /* The phase that a run goes over to at t. Where there is none the run ends there, and keeps what it
@@ -591,31 +581,28 @@ static Status go_over(ModeSwitching *c, double t, const ModeSearchAt *at, double
 {
     ActiveRun *r = c->run;
     const size_t bytes = (size_t)system_ideal_count(r->system) * sizeof(bool);
-    Status status = OK;
 
     for (int round = 0; round < ROUNDS; round++) {
         Entering entry = {.t = t, .step = at->step, .before = from->closed, .may_share = true};
         double *entered;
 
-        CHECK(next_phase(c, t, closed, out, diag));
+        TRY(next_phase(c, t, closed, out, diag));
         entered = NEW_ARRAY(double, (*out)->length);
         enter(*out, y, x, y + layout_references(from->layout), y[from->length - 1], entered);
         mode_switching_free(c);
         c->y = entered;
-        CHECK(check_impulse(r, *out, &entry, c->y, x, diag));
+        TRY(check_impulse(r, *out, &entry, c->y, x, diag));
         if (!entry.shared)
-            goto done;
+            return OK;
         mode_search_calm(r->mode_search);
         memcpy(x_behind, x, (size_t)phases_whole(r->phases)->layout->nx * sizeof(double));
-        CHECK(mode_search_find(r->mode_search, at, closed, diag));
+        TRY(mode_search_find(r->mode_search, at, closed, diag));
         if (memcmp(closed, (*out)->closed, bytes) == 0)
-            goto done;
+            return OK;
         from = *out;
         y = c->y;
     }
-    status = solver_failure(diag, t, "what is shared makes ideal switches go over without end");
-done:
-    return status;
+    return solver_failure(diag, t, "what is shared makes ideal switches go over without end");
 }
 
 /* Sides as they are a step on, where all goes on from (t, y) as it did: into `closed`, states then
