@@ -7,6 +7,9 @@
 #include <string.h>
 
 struct Residual {
+    int uses;  /* by those who asked for it, and the arena */
+    Expr *key; /* the order's roots, unknowns and inputs; NULL: it isn't kept */
+    int input_count;
     Program *program;
     int row_count, unknown_count;
     int first_slope;
@@ -106,15 +109,107 @@ static Expr *list_inputs(const ResidualOrder *order, Residual *r, const Roots *r
     return inputs;
 }
 
-Status residual_new(const ResidualOrder *order, Residual **out, Diag *diag)
+/* --- those made before --- */
+
+/* operations from which on compiling takes longer than looking whether it has been done */
+enum { WORTH_KEEPING = 2000 };
+
+static uint64_t mix(uint64_t h, const Expr *symbols, int count, uint32_t *newest)
+{
+    h = (h ^ (uint64_t)count) * 0x9E3779B97F4A7C15U;
+    for (int i = 0; i < count; i++) {
+        const uint32_t number = expr_number(symbols[i]);
+
+        h = (h ^ number) * 0xFF51AFD7ED558CCDU;
+        h ^= h >> 32;
+        *newest = number > *newest ? number : *newest;
+    }
+    return h;
+}
+
+static uint64_t hash_order(const ResidualOrder *order, uint32_t *newest)
+{
+    uint64_t h = mix((uint64_t)order->row_count, order->roots, order->root_count, newest);
+
+    h = mix(h, order->unknowns, order->unknown_count, newest);
+    return mix(h, order->inputs, order->input_count, newest);
+}
+
+static bool same_part(const Expr *key, const Expr *asked, int count)
+{
+    return count == 0 || memcmp(key, asked, (size_t)count * sizeof(Expr)) == 0;
+}
+
+static bool is_of(const void *object, const void *asked)
+{
+    const Residual *r = object;
+    const ResidualOrder *order = asked;
+    const Expr *unknowns = r->key + r->first_slope, *inputs = unknowns + r->unknown_count;
+
+    return r->row_count == order->row_count && r->first_slope == order->root_count &&
+           r->unknown_count == order->unknown_count && r->input_count == order->input_count &&
+           same_part(r->key, order->roots, order->root_count) &&
+           same_part(unknowns, order->unknowns, order->unknown_count) &&
+           same_part(inputs, order->inputs, order->input_count);
+}
+
+static int operations(const Program *program)
+{
+    int sum = 0;
+
+    for (Stage stage = 0; stage < STAGE_COUNT; stage++)
+        sum += program_operations(program, stage);
+    return sum;
+}
+
+static void copy_part(Expr **to, const Expr *from, int count)
+{
+    if (count > 0)
+        memcpy(*to, from, (size_t)count * sizeof(Expr));
+    *to += count;
+}
+
+static void release(void *residual)
+{
+    residual_free(residual);
+}
+
+static void keep(Residual *r, const ResidualOrder *order)
+{
+    Made made = {.object = r, .release = release};
+    Expr *to = r->key =
+        NEW_ARRAY(Expr, order->root_count + order->unknown_count + order->input_count);
+
+    copy_part(&to, order->roots, order->root_count);
+    copy_part(&to, order->unknowns, order->unknown_count);
+    copy_part(&to, order->inputs, order->input_count);
+    made.hash = hash_order(order, &made.newest);
+    r->uses++;
+    arena_add_made(order->arena, &made);
+}
+
+/* whether what is compiled are the roots as they stand */
+static bool is_plain(const ResidualOrder *order)
+{
+    for (int i = 0; order->put != NULL && i < order->root_count; i++)
+        if (order->put(order->context, order->roots[i]) != order->roots[i])
+            return false;
+    return true;
+}
+
+/* --- making --- */
+
+static Status make(const ResidualOrder *order, Residual **out, Diag *diag)
 {
     Residual *r = NEW(Residual);
     Roots roots = {0};
     Expr *inputs = NULL;
     Status status = OK;
 
+    r->uses = 1;
     r->row_count = order->row_count;
     r->unknown_count = order->unknown_count;
+    r->input_count = order->input_count;
     r->first_slope = order->root_count;
     for (int i = 0; i < order->root_count; i++)
         LIST_PUSH(roots, order->roots[i]);
@@ -133,13 +228,37 @@ done:
     return status;
 }
 
+Status residual_new(const ResidualOrder *order, Residual **out, Diag *diag)
+{
+    uint32_t newest = 0;
+    Residual *r = arena_find_made(order->arena, hash_order(order, &newest), is_of, order);
+    Status status = OK;
+
+    if (r != NULL && is_plain(order)) {
+        mem_keep(r);
+        r->uses++;
+        *out = r;
+        return OK;
+    }
+    CHECK(make(order, &r, diag));
+    if (operations(r->program) >= WORTH_KEEPING && is_plain(order))
+        keep(r, order);
+    *out = r;
+done:
+    return status;
+}
+
 void residual_free(Residual *r)
 {
     if (r == NULL)
         return;
+    mem_keep(r);
+    if (--r->uses > 0)
+        return;
     program_free(r->program);
     LIST_FREE(r->slopes);
     mem_free(r->parameters);
+    mem_free(r->key);
     mem_free(r);
 }
 

@@ -80,6 +80,17 @@ Expr instance_scalar(const Instance *instance, const char *name)
     return instance_value(instance, name)->at[0];
 }
 
+Expr instance_literal(const Instance *instance, Arena *arena, int param, int entry)
+{
+    Text name = {0};
+    Expr symbol;
+
+    text_addf(&name, "#%s.%s[%d]", instance->name, instance->row->params[param].name, entry);
+    symbol = expr_symbol(arena, name.at, SYMBOL_PARAMETER);
+    text_free(&name);
+    return symbol;
+}
+
 static Status check_number(const Instance *instance, const char *param, bool zero, Diag *diag)
 {
     Expr value = instance_scalar(instance, param);

@@ -303,6 +303,9 @@ int instance_input(const Instance *instance);
 const Value *instance_value(const Instance *instance,
                             const char *name);                    /* assert that the row has it */
 Expr instance_scalar(const Instance *instance, const char *name); /* its only entry */
+/* The parameter that stands for an entry of a value where equations don't hold its number:
+ * "#b1.mass[0]" */
+Expr instance_literal(const Instance *instance, Arena *arena, int param, int entry);
 /* Members of an instance of this family and row, in order: NULL at the end. Those of its
  * coordinates (Instance.coord) are not repeated here, unless the family has them anyway. */
 const Member *component_member(const Component *row, bool planar, int i);

@@ -47,6 +47,7 @@ struct Arena {
     LIST(Memory) memories;
     Slot *memory_slots;
     uint32_t memory_size;
+    LIST(Made) made; /* the one asked for last at the end */
     Expr zero;
     Expr one;
     int64_t limit;
@@ -405,6 +406,51 @@ void arena_remember(Arena *arena, Expr e, Expr symbol, Expr derivative)
                   (uint32_t)i + 1);
 }
 
+/* --- what was made of expressions --- */
+
+enum { MOST_MADE = 16 };
+
+/* take one out of the list; the others keep their order */
+static Made take_made(Arena *arena, int i)
+{
+    const Made taken = arena->made.at[i];
+
+    mem_keep(arena->made.at);
+    arena_keep_whole(arena);
+    arena->made.count--;
+    for (; i < arena->made.count; i++)
+        arena->made.at[i] = arena->made.at[i + 1];
+    return taken;
+}
+
+static void drop_made(Arena *arena, int i)
+{
+    const Made dropped = take_made(arena, i);
+
+    dropped.release(dropped.object);
+}
+
+void arena_add_made(Arena *arena, const Made *made)
+{
+    if (arena->made.count == MOST_MADE)
+        drop_made(arena, 0);
+    arena_keep_whole(arena);
+    LIST_PUSH(arena->made, *made);
+}
+
+void *arena_find_made(Arena *arena, uint64_t hash,
+                      bool (*is)(const void *object, const void *asked), const void *asked)
+{
+    for (int i = arena->made.count - 1; i >= 0; i--)
+        if (arena->made.at[i].hash == hash && is(arena->made.at[i].object, asked)) {
+            const Made found = take_made(arena, i);
+
+            LIST_PUSH(arena->made, found);
+            return found.object;
+        }
+    return NULL;
+}
+
 /* --- the arena --- */
 
 Arena *arena_new(void)
@@ -427,6 +473,9 @@ void arena_free(Arena *arena)
 {
     if (arena == NULL)
         return;
+    while (arena->made.count > 0)
+        drop_made(arena, arena->made.count - 1);
+    LIST_FREE(arena->made);
     pool_free(arena->pool);
     pool_free(arena->texts);
     MEM_FREE(arena->slots, arena->memory_slots);
@@ -501,6 +550,9 @@ ArenaMark *arena_mark(Arena *arena)
 void arena_release(Arena *arena, ArenaMark *mark)
 {
     arena_keep_whole(arena);
+    for (int i = arena->made.count - 1; i >= 0; i--)
+        if (arena->made.at[i].newest >= (uint32_t)mark->nodes)
+            drop_made(arena, i);
     while (arena->memories.count > mark->memories) {
         const Memory *memory = &arena->memories.at[arena->memories.count - 1];
 

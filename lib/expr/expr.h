@@ -82,6 +82,18 @@ typedef struct ArenaMark ArenaMark;
 ArenaMark *arena_mark(Arena *arena); /* new; given back to arena_release() or arena_keep() */
 void arena_release(Arena *arena, ArenaMark *mark);
 void arena_keep(Arena *arena, ArenaMark *mark);
+/* What somebody made of expressions, to be asked for again: the arena keeps the last few, each
+ * until a release takes a node that it was made of. `newest` is the greatest number of these. */
+typedef struct Made {
+    uint64_t hash;
+    uint32_t newest;
+    void *object;
+    void (*release)(void *object);
+} Made;
+void arena_add_made(Arena *arena, const Made *made);
+/* one of that hash for which `is` holds, or NULL */
+void *arena_find_made(Arena *arena, uint64_t hash,
+                      bool (*is)(const void *object, const void *asked), const void *asked);
 int64_t arena_nodes(const Arena *arena);
 size_t arena_bytes(const Arena *arena);
 

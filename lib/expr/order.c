@@ -50,6 +50,21 @@ static int order_hashes(Expr a, Expr b)
     return a->hash != b->hash ? order(a->hash, b->hash) : order(a->number, b->number);
 }
 
+/* By kind and making. Parameters that no user wrote, named #..., come behind those of the user's,
+ * in an order that doesn't tell when they were first asked for. */
+static int order_symbols(Expr a, Expr b)
+{
+    const SymbolData *one = node_symbol(a), *other = node_symbol(b);
+    const int first = order(one->kind, other->kind);
+    const bool own = one->name[0] == '#', others = other->name[0] == '#';
+
+    if (first != 0)
+        return first;
+    if (one->kind != SYMBOL_PARAMETER || (!own && !others))
+        return order(one->number, other->number);
+    return own && others ? order_hashes(a, b) : order(own, others);
+}
+
 static int bases_below(Expr a, Expr b);
 static int whole_below(Expr a, Expr b);
 
@@ -136,9 +151,7 @@ static int bases_below(Expr a, Expr b)
         first = number_compare(number_of(inner_a), number_of(inner_b));
         break;
     case EXPR_SYMBOL:
-        first = order(node_symbol(inner_a)->kind, node_symbol(inner_b)->kind);
-        if (first == 0)
-            first = order(node_symbol(inner_a)->number, node_symbol(inner_b)->number);
+        first = order_symbols(inner_a, inner_b);
         break;
     case EXPR_CALL:
         first = order(inner_a->op, inner_b->op);

@@ -4,6 +4,7 @@ libcore_la_SOURCES += \
 	lib/formulate/composite.c lib/formulate/composite_mass.c lib/formulate/composite_mass.h \
 	lib/formulate/constraints.c \
 	lib/formulate/law_ends.c \
+	lib/formulate/literals.c lib/formulate/literals.h \
 	lib/formulate/counting.c \
 	lib/formulate/critical.c \
 	lib/formulate/coordinate.c \

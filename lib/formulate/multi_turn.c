@@ -1,5 +1,6 @@
 /* multi_turn.c: turns of chords over any number of turns, as they were told (multi_turn_build.c) */
 #include "formulate/constraints.h"
+#include "formulate/origin.h"
 #include "formulate/system_impl.h"
 
 Expr multi_turn_whole(const System *system, int instance, int coordinate)
@@ -23,16 +24,26 @@ const WholeTurns *system_whole_turns(const System *system, int i)
 
 Expr system_plain(const System *system, Expr e)
 {
-    int count = system->constraints->counted.count;
-    Expr *symbols;
+    const Origin *origin = system->origin;
+    const int turns = system->constraints->counted.count, count = turns + origin->literals;
+    Expr *symbols, *values;
 
     if (count == 0 || (expr_kinds(e) & 1U << SYMBOL_PARAMETER) == 0)
         return e;
     symbols = NEW_ARRAY(Expr, count);
-    for (int i = 0; i < count; i++)
+    values = NEW_ARRAY(Expr, count);
+    for (int i = 0; i < turns; i++) {
         symbols[i] = system->constraints->counted.at[i].told.symbol;
-    e = expr_substitute(system->arena, e, symbols, NULL, count);
-    mem_free(symbols);
+        values[i] = expr_int(system->arena, 0);
+    }
+    for (int i = 1; i <= origin->literals; i++) {
+        const GivenParameter *literal = &origin->parameters.at[origin->parameters.count - i];
+
+        symbols[count - i] = literal->symbol;
+        values[count - i] = expr_real(system->arena, literal->value);
+    }
+    e = expr_substitute(system->arena, e, symbols, values, count);
+    MEM_FREE(symbols, values);
     return e;
 }
 

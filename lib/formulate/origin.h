@@ -35,7 +35,9 @@ typedef struct Origin {
     const char **output_names;
     Expr *outputs;
     int output_count;
-    LIST(GivenParameter) parameters; /* as they were */
+    LIST(GivenParameter) parameters; /* as they were: the user's, then literals */
+    int literals;
+    bool asks_literals, is_small; /* it has them where the scene is large enough */
 } Origin;
 
 void origin_free(Origin *origin); /* NULL is fine */

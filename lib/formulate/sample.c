@@ -12,6 +12,30 @@
 
 #include <math.h>
 
+static int larger(int count, Expr symbol)
+{
+    return expr_symbol_number(symbol) < count ? count : expr_symbol_number(symbol) + 1;
+}
+
+/* for the symbols that have values */
+static void make_room(Sample *sample)
+{
+    const System *system = sample->system;
+
+    for (int i = 0; i < system->kinematics->q.count; i++)
+        sample->count = larger(sample->count, system->kinematics->q.at[i].symbol);
+    for (int i = 0; i < system->origin->parameters.count; i++)
+        sample->count = larger(sample->count, system->origin->parameters.at[i].symbol);
+    sample->value = pool_alloc(system->pool, (size_t)sample->count * sizeof(double));
+    for (int i = 0; i < sample->count; i++)
+        sample->value[i] = NAN;
+}
+
+static void put(Sample *sample, Expr symbol, double value)
+{
+    sample->value[expr_symbol_number(symbol)] = value;
+}
+
 Sample *sample_new(const System *system, uint64_t seed, bool vary)
 {
     Sample *sample = pool_alloc(system->pool, sizeof *sample);
@@ -28,13 +52,15 @@ Sample *sample_new(const System *system, uint64_t seed, bool vary)
         for (int k = 0; k < 4; k++)
             p[k] /= size;
     }
-    sample->parameter =
-        pool_alloc(system->pool, (size_t)system->origin->parameters.count * sizeof(double));
+    make_room(sample);
+    for (int i = 0; i < n; i++)
+        put(sample, system->kinematics->q.at[i].symbol, sample->q[i]);
     for (int i = 0; i < system->origin->parameters.count; i++) {
         double value = system->origin->parameters.at[i].value;
 
-        sample->parameter[i] =
-            vary ? value * (1 + 0.1 * random_unit(&seed)) + 0.1 * random_unit(&seed) : value;
+        if (vary)
+            value = value * (1 + 0.1 * random_unit(&seed)) + 0.1 * random_unit(&seed);
+        put(sample, system->origin->parameters.at[i].symbol, value);
     }
     return sample;
 }
@@ -44,12 +70,9 @@ static double symbol_value(void *context, Expr symbol)
     const Sample *sample = context;
     const System *system = sample->system;
 
-    for (int i = 0; i < system->kinematics->q.count; i++)
-        if (system->kinematics->q.at[i].symbol == symbol)
-            return sample->q[i];
-    for (int i = 0; i < system->origin->parameters.count; i++)
-        if (system->origin->parameters.at[i].symbol == symbol)
-            return sample->parameter[i];
+    if (expr_symbol_number(symbol) < sample->count &&
+        !isnan(sample->value[expr_symbol_number(symbol)]))
+        return sample->value[expr_symbol_number(symbol)];
     for (int i = 0; i < system->constraints->counted.count; i++)
         if (system->constraints->counted.at[i].told.symbol == symbol)
             return 0;

@@ -7,7 +7,8 @@
 typedef struct Sample { /* a random position */
     const System *system;
     double *q;
-    double *parameter; /* in order of system->parameters */
+    double *value; /* by numbers of symbols; NAN where there is none */
+    int count;
 } Sample;
 
 /* in the system's pool; `vary`: with other parameters too, for what holds whatever they are */

@@ -27,6 +27,7 @@ typedef struct SystemOptions {
     Expr gmin; /* S, beside every scalar edge whose through variable is an expression of its across
                   variable: where a search for its state may begin; NULL: none */
     const System *like; /* in the mode of this one; NULL: in none */
+    bool has_literals;  /* numbers of parts may stand in it as parameters (literals.h) */
     const Watch *watch;
 } SystemOptions;
 
@@ -45,6 +46,13 @@ MUST_USE Status system_new_view(const Scene *scene, const SystemOptions *options
 /* Whether the scalar trees are normal trees: then the form of the user's trees is state form. */
 bool system_tree_is_normal(const System *system);
 void system_free(const System *system); /* NULL is fine */
+/* Whether these are the equations of the scene too, which differs from that they were made of in
+ * numbers alone that stand in them as parameters: then they are of its revision from now on. What
+ * was formed of them stays. */
+bool system_follows(System *view, const Scene *scene);
+/* whether it serves who asks for a System with that option */
+bool system_serves(const System *system, bool has_literals);
+Expr system_literal(const System *system, int i); /* such a parameter; NULL at the end */
 uint64_t system_revision(const System *system);
 /* Of the scene as it is: of its revision, and what vanished when the equations were made vanishes
  * with the parameters of now, of which `number` evaluates expressions. */
@@ -111,7 +119,7 @@ typedef struct WholeTurns {
 } WholeTurns;
 int system_whole_turns_count(const System *system);
 const WholeTurns *system_whole_turns(const System *system, int i);
-/* The same expression for a reader, who isn't told of whole turns. */
+/* The same expression for a reader, who isn't told of whole turns, and of numbers as such. */
 Expr system_plain(const System *system, Expr e);
 
 /* An angle that a constraint compares by its sine alone, which half a turn off holds too: how far

@@ -4,6 +4,7 @@
 #include "formulate/dynamics.h"
 #include "formulate/ideal.h"
 #include "formulate/kinematics.h"
+#include "formulate/literals.h"
 #include "formulate/network.h"
 #include "formulate/origin.h"
 #include "formulate/shown.h"
@@ -438,6 +439,8 @@ static void take_scene(System *system, const Making *making)
                   (GivenParameter){scene->parameters.at[i].symbol, scene->parameters.at[i].value});
     copy_instances(system, scene);
     enter_names(system);
+    system->origin->asks_literals = options->has_literals;
+    literals_put(system, scene);
     if (options->vary != NULL)
         vary_values(system, options->vary, options->context);
     copy_outputs(system, scene);
@@ -542,7 +545,7 @@ Status system_new_view(const Scene *scene, const SystemOptions *options, System 
 static Status make_sided(System *whole, SceneSource source, const bool *closed, const Watch *watch,
                          System **out, Diag *diag)
 {
-    const SystemOptions options = {.watch = watch};
+    const SystemOptions options = {.watch = watch, .has_literals = whole->origin->asks_literals};
     Scene scene = {0};
     System *made;
     Status status = OK;

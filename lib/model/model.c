@@ -326,8 +326,11 @@ Expr model_parameter(const Model *model, int i, Expr *definition)
 static double symbol_value(void *context, Expr symbol)
 {
     State *state = context;
-    const Thing *thing = state_thing(state, expr_name(symbol));
+    const Thing *thing;
 
+    if (expr_name(symbol)[0] == '#')
+        return state_literal(state, expr_name(symbol));
+    thing = state_thing(state, expr_name(symbol));
     if (expr_symbol_kind(symbol) != SYMBOL_PARAMETER || thing == NULL ||
         thing->kind != THING_DEFINITION)
         return (double)NAN;

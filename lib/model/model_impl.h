@@ -353,6 +353,8 @@ double definition_value(State *state, int definition);
 void definitions_forget_values(State *state); /* of parameters: they follow from one another */
 /* an expression of parameters alone, as they are now */
 double state_number(State *state, Expr body);
+/* the number that stands in a part's value, by the name that instance_literal() gave it */
+double state_literal(State *state, const char *name);
 /* a new last line; takes over the uses of the scope (NULL: none) */
 int line_add(State *state, const char *text, int definition, int part, const Scope *scope);
 void line_uses(State *state, Line *line, const Scope *scope);

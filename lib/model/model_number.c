@@ -2,6 +2,7 @@
 #include "model/model_impl.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 Definition *definition_find(const State *state, const char *name, DefinitionKind kind)
@@ -27,6 +28,31 @@ static double known_value(void *context, Expr symbol)
     const Definition *d = definition_find(state, expr_name(symbol), DEFINES_PARAMETER);
 
     return d != NULL ? d->value : (double)NAN;
+}
+
+double state_literal(State *state, const char *name)
+{
+    const char *dot = strrchr(name, '.'), *bracket = strrchr(name, '[');
+    double value = NAN;
+    char *owner, *key;
+    const Instance *part;
+    int param;
+
+    if (dot == NULL || bracket == NULL || bracket < dot)
+        return value;
+    owner = mem_text(name + 1, (size_t)(dot - name) - 1);
+    key = mem_text(dot + 1, (size_t)(bracket - dot) - 1);
+    part = state_part(state, owner);
+    param = part != NULL ? component_param(part->row, key) : -1;
+    if (param >= 0) {
+        const int entry = (int)strtol(bracket + 1, NULL, 10);
+
+        if (entry < part->values[param].count)
+            value = expr_evaluate(part->values[param].at[entry], known_value, state);
+    }
+    mem_free(owner);
+    mem_free(key);
+    return value;
 }
 
 /* push the parameters that must be known first; whether there were any */

@@ -123,11 +123,11 @@ Status session_try_trees(ct_session *session, Diag *diag)
     Result *result = NULL;
     System *system;
     Diag why;
-    Status status = session_system(session, &system, &why);
+    Status status = session_running(session, &system, &why);
 
     if (status != OK)
         return OK;
-    run_input_make(session, &input);
+    run_input_make(session, system, &input);
     status = session_check_freedoms(session, system, &input.setting, &why);
     if (status == E_BRANCH && diag != NULL)
         *diag = why;

@@ -18,6 +18,7 @@
 /* Values of parameters when a run began; lives as long as the run. */
 typedef struct ParameterValues {
     const Model *model; /* for parameters made later */
+    LIST(int) places;   /* by numbers of symbols: plus 1; 0 where none is kept */
     LIST(Expr) symbols;
     LIST(double) values;
 } ParameterValues;
@@ -97,6 +98,8 @@ void session_remark_result(ct_session *session, const Result *result);
 
 /* the equations of the model as it is; borrowed */
 MUST_USE Status session_system(ct_session *session, System **out, Diag *diag);
+/* the same to be run: of a large model numbers of parts are parameters there */
+MUST_USE Status session_running(ct_session *session, System **out, Diag *diag);
 /* The equations that are shown: those of the trees as they are, also where a run takes a network
  * in state form. */
 MUST_USE Status session_shown(ct_session *session, System **out, Diag *diag);
@@ -147,8 +150,10 @@ typedef struct RunInput {
     Setting setting;
 } RunInput;
 bool input_is_in_force(const ct_session *session, int start); /* an initial value of the model */
-void run_input_make(ct_session *session, RunInput *input);
-void run_input_free(RunInput *input); /* what it holds */
+/* to run that System */
+void run_input_make(ct_session *session, const System *system, RunInput *input);
+void run_input_go_on(RunInput *input, const Run *old); /* with the numbers of parts that that had */
+void run_input_free(RunInput *input);                  /* what it holds */
 /* Watch where the laws of the system's parts end, in the run of this input; `old`: the one
  * that it goes on with, or NULL. Afterwards: E_SOLVER, with the part and what came to 0, where one
  * did; else the status that the run had. */

@@ -3,18 +3,27 @@
 
 /* --- parameters --- */
 
-static ParameterValues *parameters_now(const Model *model)
+static void keep_value(ParameterValues *values, Expr symbol)
+{
+    LIST_PUSH(values->symbols, symbol);
+    LIST_PUSH(values->values, model_parameter_value(values->model, symbol));
+    while (values->places.count <= expr_symbol_number(symbol))
+        LIST_PUSH(values->places, 0);
+    values->places.at[expr_symbol_number(symbol)] = values->symbols.count;
+}
+
+static ParameterValues *parameters_now(const Model *model, const System *system)
 {
     ParameterValues *values = NEW(ParameterValues);
 
     values->model = model;
     for (int i = 0; i < model_parameter_count(model); i++) {
         Expr definition;
-        const Expr symbol = model_parameter(model, i, &definition);
 
-        LIST_PUSH(values->symbols, symbol);
-        LIST_PUSH(values->values, model_parameter_value(model, symbol));
+        keep_value(values, model_parameter(model, i, &definition));
     }
+    for (int i = 0; system_literal(system, i) != NULL; i++)
+        keep_value(values, system_literal(system, i));
     return values;
 }
 
@@ -22,10 +31,11 @@ static ParameterValues *parameters_now(const Model *model)
 static double parameter_value(void *context, Expr symbol)
 {
     const ParameterValues *values = context;
+    const int number = expr_symbol_number(symbol);
+    const int at = number < values->places.count ? values->places.at[number] - 1 : -1;
 
-    for (int i = 0; i < values->symbols.count; i++)
-        if (values->symbols.at[i] == symbol)
-            return values->values.at[i];
+    if (at >= 0 && values->symbols.at[at] == symbol)
+        return values->values.at[at];
     return model_parameter_value(values->model, symbol);
 }
 
@@ -35,6 +45,7 @@ void run_free(Run *run)
     result_free(run->result);
     if (run->parameters != NULL) {
         mem_keep(run->parameters);
+        LIST_FREE(run->parameters->places);
         LIST_FREE(run->parameters->symbols);
         LIST_FREE(run->parameters->values);
     }
@@ -83,12 +94,12 @@ bool input_is_in_force(const ct_session *session, int i)
            model_start_statement(session->model, i) >= session->rests_since;
 }
 
-void run_input_make(ct_session *session, RunInput *input)
+void run_input_make(ct_session *session, const System *system, RunInput *input)
 {
     const Model *model = session->model;
     const int count = model_start_count(model);
 
-    input->parameters = parameters_now(model);
+    input->parameters = parameters_now(model, system);
     input->start.at = mem_array((size_t)count, sizeof *input->start.at);
     for (int i = 0; i < count; i++) {
         const Start *start = model_start(model, i);
@@ -115,6 +126,16 @@ void run_input_make(ct_session *session, RunInput *input)
                                .watch = &session->watch};
     input->setting.form =
         model_form(model, &input->setting.independent, &input->setting.independent_count);
+}
+
+void run_input_go_on(RunInput *input, const Run *old)
+{
+    const System *system = result_system(old->result);
+    ParameterValues *values = input->parameters;
+
+    for (int i = 0; system_literal(system, i) != NULL; i++)
+        values->values.at[values->places.at[expr_symbol_number(system_literal(system, i))] - 1] =
+            parameter_value(old->parameters, system_literal(system, i));
 }
 
 Run run_input_done(RunInput *input, Result *result, ResultReader *reader)

@@ -18,8 +18,8 @@ Status session_equilibrium(ct_session *session, const Statement *s, Diag *diag)
     Status status;
 
     (void)s;
-    CHECK(session_system(session, &system, diag));
-    run_input_make(session, &input);
+    CHECK(session_running(session, &system, diag));
+    run_input_make(session, system, &input);
     CHECK(run_equilibrium(system, &input.setting, &result, &reader, diag));
     session_forget_start(session);
     run_free(&session->rest);

@@ -162,8 +162,8 @@ static Status run_new(ct_session *session, const Statement *s, RunFunction *func
 
     CHECK(read_options(session, s, &options, diag));
     session->told = NULL;
-    CHECK(session_system(session, &system, diag));
-    run_input_make(session, &input);
+    CHECK(session_running(session, &system, diag));
+    run_input_make(session, system, &input);
     CHECK(session_check_freedoms(session, system, &input.setting, diag));
     if (function == run_simulate)
         watch_bounds(system, NULL, &input);
@@ -225,7 +225,8 @@ Status session_resume(ct_session *session, const Statement *s, Diag *diag)
     }
     old = &session->runs.at[session->runs.count - 1];
     options = options_from(old->result, &said);
-    run_input_make(session, &input);
+    run_input_make(session, result_system(old->result), &input);
+    run_input_go_on(&input, old);
     watch_bounds(result_system(old->result), old, &input);
     status = run_resume(old->result, &input.setting, &options, &result, &reader, diag);
     if (result != NULL) {

@@ -10,8 +10,8 @@ Status session_start(ct_session *session, Run **out, Diag *diag)
     Status status = OK;
 
     if (session->start.result == NULL) {
-        CHECK(session_system(session, &system, diag));
-        run_input_make(session, &input);
+        CHECK(session_running(session, &system, diag));
+        run_input_make(session, system, &input);
         CHECK(session_check_freedoms(session, system, &input.setting, diag));
         CHECK(run_assemble(system, &input.setting, &result, &reader, diag));
         session->start = run_input_done(&input, result, reader);

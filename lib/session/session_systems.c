@@ -82,13 +82,18 @@ static bool is_current(const ct_session *session, const System *system)
 
 void session_sweep(ct_session *session)
 {
+    const System *last = NULL;
     int kept = 0;
 
     mem_keep(session->systems.at);
+    for (int i = 0; i < session->systems.count; i++)
+        if (!system_serves(session->systems.at[i], false))
+            last = session->systems.at[i];
     for (int i = 0; i < session->systems.count; i++) {
         System *system = session->systems.at[i];
 
-        if (is_current(session, system) || is_named(session, system))
+        /* numbers may be all that has changed since the last one was made for a run */
+        if (is_current(session, system) || is_named(session, system) || system == last)
             session->systems.at[kept++] = system;
         else
             system_free(system);
@@ -96,21 +101,38 @@ void session_sweep(ct_session *session)
     session->systems.count = kept;
 }
 
-static Status system_of_form(ct_session *session, NetworkForm form, System **out, Diag *diag)
+/* one that there is; NULL: none. With the scene also one that it differs from in numbers alone. */
+static System *find_system(const ct_session *session, const SystemOptions *options,
+                           const Scene *scene)
 {
-    const SystemOptions options = {.form = form, .watch = &session->watch};
+    for (int i = session->systems.count - 1; i >= 0; i--) {
+        System *system = session->systems.at[i];
+
+        if (system_network_form(system) == options->form &&
+            system_serves(system, options->has_literals) &&
+            (scene == NULL || system_follows(system, scene)) && is_current(session, system))
+            return system;
+    }
+    return NULL;
+}
+
+static Status system_of_form(ct_session *session, NetworkForm form, bool has_literals, System **out,
+                             Diag *diag)
+{
+    const SystemOptions options = {
+        .form = form, .has_literals = has_literals, .watch = &session->watch};
     System *system = NULL;
     Scene scene = {0};
     Status status = OK;
 
-    for (int i = 0; i < session->systems.count; i++)
-        if (is_current(session, session->systems.at[i]) &&
-            system_network_form(session->systems.at[i]) == form) {
-            *out = session->systems.at[i];
-            return OK;
-        }
-    report(&session->watch, "equations", -1);
+    *out = find_system(session, &options, NULL);
+    if (*out != NULL)
+        return OK;
     CHECK(model_scene(session->model, &scene, diag));
+    *out = find_system(session, &options, &scene);
+    if (*out != NULL)
+        goto done;
+    report(&session->watch, "equations", -1);
     CHECK(system_new_view(&scene, &options, &system, diag));
     LIST_PUSH(session->systems, system);
     session_sweep(session);
@@ -122,8 +144,16 @@ done:
 
 Status session_system(ct_session *session, System **out, Diag *diag)
 {
-    return system_of_form(
-        session, (NetworkForm)model_setting_value(session->model, SETTING_NETWORK), out, diag);
+    return system_of_form(session,
+                          (NetworkForm)model_setting_value(session->model, SETTING_NETWORK), false,
+                          out, diag);
+}
+
+Status session_running(ct_session *session, System **out, Diag *diag)
+{
+    return system_of_form(session,
+                          (NetworkForm)model_setting_value(session->model, SETTING_NETWORK), true,
+                          out, diag);
 }
 
 Status session_shown(ct_session *session, System **out, Diag *diag)
@@ -134,7 +164,7 @@ Status session_shown(ct_session *session, System **out, Diag *diag)
     CHECK(session_system(session, out, diag));
     if (system_tree_is_normal(*out))
         return OK;
-    status = system_of_form(session, NETWORK_TREE, out, &why);
+    status = system_of_form(session, NETWORK_TREE, false, out, &why);
     if (status != OK && status != E_STOPPED) {
         Text line = {0};
 

@@ -2,10 +2,10 @@
  *
  * Both up to the programs that a run steps with. */
 #include "formulate/system.h"
+#include "model/model.h"
 #include "simulate/equations/numbers.h"
 
 #include "../random.h"
-#include "../unit/form.h"
 #include "bench.h"
 #include "bench_model.h"
 
@@ -38,7 +38,7 @@ static void add_link(Text *text, int i, bool planar, uint64_t *random)
     text_char(text, '\n');
 }
 
-static char *chain_text(bool planar, const char *tree)
+static char *chain_text(bool planar, const char *tree, bool loop)
 {
     Text text = {0};
     uint64_t random = 1993;
@@ -46,6 +46,9 @@ static char *chain_text(bool planar, const char *tree)
     text_add(&text, planar ? "scene planar\n" : "gravity [0, 0, -9.81]\n");
     for (int i = 0; i < LINKS; i++)
         add_link(&text, i, planar, &random);
+    if (loop)
+        text_addf(&text, "arm e b%d [0.4, 0.2%s]\narm g ground [3, 1%s]\nrevolute closing g e\n",
+                  LINKS - 1, planar ? "" : ", 0", planar ? "" : ", 0");
     text_addf(&text, "tree %s\n", tree);
     return text_done(&text);
 }
@@ -55,20 +58,38 @@ static double parameter(void *context, Expr symbol)
     return model_number(context, symbol);
 }
 
+/* Those of the model as it is, from those before an edit (or NULL): as a session does it. */
+static Status renew(const Model *model, System **system, Diag *diag)
+{
+    const SystemOptions options = {.has_literals = true};
+    Scene scene = {0};
+    System *made = NULL;
+    Status status = OK;
+
+    CHECK(model_scene(model, &scene, diag));
+    if (*system == NULL || !system_follows(*system, &scene)) {
+        CHECK(system_new_view(&scene, &options, &made, diag));
+        system_free(*system);
+        *system = made;
+    }
+done:
+    scene_free(&scene);
+    return status;
+}
+
 /* The equations and the programs that a run steps with: seconds. */
-static double form(Model *model)
+static double form(const Model *model, System **system)
 {
     const double began = bench_now();
-    System *system = NULL;
     Layout *layout = NULL;
-    Parameters parameters = {.value = parameter, .context = model};
+    Parameters parameters = {.value = parameter, .context = (void *)model};
     Numbers *numbers = NULL;
     Diag diag = {0};
     double took;
-    Status status = form_system(model, &system, &diag);
+    Status status = renew(model, system, &diag);
 
     if (status == OK) {
-        layout = layout_new(system);
+        layout = layout_new(*system);
         status = numbers_new(layout, &parameters, &numbers, &diag);
     }
     took = bench_now() - began;
@@ -77,58 +98,78 @@ static double form(Model *model)
     numbers_free(numbers);
     parameters_free(&parameters);
     layout_free(layout);
-    system_free(system);
     return took;
 }
 
-static void edit(Model *model, const char *line)
+static void edit(Model *model, const char *lines)
 {
-    Statement *statement = NULL;
     size_t next = 0;
-    Diag diag = {0};
 
-    if (statement_parse(line, 1, (SyntaxOptions){0}, &next, &statement, &diag) != OK ||
-        model_apply(model, statement, &diag) != OK)
-        printf("# %s\n", diag.message);
-    statement_free(statement);
+    while (next < strlen(lines)) {
+        Statement *statement = NULL;
+        Diag diag = {0};
+
+        if (statement_parse(lines, 1, (SyntaxOptions){0}, &next, &statement, &diag) != OK ||
+            model_apply(model, statement, &diag) != OK)
+            printf("# %s\n", diag.message);
+        statement_free(statement);
+    }
 }
 
-static void chain_line(bool planar, const char *tree, const char *what, double seconds)
+static void chain_line(bool planar, const char *tree, bool loop, const char *what, double seconds)
 {
     Text name = {0};
 
-    text_addf(&name, "edit.%s_%s_%d_%s", planar ? "planar" : "spatial", tree, LINKS, what);
+    text_addf(&name, "edit.%s_%s%s_%d_%s", planar ? "planar" : "spatial", tree, loop ? "_loop" : "",
+              LINKS, what);
     bench_line(name.at, 1e3 * seconds, "ms");
     text_free(&name);
 }
 
-static void bench_chain(bool planar, const char *tree)
-{
-    static const struct {
-        const char *what, *one, *other;
-    } edits[] = {
+static const struct Edit {
+    const char *what, *one, *other;
+} planar_edits[] =
+    {
         {"mass", "set b50.mass = 1.25", "set b50.mass = 1.75"},
-        {"length", "set h50.position = [-0.5, 0, 0.2]", "set h50.position = [-0.4, 0, 0.1]"},
-        {"joint", "set j50.axis = [0.5, 0.25, 1]", "set j50.axis = [0.25, 0.5, 1]"},
-    };
-    char *text = chain_text(planar, tree);
+        {"length", "set h50.position = [-0.5, 0]", "set h50.position = [-0.4, 0]"},
+        {"type", "delete j50; revolute j50 t50 h50", "delete j50; prismatic j50 t50 h50 axis=x"},
+},
+  spatial_edits[] = {
+      {"mass", "set b50.mass = 1.25", "set b50.mass = 1.75"},
+      {"length", "set h50.position = [-0.5, 0, 0.2]", "set h50.position = [-0.4, 0, 0.1]"},
+      {"joint", "set j50.axis = [0.5, 0.25, 1]", "set j50.axis = [0.25, 0.5, 1]"},
+      {"type", "delete j50; revolute j50 t50 h50", "delete j50; prismatic j50 t50 h50 axis=x"},
+};
+
+static void bench_chain(bool planar, const char *tree, bool loop)
+{
+    const struct Edit *edits = planar ? planar_edits : spatial_edits;
+    char *text = chain_text(planar, tree, loop);
     double least = 1e300;
     Model *model = NULL;
+    System *system = NULL;
 
     for (int i = 0; i < TRIES; i++) {
+        system_free(system);
+        system = NULL;
         model_free(model);
         model = bench_model(text);
-        least = fmin(least, form(model));
+        least = fmin(least, form(model, &system));
     }
-    chain_line(planar, tree, "anew", least);
-    for (int k = 0; k < (planar ? 1 : COUNT(edits)); k++) {
-        least = 1e300;
+    chain_line(planar, tree, loop, "anew", least);
+    for (int k = 0; k < (planar ? COUNT(planar_edits) : COUNT(spatial_edits)); k++) {
+        double sum = 0;
+
+        /* the mean of edits each of which changes something */
         for (int i = 0; i < TRIES; i++) {
             edit(model, i % 2 == 0 ? edits[k].one : edits[k].other);
-            least = fmin(least, form(model));
+            if (strcmp(edits[k].what, "type") == 0)
+                edit(model, "tree joint");
+            sum += form(model, &system);
         }
-        chain_line(planar, tree, edits[k].what, least);
+        chain_line(planar, tree, loop, edits[k].what, sum / TRIES);
     }
+    system_free(system);
     model_free(model);
     mem_free(text);
 }
@@ -138,8 +179,9 @@ int main(void)
     static const char *const trees[] = {"joint", "absolute"};
 
     for (int i = 0; i < COUNT(trees); i++) {
-        bench_chain(true, trees[i]);
-        bench_chain(false, trees[i]);
+        bench_chain(true, trees[i], false);
+        bench_chain(false, trees[i], false);
     }
+    bench_chain(true, "joint", true);
     return 0;
 }

@@ -3,7 +3,10 @@
  * One session shows and runs equations after each edit, another takes the same statements and is
  * asked at the end alone: what both print is the same, byte for byte, and so is what they run. A
  * joint that is made anew comes last among the coordinates, and stands among the terms of sums
- * where its name was first met: then the numbers are the same but for rounding. */
+ * where its name was first met: then the numbers are the same but for rounding.
+ *
+ * Large models hold numbers of parts as parameters of the equations: they move as those do whose
+ * numbers are the user's parameters. */
 #include "family.h"
 
 #include "../unit/session_kit.h"
@@ -19,7 +22,11 @@ typedef struct Draft {
     Member *member;
     bool planar;
     int bodies, springs;
+    bool is_large;
     bool is_reordered; /* a joint was made anew */
+    bool is_named;     /* numbers are parameters of the user's, */
+    Text parameters;   /* which these lines make */
+    int named;
 } Draft;
 
 /* what a user sees of it */
@@ -41,10 +48,25 @@ static double any(Draft *draft, double low, double high)
 }
 
 /* tenths, so that zeros and equal numbers occur */
+static void add_number(Draft *draft, Text *text, double low, double high)
+{
+    const double number = any(draft, low, high);
+
+    if (draft->is_named) {
+        text_addf(&draft->parameters, "p%d = %.1f\n", ++draft->named, number);
+        text_addf(text, "p%d", draft->named);
+    } else {
+        text_addf(text, "%.1f", number);
+    }
+}
+
 static void add_vector(Draft *draft, Text *text)
 {
-    text_addf(text, "[%.1f, %.1f", any(draft, -0.4, 0.4), any(draft, -0.4, 0.4));
-    text_addf(text, draft->planar ? "]" : ", %.1f]", any(draft, -0.4, 0.4));
+    for (int i = 0; i < (draft->planar ? 2 : 3); i++) {
+        text_add(text, i == 0 ? "[" : ", ");
+        add_number(draft, text, -0.4, 0.4);
+    }
+    text_add(text, "]");
 }
 
 static void add_axis(Draft *draft, Text *text)
@@ -75,18 +97,20 @@ static void add_joint(Draft *draft, Text *text, int i, int before)
 
 static void add_inertia(Draft *draft, Text *text)
 {
-    if (draft->planar)
-        text_addf(text, "%.1f", any(draft, 0.5, 1));
-    else
-        text_addf(text, "[%.1f, %.1f, %.1f]", any(draft, 0.5, 0.8), any(draft, 0.5, 0.8),
-                  any(draft, 0.5, 0.8));
+    for (int i = 0; i < (draft->planar ? 1 : 3); i++) {
+        text_add(text, draft->planar ? "" : i == 0 ? "[" : ", ");
+        add_number(draft, text, 0.5, 0.8);
+    }
+    text_add(text, draft->planar ? "" : "]");
 }
 
 static void add_body(Draft *draft, Text *text, int i)
 {
     const int before = below(draft, 5) == 0 ? below(draft, i + 1) - 1 : i - 1;
 
-    text_addf(text, "body b%d mass=%.1f inertia=", i, any(draft, 0.5, 2));
+    text_addf(text, "body b%d mass=", i);
+    add_number(draft, text, 0.5, 2);
+    text_add(text, " inertia=");
     add_inertia(draft, text);
     text_addf(text, "\narm h%d b%d ", i, i);
     add_vector(draft, text);
@@ -101,8 +125,8 @@ static void add_body(Draft *draft, Text *text, int i)
 static void add_model(Draft *draft, Text *text)
 {
     draft->planar = below(draft, 2) == 0;
-    draft->bodies =
-        below(draft, 3) == 0 ? 17 + below(draft, MOST_BODIES - 16) : 1 + below(draft, 4);
+    draft->bodies = below(draft, 2) == 0 || draft->is_large ? 17 + below(draft, MOST_BODIES - 16)
+                                                            : 1 + below(draft, 4);
     text_add(text,
              draft->planar ? "scene planar\ngravity [0, -9.81]\n" : "gravity [0, 1, -9.81]\n");
     for (int i = 0; i < draft->bodies; i++)
@@ -115,7 +139,7 @@ static void add_edit(Draft *draft, Text *text)
     const int i = below(draft, draft->bodies);
 
     /* joints are made anew in every other member */
-    switch (below(draft, draft->member->number % 2 == 0 ? 4 : 5)) {
+    switch (below(draft, draft->member->number % 2 == 0 ? 8 : 9)) {
     case 0:
         text_addf(text, "set b%d.mass = %.1f\n", i, any(draft, 0.5, 2));
         break;
@@ -129,7 +153,22 @@ static void add_edit(Draft *draft, Text *text)
         add_vector(draft, text);
         text_char(text, '\n');
         break;
+    case 3:
+        text_addf(text, "set j%d.axis = ", i);
+        add_axis(draft, text);
+        text_char(text, '\n');
+        break;
     case 4:
+        text_add(text, "undo\n");
+        break;
+    case 5:
+        text_add(text, below(draft, 2) == 0 ? "tree absolute\n" : "tree joint\n");
+        draft->is_reordered = true; /* other coordinates */
+        break;
+    case 6:
+        text_addf(text, "gravity [0, %.1f]\n", any(draft, -9, 9));
+        break;
+    case 8:
         text_addf(text, "delete j%d\n", i);
         /* on the same frames: the first body's joint, and those whose tail is an arm */
         add_joint(draft, text, i, i - 1);
@@ -213,7 +252,53 @@ static Verdict edits_leave_no_trace(Member *member)
     return verdict;
 }
 
+/* where no number of parts is a parameter of its own: it is one of the user's */
+static Verdict literals_are_parameters(Member *member)
+{
+    const uint64_t begun = member->random;
+    double seen[2][MOST_BODIES][2];
+    int bodies = 0;
+
+    for (int named = 0; named < 2; named++) {
+        Draft draft = {.member = member, .is_named = named == 1, .is_large = true};
+        Text lines = {0};
+        Kit kit = kit_new();
+
+        member->random = begun;
+        add_model(&draft, &lines);
+        if (draft.is_named)
+            text_add(&draft.parameters, lines.at);
+        bodies = draft.bodies;
+        tell(member, "%s", named == 0 ? lines.at : "");
+        if (kit_do(&kit, draft.is_named ? draft.parameters.at : lines.at) != CT_OK ||
+            kit_do(&kit, "simulate 0.02\n") != CT_OK)
+            tell(member, "%s: %s\n", named == 0 ? "numbers" : "parameters", kit.error.message);
+        for (int i = 0; i < bodies; i++) {
+            char what[40];
+
+            (void)snprintf(what, sizeof what, "b%d.x", i);
+            seen[named][i][0] = kit_value(&kit, what);
+            (void)snprintf(what, sizeof what, "b%d.vy", i);
+            seen[named][i][1] = kit_value(&kit, what);
+        }
+        kit_free(&kit);
+        text_free(&lines);
+        text_free(&draft.parameters);
+    }
+    for (int i = 0; i < 2 * bodies; i++) {
+        const double a = seen[0][i / 2][i % 2], b = seen[1][i / 2][i % 2];
+
+        if (isnan(a) != isnan(b) || fabs(a - b) > 1e-7 * (1 + fabs(a))) {
+            tell(member, "b%d: %.17g with numbers, %.17g with parameters\n", i / 2, a, b);
+            return DISAGREES;
+        }
+    }
+    return isnan(seen[0][0][0]) ? REFUSED : AGREES;
+}
+
 static const Family families[] = {
+    {"numbers of a large model move it as parameters of the user's do", 8, 0.2, 0,
+     literals_are_parameters},
     {"a model edited between its equations is the one made so at once", 30, 0, 0,
      edits_leave_no_trace},
 };

@@ -4,31 +4,53 @@
 #include "base/memory.h"
 
 #include <math.h>
+#include <string.h>
 
-void parameters_set(Parameters *p, Expr symbol, double value)
+/* its place; -1: it isn't kept */
+static int find(const Parameters *p, Expr symbol)
 {
-    int at = 0;
+    const int number = expr_symbol_number(symbol);
 
-    while (at < p->count && p->symbols[at] != symbol)
-        at++;
-    if (at == p->room) {
+    const int at = number < p->numbers ? p->places[number] - 1 : -1;
+
+    return at >= 0 && p->symbols[at] == symbol ? at : -1;
+}
+
+static int add(Parameters *p, Expr symbol)
+{
+    const int number = expr_symbol_number(symbol);
+
+    if (p->count == p->room) {
         p->room = p->room < 16 ? 32 : 2 * p->room;
         p->symbols = mem_grow(p->symbols, (size_t)p->room, sizeof(Expr));
         p->values = mem_grow(p->values, (size_t)p->room, sizeof(double));
     }
-    p->count += at == p->count;
+    if (number >= p->numbers) {
+        p->places = mem_grow(p->places, (size_t)number + 64, sizeof(int));
+        memset(p->places + p->numbers, 0, (size_t)(number + 64 - p->numbers) * sizeof(int));
+        p->numbers = number + 64;
+    }
+    p->places[number] = ++p->count;
+    return p->count - 1;
+}
+
+void parameters_set(Parameters *p, Expr symbol, double value)
+{
+    int at = find(p, symbol);
+
+    if (at < 0)
+        at = add(p, symbol);
     p->symbols[at] = symbol;
     p->values[at] = value;
 }
 
 bool parameters_kept(const Parameters *p, Expr symbol, double *out)
 {
-    for (int i = 0; i < p->count; i++)
-        if (p->symbols[i] == symbol) {
-            *out = p->values[i];
-            return true;
-        }
-    return false;
+    const int at = find(p, symbol);
+
+    if (at >= 0)
+        *out = p->values[at];
+    return at >= 0;
 }
 
 double parameters_value(Parameters *p, Expr symbol)
@@ -64,6 +86,6 @@ double parameters_evaluate(Parameters *p, Expr e)
 
 void parameters_free(Parameters *p)
 {
-    MEM_FREE(p->symbols, p->values);
+    MEM_FREE(p->symbols, p->values, p->places);
     *p = (Parameters){0};
 }

@@ -12,6 +12,8 @@ typedef struct Parameters {
     int count, room;
     Expr *symbols;
     double *values;
+    int *places; /* by numbers of symbols: plus 1; 0 where none is kept */
+    int numbers;
 } Parameters;
 
 double parameters_value(Parameters *parameters, Expr symbol); /* kept, else asked and kept */

@@ -224,7 +224,7 @@ static Status no_side(const Phase *now, double t, const Meeting *at, int count, 
     for (int i = 0; i < count; i++) {
         Expr surface = system_surface(now->system, at[i].surface);
         const char *part = system_jumping_part(now->system, surface);
-        char *h = expr_text(surface);
+        char *h = expr_text(system_plain(now->system, surface));
 
         text_addf(&what, "%s%s", i > 0 ? ", " : "", h);
         if (part != NULL)
@@ -356,7 +356,7 @@ void slide_tell(void *context, const Segment *segment, int condition, Text *out)
     const Numbers *numbers = c->run->phases->at[segment->phase]->numbers;
     Expr h = numbers_condition(numbers, condition);
     const char *part = h != NULL ? system_jumping_part(system, h) : NULL;
-    char *text = h != NULL ? expr_text(h) : NULL;
+    char *text = h != NULL ? expr_text(system_plain(system, h)) : NULL;
     IdealSwitch diode;
 
     if (text != NULL)
