@@ -33,6 +33,7 @@ typedef struct Member {
     uint64_t random; /* state for test_random() and test_uniform() */
     int number;
     bool told;         /* --member: print what helps */
+    double figure;     /* how much of its bound the worst of it took; 0: nothing is measured */
     char story[16384]; /* what was tried and what came out; printed where it disagrees */
     size_t length;
 } Member;
@@ -57,6 +58,17 @@ __attribute__((format(printf, 2, 3), unused)) static void tell(Member *member, c
     va_end(arguments);
     if (more > 0)
         member->length += (size_t)more < room ? (size_t)more : room - 1;
+}
+
+/* an error beside its bound, for the figure that the family prints; whether it keeps it */
+__attribute__((unused)) static bool keeps(Member *member, const char *what, double error,
+                                          double bound)
+{
+    if (!(error / bound <= member->figure))
+        member->figure = error / bound;
+    if (!(error <= bound) || member->told)
+        tell(member, "%s: %.3g, bound %.3g\n", what, error, bound);
+    return error <= bound;
 }
 
 /* --- what a member draws --- */
@@ -106,17 +118,22 @@ static bool family_run(const Family *family, uint64_t seed, int members, double 
     static Member member;
     const double end = family_clock() + seconds;
     int count[3] = {0}, number = 0;
+    double worst = 0;
 
     for (; seconds > 0 ? family_clock() < end : number < members; number++) {
         const Verdict verdict = family_member(family, seed, number, &member);
 
         count[verdict]++;
+        worst = verdict != REFUSED && !(member.figure <= worst) ? member.figure : worst;
         if (verdict == DISAGREES && count[DISAGREES] <= 3)
             printf("%s: seed %llu, member %d\n%s\n", family->name, (unsigned long long)seed, number,
                    member.story);
     }
-    printf("%s: %d agree, %d refused, %d disagree\n", family->name, count[AGREES], count[REFUSED],
+    printf("%s: %d agree, %d refused, %d disagree", family->name, count[AGREES], count[REFUSED],
            count[DISAGREES]);
+    if (worst > 0)
+        printf("; the worst took %.2g of its bound", worst);
+    printf("\n");
     /* of few members one may be among those */
     return count[DISAGREES] <= family->wrong * number &&
            count[REFUSED] < family->refused * number + 1 &&

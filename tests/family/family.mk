@@ -31,8 +31,9 @@ family_short_SOURCES = tests/family/family_short.c tests/family/family.h tests/f
 family_short_LDADD = libcotree.la $(unit_ldadd)
 
 FAMILIES += family_mechanisms
-family_mechanisms_SOURCES = tests/family/family_mechanisms.c tests/family/mechanisms.h \
-	tests/family/one_freedom.h tests/family/script.h
+family_mechanisms_SOURCES = tests/family/family_mechanisms.c tests/family/bricard.h \
+	tests/family/cranks.h tests/family/mechanisms.h tests/family/one_freedom.h \
+	tests/family/extrapolated.h tests/family/script.h
 family_mechanisms_LDADD = libcotree.la $(unit_ldadd)
 FAMILIES += family_assembly
 family_assembly_SOURCES = tests/family/family_assembly.c tests/family/standing.h tests/family/scenes.h tests/family/jointed.h tests/family/family.h tests/random.h \
@@ -53,7 +54,7 @@ family_sharing_LDADD = libcotree.la $(unit_ldadd)
 
 FAMILIES += family_redundant
 family_redundant_SOURCES = tests/family/family_redundant.c tests/family/mechanisms.h \
-	tests/family/one_freedom.h tests/family/script.h
+	tests/family/one_freedom.h tests/family/extrapolated.h tests/family/script.h
 family_redundant_LDADD = libcotree.la $(unit_ldadd)
 
 FAMILIES += family_falls

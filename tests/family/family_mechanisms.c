@@ -3,104 +3,16 @@
  * Singular positions, overconstrained loops, masses and lengths many decades apart: each is held
  * against the motion of its one freedom in closed form (one_freedom.h), in random trees, forms,
  * methods and tolerances. */
+#include "bricard.h"
+#include "cranks.h"
 #include "mechanisms.h"
 
 /* --- cranks in parallel: singular where they are in line with the couplers --- */
 
-enum { MOST_LOOPS = 4 };
-typedef struct Cranks {
-    int loops;
-    Real length, distance;
-    Real crank[MOST_LOOPS + 1], coupler[MOST_LOOPS]; /* masses */
-} Cranks;
-
-static void place_cranks(const void *mechanism, Jet phi, Masses *out)
-{
-    const Cranks *c = mechanism;
-    const Jet x = scaled(c->length, jet_cos(phi)), y = scaled(c->length, jet_sin(phi));
-    Spot before = {0};
-
-    for (int i = 0; i <= c->loops; i++) {
-        const Spot foot = spot(jet((Real)i * c->distance), jet(0));
-        const Spot tip = spot(plus(foot.at[0], x), y);
-
-        add_rod(out, c->crank[i], foot, tip);
-        if (i > 0)
-            add_rod(out, c->coupler[i - 1], before, tip);
-        before = tip;
-    }
-}
-
-/* which joint of each loop closes it */
-static void write_tree(Member *member, Script *script, int loops)
-{
-    static const char *const closing[] = {"l", "r", "h"};
-    char text[80] = "cotree";
-    size_t length = strlen(text);
-
-    switch (draw_one_of(member, 3)) {
-    case 0:
-        return;
-    case 1:
-        write_line(script, "tree absolute");
-        return;
-    default:
-        for (int i = 0; i < loops; i++) {
-            const int which = draw_one_of(member, COUNT(closing));
-
-            length += (size_t)snprintf(text + length, sizeof text - length, " %s%d", closing[which],
-                                       which == 2 ? i + 1 : i);
-        }
-        write_line(script, "%s", text);
-    }
-}
-
-static void write_cranks(Member *member, Trial *trial, const Cranks *c)
-{
-    Script *script = &trial->script;
-    static Masses start;
-    char name[16];
-
-    write_line(script, "scene planar\ngravity [0, -9.81]");
-    start.count = 0;
-    place_cranks(c, jet(trial->phi), &start);
-    for (int i = 0; i <= c->loops; i++) {
-        (void)snprintf(name, sizeof name, "c%d", i);
-        write_rod(script, name, (double)c->crank[i], (double)c->length);
-        write_line(script, "arm g%d ground [%.17g, 0]", i, (double)i * (double)c->distance);
-        write_line(script, "revolute h%d g%d c%da", i, i, i);
-    }
-    for (int i = 0; i < c->loops; i++) {
-        (void)snprintf(name, sizeof name, "k%d", i);
-        write_rod(script, name, (double)c->coupler[i], (double)c->distance);
-        write_line(script, "revolute l%d c%db k%da", i, i, i);
-        write_line(script, "revolute r%d k%db c%db", i, i, i + 1);
-    }
-    if (draw_one_of(member, 4) == 0)
-        write_line(script, "revolute twice c0b k0a"); /* rank lost on purpose */
-    write_tree(member, script, c->loops);
-    for (int i = 0; i <= c->loops; i++) {
-        const int mass = i == 0 ? 1 : 6 * i - 2;
-
-        (void)snprintf(name, sizeof name, "c%d", i);
-        compare_with(trial, name, mass);
-        write_line(script, "guess h%d=%.17g", i, (double)trial->phi);
-        write_guess(script, name, start.spot[mass], (double)trial->phi);
-        if (i == 0)
-            continue;
-        (void)snprintf(name, sizeof name, "k%d", i - 1);
-        compare_with(trial, name, mass + 3);
-        write_line(script, "guess l%d=%.17g, r%d=%.17g", i - 1, -(double)trial->phi, i - 1,
-                   (double)trial->phi);
-        write_guess(script, name, start.spot[mass + 3], 0);
-    }
-    write_line(script, "init h0 = %.17g, h0' = %.17g", (double)trial->phi, (double)trial->rate);
-}
-
 static Verdict cranks_pass_their_flat_positions(Member *member)
 {
     Trial trial = {.time = draw(member, 1, 5), .planar = true};
-    Cranks c = {.loops = 1 + draw_one_of(member, MOST_LOOPS),
+    Cranks c = {.loops = 1 + draw_one_of(member, 4),
                 .length = draw(member, 0.5, 1.5),
                 .distance = draw(member, 0.5, 1.5)};
 
@@ -186,7 +98,7 @@ static void place_kite(const void *mechanism, Jet phi, Masses *out)
         jet_sqrt(minus(jet(l->other * l->other), scaled(l->crank * l->crank, times(s, s))));
     const Spot tip = spot(scaled(l->crank, jet_cos(phi)), scaled(l->crank, jet_sin(phi)));
     const Spot foot = spot(jet(l->crank), jet(0));
-    Spot top = between(tip, foot, 0.5L);
+    Spot top = part_way(tip, foot, 0.5L);
 
     top.at[0] = plus(top.at[0], times(reach, c));
     top.at[1] = plus(top.at[1], times(reach, s));
@@ -318,140 +230,7 @@ static Verdict mechanisms_may_be_small_and_large(Member *member)
     return run_any_way(member, &trial);
 }
 
-/* --- Bricard's loop: six rods of 1 m, hinges at right angles, one row too many --- */
-
-typedef struct Bricard {
-    Real masses[5];
-} Bricard;
-
-static Jet dot3(Spot a, Spot b)
-{
-    return plus(plus(times(a.at[0], b.at[0]), times(a.at[1], b.at[1])), times(a.at[2], b.at[2]));
-}
-
-static Spot cross3(Spot a, Spot b)
-{
-    Spot out;
-
-    for (int i = 0; i < 3; i++) {
-        const int j = (i + 1) % 3, k = (i + 2) % 3;
-
-        out.at[i] = minus(times(a.at[j], b.at[k]), times(a.at[k], b.at[j]));
-    }
-    return out;
-}
-
-static Spot less(Spot a, Spot b)
-{
-    for (int i = 0; i < 3; i++)
-        a.at[i] = minus(a.at[i], b.at[i]);
-    return a;
-}
-
-static Spot unit(Spot a)
-{
-    const Jet size = jet_sqrt(dot3(a, a));
-
-    for (int i = 0; i < 3; i++)
-        a.at[i] = over(a.at[i], size);
-    return a;
-}
-
-/* The axis at corner 0 is along (2z, 0, s/2 - r), which vanishes and turns round where the loop
- * lies flat, at phi = pi; over cos(phi/2) it does neither. (root + 3w)(root - 3w) = sin(phi)^2. */
-static Spot first_axis(Jet phi, Jet w, Jet root)
-{
-    const Jet half = scaled(0.5L, phi), s = jet_sin(half), c = jet_cos(half);
-    const Jet rise = w.v > 0 ? over(plus(root, scaled(3, w)), c)
-                             : over(scaled(4, times(times(s, s), c)), minus(root, scaled(3, w)));
-
-    return unit(
-        (Spot){{scaled(4 / sqrtl(12), s), {0, 0, 0}, scaled(-0.5L * sqrtl(2.0L / 3), rise)}});
-}
-
-/* Corners in turn on two circles of radii r and s about one axis, z above and below its middle: all
- * sides are 1 and neighbouring hinges at right angles where r s = 2/3 and
- * z^2 = 5/12 - (r^2 + s^2)/4. With r/s = exp(2 psi): sinh(psi) = cos(phi)/sqrt(8),
- * z = sin(phi)/sqrt(12). */
-static void place_corners(Jet phi, Spot corners[6], Spot axes[6])
-{
-    const Jet w = scaled(1 / sqrtl(8), jet_cos(phi));
-    const Jet root = jet_sqrt(plus(jet(1), times(w, w)));
-    const Jet radius[2] = {scaled(sqrtl(2.0L / 3), plus(root, w)),
-                           scaled(sqrtl(2.0L / 3), minus(root, w))};
-    const Jet z = scaled(1 / sqrtl(12), jet_sin(phi));
-    Spot x, y;
-
-    for (int i = 0; i < 6; i++) {
-        const Real angle = i * acosl(0.5L);
-
-        corners[i] = spot(scaled(cosl(angle), radius[i % 2]), scaled(sinl(angle), radius[i % 2]));
-        corners[i].at[2] = i % 2 == 0 ? z : scaled(-1, z);
-    }
-    for (int i = 0; i < 6; i++)
-        axes[i] = unit(
-            cross3(less(corners[(i + 1) % 6], corners[i]), less(corners[(i + 5) % 6], corners[i])));
-    /* as seen from the side that stands still, which ends in corner 0 */
-    x = less(corners[0], corners[5]);
-    y = axes[0] = first_axis(phi, w, root);
-    for (int pass = 0; pass < 2; pass++) {
-        Spot *spots = pass == 0 ? corners : axes;
-        const Spot z_axis = cross3(x, y);
-        const Spot from = pass == 0 ? corners[0] : (Spot){0};
-
-        for (int i = 0; i < 6; i++) {
-            const Spot arm = less(spots[i], from);
-
-            spots[i] = (Spot){{dot3(arm, x), dot3(arm, y), dot3(arm, z_axis)}};
-        }
-    }
-}
-
-static void place_bricard(const void *mechanism, Jet phi, Masses *out)
-{
-    const Bricard *b = mechanism;
-    Spot corners[6], axes[6];
-
-    place_corners(phi, corners, axes);
-    for (int i = 0; i < 5; i++)
-        add_rod(out, b->masses[i], corners[i], corners[i + 1]);
-}
-
-/* frames parallel to ground's at the start: all hinges stand at 0 */
-static void write_bricard(Member *member, Script *s, const Bricard *b, const Spot *corners,
-                          const Spot *axes)
-{
-    const int first = draw_one_of(member, 6);
-
-    write_line(s, "arm g ground [-1, 0, 0]");
-    for (int i = 0; i < 5; i++) {
-        const double m = (double)b->masses[i];
-        double d[3], c[3];
-
-        for (int k = 0; k < 3; k++) {
-            d[k] = (double)(corners[i + 1].at[k].v - corners[i].at[k].v);
-            c[k] = (double)(corners[i + 1].at[k].v + corners[i].at[k].v) / 2;
-        }
-        write_line(s, "body b%d mass=%.17g inertia=[%.17g, %.17g, %.17g, %.17g, %.17g, %.17g]", i,
-                   m, m / 12 * (d[1] * d[1] + d[2] * d[2]), m / 12 * (d[0] * d[0] + d[2] * d[2]),
-                   m / 12 * (d[0] * d[0] + d[1] * d[1]), -m / 12 * d[0] * d[1],
-                   -m / 12 * d[0] * d[2], -m / 12 * d[1] * d[2]);
-        write_line(s, "arm s%d b%d [%.17g, %.17g, %.17g]", i, i, -d[0] / 2, -d[1] / 2, -d[2] / 2);
-        write_line(s, "arm e%d b%d [%.17g, %.17g, %.17g]", i, i, d[0] / 2, d[1] / 2, d[2] / 2);
-        write_line(s, "guess b%d.x=%.17g, b%d.y=%.17g, b%d.z=%.17g", i, c[0], i, c[1], i, c[2]);
-    }
-    for (int n = 0; n < 6; n++) { /* which row is left out depends on the order */
-        const int i = (first + n) % 6;
-        char tail[8] = "ground", head[8] = "g";
-
-        if (i > 0)
-            (void)snprintf(tail, sizeof tail, "e%d", (i - 1) % 5);
-        if (i < 5)
-            (void)snprintf(head, sizeof head, "s%d", i % 5);
-        write_line(s, "revolute h%d %s %s axis=[%.17g, %.17g, %.17g]", i, tail, head,
-                   (double)axes[i].at[0].v, (double)axes[i].at[1].v, (double)axes[i].at[2].v);
-    }
-}
+/* --- Bricard's loop --- */
 
 static Verdict bricards_loop_keeps_its_accuracy(Member *member)
 {
@@ -471,7 +250,7 @@ static Verdict bricards_loop_keeps_its_accuracy(Member *member)
     place_corners((Jet){trial.phi, 1, 0}, corners, axes);
     rod = less(corners[1], corners[0]);
     write_line(s, "gravity [%.17g, %.17g, %.17g]", gravity[0], gravity[1], gravity[2]);
-    write_bricard(member, s, &b, corners, axes);
+    write_bricard(s, &b, corners, axes, draw_one_of(member, 6));
     if (draw_one_of(member, 2))
         write_line(s, "tree absolute");
     else if (draw_one_of(member, 2))

@@ -73,13 +73,13 @@ static inline Pose shifted(const double u[3], double by)
 /* the larger difference of two attitudes' parameters, of which q and -q are one */
 static inline double attitude_off(const double a[4], const double b[4])
 {
-    double plus = 0, minus = 0;
+    double same = 0, opposite = 0;
 
     for (int i = 0; i < 4; i++) {
-        plus = fmax(plus, fabs(a[i] - b[i]));
-        minus = fmax(minus, fabs(a[i] + b[i]));
+        same = fmax(same, fabs(a[i] - b[i]));
+        opposite = fmax(opposite, fabs(a[i] + b[i]));
     }
-    return isnan(a[0] + b[0]) ? NAN : fmin(plus, minus);
+    return isnan(a[0] + b[0]) ? NAN : fmin(same, opposite);
 }
 
 static inline double place_off(const double a[3], const double b[3])

@@ -46,6 +46,8 @@ static inline int draw_one_of(Member *member, int count)
 /* place the name where masses[mass] is, at the end and as a guess */
 static inline void compare_with(Trial *trial, const char *name, int mass)
 {
+    if (trial->compared == MOST_COMPARED)
+        return;
     (void)snprintf(trial->compare[trial->compared].name, sizeof trial->compare[0].name, "%s", name);
     trial->compare[trial->compared++].mass = mass;
 }
@@ -85,7 +87,7 @@ static inline double largest_miss(Kit *kit, const Trial *trial, const Masses *en
 
 /* Run the script, whose last statement is the run, and compare. The bound is that of
  * research/numerics.md 8.8: 1e3 times the tolerance, or 1e-6. */
-static Verdict run_trial(Member *member, Trial *trial, double tolerance)
+static inline Verdict run_trial(Member *member, Trial *trial, double tolerance)
 {
     static Masses end;
     Kit kit = kit_new();
@@ -105,7 +107,7 @@ static Verdict run_trial(Member *member, Trial *trial, double tolerance)
     tell(member, "phi %.12g, missed by %.3g, bound %.3g\n%s%s\n", (double)trial->phi, miss, bound,
          ct_remarks(kit.session), kit.text != NULL ? kit.text : "");
     kit_free(&kit);
-    return miss <= bound ? AGREES : DISAGREES;
+    return keeps(member, "frames", miss, bound) ? AGREES : DISAGREES;
 }
 
 /* run_trial() of a script, with a tolerance, form and method of its own */

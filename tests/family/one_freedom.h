@@ -5,16 +5,12 @@
  *
  *     (sum m p'.p') phi_tt + (sum m p'.p'') phi_t^2 = sum m g.p'
  *
- * No constraint, no multiplier and no projection occurs. It is integrated in long double by
- * extrapolated midpoint steps (Gragg 1965). A rod of mass m is three of them: m/6 at its ends, 2m/3
- * in the middle have its inertia. */
+ * No constraint, no multiplier and no projection occurs. A rod of mass m is three of them: m/6 at
+ * its ends, 2m/3 in the middle have its inertia. */
 #ifndef COTREE_TESTS_ONE_FREEDOM_H
 #define COTREE_TESTS_ONE_FREEDOM_H
 
-#include <math.h>
-#include <string.h>
-
-typedef long double Real;
+#include "extrapolated.h"
 
 /* a value with its first two derivatives by phi */
 typedef struct Jet {
@@ -84,7 +80,7 @@ static inline Spot spot(Jet x, Jet y)
 }
 
 /* a + s (b - a) */
-static inline Spot between(Spot a, Spot b, Real s)
+static inline Spot part_way(Spot a, Spot b, Real s)
 {
     Spot out;
 
@@ -93,7 +89,7 @@ static inline Spot between(Spot a, Spot b, Real s)
     return out;
 }
 
-enum { MOST_MASSES = 64 };
+enum { MOST_MASSES = 640 };
 typedef struct Masses {
     int count;
     Real mass[MOST_MASSES];
@@ -109,7 +105,7 @@ static inline void add_mass(Masses *masses, Real mass, Spot at)
 static inline void add_rod(Masses *masses, Real mass, Spot a, Spot b)
 {
     add_mass(masses, mass / 6, a);
-    add_mass(masses, mass * 2 / 3, between(a, b, 0.5L));
+    add_mass(masses, mass * 2 / 3, part_way(a, b, 0.5L));
     add_mass(masses, mass / 6, b);
 }
 
@@ -137,67 +133,24 @@ static Real phi_acceleration(const OneFreedom *one, Real phi, Real rate)
     return (force - bend * rate * rate) / inertia;
 }
 
-/* n midpoint steps over `step`, smoothed at the end: errors in even powers of 1/n */
-static void midpoint(const OneFreedom *one, const Real y[2], Real step, int n, Real out[2])
+static void phi_rates(const void *context, const Real *y, Real *rates)
 {
-    const Real h = step / n;
-    Real before[2] = {y[0], y[1]};
-    Real now[2] = {y[0] + h * y[1], y[1] + h * phi_acceleration(one, y[0], y[1])};
-
-    for (int k = 1; k < n; k++) {
-        const Real next[2] = {before[0] + 2 * h * now[1],
-                              before[1] + 2 * h * phi_acceleration(one, now[0], now[1])};
-
-        memcpy(before, now, sizeof now);
-        memcpy(now, next, sizeof now);
-    }
-    out[0] = (now[0] + before[0] + h * now[1]) / 2;
-    out[1] = (now[1] + before[1] + h * phi_acceleration(one, now[0], now[1])) / 2;
-}
-
-/* One step, extrapolated; the difference that the last column made. */
-static Real extrapolate(const OneFreedom *one, Real step, Real y[2])
-{
-    enum { ROWS = 8 };
-    Real table[ROWS][2], last = 0;
-
-    for (int i = 0; i < ROWS; i++) {
-        midpoint(one, y, step, 2 * (i + 1), table[i]);
-        for (int k = i - 1; k >= 0; k--) {
-            const Real ratio = (Real)(i + 1) * (i + 1) / ((Real)(k + 1) * (k + 1)) - 1;
-
-            for (int c = 0; c < 2; c++) {
-                const Real change = (table[k + 1][c] - table[k][c]) / ratio;
-
-                table[k][c] = table[k + 1][c] + change;
-                if (k == 0 && i == ROWS - 1)
-                    last = fmaxl(last, fabsl(change) / (1 + fabsl(table[0][c])));
-            }
-        }
-    }
-    memcpy(y, table[0], sizeof table[0]);
-    return isfinite(table[0][0]) && isfinite(table[0][1]) ? last : 1;
+    rates[0] = y[1];
+    rates[1] = phi_acceleration(context, y[0], y[1]);
 }
 
 /* phi and its rate after `time`, or at the end of the step in which phi has gone `far`, to some
  * 1e-15 a step; the time reached */
 static Real one_freedom_run(const OneFreedom *one, Real time, Real far, Real *phi, Real *rate)
 {
-    const Real enough = 1e-15L, from = *phi;
-    Real at = 0, step = 1e-3L * time;
+    const Extrapolation by = {.rates = phi_rates, .context = one, .count = 2, .enough = 1e-15L};
+    const Real from = *phi;
+    Real y[2] = {*phi, *rate}, at = 0, step = 1e-3L * time;
 
-    while (at < time && fabsl(*phi - from) < far) {
-        Real y[2] = {*phi, *rate}, error;
-
-        step = fminl(step, time - at);
-        error = extrapolate(one, step, y);
-        if (error <= enough) {
-            at += step;
-            *phi = y[0];
-            *rate = y[1];
-        }
-        step *= fminl(2, fmaxl(0.2L, 0.8L * powl(enough / (error + 1e-30L), 1.0L / 15)));
-    }
+    while (at < time && fabsl(y[0] - from) < far)
+        at += extrapolated_step(&by, time - at, &step, y);
+    *phi = y[0];
+    *rate = y[1];
     return at;
 }
 

@@ -6,7 +6,7 @@
 #include <stdio.h>
 
 typedef struct Script {
-    char text[32768];
+    char text[1 << 17];
     size_t length;
 } Script;
 
