@@ -37,7 +37,7 @@ static void evaluate(Least *l, const double *v, double *residual, bool with_jaco
     }
 }
 
-static void choose_scale(Least *l, const double *weight)
+static void choose_scale(Least *l)
 {
     int n = l->rows->columns;
     double largest = 0;
@@ -56,7 +56,7 @@ static void choose_scale(Least *l, const double *weight)
     for (int k = 0; k < l->rows->rows; k++) {
         double norm = fmax(l->scale[k], 1e-3 * largest);
 
-        l->scale[k] = (weight != NULL ? weight[k] : 1) / (norm > 0 ? norm : 1);
+        l->scale[k] = norm > 0 ? 1 / norm : 1;
     }
 }
 
@@ -155,7 +155,7 @@ static void descend(Least *l, double tolerance)
     }
 }
 
-bool levenberg_marquardt_solve(const Rows *rows, const bool *held, const double *weight,
+bool levenberg_marquardt_solve(const Rows *rows, const bool *held, const double *scale,
                                double tolerance, double *v, double *residual)
 {
     int m = rows->rows, n = rows->columns;
@@ -172,7 +172,10 @@ bool levenberg_marquardt_solve(const Rows *rows, const bool *held, const double 
                .lu = lu_new(m)};
     bool solved;
 
-    choose_scale(&l, weight);
+    if (scale != NULL)
+        memcpy(l.scale, scale, (size_t)m * sizeof(double));
+    else
+        choose_scale(&l);
     descend(&l, tolerance);
     evaluate(&l, v, l.residual, false);
     solved = vector_largest(l.residual, m) < tolerance;

@@ -1,6 +1,6 @@
 /* levenberg_marquardt.h: nonlinear least squares near a start: Levenberg-Marquardt with few moves
  *
- * Residuals r(v) are scaled by the size of their gradients at the start. A step is
+ * Residuals r(v) are scaled, as told or by the size of their gradients at the start. A step is
  * d = -J^T (J J^T + mu |r| 1)^-1 r: near the start, short where rows are redundant, and without
  * damping once r is small (Fan and Yuan 2005). */
 #ifndef COTREE_ALGEBRA_LEVENBERG_MARQUARDT_H
@@ -22,10 +22,10 @@ typedef struct Rows {
 } Rows;
 
 /* Improve v until every scaled residual is below `tolerance`, and then until rounding stops it.
- * held (columns, may be NULL): directions that don't move. weight (rows, may be NULL): of each row.
- * True when the tolerance was met; v is the best point found either way, `residual` (rows, may be
+ * held (columns, may be NULL): directions that don't move. scale (rows): what a residual is
+ * multiplied by; NULL: one over its gradient. True when the tolerance was met; v is the best point found either way, `residual` (rows, may be
  * NULL) its residuals, unscaled. The watch ends it early. */
-bool levenberg_marquardt_solve(const Rows *rows, const bool *held, const double *weight,
+bool levenberg_marquardt_solve(const Rows *rows, const bool *held, const double *scale,
                                double tolerance, double *v, double *residual);
 
 #endif

@@ -10,7 +10,8 @@
 #include <math.h>
 #include <string.h>
 
-#define TRIES 24 /* other starts, when the first leads nowhere */
+#define TRIES      24    /* other starts, when the first leads nowhere */
+#define APPROACHED 1e-12 /* of guesses, which are met if they can be */
 
 /* --- unknowns --- */
 
@@ -161,7 +162,7 @@ static void list_asks(Placing *p, bool guesses)
     for (int i = 0; i < p->wishes.count; i++) {
         const Wish *told = &p->wishes.at[i];
         const bool is_held =
-            told->link >= 0 && place_has(p, told->link, told->k) &&
+            !told->is_guess && told->link >= 0 && place_has(p, told->link, told->k) &&
             (told->group < 0 || p->known[place_at(told->link, told->k)] != KNOWN_GIVEN ||
              place_ignorance(p, told->link, TREE_ROTATION) == 0);
 
@@ -314,7 +315,7 @@ static bool try_around(Placing *p, const Rows *rows, const double *from, const b
 }
 
 /* From the start, then from others around it. */
-static bool solve(Placing *p, const Rows *rows, double *residual, bool once)
+static bool solve(Placing *p, const Rows *rows, double *residual)
 {
     const size_t bytes = (size_t)rows->length * sizeof(double);
     double *from = NEW_ARRAY(double, rows->length);
@@ -325,7 +326,7 @@ static bool solve(Placing *p, const Rows *rows, double *residual, bool once)
     met = initial_meet(rows, NULL, p->c, residual);
     for (int i = 0; i < rows->rows; i++)
         missed[i] = initial_misses(residual[i]);
-    if (!met && !once) {
+    if (!met) {
         double *best = NEW_ARRAY(double, rows->length);
 
         memcpy(best, p->c, bytes);
@@ -336,6 +337,34 @@ static bool solve(Placing *p, const Rows *rows, double *residual, bool once)
     }
     MEM_FREE(from, missed);
     return met;
+}
+
+/* where the frame that is furthest from the datum stands, m */
+static double size_of(const Placing *p)
+{
+    double size = 0;
+
+    for (int i = 0; i < p->s->node_count; i++) {
+        double way[3];
+
+        for (int k = 0; k < 3; k++)
+            way[k] = p->poses[i].p[k] - p->poses[p->s->datum].p[k];
+        size = fmax(size, sqrt(vector3_dot(way, way)));
+    }
+    return size > 0 ? size : 1;
+}
+
+/* What comes nearest to all guesses and to loops that close, an angle of 1 rad as far as the size
+ * of the mechanism: of guesses that contradict each other the best start follows. */
+static void approach(const PlaceSearch *s, const Rows *rows)
+{
+    const double size = size_of(s->p);
+    double *scale = NEW_ARRAY(double, rows->rows);
+
+    for (int i = 0; i < rows->rows; i++)
+        scale[i] = vector3_dot(s->rows[i].by_shift, s->rows[i].by_shift) > 0 ? 1 / size : 1;
+    (void)levenberg_marquardt_solve(rows, NULL, scale, APPROACHED, s->p->c, NULL);
+    mem_free(scale);
 }
 
 bool place_search(Placing *p, bool guesses)
@@ -360,8 +389,10 @@ bool place_search(Placing *p, bool guesses)
     evaluate(&s, p->c, residual, NULL);
     for (int i = 0; i < rows.rows; i++)
         met = met && !initial_misses(residual[i]);
-    if (!met && rows.columns > 0)
-        met = solve(p, &rows, residual, guesses);
+    if (!met && rows.columns > 0 && guesses)
+        approach(&s, &rows);
+    else if (!met && rows.columns > 0)
+        met = solve(p, &rows, residual);
     mem_free(residual);
     close_search(&s);
     return met;
