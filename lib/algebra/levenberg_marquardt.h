@@ -23,8 +23,9 @@ typedef struct Rows {
 
 /* Improve v until every scaled residual is below `tolerance`, and then until rounding stops it.
  * held (columns, may be NULL): directions that don't move. scale (rows): what a residual is
- * multiplied by; NULL: one over its gradient. True when the tolerance was met; v is the best point found either way, `residual` (rows, may be
- * NULL) its residuals, unscaled. The watch ends it early. */
+ * multiplied by; NULL: one over its gradient. True when the tolerance was met; v is the best point
+ * found either way, `residual` (rows, may be NULL) its residuals, unscaled. The watch ends it
+ * early. */
 bool levenberg_marquardt_solve(const Rows *rows, const bool *held, const double *scale,
                                double tolerance, double *v, double *residual);
 

@@ -365,6 +365,7 @@ typedef struct Critical {
     const char *angles;     /* at which it happens, in words */
     Expr measure;           /* 0 there, between -1 and 1 */
 } Critical;
+#define CRITICAL_NEAR 0.02 /* the sine of about a degree: there it is said */
 /* the i-th of the system, 0, 1 ...; false after the last */
 bool system_critical(const System *system, int i, Critical *out);
 

@@ -107,7 +107,6 @@ typedef Status RunFunction(System *system, const Setting *setting, const RunOpti
 static void remark_critical(ct_session *session, ResultReader *reader)
 {
     const Result *result = result_reader_result(reader);
-    const double near = 0.02; /* the sine of about a degree */
     int rows = result_rows(result);
     double *values = NEW_ARRAY(double, rows);
     Critical critical;
@@ -122,7 +121,7 @@ static void remark_critical(ct_session *session, ResultReader *reader)
         for (int r = 1; r < rows; r++)
             if (fabs(values[r]) < fabs(values[worst]))
                 worst = r;
-        if (!(fabs(values[worst]) < near))
+        if (!(fabs(values[worst]) < CRITICAL_NEAR))
             continue;
         text_addf(
             &line, "the turns of %s are singular at %s = %s, which it came near at t = %.6g s",

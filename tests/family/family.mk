@@ -69,3 +69,15 @@ family_edits_LDADD = libcotree.la $(unit_ldadd)
 FAMILIES += family_walls
 family_walls_SOURCES = tests/family/family_walls.c tests/family/family.h tests/family/script.h
 family_walls_LDADD = libcotree.la $(unit_ldadd)
+FAMILIES += family_stress_motions
+family_stress_motions_SOURCES = tests/family/family_stress_motions.c tests/family/bricard.h \
+	tests/family/cranks.h tests/family/extrapolated.h tests/family/jointed.h \
+	tests/family/mechanisms.h tests/family/one_freedom.h tests/family/script.h \
+	tests/family/stress.h
+family_stress_motions_LDADD = libcotree.la $(unit_ldadd)
+
+FAMILIES += family_stress_runs
+family_stress_runs_SOURCES = tests/family/family_stress_runs.c tests/family/mechanisms.h \
+	tests/family/one_freedom.h tests/family/extrapolated.h tests/family/script.h \
+	tests/family/stress.h
+family_stress_runs_LDADD = libcotree.la $(unit_ldadd)

@@ -1,5 +1,5 @@
-/* ends.c: frames that come together, drivers that lead too far, forces without a value, rounding,
- * growth without bound */
+/* ends.c: frames that come together, drivers that lead too far, angles that lose a freedom, forces
+ * without a value, rounding, growth without bound */
 #include "simulate/run/ends.h"
 
 #include "base/memory.h"
@@ -189,6 +189,31 @@ static bool tell_leading(RunEnd *e, const Ode *ode, Diag *diag)
     return true;
 }
 
+/* Three angles of one attitude that lose a freedom here: their rates have no bound. */
+static bool tell_critical(RunEnd *e, Diag *diag)
+{
+    const Layout *l = e->phase->layout;
+    const RowValues row = row_of_state(l, e->t, e->y);
+    Critical critical;
+    Diag ignored = {0};
+
+    for (int i = 0; system_critical(l->system, i, &critical); i++) {
+        double measure;
+
+        if (probe_at(l, &e->run->phases->parameters, critical.measure, &row, &measure, &ignored) !=
+                OK ||
+            !(fabs(measure) < CRITICAL_NEAR))
+            continue;
+        add_cause(diag, ": ", critical.instance, "turns through a critical angle there");
+        diag_hint(diag,
+                  "three angles have no rates where %s is %s: leave euler= out, or choose another "
+                  "sequence",
+                  critical.coordinate, critical.angles);
+        return true;
+    }
+    return false;
+}
+
 static void tell(RunEnd *e, Stepper *stepper, bool *is_rounding, Diag *diag)
 {
     int growing;
@@ -197,7 +222,7 @@ static void tell(RunEnd *e, Stepper *stepper, bool *is_rounding, Diag *diag)
     Pushing pushing;
 
     e->soon = fmax(SOON * fmin(e->span, time), fmin(2 * step, time));
-    if (tell_leading(e, stepper->ode, diag) || tell_meeting(e, diag)) {
+    if (tell_leading(e, stepper->ode, diag) || tell_meeting(e, diag) || tell_critical(e, diag)) {
         *is_rounding = false;
         return;
     }
