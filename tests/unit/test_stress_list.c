@@ -134,6 +134,46 @@ static void a_wall_gives_back_what_it_took(void)
     }
 }
 
+/* A mass swings on a spring, another hangs from one, and charge goes to and fro through a coil:
+ * nothing gives or takes energy. */
+static void energy_that_comes_or_goes_by_itself_is_told(void)
+{
+    static const char *const scenes[] = {
+        "scene planar\ngravity [0, 0]\nbody a mass=1 inertia=1\nprismatic s ground a axis=x\n"
+        "spring k ground a k=40\ninit s = 1\nsimulate 200",
+        "scene planar\ngravity [0, -9.81]\nbody a mass=0.5 inertia=1\n"
+        "prismatic s ground a axis=y\nspring k ground a k=20\ninit s = 1\nsimulate 200",
+        "capacitor A n 0 0.025\ninductor L n m 1\ncapacitor B m 0 0.025\ninit A.v = 1\n"
+        "simulate 200",
+    };
+    static const struct {
+        const char *how;
+        bool is_right;
+    } runs[] = {
+        {"rtol=1e-3 method=adams", false},
+        {"rtol=1e-3 method=bdf", false},
+        {"method=rk4 step=0.2", false},
+        {"method=rk4 step=0.002", true},
+        {"", true},
+        {"method=radau", true},
+        {"rtol=1e-11 method=adams", true},
+    };
+
+    for (int i = 0; i < (int)(sizeof scenes / sizeof scenes[0]); i++)
+        for (int k = 0; k < (int)(sizeof runs / sizeof runs[0]); k++) {
+            Kit kit = kit_new();
+            char script[400];
+
+            (void)snprintf(script, sizeof script, "%s %s\nshow run", scenes[i], runs[k].how);
+            EXPECT_DONE(&kit, script);
+            if (runs[k].is_right)
+                EXPECT_LACKS(kit.text, "by themselves");
+            else
+                EXPECT_HOLDS(kit.text, "J come or go by themselves");
+            kit_free(&kit);
+        }
+}
+
 static void the_way_out_leads_out(void)
 {
     Kit kit = kit_new();
@@ -312,6 +352,7 @@ int main(void)
     RUN(a_tolerance_below_rounding_is_told);
     RUN(rounding_hands_over_to_the_stiff_method);
     RUN(a_wall_gives_back_what_it_took);
+    RUN(energy_that_comes_or_goes_by_itself_is_told);
     RUN(the_way_out_leads_out);
     RUN(a_light_crank_passes_its_dead_centre);
     RUN(a_flat_position_costs_no_accuracy);

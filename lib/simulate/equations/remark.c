@@ -128,6 +128,12 @@ static void write_steps(const Remark *r, Text *out)
                   "tolerance; take a smaller step=, or another method",
                   r->what, r->t, r->size);
         break;
+    case REMARK_ENERGY_OPEN:
+        text_addf(out,
+                  "%.2g J come or go by themselves, of %.2g J that were stored at most: the motion "
+                  "can't be right; take a smaller rtol or step=, or another method",
+                  r->size, r->to);
+        break;
     case REMARK_NEAR_SINGULAR:
         text_addf(out,
                   "passed near a singular position, first at t = %.6g s: rounding leaves its mark "

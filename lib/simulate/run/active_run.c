@@ -1,13 +1,20 @@
 /* active_run.c: a run as long as it goes, and what it hands over at its end */
 #include "simulate/run/active_run.h"
 
+#include "base/random.h"
 #include "simulate/run/charge_sharing.h"
 #include "simulate/run/result_reader_impl.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
-#define POOL 1024 /* bytes: a chunk of names and times */
+#define POOL   1024 /* bytes: a chunk of names and times */
+#define OPEN   0.03 /* of what was stored: a balance that is open by so much is told, */
+#define WORK   0.1  /* unless there is work, more than this part of what is missing; */
+#define MANY   100  /* and it is more than so many tolerances in states: */
+#define PLACES 16   /* rows at which these are looked at, */
+#define BESIDE 4    /* with so many errors */
 
 /* --- made and freed --- */
 
@@ -196,11 +203,90 @@ static Status ask_energies(Phases *phases, const Phase *phase, const void *conte
     return probe_new(phase->layout, &phases->parameters, energies, 2, out, diag);
 }
 
+static int compare(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+
+    return (x > y) - (x < y);
+}
+
+/* row i, and beside it as far as the tolerance reaches, by random signs */
+static void add_beside(const ActiveRun *r, int i, uint64_t *random, Grid *out)
+{
+    const Grid *grid = &r->result->grid;
+    const RunReport *report = &r->result->report;
+    const Phase *phase = r->phases->at[grid->phase[i]];
+    const double *cap = numbers_equations(phase->numbers)->cap;
+    double *y = NEW_ARRAY(double, phase->length);
+
+    for (int turn = 0; turn <= BESIDE; turn++) {
+        memcpy(y, grid_row(grid, i), (size_t)phase->length * sizeof(double));
+        for (int k = 0; turn > 0 && k < layout_references(phase->layout); k++)
+            y[k] += copysign(report->atol + report->rtol * fmin(fabs(y[k]), cap[k]),
+                             random_unit(random));
+        grid_add(out, grid->times[i], grid->phase[i], y, phase->length);
+    }
+    mem_free(y);
+}
+
+/* How much energy states bring or take that are off by a tolerance: at some of the rows, and of
+ * these the upper quartile, since one in a hard wall tells of that alone. */
+static Status energy_of_tolerance(ActiveRun *r, double *out, Diag *diag)
+{
+    const int rows = r->result->grid.count, count = rows < PLACES ? rows : PLACES;
+    const Driven none = {0};
+    double energies[PLACES * (1 + BESIDE)][2], of[PLACES];
+    uint64_t random = 1;
+    Grid beside = {0};
+    Status status = OK;
+
+    for (int i = 0; i < count; i++)
+        add_beside(r, (int)((int64_t)rows * i / count), &random, &beside);
+    CHECK(phases_ask(r->phases, &beside, &none, 0, ask_energies, NULL, 2, energies[0], diag));
+    for (int i = 0; i < count; i++) {
+        const double(*at)[2] = energies + (ptrdiff_t)i * (1 + BESIDE);
+
+        of[i] = 0;
+        for (int turn = 1; turn <= BESIDE; turn++)
+            of[i] = fmax(of[i], fabs(at[turn][0] - at[0][0] + at[turn][1] - at[0][1]));
+    }
+    qsort(of, (size_t)count, sizeof of[0], compare);
+    *out = of[3 * count / 4];
+done:
+    grid_free(&beside);
+    return status;
+}
+
+/* over the rows of a run: largest sizes */
+typedef struct Balance {
+    double drift;        /* |E - E0 - work| */
+    double stored, work; /* the larger of kinetic and potential energy; |work| */
+} Balance;
+
+/* Stored energy that comes or goes by itself can't be right. Where work is done it may be the work
+ * that isn't, as of large powers that cancel: no state comes of it. */
+static Status judge_balance(ActiveRun *r, Balance balance, Diag *diag)
+{
+    double least;
+    Status status = OK;
+
+    if (!(balance.drift > OPEN * balance.stored) || balance.work > WORK * balance.drift ||
+        !(r->result->report.rtol > 0))
+        return OK;
+    CHECK(energy_of_tolerance(r, &least, diag));
+    if (balance.drift > MANY * least)
+        remarks_add(
+            &r->result->remarks,
+            (Remark){.kind = REMARK_ENERGY_OPEN, .size = balance.drift, .to = balance.stored});
+done:
+    return status;
+}
+
 Status active_run_balance(ActiveRun *r, Diag *diag)
 {
     const Grid *grid = &r->result->grid;
     double *energies = NEW_ARRAY(double, 2 * grid->count);
-    double first = 0, drift = 0, least = INFINITY, largest = -INFINITY;
+    double first = 0, drift = 0, stored = 0, most = 0, least = INFINITY, largest = -INFINITY;
     bool is_known = true;
     Status status = OK;
 
@@ -208,18 +294,22 @@ Status active_run_balance(ActiveRun *r, Diag *diag)
                      ask_energies, NULL, 2, energies, diag));
     for (int i = 0; i < grid->count; i++) {
         const double *value = energies + 2 * (ptrdiff_t)i;
-        double work = grid_row(grid, i)[r->phases->at[grid->phase[i]]->length - 1];
-        double balance = value[0] + value[1] - work;
+        const double work = grid_row(grid, i)[r->phases->at[grid->phase[i]]->length - 1];
+        const double balance = value[0] + value[1] - work;
 
         if (i == 0)
             first = balance;
         drift = fmax(drift, fabs(balance - first));
+        stored = fmax(stored, fmax(value[0], fabs(value[1])));
+        most = fmax(most, fabs(work));
         is_known = is_known && isfinite(balance);
         least = fmin(least, value[0]);
         largest = fmax(largest, value[0]);
     }
     r->result->report.energy_drift = is_known ? drift : (double)NAN;
     r->result->report.energy_swing = grid->count > 0 ? largest - least : 0;
+    if (is_known)
+        CHECK(judge_balance(r, (Balance){drift, stored, most}, diag));
 done:
     mem_free(energies);
     return status;
