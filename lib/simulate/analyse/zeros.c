@@ -20,6 +20,7 @@ enum { MOST_STEPS = 6 };
 
 #define UNIT  0x1p-53
 #define ALONE 0.1  /* a step less than this of the way to the next zero */
+#define APART 1e-6 /* likewise: what is known so well needs no more digits to begin with */
 #define NEAR  1e-3 /* of its error is as good as 0 */
 #define CLOSE 4    /* roundings: doubles hold no better */
 #define SPLIT 1e-7 /* relative; closer than its square is as good as the same */
@@ -135,7 +136,18 @@ static void drop_last(Wider *s)
         s->c[j] = s->a[n * s->stride + j];
 }
 
-/* Eigenvalues that doubles tell apart, to their rounding; false: there are others. */
+static double nearest_of(const double complex *value, int count, int k)
+{
+    double nearest = INFINITY;
+
+    for (int i = 0; i < count; i++)
+        if (i != k)
+            nearest = fmin(nearest, cabs(value[i] - value[k]));
+    return nearest;
+}
+
+/* Eigenvalues that doubles tell apart, to their rounding or so well that Newton's method gets
+ * there; false: there are others. */
 static bool enclosed_values(const Wide *a, int n, double complex *value)
 {
     Enclosure e;
@@ -143,7 +155,8 @@ static bool enclosed_values(const Wide *a, int n, double complex *value)
 
     for (int k = 0; k < n && sound; k++) {
         value[k] = e.value[k];
-        sound = e.error[k] <= CLOSE * UNIT * cabs(e.value[k]);
+        sound = e.error[k] <= CLOSE * UNIT * cabs(e.value[k]) ||
+                e.error[k] <= APART * nearest_of(e.value, n, k);
     }
     enclosure_free(&e);
     return sound;
@@ -279,11 +292,9 @@ static double complex split_of(const double complex *first, int count, int k, do
 static double improve(Trial *at, const double complex *first, double complex *value, int count,
                       int k)
 {
-    double nearest = INFINITY, noise, error;
+    const double nearest = nearest_of(first, count, k);
+    double noise, error;
 
-    for (int i = 0; i < count; i++)
-        if (i != k)
-            nearest = fmin(nearest, cabs(first[i] - first[k]));
     value[k] += split_of(first, count, k, at->least);
     go_to(at, value[k]);
     for (int step = 0; step < MOST_STEPS; step++) {
