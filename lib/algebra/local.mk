@@ -3,6 +3,9 @@ libcore_la_SOURCES += \
   lib/algebra/blocks.h \
   lib/algebra/dense.c \
   lib/algebra/dense.h \
+  lib/algebra/elementary.c \
+  lib/algebra/elementary.h \
+  lib/algebra/elementary_kernel.h \
   lib/algebra/enclosure.c \
   lib/algebra/enclosure.h \
   lib/algebra/hessenberg_form.c \

@@ -1,6 +1,8 @@
 /* matrix3.c: vectors of three and rotations */
 #include "algebra/matrix3.h"
 
+#include "algebra/elementary.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -65,7 +67,7 @@ void matrix3_apply(const double R[9], const double v[3], double out[3])
 /* the part along the axis, the part across and the axis times it (Rodrigues 1840) */
 void matrix3_turn(const double u[3], double angle, double out[9])
 {
-    const double c = cos(angle), s = sin(angle);
+    const double c = elementary_cos(angle), s = elementary_sin(angle);
 
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++)

@@ -4,6 +4,8 @@
  * run, not once an operation. */
 #include "compile/program_impl.h"
 
+#include "algebra/elementary.h"
+
 #include <math.h>
 
 struct Workspace {
@@ -71,16 +73,12 @@ static void run_tables(const OpcodeRun *run, const uint32_t *operand, Curve *con
             curve_value(tables[(int)slots[operand[0]]], slots[operand[1]], (int)slots[operand[2]]);
 }
 
-/* the compiler makes one library call of the two */
 static void run_sines(const OpcodeRun *run, const uint32_t *operand, double *slots)
 {
     double *result = slots + run->result;
 
     for (int i = 0; i < run->count; i++) {
-        double a = slots[operand[i]];
-
-        result[2 * i] = sin(a);
-        result[2 * i + 1] = cos(a);
+        elementary_sincos(slots[operand[i]], &result[2 * i], &result[2 * i + 1]);
     }
 }
 

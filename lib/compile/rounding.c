@@ -6,6 +6,8 @@
  * the last place. Conditions count as decided. Higham (2002), 3.3. */
 #include "compile/program_impl.h"
 
+#include "algebra/elementary.h"
+
 #include <math.h>
 
 #define UNIT 0x1p-52
@@ -128,7 +130,7 @@ static double error_of(Operation *operation, int code, int operands, const uint3
 
 static double sine(int code, const double *args)
 {
-    return code == CODE_SINCOS ? sin(args[0]) : cos(args[0]);
+    return code == CODE_SINCOS ? elementary_sin(args[0]) : elementary_cos(args[0]);
 }
 
 static void bound_sines(const OpcodeRun *run, const uint32_t *operand, const double *slots,

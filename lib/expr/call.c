@@ -4,14 +4,16 @@
  * `exact`. */
 #include "expr/expr_impl.h"
 
+#include "algebra/elementary.h"
+
 #include <math.h>
 #include <string.h>
 
 /* --- values --- */
 
 /* clang-format off */
-static double v_sin(const double *x)   { return sin(x[0]); }
-static double v_cos(const double *x)   { return cos(x[0]); }
+static double v_sin(const double *x)   { return elementary_sin(x[0]); }
+static double v_cos(const double *x)   { return elementary_cos(x[0]); }
 static double v_tan(const double *x)   { return tan(x[0]); }
 static double v_asin(const double *x)  { return asin(x[0]); }
 static double v_acos(const double *x)  { return acos(x[0]); }
@@ -27,8 +29,8 @@ static double v_unwrap(const double *x)
 static double v_sinh(const double *x)  { return sinh(x[0]); }
 static double v_cosh(const double *x)  { return cosh(x[0]); }
 static double v_tanh(const double *x)  { return tanh(x[0]); }
-static double v_exp(const double *x)   { return exp(x[0]); }
-static double v_log(const double *x)   { return log(x[0]); }
+static double v_exp(const double *x)   { return elementary_exp(x[0]); }
+static double v_log(const double *x)   { return elementary_log(x[0]); }
 static double v_sqrt(const double *x)  { return sqrt(x[0]); }
 static double v_abs(const double *x)   { return fabs(x[0]); }
 static double v_sign(const double *x)  { return (x[0] > 0) - (x[0] < 0); }

@@ -4,6 +4,8 @@
  * become unit vectors u / |u|, with an exact |u| where the entries are exact. */
 #include "model/model_impl.h"
 
+#include "algebra/elementary.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -255,8 +257,10 @@ static void circle(Arena *arena, Expr angle, Expr *c, Expr *s)
         *s = expr_int(arena, cosines[(quarter + 3) % 4]);
         return;
     }
-    *c = expr_is_number(angle) ? expr_real(arena, cos(expr_value(angle))) : expr_cos(arena, angle);
-    *s = expr_is_number(angle) ? expr_real(arena, sin(expr_value(angle))) : expr_sin(arena, angle);
+    *c = expr_is_number(angle) ? expr_real(arena, elementary_cos(expr_value(angle)))
+                               : expr_cos(arena, angle);
+    *s = expr_is_number(angle) ? expr_real(arena, elementary_sin(expr_value(angle)))
+                               : expr_sin(arena, angle);
 }
 
 static void turn_matrix(Arena *arena, int axis, Expr angle, Expr R[9])

@@ -5,6 +5,7 @@
  * grows up to half a turn away from it. */
 #include "simulate/assemble/skeleton.h"
 
+#include "algebra/elementary.h"
 #include "algebra/matrix3.h"
 #include "base/memory.h"
 
@@ -59,7 +60,9 @@ static void log_slopes(const double r[3], LinkRow *rows)
 {
     const double size = sqrt(vector3_dot(r, r)), half = size / 2;
     const double c =
-        size < 1e-3 ? 1.0 / 12 : (1 - half * cos(half) / fmax(sin(half), 1e-9)) / (size * size);
+        size < 1e-3
+            ? 1.0 / 12
+            : (1 - half * elementary_cos(half) / fmax(elementary_sin(half), 1e-9)) / (size * size);
 
     for (int j = 0; j < 3; j++) {
         double d[3] = {0}, once[3], twice[3];

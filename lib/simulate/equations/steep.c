@@ -5,6 +5,7 @@
  * system; how it answers to inputs is found by differences, exact where it is affine. */
 #include "simulate/equations/steep.h"
 
+#include "algebra/elementary.h"
 #include "algebra/linear.h"
 #include "algebra/sparse.h"
 #include "base/memory.h"
@@ -403,7 +404,8 @@ Range steep_size(const Steep *s, int k, Range a)
     case OP_TANH: /* what is left to 1 */
         return (Range){-2 * size.high, -2 * size.low};
     case OP_HOLD:
-        size = (Range){element->exponent * log(size.low), element->exponent * log(size.high)};
+        size = (Range){element->exponent * elementary_log(size.low),
+                       element->exponent * elementary_log(size.high)};
         return size.low <= size.high ? size : (Range){size.high, size.low};
     default:
         return size;

@@ -97,6 +97,12 @@ static void choose_scale(Dop853 *d, const double *a, const double *b)
 
 /* A first step: the one whose explicit Euler result, compared with f there, promises an error
  * of a hundredth (Hairer, Norsett, Wanner 1993, II.4). */
+/* the same on every machine, as roots are and powers are not */
+static double eighth_root(double x)
+{
+    return sqrt(sqrt(sqrt(x)));
+}
+
 static double first_step(Dop853 *d, double t, double span)
 {
     double size, slope, bend, h, h2;
@@ -114,7 +120,7 @@ static double first_step(Dop853 *d, double t, double span)
     for (int i = 0; i < d->n; i++)
         d->k[2][i] = d->k[1][i] - d->k[0][i];
     bend = scaled_norm(d, d->k[2]) / h;
-    h2 = fmax(slope, bend) <= 1e-15 ? fmax(1e-6, h * 1e-3) : pow(0.01 / fmax(slope, bend), 1.0 / 8);
+    h2 = fmax(slope, bend) <= 1e-15 ? fmax(1e-6, h * 1e-3) : eighth_root(0.01 / fmax(slope, bend));
     return fmin(fmin(100 * h, h2), span);
 }
 
@@ -176,7 +182,7 @@ static double scaled_product(const Dop853 *d, const double *v, const double *w)
 static bool swings(Dop853 *d)
 {
     double *w[] = {d->dense[0], d->dense[1], d->dense[2], d->dense[3]}; /* free until asked for */
-    double p[4][4];
+    double p[4][4], power[4] = {1};
     double rate, a, b, d11, d12, d22, r1, r2, det;
 
     for (int i = 0; i < d->n; i++)
@@ -187,9 +193,11 @@ static bool swings(Dop853 *d)
         if (!apply_jacobian(d, w[k], w[k + 1]))
             return false;
     rate = scaled_norm(d, w[1]) / scaled_norm(d, w[0]);
+    for (int k = 1; k < 4; k++)
+        power[k] = power[k - 1] * rate;
     for (int j = 0; j < 4; j++)
         for (int k = 0; k < 4; k++)
-            p[j][k] = scaled_product(d, w[j], w[k]) / pow(rate, j + k);
+            p[j][k] = scaled_product(d, w[j], w[k]) / (power[j] * power[k]);
     /* a trace more on the diagonal: w may be a multiple of J w */
     d12 = p[0][1] + p[1][2];
     d11 = (p[1][1] + p[2][2]) * (1 + 1e-6);
@@ -320,7 +328,7 @@ static Status step(Stepper *stepper, double end, Diag *diag)
             sound = accepted;
         }
         if (accepted) {
-            double factor = error > 0 ? SAFETY * pow(error, -1.0 / 8) : GROW;
+            double factor = error > 0 ? SAFETY / eighth_root(error) : GROW;
 
             factor = fmin(d->was_rejected ? 1 : GROW, fmax(SHRINK, factor));
             /* a step cut to meet `end` says nothing against the longer one */
@@ -337,7 +345,7 @@ static Status step(Stepper *stepper, double end, Diag *diag)
             return solver_failure(diag, d->base.before,
                                   "the equations have no solution just behind this instant (ten "
                                   "ever shorter steps failed)");
-        h = sound ? tried * fmax(SHRINK, SAFETY * pow(error, -1.0 / 8)) : 0.5 * tried;
+        h = sound ? tried * fmax(SHRINK, SAFETY / eighth_root(error)) : 0.5 * tried;
     }
 }
 

@@ -5,6 +5,7 @@
  * u = ln N its size: the logarithm makes a rough effect good enough. */
 #include "simulate/run/onset.h"
 
+#include "algebra/elementary.h"
 #include "base/memory.h"
 
 #include <math.h>
@@ -282,7 +283,7 @@ static void take_sources(Onset *o, double t)
 
 static double threshold_of(double h, double effect)
 {
-    return effect > 0 ? log(AIM / (h * effect)) : INFINITY;
+    return effect > 0 ? elementary_log(AIM / (h * effect)) : INFINITY;
 }
 
 static double size_at(const Onset *o, int k)
@@ -438,7 +439,7 @@ static double next_conduction(Onset *o, Stepper *stepper, double end, double *bo
         o->conducts[k] = size_at(o, k) >= o->threshold[k] - NEAR;
         o->leaks[k] = o->conducts[k] && (o->is_first || o->element_pulses[k].is_on)
                           ? (double)NAN
-                          : exp(fmin(o->threshold[k], MOST_SIZE)) / LEAK;
+                          : elementary_exp(fmin(o->threshold[k], MOST_SIZE)) / LEAK;
     }
     if (!linearise(o, stepper))
         return end;

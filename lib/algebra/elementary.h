@@ -1,0 +1,20 @@
+/* elementary.h: sine, cosine, exponential and logarithm, the same on every machine
+ *
+ * Sums and products alone, rounded one by one: a number has the same value with two, four or eight
+ * beside it, and on any processor. Within a unit in the last place over the whole range: angles of
+ * many turns, numbers without a leading digit, infinities and NaN as C has them. */
+#ifndef COTREE_ALGEBRA_ELEMENTARY_H
+#define COTREE_ALGEBRA_ELEMENTARY_H
+
+double elementary_sin(double x);
+double elementary_cos(double x);
+double elementary_exp(double x);
+double elementary_log(double x);
+void elementary_sincos(double x, double *sine, double *cosine);
+
+/* many at once, `count` of them; results are not where arguments are */
+void elementary_sincos_all(const double *x, double *sine, double *cosine, int count);
+void elementary_exp_all(const double *x, double *out, int count);
+void elementary_log_all(const double *x, double *out, int count);
+
+#endif
