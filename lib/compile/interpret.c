@@ -1,4 +1,4 @@
-/* interpret.c: a workspace, and the loops that run through a tape
+/* interpret.c: the loops that run through a tape
  *
  * One loop an opcode, made from its row: the branch that finds the loop is paid once a
  * run, not once an operation. */
@@ -7,45 +7,6 @@
 #include "algebra/elementary.h"
 
 #include <math.h>
-
-struct Workspace {
-    const Program *program;
-    double *slots;
-    double *roots;
-};
-
-Workspace *workspace_new(const Program *program)
-{
-    const bool was_scratch = mem_scratch(true); /* numbers that each evaluation finds anew */
-    Workspace *workspace = NEW(Workspace);
-
-    workspace->program = program;
-    workspace->slots = NEW_ARRAY(double, program->slot_count);
-    workspace->roots = NEW_ARRAY(double, program->root_count);
-    for (int i = 0; i < program->constants.count; i++)
-        workspace->slots[program->input_count + i] = program->constants.at[i];
-    (void)mem_scratch(was_scratch);
-    return workspace;
-}
-
-void workspace_free(Workspace *workspace)
-{
-    if (workspace == NULL)
-        return;
-    mem_free(workspace->slots);
-    mem_free(workspace->roots);
-    mem_free(workspace);
-}
-
-double *workspace_inputs(Workspace *workspace)
-{
-    return workspace->slots;
-}
-
-const double *workspace_roots(const Workspace *workspace)
-{
-    return workspace->roots;
-}
 
 static void run_calls(const OpcodeRun *run, const uint32_t *operand, double *slots)
 {
@@ -111,24 +72,23 @@ static void run_one(const OpcodeRun *run, const uint32_t *operand, double *slots
     }
 }
 
-void workspace_run(Workspace *workspace, Stage from, Stage to)
+void program_interpret(const Program *program, Stage from, Stage to, double *slots)
 {
-    const Program *program = workspace->program;
     const uint32_t *tape = program->tape.at;
 
     for (int r = program->first_run[from]; r < program->first_run[to + 1]; r++) {
         const OpcodeRun *run = &program->runs.at[r];
 
         if (run->code == CODE_CALL + OP_TABLE)
-            run_tables(run, tape + run->operands, program->tables.at, workspace->slots);
+            run_tables(run, tape + run->operands, program->tables.at, slots);
         else
-            run_one(run, tape + run->operands, workspace->slots);
+            run_one(run, tape + run->operands, slots);
     }
-    for (int i = program->first_root[from]; i < program->first_root[to + 1]; i++)
-        workspace->roots[program->roots[i].root] = workspace->slots[program->roots[i].slot];
 }
 
-void workspace_errors(const Workspace *workspace, const double *input_errors, double *root_errors)
+void program_hand_over(const Program *program, Stage from, Stage to, const double *slots,
+                       double *roots)
 {
-    program_bound(workspace->program, workspace->slots, input_errors, root_errors);
+    for (int i = program->first_root[from]; i < program->first_root[to + 1]; i++)
+        roots[program->roots[i].root] = slots[program->roots[i].slot];
 }

@@ -2,9 +2,14 @@ libcore_la_SOURCES += \
   lib/compile/rounding.c \
 	lib/compile/interpret.c \
 	lib/compile/lower.c \
+	lib/compile/native.c lib/compile/native.h lib/compile/native_impl.h \
+	lib/compile/native_registers.c \
+	lib/compile/native_steps.c \
 	lib/compile/opcodes.def \
 	lib/compile/program.c lib/compile/program.h \
 	lib/compile/program_impl.h \
 	lib/compile/residual.c lib/compile/residual.h \
 	lib/compile/schedule.c \
-	lib/compile/stage.c
+	lib/compile/stage.c \
+	lib/compile/workspace.c \
+	lib/compile/x86.c lib/compile/x86.h

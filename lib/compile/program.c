@@ -47,6 +47,7 @@ void program_free(Program *program)
     mem_free(program->roots);
     LIST_FREE(program->runs);
     LIST_FREE(program->tape);
+    LIST_FREE(program->derived);
     pool_free(program->texts);
     mem_free(program);
 }
@@ -77,7 +78,8 @@ size_t program_bytes(const Program *program)
            (size_t)program->constants.room * sizeof *program->constants.at +
            (size_t)program->root_count * sizeof *program->roots +
            (size_t)program->runs.room * sizeof *program->runs.at +
-           (size_t)program->tape.room * sizeof *program->tape.at;
+           (size_t)program->tape.room * sizeof *program->tape.at +
+           (size_t)program->derived.room * sizeof *program->derived.at;
 }
 
 /* --- counting --- */

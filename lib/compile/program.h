@@ -6,10 +6,12 @@
  *
  * The interpreter runs through a tape in which equal operations stand in runs, one
  * loop a run. Results have the bits of expr_evaluate(): chains from left to right, every
- * operation rounded. What isn't chosen by an if is computed and doesn't leak. */
+ * operation rounded. What isn't chosen by an if is computed and doesn't leak. Native code is made
+ * for workspaces that are run often. */
 #ifndef COTREE_COMPILE_PROGRAM_H
 #define COTREE_COMPILE_PROGRAM_H
 
+#include "base/code_memory.h"
 #include "expr/expr.h"
 
 typedef enum Stage {
@@ -50,11 +52,14 @@ size_t program_bytes(const Program *program);
 /* one line an instruction, for `show program`: "v7 = v3 * v5" */
 void program_print(Text *text, const Program *program);
 
-Workspace *workspace_new(const Program *program); /* new; borrows the program; all inputs 0 */
-void workspace_free(Workspace *workspace);        /* NULL is fine */
+/* New; borrows the program; all inputs 0. The interpreter computes. */
+Workspace *workspace_new(const Program *program);
+void workspace_free(Workspace *workspace); /* NULL is fine */
+/* Before the first run. Code is made when it has paid: after some hundred evaluations. */
+void workspace_choose(Workspace *workspace, Evaluator evaluator);
 /* The numbers of the inputs, in the order given to program_new(): write here. */
 double *workspace_inputs(Workspace *workspace);
-/* Compute stages from..to, both included. No allocation, no failure; NaN travels. */
+/* Compute stages from..to, both included. No failure; NaN travels. */
 void workspace_run(Workspace *workspace, Stage from, Stage to);
 /* The values of the roots, in order; a root's is current once its stage was run. Borrowed. */
 const double *workspace_roots(const Workspace *workspace);

@@ -1,7 +1,8 @@
 /* program_impl.h: what the files of lib/compile share
  *
  * Roots are lowered to values (lower.c), values are put into stages and runs
- * (schedule.c), a workspace runs through them (interpret.c).
+ * (schedule.c). A workspace (workspace.c) runs through them (interpret.c), or has native code made
+ * (native.h).
  *
  * Slots of a workspace: inputs, constants, then results in the order of the tape.
  * So an instruction tells its operands only; a run knows the slot of its first
@@ -73,6 +74,7 @@ struct Program {
     LIST(Curve *) tables;
     LIST(OpcodeRun) runs;
     LIST(uint32_t) tape;
+    LIST(uint32_t) derived;         /* slots of results in the order of the expressions */
     Handover *roots;                /* by stage */
     int first_run[STAGE_COUNT + 1]; /* of each stage */
     int first_root[STAGE_COUNT + 1];
@@ -81,6 +83,12 @@ struct Program {
 
 /* Fill everything but names and counts of inputs and roots. Changes `lowered`. */
 void program_schedule(Program *program, Lowered *lowered);
+
+/* --- interpret.c --- */
+
+void program_interpret(const Program *program, Stage from, Stage to, double *slots);
+void program_hand_over(const Program *program, Stage from, Stage to, const double *slots,
+                       double *roots);
 
 /* --- rounding.c --- */
 

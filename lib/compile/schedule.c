@@ -265,6 +265,9 @@ void program_schedule(Program *program, Lowered *lowered)
         emit_stage(&plan, (Stage)stage);
     }
     program->first_run[STAGE_COUNT] = program->runs.count;
+    for (uint32_t v = 0; v < plan.count; v++)
+        if (is_instruction(&plan.values[v]))
+            LIST_PUSH(program->derived, plan.slot[v]);
     place_roots(&plan, lowered);
 
     mem_free(plan.slot);

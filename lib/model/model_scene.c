@@ -1,4 +1,5 @@
 /* model_scene.c: scene, gravity, title; changing and deleting what is there */
+#include "base/code_memory.h"
 #include "language/verbs.h"
 #include "model/model_impl.h"
 
@@ -214,10 +215,11 @@ done:
 /* --- settings --- */
 
 static const struct {
+    Effect effect;
     const char *hint;
     const char *const *words; /* the name, then the values */
 } settings[] = {
-#define SETTING(id, hint, ...) {hint, WORDS(__VA_ARGS__)},
+#define SETTING(id, effect, hint, ...) {EFFECT_##effect, hint, WORDS(__VA_ARGS__)},
 #include "model/model_settings.def"
 };
 
@@ -255,7 +257,9 @@ static Status apply_setting(State *state, int setting, const Statement *statemen
         return E_VALUE;
     }
     state->settings.at[setting] = value;
-    outcome->effect = EFFECT_EQUATIONS;
+    outcome->effect = settings[setting].effect;
+    if (setting == SETTING_EVALUATOR && value == EVALUATOR_NATIVE && !code_memory_is_there())
+        text_add(&outcome->remarks, "no native code can be run here: the interpreter evaluates\n");
     return OK;
 }
 

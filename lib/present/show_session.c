@@ -87,8 +87,6 @@ Status show_settings(const View *view, const Selection *selection, Text *out, Di
         table_cell(&table, model_setting((int)i)[0]);
         table_cell(&table, model_setting((int)i)[1 + model_setting_value(view->model, i)]);
     }
-    table_cell(&table, "evaluator");
-    table_cell(&table, "interpreter");
     table_print(out, &table, 0);
     table_free(&table);
     return OK;

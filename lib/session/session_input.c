@@ -114,16 +114,17 @@ void run_input_make(ct_session *session, const System *system, RunInput *input)
     input->events = mem_array((size_t)model_event_count(model), sizeof *input->events);
     for (int i = 0; i < model_event_count(model); i++)
         input->events[i] = model_event(model, i);
-    input->setting = (Setting){.parameter = parameter_value,
-                               .context = input->parameters,
-                               .scene = model_scene_source(model),
-                               .events = input->events,
-                               .event_count = model_event_count(model),
-                               .start = &input->start,
-                               .warm = session->warm.result != NULL ? session->warm.reader
-                                                                    : session->rest.reader,
-                               .from = resting_start(session),
-                               .watch = &session->watch};
+    input->setting = (Setting){
+        .parameter = parameter_value,
+        .context = input->parameters,
+        .scene = model_scene_source(model),
+        .events = input->events,
+        .event_count = model_event_count(model),
+        .start = &input->start,
+        .warm = session->warm.result != NULL ? session->warm.reader : session->rest.reader,
+        .from = resting_start(session),
+        .evaluator = (Evaluator)model_setting_value(model, SETTING_EVALUATOR),
+        .watch = &session->watch};
     input->setting.form =
         model_form(model, &input->setting.independent, &input->setting.independent_count);
 }

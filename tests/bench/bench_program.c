@@ -6,8 +6,10 @@
  *   f(i)   = -sum_j mu(max(i,j)) L(i) L(j) sin(th(i) - th(j)) w(j)^2 - mu(i) g L(i) cos(th(i))
  *
  * then M = R R^T and two solutions, all by recurrences over held definitions, as a
- * formulation would emit them. The baseline evaluates the same nodes by a switch each. */
-#include "compile/program.h"
+ * formulation would emit them. The baseline evaluates the same nodes by a switch each. Native rows
+ * are of what moves, as eval_moving, and a chain where several are evaluated at once. */
+#include "compile/native.h"
+#include "compile/program_impl.h"
 
 #include "base/memory.h"
 
@@ -272,6 +274,52 @@ static void line(const char *what, const char *size, double value, const char *u
     bench_line(name, value, unit);
 }
 
+/* the same natively: of one, and a chain each of as many at once as the processor has it */
+static void measure_native(const Chain *chain, const Program *program, const char *size, int calls)
+{
+    const struct {
+        const char *what;
+        int width;
+        bool fused;
+    } rows[] = {
+        {"native", 1, true}, {"strict", 1, false}, {"native_4", 4, true}, {"native_8", 8, true}};
+
+    for (int r = 0; r < COUNT(rows); r++) {
+        NativeTarget target;
+        Native *native;
+        NativeFrame *frame;
+        double *slots, seconds;
+        char name[32];
+        const int width = rows[r].width;
+
+        if (!native_target(width, rows[r].fused, &target) || target.width < width)
+            continue;
+        native = native_new(program, &target);
+        if (native == NULL)
+            continue;
+        frame = native_frame_new(native);
+        slots = NEW_ARRAY(double, (program->slot_count + program->root_count) * width);
+        for (int k = 0; k < width; k++) {
+            for (int i = 0; i < chain->input_count; i++)
+                slots[i * width + k] = 1 + 0.1 * sin(i + k);
+            for (int i = 0; i < program->constants.count; i++)
+                slots[(chain->input_count + i) * width + k] = program->constants.at[i];
+        }
+        native_run(native, STAGE_PARAMETER, STAGE_ACCELERATION, slots, frame);
+        BENCH_LEAST(200, seconds,
+                    for (int i = 0; i < calls; i++)
+                        native_run(native, STAGE_POSITION, STAGE_ACCELERATION, slots, frame));
+        (void)snprintf(name, sizeof name, "eval_%s", rows[r].what);
+        line(name, size, 1e9 * seconds / calls / width, "ns");
+        native_frame_free(frame);
+        native_free(native);
+        BENCH_LEAST(20, seconds, native_free(native_new(program, &target)));
+        (void)snprintf(name, sizeof name, "make_%s", rows[r].what);
+        line(name, size, 1e6 * seconds, "us");
+        mem_free(slots);
+    }
+}
+
 static void measure(int links, const char *size)
 {
     Chain *chain = chain_new(links);
@@ -296,6 +344,7 @@ static void measure(int links, const char *size)
                 for (int i = 0; i < calls; i++)
                     workspace_run(workspace, STAGE_POSITION, STAGE_ACCELERATION));
     line("eval_moving", size, 1e9 * seconds / calls, "ns");
+    measure_native(chain, program, size, calls);
     BENCH_LEAST(200, seconds, for (int i = 0; i < calls; i++) plain_run(plain));
     line("eval_switch", size, 1e9 * seconds / calls, "ns");
 

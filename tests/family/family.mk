@@ -81,3 +81,6 @@ family_stress_runs_SOURCES = tests/family/family_stress_runs.c tests/family/mech
 	tests/family/one_freedom.h tests/family/extrapolated.h tests/family/script.h \
 	tests/family/stress.h
 family_stress_runs_LDADD = libcotree.la $(unit_ldadd)
+FAMILIES += family_native
+family_native_SOURCES = tests/family/family_native.c tests/family/family.h tests/random.h
+family_native_LDADD = $(unit_ldadd)

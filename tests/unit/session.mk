@@ -69,3 +69,6 @@ test_costs_LDADD = $(unit_ldadd)
 UNIT_TESTS += test_stress_list
 test_stress_list_SOURCES = tests/unit/test_stress_list.c tests/random.h tests/unit/session_kit.h tests/unit/test.h
 test_stress_list_LDADD = $(unit_ldadd)
+UNIT_TESTS += test_evaluator
+test_evaluator_SOURCES = tests/unit/test_evaluator.c tests/unit/session_kit.h tests/unit/test.h
+test_evaluator_LDADD = $(unit_ldadd)

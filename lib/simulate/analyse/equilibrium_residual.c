@@ -88,7 +88,8 @@ static Status make_system(EquilibriumResidual *s, const Scene *scene, const Watc
 
     s->load = of.load;
     s->gmin = options.gmin = expr_symbol(arena, "#leak", SYMBOL_PARAMETER);
-    s->parameters = (Parameters){.value = parameter, .context = s};
+    s->parameters = (Parameters){
+        .value = parameter, .context = s, .evaluator = s->start->phases->parameters.evaluator};
     TRY(system_new_view(scene, &options, &s->system, diag));
     s->l = layout_new(s->system);
     s->n = s->l->nu + s->l->nx + s->l->m + s->l->nz;

@@ -116,7 +116,9 @@ static Status open_system(Work *w, Diag *diag)
     w->l = layout_new(w->system);
     if (w->phase->closed != NULL)
         layout_take_sides(w->l, w->phase->closed);
-    w->parameters = (Parameters){.value = parameter, .context = w};
+    w->parameters = (Parameters){.value = parameter,
+                                 .context = w,
+                                 .evaluator = w->order->about->phases->parameters.evaluator};
 done:
     scene_free(&scene);
     return status;

@@ -9,6 +9,7 @@
 typedef struct Parameters {
     ParameterValue value;
     void *context;
+    Evaluator evaluator; /* of whatever is made with them */
     int count, room;
     Expr *symbols;
     double *values;

@@ -49,6 +49,7 @@ Status probe_make(const Layout *layout, Parameters *parameters, const ProbeOrder
     probe->layout = layout;
     CHECK(residual_new(&rows, &probe->residual, diag));
     probe->workspace = workspace_new(residual_program(probe->residual));
+    workspace_choose(probe->workspace, parameters->evaluator);
     probe->inputs = workspace_inputs(probe->workspace);
     put_parameters(probe, parameters);
     *out = probe;

@@ -4,6 +4,7 @@
 #ifndef COTREE_SIMULATE_EQUATIONS_SETTING_H
 #define COTREE_SIMULATE_EQUATIONS_SETTING_H
 
+#include "compile/program.h"
 #include "formulate/system.h"
 #include "model/event.h"
 
@@ -30,6 +31,7 @@ typedef struct Setting {
     void *context;
     SceneSource scene; /* of the system: its ideal switches make others from it */
     Form form;
+    Evaluator evaluator;
     const char *const *independent; /* names; borrowed during the call */
     int independent_count;
     const Event *const *events; /* borrowed during the call; what a result needs it copies */

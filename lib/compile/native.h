@@ -1,0 +1,37 @@
+/* native.h: a program as instructions of the processor that runs
+ *
+ * One function a stage, over the slots of a workspace and a frame of its own. What a stage leaves
+ * for later ones stands in the slots in which the interpreter has it, so either may go on where the
+ * other has been. A Native is const once made. */
+#ifndef COTREE_COMPILE_NATIVE_H
+#define COTREE_COMPILE_NATIVE_H
+
+#include "compile/program.h"
+#include "compile/x86.h"
+
+typedef struct NativeTarget {
+    Isa isa;
+    int width;     /* evaluations at once: 1, up to 2, 4, 8 as the instructions have it */
+    int registers; /* of those there are, FEWEST_REGISTERS at least */
+    bool fused;    /* a product and sum is rounded once where the processor does so */
+} NativeTarget;
+
+enum { FEWEST_REGISTERS = 6, WIDEST = 8 };
+
+/* the best that there is here, for up to `width` evaluations at once; false: nothing */
+bool native_target(int width, bool fused, NativeTarget *out);
+bool native_has(Isa isa);
+
+typedef struct Native Native;
+/* New; borrows the program. NULL: the system refuses memory for it. O(instructions * registers). */
+Native *native_new(const Program *program, const NativeTarget *target);
+void native_free(Native *native); /* NULL is fine */
+size_t native_bytes(const Native *native);
+/* what stands beside the slots while stages run; new, one for each who runs them */
+typedef void NativeFrame;
+NativeFrame *native_frame_new(const Native *native);
+void native_frame_free(NativeFrame *frame);
+/* Stages from..to, both included. Slots, then roots, each of `width` numbers. */
+void native_run(const Native *native, Stage from, Stage to, double *slots, NativeFrame *frame);
+
+#endif

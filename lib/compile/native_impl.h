@@ -1,0 +1,81 @@
+/* native_impl.h: what the files that make native code share
+ *
+ * The instructions of a stage are put into an order in which results are used soon, calls gathered
+ * (native_steps.c); registers are given to them and bytes written (native_registers.c). */
+#ifndef COTREE_COMPILE_NATIVE_IMPL_H
+#define COTREE_COMPILE_NATIVE_IMPL_H
+
+#include "compile/native.h"
+#include "compile/program_impl.h"
+
+#ifdef __x86_64__
+
+/* where a value stands in memory: a slot, or a place in the frame, or one of its fixed numbers */
+typedef uint32_t Home;
+#define FRAME   0x80000000U
+#define FIXED   0xC0000000U
+#define NO_HOME UINT32_MAX
+
+/* Numbers that instructions need, first in each frame; as values they come behind the slots. */
+typedef enum FixedValue { FIXED_SIGN, FIXED_SIZE, FIXED_ONE, FIXED_ZERO, FIXED_COUNT } FixedValue;
+
+typedef enum StepCode {
+    STEP_ADD, /* of two: as X86Op up to X86_AND */
+    STEP_SUB,
+    STEP_MUL,
+    STEP_DIV,
+    STEP_MIN,
+    STEP_MAX,
+    STEP_SQRT, /* of one */
+    STEP_XOR,
+    STEP_AND,
+    STEP_MULADD, /* of three, a * b + c, rounded once */
+    STEP_MULSUB,
+    STEP_SUBMUL,
+    STEP_COMPARE, /* + X86Compare: 1 or 0 */
+    STEP_SELECT = STEP_COMPARE + 5,
+    STEP_STORE, /* result: a place */
+    STEP_CALL   /* result: number of the call */
+} StepCode;
+
+typedef struct Step {
+    uint8_t code;
+    uint8_t operands;
+    uint32_t result; /* a value, but for the last two */
+    uint32_t args[MOST_OPERANDS];
+} Step;
+
+/* functions of one kind, whose arguments stand in memory one behind the other */
+typedef struct StepCall {
+    Opcode code; /* CODE_SINCOS, or another function */
+    int count;
+    Home arguments, results; /* all sines, then all cosines */
+    int first_result;        /* in `results` of the steps; SINCOS has two each */
+} StepCall;
+
+typedef struct StageSteps {
+    LIST(Step) steps;
+    LIST(StepCall) calls;
+    LIST(uint32_t) results; /* values, NO_HOME where nobody needs one */
+    uint32_t value_count;   /* slots, fixed ones, what is new here */
+    uint32_t frame;         /* places taken by calls */
+} StageSteps;
+
+typedef struct StepMaker StepMaker;
+StepMaker *step_maker_new(const Program *program, bool fused);
+void step_maker_free(StepMaker *maker);
+/* the steps of a stage, in `out`, which is emptied first */
+void step_maker_stage(StepMaker *maker, Stage stage, StageSteps *out);
+void stage_steps_free(StageSteps *steps);
+/* what stood in a slot before a stage began */
+uint32_t step_maker_first_slot(const StepMaker *maker, Stage stage);
+
+/* Append the function of a stage; the frame's places that it needs. */
+uint32_t native_emit(X86Code *code, const NativeTarget *target, const Program *program,
+                     const StageSteps *steps, uint32_t first_slot);
+
+/* where a place is, in bytes behind the slots or the frame */
+X86Operand home_operand(int width, Home place);
+
+#endif
+#endif

@@ -1,0 +1,82 @@
+/* test_evaluator.c: whatever evaluates, runs are the same */
+#include "session_kit.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+
+/* a double pendulum with a spring that stiffens, and a forced circuit with a nonlinear coil */
+static const char *const models[] = {
+    "scene planar\ngravity [0, -9.81]\nbody a mass=1 inertia=0.1\n"
+    "body b mass=0.5 inertia=0.02\narm a0 a [-0.4, 0]; arm a1 a [0.6, 0]; arm b0 b [-0.7, 0]\n"
+    "revolute h1 ground a0\nrevolute h2 a1 b0\n"
+    "torque T1 b -exp(h2/4)*log(2 + cos(h1))\ninit h1 = 1, h2' = 3\n",
+    "vsource V1 a 0 10*sin(300*t)\nresistor R1 a b 5\ninductor L1 b 0 0.1\n"
+    "capacitor C1 b 0 1e-5\ninit L1.i = 0, C1.v = 0\n"};
+static const char *const shown[] = {"h1 + 10*h2", "L1.i + 10*C1.v"};
+
+static double end_of_run(int model, const char *evaluator, const char *run)
+{
+    Kit kit = kit_new();
+    char line[64];
+    double value;
+
+    (void)snprintf(line, sizeof line, "set evaluator %s\n", evaluator);
+    EXPECT_DONE(&kit, line);
+    EXPECT_DONE(&kit, models[model]);
+    EXPECT_DONE(&kit, run);
+    value = kit_value(&kit, shown[model]);
+    kit_free(&kit);
+    return value;
+}
+
+static void strict_runs_have_the_interpreters_digits(void)
+{
+    static const char *const runs[] = {"simulate 2 method=dop853",
+                                       "simulate 0.5 method=rk4 step=5e-5",
+                                       "simulate 0.5 method=radau"};
+
+    for (int model = 0; model < COUNT(models); model++)
+        for (int i = 0; i < COUNT(runs); i++)
+            EXPECT(end_of_run(model, "strict", runs[i]) ==
+                   end_of_run(model, "interpreter", runs[i]));
+}
+
+static void native_runs_agree_to_rounding(void)
+{
+    for (int model = 0; model < COUNT(models); model++) {
+        const char *run = "simulate 1 rtol=1e-10 atol=1e-10";
+        const double strict = end_of_run(model, "strict", run);
+
+        EXPECT_NEAR(end_of_run(model, "native", run), strict, 1e-8 * (1 + fabs(strict)));
+    }
+}
+
+static const char *kit_text(const Kit *kit)
+{
+    return kit->text != NULL ? kit->text : "";
+}
+
+static void the_setting_is_shown_saved_and_taken_back(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, "show settings");
+    EXPECT(strstr(kit_text(&kit), "evaluator  strict") != NULL);
+    EXPECT_DONE(&kit, "set evaluator native");
+    EXPECT_DONE(&kit, "show settings");
+    EXPECT(strstr(kit_text(&kit), "evaluator  native") != NULL);
+    EXPECT_FAILS(&kit, "set evaluator fast", "evaluator is strict or native or interpreter");
+    EXPECT_DONE(&kit, "undo");
+    EXPECT_DONE(&kit, "show settings");
+    EXPECT(strstr(kit_text(&kit), "evaluator  strict") != NULL);
+    kit_free(&kit);
+}
+
+int main(void)
+{
+    RUN(strict_runs_have_the_interpreters_digits);
+    RUN(native_runs_agree_to_rounding);
+    RUN(the_setting_is_shown_saved_and_taken_back);
+    return test_end();
+}
