@@ -1,7 +1,8 @@
 /* hessenberg_form.c: (s - A)^-1 b by a Hessenberg form
  *
- * GSL makes the form. It has no elimination of s - H, whose O(n^2) for each s is what the form is
- * for. */
+ * By hand: GSL has no elimination of s - H, whose O(n^2) for each s is what the form is for, and
+ * its reflections go down columns, which takes three times as long (make bench:
+ * algebra.hessenberg_*). */
 #include "algebra/hessenberg_form.h"
 
 #include "algebra/dense.h"
@@ -13,9 +14,10 @@
 
 struct HessenbergForm {
     int n;
-    gsl_matrix *h;       /* 0 below the diagonal under the main one */
-    gsl_matrix *q, *q_t; /* Q, and Q^T */
-    gsl_vector *d;       /* D */
+    gsl_matrix *h; /* 0 below the diagonal under the main one */
+    gsl_vector *d; /* D */
+    double *v; /* Q = P_0 P_1 ..., P_k = 1 - share_k v_k v_k^T: row k, from its k+1st entry on */
+    double *share;
 };
 
 struct ShiftedFactors {
@@ -61,24 +63,69 @@ static void add_row(double *restrict a, double f, const double *restrict b, int 
 
 /* --- the form --- */
 
+/* v of n entries becomes that of the reflection that leaves it only its first entry, which is the
+ * result; *share 0: that is so already */
+static double reflect(double *v, int n, double *share)
+{
+    double size = 0, norm, first = v[0];
+
+    for (int i = 1; i < n; i++)
+        size = fmax(size, fabs(v[i]));
+    *share = 0;
+    if (size == 0)
+        return first;
+    size = fmax(size, fabs(first)); /* so that no square leaves the range */
+    for (int i = 0; i < n; i++)
+        v[i] /= size;
+    norm = copysign(sqrt(dot(v, v, n)), -first);
+    *share = (norm - v[0]) / norm;
+    for (int i = 1; i < n; i++)
+        v[i] /= v[0] - norm;
+    v[0] = 1;
+    return norm * size;
+}
+
+/* H becomes P_k H P_k, with 0 below the entry under the diagonal of column k; room: n */
+static void bring_column(HessenbergForm *r, int k, double *room)
+{
+    const int n = r->n, left = n - k - 1;
+    double *h = r->h->data, *v = r->v + (ptrdiff_t)k * n + k + 1;
+
+    for (int i = 0; i < left; i++)
+        v[i] = h[(k + 1 + i) * n + k];
+    h[(k + 1) * n + k] = reflect(v, left, &r->share[k]);
+    for (int i = 1; i < left; i++)
+        h[(k + 1 + i) * n + k] = 0;
+    if (r->share[k] == 0)
+        return;
+    memset(room, 0, (size_t)left * sizeof(double));
+    for (int i = 0; i < left; i++)
+        add_row(room, r->share[k] * v[i], h + (k + 1 + i) * n + k + 1, left);
+    for (int i = 0; i < left; i++)
+        add_row(h + (k + 1 + i) * n + k + 1, -v[i], room, left);
+    for (int i = 0; i < n; i++) {
+        double *row = h + i * n + k + 1;
+
+        add_row(row, -r->share[k] * dot(row, v, left), v, left);
+    }
+}
+
 HessenbergForm *hessenberg_form_new(const double *a, int n)
 {
     HessenbergForm *r = NEW(HessenbergForm);
     const size_t size = (size_t)n;
-    gsl_vector *tau = dense_vector(size);
+    double *room = NEW_ARRAY(double, n);
 
     r->n = n;
     r->h = dense_matrix(size, size);
-    r->q = dense_matrix(size, size);
-    r->q_t = dense_matrix(size, size);
     r->d = dense_vector(size);
+    r->v = NEW_ARRAY(double, n *n);
+    r->share = NEW_ARRAY(double, n);
     memcpy(r->h->data, a, size * size * sizeof(double));
     (void)gsl_linalg_balance_matrix(r->h, r->d);
-    (void)gsl_linalg_hessenberg_decomp(r->h, tau);
-    (void)gsl_linalg_hessenberg_unpack(r->h, tau, r->q);
-    (void)gsl_linalg_hessenberg_set_zero(r->h);
-    (void)gsl_matrix_transpose_memcpy(r->q_t, r->q);
-    mem_free(tau);
+    for (int k = 0; k + 2 < n; k++)
+        bring_column(r, k, room);
+    mem_free(room);
     return r;
 }
 
@@ -86,12 +133,12 @@ void hessenberg_form_free(HessenbergForm *r)
 {
     if (r == NULL)
         return;
-    MEM_FREE(r->h, r->q, r->q_t, r->d, r);
+    MEM_FREE(r->h, r->d, r->v, r->share, r);
 }
 
 size_t hessenberg_form_bytes(const HessenbergForm *r)
 {
-    return sizeof *r + (size_t)r->n * (size_t)(3 * r->n + 1) * sizeof(double);
+    return sizeof *r + (size_t)r->n * (size_t)(2 * r->n + 2) * sizeof(double);
 }
 
 /* --- factors --- */
@@ -205,23 +252,76 @@ bool hessenberg_form_factor_complex(const HessenbergForm *r, double re, double i
 
 /* --- solutions --- */
 
+/* b becomes P_k b */
+static void apply_reflection(const HessenbergForm *r, int k, double *b)
+{
+    const int left = r->n - k - 1;
+    const double *v = r->v + (ptrdiff_t)k * r->n + k + 1;
+
+    if (r->share[k] != 0)
+        add_row(b + k + 1, -r->share[k] * dot(b + k + 1, v, left), v, left);
+}
+
+/* the same of two, whose sums go side by side */
+static void apply_to_both(const HessenbergForm *r, int k, double *restrict b, double *restrict c)
+{
+    const int n = r->n;
+    const double *restrict v = r->v + (ptrdiff_t)k * n;
+    double b_sum[2] = {0}, c_sum[2] = {0};
+    int i = k + 1;
+
+    if (r->share[k] == 0)
+        return;
+    for (; i + 2 <= n; i += 2)
+        for (int j = 0; j < 2; j++) {
+            b_sum[j] += v[i + j] * b[i + j];
+            c_sum[j] += v[i + j] * c[i + j];
+        }
+    for (; i < n; i++) {
+        b_sum[0] += v[i] * b[i];
+        c_sum[0] += v[i] * c[i];
+    }
+    add_row(b + k + 1, -r->share[k] * (b_sum[0] + b_sum[1]), v + k + 1, n - k - 1);
+    add_row(c + k + 1, -r->share[k] * (c_sum[0] + c_sum[1]), v + k + 1, n - k - 1);
+}
+
 /* out = Q^T D^-1 b */
 static void enter(const HessenbergForm *r, const double *b, double *out)
 {
-    memset(out, 0, (size_t)r->n * sizeof(double));
     for (int i = 0; i < r->n; i++)
-        if (b[i] != 0)
-            add_row(out, b[i] / r->d->data[i], r->q->data + i * r->n, r->n);
+        out[i] = b[i] / r->d->data[i];
+    for (int k = 0; k + 2 < r->n; k++)
+        apply_reflection(r, k, out);
 }
 
-/* out = D Q b */
-static void leave(const HessenbergForm *r, const double *b, double *out)
+/* out = D Q b; b is used up */
+static void leave(const HessenbergForm *r, double *b, double *out)
 {
-    memset(out, 0, (size_t)r->n * sizeof(double));
-    for (int k = 0; k < r->n; k++)
-        add_row(out, b[k], r->q_t->data + k * r->n, r->n);
+    for (int k = r->n - 3; k >= 0; k--)
+        apply_reflection(r, k, b);
     for (int i = 0; i < r->n; i++)
-        out[i] *= r->d->data[i];
+        out[i] = b[i] * r->d->data[i];
+}
+
+static void enter_both(const HessenbergForm *r, const double *b, const double *c, double *b_out,
+                       double *c_out)
+{
+    for (int i = 0; i < r->n; i++) {
+        b_out[i] = b[i] / r->d->data[i];
+        c_out[i] = c[i] / r->d->data[i];
+    }
+    for (int k = 0; k + 2 < r->n; k++)
+        apply_to_both(r, k, b_out, c_out);
+}
+
+static void leave_both(const HessenbergForm *r, double *b, double *c, double *b_out, double *c_out)
+{
+    for (int k = r->n - 3; k >= 0; k--)
+        apply_to_both(r, k, b, c);
+    for (int i = 0; i < r->n; i++) {
+        b_out[i] = b[i] * r->d->data[i];
+        c_out[i] = c[i] * r->d->data[i];
+    }
 }
 
 static void swap(double *a, double *b)
@@ -256,8 +356,7 @@ void hessenberg_form_solve_complex(const HessenbergForm *r, ShiftedFactors *f, d
     int n = r->n;
     double *x = f->b, *y = f->c;
 
-    enter(r, b, x);
-    enter(r, c, y);
+    enter_both(r, b, c, x, y);
     for (int k = 0; k + 1 < n; k++) {
         if (f->exchanged[k]) {
             swap(&x[k], &x[k + 1]);
@@ -274,6 +373,5 @@ void hessenberg_form_solve_complex(const HessenbergForm *r, ShiftedFactors *f, d
         divide(x[i] - dot(re + 1, p, left) + dot(im + 1, q, left),
                y[i] - dot(re + 1, q, left) - dot(im + 1, p, left), re[0], im[0], &x[i], &y[i]);
     }
-    leave(r, x, b);
-    leave(r, y, c);
+    leave_both(r, x, y, b, c);
 }

@@ -4,6 +4,7 @@
  * in absolute coordinates: a plane body has three speeds and two rows of constraints, which move it
  * and the one before. */
 #include "algebra/dense.h"
+#include "algebra/hessenberg_form.h"
 #include "algebra/linear.h"
 #include "algebra/rank.h"
 #include "algebra/sparse.h"
@@ -160,6 +161,35 @@ static void bench_rank(int bodies)
     mem_free(pivots);
 }
 
+/* a full matrix, balanced, in Hessenberg form, with what it takes to come to it and back */
+static void bench_hessenberg(int n)
+{
+    const int count = repeats((double)n * n * n);
+    double *a = NEW_ARRAY(double, n *n), ours, theirs;
+    gsl_matrix *h = dense_matrix((size_t)n, (size_t)n), *q = dense_matrix((size_t)n, (size_t)n);
+    gsl_vector *d = dense_vector((size_t)n), *tau = dense_vector((size_t)n);
+    uint64_t seed = 1;
+
+    for (int i = 0; i < n * n; i++)
+        a[i] = test_uniform(&seed, -1, 1);
+    BENCH_LEAST(TRIES, ours,
+                for (int k = 0; k < count; k++) hessenberg_form_free(hessenberg_form_new(a, n)););
+    BENCH_LEAST(
+        TRIES, theirs, for (int k = 0; k < count; k++) {
+            memcpy(h->data, a, (size_t)(n * n) * sizeof(double));
+            (void)gsl_linalg_balance_matrix(h, d);
+            (void)gsl_linalg_hessenberg_decomp(h, tau);
+            (void)gsl_linalg_hessenberg_unpack(h, tau, q);
+        });
+    line("hessenberg", n, "", ours / count);
+    line("hessenberg", n, "_gsl", theirs / count);
+    mem_free(a);
+    mem_free(h);
+    mem_free(q);
+    mem_free(d);
+    mem_free(tau);
+}
+
 /* new numbers in an old pattern, that of a ladder, factored and solved: a small one, which Sparse
  * keeps dense */
 static void bench_sparse(int n)
@@ -221,6 +251,7 @@ int main(void)
         bench_cholesky(sizes[i]);
         bench_rank(sizes[i]);
     }
+    bench_hessenberg(60);
     bench_sparse(4);
     bench_sparse(8);
     return 0;
