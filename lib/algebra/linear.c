@@ -246,8 +246,13 @@ double vector_largest(const double *v, int n)
 
 bool vector_is_finite(const double *v, int n)
 {
-    for (int i = 0; i < n; i++)
-        if (!isfinite(v[i]))
-            return false;
-    return true;
+    double none[4] = {0}; /* NAN once there is one that isn't; four chains, which go side by side */
+    int i = 0;
+
+    for (; i + 4 <= n; i += 4)
+        for (int k = 0; k < 4; k++)
+            none[k] += v[i + k] * 0;
+    for (; i < n; i++)
+        none[0] += v[i] * 0;
+    return none[0] + none[1] + none[2] + none[3] == 0;
 }

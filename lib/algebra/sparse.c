@@ -13,10 +13,10 @@
 #define OFTEN  4    /* solutions with the same factors, from which on they are unpacked */
 
 /* KLU's factors for many solutions, LU + F = P (R \ A) Q: it keeps them so that they are found
- * fast, with a division an unknown and all blocks apart. Columns of L, and of U and F together:
- * where they begin, and after the last one. */
+ * fast, with a division an unknown and all blocks apart. Here rows: of L, and of F before them, and
+ * of U over its pivots: where each begins, and after the last one. */
 typedef struct Unpacked {
-    int *lower, *lower_row, *upper, *upper_row;
+    int *lower, *lower_column, *upper, *upper_column;
     double *lower_value, *upper_value;
     double *pivot, *scale; /* over each, of rows as they are permuted */
     int *p, *q;
@@ -91,9 +91,9 @@ Sparse *sparse_new(int n, int entries, const int *row, const int *column)
 static void unpacked_free(Unpacked *u)
 {
     mem_free(u->lower);
-    mem_free(u->lower_row);
+    mem_free(u->lower_column);
     mem_free(u->upper);
-    mem_free(u->upper_row);
+    mem_free(u->upper_column);
     mem_free(u->lower_value);
     mem_free(u->upper_value);
     mem_free(u->pivot);
@@ -202,80 +202,95 @@ static void make_room(Sparse *s, int lower, int upper)
         u->upper = NEW_ARRAY(int, s->n + 1);
     }
     if (lower > u->lower_room) {
-        mem_free(u->lower_row);
+        mem_free(u->lower_column);
         mem_free(u->lower_value);
-        u->lower_row = NEW_ARRAY(int, lower);
+        u->lower_column = NEW_ARRAY(int, lower);
         u->lower_value = NEW_ARRAY(double, lower);
         u->lower_room = lower;
     }
     if (upper > u->upper_room) {
-        mem_free(u->upper_row);
+        mem_free(u->upper_column);
         mem_free(u->upper_value);
-        u->upper_row = NEW_ARRAY(int, upper);
+        u->upper_column = NEW_ARRAY(int, upper);
         u->upper_value = NEW_ARRAY(double, upper);
         u->upper_room = upper;
     }
 }
 
-/* U and F share columns: what a column of F takes off belongs to blocks that are solved later. */
-static void merge_upper(Sparse *s, const int *up, const int *ui, const double *ux, const int *fp,
-                        const int *fi, const double *fx)
-{
-    Unpacked *u = &s->unpacked;
-    int count = 0;
+/* One of KLU's matrices by columns. */
+typedef struct Columns {
+    int *start, *row;
+    double *value;
+} Columns;
 
-    for (int c = 0; c < s->n; c++) {
-        u->upper[c] = count;
-        for (int k = up[c]; k < up[c + 1]; k++)
-            if (ui[k] == c) {
-                u->pivot[c] = 1 / ux[k];
-            } else {
-                u->upper_row[count] = ui[k];
-                u->upper_value[count++] = ux[k];
-            }
-        for (int k = fp[c]; k < fp[c + 1]; k++) {
-            u->upper_row[count] = fi[k];
-            u->upper_value[count++] = fx[k];
-        }
-    }
-    u->upper[s->n] = count;
+/* how many entries off the diagonal each row has, two places on */
+static void count_rows(int n, const Columns *from, int *start)
+{
+    for (int c = 0; c < n; c++)
+        for (int k = from->start[c]; k < from->start[c + 1]; k++)
+            if (from->row[k] != c && from->row[k] + 2 <= n)
+                start[from->row[k] + 2]++;
 }
 
-static void merge_lower(Sparse *s, const int *lp, const int *li, const double *lx)
+/* Rows where `start`, one place on, says that each goes on; diagonals go to their place. */
+static void bring_rows(int n, const Columns *from, int *start, int *column, double *value,
+                       double *diagonal)
 {
-    Unpacked *u = &s->unpacked;
-    int count = 0;
+    for (int c = 0; c < n; c++)
+        for (int k = from->start[c]; k < from->start[c + 1]; k++) {
+            const int row = from->row[k], at = row != c ? start[row + 1]++ : -1;
 
-    for (int c = 0; c < s->n; c++) {
-        u->lower[c] = count;
-        for (int k = lp[c]; k < lp[c + 1]; k++)
-            if (li[k] != c) {
-                u->lower_row[count] = li[k];
-                u->lower_value[count++] = lx[k];
+            if (at >= 0) {
+                column[at] = c;
+                value[at] = from->value[k];
+            } else if (diagonal != NULL) {
+                diagonal[c] = 1 / from->value[k];
             }
+        }
+}
+
+/* F's part of a row comes before L's: what it takes off are blocks that are solved earlier. */
+static void merge(Sparse *s, const Columns *l, const Columns *u, const Columns *f)
+{
+    Unpacked *to = &s->unpacked;
+    const size_t bytes = (size_t)(s->n + 1) * sizeof(int);
+
+    memset(to->lower, 0, bytes);
+    memset(to->upper, 0, bytes);
+    count_rows(s->n, f, to->lower);
+    count_rows(s->n, l, to->lower);
+    count_rows(s->n, u, to->upper);
+    for (int i = 2; i <= s->n; i++) {
+        to->lower[i] += to->lower[i - 1];
+        to->upper[i] += to->upper[i - 1];
     }
-    u->lower[s->n] = count;
+    bring_rows(s->n, f, to->lower, to->lower_column, to->lower_value, NULL);
+    bring_rows(s->n, l, to->lower, to->lower_column, to->lower_value, NULL);
+    bring_rows(s->n, u, to->upper, to->upper_column, to->upper_value, to->pivot);
+    for (int i = 0; i < s->n; i++)
+        for (int k = to->upper[i]; k < to->upper[i + 1]; k++)
+            to->upper_value[k] *= to->pivot[i];
 }
 
 static bool unpack(Sparse *s)
 {
     const int lower = s->numeric->lnz, upper = s->numeric->unz, off = s->numeric->nzoff;
     const int n = s->n;
-    int *places = NEW_ARRAY(int, 3 * (n + 1) + lower + upper + off + n + 1);
-    int *lp = places, *up = lp + n + 1, *fp = up + n + 1, *li = fp + n + 1, *ui = li + lower,
-        *fi = ui + upper, *blocks = fi + off;
+    int *places = NEW_ARRAY(int, 4 * (n + 1) + lower + upper + off);
     double *numbers = NEW_ARRAY(double, lower + upper + off);
-    double *lx = numbers, *ux = lx + lower, *fx = ux + upper;
+    int *blocks = places, *start = blocks + n + 1, *row = start + 3 * (n + 1);
+    Columns l = {start, row, numbers}, u = {start + n + 1, row + lower, numbers + lower},
+            f = {start + 2 * (n + 1), u.row + upper, u.value + upper};
     bool sound;
 
-    make_room(s, lower, upper + off);
-    sound = klu_extract(s->numeric, s->symbolic, lp, li, lx, up, ui, ux, fp, fi, fx, s->unpacked.p,
-                        s->unpacked.q, s->unpacked.scale, blocks, &s->common) != 0;
+    make_room(s, lower + off, upper);
+    sound = klu_extract(s->numeric, s->symbolic, l.start, l.row, l.value, u.start, u.row, u.value,
+                        f.start, f.row, f.value, s->unpacked.p, s->unpacked.q, s->unpacked.scale,
+                        blocks, &s->common) != 0;
     for (int i = 0; i < n && sound; i++)
         s->unpacked.scale[i] = 1 / s->unpacked.scale[i];
     if (sound) {
-        merge_upper(s, up, ui, ux, fp, fi, fx);
-        merge_lower(s, lp, li, lx);
+        merge(s, &l, &u, &f);
         s->unpacked.block_count = s->symbolic->nblocks;
         memcpy(s->unpacked.block, blocks, (size_t)(s->symbolic->nblocks + 1) * sizeof(int));
     }
@@ -284,29 +299,35 @@ static bool unpack(Sparse *s)
     return sound;
 }
 
-/* columns first..end-1, one block: its L, then its U and what it takes off those before */
-static void solve_block(const Unpacked *u, int first, int end, double *x)
+/* from - what entries first..end-1 of a row take off */
+static double taken_off(double from, const int *column, const double *value, int first, int end,
+                        const double *x)
 {
-    for (int c = first; c < end; c++)
-        for (int k = u->lower[c]; k < u->lower[c + 1]; k++)
-            x[u->lower_row[k]] -= u->lower_value[k] * x[c];
-    for (int c = end - 1; c >= first; c--) {
-        x[c] *= u->pivot[c];
-        for (int k = u->upper[c]; k < u->upper[c + 1]; k++)
-            x[u->upper_row[k]] -= u->upper_value[k] * x[c];
-    }
+    for (int k = first; k < end; k++)
+        from -= value[k] * x[column[k]];
+    return from;
 }
 
 static void solve_unpacked(const Sparse *s, double *b)
 {
-    const Unpacked *u = &s->unpacked;
+    const Unpacked u = s->unpacked;
 
+    for (int k = u.block_count - 1; k >= 0; k--) {
+        const int first = u.block[k], end = u.block[k + 1];
+
+        for (int i = first; i < end; i++)
+            u.x[i] = taken_off(b[u.p[i]] * u.scale[i], u.lower_column, u.lower_value, u.lower[i],
+                               u.lower[i + 1], u.x);
+        if (end == first + 1) {
+            u.x[first] *= u.pivot[first];
+            continue;
+        }
+        for (int i = end - 1; i >= first; i--)
+            u.x[i] = taken_off(u.x[i] * u.pivot[i], u.upper_column, u.upper_value, u.upper[i],
+                               u.upper[i + 1], u.x);
+    }
     for (int i = 0; i < s->n; i++)
-        u->x[i] = b[u->p[i]] * u->scale[i];
-    for (int k = u->block_count - 1; k >= 0; k--)
-        solve_block(u, u->block[k], u->block[k + 1], u->x);
-    for (int i = 0; i < s->n; i++)
-        b[u->q[i]] = u->x[i];
+        b[u.q[i]] = u.x[i];
 }
 
 void sparse_solve(Sparse *s, double *b)
