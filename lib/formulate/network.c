@@ -102,7 +102,8 @@ static Status cutset_through(System *system, Branchlike *branch, Expr *out, Diag
     LIST(Expr) terms = {0};
     Status status = OK;
 
-    if (network_nodes_through(system, branch, out))
+    CHECK(network_nodes_through(system, branch, out, diag));
+    if (*out != NULL)
         return OK;
     for (int k = cutsets->start[branch->cutset]; k < cutsets->start[branch->cutset + 1]; k++) {
         Branchlike *chord =

@@ -14,14 +14,15 @@ typedef struct Branchlike { /* a scalar edge */
     int which;         /* of the instance's scalar edges */
     Relation relation; /* over the user's variables */
     bool branch;
-    int cutset;    /* of a branch: its row among its tree's cutsets */
-    int unknown;   /* its v or i is one; -1 */
-    bool busy;     /* its v or i is being followed */
-    bool is_steep; /* a chord whose v is the unknown, i following from it */
-    int ideal;     /* which of the switches it is; -1 */
-    Expr closed;   /* of one between two resistances: 1 or 0, a number of the run; NULL: it is none,
-                      or both sides are in its equation */
-    Expr v, i;     /* once known */
+    int cutset;       /* of a branch: its row among its tree's cutsets */
+    int unknown;      /* its v or i is one; -1 */
+    bool busy;        /* its v or i is being followed */
+    bool is_steep;    /* a chord whose v is the unknown, i following from it */
+    bool is_balanced; /* its i follows from its rate, its equation is a node's (network_nodes.c) */
+    int ideal;        /* which of the switches it is; -1 */
+    Expr closed; /* of one between two resistances: 1 or 0, a number of the run; NULL: it is none,
+                    or both sides are in its equation */
+    Expr v, i;   /* once known */
 } Branchlike;
 
 /* laws of a node, as equations of unknowns of their own (network_nodes.c) */
@@ -107,9 +108,12 @@ MUST_USE Status network_bring_order(System *system, Diag *diag);
 /* what an expression is where all its symbols have values that the seed chooses, 0.7 to 1.3 */
 double expr_value_somewhere(Expr e, uint32_t seed);
 /* Where sums are long and nobody reads them: v of a chord whose path has so many branches, i of a
- * branch, by unknowns at nodes (network_nodes.c). False: they stay sums. */
+ * branch, by what stands at nodes (network_nodes.c). False, or NULL: they stay sums. */
 bool network_nodes_across(System *system, const Branchlike *chord, int path, Expr *out);
-bool network_nodes_through(System *system, const Branchlike *branch, Expr *out);
+MUST_USE Status network_nodes_through(System *system, Branchlike *branch, Expr *out, Diag *diag);
+/* what else meets at the far node of a branch: its i */
+MUST_USE Status network_nodes_balance(System *system, const Branchlike *branch, Expr *out,
+                                      Diag *diag);
 /* the potential of a node of that tree, an unknown with its equation */
 Expr network_nodes_potential(System *system, const Tree *tree, int node);
 /* the equation of such an unknown, left = right */

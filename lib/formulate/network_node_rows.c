@@ -17,9 +17,10 @@ static Status taken_by(System *system, int edge, int node, Expr *out, Diag *diag
     return OK;
 }
 
-static Status balance_row(System *system, const Branchlike *branch, int node, Unknown *y,
-                          Diag *diag)
+Status network_nodes_balance(System *system, const Branchlike *branch, Expr *out, Diag *diag)
 {
+    const int node =
+        tree_far_node(system->origin->trees[branch_tree(system, branch)], branch->edge);
     const bool leads_here = graph_edge(system->origin->graph, branch->edge)->head == node;
     const int *edges;
     const int count = graph_edges_at(system->origin->graph, node, &edges);
@@ -34,7 +35,7 @@ static Status balance_row(System *system, const Branchlike *branch, int node, Un
         CHECK(taken_by(system, edges[i], node, &taken, diag));
         LIST_PUSH(terms, leads_here ? taken : expr_neg(system->arena, taken));
     }
-    y->right = expr_sum(system->arena, terms.at, terms.count);
+    *out = expr_sum(system->arena, terms.at, terms.count);
 done:
     LIST_FREE(terms);
     return status;
@@ -59,6 +60,6 @@ Status network_nodes_row(System *system, Unknown *y, Diag *diag)
         tree_far_node(system->origin->trees[branch_tree(system, branch)], branch->edge);
 
     y->left = y->symbol;
-    return y->law == NODE_BALANCE ? balance_row(system, branch, node, y, diag)
+    return y->law == NODE_BALANCE ? network_nodes_balance(system, branch, &y->right, diag)
                                   : potential_row(system, branch, node, y, diag);
 }

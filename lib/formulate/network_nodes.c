@@ -7,8 +7,8 @@
  *     p(node) = p(parent) + v of the branch between,   i of a branch = what else meets at its far
  * node
  *
- * so that all rows are short and factors of them stay sparse. p is the across variable against the
- * datum up to its sign. */
+ * (of one that stores the unknown is its rate), so that all rows are short and factors of them stay
+ * sparse. p is the across variable against the datum up to its sign. */
 #include "formulate/network.h"
 #include "formulate/origin.h"
 #include "formulate/system_impl.h"
@@ -70,20 +70,23 @@ bool network_nodes_across(System *system, const Branchlike *chord, int path, Exp
     return true;
 }
 
-bool network_nodes_through(System *system, const Branchlike *branch, Expr *out)
+Status network_nodes_through(System *system, Branchlike *branch, Expr *out, Diag *diag)
 {
     const SignMatrix *cutsets = system->network->cutsets[branch_tree(system, branch)];
     const RelationKind kind = branch->relation.kind;
     int terms = 0;
 
+    *out = NULL;
     if (system->network->form != NETWORK_STATE ||
         (kind != RELATION_CAPACITIVE && kind != RELATION_RESISTIVE && kind != RELATION_ACROSS))
-        return false;
+        return OK;
     for (int c = cutsets->start[branch->cutset]; c < cutsets->start[branch->cutset + 1]; c++)
         terms += is_between_resistances(
             &system->network->branches.at[system->network->scalar_of_edge[cutsets->column[c]]]);
-    if (terms <= LONG)
-        return false;
-    *out = new_unknown(system, branch, NODE_BALANCE, "through");
-    return true;
+    branch->is_balanced = terms > LONG && kind == RELATION_CAPACITIVE;
+    if (branch->is_balanced)
+        return network_stored_rate(system, branch, out, diag);
+    if (terms > LONG)
+        *out = new_unknown(system, branch, NODE_BALANCE, "through");
+    return OK;
 }

@@ -88,6 +88,8 @@ static Status relation_row(System *system, Unknown *y, Diag *diag)
 
     TRY(network_across(system, branch, &v, diag));
     TRY(network_through(system, branch, &i, diag));
+    if (branch->is_balanced)
+        TRY(network_nodes_balance(system, branch, &i, diag));
     if (relation->value != NULL)
         TRY(variables_resolve(system, relation->value, &value, diag));
     if (relation->rest != NULL)
