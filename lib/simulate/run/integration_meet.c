@@ -188,8 +188,8 @@ Status integration_meet_switch(Integration *m, int i, double when, bool *again, 
         if (*again)
             return OK;
         CHECK(integration_add_rows(m, diag));
-        /* the interpolant erred: it is told again where steps from here go */
-        if (is_told && value > integration_rounding(m) &&
+        /* the interpolant erred: it is told again where steps from here go, if they do */
+        if (is_told && value > integration_rounding(m) && m->stepper->t > m->stepper->before &&
             (slope >= 0 || !is_short(m, -value / slope))) {
             m->is_taken_back = m->stepper->method->has_history;
             m->stepper->next = fmin(m->stepper->next, WIDER * (m->stepper->t - m->stepper->before));
