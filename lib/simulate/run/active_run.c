@@ -144,7 +144,7 @@ void active_run_finish(ActiveRun *r, const Setting *setting, Result **out, Resul
     keep_phases(r);
     keep_parameters(r);
     keep_events(r);
-    result->first = phases_number(r->phases, r->phase);
+    result->first = r->phase->number;
     result->freedoms = r->phase->layout->nu - result->start.row_count;
     result->tolerance = r->phases->tolerance;
     *out = result;
@@ -191,7 +191,7 @@ Status active_run_events(ActiveRun *r, const Phase *phase, const EventRecord *ea
 void active_run_add_row(ActiveRun *r, double t, const double *y)
 {
     mem_keep(r->result);
-    grid_add(&r->result->grid, t, phases_number(r->phases, r->phase), y, r->phase->length);
+    grid_add(&r->result->grid, t, r->phase->number, y, r->phase->length);
 }
 
 /* --- energy --- */
@@ -292,8 +292,8 @@ Status active_run_balance(ActiveRun *r, Diag *diag)
     bool is_known = true;
     Status status = OK;
 
-    CHECK(phases_ask(r->phases, grid, &r->result->driven, phases_number(r->phases, r->phase),
-                     ask_energies, NULL, 2, energies, diag));
+    CHECK(phases_ask(r->phases, grid, &r->result->driven, r->phase->number, ask_energies, NULL, 2,
+                     energies, diag));
     for (int i = 0; i < grid->count; i++) {
         const double *value = energies + 2 * (ptrdiff_t)i;
         const double work = grid_row(grid, i)[r->phases->at[grid->phase[i]]->length - 1];

@@ -61,7 +61,7 @@ static Status prepare(RunKind kind, System *system, const Setting *setting, Acti
 
     r->phases->tolerance = START_TOLERANCE;
     CHECK(phase_new(system, &r->phases->parameters, NULL, 0, &whole, diag));
-    LIST_PUSH(*r->phases, whole);
+    phases_add(r->phases, whole);
     if (goes_through_modes(whole->layout)) {
         CHECK(system_sided(system, setting->scene, setting->watch, &sided, diag));
         CHECK(mode_search_new(sided, &r->phases->parameters, &r->mode_search, diag));

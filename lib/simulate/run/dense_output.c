@@ -203,7 +203,7 @@ static Status go_again(ResultReader *reader, const StepEnd ends[2], const double
 {
     const Result *r = reader->result;
     const Grid *grid = &r->grid;
-    IntegrationPlan plan = {.segment = phases_segment(reader->phases, ends[0].phase, NULL),
+    IntegrationPlan plan = {.segment = phases_segment(ends[0].phase, NULL),
                             .method = method_find(r->report.method),
                             .control = {.rtol = r->report.rtol,
                                         .atol = r->report.atol,
@@ -240,8 +240,7 @@ static Status fill_between(ResultReader *reader, StepEnd ends[2], const double *
     for (int i = 0; i < count; i++) {
         if (!find_between(ends, times[i], y))
             CHECK(solver_failure(diag, times[i], "the constraints can't be met"));
-        grid_add(&reader->asked, times[i], phases_number(reader->phases, ends[0].phase), y,
-                 ends[0].phase->length);
+        grid_add(&reader->asked, times[i], ends[0].phase->number, y, ends[0].phase->length);
     }
 done:
     mem_free(y);

@@ -36,6 +36,7 @@ typedef struct Integration {
     double *y, *slope;            /* one y, one y'; room for those of plan->in_time */
     double *conditions, *largest; /* values and largest sizes of conditions */
     int *mode;                    /* sign of each condition on this side of its next switch */
+    int *looked_at, looked_count; /* by steps: those that aren't left out */
     double *band;                 /* sizes too small to tell a sign from, behind a switch, */
     double *noise;                /* and anywhere: of margins */
     double *depth, *depth_low, *depth_high; /* of conditions in their modes, where one is located */
@@ -108,6 +109,8 @@ bool integration_is_of_event(const Integration *m, int condition);
 int integration_state_conditions(const Integration *m); /* how many */
 /* all conditions at (t, y), into m->conditions */
 void integration_evaluate(Integration *m, double t, const double *y);
+/* which conditions a step looks at, in a new segment */
+void integration_choose_conditions(Integration *m);
 /* whether one that isn't of t alone has another sign at (t, y) than the run; the Turns of an Onset
  */
 bool integration_turns(void *integration, double t, const double *y);

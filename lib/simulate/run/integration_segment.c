@@ -76,6 +76,8 @@ void integration_open_segment(Integration *m, const Segment *segment)
     m->depth_low = NEW_ARRAY(double, conditions);
     m->depth_high = NEW_ARRAY(double, conditions);
     m->mode = NEW_ARRAY(int, conditions);
+    m->looked_at = NEW_ARRAY(int, conditions);
+    integration_choose_conditions(m);
     open_surfaces(m);
     if (m->count > 0)
         onset_watch(m->segment.onset, integration_turns, m);
@@ -88,7 +90,7 @@ void integration_close_segment(Integration *m)
     onset_watch(m->segment.onset, NULL, NULL);
     motion_window(m->segment.motion, -INFINITY, INFINITY);
     MEM_FREE(m->y, m->slope, m->conditions, m->largest, m->band, m->noise, m->depth, m->depth_low,
-             m->depth_high, m->mode);
+             m->depth_high, m->mode, m->looked_at);
 }
 
 static void add_corner(Integration *m, double t, const double *y)

@@ -68,6 +68,14 @@ static bool is_left_out(const Integration *m, int i)
     return integration_is_margin(m, i) || guard.side != 0 || guard.end != 0;
 }
 
+void integration_choose_conditions(Integration *m)
+{
+    m->looked_count = 0;
+    for (int i = 0; i < m->count; i++)
+        if (!is_left_out(m, i))
+            m->looked_at[m->looked_count++] = i;
+}
+
 /* --- conditions in the state --- */
 
 bool integration_turns(void *integration, double t, const double *y)
@@ -75,8 +83,8 @@ bool integration_turns(void *integration, double t, const double *y)
     Integration *m = integration;
 
     integration_evaluate(m, t, y);
-    for (int i = 0; i < m->count; i++)
-        if (!is_left_out(m, i) && sign_of(m->conditions[i]) == -m->mode[i])
+    for (int k = 0; k < m->looked_count; k++)
+        if (sign_of(m->conditions[m->looked_at[k]]) == -m->mode[m->looked_at[k]])
             return true;
     return false;
 }
@@ -214,9 +222,12 @@ static bool has_switched(Integration *m, int i)
  * earlier: between here and the last point it may be what holds. */
 static void forget_bands(Integration *m)
 {
-    for (int i = 0; i < m->count; i++)
-        if (!is_left_out(m, i) && fabs(m->conditions[i]) > m->band[i])
+    for (int k = 0; k < m->looked_count; k++) {
+        const int i = m->looked_at[k];
+
+        if (fabs(m->conditions[i]) > m->band[i])
             m->band[i] = m->noise[i];
+    }
 }
 
 /* Steps are as short as states want them. What a source does to a condition while no state moves
@@ -234,14 +245,17 @@ static int points_in(const Integration *m, double length)
     return (int)fmax(points, onset_pieces(m->segment.onset, end - length, end, looks));
 }
 
-/* How far inside its mode each condition of the state is, as evaluated last; negative: beyond its
+/* How far inside its mode each condition that is looked at is, as evaluated last; negative: beyond its
  * band, and so switched. */
 static void find_depths(const Integration *m, double *out)
 {
-    for (int k = 0; k < m->count; k++)
-        out[k] = is_left_out(m, k) || m->conditions[k] == 0 || m->mode[k] == 0
+    for (int k = 0; k < m->looked_count; k++) {
+        const int i = m->looked_at[k];
+
+        out[k] = m->conditions[i] == 0 || m->mode[i] == 0
                      ? INFINITY
-                     : m->mode[k] * m->conditions[k] + m->band[k];
+                     : m->mode[i] * m->conditions[i] + m->band[i];
+    }
 }
 
 /* Where the first of the conditions that are switched at `high` would cross if all were straight
@@ -250,7 +264,7 @@ static double first_crossing(const Integration *m, double share_low, double shar
 {
     double first = 1;
 
-    for (int k = 0; k < m->count; k++) {
+    for (int k = 0; k < m->looked_count; k++) {
         double inside = share_low * m->depth_low[k], beyond = -share_high * m->depth_high[k];
 
         if (m->depth_high[k] < 0 && isfinite(inside))
@@ -262,9 +276,9 @@ static double first_crossing(const Integration *m, double share_low, double shar
 /* any that is switched, by depths; -1: none */
 static int one_switched(const Integration *m, const double *depth)
 {
-    for (int k = m->count - 1; k >= 0; k--)
+    for (int k = m->looked_count - 1; k >= 0; k--)
         if (depth[k] < 0)
-            return k;
+            return m->looked_at[k];
     return -1;
 }
 
@@ -317,7 +331,7 @@ static double dip_between(const Integration *m)
 {
     double deepest = 0, where = NAN;
 
-    for (int k = 0; k < m->count; k++) {
+    for (int k = 0; k < m->looked_count; k++) {
         double a = m->depth_low[k], b = m->depth[k], c = m->depth_high[k], bend = a - 2 * b + c;
 
         if (!(isfinite(bend) && b <= a && b <= c && bend > 0 && b - bend < deepest))
@@ -334,9 +348,9 @@ static int switched_at(Integration *m, double t)
     int found = -1;
 
     integration_conditions_at(m, t);
-    for (int i = 0; i < m->count; i++)
-        if (!is_left_out(m, i) && has_switched(m, i) && found < 0)
-            found = i;
+    for (int k = 0; k < m->looked_count; k++)
+        if (has_switched(m, m->looked_at[k]) && found < 0)
+            found = m->looked_at[k];
     return found;
 }
 

@@ -182,7 +182,7 @@ static Status add_phase(ActiveRun *r, const Setting *setting, Phase *phase, Phas
         CHECK(find_states(r, phase, diag));
         CHECK(compile_states(r, phase, diag));
     }
-    LIST_PUSH(*r->phases, phase);
+    phases_add(r->phases, phase);
     *out = phase;
     phase = NULL;
 done:
@@ -198,17 +198,14 @@ Status mode_switch_phase(ActiveRun *r, const Setting *setting, const bool *close
     Phase *phase = NULL;
     System *system;
 
-    for (int i = 1; i < r->phases->count; i++)
-        if (r->phases->at[i]->on_count == 0 &&
-            memcmp(r->phases->at[i]->closed, closed, (size_t)count * sizeof(bool)) == 0) {
-            *out = r->phases->at[i];
-            return OK;
-        }
+    *out = phases_find(r->phases, closed, count);
+    if (*out != NULL)
+        return OK;
     TRY(system_mode(r->system, setting->scene, closed, setting->watch, &system, diag));
     for (int i = 1; i < r->phases->count; i++)
         if (r->phases->at[i]->system == system && r->phases->at[i]->on_count == 0) {
             *out = phase_new_like(r->phases->at[i], closed, count);
-            LIST_PUSH(*r->phases, *out);
+            phases_add(r->phases, *out);
             return OK;
         }
     TRY(phase_new(system, &r->phases->parameters, closed, count, &phase, diag));
@@ -260,7 +257,7 @@ Status mode_switch_phase_on(ActiveRun *r, const Setting *setting, System *system
         return OK;
     if (shared != NULL) {
         *out = phase_new_like(shared, closed, ideals);
-        LIST_PUSH(*r->phases, *out);
+        phases_add(r->phases, *out);
         return OK;
     }
     TRY(phase_new_on(system, &r->phases->parameters, closed, ideals, on, count, &phase, diag));
@@ -662,7 +659,7 @@ Status mode_switch(void *context, double t, double behind, Nearness near, const 
     c->again = fmax(1, at.step / step_near(c, behind, near.last));
     CHECK(go_over(c, behind, &at, x, x_behind, closed, now, y, &next, diag));
     CHECK(mode_switch_events(r, now, next, c->setting, &events, diag));
-    *segment = phases_segment(r->phases, next, events);
+    *segment = phases_segment(next, events);
     *out = c->y;
 done:
     MEM_FREE(closed, x, x_behind, ahead);

@@ -17,6 +17,7 @@
 typedef struct Phase Phase;
 struct Phase {
     System *system; /* borrowed */
+    int number;     /* among the phases of its run, as rows bear it */
     bool *closed;   /* sides of its switches; NULL: it is in no mode */
     Phase *like;    /* that it shares all below with, and which owns it; itself */
     OnSurface *on;  /* surfaces whose sides it stays on, or along which it slides */

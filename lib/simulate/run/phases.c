@@ -14,22 +14,49 @@ void phases_free(Phases *p)
     for (int i = 0; i < p->count; i++)
         phase_free(p->at[i]);
     LIST_FREE(*p);
+    LIST_FREE(p->by_sides);
+    names_free(p->sides);
     parameters_free(&p->parameters);
     mem_free(p);
+}
+
+/* what names sides of switches; new */
+static char *name_of(const bool *closed, int count)
+{
+    char *name = mem_array((size_t)count + 1, 1);
+
+    for (int i = 0; i < count; i++)
+        name[i] = closed[i] ? '1' : '0';
+    return name;
+}
+
+Phase *phases_find(const Phases *p, const bool *closed, int count)
+{
+    char *name = name_of(closed, count);
+    const int number = p->sides != NULL ? names_find(p->sides, name) : -1;
+
+    mem_free(name);
+    return number >= 0 ? p->at[p->by_sides.at[number]] : NULL;
+}
+
+void phases_add(Phases *p, Phase *phase)
+{
+    phase->number = p->count;
+    if (phase->closed != NULL && phase->on_count == 0) {
+        char *name = name_of(phase->closed, system_ideal_count(phase->system));
+
+        if (p->sides == NULL)
+            p->sides = names_new();
+        if (names_add(p->sides, name) == p->by_sides.count)
+            LIST_PUSH(p->by_sides, p->count);
+        mem_free(name);
+    }
+    LIST_PUSH(*p, phase);
 }
 
 Phase *phases_whole(const Phases *p)
 {
     return p->at[0];
-}
-
-int phases_number(const Phases *p, const Phase *phase)
-{
-    int number = 0;
-
-    while (p->at[number] != phase)
-        number++;
-    return number;
 }
 
 /* speeds asked for as independent, by the names of their coordinates */
@@ -85,10 +112,10 @@ void phases_tolerance(Phases *p, double tolerance)
             motion_tolerance(p->at[i]->motion, tolerance);
 }
 
-Segment phases_segment(const Phases *p, const Phase *phase, Events *events)
+Segment phases_segment(const Phase *phase, Events *events)
 {
     phase_enter(phase);
-    return (Segment){.phase = phases_number(p, phase),
+    return (Segment){.phase = phase->number,
                      .equations = numbers_equations(phase->numbers),
                      .motion = phase->motion,
                      .events = events,

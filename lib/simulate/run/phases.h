@@ -4,6 +4,7 @@
 #ifndef COTREE_SIMULATE_RUN_PHASES_H
 #define COTREE_SIMULATE_RUN_PHASES_H
 
+#include "base/names.h"
 #include "simulate/run/grid.h"
 #include "simulate/run/integration.h"
 #include "simulate/run/phase.h"
@@ -15,6 +16,8 @@ typedef struct Phases {
     double tolerance; /* of the run: bounds what a projection may leave */
     int count, room;
     Phase **at;
+    Names *sides; /* of switches in a mode, and which phase has them; NULL: none yet */
+    LIST(int) by_sides;
 } Phases;
 
 /* What is known at the rows of a driven run beside (q, u, x), one block a row: x', z, u', lambda,
@@ -35,6 +38,10 @@ typedef struct Manner {
 } Manner;
 
 void phases_free(Phases *phases); /* NULL is fine */
+void phases_add(Phases *phases, Phase *given);
+/* the phase with `count` switches on these sides, and on no sides of surfaces; NULL: there is none
+ */
+Phase *phases_find(const Phases *phases, const bool *closed, int count);
 /* What solves the equations of a phase; once. Fails with E_NAME for an independent coordinate that
  * the trees don't have, and as phase_open() does. */
 MUST_USE Status phases_open(Phases *phases, Phase *phase, const Manner *manner, Diag *diag);
@@ -42,9 +49,8 @@ MUST_USE Status phases_open(Phases *phases, Phase *phase, const Manner *manner, 
 void phases_tolerance(Phases *phases, double tolerance);
 /* the phase of the whole: the only one where there are no ideal switches */
 Phase *phases_whole(const Phases *phases);
-int phases_number(const Phases *phases, const Phase *phase); /* as rows bear it */
 /* the segment of a phase */
-Segment phases_segment(const Phases *phases, const Phase *phase, Events *events);
+Segment phases_segment(const Phase *phase, Events *events);
 
 /* a row's block of a driven run; NULL: the equations are to be solved */
 const double *driven_row(const Driven *driven, int row);

@@ -113,7 +113,7 @@ static Status complete_options(const ActiveRun *r, const RunOptions *given, RunO
 static IntegrationPlan plan_of(const ActiveRun *r, const Setting *setting,
                                const RunOptions *options, const Method *method, Events *events)
 {
-    return (IntegrationPlan){.segment = phases_segment(r->phases, r->phase, events),
+    return (IntegrationPlan){.segment = phases_segment(r->phase, events),
                              .method = method,
                              .control = {.rtol = options->rtol,
                                          .atol = options->atol,

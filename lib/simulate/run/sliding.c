@@ -340,7 +340,7 @@ Status slide_choose(void *context, double t, double low, double high, const doub
     if (next == now)
         goto done;
     CHECK(mode_switch_events(c->run, now, next, c->setting, &events, diag));
-    *segment = phases_segment(c->run->phases, next, events);
+    *segment = phases_segment(next, events);
     *entered = true;
 done:
     slides_free(&s);
