@@ -186,7 +186,8 @@ void motion_switches(Motion *mo, double t, const double *y, double *out)
 {
     const Equations *eq = mo->eq;
 
-    if (eq->switches_read_network && !evaluate(mo, t, y)) {
+    if (eq->switches_read_network &&
+        !(mo->signs != NULL ? motion_find_signs(mo, t, y) : motion_find_network(mo, t, y))) {
         for (int i = 0; i < eq->switch_count; i++)
             out[i] = NAN;
         return;

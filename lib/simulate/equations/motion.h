@@ -46,8 +46,10 @@ typedef struct Equations {
     void (*network_at)(void *context, const double *w);
     /* u' and the multipliers of all m rows, for a network that reads them; NULL: it doesn't */
     void (*network_reads)(void *context, const double *acceleration, const double *multipliers);
-    /* then force; `solved` is [x'; z] */
+    /* then what it solves for is known, [x'; z], */
     void (*network_solved)(void *context, const double *solved);
+    /* and with it force; NULL: that is brought up to date with it */
+    void (*loads)(void *context);
     /* then power; NULL when it is known before. `multipliers` of all m rows. */
     void (*accelerated)(void *context, const double *acceleration, const double *multipliers);
     const double *phi;        /* m */

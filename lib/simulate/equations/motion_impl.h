@@ -67,6 +67,8 @@ bool motion_choose_independent(Motion *motion);
  * still) for motion_return_rows(). (motion_renew.c) */
 int *motion_take_rows(Motion *motion);
 void motion_return_rows(Motion *motion, int *rows);
+/* the network there; false: it can't be solved */
+bool motion_find_network(Motion *motion, double t, const double *y);
 /* Everything but the solution for u', with signs on surfaces as they are: false where the network
  * can't be solved. */
 bool motion_evaluate(Motion *motion, double t, const double *y);

@@ -93,8 +93,7 @@ bool motion_factor_embedded(Motion *mo)
     return mo->is_embedded_factored;
 }
 
-/* what evaluate() does, with signs on surfaces as they are */
-bool motion_evaluate(Motion *mo, double t, const double *y)
+bool motion_find_network(Motion *mo, double t, const double *y)
 {
     const Equations *eq = mo->eq;
 
@@ -103,5 +102,15 @@ bool motion_evaluate(Motion *mo, double t, const double *y)
     if (!netsolve_find(mo->network))
         return false;
     eq->network_solved(eq->context, mo->solved);
+    return true;
+}
+
+/* what evaluate() does, with signs on surfaces as they are */
+bool motion_evaluate(Motion *mo, double t, const double *y)
+{
+    if (!motion_find_network(mo, t, y))
+        return false;
+    if (mo->eq->loads != NULL)
+        mo->eq->loads(mo->eq->context);
     return true;
 }

@@ -124,6 +124,8 @@ bool motion_solve_together(Motion *mo)
         if (!changed)
             return true;
         eq->network_solved(eq->context, mo->solved);
+        if (eq->loads != NULL)
+            eq->loads(eq->context);
     }
     return false;
 }

@@ -10,6 +10,7 @@
 #include <math.h>
 #include <string.h>
 
+#define KEPT       4 /* solutions with the same factors: a step's end is looked at from all sides */
 #define ITERATIONS 100
 #define ENOUGH     1e-9 /* of a step; what is left then is its square */
 #define ROUNDING   1e-7 /* a step that no longer shrinks below this is rounding */
@@ -32,6 +33,8 @@ struct NetSolve {
     Sparse *matrix;
     bool is_factored; /* and stays so, as long as switches stay */
     uint64_t sides;   /* of those, as they were then */
+    double *kept;     /* right sides with these factors and what they gave, 2 x KEPT x n */
+    int kept_count;   /* since they were made; the newest are kept */
     int n;
     double *w, *step, *trial, *next, *size;
     double *noise;  /* in their residuals */
@@ -51,6 +54,8 @@ NetSolve *netsolve_new(const Equations *eq)
     s->next = NEW_ARRAY(double, s->n);
     s->size = NEW_ARRAY(double, s->n);
     s->noise = NEW_ARRAY(double, s->n);
+    if (eq->network_is_constant)
+        s->kept = NEW_ARRAY(double, 2 * KEPT * s->n);
     s->weight = NEW_ARRAY(double, s->n);
     return s;
 }
@@ -60,7 +65,7 @@ void netsolve_free(NetSolve *s)
     if (s == NULL)
         return;
     sparse_free(s->matrix);
-    MEM_FREE(s->w, s->step, s->trial, s->next, s->size, s->noise, s->weight, s);
+    MEM_FREE(s->kept, s->w, s->step, s->trial, s->next, s->size, s->noise, s->weight, s);
 }
 
 double *netsolve_values(NetSolve *s)
@@ -73,19 +78,42 @@ int netsolve_undetermined(const NetSolve *s)
     return sparse_singular(s->matrix);
 }
 
-static bool solve_linear(NetSolve *s)
+static bool factor_linear(NetSolve *s)
 {
     uint64_t sides = s->eq->sides != NULL ? *s->eq->sides : 0;
 
-    if (!s->is_factored || s->sides != sides) {
-        s->is_factored = false;
-        if (!sparse_factor(s->matrix, s->eq->network))
-            return false;
-        s->is_factored = s->eq->network_is_constant;
-        s->sides = sides;
+    if (s->is_factored && s->sides == sides)
+        return true;
+    s->is_factored = false;
+    if (!sparse_factor(s->matrix, s->eq->network))
+        return false;
+    s->is_factored = s->eq->network_is_constant;
+    s->sides = sides;
+    s->kept_count = 0;
+    return true;
+}
+
+static bool solve_linear(NetSolve *s)
+{
+    const size_t bytes = (size_t)s->n * sizeof(double);
+    double *kept;
+
+    if (!factor_linear(s))
+        return false;
+    for (int k = 0; k < KEPT && k < s->kept_count && s->is_factored; k++) {
+        kept = s->kept + (ptrdiff_t)2 * k * s->n;
+        if (memcmp(kept, s->eq->network_rhs, bytes) == 0) {
+            memcpy(s->w, kept + s->n, bytes);
+            return true;
+        }
     }
-    memcpy(s->w, s->eq->network_rhs, (size_t)s->n * sizeof(double));
+    memcpy(s->w, s->eq->network_rhs, bytes);
     sparse_solve(s->matrix, s->w);
+    if (s->is_factored) {
+        kept = s->kept + (ptrdiff_t)2 * (s->kept_count++ % KEPT) * s->n;
+        memcpy(kept, s->eq->network_rhs, bytes);
+        memcpy(kept + s->n, s->w, bytes);
+    }
     return true;
 }
 

@@ -111,6 +111,12 @@ static void network_solved(void *context, const double *solved)
 
     inputs_put(inputs, nb->layout->rates, solved, nb->layout->nx);
     inputs_put(inputs, nb->layout->z, solved + nb->layout->nx, nb->layout->nz);
+}
+
+static void loads(void *context)
+{
+    Numbers *nb = context;
+
     workspace_run(nb->main->workspace, STAGE_NETWORK, STAGE_NETWORK);
 }
 
@@ -562,6 +568,7 @@ Status numbers_new(const Layout *layout, Parameters *parameters, Numbers **out, 
                          .position = position,
                          .velocity = velocity,
                          .network_solved = network_solved,
+                         .loads = loads,
                          .switches = switches,
                          .margin_is_steep = margin_is_steep};
     while (system_quaternion(layout->system, count) >= 0)
