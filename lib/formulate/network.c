@@ -102,9 +102,8 @@ static Status cutset_through(System *system, Branchlike *branch, Expr *out, Diag
     LIST(Expr) terms = {0};
     Status status = OK;
 
-    CHECK(network_nodes_through(system, branch, out, diag));
-    if (*out != NULL)
-        return OK;
+    if (network_nodes_through(system, branch, out))
+        return branch->is_balanced ? network_stored_rate(system, branch, out, diag) : OK;
     for (int k = cutsets->start[branch->cutset]; k < cutsets->start[branch->cutset + 1]; k++) {
         Branchlike *chord =
             &system->network->branches.at[system->network->scalar_of_edge[cutsets->column[k]]];

@@ -108,9 +108,10 @@ MUST_USE Status network_bring_order(System *system, Diag *diag);
 /* what an expression is where all its symbols have values that the seed chooses, 0.7 to 1.3 */
 double expr_value_somewhere(Expr e, uint32_t seed);
 /* Where sums are long and nobody reads them: v of a chord whose path has so many branches, i of a
- * branch, by what stands at nodes (network_nodes.c). False, or NULL: they stay sums. */
+ * branch, by what stands at nodes (network_nodes.c), where it doesn't follow from its rate. False:
+ * they stay sums. */
 bool network_nodes_across(System *system, const Branchlike *chord, int path, Expr *out);
-MUST_USE Status network_nodes_through(System *system, Branchlike *branch, Expr *out, Diag *diag);
+bool network_nodes_through(System *system, Branchlike *branch, Expr *out);
 /* what else meets at the far node of a branch: its i */
 MUST_USE Status network_nodes_balance(System *system, const Branchlike *branch, Expr *out,
                                       Diag *diag);

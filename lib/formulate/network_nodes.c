@@ -70,23 +70,22 @@ bool network_nodes_across(System *system, const Branchlike *chord, int path, Exp
     return true;
 }
 
-Status network_nodes_through(System *system, Branchlike *branch, Expr *out, Diag *diag)
+bool network_nodes_through(System *system, Branchlike *branch, Expr *out)
 {
     const SignMatrix *cutsets = system->network->cutsets[branch_tree(system, branch)];
     const RelationKind kind = branch->relation.kind;
     int terms = 0;
 
-    *out = NULL;
     if (system->network->form != NETWORK_STATE ||
         (kind != RELATION_CAPACITIVE && kind != RELATION_RESISTIVE && kind != RELATION_ACROSS))
-        return OK;
+        return false;
     for (int c = cutsets->start[branch->cutset]; c < cutsets->start[branch->cutset + 1]; c++)
         terms += is_between_resistances(
             &system->network->branches.at[system->network->scalar_of_edge[cutsets->column[c]]]);
-    branch->is_balanced = terms > LONG && kind == RELATION_CAPACITIVE;
-    if (branch->is_balanced)
-        return network_stored_rate(system, branch, out, diag);
-    if (terms > LONG)
+    if (terms <= LONG)
+        return false;
+    branch->is_balanced = kind == RELATION_CAPACITIVE;
+    if (!branch->is_balanced)
         *out = new_unknown(system, branch, NODE_BALANCE, "through");
-    return OK;
+    return true;
 }

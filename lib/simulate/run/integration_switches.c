@@ -245,8 +245,8 @@ static int points_in(const Integration *m, double length)
     return (int)fmax(points, onset_pieces(m->segment.onset, end - length, end, looks));
 }
 
-/* How far inside its mode each condition that is looked at is, as evaluated last; negative: beyond its
- * band, and so switched. */
+/* How far inside its mode each condition that is looked at is, as evaluated last; negative: beyond
+ * its band, and so switched. */
 static void find_depths(const Integration *m, double *out)
 {
     for (int k = 0; k < m->looked_count; k++) {
