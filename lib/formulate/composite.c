@@ -79,7 +79,7 @@ static Rotation tensor_express(const System *system, Rotation tensor, int from, 
     return tensor;
 }
 
-Composite *composites_new(const System *system)
+Composite *composites_new(const System *system, const int *place)
 {
     Arena *arena = system->arena;
     int nodes;
@@ -108,7 +108,7 @@ Composite *composites_new(const System *system)
         int axes = axes_of(system, order[i]);
         int onto = axes_of(system, frame->parent);
 
-        if (frame->parent == order[0])
+        if (frame->parent == order[0] || (place != NULL && place[order[i]] >= 0))
             continue; /* the datum moves nothing */
         part.inertia = shifted(arena, &part, frame->step);
         part.moment = vec_add(arena, part.moment, vec_scale(arena, part.mass, frame->step));

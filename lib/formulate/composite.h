@@ -10,8 +10,9 @@ typedef struct Composite { /* about the node's origin, in its axes */
     Rotation inertia;
 } Composite;
 
-/* of every node, in the system's pool */
-Composite *composites_new(const System *system);
+/* of every node, in the system's pool; of nodes that have a place (NULL: none has) nothing is
+ * handed on, those behind them stay without what hangs beyond */
+Composite *composites_new(const System *system, const int *place);
 /* one unit of the speed moves everything beyond its branch as one rigid body */
 bool speed_moves_as_one(const System *system, int speed);
 /* what its branch feels of the composite beyond, per unit of u'; all else at rest */

@@ -136,7 +136,7 @@ static void add_places(System *system, CompositeMass *mass, int *at)
 
 static void add_speeds(System *system, CompositeMass *mass, const int *at)
 {
-    const Composite *composites = composites_new(system);
+    const Composite *composites = composites_new(system, NULL);
     Loads loads = loads_new(system);
     const int count = system->kinematics->u.count;
     int filled = 0;
@@ -172,6 +172,26 @@ static void add_speeds(System *system, CompositeMass *mass, const int *at)
     }
 }
 
+/* what moves with each place as one body */
+static void add_bodies(System *system, CompositeMass *mass, const int *at)
+{
+    int nodes;
+    const int *order = tree_nodes(system->origin->trees[TREE_TRANSLATION], &nodes);
+    const Composite *bodies = composites_new(system, at);
+
+    for (int i = 1; i < nodes; i++) {
+        const Composite *body = &bodies[order[i]];
+
+        if (at[order[i]] < 0)
+            continue;
+        LIST_PUSH(mass->bodies, body->mass);
+        for (int k = 0; k < 3; k++)
+            LIST_PUSH(mass->bodies, body->moment.at[k]);
+        for (int k = 0; k < 9; k++)
+            LIST_PUSH(mass->bodies, body->inertia.at[k]);
+    }
+}
+
 bool composite_mass_build(System *system)
 {
     CompositeMass *mass;
@@ -184,6 +204,7 @@ bool composite_mass_build(System *system)
     mass->planar = system->origin->planar;
     add_places(system, mass, at);
     add_speeds(system, mass, at);
+    add_bodies(system, mass, at);
     mem_free(at);
     system->dynamics->composite_mass = mass;
     return true;
@@ -194,6 +215,7 @@ void composite_mass_free(CompositeMass *mass)
     if (mass == NULL)
         return;
     LIST_FREE(mass->needs);
+    LIST_FREE(mass->bodies);
     mem_free(mass);
 }
 

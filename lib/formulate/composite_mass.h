@@ -40,7 +40,13 @@ typedef struct CompositeMass {
     MassSpeed *speeds;
     int *speed_at;    /* speeds, place by place, in order at each */
     LIST(Expr) needs; /* numbers of these are passed on */
+    /* What moves with each place as one body, place by place: mass, first moment and inertia (row
+     * by row) about the place, in its axes. With them and the vectors of places and speeds M u' = F
+     * is solved without M. */
+    LIST(Expr) bodies;
 } CompositeMass;
+
+enum { BODY_NEEDS = 13 };
 
 /* NULL where M is short or doesn't follow so: it is run as it is written. Borrowed. */
 const CompositeMass *system_composite_mass(const System *system);

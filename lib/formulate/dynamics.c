@@ -145,7 +145,7 @@ static Status mass_matrix(System *system)
     Expr *columns = NEW_ARRAY(Expr, (size_t)n * (size_t)n);
     Expr *mass = pool_alloc(system->pool, (size_t)n * (size_t)n * sizeof(Expr));
     Vec *v = NEW_ARRAY(Vec, graph_node_count(system->origin->graph));
-    const Composite *composites = composites_new(system);
+    const Composite *composites = composites_new(system, NULL);
     Status status = OK;
 
     for (int k = 0; k < n; k++) {

@@ -1,7 +1,9 @@
-/* test_mass_matrix.c: M by forces and moments passed on in numbers is M written out */
+/* test_mass_matrix.c: M by forces and moments passed on in numbers is M written out, and what is
+ * solved without it is what it solves */
 #include "scene.h"
 
 #include "base/text.h"
+#include "simulate/equations/articulated.h"
 #include "simulate/equations/mass_matrix.h"
 
 #include <string.h>
@@ -49,6 +51,49 @@ static char *long_mechanism(uint64_t *random, bool planar, int bodies)
     return text_done(&text);
 }
 
+static double *numbers_of(const Expr *needs, int count, SceneState *state)
+{
+    double *numbers = NEW_ARRAY(double, count);
+
+    for (int i = 0; i < count; i++)
+        numbers[i] = expr_evaluate(needs[i], scene_value, state);
+    return numbers;
+}
+
+/* M du is the force that du was found for */
+static void expect_solved(const System *system, const double *mass, SceneState *state)
+{
+    Articulated *articulated = articulated_new(system);
+    const int n = system_nu(system);
+    uint64_t random = state->seed;
+    double *force = NEW_ARRAY(double, n), *du = NEW_ARRAY(double, n), *numbers;
+    int count;
+    const Expr *needs;
+
+    EXPECT(articulated != NULL);
+    if (articulated == NULL)
+        return;
+    needs = articulated_needs(articulated, &count);
+    numbers = numbers_of(needs, count, state);
+    for (int j = 0; j < n; j++)
+        force[j] = test_uniform(&random, -1, 1);
+    for (int again = 0; again < 2; again++) { /* the last numbers leave nothing */
+        EXPECT(articulated_factor(articulated, numbers));
+        articulated_solve(articulated, force, du);
+    }
+    for (int j = 0; j < n; j++) {
+        double sum = 0, terms = 1;
+
+        for (int k = 0; k < n; k++) {
+            sum += mass[j * n + k] * du[k];
+            terms += fabs(mass[j * n + k] * du[k]);
+        }
+        EXPECT_NEAR(sum, force[j], 1e-11 * terms);
+    }
+    MEM_FREE(force, du, numbers);
+    articulated_free(articulated);
+}
+
 static void compare_masses(Model *model, System *system, uint64_t seed)
 {
     MassMatrix *matrix = mass_matrix_new(system);
@@ -56,24 +101,25 @@ static void compare_masses(Model *model, System *system, uint64_t seed)
     SceneState state = {model, seed};
     int count;
     const Expr *needs;
-    double *numbers;
+    double *numbers, *mass;
     Diag diag = {0};
 
     EXPECT(matrix != NULL && system_form_mass(system, &diag) == OK);
     if (matrix == NULL)
         return;
     needs = mass_matrix_needs(matrix, &count);
-    numbers = NEW_ARRAY(double, count);
-    for (int i = 0; i < count; i++)
-        numbers[i] = expr_evaluate(needs[i], scene_value, &state);
+    numbers = numbers_of(needs, count, &state);
     mass_matrix_put(matrix, numbers);
     mass_matrix_put(matrix, numbers); /* the last numbers leave nothing */
+    mass = pattern_spread(mass_matrix_places(matrix), mass_matrix_at(matrix));
     for (int i = 0; i < n * n; i++) {
         const double written = expr_evaluate(system_run(system)->mass[i], scene_value, &state);
 
-        EXPECT_NEAR(mass_matrix_at(matrix)[i], written, 1e-9 * (1 + fabs(written)));
+        EXPECT_NEAR(mass[i], written, 1e-9 * (1 + fabs(written)));
     }
-    mem_free(numbers);
+    if (system_m(system) == 0) /* else rotors tie speeds together */
+        expect_solved(system, mass, &state);
+    MEM_FREE(numbers, mass);
     mass_matrix_free(matrix);
 }
 

@@ -429,7 +429,7 @@ static bool velocity_sweep(const Reinit *reinit, Kkt *kkt, const double *matrix,
     double *bottom = NEW_ARRAY(double, count);
     double *lambda = NEW_ARRAY(double, count);
     double *du = NEW_ARRAY(double, eq->nu);
-    bool sound = kkt_factor(kkt, eq->mass, matrix, rows);
+    bool sound = kkt_factor(kkt, equations_mass(eq), matrix, rows);
 
     for (int k = 0; k < count; k++)
         bottom[k] = -missing[rows[k]];

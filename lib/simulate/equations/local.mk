@@ -5,8 +5,11 @@ libcore_la_SOURCES += \
   lib/simulate/equations/partitioning.h \
   lib/simulate/equations/input_layout.c \
   lib/simulate/equations/input_layout.h \
+  lib/simulate/equations/articulated.c \
+  lib/simulate/equations/articulated.h \
   lib/simulate/equations/mass_matrix.c \
   lib/simulate/equations/mass_matrix.h \
+  lib/simulate/equations/passing.h \
   lib/simulate/equations/mode_forms.c \
   lib/simulate/equations/mode_forms.h \
   lib/simulate/equations/motion.c \

@@ -5,6 +5,7 @@
 #include "simulate/equations/mass_matrix.h"
 
 #include "base/memory.h"
+#include "simulate/equations/passing.h"
 
 #include <string.h>
 
@@ -98,60 +99,10 @@ const Expr *mass_matrix_needs(const MassMatrix *matrix, int *count)
 
 /* --- in numbers --- */
 
-static inline double dot(const double *a, const double *b)
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-static inline void add_cross(double *sum, const double *a, const double *b)
-{
-    sum[0] += a[1] * b[2] - a[2] * b[1];
-    sum[1] += a[2] * b[0] - a[0] * b[2];
-    sum[2] += a[0] * b[1] - a[1] * b[0];
-}
-
-static inline void turn_by(const double *R, double *v)
-{
-    const double x = v[0], y = v[1], z = v[2];
-
-    for (int i = 0; i < 3; i++)
-        v[i] = R[3 * i] * x + R[3 * i + 1] * y + R[3 * i + 2] * z;
-}
-
-/* by a cosine and a sine, in the plane of two axes */
-static inline void turn_in(int j, int k, const double *R, double *v)
-{
-    const double y = v[j], z = v[k];
-
-    v[j] = R[0] * y - R[1] * z;
-    v[k] = R[1] * y + R[0] * z;
-}
-
 static inline void put_pair(MassMatrix *matrix, double value)
 {
     matrix->at[matrix->pair[matrix->next++]] = value;
     matrix->at[matrix->pair[matrix->next++]] = value;
-}
-
-static inline void turn_both(const MassPlace *place, const double *R, double *f, double *t)
-{
-    switch (place->axis) {
-    case 0:
-        turn_in(1, 2, R, f);
-        turn_in(1, 2, R, t);
-        break;
-    case 1:
-        turn_in(2, 0, R, f);
-        turn_in(2, 0, R, t);
-        break;
-    case 2:
-        turn_in(0, 1, R, f);
-        turn_in(0, 1, R, t);
-        break;
-    default:
-        turn_by(R, f);
-        turn_by(R, t);
-    }
 }
 
 static void column(MassMatrix *matrix, const double *numbers, int k)
@@ -176,8 +127,10 @@ static void column(MassMatrix *matrix, const double *numbers, int k)
         }
         if (place->has_step)
             add_cross(t, numbers + place->step, f);
-        if (place->is_turned)
-            turn_both(place, numbers + place->rotation, f, t);
+        if (place->is_turned) {
+            turn_onto(place, numbers + place->rotation, f);
+            turn_onto(place, numbers + place->rotation, t);
+        }
         if (place->has_way)
             add_cross(t, numbers + place->way, f);
     }

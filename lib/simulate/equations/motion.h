@@ -54,7 +54,7 @@ typedef struct Equations {
     void (*accelerated)(void *context, const double *acceleration, const double *multipliers);
     const double *phi;        /* m */
     const double *phi_u;      /* m x nu: the entries that may not be 0, */
-    const double *mass;       /* nu x nu: likewise, both halves; */
+    const double *mass;       /* nu x nu: likewise, both halves; by equations_mass(); */
     const Pattern *rows;      /* where those of Phi_u stand, a column each row of it, */
     const Pattern *masses;    /* and those of M */
     const double *map;        /* n x nu: N; NULL: identity, n == nu */
@@ -69,10 +69,14 @@ typedef struct Equations {
     const double *network_rhs;      /* nx+nz: r */
     const double *network_residual; /* nx+nz: G */
     bool network_is_constant;       /* A never changes in a run */
-    const double *force;            /* nu */
-    const double *power;            /* 1: work done on the system per time, W; NULL: not known */
-    const double *cap;              /* n+nu+nx+multi_turn_count, for Ode; may be NULL */
-    const int *quaternions;         /* first of each four Euler parameters */
+    /* du of M du = force where there are no constraints, by other means than M; false: M leaves
+     * nothing but rounding of it. NULL: by M */
+    bool (*without_mass)(void *context, const double *right, double *du);
+    void (*bring_mass)(void *context); /* M up to date; NULL: it is */
+    const double *force;               /* nu */
+    const double *power;               /* 1: work done on the system per time, W; NULL: not known */
+    const double *cap;                 /* n+nu+nx+multi_turn_count, for Ode; may be NULL */
+    const int *quaternions;            /* first of each four Euler parameters */
     int quaternion_count;
     /* conditions whose change of sign may bend or break the equations; time_only ones first */
     int switch_count, time_only;
@@ -98,6 +102,13 @@ static inline Guard equations_guard(const Equations *eq, int condition)
     return eq->guards != NULL ? eq->guards[condition] : (Guard){.surface = -1};
 }
 
+/* M where the equations stand */
+static inline const double *equations_mass(const Equations *eq)
+{
+    if (eq->bring_mass != NULL)
+        eq->bring_mass(eq->context);
+    return eq->mass;
+}
 /* Put a onto the angles at (t, q). */
 void equations_turn(const Equations *equations, double t, const double *q, double *a);
 /* Bring each four Euler parameters of q to unit length. */

@@ -33,6 +33,7 @@ struct Motion {
     Signs *signs; /* NULL: no surface is slid along */
     double *slip, *off, *way;
     bool is_evaluated, is_factored, is_embedded_factored; /* at t, q */
+    bool is_alone;                                        /* factors of the equations' own there */
     double t, *q, *references;                            /* references of angles */
     uint64_t sides;                                       /* of switches, likewise */
     const double *solved;                                 /* [x'; z] */

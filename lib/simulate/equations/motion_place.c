@@ -56,8 +56,7 @@ void motion_at_position(Motion *mo, double t, const double *y)
     mo->sides = sides_of(mo);
     memcpy(mo->q, y, bytes);
     mo->is_evaluated = true;
-    mo->is_factored = false;
-    mo->is_embedded_factored = false;
+    mo->is_factored = mo->is_embedded_factored = mo->is_alone = false;
 }
 
 bool motion_factor_with(Motion *mo, Kkt *kkt, const double *mass)
@@ -77,7 +76,7 @@ bool motion_factor_with(Motion *mo, Kkt *kkt, const double *mass)
 bool motion_factor(Motion *mo)
 {
     if (!mo->is_factored)
-        mo->is_factored = motion_factor_with(mo, mo->kkt, mo->eq->mass);
+        mo->is_factored = motion_factor_with(mo, mo->kkt, equations_mass(mo->eq));
     return mo->is_factored;
 }
 
@@ -86,7 +85,7 @@ bool motion_factor_embedded(Motion *mo)
     if (mo->is_embedded_factored)
         return true;
     mo->counts.factorisations++;
-    pattern_fill(mo->eq->masses, mo->eq->mass, mo->full_mass);
+    pattern_fill(mo->eq->masses, equations_mass(mo->eq), mo->full_mass);
     pattern_fill(mo->eq->rows, mo->eq->phi_u, mo->full_phi_u);
     mo->is_embedded_factored =
         partitioning_factor(mo->partitioning, mo->full_mass, mo->full_phi_u, mo->rows);

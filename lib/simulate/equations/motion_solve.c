@@ -19,6 +19,13 @@ static void pick_rows(const Motion *mo, const double *all, double *out)
 
 bool motion_solve_augmented(Motion *mo)
 {
+    const Equations *eq = mo->eq;
+
+    if (eq->without_mass != NULL && eq->without_mass(eq->context, eq->force, mo->du)) {
+        mo->counts.factorisations += !mo->is_alone;
+        mo->is_alone = true;
+        return true;
+    }
     if (!motion_factor(mo))
         return false;
     pick_rows(mo, mo->eq->gamma, mo->bottom);

@@ -2,6 +2,7 @@
 #include "simulate/equations/numbers.h"
 
 #include "base/memory.h"
+#include "simulate/equations/articulated.h"
 #include "simulate/equations/mass_matrix.h"
 
 #include <math.h>
@@ -14,11 +15,16 @@ struct Numbers {
     const Layout *layout;
     Probe *main, *switching, *network;
     Pattern rows, masses; /* where entries of Phi_u and M stand */
-    MassMatrix *mass;     /* NULL: the main program has it */
-    int mass_needs;       /* where what it follows from stands in that */
-    Probe *slip;          /* of surfaces that are slid along: h', or what of it they reach, and h */
-    Guard *guards;        /* of the conditions, */
-    Expr *told;           /* which are these for a user; NULL: margins */
+    /* M: of the main program; or NULL. By a matrix, from what that holds from mass_needs on; where
+     * elimination does without, from a program of its own, as far as that was asked for. */
+    MassMatrix *mass;
+    Articulated *articulated;
+    Probe *massing;
+    int mass_needs;
+    bool is_articulated, is_mass_old; /* factors are there; M is of another position */
+    Probe *slip;   /* of surfaces that are slid along: h', or what of it they reach, and h */
+    Guard *guards; /* of the conditions, */
+    Expr *told;    /* which are these for a user; NULL: margins */
     int *quaternions, *network_places;
     LIST(int) margins;   /* whose they are, of the switches */
     bool is_network_new; /* its program has seen t, q, u, x as they are */
@@ -40,8 +46,34 @@ static void position(void *context, double t, const double *q)
     inputs[nb->layout->t] = t;
     inputs_put(inputs, nb->layout->q, q, nb->layout->n);
     workspace_run(nb->main->workspace, STAGE_TIME, STAGE_POSITION);
-    if (nb->mass != NULL)
+    nb->is_mass_old = true;
+    if (nb->articulated != NULL)
+        nb->is_articulated = articulated_factor(
+            nb->articulated, workspace_roots(nb->main->workspace) + nb->mass_needs);
+    else if (nb->mass != NULL)
         mass_matrix_put(nb->mass, workspace_roots(nb->main->workspace) + nb->mass_needs);
+}
+
+static bool without_mass(void *context, const double *right, double *du)
+{
+    Numbers *nb = context;
+
+    if (nb->is_articulated)
+        articulated_solve(nb->articulated, right, du);
+    return nb->is_articulated;
+}
+
+static void bring_mass(void *context)
+{
+    Numbers *nb = context;
+
+    if (!nb->is_mass_old)
+        return;
+    memcpy(probe_inputs(nb->massing), probe_inputs(nb->main),
+           (size_t)nb->layout->count * sizeof(double));
+    workspace_run(nb->massing->workspace, STAGE_TIME, STAGE_POSITION);
+    mass_matrix_put(nb->mass, workspace_roots(nb->massing->workspace));
+    nb->is_mass_old = false;
 }
 
 static void velocity(void *context, const double *u, const double *x)
@@ -305,8 +337,29 @@ static int mass_block(Numbers *nb, Roots *roots)
     if (nb->mass == NULL)
         return stored_block(roots, system_run(nb->layout->system)->mass, nb->layout->nu,
                             nb->layout->nu, &nb->masses);
-    needs = mass_matrix_needs(nb->mass, &count);
+    needs = nb->articulated != NULL ? articulated_needs(nb->articulated, &count)
+                                    : mass_matrix_needs(nb->mass, &count);
     return block(roots, needs, count);
+}
+
+/* M, where elimination does without it */
+static Status compile_mass(Numbers *nb, Parameters *parameters, Diag *diag)
+{
+    Roots roots = {0};
+    const Expr *needs;
+    int count;
+    Status status = OK;
+
+    if (nb->articulated == NULL)
+        return OK;
+    needs = mass_matrix_needs(nb->mass, &count);
+    (void)block(&roots, needs, count);
+    CHECK(compile(nb->layout, parameters, &roots, &nb->massing, diag));
+    nb->eq.without_mass = without_mass;
+    nb->eq.bring_mass = bring_mass;
+done:
+    LIST_FREE(roots);
+    return status;
 }
 
 static Status compile_equations(Numbers *nb, Parameters *parameters, Diag *diag)
@@ -587,7 +640,10 @@ Status numbers_new(const Layout *layout, Parameters *parameters, Numbers **out, 
     nb->eq.quaternion_count = count;
     parameters_begin_turns(parameters, layout->system);
     nb->mass = mass_matrix_new(layout->system);
+    if (layout->m == 0 && nb->mass != NULL)
+        nb->articulated = articulated_new(layout->system);
     CHECK(compile_equations(nb, parameters, diag));
+    CHECK(compile_mass(nb, parameters, diag));
     CHECK(compile_switches(nb, parameters, diag));
     CHECK(compile_slip(nb, parameters, diag));
     *out = nb;
@@ -604,7 +660,9 @@ void numbers_free(Numbers *nb)
     probe_free(nb->main);
     probe_free(nb->network);
     probe_free(nb->switching);
+    probe_free(nb->massing);
     mass_matrix_free(nb->mass);
+    articulated_free(nb->articulated);
     pattern_free(&nb->rows);
     pattern_free(&nb->masses);
     LIST_FREE(nb->margins);
@@ -619,7 +677,7 @@ void numbers_free(Numbers *nb)
 
 void numbers_set(Numbers *nb, Expr parameter, double value)
 {
-    Probe *const probes[] = {nb->main, nb->switching, nb->network, nb->slip};
+    Probe *const probes[] = {nb->main, nb->switching, nb->network, nb->slip, nb->massing};
 
     for (int i = 0; i < COUNT(probes); i++)
         if (probes[i] != NULL)

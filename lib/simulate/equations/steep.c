@@ -719,7 +719,7 @@ static double effect(Steep *s, double by, const double *scale)
 {
     const Layout *l = s->l;
     int n = l->nx + l->nz;
-    const double *roots = roots_at(s, s->y, s->w);
+    const double *roots = roots_at(s, s->y, s->w), *mass_matrix;
     double largest = 0;
 
     answer(s, roots, by);
@@ -729,9 +729,10 @@ static double effect(Steep *s, double by, const double *scale)
         roots = roots_at(s, s->y, s->moved);
     for (int i = 0; i < l->nx; i++)
         largest = fmax(largest, fabs(s->answer[i]) / scale[l->n + l->nu + i]);
+    mass_matrix = l->nu > 0 ? equations_mass(s->eq) : NULL;
     for (int j = 0; j < l->nu; j++) {
         double force = (roots[s->force + j] - s->here[s->force + j]) / by;
-        double mass = pattern_at(s->eq->masses, s->eq->mass, j, j);
+        double mass = pattern_at(s->eq->masses, mass_matrix, j, j);
 
         if (mass > 0)
             largest = fmax(largest, fabs(force / mass) / scale[l->n + j]);

@@ -1,0 +1,58 @@
+/* passing.h: vectors of a place in the axes of another */
+#ifndef COTREE_SIMULATE_EQUATIONS_PASSING_H
+#define COTREE_SIMULATE_EQUATIONS_PASSING_H
+
+#include "formulate/composite_mass.h"
+
+static inline double dot(const double *a, const double *b)
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static inline void add_cross(double *sum, const double *a, const double *b)
+{
+    sum[0] += a[1] * b[2] - a[2] * b[1];
+    sum[1] += a[2] * b[0] - a[0] * b[2];
+    sum[2] += a[0] * b[1] - a[1] * b[0];
+}
+
+static inline void turn_by(const double *R, double *v)
+{
+    const double x = v[0], y = v[1], z = v[2];
+
+    for (int i = 0; i < 3; i++)
+        v[i] = R[3 * i] * x + R[3 * i + 1] * y + R[3 * i + 2] * z;
+}
+
+/* by a cosine and a sine, in the plane of two axes */
+static inline void turn_in(int j, int k, const double *R, double *v)
+{
+    const double y = v[j], z = v[k];
+
+    v[j] = R[0] * y - R[1] * z;
+    v[k] = R[1] * y + R[0] * z;
+}
+
+/* v in the axes of the place's parent; R: its rotation, as it stands among the needs */
+static inline void turn_onto(const MassPlace *place, const double *R, double *v)
+{
+    if (place->axis == AXIS_ANY)
+        turn_by(R, v);
+    else
+        turn_in((place->axis + 1) % 3, (place->axis + 2) % 3, R, v);
+}
+
+/* and back */
+static inline void turn_back(const MassPlace *place, const double *R, double *v)
+{
+    const double across[2] = {R[0], -R[1]};
+    const double x = v[0], y = v[1], z = v[2];
+
+    if (place->axis != AXIS_ANY)
+        turn_in((place->axis + 1) % 3, (place->axis + 2) % 3, across, v);
+    else
+        for (int i = 0; i < 3; i++)
+            v[i] = R[i] * x + R[3 + i] * y + R[6 + i] * z;
+}
+
+#endif
