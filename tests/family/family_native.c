@@ -20,11 +20,11 @@ static const SymbolKind kinds[INPUTS] = {SYMBOL_PARAMETER,  SYMBOL_PARAMETER,   
 
 /* --- random programs --- */
 
-typedef struct Made {
+typedef struct Sample {
     Arena *arena;
     Program *program;
     Workspace *workspace; /* the interpreter's */
-} Made;
+} Sample;
 
 static Expr pick(Member *member, const Expr *nodes, int count)
 {
@@ -63,7 +63,7 @@ static Expr make_node(Member *member, Arena *arena, const Expr *nodes, int count
     return expr_call(arena, op == OP_TABLE ? OP_SIN : op, args);
 }
 
-static void make(Member *member, Made *out)
+static void make(Member *member, Sample *out)
 {
     const int count = INPUTS + 5 + member_one_of(member, MOST_NODES - INPUTS - 5);
     const int root_count = 1 + member_one_of(member, MOST_ROOTS);
@@ -90,7 +90,7 @@ static void make(Member *member, Made *out)
     out->workspace = workspace_new(out->program);
 }
 
-static void made_free(Made *made)
+static void sample_free(Sample *made)
 {
     workspace_free(made->workspace);
     program_free(made->program);
@@ -257,7 +257,7 @@ static bool turns_agree(Member *member, Lanes *l)
 
 static Verdict native_code(Member *member)
 {
-    Made made;
+    Sample made;
     Lanes l = {.target = any_target(member)};
     Verdict verdict = REFUSED;
     int numbers;
@@ -283,7 +283,7 @@ static Verdict native_code(Member *member)
     mem_free(l.other);
     native_frame_free(l.frame);
     native_free(l.native);
-    made_free(&made);
+    sample_free(&made);
     return verdict;
 }
 
@@ -293,7 +293,7 @@ static Verdict workspaces(Member *member)
 {
     const bool is_strict = member_one_of(member, 2) == 0;
     NativeTarget best = {.fused = false};
-    Made made;
+    Sample made;
     double *other;
     bool agrees = true;
 
@@ -317,7 +317,7 @@ static Verdict workspaces(Member *member)
             tell(member, "strict %d: root %d is %a, not %a\n", is_strict, i, a, b);
     }
     mem_free(other);
-    made_free(&made);
+    sample_free(&made);
     return agrees ? AGREES : DISAGREES;
 }
 
