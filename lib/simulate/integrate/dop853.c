@@ -345,7 +345,7 @@ static Status step(Stepper *stepper, double end, Diag *diag)
             return solver_failure(diag, d->base.before,
                                   "the equations have no solution just behind this instant (ten "
                                   "ever shorter steps failed)");
-        h = sound ? tried * fmax(SHRINK, SAFETY / eighth_root(error)) : 0.5 * tried;
+        h = sound ? tried * fmax(SHRINK, SAFETY / eighth_root(error)) : RETREAT * tried;
     }
 }
 

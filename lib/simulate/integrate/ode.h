@@ -269,7 +269,8 @@ MUST_USE Status stepper_arrive(Stepper *stepper, double reached, double h, doubl
  * projected. `last` is y at the end of the step, to which it comes back where that fails. */
 MUST_USE Status stepper_take_back(Stepper *stepper, double t, const double *last, Diag *diag);
 
-#define MAX_REJECTIONS 10 /* in a row, by NaN or a projection that fails, end a run */
+#define MAX_REJECTIONS 10   /* in a row, by NaN or a projection that fails, end a run, */
+#define RETREAT        0.25 /* each so much shorter: the last, by a million */
 
 #define METHOD(row) extern const Method row;
 #include "simulate/integrate/methods.def"

@@ -366,7 +366,7 @@ static bool try_step(Radau *r, double *h, double end, int *failures)
     if (outcome != CONVERGED) {
         r->fresh = r->fresh && (r->step > 0 || r->is_linear);
         *failures += outcome == UNDEFINED;
-        *h = 0.5 * tried;
+        *h = (outcome == UNDEFINED ? RETREAT : 0.5) * tried;
         return false;
     }
     error = step_error(r, tried);
@@ -378,7 +378,7 @@ static bool try_step(Radau *r, double *h, double end, int *failures)
     }
     if (!settle(r, t, tried)) {
         *failures += 1;
-        *h = 0.5 * tried;
+        *h = RETREAT * tried;
         return false;
     }
     /* factors are kept where the step hardly changes */
