@@ -116,6 +116,15 @@ Status check_not_negative(const Instance *instance, const char *param, Diag *dia
     return check_number(instance, param, true, diag);
 }
 
+Status instance_check(const Instance *instance, Arena *arena, bool planar, Diag *diag)
+{
+    const Component *row = instance->row;
+
+    if (row->positive != NULL)
+        TRY(check_positive(instance, row->positive, diag));
+    return row->check != NULL ? row->check(instance, arena, planar, diag) : OK;
+}
+
 /* --- scalar edges --- */
 
 const char *domain_across(Domain domain)

@@ -251,6 +251,7 @@ struct Component {
     void (*own_state)(const Instance *instance, Arena *arena, int k, OwnState *out);
     const Member *members; /* beyond those that its family has */
     int member_count;
+    const char *positive; /* the param that has to be above 0; NULL: none */
     /* Refuse values that no model could have. Values of parameters alone are numbers here, and only
      * numbers are looked at. May be NULL. */
     Status (*check)(const Instance *instance, Arena *arena, bool planar, Diag *diag);
@@ -294,6 +295,8 @@ struct Instance {
 
 /* How many coordinates the instance has in this scene, and which, its values read. */
 const CoordinateRow *instance_coords(const Instance *instance, bool planar, int *count);
+/* Refuse values that no model could have, by the row; they are numbers where they can be. */
+MUST_USE Status instance_check(const Instance *instance, Arena *arena, bool planar, Diag *diag);
 const Component *component_find(const char *name);           /* exact; NULL */
 const Component *component_at(int i);                        /* 0, 1, ...; NULL at the end */
 int component_param(const Component *row, const char *name); /* -1: none */

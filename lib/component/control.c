@@ -316,14 +316,6 @@ static void lag_state(const Instance *instance, Arena *arena, int k, OwnState *o
     block_choose(instance, arena, out);
 }
 
-static Status lag_check(const Instance *instance, Arena *arena, bool planar, Diag *diag)
-{
-    (void)arena;
-    (void)planar;
-    TRY(check_positive(instance, "T", diag));
-    return block_check(instance, diag);
-}
-
 const Component component_lag = {
     .name = "lag",
     .family = FAMILY_SCALAR,
@@ -339,7 +331,8 @@ const Component component_lag = {
     .own_state = lag_state,
     .members = state_members,
     .member_count = COUNT(state_members),
-    .check = lag_check,
+    .positive = "T",
+    .check = plain_check,
     .help = "A voltage source that follows k times its input with the time constant T: T*x' + x = "
             "k*of. initial= is where it starts, limits=[lo, hi] cut its output, and with period= "
             "it is sampled.",

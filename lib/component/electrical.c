@@ -94,13 +94,6 @@ static void capacitor_relation(const Instance *instance, Arena *arena, int which
                      out);
 }
 
-static Status capacitor_check(const Instance *instance, Arena *arena, bool planar, Diag *diag)
-{
-    (void)arena;
-    (void)planar;
-    return check_positive(instance, "C", diag);
-}
-
 const Component component_capacitor = {
     .name = "capacitor",
     .family = FAMILY_SCALAR,
@@ -114,7 +107,7 @@ const Component component_capacitor = {
     .relation = capacitor_relation,
     .members = capacitor_members,
     .member_count = COUNT(capacitor_members),
-    .check = capacitor_check,
+    .positive = "C",
     .help = "A capacitor between two terminals; its charge is C*v. C may be an expression, also of "
             "its own voltage: C0/(1 + C1.v/0.7). Its voltage is a state that init may give.",
     .example = "resistor R1 a 0 1 kohm\ncapacitor C1 a 0 1 uF\ninit C1.v = 5\nsimulate 0.002\n"
@@ -130,13 +123,6 @@ static void inductor_relation(const Instance *instance, Arena *arena, int which,
                      out);
 }
 
-static Status inductor_check(const Instance *instance, Arena *arena, bool planar, Diag *diag)
-{
-    (void)arena;
-    (void)planar;
-    return check_positive(instance, "L", diag);
-}
-
 const Component component_inductor = {
     .name = "inductor",
     .family = FAMILY_SCALAR,
@@ -150,7 +136,7 @@ const Component component_inductor = {
     .relation = inductor_relation,
     .members = inductor_members,
     .member_count = COUNT(inductor_members),
-    .check = inductor_check,
+    .positive = "L",
     .help = "An inductor between two terminals; its flux linkage is L*i. L may be an expression, "
             "also of its own current. Its current is a state that init may give.",
     .example = "vsource E1 a 0 12\nresistor R1 a b 2 ohm\ninductor L1 b 0 50 mH\ninit L1.i = 0\n"

@@ -192,13 +192,6 @@ static void inertance_relation(const Instance *instance, Arena *arena, int which
     scalar_storage(RELATION_INDUCTIVE, instance_scalar(instance, "I"), motion->through, arena, out);
 }
 
-static Status inertance_check(const Instance *instance, Arena *arena, bool planar, Diag *diag)
-{
-    (void)arena;
-    (void)planar;
-    return check_positive(instance, "I", diag);
-}
-
 const Component component_inertance = {
     .name = "inertance",
     .family = FAMILY_SCALAR,
@@ -212,7 +205,7 @@ const Component component_inertance = {
     .relation = inertance_relation,
     .members = inertance_members,
     .member_count = COUNT(inertance_members),
-    .check = inertance_check,
+    .positive = "I",
     .help = "The liquid in a pipe has to be accelerated: p = I*q' with I = density*length/area. "
             "Its flow is a state that init may give.",
     .example = "tank T1 a 0 A=0.01\ninertance I1 a b I=1e7\npipe P1 b 0 R=2e6\n"

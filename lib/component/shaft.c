@@ -37,13 +37,6 @@ static void flywheel_relation(const Instance *instance, Arena *arena, int which,
     scalar_storage(RELATION_CAPACITIVE, instance_scalar(instance, "J"), motion->across, arena, out);
 }
 
-static Status flywheel_check(const Instance *instance, Arena *arena, bool planar, Diag *diag)
-{
-    (void)arena;
-    (void)planar;
-    return check_positive(instance, "J", diag);
-}
-
 const Component component_flywheel = {
     .name = "flywheel",
     .family = FAMILY_SCALAR,
@@ -57,7 +50,7 @@ const Component component_flywheel = {
     .relation = flywheel_relation,
     .members = flywheel_members,
     .member_count = COUNT(flywheel_members),
-    .check = flywheel_check,
+    .positive = "J",
     .help = "An inertia that turns with its first terminal; the second is 0. Its rate is a state "
             "that init may give. On the terminal of a shaftend it joins the inertia of the joint.",
     .example = "torquesource T1 a 0 2\nflywheel J1 a 0 J=0.5\nshaft d1 a 0 d=0.1\n"

@@ -34,13 +34,6 @@ static void slug_relation(const Instance *instance, Arena *arena, int which, con
     scalar_storage(RELATION_CAPACITIVE, instance_scalar(instance, "m"), motion->across, arena, out);
 }
 
-static Status slug_check(const Instance *instance, Arena *arena, bool planar, Diag *diag)
-{
-    (void)arena;
-    (void)planar;
-    return check_positive(instance, "m", diag);
-}
-
 const Component component_slug = {
     .name = "slug",
     .family = FAMILY_SCALAR,
@@ -54,7 +47,7 @@ const Component component_slug = {
     .relation = slug_relation,
     .members = slug_members,
     .member_count = COUNT(slug_members),
-    .check = slug_check,
+    .positive = "m",
     .help = "A mass that moves with its first terminal; the second is 0. Its velocity is a state "
             "that init may give. On the terminal of a rodend it joins the mass of the joint's "
             "coordinate.",

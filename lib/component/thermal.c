@@ -32,13 +32,6 @@ static void heatcap_relation(const Instance *instance, Arena *arena, int which,
                       .rest = expr_int(arena, 0)};
 }
 
-static Status heatcap_check(const Instance *instance, Arena *arena, bool planar, Diag *diag)
-{
-    (void)arena;
-    (void)planar;
-    return check_positive(instance, "C", diag);
-}
-
 const Component component_heatcap = {
     .name = "heatcap",
     .family = FAMILY_SCALAR,
@@ -52,7 +45,7 @@ const Component component_heatcap = {
     .relation = heatcap_relation,
     .members = heatcap_members,
     .member_count = COUNT(heatcap_members),
-    .check = heatcap_check,
+    .positive = "C",
     .help = "Something that warms with the heat that flows into it; the second terminal is 0. Its "
             "temperature is a state that init may give.",
     .example = "heatsource H1 a 0 10\nheatcap C1 a 0 C=500\nheatres R1 a 0 R=2\n"
@@ -70,13 +63,6 @@ static void heatres_relation(const Instance *instance, Arena *arena, int which,
                       .rest = expr_int(arena, 0)};
 }
 
-static Status heatres_check(const Instance *instance, Arena *arena, bool planar, Diag *diag)
-{
-    (void)arena;
-    (void)planar;
-    return check_positive(instance, "R", diag);
-}
-
 const Component component_heatres = {
     .name = "heatres",
     .family = FAMILY_SCALAR,
@@ -88,7 +74,7 @@ const Component component_heatres = {
     .translation = BRANCH_MAY,
     .preference = 30,
     .relation = heatres_relation,
-    .check = heatres_check,
+    .positive = "R",
     .help = "Conduction or convection between two terminals: thickness/(conductivity*area), or "
             "1/(coefficient*area). R may be an expression, also of its own variables.",
     .example = "tempsource T1 a 0 80\nheatres R1 a b R=0.5\nheatcap C1 b 0 C=1000\n"

@@ -211,7 +211,6 @@ static Status platecap_check(const Instance *instance, Arena *arena, bool planar
 {
     (void)arena;
     (void)planar;
-    TRY(check_positive(instance, "C", diag));
     return check_law(instance, "C", diag);
 }
 
@@ -229,6 +228,7 @@ const Component component_platecap = {
     .relation = platecap_relation,
     .members = capacitive_members,
     .member_count = COUNT(capacitive_members),
+    .positive = "C",
     .check = platecap_check,
     .help =
         "A capacitor whose capacitance is a law of a joint's coordinate s: its charge is "
@@ -261,7 +261,6 @@ static Status solenoid_check(const Instance *instance, Arena *arena, bool planar
 {
     (void)arena;
     (void)planar;
-    TRY(check_positive(instance, "L", diag));
     TRY(check_not_negative(instance, "R", diag));
     return check_law(instance, "L", diag);
 }
@@ -280,6 +279,7 @@ const Component component_solenoid = {
     .relation = solenoid_relation,
     .members = inductive_members,
     .member_count = COUNT(inductive_members),
+    .positive = "L",
     .check = solenoid_check,
     .help = "A coil whose inductance is a law of a joint's coordinate s: v = R*i + (L(s)*i)', and "
             "it pushes the tip along s with 1/2*dL/ds*i^2, towards more inductance whatever the "

@@ -43,8 +43,7 @@ Status part_check(State *state, const Instance *part, Text *remarks, Diag *diag)
 
     numeric.values = NEW_ARRAY(Value, row->param_count);
     CHECK(read_numbers(state, part, numeric.values, diag));
-    if (row->check != NULL)
-        CHECK(row->check(&numeric, state->arena, state->planar, diag));
+    CHECK(instance_check(&numeric, state->arena, state->planar, diag));
     CHECK(coupled_check(state, part, diag));
     if (row->doubt != NULL)
         row->doubt(&numeric, state->planar, remarks);
