@@ -15,42 +15,28 @@ static Expr one_and_square(Arena *arena, int sign, Expr x)
                     expr_mul(arena, expr_int(arena, sign), expr_square(arena, x)));
 }
 
-static Expr d_zero(Arena *arena, Expr e, const Expr *rates)
-{
-    (void)e;
-    (void)rates;
-    return arena_zero(arena);
-}
-
-static Expr d_sin(Arena *arena, Expr e, const Expr *rates)
-{
-    return expr_mul(arena, rates[0], expr_cos(arena, arg(e, 0)));
-}
-
-static Expr d_cos(Arena *arena, Expr e, const Expr *rates)
-{
-    return expr_neg(arena, expr_mul(arena, rates[0], expr_sin(arena, arg(e, 0))));
-}
-
-static Expr d_tan(Arena *arena, Expr e, const Expr *rates)
-{
-    return expr_mul(arena, rates[0], one_and_square(arena, 1, e));
-}
-
-static Expr d_asin(Arena *arena, Expr e, const Expr *rates)
-{
-    return expr_div(arena, rates[0], expr_sqrt(arena, one_and_square(arena, -1, arg(e, 0))));
-}
-
-static Expr d_acos(Arena *arena, Expr e, const Expr *rates)
-{
-    return expr_neg(arena, d_asin(arena, e, rates));
-}
-
-static Expr d_atan(Arena *arena, Expr e, const Expr *rates)
-{
-    return expr_div(arena, rates[0], one_and_square(arena, 1, arg(e, 0)));
-}
+/* a, e, d: arena, call and rates */
+/* clang-format off */
+static Expr d_zero(Arena *a, Expr e, const Expr *d) { (void)e; (void)d; return arena_zero(a); }
+static Expr d_sin(Arena *a, Expr e, const Expr *d)  { return expr_mul(a, d[0], expr_cos(a, arg(e, 0))); }
+static Expr d_cos(Arena *a, Expr e, const Expr *d)  { return expr_neg(a, expr_mul(a, d[0], expr_sin(a, arg(e, 0)))); }
+static Expr d_tan(Arena *a, Expr e, const Expr *d)  { return expr_mul(a, d[0], one_and_square(a, 1, e)); }
+static Expr d_asin(Arena *a, Expr e, const Expr *d) { return expr_div(a, d[0], expr_sqrt(a, one_and_square(a, -1, arg(e, 0)))); }
+static Expr d_acos(Arena *a, Expr e, const Expr *d) { return expr_neg(a, d_asin(a, e, d)); }
+static Expr d_atan(Arena *a, Expr e, const Expr *d) { return expr_div(a, d[0], one_and_square(a, 1, arg(e, 0))); }
+static Expr d_sinh(Arena *a, Expr e, const Expr *d) { return expr_mul(a, d[0], expr_call1(a, OP_COSH, arg(e, 0))); }
+static Expr d_cosh(Arena *a, Expr e, const Expr *d) { return expr_mul(a, d[0], expr_call1(a, OP_SINH, arg(e, 0))); }
+static Expr d_tanh(Arena *a, Expr e, const Expr *d) { return expr_mul(a, d[0], one_and_square(a, -1, e)); }
+static Expr d_exp(Arena *a, Expr e, const Expr *d)  { return expr_mul(a, d[0], e); }
+static Expr d_log(Arena *a, Expr e, const Expr *d)  { return expr_div(a, d[0], arg(e, 0)); }
+static Expr d_sqrt(Arena *a, Expr e, const Expr *d) { return expr_div(a, d[0], expr_mul(a, expr_int(a, 2), e)); }
+static Expr d_abs(Arena *a, Expr e, const Expr *d)  { return expr_mul(a, d[0], expr_call1(a, OP_SIGN, arg(e, 0))); }
+static Expr d_min(Arena *a, Expr e, const Expr *d)  { return expr_if(a, expr_call2(a, OP_LT, arg(e, 1), arg(e, 0)), d[1], d[0]); }
+static Expr d_max(Arena *a, Expr e, const Expr *d)  { return expr_if(a, expr_call2(a, OP_LT, arg(e, 0), arg(e, 1)), d[1], d[0]); }
+static Expr d_ramp(Arena *a, Expr e, const Expr *d) { return expr_mul(a, d[0], expr_call1(a, OP_STEP, arg(e, 0))); }
+static Expr d_if(Arena *a, Expr e, const Expr *d)   { return expr_if(a, arg(e, 0), d[1], d[2]); }
+static Expr d_hold(Arena *a, Expr e, const Expr *d) { (void)e; return expr_hold(a, d[0]); }
+/* clang-format on */
 
 /* (x*y' - y*x')/(x^2 + y^2), in every turn */
 static Expr d_atan2(Arena *arena, Expr e, const Expr *rates)
@@ -61,67 +47,6 @@ static Expr d_atan2(Arena *arena, Expr e, const Expr *rates)
     return expr_div(arena,
                     expr_sub(arena, expr_mul(arena, x, rates[0]), expr_mul(arena, y, rates[1])),
                     expr_add(arena, expr_square(arena, x), expr_square(arena, y)));
-}
-
-static Expr d_sinh(Arena *arena, Expr e, const Expr *rates)
-{
-    return expr_mul(arena, rates[0], expr_call1(arena, OP_COSH, arg(e, 0)));
-}
-
-static Expr d_cosh(Arena *arena, Expr e, const Expr *rates)
-{
-    return expr_mul(arena, rates[0], expr_call1(arena, OP_SINH, arg(e, 0)));
-}
-
-static Expr d_tanh(Arena *arena, Expr e, const Expr *rates)
-{
-    return expr_mul(arena, rates[0], one_and_square(arena, -1, e));
-}
-
-static Expr d_exp(Arena *arena, Expr e, const Expr *rates)
-{
-    return expr_mul(arena, rates[0], e);
-}
-
-static Expr d_log(Arena *arena, Expr e, const Expr *rates)
-{
-    return expr_div(arena, rates[0], arg(e, 0));
-}
-
-static Expr d_sqrt(Arena *arena, Expr e, const Expr *rates)
-{
-    return expr_div(arena, rates[0], expr_mul(arena, expr_int(arena, 2), e));
-}
-
-static Expr d_abs(Arena *arena, Expr e, const Expr *rates)
-{
-    return expr_mul(arena, rates[0], expr_call1(arena, OP_SIGN, arg(e, 0)));
-}
-
-static Expr d_min(Arena *arena, Expr e, const Expr *rates)
-{
-    return expr_if(arena, expr_call2(arena, OP_LT, arg(e, 1), arg(e, 0)), rates[1], rates[0]);
-}
-
-static Expr d_max(Arena *arena, Expr e, const Expr *rates)
-{
-    return expr_if(arena, expr_call2(arena, OP_LT, arg(e, 0), arg(e, 1)), rates[1], rates[0]);
-}
-
-static Expr d_ramp(Arena *arena, Expr e, const Expr *rates)
-{
-    return expr_mul(arena, rates[0], expr_call1(arena, OP_STEP, arg(e, 0)));
-}
-
-static Expr d_if(Arena *arena, Expr e, const Expr *rates)
-{
-    return expr_if(arena, arg(e, 0), rates[1], rates[2]);
-}
-
-static Expr d_hold(Arena *arena, Expr e, const Expr *rates)
-{
-    (void)e;
-    return expr_hold(arena, rates[0]);
 }
 
 /* the same data, one order higher */
