@@ -114,15 +114,16 @@ const char *ct_remarks(const ct_session *session)
 
 /* --- building --- */
 
-/* what the statement of that text changed; a parameter, a law: the model */
-static VerbChanges changes_of(const char *text)
+/* a parameter, a law: the model */
+static VerbChanges changes_of(const Statement *statement)
 {
-    char *word = mem_text(text, strcspn(text, " "));
-    Verb verb;
-    const bool found = verb_find(word, &verb);
+    return statement->kind == STATEMENT_VERB ? statement->row.changes : CHANGES_MODEL;
+}
 
-    mem_free(word);
-    return found ? verb.changes : CHANGES_MODEL;
+/* init none: what others don't speak of stays at rest */
+static bool forgets_start(const Statement *statement)
+{
+    return changes_of(statement) == CHANGES_START && statement->operands.count > 0;
 }
 
 /* whether it chose trees or the form, and so left the graph alone */
@@ -246,7 +247,7 @@ ct_status ct_apply(ct_session *session, const ct_statement *statement, ct_error 
     SESSION_CALL(session, session_ran_out(session, error));
 
     const Statement *s = statement_of(statement);
-    const VerbChanges changes = s->kind == STATEMENT_VERB ? s->row.changes : CHANGES_MODEL;
+    const VerbChanges changes = changes_of(s);
     const uint64_t revision = model_revision(session->model);
     Status status = OK;
     Diag diag = {0};
@@ -270,8 +271,7 @@ ct_status ct_apply(ct_session *session, const ct_statement *statement, ct_error 
             CHECK(try_trees(session, s, &diag));
         session_remark(session, model_remarks(session->model));
     }
-    if (changes == CHANGES_START && s->operands.count > 0)
-        session->at_rest = false; /* init none; what others don't speak of stays at rest */
+    session->at_rest = session->at_rest && !forgets_start(s);
     if (is_search(s) ? model_revision(session->model) != revision : changes != CHANGES_NAMES)
         note_change(session, revision, chooses(changes));
     if (chooses_trees(s) && status == OK) {
@@ -288,19 +288,24 @@ static ct_status move_over(ct_session *session, Status (*move)(Model *, Diag *),
                            ct_error *error)
 {
     const uint64_t revision = model_revision(session->model);
+    Statement *moved = NULL;
+    size_t next = 0;
+    bool is_statement; /* else the name of several */
     Status status;
     Diag diag = {0};
 
     session_begin(session);
     CHECK(move(session->model, &diag));
-    if (strncmp(model_undone(session->model), "init none", strlen("init none")) == 0)
-        session->at_rest = false;
+    is_statement = statement_parse(model_undone(session->model), 1, (SyntaxOptions){false}, &next,
+                                   &moved, NULL) == OK;
+    session->at_rest = session->at_rest && !(is_statement && forgets_start(moved));
     /* what was given before the equilibrium may be among what is undone */
     if (model_start_statements(session->model) < session->rests_since)
         session->rests_since = model_start_statements(session->model);
     text_addf(&session->remarks, "%s: %s\n", what, model_undone(session->model));
-    note_change(session, revision, chooses(changes_of(model_undone(session->model))));
+    note_change(session, revision, is_statement && chooses(changes_of(moved)));
 done:
+    statement_free(moved);
     return session_report(status, &diag, error);
 }
 

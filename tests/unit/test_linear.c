@@ -470,7 +470,8 @@ static void where_newton_gets_stuck_other_ways_go_on(void)
         const char *spring, *force, *start, *residual, *phase;
     } cases[] = {
         /* r = s - 4 + 4 sin(2 s), positive and least near 8.57 */
-        {"spring k1 s k=1\n", "4 - 4*sin(2*s)", "8.5", "s - 4 + 4*sin(2*s)", "equilibrium: loads"},
+        {"spring k1 s k=1\n", "4 - 4*sin(2*s)", "8.5", "s - 4 + 4*sin(2*s)",
+         "equilibrium: source stepping"},
         /* near -1 nearly a root, with loads of any size */
         {"", "-(s - 2)*((s + 1)^2 + 0.1)", "-1", "s - 2", "equilibrium: creeping"},
     };

@@ -129,8 +129,8 @@ static bool step_gmin(EquilibriumResidual *equations, double reached)
 }
 
 static const Path paths[] = {
-    {"equilibrium: loads", 0.25, step_sources},
-    {"equilibrium: leaks", 1.0 / 13, step_gmin},
+    {"equilibrium: source stepping", 0.25, step_sources},
+    {"equilibrium: gmin stepping", 1.0 / 13, step_gmin},
 };
 
 static Status follow(Quest *e, const Path *path, bool *found)

@@ -87,7 +87,7 @@ static Status make_system(EquilibriumResidual *s, const Scene *scene, const Watc
     SystemOptions options = {.vary = vary, .context = &of, .watch = watch};
 
     s->load = of.load;
-    s->gmin = options.gmin = expr_symbol(arena, "#leak", SYMBOL_PARAMETER);
+    s->gmin = options.gmin = expr_symbol(arena, "#gmin", SYMBOL_PARAMETER);
     s->parameters = (Parameters){
         .value = parameter, .context = s, .evaluator = s->start->phases->parameters.evaluator};
     TRY(system_new_view(scene, &options, &s->system, diag));

@@ -1,4 +1,4 @@
-/* test_turned.c: angles of joints that are chords, over full turns
+/* test_multi_turn.c: angles of joints that are chords, over full turns
  *
  * The same scene with the joint as a branch has the angle for a coordinate, and is the reference.
  */

@@ -1,4 +1,4 @@
-/* test_statics.c: where networks and mechanisms rest together, against closed forms */
+/* test_equilibrium.c: where networks and mechanisms rest together, against closed forms */
 #include "session_kit.h"
 
 #include "base/memory.h"
@@ -16,12 +16,12 @@ static void rests(const char *lines)
 }
 
 /* which continuations were begun: bits by phase */
-enum { LOADS = 1, LEAKS = 2, CREEPING = 4 };
+enum { SOURCES = 1, GMIN = 2, CREEPING = 4 };
 
 static void note_phase(void *context, const char *phase, double fraction)
 {
-    static const char *const phases[] = {"equilibrium: loads", "equilibrium: leaks",
-                                         "equilibrium: creeping"};
+    static const char *const phases[] = {"equilibrium: source stepping",
+                                         "equilibrium: gmin stepping", "equilibrium: creeping"};
     int *seen = context;
 
     (void)fraction;
@@ -308,7 +308,7 @@ static void beside_mechanics_leaks_shrink_where_loads_cannot_grow(void)
     Text model = {0};
 
     ball_behind_diodes(&model, 12, "100", "1000");
-    rests_by(model.at, LEAKS,
+    rests_by(model.at, GMIN,
              BALANCE "expect D0.i ~ n1.v/1000 + D1.i within 1e-11\n"
                      "expect D0.i ~ 1e-14*(exp(D0.v/Vt) - 1) + 1e-12*D0.v within 1e-11\n"
                      "expect D11.i ~ n12.v/1000 + coil.i within 1e-11\n"
@@ -323,7 +323,7 @@ static void beside_a_network_sources_grow(void)
     rests_by("scene planar\nbody r mass=1 inertia=0.1\nrevolute h ground r\n"
              "actuator f1 h torque=-4*sin(2*h)\nspring k1 h k=1\n"
              "motor M h a 0 R=2 L=0.1 Kt=1 Kv=1\nvsource E a 0 8\ninit h = 8.5\n",
-             LOADS, "expect h - 4 + 4*sin(2*h) ~ 0 within 1e-12\nexpect M.i ~ 4 within 1e-13\n");
+             SOURCES, "expect h - 4 + 4*sin(2*h) ~ 0 within 1e-12\nexpect M.i ~ 4 within 1e-13\n");
 }
 
 /* a cubic with three solutions, the middle one beyond reach of the others' slopes */
