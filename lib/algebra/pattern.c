@@ -45,16 +45,13 @@ Pattern pattern_of(int rows, int columns, int count, const int *row, const int *
     }
     for (int c = 0; c < columns; c++)
         out.start[c + 1] += out.start[c];
-    mem_free(by_row);
-    mem_free(order);
+    MEM_FREE(by_row, order);
     return out;
 }
 
 void pattern_free(Pattern *pattern)
 {
-    mem_free(pattern->start);
-    mem_free(pattern->row);
-    mem_free(pattern->column);
+    MEM_FREE(pattern->start, pattern->row, pattern->column);
     *pattern = (Pattern){0};
 }
 

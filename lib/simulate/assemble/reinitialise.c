@@ -113,15 +113,13 @@ static Status classify(const Reinit *reinit, Target *target, const char *name, i
 Status reinit_add(Reinit *reinit, const char *name, int primes, Diag *diag)
 {
     Target target = {0};
-    Status status = OK;
 
-    CHECK(system_variable(reinit->plan.layout->system, name, primes, &target.expr, diag));
-    CHECK(classify(reinit, &target, name, primes, diag));
+    TRY(system_variable(reinit->plan.layout->system, name, primes, &target.expr, diag));
+    TRY(classify(reinit, &target, name, primes, diag));
     if (target.level == LEVEL_POSITION && primes == 0)
         target.stand = system_stand(reinit->plan.layout->system, name);
     LIST_PUSH(reinit->targets, target);
-done:
-    return status;
+    return OK;
 }
 
 /* what is set of one level */
