@@ -47,7 +47,7 @@ static void values_at_different_ends_are_said_to_be(void)
 static void drivers_that_lead_too_far_are_named(void)
 {
     static const char *const trees[] = {"", "tree absolute\n", "form embedded\n"};
-    static const char *const methods[] = {"dop853", "radau", "bdf", "ida"};
+    static const char *const methods[] = {"dop853", "radau", "bdf", "ida", "rk4"};
     static const char *const scenes[] = {
         "scene planar\n"
         "body crank mass=1 inertia=0.1\n"
@@ -86,7 +86,7 @@ static void drivers_that_lead_too_far_are_named(void)
     /* cos(0.2 + t) = (0.5^2 + 1 - 1.2^2) / (2 * 0.5) */
     const double ends[] = {0.6, acos((0.25 + 1 - 1.44) / 1) - 0.2};
 
-    for (int i = 0; i < 2 * 3 * 4; i++) {
+    for (int i = 0; i < 2 * 3 * 5; i++) {
         const int scene = i % 2;
         Kit kit = kit_new();
         const char *when;

@@ -104,6 +104,15 @@ static void estimate(Rk4 *r, double h)
     r->last = h;
 }
 
+/* where the last step ended, as it was there */
+static Status give_up(Rk4 *r, Diag *diag)
+{
+    r->base.t = r->base.before;
+    memcpy(r->base.y, r->old, (size_t)r->all * sizeof(double));
+    memcpy(r->rate, r->old_rate, (size_t)r->all * sizeof(double));
+    return solver_failure(diag, r->base.t, "the equations have no solution one step on");
+}
+
 static Status step(Stepper *stepper, double end, Diag *diag)
 {
     Rk4 *r = (Rk4 *)stepper;
@@ -114,8 +123,15 @@ static Status step(Stepper *stepper, double end, Diag *diag)
     memcpy(r->old, r->base.y, (size_t)r->all * sizeof(double));
     memcpy(r->old_rate, r->rate, (size_t)r->all * sizeof(double));
     r->base.before = r->base.t;
-    if (!advance(r, last ? left : h, last ? end : r->base.t + h))
-        return solver_failure(diag, r->base.before, "the equations have no solution one step on");
+    h = last ? left : h;
+    /* where a motion ends, shorter steps lead up to that: what ends it shows there */
+    for (int i = 0; !advance(r, h, last ? end : r->base.before + h); i++) {
+        if (i == MAX_REJECTIONS)
+            return give_up(r, diag);
+        r->base.counts.rejected++;
+        last = false;
+        h *= RETREAT;
+    }
     estimate(r, r->base.t - r->base.before);
     r->base.counts.steps++;
     return OK;
