@@ -2,7 +2,8 @@
  *
  * Not zeros, whose terms vanish, nor ones of lengths and axes, nor axes that several joints have,
  * whose turns add up. Nor lengths and axes of circuits of joints alone: which of their equations
- * say the same hangs on them. A body's own freedoms on a circuit leave none out. */
+ * say the same hangs on them. A body's own freedoms on a circuit leave none out. Nor gains, ratios
+ * and voltages of a network, which may cancel. */
 #include "formulate/literals.h"
 
 #include "formulate/constraints.h"
@@ -15,12 +16,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* bodies from which on it takes longer to form equations than a person notices */
-enum { MANY_BODIES = 17 };
+/* from which on it takes longer to form equations than a person notices */
+enum { MANY_BODIES = 17, MANY_ELEMENTS = 100 };
 
 typedef struct Literals {
     Arena *arena;
     bool weights, geometry;  /* masses and inertias; lengths and axes */
+    bool elements;           /* resistances and the like */
     LIST(const Expr *) axes; /* of joints, alike ones together */
 } Literals;
 
@@ -35,6 +37,14 @@ static bool moves(const Instance *instance, ParamKind kind)
 static bool weighs(const Instance *instance, ParamKind kind)
 {
     return instance->row->inertia != NULL && (kind == PARAM_SCALAR || kind == PARAM_INERTIA);
+}
+
+/* a resistance, capacitance, inductance or their kin */
+static bool conducts(const Instance *instance, const Param *param)
+{
+    return instance->row->family == FAMILY_SCALAR && instance->row->param_count == 1 &&
+           instance->row->scalar_edges == NULL && instance->row->terminal_count == 0 &&
+           (param->kind == PARAM_SCALAR || param->kind == PARAM_LAW) && (param->use & GIVES) == 0;
 }
 
 static int by_entries(const void *a, const void *b)
@@ -104,10 +114,13 @@ static bool all_loose(const Scene *scene)
 static Literals choose(const Scene *scene)
 {
     Literals literals = {.arena = scene->arena};
-    int bodies = 0;
+    int bodies = 0, elements = 0;
 
-    for (int i = 0; i < scene->instance_count; i++)
+    for (int i = 0; i < scene->instance_count; i++) {
         bodies += scene->instances[i]->row->inertia != NULL;
+        elements += scene->instances[i]->row->family == FAMILY_SCALAR;
+    }
+    literals.elements = elements >= MANY_ELEMENTS;
     literals.weights = bodies >= MANY_BODIES;
     literals.geometry = literals.weights && all_loose(scene);
     if (literals.geometry)
@@ -124,7 +137,8 @@ static Expr literal_of(const Literals *literals, const Instance *instance, int p
     /* a unit vector is kept exactly, with roots */
     if (expr_kinds(e) != 0 || expr_is_zero(e))
         return e;
-    if (literals->weights && weighs(instance, kind))
+    if ((literals->weights && weighs(instance, kind)) ||
+        (literals->elements && conducts(instance, &instance->row->params[param])))
         return instance_literal(instance, literals->arena, param, entry);
     if (!literals->geometry || !moves(instance, kind) || expr_is(e, 1) || expr_is(e, -1) ||
         (kind == PARAM_AXIS && !is_alone(literals, instance->values[param].at)))
@@ -137,7 +151,7 @@ void literals_put(System *system, const Scene *scene)
     Origin *origin = system->origin;
     Literals literals = choose(scene);
 
-    origin->is_small = !literals.weights;
+    origin->is_small = !literals.weights && !literals.elements;
     for (int i = 0; origin->asks_literals && i < origin->instance_count; i++) {
         const Instance *from = scene->instances[i];
 

@@ -10,6 +10,7 @@
 #include "formulate/kinematics.h"
 #include "formulate/origin.h"
 #include "formulate/resolve.h"
+#include "formulate/shown.h"
 #include "formulate/system_impl.h"
 
 static Expr whole_symbol(System *system, const char *name)
@@ -98,7 +99,13 @@ Status system_multi_turn_rate(System *system, int i, Expr *out, Diag *diag)
     Expr sine_rate;
     Expr cosine_rate;
     Expr size;
+    Expr **known = &system->shown->turn_rates;
 
+    if (*known == NULL)
+        *known = NEW_ARRAY(Expr, system->constraints->multi_turns.count);
+    *out = (*known)[i];
+    if (*out != NULL)
+        return OK;
     TRY(system_rate_of(system, chord->sine, &sine_rate, diag));
     TRY(system_rate_of(system, chord->cosine, &cosine_rate, diag));
     size = expr_hold(
@@ -106,6 +113,7 @@ Status system_multi_turn_rate(System *system, int i, Expr *out, Diag *diag)
     *out = expr_sub(arena, expr_mul(arena, chord->cosine, sine_rate),
                     expr_mul(arena, chord->sine, cosine_rate));
     size = expr_div(arena, size, expr_add(arena, expr_square(arena, size), expr_real(arena, 1e-8)));
-    *out = expr_mul(arena, *out, size);
+    mem_keep(*known);
+    *out = (*known)[i] = expr_mul(arena, *out, size);
     return OK;
 }

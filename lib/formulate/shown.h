@@ -17,6 +17,7 @@ typedef struct Shown {
     Sums *actual;               /* with u', lambda: for reactions */
     Vec *actual_a;              /* accelerations of nodes */
     Vec *actual_alpha;          /* of chains */
+    Expr *turn_rates;           /* of angles that count turns; as entries */
     LIST(Switch) switches;
     LIST(Expr) surfaces; /* where they jump, in the state */
     int switches_of_time;

@@ -100,7 +100,7 @@ void shown_free(Shown *shown)
         return;
     for (int b = 0; b < BLOCK_COUNT; b++)
         mem_free(shown->entries[b]);
-    mem_free(shown->positions);
+    MEM_FREE(shown->positions, shown->turn_rates);
     LIST_FREE(shown->switches);
     LIST_FREE(shown->surfaces);
     mem_free(shown);

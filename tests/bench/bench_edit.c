@@ -1,4 +1,5 @@
-/* bench_edit.c: a chain of 100 links formed anew, and after an edit of its middle
+/* bench_edit.c: a chain of 100 links, and a ladder of 1000 elements, formed anew, and after an edit
+ * of the middle
  *
  * Both up to the programs that a run steps with. */
 #include "formulate/system.h"
@@ -12,7 +13,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { LINKS = 100, TRIES = 4 };
+enum { LINKS = 100, RUNGS = 500, TRIES = 4 };
 
 static void add_link(Text *text, int i, bool planar, uint64_t *random)
 {
@@ -174,6 +175,37 @@ static void bench_chain(bool planar, const char *tree, bool loop)
     mem_free(text);
 }
 
+static char *ladder_text(void)
+{
+    Text text = {0};
+    uint64_t random = 1993;
+
+    text_add(&text, "vsource V n0 0 sin(10*t)\n");
+    for (int i = 0; i < RUNGS; i++)
+        text_addf(&text, "resistor R%d n%d n%d %.3f\ncapacitor C%d n%d 0 %.6f\n", i, i, i + 1,
+                  test_uniform(&random, 1, 2), i, i + 1, test_uniform(&random, 1e-3, 2e-3));
+    return text_done(&text);
+}
+
+static void bench_ladder(void)
+{
+    static const char *const edits[] = {"set R50.R = 1.25", "set R50.R = 1.75"};
+    char *text = ladder_text();
+    Model *model = bench_model(text);
+    System *system = NULL;
+    double sum = 0;
+
+    bench_line("edit.ladder_1000_anew", 1e3 * form(model, &system), "ms");
+    for (int i = 0; i < TRIES; i++) {
+        edit(model, edits[i % 2]);
+        sum += form(model, &system);
+    }
+    bench_line("edit.ladder_1000_resistance", 1e3 * sum / TRIES, "ms");
+    system_free(system);
+    model_free(model);
+    mem_free(text);
+}
+
 int main(void)
 {
     static const char *const trees[] = {"joint", "absolute"};
@@ -183,5 +215,6 @@ int main(void)
         bench_chain(false, trees[i], false);
     }
     bench_chain(true, "joint", true);
+    bench_ladder();
     return 0;
 }

@@ -6,6 +6,10 @@ UNIT_TESTS += test_mass_matrix
 test_mass_matrix_SOURCES = tests/unit/test_mass_matrix.c tests/unit/test.h tests/unit/form.h tests/unit/scene.h
 test_mass_matrix_LDADD = $(unit_ldadd)
 
+UNIT_TESTS += test_literals
+test_literals_SOURCES = tests/unit/test_literals.c tests/unit/test.h tests/unit/form.h tests/unit/scene.h
+test_literals_LDADD = $(unit_ldadd)
+
 UNIT_TESTS += test_counts
 test_counts_SOURCES = tests/unit/test_counts.c tests/unit/test.h tests/unit/form.h tests/unit/scene.h
 test_counts_LDADD = $(unit_ldadd)

@@ -225,8 +225,11 @@ static int block(Roots *roots, const Expr *entries, int count)
 {
     int first = roots->count;
 
-    for (int i = 0; i < count; i++)
-        LIST_PUSH(*roots, entries[i]);
+    if (count == 0)
+        return first;
+    LIST_ROOM(*roots, count);
+    memcpy(roots->at + first, entries, (size_t)count * sizeof(Expr));
+    roots->count += count;
     return first;
 }
 
