@@ -7,6 +7,7 @@
 #include "formulate/network.h"
 #include "formulate/origin.h"
 #include "formulate/resolve.h"
+#include "formulate/shown.h"
 #include "formulate/system_impl.h"
 #include "formulate/vector.h"
 
@@ -213,8 +214,10 @@ Expr system_power(System *system)
     system_touch(system);
     Arena *arena = system->arena;
     Terms terms = {0};
-    Expr sum;
+    Expr *sum = &system->shown->power;
 
+    if (*sum != NULL)
+        return *sum;
     for (int i = 0; i < system->origin->instance_count; i++) {
         const Instance *instance = &system->origin->instances[i];
         Effort effort;
@@ -226,7 +229,7 @@ Expr system_power(System *system)
     }
     push_network(system, &terms);
     push_drives(system, &terms);
-    sum = expr_sum(arena, terms.at, terms.count);
+    *sum = expr_sum(arena, terms.at, terms.count);
     LIST_FREE(terms);
-    return sum;
+    return *sum;
 }

@@ -18,6 +18,7 @@ typedef struct Shown {
     Vec *actual_a;              /* accelerations of nodes */
     Vec *actual_alpha;          /* of chains */
     Expr *turn_rates;           /* of angles that count turns; as entries */
+    Expr power;                 /* that sources give and losses take */
     LIST(Switch) switches;
     LIST(Expr) surfaces; /* where they jump, in the state */
     int switches_of_time;

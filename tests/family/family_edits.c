@@ -256,7 +256,7 @@ static Verdict edits_leave_no_trace(Member *member)
 static Verdict literals_are_parameters(Member *member)
 {
     const uint64_t begun = member->random;
-    double seen[2][MOST_BODIES][2];
+    double seen[2][MOST_BODIES][2] = {{{0}}};
     int bodies = 0;
 
     for (int named = 0; named < 2; named++) {
