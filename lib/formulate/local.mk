@@ -1,4 +1,5 @@
 libcore_la_SOURCES += \
+	lib/formulate/accelerations.c lib/formulate/accelerations.h \
 	lib/formulate/euler_parameters.c \
 	lib/formulate/common_turns.c \
 	lib/formulate/composite.c lib/formulate/composite_mass.c lib/formulate/composite_mass.h \

@@ -3,6 +3,7 @@
 #include "scene.h"
 
 #include "base/text.h"
+#include "formulate/accelerations.h"
 #include "simulate/equations/articulated.h"
 #include "simulate/equations/mass_matrix.h"
 
@@ -144,8 +145,55 @@ static void M_passed_on_is_M_written_out(void)
     }
 }
 
+static void compare_accelerations(System *system, SceneState *state)
+{
+    const int n = system_nu(system);
+    Expr *told = NEW_ARRAY(Expr, 2 * n);
+    double *du;
+
+    EXPECT(system_accelerations(system, system_run(system)->force, told, told + n));
+    du = numbers_of(told, told[0] != NULL ? 2 * n : 0, state);
+    for (int j = 0; j < n && told[0] != NULL; j++) {
+        const double force = expr_evaluate(system_run(system)->force[j], scene_value, state);
+        double sum = 0, terms = fabs(force);
+
+        for (int k = 0; k < n; k++) {
+            const Expr entry = system_run(system)->mass[j * n + k];
+            const double part = expr_evaluate(entry, scene_value, state) * du[k];
+
+            sum += part;
+            terms += fabs(part);
+        }
+        EXPECT_NEAR(sum, force, 1e-11 * terms);
+        EXPECT(du[n + j] > 0.99); /* a pivot is no more than the diagonal entry */
+    }
+    MEM_FREE(told, du);
+}
+
+static void few_speeds_are_eliminated_in_symbols(void)
+{
+    uint64_t random = 7;
+
+    for (int i = 0; i < 24 && test_faults == 0; i++) {
+        char *text = long_mechanism(&random, i % 2 == 0, 1 + i / 3);
+        Model *model = scene_new(text);
+        System *system;
+
+        scene_add(model, "tree joint");
+        system = scene_system(model);
+        if (system != NULL)
+            compare_accelerations(system, &(SceneState){model, 3U + (unsigned)i});
+        if (test_faults > 0)
+            printf("    in\n%s", text);
+        system_free(system);
+        model_free(model);
+        mem_free(text);
+    }
+}
+
 int main(void)
 {
+    RUN(few_speeds_are_eliminated_in_symbols);
     RUN(M_passed_on_is_M_written_out);
     return test_end();
 }

@@ -69,9 +69,9 @@ typedef struct Equations {
     const double *network_rhs;      /* nx+nz: r */
     const double *network_residual; /* nx+nz: G */
     bool network_is_constant;       /* A never changes in a run */
-    /* du of M du = force where there are no constraints, by other means than M; false: M leaves
+    /* u' of M u' = force where there are no constraints, by other means than M; false: M leaves
      * nothing but rounding of it. NULL: by M */
-    bool (*without_mass)(void *context, const double *right, double *du);
+    bool (*without_mass)(void *context, double *acceleration);
     void (*bring_mass)(void *context); /* M up to date; NULL: it is */
     const double *force;               /* nu */
     const double *power;               /* 1: work done on the system per time, W; NULL: not known */

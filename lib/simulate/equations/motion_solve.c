@@ -21,7 +21,7 @@ bool motion_solve_augmented(Motion *mo)
 {
     const Equations *eq = mo->eq;
 
-    if (eq->without_mass != NULL && eq->without_mass(eq->context, eq->force, mo->du)) {
+    if (eq->without_mass != NULL && eq->without_mass(eq->context, mo->du)) {
         mo->counts.factorisations += !mo->is_alone;
         mo->is_alone = true;
         return true;

@@ -2,11 +2,14 @@
 #include "simulate/equations/numbers.h"
 
 #include "base/memory.h"
+#include "formulate/accelerations.h"
 #include "simulate/equations/articulated.h"
 #include "simulate/equations/mass_matrix.h"
 
 #include <math.h>
 #include <string.h>
+
+#define MOST_EXCESS 1e12 /* of what a pivot of M is the rest of: it would be rounding */
 
 /* --- equations --- */
 
@@ -22,6 +25,7 @@ struct Numbers {
     Probe *massing;
     int mass_needs;
     bool is_articulated, is_mass_old; /* factors are there; M is of another position */
+    const double *told_accelerations; /* of the main program, and what tells their rounding */
     Probe *slip;   /* of surfaces that are slid along: h', or what of it they reach, and h */
     Guard *guards; /* of the conditions, */
     Expr *told;    /* which are these for a user; NULL: margins */
@@ -54,13 +58,26 @@ static void position(void *context, double t, const double *q)
         mass_matrix_put(nb->mass, workspace_roots(nb->main->workspace) + nb->mass_needs);
 }
 
-static bool without_mass(void *context, const double *right, double *du)
+static bool articulate(void *context, double *acceleration)
 {
     Numbers *nb = context;
 
     if (nb->is_articulated)
-        articulated_solve(nb->articulated, right, du);
+        articulated_solve(nb->articulated, nb->eq.force, acceleration);
     return nb->is_articulated;
+}
+
+/* what the program has eliminated itself */
+static bool tell_accelerations(void *context, double *acceleration)
+{
+    const Numbers *nb = context;
+    const double *excess = nb->told_accelerations + nb->layout->nu;
+
+    for (int j = 0; j < nb->layout->nu; j++)
+        if (!(excess[j] > 0 && excess[j] < MOST_EXCESS))
+            return false;
+    memcpy(acceleration, nb->told_accelerations, (size_t)nb->layout->nu * sizeof(double));
+    return true;
 }
 
 static void bring_mass(void *context)
@@ -345,6 +362,23 @@ static int mass_block(Numbers *nb, Roots *roots)
     return block(roots, needs, count);
 }
 
+/* u' where the program eliminates it, from F on their surfaces, which stand from `force` on, then
+ * what tells its rounding; false: it doesn't */
+static bool push_accelerations(const Numbers *nb, Roots *roots, int force)
+{
+    const Layout *l = nb->layout;
+    Expr *told = NEW_ARRAY(Expr, 2 * l->nu);
+    bool found = l->m == 0 && l->nu > 0 && nb->mass == NULL &&
+                 system_accelerations(l->system, roots->at + force, told, told + l->nu);
+
+    for (int j = 0; j < l->nu && found; j++)
+        found = stage_of(told[j]) <= STAGE_NETWORK;
+    if (found)
+        (void)block(roots, told, 2 * l->nu);
+    mem_free(told);
+    return found;
+}
+
 /* M, where elimination does without it */
 static Status compile_mass(Numbers *nb, Parameters *parameters, Diag *diag)
 {
@@ -358,7 +392,7 @@ static Status compile_mass(Numbers *nb, Parameters *parameters, Diag *diag)
     needs = mass_matrix_needs(nb->mass, &count);
     (void)block(&roots, needs, count);
     CHECK(compile(nb->layout, parameters, &roots, &nb->massing, diag));
-    nb->eq.without_mass = without_mass;
+    nb->eq.without_mass = articulate;
     nb->eq.bring_mass = bring_mass;
 done:
     LIST_FREE(roots);
@@ -383,6 +417,8 @@ static Status compile_equations(Numbers *nb, Parameters *parameters, Diag *diag)
     int network = iterates ? 0 : network_block(l, &roots);
     int rhs = block_on(l, &roots, r->network_rhs, iterates ? 0 : l->nx + l->nz);
     int force = block_on(l, &roots, r->force, l->nu);
+    int told = roots.count;
+    bool tells = push_accelerations(nb, &roots, force);
     int work = block_on(l, &roots, &power, 1);
     int angles = roots.count;
     int map = roots.count + 2 * l->multi_turns;
@@ -407,6 +443,9 @@ static Status compile_equations(Numbers *nb, Parameters *parameters, Diag *diag)
     nb->eq.network = at + network;
     nb->eq.network_rhs = at + rhs;
     nb->eq.force = at + force;
+    nb->told_accelerations = at + told;
+    if (tells)
+        nb->eq.without_mass = tell_accelerations;
     nb->eq.power = at + work;
     nb->eq.multi_turn = at + angles;
     nb->eq.multi_turn_rate = at + angles + l->multi_turns;
