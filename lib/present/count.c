@@ -173,14 +173,20 @@ done:
 
 /* --- trees side by side --- */
 
+/* a branch that the user can choose */
+static bool is_chosen(const Graph *graph, const Tree *tree, int e)
+{
+    return graph_edge_in(graph, e, tree_kind(tree)) && tree_has(tree, e) &&
+           graph_branching(graph, e, tree_kind(tree)) != BRANCH_ALWAYS;
+}
+
 static char *list_choice(const Model *model, const Tree *tree)
 {
     const Graph *graph = model_graph(model);
     Text text = {0};
 
     for (int e = 0; e < graph_edge_count(graph); e++)
-        if (graph_edge_in(graph, e, tree_kind(tree)) && tree_has(tree, e) &&
-            graph_branching(graph, e, tree_kind(tree)) != BRANCH_ALWAYS)
+        if (is_chosen(graph, tree, e))
             text_addf(&text, "%s%s", text.length > 0 ? " " : "", graph_edge(graph, e)->name);
     return text_done(&text);
 }
@@ -207,19 +213,60 @@ char *tree_brief(const Model *model, const Tree *const trees[TREE_KINDS])
     return text_done(&text);
 }
 
+/* in brackets, as a word of the verb could be a name */
+static char *tree_statements(const Model *model, const Tree *const trees[TREE_KINDS])
+{
+    const Graph *graph = model_graph(model);
+    Text text = {0};
+
+    for (int k = 0; k < TREE_KINDS; k++) {
+        bool any = false;
+
+        for (int e = 0; trees[k] != NULL && e < graph_edge_count(graph); e++)
+            if (is_chosen(graph, trees[k], e)) {
+                if (!any)
+                    text_addf(&text, "tree %s", tree_kind_name((TreeKind)k));
+                text_addf(&text, " (%s)", graph_edge(graph, e)->name);
+                any = true;
+            }
+        text_add(&text, any ? "\n" : "");
+    }
+    return text_done(&text);
+}
+
 Status tree_cost(const View *view, TreeCost *out, Diag *diag)
 {
     const Tree *trees[TREE_KINDS] = {NULL};
-    TreeCost cost = {.trees = NULL};
 
     TRY(model_trees(view->model, trees, diag));
-    TRY(count_total(view->system, form_of(view), false, &cost.written, diag));
-    TRY(count_total(view->system, form_of(view), true, &cost.shared, diag));
-    cost.n = system_n(view->system);
-    cost.m = system_m(view->system);
-    cost.trees = tree_brief(view->model, trees);
-    *out = cost;
+    *out = (TreeCost){.n = system_n(view->system),
+                      .m = system_m(view->system),
+                      .trees = tree_brief(view->model, trees),
+                      .statements = tree_statements(view->model, trees)};
     return OK;
+}
+
+Status tree_cost_count(const View *view, TreeCost *cost, Diag *diag)
+{
+    TRY(count_total(view->system, form_of(view), false, &cost->written, diag));
+    TRY(count_total(view->system, form_of(view), true, &cost->shared, diag));
+    cost->is_counted = true;
+    return OK;
+}
+
+/* each entry takes some 30 us */
+bool tree_cost_is_slight(const System *system)
+{
+    enum { MOST_ENTRIES = 400 };
+    const int n = system_n(system), m = system_m(system);
+
+    return n <= MOST_ENTRIES && m <= MOST_ENTRIES &&
+           n * (n + 1) / 2 + m * n + n + m <= MOST_ENTRIES;
+}
+
+static void tree_cost_free(TreeCost *cost)
+{
+    MEM_FREE(cost->trees, cost->statements);
 }
 
 int tree_costs_add(TreeCosts *costs, TreeCost *cost)
@@ -227,7 +274,7 @@ int tree_costs_add(TreeCosts *costs, TreeCost *cost)
     for (int i = 0; i < costs->count; i++)
         if (strcmp(costs->at[i].trees, cost->trees) == 0) {
             mem_keep(costs->at);
-            mem_free(costs->at[i].trees);
+            tree_cost_free(&costs->at[i]);
             costs->at[i] = *cost;
             return i;
         }
@@ -238,7 +285,7 @@ int tree_costs_add(TreeCosts *costs, TreeCost *cost)
 void tree_costs_free(TreeCosts *costs)
 {
     for (int i = 0; i < costs->count; i++)
-        mem_free(costs->at[i].trees);
+        tree_cost_free(&costs->at[i]);
     LIST_FREE(*costs);
 }
 
@@ -271,11 +318,16 @@ static void print_costs(const View *view, const TreeCosts *costs, Text *out)
     table_free(&table);
 }
 
+bool count_is_for_trees(const Statement *statement)
+{
+    return statement->operands.count == 1 &&
+           strcmp(statement->operands.at[0].value->text, "trees") == 0;
+}
+
 Status count_print(const View *view, const Statement *statement, const TreeCosts *costs, Text *out,
                    Diag *diag)
 {
-    if (statement->operands.count == 1 &&
-        strcmp(statement->operands.at[0].value->text, "trees") == 0) {
+    if (count_is_for_trees(statement)) {
         print_costs(view, costs, out);
         return OK;
     }

@@ -15,15 +15,21 @@ MUST_USE Status count_block(System *system, Form form, const char *name, bool sh
 
 /* A choice of trees and what its equations cost. */
 typedef struct TreeCost {
-    char *trees; /* "translation h8 h9 h10; rotation h8 h10 s11" */
+    char *trees;      /* "translation h8 h9 h10; rotation h8 h10 s11" */
+    char *statements; /* that choose them */
     int n, m;
+    bool is_counted; /* and these are known: */
     OpCount written;
     OpCount shared;
 } TreeCost;
 
 typedef LIST(TreeCost) TreeCosts;
-/* the choice that the system was made of; its trees are new */
+/* the choice that the system was made of, not counted yet; its texts are new */
 MUST_USE Status tree_cost(const View *view, TreeCost *out, Diag *diag);
+/* count the equations of the system, which writes them all out */
+MUST_USE Status tree_cost_count(const View *view, TreeCost *cost, Diag *diag);
+/* whether they are few enough for that to be done in passing */
+bool tree_cost_is_slight(const System *system);
 /* Add a choice, or renew its figures where it is in the list; its place. *cost is given. */
 int tree_costs_add(TreeCosts *costs, TreeCost *cost);
 void tree_costs_free(TreeCosts *costs);
@@ -31,7 +37,8 @@ void tree_costs_free(TreeCosts *costs);
  * new */
 char *tree_brief(const Model *model, const Tree *const trees[TREE_KINDS]);
 
-/* `count`, `count mass forces`, `count trees` */
+bool count_is_for_trees(const Statement *statement);
+/* `count`, `count mass forces`, `count trees` (all of which are counted) */
 MUST_USE Status count_print(const View *view, const Statement *statement, const TreeCosts *costs,
                             Text *out, Diag *diag);
 

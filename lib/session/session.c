@@ -159,55 +159,64 @@ static void add_counts(Text *line, OpCount count)
     layout_count(line, (int)count.fun, "function", "functions");
 }
 
-/* What the trees just chosen make of the model, next to what they were before: said only where the
- * model is whole, and where counting costs no more than a glance. */
-enum { GLANCE = 40 }; /* edges */
+/* what is looked at without being asked for: so many edges */
+enum { GLANCE = 40 };
 
+/* the trees that the model has, counted where that takes no time; -1: none are whole */
+static int log_trees(ct_session *session)
+{
+    View view = session_view(session);
+    TreeCost cost;
+    Diag ignored;
+    int place;
+
+    if (graph_edge_count(model_graph(session->model)) > GLANCE ||
+        session_shown(session, &view.system, &ignored) != OK ||
+        tree_cost(&view, &cost, &ignored) != OK)
+        return -1;
+    place = tree_costs_add(&session->costs, &cost);
+    if (tree_cost_is_slight(view.system) &&
+        tree_cost_count(&view, &session->costs.at[place], &ignored) != OK)
+        return -1;
+    return place;
+}
+
+static bool costs_differ(const TreeCost *a, const TreeCost *b)
+{
+    return a->written.add != b->written.add || a->written.mul != b->written.mul ||
+           a->written.fun != b->written.fun;
+}
+
+/* What the trees just chosen make of the model, next to what they were before: said only where the
+ * model is whole. */
 static void remark_trees(ct_session *session)
 {
     const int before = session->cost_now < session->costs.count ? session->cost_now : -1;
+    const TreeCost old = before >= 0 ? session->costs.at[before] : (TreeCost){.is_counted = false};
+    const int now = log_trees(session);
     View view = session_view(session);
-    TreeCost cost, old = {0};
+    const TreeCost *cost;
     Text line = {0};
     Diag ignored;
 
-    if (graph_edge_count(model_graph(session->model)) > GLANCE ||
-        session_shown(session, &view.system, &ignored) != OK)
+    if (now < 0 || session_shown(session, &view.system, &ignored) != OK)
         return;
-    if (before >= 0)
-        old = session->costs.at[before];
-    if (tree_cost(&view, &cost, &ignored) != OK)
-        return;
-    layout_count(&line, cost.n, "coordinate", "coordinates");
+    cost = &session->costs.at[now];
+    layout_count(&line, cost->n, "coordinate", "coordinates");
     text_add(&line, ", ");
-    layout_count(&line, cost.m, "constraint", "constraints");
+    layout_count(&line, cost->m, "constraint", "constraints");
     text_add(&line, ", ");
     view_freedoms(&line, view.system, view.freedoms);
-    add_counts(&line, cost.written);
-    if (before >= 0 &&
-        (old.written.add != cost.written.add || old.written.mul != cost.written.mul ||
-         old.written.fun != cost.written.fun)) {
+    if (cost->is_counted)
+        add_counts(&line, cost->written);
+    if (cost->is_counted && old.is_counted && costs_differ(&old, cost)) {
         text_add(&line, " (before");
         add_counts(&line, old.written);
         text_char(&line, ')');
     }
     session_remark(session, line.at);
     text_free(&line);
-    session->cost_now = tree_costs_add(&session->costs, &cost);
-}
-
-/* the trees that the model has before it is changed, to compare with */
-static void log_trees(ct_session *session)
-{
-    View view = session_view(session);
-    TreeCost cost;
-    Diag ignored;
-
-    if (session->costs.count == 0 && graph_edge_count(model_graph(session->model)) > 0 &&
-        graph_edge_count(model_graph(session->model)) <= GLANCE &&
-        session_shown(session, &view.system, &ignored) == OK &&
-        tree_cost(&view, &cost, &ignored) == OK)
-        session->cost_now = tree_costs_add(&session->costs, &cost);
+    session->cost_now = now;
 }
 
 static void note_change(ct_session *session, uint64_t revision, bool trees_only)
@@ -257,8 +266,10 @@ ct_status ct_apply(ct_session *session, const ct_statement *statement, ct_error 
         return session_report(OK, &diag, error);
     if (session_room(s) != ROOM_MODEL)
         return CT_NOT_MINE;
-    if (chooses_trees(s))
-        log_trees(session);
+    /* what comes is compared with */
+    if (chooses_trees(s) && session->costs.count == 0 &&
+        graph_edge_count(model_graph(session->model)) > 0)
+        session->cost_now = log_trees(session);
     if (is_search(s)) {
         status = session_best_trees(session, &diag);
         if (status != OK && diag.place.line == 0)

@@ -115,6 +115,8 @@ View session_view(const ct_session *session);
 /* `tree best`: search, put the cheapest trees in place, and remark what was compared. Bounded by a
  * number of formulations and a time. E_STOPPED leaves the best so far in place. */
 MUST_USE Status session_best_trees(ct_session *session, Diag *diag);
+/* apply every statement of a text; the model is as far as it came */
+MUST_USE Status session_apply_text(Model *model, const char *text, int *count, Diag *diag);
 
 /* --- virtual branches (session_freedoms.c) --- */
 

@@ -1,6 +1,7 @@
 /* session_look.c: show, count, check, info, tree, draw */
 #include "session/session_impl.h"
 
+#include "model/model.h"
 #include "present/info.h"
 #include "present/show.h"
 
@@ -51,10 +52,44 @@ done:
     return finish(status, &out, &diag, text, error);
 }
 
+/* Count the equations of trees that were tried, on a fork of the model that has them. */
+static Status count_choice(ct_session *session, TreeCost *cost, Diag *diag)
+{
+    ArenaMark *mark = arena_mark(model_arena(session->model));
+    SystemOptions options = {.form =
+                                 (NetworkForm)model_setting_value(session->model, SETTING_NETWORK),
+                             .watch = &session->watch};
+    View view = session_view(session);
+    Model *fork = NULL;
+    Scene scene = {0};
+    int statements = 0;
+    Status status;
+
+    CHECK(model_fork(session->model, &fork, diag));
+    CHECK(session_apply_text(fork, cost->statements, &statements, diag));
+    CHECK(model_scene(fork, &scene, diag));
+    CHECK(system_new_view(&scene, &options, &view.system, diag));
+    if (!system_tree_is_normal(view.system)) {
+        system_free(view.system);
+        view.system = NULL;
+        options.form = NETWORK_TREE;
+        CHECK(system_new_view(&scene, &options, &view.system, diag));
+    }
+    view.model = fork;
+    CHECK(tree_cost_count(&view, cost, diag));
+done:
+    system_free(view.system);
+    scene_free(&scene);
+    model_free(fork);
+    arena_release(model_arena(session->model), mark);
+    return status;
+}
+
 ct_status ct_count(ct_session *session, const ct_statement *statement, char **text, ct_error *error)
 {
     SESSION_CALL(session, session_ran_out(session, error));
 
+    const bool for_trees = count_is_for_trees(statement_of(statement));
     View view = session_view(session);
     TreeCost cost;
     Text out = {0};
@@ -65,6 +100,12 @@ ct_status ct_count(ct_session *session, const ct_statement *statement, char **te
     CHECK(session_shown(session, &view.system, &diag));
     CHECK(tree_cost(&view, &cost, &diag));
     session->cost_now = tree_costs_add(&session->costs, &cost);
+    mem_keep(session->costs.at);
+    if (for_trees || tree_cost_is_slight(view.system))
+        CHECK(tree_cost_count(&view, &session->costs.at[session->cost_now], &diag));
+    for (int i = 0; for_trees && i < session->costs.count; i++)
+        if (!session->costs.at[i].is_counted)
+            CHECK(count_choice(session, &session->costs.at[i], &diag));
     CHECK(count_print(&view, statement_of(statement), &session->costs, &out, &diag));
 done:
     return finish(status, &out, &diag, text, error);

@@ -65,8 +65,7 @@ static const Model *model_of(const TreesSought *search)
 
 /* --- statements --- */
 
-/* apply every statement of a text; the model is as far as it came */
-static Status apply_text(Model *model, const char *text, int *count, Diag *diag)
+Status session_apply_text(Model *model, const char *text, int *count, Diag *diag)
 {
     const size_t length = strlen(text);
     Statement *statement = NULL;
@@ -198,7 +197,7 @@ static Status add_proposals(TreesSought *search, Diag *diag)
     for (int i = 0; i < search->proposals.count; i++) {
         int count = 0;
 
-        if (apply_text(search->fork, search->proposals.at[i], &count, &ignored) != OK) {
+        if (session_apply_text(search->fork, search->proposals.at[i], &count, &ignored) != OK) {
             mem_free(search->proposals.at[i]);
             continue;
         }
@@ -326,7 +325,7 @@ static Status choose(TreesSought *search, const TreePair *best, Diag *diag)
         if (best->branch[0][e] || best->branch[1][e])
             text_addf(&added, "added: %s\n", search->proposals.at[e - search->own]);
     close_search(search);
-    status = apply_text(session->model, text, &count, diag);
+    status = session_apply_text(session->model, text, &count, diag);
     if (count > 0)
         model_join(session->model, count, "tree best");
     if (status != OK && count > 0 && model_undo(session->model, NULL) != OK)

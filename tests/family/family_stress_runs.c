@@ -27,12 +27,14 @@ static Verdict hand_over_is_right(Member *member, const Script *script)
     if (do_script(member, &kit, script) == CT_OK) {
         const double ratio = steps_of(member, &kit, tolerance / 10, "dop853") /
                              steps_of(member, &kit, tolerance * 10, "dop853");
+        const double alone = steps_of(member, &kit, tolerance, "dop853");
         const double own = steps_of(member, &kit, tolerance, "auto");
         const bool is_handed = kit.text != NULL && strstr(kit.text, "radau") != NULL;
 
         tell(member, "two decades of tolerance: %.3g times the steps; %s\n", ratio,
              is_handed ? "handed over" : "not handed over");
-        if (!isnan(own) && !isnan(ratio) && (is_handed ? ratio <= 1.5 : ratio >= 1.1))
+        if (!isnan(own) && !isnan(ratio) &&
+            (is_handed ? ratio <= 1.5 || own < alone : ratio >= 1.1))
             verdict = AGREES;
     }
     kit_free(&kit);

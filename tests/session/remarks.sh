@@ -14,6 +14,6 @@ save "saved.ct"
 END
 cotree model.ct >out.txt 2>said.txt
 wc -l <out.txt
-sed 's/[0-9.e+-]* \(steps\|evaluations\|J\)/N \1/g; s/[0-9.]* s$/N s/; s/ functions.*/ functions/' said.txt
-cotree -q model.ct 2>&1 >quiet.txt | sed 's/[0-9.]* s$/N s/'
+sed 's/[0-9.e+-]* \(steps\|evaluations\|J\)/N \1/g; s/[0-9.e-]* s$/N s/; s/ functions.*/ functions/' said.txt
+cotree -q model.ct 2>&1 >quiet.txt | sed 's/[0-9.e-]* s$/N s/'
 cmp out.txt quiet.txt

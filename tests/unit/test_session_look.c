@@ -244,6 +244,62 @@ static void count_trees_puts_the_trees_tried_side_by_side(void)
     kit_free(&kit);
 }
 
+/* a row of `count trees`: operations as written */
+static bool trees_have(const char *text, int row, const double *counts)
+{
+    char lead[16];
+    const char *at;
+    double read[5];
+
+    (void)snprintf(lead, sizeof lead, "\n%d ", row);
+    at = text != NULL ? strstr(text, lead) : NULL;
+    return at != NULL &&
+           sscanf(at + 2, "%lf %lf %lf %lf %lf", read, read + 1, read + 2, read + 3, read + 4) ==
+               5 &&
+           read[2] == counts[0] && read[3] == counts[1] && read[4] == counts[2];
+}
+
+/* what takes long to count is counted where that is asked for */
+static void many_entries_are_counted_when_they_are_asked_for(void)
+{
+    static const char *const counts[] = {"count.total.add", "count.total.mul", "count.total.fun"};
+    static const char *const trees[] = {"tree absolute", "tree joint"};
+    double expected[2][3];
+    Kit kit = kit_new();
+    char text[1200] = "";
+
+    for (int i = 0; i < 6; i++) {
+        char tail[8] = "ground";
+
+        if (i > 0)
+            (void)snprintf(tail, sizeof tail, "b%d", i - 1);
+        (void)snprintf(text + strlen(text), sizeof text - strlen(text),
+                       "body b%d mass=1 inertia=[1, 2, 3]; arm a%d b%d [0.1, 0.2, 0.3]\n"
+                       "revolute h%d %s a%d axis=%c\n",
+                       i, i, i, i, tail, i, "xyz"[i % 3]);
+    }
+    EXPECT_DONE(&kit, text);
+    EXPECT_DONE(&kit, trees[0]);
+    EXPECT_HOLDS(ct_remarks(kit.session), "42 coordinates, 30 constraints");
+    EXPECT_LACKS(ct_remarks(kit.session), "additions");
+    EXPECT_DONE(&kit, trees[1]);
+    EXPECT_HOLDS(ct_remarks(kit.session), "additions");
+    EXPECT_LACKS(ct_remarks(kit.session), "before");
+    for (int i = 0; i < 2; i++) {
+        Kit other = kit_new();
+
+        EXPECT_DONE(&other, text);
+        EXPECT_DONE(&other, trees[i]);
+        for (int k = 0; k < 3; k++)
+            expected[i][k] = kit_value(&other, counts[k]);
+        kit_free(&other);
+    }
+    EXPECT_DONE(&kit, "count trees");
+    EXPECT(trees_have(kit.text, 1, expected[1])); /* those of the beginning are of joints */
+    EXPECT(trees_have(kit.text, 2, expected[0]));
+    kit_free(&kit);
+}
+
 static void the_embedded_form_has_no_multipliers(void)
 {
     Kit kit = kit_new();
@@ -420,6 +476,7 @@ int main(void)
     RUN(equations_of_a_model_that_is_not_whole_are_refused);
     RUN(counts_are_those_of_the_rule);
     RUN(count_trees_puts_the_trees_tried_side_by_side);
+    RUN(many_entries_are_counted_when_they_are_asked_for);
     RUN(the_embedded_form_has_no_multipliers);
     RUN(the_embedded_form_of_many_constraints_is_counted_as_the_augmented);
     RUN(info_tells_ends_signs_and_variables);
