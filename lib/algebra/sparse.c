@@ -90,18 +90,8 @@ Sparse *sparse_new(int n, int entries, const int *row, const int *column)
 
 static void unpacked_free(Unpacked *u)
 {
-    mem_free(u->lower);
-    mem_free(u->lower_column);
-    mem_free(u->upper);
-    mem_free(u->upper_column);
-    mem_free(u->lower_value);
-    mem_free(u->upper_value);
-    mem_free(u->pivot);
-    mem_free(u->scale);
-    mem_free(u->p);
-    mem_free(u->q);
-    mem_free(u->block);
-    mem_free(u->x);
+    MEM_FREE(u->lower, u->lower_column, u->upper, u->upper_column, u->lower_value, u->upper_value,
+             u->pivot, u->scale, u->p, u->q, u->block, u->x);
 }
 
 void sparse_free(Sparse *s)
@@ -112,11 +102,7 @@ void sparse_free(Sparse *s)
         close_factors(s);
     lu_free(s->lu);
     unpacked_free(&s->unpacked);
-    mem_free(s->place);
-    mem_free(s->start);
-    mem_free(s->row);
-    mem_free(s->values);
-    mem_free(s);
+    MEM_FREE(s->place, s->start, s->row, s->values, s);
 }
 
 static bool factor_dense(Sparse *s, const double *values)
@@ -202,15 +188,13 @@ static void make_room(Sparse *s, int lower, int upper)
         u->upper = NEW_ARRAY(int, s->n + 1);
     }
     if (lower > u->lower_room) {
-        mem_free(u->lower_column);
-        mem_free(u->lower_value);
+        MEM_FREE(u->lower_column, u->lower_value);
         u->lower_column = NEW_ARRAY(int, lower);
         u->lower_value = NEW_ARRAY(double, lower);
         u->lower_room = lower;
     }
     if (upper > u->upper_room) {
-        mem_free(u->upper_column);
-        mem_free(u->upper_value);
+        MEM_FREE(u->upper_column, u->upper_value);
         u->upper_column = NEW_ARRAY(int, upper);
         u->upper_value = NEW_ARRAY(double, upper);
         u->upper_room = upper;
@@ -294,8 +278,7 @@ static bool unpack(Sparse *s)
         s->unpacked.block_count = s->symbolic->nblocks;
         memcpy(s->unpacked.block, blocks, (size_t)(s->symbolic->nblocks + 1) * sizeof(int));
     }
-    mem_free(places);
-    mem_free(numbers);
+    MEM_FREE(places, numbers);
     return sound;
 }
 

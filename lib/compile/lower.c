@@ -391,8 +391,7 @@ Status lowered_make(const Expr *roots, int root_count, const Expr *inputs, int i
     }
     pair_sines(&low);
 done:
-    mem_free(low.known);
-    mem_free(low.table);
+    MEM_FREE(low.known, low.table);
     if (status != OK)
         lowered_free(out);
     return status;

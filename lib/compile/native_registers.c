@@ -513,11 +513,7 @@ uint32_t native_emit(X86Code *code, const NativeTarget *target, const Program *p
     }
     x86_leave(code);
 
-    mem_free(r.reg);
-    mem_free(r.home);
-    mem_free(r.use);
-    mem_free(r.first_use);
-    mem_free(r.next_use);
+    MEM_FREE(r.reg, r.home, r.use, r.first_use, r.next_use);
     LIST_FREE(r.free_homes);
     return r.frame;
 }

@@ -120,13 +120,7 @@ StepMaker *step_maker_new(const Program *program, bool fused)
 
 void step_maker_free(StepMaker *m)
 {
-    mem_free(m->code);
-    mem_free(m->operands);
-    mem_free(m->is_late);
-    mem_free(m->level);
-    mem_free(m->is_done);
-    mem_free(m->root);
-    mem_free(m->next);
+    MEM_FREE(m->code, m->operands, m->is_late, m->level, m->is_done, m->root, m->next);
     LIST_FREE(m->functions);
     LIST_FREE(m->stack);
     mem_free(m);

@@ -10,11 +10,10 @@
 Status program_new(const Expr *roots, int root_count, const Expr *inputs, int input_count,
                    Program **out, Diag *diag)
 {
-    Status status = OK;
     Program *program = NULL;
     Lowered lowered;
 
-    CHECK(lowered_make(roots, root_count, inputs, input_count, &lowered, diag));
+    TRY(lowered_make(roots, root_count, inputs, input_count, &lowered, diag));
 
     program = NEW(Program);
     program->input_count = input_count;
@@ -31,8 +30,7 @@ Status program_new(const Expr *roots, int root_count, const Expr *inputs, int in
     program_schedule(program, &lowered);
     lowered_free(&lowered);
     *out = program;
-done:
-    return status;
+    return OK;
 }
 
 void program_free(Program *program)

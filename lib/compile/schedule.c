@@ -270,9 +270,5 @@ void program_schedule(Program *program, Lowered *lowered)
             LIST_PUSH(program->derived, plan.slot[v]);
     place_roots(&plan, lowered);
 
-    mem_free(plan.slot);
-    mem_free(plan.pending);
-    mem_free(plan.users);
-    mem_free(plan.first_user);
-    mem_free(plan.next);
+    MEM_FREE(plan.slot, plan.pending, plan.users, plan.first_user, plan.next);
 }

@@ -39,8 +39,7 @@ void workspace_free(Workspace *workspace)
         return;
     native_frame_free(workspace->frame);
     native_free(workspace->native);
-    mem_free(workspace->slots);
-    mem_free(workspace);
+    MEM_FREE(workspace->slots, workspace);
 }
 
 void workspace_choose(Workspace *workspace, Evaluator evaluator)

@@ -175,10 +175,7 @@ static Status mass_matrix(System *system)
         }
     system->run.mass = mass;
 done:
-    mem_free(moved);
-    mem_free(moves);
-    mem_free(columns);
-    mem_free(v);
+    MEM_FREE(moved, moves, columns, v);
     return status;
 }
 
@@ -254,8 +251,7 @@ static Status add_rotor(System *system, const Instance *instance, Diag *diag)
         for (int k = 0; k < n; k++)
             add_share(system, j, k, expr_product(arena, (Expr[]){inertia, moved[j], moved[k]}, 3));
 done:
-    mem_free(moved);
-    mem_free(zeros);
+    MEM_FREE(moved, zeros);
     return status;
 }
 
@@ -292,18 +288,16 @@ static Status add_inertia(System *system, const Effort *effort, Diag *diag)
 {
     Arena *arena = system->arena;
     int n = system->kinematics->u.count;
-    Status status = OK;
 
     for (int k = 0; (expr_kinds(effort->value) & 1U << SYMBOL_ACCELERATION) != 0 && k < n; k++) {
         Expr inertia = NULL;
 
-        CHECK(effort_inertia(system, effort, k, &inertia, diag));
+        TRY(effort_inertia(system, effort, k, &inertia, diag));
         for (int j = 0; j < n && !expr_is_zero(inertia); j++)
             add_share(system, j, k,
                       expr_mul(arena, speed_partial(system, effort->displacement, j), inertia));
     }
-done:
-    return status;
+    return OK;
 }
 
 static bool is_same_number(Expr a, Expr b)
@@ -351,7 +345,6 @@ static void take_shares(System *system)
 static Status joint_efforts(System *system, Diag *diag)
 {
     bool inertia = false;
-    Status status = OK;
 
     for (int i = 0; i < system->origin->instance_count; i++) {
         const Instance *instance = &system->origin->instances[i];
@@ -360,13 +353,13 @@ static Status joint_efforts(System *system, Diag *diag)
         if (instance->joint < 0 || instance->row->family == FAMILY_DRIVER)
             continue;
         if (instance->row->effort != NULL) {
-            CHECK(effort_of(system, instance, &effort, diag));
+            TRY(effort_of(system, instance, &effort, diag));
             add_on_coordinate(system, effort.displacement, effort_at_rest(system, &effort));
-            CHECK(add_inertia(system, &effort, diag));
+            TRY(add_inertia(system, &effort, diag));
             inertia = inertia || (expr_kinds(effort.value) & 1U << SYMBOL_ACCELERATION) != 0;
         }
         if (instance->row->rotor != NULL)
-            CHECK(add_rotor(system, instance, diag));
+            TRY(add_rotor(system, instance, diag));
     }
     /* an effort that an inverse run finds at another coordinate */
     for (int i = 0; i < system->constraints->drives.count; i++) {
@@ -376,18 +369,17 @@ static Status joint_efforts(System *system, Diag *diag)
 
         if (driver->by < 0 || driver->by_coordinate < 0)
             continue;
-        CHECK(coordinate_value(system, &system->origin->instances[driver->by],
-                               driver->by_coordinate, 0, &s, diag));
+        TRY(coordinate_value(system, &system->origin->instances[driver->by], driver->by_coordinate,
+                             0, &s, diag));
         add_on_coordinate(system, s, system->constraints->drives.at[i].effort);
     }
     if (inertia && system->run.mass == NULL)
-        CHECK(mass_matrix(system));
+        TRY(mass_matrix(system));
     if (system->run.mass != NULL)
         take_shares(system);
     if (inertia)
-        CHECK(check_symmetry(system, diag));
-done:
-    return status;
+        TRY(check_symmetry(system, diag));
+    return OK;
 }
 
 static Status check_size(const System *system, Diag *diag)
@@ -406,24 +398,21 @@ Status dynamics_build(System *system, Diag *diag)
     int n = system->kinematics->u.count;
     Loads loads;
     Sums *sums;
-    Status status = OK;
 
-    CHECK(check_size(system, diag));
+    TRY(check_size(system, diag));
     system->run.force = pool_alloc(system->pool, (size_t)n * sizeof(Expr));
     if (n == 0)
         return OK;
     speed_directions(system);
     if (!composite_mass_build(system))
-        CHECK(mass_matrix(system));
+        TRY(mass_matrix(system));
     loads = loads_new(system);
     loads_add_inertia(system, &loads, system->kinematics->alpha0, system->kinematics->a0);
-    CHECK(efforts_add(system, &loads, false, diag));
+    TRY(efforts_add(system, &loads, false, diag));
     sums = loads_sum(system, &loads);
     for (int j = 0; j < n; j++)
         system->run.force[j] = expr_hold(system->arena, sums_project(system, sums, j));
-    CHECK(joint_efforts(system, diag));
-done:
-    return status;
+    return joint_efforts(system, diag);
 }
 
 Status system_form_mass(System *system, Diag *diag)

@@ -77,18 +77,16 @@ Status apply_scene(State **state, const Statement *statement, Outcome *outcome, 
     const Operand *operand = &statement->operands.at[0];
     bool planar = strcmp(operand->value->text, "planar") == 0;
     Line *line = find_line(s, statement->verb);
-    Status status = OK;
 
-    CHECK(check_scene(s, operand, planar, diag));
+    TRY(check_scene(s, operand, planar, diag));
     if (planar != s->planar)
         outcome->effect = EFFECT_EQUATIONS;
     if (line == NULL) {
         s->planar = planar;
         add_only_line(s, statement, NULL);
     } else if (planar != s->planar)
-        status = change_scene(state, line, statement, diag);
-done:
-    return status;
+        return change_scene(state, line, statement, diag);
+    return OK;
 }
 
 Status apply_gravity(State **state, const Statement *statement, Outcome *outcome, Diag *diag)

@@ -86,9 +86,7 @@ void mass_matrix_free(MassMatrix *matrix)
     LIST_FREE(matrix->shares);
     LIST_FREE(matrix->needs);
     pattern_free(&matrix->places);
-    mem_free(matrix->pair);
-    mem_free(matrix->at);
-    mem_free(matrix);
+    MEM_FREE(matrix->pair, matrix->at, matrix);
 }
 
 const Expr *mass_matrix_needs(const MassMatrix *matrix, int *count)

@@ -125,8 +125,7 @@ void motion_free(Motion *mo)
     pattern_free(&mo->unit_places);
     mem_free(mo->unit);
     partitioning_free(mo->partitioning);
-    mem_free(mo->full_mass);
-    mem_free(mo->full_phi_u);
+    MEM_FREE(mo->full_mass, mo->full_phi_u);
     netsolve_free(mo->network);
     signs_free(mo->signs);
     MEM_FREE(mo->slip, mo->off, mo->way, mo->solved_before, mo->q, mo->references, mo->slack,

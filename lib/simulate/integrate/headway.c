@@ -51,9 +51,7 @@ static double rounding(Stepper *s, double h)
             largest = fmax(largest, moved / stepper_tolerance(s, i, fabs(s->y[i])));
         }
     }
-    mem_free(beside);
-    mem_free(rate);
-    mem_free(other);
+    MEM_FREE(beside, rate, other);
     return largest;
 }
 

@@ -66,9 +66,7 @@ static void destroy(Stepper *stepper)
 
     if (d == NULL)
         return;
-    mem_free(d->place);
-    mem_free(d->start);
-    mem_free(d->entries);
+    MEM_FREE(d->place, d->start, d->entries);
     sundials_destroy(stepper);
 }
 

@@ -493,8 +493,7 @@ static Status shorten(Stepper *stepper, double t, Diag *diag)
         memcpy(r->z, stages, 3 * bytes);
         memcpy(r->rate, rate, bytes);
     }
-    mem_free(stages);
-    mem_free(rate);
+    MEM_FREE(stages, rate);
     return status;
 }
 

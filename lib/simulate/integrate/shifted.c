@@ -59,20 +59,13 @@ void shifted_free(Shifted *s)
 {
     if (s == NULL)
         return;
-    mem_free(s->jacobian);
-    mem_free(s->point);
-    mem_free(s->column);
+    MEM_FREE(s->jacobian, s->point, s->column);
     lu_free(s->real);
     lu_free(s->pair);
     hessenberg_form_free(s->own_form);
     shifted_factors_free(s->form_real);
     shifted_factors_free(s->form_pair);
-    mem_free(s->still);
-    mem_free(s->moving);
-    mem_free(s->w);
-    mem_free(s->w_rate);
-    mem_free(s->right);
-    mem_free(s->values);
+    MEM_FREE(s->still, s->moving, s->w, s->w_rate, s->right, s->values);
     sparse_free(s->sparse_real);
     sparse_free(s->sparse_pair);
     mem_free(s);
@@ -123,8 +116,7 @@ static void find_pattern(Shifted *s)
         }
     s->sparse_real = sparse_new(n, s->entries, s->at_row, s->at_column);
     s->sparse_pair = sparse_new(2 * n, 4 * s->entries, row, column);
-    mem_free(row);
-    mem_free(column);
+    MEM_FREE(row, column);
 }
 
 static bool by_equations(Shifted *s, double t, const double *y)

@@ -270,18 +270,16 @@ typedef struct Balance {
 static Status judge_balance(ActiveRun *r, Balance balance, Diag *diag)
 {
     double least;
-    Status status = OK;
 
     if (!(balance.drift > OPEN * balance.stored) || balance.work > WORK * balance.drift ||
         !(r->result->report.rtol > 0))
         return OK;
-    CHECK(energy_of_tolerance(r, &least, diag));
+    TRY(energy_of_tolerance(r, &least, diag));
     if (balance.drift > MANY * least)
         remarks_add(
             &r->result->remarks,
             (Remark){.kind = REMARK_ENERGY_OPEN, .size = balance.drift, .to = balance.stored});
-done:
-    return status;
+    return OK;
 }
 
 Status active_run_balance(ActiveRun *r, Diag *diag)

@@ -57,7 +57,6 @@ static Status approach(Integration *m, int i, double when, double *value, double
     double band = integration_is_margin(m, i) && m->band[i] > m->noise[i] ? m->band[i] : 0;
     double before = m->stepper->before, end = m->stepper->t;
     Diag ignored = {0};
-    Status status = OK;
 
     for (int k = 0; k < 12; k++) {
         bool moved = k > 0 && integration_is_margin(m, i) && move_end(m, when);
@@ -67,7 +66,7 @@ static Status approach(Integration *m, int i, double when, double *value, double
             break;
         if (!moved && m->stepper->method->shorten(m->stepper, when, &ignored) != OK) {
             *slope = 0;
-            CHECK(integration_cut(m, when, diag));
+            TRY(integration_cut(m, when, diag));
             break;
         }
         *slope = integration_condition_rate(m, i, value);
@@ -79,8 +78,7 @@ static Status approach(Integration *m, int i, double when, double *value, double
         when -= (inside - 1e-2 * enough) / (*slope * m->mode[i]);
         when = fmin(end, fmax(before + 1e-3 * (m->stepper->t - before), when));
     }
-done:
-    return status;
+    return OK;
 }
 
 /* From just before a switch to just behind it: so short a way that Euler's rule is exact. A slope
@@ -179,15 +177,14 @@ Status integration_meet_switch(Integration *m, int i, double when, bool *again, 
     bool on_surface = guard.side != 0 || guard.end != 0, crossed = false;
     double value = 0, slope = 0;
     bool is_told = integration_is_margin(m, i), entered;
-    Status status = OK;
 
     /* a switch on the very start of the step can't be told from the one just met */
     if (when > m->stepper->before) {
-        CHECK(approach(m, i, when, &value, &slope, diag));
+        TRY(approach(m, i, when, &value, &slope, diag));
         *again = *again && !is_told && passes_others(m, i, when);
         if (*again)
             return OK;
-        CHECK(integration_add_rows(m, diag));
+        TRY(integration_add_rows(m, diag));
         /* the interpolant erred: it is told again where steps from here go, if they do */
         if (is_told && value > integration_rounding(m) && m->stepper->t > m->stepper->before &&
             (slope >= 0 || !is_short(m, -value / slope))) {
@@ -201,12 +198,12 @@ Status integration_meet_switch(Integration *m, int i, double when, bool *again, 
     integration_conditions_at(m, m->stepper->t);
     m->band[i] = fmax(10 * fabs(m->conditions[i]), fmax(1e-10 * m->largest[i], m->noise[i]));
     m->mode[i] = is_told ? 1 : -m->mode[i];
-    CHECK(check_pace(m, i, diag));
+    TRY(check_pace(m, i, diag));
     integration_note_chatter(m, i, m->stepper->t);
     integration_tell_settling(m, i);
     m->root = on_surface || (guard.surface >= 0 && is_led_back(m, i, crossed)) ? i : ROOT_NONE;
     m->ahead = is_told && slope < 0 ? (fabs(value) + m->noise[i]) / -slope : 0;
-    CHECK(integration_go_on(m, m->stepper->t, m->stepper->y, &entered, diag));
+    TRY(integration_go_on(m, m->stepper->t, m->stepper->y, &entered, diag));
     if (on_surface && !entered) /* errors alone led over: the segment is on its side as before */
         m->mode[i] = guard.end != 0 ? 1 : guard.side;
     if (is_told && !entered) {
@@ -214,8 +211,7 @@ Status integration_meet_switch(Integration *m, int i, double when, bool *again, 
             fmin(10 * fmax(m->noise[i], m->band[i]), MOST_NOISE * integration_largest_margin(m));
         integration_let_margins_rise(m);
     }
-done:
-    return status;
+    return OK;
 }
 
 /* The last step again, until it ends where condition i is zero as near as numbers tell, by Newton's
@@ -228,11 +224,10 @@ static Status reach_zero(Integration *m, int i, double when, double *zero, Diag 
     double before = s->before, end = s->t, t = when;
     double value = 0, slope = 0, left = 0;
     Diag ignored = {0};
-    Status status = OK;
 
     for (int k = 0; k < 12 && t > before; k++) {
         if (s->method->shorten(m->stepper, t, &ignored) != OK) {
-            CHECK(integration_cut(m, t, diag));
+            TRY(integration_cut(m, t, diag));
             left = 0;
             break;
         }
@@ -252,8 +247,7 @@ static Status reach_zero(Integration *m, int i, double when, double *zero, Diag 
     for (int k = 0; k < m->length && fabs(left) <= 1e-3 * (t - before); k++)
         m->y[k] += left * m->slope[k];
     *zero = fabs(left) <= 1e-3 * (t - before) ? t + left : t;
-done:
-    return status;
+    return OK;
 }
 
 Status integration_meet_event(Integration *m, int i, double when, bool *again, Diag *diag)

@@ -104,7 +104,6 @@ static Status enter(Integration *m, const Segment *segment, double t, const doub
                     bool *changed, Diag *diag)
 {
     bool is_stiff = m->plan->method == NULL && m->out->method->is_stiff;
-    Status status = OK;
 
     integration_close_segment(m);
     if (is_stiff)
@@ -118,9 +117,8 @@ static Status enter(Integration *m, const Segment *segment, double t, const doub
     m->stepper->t = t;
     *changed = false;
     if (events_count(m->ev) > 0)
-        CHECK(integration_resume_events(m, changed, diag));
-done:
-    return status;
+        TRY(integration_resume_events(m, changed, diag));
+    return OK;
 }
 
 /* what is known of the surface that condition i tells the side of */
@@ -197,20 +195,18 @@ done:
 Status integration_settle_surfaces(Integration *m, bool *entered, Diag *diag)
 {
     bool changed = m->surfaces > 0;
-    Status status = OK;
 
     for (int round = 0; changed && !m->is_over; round++) {
         bool slides;
 
         if (round == ROUNDS)
-            CHECK(solver_failure(diag, m->stepper->t,
-                                 "events and discontinuities set each other off"));
-        CHECK(slide(m, &slides, &changed, diag));
+            TRY(solver_failure(diag, m->stepper->t,
+                               "events and discontinuities set each other off"));
+        TRY(slide(m, &slides, &changed, diag));
         *entered = *entered || slides;
         m->root = ROOT_ANY;
     }
-done:
-    return status;
+    return OK;
 }
 
 Status integration_go_on(Integration *m, double t, const double *y, bool *entered, Diag *diag)
