@@ -61,7 +61,8 @@ typedef struct Network {
     Expr gmin; /* S, beside parts whose current is an expression of their voltage; NULL: none */
     LIST(int) ideals;   /* branches that switch, */
     const bool *closed; /* and the side that each ideal one is on; NULL: both are in one equation */
-    bool takes_sides;   /* those between two resistances: their sides are numbers of the run */
+    bool takes_sides;   /* those between two resistances: their sides are numbers of the run, */
+    bool takes_all;     /* and those of ideal ones */
     LIST(Branchlike) branches;
     int *scalar_of_edge; /* edge of the graph -> branches, or -1 */
     Expr *potentials;    /* of nodes that have an unknown, else NULL; NULL: none has */

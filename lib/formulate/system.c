@@ -112,6 +112,7 @@ static void free_view(System *view)
         system_free(view->sided); /* else it is one of the modes */
     for (int i = 0; i < view->modes.count; i++)
         system_free(view->modes.at[i]);
+    system_free(view->numbered);
     LIST_FREE(view->modes);
     if (view->owns_formed)
         system_free(view->formed);

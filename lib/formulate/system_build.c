@@ -12,6 +12,13 @@
 
 #include <string.h>
 
+/* Modes with equations of their own, which are the shortest: behind so many of them a run of a
+ * network goes through others by numbers for sides, as each is formed and compiled in the time of
+ * many steps. */
+#ifndef FORMED
+#define FORMED 8
+#endif
+
 /* --- copies of what may change later --- */
 
 static const char **copy_names(const System *system, const char *const *from, int count)
@@ -410,7 +417,8 @@ typedef struct Making {
     NetworkForm taken;  /* that asked for or, where a state form doesn't exist, the other */
     const bool *closed; /* sides of ideal switches; NULL: in no mode */
     int closed_count;
-    bool takes_sides; /* of other switches as numbers */
+    bool takes_sides; /* of other switches as numbers, */
+    bool takes_all;   /* and of ideal ones */
 } Making;
 
 static const bool *keep_sides(System *system, const Making *making)
@@ -466,6 +474,7 @@ static Status make_as(const Making *making, bool *has_no_states, System **out, D
     system->network->gmin = making->options->gmin;
     system->network->closed = keep_sides(system, making);
     system->network->takes_sides = making->takes_sides;
+    system->network->takes_all = making->takes_all;
     system->watch = watch;
     system->variable = system_variable;
     report(watch, "formulating", -1.0);
@@ -508,6 +517,7 @@ static Status make_new(const Scene *scene, const SystemOptions *options, System 
         making.closed = options->like->network->closed;
         making.closed_count = options->like->network->ideals.count;
         making.takes_sides = options->like->network->takes_sides;
+        making.takes_all = options->like->network->takes_all;
     }
     return make(making, out, diag);
 }
@@ -542,8 +552,8 @@ Status system_new_view(const Scene *scene, const SystemOptions *options, System 
 }
 
 /* the equations of sides that `whole` has none of yet */
-static Status make_sided(System *whole, SceneSource source, const bool *closed, const Watch *watch,
-                         System **out, Diag *diag)
+static Status make_sided(System *whole, SceneSource source, const bool *closed, bool takes_all,
+                         const Watch *watch, System **out, Diag *diag)
 {
     const SystemOptions options = {.watch = watch, .has_literals = whole->origin->asks_literals};
     Scene scene = {0};
@@ -563,7 +573,8 @@ static Status make_sided(System *whole, SceneSource source, const bool *closed, 
                         .options = &options,
                         .closed = closed,
                         .closed_count = whole->network->ideals.count,
-                        .takes_sides = true},
+                        .takes_sides = true,
+                        .takes_all = takes_all},
                &made, diag));
     *out = viewed(made);
     (*out)->whole = whole;
@@ -593,7 +604,14 @@ Status system_mode(System *whole, SceneSource source, const bool *closed, const 
             *out = whole->modes.at[i];
             return OK;
         }
-    CHECK(make_sided(whole, source, closed, watch, &mode, diag));
+    if (whole->modes.count >= FORMED && whole->kinematics->u.count == 0 &&
+        ideal_keeps_states(whole, closed)) {
+        if (whole->numbered == NULL)
+            CHECK(make_sided(whole, source, closed, true, watch, &whole->numbered, diag));
+        *out = whole->numbered;
+        return OK;
+    }
+    CHECK(make_sided(whole, source, closed, false, watch, &mode, diag));
     LIST_PUSH(whole->modes, mode);
     *out = mode;
 done:
@@ -610,7 +628,7 @@ Status system_sided(System *whole, SceneSource source, const Watch *watch, Syste
     if (ideal == whole->network->ideals.count)
         whole->sided = whole;
     else if (whole->sided == NULL && ideal > 0)
-        CHECK(make_sided(whole, source, NULL, watch, &whole->sided, diag));
+        CHECK(make_sided(whole, source, NULL, false, watch, &whole->sided, diag));
     else if (whole->sided == NULL) {
         closed = NEW_ARRAY(bool, whole->network->ideals.count);
         CHECK(system_mode(whole, source, closed, watch, &whole->sided, diag));

@@ -35,6 +35,7 @@ struct System {
     bool owns_formed;
     Shown *shown;         /* of a view, or while it is made */
     LIST(System *) modes; /* views: of those whose sides are open, made so far */
+    System *numbered;     /* all those that keep the states, by numbers for sides; NULL: not made */
     System *sided;        /* the same whose sides are looked for; it or one of the modes */
     System *whole;        /* that it was made for, and which owns it; NULL: none */
     /* how a name becomes an expression: system_variable(), which all that tells one stands before

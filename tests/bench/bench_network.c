@@ -341,6 +341,25 @@ static void bench_multiplier(int stages, int runs)
     bench_line(name, real_time / ideal_time, "ratio");
 }
 
+/* --- a ladder --- */
+
+/* Of ideal diodes, over two periods: each goes over by itself, so that there are many modes. */
+static void bench_diode_ladder(int count)
+{
+    const RunOptions options = {.duration = 2e-3, .every = 1e-5};
+    Text text = {0};
+    char name[80];
+
+    text_add(&text, "vsource V n0 0 10*sin(2*pi*1e3*t)\n");
+    for (int k = 1; k <= count; k++)
+        text_addf(&text,
+                  "resistor R%d n%d n%d 10\ndiode D%d n%d m%d\ncapacitor C%d m%d 0 0.1 uF\n"
+                  "resistor L%d m%d 0 1e4\n",
+                  k, k - 1, k, k, k, k, k, k, k, k);
+    (void)snprintf(name, sizeof name, "network.diode_ladder_%d_ideal", count);
+    bench_line(name, run_circuit(name, &text, &options, false).report.wall, "s");
+}
+
 /* --- a sampled PWM --- */
 
 /* A current of 12 A or so out of 24 V, by a duty that is sampled every period. */
@@ -556,6 +575,7 @@ int main(int argc, char **argv)
     bench_stiff(LONG);
     bench_converter();
     bench_sampled_pwm();
+    bench_diode_ladder(200);
     bench_multiplier(3, 3);
     bench_multiplier(10, 3);
     bench_multiplier(30, 1);

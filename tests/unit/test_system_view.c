@@ -177,10 +177,59 @@ static void views_outlive_each_other(void)
     model_free(model);
 }
 
+/* how many systems the modes of six ideal diodes are */
+static int systems_of_modes(const char *text)
+{
+    Model *model = scene_new(text);
+    const System *formed = formed_of(model);
+    System *whole = system_view(formed);
+    System *seen[64] = {NULL};
+    int systems = 0;
+    Diag diag = {0};
+
+    for (int sides = 0; sides < 64; sides++) {
+        bool closed[6];
+        System *mode = NULL;
+        int k = 0;
+
+        for (int i = 0; i < 6; i++)
+            closed[i] = (sides >> i & 1) != 0;
+        EXPECT(system_mode(whole, model_scene_source(model), closed, NULL, &mode, &diag) == OK);
+        while (k < systems && seen[k] != mode)
+            k++;
+        if (k == systems)
+            seen[systems++] = mode;
+    }
+    system_free(whole);
+    system_free(formed);
+    model_free(model);
+    return systems;
+}
+
+/* six rectifiers behind resistors, the last of them behind this */
+#define RECTIFIERS(last)                                                                           \
+    "vsource V a 0 sin(t)\n"                                                                       \
+    "resistor R1 a b1 1\ndiode D1 b1 c1\ncapacitor C1 c1 0 1\n"                                    \
+    "resistor R2 a b2 1\ndiode D2 b2 c2\ncapacitor C2 c2 0 1\n"                                    \
+    "resistor R3 a b3 1\ndiode D3 b3 c3\ncapacitor C3 c3 0 1\n"                                    \
+    "resistor R4 a b4 1\ndiode D4 b4 c4\ncapacitor C4 c4 0 1\n"                                    \
+    "resistor R5 a b5 1\ndiode D5 b5 c5\ncapacitor C5 c5 0 1\n" last                               \
+    " a b6 1\ndiode D6 b6 c6\ncapacitor C6 c6 0 1\n"
+
+/* Behind the first eight one system is all of them, with numbers for sides. Where the last diode,
+ * closed, lays its capacitor beside the source it takes a state away, by a wire or another
+ * capacitor before it: then each of those has its own. */
+static void modes_that_keep_the_states_are_one_system(void)
+{
+    EXPECT(systems_of_modes(RECTIFIERS("resistor R6")) == 8 + 1);
+    EXPECT(systems_of_modes(RECTIFIERS("capacitor R6")) == 8 + 1 + 32);
+}
+
 int main(void)
 {
     RUN(a_four_bar_with_a_motor_stays_as_it_was_made);
     RUN(its_absolute_coordinates_do_so_too);
     RUN(views_outlive_each_other);
+    RUN(modes_that_keep_the_states_are_one_system);
     return test_end();
 }

@@ -206,7 +206,8 @@ static bool margin_is_steep(void *context, int k)
     const Numbers *nb = context;
     int i = nb->margins.at[k];
 
-    return nb->layout->side[i] != NULL && nb->layout->closed[i];
+    return nb->layout->side[i] != NULL && nb->layout->closed[i] &&
+           !system_is_ideal(nb->layout->system, i);
 }
 
 typedef LIST(Expr) Roots;
