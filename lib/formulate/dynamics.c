@@ -342,6 +342,18 @@ static void take_shares(System *system)
     }
 }
 
+Status drive_coordinate(System *system, int drive, Expr *out, Diag *diag)
+{
+    const Origin *origin = system->origin;
+    const Instance *driver = &origin->instances[system->constraints->drives.at[drive].instance];
+
+    if (driver->by >= 0 && driver->by_coordinate >= 0)
+        return coordinate_value(system, &origin->instances[driver->by], driver->by_coordinate, 0,
+                                out, diag);
+    *out = NULL;
+    return OK;
+}
+
 static Status joint_efforts(System *system, Diag *diag)
 {
     bool inertia = false;
@@ -363,15 +375,11 @@ static Status joint_efforts(System *system, Diag *diag)
     }
     /* an effort that an inverse run finds at another coordinate */
     for (int i = 0; i < system->constraints->drives.count; i++) {
-        const Instance *driver =
-            &system->origin->instances[system->constraints->drives.at[i].instance];
         Expr s;
 
-        if (driver->by < 0 || driver->by_coordinate < 0)
-            continue;
-        TRY(coordinate_value(system, &system->origin->instances[driver->by], driver->by_coordinate,
-                             0, &s, diag));
-        add_on_coordinate(system, s, system->constraints->drives.at[i].effort);
+        TRY(drive_coordinate(system, i, &s, diag));
+        if (s != NULL)
+            add_on_coordinate(system, s, system->constraints->drives.at[i].effort);
     }
     if (inertia && system->run.mass == NULL)
         TRY(mass_matrix(system));

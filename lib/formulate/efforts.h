@@ -18,6 +18,8 @@ MUST_USE Status effort_of(System *system, const Instance *instance, Effort *out,
 MUST_USE Status effort_inertia(const System *system, const Effort *effort, int speed, Expr *out,
                                Diag *diag);
 Expr effort_at_rest(const System *system, const Effort *effort);
+/* Where an inverse run finds the effort of a drive, if that is another coordinate; else NULL. */
+MUST_USE Status drive_coordinate(System *system, int drive, Expr *out, Diag *diag);
 /* wrench of force and torque components: in axes of *chain */
 MUST_USE Status wrench_of(System *system, const Instance *instance, Vec *force, Vec *torque,
                           int *chain, Diag *diag);

@@ -318,16 +318,12 @@ static Status show_force(System *system, int j, int column, Expr *out, Diag *dia
         CHECK(push_rotor(system, instance, j, &terms, diag));
     }
     for (int i = 0; i < system->constraints->drives.count; i++) {
-        const Instance *driver =
-            &system->origin->instances[system->constraints->drives.at[i].instance];
         Expr s;
 
-        if (driver->by < 0 || driver->by_coordinate < 0)
-            continue;
-        CHECK(coordinate_value(system, &system->origin->instances[driver->by],
-                               driver->by_coordinate, 0, &s, diag));
-        LIST_PUSH(terms, expr_mul(system->arena, system->constraints->drives.at[i].effort,
-                                  speed_partial(system, s, j)));
+        CHECK(drive_coordinate(system, i, &s, diag));
+        if (s != NULL)
+            LIST_PUSH(terms, expr_mul(system->arena, system->constraints->drives.at[i].effort,
+                                      speed_partial(system, s, j)));
     }
     *out = tidy(system, expr_sum(system->arena, terms.at, terms.count));
 done:

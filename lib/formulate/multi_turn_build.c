@@ -103,9 +103,10 @@ Status system_multi_turn_rate(System *system, int i, Expr *out, Diag *diag)
 
     if (*known == NULL)
         *known = NEW_ARRAY(Expr, system->constraints->multi_turns.count);
-    *out = (*known)[i];
-    if (*out != NULL)
+    if ((*known)[i] != NULL) {
+        *out = (*known)[i];
         return OK;
+    }
     TRY(system_rate_of(system, chord->sine, &sine_rate, diag));
     TRY(system_rate_of(system, chord->cosine, &cosine_rate, diag));
     size = expr_hold(
