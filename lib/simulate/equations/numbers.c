@@ -24,8 +24,9 @@ struct Numbers {
     Articulated *articulated;
     Probe *massing;
     int mass_needs;
-    bool is_articulated, is_mass_old; /* factors are there; M is of another position */
-    const double *told_accelerations; /* of the main program, and what tells their rounding */
+    bool is_articulated, is_mass_old;    /* factors are there; M is of another position */
+    bool is_mass_constant, is_mass_kept; /* with the parameters of now: of bodies without joints */
+    const double *told_accelerations;    /* of the main program, and what tells their rounding */
     Probe *slip;   /* of surfaces that are slid along: h', or what of it they reach, and h */
     Guard *guards; /* of the conditions, */
     Expr *told;    /* which are these for a user; NULL: margins */
@@ -54,8 +55,10 @@ static void position(void *context, double t, const double *q)
     if (nb->articulated != NULL)
         nb->is_articulated = articulated_factor(
             nb->articulated, workspace_roots(nb->main->workspace) + nb->mass_needs);
-    else if (nb->mass != NULL)
+    else if (nb->mass != NULL && !nb->is_mass_kept) {
         mass_matrix_put(nb->mass, workspace_roots(nb->main->workspace) + nb->mass_needs);
+        nb->is_mass_kept = nb->is_mass_constant;
+    }
 }
 
 static bool articulate(void *context, double *acceleration)
@@ -360,6 +363,9 @@ static int mass_block(Numbers *nb, Roots *roots)
                             nb->layout->nu, &nb->masses);
     needs = nb->articulated != NULL ? articulated_needs(nb->articulated, &count)
                                     : mass_matrix_needs(nb->mass, &count);
+    nb->is_mass_constant = true;
+    for (int i = 0; i < count && nb->is_mass_constant; i++)
+        nb->is_mass_constant = stage_of(needs[i]) == STAGE_PARAMETER;
     return block(roots, needs, count);
 }
 
@@ -725,6 +731,7 @@ void numbers_set(Numbers *nb, Expr parameter, double value)
     for (int i = 0; i < COUNT(probes); i++)
         if (probes[i] != NULL)
             (void)probe_turn(probes[i], parameter, value);
+    nb->is_mass_kept = false;
 }
 
 const Equations *numbers_equations(const Numbers *nb)
