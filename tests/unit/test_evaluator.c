@@ -4,6 +4,13 @@
 #include "base/memory.h"
 
 #include <math.h>
+#ifdef __linux__
+#include <sys/prctl.h>
+#endif
+#ifndef PR_SET_MDWE /* older headers than systems */
+#define PR_SET_MDWE              65
+#define PR_MDWE_REFUSE_EXEC_GAIN 1
+#endif
 
 /* a double pendulum with a spring that stiffens, and a forced circuit with a nonlinear coil */
 static const char *const models[] = {
@@ -73,10 +80,58 @@ static void the_setting_is_shown_saved_and_taken_back(void)
     kit_free(&kit);
 }
 
+/* whether any memory of this process can be written and run at once; where that isn't told: no */
+static bool some_memory_is_both(void)
+{
+    FILE *maps = fopen("/proc/self/maps", "r");
+    char line[400];
+    bool is_both = false;
+
+    while (maps != NULL && fgets(line, sizeof line, maps) != NULL)
+        is_both = is_both || strstr(line, " rwx") != NULL;
+    if (maps != NULL)
+        (void)fclose(maps);
+    return is_both;
+}
+
+static void no_memory_is_written_and_run(void)
+{
+    const bool before = some_memory_is_both(); /* as a tool's around this process */
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, models[0]);
+    EXPECT_DONE(&kit, "simulate 1");
+    EXPECT(before || !some_memory_is_both());
+    kit_free(&kit);
+}
+
+/* The last one: this process may make no memory run from now on, where the system can refuse it. */
+static void a_refusal_leaves_the_interpreter(void)
+{
+    const double strict = end_of_run(0, "strict", "simulate 1");
+    Kit kit;
+
+#ifdef __linux__
+    if (prctl(PR_SET_MDWE, PR_MDWE_REFUSE_EXEC_GAIN, 0L, 0L, 0L) != 0)
+        return;
+#else
+    return;
+#endif
+    EXPECT(end_of_run(0, "strict", "simulate 1") == strict);
+    kit = kit_new();
+    EXPECT_DONE(&kit, "set evaluator native");
+    EXPECT(strstr(ct_remarks(kit.session), "no native code can be run here") != NULL);
+    EXPECT_DONE(&kit, "set evaluator strict");
+    EXPECT(strstr(ct_remarks(kit.session), "native") == NULL);
+    kit_free(&kit);
+}
+
 int main(void)
 {
     RUN(strict_runs_have_the_interpreters_digits);
     RUN(native_runs_agree_to_rounding);
     RUN(the_setting_is_shown_saved_and_taken_back);
+    RUN(no_memory_is_written_and_run);
+    RUN(a_refusal_leaves_the_interpreter);
     return test_end();
 }
