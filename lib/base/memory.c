@@ -24,47 +24,22 @@ enum { FIRST_ROOM = 8, FIRST_CHUNK = 65536 };
 
 /* --- pieces --- */
 
-static inline MemPiece *take(size_t size, bool zeroed, const void *maker)
-{
-    MemPiece *piece = size <= SIZE_MAX - sizeof(MemPiece)
-                          ? system_allocate(sizeof(MemPiece) + size, zeroed)
-                          : NULL;
-
-    if (piece != NULL) {
-        piece->size = size;
-        piece->maker = maker;
-        piece_join(piece);
-        return piece;
-    }
-    transaction_fail();
-}
-
 /* what so many of that size take; SIZE_MAX, which nobody has, where that can't be told */
 static size_t product(size_t count, size_t size)
 {
-    return size == 0 || count <= SIZE_MAX / size ? count * size : SIZE_MAX;
+    size_t out;
+
+    return __builtin_mul_overflow(count, size, &out) ? SIZE_MAX : out;
 }
 
 void *mem_new(size_t size)
 {
-    return take(size, true, CALLER) + 1;
+    return piece_new(size, true, CALLER) + 1;
 }
 
 void *mem_array(size_t count, size_t size)
 {
-    return take(product(count, size), true, CALLER) + 1;
-}
-
-/* What a transaction may have to go back to stays where it is. */
-static MemPiece *resize(MemPiece *old, size_t size, const void *maker)
-{
-    MemPiece *piece = take(size, false, maker);
-
-    if (old->maker == NULL)
-        piece->maker = NULL;
-    memcpy(piece + 1, old + 1, old->size < size ? old->size : size);
-    piece_drop(old);
-    return piece;
+    return piece_new(product(count, size), true, CALLER) + 1;
 }
 
 void *mem_grow(void *old, size_t count, size_t size)
@@ -72,10 +47,8 @@ void *mem_grow(void *old, size_t count, size_t size)
     const size_t bytes = product(count, size);
 
     if (old == NULL)
-        return take(bytes, false, CALLER) + 1;
-    return (FAULTS || mem_is_old(old) ? resize(piece_of(old), bytes, CALLER)
-                                      : piece_resize(piece_of(old), bytes)) +
-           1;
+        return piece_new(bytes, false, CALLER) + 1;
+    return piece_resize(piece_of(old), bytes, CALLER) + 1;
 }
 
 char *mem_text(const char *text, size_t length)
@@ -98,9 +71,7 @@ void mem_free_each(void *const pieces[], int count)
         mem_free(pieces[i]);
 }
 
-/* out of the way of those that only look whether there is room */
-__attribute__((noinline)) static void *room_for(void *at, int count, int *room, size_t size,
-                                                const void *maker)
+static void *room_for(void *at, int count, int *room, size_t size, const void *maker)
 {
     const int more = count < FIRST_ROOM ? FIRST_ROOM : count + count / 2;
 
@@ -111,19 +82,11 @@ __attribute__((noinline)) static void *room_for(void *at, int count, int *room, 
     return at;
 }
 
-__attribute__((noinline)) static void *keep_room(void *list, void *at, size_t size)
+void *list_make_room(void *at, int count, int more, int *room, size_t size)
 {
-    mem_keep_part(list, at, size);
-    return list;
-}
-
-void *list_room(void *at, int count, int more, int *room, size_t size)
-{
-    if (count + more > *room)
+    if (at == NULL || count + more > *room)
         return room_for(at, count + more, room, size, CALLER);
-    /* what has been taken off the list in this call may have to be there again */
-    if (mem_is_old(at))
-        return keep_room(at, (char *)at + (size_t)count * size, (size_t)more * size);
+    mem_keep_part(at, (char *)at + (size_t)count * size, (size_t)more * size);
     return at;
 }
 
@@ -183,7 +146,7 @@ void *pool_alloc(Pool *pool, size_t size)
     if (pool->newest == NULL || pool->newest->size - pool->used < size ||
         MOVES_ALWAYS(pool->newest)) {
         const size_t room = size > pool->chunk_size ? size : pool->chunk_size;
-        Chunk *chunk = (Chunk *)(void *)(take(sizeof(Chunk) + room, false, CALLER) + 1);
+        Chunk *chunk = (Chunk *)(void *)(piece_new(sizeof(Chunk) + room, false, CALLER) + 1);
 
         chunk->older = pool->newest;
         chunk->size = room;

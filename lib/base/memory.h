@@ -43,7 +43,14 @@ void mem_free_each(void *const pieces[], int count);
     ((list).at = list_more_room((list).at, (list).count + 1, &(list).room, sizeof *(list).at),     \
      (list).at[(list).count++] = __VA_ARGS__)
 #define LIST_FREE(list) (mem_free((list).at), (list).at = NULL, (list).count = (list).room = 0)
-void *list_room(void *at, int count, int more, int *room, size_t size);
+void *list_make_room(void *at, int count, int more, int *room, size_t size);
+static inline void *list_room(void *at, int count, int more, int *room, size_t size)
+{
+    /* what has been taken off an old list in this call may have to be there again */
+    if (at == NULL || count + more > *room || mem_is_old(at))
+        return list_make_room(at, count, more, room, size);
+    return at;
+}
 void *list_more_room(void *at, int count, int *room, size_t size);
 
 typedef struct Pool Pool;

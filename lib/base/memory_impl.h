@@ -6,9 +6,10 @@
 
 /* A piece of the system's, which belongs to no transaction; NULL: memory has ended. */
 void *system_allocate(size_t size, bool zeroed);
-void piece_join(MemPiece *piece); /* the transaction that goes on, if one does */
-/* One of the transaction that goes on, or outside of any, with another size; may move. */
-MemPiece *piece_resize(MemPiece *piece, size_t size);
+/* One of the transaction that goes on, if one does; leaves it where memory has ended. */
+MemPiece *piece_new(size_t size, bool zeroed, const void *maker);
+/* With another size; may move, and what a transaction may have to go back to stays where it is. */
+MemPiece *piece_resize(MemPiece *piece, size_t size, const void *maker);
 /* Give a piece back: at once, or when the transaction has come to its end. */
 void piece_drop(MemPiece *piece);
 

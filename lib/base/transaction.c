@@ -14,6 +14,15 @@
 #define ASAN_UNPOISON_MEMORY_REGION(at, size) ((void)(at), (void)(size))
 #endif
 
+/* whether pieces serve again, and end with their grain: not where somebody watches who touches what
+ * is freed, or lies behind */
+#ifdef __SANITIZE_ADDRESS__
+enum { SPARES = false };
+#else
+enum { SPARES = !FAULTS };
+#endif
+enum { GRAIN = SPARES ? SPARE_GRAIN : 1 };
+
 _Thread_local Transaction *transaction_now;
 
 /* bytes as they were, or what is to be called when all are; in the order of the keeping */
@@ -33,6 +42,7 @@ static void open(Transaction *t)
     t->made.before = t->made.after = &t->made;
     t->freed.before = t->freed.after = &t->freed;
     t->cleanups.before = t->cleanups.after = &t->cleanups;
+    memset(t->spare, 0, sizeof t->spare);
     t->notes = t->later = NULL;
     t->is_scratch = false;
     t->is_over = false;
@@ -62,7 +72,7 @@ static void leave(MemPiece *piece)
     piece->after->before = piece->before;
 }
 
-void piece_join(MemPiece *piece)
+static void piece_join(MemPiece *piece)
 {
     Transaction *t = transaction_now;
 
@@ -75,33 +85,93 @@ void piece_join(MemPiece *piece)
         faults_know(piece);
 }
 
-void piece_drop(MemPiece *piece)
+/* where spare pieces of that size are; NULL: nowhere */
+static inline MemPiece **spare_of(size_t size)
 {
     Transaction *t = transaction_now;
 
-    if (t != NULL && piece->born == t->number)
+    return SPARES && t != NULL && size <= (size_t)SPARE_GRAIN * (SPARE_SIZES - 1)
+               ? &t->spare[(size + SPARE_GRAIN - 1) / SPARE_GRAIN]
+               : NULL;
+}
+
+/* with its head, and up to where its grain ends: any of a grain serves all of it; 0: too large */
+static size_t bytes_of(size_t size)
+{
+    size_t bytes;
+
+    return __builtin_add_overflow(size, sizeof(MemPiece) + GRAIN - 1, &bytes)
+               ? 0
+               : bytes - bytes % GRAIN;
+}
+
+MemPiece *piece_new(size_t size, bool zeroed, const void *maker)
+{
+    MemPiece **spare = spare_of(size), *piece = spare != NULL ? *spare : NULL;
+
+    if (piece != NULL) {
+        *spare = piece->after;
+        if (zeroed)
+            memset(piece + 1, 0, size);
+    } else {
+        const size_t bytes = bytes_of(size);
+
+        piece = bytes > 0 ? system_allocate(bytes, zeroed) : NULL;
+        if (piece == NULL)
+            transaction_fail();
+    }
+    piece->size = size;
+    piece->maker = maker;
+    piece_join(piece);
+    return piece;
+}
+
+void piece_drop(MemPiece *piece)
+{
+    Transaction *t = transaction_now;
+    const bool is_young = t == NULL || piece->born == t->number;
+
+    if (t != NULL && is_young)
         leave(piece);
     else
         faults_forget(piece);
-    if (t == NULL || piece->born == t->number) {
-        free(piece);
-        return;
+    if (!is_young) {
+        join(piece, &t->freed);
+        ASAN_POISON_MEMORY_REGION(piece + 1, piece->size);
+    } else {
+        MemPiece **spare = spare_of(piece->size);
+
+        if (spare == NULL) {
+            free(piece);
+            return;
+        }
+        piece->after = *spare;
+        *spare = piece;
     }
-    join(piece, &t->freed);
-    ASAN_POISON_MEMORY_REGION(piece + 1, piece->size);
 }
 
-MemPiece *piece_resize(MemPiece *piece, size_t size)
+MemPiece *piece_resize(MemPiece *piece, size_t size, const void *maker)
 {
+    const size_t bytes = bytes_of(size);
     MemPiece *moved;
 
-    if (size > SIZE_MAX - sizeof(MemPiece))
+    if (bytes == bytes_of(piece->size) && SPARES && !mem_is_old(piece + 1)) {
+        piece->size = size;
+        return piece;
+    }
+    if (FAULTS || mem_is_old(piece + 1) || spare_of(piece->size) != NULL) {
+        moved = piece_new(size, false, maker);
+        if (piece->maker == NULL)
+            moved->maker = NULL;
+        memcpy(moved + 1, piece + 1, piece->size < size ? piece->size : size);
+        piece_drop(piece);
+        return moved;
+    }
+    if (bytes == 0)
         transaction_fail();
     if (transaction_now != NULL)
         leave(piece);
-    else
-        faults_forget(piece);
-    moved = realloc(piece, sizeof(MemPiece) + size);
+    moved = realloc(piece, bytes);
     if (moved == NULL) {
         piece_join(piece);
         transaction_fail();
@@ -249,8 +319,20 @@ static MemPiece *take_back(Transaction *t)
     return piece;
 }
 
+static void free_spare(Transaction *t)
+{
+    for (int i = 0; i < SPARE_SIZES; i++)
+        while (t->spare[i] != NULL) {
+            MemPiece *piece = t->spare[i];
+
+            t->spare[i] = piece->after;
+            free(piece);
+        }
+}
+
 static void commit(Transaction *t)
 {
+    free_spare(t);
     while (t->freed.after != &t->freed)
         free(take_back(t));
     if (FAULTS)
@@ -284,6 +366,7 @@ static void roll_back(Transaction *t)
         if (n->derive != NULL)
             n->derive(n->at);
     faults_look_for(&t->made);
+    free_spare(t);
     while (t->made.after != &t->made)
         free(take_out(&t->made));
     free_notes(t->notes);

@@ -40,14 +40,19 @@ typedef struct Cleanup {
 
 typedef struct Note Note;
 
+/* What a call frees of its own pieces serves its next ones: of so many sizes, each by a grain
+ * larger than the one before. */
+enum { SPARE_GRAIN = 16, SPARE_SIZES = 33 };
+
 typedef struct Transaction {
     jmp_buf place;             /* where a failure leads */
     struct Transaction *outer; /* a hook may call the library for another session */
     uint64_t number;           /* no other has it */
     MemPiece made, freed;      /* rings */
-    Cleanup cleanups;          /* ring */
-    Note *notes;               /* what was kept, last first */
-    Note *later;               /* what is to be freed, last first */
+    MemPiece *spare[SPARE_SIZES];
+    Cleanup cleanups; /* ring */
+    Note *notes;      /* what was kept, last first */
+    Note *later;      /* what is to be freed, last first */
     bool is_scratch;
     bool is_over;
     long trial; /* 0, 1 ...: which try with failing allocations; -1: it counts */

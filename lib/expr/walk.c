@@ -36,6 +36,8 @@ static void make_room(Walk *walk)
     walk->size = walk->size == 0 ? 64 : 4 * walk->size;
     walk->keys = NEW_ARRAY(uint32_t, walk->size);
     walk->places = NEW_ARRAY(int, walk->size);
+    walk->nodes = list_room(walk->nodes, walk->count, (int)walk->size / 2 - walk->count,
+                            &walk->room, sizeof(Expr));
     for (int place = 0; place < walk->count; place++) {
         uint32_t i = slot_of(walk, walk->nodes[place]->number + 1);
 
@@ -54,7 +56,6 @@ int walk_add(Walk *walk, Expr e)
         return walk->places[i];
     walk->keys[i] = e->number + 1;
     walk->places[i] = walk->count;
-    walk->nodes = list_room(walk->nodes, walk->count, 1, &walk->room, sizeof(Expr));
     walk->nodes[walk->count] = e;
     return walk->count++;
 }
