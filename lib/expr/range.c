@@ -15,18 +15,19 @@ typedef struct RangeNode {
     ExprKind kind;
     Op op;
     int first, count;   /* of its operands in `operands` */
+    bool moves;         /* with the symbol */
     double value;       /* of a number or another symbol, or an exponent */
-    bool is_fixed;      /* no symbol in it: `value` */
     const Curve *curve; /* of a table */
     int order;          /* of its derivative */
 } RangeNode;
 
 struct Ranges {
     RangeNode *nodes;
-    int node_count;
     int *operands;
-    Range *at; /* of the nodes */
+    Range *at; /* of the nodes: those that the symbol doesn't move have theirs once and for all */
     int symbol;
+    int *moving; /* the others */
+    int moving_count;
     int *roots;
     Range *out;
     int count;
@@ -52,6 +53,14 @@ static double times(double a, double b)
 
 static Range product(Range a, Range b)
 {
+    if (a.low == a.high) {
+        const double low = times(a.low, b.low), high = times(a.low, b.high);
+
+        return low <= high ? (Range){low, high} : (Range){high, low};
+    }
+    if (b.low == b.high)
+        return product(b, a);
+
     Range one = {times(a.low, b.low), times(a.low, b.high)};
     Range two = {times(a.high, b.low), times(a.high, b.high)};
 
@@ -78,9 +87,12 @@ static Range power(Range a, double p)
 /* of cos: where it has its tops and bottoms between */
 static Range cosine(Range a)
 {
-    double turn = 2 * acos(-1.0);
-    Range out = {fmin(cos(a.low), cos(a.high)), fmax(cos(a.low), cos(a.high))};
+    const double turn = 2 * acos(-1.0), first = cos(a.low);
+    const double last = a.low == a.high ? first : cos(a.high);
+    Range out = {fmin(first, last), fmax(first, last)};
 
+    if (a.low == a.high)
+        return point(first);
     if (!(a.high - a.low < turn))
         return (Range){-1, 1};
     if (floor(a.high / turn) > floor(a.low / turn) || floor(a.low / turn) * turn == a.low)
@@ -259,6 +271,13 @@ static Range range_of(const Ranges *r, const RangeNode *node)
     }
 }
 
+static void find(Ranges *r, int i)
+{
+    r->at[i] = range_of(r, &r->nodes[i]);
+    if (isnan(r->at[i].low) || isnan(r->at[i].high))
+        r->at[i] = everything;
+}
+
 Ranges *ranges_new(const Expr *roots, int count, Expr symbol, SymbolValue value, void *context)
 {
     Ranges *r = NEW(Ranges);
@@ -269,9 +288,9 @@ Ranges *ranges_new(const Expr *roots, int count, Expr symbol, SymbolValue value,
     for (int i = 0; i < walk.count; i++)
         operands += walk.nodes[i]->count;
     r->nodes = NEW_ARRAY(RangeNode, walk.count);
-    r->node_count = walk.count;
     r->operands = NEW_ARRAY(int, operands);
     r->at = NEW_ARRAY(Range, walk.count);
+    r->moving = NEW_ARRAY(int, walk.count);
     r->roots = NEW_ARRAY(int, count);
     r->out = NEW_ARRAY(Range, count);
     r->count = count;
@@ -281,9 +300,14 @@ Ranges *ranges_new(const Expr *roots, int count, Expr symbol, SymbolValue value,
         Expr e = walk.nodes[i];
         RangeNode *node = &r->nodes[i];
 
-        *node = (RangeNode){.kind = expr_kind(e), .first = operands, .count = e->count};
-        for (int k = 0; k < e->count; k++)
-            r->operands[operands++] = walk_find(&walk, expr_arg(e, k));
+        *node = (RangeNode){
+            .kind = expr_kind(e), .first = operands, .count = e->count, .moves = e == symbol};
+        for (int k = 0; k < e->count; k++) {
+            const int operand = walk_find(&walk, expr_arg(e, k));
+
+            r->operands[operands++] = operand;
+            node->moves = node->moves || r->nodes[operand].moves;
+        }
         if (node->kind == EXPR_CALL) {
             node->op = expr_op(e);
             if (node->op == OP_TABLE) {
@@ -295,6 +319,10 @@ Ranges *ranges_new(const Expr *roots, int count, Expr symbol, SymbolValue value,
         } else if (e->count == 0) {
             node->value = expr_value(e);
         }
+        if (node->moves)
+            r->moving[r->moving_count++] = i;
+        else
+            find(r, i);
     }
     for (int i = 0; i < count; i++)
         r->roots[i] = walk_find(&walk, roots[i]);
@@ -306,15 +334,16 @@ void ranges_free(Ranges *r)
 {
     if (r == NULL)
         return;
-    MEM_FREE(r->nodes, r->operands, r->at, r->roots, r->out, r);
+    MEM_FREE(r->nodes, r->operands, r->at, r->moving, r->roots, r->out, r);
 }
 
 const Range *ranges_over(Ranges *r, Range over)
 {
-    for (int i = 0; i < r->node_count; i++) {
-        r->at[i] = i == r->symbol ? over : range_of(r, &r->nodes[i]);
-        if (isnan(r->at[i].low) || isnan(r->at[i].high))
-            r->at[i] = everything;
+    for (int i = 0; i < r->moving_count; i++) {
+        if (r->moving[i] == r->symbol)
+            r->at[r->symbol] = over;
+        else
+            find(r, r->moving[i]);
     }
     for (int i = 0; i < r->count; i++)
         r->out[i] = r->at[r->roots[i]];

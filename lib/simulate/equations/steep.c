@@ -23,6 +23,8 @@
 #define AFTER                                                                                      \
     (1U << SYMBOL_ACCELERATION | 1U << SYMBOL_MULTIPLIER | 1U << SYMBOL_EFFORT | 1U << SYMBOL_JERK)
 
+typedef LIST(Expr) Roots;
+
 typedef struct Element {
     Expr call;
     Expr argument;
@@ -37,7 +39,8 @@ typedef struct Source {
     int input;
     double size;        /* its range in a run, s; 0: not known */
     bool is_continuous; /* its derivative tells how far it goes */
-    bool has_corners;   /* that derivative may jump */
+    int corner;         /* what makes that derivative jump: the first of `corners`, */
+    int corners;        /* and how many */
 } Source;
 
 struct Steep {
@@ -48,11 +51,12 @@ struct Steep {
     LIST(Element) elements;
     LIST(Source) sources;
     Ranges *values, *slopes, *bends;
-    Range *closer; /* of sources */
-    Range *bent;   /* likewise, corners with them */
-    double *reach; /* likewise: how far each gets from the middle of an interval */
-    Layout inputs; /* the layout, and the inputs of elements and sources */
-    Probe *probe;  /* G, F, gamma, arguments, A; NULL: not made yet */
+    Ranges *corners; /* one varies where a derivative jumps */
+    Range *closer;   /* of sources */
+    Range *bent;     /* likewise, corners with them */
+    double *reach;   /* likewise: how far each gets from the middle of an interval */
+    Layout inputs;   /* the layout, and the inputs of elements and sources */
+    Probe *probe;    /* G, F, gamma, arguments, A; NULL: not made yet */
     bool has_failed;
     int force, gamma, argument, matrix, root_count; /* places of the roots, and how many */
     Sparse *network;
@@ -105,13 +109,17 @@ static bool may_jump(Expr e, void *context)
            op == OP_ATAN2 || op == OP_UNWRAP || (op >= OP_LT && op <= OP_NOT);
 }
 
-static bool is_continuous(Expr e)
+/* how many things make e jump; added to `corners`, unless that is NULL: what varies where they do,
+ * and is constant elsewhere */
+static int add_corners(Roots *corners, Expr e)
 {
     Expr *jumps;
     const int count = expr_find(&e, 1, may_jump, NULL, &jumps);
 
+    for (int i = 0; i < count && corners != NULL; i++)
+        LIST_PUSH(*corners, expr_op(jumps[i]) == OP_IF ? expr_arg(jumps[i], 0) : jumps[i]);
     mem_free(jumps);
-    return count == 0;
+    return count;
 }
 
 static void add_source(Steep *s, Expr e)
@@ -119,7 +127,7 @@ static void add_source(Steep *s, Expr e)
     for (int i = 0; i < s->sources.count; i++)
         if (s->sources.at[i].function == e)
             return;
-    LIST_PUSH(s->sources, (Source){.function = e, .is_continuous = is_continuous(e)});
+    LIST_PUSH(s->sources, (Source){.function = e, .is_continuous = add_corners(NULL, e) == 0});
 }
 
 /* exp(min(c, x)) is exp(x) as far as it goes */
@@ -182,8 +190,6 @@ static void find_all(Steep *s, const Expr *roots, int count)
     mem_free(nodes);
 }
 
-typedef LIST(Expr) Roots;
-
 /* G, F and gamma */
 static Roots equations_of(const Layout *l)
 {
@@ -244,21 +250,27 @@ static void find_ranges(Steep *s)
     Arena *arena = system_arena(s->l->system);
     Expr time = s->l->symbols[s->l->t];
     Expr *functions = NEW_ARRAY(Expr, s->sources.count);
+    Roots corners = {0};
 
     for (int i = 0; i < s->sources.count; i++)
         functions[i] = s->sources.at[i].function;
     s->values = ranges_new(functions, s->sources.count, time, parameters_value_in, s->parameters);
     for (int i = 0; i < s->sources.count; i++) {
         functions[i] = expr_diff(arena, functions[i], time);
-        s->sources.at[i].has_corners = !is_continuous(functions[i]);
+        s->sources.at[i].corner = corners.count;
+        s->sources.at[i].corners = add_corners(&corners, functions[i]);
     }
     s->slopes = ranges_new(functions, s->sources.count, time, parameters_value_in, s->parameters);
     for (int i = 0; i < s->sources.count; i++)
         functions[i] = expr_diff(arena, functions[i], time);
     s->bends = ranges_new(functions, s->sources.count, time, parameters_value_in, s->parameters);
+    if (corners.count > 0)
+        s->corners =
+            ranges_new(corners.at, corners.count, time, parameters_value_in, s->parameters);
     s->closer = NEW_ARRAY(Range, s->sources.count);
     s->bent = NEW_ARRAY(Range, s->sources.count);
     s->reach = NEW_ARRAY(double, s->sources.count);
+    LIST_FREE(corners);
     mem_free(functions);
 }
 
@@ -296,6 +308,7 @@ void steep_free(Steep *s)
     ranges_free(s->values);
     ranges_free(s->slopes);
     ranges_free(s->bends);
+    ranges_free(s->corners);
     MEM_FREE(s->closer, s->bent, s->reach);
     probe_free(s->probe);
     sparse_free(s->network);
@@ -318,23 +331,21 @@ const Range *steep_sources_over(Steep *s, Range over)
     return ranges_over(s->values, over);
 }
 
-/* A corner bends without bound, and no second derivative tells of it: the first one varies. */
+/* A corner bends without bound, and no second derivative tells of it. */
 const Range *steep_bends_over(Steep *s, Range over)
 {
-    bool any = false;
+    const Range *corners;
 
     over = (Range){motion_clock(s->motion, over.low), motion_clock(s->motion, over.high)};
-    for (int j = 0; j < s->sources.count; j++)
-        any = any || s->sources.at[j].has_corners;
-    if (!any)
+    if (s->corners == NULL)
         return ranges_over(s->bends, over);
     memcpy(s->bent, ranges_over(s->bends, over), (size_t)s->sources.count * sizeof(Range));
-    for (int j = 0; j < s->sources.count; j++) {
-        const Range slope = ranges_over(s->slopes, over)[j];
-
-        if (s->sources.at[j].has_corners && slope.low < slope.high)
-            s->bent[j] = (Range){-INFINITY, INFINITY};
-    }
+    corners = ranges_over(s->corners, over);
+    for (int j = 0; j < s->sources.count; j++)
+        for (int i = s->sources.at[j].corner;
+             i < s->sources.at[j].corner + s->sources.at[j].corners; i++)
+            if (corners[i].low < corners[i].high)
+                s->bent[j] = (Range){-INFINITY, INFINITY};
     return s->bent;
 }
 
