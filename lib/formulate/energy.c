@@ -11,6 +11,8 @@
 #include "formulate/system_impl.h"
 #include "formulate/vector.h"
 
+enum { SHORT = 4 }; /* terms of a sum that is not worth avoiding */
+
 typedef LIST(Expr) Terms;
 
 static Expr half(Arena *arena)
@@ -157,20 +159,27 @@ static void push_wrench(System *system, Terms *terms, const Instance *instance)
          vec_dot(arena, torque, system->kinematics->motions[frame->chain].w));
 }
 
+/* along the tree, so that terms of two edges may cancel */
+static bool is_short(Expr e)
+{
+    return expr_kind(e) != EXPR_SUM || expr_arg_count(e) <= SHORT;
+}
+
 /* v and i of a scalar edge, whose product is the power that it takes. What is a state's rate times
- * a number follows from that: along the tree it would be a sum over many edges. */
+ * a number follows from that where along the tree it is a sum over many edges. */
 static void power_of(System *system, const Branchlike *branch, Expr *v, Expr *i)
 {
     const RelationKind kind = branch->relation.kind;
     const bool is_state = (kind == RELATION_CAPACITIVE && branch->branch) ||
                           (kind == RELATION_INDUCTIVE && !branch->branch);
+    Expr *derived = kind == RELATION_CAPACITIVE ? i : v;
     Expr rate;
 
     *v = branch->v;
     *i = branch->i;
-    if (is_state && system->network->form == NETWORK_STATE &&
+    if (is_state && system->network->form == NETWORK_STATE && !is_short(*derived) &&
         network_stored_rate(system, branch, &rate, NULL) == OK)
-        *(kind == RELATION_CAPACITIVE ? i : v) = rate;
+        *derived = rate;
 }
 
 /* minus the power that scalar edges take and don't store; heat is power by itself, and no balance
