@@ -75,12 +75,18 @@ static int next_character(FILE *file)
 {
     int c;
 
-    do {
+    while ((c = getc_unlocked(file)) == EOF && ferror(file) && errno == EINTR && !interrupt_asked())
         clearerr(file);
-        errno = 0;
-        c = getc_unlocked(file);
-    } while (c == EOF && errno == EINTR && !interrupt_asked());
     return c;
+}
+
+/* room for one more character than there are */
+static char *line_room(char *line, size_t length, size_t *room)
+{
+    if (length + 1 < *room)
+        return line;
+    *room = 2 * *room + 80;
+    return copy_check(realloc(line, *room));
 }
 
 /* The characters up to the end of a line, which may be a newline, a carriage return or both; the
@@ -88,12 +94,12 @@ static int next_character(FILE *file)
  * pipe may not send one for long. */
 static ReadResult read_file(Reader *reader, char **line, ct_error *error)
 {
-    Paper paper;
+    size_t length = 0, room = 0;
+    char *text = line_room(NULL, 0, &room);
     int c = 0;
-    size_t length = 0;
     ReadResult result = READ_LINE;
 
-    paper_open(&paper);
+    clearerr(reader->file);
     for (c = next_character(reader->file); c != EOF; c = next_character(reader->file)) {
         const bool is_rest = c == '\n' && length == 0 && reader->returned;
 
@@ -111,7 +117,8 @@ static ReadResult read_file(Reader *reader, char **line, ct_error *error)
             result = fail_long(error);
             break;
         }
-        putc_unlocked(c, paper.out);
+        text = line_room(text, length, &room);
+        text[length - 1] = (char)c;
     }
     if (c == EOF && interrupt_asked()) {
         result = READ_CLEARED;
@@ -121,11 +128,11 @@ static ReadResult read_file(Reader *reader, char **line, ct_error *error)
     } else if (c == EOF && length == 0) {
         result = READ_END;
     }
-    *line = paper_close(&paper);
-    if (result != READ_LINE) {
-        free(*line);
-        *line = NULL;
-    }
+    text[length] = '\0';
+    if (result == READ_LINE)
+        *line = text;
+    else
+        free(text);
     return result;
 }
 

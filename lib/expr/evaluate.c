@@ -43,6 +43,8 @@ double expr_evaluate(Expr e, SymbolValue value, void *context)
     double *values;
     double result;
 
+    if (expr_is_number(e))
+        return expr_value(e);
     walk_below(&walk, e, 0, NULL, NULL);
     values = NEW_ARRAY(double, walk.count);
     for (int i = 0; i < walk.count; i++) {

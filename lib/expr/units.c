@@ -399,7 +399,7 @@ static const char *dimension_named(Dimension whole, int *power, Dimension *rest)
 
     *rest = whole;
     *power = 0;
-    for (int i = 0; i < COUNT(rows) * COUNT(powers); i++) {
+    for (int i = 0; size > 1 && i < COUNT(rows) * COUNT(powers); i++) {
         const UnitRow *row = &rows[i / COUNT(powers)];
         const int p = powers[i % COUNT(powers)];
         Dimension left = whole;

@@ -38,6 +38,12 @@ static bool folds(Op op)
     return op == OP_MIN || op == OP_MAX;
 }
 
+/* most differ in their first letter */
+static bool is_same(const char *a, const char *b)
+{
+    return a[0] == b[0] && strcmp(a, b) == 0;
+}
+
 static Function operation(int i)
 {
     return (Function){.name = operations[i].name,
@@ -63,12 +69,12 @@ bool function_at(int i, Function *row)
 bool function_find(const char *name, Function *row)
 {
     for (int i = 0; i < COUNT(operations) && is_called(name); i++)
-        if (strcmp(operations[i].name, name) == 0) {
+        if (is_same(operations[i].name, name)) {
             *row = operation(i);
             return true;
         }
     for (int i = 0; i < COUNT(others); i++)
-        if (others[i].kind != FUNCTION_FIGURE && strcmp(others[i].name, name) == 0) {
+        if (others[i].kind != FUNCTION_FIGURE && is_same(others[i].name, name)) {
             *row = others[i];
             return true;
         }
@@ -80,7 +86,7 @@ bool function_is_figure(const char *name)
     Function row;
 
     for (int i = 0; i < COUNT(others); i++)
-        if (others[i].kind == FUNCTION_FIGURE && strcmp(others[i].name, name) == 0)
+        if (others[i].kind == FUNCTION_FIGURE && is_same(others[i].name, name))
             return true;
     return function_find(name, &row) && row.kind == FUNCTION_OPERATION && folds(row.op);
 }

@@ -373,20 +373,16 @@ static bool solve_rising(NetSolve *s)
     return arrived && solve_newton(s, BY_CORRECTION);
 }
 
-bool netsolve_find(NetSolve *s)
+/* from the last solution, then from nothing: the last one may belong to another branch */
+static bool find_by_iteration(NetSolve *s)
 {
     double *kept;
     bool found = false;
 
-    if (s->n == 0)
-        return true;
-    if (s->eq->network_at == NULL)
-        return solve_linear(s) && vector_is_finite(s->w, s->n);
     if (!vector_is_finite(s->w, s->n))
         memset(s->w, 0, (size_t)s->n * sizeof(double));
     kept = NEW_ARRAY(double, s->n);
     memcpy(kept, s->w, (size_t)s->n * sizeof(double));
-    /* from the last solution, then from nothing: the last one may belong to another branch */
     for (int k = 0; k < 2 * WAYS && !found; k++) {
         if (k >= WAYS)
             memset(s->w, 0, (size_t)s->n * sizeof(double));
@@ -399,4 +395,13 @@ bool netsolve_find(NetSolve *s)
         memcpy(s->w, kept, (size_t)s->n * sizeof(double));
     mem_free(kept);
     return found;
+}
+
+bool netsolve_find(NetSolve *s)
+{
+    if (s->n == 0)
+        return true;
+    if (s->eq->network_at == NULL)
+        return solve_linear(s) && vector_is_finite(s->w, s->n);
+    return find_by_iteration(s);
 }
