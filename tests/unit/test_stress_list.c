@@ -134,6 +134,22 @@ static void a_wall_gives_back_what_it_took(void)
     }
 }
 
+/* A first try of a step that reaches a hard wall ahead leaves nothing of its stiffness to the free
+ * flight before it. */
+static void a_wall_ahead_is_not_felt(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, "scene planar\ngravity [-89.706450974812213, 0]\n"
+                      "body b mass=0.84377631025874777 inertia=1\nprismatic s ground b axis=x\n"
+                      "actuator w s force=463497055315*(max(-s, 0) + min(1.24 - s, 0))\n"
+                      "init s = 0.075964952013070436, s' = -24.068519165009473\n"
+                      "simulate 0.186 rtol=2.39e-05 method=bdf");
+    EXPECT_NEAR(kit_value(&kit, "s' at 0.003"), -24.068519165009473 - 0.003 * 89.706450974812213,
+                1e-2);
+    kit_free(&kit);
+}
+
 /* A mass swings on a spring, another hangs from one, and charge goes to and fro through a coil:
  * nothing gives or takes energy. */
 static void energy_that_comes_or_goes_by_itself_is_told(void)
@@ -352,6 +368,7 @@ int main(void)
     RUN(a_tolerance_below_rounding_is_told);
     RUN(rounding_hands_over_to_the_stiff_method);
     RUN(a_wall_gives_back_what_it_took);
+    RUN(a_wall_ahead_is_not_felt);
     RUN(energy_that_comes_or_goes_by_itself_is_told);
     RUN(the_way_out_leads_out);
     RUN(a_light_crank_passes_its_dead_centre);

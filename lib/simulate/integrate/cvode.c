@@ -6,6 +6,11 @@
 #include <sunmatrix/sunmatrix_dense.h>
 #include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
 
+#include <math.h>
+
+#define AGAINS 5    /* times that a step begins anew, */
+#define BEGIN  0.01 /* with so much of it: at order 1 */
+
 static const SundialsCalls calls = {
     .free = CVodeFree,
     .set_stop_time = CVodeSetStopTime,
@@ -38,6 +43,7 @@ static int jacobian(realtype t, N_Vector y, N_Vector rate_there, SUNMatrix matri
     Sundials *c = data;
 
     (void)more;
+    c->jacobian_at = t;
     N_VScale(1, y, point);
     for (int j = 0; j < c->base.ode->n; j++) { /* nothing follows from quadratures */
         double *entries = SUNDenseMatrix_Column(matrix, j);
@@ -131,17 +137,38 @@ static Status start(Stepper *stepper, double t, const double *y, Diag *diag)
     return code == 0 ? OK : solver_failure(diag, t, c->reason);
 }
 
+/* one step; *reached: its end */
+static int advance(Sundials *c, double end, double *reached)
+{
+    int code = sundials_bound(c, end);
+
+    c->jacobian_at = -INFINITY;
+    c->base.before = c->base.t;
+    stepper_begin(&c->base, c->base.t, c->base.y, c->base.next);
+    if (code == 0)
+        code = CVode(c->memory, end, c->w, reached, CV_ONE_STEP);
+    sundials_count(c);
+    return code;
+}
+
 static Status step(Stepper *stepper, double end, Diag *diag)
 {
     Sundials *c = (Sundials *)stepper;
     double reached = c->base.t;
-    int code = sundials_bound(c, end);
+    int code = advance(c, end, &reached);
 
-    c->base.before = c->base.t;
-    stepper_begin(stepper, c->base.t, c->base.y, c->base.next);
-    if (code == 0)
-        code = CVode(c->memory, end, c->w, &reached, CV_ONE_STEP);
-    sundials_count(c);
+    /* Tries that failed leave their Jacobian to shorter ones. One from a steep part that these
+     * don't reach, as a wall, makes Newton's corrections small wherever they lead: so it begins
+     * anew. */
+    for (int again = 0; again < AGAINS && code >= 0 && c->jacobian_at > reached; again++) {
+        const double h = reached - c->base.t;
+
+        sundials_place(c, c->base.t, c->base.y);
+        c->base.next = BEGIN * h;
+        code = CVodeReInit(c->memory, c->base.t, c->w);
+        if (code == CV_SUCCESS)
+            code = advance(c, end, &reached);
+    }
     if (code == CV_MEM_FAIL)
         transaction_fail();
     if (code == CV_REPTD_RHSFUNC_ERR)

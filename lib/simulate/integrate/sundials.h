@@ -42,9 +42,10 @@ typedef struct Sundials {
     SUNMatrix matrix;
     SUNLinearSolver linear;
     SUNNonlinearSolver nonlinear;
-    Counts earlier; /* of integrations before the last restart */
-    bool is_new;    /* no step since then */
-    double power;   /* largest rate of a quadrature so far: what its errors count beside */
+    Counts earlier;     /* of integrations before the last restart */
+    bool is_new;        /* no step since then */
+    double jacobian_at; /* in the last step, s; -INFINITY: nowhere */
+    double power;       /* largest rate of a quadrature so far: what its errors count beside */
     char reason[200];
 } Sundials;
 
