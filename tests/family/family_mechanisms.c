@@ -210,6 +210,47 @@ static Verdict masses_and_lengths_may_be_decades_apart(Member *member)
     return run_any_way(member, &trial);
 }
 
+/* the same in space, of rods that have no inertia about their own axes: M is singular, and three of
+ * each hinge's rows repeat others */
+static void write_slender_loop(Member *member, Trial *trial, const Real *lengths,
+                               const Real *masses)
+{
+    static const char *const names[] = {"c", "k", "b"};
+    Script *s = &trial->script;
+    static Masses start;
+
+    start.count = 0;
+    trial->one.place(trial->one.mechanism, jet(trial->phi), &start);
+    write_line(s, "gravity [0, -9.81, 0]\narm g ground [1, 0, 0]");
+    for (int i = 0; i < 3; i++) {
+        const double half = (double)lengths[i] / 2, inertia = (double)masses[i] * half * half / 3;
+
+        write_line(s, "body %s mass=%.17g inertia=[0, %.17g, %.17g]", names[i], (double)masses[i],
+                   inertia, inertia);
+        write_line(s, "arm %sa %s [%.17g, 0, 0]; arm %sb %s [%.17g, 0, 0]", names[i], names[i],
+                   -half, names[i], names[i], half);
+        compare_with(trial, names[i], 3 * i + 1);
+    }
+    write_line(s, "revolute h1 ground ca; revolute h2 cb ka; revolute h3 g ba; revolute h4 kb bb");
+    write_change_tree(member, s);
+    write_hinge_guesses(s, (double)trial->phi, &start);
+    write_line(s, "init h1 = %.17g, h1' = %.17g", (double)trial->phi, (double)trial->rate);
+}
+
+static Verdict rods_need_no_inertia_about_their_axes(Member *member)
+{
+    FourBar f = {.ground = 1, .crank = 0.3L, .coupler = 0.9L, .rocker = 0.8L};
+    Trial trial = {.size = 1, .time = draw(member, 0.3, 1)};
+
+    for (int i = 0; i < 3; i++)
+        f.masses[i] = draw_decades(member, -3, 3);
+    trial.one = (OneFreedom){place_four_bar, &f, {0, -9.81L, 0}};
+    trial.phi = draw(member, 0, 6);
+    trial.rate = draw(member, 3, 9);
+    write_slender_loop(member, &trial, (Real[]){f.crank, f.coupler, f.rocker}, f.masses);
+    return run_any_way(member, &trial);
+}
+
 /* the same mechanism in other lengths, from a tenth of a millimetre to a hundred kilometres, and in
  * the times that go with them */
 static Verdict mechanisms_may_be_small_and_large(Member *member)
@@ -277,6 +318,8 @@ int main(int argc, char **argv)
          */
         {"masses_and_lengths_may_be_decades_apart", 30, 0.1, 0,
          masses_and_lengths_may_be_decades_apart},
+        {"rods_need_no_inertia_about_their_axes", 8, 0.02, 0,
+         rods_need_no_inertia_about_their_axes},
         {"mechanisms_may_be_small_and_large", 30, 0, 0, mechanisms_may_be_small_and_large},
         {"bricards_loop_keeps_its_accuracy", 4, 0, 0, bricards_loop_keeps_its_accuracy},
     };
