@@ -34,12 +34,12 @@ static Status add_phase(Phases *phases, const PhaseKey *key, const Manner *manne
     Phase *phase = find_like(phases, key);
 
     if (phase != NULL) {
-        LIST_PUSH(*phases, phase_new_like(phase, key->closed, switches));
+        phases_add(phases, phase_new_like(phase, key->closed, switches));
         return OK;
     }
     TRY(phase_new_on(key->system, &phases->parameters, key->closed, switches, key->on,
                      key->on_count, &phase, diag));
-    LIST_PUSH(*phases, phase);
+    phases_add(phases, phase);
     if (key->is_open)
         TRY(phases_open(phases, phase, manner, diag));
     return OK;
