@@ -257,7 +257,7 @@ Status tree_cost_count(const View *view, TreeCost *cost, Diag *diag)
 /* each entry takes some 30 us */
 bool tree_cost_is_slight(const System *system)
 {
-    enum { MOST_ENTRIES = 400 };
+    enum { MOST_ENTRIES = 1000 };
     const int n = system_n(system), m = system_m(system);
 
     return n <= MOST_ENTRIES && m <= MOST_ENTRIES &&
