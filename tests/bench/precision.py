@@ -83,12 +83,12 @@ revolute h0 ground a0
 body b1 mass=1 inertia=1/12
 arm a1 b1 [-1/2, 0]
 planarjoint p e0 a1
-spring kx p.x k=1e6
-spring ky p.y k=1e6
-damper dx p.x d=2e4
-damper dy p.y d=2e4
+spring kx p.s1 k=1e6
+spring ky p.s2 k=1e6
+damper dx p.s1 d=2e4
+damper dy p.s2 d=2e4
 tree joint
-init h0 = 0, h0' = 0, p.x = 0, p.y = 0, p.theta = 0, p.x' = 0, p.y' = 0, p.theta' = 0"""
+init h0 = 0, h0' = 0, p.s1 = 0, p.s2 = 0, p.theta = 0, p.s1' = 0, p.s2' = 0, p.theta' = 0"""
 
 RECTIFIER = """vsource V s0 0 100*sin(2*pi*1e3*t)
 resistor Rs s0 s 10

@@ -146,7 +146,7 @@ static Verdict a_loop_too_long_does_not_run(Member *member)
     s.length = 0;
     write_line(&s, "scene planar\narm g ground [%.17g, 0]", length[rods]);
     for (int i = 0; i < rods; i++) {
-        char name[8];
+        char name[16];
 
         (void)snprintf(name, sizeof name, "b%d", i);
         write_rod(&s, name, 1, length[i]);
@@ -225,7 +225,7 @@ static Verdict impacts_at_one_instant_all_count(Member *member)
     if (do_script(member, &kit, &s) != CT_OK)
         verdict = DISAGREES;
     for (int i = 0; i < count && verdict == AGREES; i++) {
-        char name[8];
+        char name[16];
 
         (void)snprintf(name, sizeof name, "s%d", i);
         if (!keeps(member, name, fabs(kit_value(&kit, name) - gone[i]), 1e-6))
