@@ -77,16 +77,16 @@ static void sincos_far(double x, double *sine, double *cosine);
 
 #define WIDTH 2
 #define TARGET
-#include "algebra/elementary_kernel.h"
+#include "algebra/elementary_kernel.def"
 
 /* wider ones where the processor that runs has them; numbers are the same */
 #if defined __x86_64__ && defined __GNUC__
 #define WIDTH  4
 #define TARGET __attribute__((target("avx2")))
-#include "algebra/elementary_kernel.h"
+#include "algebra/elementary_kernel.def"
 #define WIDTH  8
 #define TARGET __attribute__((target("avx512f,avx512dq")))
-#include "algebra/elementary_kernel.h"
+#include "algebra/elementary_kernel.def"
 #define IN_WIDE(done, count, name, ...)                                                            \
     do {                                                                                           \
         if ((count) >= 8 && __builtin_cpu_supports("avx512f") &&                                   \

@@ -5,7 +5,7 @@ libcore_la_SOURCES += \
   lib/algebra/dense.h \
   lib/algebra/elementary.c \
   lib/algebra/elementary.h \
-  lib/algebra/elementary_kernel.h \
+  lib/algebra/elementary_kernel.def \
   lib/algebra/enclosure.c \
   lib/algebra/enclosure.h \
   lib/algebra/hessenberg_form.c \

@@ -313,10 +313,10 @@ def measure(shell, file, name, case):
             except Failed as why:
                 print(f"# precision.{name}_{method} at {accuracy:.1e}: {why}")
                 failed += 1
-        file.write(f"# {name} {method}\n# tolerance error ms evaluations steps\n")
-        for row in rows:
-            file.write("%.3e %.3e %.4g %d %d\n" % row)
-        file.write("\n\n")
+        if rows:  # gnuplot counts no block without a row
+            file.write(f"# {name} {method}\n# tolerance error ms evaluations steps\n")
+            file.writelines("%.3e %.3e %.4g %d %d\n" % row for row in rows)
+            file.write("\n\n")
         for goal in GOALS:
             enough = [row for row in rows if row[1] <= goal]
             if goal < floor:

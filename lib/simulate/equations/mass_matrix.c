@@ -37,7 +37,7 @@ static void find_pairs(MassMatrix *matrix)
             for (int i = mass->places[p].first, n = mass->places[p].count; n > 0; i++, n--) {
                 const int j = mass->speed_at[i];
 
-                if (p == mass->speeds[k].place && j > k)
+                if (j > k && p == mass->speeds[k].place)
                     continue;
                 LIST_PUSH(row, j);
                 LIST_PUSH(row, k);
