@@ -16,22 +16,26 @@
     "guess b.x=1.19, b.y=0.6, b.theta=1.26, h2=-1.65, h3=1.26, h4=0.546\n"                         \
     "init h1 = 2.37, h1' = 7.14\n"
 
-/* auto ends by radau, and names another one */
+/* Auto ends by radau, and names another one. The crank passes its dead centre at 0.036389 s with
+ * 182357 rad/s (by the energy that is left, in 40 digits): nothing grows without bound. */
 static void a_tolerance_below_rounding_is_told(void)
 {
-    static const char *const methods[] = {"auto", "dop853", "radau", "adams", "ida"};
+    static const char *const methods[] = {"auto", "dop853", "radau", "adams", "bdf", "ida"};
 
-    for (int i = 0; i < (int)(sizeof methods / sizeof methods[0]); i++) {
-        Kit kit = kit_new();
-        char run[100];
+    for (int i = 0; i < (int)(sizeof methods / sizeof methods[0]); i++)
+        for (int decade = 12; decade >= 8; decade -= 2) {
+            Kit kit = kit_new();
+            char run[100];
 
-        EXPECT_DONE(&kit, DECADES_APART "cotree h3");
-        (void)snprintf(run, sizeof run, "simulate 0.9 rtol=1e-12 method=%s", methods[i]);
-        EXPECT_FAILS(&kit, run, "the tolerance is below what rounding leaves");
-        EXPECT_HOLDS(kit.error.hint, "another tree");
-        EXPECT_HOLDS(kit.error.hint, i == 0 || i == 2 ? "method=bdf" : "method=radau");
-        kit_free(&kit);
-    }
+            EXPECT_DONE(&kit, DECADES_APART "cotree h3");
+            (void)snprintf(run, sizeof run, "simulate 0.9 rtol=1e-%d method=%s", decade,
+                           methods[i]);
+            EXPECT_FAILS(&kit, run, "the tolerance is below what rounding leaves");
+            EXPECT_LACKS(kit.error.message, "without bound");
+            EXPECT_HOLDS(kit.error.hint, "another tree");
+            EXPECT_HOLDS(kit.error.hint, i == 0 || i == 2 ? "method=bdf" : "method=radau");
+            kit_free(&kit);
+        }
 }
 
 /* Five exponential diodes that conduct and block by turns between resistors, where the largest

@@ -3,14 +3,16 @@
 
 #include "base/memory.h"
 
-#include <float.h>
 #include <math.h>
 
 #define STEPS        5000 /* so many ought to go */
 #define PART         5e-3 /* this part of the run; else it would take a million and more */
-#define NOTICED      0.01 /* of the tolerance: stable steps make less of the last bit of y */
+#define NOTICED      0.01 /* of the tolerance */
 #define HOPELESS     1e-9 /* less of the run: time itself has hardly more digits */
-#define NEIGHBOURS   4
+#define POINTS       64   /* on the way ahead, over this */
+#define AHEAD        0.06 /* of a step: the motion itself hardly bends */
+#define ORDER        4    /* of differences, */
+#define GROWN        8    /* by which noise grows so much (root of 70) */
 #define ENOUGH_STEPS 1e4  /* of a run whose tolerance is attainable */
 #define COARSEST     1e-7 /* a tolerance that is worth trying */
 
@@ -20,38 +22,32 @@
 #define WANING 3    /* times on end that it has become less; a transient's steps grow */
 #define SHORT  1e-6 /* of the run, each time */
 
-/* numbers without a pattern (Knuth's multiplicative hashing) */
-static int scattered(int i, int pass)
-{
-    return (int)((uint32_t)(NEIGHBOURS * i + pass + 1) * 2654435769U >> 16);
-}
-
-/* Largest part of its tolerance that an entry's rate, times h, changes by where y changes in its
- * last bit. */
+/* Largest part of its tolerance that rounding leaves of an entry's rate, times h: what is rough of
+ * rates on the way ahead, by their fourth differences. (Last bits of y may leave them as they are
+ * where a sum that loses most of its terms, as of masses decades apart, goes in steps.) */
 static double rounding(Stepper *s, double h)
 {
-    const Ode *ode = s->ode;
-    const int all = stepper_length(s);
-    double *beside = NEW_ARRAY(double, all);
-    double *rate = NEW_ARRAY(double, all);
-    double *other = NEW_ARRAY(double, all);
-    double largest = 0;
-    bool sound = stepper_rate(s, s->t, s->y, rate);
+    const int all = stepper_length(s), length = POINTS * all;
+    double *rates = NEW_ARRAY(double, length), *ahead = NEW_ARRAY(double, all), largest = 0;
+    bool sound = true;
 
-    for (int pass = 0; sound && pass < NEIGHBOURS; pass++) {
-        for (int i = 0; i < all; i++) {
-            const int bits = scattered(i, pass) % 3 - 1;
+    for (int k = 0; sound && k < POINTS; k++) {
+        const double part = h * AHEAD * k / POINTS;
 
-            beside[i] = s->y[i] * (1 + bits * DBL_EPSILON);
-        }
-        sound = stepper_rate(s, s->t, beside, other);
-        for (int i = 0; sound && i < ode->n; i++) {
-            const double moved = h * fabs(other[i] - rate[i]);
-
-            largest = fmax(largest, moved / stepper_tolerance(s, i, fabs(s->y[i])));
-        }
+        for (int i = 0; i < all; i++)
+            ahead[i] = s->y[i] + part * rates[i];
+        sound = stepper_rate(s, s->t + part, ahead, rates + (ptrdiff_t)k * all);
     }
-    MEM_FREE(beside, rate, other);
+    for (int end = length - all; sound && end >= length - ORDER * all; end -= all)
+        for (int e = 0; e < end; e++)
+            rates[e] -= rates[e + all];
+    for (int e = 0; sound && e < length - ORDER * all; e++)
+        if (e % all < s->ode->n) {
+            const double rough = h * fabs(rates[e]) / GROWN;
+
+            largest = fmax(largest, rough / stepper_tolerance(s, e % all, fabs(s->y[e % all])));
+        }
+    MEM_FREE(rates, ahead);
     return largest;
 }
 

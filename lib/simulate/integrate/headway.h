@@ -2,8 +2,8 @@
  *
  * Where a tolerance is below what rounding leaves of the rates, estimates of errors shrink like the
  * step and no longer like its power: steps become so short that a run has no end. It is told from
- * one that is long for good reasons by rates next to y: what they change by, times the step, is
- * the error then. */
+ * one that is long for good reasons by how rough rates are on the way ahead: that, times the step,
+ * is the error then. */
 #ifndef COTREE_SIMULATE_INTEGRATE_HEADWAY_H
 #define COTREE_SIMULATE_INTEGRATE_HEADWAY_H
 

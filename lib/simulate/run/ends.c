@@ -232,7 +232,8 @@ static void tell(RunEnd *e, Stepper *stepper, bool *is_rounding, Diag *diag)
         add_cause(diag, ": ", pushing.without, "has no value from there on");
         diag_hint(diag, "limit what its law takes a root, a logarithm or a quotient of, as by "
                         "max(..., 0), or end the run before with an event and do=stop");
-    } else if (headway_is_rounding(stepper, growing >= 0 ? STEP * time : last, diag)) {
+    } else if (*is_rounding ||
+               headway_is_rounding(stepper, growing >= 0 ? STEP * time : last, diag)) {
         *is_rounding = true;
     } else if (time < IMMINENT * e->span) {
         *is_rounding = false;
