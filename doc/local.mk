@@ -14,13 +14,16 @@ EXTRA_DIST += doc/pictures/list \
 # what is made stands in the folder of the build
 doc/cotree.pdf doc/cotree.dvi: export TEXINPUTS = doc:$(srcdir)/doc:
 doc/cotree.html doc/cotree.pdf doc/cotree.dvi: doc/pictures/drawn
-doc/pictures/drawn: doc/pictures/list cotree$(EXEEXT)
+doc/pictures/drawn: doc/pictures/list tests/bench/precision.dat cotree$(EXEEXT)
 	$(srcdir)/scripts/dev/pictures ./cotree png doc/pictures
+	$(srcdir)/scripts/dev/precision-pictures $(srcdir)/tests/bench/precision.dat png doc/pictures
 	@touch $@
 drawn_pictures = \
 	doc/pictures/arm.png doc/pictures/converter.png doc/pictures/crane.png \
 	doc/pictures/lift.png doc/pictures/loudspeaker.png doc/pictures/maglev.png \
-	doc/pictures/microphone.png doc/pictures/slider-crank.png
+	doc/pictures/microphone.png doc/pictures/slider-crank.png \
+	doc/pictures/work-andrews_absolute.png doc/pictures/work-bushing.png \
+	doc/pictures/work-double_pendulum.png doc/pictures/work-rectifier.png
 CLEANFILES += doc/pictures/drawn $(drawn_pictures)
 
 # the pages name them as they stand beside the manual: pictures/arm.png

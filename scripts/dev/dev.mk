@@ -78,6 +78,11 @@ bench-record: bench
 	{ head -n 3 $(srcdir)/tests/bench/record.txt; cat bench.out; } >bench.new
 	mv bench.new $(srcdir)/tests/bench/record.txt
 
+# what the manual's pictures and table of work and precision show
+precision-record: all
+	$(srcdir)/tests/bench/precision.py -o $(srcdir)/tests/bench/precision.dat ./cotree $(srcdir) \
+		double_pendulum andrews_absolute rectifier bushing
+
 # random statements against the sanitizers, for so many seconds in all
 FUZZ_SECONDS = 600
 FUZZ_SEED = 1
@@ -114,4 +119,4 @@ mostlyclean-local:
 distclean-local:
 	rm -rf san small faults coverage bench.work precision
 
-.PHONY: check-total check-hacking check-san check-small check-faults lint format bench bench-precision bench-record fuzz fuzzers stress check-coverage
+.PHONY: check-total check-hacking check-san check-small check-faults lint format bench bench-precision bench-record precision-record fuzz fuzzers stress check-coverage
