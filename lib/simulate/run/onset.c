@@ -386,6 +386,12 @@ static void follow_pulses(Onset *o, double end, double steps)
     }
 }
 
+/* how far what has such a second derivative may leave a straight line over a time h */
+static double bend_over(Range second, double h)
+{
+    return fmax(fabs(second.low), fabs(second.high)) * h * h / 8;
+}
+
 /* A multistep or implicit method sees little of a source that turns within a step. One that bends
  * by so much of its range, a tenth of a period of a sine, ends it; looked for as far as steps may
  * grow.
@@ -399,7 +405,7 @@ static double bend_bound(Onset *o, double end)
         bool is_short = true;
 
         for (int j = 0; j < o->sources && is_short; j++) {
-            double bend = fmax(fabs(bends[j].low), fabs(bends[j].high)) * h * h / 8;
+            double bend = bend_over(bends[j], h);
 
             is_short = !(isfinite(bend) && steep_source_size(o->steep, j) > 0 &&
                          bend > BEND * steep_source_size(o->steep, j));
@@ -502,7 +508,7 @@ static bool is_clear(Onset *o, double h, double end)
         o->seen[j] = over[j].high - over[j].low;
     over = steep_bends_over(o->steep, ahead);
     for (int j = 0; j < o->sources; j++)
-        if (!(fmax(fabs(over[j].low), fabs(over[j].high)) * h * h / 8 <= STRAIGHT * o->seen[j]))
+        if (!(bend_over(over[j], h) <= STRAIGHT * o->seen[j]))
             return false;
     o->clear = ahead.high;
     o->clear_step = h;
@@ -744,7 +750,7 @@ int onset_pieces(Onset *o, double from, double to, int most)
     bends = steep_bends_over(o->steep, (Range){from, to});
     for (int j = 0; j < o->sources; j++) {
         double size = steep_source_size(o->steep, j);
-        double bend = fmax(fabs(bends[j].low), fabs(bends[j].high)) * (to - from) * (to - from) / 8;
+        double bend = bend_over(bends[j], to - from);
 
         if (size > 0)
             pieces = fmax(pieces, isfinite(bend) ? sqrt(bend / (STRAIGHTER * size)) : most);
