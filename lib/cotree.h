@@ -148,8 +148,20 @@ ct_status ct_count(ct_session *session, const ct_statement *statement, char **te
 ct_status ct_check(ct_session *session, char **text, ct_error *error);
 ct_status ct_info(ct_session *session, const ct_statement *statement, char **text, ct_error *error);
 ct_status ct_tree_text(ct_session *session, char **text, ct_error *error); /* `tree` alone */
-ct_status ct_draw(ct_session *session, bool dot, char **text,
-                  ct_error *error); /* the linear graph as text or as dot */
+/* What a picture goes onto. */
+typedef struct ct_paper {
+    const char *format;   /* "text", "svg", "gnuplot" (commands, data included), "dot", "html" */
+    int columns, rows;    /* of characters, for text; 0: 79 and 30 */
+    double width, height; /* px: of what was drawn, for gnuplot */
+} ct_paper;
+/* draw, the whole statement: the linear graph as text or dot; the mechanism as text, svg, gnuplot
+ */
+ct_status ct_draw(ct_session *session, const ct_statement *statement, ct_paper *paper, char **text,
+                  ct_error *error);
+/* animate, the whole statement: as svg or html one text, else one a picture, each to be shown for
+ * *interval seconds. *frames ends with NULL: ct_words_free(). */
+ct_status ct_animate(ct_session *session, const ct_statement *statement, ct_paper *paper,
+                     char ***frames, double *interval, ct_error *error);
 
 /* --- help, from the tables --- */
 

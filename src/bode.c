@@ -130,7 +130,8 @@ static ct_status write_table(const Call *call, const char *path, bool append, ct
 static ct_status command_bode(Call *call, ct_error *error)
 {
     Response response = {0};
-    const Drawing drawing = {put_commands, &response, ct_title(call->session)};
+    const Drawing drawing = {
+        .put = put_commands, .of = &response, .title = ct_title(call->session)};
     bool append = false;
     const char *path = ct_redirect(call->statement, &append);
     ct_status status;

@@ -4,7 +4,8 @@
 #include <string.h>
 
 static const Command *const tables[] = {commands_look, commands_run,  commands_session,
-                                        commands_plot, commands_bode, commands_shell};
+                                        commands_plot, commands_bode, commands_draw,
+                                        commands_shell};
 
 const Command *command_find(const ct_statement *statement)
 {

@@ -42,7 +42,7 @@ const char *call_word(const Call *call, int i);
 
 /* by file, each ended by a row without a verb */
 extern const Command commands_look[], commands_run[], commands_session[], commands_plot[],
-    commands_bode[], commands_shell[];
+    commands_bode[], commands_draw[], commands_shell[];
 CommandFunction command_run; /* what the session runs */
 
 #endif

@@ -1,7 +1,5 @@
 /* command_look.c: commands that show the model, its equations, and help */
 #include "command.h"
-#include "file.h"
-#include "process.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -59,86 +57,6 @@ static ct_status command_tree(Call *call, ct_error *error)
     return put(call, status, text);
 }
 
-/* --- the graph as a drawing: graphviz lays it out --- */
-
-static ct_status lay_out(const Call *call, const char *type, const char *dot, Paper *picture,
-                         ct_error *error)
-{
-    char *option = copy_format("-T%s", type);
-    char program[] = "dot";
-    char *argv[] = {program, option, NULL};
-    Process process;
-    Paper complaints;
-    ct_error why;
-    ct_status status = process_start(&process, argv, &why);
-
-    paper_open(&complaints);
-    if (status == CT_OK) {
-        status = process_exchange(&process, dot, strlen(dot), NULL, picture, &complaints, &why);
-        if (process_end(&process, 2000) != 0 && status == CT_OK)
-            status = error_say(&why, "graphviz could not lay out the graph as %s", type);
-    }
-    if (status != CT_OK) {
-        ct_error_at(call->statement, NULL, error, "%s", why.message);
-        error->status = status;
-        error_hint(error,
-                   "apt install graphviz; draw > \"graph.dot\" and \"graph.txt\" do without");
-    }
-    paper_drop(&complaints);
-    free(option);
-    return status;
-}
-
-static ct_status draw_file(Call *call, const char *path, bool append, ct_error *error)
-{
-    const char *type = file_extension(path);
-    bool as_text = strcmp(type, "txt") == 0 || *type == '\0';
-    bool as_dot = strcmp(type, "dot") == 0 || strcmp(type, "gv") == 0;
-    char *text = NULL;
-    Paper picture;
-    ct_error why;
-
-    if (!as_text && !as_dot && strcmp(type, "svg") != 0 && strcmp(type, "png") != 0 &&
-        strcmp(type, "pdf") != 0)
-        return ct_error_at(call->statement, NULL, error,
-                           "a drawing goes to svg, png, pdf, dot or txt, not to '.%s'", type);
-
-    if (file_may_write(path, &why) != CT_OK)
-        return ct_error_at(call->statement, NULL, error, "%s", why.message);
-
-    ct_status status = ct_draw(call->session, !as_text, &text, error);
-
-    if (status != CT_OK)
-        return status;
-    paper_open(&picture);
-    if (as_text || as_dot)
-        put_text(picture.out, text);
-    else
-        status = lay_out(call, type, text, &picture, error);
-
-    char *drawn = paper_close(&picture);
-
-    if (status == CT_OK && file_write(path, drawn, picture.length, append, &why) != CT_OK)
-        status = ct_error_at(call->statement, NULL, error, "%s", why.message);
-    free(drawn);
-    ct_free(text);
-    return status;
-}
-
-static ct_status command_draw(Call *call, ct_error *error)
-{
-    bool append;
-    const char *path = ct_redirect(call->statement, &append);
-    char *text = NULL;
-
-    if (path != NULL)
-        return draw_file(call, path, append, error);
-
-    ct_status status = ct_draw(call->session, false, &text, error);
-
-    return put(call, status, text);
-}
-
 /* --- help --- */
 
 static ct_status unknown_word(const Call *call, const char *word, ct_error *error)
@@ -184,7 +102,6 @@ const Command commands_look[] = {
     {"check", command_check, NULL, 0},
     {"info", command_info, NULL, 0},
     {"tree", command_tree, NULL, 0},
-    {"draw", command_draw, NULL, WRITES},
     {"help", command_help, NULL, FORGOTTEN | OWN},
     {"apropos", command_apropos, NULL, FORGOTTEN | OWN},
     {NULL, NULL, NULL, 0},

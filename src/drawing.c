@@ -15,21 +15,42 @@ typedef struct PictureFormat {
     const char *extension; /* "" for a window */
     const char *terminal;  /* gnuplot's; the first that it has is taken */
     const char *options;
+    double unit; /* of its size, a px */
 } PictureFormat;
 
+#define CM (2.54 / 152) /* so that 960 px are 16 cm, as wide as a page */
+
 static const PictureFormat formats[] = {
-    {"png", "pngcairo", "size 960,600 font 'Sans,12' linewidth 1.5"},
-    {"png", "png", "size 960,600 linewidth 1.5"},
-    {"svg", "svg", "size 960,600 font 'Sans,14' background 'white' linewidth 1.5"},
-    {"pdf", "pdfcairo", "size 16cm,10cm font 'Sans,11' linewidth 1.5"},
-    {"eps", "epscairo", "size 16cm,10cm font 'Sans,11' linewidth 1.5"},
-    {"eps", "postscript", "eps color size 16cm,10cm"},
-    {"txt", "dumb", "mono size 100,30"},
-    {"", "qt", "size 960,600"},
-    {"", "wxt", "size 960,600"},
-    {"", "x11", "size 960,600"},
+    {"png", "pngcairo", "font 'Sans,12' linewidth 1.5", 1},
+    {"png", "png", "linewidth 1.5", 1},
+    {"svg", "svg", "font 'Sans,14' background 'white' linewidth 1.5", 1},
+    {"pdf", "pdfcairo", "font 'Sans,11' linewidth 1.5", CM},
+    {"eps", "epscairo", "font 'Sans,11' linewidth 1.5", CM},
+    {"eps", "postscript", "eps color", CM},
+    {"gif", "gif", "", 1},
+    {"txt", "dumb", "mono", 0},
+    {"", "qt", "", 1},
+    {"", "wxt", "", 1},
+    {"", "x11", "", 1},
 };
 enum { FORMATS = sizeof formats / sizeof formats[0] };
+
+/* new: the terminal with its options and size */
+static char *terminal_for(const PictureFormat *format, const Drawing *drawing)
+{
+    const double width = drawing->width > 0 ? drawing->width : 960;
+    const double height = drawing->height > 0 ? drawing->height : 600;
+    const char *cm = format->unit == CM ? "cm" : "";
+    char moving[64] = "";
+
+    if (drawing->interval > 0 && strcmp(format->terminal, "gif") == 0)
+        snprintf(moving, sizeof moving, "animate optimize loop 0 delay %.0f",
+                 drawing->interval * 100 + 0.5);
+    if (format->unit == 0)
+        return copy_format("%s %s size 100,30", format->terminal, format->options);
+    return copy_format("%s %s %s size %g%s,%g%s", format->terminal, moving, format->options,
+                       width * format->unit, cm, height * format->unit, cm);
+}
 
 static const PictureFormat *find_format(const Gnuplot *gnuplot, const char *extension)
 {
@@ -164,7 +185,7 @@ static ct_status draw_file(Call *call, const Drawing *drawing, const char *path,
     if (status != CT_OK)
         return status;
 
-    char *terminal = copy_format("%s %s", format->terminal, format->options);
+    char *terminal = terminal_for(format, drawing);
 
     status = draw_on(call, drawing, terminal, strcmp(format->terminal, "dumb") == 0, place,
                      &printed, error);
@@ -186,6 +207,13 @@ static bool has_display(void)
     const char *wayland = getenv("WAYLAND_DISPLAY");
 
     return (x != NULL && *x != '\0') || (wayland != NULL && *wayland != '\0');
+}
+
+bool drawing_in_window(const Call *call)
+{
+    const char *wanted = call->shell->settings.terminal;
+
+    return strcmp(wanted, "window") == 0 || (strcmp(wanted, "auto") == 0 && has_display());
 }
 
 /* as large as the terminal, with room for the line that asked for it */
@@ -220,11 +248,9 @@ static ct_status draw_screen(Call *call, const Drawing *drawing, ct_error *error
 {
     const char *wanted = call->shell->settings.terminal;
     bool is_auto = strcmp(wanted, "auto") == 0;
-    const PictureFormat *window = NULL;
+    const PictureFormat *window =
+        drawing_in_window(call) ? find_format(call->shell->gnuplot, "") : NULL;
     char *terminal, *printed = NULL;
-
-    if (strcmp(wanted, "window") == 0 || (is_auto && has_display()))
-        window = find_format(call->shell->gnuplot, "");
 
     bool as_text = strcmp(wanted, "text") == 0 || (is_auto && window == NULL);
 
@@ -232,8 +258,10 @@ static ct_status draw_screen(Call *call, const Drawing *drawing, ct_error *error
         terminal = text_terminal();
     } else if (window != NULL) {
         /* a script ends, the window it drew stays */
-        terminal = copy_format("%s %s%s", window->terminal, window->options,
-                               call->shell->interactive ? "" : " persist");
+        char *window_terminal = terminal_for(window, drawing);
+
+        terminal = copy_format("%s%s", window_terminal, call->shell->interactive ? "" : " persist");
+        free(window_terminal);
     } else if (strcmp(wanted, "window") == 0) {
         error_say(error, "this gnuplot has no windows");
         error_hint(error, "apt install gnuplot-qt, or set terminal text");

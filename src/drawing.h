@@ -13,10 +13,14 @@ typedef struct Drawing {
     void (*put)(FILE *out, const struct Drawing *drawing, bool as_text);
     const void *of; /* what is drawn */
     const char *title;
+    double width, height; /* px; 0: as plots are */
+    double interval;      /* s between pictures of one that moves; 0: it stands */
 } Drawing;
 
 /* The file behind `>`, NULL where there is none; an error unless it can hold a picture. */
 ct_status drawing_check(const Call *call, const char **path, ct_error *error);
+/* whether what has no file goes into a window, rather than on the terminal as text */
+bool drawing_in_window(const Call *call);
 /* Draw, to `path` or (NULL) into a window or on the terminal. */
 ct_status drawing_make(Call *call, const Drawing *drawing, const char *path, ct_error *error);
 

@@ -3,7 +3,7 @@ bin_PROGRAMS += cotree
 cotree_SOURCES = \
     src/bode.c \
     src/command.c src/command.h \
-    src/command_look.c src/command_run.c src/command_session.c \
+    src/command_draw.c src/command_look.c src/command_run.c src/command_session.c \
     src/complain.c src/complain.h \
     src/copy.c src/copy.h \
     src/drawing.c src/drawing.h \

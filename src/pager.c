@@ -65,7 +65,7 @@ static bool page(const char *text, size_t length)
     while (pid > 0 && length > 0) {
         ssize_t sent = write(ends[1], text, length);
 
-        if (sent < 0 && errno != EINTR)
+        if (sent < 0 && (errno != EINTR || interrupt_asked()))
             break;
         if (sent > 0) {
             text += sent;
@@ -77,9 +77,10 @@ static bool page(const char *text, size_t length)
     int ended = 0;
 
     /* Ctrl-C leaves the pager, whatever that would do with it */
-    while (pid > 0 && waitpid(pid, &ended, 0) < 0 && errno == EINTR)
-        if (interrupt_asked())
+    do
+        if (pid > 0 && interrupt_asked())
             kill(pid, SIGTERM);
+    while (pid > 0 && waitpid(pid, &ended, 0) < 0 && errno == EINTR);
     interrupt_clear();
     return pid > 0 && !(WIFEXITED(ended) && WEXITSTATUS(ended) == 127);
 }

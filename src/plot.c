@@ -275,7 +275,7 @@ static ct_status plot(Call *call, const char *path, ct_error *error)
 {
     Picture picture = {0};
     ct_status status = gather(call, &picture, error);
-    const Drawing drawing = {put_commands, &picture, ct_title(call->session)};
+    const Drawing drawing = {.put = put_commands, .of = &picture, .title = ct_title(call->session)};
 
     if (status == CT_OK)
         status = drawing_make(call, &drawing, path, error);

@@ -155,7 +155,7 @@ ct_status process_exchange(Process *process, const char *input, size_t length, c
                                   {length > 0 ? process->in : -1, POLLOUT, 0}};
 
         /* a signal may come just before: look again now and then */
-        if (poll(files, 3, 200) <= 0)
+        if (poll(files, 3, 50) <= 0)
             continue;
         if (files[0].revents != 0)
             out_open = take(process->out, out);

@@ -14,6 +14,15 @@ libcore_la_SOURCES += \
   lib/present/latex_lines.h \
   lib/present/layout.c \
   lib/present/layout.h \
+  lib/present/mechanism.c \
+  lib/present/mechanism.h \
+  lib/present/mechanism_impl.h \
+  lib/present/mechanism_parts.c \
+  lib/present/picture.c \
+  lib/present/picture.h \
+  lib/present/picture_characters.c \
+  lib/present/picture_gnuplot.c \
+  lib/present/picture_svg.c \
   lib/present/reference.c \
   lib/present/show.c \
   lib/present/show.h \

@@ -2,6 +2,7 @@ libcore_la_SOURCES += \
   lib/session/session.c \
   lib/session/session_bode.c \
   lib/session/session_bounds.c \
+  lib/session/session_draw.c \
   lib/session/session_formula.c \
   lib/session/session_freedoms.c \
   lib/session/session_help.c \

@@ -225,6 +225,10 @@ MUST_USE Status formula_rows(ct_session *session, const Formula *formulas, int c
                              Run *source, const double *times, int rows, double *out, int stride,
                              int first, Diag *diag);
 
+/* A number made of numbers, parameters and functions of runs; the same of a time. */
+MUST_USE Status session_number(ct_session *session, const Syntax *syntax, double *out, Diag *diag);
+MUST_USE Status session_instant(ct_session *session, const Syntax *at, double *out, Diag *diag);
+
 /* Give a message without a place that of the variable it names, among items that were asked for. */
 void session_place_item(const Syntax *const *items, int count, Diag *diag);
 

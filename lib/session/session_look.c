@@ -1,4 +1,4 @@
-/* session_look.c: show, count, check, info, tree, draw */
+/* session_look.c: show, count, check, info, tree */
 #include "session/session_impl.h"
 
 #include "model/model.h"
@@ -166,21 +166,4 @@ ct_status ct_tree_text(ct_session *session, char **text, ct_error *error)
 
     session_begin(session);
     return finish(show_tree(&view, &all, &out, &diag), &out, &diag, text, error);
-}
-
-ct_status ct_draw(ct_session *session, bool dot, char **text, ct_error *error)
-{
-    SESSION_CALL(session, session_ran_out(session, error));
-
-    const View view = session_view(session);
-    Text out = {0};
-    Diag diag = {0};
-    Status status = OK;
-
-    session_begin(session);
-    if (dot)
-        draw_dot(&view, &out);
-    else
-        status = draw_text(&view, &out, &diag);
-    return finish(status, &out, &diag, text, error);
 }

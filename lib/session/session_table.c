@@ -10,22 +10,27 @@
 
 /* --- one value --- */
 
-/* an instant: an expression of numbers, parameters and functions of runs */
-static Status instant_of(ct_session *session, const Syntax *at, double *out, Diag *diag)
+Status session_number(ct_session *session, const Syntax *syntax, double *out, Diag *diag)
 {
     Formula formula = {0};
     Status status;
 
-    CHECK(formula_new(session, at, &formula, diag));
-    CHECK(model_check_unit(session->model, at, "s", "an instant", diag));
+    CHECK(formula_new(session, syntax, &formula, diag));
     if (formula_needs_run(&formula)) {
-        status = diag_at(diag, E_VALUE, at->place, "an instant is a number, or made of parameters");
+        status =
+            diag_at(diag, E_VALUE, syntax->place, "expected a number, or one made of parameters");
         goto done;
     }
     CHECK(formula_value(session, &formula, NULL, NULL, out, diag));
 done:
     formula_free(&formula);
     return status;
+}
+
+Status session_instant(ct_session *session, const Syntax *at, double *out, Diag *diag)
+{
+    TRY(session_number(session, at, out, diag));
+    return model_check_unit(session->model, at, "s", "an instant", diag);
 }
 
 /* what bare names mean: with `at` the last run, and only without one the start */
@@ -97,7 +102,7 @@ ct_status ct_value(ct_session *session, const ct_expression *expression, const c
 
     session_begin(session);
     if (at != NULL)
-        CHECK(instant_of(session, syntax_of(at), &instant, &diag));
+        CHECK(session_instant(session, syntax_of(at), &instant, &diag));
     CHECK(value_of(session, syntax_of(expression), at != NULL ? &instant : NULL, value, &diag));
 done:
     return session_report(status, &diag, error);
@@ -386,7 +391,7 @@ ct_status ct_expect(ct_session *session, const ct_statement *statement, ct_error
         goto done;
     }
     if (s->at != NULL) {
-        CHECK(instant_of(session, s->at, &instant, &diag));
+        CHECK(session_instant(session, s->at, &instant, &diag));
         at = &instant;
     }
     if (s->near_value != NULL)

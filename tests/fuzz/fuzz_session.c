@@ -63,7 +63,7 @@ static ct_status look(ct_session *session, const ct_statement *statement, ct_err
     else if (strcmp(verb, "tree") == 0)
         status = ct_tree_text(session, &text, error);
     else if (strcmp(verb, "draw") == 0)
-        status = ct_draw(session, true, &text, error);
+        status = ct_draw(session, statement, &(ct_paper){.format = "svg"}, &text, error);
     else if (strcmp(verb, "export") == 0)
         status = ct_export(session, statement, true, &text, error);
     else if (strcmp(verb, "expect") == 0)

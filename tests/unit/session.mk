@@ -72,3 +72,6 @@ test_stress_list_LDADD = $(unit_ldadd)
 UNIT_TESTS += test_evaluator
 test_evaluator_SOURCES = tests/unit/test_evaluator.c tests/unit/session_kit.h tests/unit/test.h
 test_evaluator_LDADD = $(unit_ldadd)
+UNIT_TESTS += test_draw
+test_draw_SOURCES = tests/unit/test_draw.c tests/unit/session_kit.h tests/unit/test.h
+test_draw_LDADD = $(unit_ldadd)

@@ -64,6 +64,21 @@ static ct_status kit_table(Kit *kit, const ct_statement *statement)
     return status;
 }
 
+/* the first frame */
+static ct_status kit_animate(Kit *kit, const ct_statement *statement)
+{
+    char **frames = NULL;
+    double interval;
+    const ct_status status = ct_animate(kit->session, statement, &(ct_paper){.format = "svg"},
+                                        &frames, &interval, &kit->error);
+
+    if (status == CT_OK) {
+        kit->text = frames[0];
+        ct_free(frames);
+    }
+    return status;
+}
+
 static ct_status kit_run(Kit *kit, const ct_statement *statement)
 {
     const ct_status status = ct_run(kit->session, statement, &kit->error);
@@ -90,7 +105,9 @@ static ct_status kit_other(Kit *kit, const ct_statement *statement)
     if (strcmp(verb, "tree") == 0)
         return ct_tree_text(session, &kit->text, &kit->error);
     if (strcmp(verb, "draw") == 0)
-        return ct_draw(session, false, &kit->text, &kit->error);
+        return ct_draw(session, statement, &(ct_paper){.format = "text"}, &kit->text, &kit->error);
+    if (strcmp(verb, "animate") == 0)
+        return kit_animate(kit, statement);
     if (strcmp(verb, "undo") == 0)
         return ct_undo(session, &kit->error);
     if (strcmp(verb, "redo") == 0)
@@ -264,5 +281,18 @@ UNUSED static void kit_expect_refused(const Refusal *wrong)
         EXPECT(kit_do(kit, lines) != CT_OK);                                                       \
         EXPECT_HOLDS((kit)->error.message, part);                                                  \
     } while (0)
+
+/* the text of a drawing in a format; new, ct_free() */
+UNUSED static ct_status kit_draw(Kit *kit, const char *line, const char *format, char **out)
+{
+    ct_cursor cursor = {.text = line, .line = 1};
+    ct_statement *statement = NULL;
+    ct_status status = ct_parse(&cursor, false, &statement, &kit->error);
+
+    if (status == CT_OK)
+        status = ct_draw(kit->session, statement, &(ct_paper){.format = format}, out, &kit->error);
+    ct_statement_free(statement);
+    return status;
+}
 
 #endif

@@ -422,7 +422,7 @@ static void drawings_hold_every_edge(void)
     char *dot = NULL;
 
     EXPECT_DONE(&kit, SLIDER_CRANK TWO_TREES "draw");
-    EXPECT(ct_draw(kit.session, true, &dot, &kit.error) == CT_OK);
+    EXPECT(kit_draw(&kit, "draw", "dot", &dot) == CT_OK);
     for (size_t i = 0; i < sizeof edges / sizeof edges[0]; i++) {
         EXPECT_HOLDS(kit.text, edges[i]);
         EXPECT_HOLDS(dot, edges[i]);

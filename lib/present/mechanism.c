@@ -1,0 +1,479 @@
+/* mechanism.c: a mechanism: which variables it is drawn from, its scale, its bodies */
+#include "present/mechanism_impl.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define SHEET_WIDTH  800.0 /* px: no picture is larger */
+#define SHEET_HEIGHT 560.0
+#define MARGIN       70.0
+#define LEAST_SIDE   360.0
+#define FOOTER       40.0 /* px: below all that moves */
+#define LONGEST      80.0 /* px: of the largest arrow */
+
+enum { PER_NODE = 7, PER_LOAD = 6 }; /* items */
+
+/* --- what it is drawn from --- */
+
+static Expr variable(const Mechanism *mechanism, const char *owner, const char *member)
+{
+    Text name = {0};
+    Expr symbol;
+
+    text_addf(&name, "%s.%s", owner, member);
+    symbol = expr_symbol(model_arena(mechanism->view->model), name.at, SYMBOL_VARIABLE);
+    text_free(&name);
+    return symbol;
+}
+
+static void add_node(Mechanism *mechanism, int node)
+{
+    static const char *const members[PER_NODE] = {"x", "y", "z", "q0", "q1", "q2", "q3"};
+
+    mechanism->place[node] = mechanism->items.count;
+    for (int i = 0; i < PER_NODE; i++)
+        LIST_PUSH(mechanism->items,
+                  variable(mechanism, graph_node(model_graph(mechanism->view->model), node)->name,
+                           members[i]));
+}
+
+static void add_load(Mechanism *mechanism, const Instance *instance)
+{
+    Arena *arena = model_arena(mechanism->view->model);
+    Load load = {.owner = instance, .node = instance->head, .first = mechanism->items.count};
+    Expr force[3], torque[3];
+
+    if (instance->row->wrench != NULL) {
+        instance->row->wrench(instance, arena, model_is_planar(mechanism->view->model), force,
+                              torque, &load.in_body);
+    } else if (mechanism->options.reactions && instance->row->family == FAMILY_JOINT &&
+               !instance->is_virtual) {
+        static const char *const members[3] = {"fx", "fy", "fz"};
+        const bool planar = model_is_planar(mechanism->view->model);
+
+        load.reaction = true;
+        for (int i = 0; i < 3; i++) {
+            force[i] = planar && i == 2 ? expr_int(arena, 0)
+                                        : variable(mechanism, instance->name, members[i]);
+            torque[i] = expr_int(arena, 0);
+        }
+    } else {
+        return;
+    }
+    for (int i = 0; i < PER_LOAD; i++)
+        LIST_PUSH(mechanism->items, i < 3 ? force[i] : torque[i - 3]);
+    LIST_PUSH(mechanism->loads, load);
+}
+
+/* Frames are fixed in the body that arms lead to them from. */
+static void find_bodies(Mechanism *mechanism)
+{
+    const Model *model = mechanism->view->model;
+
+    for (int n = 0; n < mechanism->nodes; n++) {
+        const Node *node = graph_node(model_graph(model), n);
+
+        mechanism->place[n] = mechanism->body[n] = -1;
+        if (node->domain == DOMAIN_MECHANICAL && node->datum)
+            mechanism->ground = mechanism->body[n] = n;
+    }
+    for (int i = 0; i < model_count(model); i++) {
+        const Instance *instance = model_instance(model, i);
+
+        if (instance->row->family == FAMILY_BODY)
+            mechanism->body[instance->head] = instance->head;
+        else if (instance->row->family == FAMILY_ARM)
+            mechanism->body[instance->head] = mechanism->body[instance->tail];
+    }
+}
+
+/* What gravity pulls down is below; else z is up. */
+static void choose_axes(Mechanism *mechanism)
+{
+    static const double iso[3][3] = {{-0.7071067811865476, 0.7071067811865476, 0},
+                                     {-0.408248290463863, -0.408248290463863, 0.816496580927726},
+                                     {0.5773502691896258, 0.5773502691896258, 0.5773502691896258}};
+    static const int planes[][3] = {
+        [LOOK_XY] = {0, 1, 2}, [LOOK_XZ] = {0, 2, 1}, [LOOK_YZ] = {1, 2, 0}};
+    const Model *model = mechanism->view->model;
+    const Look look = model_is_planar(model) ? LOOK_XY : mechanism->options.look;
+    const Expr *gravity = model_gravity(model);
+    double most = 0;
+    int up = 2;
+
+    memset(mechanism->axes, 0, sizeof mechanism->axes);
+    if (look != LOOK_ISO) {
+        for (int i = 0; i < 3; i++)
+            mechanism->axes[i][planes[look][i]] = look == LOOK_XZ && i == 2 ? -1 : 1;
+        return;
+    }
+    for (int i = 0; i < 3; i++)
+        if (fabs(model_number(model, gravity[i])) > most) {
+            most = fabs(model_number(model, gravity[i]));
+            up = i;
+        }
+    for (int row = 0; row < 3; row++)
+        for (int i = 0; i < 3; i++)
+            mechanism->axes[row][(i + up + 1) % 3] = iso[row][i];
+}
+
+Status mechanism_open(Mechanism *mechanism, const View *view, MechanismOptions options, Diag *diag)
+{
+    const Model *model = view->model;
+    int bodies = 0;
+
+    *mechanism = (Mechanism){.view = view, .options = options, .ground = -1};
+    mechanism->nodes = graph_node_count(model_graph(model));
+    mechanism->place = NEW_ARRAY(int, mechanism->nodes);
+    mechanism->body = NEW_ARRAY(int, mechanism->nodes);
+    find_bodies(mechanism);
+    for (int i = 0; i < model_count(model); i++)
+        bodies += model_instance(model, i)->row->family == FAMILY_BODY;
+    if (bodies == 0) {
+        (void)diag_set(diag, E_MISSING, "there is no body to draw");
+        diag_hint(diag, "'draw' alone draws the linear graph");
+        return E_MISSING;
+    }
+    for (int n = 0; n < mechanism->nodes; n++)
+        if (mechanism->body[n] >= 0 && n != mechanism->ground)
+            add_node(mechanism, n);
+    for (int i = 0; i < model_count(model); i++)
+        add_load(mechanism, model_instance(model, i));
+    choose_axes(mechanism);
+    return OK;
+}
+
+void mechanism_close(Mechanism *mechanism)
+{
+    LIST_FREE(mechanism->items);
+    LIST_FREE(mechanism->loads);
+    MEM_FREE(mechanism->place, mechanism->body);
+}
+
+/* --- where things are --- */
+
+void mechanism_place(const Mechanism *mechanism, const double *values, int node, double out[3])
+{
+    const int place = mechanism->place[node];
+
+    for (int i = 0; i < 3; i++)
+        out[i] = place >= 0 ? values[place + i] : 0;
+}
+
+/* v + 2 e x (e0 v + e x v), with e0, e the Euler parameters */
+void mechanism_turn(const Mechanism *mechanism, const double *values, int node, const double in[3],
+                    double out[3])
+{
+    const int place = mechanism->place[node];
+    const double *p = values + place + 3;
+    double c[3];
+
+    if (place < 0) {
+        memcpy(out, in, 3 * sizeof *out);
+        return;
+    }
+    for (int i = 0; i < 3; i++) {
+        const int j = (i + 1) % 3, k = (i + 2) % 3;
+
+        c[i] = p[0] * in[i] + p[1 + j] * in[k] - p[1 + k] * in[j];
+    }
+    for (int i = 0; i < 3; i++) {
+        const int j = (i + 1) % 3, k = (i + 2) % 3;
+
+        out[i] = in[i] + 2 * (p[1 + j] * c[k] - p[1 + k] * c[j]);
+    }
+}
+
+static double along(const double axis[3], const double v[3])
+{
+    return axis[0] * v[0] + axis[1] * v[1] + axis[2] * v[2];
+}
+
+Point mechanism_direction(const Mechanism *mechanism, const double direction[3])
+{
+    return (Point){along(mechanism->axes[0], direction), -along(mechanism->axes[1], direction)};
+}
+
+Point mechanism_point(const Mechanism *mechanism, const double at[3], double *depth)
+{
+    const Point p = mechanism_direction(mechanism, at);
+
+    if (depth != NULL)
+        *depth = along(mechanism->axes[2], at) * mechanism->scale;
+    return (Point){mechanism->left + p.x * mechanism->scale,
+                   mechanism->top + p.y * mechanism->scale};
+}
+
+Point sheet_node(const Sheet *sheet, int node, double *depth)
+{
+    double at[3];
+
+    mechanism_place(sheet->mechanism, sheet->values, node, at);
+    return mechanism_point(sheet->mechanism, at, depth);
+}
+
+Point mechanism_load(const Mechanism *mechanism, const double *values, const Load *load,
+                     double moment[3])
+{
+    double force[3];
+    Point d;
+
+    memcpy(force, values + load->first, sizeof force);
+    memcpy(moment, values + load->first + 3, sizeof force);
+    if (load->in_body) {
+        mechanism_turn(mechanism, values, load->node, values + load->first, force);
+        mechanism_turn(mechanism, values, load->node, values + load->first + 3, moment);
+    }
+    d = mechanism_direction(mechanism, force);
+    return (Point){d.x * mechanism->newton, d.y * mechanism->newton};
+}
+
+double sheet_depth(const Sheet *sheet, int node)
+{
+    const Mechanism *mechanism = sheet->mechanism;
+    const int body = mechanism->body[node];
+    double sum = 0, depth;
+    int count = 0;
+
+    if (body == mechanism->ground)
+        return -INFINITY;
+    for (int n = 0; n < mechanism->nodes; n++)
+        if (mechanism->body[n] == body) {
+            (void)sheet_node(sheet, n, &depth);
+            sum += depth;
+            count++;
+        }
+    return sum / count;
+}
+
+/* the largest of a load's two vectors */
+static void widen(const Mechanism *mechanism, const double *values, double *force, double *moment)
+{
+    for (int i = 0; i < mechanism->loads.count; i++) {
+        const double *v = values + mechanism->loads.at[i].first;
+
+        *force = fmax(*force, sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]));
+        *moment = fmax(*moment, sqrt(v[3] * v[3] + v[4] * v[4] + v[5] * v[5]));
+    }
+}
+
+/* what holds every frame and every arrow's end, and below it room for the scales */
+static void lay_out_sheet(Mechanism *mechanism, const double *values, int rows)
+{
+    Point low = {0, 0}, high = {0, 0};
+
+    mechanism->left = mechanism->top = 0;
+    for (int r = 0; r < rows; r++) {
+        const double *row = values + (size_t)r * (size_t)mechanism->items.count;
+
+        for (int i = 0; i < mechanism->nodes + mechanism->loads.count; i++) {
+            const Load *load =
+                i >= mechanism->nodes ? &mechanism->loads.at[i - mechanism->nodes] : NULL;
+            double at[3], moment[3];
+            Point p, d = {0, 0};
+
+            if (load == NULL && mechanism->place[i] < 0)
+                continue;
+            mechanism_place(mechanism, row, load != NULL ? load->node : i, at);
+            p = mechanism_point(mechanism, at, NULL);
+            if (load != NULL)
+                d = mechanism_load(mechanism, row, load, moment);
+            if (isfinite(d.x) && isfinite(d.y))
+                p = (Point){p.x + d.x, p.y + d.y};
+            low = (Point){fmin(low.x, p.x), fmin(low.y, p.y)};
+            high = (Point){fmax(high.x, p.x), fmax(high.y, p.y)};
+        }
+    }
+    mechanism->width = fmax(high.x - low.x + 2 * MARGIN, LEAST_SIDE);
+    mechanism->height = fmax(high.y - low.y + 2 * MARGIN, LEAST_SIDE / 2);
+    mechanism->left = (mechanism->width - low.x - high.x) / 2;
+    mechanism->top = (mechanism->height - low.y - high.y) / 2;
+    mechanism->height += FOOTER;
+}
+
+Status mechanism_fit(Mechanism *mechanism, const double *values, int rows, Diag *diag)
+{
+    double low[2] = {0, 0}, high[2] = {0, 0}, force = 0, moment = 0;
+
+    for (int r = 0; r < rows; r++) {
+        const double *row = values + (size_t)r * (size_t)mechanism->items.count;
+
+        for (int n = 0; n < mechanism->nodes; n++) {
+            double at[3];
+
+            if (mechanism->place[n] < 0)
+                continue;
+            mechanism_place(mechanism, row, n, at);
+
+            const Point p = mechanism_direction(mechanism, at);
+
+            if (!isfinite(p.x) || !isfinite(p.y))
+                return diag_set(diag, E_VALUE, "the place of %s is undefined",
+                                graph_node(model_graph(mechanism->view->model), n)->name);
+            low[0] = fmin(low[0], p.x);
+            high[0] = fmax(high[0], p.x);
+            low[1] = fmin(low[1], p.y);
+            high[1] = fmax(high[1], p.y);
+        }
+        widen(mechanism, row, &force, &moment);
+    }
+
+    const double wide = high[0] - low[0], tall = high[1] - low[1];
+    const double by_width = wide > 0 ? (SHEET_WIDTH - 2 * MARGIN) / wide : INFINITY;
+    const double by_height = tall > 0 ? (SHEET_HEIGHT - 2 * MARGIN) / tall : INFINITY;
+
+    mechanism->scale = fmin(by_width, by_height);
+    if (!isfinite(mechanism->scale))
+        mechanism->scale = LEAST_SIDE / 2; /* all in one place: a metre is as good as any */
+    mechanism->newton = force > 0 ? LONGEST / force : 0;
+    mechanism->moment = moment > 0 ? 1 / moment : 0;
+    lay_out_sheet(mechanism, values, rows);
+    return OK;
+}
+
+/* --- bodies --- */
+
+int mechanism_color(const Mechanism *mechanism, int node)
+{
+    const Model *model = mechanism->view->model;
+    int color = 0;
+
+    for (int i = 0; i < model_count(model); i++) {
+        const Instance *instance = model_instance(model, i);
+
+        if (instance->row->family != FAMILY_BODY)
+            continue;
+        if (instance->head == mechanism->body[node])
+            break;
+        color++;
+    }
+    return color;
+}
+
+static int compare_points(const void *a, const void *b)
+{
+    const Point *p = a, *q = b;
+
+    if (p->x != q->x)
+        return p->x < q->x ? -1 : 1;
+    return p->y < q->y ? -1 : p->y > q->y;
+}
+
+static double turn_of(Point a, Point b, Point c)
+{
+    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
+
+/* the convex hull (Andrew 1979); `points` is sorted, `hull` has room for one more */
+static int find_hull(Point *points, int count, Point *hull)
+{
+    int size = 0;
+
+    qsort(points, (size_t)count, sizeof *points, compare_points);
+    for (int pass = 0; pass < 2; pass++) {
+        const int least = size + (pass == 0 ? 2 : 1);
+
+        for (int k = pass; k < count; k++) {
+            const Point p = points[pass == 0 ? k : count - 1 - k];
+
+            while (size >= least && turn_of(hull[size - 2], hull[size - 1], p) <= 0)
+                size--;
+            hull[size++] = p;
+        }
+    }
+    return size > 1 ? size - 1 : size;
+}
+
+/* A disc about each frame, and the hull of them all: a link, a plate, or a ball. */
+static void draw_hull(Sheet *sheet, const Point *centres, int count, Ink ink)
+{
+    enum { CORNERS = 24 };
+    Point *points = NEW_ARRAY(Point, count * CORNERS);
+    Point *hull = NEW_ARRAY(Point, count * CORNERS + 1);
+
+    for (int i = 0; i < count; i++)
+        for (int k = 0; k < CORNERS; k++)
+            points[i * CORNERS + k] =
+                (Point){centres[i].x + LINK_HALF * cos(2 * M_PI * k / CORNERS),
+                        centres[i].y + LINK_HALF * sin(2 * M_PI * k / CORNERS)};
+    picture_area(sheet->picture, ink, hull, find_hull(points, count * CORNERS, hull));
+    MEM_FREE(points, hull);
+}
+
+static void draw_centre(Sheet *sheet, Point at, const char *color)
+{
+    picture_circle(sheet->picture, (Ink){.stroke = color, .fill = "#ffffff", .width = 1}, at, 3.5);
+    picture_circle(sheet->picture, (Ink){.fill = color}, at, 1.5);
+}
+
+static void draw_body(Sheet *sheet, const Instance *body)
+{
+    const Mechanism *mechanism = sheet->mechanism;
+    const int number = mechanism_color(mechanism, body->head);
+    const Ink ink = {.stroke = picture_color(number), .fill = picture_tint(number), .width = 1.6};
+    LIST(Point) frames = {0};
+
+    for (int n = 0; n < mechanism->nodes; n++)
+        if (mechanism->body[n] == body->head)
+            LIST_PUSH(frames, sheet_node(sheet, n, NULL));
+    picture_of(sheet->picture, "body", body->name);
+    sheet->picture->depth = sheet_depth(sheet, body->head);
+    draw_hull(sheet, frames.at, frames.count, ink);
+    draw_centre(sheet, sheet_node(sheet, body->head, NULL), ink.stroke);
+    LIST_FREE(frames);
+}
+
+static void draw_parts(Sheet *sheet)
+{
+    const Model *model = sheet->mechanism->view->model;
+
+    for (int i = 0; i < model_count(model); i++)
+        if (model_instance(model, i)->row->family == FAMILY_BODY)
+            draw_body(sheet, model_instance(model, i));
+    for (int i = 0; i < model_count(model); i++) {
+        const Instance *instance = model_instance(model, i);
+
+        if (instance->row->family == FAMILY_JOINT && !instance->is_virtual)
+            sheet_joint(sheet, instance);
+        else if (instance->row->places == PLACES_LINK)
+            sheet_link(sheet, instance);
+    }
+    picture_sort(sheet->picture);
+}
+
+/* names lie over everything, those of bodies first */
+static void draw_names(Sheet *sheet)
+{
+    const Model *model = sheet->mechanism->view->model;
+
+    picture_of(sheet->picture, "names", "of parts");
+    for (int i = 0; i < model_count(model); i++) {
+        const Instance *instance = model_instance(model, i);
+
+        if (instance->row->family == FAMILY_BODY)
+            sheet_name(sheet, sheet_node(sheet, instance->head, NULL),
+                       picture_color(mechanism_color(sheet->mechanism, instance->head)), 14,
+                       instance->name);
+    }
+    for (int i = 0; i < model_count(model); i++) {
+        const Instance *instance = model_instance(model, i);
+
+        if (instance->row->family == FAMILY_JOINT && !instance->is_virtual)
+            sheet_name(sheet, sheet_node(sheet, instance->head, NULL), INK_DARK, 12,
+                       instance->name);
+    }
+}
+
+void mechanism_draw(const Mechanism *mechanism, const double *values, double t, Picture *out)
+{
+    Sheet sheet = {.mechanism = mechanism, .values = values, .picture = out};
+
+    picture_open(out, mechanism->width, mechanism->height);
+    draw_parts(&sheet);
+    for (int i = 0; i < mechanism->loads.count; i++)
+        sheet_load(&sheet, &mechanism->loads.at[i]);
+    draw_names(&sheet);
+    sheet_corner(&sheet, t);
+    LIST_FREE(sheet.labels);
+}

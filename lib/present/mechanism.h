@@ -1,0 +1,54 @@
+/* mechanism.h: bodies, joints, springs and forces as they stand at an instant
+ *
+ * A Mechanism tells which variables it is drawn from; whoever has a run hands their values back, a
+ * row an instant, and gets a picture of each. All pictures of a film are to one scale. */
+#ifndef COTREE_PRESENT_MECHANISM_H
+#define COTREE_PRESENT_MECHANISM_H
+
+#include "present/picture.h"
+#include "present/view.h"
+
+typedef enum Look { LOOK_ISO, LOOK_XY, LOOK_XZ, LOOK_YZ } Look;
+
+typedef struct MechanismOptions {
+    Look look;       /* of a spatial scene */
+    bool reactions;  /* of joints, as arrows */
+    bool is_a_frame; /* of a film: names stay where they are beside their parts */
+} MechanismOptions;
+
+/* A force or moment on a frame, as an arrow. */
+typedef struct Load {
+    const Instance *owner;
+    int node;
+    bool in_body;  /* its components are in the frame's axes */
+    bool reaction; /* of a joint, on its tip */
+    int first;     /* of its items: three of the force, three of the moment */
+} Load;
+
+typedef struct Mechanism {
+    const View *view;
+    MechanismOptions options;
+    LIST(Expr) items; /* what it is drawn from, over the user's variables */
+    LIST(Load) loads;
+    int nodes;
+    int *place; /* of a node's first item; -1: ground, or not drawn */
+    int *body;  /* that a node is fixed in, by the node of its frame; -1: of another domain */
+    int ground;
+    double axes[3][3]; /* to the right, up, and towards who looks */
+    double scale;      /* px a metre */
+    double left, top;  /* px: of the origin */
+    double width, height;
+    double newton, moment; /* px a newton and a newton metre; 0: no such load */
+} Mechanism;
+
+/* Fails with E_MISSING where there are no bodies. mechanism_close() in any case. */
+MUST_USE Status mechanism_open(Mechanism *mechanism, const View *view, MechanismOptions options,
+                               Diag *diag);
+/* Choose the scale for all instants: `values` is rows x items. Fails with E_VALUE where a place is
+ * undefined. */
+MUST_USE Status mechanism_fit(Mechanism *mechanism, const double *values, int rows, Diag *diag);
+/* picture_close() */
+void mechanism_draw(const Mechanism *mechanism, const double *values, double t, Picture *out);
+void mechanism_close(Mechanism *mechanism);
+
+#endif

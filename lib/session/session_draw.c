@@ -1,0 +1,309 @@
+/* session_draw.c: draw and animate: the graph, and the mechanism at instants of a run */
+#include "session/session_impl.h"
+
+#include "present/info.h"
+#include "present/mechanism.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* --- what the statement asks for --- */
+
+static const char *operand_word(const Statement *s, int i)
+{
+    const Syntax *value = i < s->operands.count ? s->operands.at[i].value : NULL;
+
+    return value != NULL && value->kind == SYNTAX_VARIABLE && value->primes == 0 ? value->text : "";
+}
+
+static const Pair *find_key(const Statement *s, const char *name)
+{
+    for (int i = 0; i < s->pairs.count; i++)
+        if (strcmp(s->pairs.at[i].name, name) == 0)
+            return &s->pairs.at[i];
+    return NULL;
+}
+
+/* which of some words a key has; `out` stays where it isn't given */
+static Status read_choice(const Statement *s, const char *name, const char *const *words, int *out,
+                          Diag *diag)
+{
+    const Pair *pair = find_key(s, name);
+    Text list = {0};
+
+    if (pair == NULL)
+        return OK;
+    for (int i = 0; words[i] != NULL; i++) {
+        if (strcmp(words[i], pair->value->text) == 0) {
+            text_free(&list);
+            *out = i;
+            return OK;
+        }
+        text_addf(&list, "%s%s", i > 0 ? ", " : "", words[i]);
+    }
+    (void)diag_at(diag, E_VALUE, pair->value->place, "%s= is one of %s", name, list.at);
+    text_free(&list);
+    return E_VALUE;
+}
+
+static Status read_options(const ct_session *session, const Statement *s, MechanismOptions *out,
+                           Diag *diag)
+{
+    static const char *const looks[] = {"iso", "xy", "xz", "yz", NULL};
+    static const char *const switches[] = {"off", "on", NULL};
+    const Pair *view = find_key(s, "view");
+    int look = LOOK_ISO, reactions = 0;
+
+    if (view != NULL && model_is_planar(session->model))
+        return diag_at(diag, E_VALUE, view->value->place,
+                       "a planar scene is seen as it is, from its one side");
+    TRY(read_choice(s, "view", looks, &look, diag));
+    TRY(read_choice(s, "reactions", switches, &reactions, diag));
+    *out = (MechanismOptions){.look = (Look)look, .reactions = reactions == 1};
+    return OK;
+}
+
+/* --- pictures --- */
+
+typedef struct Strip {
+    Mechanism mechanism;
+    double *values; /* instants x items */
+    double *times;
+    int count;
+    Picture *pictures; /* one an instant */
+} Strip;
+
+static void strip_free(Strip *strip)
+{
+    for (int i = 0; strip->pictures != NULL && i < strip->count; i++)
+        picture_close(&strip->pictures[i]);
+    mechanism_close(&strip->mechanism);
+    MEM_FREE(strip->values, strip->times, strip->pictures);
+}
+
+static Status fill_strip(ct_session *session, Run *run, Strip *strip, Diag *diag)
+{
+    const Mechanism *mechanism = &strip->mechanism;
+    const int items = mechanism->items.count;
+    Status status = OK;
+
+    for (int i = 0; i < items; i++)
+        mechanism->items.at[i] = session_put_outputs(session->model, mechanism->items.at[i]);
+    strip->values = mem_array((size_t)strip->count * (size_t)items, sizeof *strip->values);
+    strip->pictures = NEW_ARRAY(Picture, strip->count);
+    CHECK(result_reader_prepare(run->reader, strip->times, strip->count, &session->watch, diag));
+    for (int i = 0; i < strip->count; i++) {
+        CHECK(poll(&session->watch));
+        report(&session->watch, "drawing", (double)i / strip->count);
+        CHECK(result_reader_values_at(run->reader, mechanism->items.at, items, strip->times[i],
+                                      strip->values + (size_t)i * (size_t)items, diag));
+    }
+    CHECK(mechanism_fit(&strip->mechanism, strip->values, strip->count, diag));
+    for (int i = 0; i < strip->count; i++)
+        mechanism_draw(mechanism, strip->values + (size_t)i * (size_t)items, strip->times[i],
+                       &strip->pictures[i]);
+done:
+    return status;
+}
+
+static void write_picture(const ct_session *session, const Picture *picture, ct_paper *paper,
+                          Text *out)
+{
+    const Film alone = {.pictures = picture, .count = 1, .title = model_title(session->model)};
+
+    paper->width = picture->width;
+    paper->height = picture->height;
+    if (strcmp(paper->format, "svg") == 0)
+        picture_svg(&alone, out);
+    else if (strcmp(paper->format, "gnuplot") == 0)
+        picture_gnuplot(picture, out);
+    else
+        picture_characters(picture, paper->columns > 0 ? paper->columns : 79,
+                           paper->rows > 0 ? paper->rows : 30, session->hooks.unicode, out);
+}
+
+static Status draw_mechanism(ct_session *session, const Statement *s, ct_paper *paper, Text *out,
+                             Diag *diag)
+{
+    const View view = session_view(session);
+    Strip strip = {.count = 1};
+    MechanismOptions options = {0};
+    Run *run = NULL;
+    Status status;
+
+    CHECK(read_options(session, s, &options, diag));
+    CHECK(mechanism_open(&strip.mechanism, &view, options, diag));
+    strip.times = NEW_ARRAY(double, 1);
+    if (s->at != NULL)
+        CHECK(session_instant(session, s->at, strip.times, diag));
+    if (s->at != NULL && session->runs.count > 0)
+        run = session->runs.at + session->runs.count - 1;
+    else
+        CHECK(session_start(session, &run, diag));
+    if (s->at == NULL)
+        strip.times[0] = result_times(run->result)[0];
+    CHECK(fill_strip(session, run, &strip, diag));
+    write_picture(session, &strip.pictures[0], paper, out);
+done:
+    strip_free(&strip);
+    return status;
+}
+
+static Status draw_graph(ct_session *session, const Statement *s, const ct_paper *paper, Text *out,
+                         Diag *diag)
+{
+    const View view = session_view(session);
+
+    if (s->operands.count > 0)
+        return diag_at(diag, E_SYNTAX, s->operands.at[0].place, "'draw' knows no '%s'",
+                       operand_word(s, 0));
+    if (s->pairs.count > 0)
+        return diag_at(diag, E_SYNTAX, s->pairs.at[0].value->place, "%s= is for 'draw mechanism'",
+                       s->pairs.at[0].name);
+    if (s->at != NULL)
+        return diag_at(diag, E_SYNTAX, s->at->place, "the graph is the same at all times");
+    if (strcmp(paper->format, "dot") != 0)
+        return draw_text(&view, out, diag);
+    draw_dot(&view, out);
+    return OK;
+}
+
+ct_status ct_draw(ct_session *session, const ct_statement *statement, ct_paper *paper, char **text,
+                  ct_error *error)
+{
+    SESSION_CALL(session, session_ran_out(session, error));
+
+    const Statement *s = statement_of(statement);
+    Text out = {0};
+    Diag diag = {0};
+    Status status;
+
+    session_begin(session);
+    if (strcmp(operand_word(s, 0), "mechanism") == 0)
+        status = draw_mechanism(session, s, paper, &out, &diag);
+    else
+        status = draw_graph(session, s, paper, &out, &diag);
+    if (status == OK)
+        *text = text_done(&out);
+    text_free(&out);
+    return session_report(status, &diag, error);
+}
+
+/* --- animate --- */
+
+static const double RATE = 25;         /* pictures a second */
+static const double RATE_OF_TEXT = 8;  /* a terminal shows no more */
+static const double MOST_FRAMES = 250; /* of a file */
+
+/* the run that is named, or the last one */
+static Status find_run(ct_session *session, const Statement *s, Run **out, Diag *diag)
+{
+    const char *word = operand_word(s, 0);
+    char *end = NULL;
+    const long number = strncmp(word, "run", 3) == 0 ? strtol(word + 3, &end, 10) : 0;
+
+    if (s->operands.count > 1) {
+        (void)diag_at(diag, E_SYNTAX, s->operands.at[1].place, "'animate' takes one run");
+        return E_SYNTAX;
+    }
+    if (s->operands.count > 0 && (number < 1 || *end != '\0')) {
+        (void)diag_at(diag, E_NAME, s->operands.at[0].place, "expected a run, as run2");
+        return E_NAME;
+    }
+    if (session->runs.count == 0 || number > session->runs.count) {
+        (void)diag_at(
+            diag, E_MISSING, s->operands.count > 0 ? s->operands.at[0].place : s->verb_place,
+            session->runs.count == 0 ? "there is no run to animate" : "there is no such run yet");
+        diag_hint(diag, session->runs.count == 0 ? "simulate 1" : "'animate' alone takes the last");
+        return E_MISSING;
+    }
+    *out = session->runs.at + (number > 0 ? number : session->runs.count) - 1;
+    return OK;
+}
+
+typedef struct Span {
+    double from, to, speed;
+} Span;
+
+static Status read_span(ct_session *session, const Statement *s, const Run *run, Span *out,
+                        Diag *diag)
+{
+    const double *times = result_times(run->result);
+    const Pair *from = find_key(s, "from"), *to = find_key(s, "to"), *speed = find_key(s, "speed");
+
+    *out = (Span){times[0], times[result_rows(run->result) - 1], 1};
+    if (from != NULL)
+        TRY(session_instant(session, from->value, &out->from, diag));
+    if (to != NULL)
+        TRY(session_instant(session, to->value, &out->to, diag));
+    if (speed != NULL)
+        TRY(session_number(session, speed->value, &out->speed, diag));
+    if (speed != NULL && !(out->speed > 0 && isfinite(out->speed)))
+        return diag_at(diag, E_VALUE, speed->value->place,
+                       "speed= is how often faster than it ran: a number above 0");
+    if (!(out->from < out->to))
+        return diag_at(diag, E_VALUE, s->verb_place, "nothing moves from %.6g to %.6g s", out->from,
+                       out->to);
+    return OK;
+}
+
+static Status make_strip(ct_session *session, const Statement *s, double rate, double most,
+                         Strip *strip, double *seconds, Diag *diag)
+{
+    const View view = session_view(session);
+    MechanismOptions options = {0};
+    Run *run = NULL;
+    Span span;
+
+    TRY(find_run(session, s, &run, diag));
+    TRY(read_span(session, s, run, &span, diag));
+    TRY(read_options(session, s, &options, diag));
+    options.is_a_frame = true;
+    TRY(mechanism_open(&strip->mechanism, &view, options, diag));
+    *seconds = (span.to - span.from) / span.speed;
+    strip->count = (int)fmax(2, fmin(most, ceil(*seconds * rate)));
+    strip->times = NEW_ARRAY(double, strip->count);
+    for (int i = 0; i < strip->count; i++)
+        strip->times[i] = span.from + (span.to - span.from) * i / (strip->count - 1);
+    return fill_strip(session, run, strip, diag);
+}
+
+ct_status ct_animate(ct_session *session, const ct_statement *statement, ct_paper *paper,
+                     char ***frames, double *interval, ct_error *error)
+{
+    SESSION_CALL(session, session_ran_out(session, error));
+
+    const bool is_text = strcmp(paper->format, "text") == 0;
+    const bool is_page = strcmp(paper->format, "html") == 0;
+    const bool is_one = is_page || strcmp(paper->format, "svg") == 0;
+    LIST(char *) out = {0};
+    Strip strip = {0};
+    double seconds = 0;
+    Diag diag = {0};
+    Status status;
+
+    session_begin(session);
+    CHECK(make_strip(session, statement_of(statement), is_text ? RATE_OF_TEXT : RATE,
+                     is_text ? 1e4 : MOST_FRAMES, &strip, &seconds, &diag));
+    *interval = seconds / strip.count;
+    if (is_one) {
+        const Film film = {strip.pictures, strip.times, strip.count, seconds,
+                           model_title(session->model)};
+        Text text = {0};
+
+        (is_page ? picture_html : picture_svg)(&film, &text);
+        LIST_PUSH(out, text_done(&text));
+    }
+    for (int i = 0; !is_one && i < strip.count; i++) {
+        Text text = {0};
+
+        write_picture(session, &strip.pictures[i], paper, &text);
+        LIST_PUSH(out, text_done(&text));
+    }
+    LIST_PUSH(out, NULL);
+    *frames = out.at;
+done:
+    strip_free(&strip);
+    return session_report(status, &diag, error);
+}

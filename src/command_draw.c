@@ -1,0 +1,275 @@
+/* command_draw.c: `draw` and `animate`: the linear graph and the mechanism
+ *
+ * The library draws; what it hands over is text for a terminal, a finished file, or commands for
+ * gnuplot where a picture of dots or a window is wanted. */
+#include "copy.h"
+#include "drawing.h"
+#include "file.h"
+#include "interrupt.h"
+#include "process.h"
+#include "terminal.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+/* --- the graph: graphviz lays it out --- */
+
+static ct_status lay_out(const Call *call, const char *type, const char *dot, Paper *picture,
+                         ct_error *error)
+{
+    char *option = copy_format("-T%s", type);
+    char program[] = "dot";
+    char *argv[] = {program, option, NULL};
+    Process process;
+    Paper complaints;
+    ct_error why;
+    ct_status status = process_start(&process, argv, &why);
+
+    paper_open(&complaints);
+    if (status == CT_OK) {
+        status = process_exchange(&process, dot, strlen(dot), NULL, picture, &complaints, &why);
+        if (process_end(&process, 2000) != 0 && status == CT_OK)
+            status = error_say(&why, "graphviz could not lay out the graph as %s", type);
+    }
+    if (status != CT_OK) {
+        ct_error_at(call->statement, NULL, error, "%s", why.message);
+        error->status = status;
+        error_hint(error,
+                   "apt install graphviz; draw > \"graph.dot\" and \"graph.txt\" do without");
+    }
+    paper_drop(&complaints);
+    free(option);
+    return status;
+}
+
+static bool is_one_of(const char *type, const char *types)
+{
+    const size_t length = strlen(type);
+
+    for (const char *at = types; (at = strstr(at, type)) != NULL && length > 0; at += length)
+        if ((at == types || at[-1] == ' ') && (at[length] == ' ' || at[length] == '\0'))
+            return true;
+    return false;
+}
+
+static ct_status write_file(const Call *call, const char *path, const char *text, size_t length,
+                            ct_error *error)
+{
+    ct_error why;
+
+    if (file_write(path, text, length, false, &why) == CT_OK)
+        return CT_OK;
+    return ct_error_at(call->statement, NULL, error, "%s", why.message);
+}
+
+/* An error unless the file behind `>` is of one of these types and may be written. */
+static ct_status check_file(const Call *call, const char *types, const char **path, ct_error *error)
+{
+    bool append = false;
+    ct_error why;
+
+    *path = ct_redirect(call->statement, &append);
+    if (*path == NULL)
+        return CT_OK;
+    if (append)
+        return ct_error_at(call->statement, NULL, error, "a picture can't be appended to another");
+    if (!is_one_of(file_extension(*path), types)) {
+        ct_error_at(call->statement, NULL, error, "this goes to a file that ends in one of: %s",
+                    types);
+        error_hint(error, "the name's ending says the format");
+        return CT_FAILED;
+    }
+    if (file_may_write(*path, &why) != CT_OK)
+        return ct_error_at(call->statement, NULL, error, "%s", why.message);
+    return CT_OK;
+}
+
+static ct_status draw_graph(Call *call, ct_error *error)
+{
+    const char *path, *type;
+    char *text = NULL;
+    ct_status status = check_file(call, "svg png pdf dot gv txt", &path, error);
+
+    if (status != CT_OK)
+        return status;
+    type = path != NULL ? file_extension(path) : "txt";
+
+    bool as_text = strcmp(type, "txt") == 0, as_dot = is_one_of(type, "dot gv");
+    ct_paper paper = {.format = as_text ? "text" : "dot"};
+
+    status = ct_draw(call->session, call->statement, &paper, &text, error);
+    if (status == CT_OK && path == NULL) {
+        put_text(call->out, text);
+    } else if (status == CT_OK) {
+        Paper picture;
+
+        paper_open(&picture);
+        if (as_text || as_dot)
+            put_text(picture.out, text);
+        else
+            status = lay_out(call, type, text, &picture, error);
+
+        char *drawn = paper_close(&picture);
+
+        if (status == CT_OK)
+            status = write_file(call, path, drawn, picture.length, error);
+        free(drawn);
+    }
+    ct_free(text);
+    return status;
+}
+
+/* --- the mechanism --- */
+
+static ct_paper text_paper(void)
+{
+    ct_paper paper = {.format = "text", .columns = 79, .rows = 30};
+
+    if (isatty(STDOUT_FILENO)) {
+        terminal_size(&paper.rows, &paper.columns);
+        paper.columns = paper.columns > 20 ? paper.columns - 1 : 20;
+        paper.rows = paper.rows > 10 ? paper.rows - 2 : 8;
+    }
+    return paper;
+}
+
+typedef struct Frames {
+    char **texts; /* gnuplot's commands of each, ended by NULL */
+} Frames;
+
+static void put_frames(FILE *out, const Drawing *drawing, bool as_text)
+{
+    const Frames *frames = drawing->of;
+
+    (void)as_text;
+    for (int i = 0; frames->texts[i] != NULL; i++) {
+        fputs(frames->texts[i], out);
+
+        /* a file of pictures has its own clock */
+        if (drawing->interval > 0 && frames->texts[i + 1] != NULL)
+            fprintf(out, "if (GPVAL_TERM ne 'gif') pause %.4g\n", drawing->interval);
+    }
+}
+
+static ct_status command_draw(Call *call, ct_error *error)
+{
+    const char *word = call_word(call, 0);
+    const char *path;
+    char *texts[2] = {NULL, NULL};
+    const Frames frames = {texts};
+
+    if (word == NULL || strcmp(word, "mechanism") != 0)
+        return draw_graph(call, error);
+
+    ct_status status = check_file(call, "svg png pdf eps gp txt", &path, error);
+
+    if (status != CT_OK)
+        return status;
+
+    const char *type = path != NULL ? file_extension(path) : "";
+    ct_paper paper = text_paper();
+    bool as_text = strcmp(type, "txt") == 0 || (path == NULL && !drawing_in_window(call));
+
+    if (!as_text)
+        paper.format = strcmp(type, "svg") == 0 ? "svg" : "gnuplot";
+    status = ct_draw(call->session, call->statement, &paper, &texts[0], error);
+    if (status == CT_OK && strcmp(paper.format, "gnuplot") == 0) {
+        const Drawing drawing = {put_frames, &frames, "", paper.width, paper.height, 0};
+
+        status = drawing_make(call, &drawing, path, error);
+    } else if (status == CT_OK && path != NULL) {
+        status = write_file(call, path, texts[0], strlen(texts[0]), error);
+    } else if (status == CT_OK) {
+        put_text(call->out, texts[0]);
+    }
+    ct_free(texts[0]);
+    return status;
+}
+
+/* --- animate --- */
+
+static int line_count(const char *text)
+{
+    int count = 0;
+
+    for (; *text != '\0'; text++)
+        count += *text == '\n';
+    return count;
+}
+
+/* wait, unless Ctrl-C comes; false then */
+static bool wait_for(double seconds)
+{
+    struct timespec rest = {(time_t)seconds, (long)((seconds - (double)(time_t)seconds) * 1e9)};
+
+    return !interrupt_asked() && nanosleep(&rest, NULL) == 0;
+}
+
+static bool terminal_moves(void)
+{
+    const char *term = getenv("TERM");
+
+    return isatty(STDOUT_FILENO) && term != NULL && strcmp(term, "dumb") != 0;
+}
+
+/* One picture over the other; the last one stays, which is all that a file or a pipe gets. */
+static void show_frames(Call *call, char *const *frames, double interval)
+{
+    const char *last = frames[0];
+
+    for (int i = 0; terminal_moves() && frames[i] != NULL; i++) {
+        last = frames[i];
+        for (const char *line = last; *line != '\0'; line += strcspn(line, "\n") + 1)
+            printf("\r%.*s\033[K\n", (int)strcspn(line, "\n"), line);
+        printf("\033[%dA", line_count(last));
+        fflush(stdout);
+        if (!wait_for(interval))
+            break;
+    }
+    for (int i = 0; !terminal_moves() && frames[i] != NULL; i++)
+        last = frames[i];
+    interrupt_clear();
+    put_text(call->out, last);
+}
+
+static ct_status command_animate(Call *call, ct_error *error)
+{
+    const char *path;
+    ct_status status = check_file(call, "html svg gif", &path, error);
+    char **texts = NULL;
+    double interval;
+
+    if (status != CT_OK)
+        return status;
+
+    const char *type = path != NULL ? file_extension(path) : "";
+    ct_paper paper = text_paper();
+
+    if (is_one_of(type, "html svg"))
+        paper.format = type;
+    else if (path != NULL || drawing_in_window(call))
+        paper.format = "gnuplot";
+    status = ct_animate(call->session, call->statement, &paper, &texts, &interval, error);
+    if (status != CT_OK)
+        return status;
+    if (strcmp(paper.format, "gnuplot") == 0) {
+        const Frames frames = {texts};
+        const Drawing drawing = {put_frames, &frames, "", paper.width, paper.height, interval};
+
+        status = drawing_make(call, &drawing, path, error);
+    } else if (path != NULL) {
+        status = write_file(call, path, texts[0], strlen(texts[0]), error);
+    } else {
+        show_frames(call, texts, interval);
+    }
+    ct_words_free(texts);
+    return status;
+}
+
+const Command commands_draw[] = {
+    {"draw", command_draw, NULL, WRITES},
+    {"animate", command_animate, NULL, WRITES | UNPAGED},
+    {NULL, NULL, NULL, 0},
+};

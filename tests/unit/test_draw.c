@@ -1,0 +1,319 @@
+/* the mechanism as a picture: places to scale, parts by their kind, films that stand alone */
+#include "session_kit.h"
+
+#define CRANK                                                                                      \
+    "title \"Crank & <rod>\"\nscene planar\ngravity [0, -9.81]\n"                                  \
+    "body m1 mass=1 inertia=0.01\nbody m2 mass=1.5 inertia=0.03\nbody m3 mass=2 inertia=0.01\n"    \
+    "arm r4 m1 [-0.1, 0]\narm r5 m1 [0.1, 0]\narm r6 m2 [0.25, 0]\narm r7 m2 [-0.25, 0]\n"         \
+    "revolute h8 ground r4\nrevolute h9 r5 r6\nrevolute h10 m3 r7\n"                               \
+    "prismatic s11 ground m3 axis=x\nforce F12 m3 [-5, 2*t]\ninit h8 = 50 deg, h8' = 10\n"
+
+/* the drawing of a line, as a format; "" and a fault where it fails */
+static char *drawn(Kit *kit, const char *line, const char *format)
+{
+    char *text = NULL;
+
+    EXPECT_TEXT(kit_draw(kit, line, format, &text) == CT_OK ? "" : kit->error.message, "");
+    return text != NULL ? text : calloc(1, 1);
+}
+
+/* where the group of a part begins */
+static const char *part(const char *svg, const char *name)
+{
+    char title[64];
+    const char *at;
+
+    (void)snprintf(title, sizeof title, "<title>%s</title>", name);
+    at = strstr(svg, title);
+    EXPECT_TEXT(at != NULL ? "" : name, "");
+    return at != NULL ? at : svg + strlen(svg);
+}
+
+static void circle(const char *svg, const char *name, double out[2])
+{
+    const char *at = strstr(part(svg, name), "<circle cx=\"");
+
+    EXPECT(at != NULL && sscanf(at, "<circle cx=\"%lf\" cy=\"%lf\"", &out[0], &out[1]) == 2);
+}
+
+/* the first two points of a part's first line or area */
+static void points(const char *svg, const char *name, double out[4])
+{
+    const char *at = strstr(part(svg, name), "points=\"");
+
+    EXPECT(at != NULL &&
+           sscanf(at, "points=\"%lf,%lf %lf,%lf", &out[0], &out[1], &out[2], &out[3]) == 4);
+}
+
+static int count_of(const char *text, const char *what)
+{
+    int count = 0;
+
+    for (; (text = strstr(text, what)) != NULL; text += strlen(what))
+        count++;
+    return count;
+}
+
+/* px a metre, by the bar below: its second and third point are its ends */
+static double scale_of(const char *svg)
+{
+    const char *at = strstr(part(svg, "scale of lengths and forces"), "points=\"");
+    const char *text = strstr(at, "</text>");
+    double low = 0, high = 0, y = 0, length;
+
+    EXPECT(sscanf(at, "points=\"%*f,%*f %lf,%lf %lf,%*f", &low, &y, &high) == 3);
+    while (text[-1] != '>')
+        text--;
+    length = strtod(text, NULL);
+    EXPECT(strstr(text, " m<") != NULL || strstr(text, " mm<") != NULL);
+    return (high - low) / (strncmp(strchr(text, ' '), " mm", 3) == 0 ? length / 1000 : length);
+}
+
+/* by hand: the crank's pin is 0.2 m from the main bearing, at 50 degrees; the piston on the axis */
+static void places_are_to_scale(void)
+{
+    Kit kit = kit_new();
+    char *svg;
+    double h8[2] = {0}, h9[2] = {0}, h10[2] = {0}, scale;
+    const double angle = 50 * M_PI / 180, pin = 0.2;
+
+    EXPECT_DONE(&kit, CRANK);
+    svg = drawn(&kit, "draw mechanism", "svg");
+    scale = scale_of(svg);
+    circle(svg, "revolute h8", h8);
+    circle(svg, "revolute h9", h9);
+    circle(svg, "revolute h10", h10);
+    EXPECT_NEAR((h9[0] - h8[0]) / scale, pin * cos(angle), 5e-4);
+    EXPECT_NEAR((h8[1] - h9[1]) / scale, pin * sin(angle), 5e-4);
+    EXPECT_NEAR(fabs(h10[0] - h9[0]) / scale, sqrt(0.25 - pin * pin * sin(angle) * sin(angle)),
+                5e-4);
+    EXPECT_NEAR(h10[1], h8[1], 0.11);
+    ct_free(svg);
+    kit_free(&kit);
+}
+
+static void every_part_is_drawn_once_by_its_name(void)
+{
+    static const char *const parts[] = {"body m1",       "body m2",     "body m3",
+                                        "revolute h8",   "revolute h9", "revolute h10",
+                                        "prismatic s11", "force F12"};
+    Kit kit = kit_new();
+    char *svg;
+
+    EXPECT_DONE(&kit, CRANK);
+    svg = drawn(&kit, "draw mechanism", "svg");
+    for (size_t i = 0; i < sizeof parts / sizeof parts[0]; i++) {
+        char title[64];
+
+        (void)snprintf(title, sizeof title, "<title>%s</title>", parts[i]);
+        EXPECT(count_of(svg, title) == 1);
+    }
+    EXPECT_HOLDS(svg, "Crank &amp; &lt;rod&gt;");
+    EXPECT_HOLDS(svg, "t = 0 s");
+    EXPECT(strstr(svg, "reaction") == NULL);
+    ct_free(svg);
+    svg = drawn(&kit, "draw mechanism reactions=on", "svg");
+    EXPECT(count_of(svg, "<title>reaction h9</title>") == 1);
+    ct_free(svg);
+    kit_free(&kit);
+}
+
+/* F12 is (-5, 2 t) N: at 1 s it points down the axis and up, as 5 to 2 */
+static void forces_are_to_scale_and_of_the_instant(void)
+{
+    Kit kit = kit_new();
+    char *svg;
+    double arrow[4] = {0};
+
+    EXPECT_DONE(&kit, CRANK "simulate 1 every=0.1");
+    svg = drawn(&kit, "draw mechanism at 1", "svg");
+    EXPECT_HOLDS(svg, "t = 1 s");
+    points(svg, "force F12", arrow);
+    EXPECT_NEAR((arrow[1] - arrow[3]) / (arrow[0] - arrow[2]), 0.4, 5e-3);
+    ct_free(svg);
+    kit_free(&kit);
+}
+
+/* seen along y, x is to the right and z up; the isometric view has the ground's axes 120 degrees
+ * apart, and gravity points down whichever axis it is along */
+static void spatial_scenes_are_seen_from_where_they_are_asked(void)
+{
+    static const char ball[] = "body b mass=1 inertia=[1, 1, 1]\narm a b [0.3, 0.4, -0.5]\n"
+                               "arm c ground [0.1, 0.2, 0]\nspherical j c b\n";
+    Kit kit = kit_new();
+    char *svg;
+    double arrow[4] = {0};
+
+    EXPECT_DONE(&kit, ball);
+    EXPECT_DONE(&kit, "gravity [0, -9.81, 0]");
+    svg = drawn(&kit, "draw mechanism", "svg");
+    points(svg, "gravity of the scene", arrow);
+    EXPECT_NEAR(arrow[2], arrow[0], 0.05);
+    EXPECT(arrow[3] > arrow[1]);
+    ct_free(svg);
+    svg = drawn(&kit, "draw mechanism view=xz", "svg");
+    EXPECT(strstr(svg, "gravity") == NULL); /* end on */
+    EXPECT_HOLDS(svg, ">x</text>");
+    EXPECT_HOLDS(svg, ">z</text>");
+    EXPECT(strstr(svg, ">y</text>") == NULL);
+    ct_free(svg);
+    EXPECT(kit_do(&kit, "draw mechanism view=up") == CT_FAILED);
+    EXPECT_HOLDS(kit.error.message, "iso, xy, xz, yz");
+    kit_free(&kit);
+}
+
+/* joints are told by what they leave free, springs by what they do */
+static void every_kind_of_part_has_a_picture(void)
+{
+    static const char *const joints[] = {"revolute",  "prismatic", "cylindrical", "universal",
+                                         "spherical", "weld",      "planarjoint"};
+    Kit kit = kit_new();
+
+    for (size_t i = 0; i < sizeof joints / sizeof joints[0]; i++) {
+        char text[256], name[32];
+        char *svg;
+
+        (void)snprintf(text, sizeof text,
+                       "clear\nbody b mass=1 inertia=[1, 1, 1]\n%s j ground b\n"
+                       "arm w ground [1, 1, 0]\narm e b [0.2, 0, 0]\nspring k w e k=1\n"
+                       "damper d w b d=1\nactuator a w e force=2",
+                       joints[i]);
+        EXPECT_DONE(&kit, text);
+        svg = drawn(&kit, "draw mechanism", "svg");
+        (void)snprintf(name, sizeof name, "%s j", joints[i]);
+        EXPECT(*part(svg, name) != '\0');
+        EXPECT(*part(svg, "spring k") != '\0');
+        EXPECT(*part(svg, "damper d") != '\0');
+        EXPECT(*part(svg, "actuator a") != '\0');
+        ct_free(svg);
+    }
+    kit_free(&kit);
+}
+
+static char *film(Kit *kit, const char *line, const char *format, int *count, double *interval)
+{
+    ct_cursor cursor = {.text = line, .line = 1};
+    ct_paper paper = {.format = format, .columns = 60, .rows = 20};
+    ct_statement *statement = NULL;
+    char **frames = NULL;
+    char *first = NULL;
+
+    EXPECT(ct_parse(&cursor, false, &statement, &kit->error) == CT_OK);
+    EXPECT_TEXT(ct_animate(kit->session, statement, &paper, &frames, interval, &kit->error) == CT_OK
+                    ? ""
+                    : kit->error.message,
+                "");
+    *count = 0;
+    for (int i = 0; frames != NULL && frames[i] != NULL; i++) {
+        if (i == 0)
+            first = frames[i];
+        else
+            ct_free(frames[i]);
+        (*count)++;
+    }
+    ct_free(frames);
+    ct_statement_free(statement);
+    return first != NULL ? first : calloc(1, 1);
+}
+
+/* nothing from outside: no address, no style or script of another file */
+static void a_page_plays_by_itself(void)
+{
+    Kit kit = kit_new();
+    int count;
+    double interval;
+    char *page;
+
+    EXPECT_DONE(&kit, CRANK "simulate 2 every=0.01");
+    page = film(&kit, "animate to=1 speed=0.5", "html", &count, &interval);
+    EXPECT(count == 1);
+    EXPECT(count_of(page, "class=\"frame\"") == 50); /* two seconds, 25 pictures in each */
+    EXPECT(strstr(page, "http") == NULL && strstr(page, "src=") == NULL &&
+           strstr(page, "href=") == NULL && strstr(page, "@import") == NULL);
+    EXPECT_HOLDS(page, "const seconds = 2, times = [0,");
+    EXPECT_HOLDS(page, "Crank &amp; &lt;rod&gt;");
+    EXPECT_NEAR(interval, 0.04, 1e-9);
+    ct_free(page);
+    page = film(&kit, "animate run1 from=0.5 to=1.5", "svg", &count, &interval);
+    EXPECT(count_of(page, "<animate ") == 25 && count_of(page, "class=\"frame\"") == 25);
+    EXPECT_HOLDS(page, "t = 0.5 s");
+    EXPECT_HOLDS(page, "t = 1.5 s");
+    ct_free(page);
+    page = film(&kit, "animate to=1", "text", &count, &interval);
+    EXPECT(count == 8);
+    ct_free(page);
+    kit_free(&kit);
+}
+
+/* in characters that every terminal has, no line longer than it is wide */
+static void a_plain_terminal_gets_plain_characters(void)
+{
+    Kit kit = kit_new();
+    char *text;
+
+    EXPECT_DONE(&kit, CRANK);
+    text = drawn(&kit, "draw mechanism", "text");
+    for (const char *line = text; *line != '\0';) {
+        const size_t length = strcspn(line, "\n");
+
+        EXPECT(length <= 79);
+        for (size_t i = 0; i < length; i++)
+            EXPECT((unsigned char)line[i] < 0x80);
+        line += length + (line[length] == '\n');
+    }
+    EXPECT_HOLDS(text, "m2");
+    EXPECT(count_of(text, ":") > 20);
+    ct_free(text);
+    kit_free(&kit);
+}
+
+static void what_cannot_be_drawn_says_why(void)
+{
+    static const struct {
+        const char *line, *says;
+    } wrong[] = {
+        {"draw mechanism at 9", "9"},
+        {"draw mechanism view=xy", "planar"},
+        {"draw mechanism reactions=perhaps", "off, on"},
+        {"draw mechanism at 1 kg", "s"},
+        {"draw m1", "knows no 'm1'"},
+        {"draw reactions=on", "draw mechanism"},
+        {"draw at 1", "same at all times"},
+        {"animate run7", "no such run"},
+        {"animate h8", "run2"},
+        {"animate from=0.5 to=0.5", "nothing moves"},
+        {"animate speed=0", "above 0"},
+        {"animate speed=-1", "above 0"},
+    };
+    Kit kit = kit_new();
+
+    EXPECT(kit_do(&kit, "draw mechanism") == CT_FAILED);
+    EXPECT_HOLDS(kit.error.message, "no body");
+    EXPECT(kit_do(&kit, "animate") == CT_FAILED);
+    EXPECT_HOLDS(kit.error.message, "no run");
+    EXPECT_DONE(&kit, CRANK "simulate 1 every=0.1");
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
+        EXPECT(kit_do(&kit, wrong[i].line) == CT_FAILED);
+        EXPECT_HOLDS(kit.error.message, wrong[i].says);
+    }
+
+    /* the last run knows no part that came later */
+    EXPECT_DONE(&kit, "body m9 mass=1 inertia=1\nrevolute h99 m3 m9");
+    EXPECT(kit_do(&kit, "draw mechanism at 0.5") == CT_FAILED);
+    EXPECT_HOLDS(kit.error.hint, "simulate");
+    EXPECT_DONE(&kit, "draw mechanism");
+    kit_free(&kit);
+}
+
+int main(void)
+{
+    RUN(places_are_to_scale);
+    RUN(every_part_is_drawn_once_by_its_name);
+    RUN(forces_are_to_scale_and_of_the_instant);
+    RUN(spatial_scenes_are_seen_from_where_they_are_asked);
+    RUN(every_kind_of_part_has_a_picture);
+    RUN(a_page_plays_by_itself);
+    RUN(a_plain_terminal_gets_plain_characters);
+    RUN(what_cannot_be_drawn_says_why);
+    return test_end();
+}
