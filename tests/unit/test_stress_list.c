@@ -154,6 +154,20 @@ static void a_wall_ahead_is_not_felt(void)
     kit_free(&kit);
 }
 
+/* The first short step into a wall, behind long ones, is as exact as any. */
+static void a_wall_is_entered_as_exactly_as_it_is_left(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, "scene planar\ngravity [-0.016703197172140291, 0]\n"
+                      "body b mass=2.4361606903749542 inertia=1\nprismatic s ground b axis=x\n"
+                      "actuator w s force=242946811248.18271*max(-s, 0)\n"
+                      "init s = 0.95613483586167092, s' = -0.34260972643767668\n"
+                      "simulate 4.2613847495883883 rtol=3e-09 method=ida");
+    EXPECT_NEAR(kit_value(&kit, "s'"), 0.35905693203747, 1e-7);
+    kit_free(&kit);
+}
+
 /* A mass swings on a spring, another hangs from one, and charge goes to and fro through a coil:
  * nothing gives or takes energy. */
 static void energy_that_comes_or_goes_by_itself_is_told(void)
@@ -373,6 +387,7 @@ int main(void)
     RUN(rounding_hands_over_to_the_stiff_method);
     RUN(a_wall_gives_back_what_it_took);
     RUN(a_wall_ahead_is_not_felt);
+    RUN(a_wall_is_entered_as_exactly_as_it_is_left);
     RUN(energy_that_comes_or_goes_by_itself_is_told);
     RUN(the_way_out_leads_out);
     RUN(a_light_crank_passes_its_dead_centre);
