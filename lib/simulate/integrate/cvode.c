@@ -6,11 +6,6 @@
 #include <sunmatrix/sunmatrix_dense.h>
 #include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
 
-#include <math.h>
-
-#define AGAINS 5    /* times that a step begins anew, */
-#define BEGIN  0.01 /* with so much of it: at order 1 */
-
 static const SundialsCalls calls = {
     .free = CVodeFree,
     .set_stop_time = CVodeSetStopTime,
@@ -37,28 +32,41 @@ static int rate(realtype t, N_Vector y, N_Vector out, void *data)
 
 /* CVODE's own differences move an unknown that is 0 by next to nothing where a first step is short,
  * and then see rounding alone. */
-static int jacobian(realtype t, N_Vector y, N_Vector rate_there, SUNMatrix matrix, void *data,
-                    N_Vector point, N_Vector column, N_Vector more)
+static int jacobian(Sundials *c, double t, N_Vector y, N_Vector rate_there, N_Vector point,
+                    N_Vector column)
 {
-    Sundials *c = data;
-
-    (void)more;
     c->jacobian_at = t;
     N_VScale(1, y, point);
     for (int j = 0; j < c->base.ode->n; j++) { /* nothing follows from quadratures */
-        double *entries = SUNDenseMatrix_Column(matrix, j);
+        double *entries = SUNDenseMatrix_Column(c->jacobian, j);
         const double was = NV_Ith_S(point, j);
         double h;
 
         NV_Ith_S(point, j) = was + ode_increment(was);
         h = NV_Ith_S(point, j) - was;
-        if (rate(t, point, column, data) != 0)
+        if (rate(t, point, column, c) != 0)
             return 1;
         NV_Ith_S(point, j) = was;
         for (int i = 0; i < c->all; i++)
             entries[i] = (NV_Ith_S(column, i) - NV_Ith_S(rate_there, i)) / h;
     }
     return 0;
+}
+
+/* matrix = 1 - gamma J. CVODE would keep the J of a try that failed for the shorter ones that
+ * follow. One from a steep part that these don't reach, as a wall, makes Newton's corrections small
+ * wherever they lead. */
+static int linear_system(realtype t, N_Vector y, N_Vector rate_there, SUNMatrix matrix,
+                         booleantype may_keep, booleantype *is_new, realtype gamma, void *data,
+                         N_Vector point, N_Vector column, N_Vector more)
+{
+    Sundials *c = data;
+
+    (void)more;
+    *is_new = !may_keep || c->jacobian_at > t;
+    if (*is_new && jacobian(c, t, y, rate_there, point, column) != 0)
+        return 1;
+    return SUNMatCopy(c->jacobian, matrix) != 0 || SUNMatScaleAddI(-gamma, matrix) != 0 ? -1 : 0;
 }
 
 static Stepper *create(const Method *method, const Ode *ode, const Control *control)
@@ -116,9 +124,10 @@ static int first_start(Sundials *c, double t)
         return code;
     if (c->base.method->is_stiff) {
         c->matrix = MEM_GIVEN(SUNDenseMatrix(c->all, c->all, c->context));
+        c->jacobian = MEM_GIVEN(SUNMatClone(c->matrix));
         c->linear = MEM_GIVEN(SUNLinSol_Dense(c->w, c->matrix, c->context));
         code = CVodeSetLinearSolver(c->memory, c->linear, c->matrix);
-        return code == 0 ? CVodeSetJacFn(c->memory, jacobian) : code;
+        return code == 0 ? CVodeSetLinSysFn(c->memory, linear_system) : code;
     }
     c->nonlinear = MEM_GIVEN(SUNNonlinSol_FixedPoint(c->w, 0, c->context));
     return CVodeSetNonlinearSolver(c->memory, c->nonlinear);
@@ -137,38 +146,17 @@ static Status start(Stepper *stepper, double t, const double *y, Diag *diag)
     return code == 0 ? OK : solver_failure(diag, t, c->reason);
 }
 
-/* one step; *reached: its end */
-static int advance(Sundials *c, double end, double *reached)
-{
-    int code = sundials_bound(c, end);
-
-    c->jacobian_at = -INFINITY;
-    c->base.before = c->base.t;
-    stepper_begin(&c->base, c->base.t, c->base.y, c->base.next);
-    if (code == 0)
-        code = CVode(c->memory, end, c->w, reached, CV_ONE_STEP);
-    sundials_count(c);
-    return code;
-}
-
 static Status step(Stepper *stepper, double end, Diag *diag)
 {
     Sundials *c = (Sundials *)stepper;
     double reached = c->base.t;
-    int code = advance(c, end, &reached);
+    int code = sundials_bound(c, end);
 
-    /* Tries that failed leave their Jacobian to shorter ones. One from a steep part that these
-     * don't reach, as a wall, makes Newton's corrections small wherever they lead: so it begins
-     * anew. */
-    for (int again = 0; again < AGAINS && code >= 0 && c->jacobian_at > reached; again++) {
-        const double h = reached - c->base.t;
-
-        sundials_place(c, c->base.t, c->base.y);
-        c->base.next = BEGIN * h;
-        code = CVodeReInit(c->memory, c->base.t, c->w);
-        if (code == CV_SUCCESS)
-            code = advance(c, end, &reached);
-    }
+    c->base.before = c->base.t;
+    stepper_begin(stepper, c->base.t, c->base.y, c->base.next);
+    if (code == 0)
+        code = CVode(c->memory, end, c->w, &reached, CV_ONE_STEP);
+    sundials_count(c);
     if (code == CV_MEM_FAIL)
         transaction_fail();
     if (code == CV_REPTD_RHSFUNC_ERR)
@@ -184,14 +172,14 @@ static Status step(Stepper *stepper, double end, Diag *diag)
 const Method method_bdf = {
     CVODE_METHOD,
     .name = "bdf",
+    .short_part = 0.05,
     .brief = "CVODE, backward differentiation, for stiff equations; rows are projected",
     .create = create_bdf,
     .is_stiff = true,
 };
 
 const Method method_adams = {
-    CVODE_METHOD,
-    .name = "adams",
-    .brief = "CVODE, Adams-Moulton; rows are projected",
+    CVODE_METHOD,           .name = "adams",
+    .short_part = 0.1,      .brief = "CVODE, Adams-Moulton; rows are projected",
     .create = create_adams,
 };

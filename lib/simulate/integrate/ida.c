@@ -250,6 +250,7 @@ static Status step(Stepper *stepper, double end, Diag *diag)
 const Method method_ida = {
     SUNDIALS_METHOD,
     .name = "ida",
+    .short_part = 0.1,
     .brief =
         "IDA on the stabilised index-2 form (embedded: index 1), on networks alone sparse; rows "
         "are projected",

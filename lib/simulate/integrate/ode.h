@@ -122,6 +122,7 @@ typedef struct Method {
     bool has_history;   /* the steps before, too: it starts anew after shorten(); */
     bool sees_little;   /* too little to find what happens in between */
     double pulse_steps; /* that a pulse of the equations takes, to come out right */
+    double short_part;  /* of the tolerance, for each of many short steps whose errors add up */
     /* what it can */
     bool is_stiff;    /* its steps are not limited by stability, where what limits them decays; */
     bool is_a_stable; /* nor where it swings */
@@ -197,7 +198,6 @@ static inline double stepper_stop(const Stepper *stepper, double end)
     return fmin(end, stepper->t + bound);
 }
 
-#define ADDED_UP        0.1   /* of the tolerance, where errors add up */
 #define LEAST_TOLERANCE 1e-13 /* that numbers allow */
 
 /* The part of the tolerance that one step may take up. Errors of a method with a history are much
@@ -205,7 +205,7 @@ static inline double stepper_stop(const Stepper *stepper, double end)
 static inline double stepper_part(const Stepper *stepper)
 {
     return stepper->method->has_history && stepper->has_pulses
-               ? fmax(ADDED_UP, fmin(1, LEAST_TOLERANCE / stepper->control.rtol))
+               ? fmax(stepper->method->short_part, fmin(1, LEAST_TOLERANCE / stepper->control.rtol))
                : 1;
 }
 

@@ -38,13 +38,13 @@ typedef struct Sundials {
     SUNContext context;
     void *memory; /* the solver */
     N_Vector w, out;
-    N_Vector rate; /* w', of implicit equations; else NULL */
-    SUNMatrix matrix;
+    N_Vector rate;              /* w', of implicit equations; else NULL */
+    SUNMatrix matrix, jacobian; /* jacobian: NULL where the solver keeps its own */
     SUNLinearSolver linear;
     SUNNonlinearSolver nonlinear;
     Counts earlier;     /* of integrations before the last restart */
     bool is_new;        /* no step since then */
-    double jacobian_at; /* in the last step, s; -INFINITY: nowhere */
+    double jacobian_at; /* s */
     double power;       /* largest rate of a quadrature so far: what its errors count beside */
     char reason[200];
 } Sundials;
