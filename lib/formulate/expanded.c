@@ -5,6 +5,7 @@
  * factors. v_j and w_j are the velocity and angular velocity of a body per unit of u_j. */
 #include "formulate/constraints.h"
 #include "formulate/coordinate.h"
+#include "formulate/derivation_impl.h"
 #include "formulate/dynamics.h"
 #include "formulate/efforts.h"
 #include "formulate/embedded.h"
@@ -21,8 +22,7 @@
 
 /* --- partial velocities --- */
 
-/* the part of the way from ground to a node that speed j moves */
-static FrameSum partial_velocity(const System *system, int node, int speed)
+FrameSum partial_velocity(const System *system, int node, int speed)
 {
     Expr one = expr_int(system->arena, 1);
     const Speed *own = &system->kinematics->speeds[speed];
@@ -45,9 +45,7 @@ static FrameSum partial_velocity(const System *system, int node, int speed)
     return framesum_add(system, slid, one, framesum_cross(system, own->axis, own->axis_chain, sum));
 }
 
-/* angular velocity of a chain per unit of speed j, in its own axes; zero where it doesn't turn it
- */
-static Vec partial_turn(const System *system, int chain, int speed)
+Vec partial_turn(const System *system, int chain, int speed)
 {
     int turned = system->kinematics->speeds[speed].chain;
 
@@ -112,8 +110,6 @@ static FrameSum rest_acceleration(const System *system, int node)
 
 /* --- entries --- */
 
-typedef LIST(Expr) Terms;
-
 /* `e` folded and collected where that is shorter than `best` */
 static Expr shorter(Arena *arena, Expr best, Expr e)
 {
@@ -153,6 +149,11 @@ static Status rotor_of(System *system, const Instance *instance, Expr *inertia, 
                             instance->joint_coordinate, 0, s, diag);
 }
 
+static void push_term(Terms *terms, TermKind kind, int instance, Expr value)
+{
+    LIST_PUSH(*terms, (Term){.kind = kind, .edge = -1, .instance = instance, .value = value});
+}
+
 /* what an effort on a joint adds to M */
 static Status push_inertia_of(System *system, const Instance *instance, int j, int k, Terms *terms,
                               Diag *diag)
@@ -165,16 +166,14 @@ static Status push_inertia_of(System *system, const Instance *instance, int j, i
     TRY(effort_of(system, instance, &effort, diag));
     TRY(effort_inertia(system, &effort, k, &inertia, diag));
     if (!expr_is_zero(inertia))
-        LIST_PUSH(*terms,
+        push_term(terms, TERM_ROTOR, instance->number,
                   expr_mul(system->arena, speed_partial(system, effort.displacement, j), inertia));
     return OK;
 }
 
-static Status show_mass(System *system, int j, int k, Expr *out, Diag *diag)
+static Status mass_terms(System *system, int j, int k, Terms *terms, Diag *diag)
 {
     Arena *arena = system->arena;
-    Terms terms = {0};
-    Status status = OK;
 
     for (int i = 0; i < system->dynamics->masses.count; i++) {
         const Mass *mass = &system->dynamics->masses.at[i];
@@ -182,31 +181,32 @@ static Status show_mass(System *system, int j, int k, Expr *out, Diag *diag)
         FrameSum v_j = partial_velocity(system, mass->node, j);
         FrameSum v_k = j == k ? v_j : partial_velocity(system, mass->node, k);
 
-        LIST_PUSH(terms, expr_mul(arena, mass->mass, framesum_dot(system, v_j, v_k)));
+        push_term(terms, TERM_MASS, mass->instance,
+                  expr_mul(arena, mass->mass, framesum_dot(system, v_j, v_k)));
         if (mass->has_inertia)
-            LIST_PUSH(terms, vec_dot(arena, partial_turn(system, chain, j),
-                                     rotation_apply(arena, &mass->inertia,
-                                                    partial_turn(system, chain, k))));
+            push_term(
+                terms, TERM_INERTIA, mass->instance,
+                vec_dot(arena, partial_turn(system, chain, j),
+                        rotation_apply(arena, &mass->inertia, partial_turn(system, chain, k))));
     }
     for (int i = 0; i < system->origin->instance_count; i++) {
         Expr inertia;
         Expr s;
 
-        CHECK(rotor_of(system, &system->origin->instances[i], &inertia, &s, diag));
+        TRY(rotor_of(system, &system->origin->instances[i], &inertia, &s, diag));
         if (s != NULL)
-            LIST_PUSH(terms, expr_product(arena,
-                                          (Expr[]){inertia, speed_partial(system, s, j),
-                                                   speed_partial(system, s, k)},
-                                          3));
-        CHECK(push_inertia_of(system, &system->origin->instances[i], j, k, &terms, diag));
+            push_term(terms, TERM_ROTOR, i,
+                      expr_product(arena,
+                                   (Expr[]){inertia, speed_partial(system, s, j),
+                                            speed_partial(system, s, k)},
+                                   3));
+        TRY(push_inertia_of(system, &system->origin->instances[i], j, k, terms, diag));
     }
-    *out = tidy(system, expr_sum(system->arena, terms.at, terms.count));
-done:
-    LIST_FREE(terms);
-    return status;
+    return OK;
 }
 
-static void push_inertia(const System *system, int j, Terms *terms)
+/* weight and velocity products of the masses, together as they are shortest or apart */
+static void push_inertia(const System *system, int j, bool apart, Terms *terms)
 {
     Arena *arena = system->arena;
 
@@ -214,10 +214,16 @@ static void push_inertia(const System *system, int j, Terms *terms)
         const Mass *mass = &system->dynamics->masses.at[i];
         int chain = system->kinematics->frames[mass->node].chain;
         FrameSum v_j = partial_velocity(system, mass->node, j);
-        FrameSum rest = framesum_add(system, framesum_of(system, 0, system->origin->gravity),
-                                     expr_int(arena, -1), rest_acceleration(system, mass->node));
+        FrameSum weight = framesum_of(system, 0, system->origin->gravity);
+        FrameSum rest = rest_acceleration(system, mass->node);
 
-        LIST_PUSH(*terms, expr_mul(arena, mass->mass, framesum_dot(system, v_j, rest)));
+        if (apart)
+            push_term(terms, TERM_WEIGHT, mass->instance,
+                      expr_mul(arena, mass->mass, framesum_dot(system, v_j, weight)));
+        rest =
+            framesum_add(system, apart ? (FrameSum){NULL, 0} : weight, expr_int(arena, -1), rest);
+        push_term(terms, TERM_MASS, mass->instance,
+                  expr_mul(arena, mass->mass, framesum_dot(system, v_j, rest)));
         if (mass->has_inertia) {
             Vec w;
             Vec alpha;
@@ -226,7 +232,7 @@ static void push_inertia(const System *system, int j, Terms *terms)
             chain_motion(system, chain, &w, &alpha);
             torque = vec_add(arena, rotation_apply(arena, &mass->inertia, alpha),
                              vec_cross(arena, w, rotation_apply(arena, &mass->inertia, w)));
-            LIST_PUSH(*terms,
+            push_term(terms, TERM_INERTIA, mass->instance,
                       expr_neg(arena, vec_dot(arena, partial_turn(system, chain, j), torque)));
         }
     }
@@ -255,8 +261,9 @@ static Status push_effort(System *system, const Instance *instance, int j, Terms
         TRY(variables_resolve(system, effort.value, &effort.value, diag));
         effort.displacement = length;
     }
-    LIST_PUSH(*terms, expr_mul(arena, effort_at_rest(system, &effort),
-                               speed_partial(system, effort.displacement, j)));
+    push_term(terms, TERM_EFFORT, instance->number,
+              expr_mul(arena, effort_at_rest(system, &effort),
+                       speed_partial(system, effort.displacement, j)));
     return OK;
 }
 
@@ -268,10 +275,12 @@ static Status push_wrench(System *system, const Instance *instance, int j, Terms
     int chain;
 
     TRY(wrench_of(system, instance, &force, &torque, &chain, diag));
-    LIST_PUSH(*terms, framesum_dot(system, framesum_of(system, chain, force),
-                                   partial_velocity(system, instance->head, j)));
-    LIST_PUSH(*terms, framesum_dot(system, framesum_of(system, chain, torque),
-                                   framesum_of(system, own, partial_turn(system, own, j))));
+    push_term(terms, TERM_FORCE, instance->number,
+              framesum_dot(system, framesum_of(system, chain, force),
+                           partial_velocity(system, instance->head, j)));
+    push_term(terms, TERM_TORQUE, instance->number,
+              framesum_dot(system, framesum_of(system, chain, torque),
+                           framesum_of(system, own, partial_turn(system, own, j))));
     return OK;
 }
 
@@ -297,38 +306,72 @@ static Status push_rotor(System *system, const Instance *instance, int j, Terms 
         return OK;
     TRY(second_rate_at_rest(system, s, &second, diag));
     second = expr_product(arena, (Expr[]){inertia, second, speed_partial(system, s, j)}, 3);
-    LIST_PUSH(*terms, expr_neg(arena, second));
+    push_term(terms, TERM_ROTOR, instance->number, expr_neg(arena, second));
     return OK;
 }
 
-static Status show_force(System *system, int j, int column, Expr *out, Diag *diag)
+static Status push_forces(System *system, int j, bool apart, Terms *terms, Diag *diag)
 {
-    Terms terms = {0};
-    Status status = OK;
-
-    (void)column;
-    push_inertia(system, j, &terms);
+    push_inertia(system, j, apart, terms);
     for (int i = 0; i < system->origin->instance_count; i++) {
         const Instance *instance = &system->origin->instances[i];
 
         if (instance->row->wrench != NULL)
-            CHECK(push_wrench(system, instance, j, &terms, diag));
+            TRY(push_wrench(system, instance, j, terms, diag));
         if (instance->row->effort != NULL)
-            CHECK(push_effort(system, instance, j, &terms, diag));
-        CHECK(push_rotor(system, instance, j, &terms, diag));
+            TRY(push_effort(system, instance, j, terms, diag));
+        TRY(push_rotor(system, instance, j, terms, diag));
     }
     for (int i = 0; i < system->constraints->drives.count; i++) {
         Expr s;
 
-        CHECK(drive_coordinate(system, i, &s, diag));
+        TRY(drive_coordinate(system, i, &s, diag));
         if (s != NULL)
-            LIST_PUSH(terms, expr_mul(system->arena, system->constraints->drives.at[i].effort,
-                                      speed_partial(system, s, j)));
+            push_term(terms, TERM_DRIVE, system->constraints->drives.at[i].instance,
+                      expr_mul(system->arena, system->constraints->drives.at[i].effort,
+                               speed_partial(system, s, j)));
     }
-    *out = tidy(system, expr_sum(system->arena, terms.at, terms.count));
+    return OK;
+}
+
+static Status force_terms(System *system, int j, int column, Terms *terms, Diag *diag)
+{
+    (void)column;
+    return push_forces(system, j, true, terms, diag);
+}
+
+static Status forces_together(System *system, int j, int column, Terms *terms, Diag *diag)
+{
+    (void)column;
+    return push_forces(system, j, false, terms, diag);
+}
+
+/* what is shown of an entry that is a sum of terms */
+static Status show_sum(System *system, TermsFunction *terms_of, int row, int column, Expr *out,
+                       Diag *diag)
+{
+    LIST(Expr) values = {0};
+    Terms terms = {0};
+    Status status = OK;
+
+    CHECK(terms_of(system, row, column, &terms, diag));
+    for (int i = 0; i < terms.count; i++)
+        LIST_PUSH(values, terms.at[i].value);
+    *out = tidy(system, expr_sum(system->arena, values.at, values.count));
 done:
+    LIST_FREE(values);
     LIST_FREE(terms);
     return status;
+}
+
+static Status show_mass(System *system, int j, int k, Expr *out, Diag *diag)
+{
+    return show_sum(system, mass_terms, j, k, out, diag);
+}
+
+static Status show_force(System *system, int j, int column, Expr *out, Diag *diag)
+{
+    return show_sum(system, forces_together, j, column, out, diag);
 }
 
 static Status show_constraint(System *system, int k, int column, Expr *out, Diag *diag)
@@ -386,19 +429,20 @@ static Status show_network_rhs(System *system, int row, int column, Expr *out, D
 typedef struct BlockRow {
     const char *name;
     Status (*show)(System *system, int row, int column, Expr *out, Diag *diag);
+    TermsFunction *terms; /* what the entry is the sum of; NULL: of nothing that has a name */
 } BlockRow;
 
 static const BlockRow blocks[BLOCK_COUNT] = {
-    [BLOCK_MASS] = {"mass", show_mass},
-    [BLOCK_FORCES] = {"forces", show_force},
-    [BLOCK_CONSTRAINTS] = {"constraints", show_constraint},
-    [BLOCK_JACOBIAN] = {"jacobian", show_jacobian},
-    [BLOCK_VELOCITY] = {"velocity", show_velocity},
-    [BLOCK_ACCELERATION] = {"acceleration", show_acceleration},
-    [BLOCK_NETWORK] = {"network", show_network},
-    [BLOCK_NETWORK_RHS] = {"network_rhs", show_network_rhs},
-    [BLOCK_EMBEDDED_MASS] = {"embedded_mass", embedded_mass},
-    [BLOCK_EMBEDDED_FORCES] = {"embedded_forces", embedded_force},
+    [BLOCK_MASS] = {"mass", show_mass, mass_terms},
+    [BLOCK_FORCES] = {"forces", show_force, force_terms},
+    [BLOCK_CONSTRAINTS] = {"constraints", show_constraint, constraint_terms},
+    [BLOCK_JACOBIAN] = {"jacobian", show_jacobian, jacobian_terms},
+    [BLOCK_VELOCITY] = {"velocity", show_velocity, NULL},
+    [BLOCK_ACCELERATION] = {"acceleration", show_acceleration, NULL},
+    [BLOCK_NETWORK] = {"network", show_network, NULL},
+    [BLOCK_NETWORK_RHS] = {"network_rhs", show_network_rhs, NULL},
+    [BLOCK_EMBEDDED_MASS] = {"embedded_mass", embedded_mass, NULL},
+    [BLOCK_EMBEDDED_FORCES] = {"embedded_forces", embedded_force, NULL},
 };
 
 const char *block_name(Block block)
@@ -537,5 +581,24 @@ Status system_show(System *system, Block block, int row, int column, Expr *out, 
 
     if (status == OK)
         *out = system_plain(system, *out);
+    return status;
+}
+
+Status system_terms(System *system, Block block, int row, int column, Terms *out, Diag *diag)
+{
+    Status status = OK;
+
+    system_touch(system);
+    if (blocks[block].terms == NULL ||
+        (!system->dynamics->writes_out && (block == BLOCK_MASS || block == BLOCK_FORCES)))
+        return OK;
+    CHECK(blocks[block].terms(system, row, column, out, diag));
+    for (int i = 0; i < out->count; i++) {
+        out->at[i].value = system_plain(system, tidy(system, out->at[i].value));
+        CHECK(poll(system->watch));
+    }
+done:
+    if (status != OK)
+        LIST_FREE(*out);
     return status;
 }

@@ -9,6 +9,7 @@ libcore_la_SOURCES += \
 	lib/formulate/counting.c \
 	lib/formulate/critical.c \
 	lib/formulate/coordinate.c \
+	lib/formulate/derivation.c lib/formulate/derivation.h lib/formulate/derivation_impl.h \
 	lib/formulate/dynamics.c \
 	lib/formulate/edges.c \
 	lib/formulate/edges.h \
@@ -21,7 +22,7 @@ libcore_la_SOURCES += \
 	lib/formulate/kinks.c lib/formulate/recursive.c \
 	lib/formulate/network.c lib/formulate/network_build.c \
 	lib/formulate/network_node_rows.c lib/formulate/network_nodes.c lib/formulate/network_order.c \
-	lib/formulate/network_rows.c \
+	lib/formulate/network_rows.c lib/formulate/network_steps.c \
 	lib/formulate/network_tree.c \
 	lib/formulate/reactions.c \
 	lib/formulate/rates.c lib/formulate/reading.c \

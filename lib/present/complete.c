@@ -195,8 +195,7 @@ static void offer_values(TypedLine *line)
 static void offer_topics(TypedLine *line)
 {
     for (int i = 0; topic_at(i) != NULL; i++)
-        if (topic_at(i)->show != NULL)
-            offer(line, topic_at(i)->name);
+        offer(line, topic_at(i)->name);
 }
 
 /* outputs of the last linearisation, before there is one what it may have as outputs */
@@ -218,6 +217,9 @@ static void offer_linear_inputs(TypedLine *line)
         offer(line, linear->input_names[i]);
 }
 
+/* blocks whose entries `show derivation` tells of */
+static const char *const derived_entries[] = {"mass(", "forces(", "constraints(", "jacobian("};
+
 static void offer_show(TypedLine *line)
 {
     const Topic *topic = line->before.count > 1 ? topic_find(line->before.at[1]) : NULL;
@@ -229,6 +231,11 @@ static void offer_show(TypedLine *line)
             break;
         case BEHIND_EDGES:
             offer_edges(line);
+            break;
+        case BEHIND_ENTRY:
+            offer_told(line);
+            for (int i = 0; i < COUNT(derived_entries) && line->prefix[0] != '\0'; i++)
+                offer(line, derived_entries[i]);
             break;
         case BEHIND_LEVEL:
             offer(line, "velocity");

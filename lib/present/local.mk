@@ -26,6 +26,7 @@ libcore_la_SOURCES += \
   lib/present/reference.c \
   lib/present/show.c \
   lib/present/show.h \
+  lib/present/show_derivation.c \
   lib/present/show_equations.c \
   lib/present/show_graph.c \
   lib/present/show_linear.c \

@@ -31,7 +31,7 @@ static const Topic topics[] = {
     {"state",        "a linear network as x' = A x + B u",                 NEED_MODEL,  BEHIND_NOTHING, show_state},
     {"linear",       "matrices of the last linearisation",                 NEED_LINEAR, BEHIND_NOTHING, show_linear},
     {"transfer",     "transfer functions of the last linearisation",       NEED_LINEAR, BEHIND_PAIR,    show_transfer},
-    {"derivation",   "how an equation came about, step by step",           NEED_MODEL,  BEHIND_NOTHING, NULL},
+    {"derivation",   "how an equation came about, step by step",           NEED_SYSTEM, BEHIND_ENTRY,   show_derivation},
     {"events",       "events, and when they happened in the last run",     NEED_MODEL,  BEHIND_NOTHING, show_events},
 };
 /* clang-format on */
@@ -81,12 +81,6 @@ Status show_need(const Model *model, const Statement *statement, Need *need, Dia
         diag_hint(diag, "show graph, tree, coordinates, constraints, mass, forces, equations ...; "
                         "'help show' lists them");
         return E_SYNTAX;
-    }
-    if (topic != NULL && topic->show == NULL) {
-        diag_at(diag, E_MISSING, statement->operands.at[0].place,
-                "'show %s' comes with a later version", topic->name);
-        diag_hint(diag, "'help show' lists what can be shown");
-        return E_MISSING;
     }
     if (topic != NULL)
         *need = topic->need;
@@ -200,7 +194,13 @@ static Status show_topic(const View *view, const Topic *topic, const Statement *
     for (int i = 1; i < statement->operands.count; i++) {
         const Operand *operand = statement->operands.at + i;
 
-        if (operand->value->kind == SYNTAX_NUMBER) {
+        if (topic->behind == BEHIND_ENTRY && selection.item == NULL) {
+            selection.item = operand->value;
+        } else if (topic->behind == BEHIND_ENTRY) {
+            status = diag_at(diag, E_SYNTAX, operand->place,
+                             "'show %s' tells of one name, row or entry at a time", topic->name);
+            goto done;
+        } else if (operand->value->kind == SYNTAX_NUMBER) {
             CHECK(take_number(topic, operand, &selection, diag));
         } else if (topic->behind == BEHIND_PAIR) {
             CHECK(take_output_or_input(view, topic, operand, &selection, diag));

@@ -20,6 +20,7 @@ typedef enum Behind { /* what may stand behind a topic */
                       BEHIND_NUMBERS, /* a row, a row and a column */
                       BEHIND_EDGES,   /* names of edges */
                       BEHIND_LEVEL,   /* velocity or acceleration, and rows */
+                      BEHIND_ENTRY,   /* a name, a row, or an entry: mass(2,3) */
                       BEHIND_PAIR     /* an output and an input of what was linearized, by number or
                                          name */
 } Behind;
@@ -29,7 +30,8 @@ typedef struct Selection {
     int number_count;
     const char *const *names;
     int name_count;
-    const char *level; /* "velocity", "acceleration" or NULL */
+    const char *level;  /* "velocity", "acceleration" or NULL */
+    const Syntax *item; /* BEHIND_ENTRY; NULL: all */
 } Selection;
 
 typedef struct Topic {
@@ -37,7 +39,6 @@ typedef struct Topic {
     const char *brief;
     Need need;
     Behind behind;
-    /* NULL: comes with a later version */
     Status (*show)(const View *view, const Selection *selection, Text *out, Diag *diag);
 } Topic;
 
@@ -48,8 +49,8 @@ const Topic *topic_at(int i);              /* 0, 1, ... until NULL */
  * part (`show R1`) only the model. */
 MUST_USE Status show_need(const Model *model, const Statement *statement, Need *need, Diag *diag);
 /* Write what the statement asks for; of a name that no formula stands behind, what `info` tells.
- * Fails with E_NAME for an unknown topic or edge, E_VALUE for an entry beyond the last, E_MISSING
- * for topics of later versions, the errors of equations. */
+ * Fails with E_NAME for an unknown topic or edge, E_VALUE for an entry beyond the last, the
+ * errors of equations. */
 MUST_USE Status show(const View *view, const Statement *statement, Text *out, Diag *diag);
 /* --- the functions of topics --- */
 typedef MUST_USE Status ShowFunction(const View *view, const Selection *selection, Text *out,
@@ -59,7 +60,19 @@ ShowFunction show_graph, show_nodes, show_edges, show_tree, show_incidence, show
     show_cutsets, show_structure;
 ShowFunction show_coordinates, show_constraints, show_jacobian, show_mass, show_forces,
     show_equations, show_network, show_events;
+ShowFunction show_derivation;
 ShowFunction show_outputs, show_params, show_run, show_settings, show_program;
+
+/* --- equations one by one, each behind its edge's name --- */
+
+/* row k: Phi = 0, Phi_u u = nu ("velocity") or Phi_u u' = gamma ("acceleration") */
+MUST_USE Status equations_add_constraint(const View *view, Equations *equations, int k,
+                                         const char *level, Diag *diag);
+/* row i of M u' + Phi_u^T lambda = F */
+MUST_USE Status equations_add_motion(const View *view, Equations *equations, int i, int lead_width,
+                                     Diag *diag);
+/* "M7: L7*i' = ..." */
+void equations_add_network(const View *view, Equations *equations, int i, int lead_width);
 
 /* a matrix of the linear equations, by its letter */
 typedef struct LinearMatrix {

@@ -304,9 +304,8 @@ static Status push_equation(Equations *equations, Equation *equation, Status sta
     return status;
 }
 
-/* the equation of row k: Phi = 0, Phi_u u = nu or Phi_u u' = gamma */
-static Status push_constraint(const View *view, Equations *equations, int k, const char *level,
-                              Diag *diag)
+Status equations_add_constraint(const View *view, Equations *equations, int k, const char *level,
+                                Diag *diag)
 {
     Equation equation = {.lead = NULL, .name = NULL, .left = {0}, .right = {0}};
     const bool acceleration = level != NULL && strcmp(level, "acceleration") == 0;
@@ -337,7 +336,7 @@ Status show_constraints(const View *view, const Selection *selection, Text *out,
     CHECK(check_numbers(view, BLOCK_CONSTRAINTS, selection, diag));
     for (int k = 0; k < system_m(view->system); k++)
         if (is_chosen(selection, k, 0) && selection->number_count < 2)
-            CHECK(push_constraint(view, &equations, k, selection->level, diag));
+            CHECK(equations_add_constraint(view, &equations, k, selection->level, diag));
     if (selection->number_count == 0)
         add_freedom(out, view);
     if (equations.count > 0)
@@ -375,8 +374,8 @@ done:
     return push_equation(equations, &equation, status);
 }
 
-/* row i of M u' + Phi_u^T lambda = F */
-static Status push_motion(const View *view, Equations *equations, int i, int lead_width, Diag *diag)
+Status equations_add_motion(const View *view, Equations *equations, int i, int lead_width,
+                            Diag *diag)
 {
     Equation equation = {.lead = NULL, .name = NULL, .left = {0}, .right = {0}};
     Status status = OK;
@@ -399,24 +398,27 @@ static Status push_motions(const View *view, Equations *equations, int lead_widt
     for (int i = 0; embedded && i < nu - m; i++)
         TRY(push_embedded(view, equations, i, diag));
     for (int i = 0; !embedded && i < nu; i++)
-        TRY(push_motion(view, equations, i, lead_width, diag));
+        TRY(equations_add_motion(view, equations, i, lead_width, diag));
     return OK;
 }
 
-/* "M7: L7*i' = ..." */
+void equations_add_network(const View *view, Equations *equations, int i, int lead_width)
+{
+    Equation equation = {.lead = NULL, .name = NULL, .left = {0}, .right = {0}};
+    const Variable of = {.edge = system_network_edge(view->system, i)};
+    Expr left, right;
+
+    system_network_equation(view->system, i, &left, &right);
+    LIST_PUSH(equation.left, (ViewTerm){left, NULL});
+    LIST_PUSH(equation.right, (ViewTerm){right, NULL});
+    equation.lead = edge_lead(view, &of, lead_width);
+    LIST_PUSH(*equations, equation);
+}
+
 static void push_network(const View *view, Equations *equations, int lead_width)
 {
-    for (int i = 0; i < system_network_count(view->system); i++) {
-        Equation equation = {.lead = NULL, .name = NULL, .left = {0}, .right = {0}};
-        const Variable of = {.edge = system_network_edge(view->system, i)};
-        Expr left, right;
-
-        system_network_equation(view->system, i, &left, &right);
-        LIST_PUSH(equation.left, (ViewTerm){left, NULL});
-        LIST_PUSH(equation.right, (ViewTerm){right, NULL});
-        equation.lead = edge_lead(view, &of, lead_width);
-        LIST_PUSH(*equations, equation);
-    }
+    for (int i = 0; i < system_network_count(view->system); i++)
+        equations_add_network(view, equations, i, lead_width);
 }
 
 static int edge_lead_width(const View *view)
@@ -461,7 +463,7 @@ Status show_equations(const View *view, const Selection *selection, Text *out, D
     (void)selection;
     CHECK(push_motions(view, &equations, width, diag));
     for (int k = 0; k < system_m(view->system); k++)
-        CHECK(push_constraint(view, &equations, k, NULL, diag));
+        CHECK(equations_add_constraint(view, &equations, k, NULL, diag));
     push_network(view, &equations, width);
     add_freedom(out, view);
     if (equations.count > 0)
@@ -516,7 +518,7 @@ Status show_expression(const View *view, const Syntax *syntax, int number, Text 
     TRY(model_expression(view->model, syntax, &user, diag));
     TRY(system_resolve(view->system, user, &e, diag));
     view_value(&equations, left_side(view, syntax, user, number),
-               expr_fold(model_arena(view->model), e));
+               expr_fold(model_arena(view->model), system_plain(view->system, e)));
     write_equations(out, view, &equations);
     return OK;
 }

@@ -84,3 +84,8 @@ family_stress_runs_LDADD = libcotree.la $(unit_ldadd)
 FAMILIES += family_native
 family_native_SOURCES = tests/family/family_native.c tests/family/family.h tests/random.h
 family_native_LDADD = $(unit_ldadd)
+
+FAMILIES += family_derivation
+family_derivation_SOURCES = tests/family/family_derivation.c tests/family/family.h \
+	tests/family/script.h tests/unit/session_kit.h tests/unit/test.h
+family_derivation_LDADD = libcotree.la $(unit_ldadd)

@@ -75,3 +75,6 @@ test_evaluator_LDADD = $(unit_ldadd)
 UNIT_TESTS += test_draw
 test_draw_SOURCES = tests/unit/test_draw.c tests/unit/session_kit.h tests/unit/test.h
 test_draw_LDADD = $(unit_ldadd)
+UNIT_TESTS += test_session_derivation
+test_session_derivation_SOURCES = tests/unit/test_session_derivation.c tests/unit/session_kit.h tests/unit/test.h
+test_session_derivation_LDADD = $(unit_ldadd)

@@ -159,12 +159,18 @@ UNUSED static ct_status kit_do(Kit *kit, const char *text)
 /* the value of an expression, NAN where it has none */
 UNUSED static double kit_value(Kit *kit, const char *expression)
 {
-    char line[400];
+    const size_t room = strlen(expression) + sizeof "print ";
+    char *line = malloc(room);
     ct_statement *statement = NULL;
     double value = NAN;
+    ct_status parsed = CT_FAILED;
 
-    (void)snprintf(line, sizeof line, "print %s", expression);
-    if (ct_parse(&(ct_cursor){.text = line, .line = 1}, false, &statement, &kit->error) != CT_OK)
+    if (line != NULL) {
+        (void)snprintf(line, room, "print %s", expression);
+        parsed = ct_parse(&(ct_cursor){.text = line, .line = 1}, false, &statement, &kit->error);
+    }
+    free(line);
+    if (parsed != CT_OK)
         return NAN;
     if (ct_value(kit->session, ct_operand(statement, 0), ct_at(statement), &value, &kit->error) !=
         CT_OK)

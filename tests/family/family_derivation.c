@@ -1,0 +1,268 @@
+/* family_derivation.c: the terms that `show derivation` prints, as numbers, in random models
+ *
+ * What is read is the printed text alone. The oracle is Newton's law in the numbers of a run:
+ * accelerations and multipliers at a start come from the recursive form, which knows no terms. So
+ * in each row of motion the terms of M times accelerations, and those of the Jacobian times
+ * multipliers, must make up those of F. The terms of a constraint must add up to 0 in an assembled
+ * position. */
+#include "../unit/session_kit.h"
+#include "family.h"
+#include "script.h"
+
+#define COUNT(array) ((int)(sizeof(array) / sizeof *(array)))
+
+enum { MOST_BODIES = 4, MOST_ROWS = 13 };
+
+typedef struct Shape {
+    Script script;
+    int bodies;
+} Shape;
+
+static double draw(Member *m, double low, double high)
+{
+    return member_between(m, low, high);
+}
+
+static int one_of(Member *m, int count)
+{
+    return (int)(test_random(&m->random) % (unsigned)count);
+}
+
+/* what pulls: weight, a force, a spring or damper at the last joint */
+static void write_loads(Member *m, Shape *shape, bool planar)
+{
+    Script *s = &shape->script;
+    const int last = shape->bodies - 1;
+
+    if (one_of(m, 4) > 0)
+        write_line(s, planar ? "gravity [0, %.3f]" : "gravity [0.3, 0, %.3f]", draw(m, -12, -1));
+    if (one_of(m, 2) == 0)
+        write_line(s, planar ? "force F1 b%d [%.3f, %.3f]" : "force F1 b%d [%.3f, %.3f, 0.7]", last,
+                   draw(m, -5, 5), draw(m, -5, 5));
+    if (one_of(m, 2) == 0)
+        write_line(s, planar ? "torque T1 b%d %.3f" : "torque T1 b%d [0.2, 0, %.3f]", last,
+                   draw(m, -2, 2));
+    if (one_of(m, 2) == 0)
+        write_line(s, "spring k1 j0 k=%.3f", draw(m, 1, 50));
+    if (one_of(m, 3) == 0)
+        write_line(s, "damper d1 j%d d=%.3f", last, draw(m, 0.1, 2));
+    if (one_of(m, 3) == 0)
+        write_line(s, "motor M1 j0 e 0 R=1 L=0.1 Kt=0.5 J=%.3f\nvsource V1 e 0 %.3f",
+                   draw(m, 0.01, 0.1), draw(m, -5, 5));
+}
+
+static void write_body(Member *m, Script *s, int i, bool planar)
+{
+    if (planar)
+        write_line(s, "body b%d mass=%.3f inertia=%.3f", i, draw(m, 0.5, 3), draw(m, 0.01, 0.2));
+    else
+        write_line(s, "body b%d mass=%.3f inertia=[%.3f, 0.3, 0.25, 0.02, -0.01, 0.03]", i,
+                   draw(m, 0.5, 3), draw(m, 0.2, 0.3));
+    write_line(s, planar ? "arm p%d b%d [%.3f, %.3f]" : "arm p%d b%d [%.3f, %.3f, 0.05]", i, i,
+               draw(m, -0.5, -0.1), draw(m, -0.1, 0.1));
+    write_line(s, planar ? "arm q%d b%d [%.3f, %.3f]" : "arm q%d b%d [%.3f, %.3f, -0.04]", i, i,
+               draw(m, 0.1, 0.5), draw(m, -0.1, 0.1));
+}
+
+/* a chain of turns and slides, in any of the trees */
+static void write_chain(Member *m, Shape *shape, bool planar)
+{
+    static const char *const axes[] = {"x", "y", "z", "[0.6, 0, 0.8]"};
+    static const char *const trees[] = {"tree joint", "tree absolute", ""};
+    Script *s = &shape->script;
+
+    shape->bodies = 1 + one_of(m, planar ? MOST_BODIES : 3);
+    write_line(s, "scene %s", planar ? "planar" : "spatial");
+    for (int i = 0; i < shape->bodies; i++) {
+        const bool slides = one_of(m, 4) == 0;
+
+        char tail[16] = "ground";
+
+        write_body(m, s, i, planar);
+        if (i > 0)
+            (void)snprintf(tail, sizeof tail, "q%d", i - 1);
+        write_line(s, "%s j%d %s p%d axis=%s", slides ? "prismatic" : "revolute", i, tail, i,
+                   planar ? (slides ? axes[one_of(m, 2)] : "z") : axes[one_of(m, 4)]);
+    }
+    write_loads(m, shape, planar);
+    write_line(s, "%s", trees[one_of(m, 3)]);
+    for (int i = 0; i < shape->bodies; i++)
+        write_line(s, "init j%d = %.4f, j%d' = %.4f", i, draw(m, -1, 1), i, draw(m, -2, 2));
+}
+
+/* a crank, a rod and a slide, in one tree, in two, or in absolute coordinates */
+static void write_crank(Member *m, Shape *shape)
+{
+    static const char *const trees[] = {"tree j0 j2 j3",
+                                        "tree translation j0 j1 j2\ntree rotation j0 j2 j3",
+                                        "tree absolute", "tree j0 j1 j2"};
+    Script *s = &shape->script;
+
+    shape->bodies = 3;
+    write_line(s, "scene planar\nL1 = %.3f\nL2 = %.3f", draw(m, 0.05, 0.2), draw(m, 0.25, 0.5));
+    for (int i = 0; i < 3; i++)
+        write_line(s, "body b%d mass=%.3f inertia=%.3f", i, draw(m, 0.5, 3), draw(m, 0.01, 0.2));
+    write_line(s,
+               "arm p0 b0 [-L1/2, 0]\narm q0 b0 [L1/2, 0]\narm p1 b1 [L2, 0]\narm q1 b1 [-L2, 0]");
+    write_line(s, "revolute j0 ground p0\nrevolute j1 q0 p1\nrevolute j2 b2 q1");
+    write_line(s, "prismatic j3 ground b2 axis=x");
+    write_loads(m, shape, true);
+    write_line(s, "%s", trees[one_of(m, 4)]);
+    write_line(s, "init j0 = %.4f, j0' = %.4f", draw(m, 0.3, 1.2), draw(m, -5, 5));
+}
+
+/* The sum of the terms that the statement's text lists, as a formula; false: there are none. */
+static bool read_terms(Kit *kit, const char *statement, char *sum, size_t room)
+{
+    size_t length = 0;
+
+    if (kit_do(kit, statement) != CT_OK || kit->text == NULL)
+        return false;
+    sum[0] = '\0';
+    for (const char *line = kit->text; line != NULL && *line != '\0';) {
+        const char *end = strchr(line, '\n'), *value = strstr(line, " = ");
+        const bool is_term = strncmp(line, "  ", 2) == 0 && line[2] != ' ';
+
+        if (is_term && value != NULL && (end == NULL || value < end))
+            length += (size_t)snprintf(
+                sum + length, room - length, "%s(%.*s)", length > 0 ? " + " : "",
+                (int)((end != NULL ? end : value + strlen(value)) - value - 3), value + 3);
+        if (length >= room)
+            return false;
+        line = end != NULL ? end + 1 : NULL;
+    }
+    if (sum[0] == '\0')
+        (void)snprintf(sum, room, "0");
+    return true;
+}
+
+/* what the terms add up to; and how large they are */
+static bool entry_of(Member *m, Kit *kit, const char *block, int row, int column, double *out)
+{
+    static char sum[1 << 16];
+    char statement[80];
+
+    if (column > 0)
+        (void)snprintf(statement, sizeof statement, "show derivation %s(%d,%d)", block, row,
+                       column);
+    else
+        (void)snprintf(statement, sizeof statement, "show derivation %s(%d)", block, row);
+    if (!read_terms(kit, statement, sum, sizeof sum)) {
+        tell(m, "%s: %s\n", statement, kit->error.message);
+        return false;
+    }
+    *out = kit_value(kit, sum);
+    if (m->told)
+        tell(m, "%s: %s = %.17g\n", statement, sum, *out);
+    return true;
+}
+
+/* the speed of row i and its acceleration: "j0''", "b1.x''" */
+static bool acceleration_of(Kit *kit, int row, double *out)
+{
+    char statement[48], name[64];
+    const char *mark;
+
+    (void)snprintf(statement, sizeof statement, "show derivation forces(%d)", row);
+    if (kit_do(kit, statement) != CT_OK || (mark = strstr(kit->text, "row of ")) == NULL)
+        return false;
+    (void)snprintf(name, sizeof name, "%.*s'", (int)strcspn(mark + 7, "\n"), mark + 7);
+    *out = kit_value(kit, name);
+    return true;
+}
+
+static Verdict check_rows(Member *m, Kit *kit)
+{
+    const int rows = (int)kit_value(kit, "model.m");
+    double rates[MOST_ROWS], entry;
+    bool good = true;
+    int n = 0;
+
+    while (n < MOST_ROWS && acceleration_of(kit, n + 1, &rates[n]))
+        n++;
+    if (n == MOST_ROWS)
+        return REFUSED;
+    if (n == 0)
+        return DISAGREES;
+    for (int j = 0; j < n; j++) {
+        double off = 0, size = 1;
+
+        for (int k = 0; k < n; k++) {
+            if (!entry_of(m, kit, "mass", j + 1, k + 1, &entry))
+                return DISAGREES;
+            off += entry * rates[k];
+            size += fabs(entry * rates[k]);
+        }
+        for (int k = 0; k < rows; k++) {
+            char lambda[24];
+
+            (void)snprintf(lambda, sizeof lambda, "lambda(%d)", k + 1);
+            if (!entry_of(m, kit, "jacobian", k + 1, j + 1, &entry))
+                return DISAGREES;
+            off += entry * kit_value(kit, lambda);
+            size += fabs(entry * kit_value(kit, lambda));
+        }
+        if (!entry_of(m, kit, "forces", j + 1, 0, &entry))
+            return DISAGREES;
+        good = keeps(m, "row of motion", fabs(off - entry) / size, 1e-9) && good;
+    }
+    for (int k = 0; k < rows; k++) {
+        if (!entry_of(m, kit, "constraints", k + 1, 0, &entry))
+            return DISAGREES;
+        good = keeps(m, "constraint", fabs(entry), 1e-9) && good;
+    }
+    return good ? AGREES : DISAGREES;
+}
+
+static Verdict check_shape(Member *m, const Shape *shape)
+{
+    const ct_hooks hooks = {.columns = 0};
+    Kit kit = {.session = ct_session_new(&hooks)};
+    Verdict verdict = DISAGREES;
+
+    tell(m, "%s", shape->script.text);
+    if (kit_do(&kit, shape->script.text) == CT_OK)
+        verdict = check_rows(m, &kit);
+    else
+        tell(m, "%s\n", kit.error.message);
+    kit_free(&kit);
+    return verdict;
+}
+
+static Verdict plane_member(Member *m)
+{
+    static Shape shape;
+
+    shape = (Shape){.bodies = 0};
+    write_chain(m, &shape, true);
+    return check_shape(m, &shape);
+}
+
+static Verdict space_member(Member *m)
+{
+    static Shape shape;
+
+    shape = (Shape){.bodies = 0};
+    write_chain(m, &shape, false);
+    return check_shape(m, &shape);
+}
+
+static Verdict crank_member(Member *m)
+{
+    static Shape shape;
+
+    shape = (Shape){.bodies = 0};
+    write_crank(m, &shape);
+    return check_shape(m, &shape);
+}
+
+static const Family families[] = {
+    {"terms shown of plane chains obey Newton's law", 80, 0, 0, plane_member},
+    {"terms shown of spatial chains obey Newton's law", 40, 0.5, 0, space_member},
+    {"terms shown of slider-cranks obey Newton's law", 80, 0, 0, crank_member},
+};
+
+int main(int argc, char **argv)
+{
+    return family_main(families, COUNT(families), argc, argv);
+}
