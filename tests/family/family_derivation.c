@@ -136,7 +136,11 @@ static bool read_terms(Kit *kit, const char *statement, char *sum, size_t room)
     return true;
 }
 
-/* what the terms add up to; and how large they are */
+/* A term can't be typed again: it holds an angle of a chord next to its reference, which a run
+ * keeps, or is so long that it is written over names. */
+static bool cant_be_typed;
+
+/* what the terms add up to */
 static bool entry_of(Member *m, Kit *kit, const char *block, int row, int column, double *out)
 {
     static char sum[1 << 16];
@@ -152,6 +156,8 @@ static bool entry_of(Member *m, Kit *kit, const char *block, int row, int column
         return false;
     }
     *out = kit_value(kit, sum);
+    cant_be_typed = cant_be_typed || strstr(kit->text, "unwrap(") != NULL ||
+                    strstr(kit->text, "\nwhere ") != NULL;
     if (m->told)
         tell(m, "%s: %s = %.17g\n", statement, sum, *out);
     return true;
@@ -178,6 +184,7 @@ static Verdict check_rows(Member *m, Kit *kit)
     bool good = true;
     int n = 0;
 
+    cant_be_typed = false;
     while (n < MOST_ROWS && acceleration_of(kit, n + 1, &rates[n]))
         n++;
     if (n == MOST_ROWS)
@@ -211,7 +218,7 @@ static Verdict check_rows(Member *m, Kit *kit)
             return DISAGREES;
         good = keeps(m, "constraint", fabs(entry), 1e-9) && good;
     }
-    return good ? AGREES : DISAGREES;
+    return cant_be_typed ? REFUSED : good ? AGREES : DISAGREES;
 }
 
 static Verdict check_shape(Member *m, const Shape *shape)
