@@ -4,6 +4,8 @@ libcore_la_SOURCES += \
   lib/present/complete.c \
   lib/present/count.c \
   lib/present/count.h \
+  lib/present/derive.c \
+  lib/present/derive.h \
   lib/present/draw.c \
   lib/present/help.c \
   lib/present/help.h \
@@ -27,6 +29,8 @@ libcore_la_SOURCES += \
   lib/present/show.c \
   lib/present/show.h \
   lib/present/show_derivation.c \
+  lib/present/story.c \
+  lib/present/story.h \
   lib/present/show_equations.c \
   lib/present/show_graph.c \
   lib/present/show_linear.c \
