@@ -170,7 +170,8 @@ static bool acceleration_of(Kit *kit, int row, double *out)
     const char *mark;
 
     (void)snprintf(statement, sizeof statement, "show derivation forces(%d)", row);
-    if (kit_do(kit, statement) != CT_OK || (mark = strstr(kit->text, "row of ")) == NULL)
+    if (kit_do(kit, statement) != CT_OK || kit->text == NULL ||
+        (mark = strstr(kit->text, "row of ")) == NULL)
         return false;
     (void)snprintf(name, sizeof name, "%.*s'", (int)strcspn(mark + 7, "\n"), mark + 7);
     *out = kit_value(kit, name);
