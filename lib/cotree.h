@@ -116,6 +116,11 @@ const char *ct_expression_word(
 
 /* --- the model --- */
 
+/* import FORMAT "FILE": statements made of another program's file. With `text` they are new, and
+ * nothing changes; where it is NULL the model takes them, all or none, as one step to undo.
+ * ct_remarks() tells what was left out. */
+ct_status ct_import(ct_session *session, const ct_statement *statement, char **text,
+                    ct_error *error);
 /* Build: what the model takes (components, parameters, init, tree, ...). CT_NOT_MINE, with nothing
  * done and no error, for other verbs. On failure the model is as it was. */
 ct_status ct_apply(ct_session *session, const ct_statement *statement, ct_error *error);

@@ -99,6 +99,20 @@ static ct_status command_save(Call *call, ct_error *error)
     return status;
 }
 
+/* applied, or with `>` written */
+static ct_status command_import(Call *call, ct_error *error)
+{
+    bool append;
+    const bool is_written = ct_redirect(call->statement, &append) != NULL;
+    char *text = NULL;
+    ct_status status = ct_import(call->session, call->statement, is_written ? &text : NULL, error);
+
+    if (status == CT_OK && is_written)
+        put_text(call->out, text);
+    ct_free(text);
+    return status;
+}
+
 static ct_status command_record(Call *call, ct_error *error)
 {
     Shell *shell = call->shell;
@@ -268,6 +282,7 @@ static ct_status command_quit(Call *call, ct_error *error)
 const Command commands_session[] = {
     {"source", command_source, NULL, OWN},
     {"save", command_save, NULL, OWN},
+    {"import", command_import, NULL, 0},
     {"record", command_record, NULL, FORGOTTEN | OWN},
     {"recover", command_recover, NULL, FORGOTTEN | OWN},
     {"undo", command_undo, NULL, 0},

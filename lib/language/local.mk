@@ -1,6 +1,7 @@
 libcore_la_SOURCES += \
   lib/language/expression.c \
   lib/language/formats.def \
+  lib/language/importers.def \
   lib/language/functions.c \
   lib/language/functions.h \
   lib/language/habits.c \

@@ -35,6 +35,11 @@ static const char *const formats[] = {
 #define FORMAT(word, brief) #word,
 #include "language/formats.def"
     NULL};
+static const char *const imported_formats[] = {
+#define IMPORTER(word, brief) #word,
+#include "language/importers.def"
+#undef IMPORTER
+    NULL};
 static const char *const later_formats[] = {
 #define LATER_FORMAT(word) #word,
 #include "language/formats.def"

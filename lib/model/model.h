@@ -12,6 +12,8 @@
 #include "model/event.h"
 #include "model/scene.h"
 
+#include <stdio.h>
+
 typedef struct Model Model;
 
 Model *model_new(void); /* new, empty; spatial */
@@ -122,6 +124,15 @@ typedef struct DataFinder {
     bool given; /* what is shared is not read anew */
 } DataFinder;
 void model_find_data(Model *model, const DataFinder *finder);
+/* A file that a statement names there. data_close() also where it could not be opened. */
+typedef struct DataFile {
+    FILE *in;
+    char *path; /* of the finder's making; NULL */
+    Cleanup cleanup;
+} DataFile;
+MUST_USE Status data_open(const DataFinder *finder, const char *name, Place place, DataFile *out,
+                          Diag *diag);
+void data_close(DataFile *file);
 /* settings that the model keeps, and the words of each: its name, its values, NULL; NULL: no more
  */
 typedef enum ModelSetting {

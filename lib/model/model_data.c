@@ -25,11 +25,49 @@ typedef struct DataReader {
     int x_cell, y_cell; /* from 0 */
     LIST(double) x;
     LIST(double) y;
-    FILE *in;
-    char *path; /* of the hook's making; NULL */
-    Cleanup cleanup;
     Diag *diag;
 } DataReader;
+
+/* --- files --- */
+
+static void close_file(void *object)
+{
+    DataFile *file = object;
+
+    if (file->in != NULL)
+        (void)fclose(file->in);
+    free(file->path);
+    cleanup_close(&file->cleanup);
+}
+
+void data_close(DataFile *file)
+{
+    close_file(file);
+}
+
+Status data_open(const DataFinder *finder, const char *name, Place place, DataFile *out, Diag *diag)
+{
+    *out = (DataFile){0};
+    cleanup_open(&out->cleanup, close_file, out);
+    if (finder->find != NULL)
+        out->path = finder->find(finder->context, name);
+    if (finder->find != NULL && out->path == NULL) {
+        (void)diag_at(diag, E_VALUE, place, "'%s' may not be read here", name);
+        diag_hint(diag, "a --safe session reads only what lies in the script's folder");
+        return E_VALUE;
+    }
+    out->in = fopen(out->path != NULL ? out->path : name, "r");
+    if (out->in == NULL && errno == ENOMEM)
+        transaction_fail();
+    if (out->in == NULL) {
+        (void)diag_at(diag, E_MISSING, place, "can't read '%s': %s", name, strerror(errno));
+        diag_hint(diag, "a name is meant from the folder of the script, or from the current one");
+        return E_MISSING;
+    }
+    return OK;
+}
+
+/* --- cells --- */
 
 /* the column a call asks for: a text, a number as written, the second if it says none */
 const char *data_column(const Syntax *call)
@@ -228,16 +266,6 @@ done:
 
 /* --- the calls of a statement --- */
 
-static void close_file(void *object)
-{
-    DataReader *r = object;
-
-    if (r->in != NULL)
-        (void)fclose(r->in);
-    free(r->path);
-    cleanup_close(&r->cleanup);
-}
-
 static Status read_call(const DataFinder *finder, Arena *arena, const Syntax *call, Diag *diag)
 {
     DataReader r = {.file = call->args[0]->text,
@@ -245,28 +273,14 @@ static Status read_call(const DataFinder *finder, Arena *arena, const Syntax *ca
                     .column = data_column(call),
                     .column_place = call->count > 2 ? call->args[2]->place : call->args[0]->place,
                     .diag = diag};
-    Status status = OK;
+    DataFile file;
+    Status status = data_open(finder, r.file, r.place, &file, diag);
 
-    cleanup_open(&r.cleanup, close_file, &r);
-    if (finder->find != NULL)
-        r.path = finder->find(finder->context, r.file);
-    if (finder->find != NULL && r.path == NULL) {
-        (void)diag_at(diag, E_VALUE, r.place, "'%s' may not be read here", r.file);
-        diag_hint(diag, "a --safe session reads only what lies in the script's folder");
-        CHECK(E_VALUE);
-    }
-    r.in = fopen(r.path != NULL ? r.path : r.file, "r");
-    if (r.in == NULL && errno == ENOMEM)
-        transaction_fail();
-    if (r.in == NULL) {
-        (void)diag_at(diag, E_MISSING, r.place, "can't read '%s': %s", r.file, strerror(errno));
-        diag_hint(diag, "a name is meant from the folder of the script, or from the current one");
-        CHECK(E_MISSING);
-    }
-    CHECK(read_stream(&r, r.in));
-    arena_add_table(arena, r.file, r.column, r.x.at, r.y.at, r.x.count);
-done:
-    close_file(&r);
+    if (status == OK)
+        status = read_stream(&r, file.in);
+    if (status == OK)
+        arena_add_table(arena, r.file, r.column, r.x.at, r.y.at, r.x.count);
+    data_close(&file);
     LIST_FREE(r.x);
     LIST_FREE(r.y);
     return status;

@@ -122,6 +122,18 @@ static void write_formats(Text *out)
     write_pairs(out, rows, COUNT(rows));
 }
 
+static void write_imports(Text *out)
+{
+    static const char *const rows[][2] = {
+#define IMPORTER(word, brief) {#word, brief},
+#include "language/importers.def"
+#undef IMPORTER
+    };
+
+    layout_words(out, TOPIC_WIDTH, "", "import WORD \"FILE\" takes one of these:");
+    write_pairs(out, rows, COUNT(rows));
+}
+
 static void write_counting(Text *out)
 {
     layout_words(
@@ -219,6 +231,7 @@ static const HelpTopic topics[] = {
     {"methods",   "integration methods of simulate",            write_methods,   "simulate"},
     {"notations", "notations of show",                          write_notations, "show"},
     {"formats",   "what export writes",                         write_formats,   "export"},
+    {"imports",   "what import reads",                          write_imports,   "import"},
     {"counting",  "the rule by which operations are counted",   write_counting,  "count"},
     {"keys",      "keys at the prompt",                         write_keys,      NULL},
 };

@@ -7,6 +7,7 @@ libcore_la_SOURCES += \
   lib/session/session_freedoms.c \
   lib/session/session_help.c \
   lib/session/session_impl.h \
+  lib/session/session_import.c \
   lib/session/session_input.c \
   lib/session/session_linear.c \
   lib/session/session_look.c \

@@ -219,7 +219,7 @@ static void remark_trees(ct_session *session)
     session->cost_now = now;
 }
 
-static void note_change(ct_session *session, uint64_t revision, bool trees_only)
+void session_note_change(ct_session *session, uint64_t revision, bool trees_only)
 {
     session->changed = true;
     session->linear_is_old = true;
@@ -284,7 +284,7 @@ ct_status ct_apply(ct_session *session, const ct_statement *statement, ct_error 
     }
     session->at_rest = session->at_rest && !forgets_start(s);
     if (is_search(s) ? model_revision(session->model) != revision : changes != CHANGES_NAMES)
-        note_change(session, revision, chooses(changes));
+        session_note_change(session, revision, chooses(changes));
     if (chooses_trees(s) && status == OK) {
         remark_trees(session);
         session_remark_free(session);
@@ -314,7 +314,7 @@ static ct_status move_over(ct_session *session, Status (*move)(Model *, Diag *),
     if (model_start_statements(session->model) < session->rests_since)
         session->rests_since = model_start_statements(session->model);
     text_addf(&session->remarks, "%s: %s\n", what, model_undone(session->model));
-    note_change(session, revision, is_statement && chooses(changes_of(moved)));
+    session_note_change(session, revision, is_statement && chooses(changes_of(moved)));
 done:
     statement_free(moved);
     return session_report(status, &diag, error);

@@ -96,6 +96,9 @@ void session_remark(ct_session *session, const char *lines);
 /* what a result has to say, less the end at a bound, which is an error and said as one */
 void session_remark_result(ct_session *session, const Result *result);
 
+/* the model is no longer what it was at that revision */
+void session_note_change(ct_session *session, uint64_t revision, bool trees_only);
+
 /* the equations of the model as it is; borrowed */
 MUST_USE Status session_system(ct_session *session, System **out, Diag *diag);
 /* the same to be run: of a large model numbers of parts are parameters there */

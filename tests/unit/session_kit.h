@@ -93,6 +93,7 @@ static ct_status kit_other(Kit *kit, const ct_statement *statement)
 {
     ct_session *session = kit->session;
     const char *verb = ct_verb(statement);
+    bool append;
 
     if (strcmp(verb, "show") == 0)
         return ct_show(session, statement, &kit->text, &kit->error);
@@ -116,7 +117,7 @@ static ct_status kit_other(Kit *kit, const ct_statement *statement)
         return ct_export(session, statement, true, &kit->text, &kit->error);
     if (strcmp(verb, "expect") == 0)
         return ct_expect(session, statement, &kit->error);
-    if (strcmp(verb, "print") == 0)
+    if (strcmp(verb, "print") == 0 && ct_redirect(statement, &append) == NULL)
         return kit_print(kit, statement);
     if (strcmp(verb, "bode") == 0)
         return ct_bode_csv(session, statement, true, &kit->text, &kit->error);

@@ -166,8 +166,6 @@ static void later_words_say_that_they_are(void)
 {
     static const char *const lines[] = {"keep A = max(h)",
                                         "keep x1 = h at 0.5",
-                                        "import urdf \"a.urdf\"",
-                                        "import spice \"a.cir\" > \"a.ct\"",
                                         "unknown th1, th2",
                                         "internal th1'' + th2",
                                         "give B.x = 2*th1",

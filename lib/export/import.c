@@ -1,0 +1,255 @@
+/* import.c: what importers share: names, statements that read, what was left out */
+#include "export/import.h"
+
+#include "language/functions.h"
+#include "language/verbs.h"
+
+#include <ctype.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+/* names that are made here keep clear of what could be taken for something else */
+static void take_words(Import *import)
+{
+    static const char *const words[] = {"vs", "at", "as", "within"};
+    Verb verb;
+    Function function;
+
+    for (int i = 0; i < COUNT(words); i++)
+        import_take_name(import, words[i]);
+    for (int i = 0; verb_any(i, &verb); i++)
+        import_take_name(import, verb.name);
+    for (int i = 0; function_at(i, &function); i++)
+        import_take_name(import, function.name);
+}
+
+Import *import_new(const char *file, bool is_alone)
+{
+    Import *import = NEW(Import);
+
+    import->file = file;
+    import->is_alone = is_alone;
+    import->pool = pool_new(0);
+    import->names = names_new();
+    import->keys = names_new();
+    take_words(import);
+    return import;
+}
+
+void import_free(Import *import)
+{
+    if (import == NULL)
+        return;
+    pool_free(import->pool);
+    names_free(import->names);
+    names_free(import->keys);
+    LIST_FREE(import->ours);
+    text_free(&import->script);
+    LIST_FREE(import->from);
+    text_free(&import->remarks);
+    mem_free(import);
+}
+
+/* --- texts --- */
+
+static const char *keep(Import *import, Text *text)
+{
+    const char *kept = pool_text(import->pool, text->at != NULL ? text->at : "", text->length);
+
+    text_free(text);
+    return kept;
+}
+
+static void add_formatted(Text *text, const char *format, va_list args)
+{
+    va_list again;
+    char *line;
+    int length;
+
+    va_copy(again, args);
+    length = vsnprintf(NULL, 0, format, again);
+    va_end(again);
+    line = mem_new((size_t)length + 1);
+    (void)vsnprintf(line, (size_t)length + 1, format, args);
+    text_add(text, line);
+    mem_free(line);
+}
+
+const char *import_text(Import *import, const char *format, ...)
+{
+    Text text = {0};
+    va_list args;
+
+    va_start(args, format);
+    add_formatted(&text, format, args);
+    va_end(args);
+    return keep(import, &text);
+}
+
+const char *import_number(Import *import, double value)
+{
+    Text text = {0};
+
+    text_number(&text, value, 17);
+    return keep(import, &text);
+}
+
+/* --- names --- */
+
+void import_take_name(Import *import, const char *name)
+{
+    (void)names_add(import->names, name);
+}
+
+/* a letter, then letters, digits and _: n before what begins otherwise, _ for the rest */
+static const char *make_legal(Import *import, const char *name)
+{
+    enum { LONGEST = 200 };
+    Text text = {0};
+
+    if (!isalpha((unsigned char)name[0]))
+        text_char(&text, 'n');
+    for (int i = 0; name[i] != '\0' && i < LONGEST; i++)
+        text_char(&text, isalnum((unsigned char)name[i]) ? name[i] : '_');
+    return keep(import, &text);
+}
+
+static void add_key(const Import *import, Text *key, char kind, const char *name)
+{
+    text_char(key, kind);
+    for (; *name != '\0'; name++)
+        text_char(key, import->ignores_case ? (char)tolower((unsigned char)*name) : *name);
+}
+
+const char *import_known(const Import *import, char kind, const char *name)
+{
+    Text key = {0};
+    int i;
+
+    add_key(import, &key, kind, name);
+    i = names_find(import->keys, key.at);
+    text_free(&key);
+    return i < 0 ? NULL : import->ours.at[i];
+}
+
+const char *import_name(Import *import, char kind, const char *name)
+{
+    const char *known = import_known(import, kind, name);
+    const char *legal, *mine;
+    Text key = {0};
+
+    if (known != NULL)
+        return known;
+    legal = mine = make_legal(import, name);
+    for (int number = 2; name_is_reserved(mine) || names_find(import->names, mine) >= 0; number++)
+        mine = import_text(import, "%s_%d", legal, number);
+    import_take_name(import, mine);
+    add_key(import, &key, kind, name);
+    (void)names_add(import->keys, key.at);
+    text_free(&key);
+    LIST_PUSH(import->ours, mine);
+    return mine;
+}
+
+/* --- statements --- */
+
+static void end_line(Import *import, int line)
+{
+    text_char(&import->script, '\n');
+    LIST_PUSH(import->from, line);
+}
+
+/* what stands in a comment or a remark stands in one line */
+static void add_plain(Text *out, const char *text)
+{
+    enum { LONGEST = 300 };
+    int i = 0;
+
+    for (; text[i] != '\0' && i < LONGEST; i++)
+        text_char(out, iscntrl((unsigned char)text[i]) ? ' ' : text[i]);
+    if (text[i] != '\0')
+        text_add(out, " ...");
+}
+
+void import_comment(Import *import, int line, const char *format, ...)
+{
+    Text text = {0};
+    va_list args;
+
+    va_start(args, format);
+    add_formatted(&text, format, args);
+    va_end(args);
+    text_add(&import->script, "# ");
+    add_plain(&import->script, text.at != NULL ? text.at : "");
+    text_free(&text);
+    end_line(import, line);
+}
+
+void import_leave(Import *import, int line, bool is_part, const char *what, const char *format, ...)
+{
+    Text why = {0}, said = {0};
+    va_list args;
+
+    va_start(args, format);
+    add_formatted(&why, format, args);
+    va_end(args);
+    if (is_part && import->missing++ == 0) {
+        import->missing_line = line;
+        import->missing_what = import_text(import, "%s: %s", what, why.at);
+    }
+    if (line > 0)
+        text_addf(&said, "line %d: ", line);
+    text_addf(&said, "%s is left out: %s", what, why.at);
+    import_comment(import, line, "%s", said.at);
+    if (is_part)
+        text_add(&import->remarks, "warning: ");
+    add_plain(&import->remarks, said.at);
+    text_char(&import->remarks, '\n');
+    text_free(&why);
+    text_free(&said);
+}
+
+bool import_add(Import *import, int line, const char *format, ...)
+{
+    Text text = {0};
+    Statement *statement = NULL;
+    size_t next = 0;
+    Diag why = {0};
+    bool reads;
+    va_list args;
+
+    va_start(args, format);
+    add_formatted(&text, format, args);
+    va_end(args);
+
+    /* what the file holds may make no sense here: that is told here and not when it is applied */
+    reads = statement_parse(text.at, 1, (SyntaxOptions){false}, &next, &statement, &why) == OK &&
+            next == text.length;
+    statement_free(statement);
+    if (reads) {
+        text_add(&import->script, text.at);
+        end_line(import, line);
+    } else {
+        import_leave(import, line, true, text.at, "%s",
+                     why.message[0] != '\0' ? why.message : "it is no statement");
+    }
+    text_free(&text);
+    return reads;
+}
+
+Status import_refuse(const Import *import, int line, Diag *diag, const char *format, ...)
+{
+    Text why = {0};
+    va_list args;
+
+    va_start(args, format);
+    add_formatted(&why, format, args);
+    va_end(args);
+    if (line > 0)
+        (void)diag_set(diag, E_VALUE, "line %d of %s: %.400s", line, import->file, why.at);
+    else
+        (void)diag_set(diag, E_VALUE, "%s: %.400s", import->file, why.at);
+    text_free(&why);
+    return E_VALUE;
+}

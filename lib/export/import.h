@@ -1,0 +1,64 @@
+/* import.h: statements of ours from the text of another program's file
+ *
+ * A format is a line of importers.def, and a function in lib/export. What it reads becomes
+ * statements; what we have no statement for is left out, and said with its line in a comment and
+ * in a remark. Names are made legal, and numbered where they clash. */
+#ifndef COTREE_EXPORT_IMPORT_H
+#define COTREE_EXPORT_IMPORT_H
+
+#include "base/memory.h"
+#include "base/names.h"
+#include "base/text.h"
+
+typedef struct Import {
+    const char *file;        /* as the user calls it */
+    bool is_alone;           /* the statements make a model of their own: it may be given a title */
+    bool ignores_case;       /* names of the file that differ in nothing else are one */
+    Pool *pool;              /* of all that its reader makes */
+    Names *names;            /* that are taken, ours */
+    Names *keys;             /* a kind and a name of the file */
+    LIST(const char *) ours; /* by key */
+    Text script;             /* the statements, a line each */
+    LIST(int) from;          /* by line of the script: line of the file; 0: of none */
+    Text remarks;            /* lines */
+    int missing;             /* parts of the model that were left out; */
+    int missing_line;        /* the first of them */
+    const char *missing_what;
+} Import;
+
+/* reads a text; what can't be left out without another meaning fails with a message */
+typedef Status Importer(Import *import, const char *text, size_t length, Diag *diag);
+#define IMPORTER(word, brief) Importer importer_##word;
+#include "language/importers.def"
+#undef IMPORTER
+
+Import *import_new(const char *file, bool is_alone); /* new; import_free() */
+void import_free(Import *import);
+/* a name that the model has already */
+void import_take_name(Import *import, const char *name);
+/* NULL: unknown format */
+Importer *importer_find(const char *format);
+
+/* --- for importers --- */
+
+/* The name here of what the file calls so; `kind` separates the file's spaces of names. */
+const char *import_name(Import *import, char kind, const char *name);
+/* the same where it has been met; NULL */
+const char *import_known(const Import *import, char kind, const char *name);
+/* a text that lives as long as the import */
+const char *import_text(Import *import, const char *format, ...) PRINTF(2, 3);
+/* a number as it is written in statements, exact */
+const char *import_number(Import *import, double value);
+/* Add a statement made from that line of the file. False: it doesn't read, and was left out as a
+ * part. */
+bool import_add(Import *import, int line, const char *format, ...) PRINTF(3, 4);
+void import_comment(Import *import, int line, const char *format, ...) PRINTF(3, 4);
+/* Something of the file has no statement: it goes into a comment and a remark. A part is what the
+ * model isn't whole without. */
+void import_leave(Import *import, int line, bool is_part, const char *what, const char *format, ...)
+    PRINTF(5, 6);
+/* the message about a file that is refused */
+MUST_USE Status import_refuse(const Import *import, int line, Diag *diag, const char *format, ...)
+    PRINTF(4, 5);
+
+#endif

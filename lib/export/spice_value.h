@@ -1,0 +1,24 @@
+/* spice_value.h: numbers and expressions of SPICE, as texts of ours */
+#ifndef COTREE_EXPORT_SPICE_VALUE_H
+#define COTREE_EXPORT_SPICE_VALUE_H
+
+#include "export/import.h"
+
+typedef struct SpiceValue {
+    const char *text;  /* fit to stand in a product or a power */
+    const char *alone; /* the same where it stands alone */
+    bool is_number;
+    double number;
+} SpiceValue;
+
+/* Read `4.7k`, `10uF`, `1meg`, `{2*a}`, `'a+b'` or the name of a parameter; what names of the file
+ * mean is import_known() with kind SPICE_PARAMETER. False: `why` tells, a text of the import's. */
+enum { SPICE_PARAMETER = 'p', SPICE_NODE = 'n', SPICE_PART = 'e' };
+bool spice_value(Import *import, const char *word, SpiceValue *out, const char **why);
+SpiceValue spice_of(Import *import, double number);
+/* a number with its suffix and letters of a unit behind it; false: it is none */
+bool spice_number(const char *word, double *out);
+/* calls back for each name that an expression holds, in lower case */
+void spice_names(const char *word, void (*meet)(void *context, const char *name), void *context);
+
+#endif

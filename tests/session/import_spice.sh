@@ -1,0 +1,75 @@
+# a netlist becomes statements: all or none, one undo, names legal, what is left out said with its line
+try() { # netlist: written, then applied to a model that has an R1
+    printf '%s\n' "$1" >try.cir
+    echo "--- $1" | head -n 3
+    cotree -e 'import spice "try.cir" > "try.ct"' 2>&1 && grep -v '^#' try.ct
+    cotree -q -e 'resistor R1 a 0 5' -e 'import spice "try.cir"' -e 'undo' -e 'show params' \
+        -e 'show edges' 2>&1 | sed 's/^-e:[0-9]*:[0-9]*: //'
+}
+cat >whole.cir <<'END'
+a circuit "in quotes"
+.param r = 1k
+V1 1 0 5
+r1 1 a+b {r}
+C1 a+b 0 1u ic=1
+.tran 1m 10m uic
+.end
+Q1 what follows the end is nothing
+END
+echo '--- names that are taken, then as they are'
+cotree -q -e 'resistor R1 a n1 5; r = 3; r1 = 2' -e 'import spice "whole.cir"' -e 'show edges' \
+    -e 'show params' -e 'save "both.ct"' 2>&1
+cotree -e 'import spice "whole.cir" > "whole.ct"' -e 'source "whole.ct"' -e 'save "again.ct"'
+cat whole.ct
+grep -v '^#' whole.ct >bare.ct
+grep -v '^#' again.ct | diff bare.ct - && echo same
+echo '--- undone and done again'
+cotree -q -e 'import spice "whole.cir"' -e 'undo' -e 'print model.n' -e 'redo' -e 'show edges' 2>&1
+
+try 'a transistor
+V1 1 0 5
+Q1 1 2 0 npn'
+try 'twice
+R1 a 0 1k
+r1 b 0 1k'
+try 'a subcircuit
+R1 a 0 1k
+.subckt amp in out
+R2 in out 1
+.ends'
+try 'cut short
+R1 a'
+try 'no value
+R1 a 0 k1'
+try 'an unknown model
+D1 a 0 nosuch'
+try 'hysteresis
+S1 a 0 b 0 sw
+R1 b 0 1
+.model sw sw vt=1 vh=0.5'
+try 'a behavioural source
+E1 a 0 value={v(b)*2}
+R1 a 0 1'
+try 'a circle of parameters
+.param x={y} y={x}
+R1 a 0 {x}'
+try 'refused by the model
+R1 a 0 1k
+K1 L1 L2 1.5
+L1 a 0 1
+L2 b 0 1'
+try 'what an expression does not close
+R1 a 0 {1+(2}'
+try 'of no statement
+R1 a 0 {1+}'
+echo '--- files'
+cotree -q -e 'import spice "nowhere.cir"' 2>&1
+cotree -q -e 'import foo "whole.cir"' 2>&1
+mkdir inside
+echo 'import spice "../whole.cir"' >inside/out.ct
+cotree --safe inside/out.ct 2>&1
+cp whole.cir inside && echo 'import spice "whole.cir"; show edges' >inside/in.ct
+cotree -q --safe inside/in.ct 2>&1
+echo 'import spice "whole.cir" > "new.ct"' >inside/write.ct
+cotree -q --safe inside/write.ct 2>&1
+true
