@@ -20,6 +20,7 @@ libcore_la_SOURCES += \
   lib/present/mechanism.h \
   lib/present/mechanism_impl.h \
   lib/present/mechanism_parts.c \
+  lib/present/mechanism_place.c \
   lib/present/picture.c \
   lib/present/picture.h \
   lib/present/picture_characters.c \
