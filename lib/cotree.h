@@ -94,7 +94,7 @@ bool ct_prints(const ct_statement *statement); /* something, which `>` may send 
 const ct_statement *ct_rest(const ct_statement *statement); /* of `time STATEMENT`; NULL */
 int ct_operand_count(const ct_statement *statement);
 const ct_expression *ct_operand(const ct_statement *statement, int i);
-int ct_operand_sign(const ct_statement *statement, int i); /* '+', '-' or 0 */
+int ct_operand_sign(const ct_statement *statement, int i); /* '+', '-', '|' behind a bar, or 0 */
 int ct_key_count(const ct_statement *statement);
 const char *ct_key(const ct_statement *statement, int i, const ct_expression **value);
 const ct_expression *ct_key_value(const ct_statement *statement,
@@ -227,6 +227,19 @@ ct_status ct_duration(ct_session *session, const ct_expression *expression, cons
  * brackets. */
 ct_status ct_table(ct_session *session, const ct_expression *const *items, int count, double every,
                    double **values, int *rows, int *columns, char ***names, ct_error *error);
+/* The keys of plot. Ranges are in what the axis shows: that of y in the unit of the first item. */
+typedef struct ct_plot {
+    double x[2], y[2]; /* NAN, NAN: not given */
+    bool x_is_log, y_is_log;
+    bool panels;       /* each item has its own */
+    const char *title; /* the statement's, or the model's; "" */
+} ct_plot;
+ct_status ct_plot_keys(ct_session *session, const ct_statement *statement, ct_plot *out,
+                       ct_error *error);
+/* When the i-th event happened in that run (1 ...; 0: the last), rising; its name. NULL: there
+ * is no such event. */
+const char *ct_run_event(const ct_session *session, int run, int i, const double **times,
+                         int *count);
 /* bode: the whole statement, of the last linearisation. First column the frequency, Hz, then gain,
  * dB, and phase, degrees, of each output against each input; `values` and `names` as of ct_table().
  */

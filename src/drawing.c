@@ -27,6 +27,8 @@ static const PictureFormat formats[] = {
     {"pdf", "pdfcairo", "font 'Sans,11' linewidth 1.5", CM},
     {"eps", "epscairo", "font 'Sans,11' linewidth 1.5", CM},
     {"eps", "postscript", "eps color", CM},
+    {"tex", "tikz", "color", CM},
+    {"tikz", "tikz", "color", CM},
     {"gif", "gif", "", 1},
     {"txt", "dumb", "mono", 0},
     {"", "qt", "", 1},
@@ -79,6 +81,11 @@ enum { COLORS = sizeof colors / sizeof colors[0] };
 const char *drawing_color(int i)
 {
     return colors[i % COLORS];
+}
+
+int drawing_dash(int i)
+{
+    return 1 + i / COLORS;
 }
 
 /* Between double quotes a backslash begins an escape, a backquote a command of a system's shell and
@@ -224,7 +231,7 @@ static char *text_terminal(void)
     if (isatty(STDOUT_FILENO)) {
         terminal_size(&rows, &columns);
         rows = rows > 40 ? 38 : rows - 2;
-        columns = columns > 120 ? 120 : columns - 1;
+        columns--;
     }
     return copy_format("dumb %s size %d,%d", terminal_has_colors() ? "ansi256" : "mono",
                        columns < 20 ? 20 : columns, rows < 8 ? 8 : rows);
@@ -293,7 +300,7 @@ ct_status drawing_check(const Call *call, const char **path, ct_error *error)
         return ct_error_at(statement, NULL, error, "a picture can't be appended to another");
     if (*path != NULL && !is_known_extension(file_extension(*path))) {
         ct_error_at(statement, NULL, error,
-                    "a plot goes to png, svg, pdf, eps, txt or gp, not to "
+                    "a plot goes to png, svg, pdf, eps, tex, txt or gp, not to "
                     "'%s'",
                     *path);
         error_hint(error, "the name's ending says the format: \"plot.png\"");

@@ -28,6 +28,8 @@ ct_status drawing_make(Call *call, const Drawing *drawing, const char *path, ct_
 void put_quoted(FILE *out, const char *text);
 /* `set title`, where there is a title */
 void put_title(FILE *out, const char *title);
-const char *drawing_color(int i); /* of the i-th curve: "#0072b2" */
+/* of the i-th curve: "#0072b2"; where colours repeat the dashes, 1 and on, differ */
+const char *drawing_color(int i);
+int drawing_dash(int i);
 
 #endif

@@ -60,9 +60,11 @@ SCRIPT_TESTS = \
 	tests/dev/tools_tell_right_from_wrong \
 	tests/doc/equations_come_out_on_paper \
 	tests/doc/manual_and_readme_are_true \
+	tests/gallery/pictures_show_what_was_asked_for \
 	tests/install/installed_library_builds_a_program
 TESTS += $(SCRIPT_TESTS)
 EXTRA_DIST += $(SCRIPT_TESTS) tests/cases/cases.sh tests/cases/columns_agree \
+	tests/gallery/look.py \
 	tests/cases/microphone_equations.py \
 	tests/data/andrews_beta062.csv tests/data/free_body.csv tests/data/heavy_top.csv \
 	tests/data/microphone.csv \

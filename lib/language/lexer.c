@@ -160,7 +160,6 @@ static Status strange_character(const Lexer *lexer, Diag *diag)
         const char *hint;
     } meant[] = {
         {'&', "'and' is written &&"},
-        {'|', "'or' is written ||"},
         {'{', "brackets are ( ) for grouping and [ ] for vectors and units"},
         {'}', "brackets are ( ) for grouping and [ ] for vectors and units"},
         {'%', "a comment starts with #"},
@@ -319,7 +318,7 @@ static Status read_symbol(Lexer *lexer, Token *token, Diag *diag)
     size_t start = lexer->at;
     size_t length = 0;
 
-    if (*c != '\0' && strchr("+-*/^()[],=<>!:~?", *c) != NULL)
+    if (*c != '\0' && strchr("+-*/^()[],=<>!:~?|", *c) != NULL)
         length = 1;
     for (int i = 0; i < COUNT(pairs); i++)
         if (strncmp(c, pairs[i], 2) == 0)

@@ -164,6 +164,8 @@ static const char *unexpected_hint(const Parser *parser)
         return "a comparison is written ==";
     if (token_is(token, ","))
         return "one comma stands between two operands";
+    if (token_is(token, "|"))
+        return "'or' is written ||; a single bar stands between items of 'plot'";
     if (token_is(token, "?"))
         return "a choice is written if(c, a, b)";
     if (token_is(token, "<") && token_is(behind, ">"))

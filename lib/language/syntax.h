@@ -44,7 +44,7 @@ typedef struct Syntax {
  * of a list may have (plot, table, print ...), what to show it in. */
 
 typedef struct Operand {
-    int sign;      /* '+' or '-' in `tree + a - b`, else 0 */
+    int sign;      /* '+' or '-' in `tree + a - b`, '|' behind a bar, else 0 */
     Syntax *value; /* a name, place or word is a SYNTAX_VARIABLE; `0` a SYNTAX_NUMBER */
     Place place;
 } Operand;
@@ -120,7 +120,7 @@ typedef struct Verb {
      *   n a new name              p a place (dotted name, or 0)   P a place that may be absent
      *   w one of the row's words, or any word where it has none    W such a word, may be absent
      *   v a value (expression)    V values that may be absent     e expressions between commas
-     *   i items, at least one     I items, maybe none             t tree edges with signs
+     *   i items, bars between       I items, maybe none             t tree edges with signs
      *   s a string                o a string, or one of the words
      *   x words, names, numbers and items, maybe none             l the rest of the line, as it is
      *   C a condition, or a ~ b within tol                        T a statement, to the end

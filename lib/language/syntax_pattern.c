@@ -189,12 +189,17 @@ static Status read_items_maybe(Parser *parser, Statement *statement)
     return OK;
 }
 
-/* i */
+/* i: an item behind a bar has the bar for its sign */
 static Status read_items(Parser *parser, Statement *statement)
 {
-    if (operands_end(parser))
-        return parser_expected(parser, "a variable");
-    return read_items_maybe(parser, statement);
+    do {
+        const int sign = statement->operands.count > 0 && parser_take(parser, "|") ? '|' : 0;
+
+        if (operands_end(parser))
+            return parser_expected(parser, "a variable");
+        TRY(add_signed(parser, statement, parse_item, sign));
+    } while (!operands_end(parser));
+    return OK;
 }
 
 /* x: here a word behind a number is no unit */

@@ -11,6 +11,7 @@ libcore_la_SOURCES += \
   lib/session/session_input.c \
   lib/session/session_linear.c \
   lib/session/session_look.c \
+  lib/session/session_plot.c \
   lib/session/session_run.c \
   lib/session/session_start.c \
   lib/session/session_statement.c \

@@ -54,6 +54,8 @@ static ct_status kit_table(Kit *kit, const ct_statement *statement)
     if (ct_key_value(statement, "every") != NULL)
         status = ct_duration(kit->session, ct_key_value(statement, "every"), "every", &every,
                              &kit->error);
+    if (status == CT_OK && strcmp(ct_verb(statement), "plot") == 0)
+        status = ct_plot_keys(kit->session, statement, &(ct_plot){0}, &kit->error);
     if (status == CT_OK)
         status = ct_table(kit->session, items, count, every, &values, &rows, &columns, &names,
                           &kit->error);

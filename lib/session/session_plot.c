@@ -1,0 +1,118 @@
+/* session_plot.c: what a plot is told by its keys, and the events of a run that it marks */
+#include "session/session_impl.h"
+
+#include <math.h>
+#include <string.h>
+
+/* what an item is shown in, a part of SI; 1: SI itself */
+static double shown_unit(const Syntax *item)
+{
+    const bool is_literal =
+        item != NULL && (item->kind == SYNTAX_NUMBER || item->kind == SYNTAX_VECTOR);
+
+    return item != NULL && item->has_unit && !is_literal ? item->unit.factor : 1;
+}
+
+/* A plain number is in what the axis shows; one with a unit is converted. */
+static Status read_range(ct_session *session, const Syntax *range, const Syntax *item,
+                         double out[2], Diag *diag)
+{
+    double ends[2];
+
+    if (range->kind != SYNTAX_VECTOR || range->count != 2) {
+        (void)diag_at(diag, E_VALUE, range->place, "a range has two ends");
+        diag_hint(diag, "[0, 1]");
+        return E_VALUE;
+    }
+    for (int i = 0; i < 2; i++) {
+        const Syntax *end = range->args[i];
+
+        TRY(session_number(session, end, &ends[i], diag));
+        if (range->has_unit || (end->has_unit && end->kind == SYNTAX_NUMBER))
+            ends[i] *= (range->has_unit ? range->unit.factor : 1) / shown_unit(item);
+    }
+    if (!(ends[0] < ends[1]))
+        return diag_at(diag, E_VALUE, range->place, "a range goes from less to more");
+    memcpy(out, ends, sizeof ends);
+    return OK;
+}
+
+/* which of some words, between bars, stands there; -1 and a message */
+static int find_word(const Pair *pair, const char *words, Diag *diag)
+{
+    const char *wanted = pair->value->text;
+    const size_t length = strlen(wanted);
+    int which = 0;
+
+    for (const char *at = words; *at != '\0'; which++) {
+        const size_t word = strcspn(at, "|");
+
+        if (word == length && strncmp(at, wanted, word) == 0)
+            return which;
+        at += word + (at[word] == '|');
+    }
+    (void)diag_at(diag, E_VALUE, pair->value->place, "%s= is one of %s", pair->name, words);
+    return -1;
+}
+
+static Status read_key(ct_session *session, const Statement *s, const Pair *pair, ct_plot *out,
+                       Diag *diag)
+{
+    int word;
+
+    if (strcmp(pair->name, "xrange") == 0)
+        return read_range(session, pair->value, s->versus, out->x, diag);
+    if (strcmp(pair->name, "yrange") == 0)
+        return read_range(session, pair->value, s->operands.at[0].value, out->y, diag);
+    if (strcmp(pair->name, "title") == 0) {
+        out->title = pair->value->text;
+        return pair->value->kind == SYNTAX_STRING
+                   ? OK
+                   : diag_at(diag, E_VALUE, pair->value->place, "a title stands in double quotes");
+    }
+    if (strcmp(pair->name, "log") == 0) {
+        word = find_word(pair, "x|y|xy", diag);
+        out->x_is_log = word == 0 || word == 2;
+        out->y_is_log = word > 0;
+    } else {
+        word = find_word(pair, "on|off", diag);
+        out->panels = word == 0;
+    }
+    return word < 0 ? E_VALUE : OK;
+}
+
+ct_status ct_plot_keys(ct_session *session, const ct_statement *statement, ct_plot *out,
+                       ct_error *error)
+{
+    SESSION_CALL(session, session_ran_out(session, error));
+
+    const Statement *s = statement_of(statement);
+    const char *title = model_title(session->model);
+    ct_plot plot = {.x = {NAN, NAN}, .y = {NAN, NAN}, .title = title != NULL ? title : ""};
+    Status status = OK;
+    Diag diag = {0};
+
+    session_begin(session);
+    for (int i = 0; i < s->pairs.count; i++)
+        CHECK(read_key(session, s, &s->pairs.at[i], &plot, &diag));
+    *out = plot;
+done:
+    return session_report(status, &diag, error);
+}
+
+const char *ct_run_event(const ct_session *session, int run, int i, const double **times,
+                         int *count)
+{
+    const int last = run == 0 ? session->runs.count - 1 : run - 1;
+    const Result *result =
+        last >= 0 && last < session->runs.count ? session->runs.at[last].result : NULL;
+
+    if (result == NULL || i < 0 || i >= result_event_count(result))
+        return NULL;
+
+    const EventRecord record = result_event(result, i);
+
+    *times = record.times;
+    *count = record.count;
+    return record.name;
+}

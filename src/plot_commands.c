@@ -1,0 +1,343 @@
+/* plot_commands.c: a plot as gnuplot's commands: its panels, axes, curves and marks */
+#include "copy.h"
+#include "plot.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* --- panels --- */
+
+const char *plot_unit(const char *label)
+{
+    const char *open = strrchr(label, '[');
+
+    return open != NULL && label[strlen(label) - 1] == ']' ? open : "";
+}
+
+const char *plot_label(const Plot *plot, int curve)
+{
+    const PlotCurve *c = &plot->curves[curve];
+
+    return plot->blocks[c->block].labels[c->column];
+}
+
+/* That of a curve, in brackets; what isn't known is taken for that of its neighbours. */
+static const char *unit_of(const Plot *plot, int curve)
+{
+    const char *unit = plot_unit(plot_label(plot, curve));
+
+    for (int i = 0; *unit == '\0' && i < plot->count; i++)
+        if (plot->curves[i].group == plot->curves[curve].group)
+            unit = plot_unit(plot_label(plot, i));
+    return unit;
+}
+
+static bool same_unit(const Plot *plot, int a, int b)
+{
+    return strcmp(unit_of(plot, a), unit_of(plot, b)) == 0;
+}
+
+/* the first curve of the same group and unit */
+static int first_alike(const Plot *plot, int curve)
+{
+    int i = 0;
+
+    while (plot->curves[i].group != plot->curves[curve].group || !same_unit(plot, i, curve))
+        i++;
+    return i;
+}
+
+/* how many units a group has, and the place of the curve's among them */
+static int count_units(const Plot *plot, int curve, int *place)
+{
+    int count = 0;
+
+    for (int i = 0; i < plot->count; i++) {
+        if (plot->curves[i].group != plot->curves[curve].group || first_alike(plot, i) != i)
+            continue;
+        if (same_unit(plot, i, curve))
+            *place = count;
+        count++;
+    }
+    return count;
+}
+
+void plot_lay_out(Plot *plot)
+{
+    int group = -1, units = 0;
+
+    for (int i = 0; i < plot->count; i++) {
+        int place = 0;
+
+        if (plot->curves[i].group != group) {
+            plot->panels += group < 0 ? 0 : units > 2 ? units : 1;
+            group = plot->curves[i].group;
+        }
+        units = count_units(plot, i, &place);
+        plot->curves[i].panel = plot->panels + (units > 2 ? place : 0);
+        plot->curves[i].right = units == 2 && place == 1;
+    }
+    plot->panels += units > 2 ? units : 1;
+}
+
+/* --- labels --- */
+
+/* what is measured so, for an axis of too many names */
+static const char *find_quantity(const char *unit)
+{
+    static const char *const quantities[][2] = {{"[m]", "position"},
+                                                {"[mm]", "position"},
+                                                {"[m/s]", "velocity"},
+                                                {"[m/s^2]", "acceleration"},
+                                                {"[rad]", "angle"},
+                                                {"[deg]", "angle"},
+                                                {"[rad/s]", "angular velocity"},
+                                                {"[rad/s^2]", "angular acceleration"},
+                                                {"[N]", "force"},
+                                                {"[N*m]", "torque"},
+                                                {"[V]", "voltage"},
+                                                {"[A]", "current"},
+                                                {"[W]", "power"},
+                                                {"[J]", "energy"},
+                                                {"[Pa]", "pressure"},
+                                                {"[m^3/s]", "flow"},
+                                                {"[K]", "temperature"}};
+
+    for (size_t i = 0; i < sizeof quantities / sizeof quantities[0]; i++)
+        if (strcmp(quantities[i][0], unit) == 0)
+            return quantities[i][1];
+    return "value";
+}
+
+enum { LONGEST = 34 }; /* characters of the names at an axis */
+
+/* New: the names of an axis's curves, or their quantity, and the unit; NULL: it has no curves. */
+static char *axis_label(const Plot *plot, int panel, bool right)
+{
+    Paper names;
+    const char *unit = NULL;
+
+    paper_open(&names);
+    for (int i = 0; i < plot->count; i++) {
+        const char *label = plot_label(plot, i);
+        const PlotCurve *curve = &plot->curves[i];
+
+        if (curve->panel != panel || curve->right != right)
+            continue;
+
+        size_t length = strlen(label) - strlen(plot_unit(label));
+
+        while (length > 0 && label[length - 1] == ' ')
+            length--;
+        fprintf(names.out, "%s%.*s", unit != NULL ? ", " : "", (int)length, label);
+        unit = unit_of(plot, i);
+    }
+
+    char *all = paper_close(&names);
+    char *out = unit == NULL
+                    ? NULL
+                    : copy_format("%s %s", strlen(all) > LONGEST ? find_quantity(unit) : all, unit);
+
+    free(all);
+    return out;
+}
+
+static int curves_of(const Plot *plot, int panel)
+{
+    int count = 0;
+
+    for (int i = 0; i < plot->count; i++)
+        count += plot->curves[i].panel == panel;
+    return count;
+}
+
+static void put_axis_label(FILE *out, const Plot *plot, int panel, bool right)
+{
+    char *label = axis_label(plot, panel, right);
+
+    fprintf(out, label != NULL ? "set %slabel " : "unset %slabel\n", right ? "y2" : "y");
+    if (label != NULL) {
+        put_quoted(out, label);
+        fputs(" noenhanced\n", out);
+    }
+    if (right)
+        fprintf(out,
+                label != NULL ? "set y2tics\nset border 11\n" : "unset y2tics\nset border 3\n");
+    free(label);
+}
+
+static void put_range(FILE *out, const char *axis, const double range[2])
+{
+    if (isnan(range[0]))
+        fprintf(out, "set autoscale %s\n", axis);
+    else
+        fprintf(out, "set %srange [%.17g:%.17g]\n", axis, range[0], range[1]);
+}
+
+/* --- data --- */
+
+static int x_column(const Plot *plot, const PlotBlock *block)
+{
+    return plot->versus != NULL ? block->columns - 1 : 0;
+}
+
+static void put_blocks(FILE *out, const Plot *plot)
+{
+    for (int b = 0; b < plot->blocks_count; b++) {
+        const PlotBlock *block = &plot->blocks[b];
+
+        fprintf(out, "$block%d << end\n", b);
+        for (int i = 0; i < block->rows; i++)
+            for (int j = 0; j < block->columns; j++)
+                fprintf(out, "%.17g%c",
+                        block->values[i * block->columns + j] * (j == 0 ? plot->time_scale : 1),
+                        j == block->columns - 1 ? '\n' : ' ');
+        fputs("end\n", out);
+    }
+}
+
+/* --- events --- */
+
+enum { MOST_MARKS = 40 }; /* of an event: more would be a wall */
+
+/* A line at each instant, named once. */
+static void put_event(FILE *out, const Plot *plot, const char *name, const double *times, int count,
+                      bool named)
+{
+    for (int i = 0; i < count && count <= MOST_MARKS; i++) {
+        const double t = times[i] * plot->time_scale;
+
+        fprintf(out,
+                "set arrow from first %.17g, graph 0 to first %.17g, graph 1 nohead back "
+                "linecolor rgb '#909090' dashtype 3\n",
+                t, t);
+        if (i > 0 || !named)
+            continue;
+        fputs("set label ", out);
+        put_quoted(out, name);
+        fprintf(out,
+                " at first %.17g, graph 0.98 offset 0.5,0 noenhanced textcolor rgb '#606060'\n", t);
+    }
+}
+
+static void put_events(FILE *out, const Plot *plot, bool named)
+{
+    fputs("unset arrow\nunset label\n", out);
+    for (int b = 0; plot->versus == NULL && b < plot->blocks_count; b++) {
+        const char *run = plot->blocks[b].run;
+        const int number = *run != '\0' ? (int)strtol(run + 3, NULL, 10) : 0;
+        const double *times;
+        const char *name;
+        int count;
+
+        for (int i = 0; (name = ct_run_event(plot->session, number, i, &times, &count)) != NULL;
+             i++)
+            put_event(out, plot, name, times, count, named);
+    }
+}
+
+/* --- panels as commands --- */
+
+static void put_curve(FILE *out, const Plot *plot, int i, bool as_text)
+{
+    const PlotCurve *curve = &plot->curves[i];
+    const int x = x_column(plot, &plot->blocks[curve->block]) + 1;
+
+    fprintf(out, "$block%d using %d:%d axes x1y%d with %s title ", curve->block, x,
+            curve->column + 1, curve->right ? 2 : 1, curve->measured ? "points" : "lines");
+    put_quoted(out, plot_label(plot, i));
+    if (as_text)
+        return;
+    fprintf(out, " linecolor rgb '%s'", drawing_color(i));
+    if (curve->measured)
+        fputs(" pointtype 6 pointsize 0.8", out);
+    else
+        fprintf(out, " linewidth 1.5 dashtype %d", drawing_dash(i));
+}
+
+static void put_key(FILE *out, const Plot *plot, int panel, bool as_text)
+{
+    if (as_text)
+        fputs(plot->panels > 1 ? "set key noenhanced tmargin right horizontal\n"
+                               : "set key noenhanced below\n",
+              out);
+    else if (curves_of(plot, panel) > 1)
+        fputs("set key noenhanced outside top left horizontal Left reverse samplen 2\n", out);
+    else
+        fputs("unset key\n", out);
+}
+
+static void put_panel(FILE *out, const Plot *plot, int panel, bool as_text)
+{
+    bool last = panel == plot->panels - 1, first = true;
+    const PlotBlock *block = &plot->blocks[0];
+
+    put_key(out, plot, panel, as_text);
+    put_events(out, plot, panel == 0 && !as_text);
+    fputs(last ? "set xlabel " : "unset xlabel\n", out);
+    if (last) {
+        put_quoted(out,
+                   plot->versus != NULL ? block->labels[x_column(plot, block)] : plot->time_label);
+        fputs(" noenhanced\n", out);
+    }
+    if (as_text) { /* characters don't stand upright: the legend says it all */
+        fputs("unset ylabel\n", out);
+    } else {
+        put_axis_label(out, plot, panel, false);
+        put_axis_label(out, plot, panel, true);
+    }
+    for (int i = 0; i < plot->count; i++) {
+        if (plot->curves[i].panel != panel)
+            continue;
+        fputs(first ? "plot " : ", ", out);
+        put_curve(out, plot, i, as_text);
+        first = false;
+    }
+    fputc('\n', out);
+}
+
+static void put_scales(FILE *out, const Plot *plot)
+{
+    put_range(out, "x", plot->keys.x);
+    put_range(out, "y", plot->keys.y);
+    if (plot->versus == NULL && isnan(plot->keys.x[0]))
+        fputs("set autoscale xfix\n", out);
+    if (plot->keys.x_is_log)
+        fputs("set logscale x\n", out);
+    if (plot->keys.y_is_log)
+        fputs("set logscale y\nset logscale y2\n", out);
+    if (plot->equal_scales)
+        fputs("set size ratio -1\n", out);
+}
+
+void plot_put(FILE *out, const Drawing *drawing, bool as_text)
+{
+    const Plot *plot = drawing->of;
+    bool has_right = false;
+
+    for (int i = 0; i < plot->count; i++)
+        has_right = has_right || plot->curves[i].right;
+    put_blocks(out, plot);
+    if (plot->panels == 1)
+        put_title(out, drawing->title);
+    put_scales(out, plot);
+    if (!as_text)
+        fputs("set border 3\nset tics nomirror\nset grid linetype 1 linecolor '#e0e0e0' linewidth "
+              "0.7\n",
+              out);
+    if (plot->panels > 1) {
+        fprintf(out, "set multiplot layout %d,1", plot->panels);
+        if (*drawing->title != '\0') {
+            fputs(" title ", out);
+            put_quoted(out, drawing->title);
+            fputs(" noenhanced", out);
+        }
+        /* the panels' axes of time stand above one another */
+        fprintf(out, "\nset lmargin 11\nset rmargin %d\n", has_right && !as_text ? 11 : 3);
+    }
+    for (int i = 0; i < plot->panels; i++)
+        put_panel(out, plot, i, as_text);
+    if (plot->panels > 1)
+        fputs("unset multiplot\n", out);
+}
