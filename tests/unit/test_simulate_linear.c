@@ -149,6 +149,30 @@ static void wanted_speeds_become_independent(void)
     partitioning_free(embed);
 }
 
+/* A stage of a step that is rejected may lie at a singular position. */
+static void a_choice_that_fails_leaves_the_one_before(void)
+{
+    static const int wanted[2] = {1, 4};
+    uint64_t seed = 4;
+    double mass[NU * NU], phi_u[M * NU], singular[M * NU], top[NU], bottom[M], before[NU], du[NU];
+    Partitioning *embed = partitioning_new(NU, M);
+
+    random_system(&seed, mass, phi_u);
+    random_matrix(&seed, top, NU);
+    random_matrix(&seed, bottom, M);
+    memcpy(singular, phi_u, sizeof singular);
+    memcpy(singular + (ptrdiff_t)(M - 1) * NU, phi_u, NU * sizeof(double));
+    EXPECT(partitioning_choose(embed, phi_u, all_rows, wanted, 2));
+    EXPECT(partitioning_factor(embed, mass, phi_u, all_rows));
+    partitioning_solve(embed, top, bottom, before);
+    EXPECT(!partitioning_choose(embed, singular, all_rows, NULL, 0));
+    EXPECT(partitioning_factor(embed, mass, phi_u, all_rows));
+    partitioning_solve(embed, top, bottom, du);
+    for (int i = 0; i < NU; i++)
+        EXPECT_NEAR(du[i], before[i], 1e-12);
+    partitioning_free(embed);
+}
+
 /* --- bodies in a row and across, as absolute coordinates have them --- */
 
 enum { BODIES = 40, SPEEDS = 3 * BODIES, JOINTS = BODIES + 5, ROWS = 2 * JOINTS };
@@ -570,6 +594,7 @@ int main(void)
     RUN(lu_refuses_singular_and_undefined_matrices);
     RUN(kkt_and_embedded_form_agree);
     RUN(wanted_speeds_become_independent);
+    RUN(a_choice_that_fails_leaves_the_one_before);
     RUN(sparse_and_full_elimination_agree);
     RUN(rows_in_use_may_be_others);
     RUN(massless_speeds_are_held_by_their_constraints);

@@ -101,6 +101,7 @@ bool partitioning_choose(Partitioning *p, const double *phi_u, const int *rows, 
                          int wanted_count)
 {
     bool *open = NEW_ARRAY(bool, p->nu);
+    int *dependent = NEW_ARRAY(int, p->m);
     double largest = 0;
     int k = 0;
     int left = 0;
@@ -116,19 +117,22 @@ bool partitioning_choose(Partitioning *p, const double *phi_u, const int *rows, 
         largest = fmax(largest, pivot);
         if (!(pivot > 1e-8 * largest)) { /* the wanted speeds can't all be independent */
             for (int j = 0; j < p->nu; j++)
-                open[j] = !is_in(p->dependent, k, j);
+                open[j] = !is_in(dependent, k, j);
             pivot = eliminate_one(p, k, open, &column);
         }
         if (!(pivot > 1e-12 * largest))
             break;
-        p->dependent[k] = column;
+        dependent[k] = column;
         open[column] = false;
     }
-    for (int j = 0; k == p->m && j < p->nu; j++)
-        if (!is_in(p->dependent, p->m, j))
-            p->independent[left++] = j;
-    p->chosen_ratio = 0;
-    mem_free(open);
+    if (k == p->m) {
+        memcpy(p->dependent, dependent, (size_t)p->m * sizeof(int));
+        for (int j = 0; j < p->nu; j++)
+            if (!is_in(dependent, p->m, j))
+                p->independent[left++] = j;
+        p->chosen_ratio = 0;
+    }
+    MEM_FREE(open, dependent);
     return k == p->m;
 }
 

@@ -12,7 +12,8 @@ typedef struct Partitioning Partitioning;
 Partitioning *partitioning_new(int nu, int m);      /* new; free with partitioning_free() */
 void partitioning_free(Partitioning *partitioning); /* NULL is fine */
 /* Choose dependent speeds by elimination with full pivoting of the rows of phi_u; the `wanted` ones
- * become independent as far as the rows allow. False when the rows are dependent. */
+ * become independent as far as the rows allow. False, and all as before, when the rows are
+ * dependent. */
 bool partitioning_choose(Partitioning *partitioning, const double *phi_u, const int *rows,
                          const int *wanted, int wanted_count);
 const int *partitioning_independent(const Partitioning *partitioning); /* nu - m, rising */
