@@ -10,7 +10,10 @@
 #include <math.h>
 #include <string.h>
 
-#define TRIES      24    /* other starts, when the first leads nowhere */
+#define AT_ONCE    8     /* other starts at a distance, when the first leads nowhere: near ones, */
+#define TRIES      24    /* then further ones, so many in all; */
+#define MOST_TRIES 56    /* of few unknowns, which cost little, */
+#define WORK       1680  /* as many as together have so many unknowns */
 #define APPROACHED 1e-12 /* of guesses, which are met if they can be */
 
 /* --- unknowns --- */
@@ -286,6 +289,11 @@ static void keep_unconcerned(const Placing *p, const Rows *rows, const bool *mis
     MEM_FREE(residual, jacobian);
 }
 
+static double size_of_try(int k)
+{
+    return k < AT_ONCE ? 0.1 : k < 2 * AT_ONCE ? 0.5 : k < TRIES || k % 2 == 0 ? 1.5 : 3;
+}
+
 /* Other starts about the first one; the nearest solution wins at the smallest disturbance. Rows
  * that are missed say what takes part. */
 static bool try_around(Placing *p, const Rows *rows, const double *from, const bool *missed)
@@ -293,10 +301,12 @@ static bool try_around(Placing *p, const Rows *rows, const double *from, const b
     const size_t bytes = (size_t)rows->length * sizeof(double);
     double *step = NEW_ARRAY(double, rows->columns);
     uint64_t seed = 1;
+    int tries = WORK / rows->columns;
     bool met = false;
 
-    for (int k = 0; k < TRIES && !met && poll(rows->watch) == OK; k++) {
-        double size = k < TRIES / 3 ? 0.1 : k < 2 * TRIES / 3 ? 0.5 : 1.5;
+    tries = tries < TRIES ? TRIES : tries > MOST_TRIES ? MOST_TRIES : tries;
+    for (int k = 0; k < tries && !met && poll(rows->watch) == OK; k++) {
+        const double size = size_of_try(k);
 
         for (int j = 0; j < rows->columns; j++)
             step[j] = size * random_unit(&seed);
