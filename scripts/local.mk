@@ -14,7 +14,9 @@ EXTRA_DIST += \
 	scripts/paper/4_spatial_slider_crank_c.ct \
 	scripts/paper/5_microphone_cotree.ct \
 	scripts/paper/5_microphone_pull_in.ct \
-	scripts/paper/5_microphone_tree.ct
+	scripts/paper/5_microphone_tree.ct \
+	scripts/paper/7_cantilever.ct \
+	scripts/paper/7_spin_up.ct
 
 # mechanisms with published reference solutions
 EXTRA_DIST += \
@@ -26,7 +28,9 @@ EXTRA_DIST += \
 	scripts/reference/ref_A03_andrews.ct \
 	scripts/reference/ref_A03_andrews_beta062.ct \
 	scripts/reference/ref_free_body.ct \
-	scripts/reference/ref_heavy_top.ct
+	scripts/reference/ref_heavy_top.ct \
+	scripts/reference/ref_spatial_beam.ct \
+	scripts/reference/ref_spin_up_beam.ct
 
 # sessions to read and to type
 EXTRA_DIST += scripts/tours/bouncing-ball.ct scripts/tours/first-hour.ct \

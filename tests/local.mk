@@ -46,6 +46,7 @@ EXTRA_DIST += tests/claims.sh tests/family/family.h
 # tests that are scripts
 SCRIPT_TESTS = \
 	tests/cases/andrews \
+	tests/cases/beams \
 	tests/cases/four_bar \
 	tests/cases/free_body \
 	tests/cases/heavy_top \
@@ -67,6 +68,6 @@ EXTRA_DIST += $(SCRIPT_TESTS) tests/cases/cases.sh tests/cases/columns_agree \
 	tests/gallery/look.py \
 	tests/cases/microphone_equations.py \
 	tests/data/andrews_beta062.csv tests/data/free_body.csv tests/data/heavy_top.csv \
-	tests/data/microphone.csv \
+	tests/data/beam_spin_up.csv tests/data/microphone.csv tests/data/spatial_beam.csv \
 	tests/data/serial_motion.csv tests/data/serial_states.csv \
 	tests/data/spatial_slider_crank_a.csv tests/data/spatial_slider_crank_c.csv

@@ -22,6 +22,8 @@ libcore_la_SOURCES += \
   lib/algebra/matrix3.h \
   lib/algebra/pattern.c \
   lib/algebra/pattern.h \
+  lib/algebra/polynomial.c \
+  lib/algebra/polynomial.h \
   lib/algebra/rank.c \
   lib/algebra/rank.h \
   lib/algebra/schur.c \

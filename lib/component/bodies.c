@@ -19,6 +19,7 @@ static const Param body_params[] = {
 
 static const Param arm_params[] = {
     {"position", PARAM_VECTOR,   "m", "0", "of the new frame's origin, in the axes of the frame it starts from", POSITIONAL},
+    {"at",       PARAM_SCALAR,   "m", "0", "on a beam: the place along it, from its root", 0},
     {"rotation", PARAM_ROTATION, "1", "1", "how the new frame is turned: z(90 deg)*x(a) about z, then about the new x", 0},
 };
 /* clang-format on */
@@ -161,6 +162,8 @@ static void arm_steps(const Instance *instance, Arena *arena, bool planar, Steps
     steps_none(arena, out);
     for (int i = 0; i < 3; i++)
         out->constant[i] = position->at[i];
+    if (instance_value(instance, "at")->given) /* until the beam bends */
+        out->constant[0] = instance_scalar(instance, "at");
     for (int i = 0; i < 9; i++)
         out->rotation[i] = rotation->at[i];
 }
@@ -171,7 +174,6 @@ const Component component_arm = {
     .domain = DOMAIN_MECHANICAL,
     .places = PLACES_FROM,
     .brief = "a further frame fixed in the body of a frame, or on ground",
-    .later_keys = (const char *const[]){"at", NULL},
     .params = arm_params,
     .param_count = COUNT(arm_params),
     .translation = BRANCH_ALWAYS,

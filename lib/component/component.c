@@ -67,6 +67,23 @@ const CoordinateRow *instance_coords(const Instance *instance, bool planar, int 
     return row->coords;
 }
 
+int instance_coord_count(const Instance *instance, bool planar)
+{
+    const Deforming *deforming = instance->row->deforming;
+    int count;
+
+    (void)instance_coords(instance, planar, &count);
+    return count + (deforming != NULL ? deforming->count(instance, planar) : 0);
+}
+
+CoordinateRow instance_coord(const Instance *instance, bool planar, int i)
+{
+    int count;
+    const CoordinateRow *pose = instance_coords(instance, planar, &count);
+
+    return i < count ? pose[i] : instance->row->deforming->coordinate(instance, planar, i - count);
+}
+
 const Value *instance_value(const Instance *instance, const char *name)
 {
     int i = component_param(instance->row, name);

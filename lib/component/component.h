@@ -113,7 +113,8 @@ typedef struct Steps {
 typedef enum CoordinateKind {
     COORDINATE_LENGTH,
     COORDINATE_ANGLE,
-    COORDINATE_PARAMETER
+    COORDINATE_PARAMETER,
+    COORDINATE_TWIST /* of a shape, in rad: it turns nothing as a whole */
 } CoordinateKind;
 
 typedef struct CoordinateRow {
@@ -121,6 +122,50 @@ typedef struct CoordinateRow {
     CoordinateKind kind;
     bool rotation; /* of the rotation half */
 } CoordinateRow;
+
+/* --- what deforms: shapes with coordinates of their own, behind those of its pose ---
+ *
+ * All in the axes of its root, the frame that its edge leads to; theory 9. */
+
+typedef struct ShapeState { /* symbols, or what stands for them */
+    const Expr *q, *rate;   /* of each shape */
+    Expr w[3];              /* angular velocity of the root */
+} ShapeState;
+
+typedef struct Station { /* a frame on it */
+    Expr position[3];
+    Expr angle[3]; /* of turns about z, then the new y, then the newest x */
+    Expr bend[3];  /* what is left of position'' in the axes of the root at q'' = 0 */
+    Expr *shift;   /* d position/d q: shapes x 3 */
+    Expr *turn;    /* d angle/d q, likewise; constants */
+} Station;
+
+/* Its local block over the acceleration a of the root, its angular acceleration and q'', less a
+ * field of weight g: force = mass (a - g) + alpha x moment + sum with_shift q'' + bias_force, and
+ * so on. `own` pushes on q, with elasticity and damping. */
+typedef struct ShapeInertia {
+    Expr mass, moment[3], inertia[9];
+    Expr *with_shift, *with_turn; /* shapes x 3 */
+    Expr *block;                  /* shapes x shapes */
+    Expr bias_force[3], bias_torque[3], *bias;
+    Expr *push;     /* of elasticity and damping */
+    Expr *stress;   /* of elasticity alone */
+    Expr stored;    /* in elasticity */
+    Expr length;    /* along which a load spreads; NULL: there is none */
+    Expr load[3];   /* per length, ground axes, over the user's variables */
+    Expr spread[3]; /* its first moment */
+    Expr *spread_shift;
+} ShapeInertia;
+
+typedef struct Deforming {
+    int (*count)(const Instance *instance, bool planar);
+    CoordinateRow (*coordinate)(const Instance *instance, bool planar, int i);
+    /* `at`: along it, from its root; its arrays have room for all shapes */
+    void (*station)(const Instance *instance, Arena *arena, bool planar, Expr at,
+                    const ShapeState *state, Station *out);
+    void (*inertia)(const Instance *instance, Arena *arena, bool planar, const ShapeState *state,
+                    ShapeInertia *out);
+} Deforming;
 
 /* --- efforts: forces between two frames or on a joint, and transducers --- */
 
@@ -220,6 +265,7 @@ struct Component {
      * entries (planar: Izz alone, the others 0); NULL where it has none */
     void (*inertia)(const Instance *instance, Arena *arena, bool planar, Expr *mass,
                     Expr tensor[6]);
+    const Deforming *deforming; /* NULL: it is rigid */
     /* PLACES_ON: force and torque on the head, in ground axes or, with *in_body, in the head's */
     void (*wrench)(const Instance *instance, Arena *arena, bool planar, Expr force[3],
                    Expr torque[3], bool *in_body);
@@ -284,6 +330,7 @@ struct Instance {
     bool on_angle;          /* that coordinate is an angle */
     Value *values;          /* one a param of the row */
     int coord_count;
+    int pose_count;     /* the first of them place its head; those of shapes follow */
     const char **coord; /* names: "h8", "m1.x", or the user's coord= */
     CoordinateKind *coord_kind;
     bool *coord_rotation;
@@ -293,8 +340,11 @@ struct Instance {
     const char *text;  /* its statement */
 };
 
-/* How many coordinates the instance has in this scene, and which, its values read. */
+/* The coordinates of its pose in this scene, its values read. */
 const CoordinateRow *instance_coords(const Instance *instance, bool planar, int *count);
+/* How many coordinates it has, those of shapes among them, and which is the i-th. */
+int instance_coord_count(const Instance *instance, bool planar);
+CoordinateRow instance_coord(const Instance *instance, bool planar, int i);
 /* Refuse values that no model could have, by the row; they are numbers where they can be. */
 MUST_USE Status instance_check(const Instance *instance, Arena *arena, bool planar, Diag *diag);
 const Component *component_find(const char *name);           /* exact; NULL */

@@ -26,6 +26,8 @@ bool speed_moves_as_one(const System *system, int speed)
     int nodes;
     const int *order = tree_nodes(translation, &nodes);
 
+    if (system->dynamics->elastics.count > 0) /* it may bend beyond */
+        return false;
     /* the branch's own shift must not turn with what it carries */
     if (branch != tree_parent_edge(rotation, node) || (slide_node >= 0 && slide_node != node) ||
         (system->kinematics->frames[node].base == node &&

@@ -11,6 +11,7 @@
 #include "formulate/origin.h"
 #include "formulate/resolve.h"
 #include "formulate/sample.h"
+#include "formulate/stations.h"
 #include "formulate/system_impl.h"
 #include "formulate/vector.h"
 
@@ -452,7 +453,7 @@ static void mark_way(const System *system, int node, int ancestor, bool *turns, 
 /* Speeds that the row's derivative can hold, in order: of a long mechanism few. Room for all. */
 static int speeds_of_row(const System *system, const Row *row, int *speeds)
 {
-    const int all = system->kinematics->u.count;
+    const int all = system->kinematics->speed_count;
     bool *turns = NEW_ARRAY(bool, all), *slides = NEW_ARRAY(bool, all);
     int count = 0;
 
@@ -471,6 +472,25 @@ static int speeds_of_row(const System *system, const Row *row, int *speeds)
             speeds[count++] = j;
     MEM_FREE(turns, slides);
     return count;
+}
+
+/* adds to an entry of Phi_u; of a dependent speed to those of the shapes that it follows from */
+static void put_entry(const System *system, int k, int speed, Expr value)
+{
+    Arena *arena = system->arena;
+    const int nu = system->kinematics->u.count;
+    Expr *row = system->run.phi_u + (ptrdiff_t)k * nu;
+    const Dependent *own;
+
+    if (speed < nu) {
+        row[speed] = expr_add(arena, row[speed], value);
+        return;
+    }
+    own = &system->kinematics->dependents.at[speed - nu];
+    value = expr_hold(arena, value);
+    for (int i = 0; i < own->count; i++)
+        row[own->first + i] =
+            expr_add(arena, row[own->first + i], expr_mul(arena, own->factor[i], value));
 }
 
 static void run_way(const System *system, const Row *row, int k, const int *speeds, int count)
@@ -494,9 +514,8 @@ static void run_way(const System *system, const Row *row, int k, const int *spee
     for (int i = 0; i < count; i++) {
         int j = speeds[i];
         int turned = system->kinematics->speeds[j].chain;
-        Expr *entry = &system->run.phi_u[k * system->kinematics->u.count + j];
 
-        *entry = circuit_slide(system, row, n, j, axes);
+        put_entry(system, k, j, circuit_slide(system, row, n, j, axes));
         if (turned < 0)
             continue;
         if (turned != seen) {
@@ -505,8 +524,8 @@ static void run_way(const System *system, const Row *row, int k, const int *spee
                 D = vec_sub(arena, D, d);
             seen = turned;
         }
-        *entry = expr_add(arena, *entry,
-                          vec_dot(arena, n, vec_cross(arena, speed_axis(system, j, axes), D)));
+        put_entry(system, k, j,
+                  vec_dot(arena, n, vec_cross(arena, speed_axis(system, j, axes), D)));
     }
     if (turns_with_tail) {
         Vec w = vec_express(system, system->kinematics->motions[tail].w, resolve_tail, axes);
@@ -550,8 +569,10 @@ static void run_dot(const System *system, const Row *row, int k, const int *spee
 
         if (sense == 0)
             continue;
-        system->run.phi_u[k * system->kinematics->u.count + j] = vec_dot(
-            arena, vec_scale(arena, expr_int(arena, sense), speed_axis(system, j, axes)), c);
+        put_entry(system, k, j,
+                  vec_dot(arena,
+                          vec_scale(arena, expr_int(arena, sense), speed_axis(system, j, axes)),
+                          c));
     }
     system->run.gamma[k] =
         expr_neg(arena, expr_add(arena, vec_dot(arena, alpha, c),
@@ -587,7 +608,7 @@ static Status run_rows(System *system, Diag *diag)
 {
     int m = system->constraints->rows.count, count = system->kinematics->u.count;
     size_t size = (size_t)m * sizeof(Expr);
-    int *speeds = NEW_ARRAY(int, count);
+    int *speeds = NEW_ARRAY(int, system->kinematics->speed_count);
     const Expr zero = expr_int(system->arena, 0);
     Status status = OK;
 

@@ -21,6 +21,7 @@ typedef enum TermKind {
     TERM_TORQUE,  /* T.w_j */
     TERM_EFFORT,  /* on a coordinate or a line: effort times how much speed j moves it */
     TERM_ROTOR,   /* inertia on a coordinate */
+    TERM_SHAPES,  /* of what deforms: its local block on the root and the shapes */
     TERM_DRIVE    /* what an inverse run finds */
 } TermKind;
 

@@ -12,10 +12,12 @@
 #include "formulate/loads.h"
 #include "formulate/network.h"
 #include "formulate/origin.h"
+#include "formulate/shapes.h"
 #include "formulate/system_impl.h"
 #include "formulate/vector.h"
 
 #include <math.h>
+#include <string.h>
 
 /* Speeds of the largest mass matrix: it is dense, and some 100 bytes stand behind each entry. */
 enum { MOST_SPEEDS_RUN = 4000 };
@@ -36,13 +38,15 @@ static Expr sums_project(const System *system, const Sums *sums, int speed)
     if (own->slide_node >= 0 && !vec_is_zero(sums->force[own->slide_node]))
         row = expr_add(system->arena, row,
                        vec_dot(system->arena, own->slide, sums->force[own->slide_node]));
+    if (speed < system->kinematics->u.count)
+        row = expr_add(system->arena, row, sums->own[speed]);
     return row;
 }
 
 /* the directions of each speed, in the axes of its nodes */
 static void speed_directions(const System *system)
 {
-    for (int j = 0; j < system->kinematics->u.count; j++) {
+    for (int j = 0; j < system->kinematics->speed_count; j++) {
         Speed *own = &system->kinematics->speeds[j];
 
         if (own->chain >= 0)
@@ -76,6 +80,24 @@ static void unit_motion(const System *system, int speed, Vec *v)
     }
 }
 
+static void unit_elastic(const System *system, const Elastic *elastic, int speed, const Vec *v,
+                         Loads *loads)
+{
+    Arena *arena = system->arena;
+    const int chain = system->kinematics->frames[elastic->node].chain;
+    const int turned = system->kinematics->speeds[speed].chain;
+    const int count = system->kinematics->u.count;
+    const bool turns = turned >= 0 && chain_is_beyond(system, chain, turned);
+    Expr *rates = NEW_ARRAY(Expr, count);
+    const Vec w =
+        turns ? speed_axis(system, speed, axes_of(system, elastic->node)) : vec_zero(arena);
+
+    for (int j = 0; j < count; j++)
+        rates[j] = expr_int(arena, j == speed);
+    elastic_add_motion(system, elastic, loads, v[elastic->node], w, rates, 1);
+    mem_free(rates);
+}
+
 /* inertia forces, signs reversed, of that motion */
 static void unit_loads(const System *system, int speed, const Vec *v, Loads *loads)
 {
@@ -96,6 +118,8 @@ static void unit_loads(const System *system, int speed, const Vec *v, Loads *loa
         loads->force[mass->node] =
             vec_add(arena, loads->force[mass->node], vec_scale(arena, mass->mass, v[mass->node]));
     }
+    for (int i = 0; i < system->dynamics->elastics.count; i++)
+        unit_elastic(system, &system->dynamics->elastics.at[i], speed, v, loads);
 }
 
 /* how many bodies a speed moves: those that it turns, or whose way it turns or lengthens; `moves`
@@ -122,6 +146,13 @@ static int bodies_moved(const System *system, int speed, bool *moves)
                  (turned >= 0 &&
                   chain_is_beyond(system, system->kinematics->frames[node].chain, turned));
     }
+    for (int i = 0; i < system->dynamics->elastics.count; i++) {
+        int node = system->dynamics->elastics.at[i].node;
+
+        moved += moves[node] || node == system->kinematics->speeds[speed].shape_node ||
+                 (turned >= 0 &&
+                  chain_is_beyond(system, system->kinematics->frames[node].chain, turned));
+    }
     return moved;
 }
 
@@ -137,9 +168,52 @@ static bool column_serves(const System *system, const int *moved, int j, int k)
     return depth_k != depth_j ? depth_k > depth_j : k >= j;
 }
 
+/* In rows of dependent speeds stands what works on the shapes that they follow from: the nu x nu
+ * entries of F' C F, from C of all n speeds. */
+static Expr *of_own_speeds(const System *system, const Expr *all, int n)
+{
+    Arena *arena = system->arena;
+    const int nu = system->kinematics->u.count;
+    Expr *half = NEW_ARRAY(Expr, (size_t)nu * (size_t)n);
+    Expr *mass = pool_alloc(system->pool, (size_t)nu * (size_t)nu * sizeof(Expr));
+
+    for (int j = 0; j < nu; j++)
+        memcpy(half + (ptrdiff_t)j * n, all + (ptrdiff_t)j * n, (size_t)n * sizeof(Expr));
+    for (int j = nu; j < n; j++) {
+        const Dependent *own = &system->kinematics->dependents.at[j - nu];
+
+        for (int i = 0; i < own->count; i++)
+            for (int k = 0; k < n; k++) {
+                Expr *entry = &half[(own->first + i) * n + k];
+
+                *entry = expr_add(arena, *entry, expr_mul(arena, own->factor[i], all[j * n + k]));
+            }
+    }
+    for (int j = 0; j < nu; j++)
+        for (int k = 0; k < n; k++)
+            half[j * n + k] = expr_hold(arena, half[j * n + k]);
+    for (int j = 0; j < nu; j++)
+        memcpy(mass + (ptrdiff_t)j * nu, half + (ptrdiff_t)j * n, (size_t)nu * sizeof(Expr));
+    for (int k = nu; k < n; k++) {
+        const Dependent *own = &system->kinematics->dependents.at[k - nu];
+
+        for (int i = 0; i < own->count; i++)
+            for (int j = 0; j < nu; j++) {
+                Expr *entry = &mass[j * nu + own->first + i];
+
+                *entry = expr_add(arena, *entry, expr_mul(arena, own->factor[i], half[j * n + k]));
+            }
+    }
+    for (int j = 0; j < nu; j++)
+        for (int k = j; k < nu; k++)
+            mass[j * nu + k] = mass[k * nu + j] = expr_hold(arena, mass[j * nu + k]);
+    mem_free(half);
+    return mass;
+}
+
 static Status mass_matrix(System *system)
 {
-    int n = system->kinematics->u.count;
+    int n = system->kinematics->speed_count;
     int *moved = NEW_ARRAY(int, n);
     bool *moves = NEW_ARRAY(bool, graph_node_count(system->origin->graph));
     Expr *columns = NEW_ARRAY(Expr, (size_t)n * (size_t)n);
@@ -173,13 +247,27 @@ static Status mass_matrix(System *system)
             mass[j * n + k] =
                 expr_hold(system->arena, by_k ? columns[k * n + j] : columns[j * n + k]);
         }
-    system->run.mass = mass;
+    system->run.mass = n > system->kinematics->u.count ? of_own_speeds(system, mass, n) : mass;
 done:
     MEM_FREE(moved, moves, columns, v);
     return status;
 }
 
-void loads_add_inertia(const System *system, Loads *loads, const Vec *alpha, const Vec *a)
+static void add_elastic(const System *system, const Elastic *elastic, Loads *loads,
+                        const Vec *alpha, const Vec *a, const Expr *accelerations)
+{
+    Arena *arena = system->arena;
+    const int axes = axes_of(system, elastic->node);
+    const int chain = system->kinematics->frames[elastic->node].chain;
+    const Vec g = vec_express(system, system->origin->gravity, 0, axes);
+
+    elastic_add_motion(system, elastic, loads, vec_sub(arena, a[elastic->node], g), alpha[chain],
+                       accelerations, -1);
+    elastic_add_rest(system, elastic, loads);
+}
+
+void loads_add_inertia(const System *system, Loads *loads, const Vec *alpha, const Vec *a,
+                       const Expr *accelerations)
 {
     Arena *arena = system->arena;
     Vec *gravity = NEW_ARRAY(Vec, system->kinematics->chains.count);
@@ -201,6 +289,8 @@ void loads_add_inertia(const System *system, Loads *loads, const Vec *alpha, con
             loads->torque[mass->node] = vec_sub(arena, loads->torque[mass->node], torque);
         }
     }
+    for (int i = 0; i < system->dynamics->elastics.count; i++)
+        add_elastic(system, &system->dynamics->elastics.at[i], loads, alpha, a, accelerations);
     mem_free(gravity);
 }
 
@@ -390,6 +480,20 @@ static Status joint_efforts(System *system, Diag *diag)
     return OK;
 }
 
+/* what acts on stations works on shapes */
+static void project_dependent(System *system, const Sums *sums, int speed)
+{
+    Arena *arena = system->arena;
+    const Dependent *own = &system->kinematics->dependents.at[speed - system->kinematics->u.count];
+    const Expr row = expr_hold(arena, sums_project(system, sums, speed));
+
+    for (int i = 0; i < own->count; i++) {
+        Expr *force = &system->run.force[own->first + i];
+
+        *force = expr_add(arena, *force, expr_mul(arena, own->factor[i], row));
+    }
+}
+
 static Status check_size(const System *system, Diag *diag)
 {
     if (system->kinematics->u.count <= MOST_SPEEDS_RUN)
@@ -415,11 +519,15 @@ Status dynamics_build(System *system, Diag *diag)
     if (!composite_mass_build(system))
         TRY(mass_matrix(system));
     loads = loads_new(system);
-    loads_add_inertia(system, &loads, system->kinematics->alpha0, system->kinematics->a0);
+    loads_add_inertia(system, &loads, system->kinematics->alpha0, system->kinematics->a0, NULL);
     TRY(efforts_add(system, &loads, false, diag));
     sums = loads_sum(system, &loads);
     for (int j = 0; j < n; j++)
-        system->run.force[j] = expr_hold(system->arena, sums_project(system, sums, j));
+        system->run.force[j] = sums_project(system, sums, j);
+    for (int j = n; j < system->kinematics->speed_count; j++)
+        project_dependent(system, sums, j);
+    for (int j = 0; j < n; j++)
+        system->run.force[j] = expr_hold(system->arena, system->run.force[j]);
     return joint_efforts(system, diag);
 }
 

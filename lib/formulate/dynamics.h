@@ -4,6 +4,7 @@
 
 #include "base/memory.h"
 #include "formulate/composite_mass.h"
+#include "formulate/shapes.h"
 #include "formulate/system.h"
 #include "formulate/vector.h"
 
@@ -18,6 +19,7 @@ typedef struct Mass {
 
 typedef struct Dynamics {
     LIST(Mass) masses;
+    LIST(Elastic) elastics;
     bool writes_out;    /* false: entries of M and F are too long, and are shown as definitions */
     LIST(Entry) shares; /* of parts in M, beside what the masses make it */
     CompositeMass *composite_mass; /* NULL: M is run as it is written */

@@ -71,6 +71,9 @@ Stand system_stand(const System *system, const char *name)
     if (number >= 0) {
         const CoordinateOwner *owner = &system->origin->coordinate_owners.at[number];
 
+        if (owner->coordinate >= system->origin->instances[owner->instance].pose_count)
+            return stand; /* of a shape: it places no frame by itself */
+
         return (Stand){.kind = STANDS_COORDINATE,
                        .instance = &system->origin->instances[owner->instance],
                        .which = owner->coordinate};

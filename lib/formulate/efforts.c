@@ -2,11 +2,13 @@
 #include "formulate/efforts.h"
 #include "formulate/constraints.h"
 #include "formulate/coordinate.h"
+#include "formulate/dynamics.h"
 #include "formulate/kinematics.h"
 #include "formulate/loads.h"
 #include "formulate/network.h"
 #include "formulate/origin.h"
 #include "formulate/resolve.h"
+#include "formulate/shapes.h"
 #include "formulate/system_impl.h"
 #include "formulate/vector.h"
 
@@ -149,6 +151,12 @@ void loads_add_effort(System *system, Loads *loads, const Instance *owner, int c
     int chain = system->kinematics->frames[owner->tail].chain;
     Steps steps;
 
+    if (coordinate >= owner->pose_count) {
+        Expr *own = &loads->own[system->kinematics->speed[owner->number][coordinate]];
+
+        *own = expr_add(arena, *own, effort);
+        return;
+    }
     instance_steps(system, owner, &steps);
     for (int k = 0; k < steps.turn_count; k++) {
         Vec torque;
@@ -207,6 +215,8 @@ Status efforts_add(System *system, Loads *loads, bool joints, Diag *diag)
         loads_add_force(system, loads, instance->head, force, 0);
         loads_add_force(system, loads, instance->tail, vec_neg(arena, force), 0);
     }
+    for (int i = 0; i < system->dynamics->elastics.count; i++)
+        TRY(elastic_add_load(system, &system->dynamics->elastics.at[i], loads, diag));
     return OK;
 }
 

@@ -7,6 +7,7 @@
 #include "formulate/network.h"
 #include "formulate/origin.h"
 #include "formulate/resolve.h"
+#include "formulate/shapes.h"
 #include "formulate/shown.h"
 #include "formulate/system_impl.h"
 #include "formulate/vector.h"
@@ -71,6 +72,8 @@ Expr system_kinetic(System *system)
             push(system, &terms, half(arena), expr_int(arena, 1),
                  vec_dot(arena, w, rotation_apply(arena, &mass->inertia, w)));
     }
+    for (int i = 0; i < system->dynamics->elastics.count; i++)
+        LIST_PUSH(terms, elastic_kinetic(system, &system->dynamics->elastics.at[i]));
     for (int i = 0; i < system->origin->instance_count; i++) {
         const Instance *instance = &system->origin->instances[i];
         Expr rate;
@@ -110,6 +113,17 @@ Expr system_potential(System *system)
 
         push(system, &terms, expr_int(arena, -1), mass->mass,
              vec_dot(arena, system->origin->gravity, node_position(system, mass->node)));
+    }
+    for (int i = 0; i < system->dynamics->elastics.count; i++) {
+        const Elastic *elastic = &system->dynamics->elastics.at[i];
+        const ShapeInertia *b = &elastic->block;
+        const int chain = system->kinematics->frames[elastic->node].chain;
+        Vec moment = vec_express(system, elastic_vector(system, elastic, b->moment), chain, 0);
+
+        moment =
+            vec_add(arena, moment, vec_scale(arena, b->mass, node_position(system, elastic->node)));
+        LIST_PUSH(terms, expr_neg(arena, vec_dot(arena, system->origin->gravity, moment)));
+        LIST_PUSH(terms, b->stored);
     }
     for (int i = 0; i < system->origin->instance_count; i++) {
         const Instance *instance = &system->origin->instances[i];
@@ -218,6 +232,27 @@ static void push_drives(System *system, Terms *terms)
     }
 }
 
+/* damping, and a load */
+static void push_elastic(System *system, const Elastic *elastic, Terms *terms)
+{
+    Arena *arena = system->arena;
+    const ShapeInertia *b = &elastic->block;
+    const Instance *part = &system->origin->instances[elastic->instance];
+    const int node = elastic->node, chain = system->kinematics->frames[node].chain;
+    Loads loads = loads_new(system);
+
+    for (int i = 0; i < part->coord_count - part->pose_count; i++)
+        LIST_PUSH(*terms, expr_mul(arena, expr_sub(arena, b->push[i], b->stress[i]),
+                                   system->kinematics->u.at[elastic->first + i].symbol));
+    if (elastic_add_load(system, elastic, &loads, NULL) != OK)
+        return;
+    LIST_PUSH(*terms, vec_dot(arena, loads.force[node], system->kinematics->frames[node].v));
+    LIST_PUSH(*terms, vec_dot(arena, loads.torque[node], system->kinematics->motions[chain].w));
+    for (int i = 0; i < part->coord_count - part->pose_count; i++)
+        LIST_PUSH(*terms, expr_mul(arena, loads.own[elastic->first + i],
+                                   system->kinematics->u.at[elastic->first + i].symbol));
+}
+
 Expr system_power(System *system)
 {
     system_touch(system);
@@ -236,6 +271,8 @@ Expr system_power(System *system)
         if (instance->row->effort != NULL && effort_of(system, instance, &effort, NULL) == OK)
             push(system, &terms, expr_int(arena, 1), lost_effort(system, &effort), effort.rate);
     }
+    for (int i = 0; i < system->dynamics->elastics.count; i++)
+        push_elastic(system, &system->dynamics->elastics.at[i], &terms);
     push_network(system, &terms);
     push_drives(system, &terms);
     *sum = expr_sum(arena, terms.at, terms.count);

@@ -20,94 +20,6 @@
 
 #include <string.h>
 
-/* --- partial velocities --- */
-
-FrameSum partial_velocity(const System *system, int node, int speed)
-{
-    Expr one = expr_int(system->arena, 1);
-    const Speed *own = &system->kinematics->speeds[speed];
-    FrameSum sum = {NULL, 0};
-    FrameSum slid = {NULL, 0};
-
-    for (; system->kinematics->frames[node].parent >= 0;
-         node = system->kinematics->frames[node].parent) {
-        const Frame *frame = &system->kinematics->frames[node];
-
-        if (own->chain >= 0 && chain_is_beyond(system, frame->step_chain, own->chain))
-            sum = framesum_add(system, sum, one,
-                               framesum_of(system, frame->step_chain, frame->shift));
-        if (node == own->slide_node)
-            slid = framesum_of(system, frame->step_chain,
-                               speed_slide(system, speed, frame->step_chain));
-    }
-    if (own->chain < 0)
-        return slid;
-    return framesum_add(system, slid, one, framesum_cross(system, own->axis, own->axis_chain, sum));
-}
-
-Vec partial_turn(const System *system, int chain, int speed)
-{
-    int turned = system->kinematics->speeds[speed].chain;
-
-    if (turned < 0 || !chain_is_beyond(system, chain, turned))
-        return vec_zero(system->arena);
-    return speed_axis(system, speed, chain);
-}
-
-/* --- velocity products --- */
-
-/* angular velocity of a chain in its own axes, and what its rate is at u' = 0 */
-static void chain_motion(const System *system, int chain, Vec *w, Vec *alpha)
-{
-    Arena *arena = system->arena;
-    const Chain *turn = &system->kinematics->chains.at[chain];
-    Vec spin;
-
-    *w = *alpha = vec_zero(arena);
-    if (turn->parent < 0)
-        return;
-    chain_motion(system, turn->parent, w, alpha);
-    *w = vec_express(system, *w, turn->parent, chain);
-    *alpha = vec_express(system, *alpha, turn->parent, chain);
-    spin = vec_zero(arena);
-    for (int j = turn->speed; j < turn->speed + turn->speed_count; j++)
-        spin = vec_add(
-            arena, spin,
-            vec_scale(arena, system->kinematics->u.at[j].symbol, speed_axis(system, j, chain)));
-    *alpha = vec_add(arena, *alpha, vec_cross(arena, *w, spin));
-    *w = vec_add(arena, *w, spin);
-}
-
-/* acceleration of a node at u' = 0 */
-static FrameSum rest_acceleration(const System *system, int node)
-{
-    Arena *arena = system->arena;
-    FrameSum sum = {NULL, 0};
-
-    for (; system->kinematics->frames[node].parent >= 0;
-         node = system->kinematics->frames[node].parent) {
-        const Frame *frame = &system->kinematics->frames[node];
-        Vec slid = vec_zero(arena);
-        Vec w;
-        Vec alpha;
-        Vec a;
-
-        if (vec_is_zero(frame->shift))
-            continue;
-        chain_motion(system, frame->step_chain, &w, &alpha);
-        for (int k = 0; k < frame->slide_count; k++)
-            slid = vec_add(arena, slid,
-                           vec_scale(arena, system->kinematics->u.at[frame->slide[k].speed].symbol,
-                                     frame->slide[k].axis));
-        a = vec_add(arena, vec_cross(arena, alpha, frame->shift),
-                    vec_cross(arena, w, vec_cross(arena, w, frame->shift)));
-        a = vec_add(arena, a, vec_scale(arena, expr_int(arena, 2), vec_cross(arena, w, slid)));
-        sum = framesum_add(system, sum, expr_int(arena, 1),
-                           framesum_of(system, frame->step_chain, a));
-    }
-    return sum;
-}
-
 /* --- entries --- */
 
 /* `e` folded and collected where that is shorter than `best` */
@@ -171,6 +83,14 @@ static Status push_inertia_of(System *system, const Instance *instance, int j, i
     return OK;
 }
 
+/* what a part that deforms adds, in one term */
+static void push_shapes(System *system, const Elastic *elastic, Summands *summands, Terms *terms)
+{
+    push_term(terms, TERM_SHAPES, elastic->instance,
+              expr_sum(system->arena, summands->at, summands->count));
+    LIST_FREE(*summands);
+}
+
 static Status mass_terms(System *system, int j, int k, Terms *terms, Diag *diag)
 {
     Arena *arena = system->arena;
@@ -188,6 +108,13 @@ static Status mass_terms(System *system, int j, int k, Terms *terms, Diag *diag)
                 terms, TERM_INERTIA, mass->instance,
                 vec_dot(arena, partial_turn(system, chain, j),
                         rotation_apply(arena, &mass->inertia, partial_turn(system, chain, k))));
+    }
+    for (int i = 0; i < system->dynamics->elastics.count; i++) {
+        const Elastic *elastic = &system->dynamics->elastics.at[i];
+        Summands summands = {0};
+
+        elastic_mass_terms(system, elastic, j, k, &summands);
+        push_shapes(system, elastic, &summands, terms);
     }
     for (int i = 0; i < system->origin->instance_count; i++) {
         Expr inertia;
@@ -310,6 +237,17 @@ static Status push_rotor(System *system, const Instance *instance, int j, Terms 
     return OK;
 }
 
+static Status push_elastic(System *system, const Elastic *elastic, int j, Terms *terms, Diag *diag)
+{
+    Summands summands = {0};
+    Status status;
+
+    elastic_force_terms(system, elastic, j, &summands);
+    status = elastic_load_terms(system, elastic, j, &summands, diag);
+    push_shapes(system, elastic, &summands, terms);
+    return status;
+}
+
 static Status push_forces(System *system, int j, bool apart, Terms *terms, Diag *diag)
 {
     push_inertia(system, j, apart, terms);
@@ -322,6 +260,8 @@ static Status push_forces(System *system, int j, bool apart, Terms *terms, Diag 
             TRY(push_effort(system, instance, j, terms, diag));
         TRY(push_rotor(system, instance, j, terms, diag));
     }
+    for (int i = 0; i < system->dynamics->elastics.count; i++)
+        TRY(push_elastic(system, &system->dynamics->elastics.at[i], j, terms, diag));
     for (int i = 0; i < system->constraints->drives.count; i++) {
         Expr s;
 

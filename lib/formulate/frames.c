@@ -2,8 +2,11 @@
 #include "formulate/dynamics.h"
 #include "formulate/kinematics.h"
 #include "formulate/origin.h"
+#include "formulate/stations.h"
 #include "formulate/system_impl.h"
 #include "formulate/vector.h"
+
+#include <string.h>
 
 void instance_steps(const System *system, const Instance *instance, Steps *steps)
 {
@@ -31,12 +34,11 @@ static int add_chain(System *system, int parent, int speed)
     return system->kinematics->chains.count - 1;
 }
 
-static int add_turn(System *system, int parent, Vec axis, int coordinate, int speed, bool forward)
+static int add_turn(System *system, int parent, Vec axis, Expr angle, int speed, bool forward)
 {
     Arena *arena = system->arena;
     int number = add_chain(system, parent, speed);
     Chain *chain = &system->kinematics->chains.at[number];
-    Expr angle = system->kinematics->q.at[coordinate].symbol;
 
     chain->axis = axis;
     chain->angle = forward ? angle : expr_neg(arena, angle);
@@ -112,6 +114,32 @@ static int add_free(System *system, int parent, const Rotation *zero, int coordi
     return number;
 }
 
+static Vec unit_axis(Arena *arena, int k)
+{
+    Vec axis = vec_zero(arena);
+
+    axis.at[k] = expr_int(arena, 1);
+    return axis;
+}
+
+/* a station turns about z, then the new y, then the newest x */
+static int turn_station(System *system, const Station *station, int first, int chain,
+                        const Rotation *zero, int node, bool forward)
+{
+    const int turns = system->origin->planar ? 1 : 3;
+
+    for (int k = 0; k < turns; k++) {
+        const int which = forward ? k : turns - 1 - k, speed = first + 3 + which;
+        const Vec axis = rotation_apply(system->arena, zero, unit_axis(system->arena, 2 - which));
+
+        system->kinematics->speeds[speed].turn_node = node;
+        if (expr_is_zero(station->angle[which]))
+            continue;
+        chain = add_turn(system, chain, axis, station->angle[which], speed, forward);
+    }
+    return chain;
+}
+
 /* the turns of one rotation branch, passed from the parent to the node beyond */
 static void turn_branch(System *system, int node)
 {
@@ -124,6 +152,8 @@ static void turn_branch(System *system, int node)
     int chain = parent->chain;
     Rotation zero = parent->zero;
     Rotation constant;
+    int first;
+    const Station *station = station_of(system, instance, &first);
     Steps steps;
 
     instance_steps(system, instance, &steps);
@@ -142,6 +172,8 @@ static void turn_branch(System *system, int node)
         for (int i = 0; i < 3; i++)
             system->kinematics->speeds[speed + i].turn_node = node;
     }
+    if (station != NULL)
+        chain = turn_station(system, station, first, chain, &zero, node, forward);
     for (int k = 0; k < steps.turn_count; k++) {
         const Step *turn = &steps.turn[forward ? k : steps.turn_count - 1 - k];
         int place = system->kinematics->coordinate[instance->number][turn->coordinate];
@@ -149,7 +181,8 @@ static void turn_branch(System *system, int node)
         Vec axis = {{turn->axis[0], turn->axis[1], turn->axis[2]}};
 
         axis = rotation_apply(arena, &zero, axis);
-        chain = add_turn(system, chain, axis, place, speed, forward);
+        chain =
+            add_turn(system, chain, axis, system->kinematics->q.at[place].symbol, speed, forward);
         system->kinematics->speeds[speed].turn_node = node;
     }
     if (forward)
@@ -168,16 +201,29 @@ static void step_branch(System *system, int node)
     const Instance *instance = &system->origin->instances[edge->component];
     Frame *frame = &system->kinematics->frames[node];
     bool forward = tree_is_forward(tree, node);
+    int first;
+    const Station *station = station_of(system, instance, &first);
+    const int slides = station != NULL ? 3 : 0;
     Steps steps;
     Vec shift;
 
     instance_steps(system, instance, &steps);
+    if (station != NULL)
+        memcpy(steps.constant, station->position, sizeof steps.constant);
     frame->parent = tree_parent(tree, node);
     frame->base = edge->tail;
     frame->step_chain = system->kinematics->frames[edge->tail].chain;
     shift = frame_vector(system, edge->tail,
                          (Vec){{steps.constant[0], steps.constant[1], steps.constant[2]}});
-    frame->slide = pool_alloc(system->pool, (size_t)steps.shift_count * sizeof *frame->slide);
+    frame->slide =
+        pool_alloc(system->pool, (size_t)(steps.shift_count + slides) * sizeof *frame->slide);
+    for (int k = 0; k < slides; k++) {
+        Vec axis = frame_vector(system, edge->tail, unit_axis(arena, k));
+
+        system->kinematics->speeds[first + k].slide_node = node;
+        frame->slide[frame->slide_count++] =
+            (Slide){first + k, forward ? axis : vec_neg(arena, axis)};
+    }
     for (int k = 0; k < steps.shift_count; k++) {
         const Step *slide = &steps.shift[k];
         int place = system->kinematics->coordinate[instance->number][slide->coordinate];
@@ -252,6 +298,7 @@ void frames_build(System *system)
               (Chain){.parent = -1, .axis = vec_zero(arena), .angle = expr_int(arena, 0)});
     if (system->origin->trees[TREE_ROTATION] == NULL)
         return;
+    stations_build(system);
     order = tree_nodes(system->origin->trees[TREE_ROTATION], &nodes);
     for (int i = 0; i < nodes; i++) {
         Frame *frame = &system->kinematics->frames[order[i]];
@@ -436,6 +483,8 @@ int speed_node(const System *system, int speed)
 {
     const Speed *own = &system->kinematics->speeds[speed];
 
+    if (own->chain < 0 && own->slide_node < 0)
+        return own->shape_node;
     return own->chain >= 0 ? own->turn_node : own->slide_node;
 }
 

@@ -41,6 +41,7 @@ typedef struct Speed {
     int turn_node; /* that its branch of the rotation tree leads to */
     Vec axis;      /* of the turn, zero-position axes of `axis_chain` */
     int axis_chain;
+    int shape_node; /* of a shape, which moves stations by dependent speeds: the root */
     int slide_node; /* that its branch of the translation tree leads to; -1: it doesn't slide */
     Vec turn;       /* the axis in the axes of turn_node */
     Vec slide;      /* motion per unit in the axes of slide_node; both may be: a screw */
@@ -80,13 +81,19 @@ typedef struct ChainMotion { /* in the axes of its resolve chain */
     Vec product; /* velocity products of the turn's angular acceleration */
 } ChainMotion;
 
+struct Dependent;
+
 typedef struct Kinematics {
     LIST(Variable) q;
     LIST(Variable) u;
     Expr *accelerations; /* symbols of u' */
     int **coordinate;    /* of an instance's coordinates: their places in q, or -1 */
     int **speed;         /* and in u, or -1 */
-    Speed *speeds;
+    Speed *speeds;       /* those of u, then those that follow from shapes (shapes.h) */
+    int speed_count;
+    LIST(struct Dependent) dependents;
+    Station **stations;  /* of instances; NULL: it is none */
+    int *station_speeds; /* the first of its dependent speeds */
     CoordinateRate *coordinate_rates;
     LIST(int) quaternions; /* the first of each four parameters */
     LIST(Chain) chains;

@@ -1,6 +1,9 @@
 libcore_la_SOURCES += \
 	lib/formulate/accelerations.c lib/formulate/accelerations.h \
 	lib/formulate/euler_parameters.c \
+	lib/formulate/expanded_shapes.c lib/formulate/partial.c \
+	lib/formulate/shapes.c lib/formulate/shapes.h \
+	lib/formulate/stations.c lib/formulate/stations.h \
 	lib/formulate/common_turns.c \
 	lib/formulate/composite.c lib/formulate/composite_mass.c lib/formulate/composite_mass.h \
 	lib/formulate/constraints.c \

@@ -56,7 +56,8 @@ Status actual_build(System *system, Diag *diag)
     if (system->shown->actual != NULL)
         return OK;
     loads = loads_new(system);
-    loads_add_inertia(system, &loads, system->shown->actual_alpha, system->shown->actual_a);
+    loads_add_inertia(system, &loads, system->shown->actual_alpha, system->shown->actual_a,
+                      system->kinematics->accelerations);
     TRY(efforts_add(system, &loads, true, diag));
     TRY(add_rotors(system, &loads, diag));
     for (int k = 0; k < system->constraints->rows.count; k++)

@@ -6,6 +6,7 @@
 #include "formulate/loads.h"
 #include "formulate/origin.h"
 #include "formulate/shown.h"
+#include "formulate/stations.h"
 #include "formulate/system_impl.h"
 #include "formulate/vector.h"
 
@@ -31,9 +32,9 @@ static void turn_motion(System *system, int c)
     Vec w = expressed(system, system->kinematics->motions[chain->parent].w, before, chain->resolve);
 
     for (int j = chain->speed; j < chain->speed + chain->speed_count; j++)
-        turn = vec_add(arena, turn,
-                       vec_scale(arena, system->kinematics->u.at[j].symbol,
-                                 speed_axis(system, j, chain->resolve)));
+        turn =
+            vec_add(arena, turn,
+                    vec_scale(arena, speed_rate(system, j), speed_axis(system, j, chain->resolve)));
     system->kinematics->motions[c].w = vec_hold(arena, vec_add(arena, w, turn));
     system->kinematics->motions[c].product = vec_hold(arena, vec_cross(arena, w, turn));
 }
@@ -55,7 +56,7 @@ static void step_motion(System *system, int node)
     turned = vec_cross(arena, w, frame->step);
     for (int k = 0; k < frame->slide_count; k++) {
         Vec axis = vec_express(system, frame->slide[k].axis, frame->step_chain, axes);
-        Expr rate = system->kinematics->u.at[frame->slide[k].speed].symbol;
+        Expr rate = speed_rate(system, frame->slide[k].speed);
 
         slid = vec_add(arena, slid, vec_scale(arena, rate, axis));
     }
@@ -77,11 +78,10 @@ void accelerations_build(const System *system, const Expr *accelerations, Vec *a
 
         alpha[c] = vec_add(arena, expressed(system, alpha[chain->parent], before, chain->resolve),
                            system->kinematics->motions[c].product);
-        for (int j = chain->speed; accelerations != NULL && j < chain->speed + chain->speed_count;
-             j++)
-            alpha[c] =
-                vec_add(arena, alpha[c],
-                        vec_scale(arena, accelerations[j], speed_axis(system, j, chain->resolve)));
+        for (int j = chain->speed; j < chain->speed + chain->speed_count; j++)
+            alpha[c] = vec_add(arena, alpha[c],
+                               vec_scale(arena, speed_acceleration(system, j, accelerations),
+                                         speed_axis(system, j, chain->resolve)));
         alpha[c] = vec_hold(arena, alpha[c]);
     }
     if (system->origin->trees[TREE_TRANSLATION] == NULL)
@@ -98,11 +98,14 @@ void accelerations_build(const System *system, const Expr *accelerations, Vec *a
         a[n] = expressed(system, a[frame->parent], axes_of(system, frame->parent), axes);
         a[n] = vec_add(arena, a[n], vec_cross(arena, turn, frame->step));
         a[n] = vec_add(arena, a[n], frame->product);
-        for (int k = 0; accelerations != NULL && k < frame->slide_count; k++) {
-            Vec axis = vec_express(system, frame->slide[k].axis, frame->step_chain, axes);
+        for (int k = 0; k < frame->slide_count; k++) {
+            Expr rate = speed_acceleration(system, frame->slide[k].speed, accelerations);
 
-            a[n] =
-                vec_add(arena, a[n], vec_scale(arena, accelerations[frame->slide[k].speed], axis));
+            if (!expr_is_zero(rate))
+                a[n] = vec_add(
+                    arena, a[n],
+                    vec_scale(arena, rate,
+                              vec_express(system, frame->slide[k].axis, frame->step_chain, axes)));
         }
         a[n] = vec_hold(arena, a[n]);
     }
@@ -182,11 +185,15 @@ Vec node_position(System *system, int node)
 Loads loads_new(const System *system)
 {
     int count = graph_node_count(system->origin->graph);
+    const int speeds = system->kinematics->u.count;
     Loads loads = {pool_alloc(system->pool, (size_t)count * sizeof(Vec)),
-                   pool_alloc(system->pool, (size_t)count * sizeof(Vec))};
+                   pool_alloc(system->pool, (size_t)count * sizeof(Vec)),
+                   pool_alloc(system->pool, (size_t)speeds * sizeof(Expr))};
 
     for (int i = 0; i < count; i++)
         loads.force[i] = loads.torque[i] = vec_zero(system->arena);
+    for (int j = 0; j < speeds; j++)
+        loads.own[j] = expr_int(system->arena, 0);
     return loads;
 }
 
@@ -212,6 +219,7 @@ Sums *loads_sum(const System *system, const Loads *loads)
     const int *order = tree_nodes(system->origin->trees[TREE_TRANSLATION], &nodes);
     const int datum = order[0]; /* no branch leads there */
 
+    sums->own = loads->own;
     sums->force = pool_alloc(system->pool, size);
     sums->torque = pool_alloc(system->pool, size);
     for (int i = 0; i < nodes; i++) {

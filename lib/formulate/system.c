@@ -68,6 +68,7 @@ void dynamics_free(Dynamics *dynamics)
     if (dynamics == NULL)
         return;
     LIST_FREE(dynamics->masses);
+    LIST_FREE(dynamics->elastics);
     LIST_FREE(dynamics->shares);
     composite_mass_free(dynamics->composite_mass);
     mem_free(dynamics);

@@ -235,7 +235,8 @@ static void add_coordinates(System *system)
         if (instance->row->steps == NULL || instance->edge < 0)
             continue;
         for (int c = 0; c < instance->coord_count; c++) {
-            bool branch = tree_has(halves[instance->coord_rotation[c]], instance->edge);
+            bool branch = c >= instance->pose_count ||
+                          tree_has(halves[instance->coord_rotation[c]], instance->edge);
 
             if (instance->coord_kind[c] != COORDINATE_PARAMETER && branch)
                 add_coordinate(system, instance, c);
@@ -247,13 +248,10 @@ static void add_coordinates(System *system)
     }
     system->kinematics->accelerations =
         pool_alloc(system->pool, (size_t)system->kinematics->u.count * sizeof(Expr));
-    system->kinematics->speeds = pool_alloc(system->pool, (size_t)system->kinematics->u.count *
-                                                              sizeof *system->kinematics->speeds);
     for (int j = 0; j < system->kinematics->u.count; j++) {
         system->kinematics->accelerations[j] =
             expr_symbol(system->arena, system_keep(system, "%s'", system->kinematics->u.at[j].name),
                         SYMBOL_ACCELERATION);
-        system->kinematics->speeds[j].chain = system->kinematics->speeds[j].slide_node = -1;
     }
 }
 
@@ -389,6 +387,7 @@ static Status build(System *system, Diag *diag)
     frames_build(system);
     multi_turn_build(system);
     motion_build(system);
+    elastics_build(system);
     system->is_early = true;
     CHECK(network_build(system, diag));
     if (system->origin->trees[TREE_TRANSLATION] != NULL)

@@ -623,7 +623,7 @@ static const char *potential_unit(const State *state, const char *name)
 /* of a joint: along its only coordinate; of what acts on one, or along a line */
 static const char *effort_unit(const Instance *part)
 {
-    static const char *const units[] = {"N", "N*m", NULL};
+    static const char *const units[] = {"N", "N*m", NULL, "N*m"};
 
     if (part->row->family != FAMILY_JOINT)
         return part->on_angle ? "N*m" : "N";
@@ -642,7 +642,7 @@ static const char *member_unit(const State *state, const Instance *part, const c
 
 Measure variable_measure(const State *state, const Instance *own, const char *name)
 {
-    static const char *const units[] = {"m", "rad", "1"};
+    static const char *const units[] = {"m", "rad", "1", "rad"};
     const char *member = "";
     const Thing *thing = state_thing(state, name);
     const Instance *part = state_owner(state, name, &member);

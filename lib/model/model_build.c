@@ -192,22 +192,25 @@ done:
 static void own_coordinates(PartDraft *draft)
 {
     Instance *part = draft->part;
-    const CoordinateRow *rows = instance_coords(part, draft->state->planar, &part->coord_count);
-    const size_t count = (size_t)part->coord_count;
+    const bool planar = draft->state->planar;
+    const size_t count = (size_t)instance_coord_count(part, planar);
     Pool *pool = draft->state->pool;
 
+    part->coord_count = (int)count;
+    (void)instance_coords(part, planar, &part->pose_count);
     part->coord = pool_alloc(pool, count * sizeof *part->coord);
     part->coord_kind = pool_alloc(pool, count * sizeof *part->coord_kind);
     part->coord_rotation = pool_alloc(pool, count * sizeof *part->coord_rotation);
     for (int i = 0; i < part->coord_count; i++) {
+        const CoordinateRow row = instance_coord(part, planar, i);
         Text name = {0};
 
         text_add(&name, part->name);
-        if (rows[i].member[0] != '\0')
-            text_addf(&name, ".%s", rows[i].member);
+        if (row.member[0] != '\0')
+            text_addf(&name, ".%s", row.member);
         part->coord[i] = state_text(draft->state, name.at);
-        part->coord_kind[i] = rows[i].kind;
-        part->coord_rotation[i] = rows[i].rotation;
+        part->coord_kind[i] = row.kind;
+        part->coord_rotation[i] = row.rotation;
         text_free(&name);
     }
 }

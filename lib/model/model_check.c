@@ -34,6 +34,56 @@ static Status read_numbers(State *state, const Instance *part, Value *out, Diag 
     return OK;
 }
 
+/* the part that makes a frame; NULL: ground's */
+static const Instance *maker_of(const State *state, int node)
+{
+    for (int i = 0; i < state->parts.count; i++) {
+        const Instance *part = state->parts.at[i];
+
+        if (part->head == node &&
+            (part->row->places == PLACES_NONE || part->row->places == PLACES_FROM))
+            return part;
+    }
+    return NULL;
+}
+
+/* an arm with at= stands on what bends, between its ends */
+static Status check_station(State *state, const Instance *arm, const Value *at, Diag *diag)
+{
+    const Instance *beam = maker_of(state, arm->tail);
+    Status status = OK;
+
+    if (beam == NULL || beam->row->deforming == NULL) {
+        status =
+            diag_set(diag, E_VALUE,
+                     "%s doesn't start from the root of a beam, so at= has no meaning", arm->name);
+        diag_hint(diag, "at= is a place along a beam; on a body the position is [x, y]");
+    } else if (instance_value(arm, "position")->given) {
+        status = diag_set(diag, E_VALUE, "%s has two places: a position and at=", arm->name);
+        diag_hint(diag, "arm %s %s at=... is on the axis; a further arm from %s leads off it",
+                  arm->name, beam->name, arm->name);
+    } else if (expr_is_number(at->at[0])) {
+        const double length = state_number(state, instance_scalar(beam, "length"));
+        const double place = expr_value(at->at[0]);
+
+        if (place < 0 || place > length * (1 + 1e-12)) {
+            status = diag_set(diag, E_VALUE, "%s is off the beam: at=%g, and %s is %g long",
+                              arm->name, place, beam->name, length);
+            diag_hint(diag, "at= goes from 0, the root, to the length");
+        }
+    }
+    return status;
+}
+
+static Status check_arm(State *state, const Instance *arm, Diag *diag)
+{
+    const int at = component_param(arm->row, "at");
+
+    return arm->row->family == FAMILY_ARM && at >= 0 && arm->values[at].given
+               ? check_station(state, arm, &arm->values[at], diag)
+               : OK;
+}
+
 Status part_check(State *state, const Instance *part, Text *remarks, Diag *diag)
 {
     const Component *row = part->row;
@@ -45,6 +95,7 @@ Status part_check(State *state, const Instance *part, Text *remarks, Diag *diag)
     CHECK(read_numbers(state, part, numeric.values, diag));
     CHECK(instance_check(&numeric, state->arena, state->planar, diag));
     CHECK(coupled_check(state, part, diag));
+    CHECK(check_arm(state, &numeric, diag));
     if (row->doubt != NULL)
         row->doubt(&numeric, state->planar, remarks);
 done:

@@ -191,12 +191,12 @@ static Status member_unknown(const State *state, const Instance *part, const cha
  * that is being read has none yet */
 static int coordinate_of_member(const State *state, const Instance *part, const char *member)
 {
-    int count;
-    const CoordinateRow *rows = instance_coords(part, state->planar, &count);
+    for (int i = 0; i < part->coord_count; i++) {
+        const char *own = instance_coord(part, state->planar, i).member;
 
-    for (int i = 0; i < count && i < part->coord_count; i++)
-        if (rows[i].member[0] != '\0' && strcmp(rows[i].member, member) == 0)
+        if (own[0] != '\0' && strcmp(own, member) == 0)
             return i;
+    }
     return -1;
 }
 

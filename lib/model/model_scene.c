@@ -146,15 +146,78 @@ done:
     return status;
 }
 
+/* where a place is in a text */
+static size_t offset_of(const char *text, Place place)
+{
+    const char *at = text;
+
+    for (int line = 1; line < place.line; line++)
+        at = strchr(at, '\n') + 1;
+    return (size_t)(at - text) + (size_t)place.column - 1;
+}
+
+/* the statement of a part with another value of a key; new */
+static char *statement_with(const Instance *part, const char *key, const Syntax *value, Diag *diag)
+{
+    Statement *statement = NULL;
+    const size_t length = strlen(part->text);
+    size_t next = 0, from = length, to = length;
+    Text text = {0};
+
+    if (statement_parse(part->text, 1, (SyntaxOptions){false}, &next, &statement, diag) == OK)
+        for (int i = 0; i < statement->pairs.count; i++) {
+            const Pair *pair = &statement->pairs.at[i];
+            const size_t at = offset_of(part->text, pair->name_place);
+
+            if (strcmp(pair->name, key) == 0)
+                from = at;
+            else if (at > from && at < to)
+                to = at;
+        }
+    text_addf(&text, "%.*s %s=", (int)from, part->text, key);
+    syntax_print(&text, value);
+    text_addf(&text, " %s", part->text + to);
+    statement_free(statement);
+    return text_done(&text);
+}
+
+/* A key that decides which shapes a part has: its statement says so from the first, and the state
+ * is made anew. */
+static Status change_shapes(State **state, const Instance *part, const Pair *pair, const char *key,
+                            Outcome *outcome, Diag *diag)
+{
+    State *s = *state, *next = NULL;
+    Line *line = NULL;
+    const char *before = part->text;
+    char *text = statement_with(part, key, pair->value, diag);
+    Diag fault = {0};
+    Status status;
+
+    for (int i = 0; line == NULL; i++)
+        if (s->lines.at[i].part == part->number)
+            line = &s->lines.at[i];
+    line->text = state_text(s, text);
+    status = state_rebuild(s, -1, &next, NULL, &outcome->remarks, &fault);
+    line->text = before;
+    mem_free(text);
+    if (status != OK) {
+        status = diag_at(diag, status, pair->value->place, "what uses %s would fail: %s",
+                         part->name, fault.message);
+        diag_hint(diag, "%s", fault.hint);
+        return status;
+    }
+    state_replace(state, next);
+    outcome->effect = EFFECT_EQUATIONS;
+    return OK;
+}
+
 /* Coordinates have names, which other statements use: no key may change which there are. */
 static Status keeps_coordinates(const State *state, const Instance *part, const Pair *pair,
                                 Diag *diag)
 {
-    int count = 0;
     Status status;
 
-    (void)instance_coords(part, state->planar, &count);
-    if (count == part->coord_count)
+    if (instance_coord_count(part, state->planar) == part->coord_count)
         return OK;
     status = diag_at(diag, E_VALUE, pair->name_place, "%s decides which coordinates %s has",
                      pair->name, part->name);
@@ -188,6 +251,12 @@ static Status set_pair(State **state, const Pair *pair, Outcome *outcome, Diag *
     CHECK(param_check_alike(part->row, values, index, pair->value, diag));
     pool_keep(s->pool, part, sizeof *part);
     part->values = values;
+    if (part->row->deforming != NULL &&
+        instance_coord_count(part, s->planar) != part->coord_count) {
+        part->values = kept;
+        status = change_shapes(state, part, pair, part->row->params[index].name, outcome, diag);
+        goto done;
+    }
     status = part_check_plane(s, part, pair->value->place, diag);
     if (status == OK)
         status = keeps_coordinates(s, part, pair, diag);

@@ -8,12 +8,14 @@
 /* what a term is of, in words */
 static void add_term_name(Text *out, const View *view, Block block, const Term *term)
 {
-    static const char *const of_mass[] = {
-        [TERM_MASS] = "m v.v", [TERM_INERTIA] = "w.I.w", [TERM_ROTOR] = "rotor"};
+    static const char *const of_mass[] = {[TERM_MASS] = "m v.v",
+                                          [TERM_INERTIA] = "w.I.w",
+                                          [TERM_ROTOR] = "rotor",
+                                          [TERM_SHAPES] = "shapes"};
     static const char *const of_force[] = {
         [TERM_MASS] = "-m v.a", [TERM_INERTIA] = "-w.h'", [TERM_WEIGHT] = "weight",
         [TERM_FORCE] = "F.v",   [TERM_TORQUE] = "T.w",    [TERM_EFFORT] = "effort",
-        [TERM_ROTOR] = "rotor", [TERM_DRIVE] = "drive"};
+        [TERM_ROTOR] = "rotor", [TERM_DRIVE] = "drive",   [TERM_SHAPES] = "shapes"};
     static const char *const of_constraint[] = {[TERM_WHOLE] = "itself", [TERM_ASKED] = "asked"};
 
     if (term->edge >= 0) {

@@ -252,9 +252,9 @@ static bool print_variable(Text *out, const View *view, const char *name)
 
     if (model_coordinate(view->model, name, &owner, &index)) {
         text_addf(out, "%s: coordinate of %s, in %s\n", name, owner->name,
-                  owner->coord_kind[index] == COORDINATE_LENGTH  ? "m"
-                  : owner->coord_kind[index] == COORDINATE_ANGLE ? "rad"
-                                                                 : "1");
+                  owner->coord_kind[index] == COORDINATE_LENGTH      ? "m"
+                  : owner->coord_kind[index] == COORDINATE_PARAMETER ? "1"
+                                                                     : "rad");
         return true;
     }
     owner = model_owner(view->model, name, &wanted);

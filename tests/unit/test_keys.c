@@ -171,7 +171,6 @@ static void later_words_say_that_they_are(void)
                                         "give B.x = 2*th1",
                                         "sweep L from=1 to=2 steps=3 : simulate 1",
                                         "montecarlo 10 L=normal(1, 0.1) : simulate 1",
-                                        "beam b1 length=1",
                                         "subsystem leg frames=[A]",
                                         "use leg leg1 A=ground",
                                         "store leg \"leg.cts\"",

@@ -139,9 +139,11 @@ static void what_comes_later_says_so(void)
     static const struct {
         const char *text;
         int column;
-    } lines[] = {
-        {"beam b1 length=1", 1}, {"time beam b1 length=1", 6},   {"time end", 6},
-        {"arm r b1 at=0.5", 10}, {"simulate 1 realtime=on", 12}, {"export fmu > \"x.fmu\"", 8}};
+    } lines[] = {{"friction f1 h", 1},
+                 {"time friction f1 h", 6},
+                 {"time end", 6},
+                 {"simulate 1 realtime=on", 12},
+                 {"export fmu > \"x.fmu\"", 8}};
 
     for (int i = 0; i < COUNT(lines); i++) {
         Statement *s = NULL;

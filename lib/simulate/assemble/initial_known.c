@@ -166,7 +166,7 @@ static bool is_half_told(const Placing *p, int link, bool rotation)
 {
     const Instance *instance = p->s->links[link].instance;
 
-    for (int k = 0; k < instance->coord_count; k++)
+    for (int k = 0; k < instance->pose_count; k++)
         if (instance->coord_rotation[k] == rotation && p->known[place_at(link, k)] != KNOWN_NOT)
             return true;
     return false;
@@ -176,7 +176,7 @@ static void know_half(Placing *p, int link, bool rotation, const double *c, Know
 {
     const Instance *instance = p->s->links[link].instance;
 
-    for (int k = 0; k < instance->coord_count; k++)
+    for (int k = 0; k < instance->pose_count; k++)
         if (instance->coord_rotation[k] == rotation) {
             p->begun[place_at(link, k)] = c[k];
             p->known[place_at(link, k)] = known;

@@ -68,7 +68,7 @@ static void begin_half(Placing *p, int link, bool rotation)
     const Instance *instance = l->instance;
     bool open = false;
 
-    for (int k = 0; k < instance->coord_count; k++) {
+    for (int k = 0; k < instance->pose_count; k++) {
         double *begun = &p->begun[place_at(link, k)];
 
         if (instance->coord_rotation[k] == rotation && isnan(*begun)) {
@@ -78,7 +78,7 @@ static void begin_half(Placing *p, int link, bool rotation)
     }
     if (open && rotation && l->turn_count == 3)
         recall_turns(p, link);
-    for (int k = 0; k < instance->coord_count; k++)
+    for (int k = 0; k < instance->pose_count; k++)
         if (instance->coord_rotation[k] == rotation && !isfinite(p->begun[place_at(link, k)]))
             p->begun[place_at(link, k)] = l->has_parameters && k == l->first_parameter ? 1 : 0;
     if (rotation && l->has_parameters)
@@ -114,7 +114,7 @@ static bool is_asked(const Placing *p, const Instance *instance)
 {
     if (instance->row->family != FAMILY_BODY)
         return true;
-    for (int k = 0; k < instance->coord_count; k++)
+    for (int k = 0; k < instance->pose_count; k++)
         if (system_coordinate(p->s->system, instance, k) >= 0)
             return true;
     return false;
@@ -144,12 +144,12 @@ static void read_link(Placing *p, int link)
     }
     for (int k = 0; k < POSE_COORDS; k++)
         if (isnan(p->begun[place_at(link, k)]) ||
-            (k < l->instance->coord_count && is_within_half_a_turn(p, link, k)))
+            (k < l->instance->pose_count && is_within_half_a_turn(p, link, k)))
             p->begun[place_at(link, k)] = 0;
     memcpy(read, p->begun + place_at(link, 0), sizeof read);
     pose_between(&p->poses[l->tail], &p->poses[l->head], &relative);
     link_read(l, &relative, read);
-    for (int k = 0; k < l->instance->coord_count; k++)
+    for (int k = 0; k < l->instance->pose_count; k++)
         p->c[place_at(link, k)] = p->known[place_at(link, k)] == KNOWN_GIVEN &&
                                           l->instance->coord_kind[k] != COORDINATE_PARAMETER
                                       ? p->begun[place_at(link, k)]
@@ -182,7 +182,7 @@ static void list_outlets(const Placing *p, Outlets *outlets)
     const Layout *l = p->a->l;
 
     for (int i = 0; i < p->s->link_count; i++)
-        for (int k = 0; k < p->s->links[i].instance->coord_count; k++) {
+        for (int k = 0; k < p->s->links[i].instance->pose_count; k++) {
             const int place = system_coordinate(l->system, p->s->links[i].instance, k);
 
             if (place >= 0)
@@ -268,7 +268,7 @@ static Status close_by_bodies(Placing *p, double *from, bool *closed, Diag *diag
 
         pose_between(&p->poses[l->tail], &p->poses[l->head], &relative);
         link_read(l, &relative, c);
-        for (int k = 0; k < l->instance->coord_count; k++)
+        for (int k = 0; k < l->instance->pose_count; k++)
             if (p->known[place_at(i, k)] == KNOWN_GIVEN)
                 c[k] = p->begun[place_at(i, k)];
     }
@@ -299,7 +299,7 @@ static void remark_moved(Placing *p, const double *from)
     double furthest = FAR, to = 0;
 
     for (int i = 0; i < p->s->link_count; i++)
-        for (int k = 0; k < p->s->links[i].instance->coord_count; k++) {
+        for (int k = 0; k < p->s->links[i].instance->pose_count; k++) {
             const Instance *instance = p->s->links[i].instance;
             const double begun = from[place_at(i, k)], now = p->c[place_at(i, k)];
             double moved = fabs(now - begun);

@@ -48,7 +48,7 @@ static void know_half(Placing *p, int link, bool rotation, bool is_guess)
 {
     const Instance *instance = p->s->links[link].instance;
 
-    for (int k = 0; k < instance->coord_count; k++)
+    for (int k = 0; k < instance->pose_count; k++)
         if (instance->coord_rotation[k] == rotation)
             know(p, link, k, is_guess);
 }

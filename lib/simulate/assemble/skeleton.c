@@ -29,7 +29,7 @@ static void make_link(const System *system, Parameters *parameters, const Instan
     Steps steps;
 
     system_steps(system, instance, &steps);
-    assert(instance->coord_count <= POSE_COORDS);
+    assert(instance->pose_count <= POSE_COORDS);
     *out = (Link){.instance = instance,
                   .edge = instance->edge,
                   .tail = instance->tail,

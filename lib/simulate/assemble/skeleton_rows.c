@@ -248,7 +248,7 @@ Pose *skeleton_poses_at(const Skeleton *s, const double *q)
     double *c = NEW_ARRAY(double, s->link_count *POSE_COORDS);
 
     for (int i = 0; i < s->link_count; i++)
-        for (int k = 0; k < s->links[i].instance->coord_count; k++) {
+        for (int k = 0; k < s->links[i].instance->pose_count; k++) {
             const int place = system_coordinate(s->system, s->links[i].instance, k);
 
             c[i * POSE_COORDS + k] = place >= 0 ? q[place] : 0;

@@ -1,0 +1,28 @@
+/* polynomial.h: polynomials whose coefficients are rationals without bounds (GMP)
+ *
+ * Products of the shapes of a beam need a hundred bits at a dozen terms, and nothing of them may
+ * be rounded before it is a number of the run. */
+#ifndef COTREE_ALGEBRA_POLYNOMIAL_H
+#define COTREE_ALGEBRA_POLYNOMIAL_H
+
+#include <gmp.h>
+
+typedef struct Polynomial {
+    int count; /* of coefficients, the constant first */
+    mpq_t *at;
+} Polynomial;
+
+Polynomial polynomial_new(int count); /* zero */
+void polynomial_free(Polynomial *p);
+Polynomial polynomial_power(int n);                               /* x^n */
+Polynomial polynomial_copy(const Polynomial *p, long scale);      /* scale p */
+void polynomial_add(Polynomial *p, const Polynomial *q, long by); /* p += by q */
+Polynomial polynomial_times(const Polynomial *p, const Polynomial *q);
+Polynomial polynomial_slope(const Polynomial *p);
+Polynomial polynomial_primitive(const Polynomial *p); /* 0 at 0 */
+/* of p q x^n from 0 to 1, into an initialised `out` */
+void polynomial_integral(const Polynomial *p, const Polynomial *q, int n, mpq_t out);
+/* in digits enough that nothing cancels */
+double polynomial_value(const Polynomial *p, double x);
+
+#endif

@@ -1,0 +1,208 @@
+/* beam.c: elastic beams: the row, and what it refuses
+ *
+ * A beam is an edge from ground to its root frame, like a body; its shapes have coordinates of
+ * their own. */
+#include "component/beam.h"
+#include "component/component_rows.h"
+
+#include <math.h>
+
+/* clang-format off */
+static const Param params[] = {
+    {"length",             PARAM_SCALAR, "m",     NULL, "along x of the root frame, undeformed", 0},
+    {"mass_per_length",    PARAM_SCALAR, "kg/m",  NULL, "mass per length", 0},
+    {"inertia_per_length", PARAM_LIST,   "kg*m",  "",   "of the section per length: planar one number, spatial [Jx, Jy, Jz]; none: Euler-Bernoulli", 0},
+    {"EA",                 PARAM_SCALAR, "N",     "0",  "axial stiffness", 0},
+    {"EIy",                PARAM_SCALAR, "N*m^2", "0",  "bending stiffness about y, of w", 0},
+    {"EIz",                PARAM_SCALAR, "N*m^2", "0",  "bending stiffness about z, of v", 0},
+    {"GJ",                 PARAM_SCALAR, "N*m^2", "0",  "torsional stiffness", 0},
+    {"modes",              PARAM_LIST,   "1",     NULL, "numbers of shapes: planar [axial, y], spatial [axial, y, z, torsion]", 0},
+    {"basis",              PARAM_WORD,   NULL,    "legendre|taylor|chebyshev", "polynomials that the shapes are", 0},
+    {"stiffening",         PARAM_WORD,   NULL,    "full|linear|off", "what bending shortens: all of it, to first order in the shapes, or nothing", 0},
+    {"damping",            PARAM_LIST,   NULL,    "",   "[alpha, beta]: -(alpha M0 + beta K) q' on the shapes", 0},
+    {"load",               PARAM_LAWS,   "N/m",   "0",  "force per length, ground axes", 0},
+    EULER_PARAM,
+};
+/* clang-format on */
+
+#define NAMES(x)                                                                                   \
+    {                                                                                              \
+        x "1", x "2", x "3", x "4", x "5", x "6", x "7", x "8", x "9", x "10", x "11", x "12",     \
+            x "13", x "14", x "15", x "16"                                                         \
+    }
+
+static const char *const names[SHAPE_FAMILIES][MOST_SHAPES] = {NAMES("u"), NAMES("v"), NAMES("w"),
+                                                               NAMES("phi")};
+
+static int shape_count(const Instance *instance, bool planar)
+{
+    int modes[SHAPE_FAMILIES];
+
+    beam_modes(instance, planar, modes);
+    return modes[SHAPE_U] + modes[SHAPE_V] + modes[SHAPE_W] + modes[SHAPE_PHI];
+}
+
+static CoordinateRow shape_coordinate(const Instance *instance, bool planar, int i)
+{
+    int modes[SHAPE_FAMILIES], family = 0;
+
+    beam_modes(instance, planar, modes);
+    for (; i >= modes[family]; family++) /* i is below their sum */
+        i -= modes[family];
+    return (CoordinateRow){names[family][i],
+                           family == SHAPE_PHI ? COORDINATE_TWIST : COORDINATE_LENGTH, false};
+}
+
+/* --- what no beam has --- */
+
+static Status refuse(const Instance *instance, Diag *diag, const char *what, const char *hint)
+{
+    (void)diag_set(diag, E_VALUE, "%s: %s", instance->name, what);
+    diag_hint(diag, "%s", hint);
+    return E_VALUE;
+}
+
+static Status check_modes(const Instance *instance, bool planar, Diag *diag)
+{
+    const Value *modes = instance_value(instance, "modes");
+    const int wanted = planar ? 2 : SHAPE_FAMILIES;
+
+    if (modes->count != wanted)
+        return refuse(instance, diag,
+                      planar ? "modes= has two entries in a planar scene"
+                             : "modes= has four entries",
+                      planar ? "modes=[axial, y], such as modes=[0, 3]"
+                             : "modes=[axial, y, z, torsion], such as modes=[1, 3, 3, 1]");
+    for (int f = 0; f < wanted; f++) {
+        const Expr entry = modes->at[f];
+        const double value = expr_is_number(entry) ? expr_value(entry) : -1;
+
+        if (!(value >= 0 && value <= MOST_SHAPES && value == floor(value)))
+            return refuse(instance, diag, "numbers of shapes are whole, from 0 to 16",
+                          "modes=[1, 3] takes one axial shape and three of bending");
+    }
+    if (shape_count(instance, planar) != instance->coord_count - instance->pose_count)
+        return refuse(instance, diag, "numbers of shapes decide which coordinates there are",
+                      "write them as numbers, such as modes=[1, 3], without parameters");
+    if (shape_count(instance, planar) == 0)
+        return refuse(instance, diag, "a beam without any shape is rigid",
+                      "give modes= at least one shape, or make it a body");
+    return OK;
+}
+
+static Status check_stiffness(const Instance *instance, bool planar, Diag *diag)
+{
+    static const struct {
+        const char *key, *of;
+    } needs[SHAPE_FAMILIES] = {{"EA", "axial shapes need EA="},
+                               {"EIz", "bending shapes of y need EIz="},
+                               {"EIy", "bending shapes of z need EIy="},
+                               {"GJ", "shapes of torsion need GJ="}};
+    int modes[SHAPE_FAMILIES];
+
+    beam_modes(instance, planar, modes);
+    for (int f = 0; f < SHAPE_FAMILIES; f++) {
+        TRY(check_not_negative(instance, needs[f].key, diag));
+        if (modes[f] > 0 && !instance_value(instance, needs[f].key)->given)
+            return refuse(instance, diag, needs[f].of,
+                          "give the stiffness, or take these shapes out of modes=");
+    }
+    return OK;
+}
+
+static Status check_rotary(const Instance *instance, bool planar, Diag *diag)
+{
+    const Value *rotary = instance_value(instance, "inertia_per_length");
+    int modes[SHAPE_FAMILIES];
+
+    beam_modes(instance, planar, modes);
+    if (rotary->count != 0 && rotary->count != (planar ? 1 : 3))
+        return refuse(instance, diag,
+                      planar ? "inertia_per_length= is one number in a planar scene"
+                             : "inertia_per_length= has three entries",
+                      planar ? "write inertia_per_length=J, about z"
+                             : "inertia_per_length=[Jx, Jy, Jz]");
+    for (int k = 0; k < rotary->count; k++)
+        if (expr_is_number(rotary->at[k]) && expr_value(rotary->at[k]) < 0)
+            return refuse(instance, diag, "inertia_per_length= is negative",
+                          "it is zero or positive: density times second moments of the section");
+    if (modes[SHAPE_PHI] > 0 && (rotary->count == 0 || expr_is_zero(rotary->at[0])))
+        return refuse(instance, diag, "shapes of torsion have no inertia",
+                      "give inertia_per_length=[Jx, Jy, Jz], Jx above zero");
+    return OK;
+}
+
+static Status check_damping(const Instance *instance, Diag *diag)
+{
+    const Value *damping = instance_value(instance, "damping");
+
+    if (damping->count != 0 && damping->count != 2)
+        return refuse(instance, diag, "damping= has two entries",
+                      "damping=[alpha, beta], of the mass and of the stiffness");
+    for (int k = 0; k < damping->count; k++)
+        if (expr_is_number(damping->at[k]) && expr_value(damping->at[k]) < 0)
+            return refuse(instance, diag, "damping= is negative",
+                          "its entries are zero or positive");
+    return OK;
+}
+
+static Status check(const Instance *instance, Arena *arena, bool planar, Diag *diag)
+{
+    TRY(attitude_check(instance, arena, planar, diag));
+    TRY(check_modes(instance, planar, diag));
+    TRY(check_stiffness(instance, planar, diag));
+    TRY(check_positive(instance, "mass_per_length", diag));
+    TRY(check_rotary(instance, planar, diag));
+    return check_damping(instance, diag);
+}
+
+/* monomials of many terms are all but parallel */
+static void doubt(const Instance *instance, bool planar, Text *out)
+{
+    enum { MOST = 8 };
+    int modes[SHAPE_FAMILIES];
+
+    beam_modes(instance, planar, modes);
+    for (int f = 0; f < SHAPE_FAMILIES; f++)
+        if (modes[f] > MOST && instance_value(instance, "basis")->word[0] == 't') {
+            text_addf(out,
+                      "%s: %d shapes of basis=taylor lose digits to rounding; legendre doesn't\n",
+                      instance->name, modes[f]);
+            return;
+        }
+}
+
+static const Deforming deforming = {shape_count, shape_coordinate, beam_station, beam_inertia};
+
+const Component component_beam = {
+    .name = "beam",
+    .family = FAMILY_BODY,
+    .domain = DOMAIN_MECHANICAL,
+    .places = PLACES_NONE,
+    .brief = "elastic beam along x of its root frame",
+    .params = params,
+    .param_count = COUNT(params),
+    .coords = free_coords,
+    .coord_count = FREE_COORDS,
+    .coords_planar = free_coords_planar,
+    .coord_count_planar = FREE_COORDS_PLANAR,
+    .coords_of = free_coords_of,
+    .translation = BRANCH_MAY,
+    .rotation = BRANCH_MAY,
+    .preference = 50,
+    .steps = free_steps,
+    .deforming = &deforming,
+    .positive = "length",
+    .check = check,
+    .doubt = doubt,
+    .help = "Makes an elastic beam and the frame of its name, at its root. It stretches, bends and "
+            "twists by shapes that are polynomials along it, with coordinates u1 .. (axial), v1 .. "
+            "(along y), w1 .. (along z) and phi1 .. (twist); the root is placed as a body is. "
+            "Bending shortens the axis, which stiffens a beam that spins; stiffening=linear keeps "
+            "that to first order in the shapes, off leaves it out. Frames on it are arms with at=: "
+            "arm tip b1 at=L.",
+    .example = "scene planar\nbeam b1 length=1 mass_per_length=2 EIz=100 modes=[0, 2]\n"
+               "weld w1 ground b1\narm tip b1 at=1\nforce F1 tip [0, 1]\nequilibrium\n"
+               "print tip.y",
+    .see = "arm body weld modes",
+};
