@@ -159,8 +159,7 @@ typedef struct ct_paper {
     int columns, rows;    /* of characters, for text; 0: 79 and 30 */
     double width, height; /* px: of what was drawn, for gnuplot */
 } ct_paper;
-/* draw, the whole statement: the linear graph as text or dot; the mechanism as text, svg, gnuplot
- */
+/* draw, the whole statement; only the linear graph goes as dot */
 ct_status ct_draw(ct_session *session, const ct_statement *statement, ct_paper *paper, char **text,
                   ct_error *error);
 /* animate, the whole statement: as svg or html one text, else one a picture, each to be shown for

@@ -6,7 +6,6 @@
 #include "drawing.h"
 #include "file.h"
 #include "interrupt.h"
-#include "process.h"
 #include "terminal.h"
 
 #include <stdlib.h>
@@ -14,35 +13,7 @@
 #include <time.h>
 #include <unistd.h>
 
-/* --- the graph: graphviz lays it out --- */
-
-static ct_status lay_out(const Call *call, const char *type, const char *dot, Paper *picture,
-                         ct_error *error)
-{
-    char *option = copy_format("-T%s", type);
-    char program[] = "dot";
-    char *argv[] = {program, option, NULL};
-    Process process;
-    Paper complaints;
-    ct_error why;
-    ct_status status = process_start(&process, argv, &why);
-
-    paper_open(&complaints);
-    if (status == CT_OK) {
-        status = process_exchange(&process, dot, strlen(dot), NULL, picture, &complaints, &why);
-        if (process_end(&process, 2000) != 0 && status == CT_OK)
-            status = error_say(&why, "graphviz could not lay out the graph as %s", type);
-    }
-    if (status != CT_OK) {
-        ct_error_at(call->statement, NULL, error, "%s", why.message);
-        error->status = status;
-        error_hint(error,
-                   "apt install graphviz; draw > \"graph.dot\" and \"graph.txt\" do without");
-    }
-    paper_drop(&complaints);
-    free(option);
-    return status;
-}
+/* --- files --- */
 
 static bool is_one_of(const char *type, const char *types)
 {
@@ -86,41 +57,6 @@ static ct_status check_file(const Call *call, const char *types, const char **pa
     return CT_OK;
 }
 
-static ct_status draw_graph(Call *call, ct_error *error)
-{
-    const char *path, *type;
-    char *text = NULL;
-    ct_status status = check_file(call, "svg png pdf dot gv txt", &path, error);
-
-    if (status != CT_OK)
-        return status;
-    type = path != NULL ? file_extension(path) : "txt";
-
-    bool as_text = strcmp(type, "txt") == 0, as_dot = is_one_of(type, "dot gv");
-    ct_paper paper = {.format = as_text ? "text" : "dot"};
-
-    status = ct_draw(call->session, call->statement, &paper, &text, error);
-    if (status == CT_OK && path == NULL) {
-        put_text(call->out, text);
-    } else if (status == CT_OK) {
-        Paper picture;
-
-        paper_open(&picture);
-        if (as_text || as_dot)
-            put_text(picture.out, text);
-        else
-            status = lay_out(call, type, text, &picture, error);
-
-        char *drawn = paper_close(&picture);
-
-        if (status == CT_OK)
-            status = write_file(call, path, drawn, picture.length, error);
-        free(drawn);
-    }
-    ct_free(text);
-    return status;
-}
-
 /* --- the mechanism --- */
 
 static ct_paper text_paper(void)
@@ -153,38 +89,48 @@ static void put_frames(FILE *out, const Drawing *drawing, bool as_text)
     }
 }
 
+/* What the library drew, on the paper it was drawn for, to where it is to go. */
+static ct_status put_drawn(Call *call, const ct_paper *paper, char *drawn, const char *path,
+                           ct_error *error)
+{
+    char *texts[2] = {drawn, NULL};
+    const Frames frames = {texts};
+    const Drawing drawing = {put_frames, &frames, "", paper->width, paper->height, 0};
+
+    if (strcmp(paper->format, "gnuplot") == 0)
+        return drawing_make(call, &drawing, path, error);
+    if (path != NULL)
+        return write_file(call, path, drawn, strlen(drawn), error);
+    put_text(call->out, drawn);
+    return CT_OK;
+}
+
 static ct_status command_draw(Call *call, ct_error *error)
 {
     const char *word = call_word(call, 0);
     const char *path;
-    char *texts[2] = {NULL, NULL};
-    const Frames frames = {texts};
-
-    if (word == NULL || strcmp(word, "mechanism") != 0)
-        return draw_graph(call, error);
-
-    ct_status status = check_file(call, "svg png pdf eps gp txt", &path, error);
+    char *drawn = NULL;
+    bool graph = word == NULL || strcmp(word, "mechanism") != 0;
+    ct_status status = check_file(
+        call, graph ? "svg png pdf eps gp dot gv txt" : "svg png pdf eps gp txt", &path, error);
 
     if (status != CT_OK)
         return status;
 
     const char *type = path != NULL ? file_extension(path) : "";
     ct_paper paper = text_paper();
-    bool as_text = strcmp(type, "txt") == 0 || (path == NULL && !drawing_in_window(call));
 
-    if (!as_text)
-        paper.format = strcmp(type, "svg") == 0 ? "svg" : "gnuplot";
-    status = ct_draw(call->session, call->statement, &paper, &texts[0], error);
-    if (status == CT_OK && strcmp(paper.format, "gnuplot") == 0) {
-        const Drawing drawing = {put_frames, &frames, "", paper.width, paper.height, 0};
-
-        status = drawing_make(call, &drawing, path, error);
-    } else if (status == CT_OK && path != NULL) {
-        status = write_file(call, path, texts[0], strlen(texts[0]), error);
-    } else if (status == CT_OK) {
-        put_text(call->out, texts[0]);
-    }
-    ct_free(texts[0]);
+    /* the whole graph is text on a screen, which tells its trees best */
+    if (is_one_of(type, "dot gv"))
+        paper.format = "dot";
+    else if (strcmp(type, "svg") == 0)
+        paper.format = "svg";
+    else if (path != NULL ? strcmp(type, "txt") != 0 : word != NULL && drawing_in_window(call))
+        paper.format = "gnuplot";
+    status = ct_draw(call->session, call->statement, &paper, &drawn, error);
+    if (status == CT_OK)
+        status = put_drawn(call, &paper, drawn, path, error);
+    ct_free(drawn);
     return status;
 }
 

@@ -7,6 +7,10 @@ libcore_la_SOURCES += \
   lib/present/derive.c \
   lib/present/derive.h \
   lib/present/draw.c \
+  lib/present/graph_layout.c \
+  lib/present/graph_layout.h \
+  lib/present/graph_picture.c \
+  lib/present/graph_picture.h \
   lib/present/help.c \
   lib/present/help.h \
   lib/present/help_topics.c \

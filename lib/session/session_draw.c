@@ -1,6 +1,7 @@
 /* session_draw.c: draw and animate: the graph, and the mechanism at instants of a run */
 #include "session/session_impl.h"
 
+#include "present/graph_picture.h"
 #include "present/info.h"
 #include "present/mechanism.h"
 
@@ -150,22 +151,49 @@ done:
     return status;
 }
 
-static Status draw_graph(ct_session *session, const Statement *s, const ct_paper *paper, Text *out,
-                         Diag *diag)
+/* which edge is lit, and how: `circuit h9`, `cutset h8` */
+static Status read_lit(const Statement *s, Lit *lit, Diag *diag)
 {
-    const View view = session_view(session);
+    const char *word = operand_word(s, 0);
 
-    if (s->operands.count > 0)
-        return diag_at(diag, E_SYNTAX, s->operands.at[0].place, "'draw' knows no '%s'",
-                       operand_word(s, 0));
+    *lit = strcmp(word, "circuit") == 0  ? LIT_CIRCUIT
+           : strcmp(word, "cutset") == 0 ? LIT_CUTSET
+                                         : LIT_NOTHING;
+    if (s->operands.count > 0 && *lit == LIT_NOTHING)
+        return diag_at(diag, E_SYNTAX, s->operands.at[0].place, "'draw' knows no '%s'", word);
+    if (*lit != LIT_NOTHING && s->operands.count != 2)
+        return diag_at(diag, E_SYNTAX, s->operands.at[0].place, "'draw %s' needs one edge", word);
     if (s->pairs.count > 0)
         return diag_at(diag, E_SYNTAX, s->pairs.at[0].value->place, "%s= is for 'draw mechanism'",
                        s->pairs.at[0].name);
     if (s->at != NULL)
         return diag_at(diag, E_SYNTAX, s->at->place, "the graph is the same at all times");
-    if (strcmp(paper->format, "dot") != 0)
+    return OK;
+}
+
+static Status draw_graph(ct_session *session, const Statement *s, ct_paper *paper, Text *out,
+                         Diag *diag)
+{
+    const View view = session_view(session);
+    Picture picture;
+    Lit lit;
+    Status status;
+
+    TRY(read_lit(s, &lit, diag));
+    if (strcmp(paper->format, "dot") == 0) {
+        draw_dot(&view, out);
+        return OK;
+    }
+    if (lit == LIT_NOTHING && strcmp(paper->format, "text") == 0)
         return draw_text(&view, out, diag);
-    draw_dot(&view, out);
+    status = graph_picture(&view, lit, operand_word(s, 1), &picture, diag);
+    if (status != OK) {
+        if (s->operands.count > 1 && diag->place.line == 0)
+            diag->place = s->operands.at[1].place;
+        return status;
+    }
+    write_picture(session, &picture, paper, out);
+    picture_close(&picture);
     return OK;
 }
 

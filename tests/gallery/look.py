@@ -148,6 +148,20 @@ def documents():
     need("\\begin{tikzpicture}" in tex and "h8 [rad]" in tex, "TikZ, with its label")
 
 
+def graph():
+    root = tree.parse("graph.svg").getroot()
+    classes = [e.get("class") for e in root.iter() if local(e) == "g"]
+    need(classes.count("node") == 8 and classes.count("branch") == 7, str(classes))
+    for group in root.iter():
+        kind = group.get("class")
+        lines = [e for e in group if local(e) == "polyline"] if kind in ("branch", "chord") else []
+        for e in lines[:1]:
+            width = float(e.get("stroke-width"))
+            need(width > 3 if kind == "branch" else width < 1.5, f"a {kind} of {width}")
+    width, height, busy = png("graph.png")
+    need(width > 300 and height > 200 and busy > 0.4, f"{width} x {height}, {busy}")
+
+
 def mechanism():
     root = tree.parse("mechanism.svg").getroot()
     classes = [e.get("class") for e in root.iter() if local(e) == "g"]
@@ -173,4 +187,4 @@ def moving():
 
 {"one": one, "two": two, "three": three, "bars": bars, "alone": alone, "path": path, "many": many,
  "runs": runs, "measured": measured, "ranges": ranges, "png": png_of_both,
- "documents": documents, "mechanism": mechanism, "moving": moving}[sys.argv[1]]()
+ "documents": documents, "graph": graph, "mechanism": mechanism, "moving": moving}[sys.argv[1]]()

@@ -245,6 +245,122 @@ static void a_page_plays_by_itself(void)
     kit_free(&kit);
 }
 
+#define TWO_TREES "tree translation h8 h9 h10\ntree rotation h8 h10 s11\n"
+
+/* branches of both trees, by hand: each has the four arms and its three joints */
+static void trees_stand_side_by_side_where_they_differ(void)
+{
+    Kit kit = kit_new();
+    char *svg;
+
+    EXPECT_DONE(&kit, CRANK "tree h8 h10 s11");
+    svg = drawn(&kit, "draw", "svg");
+    EXPECT_HOLDS(svg, "mechanical tree");
+    EXPECT(count_of(svg, "<g class=\"branch\">") == 7);
+    EXPECT(count_of(svg, "<g class=\"chord\">") == 5); /* m1 m2 m3 h9 F12 */
+    EXPECT(count_of(svg, "<g class=\"node\">") == 8);
+    EXPECT(count_of(svg, "stroke-width=\"10\"") == 0);
+    ct_free(svg);
+    EXPECT_DONE(&kit, TWO_TREES);
+    svg = drawn(&kit, "draw", "svg");
+    EXPECT_HOLDS(svg, "translation tree");
+    EXPECT_HOLDS(svg, "rotation tree");
+    EXPECT(count_of(svg, "<g class=\"branch\">") == 14);
+    EXPECT(count_of(svg, "<title>branch h9</title>") == 1);
+    EXPECT(count_of(svg, "<title>chord h9</title>") == 1);
+    ct_free(svg);
+    kit_free(&kit);
+}
+
+/* the loop of the crank is one circuit, whose joints and arms are all lit; the cutset of h8 parts
+ * the crank from ground: m1 and, at its pin, h9 leave with it. Once more in the legend. */
+static void circuits_and_cutsets_are_lit(void)
+{
+    Kit kit = kit_new();
+    char *svg;
+
+    EXPECT_DONE(&kit, CRANK "tree h8 h10 s11");
+    svg = drawn(&kit, "draw circuit h9", "svg");
+    EXPECT(count_of(svg, "stroke-width=\"10\"") == 8 + 1);
+    ct_free(svg);
+    svg = drawn(&kit, "draw cutset h8", "svg");
+    EXPECT(count_of(svg, "stroke-width=\"10\"") == 3 + 1);
+    ct_free(svg);
+    EXPECT(kit_do(&kit, "draw circuit h8") == CT_FAILED);
+    EXPECT_HOLDS(kit.error.hint, "draw cutset h8");
+    EXPECT(kit_do(&kit, "draw cutset h9") == CT_FAILED);
+    EXPECT_HOLDS(kit.error.hint, "draw circuit h9");
+    EXPECT(kit_do(&kit, "draw circuit h99") == CT_FAILED);
+    EXPECT_HOLDS(kit.error.message, "h99");
+    EXPECT(kit_do(&kit, "draw circuit") == CT_FAILED);
+
+    /* h9 is a chord of the rotation tree alone: that one is shown */
+    EXPECT_DONE(&kit, TWO_TREES);
+    svg = drawn(&kit, "draw circuit h9", "svg");
+    EXPECT(strstr(svg, "translation tree") == NULL);
+    EXPECT_HOLDS(svg, "rotation tree");
+    ct_free(svg);
+    kit_free(&kit);
+}
+
+/* domains by colour and dash, each with its legend; nodes that no edge joins stay apart */
+static void each_domain_has_its_colour_and_dash(void)
+{
+    Kit kit = kit_new();
+    char *svg;
+
+    EXPECT_DONE(&kit, "scene planar\nbody m mass=1 inertia=1\nrevolute h ground m\n"
+                      "vsource E a 0 1\nmotor M h a 0 R=1 L=0.1 Kt=1 Kv=1\ntank T p 0 A=1\n"
+                      "pipe P p 0 R=1\n");
+    svg = drawn(&kit, "draw", "svg");
+    EXPECT_HOLDS(svg, "mechanical tree");
+    EXPECT_HOLDS(svg, "electrical tree");
+    EXPECT_HOLDS(svg, "hydraulic tree");
+    EXPECT(count_of(svg, "stroke-dasharray=\"7 4\"") == 3); /* E, M, legend */
+    EXPECT(count_of(svg, "stroke-dasharray=\"2 3\"") == 3); /* T, P, legend */
+    EXPECT_HOLDS(svg, ">electrical</text>");
+    ct_free(svg);
+    kit_free(&kit);
+}
+
+/* rings of nodes don't lie over one another, whatever the graph: chains, stars, rings */
+static void nodes_stand_apart(void)
+{
+    Kit kit = kit_new();
+
+    for (int kind = 0; kind < 3; kind++) {
+        char lines[2000];
+        size_t length = 0;
+        char *svg;
+        double at[64][2];
+        int count = 0;
+
+        for (int i = 1; i <= 24; i++)
+            length += (size_t)snprintf(lines + length, sizeof lines - length,
+                                       "resistor R%d n%d n%d 1\n", i, i,
+                                       kind == 0   ? i - 1
+                                       : kind == 1 ? 0
+                                                   : i % 24 + 1);
+        EXPECT_DONE(&kit, "clear\nvsource E n0 0 1\nresistor Z n1 0 1\n");
+        EXPECT_DONE(&kit, lines);
+        svg = drawn(&kit, "draw", "svg");
+        for (const char *c = svg; (c = strstr(c, "<g class=\"node\">")) != NULL; c++) {
+            const char *ring = strstr(c, "<circle");
+
+            EXPECT(ring != NULL && count < 64 &&
+                   sscanf(ring, "<circle cx=\"%lf\" cy=\"%lf\"", &at[count][0], &at[count][1]) ==
+                       2);
+            count++;
+        }
+        EXPECT(count >= 25);
+        for (int i = 0; i < count; i++)
+            for (int j = 0; j < i; j++)
+                EXPECT(hypot(at[i][0] - at[j][0], at[i][1] - at[j][1]) > 20);
+        ct_free(svg);
+    }
+    kit_free(&kit);
+}
+
 /* in characters that every terminal has, no line longer than it is wide */
 static void a_plain_terminal_gets_plain_characters(void)
 {
@@ -313,6 +429,10 @@ int main(void)
     RUN(spatial_scenes_are_seen_from_where_they_are_asked);
     RUN(every_kind_of_part_has_a_picture);
     RUN(a_page_plays_by_itself);
+    RUN(trees_stand_side_by_side_where_they_differ);
+    RUN(circuits_and_cutsets_are_lit);
+    RUN(each_domain_has_its_colour_and_dash);
+    RUN(nodes_stand_apart);
     RUN(a_plain_terminal_gets_plain_characters);
     RUN(what_cannot_be_drawn_says_why);
     return test_end();

@@ -1,0 +1,360 @@
+/* graph_picture.c: nodes as rings, edges as arrows: branches bold, chords thin
+ *
+ * Each tree has a panel; where the mechanical ones differ they stand side by side, their nodes in
+ * the same places. A domain has its colour and its dashes. */
+#include "present/graph_picture.h"
+
+#include "present/graph_layout.h"
+
+#include <math.h>
+#include <string.h>
+
+#define NODE_SIZE 7.0
+#define CAPTION   34.0 /* px above a panel */
+#define LEGEND    40.0 /* px below all of them */
+#define WIDEST    1300.0
+#define SOFT      "#b5b5b5"
+#define GLOW      "#ffd54a"
+
+typedef struct Panel {
+    const Tree *tree;
+    const char *caption;
+    Point corner, size;
+    const Point *places; /* of nodes, in the panel */
+} Panel;
+
+typedef struct GraphPicture {
+    const View *view;
+    const Graph *graph;
+    Lit lit;
+    int edge; /* that is lit; -1 */
+    Panel panels[TREE_KINDS];
+    int count;
+    Point *places[TREE_KINDS];
+    Picture *out;
+} GraphPicture;
+
+static const Dash dashes[DOMAIN_COUNT] = {DASH_NONE,   DASH_LONG, DASH_DOTS,
+                                          DASH_CENTRE, DASH_LONG, DASH_DOTS};
+
+/* --- what is drawn --- */
+
+static bool same_branches(const Graph *graph, const Tree *a, const Tree *b)
+{
+    for (int e = 0; e < graph_edge_count(graph); e++)
+        if (tree_has(a, e) != tree_has(b, e))
+            return false;
+    return true;
+}
+
+static bool is_lit_in(const GraphPicture *picture, const Tree *tree)
+{
+    return picture->lit == LIT_NOTHING ||
+           (graph_edge_in(picture->graph, picture->edge, tree_kind(tree)) &&
+            tree_has(tree, picture->edge) == (picture->lit == LIT_CUTSET));
+}
+
+static bool edge_is_lit(const GraphPicture *picture, const Tree *tree, int e)
+{
+    const Edge *edge = graph_edge(picture->graph, e);
+    const Edge *chord = graph_edge(picture->graph, picture->edge);
+
+    if (e == picture->edge)
+        return true;
+    if (picture->lit == LIT_CUTSET)
+        return tree_is_beyond(tree, picture->edge, edge->tail) !=
+               tree_is_beyond(tree, picture->edge, edge->head);
+
+    /* a branch is on the way between two nodes that it parts */
+    return tree_has(tree, e) &&
+           tree_is_beyond(tree, e, chord->tail) != tree_is_beyond(tree, e, chord->head);
+}
+
+static Status find_edge(GraphPicture *picture, const char *name, Diag *diag)
+{
+    Suggest suggest = suggest_for(name);
+
+    picture->edge = graph_find_edge(picture->graph, name);
+    if (picture->edge >= 0)
+        return OK;
+    for (int e = 0; e < graph_edge_count(picture->graph); e++)
+        suggest_offer(&suggest, graph_edge(picture->graph, e)->name);
+    (void)diag_set(diag, E_NAME, "there is no edge '%s'", name);
+    if (suggest.best != NULL)
+        diag_hint(diag, "did you mean '%s'?", suggest.best);
+    return E_NAME;
+}
+
+/* --- panels --- */
+
+static Status add_panels(GraphPicture *picture, Diag *diag)
+{
+    const Tree *trees[TREE_KINDS] = {NULL};
+    const int nodes = graph_node_count(picture->graph);
+
+    TRY(model_trees(picture->view->model, trees, diag));
+
+    const bool both = trees[TREE_TRANSLATION] != NULL && trees[TREE_ROTATION] != NULL &&
+                      same_branches(picture->graph, trees[TREE_TRANSLATION], trees[TREE_ROTATION]);
+
+    for (int k = 0; k < TREE_KINDS; k++) {
+        Panel *panel = &picture->panels[picture->count];
+
+        if (trees[k] == NULL || (both && k == TREE_ROTATION) || !is_lit_in(picture, trees[k]))
+            continue;
+        *panel = (Panel){.tree = trees[k],
+                         .caption = both && k == TREE_TRANSLATION ? "mechanical"
+                                                                  : tree_kind_name((TreeKind)k)};
+        if (k == TREE_ROTATION && picture->count > 0) { /* nodes stand where they do beside */
+            panel->places = picture->panels[picture->count - 1].places;
+            panel->size = picture->panels[picture->count - 1].size;
+        } else {
+            picture->places[k] = NEW_ARRAY(Point, nodes);
+            panel->places = picture->places[k];
+            TRY(graph_layout(trees[k], picture->view->watch, picture->places[k], &panel->size,
+                             diag));
+        }
+        panel->size.x = fmax(panel->size.x, 170);
+        picture->count++;
+    }
+    if (picture->count > 0)
+        return OK;
+    if (picture->lit == LIT_NOTHING)
+        return diag_set(diag, E_MISSING, "there are no edges to draw");
+
+    const char *name = graph_edge(picture->graph, picture->edge)->name;
+
+    (void)diag_set(diag, E_BRANCH, "%s is a %s of its trees", name,
+                   picture->lit == LIT_CIRCUIT ? "branch" : "chord");
+    diag_hint(diag,
+              picture->lit == LIT_CIRCUIT ? "a branch has a cutset: draw cutset %s"
+                                          : "a chord has a circuit: draw circuit %s",
+              name);
+    return E_BRANCH;
+}
+
+/* side by side, in rows; returns the size of the sheet */
+static Point place_panels(GraphPicture *picture)
+{
+    Point at = {0, 0}, size = {0, 0};
+    double row = 0;
+
+    for (int i = 0; i < picture->count; i++) {
+        Panel *panel = &picture->panels[i];
+
+        if (at.x > 0 && at.x + panel->size.x > WIDEST) {
+            at = (Point){0, at.y + row};
+            row = 0;
+        }
+        panel->corner = (Point){at.x, at.y + CAPTION};
+        at.x += panel->size.x;
+        row = fmax(row, panel->size.y + CAPTION);
+        size = (Point){fmax(size.x, at.x), fmax(size.y, at.y + row)};
+    }
+    return (Point){fmax(size.x, 420), size.y + LEGEND};
+}
+
+/* --- edges --- */
+
+enum { BEND = 16 }; /* lines of a curve */
+
+static Point node_at(const Panel *panel, int node)
+{
+    return (Point){panel->corner.x + panel->places[node].x,
+                   panel->corner.y + panel->places[node].y};
+}
+
+/* the curve between two points whose middle is `bend` px beside the straight line */
+static void make_curve(Point a, Point b, double bend, Point out[BEND + 1])
+{
+    const double length = fmax(hypot(b.x - a.x, b.y - a.y), 1e-6);
+    const Point n = {-(b.y - a.y) / length, (b.x - a.x) / length};
+
+    for (int i = 0; i <= BEND; i++) {
+        const double s = (double)i / BEND, h = 4 * bend * s * (1 - s);
+
+        out[i] = (Point){a.x + s * (b.x - a.x) + h * n.x, a.y + s * (b.y - a.y) + h * n.y};
+    }
+}
+
+static bool passes_a_node(const Panel *panel, const Edge *edge, const Point curve[BEND + 1])
+{
+    int count;
+    const int *nodes = tree_nodes(panel->tree, &count);
+
+    for (int k = 0; k < count; k++) {
+        const Point p = node_at(panel, nodes[k]);
+
+        if (nodes[k] == edge->tail || nodes[k] == edge->head)
+            continue;
+        for (int i = 1; i < BEND; i++)
+            if (hypot(curve[i].x - p.x, curve[i].y - p.y) < 2 * NODE_SIZE)
+                return true;
+    }
+    return false;
+}
+
+/* which of the edges between the same two nodes it is, and how many there are */
+static int place_among(const GraphPicture *picture, const Panel *panel, int e, int *count)
+{
+    const Edge *edge = graph_edge(picture->graph, e);
+    const int *edges;
+    const int all = graph_edges_at(picture->graph, edge->tail, &edges);
+    int place = 0;
+
+    *count = 0;
+    for (int i = 0; i < all; i++) {
+        const Edge *other = graph_edge(picture->graph, edges[i]);
+
+        if (!graph_edge_in(picture->graph, edges[i], tree_kind(panel->tree)) ||
+            (other->tail != edge->head && other->head != edge->head))
+            continue;
+        if (edges[i] == e)
+            place = *count;
+        (*count)++;
+    }
+    return place;
+}
+
+static void find_curve(const GraphPicture *picture, const Panel *panel, int e,
+                       Point curve[BEND + 1])
+{
+    static const double tries[] = {0, 26, -26, 52, -52};
+    const Edge *edge = graph_edge(picture->graph, e);
+    const Point a = node_at(panel, edge->tail), b = node_at(panel, edge->head);
+    int count;
+    const int place = place_among(picture, panel, e, &count);
+
+    if (count > 1) { /* turned, the other side of the line is meant */
+        make_curve(a, b, (place - (count - 1) / 2.0) * 30 * (edge->tail < edge->head ? 1 : -1),
+                   curve);
+        return;
+    }
+    for (int i = 0; i < COUNT(tries); i++) {
+        make_curve(a, b, tries[i], curve);
+        if (!passes_a_node(panel, edge, curve))
+            return;
+    }
+    make_curve(a, b, 0, curve);
+}
+
+static void draw_edge(GraphPicture *picture, const Panel *panel, int e)
+{
+    const Edge *edge = graph_edge(picture->graph, e);
+    const bool branch = tree_has(panel->tree, e);
+    const bool lit = picture->lit != LIT_NOTHING && edge_is_lit(picture, panel->tree, e);
+    const bool soft = picture->lit != LIT_NOTHING && !lit;
+    const char *color = soft ? SOFT : picture_color((int)edge->domain);
+    const Ink ink = {.stroke = color, .width = branch ? 3.4 : 1.2, .dash = dashes[edge->domain]};
+    Point curve[BEND + 1];
+    int last = BEND;
+
+    find_curve(picture, panel, e, curve);
+    picture_of(picture->out, branch ? "branch" : "chord", edge->name);
+    if (lit)
+        picture_line(picture->out, (Ink){.stroke = GLOW, .width = 10}, curve, BEND + 1);
+
+    /* the arrow ends at the ring */
+    while (last > BEND / 2 &&
+           hypot(curve[last].x - curve[BEND].x, curve[last].y - curve[BEND].y) < NODE_SIZE + 1)
+        last--;
+    picture_line(picture->out, ink, curve, last);
+    picture_arrow(picture->out, (Ink){.stroke = color, .width = branch ? 3 : 1.4}, curve[last - 2],
+                  curve[last]);
+    picture_text(picture->out, soft ? "#999999" : "#222222",
+                 (Point){curve[BEND / 2].x, curve[BEND / 2].y + 4}, 12, ANCHOR_MIDDLE, edge->name);
+}
+
+static void draw_nodes(GraphPicture *picture, const Panel *panel)
+{
+    int count;
+    const int *nodes = tree_nodes(panel->tree, &count);
+
+    for (int i = 0; i < count; i++) {
+        const Node *node = graph_node(picture->graph, nodes[i]);
+        const Point at = node_at(panel, nodes[i]);
+        const Ink ring = {.stroke = "#222222", .fill = "#ffffff", .width = 1.5};
+
+        picture_of(picture->out, "node", node->name);
+        picture_circle(picture->out, ring, at, NODE_SIZE);
+        if (node->datum)
+            picture_circle(picture->out, (Ink){.fill = "#222222"}, at, NODE_SIZE - 3);
+        picture_text(picture->out, "#222222", (Point){at.x + NODE_SIZE + 3, at.y - NODE_SIZE - 1},
+                     13, ANCHOR_START, node->name);
+    }
+}
+
+static void draw_panel(GraphPicture *picture, const Panel *panel)
+{
+    const TreeKind kind = tree_kind(panel->tree);
+    Text caption = {0};
+
+    text_addf(&caption, "%s tree", panel->caption);
+    picture_of(picture->out, "caption", panel->caption);
+    picture_text(picture->out, "#222222", (Point){panel->corner.x + 16, panel->corner.y - 10}, 15,
+                 ANCHOR_START, caption.at);
+    text_free(&caption);
+
+    /* chords first: branches lie over them */
+    for (int pass = 0; pass < 2; pass++)
+        for (int e = 0; e < graph_edge_count(picture->graph); e++)
+            if (graph_edge_in(picture->graph, e, kind) && tree_has(panel->tree, e) == (pass == 1))
+                draw_edge(picture, panel, e);
+    draw_nodes(picture, panel);
+}
+
+/* --- the legend --- */
+
+static double put_legend(GraphPicture *picture, double x, Ink ink, const char *text)
+{
+    const double y = picture->out->height - 16;
+
+    picture_line(picture->out, ink, (Point[]){{x, y}, {x + 34, y}}, 2);
+    picture_text(picture->out, "#222222", (Point){x + 40, y + 4}, 12, ANCHOR_START, text);
+    return x + 40 + 7.0 * text_width(text) + 24;
+}
+
+static void draw_legend(GraphPicture *picture)
+{
+    const char *dark = "#222222";
+    double x = 16;
+
+    picture_of(picture->out, "legend", "of edges");
+    x = put_legend(picture, x, (Ink){.stroke = dark, .width = 3.4}, "branch");
+    x = put_legend(picture, x, (Ink){.stroke = dark, .width = 1.2}, "chord");
+    if (picture->lit != LIT_NOTHING)
+        x = put_legend(picture, x, (Ink){.stroke = GLOW, .width = 10},
+                       picture->lit == LIT_CIRCUIT ? "circuit" : "cutset");
+    for (int i = 0; i < picture->count; i++) {
+        const Domain domain = tree_kind_domain(tree_kind(picture->panels[i].tree));
+
+        if (i > 0 && tree_kind_domain(tree_kind(picture->panels[i - 1].tree)) == domain)
+            continue;
+        x = put_legend(
+            picture, x,
+            (Ink){.stroke = picture_color((int)domain), .width = 2, .dash = dashes[domain]},
+            domain_name(domain));
+    }
+    picture->out->width = fmax(picture->out->width, x);
+}
+
+Status graph_picture(const View *view, Lit lit, const char *edge, Picture *out, Diag *diag)
+{
+    GraphPicture picture = {
+        .view = view, .graph = model_graph(view->model), .lit = lit, .edge = -1, .out = out};
+    Point size;
+    Status status = OK;
+
+    if (lit != LIT_NOTHING)
+        CHECK(find_edge(&picture, edge, diag));
+    CHECK(add_panels(&picture, diag));
+    size = place_panels(&picture);
+    picture_open(out, size.x, size.y);
+    for (int i = 0; i < picture.count; i++)
+        draw_panel(&picture, &picture.panels[i]);
+    draw_legend(&picture);
+done:
+    for (int k = 0; k < TREE_KINDS; k++)
+        mem_free(picture.places[k]);
+    return status;
+}
