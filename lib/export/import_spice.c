@@ -108,9 +108,16 @@ static bool begins(const char *line, size_t length, const char *word)
     return length >= strlen(word) && strncasecmp(line, word, strlen(word)) == 0;
 }
 
+/* The first line, no card; people often type it behind a "*". */
 static void say_title(Import *import, const char *line, size_t length)
 {
     enum { LONGEST = 200 };
+
+    while (length > 0 && (*line == '*' || *line == ' ' || *line == '\t')) {
+        line++;
+        length--;
+    }
+
     char *title = pool_text(import->pool, line, length < LONGEST ? length : LONGEST);
 
     for (char *c = title; *c != '\0'; c++)

@@ -26,7 +26,7 @@ grep -v '^#' again.ct | diff bare.ct - && echo same
 echo '--- undone and done again'
 cotree -q -e 'import spice "whole.cir"' -e 'undo' -e 'print model.n' -e 'redo' -e 'show edges' 2>&1
 
-try 'a transistor
+try '* a transistor
 V1 1 0 5
 Q1 1 2 0 npn'
 try 'twice
