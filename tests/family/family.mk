@@ -89,3 +89,8 @@ FAMILIES += family_derivation
 family_derivation_SOURCES = tests/family/family_derivation.c tests/family/family.h \
 	tests/family/script.h tests/unit/session_kit.h tests/unit/test.h
 family_derivation_LDADD = libcotree.la $(unit_ldadd)
+
+FAMILIES += family_beams
+family_beams_SOURCES = tests/family/family_beams.c tests/family/family.h tests/family/script.h \
+	tests/unit/session_kit.h tests/unit/test.h
+family_beams_LDADD = libcotree.la $(unit_ldadd)
