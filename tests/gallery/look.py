@@ -151,7 +151,7 @@ def documents():
 def graph():
     root = tree.parse("graph.svg").getroot()
     classes = [e.get("class") for e in root.iter() if local(e) == "g"]
-    need(classes.count("node") == 8 and classes.count("branch") == 7, str(classes))
+    need(classes.count("node") == 16 and classes.count("branch") == 14, str(classes))
     for group in root.iter():
         kind = group.get("class")
         lines = [e for e in group if local(e) == "polyline"] if kind in ("branch", "chord") else []
