@@ -83,6 +83,7 @@ typedef enum Offers {
     OFFERS_HELP,
     OFFERS_BLOCKS,
     OFFERS_EDGES,
+    OFFERS_LIT,
     OFFERS_REMOVABLE,
     OFFERS_TOLD,
     OFFERS_SETTABLE,

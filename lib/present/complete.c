@@ -88,6 +88,13 @@ static void offer_edges(TypedLine *line)
         offer(line, graph_edge(graph, e)->name);
 }
 
+/* what `circuit` and `cutset` light */
+static void offer_lit(TypedLine *line)
+{
+    if (line->before.count == 2 && strcmp(line->before.at[1], "mechanism") != 0)
+        offer_edges(line);
+}
+
 static void offer_joints(TypedLine *line)
 {
     for (int i = 0; i < model_count(line->known->model); i++)
@@ -343,6 +350,7 @@ static const struct {
     [OFFERS_HELP] = {offer_help_words, true},
     [OFFERS_BLOCKS] = {offer_blocks, true},
     [OFFERS_EDGES] = {offer_edges, false},
+    [OFFERS_LIT] = {offer_lit, false},
     [OFFERS_REMOVABLE] = {offer_removable, false},
     [OFFERS_TOLD] = {offer_told, false},
     [OFFERS_SETTABLE] = {offer_set, false},

@@ -7,6 +7,8 @@ complete body m2 inert
 complete body m2 mass=1 
 complete set p
 complete set pager 
+complete draw 
+complete draw cutset ma
 complete set digits 
 END
 cotree model.ct
