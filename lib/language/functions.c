@@ -24,6 +24,10 @@ static const Function others[] = {
     {"table", FUNCTION_SHAPE, 2, 4, "table(\"file.csv\", x, column)", true, OP_COUNT},
     {"mean", FUNCTION_FIGURE, 1, 1, NULL, false, OP_COUNT},
     {"rms", FUNCTION_FIGURE, 1, 1, NULL, false, OP_COUNT},
+    {"final", FUNCTION_FIGURE, 1, 1, NULL, false, OP_COUNT},
+    {"first", FUNCTION_FIGURE, 1, 1, NULL, false, OP_COUNT},
+    {"period", FUNCTION_FIGURE, 1, 1, NULL, false, OP_COUNT},
+    {"settling", FUNCTION_FIGURE, 2, 2, NULL, false, OP_COUNT},
 };
 
 /* operators have no name to be called by; `hold` stands in equations only */

@@ -374,11 +374,9 @@ static const struct {
 #define OP(id, name, args, derivative, c, latex, value, dimension) {name, dimension},
 #include "expr/ops.def"
 #undef OP
-    {"pulse", "txxttttt=x"},
-    {"pwl", "ttx=x"},
-    {"table", "...=?"},
-    {"mean", "xx=x"},
-    {"rms", "xx=x"}};
+    {"pulse", "txxttttt=x"}, {"pwl", "ttx=x"},   {"table", "...=?"},
+    {"mean", "xx=x"},        {"rms", "xx=x"},    {"final", "xx=x"},
+    {"first", "..=s"},       {"period", "xx=s"}, {"settling", "xx=s"}};
 
 static const char *find_rule(const char *name)
 {
@@ -424,6 +422,8 @@ static Measure rule_value(char letter, Measure x)
         return ratio;
     case 'a':
         return measure_of_unit("rad");
+    case 's':
+        return measure_of_unit("s");
     default:
         return any;
     }

@@ -250,12 +250,15 @@ static Status call_figure(Scope *scope, const Syntax *syntax, const Expr *args, 
 
     if (scope->kind != SCOPE_ASK)
         return diag_at(diag, E_NAME, syntax->place,
-                       "%s of one argument is taken over a run: nothing can depend on it",
-                       syntax->text);
-    if (syntax->count != 1)
-        return wrong_count(syntax, "mean(x), over the last run", diag);
+                       "%s%s is taken over a run: nothing can depend on it", syntax->text,
+                       syntax->count == 1 ? " of one argument" : "");
+    if (syntax->count != (strcmp(syntax->text, "settling") == 0 ? 2 : 1))
+        return wrong_count(syntax, "mean(x), settling(x, band): over the last run", diag);
     text_addf(&name, "%s(", syntax->text);
-    expr_print(&name, args[0], NOTATION_TEXT);
+    for (int i = 0; i < syntax->count; i++) {
+        text_add(&name, i > 0 ? ", " : "");
+        expr_print(&name, args[i], NOTATION_TEXT);
+    }
     text_char(&name, ')');
     *out = expr_symbol(scope->state->arena, name.at, SYMBOL_VARIABLE);
     text_free(&name);

@@ -56,19 +56,21 @@ static void write_functions(Text *out)
     layout_words(out, TOPIC_WIDTH, "  ", names.at);
     text_free(&names);
     text_char(out, '\n');
-    layout_words(out, TOPIC_WIDTH, "",
-                 "Angles are in radians. step is 0 below 0 and 1 from there on, ramp(x) is "
-                 "x*step(x), if(c, a, b) is a where c holds and else b; unwrap(y, x, a) is the "
-                 "angle of (x, y) as atan2(y, x) tells it, but in the turn in which it is nearest "
-                 "to a. Of time: pulse(t, low, "
-                 "high, delay, rise, fall, width, period), pwl(t, t0, v0, t1, v1, ...). "
-                 "table(\"file.csv\", x, column) is a smooth curve through the data of a file: the "
-                 "first column is x, another is picked by its number or its name in quotes, the "
-                 "second if none is; outside the data the value stays that of the end; a number "
-                 "behind the column asks for that derivative by x. Over the "
-                 "last run, of one argument: min(x) max(x) mean(x) rms(x). Entries of the "
-                 "equations: mass(1,2), forces(1), lambda(1). Operators: + - * / ^, < <= > >= == "
-                 "!= && || !; a prime is a time derivative (h8', h8'').");
+    layout_words(
+        out, TOPIC_WIDTH, "",
+        "Angles are in radians. step is 0 below 0 and 1 from there on, ramp(x) is "
+        "x*step(x), if(c, a, b) is a where c holds and else b; unwrap(y, x, a) is the "
+        "angle of (x, y) as atan2(y, x) tells it, but in the turn in which it is nearest "
+        "to a. Of time: pulse(t, low, "
+        "high, delay, rise, fall, width, period), pwl(t, t0, v0, t1, v1, ...). "
+        "table(\"file.csv\", x, column) is a smooth curve through the data of a file: the "
+        "first column is x, another is picked by its number or its name in quotes, the "
+        "second if none is; outside the data the value stays that of the end; a number "
+        "behind the column asks for that derivative by x. Over the "
+        "last run, rows or not: min(x) max(x) mean(x) rms(x) final(x) period(x), "
+        "first(condition), settling(x, band); 'keep' makes parameters of them. Entries of the "
+        "equations: mass(1,2), forces(1), lambda(1). Operators: + - * / ^, < <= > >= == "
+        "!= && || !; a prime is a time derivative (h8', h8'').");
 }
 
 static void write_pairs(Text *out, const char *const (*rows)[2], int count)

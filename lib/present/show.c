@@ -26,6 +26,8 @@ static const Topic topics[] = {
     {"params",       "parameters and their values",                        NEED_MODEL,  BEHIND_NOTHING, show_params},
     {"structure",    "sizes, and where M and the jacobian are not zero",   NEED_RUNNING, BEHIND_NOTHING, show_structure},
     {"run",          "report of the last run",                             NEED_RUN,    BEHIND_NOTHING, show_run},
+    {"runs",         "all runs: what ran, from when to when, in how many steps", NEED_MODEL, BEHIND_NOTHING, show_runs},
+    {"init",         "initial values and guesses that were given",         NEED_MODEL,  BEHIND_NOTHING, show_init},
     {"settings",     "how the session computes and prints",                NEED_MODEL,  BEHIND_NOTHING, show_settings},
     {"program",      "the straight-line program that a run evaluates",     NEED_RUNNING, BEHIND_NOTHING, show_program},
     {"state",        "a linear network as x' = A x + B u",                 NEED_MODEL,  BEHIND_NOTHING, show_state},

@@ -61,7 +61,7 @@ ShowFunction show_graph, show_nodes, show_edges, show_tree, show_incidence, show
 ShowFunction show_coordinates, show_constraints, show_jacobian, show_mass, show_forces,
     show_equations, show_network, show_events;
 ShowFunction show_derivation;
-ShowFunction show_outputs, show_params, show_run, show_settings, show_program;
+ShowFunction show_outputs, show_params, show_init, show_run, show_runs, show_settings, show_program;
 
 /* --- equations one by one, each behind its edge's name --- */
 

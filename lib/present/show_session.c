@@ -225,6 +225,53 @@ Status show_run(const View *view, const Selection *selection, Text *out, Diag *d
     return OK;
 }
 
+Status show_runs(const View *view, const Selection *selection, Text *out, Diag *diag)
+{
+    static const char *const heads[] = {"run", "what", "time", "rows", "method", "steps"};
+    Table table = table_for("lllrlr");
+
+    (void)selection, (void)diag;
+    if (view->run_count == 0) {
+        view_comment(out, view, "no run yet: 'simulate 10' makes one");
+        return OK;
+    }
+    for (int i = 0; i < COUNT(heads); i++)
+        table_cell(&table, heads[i]);
+    for (int i = 0; i < view->run_count; i++) {
+        const Result *result = view->run(view->session, i);
+        const RunReport *report = result_report(result);
+        const double *times = result_times(result);
+        const int rows = result_rows(result);
+
+        table_cellf(&table, "run%d", i + 1);
+        table_cell(&table, kind_name(result_kind(result)));
+        table_cellf(&table, "%.6g ... %.6g s%s", rows > 0 ? times[0] : 0,
+                    rows > 0 ? times[rows - 1] : 0, report->stopped ? ", stopped" : "");
+        table_cellf(&table, "%d", rows);
+        table_cell(&table, report->steps > 0 && report->method != NULL ? report->method : "");
+        table_cellf(&table, "%" PRId64, report->steps);
+    }
+    table_print(out, &table, 0);
+    table_free(&table);
+    return OK;
+}
+
+Status show_init(const View *view, const Selection *selection, Text *out, Diag *diag)
+{
+    (void)selection, (void)diag;
+    if (model_start_count(view->model) == 0)
+        view_comment(out, view, "nothing was given: what is free starts at 0");
+    for (int i = 0; i < model_start_count(view->model); i++) {
+        const Start *start = model_start(view->model, i);
+        char *value = view_expression(view, start->value);
+
+        text_addf(out, "%s %s%.*s = %s\n", start->is_guess ? "guess" : "init", start->name,
+                  start->primes, "'''''''''", value);
+        mem_free(value);
+    }
+    return OK;
+}
+
 /* --- events --- */
 
 void event_print(Text *out, const Event *event)

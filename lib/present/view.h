@@ -14,6 +14,10 @@ typedef struct View {
     const Model *model;
     System *system;       /* of the model as it is; NULL unless equations are needed */
     const Result *result; /* the last run; NULL */
+    /* run i of run_count, from 0 */
+    const Result *(*run)(const void *session, int i);
+    const void *session;
+    int run_count;
     const Linear *linear; /* the last linearisation; NULL */
     int freedoms;         /* degrees of freedom where an assembly told them; -1 */
     Page page;

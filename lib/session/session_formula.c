@@ -18,68 +18,6 @@ void formula_free(Formula *formula)
 
 /* --- numbers that the session knows --- */
 
-/* functions of one argument over a run's rows, of which there is at least one */
-typedef double Reduction(const double *times, const double *values, int count);
-
-static double reduce_min(const double *times, const double *values, int count)
-{
-    double out = values[0];
-
-    (void)times;
-    for (int i = 1; i < count; i++)
-        out = values[i] < out ? values[i] : out;
-    return out;
-}
-
-static double reduce_max(const double *times, const double *values, int count)
-{
-    double out = values[0];
-
-    (void)times;
-    for (int i = 1; i < count; i++)
-        out = values[i] > out ? values[i] : out;
-    return out;
-}
-
-/* by the trapezoidal rule: rows of events lie between those of the grid */
-static double mean_power(const double *times, const double *values, int count, int power)
-{
-    double span = times[count - 1] - times[0];
-    double sum = 0;
-
-    if (!(span > 0))
-        return pow(values[count - 1], power);
-    for (int i = 1; i < count; i++)
-        sum += (times[i] - times[i - 1]) * (pow(values[i - 1], power) + pow(values[i], power)) / 2;
-    return sum / span;
-}
-
-static double reduce_mean(const double *times, const double *values, int count)
-{
-    return mean_power(times, values, count, 1);
-}
-
-static double reduce_rms(const double *times, const double *values, int count)
-{
-    return sqrt(mean_power(times, values, count, 2));
-}
-
-static const struct {
-    const char *name;
-    Reduction *reduce;
-} reductions[] = {
-    {"min", reduce_min}, {"max", reduce_max}, {"mean", reduce_mean}, {"rms", reduce_rms}};
-
-static Reduction *find_reduction(const Syntax *syntax)
-{
-    if (syntax->kind != SYNTAX_CALL || syntax->count != 1)
-        return NULL;
-    for (int i = 0; i < COUNT(reductions); i++)
-        if (strcmp(reductions[i].name, syntax->text) == 0)
-            return reductions[i].reduce;
-    return NULL;
-}
-
 /* Freedoms as 'check' tells them: by what the constraints leave free at the start. Where there is
  * none that could be assembled, by their number, and that is said. */
 static Status model_freedoms(ct_session *session, System *system, double *out, Diag *diag)
@@ -202,7 +140,7 @@ static bool is_pure(const Syntax *syntax, int *run, bool *bare)
 {
     const char *rest;
 
-    if (find_reduction(syntax) != NULL)
+    if (figure_is_called(syntax))
         return false;
     if (syntax->kind == SYNTAX_VARIABLE || syntax->kind == SYNTAX_CALL) {
         const int prefix = run_prefix(syntax->text, &rest);
@@ -309,40 +247,14 @@ done:
 
 static Status cut_any(Cut *cut, const Syntax *syntax, Expr *out, Diag *diag);
 
-/* over the rows of the run that the argument names, else the last; its value at the start where
- * there is no run */
-static Status cut_reduction(Cut *cut, const Syntax *syntax, Reduction *reduce, Expr *out,
-                            Diag *diag)
+/* a function of a run: a number */
+static Status cut_figure(Cut *cut, const Syntax *syntax, Expr *out, Diag *diag)
 {
-    ct_session *session = cut->session;
-    Formula argument = {0};
-    double *values = NULL;
-    Run *source, *grid;
-    Status status = OK;
-    int rows;
+    double value;
 
-    if (session->runs.count == 0) {
-        diag_at(diag, E_MISSING, syntax->place,
-                "'%s' of one argument is taken over the last run, "
-                "and there is none yet",
-                syntax->text);
-        diag_hint(diag, "'simulate 10' makes one");
-        return E_MISSING;
-    }
-    source = session->runs.at + session->runs.count - 1;
-    CHECK(formula_new(session, syntax->args[0], &argument, diag));
-    grid = formula_grid(session, &argument, 1, source);
-    rows = result_rows(grid->result);
-    values = NEW_ARRAY(double, rows);
-    CHECK(formula_rows(session, &argument, 1, grid, source, NULL, rows, values, 1, 0, diag));
-    *out = push_leaf(
-        cut, (Leaf){.kind = LEAF_CONSTANT,
-                    .value = rows > 0 ? reduce(result_times(grid->result), values, rows) : NAN,
-                    .run = -1});
-done:
-    formula_free(&argument);
-    mem_free(values);
-    return status;
+    TRY(figure_value(cut->session, syntax, &value, diag));
+    *out = push_leaf(cut, (Leaf){.kind = LEAF_CONSTANT, .value = value, .run = -1});
+    return OK;
 }
 
 static Status cut_size(Cut *cut, const Syntax *syntax, Expr *out, Diag *diag)
@@ -444,12 +356,11 @@ done:
 
 static Status cut_any(Cut *cut, const Syntax *syntax, Expr *out, Diag *diag)
 {
-    Reduction *reduce = find_reduction(syntax);
     int run = 0;
     bool bare = false;
 
-    if (reduce != NULL)
-        return cut_reduction(cut, syntax, reduce, out, diag);
+    if (figure_is_called(syntax))
+        return cut_figure(cut, syntax, out, diag);
     if (syntax->kind == SYNTAX_VARIABLE && find_size(syntax->text) >= 0)
         return cut_size(cut, syntax, out, diag);
     if (is_entry(syntax))

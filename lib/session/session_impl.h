@@ -138,6 +138,8 @@ void session_remark_free(ct_session *session);
 /* --- runs --- */
 
 void run_free(Run *run);
+/* an expression of parameters as the run had them; one made since, as it is now */
+double run_number(const Run *run, Expr e);
 /* what must not come to 0 in a run, each with its event and with its value at the start */
 typedef struct BoundWatch {
     LIST(Bound) bounds;
@@ -227,6 +229,17 @@ Run *formula_grid(ct_session *session, const Formula *formulas, int count, Run *
 MUST_USE Status formula_rows(ct_session *session, const Formula *formulas, int count, Run *grid,
                              Run *source, const double *times, int rows, double *out, int stride,
                              int first, Diag *diag);
+
+/* functions of a whole run (session_figures.c): max(h8), first(h8 > 1), settling(h8, 0.1) */
+bool figure_is_called(const Syntax *syntax);
+/* E_MISSING without a run; E_VALUE where the run tells no such number */
+MUST_USE Status figure_value(ct_session *session, const Syntax *call, double *out, Diag *diag);
+
+/* what `print` would tell, at an instant of the last run or (NULL) at its end or the start */
+MUST_USE Status session_value_at(ct_session *session, const Syntax *syntax, const double *at,
+                                 double *out, Diag *diag);
+/* after parameters were defined from results, all of new names or not */
+void session_note_kept(ct_session *session, uint64_t revision, bool is_new);
 
 /* A number made of numbers, parameters and functions of runs; the same of a time. */
 MUST_USE Status session_number(ct_session *session, const Syntax *syntax, double *out, Diag *diag);

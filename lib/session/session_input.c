@@ -39,6 +39,11 @@ static double parameter_value(void *context, Expr symbol)
     return model_parameter_value(values->model, symbol);
 }
 
+double run_number(const Run *run, Expr e)
+{
+    return expr_evaluate(e, parameter_value, run->parameters);
+}
+
 void run_free(Run *run)
 {
     result_reader_free(run->reader);

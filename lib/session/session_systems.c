@@ -202,12 +202,20 @@ int session_freedoms(const ct_session *session)
     return session->freed == model_revision(session->model) + 1 ? session->freedoms : -1;
 }
 
+static const Result *run_result(const void *session, int i)
+{
+    return ((const ct_session *)session)->runs.at[i].result;
+}
+
 View session_view(const ct_session *session)
 {
     const int runs = session->runs.count;
 
     return (View){.model = session->model,
                   .result = runs > 0 ? session->runs.at[runs - 1].result : NULL,
+                  .run = run_result,
+                  .session = session,
+                  .run_count = runs,
                   .linear = session->linear,
                   .freedoms = session_freedoms(session),
                   .page = {.columns = session->hooks.columns,

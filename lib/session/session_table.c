@@ -10,7 +10,9 @@
 
 /* --- one value --- */
 
-Status session_number(ct_session *session, const Syntax *syntax, double *out, Diag *diag)
+/* a number that a message calls `what` */
+static Status number_called(ct_session *session, const Syntax *syntax, const char *what,
+                            double *out, Diag *diag)
 {
     Formula formula = {0};
     Status status;
@@ -18,7 +20,7 @@ Status session_number(ct_session *session, const Syntax *syntax, double *out, Di
     CHECK(formula_new(session, syntax, &formula, diag));
     if (formula_needs_run(&formula)) {
         status =
-            diag_at(diag, E_VALUE, syntax->place, "expected a number, or one made of parameters");
+            diag_at(diag, E_VALUE, syntax->place, "%s is a number, or made of parameters", what);
         goto done;
     }
     CHECK(formula_value(session, &formula, NULL, NULL, out, diag));
@@ -27,9 +29,14 @@ done:
     return status;
 }
 
+Status session_number(ct_session *session, const Syntax *syntax, double *out, Diag *diag)
+{
+    return number_called(session, syntax, "what stands here", out, diag);
+}
+
 Status session_instant(ct_session *session, const Syntax *at, double *out, Diag *diag)
 {
-    TRY(session_number(session, at, out, diag));
+    TRY(number_called(session, at, "an instant", out, diag));
     return model_check_unit(session->model, at, "s", "an instant", diag);
 }
 
@@ -43,8 +50,8 @@ static Status source_at(ct_session *session, const double *at, Run **out, Diag *
     return session_source(session, out, diag);
 }
 
-static Status value_of(ct_session *session, const Syntax *syntax, const double *at, double *out,
-                       Diag *diag)
+Status session_value_at(ct_session *session, const Syntax *syntax, const double *at, double *out,
+                        Diag *diag)
 {
     Formula formula = {0};
     Run *source = NULL;
@@ -85,7 +92,7 @@ ct_status ct_duration(ct_session *session, const ct_expression *expression, cons
     Diag diag = {0};
 
     session_begin(session);
-    CHECK(value_of(session, syntax_of(expression), NULL, value, &diag));
+    CHECK(session_value_at(session, syntax_of(expression), NULL, value, &diag));
     CHECK(model_check_unit(session->model, syntax_of(expression), "s", name, &diag));
 done:
     return session_report(status, &diag, error);
@@ -103,7 +110,8 @@ ct_status ct_value(ct_session *session, const ct_expression *expression, const c
     session_begin(session);
     if (at != NULL)
         CHECK(session_instant(session, syntax_of(at), &instant, &diag));
-    CHECK(value_of(session, syntax_of(expression), at != NULL ? &instant : NULL, value, &diag));
+    CHECK(session_value_at(session, syntax_of(expression), at != NULL ? &instant : NULL, value,
+                           &diag));
 done:
     return session_report(status, &diag, error);
 }
@@ -318,11 +326,11 @@ static Status expect_near(ct_session *session, const Statement *s, const Syntax 
     Status status;
     Text text = {0};
 
-    CHECK(value_of(session, left, at, &value, diag));
-    CHECK(value_of(session, s->near_value, at, &expected, diag));
+    CHECK(session_value_at(session, left, at, &value, diag));
+    CHECK(session_value_at(session, s->near_value, at, &expected, diag));
     CHECK(model_check_alike(session->model, left, s->near_value, diag));
     if (s->within != NULL) {
-        CHECK(value_of(session, s->within, at, &tolerance, diag));
+        CHECK(session_value_at(session, s->within, at, &tolerance, diag));
         CHECK(model_check_alike(session->model, left, s->within, diag));
         CHECK(model_check_alike(session->model, s->near_value, s->within, diag));
     }
@@ -351,13 +359,13 @@ static Status expect_condition(ct_session *session, const Syntax *condition, con
     Status status;
     Text text = {0};
 
-    CHECK(value_of(session, condition, at, &holds, diag));
+    CHECK(session_value_at(session, condition, at, &holds, diag));
     if (holds != 0 && !isnan(holds))
         goto done;
     syntax_print(&text, condition);
     if (is_comparison(condition)) {
-        CHECK(value_of(session, condition->args[0], at, &left, diag));
-        CHECK(value_of(session, condition->args[1], at, &right, diag));
+        CHECK(session_value_at(session, condition->args[0], at, &left, diag));
+        CHECK(session_value_at(session, condition->args[1], at, &right, diag));
         status = isfinite(left) && isfinite(right)
                      ? diag_at(diag, E_EXPECT, condition->place,
                                "%s does not hold%s: left is %.15g, right is %.15g", text.at,

@@ -123,7 +123,8 @@ static Status evaluate_leaf(ct_session *session, const Leaf *leaf, Run *run, con
         return OK;
     }
     if (!needs_run(leaf)) {
-        *out = model_number(session->model, leaf->expr);
+        *out =
+            leaf->run >= 0 ? run_number(run, leaf->expr) : model_number(session->model, leaf->expr);
         return OK;
     }
     times = result_times(run->result);

@@ -78,3 +78,6 @@ test_draw_LDADD = $(unit_ldadd)
 UNIT_TESTS += test_session_derivation
 test_session_derivation_SOURCES = tests/unit/test_session_derivation.c tests/unit/session_kit.h tests/unit/test.h
 test_session_derivation_LDADD = $(unit_ldadd)
+UNIT_TESTS += test_session_figures
+test_session_figures_SOURCES = tests/unit/test_session_figures.c tests/unit/session_kit.h tests/unit/test.h
+test_session_figures_LDADD = $(unit_ldadd)

@@ -70,3 +70,13 @@ const double *result_times(const Result *r)
 {
     return r->grid.times;
 }
+
+int result_corner_count(const Result *r)
+{
+    return r->corners.count;
+}
+
+const double *result_corner_times(const Result *r)
+{
+    return r->corners.times;
+}

@@ -62,5 +62,8 @@ int result_event_count(const Result *result);
 EventRecord result_event(const Result *result, int i);
 int result_rows(const Result *result);
 const double *result_times(const Result *result);
+/* instants at which it may jump or bend, rising, each maybe twice */
+int result_corner_count(const Result *result);
+const double *result_corner_times(const Result *result);
 
 #endif

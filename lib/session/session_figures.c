@@ -1,0 +1,493 @@
+/* session_figures.c: functions of a whole run: max(h8), mean, rms, final, first, settling, period
+ *
+ * They are of the motion, not of the rows that were asked for: the course of the argument is read
+ * between rows from the dense output, in pieces as short as the integrator's steps and never across
+ * an event. Means are quadratures, halved until halves agree; extremes and instants are closed in
+ * on. */
+#include "session/session_impl.h"
+
+#include <assert.h>
+#include <math.h>
+#include <string.h>
+
+enum {
+    POINTS = 7,    /* of a piece, by Gauss and Legendre: exact to degree 13 */
+    SAMPLES = 9,   /* of a piece: these, and its ends from inside */
+    MOST = 40000,  /* pieces */
+    HALVINGS = 10, /* of a piece; a kink within is then some 1e-3 of it */
+    CLOSER = 16,   /* rounds of SAMPLES instants, each a tenth as long */
+    MOST_PEAKS = 8 /* candidates for an extreme that are closed in on */
+};
+#define INSIDE 1e-9  /* of a piece: how far within it its ends are taken */
+#define AGREE  1e-12 /* of the mean size: halves of a piece that differ by less agree */
+#define EVEN   0.1   /* crossings that are further from even tell no period */
+
+static const double nodes[POINTS] = {
+    -0.9491079123427585, -0.7415311855993945, -0.4058451513773972, 0,
+    0.4058451513773972,  0.7415311855993945,  0.9491079123427585};
+static const double weights[POINTS] = {0.1294849661688697, 0.2797053914892766, 0.3818300505051189,
+                                       0.4179591836734694, 0.3818300505051189, 0.2797053914892766,
+                                       0.1294849661688697};
+
+typedef struct Course { /* of one formula over one run */
+    ct_session *session;
+    const Syntax *call;
+    Formula formula;
+    Run *source, *grid;
+    LIST(double) ends;   /* of pieces, rising */
+    LIST(double) times;  /* samples, SAMPLES a piece, */
+    LIST(double) values; /* and the formula there */
+} Course;
+
+static void course_free(Course *course)
+{
+    formula_free(&course->formula);
+    LIST_FREE(course->ends);
+    LIST_FREE(course->times);
+    LIST_FREE(course->values);
+}
+
+static Status course_at(const Course *course, const double *times, int count, double *out,
+                        Diag *diag)
+{
+    return formula_rows(course->session, &course->formula, 1, course->grid, course->source, times,
+                        count, out, 1, 0, diag);
+}
+
+/* --- pieces --- */
+
+static void add_piece(Course *course, double to, int parts)
+{
+    const double from = course->ends.at[course->ends.count - 1];
+
+    for (int k = 1; k < parts; k++)
+        LIST_PUSH(course->ends, from + (to - from) * k / parts);
+    LIST_PUSH(course->ends, to);
+}
+
+/* from row to row and corner to corner, no longer than half the mean step */
+static void cut_pieces(Course *course)
+{
+    const Result *result = course->grid->result;
+    const double *rows = result_times(result), *corners = result_corner_times(result);
+    const int row_count = result_rows(result), corner_count = result_corner_count(result);
+    const double span = rows[row_count - 1] - rows[0];
+    const double most = fmin(2.0 * (double)result_report(result)->steps, MOST);
+    int corner = 0;
+
+    LIST_PUSH(course->ends, rows[0]);
+    for (int i = 1; i <= row_count - 1 && span > 0;) {
+        const double last = course->ends.at[course->ends.count - 1];
+        double next = rows[i];
+
+        while (corner < corner_count && corners[corner] <= last)
+            corner++;
+        if (corner < corner_count && corners[corner] < next)
+            next = corners[corner];
+        if (next > last)
+            add_piece(course, next, 1 + (int)((next - last) / span * most));
+        if (next == rows[i])
+            i++;
+    }
+}
+
+static Status course_sample(Course *course, Diag *diag)
+{
+    cut_pieces(course);
+    for (int i = 1; i < course->ends.count; i++) {
+        const double a = course->ends.at[i - 1], b = course->ends.at[i];
+
+        LIST_PUSH(course->times, a);
+        for (int k = 0; k < POINTS; k++)
+            LIST_PUSH(course->times, (a + b) / 2 + (b - a) / 2 * nodes[k]);
+        LIST_PUSH(course->times, b - INSIDE * (b - a));
+    }
+    LIST_PUSH(course->times, course->ends.at[course->ends.count - 1]);
+    LIST_ROOM(course->values, course->times.count);
+    course->values.count = course->times.count;
+    return course_at(course, course->times.at, course->times.count, course->values.at, diag);
+}
+
+/* --- means --- */
+
+typedef struct Piece {
+    double a, b, sum; /* the integral over it */
+} Piece;
+typedef LIST(Piece) Pieces;
+
+static double sum_up(const Piece *piece, const double *values, int power)
+{
+    double sum = 0;
+
+    for (int k = 0; k < POINTS; k++)
+        sum += weights[k] * (power == 2 ? values[k] * values[k] : values[k]);
+    return sum * (piece->b - piece->a) / 2;
+}
+
+/* the integrals over both halves of each piece */
+static Status halve(const Course *course, const Pieces *pieces, int power, Pieces *halves,
+                    Diag *diag)
+{
+    const int count = 2 * pieces->count;
+    double *times = NEW_ARRAY(double, POINTS *count), *values = NEW_ARRAY(double, POINTS *count);
+    Status status = OK;
+
+    for (int i = 0; i < count; i++) {
+        const Piece *whole = &pieces->at[i / 2];
+        const double middle = (whole->a + whole->b) / 2;
+        const Piece half = {i % 2 == 0 ? whole->a : middle, i % 2 == 0 ? middle : whole->b, 0};
+
+        LIST_PUSH(*halves, half);
+        for (int k = 0; k < POINTS; k++)
+            times[i * POINTS + k] = (half.a + half.b) / 2 + (half.b - half.a) / 2 * nodes[k];
+    }
+    CHECK(course_at(course, times, POINTS * count, values, diag));
+    for (int i = 0; i < count; i++)
+        halves->at[i].sum = sum_up(&halves->at[i], values + (size_t)i * POINTS, power);
+done:
+    MEM_FREE(times, values);
+    return status;
+}
+
+/* the mean of a power; pieces are halved where halves tell another integral */
+static Status mean_of(const Course *course, int power, double *out, Diag *diag)
+{
+    const double span = course->ends.at[course->ends.count - 1] - course->ends.at[0];
+    Pieces open = {0}, halves = {0};
+    double sum = 0, size = 0;
+    Status status = OK;
+
+    *out = power == 2 ? course->values.at[0] * course->values.at[0] : course->values.at[0];
+    if (!(span > 0))
+        return OK;
+    for (int i = 1; i < course->ends.count; i++) {
+        Piece piece = {course->ends.at[i - 1], course->ends.at[i], 0};
+
+        piece.sum = sum_up(&piece, course->values.at + (size_t)(i - 1) * SAMPLES + 1, power);
+        size += fabs(piece.sum);
+        LIST_PUSH(open, piece);
+    }
+    for (int k = 0; open.count > 0; k++) {
+        int left = 0;
+
+        halves.count = 0;
+        CHECK(halve(course, &open, power, &halves, diag));
+        assert(halves.at != NULL);
+        for (int i = 0; i < open.count; i++) {
+            const double both = halves.at[2 * i].sum + halves.at[2 * i + 1].sum;
+            const double bound = AGREE * size * fmax((open.at[i].b - open.at[i].a) / span, 1e-3);
+
+            if (k < HALVINGS && fabs(both - open.at[i].sum) > bound) {
+                halves.at[left++] = halves.at[2 * i];
+                halves.at[left++] = halves.at[2 * i + 1];
+            } else {
+                sum += both;
+            }
+        }
+        halves.count = left;
+
+        const Pieces swap = open;
+
+        open = halves;
+        halves = swap;
+    }
+    *out = sum / span;
+done:
+    LIST_FREE(open);
+    LIST_FREE(halves);
+    return status;
+}
+
+static Status figure_mean(const Course *course, double band, double *out, Diag *diag)
+{
+    (void)band;
+    return mean_of(course, 1, out, diag);
+}
+
+static Status figure_rms(const Course *course, double band, double *out, Diag *diag)
+{
+    (void)band;
+    TRY(mean_of(course, 2, out, diag));
+    *out = sqrt(*out);
+    return OK;
+}
+
+/* --- extremes --- */
+
+/* the largest of sign * value around sample k: ends of pieces are next to beginnings of others */
+static Status close_in(const Course *course, int k, double sign, double *best, Diag *diag)
+{
+    const int last = course->times.count - 1;
+    double a = course->times.at[k > 2 ? k - 2 : 0];
+    double b = course->times.at[k < last - 2 ? k + 2 : last];
+
+    for (int round = 0; round < CLOSER / 2 && b > a; round++) {
+        double times[SAMPLES], values[SAMPLES];
+        int highest = 0;
+
+        for (int i = 0; i < SAMPLES; i++)
+            times[i] = a + (b - a) * (i + 1) / (SAMPLES + 1);
+        TRY(course_at(course, times, SAMPLES, values, diag));
+        for (int i = 0; i < SAMPLES; i++) {
+            highest = sign * values[i] > sign * values[highest] ? i : highest;
+            *best = fmax(*best, sign * values[i]);
+        }
+        a = highest > 0 ? times[highest - 1] : a;
+        b = highest < SAMPLES - 1 ? times[highest + 1] : b;
+    }
+    return OK;
+}
+
+/* the highest peak among the samples that is lower than `below`, or as high and further on than
+ * `behind`; -1: there is none */
+static int next_peak(const Course *course, double sign, double below, int behind)
+{
+    const double *x = course->values.at;
+    const int count = course->values.count;
+    int found = -1;
+
+    for (int i = 0; i < count; i++) {
+        const double here = sign * x[i];
+        const bool is_peak =
+            (i == 0 || here >= sign * x[i - 1]) && (i == count - 1 || here >= sign * x[i + 1]);
+
+        if (is_peak && (here < below || (here == below && i > behind)) &&
+            (found < 0 || here > sign * x[found]))
+            found = i;
+    }
+    return found;
+}
+
+/* rows hold both sides of an event */
+static Status best_of_rows(const Course *course, double sign, double *best, double *least,
+                           Diag *diag)
+{
+    const int rows = result_rows(course->grid->result);
+    double *values = NEW_ARRAY(double, rows);
+    Status status;
+
+    CHECK(formula_rows(course->session, &course->formula, 1, course->grid, course->source, NULL,
+                       rows, values, 1, 0, diag));
+    *best = -INFINITY;
+    *least = INFINITY;
+    for (int i = 0; i < rows; i++) {
+        *best = !isnan(*best) && (isnan(values[i]) || sign * values[i] > *best) ? sign * values[i]
+                                                                                : *best;
+        *least = fmin(*least, sign * values[i]);
+    }
+done:
+    mem_free(values);
+    return status;
+}
+
+/* A peak between samples rises by no more than a part of what all of them span. */
+static Status extreme(const Course *course, double sign, double *out, Diag *diag)
+{
+    double best, least, sampled, last = INFINITY;
+    int peak = -1;
+
+    TRY(best_of_rows(course, sign, &best, &least, diag));
+    for (int i = 0; i < course->values.count && !isnan(best); i++) {
+        const double here = sign * course->values.at[i];
+
+        best = isnan(here) ? NAN : fmax(best, here);
+        least = fmin(least, here);
+    }
+    sampled = best;
+    for (int k = 0; k < MOST_PEAKS && best > least; k++) {
+        peak = next_peak(course, sign, last, peak);
+        if (peak < 0 || sign * course->values.at[peak] < sampled - 0.05 * (sampled - least))
+            break;
+        last = sign * course->values.at[peak];
+        TRY(close_in(course, peak, sign, &best, diag));
+    }
+    *out = sign * best;
+    return OK;
+}
+
+static Status figure_max(const Course *course, double band, double *out, Diag *diag)
+{
+    (void)band;
+    return extreme(course, 1, out, diag);
+}
+
+static Status figure_min(const Course *course, double band, double *out, Diag *diag)
+{
+    (void)band;
+    return extreme(course, -1, out, diag);
+}
+
+static Status figure_final(const Course *course, double band, double *out, Diag *diag)
+{
+    (void)band, (void)diag;
+    *out = course->values.at[course->values.count - 1];
+    return OK;
+}
+
+/* --- instants --- */
+
+typedef bool Holds(double value, double level, double band);
+
+static bool is_true(double value, double level, double band)
+{
+    (void)level, (void)band;
+    return value != 0;
+}
+
+static bool is_above(double value, double level, double band)
+{
+    (void)band;
+    return value >= level;
+}
+
+static bool is_within(double value, double level, double band)
+{
+    return fabs(value - level) <= band;
+}
+
+/* where it begins to hold between sample k - 1, where it doesn't, and k */
+static Status instant(const Course *course, int k, Holds *holds, double level, double band,
+                      double *out, Diag *diag)
+{
+    double a = course->times.at[k - 1], b = course->times.at[k];
+
+    for (int round = 0; round < CLOSER; round++) {
+        double times[SAMPLES], values[SAMPLES];
+        int first = 0;
+
+        for (int i = 0; i < SAMPLES; i++)
+            times[i] = a + (b - a) * (i + 1) / (SAMPLES + 1);
+        TRY(course_at(course, times, SAMPLES, values, diag));
+        while (first < SAMPLES && !holds(values[first], level, band))
+            first++;
+        a = first > 0 ? times[first - 1] : a;
+        b = first < SAMPLES ? times[first] : b;
+    }
+    *out = b;
+    return OK;
+}
+
+static Status figure_first(const Course *course, double band, double *out, Diag *diag)
+{
+    int k = 0;
+
+    (void)band;
+    while (k < course->values.count && !is_true(course->values.at[k], 0, 0))
+        k++;
+    if (k == course->values.count) {
+        (void)diag_at(diag, E_VALUE, course->call->args[0]->place,
+                      "this holds at no instant of the run");
+        diag_hint(diag, "'max' and 'min' tell how far it came");
+        return E_VALUE;
+    }
+    *out = course->times.at[k];
+    return k == 0 ? OK : instant(course, k, is_true, 0, 0, out, diag);
+}
+
+static Status figure_settling(const Course *course, double band, double *out, Diag *diag)
+{
+    const double level = course->values.at[course->values.count - 1];
+    int k = course->values.count - 1;
+
+    if (!(band > 0))
+        return diag_at(diag, E_VALUE, course->call->args[1]->place,
+                       "the band has to be above 0, not %g", band);
+    while (k > 0 && is_within(course->values.at[k - 1], level, band))
+        k--;
+    *out = course->times.at[0];
+    if (k > 0)
+        TRY(instant(course, k, is_within, level, band, out, diag));
+    *out -= course->times.at[0];
+    return OK;
+}
+
+/* from the first to the last time that it rises through its mean */
+static Status figure_period(const Course *course, double band, double *out, Diag *diag)
+{
+    double mean, from, to, least = INFINITY, most = 0;
+    int first = -1, last = -1, crossings = 0;
+
+    (void)band;
+    TRY(mean_of(course, 1, &mean, diag));
+    for (int k = 1; k < course->values.count; k++) {
+        if (!(course->values.at[k - 1] < mean && course->values.at[k] >= mean))
+            continue;
+        if (last >= 0) {
+            least = fmin(least, course->times.at[k] - course->times.at[last]);
+            most = fmax(most, course->times.at[k] - course->times.at[last]);
+        }
+        first = first < 0 ? k : first;
+        last = k;
+        crossings++;
+    }
+    if (crossings < 2) {
+        (void)diag_at(diag, E_VALUE, course->call->place,
+                      "it rises through its mean %s in the run, so no period can be told",
+                      crossings == 0 ? "never" : "once");
+        diag_hint(diag, "a longer run shows more of it");
+        return E_VALUE;
+    }
+    TRY(instant(course, first, is_above, mean, 0, &from, diag));
+    TRY(instant(course, last, is_above, mean, 0, &to, diag));
+    *out = (to - from) / (crossings - 1);
+    if (most - least > EVEN * *out && crossings > 2) {
+        (void)diag_at(diag, E_VALUE, course->call->place,
+                      "it isn't periodic: it rises through its mean after %.3g to %.3g s", least,
+                      most);
+        return E_VALUE;
+    }
+    return OK;
+}
+
+/* --- the table --- */
+
+static const struct {
+    const char *name;
+    int args;
+    Status (*value)(const Course *course, double band, double *out, Diag *diag);
+} figures[] = {{"min", 1, figure_min},       {"max", 1, figure_max},
+               {"mean", 1, figure_mean},     {"rms", 1, figure_rms},
+               {"final", 1, figure_final},   {"first", 1, figure_first},
+               {"period", 1, figure_period}, {"settling", 2, figure_settling}};
+
+static int find_figure(const Syntax *syntax)
+{
+    for (int i = 0; syntax->kind == SYNTAX_CALL && i < COUNT(figures); i++)
+        if (figures[i].args == syntax->count && strcmp(figures[i].name, syntax->text) == 0)
+            return i;
+    return -1;
+}
+
+bool figure_is_called(const Syntax *syntax)
+{
+    return find_figure(syntax) >= 0;
+}
+
+Status figure_value(ct_session *session, const Syntax *call, double *out, Diag *diag)
+{
+    const int figure = find_figure(call);
+    Course course = {.session = session, .call = call};
+    double band = 0;
+    Status status = OK;
+
+    if (session->runs.count == 0) {
+        diag_at(diag, E_MISSING, call->place,
+                "'%s' %sis taken over the last run, and there is none yet", call->text,
+                call->count == 1 ? "of one argument " : "");
+        diag_hint(diag, "'simulate 10' makes one");
+        return E_MISSING;
+    }
+    course.source = session->runs.at + session->runs.count - 1;
+    CHECK(formula_new(session, call->args[0], &course.formula, diag));
+    course.grid = formula_grid(session, &course.formula, 1, course.source);
+    *out = NAN;
+    if (result_rows(course.grid->result) == 0)
+        goto done;
+    if (call->count > 1)
+        CHECK(session_number(session, call->args[1], &band, diag));
+    CHECK(course_sample(&course, diag));
+    CHECK(figures[figure].value(&course, band, out, diag));
+done:
+    course_free(&course);
+    return status;
+}

@@ -1,0 +1,124 @@
+/* test_session_figures.c: functions of runs against closed forms, whatever the rows; `keep` */
+#include "session_kit.h"
+
+#include <math.h>
+
+#define SWING                                                                                      \
+    "scene planar\nbody b mass=1 inertia=1\nrevolute h ground b\nspring k1 h k=4\n"                \
+    "init h = 0.5, h' = 2\n"
+#define BALL                                                                                       \
+    "scene planar\ngravity [0, -9.81]\nbody b mass=1 inertia=1\nprismatic s ground b axis=y\n"     \
+    "init s = 1\nevent hit when=s < 0 s'=-0.8*s'\n"
+
+static const char *const grids[] = {"0.01", "0.37", "1", "7.9", "10"};
+
+/* h = 0.5 cos 2t + sin 2t */
+static void a_swing_has_its_closed_forms_at_any_rows(void)
+{
+    const double T = 10, A = sqrt(1.25);
+    const double mean = (0.25 * sin(2 * T) + 0.5 - 0.5 * cos(2 * T)) / T;
+    const double square =
+        A * A / 2 + (0.25 - 1) / 2 * sin(4 * T) / (4 * T) + 0.5 * (1 - cos(4 * T)) / (4 * T);
+
+    for (size_t i = 0; i < sizeof grids / sizeof grids[0]; i++) {
+        char line[80];
+        Kit kit = kit_new();
+
+        (void)snprintf(line, sizeof line, "simulate 10 every=%s rtol=1e-11 atol=1e-12", grids[i]);
+        EXPECT_DONE(&kit, SWING);
+        EXPECT_DONE(&kit, line);
+        EXPECT_NEAR(kit_value(&kit, "max(h)"), A, 1e-9);
+        EXPECT_NEAR(kit_value(&kit, "min(h)"), -A, 1e-9);
+        EXPECT_NEAR(kit_value(&kit, "mean(h)"), mean, 1e-9);
+        EXPECT_NEAR(kit_value(&kit, "rms(h)"), sqrt(square), 1e-9);
+        EXPECT_NEAR(kit_value(&kit, "period(h)"), M_PI, 1e-8);
+        EXPECT_NEAR(kit_value(&kit, "first(h < 0)"), (M_PI - atan(0.5)) / 2, 1e-9);
+        EXPECT_NEAR(kit_value(&kit, "final(h)"), 0.5 * cos(2 * T) + sin(2 * T), 1e-8);
+        EXPECT_NEAR(kit_value(&kit, "mean(abs(h'))"), kit_value(&kit, "mean(if(h' > 0, h', -h'))"),
+                    1e-8);
+        EXPECT_NEAR(kit_value(&kit, "max(h) - 2*rms(h)"), A - 2 * sqrt(square), 1e-9);
+        kit_free(&kit);
+    }
+}
+
+/* falls from 1 m, and leaves the ground with 0.8 of its speed */
+static void a_ball_jumps_between_rows(void)
+{
+    const double g = 9.81, fall = sqrt(2 / g), v = sqrt(2 * g);
+
+    for (size_t i = 0; i < sizeof grids / sizeof grids[0]; i++) {
+        char line[80];
+        Kit kit = kit_new();
+
+        (void)snprintf(line, sizeof line, "simulate 1.1 every=%s", grids[i]);
+        EXPECT_DONE(&kit, BALL);
+        EXPECT_DONE(&kit, line);
+        EXPECT_NEAR(kit_value(&kit, "min(s')"), -v, 1e-7);
+        EXPECT_NEAR(kit_value(&kit, "max(s')"), 0.8 * v, 1e-7);
+        EXPECT_NEAR(kit_value(&kit, "first(s' > 0)"), fall, 1e-7);
+        EXPECT_NEAR(kit_value(&kit, "first(s < 0.5)"), sqrt(1 / g), 1e-8);
+        /* the mean speed is the way */
+        EXPECT_NEAR(1.1 * kit_value(&kit, "mean(s')"),
+                    0.8 * v * (1.1 - fall) - g / 2 * (1.1 - fall) * (1.1 - fall) - 1, 1e-8);
+        kit_free(&kit);
+    }
+}
+
+/* exp(-t): within a hundredth of its end from ln 100 and a little on */
+static void what_decays_settles(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, "vsource V a 0 1\nresistor R a b 1\ncapacitor C b 0 1\ninit C.v = 0\n"
+                      "simulate 12 every=3 rtol=1e-10 atol=1e-12");
+    EXPECT_NEAR(kit_value(&kit, "settling(C.v, 0.01)"), -log(0.01 + exp(-12)), 1e-6);
+    EXPECT_FAILS(&kit, "print settling(C.v, 0)", "above 0");
+    EXPECT_FAILS(&kit, "print period(C.v)", "no period can be told");
+    EXPECT_FAILS(&kit, "print first(C.v > 2)", "at no instant");
+    EXPECT_FAILS(&kit, "print settling(C.v)", "settling");
+    kit_free(&kit);
+}
+
+static void what_is_kept_is_a_number_with_its_unit(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, SWING "simulate 1\nkeep A = max(h), v = h'\nkeep early = h at 0");
+    EXPECT_NEAR(kit_value(&kit, "early"), 0.5, 1e-15);
+    EXPECT_NEAR(kit_value(&kit, "v - h'"), 0, 1e-15);
+    EXPECT_DONE(&kit, "simulate 2\nprint A");
+    EXPECT_NEAR(kit_value(&kit, "A - max(run1.h)"), 0, 1e-15);
+    EXPECT_DONE(&kit, "keep A = 7");
+    EXPECT_NEAR(kit_value(&kit, "A"), 7, 0);
+    EXPECT_FAILS(&kit, "keep B = 2, C = 1/0", "division by zero");
+    EXPECT_FAILS(&kit, "print B", "unknown name");
+    EXPECT_FAILS(&kit, "keep B = 2, b = 3", "b");
+    EXPECT_FAILS(&kit, "print B", "unknown name");
+    EXPECT_FAILS(&kit, "keep h' = 3", "primes");
+    EXPECT_DONE(&kit, "show runs");
+    EXPECT_HOLDS(kit.text, "run2  simulate  0 ... 2 s");
+    EXPECT_DONE(&kit, "show init");
+    EXPECT_HOLDS(kit.text, "init h' = 2\n");
+    kit_free(&kit);
+}
+
+static void a_run_remembers_its_parameters(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, SWING "L = 3\nsimulate 1\nL = 4\nunused = L^2\nsimulate 1");
+    EXPECT_NEAR(kit_value(&kit, "run1.L"), 3, 0);
+    EXPECT_NEAR(kit_value(&kit, "run2.L + L"), 8, 0);
+    EXPECT_NEAR(kit_value(&kit, "run2.unused"), 16, 0);
+    kit_free(&kit);
+}
+
+int main(void)
+{
+    RUN(a_swing_has_its_closed_forms_at_any_rows);
+    RUN(a_ball_jumps_between_rows);
+    RUN(what_decays_settles);
+    RUN(what_is_kept_is_a_number_with_its_unit);
+    RUN(a_run_remembers_its_parameters);
+    return test_end();
+}
