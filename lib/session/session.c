@@ -232,18 +232,6 @@ void session_note_change(ct_session *session, uint64_t revision, bool trees_only
     session_sweep(session);
 }
 
-void session_note_kept(ct_session *session, uint64_t revision, bool is_new)
-{
-    const bool is_later = session->start_is_later;
-
-    if (model_revision(session->model) == revision)
-        return;
-    note_change(session, revision, true);
-    /* nothing depends on a new name: bare ones still mean the run */
-    if (is_new)
-        session->start_is_later = is_later;
-}
-
 /* Trees that take freedoms away are refused at once where the present values can be assembled, and
  * what was before stays. */
 static Status try_trees(ct_session *session, const Statement *s, Diag *diag)

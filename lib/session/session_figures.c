@@ -15,8 +15,9 @@ enum {
     SAMPLES = 9,   /* of a piece: these, and its ends from inside */
     MOST = 40000,  /* pieces */
     HALVINGS = 10, /* of a piece; a kink within is then some 1e-3 of it */
-    CLOSER = 16,   /* rounds of SAMPLES instants, each a tenth as long */
-    MOST_PEAKS = 8 /* candidates for an extreme that are closed in on */
+    CLOSER = 16,   /* rounds of SAMPLES instants for an instant, each a tenth as long, */
+    CLOSE = 5,     /* and for an extreme, which is flat there, each a fifth */
+    MOST_PEAKS = 3 /* candidates for an extreme that are closed in on */
 };
 #define INSIDE 1e-9  /* of a piece: how far within it its ends are taken */
 #define AGREE  1e-12 /* of the mean size: halves of a piece that differ by less agree */
@@ -221,7 +222,7 @@ static Status close_in(const Course *course, int k, double sign, double *best, D
     double a = course->times.at[k > 2 ? k - 2 : 0];
     double b = course->times.at[k < last - 2 ? k + 2 : last];
 
-    for (int round = 0; round < CLOSER / 2 && b > a; round++) {
+    for (int round = 0; round < CLOSE && b > a; round++) {
         double times[SAMPLES], values[SAMPLES];
         int highest = 0;
 

@@ -238,8 +238,6 @@ MUST_USE Status figure_value(ct_session *session, const Syntax *call, double *ou
 /* what `print` would tell, at an instant of the last run or (NULL) at its end or the start */
 MUST_USE Status session_value_at(ct_session *session, const Syntax *syntax, const double *at,
                                  double *out, Diag *diag);
-/* after parameters were defined from results, all of new names or not */
-void session_note_kept(ct_session *session, uint64_t revision, bool is_new);
 
 /* A number made of numbers, parameters and functions of runs; the same of a time. */
 MUST_USE Status session_number(ct_session *session, const Syntax *syntax, double *out, Diag *diag);

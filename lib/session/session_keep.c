@@ -42,6 +42,18 @@ static bool is_parameter(const Model *model, const char *name)
     return is;
 }
 
+/* nothing depends on new names yet: then bare ones still mean the run */
+static void note(ct_session *session, uint64_t revision, bool is_new)
+{
+    const bool is_later = session->start_is_later;
+
+    if (model_revision(session->model) == revision)
+        return;
+    session_note_change(session, revision, true);
+    if (is_new)
+        session->start_is_later = is_later;
+}
+
 static void tell_nothing(const ct_session *session, Text *out)
 {
     (void)session, (void)out;
@@ -88,7 +100,7 @@ Status session_keep(ct_session *session, const Statement *s, Diag *diag)
         CHECK(define(session, &s->pairs.at[done_so_far], texts.at[done_so_far], diag));
     for (int i = 0; i < texts.count; i++)
         session_remark(session, texts.at[i]);
-    session_note_kept(session, revision, is_new);
+    note(session, revision, is_new);
     session->told = tell_nothing;
 done:
     for (; status != OK && done_so_far > 0; done_so_far--)

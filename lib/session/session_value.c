@@ -206,6 +206,23 @@ done:
     return status;
 }
 
+/* a leaf of a run along given times; an instant that the run hasn't is refused as that one */
+static Status leaf_along(ct_session *session, const Leaf *leaf, Run *run, const double *times,
+                         int rows, double *out, Diag *diag)
+{
+    double *snapped = NEW_ARRAY(double, rows);
+    Status status;
+
+    for (int r = 0; r < rows; r++)
+        snapped[r] = snap(run->result, times[r]);
+    status = result_reader_values_along(run->reader, leaf->expr, snapped, rows, &session->watch,
+                                        out, diag);
+    mem_free(snapped);
+    for (int r = 0; status == E_VALUE && r < rows; r++)
+        TRY(evaluate_leaf(session, leaf, run, &times[r], &out[r], diag));
+    return status;
+}
+
 /* columns of the other leaves, at given times */
 static Status other_rows(ct_session *session, const Formula *formulas, int count, const Run *own,
                          Run *source, const double *times, double **columns, int rows, Diag *diag)
@@ -223,6 +240,10 @@ static Status other_rows(ct_session *session, const Formula *formulas, int count
             if (leaf->kind == LEAF_VARIABLE && needs_run(leaf) && run != prepared) {
                 TRY(result_reader_prepare(run->reader, times, rows, &session->watch, diag));
                 prepared = run;
+            }
+            if (leaf->kind == LEAF_VARIABLE && needs_run(leaf)) {
+                TRY(leaf_along(session, leaf, run, times, rows, columns[place], diag));
+                continue;
             }
             for (int r = 0; r < rows; r++) {
                 TRY(poll(&session->watch));

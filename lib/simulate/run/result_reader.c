@@ -133,6 +133,32 @@ done:
     return status;
 }
 
+Status result_reader_values_along(ResultReader *reader, Expr item, const double *times, int count,
+                                  const Watch *watch, double *values, Diag *diag)
+{
+    const Phase *of = NULL; /* that the probe is of */
+    Probe *probe = NULL;
+    Status status = OK;
+
+    for (int i = 0; i < count; i++) {
+        Phase *phase = NULL;
+        const double *y = NULL, *driven = NULL;
+
+        CHECK(poll(watch));
+        CHECK(result_reader_at(reader, times[i], &phase, &y, &driven, diag));
+        if (phase != of) {
+            probe_free(probe);
+            probe = NULL;
+            CHECK(phases_probe(reader->phases, phase, &item, 1, &probe, diag));
+            of = phase;
+        }
+        phase_probe_at(phase, probe, times[i], y, driven, 1, &values[i]);
+    }
+done:
+    probe_free(probe);
+    return status;
+}
+
 /* --- one question --- */
 
 Status result_values(const Result *result, const Expr *items, int count, double *out, Diag *diag)

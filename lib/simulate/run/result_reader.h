@@ -26,6 +26,11 @@ MUST_USE Status result_reader_prepare(ResultReader *reader, const double *times,
 MUST_USE Status result_reader_values_at(ResultReader *reader, const Expr *items, int count,
                                         double at, double *out, Diag *diag);
 
+/* The same at several instants, rising: values[i] of one expression. */
+MUST_USE Status result_reader_values_along(ResultReader *reader, Expr item, const double *times,
+                                           int count, const Watch *watch, double *values,
+                                           Diag *diag);
+
 /* Both for one question alone, with a reader of its own. */
 MUST_USE Status result_values(const Result *result, const Expr *items, int count, double *out,
                               Diag *diag);
