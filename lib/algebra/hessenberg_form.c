@@ -16,8 +16,7 @@ struct HessenbergForm {
     int n;
     gsl_matrix *h; /* 0 below the diagonal under the main one */
     gsl_vector *d; /* D */
-    double *v; /* Q = P_0 P_1 ..., P_k = 1 - share_k v_k v_k^T: row k, from its k+1st entry on */
-    double *share;
+    double *q;     /* n x n: Q = P_0 P_1 ..., P_k = 1 - share v v^T */
 };
 
 struct ShiftedFactors {
@@ -30,35 +29,112 @@ struct ShiftedFactors {
 
 /* --- rows --- */
 
-static double dot(const double *a, const double *b, int n)
-{
-    double s0 = 0, s1 = 0, s2 = 0, s3 = 0;
-    int i = 0;
+/* Four at a time, as wide as the processor that runs has it: numbers are the same. */
+typedef double Four __attribute__((vector_size(32), aligned(8), may_alias));
+#if defined __x86_64__ && defined __GLIBC__ && !defined __clang__
+#define AS_WIDE_AS_CAN_BE __attribute__((target_clones("avx2", "default")))
+#else
+#define AS_WIDE_AS_CAN_BE
+#endif
+#define FOUR(row)     (*(Four *)(row))
+#define FOUR_OF(row)  (*(const Four *)(row))
+#define SUM_OF(four)  (((four)[0] + (four)[1]) + ((four)[2] + (four)[3]))
+#define WHOLE_FOUR(n) ((n) - (n) % 4)
 
-    for (; i + 4 <= n; i += 4) {
-        s0 += a[i] * b[i];
-        s1 += a[i + 1] * b[i + 1];
-        s2 += a[i + 2] * b[i + 2];
-        s3 += a[i + 3] * b[i + 3];
-    }
-    for (; i < n; i++)
-        s0 += a[i] * b[i];
-    return (s0 + s1) + (s2 + s3);
+AS_WIDE_AS_CAN_BE static double dot(const double *a, const double *b, int n)
+{
+    Four sum = {0};
+
+    for (int i = 0; i < WHOLE_FOUR(n); i += 4)
+        sum += FOUR_OF(a + i) * FOUR_OF(b + i);
+    for (int i = WHOLE_FOUR(n); i < n; i++)
+        sum[0] += a[i] * b[i];
+    return SUM_OF(sum);
 }
 
-/* a += f b; four at a time, which compilers make two instructions of */
-static void add_row(double *restrict a, double f, const double *restrict b, int n)
+/* a += f b */
+AS_WIDE_AS_CAN_BE static void add_row(double *restrict a, double f, const double *restrict b, int n)
 {
-    int i = 0;
+    for (int i = 0; i < WHOLE_FOUR(n); i += 4)
+        FOUR(a + i) += f * FOUR_OF(b + i);
+    for (int i = WHOLE_FOUR(n); i < n; i++)
+        a[i] += f * b[i];
+}
 
-    for (; i + 4 <= n; i += 4) {
-        a[i] += f * b[i];
-        a[i + 1] += f * b[i + 1];
-        a[i + 2] += f * b[i + 2];
-        a[i + 3] += f * b[i + 3];
+/* sum of a b, complex: into *re, *im */
+AS_WIDE_AS_CAN_BE static void dot_complex(const double *a_re, const double *a_im,
+                                          const double *b_re, const double *b_im, int n, double *re,
+                                          double *im)
+{
+    Four x = {0}, y = {0};
+
+    for (int i = 0; i < WHOLE_FOUR(n); i += 4) {
+        x += FOUR_OF(a_re + i) * FOUR_OF(b_re + i) - FOUR_OF(a_im + i) * FOUR_OF(b_im + i);
+        y += FOUR_OF(a_re + i) * FOUR_OF(b_im + i) + FOUR_OF(a_im + i) * FOUR_OF(b_re + i);
     }
-    for (; i < n; i++)
-        a[i] += f * b[i];
+    for (int i = WHOLE_FOUR(n); i < n; i++) {
+        x[0] += a_re[i] * b_re[i] - a_im[i] * b_im[i];
+        y[0] += a_re[i] * b_im[i] + a_im[i] * b_re[i];
+    }
+    *re = SUM_OF(x);
+    *im = SUM_OF(y);
+}
+
+/* a -= f b, complex */
+AS_WIDE_AS_CAN_BE static void take_complex(double *restrict a_re, double *restrict a_im, double re,
+                                           double im, const double *restrict b_re,
+                                           const double *restrict b_im, int n)
+{
+    for (int i = 0; i < WHOLE_FOUR(n); i += 4) {
+        FOUR(a_re + i) -= re * FOUR_OF(b_re + i) - im * FOUR_OF(b_im + i);
+        FOUR(a_im + i) -= re * FOUR_OF(b_im + i) + im * FOUR_OF(b_re + i);
+    }
+    for (int i = WHOLE_FOUR(n); i < n; i++) {
+        a_re[i] -= re * b_re[i] - im * b_im[i];
+        a_im[i] -= re * b_im[i] + im * b_re[i];
+    }
+}
+
+/* out = q x */
+AS_WIDE_AS_CAN_BE static void times(const double *restrict q, const double *restrict x, int n,
+                                    double *restrict out)
+{
+    for (int i = 0; i < WHOLE_FOUR(n); i += 4) {
+        const double *a = q + (ptrdiff_t)i * n, *b = a + n, *c = b + n, *d = c + n;
+        Four sum[4] = {{0}};
+
+        for (int k = 0; k < WHOLE_FOUR(n); k += 4) {
+            sum[0] += FOUR_OF(a + k) * FOUR_OF(x + k);
+            sum[1] += FOUR_OF(b + k) * FOUR_OF(x + k);
+            sum[2] += FOUR_OF(c + k) * FOUR_OF(x + k);
+            sum[3] += FOUR_OF(d + k) * FOUR_OF(x + k);
+        }
+        for (int j = 0; j < 4; j++) {
+            out[i + j] = SUM_OF(sum[j]);
+            for (int k = WHOLE_FOUR(n); k < n; k++)
+                out[i + j] += a[j * n + k] * x[k];
+        }
+    }
+    for (int i = WHOLE_FOUR(n); i < n; i++)
+        out[i] = dot(q + (ptrdiff_t)i * n, x, n);
+}
+
+/* out = q^T x */
+AS_WIDE_AS_CAN_BE static void times_across(const double *restrict q, const double *restrict x,
+                                           int n, double *restrict out)
+{
+    memset(out, 0, (size_t)n * sizeof(double));
+    for (int i = 0; i < WHOLE_FOUR(n); i += 4) {
+        const double *a = q + (ptrdiff_t)i * n, *b = a + n, *c = b + n, *d = c + n;
+
+        for (int k = 0; k < WHOLE_FOUR(n); k += 4)
+            FOUR(out + k) += x[i] * FOUR_OF(a + k) + x[i + 1] * FOUR_OF(b + k) +
+                             x[i + 2] * FOUR_OF(c + k) + x[i + 3] * FOUR_OF(d + k);
+        for (int k = WHOLE_FOUR(n); k < n; k++)
+            out[k] += x[i] * a[k] + x[i + 1] * b[k] + x[i + 2] * c[k] + x[i + 3] * d[k];
+    }
+    for (int i = WHOLE_FOUR(n); i < n; i++)
+        add_row(out, x[i], q + (ptrdiff_t)i * n, n);
 }
 
 /* --- the form --- */
@@ -85,28 +161,35 @@ static double reflect(double *v, int n, double *share)
     return norm * size;
 }
 
-/* H becomes P_k H P_k, with 0 below the entry under the diagonal of column k; room: n */
-static void bring_column(HessenbergForm *r, int k, double *room)
+/* rows `a` of a matrix, of `left` entries each, n apart, become those of P a; room: left */
+static void apply(double *a, int n, const double *v, double share, int left, double *room)
+{
+    memset(room, 0, (size_t)left * sizeof(double));
+    for (int i = 0; i < left; i++)
+        add_row(room, share * v[i], a + (ptrdiff_t)i * n, left);
+    for (int i = 0; i < left; i++)
+        add_row(a + (ptrdiff_t)i * n, -v[i], room, left);
+}
+
+/* H becomes P_k H P_k, with 0 below the entry under the diagonal of column k, P_k into v and
+ * *share; room: n */
+static void bring_column(HessenbergForm *r, int k, double *v, double *share, double *room)
 {
     const int n = r->n, left = n - k - 1;
-    double *h = r->h->data, *v = r->v + (ptrdiff_t)k * n + k + 1;
+    double *h = r->h->data;
 
     for (int i = 0; i < left; i++)
         v[i] = h[(k + 1 + i) * n + k];
-    h[(k + 1) * n + k] = reflect(v, left, &r->share[k]);
+    h[(k + 1) * n + k] = reflect(v, left, share);
     for (int i = 1; i < left; i++)
         h[(k + 1 + i) * n + k] = 0;
-    if (r->share[k] == 0)
+    if (*share == 0)
         return;
-    memset(room, 0, (size_t)left * sizeof(double));
-    for (int i = 0; i < left; i++)
-        add_row(room, r->share[k] * v[i], h + (k + 1 + i) * n + k + 1, left);
-    for (int i = 0; i < left; i++)
-        add_row(h + (k + 1 + i) * n + k + 1, -v[i], room, left);
+    apply(h + (k + 1) * n + k + 1, n, v, *share, left, room);
     for (int i = 0; i < n; i++) {
         double *row = h + i * n + k + 1;
 
-        add_row(row, -r->share[k] * dot(row, v, left), v, left);
+        add_row(row, -*share * dot(row, v, left), v, left);
     }
 }
 
@@ -114,18 +197,23 @@ HessenbergForm *hessenberg_form_new(const double *a, int n)
 {
     HessenbergForm *r = NEW(HessenbergForm);
     const size_t size = (size_t)n;
-    double *room = NEW_ARRAY(double, n);
+    double *room = NEW_ARRAY(double, n), *share = NEW_ARRAY(double, n);
+    double *v = NEW_ARRAY(double, n *n); /* of P_k: row k, from its k+1st entry on */
 
     r->n = n;
     r->h = dense_matrix(size, size);
     r->d = dense_vector(size);
-    r->v = NEW_ARRAY(double, n *n);
-    r->share = NEW_ARRAY(double, n);
+    r->q = NEW_ARRAY(double, n *n);
     memcpy(r->h->data, a, size * size * sizeof(double));
     (void)gsl_linalg_balance_matrix(r->h, r->d);
     for (int k = 0; k + 2 < n; k++)
-        bring_column(r, k, room);
-    mem_free(room);
+        bring_column(r, k, v + k * n + k + 1, &share[k], room);
+    for (int i = 0; i < n; i++)
+        r->q[i * n + i] = 1;
+    for (int k = n - 3; k >= 0; k--)
+        if (share[k] != 0)
+            apply(r->q + (k + 1) * n + k + 1, n, v + k * n + k + 1, share[k], n - k - 1, room);
+    MEM_FREE(room, share, v);
     return r;
 }
 
@@ -133,12 +221,12 @@ void hessenberg_form_free(HessenbergForm *r)
 {
     if (r == NULL)
         return;
-    MEM_FREE(r->h, r->d, r->v, r->share, r);
+    MEM_FREE(r->h, r->d, r->q, r);
 }
 
 size_t hessenberg_form_bytes(const HessenbergForm *r)
 {
-    return sizeof *r + (size_t)r->n * (size_t)(2 * r->n + 2) * sizeof(double);
+    return sizeof *r + (size_t)r->n * (size_t)(2 * r->n + 1) * sizeof(double);
 }
 
 /* --- factors --- */
@@ -148,8 +236,9 @@ ShiftedFactors *shifted_factors_new(int n)
     ShiftedFactors *f = NEW(ShiftedFactors);
 
     f->n = n;
-    f->re = NEW_ARRAY(double, n *n);
-    f->im = NEW_ARRAY(double, n *n);
+    f->re =
+        mem_grow(NULL, (size_t)n * (size_t)n, sizeof(double)); /* written before they are read */
+    f->im = mem_grow(NULL, (size_t)n * (size_t)n, sizeof(double));
     f->factor_re = NEW_ARRAY(double, n);
     f->factor_im = NEW_ARRAY(double, n);
     f->exchanged = NEW_ARRAY(bool, n);
@@ -176,12 +265,17 @@ static void exchange_rows(double *a, double *b, int n)
 }
 
 /* row i of s - H, from the diagonal under the main one on */
-static void bring_row(const HessenbergForm *r, double re, double *row, int i)
+AS_WIDE_AS_CAN_BE static void bring_row(const HessenbergForm *r, double re, double *row, int i)
 {
     int first = i > 0 ? i - 1 : 0;
 
-    for (int k = first; k < r->n; k++)
-        row[k] = -r->h->data[i * r->n + k];
+    const double *h = r->h->data + (ptrdiff_t)i * r->n;
+    int k = first;
+
+    for (; k + 4 <= r->n; k += 4)
+        FOUR(row + k) = -FOUR_OF(h + k);
+    for (; k < r->n; k++)
+        row[k] = -h[k];
     row[i] += re;
 }
 
@@ -239,10 +333,8 @@ bool hessenberg_form_factor_complex(const HessenbergForm *r, double re, double i
         if (!(fabs(a[k]) + fabs(b[k]) > 0) || !isfinite(a[k] + b[k]))
             return false;
         divide(a_next[k], b_next[k], a[k], b[k], &f->factor_re[k], &f->factor_im[k]);
-        add_row(a_next + k + 1, -f->factor_re[k], a + k + 1, left);
-        add_row(a_next + k + 1, f->factor_im[k], b + k + 1, left);
-        add_row(b_next + k + 1, -f->factor_re[k], b + k + 1, left);
-        add_row(b_next + k + 1, -f->factor_im[k], a + k + 1, left);
+        take_complex(a_next + k + 1, b_next + k + 1, f->factor_re[k], f->factor_im[k], a + k + 1,
+                     b + k + 1, left);
     }
     if (n == 0)
         return true;
@@ -252,76 +344,20 @@ bool hessenberg_form_factor_complex(const HessenbergForm *r, double re, double i
 
 /* --- solutions --- */
 
-/* b becomes P_k b */
-static void apply_reflection(const HessenbergForm *r, int k, double *b)
-{
-    const int left = r->n - k - 1;
-    const double *v = r->v + (ptrdiff_t)k * r->n + k + 1;
-
-    if (r->share[k] != 0)
-        add_row(b + k + 1, -r->share[k] * dot(b + k + 1, v, left), v, left);
-}
-
-/* the same of two, whose sums go side by side */
-static void apply_to_both(const HessenbergForm *r, int k, double *restrict b, double *restrict c)
-{
-    const int n = r->n;
-    const double *restrict v = r->v + (ptrdiff_t)k * n;
-    double b_sum[2] = {0}, c_sum[2] = {0};
-    int i = k + 1;
-
-    if (r->share[k] == 0)
-        return;
-    for (; i + 2 <= n; i += 2)
-        for (int j = 0; j < 2; j++) {
-            b_sum[j] += v[i + j] * b[i + j];
-            c_sum[j] += v[i + j] * c[i + j];
-        }
-    for (; i < n; i++) {
-        b_sum[0] += v[i] * b[i];
-        c_sum[0] += v[i] * c[i];
-    }
-    add_row(b + k + 1, -r->share[k] * (b_sum[0] + b_sum[1]), v + k + 1, n - k - 1);
-    add_row(c + k + 1, -r->share[k] * (c_sum[0] + c_sum[1]), v + k + 1, n - k - 1);
-}
-
-/* out = Q^T D^-1 b */
-static void enter(const HessenbergForm *r, const double *b, double *out)
+/* out = Q^T D^-1 b; b is used up */
+static void enter(const HessenbergForm *r, double *b, double *out)
 {
     for (int i = 0; i < r->n; i++)
-        out[i] = b[i] / r->d->data[i];
-    for (int k = 0; k + 2 < r->n; k++)
-        apply_reflection(r, k, out);
+        b[i] /= r->d->data[i];
+    times_across(r->q, b, r->n, out);
 }
 
-/* out = D Q b; b is used up */
-static void leave(const HessenbergForm *r, double *b, double *out)
+/* out = D Q b */
+static void leave(const HessenbergForm *r, const double *b, double *out)
 {
-    for (int k = r->n - 3; k >= 0; k--)
-        apply_reflection(r, k, b);
+    times(r->q, b, r->n, out);
     for (int i = 0; i < r->n; i++)
-        out[i] = b[i] * r->d->data[i];
-}
-
-static void enter_both(const HessenbergForm *r, const double *b, const double *c, double *b_out,
-                       double *c_out)
-{
-    for (int i = 0; i < r->n; i++) {
-        b_out[i] = b[i] / r->d->data[i];
-        c_out[i] = c[i] / r->d->data[i];
-    }
-    for (int k = 0; k + 2 < r->n; k++)
-        apply_to_both(r, k, b_out, c_out);
-}
-
-static void leave_both(const HessenbergForm *r, double *b, double *c, double *b_out, double *c_out)
-{
-    for (int k = r->n - 3; k >= 0; k--)
-        apply_to_both(r, k, b, c);
-    for (int i = 0; i < r->n; i++) {
-        b_out[i] = b[i] * r->d->data[i];
-        c_out[i] = c[i] * r->d->data[i];
-    }
+        out[i] *= r->d->data[i];
 }
 
 static void swap(double *a, double *b)
@@ -356,7 +392,8 @@ void hessenberg_form_solve_complex(const HessenbergForm *r, ShiftedFactors *f, d
     int n = r->n;
     double *x = f->b, *y = f->c;
 
-    enter_both(r, b, c, x, y);
+    enter(r, b, x);
+    enter(r, c, y);
     for (int k = 0; k + 1 < n; k++) {
         if (f->exchanged[k]) {
             swap(&x[k], &x[k + 1]);
@@ -367,11 +404,11 @@ void hessenberg_form_solve_complex(const HessenbergForm *r, ShiftedFactors *f, d
     }
     for (int i = n - 1; i >= 0; i--) {
         const double *re = f->re + i * n + i, *im = f->im + i * n + i;
-        const double *p = x + i + 1, *q = y + i + 1;
-        int left = n - i - 1;
+        double sum_re, sum_im;
 
-        divide(x[i] - dot(re + 1, p, left) + dot(im + 1, q, left),
-               y[i] - dot(re + 1, q, left) - dot(im + 1, p, left), re[0], im[0], &x[i], &y[i]);
+        dot_complex(re + 1, im + 1, x + i + 1, y + i + 1, n - i - 1, &sum_re, &sum_im);
+        divide(x[i] - sum_re, y[i] - sum_im, re[0], im[0], &x[i], &y[i]);
     }
-    leave_both(r, x, y, b, c);
+    leave(r, x, b);
+    leave(r, y, c);
 }
