@@ -10,7 +10,20 @@ EXTRA_DIST += scripts/dev/docs doc/HACKING
 EXTRA_DIST += doc/pictures/list \
 	doc/pictures/arm.txt doc/pictures/converter.txt doc/pictures/crane.txt \
 	doc/pictures/lift.txt doc/pictures/loudspeaker.txt doc/pictures/maglev.txt \
-	doc/pictures/microphone.txt doc/pictures/slider-crank.txt
+	doc/pictures/microphone.txt doc/pictures/slider-crank.txt \
+	doc/pictures/drawn-crank.txt \
+	doc/pictures/drawn-arm.txt \
+	doc/pictures/drawn-andrews.txt \
+	doc/pictures/drawn-four-bar.txt \
+	doc/pictures/drawn-serial.txt \
+	doc/pictures/drawn-spatial.txt \
+	doc/pictures/drawn-crane.txt \
+	doc/pictures/drawn-top.txt \
+	doc/pictures/drawn-pendulum.txt \
+	doc/pictures/drawn-microphone.txt \
+	doc/pictures/drawn-loudspeaker.txt \
+	doc/pictures/drawn-lift.txt \
+	doc/pictures/drawn-graph.txt
 # what is made stands in the folder of the build
 doc/cotree.pdf doc/cotree.dvi: export TEXINPUTS = doc:$(srcdir)/doc:
 doc/cotree.html doc/cotree.pdf doc/cotree.dvi: doc/pictures/drawn
@@ -22,6 +35,19 @@ drawn_pictures = \
 	doc/pictures/arm.png doc/pictures/converter.png doc/pictures/crane.png \
 	doc/pictures/lift.png doc/pictures/loudspeaker.png doc/pictures/maglev.png \
 	doc/pictures/microphone.png doc/pictures/slider-crank.png \
+	doc/pictures/drawn-crank.png \
+	doc/pictures/drawn-arm.png \
+	doc/pictures/drawn-andrews.png \
+	doc/pictures/drawn-four-bar.png \
+	doc/pictures/drawn-serial.png \
+	doc/pictures/drawn-spatial.png \
+	doc/pictures/drawn-crane.png \
+	doc/pictures/drawn-top.png \
+	doc/pictures/drawn-pendulum.png \
+	doc/pictures/drawn-microphone.png \
+	doc/pictures/drawn-loudspeaker.png \
+	doc/pictures/drawn-lift.png \
+	doc/pictures/drawn-graph.png \
 	doc/pictures/work-andrews_absolute.png doc/pictures/work-bushing.png \
 	doc/pictures/work-double_pendulum.png doc/pictures/work-rectifier.png
 CLEANFILES += doc/pictures/drawn $(drawn_pictures)
