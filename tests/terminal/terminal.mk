@@ -17,6 +17,7 @@ terminal_tests = \
     tests/terminal/plot_file.exp \
     tests/terminal/plot_titles.exp \
     tests/terminal/bode.exp \
+    tests/terminal/draw.exp \
     tests/terminal/gnuplot_missing.exp \
     tests/terminal/gnuplot_killed.exp \
     tests/terminal/gnuplot_stuck.exp \
