@@ -39,7 +39,8 @@ typedef struct ct_error {
     int column; /* in bytes */
     int width;
     char message[600];
-    char hint[400]; /* "" where there is none */
+    char hint[400];   /* "" where there is none */
+    char inside[300]; /* where in a definition it arose: lines to be shown as they are; "" */
 } ct_error;
 
 typedef struct ct_session ct_session;
@@ -127,6 +128,10 @@ ct_status ct_apply(ct_session *session, const ct_statement *statement, ct_error 
 const char *
 ct_remarks(const ct_session *session); /* lines that the last call had to say to the user; "". Those
                                          that begin with "warning: " are for quiet ones, too */
+/* The subsystem whose definition is being read: each statement is one of its lines, up to `end`; or
+ * NULL. It may be dropped. */
+const char *ct_defining(const ct_session *session);
+void ct_drop_definition(ct_session *session);
 ct_status ct_undo(ct_session *session, ct_error *error); /* ct_remarks() names what was undone */
 ct_status ct_redo(ct_session *session, ct_error *error);
 /* What changes the model from ct_begin_group() to ct_end_group(), which takes what that returned,

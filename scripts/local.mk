@@ -15,6 +15,8 @@ EXTRA_DIST += \
 	scripts/paper/5_microphone_cotree.ct \
 	scripts/paper/5_microphone_pull_in.ct \
 	scripts/paper/5_microphone_tree.ct \
+	scripts/paper/6_parallel_forward.ct \
+	scripts/paper/6_parallel_inverse.ct \
 	scripts/paper/7_cantilever.ct \
 	scripts/paper/7_spin_up.ct
 

@@ -173,6 +173,19 @@ static void put_message(const Origin *origin, bool has_place, const ct_error *er
         remark("%s:%d: %s%s", origin->name, origin->line, kind, error->message);
 }
 
+/* the line of a definition where the error arose, as it is, the caret under it */
+static void put_inside(const char *lines)
+{
+    while (*lines != '\0') {
+        const size_t length = strcspn(lines, "\n");
+
+        fprintf(stderr, "%*s", INDENT, "");
+        put_shown(lines, length);
+        fputc('\n', stderr);
+        lines += length + (lines[length] == '\n');
+    }
+}
+
 void complain(const Origin *origin, const char *text, const ct_error *error)
 {
     bool has_place =
@@ -203,6 +216,7 @@ void complain(const Origin *origin, const char *text, const ct_error *error)
         fprintf(stderr, "\n%*s", INDENT, "");
         put_caret(line, before, width < length - before ? width : length - before);
     }
+    put_inside(error->inside);
     if (error->hint[0] != '\0')
         remark("%*shint: %s", under ? 0 : INDENT, "", error->hint);
 }

@@ -61,6 +61,11 @@ bool reader_is_prompt(const Reader *reader)
     return reader->name == NULL;
 }
 
+bool reader_is_file(const Reader *reader)
+{
+    return reader->file != NULL;
+}
+
 /* --- physical lines --- */
 
 static ReadResult fail_long(ct_error *error)
@@ -152,7 +157,8 @@ static bool cut_line(const char *text, size_t *at, char **line)
     return true;
 }
 
-static ReadResult read_prompt(Reader *reader, bool mark, bool more, char **line, int *prompt)
+static ReadResult read_prompt(Reader *reader, const char *prefix, bool more, char **line,
+                              int *prompt)
 {
     /* what was pasted first */
     if (reader->pasted != NULL) {
@@ -162,10 +168,11 @@ static ReadResult read_prompt(Reader *reader, bool mark, bool more, char **line,
         reader->pasted = NULL;
     }
 
-    const char *text = more ? "..> " : mark ? "ct*> " : "ct> ";
+    char *text = copy_format("%s> ", more ? ".." : prefix);
     ReadResult result = line_edit_read(text, line);
 
     *prompt = (int)strlen(text);
+    free(text);
     if (result == READ_LINE && strchr(*line, '\n') != NULL) {
         line_edit_remember(*line);
         reader->pasted = *line;
@@ -176,8 +183,8 @@ static ReadResult read_prompt(Reader *reader, bool mark, bool more, char **line,
     return result;
 }
 
-static ReadResult read_physical(Reader *reader, bool mark, bool more, char **line, int *prompt,
-                                ct_error *error)
+static ReadResult read_physical(Reader *reader, const char *prefix, bool more, char **line,
+                                int *prompt, ct_error *error)
 {
     ReadResult result = READ_LINE;
 
@@ -191,7 +198,7 @@ static ReadResult read_physical(Reader *reader, bool mark, bool more, char **lin
             result = READ_END;
         reader->text += at;
     } else {
-        result = read_prompt(reader, mark, more, line, prompt);
+        result = read_prompt(reader, prefix, more, line, prompt);
     }
     if (result == READ_LINE || result == READ_FAILED)
         reader->line++;
@@ -228,7 +235,7 @@ static size_t mark_length(const Reader *reader, const char *line)
 }
 
 /* Physical lines up to one that does not go on, onto `paper`. */
-static ReadResult read_logical(Reader *reader, bool mark, Paper *paper, int *prompt,
+static ReadResult read_logical(Reader *reader, const char *prefix, Paper *paper, int *prompt,
                                ct_error *error)
 {
     ReadResult result;
@@ -239,7 +246,7 @@ static ReadResult read_logical(Reader *reader, bool mark, Paper *paper, int *pro
     do {
         char *line = NULL;
 
-        result = read_physical(reader, mark, more, &line, prompt, error);
+        result = read_physical(reader, prefix, more, &line, prompt, error);
         if (result == READ_LINE) {
             more = goes_on(line);
             length += strlen(line) + 1;
@@ -254,7 +261,8 @@ static ReadResult read_logical(Reader *reader, bool mark, Paper *paper, int *pro
     return result == READ_END && count > 0 ? READ_LINE : result;
 }
 
-ReadResult reader_next(Reader *reader, bool mark, char **text, Origin *origin, ct_error *error)
+ReadResult reader_next(Reader *reader, const char *prefix, char **text, Origin *origin,
+                       ct_error *error)
 {
     Paper paper;
     int prompt = 0;
@@ -264,7 +272,7 @@ ReadResult reader_next(Reader *reader, bool mark, char **text, Origin *origin, c
     *origin = (Origin){reader->name, reader->line + 1, 0};
     paper_open(&paper);
 
-    ReadResult result = read_logical(reader, mark, &paper, &prompt, error);
+    ReadResult result = read_logical(reader, prefix, &paper, &prompt, error);
 
     *text = paper_close(&paper);
     if (result != READ_LINE) {

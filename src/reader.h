@@ -24,10 +24,12 @@ Reader *reader_of_text(const char *text, const char *name); /* borrowed */
 Reader *reader_of_prompt(void);                             /* line_edit.h must be open */
 void reader_free(Reader *reader);
 bool reader_is_prompt(const Reader *reader);
+bool reader_is_file(const Reader *reader);
 
-/* The next logical line, its physical lines joined by newlines: new, free(). `mark`: whether the
- * prompt says that the model changed. */
-ReadResult reader_next(Reader *reader, bool mark, char **text, Origin *origin, ct_error *error);
+/* The next logical line, its physical lines joined by newlines: new, free(). `prefix`: what the
+ * prompt says. */
+ReadResult reader_next(Reader *reader, const char *prefix, char **text, Origin *origin,
+                       ct_error *error);
 
 /* Forget what is left of a pasted block; how many lines those were. */
 int reader_drop_pasted(Reader *reader);

@@ -44,21 +44,59 @@ static ct_status stopped(Shell *shell, const Origin *origin)
     return CT_STOPPED;
 }
 
+/* --- definitions that are open --- */
+
+static const char *prompt(const Shell *shell)
+{
+    const char *defining = ct_defining(shell->session);
+
+    if (defining != NULL)
+        return defining;
+    return ct_run_count(shell->session) > 0 && ct_is_changed(shell->session) ? "ct*" : "ct";
+}
+
+static void drop_definition(Shell *shell)
+{
+    if (ct_defining(shell->session) == NULL)
+        return;
+    remark("the definition of %s is dropped", ct_defining(shell->session));
+    ct_drop_definition(shell->session);
+}
+
+/* A file ends the definitions that it begins; -e and the prompt may go on. */
+static ct_status end_of_lines(Shell *shell, const Reader *reader, const Origin *origin, bool opened)
+{
+    ct_error error;
+
+    if (ct_defining(shell->session) == NULL || opened || !reader_is_file(reader))
+        return CT_OK;
+    error_say(&error, "the definition of %s has no 'end'", ct_defining(shell->session));
+    complain(origin, "", &error);
+    ct_drop_definition(shell->session);
+    shell->failed++;
+    shell->stopped_at = origin->line;
+    return CT_FAILED;
+}
+
 ct_status replay(Shell *shell, Reader *reader)
 {
     bool typed = reader_is_prompt(reader);
-    ct_status first = CT_OK;
+    const bool opened = ct_defining(shell->session) != NULL;
+    ct_status first = CT_OK, status = CT_OK;
 
     while (!shell->quitting) {
         char *text;
         Origin origin;
         ct_error error;
-        bool mark = ct_run_count(shell->session) > 0 && ct_is_changed(shell->session);
-        ReadResult result = reader_next(reader, mark, &text, &origin, &error);
-        ct_status status = CT_OK;
+        ReadResult result = reader_next(reader, prompt(shell), &text, &origin, &error);
 
-        if (result == READ_END)
+        status = CT_OK;
+        if (typed && result == READ_CLEARED)
+            drop_definition(shell);
+        if (result == READ_END) {
+            status = end_of_lines(shell, reader, &origin, opened);
             break;
+        }
         if (result == READ_FAILED) {
             complain(&origin, "", &error);
             shell->failed++;
@@ -79,6 +117,10 @@ ct_status replay(Shell *shell, Reader *reader)
             (status != CT_OK && !shell->keep_going))
             break;
     }
+    if (first == CT_OK)
+        first = status;
+    if (first != CT_OK && !typed && !shell->keep_going)
+        ct_drop_definition(shell->session);
     reader_free(reader);
     return first;
 }

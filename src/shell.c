@@ -201,9 +201,20 @@ static ct_status keep(Shell *shell, const ct_statement *statement, ct_error *err
     return error_say(error, "can't record any more: %s", strerror(errno));
 }
 
+/* what helps, or leaves, at any time */
+static bool is_for_reader(const ct_statement *statement)
+{
+    const char *verb = ct_verb(statement);
+
+    return strcmp(verb, "help") == 0 || strcmp(verb, "quit") == 0 || strcmp(verb, "complete") == 0;
+}
+
 static ct_status carry_out(Shell *shell, const ct_statement *statement, ct_error *error)
 {
-    const Command *row = command_find(statement);
+    /* lines of a definition are its own, whoever carries them out elsewhere */
+    const Command *row = ct_defining(shell->session) == NULL || is_for_reader(statement)
+                             ? command_find(statement)
+                             : NULL;
     int depth = shell->depth;
 
     progress_begin(&shell->progress, !shell->quiet);

@@ -53,6 +53,7 @@ SCRIPT_TESTS = \
 	tests/cases/machines \
 	tests/cases/microphone \
 	tests/cases/motor_arm \
+	tests/cases/parallel \
 	tests/cases/pendulum \
 	tests/cases/serial \
 	tests/cases/slider_crank \
@@ -69,5 +70,6 @@ EXTRA_DIST += $(SCRIPT_TESTS) tests/cases/cases.sh tests/cases/columns_agree \
 	tests/cases/microphone_equations.py \
 	tests/data/andrews_beta062.csv tests/data/free_body.csv tests/data/heavy_top.csv \
 	tests/data/beam_spin_up.csv tests/data/microphone.csv tests/data/spatial_beam.csv \
+	tests/data/parallel_inverse.csv \
 	tests/data/serial_motion.csv tests/data/serial_states.csv \
 	tests/data/spatial_slider_crank_a.csv tests/data/spatial_slider_crank_c.csv

@@ -10,7 +10,7 @@ static void fill(Diag *diag, Status status, Place place, const char *format, va_
         return;
     diag->status = status;
     diag->place = place;
-    diag->hint[0] = diag->about[0] = '\0';
+    diag->hint[0] = diag->about[0] = diag->inside[0] = '\0';
     (void)vsnprintf(diag->message, sizeof diag->message, format, args);
 }
 

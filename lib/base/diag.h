@@ -43,8 +43,9 @@ typedef struct Diag {
     Status status;
     Place place;
     char message[600];
-    char hint[400];  /* empty where there is none */
-    char about[100]; /* the variable, key or run ("run2.") that it is about; empty: none is told */
+    char hint[400];   /* empty where there is none */
+    char inside[300]; /* the line of a definition where it arose, and a caret; empty: none */
+    char about[100];  /* the variable, key or run ("run2.") that it is about; empty: none is told */
 } Diag;
 
 /* Fill `diag` (which may be NULL) and return `status`, so that a function can

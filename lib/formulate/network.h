@@ -78,6 +78,7 @@ typedef struct Network {
     LIST(OwnSample) samples;
     LIST(const char *) at_rest; /* in the form of the user's tree: states of state form, by name */
     LIST(Expr) invariants;      /* 0 throughout: rows that were differentiated */
+    LIST(Expr) open;            /* potentials asked for of terminals on which nothing stands */
 } Network;
 
 void network_free(Network *network); /* NULL is fine */
@@ -125,6 +126,9 @@ MUST_USE Status network_stored_rate(System *system, const Branchlike *branch, Ex
                                     Diag *diag);
 /* v of a chord along its circuit */
 MUST_USE Status circuit_across(System *system, Branchlike *branch, Expr *out, Diag *diag);
+/* A potential, or a rate of one, that the equations need of a terminal on which nothing stands. */
+Expr network_open(System *system, const char *name);
+bool network_is_open(const System *system, Expr symbol);
 /* names of the edges in the circuit of a chord or the cutset of a branch; in the pool */
 const char *network_company(const System *system, const Branchlike *branch);
 /* Whether an edge of a port gives its own variable (v of a branch, i of a chord) by the other edge;

@@ -133,9 +133,42 @@ static bool occurs(const Expr *symbols, int count, Expr symbol)
     return low < count && symbols[low] == symbol;
 }
 
+bool network_is_open(const System *system, Expr symbol)
+{
+    for (int i = 0; i < system->network->open.count; i++)
+        if (system->network->open.at[i] == symbol)
+            return true;
+    return false;
+}
+
+Expr network_open(System *system, const char *name)
+{
+    const Expr symbol = expr_symbol(system->arena, name, SYMBOL_EFFORT);
+
+    if (network_is_open(system, symbol))
+        return symbol;
+    mem_keep(system->network);
+    LIST_PUSH(system->network->open, symbol);
+    return symbol;
+}
+
+static Status late_rate(Diag *diag)
+{
+    return diag_set(diag, E_MISSING,
+                    "this derivative needs one of an acceleration or of a multiplier");
+}
+
+static Status effort_rate(System *system, Expr symbol, Expr *out, Diag *diag)
+{
+    if (!network_is_open(system, symbol))
+        return late_rate(diag);
+    *out = network_open(system, system_keep(system, "%s'", expr_name(symbol)));
+    return OK;
+}
+
 Status system_rate_of(System *system, Expr e, Expr *out, Diag *diag)
 {
-    const unsigned late = 1U << SYMBOL_ACCELERATION | 1U << SYMBOL_MULTIPLIER | 1U << SYMBOL_EFFORT;
+    const unsigned late = 1U << SYMBOL_ACCELERATION | 1U << SYMBOL_MULTIPLIER;
     Expr *symbols = NULL;
     LIST(Expr) moved = {0};
     LIST(Expr) rates = {0};
@@ -143,8 +176,7 @@ Status system_rate_of(System *system, Expr e, Expr *out, Diag *diag)
     Status status = OK;
 
     if ((expr_kinds(e) & late) != 0)
-        CHECK(diag_set(diag, E_MISSING,
-                       "this derivative needs one of an acceleration or of a multiplier"));
+        CHECK(late_rate(diag));
     count = expr_symbols(&e, 1, &symbols);
     for (int i = 0; i < system->kinematics->q.count; i++)
         if (occurs(symbols, count, system->kinematics->q.at[i].symbol)) {
@@ -159,9 +191,12 @@ Status system_rate_of(System *system, Expr e, Expr *out, Diag *diag)
     for (int i = 0; i < count; i++) {
         Expr rate = NULL;
 
-        if (!is_of_network(system, symbols[i]))
+        if (expr_symbol_kind(symbols[i]) == SYMBOL_EFFORT)
+            CHECK(effort_rate(system, symbols[i], &rate, diag));
+        else if (is_of_network(system, symbols[i]))
+            CHECK(network_rate(system, symbols[i], &rate, diag));
+        else
             continue;
-        CHECK(network_rate(system, symbols[i], &rate, diag));
         LIST_PUSH(moved, symbols[i]);
         LIST_PUSH(rates, rate);
     }

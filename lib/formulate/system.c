@@ -92,6 +92,7 @@ void network_free(Network *network)
     LIST_FREE(network->samples);
     LIST_FREE(network->at_rest);
     LIST_FREE(network->invariants);
+    LIST_FREE(network->open);
     mem_free(network);
 }
 
@@ -342,6 +343,11 @@ void system_network_equation(const System *system, int i, Expr *left, Expr *righ
 int system_network_edge(const System *system, int i)
 {
     return system->network->equations.at[i].edge;
+}
+
+Expr system_open_potential(const System *system, int i)
+{
+    return i < system->network->open.count ? system->network->open.at[i] : NULL;
 }
 
 int system_drive_count(const System *system)

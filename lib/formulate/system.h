@@ -396,6 +396,8 @@ typedef struct Drive {
     Expr effort;    /* symbol of its unknown: its own effort, or the source's value (`by=`) */
     bool by_source; /* the effort is a voltage or current source's value */
 } Drive;
+/* A potential in the equations of a terminal on which nothing stands: NULL: no more. */
+Expr system_open_potential(const System *system, int i);
 int system_drive_count(const System *system);
 /* A driver whose motion has no continuous derivative of that order, by name; NULL: there is none */
 const char *system_rough_driver(const System *system, int order);

@@ -254,7 +254,8 @@ static Status driver_variable(System *system, const Instance *driver, const char
         embedded_rows(system) == 1 &&
         embedded_effort(system, &system->constraints->rows.at[drive->constraint], out, NULL) == OK)
         return OK;
-    *out = driver->by >= 0 ? expr_int(system->arena, 0) : drive->effort;
+    *out =
+        driver->by >= 0 && driver->by_coordinate < 0 ? expr_int(system->arena, 0) : drive->effort;
     return OK;
 }
 
@@ -404,6 +405,15 @@ static Status storage_rate(System *system, const char *path, Expr *out, Diag *di
                              out, diag);
 }
 
+/* Of a terminal on which nothing stands yet: an input that a run still has to be given. */
+static Expr open_potential(System *system, int node)
+{
+    const Node *terminal = graph_node(system->origin->graph, node);
+
+    return network_open(
+        system, system_keep(system, "%s.%s", terminal->name, domain_across(terminal->domain)));
+}
+
 /* potential of a terminal against its datum: along the tree path */
 static Status terminal_variable(System *system, int node, Expr *out, Diag *diag)
 {
@@ -415,6 +425,11 @@ static Status terminal_variable(System *system, int node, Expr *out, Diag *diag)
         kind++;
     tree = system->origin->trees[kind];
     *out = expr_int(arena, 0);
+    if (!graph_node(system->origin->graph, node)->datum &&
+        (tree == NULL || tree_parent(tree, node) < 0)) {
+        *out = open_potential(system, node);
+        return OK;
+    }
     for (; tree_parent(tree, node) >= 0; node = tree_parent(tree, node)) {
         Expr v;
 

@@ -56,7 +56,11 @@ static Status check_reach(const Draft *draft, Diag *diag)
     Domain domain = tree_kind_domain(draft->kind);
 
     for (int i = 0; i < graph_node_count(draft->graph); i++) {
-        if (graph_node(draft->graph, i)->domain != domain)
+        const int *edges;
+
+        /* a terminal that is but spoken of, on which nothing stands yet, is no matter of trees */
+        if (graph_node(draft->graph, i)->domain != domain ||
+            (domain != DOMAIN_MECHANICAL && graph_edges_at(draft->graph, i, &edges) == 0))
             continue;
         if (draft->datum < 0 || sets_find(draft->sets, i) != sets_find(draft->sets, draft->datum))
             return draft_fault_unreached(draft, diag);

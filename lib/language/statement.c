@@ -353,6 +353,29 @@ static void parse_line(Parser *parser, Lexer *lexer, const Verb *verb, const Tok
     lexer_skip_breaks(lexer);
 }
 
+/* The lines of a subsystem that was begun there, up to its end: that is a line of its own. */
+static Status read_body(Statement *statement, Lexer *lexer, const char *text, size_t start,
+                        Diag *diag)
+{
+    const char *const body = text + lexer->at;
+    const char *line = body;
+    size_t length;
+
+    for (;; line += length + 1) {
+        length = strcspn(line, "\n");
+        if (strncmp(line, "end", 3) == 0 && strspn(line + 3, " \t") + 3 == length)
+            break;
+        if (line[length] == '\0')
+            return diag_at(diag, E_SYNTAX, statement->place, "the subsystem has no end");
+        lexer->line++;
+    }
+    statement->body = pool_text(statement->pool, body, (size_t)(line - body));
+    lexer->at = (size_t)(line - text) + length;
+    statement->text = pool_text(statement->pool, text + start, lexer->at - start);
+    lexer_skip_breaks(lexer);
+    return OK;
+}
+
 Status statement_read(Cursor *cursor, SyntaxOptions options, Statement **out, Diag *diag)
 {
     Statement *statement = NEW(Statement);
@@ -378,6 +401,8 @@ Status statement_read(Cursor *cursor, SyntaxOptions options, Statement **out, Di
             CHECK(parse_statement(&parser, statement));
         else
             statement->place = parser_token(&parser)->place;
+        if (options.whole && statement->row.name != NULL && statement->row.number == VERB_subsystem)
+            CHECK(read_body(statement, &lexer, cursor->text, parser.tokens.at[0].start, diag));
     }
     cursor->next = lexer.at;
     cursor->line = lexer.line;

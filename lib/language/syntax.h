@@ -90,7 +90,8 @@ typedef enum Offers {
     OFFERS_COORDINATES,
     OFFERS_OUTPUTS,
     OFFERS_EVENTS,
-    OFFERS_METHODS
+    OFFERS_METHODS,
+    OFFERS_SUBSYSTEMS
 } Offers;
 
 typedef struct VerbKey {
@@ -175,6 +176,7 @@ typedef struct Statement {
     const char *as; /* show X as WORD */
     Place as_place;
     struct Statement *rest; /* sweep ... : STATEMENT */
+    const char *body;       /* of a subsystem that was read whole: its lines; else NULL */
     const char *redirect;   /* file of > or >> */
     bool append;
     Place redirect_place;
@@ -187,6 +189,7 @@ typedef struct Statement {
 /* How a text is read. */
 typedef struct SyntaxOptions {
     bool shortened; /* verbs may be shortened while unambiguous (at the prompt) */
+    bool whole;     /* a subsystem goes up to its end; else its lines are statements of their own */
 } SyntaxOptions;
 
 /* Read the next statement of a text; at its end the cursor stands at strlen(text). *out is as
@@ -212,6 +215,8 @@ MUST_USE Status syntax_parse_expression(const char *text, Pool *pool, Syntax **o
 Syntax *syntax_copy(Pool *pool, const Syntax *syntax);
 /* Write a tree back as text that parses to the same tree. */
 void syntax_print(Text *text, const Syntax *syntax);
+/* The same of a statement that builds, of its operands and pairs. */
+void statement_print(Text *text, const Statement *statement);
 
 /* Rows by value; what they point to is const. False: unknown, *verb unchanged. */
 bool verb_find(const char *name, Verb *verb); /* exact */

@@ -71,3 +71,37 @@ void syntax_print(Text *text, const Syntax *syntax)
     if (syntax->has_unit)
         text_addf(text, " %s", syntax->unit_text);
 }
+
+static void print_definition(Text *text, const Statement *statement)
+{
+    text_add(text, statement->name);
+    for (int i = 0; i < statement->argument_count; i++)
+        text_addf(text, "%s%s", i == 0 ? "(" : ", ", statement->arguments[i]);
+    text_add(text, statement->argument_count > 0 ? ") = " : " = ");
+    syntax_print(text, statement->value);
+}
+
+void statement_print(Text *text, const Statement *statement)
+{
+    if (statement->kind != STATEMENT_VERB) {
+        print_definition(text, statement);
+        return;
+    }
+    text_addf(text, "%s%s", statement->is_virtual ? "virtual " : "", statement->verb);
+    for (int i = 0; i < statement->operands.count; i++) {
+        const Operand *operand = &statement->operands.at[i];
+
+        text_char(text, ' ');
+        if (operand->sign != 0)
+            text_addf(text, "%c ", operand->sign);
+        syntax_print(text, operand->value);
+    }
+    for (int i = 0; i < statement->pairs.count; i++) {
+        const Pair *pair = &statement->pairs.at[i];
+
+        text_addf(text, " %s", pair->name);
+        text_fill(text, '\'', pair->primes);
+        text_char(text, '=');
+        syntax_print(text, pair->value);
+    }
+}

@@ -21,13 +21,18 @@ libcore_la_SOURCES += \
   lib/model/model_mark.c \
   lib/model/model_names.c \
   lib/model/model_number.c \
+  lib/model/model_opened.c \
   lib/model/model_param.c \
   lib/model/model_terminals.c \
   lib/model/model_rebuild.c \
+  lib/model/model_rename.c \
   lib/model/model_scene.c \
   lib/model/model_settings.def \
   lib/model/model_start.c \
   lib/model/model_state.c \
+  lib/model/model_subsystem.c \
   lib/model/model_tree.c \
+  lib/model/model_use.c \
   lib/model/model_value.c \
-  lib/model/scene.h
+  lib/model/scene.h \
+  lib/model/subsystem.h

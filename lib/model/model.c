@@ -2,6 +2,7 @@
 #include "model/model_history.h"
 
 #include "language/functions.h"
+#include "language/verbs.h"
 
 #include <math.h>
 #include <string.h>
@@ -10,6 +11,7 @@ struct Model {
     Arena *arena;
     bool is_fork; /* the arena is another model's */
     State *state;
+    Opened *opened; /* the definition that is being read; NULL */
     DataFinder finder;
     EntryFinder entries;
     History history;
@@ -57,6 +59,7 @@ void model_free(Model *model)
 {
     if (model == NULL)
         return;
+    opened_free(model->opened);
     state_free(model->state);
     if (!model->is_fork)
         arena_free(model->arena);
@@ -128,6 +131,50 @@ bool model_step_clears(const Model *model, int i)
     return model->history.list.at[i].clears;
 }
 
+/* --- a definition, from its first line to its end --- */
+
+static bool starts_definition(const Statement *statement)
+{
+    return statement->row.name != NULL && statement->row.number == VERB_subsystem &&
+           statement->body == NULL;
+}
+
+const char *model_defining(const Model *model)
+{
+    return model->opened != NULL ? opened_name(model->opened) : NULL;
+}
+
+void model_drop_definition(Model *model)
+{
+    mem_keep(model);
+    opened_free(model->opened);
+    model->opened = NULL;
+}
+
+static Status end_definition(Model *model, const Statement *statement, Outcome *outcome, Diag *diag)
+{
+    Statement *whole = NULL;
+    Status status = OK;
+
+    CHECK(opened_end(model->opened, statement->place, &whole, diag));
+    CHECK(history_take(&model->history, &model->state, whole, outcome, diag));
+    model_drop_definition(model);
+    count_effect(model, outcome->effect);
+done:
+    statement_free(whole);
+    return status;
+}
+
+static Status apply_in_definition(Model *model, const Statement *statement, Outcome *outcome,
+                                  Diag *diag)
+{
+    if (model->opened == NULL)
+        return opened_begin(model->state, statement, &model->opened, diag);
+    if (statement->row.name != NULL && statement->row.number == VERB_end)
+        return end_definition(model, statement, outcome, diag);
+    return opened_add(model->opened, statement, diag);
+}
+
 Status model_apply(Model *model, const Statement *statement, Diag *diag)
 {
     Status status = OK;
@@ -135,6 +182,10 @@ Status model_apply(Model *model, const Statement *statement, Diag *diag)
 
     mem_keep(model);
     CHECK(data_read_statement(&model->finder, model->arena, statement, !model->finder.given, diag));
+    if (model->opened != NULL || starts_definition(statement)) {
+        status = apply_in_definition(model, statement, &outcome, diag);
+        goto done;
+    }
     CHECK(history_take(&model->history, &model->state, statement, &outcome, diag));
     set_remarks(model, &outcome.remarks);
     count_effect(model, outcome.effect);
@@ -432,6 +483,64 @@ Expr model_law(const Model *model, const char *name, const Expr **arguments, int
     return law->body;
 }
 
+int model_subsystem_count(const Model *model)
+{
+    int count = 0;
+
+    for (int i = 0; i < model->state->definitions.count; i++)
+        count += model->state->definitions.at[i].kind == DEFINES_SUBSYSTEM;
+    return count;
+}
+
+const Subsystem *model_subsystem(const Model *model, int i)
+{
+    const Definition *d = model->state->definitions.at;
+
+    while (d->kind != DEFINES_SUBSYSTEM || i-- > 0)
+        d++;
+    return d->subsystem;
+}
+
+const Subsystem *model_find_subsystem(const Model *model, const char *name)
+{
+    return state_subsystem(model->state, name, NULL);
+}
+
+const char *model_subsystem_key(const Model *model, const char *name, int i)
+{
+    const Subsystem *subsystem = state_subsystem(model->state, name, NULL);
+
+    for (int k = 0; subsystem != NULL && k < subsystem->port_count; k++)
+        if (!subsystem->ports[k].is_through && i-- == 0)
+            return subsystem->ports[k].name;
+    return subsystem != NULL && i < subsystem->parameter_count ? subsystem->parameters[i] : NULL;
+}
+
+int model_use_count(const Model *model)
+{
+    return model->state->uses.count;
+}
+
+const Use *model_use(const Model *model, int i)
+{
+    return &model->state->uses.at[i];
+}
+
+const Use *model_find_use(const Model *model, const char *name)
+{
+    return state_use(model->state, name);
+}
+
+int model_use_around(const Model *model, const char *name, int within)
+{
+    const State *state = model->state;
+    int use = state_use_around(state, name);
+
+    while (use >= 0 && state->uses.at[use].outer != within)
+        use = state->uses.at[use].outer;
+    return use;
+}
+
 int model_event_count(const Model *model)
 {
     return model->state->events.count;
@@ -556,6 +665,13 @@ Status model_check_variable(const Model *model, const char *path, int primes, Pl
 
     text_free(&name);
     return status;
+}
+
+bool model_can_go(const Model *model, const char *name)
+{
+    const Thing *thing = state_thing(model->state, name);
+
+    return thing != NULL && thing->kind != THING_COORDINATE;
 }
 
 const char *model_name(const Model *model, int i)

@@ -11,6 +11,7 @@
 #include "language/syntax.h"
 #include "model/event.h"
 #include "model/scene.h"
+#include "model/subsystem.h"
 
 #include <stdio.h>
 
@@ -22,6 +23,9 @@ void model_free(Model *model);
 /* Apply one statement that builds: a parameter, a law, or a verb of ROOM_MODEL. Says nothing.
  * Remarks for the user (what was completed, what was kept) are model_remarks(). */
 MUST_USE Status model_apply(Model *model, const Statement *statement, Diag *diag);
+/* The subsystem whose definition is being read: statements are its lines until its end; NULL. */
+const char *model_defining(const Model *model);
+void model_drop_definition(Model *model);
 const char *model_remarks(const Model *model); /* of the last model_apply(), lines; may be "" */
 MUST_USE Status model_undo(Model *model,
                            Diag *diag); /* the last statement; E_MISSING when there is none */
@@ -113,6 +117,19 @@ const Start *model_start(const Model *model, int i);
 int model_start_statements(const Model *model);
 int model_start_statement(const Model *model, int i);
 
+/* Subsystems and their instances, in order of making. */
+int model_subsystem_count(const Model *model);
+const Subsystem *model_subsystem(const Model *model, int i);
+const Subsystem *model_find_subsystem(const Model *model, const char *name); /* NULL */
+/* what `use` gives the subsystem of that name: ports, then parameters; NULL at the end */
+const char *model_subsystem_key(const Model *model, const char *name, int i);
+int model_use_count(const Model *model);
+const Use *model_use(const Model *model, int i);
+const Use *model_find_use(const Model *model, const char *name); /* NULL */
+/* The outermost instance that a name lies in, or, from `within` on, the outermost inside that one;
+ * -1: none. */
+int model_use_around(const Model *model, const char *name, int within);
+
 int model_event_count(const Model *model);
 const Event *model_event(const Model *model, int i);
 
@@ -184,6 +201,8 @@ MUST_USE Status model_check_alike(const Model *model, const Syntax *left, const 
  * why */
 MUST_USE Status model_check_variable(const Model *model, const char *path, int primes, Place place,
                                      Diag *diag);
+/* whether a name is one that `delete` takes: neither a coordinate nor a terminal */
+bool model_can_go(const Model *model, const char *name);
 /* every name that could follow, for completion: call with 0, 1, ... until NULL */
 const char *model_name(const Model *model, int i);
 

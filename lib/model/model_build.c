@@ -152,7 +152,7 @@ static Status coordinate_name(PartDraft *draft, const Syntax *syntax, int index)
     const char *name = syntax_name(syntax);
     Instance *part = draft->part;
 
-    if (name == NULL || strchr(name, '.') != NULL)
+    if (name == NULL || (strchr(name, '.') != NULL && draft->state->inside < 0))
         return diag_at(draft->diag, E_NAME, syntax->place, "a new name is expected here");
     if (strcmp(name, part->name) != 0) {
         if (names_find(draft->state->terminals, name) >= 0)
@@ -254,7 +254,7 @@ static Place direction_place(const PartDraft *draft)
 
 /* --- committing --- */
 
-static int terminal_node(State *state, const char *name, Domain domain)
+int state_terminal(State *state, const char *name, Domain domain)
 {
     int number;
 
@@ -344,7 +344,7 @@ static void add_terminals(PartDraft *draft)
     part->terminals = pool_alloc(draft->state->pool, count * sizeof *part->terminals);
     part->terminal_names = pool_alloc(draft->state->pool, count * sizeof *part->terminal_names);
     for (int k = 0; k < part->terminal_count; k++) {
-        part->terminals[k] = terminal_node(draft->state, draft->terminals[k], part->row->domain);
+        part->terminals[k] = state_terminal(draft->state, draft->terminals[k], part->row->domain);
         part->terminal_names[k] = state_text(draft->state, draft->terminals[k]);
     }
     add_scalar_edges(draft->state, part);

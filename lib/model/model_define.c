@@ -49,17 +49,24 @@ static Status check_circle(const State *state, int definition, const int *uses, 
     }
     while (stack.count > 0) {
         int d = stack.at[--stack.count];
-        const Line *line = &state->lines.at[state->definitions.at[d].line];
+        int at = state->definitions.at[d].line;
+        const int root = line_root(state, at);
 
-        for (int i = 0; i < line->use_count; i++) {
-            if (line->uses[i] == definition) {
-                status = report_circle(state, from, definition, d, place, diag);
-                goto done;
+        /* of an instance also what its statement needs, which has to come first */
+        for (bool more = true; more; at = root) {
+            const Line *line = &state->lines.at[at];
+
+            more = at != root;
+            for (int i = 0; i < line->use_count; i++) {
+                if (line->uses[i] == definition) {
+                    status = report_circle(state, from, definition, d, place, diag);
+                    goto done;
+                }
+                if (from[line->uses[i]] != -2)
+                    continue;
+                from[line->uses[i]] = d;
+                LIST_PUSH(stack, line->uses[i]);
             }
-            if (from[line->uses[i]] != -2)
-                continue;
-            from[line->uses[i]] = d;
-            LIST_PUSH(stack, line->uses[i]);
         }
     }
 done:
@@ -70,7 +77,7 @@ done:
 
 /* --- making and changing --- */
 
-static int add_definition(State *state, Definition d, const char *text, const Scope *scope)
+int definition_add(State *state, Definition d, const char *text, const Scope *scope)
 {
     int index = state->definitions.count;
 
@@ -172,6 +179,25 @@ done:
     return status;
 }
 
+Status parameter_check_alike(const Scope *scope, const char *name, Measure measure,
+                             const Syntax *value, Diag *diag)
+{
+    Measure own;
+    Text was = {0};
+    Text is = {0};
+
+    TRY(measure_of(scope, value, &own, diag));
+    if (measures_fit(measure, own))
+        return OK;
+    measure_print(&was, measure);
+    measure_print(&is, own);
+    (void)diag_at(diag, E_UNIT, value->place, "%s is in %s, and this in %s", name, was.at, is.at);
+    diag_hint(diag, "a new value has the dimension of the old one; " SI_HINT);
+    text_free(&was);
+    text_free(&is);
+    return E_UNIT;
+}
+
 Status apply_parameter(State **state, const Statement *statement, Outcome *outcome, Diag *diag)
 {
     State *s = *state;
@@ -196,7 +222,7 @@ Status apply_parameter(State **state, const Statement *statement, Outcome *outco
         goto done;
     }
     LIST_PUSH(s->parameters,
-              add_definition(
+              definition_add(
                   s,
                   (Definition){.kind = DEFINES_PARAMETER,
                                .name = statement->name,
@@ -207,6 +233,40 @@ Status apply_parameter(State **state, const Statement *statement, Outcome *outco
 done:
     LIST_FREE(scope.uses);
     mem_free(text);
+    return status;
+}
+
+Status set_inside_parameter(State *state, const Pair *pair, Outcome *outcome, Diag *diag)
+{
+    Definition *d = definition_find(state, pair->name, DEFINES_PARAMETER);
+    const Statement statement = {.value = pair->value};
+    Scope scope = {.state = state, .kind = SCOPE_PARAMETER};
+    Expr body = NULL;
+    Text text = {0};
+    Status status = OK;
+    int line;
+
+    CHECK(scope_expression(&scope, pair->value, &body, diag));
+    CHECK(parameter_check_alike(&scope, d->name, d->measure, pair->value, diag));
+    if (!isfinite(state_number(state, body))) {
+        status =
+            diag_at(diag, E_DOMAIN, pair->value->place, "%s has no finite value here", pair->name);
+        goto done;
+    }
+    CHECK(check_circle(state, definition_index(state, d), scope.uses.at, scope.uses.count,
+                       pair->name_place, diag));
+    outcome->effect = body != d->body ? EFFECT_VALUES : EFFECT_NONE;
+    CHECK(try_body(state, d, body, &statement, outcome, diag));
+    state_keep_line(state, d->line);
+    line_uses(state, &state->lines.at[d->line], &scope);
+    text_addf(&text, "set %s = ", pair->name);
+    syntax_print(&text, pair->value);
+    line_supersede(state, -1, d->name);
+    line = line_add(state, text.at, -1, -1, &scope);
+    state->lines.at[line].key = d->name;
+done:
+    LIST_FREE(scope.uses);
+    text_free(&text);
     return status;
 }
 
@@ -257,7 +317,7 @@ Status apply_law(State **state, const Statement *statement, Outcome *outcome, Di
                 is_same_law(law, statement, body) ? EFFECT_NONE : EFFECT_EQUATIONS, outcome, diag);
         goto done;
     }
-    (void)add_definition(s,
+    (void)definition_add(s,
                          (Definition){.kind = DEFINES_LAW,
                                       .name = statement->name,
                                       .body = body,
@@ -316,7 +376,7 @@ static Status output_pair(State **state, const Pair *pair, Outcome *outcome, Dia
     Measure measure;
     Status status = OK;
 
-    if (pair->primes > 0 || strchr(pair->name, '.') != NULL) {
+    if (pair->primes > 0 || (strchr(pair->name, '.') != NULL && s->inside < 0)) {
         status = diag_at(diag, E_NAME, pair->name_place, "a new name has no dot and no primes");
         goto done;
     }
@@ -330,7 +390,7 @@ static Status output_pair(State **state, const Pair *pair, Outcome *outcome, Dia
         status = change_output(state, output, body, measure, pair, &scope, text.at, outcome, diag);
         goto done;
     }
-    LIST_PUSH(s->outputs, add_definition(s,
+    LIST_PUSH(s->outputs, definition_add(s,
                                          (Definition){.kind = DEFINES_OUTPUT,
                                                       .name = pair->name,
                                                       .body = body,

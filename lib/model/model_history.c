@@ -47,6 +47,14 @@ static Status apply_marked(State **state, const Statement *statement, StateMark 
     return OK;
 }
 
+/* a definition is called by its first line */
+static const char *name_of_block(History *history, const char *text)
+{
+    const size_t length = strcspn(text, "\n");
+
+    return text[length] == '\n' ? pool_text(history->texts, text, length) : NULL;
+}
+
 Status history_take(History *history, State **state, const Statement *statement, Outcome *outcome,
                     Diag *diag)
 {
@@ -57,7 +65,7 @@ Status history_take(History *history, State **state, const Statement *statement,
     CHECK(apply_marked(state, statement, &mark, outcome, diag));
     if (statement->kind != STATEMENT_EMPTY) {
         text = statement_full_text(statement);
-        add(history, text, outcome->effect, &mark);
+        add(history, text, outcome->effect, &mark)->called = name_of_block(history, text);
     }
 done:
     mem_free(text);
@@ -99,7 +107,7 @@ static Status take_again(History *history, int i, State **state, Diag *diag)
         state_replace(state, state_new((*state)->arena));
         return OK;
     }
-    CHECK(statement_parse(step->text, 1, (SyntaxOptions){false}, &next, &statement, diag));
+    CHECK(statement_parse(step->text, 1, (SyntaxOptions){.whole = true}, &next, &statement, diag));
     CHECK(apply_marked(state, statement, &step->mark, &outcome, diag));
 done:
     text_free(&outcome.remarks);

@@ -18,11 +18,11 @@ typedef LIST(int) NumberList;
 
 /* --- names --- */
 
-typedef enum ThingKind { THING_PART, THING_COORDINATE, THING_DEFINITION } ThingKind;
+typedef enum ThingKind { THING_PART, THING_COORDINATE, THING_DEFINITION, THING_USE } ThingKind;
 
 typedef struct Thing { /* what a name of State.names stands for, by its number there */
     ThingKind kind;
-    int index; /* part (the owner of a coordinate) or definition */
+    int index; /* part (the owner of a coordinate), definition or use */
     int coordinate;
 } Thing;
 
@@ -30,8 +30,17 @@ typedef enum DefinitionKind {
     DEFINES_PARAMETER,
     DEFINES_LAW,
     DEFINES_OUTPUT,
-    DEFINES_EVENT
+    DEFINES_EVENT,
+    DEFINES_SUBSYSTEM
 } DefinitionKind;
+
+/* what a definition's own `tree` chose, in one of its instances */
+typedef struct InsideChoice {
+    int use;
+    int kind; /* of tree */
+    bool excluded;
+    const char *name;
+} InsideChoice;
 
 typedef struct Definition {
     DefinitionKind kind;
@@ -43,6 +52,7 @@ typedef struct Definition {
     Expr *arguments;
     int argument_count;
     const Event *event; /* of an event; in the state's pool */
+    const Subsystem *subsystem;
     int line;
     bool is_known; /* parameter: `value` is that of its body */
     double value;
@@ -57,6 +67,8 @@ typedef struct Line {
     const char *key; /* a later line of the same part and key supersedes it; NULL */
     int *uses;       /* definitions that it needs */
     int use_count;
+    int use;      /* that it makes; -1 */
+    int inside;   /* the use that made it: it comes with that one's line; -1 */
     bool is_gone; /* superseded by a later line */
 } Line;
 
@@ -143,6 +155,9 @@ typedef struct State {
     Form form;
     SettingValues settings;
     NameList independent;
+    LIST(Use) uses;
+    LIST(InsideChoice) inside_choices;
+    int inside; /* the use whose statements are being applied; -1 */
     Tree *trees[TREE_KINDS];
     bool has_trees;
     LIST(Change) changes;
@@ -188,7 +203,7 @@ typedef struct StateMark {
     PoolMark pool;
     GraphMark graph;
     int names, terminals, parts, edge_owners, definitions, parameters, outputs, events, lines,
-        start_names, changes;
+        start_names, uses, inside_choices, changes;
 } StateMark;
 
 StateMark state_mark(const State *state);
@@ -217,6 +232,8 @@ void state_place_start(State *state, int name, int place);
 const char *syntax_name(const Syntax *syntax);
 /* whether `name` can become a new name; `taken_as` is what it would be ("a parameter") */
 MUST_USE Status name_is_free(const State *state, const char *name, Place place, Diag *diag);
+/* the node of a terminal; of a new name, a new one */
+int state_terminal(State *state, const char *name, Domain domain);
 Domain terminal_domain(const State *state, const char *name); /* of one that there is */
 /* length of "run12." or "last." at the start; 0: none */
 size_t run_prefix(const char *path);
@@ -345,6 +362,8 @@ MUST_USE Status key_unknown(const Component *row, const char *key, Place place, 
 /* In a planar scene no step of a part leaves the plane. */
 MUST_USE Status part_check_plane(const State *state, const Instance *part, Place place, Diag *diag);
 
+/* A new definition by the last line, which it makes. */
+int definition_add(State *state, Definition d, const char *text, const Scope *scope);
 Definition *definition_find(const State *state, const char *name, DefinitionKind kind); /* NULL */
 int definition_index(const State *state, const Definition *d);
 /* --- definitions and lines --- */
@@ -380,6 +399,8 @@ char *statement_full_text(const Statement *statement);
 void state_save(const State *state, Text *text);
 void choices_save(const State *state, Text *text);
 void choices_copy(State *to, const State *from, Text *remarks);
+/* `tree` and `cotree` of a definition, for one of its instances */
+Apply apply_tree_inside;
 void starts_save(const State *state, Text *text);
 /* Initial values and form are applied anew, since laws may have changed: those of variables that
  * are gone fall away with a remark; those that fail are in `broken`, or NULL: fail. */
@@ -389,6 +410,50 @@ MUST_USE Status starts_copy(State *to, const State *from, NameList *broken, Text
 /* Refuses a variable that follows from the rest, and so can't be given a value; its own name. A
  * value's unit is checked. */
 MUST_USE Status initial_check(const Scope *scope, const Pair *pair, Text *name, Diag *diag);
+
+/* --- subsystems (model_subsystem.c, model_use.c, model_rename.c) --- */
+
+const Use *state_use(const State *state, const char *name); /* NULL */
+/* The innermost use that a dotted name lies in; -1: none. */
+int state_use_around(const State *state, const char *name);
+bool name_is_inside(const char *name, const char *use);
+const Subsystem *state_subsystem(const State *state, const char *name, int *definition); /* NULL */
+int subsystem_port(const Subsystem *subsystem, const char *name);                        /* -1 */
+/* Refuse a name inside an instance where something is to be attached, unless it is a port of it. */
+MUST_USE Status use_check_reach(const State *state, const char *name, Place place, Diag *diag);
+/* the line that a rebuilt state has in the place of this one: that of the outermost use */
+int line_root(const State *state, int line);
+
+/* Begin what a definition's statements are tried on: an instance of its own name, whose ports are
+ * bound where they are met; *use is its number. */
+MUST_USE Status subsystem_begin(State *state, const Statement *statement, int *use, Diag *diag);
+/* Apply a statement of a definition to its instance. */
+MUST_USE Status use_apply(State **state, int use, const Statement *statement, Outcome *outcome,
+                          Diag *diag);
+/* The same of a body's lines; of one that fails diag->inside shows it. */
+MUST_USE Status use_apply_lines(State **state, int use, const char *body, Outcome *outcome,
+                                Diag *diag);
+/* Refuse ports that nothing inside knows. */
+MUST_USE Status subsystem_check_ports(const State *state, int use, Place place, Diag *diag);
+
+/* A definition that is being read (model_opened.c). */
+typedef struct Opened Opened;
+MUST_USE Status opened_begin(const State *state, const Statement *statement, Opened **out,
+                             Diag *diag); /* new */
+void opened_free(Opened *opened);         /* NULL is fine */
+const char *opened_name(const Opened *opened);
+MUST_USE Status opened_add(Opened *opened, const Statement *statement, Diag *diag);
+/* The whole as one statement, new; `place` is that of its end. */
+MUST_USE Status opened_end(const Opened *opened, Place place, Statement **out, Diag *diag);
+
+/* A definition's statement in the names of an instance: new lists, trees in `pool`. */
+MUST_USE Status statement_rename(State *state, int use, const Statement *statement, Pool *pool,
+                                 Statement *out, Diag *diag);
+/* Refuse another value of a parameter that has another dimension. */
+MUST_USE Status parameter_check_alike(const Scope *scope, const char *name, Measure measure,
+                                      const Syntax *value, Diag *diag);
+/* set leg1.L1 = 0.5 */
+MUST_USE Status set_inside_parameter(State *state, const Pair *pair, Outcome *outcome, Diag *diag);
 
 /* --- one function a verb --- */
 

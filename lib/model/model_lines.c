@@ -37,7 +37,11 @@ void line_uses(State *state, Line *line, const Scope *scope)
 
 int line_add(State *state, const char *text, int definition, int part, const Scope *scope)
 {
-    Line line = {.text = state_text(state, text), .definition = definition, .part = part};
+    Line line = {.text = state_text(state, text),
+                 .definition = definition,
+                 .part = part,
+                 .use = -1,
+                 .inside = state->inside};
 
     line_uses(state, &line, scope);
     LIST_PUSH(state->lines, line);
@@ -54,6 +58,13 @@ void line_supersede(State *state, int part, const char *key)
         state_keep_line(state, i);
         line->is_gone = true;
     }
+}
+
+int line_root(const State *state, int line)
+{
+    while (state->lines.at[line].inside >= 0)
+        line = state->uses.at[state->lines.at[line].inside].line;
+    return line;
 }
 
 /* --- order --- */
@@ -77,7 +88,8 @@ static void place_line(LineOrder *order, int line)
         const Line *l = &order->state->lines.at[top];
 
         if (!order->placed[top] && *use < l->use_count) {
-            int before = order->state->definitions.at[l->uses[(*use)++]].line;
+            int before =
+                line_root(order->state, order->state->definitions.at[l->uses[(*use)++]].line);
 
             if (order->placed[before])
                 continue;
@@ -85,7 +97,7 @@ static void place_line(LineOrder *order, int line)
             LIST_PUSH(order->next, 0);
             continue;
         }
-        if (!order->placed[top] && !l->is_gone)
+        if (!order->placed[top] && !l->is_gone && l->inside < 0)
             order->lines[order->count++] = top;
         order->placed[top] = true;
         order->stack.count--;

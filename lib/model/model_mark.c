@@ -24,6 +24,8 @@ StateMark state_mark(const State *state)
                        .events = state->events.count,
                        .lines = state->lines.count,
                        .start_names = names_count(state->start_names),
+                       .uses = state->uses.count,
+                       .inside_choices = state->inside_choices.count,
                        .changes = state->changes.count};
 }
 
@@ -249,6 +251,8 @@ static void trim(State *state, const StateMark *mark)
     state->outputs.count = mark->outputs;
     state->events.count = mark->events;
     state->lines.count = mark->lines;
+    state->uses.count = mark->uses;
+    state->inside_choices.count = mark->inside_choices;
     names_trim(state->start_names, mark->start_names);
     if (state->start_of.count > mark->start_names)
         state->start_of.count = mark->start_names;
@@ -325,6 +329,8 @@ static void free_one(State *state)
     LIST_FREE(state->outputs);
     LIST_FREE(state->events);
     LIST_FREE(state->lines);
+    LIST_FREE(state->uses);
+    LIST_FREE(state->inside_choices);
     LIST_FREE(state->starts);
     LIST_FREE(state->start_of);
     LIST_FREE(state->independent);

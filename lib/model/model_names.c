@@ -61,7 +61,7 @@ static void article(Text *text, const char *word)
 
 void name_describe(const State *state, const Thing *thing, Text *text)
 {
-    static const char *const kinds[] = {"parameter", "law", "output", "event"};
+    static const char *const kinds[] = {"parameter", "law", "output", "event", "subsystem"};
 
     switch (thing->kind) {
     case THING_PART:
@@ -72,6 +72,9 @@ void name_describe(const State *state, const Thing *thing, Text *text)
         break;
     case THING_DEFINITION:
         article(text, kinds[state->definitions.at[thing->index].kind]);
+        break;
+    case THING_USE:
+        text_addf(text, "an instance of %s", state->uses.at[thing->index].subsystem->name);
         break;
     }
 }
@@ -123,7 +126,7 @@ Status name_is_free(const State *state, const char *name, Place place, Diag *dia
     (void)diag_at(diag, E_NAME, place, "'%s' is already %s", name, what.at);
     if (thing->kind == THING_PART)
         diag_hint(diag, "delete %s first, or change it with: set %s.KEY = value", name, name);
-    else if (thing->kind == THING_DEFINITION)
+    else if (thing->kind == THING_DEFINITION || thing->kind == THING_USE)
         diag_hint(diag, "take another name, or: delete %s", name);
     text_free(&what);
     return E_NAME;
@@ -300,7 +303,9 @@ static Status plain_resolve(const State *state, const char *path, int primes, Pl
                   domain_across(terminal_domain(state, path)));
         return E_NAME;
     }
-    part = thing->kind == THING_DEFINITION ? NULL : state->parts.at[thing->index];
+    part = thing->kind == THING_DEFINITION || thing->kind == THING_USE
+               ? NULL
+               : state->parts.at[thing->index];
     if (thing->kind == THING_COORDINATE) {
         text_add(name, part->coord[thing->coordinate]);
         return check_order(path, primes, 2, place, diag);
@@ -313,7 +318,26 @@ static Status plain_resolve(const State *state, const char *path, int primes, Pl
     }
     name_describe(state, thing, &what);
     (void)diag_at(diag, E_NAME, place, "%s is %s, no variable", path, what.at);
+    if (thing->kind == THING_USE)
+        diag_hint(diag, "what is inside is called %s.NAME; 'info %s' lists it", path, path);
     text_free(&what);
+    return E_NAME;
+}
+
+/* leg1.h3, where there is none */
+static Status inside_unknown(const State *state, const char *path, const char *use, Place place,
+                             Diag *diag)
+{
+    Suggest suggest = suggest_for(path);
+
+    for (int i = 0; state_name_at(state, i) != NULL; i++)
+        if (name_is_inside(state_name_at(state, i), use))
+            suggest_offer(&suggest, state_name_at(state, i));
+    (void)diag_at(diag, E_NAME, place, "nothing in %s is called %s", use, path + strlen(use) + 1);
+    if (suggest.best != NULL)
+        diag_hint(diag, "did you mean '%s'?", suggest.best);
+    else
+        diag_hint(diag, "'info %s' lists what is there", use);
     return E_NAME;
 }
 
@@ -325,6 +349,10 @@ static Status potential_resolve(const State *state, const char *path, const char
     const char *across;
     Status status = OK;
 
+    if (state_use(state, terminal) != NULL) {
+        status = inside_unknown(state, path, terminal, place, diag);
+        goto done;
+    }
     if (names_find(state->terminals, terminal) < 0) {
         status = name_unknown(state, "name", terminal, place, diag);
         goto done;

@@ -8,7 +8,7 @@ Status state_apply_text(State **state, const char *text, Text *remarks, Diag *di
     size_t next = 0;
     Status status = OK;
 
-    CHECK(statement_parse(text, 1, (SyntaxOptions){false}, &next, &statement, diag));
+    CHECK(statement_parse(text, 1, (SyntaxOptions){.whole = true}, &next, &statement, diag));
     CHECK(state_apply(state, statement, &outcome, diag));
     if (remarks != NULL && outcome.remarks.at != NULL)
         text_add(remarks, outcome.remarks.at);
@@ -23,14 +23,24 @@ static const char *line_name(const State *state, const Line *line)
 {
     if (line->part >= 0)
         return state->parts.at[line->part]->name;
+    if (line->use >= 0)
+        return state->uses.at[line->use].name;
     return line->definition >= 0 ? state->definitions.at[line->definition].name : line->text;
+}
+
+/* whether it changes something in an instance: set leg1.L1 = 2, set leg1.m1.mass = 3 */
+static bool sets_inside(const State *state, const Line *line, const char *use)
+{
+    return line->key != NULL &&
+           name_is_inside(line->part >= 0 ? state->parts.at[line->part]->name : line->key, use);
 }
 
 Status state_rebuild(const State *old, int without, State **out, NameList *broken, Text *remarks,
                      Diag *diag)
 {
     State *state = state_new(old->arena);
-    int gone = without >= 0 ? old->lines.at[without].part : -1;
+    const int gone = without >= 0 ? old->lines.at[without].part : -1;
+    const int gone_use = without >= 0 ? old->lines.at[without].use : -1;
     int count = 0;
     int *order = lines_in_order(old, &count);
     Status status = OK;
@@ -38,7 +48,8 @@ Status state_rebuild(const State *old, int without, State **out, NameList *broke
     for (int i = 0; i < count; i++) {
         const Line *line = &old->lines.at[order[i]];
 
-        if (order[i] == without || (gone >= 0 && line->part == gone))
+        if (order[i] == without || (gone >= 0 && line->part == gone) ||
+            (gone_use >= 0 && sets_inside(old, line, old->uses.at[gone_use].name)))
             continue;
         status = state_apply_text(&state, line->text, NULL, diag);
         if (status != OK && broken != NULL) {

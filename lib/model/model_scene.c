@@ -237,6 +237,9 @@ static Status set_pair(State **state, const Pair *pair, Outcome *outcome, Diag *
     int line;
     Status status = OK;
 
+    if (pair->primes == 0 && state_use_around(s, pair->name) >= 0 &&
+        definition_find(s, pair->name, DEFINES_PARAMETER) != NULL)
+        return set_inside_parameter(s, pair, outcome, diag);
     CHECK(find_key(s, pair, &part, &index, diag));
     assert(part != NULL && index >= 0);
     scope.own = part;
@@ -345,6 +348,8 @@ Status apply_set(State **state, const Statement *statement, Outcome *outcome, Di
 
 static int defining_line(const State *state, const Thing *thing)
 {
+    if (thing->kind == THING_USE)
+        return state->uses.at[thing->index].line;
     if (thing->kind == THING_DEFINITION)
         return state->definitions.at[thing->index].line;
     for (int i = 0; i < state->lines.count; i++)
@@ -365,6 +370,14 @@ static Status find_doomed(const State *state, const char *name, Place place, int
     }
     if (thing == NULL)
         return name_unknown(state, "name", name != NULL ? name : "", place, diag);
+    if (state_use_around(state, name) >= 0) {
+        const char *use = state->uses.at[state_use_around(state, name)].name;
+
+        status = diag_at(diag, E_NAME, place, "%s is a part of %s, which 'use' made as a whole",
+                         name, use);
+        diag_hint(diag, "delete %s removes all of it", use);
+        return status;
+    }
     if (thing->kind == THING_COORDINATE) {
         const char *owner = state->parts.at[thing->index]->name;
 

@@ -214,6 +214,9 @@ done:
 
 Status starts_copy(State *to, const State *from, NameList *broken, Text *remarks, Diag *diag)
 {
+    /* those that definitions gave anew are among them, unless they were taken back */
+    forget_starts(to, false);
+    forget_starts(to, true);
     for (int i = 0; i < from->starts.count; i++)
         TRY(copy_start(to, &from->starts.at[i], broken, remarks, diag));
     to->group_count = from->group_count;
@@ -233,6 +236,22 @@ Status starts_copy(State *to, const State *from, NameList *broken, Text *remarks
     return OK;
 }
 
+/* whether a definition that is in use gives such values itself */
+static bool gives_starts(const State *state, const char *verb)
+{
+    const size_t length = strlen(verb);
+
+    for (int i = 0; i < state->uses.count; i++)
+        for (const char *line = state->uses.at[i].subsystem->body; *line != '\0';) {
+            line += strspn(line, " ");
+            if (strncmp(line, verb, length) == 0 && line[length] == ' ')
+                return true;
+            line += strcspn(line, "\n");
+            line += *line == '\n';
+        }
+    return false;
+}
+
 void starts_save(const State *state, Text *text)
 {
     if (state->form == FORM_EMBEDDED) {
@@ -245,6 +264,10 @@ void starts_save(const State *state, Text *text)
         if (state->settings.at[i] != 0)
             text_addf(text, "set %s %s\n", model_setting(i)[0],
                       model_setting(i)[1 + state->settings.at[i]]);
+    if (gives_starts(state, "init"))
+        text_add(text, "init none\n");
+    if (gives_starts(state, "guess"))
+        text_add(text, "guess none\n");
     for (int i = 0; i < state->starts.count; i++) {
         const StartEntry *entry = &state->starts.at[i];
         const StartEntry *before = i > 0 ? entry - 1 : NULL;

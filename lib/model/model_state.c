@@ -12,6 +12,7 @@ State *state_new(Arena *arena)
     for (int i = 0; i < 3; i++)
         state->gravity[i] = expr_int(arena, 0);
     state->title = "";
+    state->inside = -1;
     state->graph = graph_new();
     state->names = names_new();
     state->terminals = names_new();

@@ -66,7 +66,7 @@ Status part_draft_read_name(PartDraft *draft)
     Place place;
 
     TRY(next_name(draft, &name, &place));
-    if (strchr(name, '.') != NULL)
+    if (strchr(name, '.') != NULL && draft->state->inside < 0)
         return diag_at(draft->diag, E_NAME, place, "a new name has no dot");
     if (names_find(draft->state->terminals, name) >= 0)
         return diag_at(draft->diag, E_NAME, place, "'%s' is already a terminal", name);
@@ -119,9 +119,8 @@ static Status next_frame(PartDraft *draft, int *node, Place *place)
     part = state_part(draft->state, name);
     if (part == NULL || !part_is_frame(part))
         return not_a_frame(draft, name, *place);
-    else
-        *node = part->head;
-    return OK;
+    *node = part->head;
+    return use_check_reach(draft->state, name, *place, draft->diag);
 }
 
 static Status two_frames(PartDraft *draft)
@@ -167,6 +166,8 @@ static Status act_on(PartDraft *draft, const char *name, Place place)
     if (owner->coord_kind[part->joint_coordinate] == COORDINATE_PARAMETER)
         return diag_at(draft->diag, E_VALUE, place,
                        "%s is an Euler parameter: nothing can act on it alone", name);
+    if (part->row->family != FAMILY_DRIVER)
+        TRY(use_check_reach(draft->state, owner->name, place, draft->diag));
     part->joint = joint;
     part->coordinate = owner->coord[part->joint_coordinate];
     part->on_angle = owner->coord_kind[part->joint_coordinate] == COORDINATE_ANGLE;
@@ -251,7 +252,10 @@ static Status next_terminal(PartDraft *draft, int which)
     if (operand->value->kind == SYNTAX_NUMBER && strcmp(operand->value->text, "0") == 0 &&
         !operand->value->has_unit)
         name = "0";
-    if (name == NULL || strchr(name, '.') != NULL) {
+    if (name != NULL && strchr(name, '.') != NULL && draft->state->inside < 0 &&
+        names_find(draft->state->terminals, name) >= 0)
+        CHECK(use_check_reach(draft->state, name, operand->place, draft->diag));
+    else if (name == NULL || (strchr(name, '.') != NULL && draft->state->inside < 0)) {
         status = diag_at(draft->diag, E_NAME, operand->place, "a terminal is expected here");
         diag_hint(draft->diag, "a terminal is any new name, or 0 for the reference");
         goto done;
@@ -346,6 +350,7 @@ static Status two_parts(PartDraft *draft)
         other = state_part(draft->state, name);
         if (other == NULL)
             return name_unknown(draft->state, "component", name, place, draft->diag);
+        TRY(use_check_reach(draft->state, name, place, draft->diag));
         if (strcmp(other->row->name, part->row->couples) != 0)
             return diag_at(draft->diag, E_VALUE, place,
                            "%s is a %s: a %s takes two parts of kind %s", name, other->row->name,

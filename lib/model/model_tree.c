@@ -68,6 +68,26 @@ static void chosen_free(Chosen *chosen)
     MEM_FREE(chosen->excluded, chosen->preference);
 }
 
+/* A definition's own choice holds in each instance of which the model names no edge. */
+static void add_inside_choice(const State *state, TreeKind kind, const Choice *choice,
+                              const InsideChoice *inside, Chosen *chosen)
+{
+    const char *use = state->uses.at[inside->use].name;
+    const int edge = inside->kind == (int)kind ? edge_in(state, inside->name, kind) : -1;
+    bool named = edge < 0;
+
+    for (int i = 0; !named && i < choice->chosen.count; i++)
+        named = name_is_inside(choice->chosen.at[i], use);
+    for (int i = 0; !named && i < choice->excluded.count; i++)
+        named = name_is_inside(choice->excluded.at[i], use);
+    if (named)
+        return;
+    if (inside->excluded)
+        chosen->excluded[edge] = true;
+    else
+        LIST_PUSH(chosen->branches, edge);
+}
+
 static Chosen resolve_choice(const State *state, TreeKind kind, const Choice *choice)
 {
     int count = graph_edge_count(state->graph);
@@ -88,6 +108,8 @@ static Chosen resolve_choice(const State *state, TreeKind kind, const Choice *ch
         if (edge >= 0)
             chosen.excluded[edge] = true;
     }
+    for (int i = 0; i < state->inside_choices.count && !choice->absolute; i++)
+        add_inside_choice(state, kind, choice, &state->inside_choices.at[i], &chosen);
     return chosen;
 }
 
@@ -628,6 +650,60 @@ Status apply_cotree(State **state, const Statement *statement, Outcome *outcome,
     CHECK(check_choices(&request));
     request_commit(&request);
 done:
+    request_free(&request);
+    return status;
+}
+
+/* --- in a definition --- */
+
+/* the names of one kind, in the place of those that an earlier line named */
+static void keep_inside(const Request *request, TreeKind kind, bool excluded)
+{
+    State *state = request->state;
+    NameList mine = of_kind(request, excluded ? &request->drop : &request->add, kind);
+
+    for (int i = 0; i < mine.count; i++)
+        LIST_PUSH(state->inside_choices, (InsideChoice){.use = state->inside,
+                                                        .kind = (int)kind,
+                                                        .excluded = excluded,
+                                                        .name = mine.at[i]});
+    LIST_FREE(mine);
+}
+
+Status apply_tree_inside(State **state, const Statement *statement, Outcome *outcome, Diag *diag)
+{
+    const bool excluded = strcmp(statement->verb, "cotree") == 0;
+    Outcome unsaid = {EFFECT_NONE, {0}}; /* how it would be completed, were that all */
+    Request request = request_start(*state, statement, &unsaid, diag);
+    const char *word = NULL;
+    int first = 0;
+    Status status = OK;
+
+    outcome->effect = EFFECT_EQUATIONS;
+    if (!excluded)
+        CHECK(read_words(&request, &first, &word));
+    if (word != NULL || statement->operands.at[first].sign != 0) {
+        status = diag_at(diag, E_SYNTAX, statement->operands.at[first - (word != NULL)].place,
+                         "in a definition a tree is named edge by edge");
+        diag_hint(diag, "as in tree h1 h2, or tree rotation h1; cotree h3 keeps an edge out");
+        goto done;
+    }
+    CHECK(read_edges(&request, first));
+    if (excluded) {
+        list_copy(&request.drop, &request.add);
+        request.add.count = 0;
+    }
+    CHECK(check_entering(&request));
+    CHECK(check_dropped(&request));
+    for (TreeKind kind = 0; kind < TREE_KINDS; kind++)
+        if (in_play(&request, kind)) {
+            keep_inside(&request, kind, excluded);
+            request.touched[kind] = has_kind(*state, kind);
+        }
+    CHECK(check_choices(&request));
+    state_forget_trees(*state);
+done:
+    text_free(&unsaid.remarks);
     request_free(&request);
     return status;
 }

@@ -141,6 +141,8 @@ static Status definition_name(Scope *scope, const Syntax *syntax, int index, Exp
                             diag) != OK)
             return E_NAME;
         break;
+    case DEFINES_SUBSYSTEM:
+        return diag_at(diag, E_NAME, syntax->place, "%s is a subsystem, no variable", d->name);
     case DEFINES_EVENT:
         return diag_at(diag, E_NAME, syntax->place, "%s is an event, no variable", d->name);
     }

@@ -124,19 +124,29 @@ static void offer_events(TypedLine *line)
         offer(line, model_event(line->known->model, i)->name);
 }
 
-/* what has a name of its own, and can go */
+/* what has a name of its own, and can go; what an instance holds goes with it */
 static void offer_removable(TypedLine *line)
 {
+    const Model *model = line->known->model;
     const char *name;
-    Expr definition;
 
-    offer_instances(line);
-    offer_events(line);
-    for (int i = 0; i < model_parameter_count(line->known->model); i++)
-        offer(line, expr_name(model_parameter(line->known->model, i, &definition)));
-    for (int i = 0; i < model_output_count(line->known->model); i++)
-        if (model_output(line->known->model, i, &name) != NULL)
+    for (int i = 0; (name = model_name(model, i)) != NULL; i++)
+        if (strchr(name, '.') == NULL && model_can_go(model, name))
             offer(line, name);
+}
+
+/* behind `use`: what there is; then what it is given */
+static void offer_subsystems(TypedLine *line)
+{
+    const Model *model = line->known->model;
+    const char *key;
+
+    for (int i = 0; line->before.count == 1 && i < model_subsystem_count(model); i++)
+        offer(line, model_subsystem(model, i)->name);
+    for (int i = 0; line->before.count > 2 &&
+                    (key = model_subsystem_key(model, line->before.at[1], i)) != NULL;
+         i++)
+        offer_key(line, key);
 }
 
 static bool is_event(const Model *model, const char *name)
@@ -358,6 +368,7 @@ static const struct {
     [OFFERS_OUTPUTS] = {offer_linear_outputs, true},
     [OFFERS_EVENTS] = {offer_event, false},
     [OFFERS_METHODS] = {offer_methods, true},
+    [OFFERS_SUBSYSTEMS] = {offer_subsystems, false},
 };
 
 /* the place-th place of a component */
@@ -582,6 +593,8 @@ static void offer_members(TypedLine *line, const Verb *verb)
     for (int i = 0; strcmp(base, "count") == 0 && count_block_name(i) != NULL; i++)
         offer_member(line, base, count_block_name(i));
     instance = model_owner(line->known->model, line->prefix, &begun);
+    if (instance == NULL && model_use_around(line->known->model, line->prefix, -1) >= 0)
+        offer_names(line); /* what an instance has of its own */
     if (instance == NULL) {
         node = graph_find_node(graph, base);
         if (node >= 0)

@@ -242,6 +242,57 @@ static bool print_node(Text *out, const View *view, const char *name)
     return true;
 }
 
+/* leg1: its ports, and what it is called inside */
+static bool print_use(Text *out, const View *view, const char *name)
+{
+    const Use *use = model_find_use(view->model, name);
+    const size_t length = strlen(name);
+    Text inside = {0};
+    const char *own;
+
+    if (use == NULL)
+        return false;
+    text_addf(out, "%s: an instance of %s\n", name, use->subsystem->name);
+    for (int i = 0; i < use->subsystem->port_count; i++) {
+        const Port *port = &use->subsystem->ports[i];
+
+        text_addf(out, "  %s %s ", port->is_frame ? "frame" : "terminal", port->name);
+        if (use->bound[i] != NULL)
+            text_addf(out, "is %s, given from outside\n", use->bound[i]);
+        else
+            text_addf(out, "is reached as %s.%s\n", name, port->name);
+    }
+    for (int i = 0; (own = model_name(view->model, i)) != NULL; i++)
+        if (strncmp(own, name, length) == 0 && own[length] == '.')
+            text_addf(&inside, "%s%s", inside.length > 0 ? " " : "", own);
+    layout_words(out, view->page.columns, "  inside: ", inside.at != NULL ? inside.at : "nothing");
+    text_free(&inside);
+    return true;
+}
+
+static bool print_subsystem(Text *out, const View *view, const char *name)
+{
+    const Subsystem *subsystem = model_find_subsystem(view->model, name);
+    int count = 0;
+
+    if (subsystem == NULL)
+        return false;
+    for (int i = 0; i < model_use_count(view->model); i++)
+        count += model_use(view->model, i)->subsystem == subsystem;
+    text_addf(out, "%s: subsystem, ", name);
+    layout_count(out, count, "instance", "instances");
+    text_char(out, '\n');
+    for (int i = 0; i < subsystem->port_count; i++)
+        text_addf(out, "  %s %s, %s\n", subsystem->ports[i].is_frame ? "frame" : "terminal",
+                  subsystem->ports[i].name,
+                  subsystem->ports[i].is_through ? "which it gives itself" : "given in 'use'");
+    for (int i = 0; i < subsystem->parameter_count; i++)
+        text_addf(out, "%s%s%s", i == 0 ? "  parameters: " : " ", subsystem->parameters[i],
+                  i == subsystem->parameter_count - 1 ? "\n" : "");
+    text_addf(out, "its lines:\n%s", subsystem->body);
+    return true;
+}
+
 /* h9.fx: what it means and in which unit; a coordinate: whose it is */
 static bool print_variable(Text *out, const View *view, const char *name)
 {
@@ -282,7 +333,8 @@ Status info_print(const View *view, const char *name, Place place, Text *out, Di
     }
     if (print_parameter(out, view, name) || print_law(out, view, name) ||
         print_output(out, view, name) || print_event(out, view, name) ||
-        print_variable(out, view, name) || print_node(out, view, name))
+        print_variable(out, view, name) || print_node(out, view, name) ||
+        print_use(out, view, name) || print_subsystem(out, view, name))
         return OK;
     for (int i = 0; (candidate = model_name(view->model, i)) != NULL; i++)
         suggest_offer(&suggest, candidate);

@@ -264,6 +264,10 @@ ct_status ct_apply(ct_session *session, const ct_statement *statement, ct_error 
     session_begin(session);
     if (s->kind == STATEMENT_EMPTY)
         return session_report(OK, &diag, error);
+    if (model_defining(session->model) != NULL) {
+        status = model_apply(session->model, s, &diag);
+        return session_report(status, &diag, error);
+    }
     if (session_room(s) != ROOM_MODEL)
         return CT_NOT_MINE;
     /* what comes is compared with */
@@ -291,6 +295,18 @@ ct_status ct_apply(ct_session *session, const ct_statement *statement, ct_error 
     }
 done:
     return session_report(status, &diag, error);
+}
+
+const char *ct_defining(const ct_session *session)
+{
+    return model_defining(session->model);
+}
+
+void ct_drop_definition(ct_session *session)
+{
+    SESSION_CALL(session, );
+
+    model_drop_definition(session->model);
 }
 
 /* --- undo and the rest --- */

@@ -27,6 +27,7 @@ ct_status session_report(Status status, const Diag *diag, ct_error *error)
                    diag->status == status && diag->message[0] != '\0' ? diag->message
                                                                       : status_text(status));
     (void)snprintf(error->hint, sizeof error->hint, "%s", diag->status == status ? diag->hint : "");
+    memcpy(error->inside, diag->inside, sizeof error->inside);
     return public;
 }
 

@@ -95,7 +95,7 @@ static void read_all(const char *text, SyntaxOptions options)
 static void target(const char *text)
 {
     read_all(text, (SyntaxOptions){false});
-    read_all(text, (SyntaxOptions){true});
+    read_all(text, (SyntaxOptions){.shortened = true});
 }
 
 #ifdef LIBFUZZER

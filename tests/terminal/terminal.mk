@@ -5,6 +5,7 @@ terminal_tests = \
     tests/terminal/banner.exp \
     tests/terminal/mistype.exp \
     tests/terminal/complete.exp \
+    tests/terminal/define.exp \
     tests/terminal/history.exp \
     tests/terminal/interrupt_line.exp \
     tests/terminal/interrupt_run.exp \

@@ -309,11 +309,13 @@ static void shortened_verbs_are_saved_in_full(void)
     char *saved;
 
     EXPECT(apply_text(model, "body m1 mass=1", &diag) == OK);
-    if (statement_parse(text, 1, (SyntaxOptions){true}, &next, &statement, &diag) != OK) {
+    if (statement_parse(text, 1, (SyntaxOptions){.shortened = true}, &next, &statement, &diag) !=
+        OK) {
         /* `virtual` itself may be no word that shortens */
         next = 0;
         text = "virtual rev h1 ground m1 axis=z";
-        EXPECT(statement_parse(text, 1, (SyntaxOptions){true}, &next, &statement, &diag) == OK);
+        EXPECT(statement_parse(text, 1, (SyntaxOptions){.shortened = true}, &next, &statement,
+                               &diag) == OK);
     }
     EXPECT(model_apply(model, statement, &diag) == OK);
     saved = model_save(model);

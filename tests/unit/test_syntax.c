@@ -7,7 +7,7 @@
 #include <ftw.h>
 
 static const SyntaxOptions script = {false};
-static const SyntaxOptions prompt = {true};
+static const SyntaxOptions prompt = {.shortened = true};
 
 /* the first statement of a text; NULL and a message where it fails */
 static Statement *read_as(const char *text, SyntaxOptions options)

@@ -137,6 +137,8 @@ Layout *layout_new_on(System *system, const OnSurface *on, int count)
         if (expr_kind(effort) == EXPR_SYMBOL && expr_symbol_kind(effort) == SYMBOL_EFFORT)
             (void)append(l, &room, effort);
     }
+    for (int k = 0; system_open_potential(system, k) != NULL; k++)
+        (void)append(l, &room, system_open_potential(system, k));
     l->ne = l->count - l->efforts;
     find_sides(l);
     l->jerk = l->count;

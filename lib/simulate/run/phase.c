@@ -183,12 +183,26 @@ void phase_probe_at(Phase *phase, Probe *probe, double t, const double *y, const
         probe_unsolved(phase, probe, t, y, count, out);
 }
 
+Status phase_refuse_open(const Phase *phase, Diag *diag)
+{
+    const Expr open = system_open_potential(phase->system, 0);
+
+    if (open == NULL)
+        return OK;
+    (void)diag_set(diag, E_MODEL, "%s is not known: nothing stands on that terminal",
+                   expr_name(open));
+    diag_hint(diag, "connect a part to it, such as a source");
+    diag_about(diag, "%s", expr_name(open));
+    return E_MODEL;
+}
+
 Status phase_refuse_by(const Phase *phase, Diag *diag)
 {
     const Layout *l = phase->layout;
 
     if (l->ne == 0)
         return OK;
+    TRY(phase_refuse_open(phase, diag));
     (void)diag_set(diag, E_MODEL, "a driver with by= is for inverse runs: %s is not known here",
                    expr_name(l->symbols[l->efforts]));
     diag_hint(diag, "use `inverse`, or leave by= out");

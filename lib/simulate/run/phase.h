@@ -64,6 +64,8 @@ void phase_probe_at(Phase *phase, Probe *probe, double t, const double *y, const
                     int count, double *out);
 /* And the first `count` states of the whole, of a mode. False: no solution. */
 bool phase_states(Phase *phase, double t, const double *y, int count, RowValues *row, double *out);
+/* E_MODEL where equations need the potential of a terminal on which nothing stands */
+MUST_USE Status phase_refuse_open(const Phase *phase, Diag *diag);
 /* E_MODEL where a driver's motion is supplied by another effort (by=): for inverse runs alone */
 MUST_USE Status phase_refuse_by(const Phase *phase, Diag *diag);
 

@@ -131,6 +131,11 @@ const double *driven_row(const Driven *driven, int row)
     return driven->values != NULL ? driven->values + (ptrdiff_t)row * driven->length : NULL;
 }
 
+/* what may follow from the potential of a terminal on which nothing stands */
+static const unsigned may_need_open =
+    1U << SYMBOL_STATE | 1U << SYMBOL_ALGEBRAIC | 1U << SYMBOL_ACCELERATION |
+    1U << SYMBOL_STATE_RATE | 1U << SYMBOL_MULTIPLIER | 1U << SYMBOL_EFFORT | 1U << SYMBOL_JERK;
+
 Status phases_probe(Phases *p, const Phase *phase, const Expr *items, int count, Probe **out,
                     Diag *diag)
 {
@@ -138,8 +143,11 @@ Status phases_probe(Phases *p, const Phase *phase, const Expr *items, int count,
     Expr *roots = NEW_ARRAY(Expr, count);
     Status status = OK;
 
-    for (int i = 0; i < count; i++)
+    for (int i = 0; i < count; i++) {
         CHECK(system_resolve(phase->system, items[i], &roots[i], diag));
+        if ((expr_kinds(roots[i]) & may_need_open) != 0)
+            CHECK(phase_refuse_open(phase, diag));
+    }
     CHECK(probe_new(phase->layout, &p->parameters, roots, count, out, diag));
 done:
     mem_free(roots);

@@ -633,6 +633,7 @@ Status run_kinematics(System *system, const Setting *setting, const RunOptions *
     Status status = OK;
 
     CHECK(run_open(RUN_KINEMATICS, system, setting, &r, diag));
+    CHECK(phase_refuse_open(r->phase, diag));
     CHECK(drive(r, setting, options, diag));
 done:
     give(r, setting, status, out, reader);
@@ -647,6 +648,7 @@ Status run_inverse(System *system, const Setting *setting, const RunOptions *opt
     Status driven;
 
     CHECK(run_open(RUN_INVERSE, system, setting, &r, diag));
+    CHECK(phase_refuse_open(r->phase, diag));
     driven = drive(r, setting, options, diag);
     if (driven != OK && driven != E_STOPPED && driven != E_SOLVER)
         CHECK(driven);

@@ -1,0 +1,519 @@
+/* model_use.c: instances of subsystems: a definition's statements, applied in their names
+ *
+ * `use` of several is a line each, so that one can go without the others. What an instance makes
+ * has lines of its own, which come and go with that one. */
+#include "language/verbs.h"
+#include "model/model_impl.h"
+
+#include <string.h>
+
+/* --- what may be reached from outside --- */
+
+/* whether `use` is the one at work, or around it: its names came by a port */
+static bool is_around(const State *state, int use)
+{
+    int at = state->inside;
+
+    while (at >= 0 && at != use)
+        at = state->uses.at[at].outer;
+    return at == use;
+}
+
+static bool is_port_of(const Use *use, const char *name)
+{
+    const int port = subsystem_port(use->subsystem, name + strlen(use->name) + 1);
+
+    return port >= 0 && use->bound[port] == NULL;
+}
+
+Status use_check_reach(const State *state, const char *name, Place place, Diag *diag)
+{
+    const int around = state_use_around(state, name);
+    const Use *use = around >= 0 ? &state->uses.at[around] : NULL;
+    Text ports = {0};
+
+    if (use == NULL || is_around(state, around) ||
+        (is_port_of(use, name) && (use->outer < 0 || is_around(state, use->outer))))
+        return OK;
+    for (int i = 0; i < use->subsystem->port_count; i++)
+        if (use->subsystem->ports[i].is_through)
+            text_addf(&ports, " %s.%s", use->name, use->subsystem->ports[i].name);
+    (void)diag_at(diag, E_NAME, place, "%s is inside %s: what attaches, attaches at ports", name,
+                  use->name);
+    if (ports.at != NULL)
+        diag_hint(diag, "its ports are%s", ports.at);
+    else
+        diag_hint(diag, "a port is a frame that the inside makes and frames= names, or a terminal "
+                        "in through=");
+    text_free(&ports);
+    return E_NAME;
+}
+
+/* --- a statement of a definition --- */
+
+static Status check_allowed(const State *state, int use, const Statement *s, Diag *diag)
+{
+    static const int allowed[] = {VERB_output, VERB_event,  VERB_init, VERB_guess,
+                                  VERB_tree,   VERB_cotree, VERB_use};
+
+    if (s->kind != STATEMENT_VERB || s->row.component != NULL)
+        return OK;
+    for (int i = 0; i < COUNT(allowed); i++)
+        if (s->row.number == allowed[i] && s->redirect == NULL &&
+            (s->operands.count > 0 || s->pairs.count > 0))
+            return OK;
+    (void)diag_at(diag, E_SYNTAX, s->verb_place, "'%s' can't stand in the definition of %s",
+                  s->verb, state->uses.at[use].subsystem->name);
+    diag_hint(diag, "in it stand parts, parameters, laws, output, event, init, guess, tree EDGE, "
+                    "cotree and use; 'end' closes it, and Ctrl-C drops it");
+    return E_SYNTAX;
+}
+
+/* a definition says each thing once */
+static Status check_new(const State *state, const Statement *renamed, const Statement *statement,
+                        Diag *diag)
+{
+    const Thing *thing = state_thing(state, renamed->name);
+    Text what = {0};
+
+    if (thing == NULL)
+        return OK;
+    name_describe(state, thing, &what);
+    (void)diag_at(diag, E_NAME, statement->name_place, "'%s' is already %s of this definition",
+                  statement->name, what.at);
+    text_free(&what);
+    return E_NAME;
+}
+
+static Status apply_renamed(State **state, Statement *s, Outcome *outcome, Diag *diag)
+{
+    const int pairs = s->pairs.count;
+    Pair *const at = s->pairs.at;
+    Status status = OK;
+
+    if (s->row.number == VERB_tree || s->row.number == VERB_cotree)
+        return apply_tree_inside(state, s, outcome, diag);
+    if (s->row.number != VERB_output)
+        return state_apply(state, s, outcome, diag);
+    /* one by one: several would be tried on a state made anew, which lacks what goes before */
+    s->pairs.count = 1;
+    for (int i = 0; i < pairs && status == OK; i++) {
+        s->pairs.at = at + i;
+        status = state_apply(state, s, outcome, diag);
+    }
+    s->pairs.at = at;
+    s->pairs.count = pairs;
+    return status;
+}
+
+Status use_apply(State **state, int use, const Statement *statement, Outcome *outcome, Diag *diag)
+{
+    State *const s = *state;
+    const int outer = s->inside;
+    Pool *pool = NULL;
+    Statement renamed = {0};
+    Status status = OK;
+
+    mem_keep(s);
+    TRY(check_allowed(s, use, statement, diag));
+    pool = pool_new(0);
+    CHECK(statement_rename(s, use, statement, pool, &renamed, diag));
+    if (statement->kind != STATEMENT_VERB)
+        CHECK(check_new(s, &renamed, statement, diag));
+    s->inside = use;
+    status = apply_renamed(state, &renamed, outcome, diag);
+    s->inside = outer;
+done:
+    LIST_FREE(renamed.operands);
+    LIST_FREE(renamed.pairs);
+    pool_free(pool);
+    return status;
+}
+
+/* --- the body --- */
+
+/* the line of a definition that failed, and a caret under its fault */
+static void show_inside(const State *state, int use, const char *text, Diag *diag)
+{
+    const Place place = diag->place;
+    Text out = {0};
+
+    text_addf(&out, "in %s, line %d:\n%s\n", state->uses.at[use].subsystem->name, place.line, text);
+    text_fill(&out, ' ', place.column > 0 ? place.column - 1 : 0);
+    text_char(&out, '^');
+    text_fill(&out, '~', place.width - 1);
+    if (out.length < sizeof diag->inside)
+        memcpy(diag->inside, out.at, out.length + 1);
+    text_free(&out);
+}
+
+typedef struct Expansion {
+    int use;
+    const Syntax *const *overrides; /* by parameter: what `use` says instead, or NULL; NULL: none */
+    Outcome *outcome;
+    bool at_use; /* what failed stands there, not in the definition */
+} Expansion;
+
+/* A parameter of the definition with another value, in the names of who uses it. */
+static Status apply_override(State **state, const Expansion *x, const Statement *statement,
+                             const Syntax *given, Diag *diag)
+{
+    State *const s = *state;
+    const int outer = s->inside;
+    Pool *pool = pool_new(0);
+    Statement renamed = {0};
+    Scope scope = {.state = s, .kind = SCOPE_PARAMETER};
+    Measure measure;
+    Text text = {0};
+    Status status = OK;
+
+    CHECK(statement_rename(s, x->use, statement, pool, &renamed, diag));
+    CHECK(check_new(s, &renamed, statement, diag));
+    CHECK(measure_of(&scope, renamed.value, &measure, diag));
+    CHECK(parameter_check_alike(&scope, statement->name, measure, given, diag));
+    renamed.value = syntax_copy(pool, given);
+    text_addf(&text, "%s = ", renamed.name);
+    syntax_print(&text, given);
+    renamed.text = pool_text(pool, text.at, text.length);
+    s->inside = x->use;
+    status = state_apply(state, &renamed, x->outcome, diag);
+    s->inside = outer;
+done:
+    text_free(&text);
+    LIST_FREE(renamed.operands);
+    LIST_FREE(renamed.pairs);
+    LIST_FREE(scope.uses);
+    pool_free(pool);
+    return status;
+}
+
+static Status apply_line(State **state, Expansion *x, const Statement *statement, Diag *diag)
+{
+    const Subsystem *subsystem = (*state)->uses.at[x->use].subsystem;
+    const Syntax *given = NULL;
+
+    for (int i = 0; i < subsystem->parameter_count && x->overrides != NULL; i++)
+        if (statement->kind == STATEMENT_PARAMETER &&
+            strcmp(subsystem->parameters[i], statement->name) == 0)
+            given = x->overrides[i];
+    if (given == NULL)
+        return use_apply(state, x->use, statement, x->outcome, diag);
+    x->at_use = true;
+    TRY(apply_override(state, x, statement, given, diag));
+    x->at_use = false;
+    return OK;
+}
+
+static Status apply_lines(State **state, Expansion *x, const char *body, Diag *diag)
+{
+    Status status = OK;
+    int number = 2; /* the first line is the definition's head */
+
+    for (const char *line = body; *line != '\0' && status == OK; number++) {
+        const size_t length = strcspn(line, "\n");
+        char *text = mem_text(line, length);
+        Statement *statement = NULL;
+        size_t next = 0;
+        Diag fault = {0};
+
+        status = statement_parse(text, number, (SyntaxOptions){false}, &next, &statement, &fault);
+        if (status == OK)
+            status = apply_line(state, x, statement, &fault);
+        if (status != OK && !x->at_use && fault.inside[0] == '\0')
+            show_inside(*state, x->use, text, &fault);
+        if (status != OK && diag != NULL)
+            *diag = fault;
+        statement_free(statement);
+        mem_free(text);
+        line += length + (line[length] == '\n');
+    }
+    return status;
+}
+
+Status use_apply_lines(State **state, int use, const char *body, Outcome *outcome, Diag *diag)
+{
+    return apply_lines(state, &(Expansion){.use = use, .outcome = outcome}, body, diag);
+}
+
+/* --- use --- */
+
+typedef struct UseDraft {
+    State **state;
+    const Statement *statement;
+    const Subsystem *subsystem;
+    int definition;
+    int count; /* of instances */
+    int which;
+    const Syntax **overrides; /* of this instance, by parameter */
+    Use use;
+    Text text; /* `use` of this one alone */
+    Scope scope;
+    Outcome *outcome;
+    Diag *diag;
+} UseDraft;
+
+static Status key_fits_none(const UseDraft *d, const Pair *pair)
+{
+    const Subsystem *subsystem = d->subsystem;
+    Suggest suggest = suggest_for(pair->name);
+    Text list = {0};
+
+    for (int i = 0; i < subsystem->port_count; i++)
+        if (!subsystem->ports[i].is_through) {
+            suggest_offer(&suggest, subsystem->ports[i].name);
+            text_addf(&list, " %s=", subsystem->ports[i].name);
+        }
+    for (int i = 0; i < subsystem->parameter_count; i++) {
+        suggest_offer(&suggest, subsystem->parameters[i]);
+        text_addf(&list, " %s=", subsystem->parameters[i]);
+    }
+    (void)diag_at(d->diag, E_NAME, pair->name_place, "%s has no port and no parameter '%s'",
+                  subsystem->name, pair->name);
+    if (suggest.best != NULL)
+        diag_hint(d->diag, "did you mean '%s'?", suggest.best);
+    else if (list.at != NULL)
+        diag_hint(d->diag, "it takes%s", list.at);
+    text_free(&list);
+    return E_NAME;
+}
+
+/* A vector has a value for each instance. */
+static Status value_of(const UseDraft *d, const Pair *pair, Syntax *out)
+{
+    const Syntax *value = pair->value;
+
+    if (value->kind != SYNTAX_VECTOR) {
+        *out = *value;
+        return OK;
+    }
+    if (value->count != d->count) {
+        (void)diag_at(d->diag, E_VALUE, value->place, "%s has %d value%s for %d instance%s",
+                      pair->name, value->count, value->count == 1 ? "" : "s", d->count,
+                      d->count == 1 ? "" : "s");
+        diag_hint(d->diag, "a vector has one value for each; a single value is for all");
+        return E_VALUE;
+    }
+    *out = *value->args[d->which];
+    if (value->has_unit && out->kind == SYNTAX_NUMBER && !out->has_unit) {
+        out->has_unit = true;
+        out->unit = value->unit;
+        out->unit_text = value->unit_text;
+    } else if (value->has_unit)
+        return diag_at(d->diag, E_VALUE, value->place, "a unit stands behind numbers here");
+    return OK;
+}
+
+static Status bind_frame(UseDraft *d, int port, const Syntax *value)
+{
+    State *state = *d->state;
+    const char *name = syntax_name(value);
+    const Instance *part = name != NULL ? state_part(state, name) : NULL;
+    Text what = {0};
+
+    if (name == NULL ||
+        (strcmp(name, "ground") != 0 &&
+         (part == NULL || (part->row->family != FAMILY_BODY && part->row->family != FAMILY_ARM)))) {
+        const Thing *thing = name != NULL ? state_thing(state, name) : NULL;
+
+        if (thing != NULL)
+            name_describe(state, thing, &what);
+        (void)diag_at(d->diag, E_NAME, value->place, "%s %s%s",
+                      name == NULL    ? "a frame"
+                      : thing != NULL ? name
+                                      : "unknown frame",
+                      name == NULL    ? "is expected here"
+                      : thing != NULL ? "is "
+                                      : "",
+                      name == NULL    ? ""
+                      : thing != NULL ? what.at
+                                      : name);
+        diag_hint(d->diag, "the port %s of %s is a frame: ground, a body or an arm",
+                  d->subsystem->ports[port].name, d->subsystem->name);
+        text_free(&what);
+        return E_NAME;
+    }
+    TRY(use_check_reach(state, name, value->place, d->diag));
+    d->use.bound[port] = state_text(state, name);
+    return OK;
+}
+
+static Status bind_terminal(UseDraft *d, int port, const Syntax *value)
+{
+    State *state = *d->state;
+    const bool is_zero = value->kind == SYNTAX_NUMBER && strcmp(value->text, "0") == 0;
+    const char *name = is_zero ? "0" : syntax_name(value);
+    const bool is_there = name != NULL && names_find(state->terminals, name) >= 0;
+
+    if (name != NULL && strcmp(name, "gnd") == 0)
+        name = "0";
+    if (name == NULL || strcmp(name, "ground") == 0 ||
+        (!is_there && strchr(name, '.') != NULL && state->inside < 0)) {
+        (void)diag_at(d->diag, E_NAME, value->place, "a terminal is expected here");
+        diag_hint(d->diag, "the port %s of %s is a terminal: any new name, or 0",
+                  d->subsystem->ports[port].name, d->subsystem->name);
+        return E_NAME;
+    }
+    if (strcmp(name, "0") != 0 && !is_there &&
+        definition_find(state, name, DEFINES_PARAMETER) == NULL)
+        TRY(name_is_free(state, name, value->place, d->diag));
+    TRY(use_check_reach(state, name, value->place, d->diag));
+    d->use.bound[port] = state_text(state, name);
+    return OK;
+}
+
+/* What `use` says of a parameter, before the definition is looked at. */
+static Status read_override(UseDraft *d, int parameter, const Syntax *value)
+{
+    Scope scope = {.state = *d->state, .kind = SCOPE_PARAMETER};
+    Expr body = NULL;
+    Status status = scope_expression(&scope, value, &body, d->diag);
+
+    for (int i = 0; i < scope.uses.count && status == OK; i++)
+        scope_use(&d->scope, scope.uses.at[i]);
+    LIST_FREE(scope.uses);
+    d->overrides[parameter] = value;
+    return status;
+}
+
+static Status read_pair(UseDraft *d, const Pair *pair)
+{
+    const Subsystem *subsystem = d->subsystem;
+    const int port = subsystem_port(subsystem, pair->name);
+    Syntax *value = pool_alloc((*d->state)->pool, sizeof *value);
+    int parameter = 0;
+
+    while (parameter < subsystem->parameter_count &&
+           strcmp(subsystem->parameters[parameter], pair->name) != 0)
+        parameter++;
+    if (pair->primes > 0 || (port < 0 && parameter == subsystem->parameter_count))
+        return key_fits_none(d, pair);
+    if (port >= 0 && subsystem->ports[port].is_through) {
+        (void)diag_at(d->diag, E_NAME, pair->name_place, "%s gives %s itself: it isn't bound",
+                      subsystem->name, pair->name);
+        diag_hint(d->diag, "it is reached as %s.%s", d->use.name, pair->name);
+        return E_NAME;
+    }
+    TRY(value_of(d, pair, value));
+    text_addf(&d->text, " %s=", pair->name);
+    syntax_print(&d->text, value);
+    if (port < 0)
+        return read_override(d, parameter, value);
+    return subsystem->ports[port].is_frame ? bind_frame(d, port, value)
+                                           : bind_terminal(d, port, value);
+}
+
+static Status check_bound(const UseDraft *d)
+{
+    for (int i = 0; i < d->subsystem->port_count; i++) {
+        const Port *port = &d->subsystem->ports[i];
+
+        if (port->is_through || d->use.bound[i] != NULL)
+            continue;
+        (void)diag_at(d->diag, E_VALUE,
+                      (Place){d->statement->place.line,
+                              d->statement->place.column + d->statement->place.width, 1},
+                      "use %s %s needs %s=", d->subsystem->name, d->use.name, port->name);
+        diag_hint(d->diag,
+                  port->is_frame ? "%s is a frame that is given from outside: %s=FRAME"
+                                 : "%s is a terminal that is given from outside: %s=TERMINAL",
+                  port->name, port->name);
+        return E_VALUE;
+    }
+    return OK;
+}
+
+static Status check_name(const UseDraft *d, const Operand *operand)
+{
+    const State *state = *d->state;
+    const char *name = syntax_name(operand->value);
+
+    if (name == NULL || (strchr(name, '.') != NULL && state->inside < 0))
+        return diag_at(d->diag, E_NAME, operand->place, "an instance's name is a new name");
+    if (names_find(state->terminals, name) >= 0)
+        return diag_at(d->diag, E_NAME, operand->place, "'%s' is already a terminal", name);
+    return name_is_free(state, name, operand->place, d->diag);
+}
+
+/* The error of a definition's line, told where it is used. */
+static Status tell_inside(const UseDraft *d, const Operand *operand, const Diag *fault)
+{
+    (void)diag_at(d->diag, fault->status, operand->place, "%s: %s", d->use.name, fault->message);
+    diag_hint(d->diag, "%s", fault->hint);
+    if (d->diag != NULL)
+        memcpy(d->diag->inside, fault->inside, sizeof fault->inside);
+    return fault->status;
+}
+
+static Status make_instance(UseDraft *d, const Operand *operand)
+{
+    State *state = *d->state;
+    const int definitions = state->definitions.count;
+    const int number = state->uses.count;
+    Expansion x = {.use = number, .outcome = d->outcome};
+    Diag fault = {0};
+    Status status = OK;
+    int line;
+
+    TRY(check_name(d, operand));
+    d->use = (Use){
+        .name = state_text(state, syntax_name(operand->value)),
+        .subsystem = d->subsystem,
+        .bound = pool_alloc(state->pool, sizeof(char *) * ((size_t)d->subsystem->port_count + 1)),
+        .outer = state->inside};
+    d->overrides =
+        pool_alloc(state->pool, sizeof *d->overrides * ((size_t)d->subsystem->parameter_count + 1));
+    d->scope.uses.count = 0;
+    scope_use(&d->scope, d->definition);
+    text_addf(&d->text, "use %s %s", d->subsystem->name, d->use.name);
+    for (int i = 0; i < d->statement->pairs.count; i++)
+        TRY(read_pair(d, &d->statement->pairs.at[i]));
+    TRY(check_bound(d));
+
+    d->use.line = line = line_add(state, d->text.at, -1, -1, NULL);
+    state->lines.at[line].use = number;
+    LIST_PUSH(state->uses, d->use);
+    state_name(state, d->use.name, THING_USE, number, 0);
+    x.overrides = d->overrides;
+    status = apply_lines(d->state, &x, d->subsystem->body, &fault);
+    if (status != OK && !x.at_use)
+        return tell_inside(d, operand, &fault);
+    if (status != OK) {
+        if (d->diag != NULL)
+            *d->diag = fault;
+        return status;
+    }
+
+    for (int i = line; i < state->lines.count; i++)
+        for (int k = 0; k < state->lines.at[i].use_count; k++)
+            if (state->lines.at[i].uses[k] < definitions)
+                scope_use(&d->scope, state->lines.at[i].uses[k]);
+    line_uses(state, &state->lines.at[line], &d->scope);
+    return OK;
+}
+
+Status apply_use(State **state, const Statement *statement, Outcome *outcome, Diag *diag)
+{
+    const StateMark mark = state_mark(*state);
+    const Setup setup = state_setup(*state);
+    const Operand *what = &statement->operands.at[0];
+    UseDraft draft = {.state = state, .statement = statement, .outcome = outcome, .diag = diag};
+    Status status = OK;
+
+    mem_keep(*state);
+    draft.subsystem = state_subsystem(*state, syntax_name(what->value), &draft.definition);
+    if (draft.subsystem == NULL)
+        return name_unknown(*state, "subsystem", syntax_name(what->value), what->place, diag);
+    draft.count = statement->operands.count - 1;
+    for (int i = 1; i < statement->operands.count && status == OK; i++) {
+        draft.which = i - 1;
+        status = make_instance(&draft, &statement->operands.at[i]);
+        text_free(&draft.text);
+    }
+    if (status != OK) {
+        state_note_setup(*state, &setup);
+        (void)state_go_back(state, &mark);
+    }
+    outcome->effect = EFFECT_EQUATIONS;
+    LIST_FREE(draft.scope.uses);
+    return status;
+}

@@ -1,0 +1,330 @@
+/* family_subsystems.c: random models made of subsystems, nested too, against the same parts written
+ * out one by one
+ *
+ * The oracle knows nothing of definitions: each module writes its statements with its own prefix,
+ * "leg_h" where an instance has leg.h, and the equations of that flat model have to be the same,
+ * entry by entry, and its motion, too. What `save` writes is a third model, and undo and redo make
+ * a fourth. */
+#include "../unit/session_kit.h"
+#include "family.h"
+
+enum { MODULES = 3, USES = 4, ROOM = 6000 };
+
+typedef struct Module { /* what a definition holds, drawn once */
+    char name[8];
+    bool planar, makes_tip, has_tree, has_start, has_law;
+    int joint, inner; /* module inside, or -1 */
+    double length, mass, inertia, stiffness, gain, angle, resistance;
+    bool electric, through;
+} Module;
+
+typedef struct Writer {
+    char text[ROOM];
+    size_t length;
+} Writer;
+
+__attribute__((format(printf, 2, 3))) static void put(Writer *w, const char *format, ...)
+{
+    va_list arguments;
+
+    va_start(arguments, format);
+    w->length +=
+        (size_t)vsnprintf(w->text + w->length, sizeof w->text - w->length, format, arguments);
+    va_end(arguments);
+}
+
+static Module draw_module(Member *member, int number, bool planar)
+{
+    Module m = {.planar = planar,
+                .makes_tip = true,
+                .has_tree = member_one_of(member, 2) == 0,
+                .has_start = member_one_of(member, 2) == 0,
+                .has_law = member_one_of(member, 2) == 0,
+                .joint = member_one_of(member, 3),
+                .inner = number > 0 && member_one_of(member, 2) == 0 ? member_one_of(member, number)
+                                                                     : -1,
+                .length = member_between(member, 0.3, 0.8),
+                .mass = member_between(member, 0.5, 2),
+                .inertia = member_between(member, 0.05, 0.2),
+                .stiffness = member_between(member, 5, 40),
+                .gain = member_between(member, 0.2, 0.6),
+                .angle = member_between(member, -1, 1),
+                .resistance = member_between(member, 1, 4),
+                .electric = member_one_of(member, 2) == 0,
+                .through = member_one_of(member, 2) == 0};
+
+    (void)snprintf(m.name, sizeof m.name, "mod%d", number);
+    return m;
+}
+
+static bool needs_terminal(const Module *all, const Module *m)
+{
+    return m->electric || (m->inner >= 0 && needs_terminal(all, &all[m->inner]));
+}
+
+/* The statements of a module. `p` stands before each of its names; `length` NULL: as drawn. */
+static void put_parts(Writer *w, const Module *all, const Module *m, const char *p, const char *a,
+                      const char *e, const char *length, bool flat)
+{
+    static const char *const joints[] = {"revolute", "revolute", "prismatic"};
+    const char *law = m->has_law ? "push" : "";
+    char given[40], inner[40], place[60];
+
+    (void)snprintf(given, sizeof given, "%.15g", m->length);
+    put(w, "%sL = %s\n", p, length != NULL ? length : given);
+    if (m->has_law)
+        put(w, "%s%s(x) = -%.15g*x*shared\n", p, law, m->stiffness);
+    put(w,
+        m->planar ? "body %sb mass=%.15g inertia=%.15g\n"
+                  : "body %sb mass=%.15g inertia=[%.15g, 0.1, 0.12]\n",
+        p, m->mass, m->inertia);
+    put(w, m->planar ? "arm %sf %sb [-%sL/2, 0.1]\n" : "arm %sf %sb [-%sL/2, 0.1, 0.05]\n", p, p,
+        p);
+    put(w, m->planar ? "arm %stip %sb [%sL/2, 0]\n" : "arm %stip %sb [%sL/2, 0, 0.1]\n", p, p, p);
+    put(w, "%s %sh %s %sf axis=%s\n", joints[m->joint], p, a, p,
+        m->joint == 2   ? "x"
+        : m->planar     ? "z"
+        : m->joint == 1 ? "y"
+                        : "z");
+    if (m->has_law)
+        put(w, "actuator %sact %sh %s=%s%s(%sh) - 0.3*%sh'\n", p, p,
+            m->joint == 2 ? "force" : "torque", p, law, p, p);
+    else
+        put(w, "spring %ssp %sh k=%.15g rest=0.1\n", p, p, m->stiffness);
+    if (m->electric) {
+        put(w, "sensor %ssen %sh %sy 0 gain=%.15g\n", p, p, p, m->gain);
+        put(w, "resistor %sR %s %so %.15g\n", p, e, p, m->resistance);
+        put(w, "capacitor %sC %so %sy 0.05\n", p, p, p);
+    }
+    put(w, "output %sheight = %stip.y + %sL*%sh\n", p, p, p, p);
+    if (m->has_start)
+        put(w, "init %sh = %.15g\n", p, m->joint == 2 ? 0.1 * m->angle : m->angle);
+    if (m->inner < 0)
+        return;
+    (void)snprintf(inner, sizeof inner, flat ? "%si_" : "%si", p);
+    (void)snprintf(place, sizeof place, "%stip", p);
+    if (flat) {
+        char twice[60];
+
+        (void)snprintf(twice, sizeof twice, "%sL*0.7", p);
+        put_parts(w, all, &all[m->inner], inner, place, e, twice, true);
+    } else
+        put(w, "use %s %s A=%s%s%s L=L*0.7\n", all[m->inner].name, inner, place,
+            needs_terminal(all, &all[m->inner]) ? " e=" : "",
+            needs_terminal(all, &all[m->inner]) ? e : "");
+}
+
+static void put_definition(Writer *w, const Module *all, const Module *m)
+{
+    const bool terminal = needs_terminal(all, m);
+
+    put(w, "subsystem %s frames=[A, tip]%s%s\n", m->name, terminal ? " terminals=[e]" : "",
+        m->electric && m->through ? " through=[o]" : "");
+    put_parts(w, all, m, "", "A", "e", NULL, false);
+    if (m->has_tree)
+        put(w, "tree h\n");
+    put(w, "end\n");
+}
+
+typedef struct Placed {
+    const Module *module;
+    char place[2][20]; /* as the flat model calls it, and as the other does */
+    char length[40];   /* "": as drawn */
+} Placed;
+
+typedef struct Story {
+    Module modules[MODULES];
+    Placed used[USES];
+    int uses;
+    bool planar;
+    Writer flat, made;
+} Story;
+
+/* a frame that is there: ground, or the tip of one before */
+static void draw_place(Member *member, Story *s, int i)
+{
+    const int other = i > 0 ? member_one_of(member, i + 1) : i;
+
+    if (other == i) {
+        strcpy(s->used[i].place[0], "base");
+        strcpy(s->used[i].place[1], "base");
+        return;
+    }
+    (void)snprintf(s->used[i].place[0], 20, "u%d_tip", other);
+    (void)snprintf(s->used[i].place[1], 20, "u%d.tip", other);
+}
+
+static void put_base(Writer *w, bool moves, bool planar)
+{
+    put(w, planar ? "scene planar\ngravity [0, -9.81]\n" : "gravity [0, -9.81, 0]\n");
+    put(w, "shared = 1.3\n");
+    put(w, planar ? "arm far ground [3, 2]\n" : "arm far ground [3, 2, 1]\n");
+    if (moves) {
+        put(w, planar ? "body cart mass=4 inertia=1\n" : "body cart mass=4 inertia=[1, 1, 1]\n");
+        put(w, "prismatic rail ground cart axis=x\nspring hold rail k=30 rest=0\n");
+        put(w, planar ? "arm base cart [0, 0.2]\n" : "arm base cart [0, 0.2, 0]\n");
+    } else
+        put(w, planar ? "arm base ground [0, 0.2]\n" : "arm base ground [0, 0.2, 0]\n");
+}
+
+static void draw_story(Member *member, Story *s)
+{
+    const bool moves = member_one_of(member, 2) == 0;
+
+    memset(s, 0, sizeof *s);
+    s->planar = member_one_of(member, 3) > 0;
+    for (int i = 0; i < MODULES; i++)
+        s->modules[i] = draw_module(member, i, s->planar);
+    s->uses = 1 + member_one_of(member, USES);
+    for (int i = 0; i < s->uses; i++) {
+        s->used[i].module = &s->modules[member_one_of(member, MODULES)];
+        draw_place(member, s, i);
+        if (member_one_of(member, 2) == 0)
+            (void)snprintf(s->used[i].length, 40, "%.15g", member_between(member, 0.3, 0.9));
+    }
+    put_base(&s->flat, moves, s->planar);
+    put_base(&s->made, moves, s->planar);
+    for (int i = 0; i < MODULES; i++)
+        put_definition(&s->made, s->modules, &s->modules[i]);
+    for (int i = 0; i < s->uses; i++) {
+        const Placed *u = &s->used[i];
+        char prefix[20];
+
+        (void)snprintf(prefix, sizeof prefix, "u%d_", i);
+        put_parts(&s->flat, s->modules, u->module, prefix, u->place[0], "in",
+                  u->length[0] != '\0' ? u->length : NULL, true);
+        put(&s->made, "use %s u%d A=%s%s%s%s\n", u->module->name, i, u->place[1],
+            needs_terminal(s->modules, u->module) ? " e=in" : "", u->length[0] != '\0' ? " L=" : "",
+            u->length);
+    }
+    if (s->uses > 1) {
+        put(&s->flat, "spring ends far u1_tip k=12 length=0.4\n");
+        put(&s->made, "spring ends far u1.tip k=12 length=0.4\n");
+    }
+    put(&s->flat, "vsource V in 0 2 + sin(3*t)\n");
+    put(&s->made, "vsource V in 0 2 + sin(3*t)\n");
+    if (member_one_of(member, 3) == 0) {
+        put(&s->flat, "tree absolute\n");
+        put(&s->made, "tree absolute\n");
+    }
+}
+
+/* --- the comparison --- */
+
+static bool agree(Member *member, Kit *a, const char *first, Kit *b, const char *second,
+                  double bound)
+{
+    const double x = kit_value(a, first), y = kit_value(b, second);
+
+    if (isnan(x) || isnan(y)) {
+        tell(member, "%s %g, %s %g: %s\n", first, x, second, y, b->error.message);
+        return false;
+    }
+    return keeps(member, second, fabs(x - y), bound * (1 + fabs(x)));
+}
+
+static bool same_equations(Member *member, Kit *a, Kit *b)
+{
+    int n = 0; /* speeds: Euler parameters are more than these */
+    bool same = agree(member, a, "model.n", b, "model.n", 1e-15) &&
+                agree(member, a, "model.m", b, "model.m", 1e-15);
+    char entry[40];
+
+    do
+        (void)snprintf(entry, sizeof entry, "forces(%d)", ++n);
+    while (!isnan(kit_value(a, entry)));
+    same = same && isnan(kit_value(b, entry)) && n > 1;
+    for (int i = 1; i < n && same; i++) {
+        (void)snprintf(entry, sizeof entry, "forces(%d)", i);
+        same = agree(member, a, entry, b, entry, 1e-11);
+        for (int k = 1; k < n && same; k++) {
+            (void)snprintf(entry, sizeof entry, "mass(%d,%d)", i, k);
+            same = agree(member, a, entry, b, entry, 1e-11);
+        }
+    }
+    return same;
+}
+
+static bool same_motion(Member *member, const Story *s, Kit *a, Kit *b)
+{
+    static const char *const asked[] = {"h", "h'", "tip.x", "h.fx", "height", "b.vy"};
+    bool same = true;
+
+    for (int i = 0; i < s->uses; i++)
+        for (int k = 0; k < (int)(sizeof asked / sizeof asked[0]) && same; k++) {
+            char first[40], second[40];
+
+            (void)snprintf(first, sizeof first, "u%d_%s", i, asked[k]);
+            (void)snprintf(second, sizeof second, "u%d.%s", i, asked[k]);
+            same = agree(member, a, first, b, second, 1e-8);
+            if (same && s->used[i].module->inner >= 0) {
+                (void)snprintf(first, sizeof first, "u%d_i_%s", i, asked[k]);
+                (void)snprintf(second, sizeof second, "u%d.i.%s", i, asked[k]);
+                same = agree(member, a, first, b, second, 1e-8);
+            }
+        }
+    return same && agree(member, a, "energy.total", b, "energy.total", 1e-8);
+}
+
+static bool runs(Member *member, Kit *kit, const char *text)
+{
+    if (kit_do(kit, text) == CT_OK)
+        return true;
+    tell(member, "%d:%d: %s\n%s\n", kit->error.line, kit->error.column, kit->error.message,
+         kit->error.inside);
+    return false;
+}
+
+/* undo all and do it again; or what save wrote */
+static bool again(Member *member, Kit *made, Kit *out, bool undo)
+{
+    int steps = 0;
+    char *text;
+    bool done;
+
+    if (undo) {
+        while (ct_undo(made->session, &made->error) == CT_OK)
+            steps++;
+        while (steps-- > 0)
+            if (ct_redo(made->session, &made->error) != CT_OK) {
+                tell(member, "redo: %s\n", made->error.message);
+                return false;
+            }
+    }
+    text = ct_save(made->session);
+    done = runs(member, out, text);
+    if (!done || member->told)
+        tell(member, "saved:\n%s\n", text);
+    ct_free(text);
+    return done;
+}
+
+static Verdict parts_and_subsystems_agree(Member *member)
+{
+    static const char run[] = "simulate 0.3 every=0.3 rtol=1e-10 atol=1e-11\n";
+    static Story s;
+    Kit flat = kit_new(), made = kit_new(), saved = kit_new();
+    bool same;
+
+    draw_story(member, &s);
+    same = runs(member, &flat, s.flat.text) && runs(member, &made, s.made.text) &&
+           same_equations(member, &flat, &made) &&
+           again(member, &made, &saved, member->number % 2 == 0) &&
+           same_equations(member, &flat, &saved) && runs(member, &flat, run) &&
+           runs(member, &saved, run) && same_motion(member, &s, &flat, &saved);
+    if (!same || member->told)
+        tell(member, "--- flat\n%s--- made\n%s", s.flat.text, s.made.text);
+    kit_free(&flat);
+    kit_free(&made);
+    kit_free(&saved);
+    return same ? AGREES : DISAGREES;
+}
+
+int main(int argc, char **argv)
+{
+    static const Family families[] = {
+        {"parts_and_subsystems_agree", 20, 0, 0, parts_and_subsystems_agree},
+    };
+
+    return family_main(families, (int)(sizeof families / sizeof families[0]), argc, argv);
+}
