@@ -22,6 +22,7 @@ EXTRA_DIST += \
 
 # mechanisms with published reference solutions
 EXTRA_DIST += \
+	scripts/reference/beam_closed_forms.ct \
 	scripts/reference/ref_A01_pendulum_2000s.ct \
 	scripts/reference/ref_A01_pendulum_absolute.ct \
 	scripts/reference/ref_A01_pendulum_joint.ct \

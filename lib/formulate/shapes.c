@@ -6,6 +6,8 @@
 #include "formulate/system_impl.h"
 #include "formulate/vector.h"
 
+#include <string.h>
+
 static Expr *new_array(const System *system, int count)
 {
     return pool_alloc(system->pool, (size_t)count * sizeof(Expr));
@@ -177,6 +179,24 @@ Status elastic_add_load(System *system, const Elastic *elastic, Loads *loads, Di
         put_own(system, elastic, loads, i,
                 vec_dot(arena, vector_at(b->spread_shift + (ptrdiff_t)3 * i), load), 1);
     return OK;
+}
+
+bool system_axis_point(System *system, const Instance *part, Expr fraction, Expr point[3])
+{
+    const Instance *own = &system->origin->instances[part->number];
+    Vec at;
+
+    if (own->row->deforming == NULL)
+        return false;
+    system_touch(system);
+    at = vector_at(
+        shapes_point(system, own, expr_mul(system->arena, fraction, instance_scalar(own, "length")))
+            ->position);
+    at = vec_express(system, frame_vector(system, own->head, at),
+                     system->kinematics->frames[own->head].chain, 0);
+    at = vec_add(system->arena, node_position(system, own->head), at);
+    memcpy(point, at.at, sizeof at.at);
+    return true;
 }
 
 Expr elastic_kinetic(const System *system, const Elastic *elastic)

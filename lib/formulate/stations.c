@@ -73,18 +73,30 @@ static Dependent dependent(const System *system, int first, int count, const Exp
     return d;
 }
 
-static void add_station(System *system, const Instance *arm, const Instance *part)
+static Station *new_point(const System *system, const Instance *part, Expr at)
 {
-    Arena *arena = system->arena;
-    Kinematics *k = system->kinematics;
-    const int count = shapes_of(part), first = shapes_first(system, part);
+    const int count = shapes_of(part);
     const ShapeState state = shapes_state(system, part);
     Station *station = pool_alloc(system->pool, sizeof *station);
 
     station->shift = new_array(system, SHIFTS * count);
     station->turn = new_array(system, SHIFTS * count);
-    part->row->deforming->station(part, arena, system->origin->planar, instance_scalar(arm, "at"),
-                                  &state, station);
+    part->row->deforming->station(part, system->arena, system->origin->planar, at, &state, station);
+    return station;
+}
+
+const Station *shapes_point(const System *system, const Instance *part, Expr at)
+{
+    return new_point(system, part, at);
+}
+
+static void add_station(System *system, const Instance *arm, const Instance *part)
+{
+    Arena *arena = system->arena;
+    Kinematics *k = system->kinematics;
+    const int count = shapes_of(part), first = shapes_first(system, part);
+    Station *station = new_point(system, part, instance_scalar(arm, "at"));
+
     k->stations[arm->number] = station;
     k->station_speeds[arm->number] = k->u.count + k->dependents.count;
     for (int i = 0; i < SHIFTS; i++) {

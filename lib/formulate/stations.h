@@ -26,6 +26,10 @@ Expr speed_rate(const System *system, int speed);
 /* its rate with u' or (NULL) without */
 Expr speed_acceleration(const System *system, int speed, const Expr *accelerations);
 
+/* Where the point at `at` along a part that deforms stands in its root's axes, and how its section
+ * is turned; new, in the system's pool. */
+const Station *shapes_point(const System *system, const Instance *part, Expr at);
+
 /* of a part that deforms: how many shapes, the first of their speeds, and symbols of both; the
  * root rests */
 int shapes_of(const Instance *part);

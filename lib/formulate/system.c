@@ -5,6 +5,7 @@
 #include "formulate/network.h"
 #include "formulate/origin.h"
 #include "formulate/shown.h"
+#include "formulate/stations.h"
 #include "formulate/system_impl.h"
 
 #include <stdarg.h>
@@ -46,6 +47,7 @@ void kinematics_free(Kinematics *kinematics)
     LIST_FREE(kinematics->u);
     LIST_FREE(kinematics->quaternions);
     LIST_FREE(kinematics->chains);
+    LIST_FREE(kinematics->dependents);
     mem_free(kinematics);
 }
 

@@ -278,6 +278,10 @@ MUST_USE Status system_resolve(System *system, Expr user, Expr *out, Diag *diag)
 MUST_USE Status system_variable(System *system, const char *path, int primes, Expr *out,
                                 Diag *diag);
 
+/* The point of a part that deforms at a fraction of its length, 0 its root, in ground axes; false:
+ * the part is rigid. What draws it asks for as many as it needs. */
+bool system_axis_point(System *system, const Instance *part, Expr fraction, Expr point[3]);
+
 /* energy.kinetic, energy.potential and the power of sources and losses, in (q, u, x, z, t) */
 Expr system_kinetic(System *system);
 Expr system_potential(System *system);

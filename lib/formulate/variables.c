@@ -12,6 +12,7 @@
 #include "formulate/reactions.h"
 #include "formulate/resolve.h"
 #include "formulate/shown.h"
+#include "formulate/stations.h"
 #include "formulate/system_impl.h"
 #include "formulate/vector.h"
 
@@ -545,6 +546,20 @@ static Status entry_variable(System *system, const char *path, bool *found, Expr
 
 /* --- names --- */
 
+/* v(0.5): how far the point there has moved along y of the root */
+static Status deflection_variable(const System *system, const Instance *part, const char *member,
+                                  Expr *out)
+{
+    Arena *arena = system->arena;
+    const Expr at = expr_real(arena, strtod(strchr(member, '(') + 1, NULL));
+    const Station *station = shapes_point(system, part, at);
+
+    *out = member[0] == 'p'   ? station->angle[2]
+           : member[0] == 'u' ? expr_sub(arena, station->position[0], at)
+                              : station->position[member[0] == 'v' ? 1 : 2];
+    return OK;
+}
+
 static Status member_variable(System *system, const char *path, Expr *out, Diag *diag)
 {
     const Instance *instance;
@@ -563,6 +578,8 @@ static Status member_variable(System *system, const char *path, Expr *out, Diag 
         return terminal_variable(system, node, out, diag);
     if (instance == NULL)
         return frame_variable(system, node, member, out, diag);
+    if (instance->row->deforming != NULL && strchr(member, '(') != NULL)
+        return deflection_variable(system, instance, member, out);
     switch (instance->row->family) {
     case FAMILY_BODY:
     case FAMILY_ARM:

@@ -242,6 +242,51 @@ done:
     return status;
 }
 
+/* the part that deforms whose deflection a call asks for: b1.v(x); NULL: it asks for none */
+static const Instance *bent_part(const State *state, const char *text, const char **member)
+{
+    static const char *const members[] = {"u", "v", "w", "phi"};
+    const Instance *part = state_owner(state, text, member);
+
+    if (part == NULL || part->row->deforming == NULL)
+        return NULL;
+    for (int i = 0; i < (state->planar ? 2 : COUNT(members)); i++)
+        if (strcmp(*member, members[i]) == 0)
+            return part;
+    return NULL;
+}
+
+/* b1.v(L/2): a variable of that name, the place as the number that it is now */
+static Status call_deflection(Scope *scope, const Syntax *syntax, const Instance *part,
+                              const char *member, const Expr *args, Expr *out, Diag *diag)
+{
+    const double length = state_number_now(scope->state, instance_scalar(part, "length"));
+    Text name = {0};
+    double at;
+
+    if (scope->kind != SCOPE_ASK && scope->kind != SCOPE_OUTPUT && scope->kind != SCOPE_EVENT)
+        return diag_at(diag, E_NAME, syntax->place,
+                       "%s can be printed, but nothing can depend on it", syntax->text);
+    if (syntax->count != 1 || (expr_kinds(args[0]) & ~(1U << SYMBOL_PARAMETER)) != 0) {
+        (void)diag_at(diag, E_VALUE, syntax->place, "%s takes one place along the beam",
+                      syntax->text);
+        diag_hint(diag, "a number or an expression of parameters, such as %s(%g)", syntax->text,
+                  length / 2);
+        return E_VALUE;
+    }
+    at = state_number_now(scope->state, args[0]);
+    if (!(at >= 0 && at <= length * (1 + 1e-12))) {
+        (void)diag_at(diag, E_VALUE, syntax->args[0]->place, "%g is off %s, which is %g long", at,
+                      part->name, length);
+        diag_hint(diag, "places go from 0, the root, to the length");
+        return E_VALUE;
+    }
+    text_addf(&name, "%s.%s(%.17g)", part->name, member, at);
+    *out = expr_symbol(scope->state->arena, name.at, SYMBOL_VARIABLE);
+    text_free(&name);
+    return OK;
+}
+
 /* max(h8): a variable of that name, its argument as printed */
 static Status call_figure(Scope *scope, const Syntax *syntax, const Expr *args, Expr *out,
                           Diag *diag)
@@ -315,6 +360,8 @@ static Status call_shape(Scope *scope, const Syntax *syntax, const Function *row
 Status function_call(Scope *scope, const Syntax *syntax, const Expr *args, Expr *out, Diag *diag)
 {
     const Thing *thing = state_thing(scope->state, syntax->text);
+    const Instance *bent;
+    const char *member;
     bool is_known;
     Function row;
 
@@ -330,5 +377,8 @@ Status function_call(Scope *scope, const Syntax *syntax, const Expr *args, Expr 
     for (int i = 0; i < COUNT(entries); i++)
         if (strcmp(entries[i].name, syntax->text) == 0)
             return call_entry(scope, syntax, entries[i].args, args, out, diag);
+    bent = bent_part(scope->state, syntax->text, &member);
+    if (bent != NULL)
+        return call_deflection(scope, syntax, bent, member, args, out, diag);
     return call_unknown(scope->state, syntax, diag);
 }

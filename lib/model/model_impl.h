@@ -372,6 +372,8 @@ double definition_value(State *state, int definition);
 void definitions_forget_values(State *state); /* of parameters: they follow from one another */
 /* an expression of parameters alone, as they are now */
 double state_number(State *state, Expr body);
+/* the same where the state stays as it is: nothing is kept */
+double state_number_now(const State *state, Expr body);
 /* the number that stands in a part's value, by the name that instance_literal() gave it */
 double state_literal(State *state, const char *name);
 /* a new last line; takes over the uses of the scope (NULL: none) */

@@ -114,3 +114,27 @@ double state_number(State *state, Expr body)
     LIST_FREE(stack);
     return expr_evaluate(body, known_value, state);
 }
+
+double state_number_now(const State *state, Expr body)
+{
+    Expr *symbols = NULL;
+    int count = expr_symbols(&body, 1, &symbols);
+
+    /* parameters stand for expressions of others, and none for itself */
+    while (count > 0) {
+        for (int i = 0; i < count; i++) {
+            const Definition *d = definition_find(state, expr_name(symbols[i]), DEFINES_PARAMETER);
+
+            if (d == NULL) {
+                mem_free(symbols);
+                return NAN;
+            }
+            body = expr_substitute(state->arena, body, &symbols[i], &d->body, 1);
+        }
+        mem_free(symbols);
+        symbols = NULL;
+        count = arena_status(state->arena) == OK ? expr_symbols(&body, 1, &symbols) : 0;
+    }
+    mem_free(symbols);
+    return expr_evaluate(body, NULL, NULL);
+}
