@@ -138,6 +138,53 @@ static void a_wall_gives_back_what_it_took(void)
     }
 }
 
+/* What blows up by its method alone has that for its cause, with a step that doesn't. */
+static void fixed_steps_that_are_too_long_are_told(void)
+{
+    static const char *const laws[] = {"spring k s k=10\ndamper d s d=1e5",
+                                       "spring k s k=1e10\ndamper d s d=1"};
+    char text[300];
+
+    for (int i = 0; i < 2; i++) {
+        Kit kit = kit_new();
+        double step;
+
+        (void)snprintf(text, sizeof text,
+                       "scene planar\nbody b mass=1 inertia=1\nprismatic s ground b axis=x\n%s\n"
+                       "init s = 0.1",
+                       laws[i]);
+        EXPECT_DONE(&kit, text);
+        EXPECT_FAILS(
+            &kit, "simulate 2 method=rk4 step=1e-3",
+            "steps of 0.001 s are too long for rk4: something decays or swings in 1e-05 s");
+        EXPECT_HOLDS(kit.error.hint, "method=radau");
+        EXPECT(sscanf(kit.error.hint, "step=%lf", &step) == 1);
+        (void)snprintf(text, sizeof text, "simulate 0.01 method=rk4 step=%g", step);
+        EXPECT_DONE(&kit, text);
+        kit_free(&kit);
+    }
+}
+
+/* A parallelogram passes its change point at 0.188 s, where multipliers have no sharp value. */
+static void the_end_of_a_run_by_sundials_is_told_in_our_words(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, "scene planar\ngravity [0, -9.81]\nbody a mass=0.76 inertia=0.11\n"
+                      "arm aa a [-0.65, 0]; arm ab a [0.65, 0]\nbody b mass=0.96 inertia=0.14\n"
+                      "arm ba b [-0.65, 0]; arm bb b [0.65, 0]\nbody k mass=0.6 inertia=0.04\n"
+                      "arm ka k [-0.43, 0]; arm kb k [0.43, 0]\narm g ground [0.86, 0]\n"
+                      "revolute h0 ground aa; revolute h1 g ba\n"
+                      "revolute l0 ab ka; revolute r0 kb bb\ncotree l0\n"
+                      "guess h1=1.5, l0=-1.5, r0=1.5\ninit h0 = 1.5, h0' = 8.36");
+    EXPECT_FAILS(&kit, "simulate 0.3 rtol=1e-13 method=ida",
+                 "Newton's method finds no next step, however short");
+    EXPECT_LACKS(kit.error.message, "hmin");
+    EXPECT_HOLDS(kit.error.hint, "method=radau");
+    EXPECT_DONE(&kit, "simulate 0.3 rtol=1e-13 method=radau");
+    kit_free(&kit);
+}
+
 /* A first try of a step that reaches a hard wall ahead leaves nothing of its stiffness to the free
  * flight before it. */
 static void a_wall_ahead_is_not_felt(void)
@@ -396,6 +443,8 @@ int main(void)
     RUN(a_tolerance_below_rounding_is_told);
     RUN(rounding_hands_over_to_the_stiff_method);
     RUN(a_wall_gives_back_what_it_took);
+    RUN(fixed_steps_that_are_too_long_are_told);
+    RUN(the_end_of_a_run_by_sundials_is_told_in_our_words);
     RUN(a_wall_ahead_is_not_felt);
     RUN(a_wall_is_entered_as_exactly_as_it_is_left);
     RUN(energy_that_comes_or_goes_by_itself_is_told);

@@ -159,11 +159,8 @@ static Status step(Stepper *stepper, double end, Diag *diag)
     sundials_count(c);
     if (code == CV_MEM_FAIL)
         transaction_fail();
-    if (code == CV_REPTD_RHSFUNC_ERR)
-        return solver_failure(diag, c->base.before,
-                              "the equations have no solution just behind this instant");
     if (code < 0)
-        return solver_failure(diag, c->base.before, c->reason);
+        return sundials_failure(c, code, diag);
     return sundials_arrive(c, reached, diag);
 }
 

@@ -5,16 +5,17 @@
 
 #include <math.h>
 
-#define STEPS        5000 /* so many ought to go */
-#define PART         5e-3 /* this part of the run; else it would take a million and more */
-#define NOTICED      0.01 /* of the tolerance */
-#define HOPELESS     1e-9 /* less of the run: time itself has hardly more digits */
-#define POINTS       64   /* on the way ahead, over this */
-#define AHEAD        0.06 /* of a step: the motion itself hardly bends */
-#define ORDER        4    /* of differences, */
-#define GROWN        8    /* by which noise grows so much (root of 70) */
-#define ENOUGH_STEPS 1e4  /* of a run whose tolerance is attainable */
-#define COARSEST     1e-7 /* a tolerance that is worth trying */
+#define STEPS        5000  /* so many ought to go */
+#define PART         5e-3  /* this part of the run; else it would take a million and more */
+#define NOTICED      0.01  /* of the tolerance */
+#define HOPELESS     1e-9  /* less of the run: time itself has hardly more digits */
+#define POINTS       64    /* on the way ahead, over this */
+#define AHEAD        0.06  /* of a step: the motion itself hardly bends */
+#define ORDER        4     /* of differences, */
+#define GROWN        8     /* by which noise grows so much (root of 70) */
+#define ENOUGH_STEPS 1e4   /* of a run whose tolerance is attainable */
+#define FINE         1e-10 /* one that rounding allows nearly everywhere */
+#define COARSEST     1e-7  /* a tolerance that is worth trying */
 
 #define DWINDLING                                                                                  \
     200             /* steps: what they get over together is compared with that of those before    \
@@ -79,6 +80,14 @@ static Status give_up(const Stepper *s, double h, Diag *diag)
     return E_SOLVER;
 }
 
+static Status tell_too_small(const Stepper *s, Diag *diag)
+{
+    (void)solver_failure(diag, s->t, "the step became too small");
+    if (s->control.rtol < FINE)
+        diag_hint(diag, "method=%s may get further; so may a coarser rtol=", other_method(s)->name);
+    return E_SOLVER;
+}
+
 /* Towards a place where the solution ends steps become ever shorter, by as much as rounding leaves
  * of the rates there: thousands of them. A tolerance below that is another matter. */
 static bool wanes(Stepper *s)
@@ -104,7 +113,7 @@ Status headway_check(Headway *headway, Stepper *s, int64_t steps, bool *is_round
 
     *is_rounding = false;
     if (wanes(s))
-        return solver_failure(diag, s->t, "the step became too small");
+        return tell_too_small(s, diag);
     if (count < STEPS)
         return OK;
     h = way / (double)count;
@@ -114,7 +123,7 @@ Status headway_check(Headway *headway, Stepper *s, int64_t steps, bool *is_round
     if (!(way < PART * s->control.span) || 2 * h > control_asked(&s->control))
         return OK;
     if (way < HOPELESS * s->control.span)
-        return solver_failure(diag, s->t, "the step became too small");
+        return tell_too_small(s, diag);
     *is_rounding = rounding(s, h) > NOTICED;
     return *is_rounding ? give_up(s, h, diag) : OK;
 }

@@ -243,7 +243,7 @@ static Status step(Stepper *stepper, double end, Diag *diag)
     if (code == IDA_MEM_FAIL)
         transaction_fail();
     if (code < 0)
-        return solver_failure(diag, before, s->reason);
+        return sundials_failure(s, code, diag);
     return sundials_arrive(s, reached, diag);
 }
 

@@ -98,14 +98,56 @@ void sundials_count(Sundials *s)
     s->base.counts.jacobians = s->earlier.jacobians + jacobians;
 }
 
+/* the codes that CVODE and IDA share, negative */
+static const char *reason_of(const Sundials *s, int code)
+{
+    switch (-code) {
+    case 2:
+        return "the tolerance is below what numbers hold";
+    case 3:
+        return "the error stays above the tolerance, however short the step";
+    case 4:
+        return "Newton's method finds no next step, however short";
+    case 5:
+    case 6:
+    case 7:
+        return "the linear equations of a step have no solution";
+    case 8:
+    case 9:
+    case 10:
+    case 11:
+    case 12:
+        return "the equations have no solution just behind this instant";
+    default:
+        return s->reason;
+    }
+}
+
+/* Newton's method gets no further than rounding lets it, least where multipliers are among the
+ * unknowns and a position is nearly singular. */
+static void hint_at_way_out(Diag *diag)
+{
+    diag_hint(diag, "method=%s may get further; so may a coarser rtol=",
+              method_for((MethodNeed){.stiff = true})->name);
+}
+
+Status sundials_failure(Sundials *s, int code, Diag *diag)
+{
+    (void)solver_failure(diag, s->base.t, reason_of(s, code));
+    hint_at_way_out(diag);
+    return E_SOLVER;
+}
+
 Status sundials_arrive(Sundials *s, double reached, Diag *diag)
 {
     double h = 0, next = 0;
 
     (void)s->calls->get_last_step(s->memory, &h);
     (void)s->calls->get_next_step(s->memory, &next);
-    if (stepper_arrive(&s->base, reached, h, next, diag) != OK)
+    if (stepper_arrive(&s->base, reached, h, next, diag) != OK) {
+        hint_at_way_out(diag);
         return E_SOLVER;
+    }
     memcpy(s->base.y, N_VGetArrayPointer(s->w), (size_t)s->all * sizeof(double));
     return OK;
 }

@@ -66,6 +66,8 @@ double sundials_quadrature_error(Sundials *s, double value, double rate);
 int sundials_bound(Sundials *s, double end);
 /* after a step: counts so far */
 void sundials_count(Sundials *s);
+/* after a step that failed, with its solver's code: E_SOLVER, in our words */
+MUST_USE Status sundials_failure(Sundials *s, int code, Diag *diag);
 /* after a step that went well, to `reached` */
 MUST_USE Status sundials_arrive(Sundials *s, double reached, Diag *diag);
 

@@ -2,6 +2,7 @@
  * without a value, rounding, growth without bound */
 #include "simulate/run/ends.h"
 
+#include "algebra/linear.h"
 #include "base/memory.h"
 
 #include "simulate/equations/causes.h"
@@ -16,6 +17,8 @@
 #define STEP      0.1  /* of that: what accuracy alone would take at once */
 #define IMMINENT  1e-6 /* of the run: what happens that soon is what ends it */
 #define ENDING    1e-2 /* of what a driver's row had of its own at the start */
+#define ASIDE     1e-6 /* of the size of y: differences are derivatives */
+#define STABLE    2.5  /* explicit methods: steps times rates, at most */
 #define BOUNDLESS 1e3  /* times the size at the start; growing that fast, too */
 
 /* where a run stands, and how it goes on from there */
@@ -214,6 +217,81 @@ static bool tell_critical(RunEnd *e, Diag *diag)
     return false;
 }
 
+/* way = J way over its size, which comes out; < 0: there are no rates */
+static double along(const RunEnd *e, const Ode *ode, const double *from, double *way, int *most)
+{
+    const int n = e->phase->length - 1; /* work is last, and nothing follows from it */
+    const double size = vector_largest(way, n);
+    const double aside = ASIDE * fmax(1, vector_largest(from, n)) / size;
+    double *there = NEW_ARRAY(double, n + 1), *here = NEW_ARRAY(double, n + 1);
+    bool sound = ode->rate(ode->context, e->t, from, here);
+
+    memcpy(e->ahead, from, (size_t)(n + 1) * sizeof(double));
+    for (int i = 0; i < n; i++)
+        e->ahead[i] += aside * way[i];
+    sound = ode->rate(ode->context, e->t, e->ahead, there) && sound;
+    *most = 0;
+    for (int i = 0; i < n; i++) {
+        way[i] = (there[i] - here[i]) / (aside * size);
+        *most = fabs(way[i]) > fabs(way[*most]) ? i : *most;
+    }
+    MEM_FREE(there, here);
+    return sound ? fabs(way[*most]) : -1;
+}
+
+/* The rate at which the fastest part of the motion swings or decays about a state, 1/s, where
+ * numbers follow that part alone: by how rates change along themselves, and once more. 0 where it
+ * grows, or nothing is known. */
+static double fastest(const RunEnd *e, const Ode *ode, const double *from)
+{
+    const int n = e->phase->length;
+    double *way = NEW_ARRAY(double, n), *rate = NEW_ARRAY(double, n);
+    double found = 0;
+
+    if (ode->rate(ode->context, e->t, from, rate)) {
+        int first, second;
+        double once, twice;
+        bool decays;
+
+        memcpy(way, rate, (size_t)n * sizeof(double));
+        once = along(e, ode, from, way, &first);
+        decays = way[first] * copysign(1, rate[first]) < 0;
+        twice = along(e, ode, from, way, &second);
+        if (once > 0 && twice > 0 && (decays || way[second] * copysign(1, rate[second]) < 0))
+            found = sqrt(once) * sqrt(twice);
+    }
+    MEM_FREE(way, rate);
+    return isfinite(found) ? found : 0;
+}
+
+/* Fixed steps that are too long for what decays or swings fastest blow it up. */
+static bool tell_unstable(RunEnd *e, const Stepper *stepper, Diag *diag)
+{
+    const double step = control_asked(&stepper->control);
+    double *begun, rate;
+
+    if (!stepper->method->has_fixed_step)
+        return false;
+    begun = NEW_ARRAY(double, e->phase->length);
+    memcpy(begun, e->y, (size_t)e->phase->length * sizeof(double));
+    memcpy(begun, e->at_start,
+           (size_t)(e->phase->layout->n + e->phase->layout->nu) * sizeof(double));
+    rate = fastest(e, stepper->ode, begun);
+    mem_free(begun);
+    /* numbers that have grown far may tell of rates that nothing had */
+    if (!(step * rate > STABLE))
+        rate = fastest(e, stepper->ode, e->y);
+    if (!(step * rate > STABLE))
+        return false;
+    (void)diag_set(diag, E_SOLVER,
+                   "at t = %.9g s: steps of %.3g s are too long for %s: something decays or swings "
+                   "in %.2g s, and numbers grow without bound",
+                   e->t, step, stepper->method->name, 1 / rate);
+    diag_hint(diag, "step=%.1g or less; or method=%s, whose steps that doesn't limit",
+              0.5 * STABLE / rate, method_for((MethodNeed){.stiff = true})->name);
+    return true;
+}
+
 static void tell(RunEnd *e, Stepper *stepper, bool *is_rounding, Diag *diag)
 {
     int growing;
@@ -222,7 +300,8 @@ static void tell(RunEnd *e, Stepper *stepper, bool *is_rounding, Diag *diag)
     Pushing pushing;
 
     e->soon = fmax(SOON * fmin(e->span, time), fmin(2 * step, time));
-    if (tell_leading(e, stepper->ode, diag) || tell_meeting(e, diag) || tell_critical(e, diag)) {
+    if (tell_unstable(e, stepper, diag) || tell_leading(e, stepper->ode, diag) ||
+        tell_meeting(e, diag) || tell_critical(e, diag)) {
         *is_rounding = false;
         return;
     }
