@@ -47,6 +47,7 @@ EXTRA_DIST += tests/claims.sh tests/family/family.h
 SCRIPT_TESTS = \
 	tests/cases/andrews \
 	tests/cases/beams \
+	tests/cases/exported_code \
 	tests/cases/four_bar \
 	tests/cases/free_body \
 	tests/cases/heavy_top \

@@ -4,7 +4,8 @@
  * so that each value is what expr_evaluate() finds, to the last bit. Signs are carried
  * along (a Signed is a value or its negative) until a subtraction swallows them: both
  * are exact. Equal operations are one value, whatever expression they come from. */
-#include "compile/program_impl.h"
+#include "compile/lower.h"
+#include "compile/program.h"
 
 #include <math.h>
 #include <string.h>

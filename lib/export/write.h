@@ -6,6 +6,7 @@
 
 #include "present/show.h"
 #include "simulate/analyse/linearize.h"
+#include "simulate/run/result_reader.h"
 
 /* What is to be written; `view` has the equations that the format needs. */
 typedef struct Exported {
@@ -14,6 +15,10 @@ typedef struct Exported {
     const char *const *names;
     const double *values;
     int rows, columns;
+    /* of NEED_CODE: formulas over the user's variables, called `names`, and the assembled start */
+    const Expr *items;
+    int item_count;
+    ResultReader *start;
     const Modes *modes; /* or these; NULL */
     bool with_header;   /* the file is new */
 } Exported;

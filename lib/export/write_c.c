@@ -1,340 +1,484 @@
-/* write_c.c: equations as C functions
- *
- * A function a block takes parameters p, time t, coordinates q, speeds u, network
- * states x and algebraic unknowns z, and writes the block row by row; those of a nonlinear network
- * take the rates xd of x, too, and where angles of chords count turns all of them take values near
- * these. Symbols become local variables with the user's names, made into
- * identifiers. */
-#include "export/write.h"
-#include "present/abbreviate.h"
-#include "present/tables.h"
+/* write_c.c: a model in C99 that is C++ too: no allocation, nothing kept between calls */
+#include "export/code.h"
 
-#include "base/names.h"
-
-#include <ctype.h>
-#include <stdio.h>
 #include <string.h>
 
-typedef struct Rename { /* symbols and the identifiers that stand for them */
-    Arena *arena;
-    Names *taken;
-    LIST(Expr) symbols;
-    LIST(Expr) identifiers;
-    LIST(const char *) sources; /* "q[0]", kept in `pool` */
-    Pool *pool;
-    bool near; /* whether anything reads what picks the turn of an angle */
-} Rename;
-
-/* what an identifier of ours may not be: keywords, and what the functions call their own */
-static const char *const reserved[] = {
-    "auto",    "break",  "case",  "char",   "const",   "continue", "default",  "do",
-    "double",  "else",   "enum",  "extern", "float",   "for",      "goto",     "if",
-    "inline",  "int",    "long",  "return", "short",   "signed",   "sizeof",   "static",
-    "struct",  "switch", "union", "void",   "while",   "y0",       "y1",       "yn",
-    "j0",      "j1",     "jn",    "gamma",  "p",       "t",        "q",        "u",
-    "x",       "z",      "out",   "sin",    "cos",     "tan",      "asin",     "acos",
-    "atan",    "atan2",  "sinh",  "cosh",   "tanh",    "exp",      "log",      "sqrt",
-    "fabs",    "pow",    "fmin",  "fmax",   "floor",   "sign",     "step",     "ramp",
-    "main",    "near",   "rint",  "table",  "typedef", "volatile", "unsigned", "register",
-    "restrict"};
-
-/* letters, digits and _ of the name; a prime becomes _d; unique */
-static const char *identifier(Rename *rename, const char *name)
+static void open_function(Text *out, const Code *code, const CodeFunction *f, const char *locals)
 {
-    Text text = {0};
-    const char *out;
-    int count = 2;
-
-    for (const char *c = name; *c != '\0'; c++)
-        if (*c == '\'')
-            text_add(&text, "_d");
-        else if (isalnum((unsigned char)*c) || *c == '_')
-            text_char(&text, *c);
-        else if (*c != ')')
-            text_char(&text, '_');
-    if (text.length == 0 || isdigit((unsigned char)text.at[0])) {
-        Text prefixed = {0};
-
-        text_addf(&prefixed, "v_%s", text.at != NULL ? text.at : "");
-        text_free(&text);
-        text = prefixed;
-    }
-    if (names_find(rename->taken, text.at) >= 0) {
-        const size_t length = text.length;
-
-        do {
-            text.length = length;
-            text_addf(&text, "_%d", count++);
-        } while (names_find(rename->taken, text.at) >= 0);
-    }
-    (void)names_add(rename->taken, text.at);
-    out = pool_text(rename->pool, text.at, text.length);
-    text_free(&text);
-    return out;
+    (void)code;
+    (void)locals;
+    text_addf(
+        out,
+        "\n/* %s, %d x %d%s */\nvoid model_%s(const real *p, real t, const real *y, const real "
+        "*s, real *out)\n{\n    int i;\n\n    (void)p, (void)t, (void)y, (void)s;\n"
+        "    for (i = 0; i < %d; i++)\n        out[i] = 0;\n",
+        f->what, f->rows, f->columns, f->columns > 1 ? ", row by row" : "", f->name,
+        f->rows * f->columns);
 }
 
-static void add_symbol(Rename *rename, Expr symbol, const char *array, int index)
+/* --- the runtime --- */
+
+static const char declarations[] =
+    "\n#include <math.h>\n\n#ifndef real\n#define real double /* or float: -Dreal=float */\n"
+    "#endif\n#define R(v) ((real)(v))\n\n"
+    "enum { /* numbers in each array */\n"
+    "    MODEL_PARAMETERS = $PARAMETERS, /* that may be changed; then model_prepare() */\n"
+    "    MODEL_P = $NP,\n    MODEL_Q = $Q,\n    MODEL_U = $U,\n    MODEL_X = $X,\n"
+    "    MODEL_A = $A, /* references of angles over full turns */\n"
+    "    MODEL_Y = $Y,\n    MODEL_Z = $Z,\n    MODEL_M = $M,\n    MODEL_S = $S,\n"
+    "    MODEL_OUTPUTS = $OUTPUTS,\n    MODEL_CONDITIONS = $CONDITIONS,\n"
+    "    MODEL_LARGEST = $LARGEST,\n"
+    "    MODEL_WORK = 2 * (MODEL_LARGEST + 1) * (MODEL_LARGEST + 2) + 8 * (MODEL_Y + 1)\n};\n"
+    "enum { MODEL_OK, MODEL_SINGULAR, MODEL_NO_SOLUTION }; /* what functions return */\n\n"
+    "#ifdef __cplusplus\nextern \"C\" {\n#endif\n\n"
+    "/* the parameters' values, with model_prepare() */\nvoid model_parameters(real *p);\n"
+    "/* what follows from parameters alone: after a parameter has changed */\n"
+    "void model_prepare(real *p);\n"
+    "/* initial conditions, and s there */\nvoid model_start(real *y, real *s);\n"
+    "/* s for a state; s as it was is where Newton's method begins. work: MODEL_WORK numbers */\n"
+    "int model_solve(const real *p, real t, const real *y, real *s, real *work);\n"
+    "/* y' and s */\n"
+    "int model_rates(const real *p, real t, const real *y, real *s, real *work, real *rates);\n"
+    "/* y onto the constraints: positions, then speeds */\n"
+    "int model_project(const real *p, real t, real *y, real *work);\n"
+    "/* one step of the classical Runge-Kutta method, with projection */\n"
+    "int model_step(const real *p, real t, real step, real *y, real *s, real *work);\n";
+
+static const char partial_pivots[] =
+    "\n/* A x = b from the rows [A | b], in which it works: elimination with row pivots */\n"
+    "static int model_eliminate(real *a, int n, real *x, real *work)\n{\n"
+    "    const int w = n + 1;\n    int i, j, k;\n\n    (void)work;\n"
+    "    for (i = 0; i < n; i++) {\n        real most = 0;\n\n"
+    "        for (j = 0; j < n; j++)\n            if (R(fabs(a[i * w + j])) > most)\n"
+    "                most = R(fabs(a[i * w + j]));\n"
+    "        if (!(most > 0))\n            return MODEL_SINGULAR;\n"
+    "        for (j = 0; j < w; j++)\n            a[i * w + j] /= most;\n    }\n"
+    "    for (j = 0; j < n; j++) { /* unit columns, too: x[j] is how large they were */\n"
+    "        x[j] = 0;\n        for (i = 0; i < n; i++)\n"
+    "            if (R(fabs(a[i * w + j])) > x[j])\n                x[j] = R(fabs(a[i * w + j]));\n"
+    "        if (!(x[j] > 0))\n            return MODEL_SINGULAR;\n"
+    "        for (i = 0; i < n; i++)\n            a[i * w + j] /= x[j];\n    }\n"
+    "    for (k = 0; k < n; k++) {\n        int pivot = k;\n\n"
+    "        for (i = k + 1; i < n; i++)\n"
+    "            if (fabs(a[i * w + k]) > fabs(a[pivot * w + k]))\n                pivot = i;\n"
+    "        if (!(fabs(a[pivot * w + k]) > (sizeof(real) > 4 ? 1e-14 : 1e-6)))\n"
+    "            return MODEL_SINGULAR;\n"
+    "        for (j = k; pivot != k && j < w; j++) {\n            const real v = a[k * w + j];\n\n"
+    "            a[k * w + j] = a[pivot * w + j];\n            a[pivot * w + j] = v;\n        }\n"
+    "        for (i = k + 1; i < n; i++) {\n"
+    "            const real v = a[i * w + k] / a[k * w + k];\n\n"
+    "            for (j = k + 1; (v > 0 || v < 0) && j < w; j++)\n"
+    "                a[i * w + j] -= v * a[k * w + j];\n        }\n    }\n"
+    "    for (i = n - 1; i >= 0; i--) {\n        real v = a[i * w + n];\n\n"
+    "        for (j = i + 1; j < n; j++)\n            v -= a[i * w + j] * a[j * w + n];\n"
+    "        a[i * w + n] = v / a[i * w + i];\n    }\n"
+    "    for (i = 0; i < n; i++)\n        x[i] = a[i * w + n] / x[i];\n    return MODEL_OK;\n}\n";
+
+static const char full_pivots[] =
+    "\n/* A x = b from the rows [A | b], in which it works: elimination with full pivots. "
+    "Constraints\n"
+    " * repeat each other: of all solutions the least x. `work`: n (n + 2) numbers */\n"
+    "static int model_eliminate(real *a, int n, real *x, real *work)\n{\n"
+    "    const int w = n + 1;\n    real *size = work, *order = work + n, *null = work + 2 * n;\n"
+    "    int i, j, k, c, rank = n;\n\n"
+    "    for (i = 0; i < n; i++) {\n        real most = 0;\n\n"
+    "        for (j = 0; j < n; j++)\n            if (R(fabs(a[i * w + j])) > most)\n"
+    "                most = R(fabs(a[i * w + j]));\n"
+    "        for (j = 0; most > 0 && j < w; j++)\n            a[i * w + j] /= most;\n    }\n"
+    "    for (j = 0; j < n; j++) {\n        size[j] = 0;\n        order[j] = R(j);\n"
+    "        for (i = 0; i < n; i++)\n            if (R(fabs(a[i * w + j])) > size[j])\n"
+    "                size[j] = R(fabs(a[i * w + j]));\n"
+    "        if (!(size[j] > 0))\n            size[j] = 1;\n"
+    "        for (i = 0; i < n; i++)\n            a[i * w + j] /= size[j];\n    }\n"
+    "    for (k = 0; k < rank; k++) {\n        int row = k, column = k;\n\n"
+    "        for (i = k; i < n; i++)\n            for (j = k; j < n; j++)\n"
+    "                if (fabs(a[i * w + j]) > fabs(a[row * w + column])) {\n"
+    "                    row = i;\n                    column = j;\n                }\n"
+    "        if (!(fabs(a[row * w + column]) > (sizeof(real) > 4 ? 1e-10 : 1e-5))) {\n"
+    "            rank = k;\n            break;\n        }\n"
+    "        for (j = 0; j < w; j++) {\n            const real v = a[k * w + j];\n\n"
+    "            a[k * w + j] = a[row * w + j];\n            a[row * w + j] = v;\n        }\n"
+    "        for (i = 0; i < n; i++) {\n            const real v = a[i * w + k];\n\n"
+    "            a[i * w + k] = a[i * w + column];\n            a[i * w + column] = v;\n        }\n"
+    "        x[0] = order[k];\n        order[k] = order[column];\n        order[column] = x[0];\n"
+    "        for (i = k + 1; i < n; i++) {\n"
+    "            const real v = a[i * w + k] / a[k * w + k];\n\n"
+    "            for (j = k + 1; (v > 0 || v < 0) && j < w; j++)\n"
+    "                a[i * w + j] -= v * a[k * w + j];\n        }\n    }\n"
+    "    for (c = rank; c <= n; c++) { /* what A takes to nothing; last, a solution */\n"
+    "        real *v = c < n ? null + (c - rank) * n : x;\n\n"
+    "        for (i = 0; i < n; i++)\n            v[i] = 0;\n"
+    "        for (i = rank - 1; i >= 0; i--) {\n"
+    "            real sum = c < n ? -a[i * w + c] : a[i * w + n];\n\n"
+    "            for (j = i + 1; j < rank; j++)\n                sum -= a[i * w + j] * v[j];\n"
+    "            v[i] = sum / a[i * w + i];\n        }\n"
+    "        if (c < n)\n            v[c] = 1;\n"
+    "        for (i = 0; i < n; i++) /* in the order of the unknowns: a has room now */\n"
+    "            a[n * w - n + (int)order[i]] = v[i] / size[(int)order[i]];\n"
+    "        for (i = 0; i < n; i++)\n            v[i] = a[n * w - n + i];\n"
+    "        for (k = 0; k < c - rank; k++) {\n            const real *u = null + k * n;\n"
+    "            real dot = 0;\n\n"
+    "            for (i = 0; i < n; i++)\n                dot += u[i] * v[i];\n"
+    "            for (i = 0; i < n; i++)\n                v[i] -= dot * u[i];\n        }\n"
+    "        if (c < n) {\n            real sum = 0;\n\n"
+    "            for (i = 0; i < n; i++)\n                sum += v[i] * v[i];\n"
+    "            for (i = 0; i < n; i++)\n                v[i] /= R(sqrt(sum));\n        }\n    }\n"
+    "    return MODEL_OK;\n}\n";
+
+static const char newton[] =
+    "\n/* how far rows of [A | b] are from 0, each over its weight */\n"
+    "static real model_lack(const real *a, int n, const real *weight)\n{\n    real sum = 0;\n"
+    "    int i;\n\n    for (i = 0; i < n; i++)\n"
+    "        sum += R(fabs(a[i * (n + 1) + n])) / weight[i];\n    return sum;\n}\n"
+    "\n/* Newton's method, its steps shortened where they lead away */\n"
+    "static int model_newton(void (*rows)(const real *, real, const real *, const real *, real "
+    "*),\n"
+    "                        const real *p, real t, const real *y, real *s, int first, int n,\n"
+    "                        real *work)\n{\n"
+    "    real *a = work, *x = a + n * (n + 1), *old = x + n, *weight = old + n, *rest = weight + "
+    "n;\n"
+    "    int i, j, tries, near = 0;\n\n"
+    "    for (tries = 0; tries < 200; tries++) {\n"
+    "        real lack, step = 1, change = 0, size = 0;\n        int halves;\n\n"
+    "        rows(p, t, y, s, a);\n        for (i = 0; i < n; i++) {\n            weight[i] = 0;\n"
+    "            for (j = 0; j < n; j++)\n"
+    "                if (R(fabs(a[i * (n + 1) + j])) > weight[i])\n"
+    "                    weight[i] = R(fabs(a[i * (n + 1) + j]));\n"
+    "            if (!(weight[i] > 0))\n                return MODEL_SINGULAR;\n        }\n"
+    "        lack = model_lack(a, n, weight);\n"
+    "        if (model_eliminate(a, n, x, rest) != MODEL_OK)\n            return MODEL_SINGULAR;\n"
+    "        for (i = 0; i < n; i++)\n            old[i] = s[first + i];\n"
+    "        for (halves = 0; halves < 60; halves++, step /= 2) {\n"
+    "            for (i = 0; i < n; i++)\n                s[first + i] = old[i] + step * x[i];\n"
+    "            if (near > 0 || !(lack > 0))\n                break;\n"
+    "            rows(p, t, y, s, a);\n"
+    "            if (model_lack(a, n, weight) < lack)\n                break;\n        }\n"
+    "        for (i = 0; i < n; i++) {\n"
+    "            if (!(R(fabs(x[i])) <= change))\n                change = R(fabs(x[i]));\n"
+    "            if (R(fabs(old[i])) > size)\n                size = R(fabs(old[i]));\n        }\n"
+    "        if (change <= size * R(sizeof(real) > 4 ? 1e-9 : 1e-4) || !(lack > 0))\n"
+    "            near++;\n        if (near > 2)\n            return MODEL_OK;\n    }\n"
+    "    return MODEL_NO_SOLUTION;\n}\n";
+
+static const char projection[] =
+    "\nint model_rates(const real *p, real t, const real *y, real *s, real *work, real *rates)\n{\n"
+    "    const int status = model_solve(p, t, y, s, work);\n\n"
+    "    model_derivative(p, t, y, s, rates);\n    return status;\n}\n"
+    "\nstatic void model_normalise(real *y)\n{\n"
+    "    static const int first[] = {$FIRSTS};\n    int k, i;\n\n"
+    "    for (k = 0; first[k] >= 0; k++) {\n        real sum = 0;\n\n"
+    "        for (i = 0; i < 4; i++)\n            sum += y[first[k] + i] * y[first[k] + i];\n"
+    "        for (i = 0; i < 4; i++)\n            y[first[k] + i] /= R(sqrt(sum));\n    }\n}\n"
+    "\n/* rows [1 Phi_u^T; Phi_u 0 | 0; b] */\n"
+    "static void model_nearest(const real *p, real t, const real *y, real *a, const real *b)\n{\n"
+    "    const int n = MODEL_U + MODEL_M, w = n + 1;\n    real *phi_u = a + n * w;\n"
+    "    int i, j;\n\n    model_jacobian(p, t, y, y, phi_u);\n"
+    "    for (i = 0; i < n * w; i++)\n        a[i] = 0;\n"
+    "    for (i = 0; i < MODEL_U; i++)\n        a[i * w + i] = 1;\n"
+    "    for (i = 0; i < MODEL_M; i++) {\n        for (j = 0; j < MODEL_U; j++) {\n"
+    "            a[j * w + MODEL_U + i] = phi_u[i * MODEL_U + j];\n"
+    "            a[(MODEL_U + i) * w + j] = phi_u[i * MODEL_U + j];\n        }\n"
+    "        a[(MODEL_U + i) * w + n] = b[i];\n    }\n}\n"
+    "\nint model_project(const real *p, real t, real *y, real *work)\n{\n"
+    "    const int n = MODEL_U + MODEL_M;\n"
+    "    real *b = work, *x = b + n + 1, *a = x + n + 1, *rest = a + n * (n + 1);\n"
+    "    int i, j, sweep;\n\n    model_normalise(y);\n"
+    "    for (sweep = 0; MODEL_M > 0 && sweep < 20; sweep++) {\n        real most = 0;\n\n"
+    "        model_constraints(p, t, y, y, b);\n"
+    "        for (i = 0; i < MODEL_M; i++) {\n            b[i] = -b[i];\n"
+    "            if (R(fabs(b[i])) > most)\n                most = R(fabs(b[i]));\n        }\n"
+    "        if (most <= (sizeof(real) > 4 ? 1e-13 : 1e-6))\n            break;\n"
+    "        model_nearest(p, t, y, a, b);\n"
+    "        if (model_eliminate(a, n, x, rest) != MODEL_OK)\n            return MODEL_SINGULAR;\n"
+    "        model_map(p, t, y, y, a);\n"
+    "        for (i = 0; i < MODEL_Q; i++)\n            for (j = 0; j < MODEL_U; j++)\n"
+    "                y[i] += a[i * MODEL_U + j] * x[j];\n        model_normalise(y);\n    }\n"
+    "    if (MODEL_M > 0) {\n        model_velocity(p, t, y, y, b);\n"
+    "        model_jacobian(p, t, y, y, a);\n"
+    "        for (i = 0; i < MODEL_M; i++)\n            for (j = 0; j < MODEL_U; j++)\n"
+    "                b[i] -= a[i * MODEL_U + j] * y[MODEL_Q + j];\n"
+    "        model_nearest(p, t, y, a, b);\n"
+    "        if (model_eliminate(a, n, x, rest) != MODEL_OK)\n            return MODEL_SINGULAR;\n"
+    "        for (j = 0; j < MODEL_U; j++)\n            y[MODEL_Q + j] += x[j];\n    }\n"
+    "    if (MODEL_A > 0) {\n        model_angles(p, t, y, y, b);\n"
+    "        for (i = 0; i < MODEL_A; i++)\n            y[MODEL_Q + MODEL_U + MODEL_X + i] = "
+    "b[i];\n    }\n"
+    "    return MODEL_OK;\n}\n"
+    "\nint model_step(const real *p, real t, real step, real *y, real *s, real *work)\n{\n"
+    "    real *rate = work, *sum = rate + MODEL_Y, *at = sum + MODEL_Y, *rest = at + MODEL_Y;\n"
+    "    int i, k;\n\n    for (i = 0; i < MODEL_Y; i++) {\n        at[i] = y[i];\n"
+    "        sum[i] = 0;\n    }\n"
+    "    for (k = 0; k < 4; k++) {\n        const real part = k == 2 ? step : step / 2;\n"
+    "        const int status = model_rates(p, k == 0 ? t : k == 3 ? t + step : t + step / 2, at, "
+    "s,"
+    "\n                                       rest, rate);\n\n"
+    "        if (status != MODEL_OK)\n            return status;\n"
+    "        for (i = 0; i < MODEL_Y; i++) {\n"
+    "            sum[i] += rate[i] * (k == 0 || k == 3 ? step / 6 : step / 3);\n"
+    "            at[i] = y[i] + part * rate[i];\n        }\n    }\n"
+    "    for (i = 0; i < MODEL_Y; i++)\n        y[i] += sum[i];\n"
+    "    return model_project(p, t + step, y, rest);\n}\n";
+
+static const char check_begin[] =
+    "\n#ifdef MODEL_CHECK /* numbers from where this file was made */\n#include <stdio.h>\n\n"
+    "static real model_sum(const real *v, int n)\n{\n    real sum = 0;\n    int i;\n\n"
+    "    for (i = 0; i < n; i++)\n        sum += R(1 + i % 7) * v[i];\n    return sum;\n}\n"
+    "\nstatic double worst;\n"
+    "\nstatic int differs(const char *what, int state, real is, double should, double size)\n{\n"
+    "    const double off = fabs((double)is - should) / (size > 0 ? size : 1);\n\n"
+    "    if (off > worst)\n        worst = off;\n"
+    "    if (off <= (sizeof(real) > 4 ? 1e-12 : 1e-2))\n        return 0;\n"
+    "    printf(\"%s in state %d: %.17g instead of %.17g\\n\", what, state, (double)is, should);\n"
+    "    return 1;\n}\n"
+    "\nstatic int model_check(const real *p, int state, double t, const double *states,\n"
+    "                       const double *sums, const double *sizes, real *s)\n{\n"
+    "    static real y[MODEL_Y + 1], right[MODEL_S + 1], work[MODEL_WORK], out[$ROOM];\n"
+    "    static const int parts[] = {MODEL_X, MODEL_Z, MODEL_U, MODEL_M};\n"
+    "    int i, part, at = 0, bad = 0, status;\n\n"
+    "    for (i = 0; i < MODEL_Y; i++)\n        y[i] = R(states[i]);\n"
+    "    for (i = 0; i < MODEL_S; i++)\n        right[i] = R(states[MODEL_Y + i]);\n"
+    "    status = model_solve(p, R(t), y, s, work);\n"
+    "    if (status != MODEL_OK)\n"
+    "        printf(\"state %d: %s\\n\", state, status == MODEL_SINGULAR ? \"singular\" : \"no "
+    "solution\");\n"
+    "    bad += status != MODEL_OK;\n"
+    "    for (part = 0; part < 4; at += parts[part++]) {\n"
+    "        for (i = at; i < at + parts[part]; i++)\n"
+    "            bad += differs(\"s\", state, s[i], (double)right[i], sizes[part]);\n    }\n"
+    "    for (i = 0; i < MODEL_Y; i++) /* functions are looked at away from the constraints */\n"
+    "        y[i] *= R(1 + R(i % 5 + 1) / 32);\n";
+
+static void add_rows(const Code *code, Text *out)
 {
-    char source[40];
+    text_add(out, "\nint model_solve(const real *p, real t, const real *y, real *s, real *work)\n"
+                  "{\n    int i, status = MODEL_OK;\n\n    (void)i, (void)work;\n");
+    for (int g = 0; g < code->group_count; g++) {
+        const CodeGroup *group = &code->groups[g];
+        const char *name = code->functions.at[group->function].name;
 
-    (void)snprintf(source, sizeof source, "%s[%d]", array, index);
-    LIST_PUSH(rename->symbols, symbol);
-    LIST_PUSH(rename->identifiers,
-              expr_symbol(rename->arena, identifier(rename, expr_name(symbol)), SYMBOL_ARGUMENT));
-    LIST_PUSH(rename->sources, pool_text(rename->pool, source, strlen(source)));
-}
-
-static Rename rename_all(const View *view)
-{
-    const System *system = view->system;
-    Rename rename = {.arena = model_arena(view->model), .taken = names_new(), .pool = pool_new(0)};
-
-    for (int i = 0; i < COUNT(reserved); i++)
-        (void)names_add(rename.taken, reserved[i]);
-    for (int i = 0; i < model_parameter_count(view->model); i++) {
-        Expr definition;
-
-        add_symbol(&rename, model_parameter(view->model, i, &definition), "p", i);
+        if (group->iterates)
+            text_addf(out,
+                      "    status = model_newton(model_%s, p, t, y, s, %d, %d, work);\n"
+                      "    if (status != MODEL_OK)\n        return status;\n",
+                      name, group->first, group->count);
+        else
+            text_addf(out,
+                      "    model_%s(p, t, y, s, work);\n"
+                      "    status = model_eliminate(work, %d, s + %d, work + %d);\n"
+                      "    if (status != MODEL_OK)\n        return status;\n",
+                      name, group->count, group->first, group->count * (group->count + 1));
     }
-    for (int i = 0; i < system_n(system); i++)
-        add_symbol(&rename, system_q(system, i)->symbol, "q", i);
-    for (int i = 0; i < system_nu(system); i++)
-        add_symbol(&rename, system_u(system, i)->symbol, "u", i);
-    for (int i = 0; i < system_nx(system); i++)
-        add_symbol(&rename, system_x(system, i)->symbol, "x", i);
-    for (int i = 0; i < system_nz(system); i++)
-        add_symbol(&rename, system_z(system, i)->symbol, "z", i);
-    for (int i = 0; i < system_multi_turn_count(system); i++)
-        add_symbol(&rename, system_multi_turn(system, i)->reference, "near", i);
-    if (system_run(system)->network_nonlinear)
-        for (int i = 0; i < system_nx(system); i++)
-            add_symbol(&rename, system_state_rate(system, i), "xd", i);
-    return rename;
-}
-
-static void rename_free(Rename *rename)
-{
-    names_free(rename->taken);
-    pool_free(rename->pool);
-    LIST_FREE(rename->symbols);
-    LIST_FREE(rename->identifiers);
-    LIST_FREE(rename->sources);
-}
-
-/* --- one function --- */
-
-/* the locals that a block uses, copied from the arguments */
-static void add_locals(Text *out, const Rename *rename, const Expr *roots, int count)
-{
-    for (int i = 0; i < rename->symbols.count; i++) {
-        bool used = false;
-
-        for (int r = 0; !used && r < count; r++)
-            used = expr_depends(roots[r], rename->symbols.at[i]);
-        if (used)
-            text_addf(out, "    const double %s = %s;\n", expr_name(rename->identifiers.at[i]),
-                      rename->sources.at[i]);
-    }
-}
-
-static void add_function(Text *out, const Rename *rename, const char *name, const char *what,
-                         const Expr *entries, int rows, int columns, bool of_rates)
-{
-    /* no name of the user begins so */
-    static const Naming naming = {"_v", 1, 0};
-    const int count = rows * columns;
-    Expr *roots = NEW_ARRAY(Expr, count);
-    Abbreviation shared;
-
-    for (int i = 0; i < count; i++)
-        roots[i] = expr_substitute(rename->arena, entries[i], rename->symbols.at,
-                                   rename->identifiers.at, rename->symbols.count);
-    shared = abbreviate(rename->arena, roots, count, &naming);
-    text_addf(out,
-              "\n/* %s, %d x %d, row by row */\nvoid %s(const double *p, double t, const double "
-              "*q, const double *u,\n    const double *x, const double *z, %s%sdouble *out)\n{\n",
-              what, rows, columns, name, rename->near ? "const double *near, " : "",
-              of_rates ? "const double *xd, " : "");
-    add_locals(out, rename, entries, count);
-    for (int i = 0; i < shared.definitions.count; i++) {
-        text_addf(out, "    const double %s = ", expr_name(shared.definitions.at[i].symbol));
-        expr_print(out, shared.definitions.at[i].value, NOTATION_C);
-        text_add(out, ";\n");
-    }
-    text_addf(out, "\n    (void)p, (void)t, (void)q, (void)u, (void)x, (void)z%s%s;\n",
-              rename->near ? ", (void)near" : "", of_rates ? ", (void)xd" : "");
-    for (int i = 0; i < count; i++) {
-        text_addf(out, "    out[%d] = ", i);
-        expr_print(out, shared.roots[i], NOTATION_C);
-        text_add(out, ";\n");
-    }
-    text_add(out, "}\n");
-    abbreviation_free(&shared);
-    mem_free(roots);
-}
-
-/* a function has no place for accelerations, multipliers and efforts */
-static Status check_symbols(const Rename *rename, const Expr *entries, int count, const char *what,
-                            Diag *diag)
-{
-    Expr *symbols = NULL;
-    const int found = expr_symbols(entries, count, &symbols);
-    Status status = OK;
-
-    for (int i = 0; status == OK && i < found; i++) {
-        bool known = expr_symbol_kind(symbols[i]) == SYMBOL_TIME;
-
-        for (int k = 0; !known && k < rename->symbols.count; k++)
-            known = rename->symbols.at[k] == symbols[i];
-        if (!known)
-            status = diag_set(diag, E_MISSING,
-                              "%s depends on %s, which no function of the C source is given", what,
-                              expr_name(symbols[i]));
-    }
-    mem_free(symbols);
-    return status;
-}
-
-/* --- data --- */
-
-/* one array a table: its points, then x, y and y'' of each; and what computes the curve */
-static void add_tables(Text *out, const Expr *roots, int count)
-{
-    Expr *symbols = NULL;
-    const int found = expr_tables(roots, count, &symbols);
-
-    if (found > 0)
-        text_add(
+    if (code->is_explicit)
+        text_addf(
             out,
-            "\n/* a natural cubic spline, or a derivative of it; constant outside its points */\n"
-            "static double table(const double *data, double v, int order)\n{\n"
-            "    const int n = (int)data[0];\n"
-            "    const double *x = data + 1, *y = x + n, *m = y + n;\n"
-            "    int i = 0, last = n - 1;\n\n"
-            "    if (v < x[0] || v > x[n - 1])\n"
-            "        return order > 0 ? 0 : v < x[0] ? y[0] : y[n - 1];\n"
-            "    while (last - i > 1) {\n"
-            "        const int middle = (i + last) / 2;\n\n"
-            "        if (v < x[middle])\n            last = middle;\n"
-            "        else\n            i = middle;\n    }\n"
-            "    const double h = x[i + 1] - x[i], a = (x[i + 1] - v) / h, b = (v - x[i]) / h;\n\n"
-            "    if (order == 0)\n"
-            "        return a * y[i] + b * y[i + 1] +\n"
-            "               ((a * a * a - a) * m[i] + (b * b * b - b) * m[i + 1]) * h * h / 6;\n"
-            "    if (order == 1)\n"
-            "        return (y[i + 1] - y[i]) / h +\n"
-            "               ((3 * b * b - 1) * m[i + 1] - (3 * a * a - 1) * m[i]) * h / 6;\n"
-            "    return order == 2 ? a * m[i] + b * m[i + 1] : order == 3 ? (m[i + 1] - m[i]) / h "
-            ": "
-            "0;\n}\n");
-    tables_print(out, NOTATION_C, "\n", roots, count);
-    mem_free(symbols);
+            "    model_accelerations(p, t, y, s, s + %d);\n    for (i = 0; i < MODEL_U; i++)\n"
+            "        if (!(fabs(s[%d + i]) <= 1e300))\n            return MODEL_SINGULAR;\n",
+            code->layout->nx + code->layout->nz, code->layout->nx + code->layout->nz);
+    text_add(out, "    return status;\n}\n");
 }
 
-/* --- the file --- */
-
-static void add_list(Text *out, const char *array, const char *what,
-                     const Variable *(*variable)(const System *, int), const System *system,
-                     int count)
+static void add_list(Text *out, const double *values, int count)
 {
-    for (int i = 0; i < count; i++)
-        text_addf(out, " *   %s[%d] %s%s\n", array, i, variable(system, i)->name,
-                  i == 0 ? what : "");
-}
-
-static void add_head(Text *out, const View *view, bool near)
-{
-    const System *system = view->system;
-
-    text_addf(out,
-              "/* %s\n *\n * M u' + Phi_u^T lambda = F,  Phi = 0,  Phi_u u = nu,  "
-              "Phi_u u' = gamma,  %s\n *\n",
-              model_title(view->model) != NULL && model_title(view->model)[0] != '\0'
-                  ? model_title(view->model)
-                  : "equations of motion",
-              system_run(system)->network_nonlinear ? "G(x', z) = 0, A = dG/d[x'; z]"
-                                                    : "A [x'; z] = r");
-    for (int i = 0; i < model_parameter_count(view->model); i++) {
-        Expr definition;
-        const Expr symbol = model_parameter(view->model, i, &definition);
-
-        text_addf(out, " *   p[%d] %s = ", i, expr_name(symbol));
-        text_number(out, model_parameter_value(view->model, symbol), 17);
-        text_char(out, '\n');
+    for (int i = 0; i < count; i++) {
+        text_add(out, i % 4 == 0 ? "\n        " : " ");
+        text_number(out, values[i], 17);
+        text_char(out, ',');
     }
-    add_list(out, "q", "  (coordinates)", system_q, system, system_n(system));
-    add_list(out, "u", "  (speeds)", system_u, system, system_nu(system));
-    add_list(out, "x", "  (network states)", system_x, system, system_nx(system));
-    add_list(out, "z", "  (algebraic unknowns)", system_z, system, system_nz(system));
-    for (int i = 0; near && i < system_multi_turn_count(system); i++) {
-        const MultiTurn *turn = system_multi_turn(system, i);
+}
+
+static void add_check(const Code *code, Text *out)
+{
+    double sizes[CODE_PARTS];
+    int room = 1;
+    Text begin = {0};
+
+    for (int f = 0; f < code->functions.count; f++) {
+        const int count = code->functions.at[f].rows * code->functions.at[f].columns;
+
+        room = count > room ? count : room;
+    }
+    for (const char *c = check_begin; *c != '\0'; c++)
+        if (strncmp(c, "$ROOM", 5) == 0) {
+            text_addf(&begin, "%d", room);
+            c += 4;
+        } else
+            text_char(&begin, *c);
+    text_add(out, begin.at);
+    text_free(&begin);
+    for (int f = 0; f < code->functions.count; f++) {
+        const CodeFunction *function = &code->functions.at[f];
+
+        if (function->rows * function->columns > 0)
+            text_addf(out,
+                      "    model_%s(p, R(t), y, right, out);\n"
+                      "    bad += differs(\"%s\", state, model_sum(out, %d), sums[%d], "
+                      "sums[%d]);\n",
+                      function->name, function->name, function->rows * function->columns, 2 * f,
+                      2 * f + 1);
+    }
+    text_add(out, "    return bad;\n}\n\nint main(void)\n{\n"
+                  "    static real p[MODEL_P + 1], y[MODEL_Y + 1], s[MODEL_S + 1];\n"
+                  "    static const double sizes[] = {");
+    code_sizes(code, sizes);
+    add_list(out, sizes, CODE_PARTS);
+    text_add(out, "\n        0};\n    int bad = 0;\n\n    model_parameters(p);\n"
+                  "    model_start(y, s);\n");
+    for (int k = 0; k < code->states.count; k++) {
+        const CodeState *state = &code->states.at[k];
+
+        text_add(out, "    {\n        static const double states[] = {");
+        add_list(out, state->y, code->ny);
+        add_list(out, state->s, code->ns);
+        text_add(out, "\n        0};\n        static const double sums[] = {");
+        for (int f = 0; f < code->functions.count; f++) {
+            const double both[] = {state->sums[f], state->size[f]};
+
+            add_list(out, both, 2);
+        }
+        text_addf(out, "\n        0};\n\n        bad += model_check(p, %d, ", k + 1);
+        text_number(out, state->t, 17);
+        text_add(out, ", states, sums, sizes, s);\n    }\n");
+    }
+    text_addf(out,
+              "    printf(\"%d states: %%s, off by %%.1e at most\\n\",\n"
+              "           bad == 0 ? \"all as they were\" : \"NOT as they were\", worst);\n"
+              "    return bad > 0;\n}\n#endif\n",
+              code->states.count);
+}
+
+static void add_driver(const Code *code, Text *out)
+{
+    const Layout *l = code->layout;
+
+    text_add(out, "\n#ifdef MODEL_MAIN /* a.out SECONDS STEP: values at each step, as csv */\n"
+                  "#include <stdio.h>\n#include <stdlib.h>\n\nint main(int argc, char **argv)\n{\n"
+                  "    static real p[MODEL_P + 1], y[MODEL_Y + 1], s[MODEL_S + 1], "
+                  "work[MODEL_WORK];\n"
+                  "    const double end = argc > 1 ? atof(argv[1]) : 1, step = argc > 2 ? "
+                  "atof(argv[2]) : 1e-3;\n"
+                  "    const long count = (long)(end / step + 0.5);\n    long k;\n    int i;\n\n"
+                  "    model_parameters(p);\n    model_start(y, s);\n    puts(\"t");
+    for (int i = 0; i < code->ny; i++)
+        text_addf(out, ",%s",
+                  i < l->n                   ? system_q(l->system, i)->name
+                  : i < l->n + l->nu         ? system_u(l->system, i - l->n)->name
+                  : i < layout_references(l) ? system_x(l->system, i - l->n - l->nu)->name
+                                             : "reference");
+    text_add(out,
+             "\");\n    for (k = 0; k <= count; k++) {\n"
+             "        printf(\"%.17g\", (double)k * step);\n"
+             "        for (i = 0; i < MODEL_Y; i++)\n"
+             "            printf(\",%.17g\", (double)y[i]);\n        putchar('\\n');\n"
+             "        if (model_step(p, R((double)k * step), R(step), y, s, work) != MODEL_OK)\n"
+             "            return 1;\n    }\n    return 0;\n}\n#endif\n");
+}
+
+static void add_tables(const Code *code, Text *out)
+{
+    const int count = code->lowered.tables.count;
+
+    if (count == 0)
+        return;
+    for (int i = 0; i < count; i++) {
+        const Curve *curve = code->lowered.tables.at[i];
 
         text_addf(out,
-                  " *   near[%d] %s  (picks the turn: any value less than half a turn from %s)\n",
-                  i, expr_name(turn->reference), turn->name);
+                  "\n/* x, y and y'' at the points of a spline */\n"
+                  "static const double model_table_%d[] = {",
+                  i + 1);
+        add_list(out, curve->data, 3 * curve->count);
+        text_add(out, "\n};\n");
     }
-    text_add(out, " */\n#include <math.h>\n\n"
-                  "static inline double sign(double v) { return (v > 0) - (v < 0); }\n"
-                  "static inline double step(double v) { return v >= 0; }\n"
-                  "static inline double ramp(double v) { return v > 0 ? v : 0; }\n");
+    text_add(out, "\nstatic double model_table(int number, double v, int order)\n{\n"
+                  "    const double *x = 0, *y, *m;\n    double h, a, b;\n"
+                  "    int n = 0, i = 0, last;\n\n");
+    for (int i = 0; i < count; i++)
+        text_addf(out,
+                  "    if (number == %d) {\n        x = model_table_%d;\n        n = %d;\n    "
+                  "}\n",
+                  i + 1, i + 1, code->lowered.tables.at[i]->count);
+    text_add(out,
+             "    y = x + n;\n    m = y + n;\n    last = n - 1;\n"
+             "    if (v < x[0] || v > x[n - 1])\n"
+             "        return order > 0 ? 0 : v < x[0] ? y[0] : y[n - 1];\n"
+             "    while (last - i > 1) {\n        const int middle = (i + last) / 2;\n\n"
+             "        if (v < x[middle])\n            last = middle;\n        else\n"
+             "            i = middle;\n    }\n"
+             "    h = x[i + 1] - x[i];\n    a = (x[i + 1] - v) / h;\n    b = (v - x[i]) / h;\n"
+             "    if (order == 0)\n        return a * y[i] + b * y[i + 1] +\n"
+             "               ((a * a * a - a) * m[i] + (b * b * b - b) * m[i + 1]) * h * h / 6;\n"
+             "    if (order == 1)\n        return (y[i + 1] - y[i]) / h +\n"
+             "               ((3 * b * b - 1) * m[i + 1] - (3 * a * a - 1) * m[i]) * h / 6;\n"
+             "    return order == 2 ? a * m[i] + b * m[i + 1] : order == 3 ? (m[i + 1] - m[i]) / h"
+             " : 0;\n}\n");
 }
 
-/* a function a block (M, F, Phi, Phi_u, gamma ...), straight-line, each common subexpression
- * computed once; needs math.h alone */
-static Status write(const Exported *what, Text *out, Diag *diag)
+static void add_projection(const Code *code, Text *out)
 {
-    const View *view = &what->view;
-    System *system = view->system;
-    const Status formed = system_form_mass(system, diag);
-    const Reading *r = system_run(system);
-    const int nu = system_nu(system), m = system_m(system), n = system_n(system);
-    const int k = system_nx(system) + system_nz(system);
-    Expr *network = system_network_matrix(system);
-    const struct {
-        const char *name, *what;
-        const Expr *entries;
-        int rows, columns;
-    } blocks[] = {
-        {"model_q_rate", "q'", r->q_rate, n, 1},
-        {"model_mass", "mass matrix M", r->mass, nu, nu},
-        {"model_forces", "right side F", r->force, nu, 1},
-        {"model_constraints", "constraints Phi", r->phi, m, 1},
-        {"model_jacobian", "jacobian Phi_u", r->phi_u, m, nu},
-        {"model_velocity", "nu", r->nu, m, 1},
-        {"model_acceleration", "gamma", r->gamma, m, 1},
-        {"model_network", "network matrix A", network, k, k},
-        {r->network_nonlinear ? "model_network_residual" : "model_network_rhs",
-         r->network_nonlinear ? "residual G of the network" : "right side r of the network",
-         r->network_nonlinear ? r->network_residual : r->network_rhs, k, 1},
-    };
-    const int first_network = COUNT(blocks) - 2;
-    Rename rename = rename_all(view);
-    LIST(Expr) all = {0};
-    Status status = OK;
+    const char *firsts = strstr(projection, "$FIRSTS");
 
-    CHECK(formed);
-    for (int i = 0; i < COUNT(blocks); i++)
-        for (int j = 0; j < blocks[i].rows * blocks[i].columns; j++) {
-            LIST_PUSH(all, blocks[i].entries[j]);
-            rename.near =
-                rename.near || (expr_kinds(blocks[i].entries[j]) & 1U << SYMBOL_TURN) != 0;
-        }
-    add_head(out, view, rename.near);
-    add_tables(out, all.at, all.count);
-    for (int i = 0; i < COUNT(blocks); i++) {
-        CHECK(poll(view->watch));
-        CHECK(check_symbols(&rename, blocks[i].entries, blocks[i].rows * blocks[i].columns,
-                            blocks[i].what, diag));
-        if (blocks[i].rows * blocks[i].columns > 0)
-            add_function(out, &rename, blocks[i].name, blocks[i].what, blocks[i].entries,
-                         blocks[i].rows, blocks[i].columns,
-                         r->network_nonlinear && i >= first_network);
-    }
-done:
-    LIST_FREE(all);
-    mem_free(network);
-    rename_free(&rename);
-    return status;
+    text_add_n(out, projection, (size_t)(firsts - projection));
+    for (int i = 0, first; (first = system_quaternion(code->layout->system, i)) >= 0; i++)
+        text_addf(out, "%d, ", first);
+    text_add(out, "-1");
+    text_add(out, firsts + strlen("$FIRSTS"));
 }
 
-const Format format_c = {NEED_RUNNING, write};
+static void add_values(const Code *code, const Language *language, Text *out)
+{
+    char *locals;
+
+    text_add(out, "\nvoid model_prepare(real *p)\n{\n    (void)p;\n");
+    locals = code_print_derived(code, language, out);
+    mem_free(locals);
+    text_add(out, "}\n\nvoid model_parameters(real *p)\n{\n");
+    code_set_array(language, "p", code->values, code->parameters.count, out);
+    text_add(out, "    model_prepare(p);\n}\n\nvoid model_start(real *y, real *s)\n{\n"
+                  "    int i;\n\n    (void)y, (void)s;\n"
+                  "    for (i = 0; i < MODEL_S; i++)\n        s[i] = 0;\n");
+    code_set_array(language, "y", code->values + code->parameters.count, code->ny, out);
+    if (code->states.count > 0)
+        code_set_array(language, "s", code->states.at[0].s, code->ns, out);
+    text_add(out, "}\n");
+}
+
+static void write_file(const Code *code, const Language *language, Text *out)
+{
+    text_add(out, "/*\n");
+    code_head(code, language, " * ", out);
+    text_add(out, " */\n#ifndef MODEL_H\n#define MODEL_H\n");
+    code_fill(code, declarations, out);
+    for (int f = 0; f < code->functions.count; f++)
+        text_addf(
+            out, "void model_%s(const real *p, real t, const real *y, const real *s, real *out);\n",
+            code->functions.at[f].name);
+    text_add(out, "\n#ifdef __cplusplus\n}\n#endif\n#endif\n\n"
+                  "#ifndef MODEL_DECLARED /* define it to have the declarations alone */\n");
+    add_tables(code, out);
+    add_values(code, language, out);
+    for (int f = 0; f < code->functions.count; f++)
+        code_print(code, f, language, out);
+    text_add(out, code->is_redundant ? full_pivots : partial_pivots);
+    for (int g = 0, written = 0; g < code->group_count; g++)
+        if (code->groups[g].iterates && !written++)
+            text_add(out, newton);
+    add_rows(code, out);
+    add_projection(code, out);
+    add_check(code, out);
+    add_driver(code, out);
+    text_add(out, "#endif\n");
+}
+
+const Language language_c = {
+    .notation = NOTATION_C,
+    .array = "%s[%d]",
+    .local = "const real %s = %s;",
+    .result = "%s = %s;",
+    .onward = "",
+    .rounded = "R(%s)",
+    .power = {"pow(", ", ", ")"},
+    .open = open_function,
+    .close = "}\n",
+    .check = "cc -DMODEL_CHECK FILE.c -lm && ./a.out",
+    .file = write_file,
+};

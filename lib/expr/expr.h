@@ -288,6 +288,9 @@ bool notation_find(const char *word, Notation *out); /* false: unknown, *out unc
  * than the fraction, else as 1/3; doubles with the fewest digits that read back the same. In
  * source code names become identifiers: h8' is h8_d, m3.x is m3_x. */
 void expr_print(Text *text, Expr e, Notation notation);
+/* How source code of that notation calls a function: $0 is an argument, %0 one between operators;
+ * new string. */
+char *op_code(Op op, Notation notation);
 char *expr_text(Expr e); /* new string, NOTATION_TEXT */
 
 #endif

@@ -151,66 +151,37 @@ static void matlab_power(Printer *printer, Expr base, Expr exponent, Number numb
 
 /* --- functions --- */
 
-static const char *const c_patterns[OP_COUNT] = {
-    [OP_UNWRAP] =
-        "(atan2($0, $1) + 6.283185307179586*rint((%2 - atan2($0, $1))/6.283185307179586))",
-    [OP_SIGN] = "((%0 > 0.0) - (%0 < 0.0))",
-    [OP_STEP] = "(%0 >= 0.0)",
-    [OP_RAMP] = "fmax($0, 0.0)",
-    [OP_IF] = "($0 ? $1 : $2)",
-};
-
-static const char *const matlab_patterns[OP_COUNT] = {
-    [OP_UNWRAP] =
-        "(atan2($0, $1) + 6.283185307179586*round((%2 - atan2($0, $1))/6.283185307179586))",
-    [OP_ABS] = "abs($0)",
-    [OP_MIN] = "min($0, $1)",
-    [OP_MAX] = "max($0, $1)",
-    [OP_STEP] = "(%0 >= 0)",
-    [OP_RAMP] = "max($0, 0)",
-    [OP_NE] = "(%0 ~= %1)",
-    [OP_AND] = "(%0 ~= 0 & %1 ~= 0)",
-    [OP_OR] = "(%0 ~= 0 | %1 ~= 0)",
-    [OP_NOT] = "(%0 == 0)",
-    [OP_IF] = "feval(@(v) v{1 + (%0 ~= 0)}, {$2, $1})",
-};
-
-static const char *const python_patterns[OP_COUNT] = {
-    [OP_UNWRAP] = "(math.atan2($0, $1) + math.tau*round((%2 - math.atan2($0, $1))/math.tau))",
-    [OP_ABS] = "abs($0)",
-    [OP_SIGN] = "((%0 > 0) - (%0 < 0))",
-    [OP_MIN] = "min($0, $1)",
-    [OP_MAX] = "max($0, $1)",
-    [OP_STEP] = "(%0 >= 0)",
-    [OP_RAMP] = "max($0, 0)",
-    [OP_LT] = "(%0 < %1)",
-    [OP_LE] = "(%0 <= %1)",
-    [OP_EQ] = "(%0 == %1)",
-    [OP_NE] = "(%0 != %1)",
-    [OP_AND] = "(%0 != 0 and %1 != 0)",
-    [OP_OR] = "(%0 != 0 or %1 != 0)",
-    [OP_NOT] = "(%0 == 0)",
-    [OP_IF] = "($1 if %0 != 0 else $2)",
-};
-
-static const char *const fortran_patterns[OP_COUNT] = {
-    [OP_UNWRAP] = ("(atan2($0, $1) + 6.283185307179586d0*anint((%2 - atan2($0, $1))"
-                   "/6.283185307179586d0))"),
-    [OP_ABS] = "abs($0)",
-    [OP_SIGN] = "(merge(1.0d0, 0.0d0, %0 > 0.0d0) - merge(1.0d0, 0.0d0, %0 < 0.0d0))",
-    [OP_MIN] = "min($0, $1)",
-    [OP_MAX] = "max($0, $1)",
-    [OP_STEP] = "merge(1.0d0, 0.0d0, %0 >= 0.0d0)",
-    [OP_RAMP] = "max($0, 0.0d0)",
-    [OP_FLOOR] = "dble(floor($0))",
-    [OP_LT] = "merge(1.0d0, 0.0d0, %0 < %1)",
-    [OP_LE] = "merge(1.0d0, 0.0d0, %0 <= %1)",
-    [OP_EQ] = "merge(1.0d0, 0.0d0, %0 == %1)",
-    [OP_NE] = "merge(1.0d0, 0.0d0, %0 /= %1)",
-    [OP_AND] = "merge(1.0d0, 0.0d0, %0 /= 0.0d0 .and. %1 /= 0.0d0)",
-    [OP_OR] = "merge(1.0d0, 0.0d0, %0 /= 0.0d0 .or. %1 /= 0.0d0)",
-    [OP_NOT] = "merge(1.0d0, 0.0d0, %0 == 0.0d0)",
-    [OP_IF] = "merge($1, $2, %0 /= 0.0d0)",
+static const char *const patterns[][OP_COUNT] = {
+#define CODE(id, c, matlab, python, fortran, numpy) [OP_##id] = c,
+    [NOTATION_C] =
+        {
+#include "expr/code_functions.def"
+        },
+#undef CODE
+#define CODE(id, c, matlab, python, fortran, numpy) [OP_##id] = matlab,
+    [NOTATION_MATLAB] =
+        {
+#include "expr/code_functions.def"
+        },
+#undef CODE
+#define CODE(id, c, matlab, python, fortran, numpy) [OP_##id] = python,
+    [NOTATION_PYTHON] =
+        {
+#include "expr/code_functions.def"
+        },
+#undef CODE
+#define CODE(id, c, matlab, python, fortran, numpy) [OP_##id] = fortran,
+    [NOTATION_FORTRAN] =
+        {
+#include "expr/code_functions.def"
+        },
+#undef CODE
+#define CODE(id, c, matlab, python, fortran, numpy) [OP_##id] = numpy,
+    [NOTATION_NUMPY] =
+        {
+#include "expr/code_functions.def"
+        },
+#undef CODE
 };
 
 static const char *const c_names[] = {
@@ -233,10 +204,10 @@ static void say_pattern(Printer *printer, const char *pattern, Expr e)
     }
 }
 
-static void say_call(Printer *printer, Expr e, const char *const *patterns, const char *library)
+static void say_call(Printer *printer, Expr e, Notation notation, const char *library)
 {
-    if (patterns[e->op] != NULL) {
-        say_pattern(printer, patterns[e->op], e);
+    if (patterns[notation][e->op] != NULL) {
+        say_pattern(printer, patterns[notation][e->op], e);
         return;
     }
     if (say_operator(printer, e, c_names[e->op]))
@@ -250,7 +221,7 @@ static void say_call(Printer *printer, Expr e, const char *const *patterns, cons
 
 static void c_call(Printer *printer, Expr e)
 {
-    say_call(printer, e, c_patterns, "");
+    say_call(printer, e, NOTATION_C, "");
 }
 
 /* table1_, table1_d ...: functions, whose names may not begin as those of C */
@@ -278,22 +249,39 @@ static void matlab_call(Printer *printer, Expr e)
     if (e->op == OP_TABLE && expr_data(node_args(e)[0]) != NULL)
         matlab_table(printer, e);
     else
-        say_call(printer, e, matlab_patterns, "");
+        say_call(printer, e, NOTATION_MATLAB, "");
 }
 
 static void python_call(Printer *printer, Expr e)
 {
-    say_call(printer, e, python_patterns, "math.");
+    say_call(printer, e, NOTATION_PYTHON, "math.");
 }
 
 static void fortran_call(Printer *printer, Expr e)
 {
-    say_call(printer, e, fortran_patterns, "");
+    say_call(printer, e, NOTATION_FORTRAN, "");
 }
 
 static Level matlab_level(Expr e)
 {
-    return matlab_patterns[e->op] != NULL ? LEVEL_ATOM : operator_level(e);
+    return patterns[NOTATION_MATLAB][e->op] != NULL ? LEVEL_ATOM : operator_level(e);
+}
+
+char *op_code(Op op, Notation notation)
+{
+    const char *pattern = patterns[notation][op];
+    Text text = {0};
+
+    if (pattern != NULL)
+        text_add(&text, pattern);
+    else if (isalpha((unsigned char)c_names[op][0])) {
+        text_addf(&text, "%s%s(", notation == NOTATION_NUMPY ? "np." : "", c_names[op]);
+        for (int i = 0; i < op_args(op); i++)
+            text_addf(&text, "%s$%d", i > 0 ? ", " : "", i);
+        text_char(&text, ')');
+    } else
+        text_addf(&text, op_args(op) == 1 ? "(%s%%0)" : "(%%0 %s %%1)", c_names[op]);
+    return text_done(&text);
 }
 
 /* patterns stand in brackets or are functions */

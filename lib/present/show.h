@@ -11,6 +11,7 @@ typedef enum Need {
     NEED_MODEL,
     NEED_SYSTEM,  /* equations as the trees give them */
     NEED_RUNNING, /* equations as a run evaluates them */
+    NEED_CODE,    /* these, and the assembled start */
     NEED_RUN,     /* the last run; equations too */
     NEED_LINEAR   /* the last linearisation */
 } Need;
@@ -66,13 +67,13 @@ ShowFunction show_outputs, show_params, show_init, show_run, show_runs, show_set
 /* --- equations one by one, each behind its edge's name --- */
 
 /* row k: Phi = 0, Phi_u u = nu ("velocity") or Phi_u u' = gamma ("acceleration") */
-MUST_USE Status equations_add_constraint(const View *view, Equations *equations, int k,
+MUST_USE Status equations_add_constraint(const View *view, EquationList *equations, int k,
                                          const char *level, Diag *diag);
 /* row i of M u' + Phi_u^T lambda = F */
-MUST_USE Status equations_add_motion(const View *view, Equations *equations, int i, int lead_width,
-                                     Diag *diag);
+MUST_USE Status equations_add_motion(const View *view, EquationList *equations, int i,
+                                     int lead_width, Diag *diag);
 /* "M7: L7*i' = ..." */
-void equations_add_network(const View *view, Equations *equations, int i, int lead_width);
+void equations_add_network(const View *view, EquationList *equations, int i, int lead_width);
 
 /* a matrix of the linear equations, by its letter */
 typedef struct LinearMatrix {

@@ -140,7 +140,7 @@ static bool is_chosen(const Selection *selection, int row, int column)
            (selection->number_count < 2 || selection->numbers[1] == column + 1);
 }
 
-static void write_equations(Text *out, const View *view, Equations *equations)
+static void write_equations(Text *out, const View *view, EquationList *equations)
 {
     view_open(out, view);
     view_equations(out, view, equations);
@@ -152,7 +152,7 @@ static void write_equations(Text *out, const View *view, Equations *equations)
 static Status add_entries(Text *out, const View *view, Block block, const char *letter,
                           const Selection *selection, Diag *diag)
 {
-    Equations equations = {0};
+    EquationList equations = {0};
     Status status = OK;
     int rows, columns;
     const bool whole = selection->number_count == 0;
@@ -293,7 +293,7 @@ static Status push_right(const View *view, Equation *equation, Block block, int 
 }
 
 /* The equation goes to the others where all went well, else away. */
-static Status push_equation(Equations *equations, Equation *equation, Status status)
+static Status push_equation(EquationList *equations, Equation *equation, Status status)
 {
     if (status == OK) {
         LIST_PUSH(*equations, *equation);
@@ -304,7 +304,7 @@ static Status push_equation(Equations *equations, Equation *equation, Status sta
     return status;
 }
 
-Status equations_add_constraint(const View *view, Equations *equations, int k, const char *level,
+Status equations_add_constraint(const View *view, EquationList *equations, int k, const char *level,
                                 Diag *diag)
 {
     Equation equation = {.lead = NULL, .name = NULL, .left = {0}, .right = {0}};
@@ -330,7 +330,7 @@ done:
 
 Status show_constraints(const View *view, const Selection *selection, Text *out, Diag *diag)
 {
-    Equations equations = {0};
+    EquationList equations = {0};
     Status status = OK;
 
     CHECK(check_numbers(view, BLOCK_CONSTRAINTS, selection, diag));
@@ -360,7 +360,7 @@ static char *edge_lead(const View *view, const Variable *of, int width)
 }
 
 /* row i of the embedded form, Mt u' = Ft */
-static Status push_embedded(const View *view, Equations *equations, int i, Diag *diag)
+static Status push_embedded(const View *view, EquationList *equations, int i, Diag *diag)
 {
     Equation equation = {.lead = NULL, .name = NULL, .left = {0}, .right = {0}};
     Status status = OK;
@@ -374,7 +374,7 @@ done:
     return push_equation(equations, &equation, status);
 }
 
-Status equations_add_motion(const View *view, Equations *equations, int i, int lead_width,
+Status equations_add_motion(const View *view, EquationList *equations, int i, int lead_width,
                             Diag *diag)
 {
     Equation equation = {.lead = NULL, .name = NULL, .left = {0}, .right = {0}};
@@ -388,7 +388,7 @@ done:
     return push_equation(equations, &equation, status);
 }
 
-static Status push_motions(const View *view, Equations *equations, int lead_width, Diag *diag)
+static Status push_motions(const View *view, EquationList *equations, int lead_width, Diag *diag)
 {
     const char *const *independent;
     const int m = system_m(view->system), nu = system_nu(view->system);
@@ -402,7 +402,7 @@ static Status push_motions(const View *view, Equations *equations, int lead_widt
     return OK;
 }
 
-void equations_add_network(const View *view, Equations *equations, int i, int lead_width)
+void equations_add_network(const View *view, EquationList *equations, int i, int lead_width)
 {
     Equation equation = {.lead = NULL, .name = NULL, .left = {0}, .right = {0}};
     const Variable of = {.edge = system_network_edge(view->system, i)};
@@ -415,7 +415,7 @@ void equations_add_network(const View *view, Equations *equations, int i, int le
     LIST_PUSH(*equations, equation);
 }
 
-static void push_network(const View *view, Equations *equations, int lead_width)
+static void push_network(const View *view, EquationList *equations, int lead_width)
 {
     for (int i = 0; i < system_network_count(view->system); i++)
         equations_add_network(view, equations, i, lead_width);
@@ -440,7 +440,7 @@ static int edge_lead_width(const View *view)
 
 Status show_network(const View *view, const Selection *selection, Text *out, Diag *diag)
 {
-    Equations equations = {0};
+    EquationList equations = {0};
 
     (void)selection, (void)diag;
     if (system_network_count(view->system) == 0) {
@@ -456,7 +456,7 @@ Status show_network(const View *view, const Selection *selection, Text *out, Dia
 
 Status show_equations(const View *view, const Selection *selection, Text *out, Diag *diag)
 {
-    Equations equations = {0};
+    EquationList equations = {0};
     Status status = OK;
     const int width = edge_lead_width(view);
 
@@ -512,7 +512,7 @@ static char *left_side(const View *view, const Syntax *syntax, Expr user, int nu
 
 Status show_expression(const View *view, const Syntax *syntax, int number, Text *out, Diag *diag)
 {
-    Equations equations = {0};
+    EquationList equations = {0};
     Expr user, e;
 
     TRY(model_expression(view->model, syntax, &user, diag));

@@ -34,7 +34,7 @@ Status show_params(const View *view, const Selection *selection, Text *out, Diag
 
 Status show_outputs(const View *view, const Selection *selection, Text *out, Diag *diag)
 {
-    Equations equations = {0};
+    EquationList equations = {0};
 
     (void)selection, (void)diag;
     if (model_output_count(view->model) == 0) {

@@ -92,7 +92,7 @@ static Table make_table(const View *view, const Matrix *m, Text *align)
 /* entries that aren't 0, one a line */
 static void list_entries(Text *out, const View *view, const Matrix *m)
 {
-    Equations equations = {0};
+    EquationList equations = {0};
 
     for (int i = 0; i < m->rows; i++)
         for (int j = 0; j < m->columns; j++)

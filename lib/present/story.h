@@ -16,8 +16,8 @@ typedef struct Reason {
 typedef struct Story {
     const View *view;
     Text *out;
-    LIST(Reason) reasons; /* of what vanishes */
-    Equations equations;  /* to be said */
+    LIST(Reason) reasons;   /* of what vanishes */
+    EquationList equations; /* to be said */
 } Story;
 
 bool story_is_typeset(const View *view);

@@ -297,7 +297,7 @@ static void print_turns(Text *out, const View *view, const Expr *terms, int coun
 }
 
 /* every term of every equation, in order: what abbreviate() works on */
-static int gather(Equations *equations, Expr **terms, bool *is_long)
+static int gather(EquationList *equations, Expr **terms, bool *is_long)
 {
     LIST(Expr) all = {0};
 
@@ -318,7 +318,7 @@ static int gather(Equations *equations, Expr **terms, bool *is_long)
     return all.count;
 }
 
-static void scatter(Equations *equations, const Expr *terms)
+static void scatter(EquationList *equations, const Expr *terms)
 {
     for (int i = 0; i < equations->count; i++) {
         Equation *equation = equations->at + i;
@@ -330,7 +330,7 @@ static void scatter(Equations *equations, const Expr *terms)
     }
 }
 
-void equations_free(Equations *equations)
+void equations_free(EquationList *equations)
 {
     for (int i = 0; i < equations->count; i++) {
         MEM_FREE(equations->at[i].lead, equations->at[i].name);
@@ -340,7 +340,7 @@ void equations_free(Equations *equations)
     LIST_FREE(*equations);
 }
 
-void view_equations(Text *out, const View *view, Equations *equations)
+void view_equations(Text *out, const View *view, EquationList *equations)
 {
     const Naming naming = {free_prefix(view->model), 4, 24};
     Abbreviation names = {0};
@@ -373,7 +373,7 @@ void view_equations(Text *out, const View *view, Equations *equations)
     equations_free(equations);
 }
 
-void view_value(Equations *equations, char *name, Expr e)
+void view_value(EquationList *equations, char *name, Expr e)
 {
     Equation equation = {.lead = NULL, .left = {0}, .right = {0}};
 

@@ -52,16 +52,16 @@ typedef struct Equation {
     LIST(ViewTerm) left;
     LIST(ViewTerm) right; /* no terms: 0 */
 } Equation;
-typedef LIST(Equation) Equations;
+typedef LIST(Equation) EquationList;
 
 /* Print the equations and free the list. An equation of more than VIEW_BUDGET operations makes
  * all of them be written over named subexpressions, listed behind as `where`. Programming languages
  * know no equations: they get `residual = left - right`. */
 enum { VIEW_BUDGET = 2000 };
-void view_equations(Text *out, const View *view, Equations *equations);
-void equations_free(Equations *equations); /* an empty list is fine */
+void view_equations(Text *out, const View *view, EquationList *equations);
+void equations_free(EquationList *equations); /* an empty list is fine */
 /* the commonest one: name = e */
-void view_value(Equations *equations, char *name, Expr e);
+void view_value(EquationList *equations, char *name, Expr e);
 
 /* "mass(1,2)", or as the notation writes it: M_{1,2}, M[0][1], M(1,2); new string.
  * column -1: of a vector */

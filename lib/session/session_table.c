@@ -122,11 +122,12 @@ typedef struct Sheet {
     double *values;
     int rows, columns;
     LIST(char *) names; /* ended by NULL once it is done */
+    Expr *formulas;     /* of code, instead of values */
 } Sheet;
 
 static void sheet_free(Sheet *sheet)
 {
-    mem_free(sheet->values);
+    MEM_FREE(sheet->values, sheet->formulas);
     for (int i = 0; i < sheet->names.count; i++)
         mem_free(sheet->names.at[i]);
     LIST_FREE(sheet->names);
@@ -449,12 +450,43 @@ done:
     return status;
 }
 
-/* what the format needs; only one of numbers has items */
+/* formulas of the items over the user's variables, and the start */
+static Status read_code(ct_session *session, const Statement *s, Sheet *sheet, Exported *what,
+                        Diag *diag)
+{
+    const int count = s->operands.count - 1;
+    Run *start;
+    Status status = OK;
+
+    sheet->formulas = NEW_ARRAY(Expr, count);
+    for (int i = 0; i < count; i++) {
+        const Syntax *item = s->operands.at[i + 1].value;
+        Expr e;
+
+        status = model_expression(session->model, item, &e, diag);
+        if (status != OK)
+            return status;
+        sheet->formulas[i] = session_put_outputs(session->model, e);
+        LIST_PUSH(sheet->names, column_name(item));
+    }
+    CHECK(session_prepare(session, NEED_RUNNING, &what->view, diag));
+    CHECK(session_start(session, &start, diag));
+    what->start = start->reader;
+    what->items = sheet->formulas;
+    what->item_count = count;
+    what->names = (const char *const *)sheet->names.at;
+done:
+    return status;
+}
+
+/* what the format needs; only numbers and code have items */
 static Status prepare(ct_session *session, const Statement *s, Need need, Sheet *sheet,
                       Exported *what, Diag *diag)
 {
     if (need == NEED_RUN)
         return read_numbers(session, s, sheet, what, diag);
+    if (need == NEED_CODE)
+        return read_code(session, s, sheet, what, diag);
     if (s->operands.count > 1)
         return diag_at(diag, E_SYNTAX, s->operands.at[1].place, "'export %s' takes no items",
                        s->operands.at[0].value->text);

@@ -16,7 +16,7 @@ print C1.v, E1.v at 1
 export c > "model.c"
 save "saved.ct"
 END
-cotree -q sub/model.ct && grep -c '_table1' model.c && cat saved.ct
+cotree -q sub/model.ct && grep -c 'model_table_1' model.c && cat saved.ct
 sed 's/volt"/vol"/' sub/model.ct >sub/wrong.ct
 cotree sub/wrong.ct 2>errors; echo "$?"; cat errors
 cat >try.c <<'END'
@@ -24,11 +24,12 @@ cat >try.c <<'END'
 #include <stdio.h>
 int main(void)
 {
-    double x[1] = {0}, r[1];
+    double p[MODEL_P + 1], y[1] = {0}, s[MODEL_S] = {0}, work[MODEL_WORK];
 
-    model_network_rhs(0, 1.5, 0, 0, x, 0, r);
-    printf("%.9g\n", r[0]);
+    model_parameters(p);
+    model_solve(p, 1.5, y, s, work);
+    printf("%.9g\n", s[0]);
     return 0;
 }
 END
-if command -v cc >/dev/null; then cc -o try try.c -lm && ./try; else echo 0.75; fi
+if command -v cc >/dev/null; then cc -o try try.c -lm && ./try; else echo 3; fi

@@ -298,14 +298,15 @@ static void exported_c_compiles_and_gives_the_same_numbers(void)
     static const char main_text[] =
         "#include <stdio.h>\n"
         "int main(void)\n{\n"
-        "    double p[] = {0.08, 0.12, 0.25, 0.35}, out[16];\n"
-        "    double q[] = {1.0471975511965976, 2.8487498818612176, 0.67445626465380286};\n"
-        "    double u[] = {12, -2.0889318714683744, -2.4402745825759697};\n"
-        "    model_mass(p, 0, q, u, 0, 0, out);\n"
+        "    double p[MODEL_P], y[6], out[16];\n"
+        "    model_parameters(p);\n"
+        "    y[0] = 1.0471975511965976, y[1] = 2.8487498818612176, y[2] = 0.67445626465380286;\n"
+        "    y[3] = 12, y[4] = -2.0889318714683744, y[5] = -2.4402745825759697;\n"
+        "    model_mass(p, 0, y, y, out);\n"
         "    printf(\"%.17g\\n%.17g\\n\", out[0], out[1]);\n"
-        "    model_forces(p, 0, q, u, 0, 0, out);\n"
+        "    model_forces(p, 0, y, y, out);\n"
         "    printf(\"%.17g\\n\", out[0]);\n"
-        "    model_constraints(p, 0, q, u, 0, 0, out);\n"
+        "    model_constraints(p, 0, y, y, out);\n"
         "    printf(\"%.17g\\n\", out[0]);\n"
         "    return 0;\n}\n";
     const char *compiler = getenv("CC");
@@ -349,9 +350,9 @@ static void exported_c_keeps_names_apart(void)
     /* a parameter called like a keyword, one like an argument, one like a dotted coordinate */
     EXPECT_DONE(&kit, "scene planar\ndouble = 2\nq = 3\nm_x = 1\nbody m mass=double*q + m_x\n"
                       "gravity [0, -9.81]\nexport c");
-    EXPECT_HOLDS(kit.text, "const double double_2 = p[0];");
-    EXPECT_HOLDS(kit.text, "const double q_2 = p[1];");
-    EXPECT_HOLDS(kit.text, "const double m_x = p[2];");
+    EXPECT_HOLDS(kit.text, "const real double_2 = p[0];");
+    EXPECT_HOLDS(kit.text, "const real q = p[1];");
+    EXPECT_HOLDS(kit.text, "const real m_x = p[2];");
     kit_free(&kit);
 }
 

@@ -191,7 +191,7 @@ static void later_words_say_that_they_are(void)
 static void help_and_hints_offer_what_is_there(void)
 {
     static const char *const habits[] = {"for", "while", "run", "joint", "exit", "list", "echo"};
-    static const char *const formats[] = {"fortran", "matlab", "python", "fmu"};
+    static const char *const formats[] = {"fmu"};
     char *page = ct_help("simulate"), *formats_page = ct_help("export"), *overview = ct_help("");
     Kit kit = kit_new();
     Verb verb;

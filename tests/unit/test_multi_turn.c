@@ -339,8 +339,8 @@ static void what_picks_the_turn_is_said(void)
         {"show b as latex", "\\text{: kept less than half a turn from it}"},
         {"show b as c", "/* b_near: any value less than half a turn from the angle"},
         {"show b as matlab", "% b_near: any value less than half a turn from the angle"},
-        {"export c", "near[0] b.near  (picks the turn: any value less than half a turn from b)"},
-        {"export c", "const double b_near = near[0];"},
+        {"export c", "b.near  (what angles over full turns lie next to)"},
+        {"export c", "const real b_near = y["},
     };
     Kit kit = kit_new();
 
@@ -352,7 +352,7 @@ static void what_picks_the_turn_is_said(void)
     EXPECT_DONE(&kit, BRANCH "show k.effort");
     EXPECT(strstr(kit.text, "unwrap") == NULL);
     EXPECT_DONE(&kit, "export c");
-    EXPECT(strstr(kit.text, "near") == NULL);
+    EXPECT(strstr(kit.text, "b.near") == NULL);
     EXPECT_NEAR(kit_value(&kit, "unwrap(1, 0, 20)"), M_PI / 2 + 6 * M_PI, 1e-14);
     kit_free(&kit);
 }

@@ -181,9 +181,9 @@ static void a_source_follows_its_data_and_their_slope(void)
     EXPECT_DONE(&kit, "set R1.R = 8\nundo\ndelete C1\nsimulate 2 every=0.5\n");
     expect_value(&kit, "R1.i at 1.5", 0.75, 1e-12);
     EXPECT_DONE(&kit, "inductor L1 a 0 2\nexport c\n");
-    EXPECT_HOLDS(kit.text, "static double table(const double *data, double v, int order)");
-    EXPECT_HOLDS(kit.text, "static const double _table1[] = {3,\n    0, 1, 2, 0,\n    2, 4, 0, 0,");
-    EXPECT_HOLDS(kit.text, "out[0] = table(_table1, t, 0.0);");
+    EXPECT_HOLDS(kit.text, "static double model_table(int number, double v, int order)");
+    EXPECT_HOLDS(kit.text, "static const double model_table_1[] = {\n        0, 1, 2, 0,\n");
+    EXPECT_HOLDS(kit.text, "R(model_table(1, t, 0))");
     kit_free(&kit);
 }
 

@@ -1,0 +1,46 @@
+/* lower.h: expressions as a list of binary operations
+ *
+ * What a Program is scheduled from, and what code for other programs is written from: each value
+ * once, operands before users, so that both compute the same. */
+#ifndef COTREE_COMPILE_LOWER_H
+#define COTREE_COMPILE_LOWER_H
+
+#include "base/memory.h"
+#include "expr/expr.h"
+
+enum { MOST_OPERANDS = 3 };
+
+typedef enum Opcode {
+#define OPCODE(id, ...) CODE_##id,
+#include "compile/opcodes.def"
+#undef OPCODE
+    CODE_SINCOS, /* two results, one behind the other */
+    CODE_CALL,   /* and the functions of ops.def behind it */
+    CODES = CODE_CALL + OP_COUNT,
+    CODE_INPUT,    /* what follows is a value without an instruction; args[0]: which */
+    CODE_CONSTANT, /* args[0], args[1]: the bits of the double */
+    CODE_COSINE,   /* the second result of the SINCOS args[0] */
+    CODE_ABSORBED  /* a product that became part of an instruction */
+} Opcode;
+
+typedef struct LoweredValue {
+    uint8_t code;
+    uint8_t stage;
+    uint32_t args[MOST_OPERANDS]; /* numbers of values; unused ones 0 */
+} LoweredValue;
+
+typedef struct Lowered {
+    LIST(LoweredValue) values;  /* inputs first */
+    LIST(const Curve *) tables; /* borrowed; what data is as a value is its place here */
+    int input_count;
+    uint32_t *roots; /* values */
+    int root_count;
+} Lowered;
+
+int code_operands(Opcode code);
+double value_constant(const LoweredValue *constant);
+MUST_USE Status lowered_make(const Expr *roots, int root_count, const Expr *inputs, int input_count,
+                             Lowered *out, Diag *diag);
+void lowered_free(Lowered *lowered);
+
+#endif

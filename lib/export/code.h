@@ -1,0 +1,124 @@
+/* code.h: a model as functions of numbers, before they are written in a language
+ *
+ *     p   parameters, then what follows from them alone
+ *     y   coordinates q, speeds u, network states x, references of angles of full turns
+ *     s   what is solved for: x', algebraic unknowns z, u', lambda
+ *
+ * Every function takes (p, t, y, s) and gives one array. All of them are lowered together, once, as
+ * a Program is (compile/lower.h): so they compute what a run computes. */
+#ifndef COTREE_EXPORT_CODE_H
+#define COTREE_EXPORT_CODE_H
+
+#include "compile/lower.h"
+#include "export/write.h"
+#include "simulate/equations/input_layout.h"
+
+typedef enum CodeArray { CODE_P, CODE_T, CODE_Y, CODE_S } CodeArray;
+
+typedef struct CodeInput { /* a symbol that functions are given the number of */
+    const char *name;      /* identifier, the same in all languages; NULL for t */
+    CodeArray array;
+    int place; /* in it */
+} CodeInput;
+
+typedef struct CodeFunction {
+    const char *name; /* without the prefix */
+    const char *what; /* it gives */
+    int first;        /* of its entries among the roots, row by row */
+    int rows, columns;
+    bool is_matrix; /* also of one column */
+} CodeFunction;
+
+/* unknowns of s that are solved for together: rows of [A | b], A step = b */
+typedef struct CodeGroup {
+    int first, count; /* in s */
+    int function;
+    bool iterates; /* Newton: the step is added to s; else it is s */
+} CodeGroup;
+
+/* a state and what follows from it here */
+typedef struct CodeState {
+    double t;
+    double *y, *s;
+    double *sums; /* at code_off(y): of each function's entries, entry i times 1 + i mod 7, */
+    double *size; /* and of their magnitudes */
+} CodeState;
+
+typedef struct Code {
+    const View *view;
+    Arena *arena;
+    Layout *layout;
+    int ny, ns;
+    LIST(Expr) parameters; /* symbols, of the model first */
+    LIST(CodeInput) inputs;
+    LIST(Expr) roots;
+    LIST(CodeFunction) functions;
+    CodeGroup groups[2];
+    int group_count;
+    bool is_explicit;     /* accelerations are written out: function `accelerations` */
+    bool is_redundant;    /* constraints repeat each other */
+    LIST(char *) outputs; /* what was asked for, in words */
+    LIST(char *) conditions;
+    Lowered lowered;
+    int *derived; /* one a value: its place in p; -1 */
+    int derived_count;
+    const double *values; /* of parameters, then the start: borrowed from CodeStart */
+    LIST(CodeState) states;
+    Pool *texts;
+} Code;
+
+/* New; code_free(). Fails where a formula needs what no function is given. */
+MUST_USE Status code_new(const Exported *what, Code **out, Diag *diag);
+void code_free(Code *code); /* NULL is fine */
+/* the function of that name; -1 */
+int code_find(const Code *code, const char *name);
+/* States at random about the start, on the constraints, with numbers from here (code_states.c). */
+MUST_USE Status code_add_states(Code *code, const Exported *what, Diag *diag);
+
+static inline double code_off(int i, double y)
+{
+    return y * (1 + (double)(i % 5 + 1) / 32);
+}
+
+/* what rounding of x', z, u' and lambda counts against: their largest numbers in all states */
+enum { CODE_PARTS = 4 };
+void code_sizes(const Code *code, double sizes[CODE_PARTS]);
+
+/* --- a language (languages.c) --- */
+
+typedef struct Language {
+    Notation notation;
+    int base;                     /* index of a first entry */
+    const char *array;            /* "%s[%d]" */
+    const char *matrix;           /* of two indices; NULL: row by row in one */
+    const char *local, *result;   /* a line that makes a name, one that sets an entry: "%s = %s" */
+    const char *onward;           /* at the end of a line that goes on */
+    const char *number, *rounded; /* around a literal; around what isn't of the type; NULL */
+    const char *power[3];         /* before, between and behind base and exponent */
+    void (*open)(Text *out, const Code *code, const CodeFunction *function, const char *locals);
+    const char *close;
+    const char *check; /* the command for a file FILE that checks itself */
+    /* the whole file */
+    void (*file)(const Code *code, const struct Language *language, Text *out);
+} Language;
+
+extern const Language language_c, language_fortran, language_matlab, language_python;
+
+/* the function in a language (code_print.c) */
+void code_print(const Code *code, int function, const Language *language, Text *out);
+/* the lines that set derived parameters; the names that they make, a new string */
+char *code_print_derived(const Code *code, const Language *language, Text *out);
+/* additions, multiplications, functions of one */
+OpCount code_count(const Code *code, int function);
+/* What the file is, each line behind `lead`: model, trees, arrays with their entries, functions and
+ * what they cost, how it checks itself. (code_head.c) */
+void code_head(const Code *code, const Language *language, const char *lead, Text *out);
+/* A text of the runtime with its $NAMES replaced by the code's numbers. (code_head.c) */
+void code_fill(const Code *code, const char *text, Text *out);
+/* a number as the language writes it */
+void code_number(const Language *language, double value, Text *out);
+/* name[i] = value; a line each */
+void code_set_array(const Language *language, const char *name, const double *values, int count,
+                    Text *out);
+
+#endif

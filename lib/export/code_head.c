@@ -1,0 +1,192 @@
+/* code_head.c: what exported files say of themselves, and the sizes that they are written for */
+#include "export/code.h"
+
+#include "present/count.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+#include <string.h>
+
+typedef struct Heading {
+    const Language *language;
+    const char *lead;
+    Text *out;
+} Heading;
+
+/* A line; what would end a comment of C doesn't. */
+static void say(const Heading *head, Text *line)
+{
+    text_add(head->out, head->lead);
+    for (const char *c = line->at != NULL ? line->at : ""; *c != '\0'; c++) {
+        if ((*c == '/' && c > line->at && c[-1] == '*') ||
+            (*c == '*' && c > line->at && c[-1] == '/'))
+            text_char(head->out, ' ');
+        text_char(head->out, *c == '\n' || *c == '\\' ? ' ' : *c);
+    }
+    while (head->out->length > 0 && head->out->at[head->out->length - 1] == ' ')
+        head->out->at[--head->out->length] = '\0';
+    text_char(head->out, '\n');
+    text_free(line);
+}
+
+#define SAY(head, ...)                                                                             \
+    do {                                                                                           \
+        Text line_ = {0};                                                                          \
+        text_addf(&line_, __VA_ARGS__);                                                            \
+        say(head, &line_);                                                                         \
+    } while (0)
+
+/* "p[3]  L4 = 0.1" */
+static void say_entry(const Heading *head, const char *array, int i, const char *name,
+                      const char *more)
+{
+    Text line = {0};
+
+    text_addf(&line, "  ");
+    text_addf(&line, head->language->array, array, i + head->language->base); /* NOLINT */
+    text_addf(&line, "  %s%s", name, more);
+    say(head, &line);
+}
+
+static void say_parameters(const Code *code, const Heading *head)
+{
+    if (code->parameters.count > 0)
+        SAY(head, "p: parameters (SI), and behind them what follows from them");
+    for (int i = 0; i < code->parameters.count; i++) {
+        Text value = {0};
+
+        text_add(&value, " = ");
+        text_number(&value, code->values[i], 17);
+        say_entry(head, "p", i, expr_name(code->parameters.at[i]), value.at);
+        text_free(&value);
+    }
+}
+
+static void say_part(const Heading *head, const Code *code, const char *array, int at, int first,
+                     int count, const char *what, const char *per)
+{
+    const Layout *l = code->layout;
+
+    for (int i = 0; i < count; i++) {
+        Text more = {0};
+        const bool is_q = first == l->q && i < l->n;
+
+        if (i == 0)
+            text_addf(&more, "  (%s)", what);
+        if (is_q && system_q(l->system, i)->is_angle)
+            text_addf(&more, "  rad%s", per);
+        say_entry(head, array, at + i, expr_name(l->symbols[first + i]),
+                  more.at != NULL ? more.at : "");
+        text_free(&more);
+    }
+}
+
+static void say_variables(const Code *code, const Heading *head)
+{
+    const Layout *l = code->layout;
+    const int k = l->nx + l->nz;
+
+    SAY(head, "y: state (SI: m, rad, m/s, rad/s, V, A ...)");
+    say_part(head, code, "y", 0, l->q, l->n, "coordinates", "");
+    say_part(head, code, "y", l->n, l->u, l->nu, "speeds", "");
+    say_part(head, code, "y", l->n + l->nu, l->x, l->nx, "network states", "");
+    say_part(head, code, "y", layout_references(l), l->references, l->multi_turns,
+             "what angles over full turns lie next to", "");
+    SAY(head, "s: solved for");
+    say_part(head, code, "s", 0, l->rates, l->nx, "rates of network states", "");
+    say_part(head, code, "s", l->nx, l->z, l->nz, "algebraic unknowns", "");
+    say_part(head, code, "s", k, l->acceleration, l->nu, "accelerations", "");
+    say_part(head, code, "s", k + l->nu, l->multipliers, l->m, "multipliers", "");
+}
+
+static void say_functions(const Code *code, const Heading *head)
+{
+    SAY(head, "functions of (p, t, y, s), with additions, multiplications, function calls:");
+    for (int f = 0; f < code->functions.count; f++) {
+        const CodeFunction *function = &code->functions.at[f];
+        const OpCount count = code_count(code, f);
+
+        if (function->rows * function->columns > 0)
+            SAY(head, "  %s: %s, %d x %d  (%" PRId64 ", %" PRId64 ", %" PRId64 ")", function->name,
+                function->what, function->rows, function->columns, count.add, count.mul, count.fun);
+    }
+}
+
+void code_head(const Code *code, const Language *language, const char *lead, Text *out)
+{
+    const Heading head = {language, lead, out};
+    const Model *model = code->view->model;
+    const char *title = model_title(model);
+    const Tree *trees[TREE_KINDS];
+    Diag unused;
+    char *brief =
+        model_trees(model, trees, &unused) == OK ? tree_brief(model, trees) : mem_text("", 0);
+
+    SAY(&head, "%s", title != NULL && title[0] != '\0' ? title : "equations of motion");
+    SAY(&head, "%s", "");
+    SAY(&head, "q' = N u,  Phi(q, t) = 0,  Phi_u u = nu,  Phi_u u' = gamma,");
+    SAY(&head, "M u' + Phi_u^T lambda = F,  A [x'; z] = b");
+    if (brief[0] != '\0')
+        SAY(&head, "trees: %s", brief);
+    SAY(&head, "%s", "");
+    say_parameters(code, &head);
+    say_variables(code, &head);
+    for (int i = 0; i < code->outputs.count; i++)
+        say_entry(&head, "outputs", i, code->outputs.at[i], "");
+    for (int i = 0; i < code->conditions.count; i++)
+        say_entry(&head, "conditions", i, code->conditions.at[i], "");
+    say_functions(code, &head);
+    SAY(&head, "%s", "");
+    SAY(&head, "It checks itself by numbers from where it was made:  %s", language->check);
+    mem_free(brief);
+}
+
+void code_fill(const Code *code, const char *text, Text *out)
+{
+    const Layout *l = code->layout;
+    const int k = l->nx + l->nz, both = l->nu + l->m;
+    const int most = k + both;
+    int quaternion_count = 0;
+
+    while (system_quaternion(l->system, quaternion_count) >= 0)
+        quaternion_count++;
+    const struct {
+        const char *name;
+        int value;
+    } sizes[] = {{"$NP", code->parameters.count + code->derived_count},
+                 {"$PARAMETERS", code->parameters.count},
+                 {"$Q", l->n},
+                 {"$U", l->nu},
+                 {"$X", l->nx},
+                 {"$A", l->multi_turns},
+                 {"$Y", code->ny},
+                 {"$Z", l->nz},
+                 {"$M", l->m},
+                 {"$S", code->ns},
+                 {"$OUTPUTS", code->outputs.count},
+                 {"$CONDITIONS", code->conditions.count},
+                 {"$LARGEST", most},
+                 {"$QUATERNIONS", quaternion_count},
+                 {"$STATES", code->states.count}};
+
+    for (const char *c = text; *c != '\0';) {
+        const size_t plain = strcspn(c, "$");
+        size_t length = 1;
+        int found = -1;
+
+        text_add_n(out, c, plain);
+        c += plain;
+        if (*c == '\0')
+            break;
+        while ((c[length] >= 'A' && c[length] <= 'Z'))
+            length++;
+        for (int i = 0; i < COUNT(sizes); i++)
+            if (strlen(sizes[i].name) == length && strncmp(sizes[i].name, c, length) == 0)
+                found = i;
+        if (found >= 0)
+            text_addf(out, "%d", sizes[found].value);
+        else
+            text_add_n(out, c, length);
+        c += length;
+    }
+}

@@ -1,0 +1,245 @@
+/* code_states.c: states about the start, and what the session's own equations make of them
+ *
+ * What is solved for comes from the equations of a run (simulate/equations/motion.h), which share
+ * no elimination with the exported code; sums over the entries of each function from a program of
+ * their own. */
+#include "export/code.h"
+
+#include "algebra/rank.h"
+#include "base/random.h"
+#include "simulate/run/phase.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { STATES = 20, TRIES = 60, MOST_NUMBERS = 6000, WEIGHTS = 7 };
+#define TURN        0.4  /* rad: how far angles lie from the start at most */
+#define SHARE       0.2  /* how far lengths and states do, of the largest of their kind */
+#define SPEED       1.0  /* 1/s times the former: speeds */
+#define NEARER      0.8  /* after a state that the equations have no solution at */
+#define ONE_RANK    1e-9 /* rows of Phi_u closer than that to others repeat them */
+#define SHORT_CHAIN 10.  /* links of a chain that loses no digits */
+#define TOLERANCE   1e-13
+
+typedef struct States {
+    Code *code;
+    Parameters parameters;
+    Phase *phase;
+    Probe *probe; /* of all roots */
+    double *start, *y, *off;
+    int *rows;
+    int row_count;
+    uint64_t seed;
+} States;
+
+static double parameter_value(void *context, Expr symbol)
+{
+    const Code *code = context;
+
+    for (int i = 0; i < code->parameters.count; i++)
+        if (code->parameters.at[i] == symbol)
+            return code->values[i];
+    return NAN;
+}
+
+/* parameters and y, as the start has them */
+static Status read_start(States *st, const Exported *what, Diag *diag)
+{
+    Code *code = st->code;
+    const Layout *l = code->layout;
+    const int first = code->parameters.count;
+    const int sizes[] = {l->n, l->nu, l->nx, l->multi_turns};
+    const int firsts[] = {l->q, l->u, l->x, l->references};
+    Expr *items = NEW_ARRAY(Expr, first + code->ny);
+    double *values = pool_alloc(code->texts, (size_t)(first + code->ny + 1) * sizeof(double));
+    int at = first;
+    Status status = OK;
+
+    if (first > 0)
+        memcpy(items, code->parameters.at, (size_t)first * sizeof(Expr));
+    for (int part = 0; part < COUNT(sizes); part++)
+        for (int i = 0; i < sizes[part]; i++)
+            items[at++] = l->symbols[firsts[part] + i];
+    CHECK(result_reader_values_at(what->start, items, at, 0, values, diag));
+    code->values = values;
+    st->start = values + first;
+done:
+    mem_free(items);
+    return status;
+}
+
+static Status open_phase(States *st, Diag *diag)
+{
+    Code *code = st->code;
+    const Layout *l = code->layout;
+    int *order = NEW_ARRAY(int, l->m);
+    double *phi_u = NULL;
+    const Equations *eq;
+    MotionOptions options = {.tolerance = TOLERANCE};
+    Status status = OK;
+
+    CHECK(phase_new(l->system, &st->parameters, NULL, 0, &st->phase, diag));
+    eq = numbers_equations(st->phase->numbers);
+    if (eq->take_references != NULL)
+        eq->take_references(eq->context, st->start + layout_references(l));
+    eq->position(eq->context, 0, st->start);
+    phi_u = pattern_spread(eq->rows, eq->phi_u);
+    CHECK(rank_rows(phi_u, l->m, l->nu, ONE_RANK, code->view->watch, &st->row_count, order));
+    code->is_redundant = st->row_count < l->m;
+    st->rows = order;
+    order = NULL;
+    options.rows = st->rows;
+    options.row_count = st->row_count;
+    CHECK(phase_open(st->phase, &st->parameters, &options, diag));
+    CHECK(probe_new(l, &st->parameters, code->roots.at, code->roots.count, &st->probe, diag));
+done:
+    MEM_FREE(order, phi_u);
+    return status;
+}
+
+static double largest(const double *values, int count)
+{
+    double most = 0;
+
+    for (int i = 0; i < count; i++)
+        most = fmax(most, fabs(values[i]));
+    return most;
+}
+
+/* `near`: 1, less to stay closer to the start */
+static void put_at_random(States *st, double near)
+{
+    const Layout *l = st->code->layout;
+    const double length = largest(st->start, l->n),
+                 state = largest(st->start + l->n + l->nu, l->nx);
+
+    memcpy(st->y, st->start, (size_t)st->code->ny * sizeof(double));
+    for (int i = 0; i < l->n; i++)
+        st->y[i] += near * random_unit(&st->seed) *
+                    (system_q(l->system, i)->is_angle ? TURN
+                     : st->start[i] != 0              ? SHARE * fabs(st->start[i])
+                                                      : SHARE * SHARE * length);
+    for (int i = 0; i < l->nu; i++)
+        st->y[l->n + i] += random_unit(&st->seed) * SPEED;
+    for (int i = 0; i < l->nx; i++)
+        st->y[l->n + l->nu + i] += random_unit(&st->seed) * SHARE * (state > 0 ? state : 1);
+}
+
+static bool all_finite(const double *values, int count)
+{
+    for (int i = 0; i < count; i++)
+        if (!isfinite(values[i]))
+            return false;
+    return true;
+}
+
+/* the state that y is, unless equations have no solution there */
+static bool add_state(States *st, double t)
+{
+    Code *code = st->code;
+    const Layout *l = code->layout;
+    CodeState state = {.t = t};
+    const double *roots;
+    RowValues row;
+    Solved solved;
+    double *s, *off = st->off;
+
+    if (!motion_project(st->phase->motion, t, st->y))
+        return false;
+    if (l->multi_turns > 0)
+        equations_turn(numbers_equations(st->phase->numbers), t, st->y,
+                       st->y + layout_references(l));
+    if (!motion_solve(st->phase->motion, t, st->y, &solved))
+        return false;
+    row = row_of_solved(l, t, st->y, &solved);
+    s = NEW_ARRAY(double, code->ns);
+    memcpy(s, row.rates, (size_t)l->nx * sizeof(double));
+    memcpy(s + l->nx, row.z, (size_t)l->nz * sizeof(double));
+    memcpy(s + l->nx + l->nz, row.acceleration, (size_t)l->nu * sizeof(double));
+    memcpy(s + l->nx + l->nz + l->nu, row.multipliers, (size_t)l->m * sizeof(double));
+    /* functions are looked at away from the constraints, which are 0 on them */
+    for (int i = 0; i < code->ny; i++)
+        off[i] = code_off(i, st->y[i]);
+    row.q = off;
+    row.u = off + l->n;
+    row.x = off + l->n + l->nu;
+    row.references = off + layout_references(l);
+    roots = probe_values(st->probe, &row);
+    if (!all_finite(s, code->ns) || !all_finite(roots, code->roots.count)) {
+        mem_free(s);
+        return false;
+    }
+    state.s = s;
+    state.y = NEW_ARRAY(double, code->ny);
+    memcpy(state.y, st->y, (size_t)code->ny * sizeof(double));
+    state.sums = NEW_ARRAY(double, code->functions.count);
+    state.size = NEW_ARRAY(double, code->functions.count);
+    for (int f = 0; f < code->functions.count; f++) {
+        const CodeFunction *function = &code->functions.at[f];
+
+        for (int i = 0; i < function->rows * function->columns; i++) {
+            const double term = (1 + i % WEIGHTS) * roots[function->first + i];
+
+            state.sums[f] += term;
+            state.size[f] += fabs(term);
+        }
+    }
+    LIST_PUSH(code->states, state);
+    return true;
+}
+
+/* The condition of M grows with the fourth power of a chain's length. */
+void code_sizes(const Code *code, double sizes[CODE_PARTS])
+{
+    const Layout *l = code->layout;
+    const double length = fmax(1, l->nu / SHORT_CHAIN);
+    const int counts[CODE_PARTS] = {l->nx, l->nz, l->nu, l->m};
+
+    for (int part = 0, at = 0; part < CODE_PARTS; at += counts[part++]) {
+        sizes[part] = 0;
+        for (int k = 0; k < code->states.count; k++)
+            sizes[part] = fmax(sizes[part], largest(code->states.at[k].s + at, counts[part]));
+        sizes[part] *= pow(length, 4);
+    }
+}
+
+static bool has_ideal_switches(const System *system)
+{
+    for (int i = 0; i < system_ideal_count(system); i++)
+        if (system_is_ideal(system, i))
+            return true;
+    return false;
+}
+
+Status code_add_states(Code *code, const Exported *what, Diag *diag)
+{
+    States st = {.code = code, .seed = 1};
+    const int numbers = code->ny + code->ns + 2 * code->functions.count + 1;
+    const int room = numbers * STATES <= MOST_NUMBERS ? STATES : 1 + MOST_NUMBERS / numbers;
+    /* what ideal switches carry and bear leaves few states that there can be */
+    const int most = has_ideal_switches(code->layout->system) ? 1 : room;
+    double near = 1;
+    Status status = OK;
+
+    st.parameters = (Parameters){.value = parameter_value, .context = code};
+    CHECK(read_start(&st, what, diag));
+    for (int i = 0; i < code->parameters.count; i++)
+        parameters_set(&st.parameters, code->parameters.at[i], code->values[i]);
+    CHECK(open_phase(&st, diag));
+    st.y = NEW_ARRAY(double, st.phase->length + 1);
+    st.off = NEW_ARRAY(double, code->ny);
+    memcpy(st.y, st.start, (size_t)code->ny * sizeof(double));
+    (void)add_state(&st, 0);
+    for (int i = 0; i < TRIES && code->states.count < most; i++) {
+        CHECK(poll(code->view->watch));
+        put_at_random(&st, near);
+        if (!add_state(&st, near * fabs(random_unit(&st.seed))))
+            near *= NEARER;
+    }
+done:
+    probe_free(st.probe);
+    phase_free(st.phase);
+    parameters_free(&st.parameters);
+    MEM_FREE(st.y, st.off, st.rows);
+    return status;
+}

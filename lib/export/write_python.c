@@ -1,0 +1,254 @@
+/* write_python.c: a model in Python with NumPy, of one instance or many at a time
+ *
+ * y and s are arrays of (numbers) or (numbers, instances); matrices have their rows and columns
+ * first. */
+#include "export/code.h"
+
+#include <string.h>
+
+static void open_function(Text *out, const Code *code, const CodeFunction *f, const char *locals)
+{
+    (void)code;
+    (void)locals;
+    text_addf(out, "\n\ndef %s(p, t, y, s):\n    \"\"\"%s\"\"\"\n    out = np.zeros((%d, ", f->name,
+              f->what, f->rows);
+    if (f->is_matrix)
+        text_addf(out, "%d, ", f->columns);
+    text_add(out, ") + shape_of(t, y))\n");
+}
+
+static const char runtime[] =
+    "\n\ndef shape_of(t, y):\n"
+    "    return np.broadcast_shapes(np.shape(t), np.shape(y)[1:])\n"
+    "\n\ndef linear(a):\n"
+    "    \"\"\"x of A x = b, from the rows [A | b] of every instance\"\"\"\n"
+    "    a = np.moveaxis(a, (0, 1), (-2, -1))\n    n = a.shape[-2]\n"
+    "    size = np.abs(a[..., :n]).max(axis=-1, keepdims=True)\n"
+    "    a = a/np.where(size > 0, size, 1)\n"
+    "    size = np.abs(a[..., :n]).max(axis=-2)\n    size = np.where(size > 0, size, 1)\n"
+    "    left, right = a[..., :n]/size[..., None, :], a[..., n:]\n"
+    "    if REDUNDANT:  # the least of all solutions, of the unknowns as they are\n"
+    "        x = (np.linalg.pinv(a[..., :n], 1e-10) @ right)[..., 0]\n"
+    "        return np.moveaxis(x, -1, 0)\n"
+    "    x = np.linalg.solve(left, right)[..., 0]/size\n"
+    "    return np.moveaxis(x, -1, 0)\n"
+    "\n\ndef newton(rows, p, t, y, s, first, n):\n"
+    "    \"\"\"s with the unknowns from first on such that residuals vanish\"\"\"\n"
+    "    near = 0\n    s = np.array(s, float)\n"
+    "    for _ in range(200):\n        a = rows(p, t, y, s)\n"
+    "        weight = np.abs(a[:, :n]).max(axis=1)\n"
+    "        lack = (np.abs(a[:, n])/weight).sum(axis=0)\n        x = linear(a)\n"
+    "        old = s[first:first + n].copy()\n        step = np.ones_like(lack)\n"
+    "        for _ in range(60):\n            s[first:first + n] = old + step*x\n"
+    "            if near:\n                break\n"
+    "            with np.errstate(over='ignore', invalid='ignore'):\n"
+    "                rest = (np.abs(rows(p, t, y, s)[:, n])/weight).sum(axis=0)\n"
+    "            worse = ~(rest < lack) & (lack > 0)\n"
+    "            if not np.any(worse):\n                break\n"
+    "            step = np.where(worse, step/2, step)\n"
+    "        change = np.abs(x).max(axis=0)\n        size = np.abs(old).max(axis=0)\n"
+    "        near += np.all((change <= 1e-9*size) | ~(lack > 0))\n"
+    "        if near > 2:\n            return s\n"
+    "    raise ArithmeticError('no solution of the equations was found')\n";
+
+static const char after[] =
+    "\n\ndef rates(p, t, y, s):\n    \"\"\"y', and s\"\"\"\n    s = solve(p, t, y, s)\n"
+    "    return derivative(p, t, y, s), s\n"
+    "\n\ndef nearest(p, t, y, b):\n"
+    "    phi_u = jacobian(p, t, y, None)\n    n = U + M\n"
+    "    a = np.zeros((n, n + 1) + phi_u.shape[2:])\n    a[range(U), range(U)] = 1\n"
+    "    a[U:, :U] = phi_u\n    a[:U, U:n] = np.swapaxes(phi_u, 0, 1)\n    a[U:, n] = b\n"
+    "    return linear(a)[:U]\n"
+    "\n\ndef normalise(y):\n    for first in QUATERNIONS:\n"
+    "        y[first:first + 4] /= np.sqrt((y[first:first + 4]**2).sum(axis=0))\n"
+    "    return y\n"
+    "\n\ndef project(p, t, y):\n    \"\"\"y on the constraints: positions, then speeds\"\"\"\n"
+    "    y = normalise(np.array(y, float))\n    if M > 0:\n        for _ in range(20):\n"
+    "            phi = constraints(p, t, y, None)[:, ...]\n"
+    "            if np.abs(phi).max() <= 1e-13:\n                break\n"
+    "            du = nearest(p, t, y, -phi)\n"
+    "            y[:Q] += np.einsum('ij...,j...->i...', map_(p, t, y, None), du)\n"
+    "            y = normalise(y)\n"
+    "        lack = velocity(p, t, y, None) - np.einsum('ij...,j...->i...',\n"
+    "            jacobian(p, t, y, None), y[Q:Q + U])\n"
+    "        y[Q:Q + U] += nearest(p, t, y, lack)\n"
+    "    if A > 0:\n        y[Q + U + X:] = angles(p, t, y, None)\n    return y\n"
+    "\n\ndef step(p, t, h, y, s):\n"
+    "    \"\"\"y and s one step of the classical Runge-Kutta method on, with projection\"\"\"\n"
+    "    k1, s = rates(p, t, y, s)\n    k2, s = rates(p, t + h/2, y + h/2*k1, s)\n"
+    "    k3, s = rates(p, t + h/2, y + h/2*k2, s)\n    k4, s = rates(p, t + h, y + h*k3, s)\n"
+    "    return project(p, t + h, y + h/6*(k1 + 2*k2 + 2*k3 + k4)), s\n";
+
+static const char check[] =
+    "\n\ndef check():\n    p = parameters()\n    worst, bad = 0, 0\n"
+    "    times = np.array([state[0] for state in STATES])\n"
+    "    ys = np.array([state[1] for state in STATES], float).T\n"
+    "    rights = np.array([state[2] for state in STATES], float).T\n"
+    "    parts = np.repeat(SIZES, (X, Z, U, M))\n"
+    "    found = solve(p, times, ys, rights*(1 + 1e-3))  # all states at a time\n"
+    "    one = solve(p, times[0], ys[:, 0], rights[:, 0]*(1 + 1e-3))\n"
+    "    offs = [np.abs(found - rights)/np.where(parts > 0, parts, 1)[:, None],\n"
+    "            (np.abs(one - rights[:, 0])/np.where(parts > 0, parts, 1))[:, None]]\n"
+    "    factor = 1 + (np.arange(Y) % 5 + 1)/32  # away from the constraints\n"
+    "    ys = ys*factor[:, None]\n"
+    "    for k, function in enumerate(FUNCTIONS):\n"
+    "        out = function(p, times, ys, rights)\n"
+    "        out = out.reshape((-1, len(STATES)))\n"
+    "        total = ((1 + np.arange(len(out)) % 7)[:, None]*out).sum(axis=0)\n"
+    "        should = np.array([state[3][k] for state in STATES])\n"
+    "        offs.append(np.abs(total - should[:, 0])/np.where(should[:, 1] > 0, should[:, 1], "
+    "1))\n"
+    "    for off in offs:\n        if off.size:\n            worst = max(worst, off.max())\n"
+    "            bad += not off.max() <= 1e-12\n"
+    "    print('%d states: %s, off by %.1e at most' % (\n"
+    "        len(STATES), 'NOT as they were' if bad else 'all as they were', worst))\n"
+    "    return bad\n"
+    "\n\nif __name__ == '__main__':\n    sys.exit(check() > 0)\n";
+
+static void add_list(Text *out, const double *values, int count)
+{
+    text_char(out, '[');
+    for (int i = 0; i < count; i++) {
+        text_add(out, i == 0 ? "" : i % 4 == 0 ? ",\n        " : ", ");
+        text_number(out, values[i], 17);
+    }
+    text_char(out, ']');
+}
+
+static void add_solve(const Code *code, Text *out)
+{
+    const int first = code->layout->nx + code->layout->nz;
+
+    text_add(out,
+             "\n\ndef solve(p, t, y, s):\n"
+             "    \"\"\"s at a state; the s that is given is where Newton's method begins\"\"\"\n"
+             "    s = np.zeros((S,) + shape_of(t, y)) + s\n");
+    for (int g = 0; g < code->group_count; g++) {
+        const CodeGroup *group = &code->groups[g];
+        const char *name = code->functions.at[group->function].name;
+
+        if (group->iterates)
+            text_addf(out, "    s = newton(%s, p, t, y, s, %d, %d)\n", name, group->first,
+                      group->count);
+        else
+            text_addf(out, "    s[%d:%d] = linear(%s(p, t, y, s))\n", group->first,
+                      group->first + group->count, name);
+    }
+    if (code->is_explicit)
+        text_addf(out, "    s[%d:] = accelerations(p, t, y, s)\n", first);
+    text_add(out, "    return s\n");
+}
+
+static void add_states(const Code *code, Text *out)
+{
+    double sizes[CODE_PARTS];
+
+    code_sizes(code, sizes);
+    text_add(out, "\n\nSIZES = ");
+    add_list(out, sizes, CODE_PARTS);
+    text_add(out, "\nFUNCTIONS = [");
+    for (int f = 0; f < code->functions.count; f++)
+        text_addf(out, "%s%s%s",
+                  f == 0       ? ""
+                  : f % 6 == 0 ? ",\n    "
+                               : ", ",
+                  code->functions.at[f].name,
+                  strcmp(code->functions.at[f].name, "map") == 0 ? "_" : "");
+    text_add(out, "]\n# t, y, s, and sums over what each function gives\nSTATES = [");
+    for (int k = 0; k < code->states.count; k++) {
+        const CodeState *state = &code->states.at[k];
+
+        text_add(out, "\n    (");
+        text_number(out, state->t, 17);
+        text_add(out, ",\n        ");
+        add_list(out, state->y, code->ny);
+        text_add(out, ",\n        ");
+        add_list(out, state->s, code->ns);
+        text_add(out, ",\n        [");
+        for (int f = 0; f < code->functions.count; f++) {
+            text_add(out, f > 0 ? ",\n        (" : "(");
+            text_number(out, state->sums[f], 17);
+            text_add(out, ", ");
+            text_number(out, state->size[f], 17);
+            text_char(out, ')');
+        }
+        text_add(out, "]),");
+    }
+    text_add(out, "\n]\n");
+}
+
+static void add_tables(const Code *code, Text *out)
+{
+    if (code->lowered.tables.count == 0)
+        return;
+    text_add(out, "\n\nTABLES = [");
+    for (int i = 0; i < code->lowered.tables.count; i++) {
+        const Curve *curve = code->lowered.tables.at[i];
+
+        text_addf(out, "%s\n    np.reshape(", i > 0 ? "," : "");
+        add_list(out, curve->data, 3 * curve->count);
+        text_addf(out, ", (3, %d))", curve->count);
+    }
+    text_add(
+        out,
+        "\n]  # x, y and y'' at the points of splines\n"
+        "\n\ndef model_table(number, v, order):\n    x, y, m = TABLES[number - 1]\n"
+        "    v = np.asarray(v, float)\n"
+        "    i = np.clip(np.searchsorted(x, v, 'right') - 1, 0, len(x) - 2)\n"
+        "    h = x[i + 1] - x[i]\n    a, b = (x[i + 1] - v)/h, (v - x[i])/h\n"
+        "    inside = [\n"
+        "        a*y[i] + b*y[i + 1] + ((a*a*a - a)*m[i] + (b*b*b - b)*m[i + 1])*h*h/6,\n"
+        "        (y[i + 1] - y[i])/h + ((3*b*b - 1)*m[i + 1] - (3*a*a - 1)*m[i])*h/6,\n"
+        "        a*m[i] + b*m[i + 1],\n        (m[i + 1] - m[i])/h,\n        0*v][min(order, 4)]\n"
+        "    end = np.where(v < x[0], y[0], y[-1]) if order == 0 else 0\n"
+        "    return np.where((v < x[0]) | (v > x[-1]), end, inside)\n");
+}
+
+static void write_file(const Code *code, const Language *language, Text *out)
+{
+    text_add(out, "# ");
+    text_char(out, '\n');
+    code_head(code, language, "# ", out);
+    code_fill(code,
+              "\nimport sys\n\nimport numpy as np\n\n"
+              "P, Q, U, X, A, Y, Z, M, S = $NP, $Q, $U, $X, $A, $Y, $Z, $M, $S\nREDUNDANT = ",
+              out);
+    text_addf(out, "%s\nQUATERNIONS = (", code->is_redundant ? "True" : "False");
+    for (int i = 0, first; (first = system_quaternion(code->layout->system, i)) >= 0; i++)
+        text_addf(out, "%d, ", first);
+    text_add(out, ")\n");
+    add_tables(code, out);
+    text_add(out, "\n\ndef prepare(p):\n"
+                  "    \"\"\"what follows from parameters alone: after one has changed\"\"\"\n");
+    mem_free(code_print_derived(code, language, out));
+    text_add(out, "    return p\n\n\ndef parameters():\n    p = np.zeros(P)\n");
+    code_set_array(language, "p", code->values, code->parameters.count, out);
+    text_add(out, "    return prepare(p)\n\n\ndef start():\n    \"\"\"y and s\"\"\"\n"
+                  "    y, s = np.zeros(Y), np.zeros(S)\n");
+    code_set_array(language, "y", code->values + code->parameters.count, code->ny, out);
+    if (code->states.count > 0)
+        code_set_array(language, "s", code->states.at[0].s, code->ns, out);
+    text_add(out, "    return y, s\n");
+    for (int f = 0; f < code->functions.count; f++)
+        code_print(code, f, language, out);
+    text_add(out, "\n\nmap_ = map\n");
+    text_add(out, runtime);
+    add_solve(code, out);
+    text_add(out, after);
+    add_states(code, out);
+    text_add(out, check);
+}
+
+const Language language_python = {
+    .notation = NOTATION_NUMPY,
+    .array = "%s[%d]",
+    .matrix = "%s[%d, %d]",
+    .local = "%s = %s",
+    .result = "%s = %s",
+    .onward = "\\",
+    .power = {"(", "**", ")"},
+    .open = open_function,
+    .close = "    return out\n",
+    .check = "python3 FILE.py",
+    .file = write_file,
+};
