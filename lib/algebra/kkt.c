@@ -20,6 +20,10 @@
 #define SUSPECT                                                                                    \
     2e-2 /* least d / p above which none is near: it was at most 1.7 times the other               \
           */
+#define SPLIT                                                                                      \
+    0.15 /* likewise of rows exchanged, least over largest: such a pivot comes out as two of its   \
+          * root                                                                                   \
+          */
 #define ROUNDED                                                                                    \
     1e-14 /* of speeds, once over a pivot: what rounding of positions leaves of them               \
            */
@@ -55,7 +59,7 @@ struct Kkt {
     double *norm, *reference;          /* by place, of multipliers: those squared, and of `most` */
     double *right, *answer, *residual; /* by place */
     double *weight;                    /* by place: of squares of unknowns, to compare them */
-    double angle;                      /* least d / p */
+    double angle;                      /* least d / p; of rows exchanged, least over largest */
     double pivot;                      /* of the last configuration: how independent its rows are */
     bool regularised;
     Sparse *exchanging; /* rows exchanged; NULL: not needed yet */
@@ -327,8 +331,10 @@ static bool factor_exchanging(Kkt *kkt)
 
         kkt->values[count + k] = held ? -LDL_HOLD : 0;
     }
-    return sparse_factor(kkt->exchanging, kkt->values) &&
-           (kkt->regularised || sparse_condition(kkt->exchanging) > UNSOLVABLE);
+    if (!sparse_factor(kkt->exchanging, kkt->values))
+        return false;
+    kkt->angle = sparse_condition(kkt->exchanging);
+    return kkt->regularised || kkt->angle > UNSOLVABLE;
 }
 
 static void solve_exchanging(const Kkt *kkt, double *x)
@@ -397,6 +403,34 @@ static bool factor_held(Kkt *kkt)
     return ldl_factor(kkt->factors, reference, kkt->watch);
 }
 
+/* whether a speed has no mass at all, as what turns a point has none */
+static bool lacks_mass(const Kkt *kkt)
+{
+    const double *diagonal = ldl_entries(kkt->factors);
+
+    for (int i = 0; i < kkt->nu; i++)
+        if (diagonal[kkt->place_of[i]] == 0)
+            return true;
+    return false;
+}
+
+/* Rows exchanged from the outset: their pivots tell first whether a singular configuration may be
+ * near. */
+static bool factor_massless(Kkt *kkt, const double *phi_u)
+{
+    bool sound;
+
+    kkt->is_exchanging = true;
+    kkt->regularised = false;
+    kkt->pivot = 1;
+    sound = factor_exchanging(kkt);
+    if (kkt->m == 0 || (sound && kkt->angle > SPLIT))
+        return sound;
+    kkt->pivot = least_pivot(kkt, phi_u);
+    kkt->regularised = !(kkt->pivot > SINGULAR);
+    return kkt->regularised ? factor_exchanging(kkt) : sound;
+}
+
 bool kkt_factor(Kkt *kkt, const double *mass, const double *phi_u, const int *rows)
 {
     bool regular;
@@ -404,6 +438,8 @@ bool kkt_factor(Kkt *kkt, const double *mass, const double *phi_u, const int *ro
     keep_rows(kkt, rows);
     measure_columns(kkt, phi_u);
     put_entries(kkt, mass, phi_u);
+    if (lacks_mass(kkt))
+        return factor_massless(kkt, phi_u);
     if (!ldl_factor(kkt->factors, NULL, kkt->watch))
         return false;
     regular = mass_is_regular(kkt);
@@ -496,7 +532,7 @@ void kkt_solve(Kkt *kkt, const double *top, const double *bottom, double *du, do
     solve(kkt, kkt->answer);
     if (kkt->regularised)
         refine(kkt, SWEEPS, ROUNDING);
-    else if (kkt->is_exchanging || kkt->angle < INEXACT)
+    else if (kkt->angle < INEXACT)
         refine(kkt, 1, SETTLED);
     for (int i = 0; i < kkt->nu; i++)
         du[i] = kkt->answer[kkt->place_of[i]];

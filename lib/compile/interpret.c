@@ -34,12 +34,25 @@ static void run_tables(const OpcodeRun *run, const uint32_t *operand, Curve *con
             curve_value(tables[(int)slots[operand[0]]], slots[operand[1]], (int)slots[operand[2]]);
 }
 
+/* several at once, up to one whose operand is a result of these */
 static void run_sines(const OpcodeRun *run, const uint32_t *operand, double *slots)
 {
-    double *result = slots + run->result;
+    enum { TOGETHER = 16 };
 
-    for (int i = 0; i < run->count; i++) {
-        elementary_sincos(slots[operand[i]], &result[2 * i], &result[2 * i + 1]);
+    for (int i = 0; i < run->count;) {
+        double x[TOGETHER], sine[TOGETHER], cosine[TOGETHER];
+        double *result = slots + run->result + 2 * i;
+        const int most = run->count - i < TOGETHER ? run->count - i : TOGETHER;
+        int n = 0;
+
+        for (; n < most && slots + operand[i + n] < result; n++)
+            x[n] = slots[operand[i + n]];
+        elementary_sincos_all(x, sine, cosine, n);
+        for (int k = 0; k < n; k++) {
+            result[2 * k] = sine[k];
+            result[2 * k + 1] = cosine[k];
+        }
+        i += n;
     }
 }
 

@@ -55,7 +55,8 @@ void program_print(Text *text, const Program *program);
 /* New; borrows the program; all inputs 0. The interpreter computes. */
 Workspace *workspace_new(const Program *program);
 void workspace_free(Workspace *workspace); /* NULL is fine */
-/* Before the first run. Code is made when it has paid: after some hundred evaluations. */
+/* Before the first run. Code is made when it has paid: after some hundred evaluations, more of a
+ * short program. */
 void workspace_choose(Workspace *workspace, Evaluator evaluator);
 /* The numbers of the inputs, in the order given to program_new(): write here. */
 double *workspace_inputs(Workspace *workspace);

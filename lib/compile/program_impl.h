@@ -41,6 +41,7 @@ struct Program {
     Handover *roots;                /* by stage */
     int first_run[STAGE_COUNT + 1]; /* of each stage */
     int first_root[STAGE_COUNT + 1];
+    int work[STAGE_COUNT + 1]; /* instructions of the stages before */
     Pool *texts;
 };
 

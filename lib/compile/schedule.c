@@ -27,6 +27,9 @@ typedef struct Plan {
     uint32_t *first_user; /* where those of each value begin; count + 1 */
     uint32_t *next;       /* in a queue */
     Queue queues[CODES];
+    Opcode codes[CODES]; /* those there are, rising */
+    int code_count;
+    int work[STAGE_COUNT]; /* instructions that aren't on the tape yet */
 } Plan;
 
 static bool is_instruction(const LoweredValue *value)
@@ -121,6 +124,30 @@ static void find_users(Plan *plan)
 
 /* --- the tape --- */
 
+static void measure(Plan *plan)
+{
+    bool there[CODES] = {false};
+    int instructions = 0, operands = 0;
+
+    for (uint32_t v = 0; v < plan->count; v++) {
+        const LoweredValue *value = &plan->values[v];
+
+        if (!is_instruction(value))
+            continue;
+        there[value->code] = true;
+        plan->work[value->stage]++;
+        instructions++;
+        operands += code_operands(value->code);
+    }
+    for (int stage = 0; stage < STAGE_COUNT; stage++)
+        plan->program->work[stage + 1] = plan->program->work[stage] + plan->work[stage];
+    for (int code = 0; code < CODES; code++)
+        if (there[code])
+            plan->codes[plan->code_count++] = (Opcode)code;
+    LIST_ROOM(plan->program->tape, operands);
+    LIST_ROOM(plan->program->derived, instructions);
+}
+
 static void enqueue(Plan *plan, uint32_t value)
 {
     Queue *queue = &plan->queues[plan->values[value].code];
@@ -156,6 +183,7 @@ static void emit(Plan *plan, uint32_t value)
 
     for (int i = 0; i < code_operands(v->code); i++)
         LIST_PUSH(program->tape, slot_of(plan, v->args[i]));
+    plan->work[v->stage]--;
     plan->slot[value] = (uint32_t)program->slot_count;
     program->slot_count += v->code == CODE_SINCOS ? 2 : 1;
     for (uint32_t i = plan->first_user[value]; i < plan->first_user[value + 1]; i++) {
@@ -176,21 +204,18 @@ static void emit_run(Plan *plan, Opcode code)
 
 static void emit_stage(Plan *plan, Stage stage)
 {
-    for (uint32_t v = 0; v < plan->count; v++) {
+    for (uint32_t v = 0; v < plan->count && plan->work[stage] > 0; v++) {
         if (is_instruction(&plan->values[v]) && plan->values[v].stage == stage &&
             plan->pending[v] == 0)
             enqueue(plan, v);
     }
-    for (;;) {
-        int best = 0;
+    while (plan->work[stage] > 0) {
+        Opcode best = plan->codes[0];
 
-        for (int code = 1; code < CODES; code++) {
-            if (plan->queues[code].count > plan->queues[best].count)
-                best = code;
-        }
-        if (plan->queues[best].count == 0)
-            return;
-        emit_run(plan, (Opcode)best);
+        for (int i = 1; i < plan->code_count; i++)
+            if (plan->queues[plan->codes[i]].count > plan->queues[best].count)
+                best = plan->codes[i];
+        emit_run(plan, best);
     }
 }
 
@@ -259,6 +284,7 @@ void program_schedule(Program *program, Lowered *lowered)
     plan.next = NEW_ARRAY(uint32_t, plan.count);
     find_users(&plan);
     place_leaves(&plan, lowered);
+    measure(&plan);
 
     for (int stage = 0; stage < STAGE_COUNT; stage++) {
         program->first_run[stage] = program->runs.count;

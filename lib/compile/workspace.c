@@ -2,19 +2,21 @@
 #include "compile/native.h"
 #include "compile/program_impl.h"
 
-/* Calls after which making native code has paid, some hundred evaluations (of a stage or two each):
- * it takes as long as they do by the interpreter. */
+/* Native code is made as soon as what was interpreted took about as long as making it does: so it
+ * costs twice the better of both at most, however long a run is. In instructions interpreted
+ * (make bench: program.eval_*, make_native_*): one takes MAKING to make, memory for code as much
+ * as 40 000, and a call of the interpreter CALLING. */
 #if defined COTREE_SMALL || defined COTREE_FAULTS
-enum { PAYS_AFTER = 2 };
+enum { MAKING = 0, MEMORY = 1, CALLING = 1 };
 #else
-enum { PAYS_AFTER = 200 };
+enum { MAKING = 100, MEMORY = 40000, CALLING = 10 };
 #endif
 
 struct Workspace {
     const Program *program;
     double *slots; /* then roots */
     Evaluator evaluator;
-    int calls; /* up to PAYS_AFTER */
+    long interpreted; /* instructions, until they have paid for native code */
     Native *native;
     NativeFrame *frame;
 };
@@ -75,17 +77,22 @@ static void make_native(Workspace *workspace)
 
 void workspace_run(Workspace *workspace, Stage from, Stage to)
 {
+    const Program *program = workspace->program;
     double *slots = workspace->slots;
 
     if (workspace->native != NULL) {
         native_run(workspace->native, from, to, slots, workspace->frame);
         return;
     }
-    program_interpret(workspace->program, from, to, slots);
-    program_hand_over(workspace->program, from, to, slots, slots + workspace->program->slot_count);
-    if (workspace->evaluator != EVALUATOR_INTERPRETER && workspace->calls < PAYS_AFTER &&
-        ++workspace->calls == PAYS_AFTER)
+    program_interpret(program, from, to, slots);
+    program_hand_over(program, from, to, slots, slots + program->slot_count);
+    if (workspace->evaluator == EVALUATOR_INTERPRETER || workspace->interpreted < 0)
+        return;
+    workspace->interpreted += CALLING + program->work[to + 1] - program->work[from];
+    if (workspace->interpreted > MEMORY + (long)MAKING * program->work[STAGE_COUNT]) {
+        workspace->interpreted = -1;
         make_native(workspace);
+    }
 }
 
 void workspace_errors(const Workspace *workspace, const double *input_errors, double *root_errors)

@@ -130,12 +130,15 @@ static int args_below(Expr a, Expr b)
 
 static int bases_below(Expr a, Expr b)
 {
-    Expr inner_a = held(a);
-    Expr inner_b = held(b);
+    Expr inner_a, inner_b;
     int first = 0;
 
     if (a == b)
         return 0;
+    if (a->kind == EXPR_SYMBOL && b->kind == EXPR_SYMBOL)
+        return order_symbols(a, b);
+    inner_a = held(a);
+    inner_b = held(b);
     if (inner_a == inner_b)
         return a == inner_a ? -1 : 1;
     first = order(rank(inner_a), rank(inner_b));

@@ -54,7 +54,7 @@ static double evaluation(const Program *program, Evaluator evaluator)
     workspace_choose(workspace, evaluator);
     for (int i = 0; i < program_input_count(program); i++)
         inputs[i] = 1 + 0.1 * sin(i);
-    for (int i = 0; i < 300; i++) /* so often that it is made native */
+    for (int i = 0; i < 5000; i++) /* so often that it is made native */
         workspace_run(workspace, STAGE_PARAMETER, STAGE_ACCELERATION);
     BENCH_LEAST(200, seconds,
                 for (int i = 0; i < 20; i++)

@@ -305,7 +305,7 @@ static Verdict workspaces(Member *member)
     other = NEW_ARRAY(double, made.program->slot_count + made.program->root_count);
     memcpy(other, workspace_inputs(made.workspace),
            (size_t)made.program->slot_count * sizeof(double));
-    for (int i = 0; i < 300; i++) /* so often that it is made native */
+    for (int i = 0; i < 5000; i++) /* so often that it is made native */
         workspace_run(made.workspace, STAGE_PARAMETER, STAGE_ACCELERATION);
     expected(made.program, best.fused, other);
     for (int i = 0; i < made.program->root_count && agrees; i++) {

@@ -382,6 +382,37 @@ static void a_row_that_fades_is_regularised(void)
     full_close(&full);
 }
 
+/* A speed without mass that a row of its own holds changes nothing of what others are told. */
+static void a_massless_speed_hides_no_row_that_fades(void)
+{
+    const double top[3] = {1, 0, 0}, bottom[3] = {0, 0, 0};
+
+    for (int k = 0; k <= 60; k++) {
+        const double sine = pow(10, -0.01 - k / 15.0);
+        const double phi_u[9] = {1, 0, 0, 1, sine, 0, 0, 1, 1};
+        const double whole[9] = {1, 0, 0, 1, 1, 0, 0, 1, 1};
+        Kkt *of[2];
+        Full full[2];
+
+        for (int i = 0; i < 2; i++) {
+            const double mass[9] = {1, 0, 0, 0, 1, 0, 0, 0, i};
+            double du[3], lambda[3];
+
+            of[i] = full_open(&full[i], 3, 3);
+            EXPECT(kkt_factor(of[i], mass, whole, all_rows));
+            EXPECT(kkt_factor(of[i], mass, phi_u, all_rows));
+            kkt_solve(of[i], top, bottom, du, lambda);
+            EXPECT_NEAR(du[0], 0, 1e-6);
+            EXPECT_NEAR(lambda[0] + lambda[1], 1, 1e-6);
+        }
+        EXPECT(kkt_is_regularised(of[0]) == kkt_is_regularised(of[1]));
+        EXPECT(kkt_is_regularised(of[0]) == (sine * sine < 1e-5));
+        EXPECT((kkt_blur(of[0]) > 0) == (sine * sine < 1e-2));
+        full_close(&full[0]);
+        full_close(&full[1]);
+    }
+}
+
 /* a light slide between two heavy ones, the second of which hangs on it: no position of it is
  * singular, whatever the masses are */
 static void a_light_part_between_heavy_ones_is_no_singularity(void)
@@ -569,6 +600,7 @@ int main(void)
     RUN(massless_speeds_are_held_by_their_constraints);
     RUN(a_free_massless_speed_has_no_acceleration);
     RUN(a_row_that_fades_is_regularised);
+    RUN(a_massless_speed_hides_no_row_that_fades);
     RUN(a_light_part_between_heavy_ones_is_no_singularity);
     RUN(what_is_only_nearly_singular_is_exact);
     RUN(rank_finds_the_row_that_follows);
