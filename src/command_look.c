@@ -75,7 +75,11 @@ static ct_status command_help(Call *call, ct_error *error)
 {
     const char *word = call_word(call, 0);
     char *text = ct_help(word != NULL ? word : "");
+    ct_error ignored = {0};
 
+    /* no word of the language: maybe a name of the model */
+    if (text == NULL)
+        (void)ct_info(call->session, call->statement, &text, &ignored);
     return text != NULL ? put(call, CT_OK, text) : unknown_word(call, word, error);
 }
 

@@ -188,6 +188,37 @@ static bool add_function(Text *out, const char *word)
     return true;
 }
 
+/* words that variables of the whole model begin with, and functions of runs: their topic's */
+static bool add_quantity(Text *out, const char *word)
+{
+    static const char *const wholes[] = {"energy", "model", "count", "constraint", "modes"};
+    const HelpTopic *topic = NULL;
+
+    for (int i = 0; i < COUNT(wholes); i++)
+        if (strcmp(word, wholes[i]) == 0)
+            topic = help_topic_find("variables");
+    if (topic == NULL && function_is_figure(word))
+        topic = help_topic_find("functions");
+    if (topic == NULL)
+        return false;
+    text_addf(out, "%s - stands in the topic '%s'\n\n", word, topic->name);
+    topic->write(out);
+    return true;
+}
+
+/* "rpm - a unit: 1 rpm is 0.10472 rad/s" */
+static bool add_unit(Text *out, const char *word)
+{
+    Unit unit;
+
+    if (!unit_find(word, &unit))
+        return false;
+    text_addf(out, "%s - a unit: 1 %s is %.12g ", word, word, unit.factor);
+    dimension_print(out, unit.dimension);
+    text_add(out, "; 'help units' lists them all\n");
+    return true;
+}
+
 static void add_overview(Text *out)
 {
     Verb verb;
@@ -234,10 +265,9 @@ bool help_print(Text *out, const char *word)
         text_addf(out, "%s - %s\n\n", about->name, about->brief);
         about->write(out);
     } else if ((topic = topic_find(word)) != NULL)
-        text_addf(out, "show %s - %s%s\n", topic->name, topic->brief,
-                  topic->show == NULL ? " (in a later version)" : "");
+        text_addf(out, "show %s - %s\n", topic->name, topic->brief);
     else
-        known = add_function(out, word);
+        known = add_function(out, word) || add_quantity(out, word) || add_unit(out, word);
     return known;
 }
 

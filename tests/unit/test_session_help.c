@@ -93,6 +93,21 @@ static void an_unknown_word_has_no_page_but_a_suggestion(void)
     EXPECT(ct_help_suggest("xyzzyxyzzy") == NULL);
 }
 
+static void units_and_words_of_variables_have_help(void)
+{
+    static const char *const wanted[][2] = {{"rpm", "1 rpm is 0.10471975512 rad/s"},
+                                            {"mm", "1 mm is 0.001 m"},
+                                            {"energy", "energy.kinetic"},
+                                            {"settling", "settling(x, band)"}};
+
+    for (size_t i = 0; i < sizeof wanted / sizeof wanted[0]; i++) {
+        char *text = ct_help(wanted[i][0]);
+
+        EXPECT_HOLDS(text, wanted[i][1]);
+        ct_free(text);
+    }
+}
+
 static void apropos_finds_words_in_the_text(void)
 {
     char *lines = ct_apropos("multiplications");
@@ -404,6 +419,7 @@ int main(void)
     RUN(a_page_of_a_component_has_keys_units_and_members);
     RUN(topics_are_pages_too);
     RUN(an_unknown_word_has_no_page_but_a_suggestion);
+    RUN(units_and_words_of_variables_have_help);
     RUN(apropos_finds_words_in_the_text);
     RUN(the_reference_holds_every_verb);
     RUN(help_keeps_to_the_page);
