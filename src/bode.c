@@ -80,6 +80,56 @@ static void put_axis(FILE *out, const Response *response, int first, bool as_tex
         fprintf(out, "set ytics %g\n", steps[i]);
 }
 
+/* --- margins --- */
+
+/* Where column j comes to `level`, going down: the frequency between rows, on the logarithmic axis,
+ * and the other column there. False where it never does. */
+static bool find_crossing(const Response *response, int j, double level, int other,
+                          double *frequency, double *value)
+{
+    for (int i = 1; i < response->rows; i++) {
+        const double *a = response->values + (i - 1) * response->columns;
+        const double *b = a + response->columns;
+
+        if (!(a[j] >= level && b[j] < level))
+            continue;
+
+        const double s = (a[j] - level) / (a[j] - b[j]);
+
+        *frequency = a[0] * pow(b[0] / a[0], s);
+        *value = a[other] + s * (b[other] - a[other]);
+        return true;
+    }
+    return false;
+}
+
+static void put_margin(FILE *out, const char *name, double value, const char *unit,
+                       double frequency, double row)
+{
+    char text[96];
+
+    (void)snprintf(text, sizeof text, "%s margin %.3g %s at %.3g Hz", name, value, unit, frequency);
+    fputs("set label ", out);
+    put_quoted(out, text);
+    fprintf(out, " at graph 0.02, graph %g noenhanced textcolor rgb '#606060'\n", row);
+    fprintf(out,
+            "set arrow from first %.17g, graph 0 to first %.17g, graph 1 nohead back linecolor rgb "
+            "'#909090' dashtype 3\n",
+            frequency, frequency);
+}
+
+/* How far a loop of one curve is from where it would swing on: at the gain 1, and where the phase
+ * is that of a change of sign. */
+static void put_margins(FILE *out, const Response *response)
+{
+    double frequency, value;
+
+    if (find_crossing(response, 1, 0, 2, &frequency, &value))
+        put_margin(out, "phase", remainder(value + 180, 360), "deg", frequency, 0.18);
+    if (find_crossing(response, 2, -180, 1, &frequency, &value))
+        put_margin(out, "gain", -value, "dB", frequency, 0.08);
+}
+
 static void put_commands(FILE *out, const Drawing *drawing, bool as_text)
 {
     const Response *response = drawing->of;
@@ -101,12 +151,15 @@ static void put_commands(FILE *out, const Drawing *drawing, bool as_text)
                      : "set key inside bottom left Left reverse\n",
           out);
 
+    if (is_alone && !as_text)
+        put_margins(out, response);
+
     /* characters don't stand upright: labels are titles there */
     fputs(as_text ? "set title 'gain [dB]'\n" : "set ylabel 'gain [dB]'\n", out);
     put_axis(out, response, 1, as_text, decibels);
     put_curves(out, response, 0, as_text);
     put_axis(out, response, 2, as_text, degrees);
-    fputs("set xlabel 'frequency [Hz]'\n", out);
+    fputs("unset label\nset xlabel 'frequency [Hz]'\n", out);
     fputs(as_text ? "set key off\nset title 'phase [deg]'\n"
                   : "unset title\nset key off\nset ylabel 'phase [deg]'\n",
           out);
