@@ -19,6 +19,7 @@
 #define ENDING    1e-2 /* of what a driver's row had of its own at the start */
 #define ASIDE     1e-6 /* of the size of y: differences are derivatives */
 #define STABLE    2.5  /* explicit methods: steps times rates, at most */
+#define BLOWN_UP  1e6  /* times the size at the start: no motion is so fast */
 #define BOUNDLESS 1e3  /* times the size at the start; growing that fast, too */
 
 /* where a run stands, and how it goes on from there */
@@ -268,14 +269,16 @@ static double fastest(const RunEnd *e, const Ode *ode, const double *from)
 static bool tell_unstable(RunEnd *e, const Stepper *stepper, Diag *diag)
 {
     const double step = control_asked(&stepper->control);
+    const int speeds = e->phase->layout->n + e->phase->layout->nu;
     double *begun, rate;
 
-    if (!stepper->method->has_fixed_step)
+    if (!stepper->method->has_fixed_step ||
+        !(vector_largest(e->y, e->phase->length - 1) >
+          BLOWN_UP * fmax(1, vector_largest(e->at_start, speeds))))
         return false;
     begun = NEW_ARRAY(double, e->phase->length);
     memcpy(begun, e->y, (size_t)e->phase->length * sizeof(double));
-    memcpy(begun, e->at_start,
-           (size_t)(e->phase->layout->n + e->phase->layout->nu) * sizeof(double));
+    memcpy(begun, e->at_start, (size_t)speeds * sizeof(double));
     rate = fastest(e, stepper->ode, begun);
     mem_free(begun);
     /* numbers that have grown far may tell of rates that nothing had */
