@@ -164,9 +164,7 @@ static bool comes_later(const char *text)
 /* words of the language that this version doesn't act on say so, however they are used */
 static void later_words_say_that_they_are(void)
 {
-    static const char *const lines[] = {"keep A = max(h)",
-                                        "keep x1 = h at 0.5",
-                                        "unknown th1, th2",
+    static const char *const lines[] = {"unknown th1, th2",
                                         "internal th1'' + th2",
                                         "give B.x = 2*th1",
                                         "sweep L from=1 to=2 steps=3 : simulate 1",
