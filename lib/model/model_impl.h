@@ -435,6 +435,8 @@ MUST_USE Status use_apply(State **state, int use, const Statement *statement, Ou
 /* The same of a body's lines; of one that fails diag->inside shows it. */
 MUST_USE Status use_apply_lines(State **state, int use, const char *body, Outcome *outcome,
                                 Diag *diag);
+/* Ports of a trial whose places were taken back with a statement that failed are free again. */
+void subsystem_forget_places(State *state, int use);
 /* Refuse ports that nothing inside knows. */
 MUST_USE Status subsystem_check_ports(const State *state, int use, Place place, Diag *diag);
 

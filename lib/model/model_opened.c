@@ -67,6 +67,7 @@ Status opened_add(Opened *opened, const Statement *statement, Diag *diag)
     else {
         state_note_setup(opened->trial, &setup);
         (void)state_go_back(&opened->trial, &mark);
+        subsystem_forget_places(opened->trial, opened->use);
     }
     text_free(&outcome.remarks);
     return status;

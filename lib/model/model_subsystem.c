@@ -170,6 +170,18 @@ static bool is_made(const State *state, const Use *use, int port)
     return made;
 }
 
+void subsystem_forget_places(State *state, int use)
+{
+    const Use *u = &state->uses.at[use];
+
+    for (int i = 0; i < u->subsystem->port_count; i++) {
+        if (u->bound[i] == NULL || is_made(state, u, i))
+            continue;
+        pool_keep(state->pool, &u->bound[i], sizeof *u->bound);
+        u->bound[i] = NULL;
+    }
+}
+
 Status subsystem_check_ports(const State *state, int use, Place place, Diag *diag)
 {
     const Use *u = &state->uses.at[use];

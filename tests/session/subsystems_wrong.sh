@@ -96,5 +96,9 @@ end
 subsystem s frames=[A]
 use inner i A=A
 revolute h A i.b'
+printf 'subsystem a frames=[A]\nrevolute h A q\nbody b mass=1 inertia=[1, 1, 1]\nrevolute h A b\nend
+use a x A=ground\ninit x.h = 2\nprint x.h\n' >again.ct
+echo '--- a wrong line, and the right one after it'
+cotree -q -k again.ct 2>&1
 try 'revolute l1.h ground out'
 true
