@@ -24,6 +24,7 @@ include tests/unit/parts.mk
 include tests/session/session.mk
 include tests/terminal/terminal.mk
 include tests/oracle/spice.mk
+include tests/oracle/urdf.mk
 include tests/bench/bench.mk
 include tests/bench/algebra.mk
 include tests/bench/expr.mk

@@ -23,6 +23,8 @@ void text_number(Text *text, double value, int digits); /* shortest of %.{digits
 char *text_done(Text *text); /* new string, never NULL; `text` is empty again */
 void text_free(Text *text);
 
+/* bytes of the UTF-8 character that starts here (RFC 3629); 0: it isn't one */
+size_t text_character(const char *text);
 /* columns a UTF-8 string takes on a terminal */
 int text_width(const char *text);
 

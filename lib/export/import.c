@@ -9,7 +9,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* names that are made here keep clear of what could be taken for something else */
+/* words that no name that is made here may be, and those that a parameter's may not be, either */
 static void take_words(Import *import)
 {
     static const char *const words[] = {"vs", "at", "as", "within"};
@@ -19,9 +19,9 @@ static void take_words(Import *import)
     for (int i = 0; i < COUNT(words); i++)
         import_take_name(import, words[i]);
     for (int i = 0; verb_any(i, &verb); i++)
-        import_take_name(import, verb.name);
+        (void)names_add(import->verbs, verb.name);
     for (int i = 0; function_at(i, &function); i++)
-        import_take_name(import, function.name);
+        (void)names_add(import->verbs, function.name);
 }
 
 Import *import_new(const char *file, bool is_alone)
@@ -33,6 +33,7 @@ Import *import_new(const char *file, bool is_alone)
     import->pool = pool_new(0);
     import->names = names_new();
     import->keys = names_new();
+    import->verbs = names_new();
     take_words(import);
     return import;
 }
@@ -44,6 +45,7 @@ void import_free(Import *import)
     pool_free(import->pool);
     names_free(import->names);
     names_free(import->keys);
+    names_free(import->verbs);
     LIST_FREE(import->ours);
     text_free(&import->script);
     LIST_FREE(import->from);
@@ -133,6 +135,12 @@ const char *import_known(const Import *import, char kind, const char *name)
     return i < 0 ? NULL : import->ours.at[i];
 }
 
+static bool is_free(const Import *import, char kind, const char *name)
+{
+    return !name_is_reserved(name) && names_find(import->names, name) < 0 &&
+           (kind != IMPORT_PARAMETER || names_find(import->verbs, name) < 0);
+}
+
 const char *import_name(Import *import, char kind, const char *name)
 {
     const char *known = import_known(import, kind, name);
@@ -142,7 +150,7 @@ const char *import_name(Import *import, char kind, const char *name)
     if (known != NULL)
         return known;
     legal = mine = make_legal(import, name);
-    for (int number = 2; name_is_reserved(mine) || names_find(import->names, mine) >= 0; number++)
+    for (int number = 2; !is_free(import, kind, mine); number++)
         mine = import_text(import, "%s_%d", legal, number);
     import_take_name(import, mine);
     add_key(import, &key, kind, name);
@@ -160,14 +168,21 @@ static void end_line(Import *import, int line)
     LIST_PUSH(import->from, line);
 }
 
-/* what stands in a comment or a remark stands in one line */
+/* what stands in a comment or a remark stands in one line, whatever its bytes are */
 static void add_plain(Text *out, const char *text)
 {
     enum { LONGEST = 300 };
-    int i = 0;
+    size_t i = 0, length;
 
-    for (; text[i] != '\0' && i < LONGEST; i++)
-        text_char(out, iscntrl((unsigned char)text[i]) ? ' ' : text[i]);
+    for (; text[i] != '\0' && i < LONGEST; i += length == 0 ? 1 : length) {
+        length = text_character(text + i);
+        if (length == 0 || iscntrl((unsigned char)text[i]))
+            text_char(out, ' ');
+        else if (text[i] == '\\')
+            text_char(out, '/');
+        else
+            text_add_n(out, text + i, length);
+    }
     if (text[i] != '\0')
         text_add(out, " ...");
 }
@@ -186,6 +201,27 @@ void import_comment(Import *import, int line, const char *format, ...)
     end_line(import, line);
 }
 
+/* in a comment, and as a remark behind `mark` */
+static void remark(Import *import, int line, const char *mark, const Text *said)
+{
+    import_comment(import, line, "%s", said->at);
+    text_add(&import->remarks, mark);
+    add_plain(&import->remarks, said->at);
+    text_char(&import->remarks, '\n');
+}
+
+void import_remark(Import *import, int line, const char *format, ...)
+{
+    Text said = {0};
+    va_list args;
+
+    va_start(args, format);
+    add_formatted(&said, format, args);
+    va_end(args);
+    remark(import, line, "", &said);
+    text_free(&said);
+}
+
 void import_leave(Import *import, int line, bool is_part, const char *what, const char *format, ...)
 {
     Text why = {0}, said = {0};
@@ -198,14 +234,8 @@ void import_leave(Import *import, int line, bool is_part, const char *what, cons
         import->missing_line = line;
         import->missing_what = import_text(import, "%s: %s", what, why.at);
     }
-    if (line > 0)
-        text_addf(&said, "line %d: ", line);
-    text_addf(&said, "%s is left out: %s", what, why.at);
-    import_comment(import, line, "%s", said.at);
-    if (is_part)
-        text_add(&import->remarks, "warning: ");
-    add_plain(&import->remarks, said.at);
-    text_char(&import->remarks, '\n');
+    text_addf(&said, "line %d: %s is left out: %s", line, what, why.at);
+    remark(import, line, is_part ? "warning: " : "", &said);
     text_free(&why);
     text_free(&said);
 }
@@ -236,6 +266,23 @@ bool import_add(Import *import, int line, const char *format, ...)
     }
     text_free(&text);
     return reads;
+}
+
+void import_title(Import *import, int line, const char *title)
+{
+    Text plain = {0};
+
+    if (title == NULL || title[0] == '\0')
+        return;
+    add_plain(&plain, title);
+    for (char *c = plain.at; *c != '\0'; c++)
+        if (*c == '"')
+            *c = '\'';
+    if (import->is_alone)
+        import_add(import, line, "title \"%s\"", plain.at);
+    else
+        import_comment(import, line, "%s", plain.at);
+    text_free(&plain);
 }
 
 Status import_refuse(const Import *import, int line, Diag *diag, const char *format, ...)

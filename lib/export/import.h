@@ -16,6 +16,7 @@ typedef struct Import {
     bool ignores_case;       /* names of the file that differ in nothing else are one */
     Pool *pool;              /* of all that its reader makes */
     Names *names;            /* that are taken, ours */
+    Names *verbs;            /* words that no parameter has */
     Names *keys;             /* a kind and a name of the file */
     LIST(const char *) ours; /* by key */
     Text script;             /* the statements, a line each */
@@ -42,6 +43,7 @@ Importer *importer_find(const char *format);
 /* --- for importers --- */
 
 /* The name here of what the file calls so; `kind` separates the file's spaces of names. */
+enum { IMPORT_PARAMETER = 'p' };
 const char *import_name(Import *import, char kind, const char *name);
 /* the same where it has been met; NULL */
 const char *import_known(const Import *import, char kind, const char *name);
@@ -52,7 +54,11 @@ const char *import_number(Import *import, double value);
 /* Add a statement made from that line of the file. False: it doesn't read, and was left out as a
  * part. */
 bool import_add(Import *import, int line, const char *format, ...) PRINTF(3, 4);
+/* what the file calls its model, in a comment where the model has other parts; NULL: nothing */
+void import_title(Import *import, int line, const char *title);
 void import_comment(Import *import, int line, const char *format, ...) PRINTF(3, 4);
+/* what has to be known about what was made: a comment and a remark */
+void import_remark(Import *import, int line, const char *format, ...) PRINTF(3, 4);
 /* Something of the file has no statement: it goes into a comment and a remark. A part is what the
  * model isn't whole without. */
 void import_leave(Import *import, int line, bool is_part, const char *what, const char *format, ...)

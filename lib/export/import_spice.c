@@ -111,22 +111,11 @@ static bool begins(const char *line, size_t length, const char *word)
 /* The first line, no card; people often type it behind a "*". */
 static void say_title(Import *import, const char *line, size_t length)
 {
-    enum { LONGEST = 200 };
-
     while (length > 0 && (*line == '*' || *line == ' ' || *line == '\t')) {
         line++;
         length--;
     }
-
-    char *title = pool_text(import->pool, line, length < LONGEST ? length : LONGEST);
-
-    for (char *c = title; *c != '\0'; c++)
-        if (*c == '"' || iscntrl((unsigned char)*c))
-            *c = *c == '"' ? '\'' : ' ';
-    if (title[0] != '\0' && import->is_alone)
-        import_add(import, 1, "title \"%s\"", title);
-    else if (title[0] != '\0')
-        import_comment(import, 1, "%s", title);
+    import_title(import, 1, pool_text(import->pool, line, length));
 }
 
 /* Lines to cards; the first is the title. What stands between .control and .endc are commands. */

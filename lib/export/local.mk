@@ -8,6 +8,7 @@ libcore_la_SOURCES += \
   lib/export/import.c \
   lib/export/import.h \
   lib/export/import_spice.c \
+  lib/export/import_urdf.c \
   lib/export/importers.c \
   lib/export/spice_source.c \
   lib/export/spice_source.h \
@@ -21,4 +22,6 @@ libcore_la_SOURCES += \
   lib/export/write_fortran.c \
   lib/export/write_latex.c \
   lib/export/write_matlab.c \
-  lib/export/write_python.c
+  lib/export/write_python.c \
+  lib/export/xml.c \
+  lib/export/xml.h

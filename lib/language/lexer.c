@@ -103,29 +103,11 @@ static void skip_blanks(Lexer *lexer)
     }
 }
 
-/* bytes of the UTF-8 character that starts here (RFC 3629); 0: it isn't one */
-static size_t utf8_length(const char *text)
-{
-    const unsigned char *c = (const unsigned char *)text;
-    size_t length = c[0] < 0x80 ? 1 : c[0] < 0xC2 ? 0 : c[0] < 0xE0 ? 2 : c[0] < 0xF0 ? 3 : 4;
-
-    if (c[0] > 0xF4)
-        return 0;
-    for (size_t i = 1; i < length; i++)
-        if ((c[i] & 0xC0) != 0x80)
-            return 0;
-    /* overlong forms, surrogates, past the last code point */
-    if ((c[0] == 0xE0 && c[1] < 0xA0) || (c[0] == 0xED && c[1] > 0x9F) ||
-        (c[0] == 0xF0 && c[1] < 0x90) || (c[0] == 0xF4 && c[1] > 0x8F))
-        return 0;
-    return length;
-}
-
 /* Step over one character of a string or comment, where any printable one may stand. */
 static Status step_character(Lexer *lexer, Diag *diag)
 {
     const char *c = lexer->text + lexer->at;
-    size_t length = utf8_length(c);
+    size_t length = text_character(c);
 
     if (length == 0)
         return diag_at(diag, E_SYNTAX, place_at(lexer, lexer->at, lexer->at + 1),
@@ -168,7 +150,7 @@ static Status strange_character(const Lexer *lexer, Diag *diag)
         {'_', "a name starts with a letter"},
     };
     const char *c = lexer->text + lexer->at;
-    size_t length = utf8_length(c);
+    size_t length = text_character(c);
     Place place = place_at(lexer, lexer->at, lexer->at + (length > 0 ? length : 1));
 
     if (length == 0 || (unsigned char)*c < ' ' || *c == 0x7F) {

@@ -90,7 +90,7 @@ fuzz: san/Makefile
 	@$(MAKE) -s -C san fuzzers
 	@set -- $(FUZZERS); each=$$(($(FUZZ_SECONDS) / $$#)); \
 	for fuzzer; do \
-		san/$$fuzzer --seconds $$each --seed $(FUZZ_SEED) $(srcdir)/scripts || exit 1; \
+		san/$$fuzzer --seconds $$each --seed $(FUZZ_SEED) $(srcdir)/scripts $(srcdir)/tests/oracle || exit 1; \
 	done
 
 # random members of families, for so many seconds in all, from that seed; make check has a few

@@ -9,3 +9,6 @@ fuzz_model_LDADD = $(unit_ldadd)
 FUZZERS += fuzz_session
 fuzz_session_SOURCES = tests/fuzz/fuzz_session.c tests/fuzz/mutate.c tests/fuzz/mutate.h
 fuzz_session_LDADD = libcotree.la $(unit_ldadd)
+FUZZERS += fuzz_import
+fuzz_import_SOURCES = tests/fuzz/fuzz_import.c tests/fuzz/mutate.c tests/fuzz/mutate.h
+fuzz_import_LDADD = $(unit_ldadd)

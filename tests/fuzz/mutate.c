@@ -57,6 +57,8 @@ static void add_line(const char *line, size_t length)
     LIST_PUSH(fuzz.lines, mem_text(line, length));
 }
 
+enum { WHOLE = 20 }; /* as often as some lines of it */
+
 /* lines of a text, now and then several together */
 static void add_text(const char *text)
 {
@@ -74,6 +76,17 @@ static void add_text(const char *text)
     }
 }
 
+static bool has_ending(const char *path, size_t length)
+{
+    static const char *const endings[] = {".ct", ".txt", ".cir", ".urdf"};
+
+    for (int i = 0; i < COUNT(endings); i++)
+        if (length > strlen(endings[i]) &&
+            strcmp(path + length - strlen(endings[i]), endings[i]) == 0)
+            return true;
+    return false;
+}
+
 static int add_file(const char *path, const struct stat *info, int type, struct FTW *where)
 {
     size_t length = strlen(path);
@@ -83,8 +96,7 @@ static int add_file(const char *path, const struct stat *info, int type, struct 
 
     (void)info;
     (void)where;
-    if (type != FTW_F || length < 4 ||
-        (strcmp(path + length - 3, ".ct") != 0 && strcmp(path + length - 4, ".txt") != 0))
+    if (type != FTW_F || !has_ending(path, length))
         return 0;
     file = fopen(path, "rb");
     if (file == NULL)
@@ -94,6 +106,10 @@ static int add_file(const char *path, const struct stat *info, int type, struct 
     (void)fclose(file);
     if (text.at != NULL)
         add_text(text.at);
+    /* other programs' files make sense as a whole */
+    if (text.at != NULL && text.length < LONGEST && strcmp(path + length - 3, ".ct") != 0)
+        for (int i = 0; i < WHOLE; i++)
+            add_line(text.at, text.length);
     text_free(&text);
     return 0;
 }
