@@ -1,9 +1,9 @@
 /* mutate.h: random statements, made from good ones, thrown at a target until the time is up
  *
  * The driver reads every script (.ct), text (.txt), netlist (.cir) and robot (.urdf) below the
- * folders that it is given, and the examples of the help. It needs no compiler of its own; with clang the same
- * targets are libFuzzer's:
- *   clang -DLIBFUZZER -fsanitize=fuzzer,address,undefined ... and the sources of lib/ */
+ * folders that it is given, and the examples of the help. It needs no compiler of its own; with
+ * clang the same targets are libFuzzer's: clang -DLIBFUZZER -fsanitize=fuzzer,address,undefined ...
+ * and the sources of lib/ */
 #ifndef COTREE_TESTS_MUTATE_H
 #define COTREE_TESTS_MUTATE_H
 
