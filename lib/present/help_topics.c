@@ -67,7 +67,7 @@ static void write_functions(Text *out)
         "first column is x, another is picked by its number or its name in quotes, the "
         "second if none is; outside the data the value stays that of the end; a number "
         "behind the column asks for that derivative by x. Over the "
-        "last run, rows or not: min(x) max(x) mean(x) rms(x) final(x) period(x), "
+        "last run: min(x) max(x) of its rows; of the motion mean(x) rms(x) final(x) period(x), "
         "first(condition), settling(x, band); 'keep' makes parameters of them. Entries of the "
         "equations: mass(1,2), forces(1), lambda(1). Operators: + - * / ^, < <= > >= == "
         "!= && || !; a prime is a time derivative (h8', h8'').");

@@ -1,9 +1,9 @@
 /* session_figures.c: functions of a whole run: max(h8), mean, rms, final, first, settling, period
  *
- * They are of the motion, not of the rows that were asked for: the course of the argument is read
- * between rows from the dense output, in pieces as short as the integrator's steps and never across
- * an event. Means are quadratures, halved until halves agree; extremes and instants are closed in
- * on. */
+ * Extremes are those of the rows that were asked for, as the csv has them. The others are of the
+ * motion: the course of the argument is read between rows from the dense output, in pieces as short
+ * as the integrator's steps and never across an event. Means are quadratures, halved until halves
+ * agree; instants are closed in on. */
 #include "session/session_impl.h"
 
 #include <assert.h>
@@ -15,9 +15,7 @@ enum {
     SAMPLES = 9,   /* of a piece: these, and its ends from inside */
     MOST = 40000,  /* pieces */
     HALVINGS = 10, /* of a piece; a kink within is then some 1e-3 of it */
-    CLOSER = 16,   /* rounds of SAMPLES instants for an instant, each a tenth as long, */
-    CLOSE = 5,     /* and for an extreme, which is flat there, each a fifth */
-    MOST_PEAKS = 3 /* candidates for an extreme that are closed in on */
+    CLOSER = 16    /* rounds of SAMPLES instants for an instant, each a tenth as long */
 };
 #define INSIDE 1e-9  /* of a piece: how far within it its ends are taken */
 #define AGREE  1e-12 /* of the mean size: halves of a piece that differ by less agree */
@@ -33,7 +31,7 @@ static const double weights[POINTS] = {0.1294849661688697, 0.2797053914892766, 0
 typedef struct Course { /* of one formula over one run */
     ct_session *session;
     const Syntax *call;
-    Formula formula;
+    const Formula *formula; /* of its argument */
     Run *source, *grid;
     LIST(double) ends;   /* of pieces, rising */
     LIST(double) times;  /* samples, SAMPLES a piece, */
@@ -42,7 +40,6 @@ typedef struct Course { /* of one formula over one run */
 
 static void course_free(Course *course)
 {
-    formula_free(&course->formula);
     LIST_FREE(course->ends);
     LIST_FREE(course->times);
     LIST_FREE(course->values);
@@ -51,7 +48,7 @@ static void course_free(Course *course)
 static Status course_at(const Course *course, const double *times, int count, double *out,
                         Diag *diag)
 {
-    return formula_rows(course->session, &course->formula, 1, course->grid, course->source, times,
+    return formula_rows(course->session, course->formula, 1, course->grid, course->source, times,
                         count, out, 1, 0, diag);
 }
 
@@ -215,95 +212,22 @@ static Status figure_rms(const Course *course, double band, double *out, Diag *d
 
 /* --- extremes --- */
 
-/* the largest of sign * value around sample k: ends of pieces are next to beginnings of others */
-static Status close_in(const Course *course, int k, double sign, double *best, Diag *diag)
-{
-    const int last = course->times.count - 1;
-    double a = course->times.at[k > 2 ? k - 2 : 0];
-    double b = course->times.at[k < last - 2 ? k + 2 : last];
-
-    for (int round = 0; round < CLOSE && b > a; round++) {
-        double times[SAMPLES], values[SAMPLES];
-        int highest = 0;
-
-        for (int i = 0; i < SAMPLES; i++)
-            times[i] = a + (b - a) * (i + 1) / (SAMPLES + 1);
-        TRY(course_at(course, times, SAMPLES, values, diag));
-        for (int i = 0; i < SAMPLES; i++) {
-            highest = sign * values[i] > sign * values[highest] ? i : highest;
-            *best = fmax(*best, sign * values[i]);
-        }
-        a = highest > 0 ? times[highest - 1] : a;
-        b = highest < SAMPLES - 1 ? times[highest + 1] : b;
-    }
-    return OK;
-}
-
-/* the highest peak among the samples that is lower than `below`, or as high and further on than
- * `behind`; -1: there is none */
-static int next_peak(const Course *course, double sign, double below, int behind)
-{
-    const double *x = course->values.at;
-    const int count = course->values.count;
-    int found = -1;
-
-    for (int i = 0; i < count; i++) {
-        const double here = sign * x[i];
-        const bool is_peak =
-            (i == 0 || here >= sign * x[i - 1]) && (i == count - 1 || here >= sign * x[i + 1]);
-
-        if (is_peak && (here < below || (here == below && i > behind)) &&
-            (found < 0 || here > sign * x[found]))
-            found = i;
-    }
-    return found;
-}
-
-/* rows hold both sides of an event */
-static Status best_of_rows(const Course *course, double sign, double *best, double *least,
-                           Diag *diag)
+/* The largest of sign * value among the rows, which hold both sides of an event: an extreme is what
+ * the table and the csv show. NAN where a row has no value. */
+static Status extreme(const Course *course, double sign, double *out, Diag *diag)
 {
     const int rows = result_rows(course->grid->result);
-    double *values = NEW_ARRAY(double, rows);
+    double *values = NEW_ARRAY(double, rows), best = -INFINITY;
     Status status;
 
-    CHECK(formula_rows(course->session, &course->formula, 1, course->grid, course->source, NULL,
+    CHECK(formula_rows(course->session, course->formula, 1, course->grid, course->source, NULL,
                        rows, values, 1, 0, diag));
-    *best = -INFINITY;
-    *least = INFINITY;
-    for (int i = 0; i < rows; i++) {
-        *best = !isnan(*best) && (isnan(values[i]) || sign * values[i] > *best) ? sign * values[i]
-                                                                                : *best;
-        *least = fmin(*least, sign * values[i]);
-    }
+    for (int i = 0; i < rows && !isnan(best); i++)
+        best = isnan(values[i]) ? NAN : fmax(best, sign * values[i]);
+    *out = sign * best;
 done:
     mem_free(values);
     return status;
-}
-
-/* A peak between samples rises by no more than a part of what all of them span. */
-static Status extreme(const Course *course, double sign, double *out, Diag *diag)
-{
-    double best, least, sampled, last = INFINITY;
-    int peak = -1;
-
-    TRY(best_of_rows(course, sign, &best, &least, diag));
-    for (int i = 0; i < course->values.count && !isnan(best); i++) {
-        const double here = sign * course->values.at[i];
-
-        best = isnan(here) ? NAN : fmax(best, here);
-        least = fmin(least, here);
-    }
-    sampled = best;
-    for (int k = 0; k < MOST_PEAKS && best > least; k++) {
-        peak = next_peak(course, sign, last, peak);
-        if (peak < 0 || sign * course->values.at[peak] < sampled - 0.05 * (sampled - least))
-            break;
-        last = sign * course->values.at[peak];
-        TRY(close_in(course, peak, sign, &best, diag));
-    }
-    *out = sign * best;
-    return OK;
 }
 
 static Status figure_max(const Course *course, double band, double *out, Diag *diag)
@@ -442,52 +366,48 @@ static Status figure_period(const Course *course, double band, double *out, Diag
 
 /* --- the table --- */
 
-static const struct {
+typedef struct Figure {
     const char *name;
     int args;
+    bool samples; /* of the motion, not of its rows alone */
     Status (*value)(const Course *course, double band, double *out, Diag *diag);
-} figures[] = {{"min", 1, figure_min},       {"max", 1, figure_max},
-               {"mean", 1, figure_mean},     {"rms", 1, figure_rms},
-               {"final", 1, figure_final},   {"first", 1, figure_first},
-               {"period", 1, figure_period}, {"settling", 2, figure_settling}};
+} Figure;
 
-static int find_figure(const Syntax *syntax)
+static const Figure figures[] = {
+    {"min", 1, false, figure_min},      {"max", 1, false, figure_max},
+    {"mean", 1, true, figure_mean},     {"rms", 1, true, figure_rms},
+    {"final", 1, true, figure_final},   {"first", 1, true, figure_first},
+    {"period", 1, true, figure_period}, {"settling", 2, true, figure_settling},
+};
+
+static const Figure *find_figure(const Syntax *syntax)
 {
     for (int i = 0; syntax->kind == SYNTAX_CALL && i < COUNT(figures); i++)
         if (figures[i].args == syntax->count && strcmp(figures[i].name, syntax->text) == 0)
-            return i;
-    return -1;
+            return &figures[i];
+    return NULL;
 }
 
 bool figure_is_called(const Syntax *syntax)
 {
-    return find_figure(syntax) >= 0;
+    return find_figure(syntax) != NULL;
 }
 
-Status figure_value(ct_session *session, const Syntax *call, double *out, Diag *diag)
+Status figure_value(ct_session *session, const Syntax *call, const Formula *argument, double band,
+                    double *out, Diag *diag)
 {
-    const int figure = find_figure(call);
-    Course course = {.session = session, .call = call};
-    double band = 0;
+    const Figure *figure = find_figure(call);
+    Course course = {.session = session, .call = call, .formula = argument};
     Status status = OK;
 
-    if (session->runs.count == 0) {
-        diag_at(diag, E_MISSING, call->place,
-                "'%s' %sis taken over the last run, and there is none yet", call->text,
-                call->count == 1 ? "of one argument " : "");
-        diag_hint(diag, "'simulate 10' makes one");
-        return E_MISSING;
-    }
     course.source = session->runs.at + session->runs.count - 1;
-    CHECK(formula_new(session, call->args[0], &course.formula, diag));
-    course.grid = formula_grid(session, &course.formula, 1, course.source);
+    course.grid = formula_grid(session, argument, 1, course.source);
     *out = NAN;
     if (result_rows(course.grid->result) == 0)
-        goto done;
-    if (call->count > 1)
-        CHECK(session_number(session, call->args[1], &band, diag));
-    CHECK(course_sample(&course, diag));
-    CHECK(figures[figure].value(&course, band, out, diag));
+        return OK;
+    if (figure->samples)
+        CHECK(course_sample(&course, diag));
+    CHECK(figure->value(&course, band, out, diag));
 done:
     course_free(&course);
     return status;

@@ -250,11 +250,25 @@ static Status cut_any(Cut *cut, const Syntax *syntax, Expr *out, Diag *diag);
 /* a function of a run: a number */
 static Status cut_figure(Cut *cut, const Syntax *syntax, Expr *out, Diag *diag)
 {
-    double value;
+    Formula argument = {0};
+    double band = 0, value;
+    Status status;
 
-    TRY(figure_value(cut->session, syntax, &value, diag));
+    if (cut->session->runs.count == 0) {
+        diag_at(diag, E_MISSING, syntax->place,
+                "'%s' %sis taken over the last run, and there is none yet", syntax->text,
+                syntax->count == 1 ? "of one argument " : "");
+        diag_hint(diag, "'simulate 10' makes one");
+        return E_MISSING;
+    }
+    CHECK(formula_new(cut->session, syntax->args[0], &argument, diag));
+    if (syntax->count > 1)
+        CHECK(session_number(cut->session, syntax->args[1], &band, diag));
+    CHECK(figure_value(cut->session, syntax, &argument, band, &value, diag));
     *out = push_leaf(cut, (Leaf){.kind = LEAF_CONSTANT, .value = value, .run = -1});
-    return OK;
+done:
+    formula_free(&argument);
+    return status;
 }
 
 static Status cut_size(Cut *cut, const Syntax *syntax, Expr *out, Diag *diag)
@@ -391,4 +405,34 @@ Status formula_new(ct_session *session, const Syntax *syntax, Formula *out, Diag
     }
     *out = formula;
     return OK;
+}
+
+/* a number that a message calls `what` */
+static Status number_called(ct_session *session, const Syntax *syntax, const char *what,
+                            double *out, Diag *diag)
+{
+    Formula formula = {0};
+    Status status;
+
+    CHECK(formula_new(session, syntax, &formula, diag));
+    if (formula_needs_run(&formula)) {
+        status =
+            diag_at(diag, E_VALUE, syntax->place, "%s is a number, or made of parameters", what);
+        goto done;
+    }
+    CHECK(formula_value(session, &formula, NULL, NULL, out, diag));
+done:
+    formula_free(&formula);
+    return status;
+}
+
+Status session_number(ct_session *session, const Syntax *syntax, double *out, Diag *diag)
+{
+    return number_called(session, syntax, "what stands here", out, diag);
+}
+
+Status session_instant(ct_session *session, const Syntax *at, double *out, Diag *diag)
+{
+    TRY(number_called(session, at, "an instant", out, diag));
+    return model_check_unit(session->model, at, "s", "an instant", diag);
 }

@@ -232,8 +232,10 @@ MUST_USE Status formula_rows(ct_session *session, const Formula *formulas, int c
 
 /* functions of a whole run (session_figures.c): max(h8), first(h8 > 1), settling(h8, 0.1) */
 bool figure_is_called(const Syntax *syntax);
-/* E_MISSING without a run; E_VALUE where the run tells no such number */
-MUST_USE Status figure_value(ct_session *session, const Syntax *call, double *out, Diag *diag);
+/* of the last run, which there is; `band` is a second argument. E_VALUE where the run tells no such
+ * number */
+MUST_USE Status figure_value(ct_session *session, const Syntax *call, const Formula *argument,
+                             double band, double *out, Diag *diag);
 
 /* what `print` would tell, at an instant of the last run or (NULL) at its end or the start */
 MUST_USE Status session_value_at(ct_session *session, const Syntax *syntax, const double *at,

@@ -10,36 +10,6 @@
 
 /* --- one value --- */
 
-/* a number that a message calls `what` */
-static Status number_called(ct_session *session, const Syntax *syntax, const char *what,
-                            double *out, Diag *diag)
-{
-    Formula formula = {0};
-    Status status;
-
-    CHECK(formula_new(session, syntax, &formula, diag));
-    if (formula_needs_run(&formula)) {
-        status =
-            diag_at(diag, E_VALUE, syntax->place, "%s is a number, or made of parameters", what);
-        goto done;
-    }
-    CHECK(formula_value(session, &formula, NULL, NULL, out, diag));
-done:
-    formula_free(&formula);
-    return status;
-}
-
-Status session_number(ct_session *session, const Syntax *syntax, double *out, Diag *diag)
-{
-    return number_called(session, syntax, "what stands here", out, diag);
-}
-
-Status session_instant(ct_session *session, const Syntax *at, double *out, Diag *diag)
-{
-    TRY(number_called(session, at, "an instant", out, diag));
-    return model_check_unit(session->model, at, "s", "an instant", diag);
-}
-
 /* what bare names mean: with `at` the last run, and only without one the start */
 static Status source_at(ct_session *session, const double *at, Run **out, Diag *diag)
 {
