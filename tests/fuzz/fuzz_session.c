@@ -64,7 +64,15 @@ static ct_status look(ct_session *session, const ct_statement *statement, ct_err
         status = ct_tree_text(session, &text, error);
     else if (strcmp(verb, "draw") == 0)
         status = ct_draw(session, statement, &(ct_paper){.format = "svg"}, &text, error);
-    else if (strcmp(verb, "export") == 0)
+    else if (strcmp(verb, "animate") == 0) {
+        char **frames = NULL;
+        double interval;
+
+        status = ct_animate(session, statement, &(ct_paper){.format = "text"}, &frames, &interval,
+                            error);
+        if (status == CT_OK)
+            ct_words_free(frames);
+    } else if (strcmp(verb, "export") == 0)
         status = ct_export(session, statement, true, &text, error);
     else if (strcmp(verb, "expect") == 0)
         status = ct_expect(session, statement, error);
