@@ -90,6 +90,7 @@ typedef enum Offers {
     OFFERS_COORDINATES,
     OFFERS_OUTPUTS,
     OFFERS_EVENTS,
+    OFFERS_RUNS,
     OFFERS_METHODS,
     OFFERS_SUBSYSTEMS
 } Offers;
@@ -135,6 +136,7 @@ typedef struct Verb {
     const char *const *words; /* words with a meaning of their own in its operands: they win over
                                  names, which stand in brackets then: `tree (rotation)` */
     const VerbKey *keys;
+    const char *optioned; /* the one of its words that keys and `at` go with; NULL: always */
     /* what comes with a later version, ended by NULL; NULL: nothing */
     const char *const *later_words;
     const char *const *later_keys;

@@ -42,6 +42,19 @@ static void offer_key(TypedLine *line, const char *key)
     offer(line, word);
 }
 
+/* words between bars */
+static void offer_alternatives(TypedLine *line, const char *words)
+{
+    while (*words != '\0') {
+        const size_t length = strcspn(words, "|");
+        char *word = mem_text(words, length);
+
+        offer(line, word);
+        mem_free(word);
+        words += length + (words[length] == '|');
+    }
+}
+
 /* --- sources of words --- */
 
 static void offer_verbs(TypedLine *line)
@@ -185,6 +198,16 @@ static void offer_event(TypedLine *line)
         offer_names(line);
 }
 
+static void offer_runs(TypedLine *line)
+{
+    char name[24];
+
+    for (int i = 0; i < line->known->runs; i++) {
+        (void)snprintf(name, sizeof name, "run%d", i + 1);
+        offer(line, name);
+    }
+}
+
 static void offer_functions(TypedLine *line)
 {
     char call[40];
@@ -206,6 +229,7 @@ static void offer_values(TypedLine *line)
         return;
     for (int i = 0; i < COUNT(words); i++)
         offer(line, words[i]);
+    offer_runs(line);
     offer_functions(line);
 }
 
@@ -234,9 +258,6 @@ static void offer_linear_inputs(TypedLine *line)
         offer(line, linear->input_names[i]);
 }
 
-/* blocks whose entries `show derivation` tells of */
-static const char *const derived_entries[] = {"mass(", "forces(", "constraints(", "jacobian("};
-
 static void offer_show(TypedLine *line)
 {
     const Topic *topic = line->before.count > 1 ? topic_find(line->before.at[1]) : NULL;
@@ -251,8 +272,8 @@ static void offer_show(TypedLine *line)
             break;
         case BEHIND_ENTRY:
             offer_told(line);
-            for (int i = 0; i < COUNT(derived_entries) && line->prefix[0] != '\0'; i++)
-                offer(line, derived_entries[i]);
+            if (line->prefix[0] != '\0')
+                offer_alternatives(line, "mass(|forces(|constraints(|jacobian(");
             break;
         case BEHIND_LEVEL:
             offer(line, "velocity");
@@ -341,20 +362,13 @@ static void offer_notations(TypedLine *line)
             offer(line, notation_row(i)->word);
 }
 
-static void offer_axes(TypedLine *line)
-{
-    static const char *const axes[] = {"x", "y", "z", "-x", "-y", "-z"};
-
-    for (int i = 0; i < COUNT(axes); i++)
-        offer(line, axes[i]);
-}
-
 /* --- operands --- */
 
 /* words that stand in other tables than the row, or are names of one kind */
 static const struct {
     void (*offer)(TypedLine *line);
     bool alone; /* instead of the row's words, not besides them */
+    bool once;  /* behind the verb itself, not behind more */
 } sources[] = {
     [OFFERS_TOPICS] = {offer_show, true},
     [OFFERS_HELP] = {offer_help_words, true},
@@ -367,6 +381,7 @@ static const struct {
     [OFFERS_COORDINATES] = {offer_coordinates, false},
     [OFFERS_OUTPUTS] = {offer_linear_outputs, true},
     [OFFERS_EVENTS] = {offer_event, false},
+    [OFFERS_RUNS] = {offer_runs, true, true},
     [OFFERS_METHODS] = {offer_methods, true},
     [OFFERS_SUBSYSTEMS] = {offer_subsystems, false},
 };
@@ -417,7 +432,8 @@ static void offer_row_words(TypedLine *line, const Verb *verb)
     const bool words =
         line->before.count == 1 && verb->words != NULL && !sources[verb->offers].alone;
 
-    if (sources[verb->offers].offer != NULL)
+    if (sources[verb->offers].offer != NULL &&
+        (line->before.count == 1 || !sources[verb->offers].once))
         sources[verb->offers].offer(line);
     for (int i = 0; words && verb->words[i] != NULL; i++)
         offer(line, verb->words[i]);
@@ -480,6 +496,8 @@ static void offer_keys(TypedLine *line, const Verb *verb)
 static void offer_operand(TypedLine *line, const Verb *verb, int first)
 {
     const char *pattern = verb->pattern;
+    const char *word = first < line->before.count ? line->before.at[first] : "";
+    const bool has_options = verb->optioned == NULL || strcmp(word, verb->optioned) == 0;
     int operand = first, place = 0, at = 0;
 
     while (operand < line->before.count && pattern[at] != '\0' &&
@@ -493,7 +511,7 @@ static void offer_operand(TypedLine *line, const Verb *verb, int first)
     /* what may follow once nothing is missing; V and P may be skipped */
     while (pattern[at] != '\0' && strchr("PVWIiext*", pattern[at]) != NULL)
         at++;
-    for (; pattern[at] != '\0'; at++) {
+    for (; has_options && pattern[at] != '\0'; at++) {
         if (pattern[at] == 'k' || (pattern[at] == '=' && verb->component == NULL))
             offer_keys(line, verb);
         else if (pattern[at] == '@' && operand > first)
@@ -508,18 +526,6 @@ static void offer_operand(TypedLine *line, const Verb *verb, int first)
 }
 
 /* --- values of keys, members --- */
-
-static void offer_alternatives(TypedLine *line, const char *words)
-{
-    while (*words != '\0') {
-        const size_t length = strcspn(words, "|");
-        char *word = mem_text(words, length);
-
-        offer(line, word);
-        mem_free(word);
-        words += length + (words[length] == '|');
-    }
-}
 
 /* the row's param that a key stands for: behind `set` that of a part, "m1.euler"; NULL: none */
 static const Param *find_param(const TypedLine *line, const Verb *verb, const char *key)
@@ -549,7 +555,7 @@ static void offer_key_value(TypedLine *line, const Verb *verb, const char *key)
     if (param != NULL && param->kind == PARAM_WORD)
         offer_alternatives(line, param->fallback);
     else if (param != NULL && (param->kind == PARAM_AXIS || param->kind == PARAM_AXES))
-        offer_axes(line);
+        offer_alternatives(line, "x|y|z|-x|-y|-z");
     else if (row != NULL && row->words != NULL)
         offer_alternatives(line, row->words);
     else if (row != NULL && sources[row->offers].offer != NULL)

@@ -49,6 +49,7 @@ bool component_key(const Component *row, int i, KeyText *out);
 typedef struct KnownName {
     const Model *model;
     const Linear *linear; /* the last linearisation; NULL */
+    int runs;             /* run1 is the first */
     /* settings of the program: as ct_hooks has it; may be NULL */
     const char *const *(*setting)(void *context, int i);
     void *context;

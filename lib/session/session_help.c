@@ -59,6 +59,7 @@ char **ct_complete(ct_session *session, const char *line, size_t cursor, size_t 
 
     const KnownName known = {.model = session->model,
                              .linear = session->linear,
+                             .runs = session->runs.count,
                              .setting = session->hooks.setting,
                              .context = session->hooks.context};
     Words words = {0};

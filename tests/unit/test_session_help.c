@@ -322,6 +322,43 @@ static const char *const *program_setting(void *context, int i)
     return i == 0 ? colour : context;
 }
 
+static void completion_offers_runs_that_are_there(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, SLIDER_CRANK "init h8 = 1\n");
+    EXPECT(!offers(&kit, "animate ", "run1"));
+    EXPECT_DONE(&kit, "simulate 0.1\nsimulate 0.1\n");
+    EXPECT(offers(&kit, "animate ", "run1"));
+    EXPECT(offers(&kit, "animate ", "run2"));
+    EXPECT(offers(&kit, "animate ", "from="));
+    EXPECT(!offers(&kit, "animate ", "run3"));
+    EXPECT(!offers(&kit, "animate ", "h8"));
+    EXPECT(!offers(&kit, "animate run1 ", "run2"));
+    EXPECT(offers(&kit, "animate run1 ", "speed="));
+    EXPECT(offers(&kit, "print ru", "run2"));
+    kit_free(&kit);
+}
+
+/* what draw would refuse isn't offered */
+static void completion_tells_the_graph_from_the_mechanism(void)
+{
+    static const char *const graph[] = {"draw ", "draw cutset ", "draw cutset h8 ",
+                                        "draw circuit h9 "};
+    static const char *const options[] = {"at", "view=", "reactions="};
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, SLIDER_CRANK);
+    for (size_t o = 0; o < sizeof options / sizeof options[0]; o++) {
+        for (size_t i = 0; i < sizeof graph / sizeof graph[0]; i++)
+            EXPECT(!offers(&kit, graph[i], options[o]));
+        EXPECT(offers(&kit, "draw mechanism ", options[o]));
+    }
+    EXPECT(offers(&kit, "draw cutset ", "h8"));
+    EXPECT(!offers(&kit, "draw mechanism ", "h8"));
+    kit_free(&kit);
+}
+
 static void completion_knows_the_settings_of_the_program(void)
 {
     const ct_hooks hooks = {.setting = program_setting};
@@ -425,6 +462,8 @@ int main(void)
     RUN(help_keeps_to_the_page);
     RUN(completion_follows_the_grammar);
     RUN(completion_knows_what_was_linearized);
+    RUN(completion_offers_runs_that_are_there);
+    RUN(completion_tells_the_graph_from_the_mechanism);
     RUN(completion_knows_the_settings_of_the_program);
     RUN(completion_says_where_the_word_starts);
     RUN(completion_bears_any_line);
