@@ -234,8 +234,12 @@ static Status fill_between(ResultReader *reader, StepEnd ends[2], const double *
     double *y;
     Status status = OK;
 
+    /* where a mode ends on a row, that row is of the next one: what lies before goes on from behind
+     */
     if (is_integrated(reader->result))
         return go_again(reader, ends, times, count, watch, diag);
+    if (ends[0].phase != ends[1].phase)
+        return OK;
     y = NEW_ARRAY(double, ends[0].phase->length);
     for (int i = 0; i < count; i++) {
         if (!find_between(ends, times[i], y))
@@ -271,8 +275,7 @@ static Status fill(ResultReader *reader, const double *times, int count, const W
         group = 1;
         TRY(poll(watch));
         report(watch, "between rows", end > 0 ? times[i] / end : 0);
-        if (!(times[i] > last) || !find_ends(reader, times[i], ends) || ends[0].y == ends[1].y ||
-            ends[0].phase != ends[1].phase)
+        if (!(times[i] > last) || !find_ends(reader, times[i], ends) || ends[0].y == ends[1].y)
             continue;
         group = count_until(times + i, count - i, ends[1].t);
         TRY(fill_between(reader, ends, times + i, group, watch, diag));
