@@ -41,7 +41,7 @@ typedef struct CodeState {
     double t;
     double *y, *s;
     double *sums; /* at code_off(y): of each function's entries, entry i times 1 + i mod 7, */
-    double *size; /* and of their magnitudes */
+    double *size; /* and of their magnitudes, or more where rounding leaves more of them */
 } CodeState;
 
 typedef struct Code {
@@ -64,6 +64,7 @@ typedef struct Code {
     int derived_count;
     const double *values; /* of parameters, then the start: borrowed from CodeStart */
     LIST(CodeState) states;
+    double loss[2]; /* of u' and lambda: what rounding leaves of them, in the unit of sizes */
     Pool *texts;
 } Code;
 
@@ -80,7 +81,8 @@ static inline double code_off(int i, double y)
     return y * (1 + (double)(i % 5 + 1) / 32);
 }
 
-/* what rounding of x', z, u' and lambda counts against: their largest numbers in all states */
+/* what rounding of x', z, u' and lambda counts against: their largest numbers in all states, or
+ * what the equations for them lose, if that is more */
 enum { CODE_PARTS = 4 };
 void code_sizes(const Code *code, double sizes[CODE_PARTS]);
 

@@ -5,6 +5,7 @@
  * their own. */
 #include "export/code.h"
 
+#include "algebra/kkt.h"
 #include "algebra/rank.h"
 #include "base/random.h"
 #include "simulate/run/phase.h"
@@ -13,19 +14,21 @@
 #include <string.h>
 
 enum { STATES = 20, TRIES = 60, MOST_NUMBERS = 6000, WEIGHTS = 7 };
-#define TURN        0.4  /* rad: how far angles lie from the start at most */
-#define SHARE       0.2  /* how far lengths and states do, of the largest of their kind */
-#define SPEED       1.0  /* 1/s times the former: speeds */
-#define NEARER      0.8  /* after a state that the equations have no solution at */
-#define ONE_RANK    1e-9 /* rows of Phi_u closer than that to others repeat them */
-#define SHORT_CHAIN 10.  /* links of a chain that loses no digits */
-#define TOLERANCE   1e-13
+#define TURN      0.4   /* rad: how far angles lie from the start at most */
+#define SHARE     0.2   /* how far lengths and states do, of the largest of their kind */
+#define SPEED     1.0   /* 1/s times the former: speeds */
+#define NEARER    0.8   /* after a state that the equations have no solution at */
+#define ONE_RANK  1e-9  /* rows of Phi_u closer than that to others repeat them */
+#define MARGIN    2e-3  /* of a loss, over ALLOWED: some ten roundings an entry */
+#define ALLOWED   1e-12 /* of sizes: how far off a check lets numbers be */
+#define TOLERANCE 1e-13
 
 typedef struct States {
     Code *code;
     Parameters parameters;
     Phase *phase;
     Probe *probe; /* of all roots */
+    Kkt *kkt;     /* of the rows in use */
     double *start, *y, *off;
     int *rows;
     int row_count;
@@ -91,6 +94,8 @@ static Status open_phase(States *st, Diag *diag)
     options.rows = st->rows;
     options.row_count = st->row_count;
     CHECK(phase_open(st->phase, &st->parameters, &options, diag));
+    eq = numbers_equations(st->phase->numbers);
+    st->kkt = kkt_new(eq->masses, eq->rows, st->rows, st->row_count);
     CHECK(probe_new(l, &st->parameters, code->roots.at, code->roots.count, &st->probe, diag));
 done:
     MEM_FREE(order, phi_u);
@@ -133,6 +138,43 @@ static bool all_finite(const double *values, int count)
     return true;
 }
 
+/* What rounding leaves in the sum of a row's terms, an elimination hands on to u' and lambda. The
+ * answer to right sides as large as those sums, of signs at random, shows how much of it. */
+static void measure_loss(States *st, const double *acceleration, const double *multipliers)
+{
+    Code *code = st->code;
+    const Equations *eq = numbers_equations(st->phase->numbers);
+    const int nu = eq->nu, m = st->row_count;
+    const double *mass = equations_mass(eq);
+    double *full_mass, *phi_u, *top, *bottom, *lambda;
+
+    if (!kkt_factor(st->kkt, mass, eq->phi_u, st->rows))
+        return;
+    full_mass = pattern_spread(eq->masses, mass);
+    phi_u = pattern_spread(eq->rows, eq->phi_u);
+    top = NEW_ARRAY(double, nu);
+    bottom = NEW_ARRAY(double, m);
+    lambda = NEW_ARRAY(double, m);
+    for (int i = 0; i < nu; i++)
+        for (int j = 0; j < nu; j++)
+            top[i] += fabs(full_mass[(size_t)i * nu + j] * acceleration[j]);
+    for (int k = 0; k < m; k++)
+        for (int j = 0; j < nu; j++) {
+            const double entry = fabs(phi_u[(size_t)st->rows[k] * nu + j]);
+
+            top[j] += entry * fabs(multipliers[st->rows[k]]);
+            bottom[k] += entry * fabs(acceleration[j]);
+        }
+    for (int i = 0; i < nu; i++)
+        top[i] = copysign(top[i], random_unit(&st->seed));
+    for (int k = 0; k < m; k++)
+        bottom[k] = copysign(bottom[k], random_unit(&st->seed));
+    kkt_solve(st->kkt, top, bottom, top, lambda);
+    code->loss[0] = fmax(code->loss[0], MARGIN * largest(top, nu));
+    code->loss[1] = fmax(code->loss[1], MARGIN * largest(lambda, m));
+    MEM_FREE(full_mass, phi_u, top, bottom, lambda);
+}
+
 /* the state that y is, unless equations have no solution there */
 static bool add_state(States *st, double t)
 {
@@ -142,7 +184,7 @@ static bool add_state(States *st, double t)
     const double *roots;
     RowValues row;
     Solved solved;
-    double *s, *off = st->off;
+    double *s, *errors, *off = st->off;
 
     if (!motion_project(st->phase->motion, t, st->y))
         return false;
@@ -169,6 +211,8 @@ static bool add_state(States *st, double t)
         mem_free(s);
         return false;
     }
+    errors = NEW_ARRAY(double, code->roots.count);
+    probe_errors(st->probe, &(RowValues){0}, errors);
     state.s = s;
     state.y = NEW_ARRAY(double, code->ny);
     memcpy(state.y, st->y, (size_t)code->ny * sizeof(double));
@@ -176,31 +220,37 @@ static bool add_state(States *st, double t)
     state.size = NEW_ARRAY(double, code->functions.count);
     for (int f = 0; f < code->functions.count; f++) {
         const CodeFunction *function = &code->functions.at[f];
+        double lost = 0; /* here and there: terms of an entry may cancel */
 
         for (int i = 0; i < function->rows * function->columns; i++) {
             const double term = (1 + i % WEIGHTS) * roots[function->first + i];
 
             state.sums[f] += term;
             state.size[f] += fabs(term);
+            lost += 2 * (1 + i % WEIGHTS) * errors[function->first + i];
         }
+        if (isfinite(lost))
+            state.size[f] = fmax(state.size[f], lost / ALLOWED);
     }
+    mem_free(errors);
     LIST_PUSH(code->states, state);
+    measure_loss(st, state.s + l->nx + l->nz, state.s + l->nx + l->nz + l->nu);
     return true;
 }
 
-/* The condition of M grows with the fourth power of a chain's length. */
 void code_sizes(const Code *code, double sizes[CODE_PARTS])
 {
     const Layout *l = code->layout;
-    const double length = fmax(1, l->nu / SHORT_CHAIN);
     const int counts[CODE_PARTS] = {l->nx, l->nz, l->nu, l->m};
 
     for (int part = 0, at = 0; part < CODE_PARTS; at += counts[part++]) {
         sizes[part] = 0;
         for (int k = 0; k < code->states.count; k++)
             sizes[part] = fmax(sizes[part], largest(code->states.at[k].s + at, counts[part]));
-        sizes[part] *= pow(length, 4);
     }
+    for (int k = 0; k < COUNT(code->loss); k++)
+        sizes[CODE_PARTS - COUNT(code->loss) + k] =
+            fmax(sizes[CODE_PARTS - COUNT(code->loss) + k], code->loss[k]);
 }
 
 static bool has_ideal_switches(const System *system)
@@ -237,6 +287,7 @@ Status code_add_states(Code *code, const Exported *what, Diag *diag)
             near *= NEARER;
     }
 done:
+    kkt_free(st.kkt);
     probe_free(st.probe);
     phase_free(st.phase);
     parameters_free(&st.parameters);
