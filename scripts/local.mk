@@ -46,3 +46,13 @@ EXTRA_DIST += \
 	scripts/machines/maglev.ct \
 	scripts/machines/motions.py \
 	scripts/machines/slider-crank.ct
+
+# definitions of subsystems, for `source` and `use`
+EXTRA_DIST += \
+	scripts/library/amplifier.ct \
+	scripts/library/dc_drive.ct \
+	scripts/library/gearbox.ct \
+	scripts/library/leg.ct \
+	scripts/library/nmos.ct \
+	scripts/library/npn.ct \
+	scripts/library/quarter_car.ct

@@ -52,6 +52,7 @@ SCRIPT_TESTS = \
 	tests/cases/four_bar \
 	tests/cases/free_body \
 	tests/cases/heavy_top \
+	tests/cases/library \
 	tests/cases/machines \
 	tests/cases/microphone \
 	tests/cases/motor_arm \
