@@ -6,6 +6,7 @@
 #include "plot.h"
 #include "copy.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -151,6 +152,61 @@ static bool is_path(const Call *call, const Plot *plot)
     return out;
 }
 
+#define SEEN 0.01 /* of the largest amplitude: below it a tone is nothing to make room for */
+#define ROOM 1.5  /* of the axis, times the highest frequency seen */
+
+static bool is_spectral(const PlotBlock *block)
+{
+    return strcmp(block->names[0], "f") == 0;
+}
+
+/* as far as there is anything to be seen */
+static double last_seen(const Plot *plot)
+{
+    double last = 0;
+
+    for (int b = 0; b < plot->blocks_count; b++) {
+        const PlotBlock *block = &plot->blocks[b];
+
+        for (int j = 1; j < block->columns; j++) {
+            double most = 0;
+
+            for (int i = 1; i < block->rows; i++)
+                most = fmax(most, block->values[i * block->columns + j]);
+            for (int i = 1; i < block->rows; i++)
+                if (block->values[i * block->columns + j] > SEEN * most)
+                    last = fmax(last, block->values[i * block->columns]);
+        }
+    }
+    return last;
+}
+
+/* spectra are over frequency, all of them or none */
+static ct_status lay_out_spectra(const Call *call, Plot *plot, ct_error *error)
+{
+    int spectral = 0;
+
+    for (int b = 0; b < plot->blocks_count; b++)
+        spectral += is_spectral(&plot->blocks[b]);
+    if (spectral == 0)
+        return CT_OK;
+    if (spectral < plot->blocks_count || ct_versus(call->statement) != NULL) {
+        ct_error_at(call->statement, ct_versus(call->statement), error,
+                    "spectra are over frequency, and are drawn over nothing else");
+        error_hint(error, "plot spectrum(run1.h8) spectrum(run2.h8)");
+        return CT_FAILED;
+    }
+    plot->spectral = true;
+    free(plot->time_label);
+    plot->time_label = copy_text("f [Hz], window of Hann");
+    if (isnan(plot->keys.x[0]) && !plot->keys.x_is_log && !plot->keys.y_is_log &&
+        last_seen(plot) > 0) {
+        plot->keys.x[0] = 0;
+        plot->keys.x[1] = ROOM * last_seen(plot);
+    }
+    return CT_OK;
+}
+
 static ct_status gather(const Call *call, Plot *plot, ct_error *error)
 {
     ct_status status = CT_OK;
@@ -164,6 +220,8 @@ static ct_status gather(const Call *call, Plot *plot, ct_error *error)
     lay_out_curves(plot, call->statement);
     for (int i = 0; i < plot->blocks_count && status == CT_OK; i++)
         status = fill_block(call, plot, i, error);
+    if (status == CT_OK)
+        status = lay_out_spectra(call, plot, error);
     if (status == CT_OK && over_time && versus != NULL)
         status = find_time_unit(call, versus, plot, error);
     if (status == CT_OK)

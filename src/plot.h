@@ -4,7 +4,7 @@
 
 #include "drawing.h"
 
-/* Items of one run share a table: column 0 is t. */
+/* Items of one run share a table: column 0 is t, or the frequency. */
 typedef struct PlotBlock {
     char *run; /* "run2", or "" for the last */
     double *values;
@@ -35,6 +35,7 @@ typedef struct Plot {
     int count;
     int panels;
     bool equal_scales; /* a length over a length */
+    bool spectral;     /* column 0 is the frequency, Hz */
 } Plot;
 
 /* the unit in brackets at the end of a label, "" if none */

@@ -224,7 +224,7 @@ static void put_event(FILE *out, const Plot *plot, const char *name, const doubl
 static void put_events(FILE *out, const Plot *plot, bool named)
 {
     fputs("unset arrow\nunset label\n", out);
-    for (int b = 0; plot->versus == NULL && b < plot->blocks_count; b++) {
+    for (int b = 0; plot->versus == NULL && !plot->spectral && b < plot->blocks_count; b++) {
         const char *run = plot->blocks[b].run;
         const int number = *run != '\0' ? (int)strtol(run + 3, NULL, 10) : 0;
         const double *times;

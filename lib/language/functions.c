@@ -28,6 +28,7 @@ static const Function others[] = {
     {"first", FUNCTION_FIGURE, 1, 1, NULL, false, OP_COUNT},
     {"period", FUNCTION_FIGURE, 1, 1, NULL, false, OP_COUNT},
     {"settling", FUNCTION_FIGURE, 2, 2, NULL, false, OP_COUNT},
+    {"spectrum", FUNCTION_FIGURE, 1, 1, NULL, false, OP_COUNT},
 };
 
 /* operators have no name to be called by; `hold` stands in equations only */

@@ -374,9 +374,9 @@ static const struct {
 #define OP(id, name, args, derivative, c, latex, value, dimension) {name, dimension},
 #include "expr/ops.def"
 #undef OP
-    {"pulse", "txxttttt=x"}, {"pwl", "ttx=x"},   {"table", "...=?"},
-    {"mean", "xx=x"},        {"rms", "xx=x"},    {"final", "xx=x"},
-    {"first", "..=s"},       {"period", "xx=s"}, {"settling", "xx=s"}};
+    {"pulse", "txxttttt=x"}, {"pwl", "ttx=x"},    {"table", "...=?"}, {"mean", "xx=x"},
+    {"rms", "xx=x"},         {"final", "xx=x"},   {"first", "..=s"},  {"period", "xx=s"},
+    {"settling", "xx=s"},    {"spectrum", "xx=x"}};
 
 static const char *find_rule(const char *name)
 {

@@ -212,10 +212,14 @@ static void offer_functions(TypedLine *line)
 {
     char call[40];
     Function row;
+    Verb verb;
+    /* spectra stand where columns of rows do */
+    const bool spectra = verb_find(line->before.at[0], &verb) && strchr("iI", verb.pattern[0]);
 
     for (int i = 0; function_at(i, &row); i++) {
         (void)snprintf(call, sizeof call, "%s(", row.name);
-        offer(line, call);
+        if (spectra || strcmp(row.name, "spectrum") != 0)
+            offer(line, call);
     }
 }
 
@@ -264,9 +268,6 @@ static void offer_show(TypedLine *line)
 
     if (topic != NULL) {
         switch (topic->behind) {
-        case BEHIND_NOTHING:
-        case BEHIND_NUMBERS:
-            break;
         case BEHIND_EDGES:
             offer_edges(line);
             break;
@@ -284,6 +285,8 @@ static void offer_show(TypedLine *line)
                 offer_linear_outputs(line);
             else if (line->before.count == 3)
                 offer_linear_inputs(line);
+            break;
+        default:
             break;
         }
         return;

@@ -68,7 +68,8 @@ static void write_functions(Text *out)
         "second if none is; outside the data the value stays that of the end; a number "
         "behind the column asks for that derivative by x. Over the "
         "last run: min(x) max(x) of its rows; of the motion mean(x) rms(x) final(x) period(x), "
-        "first(condition), settling(x, band); 'keep' makes parameters of them. Entries of the "
+        "first(condition), settling(x, band); 'keep' makes parameters of them; spectrum(x) is for "
+        "'plot' and 'table'. Entries of the "
         "equations: mass(1,2), forces(1), lambda(1). Operators: + - * / ^, < <= > >= == "
         "!= && || !; a prime is a time derivative (h8', h8'').");
 }

@@ -15,6 +15,7 @@ libcore_la_SOURCES += \
   lib/session/session_look.c \
   lib/session/session_plot.c \
   lib/session/session_run.c \
+  lib/session/session_spectrum.c \
   lib/session/session_start.c \
   lib/session/session_statement.c \
   lib/session/session_systems.c \

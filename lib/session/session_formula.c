@@ -140,7 +140,7 @@ static bool is_pure(const Syntax *syntax, int *run, bool *bare)
 {
     const char *rest;
 
-    if (figure_is_called(syntax))
+    if (figure_is_called(syntax) || spectrum_is_called(syntax))
         return false;
     if (syntax->kind == SYNTAX_VARIABLE || syntax->kind == SYNTAX_CALL) {
         const int prefix = run_prefix(syntax->text, &rest);
@@ -373,6 +373,11 @@ static Status cut_any(Cut *cut, const Syntax *syntax, Expr *out, Diag *diag)
     int run = 0;
     bool bare = false;
 
+    if (spectrum_is_called(syntax)) {
+        (void)diag_at(diag, E_VALUE, syntax->place, "a spectrum is no number, but one a frequency");
+        diag_hint(diag, "'plot spectrum(h8)' draws one, 'table' lists it");
+        return E_VALUE;
+    }
     if (figure_is_called(syntax))
         return cut_figure(cut, syntax, out, diag);
     if (syntax->kind == SYNTAX_VARIABLE && find_size(syntax->text) >= 0)

@@ -15,6 +15,8 @@
 #include "simulate/analyse/linearize.h"
 #include "simulate/run/run.h"
 
+#include <string.h>
+
 /* Values of parameters when a run began; lives as long as the run. */
 typedef struct ParameterValues {
     const Model *model; /* for parameters made later */
@@ -236,6 +238,16 @@ bool figure_is_called(const Syntax *syntax);
  * number */
 MUST_USE Status figure_value(ct_session *session, const Syntax *call, const Formula *argument,
                              double band, double *out, Diag *diag);
+
+/* Spectra (session_spectrum.c): spectrum(h8) beside other spectra alone, in a table whose first
+ * column is the frequency, Hz. A formula here is that of the argument; `values` is new. */
+static inline bool spectrum_is_called(const Syntax *syntax)
+{
+    return syntax->kind == SYNTAX_CALL && strcmp(syntax->text, "spectrum") == 0;
+}
+MUST_USE Status spectrum_formula(ct_session *session, const Syntax *item, Formula *out, Diag *diag);
+MUST_USE Status spectrum_rows(ct_session *session, const Formula *formulas, int columns, Run *grid,
+                              Run *source, double **values, int *rows, Diag *diag);
 
 /* what `print` would tell, at an instant of the last run or (NULL) at its end or the start */
 MUST_USE Status session_value_at(ct_session *session, const Syntax *syntax, const double *at,

@@ -91,6 +91,7 @@ done:
 typedef struct Sheet {
     double *values;
     int rows, columns;
+    bool is_spectral;   /* over frequency, not time */
     LIST(char *) names; /* ended by NULL once it is done */
     Expr *formulas;     /* of code, instead of values */
 } Sheet;
@@ -126,7 +127,8 @@ static Status read_items(ct_session *session, const Syntax *const *items, int co
     Status status = OK;
 
     for (int i = 0; i < count; i++) {
-        status = formula_new(session, items[i], &formulas[i], diag);
+        status = sheet->is_spectral ? spectrum_formula(session, items[i], &formulas[i], diag)
+                                    : formula_new(session, items[i], &formulas[i], diag);
         if (status != OK && diag->place.line == 0)
             diag->place = items[i]->place;
         if (status != OK)
@@ -181,6 +183,10 @@ static Status fill_sheet(ct_session *session, const Formula *formulas, int count
     const double *stamps;
     Status status;
 
+    sheet->columns = count + 1;
+    if (sheet->is_spectral)
+        return spectrum_rows(session, formulas, count, grid, source, &sheet->values, &sheet->rows,
+                             diag);
     if (every > 0 &&
         last_time(grid) - result_times(grid->result)[0] > every * MOST_VALUES / (count + 1)) {
         (void)diag_set(diag, E_VALUE, "that makes %.3g rows",
@@ -193,7 +199,6 @@ static Status fill_sheet(ct_session *session, const Formula *formulas, int count
     else
         sheet->rows = result_rows(grid->result);
     stamps = times != NULL ? times : result_times(grid->result);
-    sheet->columns = count + 1;
     sheet->values = mem_array((size_t)sheet->rows * (size_t)(count + 1), sizeof *sheet->values);
     for (int r = 0; r < sheet->rows; r++)
         sheet->values[(size_t)r * (size_t)(count + 1)] = stamps[r];
@@ -212,7 +217,13 @@ static Status make_sheet(ct_session *session, const Syntax *const *items, int co
     Formula *formulas = NULL;
     Status status = OK;
 
-    LIST_PUSH(sheet.names, mem_text("t", 1));
+    for (int i = 0; i < count; i++)
+        sheet.is_spectral = sheet.is_spectral || spectrum_is_called(items[i]);
+    LIST_PUSH(sheet.names, mem_text(sheet.is_spectral ? "f" : "t", 1));
+    if (sheet.is_spectral && every > 0) {
+        status = diag_set(diag, E_VALUE, "a spectrum takes no every=: its rows are frequencies");
+        goto done;
+    }
     if (count == 0) {
         const System *system = result_system(source->result);
 

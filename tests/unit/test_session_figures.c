@@ -131,8 +131,115 @@ static void a_run_remembers_its_parameters(void)
     kit_free(&kit);
 }
 
+/* --- spectra --- */
+
+/* the amplitude at that frequency, Hz, which has to be a line of the spectrum */
+static double amplitude(Kit *kit, const char *item, double frequency)
+{
+    char line[200], **names = NULL;
+    double *values = NULL, out = NAN;
+    int rows = 0, columns = 0;
+    ct_statement *statement = NULL;
+    ct_cursor cursor = {.text = line, .line = 1};
+
+    (void)snprintf(line, sizeof line, "table %s", item);
+    EXPECT(ct_parse(&cursor, true, &statement, &kit->error) == CT_OK);
+
+    const ct_expression *wanted = ct_operand(statement, 0);
+
+    if (ct_table(kit->session, &wanted, 1, 0, &values, &rows, &columns, &names, &kit->error) ==
+        CT_OK) {
+        for (int i = 0; i < rows; i++)
+            out = fabs(values[2 * i] - frequency) < 1e-9 ? values[2 * i + 1] : out;
+        ct_free(values);
+        ct_words_free(names);
+    }
+    ct_statement_free(statement);
+    return out;
+}
+
+static void a_tone_shows_its_amplitude(void)
+{
+    for (size_t i = 0; i < sizeof grids / sizeof grids[0]; i++) {
+        char line[80];
+        Kit kit = kit_new();
+        const char *both = "spectrum(2*sin(2*pi*5*t) - 0.3*cos(2*pi*7.5*t) + 4)";
+
+        (void)snprintf(line, sizeof line, "simulate 10 every=%s", grids[i]);
+        EXPECT_DONE(&kit, SWING);
+        EXPECT_DONE(&kit, line);
+        EXPECT_NEAR(amplitude(&kit, both, 5), 2, 1e-9);
+        EXPECT_NEAR(amplitude(&kit, both, 7.5), 0.3, 1e-9);
+        EXPECT_NEAR(amplitude(&kit, both, 6), 0, 1e-9);
+        EXPECT_NEAR(amplitude(&kit, both, 0), 4, 1e-9);
+        EXPECT_NEAR(amplitude(&kit, "spectrum(0*t - 3)", 0), 3, 1e-12);
+        EXPECT_NEAR(amplitude(&kit, "spectrum(0*t - 3)", 0.1), 0, 1e-12);
+        /* far above what the run's steps resolve, and at a whole number of samples */
+        EXPECT_NEAR(amplitude(&kit, "spectrum(sin(2*pi*900*t))", 900), 1, 1e-9);
+        EXPECT_NEAR(amplitude(&kit, "spectrum(cos(2*pi*409.6*t))", 409.6), 1, 1e-9);
+        EXPECT_NEAR(amplitude(&kit, "spectrum(cos(2*pi*409.6*t))", 0), 0, 1e-9);
+        kit_free(&kit);
+    }
+}
+
+/* 0.5 cos 2t + sin 2t over ten periods, in a unit, of one run among two */
+static void a_swing_has_one_line(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, SWING "simulate (10*pi) rtol=1e-11 atol=1e-12\nsimulate 1");
+    EXPECT_NEAR(amplitude(&kit, "spectrum(run1.h)", 1 / M_PI), sqrt(1.25), 1e-8);
+    EXPECT_NEAR(amplitude(&kit, "spectrum(run1.h) [deg]", 1 / M_PI), sqrt(1.25) * 180 / M_PI, 1e-6);
+    EXPECT_NEAR(amplitude(&kit, "spectrum(run1.h')", 1 / M_PI), 2 * sqrt(1.25), 1e-8);
+    EXPECT_NEAR(amplitude(&kit, "spectrum(run1.h)", 2 / M_PI), 0, 1e-8);
+    kit_free(&kit);
+}
+
+/* A ball that loses nothing: parabolas of height 1, whose k-th tone is 4/(pi k)^2 */
+static void a_ball_has_the_tones_of_parabolas(void)
+{
+    const double period = 2 * sqrt(2 / 9.81);
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, "scene planar\ngravity [0, -9.81]\nbody b mass=1 inertia=1\n"
+                      "prismatic s ground b axis=y\ninit s = 1\nevent hit when=s < 0 s'=-s'\n"
+                      "simulate (16*sqrt(2/9.81)) every=0.3 rtol=1e-10 atol=1e-12");
+    EXPECT_NEAR(amplitude(&kit, "spectrum(s)", 0), 2.0 / 3, 1e-4);
+    for (int k = 1; k < 9; k++)
+        EXPECT_NEAR(amplitude(&kit, "spectrum(s)", k / period), 4 / (M_PI * M_PI * k * k), 1e-4);
+    /* the speed is a saw of height v: 2 v/(pi k) */
+    EXPECT_NEAR(amplitude(&kit, "spectrum(s')", 1 / period), 2 * sqrt(2 * 9.81) / M_PI, 4e-3);
+    EXPECT_NEAR(amplitude(&kit, "spectrum(s')", 3 / period), 2 * sqrt(2 * 9.81) / M_PI / 3, 4e-3);
+    kit_free(&kit);
+}
+
+static void a_spectrum_stands_where_it_can(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, SWING);
+    EXPECT_FAILS(&kit, "table spectrum(h)", "there is none");
+    EXPECT_DONE(&kit, "simulate 1");
+    EXPECT_FAILS(&kit, "print spectrum(h)", "is no number");
+    EXPECT_FAILS(&kit, "print 2*spectrum(h)", "is no number");
+    EXPECT_FAILS(&kit, "table spectrum(h) h", "over frequency");
+    EXPECT_FAILS(&kit, "table spectrum(2*spectrum(h))", "is no number");
+    EXPECT_FAILS(&kit, "table spectrum(h, h')", "one variable");
+    EXPECT_FAILS(&kit, "table spectrum(h) every=0.1", "no every=");
+    EXPECT_FAILS(&kit, "table spectrum(h) [mm]", "mm");
+    EXPECT_FAILS(&kit, "table spectrum(1/(t - 0.5 + abs(t - 0.5)))", "isn't a number");
+    EXPECT_FAILS(&kit, "output y = spectrum(h)", "nothing can depend on it");
+    EXPECT_DONE(&kit, "export csv spectrum(h)");
+    EXPECT_HOLDS(kit.text, "f,spectrum(h)\n0,");
+    kit_free(&kit);
+}
+
 int main(void)
 {
+    RUN(a_tone_shows_its_amplitude);
+    RUN(a_swing_has_one_line);
+    RUN(a_ball_has_the_tones_of_parabolas);
+    RUN(a_spectrum_stands_where_it_can);
     RUN(a_swing_has_its_closed_forms_at_any_rows);
     RUN(a_ball_jumps_between_rows);
     RUN(what_decays_settles);
