@@ -546,14 +546,21 @@ static Status entry_variable(System *system, const char *path, bool *found, Expr
 
 /* --- names --- */
 
-/* v(0.5): how far the point there has moved along y of the root */
-static Status deflection_variable(const System *system, const Instance *part, const char *member,
+/* v(0.5): how far the point there has moved along y of the root; of pictures, y(0.5): where the
+ * middle is along y of ground */
+static Status deflection_variable(System *system, const Instance *part, const char *member,
                                   Expr *out)
 {
     Arena *arena = system->arena;
     const Expr at = expr_real(arena, strtod(strchr(member, '(') + 1, NULL));
-    const Station *station = shapes_point(system, part, at);
+    const Station *station;
+    Expr point[3];
 
+    if (member[0] >= 'x' && system_axis_point(system, part, at, point)) {
+        *out = point[member[0] - 'x'];
+        return OK;
+    }
+    station = shapes_point(system, part, at);
     *out = member[0] == 'p'   ? station->angle[2]
            : member[0] == 'u' ? expr_sub(arena, station->position[0], at)
                               : station->position[member[0] == 'v' ? 1 : 2];

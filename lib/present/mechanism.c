@@ -2,6 +2,7 @@
 #include "present/mechanism_impl.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -36,6 +37,23 @@ static void add_node(Mechanism *mechanism, int node)
         LIST_PUSH(mechanism->items,
                   variable(mechanism, graph_node(model_graph(mechanism->view->model), node)->name,
                            members[i]));
+}
+
+static void add_bent(Mechanism *mechanism, int bent)
+{
+    static const char *const axes[3] = {"x", "y", "z"};
+
+    for (int k = 0; k < BENT_SPOTS; k++) {
+        mechanism->place[mechanism->bents.at[bent].first + k] = mechanism->items.count;
+        for (int i = 0; i < 3; i++) {
+            char member[40];
+
+            (void)snprintf(member, sizeof member, "%s(%.17g)", axes[i],
+                           (double)k / (BENT_SPOTS - 1));
+            LIST_PUSH(mechanism->items,
+                      variable(mechanism, mechanism->bents.at[bent].part->name, member));
+        }
+    }
 }
 
 static void add_load(Mechanism *mechanism, const Instance *instance)
@@ -124,12 +142,19 @@ Status mechanism_open(Mechanism *mechanism, const View *view, MechanismOptions o
     int bodies = 0;
 
     *mechanism = (Mechanism){.view = view, .options = options, .ground = -1};
-    mechanism->nodes = graph_node_count(model_graph(model));
-    mechanism->place = NEW_ARRAY(int, mechanism->nodes);
+    mechanism->nodes = mechanism->spots = graph_node_count(model_graph(model));
+    for (int i = 0; i < model_count(model); i++) {
+        const Instance *instance = model_instance(model, i);
+
+        bodies += instance->row->family == FAMILY_BODY;
+        if (instance->row->deforming != NULL) {
+            LIST_PUSH(mechanism->bents, ((Bent){instance, mechanism->spots}));
+            mechanism->spots += BENT_SPOTS;
+        }
+    }
+    mechanism->place = NEW_ARRAY(int, mechanism->spots);
     mechanism->body = NEW_ARRAY(int, mechanism->nodes);
     find_bodies(mechanism);
-    for (int i = 0; i < model_count(model); i++)
-        bodies += model_instance(model, i)->row->family == FAMILY_BODY;
     if (bodies == 0) {
         (void)diag_set(diag, E_MISSING, "there is no body to draw");
         diag_hint(diag, "'draw' alone draws the linear graph");
@@ -138,6 +163,8 @@ Status mechanism_open(Mechanism *mechanism, const View *view, MechanismOptions o
     for (int n = 0; n < mechanism->nodes; n++)
         if (mechanism->body[n] >= 0 && n != mechanism->ground)
             add_node(mechanism, n);
+    for (int i = 0; i < mechanism->bents.count; i++)
+        add_bent(mechanism, i);
     for (int i = 0; i < model_count(model); i++)
         add_load(mechanism, model_instance(model, i));
     choose_axes(mechanism);
@@ -148,6 +175,7 @@ void mechanism_close(Mechanism *mechanism)
 {
     LIST_FREE(mechanism->items);
     LIST_FREE(mechanism->loads);
+    LIST_FREE(mechanism->bents);
     MEM_FREE(mechanism->place, mechanism->body);
 }
 
@@ -173,9 +201,9 @@ static void lay_out_sheet(Mechanism *mechanism, const double *values, int rows)
     for (int r = 0; r < rows; r++) {
         const double *row = values + (size_t)r * (size_t)mechanism->items.count;
 
-        for (int i = 0; i < mechanism->nodes + mechanism->loads.count; i++) {
+        for (int i = 0; i < mechanism->spots + mechanism->loads.count; i++) {
             const Load *load =
-                i >= mechanism->nodes ? &mechanism->loads.at[i - mechanism->nodes] : NULL;
+                i >= mechanism->spots ? &mechanism->loads.at[i - mechanism->spots] : NULL;
             double at[3], moment[3];
             Point p, d = {0, 0};
 
@@ -198,6 +226,13 @@ static void lay_out_sheet(Mechanism *mechanism, const double *values, int rows)
     mechanism->height += FOOTER;
 }
 
+static const char *spot_name(const Mechanism *mechanism, int spot)
+{
+    return spot < mechanism->nodes
+               ? graph_node(model_graph(mechanism->view->model), spot)->name
+               : mechanism->bents.at[(spot - mechanism->nodes) / BENT_SPOTS].part->name;
+}
+
 Status mechanism_fit(Mechanism *mechanism, const double *values, int rows, Diag *diag)
 {
     double low[2] = {0, 0}, high[2] = {0, 0}, force = 0, moment = 0;
@@ -205,7 +240,7 @@ Status mechanism_fit(Mechanism *mechanism, const double *values, int rows, Diag 
     for (int r = 0; r < rows; r++) {
         const double *row = values + (size_t)r * (size_t)mechanism->items.count;
 
-        for (int n = 0; n < mechanism->nodes; n++) {
+        for (int n = 0; n < mechanism->spots; n++) {
             double at[3];
 
             if (mechanism->place[n] < 0)
@@ -216,7 +251,7 @@ Status mechanism_fit(Mechanism *mechanism, const double *values, int rows, Diag 
 
             if (!isfinite(p.x) || !isfinite(p.y))
                 return diag_set(diag, E_VALUE, "the place of %s is undefined",
-                                graph_node(model_graph(mechanism->view->model), n)->name);
+                                spot_name(mechanism, n));
             low[0] = fmin(low[0], p.x);
             high[0] = fmax(high[0], p.x);
             low[1] = fmin(low[1], p.y);
@@ -296,18 +331,80 @@ static void draw_centre(Sheet *sheet, Point at, const char *color)
     picture_circle(sheet->picture, (Ink){.fill = color}, at, 1.5);
 }
 
+/* what is beside a beam's axis: arms that don't end on it */
+static void draw_brackets(Sheet *sheet, const Instance *beam, Ink ink)
+{
+    const Model *model = sheet->mechanism->view->model;
+
+    for (int i = 0; i < model_count(model); i++) {
+        const Instance *arm = model_instance(model, i);
+
+        if (arm->row->family == FAMILY_ARM && !instance_value(arm, "at")->given &&
+            sheet->mechanism->body[arm->head] == beam->head)
+            draw_hull(
+                sheet,
+                (Point[]){sheet_node(sheet, arm->tail, NULL), sheet_node(sheet, arm->head, NULL)},
+                2, ink);
+    }
+}
+
+/* A beam as wide as a link: along one side of its axis, round the end, and back. */
+static void draw_bent(Sheet *sheet, const Bent *bent, Ink ink)
+{
+    enum { CAP = 8 };
+    Point edge[2 * (BENT_SPOTS + CAP)], d = {1, 0};
+    int count = 0;
+
+    for (int k = 0; k < 2 * BENT_SPOTS; k++) {
+        const int side = k < BENT_SPOTS ? 1 : -1;
+        const int spot = side > 0 ? k : 2 * BENT_SPOTS - 1 - k;
+        const int before = spot > 0 ? spot - 1 : 0;
+        const int after = spot < BENT_SPOTS - 1 ? spot + 1 : spot;
+        const Point at = sheet_node(sheet, bent->first + spot, NULL);
+        const Point a = sheet_node(sheet, bent->first + before, NULL);
+        const Point b = sheet_node(sheet, bent->first + after, NULL);
+        const double length = hypot(b.x - a.x, b.y - a.y);
+        const bool ends = k % BENT_SPOTS == BENT_SPOTS - 1;
+
+        if (length > 1e-6) /* px; seen from its end it has the direction before */
+            d = (Point){(b.x - a.x) / length, (b.y - a.y) / length};
+        for (int c = 0; c <= (ends ? CAP : 0); c++) {
+            const double along = LINK_HALF * side * sin(M_PI * c / CAP);
+            const double across = LINK_HALF * side * cos(M_PI * c / CAP);
+
+            edge[count++] =
+                (Point){at.x - across * d.y + along * d.x, at.y + across * d.x + along * d.y};
+        }
+    }
+    picture_area(sheet->picture, ink, edge, count);
+}
+
+static const Bent *find_bent(const Mechanism *mechanism, const Instance *body)
+{
+    for (int i = 0; i < mechanism->bents.count; i++)
+        if (mechanism->bents.at[i].part == body)
+            return &mechanism->bents.at[i];
+    return NULL;
+}
+
 static void draw_body(Sheet *sheet, const Instance *body)
 {
+    const Bent *bent = find_bent(sheet->mechanism, body);
     const Mechanism *mechanism = sheet->mechanism;
     const int number = mechanism_color(mechanism, body->head);
     const Ink ink = {.stroke = picture_color(number), .fill = picture_tint(number), .width = 1.6};
     LIST(Point) frames = {0};
 
+    picture_of(sheet->picture, "body", body->name);
+    sheet->picture->depth = sheet_depth(sheet, body->head);
+    if (bent != NULL) {
+        draw_brackets(sheet, body, ink);
+        draw_bent(sheet, bent, ink);
+        return;
+    }
     for (int n = 0; n < mechanism->nodes; n++)
         if (mechanism->body[n] == body->head)
             LIST_PUSH(frames, sheet_node(sheet, n, NULL));
-    picture_of(sheet->picture, "body", body->name);
-    sheet->picture->depth = sheet_depth(sheet, body->head);
     draw_hull(sheet, frames.at, frames.count, ink);
     draw_centre(sheet, sheet_node(sheet, body->head, NULL), ink.stroke);
     LIST_FREE(frames);

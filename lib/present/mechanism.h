@@ -25,14 +25,23 @@ typedef struct Load {
     int first;     /* of its items: three of the force, three of the moment */
 } Load;
 
+/* A beam: points of its axis, as spots behind the nodes. */
+typedef struct Bent {
+    const Instance *part;
+    int first; /* of its spots */
+} Bent;
+
+enum { BENT_SPOTS = 13 };
+
 typedef struct Mechanism {
     const View *view;
     MechanismOptions options;
     LIST(Expr) items; /* what it is drawn from, over the user's variables */
     LIST(Load) loads;
-    int nodes;
-    int *place; /* of a node's first item; -1: ground, or not drawn */
-    int *body;  /* that a node is fixed in, by the node of its frame; -1: of another domain */
+    LIST(Bent) bents;
+    int nodes, spots; /* nodes, then the points of beams */
+    int *place;       /* of a spot's first item; -1: ground, or not drawn */
+    int *body;        /* that a node is fixed in, by the node of its frame; -1: of another domain */
     int ground;
     double axes[3][3]; /* to the right, up, and towards who looks */
     double scale;      /* px a metre */

@@ -20,13 +20,13 @@ typedef struct Sheet {
 #define LINK_HALF  7.0 /* px: half the width of a link */
 #define JOINT_SIZE 5.0
 
-/* where a node is, m, and an axis of its frame turned to ground */
-void mechanism_place(const Mechanism *mechanism, const double *values, int node, double out[3]);
+/* where a spot is, m, and an axis of a node's frame turned to ground */
+void mechanism_place(const Mechanism *mechanism, const double *values, int spot, double out[3]);
 void mechanism_turn(const Mechanism *mechanism, const double *values, int node, const double in[3],
                     double out[3]);
 /* on paper, and how near it is */
 Point mechanism_point(const Mechanism *mechanism, const double at[3], double *depth);
-Point sheet_node(const Sheet *sheet, int node, double *depth);
+Point sheet_node(const Sheet *sheet, int spot, double *depth);
 /* a direction on paper, y down, as long as it is seen: 1 across the look */
 Point mechanism_direction(const Mechanism *mechanism, const double direction[3]);
 

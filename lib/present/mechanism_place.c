@@ -4,9 +4,9 @@
 #include <math.h>
 #include <string.h>
 
-void mechanism_place(const Mechanism *mechanism, const double *values, int node, double out[3])
+void mechanism_place(const Mechanism *mechanism, const double *values, int spot, double out[3])
 {
-    const int place = mechanism->place[node];
+    const int place = mechanism->place[spot];
 
     for (int i = 0; i < 3; i++)
         out[i] = place >= 0 ? values[place + i] : 0;
@@ -56,11 +56,11 @@ Point mechanism_point(const Mechanism *mechanism, const double at[3], double *de
                    mechanism->top + p.y * mechanism->scale};
 }
 
-Point sheet_node(const Sheet *sheet, int node, double *depth)
+Point sheet_node(const Sheet *sheet, int spot, double *depth)
 {
     double at[3];
 
-    mechanism_place(sheet->mechanism, sheet->values, node, at);
+    mechanism_place(sheet->mechanism, sheet->values, spot, at);
     return mechanism_point(sheet->mechanism, at, depth);
 }
 
