@@ -63,12 +63,58 @@ static void drop_definition(Shell *shell)
     ct_drop_definition(shell->session);
 }
 
+/* Whether a statement of the line begins with the word: all that tells a definition's first and
+ * last line once it can't be read. */
+static bool has_statement(const char *text, const char *word)
+{
+    for (;;) {
+        text += strspn(text, " \t;");
+        if (strcspn(text, " \t\n;#") == strlen(word) && strncmp(text, word, strlen(word)) == 0)
+            return true;
+        text += strcspn(text, ";#");
+        if (*text != ';')
+            return false;
+    }
+}
+
+/* Where a script goes on after a definition whose first line failed, its lines aren't the model's.
+ */
+static ct_status run_or_drop_line(Shell *shell, const Origin *origin, const char *text)
+{
+    const bool opened = ct_defining(shell->session) != NULL;
+    ct_status status;
+
+    if (shell->dropping == 0) {
+        status = run_script_line(shell, origin, text);
+        if (status != CT_OK && shell->keep_going &&
+            opened == (ct_defining(shell->session) != NULL) && has_statement(text, "subsystem") &&
+            !has_statement(text, "end"))
+            shell->dropping = origin->line;
+        return status;
+    }
+    if (has_statement(text, "end")) {
+        remark("what follows line %d up to 'end' in line %d is that definition's, and dropped",
+               shell->dropping, origin->line);
+        shell->dropping = 0;
+    }
+    return CT_OK;
+}
+
 /* A file ends the definitions that it begins; -e and the prompt may go on. */
 static ct_status end_of_lines(Shell *shell, const Reader *reader, const Origin *origin, bool opened)
 {
     ct_error error;
 
-    if (ct_defining(shell->session) == NULL || opened || !reader_is_file(reader))
+    if (!reader_is_file(reader))
+        return CT_OK;
+    if (shell->dropping > 0) {
+        error_say(&error, "the definition that begins in line %d has no 'end'", shell->dropping);
+        complain(origin, "", &error);
+        shell->dropping = 0;
+        shell->failed++;
+        return CT_FAILED;
+    }
+    if (ct_defining(shell->session) == NULL || opened)
         return CT_OK;
     error_say(&error, "the definition of %s has no 'end'", ct_defining(shell->session));
     complain(origin, "", &error);
@@ -84,6 +130,8 @@ ct_status replay(Shell *shell, Reader *reader)
     const bool opened = ct_defining(shell->session) != NULL;
     ct_status first = CT_OK, status = CT_OK;
 
+    if (reader_is_file(reader))
+        shell->dropping = 0;
     while (!shell->quitting) {
         char *text;
         Origin origin;
@@ -105,8 +153,8 @@ ct_status replay(Shell *shell, Reader *reader)
             run_typed_line(shell, reader, &origin, text);
             interrupt_clear();
         } else if (!typed) {
-            status =
-                interrupt_asked() ? stopped(shell, &origin) : run_script_line(shell, &origin, text);
+            status = interrupt_asked() ? stopped(shell, &origin)
+                                       : run_or_drop_line(shell, &origin, text);
         }
         free(text);
         if (first == CT_OK)
@@ -121,6 +169,8 @@ ct_status replay(Shell *shell, Reader *reader)
         first = status;
     if (first != CT_OK && !typed && !shell->keep_going)
         ct_drop_definition(shell->session);
+    if (reader_is_file(reader))
+        shell->dropping = 0;
     reader_free(reader);
     return first;
 }
