@@ -5,9 +5,10 @@ AM_MAKEINFOFLAGS = --no-split -I doc
 dist_man_MANS += doc/cotree.1
 EXTRA_DIST += scripts/dev/docs doc/HACKING
 
-# pictures: those of characters, for Info and plain text, are kept; the others are drawn by gnuplot
+# pictures: those of characters, for Info and plain text, and the README's are kept; the others are
+# drawn by gnuplot
 # when the manual is made as html or pdf
-EXTRA_DIST += doc/pictures/list \
+EXTRA_DIST += doc/pictures/list doc/pictures/drawn-andrews.svg \
 	doc/pictures/arm.txt doc/pictures/converter.txt doc/pictures/crane.txt \
 	doc/pictures/lift.txt doc/pictures/loudspeaker.txt doc/pictures/maglev.txt \
 	doc/pictures/microphone.txt doc/pictures/slider-crank.txt \
