@@ -34,6 +34,7 @@ void beam_close(Beam *beam);
 void beam_modes(const Instance *instance, bool planar, int modes[SHAPE_FAMILIES]);
 
 Expr beam_number(Arena *arena, const mpq_t value);
+Expr beam_value_at(Arena *arena, const Polynomial *p, Expr xi);
 /* of the slopes of two shapes of one family, from 0 to xi, by xi */
 Polynomial beam_shortening(const BeamShape *a, const BeamShape *b);
 bool beam_bends(const BeamShape *shape);
@@ -42,5 +43,8 @@ void beam_station(const Instance *instance, Arena *arena, bool planar, Expr at,
                   const ShapeState *state, Station *out);
 void beam_inertia(const Instance *instance, Arena *arena, bool planar, const ShapeState *state,
                   ShapeInertia *out);
+SectionForce beam_has_section(const Instance *instance, bool planar, const char *name);
+Expr beam_section(const Instance *instance, Arena *arena, bool planar, const char *name, Expr at,
+                  const ShapeState *state);
 
 #endif

@@ -157,6 +157,12 @@ typedef struct ShapeInertia {
     Expr *spread_shift;
 } ShapeInertia;
 
+typedef enum SectionForce {
+    SECTION_UNKNOWN, /* there is none of that name */
+    SECTION_RIGID,   /* no shape tells it */
+    SECTION_TOLD
+} SectionForce;
+
 typedef struct Deforming {
     int (*count)(const Instance *instance, bool planar);
     CoordinateRow (*coordinate)(const Instance *instance, bool planar, int i);
@@ -165,6 +171,10 @@ typedef struct Deforming {
                     const ShapeState *state, Station *out);
     void (*inertia)(const Instance *instance, Arena *arena, bool planar, const ShapeState *state,
                     ShapeInertia *out);
+    /* forces and moments in a section, "bending"; the name ends at its bracket */
+    SectionForce (*has_section)(const Instance *instance, bool planar, const char *name);
+    Expr (*section)(const Instance *instance, Arena *arena, bool planar, const char *name, Expr at,
+                    const ShapeState *state);
 } Deforming;
 
 /* --- efforts: forces between two frames or on a joint, and transducers --- */

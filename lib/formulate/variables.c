@@ -546,18 +546,24 @@ static Status entry_variable(System *system, const char *path, bool *found, Expr
 
 /* --- names --- */
 
-/* v(0.5): how far the point there has moved along y of the root; of pictures, y(0.5): where the
- * middle is along y of ground */
+/* v(0.5): how far the point there has moved along y of the root; bending(0.5): what its section
+ * carries; of pictures, y(0.5): where the middle is along y of ground */
 static Status deflection_variable(System *system, const Instance *part, const char *member,
                                   Expr *out)
 {
     Arena *arena = system->arena;
     const Expr at = expr_real(arena, strtod(strchr(member, '(') + 1, NULL));
+    const Deforming *deforming = part->row->deforming;
+    const ShapeState state = shapes_state(system, part);
     const Station *station;
     Expr point[3];
 
     if (member[0] >= 'x' && system_axis_point(system, part, at, point)) {
         *out = point[member[0] - 'x'];
+        return OK;
+    }
+    if (deforming->has_section(part, system->origin->planar, member) == SECTION_TOLD) {
+        *out = deforming->section(part, arena, system->origin->planar, member, at, &state);
         return OK;
     }
     station = shapes_point(system, part, at);
