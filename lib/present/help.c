@@ -247,6 +247,10 @@ static void add_overview(Text *out)
         text_addf(&names, "%s%s", i > 0 ? " " : "", help_topic_at(i)->name);
     text_add(out, "Topics of help\n");
     layout_words(out, HELP_WIDTH, "  ", names.at);
+    layout_words(
+        out, HELP_WIDTH, "",
+        "A tour in the manual, 'info cotree', goes from an empty session to a plot, then to a "
+        "motor arm.");
     text_free(&names);
 }
 

@@ -448,8 +448,18 @@ static void completion_offers_the_verbs_and_keys_of_every_example(void)
     }
 }
 
+static void help_alone_tells_of_the_tour(void)
+{
+    char *text = ct_help(NULL);
+
+    EXPECT_HOLDS(text, "tour");
+    EXPECT_HOLDS(text, "info cotree");
+    ct_free(text);
+}
+
 int main(void)
 {
+    RUN(help_alone_tells_of_the_tour);
     RUN(every_verb_has_a_page);
     RUN(every_example_runs_from_an_empty_session);
     RUN(the_overview_names_every_verb_that_is_there);
