@@ -186,10 +186,23 @@ static Status take_name(const View *view, const Topic *topic, const Operand *ope
     return OK;
 }
 
+/* `derivation mass 2 3` asks for what `derivation mass(2,3)` does: the numbers become arguments */
+static bool take_argument(const Operand *operand, Syntax *entry)
+{
+    if (operand->value->kind != SYNTAX_NUMBER || entry->args == NULL || entry->primes > 0 ||
+        entry->has_unit || entry->kind == SYNTAX_NUMBER)
+        return false;
+    entry->kind = SYNTAX_CALL;
+    entry->args[entry->count++] = operand->value;
+    return true;
+}
+
 static Status show_topic(const View *view, const Topic *topic, const Statement *statement,
                          Text *out, Diag *diag)
 {
     const char **names = NEW_ARRAY(const char *, statement->operands.count);
+    Syntax **args = NEW_ARRAY(Syntax *, statement->operands.count);
+    Syntax entry = {.kind = SYNTAX_NUMBER};
     Selection selection = {.names = names};
     Status status = OK;
 
@@ -198,6 +211,10 @@ static Status show_topic(const View *view, const Topic *topic, const Statement *
 
         if (topic->behind == BEHIND_ENTRY && selection.item == NULL) {
             selection.item = operand->value;
+            entry = *operand->value;
+            entry.args = entry.count == 0 ? args : NULL;
+        } else if (topic->behind == BEHIND_ENTRY && take_argument(operand, &entry)) {
+            selection.item = &entry;
         } else if (topic->behind == BEHIND_ENTRY) {
             status = diag_at(diag, E_SYNTAX, operand->place,
                              "'show %s' tells of one name, row or entry at a time", topic->name);
@@ -218,7 +235,7 @@ static Status show_topic(const View *view, const Topic *topic, const Statement *
     if (status != OK && diag->place.line == 0)
         diag->place = statement->operands.at[statement->operands.count > 1 ? 1 : 0].place;
 done:
-    mem_free(names);
+    MEM_FREE(names, args);
     return status;
 }
 

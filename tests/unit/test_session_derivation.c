@@ -119,8 +119,33 @@ static void the_microphone_follows_its_circuit(void)
     kit_free(&kit);
 }
 
+/* entries are picked as behind `show` itself, or as they are printed */
+static void numbers_behind_a_block_are_an_entry(void)
+{
+    Kit kit = kit_new();
+    char *called;
+
+    EXPECT_DONE(&kit, ROBOT "show derivation mass(2,3)");
+    called = kit.text;
+    kit.text = NULL;
+    EXPECT_DONE(&kit, "show derivation mass 2 3");
+    EXPECT(strcmp(called, kit.text) == 0);
+    ct_free(called);
+    EXPECT_DONE(&kit, "show derivation forces 1");
+    EXPECT_FAILS(&kit, "show derivation mass 2", "a row and a column");
+    EXPECT_FAILS(&kit, "show derivation mass 2 3 1", "a row and a column");
+    EXPECT_FAILS(&kit, "show derivation mass 2 9", "columns 1 to");
+    EXPECT_FAILS(&kit, "show derivation mass(2,3) 1", "at a time");
+    EXPECT_FAILS(&kit, "show derivation 2 3", "at a time");
+    EXPECT_FAILS(&kit, "show derivation mass h13", "at a time");
+    EXPECT_FAILS(&kit, "show derivation h13 2", "no block");
+    EXPECT_FAILS(&kit, "show derivation (h13) 2", "derivation");
+    kit_free(&kit);
+}
+
 int main(void)
 {
+    RUN(numbers_behind_a_block_are_an_entry);
     RUN(one_tree_gives_two_constraints);
     RUN(two_trees_give_one);
     RUN(entries_of_m_tell_what_moves);
