@@ -20,10 +20,8 @@
 #define SUSPECT                                                                                    \
     2e-2 /* least d / p above which none is near: it was at most 1.7 times the other               \
           */
-#define SPLIT                                                                                      \
-    0.15 /* likewise of rows exchanged, least over largest: such a pivot comes out as two of its   \
-          * root                                                                                   \
-          */
+/* likewise of rows exchanged, least over largest: such a pivot comes out as two of its root */
+#define SPLIT 0.15
 #define ROUNDED                                                                                    \
     1e-14 /* of speeds, once over a pivot: what rounding of positions leaves of them               \
            */

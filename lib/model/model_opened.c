@@ -43,6 +43,7 @@ void opened_free(Opened *opened)
 {
     if (opened == NULL)
         return;
+    mem_keep(opened);
     state_free(opened->trial);
     text_free(&opened->text);
     mem_free(opened);

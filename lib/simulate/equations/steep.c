@@ -63,7 +63,6 @@ struct Steep {
     double *here;                   /* roots at the point */
     double *w, *moved, *answer, *y; /* w there; w moved, change of w, y moved */
     double t;
-    RowValues row;
 };
 
 /* --- what there is --- */
@@ -546,11 +545,13 @@ static bool is_ready(Steep *s)
 
 static const double *roots_at(Steep *s, const double *y, const double *w)
 {
+    RowValues row;
+
     s->inputs.sides = s->l->sides;
-    s->row = row_of_state(s->l, s->t, y);
-    s->row.rates = w;
-    s->row.z = w + s->l->nx;
-    return probe_values(s->probe, &s->row);
+    row = row_of_state(s->l, s->t, y);
+    row.rates = w;
+    row.z = w + s->l->nx;
+    return probe_values(s->probe, &row);
 }
 
 static void set_sources(Steep *s, double t)
