@@ -68,17 +68,19 @@ static int *unknowns_in(Expr row, const Numbering *numbering, int *count)
     return out;
 }
 
-static void differentiate(const ResidualOrder *order, Residual *r, Roots *roots)
+static Status differentiate(const ResidualOrder *order, Residual *r, Roots *roots)
 {
     const Numbering numbering = number_unknowns(order);
+    Status status = OK;
 
-    for (int i = 0; i < order->row_count && order->unknown_count > 0; i++) {
+    for (int i = 0; i < order->row_count && order->unknown_count > 0 && status == OK; i++) {
         int count;
         int *in_row = unknowns_in(order->roots[i], &numbering, &count);
 
-        for (int k = 0; k < count; k++) {
+        for (int k = 0; k < count && status == OK; k++) {
             Expr slope = expr_diff(order->arena, order->roots[i], order->unknowns[in_row[k]]);
 
+            status = poll(order->watch);
             if (expr_is_zero(slope))
                 continue;
             LIST_PUSH(r->slopes, (Slope){i, in_row[k], expr_kinds(slope)});
@@ -87,6 +89,7 @@ static void differentiate(const ResidualOrder *order, Residual *r, Roots *roots)
         mem_free(in_row);
     }
     mem_free(numbering.unknown);
+    return status;
 }
 
 /* the order's inputs, then the parameters of the roots; new */
@@ -213,7 +216,7 @@ static Status make(const ResidualOrder *order, Residual **out, Diag *diag)
     r->first_slope = order->root_count;
     for (int i = 0; i < order->root_count; i++)
         LIST_PUSH(roots, order->roots[i]);
-    differentiate(order, r, &roots);
+    CHECK(differentiate(order, r, &roots));
     for (int i = 0; i < roots.count && order->put != NULL; i++)
         roots.at[i] = order->put(order->context, roots.at[i]);
     inputs = list_inputs(order, r, &roots);

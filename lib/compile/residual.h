@@ -6,6 +6,7 @@
 #ifndef COTREE_COMPILE_RESIDUAL_H
 #define COTREE_COMPILE_RESIDUAL_H
 
+#include "base/watch.h"
 #include "compile/program.h"
 
 typedef struct Residual Residual;
@@ -28,10 +29,11 @@ typedef struct ResidualOrder {
     int input_count;
     Expr (*put)(const void *context, Expr e); /* what is compiled for a root or slope; NULL: it */
     const void *context;
+    const Watch *watch; /* may be NULL */
 } ResidualOrder;
 
-/* New; residual_free(). Fails as program_new() does. O(nodes), and a derivative for each row and
- * unknown in it. */
+/* New; residual_free(). Fails as program_new() does, or with E_STOPPED. O(nodes), and a derivative
+ * for each row and unknown in it. */
 MUST_USE Status residual_new(const ResidualOrder *order, Residual **out, Diag *diag);
 void residual_free(Residual *residual); /* NULL is fine */
 

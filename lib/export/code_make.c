@@ -531,6 +531,11 @@ Status code_new(const Exported *what, Code **out, Diag *diag)
     }
     code->ny = l->n + l->nu + l->nx + l->multi_turns;
     code->ns = l->nx + l->nz + l->nu + l->m;
+    if (code->ny + code->ns == 0) {
+        status = diag_set(diag, E_MISSING, "the model has no equations yet, so there is no code");
+        diag_hint(diag, "code is of a model with bodies and joints, or a network");
+        goto done;
+    }
     add_blocks(code);
     CHECK(add_derivative(code, diag));
     add_angles(code);

@@ -310,7 +310,7 @@ static int gather(EquationList *equations, Expr **terms, bool *is_long)
             LIST_PUSH(all, equation->left.at[k].coefficient);
         for (int k = 0; k < equation->right.count; k++)
             LIST_PUSH(all, equation->right.at[k].coefficient);
-        if (all.count > from &&
+        if (!*is_long && all.count > from &&
             op_count_total(expr_count(all.at + from, all.count - from)) > VIEW_BUDGET)
             *is_long = true;
     }

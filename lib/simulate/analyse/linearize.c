@@ -202,7 +202,8 @@ static Status compile(Work *w, Diag *diag)
                          .root_count = rows.count,
                          .row_count = rows.count,
                          .unknowns = w->at.symbols,
-                         .unknown_count = w->at.count};
+                         .unknown_count = w->at.count,
+                         .watch = w->order->watch};
     CHECK(probe_make(l, &w->parameters, &order, &w->derived, diag));
     for (int i = 0; i < l->m * l->nu; i++)
         LIST_PUSH(geometry, run->phi_u[i]);

@@ -42,7 +42,8 @@ Status probe_make(const Layout *layout, Parameters *parameters, const ProbeOrder
                                 .inputs = layout->symbols,
                                 .input_count = layout->count,
                                 .put = order->is_put ? NULL : put_on_surfaces,
-                                .context = layout};
+                                .context = layout,
+                                .watch = order->watch};
     Probe *probe = NEW(Probe);
     Status status = OK;
 

@@ -48,7 +48,8 @@ typedef struct ProbeOrder {
     int root_count, row_count;
     const Expr *unknowns; /* by these symbols */
     int unknown_count;
-    bool is_put; /* the roots are on their surfaces already, or shall stay as they are */
+    bool is_put;        /* the roots are on their surfaces already, or shall stay as they are */
+    const Watch *watch; /* may be NULL */
 } ProbeOrder;
 
 /* Compile; the layout outlives the probe. Parameters have the values of `parameters`, and what
