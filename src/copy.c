@@ -53,9 +53,3 @@ char *paper_close(Paper *paper)
     paper->text = NULL;
     return text;
 }
-
-void paper_drop(Paper *paper)
-{
-    if (paper->out != NULL)
-        free(paper_close(paper));
-}

@@ -23,6 +23,5 @@ typedef struct Paper {
 
 void paper_open(Paper *paper);
 NEVER_NULL char *paper_close(Paper *paper);
-void paper_drop(Paper *paper); /* closes and frees; an unopened one is fine */
 
 #endif

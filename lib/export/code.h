@@ -71,8 +71,6 @@ typedef struct Code {
 /* New; code_free(). Fails where a formula needs what no function is given. */
 MUST_USE Status code_new(const Exported *what, Code **out, Diag *diag);
 void code_free(Code *code); /* NULL is fine */
-/* the function of that name; -1 */
-int code_find(const Code *code, const char *name);
 /* States at random about the start, on the constraints, with numbers from here (code_states.c). */
 MUST_USE Status code_add_states(Code *code, const Exported *what, Diag *diag);
 

@@ -161,14 +161,6 @@ static void add_inputs(Code *code)
 
 /* --- functions --- */
 
-int code_find(const Code *code, const char *name)
-{
-    for (int i = 0; i < code->functions.count; i++)
-        if (strcmp(code->functions.at[i].name, name) == 0)
-            return i;
-    return -1;
-}
-
 static int add_function(Code *code, const char *name, const char *what, const Expr *entries,
                         int rows, int columns)
 {

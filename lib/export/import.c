@@ -112,7 +112,7 @@ static const char *make_legal(Import *import, const char *name)
 
     if (!isalpha((unsigned char)name[0]))
         text_char(&text, 'n');
-    for (int i = 0; name[i] != '\0' && i < LONGEST; i++)
+    for (int i = 0; i < LONGEST && name[i] != '\0'; i++)
         text_char(&text, isalnum((unsigned char)name[i]) ? name[i] : '_');
     return keep(import, &text);
 }
@@ -174,7 +174,7 @@ static void add_plain(Text *out, const char *text)
     enum { LONGEST = 300 };
     size_t i = 0, length;
 
-    for (; text[i] != '\0' && i < LONGEST; i += length == 0 ? 1 : length) {
+    for (; i < LONGEST && text[i] != '\0'; i += length == 0 ? 1 : length) {
         length = text_character(text + i);
         if (length == 0 || iscntrl((unsigned char)text[i]))
             text_char(out, ' ');

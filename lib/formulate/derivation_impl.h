@@ -8,7 +8,8 @@
 
 /* the terms of an entry as they are before they are tidied */
 typedef Status TermsFunction(System *system, int row, int column, Terms *out, Diag *diag);
-MUST_USE TermsFunction constraint_terms, jacobian_terms;
+MUST_USE Status constraint_terms(System *system, int k, int column, Terms *out, Diag *diag);
+MUST_USE Status jacobian_terms(System *system, int k, int j, Terms *out, Diag *diag);
 
 /* --- partial.c --- */
 

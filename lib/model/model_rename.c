@@ -6,6 +6,7 @@
 #include "language/verbs.h"
 #include "model/model_impl.h"
 
+#include <assert.h>
 #include <string.h>
 
 typedef struct Renaming {
@@ -316,6 +317,8 @@ static Status rename_component(const Renaming *r, Statement *s)
 
 static Status rename_use(const Renaming *r, Statement *s)
 {
+    assert(s->operands.at != NULL); /* the grammar wants them */
+
     const char *name = syntax_name(s->operands.at[0].value);
     const Subsystem *inner = name != NULL ? state_subsystem(r->state, name, NULL) : NULL;
 

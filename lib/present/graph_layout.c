@@ -28,7 +28,8 @@ static void begin_on_circle(Layout *layout)
     for (int i = 0; i < layout->count; i++) {
         const double angle = 2 * M_PI * i / layout->count;
 
-        layout->at[i] = (Point){radius * sin(angle), -radius * cos(angle)};
+        layout->at[i].x = radius * sin(angle);
+        layout->at[i].y = -radius * cos(angle);
     }
 }
 

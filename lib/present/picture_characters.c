@@ -103,7 +103,7 @@ static int character_length(const char *text)
 {
     int length = 1;
 
-    while (((unsigned char)text[length] & 0xC0) == 0x80 && length < 4)
+    while (length < 4 && ((unsigned char)text[length] & 0xC0) == 0x80)
         length++;
     return length;
 }

@@ -11,7 +11,7 @@
 enum { MODULES = 3, USES = 4, ROOM = 6000 };
 
 typedef struct Module { /* what a definition holds, drawn once */
-    char name[8];
+    char name[16];
     bool planar, makes_tip, has_tree, has_start, has_law;
     int joint, inner; /* module inside, or -1 */
     double length, mass, inertia, stiffness, gain, angle, resistance;

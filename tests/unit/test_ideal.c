@@ -105,7 +105,8 @@ static void six_diodes_take_the_largest_difference(void)
                 "diode D4 0 a\ndiode D5 0 b\ndiode D6 0 c\n"
                 "inductor L p m 10 mH\nresistor R m 0 10\nsimulate 0.1\n");
     for (int i = 1; i < 100; i++) { /* every other one in the last row before a diode takes over */
-        double t = 0.1 * (i / 2) / 50 + 1e-5 + (i % 2) * 8e-4, e[3];
+        const int even = i / 2;
+        double t = 0.1 * even / 50 + 1e-5 + (i % 2) * 8e-4, e[3];
         const double shift[] = {0, -2 * PI / 3, 2 * PI / 3};
 
         for (int k = 0; k < 3; k++)

@@ -129,7 +129,7 @@ static void numbers_behind_a_block_are_an_entry(void)
     called = kit.text;
     kit.text = NULL;
     EXPECT_DONE(&kit, "show derivation mass 2 3");
-    EXPECT(strcmp(called, kit.text) == 0);
+    EXPECT(called != NULL && kit.text != NULL && strcmp(called, kit.text) == 0);
     ct_free(called);
     EXPECT_DONE(&kit, "show derivation forces 1");
     EXPECT_FAILS(&kit, "show derivation mass 2", "a row and a column");
