@@ -116,9 +116,9 @@ void equations_normalise(const Equations *equations, double *q);
 
 typedef struct MotionOptions {
     const Watch *watch; /* who may stop a factorisation, borrowed; NULL: nobody */
-    bool embedded;
-    const int *rows; /* constraint rows in use at first, independent ones */
+    const int *rows;    /* constraint rows in use at first, independent ones */
     int row_count;
+    bool embedded;
     const int *independent; /* speeds asked for as independent (embedded); may be NULL */
     int independent_count;
     double tolerance; /* atol of the run: bounds what a projection may leave */
