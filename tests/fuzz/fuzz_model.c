@@ -28,7 +28,7 @@ static void apply_one(Model *model, const Statement *statement)
     if (model_apply(model, statement, &diag) != OK) {
         mutate_claim(diag.message[0] != '\0', "a failure says why");
         mutate_claim(is_saved_as(model, before), "a failure changes nothing");
-    } else {
+    } else if (model_defining(model) == NULL) { /* a definition is done with its `end`, as one */
         char *after = model_save(model);
 
         mutate_claim(model_undo(model, &diag) == OK, "what was done can be undone");
