@@ -496,13 +496,16 @@ Status apply_use(State **state, const Statement *statement, Outcome *outcome, Di
     const StateMark mark = state_mark(*state);
     const Setup setup = state_setup(*state);
     const Operand *what = &statement->operands.at[0];
+    const char *name = syntax_name(what->value);
     UseDraft draft = {.state = state, .statement = statement, .outcome = outcome, .diag = diag};
     Status status = OK;
 
     mem_keep(*state);
-    draft.subsystem = state_subsystem(*state, syntax_name(what->value), &draft.definition);
+    if (name == NULL)
+        return diag_at(diag, E_VALUE, what->place, "the name of a subsystem stands here");
+    draft.subsystem = state_subsystem(*state, name, &draft.definition);
     if (draft.subsystem == NULL)
-        return name_unknown(*state, "subsystem", syntax_name(what->value), what->place, diag);
+        return name_unknown(*state, "subsystem", name, what->place, diag);
     draft.count = statement->operands.count - 1;
     for (int i = 1; i < statement->operands.count && status == OK; i++) {
         draft.which = i - 1;
