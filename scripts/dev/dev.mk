@@ -56,7 +56,8 @@ format:
 	cd $(srcdir) && find lib src tests -name '*.[ch]' -exec clang-format -i {} +
 
 # times, beside those of the last record; each program is told of the scripts and the shell
-bench: $(BENCHES) all
+bench: all
+	@$(MAKE) -s $(BENCHES)
 	@rm -rf bench.work; mkdir bench.work
 	@for bench in $(BENCHES); do \
 		(cd bench.work && TOP_SRCDIR=$(abs_srcdir) LD_LIBRARY_PATH=../.libs ../$$bench $(abs_srcdir)/scripts \
@@ -83,11 +84,13 @@ precision-record: all
 	$(srcdir)/tests/bench/precision.py -o $(srcdir)/tests/bench/precision.dat ./cotree $(srcdir) \
 		double_pendulum andrews_absolute rectifier bushing
 
-# random statements against the sanitizers, for so many seconds in all
+# random statements against the sanitizers, for so many seconds in all; `all` is a make of its own,
+# which beside the fuzzers would link the library twice at a time
 FUZZ_SECONDS = 600
 FUZZ_SEED = 1
 fuzz: san/Makefile
-	@$(MAKE) -s -C san fuzzers
+	@$(MAKE) -s -C san all
+	@$(MAKE) -s -C san $(FUZZERS)
 	@set -- $(FUZZERS); each=$$(($(FUZZ_SECONDS) / $$#)); \
 	for fuzzer; do \
 		san/$$fuzzer --seconds $$each --seed $(FUZZ_SEED) $(srcdir)/scripts $(srcdir)/tests/oracle || exit 1; \
@@ -100,8 +103,6 @@ stress: $(FAMILIES)
 	@seed=$(STRESS_SEED); set -- $(FAMILIES); each=$$(($(STRESS_SECONDS) / $$#)); failed=0; \
 	echo "seed $$seed, $$each s for each of $$# programs"; \
 	for family; do ./$$family --seed $$seed --seconds $$each || failed=1; done; exit $$failed
-
-fuzzers: $(FUZZERS) all
 
 # what all tests reach, line by line in coverage/NAME.c.gcov
 check-coverage: coverage/Makefile
@@ -119,4 +120,4 @@ mostlyclean-local:
 distclean-local:
 	rm -rf san small faults coverage bench.work precision
 
-.PHONY: check-total check-hacking check-san check-small check-faults lint format bench bench-precision bench-record precision-record fuzz fuzzers stress check-coverage
+.PHONY: check-total check-hacking check-san check-small check-faults lint format bench bench-precision bench-record precision-record fuzz stress check-coverage

@@ -5,7 +5,6 @@
 #include "export/import.h"
 #include "model/model.h"
 
-#include <stdint.h>
 #include <string.h>
 
 static int lines_of(const char *text)
@@ -55,25 +54,8 @@ static void read_as(const char *format, const char *text)
     import_free(import);
 }
 
-static void target(const char *text)
+void mutate_target(const char *text)
 {
     read_as("spice", text);
     read_as("urdf", text);
 }
-
-#ifdef LIBFUZZER
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
-{
-    char *text = mem_text((const char *)data, size);
-
-    target(text);
-    mem_free(text);
-    return 0;
-}
-#else
-int main(int argc, char **argv)
-{
-    return mutate_main(argc, argv, target);
-}
-#endif

@@ -64,7 +64,7 @@ static void apply_all(Model *model, const char *text, int most)
     }
 }
 
-static void target(const char *text)
+void mutate_target(const char *text)
 {
     Model *model = model_new();
     Model *again = model_new();
@@ -78,20 +78,3 @@ static void target(const char *text)
     model_free(again);
     model_free(model);
 }
-
-#ifdef LIBFUZZER
-int LLVMFuzzerTestOneInput(const unsigned char *data, size_t size);
-int LLVMFuzzerTestOneInput(const unsigned char *data, size_t size)
-{
-    char *text = mem_text((const char *)data, size);
-
-    target(text);
-    mem_free(text);
-    return 0;
-}
-#else
-int main(int argc, char **argv)
-{
-    return mutate_main(argc, argv, target);
-}
-#endif

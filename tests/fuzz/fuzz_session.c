@@ -193,7 +193,7 @@ static void check_way_back(ct_session *session)
     ct_free(before);
 }
 
-static void target(const char *text)
+void mutate_target(const char *text)
 {
     size_t length = strlen(text);
     clock_t began = clock();
@@ -206,9 +206,4 @@ static void target(const char *text)
     began = clock();
     check_way_back(session);
     ct_session_free(session);
-}
-
-int main(int argc, char **argv)
-{
-    return mutate_main(argc, argv, target);
 }

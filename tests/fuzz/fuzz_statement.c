@@ -4,7 +4,6 @@
 #include "base/memory.h"
 #include "language/syntax.h"
 
-#include <stdint.h>
 #include <string.h>
 
 /* Length of the text's line of that number, counted from 1; -1: there is none. A line ends in a
@@ -92,25 +91,8 @@ static void read_all(const char *text, SyntaxOptions options)
     }
 }
 
-static void target(const char *text)
+void mutate_target(const char *text)
 {
     read_all(text, (SyntaxOptions){false});
     read_all(text, (SyntaxOptions){.shortened = true});
 }
-
-#ifdef LIBFUZZER
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
-{
-    char *text = mem_text((const char *)data, size);
-
-    target(text);
-    mem_free(text);
-    return 0;
-}
-#else
-int main(int argc, char **argv)
-{
-    return mutate_main(argc, argv, target);
-}
-#endif

@@ -280,7 +280,7 @@ static void watch_faults(void)
 #endif
 }
 
-int mutate_main(int argc, char **argv, Target target)
+int main(int argc, char **argv)
 {
     long seconds = 10;
     long count = 0;
@@ -300,7 +300,7 @@ int mutate_main(int argc, char **argv, Target target)
     for (; time(NULL) - start < seconds; count++) {
         mutate();
         (void)alarm(SLOWEST);
-        target(fuzz.input.at);
+        mutate_target(fuzz.input.at);
     }
     (void)alarm(0);
     printf("%s: %ld inputs in %ld s, no fault\n", argv[0], count, seconds);
