@@ -27,8 +27,10 @@ static void screw_steps(const Instance *instance, Arena *arena, bool planar, Ste
     steps_none(arena, out);
     steps_shift(arena, out, u, 0);
     steps_turn(arena, out, u, 0);
-    out->shift[0].scale =
-        expr_div(arena, instance_scalar(instance, "pitch"), expr_real(arena, 2.0 * M_PI));
+    out->shift[0].scale = expr_product(arena,
+                                       (Expr[]){instance_scalar(instance, "pitch"),
+                                                expr_rational(arena, 1, 2), expr_pi(arena, -1)},
+                                       3);
 }
 
 /* It is a branch of both trees or of none, so it goes before the other joints in both: then the

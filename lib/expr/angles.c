@@ -115,7 +115,7 @@ static Expr one_of(Arena *arena, Expr term)
 {
     Number c = term_coefficient(term);
 
-    if (is_number(term) || c.den != 1)
+    if (is_number(term) || !number_is_whole(c))
         return term;
     return term_scale(arena, term, number_int(number_sign(c)));
 }

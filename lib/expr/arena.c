@@ -182,8 +182,8 @@ static bool may_grow(Arena *arena)
 }
 
 /* The node of these contents, or NULL. */
-static Expr node_find(const Arena *arena, uint32_t hash, ExprKind kind, Op op, const void *words,
-                      int count)
+static Expr node_find(const Arena *arena, uint32_t hash, ExprKind kind, unsigned op,
+                      const void *words, int count)
 {
     for (uint32_t i = hash & (arena->size - 1); arena->slots[i].id != 0;
          i = (i + 1) & (arena->size - 1)) {
@@ -226,16 +226,17 @@ Expr node_intern(Arena *arena, ExprKind kind, Op op, const Expr *args, int count
     return node;
 }
 
-static Expr leaf_intern(Arena *arena, ExprKind kind, const void *words, int count)
+static Expr leaf_intern(Arena *arena, ExprKind kind, uint8_t op, const void *words, int count)
 {
-    uint32_t hash = hash_words((uint64_t)kind << 8, words, count);
-    Expr found = node_find(arena, hash, kind, 0, words, count);
+    uint32_t hash = hash_words((uint64_t)kind << 8 | op, words, count);
+    Expr found = node_find(arena, hash, kind, op, words, count);
     struct ExprNode *node;
 
     if (found != NULL)
         return found;
     node = node_new(arena, hash, 8 * (size_t)count);
     node->kind = (uint8_t)kind;
+    node->op = op;
     memcpy(node + 1, words, 8 * (size_t)count);
     return node;
 }
@@ -246,12 +247,19 @@ Expr node_rational(Arena *arena, int64_t num, int64_t den)
 
     if (den == 1 && (num == 0 || num == 1) && arena->one != NULL)
         return num == 0 ? arena->zero : arena->one;
-    return leaf_intern(arena, EXPR_RATIONAL, &ratio, 2);
+    return leaf_intern(arena, EXPR_RATIONAL, 0, &ratio, 2);
 }
 
 Expr node_real(Arena *arena, double value)
 {
-    return leaf_intern(arena, EXPR_REAL, &value, 1);
+    return leaf_intern(arena, EXPR_REAL, 0, &value, 1);
+}
+
+Expr node_pi(Arena *arena, int64_t num, int64_t den, int power)
+{
+    Ratio ratio = {num, den};
+
+    return leaf_intern(arena, EXPR_REAL, (uint8_t)power, &ratio, 2);
 }
 
 /* --- symbols --- */

@@ -118,6 +118,60 @@ static Expr exact_sqrt(Arena *arena, const Expr *args)
     return number_node(arena, root);
 }
 
+/* sin(n*pi/12) where it is half a root of a whole number; else NULL */
+static Expr sine_of_twelfths(Arena *arena, int64_t n)
+{
+    static const int squares[] = {0, -1, 1, 2, 3, -1, 4};
+    Number half = {1, 2, {0}};
+    Expr root;
+
+    n = (n % 24 + 24) % 24;
+    root = expr_int(arena, squares[n % 12 <= 6 ? n % 12 : 12 - n % 12]);
+    if (is_negative(root))
+        return NULL;
+    root = expr_sqrt(arena, root);
+    half = n < 12 ? half : number_neg(half);
+    return is_number(root) ? number_node(arena, number_mul(number_of(root), half))
+                           : term_scale(arena, root, half);
+}
+
+/* Whether `e` is a whole multiple of pi/parts, and which. */
+static bool parts_of_pi(Expr e, int parts, int64_t *multiple)
+{
+    Number angle = is_number(e) ? number_of(e) : number_int(1);
+
+    if (angle.den == 0 || angle.pi != 1 || parts % angle.den != 0)
+        return false;
+    *multiple = angle.num % (2 * parts) * (parts / angle.den);
+    return true;
+}
+
+/* sin(x + n*pi/2); a cosine is a sine of one quarter more */
+static Expr turned_sine(Arena *arena, Expr angle, int more)
+{
+    Expr last = angle->kind == EXPR_SUM ? node_args(angle)[angle->count - 1] : angle;
+    int64_t n;
+    Expr value;
+
+    if (parts_of_pi(angle, 12, &n))
+        return sine_of_twelfths(arena, n + 6 * more);
+    if (angle->kind != EXPR_SUM || !parts_of_pi(last, 2, &n))
+        return NULL;
+    n = ((n + more) % 4 + 4) % 4;
+    value = expr_call1(arena, n % 2 != 0 ? OP_COS : OP_SIN, expr_sub(arena, angle, last));
+    return n < 2 ? value : expr_neg(arena, value);
+}
+
+static Expr exact_sin(Arena *arena, const Expr *args)
+{
+    return turned_sine(arena, args[0], 0);
+}
+
+static Expr exact_cos(Arena *arena, const Expr *args)
+{
+    return turned_sine(arena, args[0], 1);
+}
+
 static Expr exact_abs(Arena *arena, const Expr *args)
 {
     (void)arena;
@@ -195,8 +249,8 @@ static Expr exact_hold(Arena *arena, const Expr *args)
 #define KNOWN(x, y) .known = true, .at = (x), .gives = (y)
 #define UNDOES(op)  .undoes = true, .inverse = (op)
 static const Exact exact[OP_COUNT] = {
-    [OP_SIN] = {.parity = ODD, KNOWN(0, 0), UNDOES(OP_ASIN)},
-    [OP_COS] = {.parity = EVEN, KNOWN(0, 1), UNDOES(OP_ACOS)},
+    [OP_SIN] = {.parity = ODD, KNOWN(0, 0), UNDOES(OP_ASIN), .rule = exact_sin},
+    [OP_COS] = {.parity = EVEN, KNOWN(0, 1), UNDOES(OP_ACOS), .rule = exact_cos},
     [OP_TAN] = {.parity = ODD, KNOWN(0, 0), UNDOES(OP_ATAN)},
     [OP_ASIN] = {.parity = ODD, KNOWN(0, 0)},
     [OP_ACOS] = {KNOWN(1, 0)},

@@ -32,7 +32,7 @@ typedef const struct ExprNode *Expr;
 
 typedef enum ExprKind {
     EXPR_RATIONAL, /* num/den, lowest terms, den > 0 */
-    EXPR_REAL,     /* a double that is no small rational */
+    EXPR_REAL, /* a double that is no small rational; or a rational times a power of pi, exactly */
     EXPR_SYMBOL,
     EXPR_POWER,   /* arg 0 to the arg 1; exponent not 0 or 1 */
     EXPR_CALL,    /* an operator of ops.def */
@@ -104,6 +104,9 @@ Expr expr_rational(Arena *arena, int64_t num, int64_t den); /* den 0: E_DOMAIN *
 /* A double that is a multiple of 1/1024 below 2^20, or an integer below 2^53, becomes a rational;
  * others stay doubles. */
 Expr expr_real(Arena *arena, double value);
+/* pi^power, of which multiples by rationals stay exact: as one number with them in products, and in
+ * sums with those of the same power */
+Expr expr_pi(Arena *arena, int power);
 /* The decimal literal `text` ("0.25", "2.194e-6") as an exact rational where numerator and
  * denominator fit into 63 bits, else the nearest double. One with a point or an exponent and 16 or
  * more digits is a double too: so long are those that doubles print with. */
@@ -125,9 +128,9 @@ Expr expr_pow(Arena *arena, Expr base, Expr exponent);
 Expr expr_square(Arena *arena, Expr a);
 Expr expr_sum(Arena *arena, const Expr *terms, int count);
 Expr expr_product(Arena *arena, const Expr *factors, int count);
-/* sin(-x) is -sin(x), cos(-x) is cos(x); exact values at rational multiples of
- * nothing but 0; numbers fold to doubles only where every argument is a double,
- * or where the result is exact (sqrt(9/4)) */
+/* sin(-x) is -sin(x), cos(-x) is cos(x); sines and cosines are exact at multiples of pi/6 and pi/4,
+ * and sin(x + pi/2) is cos(x); numbers fold to doubles only where every argument is a double (or a
+ * multiple of pi), or where the result is exact (sqrt(9/4)) */
 Expr expr_call(Arena *arena, Op op, const Expr *args);
 Expr expr_call1(Arena *arena, Op op, Expr a);
 Expr expr_call2(Arena *arena, Op op, Expr a, Expr b);

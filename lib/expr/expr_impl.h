@@ -16,8 +16,8 @@ enum { TALLEST = 24 }; /* levels of what is compared by its structure */
 struct ExprNode {
     uint8_t kind : 3;
     uint8_t height : 5; /* levels below, TALLEST + 1 at most */
-    uint8_t op;
-    uint16_t kinds; /* of symbols below, bit 1 << SymbolKind */
+    uint8_t op;         /* of a call; of a real the power of pi, 0 where it is a double */
+    uint16_t kinds;     /* of symbols below, bit 1 << SymbolKind */
     uint32_t number;
     uint32_t hash; /* of its structure down to names and numbers: the same in every arena */
     int32_t count; /* of arguments */
@@ -72,6 +72,7 @@ static inline Expr held(Expr e)
 Expr node_intern(Arena *arena, ExprKind kind, Op op, const Expr *args, int count);
 Expr node_rational(Arena *arena, int64_t num, int64_t den); /* lowest terms, den > 0 */
 Expr node_real(Arena *arena, double value);
+Expr node_pi(Arena *arena, int64_t num, int64_t den, int power);   /* power not 0, of 8 bits */
 void arena_fail(Arena *arena, Status status, const char *message); /* a literal; first one stays */
 Expr arena_zero(const Arena *arena);
 Expr arena_one(const Arena *arena);
@@ -84,7 +85,10 @@ void arena_remember(Arena *arena, Expr e, Expr symbol, Expr derivative);
 typedef struct Number {
     int64_t num;
     int64_t den; /* > 0, or 0 where `real` counts */
-    double real;
+    union {
+        double real;
+        int64_t pi; /* num/den times that power of pi; 0 of a rational */
+    };
 } Number;
 
 Number number_int(int64_t value);
@@ -95,6 +99,7 @@ Number number_neg(Number a);
 /* a^k; a isn't 0 where k < 0 */
 Number number_power(Number a, int64_t k);
 bool number_is(Number a, int64_t value);
+bool number_is_whole(Number a);
 bool number_same(Number a, Number b);
 int number_compare(Number a, Number b);
 int number_sign(Number a);

@@ -1,7 +1,8 @@
 /* number.c: exact rationals, and doubles where they no longer fit
  *
  * Sums and products of rationals run in 128 bits; a result whose numerator or
- * denominator takes more than 63 becomes the nearest double. */
+ * denominator takes more than 63 becomes the nearest double. A rational times a power of pi is
+ * exact likewise: angles are. */
 #include "expr/expr_impl.h"
 
 #include <ctype.h>
@@ -50,42 +51,82 @@ static Number wide_ratio(Wide num, Wide den)
         den /= common;
     }
     if (num > INT64_MAX || num < -INT64_MAX || den > INT64_MAX)
-        return (Number){0, 0, (double)num / (double)den};
-    return (Number){(int64_t)num, (int64_t)den, 0};
+        return (Number){.real = (double)num / (double)den};
+    return (Number){(int64_t)num, (int64_t)den, {0}};
+}
+
+/* a double; what cancels or underflows to zero is the exact one, so that terms vanish with it */
+static Number number_double(double value)
+{
+    return value == 0.0 ? (Number){0, 1, {0}} : (Number){.real = value};
+}
+
+/* powers of pi that a node holds */
+enum { MOST_PI = 100 };
+
+static long double pi_power(int64_t power)
+{
+    return powl(3.14159265358979323846264338327950288L, (long double)power);
+}
+
+/* a, which is no multiple of pi, times a power of it */
+static Number times_pi(Number a, int64_t power)
+{
+    if (a.den == 0 || power > MOST_PI || power < -MOST_PI)
+        return number_double((double)(number_value(a) * pi_power(power)));
+    if (a.num != 0)
+        a.pi = power;
+    return a;
+}
+
+static Number without_pi(Number a)
+{
+    return (Number){a.num, a.den, {0}};
+}
+
+static bool is_of_pi(Number a)
+{
+    return a.den != 0 && a.pi != 0;
 }
 
 Number number_int(int64_t value)
 {
-    return (Number){value, 1, 0};
+    return (Number){value, 1, {0}};
 }
 
 Number number_of(Expr number)
 {
     Number n = {0};
 
-    if (number->kind == EXPR_RATIONAL) {
+    if (number->kind == EXPR_REAL && number->op == 0)
+        memcpy(&n.real, number + 1, sizeof n.real);
+    else {
         n.num = node_ratio(number)->num;
         n.den = node_ratio(number)->den;
-    } else
-        memcpy(&n.real, number + 1, sizeof n.real);
+        n.pi = (int8_t)number->op;
+    }
     return n;
 }
 
 double number_value(Number a)
 {
-    return a.den != 0 ? (double)a.num / (double)a.den : a.real;
-}
-
-/* a double; what cancels or underflows to zero is the exact one, so that terms vanish with it */
-static Number number_double(double value)
-{
-    return value == 0.0 ? number_int(0) : (Number){0, 0, value};
+    if (a.den == 0)
+        return a.real;
+    if (a.pi != 0)
+        return (double)((long double)a.num * pi_power(a.pi) / (long double)a.den);
+    return (double)a.num / (double)a.den;
 }
 
 Number number_add(Number a, Number b)
 {
-    if (a.den == 0 || b.den == 0)
+    if (number_is(a, 0))
+        return b;
+    if (number_is(b, 0))
+        return a;
+    if (a.den == 0 || b.den == 0 || a.pi != b.pi)
         return number_double(number_value(a) + number_value(b));
+    if (a.pi != 0)
+        return times_pi(number_add(without_pi(a), without_pi(b)), a.pi);
     if (a.den == 1 && b.den == 1)
         return wide_ratio((Wide)a.num + b.num, 1);
     return wide_ratio((Wide)a.num * b.den + (Wide)b.num * a.den, (Wide)a.den * b.den);
@@ -99,12 +140,18 @@ Number number_mul(Number a, Number b)
             return number_int(0);
         return number_double(number_value(a) * number_value(b));
     }
+    if ((a.pi | b.pi) != 0)
+        return times_pi(number_mul(without_pi(a), without_pi(b)), a.pi + b.pi);
     return wide_ratio((Wide)a.num * b.num, (Wide)a.den * b.den);
 }
 
 Number number_neg(Number a)
 {
-    return (Number){-a.num, a.den, -a.real};
+    if (a.den == 0)
+        a.real = -a.real;
+    else
+        a.num = -a.num;
+    return a;
 }
 
 Number number_power(Number a, int64_t k)
@@ -113,9 +160,12 @@ Number number_power(Number a, int64_t k)
     uint64_t left = k < 0 ? -(uint64_t)k : (uint64_t)k;
 
     if (a.den == 0)
-        return (Number){0, 0, pow(a.real, (double)k)};
+        return (Number){.real = pow(a.real, (double)k)};
+    if (a.pi != 0)
+        return left <= MOST_PI ? times_pi(number_power(without_pi(a), k), a.pi * k)
+                               : (Number){.real = pow(number_value(a), (double)k)};
     if (k < 0)
-        a = a.num < 0 ? (Number){-a.den, -a.num, 0} : (Number){a.den, a.num, 0};
+        a = a.num < 0 ? (Number){-a.den, -a.num, {0}} : (Number){a.den, a.num, {0}};
     if (a.den == 1 && (a.num == 1 || a.num == 0))
         return a;
     if (a.den == 1 && a.num == -1)
@@ -124,7 +174,7 @@ Number number_power(Number a, int64_t k)
         if (left % 2 != 0)
             power = number_mul(power, square);
         if (power.den == 0 || square.den == 0)
-            return (Number){0, 0, pow(number_value(a), k < 0 ? -(double)k : (double)k)};
+            return (Number){.real = pow(number_value(a), k < 0 ? -(double)k : (double)k)};
         square = left > 1 ? number_mul(square, square) : square;
     }
     return power;
@@ -132,12 +182,17 @@ Number number_power(Number a, int64_t k)
 
 bool number_is(Number a, int64_t value)
 {
-    return a.den == 1 && a.num == value;
+    return a.den == 1 && a.num == value && a.pi == 0;
+}
+
+bool number_is_whole(Number a)
+{
+    return a.den == 1 && a.pi == 0;
 }
 
 bool number_same(Number a, Number b)
 {
-    return a.den == b.den && (a.den != 0 ? a.num == b.num : a.real == b.real);
+    return a.den == b.den && (a.den != 0 ? a.num == b.num && a.pi == b.pi : a.real == b.real);
 }
 
 int number_sign(Number a)
@@ -147,10 +202,10 @@ int number_sign(Number a)
     return (a.real > 0) - (a.real < 0);
 }
 
-/* by value, a rational before a double of the same value */
+/* by value, a rational before a double of the same value, and a multiple of pi before both */
 int number_compare(Number a, Number b)
 {
-    if (a.den != 0 && b.den != 0) {
+    if (a.den != 0 && b.den != 0 && a.pi == b.pi) {
         Wide left = (Wide)a.num * b.den;
         Wide right = (Wide)b.num * a.den;
 
@@ -158,12 +213,14 @@ int number_compare(Number a, Number b)
     }
     if (number_value(a) != number_value(b))
         return number_value(a) < number_value(b) ? -1 : 1;
-    return (a.den == 0) - (b.den == 0);
+    return (a.den == 0) - (b.den == 0) + 2 * (is_of_pi(b) - is_of_pi(a));
 }
 
 Expr number_node(Arena *arena, Number a)
 {
-    return a.den != 0 ? node_rational(arena, a.num, a.den) : expr_real(arena, a.real);
+    if (a.den == 0)
+        return expr_real(arena, a.real);
+    return a.pi != 0 ? node_pi(arena, a.num, a.den, (int)a.pi) : node_rational(arena, a.num, a.den);
 }
 
 /* the exact k-th root of n > 0, or 0 */
@@ -183,13 +240,13 @@ bool number_root(Number a, int64_t k, Number *root)
     int64_t num;
     int64_t den;
 
-    if (a.den == 0 || a.num <= 0 || k < 1 || k > 64)
+    if (a.den == 0 || a.num <= 0 || k < 1 || k > 64 || a.pi % k != 0)
         return false;
     num = integer_root(a.num, k);
     den = integer_root(a.den, k);
     if (num == 0 || den == 0)
         return false;
-    *root = (Number){num, den, 0};
+    *root = (Number){num, den, .pi = a.pi / k};
     return true;
 }
 
@@ -224,6 +281,11 @@ Expr expr_real(Arena *arena, double value)
     if (fabs(value) < 0x1p20 && scaled == floor(scaled))
         return expr_rational(arena, (int64_t)scaled, 1024);
     return node_real(arena, value);
+}
+
+Expr expr_pi(Arena *arena, int power)
+{
+    return number_node(arena, times_pi(number_int(1), power));
 }
 
 /* value*10 + digit, false where it gets too long */

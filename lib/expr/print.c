@@ -89,9 +89,7 @@ static void sort_factor(Fraction *fraction, Expr factor)
 {
     Expr exponent = factor->kind == EXPR_POWER ? node_args(factor)[1] : NULL;
 
-    if (is_number(factor))
-        fraction->number = number_of(factor);
-    else if (exponent != NULL && is_number(exponent) && is_negative(exponent)) {
+    if (exponent != NULL && is_number(exponent) && is_negative(exponent)) {
         Number opposite = number_neg(number_of(exponent));
 
         LIST_PUSH(fraction->below,
@@ -103,21 +101,73 @@ static void sort_factor(Fraction *fraction, Expr factor)
         LIST_PUSH(fraction->above, (Piece){.kind = PIECE_NODE, .e = factor, .level = LEVEL_UNARY});
 }
 
-/* a product, or a power below the line, without its sign */
-static void lay_product(Printer *printer, Expr e)
-{
-    Fraction fraction = {.number = number_int(1)};
+/* what every notation writes as it writes a symbol */
+static const struct {
+    struct ExprNode head;
+    SymbolData data;
+} symbol_pi = {{.kind = EXPR_SYMBOL}, {.name = "pi"}};
 
-    if (e->kind == EXPR_PRODUCT) {
-        for (int i = 0; i < e->count; i++)
-            sort_factor(&fraction, node_args(e)[i]);
-    } else
-        sort_factor(&fraction, e);
+static bool is_named(const Printer *printer, Number number)
+{
+    return printer->dialect->names_pi && number.den != 0 && number.pi != 0;
+}
+
+/* denominators that angles have: pi/2, not 0.5*pi, but 0.1*pi */
+static bool divides_turns(int64_t den)
+{
+    return den > 1 && den <= 12 && den % 5 != 0;
+}
+
+/* the power of pi in the fraction's number is a factor, above or below */
+static void sort_pi(Fraction *fraction)
+{
+    const int64_t power = fraction->number.pi;
+    const Piece pi = {.kind = power == 1 || power == -1 ? PIECE_NODE : PIECE_POWER,
+                      .e = &symbol_pi.head,
+                      .number = number_int(power < 0 ? -power : power),
+                      .level = LEVEL_UNARY};
+
+    fraction->number.pi = 0;
+    if (divides_turns(fraction->number.den)) {
+        LIST_PUSH(fraction->below, (Piece){.kind = PIECE_NUMBER,
+                                           .number = number_int(fraction->number.den),
+                                           .level = LEVEL_UNARY});
+        fraction->number.den = 1;
+    }
+    if (power > 0)
+        LIST_PUSH(fraction->above, pi);
+    else
+        LIST_PUSH(fraction->below, pi);
+}
+
+/* a product, or a power below the line, without its sign; or a number, where e is NULL */
+static void lay_product(Printer *printer, Expr e, Number number)
+{
+    Fraction fraction = {.number = number};
+    const bool is_product = e != NULL && e->kind == EXPR_PRODUCT;
+    const Expr *factors = is_product ? node_args(e) : &e;
+    const int count = is_product ? e->count : e != NULL;
+    const bool numbered = count > 0 && is_number(factors[0]);
+
+    if (numbered)
+        fraction.number = number_of(factors[0]);
     if (number_sign(fraction.number) < 0)
         fraction.number = number_neg(fraction.number);
+    if (is_named(printer, fraction.number))
+        sort_pi(&fraction);
+    for (int i = numbered; i < count; i++)
+        sort_factor(&fraction, factors[i]);
     printer->dialect->fraction(printer, &fraction);
     LIST_FREE(fraction.above);
     LIST_FREE(fraction.below);
+}
+
+static void lay_number(Printer *printer, Number number)
+{
+    if (is_named(printer, number))
+        lay_product(printer, NULL, number);
+    else
+        printer->dialect->number(printer->out, number);
 }
 
 void fraction_inline(Printer *printer, const Fraction *fraction, const char *divide)
@@ -248,8 +298,11 @@ void double_text(char text[64], double value)
 static Level number_level(const Printer *printer, Number number)
 {
     Text digits = {0};
-    Level level = printer->dialect->number(&digits, number);
+    Level level;
 
+    if (is_named(printer, number))
+        return number.pi == 1 && number.num == 1 && number.den == 1 ? LEVEL_ATOM : LEVEL_PRODUCT;
+    level = printer->dialect->number(&digits, number);
     text_free(&digits);
     return level;
 }
@@ -290,11 +343,11 @@ static void lay_node(Printer *printer, Expr e, bool magnitude)
     case EXPR_PRODUCT:
         if (!magnitude && is_negative(e))
             say(printer, "-");
-        lay_product(printer, e);
+        lay_product(printer, e, number_int(1));
         break;
     case EXPR_POWER:
         if (is_reciprocal(e))
-            lay_product(printer, e);
+            lay_product(printer, e, number_int(1));
         else
             printer->dialect->power(printer, node_args(e)[0], node_args(e)[1], number_int(0));
         break;
@@ -306,7 +359,7 @@ static void lay_node(Printer *printer, Expr e, bool magnitude)
         break;
     default:
         if (!is_negative(e))
-            printer->dialect->number(printer->out, number_of(e));
+            lay_number(printer, number_of(e));
         else {
             if (!magnitude)
                 say(printer, "-");
@@ -333,7 +386,7 @@ static void lay_piece(Printer *printer, const Piece *piece)
     if (brackets)
         LIST_PUSH(printer->pieces, (Piece){.kind = kind, .e = e, .number = piece->number});
     else if (kind == PIECE_NUMBER)
-        printer->dialect->number(printer->out, piece->number);
+        lay_number(printer, piece->number);
     else if (kind == PIECE_POWER)
         printer->dialect->power(printer, e, NULL, piece->number);
     else

@@ -26,6 +26,12 @@ static void code_symbol(Text *out, Expr symbol)
     }
 }
 
+static void python_symbol(Text *out, Expr symbol)
+{
+    text_add(out, strcmp(expr_name(symbol), "pi") == 0 ? "math." : "");
+    code_symbol(out, symbol);
+}
+
 /* --- numbers --- */
 
 /* `whole` goes behind an integer, `mark` is the letter of an exponent */
@@ -34,10 +40,12 @@ static Level code_number(Text *out, Number number, const char *whole, char mark)
     char digits[64];
     char *e;
 
-    if (number.den == 0) {
+    if (number.den == 0 || number.pi != 0) {
+        const double value = number_value(number);
+
         for (int n = 15; n <= 17; n++) {
-            snprintf(digits, sizeof digits, "%.*g", n, number.real);
-            if (strtod(digits, NULL) == number.real)
+            snprintf(digits, sizeof digits, "%.*g", n, value);
+            if (strtod(digits, NULL) == value)
                 break;
         }
     } else if (!ratio_decimal(digits, number, SHORT_DECIMAL)) {
@@ -297,10 +305,10 @@ static Level closed_level(Expr e)
 
 const Dialect dialect_c = {INLINE, .symbol = code_symbol, .number = c_number,
     .power = c_power, .power_level = c_power_level, .call = c_call, .call_level = operator_level};
-const Dialect dialect_matlab = {INLINE, .symbol = matlab_symbol, .number = plain_number,
+const Dialect dialect_matlab = {INLINE, .names_pi = true, .symbol = matlab_symbol, .number = plain_number,
     .power = matlab_power, .power_level = plain_power_level, .call = matlab_call,
     .call_level = matlab_level};
-const Dialect dialect_python = {INLINE, .symbol = code_symbol, .number = plain_number,
+const Dialect dialect_python = {INLINE, .names_pi = true, .symbol = python_symbol, .number = plain_number,
     .power = star_power, .power_level = plain_power_level, .call = python_call,
     .call_level = closed_level};
 const Dialect dialect_fortran = {INLINE, .symbol = code_symbol, .number = fortran_number,

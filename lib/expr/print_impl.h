@@ -59,6 +59,7 @@ struct Dialect {
     const char *times;
     const char *open;
     const char *close;
+    bool names_pi; /* its multiples aren't written as digits */
     /* how tightly the number is bound, and its digits, appended to out */
     Level (*number)(Text *out, Number number);
     void (*symbol)(Text *out, Expr symbol);

@@ -251,6 +251,7 @@ const Dialect dialect_latex = {
     .times = "\\,",
     .open = "\\left(",
     .close = "\\right)",
+    .names_pi = true,
     .number = latex_number,
     .symbol = latex_symbol,
     .fraction = latex_fraction,

@@ -17,8 +17,7 @@ Expr switch_condition(Arena *arena, Expr e)
     case OP_ABS:
         return expr_arg(e, 0);
     case OP_FLOOR: /* at whole numbers */
-        return expr_sin(arena,
-                        expr_mul(arena, expr_real(arena, 3.14159265358979323846), expr_arg(e, 0)));
+        return expr_sin(arena, expr_mul(arena, expr_pi(arena, 1), expr_arg(e, 0)));
     default:
         return NULL;
     }

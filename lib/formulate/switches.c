@@ -85,7 +85,7 @@ static Expr put_floor(Arena *arena, Expr x, Expr sign)
 {
     Expr half = expr_rational(arena, 1, 2);
     Expr n = expr_call1(arena, OP_FLOOR, expr_add(arena, x, half));
-    Expr even = expr_cos(arena, expr_mul(arena, expr_real(arena, 3.14159265358979323846), n));
+    Expr even = expr_cos(arena, expr_mul(arena, expr_pi(arena, 1), n));
 
     return expr_add(arena, expr_sub(arena, n, half),
                     expr_product(arena, (Expr[]){half, even, sign}, 3));

@@ -4,8 +4,6 @@
  * become unit vectors u / |u|, with an exact |u| where the entries are exact. */
 #include "model/model_impl.h"
 
-#include "algebra/elementary.h"
-
 #include <math.h>
 #include <string.h>
 
@@ -243,6 +241,16 @@ done:
 
 /* --- rotations --- */
 
+/* sine or cosine: a number of a number */
+static Expr on_circle(Arena *arena, Op op, Expr angle)
+{
+    Expr value = expr_call1(arena, op, angle);
+
+    return expr_is_number(angle) && !expr_is_number(value)
+               ? expr_real(arena, expr_evaluate(value, NULL, NULL))
+               : value;
+}
+
 /* cosine and sine, exact at quarter turns, of other numbers as doubles */
 static void circle(Arena *arena, Expr angle, Expr *c, Expr *s)
 {
@@ -257,10 +265,8 @@ static void circle(Arena *arena, Expr angle, Expr *c, Expr *s)
         *s = expr_int(arena, cosines[(quarter + 3) % 4]);
         return;
     }
-    *c = expr_is_number(angle) ? expr_real(arena, elementary_cos(expr_value(angle)))
-                               : expr_cos(arena, angle);
-    *s = expr_is_number(angle) ? expr_real(arena, elementary_sin(expr_value(angle)))
-                               : expr_sin(arena, angle);
+    *c = on_circle(arena, OP_COS, angle);
+    *s = on_circle(arena, OP_SIN, angle);
 }
 
 static void turn_matrix(Arena *arena, int axis, Expr angle, Expr R[9])

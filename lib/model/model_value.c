@@ -54,7 +54,7 @@ static Expr unit_factor(Arena *arena, const Unit *unit)
                                  : expr_real(arena, unit->factor);
 
     if (unit->den != 0 && unit->pi_power != 0)
-        factor = expr_mul(arena, factor, expr_real(arena, pow(M_PI, unit->pi_power)));
+        factor = expr_mul(arena, factor, expr_pi(arena, unit->pi_power));
     return factor;
 }
 
@@ -236,7 +236,7 @@ static Status name_value(Scope *scope, const Syntax *syntax, Expr *out, Diag *di
     if (strcmp(name, "pi") == 0) {
         if (syntax->primes > 0)
             return no_rate(syntax, "a number", diag);
-        *out = expr_real(state->arena, M_PI);
+        *out = expr_pi(state->arena, 1);
         return OK;
     }
     thing = state_thing(state, name);

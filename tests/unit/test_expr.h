@@ -15,6 +15,7 @@ typedef struct World {
     Expr symbols[TEST_SYMBOLS];
     double values[TEST_SYMBOLS];
     uint64_t random;
+    bool with_pi; /* numbers may be multiples of pi; with others they add up to doubles */
 } World;
 
 __attribute__((unused)) static World world_new(uint64_t seed)
@@ -27,6 +28,15 @@ __attribute__((unused)) static World world_new(uint64_t seed)
             expr_symbol(world.arena, names[i], i < 3 ? SYMBOL_PARAMETER : SYMBOL_COORDINATE);
         world.values[i] = test_uniform(&world.random, 0.3, 1.7);
     }
+    return world;
+}
+
+/* of every other seed with multiples of pi */
+__attribute__((unused)) static World world_with_pi(uint64_t seed)
+{
+    World world = world_new(seed);
+
+    world.with_pi = seed % 2 == 0;
     return world;
 }
 
@@ -62,8 +72,9 @@ __attribute__((unused)) static Expr random_expr(World *world, int depth, double 
         int den = 1 + pick(world, 6);
 
         i = pick(world, 19) - 9;
-        *value = (double)i / den;
-        return expr_rational(arena, i, den);
+        k = world->with_pi ? k - 2 : 0; /* 1/pi, 1 or pi */
+        *value = (double)i / den * pow(M_PI, k);
+        return expr_mul(arena, expr_rational(arena, i, den), expr_pi(arena, k));
     }
     if (depth == 0) {
         *value = world->values[i];

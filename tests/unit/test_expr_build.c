@@ -65,6 +65,102 @@ static void rationals_are_exact_until_they_overflow(void)
     arena_free(arena);
 }
 
+/* num/den*pi^power as a builder of rationals and powers makes it */
+static Expr of_pi(Arena *arena, int64_t num, int64_t den, int power)
+{
+    return expr_mul(arena, expr_rational(arena, num, den), expr_pi(arena, power));
+}
+
+/* products, quotients and powers of multiples of pi, and sums of the same power, as integers and
+ * sums of exponents have them */
+static void multiples_of_pi_are_exact(void)
+{
+    Arena *arena = arena_new();
+    uint64_t random = 11;
+
+    for (int i = 0; i < 3000; i++) {
+        int64_t n[2], d[2];
+        int p[2];
+        Expr u[2];
+
+        for (int k = 0; k < 2; k++) {
+            n[k] = (int64_t)(test_random(&random) % 2001) - 1000;
+            n[k] += n[k] == 0;
+            d[k] = 1 + (int64_t)(test_random(&random) % 1000);
+            p[k] = (int)(test_random(&random) % 9) - 4;
+            u[k] = of_pi(arena, n[k], d[k], p[k]);
+        }
+        EXPECT(expr_mul(arena, u[0], u[1]) == of_pi(arena, n[0] * n[1], d[0] * d[1], p[0] + p[1]));
+        EXPECT(expr_div(arena, u[0], u[1]) == of_pi(arena, n[0] * d[1], d[0] * n[1], p[0] - p[1]));
+        EXPECT(expr_pow(arena, u[0], expr_int(arena, -3)) ==
+               of_pi(arena, d[0] * d[0] * d[0], n[0] * n[0] * n[0], -3 * p[0]));
+        EXPECT(expr_add(arena, u[0], of_pi(arena, n[1], d[1], p[0])) ==
+               of_pi(arena, n[0] * d[1] + n[1] * d[0], d[0] * d[1], p[0]));
+        EXPECT_NEAR(expr_value(expr_add(arena, u[0], u[1])),
+                    (double)((long double)n[0] / d[0] * powl(M_PIl, p[0]) +
+                             (long double)n[1] / d[1] * powl(M_PIl, p[1])),
+                    1e-15 * (fabs(expr_value(u[0])) + fabs(expr_value(u[1]))));
+        EXPECT(expr_sub(arena, u[0], u[0]) == expr_int(arena, 0));
+        EXPECT(expr_sqrt(arena, expr_square(arena, of_pi(arena, llabs(n[0]), d[0], p[0]))) ==
+               of_pi(arena, llabs(n[0]), d[0], p[0]));
+    }
+    EXPECT(expr_value(expr_pi(arena, 1)) == M_PI);
+    EXPECT(expr_pi(arena, 0) == expr_int(arena, 1));
+    EXPECT_NEAR(expr_value(expr_pow(arena, expr_pi(arena, 90), expr_int(arena, 2))), pow(M_PI, 180),
+                1e-12 * pow(M_PI, 180));
+    arena_free(arena);
+}
+
+static bool is_double(Expr e, void *context)
+{
+    (void)context;
+    return expr_kind(e) == EXPR_REAL;
+}
+
+/* multiples of pi/6 and pi/4: without a double, of the right value, and on the unit circle */
+static void sines_of_turns_are_exact(void)
+{
+    static const int parts[] = {1, 2, 3, 4, 6};
+    Arena *arena = arena_new();
+
+    for (int k = 0; k < COUNT(parts); k++)
+        for (int n = -50; n <= 50; n++) {
+            Expr angle = of_pi(arena, n, parts[k], 1);
+            Expr both[2] = {expr_sin(arena, angle), expr_cos(arena, angle)};
+            const long double at = (long double)n / parts[k] * M_PIl;
+            Expr *doubles = NULL;
+
+            EXPECT(expr_find(both, 2, is_double, NULL, &doubles) == 0);
+            EXPECT_NEAR(expr_evaluate(both[0], NULL, NULL), (double)sinl(at), 1e-15);
+            EXPECT_NEAR(expr_evaluate(both[1], NULL, NULL), (double)cosl(at), 1e-15);
+            EXPECT(expr_add(arena, expr_square(arena, both[0]), expr_square(arena, both[1])) ==
+                   expr_int(arena, 1));
+            mem_free(doubles);
+        }
+    EXPECT_EXPR(expr_cos(arena, of_pi(arena, 1, 2, 1)), "0");
+    EXPECT_EXPR(expr_sin(arena, of_pi(arena, -3, 4, 1)), "-0.5*sqrt(2)");
+    EXPECT_NEAR(expr_value(expr_sin(arena, of_pi(arena, 1, 5, 1))), sin(M_PI / 5), 1e-16);
+    EXPECT_NEAR(expr_value(expr_cos(arena, expr_pi(arena, 2))), cos(M_PI * M_PI), 1e-15);
+    arena_free(arena);
+}
+
+static void quarter_turns_leave_the_argument(void)
+{
+    BEGIN;
+    for (int n = -9; n <= 9; n++) {
+        Expr turned = ADD(x, of_pi(w.arena, n, 2, 1));
+        const double at = w.values[3] + n * M_PI_2;
+
+        EXPECT_NEAR(value_in(&w, expr_sin(w.arena, turned)), sin(at), 1e-14);
+        EXPECT_NEAR(value_in(&w, expr_cos(w.arena, turned)), cos(at), 1e-14);
+    }
+    EXPECT(expr_sin(w.arena, ADD(x, of_pi(w.arena, 1, 2, 1))) == expr_cos(w.arena, x));
+    EXPECT(expr_cos(w.arena, SUB(expr_pi(w.arena, 1), x)) ==
+           expr_neg(w.arena, expr_cos(w.arena, x)));
+    EXPECT_EXPR(expr_sin(w.arena, ADD(x, of_pi(w.arena, 1, 3, 1))), "sin(x + pi/3)");
+    END;
+}
+
 static void small_decimals_are_exact(void)
 {
     Arena *arena = arena_new();
@@ -224,7 +320,7 @@ static void commuting_gives_the_same_pointer(void)
 static void builders_keep_the_value(void)
 {
     for (uint64_t seed = 1; seed <= 1000; seed++) {
-        World w = world_new(seed);
+        World w = world_with_pi(seed);
         double direct;
         Expr e = random_expr(&w, 5, &direct);
 
@@ -368,6 +464,9 @@ static void long_sums_are_built_at_once(void)
 int main(void)
 {
     RUN(rationals_are_exact_until_they_overflow);
+    RUN(multiples_of_pi_are_exact);
+    RUN(sines_of_turns_are_exact);
+    RUN(quarter_turns_leave_the_argument);
     RUN(small_decimals_are_exact);
     RUN(sums_collect_like_terms);
     RUN(products_collect_powers);

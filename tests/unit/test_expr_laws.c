@@ -95,7 +95,7 @@ static void every_function_substitutes_into_its_value(void)
 static void derivatives_agree_with_difference_quotients(void)
 {
     for (uint64_t seed = 1; seed <= 400; seed++) {
-        World w = world_new(seed);
+        World w = world_with_pi(seed);
         double value;
         double h = 1e-5;
         Expr e = random_expr(&w, 4, &value);
@@ -121,7 +121,7 @@ static void derivatives_agree_with_difference_quotients(void)
 static void total_derivative_is_the_sum_of_partial_ones(void)
 {
     for (uint64_t seed = 1; seed <= 200; seed++) {
-        World w = world_new(seed);
+        World w = world_with_pi(seed);
         Expr e;
         Expr sum = expr_int(w.arena, 0);
         Expr along;
@@ -146,7 +146,7 @@ static void total_derivative_is_the_sum_of_partial_ones(void)
 static void derivatives_obey_leibniz(void)
 {
     for (uint64_t seed = 1; seed <= 200; seed++) {
-        World w = world_new(seed);
+        World w = world_with_pi(seed);
         double value;
         Expr x = w.symbols[3];
         Expr p = random_expr(&w, 3, &value);
@@ -166,7 +166,7 @@ static void derivatives_obey_leibniz(void)
 static void substitution_and_derivative_commute(void)
 {
     for (uint64_t seed = 1; seed <= 200; seed++) {
-        World w = world_new(seed);
+        World w = world_with_pi(seed);
         double value;
         Expr x = w.symbols[3];
         Expr y = w.symbols[4];

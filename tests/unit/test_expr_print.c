@@ -146,6 +146,45 @@ static void every_notation_prints_every_kind(void)
     arena_free(A);
 }
 
+static void multiples_of_pi_keep_its_name(void)
+{
+    static const struct {
+        int num, den, power;
+        const char *text, *unicode, *latex, *python, *c;
+    } rows[] = {
+        {1, 1, 1, "pi", "π", "\\pi", "math.pi", "3.141592653589793"},
+        {-1, 2, 1, "-pi/2", "-π/2", "-\\frac{\\pi}{2}", "-math.pi/2", "-1.5707963267948966"},
+        {100, 1, 1, "100*pi", "100·π", "100\\,\\pi", "100*math.pi", "314.1592653589793"},
+        {3, 4, 1, "3*pi/4", "3·π/4", "\\frac{3\\,\\pi}{4}", "3*math.pi/4", "2.356194490192345"},
+        {2, 3, -1, "2/(3*pi)", "2/(3·π)", "\\frac{2}{3\\,\\pi}", "2/(3*math.pi)",
+         "0.2122065907891938"},
+        {1, 10, 1, "0.1*pi", "0.1·π", "0.1\\,\\pi", "0.1*math.pi", "0.3141592653589793"},
+        {7, 180, 1, "7*pi/180", "7·π/180", "\\frac{7\\,\\pi}{180}", "7/180*math.pi",
+         "0.12217304763960307"},
+        {4, 1, 2, "4*pi^2", "4·π²", "4\\,\\pi^{2}", "4*math.pi**2", "39.47841760435743"},
+    };
+    World w = world_new(1);
+
+    for (int i = 0; i < COUNT(rows); i++) {
+        Expr e = expr_mul(w.arena, expr_rational(w.arena, rows[i].num, rows[i].den),
+                          expr_pi(w.arena, rows[i].power));
+
+        expect_in(NOTATION_TEXT, e, rows[i].text);
+        expect_in(NOTATION_UNICODE, e, rows[i].unicode);
+        expect_in(NOTATION_LATEX, e, rows[i].latex);
+        expect_in(NOTATION_PYTHON, e, rows[i].python);
+        expect_in(NOTATION_C, e, rows[i].c);
+    }
+    EXPECT_EXPR(expr_mul(w.arena, expr_mul(w.arena, expr_int(w.arena, 2), expr_pi(w.arena, 1)),
+                         w.symbols[3]),
+                "2*pi*x");
+    EXPECT_EXPR(expr_pow(w.arena, w.symbols[3], expr_neg(w.arena, expr_pi(w.arena, 1))), "1/x^pi");
+    EXPECT_EXPR(expr_pow(w.arena, w.symbols[3],
+                         expr_mul(w.arena, expr_int(w.arena, 2), expr_pi(w.arena, 1))),
+                "x^(2*pi)");
+    arena_free(w.arena);
+}
+
 static void tree_shows_sharing(void)
 {
     World w = world_new(1);
@@ -216,6 +255,7 @@ int main(void)
     RUN(brackets_stand_only_where_needed);
     RUN(constraints_read_as_in_books);
     RUN(every_notation_prints_every_kind);
+    RUN(multiples_of_pi_keep_its_name);
     RUN(tree_shows_sharing);
     RUN(latex_sets_names);
     RUN(every_function_prints_in_every_notation);

@@ -6,7 +6,7 @@
 static World world_of(Model *model, uint64_t seed)
 {
     static const char *const names[TEST_SYMBOLS] = {"a", "b", "c", "x", "y", "z"};
-    World world = {.arena = model_arena(model), .random = seed};
+    World world = {.arena = model_arena(model), .random = seed, .with_pi = seed % 2 == 0};
 
     for (int i = 0; i < TEST_SYMBOLS; i++) {
         world.symbols[i] = expr_symbol(world.arena, names[i], SYMBOL_PARAMETER);
@@ -90,6 +90,8 @@ static void numbers_read_back_as_the_same_pointer(void)
         int64_t den = 1 + (int64_t)(test_random(&random) >> (2 + i % 59));
 
         expect_same(model, expr_real(arena, value));
+        expect_same(model, expr_mul(arena, expr_rational(arena, num, den),
+                                    expr_pi(arena, (int)(test_random(&random) % 9) - 4)));
         expect_same(model, expr_mul(arena, expr_rational(arena, num, den),
                                     expr_symbol(arena, "a", SYMBOL_PARAMETER)));
     }

@@ -17,6 +17,11 @@ static Expr random_raw(World *w, int depth, Text *raw)
         int num = pick(w, 19) - 9;
         int den = 1 + pick(w, 6);
 
+        /* one in five is a multiple of pi */
+        if (pick(w, 5) == 0) {
+            text_addf(raw, "(%d)*pi/%d", num, den);
+            return expr_mul(w->arena, expr_rational(w->arena, num, den), expr_pi(w->arena, 1));
+        }
         text_addf(raw, "(%d)/%d", num, den);
         return expr_rational(w->arena, num, den);
     }
