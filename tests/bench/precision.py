@@ -3,9 +3,9 @@
 
     precision.py [-o FILE] [-t SECONDS] COTREE TOP [CASE...]
 
-Runs every case (all when none is named) with every method at tolerances of 1e-3 to 1e-12, rk4 with
-steps that halve, three times each in a shell of its own, which is stopped after SECONDS (30) of the
-processor's time. TOP is the folder of the sources.
+Runs every case (all when none is named) with every method at tolerances of 1e-3 to 1e-12, those of
+fixed steps with steps that halve, three times each in a shell of its own, which is stopped after
+SECONDS (30) of the processor's time. TOP is the folder of the sources.
 
 The error of a run is the largest difference of the items, at all times that are known, each over
 the largest value of its column. What is right comes from elsewhere (tests/data/README); where a
@@ -29,8 +29,9 @@ import sys
 import tempfile
 
 METHODS = ["auto", "dop853", "radau", "bdf", "adams", "ida"]
+FIXED = ["rk4", "symplectic"]  # of fixed steps
 TOLERANCES = [10.0**-k for k in range(3, 13)]
-HALVINGS = 8  # of rk4's step, from a hundredth of the rows' distance
+HALVINGS = 8  # of a fixed step, from a hundredth of the rows' distance
 GOALS = [1e-3, 1e-6, 1e-9]
 REPEATS = 3  # of a run; the least time counts
 
@@ -238,7 +239,7 @@ class Shell:
     def run(self, case, before, method, accuracy):
         """Rows of the items, ms, evaluations, steps."""
         every = case.duration / case.rows
-        if method == "rk4":
+        if method in FIXED:
             how = f"step={accuracy!r}"
         else:
             how = f"rtol={accuracy:.0e} atol={accuracy:.0e}"
@@ -301,10 +302,10 @@ def measure(shell, file, name, case):
         print(f"# precision.{name}: what is right isn't known: {why}")
         return 1
     print(f"# precision.{name}: tells errors down to {floor:.1e}")
-    for method in METHODS + ["rk4"]:
+    for method in METHODS + FIXED:
         rows = []
         finest = case.duration / case.rows / 2
-        ladder = [finest / 2**k for k in range(HALVINGS)] if method == "rk4" else TOLERANCES
+        ladder = [finest / 2**k for k in range(HALVINGS)] if method in FIXED else TOLERANCES
         for accuracy in ladder:
             try:
                 got, ms, evaluations, steps = shell.run(case, case.before, method, accuracy)

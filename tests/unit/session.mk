@@ -81,3 +81,6 @@ test_session_derivation_LDADD = $(unit_ldadd)
 UNIT_TESTS += test_session_figures
 test_session_figures_SOURCES = tests/unit/test_session_figures.c tests/unit/session_kit.h tests/unit/test.h
 test_session_figures_LDADD = $(unit_ldadd)
+UNIT_TESTS += test_symplectic
+test_symplectic_SOURCES = tests/unit/test_symplectic.c tests/unit/session_kit.h tests/unit/test.h
+test_symplectic_LDADD = $(unit_ldadd)

@@ -47,7 +47,7 @@ static void values_at_different_ends_are_said_to_be(void)
 static void drivers_that_lead_too_far_are_named(void)
 {
     static const char *const trees[] = {"", "tree absolute\n", "form embedded\n"};
-    static const char *const methods[] = {"dop853", "radau", "bdf", "ida", "rk4"};
+    static const char *const methods[] = {"dop853", "radau", "bdf", "ida", "rk4", "symplectic"};
     static const char *const scenes[] = {
         "scene planar\n"
         "body crank mass=1 inertia=0.1\n"

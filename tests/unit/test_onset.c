@@ -297,7 +297,8 @@ static void no_drift_is_told_of_energies_beyond_numbers(void)
 
 static void maxstep_bounds_every_method(void)
 {
-    static const char *const methods[] = {"auto", "radau", "bdf", "adams", "ida", "rk4"};
+    static const char *const methods[] = {"auto", "radau", "bdf",       "adams",
+                                          "ida",  "rk4",   "symplectic"};
 
     for (int i = 0; i < COUNT(methods); i++) {
         Kit kit = kit_new();

@@ -2,6 +2,9 @@ libcore_la_SOURCES += \
   lib/simulate/integrate/cvode.c \
   lib/simulate/integrate/dop853.c \
   lib/simulate/integrate/dop853_table.h \
+  lib/simulate/integrate/fixed.c \
+  lib/simulate/integrate/fixed.h \
+  lib/simulate/integrate/gauss.c \
   lib/simulate/integrate/headway.c \
   lib/simulate/integrate/headway.h \
   lib/simulate/integrate/ida.c \
