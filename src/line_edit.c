@@ -47,7 +47,13 @@ static bool find_open_string(const char *line, size_t cursor, size_t *start)
     return open;
 }
 
-/* names of files below what is typed, as a list ended by NULL, as ct_complete() gives words */
+static int compare_words(const void *a, const void *b)
+{
+    return strcmp(*(char *const *)a, *(char *const *)b);
+}
+
+/* names of files below what is typed, sorted, as a list ended by NULL, as ct_complete() gives words
+ */
 static char **complete_file(const char *typed)
 {
     char **words = NULL;
@@ -60,6 +66,8 @@ static char **complete_file(const char *typed)
         words[count++] = word;
         words[count] = NULL;
     }
+    if (count > 0)
+        qsort(words, count, sizeof *words, compare_words);
     return words;
 }
 

@@ -367,6 +367,16 @@ const char *unit_name(int i)
     return i >= 0 && i < COUNT(rows) ? rows[i].name : NULL;
 }
 
+const char *unit_common(int i)
+{
+    return i >= 0 && i < COUNT(common) ? common[i] : NULL;
+}
+
+const char *unit_prefix(int i)
+{
+    return i == 0 ? "" : i > 0 && i <= COUNT(prefixes) ? prefixes[i - 1].name : NULL;
+}
+
 /* --- printing dimensions --- */
 
 /* How much there is to write: the sum of all powers. */

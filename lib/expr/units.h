@@ -43,5 +43,7 @@ bool dimension_root(Dimension a, Dimension *out);
 void dimension_print(Text *text, Dimension dimension);
 /* every unit name without prefix, for completion: call with 0, 1, ... until NULL */
 const char *unit_name(int i);
+const char *unit_prefix(int i); /* likewise; the first is "" */
+const char *unit_common(int i); /* likewise: names with a prefix that people use: mm, kohm */
 
 #endif

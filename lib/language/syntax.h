@@ -88,6 +88,7 @@ typedef enum Offers {
     OFFERS_TOLD,
     OFFERS_SETTABLE,
     OFFERS_COORDINATES,
+    OFFERS_STARTS,
     OFFERS_OUTPUTS,
     OFFERS_EVENTS,
     OFFERS_RUNS,
@@ -223,7 +224,10 @@ void statement_print(Text *text, const Statement *statement);
 /* Rows by value; what they point to is const. False: unknown, *verb unchanged. */
 bool verb_find(const char *name, Verb *verb); /* exact */
 bool verb_at(int i, Verb *verb); /* 0, 1, ... in the order of the manual; false at the end */
-const char *verb_key(const Verb *verb, int i);          /* 0, 1, ...; NULL at the end */
+const char *verb_key(const Verb *verb, int i); /* 0, 1, ...; NULL at the end */
+/* the word that goes on behind operands where a pattern has that letter: vs, at, as, within; NULL
+ */
+const char *pattern_word(char letter);
 void verb_usage(Text *text, const Verb *verb);          /* one line */
 bool word_is_reserved(const char *word, size_t length); /* energy of energy.total ... */
 bool name_is_reserved(const char *name);  /* or run1 ...: can't be given another meaning */

@@ -39,6 +39,20 @@ Status parser_check_reserved(const Parser *parser, const Token *name)
     return E_NAME;
 }
 
+/* words that end an operand, where the pattern has the letter */
+static const struct {
+    char letter;
+    const char *word;
+} stop_words[] = {{'y', "vs"}, {'@', "at"}, {'a', "as"}, {'C', "within"}};
+
+const char *pattern_word(char letter)
+{
+    for (int i = 0; i < COUNT(stop_words); i++)
+        if (stop_words[i].letter == letter)
+            return stop_words[i].word;
+    return NULL;
+}
+
 /* --- operands --- */
 
 typedef Status ParseOperand(Parser *parser, Syntax **out);
@@ -277,6 +291,16 @@ static Status read_string_or_word(Parser *parser, Statement *statement)
                : read_string(parser, statement);
 }
 
+static bool take_word(Parser *parser, const char *word)
+{
+    const Token *token = parser_token(parser);
+
+    if (token->kind != TOKEN_PATH || strcmp(token->text, word) != 0)
+        return false;
+    parser->at++;
+    return true;
+}
+
 /* C: expr [ "~" expr "within" expr ] */
 static Status read_condition(Parser *parser, Statement *statement)
 {
@@ -289,10 +313,8 @@ static Status read_condition(Parser *parser, Statement *statement)
     if (!parser_take(parser, "~"))
         return OK;
     TRY(parse_expression(parser, &statement->near_value));
-    if (parser_token(parser)->kind != TOKEN_PATH ||
-        strcmp(parser_token(parser)->text, "within") != 0)
+    if (!take_word(parser, pattern_word('C')))
         TRY(parser_expected(parser, "'within'"));
-    parser->at++;
     return parse_expression(parser, &statement->within);
 }
 
@@ -310,20 +332,10 @@ static Status read_statement(Parser *parser, Statement *statement)
 
 /* --- trailing words --- */
 
-static bool take_word(Parser *parser, const char *word)
-{
-    const Token *token = parser_token(parser);
-
-    if (token->kind != TOKEN_PATH || strcmp(token->text, word) != 0)
-        return false;
-    parser->at++;
-    return true;
-}
-
 /* y */
 static Status read_versus(Parser *parser, Statement *statement)
 {
-    return take_word(parser, "vs") ? parse_item(parser, &statement->versus) : OK;
+    return take_word(parser, pattern_word('y')) ? parse_item(parser, &statement->versus) : OK;
 }
 
 /* @ */
@@ -331,7 +343,7 @@ static Status read_at(Parser *parser, Statement *statement)
 {
     Status status = OK;
 
-    if (!take_word(parser, "at"))
+    if (!take_word(parser, pattern_word('@')))
         return OK;
     CHECK(parse_expression(parser, &statement->at));
     if (parser_sees(parser, ",")) {
@@ -348,7 +360,7 @@ static Status read_as(Parser *parser, Statement *statement)
 {
     const Token *word;
 
-    if (!take_word(parser, "as"))
+    if (!take_word(parser, pattern_word('a')))
         return OK;
     TRY(parse_name(parser, &word));
     statement->as = word->text;
@@ -544,12 +556,6 @@ static const struct {
     {'a', read_as},           {'k', read_keys},           {'=', read_pairs},
     {':', read_colon},        {'>', read_redirect},
 };
-
-/* words that end an operand, where the pattern has the letter */
-static const struct {
-    char letter;
-    const char *word;
-} stop_words[] = {{'y', "vs"}, {'@', "at"}, {'a', "as"}, {'C', "within"}};
 
 static Status read_letter(Parser *parser, char letter, Statement *statement)
 {

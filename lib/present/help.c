@@ -2,6 +2,7 @@
 #include "present/help.h"
 
 #include "language/functions.h"
+#include "language/verbs.h"
 #include "present/layout.h"
 #include "present/show.h"
 
@@ -191,11 +192,10 @@ static bool add_function(Text *out, const char *word)
 /* words that variables of the whole model begin with, and functions of runs: their topic's */
 static bool add_quantity(Text *out, const char *word)
 {
-    static const char *const wholes[] = {"energy", "model", "count", "constraint", "modes"};
     const HelpTopic *topic = NULL;
 
-    for (int i = 0; i < COUNT(wholes); i++)
-        if (strcmp(word, wholes[i]) == 0)
+    for (int i = 0; whole_name(i) != NULL; i++)
+        if (strcmp(word, whole_name(i)) == 0)
             topic = help_topic_find("variables");
     if (topic == NULL && function_is_figure(word))
         topic = help_topic_find("functions");
@@ -217,6 +217,44 @@ static bool add_unit(Text *out, const char *word)
     dimension_print(out, unit.dimension);
     text_add(out, "; 'help units' lists them all\n");
     return true;
+}
+
+/* "every - stands behind simulate, resume ...": a key, or a word that goes on behind operands */
+static bool add_key(Text *out, const char *word)
+{
+    Text verbs = {0};
+    Verb verb;
+
+    for (int i = 0; verb_at(i, &verb); i++) {
+        bool has = words_hold(verb.words, word);
+
+        for (const char *letter = verb.pattern; !has && *letter != '\0'; letter++)
+            has = pattern_word(*letter) != NULL && strcmp(pattern_word(*letter), word) == 0;
+        for (int k = 0; !has && verb_key(&verb, k) != NULL; k++)
+            has = strcmp(verb_key(&verb, k), word) == 0;
+        if (has && verb.room != ROOM_LATER)
+            text_addf(&verbs, "%s%s", verbs.length > 0 ? " " : "", verb.name);
+    }
+    if (verbs.length == 0)
+        return false;
+    text_addf(out, "%s - a word of these; 'help' of one tells what it means there\n\n", word);
+    layout_words(out, HELP_WIDTH, "  ", verbs.at);
+    text_free(&verbs);
+    return true;
+}
+
+/* the only word that begins so; NULL: none does, or several do */
+static const char *spelled_out(const char *word)
+{
+    const char *candidate, *found = NULL;
+
+    for (int i = 0; help_word(i, &candidate); i++)
+        if (strncmp(candidate, word, strlen(word)) == 0) {
+            if (found != NULL)
+                return NULL;
+            found = candidate;
+        }
+    return found;
 }
 
 static void add_overview(Text *out)
@@ -271,7 +309,9 @@ bool help_print(Text *out, const char *word)
     } else if ((topic = topic_find(word)) != NULL)
         text_addf(out, "show %s - %s\n", topic->name, topic->brief);
     else
-        known = add_function(out, word) || add_quantity(out, word) || add_unit(out, word);
+        known = add_function(out, word) || add_quantity(out, word) || add_unit(out, word) ||
+                add_key(out, word) ||
+                (spelled_out(word) != NULL && help_print(out, spelled_out(word)));
     return known;
 }
 

@@ -26,6 +26,9 @@ bool help_print(Text *out, const char *word);
 void help_apropos(Text *out, const char *word);
 /* every word that help knows, once: 0, 1, ...; false at the end */
 bool help_word(int i, const char **word);
+/* what variables of the model as a whole begin with, "energy": 0, 1, ...; NULL at the end */
+const char *whole_name(int i);
+const char *whole_member(int i, int k); /* its k-th, "kinetic"; NULL at the end */
 const char *help_suggest(const char *word);
 /* examples of verbs and components: 0, 1, ...; false at the end */
 bool help_example(int i, const char **name, const char **text);

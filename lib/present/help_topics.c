@@ -252,3 +252,26 @@ const HelpTopic *help_topic_find(const char *name)
             return &topics[i];
     return NULL;
 }
+
+/* what a model has as a whole, and its members; those of count are its blocks */
+static const struct {
+    const char *base;
+    const char *members[5];
+} wholes[] = {
+    {"energy", {"kinetic", "potential", "total", NULL}},
+    {"model", {"n", "m", "dof", NULL}},
+    {"constraint", {"error", NULL}},
+    {"count", {NULL}},
+    {"modes", {"omega(", "damping(", NULL}},
+    {"linear", {"A(", "B(", "C(", "D(", NULL}},
+};
+
+const char *whole_name(int i)
+{
+    return i >= 0 && i < COUNT(wholes) ? wholes[i].base : NULL;
+}
+
+const char *whole_member(int i, int k)
+{
+    return wholes[i].members[k];
+}

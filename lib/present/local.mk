@@ -2,6 +2,11 @@ libcore_la_SOURCES += \
   lib/present/abbreviate.c \
   lib/present/abbreviate.h \
   lib/present/complete.c \
+  lib/present/complete_impl.h \
+  lib/present/complete_members.c \
+  lib/present/complete_names.c \
+  lib/present/complete_offer.c \
+  lib/present/complete_units.c \
   lib/present/count.c \
   lib/present/count.h \
   lib/present/derive.c \

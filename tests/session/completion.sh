@@ -10,6 +10,11 @@ complete set pager
 complete draw 
 complete draw cutset ma
 complete set digits 
+complete print mass1.x [m
+complete expect mass1.x ~ 2 
+complete plot mass1.x v
+complete set mass1.mass = 2 k
+complete help ener
 END
 cotree model.ct
 cotree -e complete | grep -x plot

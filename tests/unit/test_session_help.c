@@ -87,9 +87,11 @@ static void topics_are_pages_too(void)
 
 static void an_unknown_word_has_no_page_but_a_suggestion(void)
 {
-    EXPECT(ct_help("revolut") == NULL);
-    EXPECT_TEXT(ct_help_suggest("revolut"), "revolute");
+    EXPECT(ct_help("revolutt") == NULL);
+    EXPECT_TEXT(ct_help_suggest("revolutt"), "revolute");
     EXPECT_TEXT(ct_help_suggest("unit"), "units");
+    /* several go on so */
+    EXPECT(ct_help("re") == NULL);
     EXPECT(ct_help_suggest("xyzzyxyzzy") == NULL);
 }
 
@@ -98,7 +100,13 @@ static void units_and_words_of_variables_have_help(void)
     static const char *const wanted[][2] = {{"rpm", "1 rpm is 0.10471975512 rad/s"},
                                             {"mm", "1 mm is 0.001 m"},
                                             {"energy", "energy.kinetic"},
-                                            {"settling", "settling(x, band)"}};
+                                            {"settling", "settling(x, band)"},
+                                            {"every", "simulate resume"},
+                                            {"within", "expect"},
+                                            {"vs", "plot"},
+                                            {"mechanism", "draw"},
+                                            {"revolut", "usage: revolute"},
+                                            {"circ", "show circuits"}};
 
     for (size_t i = 0; i < sizeof wanted / sizeof wanted[0]; i++) {
         char *text = ct_help(wanted[i][0]);
@@ -211,10 +219,33 @@ static bool offers(Kit *kit, const char *line, const char *word)
     return found;
 }
 
+/* what is offered behind a line, and what isn't */
+typedef struct Case {
+    const char *line, *yes, *no;
+} Case;
+
+static void check_cases(const Case *cases, size_t count)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, SLIDER_CRANK "output push = s11*2\nevent hit when=s11 > 1 do=stop\n");
+    for (size_t i = 0; i < count; i++) {
+        const bool yes =
+            strcmp(cases[i].yes, "nothing") == 0 || offers(&kit, cases[i].line, cases[i].yes);
+
+        if (!yes || offers(&kit, cases[i].line, cases[i].no)) {
+            test_faults++;
+            printf("'%s': %s '%s'\n", cases[i].line, yes ? "offers" : "does not offer",
+                   yes ? cases[i].no : cases[i].yes);
+        }
+    }
+    kit_free(&kit);
+}
+
 static void completion_follows_the_grammar(void)
 {
     /* clang-format off */
-    static const struct { const char *line, *yes, *no; } cases[] = {
+    static const Case cases[] = {
         {"rev",                    "revolute",    "plot"},
         {"",                       "body",        "m1"},
         {"virtual ",               "prismatic",   "body"},
@@ -277,20 +308,56 @@ static void completion_follows_the_grammar(void)
         {"title \"rev",            "nothing",     "revolute"},
     };
     /* clang-format on */
-    Kit kit = kit_new();
 
-    EXPECT_DONE(&kit, SLIDER_CRANK "output push = s11*2\nevent hit when=s11 > 1 do=stop\n");
-    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        const bool yes =
-            strcmp(cases[i].yes, "nothing") == 0 || offers(&kit, cases[i].line, cases[i].yes);
+    check_cases(cases, sizeof cases / sizeof cases[0]);
+}
 
-        if (!yes || offers(&kit, cases[i].line, cases[i].no)) {
-            test_faults++;
-            printf("'%s': %s '%s'\n", cases[i].line, yes ? "offers" : "does not offer",
-                   yes ? cases[i].no : cases[i].yes);
-        }
-    }
-    kit_free(&kit);
+static void completion_tells_units_from_words(void)
+{
+    /* clang-format off */
+    static const Case cases[] = {
+        /* units: of the dimension that is wanted there */
+        {"body b mass=2k",         "kg",          "km"},
+        {"set m1.mass = 3 ",       "m1",          "kg"},
+        {"set m1.mass = 3 k",      "kg",          "kN"},
+        {"init h8 = 30 d",         "deg",         "day"},
+        {"init h8' = 30 r",        "rpm",         "rev"},
+        {"L4 = 10 m",              "mm",          "m1"},
+        {"print h8 [",             "deg",         "mm"},
+        {"print m1.x + 2*s11 [",   "mm",          "deg"},
+        {"print m1.x, h8' [",      "rad/s",       "mm"},
+        {"plot m1.x (h8 - 1) [d",  "deg",         "day"},
+        {"plot h8 xrange=[0, 1] [", "ms",         "h8"},
+        {"spring k1 h8 k=1 [",     "N*m",         "kg"},
+        {"spring k1 h8 k=1 [kN/",  "mm",          "kg/m"},
+        {"arm r9 m1 [L",           "L4",          "L"},
+        {"arm r9 m1 [0, L",        "L4",          "L"},
+        {"resistor R1 a b 10k",    "kohm",        "kg"},
+        /* words that go on behind operands, and not before they are whole */
+        {"expect h8 ",             "~",           "within"},
+        {"expect h8 ~ ",           "h8",          "within"},
+        {"expect h8 ~ 3 ",         "within",      "h8"},
+        {"expect h8 ~ 3 + ",       "h8",          "within"},
+        {"expect h8 ~ 3 within 1 ", "at",         "within"},
+        {"expect h8 < ",           "h8",          "at"},
+        {"plot h8 v",              "vs",          "vsource"},
+        {"plot h8 vs s",           "s11",         "vs"},
+        {"plot h8 [deg] ",         "title=",      "last"},
+        {"plot h8 | ",             "s11",         "vs"},
+        {"print h8 a",             "at",          "abs("},
+        {"print h8, a",            "abs(",        "at"},
+        {"keep A = h8 ",           "at",          "within"},
+        {"show mass a",            "as",          "at"},
+        {"init h8 = 2*L",          "L4",          "log"},
+        /* help of all that has a name */
+        {"help h",                 "h8",          "h"},
+        {"help rp",                "rpm",         "h8"},
+        {"help ener",              "energy",      "rpm"},
+        {"help at",                "atan2",       "h8"},
+    };
+    /* clang-format on */
+
+    check_cases(cases, sizeof cases / sizeof cases[0]);
 }
 
 static void completion_knows_what_was_linearized(void)
@@ -312,6 +379,74 @@ static void completion_knows_what_was_linearized(void)
     EXPECT(offers(&kit, "show transfer store ", "E1"));
     EXPECT(!offers(&kit, "show transfer store ", "R1.i"));
     EXPECT(!offers(&kit, "show transfer store E1 ", "E1"));
+    kit_free(&kit);
+}
+
+/* variables of a run that is there, and its parts, whatever expression they stand in */
+static void completion_goes_on_behind_a_run(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, SLIDER_CRANK "init h8 = 1\nsimulate 0.1\n");
+    EXPECT(offers(&kit, "plot run1.", "s11"));
+    EXPECT(offers(&kit, "plot run1.h", "h8"));
+    EXPECT(!offers(&kit, "plot run1.r", "run1"));
+    EXPECT(offers(&kit, "plot run1.h8 (run1.s11 - run1.m1.v", "m1.vx"));
+    EXPECT(offers(&kit, "print run1.en", "energy"));
+    EXPECT(!offers(&kit, "plot run2.", "h8"));
+    kit_free(&kit);
+}
+
+/* what init takes: also what parts of circuits store, and nothing that follows from the rest */
+static void completion_offers_what_can_be_given(void)
+{
+    size_t start = 0;
+    Kit kit = kit_new();
+    char **words;
+    int count = 0;
+
+    EXPECT_DONE(&kit, SLIDER_CRANK "vsource E1 a 0 1\nresistor R1 a b 2\ncapacitor C1 b 0 3\n"
+                                   "motor M7 h8 a 0 R=1 L=0.1 Kt=0.5 Kv=0.5\n");
+    EXPECT(offers(&kit, "init C", "C1.v"));
+    EXPECT(offers(&kit, "guess M", "M7.i"));
+    EXPECT(!offers(&kit, "init ", "R1.power"));
+    words = ct_complete(kit.session, "init ", 5, &start);
+    for (; words[count] != NULL; count++) {
+        char line[80];
+        (void)snprintf(line, sizeof line, "init %s = 0.1\n", words[count]);
+        if (strcmp(words[count], "none") != 0)
+            EXPECT_DONE(&kit, line);
+    }
+    EXPECT(count > 10);
+    ct_words_free(words);
+    kit_free(&kit);
+}
+
+/* whatever unit is offered behind a number is read there */
+static void every_unit_that_is_offered_is_read(void)
+{
+    static const char *const lines[] = {"x = 1 [",   "x = 1 k",          "x = 1 m",    "x = 1u",
+                                        "x = 1 [N*", "body k1 mass=1 [", "print h8' ["};
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, SLIDER_CRANK);
+    for (size_t i = 0; i < sizeof lines / sizeof lines[0]; i++) {
+        size_t start = 0;
+        char **words = ct_complete(kit.session, lines[i], strlen(lines[i]), &start);
+        int count = 0;
+
+        for (; words[count] != NULL; count++) {
+            char line[120];
+
+            (void)snprintf(line, sizeof line, "%.*s%s%s\n", (int)start, lines[i], words[count],
+                           strchr(lines[i], '[') != NULL ? "]" : "");
+            EXPECT_DONE(&kit, line);
+            if (strncmp(line, "print", 5) != 0)
+                EXPECT_DONE(&kit, line[0] == 'x' ? "delete x\n" : "delete k1\n");
+        }
+        EXPECT(count > 0);
+        ct_words_free(words);
+    }
     kit_free(&kit);
 }
 
@@ -471,9 +606,13 @@ int main(void)
     RUN(the_reference_holds_every_verb);
     RUN(help_keeps_to_the_page);
     RUN(completion_follows_the_grammar);
+    RUN(completion_tells_units_from_words);
     RUN(completion_knows_what_was_linearized);
     RUN(completion_offers_runs_that_are_there);
     RUN(completion_tells_the_graph_from_the_mechanism);
+    RUN(completion_goes_on_behind_a_run);
+    RUN(completion_offers_what_can_be_given);
+    RUN(every_unit_that_is_offered_is_read);
     RUN(completion_knows_the_settings_of_the_program);
     RUN(completion_says_where_the_word_starts);
     RUN(completion_bears_any_line);

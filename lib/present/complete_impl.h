@@ -1,0 +1,58 @@
+/* complete_impl.h: a half-typed line, and the sources of what could stand at its end */
+#ifndef COTREE_PRESENT_COMPLETE_IMPL_H
+#define COTREE_PRESENT_COMPLETE_IMPL_H
+
+#include "present/help.h"
+
+typedef struct TypedLine {
+    const KnownName *known;
+    const char *text;    /* of the statement, to the cursor */
+    size_t word;         /* where the word to be completed starts */
+    bool is_of_run;      /* behind `run1.`: the word begins there */
+    bool is_glued;       /* behind a number: 10k */
+    char prefix[128];    /* that word */
+    LIST(char *) before; /* words before it */
+    Words *out;
+} TypedLine;
+
+/* --- complete_offer.c --- */
+
+bool is_word_letter(char c);
+/* a word that goes on as the one typed, once; `key=` unless it is given */
+void offer(TypedLine *line, const char *word);
+void offer_key(TypedLine *line, const char *key);
+void offer_alternatives(TypedLine *line, const char *words); /* between bars */
+
+/* --- complete_names.c: from the tables and the model --- */
+
+void offer_verbs(TypedLine *line);
+void offer_joint_types(TypedLine *line);
+void offer_names(TypedLine *line);
+void offer_variables(TypedLine *line); /* of a run */
+void offer_values(TypedLine *line);
+void offer_coordinates(TypedLine *line);
+void offer_place(TypedLine *line, const Component *row, int place); /* of a component */
+void offer_help_words(TypedLine *line);
+void offer_notations(TypedLine *line);
+/* what a setting of that name may be set to; false: there is none */
+bool offer_setting(TypedLine *line, const char *name);
+/* what a row or a key finds its words in, beside values; false: nothing of its own */
+bool offer_source(TypedLine *line, Offers offers);
+bool source_is_alone(Offers offers); /* instead of the row's words, not beside them */
+bool source_is_once(Offers offers);  /* behind the verb itself, not behind more */
+
+/* --- complete_members.c: behind dots and keys --- */
+
+void offer_members(TypedLine *line, const Verb *verb); /* NULL: of no verb */
+void offer_key_value(TypedLine *line, const Verb *verb, const char *key);
+
+/* --- complete_units.c --- */
+
+/* the row's param that a key stands for: behind `set` that of a part, "m1.euler"; NULL: none */
+const Param *key_param(const TypedLine *line, const Verb *verb, const char *key);
+void offer_any_unit(TypedLine *line);
+/* Units, where one may stand: those of the dimension that is wanted, as far as it is known. True:
+ * nothing else may stand there. */
+bool offer_units(TypedLine *line, const Verb *verb, const char *key);
+
+#endif
