@@ -258,6 +258,90 @@ ct_status ct_export(ct_session *session, const ct_statement *statement, bool wit
                     char **text, ct_error *error);
 const char *ct_title(const ct_session *session);
 
+/* --- a model as functions of numbers ---
+ *
+ * For a controller, an optimiser, another solver: the equations of a session's model, compiled. A
+ * ct_model is const once made, and has nothing of its session, which may go on or be freed; any
+ * number of threads may share it. What computes is a ct_evaluator, of which each thread has its
+ * own.
+ *
+ * Functions take arrays, all in SI:
+ *
+ *     p   parameters of the user's, each a name of the model
+ *     t   time, s
+ *     y   the state: coordinates, speeds, states of networks, references of angles of full turns
+ *     s   what is solved for at a state: x' of networks, their algebraic unknowns, accelerations
+ *         (u'), multipliers
+ *
+ * and give matrices row by row, by the names that they have in exported code, too: constraints,
+ * jacobian, velocity, gamma, mass, forces, map, derivative (the rates of y, from s), outputs,
+ * conditions; and residual, which is 0 where s is the solution: of networks' equations, of
+ * M u' + Phi_u^T lambda - F, of Phi_u u' - gamma; and solution, s itself. With several lanes each
+ * number of an array, t too, is as many beside each other: y[i * lanes + lane]. */
+typedef struct ct_model ct_model;
+typedef struct ct_evaluator ct_evaluator;
+
+typedef enum ct_part { CT_PARAMETERS, CT_STATE, CT_SOLUTION, CT_OUTPUTS } ct_part;
+
+typedef struct ct_model_options {
+    const ct_expression *const *outputs; /* of statements, as ct_table() takes them; borrowed */
+    int output_count;                    /* 0: those that the model has */
+    const char *derivatives; /* "derivative outputs": functions that are differentiated; NULL */
+    int lanes;               /* 1, 2, 4 or 8 evaluations at once; 0: 1 */
+} ct_model_options;
+
+/* Form and compile what the model has now; `options` NULL: all 0. *out is new: ct_model_free().
+ * Fails where equations do, where an output depends on something that no function is given, and
+ * where a function to be differentiated isn't there. The cost is that of exporting the model and of
+ * compiling its functions and their derivatives; a parameter's value is not compiled in. */
+ct_status ct_model_new(ct_session *session, const ct_model_options *options, ct_model **out,
+                       ct_error *error);
+void ct_model_free(ct_model *model); /* NULL is fine; after its evaluators */
+int ct_model_size(const ct_model *model, ct_part part);
+/* "h8", "h8'", "C2.v", "lambda(1)"; borrowed; NULL: there is no such entry */
+const char *ct_model_name(const ct_model *model, ct_part part, int i);
+/* its unit, "rad/s"; "" where its dimension isn't known; borrowed; NULL as above */
+const char *ct_model_unit(const ct_model *model, ct_part part, int i);
+int ct_model_find(const ct_model *model, ct_part part, const char *name); /* -1: there is none */
+/* The parameters' values, and the start as it was assembled; each array may be NULL. One lane. */
+void ct_model_start(const ct_model *model, double *p, double *y, double *s);
+/* The number of a function, and what it gives; -1: there is none. rows, columns may be NULL. */
+int ct_model_function(const ct_model *model, const char *name, int *rows, int *columns);
+const char *ct_model_function_name(const ct_model *model, int function); /* NULL at the end */
+
+/* NULL where memory ends; ct_evaluator_free(), by whatever thread has it then */
+ct_evaluator *ct_evaluator_new(const ct_model *model);
+void ct_evaluator_free(ct_evaluator *evaluator); /* NULL is fine */
+/* The calls below allocate nothing and lock nothing. Arrays must not overlap.
+ *
+ * Values of a function: rows * columns * lanes numbers. What isn't a number there is NAN. O(its
+ * operations). */
+void ct_evaluate(ct_evaluator *evaluator, int function, const double *p, const double *t,
+                 const double *y, const double *s, double *values);
+/* s for a state; what it was is where Newton's method begins. CT_FAILED: where a lane's equations
+ * are singular, or have no solution near, its s are NAN. O(entries of s, cubed), but for mechanisms
+ * of few speeds without loops, which are eliminated in straight-line code. */
+ct_status ct_solve(ct_evaluator *evaluator, const double *p, const double *t, const double *y,
+                   double *s);
+/* ct_solve(), and the rates of y */
+ct_status ct_rates(ct_evaluator *evaluator, const double *p, const double *t, const double *y,
+                   double *s, double *rates);
+/* y onto the constraints, by the least correction: positions, then speeds; references of angles
+ * next to them. CT_FAILED as ct_solve(), with NAN in the lane's y. */
+ct_status ct_project(ct_evaluator *evaluator, const double *p, const double *t, double *y);
+/* Derivatives of a function among those that were to be differentiated: (rows * columns) x
+ * (entries of the part) x lanes. CT_OUTPUTS is no part to differentiate by.
+ *
+ * ct_partial_derivatives() leaves the other arrays as they are. ct_derivatives() lets s follow from
+ * p, t and y, at which it must be the solution: so those of `derivative` by CT_STATE are the matrix
+ * of the linearised equations. By CT_STATE or CT_PARAMETERS; CT_FAILED where the solution is
+ * singular. Constraints that repeat each other leave multipliers, and so these, undetermined: there
+ * a model with `derivatives` is refused. */
+ct_status ct_partial_derivatives(ct_evaluator *evaluator, int function, ct_part by, const double *p,
+                                 const double *t, const double *y, const double *s, double *values);
+ct_status ct_derivatives(ct_evaluator *evaluator, int function, ct_part by, const double *p,
+                         const double *t, const double *y, const double *s, double *values);
+
 #ifdef __cplusplus
 }
 #endif

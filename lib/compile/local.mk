@@ -1,6 +1,7 @@
 libcore_la_SOURCES += \
   lib/compile/rounding.c \
 	lib/compile/interpret.c \
+	lib/compile/lanes.c lib/compile/lanes.h \
 	lib/compile/lower.c lib/compile/lower.h \
 	lib/compile/native.c lib/compile/native.h lib/compile/native_impl.h \
 	lib/compile/native_registers.c \

@@ -70,9 +70,16 @@ typedef struct Code {
 
 /* New; code_free(). Fails where a formula needs what no function is given. */
 MUST_USE Status code_new(const Exported *what, Code **out, Diag *diag);
+/* the same of one that is all 0, but formulas alone: nothing is lowered, there are no numbers yet
+ */
+MUST_USE Status code_form(const Exported *what, Code *code, Diag *diag);
 void code_free(Code *code); /* NULL is fine */
-/* States at random about the start, on the constraints, with numbers from here (code_states.c). */
-MUST_USE Status code_add_states(Code *code, const Exported *what, Diag *diag);
+/* what is 0 where s is the solution: ns rows, of networks, motion, constraints */
+void code_residual(const Code *code, Expr *rows);
+/* The start's values; the start as a state, where equations have a solution there, and up to `most`
+ * states at random about it, on the constraints, with numbers from here (code_states.c). */
+enum { CODE_STATES = 20 };
+MUST_USE Status code_add_states(Code *code, const Exported *what, int most, Diag *diag);
 
 static inline double code_off(int i, double y)
 {

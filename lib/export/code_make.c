@@ -327,15 +327,13 @@ static void add_mechanics(Code *code)
     mem_free(rows);
 }
 
-/* everything at once, where the network reads what moves */
-static void add_joint(Code *code)
+void code_residual(const Code *code, Expr *rows)
 {
     Arena *arena = code->arena;
     const Layout *l = code->layout;
     const Reading *r = system_run(l->system);
-    const int k = l->nx + l->nz, nu = l->nu, count = k + nu + l->m;
+    const int k = l->nx + l->nz, nu = l->nu;
     const Expr *du = l->symbols + l->acceleration, *lambda = l->symbols + l->multipliers;
-    Expr *rows = NEW_ARRAY(Expr, count);
 
     for (int i = 0; i < k; i++)
         rows[i] = r->network_residual[i];
@@ -353,7 +351,15 @@ static void add_joint(Code *code)
             rows[k + nu + c] =
                 expr_add(arena, rows[k + nu + c], expr_mul(arena, r->phi_u[c * nu + j], du[j]));
     }
-    add_newton(code, rows, 0, count, "equations");
+}
+
+/* everything at once, where the network reads what moves */
+static void add_joint(Code *code)
+{
+    Expr *rows = NEW_ARRAY(Expr, code->ns);
+
+    code_residual(code, rows);
+    add_newton(code, rows, 0, code->ns, "equations");
     mem_free(rows);
 }
 
@@ -504,9 +510,8 @@ static Status lower(Code *code, Diag *diag)
     return status;
 }
 
-Status code_new(const Exported *what, Code **out, Diag *diag)
+Status code_form(const Exported *what, Code *code, Diag *diag)
 {
-    Code *code = NEW(Code);
     const Layout *l;
     Status status = OK;
 
@@ -543,9 +548,19 @@ Status code_new(const Exported *what, Code **out, Diag *diag)
     CHECK(poll(what->view.watch));
     add_parameters(code);
     add_inputs(code);
+done:
+    return status;
+}
+
+Status code_new(const Exported *what, Code **out, Diag *diag)
+{
+    Code *code = NEW(Code);
+    Status status = OK;
+
+    CHECK(code_form(what, code, diag));
     CHECK(lower(code, diag));
     find_derived(code);
-    CHECK(code_add_states(code, what, diag));
+    CHECK(code_add_states(code, what, CODE_STATES, diag));
     *out = code;
     code = NULL;
 done:

@@ -13,7 +13,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { STATES = 20, TRIES = 60, MOST_NUMBERS = 6000, WEIGHTS = 7 };
+enum { TRIES = 60, MOST_NUMBERS = 6000, WEIGHTS = 7 };
 #define TURN      0.4   /* rad: how far angles lie from the start at most */
 #define SHARE     0.2   /* how far lengths and states do, of the largest of their kind */
 #define SPEED     1.0   /* 1/s times the former: speeds */
@@ -261,15 +261,18 @@ static bool has_ideal_switches(const System *system)
     return false;
 }
 
-Status code_add_states(Code *code, const Exported *what, Diag *diag)
+Status code_add_states(Code *code, const Exported *what, int most, Diag *diag)
 {
     States st = {.code = code, .seed = 1};
     const int numbers = code->ny + code->ns + 2 * code->functions.count + 1;
-    const int room = numbers * STATES <= MOST_NUMBERS ? STATES : 1 + MOST_NUMBERS / numbers;
-    /* what ideal switches carry and bear leaves few states that there can be */
-    const int most = has_ideal_switches(code->layout->system) ? 1 : room;
+    const int room = 1 + MOST_NUMBERS / numbers;
     double near = 1;
     Status status = OK;
+
+    /* what ideal switches carry and bear leaves few states that there can be */
+    most = most < room ? most : room;
+    if (most > 1 && has_ideal_switches(code->layout->system))
+        most = 1;
 
     st.parameters = (Parameters){.value = parameter_value, .context = code};
     CHECK(read_start(&st, what, diag));

@@ -2,7 +2,9 @@ libcore_la_SOURCES += \
   lib/session/session.c \
   lib/session/session_bode.c \
   lib/session/session_bounds.c \
+  lib/session/session_code.h \
   lib/session/session_draw.c \
+  lib/session/session_evaluator.c \
   lib/session/session_figures.c \
   lib/session/session_formula.c \
   lib/session/session_freedoms.c \
@@ -13,6 +15,8 @@ libcore_la_SOURCES += \
   lib/session/session_keep.c \
   lib/session/session_linear.c \
   lib/session/session_look.c \
+  lib/session/session_model.c \
+  lib/session/session_model.h \
   lib/session/session_plot.c \
   lib/session/session_run.c \
   lib/session/session_spectrum.c \

@@ -3,6 +3,7 @@
 
 #include "export/write.h"
 #include "present/show.h"
+#include "session/session_code.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -93,12 +94,11 @@ typedef struct Sheet {
     int rows, columns;
     bool is_spectral;   /* over frequency, not time */
     LIST(char *) names; /* ended by NULL once it is done */
-    Expr *formulas;     /* of code, instead of values */
 } Sheet;
 
 static void sheet_free(Sheet *sheet)
 {
-    MEM_FREE(sheet->values, sheet->formulas);
+    mem_free(sheet->values);
     for (int i = 0; i < sheet->names.count; i++)
         mem_free(sheet->names.at[i]);
     LIST_FREE(sheet->names);
@@ -431,43 +431,53 @@ done:
     return status;
 }
 
-/* formulas of the items over the user's variables, and the start */
-static Status read_code(ct_session *session, const Statement *s, Sheet *sheet, Exported *what,
-                        Diag *diag)
+void code_items_free(CodeItems *items)
 {
-    const int count = s->operands.count - 1;
+    for (int i = 0; i < items->names.count; i++)
+        mem_free(items->names.at[i]);
+    LIST_FREE(items->names);
+    LIST_FREE(items->formulas);
+}
+
+Status session_code_item(ct_session *session, const Syntax *item, CodeItems *items, Diag *diag)
+{
+    Expr e;
+    const Status status = model_expression(session->model, item, &e, diag);
+
+    if (status != OK)
+        return status;
+    LIST_PUSH(items->formulas, session_put_outputs(session->model, e));
+    LIST_PUSH(items->names, column_name(item));
+    return OK;
+}
+
+Status session_read_code(ct_session *session, const CodeItems *items, Exported *what, Diag *diag)
+{
     Run *start;
     Status status = OK;
 
-    sheet->formulas = NEW_ARRAY(Expr, count);
-    for (int i = 0; i < count; i++) {
-        const Syntax *item = s->operands.at[i + 1].value;
-        Expr e;
-
-        status = model_expression(session->model, item, &e, diag);
-        if (status != OK)
-            return status;
-        sheet->formulas[i] = session_put_outputs(session->model, e);
-        LIST_PUSH(sheet->names, column_name(item));
-    }
     CHECK(session_prepare(session, NEED_RUNNING, &what->view, diag));
     CHECK(session_start(session, &start, diag));
     what->start = start->reader;
-    what->items = sheet->formulas;
-    what->item_count = count;
-    what->names = (const char *const *)sheet->names.at;
+    what->items = items->formulas.at;
+    what->item_count = items->formulas.count;
+    what->names = (const char *const *)items->names.at;
 done:
     return status;
 }
 
 /* what the format needs; only numbers and code have items */
 static Status prepare(ct_session *session, const Statement *s, Need need, Sheet *sheet,
-                      Exported *what, Diag *diag)
+                      CodeItems *items, Exported *what, Diag *diag)
 {
+    Status status = OK;
+
     if (need == NEED_RUN)
         return read_numbers(session, s, sheet, what, diag);
+    for (int i = 1; need == NEED_CODE && status == OK && i < s->operands.count; i++)
+        status = session_code_item(session, s->operands.at[i].value, items, diag);
     if (need == NEED_CODE)
-        return read_code(session, s, sheet, what, diag);
+        return status != OK ? status : session_read_code(session, items, what, diag);
     if (s->operands.count > 1)
         return diag_at(diag, E_SYNTAX, s->operands.at[1].place, "'export %s' takes no items",
                        s->operands.at[0].value->text);
@@ -484,6 +494,7 @@ ct_status ct_export(ct_session *session, const ct_statement *statement, bool wit
     const Format *format = format_find(name);
     Exported what = {.view = session_view(session), .with_header = with_header};
     Sheet sheet = {0};
+    CodeItems items = {0};
     Text out = {0};
     Diag diag = {0};
     Status status;
@@ -493,11 +504,12 @@ ct_status ct_export(ct_session *session, const ct_statement *statement, bool wit
         status = diag_at(&diag, E_NAME, s->verb_place, "no format is called '%s'", name);
         goto done;
     }
-    CHECK(prepare(session, s, format->need, &sheet, &what, &diag));
+    CHECK(prepare(session, s, format->need, &sheet, &items, &what, &diag));
     CHECK(format->write(&what, &out, &diag));
     *text = text_done(&out);
 done:
     sheet_free(&sheet);
+    code_items_free(&items);
     text_free(&out);
     return session_report(status, &diag, error);
 }

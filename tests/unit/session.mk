@@ -84,3 +84,6 @@ test_session_figures_LDADD = $(unit_ldadd)
 UNIT_TESTS += test_symplectic
 test_symplectic_SOURCES = tests/unit/test_symplectic.c tests/unit/session_kit.h tests/unit/test.h
 test_symplectic_LDADD = $(unit_ldadd)
+UNIT_TESTS += test_functions
+test_functions_SOURCES = tests/unit/test_functions.c tests/unit/session_kit.h tests/unit/test.h
+test_functions_LDADD = libcotree.la

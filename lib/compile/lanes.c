@@ -1,0 +1,102 @@
+/* lanes.c: a program at several inputs at once, in blocks as wide as the native code is */
+#include "compile/lanes.h"
+
+#include "compile/program_impl.h"
+
+#include <string.h>
+
+struct Lanes {
+    const Program *program;
+    const Native *native;
+    NativeFrame *frame;
+    double *slots; /* of each block: slots, then roots, `width` numbers each */
+    int count, width, stride;
+    Stage changed; /* the first to run; STAGE_COUNT: none */
+};
+
+static int width_of(int lanes, Evaluator evaluator, NativeTarget *target)
+{
+    const bool has = evaluator != EVALUATOR_INTERPRETER &&
+                     native_target(lanes, evaluator == EVALUATOR_NATIVE, target);
+
+    return has && target->width > 0 ? target->width : 0;
+}
+
+Native *lanes_native(const Program *program, int lanes, Evaluator evaluator)
+{
+    NativeTarget target;
+
+    return width_of(lanes, evaluator, &target) > 0 ? native_new(program, &target) : NULL;
+}
+
+Lanes *lanes_new(const Program *program, const Native *native, int lanes)
+{
+    NativeTarget target;
+    Lanes *out = NEW(Lanes);
+    int blocks;
+
+    out->program = program;
+    out->native = native;
+    out->count = lanes;
+    out->width = native != NULL ? width_of(lanes, EVALUATOR_NATIVE, &target) : 0;
+    out->width = out->width > 0 ? out->width : 1;
+    out->stride = (program->slot_count + program->root_count) * out->width;
+    blocks = lanes / out->width;
+    out->slots = NEW_ARRAY(double, out->stride *blocks);
+    if (native != NULL)
+        out->frame = native_frame_new(native);
+    for (int b = 0; b < blocks; b++)
+        for (int i = 0; i < program->constants.count * out->width; i++)
+            out->slots[b * out->stride + program->input_count * out->width + i] =
+                program->constants.at[i / out->width];
+    return out;
+}
+
+void lanes_free(Lanes *lanes)
+{
+    if (lanes == NULL)
+        return;
+    native_frame_free(lanes->frame);
+    MEM_FREE(lanes->slots, lanes);
+}
+
+void lanes_put(Lanes *lanes, int input, Stage stage, const double *values)
+{
+    for (int first = 0, block = 0; first < lanes->count; first += lanes->width, block++) {
+        double *at = lanes->slots + block * lanes->stride + input * lanes->width;
+        const size_t size = (size_t)lanes->width * sizeof(double);
+
+        if (memcmp(at, values + first, size) == 0)
+            continue;
+        memcpy(at, values + first, size);
+        if (stage < lanes->changed)
+            lanes->changed = stage;
+    }
+}
+
+void lanes_run(Lanes *lanes)
+{
+    const Program *program = lanes->program;
+
+    for (int first = 0, block = 0; first < lanes->count && lanes->changed < STAGE_COUNT;
+         first += lanes->width, block++) {
+        double *slots = lanes->slots + block * lanes->stride;
+
+        if (lanes->native != NULL) {
+            native_run(lanes->native, lanes->changed, STAGE_COUNT - 1, slots, lanes->frame);
+            continue;
+        }
+        program_interpret(program, lanes->changed, STAGE_COUNT - 1, slots);
+        program_hand_over(program, lanes->changed, STAGE_COUNT - 1, slots,
+                          slots + program->slot_count);
+    }
+    lanes->changed = STAGE_COUNT;
+}
+
+double lanes_root(const Lanes *lanes, int root, int lane)
+{
+    const int block = lane / lanes->width;
+
+    return lanes->slots[block * lanes->stride + (lanes->program->slot_count + root) * lanes->width +
+                        lane % lanes->width];
+}

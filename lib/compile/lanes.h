@@ -1,0 +1,26 @@
+/* lanes.h: a program at several inputs at once
+ *
+ * Native code takes as many of them together as the processor has it; the interpreter one by one. A
+ * stage runs again only when one of its inputs has changed. There are 1, 2, 4 or 8 lanes. Nothing
+ * is allocated once they are made, and a Lanes is used by one thread; the Native, which several may
+ * share, is const. */
+#ifndef COTREE_COMPILE_LANES_H
+#define COTREE_COMPILE_LANES_H
+
+#include "compile/native.h"
+
+typedef struct Lanes Lanes;
+
+/* Native code for so many lanes; NULL: the interpreter is to compute, or there is none here. New;
+ * borrows the program. */
+Native *lanes_native(const Program *program, int lanes, Evaluator evaluator);
+/* New; lanes_free(). Borrows both; `native` was made for as many lanes, or is NULL. Inputs are 0.
+ */
+Lanes *lanes_new(const Program *program, const Native *native, int lanes);
+void lanes_free(Lanes *lanes); /* NULL is fine */
+/* an input of that stage: a number a lane */
+void lanes_put(Lanes *lanes, int input, Stage stage, const double *values);
+void lanes_run(Lanes *lanes);
+double lanes_root(const Lanes *lanes, int root, int lane);
+
+#endif

@@ -1,0 +1,22 @@
+/* session_code.h: what a model's functions are formed from: items that were asked for, and the
+ * start
+ */
+#ifndef COTREE_SESSION_SESSION_CODE_H
+#define COTREE_SESSION_SESSION_CODE_H
+
+#include "export/write.h"
+#include "session/session_impl.h"
+
+typedef struct CodeItems {
+    LIST(Expr) formulas; /* over the user's variables */
+    LIST(char *) names;
+} CodeItems;
+
+MUST_USE Status session_code_item(ct_session *session, const Syntax *item, CodeItems *items,
+                                  Diag *diag);
+/* The equations, the start and the items, which `what` borrows. */
+MUST_USE Status session_read_code(ct_session *session, const CodeItems *items, Exported *what,
+                                  Diag *diag);
+void code_items_free(CodeItems *items); /* what they hold */
+
+#endif
