@@ -43,6 +43,7 @@ void beam_station(const Instance *instance, Arena *arena, bool planar, Expr at,
                   const ShapeState *state, Station *out);
 void beam_inertia(const Instance *instance, Arena *arena, bool planar, const ShapeState *state,
                   ShapeInertia *out);
+double beam_unit(const Instance *instance, bool planar, int i);
 SectionForce beam_has_section(const Instance *instance, bool planar, const char *name);
 Expr beam_section(const Instance *instance, Arena *arena, bool planar, const char *name, Expr at,
                   const ShapeState *state);

@@ -3,6 +3,7 @@
 
 #include "base/memory.h"
 
+#include <math.h>
 #include <string.h>
 
 void beam_modes(const Instance *instance, bool planar, int modes[SHAPE_FAMILIES])
@@ -103,6 +104,13 @@ static BeamShape shape_of(ShapeFamily family, int k, const char *basis)
     return shape;
 }
 
+static void shape_close(BeamShape *shape)
+{
+    polynomial_free(&shape->value);
+    polynomial_free(&shape->slope);
+    polynomial_free(&shape->curve);
+}
+
 Beam beam_open(const Instance *instance, Arena *arena, bool planar)
 {
     const char *stiffening = instance_value(instance, "stiffening")->word;
@@ -125,12 +133,26 @@ Beam beam_open(const Instance *instance, Arena *arena, bool planar)
 
 void beam_close(Beam *beam)
 {
-    for (int i = 0; i < beam->count; i++) {
-        polynomial_free(&beam->shapes[i].value);
-        polynomial_free(&beam->shapes[i].slope);
-        polynomial_free(&beam->shapes[i].curve);
-    }
+    for (int i = 0; i < beam->count; i++)
+        shape_close(&beam->shapes[i]);
     mem_free(beam->shapes);
+}
+
+double beam_unit(const Instance *instance, bool planar, int i)
+{
+    enum { PLACES = 32 }; /* two in the shortest half wave of 16 shapes */
+    int modes[SHAPE_FAMILIES], family = 0;
+    BeamShape shape;
+    double most = 0;
+
+    beam_modes(instance, planar, modes);
+    for (; i >= modes[family]; family++)
+        i -= modes[family];
+    shape = shape_of((ShapeFamily)family, i, instance_value(instance, "basis")->word);
+    for (int k = 1; k <= PLACES; k++)
+        most = fmax(most, fabs(polynomial_value(&shape.value, (double)k / PLACES)));
+    shape_close(&shape);
+    return 1 / most;
 }
 
 Polynomial beam_shortening(const BeamShape *a, const BeamShape *b)

@@ -166,6 +166,8 @@ typedef enum SectionForce {
 typedef struct Deforming {
     int (*count)(const Instance *instance, bool planar);
     CoordinateRow (*coordinate)(const Instance *instance, bool planar, int i);
+    /* how much of a shape's coordinate moves no point by more than 1 m, or turns none by 1 rad */
+    double (*unit)(const Instance *instance, bool planar, int i);
     /* `at`: along it, from its root; its arrays have room for all shapes */
     void (*station)(const Instance *instance, Arena *arena, bool planar, Expr at,
                     const ShapeState *state, Station *out);

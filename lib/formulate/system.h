@@ -76,6 +76,8 @@ typedef struct Variable {
     int edge;                  /* that brings it */
     int instance;
     bool is_angle;
+    bool is_shape; /* of a part that deforms */
+    double unit;   /* how much of it counts as 1 m, rad, m/s or rad/s of the part that it moves */
 } Variable;
 
 const Variable *system_q(const System *system, int i);

@@ -182,32 +182,33 @@ static void copy_form(System *system, const Scene *scene)
 
 /* --- variables --- */
 
-static void add_speed(System *system, const Instance *instance, const char *name, bool is_angle)
+static void add_speed(System *system, Variable of, const char *name)
 {
-    LIST_PUSH(system->kinematics->u,
-              (Variable){.name = name,
-                         .symbol = expr_symbol(system->arena, name, SYMBOL_SPEED),
-                         .edge = instance->edge,
-                         .instance = instance->number,
-                         .is_angle = is_angle});
+    of.name = name;
+    of.symbol = expr_symbol(system->arena, name, SYMBOL_SPEED);
+    LIST_PUSH(system->kinematics->u, of);
 }
 
 static void add_coordinate(System *system, const Instance *instance, int c)
 {
     const char *name = instance->coord[c];
-    bool is_angle = instance->coord_kind[c] == COORDINATE_ANGLE;
+    const int shape = c - instance->pose_count;
+    Variable own = {.name = name,
+                    .symbol = expr_symbol(system->arena, name, SYMBOL_COORDINATE),
+                    .edge = instance->edge,
+                    .instance = instance->number,
+                    .is_angle = instance->coord_kind[c] == COORDINATE_ANGLE,
+                    .is_shape = shape >= 0,
+                    .unit = 1};
 
+    if (own.is_shape)
+        own.unit = instance->row->deforming->unit(instance, system->origin->planar, shape);
     system->kinematics->coordinate[instance->number][c] = system->kinematics->q.count;
-    LIST_PUSH(system->kinematics->q,
-              (Variable){.name = name,
-                         .symbol = expr_symbol(system->arena, name, SYMBOL_COORDINATE),
-                         .edge = instance->edge,
-                         .instance = instance->number,
-                         .is_angle = is_angle});
+    LIST_PUSH(system->kinematics->q, own);
     if (instance->coord_kind[c] == COORDINATE_PARAMETER)
         return;
     system->kinematics->speed[instance->number][c] = system->kinematics->u.count;
-    add_speed(system, instance, system_keep(system, "%s'", name), is_angle);
+    add_speed(system, own, system_keep(system, "%s'", name));
 }
 
 /* four Euler parameters go with three components of angular velocity, in the axes of the head */
@@ -220,7 +221,11 @@ static void add_parameters(System *system, const Instance *instance, int first)
     for (int c = first; c < first + 4; c++)
         add_coordinate(system, instance, c);
     for (int i = 0; i < 3; i++)
-        add_speed(system, instance, system_keep(system, "%s.%s", instance->name, speeds[i]), true);
+        add_speed(
+            system,
+            (Variable){
+                .edge = instance->edge, .instance = instance->number, .is_angle = true, .unit = 1},
+            system_keep(system, "%s.%s", instance->name, speeds[i]));
 }
 
 /* coordinates of branches, each half in the tree of its half, in order of the edges' making */

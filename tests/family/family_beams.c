@@ -428,7 +428,7 @@ static Verdict free_flight(Member *m, bool planar)
     draw_state(m, &bar, &state, &rate);
     write_bar(&bar, &script);
     write_state(&bar, &state, &rate, &script);
-    write_line(&script, "simulate 0.3 rtol=1e-10 atol=1e-12");
+    write_line(&script, "simulate 0.3 rtol=1e-9 atol=1e-11");
     before = totals(&bar, &table, &state, &rate);
     agrees = run(m, &kit, &script);
     if (agrees) {

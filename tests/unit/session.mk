@@ -57,6 +57,9 @@ UNIT_TESTS += test_sliding
 test_sliding_SOURCES = tests/unit/test_sliding.c tests/unit/session_kit.h tests/unit/test.h
 test_sliding_LDADD = $(unit_ldadd)
 
+UNIT_TESTS += test_beams
+test_beams_SOURCES = tests/unit/test_beams.c tests/unit/session_kit.h tests/unit/test.h
+test_beams_LDADD = $(unit_ldadd)
 UNIT_TESTS += test_causes
 test_causes_SOURCES = tests/unit/test_causes.c tests/unit/session_kit.h tests/unit/test.h
 test_causes_LDADD = $(unit_ldadd)

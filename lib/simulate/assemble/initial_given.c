@@ -80,26 +80,70 @@ done:
     return status;
 }
 
+/* what the system itself wants to be 0 */
+static void add_own(Assembly *a, StartValue value, GivenValue given)
+{
+    StartValue *own = &a->own[a->given_count];
+
+    *own = value;
+    given.value = own;
+    given.is_own = true;
+    given.group = -1;
+    a->given[a->given_count++] = given;
+}
+
+/* Parts that deform do so at no speed, unless something makes them: what a joint's speed leaves
+ * open is for joints to take up, whatever polynomials the shapes are. */
+static void rest_shapes(Assembly *a)
+{
+    const Layout *l = a->l;
+
+    for (int j = 0; j < l->nu; j++) {
+        const Variable *speed = system_u(l->system, j);
+
+        if (speed->is_shape)
+            add_own(a, (StartValue){.name = speed->name, .is_guess = true},
+                    (GivenValue){
+                        .expr = speed->symbol, .level = LEVEL_VELOCITY, .place = j, .column = j});
+    }
+}
+
+static int shapes_of(const Layout *l)
+{
+    int count = 0;
+
+    for (int j = 0; j < l->nu; j++)
+        count += system_u(l->system, j)->is_shape;
+    return count;
+}
+
+/* whether the user tells or guesses the speed itself */
+static bool is_said(const Assembly *a, int own)
+{
+    for (int i = 0; i < a->given_count; i++)
+        if (!a->given[i].is_own && a->given[i].level == LEVEL_VELOCITY &&
+            a->given[i].place == a->given[own].place)
+            return true;
+    return false;
+}
+
 Status initial_read_given(Assembly *a, Diag *diag)
 {
     const StartValues *start = a->setting->start;
-    int own = 0;
+    const int shapes = shapes_of(a->l);
+    int angles = 0, kept = 0;
 
-    while (system_angle_off(a->l->system, own) != NULL)
-        own++;
-    a->given = NEW_ARRAY(GivenValue, (start != NULL ? start->count : 0) + own);
-    a->own = NEW_ARRAY(StartValue, own);
-    for (; a->given_count < own; a->given_count++) {
-        const AngleOff *angle = system_angle_off(a->l->system, a->given_count);
+    while (system_angle_off(a->l->system, angles) != NULL)
+        angles++;
+    a->given = NEW_ARRAY(GivenValue, (start != NULL ? start->count : 0) + angles + shapes);
+    a->own = NEW_ARRAY(StartValue, angles + shapes);
+    for (int i = 0; i < angles; i++) {
+        const AngleOff *angle = system_angle_off(a->l->system, i);
 
-        a->own[a->given_count].name = angle->name;
-        a->given[a->given_count] = (GivenValue){.value = &a->own[a->given_count],
-                                                .expr = angle->off,
-                                                .place = -1,
-                                                .column = -1,
-                                                .is_own = true,
-                                                .group = -1};
+        add_own(a, (StartValue){.name = angle->name},
+                (GivenValue){.expr = angle->off, .place = -1, .column = -1});
     }
+    rest_shapes(a);
     if (start == NULL)
         return OK;
     for (int i = 0; i < start->count; i++) {
@@ -109,6 +153,10 @@ Status initial_read_given(Assembly *a, Diag *diag)
         TRY(read_one(a, given, diag));
         a->given_count++;
     }
+    for (int i = 0; i < a->given_count; i++)
+        if (!a->given[i].is_own || a->given[i].level != LEVEL_VELOCITY || !is_said(a, i))
+            a->given[kept++] = a->given[i];
+    a->given_count = kept;
     initial_group(a);
     return OK;
 }

@@ -2,7 +2,8 @@
  *
  * Speeds that neither constraints nor given values determine are those of the least rates, summed
  * by squares, of the joints along which frames are placed: edges whose rates are given, then joints
- * before bodies (initial_place.c). So the same bodies move the same in any trees of the user's.
+ * before bodies (initial_place.c), and of what shapes move. So the same bodies move the same in any
+ * trees of the user's.
  *
  * The rates are A u. Among all u with C u = d, which are Phi_u u = nu and what was given, the least
  * |A u| is wanted. Let L L^T = A^T A + P^T P with P the rows of Phi_u, each of length 1: |P u| is
@@ -175,6 +176,12 @@ static double *weigh(const Assembly *a, const double *rates, int count)
 
     for (int i = 0; i < count; i++)
         add_square(square, nu, rates + (ptrdiff_t)i * nu, 1);
+    for (int j = 0; j < nu; j++) {
+        const Variable *speed = system_u(a->l->system, j);
+
+        if (speed->is_shape)
+            square[j * nu + j] += 1 / (speed->unit * speed->unit);
+    }
     for (int i = 0; i < a->eq->m; i++) {
         const double *row = phi_u + (ptrdiff_t)i * nu;
         double size = 0;
@@ -242,12 +249,25 @@ done:
     return status;
 }
 
+/* shapes that rest but for what iterations left */
+static void rest(Assembly *a)
+{
+    for (int i = 0; i < a->given_count; i++) {
+        const GivenValue *given = &a->given[i];
+
+        if (given->is_own && given->level == LEVEL_VELOCITY &&
+            fabs(a->y[a->l->n + given->place]) < TOLERANCE)
+            a->y[a->l->n + given->place] = 0;
+    }
+}
+
 /* --- whether it matters --- */
 
-static bool any_guess(const Assembly *a)
+static bool any_guess(const Assembly *a, bool own)
 {
     for (int i = 0; i < a->given_count; i++)
-        if (a->given[i].level == LEVEL_VELOCITY && a->given[i].value->is_guess)
+        if (a->given[i].level == LEVEL_VELOCITY && a->given[i].value->is_guess &&
+            (own || !a->given[i].is_own))
             return true;
     return false;
 }
@@ -259,7 +279,7 @@ static Status is_open(Assembly *a, bool *open, Diag *diag)
     Rows rows;
     double *residual = NULL, *jacobian = NULL;
     int *order = NULL;
-    bool moves = any_guess(a);
+    bool moves = any_guess(a, false);
     int rank = 0;
     Status status = OK;
 
@@ -301,9 +321,10 @@ Status initial_speeds(Assembly *a, Diag *diag)
     rates = find_rates(&p);
     factor = weigh(a, rates, p.columns.count);
     if (factor != NULL) {
-        if (any_guess(a))
+        if (any_guess(a, true))
             CHECK(solve(a, factor, true, diag));
         CHECK(solve(a, factor, false, diag));
+        rest(a);
     }
 done:
     MEM_FREE(factor, rates);

@@ -49,7 +49,8 @@ static void describe_ode(Motion *mo)
                     .rate = rate,
                     .begin = mo->used > 0 ? begin : NULL,
                     .blur = mo->used > 0 ? blur : NULL,
-                    .cap = eq->cap};
+                    .cap = eq->cap,
+                    .unit = eq->unit};
     if (mo->used > 0 || eq->quaternion_count > 0 || eq->multi_turn_count > 0 || eq->slide_count > 0)
         mo->ode.project = project;
     mo->slack = NEW_ARRAY(double, mo->ode.n);
@@ -63,7 +64,7 @@ static void describe_ode(Motion *mo)
     mo->ode.dae.start = dae_start;
     mo->dae_weight = NEW_ARRAY(double, mo->ode.dae.n);
     for (int i = 0; i < mo->ode.dae.n; i++)
-        mo->dae_weight[i] = 1;
+        mo->dae_weight[i] = eq->unit != NULL && i < mo->ode.n ? eq->unit[i] : 1;
     mo->dae_weight[y - 1] = 1e20; /* work steers nothing */
     mo->ode.dae.weight = mo->dae_weight;
 }

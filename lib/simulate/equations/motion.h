@@ -75,7 +75,7 @@ typedef struct Equations {
     void (*bring_mass)(void *context); /* M up to date; NULL: it is */
     const double *force;               /* nu */
     const double *power;               /* 1: work done on the system per time, W; NULL: not known */
-    const double *cap;                 /* n+nu+nx+multi_turn_count, for Ode; may be NULL */
+    const double *cap, *unit;          /* n+nu+nx+multi_turn_count, for Ode; may be NULL */
     const int *quaternions;            /* first of each four Euler parameters */
     int quaternion_count;
     /* conditions whose change of sign may bend or break the equations; time_only ones first */

@@ -33,7 +33,7 @@ struct Numbers {
     int *quaternions, *network_places;
     LIST(int) margins;   /* whose they are, of the switches */
     bool is_network_new; /* its program has seen t, q, u, x as they are */
-    double *cap;
+    double *cap, *unit;
 };
 
 static void take_references(void *context, const double *references)
@@ -651,6 +651,28 @@ done:
     return status;
 }
 
+/* of the entries of y; NULL: all 1 */
+static double *units_of(const Layout *layout)
+{
+    const int states = layout->n + layout->nu, count = layout_references(layout);
+    double *unit = NULL;
+
+    for (int i = 0; i < states; i++) {
+        const double own = i < layout->n ? system_q(layout->system, i)->unit
+                                         : system_u(layout->system, i - layout->n)->unit;
+
+        if (own == 1)
+            continue;
+        if (unit == NULL) {
+            unit = NEW_ARRAY(double, count + layout->multi_turns);
+            for (int k = 0; k < count + layout->multi_turns; k++)
+                unit[k] = 1;
+        }
+        unit[i] = own;
+    }
+    return unit;
+}
+
 Status numbers_new(const Layout *layout, Parameters *parameters, Numbers **out, Diag *diag)
 {
     Numbers *nb = NEW(Numbers);
@@ -685,6 +707,8 @@ Status numbers_new(const Layout *layout, Parameters *parameters, Numbers **out, 
                          ? 1
                          : INFINITY;
     nb->eq.cap = nb->cap;
+    nb->unit = units_of(layout);
+    nb->eq.unit = nb->unit;
     nb->eq.quaternions = nb->quaternions;
     nb->eq.quaternion_count = count;
     parameters_begin_turns(parameters, layout->system);
@@ -717,7 +741,7 @@ void numbers_free(Numbers *nb)
     LIST_FREE(nb->margins);
     mem_free(nb->quaternions);
     mem_free(nb->network_places);
-    mem_free(nb->cap);
+    MEM_FREE(nb->cap, nb->unit);
     probe_free(nb->slip);
     mem_free(nb->guards);
     mem_free(nb->told);

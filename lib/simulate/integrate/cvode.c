@@ -97,10 +97,10 @@ static int find_weights(N_Vector y, N_Vector weights, void *data)
     const double part = stepper_part(&c->base);
 
     for (int i = 0; i < c->all; i++) {
-        const double value = NV_Ith_S(y, i);
+        const double value = NV_Ith_S(y, i), unit = ode_unit(c->base.ode, i);
 
         NV_Ith_S(weights, i) =
-            1 / (i < c->base.ode->n ? part * (control->rtol * fabs(value) + control->atol)
+            1 / (i < c->base.ode->n ? part * (control->rtol * fabs(value) + control->atol * unit)
                                     : sundials_quadrature_error(c, value, 0));
     }
     return 0;

@@ -55,6 +55,9 @@ typedef struct Ode {
     /* n: |y_i| counts up to here in a relative tolerance (an angle of many turns isn't known less
      * well than one of a few); NULL: all of it */
     const double *cap;
+    /* n: how much of y_i counts as 1 in the absolute tolerance (a shape is as far off as what it
+     * moves); NULL: 1 */
+    const double *unit;
     /* n: errors of y_i up to here don't count, projected as it is after each step; NULL: all do.
      * Methods that don't project leave it aside. */
     const double *slack;
@@ -63,6 +66,11 @@ typedef struct Ode {
     double (*blur)(void *context);
     Dae dae; /* entries 0..n+quadratures-1 of w are y; n 0: not offered */
 } Ode;
+
+static inline double ode_unit(const Ode *ode, int i)
+{
+    return ode->unit != NULL && i < ode->n ? ode->unit[i] : 1;
+}
 
 /* by how much to move an unknown to tell a derivative from a difference */
 static inline double ode_increment(double y)
@@ -177,7 +185,7 @@ static inline double stepper_tolerance(const Stepper *stepper, int i, double siz
 {
     const double *cap = stepper->ode->cap;
 
-    return stepper->control.atol +
+    return stepper->control.atol * ode_unit(stepper->ode, i) +
            stepper->control.rtol * (cap != NULL ? fmin(size, cap[i]) : size);
 }
 

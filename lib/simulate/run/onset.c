@@ -269,7 +269,7 @@ static void choose_scale(Onset *o, const Stepper *stepper)
 
         if (o->ode->cap != NULL && i < o->ode->n)
             size = fmin(size, o->ode->cap[i]);
-        o->scale[i] = part * (control->atol + control->rtol * size);
+        o->scale[i] = part * (control->atol * ode_unit(o->ode, i) + control->rtol * size);
     }
 }
 

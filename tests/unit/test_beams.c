@@ -1,0 +1,91 @@
+/* test_beams.c: how runs of elastic beams begin, and what they cost */
+#include "session_kit.h"
+
+static bool is_near(double got, double expected, double within)
+{
+    return fabs(got - expected) <= within;
+}
+
+/* A slider-crank whose rod is two welded beams of 0.2 m, with a told speed of the crank alone. */
+static ct_status slider_crank(Kit *kit, const char *basis, const char *then)
+{
+    char text[1024];
+
+    (void)snprintf(text, sizeof text,
+                   "scene planar\nbody crank mass=1 inertia=1e-3\narm pin crank [0.1, 0]\n"
+                   "beam a length=0.2 mass_per_length=0.4 EIz=20 modes=[0, 4] basis=%s\n"
+                   "arm mid a at=0.2\n"
+                   "beam b length=0.2 mass_per_length=0.4 EIz=20 modes=[0, 4] basis=%s\n"
+                   "arm end b at=0.2\nbody slider mass=0.5 inertia=1e-3\n"
+                   "revolute h1 ground crank\nrevolute h2 pin a\nweld w mid b\n"
+                   "revolute h3 end slider\nprismatic s ground slider axis=x\n"
+                   "init h1 = 90 deg, h1' = 40\nguess s = 0.4\n%s",
+                   basis, basis, then);
+    return kit_do(kit, text);
+}
+
+/* What a told speed leaves open is for the joints: the rod begins as a rigid one does, which at
+ * this angle moves along its path without turning, 4 m/s with crank pin and slider. */
+static void shapes_begin_at_rest_in_any_basis(void)
+{
+    static const char *const bases[] = {"legendre", "taylor", "chebyshev"};
+    const double energy = 1e-3 * 40 * 40 / 2 + (0.4 * 0.4 + 0.5) * 4 * 4 / 2;
+
+    for (int i = 0; i < 3; i++) {
+        Kit kit = kit_new();
+
+        EXPECT(slider_crank(&kit, bases[i], "assemble\n") == CT_OK);
+        EXPECT(is_near(kit_value(&kit, "energy.kinetic at 0"), energy, 1e-9));
+        EXPECT(kit_value(&kit, "a.v1' at 0") == 0);
+        EXPECT(kit_value(&kit, "b.v4' at 0") == 0);
+        EXPECT(is_near(kit_value(&kit, "s' at 0"), -4, 1e-9));
+        kit_free(&kit);
+    }
+}
+
+/* a told speed of a shape stays, and where nothing else can move, the shapes do */
+static void shapes_move_where_they_are_told_or_have_to(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT(slider_crank(&kit, "legendre", "init a.v1' = 3\nassemble\n") == CT_OK);
+    EXPECT(is_near(kit_value(&kit, "a.v1' at 0"), 3, 1e-12));
+    EXPECT(kit_value(&kit, "b.v1' at 0") == 0);
+    EXPECT_DONE(&kit, "clear\nscene planar\n"
+                      "beam b length=1 mass_per_length=1 EIz=1 modes=[0, 2]\nweld w ground b\n"
+                      "arm tip b at=1\ninit tip.vy = 2\nassemble\n");
+    EXPECT(is_near(kit_value(&kit, "tip.vy at 0"), 2, 1e-9));
+    kit_free(&kit);
+}
+
+static double steps_of(const Kit *kit)
+{
+    ct_figures figures;
+
+    return ct_run_figures(kit->session, 0, &figures) ? (double)figures.steps : NAN;
+}
+
+/* An error of a shape counts by how far it bends the beam: its fastest modes, which hardly move
+ * anything, don't set the steps of an implicit method. */
+static void tolerances_are_of_deflections(void)
+{
+    Kit kit = kit_new();
+    double place, speed;
+
+    EXPECT(slider_crank(&kit, "legendre", "simulate 0.05 rtol=1e-8\n") == CT_OK);
+    place = kit_value(&kit, "mid.y");
+    speed = kit_value(&kit, "crank.theta'");
+    EXPECT_DONE(&kit, "simulate 0.05 rtol=1e-4 method=radau\n");
+    EXPECT(steps_of(&kit) < 2000); /* 3112 with the same for all coordinates */
+    EXPECT(is_near(kit_value(&kit, "mid.y"), place, 2e-5));
+    EXPECT(is_near(kit_value(&kit, "crank.theta'"), speed, 1e-3 * speed));
+    kit_free(&kit);
+}
+
+int main(void)
+{
+    RUN(shapes_begin_at_rest_in_any_basis);
+    RUN(shapes_move_where_they_are_told_or_have_to);
+    RUN(tolerances_are_of_deflections);
+    return test_end();
+}
