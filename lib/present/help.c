@@ -288,7 +288,7 @@ static void add_overview(Text *out)
     layout_words(
         out, HELP_WIDTH, "",
         "A tour in the manual, 'info cotree', goes from an empty session to a plot, then to a "
-        "motor arm.");
+        "motor arm; its chapter 'Teaching' holds lessons with exercises and their solutions.");
     text_free(&names);
 }
 
