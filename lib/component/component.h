@@ -315,7 +315,6 @@ struct Component {
     Status (*check)(const Instance *instance, Arena *arena, bool planar, Diag *diag);
     /* add a line about numbers that are legal and unlikely; may be NULL */
     void (*doubt)(const Instance *instance, bool planar, Text *out);
-    const char *const *later_keys; /* that come with a later version, ended by NULL; NULL: none */
     const char *help;
     const char *example; /* statements from an empty session that run */
     const char *see;

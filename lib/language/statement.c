@@ -439,7 +439,7 @@ void statement_free(Statement *statement)
     pool_free(pool);
 }
 
-static Status check_later_parts(const Statement *statement, Diag *diag)
+static Status check_later_words(const Statement *statement, Diag *diag)
 {
     const Operand *word = statement->operands.count > 0 ? &statement->operands.at[0] : NULL;
 
@@ -452,16 +452,6 @@ static Status check_later_parts(const Statement *statement, Diag *diag)
         diag_hint(diag, "usage: %s", usage.at);
         text_free(&usage);
         return E_MISSING;
-    }
-    for (int i = 0; i < statement->pairs.count; i++) {
-        const Pair *pair = &statement->pairs.at[i];
-
-        if (words_hold(statement->row.later_keys, pair->name)) {
-            (void)diag_at(diag, E_MISSING, pair->name_place, "'%s=' comes with a later version",
-                          pair->name);
-            diag_hint(diag, "without it '%s' does what it does today", statement->verb);
-            return E_MISSING;
-        }
     }
     return OK;
 }
@@ -477,7 +467,7 @@ Status statement_check_version(const Statement *statement, Diag *diag)
             diag_hint(diag, "%s", s->row.brief);
             return E_MISSING;
         }
-        TRY(check_later_parts(s, diag));
+        TRY(check_later_words(s, diag));
     }
     return OK;
 }

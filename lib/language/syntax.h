@@ -140,7 +140,6 @@ typedef struct Verb {
     const char *optioned; /* the one of its words that keys and `at` go with; NULL: always */
     /* what comes with a later version, ended by NULL; NULL: nothing */
     const char *const *later_words;
-    const char *const *later_keys;
     Offers offers;
     const char *usage;   /* one line; NULL: verb_usage() */
     const char *brief;   /* one line, no full stop */

@@ -92,7 +92,6 @@ static Verb component_verb(const Component *row)
                   .changes = CHANGES_MODEL,
                   .group = component_group(row),
                   .pattern = component_pattern(row),
-                  .later_keys = row->later_keys,
                   .brief = row->brief,
                   .help = row->help,
                   .example = row->example,

@@ -165,6 +165,22 @@ static void add_step(Table *table, const RunReport *report)
     }
 }
 
+/* how well it kept up with the clock */
+static void add_pace(Table *table, const Pace *pace)
+{
+    if (!(pace->step > 0))
+        return;
+    table_cell(table, "real time");
+    if (pace->late == 0)
+        table_cellf(table, "kept; the worst step took %.2g %% of its %.3g s, at t = %.6g s",
+                    100 * pace->worst, pace->step, pace->worst_at);
+    else
+        table_cellf(table,
+                    "%" PRId64 " steps took longer than they are, %.2g times at t = %.6g s; "
+                    "behind the clock by %.2g s at most",
+                    pace->late, pace->worst, pace->worst_at, pace->behind);
+}
+
 void report_print(Text *out, const Result *result, const char *name)
 {
     const RunReport *report = result_report(result);
@@ -185,6 +201,7 @@ void report_print(Text *out, const Result *result, const char *name)
         table_cell(&table, "tolerances");
         table_cellf(&table, "rtol %.3g, atol %.3g", report->rtol, report->atol);
         add_step(&table, report);
+        add_pace(&table, &report->pace);
     }
     add_work(&table, report);
     add_quality(&table, report);

@@ -91,6 +91,8 @@ static Status read_options(ct_session *session, const Statement *s, RunOptions *
             CHECK(method_of(pair->value, &options.method, diag));
         if (strcmp(pair->name, "check") == 0)
             CHECK(switch_of(pair->value, "check", &options.check, diag));
+        if (strcmp(pair->name, "realtime") == 0)
+            CHECK(switch_of(pair->value, "realtime", &options.realtime, diag));
     }
     *out = options;
 done:

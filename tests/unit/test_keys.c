@@ -193,13 +193,10 @@ static void help_and_hints_offer_what_is_there(void)
 {
     static const char *const habits[] = {"for", "while", "run", "joint", "exit", "list", "echo"};
     static const char *const formats[] = {"fmu"};
-    char *page = ct_help("simulate"), *formats_page = ct_help("export"), *overview = ct_help("");
+    char *formats_page = ct_help("export"), *overview = ct_help("");
     Kit kit = kit_new();
     Verb verb;
 
-    EXPECT_LACKS(page, "symplectic");
-    EXPECT_LACKS(page, "realtime");
-    EXPECT(comes_later("simulate 1 realtime=on"));
     for (size_t i = 0; i < sizeof formats / sizeof formats[0]; i++) {
         char line[40];
 
@@ -217,7 +214,6 @@ static void help_and_hints_offer_what_is_there(void)
                 EXPECT_LACKS(kit.error.hint, quoted);
         }
     }
-    ct_free(page);
     ct_free(formats_page);
     ct_free(overview);
     kit_free(&kit);

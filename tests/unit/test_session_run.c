@@ -589,7 +589,8 @@ static void parts_that_no_longer_fit_are_told(void)
 /* s'' = 6 s^2 by s = 1/(1 - t)^2: no method gets past t = 1, and none tries without end */
 static void a_solution_that_ends_ends_the_run(void)
 {
-    static const char *const methods[] = {"dop853", "adams", "bdf", "ida", "radau", "rk4"};
+    static const char *const methods[] = {"dop853", "adams", "bdf",       "ida",
+                                          "radau",  "rk4",   "symplectic"};
     Kit kit = kit_new();
 
     EXPECT_DONE(&kit, "scene planar\ngravity [0, 0]\nbody m1 mass=1\n"
@@ -601,6 +602,26 @@ static void a_solution_that_ends_ends_the_run(void)
         (void)snprintf(line, sizeof line, "simulate 3 method=%s", methods[i]);
         EXPECT_FAILS(&kit, line, "grows without bound there");
     }
+    kit_free(&kit);
+}
+
+/* it never is ahead of the clock; a busy machine may leave it behind, which is told then */
+static void a_run_keeps_up_with_the_clock(void)
+{
+    Kit kit = kit_new();
+    ct_figures figures = {0};
+
+    EXPECT_DONE(&kit, "capacitor C a 0 1\nresistor R a 0 1\ninit C.v = 1\n"
+                      "simulate 0.3 every=0.1 realtime=on step=0.01");
+    EXPECT(ct_run_figures(kit.session, 0, &figures) && figures.wall >= 0.299);
+    EXPECT_DONE(&kit, "expect C.v ~ exp(-0.3) within 1e-9\nshow run");
+    EXPECT_HOLDS(kit.text, "real time");
+    EXPECT_HOLDS(kit.text, "rk4");
+    EXPECT_FAILS(&kit, "simulate 1 realtime=on method=radau", "can't keep up with the clock");
+    EXPECT_HOLDS(kit.error.hint, "rk4 or symplectic");
+    EXPECT_FAILS(&kit, "simulate 1 realtime=often", "realtime is on or off");
+    EXPECT_DONE(&kit, "simulate 0.3 every=0.1 realtime=off step=0.01\nshow run");
+    EXPECT_LACKS(kit.text, "real time");
     kit_free(&kit);
 }
 
@@ -650,6 +671,7 @@ int main(void)
     RUN(angular_speeds_of_joints_can_be_given);
     RUN(parts_that_no_longer_fit_are_told);
     RUN(a_solution_that_ends_ends_the_run);
+    RUN(a_run_keeps_up_with_the_clock);
     RUN(figures_are_those_of_the_run_that_is_asked_for);
     return test_end();
 }

@@ -142,7 +142,6 @@ static void what_comes_later_says_so(void)
     } lines[] = {{"friction f1 h", 1},
                  {"time friction f1 h", 6},
                  {"time load \"leg.cts\"", 6},
-                 {"simulate 1 realtime=on", 12},
                  {"export fmu > \"x.fmu\"", 8}};
 
     for (int i = 0; i < COUNT(lines); i++) {

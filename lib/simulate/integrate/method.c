@@ -28,7 +28,7 @@ const Method *method_for(MethodNeed need)
 {
     for (int i = 0; i < COUNT(rows); i++)
         if (rows[i]->is_stiff == need.stiff && rows[i]->has_history == need.history &&
-            rows[i]->solves_dae == need.dae && !rows[i]->has_fixed_step)
+            rows[i]->solves_dae == need.dae && rows[i]->has_fixed_step == need.fixed)
             return rows[i];
     return NULL;
 }

@@ -248,9 +248,10 @@ const Method *method_row(int i);
 typedef struct MethodNeed {
     bool stiff;   /* is for stiff equations, */
     bool history; /* goes by many steps rather than anew from each */
-    bool dae;     /* and has multipliers among its unknowns */
+    bool dae;     /* has multipliers among its unknowns */
+    bool fixed;   /* and controls no error */
 } MethodNeed;
-/* the first row that is so, and controls its error */
+/* the first row that is so */
 const Method *method_for(MethodNeed need);
 
 /* An error of the solver at time t, in words: "at t = 0.3 s: ...". */

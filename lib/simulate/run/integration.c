@@ -153,6 +153,8 @@ static Status integrate_interval(Integration *m, double end, Diag *diag)
         if (status != OK && poll(plan->watch) != OK)
             return diag_set(diag, E_STOPPED, "stopped at t = %.6g s", m->stepper->t);
         CHECK(status);
+        if (plan->pace != NULL)
+            pace_wait(plan->pace, m->stepper->t, plan->watch);
     }
     if (!m->is_over)
         m->stepper->t = end;

@@ -18,6 +18,7 @@
 #include "simulate/run/events.h"
 #include "simulate/run/grid.h"
 #include "simulate/run/onset.h"
+#include "simulate/run/pace.h"
 #include "simulate/run/samples.h"
 
 /* equations, and what goes with them */
@@ -89,6 +90,7 @@ typedef struct IntegrationPlan {
     bool skip_first;    /* the row at `from` is there already */
     bool is_sampled;    /* what is due at `from` has been sampled */
     Grid *corners; /* rows where one segment ends and the next begins, two each; NULL: not kept */
+    Pace *pace;    /* of the clock, which it keeps up with; NULL: it goes as fast as it can */
     const Watch *watch;
 } IntegrationPlan;
 

@@ -29,6 +29,8 @@ libcore_la_SOURCES += \
   lib/simulate/run/integration_switches.c \
   lib/simulate/run/onset.c \
   lib/simulate/run/onset.h \
+  lib/simulate/run/pace.c \
+  lib/simulate/run/pace.h \
   lib/simulate/run/phase.c \
   lib/simulate/run/phase.h \
   lib/simulate/run/result_reader.c \

@@ -9,6 +9,7 @@
 
 #include "simulate/equations/remark.h"
 #include "simulate/equations/setting.h"
+#include "simulate/run/pace.h"
 
 typedef enum RunKind { RUN_START, RUN_SIMULATE, RUN_KINEMATICS, RUN_INVERSE } RunKind;
 
@@ -34,6 +35,7 @@ typedef struct RunReport {
     double step;              /* fixed or largest step that was asked for, s; 0: none */
     double most;              /* largest step that was asked for, s; 0: none */
     bool stopped;             /* by Ctrl-C */
+    Pace pace;                /* step 0: it went as fast as it could */
 } RunReport;
 
 /* How an event of the model fared in a run. */

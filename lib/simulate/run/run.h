@@ -16,6 +16,7 @@ typedef struct RunOptions {
     double most;        /* largest step, s, of all methods; 0: free */
     const char *method; /* a row of methods.def; NULL: auto */
     bool check;         /* run again at a tenth of the tolerance and report the global error */
+    bool realtime;      /* forward: wait for the clock behind each step, which are fixed */
 } RunOptions;
 
 /* Solve Phi = 0 and the velocity constraints from initial values and guesses (any variables, in

@@ -110,6 +110,29 @@ static Status complete_options(const ActiveRun *r, const RunOptions *given, RunO
 
 /* --- forward --- */
 
+/* Steps whose work is known keep up with the clock: fixed ones, of the first such method unless
+ * another is named. */
+static Status method_in_time(const RunOptions *options, const Method **method, Diag *diag)
+{
+    Text names = {0};
+
+    if (!options->realtime || (*method != NULL && (*method)->has_fixed_step))
+        return OK;
+    if (*method == NULL) {
+        *method = method_for((MethodNeed){.fixed = true});
+        return OK;
+    }
+    for (int i = 0; method_row(i) != NULL; i++)
+        if (method_row(i)->has_fixed_step)
+            text_addf(&names, "%s%s", names.length > 0 ? " or " : "", method_row(i)->name);
+    (void)diag_set(diag, E_VALUE, "%s chooses its steps, and can't keep up with the clock",
+                   (*method)->name);
+    diag_hint(diag, "method=%s, whose steps are fixed", names.at);
+    diag_about(diag, "method");
+    text_free(&names);
+    return E_VALUE;
+}
+
 static IntegrationPlan plan_of(const ActiveRun *r, const Setting *setting,
                                const RunOptions *options, const Method *method, Events *events)
 {
@@ -290,12 +313,14 @@ static Status go(ActiveRun *r, const Setting *setting, const RunOptions *given, 
     IntegrationPlan plan;
     IntegrationReport report_of = {.method = method_for((MethodNeed){0})};
     Events *again = NULL; /* for a second run */
+    Pace pace = {0};
     int first = skip_first ? r->result->grid.count - 1 : 0;
     Status status = OK;
     double began = seconds();
 
     CHECK(complete_options(r, given, &options, diag));
     CHECK(find_method(options.method, &method, diag));
+    CHECK(method_in_time(&options, &method, diag));
     phases_tolerance(r->phases, options.atol);
     plan = plan_of(r, setting, &options, method, r->events);
     plan.asks = given->rtol > 0 || given->atol > 0;
@@ -304,6 +329,10 @@ static Status go(ActiveRun *r, const Setting *setting, const RunOptions *given, 
     plan.skip_first = skip_first;
     if (options.check)
         CHECK(copy_events(r, setting, &again, diag));
+    if (options.realtime) {
+        pace = pace_begin(options.step > 0 ? options.step : options.every, from);
+        plan.pace = &pace;
+    }
     status = integrate_phases(r, setting, &plan, &r->result->grid, &r->result->corners, &report_of,
                               diag);
     if (report_of.events != r->events)
@@ -316,6 +345,7 @@ static Status go(ActiveRun *r, const Setting *setting, const RunOptions *given, 
         LIST_PUSH(r->result->jumps, report_of.jumps.at[i]);
     LIST_FREE(report_of.jumps);
     fill_report(r, &report_of, &options, status == E_STOPPED, began);
+    r->result->report.pace = pace;
     if (status == OK && options.check)
         status = estimate_error(r, setting, &options, method, report_of.method, again, first,
                                 plan.to, diag);

@@ -1,0 +1,51 @@
+/* pace.c: a run that keeps up with the clock */
+#include "simulate/run/pace.h"
+
+#include <math.h>
+#include <time.h>
+
+#define LOOK  0.02  /* s: between looks whether to stop */
+#define WHOLE 0.999 /* of a step, but for rounding */
+
+static double clock_now(void)
+{
+    struct timespec now;
+
+    (void)clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+static void sleep_for(double duration)
+{
+    const struct timespec span = {.tv_sec = (time_t)duration,
+                                  .tv_nsec = (long)(1e9 * (duration - floor(duration)))};
+
+    (void)nanosleep(&span, NULL); /* a signal ends it: whoever waits looks at the clock */
+}
+
+Pace pace_begin(double step, double from)
+{
+    const double now = clock_now();
+
+    return (Pace){.step = step, .began = now, .from = from, .last = now, .before = from};
+}
+
+void pace_wait(Pace *pace, double t, const Watch *watch)
+{
+    const double due = pace->began + (t - pace->from);
+    const double now = clock_now(), took = now - pace->last, length = t - pace->before;
+    double left;
+
+    if (length < WHOLE * pace->step)
+        return;
+    if (took > pace->worst * length) {
+        pace->worst = took / length;
+        pace->worst_at = pace->before;
+    }
+    pace->late += took > length;
+    pace->behind = fmax(pace->behind, now - due);
+    while ((left = due - clock_now()) > 0 && poll(watch) == OK)
+        sleep_for(fmin(left, LOOK));
+    pace->last = clock_now();
+    pace->before = t;
+}
