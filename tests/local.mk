@@ -49,6 +49,7 @@ SCRIPT_TESTS = \
 	tests/cases/andrews \
 	tests/cases/beams \
 	tests/cases/exported_code \
+	tests/cases/exported_inverse \
 	tests/cases/four_bar \
 	tests/cases/free_body \
 	tests/cases/heavy_top \

@@ -44,8 +44,25 @@ typedef struct CodeState {
     double *size; /* and of their magnitudes, or more where rounding leaves more of them */
 } CodeState;
 
+/* the motion of drivers as inputs (code_inverse.c) */
+enum { MOTIONS = 3 }; /* what a driver prescribes, its rate, its second rate */
+typedef struct InverseMotion {
+    Expr symbol[MOTIONS]; /* parameters of no model */
+    Expr law[MOTIONS];    /* what they were, in t */
+} InverseMotion;
+
+struct Inverse {
+    Arena *arena;
+    System *system;              /* in which laws follow them */
+    Expr now;                    /* parameter: the instant at which they do */
+    LIST(InverseMotion) motions; /* one a driver */
+};
+
 typedef struct Code {
     const View *view;
+    const Inverse *inverse; /* NULL: none; borrowed */
+    bool is_direct;         /* the motion of drivers is the state: */
+    LIST(int) direct;       /* one a driver: its coordinate */
     Arena *arena;
     Layout *layout;
     int ny, ns;
@@ -55,7 +72,7 @@ typedef struct Code {
     LIST(CodeFunction) functions;
     CodeGroup groups[2];
     int group_count;
-    bool is_explicit;     /* accelerations are written out: function `accelerations` */
+    bool is_explicit;     /* u', and lambda, are written out: function `accelerations` */
     bool is_redundant;    /* constraints repeat each other */
     LIST(char *) outputs; /* what was asked for, in words */
     LIST(char *) conditions;
@@ -80,6 +97,10 @@ void code_residual(const Code *code, Expr *rows);
  * states at random about it, on the constraints, with numbers from here (code_states.c). */
 enum { CODE_STATES = 20 };
 MUST_USE Status code_add_states(Code *code, const Exported *what, int most, Diag *diag);
+
+/* of code with an inverse */
+void code_find_direct(Code *code);
+void code_put_now(Code *code);
 
 static inline double code_off(int i, double y)
 {

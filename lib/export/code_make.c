@@ -111,6 +111,10 @@ static void add_parameters(Code *code)
 
         LIST_PUSH(code->parameters, model_parameter(model, i, &definition));
     }
+    /* values of all drivers, then rates, then second rates */
+    for (int k = 0; code->inverse != NULL && k < MOTIONS * code->inverse->motions.count; k++)
+        LIST_PUSH(code->parameters, code->inverse->motions.at[k % code->inverse->motions.count]
+                                        .symbol[k / code->inverse->motions.count]);
     /* those of no model: whole turns of sums of angles */
     count = expr_symbols(code->roots.at, code->roots.count, &symbols);
     for (int i = 0; i < count; i++) {
@@ -291,6 +295,50 @@ static void add_linear_network(Code *code)
     mem_free(rows);
 }
 
+/* The only entry of a row of Phi_u, where that is 1; -1: the row is another. */
+static int single(const Code *code, int row)
+{
+    const Layout *l = code->layout;
+    const Reading *r = system_run(l->system);
+    int found = -1, count = 0;
+
+    for (int j = 0; j < l->nu; j++)
+        if (!expr_is_zero(r->phi_u[row * l->nu + j])) {
+            found = j;
+            count++;
+        }
+    return count == 1 && r->phi_u[row * l->nu + found] == expr_int(code->arena, 1) ? found : -1;
+}
+
+/* Where each speed is prescribed by a row of its own, u' is gamma, and M u' + lambda = F. */
+static bool add_prescribed(Code *code)
+{
+    const Layout *l = code->layout;
+    const Reading *r = system_run(l->system);
+    const int nu = l->nu;
+    Expr *rows = NEW_ARRAY(Expr, 2 * nu);
+    bool is = l->m == nu;
+
+    for (int k = 0; k < nu && is; k++) {
+        is = single(code, k) >= 0 && rows[single(code, k)] == NULL;
+        if (is)
+            rows[single(code, k)] = r->gamma[k];
+    }
+    for (int k = 0; k < nu && is; k++) {
+        const int j = single(code, k);
+
+        rows[nu + k] = r->force[j];
+        for (int i = 0; i < nu; i++)
+            rows[nu + k] = expr_sub(code->arena, rows[nu + k],
+                                    expr_mul(code->arena, r->mass[j * nu + i], rows[i]));
+    }
+    code->is_explicit = is;
+    if (is)
+        add_function(code, "accelerations", "u', which is prescribed, and lambda", rows, 2 * nu, 1);
+    mem_free(rows);
+    return is;
+}
+
 static void add_mechanics(Code *code)
 {
     const Layout *l = code->layout;
@@ -298,7 +346,7 @@ static void add_mechanics(Code *code)
     const int nu = l->nu, count = nu + l->m, width = count + 1;
     Expr *rows;
 
-    if (count == 0)
+    if (count == 0 || add_prescribed(code))
         return;
     rows = NEW_ARRAY(Expr, 2 * nu);
     code->is_explicit = l->m == 0 && system_accelerations(l->system, r->force, rows, rows + nu);
@@ -403,6 +451,17 @@ static Status resolve(Code *code, Expr user, Expr *out, const char *name, Diag *
     }
     mem_free(symbols);
     return status;
+}
+
+static void add_efforts(Code *code)
+{
+    System *system = code->layout->system;
+    LIST(Expr) efforts = {0};
+
+    for (int i = 0; i < system_drive_count(system); i++)
+        LIST_PUSH(efforts, system_drive(system, i)->effort);
+    add_function(code, "efforts", "what the drivers take", efforts.at, efforts.count, 1);
+    LIST_FREE(efforts);
 }
 
 static Status add_outputs(Code *code, const Exported *what, Diag *diag)
@@ -512,14 +571,16 @@ static Status lower(Code *code, Diag *diag)
 
 Status code_form(const Exported *what, Code *code, Diag *diag)
 {
+    System *system = what->inverse != NULL ? what->inverse->system : what->view.system;
     const Layout *l;
     Status status = OK;
 
     code->view = &what->view;
-    code->arena = system_arena(what->view.system);
+    code->arena = system_arena(system);
     code->texts = pool_new(0);
-    CHECK(system_form_mass(what->view.system, diag));
-    code->layout = layout_new(what->view.system);
+    code->inverse = what->inverse;
+    CHECK(system_form_mass(system, diag));
+    code->layout = layout_new(system);
     l = code->layout;
     if (l->ne > 0) {
         status = diag_set(diag, E_MODEL, "a driver with by= is for inverse runs: %s is not known",
@@ -539,6 +600,11 @@ Status code_form(const Exported *what, Code *code, Diag *diag)
     add_groups(code);
     CHECK(add_outputs(code, what, diag));
     CHECK(add_conditions(code, diag));
+    if (code->inverse != NULL) {
+        add_efforts(code);
+        code_put_now(code);
+        code_find_direct(code);
+    }
     if (arena_status(code->arena) != OK) {
         status = diag_set(diag, arena_status(code->arena), "the code is too large: %s",
                           arena_failure(code->arena));
@@ -580,6 +646,7 @@ void code_free(Code *code)
         mem_free(code->outputs.at[i]);
     for (int i = 0; i < code->conditions.count; i++)
         mem_free(code->conditions.at[i]);
+    LIST_FREE(code->direct);
     LIST_FREE(code->outputs);
     LIST_FREE(code->conditions);
     LIST_FREE(code->parameters);

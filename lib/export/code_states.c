@@ -63,6 +63,15 @@ static Status read_start(States *st, const Exported *what, Diag *diag)
     for (int part = 0; part < COUNT(sizes); part++)
         for (int i = 0; i < sizes[part]; i++)
             items[at++] = l->symbols[firsts[part] + i];
+    /* what drivers do at the start */
+    for (int k = 0; code->inverse != NULL && k < MOTIONS * code->inverse->motions.count; k++) {
+        const InverseMotion *motion = &code->inverse->motions.at[k % code->inverse->motions.count];
+        const int order = k / code->inverse->motions.count;
+
+        for (int i = 0; i < first; i++)
+            if (items[i] == motion->symbol[order])
+                items[i] = motion->law[order];
+    }
     CHECK(result_reader_values_at(what->start, items, at, 0, values, diag));
     code->values = values;
     st->start = values + first;
@@ -278,6 +287,8 @@ Status code_add_states(Code *code, const Exported *what, int most, Diag *diag)
     CHECK(read_start(&st, what, diag));
     for (int i = 0; i < code->parameters.count; i++)
         parameters_set(&st.parameters, code->parameters.at[i], code->values[i]);
+    if (code->inverse != NULL)
+        parameters_set(&st.parameters, code->inverse->now, 0);
     CHECK(open_phase(&st, diag));
     st.y = NEW_ARRAY(double, st.phase->length + 1);
     st.off = NEW_ARRAY(double, code->ny);
@@ -286,7 +297,8 @@ Status code_add_states(Code *code, const Exported *what, int most, Diag *diag)
     for (int i = 0; i < TRIES && code->states.count < most; i++) {
         CHECK(poll(code->view->watch));
         put_at_random(&st, near);
-        if (!add_state(&st, near * fabs(random_unit(&st.seed))))
+        /* what drivers do is told of one instant */
+        if (!add_state(&st, code->inverse != NULL ? 0 : near * fabs(random_unit(&st.seed))))
             near *= NEARER;
     }
 done:

@@ -1,6 +1,7 @@
 libcore_la_SOURCES += \
   lib/export/code.h \
   lib/export/code_head.c \
+  lib/export/code_inverse.c \
   lib/export/code_make.c \
   lib/export/code_print.c \
   lib/export/code_states.c \

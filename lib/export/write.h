@@ -8,6 +8,12 @@
 #include "simulate/analyse/linearize.h"
 #include "simulate/run/result_reader.h"
 
+/* Drivers whose motion is given when the code runs, of the model and equations of a view. New;
+ * inverse_free(). E_MODEL: there are none. */
+typedef struct Inverse Inverse;
+MUST_USE Status inverse_new(const View *view, Inverse **out, Diag *diag);
+void inverse_free(Inverse *inverse); /* NULL is fine */
+
 /* What is to be written; `view` has the equations that the format needs. */
 typedef struct Exported {
     View view;
@@ -19,8 +25,9 @@ typedef struct Exported {
     const Expr *items;
     int item_count;
     ResultReader *start;
-    const Modes *modes; /* or these; NULL */
-    bool with_header;   /* the file is new */
+    const Inverse *inverse; /* efforts of drivers from their motion; NULL */
+    const Modes *modes;     /* or these; NULL */
+    bool with_header;       /* the file is new */
 } Exported;
 
 typedef struct Format {

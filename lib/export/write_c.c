@@ -1,6 +1,8 @@
 /* write_c.c: a model in C99 that is C++ too: no allocation, nothing kept between calls */
 #include "export/code.h"
 
+#include "model/model.h"
+
 #include <string.h>
 
 static void open_function(Text *out, const Code *code, const CodeFunction *f, const char *locals)
@@ -269,11 +271,11 @@ static void add_rows(const Code *code, Text *out)
                       name, group->count, group->first, group->count * (group->count + 1));
     }
     if (code->is_explicit)
-        text_addf(
-            out,
-            "    model_accelerations(p, t, y, s, s + %d);\n    for (i = 0; i < MODEL_U; i++)\n"
-            "        if (!(fabs(s[%d + i]) <= 1e300))\n            return MODEL_SINGULAR;\n",
-            code->layout->nx + code->layout->nz, code->layout->nx + code->layout->nz);
+        text_addf(out,
+                  "    model_accelerations(p, t, y, s, s + %d);\n"
+                  "    for (i = 0; i < MODEL_U + MODEL_M; i++)\n"
+                  "        if (!(fabs(s[%d + i]) <= 1e300))\n            return MODEL_SINGULAR;\n",
+                  code->layout->nx + code->layout->nz, code->layout->nx + code->layout->nz);
     text_add(out, "    return status;\n}\n");
 }
 
@@ -424,6 +426,47 @@ static void add_projection(const Code *code, Text *out)
     text_add(out, firsts + strlen("$FIRSTS"));
 }
 
+static void add_inverse_declarations(const Code *code, Text *out)
+{
+    const int drives = code->inverse->motions.count;
+
+    text_addf(
+        out,
+        "\nenum { MODEL_DRIVES = %d, MODEL_MOTION = %d }; /* drivers; where p has their "
+        "motion */\n"
+        "#ifdef __cplusplus\nextern \"C\" {\n#endif\n"
+        "/* what the drivers take. motion: what each prescribes, then the rates, then the "
+        "second rates;\n"
+        " * y and s: as they are, which is where the pose is looked for; states of networks "
+        "are y's */\n"
+        "int model_inverse(real *p, real t, const real *motion, real *y, real *s, real *work, "
+        "real *efforts);\n"
+        "#ifdef __cplusplus\n}\n#endif\n",
+        drives, model_parameter_count(code->view->model));
+}
+
+static void add_inverse(const Code *code, Text *out)
+{
+    text_add(out, "\nint model_inverse(real *p, real t, const real *motion, real *y, real *s, real "
+                  "*work, real *efforts)\n{\n");
+    if (code->is_direct) {
+        text_add(out, "    static const int driven[] = {");
+        for (int k = 0; k < code->direct.count; k++)
+            text_addf(out, "%s%d", k > 0 ? ", " : "", code->direct.at[k]);
+        text_add(out, "};\n");
+    }
+    text_add(out, "    int i, status;\n\n    for (i = 0; i < 3 * MODEL_DRIVES; i++)\n"
+                  "        p[MODEL_MOTION + i] = motion[i];\n");
+    text_add(out, code->is_direct
+                      ? "    for (i = 0; i < MODEL_DRIVES; i++) { /* the motion is the state */\n"
+                        "        y[driven[i]] = motion[i];\n"
+                        "        y[MODEL_Q + driven[i]] = motion[MODEL_DRIVES + i];\n    }\n"
+                      : "    model_prepare(p);\n    status = model_project(p, t, y, work);\n"
+                        "    if (status != MODEL_OK)\n        return status;\n");
+    text_add(out, "    status = model_solve(p, t, y, s, work);\n"
+                  "    model_efforts(p, t, y, s, efforts);\n    return status;\n}\n");
+}
+
 static void add_values(const Code *code, const Language *language, Text *out)
 {
     char *locals;
@@ -452,7 +495,10 @@ static void write_file(const Code *code, const Language *language, Text *out)
         text_addf(
             out, "void model_%s(const real *p, real t, const real *y, const real *s, real *out);\n",
             code->functions.at[f].name);
-    text_add(out, "\n#ifdef __cplusplus\n}\n#endif\n#endif\n\n"
+    text_add(out, "\n#ifdef __cplusplus\n}\n#endif\n");
+    if (code->inverse != NULL)
+        add_inverse_declarations(code, out);
+    text_add(out, "#endif\n\n"
                   "#ifndef MODEL_DECLARED /* define it to have the declarations alone */\n");
     add_tables(code, out);
     add_values(code, language, out);
@@ -464,6 +510,8 @@ static void write_file(const Code *code, const Language *language, Text *out)
             text_add(out, newton);
     add_rows(code, out);
     add_projection(code, out);
+    if (code->inverse != NULL)
+        add_inverse(code, out);
     add_check(code, out);
     add_driver(code, out);
     text_add(out, "#endif\n");

@@ -218,7 +218,7 @@ static void add_solve(const Code *code, Text *out)
             text_addf(out, "    real(wp) :: a%d(%d, %d), x%d(%d)\n", g + 1, code->groups[g].count,
                       code->groups[g].count + 1, g + 1, code->groups[g].count);
     if (code->is_explicit)
-        text_add(out, "    real(wp) :: du(model_u)\n");
+        text_addf(out, "    real(wp) :: du(%d)\n", code->ns - first);
     text_add(out, "\n    status = model_ok\n");
     for (int g = 0; g < code->group_count; g++) {
         const CodeGroup *group = &code->groups[g];

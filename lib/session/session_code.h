@@ -10,13 +10,14 @@
 typedef struct CodeItems {
     LIST(Expr) formulas; /* over the user's variables */
     LIST(char *) names;
+    Inverse *inverse; /* efforts of drivers from their motion are wanted; NULL */
 } CodeItems;
 
 MUST_USE Status session_code_item(ct_session *session, const Syntax *item, CodeItems *items,
                                   Diag *diag);
 /* The equations, the start and the items, which `what` borrows. */
-MUST_USE Status session_read_code(ct_session *session, const CodeItems *items, Exported *what,
-                                  Diag *diag);
+MUST_USE Status session_read_code(ct_session *session, CodeItems *items, bool is_inverse,
+                                  Exported *what, Diag *diag);
 void code_items_free(CodeItems *items); /* what they hold */
 
 #endif

@@ -325,10 +325,11 @@ ct_status ct_solve(ct_evaluator *e, const double *p, const double *t, const doub
         all = solve_linear(e, group, &e->groups[g], s) && all;
     }
     if (model->accelerations >= 0) {
-        double *rates = s + (size_t)(model->ns - model->nu) * model->lanes;
+        const int rows = model->functions.at[model->accelerations].rows;
+        double *last = s + (size_t)(model->ns - rows) * model->lanes;
 
-        ct_evaluate(e, model->accelerations, p, t, y, s, rates);
-        all = vector_is_finite(rates, model->nu * model->lanes) && all;
+        ct_evaluate(e, model->accelerations, p, t, y, s, last);
+        all = vector_is_finite(last, rows * model->lanes) && all;
     }
     return all ? CT_OK : CT_FAILED;
 }

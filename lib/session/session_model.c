@@ -312,7 +312,7 @@ ct_status ct_model_new(ct_session *session, const ct_model_options *options, ct_
     CHECK(check_options(&asked, &diag));
     for (int i = 0; i < asked.output_count; i++)
         CHECK(session_code_item(session, syntax_of(asked.outputs[i]), &items, &diag));
-    CHECK(session_read_code(session, &items, &what, &diag));
+    CHECK(session_read_code(session, &items, false, &what, &diag));
     CHECK(make(&making, &what, &asked, &diag));
     *out = making.model;
     making.model = NULL;

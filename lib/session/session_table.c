@@ -394,12 +394,17 @@ done:
 
 /* --- exports --- */
 
-static bool is_modes(const Statement *s)
+static bool begins_with(const Statement *s, const char *word)
 {
-    const Syntax *item = s->operands.count == 2 ? s->operands.at[1].value : NULL;
+    const Syntax *item = s->operands.count > 1 ? s->operands.at[1].value : NULL;
 
     return item != NULL && item->kind == SYNTAX_VARIABLE && item->primes == 0 && !item->has_unit &&
-           strcmp(item->text, "modes") == 0;
+           strcmp(item->text, word) == 0;
+}
+
+static bool is_modes(const Statement *s)
+{
+    return s->operands.count == 2 && begins_with(s, "modes");
 }
 
 /* numbers of the last run, or the modes */
@@ -437,6 +442,7 @@ void code_items_free(CodeItems *items)
         mem_free(items->names.at[i]);
     LIST_FREE(items->names);
     LIST_FREE(items->formulas);
+    inverse_free(items->inverse);
 }
 
 Status session_code_item(ct_session *session, const Syntax *item, CodeItems *items, Diag *diag)
@@ -451,13 +457,17 @@ Status session_code_item(ct_session *session, const Syntax *item, CodeItems *ite
     return OK;
 }
 
-Status session_read_code(ct_session *session, const CodeItems *items, Exported *what, Diag *diag)
+Status session_read_code(ct_session *session, CodeItems *items, bool is_inverse, Exported *what,
+                         Diag *diag)
 {
     Run *start;
     Status status = OK;
 
     CHECK(session_prepare(session, NEED_RUNNING, &what->view, diag));
     CHECK(session_start(session, &start, diag));
+    if (is_inverse)
+        CHECK(inverse_new(&what->view, &items->inverse, diag));
+    what->inverse = items->inverse;
     what->start = start->reader;
     what->items = items->formulas.at;
     what->item_count = items->formulas.count;
@@ -470,14 +480,16 @@ done:
 static Status prepare(ct_session *session, const Statement *s, Need need, Sheet *sheet,
                       CodeItems *items, Exported *what, Diag *diag)
 {
+    const bool is_inverse = need == NEED_CODE && begins_with(s, "inverse");
     Status status = OK;
 
     if (need == NEED_RUN)
         return read_numbers(session, s, sheet, what, diag);
-    for (int i = 1; need == NEED_CODE && status == OK && i < s->operands.count; i++)
+    for (int i = is_inverse ? 2 : 1; need == NEED_CODE && status == OK && i < s->operands.count;
+         i++)
         status = session_code_item(session, s->operands.at[i].value, items, diag);
     if (need == NEED_CODE)
-        return status != OK ? status : session_read_code(session, items, what, diag);
+        return status != OK ? status : session_read_code(session, items, is_inverse, what, diag);
     if (s->operands.count > 1)
         return diag_at(diag, E_SYNTAX, s->operands.at[1].place, "'export %s' takes no items",
                        s->operands.at[0].value->text);
