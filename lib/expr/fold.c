@@ -298,24 +298,44 @@ static bool fold_term(Fold *fold, int self)
     return false;
 }
 
+/* Whether it has a square of a sine or cosine, or two of them: what folds begins there. */
+static bool may_fold(Expr term)
+{
+    ProductFactors factors = term_factors(&term);
+    int count = 0;
+
+    for (int i = 0; i < factors.count; i++) {
+        int64_t k;
+
+        if (trig_factor(factors.at[i], &k) != NULL)
+            count += k >= 2 ? 2 : 1;
+    }
+    return count >= 2;
+}
+
 static Expr fold_sum(Arena *arena, Expr sum)
 {
     Fold fold = {.arena = arena, .size = 16};
     LIST(Expr) left = {0};
     bool folded = false;
     Expr result;
+    int i = 0;
 
+    while (i < sum->count && !may_fold(node_args(sum)[i]))
+        i++;
+    if (i == sum->count)
+        return sum;
     /* every fold lists one term more and takes two away, or two and a square of a sine */
     while (fold.size < 8 * (uint32_t)sum->count)
         fold.size *= 2;
     fold.slots = NEW_ARRAY(int, fold.size);
-    for (int i = 0; i < sum->count; i++)
+    for (i = 0; i < sum->count; i++)
         add_term(&fold, node_args(sum)[i]);
-    for (int i = 0; i < fold.terms.count; i++) {
+    for (i = 0; i < fold.terms.count; i++) {
         if (!fold.terms.at[i].gone && fold_term(&fold, i))
             folded = true;
     }
-    for (int i = 0; i < fold.terms.count; i++) {
+    for (i = 0; i < fold.terms.count; i++) {
         if (!fold.terms.at[i].gone)
             LIST_PUSH(left, fold.terms.at[i].e);
     }
@@ -343,5 +363,7 @@ Expr expr_fold(Arena *arena, Expr e)
 {
     Expr folded = expr_change(arena, e, fold_node, NULL);
 
+    if (folded == e)
+        return e;
     return op_count_total(expr_count(&folded, 1)) <= op_count_total(expr_count(&e, 1)) ? folded : e;
 }
