@@ -30,6 +30,7 @@ include tests/bench/algebra.mk
 include tests/bench/expr.mk
 include tests/bench/edit.mk
 include tests/bench/formulate.mk
+include tests/bench/subsystems.mk
 include tests/bench/graph.mk
 include tests/bench/compile.mk
 include tests/bench/simulate.mk

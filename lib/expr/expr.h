@@ -198,6 +198,16 @@ Expr expr_substitute(Arena *arena, Expr e, const Expr *symbols, const Expr *valu
  * to[i], in place in `roots`. Each node is visited once for all roots. */
 void expr_replace(Arena *arena, Expr *roots, int root_count, const Expr *from, const Expr *to,
                   int count);
+/* Symbols whose names begin with one prefix (behind a '#', if there is one) replaced by those of
+ * the same kinds with another prefix, in any number of expressions: what was met once isn't visited
+ * again. */
+typedef struct Renaming Renaming;
+Renaming *renaming_new(Arena *arena, const char *from, const char *to); /* new; borrows the texts */
+/* From now on `from`, a symbol or what is held, becomes `to`; equal numbers do. False: they can't,
+ * or something else became of it. */
+bool renaming_pair(Renaming *renaming, Expr from, Expr to);
+Expr renaming_of(Renaming *renaming, Expr e);
+void renaming_free(Renaming *renaming); /* NULL is fine */
 /* The nodes below some roots for which `wanted` holds, each once, children first; new array, free
  * with mem_free(). */
 typedef bool (*NodeWanted)(Expr e, void *context);

@@ -4,6 +4,7 @@
 #include "expr/expr_impl.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 Expr expr_rebuild(Arena *arena, Expr e, const Expr *args)
 {
@@ -106,6 +107,80 @@ Expr expr_change(Arena *arena, Expr e, NodeChange change, void *context)
     walk_below(&images.walk, e, 0, NULL, NULL);
     rebuild_all(arena, &images, change, context);
     return finish(&images, e);
+}
+
+/* --- renaming --- */
+
+struct Renaming {
+    Arena *arena;
+    const char *from, *to;
+    Images images;
+};
+
+Renaming *renaming_new(Arena *arena, const char *from, const char *to)
+{
+    Renaming *renaming = NEW(Renaming);
+
+    renaming->arena = arena;
+    renaming->from = from;
+    renaming->to = to;
+    return renaming;
+}
+
+static Expr renamed(Arena *arena, Expr e, void *context)
+{
+    const Renaming *renaming = context;
+    const size_t length = strlen(renaming->from);
+    const char *name;
+    Text other = {0};
+    Expr symbol;
+    bool is_marked;
+
+    if (e->kind != EXPR_SYMBOL || expr_data(e) != NULL)
+        return e;
+    name = expr_name(e);
+    is_marked = name[0] == '#';
+    if (strncmp(name + is_marked, renaming->from, length) != 0)
+        return e;
+    text_addf(&other, "%s%s%s", is_marked ? "#" : "", renaming->to, name + is_marked + length);
+    symbol = expr_symbol(arena, other.at, expr_symbol_kind(e));
+    text_free(&other);
+    return symbol;
+}
+
+bool renaming_pair(Renaming *renaming, Expr from, Expr to)
+{
+    int place;
+
+    if (expr_is_number(from) || expr_is_number(to))
+        return from == to;
+    /* a sign goes into the products and sums around it */
+    if (from->kind == EXPR_PRODUCT && from->count == 2 && expr_is(node_args(from)[0], -1)) {
+        from = node_args(from)[1];
+        to = expr_neg(renaming->arena, to);
+    }
+    if (from->kind != EXPR_SYMBOL && held(from) == from)
+        return false;
+    place = walk_add(&renaming->images.walk, from);
+    if (place == renaming->images.of.count)
+        LIST_PUSH(renaming->images.of, to);
+    return renaming->images.of.at[place] == to;
+}
+
+Expr renaming_of(Renaming *renaming, Expr e)
+{
+    walk_below(&renaming->images.walk, e, ~0U, NULL, NULL);
+    rebuild_all(renaming->arena, &renaming->images, renamed, renaming);
+    return image_of(&renaming->images, e);
+}
+
+void renaming_free(Renaming *renaming)
+{
+    if (renaming == NULL)
+        return;
+    walk_free(&renaming->images.walk);
+    LIST_FREE(renaming->images.of);
+    mem_free(renaming);
 }
 
 static Expr without_hold(Arena *arena, Expr e, void *context)

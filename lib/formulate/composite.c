@@ -4,6 +4,7 @@
  * rigid body: its mass m, first moment S and inertia J about the node's origin say all that
  * the branches nearer to the datum feel (Walker and Orin 1982, here on a linear graph). */
 #include "formulate/composite.h"
+#include "formulate/alike.h"
 #include "formulate/dynamics.h"
 #include "formulate/kinematics.h"
 #include "formulate/loads.h"
@@ -81,11 +82,60 @@ static Rotation tensor_express(const System *system, Rotation tensor, int from, 
     return tensor;
 }
 
+/* whose composite is that of its instance alone, as of the first's */
+static const Follower *follows_whole(const System *system, int node, int *first)
+{
+    const Follower *follower = alike_node(system, node, first);
+
+    return follower != NULL && alike_ends(follower) ? follower : NULL;
+}
+
+Composite composite_at(const System *system, const Composite *all, int node)
+{
+    int first;
+    const Follower *follower = follows_whole(system, node, &first);
+    Composite own;
+
+    if (follower == NULL)
+        return all[node];
+    own.mass = alike_take(follower, all[first].mass);
+    own.moment = alike_vec(follower, all[first].moment);
+    for (int k = 0; k < 9; k++)
+        own.inertia.at[k] = alike_take(follower, all[first].inertia.at[k]);
+    return own;
+}
+
+/* those that some speed moves, a flag a node: new, mem_free() */
+static bool *moving_nodes(const System *system)
+{
+    int nodes;
+    const int *order = tree_nodes(system->origin->trees[TREE_TRANSLATION], &nodes);
+    bool *moves = NEW_ARRAY(bool, graph_node_count(system->origin->graph));
+
+    for (int i = 1; i < nodes; i++) {
+        const Frame *frame = &system->kinematics->frames[order[i]];
+
+        moves[order[i]] = moves[frame->parent] || frame->slide_count > 0 || frame->chain != 0 ||
+                          frame->step_chain != 0;
+    }
+    return moves;
+}
+
+static bool is_nothing(const Composite *part)
+{
+    for (int k = 0; k < 9; k++)
+        if (!expr_is_zero(part->inertia.at[k]))
+            return false;
+    return expr_is_zero(part->mass) && vec_is_zero(part->moment);
+}
+
 Composite *composites_new(const System *system, const int *place)
 {
     Arena *arena = system->arena;
-    int nodes;
+    int nodes, first;
     const int *order = tree_nodes(system->origin->trees[TREE_TRANSLATION], &nodes);
+    int *inward;
+    bool *moves;
     Composite *all =
         pool_alloc(system->pool, (size_t)graph_node_count(system->origin->graph) * sizeof *all);
     Rotation none;
@@ -103,15 +153,23 @@ Composite *composites_new(const System *system, const int *place)
             tensor_express(system, mass->inertia, system->kinematics->frames[mass->node].chain,
                            axes_of(system, mass->node));
     }
-    for (int i = nodes - 1; i > 0; i--) {
-        Composite part = all[order[i]];
-        const Frame *frame = &system->kinematics->frames[order[i]];
-        Composite *whole = &all[frame->parent];
-        int axes = axes_of(system, order[i]);
+    moves = moving_nodes(system);
+    inward = alike_inward(system, TREE_TRANSLATION, &nodes);
+    for (int i = 0; i < nodes; i++) {
+        const int node = inward[i];
+        const Frame *frame = &system->kinematics->frames[node];
+        Composite part, *whole = &all[frame->parent];
+        int axes = axes_of(system, node);
         int onto = axes_of(system, frame->parent);
 
-        if (frame->parent == order[0] || (place != NULL && place[order[i]] >= 0))
-            continue; /* the datum moves nothing */
+        /* what is fixed to the datum moves nothing */
+        if (!moves[frame->parent] || (place != NULL && place[node] >= 0) ||
+            (follows_whole(system, node, &first) != NULL &&
+             follows_whole(system, frame->parent, &first) != NULL))
+            continue;
+        part = composite_at(system, all, node);
+        if (is_nothing(&part))
+            continue;
         part.inertia = shifted(arena, &part, frame->step);
         part.moment = vec_add(arena, part.moment, vec_scale(arena, part.mass, frame->step));
         part.moment = vec_express(system, part.moment, axes, onto);
@@ -122,23 +180,24 @@ Composite *composites_new(const System *system, const int *place)
             whole->inertia.at[k] =
                 expr_hold(arena, expr_add(arena, whole->inertia.at[k], part.inertia.at[k]));
     }
+    MEM_FREE(inward, moves);
     return all;
 }
 
-void composite_loads(const System *system, const Composite *composite, int speed, Loads *loads)
+void composite_loads(const System *system, Composite composite, int speed, Loads *loads)
 {
     Arena *arena = system->arena;
     int node = speed_node(system, speed);
     int axes = axes_of(system, node);
     Vec slide = speed_slide(system, speed, axes);
-    Vec force = vec_scale(arena, composite->mass, slide);
-    Vec torque = vec_cross(arena, composite->moment, slide);
+    Vec force = vec_scale(arena, composite.mass, slide);
+    Vec torque = vec_cross(arena, composite.moment, slide);
 
     if (system->kinematics->speeds[speed].chain >= 0) {
         Vec axis = speed_axis(system, speed, axes);
 
-        force = vec_add(arena, force, vec_cross(arena, axis, composite->moment));
-        torque = vec_add(arena, torque, rotation_apply(arena, &composite->inertia, axis));
+        force = vec_add(arena, force, vec_cross(arena, axis, composite.moment));
+        torque = vec_add(arena, torque, rotation_apply(arena, &composite.inertia, axis));
     }
     loads->force[node] = force;
     loads->torque[node] = torque;

@@ -1,6 +1,7 @@
 /* composite_mass.c: what is passed on towards the datum, and where */
 #include "formulate/composite_mass.h"
 
+#include "formulate/alike.h"
 #include "formulate/composite.h"
 #include "formulate/dynamics.h"
 #include "formulate/kinematics.h"
@@ -134,42 +135,88 @@ static void add_places(System *system, CompositeMass *mass, int *at)
 
 /* --- speeds --- */
 
-static void add_speeds(System *system, CompositeMass *mass, const int *at)
+/* entries that stand among the needs, in the names of an instance */
+static int need_alike(CompositeMass *mass, const Follower *follower, int at, int count)
 {
-    const Composite *composites = composites_new(system, NULL);
-    Loads loads = loads_new(system);
-    const int count = system->kinematics->u.count;
+    const int first = mass->needs.count;
+
+    for (int i = 0; i < count; i++) {
+        const Expr e = alike_take(follower, mass->needs.at[at + i]);
+
+        LIST_PUSH(mass->needs, e);
+    }
+    return first;
+}
+
+static MassSpeed speed_alike(CompositeMass *mass, const Follower *follower, int first)
+{
+    MassSpeed speed = mass->speeds[first];
+
+    speed.turn = need_alike(mass, follower, speed.turn, 3);
+    speed.slide = need_alike(mass, follower, speed.slide, 3);
+    speed.force = need_alike(mass, follower, speed.force, 3);
+    speed.torque = need_alike(mass, follower, speed.torque, 3);
+    return speed;
+}
+
+static MassSpeed speed_of(System *system, CompositeMass *mass, const Composite *composites,
+                          Loads *loads, int j)
+{
+    const int node = speed_node(system, j), axes = axes_of(system, node);
+    const bool turns = system->kinematics->speeds[j].chain >= 0;
+    const Vec turn = turns ? speed_axis(system, j, axes) : vec_zero(system->arena);
+    const Vec slide = speed_slide(system, j, axes);
+
+    composite_loads(system, composite_at(system, composites, node), j, loads);
+    return (MassSpeed){.turns = !vec_is_zero(turn),
+                       .slides = !vec_is_zero(slide),
+                       .turn = need(mass, turn.at, 3),
+                       .slide = need(mass, slide.at, 3),
+                       .force = need(mass, loads->force[node].at, 3),
+                       .torque = need(mass, loads->torque[node].at, 3)};
+}
+
+/* its speeds, place by place */
+static void list_speeds(System *system, CompositeMass *mass)
+{
     int filled = 0;
 
-    mass->speed_count = count;
-    mass->speeds = pool_alloc(system->pool, (size_t)count * sizeof *mass->speeds);
-    mass->speed_at = pool_alloc(system->pool, (size_t)count * sizeof *mass->speed_at);
-    for (int j = 0; j < count; j++) {
-        const int node = speed_node(system, j), axes = axes_of(system, node);
-        const bool turns = system->kinematics->speeds[j].chain >= 0;
-        const Vec turn = turns ? speed_axis(system, j, axes) : vec_zero(system->arena);
-        const Vec slide = speed_slide(system, j, axes);
-
-        composite_loads(system, &composites[node], j, &loads);
-        mass->speeds[j] = (MassSpeed){.place = at[node],
-                                      .turns = !vec_is_zero(turn),
-                                      .slides = !vec_is_zero(slide),
-                                      .turn = need(mass, turn.at, 3),
-                                      .slide = need(mass, slide.at, 3),
-                                      .force = need(mass, loads.force[node].at, 3),
-                                      .torque = need(mass, loads.torque[node].at, 3)};
-        mass->places[at[node]].count++;
-    }
+    mass->speed_at = pool_alloc(system->pool, (size_t)mass->speed_count * sizeof *mass->speed_at);
+    for (int j = 0; j < mass->speed_count; j++)
+        mass->places[mass->speeds[j].place].count++;
     for (int p = 0; p < mass->place_count; p++) {
         mass->places[p].first = filled;
         filled += mass->places[p].count;
         mass->places[p].count = 0;
     }
-    for (int j = 0; j < count; j++) {
+    for (int j = 0; j < mass->speed_count; j++) {
         MassPlace *place = &mass->places[mass->speeds[j].place];
 
         mass->speed_at[place->first + place->count++] = j;
     }
+}
+
+static void add_speeds(System *system, CompositeMass *mass, const int *at)
+{
+    const Composite *composites = composites_new(system, NULL);
+    Loads loads = loads_new(system);
+    const int count = system->kinematics->u.count;
+
+    mass->speed_count = count;
+    mass->speeds = pool_alloc(system->pool, (size_t)count * sizeof *mass->speeds);
+    for (int pass = 0; pass < 2; pass++) /* what others take over comes before them */
+        for (int j = 0; j < count; j++) {
+            int first;
+            const Follower *follower = alike_speed(system, j, &first);
+            const bool takes = follower != NULL && alike_ends(follower);
+
+            if (takes != (pass == 1))
+                continue;
+            mass->speeds[j] = takes ? speed_alike(mass, follower, first)
+                                    : speed_of(system, mass, composites, &loads, j);
+            mass->speeds[j].place = at[speed_node(system, j)];
+        }
+    list_speeds(system, mass);
 }
 
 /* what moves with each place as one body */
@@ -180,15 +227,16 @@ static void add_bodies(System *system, CompositeMass *mass, const int *at)
     const Composite *bodies = composites_new(system, at);
 
     for (int i = 1; i < nodes; i++) {
-        const Composite *body = &bodies[order[i]];
-
         if (at[order[i]] < 0)
             continue;
-        LIST_PUSH(mass->bodies, body->mass);
+
+        const Composite body = composite_at(system, bodies, order[i]);
+
+        LIST_PUSH(mass->bodies, body.mass);
         for (int k = 0; k < 3; k++)
-            LIST_PUSH(mass->bodies, body->moment.at[k]);
+            LIST_PUSH(mass->bodies, body.moment.at[k]);
         for (int k = 0; k < 9; k++)
-            LIST_PUSH(mass->bodies, body->inertia.at[k]);
+            LIST_PUSH(mass->bodies, body.inertia.at[k]);
     }
 }
 

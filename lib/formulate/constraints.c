@@ -5,6 +5,7 @@
  * axis cancel. Symbols as in system_impl.h; D_j is the part of the way that speed j
  * turns, so that the rate of d is the sum of k_j x D_j u_j and the slides. */
 #include "formulate/constraints.h"
+#include "formulate/alike.h"
 #include "formulate/coordinate.h"
 #include "formulate/framesum.h"
 #include "formulate/kinematics.h"
@@ -354,12 +355,10 @@ bool system_holds(const System *system, uint64_t revision,
 
 /* --- rows to run --- */
 
-/* the part of the way from the last common node to `node` that `chain` turns (-1: all of it), added
- * from the far end, so that what hangs together is one definition */
-static Vec way_turned(const System *system, int node, int ancestor, int chain, int axes)
+/* the part of the way from `ancestor` to a node that `chain` turns (-1: all of it), added from the
+ * far end to `sum`, so that what hangs together is one definition */
+static Vec add_way(const System *system, int node, int ancestor, int chain, int axes, Vec sum)
 {
-    Vec sum = vec_zero(system->arena);
-
     for (; node != ancestor; node = system->kinematics->frames[node].parent) {
         const Frame *frame = &system->kinematics->frames[node];
         int resolved = system->kinematics->chains.at[frame->chain].resolve;
@@ -370,6 +369,40 @@ static Vec way_turned(const System *system, int node, int ancestor, int chain, i
         sum = vec_hold(system->arena, sum);
     }
     return sum;
+}
+
+/* Inside an instance that follows another the way is that of the first. False: it isn't, or not all
+ * of it is passed; else *node is where it hangs. */
+static bool way_alike(const System *system, int *node, int ancestor, int chain, int axes, Vec *out)
+{
+    int first, around;
+    const Follower *follower = alike_node(system, *node, &first);
+    FirstWay way = {.node = first};
+
+    if (follower == NULL || alike_node(system, ancestor, &around) == follower ||
+        !alike_chain_for(system, follower, axes, &way.axes) ||
+        !alike_chain_for(system, follower, chain, &way.chain))
+        return false;
+    for (; alike_node(system, *node, &around) == follower; first = around) {
+        if (*node == ancestor)
+            return false;
+        *node = system->kinematics->frames[*node].parent;
+    }
+    if (!alike_find_way(follower, &way)) {
+        way.sum = add_way(system, way.node, system->kinematics->frames[first].parent, way.chain,
+                          way.axes, vec_zero(system->arena));
+        alike_keep_way(follower, &way);
+    }
+    *out = alike_vec(follower, way.sum);
+    return true;
+}
+
+static Vec way_turned(const System *system, int node, int ancestor, int chain, int axes)
+{
+    Vec sum = vec_zero(system->arena);
+
+    (void)way_alike(system, &node, ancestor, chain, axes, &sum);
+    return add_way(system, node, ancestor, chain, axes, sum);
 }
 
 static int common_node(const System *system, int a, int b)

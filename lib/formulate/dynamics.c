@@ -4,6 +4,7 @@
  * M: column k is the same sum for u'_k = 1 with everything else at rest; of a pair (j, k)
  * the column of the speed that moves fewer bodies is taken, of equals the one further out. */
 #include "formulate/dynamics.h"
+#include "formulate/alike.h"
 #include "formulate/composite.h"
 #include "formulate/constraints.h"
 #include "formulate/coordinate.h"
@@ -229,7 +230,8 @@ static Status mass_matrix(System *system)
 
         moved[k] = bodies_moved(system, k, moves);
         if (speed_moves_as_one(system, k)) {
-            composite_loads(system, &composites[speed_node(system, k)], k, &loads);
+            composite_loads(system, composite_at(system, composites, speed_node(system, k)), k,
+                            &loads);
         } else {
             unit_motion(system, k, v);
             unit_loads(system, k, v, &loads);
@@ -266,45 +268,86 @@ static void add_elastic(const System *system, const Elastic *elastic, Loads *loa
     elastic_add_rest(system, elastic, loads);
 }
 
+static void add_inertia_of(const System *system, Loads *loads, const Mass *mass, Vec g,
+                           const Vec *alpha, const Vec *a)
+{
+    Arena *arena = system->arena;
+    const int chain = system->kinematics->frames[mass->node].chain;
+    const Vec force = vec_scale(arena, mass->mass, vec_sub(arena, g, a[mass->node]));
+    Vec w, spin, torque;
+
+    loads->force[mass->node] = vec_add(arena, loads->force[mass->node], force);
+    if (!mass->has_inertia)
+        return;
+    w = system->kinematics->motions[chain].w;
+    spin = vec_hold(arena, rotation_apply(arena, &mass->inertia, w));
+    torque = vec_add(arena, rotation_apply(arena, &mass->inertia, alpha[chain]),
+                     vec_cross(arena, w, spin));
+    loads->torque[mass->node] = vec_sub(arena, loads->torque[mass->node], torque);
+}
+
+/* of a mass alone on its node: inertia comes before other loads */
+static void take_inertia(Loads *loads, const Follower *follower, int node, int first)
+{
+    loads->force[node] = alike_vec(follower, loads->force[first]);
+    loads->torque[node] = alike_vec(follower, loads->torque[first]);
+}
+
 void loads_add_inertia(const System *system, Loads *loads, const Vec *alpha, const Vec *a,
                        const Expr *accelerations)
 {
-    Arena *arena = system->arena;
     Vec *gravity = NEW_ARRAY(Vec, system->kinematics->chains.count);
 
     vec_express_outward(system, system->origin->gravity, gravity);
-    for (int i = 0; i < system->dynamics->masses.count; i++) {
-        const Mass *mass = &system->dynamics->masses.at[i];
-        int chain = system->kinematics->frames[mass->node].chain;
-        Vec g = gravity[axes_of(system, mass->node)];
-        Vec force = vec_scale(arena, mass->mass, vec_sub(arena, g, a[mass->node]));
+    for (int pass = 0; pass < 2; pass++) /* what others take over comes before them */
+        for (int i = 0; i < system->dynamics->masses.count; i++) {
+            const Mass *mass = &system->dynamics->masses.at[i];
+            int first;
+            const Follower *follower =
+                accelerations == NULL ? alike_node(system, mass->node, &first) : NULL;
+            const bool takes = follower != NULL && alike_moves(follower);
 
-        loads->force[mass->node] = vec_add(arena, loads->force[mass->node], force);
-        if (mass->has_inertia) {
-            Vec w = system->kinematics->motions[chain].w;
-            Vec spin = vec_hold(arena, rotation_apply(arena, &mass->inertia, w));
-            Vec torque = vec_add(arena, rotation_apply(arena, &mass->inertia, alpha[chain]),
-                                 vec_cross(arena, w, spin));
-
-            loads->torque[mass->node] = vec_sub(arena, loads->torque[mass->node], torque);
+            if (takes && pass == 1)
+                take_inertia(loads, follower, mass->node, first);
+            else if (!takes && pass == 0)
+                add_inertia_of(system, loads, mass, gravity[axes_of(system, mass->node)], alpha, a);
         }
-    }
     for (int i = 0; i < system->dynamics->elastics.count; i++)
         add_elastic(system, &system->dynamics->elastics.at[i], loads, alpha, a, accelerations);
     mem_free(gravity);
+}
+
+static bool is_one_of(Expr symbol, const Expr *symbols, int count)
+{
+    for (int i = 0; i < count; i++)
+        if (symbols[i] == symbol)
+            return true;
+    return false;
 }
 
 /* an effort on a coordinate works on the speeds that the coordinate depends on */
 static void add_on_coordinate(const System *system, Expr coordinate, Expr effort)
 {
     Arena *arena = system->arena;
+    Expr *symbols;
+    const int count = expr_symbols(&coordinate, 1, &symbols);
 
     effort = expr_hold(arena, effort);
-    for (int j = 0; j < system->kinematics->u.count; j++) {
-        Expr share = expr_mul(arena, speed_partial(system, coordinate, j), effort);
+    for (int i = 0; i < system->kinematics->q.count; i++) {
+        const CoordinateRate *rate = &system->kinematics->coordinate_rates[i];
+        const Expr symbol = system->kinematics->q.at[i].symbol;
 
-        system->run.force[j] = expr_add(arena, system->run.force[j], share);
+        for (int k = 0; is_one_of(symbol, symbols, count) && k < rate->count; k++) {
+            Expr *force = &system->run.force[rate->speed[k]];
+
+            *force = expr_add(
+                arena, *force,
+                expr_product(arena,
+                             (Expr[]){expr_diff(arena, coordinate, symbol), rate->entry[k], effort},
+                             3));
+        }
     }
+    mem_free(symbols);
 }
 
 /* what a part adds to an entry of M */

@@ -1,4 +1,5 @@
 libcore_la_SOURCES += \
+	lib/formulate/alike.c lib/formulate/alike.h \
 	lib/formulate/accelerations.c lib/formulate/accelerations.h \
 	lib/formulate/euler_parameters.c \
 	lib/formulate/expanded_shapes.c lib/formulate/partial.c \

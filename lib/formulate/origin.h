@@ -4,6 +4,7 @@
 
 #include "base/memory.h"
 #include "base/names.h"
+#include "formulate/system.h"
 #include "formulate/vector.h"
 #include "model/scene.h"
 
@@ -35,6 +36,8 @@ typedef struct Origin {
     const char **output_names;
     Expr *outputs;
     int output_count;
+    Instanced *uses;
+    int use_count;
     LIST(GivenParameter) parameters; /* as they were: the user's, then literals */
     int literals;
     bool asks_literals, is_small; /* it has them where the scene is large enough */

@@ -2,6 +2,7 @@
  *
  * Each quantity is resolved in the axes of its chain's `resolve` chain and held, so that
  * a program computes it once. */
+#include "formulate/alike.h"
 #include "formulate/kinematics.h"
 #include "formulate/loads.h"
 #include "formulate/origin.h"
@@ -22,21 +23,54 @@ static Vec expressed(const System *system, Vec v, int from, int to)
     return vec_hold(system->arena, vec_express(system, v, from, to));
 }
 
+/* whether what hangs from a chain turns as the first does: outside it is the same chain */
+static bool turns_alike(const System *system, Follower *follower, int chain)
+{
+    const ChainMotion *motion = &system->kinematics->motions[chain];
+    int first;
+
+    return alike_chain(system, chain, &first) == follower
+               ? alike_moves(follower)
+               : alike_hangs(follower, motion->w, motion->w);
+}
+
 /* w = w_parent + k rate; its rate is alpha_parent + w_parent x k rate + k rate' */
 static void turn_motion(System *system, int c)
 {
     Arena *arena = system->arena;
     const Chain *chain = &system->kinematics->chains.at[c];
     int before = system->kinematics->chains.at[chain->parent].resolve;
+    ChainMotion *motions = system->kinematics->motions;
+    int first;
+    Follower *follower = alike_chain(system, c, &first);
     Vec turn = vec_zero(arena);
-    Vec w = expressed(system, system->kinematics->motions[chain->parent].w, before, chain->resolve);
+    Vec w;
+
+    if (follower != NULL && turns_alike(system, follower, chain->parent)) {
+        motions[c] = (ChainMotion){alike_vec(follower, motions[first].w),
+                                   alike_vec(follower, motions[first].product)};
+        return;
+    }
+    w = expressed(system, motions[chain->parent].w, before, chain->resolve);
 
     for (int j = chain->speed; j < chain->speed + chain->speed_count; j++)
         turn =
             vec_add(arena, turn,
                     vec_scale(arena, speed_rate(system, j), speed_axis(system, j, chain->resolve)));
-    system->kinematics->motions[c].w = vec_hold(arena, vec_add(arena, w, turn));
-    system->kinematics->motions[c].product = vec_hold(arena, vec_cross(arena, w, turn));
+    motions[c].w = vec_hold(arena, vec_add(arena, w, turn));
+    motions[c].product = vec_hold(arena, vec_cross(arena, w, turn));
+}
+
+/* whether a node moves as the first's does, of whose parent and whose own that is told */
+static bool moves_alike(const System *system, Follower *follower, int node, Vec from, Vec to)
+{
+    int first;
+
+    if (follower == NULL)
+        return false;
+    if (alike_node(system, system->kinematics->frames[node].parent, &first) == follower)
+        return alike_moves(follower);
+    return alike_hangs(follower, from, to);
 }
 
 /* v = v_parent + w x r + s' u; the velocity products of its rate are w x (w x r) + 2 w x s' u */
@@ -45,13 +79,21 @@ static void step_motion(System *system, int node)
     Arena *arena = system->arena;
     Frame *frame = &system->kinematics->frames[node];
     int axes = axes_of(system, node);
-    int resolve = system->kinematics->chains.at[frame->step_chain].resolve;
-    Vec v = expressed(system, system->kinematics->frames[frame->parent].v,
-                      axes_of(system, frame->parent), axes);
-    Vec w = expressed(system, system->kinematics->motions[frame->step_chain].w, resolve, axes);
+    int resolve = system->kinematics->chains.at[frame->step_chain].resolve, first = node;
+    Follower *follower = alike_node(system, node, &first);
+    const Frame *frames = system->kinematics->frames, *like = &frames[first];
     Vec slid = vec_zero(arena);
-    Vec turned;
+    Vec v, w, turned;
 
+    if (follower != NULL && turns_alike(system, follower, frame->step_chain) &&
+        moves_alike(system, follower, node, frames[like->parent].v, frames[frame->parent].v)) {
+        frame->step = alike_vec(follower, like->step);
+        frame->v = alike_vec(follower, like->v);
+        frame->product = alike_vec(follower, like->product);
+        return;
+    }
+    v = expressed(system, frames[frame->parent].v, axes_of(system, frame->parent), axes);
+    w = expressed(system, system->kinematics->motions[frame->step_chain].w, resolve, axes);
     frame->step = expressed(system, frame->shift, frame->step_chain, axes);
     turned = vec_cross(arena, w, frame->step);
     for (int k = 0; k < frame->slide_count; k++) {
@@ -74,8 +116,16 @@ void accelerations_build(const System *system, const Expr *accelerations, Vec *a
     alpha[0] = vec_zero(arena);
     for (int c = 1; c < system->kinematics->chains.count; c++) {
         const Chain *chain = &system->kinematics->chains.at[c];
-        int before = system->kinematics->chains.at[chain->parent].resolve;
+        int before = system->kinematics->chains.at[chain->parent].resolve, first, around;
+        Follower *follower = accelerations == NULL ? alike_chain(system, c, &first) : NULL;
 
+        if (follower != NULL &&
+            (alike_chain(system, chain->parent, &around) == follower
+                 ? alike_moves(follower)
+                 : alike_hangs(follower, alpha[chain->parent], alpha[chain->parent]))) {
+            alpha[c] = alike_vec(follower, alpha[first]);
+            continue;
+        }
         alpha[c] = vec_add(arena, expressed(system, alpha[chain->parent], before, chain->resolve),
                            system->kinematics->motions[c].product);
         for (int j = chain->speed; j < chain->speed + chain->speed_count; j++)
@@ -92,9 +142,16 @@ void accelerations_build(const System *system, const Expr *accelerations, Vec *a
         int n = order[i];
         const Frame *frame = &system->kinematics->frames[n];
         int axes = axes_of(system, n);
-        int resolve = system->kinematics->chains.at[frame->step_chain].resolve;
-        Vec turn = expressed(system, alpha[frame->step_chain], resolve, axes);
+        int resolve = system->kinematics->chains.at[frame->step_chain].resolve, first = n;
+        Follower *follower = accelerations == NULL ? alike_node(system, n, &first) : NULL;
+        Vec turn;
 
+        if (moves_alike(system, follower, n, a[system->kinematics->frames[first].parent],
+                        a[frame->parent])) {
+            a[n] = alike_vec(follower, a[first]);
+            continue;
+        }
+        turn = expressed(system, alpha[frame->step_chain], resolve, axes);
         a[n] = expressed(system, a[frame->parent], axes_of(system, frame->parent), axes);
         a[n] = vec_add(arena, a[n], vec_cross(arena, turn, frame->step));
         a[n] = vec_add(arena, a[n], frame->product);
@@ -209,6 +266,41 @@ void loads_add_torque(const System *system, Loads *loads, int node, Vec torque, 
     loads->torque[node] = vec_add(system->arena, loads->torque[node], torque);
 }
 
+/* Nodes of instances whose loads are those of the first: so are their sums. New, mem_free(). */
+static bool *summed_alike(const System *system, const Loads *loads)
+{
+    const int count = graph_node_count(system->origin->graph);
+    bool *alike = NEW_ARRAY(bool, count);
+
+    for (int n = 0; n < count; n++) {
+        int first;
+        const Follower *follower = alike_node(system, n, &first);
+
+        alike[n] = follower != NULL && alike_ends(follower) &&
+                   vec_same(alike_vec(follower, loads->force[first]), loads->force[n]) &&
+                   vec_same(alike_vec(follower, loads->torque[first]), loads->torque[n]);
+    }
+    /* all of an instance, or none of it */
+    for (int n = 0; n < count; n++) {
+        int first, members;
+        const Follower *follower = alike_node(system, n, &first);
+        const int *member = follower != NULL ? alike_members(follower, &members) : NULL;
+
+        for (int k = 0; member != NULL && !alike[n] && k < members; k++)
+            alike[member[k]] = false;
+    }
+    return alike;
+}
+
+/* what a node's is, given the first's */
+static Vec as_first(const System *system, int node, const Vec *of)
+{
+    int first;
+    const Follower *follower = alike_node(system, node, &first);
+
+    return alike_vec(follower, of[first]);
+}
+
 Sums *loads_sum(const System *system, const Loads *loads)
 {
     Arena *arena = system->arena;
@@ -218,6 +310,8 @@ Sums *loads_sum(const System *system, const Loads *loads)
     int nodes;
     const int *order = tree_nodes(system->origin->trees[TREE_TRANSLATION], &nodes);
     const int datum = order[0]; /* no branch leads there */
+    bool *alike = summed_alike(system, loads);
+    int *inward;
 
     sums->own = loads->own;
     sums->force = pool_alloc(system->pool, size);
@@ -226,11 +320,16 @@ Sums *loads_sum(const System *system, const Loads *loads)
         sums->force[order[i]] = loads->force[order[i]];
         sums->torque[order[i]] = loads->torque[order[i]];
     }
-    for (int i = nodes - 1; i > 0; i--) {
-        int n = order[i];
+    inward = alike_inward(system, TREE_TRANSLATION, &nodes);
+    for (int i = 0; i < nodes; i++) {
+        int n = inward[i];
         const Frame *frame = &system->kinematics->frames[n];
         int axes = axes_of(system, n);
 
+        if (alike[n])
+            sums->force[n] = as_first(system, n, sums->force);
+        if (alike[n] && alike[frame->parent])
+            continue;
         /* most loads of a motion of few bodies are none */
         if (vec_is_zero(sums->force[n]))
             continue;
@@ -248,11 +347,16 @@ Sums *loads_sum(const System *system, const Loads *loads)
         moment = expressed(system, moment, axes, axes_of(system, frame->base));
         sums->torque[frame->base] = vec_add(arena, sums->torque[frame->base], moment);
     }
-    order = tree_nodes(rotation, &nodes);
-    for (int i = nodes - 1; i > 0; i--) {
-        int n = order[i];
+    mem_free(inward);
+    inward = alike_inward(system, TREE_ROTATION, &nodes);
+    for (int i = 0; i < nodes; i++) {
+        int n = inward[i];
         int parent = tree_parent(rotation, n);
 
+        if (alike[n])
+            sums->torque[n] = as_first(system, n, sums->torque);
+        if (alike[n] && alike[parent])
+            continue;
         if (vec_is_zero(sums->torque[n]))
             continue;
 
@@ -263,5 +367,6 @@ Sums *loads_sum(const System *system, const Loads *loads)
         torque = expressed(system, torque, axes_of(system, n), axes_of(system, parent));
         sums->torque[parent] = vec_add(arena, sums->torque[parent], torque);
     }
+    MEM_FREE(inward, alike);
     return sums;
 }

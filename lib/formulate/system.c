@@ -260,6 +260,11 @@ int system_quaternion(const System *system, int i)
     return i < system->kinematics->quaternions.count ? system->kinematics->quaternions.at[i] : -1;
 }
 
+const Instanced *system_instanced(const System *system, int i)
+{
+    return i < system->origin->use_count ? &system->origin->uses[i] : NULL;
+}
+
 const ConstraintRow *system_constraint(const System *system, int k)
 {
     return &system->constraints->rows.at[k].told;

@@ -93,6 +93,18 @@ Expr system_n_entry(const System *system, int i, int j);
 /* first of four Euler parameters to be kept at unit length, or -1: call with 0, 1, ... */
 int system_quaternion(const System *system, int i);
 
+/* --- instances of subsystems --- */
+
+typedef struct Instanced {
+    const char *name, *definition;
+    int outer;     /* the one around it; -1 */
+    int first;     /* whose equations it took over, in its own names; -1: they were derived */
+    bool is_first; /* others took its over */
+} Instanced;
+
+/* an outer one before those inside; NULL at the end */
+const Instanced *system_instanced(const System *system, int i);
+
 /* --- angles of chords over full turns --- */
 
 /* A turn of a chord that no sum of other turns tells, only its sine and cosine: the angle is the

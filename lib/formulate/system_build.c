@@ -1,5 +1,6 @@
 /* system_build.c: a System from a scene: copied parts, variables, and the order in which it is
  * built */
+#include "formulate/alike.h"
 #include "formulate/constraints.h"
 #include "formulate/dynamics.h"
 #include "formulate/ideal.h"
@@ -167,6 +168,22 @@ static void copy_outputs(System *system, const Scene *scene)
     for (int i = 0; i < count; i++) {
         system->origin->outputs[i] = scene->outputs.at[i].body;
         system->origin->output_names[i] = system_keep(system, "%s", scene->outputs.at[i].name);
+    }
+}
+
+static void copy_uses(System *system, const Scene *scene)
+{
+    Origin *origin = system->origin;
+
+    origin->use_count = scene->uses.count;
+    origin->uses = pool_alloc(system->pool, (size_t)scene->uses.count * sizeof *origin->uses);
+    for (int i = 0; i < scene->uses.count; i++) {
+        const SceneUse *use = &scene->uses.at[i];
+
+        origin->uses[i] = (Instanced){.name = system_keep(system, "%s", use->name),
+                                      .definition = system_keep(system, "%s", use->definition),
+                                      .outer = use->outer,
+                                      .first = -1};
     }
 }
 
@@ -390,6 +407,7 @@ static Status build(System *system, Diag *diag)
     }
     add_drives(system);
     frames_build(system);
+    alike_build(system);
     multi_turn_build(system);
     motion_build(system);
     elastics_build(system);
@@ -411,6 +429,8 @@ static Status build(System *system, Diag *diag)
         arena_reset(system->arena);
     }
 done:
+    alike_free(system->alike);
+    system->alike = NULL;
     return status;
 }
 
@@ -457,6 +477,7 @@ static void take_scene(System *system, const Making *making)
         vary_values(system, options->vary, options->context);
     copy_outputs(system, scene);
     copy_form(system, scene);
+    copy_uses(system, scene);
 }
 
 static Status make_as(const Making *making, bool *has_no_states, System **out, Diag *diag)

@@ -5,6 +5,7 @@
 #include "base/memory.h"
 #include "formulate/system.h"
 
+typedef struct Alike Alike;
 typedef struct Constraints Constraints;
 typedef struct Dynamics Dynamics;
 typedef struct Kinematics Kinematics;
@@ -17,6 +18,7 @@ struct System {
     Pool *pool;         /* names and small arrays; of a view: of what is formed for it */
     const Scene *scene; /* while it is made; NULL afterwards */
     const Watch *watch; /* likewise */
+    Alike *alike;       /* likewise, or where no definition has instances */
 
     /* parts: a view borrows them */
     Origin *origin;

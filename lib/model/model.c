@@ -433,6 +433,11 @@ static Status make_scene(const void *context, Scene *out, Diag *diag)
 
         LIST_PUSH(scene.outputs, (SceneOutput){d->name, d->body});
     }
+    for (int i = 0; i < state->uses.count; i++) {
+        const Use *use = &state->uses.at[i];
+
+        LIST_PUSH(scene.uses, (SceneUse){use->name, use->subsystem->name, use->outer});
+    }
     *out = scene;
 done:
     return status;
@@ -452,6 +457,7 @@ void scene_free(Scene *scene)
 {
     LIST_FREE(scene->parameters);
     LIST_FREE(scene->outputs);
+    LIST_FREE(scene->uses);
 }
 
 int model_output_count(const Model *model)

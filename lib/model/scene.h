@@ -23,6 +23,11 @@ typedef struct SceneOutput {
     Expr body; /* over variables, t and parameters */
 } SceneOutput;
 
+typedef struct SceneUse { /* an instance of a subsystem; "name." begins the names of what it made */
+    const char *name, *definition;
+    int outer; /* the instance in which it was made; -1 */
+} SceneUse;
+
 typedef struct Scene {
     Arena *arena;
     uint64_t revision; /* changes whenever equations may have changed; never reused */
@@ -38,6 +43,7 @@ typedef struct Scene {
     NetworkForm network_form;
     LIST(SceneParameter) parameters;
     LIST(SceneOutput) outputs;
+    LIST(SceneUse) uses;                           /* an outer one before those inside */
     double (*number)(const void *context, Expr e); /* of an expression of parameters */
     const void *context;
 } Scene;

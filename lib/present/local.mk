@@ -45,6 +45,7 @@ libcore_la_SOURCES += \
   lib/present/show_graph.c \
   lib/present/show_linear.c \
   lib/present/show_session.c \
+  lib/present/show_structure.c \
   lib/present/show_state.c \
   lib/present/show_transfer.c \
   lib/present/tables.c \

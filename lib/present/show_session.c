@@ -1,4 +1,4 @@
-/* show_session.c: parameters, outputs, settings, the last run, the program and the structure */
+/* show_session.c: parameters, outputs, settings, the last run and the program */
 #include "compile/program.h"
 #include "present/show.h"
 
@@ -410,57 +410,5 @@ Status show_program(const View *view, const Selection *selection, Text *out, Dia
 done:
     program_free(program);
     MEM_FREE(symbols, roots);
-    return status;
-}
-
-static void add_pattern(Text *out, const char *title, const Expr *entries, int rows, int columns)
-{
-    int filled = 0;
-
-    for (int i = 0; i < rows * columns; i++)
-        filled += !expr_is_zero(entries[i]);
-    text_addf(out, "%s, %d x %d, %d not zero\n", title, rows, columns, filled);
-    for (int r = 0; r < rows && columns <= 60; r++) {
-        text_add(out, "  ");
-        for (int c = 0; c < columns; c++)
-            text_add(out, expr_is_zero(entries[r * columns + c]) ? " ." : " x");
-        text_char(out, '\n');
-    }
-}
-
-Status show_structure(const View *view, const Selection *selection, Text *out, Diag *diag)
-{
-    System *system = view->system;
-    const Reading *reading = system_run(system);
-    const int nu = system_nu(system), m = system_m(system);
-    const int k = system_nx(system) + system_nz(system);
-    Table table = table_for("lr");
-    Status status = OK;
-
-    (void)selection;
-    CHECK(system_form_mass(system, diag));
-    table_cell(&table, "coordinates");
-    table_cellf(&table, "%d", system_n(system));
-    table_cell(&table, "speeds");
-    table_cellf(&table, "%d", nu);
-    table_cell(&table, "constraints");
-    table_cellf(&table, "%d", m);
-    table_cell(&table, "network states");
-    table_cellf(&table, "%d", system_nx(system));
-    table_cell(&table, "algebraic unknowns");
-    table_cellf(&table, "%d", system_nz(system));
-    table_print(out, &table, 0);
-    if (nu > 0)
-        add_pattern(out, "mass matrix", reading->mass, nu, nu);
-    if (m > 0)
-        add_pattern(out, "jacobian", reading->phi_u, m, nu);
-    if (k > 0) {
-        Expr *dense = system_network_matrix(system);
-
-        add_pattern(out, "network", dense, k, k);
-        mem_free(dense);
-    }
-done:
-    table_free(&table);
     return status;
 }

@@ -1,0 +1,333 @@
+/* show_structure.c: sizes, blocks, and where M, the Jacobian and the network are not zero
+ *
+ * Each instance of a subsystem is a block: rows and columns stand block by block, what joins the
+ * instances last. So M is block diagonal and the Jacobian bordered, as far as the ports' motion is
+ * prescribed. */
+#include "present/show.h"
+
+#include <string.h>
+
+enum { WIDEST = 60 }; /* columns of a pattern; above, it is one of blocks */
+
+static void add_sizes(const System *system, Text *out)
+{
+    const struct {
+        const char *what;
+        int count;
+    } sizes[] = {{"coordinates", system_n(system)},
+                 {"speeds", system_nu(system)},
+                 {"constraints", system_m(system)},
+                 {"network states", system_nx(system)},
+                 {"algebraic unknowns", system_nz(system)}};
+    Table table = table_for("lr");
+
+    for (int i = 0; i < COUNT(sizes); i++) {
+        table_cell(&table, sizes[i].what);
+        table_cellf(&table, "%d", sizes[i].count);
+    }
+    table_print(out, &table, 0);
+    table_free(&table);
+}
+
+/* --- blocks --- */
+
+static int instance_count(const System *system)
+{
+    int count = 0;
+
+    while (system_instanced(system, count) != NULL)
+        count++;
+    return count;
+}
+
+/* the innermost instance that a name is in; -1: none */
+static int instance_of(const System *system, const char *name)
+{
+    const Instanced *one;
+    int found = -1;
+
+    for (int i = 0; (one = system_instanced(system, i)) != NULL; i++) {
+        const size_t length = strlen(one->name);
+
+        if (strncmp(name, one->name, length) == 0 && name[length] == '.')
+            found = i;
+    }
+    return found;
+}
+
+static int outermost(const System *system, int instance)
+{
+    while (instance >= 0 && system_instanced(system, instance)->outer >= 0)
+        instance = system_instanced(system, instance)->outer;
+    return instance;
+}
+
+/* one row or column of a matrix */
+typedef struct Line {
+    const char *name;
+    int instance; /* innermost; -1 */
+    int at;       /* in the matrix */
+} Line;
+typedef LIST(Line) Lines;
+
+/* those of the blocks, one after the other, then what joins them */
+static void sort_lines(const System *system, Lines *lines)
+{
+    const int count = instance_count(system);
+    Lines sorted = {0};
+
+    for (int block = 0; block <= count; block++)
+        for (int i = 0; i < lines->count; i++)
+            if (outermost(system, lines->at[i].instance) == (block < count ? block : -1))
+                LIST_PUSH(sorted, lines->at[i]);
+    LIST_FREE(*lines);
+    *lines = sorted;
+}
+
+static void speed_lines(const System *system, Lines *out)
+{
+    for (int j = 0; j < system_nu(system); j++) {
+        const char *name = system_u(system, j)->name;
+
+        LIST_PUSH(*out, (Line){name, instance_of(system, name), j});
+    }
+    sort_lines(system, out);
+}
+
+static void row_lines(const System *system, Lines *out)
+{
+    for (int k = 0; k < system_m(system); k++) {
+        const char *name = system_instance_name(system, system_constraint(system, k)->instance);
+
+        LIST_PUSH(*out, (Line){name, instance_of(system, name), k});
+    }
+    sort_lines(system, out);
+}
+
+static void network_lines(const System *system, Lines *out)
+{
+    const int states = system_nx(system);
+
+    for (int i = 0; i < states + system_nz(system); i++) {
+        const Variable *own = i < states ? system_x(system, i) : system_z(system, i - states);
+
+        LIST_PUSH(*out, (Line){own->name, instance_of(system, own->name), i});
+    }
+    sort_lines(system, out);
+}
+
+static int lines_of(const Lines *lines, int instance)
+{
+    int count = 0;
+
+    for (int i = 0; i < lines->count; i++)
+        count += lines->at[i].instance == instance;
+    return count;
+}
+
+static void add_counts(Table *table, const Lines *speeds, const Lines *rows, const Lines *network,
+                       int instance)
+{
+    table_cellf(table, "%d", lines_of(speeds, instance));
+    table_cellf(table, "%d", lines_of(rows, instance));
+    table_cellf(table, "%d", lines_of(network, instance));
+}
+
+/* whose equations an instance took over, itself or with the one around it; false: nobody's */
+static bool taken_from(const System *system, int instance, Text *out)
+{
+    const Instanced *own = system_instanced(system, instance);
+    int around = instance;
+
+    while (around >= 0 && system_instanced(system, around)->first < 0)
+        around = system_instanced(system, around)->outer;
+    if (around < 0)
+        return false;
+    text_addf(out, "%s%s", system_instanced(system, system_instanced(system, around)->first)->name,
+              own->name + strlen(system_instanced(system, around)->name));
+    return true;
+}
+
+static void add_blocks(const System *system, const Lines *speeds, const Lines *rows,
+                       const Lines *network, Text *out)
+{
+    static const char *const heads[] = {"block", "of", "speeds", "rows", "network", "equations"};
+    Table table = table_for("llrrrl");
+    const Instanced *one;
+
+    for (int i = 0; i < COUNT(heads); i++)
+        table_cell(&table, heads[i]);
+    for (int i = 0; (one = system_instanced(system, i)) != NULL; i++) {
+        Text first = {0};
+
+        table_cell(&table, one->name);
+        table_cell(&table, one->definition);
+        add_counts(&table, speeds, rows, network, i);
+        if (taken_from(system, i, &first))
+            table_cellf(&table, "those of %s", first.at);
+        else
+            table_cell(&table, "derived");
+        text_free(&first);
+    }
+    table_cell(&table, "between");
+    table_cell(&table, "");
+    add_counts(&table, speeds, rows, network, -1);
+    table_cell(&table, "derived");
+    table_print(out, &table, 0);
+    table_free(&table);
+}
+
+/* how often each definition was derived, at the first of its instances */
+static void add_counters(const System *system, Text *out)
+{
+    const Instanced *one, *other;
+
+    for (int i = 0; (one = system_instanced(system, i)) != NULL; i++) {
+        int instances = 0, derived = 0;
+        bool is_later = false;
+
+        for (int k = 0; (other = system_instanced(system, k)) != NULL; k++) {
+            Text first = {0};
+
+            if (strcmp(one->definition, other->definition) != 0)
+                continue;
+            is_later = is_later || k < i;
+            instances++;
+            derived += !taken_from(system, k, &first);
+            text_free(&first);
+        }
+        if (is_later)
+            continue;
+        text_addf(out, "%s: derived ", one->definition);
+        if (derived == 1)
+            text_add(out, "once");
+        else
+            text_addf(out, "%d times", derived);
+        text_add(out, ", ");
+        layout_count(out, instances, "instance", "instances");
+        text_char(out, '\n');
+    }
+}
+
+/* --- patterns --- */
+
+typedef struct Pattern {
+    const System *system;
+    const Expr *entries;
+    Lines rows, columns;
+    int stride;
+} Pattern;
+
+static bool is_filled(const Pattern *p, int row, int column)
+{
+    return !expr_is_zero(p->entries[p->rows.at[row].at * p->stride + p->columns.at[column].at]);
+}
+
+static bool begins_block(const Pattern *p, const Lines *lines, int i)
+{
+    return i > 0 && outermost(p->system, lines->at[i].instance) !=
+                        outermost(p->system, lines->at[i - 1].instance);
+}
+
+static void add_row(const Pattern *p, int row, int width, Text *out)
+{
+    text_addf(out, "  %-*s", width, p->rows.at[row].name);
+    for (int c = 0; c < p->columns.count; c++)
+        text_addf(out, "%s %c", begins_block(p, &p->columns, c) ? " |" : "",
+                  is_filled(p, row, c) ? 'x' : '.');
+    text_char(out, '\n');
+}
+
+static const char *block_title(const Pattern *p, const Line *line)
+{
+    const int instance = outermost(p->system, line->instance);
+
+    return instance < 0 ? "between" : system_instanced(p->system, instance)->name;
+}
+
+/* one line a block: the blocks in which it isn't zero */
+static void add_block_rows(const Pattern *p, Text *out)
+{
+    for (int r = 0; r < p->rows.count;) {
+        Text meets = {0};
+        int end = r + 1;
+
+        while (end < p->rows.count && !begins_block(p, &p->rows, end))
+            end++;
+        for (int c = 0; c < p->columns.count;) {
+            bool met = false;
+            const char *title = block_title(p, &p->columns.at[c]);
+
+            do
+                for (int k = r; k < end; k++)
+                    met = met || is_filled(p, k, c);
+            while (++c < p->columns.count && !begins_block(p, &p->columns, c));
+            if (met)
+                text_addf(&meets, " %s", title);
+        }
+        text_addf(out, "  %s:%s\n", block_title(p, &p->rows.at[r]),
+                  meets.at != NULL ? meets.at : "");
+        text_free(&meets);
+        r = end;
+    }
+}
+
+static void add_pattern(const Pattern *p, const char *title, Text *out)
+{
+    int filled = 0, width = 0;
+
+    for (int r = 0; r < p->rows.count; r++) {
+        const int length = (int)strlen(p->rows.at[r].name);
+
+        width = length > width ? length : width;
+        for (int c = 0; c < p->columns.count; c++)
+            filled += is_filled(p, r, c);
+    }
+    text_addf(out, "%s, %d x %d, %d not zero\n", title, p->rows.count, p->columns.count, filled);
+    if (p->columns.count > WIDEST && instance_count(p->system) > 0)
+        add_block_rows(p, out);
+    for (int r = 0; r < p->rows.count && p->columns.count <= WIDEST; r++) {
+        if (begins_block(p, &p->rows, r)) {
+            text_addf(out, "  %*s", width, "");
+            for (int c = 0; c < p->columns.count; c++)
+                text_add(out, begins_block(p, &p->columns, c) ? " + -" : " -");
+            text_char(out, '\n');
+        }
+        add_row(p, r, width, out);
+    }
+}
+
+Status show_structure(const View *view, const Selection *selection, Text *out, Diag *diag)
+{
+    System *system = view->system;
+    const Reading *reading = system_run(system);
+    Lines speeds = {0}, rows = {0}, network = {0};
+    Expr *dense = NULL;
+    Status status = OK;
+
+    (void)selection;
+    CHECK(system_form_mass(system, diag));
+    speed_lines(system, &speeds);
+    row_lines(system, &rows);
+    network_lines(system, &network);
+    add_sizes(system, out);
+    if (instance_count(system) > 0) {
+        add_blocks(system, &speeds, &rows, &network, out);
+        add_counters(system, out);
+    }
+    if (speeds.count > 0)
+        add_pattern(&(Pattern){system, reading->mass, speeds, speeds, speeds.count}, "mass matrix",
+                    out);
+    if (rows.count > 0)
+        add_pattern(&(Pattern){system, reading->phi_u, rows, speeds, speeds.count}, "jacobian",
+                    out);
+    dense = system_network_matrix(system);
+    if (network.count > 0)
+        add_pattern(&(Pattern){system, dense, network, network, network.count}, "network", out);
+done:
+    LIST_FREE(speeds);
+    LIST_FREE(rows);
+    LIST_FREE(network);
+    mem_free(dense);
+    return status;
+}

@@ -1,0 +1,157 @@
+/* bench_subsystems.c: a planar robot of 30 legs, and a platform on 30 spatial ones, each leg an
+ * instance of one definition, against the same parts written out: forming the equations in
+ * milliseconds, both in one run, and again after an edit of one leg */
+#include "formulate/system.h"
+#include "model/model.h"
+
+#include "base/text.h"
+#include "bench.h"
+#include "bench_model.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { LEGS = 30, TRIES = 5 };
+
+static void add_planar(Text *text, const char *p, const char *base)
+{
+    text_addf(text, "%sL1 = 0.4\n%sL2 = 0.6\n", p, p);
+    text_addf(text, "body %sl1 mass=3 inertia=0.04\nbody %sl2 mass=4 inertia=0.12\n", p, p);
+    text_addf(text, "arm %sa1 %sl1 [-%sL1/2, 0]\narm %sk1 %sl1 [%sL1/2, 0]\n", p, p, p, p, p, p);
+    text_addf(text, "arm %sk2 %sl2 [-%sL2/2, 0]\narm %sB %sl2 [%sL2/2, 0]\n", p, p, p, p, p, p);
+    text_addf(text, "revolute %sth1 %s %sa1\nrevolute %sth2 %sk1 %sk2\n", p, base, p, p, p, p);
+    text_addf(text, "motor %sM %sth1 %su 0 R=1 L=1 Kt=1 Kv=1\nresistor %sR %su 0 5\n", p, p, p, p,
+              p);
+}
+
+static void add_spatial(Text *text, const char *p, const char *base)
+{
+    text_addf(text, "%sL1 = 0.4\n%sL2 = 0.6\n", p, p);
+    text_addf(text, "body %sl1 mass=3 inertia=[0.04, 0.05, 0.06]\n", p);
+    text_addf(text, "body %sl2 mass=4 inertia=[0.12, 0.1, 0.05]\n", p);
+    text_addf(text, "arm %sa1 %sl1 [-%sL1/2, 0, 0]\narm %sk1 %sl1 [%sL1/2, 0, 0]\n", p, p, p, p, p,
+              p);
+    text_addf(text, "arm %sk2 %sl2 [-%sL2/2, 0, 0]\narm %sB %sl2 [%sL2/2, 0, 0]\n", p, p, p, p, p,
+              p);
+    text_addf(text, "universal %sth1 %s %sa1 axes=[y, z]\n", p, base, p);
+    text_addf(text, "prismatic %sth2 %sk1 %sk2 axis=x\nspring %ssp %sth2 k=100 rest=0.2\n", p, p, p,
+              p, p);
+}
+
+static char *robot_text(bool planar, bool flat)
+{
+    void (*const add_leg)(Text *, const char *, const char *) = planar ? add_planar : add_spatial;
+    const char *const z = planar ? "" : ", 0", *const dot = flat ? "_" : ".";
+    Text text = {0};
+
+    text_add(&text, planar ? "scene planar\ngravity [0, -9.81]\nbody m mass=8 inertia=0.08\n"
+                           : "gravity [0, 0, -9.81]\nbody m mass=8 inertia=[0.1, 0.2, 0.3]\n");
+    if (!flat) {
+        text_add(&text, "subsystem leg frames=[A, B]\n");
+        add_leg(&text, "", "A");
+        text_add(&text, "end\n");
+    }
+    for (int i = 0; i < LEGS; i++) {
+        const double at = 2 * M_PI * i / LEGS;
+        Text prefix = {0}, base = {0};
+
+        text_addf(&prefix, "leg%d%s", i, dot);
+        text_addf(&base, "g%d", i);
+        text_addf(&text, "arm g%d ground [%.5f, %.5f%s]\narm p%d m [%.5f, %.5f%s]\n", i,
+                  0.6 * cos(at), 0.6 * sin(at), z, i, 0.2 * cos(at), 0.2 * sin(at), z);
+        if (flat)
+            add_leg(&text, prefix.at, base.at);
+        else
+            text_addf(&text, "use leg leg%d A=g%d\n", i, i);
+        text_addf(&text, "%s h%d leg%d%sB p%d\n", planar ? "revolute" : "spherical", i, i, dot, i);
+        text_free(&prefix);
+        text_free(&base);
+    }
+    text_add(&text, "tree m");
+    for (int i = 0; i < LEGS; i++)
+        text_addf(&text, " leg%d%sth1 leg%d%sth2", i, dot, i, dot);
+    text_char(&text, '\n');
+    return text_done(&text);
+}
+
+static void apply(Model *model, const char *line)
+{
+    Statement *statement = NULL;
+    size_t next = 0;
+    Diag diag = {0};
+
+    if (statement_parse(line, 1, (SyntaxOptions){0}, &next, &statement, &diag) != OK ||
+        model_apply(model, statement, &diag) != OK)
+        printf("# %s\n", diag.message);
+    statement_free(statement);
+}
+
+/* seconds; *nodes: expressions that weren't there before */
+static double form(Model *model, double *nodes)
+{
+    const SystemOptions options = {0};
+    const int64_t before = arena_nodes(model_arena(model));
+    Scene scene = {0};
+    System *system = NULL;
+    Diag diag = {0};
+    const double began = bench_now();
+
+    if (model_scene(model, &scene, &diag) != OK ||
+        system_new_view(&scene, &options, &system, &diag) != OK)
+        printf("# %s\n", diag.message);
+    const double took = bench_now() - began;
+
+    *nodes = (double)(arena_nodes(model_arena(model)) - before);
+    system_free(system);
+    scene_free(&scene);
+    return took;
+}
+
+static void line(bool planar, const char *what, double value, const char *unit)
+{
+    Text name = {0};
+
+    text_addf(&name, "subsystems.%s_%d_%s", planar ? "planar" : "spatial", LEGS, what);
+    bench_line(name.at, value, unit);
+    text_free(&name);
+}
+
+static void bench_robot(bool planar)
+{
+    double least[2] = {1e300, 1e300}, edited = 1e300, nodes = 0, more = 0;
+
+    for (int flat = 0; flat < 2; flat++) {
+        char *text = robot_text(planar, flat == 1);
+
+        for (int i = 0; i < TRIES; i++) {
+            Model *model = bench_model(text);
+
+            if (model == NULL)
+                break;
+            least[flat] = fmin(least[flat], form(model, &nodes));
+            if (flat == 0) {
+                /* another leg, and one changed: the others' expressions are there */
+                apply(model, "delete h7");
+                apply(model, "delete leg7");
+                apply(model, "use leg leg7 A=g7");
+                apply(model, planar ? "revolute h7 leg7.B p7" : "spherical h7 leg7.B p7");
+                edited = fmin(edited, form(model, &more));
+            }
+            model_free(model);
+        }
+        mem_free(text);
+        if (flat == 0)
+            line(planar, "edit_nodes", more / nodes, "of all");
+    }
+    line(planar, "time", 1e3 * least[0], "ms");
+    line(planar, "flat_time", 1e3 * least[1], "ms");
+    line(planar, "ratio", least[0] / least[1], "of flat");
+    line(planar, "edit_time", 1e3 * edited, "ms");
+}
+
+int main(void)
+{
+    bench_robot(true);
+    bench_robot(false);
+    return 0;
+}

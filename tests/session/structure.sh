@@ -1,0 +1,44 @@
+# show structure: blocks of instances, what was derived and what was taken over; the paper's robot
+# has 9 + 3 unknowns and 6 closures
+robot() {
+    sed '/^expect/d; /^simulate/d; /^export/d' "$TOP_SRCDIR/scripts/paper/6_parallel_forward.ct"
+}
+robot >robot.ct
+echo '--- the robot: one leg derived'
+cotree -q robot.ct -e 'show structure'
+echo '--- the tree enters the third leg by its tip, and it has equations of its own'
+cotree -q robot.ct -e 'tree m9 leg1.th1 leg1.th2 leg2.th1 leg2.th2 h12 leg3.th2' \
+    -e 'show structure' | sed -n '6,11p'
+echo '--- other lengths are other values; another number of a part is another expression'
+cotree -q robot.ct -e 'set leg2.L1 = 0.45; set leg3.l1.mass = 5; show structure' | sed -n '6,11p'
+echo '--- instances within instances'
+cat >within.ct <<'END'
+scene planar
+subsystem link frames=[A, B]
+  body b mass=1 inertia=0.1
+  arm a b [-0.5, 0]
+  arm B b [0.5, 0]
+  revolute h A a
+end
+subsystem arm frames=[A, B]
+  use link low A=A
+  use link high A=low.B
+  arm B high.B [0.4, 0]
+end
+use arm left right A=[ground, ground]
+show structure
+delete left
+show structure
+END
+cotree -q within.ct
+echo '--- thirty legs: patterns of blocks'
+{
+    printf 'scene planar\nbody m mass=1 inertia=1\n'
+    printf 'subsystem leg frames=[A, B]\nbody b mass=1 inertia=1\narm B b [1, 0]\n'
+    printf 'body c mass=1 inertia=1\nrevolute h A b\nrevolute k b c\nend\n'
+    for i in $(seq 30); do printf 'use leg leg%d A=ground\nrevolute h%d leg%d.B m\n' "$i" "$i" "$i"; done
+    printf 'tree m'
+    for i in $(seq 30); do printf ' leg%d.h leg%d.k' "$i" "$i"; done
+    printf '\nshow structure\n'
+} >many.ct
+cotree -q many.ct | sed -n '6,9p;34,44p;68,78p'
