@@ -183,10 +183,12 @@ void renaming_free(Renaming *renaming)
     mem_free(renaming);
 }
 
+/* a hold whose operand has become negative comes as -1 times one */
 static Expr without_hold(Arena *arena, Expr e, void *context)
 {
-    (void)arena;
     (void)context;
+    if (expr_kind(e) == EXPR_PRODUCT && expr_arg_count(e) == 2 && expr_is(expr_arg(e, 0), -1))
+        return expr_neg(arena, held(expr_arg(e, 1)));
     return held(e);
 }
 
