@@ -20,6 +20,10 @@ libcore_la_SOURCES += \
   lib/algebra/linear.h \
   lib/algebra/matrix3.c \
   lib/algebra/matrix3.h \
+  lib/algebra/multinomial.c \
+  lib/algebra/multinomial.h \
+  lib/algebra/multinomial_gcd.c \
+  lib/algebra/multinomial_impl.h \
   lib/algebra/pattern.c \
   lib/algebra/pattern.h \
   lib/algebra/polynomial.c \

@@ -34,6 +34,8 @@ libcore_la_SOURCES += \
 	lib/formulate/expanded.c \
 	lib/formulate/smooth.c \
 	lib/formulate/state_space.c lib/formulate/state_space.h \
+	lib/formulate/linear_network.c lib/formulate/linear_network.h \
+	lib/formulate/ratio.c lib/formulate/ratio.h lib/formulate/response.c lib/formulate/response.h \
 	lib/formulate/surfaces.h \
 	lib/formulate/switches.c \
 	lib/formulate/multi_turn.c lib/formulate/multi_turn_build.c \

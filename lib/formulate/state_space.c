@@ -5,91 +5,23 @@
  * Cramer's rule: what is written out so has no factors that cancel, but those of single terms. */
 #include "formulate/state_space.h"
 
-#include "base/memory.h"
+#include "formulate/linear_network.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 enum {
-    MOST_COUPLED = 9,  /* equations that are solved together */
-    MOST_LEFT = 400,   /* equations that are no chain */
-    MOST_TERMS = 4000, /* of a product that is multiplied out */
+    MOST_COUPLED = 9, /* equations that are solved together */
+    MOST_LEFT = 400,  /* equations that are no chain */
     SIZE = 1 << MOST_COUPLED
 };
 
-static const unsigned constant_kinds = 1U << SYMBOL_PARAMETER | 1U << SYMBOL_TIME;
-
 typedef struct Space {
-    const Scene *scene;
-    const Watch *watch;
-    Arena *arena;
-    const System *system;
-    LIST(const Instance *) sources;
-    LIST(Expr) symbols; /* of sources: INPUT_ORDERS each */
-    Expr t, start;      /* the instant about which a source's value is developed */
-    int n, columns;     /* equations; right sides: states, then sources by order */
-    Expr *right;        /* n x columns */
-    Expr *solution;     /* the same, by unknown */
-    int *row_start;     /* entries of a row are entry[row_start[r]] .. */
-    Entry *entry;
-    bool *solved; /* by unknown */
-    bool *used;   /* by row */
+    LinearNetwork net;
+    Expr *solution; /* n x columns, by unknown */
+    bool *solved;   /* by unknown */
+    bool *used;     /* by row */
 } Space;
-
-/* --- sources as symbols --- */
-
-/* the value of a source that nothing else decides */
-static bool is_source(const Instance *instance, int param)
-{
-    return param == instance_input(instance) &&
-           (instance->row->params[param].use & GIVES_SOURCE) != 0 &&
-           (expr_kinds(instance->values[param].at[0]) & ~constant_kinds) == 0;
-}
-
-static void find_sources(Space *s)
-{
-    for (int i = 0; i < s->scene->instance_count; i++) {
-        const Instance *instance = s->scene->instances[i];
-
-        for (int p = 0; p < instance->row->param_count; p++) {
-            Text name = {0};
-
-            if (!is_source(instance, p))
-                continue;
-            LIST_PUSH(s->sources, instance);
-            text_add(&name, instance->name);
-            for (int order = 0; order < INPUT_ORDERS; order++) {
-                LIST_PUSH(s->symbols, expr_symbol(s->arena, name.at, SYMBOL_PARAMETER));
-                text_char(&name, '\'');
-            }
-            text_free(&name);
-            break;
-        }
-    }
-}
-
-/* u + (t - start) u' + (t - start)^2/2 u'': at `start` the value, and derivatives, of any source */
-static Expr vary(void *context, const Instance *instance, int param, Expr value)
-{
-    const Space *s = context;
-    Arena *arena = s->arena;
-
-    for (int i = 0; instance != NULL && i < s->sources.count; i++) {
-        const Expr *u = s->symbols.at + (ptrdiff_t)INPUT_ORDERS * i;
-        const Expr late = expr_sub(arena, s->t, s->start);
-
-        if (strcmp(s->sources.at[i]->name, instance->name) != 0 || !is_source(instance, param))
-            continue;
-        return expr_sum(
-            arena,
-            (Expr[]){u[0], expr_mul(arena, late, u[1]),
-                     expr_product(
-                         arena,
-                         (Expr[]){expr_rational(arena, 1, 2), expr_square(arena, late), u[2]}, 3)},
-            3);
-    }
-    return value;
-}
 
 /* --- fractions --- */
 
@@ -179,7 +111,7 @@ static Expr times(Arena *arena, Expr e, Expr factor)
 
     for (int i = 0; i < term_count(e); i++)
         terms[i] = expr_mul(arena, term_at(e, i), factor);
-    sum = expr_expand(arena, expr_sum(arena, terms, term_count(e)), MOST_TERMS);
+    sum = expr_expand(arena, expr_sum(arena, terms, term_count(e)), LINEAR_TERMS);
     mem_free(terms);
     return sum;
 }
@@ -197,130 +129,34 @@ static Expr tidy(Arena *arena, Expr e)
     return expr_div(arena, expr_collect(arena, times(arena, e, under)), under);
 }
 
-/* --- the equations --- */
-
-static const char *part_of_row(const Space *s, int row)
-{
-    const int nx = system_nx(s->system);
-    const Variable *variable = row < nx ? system_x(s->system, row) : system_z(s->system, row - nx);
-
-    return system_instance_name(s->system, variable->instance);
-}
-
-static Status not_linear(const Space *s, int row, unsigned kinds, Diag *diag)
-{
-    const unsigned motion = 1U << SYMBOL_COORDINATE | 1U << SYMBOL_SPEED |
-                            1U << SYMBOL_ACCELERATION | 1U << SYMBOL_MULTIPLIER |
-                            1U << SYMBOL_EFFORT;
-
-    if ((kinds & motion) != 0)
-        (void)diag_set(diag, E_MODEL, "the equation of %s holds motion of the mechanism",
-                       part_of_row(s, row));
-    else
-        (void)diag_set(diag, E_MODEL, "the network is not linear: see the equation of %s",
-                       part_of_row(s, row));
-    diag_hint(diag, "'linearize' gives the linear equations of both about a point; 'show network' "
-                    "shows them as they are");
-    return E_MODEL;
-}
-
-/* the column of a state or of a source and its order; -1: of neither */
-static int column_of(const Space *s, Expr symbol)
-{
-    const int nx = system_nx(s->system);
-
-    for (int j = 0; expr_symbol_kind(symbol) == SYMBOL_STATE && j < nx; j++)
-        if (system_x(s->system, j)->symbol == symbol)
-            return j;
-    for (int k = 0; expr_symbol_kind(symbol) == SYMBOL_PARAMETER && k < s->symbols.count; k++)
-        if (s->symbols.at[k] == symbol)
-            return nx + k;
-    return -1;
-}
-
-/* coefficients of one right side; what is left without states and sources must be 0 */
-static Status read_row(Space *s, int row, Diag *diag)
-{
-    Arena *arena = s->arena;
-    Expr r = expr_open(arena, system_run(s->system)->network_rhs[row]);
-    Expr *symbols = NULL;
-    Expr rest;
-    int count;
-    Status status = OK;
-
-    r = expr_substitute(arena, r, &s->start, &s->t, 1);
-    rest = r;
-    count = expr_symbols(&r, 1, &symbols);
-    for (int i = 0; i < count; i++) {
-        const int column = column_of(s, symbols[i]);
-        const Expr zero = expr_int(arena, 0);
-        Expr slope;
-
-        if (column < 0)
-            continue;
-        slope = expr_diff(arena, r, symbols[i]);
-        if ((expr_kinds(slope) & ~constant_kinds) != 0 || column_of(s, symbols[i]) < 0)
-            CHECK(not_linear(s, row, expr_kinds(r), diag));
-        s->right[row * s->columns + column] = slope;
-        rest = expr_substitute(arena, rest, &symbols[i], &zero, 1);
-    }
-    if ((expr_kinds(r) & ~(constant_kinds | 1U << SYMBOL_STATE)) != 0 ||
-        !expr_is_zero(expr_expand(arena, rest, MOST_TERMS)))
-        CHECK(not_linear(s, row, expr_kinds(r), diag));
-done:
-    mem_free(symbols);
-    return status;
-}
-
 /* Multiply an equation by what stands under its fractions. */
 static void clear_row(Space *s, int row)
 {
     Divisor divisors = {.bases = {0}};
     Expr factor;
 
-    for (int k = s->row_start[row]; k < s->row_start[row + 1]; k++)
-        divisor_add(&divisors, s->entry[k].value);
-    for (int c = 0; c < s->columns; c++)
-        divisor_add(&divisors, s->right[row * s->columns + c]);
-    factor = divisor_done(s->arena, &divisors);
+    for (int k = s->net.row_start[row]; k < s->net.row_start[row + 1]; k++)
+        divisor_add(&divisors, s->net.entry[k].value);
+    for (int c = 0; c < s->net.columns; c++)
+        divisor_add(&divisors, s->net.right[row * s->net.columns + c]);
+    factor = divisor_done(s->net.arena, &divisors);
     if (expr_is(factor, 1))
         return;
-    for (int k = s->row_start[row]; k < s->row_start[row + 1]; k++)
-        s->entry[k].value = times(s->arena, s->entry[k].value, factor);
-    for (int c = 0; c < s->columns; c++)
-        s->right[row * s->columns + c] = times(s->arena, s->right[row * s->columns + c], factor);
+    for (int k = s->net.row_start[row]; k < s->net.row_start[row + 1]; k++)
+        s->net.entry[k].value = times(s->net.arena, s->net.entry[k].value, factor);
+    for (int c = 0; c < s->net.columns; c++)
+        s->net.right[row * s->net.columns + c] =
+            times(s->net.arena, s->net.right[row * s->net.columns + c], factor);
 }
 
 static Status read_rows(Space *s, Diag *diag)
 {
-    const Reading *run = system_run(s->system);
-    Entry *entries = NEW_ARRAY(Entry, run->network_entries);
-    int at = 0;
-
-    s->n = system_nx(s->system) + system_nz(s->system);
-    s->columns = system_nx(s->system) + s->symbols.count;
-    s->right = mem_array((size_t)s->n * (size_t)s->columns, sizeof(Expr));
-    s->solution = mem_array((size_t)s->n * (size_t)s->columns, sizeof(Expr));
-    s->row_start = NEW_ARRAY(int, s->n + 1);
-    s->solved = NEW_ARRAY(bool, s->n);
-    s->used = NEW_ARRAY(bool, s->n);
-    s->entry = entries;
-    for (int k = 0; k < s->n * s->columns; k++)
-        s->right[k] = expr_int(s->arena, 0);
-    for (int r = 0; r < s->n; r++) {
-        s->row_start[r] = at;
-        for (; at < run->network_entries && run->network[at].row == r; at++) {
-            entries[at] = run->network[at];
-            entries[at].value = expr_substitute(
-                s->arena, expr_open(s->arena, run->network[at].value), &s->start, &s->t, 1);
-            if (run->network_nonlinear || (expr_kinds(entries[at].value) & ~constant_kinds) != 0)
-                TRY(not_linear(s, r, expr_kinds(entries[at].value), diag));
-        }
-        s->row_start[r + 1] = at;
-        TRY(read_row(s, r, diag));
+    TRY(linear_network_read(&s->net, diag));
+    s->solution = mem_array((size_t)s->net.n * (size_t)s->net.columns, sizeof(Expr));
+    s->solved = NEW_ARRAY(bool, s->net.n);
+    s->used = NEW_ARRAY(bool, s->net.n);
+    for (int r = 0; r < s->net.n; r++)
         clear_row(s, r);
-        TRY(poll(s->watch));
-    }
     return OK;
 }
 
@@ -334,10 +170,10 @@ typedef struct CoupledStates {
 
 static Expr entry_at(const Space *s, int row, int unknown)
 {
-    for (int k = s->row_start[row]; k < s->row_start[row + 1]; k++)
-        if (s->entry[k].column == unknown)
-            return s->entry[k].value;
-    return expr_int(s->arena, 0);
+    for (int k = s->net.row_start[row]; k < s->net.row_start[row + 1]; k++)
+        if (s->net.entry[k].column == unknown)
+            return s->net.entry[k].value;
+    return expr_int(s->net.arena, 0);
 }
 
 /* Determinant of a block but one row and one unknown (-1: with all), by its rows from the last,
@@ -345,7 +181,7 @@ static Expr entry_at(const Space *s, int row, int unknown)
 static Expr minor_of(const Space *s, const CoupledStates *block, int but_row, int but_unknown,
                      Expr *made)
 {
-    Arena *arena = s->arena;
+    Arena *arena = s->net.arena;
     const int size = block->size;
     int rows[MOST_COUPLED], count = 0;
 
@@ -375,7 +211,7 @@ static Expr minor_of(const Space *s, const CoupledStates *block, int but_row, in
             factor = expr_mul(arena, factor, made[set & ~(1 << c)]);
             terms[used++] = (members - before) % 2 == 0 ? factor : expr_neg(arena, factor);
         }
-        made[set] = expr_expand(arena, expr_sum(arena, terms, used), MOST_TERMS);
+        made[set] = expr_expand(arena, expr_sum(arena, terms, used), LINEAR_TERMS);
     }
     return made[((1 << size) - 1) & ~(but_unknown >= 0 ? 1 << but_unknown : 0)];
 }
@@ -383,22 +219,23 @@ static Expr minor_of(const Space *s, const CoupledStates *block, int but_row, in
 /* take what is solved to the right side */
 static void move_solved(Space *s, int row)
 {
-    for (int k = s->row_start[row]; k < s->row_start[row + 1]; k++) {
-        const int w = s->entry[k].column;
+    for (int k = s->net.row_start[row]; k < s->net.row_start[row + 1]; k++) {
+        const int w = s->net.entry[k].column;
 
-        for (int c = 0; s->solved[w] && c < s->columns; c++) {
-            const Expr x = s->solution[w * s->columns + c];
+        for (int c = 0; s->solved[w] && c < s->net.columns; c++) {
+            const Expr x = s->solution[w * s->net.columns + c];
 
             if (!expr_is_zero(x))
-                s->right[row * s->columns + c] = expr_sub(s->arena, s->right[row * s->columns + c],
-                                                          expr_mul(s->arena, s->entry[k].value, x));
+                s->net.right[row * s->net.columns + c] =
+                    expr_sub(s->net.arena, s->net.right[row * s->net.columns + c],
+                             expr_mul(s->net.arena, s->net.entry[k].value, x));
         }
     }
 }
 
 static Status solve_block(Space *s, const CoupledStates *block, Diag *diag)
 {
-    Arena *arena = s->arena;
+    Arena *arena = s->net.arena;
     Expr *made = NEW_ARRAY(Expr, SIZE);
     Expr cofactor[MOST_COUPLED * MOST_COUPLED], terms[MOST_COUPLED];
     const Expr all = minor_of(s, block, -1, -1, made);
@@ -406,11 +243,11 @@ static Status solve_block(Space *s, const CoupledStates *block, Diag *diag)
 
     if (expr_is_zero(all))
         CHECK(diag_set(diag, E_SINGULAR, "the equation of %s determines nothing",
-                       part_of_row(s, block->rows[0])));
+                       linear_network_part(&s->net, block->rows[0])));
     for (int r = 0; r < block->size; r++) {
         move_solved(s, block->rows[r]);
-        for (int c = 0; c < s->columns; c++) {
-            Expr *right = &s->right[block->rows[r] * s->columns + c];
+        for (int c = 0; c < s->net.columns; c++) {
+            Expr *right = &s->net.right[block->rows[r] * s->net.columns + c];
 
             *right = tidy(arena, *right);
         }
@@ -423,12 +260,12 @@ static Status solve_block(Space *s, const CoupledStates *block, Diag *diag)
         s->used[block->rows[r]] = true;
     }
     for (int u = 0; u < block->size; u++) {
-        CHECK(poll(s->watch));
-        for (int c = 0; c < s->columns; c++) {
+        CHECK(poll(s->net.watch));
+        for (int c = 0; c < s->net.columns; c++) {
             for (int r = 0; r < block->size; r++)
                 terms[r] = expr_mul(arena, cofactor[r * block->size + u],
-                                    s->right[block->rows[r] * s->columns + c]);
-            s->solution[block->unknowns[u] * s->columns + c] =
+                                    s->net.right[block->rows[r] * s->net.columns + c]);
+            s->solution[block->unknowns[u] * s->net.columns + c] =
                 tidy(arena, expr_sum(arena, terms, block->size));
         }
     }
@@ -446,12 +283,12 @@ static Status solve_chains(Space *s, Diag *diag)
 
     while (goes_on) {
         goes_on = false;
-        for (int r = 0; r < s->n; r++) {
+        for (int r = 0; r < s->net.n; r++) {
             CoupledStates one = {.size = 0, .rows = {r}};
 
-            for (int k = s->row_start[r]; !s->used[r] && k < s->row_start[r + 1]; k++)
-                if (!s->solved[s->entry[k].column]) {
-                    one.unknowns[0] = s->entry[k].column;
+            for (int k = s->net.row_start[r]; !s->used[r] && k < s->net.row_start[r + 1]; k++)
+                if (!s->solved[s->net.entry[k].column]) {
+                    one.unknowns[0] = s->net.entry[k].column;
                     one.size++;
                 }
             if (one.size != 1)
@@ -482,8 +319,8 @@ static bool assign(const Space *s, Rest *rest, int place)
 {
     const int row = rest->rows[place];
 
-    for (int k = s->row_start[row]; k < s->row_start[row + 1]; k++) {
-        const int w = s->entry[k].column;
+    for (int k = s->net.row_start[row]; k < s->net.row_start[row + 1]; k++) {
+        const int w = s->net.entry[k].column;
 
         if (s->solved[w] || rest->tried[w])
             continue;
@@ -502,18 +339,18 @@ static Status find_needs(const Space *s, Rest *rest, Diag *diag)
     const int n = rest->count;
 
     for (int p = 0; p < n; p++) {
-        memset(rest->tried, 0, (size_t)s->n * sizeof(bool));
+        memset(rest->tried, 0, (size_t)s->net.n * sizeof(bool));
         if (!assign(s, rest, p))
             return diag_set(diag, E_SINGULAR, "the equation of %s determines nothing",
-                            part_of_row(s, rest->rows[p]));
+                            linear_network_part(&s->net, rest->rows[p]));
     }
     for (int p = 0; p < n; p++) {
         const int row = rest->rows[p];
 
         rest->needs[p * n + p] = true;
-        for (int k = s->row_start[row]; k < s->row_start[row + 1]; k++)
-            if (!s->solved[s->entry[k].column])
-                rest->needs[p * n + rest->row_of[s->entry[k].column]] = true;
+        for (int k = s->net.row_start[row]; k < s->net.row_start[row + 1]; k++)
+            if (!s->solved[s->net.entry[k].column])
+                rest->needs[p * n + rest->row_of[s->net.entry[k].column]] = true;
     }
     for (int k = 0; k < n; k++)
         for (int p = 0; p < n; p++)
@@ -536,7 +373,7 @@ static Status too_many(const Space *s, int row, Diag *diag)
     (void)diag_set(diag, E_MODEL,
                    "too many equations of the network are coupled, that of %s among them, to be "
                    "solved in symbols",
-                   part_of_row(s, row));
+                   linear_network_part(&s->net, row));
     diag_hint(diag, "'linearize' solves them in numbers");
     return E_MODEL;
 }
@@ -565,13 +402,13 @@ static Status solve_blocks(Space *s, Rest *rest, Diag *diag)
 
 static Status solve_rest(Space *s, Diag *diag)
 {
-    Rest rest = {.rows = NEW_ARRAY(int, s->n),
-                 .row_of = NEW_ARRAY(int, s->n),
-                 .unknown_of = NEW_ARRAY(int, s->n),
-                 .tried = NEW_ARRAY(bool, s->n)};
+    Rest rest = {.rows = NEW_ARRAY(int, s->net.n),
+                 .row_of = NEW_ARRAY(int, s->net.n),
+                 .unknown_of = NEW_ARRAY(int, s->net.n),
+                 .tried = NEW_ARRAY(bool, s->net.n)};
     Status status = OK;
 
-    for (int r = 0; r < s->n; r++) {
+    for (int r = 0; r < s->net.n; r++) {
         rest.row_of[r] = -1;
         if (!s->used[r])
             rest.rows[rest.count++] = r;
@@ -590,7 +427,7 @@ done:
 
 static StateSpace *take_solution(const Space *s)
 {
-    const int n = system_nx(s->system), inputs = s->sources.count;
+    const int n = system_nx(s->net.system), inputs = s->net.sources.count;
     StateSpace *out = NEW(StateSpace);
 
     out->states = n;
@@ -599,17 +436,17 @@ static StateSpace *take_solution(const Space *s)
     out->input = NEW_ARRAY(Expr, inputs);
     out->a = NEW_ARRAY(Expr, n * n);
     for (int i = 0; i < n; i++) {
-        out->state[i] = system_x(s->system, i)->symbol;
+        out->state[i] = system_x(s->net.system, i)->symbol;
         for (int j = 0; j < n; j++)
-            out->a[i * n + j] = s->solution[i * s->columns + j];
+            out->a[i * n + j] = s->solution[i * s->net.columns + j];
     }
     for (int k = 0; k < inputs; k++)
-        out->input[k] = s->symbols.at[INPUT_ORDERS * k];
+        out->input[k] = s->net.symbols.at[INPUT_ORDERS * k];
     for (int order = 0; order < INPUT_ORDERS; order++) {
         out->b[order] = NEW_ARRAY(Expr, n * inputs);
         for (int i = 0; i < n; i++)
             for (int k = 0; k < inputs; k++) {
-                const Expr entry = s->solution[i * s->columns + n + INPUT_ORDERS * k + order];
+                const Expr entry = s->solution[i * s->net.columns + n + INPUT_ORDERS * k + order];
 
                 out->b[order][i * inputs + k] = entry;
                 out->has[order] = out->has[order] || !expr_is_zero(entry);
@@ -628,50 +465,31 @@ void state_space_free(StateSpace *space)
     mem_free(space);
 }
 
-static void space_free(Space *s)
-{
-    system_free(s->system);
-    LIST_FREE(s->sources);
-    LIST_FREE(s->symbols);
-    MEM_FREE(s->right, s->solution, s->row_start, s->entry, s->solved, s->used);
-}
-
-/* a network, with states, that nothing samples */
+/* a network with states */
 static Status check_states(const Space *s, Diag *diag)
 {
-    const OwnSample *sample;
-
-    if (system_nx(s->system) == 0) {
-        (void)diag_set(diag, E_MODEL,
-                       system_nz(s->system) + s->sources.count > 0 ? "the network has no states"
-                                                                   : "there is no network");
-        diag_hint(diag, "states are the voltages of capacitors and the currents of inductors");
-        return E_MODEL;
-    }
-    for (int i = 0; (sample = system_sample(s->system, i)) != NULL; i++)
-        if (sample->period != NULL)
-            return diag_set(
-                diag, E_MODEL, "%s is sampled: its state has no rate",
-                system_instance_name(s->system, system_x(s->system, sample->state)->instance));
-    return OK;
+    if (system_nx(s->net.system) > 0)
+        return OK;
+    (void)diag_set(diag, E_MODEL,
+                   system_nz(s->net.system) + s->net.sources.count > 0 ? "the network has no states"
+                                                                       : "there is no network");
+    diag_hint(diag, "states are the voltages of capacitors and the currents of inductors");
+    return E_MODEL;
 }
 
 Status state_space_new(const Scene *scene, const Watch *watch, StateSpace **out, Diag *diag)
 {
-    Space s = {.scene = scene, .watch = watch, .arena = scene->arena};
-    const SystemOptions options = {.vary = vary, .context = &s, .watch = watch};
+    Space s = {.solution = NULL};
     Status status;
 
-    s.t = expr_symbol(s.arena, "t", SYMBOL_TIME);
-    s.start = expr_symbol(s.arena, "#start", SYMBOL_PARAMETER);
-    find_sources(&s);
-    CHECK(system_new(scene, &options, &s.system, diag));
+    CHECK(linear_network_form(scene, false, watch, &s.net, diag));
     CHECK(check_states(&s, diag));
     CHECK(read_rows(&s, diag));
     CHECK(solve_chains(&s, diag));
     CHECK(solve_rest(&s, diag));
     *out = take_solution(&s);
 done:
-    space_free(&s);
+    linear_network_free(&s.net);
+    MEM_FREE(s.solution, s.solved, s.used);
     return status;
 }

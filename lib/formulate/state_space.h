@@ -8,9 +8,7 @@
 #ifndef COTREE_FORMULATE_STATE_SPACE_H
 #define COTREE_FORMULATE_STATE_SPACE_H
 
-#include "formulate/system.h"
-
-enum { INPUT_ORDERS = 3 }; /* u, u', u'' */
+#include "formulate/linear_network.h"
 
 typedef struct StateSpace {
     int states, inputs;

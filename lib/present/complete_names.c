@@ -265,6 +265,12 @@ static void offer_show(TypedLine *line)
                 offer_linear_outputs(line);
             else if (line->before.count == 3)
                 offer_linear_inputs(line);
+            else if (line->before.count == 4)
+                offer(line, "symbolic");
+            break;
+        case BEHIND_ITEMS:
+            if (line->before.count < 4)
+                offer_terminals(line);
             break;
         default:
             break;

@@ -33,10 +33,16 @@ static const Topic topics[] = {
     {"state",        "a linear network as x' = A x + B u",                 NEED_MODEL,  BEHIND_NOTHING, show_state},
     {"linear",       "matrices of the last linearisation",                 NEED_LINEAR, BEHIND_NOTHING, show_linear},
     {"transfer",     "transfer functions of the last linearisation",       NEED_LINEAR, BEHIND_PAIR,    show_transfer},
+    {"thevenin",     "a linear network between two terminals: source and impedance", NEED_MODEL, BEHIND_ITEMS, show_thevenin},
+    {"norton",       "the same: source and admittance",                    NEED_MODEL,  BEHIND_ITEMS,   show_norton},
     {"derivation",   "how an equation came about, step by step",           NEED_SYSTEM, BEHIND_ENTRY,   show_derivation},
     {"events",       "events, and when they happened in the last run",     NEED_MODEL,  BEHIND_NOTHING, show_events},
 };
 /* clang-format on */
+
+/* `show transfer OUT IN symbolic`: of a linear network as it is */
+static const Topic symbolic_transfer = {"transfer", "", NEED_MODEL, BEHIND_ITEMS,
+                                        show_symbolic_transfer};
 
 const Topic *topic_find(const char *name)
 {
@@ -51,14 +57,27 @@ const Topic *topic_at(int i)
     return i >= 0 && i < COUNT(topics) ? &topics[i] : NULL;
 }
 
+/* whether the last operand is that word */
+static bool is_symbolic(const Statement *statement)
+{
+    const Syntax *last = statement->operands.at[statement->operands.count - 1].value;
+
+    return last->kind == SYNTAX_VARIABLE && last->primes == 0 &&
+           strcmp(last->text, "symbolic") == 0;
+}
+
 /* the topic's row, NULL where the first operand is a variable or an expression */
 static const Topic *find_topic(const Statement *statement)
 {
     const Syntax *first = statement->operands.count > 0 ? statement->operands.at[0].value : NULL;
 
-    return first != NULL && first->kind == SYNTAX_VARIABLE && first->primes == 0
-               ? topic_find(first->text)
-               : NULL;
+    const Topic *topic = first != NULL && first->kind == SYNTAX_VARIABLE && first->primes == 0
+                             ? topic_find(first->text)
+                             : NULL;
+
+    return topic != NULL && topic->behind == BEHIND_PAIR && is_symbolic(statement)
+               ? &symbolic_transfer
+               : topic;
 }
 
 /* whether any of what is to be shown is a formula, which equations are needed for */
@@ -156,6 +175,21 @@ done:
     return status;
 }
 
+/* one of two; the word `symbolic` behind them has chosen the topic */
+static Status take_item(const Topic *topic, const Statement *statement, int operand,
+                        Selection *selection, Diag *diag)
+{
+    const int at = operand - 1;
+
+    if (topic == &symbolic_transfer && operand == statement->operands.count - 1)
+        return OK;
+    if (at >= COUNT(selection->items))
+        return diag_at(diag, E_SYNTAX, statement->operands.at[operand].place,
+                       "'show %s' takes two names", topic->name);
+    selection->items[at] = statement->operands.at[operand].value;
+    return OK;
+}
+
 static Status take_name(const View *view, const Topic *topic, const Operand *operand,
                         Selection *selection, const char **names, Diag *diag)
 {
@@ -219,6 +253,8 @@ static Status show_topic(const View *view, const Topic *topic, const Statement *
             status = diag_at(diag, E_SYNTAX, operand->place,
                              "'show %s' tells of one name, row or entry at a time", topic->name);
             goto done;
+        } else if (topic->behind == BEHIND_ITEMS) {
+            CHECK(take_item(topic, statement, i, &selection, diag));
         } else if (operand->value->kind == SYNTAX_NUMBER) {
             CHECK(take_number(topic, operand, &selection, diag));
         } else if (topic->behind == BEHIND_PAIR) {

@@ -22,8 +22,9 @@ typedef enum Behind { /* what may stand behind a topic */
                       BEHIND_EDGES,   /* names of edges */
                       BEHIND_LEVEL,   /* velocity or acceleration, and rows */
                       BEHIND_ENTRY,   /* a name, a row, or an entry: mass(2,3) */
-                      BEHIND_PAIR     /* an output and an input of what was linearized, by number or
+                      BEHIND_PAIR,    /* an output and an input of what was linearized, by number or
                                          name */
+                      BEHIND_ITEMS    /* two: terminals, or an output and an input */
 } Behind;
 
 typedef struct Selection {
@@ -31,8 +32,9 @@ typedef struct Selection {
     int number_count;
     const char *const *names;
     int name_count;
-    const char *level;  /* "velocity", "acceleration" or NULL */
-    const Syntax *item; /* BEHIND_ENTRY; NULL: all */
+    const char *level;      /* "velocity", "acceleration" or NULL */
+    const Syntax *item;     /* BEHIND_ENTRY; NULL: all */
+    const Syntax *items[2]; /* BEHIND_ITEMS; NULL: none */
 } Selection;
 
 typedef struct Topic {
@@ -87,6 +89,7 @@ LinearMatrix linear_matrix(const Linear *linear, char letter);
 /* A, B, C, D with the names of their rows and columns */
 void linear_print(const View *view, const Linear *linear, Text *out);
 ShowFunction show_linear, show_transfer, show_state;
+ShowFunction show_symbolic_transfer, show_thevenin, show_norton;
 /* E_MISSING where there is nothing linear, or no input or output of it */
 MUST_USE Status linear_check_pairs(const Linear *linear, Diag *diag);
 /* a line a mode; what moves on lines of its own where that is wider than the page (0: never) */

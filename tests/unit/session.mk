@@ -27,6 +27,9 @@ test_session_virtual_LDADD = $(unit_ldadd)
 UNIT_TESTS += test_transfer
 test_transfer_SOURCES = tests/unit/test_transfer.c tests/unit/session_kit.h tests/unit/test.h
 test_transfer_LDADD = $(unit_ldadd)
+UNIT_TESTS += test_response
+test_response_SOURCES = tests/unit/test_response.c tests/unit/session_kit.h tests/unit/test.h
+test_response_LDADD = $(unit_ldadd)
 UNIT_TESTS += test_state
 test_state_SOURCES = tests/unit/test_state.c tests/unit/session_kit.h tests/unit/test.h \
 	tests/random.h

@@ -1,0 +1,75 @@
+/* multinomial.h: polynomials in several variables over unbounded integers (GMP)
+ *
+ * All polynomials belong to a Ring, which has a fixed count of variables and bounds the work: the
+ * first result beyond the bound, or a stop, is remembered, and from then on results are harmless.
+ * Whoever called the last operation asks ring_status() once. A polynomial is immutable, new, and
+ * lives until multinomial_free() or the end of its ring. The variable 0 comes first in the order of
+ * terms. */
+#ifndef COTREE_ALGEBRA_MULTINOMIAL_H
+#define COTREE_ALGEBRA_MULTINOMIAL_H
+
+#include "base/memory.h"
+#include "base/watch.h"
+
+#include <gmp.h>
+#include <stdint.h>
+
+typedef struct Ring Ring;
+typedef struct Multinomial Multinomial;
+typedef LIST(Multinomial *) MultinomialList;
+
+/* no polynomial of more than `most` terms */
+Ring *ring_new(int variables, int most, const Watch *watch); /* new; ring_free() */
+void ring_free(Ring *ring);                                  /* NULL is fine */
+Status ring_status(const Ring *ring); /* OK, E_MEMORY: beyond the bound, E_STOPPED */
+
+Multinomial *multinomial_integer(Ring *ring, const mpz_t value);
+Multinomial *multinomial_small(Ring *ring, long value);
+Multinomial *multinomial_variable(Ring *ring, int variable);
+void multinomial_free(Multinomial *p); /* NULL is fine */
+
+/* --- looking --- */
+
+bool multinomial_failed(const Multinomial *p); /* its ring has */
+bool multinomial_is_zero(const Multinomial *p);
+bool multinomial_is_number(const Multinomial *p); /* zero too */
+bool multinomial_is(const Multinomial *p, long value);
+bool multinomial_equal(const Multinomial *p, const Multinomial *q);
+int multinomial_terms(const Multinomial *p);
+const mpz_t *multinomial_factor(const Multinomial *p, int term); /* the integer of a term */
+int multinomial_power(const Multinomial *p, int term, int variable);
+int multinomial_degree(const Multinomial *p, int variable); /* of zero: 0 */
+bool multinomial_is_negative(const Multinomial *p);         /* its first term is */
+
+/* --- arithmetic --- */
+
+Multinomial *multinomial_sum(const Multinomial *p, const Multinomial *q, int sign); /* p + sign q */
+Multinomial *multinomial_times(const Multinomial *p, const Multinomial *q);
+Multinomial *multinomial_scaled(const Multinomial *p, const mpz_t factor);
+Multinomial *multinomial_over(const Multinomial *p, const mpz_t divisor); /* which divides p */
+/* p/q, NULL where q does not divide p (Monagan and Pearce 2007, by a heap) */
+Multinomial *multinomial_quotient(const Multinomial *p, const Multinomial *q);
+/* q where factor q^n = p is what p is known to be: as multinomial_quotient(), never NULL */
+Multinomial *multinomial_exact(const Multinomial *p, const Multinomial *q);
+Multinomial *multinomial_slope(const Multinomial *p, int variable);
+/* what stands behind the powers of some variables (bit 1 << v), one for each product of them that
+ * occurs, the highest first */
+void multinomial_coefficients(const Multinomial *p, uint64_t variables, MultinomialList *out);
+Multinomial *multinomial_coefficient(const Multinomial *p, int variable, int power);
+
+/* --- factors (multinomial_gcd.c) --- */
+
+/* with a positive first term */
+Multinomial *multinomial_gcd(const Multinomial *p, const Multinomial *q);
+/* Factors whose product p is, none of them 1: an integer, variables, and what divides the
+ * coefficients of p by some variable, or p and its slope. One that is linear in each of its
+ * variables has no more. */
+void multinomial_split(const Multinomial *p, MultinomialList *out);
+void multinomials_free(MultinomialList *list); /* with what stands in it */
+
+enum {
+    RING_VARIABLES = 64, /* at most */
+    RING_DEGREE = 127    /* of a variable, at most */
+};
+
+#endif
