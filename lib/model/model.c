@@ -422,6 +422,7 @@ static Status make_scene(const void *context, Scene *out, Diag *diag)
                    .context = model};
     Status status = OK;
 
+    CHECK(couplings_check(model->state, diag));
     CHECK(model_trees(model, scene.trees, diag));
     for (int i = 0; i < state->parameters.count; i++) {
         Expr symbol = model_parameter(model, i, NULL);

@@ -94,7 +94,7 @@ Status part_check(State *state, const Instance *part, Text *remarks, Diag *diag)
     numeric.values = NEW_ARRAY(Value, row->param_count);
     CHECK(read_numbers(state, part, numeric.values, diag));
     CHECK(instance_check(&numeric, state->arena, state->planar, diag));
-    CHECK(coupled_check(state, part, diag));
+    CHECK(coupled_check(state, part, remarks, diag));
     CHECK(check_arm(state, &numeric, diag));
     if (row->doubt != NULL)
         row->doubt(&numeric, state->planar, remarks);

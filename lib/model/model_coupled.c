@@ -2,7 +2,11 @@
  *
  * Coupled coils store i^T L i / 2. L, with their inductances on its diagonal and the mutual ones
  * beside it, is positive definite: others would give back more energy than they took, and a run
- * would grow without a word. Two of them may share less than sqrt(L1*L2). */
+ * would grow without a word. Two of them may share less than sqrt(L1*L2).
+ *
+ * Close couplings of several coils come one by one, and until the last has come their matrix has
+ * zeros where none belongs. So while two of the coils aren't coupled yet, only pairs are refused;
+ * the whole matrix is, when equations are made of it. */
 #include "model/model_impl.h"
 
 #include <math.h>
@@ -163,7 +167,68 @@ static Status refuse(const Coupled *c, Diag *diag)
     return E_VALUE;
 }
 
-Status coupled_check(State *state, const Instance *part, Diag *diag)
+/* the first two that no coupling of theirs allows; false: there are none */
+static bool find_pair(const Coupled *c, int pair[2])
+{
+    const int n = c->members.count;
+
+    for (int i = 0; i < n; i++)
+        for (int k = 0; k < i; k++) {
+            const double m = c->matrix[i * n + k], own = c->matrix[k * n + k];
+
+            if (m != 0 &&
+                !(own > 0 && c->matrix[i * n + i] - m * m / own > LEAST * c->matrix[i * n + i])) {
+                pair[0] = k;
+                pair[1] = i;
+                return true;
+            }
+        }
+    return false;
+}
+
+/* whether each two of them are coupled */
+static bool is_complete(const Coupled *c)
+{
+    const int n = c->members.count;
+
+    for (int i = 0; i < n * n; i++)
+        if (c->matrix[i] == 0)
+            return false;
+    return true;
+}
+
+/* those coupled with the part alone, where they couldn't be whatever else is coupled */
+static Status check_so_far(Coupled *c, Text *remarks, Diag *diag)
+{
+    int pair[2];
+
+    if (!c->is_known || is_positive(c))
+        return OK;
+    if (is_complete(c))
+        return refuse(c, diag);
+    if (find_pair(c, pair)) {
+        const int n = c->members.count;
+        const Instance *first = c->members.at[pair[0]], *second = c->members.at[pair[1]];
+        const double m = c->matrix[pair[0] * n + pair[1]];
+        Coupled two = {.couplings = 1};
+        double matrix[4] = {c->matrix[pair[0] * n + pair[0]], m, m,
+                            c->matrix[pair[1] * n + pair[1]]};
+
+        LIST_PUSH(two.members, first);
+        LIST_PUSH(two.members, second);
+        two.matrix = matrix;
+        (void)refuse(&two, diag);
+        LIST_FREE(two.members);
+        return E_VALUE;
+    }
+    text_addf(remarks,
+              "%s waits for couplings of its coils with the others: coupled as closely as "
+              "two of these, the third is coupled with both\n",
+              c->part->name);
+    return OK;
+}
+
+Status coupled_check(State *state, const Instance *part, Text *remarks, Diag *diag)
 {
     Coupled c = {.state = state, .part = part};
     Status status = OK;
@@ -171,10 +236,30 @@ Status coupled_check(State *state, const Instance *part, Diag *diag)
     gather(&c);
     if (c.couplings > 0) {
         fill(&c);
-        if (c.is_known && !is_positive(&c))
-            status = refuse(&c, diag);
+        status = check_so_far(&c, remarks, diag);
     }
     mem_free(c.matrix);
     LIST_FREE(c.members);
+    return status;
+}
+
+Status couplings_check(State *state, Diag *diag)
+{
+    ArenaMark *mark = arena_mark(state->arena);
+    Status status = OK;
+
+    for (int i = 0; i < state->parts.count && status == OK; i++) {
+        Coupled c = {.state = state, .part = state->parts.at[i]};
+
+        if (c.part->row->couple == NULL)
+            continue;
+        gather(&c);
+        fill(&c);
+        if (c.is_known && !is_positive(&c))
+            status = refuse(&c, diag);
+        mem_free(c.matrix);
+        LIST_FREE(c.members);
+    }
+    arena_release(state->arena, mark);
     return status;
 }

@@ -354,9 +354,11 @@ MUST_USE Status part_check(State *state, const Instance *part, Text *remarks, Di
 /* the same for all parts that a new value of the definition reaches */
 MUST_USE Status parts_check_after(State *state, int definition, Text *remarks, Diag *diag);
 
-/* Refuse couplings that no parts could have, of the part or with it (model_coupled.c). O(n^3) for n
- * parts coupled with each other. */
-MUST_USE Status coupled_check(State *state, const Instance *part, Diag *diag);
+/* Refuse couplings that no parts could have, of the part or with it, whatever couplings are still
+ * to come (model_coupled.c). O(n^3) for n parts coupled with each other. */
+MUST_USE Status coupled_check(State *state, const Instance *part, Text *remarks, Diag *diag);
+/* and all that there are, as they are */
+MUST_USE Status couplings_check(State *state, Diag *diag);
 
 MUST_USE Status key_unknown(const Component *row, const char *key, Place place, Diag *diag);
 /* In a planar scene no step of a part leaves the plane. */

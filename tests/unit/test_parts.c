@@ -82,6 +82,39 @@ static void couplings_that_no_coils_have_are_refused(void)
     }
 }
 
+/* Each pair of three close windings could be, and so can all three, but not two pairs alone: that
+ * is told while the third is missing, and refused where equations are asked for. */
+static void close_coils_are_coupled_one_by_one(void)
+{
+    static const char *const orders[][3] = {
+        {"coupling K1 L1 L2 k=0.95\n", "coupling K2 L2 L3 k=0.96\n", "coupling K3 L1 L3 k=0.97\n"},
+        {"coupling K3 L1 L3 k=0.97\n", "coupling K1 L1 L2 k=0.95\n", "coupling K2 L2 L3 k=0.96\n"},
+        {"coupling K2 L2 L3 k=0.96\n", "coupling K3 L1 L3 k=0.97\n", "coupling K1 L1 L2 k=0.95\n"}};
+    /* v = M i' across all, one of them driven: the first current's rate, by Cramer's rule */
+    const double k12 = 0.95, k23 = 0.96, k13 = 0.97,
+                 det = 1 + 2 * k12 * k23 * k13 - k12 * k12 - k23 * k23 - k13 * k13;
+
+    for (int i = 0; i < 3; i++) {
+        Kit kit = kit_new();
+
+        EXPECT_DONE(&kit, "vsource V a 0 3\ninductor L1 a 0 0.4 H\ninductor L2 c 0 0.1 H\n"
+                          "inductor L3 d 0 1 H\nresistor R2 c 0 1e-9\nresistor R3 d 0 1e-9\n");
+        EXPECT_DONE(&kit, orders[i][0]);
+        EXPECT_DONE(&kit, orders[i][1]);
+        EXPECT_HOLDS(ct_remarks(kit.session), "waits for couplings");
+        EXPECT_FAILS(&kit, "simulate 0.1", "L1, L2 and L3 can't be coupled like this");
+        if (i < 2)
+            EXPECT_FAILS(&kit, "coupling K9 L2 L1 k=0.1",
+                         "L1 and L2 can't be coupled by M = 0.21 H");
+        EXPECT_DONE(&kit, orders[i][2]);
+        EXPECT_LACKS(ct_remarks(kit.session), "waits");
+        EXPECT_DONE(&kit, "init L1.i = 0, L2.i = 0, L3.i = 0\nassemble");
+        EXPECT_NEAR(kit_value(&kit, "L1.i'"), 3 * (1 - k23 * k23) / det / 0.4, 1e-6);
+        EXPECT_FAILS(&kit, "set K3.k = -0.5", "can't be coupled like this");
+        kit_free(&kit);
+    }
+}
+
 static void negative_coupling_turns_a_winding_round(void)
 {
     expect_value(TWO_WINDINGS "coupling K1 L1 L2 k=-0.9\n" RUN_FOR(0.02), "L2.i",
@@ -384,6 +417,7 @@ int main(void)
     RUN(coupled_windings_share_their_flux);
     RUN(negative_coupling_turns_a_winding_round);
     RUN(couplings_that_no_coils_have_are_refused);
+    RUN(close_coils_are_coupled_one_by_one);
     RUN(coupled_inductors_in_series_add_both_ways);
     RUN(controlled_sources_follow_at_any_load);
     RUN(source_controlled_by_its_own_voltage_is_a_conductance);
