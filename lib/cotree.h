@@ -222,6 +222,10 @@ ct_status ct_value(ct_session *session, const ct_expression *expression, const c
 /* The SI unit of an expression where its dimension is known: new, "N*m"; NULL: it isn't, or it is a
  * number. */
 char *ct_unit(const ct_session *session, const ct_expression *expression);
+/* The same in units of a list, "mm deg": in *size what a value in SI is divided by to be in it. */
+char *ct_unit_in(const ct_session *session, const ct_expression *expression, const char *units,
+                 double *size);
+bool ct_is_unit(const char *name); /* one that such a list may hold */
 /* The value of a key that is a time, as every=, in s; `name` is what messages call it. */
 ct_status ct_duration(ct_session *session, const ct_expression *expression, const char *name,
                       double *value, ct_error *error);

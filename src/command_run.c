@@ -109,6 +109,17 @@ static void put_printed(const Call *call, const Printed *lines, int count)
     }
 }
 
+/* What has no unit behind it is in that of its dimension, where this is known. */
+static void show_in_unit(const Call *call, const ct_expression *expression, Printed *line)
+{
+    double size;
+    char *unit = ct_unit_in(call->session, expression, call->shell->settings.units, &size);
+
+    line->value /= size;
+    line->unit = unit != NULL ? copy_text(unit) : NULL;
+    ct_free(unit);
+}
+
 static ct_status command_print(Call *call, ct_error *error)
 {
     int count = ct_operand_count(call->statement);
@@ -119,9 +130,12 @@ static ct_status command_print(Call *call, ct_error *error)
         const ct_expression *expression = ct_operand(call->statement, i);
 
         name_printed(&lines[i], expression);
-        if (lines[i].name[0] != '"')
-            status =
-                ct_value(call->session, expression, ct_at(call->statement), &lines[i].value, error);
+        if (lines[i].name[0] == '"')
+            continue;
+        status =
+            ct_value(call->session, expression, ct_at(call->statement), &lines[i].value, error);
+        if (status == CT_OK && lines[i].unit == NULL)
+            show_in_unit(call, expression, &lines[i]);
     }
     if (status == CT_OK)
         put_printed(call, lines, count);
@@ -140,6 +154,7 @@ typedef struct TableColumns {
     int rows;
     int columns;
     char **names;
+    char **labels; /* names with units */
 } TableColumns;
 
 static void put_table(const Call *call, const TableColumns *table)
@@ -149,7 +164,7 @@ static void put_table(const Call *call, const TableColumns *table)
 
     /* a column is as wide as its widest entry */
     for (int j = 0; j < table->columns; j++) {
-        widths[j] = (int)strlen(table->names[j]);
+        widths[j] = (int)strlen(table->labels[j]);
         for (int i = 0; i < table->rows; i++) {
             char number[NUMBER_SIZE];
             int width = write_number(number, digits, table->values[i * table->columns + j]);
@@ -159,7 +174,7 @@ static void put_table(const Call *call, const TableColumns *table)
         }
     }
     for (int j = 0; j < table->columns; j++)
-        fprintf(call->out, "%s%*s", j > 0 ? "  " : "", widths[j], table->names[j]);
+        fprintf(call->out, "%s%*s", j > 0 ? "  " : "", widths[j], table->labels[j]);
     fputc('\n', call->out);
     for (int i = 0; i < table->rows; i++)
         for (int j = 0; j < table->columns; j++) {
@@ -169,6 +184,28 @@ static void put_table(const Call *call, const TableColumns *table)
                 fputc('\n', call->out);
         }
     free(widths);
+}
+
+/* What has no unit behind its name is put into that of its dimension, where this is known. */
+static void label_columns(const Call *call, const ct_expression *const *items, int count,
+                          TableColumns *table)
+{
+    table->labels = copy_check(calloc((size_t)table->columns + 1, sizeof *table->labels));
+    for (int j = 0; j < table->columns; j++) {
+        const char *name = table->names[j];
+        const bool is_asked = j > 0 && j <= count && name[strlen(name) - 1] != ']';
+        double size = 1;
+        char *unit =
+            is_asked ? ct_unit_in(call->session, items[j - 1], call->shell->settings.units, &size)
+                     : NULL;
+
+        for (int i = 0; i < table->rows && unit != NULL; i++)
+            table->values[i * table->columns + j] /= size;
+        table->labels[j] = unit != NULL ? copy_format("%s [%s]", name, unit)
+                           : j == 0     ? copy_format("%s [%s]", name, name[0] == 'f' ? "Hz" : "s")
+                                        : copy_text(name);
+        ct_free(unit);
+    }
 }
 
 static ct_status command_table(Call *call, ct_error *error)
@@ -194,7 +231,11 @@ static ct_status command_table(Call *call, ct_error *error)
     status = ct_table(call->session, items, count, every, &table.values, &table.rows,
                       &table.columns, &table.names, error);
     if (status == CT_OK) {
+        label_columns(call, items, count, &table);
         put_table(call, &table);
+        for (int j = 0; j < table.columns; j++)
+            free(table.labels[j]);
+        free(table.labels);
         ct_free(table.values);
         ct_words_free(table.names);
     }

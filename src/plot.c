@@ -76,10 +76,15 @@ static void label_columns(const Call *call, PlotBlock *block, const ct_expressio
     block->labels = copy_check(calloc((size_t)block->columns + 1, sizeof *block->labels));
     for (int j = 0; j < block->columns; j++) {
         const char *name = block->names[j];
+        double size = 1;
         char *unit =
-            j > 0 && plot_unit(name)[0] == '\0' ? ct_unit(call->session, items[j - 1]) : NULL;
+            j > 0 && plot_unit(name)[0] == '\0'
+                ? ct_unit_in(call->session, items[j - 1], call->shell->settings.units, &size)
+                : NULL;
         const size_t room = strlen(name) + (unit != NULL ? strlen(unit) : 0) + 4;
 
+        for (int i = 0; i < block->rows && size != 1; i++)
+            block->values[i * block->columns + j] /= size;
         block->labels[j] = copy_check(malloc(room));
         (void)snprintf(block->labels[j], room, unit != NULL ? "%s [%s]" : "%s", name, unit);
         ct_free(unit);

@@ -47,6 +47,27 @@ static void show_word(const void *value, FILE *out)
     fputs(value, out);
 }
 
+static ct_status set_units(const SettingRow *row, void *value, const char *text, ct_error *error)
+{
+    (void)row;
+    if (strlen(text) >= SETTING_UNITS)
+        return error_say(error, "that are too many units");
+    for (const char *at = text; strcmp(text, "SI") != 0 && *at != '\0'; at += strspn(at, " ")) {
+        const size_t length = strcspn(at, " ");
+        char *name = copy_piece(at, length);
+        const bool is_unit = ct_is_unit(name);
+
+        if (!is_unit)
+            (void)error_say(error, "'%s' is no unit; SI alone takes your choice back", name);
+        free(name);
+        if (!is_unit)
+            return CT_FAILED;
+        at += length;
+    }
+    memcpy(value, text, strlen(text) + 1);
+    return CT_OK;
+}
+
 static ct_status set_switch(const SettingRow *row, void *value, const char *text, ct_error *error)
 {
     if (strcmp(text, "on") != 0 && strcmp(text, "off") != 0)
@@ -70,6 +91,8 @@ static const SettingRow table[] = {
     {WORDS(#name, __VA_ARGS__), brief, 0, 0, set_word, show_word, PLACE(name)},
 #define SWITCH(name, start, brief)                                                                 \
     {WORDS(#name, "on", "off"), brief, 0, 0, set_switch, show_switch, PLACE(name)},
+#define UNITS(name, start, brief, ...)                                                             \
+    {WORDS(#name, __VA_ARGS__), brief, 0, 0, set_units, show_word, PLACE(name)},
 #include "settings.def"
 };
 enum { SETTINGS = sizeof table / sizeof table[0] };
@@ -80,6 +103,7 @@ void settings_start(Settings *settings)
 #define NUMBER(name, start, ...) .name = start,
 #define WORD(name, start, ...)   .name = start,
 #define SWITCH(name, start, ...) .name = start,
+#define UNITS(name, start, ...)  .name = start,
 #include "settings.def"
     };
 }
@@ -91,7 +115,7 @@ static const char *name_set(const ct_statement *statement, const ct_expression *
         return ct_key(statement, 0, value);
     if (ct_operand_count(statement) == 0)
         return NULL;
-    *value = ct_operand_count(statement) == 2 ? ct_operand(statement, 1) : NULL;
+    *value = ct_operand_count(statement) > 1 ? ct_operand(statement, 1) : NULL;
     return ct_expression_word(ct_operand(statement, 0));
 }
 
@@ -117,22 +141,39 @@ bool settings_own(const ct_statement *statement)
     return find(name_set(statement, &value)) != NULL;
 }
 
+/* the value, with what stands behind it as in `set units deg mm` */
+static char *value_text(const ct_statement *statement, const ct_expression *value)
+{
+    char *text = copy_text("");
+
+    for (int i = 1; value != NULL; i++) {
+        char *next = copy_check(ct_expression_text(value));
+        char *both = copy_format("%s%s%s", text, i > 1 ? " " : "", next);
+
+        ct_free(next);
+        free(text);
+        text = both;
+        value = i + 1 < ct_operand_count(statement) ? ct_operand(statement, i + 1) : NULL;
+    }
+    return text;
+}
+
 ct_status settings_apply(Settings *settings, const ct_statement *statement, ct_error *error)
 {
     const ct_expression *value = NULL;
     const SettingRow *row = find(name_set(statement, &value));
 
-    if (value == NULL)
+    if (value == NULL || (ct_operand_count(statement) > 2 && row->set != set_units))
         return ct_error_at(statement, NULL, error, "'%s' is set to one value: set %s VALUE",
                            row->words[0], row->words[0]);
 
-    char *text = copy_check(ct_expression_text(value));
+    char *text = value_text(statement, value);
     ct_error why;
     ct_status status = row->set(row, (char *)settings + row->at, text, &why);
 
     if (status != CT_OK)
         status = ct_error_at(statement, value, error, "%s", why.message);
-    ct_free(text);
+    free(text);
     return status;
 }
 

@@ -6,12 +6,14 @@
 
 #include <stdio.h>
 
-enum { SETTING_WORD = 24 }; /* room for a word */
+enum { SETTING_WORD = 24, SETTING_UNITS = 80 }; /* room for a word, and for names of units */
 
 typedef struct Settings { /* a field a row of settings.def */
 #define NUMBER(name, ...) int name;
 #define WORD(name, ...)   char name[SETTING_WORD];
 #define SWITCH(name, ...) bool name;
+#define UNITS(name, ...)                                                                           \
+    char name[SETTING_UNITS]; /* names with blanks between; "SI" has none of them */
 #include "settings.def"
 } Settings;
 

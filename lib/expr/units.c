@@ -477,3 +477,58 @@ void dimension_print(Text *text, Dimension dimension)
         print_power(text, power);
     }
 }
+
+/* --- units of the user's choice --- */
+
+/* the first of a list's units that has that dimension; the length of its name, 0 where there is
+ * none
+ */
+static size_t find_listed(const char *units, Dimension wanted, const char **name, Unit *unit)
+{
+    for (const char *at = units + strspn(units, " "); *at != '\0'; at += strspn(at, " ")) {
+        const size_t length = strcspn(at, " ");
+
+        if (find_part(at, length, unit) && memcmp(&unit->dimension, &wanted, sizeof wanted) == 0) {
+            *name = at;
+            return length;
+        }
+        at += length;
+    }
+    return 0;
+}
+
+double dimension_print_in(Text *text, Dimension dimension, const char *units)
+{
+    static const struct {
+        const char *name;
+        Dimension dimension;
+    } bases[] = {
+        {"m", {{1, 0, 0, 0, 0, 0}}}, {"s", {{0, 0, 1, 0, 0, 0}}}, {"rad", {{0, 0, 0, 0, 0, 1}}}};
+    const signed char *power = dimension.power;
+    const char *name;
+    Text in_si = {0};
+    double size = 1;
+    Unit unit;
+    size_t length = find_listed(units, dimension, &name, &unit);
+
+    if (length > 0) {
+        text_add_n(text, name, length);
+        return unit.factor;
+    }
+    dimension_print(&in_si, dimension);
+    for (const char *at = in_si.at; *at != '\0';) {
+        const size_t word = strspn(at, "abcdefghijklmnopqrstuvwxyz");
+
+        length = 0;
+        for (int i = 0; i < COUNT(bases) && (power[1] | power[3] | power[4]) == 0; i++)
+            if (word == strlen(bases[i].name) && strncmp(at, bases[i].name, word) == 0) {
+                length = find_listed(units, bases[i].dimension, &name, &unit);
+                if (length > 0)
+                    size *= pow(unit.factor, i == 0 ? power[0] : i == 1 ? power[2] : power[5]);
+            }
+        text_add_n(text, length > 0 ? name : at, length > 0 ? length : word > 0 ? word : 1);
+        at += word > 0 ? word : 1;
+    }
+    text_free(&in_si);
+    return size;
+}

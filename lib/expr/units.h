@@ -41,6 +41,9 @@ bool dimension_times(Dimension a, Dimension b, int power, Dimension *out);
 bool dimension_root(Dimension a, Dimension *out);
 /* kg*m^2, with a name where that is shorter: N, V, N/m, N*m (of work and of torque), 1 for none */
 void dimension_print(Text *text, Dimension dimension);
+/* The same in the units of a list, "mm deg rpm": one of that dimension, or of lengths, times and
+ * angles one for each, deg/s. What a number in SI is to be divided by. */
+double dimension_print_in(Text *text, Dimension dimension, const char *units);
 /* every unit name without prefix, for completion: call with 0, 1, ... until NULL */
 const char *unit_name(int i);
 const char *unit_prefix(int i); /* likewise; the first is "" */

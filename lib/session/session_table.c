@@ -39,7 +39,21 @@ done:
     return status;
 }
 
-char *ct_unit(const ct_session *session, const ct_expression *expression)
+/* of a value of that dimension work, where a torque has it too */
+static bool is_energy(const Syntax *syntax)
+{
+    const char *name = strstr(syntax->text, "energy.");
+
+    if (syntax->kind == SYNTAX_VARIABLE)
+        return name != NULL && (name == syntax->text || name[-1] == '.');
+    for (int i = 0; i < syntax->count; i++)
+        if (is_energy(syntax->args[i]))
+            return true;
+    return false;
+}
+
+char *ct_unit_in(const ct_session *session, const ct_expression *expression, const char *units,
+                 double *size)
 {
     SESSION_CALL(session, NULL);
 
@@ -47,11 +61,30 @@ char *ct_unit(const ct_session *session, const ct_expression *expression)
     Dimension dimension = none;
     Text unit = {0};
 
+    *size = 1;
     if (!model_dimension(session->model, syntax_of(expression), &dimension) ||
         memcmp(&dimension, &none, sizeof none) == 0)
         return NULL;
-    dimension_print(&unit, dimension_without_angle(dimension));
+    *size = dimension_print_in(&unit, dimension_without_angle(dimension), units);
+    if (strcmp(unit.at, "N*m") == 0 && is_energy(syntax_of(expression))) {
+        text_free(&unit);
+        text_char(&unit, 'J');
+    }
     return text_done(&unit);
+}
+
+char *ct_unit(const ct_session *session, const ct_expression *expression)
+{
+    double size;
+
+    return ct_unit_in(session, expression, "", &size);
+}
+
+bool ct_is_unit(const char *name)
+{
+    Unit unit;
+
+    return unit_find(name, &unit);
 }
 
 ct_status ct_duration(ct_session *session, const ct_expression *expression, const char *name,
