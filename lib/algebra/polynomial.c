@@ -112,6 +112,43 @@ void polynomial_integral(const Polynomial *p, const Polynomial *q, int n, mpq_t 
     mpq_clear(factor);
 }
 
+/* x times a sum of Legendre's polynomials over 0..1, in place, which has room for one more:
+ * x P_m = ((m + 1) P_(m+1) + m P_(m-1))/(4 m + 2) + P_m/2 */
+static void legendre_shift(Polynomial *p)
+{
+    Polynomial own = polynomial_copy(p, 1);
+    mpq_t factor, term;
+
+    mpq_init(factor);
+    mpq_init(term);
+    for (int m = 0; m < p->count; m++) {
+        mpq_set_si(factor, 1, 2);
+        mpq_mul(p->at[m], own.at[m], factor);
+        for (int n = m - 1; n <= m + 1; n += 2) {
+            if (n < 0 || n >= p->count)
+                continue;
+            mpq_set_si(factor, n < m ? m : m + 1, 4 * (unsigned long)n + 2);
+            mpq_canonicalize(factor);
+            mpq_mul(term, own.at[n], factor);
+            mpq_add(p->at[m], p->at[m], term);
+        }
+    }
+    mpq_clear(factor);
+    mpq_clear(term);
+    polynomial_free(&own);
+}
+
+Polynomial legendre_of(const Polynomial *p)
+{
+    Polynomial out = polynomial_new(p->count);
+
+    for (int i = p->count - 1; i >= 0; i--) {
+        legendre_shift(&out);
+        mpq_add(out.at[0], out.at[0], p->at[i]);
+    }
+    return out;
+}
+
 double polynomial_value(const Polynomial *p, double x)
 {
     mpf_t sum, at, term;

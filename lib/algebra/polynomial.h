@@ -22,6 +22,8 @@ Polynomial polynomial_slope(const Polynomial *p);
 Polynomial polynomial_primitive(const Polynomial *p); /* 0 at 0 */
 /* of p q x^n from 0 to 1, into an initialised `out` */
 void polynomial_integral(const Polynomial *p, const Polynomial *q, int n, mpq_t out);
+/* its coefficients of Legendre's polynomials over 0..1, in the place of those of powers */
+Polynomial legendre_of(const Polynomial *p);
 /* in digits enough that nothing cancels */
 double polynomial_value(const Polynomial *p, double x);
 

@@ -28,6 +28,7 @@ typedef struct Beam {
 
 enum { LIMITLESS = 8 };
 
+/* Exact numbers are made between the two alone (base/exact_memory.h). */
 Beam beam_open(const Instance *instance, Arena *arena, bool planar);
 void beam_close(Beam *beam);
 /* how many shapes of each family */

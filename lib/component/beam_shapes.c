@@ -1,6 +1,7 @@
 /* beam_shapes.c: families of shapes, and frames on a bent beam */
 #include "component/beam.h"
 
+#include "base/exact_memory.h"
 #include "base/memory.h"
 
 #include <math.h>
@@ -123,6 +124,7 @@ Beam beam_open(const Instance *instance, Arena *arena, bool planar)
                  .limit = strcmp(stiffening, "linear") == 0 ? 2 : LIMITLESS,
                  .length = instance_scalar(instance, "length")};
 
+    exact_begin();
     beam_modes(instance, planar, modes);
     beam.shapes = NEW_ARRAY(BeamShape, SHAPE_FAMILIES * MOST_SHAPES);
     for (int f = 0; f < SHAPE_FAMILIES; f++)
@@ -136,6 +138,7 @@ void beam_close(Beam *beam)
     for (int i = 0; i < beam->count; i++)
         shape_close(&beam->shapes[i]);
     mem_free(beam->shapes);
+    exact_end();
 }
 
 double beam_unit(const Instance *instance, bool planar, int i)
@@ -148,10 +151,12 @@ double beam_unit(const Instance *instance, bool planar, int i)
     beam_modes(instance, planar, modes);
     for (; i >= modes[family]; family++)
         i -= modes[family];
+    exact_begin();
     shape = shape_of((ShapeFamily)family, i, instance_value(instance, "basis")->word);
     for (int k = 1; k <= PLACES; k++)
         most = fmax(most, fabs(polynomial_value(&shape.value, (double)k / PLACES)));
     shape_close(&shape);
+    exact_end();
     return 1 / most;
 }
 

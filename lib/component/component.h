@@ -140,6 +140,15 @@ typedef struct Station { /* a frame on it */
     Expr *turn;    /* d angle/d q, likewise; constants */
 } Station;
 
+/* arrays of a ShapeInertia: ROW(name, entries where there are `count` shapes) */
+#define SHAPE_ARRAYS_OF_ROOT(ROW)                                                                  \
+    ROW(moment, 3) ROW(inertia, 9) ROW(bias_force, 3) ROW(bias_torque, 3)
+#define SHAPE_ARRAYS_OF_SHAPES(ROW)                                                                \
+    ROW(with_shift, 3 * count)                                                                     \
+    ROW(with_turn, 3 * count)                                                                      \
+    ROW(block, count *count)                                                                       \
+    ROW(bias, count) ROW(push, count) ROW(stress, count) ROW(spread_shift, 3 * count)
+
 /* Its local block over the acceleration a of the root, its angular acceleration and q'', less a
  * field of weight g: force = mass (a - g) + alpha x moment + sum with_shift q'' + bias_force, and
  * so on. `own` pushes on q, with elasticity and damping. */

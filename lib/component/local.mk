@@ -1,7 +1,8 @@
 libcore_la_SOURCES += \
 	lib/component/component.c lib/component/component.h \
 	lib/component/component_rows.h lib/component/types.def \
-	lib/component/attitude.c lib/component/beam.c lib/component/beam.h lib/component/beam_inertia.c \
+	lib/component/attitude.c lib/component/beam.c lib/component/beam.h lib/component/beam_axis.c \
+	lib/component/beam_graded.c lib/component/beam_graded.h lib/component/beam_inertia.c lib/component/beam_rotary.c \
 	lib/component/beam_section.c lib/component/beam_shapes.c lib/component/bodies.c \
 	lib/component/driver.c \
 	lib/component/control.c lib/component/control.h lib/component/controlled.c \

@@ -68,23 +68,12 @@ void elastics_build(System *system)
                     system->kinematics->motions[system->kinematics->frames[part->head].chain].w);
         for (int k = 0; k < 3; k++)
             state.w[k] = w.at[k];
-        block->with_shift = new_array(system, 3 * count);
-        block->with_turn = new_array(system, 3 * count);
-        block->block = new_array(system, count * count);
-        block->bias = new_array(system, count);
-        block->push = new_array(system, count);
-        block->stress = new_array(system, count);
-        block->spread_shift = new_array(system, 3 * count);
+#define NEW_ROW(name, entries) block->name = new_array(system, entries);
+        SHAPE_ARRAYS_OF_SHAPES(NEW_ROW)
         part->row->deforming->inertia(part, system->arena, system->origin->planar, &state, block);
-        hold_all(system, block->moment, 3);
-        hold_all(system, block->inertia, 9);
-        hold_all(system, block->bias_force, 3);
-        hold_all(system, block->bias_torque, 3);
-        hold_all(system, block->with_shift, 3 * count);
-        hold_all(system, block->with_turn, 3 * count);
-        hold_all(system, block->block, count * count);
-        hold_all(system, block->bias, count);
-        hold_all(system, block->push, count);
+#define HOLD_ROW(name, entries) hold_all(system, block->name, entries);
+        SHAPE_ARRAYS_OF_ROOT(HOLD_ROW)
+        SHAPE_ARRAYS_OF_SHAPES(HOLD_ROW)
         LIST_PUSH(system->dynamics->elastics, elastic);
     }
 }

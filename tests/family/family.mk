@@ -100,6 +100,10 @@ family_derivation_SOURCES = tests/family/family_derivation.c tests/family/family
 	tests/family/script.h tests/unit/session_kit.h tests/unit/test.h
 family_derivation_LDADD = libcotree.la $(unit_ldadd)
 
+FAMILIES += family_beam_laws
+family_beam_laws_SOURCES = tests/family/family_beam_laws.c tests/family/family.h tests/family/script.h \
+	tests/unit/session_kit.h tests/unit/test.h tests/random.h
+family_beam_laws_LDADD = libcotree.la $(unit_ldadd)
 FAMILIES += family_beams
 family_beams_SOURCES = tests/family/family_beams.c tests/family/family.h tests/family/script.h \
 	tests/unit/session_kit.h tests/unit/test.h

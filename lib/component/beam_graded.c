@@ -1,0 +1,206 @@
+/* beam_graded.c: sums and products of what varies along a beam */
+#include "component/beam_graded.h"
+
+#include "base/memory.h"
+
+#include <gsl/gsl_integration.h>
+
+/* the points of a Gauss rule and their weights */
+static void take_points(Along *along)
+{
+    gsl_integration_glfixed_table *rule =
+        MEM_GIVEN(gsl_integration_glfixed_table_alloc((size_t)along->length));
+
+    along->points = pool_alloc(along->pool, (size_t)along->length * sizeof(double));
+    along->weights = pool_alloc(along->pool, (size_t)along->length * sizeof(double));
+    for (int k = 0; k < along->length; k++)
+        (void)gsl_integration_glfixed_point(0, 1, (size_t)k, &along->points[k], &along->weights[k],
+                                            rule);
+    gsl_integration_glfixed_table_free(rule);
+}
+
+Along along_of(const Beam *beam, const ShapeState *state, Pool *pool, Basis basis, int degree)
+{
+    Along along = {
+        .beam = beam, .arena = beam->arena, .pool = pool, .basis = basis, .state = state};
+
+    for (int k = 0; k < 3; k++)
+        along.limit[k] = beam->limit == LIMITLESS ? LIMITLESS : beam->limit - k;
+    /* n points are exact up to the degree 2 n - 1 */
+    along.length = basis == BASIS_POINTS ? degree / 2 + 1 : degree + 1;
+    if (basis == BASIS_POINTS)
+        take_points(&along);
+    return along;
+}
+
+static Expr *parts_new(const Along *along)
+{
+    Expr *parts = pool_alloc(along->pool, (size_t)along->length * sizeof *parts);
+
+    for (int k = 0; k < along->length; k++)
+        parts[k] = expr_int(along->arena, 0);
+    return parts;
+}
+
+Expr *parts_of(const Along *along, const Polynomial *p)
+{
+    Expr *parts = parts_new(along);
+    Polynomial legendre = {0};
+    const Polynomial *from = p;
+
+    if (along->basis == BASIS_LEGENDRE) {
+        legendre = legendre_of(p);
+        from = &legendre;
+    }
+    for (int k = 0; k < along->length; k++) {
+        if (along->basis == BASIS_POINTS)
+            parts[k] = expr_real(along->arena, polynomial_value(p, along->points[k]));
+        else if (k < from->count)
+            parts[k] = beam_number(along->arena, from->at[k]);
+    }
+    polynomial_free(&legendre);
+    return parts;
+}
+
+void parts_add(const Along *along, Expr **to, const Expr *parts, Expr scale)
+{
+    if (parts == NULL || expr_is_zero(scale))
+        return;
+    if (*to == NULL)
+        *to = parts_new(along);
+    for (int k = 0; k < along->length; k++)
+        (*to)[k] = expr_add(along->arena, (*to)[k], expr_mul(along->arena, scale, parts[k]));
+}
+
+void parts_hold(const Along *along, Expr *parts)
+{
+    for (int k = 0; parts != NULL && k < along->length; k++)
+        parts[k] = expr_hold(along->arena, parts[k]);
+}
+
+Graded graded_hold(const Along *along, Graded g)
+{
+    for (int d = 0; d < ORDERS; d++)
+        parts_hold(along, g.at[d]);
+    return g;
+}
+
+void graded_add(const Along *along, Graded *to, Graded g, Expr scale)
+{
+    for (int d = 0; d < ORDERS; d++)
+        parts_add(along, &to->at[d], g.at[d], scale);
+}
+
+Graded graded_plus(const Along *along, Graded a, int sign, Graded b)
+{
+    Graded sum = {{NULL}};
+
+    graded_add(along, &sum, a, expr_int(along->arena, 1));
+    graded_add(along, &sum, b, expr_int(along->arena, sign));
+    return sum;
+}
+
+Graded graded_scaled(const Along *along, Expr scale, Graded a)
+{
+    Graded out = {{NULL}};
+
+    graded_add(along, &out, a, scale);
+    return out;
+}
+
+static void parts_multiply(const Along *along, Expr **to, const Expr *a, const Expr *b)
+{
+    Arena *arena = along->arena;
+
+    if (*to == NULL)
+        *to = parts_new(along);
+    for (int i = 0; i < along->length; i++)
+        for (int j = 0; j < along->length; j++) {
+            const int k = along->basis == BASIS_POWERS ? i + j : i;
+
+            if ((along->basis == BASIS_POINTS && i != j) || expr_is_zero(a[i]) ||
+                expr_is_zero(b[j]) || k >= along->length)
+                continue;
+            (*to)[k] = expr_add(arena, (*to)[k], expr_mul(arena, a[i], b[j]));
+        }
+}
+
+Graded graded_times(const Along *along, Graded a, Graded b)
+{
+    Graded out = {{NULL}};
+
+    for (int i = 0; i < ORDERS; i++)
+        for (int j = 0; i + j < ORDERS; j++)
+            if (a.at[i] != NULL && b.at[j] != NULL && i + j <= along->limit[0])
+                parts_multiply(along, &out.at[i + j], a.at[i], b.at[j]);
+    return graded_hold(along, out);
+}
+
+Expr graded_integral(const Along *along, Graded g, int from, int most)
+{
+    Arena *arena = along->arena;
+    Expr sum = expr_int(arena, 0);
+
+    for (int d = from; d < ORDERS && d <= most; d++)
+        for (int k = 0; g.at[d] != NULL && k < along->length; k++)
+            sum = expr_add(arena, sum,
+                           expr_mul(arena,
+                                    along->basis == BASIS_POWERS
+                                        ? expr_rational(arena, 1, k + 1)
+                                        : expr_real(arena, along->weights[k]),
+                                    g.at[d][k]));
+    return expr_hold(arena, expr_mul(arena, along->beam->length, sum));
+}
+
+Graded graded_constant(const Along *along, int value)
+{
+    Polynomial one = polynomial_power(0);
+    Graded g = {{NULL}};
+
+    g.at[0] = parts_of(along, &one);
+    polynomial_free(&one);
+    return graded_scaled(along, expr_int(along->arena, value), g);
+}
+
+/* L/(2 m + 1) of each coefficient: what the square of P_m comes to over the beam */
+Graded graded_weighed(const Along *along, Graded g)
+{
+    Arena *arena = along->arena;
+    Graded out = {{NULL}};
+
+    for (int d = 0; d < ORDERS; d++) {
+        if (g.at[d] == NULL)
+            continue;
+        out.at[d] = parts_new(along);
+        for (int m = 0; m < along->length; m++)
+            out.at[d][m] = expr_mul(
+                arena, expr_mul(arena, expr_rational(arena, 1, 2 * m + 1), along->beam->length),
+                g.at[d][m]);
+    }
+    return graded_hold(along, out);
+}
+
+Expr graded_inner(const Along *along, Graded weighed, Graded g, int from, int most)
+{
+    Arena *arena = along->arena;
+    Expr sum = expr_int(arena, 0);
+
+    for (int i = 0; i < ORDERS; i++)
+        for (int j = 0; j < ORDERS; j++)
+            for (int m = 0; m < along->length && i + j >= from && i + j <= most; m++)
+                if (weighed.at[i] != NULL && g.at[j] != NULL)
+                    sum = expr_add(arena, sum, expr_mul(arena, weighed.at[i][m], g.at[j][m]));
+    return expr_hold(arena, sum);
+}
+
+void beam_add(const Along *along, Expr *to, Expr factor, Expr what)
+{
+    *to = expr_add(along->arena, *to, expr_mul(along->arena, factor, what));
+}
+
+int beam_angle(const BeamShape *shape)
+{
+    static const int of[SHAPE_FAMILIES] = {-1, 2, 1, 0};
+
+    return of[shape->family];
+}

@@ -1,0 +1,61 @@
+/* beam_graded.h: what varies along a beam
+ *
+ * A Graded holds parts of rising order in shapes and their rates, each as numbers along the beam:
+ * coefficients of Legendre's polynomials, of powers of xi, or values at the points of a Gauss rule.
+ */
+#ifndef COTREE_COMPONENT_BEAM_GRADED_H
+#define COTREE_COMPONENT_BEAM_GRADED_H
+
+#include "base/memory.h"
+#include "component/beam.h"
+
+enum { ORDERS = 5 }; /* 0..4: products of two that go up to the second */
+
+typedef struct Graded {
+    Expr *at[ORDERS]; /* NULL: nothing of that order */
+} Graded;
+
+typedef enum Basis { BASIS_LEGENDRE, BASIS_POWERS, BASIS_POINTS } Basis;
+
+typedef struct Along {
+    const Beam *beam;
+    Arena *arena;
+    Pool *pool;
+    Basis basis;
+    int length; /* coefficients or points */
+    double *points, *weights;
+    const ShapeState *state;
+    int limit[3]; /* orders of what the root feels, of its coupling with shapes, of shapes */
+} Along;
+
+/* Of quantities of that degree at most; its arrays are the pool's. */
+Along along_of(const Beam *beam, const ShapeState *state, Pool *pool, Basis basis, int degree);
+
+Expr *parts_of(const Along *along, const Polynomial *p);
+void parts_add(const Along *along, Expr **to, const Expr *parts, Expr scale);
+void parts_hold(const Along *along, Expr *parts);
+Graded graded_hold(const Along *along, Graded g);
+void graded_add(const Along *along, Graded *to, Graded g, Expr scale);
+Graded graded_plus(const Along *along, Graded a, int sign, Graded b);
+Graded graded_scaled(const Along *along, Expr scale, Graded a);
+Graded graded_constant(const Along *along, int value);
+/* not in BASIS_LEGENDRE */
+Graded graded_times(const Along *along, Graded a, Graded b);
+/* over x from 0 to L, of orders from..most */
+Expr graded_integral(const Along *along, Graded g, int from, int most);
+/* The same of a product, in BASIS_LEGENDRE, whose polynomials are orthogonal: one of the two comes
+ * from graded_weighed(). */
+Graded graded_weighed(const Along *along, Graded g);
+Expr graded_inner(const Along *along, Graded weighed, Graded g, int from, int most);
+
+/* to += factor what */
+void beam_add(const Along *along, Expr *to, Expr factor, Expr what);
+/* of which angle (x, y, z) is a shape; -1: of none */
+int beam_angle(const BeamShape *shape);
+
+/* d'Alembert's forces of the axis, of mass_per_length= */
+void beam_add_axis(const Along *along, Expr density, ShapeInertia *out);
+/* of the sections' turning, of inertia_per_length= */
+void beam_add_rotary(const Along *along, const Expr J[3], ShapeInertia *out);
+
+#endif
