@@ -248,6 +248,29 @@ ct_status ct_plot_keys(ct_session *session, const ct_statement *statement, ct_pl
  * is no such event. */
 const char *ct_run_event(const ct_session *session, int run, int i, const double **times,
                          int *count);
+/* Curves over axes as text, for a terminal; what is borrowed has to last for the call. */
+typedef struct ct_curve {
+    const double *x, *y;
+    int count, stride; /* from one number to the next, of both */
+    double x_scale;    /* x is drawn times this */
+    const char *label; /* "h1 [deg]" */
+    bool is_points;    /* not joined */
+    bool is_right;     /* on the right axis */
+} ct_curve;
+typedef struct ct_chart {
+    const char *title, *x_label, *left_label, *right_label; /* "" none */
+    double x[2], y[2];                                      /* NAN: what the curves need */
+    bool x_is_log, y_is_log, has_equal_scales;
+    bool fits_x; /* of x no more than the data */
+    const ct_curve *curves;
+    int count;
+    const double *marks; /* where a line stands upright, and its name */
+    const char *const *mark_names;
+    int mark_count;
+} ct_chart;
+/* Charts above one another, in so many characters, at least 20 x 8 each; curves of braille where
+ * `unicode`, a letter on each where there are several. new */
+char *ct_chart_text(const ct_chart *charts, int count, int columns, int rows, bool unicode);
 /* bode: the whole statement, of the last linearisation. First column the frequency, Hz, then gain,
  * dB, and phase, degrees, of each output against each input; `values` and `names` as of ct_table().
  */

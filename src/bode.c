@@ -43,7 +43,7 @@ static char *pair_name(const char *name)
     return copy_piece(first, (size_t)(strrchr(name, '[') - first) - 1);
 }
 
-static void put_curves(FILE *out, const Response *response, int offset, bool as_text)
+static void put_curves(FILE *out, const Response *response, int offset)
 {
     for (int j = 1; j < response->columns; j += 2) {
         char *name = pair_name(response->names[j]);
@@ -51,18 +51,15 @@ static void put_curves(FILE *out, const Response *response, int offset, bool as_
         fprintf(out, "%s$response using 1:%d with lines title ", j == 1 ? "plot " : ", ",
                 j + offset + 1);
         put_quoted(out, name);
-        fputs(" noenhanced", out);
-        if (!as_text)
-            fprintf(out, " linewidth 1.5 linecolor rgb '%s'", drawing_color(j / 2));
+        fprintf(out, " noenhanced linewidth 1.5 linecolor rgb '%s'", drawing_color(j / 2));
         free(name);
     }
     fputc('\n', out);
 }
 
-/* The first of some steps that gives an axis no more than six parts; four in characters, where a
- * panel has few lines. What spans less than a step is left to gnuplot. */
-static void put_axis(FILE *out, const Response *response, int first, bool as_text,
-                     const double steps[6])
+/* The first of some steps that gives an axis no more than six parts. What spans less than a step is
+ * left to gnuplot. */
+static void put_axis(FILE *out, const Response *response, int first, const double steps[6])
 {
     double least = INFINITY, most = -INFINITY;
     int i = 0;
@@ -72,7 +69,7 @@ static void put_axis(FILE *out, const Response *response, int first, bool as_tex
             least = fmin(least, response->values[r * response->columns + j]);
             most = fmax(most, response->values[r * response->columns + j]);
         }
-    while (i + 1 < 6 && (most - least) / steps[i] > (as_text ? 4 : 6))
+    while (i + 1 < 6 && (most - least) / steps[i] > 6)
         i++;
     if (most - least < steps[0])
         fputs("set ytics autofreq\n", out);
@@ -130,7 +127,7 @@ static void put_margins(FILE *out, const Response *response)
         put_margin(out, "gain", -value, "dB", frequency, 0.08);
 }
 
-static void put_commands(FILE *out, const Drawing *drawing, bool as_text)
+static void put_commands(FILE *out, const Drawing *drawing)
 {
     const Response *response = drawing->of;
     bool is_alone = response->columns == 3;
@@ -140,31 +137,63 @@ static void put_commands(FILE *out, const Drawing *drawing, bool as_text)
     put_data(out, response);
     fputs("set multiplot layout 2,1\n", out);
     put_title(out, drawing->title);
-    fprintf(out, "set logscale x\nset xrange [%.17g:%.17g]\nset lmargin %d\n", response->values[0],
-            response->values[(response->rows - 1) * response->columns], as_text ? 9 : 10);
-    if (!as_text)
-        fputs("set border 3\nset tics nomirror\nset grid linetype 1 linecolor '#e0e0e0' linewidth "
-              "0.7\nset format x '%h'\n",
-              out);
-    fputs(as_text    ? "set key tmargin right horizontal\n"
-          : is_alone ? "set key off\n"
-                     : "set key inside bottom left Left reverse\n",
+    fprintf(out, "set logscale x\nset xrange [%.17g:%.17g]\nset lmargin 10\n", response->values[0],
+            response->values[(response->rows - 1) * response->columns]);
+    fputs("set border 3\nset tics nomirror\nset grid linetype 1 linecolor '#e0e0e0' linewidth "
+          "0.7\nset format x '%h'\n",
           out);
-
-    if (is_alone && !as_text)
+    fputs(is_alone ? "set key off\n" : "set key inside bottom left Left reverse\n", out);
+    if (is_alone)
         put_margins(out, response);
-
-    /* characters don't stand upright: labels are titles there */
-    fputs(as_text ? "set title 'gain [dB]'\n" : "set ylabel 'gain [dB]'\n", out);
-    put_axis(out, response, 1, as_text, decibels);
-    put_curves(out, response, 0, as_text);
-    put_axis(out, response, 2, as_text, degrees);
-    fputs("unset label\nset xlabel 'frequency [Hz]'\n", out);
-    fputs(as_text ? "set key off\nset title 'phase [deg]'\n"
-                  : "unset title\nset key off\nset ylabel 'phase [deg]'\n",
+    fputs("set ylabel 'gain [dB]'\n", out);
+    put_axis(out, response, 1, decibels);
+    put_curves(out, response, 0);
+    put_axis(out, response, 2, degrees);
+    fputs("unset label\nset xlabel 'frequency [Hz]'\nunset title\nset key off\n"
+          "set ylabel 'phase [deg]'\n",
           out);
-    put_curves(out, response, 1, as_text);
+    put_curves(out, response, 1);
     fputs("unset multiplot\n", out);
+}
+
+/* the same with characters */
+static char *draw_text(const Drawing *drawing, int columns, int rows, bool unicode)
+{
+    const Response *response = drawing->of;
+    const int count = (response->columns - 1) / 2;
+    ct_curve *curves = copy_check(calloc((size_t)count * 2 + 1, sizeof *curves));
+    char **names = copy_check(calloc((size_t)count + 1, sizeof *names));
+    ct_chart charts[2];
+
+    for (int i = 0; i < count; i++)
+        names[i] = pair_name(response->names[2 * i + 1]);
+    for (int half = 0; half < 2; half++) {
+        for (int i = 0; i < count; i++)
+            curves[half * count + i] = (ct_curve){.x = response->values,
+                                                  .y = response->values + 2 * i + 1 + half,
+                                                  .count = response->rows,
+                                                  .stride = response->columns,
+                                                  .x_scale = 1,
+                                                  .label = names[i]};
+        charts[half] = (ct_chart){.title = half == 0 ? drawing->title : "",
+                                  .x_label = half == 1 ? "frequency [Hz]" : "",
+                                  .left_label = half == 0 ? "gain [dB]" : "phase [deg]",
+                                  .right_label = "",
+                                  .x = {NAN, NAN},
+                                  .y = {NAN, NAN},
+                                  .x_is_log = true,
+                                  .fits_x = true,
+                                  .curves = curves + (ptrdiff_t)half * count,
+                                  .count = count};
+    }
+
+    char *text = ct_chart_text(charts, 2, columns, rows, unicode);
+
+    for (int i = 0; i < count; i++)
+        free(names[i]);
+    free(names);
+    free(curves);
+    return text;
 }
 
 static ct_status write_table(const Call *call, const char *path, bool append, ct_error *error)
@@ -184,7 +213,7 @@ static ct_status command_bode(Call *call, ct_error *error)
 {
     Response response = {0};
     const Drawing drawing = {
-        .put = put_commands, .of = &response, .title = ct_title(call->session)};
+        .put = put_commands, .text = draw_text, .of = &response, .title = ct_title(call->session)};
     bool append = false;
     const char *path = ct_redirect(call->statement, &append);
     ct_status status;

@@ -75,11 +75,10 @@ typedef struct Frames {
     char **texts; /* gnuplot's commands of each, ended by NULL */
 } Frames;
 
-static void put_frames(FILE *out, const Drawing *drawing, bool as_text)
+static void put_frames(FILE *out, const Drawing *drawing)
 {
     const Frames *frames = drawing->of;
 
-    (void)as_text;
     for (int i = 0; frames->texts[i] != NULL; i++) {
         fputs(frames->texts[i], out);
 
@@ -95,7 +94,11 @@ static ct_status put_drawn(Call *call, const ct_paper *paper, char *drawn, const
 {
     char *texts[2] = {drawn, NULL};
     const Frames frames = {texts};
-    const Drawing drawing = {put_frames, &frames, "", paper->width, paper->height, 0};
+    const Drawing drawing = {.put = put_frames,
+                             .of = &frames,
+                             .title = "",
+                             .width = paper->width,
+                             .height = paper->height};
 
     if (strcmp(paper->format, "gnuplot") == 0)
         return drawing_make(call, &drawing, path, error);
@@ -202,7 +205,12 @@ static ct_status command_animate(Call *call, ct_error *error)
         return status;
     if (strcmp(paper.format, "gnuplot") == 0) {
         const Frames frames = {texts};
-        const Drawing drawing = {put_frames, &frames, "", paper.width, paper.height, interval};
+        const Drawing drawing = {.put = put_frames,
+                                 .of = &frames,
+                                 .title = "",
+                                 .width = paper.width,
+                                 .height = paper.height,
+                                 .interval = interval};
 
         status = drawing_make(call, &drawing, path, error);
     } else if (path != NULL) {

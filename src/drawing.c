@@ -1,4 +1,4 @@
-/* drawing.c: pictures by gnuplot: the terminal for a file, a window or a screen of characters */
+/* drawing.c: pictures: gnuplot's terminal for a file or a window, or characters */
 #include "drawing.h"
 
 #include "copy.h"
@@ -30,7 +30,6 @@ static const PictureFormat formats[] = {
     {"tex", "tikz", "color", CM},
     {"tikz", "tikz", "color", CM},
     {"gif", "gif", "", 1},
-    {"txt", "dumb", "mono", 0},
     {"", "qt", "", 1},
     {"", "wxt", "", 1},
     {"", "x11", "", 1},
@@ -48,8 +47,6 @@ static char *terminal_for(const PictureFormat *format, const Drawing *drawing)
     if (drawing->interval > 0 && strcmp(format->terminal, "gif") == 0)
         snprintf(moving, sizeof moving, "animate optimize loop 0 delay %.0f",
                  drawing->interval * 100 + 0.5);
-    if (format->unit == 0)
-        return copy_format("%s %s size 100,30", format->terminal, format->options);
     return copy_format("%s %s %s size %g%s,%g%s", format->terminal, moving, format->options,
                        width * format->unit, cm, height * format->unit, cm);
 }
@@ -68,7 +65,7 @@ static bool is_known_extension(const char *extension)
     for (int i = 0; i < FORMATS; i++)
         if (*extension != '\0' && strcmp(formats[i].extension, extension) == 0)
             return true;
-    return strcmp(extension, "gp") == 0;
+    return strcmp(extension, "gp") == 0 || strcmp(extension, "txt") == 0;
 }
 
 /* --- pieces of commands --- */
@@ -127,9 +124,9 @@ static void say_warnings(const Shell *shell, char *warnings)
     free(warnings);
 }
 
-/* Set the terminal, draw, and take what is drawn with characters. */
-static ct_status draw_on(Call *call, const Drawing *drawing, const char *terminal, bool as_text,
-                         const char *path, char **printed, ct_error *error)
+/* Set the terminal, draw, and take what is printed. */
+static ct_status draw_on(Call *call, const Drawing *drawing, const char *terminal, const char *path,
+                         char **printed, ct_error *error)
 {
     Paper paper;
     char *warnings = NULL;
@@ -146,7 +143,7 @@ static ct_status draw_on(Call *call, const Drawing *drawing, const char *termina
         fputc('\n', paper.out);
         free(safe);
     }
-    drawing->put(paper.out, drawing, as_text);
+    drawing->put(paper.out, drawing);
 
     char *commands = paper_close(&paper);
     ct_status status = gnuplot_do(call->shell->gnuplot, commands, printed, &warnings, error);
@@ -162,7 +159,7 @@ static ct_status draw_script(const Drawing *drawing, const char *path, ct_error 
 
     paper_open(&paper);
     fputs("# gnuplot -p draws this\nset encoding utf8\n", paper.out);
-    drawing->put(paper.out, drawing, false);
+    drawing->put(paper.out, drawing);
 
     char *commands = paper_close(&paper);
     ct_status status = file_write(path, commands, paper.length, false, error);
@@ -175,9 +172,6 @@ static ct_status draw_file(Call *call, const Drawing *drawing, const char *path,
 {
     const char *extension = file_extension(path);
     char *place = NULL, *printed = NULL;
-
-    if (strcmp(extension, "gp") == 0)
-        return draw_script(drawing, path, error);
 
     const PictureFormat *format = find_format(call->shell->gnuplot, extension);
 
@@ -194,8 +188,7 @@ static ct_status draw_file(Call *call, const Drawing *drawing, const char *path,
 
     char *terminal = terminal_for(format, drawing);
 
-    status = draw_on(call, drawing, terminal, strcmp(format->terminal, "dumb") == 0, place,
-                     &printed, error);
+    status = draw_on(call, drawing, terminal, place, &printed, error);
     if (status == CT_OK && !file_has_content(place) && strcmp(place, path) != 0)
         status = error_say(error, "gnuplot drew nothing");
     if (status == CT_OK)
@@ -223,8 +216,8 @@ bool drawing_in_window(const Call *call)
     return strcmp(wanted, "window") == 0 || (strcmp(wanted, "auto") == 0 && has_display());
 }
 
-/* as large as the terminal, with room for the line that asked for it */
-static char *text_terminal(void)
+/* with characters; as large as the terminal, with room for the line that asked for it */
+static void draw_text(Call *call, const Drawing *drawing)
 {
     int rows = 24, columns = 79;
 
@@ -233,55 +226,59 @@ static char *text_terminal(void)
         rows = rows > 40 ? 38 : rows - 2;
         columns--;
     }
-    return copy_format("dumb %s size %d,%d", terminal_has_colors() ? "ansi256" : "mono",
-                       columns < 20 ? 20 : columns, rows < 8 ? 8 : rows);
+
+    char *text = copy_check(drawing->text(drawing, columns, rows, call->shell->unicode));
+
+    put_text(call->out, text);
+    ct_free(text);
 }
 
-/* what gnuplot drew with characters, without its form feed and the blanks at line ends */
-static void put_drawn(FILE *out, const char *drawn)
+static ct_status draw_text_file(const Call *call, const Drawing *drawing, const char *path,
+                                ct_error *error)
 {
-    drawn += strspn(drawn, "\f\n");
-    while (*drawn != '\0') {
-        size_t length = strcspn(drawn, "\n"), shown = length;
+    enum { COLUMNS = 100, ROWS = 30 };
+    char *text = copy_check(drawing->text(drawing, COLUMNS, ROWS, call->shell->unicode));
+    ct_status status = file_write(path, text, strlen(text), false, error);
 
-        while (shown > 0 && drawn[shown - 1] == ' ')
-            shown--;
-        fprintf(out, "%.*s\n", (int)shown, drawn);
-        drawn += length + (drawn[length] == '\n');
-    }
+    ct_free(text);
+    return status;
 }
 
+static bool is_wanted(const Call *call, const char *terminal)
+{
+    return strcmp(call->shell->settings.terminal, terminal) == 0;
+}
+
+/* into a window, or on a terminal of gnuplot's that the user chose */
 static ct_status draw_screen(Call *call, const Drawing *drawing, ct_error *error)
 {
-    const char *wanted = call->shell->settings.terminal;
-    bool is_auto = strcmp(wanted, "auto") == 0;
     const PictureFormat *window =
         drawing_in_window(call) ? find_format(call->shell->gnuplot, "") : NULL;
     char *terminal, *printed = NULL;
 
-    bool as_text = strcmp(wanted, "text") == 0 || (is_auto && window == NULL);
-
-    if (as_text) {
-        terminal = text_terminal();
-    } else if (window != NULL) {
+    if (window == NULL && is_wanted(call, "auto")) {
+        draw_text(call, drawing);
+        return CT_OK;
+    }
+    if (window != NULL) {
         /* a script ends, the window it drew stays */
         char *window_terminal = terminal_for(window, drawing);
 
         terminal = copy_format("%s%s", window_terminal, call->shell->interactive ? "" : " persist");
         free(window_terminal);
-    } else if (strcmp(wanted, "window") == 0) {
+    } else if (is_wanted(call, "window")) {
         error_say(error, "this gnuplot has no windows");
         error_hint(error, "apt install gnuplot-qt, or set terminal text");
         return CT_FAILED;
     } else {
-        terminal = copy_text(wanted);
+        terminal = copy_text(call->shell->settings.terminal);
     }
 
-    ct_status status = draw_on(call, drawing, terminal, as_text, NULL, &printed, error);
+    ct_status status = draw_on(call, drawing, terminal, NULL, &printed, error);
 
     if (status == CT_OK)
-        put_drawn(call->out, printed);
-    else if (!as_text && error->hint[0] == '\0')
+        put_text(call->out, printed + strspn(printed, "\f\n"));
+    else if (error->hint[0] == '\0')
         error_hint(error, "set terminal text draws without a display");
     free(printed);
     free(terminal);
@@ -314,16 +311,39 @@ ct_status drawing_check(const Call *call, const char **path, ct_error *error)
     return CT_OK;
 }
 
+/* what gnuplot isn't needed for */
+static bool goes_without_gnuplot(const Call *call, const Drawing *drawing, const char *path)
+{
+    if (path != NULL)
+        return strcmp(file_extension(path), "gp") == 0 ||
+               (drawing->text != NULL && strcmp(file_extension(path), "txt") == 0);
+    return drawing->text != NULL &&
+           (is_wanted(call, "text") || (is_wanted(call, "auto") && !has_display()));
+}
+
+static ct_status make(Call *call, const Drawing *drawing, const char *path, ct_error *error)
+{
+    if (!goes_without_gnuplot(call, drawing, path)) {
+        const ct_status status = gnuplot_start(&call->shell->gnuplot, error);
+
+        if (status != CT_OK)
+            return status;
+        return path != NULL ? draw_file(call, drawing, path, error)
+                            : draw_screen(call, drawing, error);
+    }
+    if (path == NULL) {
+        draw_text(call, drawing);
+        return CT_OK;
+    }
+    return strcmp(file_extension(path), "gp") == 0 ? draw_script(drawing, path, error)
+                                                   : draw_text_file(call, drawing, path, error);
+}
+
 ct_status drawing_make(Call *call, const Drawing *drawing, const char *path, ct_error *error)
 {
-    ct_status status = CT_OK;
     ct_error why = {.status = CT_OK};
+    const ct_status status = make(call, drawing, path, &why);
 
-    if (path == NULL || strcmp(file_extension(path), "gp") != 0)
-        status = gnuplot_start(&call->shell->gnuplot, &why);
-    if (status == CT_OK)
-        status =
-            path != NULL ? draw_file(call, drawing, path, &why) : draw_screen(call, drawing, &why);
     if (status != CT_OK) {
         ct_error_at(call->statement, NULL, error, "%s", why.message);
         error->status = status;

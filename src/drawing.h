@@ -1,16 +1,17 @@
-/* drawing.h: pictures by gnuplot, wherever they go
+/* drawing.h: pictures by gnuplot, or with characters, wherever they go
  *
- * Who draws gives a function that writes gnuplot's commands, data included; where they are
- * carried out, and for which terminal, is decided here by the file's name, the display and
- * `set terminal`. */
+ * Who draws gives a function that writes gnuplot's commands, data included, and one that draws with
+ * characters; which is asked, and for which terminal, is decided here by the file's name, the
+ * display and `set terminal`. */
 #ifndef COTREE_SRC_DRAWING_H
 #define COTREE_SRC_DRAWING_H
 
 #include "command.h"
 
 typedef struct Drawing {
-    /* with characters alone where `as_text`: no colours, nothing upright */
-    void (*put)(FILE *out, const struct Drawing *drawing, bool as_text);
+    void (*put)(FILE *out, const struct Drawing *drawing); /* gnuplot's commands */
+    /* new, ct_free(): the same with characters; NULL: gnuplot draws that, too */
+    char *(*text)(const struct Drawing *drawing, int columns, int rows, bool unicode);
     const void *of; /* what is drawn */
     const char *title;
     double width, height; /* px; 0: as plots are */

@@ -14,7 +14,7 @@ cotree_SOURCES = \
     src/main.c \
     src/memory_end.c src/memory_end.h \
     src/pager.c src/pager.h \
-    src/plot.c src/plot.h src/plot_commands.c \
+    src/plot.c src/plot.h src/plot_commands.c src/plot_text.c \
     src/process.c src/process.h \
     src/progress.c src/progress.h \
     src/reader.c src/reader.h \

@@ -1,7 +1,7 @@
 /* plot.c: `plot ITEM... [vs ITEM] [> "file"]`, drawn by gnuplot
  *
  * A file's extension says in which format. Without a file the picture goes into a window when
- * there is a display, else it is drawn with characters, as large as the terminal. The data
+ * there is a display, else the library draws it with characters, as large as the terminal. The data
  * travel inside the commands, so `plot ... > "fig.gp"` writes a script that needs nothing else. */
 #include "plot.h"
 #include "copy.h"
@@ -262,6 +262,7 @@ static ct_status plot(Call *call, const char *path, ct_error *error)
         plot_lay_out(&plot);
 
         const Drawing drawing = {.put = plot_put,
+                                 .text = plot_text,
                                  .of = &plot,
                                  .title = plot.keys.title,
                                  .height = plot.panels > 2 ? 100 + 250.0 * plot.panels : 0};

@@ -43,7 +43,16 @@ const char *plot_unit(const char *label);
 const char *plot_label(const Plot *plot, int curve);
 /* Two units share a panel; more get one each. */
 void plot_lay_out(Plot *plot);
-/* gnuplot's commands, data included: a Drawing's `put` */
-void plot_put(FILE *out, const Drawing *drawing, bool as_text);
+int plot_x_column(const Plot *plot, const PlotBlock *block);
+const char *plot_x_label(const Plot *plot);
+/* New: the names of an axis's curves, or their quantity, and the unit; NULL: it has no curves. */
+char *plot_axis_label(const Plot *plot, int panel, bool right);
+/* Events of a run at instants, in the unit of t: the i-th, rising; false: there are no more. What
+ * happened too often to be marked is left out. */
+bool plot_event(const Plot *plot, const PlotBlock *block, int i, const char **name,
+                const double **times, int *count);
+/* gnuplot's commands, data included, and characters: a Drawing's `put` and `text` */
+void plot_put(FILE *out, const Drawing *drawing);
+char *plot_text(const Drawing *drawing, int columns, int rows, bool unicode);
 
 #endif

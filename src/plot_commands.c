@@ -112,8 +112,7 @@ static const char *find_quantity(const char *unit)
 
 enum { LONGEST = 34 }; /* characters of the names at an axis */
 
-/* New: the names of an axis's curves, or their quantity, and the unit; NULL: it has no curves. */
-static char *axis_label(const Plot *plot, int panel, bool right)
+char *plot_axis_label(const Plot *plot, int panel, bool right)
 {
     Paper names;
     const char *unit = NULL;
@@ -154,7 +153,7 @@ static int curves_of(const Plot *plot, int panel)
 
 static void put_axis_label(FILE *out, const Plot *plot, int panel, bool right)
 {
-    char *label = axis_label(plot, panel, right);
+    char *label = plot_axis_label(plot, panel, right);
 
     fprintf(out, label != NULL ? "set %slabel " : "unset %slabel\n", right ? "y2" : "y");
     if (label != NULL) {
@@ -177,9 +176,16 @@ static void put_range(FILE *out, const char *axis, const double range[2])
 
 /* --- data --- */
 
-static int x_column(const Plot *plot, const PlotBlock *block)
+int plot_x_column(const Plot *plot, const PlotBlock *block)
 {
     return plot->versus != NULL ? block->columns - 1 : 0;
+}
+
+const char *plot_x_label(const Plot *plot)
+{
+    const PlotBlock *block = &plot->blocks[0];
+
+    return plot->versus != NULL ? block->labels[plot_x_column(plot, block)] : plot->time_label;
 }
 
 static void put_blocks(FILE *out, const Plot *plot)
@@ -201,11 +207,24 @@ static void put_blocks(FILE *out, const Plot *plot)
 
 enum { MOST_MARKS = 40 }; /* of an event: more would be a wall */
 
+bool plot_event(const Plot *plot, const PlotBlock *block, int i, const char **name,
+                const double **times, int *count)
+{
+    const int run = *block->run != '\0' ? (int)strtol(block->run + 3, NULL, 10) : 0;
+
+    if (plot->versus != NULL || plot->spectral)
+        return false;
+    *name = ct_run_event(plot->session, run, i, times, count);
+    if (*name != NULL && *count > MOST_MARKS)
+        *count = 0;
+    return *name != NULL;
+}
+
 /* A line at each instant, named once. */
 static void put_event(FILE *out, const Plot *plot, const char *name, const double *times, int count,
                       bool named)
 {
-    for (int i = 0; i < count && count <= MOST_MARKS; i++) {
+    for (int i = 0; i < count; i++) {
         const double t = times[i] * plot->time_scale;
 
         fprintf(out,
@@ -223,32 +242,26 @@ static void put_event(FILE *out, const Plot *plot, const char *name, const doubl
 
 static void put_events(FILE *out, const Plot *plot, bool named)
 {
-    fputs("unset arrow\nunset label\n", out);
-    for (int b = 0; plot->versus == NULL && !plot->spectral && b < plot->blocks_count; b++) {
-        const char *run = plot->blocks[b].run;
-        const int number = *run != '\0' ? (int)strtol(run + 3, NULL, 10) : 0;
-        const double *times;
-        const char *name;
-        int count;
+    const double *times;
+    const char *name;
+    int count;
 
-        for (int i = 0; (name = ct_run_event(plot->session, number, i, &times, &count)) != NULL;
-             i++)
+    fputs("unset arrow\nunset label\n", out);
+    for (int b = 0; b < plot->blocks_count; b++)
+        for (int i = 0; plot_event(plot, &plot->blocks[b], i, &name, &times, &count); i++)
             put_event(out, plot, name, times, count, named);
-    }
 }
 
 /* --- panels as commands --- */
 
-static void put_curve(FILE *out, const Plot *plot, int i, bool as_text)
+static void put_curve(FILE *out, const Plot *plot, int i)
 {
     const PlotCurve *curve = &plot->curves[i];
-    const int x = x_column(plot, &plot->blocks[curve->block]) + 1;
+    const int x = plot_x_column(plot, &plot->blocks[curve->block]) + 1;
 
     fprintf(out, "$block%d using %d:%d axes x1y%d with %s title ", curve->block, x,
             curve->column + 1, curve->right ? 2 : 1, curve->measured ? "points" : "lines");
     put_quoted(out, plot_label(plot, i));
-    if (as_text)
-        return;
     fprintf(out, " linecolor rgb '%s'", drawing_color(i));
     if (curve->measured)
         fputs(" pointtype 6 pointsize 0.8", out);
@@ -256,42 +269,27 @@ static void put_curve(FILE *out, const Plot *plot, int i, bool as_text)
         fprintf(out, " linewidth 1.5 dashtype %d", drawing_dash(i));
 }
 
-static void put_key(FILE *out, const Plot *plot, int panel, bool as_text)
-{
-    if (as_text)
-        fputs(plot->panels > 1 ? "set key noenhanced tmargin right horizontal\n"
-                               : "set key noenhanced below\n",
-              out);
-    else if (curves_of(plot, panel) > 1)
-        fputs("set key noenhanced outside top left horizontal Left reverse samplen 2\n", out);
-    else
-        fputs("unset key\n", out);
-}
-
-static void put_panel(FILE *out, const Plot *plot, int panel, bool as_text)
+static void put_panel(FILE *out, const Plot *plot, int panel)
 {
     bool last = panel == plot->panels - 1, first = true;
-    const PlotBlock *block = &plot->blocks[0];
 
-    put_key(out, plot, panel, as_text);
-    put_events(out, plot, panel == 0 && !as_text);
+    fputs(curves_of(plot, panel) > 1
+              ? "set key noenhanced outside top left horizontal Left reverse samplen 2\n"
+              : "unset key\n",
+          out);
+    put_events(out, plot, panel == 0);
     fputs(last ? "set xlabel " : "unset xlabel\n", out);
     if (last) {
-        put_quoted(out,
-                   plot->versus != NULL ? block->labels[x_column(plot, block)] : plot->time_label);
+        put_quoted(out, plot_x_label(plot));
         fputs(" noenhanced\n", out);
     }
-    if (as_text) { /* characters don't stand upright: the legend says it all */
-        fputs("unset ylabel\n", out);
-    } else {
-        put_axis_label(out, plot, panel, false);
-        put_axis_label(out, plot, panel, true);
-    }
+    put_axis_label(out, plot, panel, false);
+    put_axis_label(out, plot, panel, true);
     for (int i = 0; i < plot->count; i++) {
         if (plot->curves[i].panel != panel)
             continue;
         fputs(first ? "plot " : ", ", out);
-        put_curve(out, plot, i, as_text);
+        put_curve(out, plot, i);
         first = false;
     }
     fputc('\n', out);
@@ -311,7 +309,7 @@ static void put_scales(FILE *out, const Plot *plot)
         fputs("set size ratio -1\n", out);
 }
 
-void plot_put(FILE *out, const Drawing *drawing, bool as_text)
+void plot_put(FILE *out, const Drawing *drawing)
 {
     const Plot *plot = drawing->of;
     bool has_right = false;
@@ -322,10 +320,9 @@ void plot_put(FILE *out, const Drawing *drawing, bool as_text)
     if (plot->panels == 1)
         put_title(out, drawing->title);
     put_scales(out, plot);
-    if (!as_text)
-        fputs("set border 3\nset tics nomirror\nset grid linetype 1 linecolor '#e0e0e0' linewidth "
-              "0.7\n",
-              out);
+    fputs(
+        "set border 3\nset tics nomirror\nset grid linetype 1 linecolor '#e0e0e0' linewidth 0.7\n",
+        out);
     if (plot->panels > 1) {
         fprintf(out, "set multiplot layout %d,1", plot->panels);
         if (*drawing->title != '\0') {
@@ -334,10 +331,10 @@ void plot_put(FILE *out, const Drawing *drawing, bool as_text)
             fputs(" noenhanced", out);
         }
         /* the panels' axes of time stand above one another */
-        fprintf(out, "\nset lmargin 11\nset rmargin %d\n", has_right && !as_text ? 11 : 3);
+        fprintf(out, "\nset lmargin 11\nset rmargin %d\n", has_right ? 11 : 3);
     }
     for (int i = 0; i < plot->panels; i++)
-        put_panel(out, plot, i, as_text);
+        put_panel(out, plot, i);
     if (plot->panels > 1)
         fputs("unset multiplot\n", out);
 }

@@ -1,5 +1,8 @@
-/* session_plot.c: what a plot is told by its keys, and the events of a run that it marks */
+/* session_plot.c: what a plot is told by its keys, the events of a run that it marks, and a plot as
+ * text */
 #include "session/session_impl.h"
+
+#include "present/chart.h"
 
 #include <math.h>
 #include <string.h>
@@ -115,4 +118,50 @@ const char *ct_run_event(const ct_session *session, int run, int i, const double
     *times = record.times;
     *count = record.count;
     return record.name;
+}
+
+static void read_chart(const ct_chart *in, Chart *out)
+{
+    ChartCurve *curves = NEW_ARRAY(ChartCurve, in->count);
+    ChartMark *marks = NEW_ARRAY(ChartMark, in->mark_count);
+
+    for (int i = 0; i < in->count; i++) {
+        const ct_curve *c = &in->curves[i];
+
+        curves[i] = (ChartCurve){c->x,       c->y,     c->count,     c->stride,
+                                 c->x_scale, c->label, c->is_points, c->is_right};
+    }
+    for (int i = 0; i < in->mark_count; i++)
+        marks[i] = (ChartMark){in->marks[i], in->mark_names[i]};
+    *out = (Chart){.title = in->title,
+                   .x_label = in->x_label,
+                   .y_label = {in->left_label, in->right_label},
+                   .x = {in->x[0], in->x[1]},
+                   .y = {in->y[0], in->y[1]},
+                   .x_is_log = in->x_is_log,
+                   .y_is_log = in->y_is_log,
+                   .has_equal_scales = in->has_equal_scales,
+                   .fits_x = in->fits_x,
+                   .curves = curves,
+                   .count = in->count,
+                   .marks = marks,
+                   .mark_count = in->mark_count};
+}
+
+char *ct_chart_text(const ct_chart *charts, int count, int columns, int rows, bool unicode)
+{
+    TRANSACTION(NULL);
+
+    Chart *all = NEW_ARRAY(Chart, count);
+    Text text = {0};
+
+    for (int i = 0; i < count; i++)
+        read_chart(&charts[i], &all[i]);
+    chart_text(all, count, columns, rows, unicode, &text);
+    for (int i = 0; i < count; i++) {
+        mem_free((void *)all[i].curves);
+        mem_free((void *)all[i].marks);
+    }
+    mem_free(all);
+    return text_done(&text);
 }

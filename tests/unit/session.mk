@@ -93,3 +93,6 @@ test_symplectic_LDADD = $(unit_ldadd)
 UNIT_TESTS += test_functions
 test_functions_SOURCES = tests/unit/test_functions.c tests/unit/session_kit.h tests/unit/test.h
 test_functions_LDADD = libcotree.la
+UNIT_TESTS += test_chart
+test_chart_SOURCES = tests/unit/test_chart.c tests/unit/session_kit.h tests/unit/test.h
+test_chart_LDADD = $(unit_ldadd)
