@@ -24,7 +24,7 @@ static const Topic topics[] = {
     {"network",      "electrical equations, and those of other scalar domains", NEED_SYSTEM, BEHIND_NOTHING, show_network},
     {"outputs",      "outputs and their expressions",                      NEED_MODEL,  BEHIND_NOTHING, show_outputs},
     {"params",       "parameters and their values",                        NEED_MODEL,  BEHIND_NOTHING, show_params},
-    {"structure",    "sizes, instances and how they were derived, and where M and the jacobian are not zero",   NEED_RUNNING, BEHIND_NOTHING, show_structure},
+    {"structure",    "sizes, instances, where M and the jacobian are not zero",  NEED_RUNNING, BEHIND_NOTHING, show_structure},
     {"run",          "report of the last run",                             NEED_RUN,    BEHIND_NOTHING, show_run},
     {"runs",         "all runs: what ran, from when to when, in how many steps", NEED_MODEL, BEHIND_NOTHING, show_runs},
     {"init",         "initial values and guesses that were given",         NEED_MODEL,  BEHIND_NOTHING, show_init},
