@@ -64,7 +64,8 @@ bench: all
 			$(abs_builddir)/.libs/cotree) || exit 1; \
 	done >bench.out
 	@$(dev)/bench-table $(srcdir)/tests/bench/record.txt <bench.out
-	@$(MAKE) -s bench-precision
+	@status=0; for part in bench-precision bench-estimates; do $(MAKE) -s $$part || status=1; done; \
+		exit $$status
 
 # work against precision of every reference and stress case, by method: a table, and pictures in
 # precision/
@@ -74,6 +75,10 @@ bench-precision: all
 		>precision/rows || status=1; cat precision/rows; \
 	$(dev)/precision-pictures precision/data svg precision && \
 		echo "pictures are in precision/" && exit $$status
+
+# what check=on says of its error, over the error, by case, method and tolerance
+bench-estimates: all
+	@PYTHONDONTWRITEBYTECODE=1 $(srcdir)/tests/bench/estimates.py ./cotree $(srcdir)
 
 bench-record: bench
 	{ head -n 3 $(srcdir)/tests/bench/record.txt; cat bench.out; } >bench.new
@@ -120,4 +125,4 @@ mostlyclean-local:
 distclean-local:
 	rm -rf san small faults coverage bench.work precision
 
-.PHONY: check-total check-hacking check-san check-small check-faults lint format bench bench-precision bench-record precision-record fuzz stress check-coverage
+.PHONY: check-total check-hacking check-san check-small check-faults lint format bench bench-precision bench-estimates bench-record precision-record fuzz stress check-coverage

@@ -124,11 +124,14 @@ class Case:
 
     scene: a script below TOP, or the statements; before: statements ahead of the run; data: a
     table of tests/data with the columns t and the items, or what computes one, right to `floor`; else
-    `other`: what replaces `before`, and the method, of the run that is compared with."""
+    `other`: what replaces `before`, and the method, of the run that is compared with. states: what
+    it integrates, where that isn't coordinates and speeds alone."""
 
-    def __init__(self, scene, items, duration, rows, before="", data=None, floor=1e-13, other=None):
+    def __init__(self, scene, items, duration, rows, before="", data=None, floor=1e-13, other=None,
+                 states=""):
         self.scene, self.items, self.duration, self.rows = scene, items, duration, rows
         self.before, self.data, self.floor, self.other = before, data, floor, other
+        self.states = states
 
 
 ABSOLUTE = "tree absolute"
@@ -163,14 +166,16 @@ CASES = {
         before=ABSOLUTE, data="serial_motion", floor=1e-11
     ),
     "motor_arm": Case(
-        "scripts/paper/3_motor_arm_forward.ct", ARM, 2, 100, data="motor_arm_forward", floor=1e-11
+        "scripts/paper/3_motor_arm_forward.ct", ARM, 2, 100, data="motor_arm_forward", floor=1e-11,
+        states=ARM
     ),
     "motor_arm_absolute": Case(
         "scripts/paper/3_motor_arm_forward.ct", ARM, 2, 100,
         before=ABSOLUTE, data="motor_arm_forward", floor=1e-11
     ),
     "microphone": Case(
-        "scripts/paper/5_microphone_tree.ct", MICROPHONE, 2, 100, data="microphone", floor=1e-11
+        "scripts/paper/5_microphone_tree.ct", MICROPHONE, 2, 100, data="microphone", floor=1e-11,
+        states="s s' C2.v C2.i"
     ),
     "pendulum_joint": Case(
         "scripts/reference/ref_A01_pendulum_joint.ct", "p1.x p1.y p1.vx p1.vy", 10, 50,
@@ -213,7 +218,7 @@ CASES = {
     "bushing": Case(
         BUSHING, "e0.x e0.y b1.x b1.y", 2, 50, other=(ABSOLUTE, "dop853")
     ),
-    "rectifier": Case(RECTIFIER, "C.v D.i", 0.005, 500, other=("", "bdf")),
+    "rectifier": Case(RECTIFIER, "C.v D.i", 0.005, 500, other=("", "bdf"), states="C.v"),
 }
 
 

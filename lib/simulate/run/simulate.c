@@ -16,11 +16,11 @@
 
 #define LEAST_RTOL  1e-13
 #define MOST_ROWS   20000000
-#define MOST_VALUES 2e8  /* in all rows: 1.6 GB */
-#define POINTS      4    /* between rows of a driven run, where events are looked for */
-#define TURNED      2.0  /* rad: what an angle that counts turns may go at once in a driven run, */
-#define MISSED      0.5  /* and how far off its prediction */
-#define UNRESOLVED  0.05 /* difference of two runs, rad or m, that makes them different motions */
+#define MOST_VALUES 2e8 /* in all rows: 1.6 GB */
+#define POINTS      4   /* between rows of a driven run, where events are looked for */
+#define TURNED      2.0 /* rad: what an angle that counts turns may go at once in a driven run, */
+#define MISSED      0.5 /* and how far off its prediction */
+#define UNRESOLVED  0.3 /* difference of two runs, rad or m, that makes them different motions */
 /* what a difference of two runs, at a tolerance and a tenth of it, is taken times, since it may be
  * less than the error: of methods that take single steps, and of those with a history */
 #define ONE_STEP     2.0
