@@ -33,6 +33,7 @@ include tests/bench/formulate.mk
 include tests/bench/subsystems.mk
 include tests/bench/graph.mk
 include tests/bench/compile.mk
+include tests/bench/dynamics.mk
 include tests/bench/simulate.mk
 include tests/bench/session.mk
 include tests/bench/network.mk

@@ -348,8 +348,10 @@ static void add_mechanics(Code *code)
 
     if (count == 0 || add_prescribed(code))
         return;
-    rows = NEW_ARRAY(Expr, 2 * nu);
-    code->is_explicit = l->m == 0 && system_accelerations(l->system, r->force, rows, rows + nu);
+    rows = NEW_ARRAY(Expr, 3 * nu);
+    code->is_explicit =
+        l->m == 0 && system_pushes(l->system, rows + 2 * nu, NULL) == OK &&
+        system_accelerations(l->system, r->force, rows + 2 * nu, rows, rows + nu) != TOLD_NOT;
     if (code->is_explicit)
         add_function(code, "accelerations", "u', M u' = F eliminated", rows, nu, 1);
     mem_free(rows);

@@ -265,6 +265,8 @@ typedef struct OpCount {
 OpCount expr_count(const Expr *roots, int count);
 /* After common subexpressions are shared: each node once. */
 OpCount expr_count_shared(const Expr *roots, int count);
+/* the same, beside what follows from symbols of `kinds` alone (bits as of expr_kinds(); 0: all) */
+OpCount expr_count_beside(const Expr *roots, int count, unsigned kinds);
 OpCount op_count_plus(OpCount a, OpCount b); /* saturates as the counts do */
 int64_t op_count_total(OpCount count);
 

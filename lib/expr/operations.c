@@ -143,6 +143,11 @@ static bool meet(Met *met, Expr e)
 
 OpCount expr_count_shared(const Expr *roots, int count)
 {
+    return expr_count_beside(roots, count, 0);
+}
+
+OpCount expr_count_beside(const Expr *roots, int count, unsigned kinds)
+{
     OpCount total = {0};
     Met met = {.size = 16};
     Walk walk = {0};
@@ -156,6 +161,8 @@ OpCount expr_count_shared(const Expr *roots, int count)
     for (int i = 0; i < walk.count; i++) {
         Expr e = walk.nodes[i];
 
+        if (kinds != 0 && (expr_kinds(e) & ~kinds) == 0)
+            continue;
         if (e->kind != EXPR_PRODUCT || !meet(&met, e))
             total = op_count_plus(total, node_own(e));
         for (int j = 0; j < e->count && e->kind != EXPR_PRODUCT; j++)

@@ -1,14 +1,21 @@
-/* accelerations.c: M u' = F eliminated in symbols, so that a run's program does it: L^T D L
+/* accelerations.c: M u' = F solved in symbols, so that a run's program does it, the cheapest way
  *
- * From the last speed on, so that trees fill nothing in (Featherstone 2005). */
+ * M itself is eliminated from the last speed on, L^T D L, so that trees fill nothing in
+ * (Featherstone 2005); or speeds yield along the trees (along_trees.h). */
 #include "formulate/accelerations.h"
 
 #include "base/memory.h"
+#include "formulate/along_trees.h"
 #include "formulate/system_impl.h"
 
 #include <string.h>
 
-enum { MOST_SPEEDS = 16 }; /* of a full M that is eliminated in symbols */
+enum {
+    MOST_SPEEDS = 16, /* of a full M that is eliminated in symbols */
+    /* More leaves the processor's caches, and is left to loops over data. */
+    MOST_SPEEDS_ALONG = 2000,
+    MOST_OPERATIONS = 100000
+};
 
 /* Pivots and rows of L in `mass`, right sides in `right`. */
 static bool eliminate_mass(Arena *arena, int n, Expr *mass, Expr *right, Expr *inverse)
@@ -34,7 +41,7 @@ static bool eliminate_mass(Arena *arena, int n, Expr *mass, Expr *right, Expr *i
     return true;
 }
 
-bool system_accelerations(System *system, const Expr *force, Expr *acceleration, Expr *excess)
+static bool through_mass(System *system, const Expr *force, Expr *acceleration, Expr *excess)
 {
     Arena *arena = system->arena;
     const int n = system_nu(system);
@@ -44,7 +51,6 @@ bool system_accelerations(System *system, const Expr *force, Expr *acceleration,
 
     if (n > MOST_SPEEDS || whole == NULL)
         return false;
-    system_touch(system);
     mass = NEW_ARRAY(Expr, n * n);
     inverse = NEW_ARRAY(Expr, n);
     memcpy(mass, whole, (size_t)(n * n) * sizeof(Expr));
@@ -60,4 +66,96 @@ bool system_accelerations(System *system, const Expr *force, Expr *acceleration,
     }
     MEM_FREE(mass, inverse);
     return found;
+}
+
+/* --- what a way costs in a run --- */
+
+/* a sine costs about as much as so many additions in a run */
+enum { FUNCTION_PRICE = 20 };
+
+static int64_t cost_of(const Expr *roots, int count)
+{
+    const OpCount ops = expr_count_beside(roots, count, 1U << SYMBOL_PARAMETER);
+
+    return ops.add + ops.mul + FUNCTION_PRICE * ops.fun;
+}
+
+/* --- the cheapest --- */
+
+typedef struct Search {
+    System *system;
+    const Groups *groups[2]; /* as they are, and with inertia moved where turns don't change it */
+    const Expr *pushes;
+    int n;
+    Expr *best, *tried; /* 2 n: u', then what tells their rounding */
+    int64_t least;
+} Search;
+
+static bool offer(Search *search)
+{
+    const int64_t cost = cost_of(search->tried, 2 * search->n);
+
+    if (cost >= search->least)
+        return false;
+    search->least = cost;
+    memcpy(search->best, search->tried, (size_t)(2 * search->n) * sizeof(Expr));
+    return true;
+}
+
+static bool offer_along(Search *search, bool moves_inertia, Way way)
+{
+    return accelerations_along(search->system, search->groups[moves_inertia], &way, search->pushes,
+                               search->tried, search->tried + search->n) &&
+           offer(search);
+}
+
+/* When speeds yield decides most; the rest is tried with the best of that. */
+static bool search_along(Search *search)
+{
+    const Way ways[] = {{DELAY_NONE, true, true}, {DELAY_RUN, true, true}, {DELAY_ALL, true, true}};
+    const int count = search->n <= MOST_SPEEDS && search->n > 1 ? COUNT(ways) : 1;
+    bool found = false;
+    Way best = ways[0];
+
+    for (int i = 0; i < count; i++)
+        if (offer_along(search, true, ways[i])) {
+            found = true;
+            best = ways[i];
+        }
+    if (count == 1)
+        return found;
+    found = offer_along(search, true, (Way){best.delay, true, false}) || found;
+    found = offer_along(search, true, (Way){best.delay, false, false}) || found;
+    return offer_along(search, false, best) || found;
+}
+
+Told system_accelerations(System *system, const Expr *force, const Expr *pushes, Expr *acceleration,
+                          Expr *excess)
+{
+    const int n = system_nu(system);
+    Search search = {.system = system, .pushes = pushes, .n = n, .least = MOST_OPERATIONS};
+    Groups *plain = NULL, *moved = NULL;
+    Told told = TOLD_NOT;
+
+    system_touch(system);
+    search.best = NEW_ARRAY(Expr, 4 * n);
+    search.tried = search.best + 2 * n;
+    if (through_mass(system, force, search.tried, search.tried + n) && offer(&search))
+        told = TOLD_BY_MASS;
+    if (n <= MOST_SPEEDS_ALONG)
+        plain = groups_new(system);
+    if (plain != NULL) {
+        moved = groups_new(system);
+        groups_move_inertia(system->arena, moved);
+        search.groups[0] = plain;
+        search.groups[1] = moved;
+        if (search_along(&search))
+            told = TOLD_ALONG;
+    }
+    groups_free(plain);
+    groups_free(moved);
+    memcpy(acceleration, search.best, (size_t)n * sizeof(Expr));
+    memcpy(excess, search.best + n, (size_t)n * sizeof(Expr));
+    mem_free(search.best);
+    return told;
 }

@@ -1,12 +1,21 @@
-/* accelerations.h: u' of a mechanism of few speeds that nothing constrains, in symbols */
+/* accelerations.h: M u' = F solved in symbols, where a run's program does that */
 #ifndef COTREE_FORMULATE_ACCELERATIONS_H
 #define COTREE_FORMULATE_ACCELERATIONS_H
 
 #include "formulate/system.h"
 
-/* u'[j] for these F, and excess[j]: over the j-th pivot of M, what it is the rest of. That is large
- * where a speed has next to no inertia of its own. Arrays of nu. False where it can't be told so: a
- * speed moves nothing that has mass, or there are too many. */
-bool system_accelerations(System *view, const Expr *force, Expr *acceleration, Expr *excess);
+typedef enum Told {
+    TOLD_NOT,     /* a speed moves nothing that has mass, or there is too much of it */
+    TOLD_BY_MASS, /* from M and F */
+    TOLD_ALONG,   /* along the trees: neither M nor F is needed */
+} Told;
+
+/* u'[j] for these F, of which `pushes` is what neither inertia nor gravity makes, and excess[j]:
+ * over the j-th pivot of M, what it is the rest of. That is large where a speed has next to no
+ * inertia of its own. Arrays of nu. The ways there are are counted, and the cheapest is told. */
+Told system_accelerations(System *view, const Expr *force, const Expr *pushes, Expr *acceleration,
+                          Expr *excess);
+/* the part of F that neither inertia nor gravity makes */
+MUST_USE Status system_pushes(System *view, Expr *out, Diag *diag);
 
 #endif

@@ -4,6 +4,7 @@
  * M: column k is the same sum for u'_k = 1 with everything else at rest; of a pair (j, k)
  * the column of the speed that moves fewer bodies is taken, of equals the one further out. */
 #include "formulate/dynamics.h"
+#include "formulate/accelerations.h"
 #include "formulate/alike.h"
 #include "formulate/composite.h"
 #include "formulate/constraints.h"
@@ -339,12 +340,12 @@ static void add_on_coordinate(const System *system, Expr coordinate, Expr effort
 
         for (int k = 0; is_one_of(symbol, symbols, count) && k < rate->count; k++) {
             Expr *force = &system->run.force[rate->speed[k]];
+            Expr *push = &system->dynamics->pushes[rate->speed[k]];
+            const Expr share = expr_product(
+                arena, (Expr[]){expr_diff(arena, coordinate, symbol), rate->entry[k], effort}, 3);
 
-            *force = expr_add(
-                arena, *force,
-                expr_product(arena,
-                             (Expr[]){expr_diff(arena, coordinate, symbol), rate->entry[k], effort},
-                             3));
+            *force = expr_add(arena, *force, share);
+            *push = expr_add(arena, *push, share);
         }
     }
     mem_free(symbols);
@@ -556,8 +557,11 @@ Status dynamics_build(System *system, Diag *diag)
 
     TRY(check_size(system, diag));
     system->run.force = pool_alloc(system->pool, (size_t)n * sizeof(Expr));
+    system->dynamics->pushes = pool_alloc(system->pool, (size_t)n * sizeof(Expr));
     if (n == 0)
         return OK;
+    for (int j = 0; j < n; j++)
+        system->dynamics->pushes[j] = expr_int(system->arena, 0);
     speed_directions(system);
     if (!composite_mass_build(system))
         TRY(mass_matrix(system));
@@ -572,6 +576,32 @@ Status dynamics_build(System *system, Diag *diag)
     for (int j = 0; j < n; j++)
         system->run.force[j] = expr_hold(system->arena, system->run.force[j]);
     return joint_efforts(system, diag);
+}
+
+Status system_pushes(System *system, Expr *out, Diag *diag)
+{
+    const int nodes = graph_node_count(system->origin->graph);
+    bool none = true;
+    PoolMark mark;
+    Loads loads;
+
+    system_touch(system);
+    mark = pool_mark(system->pool);
+    loads = loads_new(system);
+    TRY(efforts_add(system, &loads, false, diag));
+    for (int i = 0; i < nodes && none; i++)
+        none = vec_is_zero(loads.force[i]) && vec_is_zero(loads.torque[i]);
+    for (int j = 0; j < system->kinematics->u.count; j++)
+        out[j] = expr_add(system->arena, loads.own[j], system->dynamics->pushes[j]);
+    if (!none) {
+        const Sums *sums = loads_sum(system, &loads);
+
+        for (int j = 0; j < system->kinematics->u.count; j++)
+            out[j] = expr_hold(system->arena, expr_add(system->arena, system->dynamics->pushes[j],
+                                                       sums_project(system, sums, j)));
+    }
+    pool_release(system->pool, mark);
+    return OK;
 }
 
 Status system_form_mass(System *system, Diag *diag)

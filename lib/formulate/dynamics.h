@@ -22,6 +22,7 @@ typedef struct Dynamics {
     LIST(Elastic) elastics;
     bool writes_out;    /* false: entries of M and F are too long, and are shown as definitions */
     LIST(Entry) shares; /* of parts in M, beside what the masses make it */
+    Expr *pushes;       /* in F, of parts on coordinates, one a speed */
     CompositeMass *composite_mass; /* NULL: M is run as it is written */
 } Dynamics;
 

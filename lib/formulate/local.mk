@@ -1,6 +1,9 @@
 libcore_la_SOURCES += \
 	lib/formulate/alike.c lib/formulate/alike.h \
 	lib/formulate/accelerations.c lib/formulate/accelerations.h \
+	lib/formulate/along_trees.c lib/formulate/along_trees.h \
+	lib/formulate/groups.c lib/formulate/groups.h \
+	lib/formulate/resistance.c lib/formulate/resistance.h \
 	lib/formulate/euler_parameters.c \
 	lib/formulate/expanded_shapes.c lib/formulate/partial.c \
 	lib/formulate/shapes.c lib/formulate/shapes.h \

@@ -5,6 +5,11 @@ family_units_SOURCES = tests/family/family_units.c tests/family/family.h \
 	tests/unit/session_kit.h tests/unit/test.h
 family_units_LDADD = libcotree.la $(unit_ldadd)
 
+FAMILIES += family_trees
+family_trees_SOURCES = tests/family/family_trees.c tests/family/family.h tests/family/trees.c \
+	tests/family/trees.h tests/random.h tests/unit/form.h
+family_trees_LDADD = $(unit_ldadd)
+
 FAMILIES += family_subsystems
 family_subsystems_SOURCES = tests/family/family_subsystems.c tests/family/family.h \
 	tests/random.h tests/unit/session_kit.h tests/unit/test.h

@@ -148,10 +148,12 @@ static void M_passed_on_is_M_written_out(void)
 static void compare_accelerations(System *system, SceneState *state)
 {
     const int n = system_nu(system);
-    Expr *told = NEW_ARRAY(Expr, 2 * n);
+    Expr *told = NEW_ARRAY(Expr, 3 * n);
     double *du;
 
-    EXPECT(system_accelerations(system, system_run(system)->force, told, told + n));
+    EXPECT(system_pushes(system, told + 2 * n, NULL) == OK);
+    EXPECT(system_accelerations(system, system_run(system)->force, told + 2 * n, told, told + n) !=
+           TOLD_NOT);
     du = numbers_of(told, told[0] != NULL ? 2 * n : 0, state);
     for (int j = 0; j < n && told[0] != NULL; j++) {
         const double force = expr_evaluate(system_run(system)->force[j], scene_value, state);

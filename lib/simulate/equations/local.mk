@@ -7,6 +7,7 @@ libcore_la_SOURCES += \
   lib/simulate/equations/input_layout.h \
   lib/simulate/equations/articulated.c \
   lib/simulate/equations/articulated.h \
+	lib/simulate/equations/elimination.c lib/simulate/equations/elimination.h \
   lib/simulate/equations/mass_matrix.c \
   lib/simulate/equations/mass_matrix.h \
   lib/simulate/equations/passing.h \

@@ -461,13 +461,13 @@ static int motion_freedoms(const Motion *mo)
 static bool embedded_residual(Motion *mo, const double *u_rate, double *out)
 {
     const Equations *eq = mo->eq;
-    const double *mass = equations_mass(eq);
+    const double *mass = equations_mass(eq), *force = equations_force(eq);
     int f = motion_freedoms(mo);
 
     if (!motion_factor_embedded(mo))
         return false;
     for (int j = 0; j < eq->nu; j++)
-        mo->top[j] = pattern_dot(eq->masses, mass, j, u_rate) - eq->force[j];
+        mo->top[j] = pattern_dot(eq->masses, mass, j, u_rate) - force[j];
     partitioning_reduce(mo->partitioning, mo->top, out);
     for (int k = 0; k < mo->used; k++)
         out[f + k] = pattern_dot(eq->rows, eq->phi_u, mo->rows[k], u_rate) - eq->gamma[mo->rows[k]];
@@ -481,12 +481,12 @@ static void augmented_residual(Motion *mo, const double *w, const double *w_rate
     const Equations *eq = mo->eq;
     int tail = motion_length(mo);
     const double *u = w + eq->n, *lambda = w_rate + tail, *mu = lambda + mo->used;
-    const double *mass = equations_mass(eq);
+    const double *mass = equations_mass(eq), *force = equations_force(eq);
     double *force_rows = out + eq->n;
 
     memset(mo->du, 0, (size_t)eq->nu * sizeof(double));
     for (int j = 0; j < eq->nu; j++)
-        force_rows[j] = pattern_dot(eq->masses, mass, j, w_rate + eq->n) - eq->force[j];
+        force_rows[j] = pattern_dot(eq->masses, mass, j, w_rate + eq->n) - force[j];
     for (int k = 0; k < mo->used; k++) {
         const int row = mo->rows[k];
 

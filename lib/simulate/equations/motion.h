@@ -72,11 +72,12 @@ typedef struct Equations {
     /* u' of M u' = force where there are no constraints, by other means than M; false: M leaves
      * nothing but rounding of it. NULL: by M */
     bool (*without_mass)(void *context, double *acceleration);
-    void (*bring_mass)(void *context); /* M up to date; NULL: it is */
-    const double *force;               /* nu */
-    const double *power;               /* 1: work done on the system per time, W; NULL: not known */
-    const double *cap, *unit;          /* n+nu+nx+multi_turn_count, for Ode; may be NULL */
-    const int *quaternions;            /* first of each four Euler parameters */
+    void (*bring_mass)(void *context);  /* M up to date; NULL: it is */
+    const double *force;                /* nu; by equations_force() */
+    void (*bring_force)(void *context); /* F up to date; NULL: it is */
+    const double *power;      /* 1: work done on the system per time, W; NULL: not known */
+    const double *cap, *unit; /* n+nu+nx+multi_turn_count, for Ode; may be NULL */
+    const int *quaternions;   /* first of each four Euler parameters */
     int quaternion_count;
     /* conditions whose change of sign may bend or break the equations; time_only ones first */
     int switch_count, time_only;
@@ -108,6 +109,13 @@ static inline const double *equations_mass(const Equations *eq)
     if (eq->bring_mass != NULL)
         eq->bring_mass(eq->context);
     return eq->mass;
+}
+/* F where the equations stand */
+static inline const double *equations_force(const Equations *eq)
+{
+    if (eq->bring_force != NULL)
+        eq->bring_force(eq->context);
+    return eq->force;
 }
 /* Put a onto the angles at (t, q). */
 void equations_turn(const Equations *equations, double t, const double *q, double *a);

@@ -29,7 +29,7 @@ bool motion_solve_augmented(Motion *mo)
     if (!motion_factor(mo))
         return false;
     pick_rows(mo, mo->eq->gamma, mo->bottom);
-    kkt_solve(mo->kkt, mo->eq->force, mo->bottom, mo->du, mo->lambda);
+    kkt_solve(mo->kkt, equations_force(mo->eq), mo->bottom, mo->du, mo->lambda);
     return true;
 }
 
@@ -51,7 +51,7 @@ static bool solve_embedded(Motion *mo)
             return true;
     }
     pick_rows(mo, mo->eq->gamma, mo->bottom);
-    partitioning_solve(mo->partitioning, mo->eq->force, mo->bottom, mo->du);
+    partitioning_solve(mo->partitioning, equations_force(mo->eq), mo->bottom, mo->du);
     return true;
 }
 

@@ -2,8 +2,8 @@
 #include "simulate/equations/numbers.h"
 
 #include "base/memory.h"
-#include "formulate/accelerations.h"
 #include "simulate/equations/articulated.h"
+#include "simulate/equations/elimination.h"
 #include "simulate/equations/mass_matrix.h"
 
 #include <math.h>
@@ -24,6 +24,7 @@ struct Numbers {
     Articulated *articulated;
     Probe *massing;
     int mass_needs;
+    Told told_by;                        /* whether the main program has eliminated M itself */
     bool is_articulated, is_mass_old;    /* factors are there; M is of another position */
     bool is_mass_constant, is_mass_kept; /* with the parameters of now: of bodies without joints */
     const double *told_accelerations;    /* of the main program, and what tells their rounding */
@@ -55,7 +56,7 @@ static void position(void *context, double t, const double *q)
     if (nb->articulated != NULL)
         nb->is_articulated = articulated_factor(
             nb->articulated, workspace_roots(nb->main->workspace) + nb->mass_needs);
-    else if (nb->mass != NULL && !nb->is_mass_kept) {
+    else if (nb->mass != NULL && nb->massing == NULL && !nb->is_mass_kept) {
         mass_matrix_put(nb->mass, workspace_roots(nb->main->workspace) + nb->mass_needs);
         nb->is_mass_kept = nb->is_mass_constant;
     }
@@ -92,8 +93,18 @@ static void bring_mass(void *context)
     memcpy(probe_inputs(nb->massing), probe_inputs(nb->main),
            (size_t)nb->layout->count * sizeof(double));
     workspace_run(nb->massing->workspace, STAGE_TIME, STAGE_POSITION);
-    mass_matrix_put(nb->mass, workspace_roots(nb->massing->workspace));
+    if (nb->mass != NULL)
+        mass_matrix_put(nb->mass, workspace_roots(nb->massing->workspace));
     nb->is_mass_old = false;
+}
+
+static void bring_force(void *context)
+{
+    Numbers *nb = context;
+
+    memcpy(probe_inputs(nb->massing), probe_inputs(nb->main),
+           (size_t)nb->layout->count * sizeof(double));
+    workspace_run(nb->massing->workspace, STAGE_TIME, STAGE_NETWORK);
 }
 
 static void velocity(void *context, const double *u, const double *x)
@@ -369,44 +380,42 @@ static int mass_block(Numbers *nb, Roots *roots)
     return block(roots, needs, count);
 }
 
-/* u' where the program eliminates it, from F on their surfaces, which stand from `force` on, then
- * what tells its rounding; false: it doesn't */
-static bool push_accelerations(const Numbers *nb, Roots *roots, int force)
-{
-    const Layout *l = nb->layout;
-    Expr *told = NEW_ARRAY(Expr, 2 * l->nu);
-    bool found = l->m == 0 && l->nu > 0 && nb->mass == NULL &&
-                 system_accelerations(l->system, roots->at + force, told, told + l->nu);
-
-    for (int j = 0; j < l->nu && found; j++)
-        found = stage_of(told[j]) <= STAGE_NETWORK;
-    if (found)
-        (void)block(roots, told, 2 * l->nu);
-    mem_free(told);
-    return found;
-}
-
-/* M, where elimination does without it */
+/* M and F, where elimination does without them */
 static Status compile_mass(Numbers *nb, Parameters *parameters, Diag *diag)
 {
+    const Layout *l = nb->layout;
     Roots roots = {0};
     const Expr *needs;
-    int count;
+    int count, force;
     Status status = OK;
 
-    if (nb->articulated == NULL)
+    if (nb->articulated == NULL && nb->told_by != TOLD_ALONG)
         return OK;
-    needs = mass_matrix_needs(nb->mass, &count);
-    (void)block(&roots, needs, count);
-    CHECK(compile(nb->layout, parameters, &roots, &nb->massing, diag));
-    nb->eq.without_mass = articulate;
+    if (nb->mass != NULL) {
+        needs = mass_matrix_needs(nb->mass, &count);
+        (void)block(&roots, needs, count);
+    } else {
+        (void)mass_block(nb, &roots);
+    }
+    force =
+        block_on(l, &roots, system_run(l->system)->force, nb->told_by == TOLD_ALONG ? l->nu : 0);
+    CHECK(compile(l, parameters, &roots, &nb->massing, diag));
+    if (nb->told_by == TOLD_ALONG) {
+        nb->eq.force = workspace_roots(nb->massing->workspace) + force;
+        nb->eq.bring_force = bring_force;
+    }
+    if (nb->mass == NULL) {
+        nb->eq.mass = workspace_roots(nb->massing->workspace);
+        nb->eq.masses = &nb->masses;
+    }
     nb->eq.bring_mass = bring_mass;
 done:
     LIST_FREE(roots);
     return status;
 }
 
-static Status compile_equations(Numbers *nb, Parameters *parameters, Diag *diag)
+static Status compile_equations(Numbers *nb, Parameters *parameters, const Expr *accelerations,
+                                Diag *diag)
 {
     const Layout *l = nb->layout;
     const Reading *r = system_run(l->system);
@@ -417,15 +426,14 @@ static Status compile_equations(Numbers *nb, Parameters *parameters, Diag *diag)
     Roots roots = {0};
     int phi = block(&roots, r->phi, l->m);
     int phi_u = stored_block(&roots, r->phi_u, l->m, l->nu, &nb->rows);
-    int mass = mass_block(nb, &roots);
+    int mass = nb->told_by == TOLD_ALONG ? 0 : mass_block(nb, &roots);
     int nu_rate = block(&roots, r->nu, l->m);
     int gamma = block_on(l, &roots, r->gamma, l->m);
     int q_rate = block(&roots, r->q_rate, l->n);
     int network = iterates ? 0 : network_block(l, &roots);
     int rhs = block_on(l, &roots, r->network_rhs, iterates ? 0 : l->nx + l->nz);
-    int force = block_on(l, &roots, r->force, l->nu);
-    int told = roots.count;
-    bool tells = push_accelerations(nb, &roots, force);
+    int force = block_on(l, &roots, r->force, nb->told_by == TOLD_ALONG ? 0 : l->nu);
+    int told = block(&roots, accelerations, nb->told_by != TOLD_NOT ? 2 * l->nu : 0);
     int work = block_on(l, &roots, &power, 1);
     int angles = roots.count;
     int map = roots.count + 2 * l->multi_turns;
@@ -451,8 +459,10 @@ static Status compile_equations(Numbers *nb, Parameters *parameters, Diag *diag)
     nb->eq.network_rhs = at + rhs;
     nb->eq.force = at + force;
     nb->told_accelerations = at + told;
-    if (tells)
+    if (nb->told_by != TOLD_NOT)
         nb->eq.without_mass = tell_accelerations;
+    else if (nb->articulated != NULL)
+        nb->eq.without_mass = articulate;
     nb->eq.power = at + work;
     nb->eq.multi_turn = at + angles;
     nb->eq.multi_turn_rate = at + angles + l->multi_turns;
@@ -676,6 +686,7 @@ static double *units_of(const Layout *layout)
 Status numbers_new(const Layout *layout, Parameters *parameters, Numbers **out, Diag *diag)
 {
     Numbers *nb = NEW(Numbers);
+    Expr *accelerations = NULL;
     int count = 0;
     Status status = OK;
 
@@ -713,15 +724,17 @@ Status numbers_new(const Layout *layout, Parameters *parameters, Numbers **out, 
     nb->eq.quaternion_count = count;
     parameters_begin_turns(parameters, layout->system);
     nb->mass = mass_matrix_new(layout->system);
-    if (layout->m == 0 && nb->mass != NULL)
+    CHECK(elimination_choose(layout, &nb->told_by, &accelerations, diag));
+    if (layout->m == 0 && nb->mass != NULL && nb->told_by == TOLD_NOT)
         nb->articulated = articulated_new(layout->system);
-    CHECK(compile_equations(nb, parameters, diag));
+    CHECK(compile_equations(nb, parameters, accelerations, diag));
     CHECK(compile_mass(nb, parameters, diag));
     CHECK(compile_switches(nb, parameters, diag));
     CHECK(compile_slip(nb, parameters, diag));
     *out = nb;
     nb = NULL;
 done:
+    mem_free(accelerations);
     numbers_free(nb);
     return status;
 }

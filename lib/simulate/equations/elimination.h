@@ -1,0 +1,12 @@
+/* elimination.h: whether a run's program eliminates u' itself, and how */
+#ifndef COTREE_SIMULATE_EQUATIONS_ELIMINATION_H
+#define COTREE_SIMULATE_EQUATIONS_ELIMINATION_H
+
+#include "formulate/accelerations.h"
+#include "simulate/equations/input_layout.h"
+
+/* u' on the layout's surfaces, then what tells its rounding (2 nu): new, also where it is not
+ * told. */
+MUST_USE Status elimination_choose(const Layout *layout, Told *by, Expr **out, Diag *diag);
+
+#endif

@@ -1,0 +1,152 @@
+/* trees.c: programs of accelerations along the trees, chosen or not, and what a run takes */
+#include "trees.h"
+
+#include "../unit/form.h"
+#include "formulate/accelerations.h"
+#include "formulate/along_trees.h"
+#include "formulate/system_impl.h"
+#include "simulate/equations/motion.h"
+#include "simulate/equations/numbers.h"
+
+#include <stdio.h>
+#include <string.h>
+
+struct TreesModel {
+    Model *model;
+    System *system;
+    Layout *layout;
+    Parameters parameters;
+};
+
+static double parameter(void *model, Expr symbol)
+{
+    return model_parameter_value(model, symbol);
+}
+
+static Status build(TreesModel *trees, const char *text, Diag *diag)
+{
+    size_t next = 0;
+
+    trees->model = model_new();
+    while (next < strlen(text)) {
+        Statement *statement = NULL;
+        Status status = statement_parse(text, 1, (SyntaxOptions){0}, &next, &statement, diag);
+
+        if (status == OK)
+            status = model_apply(trees->model, statement, diag);
+        statement_free(statement);
+        TRY(status);
+    }
+    return form_system(trees->model, &trees->system, diag);
+}
+
+TreesModel *trees_open(const char *text, char *message, size_t room)
+{
+    TreesModel *trees = NEW(TreesModel);
+    Diag diag = {0};
+
+    if (build(trees, text, &diag) != OK) {
+        (void)snprintf(message, room, "%s", diag.message);
+        trees_close(trees);
+        return NULL;
+    }
+    trees->layout = layout_new(trees->system);
+    trees->parameters = (Parameters){.value = parameter, .context = trees->model};
+    return trees;
+}
+
+void trees_close(TreesModel *trees)
+{
+    if (trees == NULL)
+        return;
+    parameters_free(&trees->parameters);
+    layout_free(trees->layout);
+    system_free(trees->system);
+    model_free(trees->model);
+    mem_free(trees);
+}
+
+/* which coordinate of the system each name is */
+static int *order_of(const TreesModel *trees, const char names[][TREES_NAME], int n)
+{
+    int *order = NEW_ARRAY(int, n);
+
+    for (int j = 0; j < n; j++)
+        for (int i = 0; i < n; i++)
+            if (strcmp(system_q(trees->system, i)->name, names[j]) == 0)
+                order[j] = i;
+    return order;
+}
+
+static double *state(const int *order, const double *q, const double *u, int n)
+{
+    double *y = NEW_ARRAY(double, 2 * n + 1);
+
+    for (int j = 0; j < n; j++) {
+        y[order[j]] = q[j];
+        y[n + order[j]] = u[j];
+    }
+    return y;
+}
+
+static TreesAnswer evaluate(TreesModel *trees, const Expr *told, const double *y, const int *order,
+                            int n, double *out)
+{
+    const RowValues row = {.q = y, .u = y + n};
+    Probe *probe = NULL;
+
+    if (probe_new(trees->layout, &trees->parameters, told, n, &probe, NULL) != OK)
+        return TREES_FAILED;
+    for (int j = 0; j < n; j++)
+        out[j] = probe_values(probe, &row)[order[j]];
+    probe_free(probe);
+    return TREES_FOUND;
+}
+
+TreesAnswer trees_way(TreesModel *trees, int number, const char names[][TREES_NAME],
+                      const double *q, const double *u, int n, double *out, char *what, size_t room)
+{
+    const Way way = {(Delay)(number / 4 % 3), number % 2 == 1, number % 4 > 1};
+    const bool moves = number >= 12;
+    Groups *groups = system_nu(trees->system) == n ? groups_new(trees->system) : NULL;
+    Expr *told = NEW_ARRAY(Expr, 3 * n);
+    int *order = order_of(trees, names, n);
+    double *y = state(order, q, u, n);
+    TreesAnswer answer = TREES_FAILED;
+
+    (void)snprintf(what, room, "delay %d, merges %d, ends merged %d, inertia moved %d", way.delay,
+                   way.merges, way.ends_merged, moves);
+    if (groups != NULL && moves)
+        groups_move_inertia(trees->system->arena, groups);
+    if (groups == NULL)
+        answer = TREES_HAVE_NONE;
+    else if (system_pushes(trees->system, told + 2 * n, NULL) == OK &&
+             accelerations_along(trees->system, groups, &way, told + 2 * n, told, told + n))
+        answer = evaluate(trees, told, y, order, n, out);
+    groups_free(groups);
+    MEM_FREE(told, order, y);
+    return answer;
+}
+
+TreesAnswer trees_run(TreesModel *trees, const char names[][TREES_NAME], const double *q,
+                      const double *u, int n, double *out)
+{
+    Numbers *numbers = NULL;
+    Motion *motion = NULL;
+    int *order = order_of(trees, names, n);
+    double *y = state(order, q, u, n);
+    TreesAnswer answer = TREES_FAILED;
+    Solved solved;
+
+    if (numbers_new(trees->layout, &trees->parameters, &numbers, NULL) == OK) {
+        motion = motion_new(numbers_equations(numbers), &(MotionOptions){.tolerance = 1e-9});
+        if (motion_solve(motion, 0, y, &solved))
+            answer = TREES_FOUND;
+        for (int j = 0; j < n && answer == TREES_FOUND; j++)
+            out[j] = solved.acceleration[order[j]];
+    }
+    motion_free(motion);
+    numbers_free(numbers);
+    MEM_FREE(order, y);
+    return answer;
+}
