@@ -30,6 +30,7 @@ libcore_la_SOURCES += \
   lib/present/mechanism.c \
   lib/present/mechanism.h \
   lib/present/mechanism_impl.h \
+  lib/present/mechanism_names.c \
   lib/present/mechanism_parts.c \
   lib/present/mechanism_place.c \
   lib/present/picture.c \

@@ -168,6 +168,7 @@ Status mechanism_open(Mechanism *mechanism, const View *view, MechanismOptions o
     for (int i = 0; i < model_count(model); i++)
         add_load(mechanism, model_instance(model, i));
     choose_axes(mechanism);
+    mechanism_call(mechanism);
     return OK;
 }
 
@@ -176,6 +177,7 @@ void mechanism_close(Mechanism *mechanism)
     LIST_FREE(mechanism->items);
     LIST_FREE(mechanism->loads);
     LIST_FREE(mechanism->bents);
+    LIST_FREE(mechanism->names);
     MEM_FREE(mechanism->place, mechanism->body);
 }
 
@@ -270,6 +272,7 @@ Status mechanism_fit(Mechanism *mechanism, const double *values, int rows, Diag 
     mechanism->newton = force > 0 ? LONGEST / force : 0;
     mechanism->moment = moment > 0 ? 1 / moment : 0;
     lay_out_sheet(mechanism, values, rows);
+    mechanism_settle_names(mechanism, values, rows);
     return OK;
 }
 
@@ -428,29 +431,6 @@ static void draw_parts(Sheet *sheet)
     picture_sort(sheet->picture);
 }
 
-/* names lie over everything, those of bodies first */
-static void draw_names(Sheet *sheet)
-{
-    const Model *model = sheet->mechanism->view->model;
-
-    picture_of(sheet->picture, "names", "of parts");
-    for (int i = 0; i < model_count(model); i++) {
-        const Instance *instance = model_instance(model, i);
-
-        if (instance->row->family == FAMILY_BODY)
-            sheet_name(sheet, sheet_node(sheet, instance->head, NULL),
-                       picture_color(mechanism_color(sheet->mechanism, instance->head)), 14,
-                       instance->name);
-    }
-    for (int i = 0; i < model_count(model); i++) {
-        const Instance *instance = model_instance(model, i);
-
-        if (instance->row->family == FAMILY_JOINT && !instance->is_virtual)
-            sheet_name(sheet, sheet_node(sheet, instance->head, NULL), INK_DARK, 12,
-                       instance->name);
-    }
-}
-
 void mechanism_draw(const Mechanism *mechanism, const double *values, double t, Picture *out)
 {
     Sheet sheet = {.mechanism = mechanism, .values = values, .picture = out};
@@ -459,7 +439,6 @@ void mechanism_draw(const Mechanism *mechanism, const double *values, double t, 
     draw_parts(&sheet);
     for (int i = 0; i < mechanism->loads.count; i++)
         sheet_load(&sheet, &mechanism->loads.at[i]);
-    draw_names(&sheet);
+    sheet_names(&sheet);
     sheet_corner(&sheet, t);
-    LIST_FREE(sheet.labels);
 }

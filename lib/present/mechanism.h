@@ -11,9 +11,8 @@
 typedef enum Look { LOOK_ISO, LOOK_XY, LOOK_XZ, LOOK_YZ } Look;
 
 typedef struct MechanismOptions {
-    Look look;       /* of a spatial scene */
-    bool reactions;  /* of joints, as arrows */
-    bool is_a_frame; /* of a film: names stay where they are beside their parts */
+    Look look;      /* of a spatial scene */
+    bool reactions; /* of joints, as arrows */
 } MechanismOptions;
 
 /* A force or moment on a frame, as an arrow. */
@@ -33,12 +32,21 @@ typedef struct Bent {
 
 enum { BENT_SPOTS = 13 };
 
+/* What a part is called, beside the end of a load's arrow or a node: in all pictures of a film at
+ * the same side. */
+typedef struct Name {
+    const Instance *part;
+    int load; /* which; -1: none */
+    int side; /* one of those that mechanism_names.c lists */
+} Name;
+
 typedef struct Mechanism {
     const View *view;
     MechanismOptions options;
     LIST(Expr) items; /* what it is drawn from, over the user's variables */
     LIST(Load) loads;
     LIST(Bent) bents;
+    LIST(Name) names; /* those that choose first first */
     int nodes, spots; /* nodes, then the points of beams */
     int *place;       /* of a spot's first item; -1: ground, or not drawn */
     int *body;        /* that a node is fixed in, by the node of its frame; -1: of another domain */

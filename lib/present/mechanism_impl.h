@@ -9,7 +9,6 @@ typedef struct Sheet {
     const Mechanism *mechanism;
     const double *values; /* of the items */
     Picture *picture;
-    LIST(Point) labels; /* corners of what names stand on: left top, right bottom, ... */
 } Sheet;
 
 #define INK_DARK   "#222222"
@@ -43,7 +42,9 @@ void sheet_joint(Sheet *sheet, const Instance *joint);
 void sheet_link(Sheet *sheet, const Instance *link);
 void sheet_load(Sheet *sheet, const Load *load);
 void sheet_corner(Sheet *sheet, double t); /* axes, scale, time, title */
-/* a name beside a point, where it covers no other */
-void sheet_name(Sheet *sheet, Point at, const char *color, double size, const char *name);
+void sheet_names(Sheet *sheet);
+/* which parts have names, and where these cover least in all instants: `values` is rows x items */
+void mechanism_call(Mechanism *mechanism);
+void mechanism_settle_names(Mechanism *mechanism, const double *values, int rows);
 
 #endif

@@ -311,52 +311,16 @@ void sheet_load(Sheet *sheet, const Load *load)
     const Point at = sheet_node(sheet, load->node, NULL);
     double moment[3];
     const Point d = mechanism_load(mechanism, sheet->values, load, moment);
-    const Point end = plus(at, 1, d);
 
     picture_of(sheet->picture, load->reaction ? "reaction" : load->owner->row->name,
                load->owner->name);
     if (!isfinite(d.x) || !isfinite(d.y))
         return;
-    if (hypot(d.x, d.y) > 1) {
-        picture_arrow(sheet->picture, ink, at, end);
-        if (!load->reaction)
-            sheet_name(sheet, end, ink.stroke, 12, load->owner->name);
-    }
+    if (hypot(d.x, d.y) > 1)
+        picture_arrow(sheet->picture, ink, at, plus(at, 1, d));
     draw_moment(sheet, ink, at,
                 moment[0] * mechanism->axes[2][0] + moment[1] * mechanism->axes[2][1] +
                     moment[2] * mechanism->axes[2][2]);
-}
-
-/* --- names --- */
-
-static bool overlaps(const Sheet *sheet, Point low, Point high)
-{
-    for (int i = 0; i + 1 < sheet->labels.count; i += 2)
-        if (low.x < sheet->labels.at[i + 1].x && sheet->labels.at[i].x < high.x &&
-            low.y < sheet->labels.at[i + 1].y && sheet->labels.at[i].y < high.y)
-            return true;
-    return false;
-}
-
-void sheet_name(Sheet *sheet, Point at, const char *color, double size, const char *name)
-{
-    /* of the text's left bottom corner, in its widths and heights, and px besides */
-    static const double places[][4] = {{0, 0, 9, -8},   {0, 1, 9, 8},      {-1, 0, -9, -8},
-                                       {-1, 1, -9, 8},  {-0.5, 0, 0, -13}, {-0.5, 1, 0, 13},
-                                       {0, 0, 16, -20}, {-1, 1, -16, 22}};
-    const double width = 0.58 * size * text_width(name), height = 0.8 * size;
-    Point low = {0, 0}, high = {0, 0};
-
-    for (int i = 0; i < COUNT(places); i++) {
-        low = (Point){at.x + places[i][0] * width + places[i][2],
-                      at.y + (places[i][1] - 1) * height + places[i][3]};
-        high = (Point){low.x + width, low.y + height};
-        if (sheet->mechanism->options.is_a_frame || !overlaps(sheet, low, high))
-            break;
-    }
-    LIST_PUSH(sheet->labels, low);
-    LIST_PUSH(sheet->labels, high);
-    picture_text(sheet->picture, color, (Point){low.x, high.y}, size, ANCHOR_START, name);
 }
 
 /* --- what stands in the corners --- */

@@ -287,7 +287,6 @@ static Status make_strip(ct_session *session, const Statement *s, double rate, d
     TRY(find_run(session, s, &run, diag));
     TRY(read_span(session, s, run, &span, diag));
     TRY(read_options(session, s, &options, diag));
-    options.is_a_frame = true;
     TRY(mechanism_open(&strip->mechanism, &view, options, diag));
     *seconds = (span.to - span.from) / span.speed;
     strip->count = (int)fmax(2, fmin(most, ceil(*seconds * rate)));

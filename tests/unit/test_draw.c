@@ -329,6 +329,71 @@ static void a_page_plays_by_itself(void)
 #define TWO_TREES "tree translation h8 h9 h10\ntree rotation h8 h10 s11\n"
 
 /* branches of both trees, by hand: each has the four arms and its three joints */
+typedef struct Written {
+    double x, y, width, height; /* left bottom corner */
+    char text[16];
+} Written;
+
+/* the names of a frame, those with a halo; as wide as letters are */
+static int read_names(const char *from, const char *to, Written *out, int most)
+{
+    int count = 0;
+
+    for (const char *at = from; (at = strstr(at, "<text ")) != NULL && at < to; at++) {
+        double size;
+        Written *name = &out[count];
+
+        if (sscanf(at, "<text x=\"%lf\" y=\"%lf\" font-size=\"%lf\"", &name->x, &name->y, &size) !=
+            3)
+            continue;
+        if (sscanf(strchr(at, '>'), ">%15[a-zA-Z0-9]<", name->text) != 1 || count == most - 1 ||
+            strlen(name->text) > 3)
+            continue;
+        name->width = 0.5 * size * (double)strlen(name->text);
+        name->height = 0.7 * size;
+        count++;
+    }
+    return count;
+}
+
+static bool cover(const Written *a, const Written *b)
+{
+    return a->x < b->x + b->width && b->x < a->x + a->width && a->y - a->height < b->y &&
+           b->y - b->height < a->y;
+}
+
+/* in no instant more than a few, and never those of one point all the time */
+static void names_in_a_film_stand_apart(void)
+{
+    enum { MOST = 20 };
+    Kit kit = kit_new();
+    double interval = 0;
+    int frames = 0, covered = 0, names = 0, count = 0;
+    char *page;
+
+    EXPECT_DONE(&kit, CRANK "guess h10 = 2.5\nsimulate 2\n");
+    page = film(&kit, "animate", "svg", &count, &interval);
+    for (const char *at = page; (at = strstr(at, "class=\"frame\"")) != NULL; frames++) {
+        Written name[MOST];
+        const char *next = strstr(++at, "class=\"frame\"");
+        const int found = read_names(at, next != NULL ? next : at + strlen(at), name, MOST);
+        bool is_covered = false;
+
+        for (int i = 0; i < found; i++)
+            for (int k = 0; k < i; k++)
+                is_covered = is_covered || cover(&name[i], &name[k]);
+        covered += is_covered;
+        names += found;
+    }
+    EXPECT(frames > 20 && names >= 7 * frames);
+    if (covered * 10 > frames) {
+        test_faults++;
+        printf("names cover one another in %d of %d frames\n", covered, frames);
+    }
+    ct_free(page);
+    kit_free(&kit);
+}
+
 static void trees_stand_side_by_side_where_they_differ(void)
 {
     Kit kit = kit_new();
@@ -512,6 +577,7 @@ int main(void)
     RUN(spatial_scenes_are_seen_from_where_they_are_asked);
     RUN(every_kind_of_part_has_a_picture);
     RUN(a_page_plays_by_itself);
+    RUN(names_in_a_film_stand_apart);
     RUN(trees_stand_side_by_side_where_they_differ);
     RUN(circuits_and_cutsets_are_lit);
     RUN(each_domain_has_its_colour_and_dash);

@@ -1,0 +1,200 @@
+/* mechanism_names.c: the names of parts, where they cover as little as can be
+ *
+ * A name stands at one of some sides of its point, and stays there through a film, or it would
+ * flicker. One after the other takes the side where, over all instants, it covers the fewest names
+ * that chose before it, points of parts, and edges of the sheet. */
+#include "present/mechanism_impl.h"
+
+#include <math.h>
+
+enum {
+    COVERS_NAME = 8, /* what each costs, at an instant */
+    COVERS_EDGE = 8,
+    COVERS_POINT = 1,
+    MOST_INSTANTS = 60, /* that are looked at */
+    MOST_LOOKS = 6000   /* of them times names: of very large mechanisms fewer instants */
+};
+
+#define BODY_TEXT  14.0 /* px */
+#define OTHER_TEXT 12.0
+
+/* of the left top corner, in the text's widths and heights, and px besides */
+static const double sides[][4] = {
+    {0, -1, 9, -8},   {0, 0, 9, 8},     {-1, -1, -9, -8}, {-1, 0, -9, 8}, {-0.5, -1, 0, -13},
+    {-0.5, 0, 0, 13}, {0, -1, 16, -20}, {-1, 0, -16, 22}, {0, 0, 16, 24}, {-1, -1, -16, -24}};
+
+typedef struct Box {
+    Point low, high;
+} Box;
+
+static bool is_body(const Name *name)
+{
+    return name->part->row->family == FAMILY_BODY;
+}
+
+static double size_of(const Name *name)
+{
+    return is_body(name) ? BODY_TEXT : OTHER_TEXT;
+}
+
+/* The point that a name belongs to; false: there is nothing to be seen of it. */
+static bool find_point(const Sheet *sheet, const Name *name, Point *out)
+{
+    const Mechanism *mechanism = sheet->mechanism;
+
+    if (name->load < 0) {
+        *out = sheet_node(sheet, name->part->head, NULL);
+        return true;
+    }
+
+    const Load *load = &mechanism->loads.at[name->load];
+    double moment[3];
+    const Point at = sheet_node(sheet, load->node, NULL);
+    const Point d = mechanism_load(mechanism, sheet->values, load, moment);
+
+    *out = (Point){at.x + d.x, at.y + d.y};
+    return hypot(d.x, d.y) > 1;
+}
+
+static Box box_at(const Name *name, int side, Point at)
+{
+    const double width = 0.58 * size_of(name) * text_width(name->part->name);
+    const double height = 0.8 * size_of(name);
+    const Point low = {at.x + sides[side][0] * width + sides[side][2],
+                       at.y + sides[side][1] * height + sides[side][3]};
+
+    return (Box){low, {low.x + width, low.y + height}};
+}
+
+static bool overlap(const Box *a, const Box *b)
+{
+    return a->low.x < b->high.x && b->low.x < a->high.x && a->low.y < b->high.y &&
+           b->low.y < a->high.y;
+}
+
+static bool holds(const Box *box, Point p)
+{
+    return p.x > box->low.x && p.x < box->high.x && p.y > box->low.y && p.y < box->high.y;
+}
+
+/* --- which, and where --- */
+
+void mechanism_call(Mechanism *mechanism)
+{
+    const Model *model = mechanism->view->model;
+
+    for (int i = 0; i < mechanism->loads.count; i++)
+        if (!mechanism->loads.at[i].reaction)
+            LIST_PUSH(mechanism->names, ((Name){mechanism->loads.at[i].owner, i, 0}));
+    for (int joints = 0; joints < 2; joints++)
+        for (int i = 0; i < model_count(model); i++) {
+            const Instance *part = model_instance(model, i);
+
+            if (part->row->family == (joints == 1 ? FAMILY_JOINT : FAMILY_BODY) &&
+                !part->is_virtual)
+                LIST_PUSH(mechanism->names, ((Name){part, -1, 0}));
+        }
+}
+
+/* points and boxes of the names at the instants that are looked at */
+typedef struct Looks {
+    const Mechanism *mechanism;
+    int instants;
+    Point *points; /* instants x names; NAN: not seen */
+    Box *boxes;    /* of the names that have chosen */
+} Looks;
+
+static int cost_of(const Looks *looks, int number, int side)
+{
+    const Mechanism *mechanism = looks->mechanism;
+    const int count = mechanism->names.count;
+    int cost = 0;
+
+    for (int r = 0; r < looks->instants; r++) {
+        const Point *points = looks->points + (ptrdiff_t)r * count;
+        const Box *boxes = looks->boxes + (ptrdiff_t)r * count;
+
+        if (isnan(points[number].x))
+            continue;
+
+        const Box box = box_at(&mechanism->names.at[number], side, points[number]);
+
+        cost += COVERS_EDGE * (box.low.x < 0 || box.low.y < 0 || box.high.x > mechanism->width ||
+                               box.high.y > mechanism->height);
+        for (int i = 0; i < count; i++)
+            cost +=
+                (i < number && !isnan(points[i].x) && overlap(&box, &boxes[i]) ? COVERS_NAME : 0) +
+                (i != number && holds(&box, points[i]) ? COVERS_POINT : 0);
+    }
+    return cost;
+}
+
+static void choose(const Looks *looks, Name *names, int number)
+{
+    int least = -1;
+
+    for (int side = 0; side < COUNT(sides) && least != 0; side++) {
+        const int cost = cost_of(looks, number, side);
+
+        if (least >= 0 && cost >= least)
+            continue;
+        least = cost;
+        names[number].side = side;
+    }
+    for (int r = 0; r < looks->instants; r++) {
+        const ptrdiff_t at = (ptrdiff_t)r * looks->mechanism->names.count + number;
+
+        looks->boxes[at] = box_at(&names[number], names[number].side, looks->points[at]);
+    }
+}
+
+void mechanism_settle_names(Mechanism *mechanism, const double *values, int rows)
+{
+    const int count = mechanism->names.count;
+    const int most =
+        count > 0 && MOST_LOOKS / count < MOST_INSTANTS ? MOST_LOOKS / count + 1 : MOST_INSTANTS;
+    Looks looks = {.mechanism = mechanism, .instants = rows < most ? rows : most};
+
+    looks.points = NEW_ARRAY(Point, looks.instants * count);
+    looks.boxes = NEW_ARRAY(Box, looks.instants * count);
+    for (int r = 0; r < looks.instants; r++) {
+        const ptrdiff_t row =
+            looks.instants > 1 ? (ptrdiff_t)r * (rows - 1) / (looks.instants - 1) : 0;
+        const Sheet sheet = {.mechanism = mechanism,
+                             .values = values + row * mechanism->items.count};
+
+        for (int i = 0; i < count; i++) {
+            Point *point = &looks.points[(ptrdiff_t)r * count + i];
+
+            if (!find_point(&sheet, &mechanism->names.at[i], point))
+                *point = (Point){NAN, NAN};
+        }
+    }
+    for (int i = 0; i < count; i++)
+        choose(&looks, mechanism->names.at, i);
+    MEM_FREE(looks.points, looks.boxes);
+}
+
+/* names lie over everything */
+void sheet_names(Sheet *sheet)
+{
+    const Mechanism *mechanism = sheet->mechanism;
+
+    picture_of(sheet->picture, "names", "of parts");
+    for (int i = 0; i < mechanism->names.count; i++) {
+        const Name *name = &mechanism->names.at[i];
+        Point at;
+
+        if (!find_point(sheet, name, &at))
+            continue;
+
+        const Box box = box_at(name, name->side, at);
+        const char *color = name->load >= 0 ? INK_FORCE
+                            : is_body(name)
+                                ? picture_color(mechanism_color(mechanism, name->part->head))
+                                : INK_DARK;
+
+        picture_text(sheet->picture, color, (Point){box.low.x, box.high.y}, size_of(name),
+                     ANCHOR_START, name->part->name);
+    }
+}
