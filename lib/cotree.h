@@ -219,6 +219,11 @@ bool ct_run_figures(const ct_session *session, int run, ct_figures *out);
  * end of the last run or the assembled start, as the language says. */
 ct_status ct_value(ct_session *session, const ct_expression *expression, const ct_expression *at,
                    double *value, ct_error *error);
+/* Of a value of ct_value() or ct_table() in SI, for a reader: 0 where it is no more than rounding,
+ * of states by their largest and of parameters, makes of nothing; else as it is. `at`, s, is NULL
+ * for the end. */
+ct_status ct_round(ct_session *session, const ct_expression *expression, const double *at,
+                   double *value, ct_error *error);
 /* The SI unit of an expression where its dimension is known: new, "N*m"; NULL: it isn't, or it is a
  * number. */
 char *ct_unit(const ct_session *session, const ct_expression *expression);

@@ -120,6 +120,21 @@ static void show_in_unit(const Call *call, const ct_expression *expression, Prin
     ct_free(unit);
 }
 
+/* 0 where rounding alone made the value */
+static ct_status round_printed(const Call *call, const ct_expression *expression, double *value,
+                               ct_error *error)
+{
+    const ct_expression *instant = ct_at(call->statement);
+    double at = 0;
+    ct_status status = CT_OK;
+
+    if (instant != NULL)
+        status = ct_value(call->session, instant, NULL, &at, error);
+    if (status == CT_OK)
+        status = ct_round(call->session, expression, instant != NULL ? &at : NULL, value, error);
+    return status;
+}
+
 static ct_status command_print(Call *call, ct_error *error)
 {
     int count = ct_operand_count(call->statement);
@@ -134,6 +149,8 @@ static ct_status command_print(Call *call, ct_error *error)
             continue;
         status =
             ct_value(call->session, expression, ct_at(call->statement), &lines[i].value, error);
+        if (status == CT_OK)
+            status = round_printed(call, expression, &lines[i].value, error);
         if (status == CT_OK && lines[i].unit == NULL)
             show_in_unit(call, expression, &lines[i]);
     }
@@ -208,6 +225,34 @@ static void label_columns(const Call *call, const ct_expression *const *items, i
     }
 }
 
+#define FAR_BELOW                                                                                  \
+    1e-9 /* of the largest value in a column: smaller ones are held against rounding */
+
+/* 0 in the place of what rounding alone made; of a column of nothing else, everywhere */
+static ct_status round_column(const Call *call, const ct_expression *item,
+                              const TableColumns *table, int column, ct_error *error)
+{
+    double *values = table->values + column;
+    const ptrdiff_t stride = table->columns;
+    ptrdiff_t top = 0;
+    ct_status status = CT_OK;
+
+    for (int i = 1; i < table->rows; i++)
+        if (fabs(values[i * stride]) > fabs(values[top * stride]))
+            top = i;
+
+    double largest = values[top * stride];
+
+    status = ct_round(call->session, item, &table->values[top * stride], &largest, error);
+    for (int i = 0; i < table->rows && status == CT_OK; i++)
+        if (largest == 0)
+            values[i * stride] = 0;
+        else if (fabs(values[i * stride]) < FAR_BELOW * fabs(largest))
+            status = ct_round(call->session, item, &table->values[i * stride], &values[i * stride],
+                              error);
+    return status;
+}
+
 static ct_status command_table(Call *call, ct_error *error)
 {
     const ct_statement *statement = call->statement;
@@ -230,6 +275,8 @@ static ct_status command_table(Call *call, ct_error *error)
         items[i] = ct_operand(statement, i);
     status = ct_table(call->session, items, count, every, &table.values, &table.rows,
                       &table.columns, &table.names, error);
+    for (int j = 1; j <= count && status == CT_OK && table.names[0][0] == 't'; j++)
+        status = round_column(call, items[j - 1], &table, j, error);
     if (status == CT_OK) {
         label_columns(call, items, count, &table);
         put_table(call, &table);

@@ -102,6 +102,28 @@ done:
     return session_report(status, &diag, error);
 }
 
+ct_status ct_round(ct_session *session, const ct_expression *expression, const double *at,
+                   double *value, ct_error *error)
+{
+    SESSION_CALL(session, session_ran_out(session, error));
+
+    Formula formula = {0};
+    Run *source = NULL;
+    Status status;
+    Diag diag = {0};
+
+    if (!formula_may_be_rounding(syntax_of(expression), *value))
+        return CT_OK;
+    session_begin(session);
+    CHECK(formula_new(session, syntax_of(expression), &formula, &diag));
+    if (formula_needs_run(&formula))
+        CHECK(source_at(session, at, &source, &diag));
+    CHECK(formula_round(session, &formula, source, at, value, &diag));
+done:
+    formula_free(&formula);
+    return session_report(status, &diag, error);
+}
+
 ct_status ct_value(ct_session *session, const ct_expression *expression, const ct_expression *at,
                    double *value, ct_error *error)
 {

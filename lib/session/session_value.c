@@ -1,6 +1,8 @@
 /* session_value.c: what a formula is worth: at an instant, or over the rows of a run */
 #include "session/session_impl.h"
 
+#include <assert.h>
+#include <float.h>
 #include <math.h>
 
 #define SAME     1e-9  /* of the way between two rows: an instant that near to one is that one */
@@ -53,6 +55,11 @@ static double snap(const Result *result, double t)
         if (fabs(times[i] - t) <= SAME * (times[high] - times[low]) + ROUNDING * fabs(t))
             return times[i];
     return t;
+}
+
+static double run_end(const Run *run)
+{
+    return result_times(run->result)[result_rows(run->result) - 1];
 }
 
 /* a leaf of parameters and numbers alone needs no run */
@@ -152,6 +159,91 @@ Status formula_value(ct_session *session, const Formula *formula, Run *source, c
     *out = join(formula, values);
 done:
     mem_free(values);
+    return status;
+}
+
+/* --- noise --- */
+
+#define LOOKED_AT                                                                                  \
+    1e-6           /* larger values aren't held against their rounding, which takes a program      \
+                    */
+#define NO_DIGIT 8 /* roundings: a value of no more has no digit that is true */
+
+/* numbers of a leaf's parameters, each a rounding larger or smaller */
+typedef struct Shaken {
+    ct_session *session;
+    Run *run;
+    bool up;
+} Shaken;
+
+static double shaken_number(void *context, Expr symbol)
+{
+    const Shaken *shaken = context;
+    const double value = shaken->run != NULL ? run_number(shaken->run, symbol)
+                                             : model_number(shaken->session->model, symbol);
+
+    return value * (shaken->up == (expr_symbol_number(symbol) % 2 == 0) ? 1 + DBL_EPSILON
+                                                                        : 1 - DBL_EPSILON);
+}
+
+/* how far rounding leaves a leaf open at an instant of its run */
+static Status leaf_rounding(ct_session *session, const Leaf *leaf, Run *run, double at,
+                            double value, double *out, Diag *diag)
+{
+    *out = DBL_EPSILON * fabs(value);
+    if (leaf->kind == LEAF_CONSTANT)
+        return OK;
+    if (needs_run(leaf)) {
+        double open;
+
+        assert(run != NULL);
+        TRY(result_reader_rounding(run->reader, leaf->expr, &at, 1, &open, diag));
+        *out = fmax(*out, open);
+        return OK;
+    }
+    for (int up = 0; up < 2; up++) {
+        Shaken shaken = {session, leaf->run >= 0 ? run : NULL, up != 0};
+
+        *out = fmax(*out, fabs(expr_evaluate(leaf->expr, shaken_number, &shaken) - value));
+    }
+    return OK;
+}
+
+bool formula_may_be_rounding(const Syntax *item, double value)
+{
+    const bool is_shown_in = item->has_unit && item->kind != SYNTAX_NUMBER;
+
+    return value != 0 && fabs(value) * (is_shown_in ? item->unit.factor : 1) <= LOOKED_AT;
+}
+
+Status formula_round(ct_session *session, const Formula *formula, Run *source, const double *at,
+                     double *value, Diag *diag)
+{
+    const int count = formula->leaves.count;
+    double *values = NEW_ARRAY(double, count), *open = NEW_ARRAY(double, count);
+    double most = 0;
+    Status status = OK;
+
+    for (int i = 0; i < count; i++) {
+        const Leaf *leaf = formula->leaves.at + i;
+        Run *run = leaf_run(session, leaf, source);
+        const double instant = at != NULL ? *at : run != NULL ? run_end(run) : 0;
+
+        CHECK(evaluate_leaf(session, leaf, run, &instant, &values[i], diag));
+        CHECK(leaf_rounding(session, leaf, run, instant, values[i], &open[i], diag));
+    }
+    /* each leaf by itself: they are off independently */
+    for (int i = 0; i < count; i++) {
+        const double here = join(formula, values), held = values[i];
+
+        values[i] = held + open[i];
+        most += fabs(join(formula, values) - here);
+        values[i] = held;
+    }
+    if (fabs(*value) <= NO_DIGIT * most)
+        *value = 0;
+done:
+    MEM_FREE(values, open);
     return status;
 }
 

@@ -31,6 +31,11 @@ MUST_USE Status result_reader_values_along(ResultReader *reader, Expr item, cons
                                            int count, const Watch *watch, double *values,
                                            Diag *diag);
 
+/* How far an item moves at several instants where states and time are off by a rounding, that of
+ * the largest state of a kind in the run: what is no larger tells nothing. 0 of driven runs. */
+MUST_USE Status result_reader_rounding(ResultReader *reader, Expr item, const double *times,
+                                       int count, double *open, Diag *diag);
+
 /* Both for one question alone, with a reader of its own. */
 MUST_USE Status result_values(const Result *result, const Expr *items, int count, double *out,
                               Diag *diag);
