@@ -11,13 +11,6 @@ typedef struct GraphDrawing {
     Text stem; /* what stands left of the branches of the node at hand */
 } GraphDrawing;
 
-static const char *type_name(const Model *model, int edge)
-{
-    const Instance *owner = model_edge_owner(model, edge);
-
-    return owner != NULL ? owner->row->name : "edge";
-}
-
 static bool hangs_from(const Tree *tree, int child, int node)
 {
     return tree_parent(tree, child) == node;
@@ -48,7 +41,7 @@ static void draw_below(GraphDrawing *drawing, int node)
         text_add(drawing->out,
                  unicode ? (child == last ? "└─ " : "├─ ") : (child == last ? "`- " : "|- "));
         text_addf(drawing->out, "%s (%s) %s %s\n", graph_edge(drawing->graph, edge)->name,
-                  type_name(drawing->view->model, edge),
+                  view_edge_type(drawing->view, edge),
                   tree_is_forward(drawing->tree, child) ? "->" : "<-",
                   graph_node(drawing->graph, child)->name);
         text_add(&drawing->stem, child == last ? "   " : unicode ? "│  " : "|  ");
@@ -79,7 +72,7 @@ static void draw_chords(GraphDrawing *drawing)
         const Edge *edge = graph_edge(drawing->graph, chords[i]);
 
         text_addf(drawing->out, "   %s (%s): %s -> %s\n", edge->name,
-                  type_name(drawing->view->model, chords[i]),
+                  view_edge_type(drawing->view, chords[i]),
                   graph_node(drawing->graph, edge->tail)->name,
                   graph_node(drawing->graph, edge->head)->name);
     }
@@ -88,10 +81,10 @@ static void draw_chords(GraphDrawing *drawing)
 Status draw_text(const View *view, Text *out, Diag *diag)
 {
     const Tree *trees[TREE_KINDS] = {NULL};
-    const Graph *graph = model_graph(view->model);
+    const Graph *graph = view_graph(view);
     bool both;
 
-    TRY(model_trees(view->model, trees, diag));
+    TRY(view_trees(view, trees, diag));
     both = trees[TREE_TRANSLATION] != NULL && trees[TREE_ROTATION] != NULL &&
            same_branches(trees[TREE_TRANSLATION], trees[TREE_ROTATION], graph);
     for (int k = 0; k < TREE_KINDS; k++) {
@@ -119,7 +112,7 @@ Status draw_text(const View *view, Text *out, Diag *diag)
  * only is bold and says which */
 static void dot_edge(const View *view, const Tree *const trees[TREE_KINDS], int edge, Text *out)
 {
-    const Graph *graph = model_graph(view->model);
+    const Graph *graph = view_graph(view);
     const Edge *e = graph_edge(graph, edge);
     bool branch = false, chord = false;
     const char *only = "";
@@ -141,12 +134,12 @@ static void dot_edge(const View *view, const Tree *const trees[TREE_KINDS], int 
 
 void draw_dot(const View *view, Text *out)
 {
-    const Graph *graph = model_graph(view->model);
+    const Graph *graph = view_graph(view);
     const Tree *trees[TREE_KINDS] = {NULL};
     Diag ignored;
 
     /* a graph without a tree is drawn all the same */
-    if (model_trees(view->model, trees, &ignored) != OK)
+    if (view_trees(view, trees, &ignored) != OK)
         memset(trees, 0, sizeof trees);
     text_add(out, "digraph model {\n  node [shape=circle];\n");
     for (int n = 0; n < graph_node_count(graph); n++) {

@@ -92,7 +92,7 @@ static Status add_panels(GraphPicture *picture, Diag *diag)
     const Tree *trees[TREE_KINDS] = {NULL};
     const int nodes = graph_node_count(picture->graph);
 
-    TRY(model_trees(picture->view->model, trees, diag));
+    TRY(view_trees(picture->view, trees, diag));
 
     const bool both = trees[TREE_TRANSLATION] != NULL && trees[TREE_ROTATION] != NULL &&
                       same_branches(picture->graph, trees[TREE_TRANSLATION], trees[TREE_ROTATION]);
@@ -341,7 +341,7 @@ static void draw_legend(GraphPicture *picture)
 Status graph_picture(const View *view, Lit lit, const char *edge, Picture *out, Diag *diag)
 {
     GraphPicture picture = {
-        .view = view, .graph = model_graph(view->model), .lit = lit, .edge = -1, .out = out};
+        .view = view, .graph = view_graph(view), .lit = lit, .edge = -1, .out = out};
     Point size;
     Status status = OK;
 

@@ -54,5 +54,7 @@ libcore_la_SOURCES += \
   lib/present/show_transfer.c \
   lib/present/tables.c \
   lib/present/tables.h \
+  lib/present/terminal_graph.c \
+  lib/present/terminal_graph.h \
   lib/present/view.c \
   lib/present/view.h

@@ -206,6 +206,10 @@ static Status take_name(const View *view, const Topic *topic, const Operand *ope
                        "'show constraints' may be followed by velocity or acceleration and a row");
     if (topic->behind != BEHIND_EDGES)
         return diag_at(diag, E_SYNTAX, operand->place, "'show %s' takes no names", topic->name);
+    if (strcmp(name, "open") == 0) {
+        selection->is_open = true;
+        return OK;
+    }
     if (graph_find_edge(model_graph(view->model), name) < 0) {
         for (int i = 0; i < graph_edge_count(model_graph(view->model)); i++)
             suggest_offer(&suggest, graph_edge(model_graph(view->model), i)->name);

@@ -32,6 +32,7 @@ typedef struct Selection {
     int number_count;
     const char *const *names;
     int name_count;
+    bool is_open;           /* instances of subsystems, whose ports else stand for them */
     const char *level;      /* "velocity", "acceleration" or NULL */
     const Syntax *item;     /* BEHIND_ENTRY; NULL: all */
     const Syntax *items[2]; /* BEHIND_ITEMS; NULL: none */

@@ -294,11 +294,11 @@ Status show_incidence(const View *view, const Selection *selection, Text *out, D
 static Status show_signs(const View *view, const Selection *selection, bool circuits, Text *out,
                          Diag *diag)
 {
-    const Graph *graph = model_graph(view->model);
+    const Graph *graph = view_graph(view);
     const Tree *trees[TREE_KINDS] = {NULL};
     const size_t before = out->length;
 
-    TRY(model_trees(view->model, trees, diag));
+    TRY(view_trees(view, trees, diag));
     for (int k = 0; k < TREE_KINDS; k++) {
         const Tree *tree = trees[k];
         SignMatrix *matrix;
@@ -347,12 +347,65 @@ static Status show_signs(const View *view, const Selection *selection, bool circ
     return OK;
 }
 
+/* whether a name stands in a text, between blanks */
+static bool holds_name(const char *text, const char *name)
+{
+    const size_t length = strlen(name);
+
+    for (const char *at = text; (at = strstr(at, name)) != NULL; at += length)
+        if ((at == text || strchr(" -", at[-1]) != NULL) &&
+            (at[length] == ' ' || at[length] == '\n'))
+            return true;
+    return false;
+}
+
+/* which edges of what was printed are ports, and of what */
+static void tell_ports(const View *view, Text *out, size_t from)
+{
+    const Graph *graph = view_graph(view);
+    Text seen = {0};
+
+    text_add(&seen, out->at + from);
+    for (int e = 0; e < graph_edge_count(graph); e++) {
+        const Edge *edge = graph_edge(graph, e);
+
+        if (view->terminal->of.at[e] < 0 && holds_name(seen.at, edge->name))
+            text_addf(out, "%s is a port of a %s, %s -> %s\n", edge->name, view_edge_type(view, e),
+                      graph_node(graph, edge->tail)->name, graph_node(graph, edge->head)->name);
+    }
+    text_free(&seen);
+}
+
+/* Rows of edges outside all subsystems: what is inside stands there as ports. */
+static Status show_rows(const View *view, const Selection *selection, bool circuits, Text *out,
+                        Diag *diag)
+{
+    bool is_outside =
+        selection->name_count > 0 && !selection->is_open && model_use_count(view->model) > 0;
+    const size_t from = out->length;
+    TerminalGraph terminal = {.graph = NULL};
+    View seen = *view;
+    Status status = OK;
+
+    for (int i = 0; i < selection->name_count; i++)
+        is_outside = is_outside && model_use_around(view->model, selection->names[i], -1) < 0;
+    if (!is_outside)
+        return show_signs(view, selection, circuits, out, diag);
+    CHECK(terminal_graph_make(view->model, &terminal, diag));
+    seen.terminal = &terminal;
+    CHECK(show_signs(&seen, selection, circuits, out, diag));
+    tell_ports(&seen, out, from);
+done:
+    terminal_graph_free(&terminal);
+    return status;
+}
+
 Status show_circuits(const View *view, const Selection *selection, Text *out, Diag *diag)
 {
-    return show_signs(view, selection, true, out, diag);
+    return show_rows(view, selection, true, out, diag);
 }
 
 Status show_cutsets(const View *view, const Selection *selection, Text *out, Diag *diag)
 {
-    return show_signs(view, selection, false, out, diag);
+    return show_rows(view, selection, false, out, diag);
 }

@@ -8,6 +8,30 @@
 #include <ctype.h>
 #include <string.h>
 
+const Graph *view_graph(const View *view)
+{
+    return view->terminal != NULL ? view->terminal->graph : model_graph(view->model);
+}
+
+Status view_trees(const View *view, const Tree *trees[TREE_KINDS], Diag *diag)
+{
+    if (view->terminal == NULL)
+        return model_trees(view->model, trees, diag);
+    for (int k = 0; k < TREE_KINDS; k++)
+        trees[k] = view->terminal->trees[k];
+    return OK;
+}
+
+const char *view_edge_type(const View *view, int edge)
+{
+    const int of = view->terminal != NULL ? view->terminal->of.at[edge] : edge;
+    const Instance *owner = of >= 0 ? model_edge_owner(view->model, of) : NULL;
+
+    if (of < 0)
+        return model_use(view->model, -1 - of)->subsystem->name;
+    return owner != NULL ? owner->row->name : "edge";
+}
+
 char *view_expression(const View *view, Expr e)
 {
     Text text = {0};

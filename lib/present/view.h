@@ -8,6 +8,7 @@
 #include "formulate/system.h"
 #include "model/model.h"
 #include "present/layout.h"
+#include "present/terminal_graph.h"
 #include "simulate/analyse/linearize.h"
 
 typedef struct View {
@@ -18,8 +19,9 @@ typedef struct View {
     const Result *(*run)(const void *session, int i);
     const void *session;
     int run_count;
-    const Linear *linear; /* the last linearisation; NULL */
-    int freedoms;         /* degrees of freedom where an assembly told them; -1 */
+    const Linear *linear;          /* the last linearisation; NULL */
+    const TerminalGraph *terminal; /* the graph with instances as their ports; NULL: as it is */
+    int freedoms;                  /* degrees of freedom where an assembly told them; -1 */
     Page page;
     const Watch *watch;
 } View;
@@ -28,6 +30,12 @@ static inline NotationKind view_kind(const View *view)
 {
     return notation_row(view->page.notation)->kind;
 }
+
+/* the graph that is looked at, and its trees as model_trees() has them */
+const Graph *view_graph(const View *view);
+MUST_USE Status view_trees(const View *view, const Tree *trees[TREE_KINDS], Diag *diag);
+/* what the statement of an edge says that it is: "revolute"; of a port its subsystem's name */
+const char *view_edge_type(const View *view, int edge);
 
 /* "2 degrees of freedom" where they are known or nothing constrains them, else the difference "n -
  * m = 1": redundant constraints make it less than what is free */

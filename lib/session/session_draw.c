@@ -151,17 +151,28 @@ done:
     return status;
 }
 
-/* which edge is lit, and how: `circuit h9`, `cutset h8` */
-static Status read_lit(const Statement *s, Lit *lit, Diag *diag)
+/* `collapsed` or `open` behind all else, which says how instances of subsystems stand; open where
+ * nothing is said */
+static int last_of_graph(const Statement *s, bool *collapsed)
 {
-    const char *word = operand_word(s, 0);
+    const int last = s->operands.count - 1;
+    const char *word = last >= 0 ? operand_word(s, last) : "";
+
+    *collapsed = strcmp(word, "collapsed") == 0;
+    return *collapsed || strcmp(word, "open") == 0 ? last : last + 1;
+}
+
+/* which edge is lit, and how: `circuit h9`, `cutset h8` */
+static Status read_lit(const Statement *s, int operands, Lit *lit, Diag *diag)
+{
+    const char *word = operands > 0 ? operand_word(s, 0) : "";
 
     *lit = strcmp(word, "circuit") == 0  ? LIT_CIRCUIT
            : strcmp(word, "cutset") == 0 ? LIT_CUTSET
                                          : LIT_NOTHING;
-    if (s->operands.count > 0 && *lit == LIT_NOTHING)
+    if (operands > 0 && *lit == LIT_NOTHING)
         return diag_at(diag, E_SYNTAX, s->operands.at[0].place, "'draw' knows no '%s'", word);
-    if (*lit != LIT_NOTHING && s->operands.count != 2)
+    if (*lit != LIT_NOTHING && operands != 2)
         return diag_at(diag, E_SYNTAX, s->operands.at[0].place, "'draw %s' needs one edge", word);
     if (s->pairs.count > 0)
         return diag_at(diag, E_SYNTAX, s->pairs.at[0].value->place, "%s= is for 'draw mechanism'",
@@ -171,30 +182,44 @@ static Status read_lit(const Statement *s, Lit *lit, Diag *diag)
     return OK;
 }
 
-static Status draw_graph(ct_session *session, const Statement *s, ct_paper *paper, Text *out,
-                         Diag *diag)
+static Status draw_seen(ct_session *session, const View *view, Lit lit, const char *edge,
+                        ct_paper *paper, Text *out, Diag *diag)
 {
-    const View view = session_view(session);
     Picture picture;
-    Lit lit;
-    Status status;
 
-    TRY(read_lit(s, &lit, diag));
     if (strcmp(paper->format, "dot") == 0) {
-        draw_dot(&view, out);
+        draw_dot(view, out);
         return OK;
     }
     if (lit == LIT_NOTHING && strcmp(paper->format, "text") == 0)
-        return draw_text(&view, out, diag);
-    status = graph_picture(&view, lit, operand_word(s, 1), &picture, diag);
-    if (status != OK) {
-        if (s->operands.count > 1 && diag->place.line == 0)
-            diag->place = s->operands.at[1].place;
-        return status;
-    }
+        return draw_text(view, out, diag);
+    TRY(graph_picture(view, lit, edge, &picture, diag));
     write_picture(session, &picture, paper, out);
     picture_close(&picture);
     return OK;
+}
+
+static Status draw_graph(ct_session *session, const Statement *s, ct_paper *paper, Text *out,
+                         Diag *diag)
+{
+    View view = session_view(session);
+    TerminalGraph terminal = {.graph = NULL};
+    bool collapsed;
+    const int operands = last_of_graph(s, &collapsed);
+    Lit lit;
+    Status status;
+
+    CHECK(read_lit(s, operands, &lit, diag));
+    if (collapsed) {
+        CHECK(terminal_graph_make(session->model, &terminal, diag));
+        view.terminal = &terminal;
+    }
+    status = draw_seen(session, &view, lit, operand_word(s, 1), paper, out, diag);
+    if (status != OK && lit != LIT_NOTHING && diag->place.line == 0)
+        diag->place = s->operands.at[1].place;
+done:
+    terminal_graph_free(&terminal);
+    return status;
 }
 
 ct_status ct_draw(ct_session *session, const ct_statement *statement, ct_paper *paper, char **text,

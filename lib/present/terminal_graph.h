@@ -1,0 +1,23 @@
+/* terminal_graph.h: the linear graph with each instance of a subsystem as the edges of its ports
+ *
+ * What is inside an instance is left out; a port is an edge, called leg1.B, to the node where it
+ * attaches (theory 10). One whose motion or voltage the inside gives is a branch wherever the way
+ * to it leads through the inside, from where that way enters; any other is a chord from the datum.
+ */
+#ifndef COTREE_PRESENT_TERMINAL_GRAPH_H
+#define COTREE_PRESENT_TERMINAL_GRAPH_H
+
+#include "graph/tree.h"
+#include "model/model.h"
+
+typedef struct TerminalGraph {
+    Graph *graph;
+    Tree *trees[TREE_KINDS]; /* NULL: no edge is of that kind */
+    LIST(int) of;            /* by edge: the model's edge, or -1 - use of a port */
+} TerminalGraph;
+
+/* Fill what is zeroed; terminal_graph_free() in any case. Fails as model_trees() does. */
+MUST_USE Status terminal_graph_make(const Model *model, TerminalGraph *out, Diag *diag);
+void terminal_graph_free(TerminalGraph *terminal);
+
+#endif
