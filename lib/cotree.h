@@ -122,6 +122,13 @@ const char *ct_expression_word(
  * ct_remarks() tells what was left out. */
 ct_status ct_import(ct_session *session, const ct_statement *statement, char **text,
                     ct_error *error);
+/* store NAME "FILE": new: what the file is to hold, the definition of a subsystem and those that it
+ * needs. */
+ct_status ct_store(ct_session *session, const ct_statement *statement, char **text,
+                   ct_error *error);
+/* load "FILE": the definitions that ct_store() wrote, as one step to undo. What was damaged, edited
+ * or written by another program is refused. */
+ct_status ct_load(ct_session *session, const ct_statement *statement, ct_error *error);
 /* Build: what the model takes (components, parameters, init, tree, ...). CT_NOT_MINE, with nothing
  * done and no error, for other verbs. On failure the model is as it was. */
 ct_status ct_apply(ct_session *session, const ct_statement *statement, ct_error *error);

@@ -12,14 +12,14 @@
 
 enum { DEEPEST = 20 }; /* files within files */
 
-/* the file that a statement names, or an error */
-static ct_status find_path(const Call *call, const char **path, ct_error *error)
+/* the file that a statement names by an operand, or an error */
+static ct_status find_path(const Call *call, int operand, const char **path, ct_error *error)
 {
-    *path = call_word(call, 0);
+    *path = call_word(call, operand);
     if (*path != NULL && **path != '\0')
         return CT_OK;
     ct_error_at(call->statement, NULL, error, "%s which file?", ct_verb(call->statement));
-    error_hint(error, "%s \"model.ct\"", ct_verb(call->statement));
+    error_hint(error, "%s%s \"model.ct\"", ct_verb(call->statement), operand > 0 ? " NAME" : "");
     return CT_FAILED;
 }
 
@@ -31,7 +31,7 @@ static ct_status command_source(Call *call, ct_error *error)
     const ct_statement *statement = call->statement;
     const char *name;
     ct_error inner;
-    ct_status status = find_path(call, &name, error);
+    ct_status status = find_path(call, 0, &name, error);
 
     if (status != CT_OK)
         return status;
@@ -72,13 +72,22 @@ static ct_status read_switch(const Call *call, const char *key, bool *on, ct_err
     return ct_error_at(call->statement, value, error, "%s is on or off", key);
 }
 
+static ct_status tell_unwritten(const Call *call, int operand, const ct_error *why, ct_error *error)
+{
+    const ct_status status = ct_error_at(call->statement, ct_operand(call->statement, operand),
+                                         error, "%s", why->message);
+
+    error_hint(error, "%s", why->hint);
+    return status;
+}
+
 static ct_status command_save(Call *call, ct_error *error)
 {
     const char *path;
     bool overwrite = false;
     ct_error why;
     struct stat info;
-    ct_status status = find_path(call, &path, error);
+    ct_status status = find_path(call, 0, &path, error);
 
     if (status == CT_OK)
         status = read_switch(call, "overwrite", &overwrite, error);
@@ -90,13 +99,35 @@ static ct_status command_save(Call *call, ct_error *error)
     if (script == NULL)
         return ct_error_at(call->statement, NULL, error, "out of memory");
     if (saved_write(path, script, overwrite, &why) != CT_OK) {
-        status =
-            ct_error_at(call->statement, ct_operand(call->statement, 0), error, "%s", why.message);
-        error_hint(error, "%s", why.hint);
+        status = tell_unwritten(call, 0, &why, error);
     } else if (stat(path, &info) == 0 && S_ISREG(info.st_mode))
         unsaved_settle(call->shell->unsaved, call->session);
     ct_free(script);
     return status;
+}
+
+/* the definition of a subsystem, in a file of its own */
+static ct_status command_store(Call *call, ct_error *error)
+{
+    const char *path;
+    bool overwrite = false;
+    char *text = NULL;
+    ct_error why;
+    ct_status status = find_path(call, 1, &path, error);
+
+    if (status == CT_OK)
+        status = read_switch(call, "overwrite", &overwrite, error);
+    if (status == CT_OK)
+        status = ct_store(call->session, call->statement, &text, error);
+    if (status == CT_OK && stored_write(path, text, overwrite, &why) != CT_OK)
+        status = tell_unwritten(call, 1, &why, error);
+    ct_free(text);
+    return status;
+}
+
+static ct_status command_load(Call *call, ct_error *error)
+{
+    return ct_load(call->session, call->statement, error);
 }
 
 /* applied, or with `>` written */
@@ -117,7 +148,7 @@ static ct_status command_record(Call *call, ct_error *error)
 {
     Shell *shell = call->shell;
     const char *path;
-    ct_status status = find_path(call, &path, error);
+    ct_status status = find_path(call, 0, &path, error);
     FILE *file = NULL;
 
     if (status != CT_OK)
@@ -282,6 +313,8 @@ static ct_status command_quit(Call *call, ct_error *error)
 const Command commands_session[] = {
     {"source", command_source, NULL, OWN},
     {"save", command_save, NULL, OWN},
+    {"store", command_store, NULL, OWN},
+    {"load", command_load, NULL, 0},
     {"import", command_import, NULL, 0},
     {"record", command_record, NULL, FORGOTTEN | OWN},
     {"recover", command_recover, NULL, FORGOTTEN | OWN},

@@ -9,5 +9,7 @@
 
 /* Write a script in one step; over a file that isn't ours only with `overwrite`. */
 ct_status saved_write(const char *path, const char *script, bool overwrite, ct_error *error);
+/* the same of what ct_store() tells, which brings its first line */
+ct_status stored_write(const char *path, const char *text, bool overwrite, ct_error *error);
 
 #endif

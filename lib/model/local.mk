@@ -29,6 +29,7 @@ libcore_la_SOURCES += \
   lib/model/model_scene.c \
   lib/model/model_settings.def \
   lib/model/model_start.c \
+  lib/model/model_store.c \
   lib/model/model_state.c \
   lib/model/model_subsystem.c \
   lib/model/model_tree.c \

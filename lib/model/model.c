@@ -513,6 +513,16 @@ const Subsystem *model_find_subsystem(const Model *model, const char *name)
     return state_subsystem(model->state, name, NULL);
 }
 
+char *model_store(const Model *model, const char *name)
+{
+    return state_store(model->state, name);
+}
+
+const char *model_definition_like(const Model *model, const Statement *s, bool *same)
+{
+    return state_definition_like(model->state, s, same);
+}
+
 const char *model_subsystem_key(const Model *model, const char *name, int i)
 {
     const Subsystem *subsystem = state_subsystem(model->state, name, NULL);

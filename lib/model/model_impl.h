@@ -400,6 +400,9 @@ MUST_USE Status apply_pairs(State **state, const Statement *statement, ApplyPair
 void name_list_add(NameList *list, const char *name); /* once */
 /* the statement's text with its verb in full; new */
 char *statement_full_text(const Statement *statement);
+/* (model_store.c) as model_store() and model_definition_like() */
+char *state_store(const State *state, const char *name);
+const char *state_definition_like(const State *state, const Statement *s, bool *same);
 void state_save(const State *state, Text *text);
 void choices_save(const State *state, Text *text);
 void choices_copy(State *to, const State *from, Text *remarks);

@@ -11,6 +11,7 @@ libcore_la_SOURCES += \
   lib/session/session_help.c \
   lib/session/session_impl.h \
   lib/session/session_import.c \
+  lib/session/session_store.c \
   lib/session/session_input.c \
   lib/session/session_keep.c \
   lib/session/session_linear.c \

@@ -9,7 +9,7 @@
 /* more than any model that is typed or drawn */
 enum { LARGEST = 64 << 20 };
 
-static Status read_whole(ct_session *session, const Syntax *name, Text *out, Diag *diag)
+Status session_read_file(ct_session *session, const Syntax *name, Text *out, Diag *diag)
 {
     const DataFinder finder = {.find = session->hooks.find_file, .context = session->hooks.context};
     char piece[4096];
@@ -59,6 +59,22 @@ done:
     return status;
 }
 
+void session_end_group(ct_session *session, int group, const char *called, uint64_t revision,
+                       bool keep)
+{
+    Model *model = session->model;
+    const int count = model_end_group(model, group, called);
+
+    if (!keep && count > 0) {
+        Diag ignored;
+
+        if (model_undo(model, &ignored) == OK)
+            model_forget_undone(model);
+    }
+    if (count > 0)
+        session_note_change(session, revision, false);
+}
+
 /* all or none, as one step */
 static Status apply_import(ct_session *session, const Import *import, Diag *diag)
 {
@@ -67,19 +83,10 @@ static Status apply_import(ct_session *session, const Import *import, Diag *diag
     const int group = model_begin_group(model);
     Status status = apply_lines(model, import, diag);
     Text called = {0};
-    int count;
 
     text_addf(&called, "import of \"%s\"", import->file);
-    count = model_end_group(model, group, called.at);
+    session_end_group(session, group, called.at, revision, status == OK);
     text_free(&called);
-    if (status != OK && count > 0) {
-        Diag ignored;
-
-        if (model_undo(model, &ignored) == OK)
-            model_forget_undone(model);
-    }
-    if (count > 0)
-        session_note_change(session, revision, false);
     return status;
 }
 
@@ -99,7 +106,7 @@ ct_status ct_import(ct_session *session, const ct_statement *statement, char **t
     session_begin(session);
     for (int i = 0; text == NULL && (name = model_name(session->model, i)) != NULL; i++)
         import_take_name(import, name);
-    CHECK(read_whole(session, file, &content, &diag));
+    CHECK(session_read_file(session, file, &content, &diag));
     CHECK(importer_find(s->operands.at[0].value->text)(import, content.at != NULL ? content.at : "",
                                                        content.length, &diag));
     if (import->missing > 0 && text == NULL) {

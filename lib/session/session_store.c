@@ -1,0 +1,202 @@
+/* session_store.c: definitions of subsystems in files of their own
+ *
+ * A stored file is text: a first line that tells the version and a number that follows from the
+ * rest, then definitions and nothing else. What isn't so is refused before the model sees it. */
+#include "session/session_impl.h"
+
+#include "language/verbs.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+#include <string.h>
+
+static const char HEAD[] = "# subsystem stored by cotree, version ";
+enum { VERSION = 1 };
+
+static uint64_t fingerprint(const char *text)
+{
+    uint64_t number = UINT64_C(14695981039346656037); /* FNV-1a (Fowler, Noll, Vo) */
+
+    for (; *text != '\0'; text++)
+        number = (number ^ (unsigned char)*text) * UINT64_C(1099511628211);
+    return number;
+}
+
+/* --- store --- */
+
+/* a subsystem with frames is one of a plane or of space */
+static const char *scene_of(const Model *model, const char *name)
+{
+    const Subsystem *subsystem = model_find_subsystem(model, name);
+
+    for (int i = 0; i < subsystem->port_count; i++)
+        if (subsystem->ports[i].is_frame)
+            return model_is_planar(model) ? "planar" : "spatial";
+    return "any";
+}
+
+ct_status ct_store(ct_session *session, const ct_statement *statement, char **text, ct_error *error)
+{
+    SESSION_CALL(session, session_ran_out(session, error));
+
+    const Syntax *name = statement_of(statement)->operands.at[0].value;
+    Text out = {0};
+    Diag diag = {0};
+    Status status = OK;
+    char *body;
+
+    session_begin(session);
+    body = model_store(session->model, name->text);
+    if (body == NULL) {
+        status = diag_at(&diag, E_NAME, name->place, "there is no subsystem '%s'", name->text);
+        diag_hint(&diag, "subsystem %s ... end defines one", name->text);
+        return session_report(status, &diag, error);
+    }
+    text_addf(&out, "%s%d, %s scene, unedited: %016" PRIx64 "\n%s", HEAD, VERSION,
+              scene_of(session->model, name->text), fingerprint(body), body);
+    mem_free(body);
+    *text = text_done(&out);
+    return session_report(status, &diag, error);
+}
+
+/* --- load --- */
+
+typedef struct Load {
+    Model *model;
+    const Syntax *file;
+    const char *text;
+    size_t length;
+    int lines; /* of the file's head */
+    Text remarks;
+} Load;
+
+/* the first line tells what follows; its own `rest` */
+static Status check_head(const Load *load, const char **rest, Diag *diag)
+{
+    const char *name = load->file->text;
+    const char *scene = model_is_planar(load->model) ? "planar" : "spatial";
+    char word[8] = "";
+    int version = 0, read = 0;
+    uint64_t number = 0;
+
+    if (strncmp(load->text, HEAD, strlen(HEAD)) != 0 || strlen(load->text) != load->length ||
+        sscanf(load->text + strlen(HEAD), "%9d, %7[a-z] scene, unedited: %16" SCNx64 "%n", &version,
+               word, &number, &read) < 3 ||
+        load->text[strlen(HEAD) + (size_t)read] != '\n') {
+        (void)diag_at(diag, E_VALUE, load->file->place, "'%s' is no stored subsystem", name);
+        diag_hint(diag, "'store NAME \"FILE\"' writes one; 'source' replays a script");
+        return E_VALUE;
+    }
+    if (version != VERSION) {
+        (void)diag_at(diag, E_VALUE, load->file->place,
+                      "'%s' was stored by another cotree: version %d, not %d", name, version,
+                      VERSION);
+        diag_hint(diag, "its definitions are text: copy them into a script");
+        return E_VALUE;
+    }
+    *rest = load->text + strlen(HEAD) + read + 1;
+    if (fingerprint(*rest) == number && (strcmp(word, scene) == 0 || strcmp(word, "any") == 0))
+        return OK;
+    if (fingerprint(*rest) == number) {
+        (void)diag_at(diag, E_MODEL, load->file->place, "'%s' is of a %s scene", name, word);
+        diag_hint(diag, "this one is %s; 'scene' says which it is, before the first part", scene);
+        return E_MODEL;
+    }
+    (void)diag_at(diag, E_VALUE, load->file->place, "'%s' is damaged, or was edited", name);
+    diag_hint(diag,
+              "an edited definition is a script: 'source' replays it, 'store' writes it anew");
+    return E_VALUE;
+}
+
+static bool is_definition(const Statement *s)
+{
+    return s->kind == STATEMENT_PARAMETER || s->kind == STATEMENT_LAW ||
+           (s->kind == STATEMENT_VERB && s->row.number == VERB_subsystem && s->body != NULL);
+}
+
+static Status load_statement(Load *load, const Statement *s, Diag *diag)
+{
+    const char *there;
+    bool same = false;
+
+    if (s->kind == STATEMENT_EMPTY)
+        return OK;
+    if (!is_definition(s)) {
+        (void)diag_at(diag, E_VALUE, load->file->place, "line %d of '%s' is no definition",
+                      s->place.line + load->lines, load->file->text);
+        diag_hint(diag, "a stored file holds parameters, laws and subsystems");
+        return E_VALUE;
+    }
+    there = model_definition_like(load->model, s, &same);
+    if (there == NULL)
+        return model_apply(load->model, s, diag);
+    if (same)
+        return OK;
+    if (s->kind == STATEMENT_VERB) {
+        (void)diag_at(diag, E_NAME, load->file->place,
+                      "the model has another subsystem %s than '%s'", s->operands.at[0].value->text,
+                      load->file->text);
+        diag_hint(diag, "rename or delete one of them");
+        return E_NAME;
+    }
+    text_addf(&load->remarks, "the model's own stays: %s\n", there);
+    return OK;
+}
+
+static Status load_all(Load *load, const char *text, Diag *diag)
+{
+    Cursor cursor = {text, 0, 1, 0};
+    Statement *statement = NULL;
+    Status status = OK;
+
+    while (status == OK && cursor.next < strlen(text)) {
+        Diag why = {0};
+
+        status = statement_read(&cursor, (SyntaxOptions){.whole = true}, &statement, &why);
+        if (status == OK)
+            status = load_statement(load, statement, &why);
+        if (status != OK && why.place.line == load->file->place.line &&
+            why.place.column == load->file->place.column)
+            *diag = why;
+        else if (status != OK) {
+            (void)diag_at(diag, status, load->file->place, "line %d of '%s': %.300s",
+                          why.place.line + load->lines, load->file->text, why.message);
+            diag_hint(diag, "%s", why.hint);
+        }
+        statement_free(statement);
+        statement = NULL;
+    }
+    return status;
+}
+
+ct_status ct_load(ct_session *session, const ct_statement *statement, ct_error *error)
+{
+    SESSION_CALL(session, session_ran_out(session, error));
+
+    const Syntax *file = statement_of(statement)->operands.at[0].value;
+    Load load = {.model = session->model, .file = file, .lines = 1};
+    const char *rest = NULL;
+    Text content = {0}, called = {0};
+    Diag diag = {0};
+    Status status = OK;
+    uint64_t revision;
+    int group;
+
+    session_begin(session);
+    CHECK(session_read_file(session, file, &content, &diag));
+    load.text = content.at != NULL ? content.at : "";
+    load.length = content.length;
+    CHECK(check_head(&load, &rest, &diag));
+    revision = model_revision(session->model);
+    group = model_begin_group(session->model);
+    status = load_all(&load, rest, &diag);
+    text_addf(&called, "load \"%s\"", file->text);
+    session_end_group(session, group, called.at, revision, status == OK);
+    if (status == OK && load.remarks.length > 0)
+        session_remark(session, load.remarks.at);
+done:
+    text_free(&called);
+    text_free(&load.remarks);
+    text_free(&content);
+    return session_report(status, &diag, error);
+}
