@@ -64,7 +64,7 @@ bench: all
 			$(abs_builddir)/.libs/cotree) || exit 1; \
 	done >bench.out
 	@$(dev)/bench-table $(srcdir)/tests/bench/record.txt <bench.out
-	@status=0; for part in bench-precision bench-estimates; do $(MAKE) -s $$part || status=1; done; \
+	@status=0; for part in bench-precision bench-estimates bench-peers; do $(MAKE) -s $$part || status=1; done; \
 		exit $$status
 
 # work against precision of every reference and stress case, by method: a table, and pictures in
@@ -79,6 +79,12 @@ bench-precision: all
 # what check=on says of its error, over the error, by case, method and tolerance
 bench-estimates: all
 	@PYTHONDONTWRITEBYTECODE=1 $(srcdir)/tests/bench/estimates.py ./cotree $(srcdir)
+
+# a robot and chains by MuJoCo and Simbody, where their libraries are there, beside ours
+bench-peers: all
+	@$(MAKE) -s bench_dynamics
+	@rm -rf bench.work; mkdir bench.work
+	@PYTHONDONTWRITEBYTECODE=1 $(srcdir)/tests/bench/peers.py ./bench_dynamics bench.work
 
 bench-record: bench
 	{ head -n 3 $(srcdir)/tests/bench/record.txt; cat bench.out; } >bench.new
@@ -125,4 +131,4 @@ mostlyclean-local:
 distclean-local:
 	rm -rf san small faults coverage bench.work precision
 
-.PHONY: check-total check-hacking check-san check-small check-faults lint format bench bench-precision bench-estimates bench-record precision-record fuzz stress check-coverage
+.PHONY: check-total check-hacking check-san check-small check-faults lint format bench bench-precision bench-estimates bench-peers bench-record precision-record fuzz stress check-coverage

@@ -1,7 +1,8 @@
 /* bench_dynamics.c: operations and time of one evaluation of a robot's and of chains' accelerations
  *
  * The robot and the chains of tests/bench/peers.py, which puts other programs beside these rows.
- * An evaluation is one of the equations' rate: q' and u' where t, q and u are given. */
+ * An evaluation is one of the equations' rate: q' and u' where t, q and u are given. Named as an
+ * argument, one of them alone. */
 #include "bench.h"
 #include "bench_model.h"
 #include "robot_text.h"
@@ -49,6 +50,11 @@ static double evaluation(const Motion *motion, const System *system)
     BENCH_LEAST(TRIES, seconds,
                 for (int i = 0; i < few; i++)(void)
                     ode->rate(ode->context, 0, y + i % 2 * length, rate));
+    (void)ode->rate(ode->context, 0, y, rate);
+    printf("# u'");
+    for (int j = 0; j < system_nu(system); j++)
+        printf(" %.15g", rate[system_n(system) + j]);
+    printf("\n");
     MEM_FREE(y, rate);
     return 1e9 * seconds / few;
 }
@@ -106,16 +112,18 @@ static void measure(const char *text, const char *name)
     model_free(model);
 }
 
-int main(void)
+int main(int argc, char **argv)
 {
     static const int links[] = {2, 10, 50, 200, 1000};
 
-    measure(robot_6r, "6r");
+    if (argc < 2 || strcmp(argv[1], "6r") == 0)
+        measure(robot_6r, "6r");
     for (int i = 0; i < COUNT(links); i++) {
         char *text = robot_chain(links[i]), name[24];
 
         (void)snprintf(name, sizeof name, "chain_%d", links[i]);
-        measure(text, name);
+        if (argc < 2 || strcmp(argv[1], name) == 0)
+            measure(text, name);
         mem_free(text);
     }
     return 0;

@@ -1,0 +1,84 @@
+// peer_simbody.cc: accelerations and joint torques of a tree by Simbody: peer_simbody < TREE
+//
+// A line a body, as peers.py writes it: parent, axis, place of the joint in the parent's and in its
+// own frame, mass, principal moments; the first line is gravity. Built by peers.py.
+#include <Simbody.h>
+#include <ctime>
+#include <iostream>
+
+using namespace SimTK;
+
+static double now()
+{
+    timespec at;
+
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &at);
+    return at.tv_sec + 1e-9 * at.tv_nsec;
+}
+
+static Vec3 vector()
+{
+    Vec3 v;
+
+    std::cin >> v[0] >> v[1] >> v[2];
+    return v;
+}
+
+int main()
+{
+    MultibodySystem system;
+    SimbodyMatterSubsystem matter(system);
+    GeneralForceSubsystem forces(system);
+    Force::UniformGravity gravity(forces, matter, vector());
+    Array_<MobilizedBody> bodies;
+    int parent;
+
+    while (std::cin >> parent) {
+        const Vec3 axis = vector(), place = vector(), own = vector();
+        const Rotation turn(UnitVec3(axis), ZAxis);
+        double mass;
+
+        std::cin >> mass;
+        const Vec3 moments = vector();
+        const Body::Rigid body(MassProperties(mass, Vec3(0), Inertia(moments)));
+        MobilizedBody before = parent < 0 ? MobilizedBody(matter.Ground()) : bodies[parent];
+
+        bodies.push_back(
+            MobilizedBody::Pin(before, Transform(turn, place), body, Transform(turn, own)));
+    }
+    State state = system.realizeTopology();
+    const int n = state.getNU(), few = 2 + 2 * (200 / (10 + n));
+
+    for (int i = 0; i < n; i++) {
+        state.updQ()[i] = std::sin(1 + 1.7 * i);
+        state.updU()[i] = std::cos(2 + 1.3 * i);
+    }
+    system.realize(state, Stage::Acceleration);
+    const Vector found = state.getUDot();
+
+    std::cout.precision(15);
+    std::cout << "# u'";
+    for (int j = 0; j < n; j++)
+        std::cout << ' ' << found[j];
+    std::cout << '\n';
+    for (int what = 0; what < 2; what++) {
+        double best = 1e300;
+        Vector torques;
+
+        for (int turn = 0; turn < (n > 100 ? 30 : 200); turn++) {
+            const double begin = now();
+
+            for (int i = 0; i < few; i++) {
+                state.updQ()[0] = std::sin(1.0) + (i % 2 == 1 ? 0.1 : 0);
+                system.realize(state, what == 0 ? Stage::Acceleration : Stage::Dynamics);
+                if (what == 1)
+                    matter.calcResidualForceIgnoringConstraints(
+                        state, Vector(0), system.getRigidBodyForces(state, Stage::Dynamics), found,
+                        torques);
+            }
+            best = std::min(best, (now() - begin) / few);
+        }
+        std::cout << (what == 0 ? "forward " : "inverse ") << 1e9 * best << '\n';
+    }
+    return 0;
+}
