@@ -109,6 +109,10 @@ FAMILIES += family_beam_laws
 family_beam_laws_SOURCES = tests/family/family_beam_laws.c tests/family/family.h tests/family/script.h \
 	tests/unit/session_kit.h tests/unit/test.h tests/random.h
 family_beam_laws_LDADD = libcotree.la $(unit_ldadd)
+FAMILIES += family_beam_machines
+family_beam_machines_SOURCES = tests/family/family_beam_machines.c tests/family/family.h tests/family/script.h \
+	tests/unit/session_kit.h tests/unit/test.h tests/random.h
+family_beam_machines_LDADD = libcotree.la $(unit_ldadd)
 FAMILIES += family_beams
 family_beams_SOURCES = tests/family/family_beams.c tests/family/family.h tests/family/script.h \
 	tests/unit/session_kit.h tests/unit/test.h

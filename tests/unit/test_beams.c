@@ -58,6 +58,19 @@ static void shapes_move_where_they_are_told_or_have_to(void)
     kit_free(&kit);
 }
 
+/* nor do positions: a rod begins in its loop as bent as it is told, by one of its shapes alone */
+static void shapes_that_are_not_told_stay_straight(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT(slider_crank(&kit, "taylor", "init a.v1 = 0.02\nassemble\n") == CT_OK);
+    EXPECT(is_near(kit_value(&kit, "a.v1 at 0"), 0.02, 1e-15));
+    EXPECT(kit_value(&kit, "a.v2 at 0") == 0);
+    EXPECT(kit_value(&kit, "b.v1 at 0") == 0);
+    EXPECT(is_near(kit_value(&kit, "slider.y at 0"), 0, 1e-12));
+    kit_free(&kit);
+}
+
 static double steps_of(const Kit *kit)
 {
     ct_figures figures;
@@ -118,6 +131,7 @@ int main(void)
 {
     RUN(shapes_begin_at_rest_in_any_basis);
     RUN(shapes_move_where_they_are_told_or_have_to);
+    RUN(shapes_that_are_not_told_stay_straight);
     RUN(tolerances_are_of_deflections);
     RUN(operations_grow_little_faster_than_pairs_of_shapes);
     return test_end();

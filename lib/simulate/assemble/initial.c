@@ -115,6 +115,28 @@ static Status check_told(Assembly *a, Diag *diag)
     return status;
 }
 
+/* Shapes stay as they are told or guessed, or straight, where joints can close the loops; false:
+ * they can't, and nothing has moved. */
+static bool meet_with_shapes_held(const Rows *rows, Assembly *a, const bool *held)
+{
+    const int n = a->l->n, nu = a->l->nu;
+    double *begun = NEW_ARRAY(double, n);
+    bool *stays = NEW_ARRAY(bool, nu + n);
+    bool met = false, any = false;
+
+    memcpy(begun, a->y, (size_t)n * sizeof(double));
+    memcpy(stays, held, (size_t)(nu + n) * sizeof(bool));
+    for (int j = 0; j < nu; j++)
+        if (system_u(a->l->system, j)->is_shape)
+            stays[j] = any = true;
+    if (any)
+        met = initial_meet(rows, stays, a->y, NULL);
+    if (any && !met)
+        memcpy(a->y, begun, (size_t)n * sizeof(double));
+    MEM_FREE(begun, stays);
+    return met;
+}
+
 /* Meet what the placing left: given values that aren't of frames, or loops that it couldn't close.
  */
 static Status correct(Problem *p, const bool *held, const double *begun, bool closed, Diag *diag)
@@ -132,7 +154,7 @@ static Status correct(Problem *p, const bool *held, const double *begun, bool cl
         met = met && !initial_misses(residual[i]);
     if (met && closed)
         goto done;
-    met = initial_meet(&rows, held, a->y, missed);
+    met = meet_with_shapes_held(&rows, a, held) || initial_meet(&rows, held, a->y, missed);
     if (met)
         reversed = skeleton_reversal(a->skeleton, a->y);
     if ((!met || reversed.link != NULL) && !try_around(p, &rows, held, begun))
