@@ -1,6 +1,7 @@
 /* text.c: growing text, edit distance */
 #include "base/text.h"
 
+#include "base/decimal.h"
 #include "base/memory.h"
 
 #include <ctype.h>
@@ -71,13 +72,9 @@ void text_fill(Text *text, char c, int count)
 
 void text_number(Text *text, double value, int digits)
 {
-    char number[40];
+    char number[DECIMAL_SIZE];
 
-    for (int n = digits < 15 ? digits : 15; n <= digits; n++) {
-        (void)snprintf(number, sizeof number, "%.*g", n, value);
-        if (strtod(number, NULL) == value)
-            break;
-    }
+    decimal_print(number, value, digits);
     text_add(text, number);
 }
 

@@ -1,6 +1,8 @@
 /* print.c: expressions as text, the part that all notations share */
 #include "expr/print_impl.h"
 
+#include "base/decimal.h"
+
 #include <assert.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -283,11 +285,7 @@ void double_text(char text[64], double value)
     int64_t num;
     int64_t den;
 
-    for (int digits = 15; digits <= 17; digits++) {
-        snprintf(text, 64, "%.*g", digits, value);
-        if (strtod(text, NULL) == value)
-            break;
-    }
+    decimal_print(text, value, DECIMAL_EXACT);
     /* a short decimal would be taken for an exact one */
     if (decimal_exact(text, &num, &den))
         snprintf(text, 64, "%#.17g", value);

@@ -5,6 +5,8 @@
  * argument between operators. */
 #include "expr/print_impl.h"
 
+#include "base/decimal.h"
+
 #include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -41,13 +43,7 @@ static Level code_number(Text *out, Number number, const char *whole, char mark)
     char *e;
 
     if (number.den == 0 || number.pi != 0) {
-        const double value = number_value(number);
-
-        for (int n = 15; n <= 17; n++) {
-            snprintf(digits, sizeof digits, "%.*g", n, value);
-            if (strtod(digits, NULL) == value)
-                break;
-        }
+        decimal_print(digits, number_value(number), DECIMAL_EXACT);
     } else if (!ratio_decimal(digits, number, SHORT_DECIMAL)) {
         text_addf(out, "%lld%s", (long long)number.num, whole);
         if (number.den != 1)

@@ -5,6 +5,8 @@
 #include "expr/greek.h"
 #include "expr/print_impl.h"
 
+#include "base/decimal.h"
+
 #include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -27,13 +29,9 @@ static void add_digits(Text *out, char *digits)
 
 static void latex_double(Text *out, double value)
 {
-    char digits[64];
+    char digits[DECIMAL_SIZE];
 
-    for (int n = 15; n <= 17; n++) {
-        snprintf(digits, sizeof digits, "%.*g", n, value);
-        if (strtod(digits, NULL) == value)
-            break;
-    }
+    decimal_print(digits, value, DECIMAL_EXACT);
     add_digits(out, digits);
 }
 

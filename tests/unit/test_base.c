@@ -1,8 +1,15 @@
 /* test_base.c: pools, names, text */
+#include "../random.h"
+#include "base/decimal.h"
 #include "base/memory.h"
 #include "base/names.h"
 #include "base/text.h"
 #include "test.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
 static void pool_release_gives_back_to_the_mark(void)
 {
@@ -67,12 +74,41 @@ static void numbers_print_with_the_fewest_digits_that_read_back(void)
     text_free(&text);
 }
 
+/* as trying tells: every exponent, powers of two, short decimals, the smallest numbers */
+static void decimals_are_those_that_trying_finds(void)
+{
+    uint64_t random = 5;
+
+    for (int i = 0; i < 100000; i++) {
+        const uint64_t bits = test_random(&random);
+        char tried[DECIMAL_SIZE], got[DECIMAL_SIZE];
+        double value;
+        int most = 13 + i % 5;
+
+        memcpy(&value, &bits, sizeof value);
+        if (i % 4 == 1)
+            value = ldexp(1, i % 2140 - 1074);
+        else if (i % 4 == 2)
+            value = nearbyint(ldexp(value, -ilogb(value)) * 1e4) * pow(10, (double)(i % 40) - 25);
+        else if (i % 4 == 3)
+            value = copysign(test_decades(&random, 1e-30, 1e30), value);
+        for (int n = most < 15 ? most : 15; n <= most; n++) {
+            (void)snprintf(tried, sizeof tried, "%.*g", n, value);
+            if (strtod(tried, NULL) == value)
+                break;
+        }
+        decimal_print(got, value, most);
+        EXPECT_TEXT(got, tried);
+    }
+}
+
 int main(void)
 {
     RUN(pool_release_gives_back_to_the_mark);
     RUN(names_keep_their_numbers);
     RUN(distance_counts_slips);
     RUN(suggest_takes_the_nearest);
+    RUN(decimals_are_those_that_trying_finds);
     RUN(numbers_print_with_the_fewest_digits_that_read_back);
     return test_end();
 }
