@@ -120,7 +120,7 @@ static void write_digits(char *text, const Decimal *decimal, int n)
 {
     const uint64_t unit = n == ALWAYS ? 100 : n < DECIMAL_EXACT ? 10 : 1;
     uint64_t left = decimal->digits / unit + (over(decimal, unit) > (double)unit / 2);
-    char digits[DECIMAL_EXACT];
+    char digits[DECIMAL_EXACT] = {'0'};
     int exponent = decimal->exponent, length = n;
 
     if (unit > 1 && left == 100 / unit * FIFTEEN) {
