@@ -31,8 +31,8 @@ Import *import_new(const char *file, bool is_alone)
     import->file = file;
     import->is_alone = is_alone;
     import->pool = pool_new(0);
-    import->names = names_new();
-    import->keys = names_new();
+    import->whole = (ImportScope){.names = names_new(), .keys = names_new()};
+    import->scope = &import->whole;
     import->verbs = names_new();
     take_words(import);
     return import;
@@ -43,10 +43,8 @@ void import_free(Import *import)
     if (import == NULL)
         return;
     pool_free(import->pool);
-    names_free(import->names);
-    names_free(import->keys);
+    import_scope_free(&import->whole);
     names_free(import->verbs);
-    LIST_FREE(import->ours);
     text_free(&import->script);
     LIST_FREE(import->from);
     text_free(&import->remarks);
@@ -101,7 +99,7 @@ const char *import_number(Import *import, double value)
 
 void import_take_name(Import *import, const char *name)
 {
-    (void)names_add(import->names, name);
+    (void)names_add(import->scope->names, name);
 }
 
 /* a letter, then letters, digits and _: n before what begins otherwise, _ for the rest */
@@ -124,26 +122,56 @@ static void add_key(const Import *import, Text *key, char kind, const char *name
         text_char(key, import->ignores_case ? (char)tolower((unsigned char)*name) : *name);
 }
 
-const char *import_known(const Import *import, char kind, const char *name)
+static const char *known_in(const Import *import, const ImportScope *scope, char kind,
+                            const char *name)
 {
     Text key = {0};
     int i;
 
     add_key(import, &key, kind, name);
-    i = names_find(import->keys, key.at);
+    i = names_find(scope->keys, key.at);
     text_free(&key);
-    return i < 0 ? NULL : import->ours.at[i];
+    return i < 0 ? NULL : scope->ours.at[i];
+}
+
+const char *import_known(const Import *import, char kind, const char *name)
+{
+    const char *known = known_in(import, import->scope, kind, name);
+
+    return known != NULL || kind != IMPORT_PARAMETER ? known
+                                                     : known_in(import, &import->whole, kind, name);
+}
+
+void import_enter(Import *import, ImportScope *scope)
+{
+    scope->names = names_new();
+    scope->keys = names_new();
+    for (int i = 0; i < names_count(import->scope->names); i++)
+        (void)names_add(scope->names, names_get(import->scope->names, i));
+    import->scope = scope;
+}
+
+void import_return(Import *import)
+{
+    import->scope = &import->whole;
+}
+
+void import_scope_free(ImportScope *scope)
+{
+    names_free(scope->names);
+    names_free(scope->keys);
+    LIST_FREE(scope->ours);
 }
 
 static bool is_free(const Import *import, char kind, const char *name)
 {
-    return !name_is_reserved(name) && names_find(import->names, name) < 0 &&
+    return !name_is_reserved(name) && names_find(import->scope->names, name) < 0 &&
            (kind != IMPORT_PARAMETER || names_find(import->verbs, name) < 0);
 }
 
 const char *import_name(Import *import, char kind, const char *name)
 {
-    const char *known = import_known(import, kind, name);
+    const char *known = known_in(import, import->scope, kind, name);
     const char *legal, *mine;
     Text key = {0};
 
@@ -154,9 +182,9 @@ const char *import_name(Import *import, char kind, const char *name)
         mine = import_text(import, "%s_%d", legal, number);
     import_take_name(import, mine);
     add_key(import, &key, kind, name);
-    (void)names_add(import->keys, key.at);
+    (void)names_add(import->scope->keys, key.at);
     text_free(&key);
-    LIST_PUSH(import->ours, mine);
+    LIST_PUSH(import->scope->ours, mine);
     return mine;
 }
 

@@ -10,20 +10,27 @@
 #include "base/names.h"
 #include "base/text.h"
 
-typedef struct Import {
-    const char *file;        /* as the user calls it */
-    bool is_alone;           /* the statements make a model of their own: it may be given a title */
-    bool ignores_case;       /* names of the file that differ in nothing else are one */
-    Pool *pool;              /* of all that its reader makes */
+/* names of a part of the file that has its own, as a subsystem; the file's parameters are known
+ * there, too */
+typedef struct ImportScope {
     Names *names;            /* that are taken, ours */
-    Names *verbs;            /* words that no parameter has */
     Names *keys;             /* a kind and a name of the file */
     LIST(const char *) ours; /* by key */
-    Text script;             /* the statements, a line each */
-    LIST(int) from;          /* by line of the script: line of the file; 0: of none */
-    Text remarks;            /* lines */
-    int missing;             /* parts of the model that were left out; */
-    int missing_line;        /* the first of them */
+} ImportScope;
+
+typedef struct Import {
+    const char *file;   /* as the user calls it */
+    bool is_alone;      /* the statements make a model of their own: it may be given a title */
+    bool ignores_case;  /* names of the file that differ in nothing else are one */
+    Pool *pool;         /* of all that its reader makes */
+    Names *verbs;       /* words that no parameter has */
+    ImportScope whole;  /* names of the file, */
+    ImportScope *scope; /* and those of the part that is being read */
+    Text script;        /* the statements, a line each */
+    LIST(int) from;     /* by line of the script: line of the file; 0: of none */
+    Text remarks;       /* lines */
+    int missing;        /* parts of the model that were left out; */
+    int missing_line;   /* the first of them */
     const char *missing_what;
 } Import;
 
@@ -47,6 +54,11 @@ enum { IMPORT_PARAMETER = 'p' };
 const char *import_name(Import *import, char kind, const char *name);
 /* the same where it has been met; NULL */
 const char *import_known(const Import *import, char kind, const char *name);
+/* A part with names of its own begins, in which those taken so far stay taken; and ends. They don't
+ * stand in one another. */
+void import_enter(Import *import, ImportScope *scope);
+void import_return(Import *import);
+void import_scope_free(ImportScope *scope); /* what it holds */
 /* a text that lives as long as the import */
 const char *import_text(Import *import, const char *format, ...) PRINTF(2, 3);
 /* a number as it is written in statements, exact */

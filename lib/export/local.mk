@@ -11,6 +11,10 @@ libcore_la_SOURCES += \
   lib/export/import_spice.c \
   lib/export/import_urdf.c \
   lib/export/importers.c \
+  lib/export/spice_cards.c \
+  lib/export/spice_cards.h \
+  lib/export/spice_elements.c \
+  lib/export/spice_impl.h \
   lib/export/spice_source.c \
   lib/export/spice_source.h \
   lib/export/spice_value.c \

@@ -13,7 +13,12 @@ typedef struct SpiceValue {
 
 /* Read `4.7k`, `10uF`, `1meg`, `{2*a}`, `'a+b'` or the name of a parameter; what names of the file
  * mean is import_known() with kind SPICE_PARAMETER. False: `why` tells, a text of the import's. */
-enum { SPICE_PARAMETER = IMPORT_PARAMETER, SPICE_NODE = 'n', SPICE_PART = 'e' };
+enum {
+    SPICE_PARAMETER = IMPORT_PARAMETER,
+    SPICE_NODE = 'n',
+    SPICE_PART = 'e',
+    SPICE_SUBCIRCUIT = 's'
+};
 bool spice_value(Import *import, const char *word, SpiceValue *out, const char **why);
 SpiceValue spice_of(Import *import, double number);
 /* a number with its suffix and letters of a unit behind it; false: it is none */

@@ -32,11 +32,36 @@ Q1 1 2 0 npn'
 try 'twice
 R1 a 0 1k
 r1 b 0 1k'
-try 'a subcircuit
+try 'a subcircuit that is called once, and one that is not
+R1 a 0 1k
+X1 a b amp r=2k
+.subckt amp in out r=1k
+R1 in x {r}
+R2 x out {r}
+.ends
+.subckt other p
+Q1 p 0 0 npn
+.ends'
+try 'a subcircuit without an end
 R1 a 0 1k
 .subckt amp in out
-R2 in out 1
+R2 in out 1'
+try 'a subcircuit in itself
+X1 a amp
+.subckt amp in
+X1 in other
+.ends
+.subckt other in
+X2 in amp
 .ends'
+try 'calls that fit no subcircuit
+R1 a 0 1k
+.subckt amp in out
+R1 in out 1
+.ends
+X1 a amp
+X2 a b none
+X3 a b amp gain=3'
 try 'cut short
 R1 a'
 try 'no value

@@ -1,0 +1,603 @@
+/* spice_elements.c: parameters, models and elements of a netlist, or of a .subckt of it, as
+ * statements
+ *
+ * Names that a card speaks of have to be there before it: cards are said in the order of their
+ * ranks (elements, what is controlled by currents, switches and what is called). */
+#include "export/spice_impl.h"
+
+#include <ctype.h>
+#include <math.h>
+#include <string.h>
+
+static const char *lower(Import *import, const char *word)
+{
+    char *copy = pool_text(import->pool, word, strlen(word));
+
+    for (char *c = copy; *c != '\0'; c++)
+        *c = (char)tolower((unsigned char)*c);
+    return copy;
+}
+
+bool spice_read(Spice *s, const char *text, SpiceValue *out)
+{
+    s->why = NULL;
+    return spice_value(s->import, text, out, &s->why);
+}
+
+/* a number given in words or `other` */
+static bool value_or(Spice *s, const char *text, const char *other, SpiceValue *out)
+{
+    return spice_read(s, text != NULL && text[0] != '\0' ? text : other, out);
+}
+
+static bool is_zero(SpiceValue v)
+{
+    return v.is_number && v.number == 0;
+}
+
+void spice_leave(Spice *s, const Card *card, const char *why)
+{
+    import_leave(s->import, card->line, true, card->words.at[0], "%s", why);
+}
+
+/* --- names --- */
+
+const char *spice_node(Spice *s, const char *name)
+{
+    if (strcmp(name, "0") == 0 || spice_is(name, "gnd"))
+        return "0";
+    return import_name(s->import, SPICE_NODE, name);
+}
+
+const char *spice_part(Spice *s, const Card *card)
+{
+    return import_name(s->import, SPICE_PART, card->words.at[0]);
+}
+
+/* --- parameters: those that one speaks of come before it --- */
+
+/* those of a card, from word `first` on */
+void spice_take_parameters(Spice *s, const Card *card, int first)
+{
+    for (int i = first; i < card->words.count; i += 3) {
+        const ParameterCard parameter = {.name = lower(s->import, card->words.at[i]),
+                                         .written = card->words.at[i],
+                                         .value = card_word(card, i + 2),
+                                         .line = card->line};
+        int number;
+
+        if (!card_is_key(card, i) || i + 2 >= card->words.count) {
+            import_leave(s->import, card->line, true, card->words.at[i],
+                         "a parameter is NAME=VALUE, an expression in braces or quotes");
+            return;
+        }
+        number = names_add(s->parameter_names, parameter.name);
+        if (number == s->parameters.count)
+            LIST_PUSH(s->parameters, parameter);
+        else
+            s->parameters.at[number] = parameter; /* the last one counts */
+    }
+}
+
+static void find_parameters(Spice *s)
+{
+    for (int c = 0; c < s->cards.count; c++) {
+        const Card *card = &s->cards.at[c];
+
+        if (spice_is(card->words.at[0], ".param") || spice_is(card->words.at[0], ".params"))
+            spice_take_parameters(s, card, 1);
+    }
+}
+
+static void say_parameter(void *context, const char *name)
+{
+    enum { DEEPEST = 500 };
+    Spice *s = context;
+    const int number = names_find(s->parameter_names, name);
+    ParameterCard *parameter = number >= 0 ? &s->parameters.at[number] : NULL;
+    SpiceValue v;
+
+    if (parameter == NULL || parameter->state != WAITING || s->depth > DEEPEST)
+        return;
+    parameter->state = ON_ITS_WAY;
+    s->depth++;
+    spice_names(parameter->value, say_parameter, s);
+    s->depth--;
+    parameter->state = SAID;
+    if (spice_read(s, parameter->value, &v))
+        import_add(s->import, parameter->line, "%s = %s",
+                   import_name(s->import, SPICE_PARAMETER, parameter->written), v.alone);
+    else
+        import_leave(s->import, parameter->line, true, parameter->written, "%s", s->why);
+}
+
+/* --- models --- */
+
+static void find_models(Spice *s)
+{
+    for (int c = 0; c < s->cards.count; c++) {
+        const Card *card = &s->cards.at[c];
+
+        if (!spice_is(card->words.at[0], ".model") || card->words.count < 3)
+            continue;
+        if (names_add(s->model_names, lower(s->import, card->words.at[1])) == s->models.count)
+            LIST_PUSH(s->models, (DeviceModel){lower(s->import, card->words.at[2]), card});
+    }
+}
+
+void spice_say_values(Spice *s)
+{
+    find_parameters(s);
+    find_models(s);
+    for (int i = 0; i < s->parameters.count; i++)
+        say_parameter(s, s->parameters.at[i].name);
+}
+
+/* the model of that name and type, or NULL and why */
+static const DeviceModel *find_model(Spice *s, const char *name, const char *type, const char **why)
+{
+    int i = names_find(s->model_names, lower(s->import, name));
+
+    if (i < 0 && s->outer != NULL)
+        return find_model(s->outer, name, type, why);
+    if (i >= 0 && strcmp(s->models.at[i].type, type) == 0)
+        return &s->models.at[i];
+    *why = i < 0 ? import_text(s->import, "there is no .model %s", name)
+                 : import_text(s->import, "its .model %s is of type %s, not %s", name,
+                               s->models.at[i].type, type);
+    return NULL;
+}
+
+enum { MODEL_KEYS = 3 }; /* the first word of a model that may be a key */
+
+static bool model_value(Spice *s, const DeviceModel *model, const char *name, const char *other,
+                        SpiceValue *out)
+{
+    return value_or(s, card_key(model->card, MODEL_KEYS, name), other, out);
+}
+
+/* keys that do nothing here, said once for each card that has them */
+static void say_others(Spice *s, const Card *card, int first, const char *const *known)
+{
+    Text others = {0};
+
+    for (int i = first; i < card->words.count; i++) {
+        bool is_known = false;
+
+        if (!card_is_key(card, i))
+            continue;
+        for (int k = 0; known[k] != NULL; k++)
+            is_known = is_known || spice_is(card->words.at[i], known[k]);
+        if (!is_known)
+            text_addf(&others, "%s%s", others.length > 0 ? " " : "", card->words.at[i]);
+    }
+    if (others.length > 0)
+        import_leave(s->import, card->line, false,
+                     import_text(s->import, "%s of %s", others.at,
+                                 card->words.at[card->words.at[0][0] == '.' ? 1 : 0]),
+                     "no part of ours has that");
+    text_free(&others);
+}
+
+/* --- elements --- */
+
+void spice_give_initial(Spice *s, int line, const char *variable, SpiceValue v)
+{
+    import_add(s->import, line, "init %s = %s", variable, v.alone);
+}
+
+/* R, C, L: name, two nodes, a value or KEY=value, ic= */
+static void two_terminals(Spice *s, const Card *card, const char *verb, const char *letter,
+                          const char *state)
+{
+    const char *const known[] = {letter, "ic",   "m",     "tc",    "tc1",
+                                 "tc2",  "temp", "dtemp", "noisy", NULL};
+    const char *given = card_key(card, 3, letter), *initial = card_key(card, 3, "ic");
+    SpiceValue v, ic, m;
+
+    if (given == NULL)
+        given = card_is_key(card, 3) ? "" : card_word(card, 3);
+    if (!spice_read(s, given, &v) || !value_or(s, card_key(card, 3, "m"), "1", &m)) {
+        spice_leave(s, card, given[0] == '\0' ? "it has no value" : s->why);
+        return;
+    }
+    say_others(s, card, 3, known);
+    if (!(m.is_number && m.number == 1))
+        v.alone = import_text(s->import, "%s%c%s", v.text, verb[0] == 'c' ? '*' : '/', m.text);
+    if (!import_add(s->import, card->line, "%s %s %s %s %s", verb, spice_part(s, card),
+                    spice_node(s, card->words.at[1]), spice_node(s, card->words.at[2]), v.alone))
+        return;
+    if (initial == NULL)
+        return;
+    if (!s->uses_initial)
+        import_leave(s->import, card->line, false,
+                     import_text(s->import, "ic= of %s", card->words.at[0]),
+                     ".tran doesn't say uic");
+    else if (spice_read(s, initial, &ic))
+        spice_give_initial(s, card->line,
+                           import_text(s->import, "%s.%s", spice_part(s, card), state), ic);
+    else
+        spice_leave(s, card, s->why);
+}
+
+static void say_resistor(Spice *s, const Card *card)
+{
+    two_terminals(s, card, "resistor", "r", "v");
+}
+
+static void say_capacitor(Spice *s, const Card *card)
+{
+    two_terminals(s, card, "capacitor", "c", "v");
+}
+
+static void say_inductor(Spice *s, const Card *card)
+{
+    two_terminals(s, card, "inductor", "l", "i");
+}
+
+/* K: pairs of all inductors that it names */
+static void say_coupling(Spice *s, const Card *card)
+{
+    const int last = card->words.count - 1;
+    const char *name = spice_part(s, card);
+    SpiceValue k;
+
+    if (last < 3 || !spice_read(s, card->words.at[last], &k)) {
+        spice_leave(s, card, last < 3 ? "it couples two inductors" : s->why);
+        return;
+    }
+    for (int i = 1; i < last; i++)
+        for (int j = i + 1; j < last; j++) {
+            const char *a = import_known(s->import, SPICE_PART, card->words.at[i]);
+            const char *b = import_known(s->import, SPICE_PART, card->words.at[j]);
+
+            if (a == NULL || b == NULL) {
+                spice_leave(s, card, "an inductor that it names isn't there");
+                return;
+            }
+            if (i > 1 || j > 2)
+                name = import_name(s->import, SPICE_PART,
+                                   import_text(s->import, "%s_%s_%s", card->words.at[0], a, b));
+            import_add(s->import, card->line, "coupling %s %s %s k=%s", name, a, b, k.alone);
+        }
+}
+
+/* E, G: of a voltage */
+static void say_by_voltage(Spice *s, const Card *card)
+{
+    const bool voltage = tolower((unsigned char)card->words.at[0][0]) == 'e';
+    SpiceValue gain;
+
+    if (card->words.count != 6 || card_is_key(card, 3)) {
+        spice_leave(s, card, "only a gain of one voltage can be said");
+        return;
+    }
+    if (!spice_read(s, card->words.at[5], &gain)) {
+        spice_leave(s, card, s->why);
+        return;
+    }
+    import_add(s->import, card->line, "%s %s %s %s %s %s gain=%s", voltage ? "vcvs" : "vccs",
+               spice_part(s, card), spice_node(s, card->words.at[1]),
+               spice_node(s, card->words.at[2]), spice_node(s, card->words.at[3]),
+               spice_node(s, card->words.at[4]), gain.alone);
+}
+
+/* F, H: of the current through a voltage source */
+static void say_by_current(Spice *s, const Card *card)
+{
+    const bool voltage = tolower((unsigned char)card->words.at[0][0]) == 'h';
+    const char *source = import_known(s->import, SPICE_PART, card_word(card, 3));
+    SpiceValue gain;
+
+    if (card->words.count != 5) {
+        spice_leave(s, card, "only a gain of one current can be said");
+        return;
+    }
+    if (source == NULL || !spice_read(s, card->words.at[4], &gain)) {
+        spice_leave(s, card,
+                    source != NULL ? s->why
+                                   : import_text(s->import, "%s isn't there", card->words.at[3]));
+        return;
+    }
+    import_add(s->import, card->line, "%s %s %s %s of=%s.i gain=%s", voltage ? "ccvs" : "cccs",
+               spice_part(s, card), spice_node(s, card->words.at[1]),
+               spice_node(s, card->words.at[2]), source, gain.alone);
+}
+
+/* D: name, two nodes, model, area; a resistance in series makes a node of its own */
+static void say_diode(Spice *s, const Card *card)
+{
+    static const char *const known[] = {"is", "n", "rs", "level", NULL};
+    static const char *const keys[] = {"area", "m", NULL};
+    const DeviceModel *model = find_model(s, card_word(card, 3), "d", &s->why);
+    const char *area = card_key(card, 4, "area");
+    const char *plus;
+    SpiceValue is, n, rs, by;
+
+    if (area == NULL && !card_is_key(card, 4) && isdigit((unsigned char)card_word(card, 4)[0]))
+        area = card_word(card, 4);
+    if (model == NULL || !model_value(s, model, "is", "1e-14", &is) ||
+        !model_value(s, model, "n", "1", &n) || !model_value(s, model, "rs", "0", &rs) ||
+        !value_or(s, area, "1", &by)) {
+        spice_leave(s, card, s->why);
+        return;
+    }
+    say_others(s, card, 4, keys);
+    say_others(s, model->card, MODEL_KEYS, known);
+    plus = spice_node(s, card->words.at[1]);
+    if (!(by.is_number && by.number == 1))
+        is.alone = import_text(s->import, "%s*%s", is.text, by.text);
+    if (!is_zero(rs)) {
+        const char *outer = plus;
+        const char *own = import_text(s->import, "%s_rs", card->words.at[0]);
+
+        plus =
+            import_name(s->import, SPICE_NODE, import_text(s->import, "%s_a", card->words.at[0]));
+        import_add(s->import, card->line, "resistor %s %s %s %s/%s",
+                   import_name(s->import, SPICE_PART, own), outer, plus, rs.text, by.text);
+    }
+    import_add(s->import, card->line, "diode %s %s %s Is=%s n=%s", spice_part(s, card), plus,
+               spice_node(s, card->words.at[2]), is.alone, n.alone);
+}
+
+/* S, W: closed above a threshold of a voltage or of a source's current */
+static void say_switch(Spice *s, const Card *card)
+{
+    const bool current = tolower((unsigned char)card->words.at[0][0]) == 'w';
+    const int at = current ? 4 : 5;
+    const DeviceModel *model = find_model(s, card_word(card, at), current ? "csw" : "sw", &s->why);
+    const char *source = import_known(s->import, SPICE_PART, card_word(card, 3));
+    const char *controlled;
+    SpiceValue threshold, hysteresis, on, off;
+
+    if (current && source == NULL)
+        s->why = import_text(s->import, "%s isn't there", card_word(card, 3));
+    if (model == NULL || (current && source == NULL) ||
+        !model_value(s, model, current ? "it" : "vt", "0", &threshold) ||
+        !model_value(s, model, current ? "ih" : "vh", "0", &hysteresis) ||
+        !model_value(s, model, "ron", "1", &on) || !model_value(s, model, "roff", "1e12", &off)) {
+        spice_leave(s, card, s->why);
+        return;
+    }
+    if (!is_zero(hysteresis)) {
+        spice_leave(s, card, "a switch with hysteresis has no counterpart");
+        return;
+    }
+    if (current) {
+        controlled = import_text(s->import, "%s.i", source);
+    } else {
+        const char *a = spice_node(s, card->words.at[3]), *b = spice_node(s, card->words.at[4]);
+
+        controlled = strcmp(a, "0") == 0 && strcmp(b, "0") == 0 ? "0"
+                     : strcmp(b, "0") == 0                      ? import_text(s->import, "%s.v", a)
+                     : strcmp(a, "0") == 0                      ? import_text(s->import, "-%s.v", b)
+                                           : import_text(s->import, "%s.v - %s.v", a, b);
+    }
+    import_add(s->import, card->line, "switch %s %s %s when=%s > %s Ron=%s Roff=%s",
+               spice_part(s, card), spice_node(s, card->words.at[1]),
+               spice_node(s, card->words.at[2]), controlled, threshold.text, on.alone, off.alone);
+}
+
+/* V, I: [DC] value, AC value phase, a function of time; which is what it gives from t = 0 on */
+static void say_source(Spice *s, const Card *card)
+{
+    const char *verb = tolower((unsigned char)card->words.at[0][0]) == 'v' ? "vsource" : "isource";
+    const char *constant = "0", *given = NULL; /* over time */
+    LIST(SpiceValue) values = {0};
+    SpiceTimes times = s->times;
+    SpiceValue v;
+    int i = 3;
+
+    s->why = NULL;
+    while (i < card->words.count && s->why == NULL) {
+        const char *name = card->words.at[i];
+
+        if (spice_is(name, "dc")) {
+            i++;
+        } else if (spice_is(name, "ac") || spice_is(name, "distof1") || spice_is(name, "distof2")) {
+            for (i++; i < card->words.count && spice_number(card->words.at[i], &v.number);)
+                i++;
+            import_leave(s->import, card->line, false,
+                         import_text(s->import, "%s of %s", name, card->words.at[0]),
+                         "what is an input is said when equations are linearised");
+        } else if (spice_is_source(name)) {
+            for (i++; i < card->words.count && !card_is_key(card, i) &&
+                      !spice_is(card->words.at[i], "ac") && !spice_is(card->words.at[i], "dc") &&
+                      spice_read(s, card->words.at[i], &v);
+                 i++)
+                LIST_PUSH(values, v);
+            if (s->why == NULL && card_key(card, i, "td") != NULL &&
+                spice_read(s, card_key(card, i, "td"), &v))
+                times.delay = v;
+            if (s->why == NULL && card_key(card, i, "r") != NULL &&
+                spice_read(s, card_key(card, i, "r"), &v))
+                times.repeat = v;
+            while (card_is_key(card, i))
+                i += 3;
+            if (s->why == NULL)
+                (void)spice_source(s->import, name, values.at, values.count, &times, &given,
+                                   &s->why);
+            values.count = 0;
+        } else if (spice_read(s, name, &v)) {
+            constant = v.alone;
+            i++;
+        }
+    }
+    if (s->why != NULL)
+        spice_leave(s, card, s->why);
+    else
+        import_add(s->import, card->line, "%s %s %s %s %s", verb, spice_part(s, card),
+                   spice_node(s, card->words.at[1]), spice_node(s, card->words.at[2]),
+                   given != NULL ? given : constant);
+    LIST_FREE(values);
+}
+
+/* --- subcircuits --- */
+
+/* the first word from `first` on that is a key, or says that keys follow; nodes and names end there
+ */
+int spice_first_key(const Card *card, int first)
+{
+    int i = first;
+
+    while (i < card->words.count && !card_is_key(card, i) &&
+           !spice_is(card->words.at[i], "params:"))
+        i++;
+    return i;
+}
+
+/* the .subckt that a card X calls, of those inside and around; NULL */
+Spice *spice_find_subcircuit(const Spice *s, const Card *card)
+{
+    const int last = spice_first_key(card, 1) - 1;
+
+    for (; last > 0 && s != NULL; s = s->outer)
+        for (int i = 0; i < s->inner.count; i++)
+            if (spice_is(card_word(&s->inner.at[i]->head, 1), card->words.at[last]))
+                return s->inner.at[i];
+    return NULL;
+}
+
+int spice_port_count(const Spice *subcircuit)
+{
+    return spice_first_key(&subcircuit->head, FIRST_PORT) - FIRST_PORT;
+}
+
+/* what the inside calls something; NULL: it is nothing there */
+static const char *name_inside(Spice *s, Spice *inside, char kind, const char *name)
+{
+    const char *ours;
+
+    s->import->scope = &inside->scope;
+    ours = import_known(s->import, kind, name);
+    s->import->scope = s->outer != NULL ? &s->scope : &s->import->whole;
+    return ours;
+}
+
+/* whether the head gives the parameter a value, which a card may change */
+static bool has_parameter(const Spice *subcircuit, const char *name)
+{
+    const Card *head = &subcircuit->head;
+
+    return card_key(head, spice_first_key(head, FIRST_PORT), name) != NULL;
+}
+
+/* X: name, nodes, subcircuit, KEY=value */
+static void say_use(Spice *s, const Card *card)
+{
+    const int keys = spice_first_key(card, 1), nodes = keys - 2;
+    Spice *subcircuit = spice_find_subcircuit(s, card);
+    Text text = {0};
+    SpiceValue v;
+
+    if (subcircuit == NULL || nodes != spice_port_count(subcircuit)) {
+        spice_leave(
+            s, card,
+            subcircuit == NULL
+                ? import_text(s->import, "there is no .subckt %s", card_word(card, keys - 1))
+                : import_text(s->import, "its .subckt %s has another number of nodes: %d, not %d",
+                              card->words.at[keys - 1], spice_port_count(subcircuit), nodes));
+        return;
+    }
+    text_addf(&text, "use %s %s", subcircuit->name, spice_part(s, card));
+    for (int i = 0; i < nodes; i++)
+        text_addf(&text, " %s=%s",
+                  name_inside(s, subcircuit, SPICE_NODE, subcircuit->head.words.at[FIRST_PORT + i]),
+                  spice_node(s, card->words.at[1 + i]));
+    for (int i = keys + (card_is_key(card, keys) ? 0 : 1); i + 2 < card->words.count; i += 3) {
+        const char *name = card->words.at[i];
+
+        if (!card_is_key(card, i) || !has_parameter(subcircuit, name))
+            spice_leave(s, card, import_text(s->import, "its .subckt has no parameter %s", name));
+        else if (spice_read(s, card->words.at[i + 2], &v))
+            text_addf(&text, " %s=%s", name_inside(s, subcircuit, SPICE_PARAMETER, name), v.text);
+        else
+            spice_leave(s, card, s->why);
+    }
+    import_add(s->import, card->line, "%s", text.at);
+    text_free(&text);
+}
+
+/* by the first letter; those of a later rank speak of the others */
+static const struct {
+    char letter;
+    int rank;
+    int nodes;
+    int words; /* that it has at least */
+    void (*say)(Spice *s, const Card *card);
+} elements[] = {
+    {'r', 0, 2, 3, say_resistor},   {'c', 0, 2, 3, say_capacitor},  {'l', 0, 2, 3, say_inductor},
+    {'v', 0, 2, 3, say_source},     {'i', 0, 2, 3, say_source},     {'e', 0, 4, 5, say_by_voltage},
+    {'g', 0, 4, 5, say_by_voltage}, {'d', 0, 2, 4, say_diode},      {'k', 1, 0, 4, say_coupling},
+    {'f', 1, 2, 4, say_by_current}, {'h', 1, 2, 4, say_by_current}, {'s', 2, 4, 6, say_switch},
+    {'w', 2, 2, 5, say_switch},     {'x', 0, 0, 2, say_use},
+};
+enum { RANKS = 3 };
+
+static int element_of(const Card *card)
+{
+    for (int i = 0; i < COUNT(elements); i++)
+        if (elements[i].letter == tolower((unsigned char)card->words.at[0][0]))
+            return i;
+    return -1;
+}
+
+void spice_name_elements(Spice *s)
+{
+    for (int c = 0; c < s->cards.count; c++) {
+        Card *card = &s->cards.at[c];
+
+        if (card->words.at[0][0] == '.')
+            continue;
+        card->element = element_of(card);
+        if (card->element < 0) {
+            spice_leave(s, card, "there is no such element here");
+        } else if (card->words.count < elements[card->element].words) {
+            spice_leave(s, card, "it is cut short");
+            card->element = -1;
+        } else if (import_known(s->import, SPICE_PART, card->words.at[0]) != NULL) {
+            spice_leave(s, card, "there is another of that name");
+            card->element = -1;
+        } else {
+            (void)spice_part(s, card);
+        }
+    }
+    for (int c = 0; c < s->cards.count; c++) {
+        const Card *card = &s->cards.at[c];
+
+        const int nodes = card->element < 0                        ? 0
+                          : elements[card->element].say == say_use ? spice_first_key(card, 1) - 2
+                                                                   : elements[card->element].nodes;
+
+        for (int i = 0; i < nodes; i++)
+            (void)spice_node(s, card->words.at[1 + i]);
+    }
+}
+
+bool spice_stands_on(const Spice *s, const char *name)
+{
+    for (int c = 0; c < s->cards.count; c++) {
+        const Card *card = &s->cards.at[c];
+        int places = card->element < 0 ? 0 : elements[card->element].nodes;
+
+        if (places > 0 && elements[card->element].say == say_switch)
+            places = 2; /* the others are read */
+        else if (card->element >= 0 && elements[card->element].say == say_use)
+            places = spice_first_key(card, 1) - 2;
+        for (int i = 0; i < places; i++)
+            if (spice_is(card->words.at[1 + i], name))
+                return true;
+    }
+    return false;
+}
+
+void spice_say_elements(Spice *s)
+{
+    for (int rank = 0; rank < RANKS; rank++)
+        for (int c = 0; c < s->cards.count; c++) {
+            const Card *card = &s->cards.at[c];
+
+            if (card->element >= 0 && elements[card->element].rank == rank)
+                elements[card->element].say(s, card);
+        }
+}

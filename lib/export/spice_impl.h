@@ -1,0 +1,70 @@
+/* spice_impl.h: a netlist as it is being said, for the files that do so */
+#ifndef COTREE_EXPORT_SPICE_IMPL_H
+#define COTREE_EXPORT_SPICE_IMPL_H
+
+#include "export/spice_cards.h"
+#include "export/spice_source.h"
+
+typedef struct DeviceModel {
+    const char *type; /* lower case */
+    const Card *card;
+} DeviceModel;
+
+typedef struct ParameterCard {
+    const char *name; /* lower case */
+    const char *written;
+    const char *value;
+    int line;
+    enum { WAITING, ON_ITS_WAY, SAID } state;
+} ParameterCard;
+
+/* the netlist, or a .subckt of it */
+typedef struct Spice {
+    struct Spice *outer; /* in which it stands; NULL: the netlist */
+    Card head;           /* .subckt NAME NODE... [KEY=VALUE...] */
+    const char *name;    /* of the subsystem, ours */
+    LIST(struct Spice *) inner;
+    enum { UNSAID, BEGUN, DEFINED } definition;
+    ImportScope scope; /* names inside */
+    Import *import;
+    Cards cards;
+    LIST(DeviceModel) models;
+    Names *model_names;
+    LIST(ParameterCard) parameters;
+    Names *parameter_names;
+    int depth;         /* of parameters that need others */
+    SpiceTimes times;  /* of .tran */
+    const Card *tran;  /* NULL: none */
+    bool uses_initial; /* uic: it starts from given values, not from an operating point */
+    const char *why;   /* the last value could not be read */
+    Diag *diag;
+} Spice;
+
+/* a value; false: s->why tells */
+bool spice_read(Spice *s, const char *text, SpiceValue *out);
+/* the card's part of the model is left out */
+void spice_leave(Spice *s, const Card *card, const char *why);
+const char *spice_node(Spice *s, const char *name);
+const char *spice_part(Spice *s, const Card *card); /* what a card is called */
+void spice_give_initial(Spice *s, int line, const char *variable, SpiceValue v);
+
+/* parameters of a card, from word `first` on */
+void spice_take_parameters(Spice *s, const Card *card, int first);
+/* parameters, those taken before and those of .param, and models */
+void spice_say_values(Spice *s);
+/* All elements have their names before one is said, and before nodes have theirs; what can't be
+ * said is none from then on. */
+void spice_name_elements(Spice *s);
+void spice_say_elements(Spice *s);
+/* whether an element stands on the node, or but reads its voltage */
+bool spice_stands_on(const Spice *s, const char *node);
+
+/* the first word from `first` on that is a key, or says that keys follow; nodes and names end there
+ */
+int spice_first_key(const Card *card, int first);
+/* the .subckt that a card X calls, of those inside and around; NULL */
+Spice *spice_find_subcircuit(const Spice *s, const Card *card);
+enum { FIRST_PORT = 2 }; /* words of .subckt */
+int spice_port_count(const Spice *subcircuit);
+
+#endif
