@@ -1,7 +1,7 @@
 /* terminal_graph.h: the linear graph with each instance of a subsystem as the edges of its ports
  *
  * What is inside an instance is left out; a port is an edge, called leg1.B, to the node where it
- * attaches (theory 10). One whose motion or voltage the inside gives is a branch wherever the way
+ * attaches. One whose motion or voltage the inside gives is a branch wherever the way
  * to it leads through the inside, from where that way enters; any other is a chord from the datum.
  */
 #ifndef COTREE_PRESENT_TERMINAL_GRAPH_H

@@ -37,4 +37,4 @@ END
 cotree -q chain.ct
 echo '--- what is asked wrong'
 cotree -k -q robot.ct -e 'draw collapsed m9' -e 'draw circuit collapsed' -e 'show cutsets leg1.A' \
-    -e 'draw closed' 2>&1
+    -e 'draw closed' 2>&1 || true
