@@ -3,10 +3,10 @@
 
     peers.py BENCH_DYNAMICS FOLDER
 
-Builds the drivers beside this file (MuJoCo's in C, Simbody's in C++) in FOLDER, where the libraries
-are there, and runs each in turn with BENCH_DYNAMICS, our bench. Prints `name value unit`: ns of an
-evaluation, and how many times ours the others take. Accelerations have to agree to eight digits. A
-library that is missing, or can't load a model, is a line behind '#'."""
+Builds the drivers beside this file in FOLDER, where the libraries of MuJoCo and Simbody are there,
+and runs each in turn with BENCH_DYNAMICS, our bench. Prints `name value unit`: ns of an evaluation,
+and how many times ours the others take. Accelerations have to agree to eight digits. A library that
+is missing, or can't load a model, is a line behind '#'."""
 
 import os
 import subprocess
@@ -71,11 +71,11 @@ def build(name, command, folder):
 
 
 def drivers(folder):
-    c = os.path.join(HERE, "peer_mujoco.c")
-    cc = os.path.join(HERE, "peer_simbody.cc")
+    mujoco = os.path.join(HERE, "peer_mujoco.cc")
+    simbody = os.path.join(HERE, "peer_simbody.cc")
     return {
-        "mujoco": build("peer_mujoco", ["cc", "-O2", c, "-lmujoco", "-lm"], folder),
-        "simbody": build("peer_simbody", ["c++", "-O2", "-w", "-I/usr/include/simbody", cc, "-lSimTKsimbody",
+        "mujoco": build("peer_mujoco", ["c++", "-O2", mujoco, "-lmujoco"], folder),
+        "simbody": build("peer_simbody", ["c++", "-O2", "-w", "-I/usr/include/simbody", simbody, "-lSimTKsimbody",
                                           "-lSimTKmath", "-lSimTKcommon"], folder),
     }
 

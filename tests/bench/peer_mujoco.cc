@@ -1,14 +1,14 @@
-/* peer_mujoco.c: accelerations and joint torques of a tree by MuJoCo: peer_mujoco MODEL.xml
- *
- * At the angles and rates of bench_dynamics.c, in two places in turn. Built by peers.py. */
-#include <math.h>
+// peer_mujoco.cc: accelerations and joint torques of a tree by MuJoCo: peer_mujoco MODEL.xml
+//
+// At the angles and rates of bench_dynamics.c, in two places in turn. Built by peers.py.
+#include <cmath>
+#include <cstdio>
+#include <ctime>
 #include <mujoco/mujoco.h>
-#include <stdio.h>
-#include <time.h>
 
-static double now(void)
+static double now()
 {
-    struct timespec at;
+    timespec at;
 
     clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &at);
     return (double)at.tv_sec + 1e-9 * (double)at.tv_nsec;
@@ -27,7 +27,7 @@ static double least(const mjModel *model, mjData *data, void (*call)(const mjMod
     const int few = 2 + 2 * (200 / (10 + model->nv));
     double best = 1e300;
 
-    for (int try = 0; try < 300; try++) {
+    for (int turn = 0; turn < 300; turn++) {
         const double begin = now();
 
         for (int i = 0; i < few; i++) {
