@@ -295,6 +295,21 @@ ct_status ct_expect(ct_session *session, const ct_statement *statement, ct_error
 /* export FORMAT ...: text to be written where the caller likes. new */
 ct_status ct_export(ct_session *session, const ct_statement *statement, bool with_header,
                     char **text, ct_error *error);
+/* The same of formats that are several files in one: *out is new, ct_archive_free(); NULL: it is a
+ * text, for ct_export(). */
+typedef struct ct_archive ct_archive;
+ct_status ct_export_archive(ct_session *session, const ct_statement *statement, ct_archive **out,
+                            ct_error *error);
+/* its files, 0, 1 ...; false: no more */
+bool ct_archive_file(const ct_archive *archive, int i, const char **name, const char **bytes,
+                     size_t *length);
+/* Where a shared library belongs in it that a caller compiles of its sources/ for this machine;
+ * NULL: there is no name for such machines. */
+const char *ct_archive_binary(const ct_archive *archive);
+/* The zip, new, with that library; `binary` NULL: without. */
+ct_status ct_archive_pack(ct_session *session, const ct_archive *archive, const char *binary,
+                          size_t binary_length, char **bytes, size_t *length, ct_error *error);
+void ct_archive_free(ct_archive *archive); /* NULL is fine */
 const char *ct_title(const ct_session *session);
 
 /* --- a model as functions of numbers ---

@@ -2,6 +2,7 @@
 #include "command.h"
 #include "copy.h"
 #include "file.h"
+#include "library.h"
 
 #include <ctype.h>
 #include <math.h>
@@ -292,13 +293,40 @@ static ct_status command_table(Call *call, ct_error *error)
 
 /* --- export --- */
 
+/* A zip goes to a file as it is. */
+static ct_status write_archive(Call *call, const ct_archive *archive, ct_error *error)
+{
+    char *binary = NULL, *bytes = NULL;
+    size_t binary_length = 0, length = 0;
+    ct_status status = library_of(archive, &binary, &binary_length, error);
+
+    if (status == CT_OK)
+        status =
+            ct_archive_pack(call->session, archive, binary, binary_length, &bytes, &length, error);
+    if (status == CT_OK)
+        fwrite(bytes, 1, length, call->out);
+    ct_free(bytes);
+    free(binary);
+    return status;
+}
+
 static ct_status command_export(Call *call, ct_error *error)
 {
     bool append = false;
     const char *path = ct_redirect(call->statement, &append);
     bool with_header = path == NULL || !append || !file_has_content(path);
     char *text = NULL;
-    ct_status status = ct_export(call->session, call->statement, with_header, &text, error);
+    ct_archive *archive = NULL;
+    ct_status status = path != NULL && !append
+                           ? ct_export_archive(call->session, call->statement, &archive, error)
+                           : CT_OK;
+
+    if (archive != NULL)
+        status = write_archive(call, archive, error);
+    ct_archive_free(archive);
+    if (archive != NULL || status != CT_OK)
+        return status;
+    status = ct_export(call->session, call->statement, with_header, &text, error);
 
     if (status == CT_OK)
         put_text(call->out, text);

@@ -10,6 +10,7 @@ cotree_SOURCES = \
     src/file.c src/file.h \
     src/gnuplot.c src/gnuplot.h \
     src/interrupt.c src/interrupt.h \
+    src/library.c src/library.h \
     src/line_edit.c src/line_edit.h \
     src/main.c \
     src/memory_end.c src/memory_end.h \

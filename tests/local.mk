@@ -37,6 +37,7 @@ include tests/bench/dynamics.mk
 include tests/bench/simulate.mk
 include tests/bench/session.mk
 include tests/bench/network.mk
+include tests/fmu/fmu.mk
 include tests/fuzz/fuzz.mk
 include tests/family/family.mk
 
@@ -52,6 +53,7 @@ SCRIPT_TESTS = \
 	tests/cases/beams \
 	tests/cases/exported_code \
 	tests/cases/exported_inverse \
+	tests/cases/fmu \
 	tests/cases/four_bar \
 	tests/cases/free_body \
 	tests/cases/heavy_top \

@@ -5,7 +5,11 @@
  *     s   what is solved for: x', algebraic unknowns z, u', lambda
  *
  * Every function takes (p, t, y, s) and gives one array. All of them are lowered together, once, as
- * a Program is (compile/lower.h): so they compute what a run computes. */
+ * a Program is (compile/lower.h): so they compute what a run computes.
+ *
+ * A live one goes through events by itself: behind the parameters stand the signs of what equations
+ * jump at, so that they are smooth between events, and behind s a direction (dt, dy, ds), along
+ * which functions `tangent_...` are derivatives. */
 #ifndef COTREE_EXPORT_CODE_H
 #define COTREE_EXPORT_CODE_H
 
@@ -35,6 +39,37 @@ typedef struct CodeGroup {
     int function;
     bool iterates; /* Newton: the step is added to s; else it is s */
 } CodeGroup;
+
+/* what jumps or bends where something is 0; those come first that t alone moves evenly
+ * (code_live.c) */
+typedef struct CodeSide {
+    Surface surface; /* its sign is a parameter */
+    Expr call;       /* that jumps or bends there */
+    bool is_timed;
+    bool is_floor; /* timed, and jumps at each whole number of its phase */
+} CodeSide;
+
+typedef struct CodeEvent {
+    const Event *event;
+    int first; /* of its values, among those of all events */
+} CodeEvent;
+
+/* what an event gives a value to */
+typedef enum CodeLevel { CODE_COORDINATE, CODE_SPEED, CODE_STATE } CodeLevel;
+
+typedef struct CodeLive {
+    bool is_wanted;
+    LIST(CodeSide) sides;
+    int timed;
+    int first; /* of the signs, in p */
+    LIST(CodeEvent) events;
+    LIST(CodeLevel) targets;
+    LIST(int) places;  /* of targets that are states themselves, in y; else -1 */
+    LIST(int) samples; /* states that are sampled */
+    Expr *seeds;       /* the direction: 1 + ny + ns symbols */
+    int tangents[3];   /* functions: of each group; -1 */
+    bool *depends;     /* by model parameter: it follows from others */
+} CodeLive;
 
 /* a state and what follows from it here */
 typedef struct CodeState {
@@ -76,6 +111,7 @@ typedef struct Code {
     bool is_redundant;    /* constraints repeat each other */
     LIST(char *) outputs; /* what was asked for, in words */
     LIST(char *) conditions;
+    CodeLive live;
     Lowered lowered;
     int *derived; /* one a value: its place in p; -1 */
     int derived_count;
@@ -86,9 +122,9 @@ typedef struct Code {
 } Code;
 
 /* New; code_free(). Fails where a formula needs what no function is given. */
-MUST_USE Status code_new(const Exported *what, Code **out, Diag *diag);
-/* the same of one that is all 0, but formulas alone: nothing is lowered, there are no numbers yet
- */
+MUST_USE Status code_new(const Exported *what, bool is_live, Code **out, Diag *diag);
+/* the same of one that is all 0 (but may be wanted live), but formulas alone: nothing is lowered,
+ * there are no numbers yet */
 MUST_USE Status code_form(const Exported *what, Code *code, Diag *diag);
 void code_free(Code *code); /* NULL is fine */
 /* what is 0 where s is the solution: ns rows, of networks, motion, constraints */
@@ -101,6 +137,25 @@ MUST_USE Status code_add_states(Code *code, const Exported *what, int most, Diag
 /* of code with an inverse */
 void code_find_direct(Code *code);
 void code_put_now(Code *code);
+
+/* --- functions (code_function.c) --- */
+
+/* The last one from now on: its number. */
+int code_add_function(Code *code, const char *name, const char *what, const Expr *entries, int rows,
+                      int columns);
+/* A user's formula over what functions are given; `name` is for messages. */
+MUST_USE Status code_resolve(Code *code, Expr user, Expr *out, const char *name, Diag *diag);
+
+/* --- live code (code_live.c) --- */
+
+/* What jumps in the roots and in the model's events, and what happens there; then the roots are on
+ * signs. */
+MUST_USE Status code_live_events(Code *code, Diag *diag);
+/* derivatives of functions along a direction; the last functions that there are */
+void code_live_tangents(Code *code);
+/* parameters that follow from others */
+void code_live_relations(Code *code);
+void code_live_free(CodeLive *live);
 
 static inline double code_off(int i, double y)
 {

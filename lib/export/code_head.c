@@ -137,7 +137,8 @@ void code_head(const Code *code, const Language *language, const char *lead, Tex
         say_entry(&head, "conditions", i, code->conditions.at[i], "");
     say_functions(code, &head);
     SAY(&head, "%s", "");
-    SAY(&head, "It checks itself by numbers from where it was made:  %s", language->check);
+    if (!code->live.is_wanted)
+        SAY(&head, "It checks itself by numbers from where it was made:  %s", language->check);
     mem_free(brief);
 }
 

@@ -120,12 +120,17 @@ static void add_parameters(Code *code)
     for (int i = 0; i < count; i++) {
         bool known = expr_symbol_kind(symbols[i]) != SYMBOL_PARAMETER;
 
+        for (int k = 0; !known && k < code->live.sides.count; k++)
+            known = code->live.sides.at[k].surface.sign == symbols[i];
         for (int k = 0; !known && k < code->parameters.count; k++)
             known = code->parameters.at[k] == symbols[i];
         if (!known)
             LIST_PUSH(code->parameters, symbols[i]);
     }
     mem_free(symbols);
+    code->live.first = code->parameters.count;
+    for (int k = 0; k < code->live.sides.count; k++)
+        LIST_PUSH(code->parameters, code->live.sides.at[k].surface.sign);
 }
 
 static void add_inputs(Code *code)
@@ -160,25 +165,19 @@ static void add_inputs(Code *code)
                 (CodeInput){identifier(code->texts, taken, expr_name(l->symbols[at])),
                             parts[part].array, parts[part].place + i};
         }
+    for (int i = 0; code->live.is_wanted && i < 1 + code->ny + code->ns; i++)
+        LIST_PUSH(code->inputs,
+                  (CodeInput){identifier(code->texts, taken, expr_name(code->live.seeds[i])),
+                              CODE_S, code->ns + i});
     names_free(taken);
 }
 
 /* --- functions --- */
 
-static int add_function(Code *code, const char *name, const char *what, const Expr *entries,
-                        int rows, int columns)
-{
-    LIST_PUSH(code->functions,
-              (CodeFunction){name, what, code->roots.count, rows, columns, columns != 1});
-    for (int i = 0; i < rows * columns; i++)
-        LIST_PUSH(code->roots, entries[i]);
-    return code->functions.count - 1;
-}
-
 static int add_matrix(Code *code, const char *name, const char *what, const Expr *entries, int rows,
                       int columns)
 {
-    const int function = add_function(code, name, what, entries, rows, columns);
+    const int function = code_add_function(code, name, what, entries, rows, columns);
 
     code->functions.at[function].is_matrix = true;
     return function;
@@ -193,12 +192,12 @@ static void add_blocks(Code *code)
 
     for (int i = 0; i < l->n * l->nu; i++)
         map[i] = system_n_entry(system, i / l->nu, i % l->nu);
-    add_function(code, "constraints", "the constraints Phi", r->phi, l->m, 1);
+    code_add_function(code, "constraints", "the constraints Phi", r->phi, l->m, 1);
     add_matrix(code, "jacobian", "the Jacobian Phi_u of the constraints", r->phi_u, l->m, l->nu);
-    add_function(code, "velocity", "the right side nu of Phi_u u = nu", r->nu, l->m, 1);
-    add_function(code, "gamma", "the right side gamma of Phi_u u' = gamma", r->gamma, l->m, 1);
+    code_add_function(code, "velocity", "the right side nu of Phi_u u = nu", r->nu, l->m, 1);
+    code_add_function(code, "gamma", "the right side gamma of Phi_u u' = gamma", r->gamma, l->m, 1);
     add_matrix(code, "mass", "the mass matrix M", r->mass, l->nu, l->nu);
-    add_function(code, "forces", "the right side F", r->force, l->nu, 1);
+    code_add_function(code, "forces", "the right side F", r->force, l->nu, 1);
     add_matrix(code, "map", "N in q' = N u", map, l->n, l->nu);
     mem_free(map);
 }
@@ -221,7 +220,7 @@ static Status add_derivative(Code *code, Diag *diag)
         CHECK(system_multi_turn_rate(l->system, i, &rate, diag));
         LIST_PUSH(rates, rate);
     }
-    add_function(code, "derivative", "the rates of y", rates.at, rates.count, 1);
+    code_add_function(code, "derivative", "the rates of y", rates.at, rates.count, 1);
 done:
     LIST_FREE(rates);
     return status;
@@ -235,7 +234,7 @@ static void add_angles(Code *code)
 
     for (int i = 0; i < l->multi_turns; i++)
         angles[i] = system_multi_turn(l->system, i)->angle;
-    add_function(code, "angles", "angles over full turns", angles, l->multi_turns, 1);
+    code_add_function(code, "angles", "angles over full turns", angles, l->multi_turns, 1);
     mem_free(angles);
 }
 
@@ -270,8 +269,8 @@ static void add_newton(Code *code, const Expr *residuals, int first, int count, 
         mem_free(symbols);
     }
     code->groups[code->group_count++] = (CodeGroup){
-        first, count, add_function(code, name, "rows of [A | b] in A ds = b", rows, count, width),
-        true};
+        first, count,
+        code_add_function(code, name, "rows of [A | b] in A ds = b", rows, count, width), true};
     MEM_FREE(rows, unknowns);
 }
 
@@ -290,7 +289,7 @@ static void add_linear_network(Code *code)
         rows[i * width + count] = r->network_rhs[i];
     code->groups[code->group_count++] = (CodeGroup){
         0, count,
-        add_function(code, "network", "rows of [A | b] in A [x'; z] = b", rows, count, width),
+        code_add_function(code, "network", "rows of [A | b] in A [x'; z] = b", rows, count, width),
         false};
     mem_free(rows);
 }
@@ -334,7 +333,8 @@ static bool add_prescribed(Code *code)
     }
     code->is_explicit = is;
     if (is)
-        add_function(code, "accelerations", "u', which is prescribed, and lambda", rows, 2 * nu, 1);
+        code_add_function(code, "accelerations", "u', which is prescribed, and lambda", rows,
+                          2 * nu, 1);
     mem_free(rows);
     return is;
 }
@@ -353,7 +353,7 @@ static void add_mechanics(Code *code)
         l->m == 0 && system_pushes(l->system, rows + 2 * nu, NULL) == OK &&
         system_accelerations(l->system, r->force, rows + 2 * nu, rows, rows + nu) != TOLD_NOT;
     if (code->is_explicit)
-        add_function(code, "accelerations", "u', M u' = F eliminated", rows, nu, 1);
+        code_add_function(code, "accelerations", "u', M u' = F eliminated", rows, nu, 1);
     mem_free(rows);
     if (code->is_explicit)
         return;
@@ -370,10 +370,11 @@ static void add_mechanics(Code *code)
             rows[(nu + k) * width + j] = rows[j * width + nu + k] = r->phi_u[k * nu + j];
         rows[(nu + k) * width + count] = r->gamma[k];
     }
-    code->groups[code->group_count++] = (CodeGroup){
-        l->nx + l->nz, count,
-        add_function(code, "motion", "rows of [A | b] in A [u'; lambda] = b", rows, count, width),
-        false};
+    code->groups[code->group_count++] =
+        (CodeGroup){l->nx + l->nz, count,
+                    code_add_function(code, "motion", "rows of [A | b] in A [u'; lambda] = b", rows,
+                                      count, width),
+                    false};
     mem_free(rows);
 }
 
@@ -435,26 +436,6 @@ static void add_groups(Code *code)
 
 /* --- outputs and conditions --- */
 
-static Status resolve(Code *code, Expr user, Expr *out, const char *name, Diag *diag)
-{
-    Status status = system_resolve(code->layout->system, user, out, diag);
-    Expr *symbols = NULL;
-    int count;
-
-    if (status != OK)
-        return status;
-    count = expr_symbols(out, 1, &symbols);
-    for (int i = 0; status == OK && i < count; i++) {
-        const SymbolKind kind = expr_symbol_kind(symbols[i]);
-
-        if (kind == SYMBOL_EFFORT || kind == SYMBOL_JERK || kind == SYMBOL_VARIABLE)
-            status = diag_set(diag, E_MISSING, "%s depends on %s, which exported code is not given",
-                              name, expr_name(symbols[i]));
-    }
-    mem_free(symbols);
-    return status;
-}
-
 static void add_efforts(Code *code)
 {
     System *system = code->layout->system;
@@ -462,7 +443,7 @@ static void add_efforts(Code *code)
 
     for (int i = 0; i < system_drive_count(system); i++)
         LIST_PUSH(efforts, system_drive(system, i)->effort);
-    add_function(code, "efforts", "what the drivers take", efforts.at, efforts.count, 1);
+    code_add_function(code, "efforts", "what the drivers take", efforts.at, efforts.count, 1);
     LIST_FREE(efforts);
 }
 
@@ -475,7 +456,7 @@ static Status add_outputs(Code *code, const Exported *what, Diag *diag)
     for (int i = 0; i < what->item_count; i++) {
         Expr e;
 
-        CHECK(resolve(code, what->items[i], &e, what->names[i], diag));
+        CHECK(code_resolve(code, what->items[i], &e, what->names[i], diag));
         LIST_PUSH(list, e);
         LIST_PUSH(code->outputs, mem_text(what->names[i], strlen(what->names[i])));
     }
@@ -483,11 +464,11 @@ static Status add_outputs(Code *code, const Exported *what, Diag *diag)
         const char *name;
         Expr e = model_output(model, i, &name);
 
-        CHECK(resolve(code, e, &e, name, diag));
+        CHECK(code_resolve(code, e, &e, name, diag));
         LIST_PUSH(list, e);
         LIST_PUSH(code->outputs, mem_text(name, strlen(name)));
     }
-    add_function(code, "outputs", "what was asked for", list.at, list.count, 1);
+    code_add_function(code, "outputs", "what was asked for", list.at, list.count, 1);
 done:
     LIST_FREE(list);
     return status;
@@ -508,7 +489,7 @@ static Status add_conditions(Code *code, Diag *diag)
         Text words = {0};
         Expr e;
 
-        CHECK(resolve(code, event->when, &e, event->name, diag));
+        CHECK(code_resolve(code, event->when, &e, event->name, diag));
         LIST_PUSH(list, e);
         text_addf(&words, "1 while %s holds, of event %s", event->condition, event->name);
         LIST_PUSH(code->conditions, text_done(&words));
@@ -523,8 +504,8 @@ static Status add_conditions(Code *code, Diag *diag)
         } else
             mem_free(words);
     }
-    add_function(code, "conditions", "what changes its sign where equations jump or bend", list.at,
-                 list.count, 1);
+    code_add_function(code, "conditions", "what changes its sign where equations jump or bend",
+                      list.at, list.count, 1);
 done:
     LIST_FREE(list);
     return status;
@@ -559,14 +540,18 @@ static void find_derived(Code *code)
 static Status lower(Code *code, Diag *diag)
 {
     const Layout *l = code->layout;
-    Expr *inputs = NEW_ARRAY(Expr, code->parameters.count + l->count);
+    const int own = code->parameters.count + l->count;
+    const int seeds = code->live.is_wanted ? 1 + code->ny + code->ns : 0;
+    Expr *inputs = NEW_ARRAY(Expr, own + seeds);
     Status status;
 
     for (int i = 0; i < code->parameters.count; i++)
         inputs[i] = code->parameters.at[i];
     memcpy(inputs + code->parameters.count, l->symbols, (size_t)l->count * sizeof(Expr));
-    status = lowered_make(code->roots.at, code->roots.count, inputs,
-                          code->parameters.count + l->count, &code->lowered, diag);
+    for (int i = 0; i < seeds; i++)
+        inputs[own + i] = code->live.seeds[i];
+    status =
+        lowered_make(code->roots.at, code->roots.count, inputs, own + seeds, &code->lowered, diag);
     mem_free(inputs);
     return status;
 }
@@ -601,7 +586,13 @@ Status code_form(const Exported *what, Code *code, Diag *diag)
     add_angles(code);
     add_groups(code);
     CHECK(add_outputs(code, what, diag));
-    CHECK(add_conditions(code, diag));
+    if (code->live.is_wanted) {
+        code->is_redundant = l->m > 0; /* it may become so elsewhere */
+        CHECK(code_live_events(code, diag));
+        code_live_tangents(code);
+        code_live_relations(code);
+    } else
+        CHECK(add_conditions(code, diag));
     if (code->inverse != NULL) {
         add_efforts(code);
         code_put_now(code);
@@ -620,11 +611,12 @@ done:
     return status;
 }
 
-Status code_new(const Exported *what, Code **out, Diag *diag)
+Status code_new(const Exported *what, bool is_live, Code **out, Diag *diag)
 {
     Code *code = NEW(Code);
     Status status = OK;
 
+    code->live.is_wanted = is_live;
     CHECK(code_form(what, code, diag));
     CHECK(lower(code, diag));
     find_derived(code);
@@ -656,6 +648,7 @@ void code_free(Code *code)
     LIST_FREE(code->roots);
     LIST_FREE(code->functions);
     lowered_free(&code->lowered);
+    code_live_free(&code->live);
     layout_free(code->layout);
     pool_free(code->texts);
     MEM_FREE(code->derived, code);

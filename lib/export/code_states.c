@@ -50,7 +50,7 @@ static Status read_start(States *st, const Exported *what, Diag *diag)
 {
     Code *code = st->code;
     const Layout *l = code->layout;
-    const int first = code->parameters.count;
+    const int first = code->parameters.count, signs = code->live.sides.count;
     const int sizes[] = {l->n, l->nu, l->nx, l->multi_turns};
     const int firsts[] = {l->q, l->u, l->x, l->references};
     Expr *items = NEW_ARRAY(Expr, first + code->ny);
@@ -58,8 +58,10 @@ static Status read_start(States *st, const Exported *what, Diag *diag)
     int at = first;
     Status status = OK;
 
-    if (first > 0)
-        memcpy(items, code->parameters.at, (size_t)first * sizeof(Expr));
+    for (int i = 0; i < first - signs; i++)
+        items[i] = code->parameters.at[i];
+    for (int i = first - signs; i < first; i++)
+        items[i] = expr_int(code->arena, 1);
     for (int part = 0; part < COUNT(sizes); part++)
         for (int i = 0; i < sizes[part]; i++)
             items[at++] = l->symbols[firsts[part] + i];
@@ -285,6 +287,8 @@ Status code_add_states(Code *code, const Exported *what, int most, Diag *diag)
 
     st.parameters = (Parameters){.value = parameter_value, .context = code};
     CHECK(read_start(&st, what, diag));
+    if (code->live.is_wanted) /* it finds the rest itself */
+        goto done;
     for (int i = 0; i < code->parameters.count; i++)
         parameters_set(&st.parameters, code->parameters.at[i], code->values[i]);
     if (code->inverse != NULL)

@@ -1,10 +1,16 @@
 libcore_la_SOURCES += \
+  lib/export/archive.c \
+  lib/export/archive.h \
   lib/export/code.h \
+  lib/export/code_function.c \
   lib/export/code_head.c \
   lib/export/code_inverse.c \
+  lib/export/code_live.c \
   lib/export/code_make.c \
   lib/export/code_print.c \
   lib/export/code_states.c \
+  lib/export/fmu.h \
+  lib/export/fmu_description.c \
   lib/export/formats.c \
   lib/export/import.c \
   lib/export/import.h \
@@ -24,9 +30,23 @@ libcore_la_SOURCES += \
   lib/export/write_code.c \
   lib/export/write_csv.c \
   lib/export/write_dot.c \
+  lib/export/write_fmu.c \
   lib/export/write_fortran.c \
   lib/export/write_latex.c \
   lib/export/write_matlab.c \
   lib/export/write_python.c \
   lib/export/xml.c \
   lib/export/xml.h
+
+# the parts of an FMU that are the same for all models, as strings, a line each
+fmu_parts = share/fmu/fmu.h share/fmu/fmu.c share/fmu/fmu_step.c \
+	share/fmu/fmi2.c share/fmu/fmi3.c
+EXTRA_DIST += $(fmu_parts)
+nodist_libcore_la_SOURCES = lib/export/fmu_text.c
+CLEANFILES += lib/export/fmu_text.c
+lib/export/fmu_text.c: $(fmu_parts) lib/export/local.mk
+	$(AM_V_GEN)$(MKDIR_P) lib/export && { echo '#include "export/fmu.h"'; \
+	for part in $(fmu_parts); do \
+	  echo "const char *const fmu_text_`basename $$part | tr . _`[] = {"; \
+	  sed -e 's/\\/\\\\/g' -e 's/"/\\"/g' -e 's/^/"/' -e 's/$$/\\n",/' $(srcdir)/$$part; \
+	  echo '0};'; done; } >$@.new && mv $@.new $@

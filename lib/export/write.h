@@ -25,14 +25,19 @@ typedef struct Exported {
     const Expr *items;
     int item_count;
     ResultReader *start;
-    const Inverse *inverse; /* efforts of drivers from their motion; NULL */
-    const Modes *modes;     /* or these; NULL */
-    bool with_header;       /* the file is new */
+    const Inverse *inverse;              /* efforts of drivers from their motion; NULL */
+    const Modes *modes;                  /* or these; NULL */
+    bool with_header;                    /* the file is new */
+    int version;                         /* of FMUs, 2 or 3 */
+    bool only_exchange, only_simulation; /* else both kinds */
 } Exported;
 
+struct Archive; /* archive.h */
 typedef struct Format {
     Need need;
-    Status (*write)(const Exported *what, Text *out, Diag *diag);
+    Status (*write)(const Exported *what, Text *out, Diag *diag); /* NULL: it is no text, but */
+    /* files in an archive, a new one; keys of the statement choose among its forms */
+    Status (*pack)(const Exported *what, struct Archive **out, Diag *diag);
 } Format;
 
 #define FORMAT(word, brief) extern const Format format_##word;

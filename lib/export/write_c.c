@@ -279,6 +279,42 @@ static void add_rows(const Code *code, Text *out)
     text_add(out, "    return status;\n}\n");
 }
 
+static void add_tangent_declarations(Text *out)
+{
+    text_add(out, "/* s[MODEL_S]: dt, dy, and ds, which it sets */\n"
+                  "int model_tangent(const real *p, real t, const real *y, real *s, real *work);\n"
+                  "/* A x = b, from rows [A | b] */\n"
+                  "int model_solve_rows(real *a, int n, real *x, real *work);\n");
+}
+
+/* ds along a direction in t and y, behind which it is put: code_live.c */
+static void add_tangent(const Code *code, Text *out)
+{
+    const int first = code->ns + 1 + code->ny;
+
+    text_add(out, "\nint model_tangent(const real *p, real t, const real *y, real *s, real *work)\n"
+                  "{\n    int i, status = MODEL_OK;\n\n    (void)i, (void)work;\n");
+    for (int g = 0; g < code->group_count; g++) {
+        const CodeGroup *group = &code->groups[g];
+        const int rows = group->count * (group->count + 1);
+
+        text_addf(out,
+                  "    model_%s(p, t, y, s, work);\n    model_%s(p, t, y, s, work + %d);\n"
+                  "    for (i = 0; i < %d; i++)\n        work[i * %d + %d] = work[%d + i];\n"
+                  "    status = model_eliminate(work, %d, s + %d, work + %d);\n"
+                  "    if (status != MODEL_OK)\n        return status;\n",
+                  code->functions.at[group->function].name,
+                  code->functions.at[code->live.tangents[g]].name, rows, group->count,
+                  group->count + 1, group->count, rows, group->count, first + group->first, rows);
+    }
+    if (code->is_explicit)
+        text_addf(out, "    model_tangent_accelerations(p, t, y, s, s + %d);\n",
+                  first + code->layout->nx + code->layout->nz);
+    text_add(out, "    return status;\n}\n"
+                  "\nint model_solve_rows(real *a, int n, real *x, real *work)\n{\n"
+                  "    return model_eliminate(a, n, x, work);\n}\n");
+}
+
 static void add_list(Text *out, const double *values, int count)
 {
     for (int i = 0; i < count; i++) {
@@ -495,6 +531,8 @@ static void write_file(const Code *code, const Language *language, Text *out)
         text_addf(
             out, "void model_%s(const real *p, real t, const real *y, const real *s, real *out);\n",
             code->functions.at[f].name);
+    if (code->live.is_wanted)
+        add_tangent_declarations(out);
     text_add(out, "\n#ifdef __cplusplus\n}\n#endif\n");
     if (code->inverse != NULL)
         add_inverse_declarations(code, out);
@@ -512,8 +550,12 @@ static void write_file(const Code *code, const Language *language, Text *out)
     add_projection(code, out);
     if (code->inverse != NULL)
         add_inverse(code, out);
-    add_check(code, out);
-    add_driver(code, out);
+    if (code->live.is_wanted)
+        add_tangent(code, out);
+    else {
+        add_check(code, out);
+        add_driver(code, out);
+    }
     text_add(out, "#endif\n");
 }
 

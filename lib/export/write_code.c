@@ -5,7 +5,7 @@ static Status write_in(const Exported *what, const Language *language, Text *out
 {
     Code *code = NULL;
 
-    TRY(code_new(what, &code, diag));
+    TRY(code_new(what, false, &code, diag));
     language->file(code, language, out);
     code_free(code);
     return OK;
@@ -16,7 +16,7 @@ static Status write_in(const Exported *what, const Language *language, Text *out
     {                                                                                              \
         return write_in(what, &language_##word, out, diag);                                        \
     }                                                                                              \
-    const Format format_##word = {NEED_CODE, write_##word};
+    const Format format_##word = {.need = NEED_CODE, .write = write_##word};
 
 LANGUAGE(c)
 LANGUAGE(python)

@@ -88,4 +88,4 @@ static Status write(const Exported *what, Text *out, Diag *diag)
     return OK;
 }
 
-const Format format_csv = {NEED_RUN, write};
+const Format format_csv = {.need = NEED_RUN, .write = write};

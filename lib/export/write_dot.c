@@ -10,4 +10,4 @@ static Status write(const Exported *what, Text *out, Diag *diag)
     return OK;
 }
 
-const Format format_dot = {NEED_MODEL, write};
+const Format format_dot = {.need = NEED_MODEL, .write = write};

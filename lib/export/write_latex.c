@@ -56,4 +56,4 @@ static Status write(const Exported *what, Text *out, Diag *diag)
     return OK;
 }
 
-const Format format_latex = {NEED_SYSTEM, write};
+const Format format_latex = {.need = NEED_SYSTEM, .write = write};

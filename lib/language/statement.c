@@ -439,23 +439,6 @@ void statement_free(Statement *statement)
     pool_free(pool);
 }
 
-static Status check_later_words(const Statement *statement, Diag *diag)
-{
-    const Operand *word = statement->operands.count > 0 ? &statement->operands.at[0] : NULL;
-
-    if (word != NULL && words_hold(statement->row.later_words, word->value->text)) {
-        Text usage = {0};
-
-        (void)diag_at(diag, E_MISSING, word->place, "'%s %s' comes with a later version",
-                      statement->verb, word->value->text);
-        verb_usage(&usage, &statement->row);
-        diag_hint(diag, "usage: %s", usage.at);
-        text_free(&usage);
-        return E_MISSING;
-    }
-    return OK;
-}
-
 Status statement_check_version(const Statement *statement, Diag *diag)
 {
     for (const Statement *s = statement; s != NULL; s = s->rest) {
@@ -467,7 +450,6 @@ Status statement_check_version(const Statement *statement, Diag *diag)
             diag_hint(diag, "%s", s->row.brief);
             return E_MISSING;
         }
-        TRY(check_later_words(s, diag));
     }
     return OK;
 }

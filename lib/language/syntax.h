@@ -138,8 +138,6 @@ typedef struct Verb {
                                  names, which stand in brackets then: `tree (rotation)` */
     const VerbKey *keys;
     const char *optioned; /* the one of its words that keys and `at` go with; NULL: always */
-    /* what comes with a later version, ended by NULL; NULL: nothing */
-    const char *const *later_words;
     Offers offers;
     const char *usage;   /* one line; NULL: verb_usage() */
     const char *brief;   /* one line, no full stop */

@@ -114,8 +114,7 @@ static Status check_word(const Parser *parser, const Verb *verb, const Token *to
     Suggest suggest = suggest_for(token->text);
     Text list = {0};
 
-    if (verb->words == NULL || words_hold(verb->words, token->text) ||
-        words_hold(verb->later_words, token->text))
+    if (verb->words == NULL || words_hold(verb->words, token->text))
         return OK;
     for (const char *const *w = verb->words; *w != NULL; w++) {
         suggest_offer(&suggest, *w);

@@ -40,10 +40,6 @@ static const char *const imported_formats[] = {
 #include "language/importers.def"
 #undef IMPORTER
     NULL};
-static const char *const later_formats[] = {
-#define LATER_FORMAT(word) #word,
-#include "language/formats.def"
-    NULL};
 
 /* clang-format off */
 static const Verb table[] = {

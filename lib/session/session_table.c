@@ -1,6 +1,7 @@
 /* session_table.c: values, tables, expectations and exports for programs */
 #include "session/session_impl.h"
 
+#include "export/archive.h"
 #include "export/write.h"
 #include "present/show.h"
 #include "session/session_code.h"
@@ -551,6 +552,113 @@ static Status prepare(ct_session *session, const Statement *s, Need need, Sheet 
     return session_prepare(session, need, &what->view, diag);
 }
 
+/* what only FMUs are told */
+static Status read_form(ct_session *session, const Statement *s, bool is_archive, Exported *what,
+                        Diag *diag)
+{
+    what->version = 2;
+    for (int i = 0; i < s->pairs.count; i++) {
+        const Pair *pair = &s->pairs.at[i];
+        double number;
+
+        if (strcmp(pair->name, "kind") == 0) {
+            what->only_exchange = strcmp(pair->value->text, "exchange") == 0;
+            what->only_simulation = strcmp(pair->value->text, "simulation") == 0;
+            if (!what->only_exchange && !what->only_simulation &&
+                strcmp(pair->value->text, "both") != 0)
+                return diag_at(diag, E_VALUE, pair->value->place,
+                               "kind= is one of both, exchange, simulation");
+            continue;
+        }
+        TRY(session_number(session, pair->value, &number, diag));
+        if (number != 2 && number != 3)
+            return diag_at(diag, E_VALUE, pair->value->place, "version= is 2 or 3");
+        what->version = (int)number;
+    }
+    if (!is_archive && s->pairs.count > 0)
+        return diag_at(diag, E_SYNTAX, s->pairs.at[0].name_place, "'export %s' takes no keys",
+                       s->operands.at[0].value->text);
+    return OK;
+}
+
+static Status refuse_screen(const Statement *s, Diag *diag)
+{
+    const char *name = s->operands.at[0].value->text;
+
+    (void)diag_at(diag, E_SYNTAX, s->operands.at[0].place, "'export %s' goes to a file", name);
+    diag_hint(diag, "export %s > \"model.%s\"", name, name);
+    return E_SYNTAX;
+}
+
+ct_status ct_export_archive(ct_session *session, const ct_statement *statement, ct_archive **out,
+                            ct_error *error)
+{
+    SESSION_CALL(session, session_ran_out(session, error));
+
+    const Statement *s = statement_of(statement);
+    const Format *format =
+        s->operands.count > 0 ? format_find(s->operands.at[0].value->text) : NULL;
+    Exported what = {.view = session_view(session)};
+    Sheet sheet = {0};
+    CodeItems items = {0};
+    Diag diag = {0};
+    Archive *archive = NULL;
+    Status status = OK;
+
+    *out = NULL;
+    if (format == NULL || format->pack == NULL)
+        return CT_OK;
+    session_begin(session);
+    CHECK(read_form(session, s, true, &what, &diag));
+    CHECK(prepare(session, s, format->need, &sheet, &items, &what, &diag));
+    CHECK(format->pack(&what, &archive, &diag));
+    *out = (ct_archive *)(void *)archive;
+done:
+    sheet_free(&sheet);
+    code_items_free(&items);
+    return session_report(status, &diag, error);
+}
+
+static const Archive *archive_of(const ct_archive *archive)
+{
+    return (const Archive *)(const void *)archive;
+}
+
+bool ct_archive_file(const ct_archive *archive, int i, const char **name, const char **bytes,
+                     size_t *length)
+{
+    const Archive *a = archive_of(archive);
+
+    if (i < 0 || i >= a->files.count)
+        return false;
+    *name = a->files.at[i].name;
+    *bytes = a->files.at[i].bytes;
+    *length = a->files.at[i].length;
+    return true;
+}
+
+const char *ct_archive_binary(const ct_archive *archive)
+{
+    return archive_of(archive)->binary;
+}
+
+ct_status ct_archive_pack(ct_session *session, const ct_archive *archive, const char *binary,
+                          size_t binary_length, char **bytes, size_t *length, ct_error *error)
+{
+    SESSION_CALL(session, session_ran_out(session, error));
+
+    Diag diag = {0};
+
+    return session_report(
+        archive_pack(archive_of(archive), binary, binary_length, bytes, length, &diag), &diag,
+        error);
+}
+
+void ct_archive_free(ct_archive *archive)
+{
+    archive_free((Archive *)(void *)archive);
+}
+
 ct_status ct_export(ct_session *session, const ct_statement *statement, bool with_header,
                     char **text, ct_error *error)
 {
@@ -569,6 +677,11 @@ ct_status ct_export(ct_session *session, const ct_statement *statement, bool wit
     session_begin(session);
     if (format == NULL) {
         status = diag_at(&diag, E_NAME, s->verb_place, "no format is called '%s'", name);
+        goto done;
+    }
+    CHECK(read_form(session, s, false, &what, &diag));
+    if (format->write == NULL) {
+        status = refuse_screen(s, &diag);
         goto done;
     }
     CHECK(prepare(session, s, format->need, &sheet, &items, &what, &diag));

@@ -192,18 +192,10 @@ static void later_words_say_that_they_are(void)
 static void help_and_hints_offer_what_is_there(void)
 {
     static const char *const habits[] = {"for", "while", "run", "joint", "exit", "list", "echo"};
-    static const char *const formats[] = {"fmu"};
-    char *formats_page = ct_help("export"), *overview = ct_help("");
+    char *overview = ct_help("");
     Kit kit = kit_new();
     Verb verb;
 
-    for (size_t i = 0; i < sizeof formats / sizeof formats[0]; i++) {
-        char line[40];
-
-        EXPECT_LACKS(formats_page, formats[i]);
-        (void)snprintf(line, sizeof line, "export %s", formats[i]);
-        EXPECT(comes_later(line));
-    }
     for (size_t i = 0; i < sizeof habits / sizeof habits[0]; i++) {
         EXPECT(kit_do(&kit, habits[i]) == CT_FAILED);
         for (int v = 0; verb_at(v, &verb); v++) {
@@ -214,7 +206,6 @@ static void help_and_hints_offer_what_is_there(void)
                 EXPECT_LACKS(kit.error.hint, quoted);
         }
     }
-    ct_free(formats_page);
     ct_free(overview);
     kit_free(&kit);
 }

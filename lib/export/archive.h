@@ -1,0 +1,27 @@
+/* archive.h: files that go out as one: a zip */
+#ifndef COTREE_EXPORT_ARCHIVE_H
+#define COTREE_EXPORT_ARCHIVE_H
+
+#include "base/diag.h"
+#include "base/memory.h"
+
+typedef struct ArchiveFile {
+    char *name; /* with folders: "sources/model.c" */
+    char *bytes;
+    size_t length;
+} ArchiveFile;
+
+typedef struct Archive {
+    LIST(ArchiveFile) files;
+    const char *binary; /* where a binary for this machine belongs; NULL: there is no name for it */
+} Archive;
+
+void archive_free(Archive *archive); /* NULL is fine */
+/* Another file; takes `bytes`. */
+void archive_take(Archive *archive, const char *name, char *bytes, size_t length);
+/* The zip, new: the same bytes for the same files. `binary`: the one for this machine; NULL: none.
+ */
+MUST_USE Status archive_pack(const Archive *archive, const char *binary, size_t binary_length,
+                             char **bytes, size_t *length, Diag *diag);
+
+#endif

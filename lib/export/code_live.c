@@ -1,0 +1,390 @@
+/* code_live.c: what code needs that goes through events by itself
+ *
+ * What jumps stands on signs, which are parameters: between events all functions are smooth, and
+ * each event looks at which sign is next. Derivatives are taken of the formulas themselves, along a
+ * direction (dt, dy, ds) that stands behind s: one pass each, whatever the number of variables. */
+#include "export/code.h"
+
+#include "model/model.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/* --- what jumps or bends --- */
+
+typedef struct Calls { /* whose condition may change its sign, in a formula */
+    Arena *arena;
+} Calls;
+
+static bool has_condition(Expr e, void *context)
+{
+    const Calls *calls = context;
+    Expr condition = switch_condition(calls->arena, e);
+
+    return condition != NULL && !expr_is_number(condition);
+}
+
+static Expr side_symbol(Code *code, int i)
+{
+    char name[24];
+
+    (void)snprintf(name, sizeof name, "#side.%d", i + 1);
+    return expr_symbol(code->arena, pool_text(code->texts, name, strlen(name)), SYMBOL_PARAMETER);
+}
+
+/* whether time alone moves it at an even rate, between what it jumps at: then it is known when it
+ * is 0 next */
+static bool is_even(const Code *code, Expr phase)
+{
+    Expr t = code->layout->symbols[code->layout->t];
+
+    return expr_is_zero(expr_diff(code->arena, expr_diff(code->arena, phase, t), t));
+}
+
+static void add_side(Code *code, Expr condition, Expr call)
+{
+    const unsigned unknown = 1U << SYMBOL_EFFORT | 1U << SYMBOL_JERK;
+    const unsigned of_time = 1U << SYMBOL_TIME | 1U << SYMBOL_PARAMETER;
+    CodeSide side = {.call = call};
+    int way;
+
+    if (expr_is_number(condition) || (expr_kinds(condition) & unknown) != 0)
+        return;
+    side.surface.condition = side.surface.measure = surface_of(code->arena, condition, &way);
+    side.surface.side = 1;
+    side.is_floor = (expr_kinds(condition) & ~of_time) == 0 && expr_op(call) == OP_FLOOR;
+    side.is_timed = (expr_kinds(condition) & ~of_time) == 0 &&
+                    is_even(code, side.is_floor ? expr_arg(call, 0) : side.surface.condition);
+    side.is_floor = side.is_floor && side.is_timed;
+    for (int i = 0; i < code->live.sides.count; i++)
+        if (code->live.sides.at[i].surface.condition == side.surface.condition)
+            return;
+    LIST_PUSH(code->live.sides, side);
+}
+
+static void add_sides_of(Code *code, const Expr *formulas, int count)
+{
+    Calls calls = {code->arena};
+    Expr *found;
+    const int number = expr_find(formulas, count, has_condition, &calls, &found);
+
+    for (int i = 0; i < number; i++)
+        add_side(code, switch_condition(code->arena, found[i]), found[i]);
+    mem_free(found);
+}
+
+/* those of t alone first, each with a sign */
+static void order_sides(Code *code)
+{
+    CodeLive *live = &code->live;
+
+    for (int i = 0; i < live->sides.count; i++)
+        if (live->sides.at[i].is_timed) {
+            const CodeSide timed = live->sides.at[i];
+
+            memmove(&live->sides.at[live->timed + 1], &live->sides.at[live->timed],
+                    (size_t)(i - live->timed) * sizeof timed);
+            live->sides.at[live->timed++] = timed;
+        }
+    for (int i = 0; i < live->sides.count; i++)
+        live->sides.at[i].surface.sign = side_symbol(code, i);
+}
+
+/* --- events of the model --- */
+
+static CodeLevel level_of(Expr target)
+{
+    const unsigned kinds = expr_kinds(target);
+
+    return (kinds & 1U << SYMBOL_SPEED) != 0   ? CODE_SPEED
+           : (kinds & 1U << SYMBOL_STATE) != 0 ? CODE_STATE
+                                               : CODE_COORDINATE;
+}
+
+/* in y, if a state is what it is */
+static int place_of(const Layout *l, Expr target)
+{
+    const int first[] = {l->q, l->u, l->x}, counts[] = {l->n, l->nu, l->nx};
+
+    for (int part = 0, at = 0; part < COUNT(first); at += counts[part++])
+        for (int i = 0; i < counts[part]; i++)
+            if (l->symbols[first[part] + i] == target)
+                return at + i;
+    return -1;
+}
+
+typedef LIST(Expr) Exprs;
+
+static Status add_event(Code *code, const Event *event, Exprs *truths, Exprs *values,
+                        Exprs *targets, Diag *diag)
+{
+    Status status = OK;
+    Expr e;
+
+    CHECK(code_resolve(code, event->when, &e, event->name, diag));
+    LIST_PUSH(*truths, e);
+    LIST_PUSH(code->live.events, ((CodeEvent){event, values->count}));
+    for (int k = 0; event->action == EVENT_SET && k < event->value_count; k++) {
+        const NewValue *value = &event->values[k];
+
+        CHECK(code_resolve(code, value->value, &e, event->name, diag));
+        LIST_PUSH(*values, e);
+        CHECK(system_variable(code->layout->system, value->name, value->primes, &e, diag));
+        LIST_PUSH(*targets, e);
+        LIST_PUSH(code->live.targets, level_of(e));
+        LIST_PUSH(code->live.places, place_of(code->layout, e));
+    }
+done:
+    return status;
+}
+
+static Status add_samples(Code *code, Diag *diag)
+{
+    System *system = code->layout->system;
+    const OwnSample *own;
+    Exprs periods = {0}, next = {0};
+    Status status = OK;
+
+    for (int i = 0; (own = system_sample(system, i)) != NULL; i++) {
+        Expr e;
+
+        if (own->period == NULL)
+            continue;
+        CHECK(code_resolve(code, own->next, &e, "what is sampled", diag));
+        LIST_PUSH(next, e);
+        LIST_PUSH(periods, own->period);
+        LIST_PUSH(code->live.samples, own->state);
+    }
+    code_add_function(code, "periods", "sampling periods", periods.at, periods.count, 1);
+    code_add_function(code, "samples", "sampled states behind their instants", next.at, next.count,
+                      1);
+done:
+    LIST_FREE(periods);
+    LIST_FREE(next);
+    return status;
+}
+
+/* where each condition of time is next: its phase, 0 or a whole number there, and that one's rate
+ */
+static void add_timers(Code *code)
+{
+    const CodeLive *live = &code->live;
+    Expr *entries = NEW_ARRAY(Expr, 2 * live->timed);
+    Expr t = code->layout->symbols[code->layout->t];
+
+    for (int i = 0; i < live->timed; i++) {
+        const CodeSide *side = &live->sides.at[i];
+
+        entries[2 * i] = side->is_floor ? expr_arg(side->call, 0) : side->surface.condition;
+        entries[2 * i + 1] = expr_diff(code->arena, entries[2 * i], t);
+    }
+    code_add_function(code, "timers", "phases of conditions of time, and their rates", entries,
+                      live->timed, 2);
+    mem_free(entries);
+}
+
+/* roots from `first` on, on the signs of what jumps */
+static void put_signs(Code *code)
+{
+    const CodeLive *live = &code->live;
+    Surface *surfaces = NEW_ARRAY(Surface, live->sides.count);
+
+    for (int i = 0; i < live->sides.count; i++)
+        surfaces[i] = live->sides.at[i].surface;
+    for (int i = 0; i < code->roots.count; i++)
+        code->roots.at[i] =
+            surfaces_put(code->arena, code->roots.at[i], surfaces, live->sides.count);
+    mem_free(surfaces);
+}
+
+/* Modes in which other states stand are more than one program. */
+static Status refuse_ideal(System *system, Diag *diag)
+{
+    for (int i = 0; i < system_ideal_count(system); i++) {
+        IdealSwitch ideal;
+
+        if (!system_is_ideal(system, i))
+            continue;
+        TRY(system_ideal(system, i, &ideal, diag));
+        (void)diag_set(diag, E_MISSING, "%s is ideal, and an FMU holds no modes", ideal.name);
+        diag_hint(diag, "give it Ron= and Roff=");
+        return E_MISSING;
+    }
+    return OK;
+}
+
+Status code_live_events(Code *code, Diag *diag)
+{
+    const Model *model = code->view->model;
+    CodeLive *live = &code->live;
+    Exprs truths = {0}, values = {0}, targets = {0}, measures = {0};
+    const Switch *switches;
+    int time_only;
+    const int count = system_switches(code->layout->system, &switches, &time_only);
+    Status status = refuse_ideal(code->layout->system, diag);
+
+    if (status != OK)
+        return status;
+    for (int i = 0; i < count; i++)
+        add_side(code, switches[i].condition, switches[i].call);
+    for (int i = 0; i < model_event_count(model); i++)
+        CHECK(add_event(code, model_event(model, i), &truths, &values, &targets, diag));
+    CHECK(add_samples(code, diag));
+    add_sides_of(code, truths.at, truths.count);
+    order_sides(code);
+    for (int i = 0; i < live->sides.count; i++)
+        LIST_PUSH(measures, live->sides.at[i].surface.condition);
+    code_add_function(code, "indicators", "what equations jump or bend at", measures.at,
+                      measures.count, 1);
+    add_timers(code);
+    code_add_function(code, "events", "conditions of events: 1 while they hold", truths.at,
+                      truths.count, 1);
+    code_add_function(code, "values", "new values of events", values.at, values.count, 1);
+    code_add_function(code, "targets", "what they are given to", targets.at, targets.count, 1);
+    put_signs(code);
+done:
+    LIST_FREE(truths);
+    LIST_FREE(values);
+    LIST_FREE(targets);
+    LIST_FREE(measures);
+    return status;
+}
+
+/* --- derivatives --- */
+
+/* symbols that the direction moves: t, y, s of groups that come before `most` */
+static int directions(const Code *code, int most, Expr *symbols, Expr *rates)
+{
+    const Layout *l = code->layout;
+    const int y[] = {l->q, l->u, l->x, l->references};
+    const int counts[] = {l->n, l->nu, l->nx, l->multi_turns};
+    int count = 0;
+
+    symbols[count++] = l->symbols[l->t];
+    for (int part = 0; part < COUNT(y); part++)
+        for (int i = 0; i < counts[part]; i++)
+            symbols[count++] = l->symbols[y[part] + i];
+    for (int i = 0; i < most; i++)
+        symbols[count++] = l->symbols[l->rates + i];
+    memcpy(rates, code->live.seeds, (size_t)count * sizeof(Expr));
+    return count;
+}
+
+static Expr along(const Code *code, Expr e, int most)
+{
+    const int room = 1 + code->ny + code->ns;
+    Expr *symbols = NEW_ARRAY(Expr, room), *rates = NEW_ARRAY(Expr, room);
+    const int count = directions(code, most, symbols, rates);
+
+    e = expr_diff_along(code->arena, e, symbols, rates, count);
+    MEM_FREE(symbols, rates);
+    return e;
+}
+
+/* the same of all entries of a function */
+static void add_tangent(Code *code, const char *of, const char *name, const char *what)
+{
+    const CodeFunction *f = NULL;
+    Expr *entries;
+
+    for (int i = 0; i < code->functions.count; i++)
+        if (strcmp(code->functions.at[i].name, of) == 0)
+            f = &code->functions.at[i];
+    if (f == NULL)
+        return;
+    const int first = f->first, rows = f->rows;
+
+    entries = NEW_ARRAY(Expr, rows);
+    for (int i = 0; i < rows; i++)
+        entries[i] = along(code, code->roots.at[first + i], code->ns);
+    code_add_function(code, name, what, entries, rows, 1);
+    mem_free(entries);
+}
+
+/* what a group's equations lack when all but its own unknowns move */
+static void add_group_tangent(Code *code, int g)
+{
+    static const char *const names[] = {"tangent_1", "tangent_2"};
+    const CodeGroup *group = &code->groups[g];
+    const CodeFunction f = code->functions.at[group->function];
+    Expr *entries = NEW_ARRAY(Expr, group->count);
+
+    for (int i = 0; i < group->count; i++) {
+        const Expr *row = code->roots.at + f.first + (ptrdiff_t)i * f.columns;
+        Expr lack = row[group->count];
+
+        for (int k = 0; !group->iterates && k < group->count; k++)
+            lack =
+                expr_sub(code->arena, lack,
+                         expr_mul(code->arena, row[k],
+                                  code->layout->symbols[code->layout->rates + group->first + k]));
+        entries[i] = along(code, lack, group->first);
+    }
+    code->live.tangents[g] = code_add_function(
+        code, names[g], "right sides for derivatives along a direction", entries, group->count, 1);
+    mem_free(entries);
+}
+
+void code_live_tangents(Code *code)
+{
+    const int count = 1 + code->ny + code->ns;
+
+    code->live.seeds = NEW_ARRAY(Expr, count);
+    for (int i = 0; i < count; i++) {
+        char name[24];
+
+        (void)snprintf(name, sizeof name, "#along.%d", i);
+        code->live.seeds[i] = expr_symbol(code->arena, pool_text(code->texts, name, strlen(name)),
+                                          SYMBOL_ACCELERATION);
+    }
+    for (int g = 0; g < code->group_count; g++)
+        add_group_tangent(code, g);
+    add_tangent(code, "accelerations", "tangent_accelerations", "derivatives of u'");
+    add_tangent(code, "derivative", "tangent_derivative", "derivatives of the rates");
+    add_tangent(code, "outputs", "tangent_outputs", "derivatives of outputs");
+    add_tangent(code, "indicators", "tangent_indicators", "derivatives of what is jumped at");
+    add_tangent(code, "targets", "tangent_targets", "derivatives of what events give values to");
+}
+
+/* --- parameters --- */
+
+void code_live_relations(Code *code)
+{
+    const Model *model = code->view->model;
+    const int count = model_parameter_count(model);
+    Expr *symbols = NEW_ARRAY(Expr, count), *values = NEW_ARRAY(Expr, count);
+    bool changed = count > 0;
+
+    code->live.depends = NEW_ARRAY(bool, count);
+    for (int i = 0; i < count; i++) {
+        Expr definition;
+
+        symbols[i] = model_parameter(model, i, &definition);
+        code->live.depends[i] = expr_kinds(definition) != 0;
+        values[i] = code->live.depends[i] ? definition : symbols[i];
+    }
+    for (int rounds = 0; changed && rounds < count; rounds++) {
+        changed = false;
+        for (int i = 0; i < count; i++) {
+            Expr value = code->live.depends[i]
+                             ? expr_substitute(code->arena, values[i], symbols, values, count)
+                             : values[i];
+
+            changed = changed || value != values[i];
+            values[i] = value;
+        }
+    }
+    code_add_function(code, "relations", "parameters from those that follow from none", values,
+                      count, 1);
+    MEM_FREE(symbols, values);
+}
+
+void code_live_free(CodeLive *live)
+{
+    LIST_FREE(live->sides);
+    LIST_FREE(live->events);
+    LIST_FREE(live->targets);
+    LIST_FREE(live->places);
+    LIST_FREE(live->samples);
+    MEM_FREE(live->seeds, live->depends);
+}

@@ -1,0 +1,361 @@
+/* fmu_description.c: modelDescription.xml: what an importer of an FMU is told of its variables
+ *
+ * Value references are those of share/fmu/fmu.h: t, parameters, states, their rates, outputs,
+ * event indicators. In version 2 variables are met by their place in the list, too. */
+#include "export/fmu.h"
+
+#include "base/names.h"
+#include "model/model.h"
+
+#include <string.h>
+
+typedef enum Group { GROUP_T, GROUP_P, GROUP_Y, GROUP_RATE, GROUP_OUT, GROUP_INDICATOR } Group;
+
+typedef struct Described { /* a variable of the interface */
+    Group group;
+    int i; /* in its group */
+    int reference;
+    char *name;
+    bool is_output;
+    int place; /* in the list, from 1 */
+} Described;
+
+typedef struct Description {
+    const Code *code;
+    const Exported *what;
+    Text *out;
+    LIST(Described) variables;
+    LIST(int) outputs; /* in their order: places in `variables` */
+    Names *names;      /* of variables, by their places there */
+    int states;
+} Description;
+
+static void put_escaped(Text *out, const char *text)
+{
+    for (const char *c = text; *c != '\0'; c++)
+        switch (*c) {
+        case '<':
+            text_add(out, "&lt;");
+            break;
+        case '>':
+            text_add(out, "&gt;");
+            break;
+        case '&':
+            text_add(out, "&amp;");
+            break;
+        case '"':
+            text_add(out, "&quot;");
+            break;
+        default:
+            text_char(out, (unsigned char)*c < ' ' ? ' ' : *c);
+        }
+}
+
+/* --- the list --- */
+
+static void add_variable(Description *d, Group group, int i, int reference, const char *name)
+{
+    Described variable = {group,
+                          i,
+                          reference,
+                          mem_text(name, strlen(name)),
+                          group == GROUP_OUT,
+                          d->variables.count + 1};
+
+    (void)names_add(d->names, name);
+    LIST_PUSH(d->variables, variable);
+}
+
+static const char *state_name(const Description *d, int i)
+{
+    const Layout *l = d->code->layout;
+
+    return i < l->n           ? system_q(l->system, i)->name
+           : i < l->n + l->nu ? system_u(l->system, i - l->n)->name
+                              : system_x(l->system, i - l->n - l->nu)->name;
+}
+
+/* what was asked for: a state or parameter itself, if it is one */
+static void add_output(Description *d, int i, int reference)
+{
+    const char *name = d->code->outputs.at[i];
+    int place = names_find(d->names, name);
+
+    if (place < 0) {
+        place = d->variables.count;
+        add_variable(d, GROUP_OUT, i, reference, name);
+    } else if (d->variables.at[place].is_output || d->variables.at[place].group != GROUP_Y)
+        return;
+    d->variables.at[place].is_output = true;
+    LIST_PUSH(d->outputs, place);
+}
+
+static void list_variables(Description *d)
+{
+    const Code *code = d->code;
+    const int parameters = model_parameter_count(code->view->model);
+    int reference = 0;
+    Text name = {0};
+
+    add_variable(d, GROUP_T, 0, reference++, "t");
+    for (int i = 0; i < parameters; i++)
+        add_variable(d, GROUP_P, i, reference++, expr_name(code->parameters.at[i]));
+    for (int i = 0; i < d->states; i++)
+        add_variable(d, GROUP_Y, i, reference++, state_name(d, i));
+    for (int i = 0; i < d->states; i++) {
+        text_addf(&name, "der(%s)", state_name(d, i));
+        add_variable(d, GROUP_RATE, i, reference++, name.at);
+        text_free(&name);
+    }
+    for (int i = 0; i < code->outputs.count; i++)
+        add_output(d, i, reference++);
+    for (int i = 0; d->what->version == 3 && i < code->live.sides.count - code->live.timed; i++) {
+        text_addf(&name, "indicator(%d)", i + 1);
+        add_variable(d, GROUP_INDICATOR, i, reference++, name.at);
+        text_free(&name);
+    }
+}
+
+/* --- attributes --- */
+
+static void put_start(Description *d, double value)
+{
+    text_add(d->out, " start=\"");
+    text_number(d->out, value, 17);
+    text_char(d->out, '"');
+}
+
+/* causality, variability, initial; of version 2 the start stands with the type */
+static void put_kind(Description *d, const Described *v)
+{
+    const char *causality = v->is_output ? "output" : "local";
+
+    if (v->group == GROUP_T)
+        text_add(d->out, " causality=\"independent\" variability=\"continuous\"");
+    else if (v->group == GROUP_P && d->code->live.depends[v->i])
+        text_add(d->out, " causality=\"calculatedParameter\" variability=\"tunable\" "
+                         "initial=\"calculated\"");
+    else if (v->group == GROUP_P)
+        text_add(d->out, " causality=\"parameter\" variability=\"tunable\" initial=\"exact\"");
+    else
+        text_addf(d->out, " causality=\"%s\" variability=\"continuous\" initial=\"%s\"", causality,
+                  v->group == GROUP_Y ? "exact" : "calculated");
+}
+
+static void put_value(Description *d, const Described *v)
+{
+    const Code *code = d->code;
+
+    if (v->group == GROUP_P && !code->live.depends[v->i])
+        put_start(d, code->values[v->i]);
+    if (v->group == GROUP_Y)
+        put_start(d, code->values[code->parameters.count + v->i]);
+    if (v->group == GROUP_RATE) {
+        const int state = 1 + model_parameter_count(code->view->model) + v->i;
+
+        /* by its place in the list in version 2, where states' places are references and 1 */
+        text_addf(d->out, " derivative=\"%d\"", d->what->version == 2 ? state + 1 : state);
+    }
+}
+
+static void put_variables(Description *d)
+{
+    text_add(d->out, "  <ModelVariables>\n");
+    for (int i = 0; i < d->variables.count; i++) {
+        const Described *v = &d->variables.at[i];
+
+        text_addf(d->out, "    <%s name=\"", d->what->version == 2 ? "ScalarVariable" : "Float64");
+        put_escaped(d->out, v->name);
+        text_addf(d->out, "\" valueReference=\"%d\"", v->reference);
+        put_kind(d, v);
+        if (d->what->version == 2) {
+            text_add(d->out, "><Real");
+            put_value(d, v);
+            text_add(d->out, "/></ScalarVariable>\n");
+        } else {
+            put_value(d, v);
+            text_add(d->out, "/>\n");
+        }
+    }
+    text_add(d->out, "  </ModelVariables>\n");
+}
+
+/* --- what depends on what --- */
+
+/* The formula of a function's entry over states alone: which of them. False: what is solved for
+ * stands in it, too, so that it may depend on all. */
+static bool put_dependencies(Description *d, const char *function, int row)
+{
+    const Code *code = d->code;
+    const unsigned solved = 1U << SYMBOL_STATE_RATE | 1U << SYMBOL_ALGEBRAIC |
+                            1U << SYMBOL_ACCELERATION | 1U << SYMBOL_MULTIPLIER;
+    const Layout *l = code->layout;
+    Expr *symbols;
+    Expr e = NULL;
+    int count, written = 0;
+
+    for (int f = 0; f < code->functions.count; f++)
+        if (strcmp(code->functions.at[f].name, function) == 0)
+            e = code->roots.at[code->functions.at[f].first + row];
+    if ((expr_kinds(e) & (solved | 1U << SYMBOL_TURN)) != 0)
+        return false;
+    count = expr_symbols(&e, 1, &symbols);
+    text_add(d->out, " dependencies=\"");
+    for (int i = 0; i < d->states; i++) {
+        const int at = i < l->n           ? l->q + i
+                       : i < l->n + l->nu ? l->u + i - l->n
+                                          : l->x + i - l->n - l->nu;
+
+        for (int k = 0; k < count; k++)
+            if (symbols[k] == l->symbols[at])
+                text_addf(d->out, "%s%d", written++ > 0 ? " " : "",
+                          1 + model_parameter_count(code->view->model) + i +
+                              (d->what->version == 2));
+    }
+    text_char(d->out, '"');
+    mem_free(symbols);
+    return true;
+}
+
+static void put_unknown(Description *d, const char *element, const Described *v, bool is_initial)
+{
+    text_addf(d->out, "      <%s %s=\"%d\"", element,
+              d->what->version == 2 ? "index" : "valueReference",
+              d->what->version == 2 ? v->place : v->reference);
+    if (!is_initial && v->group == GROUP_RATE)
+        (void)put_dependencies(d, "derivative", v->i);
+    else if (!is_initial && v->group == GROUP_OUT)
+        (void)put_dependencies(d, "outputs", v->i);
+    text_add(d->out, "/>\n");
+}
+
+/* all of a group; outputs in their order, states among them */
+static void put_group(Description *d, const char *element, Group group, bool is_initial)
+{
+    for (int i = 0; group == GROUP_OUT && i < d->outputs.count; i++) {
+        const Described *v = &d->variables.at[d->outputs.at[i]];
+
+        if (!is_initial || v->group == GROUP_OUT)
+            put_unknown(d, element, v, is_initial);
+    }
+    for (int i = 0; group != GROUP_OUT && i < d->variables.count; i++)
+        if (d->variables.at[i].group == group &&
+            (group != GROUP_P || d->code->live.depends[d->variables.at[i].i]))
+            put_unknown(d, element, &d->variables.at[i], is_initial);
+}
+
+static void put_structure(Description *d)
+{
+    const bool is_2 = d->what->version == 2;
+    const struct {
+        const char *name, *element;
+        Group group;
+    } parts[] = {{"Outputs", "Output", GROUP_OUT},
+                 {"Derivatives", "ContinuousStateDerivative", GROUP_RATE}};
+
+    text_add(d->out, "  <ModelStructure>\n");
+    for (int i = 0; i < COUNT(parts); i++) {
+        const bool any = parts[i].group == GROUP_OUT ? d->outputs.count > 0 : d->states > 0;
+
+        if (is_2 && any)
+            text_addf(d->out, "    <%s>\n", parts[i].name);
+        put_group(d, is_2 ? "Unknown" : parts[i].element, parts[i].group, false);
+        if (is_2 && any)
+            text_addf(d->out, "    </%s>\n", parts[i].name);
+    }
+    if (is_2)
+        text_add(d->out, "    <InitialUnknowns>\n");
+    for (int g = GROUP_P; g <= GROUP_OUT; g++)
+        if (g != GROUP_Y)
+            put_group(d, is_2 ? "Unknown" : "InitialUnknown", (Group)g, true);
+    if (is_2)
+        text_add(d->out, "    </InitialUnknowns>\n");
+    else
+        put_group(d, "EventIndicator", GROUP_INDICATOR, true);
+    text_add(d->out, "  </ModelStructure>\n");
+}
+
+/* --- the whole --- */
+
+static void put_sources(const Description *d)
+{
+    if (d->what->version == 2)
+        text_add(d->out, ">\n    <SourceFiles>\n      <File name=\"model.c\"/>\n"
+                         "      <File name=\"fmu.c\"/>\n      <File name=\"fmu_step.c\"/>\n"
+                         "      <File name=\"fmi2.c\"/>\n    </SourceFiles>\n");
+}
+
+static void put_kinds(const Description *d)
+{
+    const bool is_2 = d->what->version == 2;
+    const char *state = is_2 ? "canGetAndSetFMUstate=\"true\" canSerializeFMUstate=\"true\" "
+                               "providesDirectionalDerivative=\"true\""
+                             : "canGetAndSetFMUState=\"true\" canSerializeFMUState=\"true\" "
+                               "providesDirectionalDerivatives=\"true\"";
+
+    if (!d->what->only_simulation) {
+        text_addf(d->out, "  <ModelExchange modelIdentifier=\"" FMU_IDENTIFIER "\" %s%s", state,
+                  is_2 ? "" : " needsCompletedIntegratorStep=\"true\"");
+        put_sources(d);
+        text_add(d->out, is_2 ? "  </ModelExchange>\n" : "/>\n");
+    }
+    if (!d->what->only_exchange) {
+        text_addf(d->out,
+                  "  <CoSimulation modelIdentifier=\"" FMU_IDENTIFIER "\" %s "
+                  "canHandleVariableCommunicationStepSize=\"true\" maxOutputDerivativeOrder=\"1\"",
+                  state);
+        put_sources(d);
+        text_add(d->out, is_2 ? "  </CoSimulation>\n" : "/>\n");
+    }
+}
+
+static void put_head(const Description *d, const char *token)
+{
+    const bool is_2 = d->what->version == 2;
+    const char *title = model_title(d->code->view->model);
+
+    text_addf(d->out,
+              "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+              "<fmiModelDescription fmiVersion=\"%s\" modelName=\"",
+              is_2 ? "2.0" : "3.0");
+    put_escaped(d->out, title != NULL && title[0] != '\0' ? title : "model");
+    text_addf(d->out, "\" %s=\"%s\" generationTool=\"cotree\" variableNamingConvention=\"flat\"",
+              is_2 ? "guid" : "instantiationToken", token);
+    if (is_2)
+        text_addf(d->out, " numberOfEventIndicators=\"%d\"",
+                  d->code->live.sides.count - d->code->live.timed);
+    text_add(d->out, ">\n");
+}
+
+static void put_categories(Text *out)
+{
+    static const char *const names[] = {"logEvents", "logStatusWarning", "logStatusDiscard",
+                                        "logStatusError", "logStatusFatal"};
+
+    text_add(out, "  <LogCategories>\n");
+    for (int i = 0; i < COUNT(names); i++)
+        text_addf(out, "    <Category name=\"%s\"/>\n", names[i]);
+    text_add(out, "  </LogCategories>\n");
+}
+
+void fmu_describe(const Code *code, const Exported *what, const char *token, Text *out)
+{
+    const Layout *l = code->layout;
+    Description d = {.code = code, .what = what, .out = out};
+
+    d.states = l->n + l->nu + l->nx;
+    d.names = names_new();
+    list_variables(&d);
+    put_head(&d, token);
+    put_kinds(&d);
+    put_categories(out);
+    text_add(out, "  <DefaultExperiment startTime=\"0\" tolerance=\"" FMU_TOLERANCE "\"/>\n");
+    put_variables(&d);
+    put_structure(&d);
+    text_add(out, "</fmiModelDescription>\n");
+    for (int i = 0; i < d.variables.count; i++)
+        mem_free(d.variables.at[i].name);
+    LIST_FREE(d.variables);
+    LIST_FREE(d.outputs);
+    names_free(d.names);
+}

@@ -1,0 +1,199 @@
+/* write_fmu.c: the files of an FMU */
+#include "export/fmu.h"
+
+#include "model/model.h"
+
+#include <inttypes.h>
+#include <string.h>
+
+/* --- model_fmu.h: the model's numbers and tables for the instance --- */
+
+static void add_numbers(Text *out, const char *type, const char *name, const int *values, int count)
+{
+    text_addf(out, "static const %s %s[] = {", type, name);
+    for (int i = 0; i < count; i++)
+        text_addf(out, "%d, ", values[i]);
+    text_add(out, "0};\n");
+}
+
+static void add_events(const Code *code, Text *out)
+{
+    const CodeLive *live = &code->live;
+    const int events = live->events.count;
+    int *first = NEW_ARRAY(int, events), *count = NEW_ARRAY(int, events);
+    int *action = NEW_ARRAY(int, events), *level = NEW_ARRAY(int, live->targets.count);
+
+    text_add(out, "static const char *const fmu_event_name[] = {");
+    for (int i = 0; i < events; i++) {
+        const Event *event = live->events.at[i].event;
+
+        first[i] = live->events.at[i].first;
+        count[i] = event->action == EVENT_SET ? event->value_count : 0;
+        action[i] = (int)event->action;
+        text_addf(out, "\"%s\", ", event->name);
+    }
+    text_add(out, "0};\n");
+    for (int i = 0; i < live->targets.count; i++)
+        level[i] = (int)live->targets.at[i];
+    add_numbers(out, "int", "fmu_event_first", first, events);
+    add_numbers(out, "int", "fmu_event_count", count, events);
+    add_numbers(out, "int", "fmu_action", action, events);
+    add_numbers(out, "int", "fmu_level", level, live->targets.count);
+    add_numbers(out, "int", "fmu_place", live->places.at, live->places.count);
+    MEM_FREE(first, count, action, level);
+}
+
+static void add_tables(const Code *code, Text *out)
+{
+    const CodeLive *live = &code->live;
+    const int parameters = model_parameter_count(code->view->model);
+    int *numbers = NEW_ARRAY(int, live->sides.count + parameters);
+    LIST(int) quaternions = {0};
+
+    text_add(out, "\n#ifdef FMU_TABLES\n");
+    for (int i = 0; i < parameters; i++)
+        numbers[i] = live->depends[i];
+    add_numbers(out, "int", "fmu_depends", numbers, parameters);
+    for (int i = 0; i < live->timed; i++)
+        numbers[i] = live->sides.at[i].is_floor;
+    add_numbers(out, "int", "fmu_is_floor", numbers, live->timed);
+    add_numbers(out, "int", "fmu_sample", live->samples.at, live->samples.count);
+    for (int first; (first = system_quaternion(code->layout->system, quaternions.count)) >= 0;)
+        LIST_PUSH(quaternions, first);
+    add_numbers(out, "int", "fmu_quaternion", quaternions.at, quaternions.count);
+    LIST_FREE(quaternions);
+    mem_free(numbers);
+    add_events(code, out);
+    text_add(out, "#endif\n\n#endif\n");
+}
+
+static void write_header(const Code *code, const Exported *what, const char *token, Text *out)
+{
+    const Layout *l = code->layout;
+    const CodeLive *live = &code->live;
+    const int rows = (l->nu + l->m > l->nx ? l->nu + l->m : l->nx) +
+                     live->targets.count, /* of new values */
+        states = l->n + l->nu + l->nx;
+    int quaternions = 0;
+
+    while (system_quaternion(l->system, quaternions) >= 0)
+        quaternions++;
+    text_addf(out,
+              "/* model_fmu.h: what the instance (fmu.c) is told of the model (model.c) */\n"
+              "#ifndef MODEL_FMU_H\n#define MODEL_FMU_H\n\n#define MODEL_DECLARED\n"
+              "#include \"model.c\"\n\n#define FMU_TOKEN \"%s\"\n"
+              "#define FMU_TOLERANCE %s\n\n"
+              "enum {\n    FMU_MODEL_EXCHANGE = %d,\n    FMU_CO_SIMULATION = %d,\n"
+              "    FMU_PARAMETERS = %d, /* the first ones, that have names */\n"
+              "    FMU_FIRST_SIDE = %d, /* in p: signs of what is jumped at */\n"
+              "    FMU_SIDES = %d,\n    FMU_TIMED = %d, /* of those, that are of time alone */\n"
+              "    FMU_EVENTS_COUNT = %d,\n    FMU_TARGETS = %d, /* that events give values to */\n"
+              "    FMU_SAMPLES = %d,\n    FMU_QUATERNIONS = %d,\n    FMU_ROWS = %d,\n",
+              token, FMU_TOLERANCE, !what->only_simulation, !what->only_exchange,
+              model_parameter_count(code->view->model), live->first, live->sides.count, live->timed,
+              live->events.count, live->targets.count, live->samples.count, quaternions, rows);
+    text_addf(out,
+              "    FMU_SPACE = 2 * (FMU_ROWS + 2) * (FMU_ROWS + 2) + %d\n};\n"
+              "enum { FMU_MARKS, FMU_STOPS, FMU_SETS };          /* what events do */\n"
+              "enum { FMU_COORDINATE, FMU_SPEED, FMU_STATE };    /* what they give values to */\n",
+              2 * states * states + 16 * states + 1);
+    add_tables(code, out);
+}
+
+/* --- the archive --- */
+
+static void take_text(Archive *archive, const char *name, Text *text)
+{
+    const size_t length = text->length;
+
+    archive_take(archive, name, text_done(text), length);
+}
+
+static void take_lines(Archive *archive, const char *name, const char *const *lines)
+{
+    Text text = {0};
+
+    for (int i = 0; lines[i] != NULL; i++)
+        text_add(&text, lines[i]);
+    take_text(archive, name, &text);
+}
+
+/* 128 bits of FNV-1a (Fowler, Noll, Vo), in two halves of other starts: what a description and a
+ * binary know each other by */
+static void make_token(const char *code, const Exported *what, char token[40])
+{
+    uint64_t half[2] = {UINT64_C(14695981039346656037), UINT64_C(88172645463325252)};
+
+    for (int k = 0; k < COUNT(half); k++) {
+        for (const char *c = code; *c != '\0'; c++)
+            half[k] = (half[k] ^ (unsigned char)*c) * UINT64_C(1099511628211);
+        half[k] = (half[k] ^ (uint64_t)what->version) * UINT64_C(1099511628211);
+    }
+    (void)snprintf(token, 40,
+                   "{%08" PRIx64 "-%04" PRIx64 "-%04" PRIx64 "-%04" PRIx64 "-%012" PRIx64 "}",
+                   half[0] >> 32, half[0] >> 16 & 0xffff, half[0] & 0xffff, half[1] >> 48,
+                   half[1] & UINT64_C(0xffffffffffff));
+}
+
+/* which sources there are, of version 3 */
+static void write_build(Text *out)
+{
+    text_add(out, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+                  "<fmiBuildDescription fmiVersion=\"3.0\">\n"
+                  "  <BuildConfiguration modelIdentifier=\"" FMU_IDENTIFIER "\">\n"
+                  "    <SourceFileSet language=\"C99\">\n"
+                  "      <SourceFile name=\"model.c\"/>\n      <SourceFile name=\"fmu.c\"/>\n"
+                  "      <SourceFile name=\"fmu_step.c\"/>\n      <SourceFile name=\"fmi3.c\"/>\n"
+                  "    </SourceFileSet>\n    <Library name=\"m\"/>\n"
+                  "  </BuildConfiguration>\n</fmiBuildDescription>\n");
+}
+
+/* Where a binary for this machine stands, by the names of the standard. */
+static const char *binary_place(int version)
+{
+#if defined __linux__ && defined __x86_64__
+    return version == 2 ? "binaries/linux64/" FMU_IDENTIFIER ".so"
+                        : "binaries/x86_64-linux/" FMU_IDENTIFIER ".so";
+#elif defined __linux__ && defined __aarch64__
+    return version == 2 ? NULL : "binaries/aarch64-linux/" FMU_IDENTIFIER ".so";
+#else
+    (void)version;
+    return NULL;
+#endif
+}
+
+static Status pack(const Exported *what, Archive **out, Diag *diag)
+{
+    Code *code = NULL;
+    Archive *archive = NULL;
+    Text text = {0}, model = {0};
+    char token[40];
+
+    if (what->inverse != NULL)
+        return diag_set(diag, E_MODEL, "an FMU goes forward: efforts of drivers come as code");
+    TRY(code_new(what, true, &code, diag));
+    archive = NEW(Archive);
+    archive->binary = binary_place(what->version);
+    language_c.file(code, &language_c, &model);
+    make_token(model.at, what, token);
+    fmu_describe(code, what, token, &text);
+    take_text(archive, "modelDescription.xml", &text);
+    take_text(archive, "sources/model.c", &model);
+    write_header(code, what, token, &text);
+    take_text(archive, "sources/model_fmu.h", &text);
+    take_lines(archive, "sources/fmu.h", fmu_text_fmu_h);
+    take_lines(archive, "sources/fmu.c", fmu_text_fmu_c);
+    take_lines(archive, "sources/fmu_step.c", fmu_text_fmu_step_c);
+    if (what->version == 2)
+        take_lines(archive, "sources/fmi2.c", fmu_text_fmi2_c);
+    else {
+        take_lines(archive, "sources/fmi3.c", fmu_text_fmi3_c);
+        write_build(&text);
+        take_text(archive, "sources/buildDescription.xml", &text);
+    }
+    code_free(code);
+    *out = archive;
+    return OK;
+}
+
+const Format format_fmu = {.need = NEED_CODE, .pack = pack};

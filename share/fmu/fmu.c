@@ -1,0 +1,619 @@
+/* fmu.c: an instance: its variables, its events, its states onto the constraints */
+#define FMU_TABLES
+#include "fmu.h"
+
+#include <stdio.h>
+#include <string.h>
+
+enum { ROUNDS = 100 };  /* in which one event may set off others */
+#define INSTANT   1e-12 /* of time, in units of 1 + |t|: instants that can't be told apart */
+#define LATE      10.0  /* times what an importer found an event late: so much can't be told, too */
+#define LATEST    1e-3  /* s: later than that nothing was found there */
+#define SAME      1e-9  /* of a period: sampling instants that can't be told apart */
+#define DRIFT     10.0  /* of the tolerance: how far a state may leave the constraints */
+#define PROJECTED 1e-12 /* how near it is put */
+
+FmuStatus fmu_fail(Fmu *fmu, FmuStatus status, const char *text, double value)
+{
+    char line[240];
+
+    (void)snprintf(line, sizeof line, "%s at t = %.9g s (%.6g)", text, fmu->now.t, value);
+    fmu_say(fmu, status, line);
+    if (status >= FMU_ERROR)
+        fmu->now.mode = FMU_FAILED;
+    return status;
+}
+
+/* --- numbers --- */
+
+static void changed(Fmu *fmu)
+{
+    fmu->now.is_solved = 0;
+    fmu->now.is_changed = 1;
+}
+
+/* after parameters or signs have changed */
+static void prepare(Fmu *fmu)
+{
+    FmuNumbers *now = &fmu->now;
+    int i;
+
+    for (i = 0; i < FMU_SIDES; i++)
+        now->p[FMU_FIRST_SIDE + i] = now->side[i];
+    if (FMU_PARAMETERS > 0) {
+        model_relations(now->p, now->t, now->y, now->s, fmu->work);
+        memcpy(now->p, fmu->work, FMU_PARAMETERS * sizeof(double));
+    }
+    model_prepare(now->p);
+    now->is_solved = 0;
+}
+
+void fmu_reset(Fmu *fmu)
+{
+    FmuNumbers *now = &fmu->now;
+    int i;
+
+    memset(now, 0, sizeof *now);
+    now->mode = FMU_INSTANTIATED;
+    now->next = HUGE_VAL;
+    now->sampled = -HUGE_VAL;
+    now->tolerance = FMU_TOLERANCE;
+    model_parameters(now->p);
+    model_start(now->y, now->s);
+    for (i = 0; i < FMU_SIDES; i++)
+        now->side[i] = 1;
+    prepare(fmu);
+}
+
+/* s at the time and state of now */
+static FmuStatus solve(Fmu *fmu)
+{
+    FmuNumbers *now = &fmu->now;
+    double was[MODEL_S + 1];
+    int status;
+
+    if (now->is_solved)
+        return FMU_OK;
+    memcpy(was, now->s, MODEL_S * sizeof(double));
+    status = model_solve(now->p, now->t, now->y, now->s, fmu->work);
+    if (status != MODEL_OK)
+        memcpy(now->s, was, MODEL_S * sizeof(double));
+    if (status != MODEL_OK)
+        return fmu_fail(fmu, FMU_DISCARD,
+                        status == MODEL_SINGULAR ? "the equations are singular"
+                                                 : "the equations have no solution",
+                        now->y[0]);
+    now->is_solved = 1;
+    return FMU_OK;
+}
+
+FmuStatus fmu_get(Fmu *fmu, unsigned reference, double *value)
+{
+    FmuNumbers *now = &fmu->now;
+    const int at = (int)reference;
+    FmuStatus status;
+
+    if (reference >= FMU_VARIABLES)
+        return fmu_fail(fmu, FMU_ERROR, "no variable has that value reference", reference);
+    if (at == 0)
+        *value = now->t;
+    else if (at < FMU_FIRST_STATE)
+        *value = now->p[at - FMU_FIRST_PARAMETER];
+    else if (at < FMU_FIRST_RATE)
+        *value = now->y[at - FMU_FIRST_STATE];
+    else {
+        status = solve(fmu);
+        if (status != FMU_OK)
+            return status;
+        if (at < FMU_FIRST_OUTPUT) {
+            model_derivative(now->p, now->t, now->y, now->s, fmu->work);
+            *value = fmu->work[at - FMU_FIRST_RATE];
+        } else if (at < FMU_FIRST_INDICATOR) {
+            model_outputs(now->p, now->t, now->y, now->s, fmu->work);
+            *value = fmu->work[at - FMU_FIRST_OUTPUT];
+        } else {
+            model_indicators(now->p, now->t, now->y, now->s, fmu->work);
+            *value = fmu->work[FMU_TIMED + at - FMU_FIRST_INDICATOR];
+        }
+    }
+    return FMU_OK;
+}
+
+FmuStatus fmu_set(Fmu *fmu, unsigned reference, double value)
+{
+    FmuNumbers *now = &fmu->now;
+    const int at = (int)reference;
+    const int is_parameter = at >= FMU_FIRST_PARAMETER && at < FMU_FIRST_STATE;
+    const int is_state = at >= FMU_FIRST_STATE && at < FMU_FIRST_RATE;
+
+    if (reference >= FMU_VARIABLES)
+        return fmu_fail(fmu, FMU_ERROR, "no variable has that value reference", reference);
+    if (is_parameter && !fmu_depends[at - FMU_FIRST_PARAMETER]) {
+        now->p[at - FMU_FIRST_PARAMETER] = value;
+        prepare(fmu);
+    } else if (is_state && (now->mode & (FMU_INSTANTIATED | FMU_INITIALISING)) != 0)
+        now->y[at - FMU_FIRST_STATE] = value;
+    else
+        return fmu_fail(fmu, FMU_ERROR, "this variable can't be set here", reference);
+    changed(fmu);
+    return FMU_OK;
+}
+
+void fmu_set_time(Fmu *fmu, double t)
+{
+    if (t > fmu->now.t || t < fmu->now.t)
+        fmu->now.is_solved = 0;
+    fmu->now.t = t;
+}
+
+void fmu_set_states(Fmu *fmu, const double *y)
+{
+    memcpy(fmu->now.y, y, FMU_STATES * sizeof(double));
+    fmu->now.is_solved = 0;
+}
+
+FmuStatus fmu_rates(Fmu *fmu, double *rates)
+{
+    const FmuStatus status = solve(fmu);
+
+    if (status == FMU_OK) {
+        model_derivative(fmu->now.p, fmu->now.t, fmu->now.y, fmu->now.s, fmu->work);
+        memcpy(rates, fmu->work, FMU_STATES * sizeof(double));
+    }
+    return status;
+}
+
+/* all of them, those of time first */
+static FmuStatus measures(Fmu *fmu, double *out)
+{
+    const FmuStatus status = solve(fmu);
+
+    if (status == FMU_OK)
+        model_indicators(fmu->now.p, fmu->now.t, fmu->now.y, fmu->now.s, out);
+    return status;
+}
+
+FmuStatus fmu_indicators(Fmu *fmu, double *out)
+{
+    double all[FMU_SIDES + 1];
+    const FmuStatus status = measures(fmu, all);
+    int i;
+
+    for (i = 0; status == FMU_OK && i < FMU_INDICATORS; i++) {
+        /* exactly on one it is on the side where it stays */
+        const double v = all[FMU_TIMED + i];
+
+        out[i] = v > 0 || v < 0 ? v : fmu->now.side[FMU_TIMED + i] * 1e-300;
+    }
+    return status;
+}
+
+FmuStatus fmu_direction(Fmu *fmu, double dt, const double *dy)
+{
+    FmuNumbers *now = &fmu->now;
+    double *seed = now->s + MODEL_S;
+    const FmuStatus status = solve(fmu);
+
+    if (status != FMU_OK)
+        return status;
+    memset(seed, 0, FMU_SEEDS * sizeof(double));
+    seed[0] = dt;
+    memcpy(seed + 1, dy, FMU_STATES * sizeof(double));
+    if (model_tangent(now->p, now->t, now->y, now->s, fmu->work) != MODEL_OK)
+        return fmu_fail(fmu, FMU_DISCARD, "the equations are singular", now->y[0]);
+    return FMU_OK;
+}
+
+FmuStatus fmu_derivatives(Fmu *fmu, const unsigned *unknowns, size_t unknown_count,
+                          const unsigned *knowns, size_t known_count, const double *seed,
+                          double *out)
+{
+    FmuNumbers *now = &fmu->now;
+    double dy[FMU_STATES + 1], rates[MODEL_Y + 1], outputs[MODEL_OUTPUTS + 1];
+    double dt = 0;
+    FmuStatus status;
+    size_t i;
+
+    memset(dy, 0, sizeof dy);
+    for (i = 0; i < known_count; i++) {
+        if (knowns[i] == 0)
+            dt += seed[i];
+        else if (knowns[i] >= FMU_FIRST_STATE && knowns[i] < FMU_FIRST_RATE)
+            dy[knowns[i] - FMU_FIRST_STATE] += seed[i];
+        else
+            return fmu_fail(fmu, FMU_ERROR, "derivatives are by states and time", knowns[i]);
+    }
+    status = fmu_direction(fmu, dt, dy);
+    if (status != FMU_OK)
+        return status;
+    model_tangent_derivative(now->p, now->t, now->y, now->s, rates);
+    model_tangent_outputs(now->p, now->t, now->y, now->s, outputs);
+    for (i = 0; i < unknown_count; i++) {
+        if (unknowns[i] >= FMU_FIRST_RATE && unknowns[i] < FMU_FIRST_OUTPUT)
+            out[i] = rates[unknowns[i] - FMU_FIRST_RATE];
+        else if (unknowns[i] >= FMU_FIRST_OUTPUT && unknowns[i] < FMU_FIRST_INDICATOR)
+            out[i] = outputs[unknowns[i] - FMU_FIRST_OUTPUT];
+        else if (unknowns[i] >= FMU_FIRST_STATE && unknowns[i] < FMU_FIRST_RATE)
+            out[i] = dy[unknowns[i] - FMU_FIRST_STATE];
+        else
+            return fmu_fail(fmu, FMU_ERROR, "derivatives are of rates and outputs", unknowns[i]);
+    }
+    return FMU_OK;
+}
+
+/* --- constraints --- */
+
+static double larger(double a, double b)
+{
+    return a > b ? a : b;
+}
+
+/* how far a state is off the constraints, against what they compare */
+static double drift(Fmu *fmu)
+{
+    const FmuNumbers *now = &fmu->now;
+    double *rows = fmu->work, *jacobian = rows + MODEL_M + 1;
+    double most = 0;
+    int i, j, k;
+
+    for (k = 0; k < FMU_QUATERNIONS; k++) {
+        double sum = 0;
+
+        for (i = 0; i < 4; i++)
+            sum += now->y[fmu_quaternion[k] + i] * now->y[fmu_quaternion[k] + i];
+        most = larger(most, fabs(sum - 1));
+    }
+    if (MODEL_M == 0)
+        return most;
+    model_constraints(now->p, now->t, now->y, now->s, rows);
+    for (i = 0; i < MODEL_M; i++)
+        most = larger(most, fabs(rows[i]));
+    model_velocity(now->p, now->t, now->y, now->s, rows);
+    model_jacobian(now->p, now->t, now->y, now->s, jacobian);
+    for (i = 0; i < MODEL_M; i++) {
+        double size = 1 + fabs(rows[i]);
+
+        for (j = 0; j < MODEL_U; j++) {
+            const double term = jacobian[i * MODEL_U + j] * now->y[MODEL_Q + j];
+
+            rows[i] -= term;
+            size += fabs(term);
+        }
+        most = larger(most, fabs(rows[i]) / size);
+    }
+    return most;
+}
+
+static void take_references(Fmu *fmu)
+{
+    FmuNumbers *now = &fmu->now;
+
+    if (MODEL_A > 0) {
+        model_angles(now->p, now->t, now->y, now->s, fmu->work);
+        memcpy(now->y + FMU_STATES, fmu->work, MODEL_A * sizeof(double));
+        now->is_solved = 0;
+    }
+}
+
+static FmuStatus project(Fmu *fmu, int *moved)
+{
+    FmuNumbers *now = &fmu->now;
+
+    if (drift(fmu) <= PROJECTED)
+        return FMU_OK;
+    if (model_project(now->p, now->t, now->y, fmu->work) != MODEL_OK)
+        return fmu_fail(fmu, FMU_ERROR, "the constraints can't be met", drift(fmu));
+    now->is_solved = 0;
+    *moved = 1;
+    if (drift(fmu) > 1e-6)
+        return fmu_fail(fmu, FMU_ERROR, "the constraints can't be met, which are off", drift(fmu));
+    return FMU_OK;
+}
+
+int fmu_has_drifted(Fmu *fmu)
+{
+    take_references(fmu);
+    return drift(fmu) > DRIFT * fmu->now.tolerance;
+}
+
+FmuStatus fmu_put_back(Fmu *fmu)
+{
+    int moved = 0;
+
+    take_references(fmu);
+    return project(fmu, &moved);
+}
+
+/* --- new values of events --- */
+
+/* Rows [W C^T; C 0 | 0; c] of the least change dv with C dv = c: those of the constraints, with
+ * what they lack, and of the `count` targets of that level. */
+static void least_change(Fmu *fmu, int level, const int *target, const double *lack, int count,
+                         double *a)
+{
+    FmuNumbers *now = &fmu->now;
+    const int is_state = level == FMU_STATE, unknowns = is_state ? MODEL_X : MODEL_U;
+    const int held = is_state ? 0 : MODEL_M, n = unknowns + held + count, w = n + 1;
+    double dy[FMU_STATES + 1], tangents[FMU_TARGETS + 1];
+    double *entries = fmu->work + MODEL_WORK;
+    int i, j, k;
+
+    for (i = 0; i < n * w; i++)
+        a[i] = 0;
+    for (i = 0; i < unknowns; i++)
+        a[i * w + i] = 1;
+    if (level == FMU_SPEED) {
+        model_mass(now->p, now->t, now->y, now->s, entries);
+        for (i = 0; i < unknowns; i++)
+            for (j = 0; j < unknowns; j++)
+                a[i * w + j] = entries[i * unknowns + j];
+    }
+    if (held > 0) {
+        model_jacobian(now->p, now->t, now->y, now->s, entries);
+        for (i = 0; i < held; i++)
+            for (j = 0; j < unknowns; j++)
+                a[j * w + unknowns + i] = a[(unknowns + i) * w + j] = entries[i * unknowns + j];
+        if (level == FMU_COORDINATE)
+            model_constraints(now->p, now->t, now->y, now->s, entries);
+        else {
+            model_velocity(now->p, now->t, now->y, now->s, entries);
+            for (i = 0; i < held; i++)
+                for (j = 0; j < unknowns; j++)
+                    entries[i] -= a[(unknowns + i) * w + j] * now->y[MODEL_Q + j];
+        }
+        for (i = 0; i < held; i++)
+            a[(unknowns + i) * w + n] = level == FMU_COORDINATE ? -entries[i] : entries[i];
+    }
+    for (j = 0; j < unknowns; j++) {
+        memset(dy, 0, sizeof dy);
+        if (level == FMU_COORDINATE) {
+            model_map(now->p, now->t, now->y, now->s, entries);
+            for (i = 0; i < MODEL_Q; i++)
+                dy[i] = entries[i * MODEL_U + j];
+        } else
+            dy[(is_state ? MODEL_Q + MODEL_U : MODEL_Q) + j] = 1;
+        memset(now->s + MODEL_S, 0, FMU_SEEDS * sizeof(double));
+        memcpy(now->s + MODEL_S + 1, dy, FMU_STATES * sizeof(double));
+        model_tangent_targets(now->p, now->t, now->y, now->s, tangents);
+        for (k = 0; k < count; k++)
+            a[j * w + unknowns + held + k] = a[(unknowns + held + k) * w + j] = tangents[target[k]];
+    }
+    for (k = 0; k < count; k++)
+        a[(unknowns + held + k) * w + n] = lack[k];
+}
+
+/* Give targets of a level their values: states as they are, then whatever else has to change. */
+static FmuStatus put_level(Fmu *fmu, int level, const int *chosen, const double *values)
+{
+    FmuNumbers *now = &fmu->now;
+    double *a = fmu->space, *x = a + FMU_ROWS * (FMU_ROWS + 1), *rest = x + FMU_ROWS + 1;
+    double is[FMU_TARGETS + 1], lack[FMU_TARGETS + 1];
+    int target[FMU_TARGETS + 1];
+    int i, j, k, sweep, count = 0;
+
+    for (k = 0; k < FMU_TARGETS; k++)
+        if (chosen[k] && fmu_level[k] == level) {
+            target[count++] = k;
+            if (fmu_place[k] >= 0)
+                now->y[fmu_place[k]] = values[k];
+        }
+    for (sweep = 0; count > 0 && sweep < (level == FMU_COORDINATE ? 20 : 2); sweep++) {
+        const int is_state = level == FMU_STATE;
+        const int n = (is_state ? MODEL_X : MODEL_U + MODEL_M) + count;
+
+        model_targets(now->p, now->t, now->y, now->s, is);
+        for (k = 0; k < count; k++)
+            lack[k] = values[target[k]] - is[target[k]];
+        least_change(fmu, level, target, lack, count, a);
+        if (model_solve_rows(a, n, x, rest) != MODEL_OK)
+            return fmu_fail(fmu, FMU_ERROR, "an event's new values contradict the constraints",
+                            values[target[0]]);
+        if (level == FMU_COORDINATE) {
+            model_map(now->p, now->t, now->y, now->s, fmu->work);
+            for (i = 0; i < MODEL_Q; i++)
+                for (j = 0; j < MODEL_U; j++)
+                    now->y[i] += fmu->work[i * MODEL_U + j] * x[j];
+        } else
+            for (i = 0; i < (is_state ? MODEL_X : MODEL_U); i++)
+                now->y[(is_state ? MODEL_Q + MODEL_U : MODEL_Q) + i] += x[i];
+    }
+    return FMU_OK;
+}
+
+/* those that became true, in the order of their making */
+static FmuStatus happen(Fmu *fmu, const int *happens, int *moved)
+{
+    FmuNumbers *now = &fmu->now;
+    double values[FMU_TARGETS + 1];
+    int chosen[FMU_TARGETS + 1] = {0};
+    int i, k, any = 0, level;
+    FmuStatus status;
+
+    model_values(now->p, now->t, now->y, now->s, values);
+    for (i = 0; i < FMU_EVENTS_COUNT; i++) {
+        if (!happens[i])
+            continue;
+        if (fmu->is_logging) {
+            char line[200];
+
+            (void)snprintf(line, sizeof line, "event %.80s at t = %.17g s", fmu_event_name[i],
+                           now->t);
+            fmu_say(fmu, FMU_OK, line);
+        }
+        now->is_stopped |= fmu_action[i] == FMU_STOPS;
+        for (k = 0; fmu_action[i] == FMU_SETS && k < fmu_event_count[i]; k++)
+            any = chosen[fmu_event_first[i] + k] = 1;
+    }
+    if (!any)
+        return FMU_OK;
+    *moved = 1;
+    for (level = FMU_COORDINATE; level <= FMU_STATE; level++) {
+        status = put_level(fmu, level, chosen, values);
+        if (status != FMU_OK)
+            return status;
+        take_references(fmu);
+    }
+    now->is_solved = 0;
+    return FMU_OK;
+}
+
+/* --- events --- */
+
+/* How each measure changes along the motion; zeros where that isn't known. */
+static void find_rates(Fmu *fmu, double *rates)
+{
+    FmuNumbers *now = &fmu->now;
+    double dy[MODEL_Y + 1];
+    int i;
+
+    for (i = 0; i < FMU_SIDES; i++)
+        rates[i] = 0;
+    model_derivative(now->p, now->t, now->y, now->s, dy);
+    if (fmu_direction(fmu, 1, dy) == FMU_OK)
+        model_tangent_indicators(now->p, now->t, now->y, now->s, rates);
+}
+
+/* The sides behind this instant. *late: how late what has changed was found. */
+static FmuStatus find_sides(Fmu *fmu, double *late, int *changes)
+{
+    FmuNumbers *now = &fmu->now;
+    double at[FMU_SIDES + 1], rate[FMU_SIDES + 1];
+    const double close = larger(INSTANT * (1 + fabs(now->t)), LATE * *late);
+    FmuStatus status;
+    int i;
+
+    *changes = 0;
+    if (FMU_SIDES == 0)
+        return FMU_OK;
+    status = measures(fmu, at);
+    if (status != FMU_OK)
+        return status;
+    find_rates(fmu, rate);
+    for (i = 0; i < FMU_SIDES; i++) {
+        const int is = at[i] > 0 ? 1 : at[i] < 0 ? -1 : now->side[i];
+        const int goes = rate[i] > 0 ? 1 : rate[i] < 0 ? -1 : is;
+        const int side = fabs(at[i]) <= close * fabs(rate[i]) ? goes : is;
+        const double ago = fabs(at[i]) / larger(fabs(rate[i]), 1e-300);
+
+        if (side == now->side[i])
+            continue;
+        now->side[i] = side;
+        *changes = 1;
+        if (now->has_start && is == goes && ago < LATEST)
+            *late = larger(*late, ago);
+    }
+    if (*changes)
+        prepare(fmu);
+    return FMU_OK;
+}
+
+/* sampled states, once an instant */
+static FmuStatus take_samples(Fmu *fmu, int *moved)
+{
+    FmuNumbers *now = &fmu->now;
+    double periods[FMU_SAMPLES + 1], values[FMU_SAMPLES + 1];
+    FmuStatus status;
+    int i, due[FMU_SAMPLES + 1] = {0}, any = 0;
+
+    if (FMU_SAMPLES == 0 || now->sampled >= now->t)
+        return FMU_OK;
+    model_periods(now->p, now->t, now->y, now->s, periods);
+    for (i = 0; i < FMU_SAMPLES; i++) {
+        const double count = now->t / periods[i];
+
+        any |= due[i] = fabs(count - floor(count + 0.5)) <= SAME;
+    }
+    if (!any)
+        return FMU_OK;
+    status = solve(fmu);
+    if (status != FMU_OK)
+        return status;
+    model_samples(now->p, now->t, now->y, now->s, values);
+    for (i = 0; i < FMU_SAMPLES; i++)
+        if (due[i])
+            now->y[MODEL_Q + MODEL_U + fmu_sample[i]] = values[i];
+    now->sampled = now->t;
+    now->is_solved = 0;
+    *moved = 1;
+    return FMU_OK;
+}
+
+static void find_next(Fmu *fmu)
+{
+    FmuNumbers *now = &fmu->now;
+    double timers[2 * FMU_TIMED + 1], periods[FMU_SAMPLES + 1];
+    const double t = now->t, least = t + INSTANT * (1 + fabs(t));
+    int i;
+
+    now->next = HUGE_VAL;
+    model_timers(now->p, t, now->y, now->s, timers);
+    for (i = 0; i < FMU_TIMED; i++) {
+        const double at = timers[2 * i], rate = timers[2 * i + 1];
+        double aim = 0;
+
+        if (!(fabs(rate) > 0))
+            continue;
+        if (fmu_is_floor[i])
+            aim = rate > 0 ? floor(at + SAME) + 1 : ceil(at - SAME) - 1;
+        if (t + (aim - at) / rate > least && t + (aim - at) / rate < now->next)
+            now->next = t + (aim - at) / rate;
+    }
+    model_periods(now->p, t, now->y, now->s, periods);
+    for (i = 0; i < FMU_SAMPLES; i++) {
+        const double next = periods[i] * (floor(t / periods[i] + SAME) + 1);
+
+        if (next < now->next)
+            now->next = next;
+    }
+}
+
+FmuStatus fmu_events(Fmu *fmu, int *moved)
+{
+    FmuNumbers *now = &fmu->now;
+    double late = 0;
+    int rounds, changes = 1, any = 1, i;
+    FmuStatus status = project(fmu, moved);
+
+    if (status == FMU_OK)
+        status = take_samples(fmu, moved);
+    for (rounds = 0; status == FMU_OK && (changes || any); rounds++) {
+        double truths[FMU_EVENTS_COUNT + 1];
+        int happens[FMU_EVENTS_COUNT + 1];
+
+        if (rounds == ROUNDS)
+            return fmu_fail(fmu, FMU_ERROR, "events or signs change without end", now->y[0]);
+        status = find_sides(fmu, &late, &changes);
+        if (status == FMU_OK)
+            status = solve(fmu);
+        if (status != FMU_OK)
+            break;
+        model_events(now->p, now->t, now->y, now->s, truths);
+        any = 0;
+        for (i = 0; i < FMU_EVENTS_COUNT; i++) {
+            const int holds = truths[i] > 0.5;
+
+            any |= happens[i] = now->has_start && holds && !now->holds[i];
+            now->holds[i] = holds;
+        }
+        if (any)
+            status = happen(fmu, happens, moved);
+    }
+    if (status == FMU_OK) {
+        now->has_start = 1;
+        now->is_changed = 0;
+        find_next(fmu);
+        if (*moved)
+            now->step = 0;
+    }
+    return status;
+}
+
+FmuStatus fmu_initialise(Fmu *fmu)
+{
+    int moved = 0;
+
+    fmu->now.t = fmu->now.start;
+    fmu->now.is_solved = 0;
+    take_references(fmu);
+    return fmu_events(fmu, &moved);
+}

@@ -1,0 +1,116 @@
+/* fmu.h: an instance of a model that goes through events by itself
+ *
+ * What the functions of either version of the interface (fmi2.c, fmi3.c) have in common. All that
+ * changes is in one piece of memory without pointers, FmuNumbers: so a state is a copy of it, and
+ * instances know nothing of each other. */
+#ifndef FMU_H
+#define FMU_H
+
+#include "model_fmu.h"
+
+#include <stddef.h>
+
+/* what functions return, as both versions number it */
+typedef enum FmuStatus { FMU_OK, FMU_WARNING, FMU_DISCARD, FMU_ERROR, FMU_FATAL } FmuStatus;
+
+/* what an importer may call depends on where it stands */
+typedef enum FmuMode {
+    FMU_INSTANTIATED = 1,
+    FMU_INITIALISING = 2,
+    FMU_EVENTS = 4,
+    FMU_CONTINUOUS = 8,
+    FMU_STEPPING = 16, /* of co-simulation */
+    FMU_TERMINATED = 32,
+    FMU_FAILED = 64
+} FmuMode;
+
+enum { /* numbers in each array */
+       FMU_STATES = MODEL_Q + MODEL_U + MODEL_X,
+       FMU_SEEDS = 1 + MODEL_Y + MODEL_S, /* of a direction (dt, dy, ds), behind s */
+       FMU_INDICATORS = FMU_SIDES - FMU_TIMED,
+       /* value references: time, then */
+       FMU_FIRST_PARAMETER = 1,
+       FMU_FIRST_STATE = FMU_FIRST_PARAMETER + FMU_PARAMETERS,
+       FMU_FIRST_RATE = FMU_FIRST_STATE + FMU_STATES,
+       FMU_FIRST_OUTPUT = FMU_FIRST_RATE + FMU_STATES,
+       FMU_FIRST_INDICATOR = FMU_FIRST_OUTPUT + MODEL_OUTPUTS,
+       FMU_VARIABLES = FMU_FIRST_INDICATOR + FMU_INDICATORS
+};
+
+typedef struct FmuNumbers {
+    int mode, instant; /* where the importer stands; how often it has taken a sample */
+    int has_start;     /* events have been looked at */
+    int is_solved;     /* s belongs to t and y */
+    int is_changed;    /* parameters or states were set since events were looked at last */
+    int is_stopped;    /* an event ends the run */
+    double t, start;
+    double next;    /* event of time; HUGE_VAL: none */
+    double step;    /* of the integrator; 0: not known */
+    double sampled; /* when samples were taken last */
+    double tolerance;
+    double p[MODEL_P + 1];
+    double y[MODEL_Y + 1];
+    double s[MODEL_S + FMU_SEEDS + 1];
+    int side[FMU_SIDES + 1];         /* of what is jumped at: -1 or 1 */
+    int holds[FMU_EVENTS_COUNT + 1]; /* which events' conditions do */
+} FmuNumbers;
+
+typedef struct Fmu {
+    FmuNumbers now;
+    int is_cosimulation, is_logging;
+    int has_no_state; /* an error has left nothing to go on with */
+    char *name;
+    void (*logger)(void); /* of the version's type, called by fmu_say() */
+    void *environment;
+    void (*release)(void *);
+    double work[3 * MODEL_WORK + 16 * (MODEL_Y + MODEL_S + FMU_SIDES + FMU_TARGETS + 4) +
+                FMU_PARAMETERS];
+    double space[FMU_SPACE]; /* of the integrator, and of new values */
+} Fmu;
+
+/* a message to the importer's logger; in the version's file */
+void fmu_say(Fmu *fmu, FmuStatus status, const char *text);
+/* The same with a number at its end; returns the status. */
+FmuStatus fmu_fail(Fmu *fmu, FmuStatus status, const char *text, double value);
+
+/* as it was when the file was made */
+void fmu_reset(Fmu *fmu);
+FmuStatus fmu_initialise(Fmu *fmu);
+
+/* --- variables --- */
+
+FmuStatus fmu_get(Fmu *fmu, unsigned reference, double *value);
+FmuStatus fmu_set(Fmu *fmu, unsigned reference, double value);
+void fmu_set_time(Fmu *fmu, double t);
+void fmu_set_states(Fmu *fmu, const double *y);
+FmuStatus fmu_rates(Fmu *fmu, double *rates);
+FmuStatus fmu_indicators(Fmu *fmu, double *out);
+/* s, the rates and what is asked for along a direction in states and time; results at s + MODEL_S
+ */
+FmuStatus fmu_direction(Fmu *fmu, double dt, const double *dy);
+/* of unknowns by knowns, times the seed of each of these */
+FmuStatus fmu_derivatives(Fmu *fmu, const unsigned *unknowns, size_t unknown_count,
+                          const unsigned *knowns, size_t known_count, const double *seed,
+                          double *out);
+
+/* --- events --- */
+
+/* Lets happen what happens here; *moved: states have changed. Sets the time of the next event. */
+FmuStatus fmu_events(Fmu *fmu, int *moved);
+/* Behind a step of the importer's: whether states have left the constraints by more than the
+ * tolerance. */
+int fmu_has_drifted(Fmu *fmu);
+/* states onto the constraints */
+FmuStatus fmu_put_back(Fmu *fmu);
+
+/* --- co-simulation (fmu_step.c) --- */
+
+/* From now on to `end`; where an event stops the run it ends there. */
+FmuStatus fmu_advance(Fmu *fmu, double end);
+/* The same of an importer's step, which begins where the last one ended. */
+FmuStatus fmu_do_step(Fmu *fmu, double from, double step);
+/* first derivatives of outputs by time */
+FmuStatus fmu_output_rates(Fmu *fmu, const unsigned *references, size_t count, const int *orders,
+                           double *values);
+
+#endif
