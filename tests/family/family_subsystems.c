@@ -137,7 +137,7 @@ typedef struct Story {
     Module modules[MODULES];
     Placed used[USES];
     int uses;
-    bool planar;
+    bool planar, closes;
     Writer flat, made;
 } Story;
 
@@ -166,6 +166,18 @@ static void put_base(Writer *w, bool moves, bool planar)
         put(w, planar ? "arm base cart [0, 0.2]\n" : "arm base cart [0, 0.2, 0]\n");
     } else
         put(w, planar ? "arm base ground [0, 0.2]\n" : "arm base ground [0, 0.2, 0]\n");
+}
+
+/* A loop over ports: a rod of any length between the tips of the first two, pinned to both. */
+static void put_loop(Writer *w, const Story *s, char dot)
+{
+    const char *joint = s->planar ? "revolute" : "spherical";
+    const char *inertia = s->planar ? "0.05" : "[0.05, 0.06, 0.07]";
+
+    put(w, "body link mass=0.7 inertia=%s\nbody slider mass=0.4 inertia=%s\n", inertia, inertia);
+    put(w, "%s pin1 u0%ctip link\n", joint, dot);
+    put(w, "prismatic slot link slider axis=x\nspring keep slot k=20 rest=0.5\n");
+    put(w, "%s pin2 u1%ctip slider\nguess slot = 0.6\n", joint, dot);
 }
 
 static void draw_story(Member *member, Story *s)
@@ -202,6 +214,11 @@ static void draw_story(Member *member, Story *s)
     if (s->uses > 1) {
         put(&s->flat, "spring ends far u1_tip k=12 length=0.4\n");
         put(&s->made, "spring ends far u1.tip k=12 length=0.4\n");
+    }
+    s->closes = s->uses > 1 && member_one_of(member, 2) == 0;
+    if (s->closes) {
+        put_loop(&s->flat, s, '_');
+        put_loop(&s->made, s, '.');
     }
     put(&s->flat, "vsource V in 0 2 + sin(3*t)\n");
     put(&s->made, "vsource V in 0 2 + sin(3*t)\n");

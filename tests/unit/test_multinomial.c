@@ -1,0 +1,186 @@
+/* test_multinomial.c: polynomials in several variables obey the laws of a ring, and those of
+ * factors
+ *
+ * Values are held against machine integers at points; factors against what they were made of. */
+#include "test.h"
+
+#include "../random.h"
+#include "algebra/multinomial.h"
+
+enum { VARIABLES = 11, MOST = 5000, ROUNDS = 60 }; /* more than a word of powers */
+
+static uint64_t state = 20261123;
+
+static int one_of(int count)
+{
+    return (int)(test_random(&state) % (uint64_t)count);
+}
+
+/* the same at a point, modulo 2^64 */
+static uint64_t value_at(const Multinomial *p, const uint64_t *point)
+{
+    uint64_t sum = 0;
+
+    for (int i = 0; i < multinomial_terms(p); i++) {
+        uint64_t term = (uint64_t)mpz_get_si(*multinomial_factor(p, i));
+
+        for (int v = 0; v < VARIABLES; v++)
+            for (int n = multinomial_power(p, i, v); n > 0; n--)
+                term *= point[v];
+        sum += term;
+    }
+    return sum;
+}
+
+static Multinomial *draw(Ring *ring, int terms, int variables)
+{
+    Multinomial *out = multinomial_small(ring, one_of(9) - 4);
+
+    for (int i = 0; i < terms; i++) {
+        Multinomial *term = multinomial_small(ring, one_of(11) - 5), *next;
+
+        for (int k = one_of(4); k > 0; k--) {
+            Multinomial *x =
+                multinomial_variable(ring, one_of(variables) * (VARIABLES / variables));
+
+            next = multinomial_times(term, x);
+            multinomial_free(term);
+            multinomial_free(x);
+            term = next;
+        }
+        next = multinomial_sum(out, term, one_of(2) == 0 ? 1 : -1);
+        multinomial_free(out);
+        multinomial_free(term);
+        out = next;
+    }
+    return out;
+}
+
+static void sums_and_products_have_the_values_of_numbers(void)
+{
+    Ring *ring = ring_new(VARIABLES, MOST, NULL);
+    uint64_t point[VARIABLES];
+
+    for (int v = 0; v < VARIABLES; v++)
+        point[v] = test_random(&state);
+    for (int k = 0; k < ROUNDS; k++) {
+        Multinomial *p = draw(ring, one_of(12), VARIABLES), *q = draw(ring, one_of(12), VARIABLES);
+
+        EXPECT(value_at(multinomial_sum(p, q, -1), point) ==
+               value_at(p, point) - value_at(q, point));
+        EXPECT(value_at(multinomial_times(p, q), point) == value_at(p, point) * value_at(q, point));
+    }
+    EXPECT(ring_status(ring) == OK);
+    ring_free(ring);
+}
+
+static void quotients_take_products_apart(void)
+{
+    Ring *ring = ring_new(VARIABLES, MOST, NULL);
+
+    for (int k = 0; k < ROUNDS; k++) {
+        Multinomial *p = draw(ring, one_of(12), 4), *q = draw(ring, 1 + one_of(8), 4);
+        Multinomial *product = multinomial_times(p, q), *quotient, *off;
+
+        if (multinomial_is_zero(q))
+            continue;
+        quotient = multinomial_quotient(product, q);
+        EXPECT(quotient != NULL && multinomial_equal(quotient, p));
+        off = multinomial_sum(product, multinomial_small(ring, 1), 1);
+        EXPECT(multinomial_is_number(q) || multinomial_quotient(off, q) == NULL);
+    }
+    EXPECT(ring_status(ring) == OK);
+    ring_free(ring);
+}
+
+/* a common factor is found whole: what is left of both has none */
+static void common_factors_are_found(void)
+{
+    Ring *ring = ring_new(VARIABLES, MOST, NULL);
+
+    for (int k = 0; k < ROUNDS; k++) {
+        Multinomial *g = draw(ring, 1 + one_of(4), 4);
+        Multinomial *p = multinomial_times(draw(ring, 1 + one_of(5), 5), g);
+        Multinomial *q = multinomial_times(draw(ring, 1 + one_of(5), 3), g), *common, *a, *b;
+
+        if (multinomial_is_zero(p) || multinomial_is_zero(q))
+            continue;
+        common = multinomial_gcd(p, q);
+        EXPECT(multinomial_quotient(common, g) != NULL);
+        EXPECT(!multinomial_is_negative(common));
+        a = multinomial_quotient(p, common);
+        b = multinomial_quotient(q, common);
+        EXPECT(a != NULL && b != NULL && multinomial_is(multinomial_gcd(a, b), 1));
+    }
+    EXPECT(ring_status(ring) == OK);
+    ring_free(ring);
+}
+
+static void factors_multiply_to_the_whole(void)
+{
+    Ring *ring = ring_new(VARIABLES, MOST, NULL);
+
+    for (int k = 0; k < ROUNDS; k++) {
+        Multinomial *f = draw(ring, 2, 4), *g = draw(ring, 2, VARIABLES), *p, *product;
+        MultinomialList factors = {0};
+
+        p = multinomial_times(multinomial_times(f, g), one_of(2) == 0 ? f : g);
+        multinomial_split(p, &factors);
+        product = multinomial_small(ring, 1);
+        for (int i = 0; i < factors.count; i++)
+            product = multinomial_times(product, factors.at[i]);
+        EXPECT(multinomial_equal(product, p));
+        LIST_FREE(factors);
+    }
+    EXPECT(ring_status(ring) == OK);
+    ring_free(ring);
+}
+
+/* (x + y)^2 (x - z): three factors, whatever stood there multiplied out */
+static void squares_and_products_are_seen(void)
+{
+    Ring *ring = ring_new(3, MOST, NULL);
+    Multinomial *x = multinomial_variable(ring, 0), *y = multinomial_variable(ring, 1);
+    Multinomial *a = multinomial_sum(x, y, 1);
+    Multinomial *b = multinomial_sum(x, multinomial_variable(ring, 2), -1);
+    MultinomialList factors = {0};
+
+    multinomial_split(multinomial_times(multinomial_times(a, a), b), &factors);
+    EXPECT(factors.count == 3);
+    for (int i = 0; i < factors.count; i++)
+        EXPECT(multinomial_equal(factors.at[i], a) || multinomial_equal(factors.at[i], b));
+    multinomials_free(&factors);
+    ring_free(ring);
+}
+
+static void what_is_beyond_the_bound_is_remembered(void)
+{
+    Ring *ring = ring_new(VARIABLES, 20, NULL);
+    Multinomial *sum = multinomial_small(ring, 1), *x = multinomial_variable(ring, 1);
+
+    for (int v = 0; v < VARIABLES; v++)
+        sum = multinomial_sum(sum, multinomial_variable(ring, v), 1);
+    EXPECT(ring_status(ring) == OK);
+    sum = multinomial_times(sum, sum);
+    EXPECT(ring_status(ring) == E_MEMORY);
+    EXPECT(multinomial_failed(sum));
+    ring_free(ring);
+    /* and a power that no byte holds */
+    ring = ring_new(VARIABLES, MOST, NULL);
+    x = multinomial_variable(ring, 9);
+    for (int i = 0; i < 8; i++)
+        x = multinomial_times(x, x);
+    EXPECT(ring_status(ring) == E_MEMORY);
+    ring_free(ring);
+}
+
+int main(void)
+{
+    RUN(sums_and_products_have_the_values_of_numbers);
+    RUN(quotients_take_products_apart);
+    RUN(common_factors_are_found);
+    RUN(factors_multiply_to_the_whole);
+    RUN(squares_and_products_are_seen);
+    RUN(what_is_beyond_the_bound_is_remembered);
+    return test_end();
+}
