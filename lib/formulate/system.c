@@ -152,6 +152,11 @@ void system_free(const System *system)
     mem_free(own);
 }
 
+void system_set_watch(System *system, const Watch *watch)
+{
+    system->watch = watch;
+}
+
 System *system_view(const System *formed)
 {
     System *view = NEW(System);

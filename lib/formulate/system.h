@@ -206,6 +206,9 @@ typedef struct Reading {
     Expr *q_rate; /* n */
 } Reading;
 
+/* What is formed later, when somebody asks for it, can be stopped, too; borrowed. */
+void system_set_watch(System *system, const Watch *watch);
+
 /* definitions by recursion; a run uses them, or where it is shorter what is shown */
 const Reading *system_definitions(const System *system);
 const Reading *system_run(const System *system);

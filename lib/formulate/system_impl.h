@@ -17,7 +17,7 @@ struct System {
     Arena *arena;
     Pool *pool;         /* names and small arrays; of a view: of what is formed for it */
     const Scene *scene; /* while it is made; NULL afterwards */
-    const Watch *watch; /* likewise */
+    const Watch *watch; /* likewise, or set by system_set_watch() */
     Alike *alike;       /* likewise, or where no definition has instances */
 
     /* parts: a view borrows them */

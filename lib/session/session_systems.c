@@ -135,6 +135,7 @@ static Status system_of_form(ct_session *session, NetworkForm form, bool has_lit
         goto done;
     report(&session->watch, "equations", -1);
     CHECK(system_new_view(&scene, &options, &system, diag));
+    system_set_watch(system, &session->watch);
     LIST_PUSH(session->systems, system);
     session_sweep(session);
     *out = system;

@@ -1,6 +1,7 @@
 /* test_session_run.c: runs, values, tables, expectations */
 #include "session_kit.h"
 
+#include "base/memory.h"
 #include "base/text.h"
 
 #include <time.h>
@@ -475,6 +476,45 @@ static void a_stopped_derivation_leaves_the_session_whole(void)
     kit_free(&kit);
 }
 
+/* M of a long chain is written out when somebody asks: that asks for a stop at each column, and
+ * what was stopped is formed anew */
+static void what_is_formed_later_can_be_stopped_too(void)
+{
+    enum { BODIES = 40, PLENTY = 1 << 30 };
+    Patience patience = {PLENTY};
+    const ct_hooks hooks = {.context = &patience, .stop = lose_patience, .columns = 80};
+    Kit kit = kit_new();
+    char chain[BODIES * 120] = "";
+    char *whole;
+
+    for (int i = 0; i < BODIES; i++) {
+        char tail[8] = "ground";
+
+        if (i > 0)
+            (void)snprintf(tail, sizeof tail, "b%d", i - 1);
+        (void)snprintf(chain + strlen(chain), sizeof chain - strlen(chain),
+                       "body b%d mass=1 inertia=[1, 2, 3]; arm a%d b%d [0.1, 0.2, 0.3]\n"
+                       "revolute h%d %s a%d axis=%c\n",
+                       i, i, i, i, tail, i, "xyz"[i % 3]);
+    }
+    EXPECT_DONE(&kit, chain);
+    EXPECT_DONE(&kit, "show coordinates");
+    ct_session_hooks(kit.session, &hooks);
+    for (int calls = 0; calls < BODIES; calls += 13) {
+        patience.left = calls;
+        EXPECT(kit_do(&kit, "count mass") == CT_STOPPED);
+    }
+    patience.left = PLENTY;
+    EXPECT_DONE(&kit, "count mass");
+    EXPECT(PLENTY - patience.left >= BODIES);
+    whole = mem_text(kit.text, strlen(kit.text));
+    ct_session_hooks(kit.session, NULL);
+    EXPECT_DONE(&kit, "set b0.mass = 2; set b0.mass = 1; count mass");
+    EXPECT_TEXT(kit.text, whole);
+    mem_free(whole);
+    kit_free(&kit);
+}
+
 /* angular speeds of a joint with Euler parameters, in the axes of its head: those of the arm there
  * while the tail rests; the same whatever trees they are given in */
 /* a chain of hinged bodies in their own coordinates, turned the wrong way: work for assembly */
@@ -667,6 +707,7 @@ int main(void)
     RUN(formats_of_later_versions_say_so);
     RUN(a_stopped_run_keeps_what_it_has);
     RUN(a_stopped_derivation_leaves_the_session_whole);
+    RUN(what_is_formed_later_can_be_stopped_too);
     RUN(a_start_can_be_stopped_anywhere);
     RUN(angular_speeds_of_joints_can_be_given);
     RUN(parts_that_no_longer_fit_are_told);
