@@ -174,8 +174,6 @@ static void later_words_say_that_they_are(void)
                                         "give B.x = 2*th1",
                                         "sweep L from=1 to=2 steps=3 : simulate 1",
                                         "montecarlo 10 L=normal(1, 0.1) : simulate 1",
-                                        "store leg \"leg.cts\"",
-                                        "load \"leg.cts\"",
                                         "friction f1 h",
                                         "fit k to=\"a.csv\" : simulate 1"};
 
