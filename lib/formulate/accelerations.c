@@ -12,6 +12,8 @@
 
 enum {
     MOST_SPEEDS = 16, /* of a full M that is eliminated in symbols */
+    FEW_SPEEDS = 8,   /* so far M along the trees takes no more than body by body */
+    WORTH = 800,      /* what M has to cost before other ways are written out */
     /* More leaves the processor's caches, and is left to loops over data. */
     MOST_SPEEDS_ALONG = 2000,
     MOST_OPERATIONS = 100000
@@ -84,7 +86,7 @@ static int64_t cost_of(const Expr *roots, int count)
 
 typedef struct Search {
     System *system;
-    const Groups *groups[2]; /* as they are, and with inertia moved where turns don't change it */
+    const Groups *groups;
     const Expr *pushes;
     int n;
     Expr *best, *tried; /* 2 n: u', then what tells their rounding */
@@ -102,31 +104,14 @@ static bool offer(Search *search)
     return true;
 }
 
-static bool offer_along(Search *search, bool moves_inertia, Way way)
+/* One way: writing more of them out takes longer than most runs save by the best. */
+static bool offer_along(Search *search)
 {
-    return accelerations_along(search->system, search->groups[moves_inertia], &way, search->pushes,
-                               search->tried, search->tried + search->n) &&
+    const Way way = {search->n <= FEW_SPEEDS ? DELAY_ALL : DELAY_NONE, true, true};
+
+    return accelerations_along(search->system, search->groups, &way, search->pushes, search->tried,
+                               search->tried + search->n) &&
            offer(search);
-}
-
-/* When speeds yield decides most; the rest is tried with the best of that. */
-static bool search_along(Search *search)
-{
-    const Way ways[] = {{DELAY_NONE, true, true}, {DELAY_RUN, true, true}, {DELAY_ALL, true, true}};
-    const int count = search->n <= MOST_SPEEDS && search->n > 1 ? COUNT(ways) : 1;
-    bool found = false;
-    Way best = ways[0];
-
-    for (int i = 0; i < count; i++)
-        if (offer_along(search, true, ways[i])) {
-            found = true;
-            best = ways[i];
-        }
-    if (count == 1)
-        return found;
-    found = offer_along(search, true, (Way){best.delay, true, false}) || found;
-    found = offer_along(search, true, (Way){best.delay, false, false}) || found;
-    return offer_along(search, false, best) || found;
 }
 
 Told system_accelerations(System *system, const Expr *force, const Expr *pushes, Expr *acceleration,
@@ -134,7 +119,7 @@ Told system_accelerations(System *system, const Expr *force, const Expr *pushes,
 {
     const int n = system_nu(system);
     Search search = {.system = system, .pushes = pushes, .n = n, .least = MOST_OPERATIONS};
-    Groups *plain = NULL, *moved = NULL;
+    Groups *groups = NULL;
     Told told = TOLD_NOT;
 
     system_touch(system);
@@ -142,18 +127,15 @@ Told system_accelerations(System *system, const Expr *force, const Expr *pushes,
     search.tried = search.best + 2 * n;
     if (through_mass(system, force, search.tried, search.tried + n) && offer(&search))
         told = TOLD_BY_MASS;
-    if (n <= MOST_SPEEDS_ALONG)
-        plain = groups_new(system);
-    if (plain != NULL) {
-        moved = groups_new(system);
-        groups_move_inertia(system->arena, moved);
-        search.groups[0] = plain;
-        search.groups[1] = moved;
-        if (search_along(&search))
+    if (n <= MOST_SPEEDS_ALONG && search.least >= WORTH)
+        groups = groups_new(system);
+    if (groups != NULL) {
+        groups_move_inertia(system->arena, groups);
+        search.groups = groups;
+        if (offer_along(&search))
             told = TOLD_ALONG;
     }
-    groups_free(plain);
-    groups_free(moved);
+    groups_free(groups);
     memcpy(acceleration, search.best, (size_t)n * sizeof(Expr));
     memcpy(excess, search.best + n, (size_t)n * sizeof(Expr));
     mem_free(search.best);
