@@ -60,7 +60,7 @@ static const char usage[] =
     "Exit status: 0 done, 1 a statement failed or was stopped, 2 wrong usage,\n"
     "3 an `expect` did not hold.\n"
     "Environment: GNUPLOT, PAGER, XDG_CONFIG_HOME (cotree/init.ct), XDG_STATE_HOME\n"
-    "(cotree/history, cotree/unsaved), NO_COLOR.\n";
+    "(cotree/history, cotree/unsaved).\n";
 
 /* What the command line asks for; sources in their order. */
 typedef struct Invocation {

@@ -25,15 +25,6 @@ bool terminal_is_utf8(void)
     return strcmp(nl_langinfo(CODESET), "UTF-8") == 0;
 }
 
-bool terminal_has_colors(void)
-{
-    const char *term = getenv("TERM");
-    const char *no_color = getenv("NO_COLOR");
-
-    return isatty(STDOUT_FILENO) && term != NULL && strcmp(term, "dumb") != 0 &&
-           (no_color == NULL || *no_color == '\0');
-}
-
 int terminal_character(const char *text, size_t length, int *columns)
 {
     wchar_t c = 0;

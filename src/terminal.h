@@ -8,7 +8,6 @@
 /* of standard output; where that is no terminal, or doesn't tell, 24 x 80 */
 void terminal_size(int *rows, int *columns);
 bool terminal_is_utf8(void);
-bool terminal_has_colors(void); /* standard output is a terminal that isn't told NO_COLOR */
 /* columns of the first `length` bytes; a tab counts as one, as do bytes that are no character */
 int terminal_width(const char *text, size_t length);
 /* bytes of the character at `text` (at least 1) and the columns that it takes */

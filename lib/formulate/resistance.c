@@ -50,14 +50,6 @@ void resistance_free(Resistance *r)
     *r = (Resistance){0};
 }
 
-int resistance_find(const Resistance *r, int speed)
-{
-    for (int i = MOTION; i < r->count; i++)
-        if (r->speeds[i - MOTION] == speed)
-            return i;
-    return -1;
-}
-
 void resistance_add_body(Arena *arena, Resistance *r, const Group *group)
 {
     for (int i = 0; i < 3; i++) {

@@ -42,7 +42,5 @@ void resistance_shift(Arena *arena, Resistance *r, Vec way);
 /* Let an unknown yield; false: nothing resists it. The place of a speed is given up. */
 bool resistance_yield(Arena *arena, Resistance *r, int unknown, Yield *out);
 void yield_free(Yield *yield);
-/* the place of a speed */
-int resistance_find(const Resistance *r, int speed);
 
 #endif

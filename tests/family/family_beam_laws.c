@@ -92,7 +92,7 @@ typedef struct Rule {
 static Rule rule_of(int n)
 {
     const double pi = acos(-1);
-    Rule rule;
+    Rule rule = {{0}, {0}};
 
     for (int i = 0; i < n; i++) {
         double xi = (1 - cos(pi * (i + 0.75) / (n + 0.5))) / 2;

@@ -139,7 +139,7 @@ static void add_beam(Equations *e, int count, const Part *part, const Rule *rule
     for (int k = 0; k < POINTS; k++) {
         const double xi = rule->at[k], weight = rule->weight[k] * part->L;
         const Place place = place_of(part, q, rate, xi * part->L);
-        double turn[MOST] = {0}, curve[SHAPES], curvature = 0;
+        double turn[MOST] = {0}, curve[SHAPES] = {0}, curvature = 0;
 
         turn[part->first + 2] = 1;
         for (int i = 0; i < part->shapes; i++) {

@@ -90,7 +90,7 @@ static int values_of(Lab *lab, const char *name, double *values)
     int rows = 0, columns = 0;
     const int function = ct_model_function(lab->model, name, &rows, &columns);
 
-    EXPECT(function >= 0);
+    EXPECT_TEXT(ct_model_function_name(lab->model, function), name);
     ct_evaluate(lab->evaluator, function, lab->p, lab->t, lab->y, lab->s, values);
     return rows * columns;
 }

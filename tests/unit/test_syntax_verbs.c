@@ -139,10 +139,7 @@ static void what_comes_later_says_so(void)
     static const struct {
         const char *text;
         int column;
-    } lines[] = {{"friction f1 h", 1},
-                 {"time friction f1 h", 6},
-                 {"time load \"leg.cts\"", 6},
-                 {"export fmu > \"x.fmu\"", 8}};
+    } lines[] = {{"friction f1 h", 1}, {"time friction f1 h", 6}, {"time give p.x = 1", 6}};
 
     for (int i = 0; i < COUNT(lines); i++) {
         Statement *s = NULL;
