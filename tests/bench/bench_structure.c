@@ -2,6 +2,7 @@
  * chains of links on revolute joints, and four-bars in a row, rods of 1 m and 1 kg. Per body it
  * should be flat. */
 #include "bench.h"
+#include "robot_text.h"
 #include "simulate_script.h"
 
 #include "base/text.h"
@@ -9,17 +10,12 @@
 static char *chain_text(int links)
 {
     Text text = {0};
+    char *chain = robot_chain(links);
 
-    text_add(&text, "scene planar\ngravity [0, -9.81]\n");
-    for (int i = 0; i < links; i++) {
-        text_addf(&text, "body b%d mass=1 inertia=1/12\narm s%d b%d [-0.5, 0]\n", i, i, i);
-        text_addf(&text, "arm e%d b%d [0.5, 0]\n", i, i);
-        if (i == 0)
-            text_add(&text, "revolute h0 ground s0\ninit h0 = -0.6\n");
-        else
-            text_addf(&text, "revolute h%d e%d s%d\ninit h%d = %g\n", i, i - 1, i, i,
-                      0.3 * (i * 7 % 5 - 2));
-    }
+    text_add(&text, chain);
+    for (int i = 0; i < links; i++)
+        text_addf(&text, "init h%d = %g\n", i, 0.3 * (i * 7 % 5 - 2));
+    mem_free(chain);
     return text_done(&text);
 }
 

@@ -20,7 +20,7 @@ import subprocess
 import sys
 import tempfile
 
-from precision import CASES, METHODS, Failed, Shell
+from precision import CASES, METHODS, Failed, arguments
 
 TOLERANCES = [1e-4, 1e-6, 1e-8, 1e-10]
 RIGHT = 10.0  # times too large or too small
@@ -98,16 +98,7 @@ def measure(shell, name, case, counts):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n", 1)[0])
-    parser.add_argument("-t", dest="patience", type=int, default=60)
-    parser.add_argument("program")
-    parser.add_argument("top")
-    parser.add_argument("cases", nargs="*", metavar="case")
-    given = parser.parse_args()
-    unknown = [name for name in given.cases if name not in CASES]
-    if unknown:
-        parser.error(f"no case is called {unknown[0]}; there are {', '.join(CASES)}")
-    shell = Shell(given.program, given.top, given.patience)
+    given, shell = arguments(argparse.ArgumentParser(description=__doc__.split("\n", 1)[0]), 60)
     counts = {"right": 0, "too low": 0, "too high": 0, "not resolved": 0, "failed": 0}
     for name in given.cases or CASES:
         measure(shell, name, CASES[name], counts)

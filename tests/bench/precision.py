@@ -337,10 +337,9 @@ def measure(shell, file, name, case):
     return failed
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n", 1)[0])
-    parser.add_argument("-o", dest="file", default="precision.dat")
-    parser.add_argument("-t", dest="patience", type=int, default=30)
+def arguments(parser, patience):
+    """What the command line asks for, and the shell to do it with."""
+    parser.add_argument("-t", dest="patience", type=int, default=patience)
     parser.add_argument("program")
     parser.add_argument("top")
     parser.add_argument("cases", nargs="*", metavar="case")
@@ -348,7 +347,13 @@ def main():
     unknown = [name for name in given.cases if name not in CASES]
     if unknown:
         parser.error(f"no case is called {unknown[0]}; there are {', '.join(CASES)}")
-    shell = Shell(given.program, given.top, given.patience)
+    return given, Shell(given.program, given.top, given.patience)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n", 1)[0])
+    parser.add_argument("-o", dest="file", default="precision.dat")
+    given, shell = arguments(parser, 30)
     failed = 0
     with open(given.file, "w", encoding="utf-8") as file:
         for name in given.cases or CASES:
