@@ -104,7 +104,12 @@ static void lay_out(char *text, const char *digits, int length, int exponent, in
         if (length > 1)
             *text++ = '.';
         memcpy(text, digits + 1, (size_t)length - 1);
-        (void)snprintf(text + length - 1, 6, "e%c%02d", exponent < 0 ? '-' : '+', abs(exponent));
+        text += length - 1;
+        *text++ = 'e'; /* of two digits: powers that are held have no more */
+        *text++ = exponent < 0 ? '-' : '+';
+        *text++ = (char)('0' + abs(exponent) / 10);
+        *text++ = (char)('0' + abs(exponent) % 10);
+        *text = '\0';
         return;
     }
     /* from the digit before the point on, at least */

@@ -6,8 +6,9 @@
 
 #include "language/verbs.h"
 
+#include <ctype.h>
 #include <inttypes.h>
-#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 static const char HEAD[] = "# subsystem stored by cotree, version ";
@@ -70,35 +71,70 @@ typedef struct Load {
     Text remarks;
 } Load;
 
+/* what a file's first line tells */
+typedef struct Head {
+    long version;
+    char scene[8];
+    uint64_t number; /* fingerprint of `rest` */
+    const char *rest;
+} Head;
+
+/* NULL: `text` doesn't go on with `word` */
+static const char *behind(const char *text, const char *word)
+{
+    return strncmp(text, word, strlen(word)) == 0 ? text + strlen(word) : NULL;
+}
+
+static bool read_head(const char *text, Head *head)
+{
+    const char *at = behind(text, HEAD);
+    char *end;
+    size_t length;
+
+    if (at == NULL || !isdigit((unsigned char)*at))
+        return false;
+    head->version = strtol(at, &end, 10);
+    at = behind(end, ", ");
+    if (at == NULL)
+        return false;
+    length = strspn(at, "abcdefghijklmnopqrstuvwxyz");
+    if (length >= sizeof head->scene)
+        return false;
+    memcpy(head->scene, at, length);
+    head->scene[length] = '\0';
+    at = behind(at + length, " scene, unedited: ");
+    if (at == NULL || !isxdigit((unsigned char)*at))
+        return false;
+    head->number = strtoull(at, &end, 16);
+    head->rest = end + 1;
+    return *end == '\n';
+}
+
 /* the first line tells what follows; its own `rest` */
 static Status check_head(const Load *load, const char **rest, Diag *diag)
 {
     const char *name = load->file->text;
     const char *scene = model_is_planar(load->model) ? "planar" : "spatial";
-    char word[8] = "";
-    int version = 0, read = 0;
-    uint64_t number = 0;
+    Head head;
 
-    if (strncmp(load->text, HEAD, strlen(HEAD)) != 0 || strlen(load->text) != load->length ||
-        sscanf(load->text + strlen(HEAD), "%9d, %7[a-z] scene, unedited: %16" SCNx64 "%n", &version,
-               word, &number, &read) < 3 ||
-        load->text[strlen(HEAD) + (size_t)read] != '\n') {
+    if (strlen(load->text) != load->length || !read_head(load->text, &head)) {
         (void)diag_at(diag, E_VALUE, load->file->place, "'%s' is no stored subsystem", name);
         diag_hint(diag, "'store NAME \"FILE\"' writes one; 'source' replays a script");
         return E_VALUE;
     }
-    if (version != VERSION) {
+    if (head.version != VERSION) {
         (void)diag_at(diag, E_VALUE, load->file->place,
-                      "'%s' was stored by another cotree: version %d, not %d", name, version,
+                      "'%s' was stored by another cotree: version %ld, not %d", name, head.version,
                       VERSION);
         diag_hint(diag, "its definitions are text: copy them into a script");
         return E_VALUE;
     }
-    *rest = load->text + strlen(HEAD) + read + 1;
-    if (fingerprint(*rest) == number && (strcmp(word, scene) == 0 || strcmp(word, "any") == 0))
+    *rest = head.rest;
+    if (fingerprint(*rest) == head.number &&
+        (strcmp(head.scene, scene) == 0 || strcmp(head.scene, "any") == 0))
         return OK;
-    if (fingerprint(*rest) == number) {
-        (void)diag_at(diag, E_MODEL, load->file->place, "'%s' is of a %s scene", name, word);
+    if (fingerprint(*rest) == head.number) {
+        (void)diag_at(diag, E_MODEL, load->file->place, "'%s' is of a %s scene", name, head.scene);
         diag_hint(diag, "this one is %s; 'scene' says which it is, before the first part", scene);
         return E_MODEL;
     }

@@ -156,7 +156,7 @@ static void squares_and_products_are_seen(void)
 static void what_is_beyond_the_bound_is_remembered(void)
 {
     Ring *ring = ring_new(VARIABLES, 20, NULL);
-    Multinomial *sum = multinomial_small(ring, 1), *x = multinomial_variable(ring, 1);
+    Multinomial *sum = multinomial_small(ring, 1), *x;
 
     for (int v = 0; v < VARIABLES; v++)
         sum = multinomial_sum(sum, multinomial_variable(ring, v), 1);
