@@ -2,7 +2,9 @@
  *
  * The robot and the chains of tests/bench/peers.py, which puts other programs beside these rows.
  * An evaluation is one of the equations' rate: q' and u' where t, q and u are given. Named as an
- * argument, one of them alone. */
+ * argument, one of them alone. The robot is exported as C, too, which cc makes a library of here,
+ * and timed beside. */
+#include "../unit/session_kit.h"
 #include "bench.h"
 #include "bench_model.h"
 #include "robot_text.h"
@@ -12,8 +14,11 @@
 #include "simulate/equations/motion.h"
 #include "simulate/equations/numbers.h"
 
+#include <dlfcn.h>
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 enum { TRIES = 300, FEW = 3000 /* evaluations until a program has been made native */ };
 
@@ -33,7 +38,8 @@ static void place(const System *system, double *y)
         y[n + j] = cos(2 + 1.3 * j);
 }
 
-static double evaluation(const Motion *motion, const System *system)
+/* Nanoseconds of one evaluation; `kept` takes the rates. */
+static double evaluation(const Motion *motion, const System *system, double *kept)
 {
     const Ode *ode = motion_ode(motion);
     const int length = motion_length(motion);
@@ -55,6 +61,7 @@ static double evaluation(const Motion *motion, const System *system)
     for (int j = 0; j < system_nu(system); j++)
         printf(" %.15g", rate[system_n(system) + j]);
     printf("\n");
+    memcpy(kept, rate, (size_t)length * sizeof(double));
     MEM_FREE(y, rate);
     return 1e9 * seconds / few;
 }
@@ -83,7 +90,110 @@ static void count(System *system, const char *name)
     mem_free(told);
 }
 
-static void measure(const char *text, const char *name)
+/* --- the C that comes out --- */
+
+/* model_rates() and model_parameters() of exported code, with real = double */
+typedef int Rates(const double *p, double t, const double *y, double *s, double *work, double *out);
+typedef void Values(double *p);
+
+enum { ROOM = 4096 /* for parameters, unknowns and workspace: far more than six joints take */ };
+
+/* Operations as the code's head counts them, in its line "accelerations: ...". */
+static void count_exported(const char *code, const char *name)
+{
+    const char *told = strstr(code, "accelerations: "), *counts = told != NULL ? told : "";
+    int add, mul, fun;
+
+    counts += strcspn(counts, "(\n");
+    if (sscanf(counts, "(%d, %d, %d)", &add, &mul, &fun) == 3) {
+        line(name, "exported_operations", add + mul, "ops");
+        line(name, "exported_functions", fun, "ops");
+    }
+}
+
+/* As evaluation(), at the same states; the first `length` of `y` and `rate` are used. */
+static double evaluation_exported(Rates *rates, Values *parameters, const System *system,
+                                  int length, double *rate)
+{
+    static double p[ROOM], s[ROOM], work[ROOM];
+    double *y = NEW_ARRAY(double, 2 * length), seconds;
+    const int few = 2 + 2 * (200 / (10 + system_nu(system)));
+
+    parameters(p);
+    place(system, y);
+    memcpy(y + length, y, (size_t)length * sizeof(double));
+    y[length] += 0.1;
+    BENCH_LEAST(TRIES, seconds,
+                for (int i = 0; i < few; i++)(void) rates(p, 0, y + i % 2 * length, s, work, rate));
+    (void)rates(p, 0, y, s, work, rate);
+    mem_free(y);
+    return 1e9 * seconds / few;
+}
+
+/* Export, compile, load and time; `right` are the rates of our program, which took `own` ns. */
+static void measure_exported(const char *text, const char *name, const System *robot, double own,
+                             const double *right)
+{
+    char folder[] = "/tmp/bench_dynamics_XXXXXX", command[512];
+    const int length = system_n(robot) + system_nu(robot);
+    double *rate = NEW_ARRAY(double, length), off = 0, took;
+    Kit kit = kit_new();
+    void *library = NULL;
+    FILE *file = NULL;
+    Rates *rates;
+    Values *parameters;
+
+    if (mkdtemp(folder) == NULL)
+        goto done;
+    if (kit_do(&kit, text) != CT_OK || kit_do(&kit, "export c\n") != CT_OK || kit.text == NULL) {
+        printf("# %s: not exported: %s\n", name, kit.error.message);
+        goto done;
+    }
+    count_exported(kit.text, name);
+    (void)snprintf(command, sizeof command, "%s/robot.c", folder);
+    file = fopen(command, "w");
+    if (file == NULL || fputs(kit.text, file) < 0) {
+        printf("# %s: can't write %s\n", name, command);
+        goto done;
+    }
+    (void)fclose(file);
+    file = NULL;
+    (void)snprintf(command, sizeof command,
+                   "cc -O3 -march=native -shared -fPIC -o %s/robot.so %s/robot.c -lm 2>%s/said",
+                   folder, folder, folder);
+    if (system(command) != 0) {
+        printf("# %s: exported C is not timed: no compiler cc that takes it is here\n", name);
+        goto done;
+    }
+    (void)snprintf(command, sizeof command, "%s/robot.so", folder);
+    library = dlopen(command, RTLD_NOW | RTLD_LOCAL);
+    if (library == NULL) {
+        printf("# %s: exported C is not timed: %s\n", name, dlerror());
+        goto done;
+    }
+    *(void **)&rates = dlsym(library, "model_rates");
+    *(void **)&parameters = dlsym(library, "model_parameters");
+    took = evaluation_exported(rates, parameters, robot, length, rate);
+    for (int i = 0; i < length; i++)
+        off = fmax(off, fabs(rate[i] - right[i]) / fmax(1, fabs(right[i])));
+    if (off > 1e-9) {
+        printf("# %s: exported C is off by %.2g\n", name, off);
+        goto done;
+    }
+    line(name, "exported", took, "ns");
+    line(name, "exported_times", took / own, "ours");
+done:
+    if (file != NULL)
+        (void)fclose(file);
+    if (library != NULL)
+        (void)dlclose(library);
+    (void)snprintf(command, sizeof command, "rm -rf %s", folder);
+    (void)system(command);
+    kit_free(&kit);
+    mem_free(rate);
+}
+
+static void measure(const char *text, const char *name, bool is_exported)
 {
     Model *model = bench_model(text);
     System *system = NULL;
@@ -92,6 +202,7 @@ static void measure(const char *text, const char *name)
     Motion *motion = NULL;
     Layout *layout;
     Diag diag = {0};
+    double *rate, took;
 
     if (form_system(model, &system, &diag) != OK) {
         printf("# %s: %s\n", name, diag.message);
@@ -102,7 +213,12 @@ static void measure(const char *text, const char *name)
     parameters.evaluator = EVALUATOR_STRICT;
     if (numbers_new(layout, &parameters, &numbers, &diag) == OK) {
         motion = motion_new(numbers_equations(numbers), &(MotionOptions){.tolerance = 1e-9});
-        line(name, "forward", evaluation(motion, system), "ns");
+        rate = NEW_ARRAY(double, motion_length(motion));
+        took = evaluation(motion, system, rate);
+        line(name, "forward", took, "ns");
+        if (is_exported)
+            measure_exported(text, name, system, took, rate);
+        mem_free(rate);
     }
     motion_free(motion);
     numbers_free(numbers);
@@ -117,13 +233,13 @@ int main(int argc, char **argv)
     static const int links[] = {2, 10, 50, 200, 1000};
 
     if (argc < 2 || strcmp(argv[1], "6r") == 0)
-        measure(robot_6r, "6r");
+        measure(robot_6r, "6r", true);
     for (int i = 0; i < COUNT(links); i++) {
         char *text = robot_chain(links[i]), name[24];
 
         (void)snprintf(name, sizeof name, "chain_%d", links[i]);
         if (argc < 2 || strcmp(argv[1], name) == 0)
-            measure(text, name);
+            measure(text, name, false);
         mem_free(text);
     }
     return 0;

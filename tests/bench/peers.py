@@ -106,11 +106,14 @@ def run_case(name, ours, peers):
     tree, gravity = CASES[name]
     done = subprocess.run([ours, name], capture_output=True, text=True, check=True)
     right, own = rows_of(done.stdout)
-    own = {key.rsplit("_", 1)[1]: value for key, value in own.items()}
+    own = {key[len(f"dynamics.{name}_"):]: value for key, value in own.items()}
     agree = True
-    for what in ("operations", "functions", "forward", "inverse"):
-        if what in own:
-            print(f"peers.{name}_{what} {own[what]:.4g} {'ops' if what[-1] == 's' else 'ns'}")
+    for what, value in own.items():
+        unit = "ours" if what.endswith("times") else "ops" if what.endswith("s") else "ns"
+        print(f"peers.{name}_{what} {value:.4g} {unit}")
+    for said in done.stdout.splitlines():
+        if said.startswith(f"# {name}:"):
+            print(said)
     for peer, program in peers.items():
         if program is None:
             continue
