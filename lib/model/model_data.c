@@ -1,9 +1,11 @@
 /* model_data.c: files of data that table() names, read when a statement is applied
  *
  * A file holds rows of numbers between commas, semicolons or blanks; its first row may name the
- * columns. Lines that begin with # are comments. The first column is x and grows. What was read
- * stays with the arena under the file's name and the column's, so that a statement that is
- * applied anew by undo finds the data that it was made with. */
+ * columns, with units in brackets behind: "h [deg]" is h, in SI from here on. Lines that begin with
+ * # are comments. The first column is x and grows. What was read stays with the arena under the
+ * file's name and the column's, so that a statement that is applied anew by undo finds the data
+ * that it was made with. */
+#include "expr/units.h"
 #include "language/functions.h"
 #include "model/model_impl.h"
 
@@ -22,7 +24,8 @@ typedef struct DataReader {
     const char *column;
     Place column_place;
     int line;
-    int x_cell, y_cell; /* from 0 */
+    int x_cell, y_cell;  /* from 0 */
+    Unit x_unit, y_unit; /* of factor 1 where the file tells none */
     LIST(double) x;
     LIST(double) y;
     Diag *diag;
@@ -103,6 +106,10 @@ static void split(char *line, Cells *cells)
 
         begin += quoted;
         end = begin + strcspn(begin, quoted ? "\"" : separators);
+        if (!quoted && *separators == ' ' && end[strspn(end, separators)] == '[') {
+            end += strcspn(end, "]"); /* a head's unit */
+            end += *end != '\0';
+        }
         at = end + (*end != '\0');
         *end = '\0';
         if (quoted)
@@ -139,6 +146,40 @@ static bool is_number_text(const char *text)
     return text[0] != '\0' && text[strspn(text, "0123456789")] == '\0';
 }
 
+/* where the unit of a head begins, "[deg]" of "h [deg]"; NULL: it ends with none */
+static const char *unit_of_head(const char *head)
+{
+    const char *open = strrchr(head, '[');
+
+    return open != NULL && head[strlen(head) - 1] == ']' ? open : NULL;
+}
+
+/* "h" is "h [deg]", and so is that */
+static bool is_head(const char *head, const char *name)
+{
+    const char *unit = unit_of_head(head);
+    size_t length = unit != NULL ? (size_t)(unit - head) : 0;
+
+    while (length > 0 && strchr(" \t", head[length - 1]) != NULL)
+        length--;
+    return strcmp(head, name) == 0 ||
+           (length > 0 && strlen(name) == length && strncmp(head, name, length) == 0);
+}
+
+static Status take_unit(const DataReader *r, const Cells *cells, int cell, Unit *out)
+{
+    const char *head = cells->at.count > cell ? cells->at.at[cell] : "";
+    const char *text = unit_of_head(head);
+    size_t fault;
+
+    if (text == NULL || unit_parse(text + 1, strlen(text) - 2, out, &fault))
+        return OK;
+    (void)diag_at(r->diag, E_UNIT, r->place, "column %d of %s, '%.60s': '%.40s' is no unit",
+                  cell + 1, r->file, head, text);
+    diag_hint(r->diag, "units are written as in [m], [deg], [kN/m]; [1] where there is none");
+    return E_UNIT;
+}
+
 /* by its number from 1, or by its name in the first row */
 static Status find_column(DataReader *r, const Cells *cells, bool named)
 {
@@ -156,7 +197,7 @@ static Status find_column(DataReader *r, const Cells *cells, bool named)
     }
     for (int i = 0; named && i < cells->at.count; i++) {
         suggest_offer(&suggest, cells->at.at[i]);
-        if (strcmp(cells->at.at[i], r->column) == 0) {
+        if (is_head(cells->at.at[i], r->column)) {
             r->y_cell = i;
             return OK;
         }
@@ -170,7 +211,16 @@ static Status find_column(DataReader *r, const Cells *cells, bool named)
     return E_NAME;
 }
 
-static Status take_cell(const DataReader *r, const Cells *cells, int cell, double *out)
+/* rounded once where the unit is a ratio, so that 300 [ms] is what 0.3 is */
+static double in_si(const Unit *unit, double value)
+{
+    return unit->den != 0 && unit->pi_power == 0
+               ? (double)((long double)value * (long double)unit->num / (long double)unit->den)
+               : value * unit->factor;
+}
+
+static Status take_cell(const DataReader *r, const Cells *cells, int cell, const Unit *unit,
+                        double *out)
 {
     if (cell >= cells->at.count)
         return diag_at(r->diag, E_VALUE, r->place, "line %d of %s has no column %d", r->line,
@@ -178,15 +228,19 @@ static Status take_cell(const DataReader *r, const Cells *cells, int cell, doubl
     if (!is_cell_number(cells->at.at[cell], out))
         return diag_at(r->diag, E_VALUE, r->place, "line %d of %s: '%.40s' is no number", r->line,
                        r->file, cells->at.at[cell]);
-    return OK;
+    *out = in_si(unit, *out);
+    return *out - *out == 0 ? OK
+                            : diag_at(r->diag, E_VALUE, r->place,
+                                      "line %d of %s: '%.40s' is too large in its unit", r->line,
+                                      r->file, cells->at.at[cell]);
 }
 
 static Status take_row(DataReader *r, const Cells *cells)
 {
     double x, y;
 
-    TRY(take_cell(r, cells, r->x_cell, &x));
-    TRY(take_cell(r, cells, r->y_cell, &y));
+    TRY(take_cell(r, cells, r->x_cell, &r->x_unit, &x));
+    TRY(take_cell(r, cells, r->y_cell, &r->y_unit, &y));
     if (r->x.count > 0 && !(x > r->x.at[r->x.count - 1]))
         return diag_at(r->diag, E_VALUE, r->place,
                        "line %d of %s: the first column has to grow, and %g follows %g", r->line,
@@ -242,8 +296,11 @@ static Status read_stream(DataReader *r, FILE *in)
 
             begun = true;
             CHECK(find_column(r, &cells, named));
-            if (named)
+            if (named) {
+                CHECK(take_unit(r, &cells, r->x_cell, &r->x_unit));
+                CHECK(take_unit(r, &cells, r->y_cell, &r->y_unit));
                 continue;
+            }
         }
         CHECK(take_row(r, &cells));
         if (r->x.count > MOST_ROWS)
@@ -268,7 +325,10 @@ done:
 
 static Status read_call(const DataFinder *finder, Arena *arena, const Syntax *call, Diag *diag)
 {
+    const Unit none = {.factor = 1, .num = 1, .den = 1};
     DataReader r = {.file = call->args[0]->text,
+                    .x_unit = none,
+                    .y_unit = none,
                     .place = call->args[0]->place,
                     .column = data_column(call),
                     .column_place = call->count > 2 ? call->args[2]->place : call->args[0]->place,

@@ -161,6 +161,32 @@ static void columns_go_by_number_and_by_name(void)
     kit_free(&kit);
 }
 
+/* as factors by hand tell: 1 ms is 1e-3 s, 180 deg are pi, 60 rpm are 2 pi rad/s */
+static void values_are_in_the_units_of_the_first_row(void)
+{
+    static const char *const files[] = {
+        "t [ms], h [deg],w[rpm],plain,m [1],n [what]\n0,0,0,7,1,1\n300,180,60,8,2,2\n",
+        "t [ms];\"h [deg]\";w [rpm];plain;m [1];n [what]\n0;0;0;7;1;1\n300;180;60;8;2;2\n",
+        "t [ms] h [deg]\tw [ rpm ] plain m [1] n [what]\n0 0 0 7 1 1\n300 180 60 8 2 2\n",
+    };
+
+    for (size_t i = 0; i < sizeof files / sizeof files[0]; i++) {
+        Kit kit = kit_new();
+
+        write_file(files[i]);
+        expect_value(&kit, "table(\"" FILE_NAME "\", 0.3)", M_PI, 1e-15);
+        expect_value(&kit, "table(\"" FILE_NAME "\", 0.15, \"h\")", M_PI / 2, 1e-15);
+        expect_value(&kit, "table(\"" FILE_NAME "\", 0.15, \"h [deg]\")", M_PI / 2, 1e-15);
+        expect_value(&kit, "table(\"" FILE_NAME "\", 0.15, 3)", M_PI, 1e-15);
+        expect_value(&kit, "table(\"" FILE_NAME "\", 0.15, \"w\", 1)", 2 * M_PI / 0.3, 1e-12);
+        expect_value(&kit, "table(\"" FILE_NAME "\", 0.3, \"plain\")", 8, 0);
+        expect_value(&kit, "table(\"" FILE_NAME "\", 0.3, \"m\")", 2, 0);
+        expect_value(&kit, "table(\"" FILE_NAME "\", 0.3, 1)", 0.3, 0);
+        kit_free(&kit);
+    }
+    (void)unlink(FILE_NAME);
+}
+
 /* a capacitor takes C v': exact where the curve is a line */
 static void a_source_follows_its_data_and_their_slope(void)
 {
@@ -200,6 +226,9 @@ static void wrong_data_are_refused_at_their_place(void)
         {"0,1\n1,2\n",       "(\"" FILE_NAME "\", t, 3)",      44, "has 2 columns", ""},
         {"t,volt\n0,1\n1,2\n", "(\"" FILE_NAME "\", t, \"vol\")", 44, "is called 'vol'", "did you mean 'volt'?"},
         {"0,1\n1,2\n",       "(\"" FILE_NAME "\", t, \"v\")",  44, "is called 'v'", "doesn't name them"},
+        {"t,v [mQ]\n0,1\n1,2\n", "(\"" FILE_NAME "\", t)", 18, "column 2 of " FILE_NAME ", 'v [mQ]': '[mQ]' is no unit", "[kN/m]"},
+        {"t [],v\n0,1\n1,2\n", "(\"" FILE_NAME "\", t)",  18, "column 1 of " FILE_NAME ", 't []': '[]' is no unit", "[1] where"},
+        {"t [km],v\n0,1\n1e307,2\n", "(\"" FILE_NAME "\", t)", 18, "line 3 of " FILE_NAME ": '1e307' is too large", ""},
         {"0,1\n1,2\n",       "(\"" FILE_NAME "\", t, t)",      44, "a column is a number from 1 or a name", ""},
         {"0,1\n1,2\n",       "(\"" FILE_NAME "\", t, 2, 5)",   47, "derivatives of order 1, 2 and 3", ""},
         {"0,1\n1,2\n",       "(t, t)",                         12, "does not take 2 arguments", "table(\"file.csv\", x, column)"},
@@ -305,6 +334,7 @@ int main(void)
     RUN(equal_data_are_one_expression);
     RUN(programs_compute_what_expressions_are);
     RUN(columns_go_by_number_and_by_name);
+    RUN(values_are_in_the_units_of_the_first_row);
     RUN(a_source_follows_its_data_and_their_slope);
     RUN(wrong_data_are_refused_at_their_place);
     RUN(programs_are_given_the_data);
