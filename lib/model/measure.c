@@ -620,11 +620,14 @@ static const char *potential_unit(const State *state, const char *name)
     return unit;
 }
 
-/* of a joint: along its only coordinate; of what acts on one, or along a line */
-static const char *effort_unit(const Instance *part)
+/* of a joint: along its only coordinate; of a driver: along that which supplies its motion; of what
+ * acts on a coordinate, or along a line */
+static const char *effort_unit(const State *state, const Instance *part)
 {
     static const char *const units[] = {"N", "N*m", NULL, "N*m"};
 
+    if (part->row->family == FAMILY_DRIVER && part->by_coordinate >= 0)
+        return units[state->parts.at[part->by]->coord_kind[part->by_coordinate]];
     if (part->row->family != FAMILY_JOINT)
         return part->on_angle ? "N*m" : "N";
     return part->coord_count == 1 ? units[part->coord_kind[0]] : NULL;
@@ -636,7 +639,7 @@ static const char *member_unit(const State *state, const Instance *part, const c
 
     for (int i = 0; (member = component_member(part->row, state->planar, i)) != NULL; i++)
         if (strcmp(member->name, name) == 0)
-            return strcmp(name, "effort") == 0 ? effort_unit(part) : member->unit;
+            return strcmp(name, "effort") == 0 ? effort_unit(state, part) : member->unit;
     return NULL;
 }
 

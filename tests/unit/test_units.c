@@ -385,6 +385,10 @@ static void the_unit_of_an_item_is_told_where_it_is_known(void)
     expect_unit(&kit, "s1/r", "");
     expect_unit(&kit, "nothing", "");
     expect_unit(&kit, "s1 + h1", "");
+    /* where another coordinate supplies a motion, the effort is along that */
+    EXPECT_DONE(&kit, "driver D1 h1 = 1 - cos(t) by=s1\ndriver D2 s1 = sin(t) by=h1\n");
+    expect_unit(&kit, "D1.effort", "N");
+    expect_unit(&kit, "D2.effort", "N*m");
     kit_free(&kit);
 }
 
