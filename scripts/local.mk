@@ -46,6 +46,8 @@ EXTRA_DIST += \
 	scripts/machines/loudspeaker.ct \
 	scripts/machines/maglev.ct \
 	scripts/machines/motions.py \
+	scripts/machines/platform.ct \
+	scripts/machines/platform.py \
 	scripts/machines/slider-crank.ct
 
 # definitions of subsystems, for `source` and `use`
