@@ -245,6 +245,18 @@ int table_width(const Table *table)
     return width;
 }
 
+int table_widest_cell(const Table *table)
+{
+    int widest = 0;
+
+    for (int c = 0; c < table->columns; c++) {
+        const int width = column_width(table, c);
+
+        widest = width > widest ? width : widest;
+    }
+    return widest;
+}
+
 static int *column_widths(const Table *table)
 {
     int *width = NEW_ARRAY(int, table->columns);
@@ -254,14 +266,14 @@ static int *column_widths(const Table *table)
     return width;
 }
 
-/* the first `count` cells of the row that starts at `first` */
-static void add_cells(Text *out, const Table *table, const int *width, int first, int count)
+/* cells `from` up to `to` of the row that starts at `first` */
+static void add_cells(Text *out, const Table *table, const int *width, int first, int from, int to)
 {
-    for (int c = 0; c < count; c++) {
+    for (int c = from; c < to; c++) {
         const char *cell = table->cells.at[first + c];
         const int blanks = width[c] - text_width(cell);
 
-        if (c > 0)
+        if (c > from)
             text_add(out, "  ");
         if (table->align[c] == 'r')
             text_fill(out, ' ', blanks);
@@ -280,17 +292,43 @@ static void trim(Text *out, size_t kept)
 
 void table_print(Text *out, const Table *table, int indent)
 {
+    table_blocks(out, table, indent, 0);
+}
+
+/* behind the columns from `from` on that fit beside the first one, at least one */
+static int block_end(const Table *table, const int *width, int from, int room)
+{
+    int to = from;
+
+    room -= width[0];
+    while (to < table->columns && (room -= width[to] + 2) >= 0)
+        to++;
+    return to > from ? to : from + 1;
+}
+
+void table_blocks(Text *out, const Table *table, int indent, int columns)
+{
     int *width = column_widths(table);
+    int from = 1;
 
-    for (int i = 0; i < table->cells.count; i += table->columns) {
-        size_t kept;
+    do {
+        const int to =
+            columns > 0 ? block_end(table, width, from, columns - indent) : table->columns;
 
-        text_fill(out, ' ', indent);
-        kept = out->length;
-        add_cells(out, table, width, i, table->columns);
-        trim(out, kept);
-        text_char(out, '\n');
-    }
+        text_add(out, from > 1 ? "\n" : "");
+        for (int i = 0; i < table->cells.count; i += table->columns) {
+            size_t kept;
+
+            text_fill(out, ' ', indent);
+            kept = out->length;
+            add_cells(out, table, width, i, 0, 1);
+            text_add(out, to > 1 ? "  " : "");
+            add_cells(out, table, width, i, from, to);
+            trim(out, kept);
+            text_char(out, '\n');
+        }
+        from = to;
+    } while (from < table->columns);
     mem_free(width);
 }
 
@@ -299,7 +337,7 @@ void table_wrap(Text *out, const Table *table, int indent, int columns)
     enum { LEAST = 24 };
     const int last = table->columns - 1;
     const bool is_beside =
-        table_width(table) + indent <= columns ||
+        columns == 0 || table_width(table) + indent <= columns ||
         table_width(table) - column_width(table, last) + indent <= columns - LEAST;
     int *width = column_widths(table);
 
@@ -307,7 +345,7 @@ void table_wrap(Text *out, const Table *table, int indent, int columns)
         Text lead = {0};
 
         text_fill(&lead, ' ', indent);
-        add_cells(&lead, table, width, i, last);
+        add_cells(&lead, table, width, i, 0, last);
         text_add(&lead, "  ");
         if (!is_beside) {
             trim(&lead, 0);

@@ -43,9 +43,12 @@ Table table_for(const char *align);
 void table_cell(Table *table, const char *text);
 void table_cellf(Table *table, const char *format, ...) PRINTF(2, 3);
 int table_width(const Table *table);
+int table_widest_cell(const Table *table);
 void table_print(Text *out, const Table *table, int indent);
-/* The same, the words of the last column wrapped: beside the others, where the page leaves too
- * little room below them. */
+/* The same in blocks of columns no wider than the page, the first column in front of each. */
+void table_blocks(Text *out, const Table *table, int indent, int columns);
+/* As table_print(), the words of the last column wrapped: beside the others, where the page leaves
+ * too little room below them. */
 void table_wrap(Text *out, const Table *table, int indent, int columns);
 void table_free(Table *table);
 

@@ -32,7 +32,7 @@ LinearMatrix linear_matrix(const Linear *linear, char letter)
 
 /* --- one matrix --- */
 
-static void print_rounded(Text *out, const LinearMatrix *m)
+static void print_rounded(Text *out, const LinearMatrix *m, int columns)
 {
     Text align = {0};
     Table table;
@@ -48,7 +48,7 @@ static void print_rounded(Text *out, const LinearMatrix *m)
         for (int j = 0; j < m->columns; j++)
             table_cellf(&table, "%.6g", m->at[i * m->columns + j]);
     }
-    table_print(out, &table, 0);
+    table_blocks(out, &table, 0, columns);
     table_free(&table);
     text_free(&align);
 }
@@ -119,7 +119,7 @@ void linear_print(const View *view, const Linear *linear, Text *out)
         }
         add_names(&table, "inputs", linear->input_names, linear->inputs);
         add_names(&table, "outputs", linear->output_names, linear->outputs);
-        table_print(out, &table, 0);
+        table_wrap(out, &table, 0, view->page.columns);
     }
     view_open(out, view);
     for (int k = 0; letters[k] != '\0'; k++) {
@@ -134,7 +134,7 @@ void linear_print(const View *view, const Linear *linear, Text *out)
         else if (kind == NOTATION_SOURCE)
             print_matlab(out, &m);
         else
-            print_rounded(out, &m);
+            print_rounded(out, &m, view->page.columns);
     }
     view_close(out, view);
     table_free(&table);

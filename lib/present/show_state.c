@@ -104,10 +104,12 @@ static void list_entries(Text *out, const View *view, const Matrix *m)
 
 enum {
     MOST_COLUMNS = 40, /* of a table */
-    USUAL_WIDTH = 100  /* where the page has none */
+    USUAL_WIDTH = 100, /* where the page has none */
+    SHORT = 12         /* an entry of which several stand beside each other on any page */
 };
 
-/* as a table where that is no wider than the page, else entry by entry */
+/* As a table where that is no wider than the page, in blocks of columns where it has short entries
+ * only, else entry by entry. */
 static void print_matrix(Text *out, const View *view, const Matrix *m)
 {
     const int room = view->page.columns > 0 ? view->page.columns : USUAL_WIDTH;
@@ -116,8 +118,9 @@ static void print_matrix(Text *out, const View *view, const Matrix *m)
 
     if (m->columns <= MOST_COLUMNS)
         table = make_table(view, m, &align);
-    if (m->columns <= MOST_COLUMNS && table_width(&table) <= room)
-        table_print(out, &table, 0);
+    if (m->columns <= MOST_COLUMNS &&
+        (table_width(&table) <= room || table_widest_cell(&table) <= SHORT))
+        table_blocks(out, &table, 0, room);
     else
         list_entries(out, view, m);
     table_free(&table);
@@ -137,7 +140,7 @@ static void print_text(Text *out, const View *view, const StateSpace *space)
     text_char(out, '\n');
     name_symbols(&table, view, "x", space->state, space->states);
     name_symbols(&table, view, "u", space->input, space->inputs);
-    table_print(out, &table, 0);
+    table_wrap(out, &table, 0, view->page.columns);
     table_free(&table);
     for (int k = 0; k < count; k++)
         print_matrix(out, view, &matrices[k]);

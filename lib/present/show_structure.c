@@ -229,13 +229,56 @@ static bool begins_block(const Pattern *p, const Lines *lines, int i)
                         outermost(p->system, lines->at[i - 1].instance);
 }
 
-static void add_row(const Pattern *p, int row, int width, Text *out)
+/* columns `from` up to `to` of a pattern, the names of its rows `width` wide */
+typedef struct Stripe {
+    int from, to, width;
+} Stripe;
+
+static void add_row(const Pattern *p, int row, Stripe stripe, Text *out)
 {
-    text_addf(out, "  %-*s", width, p->rows.at[row].name);
-    for (int c = 0; c < p->columns.count; c++)
-        text_addf(out, "%s %c", begins_block(p, &p->columns, c) ? " |" : "",
+    text_addf(out, "  %-*s", stripe.width, p->rows.at[row].name);
+    for (int c = stripe.from; c < stripe.to; c++)
+        text_addf(out, "%s %c", c > stripe.from && begins_block(p, &p->columns, c) ? " |" : "",
                   is_filled(p, row, c) ? 'x' : '.');
     text_char(out, '\n');
+}
+
+static void add_border(const Pattern *p, Stripe stripe, Text *out)
+{
+    text_addf(out, "  %*s", stripe.width, "");
+    for (int c = stripe.from; c < stripe.to; c++)
+        text_add(out, c > stripe.from && begins_block(p, &p->columns, c) ? " + -" : " -");
+    text_char(out, '\n');
+}
+
+/* behind the columns from `from` on that the page has room for, at least one; page 0: all */
+static int stripe_end(const Pattern *p, int from, int width, int page)
+{
+    int to = from + 1, room = page - width - 4;
+
+    while (to < p->columns.count &&
+           (page == 0 || (room -= begins_block(p, &p->columns, to) ? 4 : 2) >= 0))
+        to++;
+    return to;
+}
+
+/* As many columns beside each other as the page has room for, the others below, with the numbers
+ * that they have. */
+static void add_stripes(const Pattern *p, int width, int page, Text *out)
+{
+    Stripe stripe = {.width = width};
+
+    for (; stripe.from < p->columns.count; stripe.from = stripe.to) {
+        stripe.to = stripe_end(p, stripe.from, width, page);
+        if (stripe.to - stripe.from < p->columns.count)
+            text_addf(out, stripe.to > stripe.from + 1 ? " columns %d to %d\n" : " column %d\n",
+                      stripe.from + 1, stripe.to);
+        for (int r = 0; r < p->rows.count; r++) {
+            if (begins_block(p, &p->rows, r))
+                add_border(p, stripe, out);
+            add_row(p, r, stripe, out);
+        }
+    }
 }
 
 static const char *block_title(const Pattern *p, const Line *line)
@@ -272,7 +315,7 @@ static void add_block_rows(const Pattern *p, Text *out)
     }
 }
 
-static void add_pattern(const Pattern *p, const char *title, Text *out)
+static void add_pattern(const Pattern *p, const char *title, int page, Text *out)
 {
     int filled = 0, width = 0;
 
@@ -286,21 +329,15 @@ static void add_pattern(const Pattern *p, const char *title, Text *out)
     text_addf(out, "%s, %d x %d, %d not zero\n", title, p->rows.count, p->columns.count, filled);
     if (p->columns.count > WIDEST && instance_count(p->system) > 0)
         add_block_rows(p, out);
-    for (int r = 0; r < p->rows.count && p->columns.count <= WIDEST; r++) {
-        if (begins_block(p, &p->rows, r)) {
-            text_addf(out, "  %*s", width, "");
-            for (int c = 0; c < p->columns.count; c++)
-                text_add(out, begins_block(p, &p->columns, c) ? " + -" : " -");
-            text_char(out, '\n');
-        }
-        add_row(p, r, width, out);
-    }
+    if (p->columns.count <= WIDEST)
+        add_stripes(p, width, page, out);
 }
 
 Status show_structure(const View *view, const Selection *selection, Text *out, Diag *diag)
 {
     System *system = view->system;
     const Reading *reading = system_run(system);
+    const int page = view->page.columns;
     Lines speeds = {0}, rows = {0}, network = {0};
     Expr *dense = NULL;
     Status status = OK;
@@ -317,13 +354,14 @@ Status show_structure(const View *view, const Selection *selection, Text *out, D
     }
     if (speeds.count > 0)
         add_pattern(&(Pattern){system, reading->mass, speeds, speeds, speeds.count}, "mass matrix",
-                    out);
+                    page, out);
     if (rows.count > 0)
         add_pattern(&(Pattern){system, reading->phi_u, rows, speeds, speeds.count}, "jacobian",
-                    out);
+                    page, out);
     dense = system_network_matrix(system);
     if (network.count > 0)
-        add_pattern(&(Pattern){system, dense, network, network, network.count}, "network", out);
+        add_pattern(&(Pattern){system, dense, network, network, network.count}, "network", page,
+                    out);
 done:
     LIST_FREE(speeds);
     LIST_FREE(rows);

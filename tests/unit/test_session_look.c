@@ -469,8 +469,177 @@ static void a_long_entry_is_written_over_named_parts(void)
     kit_free(&kit);
 }
 
+/* --- matrices wider than the page --- */
+
+enum { MOST_WORDS = 64, MOST_LINES = 256 };
+
+/* lines of words; a line that begins like the first one is a heading of further columns */
+typedef struct Grid {
+    char *text;
+    char *word[MOST_LINES][MOST_WORDS];
+    int words[MOST_LINES];
+    int lines;
+} Grid;
+
+/* what stands from `begin` on, up to `end` at a line's begin */
+static Grid *grid_of(const char *text, const char *begin, const char *end)
+{
+    Grid *grid = NEW(Grid);
+    const char *from = strstr(text, begin), *to = from != NULL ? strstr(from, end) : NULL;
+    char *rest;
+
+    EXPECT(from != NULL && to != NULL);
+    grid->text = from != NULL && to != NULL ? mem_text(from, (size_t)(to - from + 1)) : NULL;
+    for (char *line = grid->text != NULL ? strtok_r(grid->text, "\n", &rest) : NULL;
+         line != NULL && grid->lines < MOST_LINES; line = strtok_r(NULL, "\n", &rest)) {
+        int *count = &grid->words[grid->lines];
+        char *left;
+
+        for (char *word = strtok_r(line, " ", &left); word != NULL && *count < MOST_WORDS;
+             word = strtok_r(NULL, " ", &left))
+            grid->word[grid->lines][(*count)++] = word;
+        grid->lines++;
+    }
+    return grid;
+}
+
+static void grid_free(Grid *grid)
+{
+    mem_free(grid->text);
+    mem_free(grid);
+}
+
+/* the entry in a row and a column by their names; "" */
+static const char *grid_at(const Grid *grid, const char *row, const char *column)
+{
+    int heading = 0;
+
+    for (int i = 0; i < grid->lines; i++) {
+        if (strcmp(grid->word[i][0], grid->word[0][0]) == 0)
+            heading = i;
+        if (i == heading || strcmp(grid->word[i][0], row) != 0)
+            continue;
+        for (int c = 1; c < grid->words[heading] && c < grid->words[i]; c++)
+            if (strcmp(grid->word[heading][c], column) == 0)
+                return grid->word[i][c];
+    }
+    return "";
+}
+
+static int widest_line(const char *text)
+{
+    int widest = 0;
+
+    for (const char *at = text; at != NULL && *at != '\0';) {
+        const int length = (int)strcspn(at, "\n");
+
+        widest = length > widest ? length : widest;
+        at += length + (at[length] == '\n');
+    }
+    return widest;
+}
+
+static void add_arms(Kit *kit, int count)
+{
+    char line[256];
+
+    EXPECT_DONE(kit, "scene planar\ngravity [0, -9.81]\n");
+    for (int i = 1; i <= count; i++) {
+        (void)snprintf(line, sizeof line,
+                       "body b%d mass=1 inertia=0.1\narm a%d b%d [-1, 0]\narm c%d b%d [1, 0]\n", i,
+                       i, i, i, i);
+        EXPECT_DONE(kit, line);
+        if (i == 1)
+            (void)snprintf(line, sizeof line, "revolute q1 ground a1\n");
+        else
+            (void)snprintf(line, sizeof line, "revolute q%d c%d a%d\n", i, i - 1, i);
+        EXPECT_DONE(kit, line);
+    }
+    EXPECT_DONE(kit, "actuator T q1 torque=0\nspring S q2 k=3");
+}
+
+static void add_ladder(Kit *kit, int count)
+{
+    char line[128];
+
+    EXPECT_DONE(kit, "vsource V1 n0 0 1\n");
+    for (int i = 1; i <= count; i++) {
+        (void)snprintf(line, sizeof line, "resistor R%d n%d n%d %d\ncapacitor C%d n%d 0 1\n", i,
+                       i - 1, i, i, i, i);
+        EXPECT_DONE(kit, line);
+    }
+}
+
+/* the entries of A are those of the whole table */
+static void wide_matrices_stand_in_blocks_of_columns(void)
+{
+    static const struct {
+        void (*add)(Kit *kit, int count);
+        int count, columns;
+        const char *order;
+    } models[] = {
+        {add_arms, 9, 18, "linearize inputs=[T] outputs=[q1]"},
+        {add_arms, 9, 18, "linearize inputs=[T] outputs=[q1]\nshow linear"},
+        {add_ladder, 14, 14, "show state"},
+    };
+    static const int pages[] = {200, 60, 80}; /* the whole, then in blocks */
+
+    for (int m = 0; m < COUNT(models); m++) {
+        Grid *grid[COUNT(pages)];
+
+        for (int p = 0; p < COUNT(pages); p++) {
+            const ct_hooks hooks = {.columns = pages[p]};
+            Kit kit = {.session = ct_session_new(&hooks)};
+
+            models[m].add(&kit, models[m].count);
+            EXPECT_DONE(&kit, models[m].order);
+            EXPECT(widest_line(kit.text) <= pages[p]);
+            EXPECT(p == 0 || widest_line(kit.text) > pages[p] - 12);
+            grid[p] = grid_of(kit.text, "\nA ", "\nB ");
+            kit_free(&kit);
+        }
+        EXPECT(grid[0]->words[0] == 1 + models[m].columns);
+        for (int p = 1; p < COUNT(pages); p++)
+            for (int r = 1; r < grid[0]->lines; r++)
+                for (int c = 1; c < grid[0]->words[0]; c++)
+                    EXPECT_TEXT(grid_at(grid[p], grid[0]->word[r][0], grid[0]->word[0][c]),
+                                grid[0]->word[r][c]);
+        for (int p = 0; p < COUNT(pages); p++)
+            grid_free(grid[p]);
+    }
+}
+
+/* crosses and dots of a full mass matrix of 45 speeds: each row has all of its columns */
+static void wide_patterns_stand_in_blocks_of_columns(void)
+{
+    static const int pages[] = {60, 80};
+
+    for (int p = 0; p < COUNT(pages); p++) {
+        const ct_hooks hooks = {.columns = pages[p]};
+        Kit kit = {.session = ct_session_new(&hooks)};
+        int last = 0, from, to, crosses = 0;
+
+        add_arms(&kit, 45);
+        EXPECT_DONE(&kit, "show structure");
+        EXPECT(widest_line(kit.text) <= pages[p] && widest_line(kit.text) > pages[p] - 3);
+        for (const char *at = kit.text; (at = strstr(at, "\n columns ")) != NULL; at++) {
+            EXPECT(sscanf(at, " columns %d to %d", &from, &to) == 2);
+            EXPECT(from == last + 1);
+            last = to;
+        }
+        EXPECT(last == 45);
+        for (const char *at = strstr(kit.text, "\n columns "); (at = strstr(at, " x")) != NULL;
+             at++)
+            crosses += at[2] == ' ' || at[2] == '\n';
+        EXPECT(crosses == 45 * 45);
+        kit_free(&kit);
+    }
+}
+
 int main(void)
 {
+    RUN(wide_matrices_stand_in_blocks_of_columns);
+    RUN(wide_patterns_stand_in_blocks_of_columns);
     RUN(one_tree_gives_the_two_equations_of_the_paper);
     RUN(two_trees_give_the_one_equation_of_the_paper);
     RUN(rates_of_constraints_are_linear_in_rates);
