@@ -96,8 +96,13 @@ class Robot:
         return (float(inertial.find("mass").get("value")), pose(inertial),
                 np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]))
 
+    def is_heavy(self, name):
+        """with a mass, or with an inertia alone, as of a rotor"""
+        mass, _, tensor = self.inertial(name)
+        return mass > 0 or bool(tensor.any())
+
     def bodies(self, q):
-        return {n: p @ self.inertial(n)[1] for n, p in self.places(q).items() if self.inertial(n)[0] > 0}
+        return {n: p @ self.inertial(n)[1] for n, p in self.places(q).items() if self.is_heavy(n)}
 
     def potential(self, q):
         return -sum(self.inertial(n)[0] * GRAVITY @ p[:3, 3] for n, p in self.bodies(q).items())
@@ -123,10 +128,10 @@ def names_here(robot, script):
     frames = {}
     for name in robot.links:
         mine = legal(name)
-        mass, centre, _ = robot.inertial(name)
+        _, centre, _ = robot.inertial(name)
         if name == "ground":
             mine = "ground_2"
-        frames[name] = mine + "_origin" if mass > 0 and centre[:3, 3].any() else mine
+        frames[name] = mine + "_origin" if robot.is_heavy(name) and centre[:3, 3].any() else mine
     joints = {}
     for joint in robot.joints:
         mine = legal(joint.get("name"))
