@@ -486,7 +486,7 @@ static Status ring_failure(const Solver *s, const char *about, Diag *diag)
 
 static Status solve(Solver *s, const char *about, Diag *diag)
 {
-    int row, column;
+    int row = 0, column = 0;
 
     if (s->has_functions)
         take_samples(s);
