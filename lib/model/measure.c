@@ -605,8 +605,6 @@ Status measure_of(const Scope *scope, const Syntax *syntax, Measure *out, Diag *
 
 /* --- variables --- */
 
-/* --- variables --- */
-
 /* of a terminal's potential; NULL: the name is none */
 static const char *potential_unit(const State *state, const char *name)
 {
@@ -633,7 +631,7 @@ static const char *effort_unit(const State *state, const Instance *part)
     return part->coord_count == 1 ? units[part->coord_kind[0]] : NULL;
 }
 
-static const char *member_unit(const State *state, const Instance *part, const char *name)
+const char *member_unit(const State *state, const Instance *part, const char *name)
 {
     const Member *member;
 

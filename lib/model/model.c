@@ -655,6 +655,11 @@ bool model_dimension(const Model *model, const Syntax *syntax, Dimension *out)
     return true;
 }
 
+const char *model_member_unit(const Model *model, const Instance *part, const char *member)
+{
+    return member_unit(ask(model).state, part, member);
+}
+
 Status model_check_alike(const Model *model, const Syntax *left, const Syntax *right, Diag *diag)
 {
     const Scope scope = ask(model);

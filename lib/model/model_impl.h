@@ -306,6 +306,8 @@ MUST_USE Status function_call(Scope *scope, const Syntax *syntax, const Expr *ar
 MUST_USE Status measure_of(const Scope *scope, const Syntax *syntax, Measure *out, Diag *diag);
 /* of a text's unit, which is known to be well written; NULL: any */
 Measure measure_of_unit(const char *unit);
+/* of a member of a part, as it stands there; NULL: it has none, or there is no such member */
+const char *member_unit(const State *state, const Instance *part, const char *name);
 /* of a variable by its own name, without primes */
 Measure variable_measure(const State *state, const Instance *own, const char *name);
 bool measure_same(Measure a, Measure b);

@@ -101,20 +101,58 @@ static void add_values(Table *table, const Instance *instance)
     }
 }
 
+static const char *coordinate_unit(CoordinateKind kind)
+{
+    return kind == COORDINATE_LENGTH ? "m" : kind == COORDINATE_PARAMETER ? "1" : "rad";
+}
+
+static void add_variable(Text *out, const char *name, const char *unit)
+{
+    Text item = {0};
+
+    text_add(&item, name);
+    if (unit != NULL && strcmp(unit, "1") != 0)
+        text_addf(&item, " [%s]", unit);
+    layout_item(out, item.at);
+    text_free(&item);
+}
+
+static bool is_own_coordinate(const Instance *instance, const char *name)
+{
+    for (int c = 0; c < instance->coord_count; c++)
+        if (strcmp(instance->coord[c], name) == 0)
+            return true;
+    return false;
+}
+
 static void add_variables(Text *out, const View *view, const Instance *instance)
 {
-    Text names = {0};
+    Text items = {0};
     const Member *member;
 
-    for (int c = 0; c < instance->coord_count; c++)
-        text_addf(&names, "%s%s %s'", names.length > 0 ? " " : "", instance->coord[c],
-                  instance->coord[c]);
+    for (int c = 0; c < instance->coord_count; c++) {
+        const char *unit = coordinate_unit(instance->coord_kind[c]);
+        Text rate = {0}, rate_unit = {0};
+
+        text_addf(&rate, "%s'", instance->coord[c]);
+        text_addf(&rate_unit, "%s/s", unit);
+        add_variable(&items, instance->coord[c], unit);
+        add_variable(&items, rate.at, rate_unit.at);
+        text_free(&rate);
+        text_free(&rate_unit);
+    }
     for (int i = 0;
-         (member = component_member(instance->row, model_is_planar(view->model), i)) != NULL; i++)
-        text_addf(&names, "%s%s.%s", names.length > 0 ? " " : "", instance->name, member->name);
-    if (names.length > 0)
-        layout_words(out, view->page.columns, "can be asked for: ", names.at);
-    text_free(&names);
+         (member = component_member(instance->row, model_is_planar(view->model), i)) != NULL; i++) {
+        Text name = {0};
+
+        text_addf(&name, "%s.%s", instance->name, member->name);
+        if (!is_own_coordinate(instance, name.at))
+            add_variable(&items, name.at, model_member_unit(view->model, instance, member->name));
+        text_free(&name);
+    }
+    if (items.length > 0)
+        layout_items(out, view->page.columns, "can be asked for: ", items.at);
+    text_free(&items);
 }
 
 static void print_instance(Text *out, const View *view, const Instance *instance)
@@ -303,9 +341,7 @@ static bool print_variable(Text *out, const View *view, const char *name)
 
     if (model_coordinate(view->model, name, &owner, &index)) {
         text_addf(out, "%s: coordinate of %s, in %s\n", name, owner->name,
-                  owner->coord_kind[index] == COORDINATE_LENGTH      ? "m"
-                  : owner->coord_kind[index] == COORDINATE_PARAMETER ? "1"
-                                                                     : "rad");
+                  coordinate_unit(owner->coord_kind[index]));
         return true;
     }
     owner = model_owner(view->model, name, &wanted);
@@ -314,8 +350,10 @@ static bool print_variable(Text *out, const View *view, const char *name)
          (member = component_member(owner->row, model_is_planar(view->model), i)) != NULL;
          i++)
         if (strcmp(member->name, wanted) == 0) {
+            const char *unit = model_member_unit(view->model, owner, wanted);
+
             text_addf(out, "%s: of %s, %s", name, owner->name, member->meaning);
-            text_addf(out, member->unit != NULL ? "; in %s\n" : "\n", member->unit);
+            text_addf(out, unit != NULL ? "; in %s\n" : "\n", unit);
             return true;
         }
     return false;

@@ -346,6 +346,40 @@ static void info_tells_ends_signs_and_variables(void)
     kit_free(&kit);
 }
 
+/* each with its unit, that of an effort by what it acts along */
+static void info_tells_what_can_be_asked_of_a_part(void)
+{
+    static const struct {
+        const char *line, *asked;
+    } parts[] = {
+        {"info M1", "M1.v [V], M1.i [A], M1.power [W], M1.torque [N*m]\n"},
+        {"info V1", "V1.v [V], V1.i [A], V1.power [W]\n"},
+        {"info S1", "S1.effort [N*m]\n"},
+        {"info S2", "S2.effort [N]\n"},
+        {"info A1", "A1.effort [N]\n"},
+        {"info D1", "D1.effort [N]\n"},
+        {"info C1", "C1.v [V], C1.i [A], C1.power [W], C1.q [C], C1.force [N],\n"},
+        {"info s", "s [m], s' [m/s], s.fx [N]"},
+        {"info h", "h [rad], h' [rad/s], h.fx [N]"},
+    };
+    Kit kit = kit_new();
+    char wanted[160];
+
+    EXPECT_DONE(&kit, "scene planar\nbody b mass=1 inertia=1\nrevolute h ground b\n"
+                      "body c mass=1 inertia=1\nprismatic s ground c axis=x\n"
+                      "vsource V1 p 0 12\nmotor M1 h p 0 R=1 Kt=0.1\n"
+                      "spring S1 h k=2\nspring S2 s k=2\nactuator A1 s force=1\n"
+                      "damper D1 b c d=1\nplatecap C1 s p 0 C=1e-9/s");
+    for (int i = 0; i < COUNT(parts); i++) {
+        EXPECT_DONE(&kit, parts[i].line);
+        (void)snprintf(wanted, sizeof wanted, "can be asked for: %s", parts[i].asked);
+        EXPECT_HOLDS(kit.text, wanted);
+    }
+    EXPECT_DONE(&kit, "info S1.effort");
+    EXPECT_HOLDS(kit.text, "; in N*m\n");
+    kit_free(&kit);
+}
+
 static void info_knows_every_kind_of_name(void)
 {
     static const struct {
@@ -656,6 +690,7 @@ int main(void)
     RUN(the_embedded_form_has_no_multipliers);
     RUN(the_embedded_form_of_many_constraints_is_counted_as_the_augmented);
     RUN(info_tells_ends_signs_and_variables);
+    RUN(info_tells_what_can_be_asked_of_a_part);
     RUN(info_knows_every_kind_of_name);
     RUN(show_of_a_part_tells_what_info_does);
     RUN(the_parts_of_a_model_that_is_not_whole_are_shown);
