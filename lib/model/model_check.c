@@ -96,6 +96,10 @@ Status part_check(State *state, const Instance *part, Text *remarks, Diag *diag)
     CHECK(instance_check(&numeric, state->arena, state->planar, diag));
     CHECK(coupled_check(state, part, remarks, diag));
     CHECK(check_arm(state, &numeric, diag));
+    /* what stands on it, where it may have become shorter */
+    for (int i = 0; row->deforming != NULL && i < state->parts.count; i++)
+        if (state->parts.at[i]->row->family == FAMILY_ARM && state->parts.at[i]->tail == part->head)
+            CHECK(part_check(state, state->parts.at[i], remarks, diag));
     if (row->doubt != NULL)
         row->doubt(&numeric, state->planar, remarks);
 done:

@@ -92,9 +92,18 @@ const char *state_name_at(const State *state, int i)
 Status name_unknown(const State *state, const char *what, const char *name, Place place, Diag *diag)
 {
     Suggest suggest = suggest_for(name);
+    const Thing *thing = state_thing(state, name);
+    Text kind = {0};
     Function row;
     Unit unit;
 
+    if (thing != NULL) {
+        name_describe(state, thing, &kind);
+        (void)diag_at(diag, E_NAME, place, "%s is %s, not a %s", name, kind.at, what);
+        diag_hint(diag, "'info %s' tells what there is of it", name);
+        text_free(&kind);
+        return E_NAME;
+    }
     for (int i = 0; state_name_at(state, i) != NULL; i++)
         suggest_offer(&suggest, state_name_at(state, i));
     (void)diag_at(diag, E_NAME, place, "unknown %s '%s'", what, name);

@@ -498,12 +498,19 @@ Status apply_use(State **state, const Statement *statement, Outcome *outcome, Di
     const Operand *what = &statement->operands.at[0];
     const char *name = syntax_name(what->value);
     UseDraft draft = {.state = state, .statement = statement, .outcome = outcome, .diag = diag};
+    const Thing *thing = name != NULL ? state_thing(*state, name) : NULL;
     Status status = OK;
 
     mem_keep(*state);
     if (name == NULL)
         return diag_at(diag, E_VALUE, what->place, "the name of a subsystem stands here");
     draft.subsystem = state_subsystem(*state, name, &draft.definition);
+    if (draft.subsystem == NULL && thing != NULL && thing->kind == THING_USE &&
+        strcmp((*state)->uses.at[thing->index].subsystem->name, name) == 0) {
+        (void)diag_at(diag, E_NAME, what->place, "%s can't be used in its own definition", name);
+        diag_hint(diag, "'end' closes it");
+        return E_NAME;
+    }
     if (draft.subsystem == NULL)
         return name_unknown(*state, "subsystem", name, what->place, diag);
     draft.count = statement->operands.count - 1;

@@ -49,8 +49,15 @@ ct_status ct_store(ct_session *session, const ct_statement *statement, char **te
     session_begin(session);
     body = model_store(session->model, name->text);
     if (body == NULL) {
+        Suggest suggest = suggest_for(name->text);
+
+        for (int i = 0; i < model_subsystem_count(session->model); i++)
+            suggest_offer(&suggest, model_subsystem(session->model, i)->name);
         status = diag_at(&diag, E_NAME, name->place, "there is no subsystem '%s'", name->text);
-        diag_hint(&diag, "subsystem %s ... end defines one", name->text);
+        if (suggest.best != NULL)
+            diag_hint(&diag, "did you mean '%s'?", suggest.best);
+        else
+            diag_hint(&diag, "subsystem %s ... end defines one", name->text);
         return session_report(status, &diag, error);
     }
     text_addf(&out, "%s%d, %s scene, unedited: %016" PRIx64 "\n%s", HEAD, VERSION,

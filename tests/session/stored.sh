@@ -45,6 +45,10 @@ cotree -q leg.ct -e 'store leg "mine.txt"' 2>&1
 cotree -q leg.ct -e 'store leg "mine.txt" overwrite=on' 2>&1 && cmp leg.cts mine.txt
 cotree -q leg.ct -e 'store log "x.cts"' 2>&1
 cotree -q leg.ct -e 'store leg ""' 2>&1
+for wrong in 'store lag "x.cts"' 'store leg' 'store leg x.cts' 'store "x.cts"' 'store leg "x.cts" now' \
+    'store leg "no/x.cts"' 'load' 'load x.cts' 'load "x.cts" "y.cts"' 'load "x.cts" overwrite=on'; do
+    cotree -q leg.ct -e "$wrong" 2>&1
+done
 cotree --safe -q leg.ct -e 'store leg "x.cts"' 2>&1
 test ! -e x.cts || echo 'x.cts is there'
 echo '--- refused, the model as it was'

@@ -96,6 +96,27 @@ end
 subsystem s frames=[A]
 use inner i A=A
 revolute h A i.b'
+try "$made; use out l2"
+try "$made; set l1.A = out"
+try "$made; set leg.L = 2"
+try "$made; use leg l2 A=l1 e=v"
+try "$made; use leg l2 A=l2.B e=v"
+try "$made; use leg l2 A=0 e=v"
+try "$made; use leg l2 A=l1.B e=v L=t"
+try "$made; use leg l2 A=l1.B e=v L=[1, 2, 3]"
+try "$made; use leg l2 A=l1.B A=out e=v"
+try "$made; use leg l2 l2 A=l1.B e=v"
+try "$made; use"
+try "$made; use leg"
+try "$made; subsystem l1 frames=[A]"
+try "$made; subsystem ground frames=[A]"
+try "$made; driver D l1.th = t by=l1.tx"
+try "$made; show cutsets l1.l4"
+try 'subsystem s frames=[A]
+use s i A=A'
+try 'subsystem s frames=[A]
+gravity [0, 1]'
+try 'subsystem s frames=[A, 1]'
 printf 'subsystem a frames=[A]\nrevolute h A q\nbody b mass=1 inertia=[1, 1, 1]\nrevolute h A b\nend
 use a x A=ground\ninit x.h = 2\nprint x.h\n' >again.ct
 echo '--- a wrong line, and the right one after it'
