@@ -15,16 +15,21 @@
 /* denominators up to which a fraction is not written as a decimal, and digits of those */
 enum { SMALL = 9, SHORT_DECIMAL = 6 };
 
-/* 1.5e-9 as 1.5 times a power of ten */
+/* 1.5e-9 as 1.5 times a power of ten, 1e-12 as the power alone */
 static void add_digits(Text *out, char *digits)
 {
     char *exponent = strchr(digits, 'e');
+    const char *one = digits + (digits[0] == '-');
+    bool is_power;
 
-    if (exponent != NULL)
-        *exponent = '\0';
-    text_add(out, digits);
-    if (exponent != NULL)
-        text_addf(out, "\\cdot 10^{%d}", (int)strtol(exponent + 1, NULL, 10));
+    if (exponent == NULL) {
+        text_add(out, digits);
+        return;
+    }
+    *exponent = '\0';
+    is_power = strcmp(one, "1") == 0;
+    text_add_n(out, digits, is_power ? (size_t)(one - digits) : strlen(digits));
+    text_addf(out, "%s10^{%d}", is_power ? "" : "\\cdot ", (int)strtol(exponent + 1, NULL, 10));
 }
 
 static void latex_double(Text *out, double value)

@@ -204,6 +204,8 @@ static void latex_sets_names(void)
     expect_in(NOTATION_LATEX, expr_symbol(A, "Kt", SYMBOL_PARAMETER), "\\mathrm{Kt}");
     expect_in(NOTATION_LATEX, expr_symbol(A, "q''", SYMBOL_ACCELERATION), "\\ddot{q}");
     expect_in(NOTATION_LATEX, expr_real(A, 1.5e-30), "1.5\\cdot 10^{-30}");
+    expect_in(NOTATION_LATEX, expr_real(A, 1e-30), "10^{-30}");
+    expect_in(NOTATION_LATEX, expr_real(A, -1e-30), "-10^{-30}");
     arena_free(A);
 }
 
