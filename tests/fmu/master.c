@@ -416,8 +416,8 @@ static void derivatives(Run *run)
     double *up = numbers(all), *down = numbers(all), *exact = numbers(all), *seed_of = numbers(n);
     const double h = 1e-6;
 
-    memcpy(unknowns, unit->rates, (size_t)n * sizeof *unknowns);
-    memcpy(unknowns + n, unit->outputs, (size_t)unit->output_count * sizeof *unknowns);
+    for (int i = 0; i < all; i++)
+        unknowns[i] = i < n ? unit->rates[i] : unit->outputs[i - n];
     for (int i = 0; i < n; i++)
         seed_of[i] = 2 * random_number() - 1;
     for (int side = -1; side <= 1; side += 2) {

@@ -89,7 +89,7 @@ static void decimals_are_those_that_trying_finds(void)
         if (i % 4 == 1)
             value = ldexp(1, i % 2140 - 1074);
         else if (i % 4 == 2)
-            value = nearbyint(ldexp(value, -ilogb(value)) * 1e4) * pow(10, (double)(i % 40) - 25);
+            value = (double)(bits >> 50) * pow(10, (double)(i % 40) - 25);
         else if (i % 4 == 3)
             value = copysign(test_decades(&random, 1e-30, 1e30), value);
         for (int n = most < 15 ? most : 15; n <= most; n++) {
