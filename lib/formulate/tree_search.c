@@ -6,6 +6,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* that are written out from one pair of trees: a chain of 300 bodies has 100 000, of which
+ * TREE_SEARCH_MOST are formed */
+enum { MOST_EXCHANGES = 5 * TREE_SEARCH_MOST };
+
 static int edge_count(const TreeSearch *search)
 {
     return graph_edge_count(search->scene.graph);
@@ -47,6 +51,17 @@ static char *key_of(const TreeSearch *search, const TreePair *pair)
     return text_done(&text);
 }
 
+/* coordinates that an edge has as a branch of that tree */
+static int coordinates_of(const TreeSearch *search, int e, int half)
+{
+    const Instance *owner = search->scene.instances[search->owner[e]];
+    int count = 0;
+
+    for (int k = 0; owner->edge == e && k < owner->coord_count; k++)
+        count += (owner->coord_rotation[k] ? 1 : 0) == half;
+    return count;
+}
+
 /* tell what it is; NULL, and it is freed, where it was seen before */
 static TreePair *enter(TreeSearch *search, TreePair *pair)
 {
@@ -62,8 +77,9 @@ static TreePair *enter(TreeSearch *search, TreePair *pair)
         pair->proposed += e >= search->own && (pair->branch[0][e] || pair->branch[1][e]);
         if (owner->row->family == FAMILY_BODY)
             pair->bodies += pair->branch[0][e] + pair->branch[1][e];
-        for (int k = 0; owner->edge == e && k < owner->coord_count; k++)
-            pair->coordinates += pair->branch[owner->coord_rotation[k] ? 1 : 0][e];
+        for (int half = 0; half < 2; half++)
+            if (pair->branch[half][e])
+                pair->coordinates += coordinates_of(search, e, half);
     }
     LIST_PUSH(search->seen, pair);
     return pair;
@@ -145,18 +161,45 @@ static bool can_enter(const TreeSearch *search, int edge, int half)
 }
 
 /* in `halves` (bits) one branch goes and one chord comes */
-static void exchange(TreeSearch *search, const TreePair *pair, int halves, int goes, int comes)
+typedef struct Exchange {
+    int halves, goes, comes;
+    int more; /* coordinates that come with it */
+} Exchange;
+typedef LIST(Exchange) Exchanges;
+
+static void exchange(TreeSearch *search, const TreePair *pair, const Exchange *by)
 {
     TreePair *next = pair_new(search);
 
     for (int half = 0; half < 2; half++) {
         memcpy(next->branch[half], pair->branch[half], (size_t)edge_count(search) * sizeof(bool));
-        if ((halves & 1 << half) == 0)
+        if ((by->halves & 1 << half) == 0)
             continue;
-        next->branch[half][goes] = false;
-        next->branch[half][comes] = true;
+        next->branch[half][by->goes] = false;
+        next->branch[half][by->comes] = true;
     }
     (void)enter(search, next);
+}
+
+static void add_exchange(const TreeSearch *search, Exchanges *out, int halves, int goes, int comes)
+{
+    Exchange by = {.halves = halves, .goes = goes, .comes = comes};
+
+    for (int half = 0; half < 2; half++)
+        if ((halves & 1 << half) != 0)
+            by.more += coordinates_of(search, comes, half) - coordinates_of(search, goes, half);
+    LIST_PUSH(*out, by);
+}
+
+static int brings_fewer(const void *a, const void *b)
+{
+    const Exchange *x = a, *y = b;
+
+    if (x->more != y->more)
+        return x->more - y->more;
+    if (x->comes != y->comes)
+        return x->comes - y->comes;
+    return x->goes != y->goes ? x->goes - y->goes : x->halves - y->halves;
 }
 
 /* bits of the trees in which `branch` is on the circuit of the chord: on[branch] */
@@ -193,27 +236,36 @@ static int fewer_coordinates(const void *a, const void *b)
     return strcmp(x->key, y->key);
 }
 
-/* all neighbours not met before, those of few coordinates first; returns where they start */
+/* neighbours not met before, those of few coordinates first; of very many only so many of these
+ * that the bound on systems is met long before their end; returns where they start */
 static int find_neighbours(TreeSearch *search, const TreePair *pair)
 {
     const Graph *graph = search->scene.graph;
     const int first = search->seen.count;
+    Exchanges exchanges = {0};
     unsigned char *on;
     Tree *trees[2];
 
     if (!tree_search_trees(search, pair, trees))
         return first;
     on = NEW_ARRAY(unsigned char, edge_count(search));
-    for (int chord = 0; chord < edge_count(search); chord++) {
+    for (int chord = 0; chord < edge_count(search) && poll(search->watch) == OK; chord++) {
         if (graph_edge(graph, chord)->domain != DOMAIN_MECHANICAL)
             continue;
         mark_circuit(search, trees, chord, on);
         for (int e = 0; e < edge_count(search); e++)
             for (int halves = 1; halves <= 3; halves++)
                 if ((on[e] & halves) == halves)
-                    exchange(search, pair, halves, e, chord);
+                    add_exchange(search, &exchanges, halves, e, chord);
     }
     mem_free(on);
+    if (exchanges.count > MOST_EXCHANGES) {
+        qsort(exchanges.at, (size_t)exchanges.count, sizeof *exchanges.at, brings_fewer);
+        exchanges.count = MOST_EXCHANGES;
+    }
+    for (int i = 0; i < exchanges.count && poll(search->watch) == OK; i++)
+        exchange(search, pair, &exchanges.at[i]);
+    LIST_FREE(exchanges);
     tree_free(trees[0]);
     tree_free(trees[1]);
     if (search->seen.count > first)
