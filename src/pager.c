@@ -62,10 +62,10 @@ static bool page(const char *text, size_t length)
     close(ends[0]);
 
     /* who leaves the pager early closes the pipe: that is no error */
-    while (pid > 0 && length > 0) {
+    while (pid > 0 && length > 0 && !interrupt_asked()) {
         ssize_t sent = write(ends[1], text, length);
 
-        if (sent < 0 && (errno != EINTR || interrupt_asked()))
+        if (sent < 0 && errno != EINTR)
             break;
         if (sent > 0) {
             text += sent;

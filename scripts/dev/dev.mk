@@ -64,7 +64,7 @@ bench: all
 			$(abs_builddir)/.libs/cotree) || exit 1; \
 	done >bench.out
 	@$(dev)/bench-table $(srcdir)/tests/bench/record.txt <bench.out
-	@status=0; for part in bench-precision bench-estimates bench-peers; do $(MAKE) -s $$part || status=1; done; \
+	@status=0; for part in bench-precision bench-estimates bench-peers bench-latency; do $(MAKE) -s $$part || status=1; done; \
 		exit $$status
 
 # work against precision of every reference and stress case, by method: a table, and pictures in
@@ -85,6 +85,10 @@ bench-peers: all
 	@$(MAKE) -s bench_dynamics
 	@rm -rf bench.work; mkdir bench.work
 	@PYTHONDONTWRITEBYTECODE=1 $(srcdir)/tests/bench/peers.py ./bench_dynamics bench.work
+
+# a key and Ctrl-C at the prompt, with 300 bodies
+bench-latency: all
+	@PYTHONDONTWRITEBYTECODE=1 $(srcdir)/tests/bench/latency.py ./cotree
 
 bench-record: bench
 	{ head -n 3 $(srcdir)/tests/bench/record.txt; cat bench.out; } >bench.new
@@ -131,4 +135,4 @@ mostlyclean-local:
 distclean-local:
 	rm -rf san small faults coverage bench.work precision
 
-.PHONY: check-total check-hacking check-san check-small check-faults lint format bench bench-precision bench-estimates bench-peers bench-record precision-record fuzz stress check-coverage
+.PHONY: check-total check-hacking check-san check-small check-faults lint format bench bench-precision bench-estimates bench-peers bench-latency bench-record precision-record fuzz stress check-coverage
