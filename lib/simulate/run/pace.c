@@ -7,7 +7,7 @@
 #define LOOK  0.02  /* s: between looks whether to stop */
 #define WHOLE 0.999 /* of a step, but for rounding */
 
-static double clock_now(void)
+double pace_now(void)
 {
     struct timespec now;
 
@@ -25,7 +25,7 @@ static void sleep_for(double duration)
 
 Pace pace_begin(double step, double from)
 {
-    const double now = clock_now();
+    const double now = pace_now();
 
     return (Pace){.step = step, .began = now, .from = from, .last = now, .before = from};
 }
@@ -33,7 +33,7 @@ Pace pace_begin(double step, double from)
 void pace_wait(Pace *pace, double t, const Watch *watch)
 {
     const double due = pace->began + (t - pace->from);
-    const double now = clock_now(), took = now - pace->last, length = t - pace->before;
+    const double now = pace_now(), took = now - pace->last, length = t - pace->before;
     double left;
 
     if (length < WHOLE * pace->step)
@@ -44,8 +44,8 @@ void pace_wait(Pace *pace, double t, const Watch *watch)
     }
     pace->late += took > length;
     pace->behind = fmax(pace->behind, now - due);
-    while ((left = due - clock_now()) > 0 && poll(watch) == OK)
+    while ((left = due - pace_now()) > 0 && poll(watch) == OK)
         sleep_for(fmin(left, LOOK));
-    pace->last = clock_now();
+    pace->last = pace_now();
     pace->before = t;
 }

@@ -8,11 +8,11 @@
 #include "simulate/run/ends.h"
 #include "simulate/run/inverse.h"
 #include "simulate/run/mode_switch.h"
+#include "simulate/run/pace.h"
 #include "simulate/run/sliding.h"
 
 #include <math.h>
 #include <string.h>
-#include <time.h>
 
 #define LEAST_RTOL  1e-13
 #define MOST_ROWS   20000000
@@ -41,14 +41,6 @@ const char *run_method(int i, const char **brief)
         return NULL;
     *brief = method->brief;
     return method->name;
-}
-
-static double seconds(void)
-{
-    struct timespec now;
-
-    (void)clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
 /* --- options --- */
@@ -209,7 +201,7 @@ static void fill_report(ActiveRun *r, const IntegrationReport *integration,
     r->result->report.step = options->step;
     r->result->report.most = options->most;
     r->result->report.stopped = stopped;
-    r->result->report.wall = seconds() - began;
+    r->result->report.wall = pace_now() - began;
 }
 
 /* how much accuracy is lost there is not known: a run of check=on measures it */
@@ -316,7 +308,7 @@ static Status go(ActiveRun *r, const Setting *setting, const RunOptions *given, 
     Pace pace = {0};
     int first = skip_first ? r->result->grid.count - 1 : 0;
     Status status = OK;
-    double began = seconds();
+    double began = pace_now();
 
     CHECK(complete_options(r, given, &options, diag));
     CHECK(find_method(options.method, &method, diag));
@@ -351,7 +343,7 @@ static Status go(ActiveRun *r, const Setting *setting, const RunOptions *given, 
                                 plan.to, diag);
     if (active_run_balance(r, NULL) != OK)
         r->result->report.energy_drift = NAN;
-    r->result->report.wall = seconds() - began;
+    r->result->report.wall = pace_now() - began;
 done:
     events_free(again);
     return status;
@@ -630,7 +622,7 @@ static Status refuse_idle(const RunOptions *given, Diag *diag)
 static Status drive(ActiveRun *r, const Setting *setting, const RunOptions *given, Diag *diag)
 {
     RunOptions options;
-    double began = seconds();
+    double began = pace_now();
     Status status = OK;
 
     CHECK(complete_options(r, given, &options, diag));
@@ -652,7 +644,7 @@ static Status drive(ActiveRun *r, const Setting *setting, const RunOptions *give
         CHECK(positions(r, setting, &options, diag));
     }
 done:
-    r->result->report.wall = seconds() - began;
+    r->result->report.wall = pace_now() - began;
     return status;
 }
 
