@@ -152,8 +152,10 @@ Expr expr_mul(Arena *arena, Expr a, Expr b)
 {
     if (expr_is(a, 1))
         return b;
-    if (expr_is(b, 1))
+    if (expr_is(b, 1) || expr_is_zero(a))
         return a;
+    if (expr_is_zero(b))
+        return b;
     return expr_product(arena, (Expr[]){a, b}, 2);
 }
 

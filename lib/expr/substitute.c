@@ -115,6 +115,7 @@ struct Renaming {
     Arena *arena;
     const char *from, *to;
     Images images;
+    LIST(bool) alike; /* the image is built as what it became of, but for the names of symbols */
 };
 
 Renaming *renaming_new(Arena *arena, const char *from, const char *to)
@@ -127,25 +128,81 @@ Renaming *renaming_new(Arena *arena, const char *from, const char *to)
     return renaming;
 }
 
-static Expr renamed(Arena *arena, Expr e, void *context)
+static bool begins_with(const char *name, const char *prefix)
 {
-    const Renaming *renaming = context;
-    const size_t length = strlen(renaming->from);
-    const char *name;
-    Text other = {0};
-    Expr symbol;
-    bool is_marked;
+    return strncmp(name, prefix, strlen(prefix)) == 0;
+}
 
-    if (e->kind != EXPR_SYMBOL || expr_data(e) != NULL)
-        return e;
-    name = expr_name(e);
-    is_marked = name[0] == '#';
-    if (strncmp(name + is_marked, renaming->from, length) != 0)
-        return e;
-    text_addf(&other, "%s%s%s", is_marked ? "#" : "", renaming->to, name + is_marked + length);
-    symbol = expr_symbol(arena, other.at, expr_symbol_kind(e));
+/* one that has the other prefix already may come twice then */
+static Expr renamed(const Renaming *renaming, Expr symbol, bool *alike)
+{
+    const char *name = expr_name(symbol);
+    const bool is_marked = name[0] == '#';
+    Text other = {0};
+
+    *alike = expr_data(symbol) != NULL || !begins_with(name + is_marked, renaming->to);
+    if (expr_data(symbol) != NULL || !begins_with(name + is_marked, renaming->from))
+        return symbol;
+    if (is_marked)
+        text_char(&other, '#');
+    text_add(&other, renaming->to);
+    text_add(&other, name + is_marked + strlen(renaming->from));
+    symbol = expr_symbol(renaming->arena, other.at, expr_symbol_kind(symbol));
     text_free(&other);
     return symbol;
+}
+
+static Expr base_of(Expr factor)
+{
+    if (factor->kind == EXPR_POWER)
+        factor = node_args(factor)[0];
+    return is_call(factor, OP_SQRT) ? node_args(factor)[0] : factor;
+}
+
+/* whether arguments that are built as those of e stand in order, too */
+static bool are_ordered(Expr e, const Expr *args)
+{
+    const bool is_sum = e->kind == EXPR_SUM;
+
+    if (e->kind == EXPR_CALL && e->count == 2)
+        return (expr_compare(args[0], args[1]) < 0) ==
+               (expr_compare(node_args(e)[0], node_args(e)[1]) < 0);
+    if (!is_sum && e->kind != EXPR_PRODUCT)
+        return true;
+    for (int i = 1; i < e->count; i++) {
+        if (is_number(args[i - 1]) || is_number(args[i]))
+            continue;
+        if ((is_sum ? order_terms(args[i - 1], args[i])
+                    : order_bases(base_of(args[i - 1]), base_of(args[i]))) >= 0)
+            return false;
+    }
+    return true;
+}
+
+/* What is built alike needs no simplifying where its parts stand in the same order. */
+static Expr rebuild_alike(Renaming *renaming, Expr e, Expr *args, bool *alike)
+{
+    bool changed = false;
+
+    *alike = true;
+    for (int j = 0; j < e->count; j++) {
+        const int place = walk_find(&renaming->images.walk, node_args(e)[j]);
+
+        args[j] = place >= 0 ? renaming->images.of.at[place] : node_args(e)[j];
+        changed = changed || args[j] != node_args(e)[j];
+        *alike = *alike && (place < 0 || renaming->alike.at[place]);
+    }
+    *alike = *alike && are_ordered(e, args);
+    if (!changed)
+        return e;
+    return *alike ? node_intern(renaming->arena, (ExprKind)e->kind, (Op)e->op, args, e->count)
+                  : expr_rebuild(renaming->arena, e, args);
+}
+
+static void add_image(Renaming *renaming, Expr image, bool alike)
+{
+    LIST_PUSH(renaming->images.of, image);
+    LIST_PUSH(renaming->alike, alike);
 }
 
 bool renaming_pair(Renaming *renaming, Expr from, Expr to)
@@ -163,15 +220,41 @@ bool renaming_pair(Renaming *renaming, Expr from, Expr to)
         return false;
     place = walk_add(&renaming->images.walk, from);
     if (place == renaming->images.of.count)
-        LIST_PUSH(renaming->images.of, to);
+        add_image(renaming, to, from == to);
     return renaming->images.of.at[place] == to;
 }
 
 Expr renaming_of(Renaming *renaming, Expr e)
 {
-    walk_below(&renaming->images.walk, e, ~0U, NULL, NULL);
-    rebuild_all(renaming->arena, &renaming->images, renamed, renaming);
-    return image_of(&renaming->images, e);
+    enum { AT_HAND = 32 };
+    Walk *walk = &renaming->images.walk;
+    Expr at_hand[AT_HAND];
+    int place;
+
+    if (e->kinds == 0)
+        return e;
+    place = walk_find(walk, e);
+    if (place >= 0)
+        return renaming->images.of.at[place];
+    walk_below(walk, e, ~0U, NULL, NULL);
+    for (int i = renaming->images.of.count; i < walk->count; i++) {
+        const Expr own = walk->nodes[i];
+        bool alike = true;
+
+        if (own->kind == EXPR_SYMBOL) {
+            const Expr image = renamed(renaming, own, &alike);
+
+            add_image(renaming, image, alike);
+        } else {
+            Expr *args = own->count <= AT_HAND ? at_hand : NEW_ARRAY(Expr, own->count);
+            const Expr image = rebuild_alike(renaming, own, args, &alike);
+
+            add_image(renaming, image, alike);
+            if (args != at_hand)
+                mem_free(args);
+        }
+    }
+    return renaming->images.of.at[walk->count - 1];
 }
 
 void renaming_free(Renaming *renaming)
@@ -180,6 +263,7 @@ void renaming_free(Renaming *renaming)
         return;
     walk_free(&renaming->images.walk);
     LIST_FREE(renaming->images.of);
+    LIST_FREE(renaming->alike);
     mem_free(renaming);
 }
 

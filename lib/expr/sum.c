@@ -137,8 +137,17 @@ Expr expr_sum(Arena *arena, const Expr *terms, int count)
     Number constant = number_int(0);
     int total = 0;
     int kept = 0;
-    Expr sum;
+    int some = 0; /* that aren't 0 */
+    Expr sum = arena_zero(arena);
 
+    /* of what is formed of axes and matrices most is 0 */
+    for (int i = 0; i < count; i++)
+        if (!expr_is_zero(terms[i])) {
+            sum = terms[i];
+            some++;
+        }
+    if (some <= 1)
+        return sum;
     for (int i = 0; i < count; i++)
         total += terms[i]->kind == EXPR_SUM ? terms[i]->count : 1;
     if (total > AT_HAND)
@@ -166,5 +175,7 @@ Expr expr_add(Arena *arena, Expr a, Expr b)
 
 Expr expr_sub(Arena *arena, Expr a, Expr b)
 {
+    if (expr_is_zero(b))
+        return a;
     return expr_sum(arena, (Expr[]){a, expr_neg(arena, b)}, 2);
 }

@@ -195,6 +195,46 @@ static void substitution_is_simultaneous(void)
     arena_free(w.arena);
 }
 
+/* Other names in any order, some of which stand there already, and a symbol that becomes a sum. */
+static void renaming_is_substitution(void)
+{
+    static const char *const own[TEST_SYMBOLS] = {"p.a", "p.b", "#p.c", "p.x", "q.b", "z"};
+    static const char *const others[TEST_SYMBOLS] = {"q.a", "q.b", "#q.c", "q.x", "q.b", "z"};
+
+    for (uint64_t seed = 1; seed <= 300; seed++) {
+        World w = world_new(seed);
+        Renaming *renaming = renaming_new(w.arena, "p.", "q.");
+        Expr values[TEST_SYMBOLS];
+        const int first = pick(&w, TEST_SYMBOLS);
+
+        for (int i = 0; i < TEST_SYMBOLS; i++) {
+            const int k = (first + 5 * i) % TEST_SYMBOLS; /* in another order */
+            const SymbolKind kind = k < 3 || k == 4 ? SYMBOL_PARAMETER : SYMBOL_COORDINATE;
+
+            values[k] = expr_symbol(w.arena, others[k], kind);
+        }
+        for (int i = 0; i < TEST_SYMBOLS; i++) {
+            const SymbolKind kind = i < 3 || i == 4 ? SYMBOL_PARAMETER : SYMBOL_COORDINATE;
+
+            w.symbols[i] = expr_symbol(w.arena, own[i], kind);
+        }
+        if (seed % 3 == 0) {
+            values[5] = expr_sub(w.arena, values[0], w.symbols[4]);
+            EXPECT(renaming_pair(renaming, w.symbols[5], values[5]));
+            EXPECT(!renaming_pair(renaming, w.symbols[5], w.symbols[4]));
+        }
+        for (int i = 0; i < 4; i++) {
+            const Expr e = random_expr(&w, 1 + i, &(double){0});
+
+            EXPECT(renaming_of(renaming, e) ==
+                   expr_substitute(w.arena, e, w.symbols, values, TEST_SYMBOLS));
+            EXPECT(renaming_of(renaming, e) == renaming_of(renaming, e));
+        }
+        renaming_free(renaming);
+        arena_free(w.arena);
+    }
+}
+
 static void symbols_are_listed_in_their_order(void)
 {
     World w = world_new(1);
@@ -297,6 +337,7 @@ int main(void)
     RUN(derivatives_obey_leibniz);
     RUN(substitution_and_derivative_commute);
     RUN(substitution_is_simultaneous);
+    RUN(renaming_is_substitution);
     RUN(symbols_are_listed_in_their_order);
     RUN(deep_expressions_need_no_stack);
     RUN(counting_follows_the_rule);
