@@ -49,6 +49,32 @@ Status use_check_reach(const State *state, const char *name, Place place, Diag *
     return E_NAME;
 }
 
+/* Of a vector, which has a value for each instance, that of one. */
+static Status value_for(const Pair *pair, int which, int count, Syntax *out, Diag *diag)
+{
+    const Syntax *value = pair->value;
+
+    if (value->kind != SYNTAX_VECTOR) {
+        *out = *value;
+        return OK;
+    }
+    if (value->count != count) {
+        (void)diag_at(diag, E_VALUE, value->place, "%s has %d value%s for %d instance%s",
+                      pair->name, value->count, value->count == 1 ? "" : "s", count,
+                      count == 1 ? "" : "s");
+        diag_hint(diag, "a vector has one value for each; a single value is for all");
+        return E_VALUE;
+    }
+    *out = *value->args[which];
+    if (value->has_unit && out->kind == SYNTAX_NUMBER && !out->has_unit) {
+        out->has_unit = true;
+        out->unit = value->unit;
+        out->unit_text = value->unit_text;
+    } else if (value->has_unit)
+        return diag_at(diag, E_VALUE, value->place, "a unit stands behind numbers here");
+    return OK;
+}
+
 /* --- a statement of a definition --- */
 
 static Status check_allowed(const State *state, int use, const Statement *s, Diag *diag)
@@ -106,6 +132,34 @@ static Status apply_renamed(State **state, Statement *s, Outcome *outcome, Diag 
     return status;
 }
 
+/* `use` of several, one by one: each may be bound to ports of those before it */
+static Status apply_each(State **state, int use, const Statement *statement, Outcome *outcome,
+                         Diag *diag)
+{
+    const int count = statement->operands.count - 1, pairs = statement->pairs.count;
+    Syntax *values = NEW_ARRAY(Syntax, pairs + 1);
+    Pair *pair = NEW_ARRAY(Pair, pairs + 1);
+    Operand operands[2] = {statement->operands.at[0]};
+    Statement one = *statement;
+    Status status = OK;
+
+    one.operands.at = operands;
+    one.operands.count = COUNT(operands);
+    one.pairs.at = pair;
+    for (int i = 0; i < count; i++) {
+        operands[1] = statement->operands.at[1 + i];
+        for (int k = 0; k < pairs; k++) {
+            pair[k] = statement->pairs.at[k];
+            CHECK(value_for(&pair[k], i, count, &values[k], diag));
+            pair[k].value = &values[k];
+        }
+        CHECK(use_apply(state, use, &one, outcome, diag));
+    }
+done:
+    MEM_FREE(values, pair);
+    return status;
+}
+
 Status use_apply(State **state, int use, const Statement *statement, Outcome *outcome, Diag *diag)
 {
     State *const s = *state;
@@ -116,6 +170,9 @@ Status use_apply(State **state, int use, const Statement *statement, Outcome *ou
 
     mem_keep(s);
     TRY(check_allowed(s, use, statement, diag));
+    if (statement->kind == STATEMENT_VERB && statement->row.number == VERB_use &&
+        statement->operands.count > 2)
+        return apply_each(state, use, statement, outcome, diag);
     pool = pool_new(0);
     CHECK(statement_rename(s, use, statement, pool, &renamed, diag));
     if (statement->kind != STATEMENT_VERB)
@@ -277,32 +334,6 @@ static Status key_fits_none(const UseDraft *d, const Pair *pair)
     return E_NAME;
 }
 
-/* A vector has a value for each instance. */
-static Status value_of(const UseDraft *d, const Pair *pair, Syntax *out)
-{
-    const Syntax *value = pair->value;
-
-    if (value->kind != SYNTAX_VECTOR) {
-        *out = *value;
-        return OK;
-    }
-    if (value->count != d->count) {
-        (void)diag_at(d->diag, E_VALUE, value->place, "%s has %d value%s for %d instance%s",
-                      pair->name, value->count, value->count == 1 ? "" : "s", d->count,
-                      d->count == 1 ? "" : "s");
-        diag_hint(d->diag, "a vector has one value for each; a single value is for all");
-        return E_VALUE;
-    }
-    *out = *value->args[d->which];
-    if (value->has_unit && out->kind == SYNTAX_NUMBER && !out->has_unit) {
-        out->has_unit = true;
-        out->unit = value->unit;
-        out->unit_text = value->unit_text;
-    } else if (value->has_unit)
-        return diag_at(d->diag, E_VALUE, value->place, "a unit stands behind numbers here");
-    return OK;
-}
-
 static Status bind_frame(UseDraft *d, int port, const Syntax *value)
 {
     State *state = *d->state;
@@ -393,7 +424,7 @@ static Status read_pair(UseDraft *d, const Pair *pair)
         diag_hint(d->diag, "it is reached as %s.%s", d->use.name, pair->name);
         return E_NAME;
     }
-    TRY(value_of(d, pair, value));
+    TRY(value_for(pair, d->which, d->count, value, d->diag));
     text_addf(&d->text, " %s=", pair->name);
     syntax_print(&d->text, value);
     if (port < 0)

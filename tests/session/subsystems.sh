@@ -100,3 +100,56 @@ print x.R.i
 END
 cotree -k open.ct 2>&1
 true
+echo '--- inside a definition, one bound to a port of the one before it'
+cat >chain.ct <<'END'
+scene planar
+gravity [0, -9.81]
+subsystem rod frames=[A, B] terminals=[e] through=[o]
+  L = 1
+  body l mass=1 inertia=0.1
+  arm k l [-L/2, 0]
+  arm B l [L/2, 0]
+  revolute th A k
+  resistor R1 e o 1
+  resistor R2 o 0 th + 2
+end
+END
+cat >nested.ct <<'END'
+subsystem pair frames=[A, B] terminals=[e] through=[o]
+  use rod a b A=[A, a.B] L=[1, 2] e=[e, a.o]
+  arm B b.B [0.1, 0]
+  resistor R b.o o 3
+  resistor R0 o 0 4
+end
+subsystem four frames=[A] terminals=[e]
+  use pair p q A=[A, p.B] e=[e, p.o]
+  body m mass=2 inertia=1
+  weld w q.B m
+end
+use four s A=ground e=n
+vsource V n 0 5
+init s.p.a.th = 0.1, s.p.b.th = 0.2, s.q.a.th = -0.3, s.q.b.th = 0.4
+print s.m.x, s.m.y, s.q.b.R2.i, s.p.a.l.ay, s.q.b.th''
+END
+cat >flat.ct <<'END'
+use rod a A=ground e=n
+use rod b A=a.B L=2 e=a.o
+arm C b.B [0.1, 0]
+resistor Ra b.o o 3
+resistor Rb o 0 4
+use rod c A=C e=o
+use rod d A=c.B L=2 e=c.o
+arm D d.B [0.1, 0]
+resistor Rc d.o p 3
+resistor Rd p 0 4
+body m mass=2 inertia=1
+weld w D m
+vsource V n 0 5
+init a.th = 0.1, b.th = 0.2, c.th = -0.3, d.th = 0.4
+print m.x, m.y, d.R2.i, a.l.ay, d.th''
+END
+cotree -q chain.ct nested.ct | sed 's/^.* = //' >nested.out
+cotree -q chain.ct flat.ct | sed 's/^.* = //' >flat.out
+cmp nested.out flat.out && wc -l <nested.out
+printf 'subsystem s frames=[A]\nuse rod a b A=[A, a.B, A] e=0\nend\n' >count.ct
+cotree -q chain.ct count.ct 2>&1
