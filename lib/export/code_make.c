@@ -3,7 +3,8 @@
 
 #include "base/names.h"
 #include "compile/program.h"
-#include "formulate/accelerations.h"
+#include "formulate/dynamics/cutset_equations.h"
+#include "formulate/solved/accelerations.h"
 #include "model/model.h"
 
 #include <ctype.h>

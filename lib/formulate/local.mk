@@ -1,54 +1,53 @@
 libcore_la_SOURCES += \
-	lib/formulate/alike.c lib/formulate/alike.h \
-	lib/formulate/accelerations.c lib/formulate/accelerations.h \
-	lib/formulate/along_trees.c lib/formulate/along_trees.h \
-	lib/formulate/groups.c lib/formulate/groups.h \
-	lib/formulate/resistance.c lib/formulate/resistance.h \
-	lib/formulate/euler_parameters.c \
-	lib/formulate/expanded_shapes.c lib/formulate/partial.c \
-	lib/formulate/shapes.c lib/formulate/shapes.h \
-	lib/formulate/stations.c lib/formulate/stations.h \
-	lib/formulate/common_turns.c \
-	lib/formulate/composite.c lib/formulate/composite_mass.c lib/formulate/composite_mass.h \
-	lib/formulate/constraints.c \
-	lib/formulate/law_ends.c \
-	lib/formulate/literals.c lib/formulate/literals.h \
-	lib/formulate/counting.c \
-	lib/formulate/critical.c \
-	lib/formulate/coordinate.c \
-	lib/formulate/derivation.c lib/formulate/derivation.h lib/formulate/derivation_impl.h \
-	lib/formulate/dynamics.c \
-	lib/formulate/edges.c \
-	lib/formulate/edges.h \
-	lib/formulate/efforts.c \
-	lib/formulate/embedded.c \
-	lib/formulate/energy.c \
-	lib/formulate/frames.c \
-	lib/formulate/framesum.c \
-	lib/formulate/ideal.c lib/formulate/ideal_share.c \
-	lib/formulate/kinks.c lib/formulate/recursive.c \
-	lib/formulate/network.c lib/formulate/network_build.c \
-	lib/formulate/network_node_rows.c lib/formulate/network_nodes.c lib/formulate/network_order.c \
-	lib/formulate/network_rows.c lib/formulate/network_steps.c \
-	lib/formulate/network_tree.c \
-	lib/formulate/reactions.c \
-	lib/formulate/rates.c lib/formulate/reading.c \
-	lib/formulate/resolve.c lib/formulate/sample.c lib/formulate/scalar_edges.c \
-	lib/formulate/expanded.c \
-	lib/formulate/smooth.c \
-	lib/formulate/state_space.c lib/formulate/state_space.h \
-	lib/formulate/linear_network.c lib/formulate/linear_network.h \
-	lib/formulate/ratio.c lib/formulate/ratio.h lib/formulate/response.c lib/formulate/response.h \
-	lib/formulate/surfaces.h \
-	lib/formulate/switches.c \
-	lib/formulate/multi_turn.c lib/formulate/multi_turn_build.c \
-	lib/formulate/system.c lib/formulate/system_build.c lib/formulate/system.h lib/formulate/system_impl.h \
-	lib/formulate/composite.h lib/formulate/constraints.h lib/formulate/coordinate.h \
-	lib/formulate/dynamics.h lib/formulate/efforts.h lib/formulate/embedded.h \
-	lib/formulate/framesum.h lib/formulate/ideal.h lib/formulate/kinematics.h lib/formulate/loads.h \
-	lib/formulate/network.h lib/formulate/origin.h lib/formulate/reactions.h lib/formulate/resolve.h \
-	lib/formulate/sample.h lib/formulate/shown.h lib/formulate/smooth.h lib/formulate/vector.h \
-	lib/formulate/redundancy.c \
-	lib/formulate/variables.c \
-	lib/formulate/vector.c \
-	lib/formulate/tree_search.c lib/formulate/tree_search.h
+	lib/formulate/system/constraints.h lib/formulate/system/dynamics.h \
+	lib/formulate/system/kinematics.h lib/formulate/system/kinks.c lib/formulate/system/network.h \
+	lib/formulate/system/origin.h lib/formulate/system/rates.c lib/formulate/system/rates.h \
+	lib/formulate/system/resolve.c lib/formulate/system/resolve.h lib/formulate/system/sample.c \
+	lib/formulate/system/sample.h lib/formulate/system/shown.h lib/formulate/system/smooth.c \
+	lib/formulate/system/smooth.h lib/formulate/system/surfaces.h lib/formulate/system/system.c \
+	lib/formulate/system/system.h lib/formulate/system/system_impl.h lib/formulate/system/vector.c \
+	lib/formulate/system/vector.h \
+	lib/formulate/kinematics/alike.c lib/formulate/kinematics/alike.h \
+	lib/formulate/kinematics/common_turns.c lib/formulate/kinematics/constraint_rows.c \
+	lib/formulate/kinematics/constraint_rows.h lib/formulate/kinematics/coordinate.c \
+	lib/formulate/kinematics/coordinate.h lib/formulate/kinematics/critical.c \
+	lib/formulate/kinematics/edges.c lib/formulate/kinematics/edges.h \
+	lib/formulate/kinematics/euler_parameters.c lib/formulate/kinematics/frames.c \
+	lib/formulate/kinematics/frames.h lib/formulate/kinematics/framesum.c \
+	lib/formulate/kinematics/framesum.h lib/formulate/kinematics/multi_turn.c \
+	lib/formulate/kinematics/multi_turn.h lib/formulate/kinematics/multi_turn_build.c \
+	lib/formulate/kinematics/recursive.c lib/formulate/kinematics/recursive.h \
+	lib/formulate/kinematics/stations.c lib/formulate/kinematics/stations.h \
+	lib/formulate/network/ideal_share.c lib/formulate/network/ideal_sides.c \
+	lib/formulate/network/ideal_sides.h lib/formulate/network/law_ends.c \
+	lib/formulate/network/network.c lib/formulate/network/network_build.c \
+	lib/formulate/network/network_build.h lib/formulate/network/network_impl.h \
+	lib/formulate/network/network_node_rows.c lib/formulate/network/network_nodes.c \
+	lib/formulate/network/network_order.c lib/formulate/network/network_rows.c \
+	lib/formulate/network/network_steps.c lib/formulate/network/network_steps.h \
+	lib/formulate/network/network_tree.c lib/formulate/network/scalar_edges.c \
+	lib/formulate/network/scalar_edges.h \
+	lib/formulate/dynamics/composite.c lib/formulate/dynamics/composite.h \
+	lib/formulate/dynamics/composite_mass.c lib/formulate/dynamics/composite_mass.h \
+	lib/formulate/dynamics/cutset_equations.c lib/formulate/dynamics/cutset_equations.h \
+	lib/formulate/dynamics/efforts.c lib/formulate/dynamics/efforts.h lib/formulate/dynamics/energy.c \
+	lib/formulate/dynamics/loads.c lib/formulate/dynamics/loads.h lib/formulate/dynamics/reactions.c \
+	lib/formulate/dynamics/reactions.h lib/formulate/dynamics/redundancy.c \
+	lib/formulate/dynamics/shapes.c lib/formulate/dynamics/shapes.h \
+	lib/formulate/written/counting.c lib/formulate/written/derivation.c \
+	lib/formulate/written/derivation.h lib/formulate/written/derivation_impl.h \
+	lib/formulate/written/embedded.c lib/formulate/written/embedded.h \
+	lib/formulate/written/expanded.c lib/formulate/written/expanded.h \
+	lib/formulate/written/expanded_shapes.c lib/formulate/written/partial.c \
+	lib/formulate/written/reading.c lib/formulate/written/reading.h \
+	lib/formulate/whole/ideal.c lib/formulate/whole/ideal.h lib/formulate/whole/literals.c \
+	lib/formulate/whole/literals.h lib/formulate/whole/switches.c lib/formulate/whole/system_build.c \
+	lib/formulate/whole/system_end.c lib/formulate/whole/tree_search.c \
+	lib/formulate/whole/tree_search.h lib/formulate/whole/variables.c \
+	lib/formulate/solved/accelerations.c lib/formulate/solved/accelerations.h \
+	lib/formulate/solved/along_trees.c lib/formulate/solved/along_trees.h \
+	lib/formulate/solved/groups.c lib/formulate/solved/groups.h lib/formulate/solved/linear_network.c \
+	lib/formulate/solved/linear_network.h lib/formulate/solved/ratio.c lib/formulate/solved/ratio.h \
+	lib/formulate/solved/resistance.c lib/formulate/solved/resistance.h \
+	lib/formulate/solved/response.c lib/formulate/solved/response.h \
+	lib/formulate/solved/state_space.c lib/formulate/solved/state_space.h

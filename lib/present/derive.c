@@ -2,6 +2,8 @@
  *
  * Terms that are 0 are gathered by the reason. */
 #include "present/derive.h"
+#include "formulate/network/network_steps.h"
+#include "formulate/written/derivation.h"
 
 #include <string.h>
 

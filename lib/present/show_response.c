@@ -1,5 +1,5 @@
 /* show_response.c: transfer functions and equivalents of linear networks, in symbols */
-#include "formulate/response.h"
+#include "formulate/solved/response.h"
 #include "present/show.h"
 
 #include <string.h>

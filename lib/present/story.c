@@ -1,5 +1,6 @@
 /* story.c: words and steps of a derivation, in text and in LaTeX */
 #include "present/story.h"
+#include "formulate/written/derivation.h"
 
 #include <stdio.h>
 #include <string.h>

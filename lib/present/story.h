@@ -5,7 +5,7 @@
 #ifndef COTREE_PRESENT_STORY_H
 #define COTREE_PRESENT_STORY_H
 
-#include "formulate/derivation.h"
+#include "formulate/written/derivation.h"
 #include "present/view.h"
 
 typedef struct Reason {

@@ -5,7 +5,7 @@
 #ifndef COTREE_PRESENT_VIEW_H
 #define COTREE_PRESENT_VIEW_H
 
-#include "formulate/system.h"
+#include "formulate/system/system.h"
 #include "model/model.h"
 #include "present/layout.h"
 #include "present/terminal_graph.h"

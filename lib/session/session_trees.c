@@ -5,7 +5,7 @@
  * it found is told, and put into the model as statements. */
 #include "session/session_impl.h"
 
-#include "formulate/tree_search.h"
+#include "formulate/whole/tree_search.h"
 #include "language/verbs.h"
 
 #include <stdio.h>

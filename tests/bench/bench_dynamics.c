@@ -10,7 +10,8 @@
 #include "robot_text.h"
 
 #include "../unit/form.h"
-#include "formulate/accelerations.h"
+#include "formulate/dynamics/cutset_equations.h"
+#include "formulate/solved/accelerations.h"
 #include "simulate/equations/motion.h"
 #include "simulate/equations/numbers.h"
 

@@ -2,7 +2,7 @@
  * of the middle
  *
  * Both up to the programs that a run steps with. */
-#include "formulate/system.h"
+#include "formulate/system/system.h"
 #include "model/model.h"
 #include "simulate/equations/numbers.h"
 

@@ -2,7 +2,7 @@
  * operations of M, of F and of both, each shared definition once
  *
  * M has N^2 entries and its operations grow so; those of F, by recursion, grow with N. */
-#include "formulate/system.h"
+#include "formulate/system/system.h"
 
 #include "../random.h"
 #include "../unit/form.h"

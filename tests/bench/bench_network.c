@@ -5,7 +5,7 @@
  * program at three tolerances, ngspice in two lengths of its steps, both processes whole, with what
  * they read and write; the error is that of three waveforms against a run at 1e-11. ngspice is of
  * second order, so that its time at the program's error follows: t*sqrt(error/error'). */
-#include "formulate/system.h"
+#include "formulate/system/system.h"
 #include "simulate/run/run.h"
 
 #include "../unit/form.h"

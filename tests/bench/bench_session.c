@@ -2,7 +2,7 @@
  *
  * bench_session SCRIPTS PROGRAM; each script of SCRIPTS/paper and SCRIPTS/reference that this
  * version can read is formulated and replayed. */
-#include "formulate/system.h"
+#include "formulate/system/system.h"
 
 #include "../unit/form.h"
 #include "bench.h"

@@ -1,7 +1,7 @@
 /* bench_subsystems.c: a planar robot of 30 legs, and a platform on 30 spatial ones, each leg an
  * instance of one definition, against the same parts written out: forming the equations in
  * milliseconds, both in one run, and again after an edit of one leg */
-#include "formulate/system.h"
+#include "formulate/system/system.h"
 #include "model/model.h"
 
 #include "base/text.h"

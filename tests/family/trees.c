@@ -2,9 +2,9 @@
 #include "trees.h"
 
 #include "../unit/form.h"
-#include "formulate/accelerations.h"
-#include "formulate/along_trees.h"
-#include "formulate/system_impl.h"
+#include "formulate/dynamics/cutset_equations.h"
+#include "formulate/solved/along_trees.h"
+#include "formulate/system/system_impl.h"
 #include "simulate/equations/motion.h"
 #include "simulate/equations/numbers.h"
 

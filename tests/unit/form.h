@@ -2,7 +2,7 @@
 #ifndef COTREE_TESTS_FORM_H
 #define COTREE_TESTS_FORM_H
 
-#include "formulate/system.h"
+#include "formulate/system/system.h"
 #include "model/model.h"
 
 __attribute__((unused)) static Status form_system(const Model *model, System **out, Diag *diag)

@@ -3,7 +3,7 @@
 #define COTREE_TESTS_SCENE_H
 
 #include "form.h"
-#include "formulate/system.h"
+#include "formulate/system/system.h"
 #include "test.h"
 
 /* Apply statements, lines separated by \n; a fault of the test when one fails. */

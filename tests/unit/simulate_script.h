@@ -6,7 +6,7 @@
 #define COTREE_TESTS_SIMULATE_SCRIPT_H
 
 #include "form.h"
-#include "formulate/system.h"
+#include "formulate/system/system.h"
 #include "session/session_impl.h"
 #include "simulate/run/run.h"
 #include "test.h"

@@ -6,7 +6,7 @@
 #include "base/text.h"
 #include "compile/program.h"
 #include "form.h"
-#include "formulate/system_impl.h"
+#include "formulate/system/system_impl.h"
 
 #include <string.h>
 

@@ -3,7 +3,8 @@
 #include "scene.h"
 
 #include "base/text.h"
-#include "formulate/accelerations.h"
+#include "formulate/dynamics/cutset_equations.h"
+#include "formulate/solved/accelerations.h"
 #include "simulate/equations/articulated.h"
 #include "simulate/equations/mass_matrix.h"
 

@@ -2,13 +2,13 @@
  * views form the same */
 #include "scene.h"
 
-#include "formulate/constraints.h"
-#include "formulate/dynamics.h"
-#include "formulate/kinematics.h"
-#include "formulate/network.h"
-#include "formulate/origin.h"
-#include "formulate/shown.h"
-#include "formulate/system_impl.h"
+#include "formulate/system/constraints.h"
+#include "formulate/system/dynamics.h"
+#include "formulate/system/kinematics.h"
+#include "formulate/system/network.h"
+#include "formulate/system/origin.h"
+#include "formulate/system/shown.h"
+#include "formulate/system/system_impl.h"
 
 #include <string.h>
 

@@ -3,7 +3,7 @@
 #define COTREE_SIMULATE_ASSEMBLE_INITIAL_IMPL_H
 
 #include "base/memory.h"
-#include "formulate/edges.h"
+#include "formulate/kinematics/edges.h"
 #include "simulate/assemble/initial.h"
 #include "simulate/assemble/level_rows.h"
 #include "simulate/assemble/skeleton.h"

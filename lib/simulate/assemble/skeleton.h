@@ -9,7 +9,7 @@
 #define COTREE_SIMULATE_ASSEMBLE_SKELETON_H
 
 #include "base/text.h"
-#include "formulate/edges.h"
+#include "formulate/kinematics/edges.h"
 #include "simulate/equations/numbers.h"
 
 /* Of a link, which places a frame against another: three shifts and four Euler parameters. What

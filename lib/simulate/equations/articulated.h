@@ -4,7 +4,7 @@
 #ifndef COTREE_SIMULATE_EQUATIONS_ARTICULATED_H
 #define COTREE_SIMULATE_EQUATIONS_ARTICULATED_H
 
-#include "formulate/composite_mass.h"
+#include "formulate/dynamics/composite_mass.h"
 
 typedef struct Articulated Articulated;
 

@@ -4,7 +4,7 @@
 #include "algebra/linear.h"
 #include "base/memory.h"
 #include "base/text.h"
-#include "formulate/edges.h"
+#include "formulate/kinematics/edges.h"
 #include "simulate/equations/rows.h"
 
 #include <math.h>

@@ -1,5 +1,7 @@
 /* elimination.c: the accelerations that a run's program tells, of mechanisms without constraints */
 #include "simulate/equations/elimination.h"
+#include "formulate/dynamics/cutset_equations.h"
+#include "formulate/solved/accelerations.h"
 
 #include "base/memory.h"
 #include "compile/program.h"

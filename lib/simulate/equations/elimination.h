@@ -2,7 +2,7 @@
 #ifndef COTREE_SIMULATE_EQUATIONS_ELIMINATION_H
 #define COTREE_SIMULATE_EQUATIONS_ELIMINATION_H
 
-#include "formulate/accelerations.h"
+#include "formulate/solved/accelerations.h"
 #include "simulate/equations/input_layout.h"
 
 /* u' on the layout's surfaces, then what tells its rounding (2 nu): new, also where it is not

@@ -2,12 +2,12 @@
  *
  * t, references of angles that count turns, q, u, x, signs on surfaces, x', z, u', lambda, efforts,
  * u''; a program's parameters come behind these. Programs are on the layout's sides of its surfaces
- * (formulate/surfaces.h). */
+ * (formulate/system/surfaces.h). */
 #ifndef COTREE_SIMULATE_EQUATIONS_INPUT_LAYOUT_H
 #define COTREE_SIMULATE_EQUATIONS_INPUT_LAYOUT_H
 
-#include "formulate/surfaces.h"
-#include "formulate/system.h"
+#include "formulate/system/surfaces.h"
+#include "formulate/system/system.h"
 
 typedef struct Layout {
     System *system;

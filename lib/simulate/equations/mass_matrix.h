@@ -1,9 +1,10 @@
-/* mass_matrix.h: M in numbers where nothing of it is written out (formulate/composite_mass.h) */
+/* mass_matrix.h: M in numbers where nothing of it is written out
+ * (formulate/dynamics/composite_mass.h) */
 #ifndef COTREE_SIMULATE_EQUATIONS_MASS_MATRIX_H
 #define COTREE_SIMULATE_EQUATIONS_MASS_MATRIX_H
 
 #include "algebra/pattern.h"
-#include "formulate/composite_mass.h"
+#include "formulate/dynamics/composite_mass.h"
 
 typedef struct MassMatrix MassMatrix;
 

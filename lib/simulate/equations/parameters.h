@@ -2,7 +2,7 @@
 #ifndef COTREE_SIMULATE_EQUATIONS_PARAMETERS_H
 #define COTREE_SIMULATE_EQUATIONS_PARAMETERS_H
 
-#include "formulate/system.h"
+#include "formulate/system/system.h"
 #include "simulate/equations/setting.h"
 
 /* Values of parameters, kept from the start of a run on. */

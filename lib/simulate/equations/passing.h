@@ -2,7 +2,7 @@
 #ifndef COTREE_SIMULATE_EQUATIONS_PASSING_H
 #define COTREE_SIMULATE_EQUATIONS_PASSING_H
 
-#include "formulate/composite_mass.h"
+#include "formulate/dynamics/composite_mass.h"
 
 static inline double dot(const double *a, const double *b)
 {

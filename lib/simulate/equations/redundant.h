@@ -2,7 +2,7 @@
 #ifndef COTREE_SIMULATE_EQUATIONS_REDUNDANT_H
 #define COTREE_SIMULATE_EQUATIONS_REDUNDANT_H
 
-#include "formulate/system.h"
+#include "formulate/system/system.h"
 #include "simulate/equations/remark.h"
 
 /* A remark for each joint with dependent rows ("redundant: h9 (x, y) repeats h8, h10"), and one

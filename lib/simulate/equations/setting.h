@@ -5,7 +5,7 @@
 #define COTREE_SIMULATE_EQUATIONS_SETTING_H
 
 #include "compile/program.h"
-#include "formulate/system.h"
+#include "formulate/system/system.h"
 #include "model/event.h"
 
 /* Initial values in force: lists of the model, as numbers. */

@@ -1,0 +1,200 @@
+/* composite.c: what hangs beyond a node taken together
+ *
+ * Where the same nodes hang beyond a branch in both trees, one unit of its speed moves them as one
+ * rigid body: its mass m, first moment S and inertia J about the node's origin say all that
+ * the branches nearer to the datum feel (Walker and Orin 1982, here on a linear graph). */
+#include "formulate/dynamics/composite.h"
+#include "formulate/dynamics/loads.h"
+#include "formulate/kinematics/alike.h"
+#include "formulate/kinematics/frames.h"
+#include "formulate/system/dynamics.h"
+#include "formulate/system/kinematics.h"
+#include "formulate/system/origin.h"
+#include "formulate/system/system_impl.h"
+#include "formulate/system/vector.h"
+
+bool speed_moves_as_one(const System *system, int speed)
+{
+    const Tree *translation = system->origin->trees[TREE_TRANSLATION];
+    const Tree *rotation = system->origin->trees[TREE_ROTATION];
+    int node = speed_node(system, speed);
+    int slide_node = system->kinematics->speeds[speed].slide_node;
+    int branch = tree_parent_edge(translation, node);
+    int nodes;
+    const int *order = tree_nodes(translation, &nodes);
+
+    if (system->dynamics->elastics.count > 0) /* it may bend beyond */
+        return false;
+    /* the branch's own shift must not turn with what it carries */
+    if (branch != tree_parent_edge(rotation, node) || (slide_node >= 0 && slide_node != node) ||
+        (system->kinematics->frames[node].base == node &&
+         !vec_is_zero(system->kinematics->frames[node].step)))
+        return false;
+    for (int i = 0; i < nodes; i++)
+        if (tree_is_beyond(translation, branch, order[i]) !=
+            tree_is_beyond(rotation, branch, order[i]))
+            return false;
+    return true;
+}
+
+/* inertia of a mass m with first moment S, moved by r: (2 r.S + m r.r) 1 - r S' - S r' - m r r' */
+static Rotation shifted(Arena *arena, const Composite *part, Vec r)
+{
+    Expr two = expr_int(arena, 2);
+    Expr round = expr_add(arena, expr_mul(arena, two, vec_dot(arena, r, part->moment)),
+                          expr_mul(arena, part->mass, vec_dot(arena, r, r)));
+    Rotation inertia = part->inertia;
+
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++) {
+            Expr terms[5] = {
+                inertia.at[3 * i + j],
+                i == j ? round : expr_int(arena, 0),
+                expr_neg(arena, expr_mul(arena, r.at[i], part->moment.at[j])),
+                expr_neg(arena, expr_mul(arena, part->moment.at[i], r.at[j])),
+                expr_neg(arena, expr_product(arena, (Expr[]){part->mass, r.at[i], r.at[j]}, 3)),
+            };
+
+            inertia.at[3 * i + j] = expr_sum(arena, terms, 5);
+        }
+    return inertia;
+}
+
+/* a tensor in other axes: its columns, then its rows */
+static Rotation tensor_express(const System *system, Rotation tensor, int from, int to)
+{
+    for (int pass = 0; pass < 2 && from != to; pass++) {
+        Rotation turned;
+
+        for (int j = 0; j < 3; j++) {
+            Vec column = {{tensor.at[j], tensor.at[3 + j], tensor.at[6 + j]}};
+
+            column = vec_express(system, column, from, to);
+            for (int i = 0; i < 3; i++)
+                turned.at[3 * j + i] = column.at[i]; /* transposed, so that rows are next */
+        }
+        tensor = turned;
+    }
+    return tensor;
+}
+
+/* whose composite is that of its instance alone, as of the first's */
+static const Follower *follows_whole(const System *system, int node, int *first)
+{
+    const Follower *follower = alike_node(system, node, first);
+
+    return follower != NULL && alike_ends(follower) ? follower : NULL;
+}
+
+Composite composite_at(const System *system, const Composite *all, int node)
+{
+    int first;
+    const Follower *follower = follows_whole(system, node, &first);
+    Composite own;
+
+    if (follower == NULL)
+        return all[node];
+    own.mass = alike_take(follower, all[first].mass);
+    own.moment = alike_vec(follower, all[first].moment);
+    for (int k = 0; k < 9; k++)
+        own.inertia.at[k] = alike_take(follower, all[first].inertia.at[k]);
+    return own;
+}
+
+/* those that some speed moves, a flag a node: new, mem_free() */
+static bool *moving_nodes(const System *system)
+{
+    int nodes;
+    const int *order = tree_nodes(system->origin->trees[TREE_TRANSLATION], &nodes);
+    bool *moves = NEW_ARRAY(bool, graph_node_count(system->origin->graph));
+
+    for (int i = 1; i < nodes; i++) {
+        const Frame *frame = &system->kinematics->frames[order[i]];
+
+        moves[order[i]] = moves[frame->parent] || frame->slide_count > 0 || frame->chain != 0 ||
+                          frame->step_chain != 0;
+    }
+    return moves;
+}
+
+static bool is_nothing(const Composite *part)
+{
+    for (int k = 0; k < 9; k++)
+        if (!expr_is_zero(part->inertia.at[k]))
+            return false;
+    return expr_is_zero(part->mass) && vec_is_zero(part->moment);
+}
+
+Composite *composites_new(const System *system, const int *place)
+{
+    Arena *arena = system->arena;
+    int nodes, first;
+    const int *order = tree_nodes(system->origin->trees[TREE_TRANSLATION], &nodes);
+    int *inward;
+    bool *moves;
+    Composite *all =
+        pool_alloc(system->pool, (size_t)graph_node_count(system->origin->graph) * sizeof *all);
+    Rotation none;
+
+    for (int i = 0; i < 9; i++)
+        none.at[i] = expr_int(arena, 0);
+    for (int i = 0; i < nodes; i++)
+        all[order[i]] = (Composite){expr_int(arena, 0), vec_zero(arena), none};
+    for (int i = 0; i < system->dynamics->masses.count; i++) {
+        const Mass *mass = &system->dynamics->masses.at[i];
+        Composite *own = &all[mass->node];
+
+        own->mass = expr_add(arena, own->mass, mass->mass);
+        own->inertia =
+            tensor_express(system, mass->inertia, system->kinematics->frames[mass->node].chain,
+                           node_axes(system, mass->node));
+    }
+    moves = moving_nodes(system);
+    inward = alike_inward(system, TREE_TRANSLATION, &nodes);
+    for (int i = 0; i < nodes; i++) {
+        const int node = inward[i];
+        const Frame *frame = &system->kinematics->frames[node];
+        Composite part, *whole = &all[frame->parent];
+        int axes = node_axes(system, node);
+        int onto = node_axes(system, frame->parent);
+
+        /* what is fixed to the datum moves nothing */
+        if (!moves[frame->parent] || (place != NULL && place[node] >= 0) ||
+            (follows_whole(system, node, &first) != NULL &&
+             follows_whole(system, frame->parent, &first) != NULL))
+            continue;
+        part = composite_at(system, all, node);
+        if (is_nothing(&part))
+            continue;
+        part.inertia = shifted(arena, &part, frame->step);
+        part.moment = vec_add(arena, part.moment, vec_scale(arena, part.mass, frame->step));
+        part.moment = vec_express(system, part.moment, axes, onto);
+        part.inertia = tensor_express(system, part.inertia, axes, onto);
+        whole->mass = expr_hold(arena, expr_add(arena, whole->mass, part.mass));
+        whole->moment = vec_hold(arena, vec_add(arena, whole->moment, part.moment));
+        for (int k = 0; k < 9; k++)
+            whole->inertia.at[k] =
+                expr_hold(arena, expr_add(arena, whole->inertia.at[k], part.inertia.at[k]));
+    }
+    MEM_FREE(inward, moves);
+    return all;
+}
+
+void composite_loads(const System *system, Composite composite, int speed, Loads *loads)
+{
+    Arena *arena = system->arena;
+    int node = speed_node(system, speed);
+    int axes = node_axes(system, node);
+    Vec slide = speed_slide(system, speed, axes);
+    Vec force = vec_scale(arena, composite.mass, slide);
+    Vec torque = vec_cross(arena, composite.moment, slide);
+
+    if (system->kinematics->speeds[speed].chain >= 0) {
+        Vec axis = speed_axis(system, speed, axes);
+
+        force = vec_add(arena, force, vec_cross(arena, axis, composite.moment));
+        torque = vec_add(arena, torque, rotation_apply(arena, &composite.inertia, axis));
+    }
+    loads->force[node] = force;
+    loads->torque[node] = torque;
+}

@@ -1,0 +1,624 @@
+/* cutset_equations.c: M and F of the recursive form: cutsets projected on motion spaces
+ *
+ * F: inertia forces at u' = 0 and everything that pushes, summed inward over both trees.
+ * M: column k is the same sum for u'_k = 1 with everything else at rest; of a pair (j, k)
+ * the column of the speed that moves fewer bodies is taken, of equals the one further out. */
+#include "formulate/dynamics/cutset_equations.h"
+#include "formulate/dynamics/composite.h"
+#include "formulate/dynamics/composite_mass.h"
+#include "formulate/dynamics/efforts.h"
+#include "formulate/dynamics/loads.h"
+#include "formulate/dynamics/shapes.h"
+#include "formulate/kinematics/alike.h"
+#include "formulate/kinematics/coordinate.h"
+#include "formulate/kinematics/frames.h"
+#include "formulate/system/constraints.h"
+#include "formulate/system/dynamics.h"
+#include "formulate/system/kinematics.h"
+#include "formulate/system/network.h"
+#include "formulate/system/origin.h"
+#include "formulate/system/sample.h"
+#include "formulate/system/system_impl.h"
+#include "formulate/system/vector.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Speeds of the largest mass matrix: it is dense, and some 100 bytes stand behind each entry. */
+enum { MOST_SPEEDS_RUN = 4000 };
+
+/* the row of a speed: its cutset projected on its motion */
+static Expr sums_project(const System *system, const Sums *sums, int speed)
+{
+    const Speed *own = &system->kinematics->speeds[speed];
+    Expr row = expr_int(system->arena, 0);
+
+    if (own->chain >= 0 && !vec_is_zero(sums->torque[own->turn_node]))
+        row = vec_dot(system->arena, own->turn, sums->torque[own->turn_node]);
+    if (own->slide_node >= 0 && !vec_is_zero(sums->force[own->slide_node]))
+        row = expr_add(system->arena, row,
+                       vec_dot(system->arena, own->slide, sums->force[own->slide_node]));
+    if (speed < system->kinematics->u.count)
+        row = expr_add(system->arena, row, sums->own[speed]);
+    return row;
+}
+
+/* the directions of each speed, in the axes of its nodes */
+static void speed_directions(const System *system)
+{
+    for (int j = 0; j < system->kinematics->speed_count; j++) {
+        Speed *own = &system->kinematics->speeds[j];
+
+        if (own->chain >= 0)
+            own->turn = speed_axis(system, j, node_axes(system, own->turn_node));
+        if (own->slide_node >= 0)
+            own->slide = speed_slide(system, j, node_axes(system, own->slide_node));
+    }
+}
+
+/* velocities of all nodes per unit of one speed */
+static void unit_motion(const System *system, int speed, Vec *v)
+{
+    Arena *arena = system->arena;
+    int turned = system->kinematics->speeds[speed].chain;
+    int nodes;
+    const int *order = tree_nodes(system->origin->trees[TREE_TRANSLATION], &nodes);
+
+    v[order[0]] = vec_zero(arena);
+    for (int i = 1; i < nodes; i++) {
+        int n = order[i];
+        const Frame *frame = &system->kinematics->frames[n];
+        int axes = node_axes(system, n);
+
+        v[n] = vec_express(system, v[frame->parent], node_axes(system, frame->parent), axes);
+        if (turned >= 0 && chain_is_beyond(system, frame->step_chain, turned))
+            v[n] = vec_add(arena, v[n],
+                           vec_cross(arena, speed_axis(system, speed, axes), frame->step));
+        if (n == system->kinematics->speeds[speed].slide_node)
+            v[n] = vec_add(arena, v[n], speed_slide(system, speed, axes));
+        v[n] = vec_hold(arena, v[n]);
+    }
+}
+
+static void unit_elastic(const System *system, const Elastic *elastic, int speed, const Vec *v,
+                         Loads *loads)
+{
+    Arena *arena = system->arena;
+    const int chain = system->kinematics->frames[elastic->node].chain;
+    const int turned = system->kinematics->speeds[speed].chain;
+    const int count = system->kinematics->u.count;
+    const bool turns = turned >= 0 && chain_is_beyond(system, chain, turned);
+    Expr *rates = NEW_ARRAY(Expr, count);
+    const Vec w =
+        turns ? speed_axis(system, speed, node_axes(system, elastic->node)) : vec_zero(arena);
+
+    for (int j = 0; j < count; j++)
+        rates[j] = expr_int(arena, j == speed);
+    elastic_add_motion(system, elastic, loads, v[elastic->node], w, rates, 1);
+    mem_free(rates);
+}
+
+/* inertia forces, signs reversed, of that motion */
+static void unit_loads(const System *system, int speed, const Vec *v, Loads *loads)
+{
+    Arena *arena = system->arena;
+    int turned = system->kinematics->speeds[speed].chain;
+
+    for (int i = 0; i < system->dynamics->masses.count; i++) {
+        const Mass *mass = &system->dynamics->masses.at[i];
+        int chain = system->kinematics->frames[mass->node].chain;
+        bool turns = turned >= 0 && mass->has_inertia && chain_is_beyond(system, chain, turned);
+
+        if (turns) {
+            Vec w = speed_axis(system, speed, chain);
+
+            loads_add_torque(system, loads, mass->node, rotation_apply(arena, &mass->inertia, w),
+                             chain);
+        }
+        loads->force[mass->node] =
+            vec_add(arena, loads->force[mass->node], vec_scale(arena, mass->mass, v[mass->node]));
+    }
+    for (int i = 0; i < system->dynamics->elastics.count; i++)
+        unit_elastic(system, &system->dynamics->elastics.at[i], speed, v, loads);
+}
+
+/* how many bodies a speed moves: those that it turns, or whose way it turns or lengthens; `moves`
+ * has room for every node */
+static int bodies_moved(const System *system, int speed, bool *moves)
+{
+    int turned = system->kinematics->speeds[speed].chain;
+    int nodes;
+    const int *order = tree_nodes(system->origin->trees[TREE_TRANSLATION], &nodes);
+    int moved = 0;
+
+    moves[order[0]] = false;
+    for (int i = 1; i < nodes; i++) {
+        const Frame *frame = &system->kinematics->frames[order[i]];
+
+        moves[order[i]] = moves[frame->parent] ||
+                          order[i] == system->kinematics->speeds[speed].slide_node ||
+                          (turned >= 0 && chain_is_beyond(system, frame->step_chain, turned));
+    }
+    for (int i = 0; i < system->dynamics->masses.count; i++) {
+        int node = system->dynamics->masses.at[i].node;
+
+        moved += moves[node] ||
+                 (turned >= 0 &&
+                  chain_is_beyond(system, system->kinematics->frames[node].chain, turned));
+    }
+    for (int i = 0; i < system->dynamics->elastics.count; i++) {
+        int node = system->dynamics->elastics.at[i].node;
+
+        moved += moves[node] || node == system->kinematics->speeds[speed].shape_node ||
+                 (turned >= 0 &&
+                  chain_is_beyond(system, system->kinematics->frames[node].chain, turned));
+    }
+    return moved;
+}
+
+/* whether the pair (j, k) is read from column k */
+static bool column_serves(const System *system, const int *moved, int j, int k)
+{
+    const Tree *tree = system->origin->trees[TREE_TRANSLATION];
+    int depth_j = tree_depth(tree, speed_node(system, j));
+    int depth_k = tree_depth(tree, speed_node(system, k));
+
+    if (moved[k] != moved[j])
+        return moved[k] < moved[j];
+    return depth_k != depth_j ? depth_k > depth_j : k >= j;
+}
+
+/* In rows of dependent speeds stands what works on the shapes that they follow from: the nu x nu
+ * entries of F' C F, from C of all n speeds. */
+static Expr *of_own_speeds(const System *system, const Expr *all, int n)
+{
+    Arena *arena = system->arena;
+    const int nu = system->kinematics->u.count;
+    Expr *half = NEW_ARRAY(Expr, (size_t)nu * (size_t)n);
+    Expr *mass = pool_alloc(system->pool, (size_t)nu * (size_t)nu * sizeof(Expr));
+
+    for (int j = 0; j < nu; j++)
+        memcpy(half + (ptrdiff_t)j * n, all + (ptrdiff_t)j * n, (size_t)n * sizeof(Expr));
+    for (int j = nu; j < n; j++) {
+        const Dependent *own = &system->kinematics->dependents.at[j - nu];
+
+        for (int i = 0; i < own->count; i++)
+            for (int k = 0; k < n; k++) {
+                Expr *entry = &half[(own->first + i) * n + k];
+
+                *entry = expr_add(arena, *entry, expr_mul(arena, own->factor[i], all[j * n + k]));
+            }
+    }
+    for (int j = 0; j < nu; j++)
+        for (int k = 0; k < n; k++)
+            half[j * n + k] = expr_hold(arena, half[j * n + k]);
+    for (int j = 0; j < nu; j++)
+        memcpy(mass + (ptrdiff_t)j * nu, half + (ptrdiff_t)j * n, (size_t)nu * sizeof(Expr));
+    for (int k = nu; k < n; k++) {
+        const Dependent *own = &system->kinematics->dependents.at[k - nu];
+
+        for (int i = 0; i < own->count; i++)
+            for (int j = 0; j < nu; j++) {
+                Expr *entry = &mass[j * nu + own->first + i];
+
+                *entry = expr_add(arena, *entry, expr_mul(arena, own->factor[i], half[j * n + k]));
+            }
+    }
+    for (int j = 0; j < nu; j++)
+        for (int k = j; k < nu; k++)
+            mass[j * nu + k] = mass[k * nu + j] = expr_hold(arena, mass[j * nu + k]);
+    mem_free(half);
+    return mass;
+}
+
+static Status mass_matrix(System *system)
+{
+    int n = system->kinematics->speed_count;
+    int *moved = NEW_ARRAY(int, n);
+    bool *moves = NEW_ARRAY(bool, graph_node_count(system->origin->graph));
+    Expr *columns = NEW_ARRAY(Expr, (size_t)n * (size_t)n);
+    Expr *mass = pool_alloc(system->pool, (size_t)n * (size_t)n * sizeof(Expr));
+    Vec *v = NEW_ARRAY(Vec, graph_node_count(system->origin->graph));
+    const Composite *composites = composites_new(system, NULL);
+    Status status = OK;
+
+    for (int k = 0; k < n; k++) {
+        const PoolMark mark = pool_mark(system->pool);
+        Loads loads = loads_new(system);
+        Sums *sums;
+
+        moved[k] = bodies_moved(system, k, moves);
+        if (speed_moves_as_one(system, k)) {
+            composite_loads(system, composite_at(system, composites, speed_node(system, k)), k,
+                            &loads);
+        } else {
+            unit_motion(system, k, v);
+            unit_loads(system, k, v, &loads);
+        }
+        sums = loads_sum(system, &loads);
+        for (int j = 0; j < n; j++)
+            columns[(size_t)k * (size_t)n + (size_t)j] = sums_project(system, sums, j);
+        pool_release(system->pool, mark);
+        CHECK(poll(system->watch));
+    }
+    for (int j = 0; j < n; j++)
+        for (int k = 0; k < n; k++) {
+            bool by_k = column_serves(system, moved, j, k);
+
+            mass[j * n + k] =
+                expr_hold(system->arena, by_k ? columns[k * n + j] : columns[j * n + k]);
+        }
+    system->run.mass = n > system->kinematics->u.count ? of_own_speeds(system, mass, n) : mass;
+done:
+    MEM_FREE(moved, moves, columns, v);
+    return status;
+}
+
+static void add_elastic(const System *system, const Elastic *elastic, Loads *loads,
+                        const Vec *alpha, const Vec *a, const Expr *accelerations)
+{
+    Arena *arena = system->arena;
+    const int axes = node_axes(system, elastic->node);
+    const int chain = system->kinematics->frames[elastic->node].chain;
+    const Vec g = vec_express(system, system->origin->gravity, 0, axes);
+
+    elastic_add_motion(system, elastic, loads, vec_sub(arena, a[elastic->node], g), alpha[chain],
+                       accelerations, -1);
+    elastic_add_rest(system, elastic, loads);
+}
+
+static void add_inertia_of(const System *system, Loads *loads, const Mass *mass, Vec g,
+                           const Vec *alpha, const Vec *a)
+{
+    Arena *arena = system->arena;
+    const int chain = system->kinematics->frames[mass->node].chain;
+    const Vec force = vec_scale(arena, mass->mass, vec_sub(arena, g, a[mass->node]));
+    Vec w, spin, torque;
+
+    loads->force[mass->node] = vec_add(arena, loads->force[mass->node], force);
+    if (!mass->has_inertia)
+        return;
+    w = system->kinematics->motions[chain].w;
+    spin = vec_hold(arena, rotation_apply(arena, &mass->inertia, w));
+    torque = vec_add(arena, rotation_apply(arena, &mass->inertia, alpha[chain]),
+                     vec_cross(arena, w, spin));
+    loads->torque[mass->node] = vec_sub(arena, loads->torque[mass->node], torque);
+}
+
+/* of a mass alone on its node: inertia comes before other loads */
+static void take_inertia(Loads *loads, const Follower *follower, int node, int first)
+{
+    loads->force[node] = alike_vec(follower, loads->force[first]);
+    loads->torque[node] = alike_vec(follower, loads->torque[first]);
+}
+
+void loads_add_inertia(const System *system, Loads *loads, const Vec *alpha, const Vec *a,
+                       const Expr *accelerations)
+{
+    Vec *gravity = NEW_ARRAY(Vec, system->kinematics->chains.count);
+
+    vec_express_outward(system, system->origin->gravity, gravity);
+    for (int pass = 0; pass < 2; pass++) /* what others take over comes before them */
+        for (int i = 0; i < system->dynamics->masses.count; i++) {
+            const Mass *mass = &system->dynamics->masses.at[i];
+            int first;
+            const Follower *follower =
+                accelerations == NULL ? alike_node(system, mass->node, &first) : NULL;
+            const bool takes = follower != NULL && alike_moves(follower);
+
+            if (takes && pass == 1)
+                take_inertia(loads, follower, mass->node, first);
+            else if (!takes && pass == 0)
+                add_inertia_of(system, loads, mass, gravity[node_axes(system, mass->node)], alpha,
+                               a);
+        }
+    for (int i = 0; i < system->dynamics->elastics.count; i++)
+        add_elastic(system, &system->dynamics->elastics.at[i], loads, alpha, a, accelerations);
+    mem_free(gravity);
+}
+
+static bool is_one_of(Expr symbol, const Expr *symbols, int count)
+{
+    for (int i = 0; i < count; i++)
+        if (symbols[i] == symbol)
+            return true;
+    return false;
+}
+
+/* an effort on a coordinate works on the speeds that the coordinate depends on */
+static void add_on_coordinate(const System *system, Expr coordinate, Expr effort)
+{
+    Arena *arena = system->arena;
+    Expr *symbols;
+    const int count = expr_symbols(&coordinate, 1, &symbols);
+
+    effort = expr_hold(arena, effort);
+    for (int i = 0; i < system->kinematics->q.count; i++) {
+        const CoordinateRate *rate = &system->kinematics->coordinate_rates[i];
+        const Expr symbol = system->kinematics->q.at[i].symbol;
+
+        for (int k = 0; is_one_of(symbol, symbols, count) && k < rate->count; k++) {
+            Expr *force = &system->run.force[rate->speed[k]];
+            Expr *push = &system->dynamics->pushes[rate->speed[k]];
+            const Expr share = expr_product(
+                arena, (Expr[]){expr_diff(arena, coordinate, symbol), rate->entry[k], effort}, 3);
+
+            *force = expr_add(arena, *force, share);
+            *push = expr_add(arena, *push, share);
+        }
+    }
+    mem_free(symbols);
+}
+
+/* what a part adds to an entry of M */
+static void add_share(System *system, int row, int column, Expr share)
+{
+    if (!expr_is_zero(share))
+        LIST_PUSH(system->dynamics->shares, (Entry){row, column, share});
+}
+
+/* an inertia J on a coordinate s: J s_j s_k in M, -J s_j (s'' at u' = 0) in F */
+static Status add_rotor(System *system, const Instance *instance, Diag *diag)
+{
+    Arena *arena = system->arena;
+    int n = system->kinematics->u.count;
+    const Instance *joint = &system->origin->instances[instance->joint];
+    Expr inertia = instance->row->rotor(instance, arena);
+    Expr s;
+    Expr second;
+    Expr *zeros = NEW_ARRAY(Expr, n);
+    Expr *moved = NEW_ARRAY(Expr, n);
+    Status status = OK;
+
+    if (expr_is_zero(inertia))
+        goto done;
+    CHECK(coordinate_value(system, joint, instance->joint_coordinate, 0, &s, diag));
+    CHECK(coordinate_value(system, joint, instance->joint_coordinate, 2, &second, diag));
+    for (int j = 0; j < n; j++)
+        zeros[j] = expr_int(arena, 0);
+    second = expr_substitute(arena, second, system->kinematics->accelerations, zeros, n);
+    add_on_coordinate(system, s, expr_neg(arena, expr_mul(arena, inertia, second)));
+    for (int j = 0; j < n; j++)
+        moved[j] = speed_partial(system, s, j);
+    for (int j = 0; j < n; j++)
+        for (int k = 0; k < n; k++)
+            add_share(system, j, k, expr_product(arena, (Expr[]){inertia, moved[j], moved[k]}, 3));
+done:
+    MEM_FREE(moved, zeros);
+    return status;
+}
+
+/* An effort that holds u' pushes with inertia: of a flywheel on a shaft's end, of the liquid before
+ * a cylinder. Its slope belongs into M, and what it is at u' = 0 into F. */
+Status effort_inertia(const System *system, const Effort *effort, int speed, Expr *out, Diag *diag)
+{
+    Expr slope = expr_diff(system->arena, effort->value, system->kinematics->accelerations[speed]);
+
+    if ((expr_kinds(slope) & 1U << SYMBOL_ACCELERATION) != 0)
+        return diag_set(diag, E_MODEL, "%s pushes with more than a multiple of an acceleration",
+                        effort->instance->name);
+    *out = expr_neg(system->arena, slope);
+    return OK;
+}
+
+Expr effort_at_rest(const System *system, const Effort *effort)
+{
+    int n = system->kinematics->u.count;
+    Expr *zeros;
+    Expr value = effort->value;
+
+    if ((expr_kinds(value) & 1U << SYMBOL_ACCELERATION) == 0)
+        return value;
+    zeros = NEW_ARRAY(Expr, n);
+    for (int j = 0; j < n; j++)
+        zeros[j] = expr_int(system->arena, 0);
+    value = expr_substitute(system->arena, value, system->kinematics->accelerations, zeros, n);
+    mem_free(zeros);
+    return value;
+}
+
+static Status add_inertia(System *system, const Effort *effort, Diag *diag)
+{
+    Arena *arena = system->arena;
+    int n = system->kinematics->u.count;
+
+    for (int k = 0; (expr_kinds(effort->value) & 1U << SYMBOL_ACCELERATION) != 0 && k < n; k++) {
+        Expr inertia = NULL;
+
+        TRY(effort_inertia(system, effort, k, &inertia, diag));
+        for (int j = 0; j < n && !expr_is_zero(inertia); j++)
+            add_share(system, j, k,
+                      expr_mul(arena, speed_partial(system, effort->displacement, j), inertia));
+    }
+    return OK;
+}
+
+static bool is_same_number(Expr a, Expr b)
+{
+    bool same = a == b;
+
+    for (uint32_t seed = 1; !same && seed <= 2; seed++) {
+        double x = expr_value_somewhere(a, seed);
+        double y = expr_value_somewhere(b, seed);
+
+        if (!(fabs(x - y) <= 1e-9 * (fabs(x) + fabs(y))))
+            return false;
+    }
+    return true;
+}
+
+/* a network that hands on accelerations one way only would make M unsymmetric */
+static Status check_symmetry(System *system, Diag *diag)
+{
+    int n = system->kinematics->u.count;
+
+    for (int j = 0; j < n; j++)
+        for (int k = 0; k < j; k++)
+            if (!is_same_number(system->run.mass[j * n + k], system->run.mass[k * n + j])) {
+                (void)diag_set(diag, E_MODEL,
+                               "the network passes the acceleration of one of %s and %s on to "
+                               "the other one way only",
+                               system->kinematics->u.at[k].name, system->kinematics->u.at[j].name);
+                diag_hint(diag, "put a compliance between: a shaft or a rod with k=");
+                return E_MODEL;
+            }
+    return OK;
+}
+
+static void take_shares(System *system)
+{
+    for (int i = 0; i < system->dynamics->shares.count; i++) {
+        const Entry *share = &system->dynamics->shares.at[i];
+        Expr *entry = &system->run.mass[share->row * system->kinematics->u.count + share->column];
+
+        *entry = expr_hold(system->arena, expr_add(system->arena, *entry, share->value));
+    }
+}
+
+Status drive_coordinate(System *system, int drive, Expr *out, Diag *diag)
+{
+    const Origin *origin = system->origin;
+    const Instance *driver = &origin->instances[system->constraints->drives.at[drive].instance];
+
+    if (driver->by >= 0 && driver->by_coordinate >= 0)
+        return coordinate_value(system, &origin->instances[driver->by], driver->by_coordinate, 0,
+                                out, diag);
+    *out = NULL;
+    return OK;
+}
+
+static Status joint_efforts(System *system, Diag *diag)
+{
+    bool inertia = false;
+
+    for (int i = 0; i < system->origin->instance_count; i++) {
+        const Instance *instance = &system->origin->instances[i];
+        Effort effort;
+
+        if (instance->joint < 0 || instance->row->family == FAMILY_DRIVER)
+            continue;
+        if (instance->row->effort != NULL) {
+            TRY(effort_of(system, instance, &effort, diag));
+            add_on_coordinate(system, effort.displacement, effort_at_rest(system, &effort));
+            TRY(add_inertia(system, &effort, diag));
+            inertia = inertia || (expr_kinds(effort.value) & 1U << SYMBOL_ACCELERATION) != 0;
+        }
+        if (instance->row->rotor != NULL)
+            TRY(add_rotor(system, instance, diag));
+    }
+    /* an effort that an inverse run finds at another coordinate */
+    for (int i = 0; i < system->constraints->drives.count; i++) {
+        Expr s;
+
+        TRY(drive_coordinate(system, i, &s, diag));
+        if (s != NULL)
+            add_on_coordinate(system, s, system->constraints->drives.at[i].effort);
+    }
+    if (inertia && system->run.mass == NULL)
+        TRY(mass_matrix(system));
+    if (system->run.mass != NULL)
+        take_shares(system);
+    if (inertia)
+        TRY(check_symmetry(system, diag));
+    return OK;
+}
+
+/* what acts on stations works on shapes */
+static void project_dependent(System *system, const Sums *sums, int speed)
+{
+    Arena *arena = system->arena;
+    const Dependent *own = &system->kinematics->dependents.at[speed - system->kinematics->u.count];
+    const Expr row = expr_hold(arena, sums_project(system, sums, speed));
+
+    for (int i = 0; i < own->count; i++) {
+        Expr *force = &system->run.force[own->first + i];
+
+        *force = expr_add(arena, *force, expr_mul(arena, own->factor[i], row));
+    }
+}
+
+static Status check_size(const System *system, Diag *diag)
+{
+    if (system->kinematics->u.count <= MOST_SPEEDS_RUN)
+        return OK;
+    (void)diag_set(diag, E_MODEL, "the mechanism has %d speeds; %d are the most here",
+                   system->kinematics->u.count, MOST_SPEEDS_RUN);
+    diag_hint(diag,
+              "a joint in place of a free body takes speeds away, and so does a planar scene");
+    return E_MODEL;
+}
+
+Status dynamics_build(System *system, Diag *diag)
+{
+    int n = system->kinematics->u.count;
+    Loads loads;
+    Sums *sums;
+
+    TRY(check_size(system, diag));
+    system->run.force = pool_alloc(system->pool, (size_t)n * sizeof(Expr));
+    system->dynamics->pushes = pool_alloc(system->pool, (size_t)n * sizeof(Expr));
+    if (n == 0)
+        return OK;
+    for (int j = 0; j < n; j++)
+        system->dynamics->pushes[j] = expr_int(system->arena, 0);
+    speed_directions(system);
+    if (!composite_mass_build(system))
+        TRY(mass_matrix(system));
+    loads = loads_new(system);
+    loads_add_inertia(system, &loads, system->kinematics->alpha0, system->kinematics->a0, NULL);
+    TRY(efforts_add(system, &loads, false, diag));
+    sums = loads_sum(system, &loads);
+    for (int j = 0; j < n; j++)
+        system->run.force[j] = sums_project(system, sums, j);
+    for (int j = n; j < system->kinematics->speed_count; j++)
+        project_dependent(system, sums, j);
+    for (int j = 0; j < n; j++)
+        system->run.force[j] = expr_hold(system->arena, system->run.force[j]);
+    return joint_efforts(system, diag);
+}
+
+Status system_pushes(System *system, Expr *out, Diag *diag)
+{
+    const int nodes = graph_node_count(system->origin->graph);
+    bool none = true;
+    PoolMark mark;
+    Loads loads;
+
+    system_touch(system);
+    mark = pool_mark(system->pool);
+    loads = loads_new(system);
+    TRY(efforts_add(system, &loads, false, diag));
+    for (int i = 0; i < nodes && none; i++)
+        none = vec_is_zero(loads.force[i]) && vec_is_zero(loads.torque[i]);
+    for (int j = 0; j < system->kinematics->u.count; j++)
+        out[j] = expr_add(system->arena, loads.own[j], system->dynamics->pushes[j]);
+    if (!none) {
+        const Sums *sums = loads_sum(system, &loads);
+
+        for (int j = 0; j < system->kinematics->u.count; j++)
+            out[j] = expr_hold(system->arena, expr_add(system->arena, system->dynamics->pushes[j],
+                                                       sums_project(system, sums, j)));
+    }
+    pool_release(system->pool, mark);
+    return OK;
+}
+
+Status system_form_mass(System *system, Diag *diag)
+{
+    Status status = OK;
+
+    if (system->run.mass != NULL || system->kinematics->u.count == 0)
+        return OK;
+    system_touch(system);
+    CHECK(mass_matrix(system));
+    take_shares(system);
+    if (arena_status(system->arena) != OK) {
+        system->run.mass = NULL;
+        status = diag_set(diag, arena_status(system->arena), "the mass matrix is too large: %s",
+                          arena_failure(system->arena));
+        arena_reset(system->arena);
+    }
+    system->definitions.mass = system->run.mass;
+done:
+    return status;
+}

@@ -1,0 +1,284 @@
+/* energy.c: energies, and the power of sources and losses */
+#include "formulate/dynamics/efforts.h"
+#include "formulate/dynamics/shapes.h"
+#include "formulate/kinematics/coordinate.h"
+#include "formulate/kinematics/frames.h"
+#include "formulate/kinematics/recursive.h"
+#include "formulate/network/scalar_edges.h"
+#include "formulate/system/constraints.h"
+#include "formulate/system/dynamics.h"
+#include "formulate/system/kinematics.h"
+#include "formulate/system/network.h"
+#include "formulate/system/origin.h"
+#include "formulate/system/resolve.h"
+#include "formulate/system/shown.h"
+#include "formulate/system/system_impl.h"
+#include "formulate/system/vector.h"
+
+enum { SHORT = 4 }; /* terms of a sum that is not worth avoiding */
+
+typedef LIST(Expr) Terms;
+
+static Expr half(Arena *arena)
+{
+    return expr_rational(arena, 1, 2);
+}
+
+static void push(const System *system, Terms *terms, Expr scale, Expr a, Expr b)
+{
+    LIST_PUSH(*terms, expr_product(system->arena, (Expr[]){scale, a, b}, 3));
+}
+
+/* what a scalar edge stores; 0 where nothing is known of it */
+static Expr stored_field(System *system, const Branchlike *branch)
+{
+    Expr stored = expr_int(system->arena, 0);
+
+    if (branch->relation.stored != NULL &&
+        variables_resolve(system, branch->relation.stored, &stored, NULL) != OK)
+        stored = expr_int(system->arena, 0);
+    return stored;
+}
+
+/* flywheels and slugs hold energy of motion, as does the liquid of an inertance */
+static bool is_of_motion(const System *system, const Branchlike *branch)
+{
+    Domain domain = graph_edge(system->origin->graph, branch->edge)->domain;
+
+    if (domain == DOMAIN_HYDRAULIC)
+        return branch->relation.kind == RELATION_INDUCTIVE;
+    return (domain == DOMAIN_SHAFT || domain == DOMAIN_SLIDE) &&
+           branch->relation.kind == RELATION_CAPACITIVE;
+}
+
+static void push_stored(System *system, Terms *terms, bool of_motion)
+{
+    for (int i = 0; i < system->network->branches.count; i++)
+        if (is_of_motion(system, &system->network->branches.at[i]) == of_motion)
+            LIST_PUSH(*terms, stored_field(system, &system->network->branches.at[i]));
+}
+
+Expr system_kinetic(System *system)
+{
+    system_touch(system);
+    Arena *arena = system->arena;
+    Terms terms = {0};
+    Expr sum;
+
+    for (int i = 0; i < system->dynamics->masses.count; i++) {
+        const Mass *mass = &system->dynamics->masses.at[i];
+        Vec v = system->kinematics->frames[mass->node].v;
+        Vec w = system->kinematics->motions[system->kinematics->frames[mass->node].chain].w;
+
+        push(system, &terms, half(arena), mass->mass, vec_dot(arena, v, v));
+        if (mass->has_inertia)
+            push(system, &terms, half(arena), expr_int(arena, 1),
+                 vec_dot(arena, w, rotation_apply(arena, &mass->inertia, w)));
+    }
+    for (int i = 0; i < system->dynamics->elastics.count; i++)
+        LIST_PUSH(terms, elastic_kinetic(system, &system->dynamics->elastics.at[i]));
+    for (int i = 0; i < system->origin->instance_count; i++) {
+        const Instance *instance = &system->origin->instances[i];
+        Expr rate;
+
+        if (instance->row->rotor == NULL || instance->joint < 0 ||
+            coordinate_value(system, &system->origin->instances[instance->joint],
+                             instance->joint_coordinate, 1, &rate, NULL) != OK)
+            continue;
+        push(system, &terms, half(arena), instance->row->rotor(instance, arena),
+             expr_square(arena, rate));
+    }
+    push_stored(system, &terms, true);
+    sum = expr_sum(arena, terms.at, terms.count);
+    LIST_FREE(terms);
+    return sum;
+}
+
+/* energy of a spring at a displacement */
+static bool stored_in(System *system, const Effort *effort, Expr displacement, Expr *out)
+{
+    Expr zero = expr_int(system->arena, 0);
+    Motion1 motion = {displacement, effort->rate, zero, zero};
+    Expr stored = effort->instance->row->potential(effort->instance, system->arena, &motion);
+
+    return variables_resolve(system, stored, out, NULL) == OK;
+}
+
+Expr system_potential(System *system)
+{
+    system_touch(system);
+    Arena *arena = system->arena;
+    Terms terms = {0};
+    Expr sum;
+
+    for (int i = 0; i < system->dynamics->masses.count; i++) {
+        const Mass *mass = &system->dynamics->masses.at[i];
+
+        push(system, &terms, expr_int(arena, -1), mass->mass,
+             vec_dot(arena, system->origin->gravity, node_position(system, mass->node)));
+    }
+    for (int i = 0; i < system->dynamics->elastics.count; i++) {
+        const Elastic *elastic = &system->dynamics->elastics.at[i];
+        const ShapeInertia *b = &elastic->block;
+        const int chain = system->kinematics->frames[elastic->node].chain;
+        Vec moment = vec_express(system, elastic_vector(system, elastic, b->moment), chain, 0);
+
+        moment =
+            vec_add(arena, moment, vec_scale(arena, b->mass, node_position(system, elastic->node)));
+        LIST_PUSH(terms, expr_neg(arena, vec_dot(arena, system->origin->gravity, moment)));
+        LIST_PUSH(terms, b->stored);
+    }
+    for (int i = 0; i < system->origin->instance_count; i++) {
+        const Instance *instance = &system->origin->instances[i];
+        Effort effort;
+        Expr stored;
+
+        if (instance->row->potential != NULL && effort_of(system, instance, &effort, NULL) == OK &&
+            stored_in(system, &effort, effort.displacement, &stored))
+            LIST_PUSH(terms, stored);
+    }
+    push_stored(system, &terms, false);
+    sum = expr_sum(arena, terms.at, terms.count);
+    LIST_FREE(terms);
+    return sum;
+}
+
+/* an effort less the part that a potential accounts for */
+static Expr lost_effort(System *system, const Effort *effort)
+{
+    Arena *arena = system->arena;
+    Expr at = expr_symbol(arena, "displacement", SYMBOL_ARGUMENT);
+    Expr stored;
+
+    if (effort->instance->row->potential == NULL || !stored_in(system, effort, at, &stored))
+        return effort->value;
+    stored = expr_diff(arena, stored, at);
+    stored = expr_substitute(arena, stored, &at, &effort->displacement, 1);
+    return expr_add(arena, effort->value, stored);
+}
+
+static void push_wrench(System *system, Terms *terms, const Instance *instance)
+{
+    Arena *arena = system->arena;
+    const Frame *frame = &system->kinematics->frames[instance->head];
+    int resolve_chain = system->kinematics->chains.at[frame->chain].resolve;
+    Expr one = expr_int(arena, 1);
+    Vec force;
+    Vec torque;
+    int chain;
+
+    if (wrench_of(system, instance, &force, &torque, &chain, NULL) != OK)
+        return;
+    force = vec_express(system, force, chain, resolve_chain);
+    torque = vec_express(system, torque, chain, resolve_chain);
+    push(system, terms, one, one, vec_dot(arena, force, frame->v));
+    push(system, terms, one, one,
+         vec_dot(arena, torque, system->kinematics->motions[frame->chain].w));
+}
+
+/* along the tree, so that terms of two edges may cancel */
+static bool is_short(Expr e)
+{
+    return expr_kind(e) != EXPR_SUM || expr_arg_count(e) <= SHORT;
+}
+
+/* v and i of a scalar edge, whose product is the power that it takes. What is a state's rate times
+ * a number follows from that where along the tree it is a sum over many edges. */
+static void power_of(System *system, const Branchlike *branch, Expr *v, Expr *i)
+{
+    const RelationKind kind = branch->relation.kind;
+    const bool is_state = (kind == RELATION_CAPACITIVE && branch->branch) ||
+                          (kind == RELATION_INDUCTIVE && !branch->branch);
+    Expr *derived = kind == RELATION_CAPACITIVE ? i : v;
+    Expr rate;
+
+    *v = branch->v;
+    *i = branch->i;
+    if (is_state && system->network->form == NETWORK_STATE && !is_short(*derived) &&
+        network_stored_rate(system, branch, &rate, NULL) == OK)
+        *derived = rate;
+}
+
+/* minus the power that scalar edges take and don't store; heat is power by itself, and no balance
+ * holds it */
+static void push_network(System *system, Terms *terms)
+{
+    Arena *arena = system->arena;
+
+    for (int i = 0; i < system->network->branches.count; i++) {
+        const Branchlike *branch = &system->network->branches.at[i];
+        Expr v, through, rate;
+
+        if (graph_edge(system->origin->graph, branch->edge)->domain == DOMAIN_THERMAL)
+            continue;
+        if (system_rate_of(system, stored_field(system, branch), &rate, NULL) == OK)
+            LIST_PUSH(*terms, rate);
+        else if (expr_is_zero(branch->relation.rest))
+            continue; /* all that it takes is stored */
+        power_of(system, branch, &v, &through);
+        push(system, terms, expr_int(arena, -1), v, through);
+    }
+}
+
+static void push_drives(System *system, Terms *terms)
+{
+    Arena *arena = system->arena;
+    Expr rate;
+
+    for (int k = 0; k < system->constraints->rows.count; k++) {
+        const Row *row = &system->constraints->rows.at[k];
+
+        if (row->kind == ROW_DRIVER &&
+            coordinate_value(system, &system->origin->instances[row->owner], row->coordinate, 1,
+                             &rate, NULL) == OK)
+            push(system, terms, expr_int(arena, -1), system->constraints->multipliers[k], rate);
+    }
+}
+
+/* damping, and a load */
+static void push_elastic(System *system, const Elastic *elastic, Terms *terms)
+{
+    Arena *arena = system->arena;
+    const ShapeInertia *b = &elastic->block;
+    const Instance *part = &system->origin->instances[elastic->instance];
+    const int node = elastic->node, chain = system->kinematics->frames[node].chain;
+    Loads loads = loads_new(system);
+
+    for (int i = 0; i < part->coord_count - part->pose_count; i++)
+        LIST_PUSH(*terms, expr_mul(arena, expr_sub(arena, b->push[i], b->stress[i]),
+                                   system->kinematics->u.at[elastic->first + i].symbol));
+    if (elastic_add_load(system, elastic, &loads, NULL) != OK)
+        return;
+    LIST_PUSH(*terms, vec_dot(arena, loads.force[node], system->kinematics->frames[node].v));
+    LIST_PUSH(*terms, vec_dot(arena, loads.torque[node], system->kinematics->motions[chain].w));
+    for (int i = 0; i < part->coord_count - part->pose_count; i++)
+        LIST_PUSH(*terms, expr_mul(arena, loads.own[elastic->first + i],
+                                   system->kinematics->u.at[elastic->first + i].symbol));
+}
+
+Expr system_power(System *system)
+{
+    system_touch(system);
+    Arena *arena = system->arena;
+    Terms terms = {0};
+    Expr *sum = &system->shown->power;
+
+    if (*sum != NULL)
+        return *sum;
+    for (int i = 0; i < system->origin->instance_count; i++) {
+        const Instance *instance = &system->origin->instances[i];
+        Effort effort;
+
+        if (instance->row->wrench != NULL)
+            push_wrench(system, &terms, instance);
+        if (instance->row->effort != NULL && effort_of(system, instance, &effort, NULL) == OK)
+            push(system, &terms, expr_int(arena, 1), lost_effort(system, &effort), effort.rate);
+    }
+    for (int i = 0; i < system->dynamics->elastics.count; i++)
+        push_elastic(system, &system->dynamics->elastics.at[i], &terms);
+    push_network(system, &terms);
+    push_drives(system, &terms);
+    *sum = expr_sum(arena, terms.at, terms.count);
+    LIST_FREE(terms);
+    return *sum;
+}

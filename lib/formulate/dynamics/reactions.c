@@ -1,0 +1,234 @@
+/* reactions.c: forces and moments of joints, from lambda where the joint is a chord, from what
+ * hangs beyond it where it is a branch (theory 5)
+ *
+ * Rows that vanished have multipliers too (redundancy.c). Where some of them are open, so is every
+ * component of a reaction that changes with them, and no other. */
+#include "formulate/dynamics/reactions.h"
+#include "formulate/dynamics/efforts.h"
+#include "formulate/dynamics/loads.h"
+#include "formulate/kinematics/coordinate.h"
+#include "formulate/kinematics/frames.h"
+#include "formulate/kinematics/recursive.h"
+#include "formulate/system/constraints.h"
+#include "formulate/system/kinematics.h"
+#include "formulate/system/origin.h"
+#include "formulate/system/resolve.h"
+#include "formulate/system/sample.h"
+#include "formulate/system/shown.h"
+#include "formulate/system/system_impl.h"
+#include "formulate/system/vector.h"
+
+#include <assert.h>
+
+#include <math.h>
+
+static Status add_rotors(System *system, Loads *loads, Diag *diag)
+{
+    for (int i = 0; i < system->origin->instance_count; i++) {
+        const Instance *instance = &system->origin->instances[i];
+        const Instance *joint;
+        Expr inertia;
+        Expr second;
+
+        if (instance->row->rotor == NULL || instance->joint < 0)
+            continue;
+        inertia = instance->row->rotor(instance, system->arena);
+        joint = &system->origin->instances[instance->joint];
+        TRY(coordinate_value(system, joint, instance->joint_coordinate, 2, &second, diag));
+        loads_add_effort(system, loads, joint, instance->joint_coordinate,
+                         expr_neg(system->arena, expr_mul(system->arena, inertia, second)));
+    }
+    return OK;
+}
+
+Status actual_build(System *system, Diag *diag)
+{
+    Loads loads;
+
+    TRY(system_wait_for_motion(system, diag));
+    if (system->shown->actual_a == NULL) {
+        size_t chains = (size_t)system->kinematics->chains.count;
+
+        system->shown->actual_alpha = pool_alloc(system->pool, chains * sizeof(Vec));
+        system->shown->actual_a =
+            pool_alloc(system->pool, (size_t)graph_node_count(system->origin->graph) * sizeof(Vec));
+        accelerations_build(system, system->kinematics->accelerations, system->shown->actual_alpha,
+                            system->shown->actual_a);
+    }
+    if (system->shown->actual != NULL)
+        return OK;
+    loads = loads_new(system);
+    loads_add_inertia(system, &loads, system->shown->actual_alpha, system->shown->actual_a,
+                      system->kinematics->accelerations);
+    TRY(efforts_add(system, &loads, true, diag));
+    TRY(add_rotors(system, &loads, diag));
+    for (int k = 0; k < system->constraints->rows.count; k++)
+        loads_add_row(system, &loads, &system->constraints->rows.at[k],
+                      system->constraints->multipliers[k]);
+    for (int i = 0; i < system->constraints->drives.count; i++) {
+        const Instance *driver =
+            &system->origin->instances[system->constraints->drives.at[i].instance];
+
+        if (driver->by >= 0 && driver->by_coordinate >= 0)
+            loads_add_effort(system, &loads, &system->origin->instances[driver->by],
+                             driver->by_coordinate, system->constraints->drives.at[i].effort);
+    }
+    if (system->constraints->redundant_rows.count > 0)
+        recovery_build(system, &loads);
+    for (int k = 0; k < system->constraints->redundant_rows.count; k++)
+        loads_add_row(system, &loads, &system->constraints->redundant_rows.at[k],
+                      system->shown->recovery->multipliers[k]);
+    system->shown->actual = loads_sum(system, &loads);
+    return OK;
+}
+
+/* what a row puts on the head of its chord per unit of -lambda: force or moment, ground axes */
+static Vec row_reaction(const System *system, const Row *row, bool rotation)
+{
+    Arena *arena = system->arena;
+    int tail = system->kinematics->frames[row->tail].chain;
+    Vec along = row->n;
+
+    if (row->told.rotation != rotation && row->kind != ROW_TIE)
+        return vec_zero(arena);
+    if (row->kind == ROW_TIE && rotation)
+        along = vec_scale(arena, expr_neg(arena, row->pitch), along);
+    if (row->kind == ROW_DOT)
+        along = vec_cross(
+            arena, vec_express(system, row->b, system->kinematics->frames[row->head].chain, tail),
+            along);
+    return vec_express(system, along, row->kind == ROW_DATUM ? 0 : tail, 0);
+}
+
+/* the sum over a chord's rows */
+static Vec chord_reaction(System *system, const Instance *joint, bool rotation)
+{
+    Arena *arena = system->arena;
+    Vec sum = vec_zero(arena);
+
+    for (int k = 0; k < system->constraints->rows.count + system->constraints->redundant_rows.count;
+         k++) {
+        int v = k - system->constraints->rows.count;
+        const Row *row =
+            v < 0 ? &system->constraints->rows.at[k] : &system->constraints->redundant_rows.at[v];
+        Expr lambda =
+            v < 0 ? system->constraints->multipliers[k] : system->shown->recovery->multipliers[v];
+
+        assert(row != NULL);
+        if (row->told.instance == joint->number)
+            sum = vec_add(
+                arena, sum,
+                vec_scale(arena, expr_neg(arena, lambda), row_reaction(system, row, rotation)));
+    }
+    return sum;
+}
+
+/* everything beyond the branch and the joint itself are in equilibrium */
+static Vec branch_reaction(const System *system, const Tree *tree, int branch, const Sums *sums,
+                           bool rotation, int *chain)
+{
+    int node = tree_far_node(tree, branch);
+    Vec reaction = (rotation ? sums->torque : sums->force)[node];
+
+    *chain = system->kinematics->chains.at[system->kinematics->frames[node].chain].resolve;
+    return tree_is_forward(tree, node) ? vec_neg(system->arena, reaction) : reaction;
+}
+
+/* the component that is asked for, of a vector in the axes of a chain */
+static Expr component(const System *system, const Instance *joint, ReactionPart part, Vec vector,
+                      int chain)
+{
+    const Frame *tail = &system->kinematics->frames[joint->tail];
+    Rotation back = rotation_transpose(&tail->zero);
+
+    vector = vec_express(system, vector, chain, part.own ? tail->chain : 0);
+    if (part.own)
+        vector = rotation_apply(system->arena, &back, vector);
+    return vector.at[part.axis];
+}
+
+/* the component per unit of the multiplier of a row that vanished */
+static Expr share_of(System *system, const Instance *joint, ReactionPart part, int redundant)
+{
+    const Tree *tree = system->origin->trees[part.moment ? TREE_ROTATION : TREE_TRANSLATION];
+    const Row *row = &system->constraints->redundant_rows.at[redundant];
+    Vec vector = vec_zero(system->arena);
+    int chain = 0;
+
+    if (tree_has(tree, joint->edge))
+        vector = branch_reaction(system, tree, joint->edge,
+                                 system->shown->recovery->sums[redundant], part.moment, &chain);
+    else if (row->told.instance == joint->number)
+        vector = vec_neg(system->arena, row_reaction(system, row, part.moment));
+    return component(system, joint, part, vector, chain);
+}
+
+/* a row that vanished and on which the component depends, though nothing determines its multiplier;
+ * NULL: there is none */
+static const Row *open_row(System *system, const Instance *joint, ReactionPart part)
+{
+    enum { DIGITS = 7 };
+    const Recovery *recovery = system->shown->recovery;
+    int rows = system->constraints->redundant_rows.count;
+    double *share = NULL;
+    const Row *found = NULL;
+
+    if (recovery == NULL || recovery->open_count == 0)
+        return NULL;
+    share = NEW_ARRAY(double, rows);
+    for (int k = 0; k < rows; k++)
+        share[k] = sample_number(recovery->sample, share_of(system, joint, part, k));
+    for (int j = 0; j < recovery->open_count && found == NULL; j++) {
+        double sum = 0;
+        double size = 1;
+
+        for (int k = 0; k < rows; k++) {
+            double term = share[k] * recovery->open[k * recovery->open_count + j];
+
+            sum += term;
+            if (fabs(term) > size)
+                size = fabs(term);
+            /* another joint's row says more */
+            if (term != 0 && (found == NULL || found->told.instance == joint->number))
+                found = &system->constraints->redundant_rows.at[k];
+        }
+        if (fabs(sum) < size * pow(10, -DIGITS))
+            found = NULL;
+    }
+    mem_free(share);
+    return found;
+}
+
+Status joint_reaction(System *system, const Instance *joint, ReactionPart part, Expr *out,
+                      Diag *diag)
+{
+    const Tree *tree = system->origin->trees[part.moment ? TREE_ROTATION : TREE_TRANSLATION];
+    const Row *open;
+    Vec vector;
+    int chain = 0;
+
+    TRY(actual_build(system, diag));
+    if (joint->is_virtual) {
+        *out = expr_int(system->arena, 0);
+        return OK;
+    }
+    open = open_row(system, joint, part);
+    if (open != NULL) {
+        const char *chord = system->origin->instances[open->told.instance].name;
+
+        (void)diag_set(diag, E_MISSING, "the %s of %s %s %c isn't determined",
+                       part.moment ? "moment" : "force", joint->name,
+                       part.moment ? "about" : "along", "xyz"[part.axis]);
+        diag_hint(diag,
+                  "an equation of %s repeats others in every position, so how they share the load "
+                  "is open; 'tree absolute' finds the least reactions that balance",
+                  chord);
+        return E_MISSING;
+    }
+    vector =
+        tree_has(tree, joint->edge)
+            ? branch_reaction(system, tree, joint->edge, system->shown->actual, part.moment, &chain)
+            : chord_reaction(system, joint, part.moment);
+    *out = component(system, joint, part, vector, chain);
+    return OK;
+}

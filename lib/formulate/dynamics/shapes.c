@@ -1,0 +1,214 @@
+/* shapes.c: local blocks of parts that deform */
+#include "formulate/dynamics/shapes.h"
+#include "formulate/kinematics/frames.h"
+#include "formulate/kinematics/recursive.h"
+#include "formulate/system/dynamics.h"
+#include "formulate/system/origin.h"
+#include "formulate/system/resolve.h"
+#include "formulate/system/system_impl.h"
+#include "formulate/system/vector.h"
+
+#include <string.h>
+
+static Expr *new_array(const System *system, int count)
+{
+    return pool_alloc(system->pool, (size_t)count * sizeof(Expr));
+}
+
+/* --- local blocks --- */
+
+static void hold_all(const System *system, Expr *at, int count)
+{
+    for (int i = 0; i < count; i++)
+        at[i] = expr_hold(system->arena, at[i]);
+}
+
+Vec elastic_vector(const System *system, const Elastic *elastic, const Expr in_root[3])
+{
+    return frame_vector(system, elastic->node, (Vec){{in_root[0], in_root[1], in_root[2]}});
+}
+
+/* components in the root's frame of a vector in the axes of its node */
+static Vec to_root(const System *system, const Elastic *elastic, Vec v)
+{
+    const Frame *frame = &system->kinematics->frames[elastic->node];
+    const int resolve = system->kinematics->chains.at[frame->chain].resolve;
+    const Rotation back = rotation_transpose(&frame->zero);
+
+    v = vec_express(system, v, resolve, frame->chain);
+    return vec_hold(system->arena, rotation_apply(system->arena, &back, v));
+}
+
+Rotation elastic_inertia(const System *system, const Elastic *elastic)
+{
+    const Rotation *zero = &system->kinematics->frames[elastic->node].zero;
+    const Rotation back = rotation_transpose(zero);
+    Rotation inertia;
+
+    for (int i = 0; i < 9; i++)
+        inertia.at[i] = elastic->block.inertia[i];
+    inertia = rotation_product(system->arena, zero, &inertia);
+    return rotation_product(system->arena, &inertia, &back);
+}
+
+void elastics_build(System *system)
+{
+    for (int i = 0; i < system->origin->instance_count; i++) {
+        const Instance *part = &system->origin->instances[i];
+        Elastic elastic = {.instance = i, .node = part->head};
+        ShapeInertia *block = &elastic.block;
+        ShapeState state;
+        int count;
+        Vec w;
+
+        if (part->row->deforming == NULL)
+            continue;
+        count = shapes_of(part);
+        elastic.first = shapes_first(system, part);
+        state = shapes_state(system, part);
+        w = to_root(system, &elastic,
+                    system->kinematics->motions[system->kinematics->frames[part->head].chain].w);
+        for (int k = 0; k < 3; k++)
+            state.w[k] = w.at[k];
+#define NEW_ROW(name, entries) block->name = new_array(system, entries);
+        SHAPE_ARRAYS_OF_SHAPES(NEW_ROW)
+        part->row->deforming->inertia(part, system->arena, system->origin->planar, &state, block);
+#define HOLD_ROW(name, entries) hold_all(system, block->name, entries);
+        SHAPE_ARRAYS_OF_ROOT(HOLD_ROW)
+        SHAPE_ARRAYS_OF_SHAPES(HOLD_ROW)
+        LIST_PUSH(system->dynamics->elastics, elastic);
+    }
+}
+
+static Vec vector_at(const Expr *at)
+{
+    return (Vec){{at[0], at[1], at[2]}};
+}
+
+/* force and torque in the root's frame onto the node, with a sign */
+static void put(const System *system, const Elastic *elastic, Loads *loads, Vec force, Vec torque,
+                int sign)
+{
+    const int chain = system->kinematics->frames[elastic->node].chain;
+    const Expr scale = expr_int(system->arena, sign);
+
+    force = elastic_vector(system, elastic, force.at);
+    torque = elastic_vector(system, elastic, torque.at);
+    loads_add_force(system, loads, elastic->node, vec_scale(system->arena, scale, force), chain);
+    loads_add_torque(system, loads, elastic->node, vec_scale(system->arena, scale, torque), chain);
+}
+
+static void put_own(const System *system, const Elastic *elastic, Loads *loads, int i, Expr value,
+                    int sign)
+{
+    Expr *own = &loads->own[elastic->first + i];
+
+    *own = sign > 0 ? expr_add(system->arena, *own, value) : expr_sub(system->arena, *own, value);
+}
+
+void elastic_add_motion(const System *system, const Elastic *elastic, Loads *loads, Vec a,
+                        Vec alpha, const Expr *accelerations, int sign)
+{
+    Arena *arena = system->arena;
+    const ShapeInertia *b = &elastic->block;
+    const int count = shapes_of(&system->origin->instances[elastic->instance]);
+    const Vec moment = vector_at(b->moment);
+    Rotation inertia;
+    Vec force, torque;
+
+    a = to_root(system, elastic, a);
+    alpha = to_root(system, elastic, alpha);
+    for (int i = 0; i < 9; i++)
+        inertia.at[i] = b->inertia[i];
+    force = vec_add(arena, vec_scale(arena, b->mass, a), vec_cross(arena, alpha, moment));
+    torque = vec_add(arena, vec_cross(arena, moment, a), rotation_apply(arena, &inertia, alpha));
+    for (int i = 0; i < count; i++) {
+        const Vec shift = vector_at(b->with_shift + (ptrdiff_t)3 * i);
+        const Vec turn = vector_at(b->with_turn + (ptrdiff_t)3 * i);
+        const Expr own = accelerations != NULL ? accelerations[elastic->first + i] : NULL;
+
+        put_own(system, elastic, loads, i,
+                expr_add(arena, vec_dot(arena, shift, a), vec_dot(arena, turn, alpha)), sign);
+        if (own == NULL || expr_is_zero(own))
+            continue;
+        force = vec_add(arena, force, vec_scale(arena, own, shift));
+        torque = vec_add(arena, torque, vec_scale(arena, own, turn));
+        for (int j = 0; j < count; j++)
+            put_own(system, elastic, loads, j, expr_mul(arena, b->block[j * count + i], own), sign);
+    }
+    put(system, elastic, loads, force, torque, sign);
+}
+
+void elastic_add_rest(const System *system, const Elastic *elastic, Loads *loads)
+{
+    const ShapeInertia *b = &elastic->block;
+    const int count = shapes_of(&system->origin->instances[elastic->instance]);
+
+    put(system, elastic, loads, vector_at(b->bias_force), vector_at(b->bias_torque), -1);
+    for (int i = 0; i < count; i++)
+        put_own(system, elastic, loads, i, expr_sub(system->arena, b->push[i], b->bias[i]), 1);
+}
+
+Status elastic_add_load(System *system, const Elastic *elastic, Loads *loads, Diag *diag)
+{
+    Arena *arena = system->arena;
+    const ShapeInertia *b = &elastic->block;
+    const int count = shapes_of(&system->origin->instances[elastic->instance]);
+    const Frame *frame = &system->kinematics->frames[elastic->node];
+    const Rotation back = rotation_transpose(&frame->zero);
+    Vec load = vector_at(b->load);
+
+    if (b->length == NULL)
+        return OK;
+    for (int k = 0; k < 3; k++)
+        TRY(variables_resolve(system, load.at[k], &load.at[k], diag));
+    load = vec_express(system, load, 0, frame->chain);
+    load = vec_hold(arena, rotation_apply(arena, &back, load));
+    put(system, elastic, loads, vec_scale(arena, b->length, load),
+        vec_cross(arena, vector_at(b->spread), load), 1);
+    for (int i = 0; i < count; i++)
+        put_own(system, elastic, loads, i,
+                vec_dot(arena, vector_at(b->spread_shift + (ptrdiff_t)3 * i), load), 1);
+    return OK;
+}
+
+bool system_axis_point(System *system, const Instance *part, Expr fraction, Expr point[3])
+{
+    const Instance *own = &system->origin->instances[part->number];
+    Vec at;
+
+    if (own->row->deforming == NULL)
+        return false;
+    system_touch(system);
+    at = vector_at(
+        shapes_point(system, own, expr_mul(system->arena, fraction, instance_scalar(own, "length")))
+            ->position);
+    at = vec_express(system, frame_vector(system, own->head, at),
+                     system->kinematics->frames[own->head].chain, 0);
+    at = vec_add(system->arena, node_position(system, own->head), at);
+    memcpy(point, at.at, sizeof at.at);
+    return true;
+}
+
+Expr elastic_kinetic(const System *system, const Elastic *elastic)
+{
+    Arena *arena = system->arena;
+    const int node = elastic->node, count = system->kinematics->u.count;
+    const int shapes = shapes_of(&system->origin->instances[elastic->instance]);
+    const Vec v = system->kinematics->frames[node].v;
+    const Vec w = system->kinematics->motions[system->kinematics->frames[node].chain].w;
+    Loads momentum = loads_new(system);
+    Expr *rates = NEW_ARRAY(Expr, count);
+    Expr twice;
+
+    for (int j = 0; j < count; j++)
+        rates[j] = system->kinematics->u.at[j].symbol;
+    elastic_add_motion(system, elastic, &momentum, v, w, rates, 1);
+    mem_free(rates);
+    twice = expr_add(arena, vec_dot(arena, momentum.force[node], v),
+                     vec_dot(arena, momentum.torque[node], w));
+    for (int i = elastic->first; i < elastic->first + shapes; i++)
+        twice = expr_add(arena, twice,
+                         expr_mul(arena, momentum.own[i], system->kinematics->u.at[i].symbol));
+    return expr_mul(arena, expr_rational(arena, 1, 2), twice);
+}

@@ -1,0 +1,30 @@
+/* shapes.h: local blocks of parts that deform, on the root and on the shapes (theory 9) */
+#ifndef COTREE_FORMULATE_DYNAMICS_SHAPES_H
+#define COTREE_FORMULATE_DYNAMICS_SHAPES_H
+
+#include "formulate/dynamics/loads.h"
+#include "formulate/kinematics/stations.h"
+
+/* a part that deforms, at the node of its root */
+typedef struct Elastic {
+    int instance, node;
+    int first; /* of its speeds */
+    ShapeInertia block;
+} Elastic;
+
+/* local blocks, once motions are built */
+void elastics_build(System *system);
+
+/* forces of one motion of the root (a, alpha in the axes of its node) and of u' (NULL: none) */
+void elastic_add_motion(const System *system, const Elastic *elastic, Loads *loads, Vec a,
+                        Vec alpha, const Expr *accelerations, int sign);
+/* what is left where nothing accelerates, and what pushes */
+void elastic_add_rest(const System *system, const Elastic *elastic, Loads *loads);
+/* what its load= does */
+MUST_USE Status elastic_add_load(System *system, const Elastic *elastic, Loads *loads, Diag *diag);
+Expr elastic_kinetic(const System *system, const Elastic *elastic);
+/* components in the axes of the root's chain of a vector of its frame */
+Vec elastic_vector(const System *system, const Elastic *elastic, const Expr in_root[3]);
+Rotation elastic_inertia(const System *system, const Elastic *elastic);
+
+#endif

@@ -1,0 +1,49 @@
+/* alike.h: instances of one definition: what was derived of the first, the others take over
+ *
+ * Where the frames and masses of an instance are those of an earlier one with its own names in the
+ * place of the other's, it *follows* that one: its motion, composite bodies, forces and ways come
+ * from the first's by renaming, as long as nothing else stands in them. An instance that the tree
+ * enters another way, or whose numbers differ, is derived by itself. Only while a System is made.
+ */
+#ifndef COTREE_FORMULATE_KINEMATICS_ALIKE_H
+#define COTREE_FORMULATE_KINEMATICS_ALIKE_H
+
+#include "formulate/system/system_impl.h"
+#include "formulate/system/vector.h"
+#include "graph/tree.h"
+
+typedef struct Follower Follower; /* an instance that follows another one */
+
+/* behind the frames and masses; what system_derived() tells, too */
+void alike_build(System *system);
+void alike_free(struct Alike *alike); /* NULL is fine */
+
+/* Whose it is, and its counterpart in the first; NULL: it follows none. */
+Follower *alike_node(const System *system, int node, int *first);
+Follower *alike_chain(const System *system, int chain, int *first);
+Follower *alike_speed(const System *system, int speed, int *first);
+const int *alike_members(const Follower *follower, int *count); /* its nodes */
+/* The counterpart of a chain that is inside, or itself where it is outside of both (-1: none);
+ * false: it is inside the first. */
+bool alike_chain_for(const System *system, const Follower *follower, int chain, int *out);
+
+/* What the ways through a first instance sum up to, kept for all that follow it. */
+typedef struct FirstWay {
+    int node, chain, axes;
+    Vec sum; /* from where the instance hangs to the node, as far as the chain turns it */
+} FirstWay;
+bool alike_find_way(const Follower *follower, FirstWay *way); /* false: not kept yet */
+void alike_keep_way(const Follower *follower, const FirstWay *way);
+/* where it hangs moves as `to`, where the first hangs as `from`: the motion inside is taken over */
+bool alike_hangs(Follower *follower, Vec from, Vec to);
+bool alike_moves(const Follower *follower); /* it could be, so far */
+/* nothing but its own hangs on it or on the first */
+bool alike_ends(const Follower *follower);
+
+Expr alike_take(const Follower *follower, Expr e);
+Vec alike_vec(const Follower *follower, Vec v);
+
+/* The nodes of a tree inward, those of instances that are followed first: new, mem_free() */
+int *alike_inward(const System *system, TreeKind kind, int *count);
+
+#endif

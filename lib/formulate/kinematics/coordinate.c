@@ -1,0 +1,210 @@
+/* coordinate.c: values of coordinates, also of chords; derivatives along the motion */
+#include "formulate/kinematics/coordinate.h"
+#include "formulate/kinematics/frames.h"
+#include "formulate/kinematics/framesum.h"
+#include "formulate/kinematics/multi_turn.h"
+#include "formulate/system/constraints.h"
+#include "formulate/system/kinematics.h"
+#include "formulate/system/resolve.h"
+#include "formulate/system/system_impl.h"
+#include "formulate/system/vector.h"
+
+Expr speed_partial(const System *system, Expr e, int speed)
+{
+    Arena *arena = system->arena;
+    Expr sum = expr_int(arena, 0);
+
+    for (int i = 0; i < system->kinematics->q.count; i++) {
+        const CoordinateRate *rate = &system->kinematics->coordinate_rates[i];
+
+        for (int k = 0; k < rate->count; k++)
+            if (rate->speed[k] == speed) {
+                Expr slope = expr_diff(arena, e, system->kinematics->q.at[i].symbol);
+
+                sum = expr_add(arena, sum, expr_mul(arena, slope, rate->entry[k]));
+            }
+    }
+    return sum;
+}
+
+bool steps_are_tied(const Steps *steps)
+{
+    return steps->shift_count == 1 && steps->turn_count == 1 &&
+           steps->shift[0].coordinate == steps->turn[0].coordinate;
+}
+
+/* a slide of a chord: the way from tail to head along the axis */
+Expr slide_value(const System *system, const Instance *owner, const Step *slide)
+{
+    Vec axis =
+        frame_vector(system, owner->tail, (Vec){{slide->axis[0], slide->axis[1], slide->axis[2]}});
+    FrameSum along = framesum_of(system, system->kinematics->frames[owner->tail].chain, axis);
+
+    return framesum_dot(system, along, framesum_way(system, owner->tail, owner->head));
+}
+
+Rotation chord_constant(const System *system, const Instance *joint, const Steps *steps)
+{
+    Rotation constant;
+    Rotation back = rotation_transpose(&system->kinematics->frames[joint->tail].zero);
+
+    for (int i = 0; i < 9; i++)
+        constant.at[i] = steps->rotation[i];
+    constant = rotation_transpose(&constant);
+    constant =
+        rotation_product(system->arena, &system->kinematics->frames[joint->head].zero, &constant);
+    return rotation_product(system->arena, &constant, &back);
+}
+
+static Vec turn_axis(const Step *turn)
+{
+    return (Vec){{turn->axis[0], turn->axis[1], turn->axis[2]}};
+}
+
+/* an axis of the tail, as it lies after the joint's turns: fixed in the head, seen from the tail */
+static Vec far_axis(const System *system, const Instance *owner, const Rotation *constant, Vec axis)
+{
+    axis = rotation_apply(system->arena, constant, frame_vector(system, owner->tail, axis));
+    return vec_express(system, axis, system->kinematics->frames[owner->head].chain,
+                       system->kinematics->frames[owner->tail].chain);
+}
+
+/* of two turns u1, u2 (theory 2, coordinate of a chord) */
+static void universal_turn(const System *system, const Instance *owner, const Steps *steps,
+                           int which, ChordTurn *out)
+{
+    Arena *arena = system->arena;
+    Rotation constant = chord_constant(system, owner, steps);
+    Vec u1 = frame_vector(system, owner->tail, turn_axis(&steps->turn[0]));
+    Vec u2 = frame_vector(system, owner->tail, turn_axis(&steps->turn[1]));
+    Vec far1 = far_axis(system, owner, &constant, turn_axis(&steps->turn[0]));
+    Vec far2 = far_axis(system, owner, &constant, turn_axis(&steps->turn[1]));
+
+    out->sine = which == 0 ? vec_dot(arena, far2, vec_cross(arena, u1, u2))
+                           : expr_neg(arena, vec_dot(arena, far1, vec_cross(arena, u1, far2)));
+    out->cosine = which == 0 ? vec_dot(arena, far2, u2) : vec_dot(arena, far1, u1);
+}
+
+void chord_turn(const System *system, const Instance *owner, const Steps *steps, int which,
+                ChordTurn *out)
+{
+    Arena *arena = system->arena;
+    Vec axis = frame_vector(system, owner->tail, turn_axis(&steps->turn[which]));
+    Rotation constant = chord_constant(system, owner, steps);
+    Turns turns = {0};
+    Expr rest = rotation_angle(arena, &constant, axis);
+    Vec n1 = vec_zero(arena);
+    Vec n2 = n1;
+
+    *out = (ChordTurn){0};
+    turns_between(system, system->kinematics->frames[owner->tail].chain,
+                  system->kinematics->frames[owner->head].chain, &turns);
+    if (steps->turn_count > 1)
+        universal_turn(system, owner, steps, which, out);
+    else if (turns.count == 0)
+        out->angle = rest;
+    else if (turns.count == 1 && turns.at[0].matrix == NULL && vec_same(turns.at[0].axis, axis))
+        out->angle = expr_add(arena, turns.at[0].angle, rest);
+    else if (turns.count == 1 && turns.at[0].matrix == NULL &&
+             vec_same(turns.at[0].axis, vec_neg(arena, axis)))
+        out->angle = expr_sub(arena, rest, turns.at[0].angle);
+    else {
+        axis_complement(arena, steps->turn[which].axis, n1.at, n2.at);
+        axis = far_axis(system, owner, &constant, n1);
+        out->sine = vec_dot(arena, frame_vector(system, owner->tail, n2), axis);
+        out->cosine = vec_dot(arena, frame_vector(system, owner->tail, n1), axis);
+    }
+    /* what stands still in these trees is an angle, and has whole turns like any other */
+    if (out->angle == NULL &&
+        ((expr_kinds(out->sine) | expr_kinds(out->cosine)) & 1U << SYMBOL_COORDINATE) == 0)
+        out->angle = expr_call2(arena, OP_ATAN2, out->sine, out->cosine);
+    LIST_FREE(turns);
+}
+
+Vec joint_axis(const System *system, const Instance *owner, const Steps *steps, int which,
+               int *chain)
+{
+    int speed = system->kinematics->speed[owner->number][steps->turn[which].coordinate];
+
+    if (which == 0) {
+        *chain = system->kinematics->frames[owner->tail].chain;
+        return frame_vector(system, owner->tail, turn_axis(&steps->turn[0]));
+    }
+    if (which == steps->turn_count - 1) {
+        Rotation constant = chord_constant(system, owner, steps);
+
+        *chain = system->kinematics->frames[owner->head].chain;
+        return rotation_apply(system->arena, &constant,
+                              frame_vector(system, owner->tail, turn_axis(&steps->turn[which])));
+    }
+    /* one between others has no coordinate unless it is a branch */
+    *chain = system->kinematics->speeds[speed].axis_chain;
+    return system->kinematics->speeds[speed].axis;
+}
+
+static Status chord_value(const System *system, const Instance *owner, int coordinate, Expr *out,
+                          Diag *diag)
+{
+    Steps steps;
+
+    instance_steps(system, owner, &steps);
+    for (int k = 0; k < steps.shift_count && !steps_are_tied(&steps); k++)
+        if (steps.shift[k].coordinate == coordinate) {
+            *out = slide_value(system, owner, &steps.shift[k]);
+            return OK;
+        }
+    for (int k = 0; k < steps.turn_count && steps.turn_count < 3; k++) {
+        ChordTurn turn;
+
+        if (steps.turn[k].coordinate != coordinate)
+            continue;
+        if (steps_are_tied(&steps) && !owner->is_virtual) { /* its shift knows all turns */
+            *out = expr_div(system->arena, slide_value(system, owner, &steps.shift[0]),
+                            steps.shift[0].scale);
+            return OK;
+        }
+        *out = multi_turn_angle(system, owner->number, coordinate);
+        if (*out != NULL)
+            return OK;
+        chord_turn(system, owner, &steps, k, &turn);
+        *out = turn.angle != NULL ? expr_add(system->arena, turn.angle,
+                                             multi_turn_whole(system, owner->number, coordinate))
+                                  : expr_call2(system->arena, OP_ATAN2, turn.sine, turn.cosine);
+        return OK;
+    }
+    if (steps.quaternion && coordinate >= steps.first_parameter) {
+        Expr p[4];
+
+        relative_parameters(system, owner->tail, owner->head, p);
+        *out = p[coordinate - steps.first_parameter];
+        return OK;
+    }
+    (void)diag_set(diag, E_MISSING, "%s: can't be told while %s is a chord of the rotation tree",
+                   owner->coord[coordinate], owner->name);
+    diag_hint(diag, "tree rotation + %s - EDGE makes it a branch", owner->name);
+    return E_MISSING;
+}
+
+Status coordinate_value(System *system, const Instance *owner, int coordinate, int primes,
+                        Expr *out, Diag *diag)
+{
+    int place = system->kinematics->coordinate[owner->number][coordinate];
+
+    if (primes > 2)
+        return diag_set(diag, E_MISSING, "%s: no more than two derivatives",
+                        owner->coord[coordinate]);
+    if (place >= 0) {
+        int speed = system->kinematics->speed[owner->number][coordinate];
+
+        *out = primes == 0 ? system->kinematics->q.at[place].symbol : system_q_rate(system, place);
+        if (primes == 2 && speed >= 0 && system->kinematics->coordinate_rates[place].count == 1)
+            *out = system->kinematics->accelerations[speed];
+        else if (primes == 2)
+            return system_rate_of(system, *out, out, diag);
+        return OK;
+    }
+    TRY(chord_value(system, owner, coordinate, out, diag));
+    for (; primes > 0; primes--)
+        TRY(system_rate_of(system, *out, out, diag));
+    return OK;
+}

@@ -1,0 +1,43 @@
+/* edges.h: the mechanical edges of a system, for whoever places its frames in numbers
+ *
+ * Everything is borrowed from the System. */
+#ifndef COTREE_FORMULATE_KINEMATICS_EDGES_H
+#define COTREE_FORMULATE_KINEMATICS_EDGES_H
+
+#include "component/component.h"
+#include "formulate/system/system.h"
+#include "graph/tree.h"
+
+const Graph *system_graph(const System *system);
+const Tree *system_tree(const System *system, TreeKind kind); /* NULL: there is none */
+bool system_is_planar(const System *system);
+int system_instance_count(const System *system);
+const Instance *system_instance(const System *system, int i);
+/* Steps of an instance whose row has any, over parameters. */
+void system_steps(const System *system, const Instance *instance, Steps *out);
+/* The place in q of a coordinate of an instance; -1: it is one of a chord. */
+int system_coordinate(const System *system, const Instance *instance, int coordinate);
+
+/* What a name says about where frames stand. */
+typedef enum EdgeStanding {
+    STANDS_NOT,        /* something else */
+    STANDS_COORDINATE, /* a coordinate of an instance */
+    STANDS_SHIFT,      /* the shift of a screw: its scale times its coordinate */
+    STANDS_POSITION,   /* x, y or z of a frame */
+    STANDS_ANGLE,      /* theta of a frame in a plane */
+    STANDS_PARAMETER   /* q0 to q3 of a frame */
+} EdgeStanding;
+
+typedef struct Stand {
+    EdgeStanding kind;
+    const Instance *instance; /* COORDINATE, SHIFT */
+    int which;                /* coordinate; 0, 1, 2 of a position; 0 to 3 of the parameters */
+    int node;                 /* POSITION, ANGLE, PARAMETER */
+} Stand;
+Stand system_stand(const System *system, const char *name);
+
+/* What drives the coordinate in a constraint row, in t and parameters; NULL: the row is no driver's
+ */
+Expr system_driven(const System *system, int row, const Instance **owner, int *coordinate);
+
+#endif

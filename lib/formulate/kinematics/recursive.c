@@ -1,0 +1,230 @@
+/* recursive.c: motion outward, for the recursive form
+ *
+ * Each quantity is resolved in the axes of its chain's `resolve` chain and held, so that
+ * a program computes it once. */
+#include "formulate/kinematics/recursive.h"
+#include "formulate/kinematics/alike.h"
+#include "formulate/kinematics/frames.h"
+#include "formulate/kinematics/stations.h"
+#include "formulate/system/kinematics.h"
+#include "formulate/system/origin.h"
+#include "formulate/system/shown.h"
+#include "formulate/system/system_impl.h"
+#include "formulate/system/vector.h"
+
+#include <string.h>
+
+/* whether what hangs from a chain turns as the first does: outside it is the same chain */
+static bool turns_alike(const System *system, Follower *follower, int chain)
+{
+    const ChainMotion *motion = &system->kinematics->motions[chain];
+    int first;
+
+    return alike_chain(system, chain, &first) == follower
+               ? alike_moves(follower)
+               : alike_hangs(follower, motion->w, motion->w);
+}
+
+/* w = w_parent + k rate; its rate is alpha_parent + w_parent x k rate + k rate' */
+static void turn_motion(System *system, int c)
+{
+    Arena *arena = system->arena;
+    const Chain *chain = &system->kinematics->chains.at[c];
+    int before = system->kinematics->chains.at[chain->parent].resolve;
+    ChainMotion *motions = system->kinematics->motions;
+    int first;
+    Follower *follower = alike_chain(system, c, &first);
+    Vec turn = vec_zero(arena);
+    Vec w;
+
+    if (follower != NULL && turns_alike(system, follower, chain->parent)) {
+        motions[c] = (ChainMotion){alike_vec(follower, motions[first].w),
+                                   alike_vec(follower, motions[first].product)};
+        return;
+    }
+    w = vec_express_held(system, motions[chain->parent].w, before, chain->resolve);
+
+    for (int j = chain->speed; j < chain->speed + chain->speed_count; j++)
+        turn =
+            vec_add(arena, turn,
+                    vec_scale(arena, speed_rate(system, j), speed_axis(system, j, chain->resolve)));
+    motions[c].w = vec_hold(arena, vec_add(arena, w, turn));
+    motions[c].product = vec_hold(arena, vec_cross(arena, w, turn));
+}
+
+/* whether a node moves as the first's does, of whose parent and whose own that is told */
+static bool moves_alike(const System *system, Follower *follower, int node, Vec from, Vec to)
+{
+    int first;
+
+    if (follower == NULL)
+        return false;
+    if (alike_node(system, system->kinematics->frames[node].parent, &first) == follower)
+        return alike_moves(follower);
+    return alike_hangs(follower, from, to);
+}
+
+/* v = v_parent + w x r + s' u; the velocity products of its rate are w x (w x r) + 2 w x s' u */
+static void step_motion(System *system, int node)
+{
+    Arena *arena = system->arena;
+    Frame *frame = &system->kinematics->frames[node];
+    int axes = node_axes(system, node);
+    int resolve = system->kinematics->chains.at[frame->step_chain].resolve, first = node;
+    Follower *follower = alike_node(system, node, &first);
+    const Frame *frames = system->kinematics->frames, *like = &frames[first];
+    Vec slid = vec_zero(arena);
+    Vec v, w, turned;
+
+    if (follower != NULL && turns_alike(system, follower, frame->step_chain) &&
+        moves_alike(system, follower, node, frames[like->parent].v, frames[frame->parent].v)) {
+        frame->step = alike_vec(follower, like->step);
+        frame->v = alike_vec(follower, like->v);
+        frame->product = alike_vec(follower, like->product);
+        return;
+    }
+    v = vec_express_held(system, frames[frame->parent].v, node_axes(system, frame->parent), axes);
+    w = vec_express_held(system, system->kinematics->motions[frame->step_chain].w, resolve, axes);
+    frame->step = vec_express_held(system, frame->shift, frame->step_chain, axes);
+    turned = vec_cross(arena, w, frame->step);
+    for (int k = 0; k < frame->slide_count; k++) {
+        Vec axis = vec_express(system, frame->slide[k].axis, frame->step_chain, axes);
+        Expr rate = speed_rate(system, frame->slide[k].speed);
+
+        slid = vec_add(arena, slid, vec_scale(arena, rate, axis));
+    }
+    frame->v = vec_hold(arena, vec_add(arena, v, vec_add(arena, turned, slid)));
+    frame->product = vec_add(arena, vec_cross(arena, w, turned),
+                             vec_scale(arena, expr_int(arena, 2), vec_cross(arena, w, slid)));
+}
+
+void accelerations_build(const System *system, const Expr *accelerations, Vec *alpha, Vec *a)
+{
+    Arena *arena = system->arena;
+    int nodes;
+    const int *order;
+
+    alpha[0] = vec_zero(arena);
+    for (int c = 1; c < system->kinematics->chains.count; c++) {
+        const Chain *chain = &system->kinematics->chains.at[c];
+        int before = system->kinematics->chains.at[chain->parent].resolve, first, around;
+        Follower *follower = accelerations == NULL ? alike_chain(system, c, &first) : NULL;
+
+        if (follower != NULL &&
+            (alike_chain(system, chain->parent, &around) == follower
+                 ? alike_moves(follower)
+                 : alike_hangs(follower, alpha[chain->parent], alpha[chain->parent]))) {
+            alpha[c] = alike_vec(follower, alpha[first]);
+            continue;
+        }
+        alpha[c] =
+            vec_add(arena, vec_express_held(system, alpha[chain->parent], before, chain->resolve),
+                    system->kinematics->motions[c].product);
+        for (int j = chain->speed; j < chain->speed + chain->speed_count; j++)
+            alpha[c] = vec_add(arena, alpha[c],
+                               vec_scale(arena, speed_acceleration(system, j, accelerations),
+                                         speed_axis(system, j, chain->resolve)));
+        alpha[c] = vec_hold(arena, alpha[c]);
+    }
+    if (system->origin->trees[TREE_TRANSLATION] == NULL)
+        return;
+    order = tree_nodes(system->origin->trees[TREE_TRANSLATION], &nodes);
+    a[order[0]] = vec_zero(arena);
+    for (int i = 1; i < nodes; i++) {
+        int n = order[i];
+        const Frame *frame = &system->kinematics->frames[n];
+        int axes = node_axes(system, n);
+        int resolve = system->kinematics->chains.at[frame->step_chain].resolve, first = n;
+        Follower *follower = accelerations == NULL ? alike_node(system, n, &first) : NULL;
+        Vec turn;
+
+        if (moves_alike(system, follower, n, a[system->kinematics->frames[first].parent],
+                        a[frame->parent])) {
+            a[n] = alike_vec(follower, a[first]);
+            continue;
+        }
+        turn = vec_express_held(system, alpha[frame->step_chain], resolve, axes);
+        a[n] = vec_express_held(system, a[frame->parent], node_axes(system, frame->parent), axes);
+        a[n] = vec_add(arena, a[n], vec_cross(arena, turn, frame->step));
+        a[n] = vec_add(arena, a[n], frame->product);
+        for (int k = 0; k < frame->slide_count; k++) {
+            Expr rate = speed_acceleration(system, frame->slide[k].speed, accelerations);
+
+            if (!expr_is_zero(rate))
+                a[n] = vec_add(
+                    arena, a[n],
+                    vec_scale(arena, rate,
+                              vec_express(system, frame->slide[k].axis, frame->step_chain, axes)));
+        }
+        a[n] = vec_hold(arena, a[n]);
+    }
+}
+
+void motion_build(System *system)
+{
+    Arena *arena = system->arena;
+    size_t chains = (size_t)system->kinematics->chains.count;
+    int nodes;
+    const int *order;
+
+    system->kinematics->motions =
+        pool_alloc(system->pool, chains * sizeof *system->kinematics->motions);
+    system->kinematics->alpha0 = pool_alloc(system->pool, chains * sizeof(Vec));
+    system->kinematics->a0 =
+        pool_alloc(system->pool, (size_t)graph_node_count(system->origin->graph) * sizeof(Vec));
+    system->kinematics->motions[0] = (ChainMotion){vec_zero(arena), vec_zero(arena)};
+    for (int c = 1; c < system->kinematics->chains.count; c++)
+        turn_motion(system, c);
+    if (system->origin->trees[TREE_TRANSLATION] == NULL)
+        return;
+    order = tree_nodes(system->origin->trees[TREE_TRANSLATION], &nodes);
+    for (int i = 0; i < nodes; i++) {
+        Frame *frame = &system->kinematics->frames[order[i]];
+
+        frame->step = frame->v = frame->product = vec_zero(arena);
+        if (frame->parent >= 0)
+            step_motion(system, order[i]);
+    }
+    accelerations_build(system, NULL, system->kinematics->alpha0, system->kinematics->a0);
+}
+
+/* those formed so far; a view begins with what making the System needed */
+static Vec *positions_of(System *system)
+{
+    Vec **positions = &system->shown->positions;
+    const System *formed = system->formed;
+    size_t count = (size_t)graph_node_count(system->origin->graph);
+
+    mem_keep(*positions);
+    if (*positions != NULL)
+        return *positions;
+    *positions = NEW_ARRAY(Vec, count);
+    if (formed != NULL && formed->shown->positions != NULL)
+        memcpy(*positions, formed->shown->positions, count * sizeof(Vec));
+    return *positions;
+}
+
+Vec node_position(System *system, int node)
+{
+    Arena *arena = system->arena;
+    const Frame *frames = system->kinematics->frames;
+    Vec *positions = positions_of(system);
+    LIST(int) way = {0};
+    Vec p;
+
+    /* from the first node whose position is known, outward again */
+    while (frames[node].parent >= 0 && positions[node].at[0] == NULL) {
+        LIST_PUSH(way, node);
+        node = frames[node].parent;
+    }
+    p = frames[node].parent >= 0 ? positions[node] : vec_zero(arena);
+    for (int k = way.count - 1; k >= 0; k--) {
+        const Frame *frame = &frames[way.at[k]];
+
+        p = vec_hold(
+            arena, vec_add(arena, p, vec_express_held(system, frame->shift, frame->step_chain, 0)));
+        positions[way.at[k]] = p;
+    }
+    LIST_FREE(way);
+    return p;
+}

@@ -1,0 +1,13 @@
+/* recursive.h: motion of the recursive form, outward along the trees */
+#ifndef COTREE_FORMULATE_KINEMATICS_RECURSIVE_H
+#define COTREE_FORMULATE_KINEMATICS_RECURSIVE_H
+
+#include "formulate/system/kinematics.h"
+
+void motion_build(System *system);
+/* angular accelerations of chains and accelerations of nodes, with u' or (NULL) without */
+void accelerations_build(const System *system, const Expr *accelerations, Vec *alpha, Vec *a);
+/* position of a node in ground axes, held; formed at the first call */
+Vec node_position(System *system, int node);
+
+#endif

@@ -1,0 +1,21 @@
+/* scalar_edges.h: edges of scalar domains, and what is across and through them */
+#ifndef COTREE_FORMULATE_NETWORK_SCALAR_EDGES_H
+#define COTREE_FORMULATE_NETWORK_SCALAR_EDGES_H
+
+#include "formulate/system/network.h"
+
+const Instance *branch_owner(const System *system, const Branchlike *branch);
+Branchlike *scalar_branch(System *system, const Instance *instance, int which);
+/* its member names: "i", or of an edge with a suffix "s.i" */
+const char *branch_member(const System *system, const Branchlike *branch, bool through);
+TreeKind branch_tree(const System *system, const Branchlike *branch);
+/* content' + rest: i of what stores v, v of what stores i */
+MUST_USE Status network_stored_rate(System *system, const Branchlike *branch, Expr *out,
+                                    Diag *diag);
+/* names of the edges in the circuit of a chord or the cutset of a branch; in the pool */
+const char *network_company(const System *system, const Branchlike *branch);
+/* voltage and current of a scalar edge */
+MUST_USE Status network_across(System *system, Branchlike *branch, Expr *out, Diag *diag);
+MUST_USE Status network_through(System *system, Branchlike *branch, Expr *out, Diag *diag);
+
+#endif

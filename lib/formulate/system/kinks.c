@@ -1,0 +1,54 @@
+/* kinks.c: functions that jump or bend, and where */
+#include "formulate/system/surfaces.h"
+
+Expr switch_condition(Arena *arena, Expr e)
+{
+    if (expr_kind(e) != EXPR_CALL)
+        return NULL;
+    switch (expr_op(e)) {
+    case OP_LT:
+    case OP_LE:
+    case OP_MIN:
+    case OP_MAX:
+        return expr_sub(arena, expr_arg(e, 0), expr_arg(e, 1));
+    case OP_STEP:
+    case OP_RAMP:
+    case OP_SIGN:
+    case OP_ABS:
+        return expr_arg(e, 0);
+    case OP_FLOOR: /* at whole numbers */
+        return expr_sin(arena, expr_mul(arena, expr_pi(arena, 1), expr_arg(e, 0)));
+    default:
+        return NULL;
+    }
+}
+
+bool switch_jumps(Expr e)
+{
+    return expr_kind(e) == EXPR_CALL &&
+           (expr_op(e) == OP_LT || expr_op(e) == OP_LE || expr_op(e) == OP_STEP ||
+            expr_op(e) == OP_SIGN || expr_op(e) == OP_FLOOR);
+}
+
+typedef struct Over {
+    unsigned kinds;
+    bool jumps;
+} Over;
+
+static Expr note_jump(Arena *arena, Expr e, void *context)
+{
+    Over *over = context;
+
+    (void)arena;
+    over->jumps = over->jumps || (switch_jumps(e) && (expr_kinds(e) & over->kinds) != 0);
+    return e;
+}
+
+bool switch_jumps_over(Arena *arena, Expr e, unsigned kinds)
+{
+    Over over = {.kinds = kinds};
+
+    if ((expr_kinds(e) & kinds) != 0)
+        (void)expr_change(arena, e, note_jump, &over);
+    return over.jumps;
+}

@@ -1,0 +1,70 @@
+/* resolve.c: expressions over what a user can ask for by name, told in the system's variables
+ *
+ * The laws of parts read such variables, and variables are told by laws: which variable is told how
+ * stands in variables.c, and is reached through the system. */
+#include "formulate/system/resolve.h"
+#include "formulate/system/shown.h"
+#include "formulate/system/system_impl.h"
+
+#include <string.h>
+
+Status system_wait_for_motion(System *system, Diag *diag)
+{
+    if (!system->is_early)
+        return OK;
+    system->asked_early = true;
+    return diag_set(diag, E_MISSING, "what the network reads here follows from forces");
+}
+
+Status variables_resolve(System *system, Expr user, Expr *out, Diag *diag)
+{
+    enum { DEEPEST = 40 };
+    Expr *symbols;
+    Expr *values;
+    int count;
+    int used = 0;
+    Status status = OK;
+
+    *out = user;
+    if ((expr_kinds(user) & 1U << SYMBOL_VARIABLE) == 0)
+        return OK;
+    if (++system->shown->depth > DEEPEST) {
+        system->shown->depth--;
+        return diag_set(diag, E_MODEL, "the definitions of outputs or sources lead in a circle");
+    }
+    count = expr_symbols(&user, 1, &symbols);
+    values = NEW_ARRAY(Expr, count);
+    for (int i = 0; i < count; i++) {
+        const char *name = expr_name(symbols[i]);
+        size_t length = strlen(name);
+        int primes = 0;
+        char *path;
+
+        if (expr_symbol_kind(symbols[i]) != SYMBOL_VARIABLE)
+            continue;
+        while (length > 0 && name[length - 1] == '\'') {
+            length--;
+            primes++;
+        }
+        path = mem_text(name, length);
+        symbols[used] = symbols[i];
+        status = system->variable(system, path, primes, &values[used++], diag);
+        if (status != OK)
+            diag_about(diag, "%s", path);
+        mem_free(path);
+        CHECK(status);
+    }
+    *out = expr_substitute(system->arena, user, symbols, values, used);
+done:
+    system->shown->depth--;
+    MEM_FREE(symbols, values);
+    return status;
+}
+
+Status system_resolve(System *system, Expr user, Expr *out, Diag *diag)
+{
+    if (poll(system->watch) != OK)
+        return diag_set(diag, E_STOPPED, "stopped");
+    system_touch(system);
+    return variables_resolve(system, user, out, diag);
+}

@@ -1,0 +1,22 @@
+/* sample.h: numbers at a random position */
+#ifndef COTREE_FORMULATE_SYSTEM_SAMPLE_H
+#define COTREE_FORMULATE_SYSTEM_SAMPLE_H
+
+#include "formulate/system/system.h"
+
+typedef struct Sample { /* a random position */
+    const System *system;
+    double *q;
+    double *value; /* by numbers of symbols; NAN where there is none */
+    int count;
+} Sample;
+
+/* in the system's pool; `vary`: with other parameters too, for what holds whatever they are */
+Sample *sample_new(const System *system, uint64_t seed, bool vary);
+/* of an expression in q and parameters; NAN where there is more in it */
+double sample_number(Sample *sample, Expr e);
+
+/* what an expression is where all its symbols have values that the seed chooses, 0.7 to 1.3 */
+double expr_value_somewhere(Expr e, uint32_t seed);
+
+#endif

@@ -1,0 +1,29 @@
+/* shown.h: what a view forms of a finished System when somebody asks: entries written out,
+ * reactions, switches */
+#ifndef COTREE_FORMULATE_SYSTEM_SHOWN_H
+#define COTREE_FORMULATE_SYSTEM_SHOWN_H
+
+#include "base/memory.h"
+#include "formulate/system/system.h"
+#include "formulate/system/vector.h"
+
+typedef struct Recovery Recovery;
+typedef struct Sums Sums;
+
+typedef struct Shown {
+    Expr *entries[BLOCK_COUNT]; /* arrays; NULL, as their entries are, until formed */
+    Vec *positions;             /* of nodes, ground axes; likewise */
+    Recovery *recovery;         /* NULL: not looked for yet, or no row vanished */
+    Sums *actual;               /* with u', lambda: for reactions */
+    Vec *actual_a;              /* accelerations of nodes */
+    Vec *actual_alpha;          /* of chains */
+    Expr *turn_rates;           /* of angles that count turns; as entries */
+    Expr power;                 /* that sources give and losses take */
+    LIST(Switch) switches;
+    LIST(Expr) surfaces; /* where they jump, in the state */
+    int switches_of_time;
+    bool switches_known;
+    int depth; /* of variables being resolved */
+} Shown;
+
+#endif

@@ -1,0 +1,29 @@
+/* surfaces.h: surfaces on which the equations jump, and the equations on a side of them or between
+ *
+ * f = f+ where h > 0, f- where h < 0. Where both lead to h = 0 the motion slides along it, as
+ * Filippov (1988) has it, with what jumps at a value between its two: a sign is then an unknown
+ * between -1 and 1 (Utkin's equivalent control), such that h stays 0. */
+#ifndef COTREE_FORMULATE_SYSTEM_SURFACES_H
+#define COTREE_FORMULATE_SYSTEM_SURFACES_H
+
+#include "expr/expr.h"
+
+typedef struct Surface {
+    Expr condition; /* h, as system_surface() has it */
+    int side;       /* of h, on which the equations stay: -1 or 1; 0: they slide along it */
+    Expr sign;      /* of h: -1, 1 or an unknown */
+    Expr measure;   /* h, the other surfaces' signs put in */
+} Surface;
+
+/* what changes sign where a function jumps or kinks; NULL: it does neither (switches.c) */
+Expr switch_condition(Arena *arena, Expr e);
+/* h of a condition, whatever its scale; *way -1: with the opposite sign */
+Expr surface_of(Arena *arena, Expr condition, int *way);
+/* whether a call jumps where its condition is 0 */
+bool switch_jumps(Expr e);
+/* whether anything in e jumps with symbols of these kinds (bits as of expr_kinds()); O(nodes) */
+bool switch_jumps_over(Arena *arena, Expr e, unsigned kinds);
+/* e with the signs of these surfaces in the place of what jumps on them. O(nodes). */
+Expr surfaces_put(Arena *arena, Expr e, const Surface *surfaces, int count);
+
+#endif

@@ -1,0 +1,387 @@
+/* switches.c: where the equations may jump or bend: what their comparisons and kinks compare
+ *
+ * Where they jump is a surface: the zeros of a condition, whatever its scale and sign. On either
+ * side of one the functions that jump there are constants; on it they take any value between. */
+#include "formulate/system/constraints.h"
+#include "formulate/system/kinematics.h"
+#include "formulate/system/network.h"
+#include "formulate/system/origin.h"
+#include "formulate/system/shown.h"
+#include "formulate/system/surfaces.h"
+#include "formulate/system/system_impl.h"
+
+#include <math.h>
+#include <string.h>
+
+typedef LIST(Expr) Exprs;
+
+/* --- surfaces --- */
+
+/* the first number among the factors of the first term */
+static Expr leading(Arena *arena, Expr e)
+{
+    if (expr_kind(e) == EXPR_SUM)
+        e = expr_is_number(expr_arg(e, 0)) ? expr_arg(e, 1) : expr_arg(e, 0);
+    return expr_kind(e) == EXPR_PRODUCT && expr_is_number(expr_arg(e, 0)) ? expr_arg(e, 0)
+                                                                          : expr_int(arena, 1);
+}
+
+Expr surface_of(Arena *arena, Expr condition, int *way)
+{
+    Expr open = expr_open(arena, condition);
+    Expr scale = leading(arena, open);
+    Exprs terms = {0};
+    Expr sum;
+
+    *way = expr_value(scale) < 0 ? -1 : 1;
+    if (expr_kind(open) != EXPR_SUM)
+        return expr_div(arena, open, scale);
+    for (int i = 0; i < expr_arg_count(open); i++)
+        LIST_PUSH(terms, expr_div(arena, expr_arg(open, i), scale));
+    sum = expr_sum(arena, terms.at, terms.count);
+    LIST_FREE(terms);
+    return sum;
+}
+
+typedef struct Putting {
+    const Surface *surfaces;
+    int count;
+} Putting;
+
+static bool holds_side(const Putting *put, Expr e)
+{
+    for (int i = 0; i < put->count; i++)
+        if (put->surfaces[i].side == 0 && expr_depends(e, put->surfaces[i].sign))
+            return true;
+    return false;
+}
+
+/* what stands for the sign of a condition; NULL: it is left as it is */
+static Expr sign_on(Arena *arena, const Putting *put, Expr condition)
+{
+    int way;
+    Expr surface;
+
+    if (expr_is_number(condition))
+        return NULL;
+    surface = surface_of(arena, condition, &way);
+    for (int i = 0; i < put->count; i++)
+        if (put->surfaces[i].condition == surface || put->surfaces[i].measure == surface)
+            return way > 0 ? put->surfaces[i].sign : expr_neg(arena, put->surfaces[i].sign);
+    return NULL;
+}
+
+/* (1 + way sign)/2 */
+static Expr share(Arena *arena, Expr sign, int way)
+{
+    Expr half = expr_rational(arena, 1, 2);
+
+    return expr_add(arena, half, expr_mul(arena, expr_rational(arena, way, 2), sign));
+}
+
+/* floor(x) next to the whole number n = floor(x + 1/2): n - 1/2 and half the sign of x - n, which
+ * is that of sin(pi x) where n is even */
+static Expr put_floor(Arena *arena, Expr x, Expr sign)
+{
+    Expr half = expr_rational(arena, 1, 2);
+    Expr n = expr_call1(arena, OP_FLOOR, expr_add(arena, x, half));
+    Expr even = expr_cos(arena, expr_mul(arena, expr_pi(arena, 1), n));
+
+    return expr_add(arena, expr_sub(arena, n, half),
+                    expr_product(arena, (Expr[]){half, even, sign}, 3));
+}
+
+static Expr put_jump(Arena *arena, const Putting *put, Expr e)
+{
+    Expr sign = sign_on(arena, put, switch_condition(arena, e));
+
+    if (sign == NULL)
+        return e;
+    if (expr_op(e) == OP_SIGN)
+        return sign;
+    if (expr_op(e) == OP_FLOOR)
+        return put_floor(arena, expr_arg(e, 0), sign);
+    return share(arena, sign, expr_op(e) == OP_STEP ? 1 : -1);
+}
+
+/* what a choice becomes where its condition is no longer 0 or 1 */
+static Expr put_choice(Arena *arena, const Putting *put, Expr e)
+{
+    Expr a = expr_arg(e, 0), one = expr_int(arena, 1);
+
+    switch (expr_op(e)) {
+    case OP_IF:
+        if (!holds_side(put, a))
+            return e;
+        return expr_add(arena, expr_arg(e, 2),
+                        expr_mul(arena, a, expr_sub(arena, expr_arg(e, 1), expr_arg(e, 2))));
+    case OP_AND:
+        return holds_side(put, e) ? expr_mul(arena, a, expr_arg(e, 1)) : e;
+    case OP_OR: /* 1 - (1 - a)(1 - b) */
+        if (!holds_side(put, e))
+            return e;
+        return expr_sub(
+            arena, one,
+            expr_mul(arena, expr_sub(arena, one, a), expr_sub(arena, one, expr_arg(e, 1))));
+    case OP_NOT:
+        return holds_side(put, a) ? expr_sub(arena, one, a) : e;
+    default:
+        return e;
+    }
+}
+
+static Expr put_node(Arena *arena, Expr e, void *context)
+{
+    const Putting *put = context;
+
+    if (expr_kind(e) != EXPR_CALL)
+        return e;
+    return switch_jumps(e) ? put_jump(arena, put, e) : put_choice(arena, put, e);
+}
+
+Expr surfaces_put(Arena *arena, Expr e, const Surface *surfaces, int count)
+{
+    Putting put = {surfaces, count};
+
+    return count > 0 ? expr_change(arena, e, put_node, &put) : e;
+}
+
+/* --- all of a system --- */
+
+typedef struct Spot { /* a point at which symbols have values, one of them chosen */
+    Expr moved;
+    double at;
+} Spot;
+
+static double value_on(void *context, Expr symbol)
+{
+    const Spot *spot = context;
+
+    return symbol == spot->moved ? spot->at : 0.7 + 0.1 * (expr_symbol_number(symbol) % 7);
+}
+
+/* Newton's method along a symbol of the condition; false: no zero was found */
+static bool find_spot(Arena *arena, Expr condition, Spot *spot)
+{
+    Expr *symbols;
+    int count = expr_symbols(&condition, 1, &symbols);
+    double move = INFINITY;
+    Expr slope;
+
+    spot->moved = NULL;
+    for (int i = 0; i < count; i++)
+        if (expr_symbol_kind(symbols[i]) != SYMBOL_PARAMETER)
+            spot->moved = symbols[i];
+    mem_free(symbols);
+    if (spot->moved == NULL)
+        return false;
+    slope = expr_diff(arena, condition, spot->moved);
+    spot->at = 1;
+    for (int i = 0; i < 50 && fabs(move) > 1e-14; i++) {
+        move = expr_evaluate(condition, value_on, spot) / expr_evaluate(slope, value_on, spot);
+        if (!isfinite(move))
+            return false;
+        spot->at -= move;
+    }
+    return fabs(move) <= 1e-12;
+}
+
+/* what an if chooses from is the same where its condition changes: it bends there, and no more */
+static bool is_continuous(Arena *arena, Expr choice)
+{
+    Expr condition = switch_condition(arena, expr_arg(choice, 0));
+    Spot spot;
+    double yes, no;
+
+    if (condition == NULL || !find_spot(arena, condition, &spot))
+        return false;
+    yes = expr_evaluate(expr_arg(choice, 1), value_on, &spot);
+    no = expr_evaluate(expr_arg(choice, 2), value_on, &spot);
+    return fabs(yes - no) <= 1e-9 * (fabs(yes) + fabs(no));
+}
+
+typedef struct Gathering {
+    System *system;
+    Exprs stack;
+    char *seen; /* by number: 1 seen, 2 what it compares is jumped at */
+    uint32_t room;
+} Gathering;
+
+static char *mark_of(Gathering *g, Expr e)
+{
+    uint32_t number = expr_number(e);
+
+    if (number >= g->room) {
+        uint32_t more = number + number / 2 + 64;
+
+        g->seen = mem_grow(g->seen, more, 1);
+        memset(g->seen + g->room, 0, more - g->room);
+        g->room = more;
+    }
+    return &g->seen[number];
+}
+
+static void visit(Gathering *g, Expr e)
+{
+    Expr condition = switch_condition(g->system->arena, e);
+    bool bends =
+        expr_kind(e) == EXPR_CALL && expr_op(e) == OP_IF && is_continuous(g->system->arena, e);
+
+    if (condition != NULL && !expr_is_number(condition))
+        LIST_PUSH(g->system->shown->switches, ((Switch){condition, .call = e, .surface = -1}));
+    for (int i = 0; i < expr_arg_count(e); i++) {
+        LIST_PUSH(g->stack, expr_arg(e, i));
+        if (switch_jumps(expr_arg(e, i)) && !(bends && i == 0))
+            *mark_of(g, expr_arg(e, i)) |= 2;
+    }
+}
+
+static void gather(Gathering *g, const Expr *roots, int count)
+{
+    for (int i = 0; i < count; i++) {
+        LIST_PUSH(g->stack, roots[i]);
+        if (switch_jumps(roots[i]))
+            *mark_of(g, roots[i]) |= 2;
+    }
+    while (g->stack.count > 0) {
+        Expr e = g->stack.at[--g->stack.count];
+        char *mark = mark_of(g, e);
+
+        if ((*mark & 1) == 0) {
+            *mark |= 1;
+            visit(g, e);
+        }
+    }
+}
+
+/* Those of t alone are looked for before a run, in the whole: what a mode makes one of them, as the
+ * voltage of a resistor that a switch lays on a source, is followed like the others. */
+static bool is_of_time(System *system, Expr condition)
+{
+    const Switch *known;
+    int count = 0;
+
+    if ((expr_kinds(condition) & ~(1U << SYMBOL_TIME | 1U << SYMBOL_PARAMETER)) != 0)
+        return false;
+    if (system->whole == NULL)
+        return true;
+    (void)system_switches(system->whole, &known, &count);
+    for (int i = 0; i < count; i++)
+        if (known[i].condition == condition)
+            return true;
+    return false;
+}
+
+/* which surface the equations jump on: of those in the state, each once */
+static void find_surface(System *system, Switch *entry)
+{
+    int way;
+    Expr surface;
+
+    if (is_of_time(system, entry->condition))
+        return;
+    surface = surface_of(system->arena, entry->condition, &way);
+    for (int i = 0; i < system->shown->surfaces.count && entry->surface < 0; i++)
+        if (system->shown->surfaces.at[i] == surface)
+            entry->surface = i;
+    if (entry->surface < 0) {
+        entry->surface = system->shown->surfaces.count;
+        LIST_PUSH(system->shown->surfaces, surface);
+    }
+}
+
+static void gather_all(System *system)
+{
+    Gathering g = {.system = system};
+
+    gather(&g, system->run.force, system->kinematics->u.count);
+    gather(&g, system->run.phi, system->constraints->rows.count);
+    gather(&g, system->run.gamma, system->constraints->rows.count);
+    gather(&g, system->run.network_residual, system->network->x.count + system->network->z.count);
+    for (int i = 0; i < system->shown->switches.count; i++)
+        if ((*mark_of(&g, system->shown->switches.at[i].call) & 2) != 0)
+            find_surface(system, &system->shown->switches.at[i]);
+    for (int i = 0; i < system->network->ideals.count; i++) {
+        IdealSwitch ideal;
+
+        if (system_ideal(system, i, &ideal, NULL) == OK && ideal.when != NULL)
+            gather(&g, &ideal.when, 1);
+    }
+    mem_free(g.seen);
+    LIST_FREE(g.stack);
+}
+
+int system_switches(System *system, const Switch **switches, int *time_only)
+{
+    system_touch(system);
+    if (!system->shown->switches_known) {
+        gather_all(system);
+        /* those of time alone first, each once */
+        for (int i = 0; i < system->shown->switches.count; i++)
+            if (is_of_time(system, system->shown->switches.at[i].condition)) {
+                Switch entry = system->shown->switches.at[i];
+
+                system->shown->switches.at[i] =
+                    system->shown->switches.at[system->shown->switches_of_time];
+                system->shown->switches.at[system->shown->switches_of_time++] = entry;
+            }
+        system->shown->switches_known = true;
+    }
+    *switches = system->shown->switches.at;
+    *time_only = system->shown->switches_of_time;
+    return system->shown->switches.count;
+}
+
+Expr system_surface(System *system, int i)
+{
+    system_touch(system);
+    return i < system->shown->surfaces.count ? system->shown->surfaces.at[i] : NULL;
+}
+
+/* --- for messages --- */
+
+/* push a part's values, over the system's variables */
+static void push_values(System *system, const Instance *instance, Exprs *stack)
+{
+    for (int k = 0; k < instance->row->param_count; k++)
+        for (int i = 0; i < instance->values[k].count; i++) {
+            Expr value;
+
+            if (instance->values[k].at[i] != NULL &&
+                system_resolve(system, instance->values[k].at[i], &value, NULL) == OK)
+                LIST_PUSH(*stack, value);
+        }
+}
+
+/* whether a part's values hold a condition of that surface */
+static bool part_switches_on(System *system, const Instance *instance, Expr surface)
+{
+    Exprs stack = {0};
+    bool found = false;
+
+    push_values(system, instance, &stack);
+    while (stack.count > 0 && !found) {
+        Expr e = stack.at[--stack.count];
+        Expr condition = switch_condition(system->arena, e);
+        int way;
+
+        found = condition != NULL && !expr_is_number(condition) &&
+                surface_of(system->arena, condition, &way) == surface;
+        for (int i = 0; i < expr_arg_count(e); i++)
+            LIST_PUSH(stack, expr_arg(e, i));
+    }
+    LIST_FREE(stack);
+    return found;
+}
+
+const char *system_jumping_part(System *system, Expr condition)
+{
+    system_touch(system);
+    int way;
+    Expr surface = surface_of(system->arena, condition, &way);
+
+    for (int i = 0; i < system->origin->instance_count; i++)
+        if (part_switches_on(system, &system->origin->instances[i], surface))
+            return system->origin->instances[i].name;
+    return NULL;
+}
