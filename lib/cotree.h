@@ -242,9 +242,10 @@ bool ct_is_unit(const char *name); /* one that such a list may hold */
 ct_status ct_duration(ct_session *session, const ct_expression *expression, const char *name,
                       double *value, ct_error *error);
 /* A table: first column t, then one an item, of the last run (or the run the items name). `count`
- * 0: all coordinates and speeds. `every` > 0: on that grid, else the run's. `values` is new, rows x
- * (columns), row by row; `names` new (ct_words_free), with the unit asked for behind a name in
- * brackets. Of spectra, which stand alone, the first column is f, Hz, and no `every`. */
+ * 0: all coordinates, speeds and network states. `every` > 0: on that grid, else the run's.
+ * `values` is new, rows x (columns), row by row; `names` new (ct_words_free), with the unit asked
+ * for behind a name in brackets. Of spectra, which stand alone, the first column is f, Hz, and no
+ * `every`. */
 ct_status ct_table(ct_session *session, const ct_expression *const *items, int count, double every,
                    double **values, int *rows, int *columns, char ***names, ct_error *error);
 /* The keys of plot. Ranges are in what the axis shows: that of y in the unit of the first item. */

@@ -254,9 +254,31 @@ static ct_status round_column(const Call *call, const ct_expression *item,
     return status;
 }
 
+/* the statement that asks for all columns by name, behind which stand units as behind any */
+static ct_statement *asked_by_name(char *const *names)
+{
+    char *text = copy_text("table");
+    ct_statement *statement = NULL;
+    ct_error ignored;
+
+    for (int j = 1; names[j] != NULL; j++) {
+        char *longer = copy_format("%s %s", text, names[j]);
+
+        free(text);
+        text = longer;
+    }
+
+    ct_cursor cursor = {.text = text, .line = 1};
+
+    (void)ct_parse(&cursor, false, &statement, &ignored);
+    free(text);
+    return statement;
+}
+
 static ct_status command_table(Call *call, ct_error *error)
 {
     const ct_statement *statement = call->statement;
+    ct_statement *named = NULL;
     int count = ct_operand_count(statement);
     const ct_expression *step = ct_key_value(statement, "every");
     double every = 0;
@@ -276,6 +298,13 @@ static ct_status command_table(Call *call, ct_error *error)
         items[i] = ct_operand(statement, i);
     status = ct_table(call->session, items, count, every, &table.values, &table.rows,
                       &table.columns, &table.names, error);
+    if (status == CT_OK && count == 0 && (named = asked_by_name(table.names)) != NULL) {
+        count = ct_operand_count(named);
+        free(items);
+        items = copy_check(calloc((size_t)count + 1, sizeof *items));
+        for (int i = 0; i < count; i++)
+            items[i] = ct_operand(named, i);
+    }
     for (int j = 1; j <= count && status == CT_OK && table.names[0][0] == 't'; j++)
         status = round_column(call, items[j - 1], &table, j, error);
     if (status == CT_OK) {
@@ -287,6 +316,7 @@ static ct_status command_table(Call *call, ct_error *error)
         ct_free(table.values);
         ct_words_free(table.names);
     }
+    ct_statement_free(named);
     free(items);
     return status;
 }

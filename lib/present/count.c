@@ -291,25 +291,34 @@ void tree_costs_free(TreeCosts *costs)
 
 static void print_costs(const View *view, const TreeCosts *costs, Text *out)
 {
-    Table table = table_for("rrrrrrrrr");
+    const bool moves = view_is_mechanical(view);
+    Table table = table_for(moves ? "rrrrrrrrr" : "rrrrrrr");
+    Text what = {0};
     char lead[16];
 
     table_cell(&table, "");
-    table_cell(&table, "n");
-    table_cell(&table, "m");
+    if (moves) {
+        table_cell(&table, "n");
+        table_cell(&table, "m");
+    }
     heading(&table);
     for (int i = 0; i < costs->count; i++) {
         const TreeCost *cost = costs->at + i;
 
         table_cellf(&table, "%d", i + 1);
-        table_cellf(&table, "%d", cost->n);
-        table_cellf(&table, "%d", cost->m);
+        if (moves) {
+            table_cellf(&table, "%d", cost->n);
+            table_cellf(&table, "%d", cost->m);
+        }
         count_cells(&table, cost->written);
         count_cells(&table, cost->shared);
     }
-    layout_words(out, view->page.columns, "",
-                 "trees so far: n coordinates, m constraints, operations of all blocks as written "
-                 "and after common subexpressions are shared");
+    text_addf(&what,
+              "trees so far: %soperations of all blocks as written and after common "
+              "subexpressions are shared",
+              moves ? "n coordinates, m constraints, " : "");
+    layout_words(out, view->page.columns, "", what.at);
+    text_free(&what);
     table_print(out, &table, 0);
     for (int i = 0; i < costs->count; i++) {
         (void)snprintf(lead, sizeof lead, "%d: ", i + 1);

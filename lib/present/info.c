@@ -474,17 +474,19 @@ void check_print(const View *view, const Result *start, const char *why, Text *o
     const System *system = view->system;
     const char *line;
 
-    layout_count(out, system_n(system), "coordinate", "coordinates");
-    text_add(out, ", ");
-    layout_count(out, system_m(system), "constraint", "constraints");
-    text_add(out, ": ");
-    view_freedoms(out, system, start != NULL ? result_freedoms(start) : -1);
-    text_char(out, '\n');
-    if (system_nx(system) + system_nz(system) > 0) {
-        text_add(out, "network: ");
-        layout_count(out, system_nx(system), "state", "states");
+    if (view_is_mechanical(view)) {
+        layout_count(out, system_n(system), "coordinate", "coordinates");
         text_add(out, ", ");
-        layout_count(out, system_nz(system), "algebraic unknown", "algebraic unknowns");
+        layout_count(out, system_m(system), "constraint", "constraints");
+        text_add(out, ": ");
+        view_freedoms(out, system, start != NULL ? result_freedoms(start) : -1);
+        text_char(out, '\n');
+    }
+    if (graph_edge_count(model_graph(view->model)) == 0) {
+        text_add(out, "no parts yet\n");
+    } else if (system_nx(system) + system_nz(system) > 0 || !view_is_mechanical(view)) {
+        text_add(out, "network: ");
+        view_network(out, system);
         text_char(out, '\n');
     }
     for (int i = 0; (line = system_dropped(system, i)) != NULL; i++)

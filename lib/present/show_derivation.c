@@ -19,6 +19,8 @@ static Status tell_all(Story *story, Diag *diag)
         TRY(derive_motion(story, i, diag));
     for (int i = 0; i < system_network_count(system); i++)
         derive_network(story, i);
+    if (story->out->length == 0)
+        view_comment(story->out, story->view, "no equations: the model has no unknowns");
     return OK;
 }
 

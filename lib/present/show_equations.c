@@ -18,13 +18,17 @@ static char *name_list(const Variable *(*variable)(const System *, int), const S
     return text_done(&names);
 }
 
+/* a circuit has no coordinates to count */
 static void add_freedom(Text *out, const View *view)
 {
     const System *system = view->system;
     const int n = system_n(system), nu = system_nu(system), m = system_m(system);
-    char *names = name_list(system_q, system, n);
+    char *names;
     Text line = {0};
 
+    if (!view_is_mechanical(view))
+        return;
+    names = name_list(system_q, system, n);
     layout_count(&line, m, "constraint", "constraints");
     text_add(&line, " in ");
     layout_count(&line, n, "coordinate", "coordinates");
@@ -37,6 +41,19 @@ static void add_freedom(Text *out, const View *view)
     view_comment(out, view, line.at);
     text_free(&line);
     mem_free(names);
+}
+
+/* "no mass matrix: nothing in the model can move", where that is so */
+static bool says_nothing_moves(Text *out, const View *view, const char *what)
+{
+    const bool is_still = system_nu(view->system) == 0 && system_m(view->system) == 0;
+    Text line = {0};
+
+    text_addf(&line, "no %s: nothing in the model can move", what);
+    if (is_still)
+        view_comment(out, view, line.at);
+    text_free(&line);
+    return is_still;
 }
 
 static void add_dropped(Text *out, const View *view)
@@ -114,6 +131,8 @@ Status show_coordinates(const View *view, const Selection *selection, Text *out,
     add_freedom(out, view);
     if (table.cells.count > table.columns)
         table_print(out, &table, 0);
+    else if (!view_is_mechanical(view))
+        view_comment(out, view, "no coordinates, and no unknowns of a network");
     table_free(&table);
     return OK;
 }
@@ -199,6 +218,8 @@ Status show_mass(const View *view, const Selection *selection, Text *out, Diag *
     if (selection->number_count == 0) {
         char what[64];
 
+        if (says_nothing_moves(out, view, "mass matrix"))
+            return OK;
         (void)snprintf(what, sizeof what, "mass matrix, %d x %d, symmetric", nu, nu);
         add_block_title(out, view, what, "rows and columns", "; entries not listed are 0");
     }
@@ -207,6 +228,8 @@ Status show_mass(const View *view, const Selection *selection, Text *out, Diag *
 
 Status show_forces(const View *view, const Selection *selection, Text *out, Diag *diag)
 {
+    if (selection->number_count == 0 && says_nothing_moves(out, view, "forces"))
+        return OK;
     if (selection->number_count == 0)
         add_block_title(out, view, "right side F of the motion equations", "rows", "");
     return add_entries(out, view, BLOCK_FORCES, "F", selection, diag);
@@ -215,7 +238,8 @@ Status show_forces(const View *view, const Selection *selection, Text *out, Diag
 Status show_jacobian(const View *view, const Selection *selection, Text *out, Diag *diag)
 {
     if (system_m(view->system) == 0) {
-        add_freedom(out, view);
+        if (!says_nothing_moves(out, view, "jacobian"))
+            add_freedom(out, view);
         return OK;
     }
     if (selection->number_count == 0) {
@@ -337,7 +361,7 @@ Status show_constraints(const View *view, const Selection *selection, Text *out,
     for (int k = 0; k < system_m(view->system); k++)
         if (is_chosen(selection, k, 0) && selection->number_count < 2)
             CHECK(equations_add_constraint(view, &equations, k, selection->level, diag));
-    if (selection->number_count == 0)
+    if (selection->number_count == 0 && !says_nothing_moves(out, view, "constraints"))
         add_freedom(out, view);
     if (equations.count > 0)
         write_equations(out, view, &equations);
@@ -468,6 +492,8 @@ Status show_equations(const View *view, const Selection *selection, Text *out, D
     add_freedom(out, view);
     if (equations.count > 0)
         write_equations(out, view, &equations);
+    else if (!view_is_mechanical(view))
+        view_comment(out, view, "no equations: the model has no unknowns");
 done:
     equations_free(&equations);
     return status;

@@ -221,8 +221,8 @@ void report_line(Text *out, const Result *result, const char *name)
     else
         text_add(out, "its start only");
     if (result_kind(result) == RUN_SIMULATE)
-        text_addf(out, "; %lld steps, %lld evaluations", (long long)report->steps,
-                  (long long)report->evaluations);
+        text_addf(out, "; %lld step%s, %lld evaluations", (long long)report->steps,
+                  report->steps == 1 ? "" : "s", (long long)report->evaluations);
     if (tells_energy(report))
         text_addf(out, "; energy drift %.2g J of %.3g J", report->energy_drift,
                   report->energy_swing);

@@ -9,19 +9,28 @@
 
 enum { WIDEST = 60 }; /* columns of a pattern; above, it is one of blocks */
 
-static void add_sizes(const System *system, Text *out)
+/* those of the mechanics, and those of networks, where there are such */
+static void add_sizes(const View *view, Text *out)
 {
+    const System *system = view->system;
+    const bool moves = view_is_mechanical(view);
+    const bool flows = system_nx(system) + system_nz(system) > 0;
     const struct {
+        bool applies;
         const char *what;
         int count;
-    } sizes[] = {{"coordinates", system_n(system)},
-                 {"speeds", system_nu(system)},
-                 {"constraints", system_m(system)},
-                 {"network states", system_nx(system)},
-                 {"algebraic unknowns", system_nz(system)}};
+    } sizes[] = {{moves, "coordinates", system_n(system)},
+                 {moves, "speeds", system_nu(system)},
+                 {moves, "constraints", system_m(system)},
+                 {flows, "network states", system_nx(system)},
+                 {flows, "algebraic unknowns", system_nz(system)}};
     Table table = table_for("lr");
 
+    if (!moves && !flows)
+        text_add(out, "no equations: the model has no unknowns\n");
     for (int i = 0; i < COUNT(sizes); i++) {
+        if (!sizes[i].applies)
+            continue;
         table_cell(&table, sizes[i].what);
         table_cellf(&table, "%d", sizes[i].count);
     }
@@ -347,7 +356,7 @@ Status show_structure(const View *view, const Selection *selection, Text *out, D
     speed_lines(system, &speeds);
     row_lines(system, &rows);
     network_lines(system, &network);
-    add_sizes(system, out);
+    add_sizes(view, out);
     if (instance_count(system) > 0) {
         add_blocks(system, &speeds, &rows, &network, out);
         add_counters(system, out);

@@ -40,6 +40,28 @@ char *view_expression(const View *view, Expr e)
     return text_done(&text);
 }
 
+bool view_is_mechanical(const View *view)
+{
+    const Graph *graph = model_graph(view->model);
+
+    for (int i = 0; i < graph_edge_count(graph); i++)
+        if (graph_edge(graph, i)->domain == DOMAIN_MECHANICAL)
+            return true;
+    return false;
+}
+
+void view_network(Text *out, const System *system)
+{
+    const int states = system_nx(system), others = system_nz(system);
+
+    if (states > 0)
+        layout_count(out, states, "state", "states");
+    text_add(out, states > 0 && others > 0 ? ", " : "");
+    if (others > 0)
+        layout_count(out, others, "algebraic unknown", "algebraic unknowns");
+    text_add(out, states + others == 0 ? "no unknowns" : "");
+}
+
 void view_freedoms(Text *out, const System *system, int freedoms)
 {
     const int nu = system_nu(system), m = system_m(system);

@@ -37,6 +37,11 @@ MUST_USE Status view_trees(const View *view, const Tree *trees[TREE_KINDS], Diag
 /* what the statement of an edge says that it is: "revolute"; of a port its subsystem's name */
 const char *view_edge_type(const View *view, int edge);
 
+/* whether the model has mechanical parts at all: a circuit has no coordinates to speak of */
+bool view_is_mechanical(const View *view);
+/* "2 states, 1 algebraic unknown", what there is of the network; "no unknowns" */
+void view_network(Text *out, const System *system);
+
 /* "2 degrees of freedom" where they are known or nothing constrains them, else the difference "n -
  * m = 1": redundant constraints make it less than what is free */
 void view_freedoms(Text *out, const System *system, int freedoms);

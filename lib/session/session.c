@@ -147,7 +147,6 @@ static bool is_search(const Statement *statement)
 
 static void add_counts(Text *line, OpCount count)
 {
-    text_add(line, line->at[line->length - 1] == 'e' ? ": " : "; ");
     if (op_count_total(count) > INT_MAX) {
         text_add(line, "far too many operations to be written out");
         return;
@@ -202,15 +201,21 @@ static void remark_trees(ct_session *session)
     if (now < 0 || session_shown(session, &view.system, &ignored) != OK)
         return;
     cost = &session->costs.at[now];
-    layout_count(&line, cost->n, "coordinate", "coordinates");
-    text_add(&line, ", ");
-    layout_count(&line, cost->m, "constraint", "constraints");
-    text_add(&line, ", ");
-    view_freedoms(&line, view.system, view.freedoms);
-    if (cost->is_counted)
+    if (view_is_mechanical(&view)) {
+        layout_count(&line, cost->n, "coordinate", "coordinates");
+        text_add(&line, ", ");
+        layout_count(&line, cost->m, "constraint", "constraints");
+        text_add(&line, ", ");
+        view_freedoms(&line, view.system, view.freedoms);
+    } else {
+        view_network(&line, view.system);
+    }
+    if (cost->is_counted) {
+        text_add(&line, "; ");
         add_counts(&line, cost->written);
+    }
     if (cost->is_counted && old.is_counted && costs_differ(&old, cost)) {
-        text_add(&line, " (before");
+        text_add(&line, " (before: ");
         add_counts(&line, old.written);
         text_char(&line, ')');
     }

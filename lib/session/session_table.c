@@ -194,14 +194,24 @@ static Status read_items(ct_session *session, const Syntax *const *items, int co
     return status;
 }
 
-/* all coordinates and speeds of the source */
+/* what the source's state is made of */
+static int state_count(const Run *source)
+{
+    const System *system = result_system(source->result);
+
+    return system_n(system) + system_nu(system) + system_nx(system);
+}
+
+/* all coordinates, speeds and network states of the source */
 static void all_items(const Run *source, Formula *formulas, Sheet *sheet)
 {
     const System *system = result_system(source->result);
-    const int n = system_n(system), nu = system_nu(system);
+    const int n = system_n(system), moving = n + system_nu(system), count = state_count(source);
 
-    for (int i = 0; i < n + nu; i++) {
-        const Variable *v = i < n ? system_q(system, i) : system_u(system, i - n);
+    for (int i = 0; i < count; i++) {
+        const Variable *v = i < n        ? system_q(system, i)
+                            : i < moving ? system_u(system, i - n)
+                                         : system_x(system, i - moving);
         const Leaf leaf = {
             .kind = LEAF_VARIABLE, .expr = v->symbol, .run = -1, .symbol = v->symbol};
 
@@ -281,9 +291,7 @@ static Status make_sheet(ct_session *session, const Syntax *const *items, int co
         goto done;
     }
     if (count == 0) {
-        const System *system = result_system(source->result);
-
-        columns = system_n(system) + system_nu(system);
+        columns = state_count(source);
         formulas = NEW_ARRAY(Formula, columns);
         all_items(source, formulas, &sheet);
     } else {

@@ -41,4 +41,4 @@ echo '--- thirty legs: patterns of blocks'
     for i in $(seq 30); do printf ' leg%d.h leg%d.k' "$i" "$i"; done
     printf '\nshow structure\n'
 } >many.ct
-cotree -q many.ct | sed -n '6,9p;34,44p;68,78p'
+cotree -q many.ct | sed -n '4,7p;32,42p;66,76p'
