@@ -9,6 +9,13 @@ session.run("""scene planar; gravity [0, -9.81]; L = 0.5 m
 names, rows = session.table("h h'")
 print('%s is %.6f rad after a second, %d rows' % (names[1], session.value('h'), len(rows)))
 
+# held upright by a torque that is set a hundred times a second
+session.run('input U1 u 0 period=10 ms; actuator a1 h torque=U1.v; init h = 3')
+session.simulate(3, "h h'", input=lambda name, t, at: 40 * (3.1416 - at[0]) - 8 * at[1], every=0.1)
+values, units = session.columns('h')
+print('%s is %.4f %s' % ('h', values['h'][-1], units['h']))
+session.run('delete a1; delete U1; init h = 30 deg')
+
 model = session.model(derivatives='derivative')
 p, y, s = model.start()
 y[0] = y[1] = 0  # hanging

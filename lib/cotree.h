@@ -201,6 +201,29 @@ const char *ct_verb_name(int i);
  * run2 ... (assemble, equilibrium: the start). linearize and modes keep theirs for ct_show(),
  * ct_value() and ct_export(). ct_report() tells about it, ct_remarks() what had to be said. */
 ct_status ct_run(ct_session *session, const ct_statement *statement, ct_error *error);
+/* A forward run that a program takes part in: it sees the rows, and sets the inputs of the model
+ * (parts of the kind 'input'), each at the multiples of its period. Both are told the items, in SI:
+ * NAN where one has no value; at an instant of inputs, as they are just before it. Both return
+ * whether the run is to stop there; what there is is kept then, and CT_STOPPED returned. They are
+ * called in the thread of the call, and must not call the session. *value, the input's so far, may
+ * be left as it is. Methods take their steps as without them; an input that changes ends a step. */
+typedef struct ct_run_options {
+    bool resumes;    /* go on from the end of the last run, as `resume` does */
+    double duration; /* s */
+    double every; /* from row to row, s; 0 here and below: as `simulate` without the key has it */
+    double rtol, atol;
+    double step, maxstep; /* s */
+    const char *method;   /* NULL: auto */
+    bool check, realtime;
+    const ct_expression *const *items; /* of statements, as ct_table() takes them; borrowed */
+    int item_count;
+    void *context;
+    bool (*row)(void *context, double t, const double *values); /* may be NULL */
+    bool (*input)(void *context, const char *name, double t, const double *values,
+                  double *value); /* may be NULL */
+} ct_run_options;
+/* The result is that of `simulate` or `resume`, and kept as theirs. */
+ct_status ct_simulate(ct_session *session, const ct_run_options *options, ct_error *error);
 char *ct_report(ct_session *session);        /* new: the last run's report, as `show run` */
 int ct_run_count(const ct_session *session); /* runs so far: run1 ... */
 /* What a run reports, as numbers: NAN where one is not known. */
@@ -248,6 +271,15 @@ ct_status ct_duration(ct_session *session, const ct_expression *expression, cons
  * `every`. */
 ct_status ct_table(ct_session *session, const ct_expression *const *items, int count, double every,
                    double **values, int *rows, int *columns, char ***names, ct_error *error);
+/* The same by columns: the last one has no name. ct_columns_free() */
+typedef struct ct_column {
+    char *name;     /* as written, without a unit */
+    char *unit;     /* that the values are in: of the item, else SI; "": not known, or a number */
+    double *values; /* one a row */
+} ct_column;
+ct_status ct_columns(ct_session *session, const ct_expression *const *items, int count,
+                     double every, ct_column **out, int *columns, int *rows, ct_error *error);
+void ct_columns_free(ct_column *columns); /* NULL is fine */
 /* The keys of plot. Ranges are in what the axis shows: that of y in the unit of the first item. */
 typedef struct ct_plot {
     double x[2], y[2]; /* NAN, NAN: not given */

@@ -4,6 +4,7 @@
     session = cotree.Session()
     session.run('body b mass=1 inertia=[1, 1, 1]; ...; simulate 2')
     print(session.value('h at 1'))
+    values, units = session.columns('h h\'')
     model = session.model(derivatives='derivative')
     p, y, s = model.start()
     rates, s = model.evaluator().rates(p, 0, y, s)
@@ -15,14 +16,15 @@ manual, and cotree.h. The library is found where the system has it, or where COT
 import ctypes
 import ctypes.util
 import os
-from ctypes import POINTER, byref, c_bool, c_char, c_char_p, c_double, c_int, c_size_t, c_void_p
+from ctypes import (CFUNCTYPE, POINTER, byref, c_bool, c_char, c_char_p, c_double, c_int, c_int64,
+                    c_size_t, c_void_p)
 
 try:
     import numpy
 except ImportError:
     numpy = None
 
-_OK, _NOT_MINE = 0, 4
+_OK, _STOPPED, _NOT_MINE = 0, 2, 4
 _MODEL, _SESSION = 0, 1  # who carries a statement out
 PARAMETERS, STATE, SOLUTION, OUTPUTS = range(4)
 
@@ -39,6 +41,31 @@ class _Cursor(ctypes.Structure):
 class _ModelOptions(ctypes.Structure):
     _fields_ = [('outputs', POINTER(c_void_p)), ('output_count', c_int),
                 ('derivatives', c_char_p), ('lanes', c_int)]
+
+
+_SeeRow = CFUNCTYPE(c_bool, c_void_p, c_double, POINTER(c_double))
+_SetInput = CFUNCTYPE(c_bool, c_void_p, c_char_p, c_double, POINTER(c_double), POINTER(c_double))
+
+
+class _RunOptions(ctypes.Structure):
+    _fields_ = [('resumes', c_bool), ('duration', c_double), ('every', c_double),
+                ('rtol', c_double), ('atol', c_double), ('step', c_double),
+                ('maxstep', c_double), ('method', c_char_p), ('check', c_bool),
+                ('realtime', c_bool), ('items', POINTER(c_void_p)), ('item_count', c_int),
+                ('context', c_void_p), ('row', _SeeRow), ('input', _SetInput)]
+
+
+class _Figures(ctypes.Structure):
+    _fields_ = [('method', c_char_p), ('rows', c_int), ('from', c_double), ('to', c_double),
+                ('rtol', c_double), ('atol', c_double), ('steps', c_int64), ('rejected', c_int64),
+                ('evaluations', c_int64), ('position_residual', c_double),
+                ('velocity_residual', c_double), ('energy_drift', c_double),
+                ('energy_swing', c_double), ('global_error', c_double), ('wall', c_double),
+                ('stopped', c_bool)]
+
+
+class _Column(ctypes.Structure):
+    _fields_ = [('name', c_char_p), ('unit', c_char_p), ('values', POINTER(c_double))]
 
 
 def _load():
@@ -73,6 +100,11 @@ def _load():
             ('value', c_int, c_void_p, c_void_p, c_void_p, numbers, error),
             ('table', c_int, c_void_p, POINTER(c_void_p), c_int, c_double, POINTER(numbers),
              place, place, POINTER(POINTER(c_char_p)), error),
+            ('simulate', c_int, c_void_p, POINTER(_RunOptions), error),
+            ('run_figures', c_bool, c_void_p, c_int, POINTER(_Figures)),
+            ('columns', c_int, c_void_p, POINTER(c_void_p), c_int, c_double,
+             POINTER(POINTER(_Column)), place, place, error),
+            ('columns_free', None, POINTER(_Column)),
             ('model_new', c_int, c_void_p, POINTER(_ModelOptions), text, error),
             ('model_free', None, c_void_p),
             ('model_size', c_int, c_void_p, c_int),
@@ -236,6 +268,74 @@ class Session:
     def _operands(statement):
         count = _library.ct_operand_count(statement)
         return (c_void_p * count)(*[_library.ct_operand(statement, i) for i in range(count)])
+
+    def simulate(self, duration, items='', row=None, input=None, resume=False, method=None,
+                 check=False, realtime=False, **keys):
+        """A forward run; `keys`: every, rtol, atol, step, maxstep. row(t, values) is called at each
+        row, with the values of the items in SI, and returns True to stop there; input(name, t,
+        values) at the instants of an input, and returns its new value, or None to leave it.
+        Returns the report."""
+        failed = []
+
+        def guarded(call, values, *arguments):
+            try:
+                return call(*arguments, list(values[:count]))
+            except BaseException as error:  # it can't go through the library
+                failed.append(error)
+                return None
+
+        def see_row(context, t, values):
+            return bool(guarded(row, values, t)) or bool(failed)
+
+        def set_input(context, name, t, values, value):
+            number = guarded(input, values, name.decode(), t)
+            if number is not None:
+                value[0] = number
+            return bool(failed)
+
+        for statement in _Statements('table ' + items):
+            operands = self._operands(statement)
+            count = len(operands)
+            options = _RunOptions(
+                resume, duration, *[keys.pop(key, 0) for key in
+                                    ('every', 'rtol', 'atol', 'step', 'maxstep')],
+                method.encode() if method else None, check, realtime,
+                ctypes.cast(operands, POINTER(c_void_p)), count, None,
+                _SeeRow(see_row if row else 0), _SetInput(set_input if input else 0))
+            if keys:
+                raise TypeError('simulate() has no %s' % ', '.join(keys))
+            error = _Error()
+            status = _library.ct_simulate(self._handle, byref(options), byref(error))
+        if failed:
+            raise failed[0]
+        if status not in (_OK, _STOPPED):
+            raise Error(error)
+        return _taken(_library.ct_report(self._handle))
+
+    def figures(self, run=0):
+        """what a run reports as numbers, by name; of the last one, or of run1, run2 ..."""
+        figures = _Figures()
+        if not _library.ct_run_figures(self._handle, run, byref(figures)):
+            raise ValueError('there is no run%d' % run if run else 'there is no run')
+        out = {name: getattr(figures, name) for name, _ in _Figures._fields_}
+        out['method'] = out['method'].decode() if out['method'] else None
+        return out
+
+    def columns(self, items='', every=0):
+        """As table(), by names: an array each, and the unit of each ('' where none is known)."""
+        for statement in _Statements('table ' + items):
+            columns = POINTER(_Column)()
+            count, rows = c_int(), c_int()
+            operands = self._operands(statement)
+            _checked(_library.ct_columns, self._handle, operands, len(operands), every,
+                     byref(columns), byref(count), byref(rows))
+            names = [column.name.decode() for column in columns[:count.value]]
+            values = {name: _array(column.values[:rows.value], (rows.value,))
+                      for name, column in zip(names, columns[:count.value])}
+            units = {name: column.unit.decode()
+                     for name, column in zip(names, columns[:count.value])}
+            _library.ct_columns_free(columns)
+            return values, units
 
     def save(self):
         """a script that rebuilds the model"""

@@ -247,9 +247,10 @@ typedef struct Relation {
 typedef struct OwnState {
     const char *member; /* "integral": c1.integral */
     Expr initial;
-    Expr rate;   /* 0 where it is held */
-    Expr period; /* s; NULL: continuous */
-    Expr next;   /* held: its value from a sampling instant on, of values just before it */
+    Expr rate;     /* 0 where it is held */
+    Expr period;   /* s; NULL: continuous */
+    Expr next;     /* held: its value from a sampling instant on, of values just before it */
+    bool is_input; /* which the program that runs the model may give instead */
 } OwnState;
 
 /* --- rows --- */

@@ -1,4 +1,4 @@
-/* control.c: limits and sampling of control blocks; gain, sum, integrator, lag
+/* control.c: limits and sampling of control blocks; input, gain, sum, integrator, lag
  *
  * With the input e, states x and the period h, continuous and from one instant to the next:
  *   integrator   y = x,   x' = k e         x+ = x + h k e, or where a limit lies before that
@@ -82,6 +82,10 @@ Status block_check(const Instance *instance, Diag *diag)
 }
 
 /* clang-format off */
+static const Param input_params[] = {
+    {"period",  PARAM_SCALAR, "s", NULL, "from one instant at which it is set to the next", 0},
+    {"initial", PARAM_SCALAR, "V", "0",  "until a program sets it", 0},
+};
 static const Param gain_params[] = {
     {"of", PARAM_LAW, NULL, NULL, "the input, any expression", 0},
     {"k",  PARAM_LAW, NULL, NULL, "what it is multiplied by", 0},
@@ -105,6 +109,9 @@ static const Param lag_params[] = {
     BLOCK_PARAMS,
 };
 
+static const Member input_members[] = {
+    {"held", "V", "what it was set to last", 1},
+};
 static const Member plain_members[] = {
     BLOCK_MEMBERS,
 };
@@ -136,6 +143,58 @@ static Expr amplified(const Instance *instance, Arena *arena)
 {
     return expr_mul(arena, instance_scalar(instance, "k"), instance_scalar(instance, "of"));
 }
+
+/* --- input --- */
+
+static int input_states(const Instance *instance)
+{
+    (void)instance;
+    return 1;
+}
+
+static void input_relation(const Instance *instance, Arena *arena, int which, const Motion1 *motion,
+                           Relation *out)
+{
+    (void)which;
+    (void)motion;
+    *out = (Relation){.kind = RELATION_ACROSS, .value = block_state(instance, arena, "held")};
+}
+
+static void input_state(const Instance *instance, Arena *arena, int k, OwnState *out)
+{
+    (void)k;
+    *out = (OwnState){.member = "held",
+                      .initial = instance_scalar(instance, "initial"),
+                      .rate = expr_int(arena, 0),
+                      .period = instance_scalar(instance, "period"),
+                      .next = block_state(instance, arena, "held"),
+                      .is_input = true};
+}
+
+const Component component_input = {
+    .name = "input",
+    .family = FAMILY_SCALAR,
+    .domain = DOMAIN_ELECTRICAL,
+    .places = PLACES_TERMINALS,
+    .brief = "control: a voltage that a program sets",
+    .params = input_params,
+    .param_count = COUNT(input_params),
+    .translation = BRANCH_MAY,
+    .preference = 10,
+    .relation = input_relation,
+    .own_state_count = input_states,
+    .own_state = input_state,
+    .members = input_members,
+    .member_count = COUNT(input_members),
+    .positive = "period",
+    .help = "A voltage source that a program sets which runs the model by the library "
+            "(ct_simulate): at multiples of the period it is asked for a value, which is held to "
+            "the next one. A controller or an interface to other hardware is tried so. In the "
+            "shell nobody sets it: it keeps the initial value.",
+    .example = "input U1 a 0 period=10 ms initial=2\nresistor R1 a 0 1 kohm\nsimulate 1\n"
+               "print R1.i",
+    .see = "gain pid vsource",
+};
 
 /* --- gain --- */
 

@@ -104,7 +104,7 @@ static Status open_phase(States *st, Diag *diag)
     order = NULL;
     options.rows = st->rows;
     options.row_count = st->row_count;
-    CHECK(phase_open(st->phase, &st->parameters, &options, diag));
+    CHECK(phase_open(st->phase, &st->parameters, &options, NULL, diag));
     eq = numbers_equations(st->phase->numbers);
     st->kkt = kkt_new(eq->masses, eq->rows, st->rows, st->row_count);
     CHECK(probe_new(l, &st->parameters, code->roots.at, code->roots.count, &st->probe, diag));

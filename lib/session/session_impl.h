@@ -29,6 +29,7 @@ typedef struct Run {
     Result *result;       /* NULL: there is none */
     ResultReader *reader; /* of it */
     ParameterValues *parameters;
+    Host *host; /* what its inputs were set to; NULL: nobody set any */
 } Run;
 
 /* tells what a verb found */
@@ -159,6 +160,7 @@ typedef struct BoundWatch {
 typedef struct RunInput {
     ParameterValues *parameters;
     StartValues start;
+    Host *host;
     const Event **events;
     BoundWatch watch;
     Setting setting;
@@ -168,6 +170,9 @@ bool input_is_in_force(const ct_session *session, int start); /* an initial valu
 void run_input_make(ct_session *session, const System *system, RunInput *input);
 void run_input_go_on(RunInput *input, const Run *old); /* with the numbers of parts that that had */
 void run_input_free(RunInput *input);                  /* what it holds */
+/* A program takes part in the run: what it set before, in the run that this one goes on with, it
+ * has set here. */
+void run_input_host(RunInput *input, const Host *host, const Run *old);
 /* Watch where the laws of the system's parts end, in the run of this input; `old`: the one
  * that it goes on with, or NULL. Afterwards: E_SOLVER, with the part and what came to 0, where one
  * did; else the status that the run had. */
@@ -200,6 +205,9 @@ MUST_USE Status session_entry_value(const ct_session *session, int entry, const 
 bool session_entry_dimension(void *session, const Syntax *call, Dimension *out);
 
 /* --- values --- */
+
+/* the SI unit of what is called so, "rad/s"; nothing where its dimension isn't known */
+void session_unit(const ct_session *session, const char *name, Text *out);
 
 /* outputs written out, also in one another: a run older than an output knows its parts */
 Expr session_put_outputs(const Model *model, Expr e);

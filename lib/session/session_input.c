@@ -55,6 +55,11 @@ void run_free(Run *run)
         LIST_FREE(run->parameters->values);
     }
     mem_free(run->parameters);
+    if (run->host != NULL) {
+        mem_keep(run->host);
+        LIST_FREE(run->host->values);
+    }
+    mem_free(run->host);
     *run = (Run){0};
 }
 
@@ -77,11 +82,10 @@ void run_input_free(RunInput *input)
 {
     MEM_FREE(input->start.at, input->events);
     watch_free(&input->watch);
-    if (input->parameters != NULL) {
-        Run run = {.parameters = input->parameters};
 
-        run_free(&run);
-    }
+    Run run = {.parameters = input->parameters, .host = input->host};
+
+    run_free(&run);
 }
 
 /* the equilibrium from which runs start; NULL: there is none */
@@ -144,10 +148,26 @@ void run_input_go_on(RunInput *input, const Run *old)
             parameter_value(old->parameters, system_literal(system, i));
 }
 
+void run_input_host(RunInput *input, const Host *host, const Run *old)
+{
+    const Host *before = old != NULL ? old->host : NULL;
+
+    if (host == NULL && before == NULL)
+        return;
+    input->host = input->setting.host = NEW(Host);
+    if (host != NULL)
+        *input->host = *host;
+    for (int i = 0; before != NULL && i < before->values.count; i++)
+        LIST_PUSH(input->host->values, before->values.at[i]);
+}
+
 Run run_input_done(RunInput *input, Result *result, ResultReader *reader)
 {
-    Run run = {result, reader, input->parameters};
+    Run run = {result, reader, input->parameters, input->host};
 
+    if (input->host != NULL) /* who took part in it has gone */
+        *input->host = (Host){.values = input->host->values};
     input->parameters = NULL;
+    input->host = NULL;
     return run;
 }

@@ -162,21 +162,12 @@ static Status check_wanted(const Making *making, Diag *diag)
 
 static const char *unit_of(const Making *making, const char *name)
 {
-    Pool *pool = pool_new(0), *texts = making->model->texts;
-    Syntax *syntax = NULL;
-    Diag diag = {0};
-    Dimension dimension = {0};
-    const char *out = "";
+    Text text = {0};
+    const char *out;
 
-    if (syntax_parse_expression(name, pool, &syntax, &diag) == OK &&
-        model_dimension(making->session->model, syntax, &dimension)) {
-        Text text = {0};
-
-        dimension_print(&text, dimension_without_angle(dimension));
-        out = pool_text(texts, text.at, text.length);
-        text_free(&text);
-    }
-    pool_free(pool);
+    session_unit(making->session, name, &text);
+    out = text.length > 0 ? pool_text(making->model->texts, text.at, text.length) : "";
+    text_free(&text);
     return out;
 }
 

@@ -152,23 +152,23 @@ static void keep_run(ct_session *session, RunInput *input, Result *result, Resul
     text_free(&line);
 }
 
-static Status run_new(ct_session *session, const Statement *s, RunFunction *function, Diag *diag)
+static Status run_new(ct_session *session, const RunOptions *options, RunFunction *function,
+                      const Host *host, Diag *diag)
 {
-    RunOptions options;
     RunInput input = {0};
     Result *result = NULL;
     ResultReader *reader = NULL;
     System *system;
     Status status;
 
-    CHECK(read_options(session, s, &options, diag));
     session->told = NULL;
     CHECK(session_running(session, &system, diag));
     run_input_make(session, system, &input);
+    run_input_host(&input, host, NULL);
     CHECK(session_check_freedoms(session, system, &input.setting, diag));
     if (function == run_simulate)
         watch_bounds(system, NULL, &input);
-    status = function(system, &input.setting, &options, &result, &reader, diag);
+    status = function(system, &input.setting, options, &result, &reader, diag);
     if (result == NULL)
         goto done;
     status = check_bounds(&input, reader, status, diag);
@@ -208,50 +208,65 @@ static RunOptions options_from(const Result *old, const RunOptions *said)
     return options;
 }
 
-Status session_resume(ct_session *session, const Statement *s, Diag *diag)
+static Status run_on(ct_session *session, const RunOptions *said, const Host *host, Diag *diag)
 {
-    RunOptions said, options;
+    RunOptions options;
     const Run *old;
     RunInput input = {0};
     Result *result = NULL;
     ResultReader *reader = NULL;
     Status status = OK;
 
-    CHECK(read_options(session, s, &said, diag));
     session->told = NULL;
     if (session->runs.count == 0) {
-        diag_at(diag, E_MISSING, s->verb_place, "there is no run to go on with");
+        (void)diag_set(diag, E_MISSING, "there is no run to go on with");
         diag_hint(diag, "'simulate 10' makes one");
         return E_MISSING;
     }
     old = &session->runs.at[session->runs.count - 1];
-    options = options_from(old->result, &said);
+    options = options_from(old->result, said);
     run_input_make(session, result_system(old->result), &input);
     run_input_go_on(&input, old);
+    run_input_host(&input, host, old);
     watch_bounds(result_system(old->result), old, &input);
     status = run_resume(old->result, &input.setting, &options, &result, &reader, diag);
     if (result != NULL) {
         status = check_bounds(&input, reader, status, diag);
         keep_run(session, &input, result, reader);
     }
-done:
     run_input_free(&input);
     return status;
 }
 
+static Status run_stated(ct_session *session, const Statement *s, RunFunction *function, Diag *diag)
+{
+    RunOptions options;
+
+    TRY(read_options(session, s, &options, diag));
+    return run_new(session, &options, function, NULL, diag);
+}
+
 Status session_simulate(ct_session *session, const Statement *s, Diag *diag)
 {
-    return run_new(session, s, run_simulate, diag);
+    return run_stated(session, s, run_simulate, diag);
 }
 
 Status session_kinematics(ct_session *session, const Statement *s, Diag *diag)
 {
-    return run_new(session, s, run_kinematics, diag);
+    return run_stated(session, s, run_kinematics, diag);
 }
 
 Status session_inverse(ct_session *session, const Statement *s, Diag *diag)
 {
-    return run_new(session, s, run_inverse, diag);
+    return run_stated(session, s, run_inverse, diag);
+}
+
+Status session_resume(ct_session *session, const Statement *s, Diag *diag)
+{
+    RunOptions options;
+
+    TRY(read_options(session, s, &options, diag));
+    return run_on(session, &options, NULL, diag);
 }
 
 Status session_assemble(ct_session *session, const Statement *s, Diag *diag)
@@ -303,6 +318,47 @@ ct_status ct_run(ct_session *session, const ct_statement *statement, ct_error *e
     status = run_any(session, s, &diag);
     if (status != OK && diag.place.line == 0 && s->kind == STATEMENT_VERB)
         diag.place = place_of_message(s, &diag);
+    session_sweep(session);
+    return session_report(status, &diag, error);
+}
+
+/* what a program asks for */
+static RunOptions options_of(const ct_run_options *given)
+{
+    return (RunOptions){.duration = given->duration,
+                        .every = given->every,
+                        .rtol = given->rtol,
+                        .atol = given->atol,
+                        .step = given->step,
+                        .most = given->maxstep,
+                        .method = given->method,
+                        .check = given->check,
+                        .realtime = given->realtime};
+}
+
+ct_status ct_simulate(ct_session *session, const ct_run_options *given, ct_error *error)
+{
+    SESSION_CALL(session, session_ran_out(session, error));
+
+    const RunOptions options = options_of(given);
+    Host host = {.row = given->row, .input = given->input, .context = given->context};
+    LIST(Expr) items = {0};
+    Status status = OK;
+    Diag diag = {0};
+
+    session_begin(session);
+    for (int i = 0; i < given->item_count; i++) {
+        Expr item;
+
+        CHECK(model_expression(session->model, syntax_of(given->items[i]), &item, &diag));
+        LIST_PUSH(items, session_put_outputs(session->model, item));
+    }
+    host.items = items.at;
+    host.item_count = items.count;
+    status = given->resumes ? run_on(session, &options, &host, &diag)
+                            : run_new(session, &options, run_simulate, &host, &diag);
+done:
+    LIST_FREE(items);
     session_sweep(session);
     return session_report(status, &diag, error);
 }

@@ -323,28 +323,104 @@ static Status last_run(ct_session *session, Run **out, Diag *diag)
     return OK;
 }
 
+static Status last_sheet(ct_session *session, const ct_expression *const *items, int count,
+                         double every, Sheet *out, Diag *diag)
+{
+    const Syntax **list = NEW_ARRAY(const Syntax *, count);
+    Run *source = NULL;
+    Status status;
+
+    session_begin(session);
+    for (int i = 0; i < count; i++)
+        list[i] = syntax_of(items[i]);
+    CHECK(last_run(session, &source, diag));
+    CHECK(make_sheet(session, list, count, source, every, out, diag));
+done:
+    mem_free(list);
+    return status;
+}
+
 ct_status ct_table(ct_session *session, const ct_expression *const *items, int count, double every,
                    double **values, int *rows, int *columns, char ***names, ct_error *error)
 {
     SESSION_CALL(session, session_ran_out(session, error));
 
-    const Syntax **list = NEW_ARRAY(const Syntax *, count);
     Sheet sheet = {0};
-    Run *source = NULL;
-    Status status;
     Diag diag = {0};
+    const Status status = last_sheet(session, items, count, every, &sheet, &diag);
 
-    session_begin(session);
-    for (int i = 0; i < count; i++)
-        list[i] = syntax_of(items[i]);
-    CHECK(last_run(session, &source, &diag));
-    CHECK(make_sheet(session, list, count, source, every, &sheet, &diag));
-    *values = sheet.values;
-    *rows = sheet.rows;
-    *columns = sheet.columns;
-    *names = sheet.names.at;
-done:
-    mem_free(list);
+    if (status == OK) {
+        *values = sheet.values;
+        *rows = sheet.rows;
+        *columns = sheet.columns;
+        *names = sheet.names.at;
+    }
+    return session_report(status, &diag, error);
+}
+
+/* --- columns --- */
+
+void session_unit(const ct_session *session, const char *name, Text *out)
+{
+    Pool *pool = pool_new(0);
+    Syntax *syntax = NULL;
+    Diag diag = {0};
+    Dimension dimension = {0};
+
+    if (syntax_parse_expression(name, pool, &syntax, &diag) == OK &&
+        model_dimension(session->model, syntax, &dimension))
+        dimension_print(out, dimension_without_angle(dimension));
+    pool_free(pool);
+}
+
+/* the name of a column without the unit that it is in, which is returned, new */
+static char *split_unit(const ct_session *session, char *name)
+{
+    char *bracket = strstr(name, " [");
+    Text unit = {0};
+
+    if (strcmp(name, "t") == 0 || strcmp(name, "f") == 0) {
+        text_add(&unit, name[0] == 't' ? "s" : "Hz");
+    } else if (bracket != NULL) {
+        text_add_n(&unit, bracket + 2, strcspn(bracket + 2, "]"));
+        *bracket = '\0';
+    } else {
+        session_unit(session, name, &unit);
+    }
+    return text_done(&unit);
+}
+
+void ct_columns_free(ct_column *columns)
+{
+    for (int i = 0; columns != NULL && columns[i].name != NULL; i++)
+        MEM_FREE(columns[i].name, columns[i].unit, columns[i].values);
+    mem_free(columns);
+}
+
+ct_status ct_columns(ct_session *session, const ct_expression *const *items, int count,
+                     double every, ct_column **out, int *columns, int *rows, ct_error *error)
+{
+    SESSION_CALL(session, session_ran_out(session, error));
+
+    Sheet sheet = {0};
+    Diag diag = {0};
+    const Status status = last_sheet(session, items, count, every, &sheet, &diag);
+
+    if (status == OK) {
+        *columns = sheet.columns;
+        *rows = sheet.rows;
+        *out = NEW_ARRAY(ct_column, sheet.columns + 1);
+    }
+    for (int c = 0; c < sheet.columns; c++) {
+        ct_column *column = &(*out)[c];
+
+        column->name = mem_text(sheet.names.at[c], strlen(sheet.names.at[c]));
+        column->unit = split_unit(session, column->name);
+        column->values = NEW_ARRAY(double, sheet.rows);
+        for (int r = 0; r < sheet.rows; r++)
+            column->values[r] = sheet.values[(ptrdiff_t)r * sheet.columns + c];
+    }
+    sheet_free(&sheet);
     return session_report(status, &diag, error);
 }
 

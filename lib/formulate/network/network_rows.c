@@ -399,6 +399,7 @@ static void find_samples(System *system)
         sample.initial = own.initial;
         sample.period = own.period;
         sample.next = own.next;
+        sample.is_input = own.is_input;
         LIST_PUSH(system->network->samples, sample);
     }
 }

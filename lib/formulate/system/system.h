@@ -244,10 +244,11 @@ Expr *system_network_matrix(const System *system);
 NetworkForm system_network_form(const System *system);
 /* states of parts' own: where they start, and what samples them. NULL at the end */
 typedef struct OwnSample {
-    int state;    /* in x */
-    Expr initial; /* of parameters */
-    Expr period;  /* s; NULL: it isn't sampled, but has a rate */
-    Expr next;    /* its value behind a sampling instant, over the user's variables */
+    int state;     /* in x */
+    Expr initial;  /* of parameters */
+    Expr period;   /* s; NULL: it isn't sampled, but has a rate */
+    Expr next;     /* its value behind a sampling instant, over the user's variables */
+    bool is_input; /* or what the program that runs the model gives */
 } OwnSample;
 const OwnSample *system_sample(const System *system, int i);
 /* Where states are other variables than in state form: names of those, which are 0 at a start that

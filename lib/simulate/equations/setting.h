@@ -4,6 +4,7 @@
 #ifndef COTREE_SIMULATE_EQUATIONS_SETTING_H
 #define COTREE_SIMULATE_EQUATIONS_SETTING_H
 
+#include "base/memory.h"
 #include "compile/program.h"
 #include "formulate/system/system.h"
 #include "model/event.h"
@@ -26,6 +27,23 @@ typedef struct ResultReader ResultReader; /* simulate/run/result_reader.h */
 /* Numbers of a parameter, asked once a run. Results keep the answers; they ask again for parameters
  * that only a later question about them brings in, so `context` outlives them. */
 typedef double (*ParameterValue)(void *context, Expr symbol);
+/* The program that runs a model: it sees its rows, and sets its inputs. What it set is kept, for
+ * whoever goes over a part of the run again. */
+typedef struct HostValue {
+    double t;
+    int instance; /* of the input */
+    double value;
+} HostValue;
+typedef struct Host {
+    const Expr *items; /* that it is told: over the user's variables */
+    int item_count;
+    /* both tell whether to stop; NULL: it doesn't ask to be called, or the run is over */
+    bool (*row)(void *context, double t, const double *values);
+    bool (*input)(void *context, const char *name, double t, const double *values, double *value);
+    void *context;
+    LIST(HostValue) values; /* rising in t */
+} Host;
+
 typedef struct Setting {
     ParameterValue parameter;
     void *context;
@@ -38,6 +56,7 @@ typedef struct Setting {
     int event_count;
     const StartValues *start;
     ResultReader *warm; /* configuration by coordinate name to start guesses from; NULL: none */
+    Host *host;         /* NULL: nobody. It outlives results, as `context` does */
     ResultReader *from; /* start where this one does, but for what `start` tells; NULL: there */
     const Watch *watch; /* borrowed as long as what is made with it */
 } Setting;

@@ -63,7 +63,8 @@ static Manner manner_of(const ActiveRun *r, const Setting *setting)
                     .independent_count = setting->independent_count,
                     .rows = r->result->start.rows,
                     .row_count = r->result->start.row_count,
-                    .watch = setting->watch};
+                    .watch = setting->watch,
+                    .host = setting->host};
 }
 
 static const char *keep_text(Result *result, const char *text)

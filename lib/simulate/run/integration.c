@@ -148,10 +148,11 @@ static Status integrate_interval(Integration *m, double end, Diag *diag)
     integration_begin_modes(m);
     while (end - m->stepper->t > least && !m->is_over) {
         report(plan->watch, "simulate", (m->stepper->t - plan->from) / (plan->to - plan->from));
-        status = poll(plan->watch) == OK ? one_step(m, end, diag) : E_STOPPED;
+        status = poll(plan->watch) == OK && !m->is_stopped ? one_step(m, end, diag) : E_STOPPED;
         /* a step that is stopped within fails in its own words */
-        if (status != OK && poll(plan->watch) != OK)
-            return diag_set(diag, E_STOPPED, "stopped at t = %.6g s", m->stepper->t);
+        if (status != OK && (poll(plan->watch) != OK || m->is_stopped))
+            return diag_set(diag, E_STOPPED, "stopped at t = %.6g s",
+                            m->is_stopped ? m->out->reached : m->stepper->t);
         CHECK(status);
         if (plan->pace != NULL)
             pace_wait(plan->pace, m->stepper->t, plan->watch);

@@ -73,7 +73,9 @@ typedef struct IntegrationPlan {
     NextSegment mode_switch; /* NULL: it goes on to the end */
     Choose choose;           /* where equations jump on surfaces */
     Explain explain;         /* NULL: nothing is known */
-    void *context;           /* of all of them */
+    /* a row was added; whether to stop there. NULL: nobody sees them */
+    bool (*see)(void *context, int phase, double t, const double *y);
+    void *context; /* of all of them */
     /* what a condition is about, for messages */
     void (*tell)(void *context, const Segment *segment, int condition, Text *out);
     const Equations

@@ -52,6 +52,7 @@ typedef struct Integration {
     double switched_since; /* the first of them */
     double missed;         /* largest estimated error of a fixed step, in tolerances */
     double missed_at;      /* s */
+    bool is_stopped;       /* by who sees the rows */
     bool is_over;          /* an event has ended the run */
     bool is_taken_back;    /* the last step, and its method has to start anew */
     bool begins;           /* no step has been taken since a switch, */

@@ -17,6 +17,8 @@ bool integration_add_row(Integration *m, double t)
     m->out->velocity_residual = fmax(m->out->velocity_residual, velocity);
     grid_add(m->grid, t, m->segment.phase, m->y, m->length);
     m->out->reached = t;
+    if (m->plan->see != NULL && m->plan->see(m->plan->context, m->segment.phase, t, m->y))
+        m->is_stopped = true;
     return true;
 }
 
@@ -42,6 +44,8 @@ static Status add_rows_to(Integration *m, double end, Diag *diag)
         m->stepper->method->at(m->stepper, t, m->y);
         if (!integration_add_row(m, t))
             return solver_failure(diag, t, "the constraints can't be met");
+        if (m->is_stopped)
+            return diag_set(diag, E_STOPPED, "stopped at t = %.6g s", t);
     }
     return OK;
 }

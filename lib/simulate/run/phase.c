@@ -65,7 +65,8 @@ void phase_enter(const Phase *phase)
         layout_take_sides(phase->layout, phase->closed);
 }
 
-Status phase_open(Phase *phase, Parameters *parameters, const MotionOptions *options, Diag *diag)
+Status phase_open(Phase *phase, Parameters *parameters, const MotionOptions *options, Host *host,
+                  Diag *diag)
 {
     const bool before = mem_scratch(true);
     Status status = OK;
@@ -76,7 +77,7 @@ Status phase_open(Phase *phase, Parameters *parameters, const MotionOptions *opt
         phase->network = netdae_new(phase->layout, parameters, phase->motion);
     if (phase->network != NULL)
         motion_offer(phase->motion, netdae_equations(phase->network));
-    CHECK(samples_new(phase->layout, parameters, phase->motion, &phase->samples, diag));
+    CHECK(samples_new(phase->layout, parameters, phase->motion, host, &phase->samples, diag));
     CHECK(steep_new(phase->layout, parameters, phase->motion, numbers_equations(phase->numbers),
                     &phase->steep, diag));
     phase->onset = onset_new(phase->steep, motion_ode(phase->motion));
@@ -98,6 +99,7 @@ void phase_free(Phase *phase)
     samples_free(phase->samples);
     onset_free(phase->onset);
     steep_free(phase->steep);
+    probe_free(phase->seen);
     probe_free(phase->states);
     mem_free(phase->among_whole);
     netdae_free(phase->network);

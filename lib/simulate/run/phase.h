@@ -31,6 +31,7 @@ struct Phase {
     Samples *samples;
     Steep *steep; /* what can act for a short time, and the search for it; NULL: nothing */
     Onset *onset;
+    Probe *seen;      /* what a host is told at rows; NULL: nothing, or not yet */
     Probe *states;    /* the network states of the whole, where it is a mode, */
     int *among_whole; /* and which of those its own are */
 };
@@ -48,7 +49,7 @@ Phase *phase_new_like(Phase *other, const bool *closed, int count);
 void phase_enter(const Phase *phase);
 /* What solves its equations; once. The options are copied. Fails as samples_new() does. */
 MUST_USE Status phase_open(Phase *phase, Parameters *parameters, const MotionOptions *options,
-                           Diag *diag);
+                           Host *host, Diag *diag);
 void phase_free(Phase *phase); /* NULL is fine */
 
 /* what a run goes over to where its equations turn out to be stiff */

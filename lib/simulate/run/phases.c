@@ -97,7 +97,7 @@ Status phases_open(Phases *p, Phase *phase, const Manner *manner, Diag *diag)
     Status status = OK;
 
     CHECK(find_independent(phase->layout, manner, independent, diag));
-    CHECK(phase_open(phase, &p->parameters, &options, diag));
+    CHECK(phase_open(phase, &p->parameters, &options, manner->host, diag));
 done:
     mem_free(independent);
     return status;

@@ -35,6 +35,7 @@ typedef struct Manner {
     const int *rows; /* constraints in use */
     int row_count;
     const Watch *watch;
+    Host *host; /* NULL: nobody */
 } Manner;
 
 void phases_free(Phases *phases); /* NULL is fine */

@@ -10,6 +10,7 @@
 typedef struct SampledState {
     int state; /* in x */
     double period;
+    int instance; /* of an input; -1: it is none */
 } SampledState;
 
 struct Samples {
@@ -18,6 +19,7 @@ struct Samples {
     Probe *next;
     SampledState *at;
     int count;
+    Host *host; /* NULL: there is none, or no input */
 };
 
 static Status add_sample(Samples *s, const OwnSample *own, Parameters *parameters, Diag *diag)
@@ -26,6 +28,7 @@ static Status add_sample(Samples *s, const OwnSample *own, Parameters *parameter
 
     sample->state = own->state;
     sample->period = parameters_evaluate(parameters, own->period);
+    sample->instance = own->is_input ? system_x(s->layout->system, own->state)->instance : -1;
     if (!(sample->period > 0) || !isfinite(sample->period)) {
         (void)diag_set(diag, E_VALUE, "the sampling period of %s is %g s",
                        system_x(s->layout->system, own->state)->name, sample->period);
@@ -36,12 +39,14 @@ static Status add_sample(Samples *s, const OwnSample *own, Parameters *parameter
     return OK;
 }
 
-Status samples_new(const Layout *layout, Parameters *parameters, Motion *motion, Samples **out,
-                   Diag *diag)
+Status samples_new(const Layout *layout, Parameters *parameters, Motion *motion, Host *host,
+                   Samples **out, Diag *diag)
 {
+    const int items = host != NULL ? host->item_count : 0;
     Samples *s = NEW(Samples);
-    Expr *next = NEW_ARRAY(Expr, layout->nx);
+    Expr *next = NEW_ARRAY(Expr, layout->nx + items);
     const OwnSample *own;
+    int roots;
     Status status = OK;
 
     *out = NULL;
@@ -53,10 +58,14 @@ Status samples_new(const Layout *layout, Parameters *parameters, Motion *motion,
             continue;
         CHECK(system_resolve(layout->system, own->next, &next[s->count], diag));
         CHECK(add_sample(s, own, parameters, diag));
+        s->host = own->is_input ? host : s->host;
     }
     if (s->count == 0)
         goto done;
-    CHECK(probe_new(layout, parameters, next, s->count, &s->next, diag));
+    roots = s->count;
+    for (int i = 0; s->host != NULL && i < items; i++)
+        CHECK(system_resolve(layout->system, host->items[i], &next[roots++], diag));
+    CHECK(probe_new(layout, parameters, next, roots, &s->next, diag));
     *out = s;
     s = NULL;
 done:
@@ -89,6 +98,43 @@ static bool is_due(const SampledState *sample, double t)
     return fabs(count - round(count)) <= SAME;
 }
 
+/* what the host set an input to at that instant; NULL: nothing yet */
+static const HostValue *find_value(const Host *host, int instance, double t, double near)
+{
+    int low = 0, high = host->values.count;
+
+    while (low < high) {
+        const int middle = (low + high) / 2;
+
+        if (host->values.at[middle].t < t - near)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    for (; low < host->values.count && host->values.at[low].t <= t + near; low++)
+        if (host->values.at[low].instance == instance)
+            return &host->values.at[low];
+    return NULL;
+}
+
+/* what an input is from t on; `items`: what the host is told */
+static Status set_input(Host *host, const SampledState *sample, const char *name, double t,
+                        const double *items, double *value, Diag *diag)
+{
+    const HostValue *before = find_value(host, sample->instance, t, SAME * sample->period);
+
+    if (before != NULL)
+        *value = before->value;
+    if (before != NULL || host->input == NULL)
+        return OK;
+    if (host->input(host->context, name, t, items, value))
+        return diag_set(diag, E_STOPPED, "stopped at t = %.6g s", t);
+    if (!isfinite(*value))
+        return diag_set(diag, E_SOLVER, "%s was set to no number at t = %.6g s", name, t);
+    LIST_PUSH(host->values, ((HostValue){t, sample->instance, *value}));
+    return OK;
+}
+
 Status samples_take(Samples *s, double t, double *y, bool *due, Diag *diag)
 {
     const Layout *l;
@@ -104,8 +150,16 @@ Status samples_take(Samples *s, double t, double *y, bool *due, Diag *diag)
     if (!row_solve(l, s->motion, t, y, &row))
         return solver_failure(diag, t, "the equations have no solution at a sampling instant");
     values = probe_values(s->next, &row);
-    for (int i = 0; i < s->count; i++)
-        if (is_due(&s->at[i], t))
-            y[l->n + l->nu + s->at[i].state] = values[i];
+    for (int i = 0; i < s->count; i++) {
+        const SampledState *sample = &s->at[i];
+        double value = values[i];
+
+        if (!is_due(sample, t))
+            continue;
+        if (sample->instance >= 0 && s->host != NULL)
+            TRY(set_input(s->host, sample, system_instance_name(l->system, sample->instance), t,
+                          values + s->count, &value, diag));
+        y[l->n + l->nu + sample->state] = value;
+    }
     return OK;
 }

@@ -2,7 +2,8 @@
  * control
  *
  * Instants are whole multiples of the period, 0 among them. Values at an instant are those just
- * before it, of all that is sampled there together. */
+ * before it, of all that is sampled there together. Inputs are set by the host of the run; what it
+ * set before is taken again. */
 #ifndef COTREE_SIMULATE_RUN_SAMPLES_H
 #define COTREE_SIMULATE_RUN_SAMPLES_H
 
@@ -13,12 +14,12 @@ typedef struct Samples Samples;
 /* New, or NULL where nothing is sampled; samples_free(). Borrows all. Fails with E_VALUE for a
  * period that is no time, and as system_resolve() does. */
 MUST_USE Status samples_new(const Layout *layout, Parameters *parameters, Motion *motion,
-                            Samples **out, Diag *diag);
+                            Host *host, Samples **out, Diag *diag);
 void samples_free(Samples *samples); /* NULL is fine, here and below */
 /* the first instant behind t, of all of them; INFINITY: there is none */
 double samples_next(const Samples *samples, double t);
 /* Replace what is due at t in y = (q, u, x, ..). *due: something was. E_SOLVER where the equations
- * have no solution. */
+ * have no solution, E_STOPPED where the host asks for it. */
 MUST_USE Status samples_take(Samples *samples, double t, double *y, bool *due, Diag *diag);
 
 #endif

@@ -138,6 +138,32 @@ static IntegrationPlan plan_of(const ActiveRun *r, const Setting *setting,
                              .watch = setting->watch};
 }
 
+/* what a host is told at the rows of a phase */
+static Status probe_seen(ActiveRun *r, Phase *phase, const Host *host, Diag *diag)
+{
+    if (phase->like->seen != NULL)
+        return OK;
+    return phases_probe(r->phases, phase, host->items, host->item_count, &phase->like->seen, diag);
+}
+
+static bool show_row(void *context, int phase_number, double t, const double *y)
+{
+    const ModeSwitching *s = context;
+    Phase *phase = s->run->phases->at[phase_number];
+    const Host *host = s->setting->host;
+    double *values = NEW_ARRAY(double, host->item_count);
+    Diag ignored = {0};
+    bool stop;
+
+    for (int i = 0; i < host->item_count; i++)
+        values[i] = NAN;
+    if (host->item_count > 0 && probe_seen(s->run, phase, host, &ignored) == OK)
+        phase_probe_at(phase, phase->like->seen, t, y, NULL, host->item_count, values);
+    stop = host->row(host->context, t, values);
+    mem_free(values);
+    return stop;
+}
+
 /* From `begin` to the end of the plan. Where ideal switches change the equations, `corners` gets
  * rows between them. */
 static Status integrate_phases(ActiveRun *r, const Setting *setting, const IntegrationPlan *plan,
@@ -319,6 +345,10 @@ static Status go(ActiveRun *r, const Setting *setting, const RunOptions *given, 
     plan.from = from;
     plan.to = from + options.duration;
     plan.skip_first = skip_first;
+    if (setting->host != NULL && setting->host->row != NULL) {
+        CHECK(probe_seen(r, r->phase, setting->host, diag));
+        plan.see = show_row;
+    }
     if (options.check)
         CHECK(copy_events(r, setting, &again, diag));
     if (options.realtime) {
