@@ -333,13 +333,15 @@ ct_status ct_export(ct_session *session, const ct_statement *statement, bool wit
 typedef struct ct_archive ct_archive;
 ct_status ct_export_archive(ct_session *session, const ct_statement *statement, ct_archive **out,
                             ct_error *error);
+/* it goes to a file as a zip; else its one file does, as it is */
+bool ct_archive_is_zip(const ct_archive *archive);
 /* its files, 0, 1 ...; false: no more */
 bool ct_archive_file(const ct_archive *archive, int i, const char **name, const char **bytes,
                      size_t *length);
 /* Where a shared library belongs in it that a caller compiles of its sources/ for this machine;
  * NULL: there is no name for such machines. */
 const char *ct_archive_binary(const ct_archive *archive);
-/* The zip, new, with that library; `binary` NULL: without. */
+/* The zip or the file, new, with that library; `binary` NULL: without. */
 ct_status ct_archive_pack(ct_session *session, const ct_archive *archive, const char *binary,
                           size_t binary_length, char **bytes, size_t *length, ct_error *error);
 void ct_archive_free(ct_archive *archive); /* NULL is fine */

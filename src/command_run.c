@@ -323,12 +323,13 @@ static ct_status command_table(Call *call, ct_error *error)
 
 /* --- export --- */
 
-/* A zip goes to a file as it is. */
+/* What is no text goes to a file as it is. */
 static ct_status write_archive(Call *call, const ct_archive *archive, ct_error *error)
 {
     char *binary = NULL, *bytes = NULL;
     size_t binary_length = 0, length = 0;
-    ct_status status = library_of(archive, &binary, &binary_length, error);
+    ct_status status =
+        ct_archive_is_zip(archive) ? library_of(archive, &binary, &binary_length, error) : CT_OK;
 
     if (status == CT_OK)
         status =

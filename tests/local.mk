@@ -63,6 +63,7 @@ SCRIPT_TESTS = \
 	tests/cases/motor_arm \
 	tests/cases/parallel \
 	tests/cases/pendulum \
+	tests/cases/read_back \
 	tests/cases/serial \
 	tests/cases/slider_crank \
 	tests/cases/spatial_slider_crank \

@@ -91,7 +91,14 @@ Status archive_pack(const Archive *archive, const char *binary, size_t binary_le
                     size_t *length, Diag *diag)
 {
     Zip z = {.zip = NULL};
-    bool whole = pack_begin(&z);
+    bool whole;
+
+    if (archive->is_plain) {
+        *length = archive->files.at[0].length;
+        *bytes = mem_text(archive->files.at[0].bytes, *length);
+        return OK;
+    }
+    whole = pack_begin(&z);
 
     *bytes = NULL;
     for (int i = 0; whole && i < archive->files.count; i++)

@@ -1,4 +1,4 @@
-/* archive.h: files that go out as one: a zip */
+/* archive.h: files that go out as one: a zip, or one that is no text */
 #ifndef COTREE_EXPORT_ARCHIVE_H
 #define COTREE_EXPORT_ARCHIVE_H
 
@@ -13,13 +13,15 @@ typedef struct ArchiveFile {
 
 typedef struct Archive {
     LIST(ArchiveFile) files;
+    bool is_plain;      /* of one file, which goes out as it is */
     const char *binary; /* where a binary for this machine belongs; NULL: there is no name for it */
 } Archive;
 
 void archive_free(Archive *archive); /* NULL is fine */
 /* Another file; takes `bytes`. */
 void archive_take(Archive *archive, const char *name, char *bytes, size_t length);
-/* The zip, new: the same bytes for the same files. `binary`: the one for this machine; NULL: none.
+/* The zip, or the plain file, new: the same bytes for the same files. `binary`: the one for this
+ * machine; NULL: none.
  */
 MUST_USE Status archive_pack(const Archive *archive, const char *binary, size_t binary_length,
                              char **bytes, size_t *length, Diag *diag);

@@ -33,6 +33,7 @@ libcore_la_SOURCES += \
   lib/export/write_fmu.c \
   lib/export/write_fortran.c \
   lib/export/write_latex.c \
+  lib/export/write_mat.c \
   lib/export/write_matlab.c \
   lib/export/write_python.c \
   lib/export/xml.c \

@@ -19,6 +19,7 @@ typedef struct Exported {
     View view;
     /* of NEED_RUN: numbers row by row, and the names of their columns, */
     const char *const *names;
+    const char *const *units; /* in which they are; "" where that isn't known */
     const double *values;
     int rows, columns;
     /* of NEED_CODE: formulas over the user's variables, called `names`, and the assembled start */
@@ -36,8 +37,8 @@ struct Archive; /* archive.h */
 typedef struct Format {
     Need need;
     Status (*write)(const Exported *what, Text *out, Diag *diag); /* NULL: it is no text, but */
-    /* files in an archive, a new one; keys of the statement choose among its forms */
-    Status (*pack)(const Exported *what, struct Archive **out, Diag *diag);
+    Status (*pack)(const Exported *what, struct Archive **out, Diag *diag); /* files in a new one */
+    bool takes_keys; /* of the statement, which choose among its forms */
 } Format;
 
 #define FORMAT(word, brief) extern const Format format_##word;

@@ -196,4 +196,4 @@ static Status pack(const Exported *what, Archive **out, Diag *diag)
     return OK;
 }
 
-const Format format_fmu = {.need = NEED_CODE, .pack = pack};
+const Format format_fmu = {.need = NEED_CODE, .pack = pack, .takes_keys = true};

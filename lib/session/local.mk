@@ -5,6 +5,7 @@ libcore_la_SOURCES += \
   lib/session/session_code.h \
   lib/session/session_draw.c \
   lib/session/session_evaluator.c \
+  lib/session/session_expect.c \
   lib/session/session_figures.c \
   lib/session/session_formula.c \
   lib/session/session_freedoms.c \

@@ -1,4 +1,4 @@
-/* session_table.c: values, tables, expectations and exports for programs */
+/* session_table.c: values, tables and exports for programs */
 #include "session/session_impl.h"
 
 #include "export/archive.h"
@@ -53,25 +53,33 @@ static bool is_energy(const Syntax *syntax)
     return false;
 }
 
+/* the unit of an expression in units of a list; nothing where its dimension isn't known */
+static void add_unit(const ct_session *session, const Syntax *syntax, const char *units,
+                     double *size, Text *out)
+{
+    static const Dimension none;
+    Dimension dimension = none;
+
+    if (!model_dimension(session->model, syntax, &dimension) ||
+        memcmp(&dimension, &none, sizeof none) == 0)
+        return;
+    *size = dimension_print_in(out, dimension_without_angle(dimension), units);
+    if (strcmp(out->at, "N*m") == 0 && is_energy(syntax)) {
+        text_free(out);
+        text_char(out, 'J');
+    }
+}
+
 char *ct_unit_in(const ct_session *session, const ct_expression *expression, const char *units,
                  double *size)
 {
     SESSION_CALL(session, NULL);
 
-    static const Dimension none;
-    Dimension dimension = none;
     Text unit = {0};
 
     *size = 1;
-    if (!model_dimension(session->model, syntax_of(expression), &dimension) ||
-        memcmp(&dimension, &none, sizeof none) == 0)
-        return NULL;
-    *size = dimension_print_in(&unit, dimension_without_angle(dimension), units);
-    if (strcmp(unit.at, "N*m") == 0 && is_energy(syntax_of(expression))) {
-        text_free(&unit);
-        text_char(&unit, 'J');
-    }
-    return text_done(&unit);
+    add_unit(session, syntax_of(expression), units, size, &unit);
+    return unit.length > 0 ? text_done(&unit) : NULL;
 }
 
 char *ct_unit(const ct_session *session, const ct_expression *expression)
@@ -150,6 +158,7 @@ typedef struct Sheet {
     int rows, columns;
     bool is_spectral;   /* over frequency, not time */
     LIST(char *) names; /* ended by NULL once it is done */
+    LIST(char *) units; /* of those that are exported */
 } Sheet;
 
 static void sheet_free(Sheet *sheet)
@@ -157,6 +166,9 @@ static void sheet_free(Sheet *sheet)
     mem_free(sheet->values);
     for (int i = 0; i < sheet->names.count; i++)
         mem_free(sheet->names.at[i]);
+    for (int i = 0; i < sheet->units.count; i++)
+        mem_free(sheet->units.at[i]);
+    LIST_FREE(sheet->units);
     LIST_FREE(sheet->names);
 }
 
@@ -364,12 +376,11 @@ void session_unit(const ct_session *session, const char *name, Text *out)
 {
     Pool *pool = pool_new(0);
     Syntax *syntax = NULL;
-    Diag diag = {0};
-    Dimension dimension = {0};
+    Diag ignored = {0};
+    double size;
 
-    if (syntax_parse_expression(name, pool, &syntax, &diag) == OK &&
-        model_dimension(session->model, syntax, &dimension))
-        dimension_print(out, dimension_without_angle(dimension));
+    if (syntax_parse_expression(name, pool, &syntax, &ignored) == OK)
+        add_unit(session, syntax, "", &size, out);
     pool_free(pool);
 }
 
@@ -424,114 +435,6 @@ ct_status ct_columns(ct_session *session, const ct_expression *const *items, int
     return session_report(status, &diag, error);
 }
 
-/* --- expectations --- */
-
-static bool is_comparison(const Syntax *syntax)
-{
-    return syntax->kind == SYNTAX_BINARY && syntax->text[0] != '\0' &&
-           strchr("<>=!", syntax->text[0]) != NULL;
-}
-
-static const char *at_words(char *buffer, size_t size, const double *at)
-{
-    if (at == NULL)
-        return "";
-    (void)snprintf(buffer, size, " at t = %.6g", *at);
-    return buffer;
-}
-
-static Status expect_near(ct_session *session, const Statement *s, const Syntax *left,
-                          const double *at, Diag *diag)
-{
-    double value, expected, tolerance = 0;
-    char when[48];
-    Status status;
-    Text text = {0};
-
-    CHECK(session_value_at(session, left, at, &value, diag));
-    CHECK(session_value_at(session, s->near_value, at, &expected, diag));
-    CHECK(model_check_alike(session->model, left, s->near_value, diag));
-    if (s->within != NULL) {
-        CHECK(session_value_at(session, s->within, at, &tolerance, diag));
-        CHECK(model_check_alike(session->model, left, s->within, diag));
-        CHECK(model_check_alike(session->model, s->near_value, s->within, diag));
-    }
-    if (!isfinite(value) || !isfinite(expected)) { /* never near */
-        const Syntax *undefined = isfinite(value) ? s->near_value : left;
-
-        syntax_print(&text, undefined);
-        status = diag_at(diag, E_EXPECT, undefined->place, "%s is undefined%s", text.at,
-                         at_words(when, sizeof when, at));
-    } else if (!(fabs(value - expected) <= tolerance)) {
-        syntax_print(&text, left);
-        status = diag_at(diag, E_EXPECT, left->place,
-                         "%s is %.15g%s, expected %.15g within %.3g: off by %.3g", text.at, value,
-                         at_words(when, sizeof when, at), expected, tolerance, value - expected);
-    }
-done:
-    text_free(&text);
-    return status;
-}
-
-static Status expect_condition(ct_session *session, const Syntax *condition, const double *at,
-                               Diag *diag)
-{
-    double holds, left, right;
-    char when[48];
-    Status status;
-    Text text = {0};
-
-    CHECK(session_value_at(session, condition, at, &holds, diag));
-    if (holds != 0 && !isnan(holds))
-        goto done;
-    syntax_print(&text, condition);
-    if (is_comparison(condition)) {
-        CHECK(session_value_at(session, condition->args[0], at, &left, diag));
-        CHECK(session_value_at(session, condition->args[1], at, &right, diag));
-        status = isfinite(left) && isfinite(right)
-                     ? diag_at(diag, E_EXPECT, condition->place,
-                               "%s does not hold%s: left is %.15g, right is %.15g", text.at,
-                               at_words(when, sizeof when, at), left, right)
-                     : diag_at(diag, E_EXPECT, condition->place,
-                               "%s does not hold%s: its %s side is undefined", text.at,
-                               at_words(when, sizeof when, at), isfinite(left) ? "right" : "left");
-    } else {
-        status = diag_at(diag, E_EXPECT, condition->place, "%s does not hold%s", text.at,
-                         at_words(when, sizeof when, at));
-    }
-done:
-    text_free(&text);
-    return status;
-}
-
-ct_status ct_expect(ct_session *session, const ct_statement *statement, ct_error *error)
-{
-    SESSION_CALL(session, session_ran_out(session, error));
-
-    const Statement *s = statement_of(statement);
-    double instant = 0;
-    const double *at = NULL;
-    Status status;
-    Diag diag = {0};
-
-    session_begin(session);
-    if (s->operands.count == 0) {
-        status = diag_at(&diag, E_SYNTAX, s->verb_place, "'expect' needs a condition");
-        diag_hint(&diag, "expect h8 ~ 1.05 within 1e-3 at 0.5");
-        goto done;
-    }
-    if (s->at != NULL) {
-        CHECK(session_instant(session, s->at, &instant, &diag));
-        at = &instant;
-    }
-    if (s->near_value != NULL)
-        status = expect_near(session, s, s->operands.at[0].value, at, &diag);
-    else
-        status = expect_condition(session, s->operands.at[0].value, at, &diag);
-done:
-    return session_report(status, &diag, error);
-}
-
 /* --- exports --- */
 
 static bool begins_with(const Statement *s, const char *word)
@@ -547,9 +450,9 @@ static bool is_modes(const Statement *s)
     return s->operands.count == 2 && begins_with(s, "modes");
 }
 
-/* numbers of the last run, or the modes */
-static Status read_numbers(ct_session *session, const Statement *s, Sheet *sheet, Exported *what,
-                           Diag *diag)
+/* numbers of the last run, or the modes; units beside the names, or in them */
+static Status read_numbers(ct_session *session, const Statement *s, bool splits_units, Sheet *sheet,
+                           Exported *what, Diag *diag)
 {
     const int count = s->operands.count - 1;
     const Syntax **items = NEW_ARRAY(const Syntax *, count);
@@ -567,7 +470,10 @@ static Status read_numbers(ct_session *session, const Statement *s, Sheet *sheet
         items[i] = s->operands.at[i + 1].value;
     CHECK(session_source(session, &source, diag));
     CHECK(make_sheet(session, items, count, source, 0, sheet, diag));
+    for (int c = 0; c < sheet->columns && splits_units; c++)
+        LIST_PUSH(sheet->units, split_unit(session, sheet->names.at[c]));
     what->names = (const char *const *)sheet->names.at;
+    what->units = (const char *const *)sheet->units.at;
     what->values = sheet->values;
     what->rows = sheet->rows;
     what->columns = sheet->columns;
@@ -617,14 +523,15 @@ done:
 }
 
 /* what the format needs; only numbers and code have items */
-static Status prepare(ct_session *session, const Statement *s, Need need, Sheet *sheet,
+static Status prepare(ct_session *session, const Statement *s, const Format *format, Sheet *sheet,
                       CodeItems *items, Exported *what, Diag *diag)
 {
+    const Need need = format->need;
     const bool is_inverse = need == NEED_CODE && begins_with(s, "inverse");
     Status status = OK;
 
     if (need == NEED_RUN)
-        return read_numbers(session, s, sheet, what, diag);
+        return read_numbers(session, s, format->pack != NULL, sheet, what, diag);
     for (int i = is_inverse ? 2 : 1; need == NEED_CODE && status == OK && i < s->operands.count;
          i++)
         status = session_code_item(session, s->operands.at[i].value, items, diag);
@@ -637,10 +544,13 @@ static Status prepare(ct_session *session, const Statement *s, Need need, Sheet 
 }
 
 /* what only FMUs are told */
-static Status read_form(ct_session *session, const Statement *s, bool is_archive, Exported *what,
-                        Diag *diag)
+static Status read_form(ct_session *session, const Statement *s, const Format *format,
+                        Exported *what, Diag *diag)
 {
     what->version = 2;
+    if (!format->takes_keys && s->pairs.count > 0)
+        return diag_at(diag, E_SYNTAX, s->pairs.at[0].name_place, "'export %s' takes no keys",
+                       s->operands.at[0].value->text);
     for (int i = 0; i < s->pairs.count; i++) {
         const Pair *pair = &s->pairs.at[i];
         double number;
@@ -659,9 +569,6 @@ static Status read_form(ct_session *session, const Statement *s, bool is_archive
             return diag_at(diag, E_VALUE, pair->value->place, "version= is 2 or 3");
         what->version = (int)number;
     }
-    if (!is_archive && s->pairs.count > 0)
-        return diag_at(diag, E_SYNTAX, s->pairs.at[0].name_place, "'export %s' takes no keys",
-                       s->operands.at[0].value->text);
     return OK;
 }
 
@@ -693,8 +600,8 @@ ct_status ct_export_archive(ct_session *session, const ct_statement *statement, 
     if (format == NULL || format->pack == NULL)
         return CT_OK;
     session_begin(session);
-    CHECK(read_form(session, s, true, &what, &diag));
-    CHECK(prepare(session, s, format->need, &sheet, &items, &what, &diag));
+    CHECK(read_form(session, s, format, &what, &diag));
+    CHECK(prepare(session, s, format, &sheet, &items, &what, &diag));
     CHECK(format->pack(&what, &archive, &diag));
     *out = (ct_archive *)(void *)archive;
 done:
@@ -706,6 +613,11 @@ done:
 static const Archive *archive_of(const ct_archive *archive)
 {
     return (const Archive *)(const void *)archive;
+}
+
+bool ct_archive_is_zip(const ct_archive *archive)
+{
+    return !archive_of(archive)->is_plain;
 }
 
 bool ct_archive_file(const ct_archive *archive, int i, const char **name, const char **bytes,
@@ -763,12 +675,12 @@ ct_status ct_export(ct_session *session, const ct_statement *statement, bool wit
         status = diag_at(&diag, E_NAME, s->verb_place, "no format is called '%s'", name);
         goto done;
     }
-    CHECK(read_form(session, s, false, &what, &diag));
+    CHECK(read_form(session, s, format, &what, &diag));
     if (format->write == NULL) {
         status = refuse_screen(s, &diag);
         goto done;
     }
-    CHECK(prepare(session, s, format->need, &sheet, &items, &what, &diag));
+    CHECK(prepare(session, s, format, &sheet, &items, &what, &diag));
     CHECK(format->write(&what, &out, &diag));
     *text = text_done(&out);
 done:

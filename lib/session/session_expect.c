@@ -1,0 +1,112 @@
+/* session_expect.c: expect: conditions that values have to meet */
+#include "session/session_impl.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+static bool is_comparison(const Syntax *syntax)
+{
+    return syntax->kind == SYNTAX_BINARY && syntax->text[0] != '\0' &&
+           strchr("<>=!", syntax->text[0]) != NULL;
+}
+
+static const char *at_words(char *buffer, size_t size, const double *at)
+{
+    if (at == NULL)
+        return "";
+    (void)snprintf(buffer, size, " at t = %.6g", *at);
+    return buffer;
+}
+
+static Status expect_near(ct_session *session, const Statement *s, const Syntax *left,
+                          const double *at, Diag *diag)
+{
+    double value, expected, tolerance = 0;
+    char when[48];
+    Status status;
+    Text text = {0};
+
+    CHECK(session_value_at(session, left, at, &value, diag));
+    CHECK(session_value_at(session, s->near_value, at, &expected, diag));
+    CHECK(model_check_alike(session->model, left, s->near_value, diag));
+    if (s->within != NULL) {
+        CHECK(session_value_at(session, s->within, at, &tolerance, diag));
+        CHECK(model_check_alike(session->model, left, s->within, diag));
+        CHECK(model_check_alike(session->model, s->near_value, s->within, diag));
+    }
+    if (!isfinite(value) || !isfinite(expected)) { /* never near */
+        const Syntax *undefined = isfinite(value) ? s->near_value : left;
+
+        syntax_print(&text, undefined);
+        status = diag_at(diag, E_EXPECT, undefined->place, "%s is undefined%s", text.at,
+                         at_words(when, sizeof when, at));
+    } else if (!(fabs(value - expected) <= tolerance)) {
+        syntax_print(&text, left);
+        status = diag_at(diag, E_EXPECT, left->place,
+                         "%s is %.15g%s, expected %.15g within %.3g: off by %.3g", text.at, value,
+                         at_words(when, sizeof when, at), expected, tolerance, value - expected);
+    }
+done:
+    text_free(&text);
+    return status;
+}
+
+static Status expect_condition(ct_session *session, const Syntax *condition, const double *at,
+                               Diag *diag)
+{
+    double holds, left, right;
+    char when[48];
+    Status status;
+    Text text = {0};
+
+    CHECK(session_value_at(session, condition, at, &holds, diag));
+    if (holds != 0 && !isnan(holds))
+        goto done;
+    syntax_print(&text, condition);
+    if (is_comparison(condition)) {
+        CHECK(session_value_at(session, condition->args[0], at, &left, diag));
+        CHECK(session_value_at(session, condition->args[1], at, &right, diag));
+        status = isfinite(left) && isfinite(right)
+                     ? diag_at(diag, E_EXPECT, condition->place,
+                               "%s does not hold%s: left is %.15g, right is %.15g", text.at,
+                               at_words(when, sizeof when, at), left, right)
+                     : diag_at(diag, E_EXPECT, condition->place,
+                               "%s does not hold%s: its %s side is undefined", text.at,
+                               at_words(when, sizeof when, at), isfinite(left) ? "right" : "left");
+    } else {
+        status = diag_at(diag, E_EXPECT, condition->place, "%s does not hold%s", text.at,
+                         at_words(when, sizeof when, at));
+    }
+done:
+    text_free(&text);
+    return status;
+}
+
+ct_status ct_expect(ct_session *session, const ct_statement *statement, ct_error *error)
+{
+    SESSION_CALL(session, session_ran_out(session, error));
+
+    const Statement *s = statement_of(statement);
+    double instant = 0;
+    const double *at = NULL;
+    Status status;
+    Diag diag = {0};
+
+    session_begin(session);
+    if (s->operands.count == 0) {
+        status = diag_at(&diag, E_SYNTAX, s->verb_place, "'expect' needs a condition");
+        diag_hint(&diag, "expect h8 ~ 1.05 within 1e-3 at 0.5");
+        goto done;
+    }
+    if (s->at != NULL) {
+        CHECK(session_instant(session, s->at, &instant, &diag));
+        at = &instant;
+    }
+    if (s->near_value != NULL)
+        status = expect_near(session, s, s->operands.at[0].value, at, &diag);
+    else
+        status = expect_condition(session, s->operands.at[0].value, at, &diag);
+done:
+    return session_report(status, &diag, error);
+}
