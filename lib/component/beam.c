@@ -6,21 +6,22 @@
 #include "component/component_rows.h"
 
 #include <math.h>
+#include <string.h>
 
 /* clang-format off */
 static const Param params[] = {
     {"length",             PARAM_SCALAR, "m",     NULL, "along x of the root frame, undeformed", 0},
-    {"mass_per_length",    PARAM_SCALAR, "kg/m",  NULL, "mass per length", 0},
-    {"inertia_per_length", PARAM_LIST,   "kg*m",  "",   "of the section per length: planar one number, spatial [Jx, Jy, Jz]; none: Euler-Bernoulli", 0},
-    {"EA",                 PARAM_SCALAR, "N",     "0",  "axial stiffness", 0},
-    {"EIy",                PARAM_SCALAR, "N*m^2", "0",  "bending stiffness about y, of w", 0},
-    {"EIz",                PARAM_SCALAR, "N*m^2", "0",  "bending stiffness about z, of v", 0},
-    {"GJ",                 PARAM_SCALAR, "N*m^2", "0",  "torsional stiffness", 0},
+    {"mass_per_length",    PARAM_SCALAR, "kg/m",  NULL, "mass per length", ALONG},
+    {"inertia_per_length", PARAM_LIST,   "kg*m",  "",   "of the section per length: planar one number, spatial [Jx, Jy, Jz]; none: Euler-Bernoulli", ALONG},
+    {"EA",                 PARAM_SCALAR, "N",     "0",  "axial stiffness", ALONG},
+    {"EIy",                PARAM_SCALAR, "N*m^2", "0",  "bending stiffness about y, of w", ALONG},
+    {"EIz",                PARAM_SCALAR, "N*m^2", "0",  "bending stiffness about z, of v", ALONG},
+    {"GJ",                 PARAM_SCALAR, "N*m^2", "0",  "torsional stiffness", ALONG},
     {"modes",              PARAM_LIST,   "1",     NULL, "numbers of shapes: planar [axial, y], spatial [axial, y, z, torsion]", 0},
     {"basis",              PARAM_WORD,   NULL,    "legendre|taylor|chebyshev", "polynomials that the shapes are", 0},
     {"stiffening",         PARAM_WORD,   NULL,    "full|linear|off", "what bending shortens: all of it, to first order in the shapes, or nothing", 0},
     {"damping",            PARAM_LIST,   NULL,    "",   "[alpha, beta]: -(alpha M0 + beta K) q' on the shapes", 0},
-    {"load",               PARAM_LAWS,   "N/m",   "0",  "force per length, ground axes", 0},
+    {"load",               PARAM_LAWS,   "N/m",   "0",  "force per length, ground axes", ALONG},
     EULER_PARAM,
 };
 /* clang-format on */
@@ -90,6 +91,60 @@ static Status check_modes(const Instance *instance, bool planar, Diag *diag)
     return OK;
 }
 
+/* Where it is numbers alone: a density or a stiffness is negative nowhere, and that of mass zero at
+ * single places at most. */
+static Status check_sign(const Instance *instance, const char *key, const Powers *p, Arena *arena,
+                         Diag *diag)
+{
+    enum { PLACES = 64 }; /* five of each turn of the highest power */
+    const bool is_mass = strcmp(key, "mass_per_length") == 0;
+    bool has_some = false;
+
+    for (int i = 0; i <= PLACES; i++) {
+        const Expr value = powers_at(arena, p, expr_rational(arena, i, PLACES));
+
+        if (!expr_is_number(value))
+            return OK;
+        has_some = has_some || expr_value(value) > 0;
+        if (expr_value(value) >= 0)
+            continue;
+        (void)diag_set(diag, E_VALUE, "%s of %s is negative%s: %g", key, instance->name,
+                       p->count > 1 ? " somewhere along it" : "", expr_value(value));
+        diag_hint(diag, is_mass ? "it has to be positive" : "it is zero or positive");
+        return E_VALUE;
+    }
+    if (has_some || !is_mass)
+        return OK;
+    (void)diag_set(diag, E_VALUE, "%s of %s is zero", key, instance->name);
+    diag_hint(diag, "it has to be positive");
+    return E_VALUE;
+}
+
+/* what varies along the beam is a polynomial of the place */
+static Status check_along(const Instance *instance, Arena *arena, Diag *diag)
+{
+    for (int i = 0; i < COUNT(params); i++) {
+        const Value *value = instance_value(instance, params[i].name);
+
+        for (int k = 0; (params[i].use & ALONG) != 0 && k < value->count; k++) {
+            const Powers p = beam_powers(instance, arena, value->at[k]);
+
+            if (p.count == 0) {
+                (void)diag_set(diag, E_VALUE, "%s: %s= is no polynomial in x", instance->name,
+                               params[i].name);
+                diag_hint(diag,
+                          "x is the place along the beam: sums of its powers up to x^%d can "
+                          "stand here; beams of other kinds are pieces welded together",
+                          MOST_POWERS - 1);
+                return E_VALUE;
+            }
+            if (params[i].kind != PARAM_LAWS)
+                TRY(check_sign(instance, params[i].name, &p, arena, diag));
+        }
+    }
+    return OK;
+}
+
 static Status check_stiffness(const Instance *instance, bool planar, Diag *diag)
 {
     static const struct {
@@ -102,7 +157,6 @@ static Status check_stiffness(const Instance *instance, bool planar, Diag *diag)
 
     beam_modes(instance, planar, modes);
     for (int f = 0; f < SHAPE_FAMILIES; f++) {
-        TRY(check_not_negative(instance, needs[f].key, diag));
         if (modes[f] > 0 && !instance_value(instance, needs[f].key)->given)
             return refuse(instance, diag, needs[f].of,
                           "give the stiffness, or take these shapes out of modes=");
@@ -122,10 +176,6 @@ static Status check_rotary(const Instance *instance, bool planar, Diag *diag)
                              : "inertia_per_length= has three entries",
                       planar ? "write inertia_per_length=J, about z"
                              : "inertia_per_length=[Jx, Jy, Jz]");
-    for (int k = 0; k < rotary->count; k++)
-        if (expr_is_number(rotary->at[k]) && expr_value(rotary->at[k]) < 0)
-            return refuse(instance, diag, "inertia_per_length= is negative",
-                          "it is zero or positive: density times second moments of the section");
     if (modes[SHAPE_PHI] > 0 && (rotary->count == 0 || expr_is_zero(rotary->at[0])))
         return refuse(instance, diag, "shapes of torsion have no inertia",
                       "give inertia_per_length=[Jx, Jy, Jz], Jx above zero");
@@ -150,8 +200,8 @@ static Status check(const Instance *instance, Arena *arena, bool planar, Diag *d
 {
     TRY(attitude_check(instance, arena, planar, diag));
     TRY(check_modes(instance, planar, diag));
+    TRY(check_along(instance, arena, diag));
     TRY(check_stiffness(instance, planar, diag));
-    TRY(check_positive(instance, "mass_per_length", diag));
     TRY(check_rotary(instance, planar, diag));
     return check_damping(instance, diag);
 }
@@ -172,8 +222,10 @@ static void doubt(const Instance *instance, bool planar, Text *out)
         }
 }
 
-static const Deforming deforming = {shape_count,  shape_coordinate, beam_unit,   beam_station,
-                                    beam_inertia, beam_has_section, beam_section};
+static const Deforming deforming = {
+    shape_count,  shape_coordinate, beam_unit,        beam_load_powers,
+    beam_station, beam_inertia,     beam_has_section, beam_section,
+};
 
 const Component component_beam = {
     .name = "beam",
@@ -201,7 +253,9 @@ const Component component_beam = {
             "(along y), w1 .. (along z) and phi1 .. (twist); the root is placed as a body is. "
             "Bending shortens the axis, which stiffens a beam that spins; stiffening=linear keeps "
             "that to first order in the shapes, off leaves it out. Frames on it are arms with at=: "
-            "arm tip b1 at=L.",
+            "arm tip b1 at=L. Mass, stiffness and load may vary along it as polynomials of x, the "
+            "place: "
+            "EIz=100*(1 - x/2)^3.",
     .example = "scene planar\nbeam b1 length=1 mass_per_length=2 EIz=100 modes=[0, 2]\n"
                "weld w1 ground b1\narm tip b1 at=1\nforce F1 tip [0, 1]\nequilibrium\n"
                "print tip.y",

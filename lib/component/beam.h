@@ -11,6 +11,14 @@ typedef enum ShapeFamily { SHAPE_U, SHAPE_V, SHAPE_W, SHAPE_PHI, SHAPE_FAMILIES 
 
 enum { MOST_SHAPES = 16 }; /* of a family */
 
+/* of the place along a beam: a key may vary as a polynomial of x, up to that degree */
+enum { MOST_POWERS = 13 };
+
+typedef struct Powers {
+    int count; /* of xi^0, xi^1 ... */
+    Expr at[MOST_POWERS];
+} Powers;
+
 typedef struct BeamShape {
     ShapeFamily family;
     Polynomial value, slope, curve; /* over xi, and its derivatives by xi */
@@ -34,6 +42,16 @@ void beam_close(Beam *beam);
 /* how many shapes of each family */
 void beam_modes(const Instance *instance, bool planar, int modes[SHAPE_FAMILIES]);
 
+/* of a value in which x is the place; no powers: it is no such polynomial */
+Powers beam_powers(const Instance *instance, Arena *arena, Expr value);
+/* of one of its keys */
+Powers beam_key(const Beam *beam, const char *key);
+Powers powers_slope(Arena *arena, const Powers *p); /* by xi */
+Expr powers_at(Arena *arena, const Powers *p, Expr xi);
+int beam_load_powers(const Instance *instance, Arena *arena);
+
+/* P_k over 0..1 */
+Polynomial beam_legendre(int k);
 Expr beam_number(Arena *arena, const mpq_t value);
 Expr beam_value_at(Arena *arena, const Polynomial *p, Expr xi);
 /* of the slopes of two shapes of one family, from 0 to xi, by xi */

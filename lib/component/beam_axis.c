@@ -121,10 +121,10 @@ static void bias_of(const Along *along, const Fields *f, Graded out[3])
 
 /* --- integrals --- */
 
-static void weigh(const Along *along, const Graded a[3], Graded out[3])
+static void weigh(const Along *along, const Weights *weights, const Graded a[3], Graded out[3])
 {
     for (int k = 0; k < 3; k++)
-        out[k] = graded_weighed(along, a[k]);
+        out[k] = graded_weighed(along, weights, a[k]);
 }
 
 static Expr cross(const Along *along, const Graded weighed[3], const Graded b[3], int i, int most)
@@ -135,20 +135,20 @@ static Expr cross(const Along *along, const Graded weighed[3], const Graded b[3]
                     graded_inner(along, weighed[k], b[j], 0, most));
 }
 
-/* the first polynomial alone has an integral over the beam */
-static Expr whole(const Along *along, Graded g, int most)
+/* the first polynomial, which is 1, with all that a density that varies leaves beside it */
+static Expr whole(const Along *along, const Weights *weights, Graded g, int most)
 {
     Expr sum = expr_int(along->arena, 0);
 
     for (int d = 0; d < ORDERS && d <= most; d++)
-        if (g.at[d] != NULL)
-            sum = expr_add(along->arena, sum, g.at[d][0]);
+        for (int l = 0; g.at[d] != NULL && l <= weights->band && l < along->length; l++)
+            sum = expr_add(along->arena, sum, expr_mul(along->arena, weights->at[l], g.at[d][l]));
     return expr_hold(along->arena, expr_mul(along->arena, along->beam->length, sum));
 }
 
 /* int (p.p 1 - p p') */
-static void add_tensor(const Along *along, const Graded weighed[3], const Graded p[3], Expr density,
-                       ShapeInertia *out)
+static void add_tensor(const Along *along, const Graded weighed[3], const Graded p[3],
+                       const Weights *weights, ShapeInertia *out)
 {
     Expr product[3][3];
 
@@ -163,22 +163,23 @@ static void add_tensor(const Along *along, const Graded weighed[3], const Graded
                                 : expr_add(along->arena, product[a][a], product[b][b]);
 
             if (!along->beam->planar || (i == 2 && j == 2))
-                beam_add(along, &out->inertia[3 * i + j], density, entry);
+                beam_add(along, &out->inertia[3 * i + j], weights->factor, entry);
         }
 }
 
 static void add_shapes(const Along *along, const Fields *f, const Graded weighed[3],
-                       const Graded bias[3], Expr density, ShapeInertia *out)
+                       const Graded bias[3], const Weights *weights, ShapeInertia *out)
 {
     const int count = along->beam->count;
+    const Expr density = weights->factor;
 
     for (int i = 0; i < count; i++) {
         Graded move[3];
 
-        weigh(along, f->move[i], move);
+        weigh(along, weights, f->move[i], move);
         for (int k = 0; k < 3; k++) {
-            out->spread_shift[3 * i + k] = whole(along, f->move[i][k], along->limit[1]);
-            beam_add(along, &out->with_shift[3 * i + k], density, out->spread_shift[3 * i + k]);
+            beam_add(along, &out->with_shift[3 * i + k], density,
+                     whole(along, weights, f->move[i][k], along->limit[1]));
             beam_add(along, &out->with_turn[3 * i + k], density,
                      cross(along, weighed, f->move[i], k, along->limit[1]));
             beam_add(along, &out->bias[i], density,
@@ -190,20 +191,45 @@ static void add_shapes(const Along *along, const Fields *f, const Graded weighed
     }
 }
 
-void beam_add_axis(const Along *along, Expr density, ShapeInertia *out)
+/* what a load of xi^power does by 1 per length */
+static void add_load(const Along *along, const Fields *f, int power, ShapeInertia *out)
+{
+    const int count = along->beam->count;
+    Powers density = {.count = power + 1};
+    Weights weights;
+
+    for (int d = 0; d <= power; d++)
+        density.at[d] = expr_int(along->arena, d == power);
+    weights = weights_of(along, &density);
+    out->extent[power] =
+        expr_mul(along->arena, expr_rational(along->arena, 1, power + 1), along->beam->length);
+    for (int k = 0; k < 3; k++) {
+        out->spread[3 * power + k] = whole(along, &weights, f->p[k], along->limit[0]);
+        for (int i = 0; i < count; i++)
+            out->spread_shift[3 * (power * count + i) + k] =
+                whole(along, &weights, f->move[i][k], along->limit[1]);
+    }
+}
+
+void beam_add_axis(const Along *along, const Powers *density, ShapeInertia *out)
 {
     const Fields f = fields_of(along);
+    const Weights weights = weights_of(along, density);
+    const int loads = beam_load_powers(along->beam->instance, along->arena);
     Graded bias[3], weighed[3];
 
     bias_of(along, &f, bias);
-    weigh(along, f.p, weighed);
-    add_tensor(along, weighed, f.p, density, out);
+    weigh(along, &weights, f.p, weighed);
+    add_tensor(along, weighed, f.p, &weights, out);
     for (int k = 0; k < 3; k++) {
-        out->spread[k] = whole(along, f.p[k], along->limit[0]);
-        beam_add(along, &out->moment[k], density, out->spread[k]);
-        beam_add(along, &out->bias_force[k], density, whole(along, bias[k], along->limit[0]));
-        beam_add(along, &out->bias_torque[k], density,
+        beam_add(along, &out->moment[k], weights.factor,
+                 whole(along, &weights, f.p[k], along->limit[0]));
+        beam_add(along, &out->bias_force[k], weights.factor,
+                 whole(along, &weights, bias[k], along->limit[0]));
+        beam_add(along, &out->bias_torque[k], weights.factor,
                  cross(along, weighed, bias, k, along->limit[0]));
     }
-    add_shapes(along, &f, weighed, bias, density, out);
+    add_shapes(along, &f, weighed, bias, &weights, out);
+    for (int power = 0; power < loads; power++)
+        add_load(along, &f, power, out);
 }

@@ -136,22 +136,6 @@ Graded graded_times(const Along *along, Graded a, Graded b)
     return graded_hold(along, out);
 }
 
-Expr graded_integral(const Along *along, Graded g, int from, int most)
-{
-    Arena *arena = along->arena;
-    Expr sum = expr_int(arena, 0);
-
-    for (int d = from; d < ORDERS && d <= most; d++)
-        for (int k = 0; g.at[d] != NULL && k < along->length; k++)
-            sum = expr_add(arena, sum,
-                           expr_mul(arena,
-                                    along->basis == BASIS_POWERS
-                                        ? expr_rational(arena, 1, k + 1)
-                                        : expr_real(arena, along->weights[k]),
-                                    g.at[d][k]));
-    return expr_hold(arena, expr_mul(arena, along->beam->length, sum));
-}
-
 Graded graded_constant(const Along *along, int value)
 {
     Polynomial one = polynomial_power(0);
@@ -162,10 +146,92 @@ Graded graded_constant(const Along *along, int value)
     return graded_scaled(along, expr_int(along->arena, value), g);
 }
 
-/* L/(2 m + 1) of each coefficient: what the square of P_m comes to over the beam */
-Graded graded_weighed(const Along *along, Graded g)
+/* --- integrals --- */
+
+static Expr scaled_by(const Along *along, const mpq_t number, Expr power)
+{
+    return expr_mul(along->arena, beam_number(along->arena, number), power);
+}
+
+/* int_0^1 P_m P_l density */
+static Expr between(const Along *along, const Polynomial *m, const Polynomial *l,
+                    const Powers *density)
+{
+    Expr sum = expr_int(along->arena, 0);
+    mpq_t own;
+
+    mpq_init(own);
+    for (int d = 0; d < density->count; d++) {
+        polynomial_integral(m, l, d, own);
+        sum = expr_add(along->arena, sum, scaled_by(along, own, density->at[d]));
+    }
+    mpq_clear(own);
+    return sum;
+}
+
+static void weigh_legendre(const Along *along, const Powers *density, Weights *out)
+{
+    Polynomial *legendre = NEW_ARRAY(Polynomial, along->length);
+    const int row = out->band + 1;
+
+    for (int m = 0; m < along->length; m++)
+        legendre[m] = beam_legendre(m);
+    for (int m = 0; m < along->length; m++)
+        for (int b = 0; b < row && m + b < along->length; b++)
+            out->at[m * row + b] =
+                expr_hold(along->arena, between(along, &legendre[m], &legendre[m + b], density));
+    for (int m = 0; m < along->length; m++)
+        polynomial_free(&legendre[m]);
+    mem_free(legendre);
+}
+
+/* of the part k: int xi^k density, or its value at a point */
+static Expr weight_of(const Along *along, const Powers *density, int k)
 {
     Arena *arena = along->arena;
+    Expr sum = expr_int(arena, 0);
+
+    if (along->basis == BASIS_POINTS)
+        return expr_mul(arena, expr_real(arena, along->weights[k]),
+                        powers_at(arena, density, expr_real(arena, along->points[k])));
+    for (int d = 0; d < density->count; d++)
+        sum = expr_add(arena, sum,
+                       expr_mul(arena, expr_rational(arena, 1, k + d + 1), density->at[d]));
+    return sum;
+}
+
+Weights weights_of(const Along *along, const Powers *density)
+{
+    const Expr one = expr_int(along->arena, 1);
+    const Powers even = {1, {one}};
+    const bool varies = density->count > 1;
+    Weights out = {.factor = varies ? one : density->at[0], .band = density->count - 1};
+
+    out.at =
+        pool_alloc(along->pool, (size_t)along->length * (size_t)density->count * sizeof *out.at);
+    if (along->basis == BASIS_LEGENDRE)
+        weigh_legendre(along, varies ? density : &even, &out);
+    else
+        for (int k = 0; k < along->length; k++)
+            out.at[k] = expr_hold(along->arena, weight_of(along, varies ? density : &even, k));
+    return out;
+}
+
+Expr graded_integral(const Along *along, const Weights *weights, Graded g, int from, int most)
+{
+    Arena *arena = along->arena;
+    Expr sum = expr_int(arena, 0);
+
+    for (int d = from; d < ORDERS && d <= most; d++)
+        for (int k = 0; g.at[d] != NULL && k < along->length; k++)
+            sum = expr_add(arena, sum, expr_mul(arena, weights->at[k], g.at[d][k]));
+    return expr_hold(arena, expr_mul(arena, along->beam->length, sum));
+}
+
+Graded graded_weighed(const Along *along, const Weights *weights, Graded g)
+{
+    Arena *arena = along->arena;
+    const int band = weights->band;
     Graded out = {{NULL}};
 
     for (int d = 0; d < ORDERS; d++) {
@@ -173,9 +239,13 @@ Graded graded_weighed(const Along *along, Graded g)
             continue;
         out.at[d] = parts_new(along);
         for (int m = 0; m < along->length; m++)
-            out.at[d][m] = expr_mul(
-                arena, expr_mul(arena, expr_rational(arena, 1, 2 * m + 1), along->beam->length),
-                g.at[d][m]);
+            for (int l = m > band ? m - band : 0; l <= m + band && l < along->length; l++) {
+                const int first = l < m ? l : m, apart = l < m ? m - l : l - m;
+                const Expr weight =
+                    expr_mul(arena, weights->at[first * (band + 1) + apart], along->beam->length);
+
+                out.at[d][m] = expr_add(arena, out.at[d][m], expr_mul(arena, weight, g.at[d][l]));
+            }
     }
     return graded_hold(along, out);
 }

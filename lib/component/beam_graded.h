@@ -41,11 +41,21 @@ Graded graded_scaled(const Along *along, Expr scale, Graded a);
 Graded graded_constant(const Along *along, int value);
 /* not in BASIS_LEGENDRE */
 Graded graded_times(const Along *along, Graded a, Graded b);
-/* over x from 0 to L, of orders from..most */
-Expr graded_integral(const Along *along, Graded g, int from, int most);
+
+/* What integrals over the beam are weighed with: a density. One that is constant is a factor
+ * outside of them. */
+typedef struct Weights {
+    Expr factor;
+    int band; /* in BASIS_LEGENDRE: of a symmetric matrix, (m, m + b) at m (band + 1) + b */
+    Expr *at; /* of each part else; over xi */
+} Weights;
+
+Weights weights_of(const Along *along, const Powers *density);
+/* Over x from 0 to L, of orders from..most. The factor is left to beam_add(). */
+Expr graded_integral(const Along *along, const Weights *weights, Graded g, int from, int most);
 /* The same of a product, in BASIS_LEGENDRE, whose polynomials are orthogonal: one of the two comes
  * from graded_weighed(). */
-Graded graded_weighed(const Along *along, Graded g);
+Graded graded_weighed(const Along *along, const Weights *weights, Graded g);
 Expr graded_inner(const Along *along, Graded weighed, Graded g, int from, int most);
 
 /* to += factor what */
@@ -54,8 +64,8 @@ void beam_add(const Along *along, Expr *to, Expr factor, Expr what);
 int beam_angle(const BeamShape *shape);
 
 /* d'Alembert's forces of the axis, of mass_per_length= */
-void beam_add_axis(const Along *along, Expr density, ShapeInertia *out);
+void beam_add_axis(const Along *along, const Powers *density, ShapeInertia *out);
 /* of the sections' turning, of inertia_per_length= */
-void beam_add_rotary(const Along *along, const Expr J[3], ShapeInertia *out);
+void beam_add_rotary(const Along *along, const Powers J[3], ShapeInertia *out);
 
 #endif

@@ -8,20 +8,24 @@
 
 enum { MOST_EXACT = 3 }; /* degree of sections' angles with which integrals are written out */
 
-static Expr gram(const Along *along, const Polynomial *a, const Polynomial *b, int power)
+/* int density a b over xi, times a power of the length */
+static Expr gram(const Along *along, const Powers *density, const Polynomial *a,
+                 const Polynomial *b, int power)
 {
-    Expr number;
+    Arena *arena = along->arena;
+    Expr entry = expr_int(arena, 0);
     mpq_t sum;
 
     mpq_init(sum);
-    polynomial_integral(a, b, 0, sum);
-    number = beam_number(along->arena, sum);
+    for (int d = 0; d < density->count; d++) {
+        polynomial_integral(a, b, d, sum);
+        beam_add(along, &entry, density->at[d], beam_number(arena, sum));
+    }
     mpq_clear(sum);
-    return expr_mul(along->arena, number,
-                    expr_pow(along->arena, along->beam->length, expr_int(along->arena, power)));
+    return expr_mul(arena, entry, expr_pow(arena, along->beam->length, expr_int(arena, power)));
 }
 
-static Expr mass_entry(const Along *along, int i, int j, Expr density, const Expr J[3])
+static Expr mass_entry(const Along *along, int i, int j, const Powers *density, const Powers J[3])
 {
     const BeamShape *a = &along->beam->shapes[i], *b = &along->beam->shapes[j];
     const int t = beam_angle(a);
@@ -30,37 +34,41 @@ static Expr mass_entry(const Along *along, int i, int j, Expr density, const Exp
     if (a->family != b->family)
         return sum;
     if (a->family != SHAPE_PHI)
-        beam_add(along, &sum, density, gram(along, &a->value, &b->value, 1));
+        sum = expr_add(along->arena, sum, gram(along, density, &a->value, &b->value, 1));
     if (t == 0)
-        beam_add(along, &sum, J[0], gram(along, &a->value, &b->value, 1));
+        sum = expr_add(along->arena, sum, gram(along, &J[0], &a->value, &b->value, 1));
     else if (t > 0)
-        beam_add(along, &sum, J[t], gram(along, &a->slope, &b->slope, -1));
+        sum = expr_add(along->arena, sum, gram(along, &J[t], &a->slope, &b->slope, -1));
     return sum;
 }
 
-static Expr stiffness_entry(const Along *along, int i, int j)
+static Expr stiffness_entry(const Along *along, const Powers stiffness[SHAPE_FAMILIES], int i,
+                            int j)
 {
-    static const char *const keys[SHAPE_FAMILIES] = {"EA", "EIz", "EIy", "GJ"};
     const BeamShape *a = &along->beam->shapes[i], *b = &along->beam->shapes[j];
-    Expr entry;
 
     if (a->family != b->family)
         return expr_int(along->arena, 0);
-    entry = beam_bends(a) ? gram(along, &a->curve, &b->curve, -3)
-                          : gram(along, &a->slope, &b->slope, -1);
-    return expr_mul(along->arena, instance_scalar(along->beam->instance, keys[a->family]), entry);
+    return beam_bends(a) ? gram(along, &stiffness[a->family], &a->curve, &b->curve, -3)
+                         : gram(along, &stiffness[a->family], &a->slope, &b->slope, -1);
 }
 
-static void add_constants(const Along *along, Expr density, const Expr J[3], ShapeInertia *out)
+static void add_constants(const Along *along, const Powers *density, const Powers J[3],
+                          ShapeInertia *out)
 {
+    static const char *const keys[SHAPE_FAMILIES] = {"EA", "EIz", "EIy", "GJ"};
     Arena *arena = along->arena;
     const Value *damping = instance_value(along->beam->instance, "damping");
     const int count = along->beam->count;
     const Expr *q = along->state->q, *rate = along->state->rate;
+    Powers stiffness[SHAPE_FAMILIES];
 
+    for (int f = 0; f < SHAPE_FAMILIES; f++)
+        stiffness[f] = beam_key(along->beam, keys[f]);
     for (int i = 0; i < count; i++)
         for (int j = 0; j < count; j++) {
-            Expr m = mass_entry(along, i, j, density, J), k = stiffness_entry(along, i, j);
+            Expr m = mass_entry(along, i, j, density, J),
+                 k = stiffness_entry(along, stiffness, i, j);
             Expr bent = expr_mul(arena, k, q[j]), lost = expr_int(arena, 0);
 
             if (j <= i)
@@ -121,36 +129,53 @@ static void find_degrees(const Beam *beam, int *axis, int *angles)
     }
 }
 
+/* what each power of a load is, by the components of the load */
+static void spread_load(const Beam *beam, ShapeInertia *out)
+{
+    const Value *load = instance_value(beam->instance, "load");
+    const int count = beam_load_powers(beam->instance, beam->arena);
+
+    for (int k = 0; k < 3; k++) {
+        const Powers own = beam_powers(beam->instance, beam->arena, load->at[k]);
+
+        for (int p = 0; p < count; p++)
+            out->load[3 * p + k] = p < own.count ? own.at[p] : expr_int(beam->arena, 0);
+    }
+}
+
 void beam_inertia(const Instance *instance, Arena *arena, bool planar, const ShapeState *state,
                   ShapeInertia *out)
 {
     const Value *rotary = instance_value(instance, "inertia_per_length");
-    const Value *load = instance_value(instance, "load");
-    const Expr density = instance_scalar(instance, "mass_per_length");
-    const Expr zero = expr_int(arena, 0);
-    Expr J[3] = {zero, zero, zero};
+    const Powers none = {1, {expr_int(arena, 0)}};
+    Powers density, J[3] = {none, none, none};
     Beam beam = beam_open(instance, arena, planar);
+    Polynomial one = polynomial_power(0);
     Pool *pool = pool_new(0);
-    int degree, turned;
+    int degree, turned, varies = 0;
     Along along;
 
     find_degrees(&beam, &degree, &turned);
     along = along_of(&beam, state, pool, BASIS_LEGENDRE, degree);
     clear_all(&along, out);
-    for (int k = 0; k < rotary->count && k < 3; k++)
-        J[planar ? 2 : k] = rotary->at[k];
-    out->mass = expr_mul(arena, density, beam.length);
-    out->length = load->given ? beam.length : NULL;
-    for (int k = 0; k < 3; k++)
-        out->load[k] = load->given && k < load->count ? load->at[k] : zero;
-    beam_add_axis(&along, density, out);
-    add_constants(&along, density, J, out);
+    density = beam_key(&beam, "mass_per_length");
+    for (int k = 0; k < rotary->count && k < 3; k++) {
+        J[planar ? 2 : k] = beam_powers(instance, arena, rotary->at[k]);
+        varies = J[planar ? 2 : k].count > varies ? J[planar ? 2 : k].count : varies;
+    }
+    out->mass = gram(&along, &density, &one, &one, 1);
+    spread_load(&beam, out);
+    beam_add_axis(&along, &density, out);
+    add_constants(&along, &density, J, out);
     if (rotary->count > 0) { /* products of up to four angles */
-        along = along_of(&beam, state, pool, turned <= MOST_EXACT ? BASIS_POWERS : BASIS_POINTS,
-                         4 * turned);
+        const Basis basis = turned <= MOST_EXACT ? BASIS_POWERS : BASIS_POINTS;
+
+        along = along_of(&beam, state, pool, basis,
+                         4 * turned + (basis == BASIS_POINTS ? varies - 1 : 0));
         beam_add_rotary(&along, J, out);
     }
     finish_block(&along, out);
+    polynomial_free(&one);
     pool_free(pool);
     beam_close(&beam);
 }

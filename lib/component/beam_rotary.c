@@ -131,12 +131,12 @@ static void spin_of(const Along *along, const Angles *f, Spin *spin)
 }
 
 /* of the section's component r, whose inertia per length is J */
-static void add_rotary(const Along *along, const Angles *f, const Spin *spin, int r, Expr J,
-                       ShapeInertia *out)
+static void add_rotary(const Along *along, const Angles *f, const Spin *spin, int r,
+                       const Weights *weights, ShapeInertia *out)
 {
     Arena *arena = along->arena;
     const int count = along->beam->count;
-    const Expr *w = along->state->w;
+    const Expr *w = along->state->w, J = weights->factor;
     Expr momentum[3];
 
     for (int s = 0; s < 3; s++) {
@@ -145,12 +145,13 @@ static void add_rotary(const Along *along, const Angles *f, const Spin *spin, in
 
         for (int t = 0; t < 3; t++)
             beam_add(along, &out->inertia[3 * s + t], J,
-                     graded_integral(along, graded_times(along, spin->A[r][s], spin->A[r][t]), 0,
+                     graded_integral(along, weights,
+                                     graded_times(along, spin->A[r][s], spin->A[r][t]), 0,
                                      along->limit[0]));
-        momentum[s] = graded_integral(along, graded_times(along, spin->A[r][s], spin->omega[r]), 0,
-                                      along->limit[0]);
+        momentum[s] = graded_integral(
+            along, weights, graded_times(along, spin->A[r][s], spin->omega[r]), 0, along->limit[0]);
         beam_add(along, &out->bias_torque[s], J,
-                 graded_integral(along, torque, 0, along->limit[0]));
+                 graded_integral(along, weights, torque, 0, along->limit[0]));
     }
     for (int s = 0; s < 3; s++) {
         const int a = (s + 1) % 3, b = (s + 2) % 3;
@@ -169,10 +170,11 @@ static void add_rotary(const Along *along, const Angles *f, const Spin *spin, in
         push = graded_plus(along, graded_times(along, spin->left[r][k], spin->omega[r]), 1,
                            graded_times(along, spin->C[r][k], spin->rest[r]));
         beam_add(along, &out->bias[i], J,
-                 graded_integral(along, graded_times(along, f->turn[i], push), 0, along->limit[1]));
+                 graded_integral(along, weights, graded_times(along, f->turn[i], push), 0,
+                                 along->limit[1]));
         for (int s = 0; s < 3; s++)
             beam_add(along, &out->with_turn[3 * i + s], J,
-                     graded_integral(along, graded_times(along, own, spin->A[r][s]), 0,
+                     graded_integral(along, weights, graded_times(along, own, spin->A[r][s]), 0,
                                      along->limit[1]));
         for (int j = 0; j <= i; j++) {
             const int l = beam_angle(&along->beam->shapes[j]);
@@ -181,20 +183,23 @@ static void add_rotary(const Along *along, const Angles *f, const Spin *spin, in
                 beam_add(
                     along, &out->block[i * count + j], J,
                     graded_integral(
-                        along,
+                        along, weights,
                         graded_times(along, own, graded_times(along, spin->C[r][l], f->turn[j])), 1,
                         along->limit[2]));
         }
     }
 }
 
-void beam_add_rotary(const Along *along, const Expr J[3], ShapeInertia *out)
+void beam_add_rotary(const Along *along, const Powers J[3], ShapeInertia *out)
 {
     const Angles f = angles_of(along);
     Spin spin = {0};
 
     spin_of(along, &f, &spin);
     for (int r = 0; r < 3; r++)
-        if (!expr_is_zero(J[r]))
-            add_rotary(along, &f, &spin, r, J[r], out);
+        if (J[r].count > 1 || !expr_is_zero(J[r].at[0])) {
+            const Weights weights = weights_of(along, &J[r]);
+
+            add_rotary(along, &f, &spin, r, &weights, out);
+        }
 }

@@ -50,14 +50,24 @@ SectionForce beam_has_section(const Instance *instance, bool planar, const char 
     return modes[section->family] > 0 ? SECTION_TOLD : SECTION_RIGID;
 }
 
-static Expr derivative_at(Arena *arena, const BeamShape *shape, int order, Expr xi)
+/* by xi: EA u', EI v'', or minus the derivative of the latter */
+static Expr strained(const Beam *beam, const Section *section, const BeamShape *shape,
+                     const Powers *stiffness, Expr xi)
 {
-    Polynomial third = polynomial_slope(&shape->curve);
-    const Polynomial *const derivatives[] = {&shape->value, &shape->slope, &shape->curve, &third};
-    const Expr value = beam_value_at(arena, derivatives[order], xi);
+    Arena *arena = beam->arena;
+    const bool bends = beam_bends(shape);
+    const Polynomial *curve = bends ? &shape->curve : &shape->slope;
+    Polynomial third = polynomial_slope(curve);
+    const Powers graded = powers_slope(arena, stiffness);
+    const Expr value = beam_value_at(arena, curve, xi), next = beam_value_at(arena, &third, xi);
+    const Expr held = powers_at(arena, stiffness, xi);
+    Expr out = expr_mul(arena, held, value);
 
     polynomial_free(&third);
-    return value;
+    if (section->order > 2)
+        out = expr_add(arena, expr_mul(arena, held, next),
+                       expr_mul(arena, powers_at(arena, &graded, xi), value));
+    return out;
 }
 
 Expr beam_section(const Instance *instance, Arena *arena, bool planar, const char *name, Expr at,
@@ -65,18 +75,16 @@ Expr beam_section(const Instance *instance, Arena *arena, bool planar, const cha
 {
     const Section *section = section_named(planar, name);
     Beam beam = beam_open(instance, arena, planar);
+    const Powers stiffness = beam_key(&beam, section->stiffness);
     const Expr xi = expr_div(arena, at, beam.length);
     Expr sum = expr_int(arena, 0);
 
-    for (int i = 0; i < beam.count; i++) {
-        const BeamShape *shape = &beam.shapes[i];
-
-        if (shape->family == section->family)
-            sum = expr_add(
-                arena, sum,
-                expr_mul(arena, derivative_at(arena, shape, section->order, xi), state->q[i]));
-    }
-    sum = expr_mul(arena, instance_scalar(instance, section->stiffness), sum);
+    for (int i = 0; i < beam.count; i++)
+        if (beam.shapes[i].family == section->family)
+            sum =
+                expr_add(arena, sum,
+                         expr_mul(arena, strained(&beam, section, &beam.shapes[i], &stiffness, xi),
+                                  state->q[i]));
     for (int i = 0; i < section->order; i++)
         sum = expr_div(arena, sum, beam.length);
     beam_close(&beam);

@@ -31,6 +31,57 @@ bool beam_bends(const BeamShape *shape)
     return shape->family == SHAPE_V || shape->family == SHAPE_W;
 }
 
+/* --- what varies along the beam --- */
+
+Powers beam_powers(const Instance *instance, Arena *arena, Expr value)
+{
+    const Expr x = expr_symbol(arena, "x", SYMBOL_ARGUMENT),
+               length = instance_scalar(instance, "length");
+    Powers powers;
+
+    powers.count = expr_powers(arena, value, x, powers.at, MOST_POWERS);
+    for (int k = 1; k < powers.count; k++)
+        powers.at[k] = expr_mul(arena, powers.at[k], expr_pow(arena, length, expr_int(arena, k)));
+    return powers;
+}
+
+Powers beam_key(const Beam *beam, const char *key)
+{
+    return beam_powers(beam->instance, beam->arena, instance_scalar(beam->instance, key));
+}
+
+Powers powers_slope(Arena *arena, const Powers *p)
+{
+    Powers out = {1, {expr_int(arena, 0)}};
+
+    for (int k = 1; k < p->count; k++)
+        out.at[k - 1] = expr_mul(arena, expr_int(arena, k), p->at[k]);
+    out.count = p->count > 1 ? p->count - 1 : 1;
+    return out;
+}
+
+Expr powers_at(Arena *arena, const Powers *p, Expr xi)
+{
+    Expr sum = expr_int(arena, 0);
+
+    for (int k = p->count - 1; k >= 0; k--)
+        sum = expr_add(arena, expr_mul(arena, sum, xi), p->at[k]);
+    return sum;
+}
+
+int beam_load_powers(const Instance *instance, Arena *arena)
+{
+    const Value *load = instance_value(instance, "load");
+    int most = 0;
+
+    for (int k = 0; load->given && k < load->count; k++) {
+        const Powers own = beam_powers(instance, arena, load->at[k]);
+
+        most = own.count > most ? own.count : most;
+    }
+    return most;
+}
+
 /* --- families --- */
 
 /* The k-th of orthogonal polynomials over 0..1 by their recurrence in z = 2 xi - 1, from 1 and z:
@@ -158,6 +209,11 @@ double beam_unit(const Instance *instance, bool planar, int i)
     shape_close(&shape);
     exact_end();
     return 1 / most;
+}
+
+Polynomial beam_legendre(int k)
+{
+    return orthogonal(k, true);
 }
 
 Polynomial beam_shortening(const BeamShape *a, const BeamShape *b)

@@ -40,7 +40,8 @@ typedef enum ParamUse {
     GIVES_SOURCE = 2, /* across or through, whatever the rest of the network does */
     GIVES_LOAD = 4,   /* an effort that acts on bodies from outside */
     GIVES = GIVES_SOURCE | GIVES_LOAD,
-    ALIKE = 8 /* those of a row that have it are subtracted: of one dimension, whichever */
+    ALIKE = 8, /* those of a row that have it are subtracted: of one dimension, whichever */
+    ALONG = 16 /* may vary along the part: x in it is the place, of whose powers it is made */
 } ParamUse;
 
 typedef struct Param {
@@ -147,7 +148,10 @@ typedef struct Station { /* a frame on it */
     ROW(with_shift, 3 * count)                                                                     \
     ROW(with_turn, 3 * count)                                                                      \
     ROW(block, count *count)                                                                       \
-    ROW(bias, count) ROW(push, count) ROW(stress, count) ROW(spread_shift, 3 * count)
+    ROW(bias, count) ROW(push, count) ROW(stress, count)
+/* of a load that is a sum of `powers` powers of xi, the place along the part over its length */
+#define SHAPE_ARRAYS_OF_LOAD(ROW)                                                                  \
+    ROW(extent, powers) ROW(spread, 3 * powers) ROW(spread_shift, 3 * powers * count)
 
 /* Its local block over the acceleration a of the root, its angular acceleration and q'', less a
  * field of weight g: force = mass (a - g) + alpha x moment + sum with_shift q'' + bias_force, and
@@ -157,13 +161,13 @@ typedef struct ShapeInertia {
     Expr *with_shift, *with_turn; /* shapes x 3 */
     Expr *block;                  /* shapes x shapes */
     Expr bias_force[3], bias_torque[3], *bias;
-    Expr *push;     /* of elasticity and damping */
-    Expr *stress;   /* of elasticity alone */
-    Expr stored;    /* in elasticity */
-    Expr length;    /* along which a load spreads; NULL: there is none */
-    Expr load[3];   /* per length, ground axes, over the user's variables */
-    Expr spread[3]; /* its first moment */
-    Expr *spread_shift;
+    Expr *push;         /* of elasticity and damping */
+    Expr *stress;       /* of elasticity alone */
+    Expr stored;        /* in elasticity */
+    Expr *load;         /* per length, ground axes, over the user's variables: powers x 3 */
+    Expr *extent;       /* what each power comes to along the part, */
+    Expr *spread;       /* its first moment, powers x 3, */
+    Expr *spread_shift; /* and what moves it: powers x shapes x 3 */
 } ShapeInertia;
 
 typedef enum SectionForce {
@@ -177,6 +181,8 @@ typedef struct Deforming {
     CoordinateRow (*coordinate)(const Instance *instance, bool planar, int i);
     /* how much of a shape's coordinate moves no point by more than 1 m, or turns none by 1 rad */
     double (*unit)(const Instance *instance, bool planar, int i);
+    /* in how many powers of the place its load varies; 0: there is none */
+    int (*load_powers)(const Instance *instance, Arena *arena);
     /* `at`: along it, from its root; its arrays have room for all shapes */
     void (*station)(const Instance *instance, Arena *arena, bool planar, Expr at,
                     const ShapeState *state, Station *out);

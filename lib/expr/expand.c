@@ -1,6 +1,9 @@
 /* expand.c: products of sums multiplied out */
 #include "expr/expr_impl.h"
 
+#include <limits.h>
+#include <math.h>
+
 typedef struct Expand {
     unsigned kinds; /* sums without symbols of these kinds stay as they are */
     int limit;      /* of terms */
@@ -100,4 +103,51 @@ Expr expr_expand_over(Arena *arena, Expr e, unsigned kinds, int limit, bool *kep
 
     *kept = expand.kept;
     return expanded;
+}
+
+/* how often x is a factor of a term; -1: as something else than a whole power */
+static int power_in(Expr term, Expr x)
+{
+    int power = 0;
+
+    if (!expr_depends(term, x))
+        return 0;
+    if (term == x)
+        return 1;
+    if (term->kind == EXPR_POWER && node_args(term)[0] == x) {
+        const Expr exponent = node_args(term)[1];
+        const double value = expr_is_number(exponent) ? expr_value(exponent) : -1;
+
+        return value >= 0 && value < INT_MAX && value == floor(value) ? (int)value : -1;
+    }
+    for (int i = 0; term->kind == EXPR_PRODUCT && i < term->count; i++) {
+        const int own = power_in(node_args(term)[i], x);
+
+        if (own < 0)
+            return -1;
+        power += own;
+    }
+    return term->kind == EXPR_PRODUCT ? power : -1;
+}
+
+int expr_powers(Arena *arena, Expr e, Expr x, Expr *out, int most)
+{
+    enum { MOST_TERMS = 4096 };
+    const Expr sum = expr_expand_over(arena, e, 1U << SYMBOL_ARGUMENT, MOST_TERMS, &(bool){false});
+    const int terms = sum->kind == EXPR_SUM ? sum->count : 1;
+    int count = 1;
+
+    for (int k = 0; k < most; k++)
+        out[k] = expr_int(arena, 0);
+    for (int i = 0; i < terms; i++) {
+        const Expr term = sum->kind == EXPR_SUM ? node_args(sum)[i] : sum;
+        const int power = power_in(term, x);
+
+        if (power < 0 || power >= most)
+            return 0;
+        out[power] = expr_add(arena, out[power],
+                              expr_div(arena, term, expr_pow(arena, x, expr_int(arena, power))));
+        count = power + 1 > count ? power + 1 : count;
+    }
+    return count;
 }

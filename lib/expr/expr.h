@@ -235,6 +235,9 @@ Expr expr_expand(Arena *arena, Expr e, int limit);
 /* The same for sums that hold a symbol of a kind in `kinds` (bits as of expr_kinds()); other sums
  * are factors as they stand, and *kept tells whether there are any. */
 Expr expr_expand_over(Arena *arena, Expr e, unsigned kinds, int limit, bool *kept);
+/* The coefficients of powers of x, an argument, that `e` is a polynomial in: how many, up to
+ * `most`; 0: it isn't one, or of a higher degree. */
+int expr_powers(Arena *arena, Expr e, Expr x, Expr *out, int most);
 
 /* For the recursive form: sines and cosines of sums of angles from those of the parts, where each
  * group of roots that needs them computes these anyway: no group takes more functions. Groups (at

@@ -377,6 +377,10 @@ static bool is_law(ParamKind kind)
 
 Status param_read(Scope *scope, Wanted wanted, const Syntax *syntax, Value *out, Diag *diag)
 {
+    static const char *const place[] = {"x"};
+
+    scope->arguments = place;
+    scope->argument_count = (wanted.param->use & ALONG) != 0 ? COUNT(place) : 0;
     if (scope->kind != SCOPE_DRIVE)
         scope->kind = is_law(wanted.param->kind) ? SCOPE_EFFORT : SCOPE_NUMBER;
     TRY(readers[wanted.param->kind](scope, &wanted, syntax, out, diag));

@@ -15,6 +15,7 @@ typedef struct Renaming {
     Pool *pool;
     const Statement *statement; /* a law's arguments hide other names */
     Diag *diag;
+    bool along; /* x is the place along a part */
 } Renaming;
 
 static const Use *use_of(const Renaming *r)
@@ -39,7 +40,7 @@ static bool is_argument(const Renaming *r, const char *name)
     for (int i = 0; i < r->statement->argument_count; i++)
         if (strcmp(r->statement->arguments[i], name) == 0)
             return true;
-    return false;
+    return r->along && strcmp(name, "x") == 0;
 }
 
 static bool is_known(const State *state, const char *name)
@@ -228,12 +229,14 @@ static bool is_axis(const Syntax *syntax)
 static Status rename_value(const Renaming *r, const Param *param, Syntax *syntax)
 {
     const ParamKind kind = param != NULL ? param->kind : PARAM_SCALAR;
+    Renaming inside = *r;
 
     if (kind == PARAM_WORD || ((kind == PARAM_AXIS || kind == PARAM_AXES) && is_axis(syntax)))
         return OK;
     for (int i = 0; kind == PARAM_AXES && syntax->kind == SYNTAX_VECTOR && i < syntax->count; i++)
         TRY(rename_value(r, param, syntax->args[i]));
-    return kind == PARAM_AXES && syntax->kind == SYNTAX_VECTOR ? OK : rename_in(r, syntax);
+    inside.along = param != NULL && (param->use & ALONG) != 0;
+    return kind == PARAM_AXES && syntax->kind == SYNTAX_VECTOR ? OK : rename_in(&inside, syntax);
 }
 
 /* a terminal of its own may be new */
@@ -394,7 +397,7 @@ static void copy_trees(Renaming *r, const Statement *from, Statement *to)
 Status statement_rename(State *state, int use, const Statement *statement, Pool *pool,
                         Statement *out, Diag *diag)
 {
-    Renaming r = {state, use, pool, statement, diag};
+    Renaming r = {state, use, pool, statement, diag, false};
     Text text = {0};
     Status status = OK;
 

@@ -127,6 +127,23 @@ static void operations_grow_little_faster_than_pairs_of_shapes(void)
     EXPECT(operations_of(8) < 4.2 * few);
 }
 
+/* x is the place along the beam, whatever else has that name inside or outside */
+static void sections_vary_in_a_subsystem(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, "scene planar\nx = 7\nsubsystem blade frames=[a]\nE = 100\nx = 3\n"
+                      "beam b length=1 mass_per_length=2 - x EIz=E*(1 - x/2)^3 modes=[0, 3]"
+                      " load=[0, t*x^2]\nweld w a b\nend\nuse blade one a=ground\n"
+                      "use blade two a=ground E=400\nmodes\n");
+    EXPECT(is_near(kit_value(&kit, "modes.omega(2)"), 2 * kit_value(&kit, "modes.omega(1)"), 1e-9));
+    EXPECT_DONE(&kit, "simulate 1 rtol=1e-9 atol=1e-12\n");
+    EXPECT(is_near(kit_value(&kit, "one.w.fy at 0"), 0, 1e-12));
+    /* the load less what is left of momentum */
+    EXPECT(fabs(kit_value(&kit, "one.b.v(1)") / kit_value(&kit, "two.b.v(1)") - 4) < 0.4);
+    kit_free(&kit);
+}
+
 int main(void)
 {
     RUN(shapes_begin_at_rest_in_any_basis);
@@ -134,5 +151,6 @@ int main(void)
     RUN(shapes_that_are_not_told_stay_straight);
     RUN(tolerances_are_of_deflections);
     RUN(operations_grow_little_faster_than_pairs_of_shapes);
+    RUN(sections_vary_in_a_subsystem);
     return test_end();
 }

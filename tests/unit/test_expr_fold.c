@@ -130,6 +130,23 @@ static void sums_multiply_out_up_to_the_limit(void)
     END;
 }
 
+static void polynomials_of_an_argument_have_coefficients(void)
+{
+    BEGIN;
+    Expr s = expr_symbol(w.arena, "s", SYMBOL_ARGUMENT), out[4];
+
+    EXPECT(expr_powers(w.arena, a, s, out, 4) == 1 && out[0] == a);
+    EXPECT(expr_powers(w.arena, MUL(a, SQUARE(ADD(b, MUL(c, s)))), s, out, 4) == 3);
+    EXPECT(out[0] == MUL(a, SQUARE(b)) && out[1] == PRODUCT(INT(2), a, b, c));
+    EXPECT(out[2] == MUL(a, SQUARE(c)));
+    EXPECT(expr_powers(w.arena, SUB(SQUARE(ADD(s, a)), SQUARE(s)), s, out, 4) == 2);
+    EXPECT(expr_powers(w.arena, SQUARE(SQUARE(s)), s, out, 4) == 0);
+    EXPECT(expr_powers(w.arena, SIN(s), s, out, 4) == 0);
+    EXPECT(expr_powers(w.arena, expr_div(w.arena, a, s), s, out, 4) == 0);
+    EXPECT(expr_powers(w.arena, SQUARE(SIN(ADD(s, b))), s, out, 4) == 0);
+    END;
+}
+
 /* Products of sums of sines and cosines: what folds and collects, but multiplied out. */
 static Expr random_trig(World *world, double *value)
 {
@@ -213,6 +230,7 @@ int main(void)
     RUN(three_angles_fold_to_one);
     RUN(common_factors_are_taken_out);
     RUN(sums_multiply_out_up_to_the_limit);
+    RUN(polynomials_of_an_argument_have_coefficients);
     RUN(rewriting_keeps_values_and_saves_work);
     RUN(many_terms_find_their_partners);
     return test_end();

@@ -58,12 +58,13 @@ void elastics_build(System *system)
         Elastic elastic = {.instance = i, .node = part->head};
         ShapeInertia *block = &elastic.block;
         ShapeState state;
-        int count;
+        int count, powers;
         Vec w;
 
         if (part->row->deforming == NULL)
             continue;
         count = shapes_of(part);
+        powers = elastic.load_powers = part->row->deforming->load_powers(part, system->arena);
         elastic.first = shapes_first(system, part);
         state = shapes_state(system, part);
         w = to_root(system, &elastic,
@@ -72,10 +73,13 @@ void elastics_build(System *system)
             state.w[k] = w.at[k];
 #define NEW_ROW(name, entries) block->name = new_array(system, entries);
         SHAPE_ARRAYS_OF_SHAPES(NEW_ROW)
+        SHAPE_ARRAYS_OF_LOAD(NEW_ROW)
+        NEW_ROW(load, 3 * powers)
         part->row->deforming->inertia(part, system->arena, system->origin->planar, &state, block);
 #define HOLD_ROW(name, entries) hold_all(system, block->name, entries);
         SHAPE_ARRAYS_OF_ROOT(HOLD_ROW)
         SHAPE_ARRAYS_OF_SHAPES(HOLD_ROW)
+        SHAPE_ARRAYS_OF_LOAD(HOLD_ROW)
         LIST_PUSH(system->dynamics->elastics, elastic);
     }
 }
@@ -156,19 +160,23 @@ Status elastic_add_load(System *system, const Elastic *elastic, Loads *loads, Di
     const int count = shapes_of(&system->origin->instances[elastic->instance]);
     const Frame *frame = &system->kinematics->frames[elastic->node];
     const Rotation back = rotation_transpose(&frame->zero);
-    Vec load = vector_at(b->load);
 
-    if (b->length == NULL)
-        return OK;
-    for (int k = 0; k < 3; k++)
-        TRY(variables_resolve(system, load.at[k], &load.at[k], diag));
-    load = vec_express(system, load, 0, frame->chain);
-    load = vec_hold(arena, rotation_apply(arena, &back, load));
-    put(system, elastic, loads, vec_scale(arena, b->length, load),
-        vec_cross(arena, vector_at(b->spread), load), 1);
-    for (int i = 0; i < count; i++)
-        put_own(system, elastic, loads, i,
-                vec_dot(arena, vector_at(b->spread_shift + (ptrdiff_t)3 * i), load), 1);
+    for (int p = 0; p < elastic->load_powers; p++) {
+        const Vec spread = vector_at(b->spread + (ptrdiff_t)3 * p);
+        Vec load = vector_at(b->load + (ptrdiff_t)3 * p);
+
+        for (int k = 0; k < 3; k++)
+            TRY(variables_resolve(system, load.at[k], &load.at[k], diag));
+        load = vec_express(system, load, 0, frame->chain);
+        load = vec_hold(arena, rotation_apply(arena, &back, load));
+        put(system, elastic, loads, vec_scale(arena, b->extent[p], load),
+            vec_cross(arena, spread, load), 1);
+        for (int i = 0; i < count; i++)
+            put_own(
+                system, elastic, loads, i,
+                vec_dot(arena, vector_at(b->spread_shift + (ptrdiff_t)3 * (p * count + i)), load),
+                1);
+    }
     return OK;
 }
 

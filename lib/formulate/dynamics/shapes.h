@@ -9,6 +9,7 @@
 typedef struct Elastic {
     int instance, node;
     int first; /* of its speeds */
+    int load_powers;
     ShapeInertia block;
 } Elastic;
 
