@@ -280,6 +280,11 @@ typedef struct ct_column {
 ct_status ct_columns(ct_session *session, const ct_expression *const *items, int count,
                      double every, ct_column **out, int *columns, int *rows, ct_error *error);
 void ct_columns_free(ct_column *columns); /* NULL is fine */
+/* The points of measured data, table("file", x, column) over a run: when x is that of a point, and
+ * the point's value in the item's unit. `values` is new, rows x 2, and so is the name for a reader;
+ * both NULL of any other item. */
+ct_status ct_measured(ct_session *session, const ct_expression *item, double **values, int *rows,
+                      char **name, ct_error *error);
 /* The keys of plot. Ranges are in what the axis shows: that of y in the unit of the first item. */
 typedef struct ct_plot {
     double x[2], y[2]; /* NAN, NAN: not given */

@@ -55,18 +55,19 @@ static void lay_out_curves(Plot *plot, const ct_statement *statement)
     plot->blocks = copy_check(calloc((size_t)plot->count + 1, sizeof *plot->blocks));
     for (int i = 0; i < plot->count; i++) {
         char *run = find_run(ct_operand(statement, i));
+        const bool measured = is_measured(ct_operand(statement, i));
         int block = 0;
 
-        while (block < plot->blocks_count && strcmp(plot->blocks[block].run, run) != 0)
+        while (block < plot->blocks_count && (measured || plot->blocks[block].measured ||
+                                              strcmp(plot->blocks[block].run, run) != 0))
             block++;
         if (block == plot->blocks_count)
-            plot->blocks[plot->blocks_count++].run = run;
+            plot->blocks[plot->blocks_count++] = (PlotBlock){.run = run, .measured = measured};
         else
             free(run);
         bars += ct_operand_sign(statement, i) == '|';
-        plot->curves[i] = (PlotCurve){.block = block,
-                                      .group = plot->keys.panels ? i : bars,
-                                      .measured = is_measured(ct_operand(statement, i))};
+        plot->curves[i] = (PlotCurve){
+            .block = block, .group = plot->keys.panels ? i : bars, .measured = measured};
     }
 }
 
@@ -75,7 +76,7 @@ static void label_columns(const Call *call, PlotBlock *block, const ct_expressio
 {
     block->labels = copy_check(calloc((size_t)block->columns + 1, sizeof *block->labels));
     for (int j = 0; j < block->columns; j++) {
-        const char *name = block->names[j];
+        const char *name = j == 1 && block->caption != NULL ? block->caption : block->names[j];
         double size = 1;
         char *unit =
             j > 0 && plot_unit(name)[0] == '\0'
@@ -89,6 +90,31 @@ static void label_columns(const Call *call, PlotBlock *block, const ct_expressio
         (void)snprintf(block->labels[j], room, unit != NULL ? "%s [%s]" : "%s", name, unit);
         ct_free(unit);
     }
+}
+
+/* Over time measured data stand where they were measured, not at the rows of the run. */
+static ct_status take_measured(const Call *call, const ct_expression *item, PlotBlock *block,
+                               ct_error *error)
+{
+    double *values = NULL;
+    char *name = NULL;
+    int rows = 0;
+    ct_status status = ct_measured(call->session, item, &values, &rows, &name, error);
+
+    if (status == CT_OK && values != NULL && rows == 0)
+        status = ct_error_at(call->statement, item, error, "the run meets no point of %s", name);
+    if (status == CT_OK && values != NULL) {
+        const char *unit = plot_unit(block->names[1]);
+
+        ct_free(block->values);
+        block->values = values;
+        block->rows = rows;
+        block->caption = copy_format("%s%s%s", name, *unit != '\0' ? " " : "", unit);
+    } else if (status != CT_OK) {
+        ct_free(values);
+    }
+    ct_free(name);
+    return status;
 }
 
 static ct_status fill_block(const Call *call, Plot *plot, int number, ct_error *error)
@@ -108,14 +134,16 @@ static ct_status fill_block(const Call *call, Plot *plot, int number, ct_error *
     ct_status status = ct_table(call->session, items, count, 0, &block->values, &block->rows,
                                 &block->columns, &block->names, error);
 
-    if (status == CT_OK)
-        label_columns(call, block, items);
-    free(items);
     if (status == CT_OK && block->rows < 2) {
         ct_error_at(call->statement, NULL, error, "there is no run to plot");
         error_hint(error, "simulate 1");
-        return CT_FAILED;
+        status = CT_FAILED;
     }
+    if (status == CT_OK && block->measured && plot->versus == NULL)
+        status = take_measured(call, items[0], block, error);
+    if (status == CT_OK)
+        label_columns(call, block, items);
+    free(items);
     return status;
 }
 
@@ -243,6 +271,7 @@ static void plot_free(Plot *plot)
         for (int j = 0; plot->blocks[i].labels != NULL && j < plot->blocks[i].columns; j++)
             free(plot->blocks[i].labels[j]);
         free(plot->blocks[i].labels);
+        free(plot->blocks[i].caption);
     }
     free(plot->blocks);
     free(plot->curves);

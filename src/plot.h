@@ -4,9 +4,11 @@
 
 #include "drawing.h"
 
-/* Items of one run share a table: column 0 is t, or the frequency. */
+/* Items of one run share a table: column 0 is t, or the frequency. Measured data have their own. */
 typedef struct PlotBlock {
     char *run; /* "run2", or "" for the last */
+    bool measured;
+    char *caption; /* of measured data: "x (file.csv)"; else NULL */
     double *values;
     int rows;
     int columns;

@@ -112,33 +112,52 @@ static const char *find_quantity(const char *unit)
 
 enum { LONGEST = 34 }; /* characters of the names at an axis */
 
-char *plot_axis_label(const Plot *plot, int panel, bool right)
+/* Names of an axis's curves that have a unit, or have none that is known: new; "" none. */
+static char *join_names(const Plot *plot, int panel, bool right, bool known)
 {
     Paper names;
-    const char *unit = NULL;
+    int count = 0;
 
     paper_open(&names);
     for (int i = 0; i < plot->count; i++) {
         const char *label = plot_label(plot, i);
         const PlotCurve *curve = &plot->curves[i];
-
-        if (curve->panel != panel || curve->right != right)
-            continue;
-
         size_t length = strlen(label) - strlen(plot_unit(label));
 
+        if (curve->panel != panel || curve->right != right || (*plot_unit(label) != '\0') != known)
+            continue;
         while (length > 0 && label[length - 1] == ' ')
             length--;
-        fprintf(names.out, "%s%.*s", unit != NULL ? ", " : "", (int)length, label);
-        unit = unit_of(plot, i);
+        fprintf(names.out, "%s%.*s", count++ > 0 ? ", " : "", (int)length, label);
     }
+    return paper_close(&names);
+}
 
-    char *all = paper_close(&names);
-    char *out = unit == NULL
-                    ? NULL
-                    : copy_format("%s %s", strlen(all) > LONGEST ? find_quantity(unit) : all, unit);
+static const char *unit_of_axis(const Plot *plot, int panel, bool right)
+{
+    for (int i = 0; i < plot->count; i++)
+        if (plot->curves[i].panel == panel && plot->curves[i].right == right)
+            return unit_of(plot, i);
+    return "";
+}
 
-    free(all);
+char *plot_axis_label(const Plot *plot, int panel, bool right)
+{
+    char *known = join_names(plot, panel, right, true);
+    char *others = join_names(plot, panel, right, false);
+    const char *unit = unit_of_axis(plot, panel, right);
+    const char *quantity = find_quantity(unit);
+    char *out = NULL;
+
+    /* a unit is told of what it is known of; a quantity stands for all */
+    if (strlen(known) + strlen(others) > LONGEST)
+        out = copy_format("%s%s%s", quantity, *unit != '\0' ? " " : "", unit);
+    else if (*known != '\0' || *others != '\0')
+        out =
+            copy_format("%s%s%s%s%s", known, *known != '\0' ? " " : "", *known != '\0' ? unit : "",
+                        *known != '\0' && *others != '\0' ? ", " : "", others);
+    free(known);
+    free(others);
     return out;
 }
 
@@ -212,7 +231,7 @@ bool plot_event(const Plot *plot, const PlotBlock *block, int i, const char **na
 {
     const int run = *block->run != '\0' ? (int)strtol(block->run + 3, NULL, 10) : 0;
 
-    if (plot->versus != NULL || plot->spectral)
+    if (plot->versus != NULL || plot->spectral || block->measured)
         return false;
     *name = ct_run_event(plot->session, run, i, times, count);
     if (*name != NULL && *count > MOST_MARKS)
@@ -220,36 +239,108 @@ bool plot_event(const Plot *plot, const PlotBlock *block, int i, const char **na
     return *name != NULL;
 }
 
-/* A line at each instant, named once. */
-static void put_event(FILE *out, const Plot *plot, const char *name, const double *times, int count,
-                      bool named)
-{
-    for (int i = 0; i < count; i++) {
-        const double t = times[i] * plot->time_scale;
+/* Names of events that stand beside their lines, in rows where they cover one another less. */
+enum { NAME_ROWS = 6 };
 
-        fprintf(out,
-                "set arrow from first %.17g, graph 0 to first %.17g, graph 1 nohead back "
-                "linecolor rgb '#909090' dashtype 3\n",
-                t, t);
-        if (i > 0 || !named)
+typedef struct EventNames {
+    double first, last; /* of the axis of t */
+    bool is_log;
+    double end[NAME_ROWS];         /* of the last name in a row, as parts of the axis */
+    const char *latest[NAME_ROWS]; /* that name */
+} EventNames;
+
+#define LETTER   0.0085 /* a letter, as a part of the axis */
+#define ROW_HIGH 0.045  /* a row, as a part of a panel that stands alone */
+
+static EventNames names_over(const Plot *plot)
+{
+    EventNames out = {.first = INFINITY, .last = -INFINITY, .is_log = plot->keys.x_is_log};
+
+    for (int b = 0; b < plot->blocks_count; b++) {
+        const PlotBlock *block = &plot->blocks[b];
+
+        if (block->measured)
             continue;
-        fputs("set label ", out);
-        put_quoted(out, name);
-        fprintf(out,
-                " at first %.17g, graph 0.98 offset 0.5,0 noenhanced textcolor rgb '#606060'\n", t);
+        out.first = fmin(out.first, block->values[0] * plot->time_scale);
+        out.last =
+            fmax(out.last, block->values[(block->rows - 1) * block->columns] * plot->time_scale);
     }
+    if (!isnan(plot->keys.x[0])) {
+        out.first = plot->keys.x[0];
+        out.last = plot->keys.x[1];
+    }
+    return out;
 }
 
+static double part_of_axis(const EventNames *names, double t)
+{
+    return names->is_log ? log(t / names->first) / log(names->last / names->first)
+                         : (t - names->first) / (names->last - names->first);
+}
+
+/* Where it covers no other name, at the left of its line where there is no room at the right. */
+static void put_name(FILE *out, const Plot *plot, EventNames *names, const char *name, double t)
+{
+    const double at = part_of_axis(names, t), wide = LETTER * ((double)strlen(name) + 2);
+    const bool left = at + wide > 1;
+    const double from = left ? at - wide : at;
+    int row = 0;
+
+    while (row < NAME_ROWS && names->latest[row] != NULL && from < names->end[row]) {
+        if (strcmp(names->latest[row], name) == 0)
+            return;
+        row++;
+    }
+    if (row == NAME_ROWS || !(at >= 0 && at <= 1))
+        return;
+    names->latest[row] = name;
+    names->end[row] = from + wide;
+    fputs("set label ", out);
+    put_quoted(out, name);
+    fprintf(out,
+            " at first %.17g, graph %.3g %s offset %s0.5,0 noenhanced textcolor rgb '#606060'\n", t,
+            0.98 - ROW_HIGH * row * plot->panels, left ? "right" : "left", left ? "-" : "");
+}
+
+typedef struct Mark {
+    double t;
+    const char *name;
+} Mark;
+
+static int compare_marks(const void *a, const void *b)
+{
+    const Mark *p = a, *q = b;
+
+    return p->t < q->t ? -1 : p->t > q->t;
+}
+
+/* A line at each instant; the first of each event of a run is named, from left to right. */
 static void put_events(FILE *out, const Plot *plot, bool named)
 {
+    EventNames names = names_over(plot);
+    Mark *marks = NULL;
     const double *times;
     const char *name;
-    int count;
+    int count, all = 0;
 
     fputs("unset arrow\nunset label\n", out);
     for (int b = 0; b < plot->blocks_count; b++)
-        for (int i = 0; plot_event(plot, &plot->blocks[b], i, &name, &times, &count); i++)
-            put_event(out, plot, name, times, count, named);
+        for (int i = 0; plot_event(plot, &plot->blocks[b], i, &name, &times, &count); i++) {
+            for (int k = 0; k < count; k++)
+                fprintf(out,
+                        "set arrow from first %.17g, graph 0 to first %.17g, graph 1 nohead back "
+                        "linecolor rgb '#909090' dashtype 3\n",
+                        times[k] * plot->time_scale, times[k] * plot->time_scale);
+            if (count == 0)
+                continue;
+            marks = copy_check(realloc(marks, (size_t)(all + 1) * sizeof *marks));
+            marks[all++] = (Mark){times[0] * plot->time_scale, name};
+        }
+    if (all > 0)
+        qsort(marks, (size_t)all, sizeof *marks, compare_marks);
+    for (int i = 0; named && i < all; i++)
+        put_name(out, plot, &names, marks[i].name, marks[i].t);
+    free(marks);
 }
 
 /* --- panels as commands --- */

@@ -1,7 +1,8 @@
-/* session_plot.c: what a plot is told by its keys, the events of a run that it marks, and a plot as
- * text */
+/* session_plot.c: what a plot is told by its keys, the events of a run that it marks, measured data
+ * that it shows, and a plot as text */
 #include "session/session_impl.h"
 
+#include "expr/curve.h"
 #include "present/chart.h"
 
 #include <math.h>
@@ -119,6 +120,116 @@ const char *ct_run_event(const ct_session *session, int run, int i, const double
     *count = record.count;
     return record.name;
 }
+
+/* --- measured data --- */
+
+typedef LIST(double) Instants;
+
+/* When x, a value a row, is that of a point, between two rows by a straight line. */
+static void find_instants(const Curve *curve, const double *times, const double *x, int rows,
+                          Instants *out)
+{
+    for (int r = 1; r < rows; r++)
+        for (int i = 0; i < curve->count; i++) {
+            const double s = (curve->data[i] - x[r - 1]) / (x[r] - x[r - 1]);
+
+            /* what lies on a row is found once */
+            if ((s > 0 || (s == 0 && r == 1)) && s <= 1)
+                LIST_PUSH(*out, times[r - 1] + s * (times[r] - times[r - 1]));
+        }
+}
+
+/* "x (file.csv)" */
+static char *measured_name(const Curve *curve)
+{
+    const bool is_number = curve->column[strspn(curve->column, "0123456789")] == '\0';
+    Text text = {0};
+
+    text_addf(&text, "%s%s (%s)", is_number ? "column " : "", curve->column, curve->file);
+    return text_done(&text);
+}
+
+/* the data of a table, wherever the formula keeps it */
+static const Curve *find_curve(const Formula *formula)
+{
+    const Curve *out = NULL;
+
+    for (int i = -1; i < formula->leaves.count && out == NULL; i++) {
+        const Expr root = i < 0 ? formula->whole : formula->leaves.at[i].expr;
+        Expr *tables = NULL;
+
+        if (root != NULL && expr_tables(&root, 1, &tables) > 0)
+            out = expr_data(tables[0]);
+        mem_free(tables);
+    }
+    return out;
+}
+
+static Status find_measured(ct_session *session, const Syntax *item, const Syntax *argument,
+                            double **values, int *rows, char **name, Diag *diag)
+{
+    Formula whole = {0}, place = {0};
+    Run *source = NULL, *grid;
+    Instants instants = {0};
+    double *x = NULL;
+    Status status = OK;
+
+    CHECK(session_last_run(session, &source, diag));
+    CHECK(formula_new(session, item, &whole, diag));
+    CHECK(formula_new(session, argument, &place, diag));
+    grid = formula_grid(session, &place, 1, source);
+
+    const int all = result_rows(grid->result);
+
+    x = NEW_ARRAY(double, all);
+    CHECK(formula_rows(session, &place, 1, grid, source, NULL, all, x, 1, 0, diag));
+
+    const Curve *curve = find_curve(&whole);
+
+    if (curve == NULL)
+        goto done;
+    find_instants(curve, result_times(grid->result), x, all, &instants);
+    *name = measured_name(curve);
+    *rows = instants.count;
+    *values = mem_array(2 * ((size_t)instants.count + 1), sizeof **values);
+    for (int i = 0; i < instants.count; i++)
+        (*values)[2 * i] = instants.at[i];
+    CHECK(formula_rows(session, &whole, 1, grid, source, instants.at, instants.count, *values, 2, 1,
+                       diag));
+done:
+    formula_free(&whole);
+    formula_free(&place);
+    LIST_FREE(instants);
+    mem_free(x);
+    if (status != OK) {
+        MEM_FREE(*values, *name);
+        *values = NULL;
+        *name = NULL;
+    }
+    return status;
+}
+
+ct_status ct_measured(ct_session *session, const ct_expression *item, double **values, int *rows,
+                      char **name, ct_error *error)
+{
+    SESSION_CALL(session, session_ran_out(session, error));
+
+    const Syntax *syntax = syntax_of(item), *call = syntax;
+    Status status = OK;
+    Diag diag = {0};
+
+    *values = NULL;
+    *name = NULL;
+    *rows = 0;
+    session_begin(session);
+    while (call->kind == SYNTAX_GROUP && call->primes == 0)
+        call = call->args[0];
+    if (call->kind == SYNTAX_CALL && strcmp(call->text, "table") == 0 && call->count > 1)
+        status = find_measured(session, syntax, call->args[1], values, rows, name, &diag);
+    return session_report(status, &diag, error);
+}
+
+/* --- as text --- */
 
 static void read_chart(const ct_chart *in, Chart *out)
 {

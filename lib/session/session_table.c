@@ -326,8 +326,7 @@ done:
     return status;
 }
 
-/* the last run even when the model changed since: what is drawn is what ran */
-static Status last_run(ct_session *session, Run **out, Diag *diag)
+Status session_last_run(ct_session *session, Run **out, Diag *diag)
 {
     if (session->runs.count == 0)
         return session_start(session, out, diag);
@@ -345,7 +344,7 @@ static Status last_sheet(ct_session *session, const ct_expression *const *items,
     session_begin(session);
     for (int i = 0; i < count; i++)
         list[i] = syntax_of(items[i]);
-    CHECK(last_run(session, &source, diag));
+    CHECK(session_last_run(session, &source, diag));
     CHECK(make_sheet(session, list, count, source, every, out, diag));
 done:
     mem_free(list);
