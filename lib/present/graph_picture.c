@@ -10,6 +10,8 @@
 #include <string.h>
 
 #define NODE_SIZE 7.0
+#define NAME_TEXT 12.0 /* px: of edges, of nodes */
+#define NODE_TEXT 13.0
 #define CAPTION   34.0 /* px above a panel */
 #define LEGEND    40.0 /* px below all of them */
 #define WIDEST    1300.0
@@ -31,6 +33,7 @@ typedef struct GraphPicture {
     Panel panels[TREE_KINDS];
     int count;
     Point *places[TREE_KINDS];
+    LIST(Point) names; /* low and high corners of those that stand there */
     Picture *out;
 } GraphPicture;
 
@@ -238,6 +241,77 @@ static void find_curve(const GraphPicture *picture, const Panel *panel, int e,
     make_curve(a, b, 0, curve);
 }
 
+/* --- names --- */
+
+/* by how much a text centred there covers those that stand there, px^2 */
+static double covers(const GraphPicture *picture, Point low, Point high)
+{
+    double sum = 0;
+
+    for (int i = 0; i < picture->names.count; i += 2) {
+        const Point *box = picture->names.at + i;
+        const double wide = fmin(high.x, box[1].x) - fmax(low.x, box[0].x);
+        const double tall = fmin(high.y, box[1].y) - fmax(low.y, box[0].y);
+
+        if (wide > 0 && tall > 0)
+            sum += wide * tall;
+    }
+    return sum;
+}
+
+/* On its edge, as near to the middle as no other name is covered. */
+static Point place_name(GraphPicture *picture, const Point curve[BEND + 1], const char *name)
+{
+    static const int places[] = {0, 1, -1, 2, -2, 3, -3, 4, -4}; /* from the middle */
+    const double half = 0.3 * NAME_TEXT * text_width(name);
+    double least = INFINITY;
+    Point best = {0, 0}, low, high;
+
+    for (int i = 0; i < COUNT(places); i++) {
+        const Point at = curve[BEND / 2 + places[i]];
+
+        low = (Point){at.x - half, at.y - 0.5 * NAME_TEXT};
+        high = (Point){at.x + half, at.y + 0.5 * NAME_TEXT};
+
+        const double covered = covers(picture, low, high);
+
+        if (covered < least) {
+            least = covered;
+            best = at;
+        }
+    }
+    LIST_PUSH(picture->names, ((Point){best.x - half, best.y - 0.5 * NAME_TEXT}));
+    LIST_PUSH(picture->names, ((Point){best.x + half, best.y + 0.5 * NAME_TEXT}));
+    return (Point){best.x, best.y + 4};
+}
+
+/* where a node's name stands */
+static Point node_name(const Panel *panel, int node)
+{
+    const Point at = node_at(panel, node);
+
+    return (Point){at.x + NODE_SIZE + 3, at.y - NODE_SIZE - 1};
+}
+
+static void keep_node_names(GraphPicture *picture, const Panel *panel)
+{
+    int count;
+    const int *nodes = tree_nodes(panel->tree, &count);
+
+    picture->names.count = 0;
+    for (int i = 0; i < count; i++) {
+        const Point at = node_name(panel, nodes[i]), ring = node_at(panel, nodes[i]);
+        const int letters = text_width(graph_node(picture->graph, nodes[i])->name);
+
+        LIST_PUSH(picture->names, ((Point){at.x, at.y - 0.8 * NODE_TEXT}));
+        LIST_PUSH(picture->names, ((Point){at.x + 0.6 * NODE_TEXT * letters, at.y}));
+        LIST_PUSH(picture->names, ((Point){ring.x - NODE_SIZE, ring.y - NODE_SIZE}));
+        LIST_PUSH(picture->names, ((Point){ring.x + NODE_SIZE, ring.y + NODE_SIZE}));
+    }
+}
+
+/* --- edges and nodes on paper --- */
+
 static void draw_edge(GraphPicture *picture, const Panel *panel, int e)
 {
     const Edge *edge = graph_edge(picture->graph, e);
@@ -261,8 +335,8 @@ static void draw_edge(GraphPicture *picture, const Panel *panel, int e)
     picture_line(picture->out, ink, curve, last);
     picture_arrow(picture->out, (Ink){.stroke = color, .width = branch ? 3 : 1.4}, curve[last - 2],
                   curve[last]);
-    picture_text(picture->out, soft ? "#999999" : "#222222",
-                 (Point){curve[BEND / 2].x, curve[BEND / 2].y + 4}, 12, ANCHOR_MIDDLE, edge->name);
+    picture_text(picture->out, soft ? "#999999" : "#222222", place_name(picture, curve, edge->name),
+                 NAME_TEXT, ANCHOR_MIDDLE, edge->name);
 }
 
 static void draw_nodes(GraphPicture *picture, const Panel *panel)
@@ -279,8 +353,8 @@ static void draw_nodes(GraphPicture *picture, const Panel *panel)
         picture_circle(picture->out, ring, at, NODE_SIZE);
         if (node->datum)
             picture_circle(picture->out, (Ink){.fill = "#222222"}, at, NODE_SIZE - 3);
-        picture_text(picture->out, "#222222", (Point){at.x + NODE_SIZE + 3, at.y - NODE_SIZE - 1},
-                     13, ANCHOR_START, node->name);
+        picture_text(picture->out, "#222222", node_name(panel, nodes[i]), NODE_TEXT, ANCHOR_START,
+                     node->name);
     }
 }
 
@@ -295,6 +369,7 @@ static void draw_panel(GraphPicture *picture, const Panel *panel)
                  ANCHOR_START, caption.at);
     text_free(&caption);
 
+    keep_node_names(picture, panel);
     /* chords first: branches lie over them */
     for (int pass = 0; pass < 2; pass++)
         for (int e = 0; e < graph_edge_count(picture->graph); e++)
@@ -354,6 +429,7 @@ Status graph_picture(const View *view, Lit lit, const char *edge, Picture *out, 
         draw_panel(&picture, &picture.panels[i]);
     draw_legend(&picture);
 done:
+    LIST_FREE(picture.names);
     for (int k = 0; k < TREE_KINDS; k++)
         mem_free(picture.places[k]);
     return status;

@@ -10,8 +10,10 @@
 #define SHEET_HEIGHT 560.0
 #define MARGIN       70.0
 #define LEAST_SIDE   360.0
-#define FOOTER       40.0 /* px: below all that moves */
-#define LONGEST      80.0 /* px: of the largest arrow */
+#define FOOTER       40.0  /* px: below all that moves */
+#define LONGEST      80.0  /* px: of the largest arrow */
+#define LETTER       8.0   /* px: of the title */
+#define HEAD         180.0 /* px: what stands beside the title */
 
 enum { PER_NODE = 7, PER_LOAD = 6 }; /* items */
 
@@ -194,9 +196,10 @@ static void widen(const Mechanism *mechanism, const double *values, double *forc
     }
 }
 
-/* what holds every frame and every arrow's end, and below it room for the scales */
+/* what holds every frame and every arrow's end, above it the title and below it the scales */
 static void lay_out_sheet(Mechanism *mechanism, const double *values, int rows)
 {
+    const char *title = model_title(mechanism->view->model);
     Point low = {0, 0}, high = {0, 0};
 
     mechanism->left = mechanism->top = 0;
@@ -221,7 +224,8 @@ static void lay_out_sheet(Mechanism *mechanism, const double *values, int rows)
             high = (Point){fmax(high.x, p.x), fmax(high.y, p.y)};
         }
     }
-    mechanism->width = fmax(high.x - low.x + 2 * MARGIN, LEAST_SIDE);
+    mechanism->width = fmax(fmax(high.x - low.x + 2 * MARGIN, LEAST_SIDE),
+                            title != NULL ? LETTER * text_width(title) + HEAD : 0);
     mechanism->height = fmax(high.y - low.y + 2 * MARGIN, LEAST_SIDE / 2);
     mechanism->left = (mechanism->width - low.x - high.x) / 2;
     mechanism->top = (mechanism->height - low.y - high.y) / 2;
@@ -431,7 +435,7 @@ static void draw_parts(Sheet *sheet)
     picture_sort(sheet->picture);
 }
 
-void mechanism_draw(const Mechanism *mechanism, const double *values, double t, Picture *out)
+void mechanism_draw_parts(const Mechanism *mechanism, const double *values, double t, Picture *out)
 {
     Sheet sheet = {.mechanism = mechanism, .values = values, .picture = out};
 
@@ -439,6 +443,13 @@ void mechanism_draw(const Mechanism *mechanism, const double *values, double t, 
     draw_parts(&sheet);
     for (int i = 0; i < mechanism->loads.count; i++)
         sheet_load(&sheet, &mechanism->loads.at[i]);
-    sheet_names(&sheet);
     sheet_corner(&sheet, t);
+}
+
+void mechanism_draw(const Mechanism *mechanism, const double *values, double t, Picture *out)
+{
+    Sheet sheet = {.mechanism = mechanism, .values = values, .picture = out};
+
+    mechanism_draw_parts(mechanism, values, t, out);
+    sheet_names(&sheet);
 }

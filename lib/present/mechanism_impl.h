@@ -43,6 +43,8 @@ void sheet_link(Sheet *sheet, const Instance *link);
 void sheet_load(Sheet *sheet, const Load *load);
 void sheet_corner(Sheet *sheet, double t); /* axes, scale, time, title */
 void sheet_names(Sheet *sheet);
+/* All but the names; picture_close(). */
+void mechanism_draw_parts(const Mechanism *mechanism, const double *values, double t, Picture *out);
 /* which parts have names, and where these cover least in all instants: `values` is rows x items */
 void mechanism_call(Mechanism *mechanism);
 void mechanism_settle_names(Mechanism *mechanism, const double *values, int rows);

@@ -260,6 +260,35 @@ static void draw_spiral(Picture *picture, Ink ink, Point c)
     picture_line(picture, ink, points, STEPS + 1);
 }
 
+/* where something is fixed in the ground: a wall across what leads there along d */
+static void draw_wall(Picture *picture, Point at, Point d)
+{
+    enum { HATCHES = 4 };
+    const double half = 11, step = 2 * half / HATCHES;
+    const Point n = across(d);
+
+    picture_line(picture, (Ink){.stroke = INK_SOFT, .width = 1.4},
+                 (Point[]){plus(at, -half, n), plus(at, half, n)}, 2);
+    for (int i = 1; i <= HATCHES; i++) {
+        const Point p = plus(at, i * step - half, n);
+
+        picture_line(picture, (Ink){.stroke = INK_SOFT, .width = 1},
+                     (Point[]){p, plus(plus(p, 5, d), -5, n)}, 2);
+    }
+}
+
+/* what a link's ends are fixed in, where that is the ground and no joint draws it */
+static void draw_ends(Sheet *sheet, const Instance *link, Point a, Point b)
+{
+    const Mechanism *mechanism = sheet->mechanism;
+    const Point d = unit((Point){b.x - a.x, b.y - a.y}, (Point){1, 0});
+
+    if (mechanism->body[link->tail] == mechanism->ground)
+        draw_wall(sheet->picture, a, (Point){-d.x, -d.y});
+    if (mechanism->body[link->head] == mechanism->ground)
+        draw_wall(sheet->picture, b, d);
+}
+
 void sheet_link(Sheet *sheet, const Instance *link)
 {
     const Ink ink = {.stroke = INK_SPRING, .width = 1.4};
@@ -278,6 +307,7 @@ void sheet_link(Sheet *sheet, const Instance *link)
         a = plus(a, link->row->potential != NULL ? 18 : -18, n);
         b = plus(b, link->row->potential != NULL ? 18 : -18, n);
     }
+    draw_ends(sheet, link, a, b);
     if (link->row->potential != NULL)
         draw_spring(sheet->picture, ink, a, b);
     else if (component_param(link->row, "d") >= 0)

@@ -5,7 +5,12 @@
 
 #include <math.h>
 
-enum { ROUND = 32 }; /* corners of a circle */
+enum {
+    ROUND = 32, /* corners of a circle */
+    HALO = 8    /* copies of a text behind it */
+};
+
+#define HALO_WIDTH 1.5 /* px */
 
 static void put_points(Text *out, const Picture *picture, const Shape *shape)
 {
@@ -46,16 +51,25 @@ static void put_curve(Text *out, const Shape *shape, int index)
                   index, shape->ink.stroke, shape->ink.width, dashes[shape->ink.dash]);
 }
 
-static void put_label(Text *out, const Picture *picture, const Shape *shape)
+static void put_text(Text *out, const Shape *shape, double x, double y, const char *color)
 {
     static const char *const anchors[] = {"left", "center", "right"};
-    const Point at = picture->points.at[shape->first];
 
     text_add(out, "set label ");
     put_string(out, shape->text);
-    text_addf(out, " at %.1f,%.1f %s noenhanced textcolor rgb '%s' font ',%.3g' front\n", at.x,
-              at.y - 0.35 * shape->size, anchors[shape->anchor], shape->ink.stroke,
-              0.75 * shape->size);
+    text_addf(out, " at %.1f,%.1f %s noenhanced textcolor rgb '%s' font ',%.3g' front\n", x,
+              y - 0.35 * shape->size, anchors[shape->anchor], color, 0.75 * shape->size);
+}
+
+/* A text, and behind it itself in white to all sides, or lines run through it. */
+static void put_label(Text *out, const Picture *picture, const Shape *shape)
+{
+    const Point at = picture->points.at[shape->first];
+
+    for (int i = 0; i < HALO; i++)
+        put_text(out, shape, at.x + HALO_WIDTH * cos(2 * M_PI * i / HALO),
+                 at.y + HALO_WIDTH * sin(2 * M_PI * i / HALO), "#ffffff");
+    put_text(out, shape, at.x, at.y, shape->ink.stroke);
 }
 
 void picture_gnuplot(const Picture *picture, Text *out)
