@@ -1,4 +1,5 @@
 """What a picture of the gallery shows: `look.py NAME`; status 1 and a line where it isn't so."""
+import math
 import re
 import struct
 import sys
@@ -10,6 +11,12 @@ def local(element):
     return element.tag.rsplit("}", 1)[-1]
 
 
+def moved(element):
+    """(x, y) of a translation, or None"""
+    at = re.match(r"translate\(\s*([-\d.]+),\s*([-\d.]+)\s*\)", element.get("transform") or "")
+    return at and (float(at[1]), float(at[2]))
+
+
 class Plot:
     """An SVG of gnuplot's: its texts, and the groups that are curves, each with colour and dash."""
 
@@ -18,6 +25,12 @@ class Plot:
         self.texts = ["".join(e.itertext()).strip() for e in self.root.iter() if local(e) == "text"]
         self.groups = [e for e in self.root.iter()
                        if local(e) == "g" and re.match(r"gnuplot_plot_", e.get("id") or "")]
+
+    def placed(self):
+        """level texts, each with its place (x, y) on the sheet and what stands there of it"""
+        return [("".join(t.itertext()).strip(), *at, e.get("text-anchor"))
+                for e in self.root.iter() if (at := moved(e)) and "rotate" not in e.get("transform")
+                for t in e if local(t) == "text"]
 
     def points(self, group):
         """of the longest line: not of that in the legend"""
@@ -47,7 +60,69 @@ def plot(name, curves, *labels):
     out = Plot(name + ".svg")
     need(len(out.groups) == curves, f"{len(out.groups)} curves, not {curves}")
     has(out, *labels)
+    apart([box(text, x, y, 14, anchor) for text, x, y, anchor in out.placed() if text])
     return out
+
+
+def box(text, x, y, size, anchor="start"):
+    """what a text takes, rather a little less: letters are at least half as wide as high"""
+    wide = 0.5 * size * len(text)
+    left = x - {"start": 0, "middle": wide / 2, "end": wide}[anchor]
+    return text, left, y - 0.7 * size, left + wide, y
+
+
+def apart(boxes):
+    """no name covers another"""
+    for i, (a, left, top, right, bottom) in enumerate(boxes):
+        for b, *other in boxes[:i]:
+            need(left >= other[2] or right <= other[0] or top >= other[3] or bottom <= other[1],
+                 f"'{a}' covers '{b}'")
+
+
+class Sheet:
+    """An SVG of ours: groups of a class and a name, and within them lines, areas, rings, texts."""
+
+    def __init__(self, name):
+        self.root = tree.parse(name).getroot()
+        self.groups = [e for e in self.root.iter() if local(e) == "g" and e.get("class")]
+
+    def count(self, kind):
+        return sum(1 for e in self.groups if e.get("class") == kind)
+
+    def find(self, title):
+        """the groups called "body m1" """
+        out = [e for e in self.groups if any(local(t) == "title" and t.text == title for t in e)]
+        need(out, f"there is no '{title}'")
+        return out
+
+    def points(self, title, shape, which=0):
+        lines = [e for g in self.find(title) for e in g if local(e) == shape]
+        need(len(lines) > which, f"'{title}' has {len(lines)} of {shape}")
+        return [tuple(map(float, p.split(","))) for p in lines[which].get("points").split()]
+
+    def texts(self, title):
+        return ["".join(e.itertext()) for g in self.find(title) for e in g if local(e) == "text"]
+
+    def boxes(self, *kinds):
+        return [box("".join(e.itertext()), float(e.get("x")), float(e.get("y")),
+                    float(e.get("font-size")), e.get("text-anchor"))
+                for g in self.groups if g.get("class") in kinds for e in g if local(e) == "text"]
+
+    def metre(self):
+        """px of a metre, by the scale"""
+        bar = self.points("scale of lengths and forces", "polyline")
+        number, unit = self.texts("scale of lengths and forces")[0].split()
+        return (bar[-1][0] - bar[0][0]) / (float(number) / (1000 if unit == "mm" else 1))
+
+
+    def arrow(self, title, line=0):
+        """from its foot to its tip, px"""
+        tip = self.points(title, "polygon")[0]
+        return math.dist(self.points(title, "polyline", line)[0], tip)
+
+
+def length(line):
+    return math.dist(line[0], line[-1])
 
 
 def numbers(plot):
@@ -124,9 +199,50 @@ def runs():
     need(any(t.endswith("[mm]") for t in p.texts), "the difference is in mm")
 
 
+    names = [at for at in p.placed() if at[0] == "top"]
+    need(len(names) == 1, "an event of both runs at nearly one instant is named once")
+
+
+def events():
+    """events one after the other, the last at the end of the run: names cover nothing"""
+    p = plot("events", 1, "low", "lower", "near_the_end")
+    right = max(x for x, _ in p.points(p.groups[0]))
+    for text, x, _, anchor in p.placed():
+        if text == "near_the_end":
+            need(anchor == "end" and x < right, f"its name goes beyond the axis: {x}, {right}")
+
+
 def measured():
-    p = plot("measured", 2, "s11 [m]")
-    need(tree.tostring(p.groups[1], encoding="unicode").count("use ") > 20, "points, not a line")
+    """three points of the file, where they were measured, whatever the rows of the run"""
+    p = plot("measured", 2, "s11 [m]", "x (measured.csv)")
+    marks = [moved(m) for m in p.groups[1].iter() if local(m) == "use"]
+    legend = next(y for text, _, y, _ in p.placed() if text == "x (measured.csv)")
+    marks = [at for at in marks if at[1] > legend + 10]
+    need(len(marks) == 3, f"{len(marks)} points, not 3")
+    curve = p.points(p.groups[0])
+    left, right = curve[0][0], curve[-1][0]
+    for (x, _), t in zip(sorted(marks), (0, 0.5, 1)):
+        need(abs((x - left) / (right - left) - t) < 2e-3, f"a point of {t} s at {x}")
+
+
+def mixed():
+    """what has no unit that is known doesn't get its neighbour's"""
+    plot("mixed", 2, "s11 [mm], (2*s11)")
+
+
+def units():
+    plot("units", 2, "h8 [deg]", "s11 [mm]")
+    plot("logs", 1, "f [Hz], window of Hann", "spectrum(h) [rad]")
+
+
+def spectrum():
+    """2 sin(2 pi 4 t) through the window of Hann, whole periods: its amplitude at 4 Hz"""
+    p = plot("spectrum", 1, "spectrum(h) [rad]", "f [Hz], window of Hann")
+    points = p.points(p.groups[0])
+    tops = {round(x, 1) for x, y in points if y == min(y for _, y in points)}
+    need(len(tops) == 1, str(tops))
+    shares = (tops.pop() - points[0][0]) / (points[-1][0] - points[0][0])
+    need(abs(shares * 6 - 4) < 0.05, f"the peak is at {shares * 6} of 6 Hz")
 
 
 def ranges():
@@ -180,6 +296,95 @@ def mechanism():
         need(texts.count(name) == 1, f"'{name}' stands there {texts.count(name)} times")
 
 
+def spatial():
+    """seen along x what is nearer lies over what is farther, and seen from above beside it"""
+    sheet = Sheet("along_x.svg")
+    order = [e.find("{*}title").text for e in sheet.groups if e.get("class") == "body"]
+    need(order == ["body far", "body middle", "body near"], str(order))
+    sheet = Sheet("along_z.svg")
+    places = [float(sheet.find("body " + b)[0].find("{*}circle").get("cx"))
+              for b in ("far", "middle", "near")]
+    need(abs(places[1] - places[0] - 2 * sheet.metre()) < 0.3 and
+         abs(places[2] - places[1] - 1 * sheet.metre()) < 0.3, f"{places}, {sheet.metre()} px a metre")
+    for kind in ("revolute", "spherical", "prismatic"):
+        need(Sheet("iso.svg").count(kind) == 1, "one " + kind)
+    apart(Sheet("iso.svg").boxes("names"))
+
+
+def bent():
+    """a cantilever below its load: P L^3/(3 EI) at its end, and 5/16 of that half way"""
+    sheet = Sheet("bent.svg")
+    area = sheet.points("body b", "polygon")
+    sag = 1.0 * 1.0**3 / (3 * 5.0) * sheet.metre()
+    left = [y for x, y in area if x < min(x for x, _ in area) + 4]
+    right = [y for x, y in area if x > max(x for x, _ in area) - 4]
+    found = sum(right) / len(right) - sum(left) / len(left)
+    need(abs(found / sag - 1) < 0.03, f"it sags {found} px, not {sag}")
+
+
+def springs():
+    """drawn from end to end, whatever is between; what ends in the ground has a wall there"""
+    sheet = Sheet("springs.svg")
+    for name, size in (("spring k1", 1.0), ("damper d1", 1.0), ("spring k2", math.sqrt(2))):
+        lines = [sheet.points(name, "polyline", i)
+                 for i in range(sum(1 for e in sheet.find(name)[0] if local(e) == "polyline"))]
+        ends = [p for line in lines for p in (line[0], line[-1])]
+        need(any(abs(math.dist(a, b) - size * sheet.metre()) < 0.5 for a in ends for b in ends),
+             f"{name}: no two ends are {size} m apart")
+        walls = [line for line in lines if len(line) == 2 and abs(length(line) - 22) < 0.1]
+        need(len(walls) == (name != "spring k2"), f"{name}: {len(walls)} walls")
+    apart(sheet.boxes("names"))
+
+
+def forces():
+    """arrows to the scale that stands below: 3 N, 4 N, and 5 N where both pull"""
+    sheet = Sheet("forces.svg")
+    scale = "scale of lengths and forces"
+    newton = sheet.arrow(scale, 1) / float(sheet.texts(scale)[1].split()[0])
+    for name, size in (("force P", 3), ("force Q", 4), ("reaction h", 5)):
+        found = sheet.arrow(name)
+        need(abs(found / newton / size - 1) < 0.03, f"{name}: {found / newton} N, not {size}")
+
+
+def domains():
+    """each domain has its own colour and dash, and its line in the legend"""
+    sheet = Sheet("domains.svg")
+    legend = [e for g in sheet.find("legend of edges") for e in g]
+    words = ["".join(e.itertext()) for e in legend if local(e) == "text"]
+    lines = [(e.get("stroke"), e.get("stroke-dasharray")) for e in legend if local(e) == "polyline"]
+    need(words == ["branch", "chord", "mechanical", "electrical"], str(words))
+    need(len(set(lines[2:])) == 2 and lines[2][1] != lines[3][1], str(lines))
+    apart(sheet.boxes("node"))
+
+
+def circuit():
+    """the circuit of h10 in the slider-crank goes over all of its loop: lit are just its edges"""
+    sheet = Sheet("circuit.svg")
+    lit = {g.find("{*}title").text.split()[1] for g in sheet.groups
+           if g.get("class") in ("branch", "chord") and len(g.findall("{*}polyline")) > 2}
+    need(lit == {"h10", "s11", "r7", "r6", "h9", "r5", "r4", "h8"}, str(sorted(lit)))
+
+
+def ports():
+    """collapsed an instance is the edges of its ports; open there is all that is inside"""
+    nodes = {}
+    for name in ("collapsed", "open"):
+        sheet = Sheet(name + ".svg")
+        nodes[name] = {g.find("{*}title").text for g in sheet.groups if g.get("class") == "node"}
+    need("node p.b" not in nodes["collapsed"] and "node p.b" in nodes["open"], str(nodes))
+    need(nodes["collapsed"] < nodes["open"] or len(nodes["collapsed"]) < len(nodes["open"]), str(nodes))
+
+
+def characters():
+    """the same in characters: braille, names and the scale"""
+    for name, words in (("plot.txt", ("h8 [deg]", "s11 [mm]", "t [s]", "top")),
+                        ("drawn.txt", ("m1", "m2", "h8", "h9"))):
+        text = open(name, encoding="utf-8").read()
+        need(re.search("[\u2801-\u28ff]", text), name + " has no braille")
+        for word in words:
+            need(word in text, f"{name} has no '{word}'")
+
+
 def moving():
     gif = open("moving.gif", "rb").read()
     need(gif[:6] == b"GIF89a" and gif.count(b"\x21\xf9\x04") == 10, "ten pictures in 0.4 s")
@@ -192,4 +397,7 @@ def moving():
 
 {"one": one, "two": two, "three": three, "bars": bars, "alone": alone, "path": path, "many": many,
  "runs": runs, "measured": measured, "ranges": ranges, "png": png_of_both,
- "documents": documents, "loop": loop, "graph": graph, "mechanism": mechanism, "moving": moving}[sys.argv[1]]()
+ "documents": documents, "loop": loop, "graph": graph, "mechanism": mechanism, "moving": moving, "events": events, "mixed": mixed,
+ "units": units, "spectrum": spectrum, "spatial": spatial, "bent": bent, "springs": springs,
+ "forces": forces, "domains": domains, "circuit": circuit, "ports": ports,
+ "characters": characters}[sys.argv[1]]()
