@@ -33,6 +33,7 @@ libcore_la_SOURCES += \
   lib/present/mechanism_names.c \
   lib/present/mechanism_parts.c \
   lib/present/mechanism_place.c \
+  lib/present/mechanism_sheet.c \
   lib/present/picture.c \
   lib/present/picture.h \
   lib/present/picture_characters.c \
