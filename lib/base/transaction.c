@@ -23,6 +23,9 @@ enum { SPARES = !FAULTS };
 #endif
 enum { GRAIN = SPARES ? SPARE_GRAIN : 1 };
 
+/* bytes of allocations between two questions whether to stop: a tenth of a millisecond, or less */
+enum { ASK_EACH = 1 << 16 };
+
 _Thread_local Transaction *transaction_now;
 
 /* bytes as they were, or what is to be called when all are; in the order of the keeping */
@@ -46,6 +49,9 @@ static void open(Transaction *t)
     t->notes = t->later = NULL;
     t->is_scratch = false;
     t->is_over = false;
+    t->is_stopped = false;
+    t->stop = NULL;
+    t->until_asked = ASK_EACH;
 }
 
 void transaction_begin(Transaction *transaction)
@@ -54,6 +60,31 @@ void transaction_begin(Transaction *transaction)
     transaction->outer = transaction_now;
     transaction_now = transaction;
     faults_begin(transaction);
+}
+
+/* --- stopping --- */
+
+void transaction_ask(bool (*stop)(void *context), void *context)
+{
+    transaction_now->stop = stop;
+    transaction_now->context = context;
+}
+
+void transaction_stop_asking(void)
+{
+    if (transaction_now != NULL)
+        transaction_now->stop = NULL;
+}
+
+_Noreturn static void give_up(Transaction *t, bool is_stopped);
+
+void transaction_ask_now(void)
+{
+    Transaction *t = transaction_now;
+
+    t->until_asked = ASK_EACH;
+    if (t->stop != NULL && t->stop(t->context))
+        give_up(t, true);
 }
 
 /* --- pieces --- */
@@ -109,6 +140,7 @@ MemPiece *piece_new(size_t size, bool zeroed, const void *maker)
 {
     MemPiece **spare = spare_of(size), *piece = spare != NULL ? *spare : NULL;
 
+    transaction_worked((ptrdiff_t)size);
     if (piece != NULL) {
         *spare = piece->after;
         if (zeroed)
@@ -169,6 +201,7 @@ MemPiece *piece_resize(MemPiece *piece, size_t size, const void *maker)
     }
     if (bytes == 0)
         transaction_fail();
+    transaction_worked((ptrdiff_t)size);
     if (transaction_now != NULL)
         leave(piece);
     moved = realloc(piece, bytes);
@@ -391,20 +424,24 @@ void transaction_end(Transaction *transaction)
     commit(transaction);
 }
 
-void transaction_fail(void)
+static void give_up(Transaction *t, bool is_stopped)
 {
-    Transaction *t = transaction_now;
-
-    if (t == NULL) {
-        (void)fputs("cotree: out of memory\n", stderr);
-        abort();
-    }
     if (t->trial >= 0)
         try_again(t);
     roll_back(t);
     t->is_over = true;
+    t->is_stopped = is_stopped;
     transaction_now = t->outer;
     longjmp(t->place, TRANSACTION_FAILED);
+}
+
+void transaction_fail(void)
+{
+    if (transaction_now == NULL) {
+        (void)fputs("cotree: out of memory\n", stderr);
+        abort();
+    }
+    give_up(transaction_now, false);
 }
 
 bool transaction_is_trial(void)

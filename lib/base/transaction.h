@@ -10,6 +10,9 @@
  * - what owns memory of another library, or an open file, has a Cleanup,
  * - nothing else outlives a call: no global variables, no caches outside of pieces.
  *
+ * A call is left the same way where its caller wants it to stop: allocations ask, so that long work
+ * needn't know of it. Work whose first part is an answer of its own ends that, and polls (watch.h).
+ *
  * Pieces made in the call need none of this. A build with --enable-faults tries every call with
  * allocations that fail and compares all pieces afterwards (faults.c): a change that nobody
  * announced ends the program there. */
@@ -55,11 +58,15 @@ typedef struct Transaction {
     Note *later;      /* what is to be freed, last first */
     bool is_scratch;
     bool is_over;
-    long trial; /* 0, 1 ...: which try with failing allocations; -1: it counts */
+    bool is_stopped;             /* it was left because `stop` said so */
+    bool (*stop)(void *context); /* cheap; NULL: nobody is asked */
+    void *context;
+    ptrdiff_t until_asked; /* bytes that may be allocated before it is asked again */
+    long trial;            /* 0, 1 ...: which try with failing allocations; -1: it counts */
 } Transaction;
 
-/* In a function that is a transaction, at its beginning: returns `failure` where memory ends. It
- * ends with the function. */
+/* In a function that is a transaction, at its beginning: returns `failure` where memory ends, or it
+ * is stopped. It ends with the function. */
 #define TRANSACTION(failure)                                                                       \
     __attribute__((cleanup(transaction_end))) Transaction transaction;                             \
     transaction_begin(&transaction);                                                               \
@@ -72,11 +79,27 @@ void transaction_begin(Transaction *transaction);
 void transaction_end(Transaction *transaction);
 /* Memory has ended: leave the transaction. Outside of any it ends the program with a message. */
 _Noreturn void transaction_fail(void);
+/* From here on the transaction that goes on is left where `stop` says so. */
+void transaction_ask(bool (*stop)(void *context), void *context);
+/* From here on nobody is asked: what the transaction has done is to stay. */
+void transaction_stop_asking(void);
+/* Long work that allocates nothing tells how much it does, in bytes of allocations that would take
+ * as long. */
+void transaction_ask_now(void);
+static inline void transaction_worked(ptrdiff_t bytes);
 /* whether this is but a try, of a build with --enable-faults, which nobody else need notice */
 bool transaction_is_trial(void);
 
 /* of this thread; NULL: none */
 extern _Thread_local Transaction *transaction_now __attribute__((tls_model("initial-exec")));
+
+static inline void transaction_worked(ptrdiff_t bytes)
+{
+    Transaction *t = transaction_now;
+
+    if (t != NULL && (t->until_asked -= bytes) < 0)
+        transaction_ask_now();
+}
 
 static inline MemPiece *piece_of(const void *memory)
 {

@@ -17,6 +17,8 @@ enum { FIRST_SIZE = 1024 };
 /* some four gigabytes */
 #define NODE_LIMIT ((int64_t)1 << 26)
 
+enum { NODE_WORK = 64 }; /* of making or finding one, for transaction_worked() */
+
 typedef struct Slot {
     uint32_t hash;
     uint32_t id; /* number + 1; 0: empty */
@@ -207,6 +209,7 @@ Expr node_intern(Arena *arena, ExprKind kind, Op op, const Expr *args, int count
     Expr *own;
     unsigned kinds = 0, height = 0;
 
+    transaction_worked(NODE_WORK);
     if (found != NULL)
         return found;
     if (!may_grow(arena))

@@ -4,6 +4,8 @@
  * deep. The table of places is as large as what was met, however large the arena. */
 #include "expr/expr_impl.h"
 
+enum { WALK_WORK = 32 }; /* of a look, for transaction_worked() */
+
 typedef struct WalkLevel {
     Expr e;
     int next; /* argument to look at */
@@ -22,6 +24,7 @@ int walk_find(const Walk *walk, Expr e)
 {
     uint32_t i;
 
+    transaction_worked(WALK_WORK);
     if (walk->size == 0)
         return -1;
     i = slot_of(walk, e->number + 1);

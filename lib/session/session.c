@@ -37,12 +37,27 @@ ct_session *ct_session_new(const ct_hooks *hooks)
     return session_new(hooks);
 }
 
+static bool stop(void *context)
+{
+    const ct_session *session = context;
+
+    return session->hooks.stop != NULL && session->hooks.stop(session->hooks.context);
+}
+
+static void progress(void *context, const char *phase, double fraction)
+{
+    ct_session *session = context;
+
+    session->phase = phase;
+    session->fraction = fraction;
+    if (session->hooks.progress != NULL)
+        session->hooks.progress(session->hooks.context, phase, fraction);
+}
+
 void ct_session_hooks(ct_session *session, const ct_hooks *hooks)
 {
     session->hooks = hooks != NULL ? *hooks : (ct_hooks){0};
-    session->watch = (Watch){.context = session->hooks.context,
-                             .stop = session->hooks.stop,
-                             .progress = session->hooks.progress};
+    session->watch = (Watch){.context = session, .stop = stop, .progress = progress};
     model_find_entries(session->model, &(EntryFinder){session_entry_dimension, session});
     model_find_data(session->model, &(DataFinder){.find = session->hooks.find_file,
                                                   .context = session->hooks.context});
@@ -79,14 +94,15 @@ void ct_session_free(ct_session *session)
     mem_free(session);
 }
 
-ct_status session_ran_out(ct_session *session, ct_error *error)
+ct_status session_left(ct_session *session, bool is_stopped, ct_error *error)
 {
-    const Diag diag = {.status = E_MEMORY,
-                       .message = "out of memory",
-                       .hint = "nothing has changed: what was there before is still there"};
+    const Status status = is_stopped ? E_STOPPED : E_MEMORY;
+    Diag diag = {0};
 
+    (void)diag_set(&diag, status, "%s", status_text(status));
+    diag_hint(&diag, "nothing has changed: what was there before is still there");
     session_begin(session);
-    return session_report(E_MEMORY, &diag, error);
+    return session_report(status, &diag, error);
 }
 
 /* a try with failing allocations is nobody's to watch, and takes no longer than that */
@@ -103,8 +119,25 @@ void session_enter(const ct_session *handle)
     ct_session *session = (ct_session *)handle; /* a borrowed one may be touched, too */
 
     mem_keep(session);
+    session->phase = NULL;
     if (transaction_is_trial())
         session->watch = (Watch){.context = session, .stop = stop_trial};
+}
+
+/* who waits is told now and then what for, also where the work itself says so but once */
+static bool work_stops(void *context)
+{
+    const ct_session *session = context;
+
+    if (session->phase != NULL)
+        report(&session->watch, session->phase, session->fraction);
+    return poll(&session->watch) != OK;
+}
+
+void session_work(const ct_session *handle)
+{
+    session_enter(handle);
+    transaction_ask(work_stops, (ct_session *)handle);
 }
 
 const char *ct_remarks(const ct_session *session)
@@ -258,7 +291,7 @@ static Status try_trees(ct_session *session, const Statement *s, Diag *diag)
 
 ct_status ct_apply(ct_session *session, const ct_statement *statement, ct_error *error)
 {
-    SESSION_CALL(session, session_ran_out(session, error));
+    SESSION_WORK(session, error);
 
     const Statement *s = statement_of(statement);
     const VerbChanges changes = changes_of(s);
@@ -343,14 +376,14 @@ done:
 
 ct_status ct_undo(ct_session *session, ct_error *error)
 {
-    SESSION_CALL(session, session_ran_out(session, error));
+    SESSION_WORK(session, error);
 
     return move_over(session, model_undo, "undone", error);
 }
 
 ct_status ct_redo(ct_session *session, ct_error *error)
 {
-    SESSION_CALL(session, session_ran_out(session, error));
+    SESSION_WORK(session, error);
 
     return move_over(session, model_redo, "done again", error);
 }

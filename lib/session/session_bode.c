@@ -266,7 +266,7 @@ done:
 ct_status ct_bode(ct_session *session, const ct_statement *statement, double **values, int *rows,
                   int *columns, char ***names, ct_error *error)
 {
-    SESSION_CALL(session, session_ran_out(session, error));
+    SESSION_WORK(session, error);
 
     BodeSheet sheet = {0};
     Diag diag = {0};
@@ -284,7 +284,7 @@ ct_status ct_bode(ct_session *session, const ct_statement *statement, double **v
 ct_status ct_bode_csv(ct_session *session, const ct_statement *statement, bool with_header,
                       char **text, ct_error *error)
 {
-    SESSION_CALL(session, session_ran_out(session, error));
+    SESSION_WORK(session, error);
 
     BodeSheet sheet = {0};
     Text out = {0};

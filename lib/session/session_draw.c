@@ -225,7 +225,7 @@ done:
 ct_status ct_draw(ct_session *session, const ct_statement *statement, ct_paper *paper, char **text,
                   ct_error *error)
 {
-    SESSION_CALL(session, session_ran_out(session, error));
+    SESSION_WORK(session, error);
 
     const Statement *s = statement_of(statement);
     Text out = {0};
@@ -324,7 +324,7 @@ static Status make_strip(ct_session *session, const Statement *s, double rate, d
 ct_status ct_animate(ct_session *session, const ct_statement *statement, ct_paper *paper,
                      char ***frames, double *interval, ct_error *error)
 {
-    SESSION_CALL(session, session_ran_out(session, error));
+    SESSION_WORK(session, error);
 
     const bool is_text = strcmp(paper->format, "text") == 0;
     const bool is_page = strcmp(paper->format, "html") == 0;

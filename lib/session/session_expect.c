@@ -85,7 +85,7 @@ done:
 
 ct_status ct_expect(ct_session *session, const ct_statement *statement, ct_error *error)
 {
-    SESSION_CALL(session, session_ran_out(session, error));
+    SESSION_WORK(session, error);
 
     const Statement *s = statement_of(statement);
     double instant = 0;

@@ -55,7 +55,8 @@ bool ct_example(int i, const char **name, const char **text)
 
 char **ct_complete(ct_session *session, const char *line, size_t cursor, size_t *start)
 {
-    SESSION_CALL(session, NULL);
+    TRANSACTION(NULL);
+    session_work(session);
 
     const KnownName known = {.model = session->model,
                              .linear = session->linear,

@@ -37,8 +37,10 @@ typedef void Report(const ct_session *session, Text *out);
 
 struct ct_session {
     ct_hooks hooks;
-    Watch watch; /* the hooks, as lib/ knows them */
-    int polls;   /* of a try with failing allocations */
+    Watch watch;       /* the hooks, as lib/ knows them */
+    int polls;         /* of a try with failing allocations */
+    const char *phase; /* that was reported last in this call; NULL: none */
+    double fraction;   /* of it */
     Model *model;
     LIST(System *) systems; /* of the runs and, last, of the model as it was when asked last */
     LIST(Run) runs;         /* run1 is the first */
@@ -91,8 +93,14 @@ ct_status session_report(Status status, const Diag *diag, ct_error *error);
     TRANSACTION(failure);                                                                          \
     session_enter(session)
 void session_enter(const ct_session *handle);
-/* that memory has ended */
-ct_status session_ran_out(ct_session *session, ct_error *error);
+/* The same for work that may take long: it is also left, and the session as it was, where the stop
+ * hook asks for that. */
+#define SESSION_WORK(session, error)                                                               \
+    TRANSACTION(session_left(session, transaction.is_stopped, error));                             \
+    session_work(session)
+void session_work(const ct_session *handle);
+/* that memory has ended, or the user has */
+ct_status session_left(ct_session *session, bool is_stopped, ct_error *error);
 /* before anything that may remark */
 void session_begin(ct_session *session);
 void session_remark(ct_session *session, const char *lines);

@@ -93,7 +93,7 @@ static Status apply_import(ct_session *session, const Import *import, Diag *diag
 ct_status ct_import(ct_session *session, const ct_statement *statement, char **text,
                     ct_error *error)
 {
-    SESSION_CALL(session, session_ran_out(session, error));
+    SESSION_WORK(session, error);
 
     const Statement *s = statement_of(statement);
     const Syntax *file = s->operands.at[1].value;

@@ -32,7 +32,7 @@ static Status check_no_units(const Statement *s, Diag *diag)
 
 ct_status ct_show(ct_session *session, const ct_statement *statement, char **text, ct_error *error)
 {
-    SESSION_CALL(session, session_ran_out(session, error));
+    SESSION_WORK(session, error);
 
     const Statement *s = statement_of(statement);
     View view = session_view(session);
@@ -45,6 +45,7 @@ ct_status ct_show(ct_session *session, const ct_statement *statement, char **tex
     CHECK(check_no_units(s, &diag));
     CHECK(show_need(session->model, s, &need, &diag));
     CHECK(session_prepare(session, need, &view, &diag));
+    report(&session->watch, "writing out", -1);
     CHECK(show(&view, s, &out, &diag));
     if (need == NEED_LINEAR)
         session_remark_linear(session);
@@ -87,7 +88,7 @@ done:
 
 ct_status ct_count(ct_session *session, const ct_statement *statement, char **text, ct_error *error)
 {
-    SESSION_CALL(session, session_ran_out(session, error));
+    SESSION_WORK(session, error);
 
     const bool for_trees = count_is_for_trees(statement_of(statement));
     View view = session_view(session);
@@ -98,6 +99,7 @@ ct_status ct_count(ct_session *session, const ct_statement *statement, char **te
 
     session_begin(session);
     CHECK(session_shown(session, &view.system, &diag));
+    report(&session->watch, "counting", -1);
     CHECK(tree_cost(&view, &cost, &diag));
     session->cost_now = tree_costs_add(&session->costs, &cost);
     mem_keep(session->costs.at);
@@ -113,7 +115,7 @@ done:
 
 ct_status ct_check(ct_session *session, char **text, ct_error *error)
 {
-    SESSION_CALL(session, session_ran_out(session, error));
+    SESSION_WORK(session, error);
 
     View view = session_view(session);
     Run *start = NULL;
@@ -136,7 +138,7 @@ done:
 
 ct_status ct_info(ct_session *session, const ct_statement *statement, char **text, ct_error *error)
 {
-    SESSION_CALL(session, session_ran_out(session, error));
+    SESSION_WORK(session, error);
 
     const Statement *s = statement_of(statement);
     const View view = session_view(session);
@@ -157,7 +159,7 @@ ct_status ct_info(ct_session *session, const ct_statement *statement, char **tex
 
 ct_status ct_tree_text(ct_session *session, char **text, ct_error *error)
 {
-    SESSION_CALL(session, session_ran_out(session, error));
+    SESSION_WORK(session, error);
 
     const View view = session_view(session);
     const Selection all = {.number_count = 0};

@@ -289,7 +289,7 @@ done:
 ct_status ct_model_new(ct_session *session, const ct_model_options *options, ct_model **out,
                        ct_error *error)
 {
-    SESSION_CALL(session, session_ran_out(session, error));
+    SESSION_WORK(session, error);
 
     Making making = {.session = session};
     ct_model_options asked = options != NULL ? *options : (ct_model_options){0};

@@ -88,7 +88,7 @@ static Status read_key(ct_session *session, const Statement *s, const Pair *pair
 ct_status ct_plot_keys(ct_session *session, const ct_statement *statement, ct_plot *out,
                        ct_error *error)
 {
-    SESSION_CALL(session, session_ran_out(session, error));
+    SESSION_WORK(session, error);
 
     const Statement *s = statement_of(statement);
     const char *title = model_title(session->model);
@@ -212,7 +212,7 @@ done:
 ct_status ct_measured(ct_session *session, const ct_expression *item, double **values, int *rows,
                       char **name, ct_error *error)
 {
-    SESSION_CALL(session, session_ran_out(session, error));
+    SESSION_WORK(session, error);
 
     const Syntax *syntax = syntax_of(item), *call = syntax;
     Status status = OK;

@@ -308,7 +308,7 @@ static Place place_of_message(const Statement *s, const Diag *diag)
 
 ct_status ct_run(ct_session *session, const ct_statement *statement, ct_error *error)
 {
-    SESSION_CALL(session, session_ran_out(session, error));
+    SESSION_WORK(session, error);
 
     const Statement *s = statement_of(statement);
     Status status;
@@ -338,7 +338,7 @@ static RunOptions options_of(const ct_run_options *given)
 
 ct_status ct_simulate(ct_session *session, const ct_run_options *given, ct_error *error)
 {
-    SESSION_CALL(session, session_ran_out(session, error));
+    SESSION_WORK(session, error);
 
     const RunOptions options = options_of(given);
     Host host = {.row = given->row, .input = given->input, .context = given->context};

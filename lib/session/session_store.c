@@ -38,7 +38,7 @@ static const char *scene_of(const Model *model, const char *name)
 
 ct_status ct_store(ct_session *session, const ct_statement *statement, char **text, ct_error *error)
 {
-    SESSION_CALL(session, session_ran_out(session, error));
+    SESSION_WORK(session, error);
 
     const Syntax *name = statement_of(statement)->operands.at[0].value;
     Text out = {0};
@@ -214,7 +214,7 @@ static Status load_all(Load *load, const char *text, Diag *diag)
 
 ct_status ct_load(ct_session *session, const ct_statement *statement, ct_error *error)
 {
-    SESSION_CALL(session, session_ran_out(session, error));
+    SESSION_WORK(session, error);
 
     const Syntax *file = statement_of(statement)->operands.at[0].value;
     Load load = {.model = session->model, .file = file, .lines = 1};

@@ -99,7 +99,7 @@ bool ct_is_unit(const char *name)
 ct_status ct_duration(ct_session *session, const ct_expression *expression, const char *name,
                       double *value, ct_error *error)
 {
-    SESSION_CALL(session, session_ran_out(session, error));
+    SESSION_WORK(session, error);
 
     Status status;
     Diag diag = {0};
@@ -114,7 +114,7 @@ done:
 ct_status ct_round(ct_session *session, const ct_expression *expression, const double *at,
                    double *value, ct_error *error)
 {
-    SESSION_CALL(session, session_ran_out(session, error));
+    SESSION_WORK(session, error);
 
     Formula formula = {0};
     Run *source = NULL;
@@ -136,7 +136,7 @@ done:
 ct_status ct_value(ct_session *session, const ct_expression *expression, const ct_expression *at,
                    double *value, ct_error *error)
 {
-    SESSION_CALL(session, session_ran_out(session, error));
+    SESSION_WORK(session, error);
 
     double instant;
     Status status;
@@ -345,6 +345,7 @@ static Status last_sheet(ct_session *session, const ct_expression *const *items,
     for (int i = 0; i < count; i++)
         list[i] = syntax_of(items[i]);
     CHECK(session_last_run(session, &source, diag));
+    report(&session->watch, "reading rows", -1);
     CHECK(make_sheet(session, list, count, source, every, out, diag));
 done:
     mem_free(list);
@@ -354,7 +355,7 @@ done:
 ct_status ct_table(ct_session *session, const ct_expression *const *items, int count, double every,
                    double **values, int *rows, int *columns, char ***names, ct_error *error)
 {
-    SESSION_CALL(session, session_ran_out(session, error));
+    SESSION_WORK(session, error);
 
     Sheet sheet = {0};
     Diag diag = {0};
@@ -410,7 +411,7 @@ void ct_columns_free(ct_column *columns)
 ct_status ct_columns(ct_session *session, const ct_expression *const *items, int count,
                      double every, ct_column **out, int *columns, int *rows, ct_error *error)
 {
-    SESSION_CALL(session, session_ran_out(session, error));
+    SESSION_WORK(session, error);
 
     Sheet sheet = {0};
     Diag diag = {0};
@@ -583,7 +584,7 @@ static Status refuse_screen(const Statement *s, Diag *diag)
 ct_status ct_export_archive(ct_session *session, const ct_statement *statement, ct_archive **out,
                             ct_error *error)
 {
-    SESSION_CALL(session, session_ran_out(session, error));
+    SESSION_WORK(session, error);
 
     const Statement *s = statement_of(statement);
     const Format *format =
@@ -640,7 +641,7 @@ const char *ct_archive_binary(const ct_archive *archive)
 ct_status ct_archive_pack(ct_session *session, const ct_archive *archive, const char *binary,
                           size_t binary_length, char **bytes, size_t *length, ct_error *error)
 {
-    SESSION_CALL(session, session_ran_out(session, error));
+    SESSION_WORK(session, error);
 
     Diag diag = {0};
 
@@ -657,7 +658,7 @@ void ct_archive_free(ct_archive *archive)
 ct_status ct_export(ct_session *session, const ct_statement *statement, bool with_header,
                     char **text, ct_error *error)
 {
-    SESSION_CALL(session, session_ran_out(session, error));
+    SESSION_WORK(session, error);
 
     const Statement *s = statement_of(statement);
     const char *name = s->operands.count > 0 ? s->operands.at[0].value->text : "";

@@ -256,6 +256,7 @@ static void run_search(TreesSought *search)
         tree_free(halves[0]);
         tree_free(halves[1]);
     }
+    transaction_stop_asking(); /* there are best ones so far */
     tree_search_run(&search->pairs);
 }
 

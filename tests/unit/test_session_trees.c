@@ -121,7 +121,7 @@ static void a_long_chain_is_searched(void)
                        i, i, i - 1, i, i, i, i, i);
         EXPECT_DONE(&kit, line);
     }
-    EXPECT(stopped_after(&kit, "virtual revolute v c5 a5\n", 400) != CT_FAILED);
+    EXPECT(stopped_after(&kit, "virtual revolute v c5 a5\n", 4000) != CT_FAILED);
     EXPECT_HOLDS(ct_remarks(kit.session), "compared");
     kit_free(&kit);
 }

@@ -57,7 +57,7 @@ static void speed_directions(const System *system)
 }
 
 /* velocities of all nodes per unit of one speed */
-static void unit_motion(const System *system, int speed, Vec *v)
+static Status unit_motion(const System *system, int speed, Vec *v)
 {
     Arena *arena = system->arena;
     int turned = system->kinematics->speeds[speed].chain;
@@ -70,6 +70,7 @@ static void unit_motion(const System *system, int speed, Vec *v)
         const Frame *frame = &system->kinematics->frames[n];
         int axes = node_axes(system, n);
 
+        TRY(poll(system->watch));
         v[n] = vec_express(system, v[frame->parent], node_axes(system, frame->parent), axes);
         if (turned >= 0 && chain_is_beyond(system, frame->step_chain, turned))
             v[n] = vec_add(arena, v[n],
@@ -78,6 +79,7 @@ static void unit_motion(const System *system, int speed, Vec *v)
             v[n] = vec_add(arena, v[n], speed_slide(system, speed, axes));
         v[n] = vec_hold(arena, v[n]);
     }
+    return OK;
 }
 
 static void unit_elastic(const System *system, const Elastic *elastic, int speed, const Vec *v,
@@ -99,7 +101,7 @@ static void unit_elastic(const System *system, const Elastic *elastic, int speed
 }
 
 /* inertia forces, signs reversed, of that motion */
-static void unit_loads(const System *system, int speed, const Vec *v, Loads *loads)
+static Status unit_loads(const System *system, int speed, const Vec *v, Loads *loads)
 {
     Arena *arena = system->arena;
     int turned = system->kinematics->speeds[speed].chain;
@@ -109,6 +111,7 @@ static void unit_loads(const System *system, int speed, const Vec *v, Loads *loa
         int chain = system->kinematics->frames[mass->node].chain;
         bool turns = turned >= 0 && mass->has_inertia && chain_is_beyond(system, chain, turned);
 
+        TRY(poll(system->watch));
         if (turns) {
             Vec w = speed_axis(system, speed, chain);
 
@@ -120,6 +123,7 @@ static void unit_loads(const System *system, int speed, const Vec *v, Loads *loa
     }
     for (int i = 0; i < system->dynamics->elastics.count; i++)
         unit_elastic(system, &system->dynamics->elastics.at[i], speed, v, loads);
+    return OK;
 }
 
 /* how many bodies a speed moves: those that it turns, or whose way it turns or lengthens; `moves`
@@ -232,8 +236,8 @@ static Status mass_matrix(System *system)
             composite_loads(system, composite_at(system, composites, speed_node(system, k)), k,
                             &loads);
         } else {
-            unit_motion(system, k, v);
-            unit_loads(system, k, v, &loads);
+            CHECK(unit_motion(system, k, v));
+            CHECK(unit_loads(system, k, v, &loads));
         }
         sums = loads_sum(system, &loads);
         for (int j = 0; j < n; j++)

@@ -244,9 +244,9 @@ Status linearize(const LinearOrder *order, Linear **out, Diag *diag)
     Work w = {.order = order};
     Status status = OK;
 
-    report(order->watch, "linearizing", -1);
     CHECK(phase_refuse_by(result_reader_first(order->about), diag));
     CHECK(open_system(&w, diag));
+    report(order->watch, "differentiating", -1);
     CHECK(compile(&w, diag));
     CHECK(linear_point(&w, diag));
     CHECK(linear_columns(&w, out, diag));

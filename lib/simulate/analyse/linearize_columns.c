@@ -243,6 +243,7 @@ static Status write_columns(const Work *w, Linear *out, Diag *diag)
         }
         d.state = c >= 2 * f && !is_input ? c - 2 * f : -1;
         d.input = is_input ? column : -1;
+        report(w->order->watch, "linearizing", (double)c / (out->states + out->inputs));
         CHECK(poll(w->order->watch));
         spread(w, &d);
         write_column(w, &d, &rates, &outputs);

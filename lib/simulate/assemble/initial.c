@@ -343,6 +343,7 @@ Status initial_find(const Layout *layout, Parameters *parameters, Numbers *numbe
     bool closed;
     Status status = OK;
 
+    report(setting->watch, "assembling", -1);
     *out = (Assembled){.y = NEW_ARRAY(double, layout_references(layout) + layout->multi_turns + 1),
                        .network = NEW_ARRAY(double, layout->nx + layout->nz),
                        .guess = NEW_ARRAY(double, layout->nz),

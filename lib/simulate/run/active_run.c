@@ -48,6 +48,7 @@ void active_run_free(ActiveRun *r)
     events_free(r->events);
     mode_search_free(r->mode_search);
     shares_free(r->shares);
+    probe_free(r->energies);
     mem_free(r->begin);
     phases_free(r->phases);
     result_free(r->result);
@@ -200,10 +201,32 @@ void active_run_add_row(ActiveRun *r, double t, const double *y)
 static Status ask_energies(Phases *phases, const Phase *phase, const void *context, Probe **out,
                            Diag *diag)
 {
-    const Expr energies[2] = {system_kinetic(phase->system), system_potential(phase->system)};
+    ActiveRun *r = (ActiveRun *)context;
 
-    (void)context;
-    return probe_new(phase->layout, &phases->parameters, energies, 2, out, diag);
+    if (phase == r->energies_of && r->energies != NULL) {
+        mem_keep(r);
+        *out = r->energies;
+        r->energies = NULL;
+        return OK;
+    }
+    return probe_new(phase->layout, &phases->parameters,
+                     (Expr[]){system_kinetic(phase->system), system_potential(phase->system)}, 2,
+                     out, diag);
+}
+
+Status active_run_prepare(ActiveRun *r, Diag *diag)
+{
+    Probe *energies = NULL;
+    double values[2]; /* asked once, it is the processor's code from now on */
+    Status status = OK;
+
+    CHECK(ask_energies(r->phases, r->phase, r, &energies, diag));
+    mem_keep(r);
+    r->energies = energies;
+    r->energies_of = r->phase;
+    phase_probe_at(r->phase, energies, 0, r->begin, NULL, 2, values);
+done:
+    return status;
 }
 
 static int compare(const void *a, const void *b)
@@ -245,7 +268,7 @@ static Status energy_of_tolerance(ActiveRun *r, double *out, Diag *diag)
 
     for (int i = 0; i < count; i++)
         add_beside(r, (int)((int64_t)rows * i / count), &random, &beside);
-    CHECK(phases_ask(r->phases, &beside, &none, 0, ask_energies, NULL, 2, energies[0], diag));
+    CHECK(phases_ask(r->phases, &beside, &none, 0, ask_energies, r, 2, energies[0], diag));
     for (int i = 0; i < count; i++) {
         const double(*at)[2] = energies + (ptrdiff_t)i * (1 + BESIDE);
 
@@ -291,7 +314,7 @@ Status active_run_balance(ActiveRun *r, Diag *diag)
     bool is_known = true;
     Status status = OK;
 
-    CHECK(phases_ask(r->phases, grid, &r->result->driven, r->phase->number, ask_energies, NULL, 2,
+    CHECK(phases_ask(r->phases, grid, &r->result->driven, r->phase->number, ask_energies, r, 2,
                      energies, diag));
     for (int i = 0; i < grid->count; i++) {
         const double *value = energies + 2 * (ptrdiff_t)i;

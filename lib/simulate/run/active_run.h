@@ -17,7 +17,9 @@ typedef struct ActiveRun {
     double *begin;           /* y there */
     Events *events;          /* NULL: none */
     ModeSearch *mode_search; /* NULL: there are no ideal switches */
-    Shares *shares;          /* of what is stored, where switches join parts; NULL: none yet */
+    Probe *energies;         /* made before it goes; NULL: not yet, or no more */
+    const Phase *energies_of;
+    Shares *shares; /* of what is stored, where switches join parts; NULL: none yet */
 } ActiveRun;
 
 /* New: a result of nothing, no phases yet. */
@@ -37,6 +39,9 @@ MUST_USE Status active_run_events(ActiveRun *run, const Phase *phase, const Even
                                   Diag *diag);
 /* a row of the phase that it starts in */
 void active_run_add_row(ActiveRun *run, double t, const double *y);
+/* Before it goes, what its energy balance needs of the first phase: a run that is stopped has it.
+ */
+MUST_USE Status active_run_prepare(ActiveRun *run, Diag *diag);
 /* Energy balance over the rows, into the report. */
 MUST_USE Status active_run_balance(ActiveRun *run, Diag *diag);
 

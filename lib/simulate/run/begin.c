@@ -60,6 +60,7 @@ static Status prepare(RunKind kind, System *system, const Setting *setting, Acti
     Status status = OK;
 
     r->phases->tolerance = START_TOLERANCE;
+    report(setting->watch, "compiling", -1);
     CHECK(phase_new(system, &r->phases->parameters, NULL, 0, &whole, diag));
     phases_add(r->phases, whole);
     if (goes_through_modes(whole->layout)) {

@@ -281,7 +281,7 @@ static Status fill(ResultReader *reader, const double *times, int count, const W
         TRY(fill_between(reader, ends, times + i, group, watch, diag));
     }
     if (reader->result->driven.values != NULL && reader->asked.count > 0)
-        TRY(inverse_solve(reader->phases, &reader->result->start, &reader->asked,
+        TRY(inverse_solve(reader->phases, &reader->result->start, &reader->asked, NULL,
                           &reader->asked_driven, diag));
     return OK;
 }

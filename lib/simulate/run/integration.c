@@ -145,6 +145,7 @@ static Status integrate_interval(Integration *m, double end, Diag *diag)
     double least = 4e-16 * fabs(end); /* what an event may leave of the way, too short for a step */
     Status status = OK;
 
+    transaction_stop_asking(); /* there are rows to be kept */
     integration_begin_modes(m);
     while (end - m->stepper->t > least && !m->is_over) {
         report(plan->watch, "simulate", (m->stepper->t - plan->from) / (plan->to - plan->from));

@@ -398,7 +398,8 @@ static Status solve_row(Inverse *in, double t, double *y, double *out, Diag *dia
     return OK;
 }
 
-Status inverse_solve(Phases *phases, const Assembled *start, Grid *rows, Driven *out, Diag *diag)
+Status inverse_solve(Phases *phases, const Assembled *start, Grid *rows, const Watch *watch,
+                     Driven *out, Diag *diag)
 {
     mem_keep(phases);
     Phase *phase = phases_whole(phases);
@@ -418,9 +419,15 @@ Status inverse_solve(Phases *phases, const Assembled *start, Grid *rows, Driven 
     out->length = in.l->jerk - in.l->rates;
     mem_free(out->values);
     out->values = NEW_ARRAY(double, rows->count * out->length);
-    for (int row = 0; row < rows->count; row++)
+    for (int row = 0; row < rows->count; row++) {
+        report(watch, "inverse", (double)row / rows->count);
+        if (poll(watch) != OK) {
+            rows->count = row;
+            CHECK(diag_set(diag, E_STOPPED, "stopped at t = %.6g s", rows->times[row]));
+        }
         CHECK(solve_row(&in, rows->times[row], grid_row(rows, row),
                         out->values + (ptrdiff_t)row * out->length, diag));
+    }
 done:
     probe_free(in.balance);
     probe_free(in.jerk);

@@ -8,14 +8,16 @@
 #ifndef COTREE_SIMULATE_RUN_INVERSE_H
 #define COTREE_SIMULATE_RUN_INVERSE_H
 
+#include "base/watch.h"
 #include "simulate/assemble/initial.h"
 #include "simulate/run/phases.h"
 
 /* whether network states follow from the motion, instead of being integrated */
 bool inverse_finds_states(const System *system);
 /* Fill a block for each of some rows, and the network states found into them. Fails with E_SINGULAR
- * where no effort produces the motion, E_MODEL where it isn't told by the motion alone. */
-MUST_USE Status inverse_solve(Phases *phases, const Assembled *start, Grid *rows, Driven *out,
-                              Diag *diag);
+ * where no effort produces the motion, E_MODEL where it isn't told by the motion alone; where it is
+ * stopped the rows done are all that are left. */
+MUST_USE Status inverse_solve(Phases *phases, const Assembled *start, Grid *rows,
+                              const Watch *watch, Driven *out, Diag *diag);
 
 #endif

@@ -339,6 +339,8 @@ static Status go(ActiveRun *r, const Setting *setting, const RunOptions *given, 
     CHECK(complete_options(r, given, &options, diag));
     CHECK(find_method(options.method, &method, diag));
     CHECK(method_in_time(&options, &method, diag));
+    report(setting->watch, "compiling", -1);
+    CHECK(active_run_prepare(r, diag));
     phases_tolerance(r->phases, options.atol);
     plan = plan_of(r, setting, &options, method, r->events);
     plan.asks = given->rtol > 0 || given->atol > 0;
@@ -410,6 +412,8 @@ static void give(ActiveRun *r, const Setting *setting, Status status, Result **o
     *out = NULL;
     if (reader != NULL)
         *reader = NULL;
+    if (kept)
+        r->result->report.stopped = status == E_STOPPED;
     if (kept)
         active_run_finish(r, setting, out, reader);
     else
@@ -597,6 +601,7 @@ static Status positions(ActiveRun *r, const Setting *setting, const RunOptions *
     memcpy(y, r->begin, (size_t)r->phase->length * sizeof(double));
     if (!motion_project(r->phase->motion, 0, y))
         CHECK(solver_failure(diag, 0, "the start does not meet the constraints"));
+    transaction_stop_asking(); /* there will be rows to be kept */
     for (int k = 0; k <= rows && !stop; k++) {
         double t = k > 0 ? grid_time(0, options->duration, options->every, k) : 0;
 
@@ -698,13 +703,20 @@ Status run_inverse(System *system, const Setting *setting, const RunOptions *opt
     ActiveRun *r = NULL;
     Status status = OK;
     Status driven;
+    Grid *rows;
 
     CHECK(run_open(RUN_INVERSE, system, setting, &r, diag));
+    rows = &r->result->grid;
     CHECK(phase_refuse_open(r->phase, diag));
     driven = drive(r, setting, options, diag);
     if (driven != OK && driven != E_STOPPED && driven != E_SOLVER)
         CHECK(driven);
-    CHECK(inverse_solve(r->phases, &r->result->start, &r->result->grid, &r->result->driven, diag));
+    /* rows up to where it was stopped are told to their end */
+    status = inverse_solve(r->phases, &r->result->start, rows, driven == OK ? setting->watch : NULL,
+                           &r->result->driven, diag);
+    if (status == E_STOPPED && rows->count > 0)
+        r->result->report.reached = rows->times[rows->count - 1];
+    CHECK(status);
     status = driven;
 done:
     give(r, setting, status, out, reader);
