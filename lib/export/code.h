@@ -67,9 +67,24 @@ typedef struct CodeLive {
     LIST(int) places;  /* of targets that are states themselves, in y; else -1 */
     LIST(int) samples; /* states that are sampled */
     Expr *seeds;       /* the direction: 1 + ny + ns symbols */
-    int tangents[3];   /* functions: of each group; -1 */
+    int tangents[4];   /* functions: of each group, or of what modes have in its place */
     bool *depends;     /* by model parameter: it follows from others */
 } CodeLive;
+
+/* an ideal switch, whose side is a parameter (code_modes.c) */
+typedef struct CodeIdeal {
+    int place; /* among the switches of the system */
+    IdealSwitch ideal;
+    Expr closed; /* parameter: 1 or 0 */
+} CodeIdeal;
+
+typedef struct CodeModes {
+    LIST(CodeIdeal) ideals;
+    LIST(int) gives;  /* each edge's through, then across variable is an impulse of a source */
+    int first;        /* of their sides, in p */
+    int group;        /* of unknowns that they are among */
+    int functions[2]; /* its rows' rates; what closed or open ones share */
+} CodeModes;
 
 /* a state and what follows from it here */
 typedef struct CodeState {
@@ -112,6 +127,7 @@ typedef struct Code {
     LIST(char *) outputs; /* what was asked for, in words */
     LIST(char *) conditions;
     CodeLive live;
+    CodeModes modes;
     Lowered lowered;
     int *derived; /* one a value: its place in p; -1 */
     int derived_count;
@@ -156,6 +172,29 @@ void code_live_tangents(Code *code);
 /* parameters that follow from others */
 void code_live_relations(Code *code);
 void code_live_free(CodeLive *live);
+
+/* --- ideal switches (code_modes.c) --- */
+
+/* Those of the system. Fails where its form has no row for one. */
+MUST_USE Status code_find_modes(Code *code, Diag *diag);
+bool code_has_modes(const Code *code);
+/* residuals of networks with a side each */
+void code_sided_rows(const Code *code, Expr *rows);
+/* the functions by which residuals, networks first, are solved in any mode */
+MUST_USE Status code_add_modes(Code *code, const Expr *rows, int count, Diag *diag);
+/* what jumps or bends there because a diode has two sides */
+bool code_is_side(const Code *code, Expr call);
+/* margins of diodes: above 0 while they stay closed, below while they stay open; of switches 0 */
+void code_margins(const Code *code, Expr *out);
+/* numbers that C is told of them */
+void code_modes_begin(const Code *code, Text *out);
+void code_modes_free(CodeModes *modes);
+/* Rows [A | b] of residuals over unknowns of s from `first` on, as a function: its number. A is
+ * their Jacobian, b what they lack. */
+int code_newton_rows(Code *code, const Expr *residuals, int first, int count, const char *name,
+                     const char *what);
+/* the same of a group that is solved for by Newton's method */
+void code_add_newton(Code *code, const Expr *residuals, int first, int count, const char *name);
 
 static inline double code_off(int i, double y)
 {

@@ -167,6 +167,11 @@ void code_fill(const Code *code, const char *text, Text *out)
                  {"$OUTPUTS", code->outputs.count},
                  {"$CONDITIONS", code->conditions.count},
                  {"$LARGEST", most},
+                 {"$WORK", 2 * (most + 1) * (most + 2) + 8 * (code->ny + 1) +
+                               (code_has_modes(code)
+                                    ? 9 * (most + 1) * (most + 2) + 2 * (code->ny + code->ns) +
+                                          2 * code->modes.gives.count + 4 * code->modes.ideals.count
+                                    : 0)},
                  {"$QUATERNIONS", quaternion_count},
                  {"$STATES", code->states.count}};
 

@@ -197,22 +197,6 @@ static void put_signs(Code *code)
     mem_free(surfaces);
 }
 
-/* Modes in which other states stand are more than one program. */
-static Status refuse_ideal(System *system, Diag *diag)
-{
-    for (int i = 0; i < system_ideal_count(system); i++) {
-        IdealSwitch ideal;
-
-        if (!system_is_ideal(system, i))
-            continue;
-        TRY(system_ideal(system, i, &ideal, diag));
-        (void)diag_set(diag, E_MISSING, "%s is ideal, and an FMU holds no modes", ideal.name);
-        diag_hint(diag, "give it Ron= and Roff=");
-        return E_MISSING;
-    }
-    return OK;
-}
-
 Status code_live_events(Code *code, Diag *diag)
 {
     const Model *model = code->view->model;
@@ -221,12 +205,13 @@ Status code_live_events(Code *code, Diag *diag)
     const Switch *switches;
     int time_only;
     const int count = system_switches(code->layout->system, &switches, &time_only);
-    Status status = refuse_ideal(code->layout->system, diag);
+    const int ideals = code->modes.ideals.count;
+    Expr *margins = NEW_ARRAY(Expr, ideals);
+    Status status = OK;
 
-    if (status != OK)
-        return status;
     for (int i = 0; i < count; i++)
-        add_side(code, switches[i].condition, switches[i].call);
+        if (!code_is_side(code, switches[i].call))
+            add_side(code, switches[i].condition, switches[i].call);
     for (int i = 0; i < model_event_count(model); i++)
         CHECK(add_event(code, model_event(model, i), &truths, &values, &targets, diag));
     CHECK(add_samples(code, diag));
@@ -234,6 +219,9 @@ Status code_live_events(Code *code, Diag *diag)
     order_sides(code);
     for (int i = 0; i < live->sides.count; i++)
         LIST_PUSH(measures, live->sides.at[i].surface.condition);
+    code_margins(code, margins);
+    for (int k = 0; k < ideals; k++)
+        LIST_PUSH(measures, margins[k]);
     code_add_function(code, "indicators", "what equations jump or bend at", measures.at,
                       measures.count, 1);
     add_timers(code);
@@ -243,6 +231,7 @@ Status code_live_events(Code *code, Diag *diag)
     code_add_function(code, "targets", "what they are given to", targets.at, targets.count, 1);
     put_signs(code);
 done:
+    mem_free(margins);
     LIST_FREE(truths);
     LIST_FREE(values);
     LIST_FREE(targets);
@@ -301,12 +290,11 @@ static void add_tangent(Code *code, const char *of, const char *name, const char
     mem_free(entries);
 }
 
-/* what a group's equations lack when all but its own unknowns move */
-static void add_group_tangent(Code *code, int g)
+/* what rows [A | b] lack when all but the group's unknowns move */
+static void add_rows_tangent(Code *code, const CodeGroup *group, int function, int number)
 {
-    static const char *const names[] = {"tangent_1", "tangent_2"};
-    const CodeGroup *group = &code->groups[g];
-    const CodeFunction f = code->functions.at[group->function];
+    static const char *const names[] = {"tangent_1", "tangent_2", "tangent_3", "tangent_4"};
+    const CodeFunction f = code->functions.at[function];
     Expr *entries = NEW_ARRAY(Expr, group->count);
 
     for (int i = 0; i < group->count; i++) {
@@ -320,8 +308,9 @@ static void add_group_tangent(Code *code, int g)
                                   code->layout->symbols[code->layout->rates + group->first + k]));
         entries[i] = along(code, lack, group->first);
     }
-    code->live.tangents[g] = code_add_function(
-        code, names[g], "right sides for derivatives along a direction", entries, group->count, 1);
+    code->live.tangents[number] =
+        code_add_function(code, names[number], "right sides for derivatives along a direction",
+                          entries, group->count, 1);
     mem_free(entries);
 }
 
@@ -338,7 +327,9 @@ void code_live_tangents(Code *code)
                                           SYMBOL_ACCELERATION);
     }
     for (int g = 0; g < code->group_count; g++)
-        add_group_tangent(code, g);
+        add_rows_tangent(code, &code->groups[g], code->groups[g].function, g);
+    for (int k = 0; code_has_modes(code) && k < COUNT(code->modes.functions); k++)
+        add_rows_tangent(code, &code->groups[code->modes.group], code->modes.functions[k], 2 + k);
     add_tangent(code, "accelerations", "tangent_accelerations", "derivatives of u'");
     add_tangent(code, "derivative", "tangent_derivative", "derivatives of the rates");
     add_tangent(code, "outputs", "tangent_outputs", "derivatives of outputs");

@@ -123,12 +123,17 @@ static void add_parameters(Code *code)
 
         for (int k = 0; !known && k < code->live.sides.count; k++)
             known = code->live.sides.at[k].surface.sign == symbols[i];
+        for (int k = 0; !known && k < code->modes.ideals.count; k++)
+            known = code->modes.ideals.at[k].closed == symbols[i];
         for (int k = 0; !known && k < code->parameters.count; k++)
             known = code->parameters.at[k] == symbols[i];
         if (!known)
             LIST_PUSH(code->parameters, symbols[i]);
     }
     mem_free(symbols);
+    code->modes.first = code->parameters.count;
+    for (int k = 0; k < code->modes.ideals.count; k++)
+        LIST_PUSH(code->parameters, code->modes.ideals.at[k].closed);
     code->live.first = code->parameters.count;
     for (int k = 0; k < code->live.sides.count; k++)
         LIST_PUSH(code->parameters, code->live.sides.at[k].surface.sign);
@@ -241,9 +246,10 @@ static void add_angles(Code *code)
 
 /* --- what is solved for --- */
 
-/* [A | b] of residuals over unknowns: A is their Jacobian, b what they lack */
-static void add_newton(Code *code, const Expr *residuals, int first, int count, const char *name)
+int code_newton_rows(Code *code, const Expr *residuals, int first, int count, const char *name,
+                     const char *what)
 {
+    int function;
     Arena *arena = code->arena;
     const Layout *l = code->layout;
     const int width = count + 1;
@@ -269,10 +275,17 @@ static void add_newton(Code *code, const Expr *residuals, int first, int count, 
         rows[i * width + count] = expr_neg(arena, residuals[i]);
         mem_free(symbols);
     }
-    code->groups[code->group_count++] = (CodeGroup){
-        first, count,
-        code_add_function(code, name, "rows of [A | b] in A ds = b", rows, count, width), true};
+    function = code_add_function(code, name, what, rows, count, width);
     MEM_FREE(rows, unknowns);
+    return function;
+}
+
+void code_add_newton(Code *code, const Expr *residuals, int first, int count, const char *name)
+{
+    const int function =
+        code_newton_rows(code, residuals, first, count, name, "rows of [A | b] in A ds = b");
+
+    code->groups[code->group_count++] = (CodeGroup){first, count, function, true};
 }
 
 static void add_linear_network(Code *code)
@@ -389,6 +402,7 @@ void code_residual(const Code *code, Expr *rows)
 
     for (int i = 0; i < k; i++)
         rows[i] = r->network_residual[i];
+    code_sided_rows(code, rows);
     for (int i = 0; i < nu; i++) {
         rows[k + i] = expr_neg(arena, r->force[i]);
         for (int j = 0; j < nu; j++)
@@ -411,8 +425,31 @@ static void add_joint(Code *code)
     Expr *rows = NEW_ARRAY(Expr, code->ns);
 
     code_residual(code, rows);
-    add_newton(code, rows, 0, code->ns, "equations");
+    code_add_newton(code, rows, 0, code->ns, "equations");
     mem_free(rows);
+}
+
+/* all that is solved for, where what ideal switches ask of networks may be told of speeds */
+static Status add_modes(Code *code, Diag *diag)
+{
+    const Layout *l = code->layout;
+    const unsigned moving = 1U << SYMBOL_COORDINATE | 1U << SYMBOL_SPEED |
+                            1U << SYMBOL_ACCELERATION | 1U << SYMBOL_MULTIPLIER;
+    Expr *rows = NEW_ARRAY(Expr, code->ns);
+    unsigned kinds = 0;
+    Status status;
+
+    code_residual(code, rows);
+    for (int i = 0; i < l->nx + l->nz; i++)
+        kinds |= expr_kinds(rows[i]);
+    if ((kinds & moving) != 0)
+        status = code_add_modes(code, rows, code->ns, diag);
+    else {
+        status = code_add_modes(code, rows, l->nx + l->nz, diag);
+        add_mechanics(code);
+    }
+    mem_free(rows);
+    return status;
 }
 
 static void add_groups(Code *code)
@@ -429,7 +466,7 @@ static void add_groups(Code *code)
         return;
     }
     if (l->nx + l->nz > 0 && r->network_nonlinear)
-        add_newton(code, r->network_residual, 0, l->nx + l->nz, "network");
+        code_add_newton(code, r->network_residual, 0, l->nx + l->nz, "network");
     else if (l->nx + l->nz > 0)
         add_linear_network(code);
     add_mechanics(code);
@@ -499,7 +536,8 @@ static Status add_conditions(Code *code, Diag *diag)
         char *words = expr_text(switches[i].condition);
         const unsigned unknown = 1U << SYMBOL_EFFORT | 1U << SYMBOL_JERK;
 
-        if ((expr_kinds(switches[i].condition) & unknown) == 0) {
+        if (!code_is_side(code, switches[i].call) &&
+            (expr_kinds(switches[i].condition) & unknown) == 0) {
             LIST_PUSH(list, switches[i].condition);
             LIST_PUSH(code->conditions, words);
         } else
@@ -582,10 +620,14 @@ Status code_form(const Exported *what, Code *code, Diag *diag)
         diag_hint(diag, "code is of a model with bodies and joints, or a network");
         goto done;
     }
+    CHECK(code_find_modes(code, diag));
     add_blocks(code);
     CHECK(add_derivative(code, diag));
     add_angles(code);
-    add_groups(code);
+    if (code_has_modes(code))
+        CHECK(add_modes(code, diag));
+    else
+        add_groups(code);
     CHECK(add_outputs(code, what, diag));
     if (code->live.is_wanted) {
         code->is_redundant = l->m > 0; /* it may become so elsewhere */
@@ -650,6 +692,7 @@ void code_free(Code *code)
     LIST_FREE(code->functions);
     lowered_free(&code->lowered);
     code_live_free(&code->live);
+    code_modes_free(&code->modes);
     layout_free(code->layout);
     pool_free(code->texts);
     MEM_FREE(code->derived, code);

@@ -45,6 +45,12 @@ static double parameter_value(void *context, Expr symbol)
     return NAN;
 }
 
+/* A symbol of the whole as a user's variable, which every mode tells. */
+static Expr by_name(const Code *code, Expr symbol)
+{
+    return expr_symbol(code->arena, expr_name(symbol), SYMBOL_VARIABLE);
+}
+
 /* parameters and y, as the start has them */
 static Status read_start(States *st, const Exported *what, Diag *diag)
 {
@@ -64,7 +70,12 @@ static Status read_start(States *st, const Exported *what, Diag *diag)
         items[i] = expr_int(code->arena, 1);
     for (int part = 0; part < COUNT(sizes); part++)
         for (int i = 0; i < sizes[part]; i++)
-            items[at++] = l->symbols[firsts[part] + i];
+            items[at++] = firsts[part] == l->x && code_has_modes(code)
+                              ? by_name(code, l->symbols[l->x + i])
+                              : l->symbols[firsts[part] + i];
+    for (int k = 0; k < code->modes.ideals.count; k++)
+        items[code->modes.first + k] =
+            expr_int(code->arena, result_reader_side(what->start, code->modes.ideals.at[k].place));
     /* what drivers do at the start */
     for (int k = 0; code->inverse != NULL && k < MOTIONS * code->inverse->motions.count; k++) {
         const InverseMotion *motion = &code->inverse->motions.at[k % code->inverse->motions.count];
@@ -186,26 +197,16 @@ static void measure_loss(States *st, const double *acceleration, const double *m
     MEM_FREE(full_mass, phi_u, top, bottom, lambda);
 }
 
-/* the state that y is, unless equations have no solution there */
-static bool add_state(States *st, double t)
+/* A state with what is solved for there; false: some of it has no value. `row` tells all of it,
+ * away from where it is a solution. */
+static bool take_state(States *st, double t, RowValues row)
 {
     Code *code = st->code;
     const Layout *l = code->layout;
     CodeState state = {.t = t};
     const double *roots;
-    RowValues row;
-    Solved solved;
-    double *s, *errors, *off = st->off;
+    double *s = NEW_ARRAY(double, code->ns), *errors, *off = st->off;
 
-    if (!motion_project(st->phase->motion, t, st->y))
-        return false;
-    if (l->multi_turns > 0)
-        equations_turn(numbers_equations(st->phase->numbers), t, st->y,
-                       st->y + layout_references(l));
-    if (!motion_solve(st->phase->motion, t, st->y, &solved))
-        return false;
-    row = row_of_solved(l, t, st->y, &solved);
-    s = NEW_ARRAY(double, code->ns);
     memcpy(s, row.rates, (size_t)l->nx * sizeof(double));
     memcpy(s + l->nx, row.z, (size_t)l->nz * sizeof(double));
     memcpy(s + l->nx + l->nz, row.acceleration, (size_t)l->nu * sizeof(double));
@@ -245,8 +246,53 @@ static bool add_state(States *st, double t)
     }
     mem_free(errors);
     LIST_PUSH(code->states, state);
-    measure_loss(st, state.s + l->nx + l->nz, state.s + l->nx + l->nz + l->nu);
     return true;
+}
+
+/* the state that y is, unless equations have no solution there */
+static bool add_state(States *st, double t)
+{
+    const Layout *l = st->code->layout;
+    const double *s;
+    Solved solved;
+
+    if (!motion_project(st->phase->motion, t, st->y))
+        return false;
+    if (l->multi_turns > 0)
+        equations_turn(numbers_equations(st->phase->numbers), t, st->y,
+                       st->y + layout_references(l));
+    if (!motion_solve(st->phase->motion, t, st->y, &solved) ||
+        !take_state(st, t, row_of_solved(l, t, st->y, &solved)))
+        return false;
+    s = st->code->states.at[st->code->states.count - 1].s;
+    measure_loss(st, s + l->nx + l->nz, s + l->nx + l->nz + l->nu);
+    return true;
+}
+
+/* The start, in whose mode the session has other equations, as these tell it: what they have no
+ * name for is 0 in s. */
+static Status add_start_in_mode(States *st, const Exported *what, Diag *diag)
+{
+    Code *code = st->code;
+    const Layout *l = code->layout;
+    double *s = NEW_ARRAY(double, code->ns + 1);
+    Status status = OK;
+
+    for (int i = 0; i < code->ns; i++) {
+        const Expr item = by_name(code, l->symbols[l->rates + i]);
+
+        CHECK(poll(code->view->watch));
+        CHECK(result_reader_values_at(what->start, &item, 1, 0, &s[i], diag));
+    }
+    CHECK(probe_new(l, &st->parameters, code->roots.at, code->roots.count, &st->probe, diag));
+    (void)take_state(st, 0,
+                     (RowValues){.rates = s,
+                                 .z = s + l->nx,
+                                 .acceleration = s + l->nx + l->nz,
+                                 .multipliers = s + l->nx + l->nz + l->nu});
+done:
+    mem_free(s);
+    return status;
 }
 
 void code_sizes(const Code *code, double sizes[CODE_PARTS])
@@ -264,14 +310,6 @@ void code_sizes(const Code *code, double sizes[CODE_PARTS])
             fmax(sizes[CODE_PARTS - COUNT(code->loss) + k], code->loss[k]);
 }
 
-static bool has_ideal_switches(const System *system)
-{
-    for (int i = 0; i < system_ideal_count(system); i++)
-        if (system_is_ideal(system, i))
-            return true;
-    return false;
-}
-
 Status code_add_states(Code *code, const Exported *what, int most, Diag *diag)
 {
     States st = {.code = code, .seed = 1};
@@ -280,11 +318,7 @@ Status code_add_states(Code *code, const Exported *what, int most, Diag *diag)
     double near = 1;
     Status status = OK;
 
-    /* what ideal switches carry and bear leaves few states that there can be */
     most = most < room ? most : room;
-    if (most > 1 && has_ideal_switches(code->layout->system))
-        most = 1;
-
     st.parameters = (Parameters){.value = parameter_value, .context = code};
     CHECK(read_start(&st, what, diag));
     if (code->live.is_wanted) /* it finds the rest itself */
@@ -293,10 +327,14 @@ Status code_add_states(Code *code, const Exported *what, int most, Diag *diag)
         parameters_set(&st.parameters, code->parameters.at[i], code->values[i]);
     if (code->inverse != NULL)
         parameters_set(&st.parameters, code->inverse->now, 0);
-    CHECK(open_phase(&st, diag));
-    st.y = NEW_ARRAY(double, st.phase->length + 1);
+    st.y = NEW_ARRAY(double, code->ny + 1); /* and work */
     st.off = NEW_ARRAY(double, code->ny);
     memcpy(st.y, st.start, (size_t)code->ny * sizeof(double));
+    if (code_has_modes(code)) {
+        status = add_start_in_mode(&st, what, diag);
+        goto done;
+    }
+    CHECK(open_phase(&st, diag));
     (void)add_state(&st, 0);
     for (int i = 0; i < TRIES && code->states.count < most; i++) {
         CHECK(poll(code->view->watch));

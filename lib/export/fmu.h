@@ -12,9 +12,5 @@
 void fmu_describe(const Code *code, const Exported *what, const char *token, Text *out);
 #define FMU_IDENTIFIER "model" /* of binaries */
 #define FMU_TOLERANCE  "1e-6"  /* where an importer names none */
-/* parts of the runtime, a line each, NULL at their ends */
-extern const char *const fmu_text_fmu_h[],
-    *const fmu_text_fmu_c[], *const fmu_text_fmu_step_c[], *const fmu_text_fmi2_c[],
-                                                               *const fmu_text_fmi3_c[];
 
 #endif

@@ -51,6 +51,12 @@ static void put_escaped(Text *out, const char *text)
         }
 }
 
+/* those that change with states: what is jumped at, margins of diodes */
+static int indicator_count(const Code *code)
+{
+    return code->live.sides.count - code->live.timed + code->modes.ideals.count;
+}
+
 /* --- the list --- */
 
 static void add_variable(Description *d, Group group, int i, int reference, const char *name)
@@ -109,7 +115,7 @@ static void list_variables(Description *d)
     }
     for (int i = 0; i < code->outputs.count; i++)
         add_output(d, i, reference++);
-    for (int i = 0; d->what->version == 3 && i < code->live.sides.count - code->live.timed; i++) {
+    for (int i = 0; d->what->version == 3 && i < indicator_count(code); i++) {
         text_addf(&name, "indicator(%d)", i + 1);
         add_variable(d, GROUP_INDICATOR, i, reference++, name.at);
         text_free(&name);
@@ -322,8 +328,7 @@ static void put_head(const Description *d, const char *token)
     text_addf(d->out, "\" %s=\"%s\" generationTool=\"cotree\" variableNamingConvention=\"flat\"",
               is_2 ? "guid" : "instantiationToken", token);
     if (is_2)
-        text_addf(d->out, " numberOfEventIndicators=\"%d\"",
-                  d->code->live.sides.count - d->code->live.timed);
+        text_addf(d->out, " numberOfEventIndicators=\"%d\"", indicator_count(d->code));
     text_add(d->out, ">\n");
 }
 

@@ -7,6 +7,7 @@ libcore_la_SOURCES += \
   lib/export/code_inverse.c \
   lib/export/code_live.c \
   lib/export/code_make.c \
+  lib/export/code_modes.c \
   lib/export/code_print.c \
   lib/export/code_states.c \
   lib/export/fmu.h \
@@ -17,6 +18,7 @@ libcore_la_SOURCES += \
   lib/export/import_spice.c \
   lib/export/import_urdf.c \
   lib/export/importers.c \
+  lib/export/shared_text.h \
   lib/export/spice_cards.c \
   lib/export/spice_cards.h \
   lib/export/spice_elements.c \
@@ -39,15 +41,15 @@ libcore_la_SOURCES += \
   lib/export/xml.c \
   lib/export/xml.h
 
-# the parts of an FMU that are the same for all models, as strings, a line each
-fmu_parts = share/fmu/fmu.h share/fmu/fmu.c share/fmu/fmu_step.c \
-	share/fmu/fmi2.c share/fmu/fmi3.c
-EXTRA_DIST += $(fmu_parts)
-nodist_libcore_la_SOURCES = lib/export/fmu_text.c
-CLEANFILES += lib/export/fmu_text.c
-lib/export/fmu_text.c: $(fmu_parts) lib/export/local.mk
-	$(AM_V_GEN)$(MKDIR_P) lib/export && { echo '#include "export/fmu.h"'; \
-	for part in $(fmu_parts); do \
-	  echo "const char *const fmu_text_`basename $$part | tr . _`[] = {"; \
+# what is the same for all models in code and FMUs, as strings, a line each
+shared_parts = share/fmu/fmu.h share/fmu/fmu.c share/fmu/fmu_step.c \
+	share/fmu/fmi2.c share/fmu/fmi3.c share/code/modes.c share/code/modes_step.c
+EXTRA_DIST += $(shared_parts)
+nodist_libcore_la_SOURCES = lib/export/shared_text.c
+CLEANFILES += lib/export/shared_text.c
+lib/export/shared_text.c: $(shared_parts) lib/export/local.mk
+	$(AM_V_GEN)$(MKDIR_P) lib/export && { echo '#include "export/shared_text.h"'; \
+	for part in $(shared_parts); do \
+	  echo "const char *const shared_text_`basename $$part | tr . _`[] = {"; \
 	  sed -e 's/\\/\\\\/g' -e 's/"/\\"/g' -e 's/^/"/' -e 's/$$/\\n",/' $(srcdir)/$$part; \
 	  echo '0};'; done; } >$@.new && mv $@.new $@

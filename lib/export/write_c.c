@@ -1,5 +1,6 @@
 /* write_c.c: a model in C99 that is C++ too: no allocation, nothing kept between calls */
 #include "export/code.h"
+#include "export/shared_text.h"
 
 #include "model/model.h"
 
@@ -30,8 +31,9 @@ static const char declarations[] =
     "    MODEL_Y = $Y,\n    MODEL_Z = $Z,\n    MODEL_M = $M,\n    MODEL_S = $S,\n"
     "    MODEL_OUTPUTS = $OUTPUTS,\n    MODEL_CONDITIONS = $CONDITIONS,\n"
     "    MODEL_LARGEST = $LARGEST,\n"
-    "    MODEL_WORK = 2 * (MODEL_LARGEST + 1) * (MODEL_LARGEST + 2) + 8 * (MODEL_Y + 1)\n};\n"
-    "enum { MODEL_OK, MODEL_SINGULAR, MODEL_NO_SOLUTION }; /* what functions return */\n\n"
+    "    MODEL_WORK = $WORK\n};\n"
+    "enum { MODEL_OK, MODEL_SINGULAR, MODEL_NO_SOLUTION, MODEL_IMPULSE }; /* what functions return "
+    "*/\n\n"
     "#ifdef __cplusplus\nextern \"C\" {\n#endif\n\n"
     "/* the parameters' values, with model_prepare() */\nvoid model_parameters(real *p);\n"
     "/* what follows from parameters alone: after a parameter has changed */\n"
@@ -42,9 +44,23 @@ static const char declarations[] =
     "/* y' and s */\n"
     "int model_rates(const real *p, real t, const real *y, real *s, real *work, real *rates);\n"
     "/* y onto the constraints: positions, then speeds */\n"
-    "int model_project(const real *p, real t, real *y, real *work);\n"
+    "int model_project(const real *p, real t, real *y, real *work);\n";
+
+static const char step_declaration[] =
     "/* one step of the classical Runge-Kutta method, with projection */\n"
     "int model_step(const real *p, real t, real step, real *y, real *s, real *work);\n";
+
+static const char modes_declaration[] =
+    "/* which ideal switches are closed, as it shows a time h ahead: sets their sides in p. s: "
+    "there, "
+    "too */\n"
+    "int model_exchange(real *p, real t, const real *y, real *s, real h, real *work);\n"
+    "/* network states onto what the sides ask of them, as impulses would put them, of which "
+    "sources "
+    "give none;\n * *moved: how far, of 1 and the largest */\n"
+    "int model_meet(const real *p, real t, real *y, real *work, real *moved);\n"
+    "/* one step, in pieces where a switch goes over, with the classical Runge-Kutta method */\n"
+    "int model_step(real *p, real t, real step, real *y, real *s, real *work);\n";
 
 static const char partial_pivots[] =
     "\n/* A x = b from the rows [A | b], in which it works: elimination with row pivots */\n"
@@ -205,8 +221,10 @@ static const char projection[] =
     "    if (MODEL_A > 0) {\n        model_angles(p, t, y, y, b);\n"
     "        for (i = 0; i < MODEL_A; i++)\n            y[MODEL_Q + MODEL_U + MODEL_X + i] = "
     "b[i];\n    }\n"
-    "    return MODEL_OK;\n}\n"
-    "\nint model_step(const real *p, real t, real step, real *y, real *s, real *work)\n{\n"
+    "    return $PROJECTED;\n}\n";
+
+static const char step[] =
+    "\n$STEP(const real *p, real t, real step, real *y, real *s, real *work)\n{\n"
     "    real *rate = work, *sum = rate + MODEL_Y, *at = sum + MODEL_Y, *rest = at + MODEL_Y;\n"
     "    int i, k;\n\n    for (i = 0; i < MODEL_Y; i++) {\n        at[i] = y[i];\n"
     "        sum[i] = 0;\n    }\n"
@@ -258,7 +276,10 @@ static void add_rows(const Code *code, Text *out)
         const CodeGroup *group = &code->groups[g];
         const char *name = code->functions.at[group->function].name;
 
-        if (group->iterates)
+        if (code_has_modes(code) && g == code->modes.group)
+            text_add(out, "    status = model_mode_solve(p, t, y, s, 0, work, &i);\n"
+                          "    if (status != MODEL_OK)\n        return status;\n");
+        else if (group->iterates)
             text_addf(out,
                       "    status = model_newton(model_%s, p, t, y, s, %d, %d, work);\n"
                       "    if (status != MODEL_OK)\n        return status;\n",
@@ -287,17 +308,52 @@ static void add_tangent_declarations(Text *out)
                   "int model_solve_rows(real *a, int n, real *x, real *work);\n");
 }
 
+/* the same of rows in the mode of p */
+static void add_mode_tangent(const Code *code, Text *out)
+{
+    static const char *const rows[] = {"a", "d", "c"};
+    const int functions[] = {code->groups[code->modes.group].function, code->modes.functions[0],
+                             code->modes.functions[1]};
+    const int tangents[] = {code->live.tangents[code->modes.group], code->live.tangents[2],
+                            code->live.tangents[3]};
+
+    text_add(out,
+             "\nstatic int model_mode_tangent(const real *p, real t, const real *y, const real "
+             "*s, real *ds,\n                              real *work)\n{\n"
+             "    const int n = MODEL_MODES_N;\n    const ModelRoom r = model_room(work);\n"
+             "    int i, unused = 0, status;\n\n");
+    for (int k = 0; k < COUNT(rows); k++)
+        text_addf(out,
+                  "    model_%s(p, t, y, s, r.%s);\n    model_%s(p, t, y, s, r.old);\n"
+                  "    for (i = 0; i < n; i++)\n        r.%s[i * (n + 1) + n] = r.old[i];\n",
+                  code->functions.at[functions[k]].name, rows[k],
+                  code->functions.at[tangents[k]].name, rows[k]);
+    text_add(out, "    model_reduce(&r, 0, r.old, &unused);\n"
+                  "    status = model_eliminate(r.a, n, r.x, r.rest);\n"
+                  "    for (i = 0; i < n; i++)\n        ds[MODEL_MODES_FIRST + i] = r.x[i];\n"
+                  "    return status;\n}\n");
+}
+
 /* ds along a direction in t and y, behind which it is put: code_live.c */
 static void add_tangent(const Code *code, Text *out)
 {
     const int first = code->ns + 1 + code->ny;
 
+    if (code_has_modes(code))
+        add_mode_tangent(code, out);
     text_add(out, "\nint model_tangent(const real *p, real t, const real *y, real *s, real *work)\n"
                   "{\n    int i, status = MODEL_OK;\n\n    (void)i, (void)work;\n");
     for (int g = 0; g < code->group_count; g++) {
         const CodeGroup *group = &code->groups[g];
         const int rows = group->count * (group->count + 1);
 
+        if (code_has_modes(code) && g == code->modes.group) {
+            text_addf(out,
+                      "    status = model_mode_tangent(p, t, y, s, s + %d, work);\n"
+                      "    if (status != MODEL_OK)\n        return status;\n",
+                      first);
+            continue;
+        }
         text_addf(out,
                   "    model_%s(p, t, y, s, work);\n    model_%s(p, t, y, s, work + %d);\n"
                   "    for (i = 0; i < %d; i++)\n        work[i * %d + %d] = work[%d + i];\n"
@@ -361,6 +417,8 @@ static void add_check(const Code *code, Text *out)
     add_list(out, sizes, CODE_PARTS);
     text_add(out, "\n        0};\n    int bad = 0;\n\n    model_parameters(p);\n"
                   "    model_start(y, s);\n");
+    if (code_has_modes(code))
+        text_add(out, "    bad += model_check_sides(p, y, s);\n");
     for (int k = 0; k < code->states.count; k++) {
         const CodeState *state = &code->states.at[k];
 
@@ -451,15 +509,47 @@ static void add_tables(const Code *code, Text *out)
              " : 0;\n}\n");
 }
 
+/* a text with something else in the place of a $NAME */
+static void add_with(Text *out, const char *text, const char *name, const char *value)
+{
+    const char *at = strstr(text, name);
+
+    text_add_n(out, text, (size_t)(at - text));
+    text_add(out, value);
+    text_add(out, at + strlen(name));
+}
+
 static void add_projection(const Code *code, Text *out)
 {
-    const char *firsts = strstr(projection, "$FIRSTS");
+    Text firsts = {0}, body = {0};
 
-    text_add_n(out, projection, (size_t)(firsts - projection));
     for (int i = 0, first; (first = system_quaternion(code->layout->system, i)) >= 0; i++)
-        text_addf(out, "%d, ", first);
-    text_add(out, "-1");
-    text_add(out, firsts + strlen("$FIRSTS"));
+        text_addf(&firsts, "%d, ", first);
+    text_add(&firsts, "-1");
+    add_with(&body, projection, "$FIRSTS", firsts.at);
+    add_with(out, body.at, "$PROJECTED",
+             code_has_modes(code) ? "model_meet(p, t, y, work, work)" : "MODEL_OK");
+    add_with(out, step, "$STEP",
+             code_has_modes(code) ? "static int model_smooth_step" : "int model_step");
+    text_free(&firsts);
+    text_free(&body);
+}
+
+static void add_lines(Text *out, const char *const *lines)
+{
+    for (; *lines != NULL; lines++)
+        text_add(out, *lines);
+}
+
+/* what goes through modes of ideal switches: after what eliminates */
+static void add_modes(const Code *code, Text *out)
+{
+    text_add(out,
+             "\n/* edges whose impulse would be a source's */\nstatic const int model_gives[] = {");
+    for (int i = 0; i < code->modes.gives.count; i++)
+        text_addf(out, "%d, ", code->modes.gives.at[i]);
+    text_add(out, "0};\n");
+    add_lines(out, shared_text_modes_c);
 }
 
 static void add_inverse_declarations(const Code *code, Text *out)
@@ -527,6 +617,9 @@ static void write_file(const Code *code, const Language *language, Text *out)
     code_head(code, language, " * ", out);
     text_add(out, " */\n#ifndef MODEL_H\n#define MODEL_H\n");
     code_fill(code, declarations, out);
+    text_add(out, code_has_modes(code) ? modes_declaration : step_declaration);
+    if (code_has_modes(code))
+        code_modes_begin(code, out);
     for (int f = 0; f < code->functions.count; f++)
         text_addf(
             out, "void model_%s(const real *p, real t, const real *y, const real *s, real *out);\n",
@@ -543,11 +636,15 @@ static void write_file(const Code *code, const Language *language, Text *out)
     for (int f = 0; f < code->functions.count; f++)
         code_print(code, f, language, out);
     text_add(out, code->is_redundant ? full_pivots : partial_pivots);
-    for (int g = 0, written = 0; g < code->group_count; g++)
+    for (int g = 0, written = 0; g < code->group_count && !code_has_modes(code); g++)
         if (code->groups[g].iterates && !written++)
             text_add(out, newton);
+    if (code_has_modes(code))
+        add_modes(code, out);
     add_rows(code, out);
     add_projection(code, out);
+    if (code_has_modes(code))
+        add_lines(out, shared_text_modes_step_c);
     if (code->inverse != NULL)
         add_inverse(code, out);
     if (code->live.is_wanted)

@@ -1,5 +1,6 @@
 /* write_fmu.c: the files of an FMU */
 #include "export/fmu.h"
+#include "export/shared_text.h"
 
 #include "model/model.h"
 
@@ -86,12 +87,14 @@ static void write_header(const Code *code, const Exported *what, const char *tok
               "enum {\n    FMU_MODEL_EXCHANGE = %d,\n    FMU_CO_SIMULATION = %d,\n"
               "    FMU_PARAMETERS = %d, /* the first ones, that have names */\n"
               "    FMU_FIRST_SIDE = %d, /* in p: signs of what is jumped at */\n"
-              "    FMU_SIDES = %d,\n    FMU_TIMED = %d, /* of those, that are of time alone */\n"
+              "    FMU_SIDES = %d,\n    FMU_SWITCHES = %d, /* ideal ones */\n    FMU_TIMED = %d, "
+              "/* of those, that are of time alone */\n"
               "    FMU_EVENTS_COUNT = %d,\n    FMU_TARGETS = %d, /* that events give values to */\n"
               "    FMU_SAMPLES = %d,\n    FMU_QUATERNIONS = %d,\n    FMU_ROWS = %d,\n",
               token, FMU_TOLERANCE, !what->only_simulation, !what->only_exchange,
-              model_parameter_count(code->view->model), live->first, live->sides.count, live->timed,
-              live->events.count, live->targets.count, live->samples.count, quaternions, rows);
+              model_parameter_count(code->view->model), live->first, live->sides.count,
+              code->modes.ideals.count, live->timed, live->events.count, live->targets.count,
+              live->samples.count, quaternions, rows);
     text_addf(out,
               "    FMU_SPACE = 2 * (FMU_ROWS + 2) * (FMU_ROWS + 2) + %d\n};\n"
               "enum { FMU_MARKS, FMU_STOPS, FMU_SETS };          /* what events do */\n"
@@ -181,13 +184,13 @@ static Status pack(const Exported *what, Archive **out, Diag *diag)
     take_text(archive, "sources/model.c", &model);
     write_header(code, what, token, &text);
     take_text(archive, "sources/model_fmu.h", &text);
-    take_lines(archive, "sources/fmu.h", fmu_text_fmu_h);
-    take_lines(archive, "sources/fmu.c", fmu_text_fmu_c);
-    take_lines(archive, "sources/fmu_step.c", fmu_text_fmu_step_c);
+    take_lines(archive, "sources/fmu.h", shared_text_fmu_h);
+    take_lines(archive, "sources/fmu.c", shared_text_fmu_c);
+    take_lines(archive, "sources/fmu_step.c", shared_text_fmu_step_c);
     if (what->version == 2)
-        take_lines(archive, "sources/fmi2.c", fmu_text_fmi2_c);
+        take_lines(archive, "sources/fmi2.c", shared_text_fmi2_c);
     else {
-        take_lines(archive, "sources/fmi3.c", fmu_text_fmi3_c);
+        take_lines(archive, "sources/fmi3.c", shared_text_fmi3_c);
         write_build(&text);
         take_text(archive, "sources/buildDescription.xml", &text);
     }

@@ -12,6 +12,9 @@ enum { ROUNDS = 100 };  /* in which one event may set off others */
 #define SAME      1e-9  /* of a period: sampling instants that can't be told apart */
 #define DRIFT     10.0  /* of the tolerance: how far a state may leave the constraints */
 #define PROJECTED 1e-12 /* how near it is put */
+#define NEAR      1e-9  /* of 1 + |t|: how far ahead sides of ideal switches are looked for, */
+#define FURTHEST  1e-5  /* and where they don't change, though a margin has ended */
+#define ROUNDING  1e-11 /* of the largest current or voltage: margins that can't be told from 0 */
 
 FmuStatus fmu_fail(Fmu *fmu, FmuStatus status, const char *text, double value)
 {
@@ -62,6 +65,10 @@ void fmu_reset(Fmu *fmu)
     model_start(now->y, now->s);
     for (i = 0; i < FMU_SIDES; i++)
         now->side[i] = 1;
+#ifdef MODEL_HAS_MODES
+    for (i = 0; i < FMU_SWITCHES; i++)
+        now->side[FMU_SIDES + i] = now->p[MODEL_CLOSED + i] > 0.5 ? 1 : -1;
+#endif
     prepare(fmu);
 }
 
@@ -175,15 +182,18 @@ static FmuStatus measures(Fmu *fmu, double *out)
 
 FmuStatus fmu_indicators(Fmu *fmu, double *out)
 {
-    double all[FMU_SIDES + 1];
+    double all[FMU_MEASURES + 1];
     const FmuStatus status = measures(fmu, all);
     int i;
 
     for (i = 0; status == FMU_OK && i < FMU_INDICATORS; i++) {
-        /* exactly on one it is on the side where it stays */
-        const double v = all[FMU_TIMED + i];
+        const int at = FMU_TIMED + i;
+        double v = all[at];
 
-        out[i] = v > 0 || v < 0 ? v : fmu->now.side[FMU_TIMED + i] * 1e-300;
+        if (at >= FMU_SIDES)
+            v += fmu->now.side[at] * fmu->now.slack[at - FMU_SIDES];
+        /* exactly on one it is on the side where it stays */
+        out[i] = v > 0 || v < 0 ? v : fmu->now.side[at] * 1e-300;
     }
     return status;
 }
@@ -263,6 +273,15 @@ static double drift(Fmu *fmu)
             sum += now->y[fmu_quaternion[k] + i] * now->y[fmu_quaternion[k] + i];
         most = larger(most, fabs(sum - 1));
     }
+#ifdef MODEL_HAS_MODES
+    {
+        double y[MODEL_Y + 1], far;
+
+        memcpy(y, now->y, MODEL_Y * sizeof(double));
+        (void)model_meet(now->p, now->t, y, fmu->work, &far);
+        most = larger(most, far);
+    }
+#endif
     if (MODEL_M == 0)
         return most;
     model_constraints(now->p, now->t, now->y, now->s, rows);
@@ -298,10 +317,12 @@ static void take_references(Fmu *fmu)
 static FmuStatus project(Fmu *fmu, int *moved)
 {
     FmuNumbers *now = &fmu->now;
+    int status;
 
     if (drift(fmu) <= PROJECTED)
         return FMU_OK;
-    if (model_project(now->p, now->t, now->y, fmu->work) != MODEL_OK)
+    status = model_project(now->p, now->t, now->y, fmu->work);
+    if (status != MODEL_OK && status != MODEL_IMPULSE) /* it drifted: no impulse has */
         return fmu_fail(fmu, FMU_ERROR, "the constraints can't be met", drift(fmu));
     now->is_solved = 0;
     *moved = 1;
@@ -466,7 +487,7 @@ static void find_rates(Fmu *fmu, double *rates)
     double dy[MODEL_Y + 1];
     int i;
 
-    for (i = 0; i < FMU_SIDES; i++)
+    for (i = 0; i < FMU_MEASURES; i++)
         rates[i] = 0;
     model_derivative(now->p, now->t, now->y, now->s, dy);
     if (fmu_direction(fmu, 1, dy) == FMU_OK)
@@ -477,7 +498,7 @@ static void find_rates(Fmu *fmu, double *rates)
 static FmuStatus find_sides(Fmu *fmu, double *late, int *changes)
 {
     FmuNumbers *now = &fmu->now;
-    double at[FMU_SIDES + 1], rate[FMU_SIDES + 1];
+    double at[FMU_MEASURES + 1], rate[FMU_MEASURES + 1];
     const double close = larger(INSTANT * (1 + fabs(now->t)), LATE * *late);
     FmuStatus status;
     int i;
@@ -506,6 +527,82 @@ static FmuStatus find_sides(Fmu *fmu, double *late, int *changes)
         prepare(fmu);
     return FMU_OK;
 }
+
+/* --- ideal switches --- */
+
+#ifdef MODEL_HAS_MODES
+
+/* Margins of diodes; *ended: one has, by more than rounding. */
+static FmuStatus margins(Fmu *fmu, double *margin, int *ended)
+{
+    const FmuNumbers *now = &fmu->now;
+    double all[FMU_MEASURES + 1], largest[2] = {0, 0};
+    const FmuStatus status = measures(fmu, all);
+    int i, k;
+
+    *ended = 0;
+    if (status != FMU_OK)
+        return status;
+    model_edges(now->p, now->t, now->y, now->s, fmu->work);
+    for (i = 0; i < 2 * MODEL_EDGES; i++)
+        largest[i % 2] = larger(largest[i % 2], fabs(fmu->work[i]));
+    for (k = 0; k < FMU_SWITCHES; k++) {
+        const int side = now->side[FMU_SIDES + k];
+
+        margin[k] = side * all[FMU_SIDES + k];
+        *ended |= margin[k] < -ROUNDING * largest[side < 0];
+    }
+    return status;
+}
+
+static void put_sides(Fmu *fmu)
+{
+    int k;
+
+    for (k = 0; k < FMU_SWITCHES; k++)
+        fmu->now.p[MODEL_CLOSED + k] = fmu->now.side[FMU_SIDES + k] > 0;
+    model_prepare(fmu->now.p);
+}
+
+/* Which are closed from here on; states as these ask, unless that takes an impulse of a source. */
+static FmuStatus exchange(Fmu *fmu, int *changes, int *moved)
+{
+    FmuNumbers *now = &fmu->now;
+    const double unit = 1 + fabs(now->t);
+    double margin[FMU_SWITCHES + 1], h, far;
+    int k, ended = 0, any = 0, status = MODEL_OK;
+
+    if (now->has_start && !*changes && margins(fmu, margin, &ended) != FMU_OK)
+        return FMU_DISCARD;
+    for (h = NEAR * unit; status == MODEL_OK && !any; h *= 10) {
+        status = model_exchange(now->p, now->t, now->y, now->s, h, fmu->work);
+        for (k = 0; k < FMU_SWITCHES; k++)
+            if ((now->p[MODEL_CLOSED + k] > 0.5 ? 1 : -1) != now->side[FMU_SIDES + k])
+                any |= h <= NEAR * unit || margin[k] < 0;
+        if (!any)
+            put_sides(fmu); /* what changes later is another event */
+        if (!ended || h > FURTHEST * unit)
+            break;
+    }
+    now->is_solved = 0;
+    if (status != MODEL_OK)
+        return fmu_fail(fmu, FMU_ERROR, "there is no solution, whichever ideal switches are closed",
+                        now->y[0]);
+    for (k = 0; k < FMU_SWITCHES; k++)
+        now->side[FMU_SIDES + k] = now->p[MODEL_CLOSED + k] > 0.5 ? 1 : -1;
+    status = model_meet(now->p, now->t, now->y, fmu->work, &far);
+    if (status != MODEL_OK && (status != MODEL_IMPULSE || now->has_start))
+        return fmu_fail(fmu, FMU_ERROR, "what ideal switches do would take an impulse of a source",
+                        far);
+    *moved |= far > PROJECTED;
+    *changes |= any;
+    if (margins(fmu, margin, &ended) != FMU_OK)
+        return FMU_DISCARD;
+    for (k = 0; k < FMU_SWITCHES; k++)
+        now->slack[k] = margin[k] < 0 ? -2 * margin[k] : 0;
+    return FMU_OK;
+}
+#endif
 
 /* sampled states, once an instant */
 static FmuStatus take_samples(Fmu *fmu, int *moved)
@@ -583,6 +680,10 @@ FmuStatus fmu_events(Fmu *fmu, int *moved)
         if (rounds == ROUNDS)
             return fmu_fail(fmu, FMU_ERROR, "events or signs change without end", now->y[0]);
         status = find_sides(fmu, &late, &changes);
+#ifdef MODEL_HAS_MODES
+        if (status == FMU_OK)
+            status = exchange(fmu, &changes, moved);
+#endif
         if (status == FMU_OK)
             status = solve(fmu);
         if (status != FMU_OK)

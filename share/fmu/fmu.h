@@ -26,8 +26,9 @@ typedef enum FmuMode {
 
 enum { /* numbers in each array */
        FMU_STATES = MODEL_Q + MODEL_U + MODEL_X,
-       FMU_SEEDS = 1 + MODEL_Y + MODEL_S, /* of a direction (dt, dy, ds), behind s */
-       FMU_INDICATORS = FMU_SIDES - FMU_TIMED,
+       FMU_SEEDS = 1 + MODEL_Y + MODEL_S,       /* of a direction (dt, dy, ds), behind s */
+       FMU_MEASURES = FMU_SIDES + FMU_SWITCHES, /* of what is jumped at, then margins of diodes */
+       FMU_INDICATORS = FMU_MEASURES - FMU_TIMED,
        /* value references: time, then */
        FMU_FIRST_PARAMETER = 1,
        FMU_FIRST_STATE = FMU_FIRST_PARAMETER + FMU_PARAMETERS,
@@ -51,7 +52,8 @@ typedef struct FmuNumbers {
     double p[MODEL_P + 1];
     double y[MODEL_Y + 1];
     double s[MODEL_S + FMU_SEEDS + 1];
-    int side[FMU_SIDES + 1];         /* of what is jumped at: -1 or 1 */
+    int side[FMU_MEASURES + 1];      /* of what is jumped at: -1 or 1; open or closed */
+    double slack[FMU_SWITCHES + 1];  /* a margin that has ended and all the same changes nothing */
     int holds[FMU_EVENTS_COUNT + 1]; /* which events' conditions do */
 } FmuNumbers;
 
@@ -63,7 +65,7 @@ typedef struct Fmu {
     void (*logger)(void); /* of the version's type, called by fmu_say() */
     void *environment;
     void (*release)(void *);
-    double work[3 * MODEL_WORK + 16 * (MODEL_Y + MODEL_S + FMU_SIDES + FMU_TARGETS + 4) +
+    double work[3 * MODEL_WORK + 16 * (MODEL_Y + MODEL_S + FMU_MEASURES + FMU_TARGETS + 4) +
                 FMU_PARAMETERS];
     double space[FMU_SPACE]; /* of the integrator, and of new values */
 } Fmu;

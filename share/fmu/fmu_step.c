@@ -285,7 +285,7 @@ static int end_at_crossing(Fmu *fmu, const Step *step, double *h, double part)
     *h *= part;
     for (tries = 0; tries < TRIES; tries++) {
         double v, slope, aim;
-        double dy[MODEL_Y + 1], rates[FMU_SIDES + 1];
+        double dy[MODEL_Y + 1], rates[FMU_MEASURES + 1];
 
         if (*h < instant)
             *h = instant;
@@ -389,7 +389,7 @@ FmuStatus fmu_advance(Fmu *fmu, double end)
         moved = 0;
         if (crossing || now->t >= now->next)
             status = fmu_events(fmu, &moved);
-        else if (MODEL_M > 0 || FMU_QUATERNIONS > 0 || MODEL_A > 0)
+        else if (MODEL_M > 0 || FMU_QUATERNIONS > 0 || MODEL_A > 0 || FMU_SWITCHES > 0)
             status = fmu_put_back(fmu);
     }
     return status == FMU_OK || status == FMU_FATAL ? status : FMU_ERROR;

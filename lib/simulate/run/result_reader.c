@@ -96,6 +96,13 @@ Phase *result_reader_first(const ResultReader *reader)
     return reader->phases->at[reader->result->first];
 }
 
+bool result_reader_side(const ResultReader *reader, int which)
+{
+    const Phase *first = result_reader_first(reader);
+
+    return first->closed != NULL && first->closed[which];
+}
+
 /* --- values --- */
 
 typedef struct Items {

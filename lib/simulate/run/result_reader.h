@@ -13,6 +13,8 @@
 MUST_USE Status result_reader_new(const Result *result, ResultReader **out, Diag *diag);
 void result_reader_free(ResultReader *reader); /* NULL is fine */
 const Result *result_reader_result(const ResultReader *reader);
+/* whether a switch of the system is closed where the result begins */
+bool result_reader_side(const ResultReader *reader, int which);
 /* Values of expressions over variables (SYMBOL_VARIABLEs; system_resolve() is done here) at every
  * row: out is rows x count. `t` is the row's time. */
 MUST_USE Status result_reader_values(ResultReader *reader, const Expr *items, int count,
