@@ -416,6 +416,7 @@ static const Member *family_members(const Component *row, bool planar, int *coun
     case FAMILY_TRANSDUCER:
         return scalar_members(row, count);
     case FAMILY_DRIVER:
+    case FAMILY_COUPLER:
     case FAMILY_FORCE:
         break;
     }

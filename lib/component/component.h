@@ -72,7 +72,7 @@ typedef enum Places {
     PLACES_ON,     /* force F1 m3: edge ground -> m3 */
     PLACES_LINK, /* spring k1 r1 r2, or spring k1 h8: between two frames or on a joint's coordinate
                   */
-    PLACES_COORDINATE, /* driver D1 h8 = expr: a coordinate of a joint or body */
+    PLACES_COORDINATE, /* driver D1 h8 = expr: a coordinate of a joint or (driver) a body */
     PLACES_TERMINALS,  /* resistor R1 a b: the terminals of its scalar edges */
     PLACES_TRANSDUCER, /* motor M7 h1 a 0: on joint h1's coordinate, then terminals */
     PLACES_SENSED,     /* sensor v1 h8' a 0: an expression of variables, then terminals */
@@ -84,6 +84,7 @@ typedef enum Family {
     FAMILY_ARM,
     FAMILY_JOINT,
     FAMILY_DRIVER,
+    FAMILY_COUPLER, /* between coordinates of joints */
     FAMILY_FORCE,
     FAMILY_SCALAR,
     FAMILY_TRANSDUCER
@@ -297,7 +298,8 @@ struct Component {
     /* PLACES_ON: force and torque on the head, in ground axes or, with *in_body, in the head's */
     void (*wrench)(const Instance *instance, Arena *arena, bool planar, Expr force[3],
                    Expr torque[3], bool *in_body);
-    /* PLACES_COORDINATE: the prescribed value, an expression of t and parameters */
+    /* PLACES_COORDINATE: the prescribed value, an expression of t and parameters; of a coupler one
+     * of parameters and other coordinates, by the user's names */
     Expr (*prescribed)(const Instance *instance, Arena *arena);
     /* the force along the line (on the head, away from the tail) or the generalised force on the
      * joint's coordinate (on the head); NULL where it exerts none */

@@ -436,67 +436,31 @@ done:
 
 /* --- mimic --- */
 
-/* mass or moment of inertia that a joint moves at least, its own link's about the joint */
-static double moved(const Link *link, JointKind kind)
-{
-    const double *c = link->centre, *I = link->inertia;
-    const double inertia = (I[0] + I[1] + I[2]) / 3 + link->mass * vector3_dot(c, c);
-    const double some = kind == PRISMATIC ? link->mass : inertia;
-
-    return some > 0 ? some : 1e-3;
-}
-
-/* "- 2", "+ 2" for -2 */
-static const char *minus(Urdf *u, double value)
-{
-    return import_text(u->import, "%c %s", value < 0 ? '+' : '-',
-                       import_number(u->import, fabs(value)));
-}
-
-/* A joint that follows another, q = m*other + c, is pulled there by a spring and a damper that act
- * back on the other, 50 Hz with critical damping on its own link: no part of ours ties two
- * coordinates rigidly. */
+/* A joint that follows another, q = m*other + c. */
 static Status say_mimic(Urdf *u, const Joint *joint)
 {
-    static const double frequency = 2 * M_PI * 50; /* rad/s */
     const Element *mimic = xml_child(joint->element, "mimic");
     const char *of = mimic != NULL ? xml_attribute(mimic, "joint") : NULL;
     const int number = of != NULL ? names_find(u->joint_names, of) : -1;
     const Joint *other = number >= 0 ? &u->joints.at[number] : NULL;
     double values[] = {1, 0};
     Import *import = u->import;
-    const char *k, *d, *gap, *rate, *m, *q = joint->name;
-    double inertia;
+    const char *offset = "";
 
     if (mimic == NULL)
         return OK;
     TRY(read_numbers(u, mimic, "multiplier", 1, &values[0]));
     TRY(read_numbers(u, mimic, "offset", 1, &values[1]));
     if (other == NULL || other == joint || joint->kind > PRISMATIC || other->kind > PRISMATIC) {
-        import_leave(import, mimic->line, true, import_text(import, "mimic of %s", q),
+        import_leave(import, mimic->line, true, import_text(import, "mimic of %s", joint->name),
                      "'%s' is no other joint of one coordinate", of != NULL ? of : "");
         return OK;
     }
-    inertia = moved(&u->links.at[joint->child], joint->kind);
-    k = own_name(u, q, "mimic_k");
-    d = own_name(u, q, "mimic_d");
-    m = import_number(import, values[0]);
-    rate = import_text(import, "%s' %s*%s'", q, minus(u, values[0]), other->name);
-    gap = import_text(import, "%s %s*%s%s%s", q, minus(u, values[0]), other->name,
-                      values[1] != 0 ? " " : "", values[1] != 0 ? minus(u, values[1]) : "");
-    import_comment(import, mimic->line,
-                   "%s follows %s by a spring and a damper, as stiff as %s and %s", q, other->name,
-                   k, d);
-    import_add(import, mimic->line, "%s = %s", k,
-               import_number(import, inertia * frequency * frequency));
-    import_add(import, mimic->line, "%s = %s", d, import_number(import, 2 * inertia * frequency));
-    import_add(import, mimic->line, "actuator %s %s %s=-%s*(%s) - %s*(%s)", own_name(u, q, "mimic"),
-               q, joint->kind == REVOLUTE ? "torque" : "force", k, gap, d, rate);
-    import_add(import, mimic->line, "actuator %s %s %s=(%s)*(%s*(%s) + %s*(%s))",
-               own_name(u, q, "mimic_back"), other->name,
-               other->kind == REVOLUTE ? "torque" : "force", m, k, gap, d, rate);
     if (values[1] != 0)
-        import_add(import, mimic->line, "init %s = %s", q, import_number(import, values[1]));
+        offset = import_text(import, " %c %s", values[1] < 0 ? '-' : '+',
+                             import_number(import, fabs(values[1])));
+    import_add(import, mimic->line, "coupler %s %s = %s*%s%s", own_name(u, joint->name, "mimic"),
+               joint->name, import_number(import, values[0]), other->name, offset);
     return OK;
 }
 

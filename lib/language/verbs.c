@@ -59,7 +59,7 @@ static const struct {
     [PLACES_FRAMES] = {"nppVk", " TAIL TIP"},
     [PLACES_ON] = {"npVk", " FRAME"},
     [PLACES_LINK] = {"npPVk", " TAIL TIP|JOINT"},
-    [PLACES_COORDINATE] = {"n=", " COORDINATE = EXPR [by=SOURCE]"},
+    [PLACES_COORDINATE] = {"n=", " COORDINATE = EXPR"},
     [PLACES_TERMINALS] = {"nppVk", " PLUS MINUS"},
     [PLACES_TRANSDUCER] = {"npppVk", " JOINT PLUS MINUS"},
     [PLACES_SENSED] = {"nvppVk", " VARIABLE PLUS MINUS"},
@@ -166,7 +166,7 @@ const char *verb_key(const Verb *verb, int i)
         return verb->keys != NULL ? verb->keys[n].name : NULL;
     }
     if (row->places == PLACES_COORDINATE)
-        return i == 0 ? "by" : NULL;
+        return i == 0 && row->family == FAMILY_DRIVER ? "by" : NULL;
     if (i < row->param_count)
         return row->params[i].name;
     return i == row->param_count ? coordinate_key(row) : NULL;
@@ -197,6 +197,8 @@ void verb_usage(Text *text, const Verb *verb)
     }
     text_addf(text, "%s NAME%s", row->name,
               row->terminal_usage != NULL ? row->terminal_usage : places[row->places].usage);
+    if (row->family == FAMILY_DRIVER)
+        text_add(text, " [by=SOURCE]");
     for (int i = 0; row->places != PLACES_COORDINATE && i < row->param_count; i++) {
         const Param *param = &row->params[i];
         bool must = param->fallback == NULL;

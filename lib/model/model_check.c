@@ -6,6 +6,7 @@
 #include "model/model_impl.h"
 
 #include <math.h>
+#include <string.h>
 
 /* of parameters alone, and no number yet */
 static bool is_of_parameters(Expr e)
@@ -84,6 +85,49 @@ static Status check_arm(State *state, const Instance *arm, Diag *diag)
                : OK;
 }
 
+/* A coupler knows coordinates of joints alone: on those it acts. */
+static Status check_coupled(State *state, const Instance *part, Diag *diag)
+{
+    const Expr value = part->row->family == FAMILY_COUPLER ? part->values[0].at[0] : NULL;
+    Expr *symbols = NULL;
+    const int count = value != NULL ? expr_symbols(&value, 1, &symbols) : 0;
+    Status status = OK;
+
+    for (int i = 0; i < count; i++) {
+        const char *name = expr_name(symbols[i]);
+        int owner, coordinate;
+
+        if (expr_symbol_kind(symbols[i]) == SYMBOL_PARAMETER)
+            continue;
+        diag_about(diag, "%s", name);
+        if (expr_symbol_kind(symbols[i]) == SYMBOL_TIME) {
+            status = diag_set(diag, E_VALUE, "a coupler follows coordinates, not time");
+            diag_hint(diag, "a driver follows t");
+            goto done;
+        }
+        if (strchr(name, '\'') != NULL) {
+            status = diag_set(diag, E_VALUE, "a coupler follows coordinates, not rates: %s", name);
+            goto done;
+        }
+        CHECK(coordinate_resolve(state, name, (Place){0}, &owner, &coordinate, diag));
+        if (state->parts.at[owner]->row->family != FAMILY_JOINT ||
+            state->parts.at[owner]->coord_kind[coordinate] == COORDINATE_PARAMETER) {
+            status = diag_set(diag, E_VALUE, "a coupler can't act on %s", name);
+            diag_hint(diag, "it takes lengths and angles of joints; a virtual joint has those "
+                            "between any two frames");
+            goto done;
+        }
+        if (owner == part->joint && coordinate == part->joint_coordinate) {
+            status = diag_set(diag, E_VALUE, "%s would follow itself", name);
+            goto done;
+        }
+        CHECK(use_check_reach(state, state->parts.at[owner]->name, (Place){0}, diag));
+    }
+done:
+    mem_free(symbols);
+    return status;
+}
+
 Status part_check(State *state, const Instance *part, Text *remarks, Diag *diag)
 {
     const Component *row = part->row;
@@ -96,6 +140,7 @@ Status part_check(State *state, const Instance *part, Text *remarks, Diag *diag)
     CHECK(instance_check(&numeric, state->arena, state->planar, diag));
     CHECK(coupled_check(state, part, remarks, diag));
     CHECK(check_arm(state, &numeric, diag));
+    CHECK(check_coupled(state, part, diag));
     /* what stands on it, where it may have become shorter */
     for (int i = 0; row->deforming != NULL && i < state->parts.count; i++)
         if (state->parts.at[i]->row->family == FAMILY_ARM && state->parts.at[i]->tail == part->head)

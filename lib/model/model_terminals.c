@@ -211,23 +211,26 @@ static Status driven_coordinate(PartDraft *draft)
 
     if (statement->pairs.count == 0) {
         status = diag_at(draft->diag, E_SYNTAX, statement_end(statement),
-                         "a driver says what its coordinate follows");
-        diag_hint(draft->diag, "it is written driver NAME COORDINATE = value");
+                         "a %s says what its coordinate follows", part->row->name);
+        diag_hint(draft->diag, "it is written %s NAME COORDINATE = value", part->row->name);
         goto done;
     }
     pair = &statement->pairs.at[0];
     if (pair->primes > 0) {
         status = diag_at(draft->diag, E_NAME, pair->name_place,
-                         "a driver prescribes the coordinate itself, not its rate");
-        diag_hint(draft->diag, "integrate: %s = ... of t", pair->name);
+                         "a %s prescribes the coordinate itself, not its rate", part->row->name);
+        diag_hint(draft->diag,
+                  part->row->family == FAMILY_DRIVER ? "integrate: %s = ... of t"
+                                                     : "%s = ... of coordinates",
+                  pair->name);
         goto done;
     }
     CHECK(act_on(draft, pair->name, pair->name_place));
     for (int i = 0; i < state->parts.count; i++) {
         const Instance *other = state->parts.at[i];
 
-        if (other->row->family == FAMILY_DRIVER && other->joint == part->joint &&
-            other->joint_coordinate == part->joint_coordinate) {
+        if (part->row->family == FAMILY_DRIVER && other->row->family == FAMILY_DRIVER &&
+            other->joint == part->joint && other->joint_coordinate == part->joint_coordinate) {
             status = diag_at(draft->diag, E_VALUE, pair->name_place, "%s is already driven by %s",
                              pair->name, other->name);
             goto done;

@@ -159,6 +159,10 @@ static void say_projection(Text *out, const View *view, int row)
         story_add_direction(&words, view, &on.a);
         text_add(&words, " that does no work: the shift follows the turn");
         break;
+    case ALONG_COUPLED:
+        story_add_word(&words, view, system_instance_name(view->system, told->instance));
+        text_add(&words, " ties the coordinate to others, with an unknown effort");
+        break;
     case ALONG_DRIVEN:
         story_add_word(&words, view, system_instance_name(view->system, told->instance));
         text_add(&words, " asks for the coordinate, with an unknown effort");
@@ -267,7 +271,7 @@ Status derive_constraint(Story *story, int k, bool with_circuit, Diag *diag)
     story_add_word(&title, view, system_instance_name(view->system, row->instance));
     text_addf(&title, ", %s: constraint %d", row->direction, k + 1);
     story_title(story, &title);
-    if (!row->rotation && !row->is_driver)
+    if (!row->rotation && !row->is_driver && !row->is_coupler)
         system_way(view->system, row->edge, &way);
     if (with_circuit && row->rotation)
         derive_turns(story->out, view, row->edge);
@@ -289,7 +293,7 @@ bool derive_goes_on(const View *view, int k)
     const ConstraintRow *before = k > 0 ? system_constraint(view->system, k - 1) : NULL;
 
     return before != NULL && before->edge == row->edge && before->rotation == row->rotation &&
-           !before->is_driver;
+           !before->is_driver && !before->is_coupler;
 }
 
 void derive_dropped(Story *story, const char *of)

@@ -12,6 +12,7 @@ static const char *const conventions[] = {
     [FAMILY_JOINT] = "a positive coordinate moves or turns the tip against the tail; fx ... act on "
                      "the tip, reversed on the tail",
     [FAMILY_DRIVER] = "the effort acts along the coordinate, on the tip",
+    [FAMILY_COUPLER] = "the effort acts along the coordinate, on the tip",
     [FAMILY_FORCE] = "acts on the tip, reversed on the tail; pulling together is negative",
     [FAMILY_SCALAR] = "v is plus against minus; i flows from plus to minus inside",
     [FAMILY_TRANSDUCER] = "v is plus against minus; i flows from plus to minus inside; the torque "

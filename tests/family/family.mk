@@ -117,3 +117,7 @@ FAMILIES += family_beams
 family_beams_SOURCES = tests/family/family_beams.c tests/family/family.h tests/family/script.h \
 	tests/unit/session_kit.h tests/unit/test.h
 family_beams_LDADD = libcotree.la $(unit_ldadd)
+FAMILIES += family_couplers
+family_couplers_SOURCES = tests/family/family_couplers.c tests/family/family.h \
+	tests/unit/session_kit.h tests/unit/test.h tests/random.h
+family_couplers_LDADD = libcotree.la $(unit_ldadd)

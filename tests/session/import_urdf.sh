@@ -29,7 +29,7 @@ cat arm.ct
 echo '--- the follower follows'
 cotree -q -e 'import urdf "arm.urdf"' \
     -e 'driver D1 slide = 0.2*sin(2*t); driver D2 upper_arm_2 = 0' -e 'simulate 3' \
-    -e 'expect max(abs(turn - 2*slide + 0.1)) < 0.02' 2>&1
+    -e 'expect max(abs(turn - 2*slide + 0.1)) < 1e-9' 2>&1
 try '<link name="a"/>' 'a frame alone'
 try '<link name="a"/><link name="a"/>' 'twice'
 try '<link name="a"/><joint name="j" type="fixed"><parent link="a"/><child link="b"/></joint>' 'no such link'

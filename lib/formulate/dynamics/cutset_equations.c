@@ -499,7 +499,8 @@ static Status joint_efforts(System *system, Diag *diag)
         const Instance *instance = &system->origin->instances[i];
         Effort effort;
 
-        if (instance->joint < 0 || instance->row->family == FAMILY_DRIVER)
+        if (instance->joint < 0 || instance->row->family == FAMILY_DRIVER ||
+            instance->row->family == FAMILY_COUPLER)
             continue;
         if (instance->row->effort != NULL) {
             TRY(effort_of(system, instance, &effort, diag));

@@ -236,6 +236,17 @@ void loads_add_row(System *system, Loads *loads, const Row *row, Expr lambda)
                          push);
         return;
     }
+    if (row->kind == ROW_COUPLER) {
+        loads_add_effort(system, loads, &system->origin->instances[row->owner], row->coordinate,
+                         push);
+        for (int i = 0; i < row->coupled_count; i++) {
+            const Coupled *c = &row->coupled[i];
+
+            loads_add_effort(system, loads, &system->origin->instances[c->owner], c->coordinate,
+                             expr_mul(arena, lambda, c->slope));
+        }
+        return;
+    }
     if (row->kind == ROW_DOT) {
         Vec b = vec_express(system, row->b, system->kinematics->frames[row->head].chain, tail);
 

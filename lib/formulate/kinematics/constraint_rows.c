@@ -141,18 +141,21 @@ static void tie_row(System *system, const Instance *joint, const Steps *steps)
     system->constraints->rows.at[system->constraints->rows.count - 1].pitch = steps->shift[0].scale;
 }
 
+/* of a driver or a coupler */
 static void driver_row(System *system, const Instance *driver)
 {
+    const bool couples = driver->row->family == FAMILY_COUPLER;
     const Instance *owner = &system->origin->instances[driver->joint];
     Vec none = vec_zero(system->arena);
 
-    push_row(system, owner, ROW_DRIVER, none, none, "driver");
+    push_row(system, owner, couples ? ROW_COUPLER : ROW_DRIVER, none, none, driver->row->name);
 
     Row *row = &system->constraints->rows.at[system->constraints->rows.count - 1];
 
     row->owner = driver->joint;
     row->coordinate = driver->joint_coordinate;
-    row->told.is_driver = true;
+    row->told.is_driver = !couples;
+    row->told.is_coupler = couples;
     row->told.instance = driver->number;
     row->told.edge = driver->edge;
 }
@@ -233,6 +236,38 @@ static Status driver_shown(System *system, Row *row, Diag *diag)
     return OK;
 }
 
+/* what a coupler follows, and a coordinate less that */
+static Status coupler_shown(System *system, Row *row, Diag *diag)
+{
+    Arena *arena = system->arena;
+    const Instance *coupler = &system->origin->instances[row->told.instance];
+    const Expr law = coupler->row->prescribed(coupler, arena);
+    Expr *symbols = NULL;
+    const int count = expr_symbols(&law, 1, &symbols);
+    Expr value;
+    Status status = OK;
+
+    row->coupled = pool_alloc(system->pool, (size_t)count * sizeof *row->coupled);
+    for (int i = 0; i < count; i++) {
+        const int number = names_find(system->origin->coordinate_names, expr_name(symbols[i]));
+        Coupled *coupled = &row->coupled[row->coupled_count];
+
+        if (expr_symbol_kind(symbols[i]) == SYMBOL_PARAMETER || number < 0)
+            continue;
+        coupled->owner = system->origin->coordinate_owners.at[number].instance;
+        coupled->coordinate = system->origin->coordinate_owners.at[number].coordinate;
+        CHECK(variables_resolve(system, expr_diff(arena, law, symbols[i]), &coupled->slope, diag));
+        row->coupled_count++;
+    }
+    CHECK(variables_resolve(system, law, &row->prescribed, diag));
+    CHECK(coordinate_value(system, &system->origin->instances[row->owner], row->coordinate, 0,
+                           &value, diag));
+    row->phi = expr_sub(arena, value, row->prescribed);
+done:
+    mem_free(symbols);
+    return status;
+}
+
 static Status row_shown(System *system, Row *row, Diag *diag)
 {
     Arena *arena = system->arena;
@@ -274,6 +309,9 @@ static Status row_shown(System *system, Row *row, Diag *diag)
         break;
     case ROW_DRIVER:
         TRY(driver_shown(system, row, diag));
+        break;
+    case ROW_COUPLER:
+        TRY(coupler_shown(system, row, diag));
         break;
     }
     row->phi = expr_fold(arena, expr_open(arena, row->phi));
@@ -615,7 +653,7 @@ static void run_dot(const System *system, const Row *row, int k, const int *spee
                                  vec_dot(arena, vec_sub(arena, w_h, w_t), c_rate)));
 }
 
-/* rows whose own expression is short: angles and drivers */
+/* rows whose own expression is short: angles, drivers and couplers */
 static Status run_plain(System *system, const Row *row, int k, Diag *diag)
 {
     Arena *arena = system->arena;
@@ -680,7 +718,7 @@ static Status all_rows(System *system, Diag *diag)
         bool slides;
         bool turns;
 
-        if (instance->row->family == FAMILY_DRIVER)
+        if (instance->row->family == FAMILY_DRIVER || instance->row->family == FAMILY_COUPLER)
             driver_row(system, instance);
         if (instance->row->family != FAMILY_JOINT || instance->is_virtual)
             continue;

@@ -8,13 +8,20 @@
 
 /* direction of a constraint row */
 typedef enum RowKind {
-    ROW_DATUM, /* n.d, n an axis of the datum */
-    ROW_TAIL,  /* n.d, n fixed in the tail */
-    ROW_DOT,   /* a_t . b_h */
-    ROW_ANGLE, /* sum of turns about one axis */
-    ROW_TIE,   /* u.d - pitch times angle: a screw */
-    ROW_DRIVER /* coordinate - f(t) */
+    ROW_DATUM,  /* n.d, n an axis of the datum */
+    ROW_TAIL,   /* n.d, n fixed in the tail */
+    ROW_DOT,    /* a_t . b_h */
+    ROW_ANGLE,  /* sum of turns about one axis */
+    ROW_TIE,    /* u.d - pitch times angle: a screw */
+    ROW_DRIVER, /* coordinate - f(t) */
+    ROW_COUPLER /* coordinate - f(coordinates) */
 } RowKind;
+
+/* A coordinate that a coupler follows, and by how much. */
+typedef struct Coupled {
+    int owner, coordinate;
+    Expr slope;
+} Coupled;
 
 typedef struct Row {
     RowKind kind;
@@ -22,10 +29,12 @@ typedef struct Row {
     Vec n;     /* DATUM: ground axes; TAIL, DOT (a), ANGLE (axis): zero axes of the tail's chain */
     Vec b;     /* DOT: zero axes of the head's chain */
     Expr phi;  /* to show */
-    int owner; /* DRIVER: instance of the coordinate, and which */
+    int owner; /* DRIVER, COUPLER: instance of the coordinate, and which */
     int coordinate;
     Expr pitch; /* TIE: shift per angle */
     Expr prescribed;
+    Coupled *coupled; /* COUPLER: so many of the system's pool */
+    int coupled_count;
     ConstraintRow told;
 } Row;
 

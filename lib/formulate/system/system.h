@@ -173,6 +173,7 @@ typedef struct ConstraintRow {
     bool rotation;      /* moment row */
     char direction[24]; /* "x", "n1", "turn z": for messages */
     bool is_driver;
+    bool is_coupler;
 } ConstraintRow;
 
 const ConstraintRow *system_constraint(const System *system, int k);

@@ -157,10 +157,18 @@ static Status joint_effort(System *system, const Instance *joint, Expr *out, Dia
         TRY(effort_of(system, instance, &effort, diag));
         sum = expr_add(arena, sum, effort.value);
     }
-    for (int k = 0; k < system->constraints->rows.count; k++)
-        if (system->constraints->rows.at[k].kind == ROW_DRIVER &&
-            system->constraints->rows.at[k].owner == joint->number)
-            sum = expr_sub(arena, sum, system->constraints->multipliers[k]);
+    for (int k = 0; k < system->constraints->rows.count; k++) {
+        const Row *row = &system->constraints->rows.at[k];
+        const Expr lambda = system->constraints->multipliers[k];
+
+        if (row->kind != ROW_DRIVER && row->kind != ROW_COUPLER)
+            continue;
+        if (row->owner == joint->number)
+            sum = expr_sub(arena, sum, lambda);
+        for (int i = 0; i < row->coupled_count; i++)
+            if (row->coupled[i].owner == joint->number)
+                sum = expr_add(arena, sum, expr_mul(arena, lambda, row->coupled[i].slope));
+    }
     *out = sum;
     return OK;
 }
@@ -264,6 +272,17 @@ static Status driver_variable(System *system, const Instance *driver, const char
     *out =
         driver->by >= 0 && driver->by_coordinate < 0 ? expr_int(system->arena, 0) : drive->effort;
     return OK;
+}
+
+static Status coupler_variable(const System *system, const Instance *coupler, const char *member,
+                               Expr *out, Diag *diag)
+{
+    for (int k = 0; strcmp(member, "effort") == 0 && k < system->constraints->rows.count; k++)
+        if (system->constraints->rows.at[k].told.instance == coupler->number) {
+            *out = expr_neg(system->arena, system->constraints->multipliers[k]);
+            return OK;
+        }
+    return diag_set(diag, E_MISSING, "%s.%s can't be told", coupler->name, member);
 }
 
 /* a state of the part's own, and its rate */
@@ -607,6 +626,8 @@ static Status member_variable(System *system, const char *path, Expr *out, Diag 
         return joint_variable(system, instance, member, out, diag);
     case FAMILY_DRIVER:
         return driver_variable(system, instance, member, out, diag);
+    case FAMILY_COUPLER:
+        return coupler_variable(system, instance, member, out, diag);
     case FAMILY_FORCE:
         if (instance->row->effort != NULL)
             return effort_variable(system, instance, member, out, diag);

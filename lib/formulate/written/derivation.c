@@ -153,12 +153,13 @@ static void push_turns(System *system, const Row *row, Terms *terms)
             (Term){.kind = TERM_WHOLE, .edge = -1, .instance = row->told.instance, .value = rest});
 }
 
-/* whether a driver's row is the difference of a coordinate and what is asked of it */
+/* whether a driver's or coupler's row is the difference of a coordinate and what is asked of it */
 static bool is_difference(const System *system, const Row *row)
 {
-    return row->kind == ROW_DRIVER &&
-           (system->kinematics->coordinate[row->owner][row->coordinate] >= 0 ||
-            multi_turn_angle(system, row->owner, row->coordinate) == NULL);
+    return row->kind == ROW_COUPLER ||
+           (row->kind == ROW_DRIVER &&
+            (system->kinematics->coordinate[row->owner][row->coordinate] >= 0 ||
+             multi_turn_angle(system, row->owner, row->coordinate) == NULL));
 }
 
 Status constraint_terms(System *system, int k, int column, Terms *out, Diag *diag)
@@ -218,6 +219,9 @@ Projection system_projection(const System *view, int row)
         break;
     case ROW_DRIVER:
         out.along = ALONG_DRIVEN;
+        break;
+    case ROW_COUPLER:
+        out.along = ALONG_COUPLED;
         break;
     }
     return out;

@@ -65,7 +65,8 @@ typedef enum Along {
     ALONG_SQUARE, /* none: `a` and `b`, each fixed in its node, stay square */
     ALONG_TURN,   /* `a` is what the turns are about */
     ALONG_TIE,    /* `a`, the shift less what the turn makes it */
-    ALONG_DRIVEN  /* none: a coordinate that is asked for */
+    ALONG_DRIVEN, /* none: a coordinate that is asked for */
+    ALONG_COUPLED /* none: one that follows others */
 } Along;
 typedef struct Projection {
     Along along;
