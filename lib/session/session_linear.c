@@ -9,17 +9,41 @@
 
 #define MOST_TOLD 6 /* names in a remark */
 
+static const Syntax *value_of_key(const Statement *s, const char *key)
+{
+    for (int i = 0; i < s->pairs.count; i++)
+        if (strcmp(s->pairs.at[i].name, key) == 0)
+            return s->pairs.at[i].value;
+    return NULL;
+}
+
+/* a time that is told as a number, or made of parameters */
+static Status read_instant(const ct_session *session, const Syntax *at, double *out, Diag *diag)
+{
+    Expr e;
+
+    TRY(model_expression(session->model, at, &e, diag));
+    TRY(model_check_unit(session->model, at, "s", "an instant", diag));
+    if ((expr_kinds(e) & ~(1U << SYMBOL_PARAMETER)) != 0)
+        return diag_at(diag, E_VALUE, at->place, "an instant is a number, or made of parameters");
+    *out = model_number(session->model, e);
+    return OK;
+}
+
 Status session_equilibrium(ct_session *session, const Statement *s, Diag *diag)
 {
     RunInput input = {0};
     Result *result = NULL;
     ResultReader *reader = NULL;
     System *system;
+    const Syntax *at = value_of_key(s, "at");
     Status status;
 
-    (void)s;
     CHECK(session_running(session, &system, diag));
     run_input_make(session, system, &input);
+    input.setting.keeps_rates = at != NULL;
+    if (at != NULL)
+        CHECK(read_instant(session, at, &input.setting.at, diag));
     CHECK(run_equilibrium(system, &input.setting, &result, &reader, diag));
     session_forget_start(session);
     run_free(&session->rest);
@@ -57,14 +81,6 @@ static void asked_free(Asked *asked)
     LIST_FREE(asked->output_names);
 }
 
-static const Syntax *value_of_key(const Statement *s, const char *key)
-{
-    for (int i = 0; i < s->pairs.count; i++)
-        if (strcmp(s->pairs.at[i].name, key) == 0)
-            return s->pairs.at[i].value;
-    return NULL;
-}
-
 /* [a, b, c], or one alone: item i, NULL behind the last */
 static const Syntax *item_of(const Syntax *list, int i)
 {
@@ -81,10 +97,10 @@ static Status read_point(ct_session *session, const Statement *s, Asked *asked, 
     const Syntax *at = value_of_key(s, "at");
     Run *run;
     Status status = OK;
-    Expr e;
 
     if (at == NULL) {
         CHECK(session_start(session, &run, diag));
+        asked->order.at = result_times(run->result)[0];
     } else if (session->runs.count == 0) {
         diag_at(diag, E_MISSING, at->place,
                 "at= takes an instant of the last run, and there is none");
@@ -92,12 +108,7 @@ static Status read_point(ct_session *session, const Statement *s, Asked *asked, 
         return E_MISSING;
     } else {
         run = session->runs.at + session->runs.count - 1;
-        CHECK(model_expression(session->model, at, &e, diag));
-        CHECK(model_check_unit(session->model, at, "s", "an instant", diag));
-        if ((expr_kinds(e) & ~(1U << SYMBOL_PARAMETER)) != 0)
-            return diag_at(diag, E_VALUE, at->place,
-                           "an instant is a number, or made of parameters");
-        asked->order.at = model_number(session->model, e);
+        CHECK(read_instant(session, at, &asked->order.at, diag));
     }
     asked->order.about = run->reader;
     asked->order.scene = model_scene_source(session->model);

@@ -519,10 +519,56 @@ static void a_moving_driver_stands_still_in_the_search_and_moves_after_it(void)
     Kit kit = kit_new();
 
     EXPECT_DONE(&kit, TWO_PENDULUMS "driver D1 h1 = 90 deg + 3*t\nequilibrium\n");
-    EXPECT_HOLDS(ct_remarks(kit.session), "drivers move at t = 0");
+    EXPECT_HOLDS(ct_remarks(kit.session), "drivers move, which an equilibrium leaves out");
     expect_value(&kit, "h1", 1.5707963267948966, 1e-12);
     expect_value(&kit, "cos(h2)", 0, 1e-9);
     expect_value(&kit, "h1'", 3, 1e-12);
+    kit_free(&kit);
+}
+
+/* what a driver moves goes on, and all else rests against it: a pendulum on a shaft that turns, at
+ * cos h = g/(W^2 l), swings about it with W sin h */
+#define GOVERNOR                                                                                   \
+    "W = 7; l = 0.5\ngravity [0, 0, -9.81]\nbody s mass=1 inertia=[0.1, 0.1, 0.1]\n"               \
+    "body m mass=2 inertia=[1e-9, 1e-9, 1e-9]\narm top m [0, 0, l]\n"                              \
+    "revolute hub ground s axis=z\nrevolute h s top axis=y\nguess h = 60 deg\n"
+
+static void a_governor_rests_against_its_shaft(void)
+{
+    static const char *const drivers[] = {"driver D hub = W*t\nequilibrium at=0\n",
+                                          "driver D hub = W*t\nequilibrium at=3 s\n",
+                                          "driver D hub = 1 - W*t + (t - 2)^3\nequilibrium at=2\n"};
+    const double h = acos(9.81 / (49 * 0.5));
+
+    for (int i = 0; i < (int)(sizeof drivers / sizeof *drivers); i++) {
+        Kit kit = kit_new();
+
+        EXPECT_DONE(&kit, GOVERNOR);
+        EXPECT_DONE(&kit, drivers[i]);
+        expect_value(&kit, "h", h, 1e-12);
+        expect_value(&kit, "h'", 0, 1e-12);
+        EXPECT(fabs(fabs(kit_value(&kit, "hub'")) - 7) < 1e-12);
+        EXPECT_DONE(&kit, "modes\n");
+        expect_value(&kit, "modes.omega(1)", 7 * sin(h), 1e-8);
+        EXPECT_DONE(&kit, "simulate 1\n");
+        if (i < 2)
+            expect_value(&kit, "h", h, 1e-6);
+        kit_free(&kit);
+    }
+}
+
+static void what_has_to_move_with_a_driver_is_named(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, "scene planar\nbody a mass=1 inertia=1\nbody b mass=1 inertia=1\n"
+                      "arm a1 a [1, 0]\narm b1 b [2, 0]\nrevolute h1 ground a\n"
+                      "body c mass=1 inertia=1\nrevolute h2 a1 b\nprismatic s ground c axis=x\n"
+                      "revolute h3 b1 c\ndriver D h1 = 1 + t\nguess s = 2\n");
+    EXPECT(kit_do(&kit, "equilibrium at=0") != CT_OK);
+    EXPECT_HOLDS(kit.error.message, "has to move with what is driven at t = 0 s");
+    EXPECT_HOLDS(kit.error.hint, "no closed loop is driven");
+    EXPECT_DONE(&kit, "equilibrium\n");
     kit_free(&kit);
 }
 
@@ -532,6 +578,8 @@ static void wrong_uses_are_refused_with_a_way_out(void)
 {
     /* clang-format off */
     static const Refusal wrong[] = {
+        {PENDULUM, "equilibrium at=h", 16, "made of parameters", ""},
+        {PENDULUM, "equilibrium at=1 m", 18, "an instant", ""},
         {PENDULUM, "modes at=1", 10, "there is none", "without at= it is about the start"},
         {PENDULUM "simulate 1\n", "modes at=2", 1, "outside the run", ""},
         {PENDULUM "simulate 1\n", "modes at=h", 10, "made of parameters", ""},
@@ -619,6 +667,8 @@ int main(void)
     RUN(where_newton_gets_stuck_other_ways_go_on);
     RUN(a_search_can_be_stopped);
     RUN(a_moving_driver_stands_still_in_the_search_and_moves_after_it);
+    RUN(a_governor_rests_against_its_shaft);
+    RUN(what_has_to_move_with_a_driver_is_named);
     RUN(wrong_uses_are_refused_with_a_way_out);
     RUN(a_model_that_changed_has_no_inputs_at_an_old_instant);
     RUN(many_equilibria_are_spoken_of);

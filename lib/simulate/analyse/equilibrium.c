@@ -415,7 +415,8 @@ static Status quest_open(Quest *e, const Setting *setting, ActiveRun *start, Dia
 
     *e = (Quest){.watch = watch, .beyond = -1};
     CHECK(setting->scene.make(setting->scene.context, &scene, diag));
-    CHECK(equilibrium_new(&scene, start, watch, &e->equations, diag));
+    CHECK(equilibrium_new(&scene, start, watch, setting->keeps_rates, setting->at, &e->equations,
+                          diag));
     e->l = equilibrium_layout(e->equations);
     e->n = equilibrium_count(e->equations);
     bytes = (size_t)equilibrium_length(e->equations) * sizeof(double);
@@ -480,14 +481,17 @@ Status run_equilibrium(System *system, const Setting *setting, Result **out, Res
            v + equilibrium_length(e.equations) - l->multi_turns,
            (size_t)l->multi_turns * sizeof(double));
     guess_network(&e, r);
+    if (setting->keeps_rates)
+        memcpy(r->result->start.y + l->n, equilibrium_speeds(e.equations),
+               (size_t)l->nu * sizeof(double));
     CHECK(run_begin(r, setting, diag));
-    if (!motion_project(r->phase->motion, 0, r->begin))
+    if (!motion_project(r->phase->motion, setting->at, r->begin))
         CHECK(diag_set(diag, E_SINGULAR, "the equilibrium is a singular position"));
     remark_freedom(&e, r);
-    if (vector_largest(r->begin + l->n, l->nu) > 0)
+    if (!setting->keeps_rates && vector_largest(r->begin + l->n, l->nu) > 0)
         remarks_add(&r->result->remarks, (Remark){.kind = REMARK_REST_DRIVEN});
-    active_run_add_row(r, 0, r->begin);
-    motion_residuals(r->phase->motion, 0, r->begin, &position, &velocity);
+    active_run_add_row(r, setting->at, r->begin);
+    motion_residuals(r->phase->motion, setting->at, r->begin, &position, &velocity);
     r->result->report.position_residual = position;
     r->result->report.velocity_residual = velocity;
     active_run_finish(r, setting, out, reader);

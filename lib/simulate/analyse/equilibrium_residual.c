@@ -2,6 +2,7 @@
  * coordinates */
 #include "simulate/analyse/equilibrium_residual.h"
 
+#include "algebra/linear.h"
 #include "algebra/pattern.h"
 #include "base/memory.h"
 #include "simulate/equations/rows.h"
@@ -36,6 +37,8 @@ struct EquilibriumResidual {
     ActiveRun *start; /* on the system of the user */
     Parameters parameters;
     Expr load, gmin;
+    double at;                      /* s */
+    double *speeds, *accelerations; /* of what is driven; NULL: everything rests */
     int n, length;
     int references; /* in v, references of angles: behind the unknowns */
     double *v;      /* base */
@@ -54,13 +57,15 @@ struct EquilibriumResidual {
 
 typedef struct EquilibriumResidualVary {
     Arena *arena;
-    Expr time, zero, load;
+    Expr time, instant, load;
+    bool keeps; /* the rates of drivers */
 } EquilibriumResidualVary;
 
 static Expr vary(void *context, const Instance *instance, int param, Expr value)
 {
     const EquilibriumResidualVary *v = context;
-    Expr still = expr_substitute(v->arena, value, &v->time, &v->zero, 1);
+    const bool moves = v->keeps && instance != NULL && instance->row->family == FAMILY_DRIVER;
+    Expr still = moves ? value : expr_substitute(v->arena, value, &v->time, &v->instant, 1);
     const bool acts = instance == NULL || (instance->row->params[param].use & GIVES) != 0;
 
     return acts ? expr_mul(v->arena, v->load, still) : still;
@@ -76,14 +81,15 @@ static double parameter(void *context, Expr symbol)
 }
 
 static Status make_system(EquilibriumResidual *s, const Scene *scene, const Watch *watch,
-                          Diag *diag)
+                          bool keeps, Diag *diag)
 {
     const Layout *theirs = phases_whole(s->start->phases)->layout;
     Arena *arena = scene->arena;
     EquilibriumResidualVary of = {.arena = arena,
                                   .time = expr_symbol(arena, "t", SYMBOL_TIME),
-                                  .zero = expr_int(arena, 0),
-                                  .load = expr_symbol(arena, "#load", SYMBOL_PARAMETER)};
+                                  .instant = expr_real(arena, s->at),
+                                  .load = expr_symbol(arena, "#load", SYMBOL_PARAMETER),
+                                  .keeps = keeps};
     SystemOptions options = {.vary = vary, .context = &of, .watch = watch};
 
     s->load = of.load;
@@ -329,6 +335,96 @@ done:
     return status;
 }
 
+/* --- what is driven --- */
+
+static RowValues row_of(const EquilibriumResidual *s, const double *v);
+
+/* whose rate a driver's row gives alone; -1: no driver's, or of several speeds */
+static int driven_speed(const Layout *l, int row, const double *phi_u)
+{
+    int own = -1;
+
+    for (int j = 0; j < l->nu && system_constraint(l->system, row)->is_driver; j++)
+        if (phi_u[row * l->nu + j] != 0) {
+            if (own >= 0)
+                return -1;
+            own = j;
+        }
+    return own;
+}
+
+/* All other speeds are 0, or there is nothing that rests against what is driven. */
+static Status check_driven(const EquilibriumResidual *s, const double *phi_u, const double *rates,
+                           Diag *diag)
+{
+    const Layout *l = s->l;
+    const double most = vector_largest(rates, l->nu);
+
+    for (int j = 0; j < l->nu; j++) {
+        bool is_driven = fabs(rates[j]) <= 1e-9 * most;
+        const int q = speed_coordinate(l->system, j);
+
+        for (int k = 0; k < l->m && !is_driven; k++)
+            is_driven = driven_speed(l, k, phi_u) == j;
+        if (is_driven)
+            continue;
+        (void)diag_set(diag, E_MODEL, "%s has to move with what is driven at t = %g s",
+                       q >= 0 ? system_q(l->system, q)->name : system_u(l->system, j)->name, s->at);
+        diag_hint(diag,
+                  "driven rates are kept where all other coordinates can rest: in coordinates "
+                  "of joints (tree joint), and where no closed loop is driven");
+        return E_MODEL;
+    }
+    return OK;
+}
+
+/* Rows of Phi_u, then what they come to; the step that they ask for of few speeds. */
+static Status rates_of(const EquilibriumResidual *s, Probe *probe, const double *u, double *out,
+                       int right, Diag *diag)
+{
+    const Layout *l = s->l;
+    RowValues row = row_of(s, s->v);
+    const double *values;
+
+    row.u = u;
+    row.acceleration = NULL;
+    values = probe_values(probe, &row);
+    if (rows_solve(values, l->m, l->nu, values + (ptrdiff_t)l->m * (l->nu + right), out) < 0)
+        return diag_set(diag, E_SINGULAR, "the rates of what is driven are undefined at t = %g s",
+                        s->at);
+    return check_driven(s, values, out, diag);
+}
+
+/* Speeds of drivers, and their accelerations beside these. */
+static Status drive(EquilibriumResidual *s, Diag *diag)
+{
+    const Layout *l = s->l;
+    const Reading *run = system_run(l->system);
+    double *none = NEW_ARRAY(double, l->nu);
+    Probe *probe = NULL;
+    Roots roots = {0};
+    Status status = OK;
+
+    s->speeds = NEW_ARRAY(double, l->nu);
+    s->accelerations = NEW_ARRAY(double, l->nu);
+    if (l->m == 0)
+        goto done;
+    for (int k = 0; k < l->m * l->nu; k++)
+        LIST_PUSH(roots, run->phi_u[k]);
+    for (int k = 0; k < l->m; k++)
+        LIST_PUSH(roots, run->nu[k]);
+    for (int k = 0; k < l->m; k++)
+        LIST_PUSH(roots, run->gamma[k]);
+    CHECK(probe_new(l, &s->parameters, roots.at, roots.count, &probe, diag));
+    CHECK(rates_of(s, probe, none, s->speeds, 0, diag));
+    CHECK(rates_of(s, probe, s->speeds, s->accelerations, 1, diag));
+done:
+    probe_free(probe);
+    LIST_FREE(roots);
+    mem_free(none);
+    return status;
+}
+
 /* --- life --- */
 
 /* what the user guessed, where a search for it begins */
@@ -342,15 +438,16 @@ static void guess_network(EquilibriumResidual *s, const Layout *theirs)
                 z[i] = s->start->result->start.guess[k];
 }
 
-Status equilibrium_new(const Scene *scene, ActiveRun *start, const Watch *watch,
-                       EquilibriumResidual **out, Diag *diag)
+Status equilibrium_new(const Scene *scene, ActiveRun *start, const Watch *watch, bool keeps,
+                       double at, EquilibriumResidual **out, Diag *diag)
 {
     EquilibriumResidual *s = NEW(EquilibriumResidual);
     const Layout *theirs = phases_whole(start->phases)->layout;
     Status status = OK;
 
     s->start = start;
-    CHECK(make_system(s, scene, watch, diag));
+    s->at = at;
+    CHECK(make_system(s, scene, watch, keeps, diag));
     CHECK(make_map(s, diag));
     CHECK(make_rows(s, diag));
     s->v = NEW_ARRAY(double, s->length);
@@ -363,6 +460,8 @@ Status equilibrium_new(const Scene *scene, ActiveRun *start, const Watch *watch,
            (size_t)theirs->multi_turns * sizeof(double));
     guess_network(s, theirs);
     equilibrium_rebase(s);
+    if (keeps)
+        CHECK(drive(s, diag));
     *out = s;
     s = NULL;
 done:
@@ -382,10 +481,15 @@ void equilibrium_free(EquilibriumResidual *s)
     LIST_FREE(s->parts);
     LIST_FREE(s->inertia);
     pattern_free(&s->pattern);
-    MEM_FREE(s->jacobian, s->v, s->w, s->place);
+    MEM_FREE(s->jacobian, s->v, s->w, s->place, s->speeds, s->accelerations);
     layout_free(s->l);
     system_free(s->system);
     mem_free(s);
+}
+
+const double *equilibrium_speeds(const EquilibriumResidual *s)
+{
+    return s->speeds;
 }
 
 const Layout *equilibrium_layout(const EquilibriumResidual *s)
@@ -426,7 +530,10 @@ static RowValues row_of(const EquilibriumResidual *s, const double *v)
 {
     const Layout *l = s->l;
 
-    return (RowValues){.references = v + s->references,
+    return (RowValues){.t = s->at,
+                       .references = v + s->references,
+                       .u = s->speeds,
+                       .acceleration = s->accelerations,
                        .q = v,
                        .x = v + l->n,
                        .multipliers = v + l->n + l->nx,

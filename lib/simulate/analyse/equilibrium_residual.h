@@ -8,8 +8,11 @@
  *
  *     q = q0 + N(q0) s,   each four Euler parameters brought to unit length.
  *
- * The equations are those of a system of its own, in whose components t is 0 and the loads are
- * multiplied by a parameter, so that derivatives of sources vanish too. */
+ * The equations are those of a system of its own, in whose components t is a number and the loads
+ * are multiplied by a parameter, so that derivatives of sources vanish too.
+ *
+ * Relative equilibrium keeps the rates of what is driven, u_d and u_d' of the drivers at an
+ * instant: F(q, u_d, x, z) - M u_d' in the place of F(q, 0, x, z). */
 #ifndef COTREE_SIMULATE_ANALYSE_EQUILIBRIUM_RESIDUAL_H
 #define COTREE_SIMULATE_ANALYSE_EQUILIBRIUM_RESIDUAL_H
 
@@ -17,13 +20,16 @@
 
 typedef struct EquilibriumResidual EquilibriumResidual;
 
-/* New; free with equilibrium_free(). The base is the assembled start of `start`, a run of the
+/* New; free with equilibrium_free(). Sources and drivers are as at `at` (s), whose rates `keeps`
+ * keeps. The base is the assembled start of `start`, a run of the
  * system of the user, which is borrowed: its parameters are asked for. Fails as system_new() and
  * probe_new() do. O(symbols in the equations) derivatives. */
 MUST_USE Status equilibrium_new(const Scene *scene, ActiveRun *start, const Watch *watch,
-                                EquilibriumResidual **out, Diag *diag);
+                                bool keeps, double at, EquilibriumResidual **out, Diag *diag);
 void equilibrium_free(EquilibriumResidual *equilibrium); /* NULL is fine */
 
+/* u_d; NULL: everything rests */
+const double *equilibrium_speeds(const EquilibriumResidual *equilibrium);
 const Layout *equilibrium_layout(const EquilibriumResidual *equilibrium);
 int equilibrium_length(const EquilibriumResidual *equilibrium);      /* of v */
 int equilibrium_count(const EquilibriumResidual *equilibrium);       /* of equations, and of w */

@@ -103,7 +103,9 @@ static void write_start(const Remark *r, Text *out)
                   r->count, r->count == 1 ? "" : "s");
         break;
     case REMARK_REST_DRIVEN:
-        text_add(out, "drivers move at t = 0: runs start from here with their speeds");
+        text_add(out,
+                 "drivers move, which an equilibrium leaves out: runs start from here with their "
+                 "speeds, and 'equilibrium at=0' keeps them");
         break;
     default:
         break;

@@ -27,7 +27,8 @@ typedef struct RunOptions {
 MUST_USE Status run_assemble(System *system, const Setting *setting, Result **out,
                              ResultReader **reader, Diag *diag);
 
-/* Where everything rests, with sources and drivers as at t = 0: a result of one row like that of
+/* Where everything rests, with sources and drivers as at t = 0, or, as the setting has it, at
+ * another instant, or against what is driven, which moves: a result of one row like that of
  * run_assemble(), from whose start the search goes out. Fails with E_SOLVER, telling what stays out
  * of balance by part, and as run_assemble() does. */
 MUST_USE Status run_equilibrium(System *system, const Setting *setting, Result **out,
