@@ -316,6 +316,7 @@ struct Component {
      * variables; displacement and rate those of the joint's coordinate, likewise. */
     void (*relation)(const Instance *instance, Arena *arena, int which, const Motion1 *motion,
                      Relation *out);
+    bool has_named_law; /* a current from its voltage so long that a reader gets it by name */
     /* PLACES_PARTS: adds what it brings to the relation of the edge of parts[which] */
     void (*couple)(const Instance *instance, Arena *arena, const Instance *const parts[2],
                    int which, Relation *out);

@@ -141,6 +141,7 @@ const Component component_diode = {
     .translation = BRANCH_MAY,
     .preference = 30,
     .relation = diode_relation,
+    .has_named_law = true,
     .check = diode_check,
     .help =
         "Conducts from plus to minus. With Is= it is exponential, i = Is*(exp(v/(n*Vt)) - 1) "

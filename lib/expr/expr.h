@@ -309,6 +309,7 @@ void expr_print(Text *text, Expr e, Notation notation);
 /* How source code of that notation calls a function: $0 is an argument, %0 one between operators;
  * new string. */
 char *op_code(Op op, Notation notation);
-char *expr_text(Expr e); /* new string, NOTATION_TEXT */
+char *expr_text(Expr e);                          /* new string, NOTATION_TEXT */
+void latex_digits(Text *out, const char *digits); /* "1.5e-9" as 1.5 \cdot 10^{-9} */
 
 #endif

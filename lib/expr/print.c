@@ -280,6 +280,24 @@ bool ratio_decimal(char text[64], Number number, int most)
     return true;
 }
 
+enum { LONG_INTEGER = 6, ENOUGH_SAVED = 3 }; /* digits: 100000 and 1500000 stay, 1e6 doesn't */
+
+bool integer_power(char text[64], int64_t value)
+{
+    const int written = snprintf(text, 64, "%lld", (long long)value);
+    char digits[24];
+    int last = written - 1, exponent, length;
+
+    while (last > 0 && text[last] == '0')
+        last--;
+    snprintf(digits, sizeof digits, "%.*s", last + 1, text);
+    const char *first = digits + (digits[0] == '-');
+    exponent = written - 1 - (digits[0] == '-');
+    length = snprintf(text, 64, "%.*s%s%se%d", (int)(first - digits) + 1, digits,
+                      first[1] != '\0' ? "." : "", first + 1, exponent);
+    return exponent >= LONG_INTEGER && length + ENOUGH_SAVED <= written;
+}
+
 void double_text(char text[64], double value)
 {
     int64_t num;

@@ -96,6 +96,8 @@ bool say_operator(Printer *printer, Expr e, const char *sign);
 
 /* Digits of an exact decimal, e.g. 0.25 of 1/4; false where it has none, or more than `most`. */
 bool ratio_decimal(char text[64], Number number, int most);
+/* "4.7e7" of 47000000; false where that is hardly shorter. */
+bool integer_power(char text[64], int64_t value);
 /* Digits of a double that the parser takes for that double. */
 void double_text(char text[64], double value);
 

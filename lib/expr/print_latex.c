@@ -16,9 +16,9 @@
 enum { SMALL = 9, SHORT_DECIMAL = 6 };
 
 /* 1.5e-9 as 1.5 times a power of ten, 1e-12 as the power alone */
-static void add_digits(Text *out, char *digits)
+void latex_digits(Text *out, const char *digits)
 {
-    char *exponent = strchr(digits, 'e');
+    const char *exponent = strchr(digits, 'e');
     const char *one = digits + (digits[0] == '-');
     bool is_power;
 
@@ -26,9 +26,8 @@ static void add_digits(Text *out, char *digits)
         text_add(out, digits);
         return;
     }
-    *exponent = '\0';
-    is_power = strcmp(one, "1") == 0;
-    text_add_n(out, digits, is_power ? (size_t)(one - digits) : strlen(digits));
+    is_power = one + 1 == exponent && one[0] == '1';
+    text_add_n(out, digits, (size_t)((is_power ? one : exponent) - digits));
     text_addf(out, "%s10^{%d}", is_power ? "" : "\\cdot ", (int)strtol(exponent + 1, NULL, 10));
 }
 
@@ -37,7 +36,7 @@ static void latex_double(Text *out, double value)
     char digits[DECIMAL_SIZE];
 
     decimal_print(digits, value, DECIMAL_EXACT);
-    add_digits(out, digits);
+    latex_digits(out, digits);
 }
 
 static bool is_decimal(char decimal[64], Number number)
@@ -49,12 +48,16 @@ static Level latex_number(Text *out, Number number)
 {
     char decimal[64];
 
+    if (number.den == 1 && integer_power(decimal, number.num)) {
+        latex_digits(out, decimal);
+        return LEVEL_PRODUCT;
+    }
     if (number.den == 0)
         latex_double(out, number.real);
     else if (number.den == 1)
         text_addf(out, "%lld", (long long)number.num);
     else if (is_decimal(decimal, number))
-        add_digits(out, decimal);
+        latex_digits(out, decimal);
     else
         text_addf(out, "\\frac{%lld}{%lld}", (long long)number.num, (long long)number.den);
     return number.den == 1 ? LEVEL_ATOM : LEVEL_PRODUCT;
@@ -118,16 +121,11 @@ static void latex_table(Text *out, const Curve *curve)
     text_add(out, "}}");
 }
 
-static void latex_symbol(Text *out, Expr symbol)
+/* words between dots, primes behind the last */
+static void latex_name(Text *out, const char *name, size_t end)
 {
-    const char *name = expr_name(symbol);
-    size_t end = strlen(name);
     int primes = 0;
 
-    if (expr_data(symbol) != NULL) {
-        latex_table(out, expr_data(symbol));
-        return;
-    }
     for (; end > 0 && name[end - 1] == '\'' && primes < 3; end--)
         primes++;
     for (size_t at = 0; at < end;) {
@@ -140,6 +138,24 @@ static void latex_symbol(Text *out, Expr symbol)
         latex_word(out, name + at, length, 0);
         text_char(out, '.');
         at += length + 1;
+    }
+}
+
+/* a name, or the law of one called for another: D1.law(C1.v) */
+static void latex_symbol(Text *out, Expr symbol)
+{
+    const char *name = expr_name(symbol);
+    const char *open = strchr(name, '(');
+
+    if (expr_data(symbol) != NULL) {
+        latex_table(out, expr_data(symbol));
+    } else if (open != NULL) {
+        latex_name(out, name, (size_t)(open - name));
+        text_add(out, "\\left(");
+        latex_name(out, open + 1, strlen(open) - 2);
+        text_add(out, "\\right)");
+    } else {
+        latex_name(out, name, strlen(name));
     }
 }
 

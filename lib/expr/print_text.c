@@ -19,6 +19,10 @@ static Level text_number_level(Text *out, Number number)
         text_add(out, decimal);
         return LEVEL_ATOM;
     }
+    if (number.den == 1 && integer_power(decimal, number.num)) {
+        text_add(out, decimal);
+        return LEVEL_ATOM;
+    }
     snprintf(ratio, sizeof ratio, "%lld/%lld", (long long)number.num, (long long)number.den);
     if (number.den == 1)
         *strchr(ratio, '/') = '\0';

@@ -34,6 +34,8 @@ libcore_la_SOURCES += \
   lib/present/mechanism_parts.c \
   lib/present/mechanism_place.c \
   lib/present/mechanism_sheet.c \
+  lib/present/named_laws.c \
+  lib/present/named_laws.h \
   lib/present/picture.c \
   lib/present/picture.h \
   lib/present/picture_characters.c \

@@ -78,6 +78,15 @@ static void print_c(Text *out, const LinearMatrix *m)
     text_add(out, "};\n");
 }
 
+void linear_latex(Text *out, double value, int digits)
+{
+    Text number = {0};
+
+    text_number(&number, value, digits);
+    latex_digits(out, number.at);
+    text_free(&number);
+}
+
 static void print_latex(Text *out, const LinearMatrix *m)
 {
     text_addf(out, "%c &= \\begin{bmatrix}", m->letter);
@@ -85,7 +94,7 @@ static void print_latex(Text *out, const LinearMatrix *m)
         text_add(out, i > 0 ? " \\\\ " : " ");
         for (int j = 0; j < m->columns; j++) {
             text_add(out, j > 0 ? " & " : "");
-            text_number(out, m->at[i * m->columns + j], 6);
+            linear_latex(out, m->at[i * m->columns + j], 6);
         }
     }
     text_add(out, " \\end{bmatrix} \\\\\n");

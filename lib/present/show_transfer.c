@@ -24,7 +24,9 @@ static void add_polynomial(Text *out, const double *at, int degree, bool latex)
             continue;
         text_add(out, any ? at[k] < 0 ? " - " : " + " : at[k] < 0 ? "-" : "");
         any = true;
-        if (!is_one || power == 0)
+        if ((!is_one || power == 0) && latex)
+            linear_latex(out, size, DIGITS);
+        else if (!is_one || power == 0)
             text_number(out, size, DIGITS);
         if (!is_one && power > 0)
             text_char(out, ' ');

@@ -3,6 +3,7 @@
 
 #include "present/abbreviate.h"
 #include "present/latex_lines.h"
+#include "present/named_laws.h"
 #include "present/tables.h"
 
 #include <ctype.h>
@@ -302,6 +303,16 @@ static void print_definitions(Text *out, const View *view, const Abbreviation *n
     }
 }
 
+static void print_laws(Text *out, const View *view, const LawDefinitions *laws, bool first)
+{
+    for (int i = 0; i < laws->count; i++) {
+        char *right = view_expression(view, laws->at[i].value);
+
+        add_line(out, view, first && i == 0 ? "where " : "      ", laws->at[i].name, " = ", right);
+        mem_free(right);
+    }
+}
+
 /* what picks the turn of an angle, where terms hold such */
 static void print_turns(Text *out, const View *view, const Expr *terms, int count)
 {
@@ -376,6 +387,18 @@ static void scatter(EquationList *equations, const Expr *terms)
     }
 }
 
+static void name_laws(const View *view, EquationList *equations, LawDefinitions *laws)
+{
+    Expr *terms;
+    bool ignored;
+    const int count = gather(equations, &terms, &ignored);
+    const LawView of = {view->model, view->system, view->page.notation};
+
+    named_laws(&of, terms, count, laws);
+    scatter(equations, terms);
+    mem_free(terms);
+}
+
 void equations_free(EquationList *equations)
 {
     for (int i = 0; i < equations->count; i++) {
@@ -389,7 +412,9 @@ void equations_free(EquationList *equations)
 void view_equations(Text *out, const View *view, EquationList *equations)
 {
     const Naming naming = {free_prefix(view->model), 4, 24};
+    const bool is_read = view_kind(view) == NOTATION_READ || view_kind(view) == NOTATION_TYPESET;
     Abbreviation names = {0};
+    LawDefinitions laws = {0};
     Expr *terms = NULL;
     Text notes = {0};
     bool is_long;
@@ -397,6 +422,8 @@ void view_equations(Text *out, const View *view, EquationList *equations)
 
     for (int i = 0; view_kind(view) == NOTATION_SOURCE && i < equations->count; i++)
         make_residual(view, equations->at + i, i);
+    if (is_read)
+        name_laws(view, equations, &laws);
     count = gather(equations, &terms, &is_long);
     if (view->system != NULL)
         print_turns(view_kind(view) == NOTATION_SOURCE ? out : &notes, view, terms, count);
@@ -412,9 +439,11 @@ void view_equations(Text *out, const View *view, EquationList *equations)
         print_equation(out, view, equations->at + i);
     if (view_kind(view) != NOTATION_SOURCE)
         print_definitions(out, view, &names);
+    print_laws(out, view, &laws, names.definitions.count == 0);
     text_add(out, notes.at != NULL ? notes.at : "");
     text_free(&notes);
     abbreviation_free(&names);
+    named_laws_free(&laws);
     mem_free(terms);
     equations_free(equations);
 }

@@ -206,6 +206,12 @@ static void latex_sets_names(void)
     expect_in(NOTATION_LATEX, expr_real(A, 1.5e-30), "1.5\\cdot 10^{-30}");
     expect_in(NOTATION_LATEX, expr_real(A, 1e-30), "10^{-30}");
     expect_in(NOTATION_LATEX, expr_real(A, -1e-30), "-10^{-30}");
+    expect_in(NOTATION_LATEX, expr_int(A, 200000000000), "2\\cdot 10^{11}");
+    expect_in(NOTATION_LATEX, expr_int(A, -100000000), "-10^{8}");
+    expect_in(NOTATION_TEXT, expr_int(A, -47000000), "-4.7e7");
+    expect_in(NOTATION_TEXT, expr_int(A, 100000), "100000");
+    expect_in(NOTATION_TEXT, expr_int(A, 1234500000), "1234500000");
+    EXPECT(expr_int(A, 47000000) == expr_decimal(A, "4.7e7"), "written so, another number");
     arena_free(A);
 }
 

@@ -207,8 +207,14 @@ void system_network_steps(System *view, int equation, NetworkSteps *out)
         first.right = own.rate;
         first.is_rate = true;
     }
-    LIST_PUSH(out->steps, first);
-    if (branch != NULL && first.left == NULL) {
+    if (branch != NULL && branch->is_steep) { /* its equation is the circuit, not its law */
+        first.left = first.right = NULL;
+        LIST_PUSH(out->steps, first);
+        sum_up(view, branch, 0, out);
+    } else {
+        LIST_PUSH(out->steps, first);
+    }
+    if (branch != NULL && first.left == NULL && !branch->is_steep) {
         ask_for(out, branch->edge, true); /* a switch: of its two laws each needs both */
         ask_for(out, branch->edge, false);
     }

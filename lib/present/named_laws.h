@@ -1,0 +1,29 @@
+/* named_laws.h: laws of parts that equations call by name, told once beneath them
+ *
+ * A diode's current takes a line of its own; equations say D1.law(D1.v), and what that is stands
+ * below: D1.law(v) = ... */
+#ifndef COTREE_PRESENT_NAMED_LAWS_H
+#define COTREE_PRESENT_NAMED_LAWS_H
+
+#include "formulate/system/system.h"
+#include "model/model.h"
+
+typedef struct LawView {
+    const Model *model;
+    System *system; /* of its equations; NULL: there are none */
+    Notation notation;
+} LawView;
+
+typedef struct LawDefinition {
+    char *name; /* D1.law(v) of the notation, also "D1.law(v) = D2.law(v)" of equal ones */
+    Expr value;
+} LawDefinition;
+typedef LIST(LawDefinition) LawDefinitions;
+
+/* Put calls into `roots`, and what they call into `out`, in the order of the parts; nothing where
+ * there are no equations. Free with named_laws_free(). O(nodes) for each part with such a law.
+ */
+void named_laws(const LawView *view, Expr *roots, int count, LawDefinitions *out);
+void named_laws_free(LawDefinitions *laws);
+
+#endif
